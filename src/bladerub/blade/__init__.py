@@ -1,0 +1,1 @@
+"""Stage 1: geometry → mesh → elasticity → rotation → reduction, built once."""

@@ -1,0 +1,107 @@
+"""The reduced blade: all that the rub needs to know of the finite element model."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from bladerub import datafile
+from bladerub.datafile import Variable
+
+N_INTERFACE = 8
+"""Number of interface nodes on the blade tip, leading to trailing edge."""
+
+
+@dataclass(frozen=True)
+class ReducedBlade:
+    """Craig-Bampton model of a rotating blade with centrifugal stiffening, eqs. (2)-(6).
+
+    Parameters
+    ----------
+    mass : (n, n) ndarray
+        Reduced mass matrix. The first 24 coordinates are the x, y, z displacements (m) of the
+        interface nodes, node by node from the leading to the trailing edge.
+    stiffness_0, stiffness_1, stiffness_2 : (n, n) ndarray
+        K⁰, K¹, K² of eq. (2) for the normalised rotational frequency, N/m.
+    node_position : (8, 3) ndarray
+        Interface nodes at rest in the rotating frame, m (x along the axis, z along the stacking line).
+    radial_direction, tangential_direction : (8, 3) ndarray
+        Unit vectors at each node; tangential is positive with the rotation.
+    f1_hz : float
+        First eigenfrequency at rest, Hz; the unit of all normalised frequencies.
+    f_omega_max : float
+        Highest rotational frequency the model was fitted for, normalised.
+    eta : int
+        Fixed-interface modes kept at each fit speed.
+    rank_tolerance : float
+        Relative singular value below which a column of eq. (4) is dropped.
+    length : float
+        Blade length, m.
+    """
+
+    mass: np.ndarray
+    stiffness_0: np.ndarray
+    stiffness_1: np.ndarray
+    stiffness_2: np.ndarray
+    node_position: np.ndarray
+    radial_direction: np.ndarray
+    tangential_direction: np.ndarray
+    f1_hz: float
+    f_omega_max: float
+    eta: int
+    rank_tolerance: float
+    length: float
+
+    def stiffness(self, f_omega: float) -> np.ndarray:
+        """Stiffness matrix (n, n) in N/m at the normalised rotational frequency `f_omega`, eq. (2).
+
+        Raises
+        ------
+        ValueError
+            If `f_omega` lies outside the fitted range ``[0, f_omega_max]``.
+        """
+        if not 0 <= f_omega <= self.f_omega_max:
+            raise ValueError(f"f_omega = {f_omega:g} is outside the fitted range [0, {self.f_omega_max:g}]")
+        return self.stiffness_0 + f_omega**2 * self.stiffness_1 + f_omega**4 * self.stiffness_2  # eq. (2)
+
+
+_UNITS = {
+    "mass": ("kg", "reduced mass matrix"),
+    "stiffness_0": ("N/m", "constant term of the stiffness, eq. (2)"),
+    "stiffness_1": ("N/m", "coefficient of f_omega^2 in the stiffness, eq. (2)"),
+    "stiffness_2": ("N/m", "coefficient of f_omega^4 in the stiffness, eq. (2)"),
+    "node_position": ("m", "interface nodes at rest in the rotating frame"),
+    "radial_direction": ("1", "outward radial direction at each interface node"),
+    "tangential_direction": ("1", "tangential direction at each interface node, positive with the rotation"),
+}
+_ATTRIBUTES = ("f1_hz", "f_omega_max", "eta", "rank_tolerance", "length")
+
+
+def write_reduced_blade(path: str | Path, blade: ReducedBlade) -> None:
+    """Write `blade` to the HDF5 file `path`, whole or not at all."""
+    variables = {}
+    for name, (units, long_name) in _UNITS.items():
+        data = getattr(blade, name)
+        is_matrix = data.shape == blade.mass.shape
+        dims = ("coordinate", "coordinate_column") if is_matrix else ("node", "axis")
+        variables[name] = Variable(dims, data, units, long_name)
+    datafile.write(path, variables, {name: getattr(blade, name) for name in _ATTRIBUTES})
+
+
+def read_reduced_blade(path: str | Path) -> ReducedBlade:
+    """Read a blade written by `write_reduced_blade`.
+
+    Raises
+    ------
+    OSError
+        If the file is missing, unreadable or not a reduced blade; the message names it.
+    """
+    data, attributes = datafile.read(path)
+    try:
+        return ReducedBlade(
+            **{name: data[name] for name in _UNITS}, **{name: attributes[name] for name in _ATTRIBUTES}
+        )
+    except KeyError as error:
+        raise OSError(f"{path}: not a reduced blade, {error} is missing") from error

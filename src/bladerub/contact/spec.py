@@ -1,0 +1,179 @@
+"""What one run is (`RunSpec`) and what it gives (`RunResult`); SI units but for what is said to be normalised."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+
+@dataclass(frozen=True)
+class Casing:
+    """Inner shape of the rigid casing: nodal diameters of given weight.
+
+    The gap of node j at casing angle φ is ``c_j + (a − δ) − a s(φ)`` with ``s`` the weighted sum of
+    ``cos(n φ)`` scaled to a maximum of 1, a the `amplitude` and δ the `interference`.
+
+    Parameters
+    ----------
+    name : str
+        As in the config, for instance ``"2nd"``.
+    nodal_diameters : tuple of int
+        The n of each term.
+    weights : tuple of float
+        Weight of each term.
+    amplitude : float
+        Largest inward displacement a, m.
+    interference : float
+        Depth δ by which the shape reaches over the blade tip, before the clearance, m.
+    start_angle : float
+        Casing angle under the stacking line at the start of the run, rad.
+    """
+
+    name: str
+    nodal_diameters: tuple[int, ...]
+    weights: tuple[float, ...]
+    amplitude: float
+    interference: float
+    start_angle: float
+
+
+@dataclass(frozen=True)
+class Coating:
+    """Abradable layer: E, K and σ_Y normalised by `modulus_unit`.
+
+    Parameters
+    ----------
+    E, K : float
+        Young modulus and plastic (hardening) modulus, normalised.
+    theta : float
+        Rotation of the abradable elements from the radial direction, rad.
+    yield_stress : float
+        Elastic limit σ_Y, normalised.
+    modulus_unit : float
+        Pa per unit of the normalised moduli.
+    thickness : float
+        Layer thickness, m.
+    n_elements : int
+        Bar elements around the circumference, for each interface node.
+    """
+
+    E: float
+    K: float
+    theta: float
+    yield_stress: float
+    modulus_unit: float
+    thickness: float
+    n_elements: int
+
+
+@dataclass(frozen=True)
+class TipProfile:
+    """Circumferential profile of the blade tip under one interface node (Fig. 3): a parabola.
+
+    Parameters
+    ----------
+    half_width : float
+        Tangential half width, in element widths.
+    edge_drop : float
+        How much lower the edge is than the middle, m.
+    """
+
+    half_width: float
+    edge_drop: float
+
+
+@dataclass(frozen=True)
+class RunSpec:
+    """One simulation: one coating at one speed.
+
+    Parameters
+    ----------
+    casing, coating, tip
+        The stator, its layer and the profile of the blade tip.
+    clearance : tuple of float
+        Running clearance at the leading and at the trailing edge, linear along the chord between, m.
+    damping_ratio : float
+        Modal damping ξ of every mode.
+    f_omega : float
+        Normalised rotational frequency.
+    revolutions : int
+        Length of the run.
+    max_time_step : float
+        The time step is the largest one not above this that divides the passage of one element, s.
+    displacement_limit : float
+        A tip displacement beyond this ends the run as unbounded, m.
+    """
+
+    casing: Casing
+    coating: Coating
+    tip: TipProfile
+    clearance: tuple[float, float]
+    damping_ratio: float
+    f_omega: float
+    revolutions: int
+    max_time_step: float
+    displacement_limit: float
+
+
+@dataclass(frozen=True)
+class Energy:
+    """Energy ledger of the run, J: ``kinetic + elastic = work_radial + work_tangential − damping``.
+
+    Parameters
+    ----------
+    kinetic, elastic : float
+        In the blade at the end of the run.
+    work_radial, work_tangential : float
+        Done on the blade by the radial and by the tangential contact forces.
+    damping : float
+        Dissipated by modal damping.
+    wear : float
+        Dissipated by plastic shortening of the coating.
+    """
+
+    kinetic: float
+    elastic: float
+    work_radial: float
+    work_tangential: float
+    damping: float
+    wear: float
+
+
+@dataclass(frozen=True)
+class RunResult:
+    """Outcome of one run.
+
+    Parameters
+    ----------
+    status : str
+        ``"completed"``, or ``"unbounded"`` when the tip left all bounds.
+    message : str
+        The same in words.
+    angle : (n_elements,) ndarray
+        Casing angle of the element centres, rad.
+    wear : (8, n_elements) ndarray
+        Permanent shortening of each element under each node, m.
+    radial_displacement : (revolutions * n_elements,) ndarray
+        Radial displacement of node 1, mean over the passage of each element, m; NaN after an
+        unbounded end.
+    revolution_peak : (revolutions,) ndarray
+        Largest absolute radial displacement of node 1 in each revolution, m; NaN likewise.
+    time_step : float
+        Step used, s.
+    n_steps, n_contact_steps : int
+        Steps made, and those of them with contact.
+    energy : Energy
+        The ledger.
+    """
+
+    status: str
+    message: str
+    angle: np.ndarray
+    wear: np.ndarray
+    radial_displacement: np.ndarray
+    revolution_peak: np.ndarray
+    time_step: float
+    n_steps: int
+    n_contact_steps: int
+    energy: Energy

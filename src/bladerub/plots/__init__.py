@@ -1,0 +1,1 @@
+"""Pictures drawn from tables and HDF5 files; nothing here simulates."""
