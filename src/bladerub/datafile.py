@@ -11,6 +11,9 @@ from typing import Any
 import h5py
 import numpy as np
 
+_COMPRESSED_FROM = 1024
+"""Entries from which a dataset is compressed; below, the chunk index costs more than it saves."""
+
 
 @dataclass(frozen=True)
 class Variable:
@@ -22,7 +25,7 @@ class Variable:
         Name of each dimension. A variable that is named like its only dimension is a coordinate
         and becomes that dimension's scale.
     data : array_like
-        The values, with ``len(dims)`` dimensions.
+        The values, with ``len(dims)`` dimensions; numbers or strings.
     units : str
         SI unit, ``"1"`` for a pure number.
     long_name : str
@@ -65,7 +68,7 @@ def _write_variables(file: h5py.File, variables: Mapping[str, Variable]) -> None
         data = np.asarray(variable.data)
         if data.ndim != len(variable.dims):
             raise ValueError(f"{name}: {data.ndim} dimensions, but named {variable.dims}")
-        dataset = file.create_dataset(name, data=data)
+        dataset = file.create_dataset(name, **_storage(data))
         dataset.attrs["units"] = variable.units
         dataset.attrs["long_name"] = variable.long_name
         if variable.dims == (name,):
@@ -74,13 +77,23 @@ def _write_variables(file: h5py.File, variables: Mapping[str, Variable]) -> None
             continue
         for axis, dim in enumerate(variable.dims):
             if lengths.setdefault(dim, data.shape[axis]) != data.shape[axis]:
-                raise ValueError(f"{name}: dimension {dim} has {data.shape[axis]}, not {lengths[dim]} entries")
+                raise ValueError(
+                    f"{name}: dimension {dim} has {data.shape[axis]}, not {lengths[dim]} entries"
+                )
             if dim not in file:
                 scale = file.create_dataset(dim, data=np.arange(lengths[dim]))
                 scale.attrs["units"] = "1"
                 scale.attrs["long_name"] = f"index along {dim}"
                 scale.make_scale(dim)
             dataset.dims[axis].attach_scale(file[dim])
+
+
+def _storage(data: np.ndarray) -> dict[str, Any]:
+    if data.dtype.kind == "U":
+        return {"data": data.astype(object), "dtype": h5py.string_dtype()}
+    if data.size < _COMPRESSED_FROM:
+        return {"data": data}
+    return {"data": data, "compression": "gzip", "shuffle": True, "fletcher32": True}
 
 
 def read(path: str | Path) -> tuple[dict[str, np.ndarray], dict[str, Any]]:
@@ -93,7 +106,7 @@ def read(path: str | Path) -> tuple[dict[str, np.ndarray], dict[str, Any]]:
     """
     try:
         with h5py.File(path, "r") as file:
-            return {name: dataset[...] for name, dataset in file.items()}, _plain_attributes(file)
+            return {name: _values(dataset) for name, dataset in file.items()}, _plain_attributes(file)
     except OSError as error:
         raise OSError(f"{path}: not a readable HDF5 file ({error})") from error
 
@@ -107,5 +120,13 @@ def read_attributes(path: str | Path) -> dict[str, Any]:
         raise OSError(f"{path}: not a readable HDF5 file ({error})") from error
 
 
+def _values(dataset: h5py.Dataset) -> np.ndarray:
+    if h5py.check_string_dtype(dataset.dtype):
+        return np.array(dataset.asstr()[...], dtype=str)
+    return dataset[...]
+
+
 def _plain_attributes(file: h5py.File) -> dict[str, Any]:
-    return {key: value.item() if isinstance(value, np.generic) else value for key, value in file.attrs.items()}
+    return {
+        key: value.item() if isinstance(value, np.generic) else value for key, value in file.attrs.items()
+    }

@@ -1,0 +1,149 @@
+"""The grid of the study: which coatings at which speeds, and the SI run behind each point."""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from bladerub.contact.spec import Casing, Coating, RunSpec, TipProfile
+
+SPEED_DECIMALS = 6
+"""Speeds are rounded to this many decimals, so that start + i step and a written value agree."""
+
+
+@dataclass(frozen=True)
+class CoatingCase:
+    """One coating of the study: a casing and the normalised properties of its layer.
+
+    Parameters
+    ----------
+    casing : str
+        Name of a casing in the config.
+    E, K : float
+        Young and plastic modulus, normalised.
+    theta : float
+        Rotation of the abradable elements, rad.
+    """
+
+    casing: str
+    E: float
+    K: float
+    theta: float
+
+    @property
+    def name(self) -> str:
+        """Name of the coating in paths, for instance ``2nd_E0.11_K0.5_theta0``."""
+        return f"{self.casing}_E{self.E:g}_K{self.K:g}_theta{self.theta:g}"
+
+
+def coating_cases(config: Mapping[str, Any]) -> list[CoatingCase]:
+    """List every coating of the config, in its order.
+
+    Raises
+    ------
+    ValueError
+        If a coating is listed twice; the message names the entry.
+    """
+    cases: dict[str, CoatingCase] = {}
+    for index, entry in enumerate(config["coatings"]):
+        for moduli in itertools.product(entry["E"], entry["K"], entry["theta"]):
+            case = CoatingCase(entry["casing"], *map(float, moduli))
+            if case.name in cases:
+                raise ValueError(f"coatings[{index}]: {case.name} is listed twice; list each coating once")
+            cases[case.name] = case
+    return list(cases.values())
+
+
+def case_from_name(config: Mapping[str, Any], name: str) -> CoatingCase:
+    """Find the coating called `name` in the config.
+
+    Raises
+    ------
+    ValueError
+        If the config has no such coating.
+    """
+    for case in coating_cases(config):
+        if case.name == name:
+            return case
+    raise ValueError(f"coating {name} is not in the config; add its casing, E, K and theta to coatings")
+
+
+def speeds(config: Mapping[str, Any]) -> list[float]:
+    """List the speeds of the study, sorted, each once, normalised.
+
+    Raises
+    ------
+    ValueError
+        If two speeds are so close that their runs would have the same file name.
+    """
+    grid = config["speeds"]
+    n_steps = math.floor((grid["stop"] - grid["start"]) / grid["step"] + 1e-6)
+    regular = [grid["start"] + index * grid["step"] for index in range(n_steps + 1)]
+    distinct = sorted({round(float(f), SPEED_DECIMALS) for f in [*regular, *grid["extra"]]})
+    for slower, faster in itertools.pairwise(distinct):
+        if speed_name(slower) == speed_name(faster):
+            raise ValueError(f"speeds: {slower:g} and {faster:g} are closer than 0.0001; leave one out")
+    return distinct
+
+
+def speed_name(f_omega: float) -> str:
+    """Name of a speed in paths, for instance ``0.1900``."""
+    return f"{f_omega:.4f}"
+
+
+def run_spec(config: Mapping[str, Any], case: CoatingCase, f_omega: float) -> RunSpec:
+    """Describe the run of coating `case` at the speed `f_omega` in SI units.
+
+    The one place where values that the config gives in blade lengths or degrees become SI.
+
+    Raises
+    ------
+    KeyError
+        If the config has no casing of that name.
+    """
+    contact, solver, casing = config["contact"], config["solver"], config["casings"][case.casing]
+    length = float(config["blade"]["length"])
+    return RunSpec(
+        casing=Casing(
+            name=case.casing,
+            nodal_diameters=tuple(int(n) for n in casing["nodal_diameters"]),
+            weights=tuple(float(weight) for weight in casing["weights"]),
+            amplitude=float(casing["amplitude"]),
+            interference=float(casing["interference"]),
+            start_angle=math.radians(casing["start_angle"]),
+        ),
+        coating=Coating(
+            E=case.E,
+            K=case.K,
+            theta=case.theta,
+            yield_stress=float(contact["yield_stress"]),
+            modulus_unit=float(contact["modulus_unit"]),
+            thickness=float(contact["layer_thickness"]),
+            n_elements=int(contact["elements"]),
+        ),
+        tip=TipProfile(
+            half_width=float(contact["tip_profile"]["half_width"]),
+            edge_drop=float(contact["tip_profile"]["edge_drop"]),
+        ),
+        clearance=(
+            contact["clearance"]["leading_edge"] * length,
+            contact["clearance"]["trailing_edge"] * length,
+        ),
+        damping_ratio=float(contact["damping_ratio"]),
+        f_omega=float(f_omega),
+        revolutions=int(solver["revolutions"]),
+        max_time_step=float(solver["max_time_step"]),
+        displacement_limit=solver["displacement_limit"] * length,
+    )
+
+
+def keeps_history(config: Mapping[str, Any], case: CoatingCase, f_omega: float) -> bool:
+    """Tell whether the config lists this run among those whose whole displacement is kept."""
+    return any(
+        CoatingCase(entry["casing"], float(entry["E"]), float(entry["K"]), float(entry["theta"])) == case
+        and round(float(entry["f_omega"]), SPEED_DECIMALS) == round(f_omega, SPEED_DECIMALS)
+        for entry in config["analysis"]["histories"]
+    )

@@ -1,0 +1,96 @@
+"""The key of a run: a digest of everything that determines its file, so that nothing is computed twice."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from collections.abc import Iterable, Mapping
+from dataclasses import asdict
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import bladerub
+from bladerub import datafile
+from bladerub.contact.spec import RunSpec
+
+SHAPING_SETTINGS = ("spectrum_revolutions", "max_order")
+"""Keys of ``config["analysis"]`` that decide what a run file holds; the others act on maps and tables."""
+
+_PACKAGE = Path(bladerub.__file__).parent
+
+
+def run_key(spec: RunSpec, blade_digest: str, keep_history: bool, analysis: Mapping[str, Any]) -> str:
+    """Digest what determines the file of one run.
+
+    That is the run itself, the blade, the solver, what of the result is stored, and how. Other coatings
+    or speeds of the study have no part in it.
+
+    Parameters
+    ----------
+    spec : RunSpec
+        The run.
+    blade_digest : str
+        From `blade_digest`.
+    keep_history : bool
+        Whether the whole displacement is stored.
+    analysis : mapping
+        ``config["analysis"]``, of which only `SHAPING_SETTINGS` count.
+
+    Returns
+    -------
+    str
+        SHA-256 in hexadecimal.
+    """
+    determinants = {
+        "spec": asdict(spec),
+        "blade": blade_digest,
+        "solver": solver_digest(),
+        "storage": storage_digest(),
+        "keep_history": bool(keep_history),
+        "analysis": {name: float(analysis[name]) for name in SHAPING_SETTINGS},
+    }
+    return hashlib.sha256(json.dumps(determinants, sort_keys=True).encode()).hexdigest()
+
+
+@cache
+def solver_digest() -> str:
+    """Digest the source of what computes a run: the package ``contact`` and the reduced blade's own class."""
+    return _source_digest([*(_PACKAGE / "contact").rglob("*.py"), _PACKAGE / "blade" / "model.py"])
+
+
+@cache
+def storage_digest() -> str:
+    """Digest the source of what turns a result into its file."""
+    return _source_digest([_PACKAGE / "study" / name for name in ("store.py", "spectra.py")])
+
+
+def _source_digest(paths: Iterable[Path]) -> str:
+    digest = hashlib.sha256()
+    for path in sorted(paths):
+        # universal newlines: a checkout with other line ends is the same source
+        entry = [path.relative_to(_PACKAGE).as_posix(), path.read_text(encoding="utf-8")]
+        digest.update(json.dumps(entry).encode())
+    return digest.hexdigest()
+
+
+def blade_digest(path: str | Path) -> str:
+    """Digest the datasets and attributes of the reduced blade at `path`, not the bytes of the file.
+
+    A rebuild with the same outcome keeps the digest, whatever time stamps or layout the file has.
+
+    Raises
+    ------
+    OSError
+        If the file is missing or unreadable.
+    """
+    data, attributes = datafile.read(path)
+    digest = hashlib.sha256()
+    for name in sorted(data):
+        values = data[name]
+        digest.update(json.dumps([name, values.dtype.str, values.shape]).encode())
+        digest.update(values.tobytes())
+    digest.update(
+        json.dumps({name: repr(value) for name, value in attributes.items()}, sort_keys=True).encode()
+    )
+    return digest.hexdigest()

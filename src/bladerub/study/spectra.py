@@ -1,0 +1,70 @@
+"""Spectra of the blade's response over engine orders."""
+
+from __future__ import annotations
+
+import numpy as np
+from scipy import fft, signal
+
+
+def order_spectrum(
+    radial_displacement: np.ndarray, revolutions: int, spectrum_revolutions: int, max_order: float
+) -> tuple[np.ndarray, np.ndarray]:
+    """Amplitude spectrum over engine order of the last revolutions of a run.
+
+    A Hann window over a whole number of revolutions puts every engine order on a bin. The mean is removed
+    and the window's gain corrected, so that a sine of amplitude A on a bin reads A; half way between two
+    bins it reads 0.85 A.
+
+    A run that ended early is analysed over its last complete revolutions, `spectrum_revolutions` of them at
+    most. When there are fewer, they are padded with zeros: the same bins, at less resolution. A run that did
+    not complete one revolution has NaN amplitudes.
+
+    Parameters
+    ----------
+    radial_displacement : (revolutions * n,) ndarray
+        Displacement at n equal steps of angle in each revolution, m; NaN after an early end.
+    revolutions : int
+        Revolutions in the record.
+    spectrum_revolutions : int
+        Revolutions in the spectrum.
+    max_order : float
+        Highest engine order returned.
+
+    Returns
+    -------
+    order : (m,) ndarray
+        Engine orders from 0 to `max_order` in steps of ``1 / spectrum_revolutions``.
+    amplitude : (m,) ndarray
+        Amplitude, m.
+
+    Raises
+    ------
+    ValueError
+        If the record is shorter than the spectrum, does not divide into its revolutions, or is sampled too
+        coarsely for `max_order`.
+    """
+    samples, remainder = divmod(radial_displacement.size, revolutions)
+    if remainder:
+        raise ValueError(f"{radial_displacement.size} samples do not divide into {revolutions} revolutions")
+    if spectrum_revolutions > revolutions:
+        raise ValueError(
+            f"a spectrum over {spectrum_revolutions} revolutions needs a run of as many, not {revolutions}"
+        )
+    if max_order > samples / 2:
+        raise ValueError(
+            f"order {max_order:g} is above {samples / 2:g}, the highest that {samples} samples resolve"
+        )
+    n_bins = int(np.floor(max_order * spectrum_revolutions + 1e-9)) + 1
+    order = np.arange(n_bins) / spectrum_revolutions
+
+    ended = np.isnan(radial_displacement)
+    complete = (int(np.argmax(ended)) if ended.any() else ended.size) // samples
+    used = min(spectrum_revolutions, complete)
+    if used == 0:
+        return order, np.full(n_bins, np.nan)
+    record = radial_displacement[(complete - used) * samples : complete * samples]
+    window = signal.windows.hann(record.size, sym=False)
+    transform = fft.rfft((record - record.mean()) * window, n=spectrum_revolutions * samples)[:n_bins]
+    amplitude = 2 * np.abs(transform) / window.sum()
+    amplitude[0] /= 2  # order 0 has no mirror image at negative orders
+    return order, amplitude
