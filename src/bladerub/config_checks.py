@@ -1,0 +1,167 @@
+"""What a schema cannot say of a config: that its parts agree with each other."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection, Iterator
+from typing import Any
+
+import numpy as np
+
+from bladerub.blade import geometry
+from bladerub.contact.casing import shape
+from bladerub.contact.spec import Casing
+from bladerub.study.grid import SPEED_DECIMALS, CoatingCase, coating_cases, speeds
+
+Config = dict[str, Any]
+Check = Callable[[Config], Iterator[str]]
+_checks: list[tuple[Check, frozenset[str]]] = []
+
+
+def check(config: Config, broken: Collection[str]) -> list[str]:
+    """List the faults of `config`, leaving out checks that read a top-level key in `broken`."""
+    return [fault for function, parts in _checks if not parts & set(broken) for fault in function(config)]
+
+
+def _reads(*parts: str) -> Callable[[Check], Check]:
+    def register(function: Check) -> Check:
+        _checks.append((function, frozenset(parts)))
+        return function
+
+    return register
+
+
+@_reads("blade")
+def _blade_shape(config: Config) -> Iterator[str]:
+    try:
+        geometry.check(config["blade"])
+    except ValueError as error:
+        yield str(error)
+
+
+@_reads("casings", "contact")
+def _casings(config: Config) -> Iterator[str]:
+    layer = config["contact"]["layer_thickness"]
+    for name, casing in config["casings"].items():
+        where = f"casings.{name}"
+        diameters, weights = casing["nodal_diameters"], casing["weights"]
+        if len(weights) != len(diameters):
+            yield f"{where}.weights = {weights}: must be {len(diameters)}, one for each of nodal_diameters"
+            continue
+        if not any(weights):
+            yield f"{where}.weights = {weights}: at least one must not be 0"
+            continue
+        if 2 * max(diameters) > config["contact"]["elements"]:
+            yield (
+                f"{where}.nodal_diameters = {diameters}: must be at most half of contact.elements = "
+                f"{config['contact']['elements']}"
+            )
+        depth, amplitude = casing["interference"], casing["amplitude"]
+        lowest = _lowest(tuple(diameters), tuple(weights))
+        if depth > amplitude * (1 - lowest):
+            yield (
+                f"{where}.interference = {depth:g}: must be at most {amplitude * (1 - lowest):g} m, or the "
+                f"blade touches all around at an amplitude of {amplitude:g} m"
+            )
+        if depth >= layer:
+            yield (
+                f"{where}.interference = {depth:g}: must be below contact.layer_thickness = {layer:g} m, or "
+                "the blade reaches through the coating"
+            )
+
+
+def _lowest(nodal_diameters: tuple[int, ...], weights: tuple[float, ...]) -> float:
+    casing = Casing("", nodal_diameters, weights, amplitude=1.0, interference=0.0, start_angle=0.0)
+    return float(np.min(shape(casing, np.linspace(0, 2 * np.pi, 7201))))
+
+
+@_reads("contact")
+def _tip_profile(config: Config) -> Iterator[str]:
+    half_width, elements = config["contact"]["tip_profile"]["half_width"], config["contact"]["elements"]
+    if half_width > elements / 8:
+        yield (
+            f"contact.tip_profile.half_width = {half_width:g}: must be at most an eighth of "
+            f"contact.elements = {elements}, the tip of a blade is narrow"
+        )
+
+
+@_reads("coatings", "casings")
+def _coating_casings(config: Config) -> Iterator[str]:
+    for index, entry in enumerate(config["coatings"]):
+        yield from _known_casing(config, f"coatings[{index}]", entry["casing"])
+
+
+def _known_casing(config: Config, where: str, casing: str) -> Iterator[str]:
+    if casing not in config["casings"]:
+        yield f'{where}.casing = "{casing}": must be one of the casings, {", ".join(config["casings"])}'
+
+
+@_reads("coatings")
+def _coatings_listed_twice(config: Config) -> Iterator[str]:
+    try:
+        coating_cases(config)
+    except ValueError as error:
+        yield str(error)
+
+
+@_reads("speeds", "reduction")
+def _speeds(config: Config) -> Iterator[str]:
+    grid, highest = config["speeds"], config["reduction"]["f_omega_max"]
+    if grid["stop"] < grid["start"]:
+        yield f"speeds.stop = {grid['stop']:g}: must not be below speeds.start = {grid['start']:g}"
+        return
+    named = {"speeds.stop": grid["stop"]} | {f"speeds.extra[{i}]": f for i, f in enumerate(grid["extra"])}
+    for where, f_omega in named.items():
+        if f_omega > highest:
+            yield (
+                f"{where} = {f_omega:g}: must be at most reduction.f_omega_max = {highest:g} (normalised), "
+                "the reduced blade is not valid above"
+            )
+    try:
+        speeds(config)
+    except ValueError as error:
+        yield str(error)
+
+
+@_reads("analysis", "coatings", "casings", "speeds")
+def _histories(config: Config) -> Iterator[str]:
+    try:
+        cases, grid = coating_cases(config), speeds(config)
+    except ValueError:  # told by the checks of the coatings and of the speeds
+        return
+    for index, entry in enumerate(config["analysis"]["histories"]):
+        where = f"analysis.histories[{index}]"
+        case = CoatingCase(entry["casing"], *(float(entry[key]) for key in ("E", "K", "theta")))
+        if entry["casing"] not in config["casings"]:
+            yield from _known_casing(config, where, entry["casing"])
+        elif case not in cases:
+            yield f"{where} = {case.name}: must be one of the coatings, add it there or drop it here"
+        if round(entry["f_omega"], SPEED_DECIMALS) not in grid:
+            yield (
+                f"{where}.f_omega = {entry['f_omega']:g}: must be one of the speeds, add it to "
+                "speeds.extra or drop it here"
+            )
+
+
+@_reads("analysis", "solver", "contact")
+def _analysis(config: Config) -> Iterator[str]:
+    analysis, revolutions = config["analysis"], config["solver"]["revolutions"]
+    spans = {
+        "spectrum_revolutions": analysis["spectrum_revolutions"],
+        "divergence.revolutions": analysis["divergence"]["revolutions"],
+    }
+    for key, span in spans.items():
+        if span > revolutions:
+            yield f"analysis.{key} = {span}: must be at most solver.revolutions = {revolutions}"
+    low, high = analysis["peaks"]["speed_window"]
+    if low >= high:
+        yield f"analysis.peaks.speed_window = {[low, high]}: must be the lower end first, then the upper"
+    highest = analysis["max_order"]
+    if highest > config["contact"]["elements"] / 2:
+        yield (
+            f"analysis.max_order = {highest:g}: must be at most half of contact.elements = "
+            f"{config['contact']['elements']}, there is one sample an element"
+        )
+    for index, order in enumerate(analysis["peaks"]["orders"]):
+        if order > highest:
+            where = f"analysis.peaks.orders[{index}]"
+            yield f"{where} = {order}: must be at most analysis.max_order = {highest:g}"
