@@ -1,0 +1,49 @@
+# The study as a graph of jobs: a blade is built once, it rubs many times, the rubs are gathered, the
+# gatherings are drawn. `snakemake -j2` makes all of it; config/config.yaml says what.
+import sys
+
+from snakemake.utils import min_version
+
+import bladerub.config
+from bladerub.study.grid import coating_cases
+
+min_version("9.0")
+
+# Snakemake does not say where a malformed file is malformed; reading it here first does
+with bladerub.config.faults_end_the_program():
+    bladerub.config.load("config/config.yaml", *workflow.configfiles)
+
+
+configfile: "config/config.yaml"
+
+
+with bladerub.config.faults_end_the_program():
+    config.update(bladerub.config.validate(config))
+
+RESULTS = config["results"]
+COATINGS = [case.name for case in coating_cases(config)]
+
+
+wildcard_constraints:
+    coating="[A-Za-z0-9]+_E[^_/]+_K[^_/]+_theta[^_/]+",
+
+
+include: "src/rules/blade.smk"
+include: "src/rules/runs.smk"
+include: "src/rules/maps.smk"
+include: "src/rules/figures.smk"
+
+
+localrules:
+    all,
+
+
+rule all:
+    default_target: True
+    input:
+        rules.blade.output,
+        expand(rules.map.output, coating=COATINGS),
+        rules.peaks.output,
+        rules.divergence.output,
+        rules.findings.output,
+        FIGURES,

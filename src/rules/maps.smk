@@ -1,0 +1,65 @@
+# Stages 3 and 4: what the runs of a coating show together, and the tables over all coatings.
+rule map:
+    input:
+        manifest=rules.coating.output[0],
+        blade=f"{RESULTS}/blade/reduced_model.h5",
+    output:
+        f"{RESULTS}/maps/{{coating}}.h5",
+    log:
+        f"{RESULTS}/logs/map/{{coating}}.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/map/{{coating}}.tsv"
+    threads: 1
+    params:
+        lobe_prominence=config["analysis"]["lobe_prominence"],
+    script:
+        "../scripts/map.py"
+
+
+rule peaks:
+    input:
+        expand(rules.map.output, coating=COATINGS),
+    output:
+        f"{RESULTS}/tables/peaks.csv",
+    log:
+        f"{RESULTS}/logs/peaks.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/peaks.tsv"
+    threads: 1
+    params:
+        peaks=config["analysis"]["peaks"],
+    script:
+        "../scripts/peaks.py"
+
+
+rule divergence:
+    input:
+        expand(rules.map.output, coating=COATINGS),
+    output:
+        f"{RESULTS}/tables/divergence.csv",
+    log:
+        f"{RESULTS}/logs/divergence.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/divergence.tsv"
+    threads: 1
+    params:
+        divergence=config["analysis"]["divergence"],
+    script:
+        "../scripts/divergence.py"
+
+
+rule findings:
+    input:
+        maps=expand(rules.map.output, coating=COATINGS),
+        peaks=rules.peaks.output[0],
+        divergence=rules.divergence.output[0],
+        rom_accuracy=f"{RESULTS}/tables/rom_accuracy.csv",
+    output:
+        f"{RESULTS}/tables/findings.csv",
+    log:
+        f"{RESULTS}/logs/findings.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/findings.tsv"
+    threads: 1
+    script:
+        "../scripts/findings.py"

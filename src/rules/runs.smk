@@ -1,0 +1,58 @@
+# Stage 2: the rubs. One job is one coating at all its speeds; one run is one file.
+from bladerub.study.grid import (
+    case_from_name,
+    keeps_history,
+    run_spec,
+    speed_name,
+    speeds,
+)
+from bladerub.study.key import run_key, solver_digest
+
+
+def planned_runs(wildcards):
+    """All that determines the runs of a coating but the blade: a changed one is a reason to run."""
+    case = case_from_name(config, wildcards.coating)
+    return {
+        speed_name(f_omega): run_key(
+            run_spec(config, case, f_omega),
+            "the blade is an input",
+            keeps_history(config, case, f_omega),
+            config["analysis"],
+        )
+        for f_omega in speeds(config)
+    }
+
+
+rule compile_kernel:
+    # before any rub, because jobs that start together on a cold cache would all compile
+    output:
+        f"{RESULTS}/runs/kernel.json",
+    log:
+        f"{RESULTS}/logs/compile_kernel.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/compile_kernel.tsv"
+    threads: 1
+    params:
+        solver=solver_digest(),
+    script:
+        "../scripts/compile_kernel.py"
+
+
+rule coating:
+    # The runs lie beside the manifest, undeclared: Snakemake deletes what a failed job declares, and
+    # finished runs must survive. Whether a run is current is told by the key inside its file.
+    input:
+        blade=f"{RESULTS}/blade/reduced_model.h5",
+        kernel=ancient(rules.compile_kernel.output[0]),
+    output:
+        f"{RESULTS}/runs/{{coating}}/manifest.tsv",
+    log:
+        f"{RESULTS}/logs/coating/{{coating}}.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/coating/{{coating}}.tsv"
+    threads: 1
+    params:
+        folder=subpath(output[0], parent=True),
+        planned=planned_runs,
+    script:
+        "../scripts/coating.py"

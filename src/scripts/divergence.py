@@ -1,0 +1,9 @@
+"""Judge for every run whether it diverges."""
+
+import sys
+
+from bladerub.study import divergence
+
+sys.stderr = open(snakemake.log[0], "w", buffering=1)
+
+divergence.table(snakemake.config, snakemake.input).to_csv(snakemake.output[0], index=False)

@@ -1,0 +1,18 @@
+"""Gather the runs of one coating into a map over angle, engine order and speed."""
+
+import sys
+from pathlib import Path
+
+from bladerub.blade.model import read_reduced_blade
+from bladerub.study.grid import case_from_name
+from bladerub.study.maps import build_map
+
+sys.stderr = open(snakemake.log[0], "w", buffering=1)
+
+build_map(
+    snakemake.config,
+    case_from_name(snakemake.config, snakemake.wildcards.coating),
+    read_reduced_blade(snakemake.input.blade),
+    Path(snakemake.input.manifest).parent,
+    snakemake.output[0],
+)
