@@ -258,3 +258,16 @@ def _range(rule: dict[str, Any]) -> str:
     words |= {"exclusiveMaximum": "below", "maximum": "at most"}
     bounds = [f"{word} {rule[bound]:g}" for bound, word in words.items() if bound in rule]
     return f" {' and '.join(bounds)}" if bounds else ""
+
+
+def check_quantity(name: str, value: Any) -> None:
+    """Check one value against the schema's definition of `name`: ``E``, ``K``, ``theta``, ``f_omega``.
+
+    Raises
+    ------
+    ValueError
+        Says what would be right.
+    """
+    rule = schema()["$defs"][name]
+    if any(_validator().evolve(schema=rule).iter_errors(value)):
+        raise ValueError(_right(rule))
