@@ -38,8 +38,8 @@ class StoredRun:
         ``run_key``, ``status`` and more.
     data : dict of str to ndarray
         The datasets by name, in SI units: ``wear`` (8, n), ``angle`` (n,), ``spectrum_order`` and
-        ``spectrum_amplitude`` (m,), ``revolution_peak`` and ``revolution_number`` (r,), ``energy_*`` (scalars),
-        and for runs with history ``radial_displacement`` over ``revolution`` (r n,).
+        ``spectrum_amplitude`` (m,), ``revolution_peak`` and ``revolution_number`` (r,), ``energy_*``
+        (scalars), and for runs with history ``radial_displacement`` over ``revolution`` (r n,).
     """
 
     attributes: dict[str, Any]

@@ -1,0 +1,108 @@
+"""What the claims are measured on: the tables and maps of the study, and nothing else."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from bladerub.study.findings.finding import NotMeasurable
+from bladerub.study.grid import CoatingCase
+from bladerub.study.maps import CoatingMap, read_map
+
+SAME_SPEED = 1e-6
+"""Speeds closer than this are the same point of the grid."""
+
+
+class Evidence:
+    """Tables and maps of one study.
+
+    Parameters
+    ----------
+    config : mapping
+        The study.
+    tables : mapping of str to DataFrame
+        ``rom_accuracy``, ``peaks`` and ``divergence``.
+    map_paths : iterable of path-like
+        Map files, named after their coatings.
+    """
+
+    def __init__(
+        self,
+        config: Mapping[str, Any],
+        tables: Mapping[str, pd.DataFrame],
+        map_paths: Iterable[str | Path],
+    ):
+        self.config = config
+        self.rom_accuracy = tables["rom_accuracy"]
+        self.peaks = tables["peaks"]
+        self.divergence = tables["divergence"]
+        self._map_paths = {Path(path).stem: Path(path) for path in map_paths}
+        self._read_map = cache(read_map)
+
+    def map(self, case: CoatingCase) -> CoatingMap:
+        """Return the map of a coating.
+
+        Raises
+        ------
+        NotMeasurable
+            If the coating is not in the study.
+        """
+        if case.name not in self._map_paths:
+            raise NotMeasurable(f"coating {case.name} is not in the study")
+        return self._read_map(self._map_paths[case.name])
+
+    def peak(self, case: CoatingCase, order: int, column: str) -> float:
+        """Return ``f_peak`` or ``amplitude`` (m) of one coating and engine order from the table of peaks.
+
+        Raises
+        ------
+        NotMeasurable
+            If the table has no such row.
+        """
+        rows = self.peaks[_of_case(self.peaks, case) & (self.peaks.order == order)]
+        if rows.empty:
+            raise NotMeasurable(f"no peak of engine order {order} for coating {case.name}")
+        return float(rows[column].iloc[0])
+
+    def moduli(self, casing: str, theta: float, order: int, column: str) -> pd.DataFrame:
+        """Return ``f_peak`` or ``amplitude`` (m) over K (rows) and E (columns), both ascending.
+
+        Raises
+        ------
+        NotMeasurable
+            If the study has fewer than two E or two K.
+        """
+        peaks = self.peaks
+        rows = peaks[(peaks.casing == casing) & (peaks.theta == theta) & (peaks.order == order)]
+        table = rows.pivot_table(index="K", columns="E", values=column)
+        if min(table.shape) < 2:
+            raise NotMeasurable(f"engine order {order} on casing {casing}: fewer than two E or two K")
+        return table
+
+    def run(self, case: CoatingCase, f_omega: float) -> pd.Series:
+        """Return the row of one run from the table of divergence.
+
+        Raises
+        ------
+        NotMeasurable
+            If the study has no such run.
+        """
+        table = self.divergence
+        rows = table[_of_case(table, case) & (np.abs(table.f_omega - f_omega) < SAME_SPEED)]
+        if rows.empty:
+            raise NotMeasurable(f"coating {case.name} has no run at f_omega = {f_omega:g}")
+        return rows.iloc[0]
+
+
+def _of_case(table: pd.DataFrame, case: CoatingCase) -> pd.Series:
+    return (
+        (table.casing == case.casing)
+        & (table.E == case.E)
+        & (table.K == case.K)
+        & (table.theta == case.theta)
+    )

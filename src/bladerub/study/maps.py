@@ -1,0 +1,191 @@
+"""Maps: wear and spectra of one coating over all its speeds."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from scipy import linalg
+
+from bladerub import datafile
+from bladerub.blade.model import ReducedBlade
+from bladerub.datafile import Variable
+from bladerub.study.grid import CoatingCase
+from bladerub.study.store import ManifestRow, StoredRun, read_manifest, read_run
+from bladerub.study.wear import lobes, mean_wear
+
+
+@dataclass(frozen=True)
+class CoatingMap:
+    """All runs of one coating side by side.
+
+    Parameters
+    ----------
+    case : CoatingCase
+        The coating.
+    f_omega : (n,) ndarray
+        Speeds, ascending, normalised.
+    C1 : (n,) ndarray
+        First eigenfrequency of the reduced blade at each speed, normalised.
+    angle : (a,) ndarray
+        Casing angle, rad.
+    wear : (n, a) ndarray
+        Worn depth, mean over the interface nodes, m.
+    wear_node : (n, 8, a) ndarray
+        Worn depth under each node, m.
+    spectrum_order : (m,) ndarray
+        Engine order.
+    spectrum_amplitude : (n, m) ndarray
+        Amplitude of the radial displacement of node 1, m.
+    revolution_peak : (n, r) ndarray
+        Largest absolute radial displacement of node 1 in each revolution, m.
+    max_wear : (n,) ndarray
+        Greatest worn depth under any node, m.
+    lobes : (n,) ndarray of int
+        Number of worn lobes.
+    status : (n,) ndarray of str
+        ``completed`` or ``unbounded``.
+    """
+
+    case: CoatingCase
+    f_omega: np.ndarray
+    C1: np.ndarray
+    angle: np.ndarray
+    wear: np.ndarray
+    wear_node: np.ndarray
+    spectrum_order: np.ndarray
+    spectrum_amplitude: np.ndarray
+    revolution_peak: np.ndarray
+    max_wear: np.ndarray
+    lobes: np.ndarray
+    status: np.ndarray
+
+
+_DATASETS = {
+    "f_omega": (("f_omega",), "1", "rotational frequency over the first frequency at rest"),
+    "C1": (("f_omega",), "1", "first eigenfrequency at speed over that at rest"),
+    "angle": (("angle",), "rad", "casing angle of the element centres"),
+    "wear": (("f_omega", "angle"), "m", "worn depth, mean over the interface nodes"),
+    "wear_node": (("f_omega", "node", "angle"), "m", "worn depth under each interface node"),
+    "spectrum_order": (("spectrum_order",), "1", "engine order"),
+    "spectrum_amplitude": (
+        ("f_omega", "spectrum_order"),
+        "m",
+        "amplitude of the radial displacement of node 1",
+    ),
+    "revolution_peak": (
+        ("f_omega", "revolution_number"),
+        "m",
+        "largest absolute radial displacement of node 1 in each revolution",
+    ),
+    "max_wear": (("f_omega",), "m", "greatest worn depth under any node"),
+    "lobes": (("f_omega",), "1", "number of worn lobes"),
+    "status": (("f_omega",), "1", "completed, or unbounded: the tip left all bounds"),
+}
+
+
+def build_map(
+    config: Mapping[str, Any],
+    case: CoatingCase,
+    blade: ReducedBlade,
+    runs_folder: str | Path,
+    path: str | Path,
+) -> None:
+    """Gather the runs of one coating into the map file `path`.
+
+    Parameters
+    ----------
+    config : mapping
+        ``analysis.lobe_prominence`` decides what counts as a lobe.
+    case : CoatingCase
+        The coating.
+    blade : ReducedBlade
+        For its first frequency at each speed.
+    runs_folder : path-like
+        Folder of the coating's runs; its ``manifest.tsv`` says which of them belong to the study.
+    path : path-like
+        The map file, see `CoatingMap` for its datasets.
+
+    Raises
+    ------
+    OSError
+        If the manifest or a run is missing, damaged, or another run than the manifest's; the message names
+        the file and the remedy.
+    """
+    folder = Path(runs_folder)
+    rows = sorted(read_manifest(folder / "manifest.tsv"), key=lambda row: row.f_omega)
+    if not rows:
+        raise OSError(f"{folder / 'manifest.tsv'}: lists no run")
+    runs = [_listed_run(folder, row) for row in rows]
+    f_omega = np.array([row.f_omega for row in rows])
+    angle = runs[0].data["angle"]
+    wear = np.stack([run.data["wear"] for run in runs])
+    prominence = config["analysis"]["lobe_prominence"]
+    coating = CoatingMap(
+        case=case,
+        f_omega=f_omega,
+        C1=np.array([first_frequency(blade, f) for f in f_omega]),
+        angle=angle,
+        wear=np.stack([mean_wear(each) for each in wear]),
+        wear_node=wear,
+        spectrum_order=runs[0].data["spectrum_order"],
+        spectrum_amplitude=np.stack([run.data["spectrum_amplitude"] for run in runs]),
+        revolution_peak=np.stack([run.data["revolution_peak"] for run in runs]),
+        max_wear=wear.max(axis=(1, 2)),
+        lobes=np.array([lobes(angle, each, prominence) for each in wear]),
+        status=np.array([run.attributes["status"] for run in runs]),
+    )
+    write_map(path, coating)
+
+
+def _listed_run(folder: Path, row: ManifestRow) -> StoredRun:
+    path = folder / row.file
+    remedy = f"delete {path} and {folder / 'manifest.tsv'}, then run the workflow again"
+    try:
+        run = read_run(path)
+    except OSError as error:
+        raise OSError(f"{error}; {remedy}") from error
+    if run.attributes["run_key"] != row.run_key:
+        raise OSError(f"{path}: not the run that the manifest lists (its key differs); {remedy}")
+    return run
+
+
+def first_frequency(blade: ReducedBlade, f_omega: float) -> float:
+    """First eigenfrequency C1 of the reduced blade at the speed `f_omega`, both normalised."""
+    eigenvalue = linalg.eigh(blade.stiffness(f_omega), blade.mass, eigvals_only=True, subset_by_index=[0, 0])[
+        0
+    ]
+    return float(np.sqrt(eigenvalue) / (2 * np.pi) / blade.f1_hz)
+
+
+def write_map(path: str | Path, coating: CoatingMap) -> None:
+    """Write `coating` to the HDF5 file `path`, whole or not at all."""
+    variables = {
+        name: Variable(dims, getattr(coating, name), units, long_name)
+        for name, (dims, units, long_name) in _DATASETS.items()
+    }
+    number = np.arange(1, coating.revolution_peak.shape[1] + 1)
+    variables["revolution_number"] = Variable(
+        ("revolution_number",), number, "1", "revolution, counted from 1"
+    )
+    case = coating.case
+    datafile.write(path, variables, {"casing": case.casing, "E": case.E, "K": case.K, "theta": case.theta})
+
+
+def read_map(path: str | Path) -> CoatingMap:
+    """Read a map written by `write_map`.
+
+    Raises
+    ------
+    OSError
+        If the file is missing, damaged or not a map; the message names it.
+    """
+    data, attributes = datafile.read(path)
+    try:
+        case = CoatingCase(*(attributes[name] for name in ("casing", "E", "K", "theta")))
+        return CoatingMap(case=case, **{name: data[name] for name in _DATASETS})
+    except KeyError as error:
+        raise OSError(f"{path}: not a map, {error} is missing") from error

@@ -1,0 +1,133 @@
+"""Resonant peaks: Y_k and f_k, where the engine order k crosses the first frequency C1 (Fig. 10)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from bladerub.study.maps import CoatingMap, read_map
+
+COLUMNS = ["casing", "E", "K", "theta", "order", "f_peak", "amplitude"]
+"""Columns of ``peaks.csv``; f_peak is normalised, amplitude in m."""
+
+
+@dataclass(frozen=True)
+class Peak:
+    """Maximum of the response near the crossing of one engine order with C1.
+
+    Parameters
+    ----------
+    f_omega : float
+        Speed f_k of the maximum, normalised.
+    amplitude : float
+        Amplitude Y_k, m.
+    """
+
+    f_omega: float
+    amplitude: float
+
+
+def crossing_speed(coating: CoatingMap, order: float) -> float:
+    """Speed at which the engine order crosses C1, ``order * f_omega = C1(f_omega)``, normalised.
+
+    C1 is taken as linear between the speeds of the map.
+
+    Raises
+    ------
+    ValueError
+        If the crossing lies outside the speeds of the map.
+    """
+    f_omega = coating.f_omega
+    distance = order * f_omega - coating.C1
+    if not distance[0] <= 0 <= distance[-1]:
+        raise ValueError(
+            f"engine order {order:g} does not cross C1 between the lowest and highest speed of "
+            f"{coating.case.name} ({f_omega[0]:g} to {f_omega[-1]:g}): widen speeds or drop the order from "
+            "analysis.peaks.orders"
+        )
+    return float(np.interp(0.0, distance, f_omega))  # distance rises with speed, since C1 grows slowly
+
+
+def order_amplitude(coating: CoatingMap, order: float, halfwidth: float) -> np.ndarray:
+    """Largest amplitude within `halfwidth` of an engine order at each speed, m (n,); NaN without a spectrum.
+
+    Raises
+    ------
+    ValueError
+        If the spectra do not reach that order.
+    """
+    on_order = np.abs(coating.spectrum_order - order) <= halfwidth + 1e-9
+    if not on_order.any():
+        raise ValueError(
+            f"analysis.max_order: the spectra of {coating.case.name} do not reach order {order:g}"
+        )
+    return coating.spectrum_amplitude[:, on_order].max(axis=1)
+
+
+def peak(coating: CoatingMap, order: float, settings: Mapping[str, Any]) -> Peak:
+    """Find the maximum (f_k, Y_k) of one engine order near its crossing with C1.
+
+    Y_k is the largest amplitude within ``order_halfwidth`` of the order, over the speeds within
+    ``speed_window`` times the crossing speed; f_k is the speed where it occurs. The speed is one of the
+    grid: f_k is known to a speed step. Runs that ended early count with what their spectrum holds.
+
+    Parameters
+    ----------
+    coating : CoatingMap
+        Runs of one coating.
+    order : float
+        Engine order k.
+    settings : mapping
+        ``config["analysis"]["peaks"]``.
+
+    Raises
+    ------
+    ValueError
+        If the order does not cross C1 within the map, or no run with a spectrum lies in the window: a table
+        with a hole would pass for a soft coating in the histograms. The message names key and window.
+    """
+    low, high = (factor * crossing_speed(coating, order) for factor in settings["speed_window"])
+    inside = (coating.f_omega >= low) & (coating.f_omega <= high)
+    amplitude = np.where(inside, order_amplitude(coating, order, settings["order_halfwidth"]), np.nan)
+    if np.isnan(amplitude).all():
+        raise ValueError(
+            f"analysis.peaks.speed_window: no run of {coating.case.name} between f_omega = {low:.4f} and "
+            f"{high:.4f} has a spectrum for engine order {order:g}; add speeds there or widen the window"
+        )
+    best = int(np.nanargmax(amplitude))
+    return Peak(float(coating.f_omega[best]), float(amplitude[best]))
+
+
+def table(config: Mapping[str, Any], map_paths: Iterable[str | Path]) -> pd.DataFrame:
+    """Find the peaks of every coating.
+
+    Parameters
+    ----------
+    config : mapping
+        ``analysis.peaks`` has the engine orders and the windows.
+    map_paths : iterable of path-like
+        Files of `bladerub.study.maps.build_map`.
+
+    Returns
+    -------
+    DataFrame
+        A row per coating and order, with `COLUMNS`.
+
+    Raises
+    ------
+    ValueError
+        As `peak`.
+    """
+    settings = config["analysis"]["peaks"]
+    rows = []
+    for coating in map(read_map, map_paths):
+        case = coating.case
+        for order in settings["orders"]:
+            found = peak(coating, order, settings)
+            rows.append((case.casing, case.E, case.K, case.theta, order, found.f_omega, found.amplitude))
+    return pd.DataFrame(rows, columns=COLUMNS)

@@ -1,0 +1,47 @@
+"""Worn patterns: how many lobes the blade has cut around the casing."""
+
+from __future__ import annotations
+
+import numpy as np
+from scipy import ndimage, signal
+
+SMOOTHING_ANGLE = np.radians(6.0)
+"""Width of the Hann window that smooths a pattern, rad: the single hits within a lobe are closer than that
+and twenty lobes further apart."""
+
+
+def mean_wear(wear: np.ndarray) -> np.ndarray:
+    """Average the wear (8, n) under the interface nodes, m (n,); a pattern (n,) is returned as it is."""
+    return wear.mean(axis=0) if wear.ndim == 2 else wear
+
+
+def lobes(angle: np.ndarray, wear: np.ndarray, prominence: float) -> int:
+    """Count the worn lobes around the circumference.
+
+    The wear is averaged over the nodes and smoothed around the circle over `SMOOTHING_ANGLE`. A lobe is a
+    maximum that stands above the valleys beside it by at least `prominence` of the greatest smoothed depth. A
+    casing that is worn evenly all around has none.
+
+    Parameters
+    ----------
+    angle : (n,) ndarray
+        Casing angle of the elements, rad, evenly spaced around the whole circle.
+    wear : (8, n) or (n,) ndarray
+        Worn depth, m.
+    prominence : float
+        Relative prominence of a lobe, in (0, 1).
+
+    Returns
+    -------
+    int
+        Number of lobes; it does not change when the casing is turned.
+    """
+    width = max(1, round(SMOOTHING_ANGLE / (2 * np.pi / angle.size)))
+    kernel = signal.windows.hann(width + 2)[1:-1]  # without its two zeros
+    depth = ndimage.convolve1d(mean_wear(wear), kernel / kernel.sum(), mode="wrap")
+    if depth.max() <= 0:
+        return 0
+    # cut the circle at its lowest point, so that no lobe is split and every valley is seen from both sides
+    opened = np.roll(depth, -int(np.argmin(depth)))
+    peaks, _ = signal.find_peaks(np.append(opened, opened[0]), prominence=prominence * depth.max())
+    return len(peaks)
