@@ -1,0 +1,184 @@
+"""Stage 1 as a whole: from the config to the reduced blade and the tables that say how good it is."""
+
+from __future__ import annotations
+
+import logging
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from bladerub import datafile
+from bladerub.blade import geometry
+from bladerub.blade.accuracy import CAMPBELL_COLUMNS, accuracy_table, reduced_frequencies
+from bladerub.blade.elasticity import Material, Solid
+from bladerub.blade.linear import lowest_modes
+from bladerub.blade.mesh import BladeMesh
+from bladerub.blade.model import ReducedBlade, write_reduced_blade
+from bladerub.blade.reduction import Partition, project, speed_law, stiffness_at, transformation
+from bladerub.blade.rotation import Equilibrium, equilibrium
+from bladerub.datafile import Variable
+
+log = logging.getLogger(__name__)
+
+
+@dataclass(frozen=True)
+class BuiltBlade:
+    """All that stage 1 makes.
+
+    Parameters
+    ----------
+    reduced : ReducedBlade
+        The model for the contact simulations.
+    mesh : BladeMesh
+        The blade at rest.
+    frequency : (n_modes,) ndarray
+        Of the finite element model at rest, Hz.
+    mode_shape : (n_modes, n_nodes, 3) ndarray
+        The modes that go with it, largest displacement 1.
+    static_displacement : (n_speeds, n_nodes, 3) ndarray
+        Of the equilibria at ``static_speed`` (normalised), m.
+    static_speed : (n_speeds,) ndarray
+        The accuracy speeds.
+    accuracy : DataFrame
+        See `bladerub.blade.accuracy.accuracy_table`.
+    """
+
+    reduced: ReducedBlade
+    mesh: BladeMesh
+    frequency: np.ndarray
+    mode_shape: np.ndarray
+    static_displacement: np.ndarray
+    static_speed: np.ndarray
+    accuracy: pd.DataFrame
+
+
+def build(config: Mapping[str, Any]) -> BuiltBlade:
+    """Build the blade of the ``blade`` and ``reduction`` blocks of `config`.
+
+    Raises
+    ------
+    ValueError
+        If the blade cannot be meshed (see `bladerub.blade.geometry.check`).
+    EquilibriumError
+        If the blade has no static equilibrium at one of the speeds.
+    """
+    reduction = config["reduction"]
+    geometry.check(config["blade"])
+    mesh = BladeMesh.from_shape(geometry.BladeShape.from_config(config["blade"]), config["blade"]["mesh"])
+    solid = Solid(mesh.mesh, Material.from_config(config["blade"]["material"]), clamped=mesh.root)
+    log.info("%d elements, %d free coordinates", mesh.mesh.t.shape[1], solid.free.size)
+
+    f_max, n_modes = reduction["f_omega_max"], reduction["accuracy_modes"]
+    fit_speeds = [0.0, f_max / 2, f_max]
+    table_speeds = np.linspace(0, f_max, reduction["accuracy_speeds"]).tolist()
+    rest = equilibrium(solid, 0.0)
+    frequency, modes = lowest_modes(rest.stiffness, solid.mass, n_modes)
+    states = _equilibria(solid, rest, sorted({*fit_speeds, *table_speeds}), 2 * np.pi * frequency[0])
+
+    partition = Partition.around(solid.coordinates(mesh.interface), solid.free.size)
+    fits = [states[f_omega].stiffness for f_omega in fit_speeds]
+    phi = transformation(
+        fits, solid.mass, partition, reduction["modes_per_speed"], reduction["rank_tolerance"]
+    )
+    radial, tangential = directions(mesh.mesh.points[mesh.interface])
+    reduced = ReducedBlade(
+        project(solid.mass, phi),
+        *speed_law(*(project(stiffness, phi) for stiffness in fits), f_max),
+        node_position=mesh.mesh.points[mesh.interface],
+        radial_direction=radial,
+        tangential_direction=tangential,
+        f1_hz=float(frequency[0]),
+        f_omega_max=f_max,
+        eta=reduction["modes_per_speed"],
+        rank_tolerance=reduction["rank_tolerance"],
+        length=config["blade"]["length"],
+    )
+    log.info(
+        "%d reduced coordinates, highest %.4g Hz", len(reduced.mass), reduced_frequencies(reduced, f_max)[-1]
+    )
+
+    coefficients = speed_law(*fits, f_max)
+    finite_element, by_law = {}, {}
+    for f_omega in table_speeds:
+        finite_element[f_omega] = lowest_modes(states[f_omega].stiffness, solid.mass, n_modes)[0]
+        by_law[f_omega] = lowest_modes(stiffness_at(coefficients, f_omega), solid.mass, n_modes)[0]
+        log.info("f_omega = %.4f: first frequency %.4f Hz", f_omega, finite_element[f_omega][0])
+    shapes = np.stack([solid.full(mode) for mode in modes.T])
+    return BuiltBlade(
+        reduced,
+        mesh,
+        frequency,
+        shapes / np.abs(shapes).max(axis=(1, 2), keepdims=True),
+        np.stack([solid.full(states[f_omega].displacement) for f_omega in table_speeds]),
+        np.array(table_speeds),
+        accuracy_table(reduced, finite_element, by_law),
+    )
+
+
+def _equilibria(
+    solid: Solid, rest: Equilibrium, f_omegas: list[float], unit: float
+) -> dict[float, Equilibrium]:
+    """Equilibria at ascending normalised speeds, each starting from the one before; `unit` in rad/s."""
+    states, state = {}, rest
+    for f_omega in f_omegas:
+        if f_omega > 0:
+            state = equilibrium(solid, f_omega * unit, state)
+            log.info(
+                "f_omega = %.4f: equilibrium in %d load steps, %d iterations, largest displacement %.4g mm",
+                f_omega,
+                state.n_steps,
+                state.n_iterations,
+                1e3 * np.linalg.norm(solid.full(state.displacement), axis=1).max(),
+            )
+        states[f_omega] = state
+    return states
+
+
+def directions(position: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Radial and tangential unit vectors (n, 3) at points (n, 3), the latter positive with the rotation."""
+    phi = np.arctan2(position[:, 1], position[:, 2])
+    zero = np.zeros_like(phi)
+    return np.stack([zero, np.sin(phi), np.cos(phi)], axis=1), np.stack(
+        [zero, np.cos(phi), -np.sin(phi)], axis=1
+    )
+
+
+def write(built: BuiltBlade, reduced_model: Path, mesh: Path, campbell: Path, rom_accuracy: Path) -> None:
+    """Write the two HDF5 files and the two tables of stage 1."""
+    write_reduced_blade(reduced_model, built.reduced)
+    write_mesh(mesh, built)
+    for path, table in ((campbell, built.accuracy[CAMPBELL_COLUMNS]), (rom_accuracy, built.accuracy)):
+        Path(path).parent.mkdir(parents=True, exist_ok=True)
+        table.to_csv(path, index=False, float_format="%.10g")
+
+
+def write_mesh(path: str | Path, built: BuiltBlade) -> None:
+    """Write what a picture of the blade needs, with node numbers from 0."""
+    mesh = built.mesh
+    variables = {
+        "points": Variable(("node", "axis"), mesh.mesh.points, "m", "nodes at rest in the rotating frame"),
+        "hexahedra": Variable(
+            ("element", "element_node"),
+            mesh.mesh.hexahedra,
+            "1",
+            "nodes of each 20-node hexahedron: 8 corners, then edges at the bottom, at the top, upright",
+        ),
+        "root_nodes": Variable(("root_node",), mesh.root, "1", "clamped nodes"),
+        "tip_nodes": Variable(("tip_node",), mesh.tip, "1", "nodes of the tip face"),
+        "interface_nodes": Variable(
+            ("interface_node",), mesh.interface, "1", "contact nodes, leading to trailing edge"
+        ),
+        "frequency": Variable(("mode",), built.frequency, "Hz", "natural frequencies at rest"),
+        "mode_shape": Variable(
+            ("mode", "node", "axis"), built.mode_shape, "1", "modes at rest, largest displacement component 1"
+        ),
+        "f_omega": Variable(("f_omega",), built.static_speed, "1", "normalised rotational frequency"),
+        "static_displacement": Variable(
+            ("f_omega", "node", "axis"), built.static_displacement, "m", "displacement under centrifugal load"
+        ),
+    }
+    datafile.write(path, variables, {})

@@ -1,0 +1,190 @@
+"""Total-Lagrangian elasticity of a St Venant-Kirchhoff solid: mass, internal force and tangent stiffness.
+
+With the displacement gradient ∇u, F = I + ∇u, E = (FᵀF − I)/2 and S = λ tr(E) I + 2μ E, all on the body at
+rest, the virtual work and its linearisation are
+
+    r(u; v)     = ∫ S : δE(v),                                 δE(v) = sym(Fᵀ∇v)
+    k(u; v, w)  = ∫ δE(v) : C : δE(w) + ∫ S : (∇vᵀ∇w)          (material + geometric)
+
+scikit-fem gives the isoparametric map, the gradients of the shape functions at the 3×3×3 Gauss points and
+the numbering; the integrals of `k` are formed for all shape functions of an element at once, because the
+tangent is needed dozens of times and a form evaluated pair by pair costs ten times as much.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from scipy import sparse
+from skfem import Basis, BilinearForm, ElementVector
+from skfem.element import ElementHexS2
+
+from bladerub.blade.mesh import MeshHexS2
+
+_CHUNK = 512  # elements integrated at once: bounds the memory on fine meshes
+
+
+@dataclass(frozen=True)
+class Material:
+    """Isotropic material: Young modulus (Pa), Poisson ratio, density (kg/m³)."""
+
+    young_modulus: float
+    poisson_ratio: float
+    density: float
+
+    @classmethod
+    def from_config(cls, material: Mapping[str, float]) -> Material:
+        """Read the ``blade.material`` block of the config."""
+        return cls(*(float(material[name]) for name in ("young_modulus", "poisson_ratio", "density")))
+
+    @property
+    def lame(self) -> tuple[float, float]:
+        """Lamé parameters λ and μ, Pa."""
+        young, poisson = self.young_modulus, self.poisson_ratio
+        return young * poisson / ((1 + poisson) * (1 - 2 * poisson)), young / (2 * (1 + poisson))
+
+
+@BilinearForm
+def _product(u, v, _):
+    return u * v
+
+
+class Solid:
+    """Finite element model of an elastic body; vectors and matrices hold its free coordinates only.
+
+    Parameters
+    ----------
+    mesh : MeshHexS2
+        The body at rest.
+    material : Material
+        What it is made of.
+    clamped : array_like of int
+        Nodes that cannot move.
+
+    Attributes
+    ----------
+    free : (n,) ndarray of int
+        Position of each free coordinate in the full vector ``3 * node + axis``.
+    axis : (n,) ndarray of int
+        0, 1, 2 for x, y, z.
+    mass : (n, n) sparse array
+        Consistent mass matrix, kg.
+    first_moment : (n,) ndarray
+        ∫ ρ X · v for every v, with X the position at rest, kg m.
+    """
+
+    def __init__(self, mesh: MeshHexS2, material: Material, clamped=()):
+        self.mesh = mesh
+        self.material = material
+        scalar = Basis(mesh, ElementHexS2(), quadrature=_gauss_3x3x3())
+        dofs = Basis(mesh, ElementVector(ElementHexS2()), quadrature=(scalar.X[:, :1], scalar.W[:1]))
+        is_free = np.ones(3 * mesh.doflocs.shape[1], dtype=bool)
+        is_free.reshape(-1, 3)[np.asarray(clamped, dtype=int)] = False
+        self.free = np.flatnonzero(is_free)
+        self.axis = self.free % 3
+        self._weights = scalar.dx  # (element, point)
+        self._gradients = np.stack([np.moveaxis(np.asarray(b[0].grad), 0, -1) for b in scalar.basis], axis=-2)
+        self._dofs = dofs.element_dofs.T  # (element, 60), node by node as in `_gradients`
+        self._pattern = _Pattern(self._dofs, is_free)
+        mass = sparse.kron(_product.assemble(scalar), sparse.eye_array(3), format="csc") * material.density
+        self.mass = sparse.csc_array(mass[self.free][:, self.free])
+        self.first_moment = (mass @ mesh.points.ravel())[self.free]
+
+    def full(self, u: np.ndarray) -> np.ndarray:
+        """Displacement (n_nodes, 3) of all nodes for the free coordinates `u`, m."""
+        vector = np.zeros(3 * self.mesh.doflocs.shape[1])
+        vector[self.free] = u
+        return vector.reshape(-1, 3)
+
+    def coordinates(self, nodes: np.ndarray) -> np.ndarray:
+        """Places in the free vector of the x, y, z of `nodes`, node by node."""
+        return np.searchsorted(self.free, (3 * np.asarray(nodes)[:, None] + np.arange(3)).ravel())
+
+    def internal_force(self, u: np.ndarray) -> np.ndarray:
+        """Evaluate r(u; v) for every v: the internal force (n,) at the displacement `u`, N."""
+        F, S = self._kinematics(self._gradients, self._element_displacement(u))
+        first_piola = F @ S * self._weights[..., None, None]
+        force = np.einsum("eqij,eqaj->eai", first_piola, self._gradients, optimize=True)
+        total = np.bincount(
+            self._dofs.ravel(), weights=force.ravel(), minlength=3 * self.mesh.doflocs.shape[1]
+        )
+        return total[self.free]
+
+    def tangent(self, u: np.ndarray) -> sparse.csc_array:
+        """Evaluate k(u; v, w) for every v, w: the tangent stiffness (n, n), symmetric, N/m."""
+        displacement = self._element_displacement(u)
+        elements = np.empty((len(self._dofs), 60, 60))
+        for start in range(0, len(elements), _CHUNK):
+            part = slice(start, start + _CHUNK)
+            elements[part] = self._element_tangents(
+                self._gradients[part], displacement[part], self._weights[part]
+            )
+        return self._pattern.assemble(elements)
+
+    def green_strain(self, u: np.ndarray) -> np.ndarray:
+        """Evaluate the Green-Lagrange strain (n_elements, 27, 3, 3) at the Gauss points."""
+        F = np.eye(3) + np.einsum(
+            "eai,eqaj->eqij", self._element_displacement(u), self._gradients, optimize=True
+        )
+        return 0.5 * (np.swapaxes(F, -1, -2) @ F - np.eye(3))
+
+    def _element_displacement(self, u: np.ndarray) -> np.ndarray:
+        return self.full(u).ravel()[self._dofs].reshape(len(self._dofs), 20, 3)
+
+    def _kinematics(self, gradients: np.ndarray, displacement: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Deformation gradient F and second Piola-Kirchhoff stress S (element, point, 3, 3)."""
+        lam, mu = self.material.lame
+        F = np.eye(3) + np.einsum("eai,eqaj->eqij", displacement, gradients, optimize=True)
+        E = 0.5 * (np.swapaxes(F, -1, -2) @ F - np.eye(3))
+        S = lam * np.trace(E, axis1=-2, axis2=-1)[..., None, None] * np.eye(3) + 2 * mu * E
+        return F, S
+
+    def _element_tangents(self, gradients, displacement, weights) -> np.ndarray:
+        lam, mu = self.material.lame
+        F, S = self._kinematics(gradients, displacement)
+        n_elements, n_points = weights.shape
+        Fv = np.einsum("eqiI,eqaJ->eqIJai", F, gradients, optimize=True).reshape(
+            n_elements, n_points, 3, 3, 60
+        )
+        dE = 0.5 * (Fv + np.swapaxes(Fv, 2, 3))  # δE of each shape function
+        root = np.sqrt(weights)
+        volumetric = np.sqrt(lam) * root[..., None] * np.trace(dE, axis1=2, axis2=3)
+        dE *= np.sqrt(2 * mu) * root[..., None, None, None]
+        dE = dE.reshape(n_elements, n_points * 9, 60)
+        material = np.swapaxes(dE, 1, 2) @ dE + np.swapaxes(volumetric, 1, 2) @ volumetric  # ∫ δE : C : δE
+        Sg = np.einsum("eqIJ,eqbJ->eqIb", S * weights[..., None, None], gradients, optimize=True)
+        flat = np.swapaxes(gradients, 2, 3).reshape(n_elements, n_points * 3, 20)
+        geometric = np.swapaxes(flat, 1, 2) @ Sg.reshape(n_elements, n_points * 3, 20)  # ∫ S : (∇vᵀ∇w)
+        blocks = material.reshape(n_elements, 20, 3, 20, 3)
+        for axis in range(3):
+            blocks[:, :, axis, :, axis] += geometric
+        return material
+
+
+class _Pattern:
+    """Where the entries of the element matrices go in a sparse matrix of the free coordinates."""
+
+    def __init__(self, dofs: np.ndarray, is_free: np.ndarray):
+        n_free = int(is_free.sum())
+        number = np.where(is_free, np.cumsum(is_free) - 1, -1)[dofs]
+        rows, columns = np.broadcast_arrays(number[:, :, None], number[:, None, :])
+        self._kept = ((rows >= 0) & (columns >= 0)).ravel()
+        places = columns.ravel()[self._kept].astype(np.int64) * n_free + rows.ravel()[self._kept]
+        entries, self._target = np.unique(places, return_inverse=True)
+        self._rows = (entries % n_free).astype(np.int32)
+        self._starts = np.searchsorted(entries // n_free, np.arange(n_free + 1)).astype(np.int32)
+        self._shape = (n_free, n_free)
+
+    def assemble(self, elements: np.ndarray) -> sparse.csc_array:
+        values = np.bincount(self._target, weights=elements.ravel()[self._kept], minlength=self._rows.size)
+        return sparse.csc_array((values, self._rows, self._starts), shape=self._shape)
+
+
+def _gauss_3x3x3() -> tuple[np.ndarray, np.ndarray]:
+    """Points (3, 27) and weights (27,) on the unit cube."""
+    x, w = np.polynomial.legendre.leggauss(3)
+    x, w = 0.5 * (x + 1), 0.5 * w
+    points = np.stack([axis.ravel() for axis in np.meshgrid(x, x, x, indexing="ij")])
+    return points, np.einsum("i,j,k->ijk", w, w, w).ravel()

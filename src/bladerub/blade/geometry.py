@@ -1,0 +1,150 @@
+"""Shape of the blade: span sections, stacked and wrapped on cylinders about the engine axis.
+
+Frame, rotating with the blade: x is the engine axis, z the stacking line at mid chord, y completes the
+right-handed system. Positive rotation increases ``phi = atan2(y, z)``, so at the stacking line the blade
+moves towards +y. A section is drawn in the plane (x, t), with t the arc length along its cylinder,
+positive with the rotation, and then wrapped: ``phi = t / r``.
+
+- **stagger** turns the chord from the axis: the leading edge lies upstream (-x) and ahead in the rotation
+  (+t), as in a compressor rotor.
+- **camber** is the turning angle of the parabolic camber line: its hollow (pressure) side faces the
+  rotation, and the trailing edge lies closer to the axial direction than the leading edge.
+- **sweep** moves a section downstream (+x), **lean** moves it with the rotation (+t). Without them the
+  centroids of all camber lines lie on the z axis.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from scipy.interpolate import CubicSpline
+
+EDGE_THICKNESS = 0.25
+"""Edge thickness over the largest thickness of a section: blunt, so that hexahedra keep their shape."""
+
+_COLUMNS = ("chord", "thickness", "camber", "stagger", "sweep", "lean")
+
+
+@dataclass(frozen=True)
+class BladeShape:
+    """A blade as a map from the unit cube: chordwise ξ, through the thickness η, spanwise ζ.
+
+    Parameters
+    ----------
+    hub_radius, length : float
+        Radius of the clamped root and height of the blade, m.
+    span : (n,) ndarray
+        Relative height of the sections, ascending from 0 to 1.
+    sections : (n, 6) ndarray
+        chord (m), thickness / chord, camber and stagger (rad), sweep and lean (m) of each section; a cubic
+        spline between them (a parabola through three, a straight line through two).
+    """
+
+    hub_radius: float
+    length: float
+    span: np.ndarray
+    sections: np.ndarray
+
+    @classmethod
+    def from_config(cls, blade: Mapping[str, Any]) -> BladeShape:
+        """Read the shape from the ``blade`` block of the config (angles there in degrees)."""
+        sections = np.array(
+            [[section[name] for name in _COLUMNS] for section in blade["sections"]], dtype=float
+        )
+        angles = [_COLUMNS.index("camber"), _COLUMNS.index("stagger")]
+        sections[:, angles] = np.deg2rad(sections[:, angles])
+        span = np.array([section["span"] for section in blade["sections"]], dtype=float)
+        return cls(float(blade["hub_radius"]), float(blade["length"]), span, sections)
+
+    def points(self, xi: np.ndarray, eta: np.ndarray, zeta: np.ndarray) -> np.ndarray:
+        """Map the unit cube to space: points (3, ...), m.
+
+        `xi` runs from the leading to the trailing edge, `eta` from the suction to the pressure side, `zeta`
+        from root to tip; the three arrays are broadcast against each other.
+        """
+        xi, eta, zeta = np.broadcast_arrays(xi, eta, zeta)
+        chord, thickness, camber, stagger, sweep, lean = np.moveaxis(
+            CubicSpline(self.span, self.sections)(zeta), -1, 0
+        )
+        rise = chord * np.tan(camber / 2) / 4  # of the parabola with end slopes ±tan(camber / 2)
+        along = chord * (xi - 0.5)
+        across = rise * (2 / 3 - 4 * xi * (1 - xi))  # its centroid on the chord line
+        slope = -4 * rise * (1 - 2 * xi) / chord
+        offset = (eta - 0.5) * chord * thickness * (1 - (1 - EDGE_THICKNESS) * (2 * xi - 1) ** 2)
+        along = along - offset * slope / np.hypot(1, slope)
+        across = across + offset / np.hypot(1, slope)
+        x = along * np.cos(stagger) + across * np.sin(stagger) + sweep
+        t = -along * np.sin(stagger) + across * np.cos(stagger) + lean
+        radius = self.hub_radius + zeta * self.length
+        return np.stack([x, radius * np.sin(t / radius), radius * np.cos(t / radius)])
+
+
+def lattice(mesh: Mapping[str, int]) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """ξ, η, ζ of the element corners of a mesh of ``chordwise`` × ``thickness`` × ``spanwise`` elements."""
+    xi, eta, zeta = (np.linspace(0, 1, int(mesh[key]) + 1) for key in ("chordwise", "thickness", "spanwise"))
+    return xi, eta, zeta
+
+
+def check(blade: Mapping[str, Any]) -> None:
+    """See that the ``blade`` block of the config describes a blade that can be meshed.
+
+    Raises
+    ------
+    ValueError
+        If the sections do not ascend from span 0 to 1, or an element would be turned inside out; the
+        message names the key, the value and what would be right.
+    """
+    spans = [float(section["span"]) for section in blade["sections"]]
+    if len(spans) < 2:
+        raise ValueError(f"blade.sections: {len(spans)} section(s); give at least two, at span 0 and 1")
+    for at, wanted in ((0, 0.0), (len(spans) - 1, 1.0)):
+        if spans[at] != wanted:
+            raise ValueError(
+                f"blade.sections[{at}].span = {spans[at]:g}: the sections must run from span 0 to 1"
+            )
+    for at in range(1, len(spans)):
+        if spans[at] <= spans[at - 1]:
+            raise ValueError(
+                f"blade.sections[{at}].span = {spans[at]:g}: "
+                f"must be above that of the section before ({spans[at - 1]:g})"
+            )
+    xi, eta, zeta = lattice(blade["mesh"])
+    points = BladeShape.from_config(blade).points(xi[:, None, None], eta[None, :, None], zeta[None, None, :])
+    jacobian = corner_jacobians(points)
+    if not np.all(jacobian > 0):
+        worst = np.unravel_index(np.argmin(jacobian.min(axis=0)), jacobian.shape[1:])
+        height = 0.5 * (zeta[worst[2]] + zeta[worst[2] + 1])
+        raise ValueError(
+            f"blade.sections: mesh turned inside out at span {height:.3g}; "
+            "sections must not fold, cross or have a thickness below zero there"
+        )
+
+
+def corner_jacobians(points: np.ndarray) -> np.ndarray:
+    """Jacobian determinant (m³) at the 8 corners of each straight-edged element of a lattice of points.
+
+    Parameters
+    ----------
+    points : (3, nx, ny, nz) ndarray
+        The corners.
+
+    Returns
+    -------
+    (8, nx - 1, ny - 1, nz - 1) ndarray
+        Positive for a right-handed element.
+    """
+    edges = [np.diff(points, axis=axis) for axis in (1, 2, 3)]
+    corners = []
+    for i, j, k in np.ndindex(2, 2, 2):
+        along_xi = edges[0][:, :, _side(j), _side(k)]
+        along_eta = edges[1][:, _side(i), :, _side(k)]
+        along_zeta = edges[2][:, _side(i), _side(j), :]
+        corners.append(np.sum(np.cross(along_xi, along_eta, axis=0) * along_zeta, axis=0))
+    return np.stack(corners)
+
+
+def _side(upper: int) -> slice:
+    return slice(1, None) if upper else slice(None, -1)

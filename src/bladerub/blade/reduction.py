@@ -1,0 +1,107 @@
+"""Craig-Bampton reduction with centrifugal stiffening, eqs. (2) to (6)."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from scipy import sparse
+
+from bladerub.blade.linear import Solve, factorise, lowest_modes
+
+
+def speed_law(at_rest, at_half, at_max, f_max: float):
+    """Coefficients K⁰, K¹, K² of eq. (2) from the stiffness at f_Ω = 0, f_max / 2 and f_max, eq. (3).
+
+    Works on any matrices, dense or sparse, of one shape.
+    """
+    k0 = at_rest  # eq. (3)
+    k1 = (16 * at_half - at_max - 15 * at_rest) / (3 * f_max**2)  # eq. (3)
+    # eq. (3) is misprinted there: the factor 3 / (4 f_max^4) of the paper does not return K(f_max / 2) and
+    # K(f_max); its reciprocal in the numbers, 4 / (3 f_max^4), does.
+    k2 = 4 / (3 * f_max**4) * (at_max - 4 * at_half + 3 * at_rest)
+    return k0, k1, k2
+
+
+def stiffness_at(coefficients, f_omega: float):
+    """K(f_Ω) of the `coefficients` of `speed_law`, eq. (2)."""
+    k0, k1, k2 = coefficients
+    return k0 + f_omega**2 * k1 + f_omega**4 * k2  # eq. (2)
+
+
+@dataclass(frozen=True)
+class Partition:
+    """Free coordinates split into those of the interface and the internal ones.
+
+    Parameters
+    ----------
+    interface, internal : ndarray of int
+        Places in the free vector; the interface node by node, x, y, z.
+    """
+
+    interface: np.ndarray
+    internal: np.ndarray
+
+    @classmethod
+    def around(cls, interface: np.ndarray, n: int) -> Partition:
+        """Take `interface` out of `n` coordinates."""
+        return cls(interface, np.setdiff1d(np.arange(n), interface))
+
+
+def constraint_modes(stiffness: sparse.csc_array, partition: Partition, solve: Solve) -> np.ndarray:
+    """Φ_R (n_internal, n_interface): static response to unit interface displacements; `solve` is by K_ii."""
+    coupling = stiffness[partition.internal][:, partition.interface]
+    return -solve(coupling.toarray())
+
+
+def transformation(
+    stiffnesses: Sequence[sparse.csc_array],
+    mass: sparse.csc_array,
+    partition: Partition,
+    eta: int,
+    rank_tolerance: float,
+) -> np.ndarray:
+    """Φ of eq. (5), (n, n_reduced), from the stiffness at the fit speeds, rest first.
+
+    The internal columns of eq. (4) are scaled to unit norm in the mass, then made orthonormal in it by a
+    singular value decomposition that drops what lies below `rank_tolerance` times the largest singular value.
+    """
+    internal = partition.internal
+    mass_ii = mass[internal][:, internal]
+    statics, fixed = [], []
+    for stiffness in stiffnesses:
+        stiffness_ii = sparse.csc_array(stiffness[internal][:, internal])
+        solve = factorise(stiffness_ii)
+        statics.append(constraint_modes(stiffness, partition, solve))
+        fixed.append(lowest_modes(stiffness_ii, mass_ii, eta, solve)[1])
+    phi_r = statics[0]
+    columns = np.hstack([*(later - phi_r for later in statics[1:]), *fixed])  # eq. (4)
+    psi = mass_orthonormal(columns, mass_ii, rank_tolerance)
+
+    n_interface = partition.interface.size
+    phi = np.zeros((mass.shape[0], n_interface + psi.shape[1]))  # eq. (5)
+    phi[partition.interface, :n_interface] = np.eye(n_interface)
+    phi[internal, :n_interface] = phi_r
+    phi[internal, n_interface:] = psi
+    return phi
+
+
+def mass_orthonormal(columns: np.ndarray, mass: sparse.csc_array, rank_tolerance: float) -> np.ndarray:
+    """Basis (n, rank) of the span of `columns` (n, k), orthonormal in `mass`.
+
+    Singular values are those of the columns scaled to unit mass norm.
+    """
+    columns = columns / np.sqrt(np.sum(columns * (mass @ columns), axis=0))
+    squares, directions = np.linalg.eigh(columns.T @ (mass @ columns))
+    kept = squares > rank_tolerance**2 * squares[-1]
+    psi = columns @ (directions[:, kept] / np.sqrt(squares[kept]))
+    # The Gram matrix squares the condition number: once more, for orthonormality to rounding.
+    factor = np.linalg.cholesky(psi.T @ (mass @ psi))
+    return np.linalg.solve(factor, psi.T).T
+
+
+def project(matrix: sparse.csc_array, phi: np.ndarray) -> np.ndarray:
+    """Φᵀ A Φ of a symmetric matrix, eq. (6), exactly symmetric."""
+    reduced = phi.T @ (matrix @ phi)
+    return 0.5 * (reduced + reduced.T)

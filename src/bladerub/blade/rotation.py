@@ -1,0 +1,113 @@
+"""The rotating blade: static equilibrium under centrifugal load, and the stiffness about it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy import sparse
+
+from bladerub.blade.elasticity import Solid
+from bladerub.blade.linear import factorise
+
+TOLERANCE = 1e-9
+"""Largest residual force accepted, over the norm of the centrifugal load."""
+MAX_ITERATIONS = 12
+"""Newton iterations granted to one load step."""
+MAX_HALVINGS = 8
+"""How often a load step that failed is halved before giving up."""
+
+
+class EquilibriumError(RuntimeError):
+    """Newton's method found no static equilibrium under the centrifugal load."""
+
+
+@dataclass(frozen=True)
+class Equilibrium:
+    """Static equilibrium of a solid that rotates about the x axis.
+
+    Parameters
+    ----------
+    omega : float
+        Angular speed, rad/s.
+    displacement : (n,) ndarray
+        From rest, free coordinates, m.
+    stiffness : (n, n) sparse array
+        K(Ω): material tangent + stress stiffness − spin softening, for small motions about the
+        equilibrium, without Coriolis forces, N/m.
+    n_iterations, n_steps : int
+        Newton iterations and load steps it took.
+    """
+
+    omega: float
+    displacement: np.ndarray
+    stiffness: sparse.csc_array
+    n_iterations: int
+    n_steps: int
+
+
+def equilibrium(solid: Solid, omega: float, start: Equilibrium | None = None) -> Equilibrium:
+    """Find the equilibrium of `solid` at the angular speed `omega` (rad/s).
+
+    The load acts on the displaced position, ``ρ Ω² (0, y + u_y, z + u_z)``. Load steps go in Ω² from `start`
+    (rest if not given) to the target: all at once first, in halves where Newton's method does not converge.
+
+    Raises
+    ------
+    EquilibriumError
+        If a step is still without equilibrium after `MAX_HALVINGS` halvings; the message says how far
+        the load came.
+    """
+    target = omega**2
+    reached, u = (start.omega**2, start.displacement) if start else (0.0, np.zeros(solid.free.size))
+    step, smallest = target - reached, abs(target - reached) / 2**MAX_HALVINGS
+    n_iterations = n_steps = 0
+    while reached != target:
+        aim = target if abs(target - reached) <= abs(step) else reached + step
+        found, iterations = _newton(solid, aim, u)
+        n_iterations += iterations
+        if found is not None:
+            reached, u = aim, found
+            n_steps += 1
+        elif abs(step) / 2 < smallest:
+            raise EquilibriumError(
+                f"no static equilibrium at {omega:.6g} rad/s: Newton's method stops converging above "
+                f"{np.sqrt(reached):.6g} rad/s, with load steps of {abs(step):.3g} rad²/s²"
+            )
+        else:
+            step /= 2
+    return Equilibrium(omega, u, rotating_stiffness(solid, u, target), n_iterations, n_steps)
+
+
+def rotating_stiffness(solid: Solid, u: np.ndarray, omega_squared: float) -> sparse.csc_array:
+    """Evaluate the derivative (n, n) of `residual` at `u`, N/m; the spin softening acts on y and z."""
+    spin = solid.mass * (solid.axis != 0)  # columns of y and z: mass couples no two axes
+    return sparse.csc_array(solid.tangent(u) - omega_squared * spin)
+
+
+def centrifugal_load(solid: Solid, u: np.ndarray, omega_squared: float) -> np.ndarray:
+    """Evaluate the centrifugal force (n,) on the body displaced by `u`, N."""
+    return omega_squared * (solid.axis != 0) * (solid.first_moment + solid.mass @ u)
+
+
+def residual(solid: Solid, u: np.ndarray, omega_squared: float) -> np.ndarray:
+    """Subtract the centrifugal load from the internal force (n,), N: zero in equilibrium."""
+    return solid.internal_force(u) - centrifugal_load(solid, u, omega_squared)
+
+
+def _newton(solid: Solid, omega_squared: float, start: np.ndarray) -> tuple[np.ndarray | None, int]:
+    """Displacement in equilibrium, or None, and the iterations made."""
+    u = start
+    for iteration in range(MAX_ITERATIONS + 1):
+        force = residual(solid, u, omega_squared)
+        scale = np.linalg.norm(centrifugal_load(solid, u, omega_squared))
+        if not np.all(np.isfinite(force)):
+            return None, iteration
+        if np.linalg.norm(force) <= TOLERANCE * scale:
+            return u, iteration
+        if iteration < MAX_ITERATIONS:
+            try:
+                u = u - factorise(rotating_stiffness(solid, u, omega_squared))(force)
+            except np.linalg.LinAlgError:
+                return None, iteration
+    return None, MAX_ITERATIONS

@@ -1,0 +1,36 @@
+# Stage 1: the blade, built once: finite elements, reduction, accuracy of the reduction.
+
+
+rule blade:
+    input:
+        # Snakemake does not follow imports: an edit of these changes the blade.
+        expand(
+            "src/bladerub/{module}.py",
+            module=[
+                "datafile",
+                "blade/accuracy",
+                "blade/build",
+                "blade/elasticity",
+                "blade/geometry",
+                "blade/linear",
+                "blade/mesh",
+                "blade/model",
+                "blade/reduction",
+                "blade/rotation",
+            ],
+        ),
+    output:
+        reduced_model=f"{config['results']}/blade/reduced_model.h5",
+        mesh=f"{config['results']}/blade/mesh.h5",
+        campbell=f"{config['results']}/tables/campbell.csv",
+        rom_accuracy=f"{config['results']}/tables/rom_accuracy.csv",
+    log:
+        f"{config['results']}/logs/blade.log",
+    benchmark:
+        f"{config['results']}/benchmarks/blade.tsv"
+    threads: 2
+    params:
+        blade=config["blade"],
+        reduction=config["reduction"],
+    script:
+        "../scripts/blade.py"

@@ -1,0 +1,13 @@
+"""Rule `blade`: build the blade, write the reduced model, the mesh and the tables of its accuracy."""
+
+import logging
+
+from bladerub.blade.build import build, write
+
+logging.basicConfig(
+    filename=snakemake.log[0], filemode="w", level=logging.WARNING, format="%(asctime)s %(message)s"
+)
+logging.getLogger("bladerub").setLevel(logging.INFO)
+
+built = build({"blade": snakemake.params.blade, "reduction": snakemake.params.reduction})
+write(built, **dict(snakemake.output.items()))
