@@ -165,3 +165,10 @@ def _analysis(config: Config) -> Iterator[str]:
         if order > highest:
             where = f"analysis.peaks.orders[{index}]"
             yield f"{where} = {order}: must be at most analysis.max_order = {highest:g}"
+
+
+@_reads("figures")
+def _figures(config: Config) -> Iterator[str]:
+    low, high = config["figures"]["amplitude_range"]
+    if low >= high:
+        yield f"figures.amplitude_range = {[low, high]}: must be the lower end first, then the upper"
