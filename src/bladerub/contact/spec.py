@@ -1,4 +1,4 @@
-"""What one run is (`RunSpec`) and what it gives (`RunResult`); SI units but for what is said to be normalised."""
+"""What one run is (`RunSpec`) and what it gives (`RunResult`), in SI units unless said to be normalised."""
 
 from __future__ import annotations
 

@@ -1,0 +1,55 @@
+"""Inner shape of the distorted casing and the gap it leaves (Fig. 5)."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+
+import numpy as np
+
+from bladerub.contact.spec import Casing
+
+
+@lru_cache
+def _largest_sum(nodal_diameters: tuple[int, ...], weights: tuple[float, ...]) -> float:
+    angle = np.linspace(0, 2 * np.pi, 72_001)
+    return float(np.max(np.cos(np.outer(angle, nodal_diameters)) @ weights))
+
+
+def shape(casing: Casing, angle: np.ndarray) -> np.ndarray:
+    """Inward displacement of the casing over its amplitude, at most 1.
+
+    Parameters
+    ----------
+    casing : Casing
+        Nodal diameters and their weights.
+    angle : (...) array_like
+        Casing angle φ, rad.
+
+    Returns
+    -------
+    (...) ndarray
+        ``Σ w_n cos(n φ)`` divided by its maximum.
+    """
+    terms = np.cos(np.multiply.outer(np.asarray(angle), casing.nodal_diameters))
+    return terms @ np.asarray(casing.weights) / _largest_sum(casing.nodal_diameters, casing.weights)
+
+
+def gap(casing: Casing, clearance: float | np.ndarray, angle: np.ndarray) -> np.ndarray:
+    """Radial distance from the running blade tip to the unworn coating, m; negative where they overlap.
+
+    Parameters
+    ----------
+    casing : Casing
+        The stator.
+    clearance : array_like
+        Clearance c_j of the node, m; broadcast against `angle`.
+    angle : array_like
+        Casing angle φ, rad.
+
+    Returns
+    -------
+    ndarray
+        g₀ of eq. (8): ``c_j + (a − δ) − a s(φ)``.
+    """
+    offset = casing.amplitude - casing.interference
+    return clearance + offset - casing.amplitude * shape(casing, angle)

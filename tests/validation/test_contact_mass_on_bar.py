@@ -1,0 +1,62 @@
+"""One mass on one elastic bar: damping and stability limit of the paper's explicit scheme.
+
+With the contact force taken at the predicted position, a mass m on a bar of stiffness k moves by
+``u⁺ = (1 − κ)(2u − u⁻)``, κ = h² k / m: the roots have modulus √(1 − κ) (artificial damping) and one
+leaves the unit circle at κ = 4/3. A weak spring of ratio β = h² k_s / m, which presses the mass on the
+bar, moves the limit to 1 + 1 / (3 − β). (Analysis of the recurrence; the scheme is that of Legrand,
+Batailly and Pierre, J. Comput. Nonlinear Dyn. 7 (2012), section 3.)
+"""
+
+import numpy as np
+import pytest
+
+from bladerub.contact import kernel
+from bladerub.contact.modes import Modes, central_differences
+
+M, H, N = 0.1, 1e-6, 64
+BETA = 1e-4
+DEPTH = 1e-3
+
+
+def deviations(kappa, n_revolutions=2, start=1e-8):
+    """March the compiled loop from a small deviation about the equilibrium on the bars."""
+    spring, bar = BETA * M / H**2, kappa * M / H**2
+    tip_modes = np.zeros((16, 1))
+    tip_modes[0, 0] = M**-0.5
+    rule = central_differences(Modes(np.array([np.sqrt(spring / M)]), tip_modes), 0.0, H)
+    gap = np.ones((8, N))
+    gap[0] = -DEPTH
+    zeros = np.zeros(8)
+    half_width = 2.0
+    each = zeros + bar / (2 * half_width)  # the elements under the tip add up to its width
+    stator = kernel.Stator(gap, gap, gap.min(axis=0), each, 1e12 * each, zeros, -1.0, 0.0)
+    tip = kernel.Tip(zeros, zeros, zeros + 1.0, half_width, 0.0, 0.0, 1.0)
+    # the force acts at the prediction (1 − β) u of a resting mass
+    rest = -DEPTH * kappa / (BETA + kappa * (1 - BETA))
+    state = kernel.State(np.zeros((3, 1)), np.zeros((3, 16)), np.zeros((8, N)), np.zeros(4))
+    state.q[:] = (rest + start) / tip_modes[0, 0]
+    state.wear[0] = 0.0
+    seen = []
+    for _ in range(n_revolutions):
+        displacement = np.zeros(N)
+        kernel.revolve(rule, stator, tip, state, 1, displacement)
+        seen.append(displacement - rest)
+    return np.concatenate(seen)
+
+
+@pytest.mark.parametrize("kappa", [0.05, 0.1, 0.2])
+def test_contact_damps_like_the_root_of_one_less_kappa(kappa):
+    """A damped recurrence of constant coefficients: u⁺ u⁻ − u² shrinks by |z|² a step."""
+    u = deviations(kappa, 1)[:40]
+    casoratian = u[2:] * u[:-2] - u[1:-1] ** 2
+    modulus = np.sqrt(casoratian[1:] / casoratian[:-1])
+    np.testing.assert_allclose(modulus, np.sqrt(1 - kappa), rtol=2e-3)
+
+
+@pytest.mark.parametrize(("factor", "grows"), [(0.97, False), (1.03, True)])
+def test_scheme_is_unstable_above_four_thirds(factor, grows):
+    limit = 1 + 1 / (3 - BETA)
+    assert limit == pytest.approx(4 / 3, rel=1e-4)
+    u = np.abs(deviations(factor * limit, start=1e-13))
+    ratio = u[110:118].max() / u[10:18].max()
+    assert ratio > 100 if grows else ratio < 0.01
