@@ -143,7 +143,7 @@ def build_map(
 
 def _listed_run(folder: Path, row: ManifestRow) -> StoredRun:
     path = folder / row.file
-    remedy = f"delete {path} and {folder / 'manifest.tsv'}, then run the workflow again"
+    remedy = f"delete {folder / 'manifest.tsv'} and run the workflow again: it computes what is missing"
     try:
         run = read_run(path)
     except OSError as error:

@@ -104,7 +104,7 @@ def _wear_meets_vibration(evidence: Evidence, id_: str, order: int, paper: float
 
 def _maxima(coating: CoatingMap, values: np.ndarray) -> np.ndarray:
     # the ends of the range count: a rise up to the last speed is a maximum of the map
-    padded = np.concatenate([[0.0], values, [0.0]])
+    padded = np.pad(values, 1, constant_values=values.min())
     peaks, _ = signal.find_peaks(padded, prominence=_PROMINENT * values.max())
     return coating.f_omega[peaks - 1]
 

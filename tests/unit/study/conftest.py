@@ -1,0 +1,92 @@
+from pathlib import Path
+
+import numpy as np
+import pytest
+import yaml
+
+from bladerub.contact.spec import Energy, RunResult
+from bladerub.study.grid import CoatingCase, run_spec
+from bladerub.study.maps import CoatingMap
+
+N_ELEMENTS = 2000
+
+
+@pytest.fixture
+def config():
+    path = Path(__file__).parents[3] / "config" / "config.yaml"
+    return yaml.safe_load(path.read_text(encoding="utf-8"))
+
+
+@pytest.fixture
+def case():
+    return CoatingCase("2nd", 2.0, 0.5, 0.15)
+
+
+@pytest.fixture
+def spec(config, case):
+    return run_spec(config, case, 0.19)
+
+
+@pytest.fixture
+def angle():
+    return (np.arange(N_ELEMENTS) + 0.5) * (2 * np.pi / N_ELEMENTS)
+
+
+@pytest.fixture
+def make_result(angle):
+    """A run that vibrates at one engine order, wears as many lobes and ends after `complete` revolutions."""
+
+    def make(revolutions=20, order=6.0, amplitude=1e-3, growth=0.0, complete=None, depth=2e-4):
+        time = (np.arange(revolutions * N_ELEMENTS) + 0.5) / N_ELEMENTS  # in revolutions
+        displacement = amplitude * (1 + growth) ** np.floor(time) * np.sin(2 * np.pi * order * time)
+        end = time.size if complete is None else int(complete * N_ELEMENTS)
+        displacement[end:] = np.nan
+        peak = np.full(revolutions, np.nan)
+        begun = int(np.ceil(end / N_ELEMENTS))
+        peak[:begun] = np.nanmax(np.abs(displacement.reshape(revolutions, -1)[:begun]), axis=1)
+        lobe = np.clip(np.cos(order * angle), 0, None)
+        return RunResult(
+            status="completed" if complete is None else "unbounded",
+            message="for a test",
+            angle=angle,
+            wear=depth * np.linspace(1, 0.5, 8)[:, None] * lobe,
+            radial_displacement=displacement,
+            revolution_peak=peak,
+            time_step=2e-7,
+            n_steps=1000,
+            n_contact_steps=300,
+            energy=Energy(1.0, 2.0, 3.0, 4.0, 5.0, 6.0),
+        )
+
+    return make
+
+
+@pytest.fixture
+def make_map(angle):
+    """A map whose response on each given order is a hat over speed; C1² = 1 + 3 f_omega²."""
+
+    def make(case, peaks, f_omega=None, lobes=6, growth=0.0, status="completed", background=1e-7):
+        f_omega = np.round(np.arange(0.02, 0.4001, 0.01), 6) if f_omega is None else np.asarray(f_omega)
+        n = f_omega.size
+        order = np.arange(241) / 10
+        amplitude = np.full((n, order.size), background)
+        for k, (f_peak, height) in peaks.items():
+            hat = height * np.clip(1 - np.abs(f_omega - f_peak) / 0.025, 0, None)
+            amplitude[:, round(10 * k)] = np.maximum(background, hat)
+        response = amplitude.max(axis=1)
+        return CoatingMap(
+            case=case,
+            f_omega=f_omega,
+            C1=np.sqrt(1 + 3 * f_omega**2),
+            angle=angle,
+            wear=np.zeros((n, N_ELEMENTS), dtype=np.float32),
+            wear_node=np.zeros((n, 8, N_ELEMENTS), dtype=np.float32),
+            spectrum_order=order,
+            spectrum_amplitude=amplitude,
+            revolution_peak=response[:, None] * (1 + np.broadcast_to(growth, n)[:, None]) ** np.arange(20),
+            max_wear=0.5 * response,
+            lobes=np.broadcast_to(lobes, n).copy(),
+            status=np.broadcast_to(status, n).astype(str),
+        )
+
+    return make

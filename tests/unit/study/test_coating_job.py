@@ -1,0 +1,105 @@
+import pytest
+
+from bladerub.study import coating_job, store
+from bladerub.study.coating_job import compute_missing
+
+
+@pytest.fixture
+def simulated(monkeypatch, make_result):
+    """Stand in for the solver, and list the speeds it was asked for."""
+    speeds = []
+
+    def simulate(blade, spec):
+        speeds.append(spec.f_omega)
+        return make_result(revolutions=spec.revolutions, complete=1.5 if spec.f_omega == 0.3 else None)
+
+    monkeypatch.setattr(coating_job, "simulate", simulate)
+    return speeds
+
+
+@pytest.fixture
+def study(config):
+    config["speeds"] = {"start": 0.1, "stop": 0.3, "step": 0.1, "extra": [0.19]}
+    return config
+
+
+@pytest.fixture
+def compute(study, case, tmp_path):
+    def run(digest="blade", **arguments):
+        return compute_missing(study, case, None, tmp_path, digest, **arguments)
+
+    return run
+
+
+def test_all_runs_are_computed_once(compute, simulated, tmp_path):
+    rows = compute()
+    assert simulated == [0.1, 0.19, 0.2, 0.3]
+    assert [row.file for row in rows] == ["0.1000.h5", "0.1900.h5", "0.2000.h5", "0.3000.h5"]
+    assert [row.status for row in rows] == ["completed"] * 3 + ["unbounded"]
+    assert all(store.is_current(tmp_path / row.file, row.run_key) for row in rows)
+    assert compute() == rows
+    assert len(simulated) == 4
+
+
+def test_only_listed_runs_have_a_history(compute, simulated, tmp_path):
+    compute()
+    with_history = [
+        path.name for path in tmp_path.iterdir() if "radial_displacement" in store.read_run(path).data
+    ]
+    assert with_history == ["0.1900.h5"]
+
+
+def test_missing_damaged_and_new_runs_are_computed_and_no_others(compute, study, simulated, tmp_path):
+    compute()
+    (tmp_path / "0.1000.h5").unlink()
+    (tmp_path / "0.2000.h5").write_bytes((tmp_path / "0.2000.h5").read_bytes()[:3000])
+    study["speeds"]["extra"].append(0.25)
+    simulated.clear()
+    compute()
+    assert simulated == [0.1, 0.2, 0.25]
+
+
+def test_another_blade_makes_every_run_stale(compute, simulated):
+    compute()
+    simulated.clear()
+    compute(digest="another blade")
+    assert len(simulated) == 4
+
+
+def test_runs_that_left_the_plan_stay(compute, study, simulated, tmp_path):
+    compute()
+    study["speeds"]["extra"] = []
+    assert len(compute()) == 3
+    assert (tmp_path / "0.1900.h5").exists()
+
+
+def test_an_interrupted_job_goes_on_where_it_stopped(compute, simulated, monkeypatch):
+    class Stopped(Exception):
+        pass
+
+    def stop_after_two(done):
+        if done.number == 2:
+            raise Stopped
+
+    with pytest.raises(Stopped):
+        compute(report=stop_after_two)
+    simulated.clear()
+    compute()
+    assert simulated == [0.2, 0.3]
+
+
+def test_each_computed_run_is_reported_with_the_time_left(compute, simulated, monkeypatch):
+    clock = iter([0.0, 0.0, 12.0, 12.0, 18.0, 18.0, 24.0, 24.0, 30.0])
+    monkeypatch.setattr(coating_job.time, "monotonic", lambda: next(clock))
+    reports = []
+    compute(report=reports.append)
+    assert [(done.number, done.total, done.file) for done in reports] == [
+        (1, 4, "0.1000.h5"),
+        (2, 4, "0.1900.h5"),
+        (3, 4, "0.2000.h5"),
+        (4, 4, "0.3000.h5"),
+    ]
+    # 10 units of cost (1 / speed) took 12 s, and 1/0.19 + 1/0.2 + 1/0.3 are left
+    assert reports[0].seconds_left == pytest.approx(12 / 10 * (1 / 0.19 + 1 / 0.2 + 1 / 0.3))
+    assert reports[-1].seconds_left == pytest.approx(0, abs=1e-9)
+    assert str(reports[1]).startswith("[2/4] 0.1900.h5 completed in 6.0 s, about ")

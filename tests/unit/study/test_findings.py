@@ -1,0 +1,281 @@
+import itertools
+import logging
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from bladerub.study import divergence, findings, peaks
+from bladerub.study.findings.evidence import Evidence
+from bladerub.study.findings.finding import above, below
+from bladerub.study.grid import CoatingCase
+from bladerub.study.maps import write_map
+
+YOUNG = [0.11, 0.2, 0.5, 1.1, 1.5, 2.0, 5.0, 11.0, 20.0]
+HARDENING = [0.05, 0.1, 0.5, 1.0, 5.0, 10.0]
+SPEEDS = np.round([*np.arange(0.02, 0.4001, 0.01), 0.197], 6)
+SPEEDS.sort()
+WORN = CoatingCase("2nd5nd", 11.0, 0.5, 0.0)
+
+PAPER_IDS = {
+    *("C1a", "C1b", "C2a", "C2b", "C2c", "C2d", "C3a", "C3b", "C3c", "C3d", "C4a", "C4b", "C4c"),
+    *("C5a", "C5b", "C5c", "C6a", "C6b", "C6c", "C7a", "C7b", "C8a", "C8b"),
+    *("C9a", "C9b", "C9c", "C9d", "C9e", "C10a", "C10b", "C10c", "C10d"),
+    *(f"C11{part}" for part in "abcdefghijkl"),
+}
+
+
+def _height(E, K):
+    """Y4 and Y6 over (E, K), up to a factor, as in Figs. 11 and 13."""
+    if K <= 0.1:
+        return 0.31 if E == 1.1 else 0.3
+    other = {(0.5, 0.5): 0.9, (1.5, 1.0): 0.8}.get((E, K), 0.6)
+    return {0.5: 1.0, 1.0: 0.85, 5.0: 0.88, 10.0: 0.7}[K] if E == 1.1 else other
+
+
+def paper_peaks():
+    rows = []
+    for E, K in itertools.product(YOUNG, HARDENING):
+        shift = 0.002 * HARDENING.index(K)
+        for order, f_peak in ((4, 0.30), (6, 0.193)):
+            rows.append(("2nd", E, K, 0.0, order, f_peak + shift, 1e-3 * _height(E, K)))
+    table = pd.DataFrame(rows, columns=peaks.COLUMNS)
+    soft = (table.E == 0.11) & (table.K == 0.5)
+    table.loc[soft, "f_peak"] = table.loc[soft, "order"].map({4: 0.31, 6: 0.21})
+    tilted = [("2nd", 2.0, 0.5, 0.15, 4, 0.295, 5e-4), ("2nd", 2.0, 0.5, 0.15, 6, 0.19, 5e-4)]
+    return pd.concat([table, pd.DataFrame(tilted, columns=peaks.COLUMNS)], ignore_index=True)
+
+
+def paper_divergence():
+    rows = []
+    for (theta, own), f_omega in itertools.product(((0.0, 0.197), (0.15, 0.19)), (0.19, 0.197)):
+        growth = 0.03 if f_omega == own else 0.0
+        rows.append(("2nd", 2.0, 0.5, theta, f_omega, growth, growth > 0.01, 6, "completed"))
+    return pd.DataFrame(rows, columns=divergence.COLUMNS)
+
+
+def paper_rom_accuracy():
+    rows = [(f, mode, 1e-4 * mode) for f in (0.0, 0.2, 0.4) for mode in range(1, 11)]
+    return pd.DataFrame(rows, columns=["f_omega", "mode", "relative_error"])
+
+
+@pytest.fixture
+def paper(config, make_map):
+    """A study that shows all that the paper states: tables and maps, to be spoilt by the tests."""
+    lobes = np.full(SPEEDS.size, 7)
+    lobes[(SPEEDS <= 0.08) | ((SPEEDS >= 0.24) & (SPEEDS <= 0.34))] = 5
+    lobes[np.isclose(SPEEDS, 0.1)] = 10
+    lobes[np.isclose(SPEEDS, 0.38)] = 4
+    crossings = {k: (1 / np.sqrt(k**2 - 3), 1e-3 / k) for k in range(4, 13)}
+    maps = [
+        make_map(WORN, {5: (0.26, 1e-3), 4: (0.38, 2e-3)}, SPEEDS, lobes=lobes),
+        make_map(CoatingCase("2nd", 0.11, 0.5, 0.0), {4: (0.31, 1e-4), 6: (0.21, 1e-4)}, SPEEDS),
+        make_map(CoatingCase("2nd", 1.1, 0.5, 0.0), crossings, SPEEDS),
+    ]
+    tables = {
+        "rom_accuracy": paper_rom_accuracy(),
+        "peaks": paper_peaks(),
+        "divergence": paper_divergence(),
+    }
+    return config, tables, {coating.case.name: coating for coating in maps}
+
+
+@pytest.fixture
+def judge(tmp_path):
+    def judged(config, tables, maps):
+        for name, coating in maps.items():
+            write_map(tmp_path / f"{name}.h5", coating)
+        return findings.judge(Evidence(config, tables, sorted(tmp_path.glob("*.h5")))).set_index("id")
+
+    return judged
+
+
+def test_a_study_that_shows_the_paper_fulfils_every_claim(paper, judge):
+    # f6 of the straight coating at K = 0.5 is 0.197, of the tilted one 0.19: as in Figs. 17 and 18
+    table = judge(*paper)
+    assert set(table.index) == PAPER_IDS
+    assert table.index.is_unique
+    assert list(table[table.holds != "yes"].index) == []
+    assert (table.margin[table.unit == "1"].dropna() >= 0).all()
+
+
+@pytest.mark.parametrize(
+    ("id_", "change", "holds"),
+    [
+        ("C6a", ((1.5, 0.5), 1.05e-3), "partly"),
+        ("C6a", ((11.0, 0.5), 2e-3), "no"),
+        ("C6b", ((2.0, 0.05), 1e-3), "partly"),
+        ("C6c", ((1.5, 1.0), 0.6e-3), "partly"),
+        ("C8a", ((20.0, 0.1), 0.4e-3), "partly"),
+        ("C8a", ((20.0, 0.1), 1.5e-3), "no"),
+    ],
+)
+def test_other_heights_break_the_claims_on_them(paper, judge, id_, change, holds):
+    (E, K), height = change
+    table = paper[1]["peaks"]
+    table.loc[(table.E == E) & (table.K == K) & (table.order == 4), "amplitude"] = height
+    table.loc[(table.E == E) & (table.K == K) & (table.order == 6), "amplitude"] = height
+    judged = judge(*paper)
+    assert judged.holds[id_] == holds
+    twin = {"C6a": "C9a", "C8a": "C9d"}.get(id_)
+    if twin:
+        assert judged.holds[twin] == holds
+
+
+def test_the_greatest_cells_are_named_with_their_heights(paper, judge):
+    finding = judge(*paper).loc["C6a"]
+    assert finding.measured.startswith("(1.1, 0.5) at 1.00, (0.5, 0.5) at 0.90, (1.1, 5) at 0.88")
+    assert finding.margin == pytest.approx(0.1)
+
+
+@pytest.mark.parametrize(
+    ("E", "K", "f_peak", "id_", "holds"),
+    [
+        (5.0, 10.0, 0.29, "C7a", "partly"),  # falls for one E, rises on average
+        (5.0, 1.0, 0.29, "C7b", "partly"),  # a dip on the way
+        (5.0, 0.05, 0.28, "C8b", "partly"),
+        (5.0, 0.05, 0.25, "C8b", "no"),
+        (0.11, 0.5, 0.36, "C4b", "partly"),
+        (0.11, 0.5, 0.40, "C4b", "no"),
+    ],
+)
+def test_other_peak_speeds_break_the_claims_on_them(paper, judge, E, K, f_peak, id_, holds):
+    table = paper[1]["peaks"]
+    table.loc[(table.E == E) & (table.K == K) & (table.order == 4), "f_peak"] = f_peak
+    assert judge(*paper).holds[id_] == holds
+
+
+def test_falling_f6_is_no_contact_stiffening(paper, judge):
+    table = paper[1]["peaks"]
+    sixth = (table.order == 6) & (table.theta == 0)
+    table.loc[sixth, "f_peak"] = 0.2 - 0.002 * table.loc[sixth, "K"].map(HARDENING.index)
+    judged = judge(*paper)
+    assert list(judged.holds[["C7a", "C7b", "C9b", "C9c"]]) == ["yes", "yes", "no", "no"]
+
+
+def test_accuracy_of_the_reduced_model_is_judged_mode_by_mode(paper, judge):
+    table = paper[1]["rom_accuracy"]
+    table.loc[(table["mode"] == 6) & (table.f_omega == 0.4), "relative_error"] = -0.01
+    table.loc[(table["mode"] == 7) & (table.f_omega == 0.4), "relative_error"] = 0.1
+    table.loc[table["mode"] == 8, "relative_error"] = 1.0  # of which the paper says nothing
+    judged = judge(*paper)
+    assert list(judged.holds[["C1a", "C1b"]]) == ["partly", "no"]
+    assert judged.measured["C1a"] == pytest.approx(1.0)
+
+
+def test_other_lobes_break_the_claims_on_them(paper, judge):
+    coating = paper[2][WORN.name]
+    coating.lobes[coating.f_omega <= 0.08] = [5, 5, 5, 6, 6, 6, 6]
+    coating.lobes[coating.f_omega >= 0.24] = 3
+    coating.lobes[np.isclose(coating.f_omega, 0.1)] = 7
+    coating.lobes[np.isclose(coating.f_omega, 0.14)] = 10
+    judged = judge(*paper)
+    assert list(judged.holds[["C2a", "C2b", "C2c", "C2d"]]) == ["partly", "no", "partly", "no"]
+    assert judged.measured["C2c"] == pytest.approx(0.14)
+    assert judged.measured["C2d"] == "none"
+
+
+def test_wear_maxima_elsewhere_break_the_claims_on_them(paper, judge, make_map):
+    moved = make_map(WORN, {5: (0.22, 1e-3), 4: (0.30, 2e-3)}, SPEEDS, lobes=5)
+    moved.max_wear[:] = np.roll(moved.max_wear, 6)  # wear and vibration 0.06 apart
+    paper[2][WORN.name] = moved
+    judged = judge(*paper)
+    assert list(judged.holds[["C3a", "C3b"]]) == ["yes", "yes"]
+    assert list(judged.holds[["C3c", "C3d"]]) == ["no", "no"]
+    moved.max_wear[:] = 1e-4
+    assert list(judge(*paper).measured[["C3a", "C3c"]]) == ["none", "none"]
+
+
+def test_odd_orders_and_missing_orders_break_the_claims_on_them(paper, judge, make_map):
+    soft, critical = CoatingCase("2nd", 0.11, 0.5, 0.0), CoatingCase("2nd", 1.1, 0.5, 0.0)
+    paper[2][soft.name] = make_map(soft, {4: (0.31, 1e-4), 5: (0.24, 5e-5)}, SPEEDS)
+    paper[2][critical.name] = make_map(critical, {4: (0.31, 1e-3), 6: (0.2, 1e-3)}, SPEEDS)
+    judged = judge(*paper)
+    assert judged.holds["C4c"] == "no"
+    assert judged.measured["C4c"] == pytest.approx(0.5, rel=1e-2)
+    assert judged.holds["C5c"] == "no"
+    assert judged.measured["C5c"] == pytest.approx(100 * 2 / 9)  # of the orders 4 to 12
+
+
+def test_theta_that_raises_the_response_breaks_claim_10(paper, judge):
+    table = paper[1]["peaks"]
+    tilted = table.theta == 0.15
+    table.loc[tilted, "amplitude"] *= 2
+    table.loc[tilted & (table.order == 4), "f_peak"] = 0.31
+    table.loc[tilted & (table.order == 6), "f_peak"] = 0.197
+    judged = judge(*paper)
+    assert list(judged.holds[["C10a", "C10b", "C10c", "C10d"]]) == ["no", "no", "no", "partly"]
+    assert not {"C11i", "C11j"} & set(judged.index)  # one speed for both cannot tell them apart
+
+
+def test_divergence_is_measured_at_the_papers_speed_and_at_ours(paper, judge):
+    table = paper[1]["divergence"]
+    table.loc[(table.theta == 0) & (table.f_omega == 0.197), ["growth_per_revolution", "lobes"]] = [0.007, 5]
+    table.loc[(table.theta == 0.15) & (table.f_omega == 0.197), "status"] = "unbounded"
+    rows = table.iloc[:1].assign(f_omega=0.204, growth_per_revolution=0.04, divergent=True)
+    paper[1]["divergence"] = pd.concat([table, rows], ignore_index=True)
+    own = paper[1]["peaks"]
+    own.loc[(own.E == 2) & (own.K == 0.5) & (own.theta == 0) & (own.order == 6), "f_peak"] = 0.204
+    judged = judge(*paper)
+    assert list(judged.holds[["C11b", "C11f", "C11h", "C11d"]]) == ["partly", "partly", "yes", "no"]
+    assert judged.measured["C11b"] == pytest.approx(0.007)
+    assert judged.measured["C11h"] == pytest.approx(0.04)
+    assert judged.measured["C11d"] == np.inf
+
+
+def test_soft_coatings_are_judged_when_the_study_has_them(paper, judge):
+    softer = paper[1]["divergence"].assign(E=0.05, theta=0.0, divergent=[False, False, False, True])
+    paper[1]["divergence"] = pd.concat([paper[1]["divergence"], softer], ignore_index=True)
+    finding = judge(*paper).loc["C12b"]
+    assert (finding.holds, finding.measured) == ("no", 25)
+
+
+def test_a_small_study_leaves_out_what_it_cannot_tell_and_logs_it(paper, judge, caplog):
+    config, tables, maps = paper
+    few = tables["peaks"].E.isin([0.11, 1.1, 2.0]) & tables["peaks"].K.isin([0.1, 0.5])
+    holed = few & ~((tables["peaks"].E == 2.0) & (tables["peaks"].K == 0.1))  # not a full product
+    tables = {**tables, "peaks": tables["peaks"][holed], "divergence": tables["divergence"].iloc[:0]}
+    del maps[WORN.name]
+    with caplog.at_level(logging.WARNING):
+        judged = judge(config, tables, maps)
+    out = {id_ for id_ in PAPER_IDS if id_.startswith(("C2", "C3", "C11"))} | {"C6c"}
+    assert set(judged.index) == PAPER_IDS - out
+    assert "left out: C2a: five worn lobes" in caplog.text
+    assert "coating 2nd5nd_E11_K0.5_theta0 is not in the study" in caplog.text
+    assert "(E, K) = (1.1, 5) is not in the study" in caplog.text
+    assert "C12b" in caplog.text
+    assert len(caplog.records) == len(out) + 1
+
+
+def test_without_peaks_there_is_nothing_to_say_on_them(paper, judge):
+    config, tables, maps = paper
+    judged = judge(config, {**tables, "peaks": tables["peaks"].iloc[:0]}, maps)
+    assert {id_[:3].rstrip("abcdef") for id_ in judged.index} == {"C1", "C2", "C3", "C4", "C5", "C11"}
+
+
+def test_the_table_is_read_from_the_files_of_a_study(paper, tmp_path):
+    config, tables, maps = paper
+    for name, coating in maps.items():
+        write_map(tmp_path / f"{name}.h5", coating)
+    for name, table in tables.items():
+        table.to_csv(tmp_path / f"{name}.csv", index=False)
+    table = findings.table(
+        config,
+        map_paths=tmp_path.glob("*.h5"),
+        peaks_path=tmp_path / "peaks.csv",
+        divergence_path=tmp_path / "divergence.csv",
+        rom_accuracy_path=tmp_path / "rom_accuracy.csv",
+    )
+    assert list(table.columns) == ["id", "claim", "paper", "measured", "unit", "holds", "margin"]
+    assert set(table.id) == PAPER_IDS
+    assert set(table.holds) == {"yes"}
+
+
+def test_verdicts_at_their_borders():
+    assert below(1.0, 1.0, 2.0) == ("yes", 0.0)
+    assert below(2.0, 1.0, 2.0) == ("partly", -1.0)
+    assert below(2.1, 1.0, 2.0)[0] == "no"
+    assert above(1.0, 1.0, 0.5) == ("yes", 0.0)
+    assert above(0.5, 1.0, 0.5) == ("partly", -0.5)
+    assert above(0.4, 1.0, 0.5)[0] == "no"
+    assert below(float("nan"), 1.0, 2.0)[0] == above(float("nan"), 1.0, 0.5)[0] == "no"

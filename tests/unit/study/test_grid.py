@@ -1,0 +1,85 @@
+import math
+
+import pytest
+
+from bladerub.study import grid
+from bladerub.study.grid import CoatingCase
+
+
+def test_the_papers_coatings_are_56_with_names_that_lead_back_to_them(config):
+    cases = grid.coating_cases(config)
+    assert len(cases) == 1 + 9 * 6 + 1
+    assert cases[0].name == "2nd5nd_E11_K0.5_theta0"
+    assert cases[-1].name == "2nd_E2_K0.5_theta0.15"
+    assert CoatingCase("2nd", 0.11, 0.05, 0.0).name == "2nd_E0.11_K0.05_theta0"
+    assert all(grid.case_from_name(config, case.name) == case for case in cases)
+
+
+def test_a_coating_listed_twice_is_named(config):
+    config["coatings"].append({"casing": "2nd", "E": [2.0], "K": [0.5], "theta": [0.15]})
+    with pytest.raises(ValueError, match=r"coatings\[3\]: 2nd_E2_K0.5_theta0.15 is listed twice"):
+        grid.coating_cases(config)
+
+
+def test_an_unknown_coating_is_an_error(config):
+    with pytest.raises(ValueError, match=r"2nd_E3_K0\.5_theta0 is not in the config"):
+        grid.case_from_name(config, "2nd_E3_K0.5_theta0")
+
+
+def test_speeds_are_sorted_unique_and_include_both_ends_and_the_extra_ones(config):
+    config["speeds"] = {"start": 0.02, "stop": 0.4, "step": 0.002, "extra": [0.197, 0.19]}
+    speeds = grid.speeds(config)
+    assert len(speeds) == 192  # 191 of the grid, and 0.197; 0.19 is on the grid
+    assert speeds == sorted(set(speeds))
+    assert (speeds[0], speeds[-1]) == (0.02, 0.4)
+    assert 0.197 in speeds
+
+
+def test_speeds_do_not_pass_the_stop_of_an_uneven_grid(config):
+    config["speeds"] = {"start": 0.1, "stop": 0.125, "step": 0.01, "extra": []}
+    assert grid.speeds(config) == [0.1, 0.11, 0.12]
+
+
+def test_speeds_that_would_share_a_file_are_an_error(config):
+    config["speeds"]["extra"] = [0.19002]
+    with pytest.raises(ValueError, match=r"0\.19 and 0\.19002 are closer"):
+        grid.speeds(config)
+
+
+def test_speed_name():
+    assert grid.speed_name(0.19) == "0.1900"
+
+
+def test_run_spec_is_in_si(config, case):
+    spec = grid.run_spec(config, case, 0.19)
+    assert spec.clearance == pytest.approx((1.5e-4 * 0.2, 4.3e-4 * 0.2))
+    assert spec.displacement_limit == pytest.approx(config["solver"]["displacement_limit"] * 0.2)
+    assert spec.casing.start_angle == pytest.approx(math.radians(config["casings"]["2nd"]["start_angle"]))
+    assert spec.casing.amplitude == config["casings"]["2nd"]["amplitude"]
+    assert (spec.coating.E, spec.coating.K, spec.coating.theta) == (2.0, 0.5, 0.15)
+    assert spec.coating.n_elements == config["contact"]["elements"]
+    assert spec.tip.half_width == config["contact"]["tip_profile"]["half_width"]
+    assert spec.f_omega == 0.19
+    assert spec.revolutions == config["solver"]["revolutions"]
+
+
+def test_clearance_and_limit_follow_the_blade_length(config, case):
+    before = grid.run_spec(config, case, 0.19)
+    config["blade"]["length"] *= 2
+    after = grid.run_spec(config, case, 0.19)
+    assert after.clearance == pytest.approx([2 * c for c in before.clearance])
+    assert after.displacement_limit == pytest.approx(2 * before.displacement_limit)
+
+
+def test_integers_in_the_config_give_the_same_run_as_floats(config, case):
+    before = grid.run_spec(config, case, 0.19)
+    config["casings"]["2nd"]["weights"] = [1]
+    config["contact"]["tip_profile"]["half_width"] = 2
+    assert repr(grid.run_spec(config, case, 0.19)) == repr(before)
+
+
+def test_histories_are_kept_for_the_listed_runs_only(config, case):
+    assert grid.keeps_history(config, case, 0.19)
+    assert grid.keeps_history(config, CoatingCase("2nd", 2.0, 0.5, 0.0), 0.197)
+    assert not grid.keeps_history(config, case, 0.2)
+    assert not grid.keeps_history(config, CoatingCase("2nd", 5.0, 0.5, 0.15), 0.19)

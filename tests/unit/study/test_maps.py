@@ -1,0 +1,125 @@
+import dataclasses
+
+import numpy as np
+import pytest
+import xarray
+
+from bladerub.blade.model import ReducedBlade
+from bladerub.study import grid, maps, store
+from bladerub.study.store import ManifestRow
+
+SPEEDS = [0.1, 0.19, 0.3]
+
+
+@pytest.fixture
+def blade():
+    """24 uncoupled masses, the softest of which has C1² = 1 + 3 f_omega² at f1 = 192 Hz."""
+    stiffness = np.diag((2 * np.pi * 192.0) ** 2 * np.arange(1.0, 25.0))
+    return ReducedBlade(
+        mass=np.eye(24),
+        stiffness_0=stiffness,
+        stiffness_1=3 * stiffness,
+        stiffness_2=0 * stiffness,
+        node_position=np.zeros((8, 3)),
+        radial_direction=np.zeros((8, 3)),
+        tangential_direction=np.zeros((8, 3)),
+        f1_hz=192.0,
+        f_omega_max=0.4,
+        eta=6,
+        rank_tolerance=1e-5,
+        length=0.2,
+    )
+
+
+@pytest.fixture
+def folder(tmp_path, config, case, make_result):
+    """Runs of one coating that vibrate and wear at orders 10, 6, 4; the manifest is not in order of speed."""
+    rows = []
+    for f_omega, order in zip(SPEEDS, (10, 6, 4), strict=True):
+        result = make_result(order=order, complete=15 if order == 4 else None)
+        spec = grid.run_spec(config, case, f_omega)
+        name = f"{grid.speed_name(f_omega)}.h5"
+        store.write_run(tmp_path / name, spec, result, case, f"key {order}", config["analysis"], order == 6)
+        rows.append(ManifestRow(name, f_omega, f"key {order}", result.status))
+    store.write_manifest(tmp_path / "manifest.tsv", reversed(rows))
+    return tmp_path
+
+
+@pytest.fixture
+def build(config, case, blade, folder):
+    def build_to(path):
+        maps.build_map(config, case, blade, folder, path)
+        return path
+
+    return build_to
+
+
+def test_a_map_gathers_the_runs_by_speed(build, tmp_path, make_result):
+    coating = maps.read_map(build(tmp_path / "map.h5"))
+    np.testing.assert_array_equal(coating.f_omega, SPEEDS)
+    np.testing.assert_allclose(coating.C1, np.sqrt(1 + 3 * np.square(SPEEDS)))
+    assert list(coating.lobes) == [10, 6, 4]
+    assert list(coating.status) == ["completed", "completed", "unbounded"]
+    assert [coating.spectrum_order[row.argmax()] for row in coating.spectrum_amplitude] == [10, 6, 4]
+    assert coating.revolution_peak.shape == (3, 20)
+    np.testing.assert_allclose(coating.max_wear, 2e-4, rtol=1e-3)
+    wear = make_result(order=6).wear
+    np.testing.assert_allclose(coating.wear_node[1], wear, atol=1e-10)
+    np.testing.assert_allclose(coating.wear[1], wear.mean(axis=0), atol=1e-10)
+
+
+def test_xarray_opens_a_map_with_coordinates_and_units(build, tmp_path):
+    path = build(tmp_path / "map.h5")
+    with xarray.open_dataset(path, engine="h5netcdf", phony_dims="sort") as coating:
+        assert coating.wear.dims == ("f_omega", "angle")
+        assert coating.wear_node.dims == ("f_omega", "node", "angle")
+        assert coating.spectrum_amplitude.dims == ("f_omega", "spectrum_order")
+        assert coating.status.values.tolist() == ["completed", "completed", "unbounded"]
+        assert float(coating.spectrum_amplitude.sel(f_omega=0.19, spectrum_order=6)) == pytest.approx(1e-3)
+        assert (coating.attrs["casing"], coating.attrs["theta"]) == ("2nd", 0.15)
+        for variable in coating.variables.values():
+            assert variable.attrs["units"]
+            assert variable.attrs["long_name"]
+
+
+def test_a_map_comes_back_as_written(tmp_path, case, make_map):
+    written = make_map(case, {4: (0.3, 1e-4)}, status="completed")
+    maps.write_map(tmp_path / "map.h5", written)
+    read = maps.read_map(tmp_path / "map.h5")
+    assert read.case == case
+    for field in dataclasses.fields(written)[1:]:
+        np.testing.assert_array_equal(getattr(read, field.name), getattr(written, field.name))
+
+
+def test_a_missing_run_names_file_and_remedy(build, folder, tmp_path):
+    (folder / "0.1900.h5").unlink()
+    with pytest.raises(OSError, match=r"0\.1900\.h5: .*delete .*manifest\.tsv and run the workflow again"):
+        build(tmp_path / "map.h5")
+    assert not (tmp_path / "map.h5").exists()
+
+
+def test_a_damaged_run_names_file_and_remedy(build, folder, tmp_path):
+    run = folder / "0.1900.h5"
+    run.write_bytes(run.read_bytes()[:5000])
+    with pytest.raises(OSError, match=r"0\.1900\.h5: not a readable HDF5 file.*run the workflow again"):
+        build(tmp_path / "map.h5")
+
+
+def test_a_run_with_another_key_than_the_manifests_is_an_error(build, folder, tmp_path):
+    (folder / "0.1900.h5").write_bytes((folder / "0.3000.h5").read_bytes())
+    with pytest.raises(OSError, match=r"0\.1900\.h5: not the run that the manifest lists"):
+        build(tmp_path / "map.h5")
+
+
+def test_no_manifest_or_an_empty_one_is_an_error(build, folder, tmp_path):
+    store.write_manifest(folder / "manifest.tsv", [])
+    with pytest.raises(OSError, match=r"manifest\.tsv: lists no run"):
+        build(tmp_path / "map.h5")
+    (folder / "manifest.tsv").unlink()
+    with pytest.raises(OSError, match=r"manifest\.tsv"):
+        build(tmp_path / "map.h5")
+
+
+def test_what_is_not_a_map_is_an_error_with_its_name(folder):
+    with pytest.raises(OSError, match=r"0\.1900\.h5: not a map, 'f_omega' is missing"):
+        maps.read_map(folder / "0.1900.h5")

@@ -1,0 +1,83 @@
+import numpy as np
+import pytest
+
+from bladerub.study import peaks
+from bladerub.study.grid import CoatingCase
+from bladerub.study.maps import write_map
+
+CASE = CoatingCase("2nd", 1.1, 0.5, 0.0)
+
+
+@pytest.fixture
+def settings(config):
+    return config["analysis"]["peaks"]
+
+
+@pytest.mark.parametrize("order", [4, 5, 6])
+def test_the_crossing_is_where_the_engine_order_meets_c1(make_map, order):
+    fine = make_map(CASE, {}, np.linspace(0.02, 0.4, 400))
+    exact = 1 / np.sqrt(order**2 - 3)  # of C1² = 1 + 3 f²
+    assert peaks.crossing_speed(fine, order) == pytest.approx(exact, abs=1e-6)
+    assert peaks.crossing_speed(make_map(CASE, {}), order) == pytest.approx(exact, abs=1e-4)
+
+
+def test_the_peak_is_the_largest_amplitude_on_the_order_near_the_crossing(make_map, settings):
+    coating = make_map(CASE, {4: (0.3, 2e-4), 6: (0.2, 5e-4)})
+    assert peaks.peak(coating, 4, settings) == peaks.Peak(0.3, pytest.approx(2e-4))
+    assert peaks.peak(coating, 6, settings) == peaks.Peak(0.2, pytest.approx(5e-4))
+
+
+def test_larger_amplitudes_off_the_order_or_outside_the_window_do_not_count(make_map, settings):
+    crossing = 1 / np.sqrt(33)  # order 6
+    coating = make_map(CASE, {6: (0.2, 1e-4), 6.5: (0.2, 9e-4), 5.7: (0.19, 9e-4)})
+    coating.spectrum_amplitude[coating.f_omega > 1.25 * crossing, 60] = 9e-4
+    coating.spectrum_amplitude[coating.f_omega < 0.85 * crossing, 60] = 9e-4
+    assert peaks.peak(coating, 6, settings) == peaks.Peak(0.2, pytest.approx(1e-4))
+
+
+def test_an_amplitude_just_within_the_halfwidth_counts(make_map, settings):
+    coating = make_map(CASE, {6: (0.2, 1e-4), 6.2: (0.19, 9e-4)})
+    assert peaks.peak(coating, 6, settings) == peaks.Peak(0.19, pytest.approx(9e-4))
+
+
+def test_runs_without_a_spectrum_are_passed_over(make_map, settings):
+    coating = make_map(CASE, {6: (0.2, 1e-4)})
+    coating.spectrum_amplitude[np.isclose(coating.f_omega, 0.2)] = np.nan
+    assert peaks.peak(coating, 6, settings).f_omega in (0.19, 0.21)
+
+
+def test_no_run_in_the_window_is_an_error_that_names_key_and_window(make_map, settings):
+    coating = make_map(CASE, {}, [0.05, 0.1, 0.3])
+    with pytest.raises(ValueError, match=r"analysis\.peaks\.speed_window: no run of 2nd_E1\.1_K0\.5_theta0"):
+        peaks.peak(coating, 6, settings)
+
+
+def test_no_spectrum_in_the_window_is_an_error_as_well(make_map, settings):
+    coating = make_map(CASE, {})
+    coating.spectrum_amplitude[(coating.f_omega > 0.1) & (coating.f_omega < 0.25)] = np.nan
+    with pytest.raises(ValueError, match="has a spectrum for engine order 6"):
+        peaks.peak(coating, 6, settings)
+
+
+def test_a_crossing_outside_the_speeds_is_an_error_that_names_the_key(make_map, settings):
+    with pytest.raises(ValueError, match=r"engine order 2 does not cross C1 .*analysis\.peaks\.orders"):
+        peaks.peak(make_map(CASE, {}), 2, settings)
+
+
+def test_an_order_above_the_spectra_is_an_error_that_names_the_key(make_map):
+    with pytest.raises(ValueError, match=r"analysis\.max_order: .* do not reach order 30"):
+        peaks.order_amplitude(make_map(CASE, {}), 30, 0.25)
+
+
+def test_the_table_has_a_row_per_coating_and_order(tmp_path, config, make_map):
+    paths = []
+    for E, f_peak in ((0.11, 0.19), (1.1, 0.21)):
+        case = CoatingCase("2nd", E, 0.5, 0.0)
+        paths.append(tmp_path / f"{case.name}.h5")
+        write_map(paths[-1], make_map(case, {4: (0.31, E * 1e-4), 6: (f_peak, E * 2e-4)}))
+    table = peaks.table(config, paths)
+    assert list(table.columns) == ["casing", "E", "K", "theta", "order", "f_peak", "amplitude"]
+    assert list(table.E) == [0.11, 0.11, 1.1, 1.1]
+    assert list(table.order) == [4, 6, 4, 6]
+    np.testing.assert_allclose(table.f_peak, [0.31, 0.19, 0.31, 0.21])
+    np.testing.assert_allclose(table.amplitude, [1.1e-5, 2.2e-5, 1.1e-4, 2.2e-4])

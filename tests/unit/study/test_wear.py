@@ -1,0 +1,60 @@
+import numpy as np
+import pytest
+
+from bladerub.study.wear import lobes, mean_wear
+
+PROMINENCE = 0.2
+
+
+def pattern(angle, n, unequal=0.0, phase=0.0):
+    """`n` separate lobes, the depth of which varies around the casing by `unequal`."""
+    depth = 1 + unequal * np.cos(angle - 0.7)
+    return 1e-3 * depth * np.clip(np.cos(n * angle + phase) - 0.2, 0, None)
+
+
+@pytest.mark.parametrize("n", [1, 2, 4, 5, 6, 10, 20])
+@pytest.mark.parametrize("unequal", [0.0, 0.5])
+@pytest.mark.parametrize("phase", [0.0, np.pi / 2, np.pi])  # a lobe, a flank, a valley at the wrap-around
+def test_lobes_of_a_synthetic_pattern_are_counted(angle, n, unequal, phase):
+    assert lobes(angle, pattern(angle, n, unequal, phase), PROMINENCE) == n
+
+
+def test_joined_lobes_count_where_a_valley_parts_them(angle):
+    joined = 1e-3 * (1 + 0.5 * np.cos(5 * angle))
+    assert lobes(angle, joined, PROMINENCE) == 5
+
+
+def test_the_count_does_not_change_when_the_casing_is_turned(angle):
+    rng = np.random.default_rng(3)
+    wear = pattern(angle, 5, 0.6) + 2e-4 * rng.random(angle.size) * (pattern(angle, 5) > 0)
+    counts = {lobes(angle, np.roll(wear, shift), PROMINENCE) for shift in range(0, angle.size, 7)}
+    assert counts == {5}
+
+
+def test_single_hits_within_a_lobe_are_no_lobes(angle):
+    hits = pattern(angle, 6) * (np.arange(angle.size) % 12 < 6)  # a comb of 2.2 degrees
+    assert lobes(angle, hits, PROMINENCE) == 6
+
+
+def test_nodes_are_averaged(angle):
+    wear = np.stack([pattern(angle, 5) * share for share in np.linspace(0, 1, 8)])
+    np.testing.assert_allclose(mean_wear(wear), 0.5 * pattern(angle, 5))
+    assert lobes(angle, wear, PROMINENCE) == 5
+
+
+def test_shallow_lobes_do_not_count(angle):
+    wear = pattern(angle, 2)
+    wear += 0.1 * wear.max() * (np.abs(angle - np.pi / 2) < 0.1)
+    assert lobes(angle, wear, PROMINENCE) == 2
+    assert lobes(angle, wear, 0.05) == 3
+
+
+def test_no_wear_and_an_even_ring_have_no_lobes(angle):
+    assert lobes(angle, np.zeros((8, angle.size)), PROMINENCE) == 0
+    assert lobes(angle, np.full(angle.size, 1e-3), PROMINENCE) == 0
+    assert lobes(angle, 1e-3 * (1 + 0.05 * np.cos(7 * angle)), PROMINENCE) == 0
+
+
+def test_a_coarse_casing_is_not_smoothed_away():
+    angle = (np.arange(40) + 0.5) * (2 * np.pi / 40)
+    assert lobes(angle, pattern(angle, 5), PROMINENCE) == 5
