@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 import yaml
 
+from bladerub.blade.model import ReducedBlade
 from bladerub.contact.spec import Energy, RunResult
 from bladerub.study.grid import CoatingCase, run_spec
 from bladerub.study.maps import CoatingMap
@@ -30,6 +31,28 @@ def spec(config, case):
 @pytest.fixture
 def angle():
     return (np.arange(N_ELEMENTS) + 0.5) * (2 * np.pi / N_ELEMENTS)
+
+
+@pytest.fixture
+def blade():
+    """24 uncoupled masses at the tip; C1² = 1 + 3 f_omega² at f1 = 192 Hz, the highest at 940 Hz."""
+    stiffness = np.diag((2 * np.pi * 192.0) ** 2 * np.arange(1.0, 25.0))
+    phi = np.linspace(-0.05, 0.05, 8)
+    axial, zero = np.linspace(-0.03, 0.03, 8), np.zeros(8)
+    return ReducedBlade(
+        mass=np.eye(24),
+        stiffness_0=stiffness,
+        stiffness_1=3 * stiffness,
+        stiffness_2=0 * stiffness,
+        node_position=np.stack([axial, 0.65 * np.sin(phi), 0.65 * np.cos(phi)], axis=1),
+        radial_direction=np.stack([zero, np.sin(phi), np.cos(phi)], axis=1),
+        tangential_direction=np.stack([zero, np.cos(phi), -np.sin(phi)], axis=1),
+        f1_hz=192.0,
+        f_omega_max=0.4,
+        eta=6,
+        rank_tolerance=1e-5,
+        length=0.2,
+    )
 
 
 @pytest.fixture

@@ -1,6 +1,6 @@
 import pytest
 
-from bladerub.study import coating_job, store
+from bladerub.study import coating_job, divergence, maps, store
 from bladerub.study.coating_job import compute_missing
 
 
@@ -103,3 +103,24 @@ def test_each_computed_run_is_reported_with_the_time_left(compute, simulated, mo
     assert reports[0].seconds_left == pytest.approx(12 / 10 * (1 / 0.19 + 1 / 0.2 + 1 / 0.3))
     assert reports[-1].seconds_left == pytest.approx(0, abs=1e-9)
     assert str(reports[1]).startswith("[2/4] 0.1900.h5 completed in 6.0 s, about ")
+
+
+def test_real_rubs_go_from_the_solver_to_the_table(study, case, blade, tmp_path):
+    study["speeds"] = {"start": 0.1, "stop": 0.3, "step": 0.2, "extra": []}
+    study["contact"]["elements"] = 200
+    study["solver"].update(revolutions=3, max_time_step=2e-5)
+    study["analysis"]["spectrum_revolutions"] = 2
+    folder, reports = tmp_path / "runs", []
+    rows = compute_missing(study, case, blade, folder, "digest", reports.append)
+    store.write_manifest(folder / "manifest.tsv", rows)
+    maps.build_map(study, case, blade, folder, tmp_path / "map.h5")
+    table = divergence.table(study, [tmp_path / "map.h5"])
+    assert [done.file for done in reports] == ["0.1000.h5", "0.3000.h5"]
+    assert list(table.f_omega) == [0.1, 0.3]
+    assert set(table.status) == {"completed"}
+    coating = maps.read_map(tmp_path / "map.h5")
+    assert coating.wear_node.shape == (2, 8, 200)
+    assert (coating.max_wear > 0).all()
+    assert list(coating.lobes) == [2, 2]  # stiff and heavy, it cuts the two lobes of the casing
+    assert compute_missing(study, case, blade, folder, "digest", reports.append) == rows
+    assert len(reports) == 2

@@ -4,31 +4,10 @@ import numpy as np
 import pytest
 import xarray
 
-from bladerub.blade.model import ReducedBlade
 from bladerub.study import grid, maps, store
 from bladerub.study.store import ManifestRow
 
 SPEEDS = [0.1, 0.19, 0.3]
-
-
-@pytest.fixture
-def blade():
-    """24 uncoupled masses, the softest of which has C1² = 1 + 3 f_omega² at f1 = 192 Hz."""
-    stiffness = np.diag((2 * np.pi * 192.0) ** 2 * np.arange(1.0, 25.0))
-    return ReducedBlade(
-        mass=np.eye(24),
-        stiffness_0=stiffness,
-        stiffness_1=3 * stiffness,
-        stiffness_2=0 * stiffness,
-        node_position=np.zeros((8, 3)),
-        radial_direction=np.zeros((8, 3)),
-        tangential_direction=np.zeros((8, 3)),
-        f1_hz=192.0,
-        f_omega_max=0.4,
-        eta=6,
-        rank_tolerance=1e-5,
-        length=0.2,
-    )
 
 
 @pytest.fixture
