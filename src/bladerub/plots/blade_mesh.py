@@ -1,0 +1,111 @@
+"""The blade's finite element mesh with its clamped root and the interface nodes."""
+
+from __future__ import annotations
+
+import numpy as np
+from matplotlib import colors
+from matplotlib.axes import Axes
+from matplotlib.collections import PolyCollection
+from matplotlib.figure import Figure
+from matplotlib.markers import CARETUP
+
+from bladerub.plots.style import DARK, PAGE, RED, new_figure, styled
+from bladerub.plots.surface import View, boundary_faces, normals
+
+_METAL = np.array(colors.to_rgb("#c3ccd6"))
+_LIGHT = np.array([-0.35, 0.85, 0.40])
+_VIEW = View(elevation=24, azimuth=90)  # the pressure side, with the tip face and the twist in sight
+_EDGES = {"edgecolors": DARK, "linewidths": 0.35}
+_INTERFACE = {
+    "marker": "o",
+    "markersize": 6,
+    "color": RED,
+    "linestyle": "none",
+    "markeredgecolor": "white",
+    "markeredgewidth": 0.5,
+}
+_ROOT = {"marker": CARETUP, "color": DARK, "linestyle": "none", "markersize": 5, "markeredgewidth": 0.3}
+_AXIS = 35  # length of the drawn axes, mm
+
+
+@styled
+def blade_mesh(points: np.ndarray, hexahedra: np.ndarray, interface: np.ndarray, root: np.ndarray) -> Figure:
+    """Draw Fig. 1: the mesh with root and interface nodes (a), and the tip seen along the radius (b).
+
+    Parameters
+    ----------
+    points : (n_nodes, 3) ndarray
+        Nodes, m: x along the axis, y tangential, z along the stacking line.
+    hexahedra : (n_elements, 20) ndarray of int
+        Nodes of the elements, in the order of CalculiX's C3D20.
+    interface : (8,) ndarray of int
+        Interface nodes, leading to trailing edge.
+    root : (n_root,) ndarray of int
+        Clamped nodes.
+    """
+    figure = new_figure(PAGE, 0.92 * PAGE)
+    whole, tip = figure.subplots(1, 2, width_ratios=[1, 1.05])
+    millimetres = 1e3 * points
+    faces = boundary_faces(hexahedra)
+    _draw_whole(whole, millimetres, faces, interface, root)
+    whole.set_title(f"(a) {len(hexahedra)} hexahedra, {len(points)} nodes")
+    _draw_tip(tip, millimetres, faces, interface)
+    figure.legend(*whole.get_legend_handles_labels(), loc="outside lower center", ncols=2)
+    return figure
+
+
+def _draw_whole(
+    axes: Axes, points: np.ndarray, faces: np.ndarray, interface: np.ndarray, root: np.ndarray
+) -> None:
+    polygons = points[faces]
+    seen = _VIEW.front_faces(polygons)
+    shade = 0.5 + 0.5 * np.clip(normals(polygons[seen]) @ _LIGHT, 0, 1)
+    axes.plot(*_VIEW.project(points[root]).T, label="clamped root nodes", zorder=0.5, **_ROOT)
+    axes.add_collection(
+        PolyCollection(_VIEW.project(polygons[seen]), facecolors=shade[:, None] * _METAL, **_EDGES)
+    )
+    axes.plot(*_VIEW.project(points[interface]).T, label="interface nodes", **_INTERFACE)
+    axes.set_aspect("equal")
+    axes.margins(0.03)
+    axes.set_axis_off()
+    _draw_directions(axes, points[interface].mean(axis=0) + np.array([52, 0, -50]))
+
+
+def _draw_directions(axes: Axes, origin: np.ndarray) -> None:
+    for axis, name in enumerate(("x (axial)", "y (rotation)", "z (radial)")):
+        foot, head = _VIEW.project(np.stack([origin, origin + _AXIS * np.eye(3)[axis]]))
+        axes.plot(*np.transpose([foot, head]), color=DARK, linewidth=0.9, label="_direction")
+        axes.annotate("", head, foot, arrowprops={"arrowstyle": "-|>", "color": DARK, "linewidth": 0})
+        axes.annotate(
+            name,
+            foot + 1.1 * (head - foot),
+            ha="center",
+            va="bottom" if axis == 2 else "top",
+            fontsize=7.5,
+            annotation_clip=False,
+        )
+
+
+def _draw_tip(axes: Axes, points: np.ndarray, faces: np.ndarray, interface: np.ndarray) -> None:
+    """Look inward along z at the faces of the tip."""
+    tip = faces[normals(points[faces])[:, 2] > 0.9]
+    axes.add_collection(PolyCollection(points[tip][:, :, :2], facecolors=_METAL, **_EDGES))
+    x, y = points[interface, 0], points[interface, 1]
+    axes.plot(x, y, **_INTERFACE)
+    for number, node in enumerate(zip(x, y, strict=True), start=1):
+        axes.annotate(str(number), node, xytext=(6, 4), textcoords="offset points", color=RED)
+    for node, name, side, align in ((0, "leading edge", 1, "bottom"), (-1, "trailing edge", -1, "top")):
+        axes.annotate(
+            name, (x[node], y[node]), xytext=(0, 9 * side), textcoords="offset points", ha="center", va=align
+        )
+    axes.annotate(
+        "rotation",
+        (0.85, 0.95),
+        (0.85, 0.75),
+        xycoords="axes fraction",
+        ha="center",
+        arrowprops={"arrowstyle": "-|>", "color": DARK},
+    )
+    axes.set(aspect="equal", xlabel="axial x (mm)", ylabel="tangential y (mm)")
+    axes.set_title("(b) the tip from outside")
+    axes.margins(0.22)

@@ -1,0 +1,53 @@
+"""Initial inner shape of the casing, magnified."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from bladerub.plots.polar import close, open_polar
+from bladerub.plots.style import BLUE, COLUMN, DARK, GREY, ORANGE, new_figure, styled
+
+_LINES = (
+    {"color": ORANGE, "linestyle": (0, (6, 2)), "linewidth": 1.4},
+    {"color": BLUE, "linestyle": (0, (1.5, 1.2)), "linewidth": 1.4},
+    {"color": DARK, "linestyle": "-", "linewidth": 2.0},
+)
+
+
+@styled
+def casing_polar(
+    angle: np.ndarray, inward: Mapping[str, np.ndarray], radius: float, magnification: float
+) -> Figure:
+    """Draw Fig. 5: the round casing and up to three distorted ones.
+
+    Parameters
+    ----------
+    angle : (n,) array_like
+        Casing angle, rad.
+    inward : mapping of str to (n,) array_like
+        Inward displacement of the inner surface by name of the shape, m.
+    radius : float
+        Radius of the round casing, m.
+    magnification : float
+        By how much the displacement is magnified.
+    """
+    figure = new_figure(COLUMN, 1.12 * COLUMN)
+    largest = max(np.abs(u).max() for u in inward.values())
+    axes = open_polar(figure, 1, 1, 1)
+    axes.plot(*close(angle, np.full(np.size(angle), radius)), color=GREY, linewidth=1.0, label="round casing")
+    for (name, displacement), line in zip(inward.items(), _LINES, strict=False):
+        axes.plot(*close(angle, radius - magnification * np.asarray(displacement)), label=name, **line)
+    steps = np.array([-1, 0, 1]) * largest
+    axes.set_rgrids(
+        radius + magnification * steps, [f"{1e3 * step:+.2g} mm" if step else "0" for step in steps]
+    )
+    axes.set_rlim(0, radius + 1.1 * magnification * largest)
+    figure.legend(
+        loc="outside lower center",
+        ncols=2,
+        title=f"change of the inner radius of {1e3 * radius:.0f} mm, magnified {magnification:g} times",
+    )
+    return figure

@@ -1,0 +1,51 @@
+"""Displacement over the whole run, one run above the other, and the growth of all."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+from matplotlib.figure import Figure
+from matplotlib.ticker import MaxNLocator
+
+from bladerub.plots.style import FIRST, PAGE, SECOND, new_figure, styled
+
+
+@styled
+def history(
+    revolution: np.ndarray, displacement: Mapping[str, np.ndarray], peak: Mapping[str, np.ndarray], title: str
+) -> Figure:
+    """Draw Figs. 17 and 18: the radial displacement of node 1 in two runs.
+
+    Parameters
+    ----------
+    revolution : (n,) array_like
+        Time in revolutions.
+    displacement : mapping of str to (n,) array_like
+        Radial displacement, m, by the name of the run; two runs. NaN after an early end.
+    peak : mapping of str to (n_revolutions,) array_like
+        Largest absolute displacement in each revolution, m, by the same names.
+    title : str
+        What was simulated.
+    """
+    figure = new_figure(PAGE, 0.76 * PAGE)
+    figure.suptitle(title, fontsize=9.5, x=0.01, ha="left")
+    *above, below = figure.subplots(3, 1, sharex=True, height_ratios=[1.3, 1.3, 1])
+    limit = 1.08e3 * max(np.nanmax(np.abs(u)) for u in displacement.values())
+    panels = zip("ab", above, displacement.items(), (FIRST, SECOND), strict=True)
+    for letter, axes, (name, u), look in panels:
+        axes.plot(revolution, 1e3 * np.asarray(u), color=look["color"], linewidth=0.5)
+        axes.set(ylim=(-limit, limit), ylabel="$u_r$ (mm)", title=f"({letter}) {name}")
+        envelope = 1e3 * np.asarray(peak[name])
+        below.plot(np.arange(envelope.size) + 0.5, envelope, marker="o", markersize=3, label=name, **look)
+    below.set(
+        title="(c) largest $|u_r|$ in each revolution",
+        xlim=(0, envelope.size),
+        ylim=(0, limit),
+        xlabel="revolution",
+        ylabel="$|u_r|$ (mm)",
+    )
+    below.xaxis.set_major_locator(MaxNLocator(integer=True))
+    below.grid(axis="y")
+    figure.legend(*below.get_legend_handles_labels(), loc="outside lower center", ncols=2)
+    return figure

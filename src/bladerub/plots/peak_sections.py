@@ -1,0 +1,91 @@
+"""Spectrum with its maxima along engine orders, and the amplitude along those engine orders beside it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from bladerub.plots import titles
+from bladerub.plots.spectrum_map import add_amplitude_bar, draw_spectrum
+from bladerub.plots.style import DARK, ORANGE, PAGE, RED, new_figure, styled
+from bladerub.study.maps import CoatingMap
+
+_LOOKS = (
+    {"color": DARK, "linestyle": "-", "marker": "o"},
+    {"color": ORANGE, "linestyle": "--", "marker": "s"},
+)
+_RING = {"marker": "o", "markersize": 9, "fillstyle": "none", "color": RED, "zorder": 4, "linestyle": "none"}
+
+
+@dataclass(frozen=True)
+class PeakSection:
+    """Amplitude along one engine order, and its maximum.
+
+    Parameters
+    ----------
+    order : int
+        The engine order k.
+    amplitude : (n,) ndarray
+        Amplitude on eo(k) at each speed, m.
+    window : (float, float)
+        Speeds between which the maximum was searched, normalised.
+    f_peak, peak : float
+        Speed f_k (normalised) and amplitude Y_k (m) of the maximum.
+    """
+
+    order: int
+    amplitude: np.ndarray
+    window: tuple[float, float]
+    f_peak: float
+    peak: float
+
+
+@styled
+def peak_sections(
+    coating: CoatingMap, sections: list[PeakSection], amplitude_range: tuple[float, float], f_max: float
+) -> Figure:
+    """Draw Fig. 10: the spectrum with Y_k marked (a), the amplitude along eo(k) with its window (b).
+
+    Parameters
+    ----------
+    coating, amplitude_range, f_max
+        As in `spectrum_map.spectrum_map`.
+    sections : list of PeakSection
+        One or two.
+    """
+    figure = new_figure(PAGE, 0.66 * PAGE)
+    spectrum, curves = figure.subplots(1, 2, sharey=True, width_ratios=[1.5, 1])
+    mesh = draw_spectrum(spectrum, coating, amplitude_range, f_max)
+    spectrum.set_title("(a) " + titles.coating(coating.case), pad=16)
+    add_amplitude_bar(figure, spectrum, mesh, location="bottom", aspect=40)
+    end = 1e3 * max(np.nanmax(section.amplitude) for section in sections)
+    for section, look in zip(sections, _LOOKS, strict=False):
+        ray = coating.f_omega[-1] * np.array([0, 1])
+        spectrum.plot(section.order * ray, ray, color=RED, linewidth=0.8, label="_section")
+        spectrum.plot(section.order * section.f_peak, section.f_peak, label="_peak", **_RING)
+        _draw_section(curves, coating.f_omega, section, look, end)
+    curves.set_title("(b) along the engine orders", pad=16)
+    curves.set(xlim=(0, 1.1 * end), xlabel="amplitude (mm)")
+    curves.tick_params(labelleft=True)
+    curves.legend(loc="lower right", title="shaded: searched speeds", title_fontsize=7)
+    return figure
+
+
+def _draw_section(axes: Axes, f_omega: np.ndarray, section: PeakSection, look: dict, end: float) -> None:
+    k, peak = section.order, 1e3 * section.peak
+    axes.axhspan(*section.window, color=look["color"], alpha=0.13, linewidth=0, label=f"_window{k}")
+    axes.plot(1e3 * section.amplitude, f_omega, markersize=2.2, linewidth=1.0, label=f"eo({k})", **look)
+    axes.plot(peak, section.f_peak, label="_peak", **_RING)
+    right = peak < 0.55 * end  # the text goes where the curves are not
+    axes.annotate(
+        f"$Y_{{{k}}}$ = {peak:.3g} mm\n$f_{{{k}}}$ = {section.f_peak:.3f}",
+        (peak, section.f_peak),
+        xytext=(9, 0) if right else (-4, 12),
+        textcoords="offset points",
+        ha="left" if right else "right",
+        va="center" if right else "bottom",
+        bbox={"facecolor": "white", "edgecolor": "none", "pad": 1, "alpha": 0.85},
+    )

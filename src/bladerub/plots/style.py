@@ -1,0 +1,90 @@
+"""One style for every picture: sizes for print, colours told apart by the colour-blind and in grey."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import wraps
+from pathlib import Path
+
+import matplotlib
+from matplotlib.colors import LinearSegmentedColormap
+from matplotlib.figure import Figure
+
+PAGE = 180 / 25.4
+"""Width of a full-page figure, inches (180 mm)."""
+COLUMN = 120 / 25.4
+"""Width of a figure that stands alone in a column, inches (120 mm)."""
+
+DARK = "#14213d"
+ORANGE = "#e08e0b"
+BLUE = "#2f7fc1"
+RED = "#c8352b"
+GREY = "#8a8a8a"
+MISSING = "#e4e4e4"
+"""Background of maps: what was not computed shows through."""
+
+FIRST = {"color": DARK, "linestyle": "-"}
+SECOND = {"color": ORANGE, "linestyle": "--"}
+"""The two lines of a comparison; dark solid and light dashed, so that grey print keeps them apart."""
+
+AMPLITUDE_MAP = LinearSegmentedColormap.from_list(
+    "amplitude", ["#ffffff", "#fde2b3", "#f6a55c", "#dc5a33", "#952052", "#2b0a3a"]
+)
+"""White to dark over warm colours of falling lightness: amplitudes, under cool lines."""
+WEAR_MAP = LinearSegmentedColormap.from_list(
+    "wear", ["#ffffff", "#cfe6ea", "#74b9d0", "#2f7fb5", "#1c4a86", "#0d1b3d"]
+)
+"""White to dark over blue: worn depth."""
+HEIGHT_MAP = "viridis"
+
+_RC = {
+    "figure.constrained_layout.h_pad": 0.06,
+    "figure.constrained_layout.w_pad": 0.06,
+    "font.family": "DejaVu Sans",
+    "font.size": 8.5,
+    "axes.labelsize": 9,
+    "axes.titlesize": 9.5,
+    "axes.titlelocation": "left",
+    "axes.linewidth": 0.7,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "axes.facecolor": "white",
+    "axes.axisbelow": True,
+    "xtick.labelsize": 8,
+    "ytick.labelsize": 8,
+    "xtick.major.width": 0.7,
+    "ytick.major.width": 0.7,
+    "lines.linewidth": 1.3,
+    "legend.fontsize": 8,
+    "legend.frameon": True,
+    "legend.framealpha": 0.9,
+    "legend.edgecolor": "none",
+    "grid.color": "#d9d9d9",
+    "grid.linewidth": 0.5,
+    "image.composite_image": False,
+    "pdf.fonttype": 42,
+}
+_PDF_RASTER_DPI = 300
+
+
+def styled(draw: Callable[..., Figure]) -> Callable[..., Figure]:
+    """Run the drawing function `draw` in the style, and leave matplotlib's settings as they were."""
+
+    @wraps(draw)
+    def in_style(*args, **kwargs) -> Figure:
+        with matplotlib.rc_context(_RC):
+            return draw(*args, **kwargs)
+
+    return in_style
+
+
+def new_figure(width: float = PAGE, height: float = 0.6 * PAGE) -> Figure:
+    """Empty figure of `width` × `height` inches; its axes are placed so that nothing overlaps."""
+    return Figure(figsize=(width, height), layout="constrained")
+
+
+def save(figure: Figure, png: str | Path, pdf: str | Path, dpi: float) -> None:
+    """Write `figure` as a PNG of `dpi` dots per inch and as a PDF; equal data give equal files."""
+    with matplotlib.rc_context(_RC):
+        figure.savefig(png, dpi=dpi)
+        figure.savefig(pdf, dpi=_PDF_RASTER_DPI, metadata={"CreationDate": None})

@@ -1,0 +1,25 @@
+"""How coatings and speeds are named in the pictures."""
+
+from __future__ import annotations
+
+from bladerub.study.grid import CoatingCase
+
+
+def moduli(casing: str, E: float, K: float) -> str:
+    """Casing and moduli, for instance ``casing 2nd, E = 2, K = 0.5``."""
+    return f"casing {casing}, E = {E:g}, K = {K:g}"
+
+
+def angle(theta: float) -> str:
+    """Angle of the abradable elements, for instance ``θ = 0.15 rad``."""
+    return f"θ = {theta:g} rad" if theta else "θ = 0"
+
+
+def coating(case: CoatingCase) -> str:
+    """All of it, for instance ``casing 2nd, E = 2, K = 0.5, θ = 0.15 rad``."""
+    return f"{moduli(case.casing, case.E, case.K)}, {angle(case.theta)}"
+
+
+def speed(f_omega: float) -> str:
+    """Rotational frequency to three decimals."""
+    return rf"$f_\Omega$ = {f_omega:.3f}"

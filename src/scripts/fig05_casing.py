@@ -1,0 +1,27 @@
+"""Fig. 5: initial inner shape of the casing, along each nodal diameter alone and combined (inward, m)."""
+
+import sys
+from dataclasses import replace
+
+import numpy as np
+import pandas as pd
+
+from bladerub.contact.casing import shape
+from bladerub.contact.spec import Casing
+from bladerub.plots import style
+from bladerub.plots.casing_polar import casing_polar
+
+MAGNIFICATION = 150
+
+sys.stderr = open(snakemake.log[0], "w", buffering=1)
+
+combined = Casing(**snakemake.params.casing)
+diameters = combined.nodal_diameters
+casings = {f"{n} nodal diameters": replace(combined, nodal_diameters=(n,), weights=(1.0,)) for n in diameters}
+casings[f"{' + '.join(map(str, diameters))} nodal diameters"] = combined
+angle = np.linspace(0, 2 * np.pi, 720, endpoint=False)
+inward = {name: casing.amplitude * shape(casing, angle) for name, casing in casings.items()}
+
+pd.DataFrame({"angle": angle, **inward}).to_csv(snakemake.output.data, index=False, float_format="%.6g")
+figure = casing_polar(angle, inward, snakemake.params.casing_radius, MAGNIFICATION)
+style.save(figure, snakemake.output.png, snakemake.output.pdf, snakemake.params.dpi)

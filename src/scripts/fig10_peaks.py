@@ -1,0 +1,27 @@
+"""Fig. 10: maxima Y_k, f_k on the spectrum, and the amplitude along their engine orders (m)."""
+
+import sys
+
+import pandas as pd
+
+from bladerub.plots import style
+from bladerub.plots.peak_sections import PeakSection, peak_sections
+from bladerub.study.maps import read_map
+from bladerub.study.peaks import crossing_speed, order_amplitude, peak
+
+sys.stderr = open(snakemake.log[0], "w", buffering=1)
+
+coating, settings = read_map(snakemake.input.map), snakemake.params.peaks
+sections = []
+for k in settings["orders"][:2]:
+    crossing, best = crossing_speed(coating, k), peak(coating, k, settings)
+    amplitude = order_amplitude(coating, k, settings["order_halfwidth"])
+    window = tuple(factor * crossing for factor in settings["speed_window"])
+    sections.append(PeakSection(k, amplitude, window, best.f_omega, best.amplitude))
+
+columns = {f"amplitude_eo{section.order}": section.amplitude for section in sections}
+pd.DataFrame({"f_omega": coating.f_omega, **columns}).to_csv(
+    snakemake.output.data, index=False, float_format="%.6g"
+)
+figure = peak_sections(coating, sections, snakemake.params.amplitude_range, snakemake.params.max_frequency)
+style.save(figure, snakemake.output.png, snakemake.output.pdf, snakemake.params.dpi)

@@ -1,0 +1,17 @@
+"""Fig. 16: spectrum of the blade with inclined coating elements.
+
+The data are the map of its coating in ``maps/``.
+"""
+
+import sys
+
+from bladerub.plots import style
+from bladerub.plots.spectrum_map import spectrum_map
+from bladerub.study.maps import read_map
+
+sys.stderr = open(snakemake.log[0], "w", buffering=1)
+
+figure = spectrum_map(
+    read_map(snakemake.input.map), snakemake.params.amplitude_range, snakemake.params.max_frequency
+)
+style.save(figure, snakemake.output.png, snakemake.output.pdf, snakemake.params.dpi)

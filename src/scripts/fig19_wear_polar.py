@@ -1,0 +1,24 @@
+"""Fig. 19: worn depth around the casing (m), straight and inclined elements, speeds of Figs. 17 and 18."""
+
+import sys
+
+import numpy as np
+import pandas as pd
+
+from bladerub.plots import style, titles
+from bladerub.plots.wear_polar import wear_polar
+from bladerub.study.maps import read_map
+
+sys.stderr = open(snakemake.log[0], "w", buffering=1)
+
+maps = {titles.angle(coating.case.theta): coating for coating in map(read_map, snakemake.input.maps)}
+angle = next(iter(maps.values())).angle
+panels, columns = {}, {"angle": angle}
+for letter, f_omega in zip("ab", snakemake.params.speeds, strict=True):
+    panel = panels[f"({letter}) {titles.speed(f_omega)}"] = {}
+    for name, coating in maps.items():
+        panel[name] = coating.wear[np.flatnonzero(np.isclose(coating.f_omega, f_omega))[0]]
+        columns[f"wear, f_omega = {f_omega:.3f}, {name}"] = panel[name]
+
+pd.DataFrame(columns).to_csv(snakemake.output.data, index=False, float_format="%.6g")
+style.save(wear_polar(angle, panels), snakemake.output.png, snakemake.output.pdf, snakemake.params.dpi)
