@@ -43,7 +43,7 @@ rule coating:
     # finished runs must survive. Whether a run is current is told by the key inside its file.
     input:
         blade=f"{RESULTS}/blade/reduced_model.h5",
-        kernel=ancient(rules.compile_kernel.output[0]),
+        kernel=rules.compile_kernel.output[0],
     output:
         f"{RESULTS}/runs/{{coating}}/manifest.tsv",
     log:
