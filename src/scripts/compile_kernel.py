@@ -4,7 +4,7 @@ import json
 import sys
 import time
 
-from bladerub.contact import kernel_warm_up
+from bladerub.contact.run import kernel_warm_up
 
 sys.stderr = open(snakemake.log[0], "w", buffering=1)
 

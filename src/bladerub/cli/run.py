@@ -68,7 +68,7 @@ def run(options: argparse.Namespace) -> None:
     _check_options(options, config)
     blade_path, blade = _blade(options, config)
 
-    from bladerub.contact import kernel_warm_up, simulate
+    from bladerub.contact.run import kernel_warm_up, simulate
     from bladerub.study.grid import CoatingCase, run_spec
     from bladerub.study.key import blade_digest, run_key
     from bladerub.study.store import write_run

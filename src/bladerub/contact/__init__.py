@@ -1,5 +1,5 @@
-"""Stage 2: one rub of the reduced blade on one coating at one speed (`RunSpec` → `RunResult`)."""
+"""Stage 2: one rub of the reduced blade on one coating at one speed (`RunSpec` → `RunResult`).
 
-from bladerub.contact.run import kernel_warm_up, simulate
-
-__all__ = ["kernel_warm_up", "simulate"]
+`bladerub.contact.run.simulate` is the way in. It is not imported here, so that who only describes runs
+(`bladerub.contact.spec`) does not wait for the compiler.
+"""

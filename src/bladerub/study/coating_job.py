@@ -9,9 +9,10 @@ from pathlib import Path
 from typing import Any
 
 from bladerub.blade.model import ReducedBlade
-from bladerub.contact import simulate
+from bladerub.contact.run import simulate
 from bladerub.study.grid import CoatingCase, keeps_history, run_spec, speed_name, speeds
 from bladerub.study.key import run_key
+from bladerub.study.shelf import shelve, unshelve
 from bladerub.study.store import ManifestRow, is_current, read_run, write_run
 
 
@@ -62,7 +63,8 @@ def compute_missing(
     """Compute those runs of one coating whose file is missing or stale.
 
     Each run is written as soon as it is done, so an interrupted job continues where it stopped. Runs that
-    are no longer in the plan are left where they are.
+    are no longer in the plan are left where they are. A stale run, of another study in the same place, is
+    put on the shelf before its file is written anew, and taken back when its key is asked for again.
 
     Parameters
     ----------
@@ -91,7 +93,7 @@ def compute_missing(
         spec = run_spec(config, case, f_omega)
         path = folder / f"{speed_name(f_omega)}.h5"
         planned.append((path, spec, run_key(spec, blade_digest, history, analysis), history))
-    missing = [plan for plan in planned if not is_current(plan[0], plan[2])]
+    missing = [plan for plan in planned if not (is_current(plan[0], plan[2]) or unshelve(plan[0], plan[2]))]
 
     # a run takes as many steps as its revolutions take time: its cost goes as 1 / speed
     cost_left = sum(1 / spec.f_omega for _, spec, _, _ in missing)
@@ -99,6 +101,7 @@ def compute_missing(
     for number, (path, spec, key, history) in enumerate(missing, 1):
         run_start = time.monotonic()
         result = simulate(blade, spec)
+        shelve(path)
         write_run(path, spec, result, case, key, analysis, history)
         now = time.monotonic()
         cost_done += 1 / spec.f_omega

@@ -24,6 +24,9 @@ COLUMNS = [
 ]
 """Columns of ``divergence.csv``; f_omega is normalised, growth_per_revolution relative (0.03 is 3 %)."""
 
+AT_THE_END = 2
+"""Last revolutions within which a growing amplitude has its maximum (one more than the last, for ripple)."""
+
 
 def growth_per_revolution(revolution_peak: np.ndarray, revolutions: int) -> float:
     """Relative growth of the amplitude per revolution, by least squares on its logarithm.
@@ -54,9 +57,26 @@ def growth_per_revolution(revolution_peak: np.ndarray, revolutions: int) -> floa
     return float(np.expm1(slope))
 
 
-def is_divergent(growth: float, status: str, threshold: float) -> bool:
-    """Tell whether a run diverges: it left all bounds, or grows by more than `threshold` a revolution."""
-    return bool(status == "unbounded" or growth > threshold)
+def is_divergent(revolution_peak: np.ndarray, status: str, settings: Mapping[str, Any]) -> bool:
+    """Tell whether a run diverges, in the paper's words: the amplitude continuously grows with time.
+
+    It does where the blade left all bounds, or where the amplitude grows by more than
+    ``settings["growth"]`` a revolution over the last ``settings["revolutions"]`` and is greatest at the
+    end: a beat that has passed its maximum grows no more.
+
+    Parameters
+    ----------
+    revolution_peak : (n,) ndarray
+        Amplitude in each revolution, m.
+    status : str
+        Of the run.
+    settings : mapping
+        ``config["analysis"]["divergence"]``.
+    """
+    if status == "unbounded":
+        return True
+    grows = growth_per_revolution(revolution_peak, settings["revolutions"]) > settings["growth"]
+    return bool(grows and np.argmax(revolution_peak) >= revolution_peak.size - AT_THE_END)
 
 
 def table(config: Mapping[str, Any], map_paths: Iterable[str | Path]) -> pd.DataFrame:
@@ -82,6 +102,6 @@ def table(config: Mapping[str, Any], map_paths: Iterable[str | Path]) -> pd.Data
             coating.f_omega, coating.revolution_peak, coating.lobes, coating.status, strict=True
         ):
             growth = growth_per_revolution(peaks, settings["revolutions"])
-            divergent = is_divergent(growth, status, settings["growth"])
+            divergent = is_divergent(peaks, status, settings)
             rows.append((case.casing, case.E, case.K, case.theta, f_omega, growth, divergent, count, status))
     return pd.DataFrame(rows, columns=COLUMNS)

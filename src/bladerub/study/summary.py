@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from bladerub.contact.spec import RunResult, RunSpec
-from bladerub.study.divergence import growth_per_revolution, is_divergent
+from bladerub.study.divergence import is_divergent
 from bladerub.study.spectra import order_spectrum
 from bladerub.study.wear import lobes
 
@@ -41,13 +41,12 @@ def summarise(spec: RunSpec, result: RunResult, config: Mapping[str, Any]) -> di
     vibration = np.where(order >= _LOWEST_ORDER, amplitude, 0.0)
     moved = vibration.max() > 0  # False for NaN as well
     peaks = result.revolution_peak[np.isfinite(result.revolution_peak)]
-    growth = growth_per_revolution(result.revolution_peak, analysis["divergence"]["revolutions"])
     return {
         "peak_amplitude": float(peaks[-analysis["spectrum_revolutions"] :].max()),
         "engine_order": float(order[np.argmax(vibration)]) if moved else None,
         "max_wear": float(result.wear.max()),
         "lobes": lobes(result.angle, result.wear, analysis["lobe_prominence"]),
-        "divergent": is_divergent(growth, result.status, analysis["divergence"]["growth"]),
+        "divergent": is_divergent(result.revolution_peak, result.status, analysis["divergence"]),
         "n_steps": result.n_steps,
         "status": result.status,
     }

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 import reference
 
-from bladerub.contact import simulate
+from bladerub.contact.run import simulate
 from bladerub.contact.run import STRAY, strip_width
 
 

@@ -6,6 +6,8 @@ import yaml
 
 from bladerub.blade.model import ReducedBlade
 from bladerub.contact.spec import Energy, RunResult
+from bladerub.study import coating_job
+from bladerub.study.coating_job import compute_missing
 from bladerub.study.grid import CoatingCase, run_spec
 from bladerub.study.maps import CoatingMap
 
@@ -113,3 +115,30 @@ def make_map(angle):
         )
 
     return make
+
+
+@pytest.fixture
+def simulated(monkeypatch, make_result):
+    """Stand in for the solver, and list the speeds it was asked for."""
+    speeds = []
+
+    def simulate(blade, spec):
+        speeds.append(spec.f_omega)
+        return make_result(revolutions=spec.revolutions, complete=1.5 if spec.f_omega == 0.3 else None)
+
+    monkeypatch.setattr(coating_job, "simulate", simulate)
+    return speeds
+
+
+@pytest.fixture
+def study(config):
+    config["speeds"] = {"start": 0.1, "stop": 0.3, "step": 0.1, "extra": [0.19]}
+    return config
+
+
+@pytest.fixture
+def compute(study, case, tmp_path):
+    def run(digest="blade", **arguments):
+        return compute_missing(study, case, None, tmp_path, digest, **arguments)
+
+    return run

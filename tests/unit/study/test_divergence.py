@@ -41,11 +41,20 @@ def test_one_revolution_has_no_growth():
     assert np.isnan(growth_per_revolution(peak, 10))
 
 
+SETTINGS = {"revolutions": 10, "growth": 0.01}
+
+
 def test_divergent_is_growth_above_the_threshold_or_leaving_all_bounds():
-    assert is_divergent(0.011, "completed", 0.01)
-    assert not is_divergent(0.01, "completed", 0.01)
-    assert is_divergent(-0.5, "unbounded", 0.01)
-    assert is_divergent(float("nan"), "unbounded", 0.01)
+    assert is_divergent(1.011**NUMBER, "completed", SETTINGS)
+    assert not is_divergent(1.009**NUMBER, "completed", SETTINGS)
+    assert is_divergent(0.5**NUMBER, "unbounded", SETTINGS)
+    assert is_divergent(np.array([1.0, np.nan]), "unbounded", SETTINGS)
+
+
+def test_a_beat_past_its_maximum_does_not_diverge():
+    rising_again = np.where(NUMBER < 10, 2.0, 1.03 ** (NUMBER - 10))
+    assert growth_per_revolution(rising_again, 10) == pytest.approx(0.03)
+    assert not is_divergent(rising_again, "completed", SETTINGS)
 
 
 def test_the_table_has_a_row_per_run(tmp_path, config, make_map):
