@@ -174,10 +174,11 @@ def _is_number(value: Any) -> bool:
 
 
 def key_path(parts: list[Any]) -> str:
-    """Write a path into the config as ``coatings[1].E[0]``."""
+    """Write a path into the config as ``coatings[1].E[0]``, a key that is no plain word in quotes."""
     text = ""
     for part in parts:
-        text += f"[{part}]" if isinstance(part, int) else f".{part}" if text else str(part)
+        plain = isinstance(part, str) and re.fullmatch(r"\w+", part)
+        text += f"{'.' if text else ''}{part}" if plain else f"[{shown(part)}]"
     return text
 
 
@@ -207,12 +208,9 @@ def _describe(error: jsonschema.ValidationError) -> list[str]:
         return [f"{key_path(parts)} = {shown(error.instance)}: {rule['title']} must not name one twice"]
     where = f"{key_path(parts)} = {shown(error.instance)}" if parts else shown(error.instance)
     fault = f"{where}: {_right(rule)}"
-    if (
-        error.validator == "type"
-        and isinstance(error.instance, str)
-        and rule["type"] in ("number", "integer")
-    ):
-        fault += " without its unit" if re.match(r"\s*[-+.\d]", error.instance) else ""
+    has_digits = isinstance(error.instance, str) and re.match(r"\s*[-+.\d]", error.instance)
+    if has_digits and rule["type"] in ("number", "integer"):
+        fault += ", the number alone"
     return [fault]
 
 
