@@ -12,7 +12,13 @@ sys.stderr = open(snakemake.log[0], "w", buffering=1)
 peaks = pd.read_csv(snakemake.input.peaks).query(snakemake.params.coatings + " and order == 4")
 table = peaks.pivot(index="E", columns="K", values="f_peak")
 table.to_csv(snakemake.output.data, float_format="%.6g")
+floor = table.min(axis=None) - 0.01  # so that the lowest bar is seen, and the differences too
 figure = histogram(
-    table.index, table.columns, table.to_numpy(), "rotational frequency $f_4$ (normalised)", digits=3
+    table.index,
+    table.columns,
+    table.to_numpy(),
+    "rotational frequency $f_4$ (normalised)",
+    digits=3,
+    floor=floor,
 )
 style.save(figure, snakemake.output.png, snakemake.output.pdf, snakemake.params.dpi)

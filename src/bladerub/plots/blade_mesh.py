@@ -14,7 +14,7 @@ from bladerub.plots.surface import View, boundary_faces, normals
 
 _METAL = np.array(colors.to_rgb("#c3ccd6"))
 _LIGHT = np.array([-0.35, 0.85, 0.40])
-_VIEW = View(elevation=24, azimuth=90)  # the pressure side, with the tip face and the twist in sight
+_VIEW = View(elevation=24, azimuth=102)  # the pressure side, with the tip face and the twist in sight
 _EDGES = {"edgecolors": DARK, "linewidths": 0.35}
 _INTERFACE = {
     "marker": "o",
@@ -43,7 +43,7 @@ def blade_mesh(points: np.ndarray, hexahedra: np.ndarray, interface: np.ndarray,
     root : (n_root,) ndarray of int
         Clamped nodes.
     """
-    figure = new_figure(PAGE, 0.92 * PAGE)
+    figure = new_figure(PAGE, 0.86 * PAGE)
     whole, tip = figure.subplots(1, 2, width_ratios=[1, 1.05])
     millimetres = 1e3 * points
     faces = boundary_faces(hexahedra)
@@ -68,22 +68,21 @@ def _draw_whole(
     axes.set_aspect("equal")
     axes.margins(0.03)
     axes.set_axis_off()
-    _draw_directions(axes, points[interface].mean(axis=0) + np.array([52, 0, -50]))
+    _draw_directions(axes, points[interface].mean(axis=0) + np.array([45, 0, -45]))
 
 
 def _draw_directions(axes: Axes, origin: np.ndarray) -> None:
-    for axis, name in enumerate(("x (axial)", "y (rotation)", "z (radial)")):
+    for axis, (name, ha, va) in enumerate(
+        (
+            ("x, axial ", "right", "center"),
+            ("y, rotation", "center", "top"),
+            ("z, radial", "center", "bottom"),
+        )
+    ):
         foot, head = _VIEW.project(np.stack([origin, origin + _AXIS * np.eye(3)[axis]]))
         axes.plot(*np.transpose([foot, head]), color=DARK, linewidth=0.9, label="_direction")
         axes.annotate("", head, foot, arrowprops={"arrowstyle": "-|>", "color": DARK, "linewidth": 0})
-        axes.annotate(
-            name,
-            foot + 1.1 * (head - foot),
-            ha="center",
-            va="bottom" if axis == 2 else "top",
-            fontsize=7.5,
-            annotation_clip=False,
-        )
+        axes.annotate(name, head, ha=ha, va=va, fontsize=7.5, annotation_clip=False)
 
 
 def _draw_tip(axes: Axes, points: np.ndarray, faces: np.ndarray, interface: np.ndarray) -> None:
@@ -96,7 +95,7 @@ def _draw_tip(axes: Axes, points: np.ndarray, faces: np.ndarray, interface: np.n
         axes.annotate(str(number), node, xytext=(6, 4), textcoords="offset points", color=RED)
     for node, name, side, align in ((0, "leading edge", 1, "bottom"), (-1, "trailing edge", -1, "top")):
         axes.annotate(
-            name, (x[node], y[node]), xytext=(0, 9 * side), textcoords="offset points", ha="center", va=align
+            name, (x[node], y[node]), xytext=(0, 14 * side), textcoords="offset points", ha="center", va=align
         )
     axes.annotate(
         "rotation",

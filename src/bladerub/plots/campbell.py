@@ -51,7 +51,7 @@ def _modes(axes: Axes, f_omega: np.ndarray, f_fe: np.ndarray, f_rom: np.ndarray)
         axes.annotate(
             f"{mode + 1}",
             (f_omega[0], f_rom[0, mode]),
-            xytext=(3, 2.5),
+            xytext=(3 + 10 * (mode % 2), 2.5),
             textcoords="offset points",
             fontsize=7,
             color=DARK,

@@ -40,14 +40,13 @@ def casing_polar(
     axes.plot(*close(angle, np.full(np.size(angle), radius)), color=GREY, linewidth=1.0, label="round casing")
     for (name, displacement), line in zip(inward.items(), _LINES, strict=False):
         axes.plot(*close(angle, radius - magnification * np.asarray(displacement)), label=name, **line)
-    steps = np.array([-1, 0, 1]) * largest
-    axes.set_rgrids(
-        radius + magnification * steps, [f"{1e3 * step:+.2g} mm" if step else "0" for step in steps]
-    )
+    rings = radius + magnification * largest * np.array([-1, 0, 1])
+    axes.set_rgrids(rings, [])
     axes.set_rlim(0, radius + 1.1 * magnification * largest)
     figure.legend(
         loc="outside lower center",
         ncols=2,
-        title=f"change of the inner radius of {1e3 * radius:.0f} mm, magnified {magnification:g} times",
+        title=f"change of the inner radius ({1e3 * radius:.0f} mm), magnified {magnification:g} times\n"
+        f"rings {1e3 * largest:.2g} mm apart",
     )
     return figure

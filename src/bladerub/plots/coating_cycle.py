@@ -46,15 +46,16 @@ class Cycle:
 def coating_cycle(cycles: list[Cycle]) -> Figure:
     """Draw Fig. 4: a panel for each cycle, with E, E_T, σ_Y and the plastic strain that remains."""
     figure = new_figure(PAGE, 0.5 * PAGE)
-    panels = figure.subplots(1, len(cycles), sharex=True, sharey=True, squeeze=False)[0]
+    panels = figure.subplots(1, len(cycles), sharex=True, squeeze=False)[0]
     for axes, cycle in zip(panels, cycles, strict=True):
         _draw_cycle(axes, cycle)
-        axes.set(title=cycle.title, xlabel=r"compressive strain $\varepsilon$")
-    panels[0].set(
-        xlim=(0, 1.1 * max(cycle.strain.max() for cycle in cycles)),
-        ylim=(0, 1.15 * max(cycle.stress.max() for cycle in cycles)),
-        ylabel=r"compressive stress $\sigma$ (normalised)",
-    )
+        axes.set(
+            title=cycle.title,
+            xlim=(0, 1.1 * cycle.strain.max()),
+            ylim=(0, 1.12 * cycle.stress.max()),
+            xlabel=r"compressive strain $\varepsilon$",
+        )
+    panels[0].set_ylabel(r"compressive stress $\sigma$ (normalised)")
     figure.legend(*panels[0].get_legend_handles_labels(), loc="outside lower center", ncols=3)
     return figure
 
@@ -82,38 +83,35 @@ def _draw_cycle(axes: Axes, cycle: Cycle) -> None:
         zorder=4,
         label=r"plastic strain $\varepsilon^p$ that remains (wear)",
     )
+    note = rf"$\sigma_Y$ = {cycle.yield_stress:g}"
     if cycle.yield_stress > 0.02 * cycle.stress.max():
         axes.axhline(cycle.yield_stress, color=GREY, linestyle=":", linewidth=0.9, label="_yield")
-        note, height = rf"$\sigma_Y$ = {cycle.yield_stress:g}", cycle.yield_stress
+        axes.text(1.09 * cycle.strain.max(), 0.98 * cycle.yield_stress, note, ha="right", va="top")
     else:
-        note, height = rf"$\sigma_Y$ = {cycle.yield_stress:g}, not visible", 0.1 * cycle.stress.max()
-    axes.annotate(
-        note,
-        (0.99, height),
-        xycoords=("axes fraction", "data"),
-        xytext=(0, 2),
-        textcoords="offset points",
-        ha="right",
-    )
-    _mark_slopes(axes, cycle, flows)
+        axes.text(0.02, 0.93, note + ": too small to be seen", transform=axes.transAxes)
+    _mark_slopes(axes, cycle)
 
 
 def _remaining(cycle: Cycle) -> np.ndarray:
-    """Plastic strains at which the bar comes free."""
+    """Find the plastic strains at which the bar comes free."""
     free = (cycle.stress[1:] == 0) & (cycle.stress[:-1] > 0)
     return cycle.plastic_strain[1:][free]
 
 
-def _mark_slopes(axes: Axes, cycle: Cycle, flows: np.ndarray) -> None:
+def _mark_slopes(axes: Axes, cycle: Cycle) -> None:
     """Draw a slope triangle under the last unloading, and one under the last loading."""
     top = int(np.argmax(cycle.stress))
     strain, stress = cycle.strain[top], cycle.stress[top]
-    for name, slope, share in (("E", cycle.E, 0.35), ("E_T", cycle.tangent_modulus, 0.16)):
-        rise = 0.22 * stress
+    beside, below = {"ha": "left", "va": "center"}, {"ha": "center", "va": "top"}
+    for name, slope, share, place in (
+        ("E", cycle.E, 0.6, beside),
+        ("E_T", cycle.tangent_modulus, 0.08, below),
+    ):
+        rise = min(0.22 * stress, 0.22 * slope * strain)
         run = rise / slope
         # the upper corner lies on the branch, `share` of the stress below its end
         x, y = strain - share * stress / slope, stress * (1 - share)
         axes.plot([x - run, x, x], [y - rise, y - rise, y], color=GREY, linewidth=0.9, label="_slope")
-        axes.annotate(
-            f"${name}$ = {slope:g}", (x, y - rise / 2), xytext=(3, 0), textcoords="offset points", va="center"
-        )
+        corner = (x, y - rise / 2) if place is beside else (x - run / 2, y - rise)
+        away = (3, 0) if place is beside else (0, -3)
+        axes.annotate(f"${name}$ = {slope:g}", corner, xytext=away, textcoords="offset points", **place)

@@ -7,7 +7,7 @@ from collections.abc import Iterable
 from matplotlib.axes import Axes
 
 _LINE = {"color": "#8f8f8f", "linewidth": 0.6, "zorder": 1.5}
-_NEAREST = (0.085, 0.035)  # shares of the axes; a name that stands closer to the one before is left out
+_NEAREST = (0.1, 0.035)  # shares of the axes; a name that stands closer to the one before is left out
 LABEL = "engine orders eo(k)"
 """Label of the first line, for the legend; the others have none."""
 

@@ -95,6 +95,7 @@ def _cells(axes: Axes, E, K, values: np.ndarray, label: str, digits: int, norm: 
         text = "–" if np.isnan(value) else f"{value:.{digits}f}"
         on_dark = not np.isnan(value) and norm(value) < 0.6
         axes.text(i, j, text, ha="center", va="center", fontsize=7, color="white" if on_dark else "black")
+    axes.set_title("(b) maximum framed")
     for i, j in np.argwhere(values == np.nanmax(values)):
         axes.add_patch(
             Rectangle((i - 0.5, j - 0.5), 1, 1, fill=False, edgecolor=RED, linewidth=2, clip_on=False)
@@ -104,6 +105,5 @@ def _cells(axes: Axes, E, K, values: np.ndarray, label: str, digits: int, norm: 
     axes.set(
         facecolor=MISSING, xlabel="Young modulus E (normalised)", ylabel="plastic modulus K (normalised)"
     )
-    axes.set_title("(b) maximum framed")
     bar = axes.figure.colorbar(mesh, ax=axes, label=label, location="bottom", aspect=30)
     bar.locator = MaxNLocator(nbins=5)

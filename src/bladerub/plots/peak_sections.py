@@ -66,26 +66,20 @@ def peak_sections(
         ray = coating.f_omega[-1] * np.array([0, 1])
         spectrum.plot(section.order * ray, ray, color=RED, linewidth=0.8, label="_section")
         spectrum.plot(section.order * section.f_peak, section.f_peak, label="_peak", **_RING)
-        _draw_section(curves, coating.f_omega, section, look, end)
+        _draw_section(curves, coating.f_omega, section, look)
     curves.set_title("(b) along the engine orders", pad=16)
     curves.set(xlim=(0, 1.1 * end), xlabel="amplitude (mm)")
     curves.tick_params(labelleft=True)
-    curves.legend(loc="lower right", title="shaded: searched speeds", title_fontsize=7)
+    legend = curves.legend(
+        loc="upper center", bbox_to_anchor=(0.45, -0.13), title="shaded: searched speeds", title_fontsize=7
+    )
+    legend.set_in_layout(False)  # it stands in the room that the colour bar makes
     return figure
 
 
-def _draw_section(axes: Axes, f_omega: np.ndarray, section: PeakSection, look: dict, end: float) -> None:
+def _draw_section(axes: Axes, f_omega: np.ndarray, section: PeakSection, look: dict) -> None:
     k, peak = section.order, 1e3 * section.peak
+    label = f"eo({k}): $Y_{{{k}}}$ = {peak:.3g} mm at $f_{{{k}}}$ = {section.f_peak:.3f}"
     axes.axhspan(*section.window, color=look["color"], alpha=0.13, linewidth=0, label=f"_window{k}")
-    axes.plot(1e3 * section.amplitude, f_omega, markersize=2.2, linewidth=1.0, label=f"eo({k})", **look)
+    axes.plot(1e3 * section.amplitude, f_omega, markersize=2.2, linewidth=1.0, label=label, **look)
     axes.plot(peak, section.f_peak, label="_peak", **_RING)
-    right = peak < 0.55 * end  # the text goes where the curves are not
-    axes.annotate(
-        f"$Y_{{{k}}}$ = {peak:.3g} mm\n$f_{{{k}}}$ = {section.f_peak:.3f}",
-        (peak, section.f_peak),
-        xytext=(9, 0) if right else (-4, 12),
-        textcoords="offset points",
-        ha="left" if right else "right",
-        va="center" if right else "bottom",
-        bbox={"facecolor": "white", "edgecolor": "none", "pad": 1, "alpha": 0.85},
-    )

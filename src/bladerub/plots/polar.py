@@ -12,7 +12,7 @@ def open_polar(figure: Figure, *position: int) -> PolarAxes:
     axes = figure.add_subplot(*position, projection="polar")
     axes.set_theta_zero_location("N")
     axes.set_thetagrids(range(0, 360, 45))
-    axes.set_rlabel_position(22)
+    axes.set_rlabel_position(90)
     axes.tick_params(labelsize=7)
     for label in axes.get_yticklabels():
         label.set_bbox({"facecolor": "white", "edgecolor": "none", "pad": 0.5, "alpha": 0.8})

@@ -72,5 +72,5 @@ class View:
 
     def front_faces(self, polygons: np.ndarray) -> np.ndarray:
         """List the faces among (n, 8, 3) that are turned to the eye, the farthest first."""
-        facing = np.flatnonzero(normals(polygons) @ self.towards_eye > 0)
+        facing = np.flatnonzero(normals(polygons) @ self.towards_eye > 1e-6)  # not those seen edge-on
         return facing[np.argsort((polygons[facing] @ self.towards_eye).mean(axis=1))]

@@ -49,7 +49,7 @@ class TipScene:
 @styled
 def tip_profile(scene: TipScene, title: str) -> Figure:
     """Draw Fig. 3: the elements to scale (a) and their worn ends with the depth magnified (b)."""
-    figure = new_figure(PAGE, 0.82 * PAGE)
+    figure = new_figure(PAGE, 0.74 * PAGE)
     whole, ends = figure.subplots(2, 1, sharex=True, height_ratios=[1.05, 1])
     _draw_whole(whole, scene)
     _draw_ends(ends, scene)
@@ -104,7 +104,7 @@ def _draw_angle(axes: Axes, scene: TipScene) -> None:
     axes.plot(foot + 0.9 * length * np.sin(turned), 0.9 * length * np.cos(turned), color=RED, linewidth=1.1)
     axes.annotate(
         rf"$\theta$ = {scene.theta:g} rad",
-        (foot + length, 0.45 * length),
+        (foot + 0.45 * length, 0.4 * length),
         va="center",
         color=RED,
         bbox=_LABEL,
@@ -141,8 +141,14 @@ def _draw_ends(axes: Axes, scene: TipScene) -> None:
     axes.plot(0, 1e6 * scene.tip_depth.max(), marker="o", markersize=6, color=RED, zorder=5, label="_node")
     axes.axhline(0, color=DARK, linewidth=0.8, linestyle=(0, (4, 2)), label="original surface")
     axes.set(
-        ylim=(-0.45 * depth.max(), top),
+        ylim=(-0.15 * depth.max(), top),
         xlabel="distance from the interface node along the circumference (mm)",
         ylabel="height over the\noriginal surface (µm)",
     )
-    axes.legend(loc="upper center", bbox_to_anchor=(0.5, 0.24), ncols=5, handlelength=1.4, columnspacing=1.0)
+    axes.figure.legend(
+        *axes.get_legend_handles_labels(),
+        loc="outside lower center",
+        ncols=5,
+        handlelength=1.4,
+        columnspacing=1.0,
+    )

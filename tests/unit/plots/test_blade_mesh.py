@@ -1,0 +1,75 @@
+import numpy as np
+import pytest
+
+from bladerub.plots.blade_mesh import blade_mesh
+from bladerub.plots.surface import View, boundary_faces, normals
+
+CORNERS = np.array(
+    [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 0, 1], [1, 0, 1], [1, 1, 1], [0, 1, 1]], float
+)
+EDGES = [(0, 1), (1, 2), (2, 3), (3, 0), (4, 5), (5, 6), (6, 7), (7, 4), (0, 4), (1, 5), (2, 6), (3, 7)]
+
+
+def tower(n: int) -> tuple[np.ndarray, np.ndarray]:
+    """Stack n unit cubes of 20 nodes: points and connectivity."""
+    cube = np.vstack([CORNERS, [(CORNERS[a] + CORNERS[b]) / 2 for a, b in EDGES]])
+    every = np.vstack([cube + np.array([0, 0, level]) for level in range(n)])
+    points, index = np.unique(every, axis=0, return_inverse=True)
+    return points, index.reshape(n, 20)
+
+
+def test_faces_between_elements_are_left_out():
+    points, hexahedra = tower(3)
+    faces = boundary_faces(hexahedra)
+    assert faces.shape == (14, 8)
+    assert set(np.unique(faces)) == set(range(len(points)))
+
+
+def test_normals_point_outward_and_nodes_go_around():
+    points, hexahedra = tower(2)
+    polygons = points[boundary_faces(hexahedra)]
+    outward = polygons.mean(axis=1) - points.mean(axis=0)
+    assert (np.einsum("ij,ij->i", normals(polygons), outward) > 0).all()
+    steps = np.linalg.norm(np.diff(polygons, axis=1), axis=2)
+    np.testing.assert_allclose(steps, 0.5)  # from a corner to the next mid-side node
+
+
+def test_view_from_the_front():
+    view = View(elevation=0, azimuth=-90)  # looking along +y: x to the right, z up
+    np.testing.assert_allclose(view.project(np.eye(3)), [[1, 0], [0, 0], [0, 1]], atol=1e-12)
+    points, hexahedra = tower(2)
+    polygons = points[boundary_faces(hexahedra)]
+    seen = view.front_faces(polygons)
+    np.testing.assert_allclose(polygons[seen][:, :, 1], 0, atol=1e-12)
+    assert len(seen) == 2
+
+
+def test_farther_faces_are_drawn_first():
+    points, hexahedra = tower(2)
+    view = View(elevation=30, azimuth=40)
+    polygons = points[boundary_faces(hexahedra)]
+    depth = (polygons[view.front_faces(polygons)] @ view.towards_eye).mean(axis=1)
+    assert (np.diff(depth) >= 0).all()
+
+
+@pytest.fixture
+def panels(draws):
+    points, hexahedra = tower(3)
+    top, bottom = np.flatnonzero(points[:, 2] == 3), np.flatnonzero(points[:, 2] == 0)
+    return draws(blade_mesh(points, hexahedra, top, bottom)).axes
+
+
+def test_all_node_sets_are_marked(panels):
+    counts = {line.get_label(): len(line.get_xdata()) for line in panels[0].lines}
+    assert counts["clamped root nodes"] == 8
+    assert counts["interface nodes"] == 8
+    assert panels[0].get_title(loc="left") == "(a) 3 hexahedra, 44 nodes"
+
+
+def test_the_tip_shows_its_face_and_numbered_nodes_in_mm(panels):
+    (tip,) = panels[1].collections[0].get_paths()
+    assert tip.vertices.max() == pytest.approx(1e3)
+    numbers = [text.get_text() for text in panels[1].texts if text.get_text().isdigit()]
+    assert numbers == [str(i) for i in range(1, 9)]
+    assert panels[1].get_xlabel() == "axial x (mm)"
+    assert panels[1].get_aspect() == 1

@@ -1,0 +1,31 @@
+import numpy as np
+import pytest
+from matplotlib.figure import Figure
+
+from bladerub.plots import engine_orders
+
+
+@pytest.mark.parametrize("over", ["speed", "frequency"])
+def test_lines_have_slope_k_and_end_at_the_frame(over):
+    axes = Figure().add_subplot()
+    if over == "speed":
+        engine_orders.over_speed(axes, range(1, 9), speed_max=0.4, f_max=2.0)
+        lines = [line.get_xydata() for line in axes.lines]
+    else:
+        engine_orders.over_frequency(axes, range(1, 9), f_max=2.0, speed_max=0.4)
+        lines = [line.get_xydata()[:, ::-1] for line in axes.lines]
+    for k, line in enumerate(lines, start=1):
+        (x0, y0), (speed, f) = line
+        assert (x0, y0) == (0, 0)
+        assert f == pytest.approx(k * speed)
+        assert speed == pytest.approx(0.4) or f == pytest.approx(2.0)
+    assert [text.get_text() for text in axes.texts][:4] == ["eo(1)", "eo(2)", "eo(3)", "eo(4)"]
+
+
+def test_names_do_not_stand_on_each_other():
+    axes = Figure().add_subplot()
+    engine_orders.over_speed(axes, range(1, 41), speed_max=0.4, f_max=2.0)
+    at_top = np.array([text.xy[0] for text in axes.texts if text.xy[1] == pytest.approx(2.0)])
+    assert len(axes.lines) == 40
+    assert len(at_top) > 2
+    assert np.abs(np.diff(at_top)).min() >= 0.1 * 0.4

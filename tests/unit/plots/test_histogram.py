@@ -1,0 +1,60 @@
+import numpy as np
+import pytest
+from matplotlib.colors import to_rgba
+from matplotlib.patches import Rectangle
+from mpl_toolkits.mplot3d import Axes3D
+
+from bladerub.plots.histogram import histogram
+from bladerub.plots.style import MISSING, RED
+
+VALUES = np.array([[0.1, np.nan], [0.4, 0.3], [np.nan, 0.2]])
+
+
+@pytest.fixture
+def figure():
+    return histogram([0.11, 1.1, 20], [0.5, 5], VALUES, "$Y_4$ (mm)", digits=2)
+
+
+def test_both_views_save(figure, draws):
+    bars, cells, colour_bar = draws(figure).axes
+    assert bars.get_title(loc="left") == "(a) $Y_4$ (mm)"
+    assert colour_bar.get_xlabel() == "$Y_4$ (mm)"
+    assert cells.get_xlabel() == "Young modulus E (normalised)"
+    assert [tick.get_text() for tick in cells.get_xticklabels()] == ["0.11", "1.1", "20"]
+    assert [tick.get_text() for tick in bars.get_yticklabels()] == ["0.5", "5"]
+
+
+def test_a_bar_for_each_value_and_none_for_a_hole(monkeypatch):
+    bars = []
+    monkeypatch.setattr(Axes3D, "bar3d", lambda self, *bar, **look: bars.append(bar))
+    histogram([0.11, 1.1, 20], [0.5, 5], VALUES, "$Y_4$ (mm)", digits=2, floor=0.05)
+    ((x, y, floor, width, depth, height),) = bars
+    places = np.rint(np.transpose([x + width / 2, y + depth / 2])).astype(int)
+    np.testing.assert_array_equal(places, [[0, 0], [1, 0], [1, 1], [2, 1]])
+    np.testing.assert_allclose(floor + height, [0.1, 0.4, 0.3, 0.2])
+
+
+def test_cells_carry_the_values_and_a_dash_where_one_is_missing(figure):
+    cells = figure.axes[1]
+    texts = {text.get_position(): text.get_text() for text in cells.texts}
+    assert texts == {(0, 0): "0.10", (0, 1): "–", (1, 0): "0.40", (1, 1): "0.30", (2, 0): "–", (2, 1): "0.20"}
+    drawn = cells.collections[0].get_array().reshape(2, 3)
+    np.testing.assert_array_equal(drawn.mask, np.isnan(VALUES.T))
+    assert cells.get_facecolor() == to_rgba(MISSING)
+
+
+def test_the_maximum_is_framed(figure):
+    (frame,) = [patch for patch in figure.axes[1].patches if isinstance(patch, Rectangle)]
+    assert frame.get_xy() == (0.5, -0.5)
+    assert frame.get_edgecolor() == to_rgba(RED)
+
+
+def test_bars_stand_on_the_floor(draws):
+    figure = draws(histogram([1, 2], [1, 2], 0.3 + VALUES[1:] / 100, "$f_4$", digits=3, floor=0.29))
+    assert figure.axes[0].get_zlim()[0] == pytest.approx(0.29)
+    assert figure.axes[1].collections[0].norm.vmin == pytest.approx(0.29)
+
+
+def test_nothing_to_draw_is_said():
+    with pytest.raises(ValueError, match="is missing"):
+        histogram([1, 2], [1], np.full((2, 1), np.nan), "$Y_4$ (mm)", digits=2)

@@ -1,0 +1,64 @@
+from itertools import pairwise
+
+import matplotlib
+import pytest
+
+from bladerub.plots import style
+
+
+def luminance(colour: str) -> float:
+    red, green, blue = matplotlib.colors.to_rgb(colour)
+    return 0.2126 * red + 0.7152 * green + 0.0722 * blue
+
+
+def test_the_style_leaves_the_settings_of_the_session_alone(tmp_path):
+    before = dict(matplotlib.rcParams)
+
+    @style.styled
+    def draw():
+        assert matplotlib.rcParams["axes.spines.top"] is False
+        return style.new_figure(2, 1)
+
+    style.save(draw(), tmp_path / "a.png", tmp_path / "a.pdf", dpi=50)
+    assert dict(matplotlib.rcParams) == before
+
+
+def test_pyplot_holds_no_figure_of_ours(tmp_path):
+    figure = style.new_figure(2, 1)
+    style.save(figure, tmp_path / "a.png", tmp_path / "a.pdf", dpi=50)
+    from matplotlib import pyplot
+
+    assert pyplot.get_fignums() == []
+
+
+def test_equal_figures_give_equal_files(tmp_path):
+    @style.styled
+    def draw():
+        figure = style.new_figure(2, 1)
+        figure.add_subplot().plot([0, 1])
+        return figure
+
+    for name in "ab":
+        style.save(draw(), tmp_path / f"{name}.png", tmp_path / f"{name}.pdf", dpi=50)
+    for suffix in ("png", "pdf"):
+        assert (tmp_path / f"a.{suffix}").read_bytes() == (tmp_path / f"b.{suffix}").read_bytes()
+
+
+def test_dpi_sets_the_pixels_of_the_png(tmp_path):
+    from matplotlib.image import imread
+
+    style.save(style.new_figure(2, 1), tmp_path / "a.png", tmp_path / "a.pdf", dpi=70)
+    assert imread(tmp_path / "a.png").shape[:2] == (70, 140)
+
+
+def test_the_two_lines_of_a_comparison_differ_in_grey_and_in_dash():
+    assert abs(luminance(style.FIRST["color"]) - luminance(style.SECOND["color"])) > 0.3
+    assert style.FIRST["linestyle"] != style.SECOND["linestyle"]
+
+
+@pytest.mark.parametrize("name", ["AMPLITUDE_MAP", "WEAR_MAP", "HEIGHT_MAP"])
+def test_colour_maps_keep_their_order_in_grey(name):
+    colours = matplotlib.colormaps.get_cmap(getattr(style, name))
+    steps = [luminance(colours(i / 32)) for i in range(33)]
+    falling = [b < a for a, b in pairwise(steps)]
+    assert all(falling) or not any(falling)

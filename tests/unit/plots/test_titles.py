@@ -1,0 +1,13 @@
+from bladerub.plots import titles
+from bladerub.study.grid import CoatingCase
+
+
+def test_coatings_are_named_in_full():
+    assert (
+        titles.coating(CoatingCase("2nd", 0.11, 0.5, 0.15)) == "casing 2nd, E = 0.11, K = 0.5, θ = 0.15 rad"
+    )
+    assert titles.coating(CoatingCase("2nd5nd", 11.0, 10.0, 0.0)) == "casing 2nd5nd, E = 11, K = 10, θ = 0"
+
+
+def test_speeds_have_three_decimals():
+    assert titles.speed(0.19) == r"$f_\Omega$ = 0.190"
