@@ -22,7 +22,7 @@ from typing import Any
 import numpy as np
 from scipy.interpolate import CubicSpline
 
-EDGE_THICKNESS = 0.25
+EDGE_THICKNESS = 0.4
 """Edge thickness over the largest thickness of a section: blunt, so that hexahedra keep their shape."""
 
 _COLUMNS = ("chord", "thickness", "camber", "stagger", "sweep", "lean")
@@ -59,6 +59,10 @@ class BladeShape:
         span = np.array([section["span"] for section in blade["sections"]], dtype=float)
         return cls(float(blade["hub_radius"]), float(blade["length"]), span, sections)
 
+    def section(self, zeta: np.ndarray) -> np.ndarray:
+        """Interpolate the columns of `sections` at the relative heights `zeta`: (6, ...)."""
+        return np.moveaxis(CubicSpline(self.span, self.sections)(zeta), -1, 0)
+
     def points(self, xi: np.ndarray, eta: np.ndarray, zeta: np.ndarray) -> np.ndarray:
         """Map the unit cube to space: points (3, ...), m.
 
@@ -66,9 +70,7 @@ class BladeShape:
         from root to tip; the three arrays are broadcast against each other.
         """
         xi, eta, zeta = np.broadcast_arrays(xi, eta, zeta)
-        chord, thickness, camber, stagger, sweep, lean = np.moveaxis(
-            CubicSpline(self.span, self.sections)(zeta), -1, 0
-        )
+        chord, thickness, camber, stagger, sweep, lean = self.section(zeta)
         rise = chord * np.tan(camber / 2) / 4  # of the parabola with end slopes ±tan(camber / 2)
         along = chord * (xi - 0.5)
         across = rise * (2 / 3 - 4 * xi * (1 - xi))  # its centroid on the chord line
@@ -112,14 +114,16 @@ def check(blade: Mapping[str, Any]) -> None:
                 f"must be above that of the section before ({spans[at - 1]:g})"
             )
     xi, eta, zeta = lattice(blade["mesh"])
-    points = BladeShape.from_config(blade).points(xi[:, None, None], eta[None, :, None], zeta[None, None, :])
-    jacobian = corner_jacobians(points)
-    if not np.all(jacobian > 0):
-        worst = np.unravel_index(np.argmin(jacobian.min(axis=0)), jacobian.shape[1:])
-        height = 0.5 * (zeta[worst[2]] + zeta[worst[2] + 1])
+    shape = BladeShape.from_config(blade)
+    jacobian = corner_jacobians(shape.points(xi[:, None, None], eta[None, :, None], zeta[None, None, :]))
+    lowest = jacobian.min(axis=(0, 1, 2))
+    chord = shape.section(zeta)[0]  # below zero with the thickness, it leaves the determinant positive
+    inside_out = (lowest <= 0) | (chord[:-1] <= 0) | (chord[1:] <= 0)
+    if np.any(inside_out):
+        at = np.flatnonzero(inside_out)[0]
         raise ValueError(
-            f"blade.sections: mesh turned inside out at span {height:.3g}; "
-            "sections must not fold, cross or have a thickness below zero there"
+            f"blade.sections: mesh turned inside out at span {zeta[at]:.3g} to {zeta[at + 1]:.3g}; "
+            "chord and thickness must stay above zero between the sections, and neighbours must not cross"
         )
 
 
