@@ -104,8 +104,8 @@ class Solid:
 
     def internal_force(self, u: np.ndarray) -> np.ndarray:
         """Evaluate r(u; v) for every v: the internal force (n,) at the displacement `u`, N."""
-        F, S = self._kinematics(self._gradients, self._element_displacement(u))
-        first_piola = F @ S * self._weights[..., None, None]
+        F = self.deformation_gradient(u)
+        first_piola = F @ self._stress(F) * self._weights[..., None, None]
         force = np.einsum("eqij,eqaj->eai", first_piola, self._gradients, optimize=True)
         total = np.bincount(
             self._dofs.ravel(), weights=force.ravel(), minlength=3 * self.mesh.doflocs.shape[1]
@@ -123,27 +123,23 @@ class Solid:
             )
         return self._pattern.assemble(elements)
 
-    def green_strain(self, u: np.ndarray) -> np.ndarray:
-        """Evaluate the Green-Lagrange strain (n_elements, 27, 3, 3) at the Gauss points."""
-        F = np.eye(3) + np.einsum(
-            "eai,eqaj->eqij", self._element_displacement(u), self._gradients, optimize=True
-        )
-        return 0.5 * (np.swapaxes(F, -1, -2) @ F - np.eye(3))
+    def deformation_gradient(self, u: np.ndarray) -> np.ndarray:
+        """Evaluate F (n_elements, 27, 3, 3) at the Gauss points."""
+        return _deformation_gradient(self._gradients, self._element_displacement(u))
 
     def _element_displacement(self, u: np.ndarray) -> np.ndarray:
         return self.full(u).ravel()[self._dofs].reshape(len(self._dofs), 20, 3)
 
-    def _kinematics(self, gradients: np.ndarray, displacement: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Deformation gradient F and second Piola-Kirchhoff stress S (element, point, 3, 3)."""
+    def _stress(self, F: np.ndarray) -> np.ndarray:
+        """Second Piola-Kirchhoff stress S (element, point, 3, 3), Pa."""
         lam, mu = self.material.lame
-        F = np.eye(3) + np.einsum("eai,eqaj->eqij", displacement, gradients, optimize=True)
         E = 0.5 * (np.swapaxes(F, -1, -2) @ F - np.eye(3))
-        S = lam * np.trace(E, axis1=-2, axis2=-1)[..., None, None] * np.eye(3) + 2 * mu * E
-        return F, S
+        return lam * np.trace(E, axis1=-2, axis2=-1)[..., None, None] * np.eye(3) + 2 * mu * E
 
     def _element_tangents(self, gradients, displacement, weights) -> np.ndarray:
         lam, mu = self.material.lame
-        F, S = self._kinematics(gradients, displacement)
+        F = _deformation_gradient(gradients, displacement)
+        S = self._stress(F)
         n_elements, n_points = weights.shape
         Fv = np.einsum("eqiI,eqaJ->eqIJai", F, gradients, optimize=True).reshape(
             n_elements, n_points, 3, 3, 60
@@ -161,6 +157,10 @@ class Solid:
         for axis in range(3):
             blocks[:, :, axis, :, axis] += geometric
         return material
+
+
+def _deformation_gradient(gradients: np.ndarray, displacement: np.ndarray) -> np.ndarray:
+    return np.eye(3) + np.einsum("eai,eqaj->eqij", displacement, gradients, optimize=True)
 
 
 class _Pattern:

@@ -49,7 +49,7 @@ def _c3d20_order() -> np.ndarray:
 
 
 _C3D20_ORDER = _c3d20_order()
-_MIRRORED = [1, 0, 4, 5, 2, 3, 7, 6]  # scikit-fem numbers its tensor meshes left-handed
+_ALONG_THE_CUBE = [7, 4, 6, 5, 2, 1, 3, 0]  # scikit-fem numbers its tensor meshes left-handed
 
 
 def hexahedral_mesh(
@@ -60,7 +60,7 @@ def hexahedral_mesh(
     Parameters
     ----------
     xi, eta, zeta : ndarray
-        Ascending coordinates of the element corners.
+        Ascending coordinates of the element corners; elements are numbered bottom to top along ζ.
     points : callable
         ``points(xi, eta, zeta) -> (3, n)``: place in space, m.
 
@@ -72,7 +72,7 @@ def hexahedral_mesh(
         ξ, η, ζ of every node.
     """
     cube = MeshHex1.init_tensor(xi, eta, zeta)
-    cube = MeshHex1(cube.doflocs, cube.t[_MIRRORED])
+    cube = MeshHex1(cube.doflocs, cube.t[_ALONG_THE_CUBE])
     parameters = np.hstack([cube.p, cube.p[:, cube.edges].mean(axis=1)])
     return MeshHexS2(points(*parameters), cube.t), parameters
 

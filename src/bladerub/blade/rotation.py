@@ -99,10 +99,12 @@ def _newton(solid: Solid, omega_squared: float, start: np.ndarray) -> tuple[np.n
     """Displacement in equilibrium, or None, and the iterations made."""
     u = start
     for iteration in range(MAX_ITERATIONS + 1):
+        if not np.all(
+            np.linalg.det(solid.deformation_gradient(u)) > 0
+        ):  # matter turned inside out, or not finite
+            return None, iteration
         force = residual(solid, u, omega_squared)
         scale = np.linalg.norm(centrifugal_load(solid, u, omega_squared))
-        if not np.all(np.isfinite(force)):
-            return None, iteration
         if np.linalg.norm(force) <= TOLERANCE * scale:
             return u, iteration
         if iteration < MAX_ITERATIONS:

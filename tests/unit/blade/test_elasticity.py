@@ -1,0 +1,156 @@
+import numpy as np
+import pytest
+from scipy.sparse.linalg import spsolve
+from skfem import Basis, BilinearForm, ElementVector, LinearForm
+from skfem.element import ElementHexS2
+from skfem.helpers import ddot, eye, grad, identity, trace, transpose
+from skfem.models.elasticity import lame_parameters, linear_elasticity
+
+from bladerub.blade import elasticity
+
+SIZE = (0.3, 0.2, 0.5)
+
+
+def sym(a):
+    return 0.5 * (a + transpose(a))
+
+
+def matmul(a, b):
+    return np.einsum("ij...,jk...->ik...", a, b)
+
+
+def reference_basis(solid):
+    """scikit-fem's own vector basis on the mesh of `solid`, with the 3×3×3 Gauss points."""
+    return Basis(solid.mesh, ElementVector(ElementHexS2()), intorder=5)
+
+
+def some_displacement(solid, size=0.02):
+    x, y, z = solid.mesh.doflocs
+    u = size * np.stack([np.sin(3 * y) + z**2, x * z - 0.3 * y, np.cos(4 * x) + y * z], axis=1)
+    return u.ravel()[solid.free]
+
+
+@pytest.fixture
+def block(make_block):
+    return make_block(SIZE, (2, 2, 2), distortion=2.0)
+
+
+def test_tangent_at_rest_is_linear_elasticity(block):
+    form = linear_elasticity(*lame_parameters(2e11, 0.3))
+    expected = form.assemble(reference_basis(block)).toarray()
+    actual = block.tangent(np.zeros(block.free.size)).toarray()
+    np.testing.assert_allclose(actual, expected, atol=1e-12 * np.abs(expected).max())
+
+
+def test_tangent_and_force_are_the_weak_forms_pair_by_pair(block):
+    lam, mu = block.material.lame
+
+    def C(E):
+        return lam * eye(trace(E), 3) + 2 * mu * E
+
+    def kinematics(w):
+        F = identity(grad(w["u"])) + grad(w["u"])
+        return F, C(0.5 * (matmul(transpose(F), F) - identity(F)))
+
+    @BilinearForm
+    def tangent(du, v, w):
+        F, S = kinematics(w)
+        dE_u, dE_v = sym(matmul(transpose(F), grad(du))), sym(matmul(transpose(F), grad(v)))
+        return ddot(C(dE_u), dE_v) + ddot(S, matmul(transpose(grad(v)), grad(du)))
+
+    @LinearForm
+    def force(v, w):
+        F, S = kinematics(w)
+        return ddot(S, sym(matmul(transpose(F), grad(v))))
+
+    u = some_displacement(block)
+    basis = reference_basis(block)
+    field = basis.interpolate(u)
+    expected = tangent.assemble(basis, u=field).toarray()
+    np.testing.assert_allclose(block.tangent(u).toarray(), expected, atol=1e-12 * np.abs(expected).max())
+    expected = force.assemble(basis, u=field)
+    np.testing.assert_allclose(block.internal_force(u), expected, atol=1e-12 * np.abs(expected).max())
+
+
+def test_clamped_coordinates_are_left_out(make_block):
+    whole, clamped = (make_block(SIZE, (2, 1, 2), clamp_bottom=at) for at in (False, True))
+    u = some_displacement(clamped)
+    assert clamped.free.size == whole.free.size - 3 * (3 * 2 + 2 * 2 + 3)
+    everywhere = clamped.full(u).ravel()
+    np.testing.assert_array_equal(everywhere[clamped.free], u)
+    kept = np.ix_(clamped.free, clamped.free)
+    for name in ("tangent", "internal_force"):
+        of_whole, of_clamped = getattr(whole, name)(everywhere), getattr(clamped, name)(u)
+        if name == "tangent":
+            of_whole, of_clamped = of_whole.toarray()[kept], of_clamped.toarray()
+        else:
+            of_whole = of_whole[clamped.free]
+        np.testing.assert_allclose(of_clamped, of_whole, atol=1e-12 * np.abs(of_whole).max())
+    np.testing.assert_allclose(clamped.mass.toarray(), whole.mass.toarray()[kept], rtol=1e-12)
+
+
+def test_elements_in_pieces_give_the_same_tangent(block, monkeypatch):
+    u = some_displacement(block)
+    at_once = block.tangent(u).toarray()
+    monkeypatch.setattr(elasticity, "_CHUNK", 3)
+    np.testing.assert_allclose(
+        block.tangent(u).toarray(), at_once, rtol=0, atol=1e-14 * np.abs(at_once).max()
+    )
+
+
+def test_patch_of_distorted_elements_holds_a_uniform_strain(make_block):
+    # The inner nodes must find the linear field that the outer ones are given.
+    block = make_block(SIZE, (2, 2, 2))
+    rng = np.random.default_rng(1)
+    points = block.mesh.doflocs.copy()
+    inside = np.flatnonzero(np.all((points > 1e-9) & (points < np.array(SIZE)[:, None] - 1e-9), axis=0))
+    vertex = inside[inside < block.mesh.nvertices]
+    points[:, vertex] += 0.02 * rng.standard_normal((3, vertex.size))
+    points[:, block.mesh.nvertices :] = points[:, block.mesh.edges].mean(axis=1)  # straight edges
+    solid = elasticity.Solid(type(block.mesh)(points, block.mesh.t), block.material)
+    gradient = 1e-3 * rng.standard_normal((3, 3))
+    exact = (gradient @ points).T.ravel()
+    inner = (3 * inside[:, None] + np.arange(3)).ravel()
+    outer = np.setdiff1d(np.arange(exact.size), inner)
+    K = solid.tangent(np.zeros(exact.size)).tocsr()
+    u = exact.copy()
+    u[inner] = spsolve(K[inner][:, inner].tocsc(), -K[inner][:, outer] @ exact[outer])
+    np.testing.assert_allclose(u, exact, atol=1e-12 * np.abs(exact).max())
+    F = np.eye(3) + gradient
+    np.testing.assert_allclose(solid.deformation_gradient(u), np.broadcast_to(F, (8, 27, 3, 3)), atol=1e-14)
+
+
+def test_rigid_motions_cost_nothing(block):
+    x = block.mesh.doflocs
+    zero = np.zeros(x.shape[1])
+    rotations = [[zero, -x[2], x[1]], [x[2], zero, -x[0]], [-x[1], x[0], zero]]
+    motions = [np.eye(3)[axis][:, None] + 0 * x for axis in range(3)] + [np.stack(r) for r in rotations]
+    K = block.tangent(np.zeros(block.free.size))
+    for motion in motions:
+        assert np.abs(K @ motion.T.ravel()).max() < 1e-10 * np.abs(K.data).max()
+    rank = np.linalg.matrix_rank(K.toarray() / np.abs(K.data).max(), tol=1e-11)
+    assert rank == block.free.size - 6
+
+
+def test_a_large_rotation_strains_nothing(block):
+    angle = 0.7
+    Q = np.array([[1, 0, 0], [0, np.cos(angle), -np.sin(angle)], [0, np.sin(angle), np.cos(angle)]])
+    u = ((Q - np.eye(3)) @ block.mesh.doflocs).T.ravel()
+    scale = 2e11 * SIZE[0] * SIZE[1]
+    assert np.abs(block.internal_force(u)).max() < 1e-14 * scale
+
+
+def test_mass_and_first_moment_are_those_of_the_body(make_block):
+    block = make_block(SIZE, (2, 2, 2), origin=(0.1, -0.2, 0.45), distortion=2.0)
+    mass = 7800.0 * np.prod(SIZE)
+    centre = np.array([0.1, -0.2, 0.45]) + np.array(SIZE) / 2
+    for axis in range(3):
+        along = (block.axis == axis).astype(float)
+        assert along @ block.mass @ along == pytest.approx(mass, rel=1e-12)
+    # The distortion moves matter about, not the outer surface.
+    uniform = make_block(SIZE, (1, 1, 1), origin=(0.1, -0.2, 0.45))
+    for solid in (uniform, block):
+        for axis in range(3):
+            assert solid.first_moment[solid.axis == axis].sum() == pytest.approx(
+                mass * centre[axis], rel=1e-6
+            )

@@ -1,0 +1,95 @@
+import numpy as np
+import pytest
+from conftest import section
+
+from bladerub.blade.geometry import EDGE_THICKNESS, BladeShape, check, corner_jacobians
+
+
+def camber_line(config, xi, span=1.0):
+    return BladeShape.from_config(config).points(np.asarray(xi, dtype=float), 0.5, span)
+
+
+def test_every_section_lies_on_its_cylinder(twisted_config):
+    xi, eta, zeta = np.meshgrid(*[np.linspace(0, 1, 5)] * 3)
+    points = BladeShape.from_config(twisted_config).points(xi, eta, zeta)
+    np.testing.assert_allclose(np.hypot(points[1], points[2]), 0.45 + 0.2 * zeta, rtol=1e-14)
+
+
+def test_lean_is_an_arc_with_the_rotation_and_sweep_goes_downstream(blade_config):
+    blade_config["sections"][1] = section(1.0, lean=0.03, sweep=0.01)
+    x, y, z = camber_line(blade_config, 0.5)
+    assert np.arctan2(y, z) == pytest.approx(0.03 / 0.65, rel=1e-12)
+    assert x == pytest.approx(0.01, rel=1e-12)
+
+
+def test_stagger_puts_the_leading_edge_upstream_and_ahead_in_the_rotation(blade_config):
+    blade_config["sections"][1] = section(1.0, stagger=30.0)
+    (x_lead, x_trail), (y_lead, y_trail), _ = camber_line(blade_config, [0.0, 1.0])
+    assert x_trail - x_lead == pytest.approx(0.08 * np.cos(np.pi / 6), rel=1e-12)
+    assert y_lead > 0 > y_trail
+
+
+def test_camber_turns_by_its_angle_with_the_hollow_side_ahead(blade_config):
+    blade_config["sections"] = [section(span, camber=20.0) for span in (0.0, 1.0)]
+    step = 1e-6
+    x, y, z = camber_line(blade_config, [0.0, step, 1 - step, 1.0])
+    t = 0.65 * np.arctan2(y, z)
+    slope = np.diff(t) / np.diff(x)
+    assert np.rad2deg(np.arctan(slope[-1]) - np.arctan(slope[0])) == pytest.approx(20.0, abs=1e-3)
+    assert slope[0] < 0 < slope[-1]  # the ends lie ahead of the middle
+
+
+def test_sections_are_stacked_by_the_centroid_of_the_camber_line(twisted_config):
+    twisted_config["sections"][1].update(sweep=0.0, lean=0.0)
+    xi = (np.arange(2000) + 0.5) / 2000
+    x, y, z = camber_line(twisted_config, xi)
+    assert x.mean() == pytest.approx(0.0, abs=1e-8)
+    assert np.arctan2(y, z).mean() == pytest.approx(0.0, abs=1e-8)
+
+
+def test_three_sections_make_a_parabola(blade_config):
+    blade_config["sections"] = [section(0.0), section(0.5, sweep=0.01), section(1.0, sweep=0.04)]
+    heights = np.linspace(0, 1, 7)
+    x = BladeShape.from_config(blade_config).points(0.5, 0.5, heights)[0]
+    np.testing.assert_allclose(x, 0.04 * heights**2, atol=1e-16)
+
+
+def test_edges_have_their_thickness(blade_config):
+    shape = BladeShape.from_config(blade_config)
+    for xi, expected in ((0.0, EDGE_THICKNESS), (0.5, 1.0), (1.0, EDGE_THICKNESS)):
+        suction, pressure = (shape.points(xi, eta, 0.0) for eta in (0.0, 1.0))
+        arc = 0.45 * (np.arctan2(pressure[1], pressure[2]) - np.arctan2(suction[1], suction[2]))
+        assert arc == pytest.approx(expected * 0.08 * 0.08, rel=1e-10)
+
+
+def test_check_passes_a_good_blade(twisted_config):
+    check(twisted_config)
+
+
+@pytest.mark.parametrize(
+    ("spans", "message"),
+    [
+        ((0.0,), r"blade\.sections: 1 section"),
+        ((0.1, 1.0), r"blade\.sections\[0\]\.span = 0\.1: .*from span 0 to 1"),
+        ((0.0, 0.5), r"blade\.sections\[1\]\.span = 0\.5: .*from span 0 to 1"),
+        ((0.0, 0.7, 0.6, 1.0), r"blade\.sections\[2\]\.span = 0\.6: must be above .* \(0\.7\)"),
+        ((0.0, 0.5, 0.5, 1.0), r"blade\.sections\[2\]\.span = 0\.5: must be above .* \(0\.5\)"),
+    ],
+)
+def test_check_names_the_section_out_of_order(blade_config, spans, message):
+    blade_config["sections"] = [section(span) for span in spans]
+    with pytest.raises(ValueError, match=message):
+        check(blade_config)
+
+
+@pytest.mark.parametrize("fault", [{"thickness": -0.05}, {"chord": -0.08}])
+def test_check_finds_a_mesh_turned_inside_out(blade_config, fault):
+    blade_config["sections"][1].update(fault)
+    with pytest.raises(ValueError, match=r"^blade\.sections: mesh turned inside out at span"):
+        check(blade_config)
+
+
+def test_corner_jacobians_of_a_brick_are_its_volume():
+    points = np.stack(np.meshgrid([0.0, 2.0], [0.0, 3.0], [0.0, 0.5], indexing="ij"))
+    np.testing.assert_allclose(corner_jacobians(points), np.full((8, 1, 1, 1), 3.0))
+    np.testing.assert_allclose(corner_jacobians(points[:, ::-1]), np.full((8, 1, 1, 1), -3.0))

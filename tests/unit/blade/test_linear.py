@@ -1,0 +1,55 @@
+import numpy as np
+import pytest
+from scipy import sparse
+from scipy.linalg import eigh
+
+from bladerub.blade.linear import factorise, lowest_modes
+
+
+@pytest.fixture
+def pair():
+    """A symmetric positive stiffness and mass of a chain with random springs."""
+    rng = np.random.default_rng(3)
+    n = 60
+    springs = rng.uniform(1, 5, n + 1)
+    stiffness = sparse.diags_array(
+        [springs[:-1] + springs[1:], -springs[1:-1], -springs[1:-1]], offsets=[0, 1, -1]
+    )
+    return stiffness.tocsc(), sparse.diags_array(rng.uniform(0.5, 2, n)).tocsc()
+
+
+def test_solves_for_one_and_for_many(pair):
+    stiffness, _ = pair
+    solve = factorise(stiffness)
+    rhs = np.random.default_rng(0).standard_normal((60, 3))
+    np.testing.assert_allclose(stiffness @ solve(rhs), rhs, atol=1e-12)
+    np.testing.assert_allclose(stiffness @ solve(rhs[:, 0]), rhs[:, 0], atol=1e-12)
+
+
+def test_indefinite_matrix_is_solved(pair):
+    stiffness, mass = pair
+    shifted = sparse.csc_array(stiffness - 3.0 * mass)
+    rhs = np.ones(60)
+    np.testing.assert_allclose(shifted @ factorise(shifted)(rhs), rhs, atol=1e-9)
+
+
+def test_singular_matrix_is_refused():
+    with pytest.raises(np.linalg.LinAlgError, match="sparse factorisation"):
+        factorise(sparse.csc_array(np.zeros((3, 3))))
+
+
+def test_lowest_modes_agree_with_a_dense_solver(pair):
+    stiffness, mass = pair
+    frequencies, modes = lowest_modes(stiffness, mass, 5)
+    squares = eigh(stiffness.toarray(), mass.toarray(), eigvals_only=True)[:5]
+    np.testing.assert_allclose((2 * np.pi * frequencies) ** 2, squares, rtol=1e-10)
+    np.testing.assert_allclose(modes.T @ (mass @ modes), np.eye(5), atol=1e-12)
+    again = lowest_modes(stiffness, mass, 5, factorise(stiffness))[1]
+    np.testing.assert_array_equal(modes, again)
+
+
+def test_unstable_mode_has_a_negative_frequency(pair):
+    stiffness, mass = pair
+    lowest = lowest_modes(stiffness, mass, 1)[0][0]
+    shifted = sparse.csc_array(stiffness - 2 * (2 * np.pi * lowest) ** 2 * mass)
+    assert lowest_modes(shifted, mass, 2)[0][0] == pytest.approx(-lowest, rel=1e-9)

@@ -1,0 +1,91 @@
+import numpy as np
+import pytest
+
+from bladerub.blade.geometry import EDGE_THICKNESS, BladeShape
+from bladerub.blade.mesh import BladeMesh, hexahedral_mesh
+
+
+@pytest.fixture
+def twisted(twisted_config):
+    shape = BladeShape.from_config(twisted_config)
+    return shape, BladeMesh.from_shape(shape, twisted_config["mesh"])
+
+
+def brick():
+    corners = (np.array([0.0, 0.5, 1.0]), np.array([0.0, 1.0]), np.array([0.0, 1.0]))
+    return hexahedral_mesh(*corners, lambda *cube: np.stack(cube))
+
+
+def test_every_node_lies_on_the_blade(twisted_config):
+    shape = BladeShape.from_config(twisted_config)
+    lattice = (np.linspace(0, 1, 8), np.linspace(0, 1, 2), np.linspace(0, 1, 4))
+    mesh, parameters = hexahedral_mesh(*lattice, shape.points)
+    np.testing.assert_array_equal(mesh.doflocs, shape.points(*parameters))
+    corners, edges = 8 * 2 * 4, 7 * 2 * 4 + 8 * 1 * 4 + 8 * 2 * 3
+    assert mesh.doflocs.shape[1] == corners + edges
+    assert np.unique(mesh.hexahedra).size == corners + edges
+
+
+def test_hexahedra_are_numbered_as_c3d20():
+    mesh, _ = brick()
+    for element in mesh.points[mesh.hexahedra]:
+        bottom, top = element[:4], element[4:8]
+        np.testing.assert_allclose(top - bottom, [[0, 0, 1]] * 4)
+        first, second = bottom[1] - bottom[0], bottom[3] - bottom[0]
+        assert np.cross(first, second) @ (top[0] - bottom[0]) > 0
+        np.testing.assert_allclose(element[8:12], (bottom + np.roll(bottom, -1, axis=0)) / 2)
+        np.testing.assert_allclose(element[12:16], (top + np.roll(top, -1, axis=0)) / 2)
+        np.testing.assert_allclose(element[16:], (bottom + top) / 2)
+
+
+def test_jacobians_are_positive_throughout(twisted):
+    _, blade = twisted
+    corners_to_centre = np.array(np.meshgrid(*[np.linspace(0, 1, 5)] * 3)).reshape(3, -1)
+    assert blade.mesh.mapping().detDF(corners_to_centre).min() > 0
+
+
+def test_interface_runs_along_the_tip_from_leading_to_trailing_edge(twisted):
+    shape, blade = twisted
+    expected = shape.points(np.linspace(0, 1, 8), 0.5, 1.0)
+    np.testing.assert_allclose(blade.mesh.points[blade.interface], expected.T, atol=1e-15)
+    assert np.isin(blade.interface, blade.tip).all()
+
+
+def test_interface_is_evenly_spaced_on_a_finer_mesh(twisted_config):
+    shape = BladeShape.from_config(twisted_config)
+    blade = BladeMesh.from_shape(shape, {"chordwise": 14, "thickness": 2, "spanwise": 1})
+    expected = shape.points(np.linspace(0, 1, 8), 0.5, 1.0)
+    np.testing.assert_allclose(blade.mesh.points[blade.interface], expected.T, atol=1e-15)
+
+
+def test_root_and_tip_are_whole_faces(twisted):
+    _, blade = twisted
+    radius = np.hypot(*blade.mesh.doflocs[1:])
+    np.testing.assert_array_equal(blade.root, np.flatnonzero(np.isclose(radius, 0.45, rtol=1e-12)))
+    np.testing.assert_array_equal(blade.tip, np.flatnonzero(np.isclose(radius, 0.65, rtol=1e-12)))
+    assert blade.root.size == blade.tip.size == 8 * 2 + 7 * 2 + 8
+
+
+def test_too_few_nodes_for_the_interface_are_refused(twisted_config):
+    shape = BladeShape.from_config(twisted_config)
+    with pytest.raises(ValueError, match=r"blade\.mesh\.chordwise = 6: gives 7 nodes"):
+        BladeMesh.from_shape(shape, {"chordwise": 6, "thickness": 1, "spanwise": 1})
+
+
+def test_volume_is_that_of_the_sections(twisted_config):
+    # Wrapping and stacking keep the area of a section in (x, t): thickness times camber line.
+    shape = BladeShape.from_config(twisted_config)
+    xi, weight = np.polynomial.legendre.leggauss(20)
+    xi, weight = (xi + 1) / 2, weight / 2
+    volume = 0.0
+    for height, share in zip(xi, weight, strict=True):
+        chord, thickness, camber = ((1 - height) * shape.sections[0] + height * shape.sections[1])[:3]
+        slope = np.tan(camber / 2) * (1 - 2 * xi)
+        profile = 1 - (1 - EDGE_THICKNESS) * (2 * xi - 1) ** 2
+        volume += share * 0.2 * chord**2 * thickness * np.sum(weight * profile * np.hypot(1, slope))
+    mesh = BladeMesh.from_shape(shape, {"chordwise": 8, "thickness": 1, "spanwise": 6}).mesh
+    points, weights = np.polynomial.legendre.leggauss(3)
+    cube = np.stack([axis.ravel() for axis in np.meshgrid(*[(points + 1) / 2] * 3, indexing="ij")])
+    determinant = mesh.mapping().detDF(cube)
+    total = np.sum(determinant * np.einsum("i,j,k->ijk", *[weights / 2] * 3).ravel())
+    assert total == pytest.approx(volume, rel=2e-5)

@@ -1,0 +1,99 @@
+import numpy as np
+import pytest
+from scipy import sparse
+from scipy.linalg import eigh
+
+from bladerub.blade.linear import factorise, lowest_modes
+from bladerub.blade.reduction import (
+    Partition,
+    mass_orthonormal,
+    project,
+    speed_law,
+    stiffness_at,
+    transformation,
+)
+from bladerub.blade.rotation import equilibrium
+
+ETA = 4
+
+
+@pytest.fixture(scope="module")
+def blocks():
+    """Stiffness at three speeds, mass, partition and Φ of a leaning bar with two interface nodes."""
+    from conftest import TITANIUM
+
+    from bladerub.blade.elasticity import Material, Solid
+    from bladerub.blade.mesh import hexahedral_mesh
+
+    size, origin = np.array([0.04, 0.006, 0.2]), np.array([-0.02, 0.002, 0.4])
+    corners = [np.linspace(0, 1, n + 1) for n in (3, 1, 6)]
+    mesh, cube = hexahedral_mesh(*corners, lambda *c: np.stack(c) * size[:, None] + origin[:, None])
+    solid = Solid(mesh, Material.from_config(TITANIUM), np.flatnonzero(cube[2] == 0))
+    fits = [equilibrium(solid, omega).stiffness for omega in (0.0, 250.0, 500.0)]
+    tip = np.flatnonzero((cube[2] == 1) & (cube[1] == 0.5))
+    ends = tip[np.argsort(cube[0, tip])][[0, -1]]
+    partition = Partition.around(solid.coordinates(ends), solid.free.size)
+    return fits, solid.mass, partition, transformation(fits, solid.mass, partition, ETA, 1e-8)
+
+
+def test_interface_coordinates_come_first_and_are_physical(blocks):
+    _, _, partition, phi = blocks
+    np.testing.assert_array_equal(phi[partition.interface], np.eye(6, phi.shape[1]))
+
+
+def test_internal_columns_are_orthonormal_in_the_mass(blocks):
+    _, mass, partition, phi = blocks
+    psi = phi[partition.internal, 6:]
+    gram = psi.T @ (mass[partition.internal][:, partition.internal] @ psi)
+    np.testing.assert_allclose(gram, np.eye(len(gram)), atol=1e-11)
+
+
+def test_basis_has_at_most_the_columns_of_eq_4(blocks):
+    *_, phi = blocks
+    assert 6 + ETA < phi.shape[1] <= 3 * 6 + 3 * ETA
+
+
+@pytest.mark.parametrize("speed", [0, 1, 2])
+def test_statics_under_interface_forces_are_exact_at_the_fit_speeds(blocks, speed):
+    fits, _, partition, phi = blocks
+    load = np.zeros((phi.shape[0], 6))
+    load[partition.interface] = np.eye(6)
+    exact = factorise(fits[speed])(load)
+    reduced = phi @ np.linalg.solve(project(fits[speed], phi), phi.T @ load)
+    np.testing.assert_allclose(reduced, exact, atol=1e-6 * np.abs(exact).max())
+
+
+@pytest.mark.parametrize("speed", [0, 1, 2])
+def test_fixed_interface_modes_are_exact_at_the_fit_speeds(blocks, speed):
+    fits, mass, partition, phi = blocks
+    internal = partition.internal
+    exact = lowest_modes(fits[speed][internal][:, internal], mass[internal][:, internal], ETA)[0]
+    held = project(fits[speed], phi)[6:, 6:], project(mass, phi)[6:, 6:]
+    squares = eigh(*held, eigvals_only=True, subset_by_index=[0, ETA - 1])
+    np.testing.assert_allclose(np.sqrt(squares) / (2 * np.pi), exact, rtol=1e-8)
+
+
+def test_coarser_tolerance_leaves_fewer_columns(blocks):
+    fits, mass, partition, phi = blocks
+    coarse = transformation(fits, mass, partition, ETA, 1e-1)
+    assert 6 < coarse.shape[1] < phi.shape[1]
+
+
+def test_orthonormalisation_finds_the_rank_whatever_the_scale():
+    rng = np.random.default_rng(7)
+    mass = sparse.diags_array(rng.uniform(1, 3, 30)).tocsc()
+    independent = rng.standard_normal((30, 4))
+    mixed = np.hstack([independent, independent @ rng.standard_normal((4, 3))]) * np.logspace(-9, 3, 7)
+    psi = mass_orthonormal(mixed, mass, 1e-5)
+    assert psi.shape == (30, 4)
+    np.testing.assert_allclose(psi.T @ (mass @ psi), np.eye(4), atol=1e-13)
+    np.testing.assert_allclose(psi @ (psi.T @ (mass @ independent)), independent, atol=1e-10)
+
+
+def test_projection_and_speed_law_commute(blocks):
+    fits, _, _, phi = blocks
+    of_reduced = speed_law(*(project(K, phi) for K in fits), 0.4)
+    of_full = [project(K, phi) for K in speed_law(*fits, 0.4)]
+    for f_omega in (0.1, 0.3):
+        one, other = stiffness_at(of_reduced, f_omega), stiffness_at(of_full, f_omega)
+        np.testing.assert_allclose(one, other, atol=1e-9 * np.abs(one).max())

@@ -1,0 +1,81 @@
+import numpy as np
+import pytest
+
+from bladerub.blade import rotation
+from bladerub.blade.rotation import EquilibriumError, equilibrium, residual, rotating_stiffness
+
+BAR = {"size": (0.01, 0.01, 0.4), "counts": (1, 1, 6), "origin": (-0.005, -0.005, 0.3), "clamp_bottom": True}
+
+
+@pytest.fixture
+def leaning_bar(make_block):
+    """A bar off the radial line, so that rotation bends it."""
+    return make_block(**{**BAR, "origin": (0.01, 0.004, 0.3)})
+
+
+def test_stiffness_is_the_derivative_of_the_residual(leaning_bar):
+    rng = np.random.default_rng(5)
+    u = 1e-3 * rng.standard_normal(leaning_bar.free.size)
+    direction = rng.standard_normal(u.size)
+    omega_squared = 1e7
+    step = 1e-7
+    ahead, behind = (residual(leaning_bar, u + sign * step * direction, omega_squared) for sign in (1, -1))
+    exact = rotating_stiffness(leaning_bar, u, omega_squared) @ direction
+    np.testing.assert_allclose((ahead - behind) / (2 * step), exact, atol=1e-7 * np.abs(exact).max())
+
+
+def test_stiffness_is_symmetric(leaning_bar):
+    state = equilibrium(leaning_bar, 300.0)
+    skew = state.stiffness - state.stiffness.T
+    assert np.abs(skew.data).max(initial=0.0) < 1e-12 * np.abs(state.stiffness.data).max()
+
+
+def test_bar_stretches_as_the_closed_form(make_block):
+    # EA u'' + ρ A Ω² (z + u) = 0 with k² = ρ Ω² / E: z + u = z0 cos kx + B sin kx, x = z − z0, and at the
+    # free end d(z + u)/dx = 1.
+    bar = make_block(**BAR, poisson=0.0)
+    omega, z0, length = 30.0, 0.3, 0.4
+    k = omega * np.sqrt(7800.0 / 2e11)
+    b = (1 / k + z0 * np.sin(k * length)) / np.cos(k * length)
+    exact = z0 * np.cos(k * length) + b * np.sin(k * length)
+    state = equilibrium(bar, omega)
+    u = bar.full(state.displacement)
+    tip = np.isclose(bar.mesh.points[:, 2], z0 + length)
+    assert u[tip, 2].mean() == pytest.approx(exact - z0 - length, rel=1e-4)
+    assert np.abs(u[tip, :2]).max() < 1e-3 * u[tip, 2].mean()
+
+
+def test_equilibrium_is_one_and_the_same_from_any_start(leaning_bar):
+    at_once = equilibrium(leaning_bar, 900.0)
+    halfway = equilibrium(leaning_bar, 600.0)
+    onwards = equilibrium(leaning_bar, 900.0, halfway)
+    size = np.abs(at_once.displacement).max()
+    np.testing.assert_allclose(onwards.displacement, at_once.displacement, atol=1e-9 * size)
+    load = rotation.centrifugal_load(leaning_bar, at_once.displacement, 900.0**2)
+    force = residual(leaning_bar, at_once.displacement, 900.0**2)
+    assert np.linalg.norm(force) <= rotation.TOLERANCE * np.linalg.norm(load)
+
+
+def test_load_steps_are_halved_when_newton_needs_more(leaning_bar, monkeypatch):
+    freely = equilibrium(leaning_bar, 900.0)
+    assert freely.n_steps == 1
+    monkeypatch.setattr(rotation, "MAX_ITERATIONS", freely.n_iterations - 1)
+    in_steps = equilibrium(leaning_bar, 900.0)
+    assert in_steps.n_steps > 1
+    size = np.abs(freely.displacement).max()
+    np.testing.assert_allclose(in_steps.displacement, freely.displacement, atol=1e-8 * size)
+
+
+def test_rest_needs_no_solution(leaning_bar):
+    state = equilibrium(leaning_bar, 0.0)
+    assert not state.displacement.any()
+    assert (state.n_steps, state.n_iterations) == (0, 0)
+
+
+def test_a_bar_that_cannot_carry_its_load_fails_clearly(make_block):
+    # Clamped outside, it points to the axis and is crushed: no stress the material has balances this load.
+    bar = make_block(**{**BAR, "origin": (-0.005, -0.005, -2.0)}, poisson=0.0, young=1e9)
+    with pytest.raises(
+        EquilibriumError, match=r"no static equilibrium at 500 rad/s: .* above \d+\.\d+ rad/s"
+    ):
+        equilibrium(bar, 500.0)

@@ -1,0 +1,89 @@
+"""Beams whose frequencies are known, at rest and rotating, from 20-node hexahedra."""
+
+import numpy as np
+import pytest
+
+from bladerub.blade.elasticity import Material, Solid
+from bladerub.blade.linear import lowest_modes
+from bladerub.blade.mesh import hexahedral_mesh
+from bladerub.blade.rotation import equilibrium
+
+YOUNG, DENSITY, LENGTH, THICKNESS = 2e11, 7800.0, 1.0, 0.01
+
+# Wright, Smith, Thresher and Wang, Vibration modes of centrifugally stiffened beams, Journal of Applied
+# Mechanics 49 (1982), tables for the uniform cantilever of hub radius 0: first two flapwise frequencies
+# ω √(ρAL⁴/EI) over Ω √(ρAL⁴/EI).
+WRIGHT_1982 = {
+    0: (3.5160, 22.0345),
+    1: (3.6816, 22.1810),
+    2: (4.1373, 22.6149),
+    3: (4.7973, 23.3203),
+    4: (5.5850, 24.2733),
+    6: (7.3604, 26.8091),
+    8: (9.2568, 29.9954),
+    10: (11.2023, 33.6404),
+    12: (13.1702, 37.6031),
+}
+UNIT = np.sqrt(YOUNG * THICKNESS**2 / 12 / (DENSITY * LENGTH**4))  # √(EI / ρAL⁴), rad/s
+
+
+def cantilever(thin_axis, n_along=40):
+    """A beam of slenderness 100 that starts on the axis and follows z, thin along x (flap) or y (lag)."""
+    size = np.array([0.05, 0.05, LENGTH])
+    size[thin_axis] = THICKNESS
+    corners = (np.array([0.0, 1.0]), np.array([0.0, 1.0]), np.linspace(0, 1, n_along + 1))
+
+    def points(*cube):
+        return (np.stack(cube) - np.array([0.5, 0.5, 0.0])[:, None]) * size[:, None]
+
+    mesh, cube = hexahedral_mesh(*corners, points)
+    return Solid(mesh, Material(YOUNG, 0.0, DENSITY), np.flatnonzero(cube[2] == 0))
+
+
+@pytest.fixture(scope="module")
+def flap():
+    return cantilever(0)
+
+
+@pytest.fixture(scope="module")
+def lag():
+    return cantilever(1)
+
+
+def thin_bending(solid, thin_axis, state, n_modes=6):
+    """Dimensionless frequencies of the modes that move along the thin axis."""
+    frequencies, modes = lowest_modes(state.stiffness, solid.mass, n_modes)
+    share = [np.linalg.norm(mode[solid.axis == thin_axis]) / np.linalg.norm(mode) for mode in modes.T]
+    return 2 * np.pi * frequencies[np.array(share) > 0.9] / UNIT
+
+
+def test_cantilever_at_rest_matches_euler_bernoulli(flap):
+    # Roots of 1 + cos β cosh β = 0; ω = β² √(EI / ρAL⁴).
+    roots = np.array([1.875104069, 4.694091133, 7.854757438])
+    found = thin_bending(flap, 0, equilibrium(flap, 0.0))[:3]
+    np.testing.assert_allclose(found, roots**2, rtol=2e-4)
+
+
+@pytest.mark.parametrize("speed", list(WRIGHT_1982))
+def test_rotating_beam_flaps_as_tabulated(flap, speed):
+    found = thin_bending(flap, 0, equilibrium(flap, speed * UNIT))[:2]
+    np.testing.assert_allclose(found, WRIGHT_1982[speed], rtol=2e-4)
+
+
+@pytest.mark.parametrize("speed", [2, 6, 12])
+def test_in_the_plane_of_rotation_spin_softening_takes_its_share(lag, speed):
+    # ω_lag² = ω_flap² − Ω²; the difference magnifies the rounding of the table.
+    found = thin_bending(lag, 1, equilibrium(lag, speed * UNIT))[:2]
+    expected = np.sqrt(np.array(WRIGHT_1982[speed]) ** 2 - speed**2)
+    np.testing.assert_allclose(found, expected, rtol=5e-4)
+
+
+def test_frequencies_converge_from_above_with_the_mesh():
+    # Elements longer than thick are too stiff in shear: that costs two of the four orders of the element.
+    values = []
+    for n_along in (4, 8, 16, 40):
+        solid = cantilever(0, n_along)
+        values.append(thin_bending(solid, 0, equilibrium(solid, 0.0))[0])
+    assert values == sorted(values, reverse=True)
+    errors = np.array(values[:-1]) - values[-1]
+    assert np.all(np.log2(errors[:-1] / errors[1:]) > 1.9)

@@ -1,0 +1,38 @@
+"""Eqs. (2) and (3) of the paper, and the misprint in the factor of K²."""
+
+import numpy as np
+
+from bladerub.blade.reduction import speed_law, stiffness_at
+
+F_MAX = 0.4
+
+
+def fit_matrices():
+    rng = np.random.default_rng(11)
+    random = rng.standard_normal((3, 12, 12)) * np.array([1e9, 1e8, 1e8])[:, None, None]
+    rest, half, full = random + np.swapaxes(random, 1, 2)
+    return rest, rest + half, rest + half + full
+
+
+def test_eq_2_returns_the_three_fit_matrices():
+    fits = fit_matrices()
+    coefficients = speed_law(*fits, F_MAX)
+    for f_omega, expected in zip((0.0, F_MAX / 2, F_MAX), fits, strict=True):
+        error = np.abs(stiffness_at(coefficients, f_omega) - expected).max()
+        assert error <= 1e-12 * np.abs(expected).max()
+
+
+def test_the_printed_factor_does_not():
+    fits = fit_matrices()
+    k0, k1, k2 = speed_law(*fits, F_MAX)
+    printed = k0, k1, k2 * (3 / 4) / (4 / 3)
+    for f_omega, expected in ((F_MAX / 2, fits[1]), (F_MAX, fits[2])):
+        error = np.abs(stiffness_at(printed, f_omega) - expected).max()
+        assert error > 1e-3 * np.abs(expected).max()
+
+
+def test_a_stiffness_that_is_quadratic_in_the_square_of_the_speed_is_met_everywhere():
+    terms = fit_matrices()
+    fits = [stiffness_at(terms, f_omega) for f_omega in (0.0, F_MAX / 2, F_MAX)]
+    for found, expected in zip(speed_law(*fits, F_MAX), terms, strict=True):
+        np.testing.assert_allclose(found, expected, atol=1e-9 * np.abs(terms[2]).max())
