@@ -1,0 +1,120 @@
+"""What the real workflow plans and computes, on a tiny study."""
+
+from __future__ import annotations
+
+import copy
+import shutil
+
+import h5py
+from conftest import TINY
+
+TABLES = {"peaks": 1, "divergence": 1, "findings": 1}
+HISTOGRAMS = {"fig11_Y4": 1, "fig12_f4": 1, "fig13_Y6": 1, "fig14_f6": 1}
+
+
+def changed(**overlay):
+    """TINY with more laid over its second level."""
+    config = copy.deepcopy(TINY)
+    for key, values in overlay.items():
+        config[key] = config.get(key, {}) | values
+    return config
+
+
+def with_E3():
+    config = copy.deepcopy(TINY)
+    config["coatings"][2]["E"].append(3)
+    return config
+
+
+def run_files(workspace):
+    """Run key and time of writing of each run."""
+    files = {}
+    for path in sorted((workspace.folder / "results" / "runs").glob("*/*.h5")):
+        with h5py.File(path) as file:
+            name = path.relative_to(workspace.folder).as_posix()
+            files[name] = (file.attrs["run_key"], path.stat().st_mtime_ns)
+    return files
+
+
+def test_one_figure_plans_only_what_it_needs(workspace):
+    plan = workspace.plan(TINY, "results/figures/fig08_spectrum_soft.png")
+    assert plan == {"blade": 1, "compile_kernel": 1, "coating": 1, "map": 1, "fig08_spectrum_soft": 1}
+
+
+def test_a_complete_study_has_nothing_left_to_do(study):
+    assert study.plan(TINY) == {}
+
+
+def test_a_new_coating_plans_itself_and_what_draws_from_it(study):
+    new = {"coating": 2, "map": 2}  # with both theta
+    assert study.plan(with_E3()) == new | TABLES | HISTOGRAMS | {"all": 1}
+
+
+def test_resolution_plans_only_figures(study):
+    plan = study.plan(changed(figures={"dpi": 50}))
+    assert len(plan) == 20
+    assert all(name.startswith("fig") or name == "all" for name in plan)
+
+
+def test_peak_search_plans_no_map(study):
+    search = {"peaks": {"speed_window": [0.9, 1.2]}}
+    plan = study.plan(changed(analysis=TINY["analysis"] | search))
+    assert plan == {"peaks": 1, "findings": 1, "fig10_peaks": 1, "all": 1} | HISTOGRAMS
+
+
+def test_a_casing_plans_only_its_coatings(study):
+    plan = study.plan(changed(casings={"2nd5nd": {"interference": 0.0003}}))
+    assert (plan["coating"], plan["map"]) == (1, 1)
+    assert "blade" not in plan
+
+
+def test_an_edit_of_the_solver_plans_every_coating(copied_study):
+    with (copied_study.folder / "src/bladerub/contact/modes.py").open("a") as source:
+        source.write("# edited\n")
+    plan = copied_study.plan(TINY)
+    assert plan["compile_kernel"] == 1
+    assert plan["coating"] == 5
+    assert "blade" not in plan
+
+
+def test_a_new_coating_computes_itself_alone(copied_study):
+    before = run_files(copied_study)
+    copied_study.build(with_E3(), "results/tables/peaks.csv")
+    after = run_files(copied_study)
+    assert {name: after[name] for name in before} == before
+    new = {name.split("/")[2] for name in after.keys() - before.keys()}
+    assert new == {"2nd_E3_K0.5_theta0", "2nd_E3_K0.5_theta0.15"}
+
+
+def test_a_lost_run_is_computed_alone(copied_study):
+    before = run_files(copied_study)
+    lost = "results/runs/2nd_E1.1_K0.5_theta0/0.1970.h5"
+    (copied_study.folder / lost).unlink()
+    manifest = "results/runs/2nd_E1.1_K0.5_theta0/manifest.tsv"
+    (copied_study.folder / manifest).unlink()
+    copied_study.build(TINY, manifest)
+    after = run_files(copied_study)
+    assert {name for name in before if after[name] != before[name]} == {lost}
+    assert after[lost][0] == before[lost][0]
+
+
+def test_a_failed_job_says_why_and_loses_no_run(copied_study):
+    before = run_files(copied_study)
+    manifest = "results/runs/2nd_E1.1_K0.5_theta0/manifest.tsv"
+    unstable = changed(solver=TINY["solver"] | {"max_time_step": 1e-5})
+    done = copied_study.snakemake(manifest, "--cores", "1", config=unstable)
+    assert done.returncode != 0
+    log = copied_study.folder / "results/logs/coating/2nd_E1.1_K0.5_theta0.log"
+    assert "ValueError" in log.read_text()
+    assert run_files(copied_study) == before
+    copied_study.build(TINY, manifest)
+    assert run_files(copied_study) == before
+
+
+def test_quick_study_can_draw_every_figure(workspace):
+    shutil.copy(workspace.folder / "config" / "quick.yaml", workspace.folder / "overlay.yaml")
+    done = workspace.snakemake("--dry-run", "--configfile", "overlay.yaml")
+    assert done.returncode == 0, done.stderr
+    assert {f"fig{n:02}" for n in range(1, 20)} <= {
+        word[:5] for word in (done.stdout + done.stderr).split() if word.startswith("fig")
+    }

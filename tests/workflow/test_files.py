@@ -1,0 +1,138 @@
+"""The files that users rely on: names, datasets, units; the tiny study has made them all."""
+
+from __future__ import annotations
+
+import h5py
+import pandas as pd
+import pytest
+import xarray as xr
+
+COATING = "2nd_E2_K0.5_theta0.15"
+PLAIN_RUN = f"runs/{COATING}/0.2300.h5"
+KEPT_RUN = f"runs/{COATING}/0.1900.h5"
+MAP = f"maps/{COATING}.h5"
+
+DATASETS = {
+    "blade/reduced_model.h5": {
+        "mass",
+        "stiffness_0",
+        "stiffness_1",
+        "stiffness_2",
+        "node_position",
+        "radial_direction",
+        "tangential_direction",
+    },
+    "blade/mesh.h5": {"points", "hexahedra"},
+    PLAIN_RUN: {"wear", "angle", "spectrum_order", "spectrum_amplitude", "revolution_peak"},
+    KEPT_RUN: {
+        "wear",
+        "angle",
+        "spectrum_order",
+        "spectrum_amplitude",
+        "revolution_peak",
+        "radial_displacement",
+    },
+    MAP: {"wear", "angle", "spectrum_order", "spectrum_amplitude", "f_omega"},
+}
+ATTRIBUTES = {
+    "blade/reduced_model.h5": {"f1_hz", "f_omega_max", "eta", "rank_tolerance"},
+    PLAIN_RUN: {
+        "casing",
+        "E",
+        "K",
+        "theta",
+        "f_omega",
+        "revolutions",
+        "time_step",
+        "n_steps",
+        "run_key",
+        "status",
+    },
+}
+COLUMNS = {
+    "campbell": {"f_omega", "mode"},
+    "rom_accuracy": {"f_omega", "mode", "f_fe", "f_fe_eq2", "f_rom", "relative_error"},
+    "peaks": {"casing", "E", "K", "theta", "order", "f_peak", "amplitude"},
+    "divergence": {"casing", "E", "K", "theta", "f_omega", "growth_per_revolution", "divergent"},
+    "findings": {"id", "claim", "paper", "measured", "unit", "holds", "margin"},
+}
+
+
+@pytest.fixture
+def results(study):
+    return study.folder / "results"
+
+
+@pytest.mark.parametrize("name", DATASETS)
+def test_file_opens_in_xarray_and_says_what_it_holds(results, name):
+    with xr.open_dataset(results / name, engine="h5netcdf", phony_dims="sort") as dataset:
+        assert set(dataset.variables) >= DATASETS[name]
+        assert set(dataset.attrs) >= ATTRIBUTES.get(name, set())
+    with h5py.File(results / name) as file:
+        for variable in file.values():
+            assert variable.attrs["units"], variable.name
+            assert variable.attrs["long_name"], variable.name
+            assert variable.is_scale or all(len(dim) == 1 for dim in variable.dims), variable.name
+
+
+def test_run_has_the_shapes_of_the_study(results):
+    with h5py.File(results / PLAIN_RUN) as run:
+        assert run["wear"].shape == (8, 2000)
+        assert run["revolution_peak"].shape == (run.attrs["revolutions"],)
+        assert (run.attrs["casing"], run.attrs["E"], run.attrs["K"], run.attrs["theta"]) == (
+            "2nd",
+            2,
+            0.5,
+            0.15,
+        )
+        assert "radial_displacement" not in run
+
+
+def test_reduced_model_is_square_with_eight_interface_nodes(results):
+    with h5py.File(results / "blade/reduced_model.h5") as model:
+        n = model["mass"].shape[0]
+        assert all(model[name].shape == (n, n) for name in ("stiffness_0", "stiffness_1", "stiffness_2"))
+        assert model["node_position"].shape == (8, 3)
+
+
+def test_manifest_lists_every_run_with_its_key(results):
+    manifest = pd.read_csv(results / "runs" / COATING / "manifest.tsv", sep="\t")
+    assert list(manifest.f_omega) == [0.15, 0.19, 0.197, 0.23, 0.27, 0.31, 0.35]
+    for row in manifest.itertuples():
+        with h5py.File(results / "runs" / COATING / row.file) as run:
+            assert (run.attrs["run_key"], run.attrs["status"]) == (row.run_key, row.status)
+            assert run.attrs["f_omega"] == row.f_omega
+
+
+@pytest.mark.parametrize("name", COLUMNS)
+def test_table_has_its_columns_and_rows(results, name):
+    table = pd.read_csv(results / "tables" / f"{name}.csv")
+    assert set(table.columns) >= COLUMNS[name]
+    assert len(table) > 0
+
+
+def test_every_figure_is_there_twice(results):
+    for kind, first in (("png", b"\x89PNG"), ("pdf", b"%PDF")):
+        files = sorted((results / "figures").glob(f"*.{kind}"))
+        assert [path.name[:5] for path in files] == [f"fig{number:02}" for number in range(1, 20)]
+        assert all(path.read_bytes().startswith(first) for path in files)
+
+
+def test_every_job_left_a_log_and_a_benchmark(results):
+    for rule in (
+        "blade",
+        "compile_kernel",
+        f"coating/{COATING}",
+        f"map/{COATING}",
+        "peaks",
+        "divergence",
+        "findings",
+    ):
+        assert (results / "logs" / f"{rule}.log").is_file()
+        assert (results / "benchmarks" / f"{rule}.tsv").is_file()
+
+
+def test_log_of_a_coating_has_a_line_a_run_with_the_time_left(results):
+    lines = (results / "logs" / "coating" / f"{COATING}.log").read_text().splitlines()
+    assert [line.split("]")[0] for line in lines[:-1]] == [f"[{number}/7" for number in range(1, 8)]
+    assert all(line.endswith("s left") for line in lines[:-1])
