@@ -34,7 +34,7 @@ def casing_polar(
     magnification : float
         By how much the displacement is magnified.
     """
-    figure = new_figure(COLUMN, 1.12 * COLUMN)
+    figure = new_figure(COLUMN, 1.25 * COLUMN)
     largest = max(np.abs(u).max() for u in inward.values())
     axes = open_polar(figure, 1, 1, 1)
     axes.plot(*close(angle, np.full(np.size(angle), radius)), color=GREY, linewidth=1.0, label="round casing")
@@ -47,6 +47,6 @@ def casing_polar(
         loc="outside lower center",
         ncols=2,
         title=f"change of the inner radius ({1e3 * radius:.0f} mm), magnified {magnification:g} times\n"
-        f"rings {1e3 * largest:.2g} mm apart",
+        f"(rings {1e3 * largest:.2g} mm apart)",
     )
     return figure

@@ -34,7 +34,7 @@ def history(
     limit = 1.08e3 * max(np.nanmax(np.abs(u)) for u in displacement.values())
     panels = zip("ab", above, displacement.items(), (FIRST, SECOND), strict=True)
     for letter, axes, (name, u), look in panels:
-        axes.plot(revolution, 1e3 * np.asarray(u), color=look["color"], linewidth=0.5)
+        axes.plot(revolution, 1e3 * np.asarray(u), color=look["color"], linewidth=0.6)
         axes.set(ylim=(-limit, limit), ylabel="$u_r$ (mm)", title=f"({letter}) {name}")
         envelope = 1e3 * np.asarray(peak[name])
         below.plot(np.arange(envelope.size) + 0.5, envelope, marker="o", markersize=3, label=name, **look)

@@ -38,13 +38,15 @@ def wear_map(coating: CoatingMap) -> Figure:
     ):
         if runs.any():
             lower.plot(coating.f_omega[runs], coating.lobes[runs], linestyle="none", **look)
+    room = 1.2
     if not completed.all():
-        lower.legend(loc="center left", bbox_to_anchor=(1.01, 0.5))
+        room = 1.7  # for the legend above the markers
+        lower.legend(loc="upper left", ncols=2)
     lower.yaxis.set_major_locator(MaxNLocator(integer=True, nbins=5))
     lower.grid(axis="y")
     lower.set(
         xlim=(0, speed_edges[-1]),
-        ylim=(0, 1.2 * max(1, coating.lobes.max())),
+        ylim=(0, room * max(1, coating.lobes.max())),
         xlabel=r"rotational frequency $f_\Omega\,/\,f_1(0)$",
         ylabel="worn lobes",
     )
