@@ -1,0 +1,74 @@
+import numpy as np
+import pandas as pd
+import pytest
+
+from bladerub import datafile
+from bladerub.blade.build import build, directions, write
+from bladerub.blade.model import read_reduced_blade
+
+CONFIG = {
+    "f_omega_max": 0.4,
+    "modes_per_speed": 3,
+    "rank_tolerance": 1e-5,
+    "accuracy_speeds": 3,
+    "accuracy_modes": 4,
+}
+
+
+@pytest.fixture
+def built(twisted_config):
+    return build({"blade": twisted_config, "reduction": CONFIG})
+
+
+def test_directions_follow_the_rotation():
+    phi = np.array([0.0, 0.3, -0.2])
+    position = np.stack([[0.1, 0.0, -0.1], 0.6 * np.sin(phi), 0.6 * np.cos(phi)], axis=1)
+    radial, tangential = directions(position)
+    np.testing.assert_allclose(radial, position * [0, 1, 1] / 0.6, atol=1e-15)
+    turned = np.stack([position[:, 0], 0.6 * np.sin(phi + 1e-7), 0.6 * np.cos(phi + 1e-7)], axis=1)
+    np.testing.assert_allclose((turned - position) / 0.6e-7, tangential, atol=1e-6)
+
+
+def test_files_hold_what_was_built(built, tmp_path):
+    names = ("reduced_model", "mesh", "campbell", "rom_accuracy")
+    paths = [tmp_path / "new" / name for name in names]
+    write(built, *paths)
+
+    blade = read_reduced_blade(paths[0])
+    np.testing.assert_array_equal(blade.stiffness_1, built.reduced.stiffness_1)
+    assert blade.f1_hz == built.frequency[0]
+
+    data, _ = datafile.read(paths[1])
+    n_nodes = len(data["points"])
+    assert data["hexahedra"].shape == (7 * 1 * 3, 20)
+    assert data["hexahedra"].max() == n_nodes - 1
+    np.testing.assert_array_equal(data["points"][data["interface_nodes"]], blade.node_position)
+    assert data["mode_shape"].shape == (4, n_nodes, 3)
+    assert data["static_displacement"].shape == (3, n_nodes, 3)
+    assert not data["mode_shape"][:, data["root_nodes"]].any()
+    np.testing.assert_allclose(np.abs(data["mode_shape"]).max(axis=(1, 2)), 1.0)
+
+    campbell, accuracy = (pd.read_csv(path) for path in paths[2:])
+    assert list(campbell.columns) == ["f_omega", "mode", "f_fe", "f_rom"]
+    assert list(accuracy.columns) == ["f_omega", "mode", "f_fe", "f_fe_eq2", "f_rom", "relative_error"]
+    assert len(campbell) == len(accuracy) == 3 * 4
+    assert accuracy.f_fe[0] == pytest.approx(blade.f1_hz, rel=1e-9)
+
+
+def test_reduced_blade_is_symmetric_and_of_the_size_of_eq_4(built):
+    blade = built.reduced
+    assert 24 + 3 < len(blade.mass) <= 3 * 24 + 3 * 3
+    for matrix in (blade.mass, blade.stiffness_0, blade.stiffness_1, blade.stiffness_2):
+        np.testing.assert_array_equal(matrix, matrix.T)
+    assert np.linalg.eigvalsh(blade.mass).min() > 0
+
+
+def test_eq_2_costs_nothing_at_the_fit_speeds(built):
+    # The three table speeds are the fit speeds here.
+    np.testing.assert_allclose(built.accuracy.f_fe_eq2, built.accuracy.f_fe, rtol=1e-8)
+
+
+def test_a_blade_inside_out_is_refused_before_anything_is_computed(twisted_config):
+    twisted_config["sections"][1]["thickness"] = -0.05
+    with pytest.raises(ValueError, match="inside out"):
+        build({"blade": twisted_config, "reduction": CONFIG})

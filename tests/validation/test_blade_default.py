@@ -1,0 +1,48 @@
+"""The default blade lies in the window of the paper, and its reduced model is as accurate as the paper's."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+import yaml
+
+from bladerub.blade.build import build
+
+CONFIG = Path(__file__).parents[2] / "config" / "config.yaml"
+
+
+@pytest.fixture(scope="module")
+def built():
+    return build(yaml.safe_load(CONFIG.read_text(encoding="utf-8")))
+
+
+def test_first_frequency_at_rest(built):
+    assert built.reduced.f1_hz == pytest.approx(192.2, abs=0.3)
+
+
+def test_stiffening_with_speed(built):
+    # Crossings of C1 with eo(4) and eo(6) below the paper's peaks at 0.31 and 0.21 depend on it.
+    first = built.accuracy[built.accuracy["mode"] == 1].set_index("f_omega").f_fe
+    assert first[0.4] / first[0.0] == pytest.approx(1.305, abs=0.005)
+
+
+def test_bending_with_the_rotation_moves_the_tip_inward(built):
+    shape = built.mode_shape[0][built.mesh.interface]
+    radial = np.sum(shape * built.reduced.radial_direction, axis=1)
+    tangential = np.sum(shape * built.reduced.tangential_direction, axis=1)
+    assert radial @ tangential / (tangential @ tangential) == pytest.approx(-0.21, abs=0.02)
+
+
+def test_reduced_size(built):
+    assert 80 <= len(built.reduced.mass) <= 90  # the paper has 85
+
+
+def test_seven_modes_follow_the_finite_elements(built):
+    error = built.accuracy.relative_error.abs().groupby(built.accuracy["mode"]).max()
+    assert error[:6].max() <= 0.005
+    assert error[7] <= 0.02
+
+
+def test_centrifugal_load_hardly_bends_it(built):
+    largest = np.linalg.norm(built.static_displacement[-1], axis=1).max()
+    assert largest < 0.012 * built.reduced.length
