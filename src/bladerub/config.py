@@ -162,7 +162,7 @@ def _validator() -> jsonschema.protocols.Validator:
     base = jsonschema.Draft202012Validator
     types = base.TYPE_CHECKER.redefine_many(
         {
-            "number": lambda _, value: _is_number(value) and math.isfinite(value),
+            "number": lambda _, value: _is_number(value) and abs(value) < math.inf,
             "integer": lambda _, value: _is_number(value) and isinstance(value, int),
         }
     )

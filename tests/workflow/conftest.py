@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 import os
 import re
 import shutil
@@ -76,6 +77,12 @@ class Workspace:
         """Run the workflow; it must succeed."""
         done = self.snakemake(*targets, "--cores", "2", config=config)
         assert done.returncode == 0, done.stderr
+
+
+@pytest.fixture
+def tiny() -> dict[str, Any]:
+    """The overlay of the tiny study, to change at will."""
+    return copy.deepcopy(TINY)
 
 
 @pytest.fixture

@@ -2,28 +2,19 @@
 
 from __future__ import annotations
 
-import copy
 import shutil
 
 import h5py
-from conftest import TINY
+import pytest
 
 TABLES = {"peaks": 1, "divergence": 1, "findings": 1}
 HISTOGRAMS = {"fig11_Y4": 1, "fig12_f4": 1, "fig13_Y6": 1, "fig14_f6": 1}
 
 
-def changed(**overlay):
-    """TINY with more laid over its second level."""
-    config = copy.deepcopy(TINY)
-    for key, values in overlay.items():
-        config[key] = config.get(key, {}) | values
-    return config
-
-
-def with_E3():
-    config = copy.deepcopy(TINY)
-    config["coatings"][2]["E"].append(3)
-    return config
+@pytest.fixture
+def with_E3(tiny):
+    tiny["coatings"][2]["E"].append(3)
+    return tiny
 
 
 def run_files(workspace):
@@ -36,78 +27,78 @@ def run_files(workspace):
     return files
 
 
-def test_one_figure_plans_only_what_it_needs(workspace):
-    plan = workspace.plan(TINY, "results/figures/fig08_spectrum_soft.png")
+def test_one_figure_plans_only_what_it_needs(workspace, tiny):
+    plan = workspace.plan(tiny, "results/figures/fig08_spectrum_soft.png")
     assert plan == {"blade": 1, "compile_kernel": 1, "coating": 1, "map": 1, "fig08_spectrum_soft": 1}
 
 
-def test_a_complete_study_has_nothing_left_to_do(study):
-    assert study.plan(TINY) == {}
+def test_a_complete_study_has_nothing_left_to_do(study, tiny):
+    assert study.plan(tiny) == {}
 
 
-def test_a_new_coating_plans_itself_and_what_draws_from_it(study):
+def test_a_new_coating_plans_itself_and_what_draws_from_it(study, with_E3):
     new = {"coating": 2, "map": 2}  # with both theta
-    assert study.plan(with_E3()) == new | TABLES | HISTOGRAMS | {"all": 1}
+    assert study.plan(with_E3) == new | TABLES | HISTOGRAMS | {"all": 1}
 
 
-def test_resolution_plans_only_figures(study):
-    plan = study.plan(changed(figures={"dpi": 50}))
+def test_resolution_plans_only_figures(study, tiny):
+    plan = study.plan(tiny | {"figures": {"dpi": 50}})
     assert len(plan) == 20
     assert all(name.startswith("fig") or name == "all" for name in plan)
 
 
-def test_peak_search_plans_no_map(study):
-    search = {"peaks": {"speed_window": [0.9, 1.2]}}
-    plan = study.plan(changed(analysis=TINY["analysis"] | search))
+def test_peak_search_plans_no_map(study, tiny):
+    tiny["analysis"]["peaks"] = {"speed_window": [0.9, 1.2]}
+    plan = study.plan(tiny)
     assert plan == {"peaks": 1, "findings": 1, "fig10_peaks": 1, "all": 1} | HISTOGRAMS
 
 
-def test_a_casing_plans_only_its_coatings(study):
-    plan = study.plan(changed(casings={"2nd5nd": {"interference": 0.0003}}))
+def test_a_casing_plans_only_its_coatings(study, tiny):
+    plan = study.plan(tiny | {"casings": {"2nd5nd": {"interference": 0.0003}}})
     assert (plan["coating"], plan["map"]) == (1, 1)
     assert "blade" not in plan
 
 
-def test_an_edit_of_the_solver_plans_every_coating(copied_study):
+def test_an_edit_of_the_solver_plans_every_coating(copied_study, tiny):
     with (copied_study.folder / "src/bladerub/contact/modes.py").open("a") as source:
         source.write("# edited\n")
-    plan = copied_study.plan(TINY)
+    plan = copied_study.plan(tiny)
     assert plan["compile_kernel"] == 1
     assert plan["coating"] == 5
     assert "blade" not in plan
 
 
-def test_a_new_coating_computes_itself_alone(copied_study):
+def test_a_new_coating_computes_itself_alone(copied_study, with_E3):
     before = run_files(copied_study)
-    copied_study.build(with_E3(), "results/tables/peaks.csv")
+    copied_study.build(with_E3, "results/tables/peaks.csv")
     after = run_files(copied_study)
     assert {name: after[name] for name in before} == before
     new = {name.split("/")[2] for name in after.keys() - before.keys()}
     assert new == {"2nd_E3_K0.5_theta0", "2nd_E3_K0.5_theta0.15"}
 
 
-def test_a_lost_run_is_computed_alone(copied_study):
+def test_a_lost_run_is_computed_alone(copied_study, tiny):
     before = run_files(copied_study)
     lost = "results/runs/2nd_E1.1_K0.5_theta0/0.1970.h5"
     (copied_study.folder / lost).unlink()
     manifest = "results/runs/2nd_E1.1_K0.5_theta0/manifest.tsv"
     (copied_study.folder / manifest).unlink()
-    copied_study.build(TINY, manifest)
+    copied_study.build(tiny, manifest)
     after = run_files(copied_study)
     assert {name for name in before if after[name] != before[name]} == {lost}
     assert after[lost][0] == before[lost][0]
 
 
-def test_a_failed_job_says_why_and_loses_no_run(copied_study):
+def test_a_failed_job_says_why_and_loses_no_run(copied_study, tiny):
     before = run_files(copied_study)
     manifest = "results/runs/2nd_E1.1_K0.5_theta0/manifest.tsv"
-    unstable = changed(solver=TINY["solver"] | {"max_time_step": 1e-5})
+    unstable = tiny | {"solver": tiny["solver"] | {"max_time_step": 1e-5}}
     done = copied_study.snakemake(manifest, "--cores", "1", config=unstable)
     assert done.returncode != 0
     log = copied_study.folder / "results/logs/coating/2nd_E1.1_K0.5_theta0.log"
     assert "ValueError" in log.read_text()
     assert run_files(copied_study) == before
-    copied_study.build(TINY, manifest)
+    copied_study.build(tiny, manifest)
     assert run_files(copied_study) == before
 
 

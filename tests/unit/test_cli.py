@@ -1,0 +1,183 @@
+import json
+
+import pytest
+
+from bladerub import __version__
+from bladerub.cli import main, run
+from bladerub.study.store import read_run
+
+RUN = ["run", "--casing", "2nd", "--E", "2", "--K", "0.5", "--theta", "0.15", "--f", "0.19"]
+KEYS = {
+    "peak_amplitude",
+    "engine_order",
+    "max_wear",
+    "lobes",
+    "divergent",
+    "n_steps",
+    "steps_per_second",
+    "status",
+}
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    """Stands for the repository: its results folder is empty at first, then has the blade of `small`."""
+    return tmp_path_factory.mktemp("repository")
+
+
+@pytest.fixture
+def small(folder, monkeypatch):
+    """Options for a coarse blade and a short run."""
+    monkeypatch.setattr(run, "ROOT", folder)
+    overlay = folder / "small.yaml"
+    overlay.write_text(
+        "blade: {mesh: {chordwise: 7, thickness: 1, spanwise: 6}}\nreduction: {accuracy_speeds: 3}\n"
+    )
+    return ["--config", str(overlay), "--revolutions", "2"]
+
+
+@pytest.fixture
+def blade_file(small, folder, capsys):
+    path = folder / "results" / "blade" / "reduced_model.h5"
+    if not path.exists():
+        assert main([*RUN, *small]) == 0
+        capsys.readouterr()
+    return path
+
+
+def told(capsys, arguments):
+    """Run a bad command: exit code and the one line on standard error."""
+    try:
+        code = main(arguments)
+    except SystemExit as error:  # argparse ends the program itself
+        code = error.code
+    output = capsys.readouterr()
+    assert output.out == ""
+    return code, output.err
+
+
+def test_version(capsys):
+    with pytest.raises(SystemExit) as end:
+        main(["--version"])
+    assert end.value.code == 0
+    assert capsys.readouterr().out == f"bladerub {__version__}\n"
+
+
+def test_run_builds_the_blade_if_there_is_none(small, folder, capsys):
+    assert not (folder / "results").exists()
+    assert main([*RUN, *small, "--json"]) == 0
+    output = capsys.readouterr()
+    assert output.err == f"bladerub run: building the blade first, into {folder / 'results' / 'blade'}\n"
+    assert json.loads(output.out).keys() == KEYS
+    assert (folder / "results" / "blade" / "mesh.h5").is_file()
+    assert (folder / "results" / "tables" / "rom_accuracy.csv").is_file()
+
+
+def test_run_reports_what_it_did(small, blade_file, folder, capsys):
+    path = folder / "run.h5"
+    assert main([*RUN, *small, "--json", "--output", str(path)]) == 0
+    output = capsys.readouterr()
+    figures = json.loads(output.out)
+    assert output.err == ""  # no progress bar away from a terminal
+    stored = read_run(path)
+    assert figures["n_steps"] == stored.attributes["n_steps"]
+    assert figures["max_wear"] == pytest.approx(stored.data["wear"].max(), rel=1e-6)
+    assert figures["peak_amplitude"] == pytest.approx(stored.data["revolution_peak"].max())
+    assert stored.data["radial_displacement"].size == 2 * 2000
+    assert (stored.attributes["theta"], stored.attributes["f_omega"]) == (0.15, 0.19)
+
+
+def test_run_in_words(small, blade_file, capsys):
+    assert main([*RUN, *small]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert [line.split("  ")[0] for line in lines] == [
+        "peak amplitude",
+        "engine order",
+        "maximum wear",
+        "lobes",
+        "divergent",
+        "status",
+        "steps",
+        "steps per second",
+    ]
+
+
+def test_clearances_are_in_lengths_of_the_given_blade(small, blade_file, folder, capsys):
+    main([*RUN, *small, "--json", "--blade", str(blade_file)])
+    same = json.loads(capsys.readouterr().out)
+    config = folder / "longer.yaml"
+    config.write_text("blade: {length: 0.4}\n")
+    assert main([*RUN, *small, "--json", "--config", str(config), "--blade", str(blade_file)]) == 0
+    other = json.loads(capsys.readouterr().out)
+    assert other["peak_amplitude"] == same["peak_amplitude"]
+
+
+def test_blade_of_another_config_is_refused(small, blade_file, folder, capsys):
+    config = folder / "longer.yaml"
+    config.write_text("blade: {length: 0.4}\n")
+    code, line = told(capsys, [*RUN, *small, "--config", str(config)])
+    assert code == 2
+    assert line == (
+        f"bladerub run: {blade_file}: was built with length = 0.2, the config now says 0.4; "
+        "delete it to have it built again\n"
+    )
+
+
+def changed(option, value):
+    at = RUN.index(option) + 1
+    return [*RUN[:at], value, *RUN[at + 1 :]]
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (changed("--casing", "3nd"), '--casing = "3nd": must be one of 2nd, 2nd5nd'),
+        (changed("--E", "0"), "--E = 0: Young modulus must be a number above 0"),
+        (changed("--E", "nan"), "--E = nan: Young modulus must be a number above 0"),
+        (changed("--E", "soft"), "--E: invalid float value: 'soft'"),
+        (changed("--K", "-1"), "--K = -1: plastic modulus must be a number from 0"),
+        (changed("--theta", "15"), "--theta = 15: angle of the abradable elements must be a number from 0"),
+        (changed("--f", "-0.1"), "--f = -0.1: speed must be a number above 0"),
+        (changed("--f", "0.41"), "--f = 0.41: must be at most 0.4 (normalised), the highest speed of"),
+        ([*RUN, "--revolutions", "1"], "--revolutions = 1: must be from 2 to 10000"),
+        ([*RUN, "--blade", "no.h5"], "no.h5: not a readable HDF5 file"),
+        ([*RUN, "--blade", __file__], "not a readable HDF5 file"),
+        ([*RUN, "--output", "/"], "--output /: is a folder, must be a file"),
+        ([*RUN, "--config", "no.yaml"], "no.yaml: cannot be read"),
+        (RUN[:-2], "the following arguments are required: --f"),
+        ([], "the following arguments are required: COMMAND"),
+        ([*RUN, "--depth", "3"], "unrecognized arguments: --depth 3"),
+    ],
+)
+def test_bad_input_is_answered_in_one_line(small, blade_file, arguments, words, capsys):
+    if "--blade" not in arguments and arguments and arguments[0] == "run":
+        arguments = [*arguments, *small[:2]]
+    code, line = told(capsys, arguments)
+    assert code == 2
+    assert words in line
+    assert line.count("\n") == 1
+
+
+def test_bad_config_is_answered_in_one_line(small, folder, capsys):
+    config = folder / "bad.yaml"
+    config.write_text("contact: {dampingratio: 0.01}\n")
+    code, line = told(capsys, [*RUN, "--config", str(config)])
+    assert code == 2
+    assert line == ("config: contact.dampingratio = 0.01: unknown key, did you mean contact.damping_ratio?\n")
+
+
+def test_time_step_too_long_for_the_blade_is_answered_in_one_line(small, blade_file, folder, capsys):
+    config = folder / "long_step.yaml"
+    config.write_text("solver: {max_time_step: 1e-5}\n")
+    code, line = told(capsys, [*RUN, *small, "--config", str(config)])
+    assert code == 2
+    assert line.count("\n") == 1
+    assert "time step 6.6e-06 s" in line
+
+
+def test_interruption_leaves_no_traceback(small, blade_file, monkeypatch, capsys):
+    def interrupted(*_, **__):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("bladerub.contact.run.simulate", interrupted)
+    assert told(capsys, [*RUN, *small]) == (130, "bladerub run: interrupted\n")

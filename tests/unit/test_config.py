@@ -1,0 +1,243 @@
+import copy
+from pathlib import Path
+
+import jsonschema
+import pytest
+
+from bladerub import config as configuration
+from bladerub.config import ROOT, ConfigError, check_quantity, load, schema, validate
+
+CONFIGS = [
+    [ROOT / "config" / "config.yaml"],
+    [ROOT / "config" / "config.yaml", ROOT / "config" / "quick.yaml"],
+]
+
+
+@pytest.fixture(scope="module")
+def paper():
+    return load(*CONFIGS[0])
+
+
+@pytest.fixture
+def config(paper):
+    return copy.deepcopy(paper)
+
+
+def faults(config):
+    with pytest.raises(ConfigError) as error:
+        validate(config)
+    return error.value.faults
+
+
+def rules(rule, path=""):
+    """Every entry of the schema, with its path."""
+    yield path, rule
+    for key in ("properties", "$defs"):
+        for name, inner in rule.get(key, {}).items():
+            if "$ref" not in inner:
+                yield from rules(inner, f"{path}.{name}")
+    for key in ("items", "additionalProperties", "propertyNames"):
+        if isinstance(rule.get(key), dict) and "$ref" not in rule[key]:
+            yield from rules(rule[key], f"{path}[{key}]")
+
+
+@pytest.mark.parametrize("paths", CONFIGS, ids=["config", "quick"])
+def test_configs_of_the_repository_are_valid(paths):
+    config = load(*paths)
+    assert validate(config) == config
+
+
+def test_schema_is_a_schema():
+    jsonschema.Draft202012Validator.check_schema(schema())
+
+
+@pytest.mark.parametrize(("path", "rule"), [pytest.param(p, r, id=p or "top") for p, r in rules(schema())])
+def test_every_entry_of_the_schema_says_what_it_is(path, rule):
+    assert {"title", "type", "unit", "description"} <= rule.keys()
+    if rule["type"] in ("number", "integer"):
+        assert rule.keys() & {"minimum", "exclusiveMinimum"}
+        assert rule.keys() & {"maximum", "exclusiveMaximum"}
+        assert rule["unit"] != "none"
+    if rule["type"] == "string":
+        assert {"pattern", "form"} <= rule.keys()
+    if rule["type"] == "object" and path:
+        assert "additionalProperties" in rule
+
+
+def test_every_key_of_the_schema_is_needed_and_so_in_the_config():
+    for path, rule in rules(schema()):
+        if "properties" in rule:
+            assert set(rule["required"]) == set(rule["properties"]), path
+
+
+def test_overlays_merge_mappings_and_replace_lists(tmp_path):
+    base, overlay = tmp_path / "base.yaml", tmp_path / "overlay.yaml"
+    base.write_text("a: {b: 1, c: [1, 2]}\nd: 5\n")
+    overlay.write_text("a: {c: [3]}\nd: {e: 6}\n")
+    assert load(base, overlay) == {"a": {"b": 1, "c": [3]}, "d": {"e": 6}}
+
+
+@pytest.mark.parametrize(
+    ("text", "number"),
+    [
+        ("1e-3", 1e-3),
+        ("1.0e3", 1e3),
+        ("1.e+3", 1e3),
+        (".5E2", 50.0),
+        ("-2e1", -20.0),
+        ("1_000", 1000),
+        ("3", 3),
+    ],
+)
+def test_numbers_of_any_spelling_are_numbers(tmp_path, text, number):
+    path = tmp_path / "config.yaml"
+    path.write_text(f"value: {text}\nlist: [{text}]\n")
+    config = load(path)
+    assert config == {"value": number, "list": [number]}
+    assert not isinstance(config["value"], str)
+
+
+@pytest.mark.parametrize(
+    ("content", "words"),
+    [
+        (b"a: [1\nb: 2\n", "line 2: not valid YAML"),
+        (b"a: 1\n\nb: 2\nb: 3\n", "line 4: not valid YAML (b is given twice)"),
+        (b"- 1\n", "must hold keys at its top level"),
+        (b"", "must hold keys at its top level"),
+        (b"\xff\xfe", "is not text in UTF-8"),
+        (b"a: !!python/object/apply:os.getcwd []\n", "line 1: not valid YAML"),
+    ],
+)
+def test_malformed_file_is_named(tmp_path, content, words):
+    path = tmp_path / "config.yaml"
+    path.write_bytes(content)
+    with pytest.raises(ConfigError) as error:
+        load(path)
+    (fault,) = error.value.faults
+    assert fault.startswith(str(path))
+    assert words in fault
+
+
+def test_missing_file_is_named(tmp_path):
+    with pytest.raises(ConfigError, match=r"no\.yaml: cannot be read \(No such file or directory\)"):
+        load(tmp_path / "no.yaml")
+
+
+def test_missing_schema_is_named(monkeypatch, tmp_path):
+    monkeypatch.setattr(configuration, "SCHEMA", tmp_path / "schema.yaml")
+    configuration.schema.cache_clear()
+    try:
+        with pytest.raises(ConfigError, match=r"schema\.yaml is missing: install bladerub in place"):
+            configuration.schema()
+    finally:
+        configuration.schema.cache_clear()
+
+
+def test_missing_key_is_named(config):
+    del config["blade"]["length"]
+    assert faults(config) == ["blade.length: missing, blade length must be a number from 0.01 to 3, in m"]
+
+
+def test_key_like_no_other_is_answered_with_all(config):
+    config["figures"]["xyz"] = 1
+    (fault,) = faults(config)
+    assert fault.startswith("figures.xyz = 1: unknown key, known here: dpi, max_frequency")
+
+
+def test_integer_is_not_a_float(config):
+    config["solver"]["revolutions"] = 20.0
+    assert faults(config) == [
+        "solver.revolutions = 20.0: revolutions of a run must be a whole number from 1 to 10000"
+    ]
+
+
+@pytest.mark.parametrize(
+    "value", [True, None, "0.2", [0.2], float("nan"), float("-inf"), 10**400], ids=lambda v: str(v)[:5]
+)
+def test_only_numbers_are_numbers(config, value):
+    config["blade"]["length"] = value
+    (fault,) = faults(config)
+    assert fault.startswith("blade.length = ")
+
+
+@pytest.mark.parametrize("name", ["..", "a/../b", "/tmp", "", "a b", "a//b", ".hidden", "a/"])
+def test_results_stay_below_the_repository(config, name):
+    config["results"] = name
+    (fault,) = faults(config)
+    assert fault.startswith("results = ")
+
+
+def change(config, path, value):
+    *parents, key = path
+    for parent in parents:
+        config = config[parent]
+    config[key] = value
+
+
+@pytest.mark.parametrize(
+    ("path", "value", "words"),
+    [
+        (("speeds", "stop"), 0.01, "speeds.stop = 0.01: must not be below speeds.start = 0.02"),
+        (("speeds", "stop"), 0.41, "speeds.stop = 0.41: must be at most reduction.f_omega_max = 0.4"),
+        (("speeds", "extra"), [0.197, 0.19701], "speeds: 0.197 and 0.19701 are closer than 0.0001"),
+        (("casings", "2nd", "weights"), [0.0], "casings.2nd.weights = [0.0]: at least one must not be 0"),
+        (
+            ("casings", "2nd", "interference"),
+            2.5e-3,
+            "must be at most 0.002 m, or the blade touches all around",
+        ),
+        (("contact", "layer_thickness"), 3e-4, "must be below contact.layer_thickness = 0.0003 m"),
+        (("casings", "2nd", "nodal_diameters"), [1001], "must be a whole number from 1 to 100"),
+        (("analysis", "max_order"), 1001, "must be at most half of contact.elements = 2000"),
+        (
+            ("solver", "revolutions"),
+            9,
+            "analysis.spectrum_revolutions = 10: must be at most solver.revolutions = 9",
+        ),
+        (("solver", "revolutions"), 9, "analysis.divergence.revolutions = 10: must be at most"),
+        (("analysis", "peaks", "orders"), [4, 30], "analysis.peaks.orders[1] = 30: must be at most"),
+        (("analysis", "peaks", "orders"), [4, 4], "must not name one twice"),
+        (("analysis", "histories", 0, "casing"), "3nd", "analysis.histories[0].casing"),
+        (
+            ("analysis", "histories", 0, "E"),
+            2.5,
+            "analysis.histories[0] = 2nd_E2.5_K0.5_theta0: must be one of",
+        ),
+    ],
+)
+def test_parts_that_disagree_are_told(config, path, value, words):
+    change(config, path, value)
+    assert any(words in fault for fault in faults(config))
+
+
+def test_one_broken_part_does_not_hide_the_faults_of_another(config):
+    config["blade"]["length"] = "long"
+    config["casings"]["2nd"]["weights"] = [0]
+    assert len(faults(config)) == 2
+
+
+def test_validate_leaves_its_argument_alone(config):
+    before = copy.deepcopy(config)
+    config["solver"]["max_time_step"] = "25e-8"
+    assert validate(config)["solver"]["max_time_step"] == 2.5e-7
+    assert config == before | {"solver": before["solver"] | {"max_time_step": "25e-8"}}
+
+
+def test_quantities_are_checked_as_in_the_config():
+    check_quantity("E", 0.11)
+    with pytest.raises(ValueError, match="Young modulus must be a number above 0"):
+        check_quantity("E", 0)
+    with pytest.raises(ValueError, match="Young modulus"):
+        check_quantity("E", float("nan"))
+
+
+def test_long_values_are_cut():
+    assert (
+        configuration.shown(list(range(100)))
+        == "[0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16..."
+    )
+    assert "\n" not in configuration.shown("a\nb")
+
+
+def test_schema_is_beside_the_package():
+    assert Path(configuration.__file__).parents[2] == ROOT
