@@ -6,7 +6,8 @@ from bladerub.study.grid import (
     speed_name,
     speeds,
 )
-from bladerub.study.key import run_key, solver_digest
+from bladerub.study.key import run_key
+from bladerub.sources import solver_digest
 
 
 def planned_runs(wildcards):

@@ -7,19 +7,12 @@ of all sources of the solver.
 
 from __future__ import annotations
 
-import hashlib
 from collections.abc import Callable
 from pathlib import Path
 
 import numba
 
-
-def source_digest() -> str:
-    """Hexadecimal digest of the solver's sources, the modules of `bladerub.contact`."""
-    digest = hashlib.sha256()
-    for path in sorted(Path(__file__).parent.glob("*.py")):
-        digest.update(path.name.encode() + b"\0" + path.read_bytes() + b"\0")
-    return digest.hexdigest()
+from bladerub.sources import solver_digest
 
 
 def njit_on_disk(**options) -> Callable[[Callable], Callable]:
@@ -31,7 +24,7 @@ def njit_on_disk(**options) -> Callable[[Callable], Callable]:
     def decorate(function: Callable) -> Callable:
         user_folder = numba.config.CACHE_DIR
         parent = Path(user_folder or Path(__file__).parent / "__pycache__")
-        numba.config.CACHE_DIR = str(parent / f"machine-code-{source_digest()[:16]}")
+        numba.config.CACHE_DIR = str(parent / f"machine-code-{solver_digest()[:16]}")
         try:
             return numba.njit(cache=True, **options)(function)
         finally:

@@ -4,20 +4,17 @@ from __future__ import annotations
 
 import hashlib
 import json
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import asdict
-from functools import cache
 from pathlib import Path
 from typing import Any
 
-import bladerub
 from bladerub import datafile
 from bladerub.contact.spec import RunSpec
+from bladerub.sources import solver_digest, storage_digest
 
 SHAPING_SETTINGS = ("spectrum_revolutions", "max_order")
 """Keys of ``config["analysis"]`` that decide what a run file holds; the others act on maps and tables."""
-
-_PACKAGE = Path(bladerub.__file__).parent
 
 
 def run_key(spec: RunSpec, blade_digest: str, keep_history: bool, analysis: Mapping[str, Any]) -> str:
@@ -51,27 +48,6 @@ def run_key(spec: RunSpec, blade_digest: str, keep_history: bool, analysis: Mapp
         "analysis": {name: float(analysis[name]) for name in SHAPING_SETTINGS},
     }
     return hashlib.sha256(json.dumps(determinants, sort_keys=True).encode()).hexdigest()
-
-
-@cache
-def solver_digest() -> str:
-    """Digest the source of what computes a run: the package ``contact`` and the reduced blade's own class."""
-    return _source_digest([*(_PACKAGE / "contact").rglob("*.py"), _PACKAGE / "blade" / "model.py"])
-
-
-@cache
-def storage_digest() -> str:
-    """Digest the source of what turns a result into its file."""
-    return _source_digest([_PACKAGE / "study" / name for name in ("store.py", "spectra.py")])
-
-
-def _source_digest(paths: Iterable[Path]) -> str:
-    digest = hashlib.sha256()
-    for path in sorted(paths):
-        # universal newlines: a checkout with other line ends is the same source
-        entry = [path.relative_to(_PACKAGE).as_posix(), path.read_text(encoding="utf-8")]
-        digest.update(json.dumps(entry).encode())
-    return digest.hexdigest()
 
 
 def blade_digest(path: str | Path) -> str:

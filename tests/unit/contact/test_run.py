@@ -4,8 +4,7 @@ import numpy as np
 import pytest
 import reference
 
-from bladerub.contact.run import simulate
-from bladerub.contact.run import STRAY, strip_width
+from bladerub.contact.run import STRAY, simulate, strip_width
 
 
 @pytest.mark.parametrize(

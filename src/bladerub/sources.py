@@ -1,0 +1,34 @@
+"""Digests of the package's own sources: results and machine code are valid for the code that made them."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from collections.abc import Iterable
+from functools import cache
+from pathlib import Path
+
+import bladerub
+
+_PACKAGE = Path(bladerub.__file__).parent
+
+
+@cache
+def solver_digest() -> str:
+    """Digest the source of what computes a run: the package ``contact`` and the reduced blade's own class."""
+    return _source_digest([*(_PACKAGE / "contact").rglob("*.py"), _PACKAGE / "blade" / "model.py"])
+
+
+@cache
+def storage_digest() -> str:
+    """Digest the source of what turns a result into its file."""
+    return _source_digest([_PACKAGE / "study" / name for name in ("store.py", "spectra.py")])
+
+
+def _source_digest(paths: Iterable[Path]) -> str:
+    digest = hashlib.sha256()
+    for path in sorted(paths):
+        # universal newlines: a checkout with other line ends is the same source
+        entry = [path.relative_to(_PACKAGE).as_posix(), path.read_text(encoding="utf-8")]
+        digest.update(json.dumps(entry).encode())
+    return digest.hexdigest()
