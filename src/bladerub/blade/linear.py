@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib.util
+import weakref
 from collections.abc import Callable
 
 import numpy as np
@@ -23,7 +24,7 @@ def factorise(matrix: sparse.csc_array) -> Solve:
         If the matrix is singular.
     """
     if importlib.util.find_spec("pypardiso"):
-        return _pardiso(matrix)
+        return _Pardiso(matrix)
     try:
         # Minimum degree on A + Aᵀ without pivoting keeps the symmetry: far less fill than COLAMD.
         factors = splu(
@@ -37,13 +38,23 @@ def factorise(matrix: sparse.csc_array) -> Solve:
     return factors.solve
 
 
-def _pardiso(matrix: sparse.csc_array) -> Solve:
-    from pypardiso import PyPardisoSolver
+class _Pardiso:
+    """Factors kept by PARDISO, whose memory outlives Python's objects unless it is told."""
 
-    solver = PyPardisoSolver()
-    rows = sparse.csr_matrix(matrix)
-    solver.factorize(rows)
-    return lambda rhs: solver.solve(rows, rhs)
+    def __init__(self, matrix: sparse.csc_array):
+        from pypardiso import PyPardisoSolver
+        from pypardiso.pardiso_wrapper import PyPardisoError
+
+        self._matrix = sparse.csr_matrix(matrix)
+        self._solver = PyPardisoSolver()
+        weakref.finalize(self, self._solver.free_memory, everything=True)
+        try:
+            self._solver.factorize(self._matrix)
+        except (ValueError, PyPardisoError) as error:
+            raise np.linalg.LinAlgError(f"sparse factorisation: {error}") from error
+
+    def __call__(self, rhs: np.ndarray) -> np.ndarray:
+        return self._solver.solve(self._matrix, rhs)
 
 
 def lowest_modes(
