@@ -75,6 +75,7 @@ def _bars(axes: Axes3D, E, K, values: np.ndarray, label: str, norm: Normalize) -
         xlabel="E",
         ylabel="K",
     )
+    axes.zaxis.set_major_locator(MaxNLocator(nbins=5))
     axes.tick_params(pad=-2, labelsize=6.5)
     axes.view_init(elev=32, azim=-60)
     axes.set_box_aspect((1.5, 1.1, 0.9), zoom=1.12)

@@ -17,7 +17,7 @@ _LOOKS = (
     {"color": DARK, "linestyle": "-", "marker": "o"},
     {"color": ORANGE, "linestyle": "--", "marker": "s"},
 )
-_RING = {"marker": "o", "markersize": 9, "fillstyle": "none", "color": RED, "zorder": 4, "linestyle": "none"}
+_RING = {"marker": "o", "fillstyle": "none", "zorder": 4, "linestyle": "none"}
 
 
 @dataclass(frozen=True)
@@ -65,13 +65,13 @@ def peak_sections(
     for section, look in zip(sections, _LOOKS, strict=False):
         ray = coating.f_omega[-1] * np.array([0, 1])
         spectrum.plot(section.order * ray, ray, color=RED, linewidth=0.8, label="_section")
-        spectrum.plot(section.order * section.f_peak, section.f_peak, label="_peak", **_RING)
+        _draw_ring(spectrum, section.order * section.f_peak, section.f_peak)
         _draw_section(curves, coating.f_omega, section, look)
     curves.set_title("(b) along the engine orders", pad=16)
     curves.set(xlim=(0, 1.1 * end), xlabel="amplitude (mm)")
     curves.tick_params(labelleft=True)
     legend = curves.legend(
-        loc="upper center", bbox_to_anchor=(0.45, -0.13), title="shaded: searched speeds", title_fontsize=7
+        loc="upper center", bbox_to_anchor=(0.45, -0.11), title="shaded: searched speeds", title_fontsize=7
     )
     legend.set_in_layout(False)  # it stands in the room that the colour bar makes
     return figure
@@ -82,4 +82,9 @@ def _draw_section(axes: Axes, f_omega: np.ndarray, section: PeakSection, look: d
     label = f"eo({k}): $Y_{{{k}}}$ = {peak:.3g} mm at $f_{{{k}}}$ = {section.f_peak:.3f}"
     axes.axhspan(*section.window, color=look["color"], alpha=0.13, linewidth=0, label=f"_window{k}")
     axes.plot(1e3 * section.amplitude, f_omega, markersize=2.2, linewidth=1.0, label=label, **look)
-    axes.plot(peak, section.f_peak, label="_peak", **_RING)
+    _draw_ring(axes, peak, section.f_peak)
+
+
+def _draw_ring(axes: Axes, x: float, y: float) -> None:
+    axes.plot(x, y, color="white", markersize=10, markeredgewidth=3, label="_halo", **_RING)
+    axes.plot(x, y, color=RED, markersize=10, markeredgewidth=1.4, label="_peak", **_RING)
