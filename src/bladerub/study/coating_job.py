@@ -106,7 +106,7 @@ def compute_missing(
         now = time.monotonic()
         cost_done += 1 / spec.f_omega
         cost_left -= 1 / spec.f_omega
-        seconds_left = (now - start) * cost_left / cost_done
+        seconds_left = (now - start) * max(cost_left, 0.0) / cost_done
         report(RunDone(number, len(missing), path.name, result.status, now - run_start, seconds_left))
 
     return [
