@@ -22,6 +22,8 @@ from typing import Any
 import numpy as np
 from scipy.interpolate import CubicSpline
 
+from bladerub.blade.model import N_INTERFACE
+
 EDGE_THICKNESS = 0.4
 """Edge thickness over the largest thickness of a section: blunt, so that hexahedra keep their shape."""
 
@@ -96,8 +98,8 @@ def check(blade: Mapping[str, Any]) -> None:
     Raises
     ------
     ValueError
-        If the sections do not ascend from span 0 to 1, or an element would be turned inside out; the
-        message names the key, the value and what would be right.
+        If the sections do not ascend from span 0 to 1, an element would be turned inside out, or the tip has
+        too few nodes for the interface; the message names the key, the value and what would be right.
     """
     spans = [float(section["span"]) for section in blade["sections"]]
     if len(spans) < 2:
@@ -113,6 +115,7 @@ def check(blade: Mapping[str, Any]) -> None:
                 f"blade.sections[{at}].span = {spans[at]:g}: "
                 f"must be above that of the section before ({spans[at - 1]:g})"
             )
+    check_interface(blade["mesh"])
     xi, eta, zeta = lattice(blade["mesh"])
     shape = BladeShape.from_config(blade)
     jacobian = corner_jacobians(shape.points(xi[:, None, None], eta[None, :, None], zeta[None, None, :]))
@@ -124,6 +127,23 @@ def check(blade: Mapping[str, Any]) -> None:
         raise ValueError(
             f"blade.sections: mesh turned inside out at span {zeta[at]:.3g} to {zeta[at + 1]:.3g}; "
             "chord and thickness must stay above zero between the sections, and neighbours must not cross"
+        )
+
+
+def check_interface(mesh: Mapping[str, int]) -> None:
+    """See that the camber line of the tip has nodes enough for the interface.
+
+    Raises
+    ------
+    ValueError
+        If not; the message says what would be right.
+    """
+    # Through an odd number of elements the line meets nodes only where it crosses their corner edges.
+    n_nodes = mesh["chordwise"] * (2 if mesh["thickness"] % 2 == 0 else 1) + 1
+    if n_nodes < N_INTERFACE:
+        raise ValueError(
+            f"blade.mesh.chordwise = {mesh['chordwise']}: gives {n_nodes} nodes on the tip's camber line, "
+            f"not {N_INTERFACE}; must be 4 or more with an even blade.mesh.thickness, else 7 or more"
         )
 
 

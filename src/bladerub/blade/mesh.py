@@ -9,7 +9,7 @@ import numpy as np
 from skfem import MeshHex1
 from skfem.element import Element, ElementHexS2
 
-from bladerub.blade.geometry import BladeShape, lattice
+from bladerub.blade.geometry import BladeShape, check_interface, lattice
 from bladerub.blade.model import N_INTERFACE
 
 
@@ -105,14 +105,10 @@ class BladeMesh:
         ValueError
             If the tip's camber line has fewer than 8 nodes.
         """
+        check_interface(mesh)
         hexahedra, (xi, eta, zeta) = hexahedral_mesh(*lattice(mesh), shape.points)
         tip = np.flatnonzero(zeta == 1)
         camber_line = tip[np.isclose(eta[tip], 0.5)]
         camber_line = camber_line[np.argsort(xi[camber_line])]
-        if camber_line.size < N_INTERFACE:
-            raise ValueError(
-                f"blade.mesh.chordwise = {mesh['chordwise']}: gives {camber_line.size} nodes on the tip's "
-                f"camber line, not {N_INTERFACE}; use 4 or more with an even blade.mesh.thickness, else 7"
-            )
         evenly = np.rint(np.linspace(0, camber_line.size - 1, N_INTERFACE)).astype(int)
         return cls(hexahedra, np.flatnonzero(zeta == 0), tip, camber_line[evenly])

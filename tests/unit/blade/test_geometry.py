@@ -89,6 +89,17 @@ def test_check_finds_a_mesh_turned_inside_out(blade_config, fault):
         check(blade_config)
 
 
+@pytest.mark.parametrize(
+    ("chordwise", "thickness", "n_nodes"), [(6, 1, 7), (6, 3, 7), (3, 2, 7), (3, 4, 7), (1, 1, 2)]
+)
+def test_check_counts_the_nodes_of_the_interface(blade_config, chordwise, thickness, n_nodes):
+    blade_config["mesh"].update(chordwise=chordwise, thickness=thickness)
+    with pytest.raises(ValueError, match=rf"^blade\.mesh\.chordwise = {chordwise}: gives {n_nodes} nodes"):
+        check(blade_config)
+    blade_config["mesh"].update(chordwise=4 if thickness % 2 == 0 else 7)
+    check(blade_config)
+
+
 def test_corner_jacobians_of_a_brick_are_its_volume():
     points = np.stack(np.meshgrid([0.0, 2.0], [0.0, 3.0], [0.0, 0.5], indexing="ij"))
     np.testing.assert_allclose(corner_jacobians(points), np.full((8, 1, 1, 1), 3.0))
