@@ -1,3 +1,4 @@
+import io
 import json
 
 import pytest
@@ -118,9 +119,17 @@ def test_blade_of_another_config_is_refused(small, blade_file, folder, capsys):
     code, line = told(capsys, [*RUN, *small, "--config", str(config)])
     assert code == 2
     assert line == (
-        f"bladerub run: {blade_file}: was built with length = 0.2, the config now says 0.4; "
-        "delete it to have it built again\n"
+        f"bladerub run: {blade_file}: was built from another config; "
+        "build it again with snakemake, delete it, or name it with --blade\n"
     )
+
+
+def test_progress_bar_on_a_terminal(small, blade_file, monkeypatch, capsys):
+    terminal = io.StringIO()
+    terminal.isatty = lambda: True
+    monkeypatch.setattr("sys.stderr", terminal)
+    assert main([*RUN, *small]) == 0
+    assert "2/2" in terminal.getvalue() or "0/2" in terminal.getvalue()
 
 
 def changed(option, value):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import logging
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -45,6 +46,8 @@ class BuiltBlade:
         The accuracy speeds.
     accuracy : DataFrame
         See `bladerub.blade.accuracy.accuracy_table`.
+    made_from : str
+        See `made_from`.
     """
 
     reduced: ReducedBlade
@@ -54,6 +57,12 @@ class BuiltBlade:
     static_displacement: np.ndarray
     static_speed: np.ndarray
     accuracy: pd.DataFrame
+    made_from: str
+
+
+def made_from(config: Mapping[str, Any]) -> str:
+    """Write down what of `config` determines the blade, to tell later whether a blade is of a config."""
+    return json.dumps({block: config[block] for block in ("blade", "reduction")}, sort_keys=True)
 
 
 def build(config: Mapping[str, Any]) -> BuiltBlade:
@@ -116,6 +125,7 @@ def build(config: Mapping[str, Any]) -> BuiltBlade:
         np.stack([solid.full(states[f_omega].displacement) for f_omega in table_speeds]),
         np.array(table_speeds),
         accuracy_table(reduced, finite_element, by_law),
+        made_from(config),
     )
 
 
@@ -181,4 +191,4 @@ def write_mesh(path: str | Path, built: BuiltBlade) -> None:
             ("f_omega", "node", "axis"), built.static_displacement, "m", "displacement under centrifugal load"
         ),
     }
-    datafile.write(path, variables, {})
+    datafile.write(path, variables, {"made_from": built.made_from})

@@ -7,6 +7,7 @@ import json
 import sys
 import time
 from pathlib import Path
+from shutil import get_terminal_size
 from typing import TYPE_CHECKING, Any
 
 from tqdm import tqdm
@@ -82,7 +83,9 @@ def run(options: argparse.Namespace) -> None:
     case = CoatingCase(options.casing, options.E, options.K, options.theta)
     spec = run_spec(config, case, options.f)
     kernel_warm_up()
-    with tqdm(total=spec.revolutions, unit="rev", disable=None, leave=False) as bar:
+    with tqdm(
+        total=spec.revolutions, unit="rev", ncols=get_terminal_size().columns, disable=None, leave=False
+    ) as bar:
         start = time.perf_counter()
         try:
             result = simulate(blade, spec, progress=lambda done: bar.update(done - bar.n))
@@ -131,31 +134,28 @@ def _blade(options: argparse.Namespace, config: dict[str, Any]) -> tuple[Path, R
     path = options.blade or ROOT / config["results"] / "blade" / "reduced_model.h5"
     if not options.blade and not path.exists():
         _build_blade(config, path)
+    elif not options.blade and not _is_of(config, path):
+        raise InputError(
+            f"{path}: was built from another config; build it again with snakemake, delete it, or name it "
+            "with --blade"
+        )
     try:
         blade = read_reduced_blade(path)
     except OSError as error:
         raise InputError(str(error)) from error
     if options.blade:
         config["blade"]["length"] = blade.length
-    else:
-        _see_that_it_fits(blade, path, config)
     return path, blade
 
 
-def _see_that_it_fits(blade: ReducedBlade, path: Path, config: dict[str, Any]) -> None:
-    reduction = config["reduction"]
-    wanted = {
-        "length": config["blade"]["length"],
-        "f_omega_max": reduction["f_omega_max"],
-        "eta": reduction["modes_per_speed"],
-        "rank_tolerance": reduction["rank_tolerance"],
-    }
-    for name, value in wanted.items():
-        if getattr(blade, name) != value:
-            raise InputError(
-                f"{path}: was built with {name} = {getattr(blade, name):g}, the config now says {value:g}; "
-                "delete it to have it built again"
-            )
+def _is_of(config: dict[str, Any], path: Path) -> bool:
+    from bladerub import datafile
+    from bladerub.blade.build import made_from
+
+    try:
+        return datafile.read_attributes(path.with_name("mesh.h5")).get("made_from") == made_from(config)
+    except OSError:
+        return False
 
 
 def _build_blade(config: dict[str, Any], path: Path) -> None:
