@@ -77,7 +77,8 @@ def build(config: Mapping[str, Any]) -> BuiltBlade:
     """
     reduction = config["reduction"]
     geometry.check(config["blade"])
-    mesh = BladeMesh.from_shape(geometry.BladeShape.from_config(config["blade"]), config["blade"]["mesh"])
+    shape = geometry.BladeShape.from_config(config["blade"])
+    mesh = BladeMesh.from_shape(shape, config["blade"]["mesh"])
     solid = Solid(mesh.mesh, Material.from_config(config["blade"]["material"]), clamped=mesh.root)
     log.info("%d elements, %d free coordinates", mesh.mesh.t.shape[1], solid.free.size)
 
@@ -93,7 +94,7 @@ def build(config: Mapping[str, Any]) -> BuiltBlade:
     phi = transformation(
         fits, solid.mass, partition, reduction["modes_per_speed"], reduction["rank_tolerance"]
     )
-    radial, tangential = directions(mesh.mesh.points[mesh.interface])
+    radial, tangential = directions(mesh.mesh.points[mesh.interface], shape.tip_cone)
     reduced = ReducedBlade(
         project(solid.mass, phi),
         *speed_law(*(project(stiffness, phi) for stiffness in fits), f_max),
@@ -148,13 +149,16 @@ def _equilibria(
     return states
 
 
-def directions(position: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Radial and tangential unit vectors (n, 3) at points (n, 3), the latter positive with the rotation."""
+def directions(position: np.ndarray, tip_cone: float) -> tuple[np.ndarray, np.ndarray]:
+    """Give unit vectors (n, 3) out of the flow path and along the rotation at points (n, 3) of the tip.
+
+    The first is radial for a cylindrical flow path; where it widens downstream by `tip_cone` (rad) it leans
+    upstream by that angle, as the normal of the casing does.
+    """
     phi = np.arctan2(position[:, 1], position[:, 2])
-    zero = np.zeros_like(phi)
-    return np.stack([zero, np.sin(phi), np.cos(phi)], axis=1), np.stack(
-        [zero, np.cos(phi), -np.sin(phi)], axis=1
-    )
+    zero, cone = np.zeros_like(phi), np.full_like(phi, tip_cone)
+    radial = np.stack([-np.sin(cone), np.cos(cone) * np.sin(phi), np.cos(cone) * np.cos(phi)], axis=1)
+    return radial, np.stack([zero, np.cos(phi), -np.sin(phi)], axis=1)
 
 
 def write(built: BuiltBlade, reduced_model: Path, mesh: Path, campbell: Path, rom_accuracy: Path) -> None:

@@ -1,8 +1,8 @@
-"""Shape of the blade: span sections, stacked and wrapped on cylinders about the engine axis.
+"""Shape of the blade: span sections, stacked and wrapped on surfaces of revolution about the engine axis.
 
 Frame, rotating with the blade: x is the engine axis, z the stacking line at mid chord, y completes the
 right-handed system. Positive rotation increases ``phi = atan2(y, z)``, so at the stacking line the blade
-moves towards +y. A section is drawn in the plane (x, t), with t the arc length along its cylinder,
+moves towards +y. A section is drawn in the plane (x, t), with t the arc length around the engine axis,
 positive with the rotation, and then wrapped: ``phi = t / r``.
 
 - **stagger** turns the chord from the axis: the leading edge lies upstream (-x) and ahead in the rotation
@@ -11,6 +11,9 @@ positive with the rotation, and then wrapped: ``phi = t / r``.
   rotation, and the trailing edge lies closer to the axial direction than the leading edge.
 - **sweep** moves a section downstream (+x), **lean** moves it with the rotation (+t). Without them the
   centroids of all camber lines lie on the z axis.
+- **tip cone** is the half angle of the flow path at the tip: where it is positive, tip and casing widen
+  downstream. The hub is a cylinder, and the surfaces between are cones of angles in between. A blade that
+  bends with the rotation also moves downstream, so a widening flow path moves its tip away from the casing.
 """
 
 from __future__ import annotations
@@ -37,7 +40,9 @@ class BladeShape:
     Parameters
     ----------
     hub_radius, length : float
-        Radius of the clamped root and height of the blade, m.
+        Radius of the clamped root and height of the blade on the stacking line, m.
+    tip_cone : float
+        Half angle of the flow path at the tip, rad; positive where it widens downstream.
     span : (n,) ndarray
         Relative height of the sections, ascending from 0 to 1.
     sections : (n, 6) ndarray
@@ -47,6 +52,7 @@ class BladeShape:
 
     hub_radius: float
     length: float
+    tip_cone: float
     span: np.ndarray
     sections: np.ndarray
 
@@ -59,7 +65,8 @@ class BladeShape:
         angles = [_COLUMNS.index("camber"), _COLUMNS.index("stagger")]
         sections[:, angles] = np.deg2rad(sections[:, angles])
         span = np.array([section["span"] for section in blade["sections"]], dtype=float)
-        return cls(float(blade["hub_radius"]), float(blade["length"]), span, sections)
+        tip_cone = float(np.deg2rad(blade["tip_cone"]))
+        return cls(float(blade["hub_radius"]), float(blade["length"]), tip_cone, span, sections)
 
     def section(self, zeta: np.ndarray) -> np.ndarray:
         """Interpolate the columns of `sections` at the relative heights `zeta`: (6, ...)."""
@@ -82,7 +89,7 @@ class BladeShape:
         across = across + offset / np.hypot(1, slope)
         x = along * np.cos(stagger) + across * np.sin(stagger) + sweep
         t = -along * np.sin(stagger) + across * np.cos(stagger) + lean
-        radius = self.hub_radius + zeta * self.length
+        radius = self.hub_radius + zeta * (self.length + x * np.tan(self.tip_cone))
         return np.stack([x, radius * np.sin(t / radius), radius * np.cos(t / radius)])
 
 

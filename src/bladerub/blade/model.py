@@ -28,7 +28,8 @@ class ReducedBlade:
     node_position : (8, 3) ndarray
         Interface nodes at rest in the rotating frame, m (x along the axis, z along the stacking line).
     radial_direction, tangential_direction : (8, 3) ndarray
-        Unit vectors at each node; tangential is positive with the rotation.
+        Unit vectors at each node: out of the flow path (normal to the casing; radial where the flow path is
+        a cylinder), and tangential, positive with the rotation.
     f1_hz : float
         First eigenfrequency at rest, Hz; the unit of all normalised frequencies.
     f_omega_max : float
@@ -73,7 +74,7 @@ _UNITS = {
     "stiffness_1": ("N/m", "coefficient of f_omega^2 in the stiffness, eq. (2)"),
     "stiffness_2": ("N/m", "coefficient of f_omega^4 in the stiffness, eq. (2)"),
     "node_position": ("m", "interface nodes at rest in the rotating frame"),
-    "radial_direction": ("1", "outward radial direction at each interface node"),
+    "radial_direction": ("1", "radial direction at each interface node, normal to the casing"),
     "tangential_direction": ("1", "tangential direction at each interface node, positive with the rotation"),
 }
 _ATTRIBUTES = ("f1_hz", "f_omega_max", "eta", "rank_tolerance", "length")

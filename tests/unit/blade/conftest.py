@@ -2,16 +2,10 @@
 
 import numpy as np
 import pytest
+from blade_parts import TITANIUM, section
 
 from bladerub.blade.elasticity import Material, Solid
 from bladerub.blade.mesh import hexahedral_mesh
-
-TITANIUM = {"young_modulus": 110e9, "poisson_ratio": 0.32, "density": 4430.0}
-
-
-def section(span, **changes):
-    standard = {"chord": 0.08, "thickness": 0.08, "camber": 0.0, "stagger": 0.0, "sweep": 0.0, "lean": 0.0}
-    return {"span": span, **standard, **changes}
 
 
 @pytest.fixture
@@ -21,6 +15,7 @@ def blade_config():
         "material": dict(TITANIUM),
         "hub_radius": 0.45,
         "length": 0.2,
+        "tip_cone": 0.0,
         "sections": [section(0.0), section(1.0)],
         "mesh": {"chordwise": 7, "thickness": 1, "spanwise": 3},
     }

@@ -4,6 +4,7 @@ import pytest
 
 from bladerub import datafile
 from bladerub.blade.build import build, directions, write
+from bladerub.blade.geometry import BladeShape
 from bladerub.blade.model import read_reduced_blade
 
 CONFIG = {
@@ -23,10 +24,24 @@ def built(twisted_config):
 def test_directions_follow_the_rotation():
     phi = np.array([0.0, 0.3, -0.2])
     position = np.stack([[0.1, 0.0, -0.1], 0.6 * np.sin(phi), 0.6 * np.cos(phi)], axis=1)
-    radial, tangential = directions(position)
+    radial, tangential = directions(position, 0.0)
     np.testing.assert_allclose(radial, position * [0, 1, 1] / 0.6, atol=1e-15)
     turned = np.stack([position[:, 0], 0.6 * np.sin(phi + 1e-7), 0.6 * np.cos(phi + 1e-7)], axis=1)
     np.testing.assert_allclose((turned - position) / 0.6e-7, tangential, atol=1e-6)
+
+
+def test_radial_direction_is_the_normal_of_a_conical_flow_path(twisted_config):
+    twisted_config["tip_cone"] = 12.0
+    shape = BladeShape.from_config(twisted_config)
+    tip = shape.points(np.linspace(0, 1, 9), 0.5, 1.0).T
+    radius = np.hypot(tip[:, 1], tip[:, 2])
+    np.testing.assert_allclose(radius, 0.65 + tip[:, 0] * np.tan(np.deg2rad(12.0)))
+    radial, tangential = directions(tip, shape.tip_cone)
+    outwards = tip * [0, 1, 1] / radius[:, None]
+    along = np.array([1, 0, 0]) * np.cos(shape.tip_cone) + outwards * np.sin(shape.tip_cone)
+    np.testing.assert_allclose(np.sum(radial * along, axis=1), 0, atol=1e-15)
+    np.testing.assert_allclose(np.sum(radial * tangential, axis=1), 0, atol=1e-15)
+    np.testing.assert_allclose(np.sum(radial * outwards, axis=1), np.cos(shape.tip_cone))
 
 
 def test_files_hold_what_was_built(built, tmp_path):

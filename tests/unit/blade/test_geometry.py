@@ -1,6 +1,6 @@
 import numpy as np
 import pytest
-from conftest import section
+from blade_parts import section
 
 from bladerub.blade.geometry import EDGE_THICKNESS, BladeShape, check, corner_jacobians
 

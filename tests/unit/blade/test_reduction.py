@@ -20,7 +20,7 @@ ETA = 4
 @pytest.fixture(scope="module")
 def blocks():
     """Stiffness at three speeds, mass, partition and Φ of a leaning bar with two interface nodes."""
-    from conftest import TITANIUM
+    from blade_parts import TITANIUM
 
     from bladerub.blade.elasticity import Material, Solid
     from bladerub.blade.mesh import hexahedral_mesh
