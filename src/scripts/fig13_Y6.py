@@ -5,12 +5,11 @@ import sys
 import pandas as pd
 
 from bladerub.plots import style
-from bladerub.plots.histogram import histogram
+from bladerub.plots.histogram import peak_amplitudes
 
 sys.stderr = open(snakemake.log[0], "w", buffering=1)
 
-peaks = pd.read_csv(snakemake.input.peaks).query(snakemake.params.coatings + " and order == 6")
-table = peaks.pivot(index="E", columns="K", values="amplitude")
+peaks = pd.read_csv(snakemake.input.peaks).query(snakemake.params.coatings)
+table, figure = peak_amplitudes(peaks, order=6)
 table.to_csv(snakemake.output.data, float_format="%.6g")
-figure = histogram(table.index, table.columns, 1e3 * table.to_numpy(), "$Y_6$ (mm)", digits=3)
 style.save(figure, snakemake.output.png, snakemake.output.pdf, snakemake.params.dpi)

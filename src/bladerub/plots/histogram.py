@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+import pandas as pd
 from matplotlib import colormaps
 from matplotlib.axes import Axes
 from matplotlib.colors import Normalize
@@ -14,6 +15,40 @@ from mpl_toolkits.mplot3d import Axes3D
 from bladerub.plots.style import HEIGHT_MAP, MISSING, PAGE, RED, new_figure, styled
 
 _BAR = 0.62  # width of a bar, in cells
+_ROOM = 0.01  # from the floor to the lowest speed, normalised: it is seen, and the differences too
+
+
+def peak_amplitudes(peaks: pd.DataFrame, order: int) -> tuple[pd.DataFrame, Figure]:
+    """Draw Figs. 11 and 13 from the table of peaks: Y_k over (E, K).
+
+    Parameters
+    ----------
+    peaks : DataFrame
+        Rows of ``peaks.csv``, of one casing and one theta.
+    order : int
+        The engine order k.
+
+    Returns
+    -------
+    table : DataFrame
+        What is drawn, K over E, m.
+    figure : Figure
+        In mm.
+    """
+    table = _over_moduli(peaks, order, "amplitude")
+    return table, histogram(table.index, table.columns, 1e3 * table.to_numpy(), f"$Y_{order}$ (mm)", digits=3)
+
+
+def peak_speeds(peaks: pd.DataFrame, order: int) -> tuple[pd.DataFrame, Figure]:
+    """Draw Figs. 12 and 14 from the table of peaks: f_k over (E, K), normalised (see `peak_amplitudes`)."""
+    table = _over_moduli(peaks, order, "f_peak")
+    label = f"rotational frequency $f_{order}$ (normalised)"
+    floor = table.min(axis=None) - _ROOM
+    return table, histogram(table.index, table.columns, table.to_numpy(), label, digits=3, floor=floor)
+
+
+def _over_moduli(peaks: pd.DataFrame, order: int, column: str) -> pd.DataFrame:
+    return peaks[peaks.order == order].pivot(index="E", columns="K", values=column)
 
 
 @styled

@@ -2,13 +2,37 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
+from pathlib import Path
 
 import numpy as np
+import pandas as pd
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
+from bladerub.plots import titles
 from bladerub.plots.style import FIRST, PAGE, SECOND, new_figure, styled
+from bladerub.study.store import read_run
+
+
+def history_of_runs(paths: Iterable[str | Path]) -> tuple[pd.DataFrame, Figure]:
+    """Draw Figs. 17 and 18 from the files of two runs that differ in theta.
+
+    Returns
+    -------
+    table : DataFrame
+        ``revolution``, and the radial displacement of node 1 in each run, m.
+    figure : Figure
+        See `history`.
+    """
+    runs = {titles.angle(run.attributes["theta"]): run for run in map(read_run, paths)}
+    displacement = {name: run.data["radial_displacement"] for name, run in runs.items()}
+    peak = {name: run.data["revolution_peak"] for name, run in runs.items()}
+    run = next(iter(runs.values()))
+    revolution, about = run.data["revolution"], run.attributes
+    title = f"{titles.moduli(about['casing'], about['E'], about['K'])}, {titles.speed(about['f_omega'])}"
+    table = pd.DataFrame({"revolution": revolution, **displacement})
+    return table, history(revolution, displacement, peak, title)
 
 
 @styled

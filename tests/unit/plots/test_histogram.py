@@ -1,10 +1,11 @@
 import numpy as np
+import pandas as pd
 import pytest
 from matplotlib.colors import to_rgba
 from matplotlib.patches import Rectangle
 from mpl_toolkits.mplot3d import Axes3D
 
-from bladerub.plots.histogram import histogram
+from bladerub.plots.histogram import histogram, peak_amplitudes, peak_speeds
 from bladerub.plots.style import MISSING, RED
 
 VALUES = np.array([[0.1, np.nan], [0.4, 0.3], [np.nan, 0.2]])
@@ -58,3 +59,29 @@ def test_bars_stand_on_the_floor(draws):
 def test_nothing_to_draw_is_said():
     with pytest.raises(ValueError, match="is missing"):
         histogram([1, 2], [1], np.full((2, 1), np.nan), "$Y_4$ (mm)", digits=2)
+
+
+PEAKS = pd.DataFrame(
+    [
+        (1.1, 0.5, 4, 0.31, 2e-3),
+        (0.11, 0.5, 4, 0.30, 1e-3),
+        (0.11, 5.0, 4, 0.32, 3e-3),
+        (1.1, 0.5, 6, 0.2, 9e-3),
+    ],
+    columns=["E", "K", "order", "f_peak", "amplitude"],
+)
+
+
+def test_amplitudes_of_one_order_are_drawn_in_mm(draws):
+    table, figure = peak_amplitudes(PEAKS, order=4)
+    assert (list(table.index), list(table.columns)) == ([0.11, 1.1], [0.5, 5.0])
+    np.testing.assert_array_equal(table, [[1e-3, 3e-3], [2e-3, np.nan]])
+    bars, cells, _ = draws(figure).axes
+    assert bars.get_title(loc="left") == "(a) $Y_4$ (mm)"
+    assert [text.get_text() for text in cells.texts] == ["1.000", "3.000", "2.000", "–"]
+
+
+def test_speeds_of_one_order_stand_on_a_floor_below_the_lowest(draws):
+    table, figure = peak_speeds(PEAKS, order=4)
+    np.testing.assert_array_equal(table, [[0.30, 0.32], [0.31, np.nan]])
+    assert draws(figure).axes[0].get_zlim()[0] == pytest.approx(0.29)

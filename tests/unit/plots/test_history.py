@@ -1,7 +1,9 @@
 import numpy as np
 import pytest
 
-from bladerub.plots.history import history
+from bladerub import datafile
+from bladerub.datafile import Variable
+from bladerub.plots.history import history, history_of_runs
 
 REVOLUTION = (np.arange(200) + 0.5) / 50
 STEADY = 1e-4 * np.sin(12 * np.pi * REVOLUTION)
@@ -30,3 +32,28 @@ def test_the_growth_of_both_runs(axes):
     np.testing.assert_allclose(growing.get_ydata(), [0.16, 0.27, 0.44, np.nan])
     assert axes[2].get_xlim() == (0, 4)
     assert axes[2].get_xlabel() == "revolution"
+
+
+@pytest.fixture
+def run_files(tmp_path):
+    paths = []
+    for theta, displacement, peak in zip((0.0, 0.15), (STEADY, GROWING), PEAK.values(), strict=True):
+        paths.append(tmp_path / f"{theta}.h5")
+        variables = {
+            "revolution": Variable(("revolution",), REVOLUTION, "1", "time"),
+            "radial_displacement": Variable(("revolution",), displacement, "m", "of node 1"),
+            "revolution_peak": Variable(("revolution_number",), peak, "m", "largest"),
+            "wear": Variable(("node",), np.zeros(8), "m", "worn depth"),
+            "spectrum_amplitude": Variable(("spectrum_order",), np.zeros(3), "m", "amplitude"),
+        }
+        about = {"casing": "2nd", "E": 2.0, "K": 0.5, "theta": theta, "f_omega": 0.19, "run_key": "key"}
+        datafile.write(paths[-1], variables, about)
+    return paths
+
+
+def test_runs_are_read_from_their_files_and_named_by_their_angle(run_files, draws):
+    table, figure = history_of_runs(run_files)
+    assert list(table.columns) == ["revolution", "θ = 0", "θ = 0.15 rad"]
+    np.testing.assert_array_equal(table["θ = 0.15 rad"], GROWING)
+    assert draws(figure).get_suptitle() == r"casing 2nd, E = 2, K = 0.5, $f_\Omega$ = 0.190"
+    np.testing.assert_allclose(figure.axes[2].lines[1].get_ydata(), [0.16, 0.27, 0.44, np.nan])
