@@ -20,7 +20,7 @@ def shelve(path: str | Path) -> None:
     path = Path(path)
     try:
         key = read_run(path).attributes["run_key"]
-    except OSError:
+    except Exception:  # whatever is wrong with the file, it is no run to keep (as in `is_current`)
         return
     shelved = _place(path, key)
     shelved.parent.mkdir(exist_ok=True)

@@ -1,5 +1,8 @@
 """Changing the study and changing it back costs no run."""
 
+import pytest
+
+from bladerub.study import shelf
 from bladerub.study.shelf import SHELF, unshelve
 
 
@@ -32,3 +35,12 @@ def test_a_damaged_run_on_the_shelf_is_not_taken(compute, simulated, tmp_path):
     shelved = tmp_path / SHELF / f"{first[0].run_key}.h5"
     shelved.write_bytes(shelved.read_bytes()[:1000])
     assert not unshelve(tmp_path / first[0].file, first[0].run_key)
+
+
+@pytest.mark.parametrize("error", [OSError, RuntimeError, KeyError])  # h5py raises any of them
+def test_a_damaged_run_is_written_anew_whatever_is_wrong_with_it(compute, simulated, monkeypatch, error):
+    def broken(path):
+        raise error
+
+    monkeypatch.setattr(shelf, "read_run", broken)
+    assert len(compute()) == 4
