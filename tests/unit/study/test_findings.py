@@ -223,6 +223,19 @@ def test_divergence_is_measured_at_the_papers_speed_and_at_ours(paper, judge):
     assert judged.measured["C11d"] == np.inf
 
 
+def test_a_beat_past_its_maximum_is_no_divergence_for_the_claims_either(paper, judge):
+    paper[1]["divergence"]["divergent"] = False  # though it grows
+    judged = judge(*paper)
+    assert list(judged.holds[["C11a", "C11b", "C11g", "C11h"]]) == ["partly"] * 4
+
+
+def test_a_wear_maximum_far_from_the_papers_is_not_compared_with_vibration(paper, judge, make_map):
+    paper[2][WORN.name] = make_map(WORN, {5: (0.15, 1e-3), 4: (0.38, 2e-3)}, SPEEDS, lobes=5)
+    judged = judge(*paper)
+    assert list(judged.measured[["C3c"]]) == ["none"]
+    assert list(judged.holds[["C3a", "C3c", "C3d"]]) == ["no", "no", "yes"]
+
+
 def test_soft_coatings_are_judged_when_the_study_has_them(paper, judge):
     softer = paper[1]["divergence"].assign(E=0.05, theta=0.0, divergent=[False, False, False, True])
     paper[1]["divergence"] = pd.concat([paper[1]["divergence"], softer], ignore_index=True)

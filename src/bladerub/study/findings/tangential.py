@@ -124,6 +124,8 @@ def _distinct_peak(evidence: Evidence, case: CoatingCase) -> float:
 def _diverges(evidence: Evidence, id_: str, case: CoatingCase, f_omega: float, where: str) -> Finding:
     growth, threshold = _growth(evidence, case, f_omega)
     holds, margin = above(growth, threshold, 0.5 * threshold)
+    if holds == YES and not evidence.run(case, f_omega).divergent:
+        holds = PARTLY  # it grows, but the greatest amplitude came before the end
     claim = f"theta = {case.theta:g} diverges at f_omega = {f_omega:g}: growth a revolution ({where})"
     return Finding(id_, claim, f"above {threshold:g}", growth, "1", holds, margin)
 

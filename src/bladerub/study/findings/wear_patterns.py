@@ -95,6 +95,7 @@ def _wear_meets_vibration(evidence: Evidence, id_: str, order: int, paper: float
     claim = f"wear maximum near {paper:g} is a vibration maximum on eo({order}): offset of the two (Fig. 7)"
     amplitude = order_amplitude(coating, order, evidence.config["analysis"]["peaks"]["order_halfwidth"])
     worn = _maxima(coating, coating.max_wear)
+    worn = worn[np.abs(worn - paper) <= 2 * NEAR]  # another maximum of the wear is not the paper's
     vibrating = _maxima(coating, np.nan_to_num(amplitude))
     if worn.size == 0:
         return _nearest(id_, claim, 0.0, worn)
