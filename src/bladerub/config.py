@@ -249,6 +249,8 @@ def _range(rule: dict[str, Any]) -> str:
         return f" with at least {rule['minProperties']}" if "minProperties" in rule else ""
     if rule["type"] == "array":
         fewest, most = rule.get("minItems", 0), rule.get("maxItems", math.inf)
+        if most == math.inf:
+            return f" of {fewest} or more entries"
         return f" of {fewest} entries" if fewest == most else f" of {fewest} to {most} entries"
     if {"minimum", "maximum"} <= rule.keys():
         return f" from {rule['minimum']:g} to {rule['maximum']:g}"

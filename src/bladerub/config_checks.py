@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from bladerub.blade import geometry
+from bladerub.blade.model import N_INTERFACE
 from bladerub.contact.casing import shape
 from bladerub.contact.spec import Casing
 from bladerub.study.grid import SPEED_DECIMALS, CoatingCase, coating_cases, speeds
@@ -38,6 +39,17 @@ def _blade_shape(config: Config) -> Iterator[str]:
         yield str(error)
 
 
+@_reads("reduction")
+def _accuracy_modes(config: Config) -> Iterator[str]:
+    reduction = config["reduction"]
+    most = 3 * N_INTERFACE + reduction["modes_per_speed"]  # coordinates that the reduced model has for sure
+    if reduction["accuracy_modes"] > most:
+        yield (
+            f"reduction.accuracy_modes = {reduction['accuracy_modes']}: must be at most {most} with "
+            f"reduction.modes_per_speed = {reduction['modes_per_speed']}, the reduced model has no more"
+        )
+
+
 @_reads("casings", "contact")
 def _casings(config: Config) -> Iterator[str]:
     layer = config["contact"]["layer_thickness"]
@@ -66,6 +78,18 @@ def _casings(config: Config) -> Iterator[str]:
             yield (
                 f"{where}.interference = {depth:g}: must be below contact.layer_thickness = {layer:g} m, or "
                 "the blade reaches through the coating"
+            )
+
+
+@_reads("casings", "contact", "blade")
+def _contact_at_all(config: Config) -> Iterator[str]:
+    smallest = min(config["contact"]["clearance"].values()) * config["blade"]["length"]
+    for name, casing in config["casings"].items():
+        depth = casing["interference"]
+        if depth <= smallest:
+            yield (
+                f"casings.{name}.interference = {depth:g}: must be above the smaller contact.clearance, "
+                f"{smallest:g} m on this blade, or the blade never touches"
             )
 
 
@@ -165,6 +189,25 @@ def _analysis(config: Config) -> Iterator[str]:
         if order > highest:
             where = f"analysis.peaks.orders[{index}]"
             yield f"{where} = {order}: must be at most analysis.max_order = {highest:g}"
+
+
+@_reads("analysis", "speeds")
+def _crossings(config: Config) -> Iterator[str]:
+    try:
+        grid = speeds(config)
+    except ValueError:  # told by the check of the speeds
+        return
+    if config["speeds"]["stop"] < config["speeds"]["start"]:  # told there as well
+        return
+    if len(grid) < 2:
+        yield f"speeds.stop = {config['speeds']['stop']:g}: must give two speeds or more, for maps and peaks"
+        return
+    for index, order in enumerate(config["analysis"]["peaks"]["orders"]):
+        if order * grid[-1] < 1:  # rotation stiffens the blade: C1 is nowhere below its value at rest, 1
+            yield (
+                f"analysis.peaks.orders[{index}] = {order}: must be at least {1 / grid[-1]:.3g} to cross the "
+                f"first frequency below the highest speed, {grid[-1]:g}"
+            )
 
 
 @_reads("figures")

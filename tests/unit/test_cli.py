@@ -147,7 +147,7 @@ def changed(option, value):
         (changed("--E", "soft"), "--E: invalid float value: 'soft'"),
         (changed("--K", "-1"), "--K = -1: plastic modulus must be a number from 0"),
         (changed("--theta", "15"), "--theta = 15: angle of the abradable elements must be a number from 0"),
-        (changed("--f", "-0.1"), "--f = -0.1: speed must be a number above 0"),
+        (changed("--f", "-0.1"), "--f = -0.1: speed must be a number from 0.001 to 2 (normalised)"),
         (changed("--f", "0.41"), "--f = 0.41: must be at most 0.4 (normalised), the highest speed of"),
         ([*RUN, "--revolutions", "1"], "--revolutions = 1: must be from 2 to 10000"),
         ([*RUN, "--blade", "no.h5"], "no.h5: not a readable HDF5 file"),
