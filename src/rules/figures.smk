@@ -36,6 +36,11 @@ def drawing(*modules):
     return expand("src/bladerub/plots/{module}.py", module=["style", *modules])
 
 
+def rubbing(*modules):
+    """The modules of the model that a figure shows at work."""
+    return expand("src/bladerub/contact/{module}.py", module=modules)
+
+
 rule fig01_blade:
     input:
         mesh=rules.blade.output.mesh,
@@ -73,6 +78,7 @@ rule fig02_campbell:
 
 rule fig03_tip_profile:
     input:
+        model=rubbing("coating", "tip"),
         drawing=drawing("tip_profile"),
     output:
         multiext(f"{PLOTS}/fig03_tip_profile", png=".png", pdf=".pdf", data=".csv"),
@@ -92,6 +98,7 @@ rule fig03_tip_profile:
 
 rule fig04_coating_cycle:
     input:
+        model=rubbing("coating"),
         drawing=drawing("coating_cycle"),
     output:
         multiext(f"{PLOTS}/fig04_coating_cycle", png=".png", pdf=".pdf", data=".csv"),
@@ -109,6 +116,7 @@ rule fig04_coating_cycle:
 
 rule fig05_casing:
     input:
+        model=rubbing("casing"),
         drawing=drawing("casing_polar", "polar"),
     output:
         multiext(f"{PLOTS}/fig05_casing", png=".png", pdf=".pdf", data=".csv"),
@@ -196,6 +204,7 @@ rule fig09_spectrum_critical:
 rule fig10_peaks:
     input:
         map=map_of(SOFT),
+        analysing=analysing("peaks"),
         drawing=drawing(
             "peak_sections", "spectrum_map", "cells", "engine_orders", "titles"
         ),

@@ -1,8 +1,16 @@
 # Stages 3 and 4: what the runs of a coating show together, and the tables over all coatings.
+
+
+def analysing(*modules):
+    """The modules that make a map or a table; Snakemake does not follow imports."""
+    return expand("src/bladerub/study/{module}.py", module=modules)
+
+
 rule map:
     input:
         manifest=rules.coating.output[0],
         blade=f"{RESULTS}/blade/reduced_model.h5",
+        analysing=analysing("maps", "wear"),
     output:
         f"{RESULTS}/maps/{{coating}}.h5",
     log:
@@ -18,7 +26,8 @@ rule map:
 
 rule peaks:
     input:
-        expand(rules.map.output, coating=COATINGS),
+        maps=expand(rules.map.output, coating=COATINGS),
+        analysing=analysing("peaks"),
     output:
         f"{RESULTS}/tables/peaks.csv",
     log:
@@ -34,7 +43,8 @@ rule peaks:
 
 rule divergence:
     input:
-        expand(rules.map.output, coating=COATINGS),
+        maps=expand(rules.map.output, coating=COATINGS),
+        analysing=analysing("divergence"),
     output:
         f"{RESULTS}/tables/divergence.csv",
     log:
@@ -54,6 +64,17 @@ rule findings:
         peaks=rules.peaks.output[0],
         divergence=rules.divergence.output[0],
         rom_accuracy=f"{RESULTS}/tables/rom_accuracy.csv",
+        analysing=analysing(
+            "peaks",
+            "findings/__init__",
+            "findings/evidence",
+            "findings/finding",
+            "findings/moduli",
+            "findings/reduction",
+            "findings/spectra",
+            "findings/tangential",
+            "findings/wear_patterns",
+        ),
     output:
         f"{RESULTS}/tables/findings.csv",
     log:

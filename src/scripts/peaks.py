@@ -6,4 +6,4 @@ from bladerub.study import peaks
 
 sys.stderr = open(snakemake.log[0], "w", buffering=1)
 
-peaks.table(snakemake.config, snakemake.input).to_csv(snakemake.output[0], index=False)
+peaks.table(snakemake.config, snakemake.input.maps).to_csv(snakemake.output[0], index=False)
