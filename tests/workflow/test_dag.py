@@ -68,6 +68,13 @@ def test_an_edit_of_the_solver_plans_every_coating(copied_study, tiny):
     assert "blade" not in plan
 
 
+def test_an_edit_of_the_peak_search_plans_what_comes_of_it(copied_study, tiny):
+    with (copied_study.folder / "src/bladerub/study/peaks.py").open("a") as source:
+        source.write("# edited\n")
+    plan = copied_study.plan(tiny)
+    assert plan == {"peaks": 1, "findings": 1, "fig10_peaks": 1, "all": 1} | HISTOGRAMS
+
+
 def test_a_new_coating_computes_itself_alone(copied_study, with_E3):
     before = run_files(copied_study)
     copied_study.build(with_E3, "results/tables/peaks.csv")
