@@ -28,7 +28,7 @@ rule blade:
         f"{config['results']}/logs/blade.log",
     benchmark:
         f"{config['results']}/benchmarks/blade.tsv"
-    threads: 2
+    threads: 1
     params:
         blade=config["blade"],
         reduction=config["reduction"],

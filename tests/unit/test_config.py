@@ -209,7 +209,7 @@ def change(config, path, value):
             "analysis.spectrum_revolutions = 10: must be at most solver.revolutions = 9",
         ),
         (("solver", "revolutions"), 9, "analysis.divergence.revolutions = 10: must be at most"),
-        (("analysis", "peaks", "orders"), [4, 30], "analysis.peaks.orders[1] = 30: must be at most"),
+        (("analysis", "peaks", "orders"), [4, 70], "analysis.peaks.orders[1] = 70: must be at most"),
         (("analysis", "peaks", "orders"), [4, 4], "must not name one twice"),
         (("analysis", "histories", 0, "casing"), "3nd", "analysis.histories[0].casing"),
         (

@@ -161,12 +161,23 @@ def _press(stator, tip, wear, j, position, rise):
 def _is_clear(tip, u, floor):
     """Whether the tip surely touches nothing: its highest node is below the lowest gap in reach."""
     highest = -np.inf
+    lowest = np.inf
     furthest = 0.0
     for j in range(N_INTERFACE):
         tangential = u[N_INTERFACE + j]
         highest = max(highest, u[j] + tangential * tangential / tip.radius[j])
+        lowest = min(lowest, u[j])
         furthest = max(furthest, abs(tangential))
-    return highest <= floor and furthest <= tip.stray
+    return highest <= floor and lowest > -tip.limit and furthest <= tip.stray
+
+
+@njit(fastmath=FAST)
+def _is_within_bounds(tip, u):
+    """Whether every displacement is a number below the limit."""
+    within = True
+    for i in range(2 * N_INTERFACE):
+        within &= abs(u[i]) < tip.limit
+    return within
 
 
 @njit(fastmath=FAST)
@@ -180,13 +191,13 @@ def _contact_forces(stator, tip, passed, u, wear, force):
     wear_loss : float
         Energy taken by wear, J.
     """
+    if not _is_within_bounds(tip, u):  # before any bar is touched
+        return OUT_OF_BOUNDS, 0.0
     n_elements = wear.shape[1]
     outcome = FREE
     wear_loss = 0.0
     for j in range(N_INTERFACE):
         radial, tangential = u[j], u[N_INTERFACE + j]
-        if not (abs(radial) < tip.limit and abs(tangential) < tip.limit):
-            return OUT_OF_BOUNDS, wear_loss
         force[j] = 0.0
         force[N_INTERFACE + j] = 0.0
         position = tip.start[j] + passed + tangential * tip.per_metre[j]
@@ -194,7 +205,8 @@ def _contact_forces(stator, tip, passed, u, wear, force):
         lowest = stator.lowest_gap[j, int(position)]
         if radial + tangential * tangential / tip.radius[j] <= lowest:  # more than the tip can rise
             continue
-        # clearance closes by tangential vibration too: the radius is that of the moved node
+        # Clearance closes by tangential vibration too: the radius is that of the moved node, to the
+        # cosine of the cone where the flow path is one.
         rise = np.sqrt((tip.radius[j] + radial) ** 2 + tangential**2) - tip.radius[j]
         push, loss = _press(stator, tip, wear, j, position, rise)
         if push > 0.0:

@@ -161,7 +161,7 @@ def _tip(blade: ReducedBlade, spec: RunSpec) -> kernel.Tip:
 
 
 def strip_width(blade: ReducedBlade) -> np.ndarray:
-    """Axial width (8,) of the coating strip under each interface node, m: its share of the chord."""
+    """Axial width (8,) of the coating strip under each interface node, m: its share of the axial chord."""
     x = blade.node_position[:, 0]
     middle = np.concatenate([x[:1], (x[1:] + x[:-1]) / 2, x[-1:]])
     return np.abs(np.diff(middle))

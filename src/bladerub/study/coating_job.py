@@ -8,12 +8,13 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from bladerub import datafile
 from bladerub.blade.model import ReducedBlade
 from bladerub.contact.run import simulate
 from bladerub.study.grid import CoatingCase, keeps_history, run_spec, speed_name, speeds
 from bladerub.study.key import run_key
 from bladerub.study.shelf import shelve, unshelve
-from bladerub.study.store import ManifestRow, is_current, read_run, write_run
+from bladerub.study.store import ManifestRow, is_current, write_run
 
 
 @dataclass(frozen=True)
@@ -110,6 +111,6 @@ def compute_missing(
         report(RunDone(number, len(missing), path.name, result.status, now - run_start, seconds_left))
 
     return [
-        ManifestRow(path.name, spec.f_omega, key, read_run(path).attributes["status"])
+        ManifestRow(path.name, spec.f_omega, key, datafile.read_attributes(path)["status"])
         for path, spec, key, _ in planned
     ]

@@ -10,7 +10,7 @@ CASE = CoatingCase("2nd", 1.1, 0.5, 0.0)
 
 @pytest.fixture
 def settings(config):
-    return config["analysis"]["peaks"]
+    return config["analysis"]["peaks"] | {"order_halfwidth": 0.25, "speed_window": [0.85, 1.25]}
 
 
 @pytest.mark.parametrize("order", [4, 5, 6])
