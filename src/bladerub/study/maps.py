@@ -8,9 +8,9 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from scipy import linalg
 
 from bladerub import datafile
+from bladerub.blade.accuracy import reduced_frequencies
 from bladerub.blade.model import ReducedBlade
 from bladerub.datafile import Variable
 from bladerub.study.grid import CoatingCase
@@ -127,7 +127,7 @@ def build_map(
     coating = CoatingMap(
         case=case,
         f_omega=f_omega,
-        C1=np.array([first_frequency(blade, f) for f in f_omega]),
+        C1=np.array([reduced_frequencies(blade, f, n_modes=1)[0] for f in f_omega]) / blade.f1_hz,
         angle=angle,
         wear=np.stack([mean_wear(each) for each in wear]),
         wear_node=wear,
@@ -151,14 +151,6 @@ def _listed_run(folder: Path, row: ManifestRow) -> StoredRun:
     if run.attributes["run_key"] != row.run_key:
         raise OSError(f"{path}: not the run that the manifest lists (its key differs); {remedy}")
     return run
-
-
-def first_frequency(blade: ReducedBlade, f_omega: float) -> float:
-    """First eigenfrequency C1 of the reduced blade at the speed `f_omega`, both normalised."""
-    eigenvalue = linalg.eigh(blade.stiffness(f_omega), blade.mass, eigvals_only=True, subset_by_index=[0, 0])[
-        0
-    ]
-    return float(np.sqrt(eigenvalue) / (2 * np.pi) / blade.f1_hz)
 
 
 def write_map(path: str | Path, coating: CoatingMap) -> None:
