@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -42,12 +43,15 @@ class Casing:
 class Coating:
     """Abradable layer: E, K and σ_Y normalised by `modulus_unit`.
 
+    Infinite E and K stand for direct contact with the rigid casing: it does not give way and does not wear.
+
     Parameters
     ----------
     E, K : float
-        Young modulus and plastic (hardening) modulus, normalised.
+        Young modulus and plastic (hardening) modulus, normalised; both finite or both infinite.
     theta : float
-        Rotation of the abradable elements from the radial direction, rad.
+        Rotation of the abradable elements from the radial direction, rad. The contact force is turned by it
+        against the rotation, so it is also the angle of friction: Coulomb's coefficient is ``tan(theta)``.
     yield_stress : float
         Elastic limit σ_Y, normalised.
     modulus_unit : float
@@ -65,6 +69,11 @@ class Coating:
     modulus_unit: float
     thickness: float
     n_elements: int
+
+    @property
+    def is_rigid(self) -> bool:
+        """Whether this is direct contact with the rigid casing."""
+        return math.isinf(self.E) and math.isinf(self.K)
 
 
 @dataclass(frozen=True)
@@ -99,10 +108,16 @@ class RunSpec:
         Normalised rotational frequency.
     revolutions : int
         Length of the run.
+    scheme : str
+        Time integration: one of `bladerub.contact.schemes.SCHEMES`.
+    steps_per_element : int
+        At least so many time steps in the passage of one coating element.
     max_time_step : float
         The time step is the largest one not above this that divides the passage of one element, s.
     displacement_limit : float
         A tip displacement beyond this ends the run as unbounded, m.
+    initial_displacement : float
+        Radial displacement of node 1 at the start, in the first mode and at rest, m.
     """
 
     casing: Casing
@@ -112,8 +127,11 @@ class RunSpec:
     damping_ratio: float
     f_omega: float
     revolutions: int
+    scheme: str
+    steps_per_element: int
     max_time_step: float
     displacement_limit: float
+    initial_displacement: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -159,6 +177,9 @@ class RunResult:
         unbounded end.
     revolution_peak : (revolutions,) ndarray
         Largest absolute radial displacement of node 1 in each revolution, m; NaN likewise.
+    revolution_amplitude : (revolutions,) ndarray
+        Half the range of the radial displacement of node 1 in each revolution, m: its vibration without
+        the mean deflection; NaN likewise.
     time_step : float
         Step used, s.
     n_steps, n_contact_steps : int
@@ -173,6 +194,7 @@ class RunResult:
     wear: np.ndarray
     radial_displacement: np.ndarray
     revolution_peak: np.ndarray
+    revolution_amplitude: np.ndarray
     time_step: float
     n_steps: int
     n_contact_steps: int

@@ -135,6 +135,8 @@ def run_spec(config: Mapping[str, Any], case: CoatingCase, f_omega: float) -> Ru
         damping_ratio=float(contact["damping_ratio"]),
         f_omega=float(f_omega),
         revolutions=int(solver["revolutions"]),
+        scheme=solver["scheme"],
+        steps_per_element=int(solver["steps_per_element"]),
         max_time_step=float(solver["max_time_step"]),
         displacement_limit=solver["displacement_limit"] * length,
     )
