@@ -15,7 +15,7 @@ SPEEDS = [0.1, 0.19, 0.3]
 def folder(tmp_path, config, case, make_result):
     """Runs of one coating that vibrate and wear at orders 10, 6, 4; the manifest is not in order of speed.
 
-    The middle one was repeated for longer, and there is a longer one of the last that the study has no use for.
+    The middle one was repeated for longer; of the last there is a longer one that the study has no use for.
     """
     rows = []
     for f_omega, order in zip(SPEEDS, (10, 6, 4), strict=True):
