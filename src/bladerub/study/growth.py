@@ -140,13 +140,14 @@ def _parameters(
     design = np.vander(time, degree + 1, increasing=True)
     if time.size <= degree:
         return np.full(degree + 1, np.nan), np.full(degree + 1, np.nan)
-    coefficients = np.linalg.lstsq(design, log_amplitude, rcond=None)[0]
+    inverse = np.linalg.pinv(design)
+    coefficients = inverse @ log_amplitude
     freedom = time.size - degree - 1
     if freedom == 0:
         return coefficients, np.full(degree + 1, np.nan)
     residual = log_amplitude - design @ coefficients
     scatter = max(float(np.sqrt(residual @ residual / freedom)), RESOLUTION)
-    error = scatter * np.sqrt(np.diag(np.linalg.inv(design.T @ design)))
+    error = scatter * np.linalg.norm(inverse, axis=1)
     return coefficients, stdtrit(freedom, (1 + confidence) / 2) * error
 
 

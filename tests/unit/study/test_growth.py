@@ -73,6 +73,12 @@ class TestGrowthRate:
         found = growth(np.r_[np.zeros(5), 1.1 ** np.arange(5)], SETTINGS)
         assert found.per_revolution == pytest.approx(0.1)
 
+    def test_of_a_very_long_run_is_found_as_well(self):
+        number = np.arange(10_000.0)
+        found = growth(np.exp(1e-3 * number), SETTINGS | {"revolutions": 10_000, "growth": 1e-4})
+        assert found.per_revolution == pytest.approx(np.expm1(1e-3))
+        assert (found.grows, found.levels_off) == (True, False)
+
 
 class TestGrows:
     def test_above_the_threshold_alone(self):
