@@ -32,7 +32,7 @@ revolutions:
 - Saturation as ``1 - exp(-i / τ)`` is told from growth for τ of 6 to 9 revolutions; faster ones are steady
   by then. From τ = 11 on the growth at the end is still surely above 1 %, and the run passes for divergent.
   A scatter of 2 % hides the bend in half of the cases.
-- A beat with a period above 20 revolutions passes for growing in up to a third of its phases, and so does a
+- A beat with a period above 20 revolutions passes for growing in up to 4 of 10 phases, and so does a
   slow onset that wear will end. Both are what the longer run is for: with 60 revolutions, saturation is
   found up to τ = 45 and no beat with a period up to 60 passes.
 """
