@@ -117,7 +117,7 @@ def _in_words(figures: dict[str, Any]) -> str:
         f"paper's scheme {seconds['paper']:.3g}, finer {seconds['paper_finer']:.3g}"
         + (f" ({figures['jobs']} runs at once: not exact)" if figures["jobs"] > 1 else ""),
         f"speed-up at equal error: {'none' if speedup is None else f'{speedup:.3g}'} "
-        f"(median of {figures['n'] - figures['left_out']} runs, {figures['left_out']} left out)",
+        f"(median of {figures['n'] - figures['left_out']} of {figures['n']} runs)",
         "",
         _beyond_heading(figures["beyond"]),
     ]
