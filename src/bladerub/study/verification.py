@@ -96,7 +96,7 @@ class VerifiedRun:
     sensitive : bool
         Whether the spread is at least half of the error wherever that is beyond `TOLERANCE`.
     energy_residual : float
-        Magnitude of the imbalance of the energy ledger, in parts of the work exchanged.
+        Imbalance of the energy ledger, in parts of the work exchanged.
     seconds : Seconds
         Cost.
     speedup : float or None
@@ -199,7 +199,7 @@ def verify_run(blade: ReducedBlade, config: Mapping[str, Any], run: StudyRun) ->
         paper_uncertainty=Differences(*(difference / (REFINEMENT - 1) for difference in between)),
         spread=spread,
         sensitive=spread is not None and is_sensitive(error, spread),
-        energy_residual=abs(outcome.energy.residual),
+        energy_residual=outcome.energy.residual,
         seconds=Seconds(seconds, finer_seconds, paper_seconds, paper_finer_seconds),
         speedup=speedup_at_equal_error(
             error[measure],

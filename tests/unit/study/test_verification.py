@@ -52,8 +52,14 @@ class Solver:
             depth=2e-4 * (1 + error),
             complete=3 if self.unbounded(spec) else None,
         )
-        result = vars(result) | {"time_step": step, "energy": SimpleNamespace(residual=-1e-4)}
+        result = vars(result) | {"time_step": step, "energy": SimpleNamespace(residual=1e-4)}
         return SimpleNamespace(**result)
+
+
+@pytest.fixture
+def config(config):
+    solver = config["solver"] | {"scheme": "exponential", "steps_per_element": 6, "max_time_step": 2e-6}
+    return config | {"solver": solver}
 
 
 @pytest.fixture
