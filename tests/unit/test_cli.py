@@ -5,7 +5,7 @@ import re
 import pytest
 
 from bladerub import __version__
-from bladerub.cli import main, run
+from bladerub.cli import inputs, main
 from bladerub.study.store import read_run
 
 RUN = ["run", "--casing", "2nd", "--E", "2", "--K", "0.5", "--theta", "0.15", "--f", "0.19"]
@@ -34,7 +34,7 @@ def folder(tmp_path_factory):
 @pytest.fixture
 def small(folder, monkeypatch):
     """Options for a coarse blade and a short run."""
-    monkeypatch.setattr(run, "ROOT", folder)
+    monkeypatch.setattr(inputs, "ROOT", folder)
     overlay = folder / "small.yaml"
     overlay.write_text(
         "blade: {mesh: {chordwise: 7, thickness: 1, spanwise: 6}}\nreduction: {accuracy_speeds: 3}\n"

@@ -4,21 +4,16 @@ from __future__ import annotations
 
 import argparse
 import json
-import sys
 import time
 from pathlib import Path
 from shutil import get_terminal_size
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from tqdm import tqdm
 
+from bladerub.cli import inputs
 from bladerub.cli.errors import InputError
-from bladerub.config import ROOT, check_quantity, load, validate
-
-if TYPE_CHECKING:  # the rest of the package is imported when a run is sure to be made: numba takes its time
-    from bladerub.blade.model import ReducedBlade
-
-BASE_CONFIG = ROOT / "config" / "config.yaml"
+from bladerub.config import check_quantity
 
 
 def add_to(commands: Any) -> None:
@@ -35,19 +30,9 @@ def add_to(commands: Any) -> None:
     parser.add_argument("--K", required=True, type=float, help="plastic modulus of the coating (normalised)")
     parser.add_argument("--theta", default=0.0, type=float, help="angle of its elements, rad (default 0)")
     parser.add_argument("--f", required=True, type=float, metavar="F_OMEGA", help="speed (normalised)")
-    parser.add_argument(
-        "--config",
-        nargs="+",
-        default=[],
-        action="extend",
-        metavar="FILE",
-        help="YAML files laid over config/config.yaml, in order",
-    )
+    inputs.add_to(parser)
     parser.add_argument(
         "--revolutions", type=int, metavar="N", help="instead of solver.revolutions, at least 2"
-    )
-    parser.add_argument(
-        "--blade", type=Path, metavar="FILE", help="reduced blade (default: the one in the results folder)"
     )
     parser.add_argument(
         "--output", type=Path, metavar="FILE", help="write the run with its whole history (HDF5)"
@@ -67,7 +52,7 @@ def run(options: argparse.Namespace) -> None:
     """
     config = _config(options)
     _check_options(options, config)
-    blade_path, blade = _blade(options, config)
+    blade_path, blade = inputs.read_blade(options, config)
 
     from bladerub.contact.run import kernel_warm_up, simulate
     from bladerub.study.grid import CoatingCase, run_spec
@@ -103,7 +88,7 @@ def run(options: argparse.Namespace) -> None:
 
 
 def _config(options: argparse.Namespace) -> dict[str, Any]:
-    config = validate(load(BASE_CONFIG, *options.config))
+    config = inputs.read_config(options)
     if options.revolutions is not None:
         if not 2 <= options.revolutions <= 10_000:
             raise InputError(f"--revolutions = {options.revolutions}: must be from 2 to 10000")
@@ -125,50 +110,6 @@ def _check_options(options: argparse.Namespace, config: dict[str, Any]) -> None:
             raise InputError(f"--{option} = {value:g}: {error}") from error
     if options.output and options.output.is_dir():
         raise InputError(f"--output {options.output}: is a folder, must be a file")
-
-
-def _blade(options: argparse.Namespace, config: dict[str, Any]) -> tuple[Path, ReducedBlade]:
-    """Read the reduced blade, build it if there is none; clearances are in lengths of that blade."""
-    from bladerub.blade.model import read_reduced_blade
-
-    path = options.blade or ROOT / config["results"] / "blade" / "reduced_model.h5"
-    if not options.blade and not path.exists():
-        _build_blade(config, path)
-    elif not options.blade and not _is_of(config, path):
-        raise InputError(
-            f"{path}: was built from another config; build it again with snakemake, delete it, or name it "
-            "with --blade"
-        )
-    try:
-        blade = read_reduced_blade(path)
-    except OSError as error:
-        raise InputError(str(error)) from error
-    if options.blade:
-        config["blade"]["length"] = blade.length
-    return path, blade
-
-
-def _is_of(config: dict[str, Any], path: Path) -> bool:
-    from bladerub import datafile
-    from bladerub.blade.build import made_from
-
-    try:
-        return datafile.read_attributes(path.with_name("mesh.h5")).get("made_from") == made_from(config)
-    except OSError:
-        return False
-
-
-def _build_blade(config: dict[str, Any], path: Path) -> None:
-    from bladerub.blade import build
-    from bladerub.blade.rotation import EquilibriumError
-
-    print(f"bladerub run: building the blade first, into {path.parent}", file=sys.stderr)
-    try:
-        built = build.build(config)
-    except EquilibriumError as error:
-        raise InputError(str(error)) from error
-    tables = path.parents[1] / "tables"
-    build.write(built, path, path.with_name("mesh.h5"), tables / "campbell.csv", tables / "rom_accuracy.csv")
 
 
 def _in_words(figures: dict[str, Any]) -> str:

@@ -16,6 +16,26 @@ _LOWEST_ORDER = 0.5
 """Below it a spectrum shows the slow drift of the mean, not vibration."""
 
 
+def spectral_peak(order: np.ndarray, amplitude: np.ndarray) -> tuple[float, float]:
+    """Find the largest amplitude of a spectrum from order 0.5 up.
+
+    Parameters
+    ----------
+    order, amplitude : (m,) ndarray
+        From `bladerub.study.spectra.order_spectrum`, m.
+
+    Returns
+    -------
+    order : float
+        Engine order of the peak.
+    amplitude : float
+        Its height, m; NaN when the spectrum is.
+    """
+    vibration = np.where(order >= _LOWEST_ORDER, amplitude, 0.0)
+    at = np.argmax(vibration)
+    return float(order[at]), float(vibration[at])
+
+
 def summarise(spec: RunSpec, result: RunResult, config: Mapping[str, Any]) -> dict[str, Any]:
     """Sum up one run.
 
@@ -40,13 +60,12 @@ def summarise(spec: RunSpec, result: RunResult, config: Mapping[str, Any]) -> di
     order, amplitude = order_spectrum(
         result.radial_displacement, spec.revolutions, analysis["spectrum_revolutions"], analysis["max_order"]
     )
-    vibration = np.where(order >= _LOWEST_ORDER, amplitude, 0.0)
-    moved = vibration.max() > 0  # False for NaN as well
+    engine_order, height = spectral_peak(order, amplitude)
     peaks = result.revolution_peak[np.isfinite(result.revolution_peak)]
     verdict = judge(result.revolution_amplitude, result.status, analysis["divergence"])
     return {
         "peak_amplitude": float(peaks[-analysis["spectrum_revolutions"] :].max()),
-        "engine_order": float(order[np.argmax(vibration)]) if moved else None,
+        "engine_order": engine_order if height > 0 else None,
         "max_wear": float(result.wear.max()),
         "lobes": lobes(result.angle, result.wear, analysis["lobe_prominence"]),
         "growth_per_revolution": _number(verdict.growth.per_revolution),

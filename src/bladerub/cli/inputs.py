@@ -1,0 +1,99 @@
+"""The study and the blade that a command works on: its options for them, and their reading."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from bladerub.cli.errors import InputError
+from bladerub.config import ROOT, load, validate
+
+if TYPE_CHECKING:  # the rest of the package is imported when it is sure to be needed: numba takes its time
+    from bladerub.blade.model import ReducedBlade
+
+BASE_CONFIG = ROOT / "config" / "config.yaml"
+
+
+def add_to(parser: argparse.ArgumentParser) -> None:
+    """Add ``--config`` and ``--blade`` to the options of a command."""
+    parser.add_argument(
+        "--config",
+        nargs="+",
+        default=[],
+        action="extend",
+        metavar="FILE",
+        help="YAML files laid over config/config.yaml, in order",
+    )
+    parser.add_argument(
+        "--blade", type=Path, metavar="FILE", help="reduced blade (default: the one in the results folder)"
+    )
+
+
+def read_config(options: argparse.Namespace) -> dict[str, Any]:
+    """Read and check the config of the repository with the files of ``--config`` laid over it.
+
+    Raises
+    ------
+    ConfigError
+        If it is at fault.
+    """
+    return validate(load(BASE_CONFIG, *options.config))
+
+
+def read_blade(options: argparse.Namespace, config: dict[str, Any]) -> tuple[Path, ReducedBlade]:
+    """Read the reduced blade, build it if there is none; clearances are in lengths of that blade.
+
+    Parameters
+    ----------
+    options
+        The command's, with ``blade`` and its ``name``.
+    config : dict
+        The study; its ``blade.length`` becomes that of a blade named by ``--blade``.
+
+    Raises
+    ------
+    InputError
+        If the file is no reduced blade, or was built from another config, or the blade cannot be built.
+    """
+    from bladerub.blade.model import read_reduced_blade
+
+    path = options.blade or ROOT / config["results"] / "blade" / "reduced_model.h5"
+    if not options.blade and not path.exists():
+        print(f"bladerub {options.name}: building the blade first, into {path.parent}", file=sys.stderr)
+        _build_blade(config, path)
+    elif not options.blade and not _is_of(config, path):
+        raise InputError(
+            f"{path}: was built from another config; build it again with snakemake, delete it, or name it "
+            "with --blade"
+        )
+    try:
+        blade = read_reduced_blade(path)
+    except OSError as error:
+        raise InputError(str(error)) from error
+    if options.blade:
+        config["blade"]["length"] = blade.length
+    return path, blade
+
+
+def _is_of(config: dict[str, Any], path: Path) -> bool:
+    from bladerub import datafile
+    from bladerub.blade.build import made_from
+
+    try:
+        return datafile.read_attributes(path.with_name("mesh.h5")).get("made_from") == made_from(config)
+    except OSError:
+        return False
+
+
+def _build_blade(config: dict[str, Any], path: Path) -> None:
+    from bladerub.blade import build
+    from bladerub.blade.rotation import EquilibriumError
+
+    try:
+        built = build.build(config)
+    except EquilibriumError as error:
+        raise InputError(str(error)) from error
+    tables = path.parents[1] / "tables"
+    build.write(built, path, path.with_name("mesh.h5"), tables / "campbell.csv", tables / "rom_accuracy.csv")

@@ -1,0 +1,83 @@
+"""How much two outcomes of the same run differ."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Mapping
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from bladerub.contact.spec import RunResult
+from bladerub.study.spectra import order_spectrum
+from bladerub.study.summary import spectral_peak
+
+
+class Differences(NamedTuple):
+    """Relative differences of one outcome from another, 0.01 being 1 %.
+
+    Parameters
+    ----------
+    wear_l2 : float
+        L2 norm of the difference of the wear profiles (8, n) over the norm of the reference.
+    peak : float
+        Of the largest spectral amplitude from order 0.5 up.
+    revolution_peak : float
+        Largest difference of a revolution's peak, over the largest peak of all revolutions.
+    """
+
+    wear_l2: float
+    peak: float
+    revolution_peak: float
+
+
+UNBOUNDED = Differences(math.inf, math.inf, math.inf)
+"""What stands for the differences where one of two outcomes is unbounded."""
+
+
+def differences(outcome: RunResult, reference: RunResult, analysis: Mapping[str, Any]) -> Differences:
+    """Compare two outcomes of the same run.
+
+    Parameters
+    ----------
+    outcome, reference : RunResult
+        The reference is what the differences are relative to.
+    analysis : mapping
+        ``config["analysis"]`` decides on the spectrum.
+
+    Returns
+    -------
+    Differences
+        0 where both are zero, infinite where only the reference is; `UNBOUNDED` if either run is not
+        ``"completed"``.
+    """
+    if "unbounded" in (outcome.status, reference.status):
+        return UNBOUNDED
+    peak, reference_peak = (_peak(result, analysis) for result in (outcome, reference))
+    revolutions = np.abs(outcome.revolution_peak - reference.revolution_peak)
+    return Differences(
+        wear_l2=_ratio(np.linalg.norm(outcome.wear - reference.wear), np.linalg.norm(reference.wear)),
+        peak=_ratio(abs(peak - reference_peak), reference_peak),
+        revolution_peak=_ratio(revolutions.max(), reference.revolution_peak.max()),
+    )
+
+
+def largest(several: Iterable[Differences]) -> Differences:
+    """Take the largest of each difference."""
+    return Differences(*map(max, zip(*several, strict=True)))
+
+
+def _peak(result: RunResult, analysis: Mapping[str, Any]) -> float:
+    order, amplitude = order_spectrum(
+        result.radial_displacement,
+        result.revolution_peak.size,
+        analysis["spectrum_revolutions"],
+        analysis["max_order"],
+    )
+    return spectral_peak(order, amplitude)[1]
+
+
+def _ratio(part: float, whole: float) -> float:
+    if part == 0:
+        return 0.0
+    return float(part / whole) if whole > 0 else math.inf

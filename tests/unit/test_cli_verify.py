@@ -1,0 +1,145 @@
+import io
+import json
+
+import pytest
+
+from bladerub.cli import inputs, main
+
+MEASURES = {"wear_l2", "peak", "revolution_peak"}
+KEYS = MEASURES | {
+    "seed",
+    "jobs",
+    "n",
+    "within_1_percent",
+    "energy_residual",
+    "worst",
+    "against_paper_scheme",
+    "speedup_at_equal_error",
+    "left_out",
+    "seconds",
+    "beyond",
+}
+SMALL = """
+blade: {mesh: {chordwise: 7, thickness: 1, spanwise: 6}}
+reduction: {accuracy_speeds: 3}
+contact: {elements: 200}
+coatings: [{casing: 2nd, E: [2, 20], K: [0.5], theta: [0.15]}]
+speeds: {start: 0.2, stop: 0.4, step: 0.1, extra: []}
+solver: {revolutions: 2}
+analysis: {spectrum_revolutions: 2, divergence: {revolutions: 2}, histories: []}
+"""
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    """Stands for the repository: its results folder is empty at first, then has the coarse blade."""
+    return tmp_path_factory.mktemp("repository")
+
+
+@pytest.fixture
+def verify(folder, monkeypatch):
+    """Run the command on a study of six short runs of a coarse blade."""
+    monkeypatch.setattr(inputs, "ROOT", folder)
+    config = folder / "small.yaml"
+    config.write_text(SMALL)
+
+    def run(*arguments):
+        try:
+            return main(["verify", "--config", str(config), *arguments])
+        except SystemExit as end:  # argparse ends the program itself
+            return end.code
+
+    return run
+
+
+@pytest.fixture
+def figures(verify, capsys):
+    def of(*arguments):
+        assert verify("--json", *arguments) == 0
+        return json.loads(capsys.readouterr().out)
+
+    return of
+
+
+def test_json_holds_every_figure(figures):
+    told = figures("--sample", "2", "--seed", "1")
+    assert told.keys() == KEYS
+    assert (told["n"], told["seed"], told["jobs"]) == (2, 1, 1)
+    assert 0 <= told["within_1_percent"] <= 1
+    for measure in MEASURES:
+        assert told[measure].keys() == {"median", "p95", "max"}
+        assert 0 <= told[measure]["median"] <= told[measure]["p95"] <= told[measure]["max"] < 1
+    assert told["against_paper_scheme"].keys() == MEASURES | {"uncertainty"}
+    assert told["seconds"].keys() == {"study", "finer", "paper", "paper_finer"}
+    assert told["left_out"] <= 2
+
+
+def test_the_figures_do_not_depend_on_the_jobs(figures):
+    one, two = (figures("--sample", "2", "--seed", "1", "--jobs", jobs) for jobs in ("1", "2"))
+    for key in ("n", "within_1_percent", "beyond", "worst", *MEASURES, "energy_residual"):
+        assert one[key] == two[key]
+
+
+def test_runs_beyond_one_percent_are_named(figures, folder):
+    config = folder / "coarse.yaml"
+    config.write_text("solver: {steps_per_element: 1, max_time_step: 1e-4}\n")
+    told = figures("--sample", "6", "--seed", "1", "--config", str(config))
+    assert told["beyond"]
+    for entry in told["beyond"]:
+        assert entry["name"].startswith(f"2nd_E{entry['E']:g}_K0.5_theta0.15/{entry['f_omega']:.4f}")
+        assert max(entry[measure] for measure in MEASURES) > 0.01
+        assert entry["spread"].keys() == MEASURES
+        assert isinstance(entry["sensitive"], bool)
+
+
+def test_in_words(verify, capsys):
+    assert verify("--sample", "2", "--seed", "1", "--jobs", "2") == 0
+    output = capsys.readouterr()
+    assert output.out.startswith("2 runs, seed 1\n")
+    for words in ("within 1 %", "seconds a run", "not exact", "speed-up at equal error", "beyond 1 %"):
+        assert words in output.out
+    assert output.err == ""  # no progress bar away from a terminal
+
+
+def test_progress_bar_on_a_terminal(verify, monkeypatch):
+    terminal = io.StringIO()
+    terminal.isatty = lambda: True
+    monkeypatch.setattr("sys.stderr", terminal)
+    assert verify("--sample", "1", "--seed", "1") == 0
+    assert "0/1" in terminal.getvalue()
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (
+            ["--sample", "7", "--seed", "1"],
+            "--sample = 7: must be from 1 to 6, the number of runs of this study",
+        ),
+        (["--sample", "0", "--seed", "1"], "--sample = 0: must be from 1 to 6"),
+        (["--sample", "1", "--seed", "-1"], "--seed = -1: must be 0 or more"),
+        (["--sample", "1", "--seed", "1", "--jobs", "0"], "--jobs = 0: must be 1 or more"),
+        (["--sample", "1"], "the following arguments are required: --seed"),
+        (["--sample", "1", "--seed", "1", "--blade", "no.h5"], "no.h5: not a readable HDF5 file"),
+        (["--sample", "1", "--seed", "1", "--config", "no.yaml"], "no.yaml: cannot be read"),
+    ],
+)
+def test_bad_input_is_answered_in_one_line(verify, arguments, words, capsys):
+    assert verify(*arguments) == 2
+    output = capsys.readouterr()
+    assert output.out == ""
+    assert words in output.err
+    assert output.err.count("\n") == 1
+
+
+def test_a_blade_too_slow_for_the_study_is_refused(verify, figures, folder, capsys):
+    figures("--sample", "1", "--seed", "1")  # builds the blade
+    blade = folder / "results" / "blade" / "reduced_model.h5"
+    faster = folder / "faster.yaml"
+    faster.write_text("reduction: {f_omega_max: 0.5}\nspeeds: {start: 0.5, stop: 0.5, extra: [0.45]}\n")
+    command = ["--sample", "2", "--seed", "1", "--config", str(faster), "--blade", str(blade)]
+    assert verify(*command) == 2
+    assert capsys.readouterr().err == (
+        "bladerub verify: f_omega = 0.5: the speeds of the study must be at most 0.4 (normalised), "
+        f"the highest of {blade}\n"
+    )
