@@ -64,7 +64,7 @@ def test_an_edit_of_the_solver_plans_every_coating(copied_study, tiny):
         source.write("# edited\n")
     plan = copied_study.plan(tiny)
     assert plan["compile_kernel"] == 1
-    assert plan["coating"] == 5
+    assert plan["coating"] == 6
     assert "blade" not in plan
 
 
