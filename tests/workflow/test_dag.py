@@ -99,7 +99,7 @@ def test_a_lost_run_is_computed_alone(copied_study, tiny):
 def test_a_failed_job_says_why_and_loses_no_run(copied_study, tiny):
     before = run_files(copied_study)
     manifest = "results/runs/2nd_E1.1_K0.5_theta0/manifest.tsv"
-    unstable = tiny | {"solver": tiny["solver"] | {"max_time_step": 1e-5}}
+    unstable = tiny | {"solver": tiny["solver"] | {"scheme": "central_differences"}}
     done = copied_study.snakemake(manifest, "--cores", "1", config=unstable)
     assert done.returncode != 0
     log = copied_study.folder / "results/logs/coating/2nd_E1.1_K0.5_theta0.log"
