@@ -214,6 +214,12 @@ def change(config, path, value):
             "analysis.spectrum_revolutions = 10: must be at most solver.revolutions = 9",
         ),
         (("solver", "revolutions"), 9, "analysis.divergence.revolutions = 10: must be at most"),
+        (
+            ("analysis", "divergence", "confirmation_revolutions"),
+            29,
+            "analysis.divergence.confirmation_revolutions = 29: must be 0, or at least "
+            "solver.revolutions + analysis.divergence.revolutions = 30",
+        ),
         (("analysis", "peaks", "orders"), [4, 70], "analysis.peaks.orders[1] = 70: must be at most"),
         (("analysis", "peaks", "orders"), [4, 4], "must not name one twice"),
         (("analysis", "histories", 0, "casing"), "3nd", "analysis.histories[0].casing"),
@@ -279,6 +285,12 @@ def test_histories_name_the_rigid_casing_as_the_coatings_do(config):
     assert fault.startswith("analysis.histories[0].E = 2: unknown key, known here: casing, coating, friction")
     config["analysis"]["histories"] = [history | {"coating": "stiff"}]
     assert faults(config) == [f'analysis.histories[0].coating = "stiff": {KINDS}']
+
+
+def test_confirmation_can_be_left_out_or_just_long_enough(config):
+    for revolutions in (0, 30):
+        config["analysis"]["divergence"]["confirmation_revolutions"] = revolutions
+        assert validate(config) == config
 
 
 def test_one_broken_part_does_not_hide_the_faults_of_another(config):
