@@ -25,7 +25,7 @@ COATINGS = [case.name for case in coating_cases(config)]
 
 
 wildcard_constraints:
-    coating="[A-Za-z0-9]+_E[^_/]+_K[^_/]+_theta[^_/]+",
+    coating="[A-Za-z0-9]+_(E[^_/]+_K[^_/]+_theta|rigid_mu)[^_/]+",
 
 
 include: "src/rules/blade.smk"

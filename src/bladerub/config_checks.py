@@ -11,7 +11,7 @@ from bladerub.blade import geometry
 from bladerub.blade.model import N_INTERFACE
 from bladerub.contact.casing import shape
 from bladerub.contact.spec import Casing
-from bladerub.study.grid import SPEED_DECIMALS, CoatingCase, coating_cases, speeds
+from bladerub.study.grid import SPEED_DECIMALS, coating_cases, listed_case, speeds
 
 Config = dict[str, Any]
 Check = Callable[[Config], Iterator[str]]
@@ -154,7 +154,7 @@ def _histories(config: Config) -> Iterator[str]:
         return
     for index, entry in enumerate(config["analysis"]["histories"]):
         where = f"analysis.histories[{index}]"
-        case = CoatingCase(entry["casing"], *(float(entry[key]) for key in ("E", "K", "theta")))
+        case = listed_case(entry)
         if entry["casing"] not in config["casings"]:
             yield from _known_casing(config, where, entry["casing"])
         elif case not in cases:

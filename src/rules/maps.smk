@@ -71,6 +71,7 @@ rule findings:
             "findings/finding",
             "findings/moduli",
             "findings/reduction",
+            "findings/rigid_limit",
             "findings/spectra",
             "findings/tangential",
             "findings/wear_patterns",

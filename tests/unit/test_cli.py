@@ -1,5 +1,6 @@
 import io
 import json
+import math
 import re
 
 import pytest
@@ -9,6 +10,7 @@ from bladerub.cli import inputs, main
 from bladerub.study.store import read_run
 
 RUN = ["run", "--casing", "2nd", "--E", "2", "--K", "0.5", "--theta", "0.15", "--f", "0.19"]
+RIGID = ["run", "--casing", "2nd", "--coating", "rigid", "--f", "0.19"]
 KEYS = {
     "peak_amplitude",
     "engine_order",
@@ -110,6 +112,18 @@ def test_run_in_words(small, blade_file, capsys):
     ]
 
 
+@pytest.mark.parametrize(("friction", "options"), [(0.0, []), (0.15, ["--friction", "0.15"])])
+def test_run_on_the_rigid_casing_wears_nothing(small, blade_file, folder, capsys, friction, options):
+    path = folder / "rigid.h5"
+    assert main([*RIGID, *options, *small, "--json", "--output", str(path)]) == 0
+    figures = json.loads(capsys.readouterr().out)
+    assert figures.keys() == KEYS
+    assert (figures["max_wear"], figures["lobes"]) == (0, 0)
+    assert figures["peak_amplitude"] > 0
+    about = read_run(path).attributes
+    assert (about["E"], about["K"], about["theta"]) == (math.inf, math.inf, math.atan(friction))
+
+
 def test_clearances_are_in_lengths_of_the_given_blade(small, blade_file, folder, capsys):
     main([*RUN, *small, "--json", "--blade", str(blade_file)])
     same = json.loads(capsys.readouterr().out)
@@ -144,6 +158,11 @@ def changed(option, value):
     return [*RUN[:at], value, *RUN[at + 1 :]]
 
 
+def without(option):
+    at = RUN.index(option)
+    return [*RUN[:at], *RUN[at + 2 :]]
+
+
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
@@ -160,6 +179,16 @@ def changed(option, value):
         ([*RUN, "--blade", __file__], "not a readable HDF5 file"),
         ([*RUN, "--output", "/"], "--output /: is a folder, must be a file"),
         ([*RUN, "--config", "no.yaml"], "no.yaml: cannot be read"),
+        (without("--E"), "--E: missing, an abradable coating needs it"),
+        (without("--K"), "--K: missing, an abradable coating needs it"),
+        ([*RUN, "--friction", "0.1"], "--friction = 0.1: goes with --coating rigid only"),
+        ([*RUN, "--coating", "rigid"], "--E = 2: goes with --coating abradable only"),
+        ([*RIGID, "--theta", "0"], "--theta = 0: goes with --coating abradable only"),
+        (
+            [*RIGID, "--friction", "-1"],
+            "--friction = -1: coefficient of friction must be a number from 0 to 1",
+        ),
+        ([*RUN, "--coating", "stiff"], "argument --coating: invalid choice: 'stiff'"),
         (RUN[:-2], "the following arguments are required: --f"),
         ([], "the following arguments are required: COMMAND"),
         ([*RUN, "--depth", "3"], "unrecognized arguments: --depth 3"),

@@ -31,6 +31,11 @@ def faults(config):
 
 def rules(rule, path=""):
     """Every entry of the schema, with its path."""
+    if "allOf" in rule:  # kinds of entry, told apart by their keys
+        for number, kind in enumerate(rule["allOf"]):
+            if "then" in kind:
+                yield from rules(kind["then"], f"{path}[{number}]")
+        return
     yield path, rule
     for key in ("properties", "$defs"):
         for name, inner in rule.get(key, {}).items():
@@ -228,6 +233,58 @@ def change(config, path, value):
 def test_parts_that_disagree_are_told(config, path, value, words):
     change(config, path, value)
     assert any(words in fault for fault in faults(config))
+
+
+RIGID = {"casing": "2nd", "coating": "rigid", "friction": [0.0]}
+ABRADABLE = {"casing": "2nd", "E": [3], "K": [1], "theta": [0.0]}
+LISTED = "list of coefficients of friction must be a list of 1 or more entries"
+KINDS = "kind of coating must be rigid, with friction; an abradable coating has neither key"
+
+
+@pytest.mark.parametrize(
+    ("entry", "fault"),
+    [
+        (RIGID | {"E": [2]}, "coatings[0].E = [2]: unknown key, known here: casing, coating, friction"),
+        (
+            {"casing": "2nd", "coating": "rigid"},
+            f"coatings[0].friction: missing, {LISTED}",
+        ),
+        (
+            RIGID | {"friction": [0.1, -0.1]},
+            "coatings[0].friction[1] = -0.1: coefficient of friction must be a number from 0 to 1",
+        ),
+        (
+            RIGID | {"friction": 0.1},
+            f"coatings[0].friction = 0.1: {LISTED}",
+        ),
+        (RIGID | {"casing": "3nd"}, 'coatings[0].casing = "3nd": must be one of the casings, 2nd, 2nd5nd'),
+        (ABRADABLE | {"friction": [0.1]}, f"coatings[0].coating: missing, {KINDS}"),
+        ({"casing": "2nd", "friction": [0.1]}, f"coatings[0].coating: missing, {KINDS}"),
+        (RIGID | {"coating": "stiff"}, f'coatings[0].coating = "stiff": {KINDS}'),
+        (ABRADABLE | {"coating": "stiff"}, f'coatings[0].coating = "stiff": {KINDS}'),
+        (ABRADABLE | {"depth": 3}, "coatings[0].depth = 3: unknown key, known here: casing, E, K, theta"),
+        ("rigid", 'coatings[0] = "rigid": coating must be a group of keys'),
+    ],
+)
+def test_mixed_up_coatings_are_answered_in_one_line(config, entry, fault):
+    config["coatings"] = [entry]
+    config["analysis"]["histories"] = []
+    assert faults(config) == [fault]
+
+
+def test_histories_name_the_rigid_casing_as_the_coatings_do(config):
+    history = {"casing": "2nd", "coating": "rigid", "friction": 0.0, "f_omega": 0.19}
+    config["analysis"]["histories"] = [history]
+    validate(config)
+    config["analysis"]["histories"] = [history | {"friction": 0.15}]
+    assert faults(config) == [
+        "analysis.histories[0] = 2nd_rigid_mu0.15: must be one of the coatings, add it there or drop it here"
+    ]
+    config["analysis"]["histories"] = [history | {"E": 2}]
+    (fault,) = faults(config)
+    assert fault.startswith("analysis.histories[0].E = 2: unknown key, known here: casing, coating, friction")
+    config["analysis"]["histories"] = [history | {"coating": "stiff"}]
+    assert faults(config) == [f'analysis.histories[0].coating = "stiff": {KINDS}']
 
 
 def test_confirmation_can_be_left_out_or_just_long_enough(config):

@@ -25,6 +25,7 @@ TINY = {
         {"casing": "2nd5nd", "E": [11], "K": [0.5], "theta": [0.0]},
         {"casing": "2nd", "E": [0.11, 1.1], "K": [0.5], "theta": [0.0]},
         {"casing": "2nd", "E": [2], "K": [0.5], "theta": [0.0, 0.15]},
+        {"casing": "2nd", "coating": "rigid", "friction": [0.0]},
     ],
     "speeds": {"start": 0.15, "stop": 0.35, "step": 0.04, "extra": [0.197]},
     "solver": {"revolutions": 3},

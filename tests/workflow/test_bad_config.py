@@ -97,6 +97,19 @@ BAD = {
         {"coatings": coatings()["coatings"] + coatings(E=[1, 2], theta=[0.15])["coatings"]},
         "config: coatings[1]: 2nd_E2_K0.5_theta0.15 is listed twice; list each coating once",
     ),
+    "E of the rigid casing": (
+        {"coatings": [{"casing": "2nd", "coating": "rigid", "friction": [0], "E": [2]}]},
+        "config: coatings[0].E = [2]: unknown key, known here: casing, coating, friction",
+    ),
+    "friction of an abradable coating": (
+        coatings(friction=[0.1]),
+        "config: coatings[0].coating: missing, kind of coating must be rigid, with friction; an "
+        "abradable coating has neither key",
+    ),
+    "negative friction": (
+        {"coatings": coatings()["coatings"] + [{"casing": "2nd", "coating": "rigid", "friction": [-0.1]}]},
+        "config: coatings[1].friction[0] = -0.1: coefficient of friction must be a number from 0 to 1",
+    ),
     "unknown casing": (
         {"coatings": coatings()["coatings"] + coatings(casing="3nd")["coatings"]},
         'config: coatings[1].casing = "3nd": must be one of the casings, 2nd, 2nd5nd',

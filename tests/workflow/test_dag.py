@@ -64,7 +64,7 @@ def test_an_edit_of_the_solver_plans_every_coating(copied_study, tiny):
         source.write("# edited\n")
     plan = copied_study.plan(tiny)
     assert plan["compile_kernel"] == 1
-    assert plan["coating"] == 5
+    assert plan["coating"] == 6
     assert "blade" not in plan
 
 
@@ -116,7 +116,7 @@ def test_thresholds_of_growth_plan_no_coating_without_confirmation(copied_study,
 def test_a_failed_job_says_why_and_loses_no_run(copied_study, tiny):
     before = run_files(copied_study)
     manifest = "results/runs/2nd_E1.1_K0.5_theta0/manifest.tsv"
-    unstable = tiny | {"solver": tiny["solver"] | {"max_time_step": 1e-5}}
+    unstable = tiny | {"solver": tiny["solver"] | {"scheme": "central_differences"}}
     done = copied_study.snakemake(manifest, "--cores", "1", config=unstable)
     assert done.returncode != 0
     log = copied_study.folder / "results/logs/coating/2nd_E1.1_K0.5_theta0.log"

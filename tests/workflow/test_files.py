@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 import h5py
 import pandas as pd
 import pytest
@@ -153,6 +155,18 @@ def test_table_has_its_columns_and_rows(results, name):
     table = pd.read_csv(results / "tables" / f"{name}.csv")
     assert set(table.columns) >= COLUMNS[name]
     assert len(table) > 0
+
+
+def test_the_rigid_casing_is_in_the_tables_but_not_in_the_histograms(results):
+    with h5py.File(results / "runs/2nd_rigid_mu0/0.2300.h5") as run:
+        assert (run.attrs["E"], run.attrs["K"], run.attrs["theta"]) == (math.inf, math.inf, 0)
+        assert not run["wear"][:].any()
+    for name, rows in (("peaks", 2), ("divergence", 7)):
+        table = pd.read_csv(results / "tables" / f"{name}.csv")
+        assert len(table.query("E == inf and K == inf")) == rows
+    histogram = pd.read_csv(results / "figures" / "fig11_Y4.csv", index_col="E")
+    assert list(histogram.index) == [0.11, 1.1, 2]
+    assert list(histogram.columns) == ["0.5"]
 
 
 def test_every_figure_is_there_twice(results):

@@ -15,20 +15,33 @@ from bladerub.cli import inputs
 from bladerub.cli.errors import InputError
 from bladerub.config import check_quantity
 
+_QUANTITIES = {"abradable": {"E": None, "K": None, "theta": 0.0}, "rigid": {"friction": 0.0}}
+"""What describes each kind of coating, and the default where there is one."""
+
 
 def add_to(commands: Any) -> None:
     """Add this command to the subparsers `commands`."""
     parser = commands.add_parser(
         "run",
         help="run one simulation",
-        description="Let the blade rub at one speed on one coating, which need not be in the config. "
+        description="Let the blade rub at one speed on one coating, or on the rigid casing; neither need be "
+        "in the config. "
         "The blade is built first if the results folder has none yet.",
     )
     parser.set_defaults(command=run)
     parser.add_argument("--casing", required=True, help="name of a casing of the config, such as 2nd")
-    parser.add_argument("--E", required=True, type=float, help="Young modulus of the coating (normalised)")
-    parser.add_argument("--K", required=True, type=float, help="plastic modulus of the coating (normalised)")
-    parser.add_argument("--theta", default=0.0, type=float, help="angle of its elements, rad (default 0)")
+    parser.add_argument(
+        "--coating",
+        choices=list(_QUANTITIES),
+        default="abradable",
+        help="abradable, with E, K and theta (default), or rigid, with friction",
+    )
+    parser.add_argument("--E", type=float, help="Young modulus of the abradable coating (normalised)")
+    parser.add_argument("--K", type=float, help="plastic modulus of the abradable coating (normalised)")
+    parser.add_argument("--theta", type=float, help="angle of its elements, rad (default 0)")
+    parser.add_argument(
+        "--friction", type=float, metavar="MU", help="coefficient of friction on the rigid casing (default 0)"
+    )
     parser.add_argument("--f", required=True, type=float, metavar="F_OMEGA", help="speed (normalised)")
     inputs.add_to(parser)
     parser.add_argument(
@@ -65,7 +78,10 @@ def run(options: argparse.Namespace) -> None:
             f"--f = {options.f:g}: must be at most {blade.f_omega_max:g} (normalised), the highest speed of "
             f"{blade_path}"
         )
-    case = CoatingCase(options.casing, options.E, options.K, options.theta)
+    if options.coating == "rigid":
+        case = CoatingCase.rigid(options.casing, options.friction)
+    else:
+        case = CoatingCase(options.casing, options.E, options.K, options.theta)
     spec = run_spec(config, case, options.f)
     kernel_warm_up()
     with tqdm(
@@ -102,14 +118,28 @@ def _config(options: argparse.Namespace) -> dict[str, Any]:
 def _check_options(options: argparse.Namespace, config: dict[str, Any]) -> None:
     if options.casing not in config["casings"]:
         raise InputError(f'--casing = "{options.casing}": must be one of {", ".join(config["casings"])}')
-    for option, name in (("E", "E"), ("K", "K"), ("theta", "theta"), ("f", "f_omega")):
+    _complete_coating(options)
+    for option in (*_QUANTITIES[options.coating], "f"):
         value = getattr(options, option)
         try:
-            check_quantity(name, value)
+            check_quantity("f_omega" if option == "f" else option, value)
         except ValueError as error:
             raise InputError(f"--{option} = {value:g}: {error}") from error
     if options.output and options.output.is_dir():
         raise InputError(f"--output {options.output}: is a folder, must be a file")
+
+
+def _complete_coating(options: argparse.Namespace) -> None:
+    """Fill in the defaults of what describes the coating; what does not belong to its kind is an error."""
+    for kind, quantities in _QUANTITIES.items():
+        for option, default in quantities.items():
+            given = getattr(options, option)
+            if kind != options.coating and given is not None:
+                raise InputError(f"--{option} = {given:g}: goes with --coating {kind} only")
+            if kind == options.coating and given is None:
+                if default is None:
+                    raise InputError(f"--{option}: missing, an abradable coating needs it")
+                setattr(options, option, default)
 
 
 def _in_words(figures: dict[str, Any]) -> str:

@@ -16,7 +16,9 @@ def angle(theta: float) -> str:
 
 
 def coating(case: CoatingCase) -> str:
-    """All of it, for instance ``casing 2nd, E = 2, K = 0.5, θ = 0.15 rad``."""
+    """All of it: ``casing 2nd, E = 2, K = 0.5, θ = 0.15 rad``, or ``rigid casing 2nd, μ = 0.15``."""
+    if case.is_rigid:
+        return f"rigid casing {case.casing}, μ = {case.friction:g}"
     return f"{moduli(case.casing, case.E, case.K)}, {angle(case.theta)}"
 
 

@@ -23,9 +23,9 @@ class CoatingCase:
     casing : str
         Name of a casing in the config.
     E, K : float
-        Young and plastic modulus, normalised.
+        Young and plastic modulus, normalised; both infinite for direct contact with the rigid casing.
     theta : float
-        Rotation of the abradable elements, rad.
+        Rotation of the abradable elements, or angle of friction on the rigid casing, rad.
     """
 
     casing: str
@@ -33,9 +33,26 @@ class CoatingCase:
     K: float
     theta: float
 
+    @classmethod
+    def rigid(cls, casing: str, friction: float) -> CoatingCase:
+        """Direct contact with the rigid casing under Coulomb's coefficient `friction`."""
+        return cls(casing, math.inf, math.inf, math.atan(friction))
+
+    @property
+    def is_rigid(self) -> bool:
+        """Whether this is direct contact with the rigid casing."""
+        return math.isinf(self.E) and math.isinf(self.K)
+
+    @property
+    def friction(self) -> float:
+        """Coefficient of friction: tangential over radial part of the contact force."""
+        return math.tan(self.theta)
+
     @property
     def name(self) -> str:
-        """Name of the coating in paths, for instance ``2nd_E0.11_K0.5_theta0``."""
+        """Name in paths, for instance ``2nd_E0.11_K0.5_theta0`` or ``2nd_rigid_mu0.15``."""
+        if self.is_rigid:
+            return f"{self.casing}_rigid_mu{self.friction:g}"
         return f"{self.casing}_E{self.E:g}_K{self.K:g}_theta{self.theta:g}"
 
 
@@ -49,12 +66,20 @@ def coating_cases(config: Mapping[str, Any]) -> list[CoatingCase]:
     """
     cases: dict[str, CoatingCase] = {}
     for index, entry in enumerate(config["coatings"]):
-        for moduli in itertools.product(entry["E"], entry["K"], entry["theta"]):
-            case = CoatingCase(entry["casing"], *map(float, moduli))
+        varied = [key for key in ("E", "K", "theta", "friction") if key in entry]
+        for values in itertools.product(*(entry[key] for key in varied)):
+            case = listed_case({**entry, **dict(zip(varied, values, strict=True))})
             if case.name in cases:
                 raise ValueError(f"coatings[{index}]: {case.name} is listed twice; list each coating once")
             cases[case.name] = case
     return list(cases.values())
+
+
+def listed_case(entry: Mapping[str, Any]) -> CoatingCase:
+    """Read one coating as the config lists it: ``casing, E, K, theta`` or ``casing, coating, friction``."""
+    if "coating" in entry:
+        return CoatingCase.rigid(entry["casing"], float(entry["friction"]))
+    return CoatingCase(entry["casing"], float(entry["E"]), float(entry["K"]), float(entry["theta"]))
 
 
 def case_from_name(config: Mapping[str, Any], name: str) -> CoatingCase:
@@ -68,7 +93,7 @@ def case_from_name(config: Mapping[str, Any], name: str) -> CoatingCase:
     for case in coating_cases(config):
         if case.name == name:
             return case
-    raise ValueError(f"coating {name} is not in the config; add its casing, E, K and theta to coatings")
+    raise ValueError(f"coating {name} is not in the config; add it to coatings")
 
 
 def speeds(config: Mapping[str, Any]) -> list[float]:
@@ -145,7 +170,7 @@ def run_spec(config: Mapping[str, Any], case: CoatingCase, f_omega: float) -> Ru
 def keeps_history(config: Mapping[str, Any], case: CoatingCase, f_omega: float) -> bool:
     """Tell whether the config lists this run among those whose whole displacement is kept."""
     return any(
-        CoatingCase(entry["casing"], float(entry["E"]), float(entry["K"]), float(entry["theta"])) == case
+        listed_case(entry) == case
         and round(float(entry["f_omega"]), SPEED_DECIMALS) == round(f_omega, SPEED_DECIMALS)
         for entry in config["analysis"]["histories"]
     )

@@ -9,5 +9,10 @@ def test_coatings_are_named_in_full():
     assert titles.coating(CoatingCase("2nd5nd", 11.0, 10.0, 0.0)) == "casing 2nd5nd, E = 11, K = 10, θ = 0"
 
 
+def test_the_rigid_casing_is_named_with_its_friction():
+    assert titles.coating(CoatingCase.rigid("2nd", 0.0)) == "rigid casing 2nd, μ = 0"
+    assert titles.coating(CoatingCase.rigid("2nd", 0.15)) == "rigid casing 2nd, μ = 0.15"
+
+
 def test_speeds_have_three_decimals():
     assert titles.speed(0.19) == r"$f_\Omega$ = 0.190"

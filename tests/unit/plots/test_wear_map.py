@@ -3,6 +3,7 @@ from dataclasses import replace
 import numpy as np
 
 from bladerub.plots.wear_map import wear_map
+from bladerub.study.grid import CoatingCase
 
 
 def test_depth_over_speed_and_angle(coating_map, draws):
@@ -22,6 +23,19 @@ def test_runs_that_ended_early_are_crossed(coating_map, draws):
     np.testing.assert_array_equal(completed.get_ydata(), [5, 5, 10, 5, 5])
     np.testing.assert_array_equal(early.get_xydata(), [[0.35, 4]])
     assert early.get_marker() == "x"
+
+
+def test_a_casing_without_wear_is_drawn_in_one_colour(coating_map, draws):
+    rigid = replace(
+        coating_map,
+        case=CoatingCase.rigid("2nd", 0.0),
+        wear=0 * coating_map.wear,
+        lobes=0 * coating_map.lobes,
+    )
+    upper, lower, _ = draws(wear_map(rigid)).axes
+    assert upper.get_title(loc="left") == "rigid casing 2nd, μ = 0"
+    assert not upper.collections[0].get_array().any()
+    assert lower.get_ylim()[1] > 1
 
 
 def test_speeds_that_were_not_run_stay_empty(coating_map, draws):

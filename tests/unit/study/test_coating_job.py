@@ -1,7 +1,12 @@
+import math
+
+import numpy as np
+import pandas as pd
 import pytest
 
-from bladerub.study import coating_job, divergence, maps, store
+from bladerub.study import coating_job, divergence, maps, peaks, store
 from bladerub.study.coating_job import compute_missing
+from bladerub.study.grid import CoatingCase
 
 
 def test_all_runs_are_computed_once(compute, simulated, tmp_path):
@@ -149,3 +154,25 @@ def test_real_rubs_go_from_the_solver_to_the_table(study, case, blade, tmp_path)
     assert list(coating.lobes) == [2, 2]  # stiff and heavy, it cuts the two lobes of the casing
     assert compute_missing(study, case, blade, folder, "digest", reports.append) == rows
     assert len(reports) == 2
+
+
+def test_runs_on_the_rigid_casing_go_to_the_tables_as_those_of_infinite_moduli(
+    study, blade, make_result, monkeypatch, tmp_path
+):
+    monkeypatch.setattr(
+        coating_job, "simulate", lambda _, spec: make_result(spec.revolutions, order=4.0, depth=0.0)
+    )
+    case = CoatingCase.rigid("2nd", 0.15)
+    rows = compute_missing(study, case, blade, tmp_path, "digest")
+    store.write_manifest(tmp_path / "manifest.tsv", rows)
+    maps.build_map(study, case, blade, tmp_path, tmp_path / "map.h5")
+    coating = maps.read_map(tmp_path / "map.h5")
+    assert coating.case == case
+    assert not coating.max_wear.any()
+    assert not coating.lobes.any()
+    for table, name in ((peaks.table, "peaks"), (divergence.table, "divergence")):
+        table(study, [tmp_path / "map.h5"]).to_csv(tmp_path / f"{name}.csv", index=False)
+        read = pd.read_csv(tmp_path / f"{name}.csv")
+        assert (np.isinf(read.E) & np.isinf(read.K)).all()
+        assert read.theta.to_numpy() == pytest.approx(math.atan(0.15))
+        assert not read.drop(columns=["E", "K"]).isna().any(axis=None)

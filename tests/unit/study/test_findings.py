@@ -1,5 +1,6 @@
 import itertools
 import logging
+import re
 
 import numpy as np
 import pandas as pd
@@ -22,6 +23,7 @@ PAPER_IDS = {
     *("C5a", "C5b", "C5c", "C6a", "C6b", "C6c", "C7a", "C7b", "C8a", "C8b"),
     *("C9a", "C9b", "C9c", "C9d", "C9e", "C10a", "C10b", "C10c", "C10d"),
     *(f"C11{part}" for part in "abcdefghijkl"),
+    "C12a",
 }
 
 
@@ -42,8 +44,13 @@ def paper_peaks():
     table = pd.DataFrame(rows, columns=peaks.COLUMNS)
     soft = (table.E == 0.11) & (table.K == 0.5)
     table.loc[soft, "f_peak"] = table.loc[soft, "order"].map({4: 0.31, 6: 0.21})
-    tilted = [("2nd", 2.0, 0.5, 0.15, 4, 0.295, 5e-4), ("2nd", 2.0, 0.5, 0.15, 6, 0.19, 5e-4)]
-    return pd.concat([table, pd.DataFrame(tilted, columns=peaks.COLUMNS)], ignore_index=True)
+    others = [
+        ("2nd", 2.0, 0.5, 0.15, 4, 0.295, 5e-4),
+        ("2nd", 2.0, 0.5, 0.15, 6, 0.19, 5e-4),
+        ("2nd", np.inf, np.inf, 0.0, 4, 0.312, 5.5e-4),
+        ("2nd", np.inf, np.inf, 0.0, 6, 0.205, 5.5e-4),
+    ]
+    return pd.concat([table, pd.DataFrame(others, columns=peaks.COLUMNS)], ignore_index=True)
 
 
 def paper_divergence():
@@ -163,7 +170,7 @@ def test_other_peak_speeds_break_the_claims_on_them(paper, judge, E, K, f_peak, 
 
 def test_falling_f6_is_no_contact_stiffening(paper, judge):
     table = paper[1]["peaks"]
-    sixth = (table.order == 6) & (table.theta == 0)
+    sixth = (table.order == 6) & (table.theta == 0) & np.isfinite(table.E)
     table.loc[sixth, "f_peak"] = 0.2 - 0.002 * table.loc[sixth, "K"].map(HARDENING.index)
     judged = judge(*paper)
     assert list(judged.holds[["C7a", "C7b", "C9b", "C9c"]]) == ["yes", "yes", "no", "no"]
@@ -277,6 +284,48 @@ def test_soft_coatings_are_judged_when_the_study_has_them(paper, judge):
     assert (finding.holds, finding.measured) == ("no", 25)
 
 
+def stiff_peaks(table, order, column, values):
+    """Set Y_k or f_k at E = 5, 11 and 20 and the highest K."""
+    for E, value in zip((5.0, 11.0, 20.0), values, strict=True):
+        table.loc[(table.E == E) & (table.K == 10.0) & (table.order == order), column] = value
+
+
+@pytest.mark.parametrize(
+    ("amplitudes", "speeds", "holds", "measured", "margin"),
+    [
+        ([8e-4, 7e-4, 6e-4], [0.310] * 3, "yes", "Y4 +9%, f4 -0.002, Y6 +9%, f6 -0.002; none softer", 0.545),
+        ([8e-4, 7e-4, 6e-4], [0.340, 0.330, 0.324], "partly", "Y4 +9%, f4 +0.012,", -0.2),
+        ([6e-4, 7e-4, 6.4e-4], [0.312] * 3, "partly", "Y4 +16%, f4 +0.000, .*; E = 5 is nearer", -0.364),
+        ([3e-4, 4e-4, 2e-4], [0.312] * 3, "no", "Y4 -64%, .*; E = 11 is nearer", -2.182),
+    ],
+)
+def test_stiff_coatings_are_compared_with_the_rigid_casing(
+    paper, judge, amplitudes, speeds, holds, measured, margin
+):
+    stiff_peaks(paper[1]["peaks"], 4, "amplitude", amplitudes)
+    stiff_peaks(paper[1]["peaks"], 4, "f_peak", speeds)
+    finding = judge(*paper).loc["C12a"]
+    assert finding.holds == holds
+    assert re.match(measured.replace("+", r"\+"), finding.measured)
+    assert finding.margin == pytest.approx(margin, abs=1e-3)
+
+
+def test_without_a_rigid_casing_stiff_coatings_are_not_judged(paper, judge, caplog):
+    table = paper[1]["peaks"]
+    paper[1]["peaks"] = table[np.isfinite(table.E)]
+    with caplog.at_level(logging.WARNING):
+        assert set(judge(*paper).index) == PAPER_IDS - {"C12a"}
+    assert "no peak of engine order 4 for coating 2nd_rigid_mu0" in caplog.text
+
+
+def test_the_rigid_casing_takes_no_part_in_the_claims_on_E_and_K(paper, judge):
+    table = paper[1]["peaks"]
+    table.loc[np.isinf(table.E), ["amplitude", "f_peak"]] = [1.0, 0.02]
+    judged = judge(*paper)
+    assert list(judged[judged.holds != "yes"].index) == ["C12a"]
+    assert "of 54 cells" in judged.claim["C6a"]
+
+
 def test_a_small_study_leaves_out_what_it_cannot_tell_and_logs_it(paper, judge, caplog):
     config, tables, maps = paper
     few = tables["peaks"].E.isin([0.11, 1.1, 2.0]) & tables["peaks"].K.isin([0.1, 0.5])
@@ -285,7 +334,7 @@ def test_a_small_study_leaves_out_what_it_cannot_tell_and_logs_it(paper, judge, 
     del maps[WORN.name]
     with caplog.at_level(logging.WARNING):
         judged = judge(config, tables, maps)
-    out = {id_ for id_ in PAPER_IDS if id_.startswith(("C2", "C3", "C11"))} | {"C6c"}
+    out = {id_ for id_ in PAPER_IDS if id_.startswith(("C2", "C3", "C11"))} | {"C6c", "C12a"}
     assert set(judged.index) == PAPER_IDS - out
     assert "left out: C2a: five worn lobes" in caplog.text
     assert "coating 2nd5nd_E11_K0.5_theta0 is not in the study" in caplog.text

@@ -6,18 +6,48 @@ from bladerub.study import grid
 from bladerub.study.grid import CoatingCase
 
 
-def test_the_papers_coatings_are_56_with_names_that_lead_back_to_them(config):
+def test_the_papers_coatings_are_56_and_the_rigid_casing_with_names_that_lead_back_to_them(config):
     cases = grid.coating_cases(config)
-    assert len(cases) == 1 + 9 * 6 + 1
+    assert len(cases) == 1 + 9 * 6 + 1 + 1
     assert cases[0].name == "2nd5nd_E11_K0.5_theta0"
-    assert cases[-1].name == "2nd_E2_K0.5_theta0.15"
+    assert cases[-2].name == "2nd_E2_K0.5_theta0.15"
+    assert cases[-1].name == "2nd_rigid_mu0"
     assert CoatingCase("2nd", 0.11, 0.05, 0.0).name == "2nd_E0.11_K0.05_theta0"
     assert all(grid.case_from_name(config, case.name) == case for case in cases)
 
 
 def test_a_coating_listed_twice_is_named(config):
     config["coatings"].append({"casing": "2nd", "E": [2.0], "K": [0.5], "theta": [0.15]})
-    with pytest.raises(ValueError, match=r"coatings\[3\]: 2nd_E2_K0.5_theta0.15 is listed twice"):
+    with pytest.raises(ValueError, match=r"coatings\[4\]: 2nd_E2_K0.5_theta0.15 is listed twice"):
+        grid.coating_cases(config)
+
+
+@pytest.mark.parametrize(("friction", "name"), [(0, "2nd_rigid_mu0"), (0.15, "2nd_rigid_mu0.15")])
+def test_the_rigid_casing_is_a_coating_without_give_at_its_angle_of_friction(config, friction, name):
+    config["coatings"] = [{"casing": "2nd", "coating": "rigid", "friction": [0.5, friction]}]
+    case = grid.case_from_name(config, name)
+    assert case.is_rigid
+    assert case.friction == pytest.approx(friction)
+    coating = grid.run_spec(config, case, 0.19).coating
+    assert coating.is_rigid
+    assert (coating.E, coating.K, coating.theta) == (math.inf, math.inf, math.atan(friction))
+
+
+def test_abradable_coatings_are_not_rigid(config):
+    assert [case.is_rigid for case in grid.coating_cases(config)] == [False] * 56 + [True]
+
+
+def test_order_of_keys_does_not_change_the_order_of_coatings(config):
+    entry = config["coatings"][1]
+    config["coatings"] = [entry]
+    before = grid.coating_cases(config)
+    config["coatings"] = [dict(reversed(entry.items()))]
+    assert grid.coating_cases(config) == before
+
+
+def test_the_rigid_casing_listed_twice_is_named(config):
+    config["coatings"].append({"casing": "2nd", "coating": "rigid", "friction": [0.1, 0]})
+    with pytest.raises(ValueError, match=r"coatings\[4\]: 2nd_rigid_mu0 is listed twice"):
         grid.coating_cases(config)
 
 
@@ -83,3 +113,13 @@ def test_histories_are_kept_for_the_listed_runs_only(config, case):
     assert grid.keeps_history(config, CoatingCase("2nd", 2.0, 0.5, 0.0), 0.197)
     assert not grid.keeps_history(config, case, 0.2)
     assert not grid.keeps_history(config, CoatingCase("2nd", 5.0, 0.5, 0.15), 0.19)
+
+
+def test_histories_may_be_of_the_rigid_casing(config):
+    rigid = CoatingCase.rigid("2nd", 0.15)
+    assert not grid.keeps_history(config, rigid, 0.19)
+    entry = {"casing": "2nd", "coating": "rigid", "friction": 0.15, "f_omega": 0.19}
+    config["analysis"]["histories"].append(entry)
+    assert grid.keeps_history(config, rigid, 0.19)
+    assert not grid.keeps_history(config, rigid, 0.197)
+    assert not grid.keeps_history(config, CoatingCase.rigid("2nd", 0.0), 0.19)

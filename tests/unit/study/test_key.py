@@ -47,6 +47,12 @@ def test_the_key_is_stable(run_key, config, case):
     assert run_key() == run_key(grid.run_spec(config, case, 0.19))
 
 
+def test_the_rigid_casing_has_a_key_of_its_own(run_key, config):
+    rigid, stiff = CoatingCase.rigid("2nd", 0.0), CoatingCase("2nd", 1e6, 1e6, 0.0)
+    keys = [run_key(grid.run_spec(config, case, 0.19)) for case in (rigid, rigid, stiff)]
+    assert keys[0] == keys[1] != keys[2]
+
+
 def test_every_field_of_the_run_changes_the_key(run_key, spec):
     keys = {run_key()}
     leaves = list(_leaves(spec))

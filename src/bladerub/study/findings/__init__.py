@@ -2,8 +2,7 @@
 
 The claims C1 to C12 are numbered in the order of the paper; a letter stands for a separately testable
 part. A part that speaks of coatings or speeds outside the study has no row: the log names it and what is
-missing. C12a, that a coating above E = 20 acts like the bare rigid casing, is not among them, because the
-study has no bare casing.
+missing.
 """
 
 from __future__ import annotations
@@ -16,7 +15,7 @@ from typing import Any
 
 import pandas as pd
 
-from bladerub.study.findings import moduli, reduction, spectra, tangential, wear_patterns
+from bladerub.study.findings import moduli, reduction, rigid_limit, spectra, tangential, wear_patterns
 from bladerub.study.findings.evidence import Evidence
 from bladerub.study.findings.finding import Finding, NotMeasurable
 
@@ -65,6 +64,7 @@ CLAIMS: tuple[Callable[[Evidence], Finding], ...] = (
     tangential.tilted_is_steady_at_straight_peak,
     tangential.tilted_lobes_at_own_peak,
     tangential.straight_lobes_at_own_peak,
+    rigid_limit.stiff_is_rigid,
     moduli.softer_is_harmless,
 )
 """Every measurable part of every claim, in the order of the table."""

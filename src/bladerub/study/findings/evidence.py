@@ -70,7 +70,7 @@ class Evidence:
         return float(rows[column].iloc[0])
 
     def moduli(self, casing: str, theta: float, order: int, column: str) -> pd.DataFrame:
-        """Return ``f_peak`` or ``amplitude`` (m) over K (rows) and E (columns), both ascending.
+        """Return ``f_peak`` or ``amplitude`` (m) over K (rows) and E (columns), both ascending and finite.
 
         Raises
         ------
@@ -78,7 +78,8 @@ class Evidence:
             If the study has fewer than two E or two K.
         """
         peaks = self.peaks
-        rows = peaks[(peaks.casing == casing) & (peaks.theta == theta) & (peaks.order == order)]
+        wanted = (peaks.casing == casing) & (peaks.theta == theta) & (peaks.order == order)
+        rows = peaks[wanted & np.isfinite(peaks.E)]  # not the rigid casing
         table = rows.pivot_table(index="K", columns="E", values=column)
         if min(table.shape) < 2:
             raise NotMeasurable(f"engine order {order} on casing {casing}: fewer than two E or two K")
