@@ -27,17 +27,20 @@ def history_of_runs(paths: Iterable[str | Path]) -> tuple[pd.DataFrame, Figure]:
     """
     runs = {titles.angle(run.attributes["theta"]): run for run in map(read_run, paths)}
     displacement = {name: run.data["radial_displacement"] for name, run in runs.items()}
-    peak = {name: run.data["revolution_peak"] for name, run in runs.items()}
+    amplitude = {name: run.data["revolution_amplitude"] for name, run in runs.items()}
     run = next(iter(runs.values()))
     revolution, about = run.data["revolution"], run.attributes
     title = f"{titles.moduli(about['casing'], about['E'], about['K'])}, {titles.speed(about['f_omega'])}"
     table = pd.DataFrame({"revolution": revolution, **displacement})
-    return table, history(revolution, displacement, peak, title)
+    return table, history(revolution, displacement, amplitude, title)
 
 
 @styled
 def history(
-    revolution: np.ndarray, displacement: Mapping[str, np.ndarray], peak: Mapping[str, np.ndarray], title: str
+    revolution: np.ndarray,
+    displacement: Mapping[str, np.ndarray],
+    amplitude: Mapping[str, np.ndarray],
+    title: str,
 ) -> Figure:
     """Draw Figs. 17 and 18: the radial displacement of node 1 in two runs.
 
@@ -47,8 +50,8 @@ def history(
         Time in revolutions.
     displacement : mapping of str to (n,) array_like
         Radial displacement, m, by the name of the run; two runs. NaN after an early end.
-    peak : mapping of str to (n_revolutions,) array_like
-        Largest absolute displacement in each revolution, m, by the same names.
+    amplitude : mapping of str to (n_revolutions,) array_like
+        Half the range of the displacement in each revolution, m, by the same names.
     title : str
         What was simulated.
     """
@@ -60,14 +63,14 @@ def history(
     for letter, axes, (name, u), look in panels:
         axes.plot(revolution, 1e3 * np.asarray(u), color=look["color"], linewidth=0.6)
         axes.set(ylim=(-limit, limit), ylabel="$u_r$ (mm)", title=f"({letter}) {name}")
-        envelope = 1e3 * np.asarray(peak[name])
+        envelope = 1e3 * np.asarray(amplitude[name])
         below.plot(np.arange(envelope.size) + 0.5, envelope, marker="o", markersize=3, label=name, **look)
     below.set(
-        title="(c) largest $|u_r|$ in each revolution",
+        title="(c) half the range of $u_r$ in each revolution",
         xlim=(0, envelope.size),
         ylim=(0, limit),
         xlabel="revolution",
-        ylabel="$|u_r|$ (mm)",
+        ylabel="amplitude (mm)",
     )
     below.xaxis.set_major_locator(MaxNLocator(integer=True))
     below.grid(axis="y")

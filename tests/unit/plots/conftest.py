@@ -43,6 +43,8 @@ def coating_map() -> CoatingMap:
         spectrum_order=order,
         spectrum_amplitude=amplitude,
         revolution_peak=np.ones((6, 20)),
+        revolution_amplitude=np.ones((6, 20)),
+        confirmation_amplitude=np.full((6, 60), np.nan),
         max_wear=wear.max(axis=1),
         lobes=np.array([5, 5, 10, 5, 5, 4]),
         status=np.array(["completed"] * 5 + ["unbounded"]),

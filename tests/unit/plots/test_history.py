@@ -9,16 +9,16 @@ REVOLUTION = (np.arange(200) + 0.5) / 50
 STEADY = 1e-4 * np.sin(12 * np.pi * REVOLUTION)
 GROWING = STEADY * np.exp(REVOLUTION / 2)
 GROWING[150:] = np.nan
-PEAK = {"θ = 0": [1e-4] * 4, "θ = 0.15 rad": [1.6e-4, 2.7e-4, 4.4e-4, np.nan]}
+AMPLITUDE = {"θ = 0": [1e-4] * 4, "θ = 0.15 rad": [1.6e-4, 2.7e-4, 4.4e-4, np.nan]}
 
 
 @pytest.fixture
 def axes(draws):
-    return draws(history(REVOLUTION, {"θ = 0": STEADY, "θ = 0.15 rad": GROWING}, PEAK, "f = 0.19")).axes
+    return draws(history(REVOLUTION, {"θ = 0": STEADY, "θ = 0.15 rad": GROWING}, AMPLITUDE, "f = 0.19")).axes
 
 
 def test_displacements_in_mm_on_one_scale(axes):
-    for panel, displacement, name in zip(axes, (STEADY, GROWING), PEAK, strict=False):
+    for panel, displacement, name in zip(axes, (STEADY, GROWING), AMPLITUDE, strict=False):
         np.testing.assert_allclose(panel.lines[0].get_ydata(), 1e3 * displacement)
         assert panel.get_ylabel() == "$u_r$ (mm)"
         assert panel.get_title(loc="left").endswith(name)
@@ -37,12 +37,15 @@ def test_the_growth_of_both_runs(axes):
 @pytest.fixture
 def run_files(tmp_path):
     paths = []
-    for theta, displacement, peak in zip((0.0, 0.15), (STEADY, GROWING), PEAK.values(), strict=True):
+    for theta, displacement, amplitude in zip(
+        (0.0, 0.15), (STEADY, GROWING), AMPLITUDE.values(), strict=True
+    ):
         paths.append(tmp_path / f"{theta}.h5")
         variables = {
             "revolution": Variable(("revolution",), REVOLUTION, "1", "time"),
             "radial_displacement": Variable(("revolution",), displacement, "m", "of node 1"),
-            "revolution_peak": Variable(("revolution_number",), peak, "m", "largest"),
+            "revolution_peak": Variable(("revolution_number",), 2 * np.asarray(amplitude), "m", "largest"),
+            "revolution_amplitude": Variable(("revolution_number",), amplitude, "m", "half range"),
             "wear": Variable(("node",), np.zeros(8), "m", "worn depth"),
             "spectrum_amplitude": Variable(("spectrum_order",), np.zeros(3), "m", "amplitude"),
         }
