@@ -54,7 +54,7 @@ class Bar(NamedTuple):
 
 DOYEN = Bar(length=10.0, modulus=900.0, density=1.0)
 HEIGHT, SPEED, GRAVITY = 5.0, 10.0, 10.0
-"""Thrown at 10 m/s without gravity (impacting), or dropped from 5 m with it (bouncing): 10 m/s at the wall."""
+"""Thrown at 10 m/s without gravity (impacting) or dropped from 5 m with it (bouncing): 10 m/s at touch."""
 
 
 def first_contact_force(bar, speed, gravity, tau):
