@@ -11,36 +11,42 @@ import numpy as np
 import pytest
 
 from bladerub.contact import kernel
-from bladerub.contact.modes import Modes, central_differences
+from bladerub.contact.modes import Modes
+from bladerub.contact.schemes import Contact, central_differences, exponential
 
 M, H, N = 0.1, 1e-6, 64
 BETA = 1e-4
 DEPTH = 1e-3
 
 
-def deviations(kappa, n_revolutions=2, start=1e-8):
+def deviations(kappa, n_revolutions=2, start=1e-8, scheme=central_differences):
     """March the compiled loop from a small deviation about the equilibrium on the bars."""
     spring, bar = BETA * M / H**2, kappa * M / H**2
     tip_modes = np.zeros((16, 1))
     tip_modes[0, 0] = M**-0.5
-    rule = central_differences(Modes(np.array([np.sqrt(spring / M)]), tip_modes), 0.0, H)
+    contact = Contact(np.full(8, bar), -1.0, 0.0)
+    rule = scheme(Modes(np.array([np.sqrt(spring / M)]), tip_modes), 0.0, H, contact)
     gap = np.ones((8, N))
     gap[0] = -DEPTH
     zeros = np.zeros(8)
     half_width = 2.0
     each = zeros + bar / (2 * half_width)  # the elements under the tip add up to its width
-    stator = kernel.Stator(gap, gap, gap.min(axis=0), each, 1e12 * each, zeros, -1.0, 0.0)
-    tip = kernel.Tip(zeros, zeros, zeros + 1.0, half_width, 0.0, 0.0, 1.0)
-    # the force acts at the prediction (1 − β) u of a resting mass
-    rest = -DEPTH * kappa / (BETA + kappa * (1 - BETA))
-    state = kernel.State(np.zeros((3, 1)), np.zeros((3, 16)), np.zeros((8, N)), np.zeros(4))
+    stator = kernel.Stator(gap, gap, gap.min(axis=0), each, 1e12 * each, zeros, False, -1.0, 0.0, zeros)
+    tip = kernel.Tip(zeros, zeros, zeros + 1.0, zeros + 1.0, half_width, 0.0, 0.0, 1.0)
+    # the paper's scheme takes the force at the prediction (1 − β) u of a resting mass
+    predicted = 1 - BETA if rule.corrects else 1.0
+    rest = -DEPTH * kappa / (BETA + kappa * predicted)
+    state = kernel.at_rest(1, N)
     state.q[:] = (rest + start) / tip_modes[0, 0]
-    state.wear[0] = 0.0
+    state.u[:, 0] = rest + start
+    if not rule.corrects:  # the bars already press
+        state.push[0] = bar * (rest + start + DEPTH)
+        state.force[:, 0] = -state.push[0]
     seen = []
     for _ in range(n_revolutions):
         displacement = np.zeros(N)
         kernel.revolve(rule, stator, tip, state, 1, displacement)
-        seen.append(displacement - rest)
+        seen.append(displacement - rest)  # the means of two steps each: the same recurrence
     return np.concatenate(seen)
 
 
@@ -57,6 +63,21 @@ def test_contact_damps_like_the_root_of_one_less_kappa(kappa):
 def test_scheme_is_unstable_above_four_thirds(factor, grows):
     limit = 1 + 1 / (3 - BETA)
     assert limit == pytest.approx(4 / 3, rel=1e-4)
-    u = np.abs(deviations(factor * limit, start=1e-13))
+    u = np.abs(deviations(factor * limit, start=1e-11))
     ratio = u[110:118].max() / u[10:18].max()
     assert ratio > 100 if grows else ratio < 0.01
+
+
+@pytest.mark.parametrize("kappa", [0.05, 0.2, 0.9])
+def test_exponential_scheme_does_not_damp_contact(kappa):
+    """u⁺ = (2 − κ) u − u⁻: the roots have modulus 1 and the phase 2 asin(√κ / 2)."""
+    u = deviations(kappa, 1, scheme=exponential)[1:41]
+    casoratian = u[2:] * u[:-2] - u[1:-1] ** 2
+    np.testing.assert_allclose(casoratian / casoratian[0], 1.0, rtol=2e-3)
+    cosine = (u[2:] + u[:-2]) @ u[1:-1] / (2 * u[1:-1] @ u[1:-1])
+    assert np.arccos(cosine) == pytest.approx(2 * np.arcsin(np.sqrt(kappa) / 2), rel=1e-3)
+
+
+def test_exponential_scheme_refuses_a_step_too_long_for_the_contact():
+    with pytest.raises(ValueError, match="too long"):
+        deviations(1.1, scheme=exponential)

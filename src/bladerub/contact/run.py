@@ -9,25 +9,26 @@ import numpy as np
 from scipy.ndimage import minimum_filter1d
 
 from bladerub.blade.model import N_INTERFACE, ReducedBlade
-from bladerub.contact import casing, kernel
-from bladerub.contact.modes import Modes, Recurrence, central_differences, modes_at
-from bladerub.contact.spec import Energy, RunResult, RunSpec
+from bladerub.contact import casing, kernel, ledger
+from bladerub.contact.modes import Modes, modes_at
+from bladerub.contact.schemes import SCHEMES, Contact, Recurrence, normal_compliance
+from bladerub.contact.spec import RunResult, RunSpec
 
 STRAY = 4
 """Elements a node may move along the casing before the search for contact looks at it alone."""
 
 
 def simulate(blade: ReducedBlade, spec: RunSpec, progress: Callable[[int], None] | None = None) -> RunResult:
-    """Let the blade rub at one constant speed, from rest.
+    """Let the blade rub at one constant speed.
 
     1. Eq. (1) is solved in the modal coordinates of the reduced blade at this speed, with modal
-       damping, by explicit central differences of constant step.
-    2. Each step predicts the motion without contact, evaluates the contact forces at the predicted
-       position of the tip, and corrects the motion by them.
-    3. The step is the largest one not above ``spec.max_time_step`` of which a whole number makes the
-       passage of one coating element.
-    4. Displacements are increments about the running position of the blade, and so are clearances.
-    5. The tangential contact force opposes the rotation; tangential displacement is positive with it.
+       damping, by the scheme that the spec names (contract: `bladerub.contact.schemes`).
+    2. The step is the largest one not above ``spec.max_time_step`` of which a whole number, and
+       ``spec.steps_per_element`` at least, makes the passage of one coating element.
+    3. Displacements are increments about the running position of the blade, and so are clearances.
+    4. The contact force of a node is along the normal to the casing where the node is, turned by θ
+       against the rotation; tangential displacement is positive with the rotation.
+    5. The blade starts at rest, deflected in its first mode where the spec says so.
 
     Parameters
     ----------
@@ -47,26 +48,27 @@ def simulate(blade: ReducedBlade, spec: RunSpec, progress: Callable[[int], None]
     Raises
     ------
     ValueError
-        If the speed is outside the range of the blade, or the step too long for its highest mode.
+        If the speed is outside the range of the blade, or the step too long for the scheme.
     """
     n_elements, revolutions = spec.coating.n_elements, spec.revolutions
     steps_per_element, time_step = _time_step(blade, spec)
     modes = modes_at(blade, spec.f_omega)
-    rule = central_differences(modes, spec.damping_ratio, time_step)
-    tip = _tip(blade, spec)
-    stator = _stator(blade, spec, tip)
-    state = kernel.State(
-        q=np.zeros((3, modes.omega.size)),
-        u=np.zeros((3, 2 * N_INTERFACE)),
-        wear=np.zeros((N_INTERFACE, n_elements)),
-        work=np.zeros(4),
+    contact = Contact(
+        _bar_stiffness(blade, spec) * 2 * spec.tip.half_width,  # the shares under the tip add up to its width
+        -math.cos(spec.coating.theta),
+        -math.sin(spec.coating.theta),
     )
+    rule = SCHEMES[spec.scheme](modes, spec.damping_ratio, time_step, contact)
+    tip = _tip(blade, spec)
+    stator = _stator(blade, spec, tip, rule)
+    state = _start(modes, rule, spec)
+    initial = sum(ledger.blade_energy(rule, state))
     displacement = np.full((revolutions, n_elements), np.nan)
-    peak = np.full(revolutions, np.nan)
+    lowest, highest = np.full(revolutions, np.nan), np.full(revolutions, np.nan)
     n_steps = n_contact_steps = 0
     status, message = "completed", f"{revolutions} revolutions completed"
     for revolution in range(revolutions):
-        made, touched, peak[revolution] = kernel.revolve(
+        made, touched, lowest[revolution], highest[revolution] = kernel.revolve(
             rule, stator, tip, state, steps_per_element, displacement[revolution]
         )
         n_steps += made
@@ -86,25 +88,25 @@ def simulate(blade: ReducedBlade, spec: RunSpec, progress: Callable[[int], None]
         angle=_element_angle(n_elements),
         wear=state.wear,
         radial_displacement=displacement.ravel(),
-        revolution_peak=peak,
+        revolution_peak=np.maximum(np.abs(lowest), np.abs(highest)),
+        revolution_amplitude=0.5 * (highest - lowest),
         time_step=time_step,
         n_steps=n_steps,
         n_contact_steps=n_contact_steps,
-        energy=_energy(modes, rule, state, time_step),
+        n_modes=rule.omega.size,
+        energy=ledger.close(rule, state, initial, 2 * np.pi / (steps_per_element * n_elements)),
     )
 
 
 def kernel_warm_up() -> None:
     """Compile the time loop, so that its machine code is on disk before runs start."""
-    n = 2
-    modes, tips = np.zeros(n), np.zeros((2 * N_INTERFACE, n))
-    rule = Recurrence(modes, modes, tips, modes, tips, np.zeros((2 * N_INTERFACE, 2 * N_INTERFACE)))
+    modes = Modes(np.ones(1), np.zeros((2 * N_INTERFACE, 1)))
     zeros = np.zeros(N_INTERFACE)
+    rule = SCHEMES["exponential"](modes, 0.0, 1e-6, Contact(zeros + 1.0, -1.0, 0.0))
     table = np.ones((N_INTERFACE, 8))
-    stator = kernel.Stator(table, table, table[0], zeros, zeros, zeros, -1.0, 0.0)
-    tip = kernel.Tip(zeros, zeros, zeros + 1.0, 2.0, 0.0, 0.0, 1.0)
-    state = kernel.State(np.zeros((3, n)), np.zeros((3, 2 * N_INTERFACE)), 0 * table, np.zeros(4))
-    kernel.revolve(rule, stator, tip, state, 1, np.zeros(8))
+    stator = kernel.Stator(table, table, table[0], zeros + 1.0, zeros + 1.0, zeros, False, -1.0, 0.0, zeros)
+    tip = kernel.Tip(zeros, zeros, zeros + 1.0, zeros + 1.0, 2.0, 0.0, 0.0, 1.0)
+    kernel.revolve(rule, stator, tip, kernel.at_rest(1, 8), 1, np.zeros(8))
 
 
 def _lowest_within(reach: float, gap: np.ndarray) -> np.ndarray:
@@ -117,14 +119,39 @@ def _element_angle(n_elements: int) -> np.ndarray:
 
 def _time_step(blade: ReducedBlade, spec: RunSpec) -> tuple[int, float]:
     passage = 1.0 / (spec.f_omega * blade.f1_hz * spec.coating.n_elements)
-    steps_per_element = math.ceil(passage / spec.max_time_step)
+    steps_per_element = max(spec.steps_per_element, math.ceil(passage / spec.max_time_step))
     return steps_per_element, passage / steps_per_element
 
 
-def _stator(blade: ReducedBlade, spec: RunSpec, tip: kernel.Tip) -> kernel.Stator:
+def _start(modes: Modes, rule: Recurrence, spec: RunSpec) -> kernel.State:
+    """At rest, deflected in the first mode; the step before is the exact free motion back from there."""
+    state = kernel.at_rest(rule.omega.size, spec.coating.n_elements)
+    if spec.initial_displacement:
+        x, damping = rule.omega[0] * rule.time_step, spec.damping_ratio
+        damped = math.sqrt(1.0 - damping**2)
+        back = math.exp(damping * x) * (math.cos(damped * x) - damping / damped * math.sin(damped * x))
+        state.q[:, 0] = np.array([1.0, back, back]) * spec.initial_displacement / modes.tip[0, 0]
+        state.u[:] = state.q @ rule.tip.T
+    return state
+
+
+def _bar_area(blade: ReducedBlade, spec: RunSpec) -> np.ndarray:
+    """Area (8,) of one bar under each node, m²."""
+    return strip_width(blade) * 2 * np.pi * _radius(blade) / spec.coating.n_elements
+
+
+def _bar_stiffness(blade: ReducedBlade, spec: RunSpec) -> np.ndarray:
+    """Elastic stiffness (8,) of one bar under each node, N/m; infinite for the rigid casing."""
+    return spec.coating.E * _slope(blade, spec)
+
+
+def _slope(blade: ReducedBlade, spec: RunSpec) -> np.ndarray:
+    return spec.coating.modulus_unit * _bar_area(blade, spec) / spec.coating.thickness
+
+
+def _stator(blade: ReducedBlade, spec: RunSpec, tip: kernel.Tip, rule: Recurrence) -> kernel.Stator:
     coating = spec.coating
-    area = strip_width(blade) / tip.per_metre
-    slope = coating.modulus_unit * area / coating.thickness
+    radial, tangential = -math.cos(coating.theta), -math.sin(coating.theta)
     chord_fraction = _chord_fraction(blade)
     clearance = spec.clearance[0] + (spec.clearance[1] - spec.clearance[0]) * chord_fraction
     gap = casing.gap(spec.casing, clearance[:, None], _element_angle(coating.n_elements))
@@ -135,29 +162,38 @@ def _stator(blade: ReducedBlade, spec: RunSpec, tip: kernel.Tip) -> kernel.Stato
         gap=gap,
         lowest_gap=lowest_gap,
         floor=_lowest_within(STRAY + 1, met).min(axis=0),  # + 1: the node starts within an element
-        elastic=coating.E * slope,
-        hardening=coating.K * slope,
-        strength=coating.yield_stress * coating.modulus_unit * area,
-        radial=-math.cos(coating.theta),
-        tangential=-math.sin(coating.theta),
+        elastic=_bar_stiffness(blade, spec),
+        hardening=coating.K * _slope(blade, spec),
+        strength=coating.yield_stress * coating.modulus_unit * _bar_area(blade, spec),
+        is_rigid=coating.is_rigid,
+        radial=radial,
+        tangential=tangential,
+        own_compliance=np.diag(normal_compliance(rule.compliance, radial, tangential)).copy(),
     )
 
 
 def _tip(blade: ReducedBlade, spec: RunSpec) -> kernel.Tip:
     n_elements = spec.coating.n_elements
     y, z = blade.node_position[:, 1], blade.node_position[:, 2]
-    radius = np.hypot(y, z)
+    radius = _radius(blade)
+    # Where the flow path is a cone, its normal section curves less than its circle (Meusnier)
+    outward = (blade.radial_direction[:, 1] * y + blade.radial_direction[:, 2] * z) / radius
     start = (spec.casing.start_angle + np.arctan2(y, z)) / (2 * np.pi) * n_elements
     per_metre = n_elements / (2 * np.pi * radius)
     return kernel.Tip(
         start=start % n_elements,
         per_metre=per_metre,
-        radius=radius,
+        radius=radius / outward,
+        lever=radius,
         half_width=spec.tip.half_width,
         edge_drop=spec.tip.edge_drop,
         stray=STRAY / float(np.max(per_metre)),
         limit=spec.displacement_limit,
     )
+
+
+def _radius(blade: ReducedBlade) -> np.ndarray:
+    return np.hypot(blade.node_position[:, 1], blade.node_position[:, 2])
 
 
 def strip_width(blade: ReducedBlade) -> np.ndarray:
@@ -170,16 +206,3 @@ def strip_width(blade: ReducedBlade) -> np.ndarray:
 def _chord_fraction(blade: ReducedBlade) -> np.ndarray:
     x = blade.node_position[:, 0]
     return (x - x[0]) / (x[-1] - x[0])
-
-
-def _energy(modes: Modes, rule: Recurrence, state: kernel.State, time_step: float) -> Energy:
-    q, before, oldest = state.q
-    last_loss = float(np.sum(rule.loss * (q - oldest) ** 2))
-    return Energy(
-        kinetic=float(0.5 * np.sum(((q - before) / time_step) ** 2)),
-        elastic=float(0.5 * np.sum(modes.omega**2 * q * before)),
-        work_radial=float(state.work[0]),
-        work_tangential=float(state.work[1]),
-        damping=float(state.work[2]) + last_loss,
-        wear=float(state.work[3]),
-    )

@@ -136,26 +136,57 @@ class RunSpec:
 
 @dataclass(frozen=True)
 class Energy:
-    """Energy ledger of the run, J: ``kinetic + elastic = work_radial + work_tangential − damping``.
+    """Energy ledger of the run, J.
+
+    The blade: ``kinetic + elastic − initial + damping = work_radial + work_tangential``. Blade and casing:
+    ``kinetic + elastic − initial + damping + stored + wear + sliding = work_shape + work_rotation``.
 
     Parameters
     ----------
+    initial : float
+        In the blade at the start.
     kinetic, elastic : float
         In the blade at the end of the run.
-    work_radial, work_tangential : float
-        Done on the blade by the radial and by the tangential contact forces.
     damping : float
         Dissipated by modal damping.
+    work_radial, work_tangential : float
+        Done on the blade by the radial and by the tangential contact forces.
+    stored : float
+        Elastic energy in the coating at the end of the run.
     wear : float
         Dissipated by plastic shortening of the coating.
+    work_shape : float
+        Done by the rotation in moving the tip over the casing, against its shape and onto new bars.
+    work_rotation : float
+        Done by the rotation against the tangential force of the coating (θ) or the friction of the casing.
+    sliding : float
+        Dissipated between tip and casing by that tangential resistance.
+    exchanged : float
+        Work exchanged in the contact: on the blade and of the casing shape, of each node in each step,
+        whatever its sign.
     """
 
+    initial: float
     kinetic: float
     elastic: float
+    damping: float
     work_radial: float
     work_tangential: float
-    damping: float
+    stored: float
     wear: float
+    work_shape: float
+    work_rotation: float
+    sliding: float
+    exchanged: float
+
+    @property
+    def residual(self) -> float:
+        """What the ledger of blade and casing together misses, over the work exchanged; 0 without contact."""
+        supplied = self.work_shape + self.work_rotation
+        taken = (
+            self.kinetic + self.elastic - self.initial + self.damping + self.stored + self.wear + self.sliding
+        )
+        return abs(supplied - taken) / self.exchanged if self.exchanged else 0.0
 
 
 @dataclass(frozen=True)
@@ -184,6 +215,8 @@ class RunResult:
         Step used, s.
     n_steps, n_contact_steps : int
         Steps made, and those of them with contact.
+    n_modes : int
+        Modes that the scheme resolved; the others were condensed.
     energy : Energy
         The ledger.
     """
@@ -198,4 +231,5 @@ class RunResult:
     time_step: float
     n_steps: int
     n_contact_steps: int
+    n_modes: int
     energy: Energy

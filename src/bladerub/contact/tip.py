@@ -15,7 +15,7 @@ def drop(offset, half_width, edge_drop):  # noqa: D103 - `profile` documents it
 
 @njit(inline="always")
 def covered(offset, half_width):  # noqa: D103 - `coverage` documents it
-    return min(1.0, half_width + 0.5 - abs(offset))
+    return max(0.0, min(1.0, half_width + 0.5 - abs(offset)))
 
 
 def profile(tip: TipProfile, offset: np.ndarray) -> np.ndarray:

@@ -18,12 +18,18 @@ from bladerub.study.grid import CoatingCase
 from bladerub.study.spectra import order_spectrum
 
 _ENERGIES = {
+    "initial": "energy of the blade at the start",
     "kinetic": "kinetic energy of the blade at the end",
     "elastic": "elastic energy of the blade at the end",
+    "damping": "energy dissipated by modal damping",
     "work_radial": "work done on the blade by the radial contact forces",
     "work_tangential": "work done on the blade by the tangential contact forces",
-    "damping": "energy dissipated by modal damping",
+    "stored": "elastic energy in the coating at the end",
     "wear": "energy dissipated by plastic shortening of the coating",
+    "work_shape": "work of the rotation in moving the tip over the casing shape and onto new bars",
+    "work_rotation": "work of the rotation against the tangential resistance of the coating",
+    "sliding": "energy dissipated by the tangential resistance of the coating",
+    "exchanged": "work exchanged in the contact, whatever its sign",
 }
 
 
@@ -120,6 +126,8 @@ def write_run(
         "time_step": result.time_step,
         "n_steps": result.n_steps,
         "n_contact_steps": result.n_contact_steps,
+        "scheme": spec.scheme,
+        "energy_residual": result.energy.residual,
         "damping_ratio": spec.damping_ratio,
         "layer_thickness": spec.coating.thickness,
         "run_key": run_key,

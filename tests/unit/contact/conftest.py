@@ -47,7 +47,9 @@ def spec():
         damping_ratio=2.3e-3,
         f_omega=0.3,
         revolutions=2,
-        max_time_step=2e-6,
+        scheme="exponential",
+        steps_per_element=12,
+        max_time_step=1e-5,
         displacement_limit=0.02,
     )
 

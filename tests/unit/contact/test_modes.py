@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from bladerub.contact.modes import central_differences, modes_at
+from bladerub.contact.modes import modes_at
 
 
 def test_modes_diagonalise_the_blade_and_give_its_static_tip_compliance(blade):
@@ -17,21 +17,6 @@ def test_modes_diagonalise_the_blade_and_give_its_static_tip_compliance(blade):
 
 def test_frequencies_rise_with_the_speed(blade):
     assert np.all(modes_at(blade, 0.4).omega > modes_at(blade, 0.0).omega)
-
-
-def test_recurrence_repeats_the_discrete_free_vibration(blade):
-    """Undamped central differences move a mode at 2/h asin(ω h/2) exactly."""
-    modes = modes_at(blade, 0.0)
-    h = 2e-6
-    rule = central_differences(modes, 0.0, h)
-    phase = 2 * np.arcsin(modes.omega * h / 2)
-    np.testing.assert_allclose(rule.now * np.cos(phase) - rule.before, np.cos(2 * phase), atol=1e-12)
-
-
-def test_compliance_is_the_tip_response_of_one_step(blade):
-    rule = central_differences(modes_at(blade, 0.2), 2.3e-3, 2e-6)
-    force = np.arange(16.0)
-    np.testing.assert_allclose(rule.compliance @ force, rule.tip @ (force @ rule.response), rtol=1e-12)
 
 
 def test_indefinite_stiffness_is_refused(blade):

@@ -1,34 +1,45 @@
 """The compiled loop against the NumPy reference, and what a run promises."""
 
+import dataclasses
+
 import numpy as np
 import pytest
 import reference
 
+from bladerub.contact import casing
+from bladerub.contact.modes import modes_at
 from bladerub.contact.run import STRAY, simulate, strip_width
 
 
 @pytest.mark.parametrize(
-    ("E", "K", "theta"), [(1.1, 0.5, 0.0), (0.11, 10.0, 0.15), (20.0, 0.05, 0.1), (2.0, 0.0, 0.0)]
+    ("E", "K", "theta"), [(1.1, 0.5, 0.0), (0.11, 10.0, 0.15), (3.0, 0.05, 0.1), (2.0, 0.0, 0.0)]
 )
-def test_loop_agrees_with_numpy_reference_to_rounding(blade, spec, change, E, K, theta):
+@pytest.mark.parametrize(
+    ("scheme", "steps"), [("central_differences", 12), ("exponential", 12), ("exponential", 6)]
+)
+def test_loop_agrees_with_numpy_reference_to_rounding(blade, spec, change, scheme, steps, E, K, theta):
     spec = change(spec, E=E, K=K, theta=theta, revolutions=1)
+    spec = change(spec, scheme=scheme, steps_per_element=steps, max_time_step=1e-3)
     result = simulate(blade, spec)
-    history, wear = reference.simulate(blade, spec, result.n_steps)
+    history, wear = reference.simulate(blade, spec, result.n_steps, result.n_modes)
     node_1 = history[:, 0]
-    per_element = node_1.reshape(spec.coating.n_elements, -1).mean(axis=1)
+    middle = 0.5 * (node_1 + np.concatenate([[0.0], node_1[:-1]]))
+    per_element = middle.reshape(spec.coating.n_elements, -1).mean(axis=1)
     scale = np.abs(node_1).max()
     assert np.count_nonzero(wear.max(axis=1)) == 8  # every node rubs
-    np.testing.assert_allclose(result.radial_displacement, per_element, rtol=0, atol=1e-9 * scale)
-    np.testing.assert_allclose(result.wear, wear, rtol=0, atol=1e-9 * wear.max())
-    assert result.revolution_peak[0] == pytest.approx(scale, rel=1e-9)
+    atol = 1e-9 if scheme == "central_differences" else 1e-6  # both find the implicit forces by iteration
+    np.testing.assert_allclose(result.radial_displacement, per_element, rtol=0, atol=atol * scale)
+    np.testing.assert_allclose(result.wear, wear, rtol=0, atol=atol * wear.max())
+    assert result.revolution_peak[0] == pytest.approx(scale, rel=atol)
+    assert result.revolution_amplitude[0] == pytest.approx(np.ptp(node_1) / 2, rel=atol)
 
 
 def test_large_tangential_motion_agrees_with_reference(blade, spec, change):
     """Nodes wander over several elements and the curvature counts: the search leaves its shortcut."""
     spec = change(spec, n_elements=4000, interference=0.35e-3, E=2.0, K=10.0, theta=0.8, revolutions=1)
-    spec = change(spec, max_time_step=5e-6)
+    spec = change(spec, scheme="central_differences", steps_per_element=1, max_time_step=5e-6)
     result = simulate(blade, spec)
-    history, wear = reference.simulate(blade, spec, result.n_steps)
+    history, wear = reference.simulate(blade, spec, result.n_steps, result.n_modes)
     assert result.status == "completed"
     assert np.abs(history[:, 8:]).max() * 4000 / (2 * np.pi * 0.65) > STRAY + 1
     np.testing.assert_allclose(result.wear, wear, rtol=0, atol=1e-8 * wear.max())
@@ -42,24 +53,77 @@ def test_no_contact_leaves_everything_at_rest(blade, spec, change):
     assert not result.radial_displacement.any()
 
 
-def test_energy_ledger_of_the_blade_closes(blade, spec, change):
-    for theta in (0.0, 0.2):
-        energy = simulate(blade, change(spec, theta=theta)).energy
-        work = energy.work_radial + energy.work_tangential
-        assert energy.kinetic + energy.elastic == pytest.approx(work - energy.damping, rel=1e-9)
-        assert energy.wear > 0
-        assert (energy.work_tangential == 0) == (theta == 0)
+def blade_imbalance(energy):
+    """Of the ledger of the blade alone, over the work exchanged."""
+    gained = energy.kinetic + energy.elastic - energy.initial + energy.damping
+    return abs(gained - energy.work_radial - energy.work_tangential) / energy.exchanged
+
+
+@pytest.mark.parametrize("theta", [0.0, 0.2])
+@pytest.mark.parametrize("steps", [6, 12])
+def test_energy_ledger_of_the_blade_closes_to_rounding(blade, spec, change, theta, steps):
+    spec = change(spec, theta=theta, steps_per_element=steps, max_time_step=1e-3, initial_displacement=1e-5)
+    energy = simulate(blade, spec).energy
+    assert energy.initial > 0
+    assert blade_imbalance(energy) < 1e-9
+    assert energy.wear > 0
+    assert (energy.work_rotation > 0) == (theta > 0)
+
+
+def test_energy_ledger_of_blade_and_coating_closes_with_the_square_of_the_step(blade, spec, change):
+    residuals = [
+        simulate(
+            blade, change(spec, E=5.0, theta=0.1, steps_per_element=steps, max_time_step=1e-3)
+        ).energy.residual
+        for steps in (12, 24, 48)
+    ]
+    assert residuals[0] < 1e-3
+    assert residuals[2] < residuals[0] / 8
+
+
+def test_sliding_takes_what_the_rotation_gives_to_it_and_to_the_blade(blade, spec, change):
+    """Most of the work against the tangential resistance is lost where it acts: the tip hardly gives way."""
+    energy = simulate(blade, change(spec, theta=0.15)).energy
+    assert energy.sliding == pytest.approx(energy.work_rotation, rel=0.05)
+    assert energy.work_shape > energy.wear * 0.5
+
+
+def test_rigid_casing_is_touched_and_neither_passed_nor_worn(blade, spec, change):
+    spec = change(spec, E=np.inf, K=np.inf, theta=0.0, steps_per_element=12, max_time_step=1e-3)
+    result = simulate(blade, spec)
+    assert result.status == "completed"
+    assert result.n_contact_steps > 100
+    assert not result.wear.any()
+    assert result.energy.wear == result.energy.stored == 0.0
+    assert blade_imbalance(result.energy) < 1e-9
+    gap = casing.gap(spec.casing, spec.clearance[0], result.angle)
+    position = spec.casing.start_angle + np.arctan2(*blade.node_position[0, 1:]) + result.angle
+    ahead = np.interp(position, np.concatenate([result.angle, result.angle + 2 * np.pi]), np.tile(gap, 2))
+    over = np.tile(ahead, spec.revolutions) - result.radial_displacement
+    assert over.min() > -0.02 * spec.casing.interference  # means over elements, and the tip moves along
+
+
+def test_start_in_the_first_mode_rings_at_its_frequency(blade, spec, change):
+    spec = change(spec, interference=0.0, initial_displacement=-1e-7, revolutions=8)
+    result = simulate(blade, spec)
+    frequency = modes_at(blade, spec.f_omega).omega[0] / (2 * np.pi)
+    time = (np.arange(result.radial_displacement.size) + 0.5) / spec.coating.n_elements
+    time /= spec.f_omega * blade.f1_hz
+    decay = spec.damping_ratio * 2 * np.pi * frequency
+    damped = 2 * np.pi * frequency * np.sqrt(1 - spec.damping_ratio**2)
+    expected = np.exp(-decay * time) * (np.cos(damped * time) + decay / damped * np.sin(damped * time))
+    np.testing.assert_allclose(result.radial_displacement, -1e-7 * expected, rtol=0, atol=2e-10)
 
 
 def test_wear_loss_is_that_of_the_worn_profile(blade, spec, change):
-    """Elements wear under the middle of the tip: each has lost nearly σ_Y w + K w²/2 per thickness."""
-    spec = change(spec, half_width=4.0, edge_drop=2e-3, E=5.0, f_omega=0.05)
+    """Whatever the way there, an element worn by w has taken σ_Y w + K w²/2 per thickness."""
+    spec = change(spec, E=5.0, f_omega=0.05)
     result = simulate(blade, spec)
     area = strip_width(blade)[:, None] * 2 * np.pi * 0.65 / spec.coating.n_elements
     hardening = spec.coating.K * spec.coating.modulus_unit / spec.coating.thickness
     strength = spec.coating.yield_stress * spec.coating.modulus_unit
     expected = area * (strength * result.wear + 0.5 * hardening * result.wear**2)
-    assert result.energy.wear == pytest.approx(expected.sum(), rel=1e-9)
+    assert result.energy.wear == pytest.approx(expected.sum(), rel=1e-6)  # but for half of the last step
 
 
 def test_step_divides_the_passage_of_an_element(blade, spec):
@@ -68,6 +132,9 @@ def test_step_divides_the_passage_of_an_element(blade, spec):
     steps = passage / result.time_step
     assert steps == pytest.approx(round(steps), abs=1e-9)
     assert result.time_step <= spec.max_time_step
+    assert round(steps) >= spec.steps_per_element
+    fine = simulate(blade, dataclasses.replace(spec, max_time_step=passage / 13.5, revolutions=1))
+    assert fine.time_step == pytest.approx(passage / 14)
     assert result.n_steps == round(steps) * spec.coating.n_elements * spec.revolutions
     assert result.radial_displacement.shape == (spec.revolutions * spec.coating.n_elements,)
     assert result.angle[[0, -1]] == pytest.approx([np.pi / 200, 2 * np.pi - np.pi / 200])
@@ -100,15 +167,23 @@ def test_unbounded_run_stops_and_keeps_its_data(blade, spec, change):
     assert 0 < done.sum() < done.size
     np.testing.assert_array_equal(result.radial_displacement[done], whole.radial_displacement[done])
     assert result.wear.max() > 0
-    energy = result.energy
-    work = energy.work_radial + energy.work_tangential
-    assert energy.kinetic + energy.elastic == pytest.approx(work - energy.damping, rel=1e-9)
+    assert blade_imbalance(result.energy) < 1e-9
 
 
 def test_numerical_blow_up_ends_as_unbounded(blade, spec, change):
-    """A bar far stiffer than the step can follow: the run is flagged, no index leaves a table."""
-    result = simulate(blade, change(spec, E=1e7, K=1e9))
+    """A bar far stiffer than the paper's scheme can follow: the run is flagged, no index leaves a table."""
+    result = simulate(blade, change(spec, E=1e7, K=1e9, scheme="central_differences"))
     assert result.status == "unbounded"
+
+
+@pytest.mark.parametrize("theta", [0.0, 0.15])
+@pytest.mark.parametrize("steps", [4, 12, 48])
+def test_exponential_scheme_stays_bounded_however_stiff_the_coating(blade, spec, change, steps, theta):
+    for stiffer in (1.0, 1e2, 1e4, 1e6):
+        stiff = change(spec, E=20 * stiffer, K=10 * stiffer, theta=theta)
+        result = simulate(blade, change(stiff, steps_per_element=steps, max_time_step=1e-3, revolutions=3))
+        assert result.status == "completed"
+        assert result.revolution_peak.max() < 10 * spec.casing.interference
 
 
 def test_progress_counts_revolutions(blade, spec):
@@ -119,7 +194,7 @@ def test_progress_counts_revolutions(blade, spec):
 
 def test_step_too_long_for_the_highest_mode_is_refused(blade, spec, change):
     with pytest.raises(ValueError, match=r"time step .* less than .* for the highest mode"):
-        simulate(blade, change(spec, max_time_step=2e-5))
+        simulate(blade, change(spec, scheme="central_differences", steps_per_element=1, max_time_step=2e-5))
 
 
 def test_speed_outside_the_model_is_refused(blade, spec, change):

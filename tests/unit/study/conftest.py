@@ -77,10 +77,12 @@ def make_result(angle):
             wear=depth * np.linspace(1, 0.5, 8)[:, None] * lobe,
             radial_displacement=displacement,
             revolution_peak=peak,
+            revolution_amplitude=peak,
             time_step=2e-7,
             n_steps=1000,
             n_contact_steps=300,
-            energy=Energy(1.0, 2.0, 3.0, 4.0, 5.0, 6.0),
+            n_modes=24,
+            energy=Energy(*(float(i) for i in range(1, 13))),
         )
 
     return make

@@ -50,7 +50,7 @@ def test_the_key_is_stable(run_key, config, case):
 def test_every_field_of_the_run_changes_the_key(run_key, spec):
     keys = {run_key()}
     leaves = list(_leaves(spec))
-    assert len(leaves) == 21
+    assert len(leaves) == 24
     for path, leaf in leaves:
         keys.add(run_key(_replaced(spec, path, _other(leaf))))
     assert len(keys) == 1 + len(leaves)

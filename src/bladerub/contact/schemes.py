@@ -1,0 +1,237 @@
+"""Time integration: the coefficients of two schemes behind one contract.
+
+What a scheme promises, and `bladerub.contact.kernel.revolve` carries out:
+
+1. Eq. (1) is solved in the modal coordinates q of the reduced blade at one speed, at a constant step h. Each
+   resolved mode follows a two-step recurrence, ``q⁺ = now q − before q⁻``, plus ``push · F`` from the contact
+   forces F of one step.
+2. *When* that is: a scheme that `corrects` evaluates F at the predicted position of the new step and adds
+   ``push · F`` there (prediction and correction, the paper's scheme). One that does not evaluates F at the
+   position itself and adds ``push · F`` to the step after.
+3. Contact is judged at ``tip · q + compliance · F``, implicitly in F: where the tip gives way in the step of
+   the force itself, forces and displacement agree with the law of contact. The matrix is symmetric and
+   positive semidefinite.
+4. A scheme chooses which modes it resolves. Those it does not answer to a force by their static
+   displacement, which is part of the compliance.
+5. Blade energy ``Σ kinetic (q⁺ − q)² + ½ ω² q⁺ q + ½ F⁺ · C F``, C the compliance of modes not resolved,
+   changes by the work ``F · (u⁺ − u⁻) / 2`` less the damping ``Σ loss (q⁺ − q⁻)²``, to rounding: the ledger
+   of a run judges contact and step, not the bookkeeping of the blade.
+
+`exponential` is of second order in h and exact for free motion. `central_differences` is of first order, has
+a highest mode to resolve, and damps contact artificially.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import NamedTuple
+
+import numpy as np
+
+from bladerub.blade.model import N_INTERFACE
+from bladerub.contact.modes import Modes
+
+FASTEST_PHASE = 2.0
+"""Phase ω h up to which the exponential scheme resolves a mode: three steps a period draw no vibration."""
+
+STEADY = 0.25
+"""Largest κ that the exponential scheme admits in lasting contact; it is stable below 1."""
+
+ILL_CONDITIONED = 1e9
+
+
+class Recurrence(NamedTuple):
+    """Coefficients of a scheme; n is the number of modes it resolves.
+
+    Parameters
+    ----------
+    now, before : (n,) ndarray
+        Coefficients of the present and of the previous modal coordinate.
+    push : (16, n) ndarray
+        Modal coordinates per unit of tip force, m kg^1/2/N.
+    corrects : bool
+        Whether the force acts in the step it is evaluated in (contract, 2).
+    kinetic, loss : (n,) ndarray
+        Kinetic energy per ``(q⁺ − q)²`` and energy lost to damping per ``(q⁺ − q⁻)²``, 1/s².
+    tip : (16, n) ndarray
+        Displacement of the tip per unit of each resolved mode, kg^-1/2.
+    omega : (n,) ndarray
+        Natural angular frequencies of the resolved modes, rad/s.
+    compliance, static_compliance : (16, 16) ndarray
+        Displacement of the tip per unit of force in the same step, as the law of contact sees it
+        (contract, 3), and of the modes that are not resolved alone, m/N.
+    time_step : float
+        h, s.
+    """
+
+    now: np.ndarray
+    before: np.ndarray
+    push: np.ndarray
+    corrects: bool
+    kinetic: np.ndarray
+    loss: np.ndarray
+    tip: np.ndarray
+    omega: np.ndarray
+    compliance: np.ndarray
+    static_compliance: np.ndarray
+    time_step: float
+
+
+class Contact(NamedTuple):
+    """What a scheme may ask of the contact it will meet.
+
+    Parameters
+    ----------
+    stiffness : (8,) ndarray
+        Largest stiffness under each node, N/m; infinite for the rigid casing.
+    radial, tangential : float
+        Direction of the force on the blade.
+    """
+
+    stiffness: np.ndarray
+    radial: float
+    tangential: float
+
+
+def central_differences(modes: Modes, damping_ratio: float, time_step: float, contact: Contact) -> Recurrence:
+    """Explicit central differences with prediction and correction, the paper's scheme.
+
+    The forces of the coating are those of the predicted position. Those of the rigid casing are Lagrange
+    multipliers that put the corrected position on the surface (Carpenter, Taylor and Katona 1991).
+
+    Parameters
+    ----------
+    modes : Modes
+        Natural frequencies and tip displacements; all modes are resolved.
+    damping_ratio : float
+        ξ of every mode.
+    time_step : float
+        h, s.
+    contact : Contact
+        The contact to come.
+
+    Raises
+    ------
+    ValueError
+        If the scheme is unstable at this step for the highest mode (``ω h ≥ 2``).
+    """
+    x = modes.omega * time_step
+    if x[-1] >= 2.0:
+        limit = 2.0 / modes.omega[-1]
+        raise ValueError(
+            f"time step {time_step:.3g} s: central differences need less than {limit:.3g} s "
+            f"for the highest mode of this blade ({modes.omega[-1] / (2 * np.pi):.3g} Hz)"
+        )
+    implicit = 1.0 + damping_ratio * x
+    gain = time_step**2 / implicit
+    compliance = (modes.tip * gain) @ modes.tip.T
+    none = np.zeros_like(compliance)
+    return _recurrence(
+        modes,
+        now=(2.0 - x**2) / implicit,
+        before=(1.0 - damping_ratio * x) / implicit,
+        gain=gain,
+        corrects=True,
+        compliance=compliance if np.isinf(contact.stiffness).any() else none,
+        static_compliance=none,
+        time_step=time_step,
+    )
+
+
+def exponential(modes: Modes, damping_ratio: float, time_step: float, contact: Contact) -> Recurrence:
+    """Exact recurrence of each mode under a force held over two steps, with the fast modes condensed.
+
+    A Gautschi-type exponential integrator (Hochbruck and Lubich 1999, eq. 5; Hairer, Lubich and Wanner 2006,
+    section XIII.1) for the modes with ``ω h`` up to `FASTEST_PHASE`. The others are condensed to their static
+    compliance inside the law of contact, which so is implicit where the blade is stiffest and lightest: the
+    same remedy as a redistributed mass (Khenous, Laborde and Renard 2008), found in the modes. Contact stays
+    stable however stiff: more modes are condensed until κ, the largest eigenvalue of
+    ``Σ φ tan²(ω h/2)/ω² φᵀ`` over the resolved modes times the stiffness of coating and condensed modes in
+    series, is at most `STEADY`. (The modes in contact are stable as long as ``gain k < 1 + now + before``.)
+
+    Parameters
+    ----------
+    modes : Modes
+        Natural frequencies and tip displacements.
+    damping_ratio : float
+        ξ of every mode.
+    time_step : float
+        h, s.
+    contact : Contact
+        The contact to come.
+
+    Raises
+    ------
+    ValueError
+        If even the lowest mode alone is too light for the contact at this step.
+    """
+    x = modes.omega * time_step
+    decay = np.exp(-damping_ratio * x)
+    phase = x * np.sqrt(1.0 - damping_ratio**2)
+    # 1 − now + before without cancellation; over ω² it is the displacement two steps after a unit load
+    lag = np.expm1(-damping_ratio * x) ** 2 + 4.0 * decay * np.sin(phase / 2) ** 2
+    moving = modes.omega > 0
+    gain = np.where(moving, lag / np.where(moving, modes.omega, 1.0) ** 2, time_step**2)
+    now, before = 2.0 * decay * np.cos(phase), decay**2
+    margin = gain / (1.0 + now + before)
+    n = int(np.searchsorted(x, FASTEST_PHASE, side="right"))
+    while n > 0 and _kappa(modes, margin, n, contact) > STEADY:
+        n -= 1
+    if n == 0:
+        raise ValueError(f"time step {time_step:.3g} s: too long for the vibration of this blade in contact")
+    static = _static_compliance(modes, n)
+    return _recurrence(
+        Modes(modes.omega[:n], np.ascontiguousarray(modes.tip[:, :n])),
+        now=now[:n],
+        before=before[:n],
+        gain=gain[:n],
+        corrects=False,
+        compliance=static,
+        static_compliance=static,
+        time_step=time_step,
+    )
+
+
+SCHEMES: dict[str, Callable[[Modes, float, float, Contact], Recurrence]] = {
+    "exponential": exponential,
+    "central_differences": central_differences,
+}
+"""The schemes by the name that a config gives them."""
+
+
+def normal_compliance(compliance: np.ndarray, radial: float, tangential: float) -> np.ndarray:
+    """Retreat (8, 8) of each node from the casing per unit of contact force at each, m/N."""
+    return -(
+        compliance[:N_INTERFACE, :N_INTERFACE] * radial + compliance[:N_INTERFACE, N_INTERFACE:] * tangential
+    )
+
+
+def _static_compliance(modes: Modes, n_resolved: int) -> np.ndarray:
+    tip, omega = modes.tip[:, n_resolved:], modes.omega[n_resolved:]
+    return (tip / omega**2) @ tip.T
+
+
+def _kappa(modes: Modes, margin: np.ndarray, n: int, contact: Contact) -> float:
+    direction = contact.radial, contact.tangential
+    step = normal_compliance((modes.tip[:, :n] * margin[:n]) @ modes.tip[:, :n].T, *direction)
+    series = normal_compliance(_static_compliance(modes, n), *direction) + np.diag(1.0 / contact.stiffness)
+    moves = np.diag(step) != 0
+    if not moves.any():
+        return 0.0
+    step, series = step[np.ix_(moves, moves)], series[np.ix_(moves, moves)]
+    if np.linalg.cond(series) > ILL_CONDITIONED:  # neither the casing nor the tip gives way
+        return np.inf
+    return float(np.max(np.abs(np.linalg.eigvals(np.linalg.solve(series, step)))))
+
+
+def _recurrence(modes: Modes, now, before, gain, **rest) -> Recurrence:
+    return Recurrence(
+        now=now,
+        before=before,
+        push=modes.tip * gain,
+        kinetic=(1.0 + before) / (4.0 * gain),
+        loss=(1.0 - before) / (4.0 * gain),
+        tip=modes.tip,
+        omega=modes.omega,
+        **rest,
+    )
