@@ -20,7 +20,7 @@ from bladerub.contact.modes import Modes
 from bladerub.contact.schemes import Contact, exponential, normal_compliance
 
 T = DOYEN.crossing
-STEPS = 2001  # in the contact
+STEPS = 2001  # in the contact; odd, so that no mode has ω h = π
 N_MODES = 4000
 LEAD_IN = 0.1  # of the contact
 
