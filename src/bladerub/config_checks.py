@@ -176,6 +176,13 @@ def _analysis(config: Config) -> Iterator[str]:
     for key, span in spans.items():
         if span > revolutions:
             yield f"analysis.{key} = {span}: must be at most solver.revolutions = {revolutions}"
+    confirmation = analysis["divergence"]["confirmation_revolutions"]
+    fewest = revolutions + analysis["divergence"]["revolutions"]
+    if 0 < confirmation < fewest:
+        yield (
+            f"analysis.divergence.confirmation_revolutions = {confirmation}: must be 0, or at least "
+            f"solver.revolutions + analysis.divergence.revolutions = {fewest}, to show what comes after a run"
+        )
     low, high = analysis["peaks"]["speed_window"]
     if low >= high:
         yield f"analysis.peaks.speed_window = {[low, high]}: must be the lower end first, then the upper"

@@ -25,6 +25,12 @@ def storage_digest() -> str:
     return _source_digest([_PACKAGE / "study" / name for name in ("store.py", "spectra.py")])
 
 
+@cache
+def growth_digest() -> str:
+    """Digest the source of what decides whether a run grows."""
+    return _source_digest([_PACKAGE / "study" / "growth.py"])
+
+
 def _source_digest(paths: Iterable[Path]) -> str:
     digest = hashlib.sha256()
     for path in sorted(paths):

@@ -44,7 +44,7 @@ rule peaks:
 rule divergence:
     input:
         maps=expand(rules.map.output, coating=COATINGS),
-        analysing=analysing("divergence"),
+        analysing=analysing("divergence", "growth"),
     output:
         f"{RESULTS}/tables/divergence.csv",
     log:

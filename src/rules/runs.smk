@@ -1,4 +1,5 @@
 # Stage 2: the rubs. One job is one coating at all its speeds; one run is one file.
+from bladerub.study.confirmation import determinants
 from bladerub.study.grid import (
     case_from_name,
     keeps_history,
@@ -55,5 +56,6 @@ rule coating:
     params:
         folder=subpath(output[0], parent=True),
         planned=planned_runs,
+        confirmed=determinants(config["analysis"]["divergence"]),
     script:
         "../scripts/coating.py"

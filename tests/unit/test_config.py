@@ -209,6 +209,12 @@ def change(config, path, value):
             "analysis.spectrum_revolutions = 10: must be at most solver.revolutions = 9",
         ),
         (("solver", "revolutions"), 9, "analysis.divergence.revolutions = 10: must be at most"),
+        (
+            ("analysis", "divergence", "confirmation_revolutions"),
+            29,
+            "analysis.divergence.confirmation_revolutions = 29: must be 0, or at least "
+            "solver.revolutions + analysis.divergence.revolutions = 30",
+        ),
         (("analysis", "peaks", "orders"), [4, 70], "analysis.peaks.orders[1] = 70: must be at most"),
         (("analysis", "peaks", "orders"), [4, 4], "must not name one twice"),
         (("analysis", "histories", 0, "casing"), "3nd", "analysis.histories[0].casing"),
@@ -222,6 +228,12 @@ def change(config, path, value):
 def test_parts_that_disagree_are_told(config, path, value, words):
     change(config, path, value)
     assert any(words in fault for fault in faults(config))
+
+
+def test_confirmation_can_be_left_out_or_just_long_enough(config):
+    for revolutions in (0, 30):
+        config["analysis"]["divergence"]["confirmation_revolutions"] = revolutions
+        assert validate(config) == config
 
 
 def test_one_broken_part_does_not_hide_the_faults_of_another(config):

@@ -7,13 +7,20 @@ from bladerub import sources
 def package(tmp_path, monkeypatch):
     for folder in ("contact", "blade", "study"):
         (tmp_path / folder).mkdir()
-    for name in ("contact/kernel.py", "blade/model.py", "study/store.py", "study/spectra.py"):
+    for name in (
+        "contact/kernel.py",
+        "blade/model.py",
+        "study/store.py",
+        "study/spectra.py",
+        "study/growth.py",
+    ):
         (tmp_path / name).write_text("a = 1\n")
     monkeypatch.setattr(sources, "_PACKAGE", tmp_path)
     return tmp_path
 
 
 SOLVER, STORAGE = sources.solver_digest.__wrapped__, sources.storage_digest.__wrapped__
+GROWTH = sources.growth_digest.__wrapped__
 
 
 @pytest.mark.parametrize(
@@ -24,6 +31,8 @@ SOLVER, STORAGE = sources.solver_digest.__wrapped__, sources.storage_digest.__wr
         ("blade/model.py", SOLVER, STORAGE),
         ("study/store.py", STORAGE, SOLVER),
         ("study/spectra.py", STORAGE, SOLVER),
+        ("study/growth.py", GROWTH, STORAGE),
+        ("study/growth.py", GROWTH, SOLVER),
     ],
 )
 def test_an_edit_changes_the_digest_it_belongs_to_alone(package, changed, digest, other):

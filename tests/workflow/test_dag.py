@@ -96,6 +96,23 @@ def test_a_lost_run_is_computed_alone(copied_study, tiny):
     assert after[lost][0] == before[lost][0]
 
 
+def test_another_confirmation_computes_no_run_of_the_study(copied_study, tiny):
+    manifest = "results/runs/2nd_E2_K0.5_theta0/manifest.tsv"
+    tiny["analysis"]["divergence"]["confirmation_revolutions"] = 7
+    assert copied_study.plan(tiny, manifest) == {"coating": 1}
+    before = run_files(copied_study)
+    copied_study.build(tiny, manifest)
+    assert run_files(copied_study) == before
+
+
+def test_thresholds_of_growth_plan_no_coating_without_confirmation(copied_study, tiny):
+    manifest = "results/runs/2nd_E2_K0.5_theta0/manifest.tsv"
+    tiny["analysis"]["divergence"]["confirmation_revolutions"] = 0
+    copied_study.build(tiny, manifest)
+    tiny["analysis"]["divergence"]["growth"] = 0.05
+    assert copied_study.plan(tiny, manifest) == {}
+
+
 def test_a_failed_job_says_why_and_loses_no_run(copied_study, tiny):
     before = run_files(copied_study)
     manifest = "results/runs/2nd_E1.1_K0.5_theta0/manifest.tsv"

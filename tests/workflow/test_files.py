@@ -23,16 +23,32 @@ DATASETS = {
         "tangential_direction",
     },
     "blade/mesh.h5": {"points", "hexahedra"},
-    PLAIN_RUN: {"wear", "angle", "spectrum_order", "spectrum_amplitude", "revolution_peak"},
+    PLAIN_RUN: {
+        "wear",
+        "angle",
+        "spectrum_order",
+        "spectrum_amplitude",
+        "revolution_peak",
+        "revolution_amplitude",
+    },
     KEPT_RUN: {
         "wear",
         "angle",
         "spectrum_order",
         "spectrum_amplitude",
         "revolution_peak",
+        "revolution_amplitude",
         "radial_displacement",
     },
-    MAP: {"wear", "angle", "spectrum_order", "spectrum_amplitude", "f_omega"},
+    MAP: {
+        "wear",
+        "angle",
+        "spectrum_order",
+        "spectrum_amplitude",
+        "f_omega",
+        "revolution_amplitude",
+        "confirmation_amplitude",
+    },
 }
 ATTRIBUTES = {
     "blade/reduced_model.h5": {"f1_hz", "f_omega_max", "eta", "rank_tolerance"},
@@ -53,7 +69,21 @@ COLUMNS = {
     "campbell": {"f_omega", "mode"},
     "rom_accuracy": {"f_omega", "mode", "f_fe", "f_fe_eq2", "f_rom", "relative_error"},
     "peaks": {"casing", "E", "K", "theta", "order", "f_peak", "amplitude"},
-    "divergence": {"casing", "E", "K", "theta", "f_omega", "growth_per_revolution", "divergent"},
+    "divergence": {
+        "casing",
+        "E",
+        "K",
+        "theta",
+        "f_omega",
+        "growth_per_revolution",
+        "saturating",
+        "divergent",
+        "lobes",
+        "growth_low",
+        "growth_high",
+        "revolutions",
+        "status",
+    },
     "findings": {"id", "claim", "paper", "measured", "unit", "holds", "margin"},
 }
 
@@ -104,6 +134,20 @@ def test_manifest_lists_every_run_with_its_key(results):
             assert run.attrs["f_omega"] == row.f_omega
 
 
+def test_runs_that_grow_are_judged_by_a_longer_one(results):
+    table = pd.read_csv(results / "tables" / "divergence.csv")
+    n_longer = 0
+    for path in (results / "runs").glob("*/manifest.tsv"):
+        for row in pd.read_csv(path, sep="\t").dropna(subset="confirmation_key").itertuples():
+            with h5py.File(path.parent / "confirmation" / row.file) as run:
+                assert run.attrs["run_key"] == row.confirmation_key
+                assert run.attrs["revolutions"] == 6
+            n_longer += 1
+    assert set(table.revolutions) <= {3, 6}
+    assert (table.revolutions == 6).sum() == n_longer
+    assert not (table.saturating & table.divergent).any()
+
+
 @pytest.mark.parametrize("name", COLUMNS)
 def test_table_has_its_columns_and_rows(results, name):
     table = pd.read_csv(results / "tables" / f"{name}.csv")
@@ -134,5 +178,6 @@ def test_every_job_left_a_log_and_a_benchmark(results):
 
 def test_log_of_a_coating_has_a_line_a_run_with_the_time_left(results):
     lines = (results / "logs" / "coating" / f"{COATING}.log").read_text().splitlines()
-    assert [line.split("]")[0] for line in lines[:-1]] == [f"[{number}/7" for number in range(1, 8)]
+    runs = [line for line in lines[:-1] if "confirmation/" not in line]
+    assert [line.split("]")[0] for line in runs] == [f"[{number}/7" for number in range(1, 8)]
     assert all(line.endswith("s left") for line in lines[:-1])

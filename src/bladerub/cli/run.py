@@ -179,9 +179,19 @@ def _in_words(figures: dict[str, Any]) -> str:
             f"engine order      {'none' if order is None else f'{order:.4g}'}",
             f"maximum wear      {figures['max_wear'] * 1e3:.4g} mm",
             f"lobes             {figures['lobes']}",
+            f"growth            {_growth_in_words(figures)}",
+            f"saturating        {'yes' if figures['saturating'] else 'no'}",
             f"divergent         {'yes' if figures['divergent'] else 'no'}",
             f"status            {figures['status']}",
             f"steps             {figures['n_steps']}",
             f"steps per second  {figures['steps_per_second']:.3g}",
         ]
     )
+
+
+def _growth_in_words(figures: dict[str, Any]) -> str:
+    growth, low, high = (figures[f"growth_{name}"] for name in ("per_revolution", "low", "high"))
+    if growth is None:
+        return "not measurable"
+    interval = "" if low is None else f" (between {100 * low:.3g} and {100 * high:.3g} %)"
+    return f"{100 * growth:.3g} % a revolution{interval}"

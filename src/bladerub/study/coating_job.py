@@ -3,18 +3,20 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from bladerub import datafile
 from bladerub.blade.model import ReducedBlade
 from bladerub.contact.run import simulate
+from bladerub.contact.spec import RunSpec
+from bladerub.study.confirmation import confirmation_path, confirmation_spec
 from bladerub.study.grid import CoatingCase, keeps_history, run_spec, speed_name, speeds
+from bladerub.study.growth import needs_confirmation
 from bladerub.study.key import run_key
 from bladerub.study.shelf import shelve, unshelve
-from bladerub.study.store import ManifestRow, is_current, write_run
+from bladerub.study.store import ManifestRow, is_current, read_run, write_run
 
 
 @dataclass(frozen=True)
@@ -24,9 +26,9 @@ class RunDone:
     Parameters
     ----------
     number, total : int
-        This run among those that had to be computed.
+        This run among those that had to be computed; longer ones for confirmation are counted anew.
     file : str
-        Name of the run file.
+        Name of the run file, in the folder of the coating.
     status : str
         ``completed`` or ``unbounded``.
     seconds : float
@@ -63,9 +65,11 @@ def compute_missing(
 ) -> list[ManifestRow]:
     """Compute those runs of one coating whose file is missing or stale.
 
-    Each run is written as soon as it is done, so an interrupted job continues where it stopped. Runs that
-    are no longer in the plan are left where they are. A stale run, of another study in the same place, is
-    put on the shelf before its file is written anew, and taken back when its key is asked for again.
+    A run that grows is then repeated for as many revolutions as the config has for its confirmation (see
+    `bladerub.study.growth`). Each run is written as soon as it is done, so an interrupted job continues
+    where it stopped. Runs that are no longer in the plan are left where they are. A stale run, of another
+    study in the same place, is put on the shelf before its file is written anew, and taken back when its
+    key is asked for again.
 
     Parameters
     ----------
@@ -88,29 +92,61 @@ def compute_missing(
         A row per speed of the study, for `bladerub.study.store.write_manifest`.
     """
     folder, analysis = Path(folder), config["analysis"]
-    planned = []
+    settings = analysis["divergence"]
+    runs = []
     for f_omega in speeds(config):
         history = keeps_history(config, case, f_omega)
         spec = run_spec(config, case, f_omega)
         path = folder / f"{speed_name(f_omega)}.h5"
-        planned.append((path, spec, run_key(spec, blade_digest, history, analysis), history))
-    missing = [plan for plan in planned if not (is_current(plan[0], plan[2]) or unshelve(plan[0], plan[2]))]
+        runs.append(_Plan(path, spec, run_key(spec, blade_digest, history, analysis), history))
+    _compute(runs, folder, case, blade, analysis, report)
 
-    # a run takes as many steps as its revolutions take time: its cost goes as 1 / speed
-    cost_left = sum(1 / spec.f_omega for _, spec, _, _ in missing)
-    cost_done, start = 0.0, time.monotonic()
-    for number, (path, spec, key, history) in enumerate(missing, 1):
-        run_start = time.monotonic()
-        result = simulate(blade, spec)
-        shelve(path)
-        write_run(path, spec, result, case, key, analysis, history)
-        now = time.monotonic()
-        cost_done += 1 / spec.f_omega
-        cost_left -= 1 / spec.f_omega
-        seconds_left = (now - start) * max(cost_left, 0.0) / cost_done
-        report(RunDone(number, len(missing), path.name, result.status, now - run_start, seconds_left))
+    rows, confirmations = [], []
+    for run in runs:
+        stored = read_run(run.path)
+        status, confirmation_key = stored.attributes["status"], ""
+        if needs_confirmation(stored.data["revolution_amplitude"], status, settings):
+            spec = confirmation_spec(run.spec, settings)
+            confirmation_key = run_key(spec, blade_digest, False, analysis)
+            confirmations.append(_Plan(confirmation_path(run.path), spec, confirmation_key, False))
+        rows.append(ManifestRow(run.path.name, run.spec.f_omega, run.key, status, confirmation_key))
+    _compute(confirmations, folder, case, blade, analysis, report)
+    return rows
 
-    return [
-        ManifestRow(path.name, spec.f_omega, key, datafile.read_attributes(path)["status"])
-        for path, spec, key, _ in planned
+
+@dataclass(frozen=True)
+class _Plan:
+    """One run that is to be in its file under its key."""
+
+    path: Path
+    spec: RunSpec
+    key: str
+    keep_history: bool
+
+
+def _compute(
+    plans: Sequence[_Plan],
+    folder: Path,
+    case: CoatingCase,
+    blade: ReducedBlade,
+    analysis: Mapping[str, Any],
+    report: Callable[[RunDone], None],
+) -> None:
+    """Compute what is missing or stale of `plans`, all of as many revolutions."""
+    missing = [
+        plan for plan in plans if not (is_current(plan.path, plan.key) or unshelve(plan.path, plan.key))
     ]
+    # a run takes as many steps as its revolutions take time: its cost goes as 1 / speed
+    cost_left = sum(1 / plan.spec.f_omega for plan in missing)
+    cost_done, start = 0.0, time.monotonic()
+    for number, plan in enumerate(missing, 1):
+        run_start = time.monotonic()
+        result = simulate(blade, plan.spec)
+        shelve(plan.path)
+        write_run(plan.path, plan.spec, result, case, plan.key, analysis, plan.keep_history)
+        now = time.monotonic()
+        cost_done += 1 / plan.spec.f_omega
+        cost_left -= 1 / plan.spec.f_omega
+        seconds_left = (now - start) * max(cost_left, 0.0) / cost_done
+        file = plan.path.relative_to(folder).as_posix()
+        report(RunDone(number, len(missing), file, result.status, now - run_start, seconds_left))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -13,6 +13,7 @@ from bladerub import datafile
 from bladerub.blade.accuracy import reduced_frequencies
 from bladerub.blade.model import ReducedBlade
 from bladerub.datafile import Variable
+from bladerub.study.confirmation import confirmation_path
 from bladerub.study.grid import CoatingCase
 from bladerub.study.store import ManifestRow, StoredRun, read_manifest, read_run
 from bladerub.study.wear import lobes, mean_wear
@@ -42,6 +43,10 @@ class CoatingMap:
         Amplitude of the radial displacement of node 1, m.
     revolution_peak : (n, r) ndarray
         Largest absolute radial displacement of node 1 in each revolution, m.
+    revolution_amplitude : (n, r) ndarray
+        Half the range of the radial displacement of node 1 in each revolution, m; NaN after an unbounded end.
+    confirmation_amplitude : (n, c) ndarray
+        The same of the longer runs, m; NaN for runs that have none, without columns if none has.
     max_wear : (n,) ndarray
         Greatest worn depth under any node, m.
     lobes : (n,) ndarray of int
@@ -59,6 +64,8 @@ class CoatingMap:
     spectrum_order: np.ndarray
     spectrum_amplitude: np.ndarray
     revolution_peak: np.ndarray
+    revolution_amplitude: np.ndarray
+    confirmation_amplitude: np.ndarray
     max_wear: np.ndarray
     lobes: np.ndarray
     status: np.ndarray
@@ -80,6 +87,16 @@ _DATASETS = {
         ("f_omega", "revolution_number"),
         "m",
         "largest absolute radial displacement of node 1 in each revolution",
+    ),
+    "revolution_amplitude": (
+        ("f_omega", "revolution_number"),
+        "m",
+        "half the range of the radial displacement of node 1 in each revolution",
+    ),
+    "confirmation_amplitude": (
+        ("f_omega", "confirmation_revolution_number"),
+        "m",
+        "half the range of the radial displacement of node 1 in each revolution of the longer run",
     ),
     "max_wear": (("f_omega",), "m", "greatest worn depth under any node"),
     "lobes": (("f_omega",), "1", "number of worn lobes"),
@@ -119,7 +136,7 @@ def build_map(
     rows = sorted(read_manifest(folder / "manifest.tsv"), key=lambda row: row.f_omega)
     if not rows:
         raise OSError(f"{folder / 'manifest.tsv'}: lists no run")
-    runs = [_listed_run(folder, row) for row in rows]
+    runs = [_listed_run(folder, folder / row.file, row.run_key) for row in rows]
     f_omega = np.array([row.f_omega for row in rows])
     angle = runs[0].data["angle"]
     wear = np.stack([run.data["wear"] for run in runs])
@@ -134,6 +151,8 @@ def build_map(
         spectrum_order=runs[0].data["spectrum_order"],
         spectrum_amplitude=np.stack([run.data["spectrum_amplitude"] for run in runs]),
         revolution_peak=np.stack([run.data["revolution_peak"] for run in runs]),
+        revolution_amplitude=np.stack([run.data["revolution_amplitude"] for run in runs]),
+        confirmation_amplitude=_confirmation_amplitude(folder, rows),
         max_wear=wear.max(axis=(1, 2)),
         lobes=np.array([lobes(angle, each, prominence) for each in wear]),
         status=np.array([run.attributes["status"] for run in runs]),
@@ -141,14 +160,26 @@ def build_map(
     write_map(path, coating)
 
 
-def _listed_run(folder: Path, row: ManifestRow) -> StoredRun:
-    path = folder / row.file
+def _confirmation_amplitude(folder: Path, rows: Sequence[ManifestRow]) -> np.ndarray:
+    amplitudes = {}
+    for index, row in enumerate(rows):
+        if row.confirmation_key:
+            run = _listed_run(folder, confirmation_path(folder / row.file), row.confirmation_key)
+            amplitudes[index] = run.data["revolution_amplitude"]
+    revolutions = max((amplitude.size for amplitude in amplitudes.values()), default=0)
+    gathered = np.full((len(rows), revolutions), np.nan)
+    for index, amplitude in amplitudes.items():
+        gathered[index] = amplitude
+    return gathered
+
+
+def _listed_run(folder: Path, path: Path, key: str) -> StoredRun:
     remedy = f"delete {folder / 'manifest.tsv'} and run the workflow again: it computes what is missing"
     try:
         run = read_run(path)
     except OSError as error:
         raise OSError(f"{error}; {remedy}") from error
-    if run.attributes["run_key"] != row.run_key:
+    if run.attributes["run_key"] != key:
         raise OSError(f"{path}: not the run that the manifest lists (its key differs); {remedy}")
     return run
 
@@ -159,10 +190,12 @@ def write_map(path: str | Path, coating: CoatingMap) -> None:
         name: Variable(dims, getattr(coating, name), units, long_name)
         for name, (dims, units, long_name) in _DATASETS.items()
     }
-    number = np.arange(1, coating.revolution_peak.shape[1] + 1)
-    variables["revolution_number"] = Variable(
-        ("revolution_number",), number, "1", "revolution, counted from 1"
-    )
+    for dim, gathered in (
+        ("revolution_number", coating.revolution_amplitude),
+        ("confirmation_revolution_number", coating.confirmation_amplitude),
+    ):
+        number = np.arange(1, gathered.shape[1] + 1)
+        variables[dim] = Variable((dim,), number, "1", "revolution, counted from 1")
     case = coating.case
     datafile.write(path, variables, {"casing": case.casing, "E": case.E, "K": case.K, "theta": case.theta})
 

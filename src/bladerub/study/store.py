@@ -44,8 +44,9 @@ class StoredRun:
         ``run_key``, ``status`` and more.
     data : dict of str to ndarray
         The datasets by name, in SI units: ``wear`` (8, n), ``angle`` (n,), ``spectrum_order`` and
-        ``spectrum_amplitude`` (m,), ``revolution_peak`` and ``revolution_number`` (r,), ``energy_*``
-        (scalars), and for runs with history ``radial_displacement`` over ``revolution`` (r n,).
+        ``spectrum_amplitude`` (m,), ``revolution_peak``, ``revolution_amplitude`` and ``revolution_number``
+        (r,), ``energy_*`` (scalars), and for runs with history ``radial_displacement`` over ``revolution``
+        (r n,).
     """
 
     attributes: dict[str, Any]
@@ -102,6 +103,12 @@ def write_run(
             "m",
             "largest absolute radial displacement of node 1 in each revolution",
         ),
+        "revolution_amplitude": Variable(
+            ("revolution_number",),
+            result.revolution_amplitude,
+            "m",
+            "half the range of the radial displacement of node 1 in each revolution",
+        ),
     }
     for name, long_name in _ENERGIES.items():
         variables[f"energy_{name}"] = Variable((), getattr(result.energy, name), "J", long_name)
@@ -146,9 +153,8 @@ def read_run(path: str | Path) -> StoredRun:
         If the file is missing, damaged or not a run; the message names it.
     """
     data, attributes = datafile.read(path)
-    missing = {"wear", "spectrum_amplitude", "revolution_peak"} - data.keys() | {
-        "run_key"
-    } - attributes.keys()
+    needed = {"wear", "spectrum_amplitude", "revolution_peak", "revolution_amplitude"}
+    missing = needed - data.keys() | {"run_key"} - attributes.keys()
     if missing:
         raise OSError(f"{path}: not a run, {', '.join(sorted(missing))} missing")
     return StoredRun(attributes, data)
@@ -179,12 +185,15 @@ class ManifestRow:
         Key of the run.
     status : str
         ``completed`` or ``unbounded``.
+    confirmation_key : str
+        Key of the longer run that shows whether its growth lasts; empty if it needs none.
     """
 
     file: str
     f_omega: float
     run_key: str
     status: str
+    confirmation_key: str = ""
 
 
 _COLUMNS = [field.name for field in fields(ManifestRow)]
@@ -217,6 +226,9 @@ def read_manifest(path: str | Path) -> list[ManifestRow]:
         if next(reader, None) != _COLUMNS:
             raise OSError(f"{path}: not a manifest, its header is not {' '.join(_COLUMNS)}")
         try:
-            return [ManifestRow(file, float(f_omega), key, status) for file, f_omega, key, status in reader]
+            return [
+                ManifestRow(file, float(f_omega), key, status, confirmation_key)
+                for file, f_omega, key, status, confirmation_key in reader
+            ]
         except ValueError as error:
             raise OSError(f"{path}: not a manifest, line {reader.line_num}: {error}") from error

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from bladerub.contact.spec import RunResult, RunSpec
-from bladerub.study.divergence import is_divergent
+from bladerub.study.growth import judge
 from bladerub.study.spectra import order_spectrum
 from bladerub.study.wear import lobes
 
@@ -32,7 +32,9 @@ def summarise(spec: RunSpec, result: RunResult, config: Mapping[str, Any]) -> di
         ``peak_amplitude`` (m): largest absolute radial displacement of node 1 over the last
         ``analysis.spectrum_revolutions``, or over as many before an early end. ``engine_order``: of the
         largest spectral amplitude from order 0.5 up; None when the run ended within its first revolution or
-        the blade never moved. ``max_wear`` (m), ``lobes``, ``divergent``, ``n_steps``, ``status``.
+        the blade never moved. ``max_wear`` (m), ``lobes``. ``growth_per_revolution`` with its confidence
+        interval ``growth_low``, ``growth_high`` (0.03 is 3 %; None of a run too short), ``saturating``,
+        ``divergent``: see `bladerub.study.growth`, by this run alone. ``n_steps``, ``status``.
     """
     analysis = config["analysis"]
     order, amplitude = order_spectrum(
@@ -41,12 +43,21 @@ def summarise(spec: RunSpec, result: RunResult, config: Mapping[str, Any]) -> di
     vibration = np.where(order >= _LOWEST_ORDER, amplitude, 0.0)
     moved = vibration.max() > 0  # False for NaN as well
     peaks = result.revolution_peak[np.isfinite(result.revolution_peak)]
+    verdict = judge(result.revolution_amplitude, result.status, analysis["divergence"])
     return {
         "peak_amplitude": float(peaks[-analysis["spectrum_revolutions"] :].max()),
         "engine_order": float(order[np.argmax(vibration)]) if moved else None,
         "max_wear": float(result.wear.max()),
         "lobes": lobes(result.angle, result.wear, analysis["lobe_prominence"]),
-        "divergent": is_divergent(result.revolution_peak, result.status, analysis["divergence"]),
+        "growth_per_revolution": _number(verdict.growth.per_revolution),
+        "growth_low": _number(verdict.growth.low),
+        "growth_high": _number(verdict.growth.high),
+        "saturating": verdict.saturating,
+        "divergent": verdict.divergent,
         "n_steps": result.n_steps,
         "status": result.status,
     }
+
+
+def _number(value: float) -> float | None:
+    return value if np.isfinite(value) else None  # JSON has no NaN

@@ -66,9 +66,11 @@ def make_result(angle):
         displacement = amplitude * (1 + growth) ** np.floor(time) * np.sin(2 * np.pi * order * time)
         end = time.size if complete is None else int(complete * N_ELEMENTS)
         displacement[end:] = np.nan
-        peak = np.full(revolutions, np.nan)
+        peak, half_range = np.full((2, revolutions), np.nan)
         begun = int(np.ceil(end / N_ELEMENTS))
-        peak[:begun] = np.nanmax(np.abs(displacement.reshape(revolutions, -1)[:begun]), axis=1)
+        each = displacement.reshape(revolutions, -1)[:begun]
+        peak[:begun] = np.nanmax(np.abs(each), axis=1)
+        half_range[:begun] = (np.nanmax(each, axis=1) - np.nanmin(each, axis=1)) / 2
         lobe = np.clip(np.cos(order * angle), 0, None)
         return RunResult(
             status="completed" if complete is None else "unbounded",
@@ -77,7 +79,7 @@ def make_result(angle):
             wear=depth * np.linspace(1, 0.5, 8)[:, None] * lobe,
             radial_displacement=displacement,
             revolution_peak=peak,
-            revolution_amplitude=peak,
+            revolution_amplitude=half_range,
             time_step=2e-7,
             n_steps=1000,
             n_contact_steps=300,
@@ -92,7 +94,9 @@ def make_result(angle):
 def make_map(angle):
     """A map whose response on each given order is a hat over speed; C1² = 1 + 3 f_omega²."""
 
-    def make(case, peaks, f_omega=None, lobes=6, growth=0.0, status="completed", background=1e-7):
+    def make(
+        case, peaks, f_omega=None, lobes=6, growth=0.0, status="completed", background=1e-7, longer=None
+    ):
         f_omega = np.round(np.arange(0.02, 0.4001, 0.01), 6) if f_omega is None else np.asarray(f_omega)
         n = f_omega.size
         order = np.arange(241) / 10
@@ -101,6 +105,7 @@ def make_map(angle):
             hat = height * np.clip(1 - np.abs(f_omega - f_peak) / 0.025, 0, None)
             amplitude[:, round(10 * k)] = np.maximum(background, hat)
         response = amplitude.max(axis=1)
+        envelope = response[:, None] * (1 + np.broadcast_to(growth, n)[:, None]) ** np.arange(20)
         return CoatingMap(
             case=case,
             f_omega=f_omega,
@@ -110,7 +115,9 @@ def make_map(angle):
             wear_node=np.zeros((n, 8, N_ELEMENTS), dtype=np.float32),
             spectrum_order=order,
             spectrum_amplitude=amplitude,
-            revolution_peak=response[:, None] * (1 + np.broadcast_to(growth, n)[:, None]) ** np.arange(20),
+            revolution_peak=envelope + 1e-3,
+            revolution_amplitude=envelope,
+            confirmation_amplitude=np.empty((n, 0)) if longer is None else longer,
             max_wear=0.5 * response,
             lobes=np.broadcast_to(lobes, n).copy(),
             status=np.broadcast_to(status, n).astype(str),
@@ -120,13 +127,29 @@ def make_map(angle):
 
 
 @pytest.fixture
-def simulated(monkeypatch, make_result):
+def growing():
+    """Growth of the simulated runs by speed, none where there is no entry."""
+    return {}
+
+
+@pytest.fixture
+def repeated():
+    """Lists the speeds at which the solver was asked for a longer run."""
+    return []
+
+
+@pytest.fixture
+def simulated(monkeypatch, make_result, growing, repeated):
     """Stand in for the solver, and list the speeds it was asked for."""
     speeds = []
 
     def simulate(blade, spec):
-        speeds.append(spec.f_omega)
-        return make_result(revolutions=spec.revolutions, complete=1.5 if spec.f_omega == 0.3 else None)
+        (speeds if spec.revolutions == 20 else repeated).append(spec.f_omega)
+        return make_result(
+            revolutions=spec.revolutions,
+            growth=growing.get(spec.f_omega, 0.0),
+            complete=1.5 if spec.f_omega == 0.3 else None,
+        )
 
     monkeypatch.setattr(coating_job, "simulate", simulate)
     return speeds

@@ -62,7 +62,7 @@ def test_an_interrupted_job_goes_on_where_it_stopped(compute, simulated, monkeyp
 
 
 def test_each_computed_run_is_reported_with_the_time_left(compute, simulated, monkeypatch):
-    clock = iter([0.0, 0.0, 12.0, 12.0, 18.0, 18.0, 24.0, 24.0, 30.0])
+    clock = iter([0.0, 0.0, 12.0, 12.0, 18.0, 18.0, 24.0, 24.0, 30.0, 30.0])
     monkeypatch.setattr(coating_job.time, "monotonic", lambda: next(clock))
     reports = []
     compute(report=reports.append)
@@ -78,11 +78,63 @@ def test_each_computed_run_is_reported_with_the_time_left(compute, simulated, mo
     assert str(reports[1]).startswith("[2/4] 0.1900.h5 completed in 6.0 s, about ")
 
 
+def test_runs_that_grow_are_repeated_for_longer_once(compute, simulated, growing, repeated, tmp_path):
+    growing.update({0.1: 0.03, 0.2: 0.02, 0.19: 0.001, 0.3: 0.5})
+    reports = []
+    rows = compute(report=reports.append)
+    assert repeated == [0.1, 0.2]  # 0.3 left all bounds
+    assert [bool(row.confirmation_key) for row in rows] == [True, False, True, False]
+    assert [row.file for row in rows] == ["0.1000.h5", "0.1900.h5", "0.2000.h5", "0.3000.h5"]
+    assert [(done.number, done.total, done.file) for done in reports[4:]] == [
+        (1, 2, "confirmation/0.1000.h5"),
+        (2, 2, "confirmation/0.2000.h5"),
+    ]
+    longer = store.read_run(tmp_path / "confirmation" / "0.2000.h5")
+    assert longer.attributes["run_key"] == rows[2].confirmation_key != rows[2].run_key
+    assert longer.data["revolution_amplitude"].shape == (60,)
+    assert store.read_run(tmp_path / "0.2000.h5").data["revolution_amplitude"].shape == (20,)
+    assert compute() == rows
+    assert (len(simulated), len(repeated)) == (4, 2)
+
+
+def test_another_length_of_confirmation_repeats_only_what_grows(compute, study, simulated, growing, repeated):
+    growing[0.2] = 0.03
+    before = compute()
+    settings = study["analysis"]["divergence"]
+    settings["confirmation_revolutions"] = 40
+    rows = compute()
+    assert (len(simulated), repeated) == (4, [0.2, 0.2])
+    assert [row.run_key for row in rows] == [row.run_key for row in before]
+    settings["confirmation_revolutions"] = 60
+    assert compute() == before  # from the shelf
+    settings["confirmation_revolutions"] = 0
+    assert not any(row.confirmation_key for row in compute())
+    assert (len(simulated), len(repeated)) == (4, 2)
+
+
+def test_another_threshold_repeats_other_runs(compute, study, simulated, growing, repeated):
+    growing.update({0.1: 0.02, 0.2: 0.03})
+    study["analysis"]["divergence"]["growth"] = 0.025
+    assert [bool(row.confirmation_key) for row in compute()] == [False, False, True, False]
+    study["analysis"]["divergence"]["growth"] = 0.01
+    assert [bool(row.confirmation_key) for row in compute()] == [True, False, True, False]
+    assert (len(simulated), repeated) == (4, [0.2, 0.1])
+
+
+def test_a_damaged_longer_run_is_computed_alone(compute, simulated, growing, repeated, tmp_path):
+    growing.update({0.1: 0.03, 0.2: 0.03})
+    rows = compute()
+    (tmp_path / "confirmation" / "0.1000.h5").write_bytes(b"")
+    assert compute() == rows
+    assert (len(simulated), repeated) == (4, [0.1, 0.2, 0.1])
+
+
 def test_real_rubs_go_from_the_solver_to_the_table(study, case, blade, tmp_path):
     study["speeds"] = {"start": 0.1, "stop": 0.3, "step": 0.2, "extra": []}
     study["contact"]["elements"] = 200
     study["solver"].update(revolutions=3, max_time_step=2e-5)
     study["analysis"]["spectrum_revolutions"] = 2
+    study["analysis"]["divergence"].update(revolutions=3, confirmation_revolutions=0)
     folder, reports = tmp_path / "runs", []
     rows = compute_missing(study, case, blade, folder, "digest", reports.append)
     store.write_manifest(folder / "manifest.tsv", rows)

@@ -71,7 +71,7 @@ def test_settings_of_maps_and_tables_leave_the_key(run_key, config):
     before = run_key()
     config["analysis"]["lobe_prominence"] = 0.9
     config["analysis"]["peaks"]["orders"] = [2]
-    config["analysis"]["divergence"]["growth"] = 0.5
+    config["analysis"]["divergence"] = {"growth": 0.5, "confirmation_revolutions": 100}
     config["analysis"]["histories"] = []
     assert run_key() == before
 

@@ -5,6 +5,7 @@ import pytest
 import xarray
 
 from bladerub.study import grid, maps, store
+from bladerub.study.confirmation import confirmation_path, confirmation_spec
 from bladerub.study.store import ManifestRow
 
 SPEEDS = [0.1, 0.19, 0.3]
@@ -12,14 +13,22 @@ SPEEDS = [0.1, 0.19, 0.3]
 
 @pytest.fixture
 def folder(tmp_path, config, case, make_result):
-    """Runs of one coating that vibrate and wear at orders 10, 6, 4; the manifest is not in order of speed."""
+    """Runs of one coating that vibrate and wear at orders 10, 6, 4; the manifest is not in order of speed.
+
+    The middle one was repeated for longer; of the last there is a longer one that the study has no use for.
+    """
     rows = []
     for f_omega, order in zip(SPEEDS, (10, 6, 4), strict=True):
         result = make_result(order=order, complete=15 if order == 4 else None)
         spec = grid.run_spec(config, case, f_omega)
         name = f"{grid.speed_name(f_omega)}.h5"
         store.write_run(tmp_path / name, spec, result, case, f"key {order}", config["analysis"], order == 6)
-        rows.append(ManifestRow(name, f_omega, f"key {order}", result.status))
+        if order != 10:
+            longer, path = make_result(revolutions=60, growth=0.03), confirmation_path(tmp_path / name)
+            long_spec = confirmation_spec(spec, config["analysis"]["divergence"])
+            store.write_run(path, long_spec, longer, case, f"long {order}", config["analysis"], False)
+        long_key = "long 6" if order == 6 else ""
+        rows.append(ManifestRow(name, f_omega, f"key {order}", result.status, long_key))
     store.write_manifest(tmp_path / "manifest.tsv", reversed(rows))
     return tmp_path
 
@@ -40,7 +49,10 @@ def test_a_map_gathers_the_runs_by_speed(build, tmp_path, make_result):
     assert list(coating.lobes) == [10, 6, 4]
     assert list(coating.status) == ["completed", "completed", "unbounded"]
     assert [coating.spectrum_order[row.argmax()] for row in coating.spectrum_amplitude] == [10, 6, 4]
-    assert coating.revolution_peak.shape == (3, 20)
+    assert coating.revolution_peak.shape == coating.revolution_amplitude.shape == (3, 20)
+    assert coating.confirmation_amplitude.shape == (3, 60)
+    np.testing.assert_allclose(coating.confirmation_amplitude[1], 1e-3 * 1.03 ** np.arange(60), rtol=1e-4)
+    assert np.isnan(coating.confirmation_amplitude[[0, 2]]).all()
     np.testing.assert_allclose(coating.max_wear, 2e-4, rtol=1e-3)
     wear = make_result(order=6).wear
     np.testing.assert_allclose(coating.wear_node[1], wear, atol=1e-10)
@@ -53,6 +65,9 @@ def test_xarray_opens_a_map_with_coordinates_and_units(build, tmp_path):
         assert coating.wear.dims == ("f_omega", "angle")
         assert coating.wear_node.dims == ("f_omega", "node", "angle")
         assert coating.spectrum_amplitude.dims == ("f_omega", "spectrum_order")
+        assert coating.revolution_amplitude.dims == ("f_omega", "revolution_number")
+        assert coating.confirmation_amplitude.dims == ("f_omega", "confirmation_revolution_number")
+        assert coating.confirmation_revolution_number[-1] == 60
         assert coating.status.values.tolist() == ["completed", "completed", "unbounded"]
         assert float(coating.spectrum_amplitude.sel(f_omega=0.19, spectrum_order=6)) == pytest.approx(1e-3)
         assert (coating.attrs["casing"], coating.attrs["theta"]) == ("2nd", 0.15)
@@ -87,6 +102,16 @@ def test_a_damaged_run_names_file_and_remedy(build, folder, tmp_path):
 def test_a_run_with_another_key_than_the_manifests_is_an_error(build, folder, tmp_path):
     (folder / "0.1900.h5").write_bytes((folder / "0.3000.h5").read_bytes())
     with pytest.raises(OSError, match=r"0\.1900\.h5: not the run that the manifest lists"):
+        build(tmp_path / "map.h5")
+
+
+def test_a_longer_run_that_is_missing_or_stale_names_file_and_remedy(build, folder, tmp_path):
+    longer = confirmation_path(folder / "0.1900.h5")
+    longer.write_bytes(confirmation_path(folder / "0.3000.h5").read_bytes())
+    with pytest.raises(OSError, match=r"confirmation/0\.1900\.h5: not the run that the manifest lists"):
+        build(tmp_path / "map.h5")
+    longer.unlink()
+    with pytest.raises(OSError, match=r"confirmation/0\.1900\.h5: .*delete .*manifest\.tsv and run"):
         build(tmp_path / "map.h5")
 
 

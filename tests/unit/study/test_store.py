@@ -41,6 +41,8 @@ def test_a_run_file_is_as_the_readme_says(write, make_result):
         assert float(run.spectrum_amplitude.sel(spectrum_order=6)) == pytest.approx(1e-3)
         np.testing.assert_array_equal(run.revolution_number, np.arange(1, 21))
         np.testing.assert_array_equal(run.revolution_peak, result.revolution_peak)
+        assert run.revolution_amplitude.dims == ("revolution_number",)
+        np.testing.assert_array_equal(run.revolution_amplitude, result.revolution_amplitude)
         assert [float(run[f"energy_{name}"]) for name in ("kinetic", "damping", "wear")] == [2, 4, 8]
         assert "radial_displacement" not in run
         for variable in run.variables.values():
@@ -119,16 +121,18 @@ def test_manifest_comes_back_as_written(tmp_path):
     rows = [
         ManifestRow("0.1900.h5", 0.19, "a" * 64, "completed"),
         ManifestRow("0.1970.h5", 0.197, "b", "unbounded"),
+        ManifestRow("0.2000.h5", 0.2, "c", "completed", "d" * 64),
     ]
     path = tmp_path / "manifest.tsv"
     store.write_manifest(path, rows)
-    assert path.read_text().splitlines()[0] == "file\tf_omega\trun_key\tstatus"
+    assert path.read_text().splitlines()[0] == "file\tf_omega\trun_key\tstatus\tconfirmation_key"
     assert store.read_manifest(path) == rows
     assert [entry.name for entry in tmp_path.iterdir()] == ["manifest.tsv"]
 
 
 @pytest.mark.parametrize(
-    "content", ["", "a\tb\n", "file\tf_omega\trun_key\tstatus\n0.1900.h5\tfast\tk\tcompleted\n"]
+    "content",
+    ["", "a\tb\n", "file\tf_omega\trun_key\tstatus\tconfirmation_key\n0.1900.h5\tfast\tk\tcompleted\t\n"],
 )
 def test_what_is_not_a_manifest_is_an_error_with_its_name(tmp_path, content):
     path = tmp_path / "manifest.tsv"

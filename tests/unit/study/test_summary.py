@@ -10,6 +10,10 @@ def test_a_steady_run(spec, config, make_result):
         "engine_order": 6.0,
         "max_wear": pytest.approx(2e-4, rel=1e-3),
         "lobes": 6,
+        "growth_per_revolution": pytest.approx(0, abs=1e-9),
+        "growth_low": pytest.approx(-3e-4, rel=0.2),
+        "growth_high": pytest.approx(3e-4, rel=0.2),
+        "saturating": False,
         "divergent": False,
         "n_steps": 1000,
         "status": "completed",
@@ -18,8 +22,9 @@ def test_a_steady_run(spec, config, make_result):
 
 def test_a_growing_run(spec, config, make_result):
     summary = summarise(spec, make_result(order=4, growth=0.03), config)
-    assert summary["divergent"]
-    assert summary["status"] == "completed"
+    assert (summary["divergent"], summary["saturating"], summary["status"]) == (True, False, "completed")
+    assert summary["growth_per_revolution"] == pytest.approx(0.03)
+    assert summary["growth_low"] < 0.03 < summary["growth_high"]
     assert summary["peak_amplitude"] == pytest.approx(1e-3 * 1.03**19, rel=1e-4)
 
 
@@ -37,7 +42,9 @@ def test_an_unbounded_run_is_summed_up_over_what_was_run(spec, config, make_resu
 
 
 def test_a_run_without_a_complete_revolution_has_no_engine_order(spec, config, make_result):
-    assert summarise(spec, make_result(complete=0.5), config)["engine_order"] is None
+    summary = summarise(spec, make_result(complete=0.5), config)
+    assert summary["engine_order"] is None
+    assert summary["growth_per_revolution"] is summary["growth_low"] is summary["growth_high"] is None
 
 
 def test_a_blade_that_never_touched(spec, config, make_result):
