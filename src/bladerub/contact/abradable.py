@@ -9,7 +9,7 @@ from bladerub.contact.coating import return_mapping
 from bladerub.contact.tip import covered, drop
 
 FAST = {"reassoc", "contract", "arcp", "nsz"}  # sums may be reordered; NaN and infinity stay what they are
-SETTLED = 1e-13
+SETTLED = 1e-12
 """Error of a node's height at which its force is taken as found, m."""
 ATTEMPTS = 40
 LEVEL = 1e-12
@@ -49,17 +49,14 @@ def _resistance(stator, tip, wear, j, position, rise):
 
 
 @njit(fastmath=FAST)
-def push_of(stator, tip, wear, j, position, free_rise, own):
+def push_of(stator, tip, wear, j, position, free_rise, own, guess):
     """Push of the coating on node `j`, which gives way by `own` per unit of it, N.
 
     Solves ``rise + own P(rise) = free_rise`` by Newton's method within a bracket: P is piecewise linear, so
     it ends in a few steps.
     """
-    push, stiffness = _resistance(stator, tip, wear, j, position, free_rise)
-    if own <= 0.0 or push == 0.0:
-        return push
-    low, high = free_rise - own * push, free_rise
-    rise = free_rise - own * push / (1.0 + own * stiffness)
+    low, high = -np.inf, np.inf
+    rise = free_rise - own * guess
     for _ in range(ATTEMPTS):
         push, stiffness = _resistance(stator, tip, wear, j, position, rise)
         error = rise + own * push - free_rise

@@ -30,7 +30,7 @@ from bladerub.contact.ledger import (
 )
 from bladerub.contact.machine_code import njit_on_disk
 
-SETTLED = 1e-12
+SETTLED = 1e-11
 """Change of any node's height in a sweep over all nodes at which the forces are taken as found, m."""
 SWEEPS = 200
 
@@ -248,7 +248,9 @@ def _find_forces(rule, stator, tip, passed, state, u):
                 if stator.is_rigid:
                     push = rigid.push_of(stator.gap, j, position, free_rise, own)
                 else:
-                    push = abradable.push_of(stator, tip, state.wear, j, position, free_rise, own)
+                    push = abradable.push_of(
+                        stator, tip, state.wear, j, position, free_rise, own, state.push[j]
+                    )
             if push == 0.0 and state.push[j] == 0.0:
                 continue
             change = max(change, own * abs(push - state.push[j]))

@@ -12,7 +12,7 @@ from bladerub.blade.model import N_INTERFACE, ReducedBlade
 from bladerub.contact import casing, kernel, ledger
 from bladerub.contact.modes import Modes, modes_at
 from bladerub.contact.schemes import SCHEMES, Contact, Recurrence, normal_compliance
-from bladerub.contact.spec import RunResult, RunSpec
+from bladerub.contact.spec import Coating, RunResult, RunSpec
 
 STRAY = 4
 """Elements a node may move along the casing before the search for contact looks at it alone."""
@@ -168,8 +168,18 @@ def _stator(blade: ReducedBlade, spec: RunSpec, tip: kernel.Tip, rule: Recurrenc
         is_rigid=coating.is_rigid,
         radial=radial,
         tangential=tangential,
-        own_compliance=np.diag(normal_compliance(rule.compliance, radial, tangential)).copy(),
+        own_compliance=_own_compliance(rule, coating),
     )
+
+
+def _own_compliance(rule: Recurrence, coating: Coating) -> np.ndarray:
+    own = np.diag(normal_compliance(rule.compliance, -math.cos(coating.theta), -math.sin(coating.theta)))
+    if coating.is_rigid and np.min(own) <= 0:
+        raise ValueError(
+            f"friction {math.tan(coating.theta):g} on the rigid casing: must be so low that no node of this "
+            "blade is drawn into the casing by its own friction (Painlevé's paradox)"
+        )
+    return np.maximum(own, 0.0)
 
 
 def _tip(blade: ReducedBlade, spec: RunSpec) -> kernel.Tip:
