@@ -1,7 +1,18 @@
-"""Beams whose frequencies are known, at rest and rotating, from 20-node hexahedra."""
+"""Beams whose frequencies are known, at rest and rotating, from 20-node hexahedra.
+
+Source: Wright, Smith, Thresher and Wang, Vibration modes of centrifugally stiffened beams, Journal of Applied
+Mechanics 49 (1982) 197-202, table for the uniform cantilever of hub radius 0; and, since a typed table proves
+little, a Rayleigh-Ritz solution of the same beam equation, which returns the table to its last digit and
+gives the beams that are not in it (hub radius, plane of rotation).
+
+Expected: 0.1 %. In the third mode the solid beam is 0.02 % below (shear and rotary inertia at slenderness
+100, which Euler and Bernoulli leave out), with the hub at the highest speed 0.05 % (it also stretches).
+"""
 
 import numpy as np
 import pytest
+from numpy.polynomial import Legendre, Polynomial
+from scipy.linalg import eigh
 
 from bladerub.blade.elasticity import Material, Solid
 from bladerub.blade.linear import lowest_modes
@@ -10,31 +21,45 @@ from bladerub.blade.rotation import equilibrium
 
 YOUNG, DENSITY, LENGTH, THICKNESS = 2e11, 7800.0, 1.0, 0.01
 
-# Wright, Smith, Thresher and Wang, Vibration modes of centrifugally stiffened beams, Journal of Applied
-# Mechanics 49 (1982), tables for the uniform cantilever of hub radius 0: first two flapwise frequencies
-# ω √(ρAL⁴/EI) over Ω √(ρAL⁴/EI).
+# First three flapwise frequencies ω √(ρAL⁴/EI) over Ω √(ρAL⁴/EI).
 WRIGHT_1982 = {
-    0: (3.5160, 22.0345),
-    1: (3.6816, 22.1810),
-    2: (4.1373, 22.6149),
-    3: (4.7973, 23.3203),
-    4: (5.5850, 24.2733),
-    6: (7.3604, 26.8091),
-    8: (9.2568, 29.9954),
-    10: (11.2023, 33.6404),
-    12: (13.1702, 37.6031),
+    0: (3.5160, 22.0345, 61.6972),
+    1: (3.6816, 22.1810, 61.8418),
+    2: (4.1373, 22.6149, 62.2732),
+    3: (4.7973, 23.3203, 62.9850),
+    4: (5.5850, 24.2733, 63.9668),
+    6: (7.3604, 26.8091, 66.6839),
+    8: (9.2568, 29.9954, 70.2930),
+    10: (11.2023, 33.6404, 74.6493),
+    12: (13.1702, 37.6031, 79.6145),
 }
 UNIT = np.sqrt(YOUNG * THICKNESS**2 / 12 / (DENSITY * LENGTH**4))  # √(EI / ρAL⁴), rad/s
 
 
-def cantilever(thin_axis, n_along=40):
-    """A beam of slenderness 100 that starts on the axis and follows z, thin along x (flap) or y (lag)."""
+def ritz(speed, hub_radius=0.0, n_terms=16):
+    """Flapwise frequencies of the rotating Euler-Bernoulli beam, dimensionless.
+
+    Minimises ∫ w″² + T w′² over ∫ w² with T = η² (δ (1 − x) + (1 − x²) / 2), hub radius δ L, in x² times the
+    Legendre polynomials on [0, 1]; integrated exactly by Gauss's rule.
+    """
+    x, weight = np.polynomial.legendre.leggauss(n_terms + 4)
+    x, weight = (x + 1) / 2, weight / 2
+    clamped = Polynomial([0.0, 0.0, 1.0], [0, 1], [0, 1]).convert(kind=Legendre, domain=[0, 1])
+    shapes = [clamped * Legendre.basis(k, [0, 1]) for k in range(n_terms)]
+    w, slope, bend = (np.array([shape.deriv(order)(x) for shape in shapes]) for order in (0, 1, 2))
+    tension = speed**2 * (hub_radius * (1 - x) + (1 - x**2) / 2)
+    stiffness = (bend * weight) @ bend.T + (slope * weight * tension) @ slope.T
+    return np.sqrt(eigh(stiffness, (w * weight) @ w.T, eigvals_only=True))
+
+
+def cantilever(thin_axis, n_along=40, hub_radius=0.0):
+    """A beam of slenderness 100 along z from the hub, thin along x (flap) or y (lag)."""
     size = np.array([0.05, 0.05, LENGTH])
     size[thin_axis] = THICKNESS
     corners = (np.array([0.0, 1.0]), np.array([0.0, 1.0]), np.linspace(0, 1, n_along + 1))
 
     def points(*cube):
-        return (np.stack(cube) - np.array([0.5, 0.5, 0.0])[:, None]) * size[:, None]
+        return (np.stack(cube) - np.array([0.5, 0.5, -hub_radius / LENGTH])[:, None]) * size[:, None]
 
     mesh, cube = hexahedral_mesh(*corners, points)
     return Solid(mesh, Material(YOUNG, 0.0, DENSITY), np.flatnonzero(cube[2] == 0))
@@ -57,6 +82,11 @@ def thin_bending(solid, thin_axis, state, n_modes=6):
     return 2 * np.pi * frequencies[np.array(share) > 0.9] / UNIT
 
 
+def compare(what, found, expected):
+    print(f"{what}: frequencies over the reference, less 1:", found / np.array(expected) - 1)
+    np.testing.assert_allclose(found, expected, rtol=1e-3)
+
+
 def test_cantilever_at_rest_matches_euler_bernoulli(flap):
     # Roots of 1 + cos β cosh β = 0; ω = β² √(EI / ρAL⁴).
     roots = np.array([1.875104069, 4.694091133, 7.854757438])
@@ -65,17 +95,29 @@ def test_cantilever_at_rest_matches_euler_bernoulli(flap):
 
 
 @pytest.mark.parametrize("speed", list(WRIGHT_1982))
+def test_published_table_is_what_the_beam_equation_gives(speed):
+    np.testing.assert_allclose(ritz(speed)[:3], WRIGHT_1982[speed], rtol=0, atol=6e-5)
+
+
+@pytest.mark.parametrize("speed", list(WRIGHT_1982))
 def test_rotating_beam_flaps_as_tabulated(flap, speed):
-    found = thin_bending(flap, 0, equilibrium(flap, speed * UNIT))[:2]
-    np.testing.assert_allclose(found, WRIGHT_1982[speed], rtol=2e-4)
+    found = thin_bending(flap, 0, equilibrium(flap, speed * UNIT))[:3]
+    compare(f"flap, speed {speed}", found, WRIGHT_1982[speed])
 
 
 @pytest.mark.parametrize("speed", [2, 6, 12])
 def test_in_the_plane_of_rotation_spin_softening_takes_its_share(lag, speed):
-    # ω_lag² = ω_flap² − Ω²; the difference magnifies the rounding of the table.
-    found = thin_bending(lag, 1, equilibrium(lag, speed * UNIT))[:2]
-    expected = np.sqrt(np.array(WRIGHT_1982[speed]) ** 2 - speed**2)
-    np.testing.assert_allclose(found, expected, rtol=5e-4)
+    # ω_lag² = ω_flap² − Ω²
+    found = thin_bending(lag, 1, equilibrium(lag, speed * UNIT))[:3]
+    compare(f"lag, speed {speed}", found, np.sqrt(ritz(speed)[:3] ** 2 - speed**2))
+
+
+@pytest.mark.parametrize("speed", [2, 6, 12])
+def test_a_hub_adds_its_tension(speed):
+    hub = 2 * LENGTH
+    solid = cantilever(0, hub_radius=hub)
+    found = thin_bending(solid, 0, equilibrium(solid, speed * UNIT))[:3]
+    compare(f"hub {hub}, speed {speed}", found, ritz(speed, hub / LENGTH)[:3])
 
 
 def test_frequencies_converge_from_above_with_the_mesh():

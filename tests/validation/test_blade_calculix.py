@@ -64,4 +64,6 @@ def test_frequencies_agree(built, config, f_omega, tmp_path):
     calculix = [float(row[3]) for row in rows if len(row) == 5 and row[0].isdigit()]
     table = built.accuracy[np.isclose(built.accuracy.f_omega, f_omega)]
     ours = table.sort_values("mode").f_fe.to_numpy()
-    np.testing.assert_allclose(ours[:8], calculix[:8], rtol=1e-5)
+    difference = np.abs(ours[:8] / calculix[:8] - 1).max()
+    print(f"f_omega = {f_omega}: largest difference of eight frequencies {difference:.1e}")
+    assert difference < 1e-5

@@ -173,15 +173,17 @@ def exponential(modes: Modes, damping_ratio: float, time_step: float, contact: C
     moving = modes.omega > 0
     gain = np.where(moving, lag / np.where(moving, modes.omega, 1.0) ** 2, time_step**2)
     now, before = 2.0 * decay * np.cos(phase), decay**2
-    margin = gain / (1.0 + now + before)
     n = int(np.searchsorted(x, FASTEST_PHASE, side="right"))
-    while n > 0 and _kappa(modes, margin, n, contact) > STEADY:
+    margin = gain[:n] / (1.0 + now[:n] + before[:n])
+    while n > 0:
+        resolved, static = _hand_over(modes, x, n, contact)
+        if _kappa(resolved.tip, margin[:n], static, contact) <= STEADY:
+            break
         n -= 1
     if n == 0:
         raise ValueError(f"time step {time_step:.3g} s: too long for the vibration of this blade in contact")
-    static = _static_compliance(modes, n)
     return _recurrence(
-        Modes(modes.omega[:n], np.ascontiguousarray(modes.tip[:, :n])),
+        resolved,
         now=now[:n],
         before=before[:n],
         gain=gain[:n],
@@ -206,15 +208,28 @@ def normal_compliance(compliance: np.ndarray, radial: float, tangential: float) 
     )
 
 
-def _static_compliance(modes: Modes, n_resolved: int) -> np.ndarray:
-    tip, omega = modes.tip[:, n_resolved:], modes.omega[n_resolved:]
-    return (tip / omega**2) @ tip.T
+def _hand_over(modes: Modes, x: np.ndarray, n: int, contact: Contact) -> tuple[Modes, np.ndarray]:
+    """Part of the first `n` modes that is resolved, and the compliance (16, 16) of all the rest.
+
+    Against the rigid casing a sharp cut leaves one vibration of the tip in contact above all resolved modes,
+    which nothing damps: the force chatters for ever after an impact. There the modes go over gradually, by
+    the share ``(1 − (x / x_n)²)²``, and the impact travels on.
+    """
+    share = np.zeros(x.size)
+    share[:n] = 1.0
+    if np.isinf(contact.stiffness).all():
+        last = FASTEST_PHASE if n == x.size else min(FASTEST_PHASE, x[n])
+        share[:n] = (1.0 - (x[:n] / last) ** 2) ** 2
+    condensed = share < 1.0
+    tip, omega = modes.tip[:, condensed], modes.omega[condensed]
+    static = (tip * (1.0 - share[condensed]) / omega**2) @ tip.T
+    return Modes(modes.omega[:n], modes.tip[:, :n] * np.sqrt(share[:n])), static
 
 
-def _kappa(modes: Modes, margin: np.ndarray, n: int, contact: Contact) -> float:
+def _kappa(tip: np.ndarray, margin: np.ndarray, static: np.ndarray, contact: Contact) -> float:
     direction = contact.radial, contact.tangential
-    step = normal_compliance((modes.tip[:, :n] * margin[:n]) @ modes.tip[:, :n].T, *direction)
-    series = normal_compliance(_static_compliance(modes, n), *direction) + np.diag(1.0 / contact.stiffness)
+    step = normal_compliance((tip * margin) @ tip.T, *direction)
+    series = normal_compliance(static, *direction) + np.diag(1.0 / contact.stiffness)
     moves = np.diag(step) != 0
     if not moves.any():
         return 0.0

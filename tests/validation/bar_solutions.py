@@ -1,0 +1,104 @@
+"""Exact motion of an elastic bar that falls on, or is thrown at, a rigid wall.
+
+The impacting and the bouncing bar of Doyen, Ern and Piperno, Time-integration schemes for the finite element
+dynamic Signorini problem, SIAM Journal on Scientific Computing 33 (2011) 223-249. All is per unit of
+cross-section, heights count away from the wall, and time τ from the first touch, which finds the bar
+undeformed and coming at `speed`.
+
+In the frame that falls freely with the bar, d'Alembert's waves run over a free bar with a force F at its end.
+The wave that F sends out returns from the free end after the crossing time T = 2L/c and doubles where it
+arrives, so the end moves at
+
+    w′(τ) = (F(τ) + 2 F(τ − T) + 2 F(τ − 2T) + ...) / (ρ c)                                    (1)
+
+while the wall comes at v + gτ. Touching means that the two speeds are one, and gives the force:
+
+    F(τ) = ρ c (v + gτ) − 2 F(τ − T) − 2 F(τ − 2T) − ...                                       (2)
+
+First contact: F = ρc (v + gτ) for 0 < τ < T. Then (2) would be ρc (2gT − v − gτ), negative after T where
+v > gT: the end leaves. In flight w′ repeats itself with the period T.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+
+class Bar(NamedTuple):
+    """Uniform elastic bar: length (m), Young modulus (Pa), density (kg/m³)."""
+
+    length: float
+    modulus: float
+    density: float
+
+    @property
+    def wave_speed(self):
+        """c, m/s."""
+        return np.sqrt(self.modulus / self.density)
+
+    @property
+    def impedance(self):
+        """ρ c: stress per change of speed, Pa s/m."""
+        return self.density * self.wave_speed
+
+    @property
+    def mass(self):
+        """Kg per m² of cross-section."""
+        return self.density * self.length
+
+    @property
+    def crossing(self):
+        """T = 2L/c: time of a wave to the far end and back, s."""
+        return 2 * self.length / self.wave_speed
+
+
+DOYEN = Bar(length=10.0, modulus=900.0, density=1.0)
+HEIGHT, SPEED, GRAVITY = 5.0, 10.0, 10.0
+"""Thrown at 10 m/s without gravity (impacting) or dropped from 5 m with it (bouncing): 10 m/s at touch."""
+
+
+def first_contact_force(bar, speed, gravity, tau):
+    """F(τ) of the first contact, Pa; 0 outside of it. Needs ``speed > gravity * bar.crossing``."""
+    touching = (tau >= 0) & (tau < bar.crossing)
+    return np.where(touching, bar.impedance * (speed + gravity * tau), 0.0)
+
+
+def end_height(bar, speed, gravity, tau):
+    """Height of the end above the wall until the next impact, m: (1) integrated, less the way of the wall."""
+    period, s = np.divmod(tau, bar.crossing)
+    a_period = speed * bar.crossing + gravity * bar.crossing**2 / 2  # what the end climbs in contact
+    climbed = np.where(period < 1, 1.0, 2.0) * (speed * s + gravity * s**2 / 2)
+    climbed = climbed + np.where(period < 1, 0.0, (2 * period - 1) * a_period)
+    return climbed - speed * tau - gravity * tau**2 / 2
+
+
+def rebound_speed(bar, speed, gravity):
+    """Upward speed of the centre of mass when the contact ends.
+
+    The impulse ρc (vT + gT²/2) over ρL is 2v + gT, and the frame has come down to v + gT: it is v again.
+    """
+    impulse = bar.impedance * (speed * bar.crossing + gravity * bar.crossing**2 / 2)
+    return impulse / bar.mass - speed - gravity * bar.crossing
+
+
+def next_impact(bar, speed, gravity):
+    """Time τ when the end meets the wall again, s: in the n-th period `end_height` is a parabola in s."""
+    crossing = bar.crossing
+    n = 1
+    while end_height(bar, speed, gravity, np.nextafter((n + 1) * crossing, 0)) > 1e-12:
+        n += 1
+    start = end_height(bar, speed, gravity, n * crossing)
+    slope = speed - gravity * n * crossing  # 2(v + gs) − v − g(nT + s) at s = 0
+    # start + slope s + g s² / 2 = 0, the lesser root
+    return n * crossing + (-slope - np.sqrt(max(slope**2 - 2 * gravity * start, 0.0))) / gravity
+
+
+def second_contact_force(bar, speed, gravity, tau):
+    """F(τ) of the second contact where it begins at 4T, that is for v = 3gT/2 as in the benchmark, Pa.
+
+    By (2) F(4T + s) = ρc (v + 4gT + gs) − 2 F(s) = ρc (4gT − v − gs): the first contact run backwards. The
+    waves cancel, w′ = 8gT is uniform from 5T on, and the bar leaves undeformed at v.
+    """
+    s = tau - 4 * bar.crossing
+    touching = (s >= 0) & (s < bar.crossing)
+    return np.where(touching, bar.impedance * (4 * gravity * bar.crossing - speed - gravity * s), 0.0)

@@ -1,0 +1,40 @@
+import dataclasses
+from pathlib import Path
+
+import pytest
+import yaml
+
+from bladerub.blade.build import build
+from bladerub.contact.run import simulate
+from bladerub.study.grid import CoatingCase, run_spec
+
+CONFIG = Path(__file__).parents[2] / "config" / "config.yaml"
+
+
+@pytest.fixture(scope="session")
+def coarse_config():
+    """The paper's study on a coarse mesh of the same blade, which is built in a second."""
+    config = yaml.safe_load(CONFIG.read_text(encoding="utf-8"))
+    config["blade"]["mesh"] = {"chordwise": 8, "thickness": 2, "spanwise": 8}
+    config["reduction"].update(accuracy_speeds=2, accuracy_modes=7)
+    return config
+
+
+@pytest.fixture(scope="session")
+def coarse_blade(coarse_config):
+    return build(coarse_config).reduced
+
+
+@pytest.fixture(scope="session")
+def rub(coarse_config, coarse_blade):
+    """Run a coating on the casing with 2 nodal diameters, with other values of the spec where given."""
+
+    def run(E, K, f_omega, theta=0.0, **values):
+        spec = run_spec(coarse_config, CoatingCase("2nd", E, K, theta), f_omega)
+        for part in ("casing", "coating", "tip"):
+            names = {field.name for field in dataclasses.fields(getattr(spec, part))} & values.keys()
+            inner = {name: values.pop(name) for name in names}
+            spec = dataclasses.replace(spec, **{part: dataclasses.replace(getattr(spec, part), **inner)})
+        return simulate(coarse_blade, dataclasses.replace(spec, **values))
+
+    return run

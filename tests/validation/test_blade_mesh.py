@@ -1,0 +1,75 @@
+"""Frequencies of the default blade as its mesh is refined.
+
+Expected order: eigenvalues of smooth modes converge with 2p = 4 for the quadratic element (Strang and Fix, An
+Analysis of the Finite Element Method, 1973, chapter 6). Here the clamped root meets the free flanks at right
+angles, where the stress is singular like r^(λ − 1), λ the root of sin²(λπ/2) = ((κ + 1)²/4 − λ²) / κ with
+κ = 3 − 4ν (Williams, Journal of Applied Mechanics 19 (1952) 526-528), and in the end the order falls to
+2λ = 1.4 for ν = 0.32. On the meshes in use it lies between the two. Convergence is from above.
+"""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+import yaml
+from scipy.optimize import brentq
+
+from bladerub.blade import geometry
+from bladerub.blade.elasticity import Material, Solid
+from bladerub.blade.linear import lowest_modes
+from bladerub.blade.mesh import hexahedral_mesh
+from bladerub.blade.rotation import equilibrium
+
+CONFIG = Path(__file__).parents[2] / "config" / "config.yaml"
+FINENESS = np.array([0.5, 1.0, 1.5])  # over the config's mesh, in all three directions
+
+
+@pytest.fixture(scope="module")
+def blade():
+    return yaml.safe_load(CONFIG.read_text(encoding="utf-8"))["blade"]
+
+
+@pytest.fixture(scope="module")
+def frequencies(blade):
+    shape = geometry.BladeShape.from_config(blade)
+    material = Material.from_config(blade["material"])
+    rows = []
+    for fineness in FINENESS:
+        counts = {key: round(fineness * count) for key, count in blade["mesh"].items()}
+        mesh, (_, _, zeta) = hexahedral_mesh(*geometry.lattice(counts), shape.points)
+        solid = Solid(mesh, material, clamped=np.flatnonzero(zeta == 0))
+        rows.append(lowest_modes(equilibrium(solid, 0.0).stiffness, solid.mass, 3)[0])
+    return np.array(rows)
+
+
+def observed_order(coarse, middle, fine):
+    """Exponent p of ``f = f_ext + c h^p`` through three meshes of unequal ratio."""
+    h = 1 / FINENESS
+
+    def misfit(p):
+        return (h[0] ** p - h[1] ** p) * (middle - fine) - (h[1] ** p - h[2] ** p) * (coarse - middle)
+
+    return brentq(misfit, 0.2, 6.0)
+
+
+def corner_order(poisson):
+    """2λ of the singularity where a clamped and a free face meet at a right angle."""
+    kappa = 3 - 4 * poisson
+    return 2 * brentq(lambda x: np.sin(x * np.pi / 2) ** 2 - ((kappa + 1) ** 2 / 4 - x**2) / kappa, 0.5, 0.99)
+
+
+def test_frequencies_converge_at_the_order_of_the_clamped_edge_or_better(blade, frequencies):
+    lowest = corner_order(blade["material"]["poisson_ratio"])
+    assert lowest == pytest.approx(1.4, abs=0.01)
+    orders = [observed_order(*mode) for mode in frequencies.T]
+    print("observed order of f1 to f3:", np.round(orders, 2))
+    assert min(orders) > lowest
+
+
+def test_mesh_of_the_config_is_near_the_limit(frequencies):
+    fine, finest = frequencies[1:]
+    order = np.array([observed_order(*mode) for mode in frequencies.T])
+    limit = finest - (fine - finest) / (FINENESS[2] ** order - 1)  # Richardson
+    print("config's mesh over the limit, f1 to f3:", fine / limit - 1)
+    assert np.all(np.diff(frequencies, axis=0) < 0)
+    np.testing.assert_allclose(fine, limit, rtol=3e-3)
