@@ -25,8 +25,8 @@ reduction: {accuracy_speeds: 3}
 contact: {elements: 200}
 coatings: [{casing: 2nd, E: [2, 20], K: [0.5], theta: [0.15]}]
 speeds: {start: 0.2, stop: 0.4, step: 0.1, extra: []}
-solver: {revolutions: 2}
-analysis: {spectrum_revolutions: 2, divergence: {revolutions: 2}, histories: []}
+solver: {revolutions: 3}
+analysis: {spectrum_revolutions: 2, divergence: {revolutions: 3}, histories: []}
 """
 
 
