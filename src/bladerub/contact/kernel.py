@@ -156,14 +156,14 @@ def _advance(rule, q, q1, q2):
 
 
 @njit(fastmath=FAST)
-def _push_modes(rule, force, q):
-    """Add the effect of the contact forces to the modal coordinates."""
+def _respond(response, force, x):
+    """Add to `x` (n,) what the contact forces cause, `response` (16, n) per unit of each."""
     for j in range(N_INTERFACE):
         radial, tangential = force[j], force[N_INTERFACE + j]
         if radial == 0.0:
             continue
-        for k in range(q.size):
-            q[k] += rule.push[j, k] * radial + rule.push[N_INTERFACE + j, k] * tangential
+        for k in range(x.size):
+            x[k] += response[j, k] * radial + response[N_INTERFACE + j, k] * tangential
 
 
 @njit(fastmath=FAST)
@@ -214,17 +214,6 @@ def _position(tip, u, j, passed, n_elements):
     """Position of node `j` along the casing in elements, within [0, N)."""
     position = tip.start[j] + passed + u[N_INTERFACE + j] * tip.per_metre[j]
     return wrap(wrap(position, n_elements), n_elements)
-
-
-@njit(fastmath=FAST)
-def _yield_to(compliance, force, u):
-    """Add the displacement of the tip in the step of the forces themselves."""
-    for j in range(N_INTERFACE):
-        radial, tangential = force[j], force[N_INTERFACE + j]
-        if radial == 0.0:
-            continue
-        for i in range(2 * N_INTERFACE):
-            u[i] += compliance[j, i] * radial + compliance[N_INTERFACE + j, i] * tangential
 
 
 @njit(fastmath=FAST)
@@ -375,7 +364,7 @@ def revolve(rule, stator, tip, state, steps_per_element, displacement):
                 push[:], moment[:] = state.push, state.moment
             state.ledger[DAMPING] += _advance(rule, state.q[now], state.q[before], q)
             if touched and not rule.corrects:
-                _push_modes(rule, state.force[1], q)
+                _respond(rule.push, state.force[1], q)
             _project(rule.tip, q, u)
             clear = _is_clear(tip, u, stator.floor[element])
             if touched or not clear:
@@ -385,7 +374,7 @@ def revolve(rule, stator, tip, state, steps_per_element, displacement):
                     state.force[0] = 0.0
                     state.push[:] = 0.0
                 else:
-                    _yield_to(rule.compliance, state.force[0], u)
+                    _respond(rule.compliance, state.force[0], u)
                     within = _is_within_bounds(tip, u) and _find_forces(rule, stator, tip, passed, state, u)
                 if not within:
                     state.q[oldest] = state.q[now]  # the damping loss is complete up to here
@@ -394,7 +383,7 @@ def revolve(rule, stator, tip, state, steps_per_element, displacement):
                     return n_steps, n_contact, lowest, highest
                 touching = _settle(stator, tip, passed, per_step, state, push, u, state.u[now])
                 if touching and rule.corrects:
-                    _push_modes(rule, state.force[0], q)
+                    _respond(rule.push, state.force[0], q)
                     _project(rule.tip, q, u)
                 if touched:
                     _enter_work(tip, state, state.force[1], push, moment, u, state.u[before])
