@@ -1,24 +1,35 @@
-"""Contact law of one node with the bars of the coating under it."""
+"""Contact law of the tip's nodes with the bars of the coating under them, a lane a node.
+
+Rows of bars: row r has for each node the bar that is r elements past the one it stands over at the start of
+a revolution, so that all nodes meet the same few rows at the same time.
+"""
 
 from __future__ import annotations
 
-import numpy as np
+import math
+
 from numba import njit
 
-from bladerub.contact.coating import return_mapping
-from bladerub.contact.tip import covered, drop
+from bladerub.contact.vectors import (
+    LANES,
+    choose,
+    higher,
+    highest,
+    load,
+    lower,
+    lowest,
+    magnitude,
+    splat,
+    store,
+)
 
-FAST = {"reassoc", "contract", "arcp", "nsz"}  # sums may be reordered; NaN and infinity stay what they are
-SETTLED = 1e-12
-"""Error of a node's height at which its force is taken as found, m."""
-ATTEMPTS = 40
 LEVEL = 1e-12
 """Change of penetration below which the force of a bar is taken as constant over a step, m."""
 
 
 @njit(inline="always")
 def wrap(index, n_elements):
-    """Bring an index or position less than one turn outside into [0, N)."""
+    """Bring an index less than one turn outside into [0, N)."""
     if index >= n_elements:
         return index - n_elements
     if index < 0:
@@ -26,55 +37,46 @@ def wrap(index, n_elements):
     return index
 
 
-@njit(fastmath=FAST)
-def _resistance(stator, tip, wear, j, position, rise):
-    """Force (N) and stiffness (N/m) of the bars under node `j` at the height `rise`, by eq. of Fig. 4."""
-    push = 0.0
-    stiffness = 0.0
-    elastic, hardening = stator.elastic[j], stator.hardening[j]
-    plastic = elastic * hardening / (elastic + hardening)
-    first = int(np.ceil(position - tip.half_width)) - 1
-    last = int(np.floor(position + tip.half_width))
-    for i in range(first, last + 1):
-        offset = i + 0.5 - position
-        element = wrap(i, wear.shape[1])
-        worn = wear[j, element]
-        penetration = rise - drop(offset, tip.half_width, tip.edge_drop) - stator.gap[j, element]
-        force, worn_now = return_mapping(penetration, worn, elastic, hardening, stator.strength[j])
-        if force > 0.0:
-            share = covered(offset, tip.half_width)
-            push += share * force
-            stiffness += share * (plastic if worn_now > worn else elastic)
+@njit(inline="always")
+def rows_under(tip, behind, ahead):
+    """First and last row that the profile covers of any node between positions `behind` and `ahead`."""
+    return math.floor(lowest(behind) - tip.half_width), math.floor(highest(ahead) + tip.half_width)
+
+
+@njit(inline="always")
+def _covered(tip, offset):
+    return higher(lower(tip.half_width + 0.5 - magnitude(offset), 1.0), 0.0)
+
+
+@njit(inline="always")
+def _drop(tip, offset):
+    return tip.drop * (offset * offset)
+
+
+@njit
+def push_at(stator, tip, wear, position, rise):
+    """Force (N) and stiffness (N/m) of the bars under each node at the height `rise`, as in Fig. 4."""
+    elastic, hardening = load(stator.elastic, 0), load(stator.hardening, 0)
+    strength = load(stator.strength, 0)
+    yielding = elastic / (elastic + hardening)
+    plastic = yielding * hardening
+    push, stiffness = splat(0.0), splat(0.0)
+    first, last = rows_under(tip, position, position)
+    for row in range(first, last + 1):
+        at = wrap(row, stator.n_elements) * LANES
+        offset = (row + 0.5) - position
+        share = _covered(tip, offset)
+        worn = load(wear, at)
+        trial = elastic * (rise - _drop(tip, offset) - load(stator.gap, at) - worn)
+        excess = trial - strength - hardening * worn
+        push = push + share * higher(trial - yielding * higher(excess, 0.0), 0.0)
+        stiffness = stiffness + share * choose(trial > 0.0, choose(excess > 0.0, plastic, elastic), 0.0)
     return push, stiffness
 
 
-@njit(fastmath=FAST)
-def push_of(stator, tip, wear, j, position, free_rise, own, guess):
-    """Push of the coating on node `j`, which gives way by `own` per unit of it, N.
-
-    Solves ``rise + own P(rise) = free_rise`` by Newton's method within a bracket: P is piecewise linear, so
-    it ends in a few steps.
-    """
-    low, high = -np.inf, np.inf
-    rise = free_rise - own * guess
-    for _ in range(ATTEMPTS):
-        push, stiffness = _resistance(stator, tip, wear, j, position, rise)
-        error = rise + own * push - free_rise
-        if abs(error) <= SETTLED:
-            break
-        if error > 0.0:
-            high = rise
-        else:
-            low = rise
-        rise -= error / (1.0 + own * stiffness)
-        if not low < rise < high:  # or it would go round between two pieces
-            rise = 0.5 * (low + high)
-    return push
-
-
-@njit(fastmath=FAST)
-def settle(stator, tip, wear, j, position, rise, position_before, rise_before):
-    """Leave the bars under node `j` as the tip presses them at the end of a step, and account for it.
+@njit
+def settle(stator, tip, wear, position, rise, position_before, rise_before):
+    """Leave the bars as the tip presses them at the end of a step, and account for it.
 
     An element partly under the tip counts as bars of which a share is under it: as the edge of the profile
     moves on, whole bars are pressed down or let go, at the cost or to the profit of the rotation. Between the
@@ -83,53 +85,55 @@ def settle(stator, tip, wear, j, position, rise, position_before, rise_before):
 
     Parameters
     ----------
-    position, rise : float
-        Of the node at the end of the step: elements, within N of those before, and m.
-    position_before, rise_before : float
+    position, rise : vector
+        Of the nodes at the end of the step: rows, less than N from those before, and m.
+    position_before, rise_before : vector
         The same at its start.
 
     Returns
     -------
-    stored : float
+    stored : vector
         Elastic energy in the bars, J.
-    loss : float
+    loss : vector
         Energy taken by wear in this step, J.
-    supplied : float
+    supplied : vector
         Work of the rotation on the bars in this step, J.
     """
-    stored = 0.0
-    loss = 0.0
-    supplied = 0.0
-    elastic, hardening, strength = stator.elastic[j], stator.hardening[j], stator.strength[j]
-    first = int(np.ceil(min(position, position_before) - tip.half_width)) - 1
-    last = int(np.floor(max(position, position_before) + tip.half_width))
-    for i in range(first, last + 1):
-        element = wrap(i, wear.shape[1])
-        offset, offset_before = i + 0.5 - position, i + 0.5 - position_before
-        share = covered(offset, tip.half_width)
-        share_before = covered(offset_before, tip.half_width)
-        worn, gap = wear[j, element], stator.gap[j, element]
-        drop_now = drop(offset, tip.half_width, tip.edge_drop)
-        drop_before = drop(offset_before, tip.half_width, tip.edge_drop)
-        penetration = rise - drop_now - gap
-        penetration_before = rise_before - drop_before - gap
-        energy_before = 0.5 * elastic * max(0.0, penetration_before - worn) ** 2
-        if share == 0.0:
-            supplied -= share_before * energy_before
-            continue
-        force, worn_now = return_mapping(penetration, worn, elastic, hardening, strength)
-        wear[j, element] = worn_now
-        energy = 0.5 * force * force / elastic
-        taken = (strength + 0.5 * hardening * (worn + worn_now)) * (worn_now - worn)
-        stored += share * energy
-        loss += taken
-        if share_before == 0.0:
-            supplied += share * energy + taken
-            continue
+    elastic, hardening = load(stator.elastic, 0), load(stator.hardening, 0)
+    strength = load(stator.strength, 0)
+    giving = 1.0 / (elastic + hardening)
+    softness = 0.5 / elastic
+    stored, loss, supplied = splat(0.0), splat(0.0), splat(0.0)
+    first, last = rows_under(tip, lower(position, position_before), higher(position, position_before))
+    for row in range(first, last + 1):
+        at = wrap(row, stator.n_elements) * LANES
+        offset, offset_before = (row + 0.5) - position, (row + 0.5) - position_before
+        share, share_before = _covered(tip, offset), _covered(tip, offset_before)
+        drop, drop_before = _drop(tip, offset), _drop(tip, offset_before)
+        worn, gap = load(wear, at), load(stator.gap, at)
+        penetration, penetration_before = rise - drop - gap, rise_before - drop_before - gap
+        trial, trial_before = elastic * (penetration - worn), elastic * higher(penetration_before - worn, 0.0)
+        limit = strength + hardening * worn
+        under = share > 0.0
+        shortening = choose(under, giving * higher(choose(trial > 0.0, trial - limit, 0.0), 0.0), 0.0)
+        store(wear, at, worn + shortening)
+        force = choose(under, higher(trial - elastic * shortening, 0.0), 0.0)
+        energy, energy_before = softness * (force * force), softness * (trial_before * trial_before)
+        taken = (limit + 0.5 * hardening * shortening) * shortening
+        stored = stored + share * energy
+        loss = loss + taken
         mean_share = 0.5 * (share + share_before)
         deeper = penetration - penetration_before
-        mean_force = (energy - energy_before + taken) / deeper if abs(deeper) > LEVEL else force
-        supplied += mean_share * mean_force * (drop_before - drop_now)
-        supplied += 0.5 * (energy + energy_before) * (share - share_before)
-        supplied += (1.0 - mean_share) * taken
+        moved = magnitude(deeper) > LEVEL
+        mean_force = choose(moved, (energy - energy_before + taken) / choose(moved, deeper, 1.0), force)
+        staying = (
+            mean_share * mean_force * (drop_before - drop)
+            + 0.5 * (energy + energy_before) * (share - share_before)
+            + (1.0 - mean_share) * taken
+        )
+        supplied = supplied + choose(
+            under,
+            choose(share_before > 0.0, staying, share * energy + taken),
+            splat(0.0) - share_before * energy_before,
+        )
     return stored, loss, supplied

@@ -10,9 +10,8 @@ from typing import NamedTuple
 import numpy as np
 from numba import njit
 
-from bladerub.blade.model import N_INTERFACE
 from bladerub.contact import abradable, rigid
-from bladerub.contact.abradable import FAST, wrap
+from bladerub.contact.geometry import force_of, is_within_bounds, position_of, rise_of
 from bladerub.contact.ledger import (
     DAMPING,
     EXCHANGED,
@@ -29,26 +28,48 @@ from bladerub.contact.ledger import (
     WEAR,
 )
 from bladerub.contact.machine_code import njit_on_disk
+from bladerub.contact.motion import advance, push_modes, respond
+from bladerub.contact.relaxation import relax
+from bladerub.contact.vectors import (
+    LANES,
+    addresses,
+    aligned,
+    at,
+    choose,
+    everywhere,
+    highest,
+    load,
+    magnitude,
+    read,
+    splat,
+    store,
+    write,
+)
 
 SETTLED = 1e-11
-"""Change of any node's height in a sweep over all nodes at which the forces are taken as found, m."""
-SWEEPS = 200
+"""Imbalance of any node's height at which the contact forces are taken as found, m."""
+ATTEMPTS = 8
+"""Steps of Newton's method before the forces are sought node by node."""
+NEGLIGIBLE = 1e-100
+"""Modal coordinates below this are zero, m kg^1/2: numbers too small to be normal would slow the loop."""
 
 
 class Stator(NamedTuple):
-    """Coating and casing as the blade tip meets them.
+    """Coating and casing as the blade tip meets them, in rows of elements.
+
+    Row r has for each node the element r past the one the node stands over at the start of a revolution.
 
     Parameters
     ----------
-    gap : (8, N) ndarray
+    gap : (N, 8) ndarray
         Distance from the resting tip to the original surface of each element, eq. (8), m.
-    lowest_gap : (8, N) ndarray
-        Smallest gap of the elements that a node standing over this one may touch, m.
     floor : (N,) ndarray
         By elements passed since the start of the revolution: the smallest of all gaps that any node
         may meet then, if none moves further than `Tip.stray` along the casing, m.
     elastic, hardening, strength : (8,) ndarray
         N/m, N/m and N of one bar under each node, for `bladerub.contact.coating.return_mapping`.
+    n_elements : int
+        N.
     is_rigid : bool
         Whether the tip meets the casing itself instead of bars.
     radial, tangential : float
@@ -58,11 +79,11 @@ class Stator(NamedTuple):
     """
 
     gap: np.ndarray
-    lowest_gap: np.ndarray
     floor: np.ndarray
     elastic: np.ndarray
     hardening: np.ndarray
     strength: np.ndarray
+    n_elements: int
     is_rigid: bool
     radial: float
     tangential: float
@@ -75,15 +96,17 @@ class Tip(NamedTuple):
     Parameters
     ----------
     start : (8,) ndarray
-        Position of each node at the start of a revolution, in elements, within [0, N).
+        Position of each node at the start of a revolution, in rows, within [0, 1).
     per_metre : (8,) ndarray
         Elements per metre of tangential displacement.
     radius : (8,) ndarray
         Radius of curvature of the path of each node along the casing, m.
     lever : (8,) ndarray
         Distance of each node from the axis of rotation, m.
-    half_width, edge_drop : float
-        Of the profile, elements and m.
+    half_width : float
+        Of the profile, elements.
+    drop : float
+        Of the profile, one element from its middle, m.
     stray : float
         Tangential displacement up to which `Stator.floor` holds, m.
     limit : float
@@ -95,7 +118,7 @@ class Tip(NamedTuple):
     radius: np.ndarray
     lever: np.ndarray
     half_width: float
-    edge_drop: float
+    drop: float
     stray: float
     limit: float
 
@@ -106,17 +129,19 @@ class State(NamedTuple):
     Parameters
     ----------
     q : (3, n) ndarray
-        Modal coordinates now, one and two steps before.
+        Modal coordinates now, one and two steps before, padded with zeros to whole vectors.
     u : (3, 16) ndarray
         Displacement of the tip at the same times, m.
     force : (2, 16) ndarray
         Contact forces on the blade now and one step before, N.
-    push, moment : (8,) ndarray
-        Of each node now: size of the contact force (N) and its moment about the axis (N m).
-    wear : (8, N) ndarray
-        Permanent shortening of the bars, m.
-    ledger : (12,) ndarray
-        Entries of `bladerub.contact.ledger`.
+    push, moment : (2, 8) ndarray
+        Of each node at the same times: size of the contact force (N) and its moment about the axis (N m).
+    wear : (N, 8) ndarray
+        Permanent shortening of the bars, in the rows of `Stator`, m.
+    ledger : (12, 8) ndarray
+        Entries of `bladerub.contact.ledger`, to be summed over the nodes.
+    scratch : (4, 16) ndarray
+        Of no meaning between steps.
     """
 
     q: np.ndarray
@@ -126,214 +151,151 @@ class State(NamedTuple):
     moment: np.ndarray
     wear: np.ndarray
     ledger: np.ndarray
+    scratch: np.ndarray
 
 
 def at_rest(n_modes: int, n_elements: int) -> State:
     """State of a blade at rest before an unworn coating."""
-    return State(
-        q=np.zeros((3, n_modes)),
-        u=np.zeros((3, 2 * N_INTERFACE)),
-        force=np.zeros((2, 2 * N_INTERFACE)),
-        push=np.zeros(N_INTERFACE),
-        moment=np.zeros(N_INTERFACE),
-        wear=np.zeros((N_INTERFACE, n_elements)),
-        ledger=np.zeros(N_ENTRIES),
+    state = State(
+        q=np.zeros((3, n_modes + -n_modes % LANES)),
+        u=np.zeros((3, 2 * LANES)),
+        force=np.zeros((2, 2 * LANES)),
+        push=np.zeros((2, LANES)),
+        moment=np.zeros((2, LANES)),
+        wear=np.zeros((n_elements, LANES)),
+        ledger=np.zeros((N_ENTRIES, LANES)),
+        scratch=np.zeros((4, 2 * LANES)),
     )
+    return aligned(state)
 
 
-@njit(fastmath=FAST)
-def _advance(rule, q, q1, q2):
-    """Move the modes freely by one step, in place of the oldest coordinates `q2`.
-
-    Returns the damping loss of the step before, J: its end is known only now.
-    """
-    loss = 0.0
-    for k in range(q.size):
-        change = q[k] - q2[k]
-        loss += rule.loss[k] * change * change
-        q2[k] = rule.now[k] * q[k] - rule.before[k] * q1[k]
-    return loss
-
-
-@njit(fastmath=FAST)
-def _respond(response, force, x):
-    """Add to `x` (n,) what the contact forces cause, `response` (16, n) per unit of each."""
-    for j in range(N_INTERFACE):
-        radial, tangential = force[j], force[N_INTERFACE + j]
-        if radial == 0.0:
-            continue
-        for k in range(x.size):
-            x[k] += response[j, k] * radial + response[N_INTERFACE + j, k] * tangential
-
-
-@njit(fastmath=FAST)
-def _project(tip_modes, q, u):
-    """Displacement of the tip from modal coordinates, the interface rows of eq. (6)."""
-    for i in range(0, 2 * N_INTERFACE, 4):
-        u0 = u1 = u2 = u3 = 0.0
-        for k in range(q.size):
-            u0 += tip_modes[i, k] * q[k]
-            u1 += tip_modes[i + 1, k] * q[k]
-            u2 += tip_modes[i + 2, k] * q[k]
-            u3 += tip_modes[i + 3, k] * q[k]
-        u[i], u[i + 1], u[i + 2], u[i + 3] = u0, u1, u2, u3
-
-
-@njit(fastmath=FAST)
-def _is_clear(tip, u, floor):
+@njit
+def _is_clear(tip, radial, tangential, floor):
     """Whether the tip surely touches nothing: its highest node is below the lowest gap in reach."""
-    highest = -np.inf
-    lowest = np.inf
-    furthest = 0.0
-    for j in range(N_INTERFACE):
-        tangential = u[N_INTERFACE + j]
-        highest = max(highest, u[j] + tangential * tangential / tip.radius[j])
-        lowest = min(lowest, u[j])
-        furthest = max(furthest, abs(tangential))
-    return highest <= floor and lowest > -tip.limit and furthest <= tip.stray
+    below = rise_of(tip, radial, tangential) <= floor
+    return everywhere(below & (magnitude(tangential) <= tip.stray) & (radial > -tip.limit))
 
 
-@njit(fastmath=FAST)
-def _is_within_bounds(tip, u):
-    """Whether every displacement is a number below the limit."""
-    within = True
-    for i in range(2 * N_INTERFACE):
-        within &= abs(u[i]) < tip.limit
-    return within
+@njit
+def _find_forces(motion, stator, tip, passed, state, u):
+    """Find the contact forces that agree with the displacement they cause, by Newton's method.
 
-
-@njit(inline="always")
-def _rise(tip, u, j):
-    """Height of node `j` above its place at rest: tangential vibration closes the clearance too, m."""
-    tangential = u[N_INTERFACE + j]
-    return np.sqrt((tip.radius[j] + u[j]) ** 2 + tangential * tangential) - tip.radius[j]
-
-
-@njit(inline="always")
-def _position(tip, u, j, passed, n_elements):
-    """Position of node `j` along the casing in elements, within [0, N)."""
-    position = tip.start[j] + passed + u[N_INTERFACE + j] * tip.per_metre[j]
-    return wrap(wrap(position, n_elements), n_elements)
-
-
-@njit(fastmath=FAST)
-def _find_forces(rule, stator, tip, passed, state, u):
-    """Find the contact forces that agree with the displacement they cause, by Gauss-Seidel sweeps.
-
-    `u` comes as the displacement under the forces of the step before and leaves under the present ones.
-    Returns whether it stayed within bounds.
+    `u` comes as the displacement without forces of this step and leaves under them; the forces of the step
+    before are the first guess. Returns whether the tip stayed within bounds.
     """
-    n_elements = state.wear.shape[1]
-    force = state.force[0]
-    for _ in range(SWEEPS):
-        change = 0.0
-        for j in range(N_INTERFACE):
-            own = stator.own_compliance[j]
-            rise = _rise(tip, u, j)
-            free_rise = rise + own * state.push[j]
-            position = _position(tip, u, j, passed, n_elements)
-            push = 0.0
-            if free_rise > stator.lowest_gap[j, int(position)]:
-                if stator.is_rigid:
-                    push = rigid.push_of(stator.gap, j, position, free_rise, own)
-                else:
-                    push = abradable.push_of(
-                        stator, tip, state.wear, j, position, free_rise, own, state.push[j]
-                    )
-            if push == 0.0 and state.push[j] == 0.0:
-                continue
-            change = max(change, own * abs(push - state.push[j]))
-            # normal and tangential to the casing where the node is now, which has moved along it
-            cosine = (tip.radius[j] + u[j]) / (tip.radius[j] + rise)
-            sine = u[N_INTERFACE + j] / (tip.radius[j] + rise)
-            radial = push * (stator.radial * cosine - stator.tangential * sine)
-            tangential = push * (stator.radial * sine + stator.tangential * cosine)
-            by_radial, by_tangential = radial - force[j], tangential - force[N_INTERFACE + j]
-            for i in range(2 * N_INTERFACE):
-                u[i] += rule.compliance[j, i] * by_radial
-                u[i] += rule.compliance[N_INTERFACE + j, i] * by_tangential
-            force[j], force[N_INTERFACE + j] = radial, tangential
-            state.push[j] = push
-        if not _is_within_bounds(tip, u):
-            return False
-        if change <= SETTLED:
-            break
-    return True
+    force, push = state.force, state.push
+    free_radial, free_tangential = load(u, 0), load(u, LANES)
+    radial, tangential = respond(motion.compliance, force, free_radial, free_tangential)
+    rise = rise_of(tip, radial, tangential)
+    found = False
+    if not stator.is_rigid:
+        for _ in range(ATTEMPTS):
+            if not is_within_bounds(tip, radial, tangential):
+                break
+            position = position_of(tip, tangential, passed)
+            met, stiffness = abradable.push_at(stator, tip, state.wear, position, rise)
+            store(push, 0, met)
+            by_radial, by_tangential = force_of(stator, tip, radial, tangential, met)
+            store(force, 0, by_radial)
+            store(force, LANES, by_tangential)
+            radial, tangential = respond(motion.compliance, force, free_radial, free_tangential)
+            error = rise - rise_of(tip, radial, tangential)
+            if highest(magnitude(error)) <= SETTLED:
+                found = True
+                break
+            rise = rise - error / (1.0 + load(stator.own_compliance, 0) * stiffness)
+        if not found:  # it may be anywhere by now: begin again
+            _clear(force, 2 * LANES)
+            _clear(push, LANES)
+            radial, tangential = free_radial, free_tangential
+    store(u, 0, radial)
+    store(u, LANES, tangential)
+    if not found:
+        relax(motion, stator, tip, state, passed, u, SETTLED)
+    return is_within_bounds(tip, load(u, 0), load(u, LANES))
 
 
-@njit(fastmath=FAST)
-def _settle(stator, tip, passed, per_step, state, push_before, u, u_before):
-    """Wear the coating by the forces just found and enter that in the ledger; tell whether any force acts."""
-    n_elements = state.wear.shape[1]
-    touching = False
-    stored = 0.0
-    loss = 0.0
-    supplied = 0.0
-    exchanged = 0.0
-    for j in range(N_INTERFACE):
-        push = state.push[j]
-        state.moment[j] = 0.0
-        if push == 0.0 and push_before[j] == 0.0:
-            continue
-        touching |= push > 0.0
-        position = _position(tip, u, j, passed, n_elements)
-        along = (u[N_INTERFACE + j] - u_before[N_INTERFACE + j]) * tip.per_metre[j]
-        position_before = position - per_step - along
-        rise, rise_before = _rise(tip, u, j), _rise(tip, u_before, j)
-        if stator.is_rigid:
-            ahead = rigid.surface(stator.gap, j, position)
-            behind = rigid.surface(stator.gap, j, wrap(position_before, n_elements))
-            by_rotation = 0.5 * (push + push_before[j]) * (behind - ahead)
-        else:
-            in_bars, taken, by_rotation = abradable.settle(
-                stator, tip, state.wear, j, position, rise, position_before, rise_before
-            )
-            stored += in_bars
-            loss += taken
-        supplied += by_rotation
-        exchanged += abs(by_rotation)
-        state.moment[j] = -stator.tangential * push * (tip.lever[j] + rise)
+@njit
+def _settle(stator, tip, passed, per_step, state, u, u_before):
+    """Wear the coating by the forces just found and enter that in the ledger."""
+    tangential, tangential_before = load(u, LANES), load(u_before, LANES)
+    rise = rise_of(tip, load(u, 0), tangential)
+    position = position_of(tip, tangential, passed)
+    position_before = position_of(tip, tangential_before, passed - per_step)
+    push = load(state.push, 0)
+    if stator.is_rigid:
+        stored, loss = splat(0.0), splat(0.0)
+        shape = rigid.surface(stator, position_before) - rigid.surface(stator, position)
+        supplied = 0.5 * (push + load(state.push, LANES)) * shape
+    else:
+        rise_before = rise_of(tip, load(u_before, 0), tangential_before)
+        stored, loss, supplied = abradable.settle(
+            stator, tip, state.wear, position, rise, position_before, rise_before
+        )
+    store(state.moment, 0, -stator.tangential * push * (load(tip.lever, 0) + rise))
     entry = state.ledger
-    entry[STORED_BEFORE] = entry[STORED]
-    entry[STORED] = stored
-    entry[LAST_WEAR] = loss
-    entry[LAST_SHAPE] = supplied
-    entry[WEAR] += loss
-    entry[SHAPE] += supplied
-    entry[EXCHANGED] += exchanged
-    return touching
+    store(entry, STORED_BEFORE * LANES, load(entry, STORED * LANES))
+    store(entry, STORED * LANES, stored)
+    store(entry, LAST_WEAR * LANES, loss)
+    store(entry, LAST_SHAPE * LANES, supplied)
+    _enter(entry, WEAR, loss)
+    _enter(entry, SHAPE, supplied)
+    _enter(entry, EXCHANGED, magnitude(supplied))
 
 
-@njit(fastmath=FAST)
-def _enter_work(tip, state, force, push, moment, u_new, u_old):
-    """Enter the work of one step's forces, over half of the way from the step before to the step after."""
+@njit
+def _enter_work(tip, state, u_new, u_old):
+    """Enter the work of the forces of a step, over half of the way from the step before to the step after."""
     entry = state.ledger
-    for j in range(N_INTERFACE):
-        if push[j] == 0.0:
-            continue
-        radial = force[j] * 0.5 * (u_new[j] - u_old[j])
-        tangential = force[N_INTERFACE + j] * 0.5 * (u_new[N_INTERFACE + j] - u_old[N_INTERFACE + j])
-        entry[RADIAL] += radial
-        entry[TANGENTIAL] += tangential
-        entry[EXCHANGED] += abs(radial) + abs(tangential)
-        entry[NORMAL] += push[j] * 0.5 * (_rise(tip, u_new, j) - _rise(tip, u_old, j))
-        entry[TORQUE] += moment[j]
+    radial, tangential = load(u_new, 0), load(u_new, LANES)
+    radial_old, tangential_old = load(u_old, 0), load(u_old, LANES)
+    by_radial = 0.5 * load(state.force, 2 * LANES) * (radial - radial_old)
+    by_tangential = 0.5 * load(state.force, 3 * LANES) * (tangential - tangential_old)
+    climb = rise_of(tip, radial, tangential) - rise_of(tip, radial_old, tangential_old)
+    _enter(entry, RADIAL, by_radial)
+    _enter(entry, TANGENTIAL, by_tangential)
+    _enter(entry, EXCHANGED, magnitude(by_radial) + magnitude(by_tangential))
+    _enter(entry, NORMAL, 0.5 * load(state.push, LANES) * climb)
+    _enter(entry, TORQUE, load(state.moment, LANES))
 
 
-@njit_on_disk(fastmath=FAST)
-def revolve(rule, stator, tip, state, steps_per_element, displacement):
+@njit(inline="always")
+def _enter(ledger, entry, amount):
+    store(ledger, entry * LANES, load(ledger, entry * LANES) + amount)
+
+
+@njit(inline="always")
+def _copy(source, target, n):
+    for k in range(0, n, LANES):
+        store(target, k, load(source, k))
+
+
+@njit(inline="always")
+def _clear(target, n):
+    for k in range(0, n, LANES):
+        store(target, k, splat(0.0))
+
+
+@njit
+def _drop_negligible(q, n):
+    for k in range(0, n, LANES):
+        x = load(q, k)
+        store(q, k, choose(magnitude(x) > NEGLIGIBLE, x, 0.0))
+
+
+def revolve(motion, stator, tip, state, steps_per_element, displacement):
     """March one revolution of constant speed; `state` is moved on.
 
     Parameters
     ----------
-    rule : Recurrence
-        The scheme.
+    motion : bladerub.contact.motion.Motion
+        Coefficients of the scheme.
     stator : Stator
         Coating and casing.
     tip : Tip
-        Interface nodes.
+        Tip of the blade.
     state : State
-        Motion, forces, wear and ledger; changed in place.
+        Where the run is.
     steps_per_element : int
         Time steps in the passage of one element.
     displacement : (N,) ndarray
@@ -346,62 +308,74 @@ def revolve(rule, stator, tip, state, steps_per_element, displacement):
     lowest, highest : float
         Range of the radial displacement of node 1, m.
     """
+    parts = (addresses(part) for part in (motion, stator, tip, state))
+    made, touched, *extremes = _march(*parts, steps_per_element, displacement.ctypes.data)
+    for rows in (state.q, state.u):  # the loop lets the three rows take turns
+        rows[:] = np.roll(rows, made % 3, axis=0)
+    return made, touched, *extremes
+
+
+@njit_on_disk()
+def _march(motion, stator, tip, state, steps_per_element, displacement):
     n_steps = 0
     n_contact = 0
-    lowest = np.inf
-    highest = -np.inf
+    bottom, top = np.inf, -np.inf
     per_step = 1.0 / steps_per_element
-    touching = state.push.max() > 0.0
-    push, moment = np.zeros(N_INTERFACE), np.zeros(N_INTERFACE)
-    now, before, oldest = 0, 1, 2
-    for element in range(displacement.size):
-        total = 0.0
+    touched = touching = highest(load(state.push, 0)) > 0.0
+    damping = splat(0.0)
+    q, q_before, q_next = state.q, at(state.q, motion.n), at(state.q, 2 * motion.n)
+    u, u_before, u_next = state.u, at(state.u, 2 * LANES), at(state.u, 4 * LANES)
+    force, force_before = state.force, at(state.force, 2 * LANES)
+    push_before = at(state.push, LANES)
+    for element in range(stator.n_elements):
+        _drop_negligible(state.q, 3 * motion.n)
+        mean = 0.0
         for step in range(steps_per_element):
-            q, u = state.q[oldest], state.u[oldest]
             touched = touching
+            radial, tangential, loss = advance(motion, q, q_before, q_next)
+            damping = damping + loss
             if touched:
-                state.force[1] = state.force[0]
-                push[:], moment[:] = state.push, state.moment
-            state.ledger[DAMPING] += _advance(rule, state.q[now], state.q[before], q)
-            if touched and not rule.corrects:
-                _respond(rule.push, state.force[1], q)
-            _project(rule.tip, q, u)
-            clear = _is_clear(tip, u, stator.floor[element])
+                _copy(force, force_before, 2 * LANES)
+                _copy(state.push, push_before, LANES)
+                _copy(state.moment, at(state.moment, LANES), LANES)
+                if not motion.corrects:
+                    push_modes(motion, force_before, q_next)
+                    radial, tangential = respond(motion.kick, force_before, radial, tangential)
+            store(u_next, 0, radial)
+            store(u_next, LANES, tangential)
+            clear = _is_clear(tip, radial, tangential, read(stator.floor, element))
             if touched or not clear:
                 passed = element + (step + 1) * per_step
-                within = True
+                touching = False
                 if clear:
-                    state.force[0] = 0.0
-                    state.push[:] = 0.0
+                    _clear(force, 2 * LANES)
+                    _clear(state.push, LANES)
                 else:
-                    _respond(rule.compliance, state.force[0], u)
-                    within = _is_within_bounds(tip, u) and _find_forces(rule, stator, tip, passed, state, u)
-                if not within:
-                    state.q[oldest] = state.q[now]  # the damping loss is complete up to here
-                    state.force[0] = state.force[1]
-                    _restore_order(state, now, before, oldest)
-                    return n_steps, n_contact, lowest, highest
-                touching = _settle(stator, tip, passed, per_step, state, push, u, state.u[now])
-                if touching and rule.corrects:
-                    _respond(rule.push, state.force[0], q)
-                    _project(rule.tip, q, u)
+                    if not _find_forces(motion, stator, tip, passed, state, u_next):
+                        _copy(q, q_next, motion.n)  # the damping loss is complete up to here
+                        _copy(force_before, force, 2 * LANES)
+                        _enter(state.ledger, DAMPING, damping)
+                        return n_steps, n_contact, bottom, top
+                    touching = highest(load(state.push, 0)) > 0.0
+                if touching or touched:
+                    _settle(stator, tip, passed, per_step, state, u_next, u)
+                if touching and motion.corrects:
+                    push_modes(motion, force, q_next)
+                    radial, tangential = respond(motion.kick, force, radial, tangential)
+                    store(u_next, 0, radial)
+                    store(u_next, LANES, tangential)
                 if touched:
-                    _enter_work(tip, state, state.force[1], push, moment, u, state.u[before])
-                    push[:] = 0.0
+                    _enter_work(tip, state, u_next, u_before)
+                    _clear(push_before, LANES)
                 n_contact += touching
-            total += 0.5 * (state.u[now, 0] + u[0])
-            lowest = min(lowest, u[0])
-            highest = max(highest, u[0])
+            node_1, node_1_before = read(u_next, 0), read(u, 0)
+            mean += 0.5 * (node_1_before + node_1)
+            bottom, top = min(bottom, node_1), max(top, node_1)
             n_steps += 1
-            now, before, oldest = oldest, now, before
-        displacement[element] = total * per_step
-    _restore_order(state, now, before, oldest)
-    return n_steps, n_contact, lowest, highest
-
-
-@njit
-def _restore_order(state, now, before, oldest):
-    """Put the rows of the state back in the order now, before, oldest."""
-    for rows in (state.q, state.u):
-        ordered = np.vstack((rows[now : now + 1], rows[before : before + 1], rows[oldest : oldest + 1]))
-        rows[:] = ordered
+            q, q_before, q_next = q_next, q, q_before
+            u, u_before, u_next = u_next, u, u_before
+        write(displacement, element, mean * per_step)
+    _enter(state.ledger, DAMPING, damping)
+    if not (touched or touching):  # the last step added nothing
+        _clear(at(state.ledger, STORED * LANES), 4 * LANES)
+    return n_steps, n_contact, bottom, top

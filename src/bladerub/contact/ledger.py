@@ -25,7 +25,8 @@ N_ENTRIES = 12
 
 def blade_energy(rule: Recurrence, state) -> tuple[float, float]:
     """Kinetic and elastic energy of the blade at the middle of the last step (schemes, 5), J."""
-    q, before, _ = state.q
+    (q, before, _), n = state.q, rule.omega.size
+    q, before = q[:n], before[:n]
     kinetic = np.sum(rule.kinetic * (q - before) ** 2)
     condensed = state.force[0] @ rule.static_compliance @ state.force[1]
     return float(kinetic), float(0.5 * (np.sum(rule.omega**2 * q * before) + condensed))
@@ -45,10 +46,10 @@ def close(rule: Recurrence, state, initial: float, angle_per_step: float) -> Ene
     angle_per_step : float
         Angle by which the blade turns in a step, rad.
     """
-    q, _, oldest = state.q
+    (q, _, oldest), n = state.q, rule.omega.size
     kinetic, elastic = blade_energy(rule, state)
-    entry = state.ledger
-    damping = entry[DAMPING] + np.sum(rule.loss * (q - oldest) ** 2)
+    entry = state.ledger.sum(axis=1)
+    damping = entry[DAMPING] + np.sum(rule.loss * (q[:n] - oldest[:n]) ** 2)
     shape = entry[SHAPE] - 0.5 * entry[LAST_SHAPE]
     rotation = entry[TORQUE] * angle_per_step
     on_blade = entry[RADIAL] + entry[TANGENTIAL]

@@ -1,24 +1,20 @@
-"""Contact law of one node with the rigid casing: it may touch the surface and not pass it, eq. (9)."""
+"""Contact law of the tip with the rigid casing: nodes may touch the surface and not pass it, eq. (9)."""
 
 from __future__ import annotations
 
-import numpy as np
+import math
+
 from numba import njit
 
 from bladerub.contact.abradable import wrap
+from bladerub.contact.vectors import LANES, higher, highest, load, lowest, magnitude, splat
 
 
-@njit(inline="always")
-def surface(gap, j, position):
-    """Gap of node `j` to the smooth surface through the centres of the elements, m."""
-    n_elements = gap.shape[1]
-    along = position - 0.5
-    left = int(np.floor(along))
-    weight = along - left
-    return (1.0 - weight) * gap[j, wrap(left, n_elements)] + weight * gap[j, wrap(left + 1, n_elements)]
-
-
-@njit(inline="always")
-def push_of(gap, j, position, free_rise, own):
-    """Lagrange multiplier of node `j`, which gives way by `own` per unit of it, N."""
-    return max(0.0, free_rise - surface(gap, j, position)) / own
+@njit
+def surface(stator, position):
+    """Gap of each node to the smooth surface through the centres of the elements, m."""
+    met = splat(0.0)
+    for row in range(math.floor(lowest(position)) - 1, math.floor(highest(position)) + 2):
+        weight = higher(1.0 - magnitude((row + 0.5) - position), 0.0)
+        met = met + weight * load(stator.gap, wrap(row, stator.n_elements) * LANES)
+    return met

@@ -11,8 +11,11 @@ from scipy.ndimage import minimum_filter1d
 from bladerub.blade.model import N_INTERFACE, ReducedBlade
 from bladerub.contact import casing, kernel, ledger
 from bladerub.contact.modes import Modes, modes_at
+from bladerub.contact.motion import pack
 from bladerub.contact.schemes import SCHEMES, Contact, Recurrence, normal_compliance
 from bladerub.contact.spec import Coating, RunResult, RunSpec
+from bladerub.contact.tip import drop
+from bladerub.contact.vectors import aligned
 
 STRAY = 4
 """Elements a node may move along the casing before the search for contact looks at it alone."""
@@ -61,6 +64,7 @@ def simulate(blade: ReducedBlade, spec: RunSpec, progress: Callable[[int], None]
     rule = SCHEMES[spec.scheme](modes, spec.damping_ratio, time_step, contact)
     tip = _tip(blade, spec)
     stator = _stator(blade, spec, tip, rule)
+    motion = pack(rule)
     state = _start(modes, rule, spec)
     initial = sum(ledger.blade_energy(rule, state))
     displacement = np.full((revolutions, n_elements), np.nan)
@@ -69,7 +73,7 @@ def simulate(blade: ReducedBlade, spec: RunSpec, progress: Callable[[int], None]
     status, message = "completed", f"{revolutions} revolutions completed"
     for revolution in range(revolutions):
         made, touched, lowest[revolution], highest[revolution] = kernel.revolve(
-            rule, stator, tip, state, steps_per_element, displacement[revolution]
+            motion, stator, tip, state, steps_per_element, displacement[revolution]
         )
         n_steps += made
         n_contact_steps += touched
@@ -86,7 +90,7 @@ def simulate(blade: ReducedBlade, spec: RunSpec, progress: Callable[[int], None]
         status=status,
         message=message,
         angle=_element_angle(n_elements),
-        wear=state.wear,
+        wear=_by_angle(blade, spec, state.wear),
         radial_displacement=displacement.ravel(),
         revolution_peak=np.maximum(np.abs(lowest), np.abs(highest)),
         revolution_amplitude=0.5 * (highest - lowest),
@@ -103,10 +107,10 @@ def kernel_warm_up() -> None:
     modes = Modes(np.ones(1), np.zeros((2 * N_INTERFACE, 1)))
     zeros = np.zeros(N_INTERFACE)
     rule = SCHEMES["exponential"](modes, 0.0, 1e-6, Contact(zeros + 1.0, -1.0, 0.0))
-    table = np.ones((N_INTERFACE, 8))
-    stator = kernel.Stator(table, table, table[0], zeros + 1.0, zeros + 1.0, zeros, False, -1.0, 0.0, zeros)
+    gap = np.ones((8, N_INTERFACE))
+    stator = kernel.Stator(gap, gap[:, 0].copy(), zeros + 1.0, zeros + 1.0, zeros, 8, False, -1.0, 0.0, zeros)
     tip = kernel.Tip(zeros, zeros, zeros + 1.0, zeros + 1.0, 2.0, 0.0, 0.0, 1.0)
-    kernel.revolve(rule, stator, tip, kernel.at_rest(1, 8), 1, np.zeros(8))
+    kernel.revolve(pack(rule), aligned(stator), aligned(tip), kernel.at_rest(1, 8), 1, np.zeros(8))
 
 
 def _lowest_within(reach: float, gap: np.ndarray) -> np.ndarray:
@@ -130,8 +134,9 @@ def _start(modes: Modes, rule: Recurrence, spec: RunSpec) -> kernel.State:
         x, damping = rule.omega[0] * rule.time_step, spec.damping_ratio
         damped = math.sqrt(1.0 - damping**2)
         back = math.exp(damping * x) * (math.cos(damped * x) - damping / damped * math.sin(damped * x))
+        n = rule.omega.size
         state.q[:, 0] = np.array([1.0, back, back]) * spec.initial_displacement / modes.tip[0, 0]
-        state.u[:] = state.q @ rule.tip.T
+        state.u[:] = state.q[:, :n] @ rule.tip.T
     return state
 
 
@@ -155,21 +160,23 @@ def _stator(blade: ReducedBlade, spec: RunSpec, tip: kernel.Tip, rule: Recurrenc
     chord_fraction = _chord_fraction(blade)
     clearance = spec.clearance[0] + (spec.clearance[1] - spec.clearance[0]) * chord_fraction
     gap = casing.gap(spec.casing, clearance[:, None], _element_angle(coating.n_elements))
-    lowest_gap = _lowest_within(spec.tip.half_width + 1, gap)
-    start = tip.start.astype(int)
-    met = np.array([np.roll(lowest, -at) for lowest, at in zip(lowest_gap, start, strict=True)])
-    return kernel.Stator(
-        gap=gap,
-        lowest_gap=lowest_gap,
-        floor=_lowest_within(STRAY + 1, met).min(axis=0),  # + 1: the node starts within an element
+    rows = np.array(
+        [np.roll(of_node, -at) for of_node, at in zip(gap, _first_element(blade, spec), strict=True)]
+    )
+    reach = spec.tip.half_width + 1 + STRAY + 1  # + 1 each: a node stands anywhere within an element
+    stator = kernel.Stator(
+        gap=rows.T,
+        floor=_lowest_within(reach, rows).min(axis=0),
         elastic=_bar_stiffness(blade, spec),
         hardening=coating.K * _slope(blade, spec),
         strength=coating.yield_stress * coating.modulus_unit * _bar_area(blade, spec),
+        n_elements=coating.n_elements,
         is_rigid=coating.is_rigid,
         radial=radial,
         tangential=tangential,
         own_compliance=_own_compliance(rule, coating),
     )
+    return aligned(stator)
 
 
 def _own_compliance(rule: Recurrence, coating: Coating) -> np.ndarray:
@@ -188,18 +195,36 @@ def _tip(blade: ReducedBlade, spec: RunSpec) -> kernel.Tip:
     radius = _radius(blade)
     # Where the flow path is a cone, its normal section curves less than its circle (Meusnier)
     outward = (blade.radial_direction[:, 1] * y + blade.radial_direction[:, 2] * z) / radius
-    start = (spec.casing.start_angle + np.arctan2(y, z)) / (2 * np.pi) * n_elements
     per_metre = n_elements / (2 * np.pi * radius)
-    return kernel.Tip(
-        start=start % n_elements,
+    tip = kernel.Tip(
+        start=_start_position(blade, spec) % 1.0,
         per_metre=per_metre,
         radius=radius / outward,
         lever=radius,
         half_width=spec.tip.half_width,
-        edge_drop=spec.tip.edge_drop,
+        drop=float(drop(1.0, spec.tip.half_width, spec.tip.edge_drop)),
         stray=STRAY / float(np.max(per_metre)),
         limit=spec.displacement_limit,
     )
+    return aligned(tip)
+
+
+def _start_position(blade: ReducedBlade, spec: RunSpec) -> np.ndarray:
+    """Position (8,) of each node at the start of a revolution, in elements, within [0, N)."""
+    angle = spec.casing.start_angle + np.arctan2(blade.node_position[:, 1], blade.node_position[:, 2])
+    n_elements = spec.coating.n_elements
+    return angle / (2 * np.pi) * n_elements % n_elements
+
+
+def _first_element(blade: ReducedBlade, spec: RunSpec) -> np.ndarray:
+    """Element (8,) that each node stands over at the start of a revolution: the first row."""
+    return _start_position(blade, spec).astype(int)
+
+
+def _by_angle(blade: ReducedBlade, spec: RunSpec, rows: np.ndarray) -> np.ndarray:
+    """Bring (N, 8) rows of elements into the order (8, N) of the angle."""
+    first = _first_element(blade, spec)
+    return np.array([np.roll(of_node, at) for of_node, at in zip(rows.T, first, strict=True)])
 
 
 def _radius(blade: ReducedBlade) -> np.ndarray:
