@@ -15,7 +15,6 @@ from bladerub.contact import rigid
 from bladerub.contact.abradable import wrap
 from bladerub.contact.coating import return_mapping
 from bladerub.contact.geometry import force_of, is_within_bounds, position_of, rise_of
-from bladerub.contact.tip import covered
 from bladerub.contact.vectors import LANES, at, load, read, store, write
 
 FOUND = 1e-12
@@ -111,7 +110,7 @@ def _resistance(stator, tip, wear, j, position, rise):
         penetration = rise - tip.drop * offset**2 - read(stator.gap, bar)
         force, worn_now = return_mapping(penetration, worn, elastic, hardening, strength)
         if force > 0.0:
-            share = covered(offset, tip.half_width)
+            share = max(0.0, min(1.0, tip.half_width + 0.5 - abs(offset)))
             push += share * force
             stiffness += share * (plastic if worn_now > worn else elastic)
     return push, stiffness

@@ -14,7 +14,7 @@ from bladerub.contact.modes import Modes, modes_at
 from bladerub.contact.motion import pack
 from bladerub.contact.schemes import SCHEMES, Contact, Recurrence, normal_compliance
 from bladerub.contact.spec import Coating, RunResult, RunSpec
-from bladerub.contact.tip import drop
+from bladerub.contact.tip import profile
 from bladerub.contact.vectors import aligned
 
 STRAY = 4
@@ -202,7 +202,7 @@ def _tip(blade: ReducedBlade, spec: RunSpec) -> kernel.Tip:
         radius=radius / outward,
         lever=radius,
         half_width=spec.tip.half_width,
-        drop=float(drop(1.0, spec.tip.half_width, spec.tip.edge_drop)),
+        drop=-float(profile(spec.tip, 1.0)),
         stray=STRAY / float(np.max(per_metre)),
         limit=spec.displacement_limit,
     )

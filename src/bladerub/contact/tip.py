@@ -3,19 +3,8 @@
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
 
 from bladerub.contact.spec import TipProfile
-
-
-@njit(inline="always")
-def drop(offset, half_width, edge_drop):  # noqa: D103 - `profile` documents it
-    return edge_drop * (offset / half_width) ** 2
-
-
-@njit(inline="always")
-def covered(offset, half_width):  # noqa: D103 - `coverage` documents it
-    return max(0.0, min(1.0, half_width + 0.5 - abs(offset)))
 
 
 def profile(tip: TipProfile, offset: np.ndarray) -> np.ndarray:
@@ -28,7 +17,7 @@ def profile(tip: TipProfile, offset: np.ndarray) -> np.ndarray:
     offset : array_like
         Tangential distance from the node, in element widths.
     """
-    return -drop(np.asarray(offset, dtype=float), tip.half_width, tip.edge_drop)
+    return -tip.edge_drop * (np.asarray(offset, dtype=float) / tip.half_width) ** 2
 
 
 def coverage(tip: TipProfile, offset: np.ndarray) -> np.ndarray:
