@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping
+from collections.abc import Mapping, Set
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -96,8 +96,15 @@ def _storage(data: np.ndarray) -> dict[str, Any]:
     return {"data": data, "compression": "gzip", "shuffle": True, "fletcher32": True}
 
 
-def read(path: str | Path) -> tuple[dict[str, np.ndarray], dict[str, Any]]:
-    """Read every dataset and attribute of the file at `path`.
+def read(path: str | Path, only: Set[str] | None = None) -> tuple[dict[str, np.ndarray], dict[str, Any]]:
+    """Read the datasets and attributes of the file at `path`.
+
+    Parameters
+    ----------
+    path : path-like
+        The file.
+    only : set of str, optional
+        Names of the datasets to read, all by default.
 
     Raises
     ------
@@ -106,7 +113,8 @@ def read(path: str | Path) -> tuple[dict[str, np.ndarray], dict[str, Any]]:
     """
     try:
         with h5py.File(path, "r") as file:
-            return {name: _values(dataset) for name, dataset in file.items()}, _plain_attributes(file)
+            wanted = file.keys() if only is None else only & file.keys()
+            return {name: _values(file[name]) for name in wanted}, _plain_attributes(file)
     except OSError as error:
         raise OSError(f"{path}: not a readable HDF5 file ({error})") from error
 

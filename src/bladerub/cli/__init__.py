@@ -7,7 +7,7 @@ import sys
 from typing import NoReturn
 
 from bladerub import __version__
-from bladerub.cli import run, verify
+from bladerub.cli import benchmark, run, verify
 from bladerub.cli.errors import InputError
 from bladerub.config import ConfigError
 
@@ -26,6 +26,7 @@ def main(arguments: list[str] | None = None) -> int:
     commands = parser.add_subparsers(title="commands", dest="name", required=True, metavar="COMMAND")
     run.add_to(commands)
     verify.add_to(commands)
+    benchmark.add_to(commands)
     options = parser.parse_args(arguments)
     try:
         options.command(options)

@@ -58,7 +58,7 @@ def push_at(stator, tip, wear, position, rise):
     """Force (N) and stiffness (N/m) of the bars under each node at the height `rise`, as in Fig. 4."""
     elastic, hardening = load(stator.elastic, 0), load(stator.hardening, 0)
     strength = load(stator.strength, 0)
-    yielding = elastic / (elastic + hardening)
+    yielding = elastic * load(stator.yielding, 0)
     plastic = yielding * hardening
     push, stiffness = splat(0.0), splat(0.0)
     first, last = rows_under(tip, position, position)
@@ -101,8 +101,7 @@ def settle(stator, tip, wear, position, rise, position_before, rise_before):
     """
     elastic, hardening = load(stator.elastic, 0), load(stator.hardening, 0)
     strength = load(stator.strength, 0)
-    giving = 1.0 / (elastic + hardening)
-    softness = 0.5 / elastic
+    yielding, softness = load(stator.yielding, 0), load(stator.softness, 0)
     stored, loss, supplied = splat(0.0), splat(0.0), splat(0.0)
     first, last = rows_under(tip, lower(position, position_before), higher(position, position_before))
     for row in range(first, last + 1):
@@ -115,7 +114,7 @@ def settle(stator, tip, wear, position, rise, position_before, rise_before):
         trial, trial_before = elastic * (penetration - worn), elastic * higher(penetration_before - worn, 0.0)
         limit = strength + hardening * worn
         under = share > 0.0
-        shortening = choose(under, giving * higher(choose(trial > 0.0, trial - limit, 0.0), 0.0), 0.0)
+        shortening = choose(under, yielding * higher(choose(trial > 0.0, trial - limit, 0.0), 0.0), 0.0)
         store(wear, at, worn + shortening)
         force = choose(under, higher(trial - elastic * shortening, 0.0), 0.0)
         energy, energy_before = softness * (force * force), softness * (trial_before * trial_before)

@@ -21,10 +21,10 @@ def position_of(tip, tangential, passed):
 
 
 @njit(inline="always")
-def force_of(stator, tip, radial, tangential, push):
+def force_of(stator, tip, radial, tangential, rise, push):
     """Radial and tangential force on the blade: along the normal where each node now is, turned by θ."""
     along = load(tip.radius, 0) + radial
-    share = push / root(along * along + tangential * tangential)
+    share = push / (load(tip.radius, 0) + rise)
     return (
         share * (stator.radial * along - stator.tangential * tangential),
         share * (stator.radial * tangential + stator.tangential * along),

@@ -68,6 +68,8 @@ class Stator(NamedTuple):
         may meet then, if none moves further than `Tip.stray` along the casing, m.
     elastic, hardening, strength : (8,) ndarray
         N/m, N/m and N of one bar under each node, for `bladerub.contact.coating.return_mapping`.
+    yielding, softness : (8,) ndarray
+        Compliance of one bar that yields, without its elastic part, and half of the elastic one, m/N.
     n_elements : int
         N.
     is_rigid : bool
@@ -83,6 +85,8 @@ class Stator(NamedTuple):
     elastic: np.ndarray
     hardening: np.ndarray
     strength: np.ndarray
+    yielding: np.ndarray
+    softness: np.ndarray
     n_elements: int
     is_rigid: bool
     radial: float
@@ -130,8 +134,8 @@ class State(NamedTuple):
     ----------
     q : (3, n) ndarray
         Modal coordinates now, one and two steps before, padded with zeros to whole vectors.
-    u : (3, 16) ndarray
-        Displacement of the tip at the same times, m.
+    u : (3, 24) ndarray
+        Radial and tangential displacement of the tip at the same times, and the height of its nodes, m.
     force : (2, 16) ndarray
         Contact forces on the blade now and one step before, N.
     push, moment : (2, 8) ndarray
@@ -158,7 +162,7 @@ def at_rest(n_modes: int, n_elements: int) -> State:
     """State of a blade at rest before an unworn coating."""
     state = State(
         q=np.zeros((3, n_modes + -n_modes % LANES)),
-        u=np.zeros((3, 2 * LANES)),
+        u=np.zeros((3, 3 * LANES)),
         force=np.zeros((2, 2 * LANES)),
         push=np.zeros((2, LANES)),
         moment=np.zeros((2, LANES)),
@@ -170,10 +174,19 @@ def at_rest(n_modes: int, n_elements: int) -> State:
 
 
 @njit
-def _is_clear(tip, radial, tangential, floor):
+def _put(tip, radial, tangential, u):
+    """Store a displacement of the tip and the height of its nodes; return that height."""
+    rise = rise_of(tip, radial, tangential)
+    store(u, 0, radial)
+    store(u, LANES, tangential)
+    store(u, 2 * LANES, rise)
+    return rise
+
+
+@njit
+def _is_clear(tip, radial, tangential, rise, floor):
     """Whether the tip surely touches nothing: its highest node is below the lowest gap in reach."""
-    below = rise_of(tip, radial, tangential) <= floor
-    return everywhere(below & (magnitude(tangential) <= tip.stray) & (radial > -tip.limit))
+    return everywhere((rise <= floor) & (magnitude(tangential) <= tip.stray) & (radial > -tip.limit))
 
 
 @njit
@@ -186,20 +199,21 @@ def _find_forces(motion, stator, tip, passed, state, u):
     force, push = state.force, state.push
     free_radial, free_tangential = load(u, 0), load(u, LANES)
     radial, tangential = respond(motion.compliance, force, free_radial, free_tangential)
-    rise = rise_of(tip, radial, tangential)
+    rise = met = rise_of(tip, radial, tangential)
     found = False
     if not stator.is_rigid:
         for _ in range(ATTEMPTS):
             if not is_within_bounds(tip, radial, tangential):
                 break
             position = position_of(tip, tangential, passed)
-            met, stiffness = abradable.push_at(stator, tip, state.wear, position, rise)
-            store(push, 0, met)
-            by_radial, by_tangential = force_of(stator, tip, radial, tangential, met)
+            by_coating, stiffness = abradable.push_at(stator, tip, state.wear, position, rise)
+            store(push, 0, by_coating)
+            by_radial, by_tangential = force_of(stator, tip, radial, tangential, met, by_coating)
             store(force, 0, by_radial)
             store(force, LANES, by_tangential)
             radial, tangential = respond(motion.compliance, force, free_radial, free_tangential)
-            error = rise - rise_of(tip, radial, tangential)
+            met = rise_of(tip, radial, tangential)
+            error = rise - met
             if highest(magnitude(error)) <= SETTLED:
                 found = True
                 break
@@ -210,8 +224,10 @@ def _find_forces(motion, stator, tip, passed, state, u):
             radial, tangential = free_radial, free_tangential
     store(u, 0, radial)
     store(u, LANES, tangential)
+    store(u, 2 * LANES, met)
     if not found:
         relax(motion, stator, tip, state, passed, u, SETTLED)
+        _put(tip, load(u, 0), load(u, LANES), u)
     return is_within_bounds(tip, load(u, 0), load(u, LANES))
 
 
@@ -219,7 +235,7 @@ def _find_forces(motion, stator, tip, passed, state, u):
 def _settle(stator, tip, passed, per_step, state, u, u_before):
     """Wear the coating by the forces just found and enter that in the ledger."""
     tangential, tangential_before = load(u, LANES), load(u_before, LANES)
-    rise = rise_of(tip, load(u, 0), tangential)
+    rise = load(u, 2 * LANES)
     position = position_of(tip, tangential, passed)
     position_before = position_of(tip, tangential_before, passed - per_step)
     push = load(state.push, 0)
@@ -228,9 +244,8 @@ def _settle(stator, tip, passed, per_step, state, u, u_before):
         shape = rigid.surface(stator, position_before) - rigid.surface(stator, position)
         supplied = 0.5 * (push + load(state.push, LANES)) * shape
     else:
-        rise_before = rise_of(tip, load(u_before, 0), tangential_before)
         stored, loss, supplied = abradable.settle(
-            stator, tip, state.wear, position, rise, position_before, rise_before
+            stator, tip, state.wear, position, rise, position_before, load(u_before, 2 * LANES)
         )
     store(state.moment, 0, -stator.tangential * push * (load(tip.lever, 0) + rise))
     entry = state.ledger
@@ -244,14 +259,12 @@ def _settle(stator, tip, passed, per_step, state, u, u_before):
 
 
 @njit
-def _enter_work(tip, state, u_new, u_old):
+def _enter_work(state, u_new, u_old):
     """Enter the work of the forces of a step, over half of the way from the step before to the step after."""
     entry = state.ledger
-    radial, tangential = load(u_new, 0), load(u_new, LANES)
-    radial_old, tangential_old = load(u_old, 0), load(u_old, LANES)
-    by_radial = 0.5 * load(state.force, 2 * LANES) * (radial - radial_old)
-    by_tangential = 0.5 * load(state.force, 3 * LANES) * (tangential - tangential_old)
-    climb = rise_of(tip, radial, tangential) - rise_of(tip, radial_old, tangential_old)
+    by_radial = 0.5 * load(state.force, 2 * LANES) * (load(u_new, 0) - load(u_old, 0))
+    by_tangential = 0.5 * load(state.force, 3 * LANES) * (load(u_new, LANES) - load(u_old, LANES))
+    climb = load(u_new, 2 * LANES) - load(u_old, 2 * LANES)
     _enter(entry, RADIAL, by_radial)
     _enter(entry, TANGENTIAL, by_tangential)
     _enter(entry, EXCHANGED, magnitude(by_radial) + magnitude(by_tangential))
@@ -324,7 +337,7 @@ def _march(motion, stator, tip, state, steps_per_element, displacement):
     touched = touching = highest(load(state.push, 0)) > 0.0
     damping = splat(0.0)
     q, q_before, q_next = state.q, at(state.q, motion.n), at(state.q, 2 * motion.n)
-    u, u_before, u_next = state.u, at(state.u, 2 * LANES), at(state.u, 4 * LANES)
+    u, u_before, u_next = state.u, at(state.u, 3 * LANES), at(state.u, 6 * LANES)
     force, force_before = state.force, at(state.force, 2 * LANES)
     push_before = at(state.push, LANES)
     for element in range(stator.n_elements):
@@ -341,9 +354,8 @@ def _march(motion, stator, tip, state, steps_per_element, displacement):
                 if not motion.corrects:
                     push_modes(motion, force_before, q_next)
                     radial, tangential = respond(motion.kick, force_before, radial, tangential)
-            store(u_next, 0, radial)
-            store(u_next, LANES, tangential)
-            clear = _is_clear(tip, radial, tangential, read(stator.floor, element))
+            rise = _put(tip, radial, tangential, u_next)
+            clear = _is_clear(tip, radial, tangential, rise, read(stator.floor, element))
             if touched or not clear:
                 passed = element + (step + 1) * per_step
                 touching = False
@@ -362,10 +374,9 @@ def _march(motion, stator, tip, state, steps_per_element, displacement):
                 if touching and motion.corrects:
                     push_modes(motion, force, q_next)
                     radial, tangential = respond(motion.kick, force, radial, tangential)
-                    store(u_next, 0, radial)
-                    store(u_next, LANES, tangential)
+                    _put(tip, radial, tangential, u_next)
                 if touched:
-                    _enter_work(tip, state, u_next, u_before)
+                    _enter_work(state, u_next, u_before)
                     _clear(push_before, LANES)
                 n_contact += touching
             node_1, node_1_before = read(u_next, 0), read(u, 0)

@@ -90,7 +90,7 @@ def advance(motion, q, q1, q2):
         loss = loss + load(motion.loss, k) * change * change
         x = load(motion.now, k) * present - load(motion.before, k) * load(q1, k)
         store(q2, k, x)
-        r0 = r0 + load(tip, 16 * k + 0) * x
+        r0 = r0 + load(tip, 16 * k) * x
         r1 = r1 + load(tip, 16 * k + 8) * x
         r2 = r2 + load(tip, 16 * k + 16) * x
         r3 = r3 + load(tip, 16 * k + 24) * x
@@ -116,24 +116,24 @@ def push_modes(motion, force, q):
     r0, r1, r2, r3, r4, r5, r6, r7 = _spread(force)
     t0, t1, t2, t3, t4, t5, t6, t7 = _spread(at(force, 8))
     for k in range(0, motion.n, LANES):
-        x = load(q, k)
-        x = x + load(push, 16 * k + 0) * r0
+        x, y = load(q, k), splat(0.0)  # halves of the sum, found at the same time
+        x = x + load(push, 16 * k) * r0
+        y = y + load(push, 16 * k + 64) * t0
         x = x + load(push, 16 * k + 8) * r1
+        y = y + load(push, 16 * k + 72) * t1
         x = x + load(push, 16 * k + 16) * r2
+        y = y + load(push, 16 * k + 80) * t2
         x = x + load(push, 16 * k + 24) * r3
+        y = y + load(push, 16 * k + 88) * t3
         x = x + load(push, 16 * k + 32) * r4
+        y = y + load(push, 16 * k + 96) * t4
         x = x + load(push, 16 * k + 40) * r5
+        y = y + load(push, 16 * k + 104) * t5
         x = x + load(push, 16 * k + 48) * r6
+        y = y + load(push, 16 * k + 112) * t6
         x = x + load(push, 16 * k + 56) * r7
-        x = x + load(push, 16 * k + 64) * t0
-        x = x + load(push, 16 * k + 72) * t1
-        x = x + load(push, 16 * k + 80) * t2
-        x = x + load(push, 16 * k + 88) * t3
-        x = x + load(push, 16 * k + 96) * t4
-        x = x + load(push, 16 * k + 104) * t5
-        x = x + load(push, 16 * k + 112) * t6
-        x = x + load(push, 16 * k + 120) * t7
-        store(q, k, x)
+        y = y + load(push, 16 * k + 120) * t7
+        store(q, k, x + y)
 
 
 @njit(inline="always")

@@ -57,7 +57,9 @@ def relax(motion, stator, tip, state, passed, u, settled):
                 continue
             change = max(change, own * abs(found - guess))
             write(push, j, found)
-            radial, tangential = force_of(stator, tip, load(u, 0), load(u, LANES), load(push, 0))
+            radial, tangential = force_of(
+                stator, tip, load(u, 0), load(u, LANES), load(rise, 0), load(push, 0)
+            )
             store(turned, 0, radial)
             store(turned, LANES, tangential)
             for k in (j, LANES + j):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from typing import NamedTuple
 
 import numpy as np
 from scipy.ndimage import minimum_filter1d
@@ -11,7 +12,7 @@ from scipy.ndimage import minimum_filter1d
 from bladerub.blade.model import N_INTERFACE, ReducedBlade
 from bladerub.contact import casing, kernel, ledger
 from bladerub.contact.modes import Modes, modes_at
-from bladerub.contact.motion import pack
+from bladerub.contact.motion import Motion, pack
 from bladerub.contact.schemes import SCHEMES, Contact, Recurrence, normal_compliance
 from bladerub.contact.spec import Coating, RunResult, RunSpec
 from bladerub.contact.tip import profile
@@ -54,18 +55,7 @@ def simulate(blade: ReducedBlade, spec: RunSpec, progress: Callable[[int], None]
         If the speed is outside the range of the blade, or the step too long for the scheme.
     """
     n_elements, revolutions = spec.coating.n_elements, spec.revolutions
-    steps_per_element, time_step = _time_step(blade, spec)
-    modes = modes_at(blade, spec.f_omega)
-    contact = Contact(
-        _bar_stiffness(blade, spec) * 2 * spec.tip.half_width,  # the shares under the tip add up to its width
-        -math.cos(spec.coating.theta),
-        -math.sin(spec.coating.theta),
-    )
-    rule = SCHEMES[spec.scheme](modes, spec.damping_ratio, time_step, contact)
-    tip = _tip(blade, spec)
-    stator = _stator(blade, spec, tip, rule)
-    motion = pack(rule)
-    state = _start(modes, rule, spec)
+    rule, motion, stator, tip, state, steps_per_element = set_up(blade, spec)
     initial = sum(ledger.blade_energy(rule, state))
     displacement = np.full((revolutions, n_elements), np.nan)
     lowest, highest = np.full(revolutions, np.nan), np.full(revolutions, np.nan)
@@ -94,12 +84,44 @@ def simulate(blade: ReducedBlade, spec: RunSpec, progress: Callable[[int], None]
         radial_displacement=displacement.ravel(),
         revolution_peak=np.maximum(np.abs(lowest), np.abs(highest)),
         revolution_amplitude=0.5 * (highest - lowest),
-        time_step=time_step,
+        time_step=rule.time_step,
         n_steps=n_steps,
         n_contact_steps=n_contact_steps,
         n_modes=rule.omega.size,
         energy=ledger.close(rule, state, initial, 2 * np.pi / (steps_per_element * n_elements)),
     )
+
+
+class SetUp(NamedTuple):
+    """What the time loop works on at the start of a run."""
+
+    rule: Recurrence
+    motion: Motion
+    stator: kernel.Stator
+    tip: kernel.Tip
+    state: kernel.State
+    steps_per_element: int
+
+
+def set_up(blade: ReducedBlade, spec: RunSpec) -> SetUp:
+    """Bring blade and run into the form of the time loop, at rest.
+
+    Raises
+    ------
+    ValueError
+        As `simulate`.
+    """
+    steps_per_element, time_step = _time_step(blade, spec)
+    modes = modes_at(blade, spec.f_omega)
+    contact = Contact(
+        _bar_stiffness(blade, spec) * 2 * spec.tip.half_width,  # the shares under the tip add up to its width
+        -math.cos(spec.coating.theta),
+        -math.sin(spec.coating.theta),
+    )
+    rule = SCHEMES[spec.scheme](modes, spec.damping_ratio, time_step, contact)
+    tip = _tip(blade, spec)
+    stator = _stator(blade, spec, tip, rule)
+    return SetUp(rule, pack(rule), stator, tip, _start(modes, rule, spec), steps_per_element)
 
 
 def kernel_warm_up() -> None:
@@ -108,7 +130,8 @@ def kernel_warm_up() -> None:
     zeros = np.zeros(N_INTERFACE)
     rule = SCHEMES["exponential"](modes, 0.0, 1e-6, Contact(zeros + 1.0, -1.0, 0.0))
     gap = np.ones((8, N_INTERFACE))
-    stator = kernel.Stator(gap, gap[:, 0].copy(), zeros + 1.0, zeros + 1.0, zeros, 8, False, -1.0, 0.0, zeros)
+    bars = [zeros + 1.0] * 5
+    stator = kernel.Stator(gap, gap[:, 0].copy(), *bars, 8, False, -1.0, 0.0, zeros)
     tip = kernel.Tip(zeros, zeros, zeros + 1.0, zeros + 1.0, 2.0, 0.0, 0.0, 1.0)
     kernel.revolve(pack(rule), aligned(stator), aligned(tip), kernel.at_rest(1, 8), 1, np.zeros(8))
 
@@ -136,7 +159,7 @@ def _start(modes: Modes, rule: Recurrence, spec: RunSpec) -> kernel.State:
         back = math.exp(damping * x) * (math.cos(damped * x) - damping / damped * math.sin(damped * x))
         n = rule.omega.size
         state.q[:, 0] = np.array([1.0, back, back]) * spec.initial_displacement / modes.tip[0, 0]
-        state.u[:] = state.q[:, :n] @ rule.tip.T
+        state.u[:, : 2 * N_INTERFACE] = state.q[:, :n] @ rule.tip.T
     return state
 
 
@@ -167,9 +190,7 @@ def _stator(blade: ReducedBlade, spec: RunSpec, tip: kernel.Tip, rule: Recurrenc
     stator = kernel.Stator(
         gap=rows.T,
         floor=_lowest_within(reach, rows).min(axis=0),
-        elastic=_bar_stiffness(blade, spec),
-        hardening=coating.K * _slope(blade, spec),
-        strength=coating.yield_stress * coating.modulus_unit * _bar_area(blade, spec),
+        **_bars(blade, spec),
         n_elements=coating.n_elements,
         is_rigid=coating.is_rigid,
         radial=radial,
@@ -177,6 +198,22 @@ def _stator(blade: ReducedBlade, spec: RunSpec, tip: kernel.Tip, rule: Recurrenc
         own_compliance=_own_compliance(rule, coating),
     )
     return aligned(stator)
+
+
+def _bars(blade: ReducedBlade, spec: RunSpec) -> dict[str, np.ndarray]:
+    coating = spec.coating
+    if coating.is_rigid:
+        return dict.fromkeys(
+            ("elastic", "hardening", "strength", "yielding", "softness"), np.zeros(N_INTERFACE)
+        )
+    elastic, hardening = coating.E * _slope(blade, spec), coating.K * _slope(blade, spec)
+    return {
+        "elastic": elastic,
+        "hardening": hardening,
+        "strength": coating.yield_stress * coating.modulus_unit * _bar_area(blade, spec),
+        "yielding": 1 / (elastic + hardening),
+        "softness": 0.5 / elastic,
+    }
 
 
 def _own_compliance(rule: Recurrence, coating: Coating) -> np.ndarray:

@@ -103,7 +103,7 @@ def compute_missing(
 
     rows, confirmations = [], []
     for run in runs:
-        stored = read_run(run.path)
+        stored = read_run(run.path, {"revolution_amplitude"})
         status, confirmation_key = stored.attributes["status"], ""
         if needs_confirmation(stored.data["revolution_amplitude"], status, settings):
             spec = confirmation_spec(run.spec, settings)

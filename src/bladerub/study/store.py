@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import csv
 import os
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Set
 from dataclasses import astuple, dataclass, fields
 from pathlib import Path
 from typing import Any
@@ -144,17 +144,26 @@ def write_run(
     datafile.write(path, variables, attributes)
 
 
-def read_run(path: str | Path) -> StoredRun:
+_NEEDED = {"wear", "spectrum_amplitude", "revolution_peak", "revolution_amplitude"}
+
+
+def read_run(path: str | Path, only: Set[str] = frozenset()) -> StoredRun:
     """Read one run.
+
+    Parameters
+    ----------
+    path : path-like
+        The file.
+    only : set of str, optional
+        Names of the datasets to read, all by default.
 
     Raises
     ------
     OSError
         If the file is missing, damaged or not a run; the message names it.
     """
-    data, attributes = datafile.read(path)
-    needed = {"wear", "spectrum_amplitude", "revolution_peak", "revolution_amplitude"}
-    missing = needed - data.keys() | {"run_key"} - attributes.keys()
+    data, attributes = datafile.read(path, only or None)
+    missing = (only or _NEEDED) - data.keys() | {"run_key"} - attributes.keys()
     if missing:
         raise OSError(f"{path}: not a run, {', '.join(sorted(missing))} missing")
     return StoredRun(attributes, data)

@@ -37,7 +37,7 @@ def lobes(angle: np.ndarray, wear: np.ndarray, prominence: float) -> int:
         Number of lobes; it does not change when the casing is turned.
     """
     width = max(1, round(SMOOTHING_ANGLE / (2 * np.pi / angle.size)))
-    kernel = signal.windows.hann(width + 2)[1:-1]  # without its two zeros
+    kernel = np.hanning(width + 2)[1:-1]  # without its two zeros
     depth = ndimage.convolve1d(mean_wear(wear), kernel / kernel.sum(), mode="wrap")
     if depth.max() <= 0:
         return 0

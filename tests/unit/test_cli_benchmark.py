@@ -1,0 +1,87 @@
+import json
+
+import pytest
+
+from bladerub.cli import inputs, main
+
+SMALL = """
+blade: {mesh: {chordwise: 7, thickness: 1, spanwise: 6}}
+reduction: {accuracy_speeds: 3}
+contact: {elements: 200}
+coatings: [{casing: 2nd, E: [2, 20], K: [0.5], theta: [0.15]}]
+speeds: {start: 0.2, stop: 0.4, step: 0.1, extra: []}
+solver: {revolutions: 3}
+analysis: {spectrum_revolutions: 2, divergence: {revolutions: 3}, histories: []}
+"""
+KEYS = {
+    "rounds",
+    "modes",
+    "contact_share",
+    "steps_per_second",
+    "ratio_to_numpy",
+    "ratio_to_numba",
+    "ratio_to_numpy_free",
+    "ratio_to_numba_free",
+    "peak_flops",
+    "fraction_of_peak_contact",
+    "fraction_of_peak_free",
+    "seconds_per_run",
+    "runs",
+    "cores",
+    "study_minutes",
+}
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    """Stands for the repository: its results folder is empty at first, then has the coarse blade."""
+    return tmp_path_factory.mktemp("repository")
+
+
+@pytest.fixture
+def benchmark(folder, monkeypatch):
+    monkeypatch.setattr(inputs, "ROOT", folder)
+    config = folder / "small.yaml"
+    config.write_text(SMALL)
+    return lambda *arguments: main(["benchmark", "--config", str(config), *arguments])
+
+
+def test_json_holds_every_figure(benchmark, capsys):
+    assert benchmark("--json", "--rounds", "1", "--cores", "2") == 0
+    told = json.loads(capsys.readouterr().out)
+    assert told.keys() == KEYS
+    assert 0.2 < told["contact_share"] < 0.5
+    for loop, rates in told["steps_per_second"].items():
+        assert rates["free"] > rates["contact"] > 0, loop
+    assert told["ratio_to_numpy"] > told["ratio_to_numba"] > 1
+    assert 0 < told["fraction_of_peak_contact"] < 1
+    assert 0 < told["fraction_of_peak_free"] < 1
+    assert (told["runs"], told["cores"]) == (6, 2)
+    assert told["study_minutes"] == pytest.approx(6 * told["seconds_per_run"] / 2 / 60)
+
+
+def test_in_words(benchmark, capsys):
+    assert benchmark("--rounds", "1") == 0
+    assert "fraction of peak" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (["--rounds", "0"], "--rounds = 0: must be 1 or more"),
+        (["--cores", "-1"], "--cores = -1: must be 1 or more"),
+        (["--blade", "no.h5"], "no.h5: not a readable HDF5 file"),
+    ],
+)
+def test_bad_input_is_answered_in_one_line(benchmark, capsys, arguments, message):
+    assert benchmark(*arguments) == 2
+    error = capsys.readouterr().err
+    assert message in error
+    assert error.count("\n") == 1
+
+
+def test_a_study_of_rigid_casings_alone_is_refused(benchmark, folder, capsys):
+    rigid = folder / "rigid.yaml"
+    rigid.write_text("coatings: [{casing: 2nd, coating: rigid, friction: [0.0]}]\n")
+    assert benchmark("--config", str(rigid)) == 2
+    assert "must have an abradable one" in capsys.readouterr().err
