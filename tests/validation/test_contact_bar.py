@@ -29,6 +29,7 @@ from bar_solutions import (
 
 from bladerub.contact import kernel
 from bladerub.contact.modes import Modes
+from bladerub.contact.motion import pack
 from bladerub.contact.schemes import Contact, exponential, normal_compliance
 
 T = DOYEN.crossing
@@ -56,22 +57,23 @@ def march(gravity, duration):
 
     n_steps = round((LEAD_IN * T + duration) / step)
     at_centre = (np.arange(n_steps + 3) - 0.5) * step - LEAD_IN * T  # the first element only leads in
-    gap = np.full((8, at_centre.size), np.inf)
-    gap[0] = -SPEED * at_centre - gravity * at_centre**2 / 2
-    lowest = np.full_like(gap, np.inf)
-    lowest[0] = -np.inf
+    gap = np.full((at_centre.size, 8), 1e6)  # out of reach of all nodes but the first
+    gap[:, 0] = -SPEED * at_centre - gravity * at_centre**2 / 2
     zeros, ones = np.zeros(8), np.ones(8)
+    own = np.diag(normal_compliance(rule.compliance, -1.0, 0.0))
     stator = kernel.Stator(
         gap=gap,
-        lowest_gap=lowest,
-        floor=lowest[0].copy(),
-        elastic=ones,
-        hardening=ones,
+        floor=np.full(at_centre.size, -np.inf),
+        elastic=zeros,
+        hardening=zeros,
         strength=zeros,
+        yielding=zeros,
+        softness=zeros,
+        n_elements=at_centre.size,
         is_rigid=True,
         radial=-1.0,
         tangential=0.0,
-        own_compliance=np.diag(normal_compliance(rule.compliance, -1.0, 0.0)).copy(),
+        own_compliance=np.where(own > 0, own, 1.0),  # of nodes that meet nothing
     )
     here = kernel.Tip(
         start=zeros,
@@ -79,15 +81,15 @@ def march(gravity, duration):
         radius=1e4 * ones,
         lever=1e4 * ones,
         half_width=2.0,
-        edge_drop=0.0,
+        drop=0.0,
         stray=0.0,
         limit=1e6,
     )
-    state = kernel.at_rest(rule.omega.size, at_centre.size)
+    motion, state = pack(rule), kernel.at_rest(rule.omega.size, at_centre.size)
     force, speed = np.empty(n_steps), np.empty(n_steps)
     for i in range(n_steps):
         tip = here._replace(start=np.full(8, i + 1.0))
-        kernel.revolve(rule, stator, tip, state, 1, np.zeros(1))
+        kernel.revolve(motion, stator, tip, state, 1, np.zeros(1))
         force[i] = -state.force[0, 0]
         speed[i] = -(state.q[0, 0] - state.q[1, 0]) / step * rule.tip[0, 0]
     time = step * np.arange(1, n_steps + 1) - LEAD_IN * T

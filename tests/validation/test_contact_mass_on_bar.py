@@ -12,6 +12,7 @@ import pytest
 
 from bladerub.contact import kernel
 from bladerub.contact.modes import Modes
+from bladerub.contact.motion import pack
 from bladerub.contact.schemes import Contact, central_differences, exponential
 
 M, H, N = 0.1, 1e-6, 64
@@ -26,26 +27,28 @@ def deviations(kappa, n_revolutions=2, start=1e-8, scheme=central_differences):
     tip_modes[0, 0] = M**-0.5
     contact = Contact(np.full(8, bar), -1.0, 0.0)
     rule = scheme(Modes(np.array([np.sqrt(spring / M)]), tip_modes), 0.0, H, contact)
-    gap = np.ones((8, N))
-    gap[0] = -DEPTH
+    gap = np.ones((N, 8))
+    gap[:, 0] = -DEPTH
     zeros = np.zeros(8)
     half_width = 2.0
     each = zeros + bar / (2 * half_width)  # the elements under the tip add up to its width
-    stator = kernel.Stator(gap, gap, gap.min(axis=0), each, 1e12 * each, zeros, False, -1.0, 0.0, zeros)
+    hard = 1e12 * each
+    bars = each, hard, zeros, 1 / (each + hard), 0.5 / each
+    stator = kernel.Stator(gap, gap.min(axis=1), *bars, N, False, -1.0, 0.0, zeros)
     tip = kernel.Tip(zeros, zeros, zeros + 1.0, zeros + 1.0, half_width, 0.0, 0.0, 1.0)
     # the paper's scheme takes the force at the prediction (1 − β) u of a resting mass
     predicted = 1 - BETA if rule.corrects else 1.0
     rest = -DEPTH * kappa / (BETA + kappa * predicted)
     state = kernel.at_rest(1, N)
-    state.q[:] = (rest + start) / tip_modes[0, 0]
-    state.u[:, 0] = rest + start
+    state.q[:, 0] = (rest + start) / tip_modes[0, 0]
+    state.u[:, [0, 16]] = rest + start  # displacement and height of the first node
     if not rule.corrects:  # the bars already press
-        state.push[0] = bar * (rest + start + DEPTH)
-        state.force[:, 0] = -state.push[0]
+        state.push[0, 0] = bar * (rest + start + DEPTH)
+        state.force[:, 0] = -state.push[0, 0]
     seen = []
     for _ in range(n_revolutions):
         displacement = np.zeros(N)
-        kernel.revolve(rule, stator, tip, state, 1, displacement)
+        kernel.revolve(pack(rule), stator, tip, state, 1, displacement)
         seen.append(displacement - rest)  # the means of two steps each: the same recurrence
     return np.concatenate(seen)
 

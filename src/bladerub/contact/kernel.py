@@ -297,7 +297,7 @@ def _drop_negligible(q, n):
 
 
 def revolve(motion, stator, tip, state, steps_per_element, displacement):
-    """March one revolution of constant speed; `state` is moved on.
+    """March one revolution of constant speed, or its beginning; `state` is moved on.
 
     Parameters
     ----------
@@ -311,8 +311,9 @@ def revolve(motion, stator, tip, state, steps_per_element, displacement):
         Where the run is.
     steps_per_element : int
         Time steps in the passage of one element.
-    displacement : (N,) ndarray
-        Filled with the radial displacement of node 1, mean over the passage of each element, m.
+    displacement : (n,) ndarray
+        Filled with the radial displacement of node 1, mean over the passage of each element, m; n = N makes
+        one revolution.
 
     Returns
     -------
@@ -322,14 +323,14 @@ def revolve(motion, stator, tip, state, steps_per_element, displacement):
         Range of the radial displacement of node 1, m.
     """
     parts = (addresses(part) for part in (motion, stator, tip, state))
-    made, touched, *extremes = _march(*parts, steps_per_element, displacement.ctypes.data)
+    made, touched, *extremes = _march(*parts, steps_per_element, displacement.size, displacement.ctypes.data)
     for rows in (state.q, state.u):  # the loop lets the three rows take turns
         rows[:] = np.roll(rows, made % 3, axis=0)
     return made, touched, *extremes
 
 
 @njit_on_disk()
-def _march(motion, stator, tip, state, steps_per_element, displacement):
+def _march(motion, stator, tip, state, steps_per_element, n_elements, displacement):
     n_steps = 0
     n_contact = 0
     bottom, top = np.inf, -np.inf
@@ -340,7 +341,7 @@ def _march(motion, stator, tip, state, steps_per_element, displacement):
     u, u_before, u_next = state.u, at(state.u, 3 * LANES), at(state.u, 6 * LANES)
     force, force_before = state.force, at(state.force, 2 * LANES)
     push_before = at(state.push, LANES)
-    for element in range(stator.n_elements):
+    for element in range(n_elements):
         _drop_negligible(state.q, 3 * motion.n)
         mean = 0.0
         for step in range(steps_per_element):
