@@ -54,14 +54,14 @@ def _drop(tip, offset):
 
 
 @njit
-def push_at(stator, tip, wear, position, rise):
+def push_at(stator, tip, wear, position, rows, rise):
     """Force (N) and stiffness (N/m) of the bars under each node at the height `rise`, as in Fig. 4."""
     elastic, hardening = load(stator.elastic, 0), load(stator.hardening, 0)
     strength = load(stator.strength, 0)
     yielding = elastic * load(stator.yielding, 0)
     plastic = yielding * hardening
     push, stiffness = splat(0.0), splat(0.0)
-    first, last = rows_under(tip, position, position)
+    first, last = rows
     for row in range(first, last + 1):
         at = wrap(row, stator.n_elements) * LANES
         offset = (row + 0.5) - position

@@ -10,8 +10,9 @@ from typing import NamedTuple
 import numpy as np
 from numba import njit
 
-from bladerub.contact import abradable, rigid
-from bladerub.contact.geometry import force_of, is_within_bounds, position_of, rise_of
+from bladerub.contact import abradable, leap, rigid
+from bladerub.contact.geometry import force_of, is_within_bounds, normal_of, position_of, rise_of
+from bladerub.contact.leap import Leap
 from bladerub.contact.ledger import (
     DAMPING,
     EXCHANGED,
@@ -28,7 +29,7 @@ from bladerub.contact.ledger import (
     WEAR,
 )
 from bladerub.contact.machine_code import njit_on_disk
-from bladerub.contact.motion import advance, push_modes, respond
+from bladerub.contact.motion import Motion, advance, push_modes, respond
 from bladerub.contact.relaxation import relax
 from bladerub.contact.vectors import (
     LANES,
@@ -48,6 +49,8 @@ from bladerub.contact.vectors import (
 
 SETTLED = 1e-11
 """Imbalance of any node's height at which the contact forces are taken as found, m."""
+NEAR = 1e-8
+"""Way along the casing that the search for the forces takes as straight and over the same bars, m."""
 ATTEMPTS = 8
 """Steps of Newton's method before the forces are sought node by node."""
 NEGLIGIBLE = 1e-100
@@ -199,25 +202,35 @@ def _find_forces(motion, stator, tip, passed, state, u):
     force, push = state.force, state.push
     free_radial, free_tangential = load(u, 0), load(u, LANES)
     radial, tangential = respond(motion.compliance, force, free_radial, free_tangential)
-    rise = met = rise_of(tip, radial, tangential)
+    there_radial, there_tangential = radial, tangential
+    rise = met = met_there = rise_of(tip, radial, tangential)
+    normal_radial, normal_tangential = normal_of(tip, radial, tangential, rise)
+    position = position_of(tip, tangential, passed)
+    rows = abradable.rows_under(tip, position, position)
     found = False
-    if not stator.is_rigid:
+    if not stator.is_rigid and is_within_bounds(tip, radial, tangential):
         for _ in range(ATTEMPTS):
-            if not is_within_bounds(tip, radial, tangential):
-                break
-            position = position_of(tip, tangential, passed)
-            by_coating, stiffness = abradable.push_at(stator, tip, state.wear, position, rise)
+            by_coating, stiffness = abradable.push_at(stator, tip, state.wear, position, rows, rise)
             store(push, 0, by_coating)
-            by_radial, by_tangential = force_of(stator, tip, radial, tangential, met, by_coating)
+            by_radial, by_tangential = force_of(stator, normal_radial, normal_tangential, by_coating)
             store(force, 0, by_radial)
             store(force, LANES, by_tangential)
             radial, tangential = respond(motion.compliance, force, free_radial, free_tangential)
-            met = rise_of(tip, radial, tangential)
+            way_radial, way_tangential = radial - there_radial, tangential - there_tangential
+            met = met_there + normal_radial * way_radial + normal_tangential * way_tangential
             error = rise - met
-            if highest(magnitude(error)) <= SETTLED:
+            if everywhere((magnitude(error) <= SETTLED) & (magnitude(way_tangential) <= NEAR)):
                 found = True
                 break
             rise = rise - error / (1.0 + load(stator.own_compliance, 0) * stiffness)
+            if not everywhere(magnitude(way_tangential) <= NEAR):
+                if not is_within_bounds(tip, radial, tangential):
+                    break
+                there_radial, there_tangential = radial, tangential
+                met_there = rise_of(tip, radial, tangential)
+                normal_radial, normal_tangential = normal_of(tip, radial, tangential, met_there)
+                position = position_of(tip, tangential, passed)
+                rows = abradable.rows_under(tip, position, position)
         if not found:  # it may be anywhere by now: begin again
             _clear(force, 2 * LANES)
             _clear(push, LANES)
@@ -296,98 +309,159 @@ def _drop_negligible(q, n):
         store(q, k, choose(magnitude(x) > NEGLIGIBLE, x, 0.0))
 
 
-def revolve(motion, stator, tip, state, steps_per_element, displacement):
-    """March one revolution of constant speed, or its beginning; `state` is moved on.
+class Rub:
+    """A blade and a stator, set to be marched.
 
     Parameters
     ----------
     motion : bladerub.contact.motion.Motion
         Coefficients of the scheme.
+    flight : bladerub.contact.leap.Leap
+        The same for free flight over many steps.
     stator : Stator
         Coating and casing.
     tip : Tip
         Tip of the blade.
     state : State
-        Where the run is.
+        Where the run is; `revolve` moves it on.
     steps_per_element : int
         Time steps in the passage of one element.
-    displacement : (n,) ndarray
-        Filled with the radial displacement of node 1, mean over the passage of each element, m; n = N makes
-        one revolution.
+    """
 
-    Returns
-    -------
-    n_steps, n_contact_steps : int
-        Steps made and those with contact; fewer steps than asked for when the tip left all bounds.
+    def __init__(
+        self, motion: Motion, flight: Leap, stator: Stator, tip: Tip, state: State, steps_per_element: int
+    ):
+        self.motion, self.flight, self.stator, self.tip, self.state = motion, flight, stator, tip, state
+        self.steps_per_element = steps_per_element
+        self._records = [addresses(record) for record in (motion, flight, stator, tip, state)]
+
+    def revolve(self, displacement: np.ndarray) -> Progress:
+        """March one revolution of constant speed, or its beginning.
+
+        Parameters
+        ----------
+        displacement : (n,) ndarray
+            Filled with the radial displacement of node 1, mean over the passage of each element, m; n = N
+            makes one revolution.
+        """
+        turns, *made = _march(
+            *self._records, self.steps_per_element, displacement.size, displacement.ctypes.data
+        )
+        for rows in (self.state.q, self.state.u):  # the loop lets the three rows take turns
+            rows[:] = rows[(np.arange(3) - turns) % 3]
+        return Progress(*made)
+
+
+class Progress(NamedTuple):
+    """What was made of a revolution.
+
+    Parameters
+    ----------
+    n_steps, n_leaps, n_contact_steps : int
+        Steps made, leaps that many of them were made in, and steps with contact; fewer steps than asked for
+        when the tip left all bounds.
     lowest, highest : float
         Range of the radial displacement of node 1, m.
     """
-    parts = (addresses(part) for part in (motion, stator, tip, state))
-    made, touched, *extremes = _march(*parts, steps_per_element, displacement.size, displacement.ctypes.data)
-    for rows in (state.q, state.u):  # the loop lets the three rows take turns
-        rows[:] = np.roll(rows, made % 3, axis=0)
-    return made, touched, *extremes
+
+    n_steps: int
+    n_leaps: int
+    n_contact_steps: int
+    lowest: float
+    highest: float
+
+
+@njit
+def _stays_clear(flight, tip, u, far, floor):
+    """Whether a leap in which no node rises by more than `far` surely touches nothing."""
+    radial, tangential, rise = load(u, 0), load(u, LANES), load(u, 2 * LANES)
+    return _is_clear(tip, radial - far, magnitude(tangential) + flight.sideways * far, rise + far, floor)
 
 
 @njit_on_disk()
-def _march(motion, stator, tip, state, steps_per_element, n_elements, displacement):
-    n_steps = 0
-    n_contact = 0
+def _march(motion, flight, stator, tip, state, steps_per_element, n_elements, displacement):
+    turns = n_leaps = n_contact = 0
     bottom, top = np.inf, -np.inf
     per_step = 1.0 / steps_per_element
     touched = touching = highest(load(state.push, 0)) > 0.0
+    leapt = False
+    far = 0.0
     damping = splat(0.0)
     q, q_before, q_next = state.q, at(state.q, motion.n), at(state.q, 2 * motion.n)
     u, u_before, u_next = state.u, at(state.u, 3 * LANES), at(state.u, 6 * LANES)
     force, force_before = state.force, at(state.force, 2 * LANES)
     push_before = at(state.push, LANES)
     for element in range(n_elements):
-        _drop_negligible(state.q, 3 * motion.n)
+        if element & 31 == 0:
+            _drop_negligible(state.q, 3 * motion.n)
+        floor = read(stator.floor, element)
         mean = 0.0
-        for step in range(steps_per_element):
-            touched = touching
-            radial, tangential, loss = advance(motion, q, q_before, q_next)
-            damping = damping + loss
-            if touched:
-                _copy(force, force_before, 2 * LANES)
-                _copy(state.push, push_before, LANES)
-                _copy(state.moment, at(state.moment, LANES), LANES)
-                if not motion.corrects:
-                    push_modes(motion, force_before, q_next)
-                    radial, tangential = respond(motion.kick, force_before, radial, tangential)
-            rise = _put(tip, radial, tangential, u_next)
-            clear = _is_clear(tip, radial, tangential, rise, read(stator.floor, element))
-            if touched or not clear:
-                passed = element + (step + 1) * per_step
-                touching = False
-                if clear:
-                    _clear(force, 2 * LANES)
-                    _clear(state.push, LANES)
-                else:
-                    if not _find_forces(motion, stator, tip, passed, state, u_next):
-                        _copy(q, q_next, motion.n)  # the damping loss is complete up to here
-                        _copy(force_before, force, 2 * LANES)
-                        _enter(state.ledger, DAMPING, damping)
-                        return n_steps, n_contact, bottom, top
-                    touching = highest(load(state.push, 0)) > 0.0
-                if touching or touched:
-                    _settle(stator, tip, passed, per_step, state, u_next, u)
-                if touching and motion.corrects:
-                    push_modes(motion, force, q_next)
-                    radial, tangential = respond(motion.kick, force, radial, tangential)
-                    _put(tip, radial, tangential, u_next)
+        step = 0
+        while step < steps_per_element:
+            if step + flight.n_steps > steps_per_element or touching:
+                may_leap = False
+            else:
+                if not leapt:
+                    far = leap.reach(flight, motion.n, q, q_before)
+                may_leap = _stays_clear(flight, tip, u, far, floor)
+            leapt = may_leap
+            if may_leap:
+                touched = False
+                node_1 = read(u, 0)
+                radial, tangential, loss, way, far = leap.take(flight, motion, q, q_before, q_next)
+                damping = damping + loss
+                _put(tip, radial, tangential, u)
+                low, high = leap.extremes(node_1, read(u, 0), node_1 + way)
+                bottom, top = min(bottom, low), max(top, high)
+                mean += flight.n_steps * (node_1 + way)
+                step += flight.n_steps
+                n_leaps += 1
+                continue
+            for _ in range(min(flight.n_steps, steps_per_element - step)):
+                touched = touching
+                radial, tangential, loss = advance(motion, q, q_before, q_next)
+                damping = damping + loss
                 if touched:
-                    _enter_work(state, u_next, u_before)
-                    _clear(push_before, LANES)
-                n_contact += touching
-            node_1, node_1_before = read(u_next, 0), read(u, 0)
-            mean += 0.5 * (node_1_before + node_1)
-            bottom, top = min(bottom, node_1), max(top, node_1)
-            n_steps += 1
-            q, q_before, q_next = q_next, q, q_before
-            u, u_before, u_next = u_next, u, u_before
+                    _copy(force, force_before, 2 * LANES)
+                    _copy(state.push, push_before, LANES)
+                    _copy(state.moment, at(state.moment, LANES), LANES)
+                    if not motion.corrects:
+                        push_modes(motion, force_before, q_next)
+                        radial, tangential = respond(motion.kick, force_before, radial, tangential)
+                rise = _put(tip, radial, tangential, u_next)
+                clear = _is_clear(tip, radial, tangential, rise, floor)
+                step += 1
+                if touched or not clear:
+                    passed = element + step * per_step
+                    touching = False
+                    if clear:
+                        _clear(force, 2 * LANES)
+                        _clear(state.push, LANES)
+                    else:
+                        if not _find_forces(motion, stator, tip, passed, state, u_next):
+                            _copy(q, q_next, motion.n)  # the damping loss is complete up to here
+                            _copy(force_before, force, 2 * LANES)
+                            _enter(state.ledger, DAMPING, damping)
+                            return turns, turns + n_leaps * flight.n_steps, n_leaps, n_contact, bottom, top
+                        touching = highest(load(state.push, 0)) > 0.0
+                    if touching or touched:
+                        _settle(stator, tip, passed, per_step, state, u_next, u)
+                    if touching and motion.corrects:
+                        push_modes(motion, force, q_next)
+                        radial, tangential = respond(motion.kick, force, radial, tangential)
+                        _put(tip, radial, tangential, u_next)
+                    if touched:
+                        _enter_work(state, u_next, u_before)
+                        _clear(push_before, LANES)
+                    n_contact += touching
+                node_1, node_1_before = read(u_next, 0), read(u, 0)
+                mean += 0.5 * (node_1_before + node_1)
+                bottom, top = min(bottom, node_1), max(top, node_1)
+                turns += 1
+                q, q_before, q_next = q_next, q, q_before
+                u, u_before, u_next = u_next, u, u_before
         write(displacement, element, mean * per_step)
     _enter(state.ledger, DAMPING, damping)
     if not (touched or touching):  # the last step added nothing
         _clear(at(state.ledger, STORED * LANES), 4 * LANES)
-    return n_steps, n_contact, bottom, top
+    return turns, turns + n_leaps * flight.n_steps, n_leaps, n_contact, bottom, top

@@ -50,8 +50,8 @@ def pack(rule: Recurrence) -> Motion:
         now=_padded(rule.now),
         before=_padded(rule.before),
         loss=_padded(rule.loss),
-        tip=_blocks(rule.tip),
-        push=_blocks(rule.push),
+        tip=in_vectors(rule.tip),
+        push=in_vectors(rule.push),
         kick=rule.push @ rule.tip.T,
         compliance=rule.compliance,
         corrects=rule.corrects,
@@ -64,7 +64,8 @@ def _padded(rows: np.ndarray) -> np.ndarray:
     return np.pad(rows, [(0, 0)] * (rows.ndim - 1) + [(0, missing)])
 
 
-def _blocks(rows: np.ndarray) -> np.ndarray:
+def in_vectors(rows: np.ndarray) -> np.ndarray:
+    """Arrange rows (r, n) of modes in blocks (n / 8, r, 8), one for each vector of modes."""
     padded = _padded(rows)
     return padded.reshape(len(rows), -1, LANES).swapaxes(0, 1)
 
@@ -80,33 +81,55 @@ def advance(motion, q, q1, q2):
     loss : vector
         Damping loss of the step before, J, spread over the lanes: its end is known only now.
     """
-    tip = motion.tip
     loss = splat(0.0)
-    r0 = r1 = r2 = r3 = r4 = r5 = r6 = r7 = splat(0.0)
-    t0 = t1 = t2 = t3 = t4 = t5 = t6 = t7 = splat(0.0)
+    sums = no_projection()
     for k in range(0, motion.n, LANES):
         present = load(q, k)
         change = present - load(q2, k)
         loss = loss + load(motion.loss, k) * change * change
         x = load(motion.now, k) * present - load(motion.before, k) * load(q1, k)
         store(q2, k, x)
-        r0 = r0 + load(tip, 16 * k) * x
-        r1 = r1 + load(tip, 16 * k + 8) * x
-        r2 = r2 + load(tip, 16 * k + 16) * x
-        r3 = r3 + load(tip, 16 * k + 24) * x
-        r4 = r4 + load(tip, 16 * k + 32) * x
-        r5 = r5 + load(tip, 16 * k + 40) * x
-        r6 = r6 + load(tip, 16 * k + 48) * x
-        r7 = r7 + load(tip, 16 * k + 56) * x
-        t0 = t0 + load(tip, 16 * k + 64) * x
-        t1 = t1 + load(tip, 16 * k + 72) * x
-        t2 = t2 + load(tip, 16 * k + 80) * x
-        t3 = t3 + load(tip, 16 * k + 88) * x
-        t4 = t4 + load(tip, 16 * k + 96) * x
-        t5 = t5 + load(tip, 16 * k + 104) * x
-        t6 = t6 + load(tip, 16 * k + 112) * x
-        t7 = t7 + load(tip, 16 * k + 120) * x
-    return totals(r0, r1, r2, r3, r4, r5, r6, r7), totals(t0, t1, t2, t3, t4, t5, t6, t7), loss
+        sums = project(motion, k, x, sums)
+    radial, tangential = displacement(sums)
+    return radial, tangential, loss
+
+
+@njit(inline="always")
+def no_projection():
+    """Begin the sums that `project` adds to and `displacement` closes."""
+    zero = splat(0.0)
+    return (zero, zero, zero, zero, zero, zero, zero, zero, zero, zero, zero, zero, zero, zero, zero, zero)
+
+
+@njit(inline="always")
+def project(motion, k, x, sums):
+    """Add what the modes `x`, from mode k on, displace at the tip: the interface rows of eq. (6)."""
+    rows = at(motion.tip, 16 * k)
+    return (
+        sums[0] + load(rows, 0) * x,
+        sums[1] + load(rows, 8) * x,
+        sums[2] + load(rows, 16) * x,
+        sums[3] + load(rows, 24) * x,
+        sums[4] + load(rows, 32) * x,
+        sums[5] + load(rows, 40) * x,
+        sums[6] + load(rows, 48) * x,
+        sums[7] + load(rows, 56) * x,
+        sums[8] + load(rows, 64) * x,
+        sums[9] + load(rows, 72) * x,
+        sums[10] + load(rows, 80) * x,
+        sums[11] + load(rows, 88) * x,
+        sums[12] + load(rows, 96) * x,
+        sums[13] + load(rows, 104) * x,
+        sums[14] + load(rows, 112) * x,
+        sums[15] + load(rows, 120) * x,
+    )
+
+
+@njit(inline="always")
+def displacement(sums):
+    """Radial and tangential displacement of the tip, m."""
+    r0, r1, r2, r3, r4, r5, r6, r7, t0, t1, t2, t3, t4, t5, t6, t7 = sums
+    return totals(r0, r1, r2, r3, r4, r5, r6, r7), totals(t0, t1, t2, t3, t4, t5, t6, t7)
 
 
 @njit
