@@ -18,7 +18,7 @@ def arguments(rule: Recurrence, rub: Rub) -> tuple:
     stator, tip = rub.stator, rub.tip
     n = rule.omega.size
     return (
-        (rule.now, rule.before, rule.push, np.ascontiguousarray(rule.tip), rule.compliance),
+        (rule.now, rule.before, rule.tip * rule.gain, np.ascontiguousarray(rule.tip), rule.compliance),
         (stator.elastic, stator.hardening, stator.strength, stator.own_compliance),
         (tip.start, tip.per_metre, tip.radius),
         (tip.half_width, tip.drop, tip.limit, stator.radial, stator.tangential),

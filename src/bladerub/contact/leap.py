@@ -80,7 +80,7 @@ def leap_of(rule: Recurrence, n_steps: int, slope: float) -> Leap:
     return aligned(Leap(n_steps, in_vectors(np.array(forms)), float(sideways)))
 
 
-@njit
+@njit(forceinline=True)
 def reach(leap, n, q, q_before):
     """Bound of what any node can rise in a leap from here, m."""
     forms = leap.forms
@@ -92,7 +92,7 @@ def reach(leap, n, q, q_before):
     return total(far)
 
 
-@njit
+@njit(forceinline=True)
 def take(leap, motion, q, q1, q2):
     """Move the modes freely by a leap, in place, and project them on the tip.
 
@@ -130,7 +130,7 @@ def take(leap, motion, q, q1, q2):
     return radial, tangential, loss, total(mean), total(far)
 
 
-@njit
+@njit(forceinline=True)
 def extremes(start, end, mean):
     """Lowest and highest value on the way from start to end, of the parabola that has this mean."""
     bottom, top = min(start, end), max(start, end)

@@ -22,10 +22,8 @@ class Motion(NamedTuple):
         Coefficients of the recurrence.
     tip : (n / 8, 16, 8) ndarray
         Displacement of the tip per unit of each mode, a block for each vector of modes.
-    push : (n / 8, 16, 8) ndarray
-        Modal coordinates per unit of each tip force, in the same blocks.
-    kick : (16, 16) ndarray
-        What ``push`` displaces at the tip: a row for each force, m/N.
+    gain : (n,) ndarray
+        Modal coordinates per unit of modal force.
     compliance : (16, 16) ndarray
         Displacement of the tip in the step of each force itself, m/N.
     corrects : bool
@@ -37,8 +35,7 @@ class Motion(NamedTuple):
     before: np.ndarray
     loss: np.ndarray
     tip: np.ndarray
-    push: np.ndarray
-    kick: np.ndarray
+    gain: np.ndarray
     compliance: np.ndarray
     corrects: bool
 
@@ -51,8 +48,7 @@ def pack(rule: Recurrence) -> Motion:
         before=_padded(rule.before),
         loss=_padded(rule.loss),
         tip=in_vectors(rule.tip),
-        push=in_vectors(rule.push),
-        kick=rule.push @ rule.tip.T,
+        gain=_padded(rule.gain),
         compliance=rule.compliance,
         corrects=rule.corrects,
     )
@@ -70,7 +66,7 @@ def in_vectors(rows: np.ndarray) -> np.ndarray:
     return padded.reshape(len(rows), -1, LANES).swapaxes(0, 1)
 
 
-@njit
+@njit(forceinline=True)
 def advance(motion, q, q1, q2):
     """Move the modes freely by one step, in place of the oldest coordinates `q2`; project them on the tip.
 
@@ -84,14 +80,50 @@ def advance(motion, q, q1, q2):
     loss = splat(0.0)
     sums = no_projection()
     for k in range(0, motion.n, LANES):
-        present = load(q, k)
-        change = present - load(q2, k)
-        loss = loss + load(motion.loss, k) * change * change
-        x = load(motion.now, k) * present - load(motion.before, k) * load(q1, k)
+        x, more = _step(motion, k, q, q1, q2)
+        loss = loss + more
         store(q2, k, x)
         sums = project(motion, k, x, sums)
     radial, tangential = displacement(sums)
     return radial, tangential, loss
+
+
+@njit(forceinline=True)
+def advance_under(motion, force, q, q1, q2):
+    """Do as `advance`, with the contact forces of the step before."""
+    loss = splat(0.0)
+    forces = _spread(force)
+    for k in range(0, motion.n, LANES):
+        x, more = _step(motion, k, q, q1, q2)
+        loss = loss + more
+        store(q2, k, x + _pushed(motion, k, forces))
+    radial, tangential = _projection(motion, q2)
+    return radial, tangential, loss
+
+
+@njit(forceinline=True)
+def push_modes(motion, force, q):
+    """Add the effect of contact forces to the modal coordinates; project these on the tip, as `advance`."""
+    forces = _spread(force)
+    for k in range(0, motion.n, LANES):
+        store(q, k, load(q, k) + _pushed(motion, k, forces))
+    return _projection(motion, q)
+
+
+@njit(inline="always")
+def _step(motion, k, q, q1, q2):
+    present = load(q, k)
+    change = present - load(q2, k)
+    x = load(motion.now, k) * present - load(motion.before, k) * load(q1, k)
+    return x, load(motion.loss, k) * change * change
+
+
+@njit(forceinline=True)
+def _projection(motion, q):
+    sums = no_projection()
+    for k in range(0, motion.n, LANES):
+        sums = project(motion, k, load(q, k), sums)
+    return displacement(sums)
 
 
 @njit(inline="always")
@@ -132,31 +164,18 @@ def displacement(sums):
     return totals(r0, r1, r2, r3, r4, r5, r6, r7), totals(t0, t1, t2, t3, t4, t5, t6, t7)
 
 
-@njit
-def push_modes(motion, force, q):
-    """Add the effect of the contact forces to the modal coordinates."""
-    push = motion.push
-    r0, r1, r2, r3, r4, r5, r6, r7 = _spread(force)
-    t0, t1, t2, t3, t4, t5, t6, t7 = _spread(at(force, 8))
-    for k in range(0, motion.n, LANES):
-        x, y = load(q, k), splat(0.0)  # halves of the sum, found at the same time
-        x = x + load(push, 16 * k) * r0
-        y = y + load(push, 16 * k + 64) * t0
-        x = x + load(push, 16 * k + 8) * r1
-        y = y + load(push, 16 * k + 72) * t1
-        x = x + load(push, 16 * k + 16) * r2
-        y = y + load(push, 16 * k + 80) * t2
-        x = x + load(push, 16 * k + 24) * r3
-        y = y + load(push, 16 * k + 88) * t3
-        x = x + load(push, 16 * k + 32) * r4
-        y = y + load(push, 16 * k + 96) * t4
-        x = x + load(push, 16 * k + 40) * r5
-        y = y + load(push, 16 * k + 104) * t5
-        x = x + load(push, 16 * k + 48) * r6
-        y = y + load(push, 16 * k + 112) * t6
-        x = x + load(push, 16 * k + 56) * r7
-        y = y + load(push, 16 * k + 120) * t7
-        store(q, k, x + y)
+@njit(inline="always")
+def _pushed(motion, k, forces):
+    rows = at(motion.tip, 16 * k)
+    x, y = load(rows, 0) * forces[0], load(rows, 8) * forces[1]  # halves of the sum, found at the same time
+    x, y = x + load(rows, 16) * forces[2], y + load(rows, 24) * forces[3]
+    x, y = x + load(rows, 32) * forces[4], y + load(rows, 40) * forces[5]
+    x, y = x + load(rows, 48) * forces[6], y + load(rows, 56) * forces[7]
+    x, y = x + load(rows, 64) * forces[8], y + load(rows, 72) * forces[9]
+    x, y = x + load(rows, 80) * forces[10], y + load(rows, 88) * forces[11]
+    x, y = x + load(rows, 96) * forces[12], y + load(rows, 104) * forces[13]
+    x, y = x + load(rows, 112) * forces[14], y + load(rows, 120) * forces[15]
+    return load(motion.gain, k) * (x + y)
 
 
 @njit(inline="always")
@@ -170,10 +189,18 @@ def _spread(force):
         splat(read(force, 5)),
         splat(read(force, 6)),
         splat(read(force, 7)),
+        splat(read(force, 8)),
+        splat(read(force, 9)),
+        splat(read(force, 10)),
+        splat(read(force, 11)),
+        splat(read(force, 12)),
+        splat(read(force, 13)),
+        splat(read(force, 14)),
+        splat(read(force, 15)),
     )
 
 
-@njit
+@njit(forceinline=True)
 def respond(response, force, radial, tangential):
     """Add to the displacement of the tip what the contact forces cause, a row of `response` for each."""
     more_radial, more_tangential = splat(0.0), splat(0.0)  # halves of the sums, found at the same time
