@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping, Sequence, Set
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from bladerub import datafile
-from bladerub.blade.accuracy import reduced_frequencies
+from bladerub.blade.frequencies import reduced_frequencies
 from bladerub.blade.model import ReducedBlade
 from bladerub.datafile import Variable
 from bladerub.study.confirmation import confirmation_path
@@ -104,6 +104,9 @@ _DATASETS = {
 }
 
 
+_GATHERED = {"wear", "spectrum_amplitude", "revolution_peak", "revolution_amplitude"}
+
+
 def build_map(
     config: Mapping[str, Any],
     case: CoatingCase,
@@ -136,9 +139,10 @@ def build_map(
     rows = sorted(read_manifest(folder / "manifest.tsv"), key=lambda row: row.f_omega)
     if not rows:
         raise OSError(f"{folder / 'manifest.tsv'}: lists no run")
-    runs = [_listed_run(folder, folder / row.file, row.run_key) for row in rows]
+    runs = [_listed_run(folder, folder / row.file, row.run_key, _GATHERED) for row in rows]
+    scales = _listed_run(folder, folder / rows[0].file, rows[0].run_key, {"angle", "spectrum_order"}).data
     f_omega = np.array([row.f_omega for row in rows])
-    angle = runs[0].data["angle"]
+    angle = scales["angle"]
     wear = np.stack([run.data["wear"] for run in runs])
     prominence = config["analysis"]["lobe_prominence"]
     coating = CoatingMap(
@@ -148,7 +152,7 @@ def build_map(
         angle=angle,
         wear=np.stack([mean_wear(each) for each in wear]),
         wear_node=wear,
-        spectrum_order=runs[0].data["spectrum_order"],
+        spectrum_order=scales["spectrum_order"],
         spectrum_amplitude=np.stack([run.data["spectrum_amplitude"] for run in runs]),
         revolution_peak=np.stack([run.data["revolution_peak"] for run in runs]),
         revolution_amplitude=np.stack([run.data["revolution_amplitude"] for run in runs]),
@@ -164,7 +168,8 @@ def _confirmation_amplitude(folder: Path, rows: Sequence[ManifestRow]) -> np.nda
     amplitudes = {}
     for index, row in enumerate(rows):
         if row.confirmation_key:
-            run = _listed_run(folder, confirmation_path(folder / row.file), row.confirmation_key)
+            path = confirmation_path(folder / row.file)
+            run = _listed_run(folder, path, row.confirmation_key, {"revolution_amplitude"})
             amplitudes[index] = run.data["revolution_amplitude"]
     revolutions = max((amplitude.size for amplitude in amplitudes.values()), default=0)
     gathered = np.full((len(rows), revolutions), np.nan)
@@ -173,10 +178,10 @@ def _confirmation_amplitude(folder: Path, rows: Sequence[ManifestRow]) -> np.nda
     return gathered
 
 
-def _listed_run(folder: Path, path: Path, key: str) -> StoredRun:
+def _listed_run(folder: Path, path: Path, key: str, datasets: Set[str]) -> StoredRun:
     remedy = f"delete {folder / 'manifest.tsv'} and run the workflow again: it computes what is missing"
     try:
-        run = read_run(path)
+        run = read_run(path, datasets)
     except OSError as error:
         raise OSError(f"{error}; {remedy}") from error
     if run.attributes["run_key"] != key:
