@@ -37,7 +37,6 @@ FLOPS_PER_LEAP = 62
 """Of a mode in a leap: way and last step 9, damping loss 12, mean 4, bound 5, displacement of the tip 32."""
 FLOPS_PER_PUSHED_MODE = 32
 FLOPS_PER_RESPONSE = 2 * 16 * 16
-RESPONSES = 3  # of the blade to the forces before, guessed and found
 FLOPS_PER_BAR = 17 + 52  # force once, and wear with its ledger
 FLOPS_PER_NODE = 60
 
@@ -154,7 +153,7 @@ def useful_flops(blade: ReducedBlade, spec: RunSpec) -> float:
     steps, leaps, touching = (
         sum(getattr(made, count) for made in marched) for count in ("n_steps", "n_leaps", "n_contact_steps")
     )
-    contact = FLOPS_PER_PUSHED_MODE * n + RESPONSES * FLOPS_PER_RESPONSE
+    contact = FLOPS_PER_PUSHED_MODE * n + FLOPS_PER_RESPONSE
     contact += LANES * (bars * FLOPS_PER_BAR + FLOPS_PER_NODE)
     single = steps - leaps * rub.flight.n_steps
     return (n * (FLOPS_PER_MODE * single + FLOPS_PER_LEAP * leaps) + contact * touching) / steps

@@ -35,8 +35,8 @@ class CoatingMap:
         Casing angle, rad.
     wear : (n, a) ndarray
         Worn depth, mean over the interface nodes, m.
-    wear_node : (n, 8, a) ndarray
-        Worn depth under each node, m.
+    wear_node : (n, 8, a) ndarray or None
+        Worn depth under each node, m; read only where asked for, being most of a map.
     spectrum_order : (m,) ndarray
         Engine order.
     spectrum_amplitude : (n, m) ndarray
@@ -60,7 +60,7 @@ class CoatingMap:
     C1: np.ndarray
     angle: np.ndarray
     wear: np.ndarray
-    wear_node: np.ndarray
+    wear_node: np.ndarray | None
     spectrum_order: np.ndarray
     spectrum_amplitude: np.ndarray
     revolution_peak: np.ndarray
@@ -205,17 +205,19 @@ def write_map(path: str | Path, coating: CoatingMap) -> None:
     datafile.write(path, variables, {"casing": case.casing, "E": case.E, "K": case.K, "theta": case.theta})
 
 
-def read_map(path: str | Path) -> CoatingMap:
-    """Read a map written by `write_map`.
+def read_map(path: str | Path, with_nodes: bool = False) -> CoatingMap:
+    """Read a map written by `write_map`, `with_nodes` all of it.
 
     Raises
     ------
     OSError
         If the file is missing, damaged or not a map; the message names it.
     """
-    data, attributes = datafile.read(path)
+    data, attributes = datafile.read(path, _DATASETS.keys() - (set() if with_nodes else {"wear_node"}))
     try:
         case = CoatingCase(*(attributes[name] for name in ("casing", "E", "K", "theta")))
+        if not with_nodes:
+            data["wear_node"] = None
         return CoatingMap(case=case, **{name: data[name] for name in _DATASETS})
     except KeyError as error:
         raise OSError(f"{path}: not a map, {error} is missing") from error

@@ -52,8 +52,9 @@ def _count_peaks(curve: np.ndarray, prominence: float) -> int:
     They are as many as there are ways up by `prominence`, each followed by a way down by as much. (The
     library's peaks take a job longer to import than everything else that it does.)
     """
-    rises = np.diff(curve, append=curve[0])
-    turns = curve[rises * np.roll(rises, 1) <= 0]
+    changing = curve[np.append(True, np.diff(curve) != 0)]
+    rises = np.diff(changing, append=curve[0])
+    turns = changing[rises * np.roll(rises, 1) <= 0]
     count, high, extreme = 0, False, curve[0]  # on high ground the extreme is the top, else the bottom
     for value in [*turns, curve[0]]:
         extreme = max(extreme, value) if high else min(extreme, value)

@@ -19,7 +19,7 @@ def test_useful_operations_of_a_step(blade, spec, change):
     assert measure.useful_flops(blade, free) == pytest.approx(62 * n / leap)
     result = simulate(blade, spec)
     flops = measure.useful_flops(blade, spec) * result.n_steps
-    contact = (32 * n + 3 * 512 + 8 * (5 * 69 + 60)) * result.n_contact_steps
+    contact = (32 * n + 512 + 8 * (5 * 69 + 60)) * result.n_contact_steps
     single = (flops - contact - 62 * n / leap * result.n_steps) / (39 * n - 62 * n / leap)
     assert result.n_contact_steps <= single < result.n_steps
     assert single == pytest.approx(round(single))
