@@ -32,6 +32,7 @@ include: "src/rules/blade.smk"
 include: "src/rules/runs.smk"
 include: "src/rules/maps.smk"
 include: "src/rules/figures.smk"
+include: "src/rules/cost.smk"
 
 
 localrules:
@@ -47,3 +48,4 @@ rule all:
         rules.divergence.output,
         rules.findings.output,
         FIGURES,
+        rules.cost.output,

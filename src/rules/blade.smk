@@ -11,6 +11,7 @@ rule blade:
                 "blade/accuracy",
                 "blade/build",
                 "blade/elasticity",
+                "blade/frequencies",
                 "blade/geometry",
                 "blade/linear",
                 "blade/mesh",

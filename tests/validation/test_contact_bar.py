@@ -28,6 +28,7 @@ from bar_solutions import (
 )
 
 from bladerub.contact import kernel
+from bladerub.contact.leap import leap_of
 from bladerub.contact.modes import Modes
 from bladerub.contact.motion import pack
 from bladerub.contact.schemes import Contact, exponential, normal_compliance
@@ -85,11 +86,11 @@ def march(gravity, duration):
         stray=0.0,
         limit=1e6,
     )
-    motion, state = pack(rule), kernel.at_rest(rule.omega.size, at_centre.size)
+    motion, flight, state = pack(rule), leap_of(rule, 1, 0.0), kernel.at_rest(rule.omega.size, at_centre.size)
     force, speed = np.empty(n_steps), np.empty(n_steps)
     for i in range(n_steps):
         tip = here._replace(start=np.full(8, i + 1.0))
-        kernel.revolve(motion, stator, tip, state, 1, np.zeros(1))
+        kernel.Rub(motion, flight, stator, tip, state, 1).revolve(np.zeros(1))
         force[i] = -state.force[0, 0]
         speed[i] = -(state.q[0, 0] - state.q[1, 0]) / step * rule.tip[0, 0]
     time = step * np.arange(1, n_steps + 1) - LEAD_IN * T

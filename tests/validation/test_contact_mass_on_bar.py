@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 
 from bladerub.contact import kernel
+from bladerub.contact.leap import leap_of
 from bladerub.contact.modes import Modes
 from bladerub.contact.motion import pack
 from bladerub.contact.schemes import Contact, central_differences, exponential
@@ -45,10 +46,11 @@ def deviations(kappa, n_revolutions=2, start=1e-8, scheme=central_differences):
     if not rule.corrects:  # the bars already press
         state.push[0, 0] = bar * (rest + start + DEPTH)
         state.force[:, 0] = -state.push[0, 0]
+    rub = kernel.Rub(pack(rule), leap_of(rule, 1, 0.0), stator, tip, state, 1)
     seen = []
     for _ in range(n_revolutions):
         displacement = np.zeros(N)
-        kernel.revolve(pack(rule), stator, tip, state, 1, displacement)
+        rub.revolve(displacement)
         seen.append(displacement - rest)  # the means of two steps each: the same recurrence
     return np.concatenate(seen)
 

@@ -13,6 +13,7 @@ import numpy as np
 import pytest
 
 from bladerub.contact import kernel
+from bladerub.contact.leap import leap_of
 from bladerub.contact.modes import modes_at
 from bladerub.contact.motion import pack
 from bladerub.contact.schemes import SCHEMES, Contact, normal_compliance
@@ -45,7 +46,7 @@ def march(blade, scheme, steps_per_element):
         tangential=tangential,
         own_compliance=np.diag(normal_compliance(rule.compliance, radial, tangential)).copy(),
     )
-    motion, state = pack(rule), kernel.at_rest(rule.omega.size, N)
+    motion, flight, state = pack(rule), leap_of(rule, 1, 0.0), kernel.at_rest(rule.omega.size, N)
     piece = np.zeros(N // 8)
     seen = []
     tip = kernel.Tip(
@@ -59,7 +60,7 @@ def march(blade, scheme, steps_per_element):
         limit=1.0,
     )
     for _ in range(8 * REVOLUTIONS):
-        kernel.revolve(motion, stator, tip, state, steps_per_element, piece)
+        kernel.Rub(motion, flight, stator, tip, state, steps_per_element).revolve(piece)
         seen.append(state.u[0, :16].copy())
         tip = tip._replace(start=(tip.start + piece.size) % N)
     return np.array(seen), state.wear

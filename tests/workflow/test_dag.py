@@ -38,13 +38,13 @@ def test_a_complete_study_has_nothing_left_to_do(study, tiny):
 
 def test_a_new_coating_plans_itself_and_what_draws_from_it(study, with_E3):
     new = {"coating": 2, "map": 2}  # with both theta
-    assert study.plan(with_E3) == new | TABLES | HISTOGRAMS | {"all": 1}
+    assert study.plan(with_E3) == new | TABLES | HISTOGRAMS | {"cost": 1, "all": 1}
 
 
 def test_resolution_plans_only_figures(study, tiny):
     plan = study.plan(tiny | {"figures": {"dpi": 50}})
-    assert len(plan) == 20
-    assert all(name.startswith("fig") or name == "all" for name in plan)
+    assert len(plan) == 21
+    assert all(name.startswith("fig") or name in ("cost", "all") for name in plan)
 
 
 def test_peak_search_plans_no_map(study, tiny):

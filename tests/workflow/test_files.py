@@ -87,6 +87,7 @@ COLUMNS = {
         "status",
     },
     "findings": {"id", "claim", "paper", "measured", "unit", "holds", "margin"},
+    "cost": {"stage", "rule", "job", "wall_s", "cpu_s", "memory_mb"},
 }
 
 

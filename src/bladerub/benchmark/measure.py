@@ -18,8 +18,8 @@ import numpy as np
 
 from bladerub.benchmark import peak, plain
 from bladerub.blade.model import ReducedBlade
-from bladerub.contact import kernel
-from bladerub.contact.run import SetUp, set_up, simulate
+from bladerub.contact.kernel import Progress, Rub
+from bladerub.contact.run import set_up, simulate
 from bladerub.contact.spec import RunSpec
 from bladerub.contact.vectors import LANES
 from bladerub.study.grid import coating_cases, run_spec, speeds
@@ -28,14 +28,17 @@ from bladerub.study.verification import draw, study_runs
 SHARE = 1 / 3
 """Share of the steps in contact."""
 REVOLUTIONS = 2
+REPEATS = 25
+"""Marches of the loop of the study in each round: one takes less than a millisecond, so the median counts."""
 PEAK_TURNS = 2_000_000
 FULL_RUNS = 8
 
 FLOPS_PER_MODE = 39
-"""Of a free step: recurrence 3, damping loss 4, displacement of 16 coordinates of the tip 32."""
+"""Of a step by itself: recurrence 3, damping loss 4, displacement of 16 coordinates of the tip 32."""
+FLOPS_PER_LEAP = 61
+"""Of a mode in a leap: way and last step 9, damping loss 12, mean 4, bound 4, displacement of the tip 32."""
 FLOPS_PER_PUSHED_MODE = 32
 FLOPS_PER_RESPONSE = 2 * 16 * 16
-RESPONSES = 3  # of the blade to the forces before, guessed and found
 FLOPS_PER_BAR = 17 + 52  # force once, and wear with its ledger
 FLOPS_PER_NODE = 60
 
@@ -72,32 +75,32 @@ def benchmark(
     free = replace(touching, clearance=(blade.length, blade.length), initial_displacement=1e-6 * blade.length)
     progress("compiling the plain loop")
     compiled = numba.njit(plain.march)
-    runs = {"contact": set_up(blade, touching), "free": set_up(blade, free)}
-    _plain(compiled, runs["contact"], 1)
+    specs = {"contact": touching, "free": free}
+    _plain(compiled, blade, touching, 1)
     peak.turns(1)
 
-    seconds: dict[str, list[dict[str, float]]] = {name: [] for name in runs}
+    seconds: dict[str, list[dict[str, float]]] = {name: [] for name in specs}
     operations: list[float] = []
     for number in range(rounds):
         progress(f"round {number + 1} of {rounds}")
         operations.append(PEAK_TURNS * peak.FLOPS_PER_TURN / _timed(peak.turns, PEAK_TURNS))
-        for name, run in runs.items():
-            steps = run.steps_per_element * run.stator.n_elements * REVOLUTIONS
+        for name, spec in specs.items():
+            steps = _steps(blade, spec)
             seconds[name].append(
                 {
-                    "numpy": _plain(plain.march, run, steps) / steps,
-                    "numba": _plain(compiled, run, steps) / steps,
-                    "production": _production(blade, touching if name == "contact" else free) / steps,
+                    "numpy": _plain(plain.march, blade, spec, steps) / steps,
+                    "numba": _plain(compiled, blade, spec, steps) / steps,
+                    "production": _production(blade, spec) / steps,
                 }
             )
     progress(f"timing {FULL_RUNS} runs of the study")
     seconds_per_run, n_runs = _mean_run(blade, config)
     cores = cores or os.cpu_count() or 1
     median = statistics.median
-    flops = {name: useful_flops(run, share if name == "contact" else 0.0) for name, run in runs.items()}
+    flops = {name: useful_flops(blade, spec) for name, spec in specs.items()}
     return {
         "rounds": rounds,
-        "modes": runs["contact"].rule.omega.size,
+        "modes": set_up(blade, touching)[0].omega.size,
         "contact_share": share,
         "steps_per_second": {
             loop: {name: 1 / median(row[loop] for row in rows) for name, rows in seconds.items()}
@@ -144,12 +147,18 @@ def in_contact(blade: ReducedBlade, spec: RunSpec) -> tuple[RunSpec, float]:
     return nearer, share
 
 
-def useful_flops(run: SetUp, share: float) -> float:
-    """Count the useful operations of a step, `share` of all being in contact; comparisons are not."""
-    n, rows = run.rule.omega.size, int(2 * run.tip.half_width) + 1
-    contact = FLOPS_PER_PUSHED_MODE * n + RESPONSES * FLOPS_PER_RESPONSE
-    contact += LANES * (rows * FLOPS_PER_BAR + FLOPS_PER_NODE)
-    return FLOPS_PER_MODE * n + share * contact
+def useful_flops(blade: ReducedBlade, spec: RunSpec) -> float:
+    """March a run, and count the useful operations of its mean step; comparisons are not."""
+    rule, rub = set_up(blade, spec)
+    n, bars = rule.omega.size, int(2 * rub.tip.half_width) + 1
+    marched = [_revolve(rub) for _ in range(spec.revolutions)]
+    steps, leaps, touching = (
+        sum(getattr(made, count) for made in marched) for count in ("n_steps", "n_leaps", "n_contact_steps")
+    )
+    contact = FLOPS_PER_PUSHED_MODE * n + FLOPS_PER_RESPONSE
+    contact += LANES * (bars * FLOPS_PER_BAR + FLOPS_PER_NODE)
+    single = steps - leaps * rub.flight.n_steps
+    return (n * (FLOPS_PER_MODE * single + FLOPS_PER_LEAP * leaps) + contact * touching) / steps
 
 
 def _middle_run(config: Mapping[str, Any]) -> RunSpec:
@@ -165,27 +174,32 @@ def _timed(function: Callable, *arguments: Any) -> float:
     return time.thread_time() - start
 
 
-def _plain(march: Callable, run: SetUp, steps: int) -> float:
-    return _timed(march, *plain.arguments(run), np.zeros(steps))
+def _plain(march: Callable, blade: ReducedBlade, spec: RunSpec, steps: int) -> float:
+    return _timed(march, *plain.arguments(*set_up(blade, spec)), np.zeros(steps))
 
 
 def _production(blade: ReducedBlade, spec: RunSpec) -> float:
-    run = set_up(blade, spec)
-    parts = run.motion, run.stator, run.tip, run.state, run.steps_per_element
-    displacement = np.zeros(run.stator.n_elements)
-    return sum(_timed(kernel.revolve, *parts, displacement) for _ in range(REVOLUTIONS))
+    seconds = []
+    for _ in range(REPEATS):
+        _, rub = set_up(blade, spec)
+        seconds.append(sum(_timed(_revolve, rub) for _ in range(spec.revolutions)))
+    return statistics.median(seconds)
+
+
+def _revolve(rub: Rub) -> Progress:
+    return rub.revolve(np.zeros(rub.stator.n_elements))
 
 
 def _mean_run(blade: ReducedBlade, config: Mapping[str, Any]) -> tuple[float, int]:
     """Estimate CPU seconds of the mean run of the study from the cost of a step of some; count the runs."""
     runs = study_runs(config)
-    steps = {f_omega: _steps(blade, config, f_omega) for f_omega in {run.f_omega for run in runs}}
+    case = coating_cases(config)[0]
+    steps = {f: _steps(blade, run_spec(config, case, f)) for f in {run.f_omega for run in runs}}
     drawn = draw(runs, min(FULL_RUNS, len(runs)), seed=0)
     seconds = sum(_timed(simulate, blade, run_spec(config, run.case, run.f_omega)) for run in drawn)
     per_step = seconds / sum(steps[run.f_omega] for run in drawn)
     return per_step * statistics.mean(steps[run.f_omega] for run in runs), len(runs)
 
 
-def _steps(blade: ReducedBlade, config: Mapping[str, Any], f_omega: float) -> int:
-    spec = run_spec(config, coating_cases(config)[0], f_omega)
-    return set_up(blade, spec).steps_per_element * spec.coating.n_elements * spec.revolutions
+def _steps(blade: ReducedBlade, spec: RunSpec) -> int:
+    return set_up(blade, spec)[1].steps_per_element * spec.coating.n_elements * spec.revolutions

@@ -9,24 +9,24 @@ from __future__ import annotations
 
 import numpy as np
 
-from bladerub.contact.kernel import ATTEMPTS, SETTLED
-from bladerub.contact.run import SetUp
+from bladerub.contact.kernel import ATTEMPTS, SETTLED, Rub
+from bladerub.contact.schemes import Recurrence
 
 
-def arguments(run: SetUp) -> tuple:
+def arguments(rule: Recurrence, rub: Rub) -> tuple:
     """Take from a run what `march` wants, copying what it changes."""
-    rule, stator, tip = run.rule, run.stator, run.tip
+    stator, tip = rub.stator, rub.tip
     n = rule.omega.size
     return (
-        (rule.now, rule.before, rule.push, np.ascontiguousarray(rule.tip), rule.compliance),
+        (rule.now, rule.before, rule.tip * rule.gain, np.ascontiguousarray(rule.tip), rule.compliance),
         (stator.elastic, stator.hardening, stator.strength, stator.own_compliance),
         (tip.start, tip.per_metre, tip.radius),
         (tip.half_width, tip.drop, tip.limit, stator.radial, stator.tangential),
         stator.gap,
         stator.floor,
-        run.state.wear.copy(),
-        run.state.q[:, :n].copy(),
-        run.steps_per_element,
+        rub.state.wear.copy(),
+        rub.state.q[:, :n].copy(),
+        rub.steps_per_element,
     )
 
 

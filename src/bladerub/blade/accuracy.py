@@ -6,19 +6,12 @@ from collections.abc import Mapping
 
 import numpy as np
 import pandas as pd
-from scipy.linalg import eigh
 
+from bladerub.blade.frequencies import reduced_frequencies
 from bladerub.blade.model import ReducedBlade
 
 CAMPBELL_COLUMNS = ["f_omega", "mode", "f_fe", "f_rom"]
 ACCURACY_COLUMNS = ["f_omega", "mode", "f_fe", "f_fe_eq2", "f_rom", "relative_error"]
-
-
-def reduced_frequencies(blade: ReducedBlade, f_omega: float, n_modes: int | None = None) -> np.ndarray:
-    """Lowest `n_modes` frequencies (all if not given) of the reduced model at `f_omega`, Hz."""
-    last = len(blade.mass) if n_modes is None else n_modes
-    squares = eigh(blade.stiffness(f_omega), blade.mass, eigvals_only=True, subset_by_index=[0, last - 1])
-    return np.sign(squares) * np.sqrt(np.abs(squares)) / (2 * np.pi)
 
 
 def accuracy_table(

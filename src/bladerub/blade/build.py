@@ -15,8 +15,9 @@ from threadpoolctl import threadpool_limits
 
 from bladerub import datafile
 from bladerub.blade import geometry
-from bladerub.blade.accuracy import CAMPBELL_COLUMNS, accuracy_table, reduced_frequencies
+from bladerub.blade.accuracy import CAMPBELL_COLUMNS, accuracy_table
 from bladerub.blade.elasticity import Material, Solid
+from bladerub.blade.frequencies import reduced_frequencies
 from bladerub.blade.linear import lowest_modes
 from bladerub.blade.mesh import BladeMesh
 from bladerub.blade.model import ReducedBlade, write_reduced_blade

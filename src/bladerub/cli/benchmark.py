@@ -20,10 +20,12 @@ def add_to(commands: Any) -> None:
         "with that loop compiled by numba, and with the loop of the study: once with contact in a third "
         "of the steps, once vibrating freely. Medians of rounds that take turns, on one core.",
         epilog="Fractions of peak: useful operations a second over those of a loop of products and sums in "
-        "the same vectors. Useful are, in each step, 39 a mode (recurrence, damping loss, displacement of "
-        "the tip), and with contact 32 more a mode (forces on the modes), three responses of the 16 "
-        "displacements to the 16 forces, 69 a bar under the tip (force once, wear and its ledger) and 60 a "
-        "node: comparisons, repeated attempts at the forces and filled-up vectors are not. Seconds a run: "
+        "the same vectors. Useful are, in a step made by itself, 39 a mode (recurrence, damping loss, "
+        "displacement of the tip); in a leap over many free steps, however many, 61 a mode (the same "
+        "over the leap, mean and bound of its way); with contact 32 more a mode (forces on the modes), a "
+        "response of the 16 displacements to the 16 forces, 69 a bar under the tip (force once, wear and its "
+        "ledger) and 60 a node: comparisons, repeated attempts at the forces and filled-up vectors are not. "
+        "Seconds a run: "
         "drawn runs of the study at its step. The study's minutes are those of its simulations alone, "
         "without those that are repeated longer.",
     )

@@ -53,15 +53,23 @@ def _drop(tip, offset):
     return tip.drop * (offset * offset)
 
 
-@njit
-def push_at(stator, tip, wear, position, rise):
-    """Force (N) and stiffness (N/m) of the bars under each node at the height `rise`, as in Fig. 4."""
+@njit(forceinline=True)
+def push_at(stator, tip, wear, position, rows, rise):
+    """Press the bars under each node to the height `rise`, as in Fig. 4, but leave them as they are.
+
+    Returns
+    -------
+    push, stiffness : vector
+        Force of the bars, N, and what it gains per height, N/m.
+    margin : vector
+        Change of height over which it is linear, m: no bar comes to bear, yields or is let go.
+    """
     elastic, hardening = load(stator.elastic, 0), load(stator.hardening, 0)
     strength = load(stator.strength, 0)
     yielding = elastic * load(stator.yielding, 0)
     plastic = yielding * hardening
-    push, stiffness = splat(0.0), splat(0.0)
-    first, last = rows_under(tip, position, position)
+    push, stiffness, margin = splat(0.0), splat(0.0), splat(math.inf)
+    first, last = rows
     for row in range(first, last + 1):
         at = wrap(row, stator.n_elements) * LANES
         offset = (row + 0.5) - position
@@ -71,10 +79,11 @@ def push_at(stator, tip, wear, position, rise):
         excess = trial - strength - hardening * worn
         push = push + share * higher(trial - yielding * higher(excess, 0.0), 0.0)
         stiffness = stiffness + share * choose(trial > 0.0, choose(excess > 0.0, plastic, elastic), 0.0)
-    return push, stiffness
+        margin = lower(margin, lower(magnitude(trial), magnitude(excess)))
+    return push, stiffness, 2.0 * load(stator.softness, 0) * margin
 
 
-@njit
+@njit(forceinline=True)
 def settle(stator, tip, wear, position, rise, position_before, rise_before):
     """Leave the bars as the tip presses them at the end of a step, and account for it.
 
@@ -104,14 +113,17 @@ def settle(stator, tip, wear, position, rise, position_before, rise_before):
     yielding, softness = load(stator.yielding, 0), load(stator.softness, 0)
     stored, loss, supplied = splat(0.0), splat(0.0), splat(0.0)
     first, last = rows_under(tip, lower(position, position_before), higher(position, position_before))
+    way, climb = position - position_before, rise - rise_before
+    shift, slope = _drop(tip, way), 2.0 * tip.drop * way
     for row in range(first, last + 1):
         at = wrap(row, stator.n_elements) * LANES
-        offset, offset_before = (row + 0.5) - position, (row + 0.5) - position_before
-        share, share_before = _covered(tip, offset), _covered(tip, offset_before)
-        drop, drop_before = _drop(tip, offset), _drop(tip, offset_before)
-        worn, gap = load(wear, at), load(stator.gap, at)
-        penetration, penetration_before = rise - drop - gap, rise_before - drop_before - gap
-        trial, trial_before = elastic * (penetration - worn), elastic * higher(penetration_before - worn, 0.0)
+        offset = (row + 0.5) - position
+        share, share_before = _covered(tip, offset), _covered(tip, offset + way)
+        lowering = slope * offset + shift  # of the profile over this bar, in the step
+        worn = load(wear, at)
+        penetration = rise - _drop(tip, offset) - load(stator.gap, at) - worn
+        deeper = climb + lowering
+        trial, trial_before = elastic * penetration, elastic * higher(penetration - deeper, 0.0)
         limit = strength + hardening * worn
         under = share > 0.0
         shortening = choose(under, yielding * higher(choose(trial > 0.0, trial - limit, 0.0), 0.0), 0.0)
@@ -122,11 +134,10 @@ def settle(stator, tip, wear, position, rise, position_before, rise_before):
         stored = stored + share * energy
         loss = loss + taken
         mean_share = 0.5 * (share + share_before)
-        deeper = penetration - penetration_before
         moved = magnitude(deeper) > LEVEL
         mean_force = choose(moved, (energy - energy_before + taken) / choose(moved, deeper, 1.0), force)
         staying = (
-            mean_share * mean_force * (drop_before - drop)
+            mean_share * mean_force * lowering
             + 0.5 * (energy + energy_before) * (share - share_before)
             + (1.0 - mean_share) * taken
         )

@@ -21,13 +21,18 @@ def position_of(tip, tangential, passed):
 
 
 @njit(inline="always")
-def force_of(stator, tip, radial, tangential, rise, push):
+def normal_of(tip, radial, tangential, rise):
+    """Outward normal of the casing where each node now is, by its own radial and tangential direction."""
+    share = 1.0 / (load(tip.radius, 0) + rise)
+    return share * (load(tip.radius, 0) + radial), share * tangential
+
+
+@njit(inline="always")
+def force_of(stator, normal_radial, normal_tangential, push):
     """Radial and tangential force on the blade: along the normal where each node now is, turned by θ."""
-    along = load(tip.radius, 0) + radial
-    share = push / (load(tip.radius, 0) + rise)
     return (
-        share * (stator.radial * along - stator.tangential * tangential),
-        share * (stator.radial * tangential + stator.tangential * along),
+        push * (stator.radial * normal_radial - stator.tangential * normal_tangential),
+        push * (stator.radial * normal_tangential + stator.tangential * normal_radial),
     )
 
 

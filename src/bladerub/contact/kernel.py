@@ -10,8 +10,9 @@ from typing import NamedTuple
 import numpy as np
 from numba import njit
 
-from bladerub.contact import abradable, rigid
-from bladerub.contact.geometry import force_of, is_within_bounds, position_of, rise_of
+from bladerub.contact import abradable, leap, rigid
+from bladerub.contact.geometry import force_of, is_within_bounds, normal_of, position_of, rise_of
+from bladerub.contact.leap import Leap
 from bladerub.contact.ledger import (
     DAMPING,
     EXCHANGED,
@@ -28,7 +29,7 @@ from bladerub.contact.ledger import (
     WEAR,
 )
 from bladerub.contact.machine_code import njit_on_disk
-from bladerub.contact.motion import advance, push_modes, respond
+from bladerub.contact.motion import Motion, advance, advance_under, push_modes, respond
 from bladerub.contact.relaxation import relax
 from bladerub.contact.vectors import (
     LANES,
@@ -48,6 +49,8 @@ from bladerub.contact.vectors import (
 
 SETTLED = 1e-11
 """Imbalance of any node's height at which the contact forces are taken as found, m."""
+NEAR = 1e-8
+"""Way along the casing that the search for the forces takes as straight and over the same bars, m."""
 ATTEMPTS = 8
 """Steps of Newton's method before the forces are sought node by node."""
 NEGLIGIBLE = 1e-100
@@ -140,6 +143,8 @@ class State(NamedTuple):
         Contact forces on the blade now and one step before, N.
     push, moment : (2, 8) ndarray
         Of each node at the same times: size of the contact force (N) and its moment about the axis (N m).
+    way : (16,) ndarray
+        Displacement of the tip by the forces of the last step in that step: where their search begins, m.
     wear : (N, 8) ndarray
         Permanent shortening of the bars, in the rows of `Stator`, m.
     ledger : (12, 8) ndarray
@@ -153,6 +158,7 @@ class State(NamedTuple):
     force: np.ndarray
     push: np.ndarray
     moment: np.ndarray
+    way: np.ndarray
     wear: np.ndarray
     ledger: np.ndarray
     scratch: np.ndarray
@@ -166,6 +172,7 @@ def at_rest(n_modes: int, n_elements: int) -> State:
         force=np.zeros((2, 2 * LANES)),
         push=np.zeros((2, LANES)),
         moment=np.zeros((2, LANES)),
+        way=np.zeros(2 * LANES),
         wear=np.zeros((n_elements, LANES)),
         ledger=np.zeros((N_ENTRIES, LANES)),
         scratch=np.zeros((4, 2 * LANES)),
@@ -173,7 +180,7 @@ def at_rest(n_modes: int, n_elements: int) -> State:
     return aligned(state)
 
 
-@njit
+@njit(forceinline=True)
 def _put(tip, radial, tangential, u):
     """Store a displacement of the tip and the height of its nodes; return that height."""
     rise = rise_of(tip, radial, tangential)
@@ -183,41 +190,58 @@ def _put(tip, radial, tangential, u):
     return rise
 
 
-@njit
+@njit(forceinline=True)
 def _is_clear(tip, radial, tangential, rise, floor):
     """Whether the tip surely touches nothing: its highest node is below the lowest gap in reach."""
     return everywhere((rise <= floor) & (magnitude(tangential) <= tip.stray) & (radial > -tip.limit))
 
 
-@njit
+@njit(forceinline=True)
 def _find_forces(motion, stator, tip, passed, state, u):
     """Find the contact forces that agree with the displacement they cause, by Newton's method.
 
-    `u` comes as the displacement without forces of this step and leaves under them; the forces of the step
-    before are the first guess. Returns whether the tip stayed within bounds.
+    `u` comes as the displacement without forces of this step and leaves under them; what the forces of the
+    step before did is the first guess. Returns whether the tip stayed within bounds.
     """
     force, push = state.force, state.push
     free_radial, free_tangential = load(u, 0), load(u, LANES)
-    radial, tangential = respond(motion.compliance, force, free_radial, free_tangential)
-    rise = met = rise_of(tip, radial, tangential)
+    radial, tangential = free_radial + load(state.way, 0), free_tangential + load(state.way, LANES)
+    there_radial, there_tangential = radial, tangential
+    rise = met = met_there = rise_of(tip, radial, tangential)
+    normal_radial, normal_tangential = normal_of(tip, radial, tangential, rise)
+    position = position_of(tip, tangential, passed)
+    rows = abradable.rows_under(tip, position, position)
+    evaluated, push_evaluated, stiffness, margin = rise, rise, rise, splat(-1.0)
     found = False
-    if not stator.is_rigid:
+    if not stator.is_rigid and is_within_bounds(tip, radial, tangential):
         for _ in range(ATTEMPTS):
-            if not is_within_bounds(tip, radial, tangential):
-                break
-            position = position_of(tip, tangential, passed)
-            by_coating, stiffness = abradable.push_at(stator, tip, state.wear, position, rise)
+            if not everywhere(magnitude(rise - evaluated) <= margin):
+                evaluated = rise
+                push_evaluated, stiffness, margin = abradable.push_at(
+                    stator, tip, state.wear, position, rows, rise
+                )
+            by_coating = push_evaluated + stiffness * (rise - evaluated)
             store(push, 0, by_coating)
-            by_radial, by_tangential = force_of(stator, tip, radial, tangential, met, by_coating)
+            by_radial, by_tangential = force_of(stator, normal_radial, normal_tangential, by_coating)
             store(force, 0, by_radial)
             store(force, LANES, by_tangential)
             radial, tangential = respond(motion.compliance, force, free_radial, free_tangential)
-            met = rise_of(tip, radial, tangential)
+            way_radial, way_tangential = radial - there_radial, tangential - there_tangential
+            met = met_there + normal_radial * way_radial + normal_tangential * way_tangential
             error = rise - met
-            if highest(magnitude(error)) <= SETTLED:
+            if everywhere((magnitude(error) <= SETTLED) & (magnitude(way_tangential) <= NEAR)):
                 found = True
                 break
             rise = rise - error / (1.0 + load(stator.own_compliance, 0) * stiffness)
+            if not everywhere(magnitude(way_tangential) <= NEAR):
+                if not is_within_bounds(tip, radial, tangential):
+                    break
+                there_radial, there_tangential = radial, tangential
+                met_there = rise_of(tip, radial, tangential)
+                normal_radial, normal_tangential = normal_of(tip, radial, tangential, met_there)
+                position = position_of(tip, tangential, passed)
+                rows = abradable.rows_under(tip, position, position)
+                margin = splat(-1.0)
         if not found:  # it may be anywhere by now: begin again
             _clear(force, 2 * LANES)
             _clear(push, LANES)
@@ -227,11 +251,14 @@ def _find_forces(motion, stator, tip, passed, state, u):
     store(u, 2 * LANES, met)
     if not found:
         relax(motion, stator, tip, state, passed, u, SETTLED)
-        _put(tip, load(u, 0), load(u, LANES), u)
-    return is_within_bounds(tip, load(u, 0), load(u, LANES))
+        radial, tangential = load(u, 0), load(u, LANES)
+        _put(tip, radial, tangential, u)
+    store(state.way, 0, radial - free_radial)
+    store(state.way, LANES, tangential - free_tangential)
+    return is_within_bounds(tip, radial, tangential)
 
 
-@njit
+@njit(forceinline=True)
 def _settle(stator, tip, passed, per_step, state, u, u_before):
     """Wear the coating by the forces just found and enter that in the ledger."""
     tangential, tangential_before = load(u, LANES), load(u_before, LANES)
@@ -258,7 +285,7 @@ def _settle(stator, tip, passed, per_step, state, u, u_before):
     _enter(entry, EXCHANGED, magnitude(supplied))
 
 
-@njit
+@njit(forceinline=True)
 def _enter_work(state, u_new, u_old):
     """Enter the work of the forces of a step, over half of the way from the step before to the step after."""
     entry = state.ledger
@@ -289,105 +316,186 @@ def _clear(target, n):
         store(target, k, splat(0.0))
 
 
-@njit
+@njit(forceinline=True)
 def _drop_negligible(q, n):
     for k in range(0, n, LANES):
         x = load(q, k)
         store(q, k, choose(magnitude(x) > NEGLIGIBLE, x, 0.0))
 
 
-def revolve(motion, stator, tip, state, steps_per_element, displacement):
-    """March one revolution of constant speed, or its beginning; `state` is moved on.
+class Rub:
+    """A blade and a stator, set to be marched.
 
     Parameters
     ----------
     motion : bladerub.contact.motion.Motion
         Coefficients of the scheme.
+    flight : bladerub.contact.leap.Leap
+        The same for free flight over many steps.
     stator : Stator
         Coating and casing.
     tip : Tip
         Tip of the blade.
     state : State
-        Where the run is.
+        Where the run is; `revolve` moves it on.
     steps_per_element : int
         Time steps in the passage of one element.
-    displacement : (n,) ndarray
-        Filled with the radial displacement of node 1, mean over the passage of each element, m; n = N makes
-        one revolution.
+    """
 
-    Returns
-    -------
-    n_steps, n_contact_steps : int
-        Steps made and those with contact; fewer steps than asked for when the tip left all bounds.
+    def __init__(
+        self, motion: Motion, flight: Leap, stator: Stator, tip: Tip, state: State, steps_per_element: int
+    ):
+        self.motion, self.flight, self.stator, self.tip, self.state = motion, flight, stator, tip, state
+        self.steps_per_element = steps_per_element
+        self._records = [addresses(record) for record in (motion, flight, stator, tip, state)]
+
+    def revolve(self, displacement: np.ndarray) -> Progress:
+        """March one revolution of constant speed, or its beginning.
+
+        Parameters
+        ----------
+        displacement : (n,) ndarray
+            Filled with the radial displacement of node 1, mean over the passage of each element, m; n = N
+            makes one revolution.
+        """
+        turns, *made = _march(
+            *self._records, self.steps_per_element, displacement.size, displacement.ctypes.data
+        )
+        for rows in (self.state.q, self.state.u):  # the loop lets the three rows take turns
+            rows[:] = rows[(np.arange(3) - turns) % 3]
+        return Progress(*made)
+
+
+class Progress(NamedTuple):
+    """What was made of a revolution.
+
+    Parameters
+    ----------
+    n_steps, n_leaps, n_contact_steps : int
+        Steps made, leaps that many of them were made in, and steps with contact; fewer steps than asked for
+        when the tip left all bounds.
     lowest, highest : float
         Range of the radial displacement of node 1, m.
     """
-    parts = (addresses(part) for part in (motion, stator, tip, state))
-    made, touched, *extremes = _march(*parts, steps_per_element, displacement.size, displacement.ctypes.data)
-    for rows in (state.q, state.u):  # the loop lets the three rows take turns
-        rows[:] = np.roll(rows, made % 3, axis=0)
-    return made, touched, *extremes
+
+    n_steps: int
+    n_leaps: int
+    n_contact_steps: int
+    lowest: float
+    highest: float
+
+
+@njit(forceinline=True)
+def _stays_clear(flight, tip, u, far, floor):
+    """Whether a leap in which no node rises by more than `far` surely touches nothing."""
+    radial, tangential, rise = load(u, 0), load(u, LANES), load(u, 2 * LANES)
+    return _is_clear(tip, radial - far, magnitude(tangential) + flight.sideways * far, rise + far, floor)
+
+
+@njit(forceinline=True)
+def _move(motion, state, touched, q, q_before, q_next):
+    """Move the modes by one step, as `bladerub.contact.motion.advance`, under the forces there are."""
+    if touched:
+        _copy(state.force, at(state.force, 2 * LANES), 2 * LANES)
+        _copy(state.push, at(state.push, LANES), LANES)
+        _copy(state.moment, at(state.moment, LANES), LANES)
+        if not motion.corrects:
+            return advance_under(motion, state.force, q, q_before, q_next)
+    return advance(motion, q, q_before, q_next)
+
+
+@njit(forceinline=True)
+def _meet(motion, stator, tip, state, when, where):
+    """Let the tip meet the casing at the end of a step, or leave it.
+
+    Returns
+    -------
+    within, touching : bool
+        Whether the tip stayed within bounds, and whether it touches now.
+    """
+    touched, clear, passed, per_step = when
+    q_next, u_before, u, u_next = where
+    touching = False
+    if clear:
+        _clear(state.force, 2 * LANES)
+        _clear(state.push, LANES)
+        _clear(state.way, 2 * LANES)
+    else:
+        if not _find_forces(motion, stator, tip, passed, state, u_next):
+            _copy(at(state.force, 2 * LANES), state.force, 2 * LANES)
+            return False, False
+        touching = highest(load(state.push, 0)) > 0.0
+    if touching or touched:
+        _settle(stator, tip, passed, per_step, state, u_next, u)
+    if touching and motion.corrects:
+        radial, tangential = push_modes(motion, state.force, q_next)
+        _put(tip, radial, tangential, u_next)
+    if touched:
+        _enter_work(state, u_next, u_before)
+        _clear(at(state.push, LANES), LANES)
+    return True, touching
 
 
 @njit_on_disk()
-def _march(motion, stator, tip, state, steps_per_element, n_elements, displacement):
-    n_steps = 0
-    n_contact = 0
+def _march(motion, flight, stator, tip, state, steps_per_element, n_elements, displacement):
+    turns = n_leaps = n_contact = 0
     bottom, top = np.inf, -np.inf
     per_step = 1.0 / steps_per_element
     touched = touching = highest(load(state.push, 0)) > 0.0
+    leapt, far = False, 0.0
     damping = splat(0.0)
     q, q_before, q_next = state.q, at(state.q, motion.n), at(state.q, 2 * motion.n)
     u, u_before, u_next = state.u, at(state.u, 3 * LANES), at(state.u, 6 * LANES)
-    force, force_before = state.force, at(state.force, 2 * LANES)
-    push_before = at(state.push, LANES)
     for element in range(n_elements):
-        _drop_negligible(state.q, 3 * motion.n)
+        if element & 31 == 0:
+            _drop_negligible(state.q, 3 * motion.n)
+        floor = read(stator.floor, element)
         mean = 0.0
-        for step in range(steps_per_element):
-            touched = touching
-            radial, tangential, loss = advance(motion, q, q_before, q_next)
-            damping = damping + loss
-            if touched:
-                _copy(force, force_before, 2 * LANES)
-                _copy(state.push, push_before, LANES)
-                _copy(state.moment, at(state.moment, LANES), LANES)
-                if not motion.corrects:
-                    push_modes(motion, force_before, q_next)
-                    radial, tangential = respond(motion.kick, force_before, radial, tangential)
-            rise = _put(tip, radial, tangential, u_next)
-            clear = _is_clear(tip, radial, tangential, rise, read(stator.floor, element))
-            if touched or not clear:
-                passed = element + (step + 1) * per_step
-                touching = False
-                if clear:
-                    _clear(force, 2 * LANES)
-                    _clear(state.push, LANES)
-                else:
-                    if not _find_forces(motion, stator, tip, passed, state, u_next):
+        step = 0
+        while step < steps_per_element:
+            if touching or step + flight.n_steps > steps_per_element:
+                leapt = False
+            else:
+                if not leapt:
+                    far = leap.reach(flight, motion.n, q, q_before)
+                leapt = _stays_clear(flight, tip, u, far, floor)
+            if leapt:
+                touched = False
+                node_1 = read(u, 0)
+                radial, tangential, loss, way, far = leap.take(flight, motion, q, q_before, q_next)
+                _put(tip, radial, tangential, u)
+                damping = damping + loss
+                mean += flight.n_steps * (node_1 + way)
+                low, high = leap.extremes(node_1, read(u, 0), node_1 + way)
+                bottom, top = min(bottom, low), max(top, high)
+                step += flight.n_steps
+                n_leaps += 1
+                continue
+            for _ in range(min(flight.n_steps, steps_per_element - step)):
+                touched = touching
+                radial, tangential, loss = _move(motion, state, touched, q, q_before, q_next)
+                rise = _put(tip, radial, tangential, u_next)
+                damping = damping + loss
+                step += 1
+                clear = _is_clear(tip, radial, tangential, rise, floor)
+                if touched or not clear:
+                    passed = element + step * per_step
+                    when = touched, clear, passed, per_step
+                    where = q_next, u_before, u, u_next
+                    within, touching = _meet(motion, stator, tip, state, when, where)
+                    if not within:
                         _copy(q, q_next, motion.n)  # the damping loss is complete up to here
-                        _copy(force_before, force, 2 * LANES)
                         _enter(state.ledger, DAMPING, damping)
-                        return n_steps, n_contact, bottom, top
-                    touching = highest(load(state.push, 0)) > 0.0
-                if touching or touched:
-                    _settle(stator, tip, passed, per_step, state, u_next, u)
-                if touching and motion.corrects:
-                    push_modes(motion, force, q_next)
-                    radial, tangential = respond(motion.kick, force, radial, tangential)
-                    _put(tip, radial, tangential, u_next)
-                if touched:
-                    _enter_work(state, u_next, u_before)
-                    _clear(push_before, LANES)
-                n_contact += touching
-            node_1, node_1_before = read(u_next, 0), read(u, 0)
-            mean += 0.5 * (node_1_before + node_1)
-            bottom, top = min(bottom, node_1), max(top, node_1)
-            n_steps += 1
-            q, q_before, q_next = q_next, q, q_before
-            u, u_before, u_next = u_next, u, u_before
+                        return turns, turns + n_leaps * flight.n_steps, n_leaps, n_contact, bottom, top
+                    n_contact += touching
+                node_1, node_1_before = read(u_next, 0), read(u, 0)
+                mean += 0.5 * (node_1_before + node_1)
+                bottom, top = min(bottom, node_1), max(top, node_1)
+                turns += 1
+                q, q_before, q_next = q_next, q, q_before
+                u, u_before, u_next = u_next, u, u_before
         write(displacement, element, mean * per_step)
     _enter(state.ledger, DAMPING, damping)
     if not (touched or touching):  # the last step added nothing
         _clear(at(state.ledger, STORED * LANES), 4 * LANES)
-    return n_steps, n_contact, bottom, top
+    return turns, turns + n_leaps * flight.n_steps, n_leaps, n_contact, bottom, top

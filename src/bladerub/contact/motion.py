@@ -22,10 +22,8 @@ class Motion(NamedTuple):
         Coefficients of the recurrence.
     tip : (n / 8, 16, 8) ndarray
         Displacement of the tip per unit of each mode, a block for each vector of modes.
-    push : (n / 8, 16, 8) ndarray
-        Modal coordinates per unit of each tip force, in the same blocks.
-    kick : (16, 16) ndarray
-        What ``push`` displaces at the tip: a row for each force, m/N.
+    gain : (n,) ndarray
+        Modal coordinates per unit of modal force.
     compliance : (16, 16) ndarray
         Displacement of the tip in the step of each force itself, m/N.
     corrects : bool
@@ -37,8 +35,7 @@ class Motion(NamedTuple):
     before: np.ndarray
     loss: np.ndarray
     tip: np.ndarray
-    push: np.ndarray
-    kick: np.ndarray
+    gain: np.ndarray
     compliance: np.ndarray
     corrects: bool
 
@@ -50,9 +47,8 @@ def pack(rule: Recurrence) -> Motion:
         now=_padded(rule.now),
         before=_padded(rule.before),
         loss=_padded(rule.loss),
-        tip=_blocks(rule.tip),
-        push=_blocks(rule.push),
-        kick=rule.push @ rule.tip.T,
+        tip=in_vectors(rule.tip),
+        gain=_padded(rule.gain),
         compliance=rule.compliance,
         corrects=rule.corrects,
     )
@@ -64,12 +60,13 @@ def _padded(rows: np.ndarray) -> np.ndarray:
     return np.pad(rows, [(0, 0)] * (rows.ndim - 1) + [(0, missing)])
 
 
-def _blocks(rows: np.ndarray) -> np.ndarray:
+def in_vectors(rows: np.ndarray) -> np.ndarray:
+    """Arrange rows (r, n) of modes in blocks (n / 8, r, 8), one for each vector of modes."""
     padded = _padded(rows)
     return padded.reshape(len(rows), -1, LANES).swapaxes(0, 1)
 
 
-@njit
+@njit(forceinline=True)
 def advance(motion, q, q1, q2):
     """Move the modes freely by one step, in place of the oldest coordinates `q2`; project them on the tip.
 
@@ -80,60 +77,105 @@ def advance(motion, q, q1, q2):
     loss : vector
         Damping loss of the step before, J, spread over the lanes: its end is known only now.
     """
-    tip = motion.tip
     loss = splat(0.0)
-    r0 = r1 = r2 = r3 = r4 = r5 = r6 = r7 = splat(0.0)
-    t0 = t1 = t2 = t3 = t4 = t5 = t6 = t7 = splat(0.0)
+    sums = no_projection()
     for k in range(0, motion.n, LANES):
-        present = load(q, k)
-        change = present - load(q2, k)
-        loss = loss + load(motion.loss, k) * change * change
-        x = load(motion.now, k) * present - load(motion.before, k) * load(q1, k)
+        x, more = _step(motion, k, q, q1, q2)
+        loss = loss + more
         store(q2, k, x)
-        r0 = r0 + load(tip, 16 * k) * x
-        r1 = r1 + load(tip, 16 * k + 8) * x
-        r2 = r2 + load(tip, 16 * k + 16) * x
-        r3 = r3 + load(tip, 16 * k + 24) * x
-        r4 = r4 + load(tip, 16 * k + 32) * x
-        r5 = r5 + load(tip, 16 * k + 40) * x
-        r6 = r6 + load(tip, 16 * k + 48) * x
-        r7 = r7 + load(tip, 16 * k + 56) * x
-        t0 = t0 + load(tip, 16 * k + 64) * x
-        t1 = t1 + load(tip, 16 * k + 72) * x
-        t2 = t2 + load(tip, 16 * k + 80) * x
-        t3 = t3 + load(tip, 16 * k + 88) * x
-        t4 = t4 + load(tip, 16 * k + 96) * x
-        t5 = t5 + load(tip, 16 * k + 104) * x
-        t6 = t6 + load(tip, 16 * k + 112) * x
-        t7 = t7 + load(tip, 16 * k + 120) * x
-    return totals(r0, r1, r2, r3, r4, r5, r6, r7), totals(t0, t1, t2, t3, t4, t5, t6, t7), loss
+        sums = project(motion, k, x, sums)
+    radial, tangential = displacement(sums)
+    return radial, tangential, loss
 
 
-@njit
-def push_modes(motion, force, q):
-    """Add the effect of the contact forces to the modal coordinates."""
-    push = motion.push
-    r0, r1, r2, r3, r4, r5, r6, r7 = _spread(force)
-    t0, t1, t2, t3, t4, t5, t6, t7 = _spread(at(force, 8))
+@njit(forceinline=True)
+def advance_under(motion, force, q, q1, q2):
+    """Do as `advance`, with the contact forces of the step before."""
+    loss = splat(0.0)
+    forces = _spread(force)
     for k in range(0, motion.n, LANES):
-        x, y = load(q, k), splat(0.0)  # halves of the sum, found at the same time
-        x = x + load(push, 16 * k) * r0
-        y = y + load(push, 16 * k + 64) * t0
-        x = x + load(push, 16 * k + 8) * r1
-        y = y + load(push, 16 * k + 72) * t1
-        x = x + load(push, 16 * k + 16) * r2
-        y = y + load(push, 16 * k + 80) * t2
-        x = x + load(push, 16 * k + 24) * r3
-        y = y + load(push, 16 * k + 88) * t3
-        x = x + load(push, 16 * k + 32) * r4
-        y = y + load(push, 16 * k + 96) * t4
-        x = x + load(push, 16 * k + 40) * r5
-        y = y + load(push, 16 * k + 104) * t5
-        x = x + load(push, 16 * k + 48) * r6
-        y = y + load(push, 16 * k + 112) * t6
-        x = x + load(push, 16 * k + 56) * r7
-        y = y + load(push, 16 * k + 120) * t7
-        store(q, k, x + y)
+        x, more = _step(motion, k, q, q1, q2)
+        loss = loss + more
+        store(q2, k, x + _pushed(motion, k, forces))
+    radial, tangential = _projection(motion, q2)
+    return radial, tangential, loss
+
+
+@njit(forceinline=True)
+def push_modes(motion, force, q):
+    """Add the effect of contact forces to the modal coordinates; project these on the tip, as `advance`."""
+    forces = _spread(force)
+    for k in range(0, motion.n, LANES):
+        store(q, k, load(q, k) + _pushed(motion, k, forces))
+    return _projection(motion, q)
+
+
+@njit(inline="always")
+def _step(motion, k, q, q1, q2):
+    present = load(q, k)
+    change = present - load(q2, k)
+    x = load(motion.now, k) * present - load(motion.before, k) * load(q1, k)
+    return x, load(motion.loss, k) * change * change
+
+
+@njit(forceinline=True)
+def _projection(motion, q):
+    sums = no_projection()
+    for k in range(0, motion.n, LANES):
+        sums = project(motion, k, load(q, k), sums)
+    return displacement(sums)
+
+
+@njit(inline="always")
+def no_projection():
+    """Begin the sums that `project` adds to and `displacement` closes."""
+    zero = splat(0.0)
+    return (zero, zero, zero, zero, zero, zero, zero, zero, zero, zero, zero, zero, zero, zero, zero, zero)
+
+
+@njit(inline="always")
+def project(motion, k, x, sums):
+    """Add what the modes `x`, from mode k on, displace at the tip: the interface rows of eq. (6)."""
+    rows = at(motion.tip, 16 * k)
+    return (
+        sums[0] + load(rows, 0) * x,
+        sums[1] + load(rows, 8) * x,
+        sums[2] + load(rows, 16) * x,
+        sums[3] + load(rows, 24) * x,
+        sums[4] + load(rows, 32) * x,
+        sums[5] + load(rows, 40) * x,
+        sums[6] + load(rows, 48) * x,
+        sums[7] + load(rows, 56) * x,
+        sums[8] + load(rows, 64) * x,
+        sums[9] + load(rows, 72) * x,
+        sums[10] + load(rows, 80) * x,
+        sums[11] + load(rows, 88) * x,
+        sums[12] + load(rows, 96) * x,
+        sums[13] + load(rows, 104) * x,
+        sums[14] + load(rows, 112) * x,
+        sums[15] + load(rows, 120) * x,
+    )
+
+
+@njit(inline="always")
+def displacement(sums):
+    """Radial and tangential displacement of the tip, m."""
+    r0, r1, r2, r3, r4, r5, r6, r7, t0, t1, t2, t3, t4, t5, t6, t7 = sums
+    return totals(r0, r1, r2, r3, r4, r5, r6, r7), totals(t0, t1, t2, t3, t4, t5, t6, t7)
+
+
+@njit(inline="always")
+def _pushed(motion, k, forces):
+    rows = at(motion.tip, 16 * k)
+    x, y = load(rows, 0) * forces[0], load(rows, 8) * forces[1]  # halves of the sum, found at the same time
+    x, y = x + load(rows, 16) * forces[2], y + load(rows, 24) * forces[3]
+    x, y = x + load(rows, 32) * forces[4], y + load(rows, 40) * forces[5]
+    x, y = x + load(rows, 48) * forces[6], y + load(rows, 56) * forces[7]
+    x, y = x + load(rows, 64) * forces[8], y + load(rows, 72) * forces[9]
+    x, y = x + load(rows, 80) * forces[10], y + load(rows, 88) * forces[11]
+    x, y = x + load(rows, 96) * forces[12], y + load(rows, 104) * forces[13]
+    x, y = x + load(rows, 112) * forces[14], y + load(rows, 120) * forces[15]
+    return load(motion.gain, k) * (x + y)
 
 
 @njit(inline="always")
@@ -147,10 +189,18 @@ def _spread(force):
         splat(read(force, 5)),
         splat(read(force, 6)),
         splat(read(force, 7)),
+        splat(read(force, 8)),
+        splat(read(force, 9)),
+        splat(read(force, 10)),
+        splat(read(force, 11)),
+        splat(read(force, 12)),
+        splat(read(force, 13)),
+        splat(read(force, 14)),
+        splat(read(force, 15)),
     )
 
 
-@njit
+@njit(forceinline=True)
 def respond(response, force, radial, tangential):
     """Add to the displacement of the tip what the contact forces cause, a row of `response` for each."""
     more_radial, more_tangential = splat(0.0), splat(0.0)  # halves of the sums, found at the same time

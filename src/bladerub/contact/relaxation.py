@@ -14,7 +14,7 @@ from numba import njit
 from bladerub.contact import rigid
 from bladerub.contact.abradable import wrap
 from bladerub.contact.coating import return_mapping
-from bladerub.contact.geometry import force_of, is_within_bounds, position_of, rise_of
+from bladerub.contact.geometry import force_of, is_within_bounds, normal_of, position_of, rise_of
 from bladerub.contact.vectors import LANES, at, load, read, store, write
 
 FOUND = 1e-12
@@ -57,9 +57,8 @@ def relax(motion, stator, tip, state, passed, u, settled):
                 continue
             change = max(change, own * abs(found - guess))
             write(push, j, found)
-            radial, tangential = force_of(
-                stator, tip, load(u, 0), load(u, LANES), load(rise, 0), load(push, 0)
-            )
+            across, along = normal_of(tip, load(u, 0), load(u, LANES), load(rise, 0))
+            radial, tangential = force_of(stator, across, along, load(push, 0))
             store(turned, 0, radial)
             store(turned, LANES, tangential)
             for k in (j, LANES + j):

@@ -4,15 +4,15 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import NamedTuple
 
 import numpy as np
 from scipy.ndimage import minimum_filter1d
 
 from bladerub.blade.model import N_INTERFACE, ReducedBlade
 from bladerub.contact import casing, kernel, ledger
+from bladerub.contact.leap import LONGEST, Leap, leap_of
 from bladerub.contact.modes import Modes, modes_at
-from bladerub.contact.motion import Motion, pack
+from bladerub.contact.motion import pack
 from bladerub.contact.schemes import SCHEMES, Contact, Recurrence, normal_compliance
 from bladerub.contact.spec import Coating, RunResult, RunSpec
 from bladerub.contact.tip import profile
@@ -55,23 +55,23 @@ def simulate(blade: ReducedBlade, spec: RunSpec, progress: Callable[[int], None]
         If the speed is outside the range of the blade, or the step too long for the scheme.
     """
     n_elements, revolutions = spec.coating.n_elements, spec.revolutions
-    rule, motion, stator, tip, state, steps_per_element = set_up(blade, spec)
-    initial = sum(ledger.blade_energy(rule, state))
+    rule, rub = set_up(blade, spec)
+    steps_per_revolution = rub.steps_per_element * n_elements
+    initial = sum(ledger.blade_energy(rule, rub.state))
     displacement = np.full((revolutions, n_elements), np.nan)
     lowest, highest = np.full(revolutions, np.nan), np.full(revolutions, np.nan)
     n_steps = n_contact_steps = 0
     status, message = "completed", f"{revolutions} revolutions completed"
     for revolution in range(revolutions):
-        made, touched, lowest[revolution], highest[revolution] = kernel.revolve(
-            motion, stator, tip, state, steps_per_element, displacement[revolution]
-        )
-        n_steps += made
-        n_contact_steps += touched
-        if made < steps_per_element * n_elements:
+        made = rub.revolve(displacement[revolution])
+        n_steps += made.n_steps
+        n_contact_steps += made.n_contact_steps
+        lowest[revolution], highest[revolution] = made.lowest, made.highest
+        if made.n_steps < steps_per_revolution:
             status = "unbounded"
             message = (
                 f"the tip moved by more than {spec.displacement_limit:g} m "
-                f"after {n_steps / (steps_per_element * n_elements):.2f} revolutions"
+                f"after {n_steps / steps_per_revolution:.2f} revolutions"
             )
             break
         if progress is not None:
@@ -80,7 +80,7 @@ def simulate(blade: ReducedBlade, spec: RunSpec, progress: Callable[[int], None]
         status=status,
         message=message,
         angle=_element_angle(n_elements),
-        wear=_by_angle(blade, spec, state.wear),
+        wear=_by_angle(blade, spec, rub.state.wear),
         radial_displacement=displacement.ravel(),
         revolution_peak=np.maximum(np.abs(lowest), np.abs(highest)),
         revolution_amplitude=0.5 * (highest - lowest),
@@ -88,22 +88,11 @@ def simulate(blade: ReducedBlade, spec: RunSpec, progress: Callable[[int], None]
         n_steps=n_steps,
         n_contact_steps=n_contact_steps,
         n_modes=rule.omega.size,
-        energy=ledger.close(rule, state, initial, 2 * np.pi / (steps_per_element * n_elements)),
+        energy=ledger.close(rule, rub.state, initial, 2 * np.pi / steps_per_revolution),
     )
 
 
-class SetUp(NamedTuple):
-    """What the time loop works on at the start of a run."""
-
-    rule: Recurrence
-    motion: Motion
-    stator: kernel.Stator
-    tip: kernel.Tip
-    state: kernel.State
-    steps_per_element: int
-
-
-def set_up(blade: ReducedBlade, spec: RunSpec) -> SetUp:
+def set_up(blade: ReducedBlade, spec: RunSpec) -> tuple[Recurrence, kernel.Rub]:
     """Bring blade and run into the form of the time loop, at rest.
 
     Raises
@@ -121,7 +110,9 @@ def set_up(blade: ReducedBlade, spec: RunSpec) -> SetUp:
     rule = SCHEMES[spec.scheme](modes, spec.damping_ratio, time_step, contact)
     tip = _tip(blade, spec)
     stator = _stator(blade, spec, tip, rule)
-    return SetUp(rule, pack(rule), stator, tip, _start(modes, rule, spec), steps_per_element)
+    flight = _flight(rule, tip, steps_per_element)
+    start = _start(modes, rule, spec, tip)
+    return rule, kernel.Rub(pack(rule), flight, stator, tip, start, steps_per_element)
 
 
 def kernel_warm_up() -> None:
@@ -133,7 +124,8 @@ def kernel_warm_up() -> None:
     bars = [zeros + 1.0] * 5
     stator = kernel.Stator(gap, gap[:, 0].copy(), *bars, 8, False, -1.0, 0.0, zeros)
     tip = kernel.Tip(zeros, zeros, zeros + 1.0, zeros + 1.0, 2.0, 0.0, 0.0, 1.0)
-    kernel.revolve(pack(rule), aligned(stator), aligned(tip), kernel.at_rest(1, 8), 1, np.zeros(8))
+    records = pack(rule), leap_of(rule, 1, 0.0), aligned(stator), aligned(tip), kernel.at_rest(1, 8)
+    kernel.Rub(*records, 1).revolve(np.zeros(8))
 
 
 def _lowest_within(reach: float, gap: np.ndarray) -> np.ndarray:
@@ -150,7 +142,13 @@ def _time_step(blade: ReducedBlade, spec: RunSpec) -> tuple[int, float]:
     return steps_per_element, passage / steps_per_element
 
 
-def _start(modes: Modes, rule: Recurrence, spec: RunSpec) -> kernel.State:
+def _flight(rule: Recurrence, tip: kernel.Tip, steps_per_element: int) -> Leap:
+    parts = math.ceil(steps_per_element / LONGEST)
+    slope = tip.stray / float(np.min(tip.radius - tip.limit))
+    return leap_of(rule, steps_per_element // parts, slope)
+
+
+def _start(modes: Modes, rule: Recurrence, spec: RunSpec, tip: kernel.Tip) -> kernel.State:
     """At rest, deflected in the first mode; the step before is the exact free motion back from there."""
     state = kernel.at_rest(rule.omega.size, spec.coating.n_elements)
     if spec.initial_displacement:
@@ -159,7 +157,9 @@ def _start(modes: Modes, rule: Recurrence, spec: RunSpec) -> kernel.State:
         back = math.exp(damping * x) * (math.cos(damped * x) - damping / damped * math.sin(damped * x))
         n = rule.omega.size
         state.q[:, 0] = np.array([1.0, back, back]) * spec.initial_displacement / modes.tip[0, 0]
-        state.u[:, : 2 * N_INTERFACE] = state.q[:, :n] @ rule.tip.T
+        radial, tangential = np.split(state.q[:, :n] @ rule.tip.T, 2, axis=1)
+        rise = np.hypot(tip.radius + radial, tangential) - tip.radius
+        state.u[:] = np.concatenate([radial, tangential, rise], axis=1)
     return state
 
 

@@ -3,11 +3,11 @@
 What a scheme promises, and `bladerub.contact.kernel.revolve` carries out:
 
 1. Eq. (1) is solved in the modal coordinates q of the reduced blade at one speed, at a constant step h. Each
-   resolved mode follows a two-step recurrence, ``q⁺ = now q − before q⁻``, plus ``push · F`` from the contact
-   forces F of one step.
+   resolved mode follows a two-step recurrence, ``q⁺ = now q − before q⁻``, plus ``gain tip · F`` from the
+   contact forces F of one step.
 2. *When* that is: a scheme that `corrects` evaluates F at the predicted position of the new step and adds
-   ``push · F`` there (prediction and correction, the paper's scheme). One that does not evaluates F at the
-   position itself and adds ``push · F`` to the step after.
+   ``gain tip · F`` there (prediction and correction, the paper's scheme). One that does not evaluates F at
+   the position itself and adds ``gain tip · F`` to the step after.
 3. Contact is judged at ``tip · q + compliance · F``, implicitly in F: where the tip gives way in the step of
    the force itself, forces and displacement agree with the law of contact. The matrix is symmetric and
    positive semidefinite.
@@ -47,8 +47,8 @@ class Recurrence(NamedTuple):
     ----------
     now, before : (n,) ndarray
         Coefficients of the present and of the previous modal coordinate.
-    push : (16, n) ndarray
-        Modal coordinates per unit of tip force, m kg^1/2/N.
+    gain : (n,) ndarray
+        Modal coordinate per unit of modal force, s²; a tip force pushes each mode by its displacement there.
     corrects : bool
         Whether the force acts in the step it is evaluated in (contract, 2).
     kinetic, loss : (n,) ndarray
@@ -66,7 +66,7 @@ class Recurrence(NamedTuple):
 
     now: np.ndarray
     before: np.ndarray
-    push: np.ndarray
+    gain: np.ndarray
     corrects: bool
     kinetic: np.ndarray
     loss: np.ndarray
@@ -243,7 +243,7 @@ def _recurrence(modes: Modes, now, before, gain, **rest) -> Recurrence:
     return Recurrence(
         now=now,
         before=before,
-        push=modes.tip * gain,
+        gain=gain,
         kinetic=(1.0 + before) / (4.0 * gain),
         loss=(1.0 - before) / (4.0 * gain),
         tip=modes.tip,

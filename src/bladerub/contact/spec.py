@@ -207,7 +207,8 @@ class RunResult:
         Radial displacement of node 1, mean over the passage of each element, m; NaN after an
         unbounded end.
     revolution_peak : (revolutions,) ndarray
-        Largest absolute radial displacement of node 1 in each revolution, m; NaN likewise.
+        Largest absolute radial displacement of node 1 in each revolution, m; NaN likewise. Between the ends
+        of a leap (`bladerub.contact.leap`) it is that of a parabola.
     revolution_amplitude : (revolutions,) ndarray
         Half the range of the radial displacement of node 1 in each revolution, m: its vibration without
         the mean deflection; NaN likewise.

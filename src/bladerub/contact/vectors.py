@@ -22,6 +22,7 @@ ANY_ORDER = (*FUSED, "reassoc")
 
 _DOUBLE, _INDEX = ir.DoubleType(), ir.IntType(32)
 _VECTOR, _MASK = ir.VectorType(_DOUBLE, LANES), ir.VectorType(ir.IntType(1), LANES)
+_UNDEFINED = ir.Constant(_VECTOR, ir.Undefined)
 
 
 class _Lanes(types.Type):
@@ -39,10 +40,13 @@ class _Primitive(models.PrimitiveModel):
 register_model(_Lanes)(_Primitive)
 
 
+def _lanes(numbers):
+    return ir.Constant(ir.VectorType(_INDEX, LANES), list(numbers))
+
+
 def _spread(builder, scalar):
-    undefined = ir.Constant(_VECTOR, ir.Undefined)
-    first = builder.insert_element(undefined, scalar, ir.Constant(_INDEX, 0))
-    return builder.shuffle_vector(first, undefined, ir.Constant(ir.VectorType(_INDEX, LANES), [0] * LANES))
+    first = builder.insert_element(_UNDEFINED, scalar, ir.Constant(_INDEX, 0))
+    return builder.shuffle_vector(first, _UNDEFINED, _lanes([0] * LANES))
 
 
 def _operands(builder, signature, arguments):
@@ -100,29 +104,63 @@ def _call(builder, name, result, *arguments):
     return builder.call(function, arguments, fastmath=ANY_ORDER if result == _DOUBLE else FUSED)
 
 
-def _function(name, doc, result=vector):
-    """Make a function of vectors from an LLVM intrinsic of that name."""
+def _function(name, doc):
+    """Make a function of one vector from an LLVM intrinsic of that name."""
 
-    def function(context, *kinds):
+    @intrinsic
+    def function(context, a):
         def generate(context, builder, signature, arguments):
-            back = _VECTOR if result == vector else _DOUBLE
-            return _call(builder, name, back, *_operands(builder, signature, arguments))
+            return _call(builder, name, _VECTOR, *arguments)
 
-        return result(*_typed(*kinds)), generate
+        return vector(a), generate
 
-    # numba counts the arguments of what it is given
-    unary, two = lambda context, a: function(context, a), lambda context, a, b: function(context, a, b)
-    made = intrinsic(two if name.startswith(("llvm.minnum", "llvm.maxnum")) else unary)
-    made.__doc__ = doc
-    return made
+    function.__doc__ = doc
+    return function
 
 
-lower = _function("llvm.minnum.v8f64", "Lane by lane the lower of two.")
-higher = _function("llvm.maxnum.v8f64", "Lane by lane the higher of two.")
 magnitude = _function("llvm.fabs.v8f64", "Absolute value.")
 root = _function("llvm.sqrt.v8f64", "Square root.")
-lowest = _function("llvm.vector.reduce.fmin.v8f64", "Lowest of all lanes.", types.float64)
-highest = _function("llvm.vector.reduce.fmax.v8f64", "Highest of all lanes.", types.float64)
+
+
+def _extreme(comparison, doc):
+    """Make a function that takes the extreme of two: one instruction, which LLVM's own is not for its NaN."""
+
+    @intrinsic
+    def function(context, a, b):
+        def generate(context, builder, signature, arguments):
+            a, b = _operands(builder, signature, arguments)
+            return builder.select(builder.fcmp_ordered(comparison, a, b), a, b)
+
+        return vector(*_typed(a, b)), generate
+
+    function.__doc__ = doc
+    return function
+
+
+lower = _extreme("<", "Lane by lane the lower of two; the second where one is not a number.")
+higher = _extreme(">", "Lane by lane the higher of two; the second where one is not a number.")
+
+
+def _extreme_lane(comparison, doc):
+    @intrinsic
+    def function(context, a):
+        def generate(context, builder, signature, arguments):
+            (rest,) = arguments
+            for width in (4, 2, 1):  # halves against each other
+                other = builder.shuffle_vector(
+                    rest, _UNDEFINED, _lanes((i + width) % LANES for i in range(LANES))
+                )
+                rest = builder.select(builder.fcmp_ordered(comparison, rest, other), rest, other)
+            return builder.extract_element(rest, ir.Constant(_INDEX, 0))
+
+        return types.float64(a), generate
+
+    function.__doc__ = doc
+    return function
+
+
+lowest = _extreme_lane("<", "Lowest of all lanes, none of which may be not a number.")
+highest = _extreme_lane(">", "Highest of all lanes, none of which may be not a number.")
 
 
 @intrinsic
@@ -251,7 +289,7 @@ def _shuffle(lanes):
     @intrinsic
     def shuffled(context, a, b):
         def generate(context, builder, signature, arguments):
-            return builder.shuffle_vector(*arguments, ir.Constant(ir.VectorType(_INDEX, LANES), lanes))
+            return builder.shuffle_vector(*arguments, _lanes(lanes))
 
         return vector(a, b), generate
 

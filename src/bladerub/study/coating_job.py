@@ -6,7 +6,9 @@ import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
+
+import numpy as np
 
 from bladerub.blade.model import ReducedBlade
 from bladerub.contact.run import simulate
@@ -99,13 +101,12 @@ def compute_missing(
         spec = run_spec(config, case, f_omega)
         path = folder / f"{speed_name(f_omega)}.h5"
         runs.append(_Plan(path, spec, run_key(spec, blade_digest, history, analysis), history))
-    _compute(runs, folder, case, blade, analysis, report)
+    outcomes = _compute(runs, folder, case, blade, analysis, report)
 
     rows, confirmations = [], []
     for run in runs:
-        stored = read_run(run.path, {"revolution_amplitude"})
-        status, confirmation_key = stored.attributes["status"], ""
-        if needs_confirmation(stored.data["revolution_amplitude"], status, settings):
+        (status, amplitude), confirmation_key = outcomes.get(run.path) or _stored(run.path), ""
+        if needs_confirmation(amplitude, status, settings):
             spec = confirmation_spec(run.spec, settings)
             confirmation_key = run_key(spec, blade_digest, False, analysis)
             confirmations.append(_Plan(confirmation_path(run.path), spec, confirmation_key, False))
@@ -124,6 +125,18 @@ class _Plan:
     keep_history: bool
 
 
+class _Outcome(NamedTuple):
+    """What tells whether a run needs a longer one."""
+
+    status: str
+    amplitude: np.ndarray
+
+
+def _stored(path: Path) -> _Outcome:
+    run = read_run(path, {"revolution_amplitude"})
+    return _Outcome(run.attributes["status"], run.data["revolution_amplitude"])
+
+
 def _compute(
     plans: Sequence[_Plan],
     folder: Path,
@@ -131,22 +144,25 @@ def _compute(
     blade: ReducedBlade,
     analysis: Mapping[str, Any],
     report: Callable[[RunDone], None],
-) -> None:
-    """Compute what is missing or stale of `plans`, all of as many revolutions."""
+) -> dict[Path, _Outcome]:
+    """Compute what is missing or stale of `plans`, all of as many revolutions, and return how it went."""
     missing = [
         plan for plan in plans if not (is_current(plan.path, plan.key) or unshelve(plan.path, plan.key))
     ]
     # a run takes as many steps as its revolutions take time: its cost goes as 1 / speed
     cost_left = sum(1 / plan.spec.f_omega for plan in missing)
     cost_done, start = 0.0, time.monotonic()
+    outcomes = {}
     for number, plan in enumerate(missing, 1):
         run_start = time.monotonic()
         result = simulate(blade, plan.spec)
         shelve(plan.path)
         write_run(plan.path, plan.spec, result, case, plan.key, analysis, plan.keep_history)
+        outcomes[plan.path] = _Outcome(result.status, result.revolution_amplitude)
         now = time.monotonic()
         cost_done += 1 / plan.spec.f_omega
         cost_left -= 1 / plan.spec.f_omega
         seconds_left = (now - start) * max(cost_left, 0.0) / cost_done
         file = plan.path.relative_to(folder).as_posix()
         report(RunDone(number, len(missing), file, result.status, now - run_start, seconds_left))
+    return outcomes

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping, Sequence, Set
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from bladerub import datafile
-from bladerub.blade.accuracy import reduced_frequencies
+from bladerub.blade.frequencies import reduced_frequencies
 from bladerub.blade.model import ReducedBlade
 from bladerub.datafile import Variable
 from bladerub.study.confirmation import confirmation_path
@@ -35,8 +35,8 @@ class CoatingMap:
         Casing angle, rad.
     wear : (n, a) ndarray
         Worn depth, mean over the interface nodes, m.
-    wear_node : (n, 8, a) ndarray
-        Worn depth under each node, m.
+    wear_node : (n, 8, a) ndarray or None
+        Worn depth under each node, m; read only where asked for, being most of a map.
     spectrum_order : (m,) ndarray
         Engine order.
     spectrum_amplitude : (n, m) ndarray
@@ -60,7 +60,7 @@ class CoatingMap:
     C1: np.ndarray
     angle: np.ndarray
     wear: np.ndarray
-    wear_node: np.ndarray
+    wear_node: np.ndarray | None
     spectrum_order: np.ndarray
     spectrum_amplitude: np.ndarray
     revolution_peak: np.ndarray
@@ -104,6 +104,9 @@ _DATASETS = {
 }
 
 
+_GATHERED = {"wear", "spectrum_amplitude", "revolution_peak", "revolution_amplitude"}
+
+
 def build_map(
     config: Mapping[str, Any],
     case: CoatingCase,
@@ -136,9 +139,10 @@ def build_map(
     rows = sorted(read_manifest(folder / "manifest.tsv"), key=lambda row: row.f_omega)
     if not rows:
         raise OSError(f"{folder / 'manifest.tsv'}: lists no run")
-    runs = [_listed_run(folder, folder / row.file, row.run_key) for row in rows]
+    runs = [_listed_run(folder, folder / row.file, row.run_key, _GATHERED) for row in rows]
+    scales = _listed_run(folder, folder / rows[0].file, rows[0].run_key, {"angle", "spectrum_order"}).data
     f_omega = np.array([row.f_omega for row in rows])
-    angle = runs[0].data["angle"]
+    angle = scales["angle"]
     wear = np.stack([run.data["wear"] for run in runs])
     prominence = config["analysis"]["lobe_prominence"]
     coating = CoatingMap(
@@ -148,7 +152,7 @@ def build_map(
         angle=angle,
         wear=np.stack([mean_wear(each) for each in wear]),
         wear_node=wear,
-        spectrum_order=runs[0].data["spectrum_order"],
+        spectrum_order=scales["spectrum_order"],
         spectrum_amplitude=np.stack([run.data["spectrum_amplitude"] for run in runs]),
         revolution_peak=np.stack([run.data["revolution_peak"] for run in runs]),
         revolution_amplitude=np.stack([run.data["revolution_amplitude"] for run in runs]),
@@ -164,7 +168,8 @@ def _confirmation_amplitude(folder: Path, rows: Sequence[ManifestRow]) -> np.nda
     amplitudes = {}
     for index, row in enumerate(rows):
         if row.confirmation_key:
-            run = _listed_run(folder, confirmation_path(folder / row.file), row.confirmation_key)
+            path = confirmation_path(folder / row.file)
+            run = _listed_run(folder, path, row.confirmation_key, {"revolution_amplitude"})
             amplitudes[index] = run.data["revolution_amplitude"]
     revolutions = max((amplitude.size for amplitude in amplitudes.values()), default=0)
     gathered = np.full((len(rows), revolutions), np.nan)
@@ -173,10 +178,10 @@ def _confirmation_amplitude(folder: Path, rows: Sequence[ManifestRow]) -> np.nda
     return gathered
 
 
-def _listed_run(folder: Path, path: Path, key: str) -> StoredRun:
+def _listed_run(folder: Path, path: Path, key: str, datasets: Set[str]) -> StoredRun:
     remedy = f"delete {folder / 'manifest.tsv'} and run the workflow again: it computes what is missing"
     try:
-        run = read_run(path)
+        run = read_run(path, datasets)
     except OSError as error:
         raise OSError(f"{error}; {remedy}") from error
     if run.attributes["run_key"] != key:
@@ -200,17 +205,19 @@ def write_map(path: str | Path, coating: CoatingMap) -> None:
     datafile.write(path, variables, {"casing": case.casing, "E": case.E, "K": case.K, "theta": case.theta})
 
 
-def read_map(path: str | Path) -> CoatingMap:
-    """Read a map written by `write_map`.
+def read_map(path: str | Path, with_nodes: bool = False) -> CoatingMap:
+    """Read a map written by `write_map`, `with_nodes` all of it.
 
     Raises
     ------
     OSError
         If the file is missing, damaged or not a map; the message names it.
     """
-    data, attributes = datafile.read(path)
+    data, attributes = datafile.read(path, _DATASETS.keys() - (set() if with_nodes else {"wear_node"}))
     try:
         case = CoatingCase(*(attributes[name] for name in ("casing", "E", "K", "theta")))
+        if not with_nodes:
+            data["wear_node"] = None
         return CoatingMap(case=case, **{name: data[name] for name in _DATASETS})
     except KeyError as error:
         raise OSError(f"{path}: not a map, {error} is missing") from error

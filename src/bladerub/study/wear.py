@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
-from scipy import ndimage, signal
+from scipy import ndimage
 
 SMOOTHING_ANGLE = np.radians(6.0)
 """Width of the Hann window that smooths a pattern, rad: the single hits within a lobe are closer than that
@@ -43,5 +43,22 @@ def lobes(angle: np.ndarray, wear: np.ndarray, prominence: float) -> int:
         return 0
     # cut the circle at its lowest point, so that no lobe is split and every valley is seen from both sides
     opened = np.roll(depth, -int(np.argmin(depth)))
-    peaks, _ = signal.find_peaks(np.append(opened, opened[0]), prominence=prominence * depth.max())
-    return len(peaks)
+    return _count_peaks(opened, prominence * depth.max())
+
+
+def _count_peaks(curve: np.ndarray, prominence: float) -> int:
+    """Count the maxima of a curve that begins at its lowest point, and comes back to it, by prominence.
+
+    They are as many as there are ways up by `prominence`, each followed by a way down by as much. (The
+    library's peaks take a job longer to import than everything else that it does.)
+    """
+    changing = curve[np.append(True, np.diff(curve) != 0)]
+    rises = np.diff(changing, append=curve[0])
+    turns = changing[rises * np.roll(rises, 1) <= 0]
+    count, high, extreme = 0, False, curve[0]  # on high ground the extreme is the top, else the bottom
+    for value in [*turns, curve[0]]:
+        extreme = max(extreme, value) if high else min(extreme, value)
+        if abs(value - extreme) >= prominence:
+            count += high
+            high, extreme = not high, value
+    return count

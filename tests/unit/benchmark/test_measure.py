@@ -3,7 +3,7 @@
 import pytest
 
 from bladerub.benchmark import measure, peak
-from bladerub.contact.run import set_up
+from bladerub.contact.run import set_up, simulate
 
 
 def test_the_casing_is_brought_near_until_a_third_is_contact(blade, spec):
@@ -12,13 +12,17 @@ def test_the_casing_is_brought_near_until_a_third_is_contact(blade, spec):
     assert found.casing.interference > 0
 
 
-def test_useful_operations_of_a_step(blade, spec):
-    run = set_up(blade, spec)
-    n = run.rule.omega.size
-    free = measure.useful_flops(run, 0.0)
-    assert free == 39 * n
-    contact = measure.useful_flops(run, 1.0) - free
-    assert contact == 32 * n + 3 * 512 + 8 * (5 * 69 + 60)
+def test_useful_operations_of_a_step(blade, spec, change):
+    rule, rub = set_up(blade, spec)
+    n, leap = rule.omega.size, rub.flight.n_steps
+    free = change(spec, clearance=(1.0, 1.0))
+    assert measure.useful_flops(blade, free) == pytest.approx(61 * n / leap)
+    result = simulate(blade, spec)
+    flops = measure.useful_flops(blade, spec) * result.n_steps
+    contact = (32 * n + 512 + 8 * (5 * 69 + 60)) * result.n_contact_steps
+    single = (flops - contact - 61 * n / leap * result.n_steps) / (39 * n - 61 * n / leap)
+    assert result.n_contact_steps <= single < result.n_steps
+    assert single == pytest.approx(round(single))
 
 
 def test_the_peak_loop_takes_time_in_proportion():

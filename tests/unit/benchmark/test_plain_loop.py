@@ -12,12 +12,12 @@ from bladerub.contact.run import set_up, simulate
 @pytest.mark.parametrize(("E", "K", "theta"), [(1.1, 0.5, 0.0), (2.0, 0.1, 0.15)])
 def test_the_same_run(blade, spec, change, march, E, K, theta):
     spec = change(spec, E=E, K=K, theta=theta, revolutions=2)
-    result, run = simulate(blade, spec), set_up(blade, spec)
-    arguments = plain.arguments(run)
+    result, (rule, rub) = simulate(blade, spec), set_up(blade, spec)
+    arguments = plain.arguments(rule, rub)
     displacement = np.zeros(result.n_steps)
     march(*arguments, displacement)
     middle = 0.5 * (displacement + np.concatenate([[0.0], displacement[:-1]]))
-    per_element = middle.reshape(-1, run.steps_per_element).mean(axis=1)
+    per_element = middle.reshape(-1, rub.steps_per_element).mean(axis=1)
     scale = np.abs(per_element).max()
     np.testing.assert_allclose(result.radial_displacement, per_element, rtol=0, atol=1e-7 * scale)
     wear = arguments[6]

@@ -6,6 +6,7 @@ from blade_parts import TITANIUM, section
 
 from bladerub.blade.elasticity import Material, Solid
 from bladerub.blade.mesh import hexahedral_mesh
+from bladerub.blade.model import ReducedBlade
 
 
 @pytest.fixture
@@ -51,3 +52,24 @@ def make_block():
         return Solid(mesh, Material(young, poisson, 7800.0), clamped)
 
     return make
+
+
+@pytest.fixture
+def oscillators():
+    """Thirty uncoupled unit masses, the j-th of frequency j Hz at rest, all stiffened by 100 f_omega² N/m."""
+    n = 30
+    squares = (2 * np.pi * np.arange(1, n + 1)) ** 2
+    return ReducedBlade(
+        mass=np.eye(n),
+        stiffness_0=np.diag(squares),
+        stiffness_1=100 * np.eye(n),
+        stiffness_2=np.zeros((n, n)),
+        node_position=np.zeros((8, 3)),
+        radial_direction=np.zeros((8, 3)),
+        tangential_direction=np.zeros((8, 3)),
+        f1_hz=1.0,
+        f_omega_max=0.4,
+        eta=2,
+        rank_tolerance=1e-5,
+        length=0.2,
+    )

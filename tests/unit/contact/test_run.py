@@ -30,8 +30,9 @@ def test_loop_agrees_with_numpy_reference_to_rounding(blade, spec, change, schem
     atol = 1e-9 if scheme == "central_differences" else 1e-6  # both find the implicit forces by iteration
     np.testing.assert_allclose(result.radial_displacement, per_element, rtol=0, atol=atol * scale)
     np.testing.assert_allclose(result.wear, wear, rtol=0, atol=atol * wear.max())
-    assert result.revolution_peak[0] == pytest.approx(scale, rel=atol)
-    assert result.revolution_amplitude[0] == pytest.approx(np.ptp(node_1) / 2, rel=atol)
+    assert result.revolution_peak[0] == pytest.approx(scale, rel=3e-4)
+    # peaks in free flight are those of the parabola through the ends of a leap and its mean
+    assert result.revolution_amplitude[0] == pytest.approx(np.ptp(node_1) / 2, rel=3e-4)
 
 
 def test_large_tangential_motion_agrees_with_reference(blade, spec, change):

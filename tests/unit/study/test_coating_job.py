@@ -148,7 +148,7 @@ def test_real_rubs_go_from_the_solver_to_the_table(study, case, blade, tmp_path)
     assert [done.file for done in reports] == ["0.1000.h5", "0.3000.h5"]
     assert list(table.f_omega) == [0.1, 0.3]
     assert set(table.status) == {"completed"}
-    coating = maps.read_map(tmp_path / "map.h5")
+    coating = maps.read_map(tmp_path / "map.h5", with_nodes=True)
     assert coating.wear_node.shape == (2, 8, 200)
     assert (coating.max_wear > 0).all()
     assert list(coating.lobes) == [2, 2]  # stiff and heavy, it cuts the two lobes of the casing

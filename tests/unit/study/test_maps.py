@@ -43,7 +43,7 @@ def build(config, case, blade, folder):
 
 
 def test_a_map_gathers_the_runs_by_speed(build, tmp_path, make_result):
-    coating = maps.read_map(build(tmp_path / "map.h5"))
+    coating = maps.read_map(build(tmp_path / "map.h5"), with_nodes=True)
     np.testing.assert_array_equal(coating.f_omega, SPEEDS)
     np.testing.assert_allclose(coating.C1, np.sqrt(1 + 3 * np.square(SPEEDS)))
     assert list(coating.lobes) == [10, 6, 4]
@@ -79,7 +79,8 @@ def test_xarray_opens_a_map_with_coordinates_and_units(build, tmp_path):
 def test_a_map_comes_back_as_written(tmp_path, case, make_map):
     written = make_map(case, {4: (0.3, 1e-4)}, status="completed")
     maps.write_map(tmp_path / "map.h5", written)
-    read = maps.read_map(tmp_path / "map.h5")
+    assert maps.read_map(tmp_path / "map.h5").wear_node is None
+    read = maps.read_map(tmp_path / "map.h5", with_nodes=True)
     assert read.case == case
     for field in dataclasses.fields(written)[1:]:
         np.testing.assert_array_equal(getattr(read, field.name), getattr(written, field.name))

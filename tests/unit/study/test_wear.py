@@ -1,5 +1,6 @@
 import numpy as np
 import pytest
+from scipy import ndimage, signal
 
 from bladerub.study.wear import lobes, mean_wear
 
@@ -58,3 +59,18 @@ def test_no_wear_and_an_even_ring_have_no_lobes(angle):
 def test_a_coarse_casing_is_not_smoothed_away():
     angle = (np.arange(40) + 0.5) * (2 * np.pi / 40)
     assert lobes(angle, pattern(angle, 5), PROMINENCE) == 5
+
+
+@pytest.mark.parametrize("seed", range(40))
+def test_a_rough_pattern_has_as_many_peaks_as_the_library_finds(angle, seed):
+    rng = np.random.default_rng(seed)
+    depth = ndimage.gaussian_filter1d(rng.random(angle.size), rng.uniform(5, 40), mode="wrap")
+    wear = 1e-3 * (depth - depth.min())
+    # as `lobes` smooths it, opened at the lowest point
+    width = round(np.radians(6.0) / (angle[1] - angle[0]))
+    window = np.hanning(width + 2)[1:-1]
+    smooth = ndimage.convolve1d(wear, window / window.sum(), mode="wrap")
+    opened = np.roll(smooth, -int(np.argmin(smooth)))
+    for prominence in (0.02, 0.1, 0.3):
+        expected, _ = signal.find_peaks(np.append(opened, opened[0]), prominence=prominence * smooth.max())
+        assert lobes(angle, wear, prominence) == len(expected) > 0

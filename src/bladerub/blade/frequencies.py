@@ -1,0 +1,15 @@
+"""Natural frequencies of the reduced blade at speed."""
+
+from __future__ import annotations
+
+import numpy as np
+from scipy.linalg import eigh
+
+from bladerub.blade.model import ReducedBlade
+
+
+def reduced_frequencies(blade: ReducedBlade, f_omega: float, n_modes: int | None = None) -> np.ndarray:
+    """Lowest `n_modes` frequencies (all if not given) of the reduced model at `f_omega`, Hz."""
+    last = len(blade.mass) if n_modes is None else n_modes
+    squares = eigh(blade.stiffness(f_omega), blade.mass, eigvals_only=True, subset_by_index=[0, last - 1])
+    return np.sign(squares) * np.sqrt(np.abs(squares)) / (2 * np.pi)

@@ -1,0 +1,69 @@
+"""What a study costs: the records that Snakemake keeps of its jobs, a row a job."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pandas as pd
+
+STAGES = {
+    "blade": "blade",
+    "compile_kernel": "compilation",
+    "coating": "rubs",
+    "map": "maps",
+    "peaks": "tables",
+    "divergence": "tables",
+    "findings": "tables",
+}
+"""Stage of each rule, in the order of the workflow; rules that draw are `FIGURES`."""
+FIGURES = "figures"
+COLUMNS = ["stage", "rule", "job", "wall_s", "cpu_s", "memory_mb"]
+
+
+def table(benchmarks: str | Path) -> pd.DataFrame:
+    """Gather the records of the last execution of each job.
+
+    Parameters
+    ----------
+    benchmarks : path-like
+        The folder that the rules write them to: ``<rule>.tsv``, or ``<rule>/<job>.tsv``.
+
+    Returns
+    -------
+    DataFrame
+        `COLUMNS`: ``job`` is what tells the jobs of a rule apart, empty for a rule of one job. CPU time and
+        largest memory are those of the job's process and its children; NaN where a job was too short to be
+        looked at.
+    """
+    rows = []
+    for path in sorted(Path(benchmarks).rglob("*.tsv")):
+        *rule, name = path.relative_to(benchmarks).with_suffix("").parts
+        rule, job = (rule[0], name) if rule else (name, "")
+        if rule in STAGES or rule.startswith("fig"):
+            record = pd.read_csv(path, sep="\t", na_values="-").iloc[-1]
+            stage = STAGES.get(rule, FIGURES)
+            rows.append((stage, rule, job, record["s"], record["cpu_time"], record["max_rss"]))
+    return pd.DataFrame(rows, columns=COLUMNS)
+
+
+def by_stage(costs: pd.DataFrame) -> pd.DataFrame:
+    """Sum up the jobs of each stage.
+
+    Parameters
+    ----------
+    costs : DataFrame
+        From `table`.
+
+    Returns
+    -------
+    DataFrame
+        Indexed by stage in the order of the workflow: ``jobs``, ``cpu_s`` and their ``share``, and the
+        largest ``memory_mb`` of a job.
+    """
+    grouped = costs.groupby("stage").agg(
+        jobs=("rule", "size"), cpu_s=("cpu_s", "sum"), memory_mb=("memory_mb", "max")
+    )
+    order = [stage for stage in [*dict.fromkeys(STAGES.values()), FIGURES] if stage in grouped.index]
+    stages = grouped.loc[order]
+    stages.insert(2, "share", stages["cpu_s"] / stages["cpu_s"].sum())
+    return stages
