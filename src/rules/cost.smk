@@ -3,16 +3,18 @@
 
 rule cost:
     input:
-        # whatever gathers or draws comes first, but does not by itself make the costs anew
-        ancient([rules.peaks.output, rules.divergence.output, rules.findings.output]),
-        ancient(FIGURES),
+        # not for what is in them: any job done anew may have another cost
+        rules.peaks.output,
+        rules.divergence.output,
+        rules.findings.output,
+        FIGURES,
         maps=expand(rules.map.output, coating=COATINGS),
         gathering="src/bladerub/study/cost.py",
         drawing=drawing("cost"),
     output:
         table=f"{RESULTS}/tables/cost.csv",
-        png=f"{PLOTS}/cost.png",
-        pdf=f"{PLOTS}/cost.pdf",
+        png=f"{RESULTS}/benchmarks/cost.png",
+        pdf=f"{RESULTS}/benchmarks/cost.pdf",
     log:
         f"{RESULTS}/logs/cost.log",
     threads: 1

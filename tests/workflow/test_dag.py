@@ -50,7 +50,7 @@ def test_resolution_plans_only_figures(study, tiny):
 def test_peak_search_plans_no_map(study, tiny):
     tiny["analysis"]["peaks"] = {"speed_window": [0.9, 1.2]}
     plan = study.plan(tiny)
-    assert plan == {"peaks": 1, "findings": 1, "fig10_peaks": 1, "all": 1} | HISTOGRAMS
+    assert plan == {"peaks": 1, "findings": 1, "fig10_peaks": 1, "cost": 1, "all": 1} | HISTOGRAMS
 
 
 def test_a_casing_plans_only_its_coatings(study, tiny):
@@ -72,7 +72,7 @@ def test_an_edit_of_the_peak_search_plans_what_comes_of_it(copied_study, tiny):
     with (copied_study.folder / "src/bladerub/study/peaks.py").open("a") as source:
         source.write("# edited\n")
     plan = copied_study.plan(tiny)
-    assert plan == {"peaks": 1, "findings": 1, "fig10_peaks": 1, "all": 1} | HISTOGRAMS
+    assert plan == {"peaks": 1, "findings": 1, "fig10_peaks": 1, "cost": 1, "all": 1} | HISTOGRAMS
 
 
 def test_a_new_coating_computes_itself_alone(copied_study, with_E3):
