@@ -33,6 +33,7 @@ include: "src/rules/runs.smk"
 include: "src/rules/maps.smk"
 include: "src/rules/figures.smk"
 include: "src/rules/cost.smk"
+include: "src/rules/calibration.smk"
 
 
 localrules:

@@ -10,7 +10,7 @@ import copy
 import math
 import re
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from difflib import get_close_matches
 from functools import cache
@@ -69,7 +69,7 @@ def load(*paths: str | Path) -> dict[str, Any]:
     """
     config: dict[str, Any] = {}
     for path in paths:
-        _merge(config, _read(Path(path)))
+        lay_over(config, _read(Path(path)))
     return read_numbers(config)
 
 
@@ -90,10 +90,11 @@ def _read(path: Path) -> dict[str, Any]:
     return content
 
 
-def _merge(base: dict[str, Any], overlay: dict[str, Any]) -> None:
+def lay_over(base: dict[str, Any], overlay: Mapping[str, Any]) -> None:
+    """Change `base` by what `overlay` holds: mappings merge, all else is replaced."""
     for key, value in overlay.items():
         if isinstance(value, dict) and isinstance(base.get(key), dict):
-            _merge(base[key], value)
+            lay_over(base[key], value)
         else:
             base[key] = value
 

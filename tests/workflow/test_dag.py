@@ -133,3 +133,15 @@ def test_quick_study_can_draw_every_figure(workspace):
     assert {f"fig{n:02}" for n in range(1, 20)} <= {
         word[:5] for word in (done.stdout + done.stderr).split() if word.startswith("fig")
     }
+
+
+def test_the_calibration_is_planned_when_asked_for(workspace, tiny):
+    plan = workspace.plan(tiny, "calibration")
+    assert plan.keys() == {"compile_kernel", "calibration_set", "calibration"}
+    (workspace.folder / "config" / "calibration.yaml").write_text(
+        "sets: {odd: {contact: {damping_ratio: 2}}}\n"
+    )
+    done = workspace.snakemake("calibration", "--dry-run", config=tiny)
+    assert done.returncode != 0
+    assert "odd: contact.damping_ratio = 2" in done.stderr
+    assert "Traceback" not in done.stderr

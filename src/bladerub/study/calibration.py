@@ -1,0 +1,124 @@
+"""What the paper leaves open, varied: how its claims answer to each set of choices.
+
+A plan names sets of choices, each a part of a config that is laid over the study. Every set is a small study
+of its own, from the blade to the findings, by the same functions as the study itself.
+"""
+
+from __future__ import annotations
+
+import copy
+from collections.abc import Callable, Iterable, Mapping
+from pathlib import Path
+from typing import Any
+
+import pandas as pd
+
+from bladerub import config as configuration
+from bladerub.blade.build import build, write
+from bladerub.blade.model import read_reduced_blade
+from bladerub.config import ConfigError
+from bladerub.study import divergence, findings, peaks
+from bladerub.study.coating_job import compute_missing
+from bladerub.study.grid import coating_cases
+from bladerub.study.key import blade_digest
+from bladerub.study.maps import build_map
+from bladerub.study.store import write_manifest
+
+COLUMNS = ["set", "id", "claim", "paper", "measured", "unit", "holds", "margin"]
+
+
+def plan(config: Mapping[str, Any], path: str | Path) -> dict[str, dict[str, Any]]:
+    """Read a plan and make the config of each of its sets.
+
+    Parameters
+    ----------
+    config : mapping
+        The study that the sets vary.
+    path : path-like
+        YAML file with ``common``, laid over the study in every set, and ``sets``, by name what is laid over
+        that.
+
+    Returns
+    -------
+    dict of str to dict
+        The configs by the name of their sets, in the order of the plan.
+
+    Raises
+    ------
+    ConfigError
+        If the file is no plan or a set no config; every fault with the set it is in.
+    """
+    content = configuration.load(path)
+    unknown = content.keys() - {"common", "sets"}
+    if unknown or not isinstance(content.get("sets"), dict):
+        raise ConfigError([f"{path}: must hold common and sets, and nothing else"])
+    configs, faults = {}, []
+    for name, choices in content["sets"].items():
+        if not str(name).replace("_", "").replace(".", "").isalnum():
+            faults.append(
+                f"{path}: {name}: the name of a set must be of letters, digits, dots and underscores"
+            )
+            continue
+        varied = copy.deepcopy(dict(config))
+        configuration.lay_over(varied, content.get("common") or {})
+        configuration.lay_over(varied, choices or {})
+        try:
+            configs[str(name)] = configuration.validate(varied)
+        except ConfigError as error:
+            faults += [f"{path}: {name}: {fault}" for fault in error.faults]
+    if faults:
+        raise ConfigError(faults)
+    return configs
+
+
+def answer(config: Mapping[str, Any], folder: str | Path, report: Callable[[object], None]) -> pd.DataFrame:
+    """Make the study of one set, and put the claims to it.
+
+    Parameters
+    ----------
+    config : mapping
+        From `plan`.
+    folder : path-like
+        For its blade, runs, maps and tables; runs that are there and current are kept.
+    report : callable
+        Called with a `bladerub.study.coating_job.RunDone` after each run.
+
+    Returns
+    -------
+    DataFrame
+        As `bladerub.study.findings.table`.
+    """
+    folder = Path(folder)
+    model, accuracy = folder / "blade" / "reduced_model.h5", folder / "tables" / "rom_accuracy.csv"
+    write(build(config), model, folder / "blade" / "mesh.h5", folder / "tables" / "campbell.csv", accuracy)
+    blade, digest = read_reduced_blade(model), blade_digest(model)
+    maps = []
+    for case in coating_cases(config):
+        runs, gathered = folder / "runs" / case.name, folder / "maps" / f"{case.name}.h5"
+        write_manifest(
+            runs / "manifest.tsv", compute_missing(config, case, blade, runs, digest, report=report)
+        )
+        build_map(config, case, blade, runs, gathered)
+        maps.append(gathered)
+    tables = {"peaks": peaks.table(config, maps), "divergence": divergence.table(config, maps)}
+    for name, table in tables.items():
+        table.to_csv(folder / "tables" / f"{name}.csv", index=False)
+    return findings.table(config, maps, *(folder / "tables" / f"{name}.csv" for name in tables), accuracy)
+
+
+def gather(answers: Mapping[str, str | Path]) -> pd.DataFrame:
+    """Put the findings of all sets into one table of `COLUMNS`.
+
+    Parameters
+    ----------
+    answers : mapping of str to path-like
+        File of findings by the name of the set.
+    """
+    tables = [pd.read_csv(path).assign(set=name) for name, path in answers.items()]
+    return pd.concat(tables, ignore_index=True)[COLUMNS]
+
+
+def verdicts(table: pd.DataFrame, sets: Iterable[str]) -> pd.DataFrame:
+    """Return ``holds`` of each claim (rows, in the order of the findings) in each set (columns)."""
+    wide = table.pivot_table(index="id", columns="set", values="holds", aggfunc="first")
+    return wide.loc[list(dict.fromkeys(table["id"])), list(sets)]

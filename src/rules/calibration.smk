@@ -1,0 +1,60 @@
+# The choices that the paper leaves open, varied (docs/calibration.md). Not part of `all`.
+from functools import cache
+
+CALIBRATION = "config/calibration.yaml"
+
+
+@cache
+def calibration_plan():
+    """The config of every set; read only when somebody asks for the calibration."""
+    from bladerub.study.calibration import plan
+
+    with bladerub.config.faults_end_the_program():
+        return plan(config, CALIBRATION)
+
+
+def calibration_answers(wildcards):
+    return [
+        f"{RESULTS}/calibration/{name}/tables/findings.csv"
+        for name in calibration_plan()
+    ]
+
+
+def calibration_set(wildcards):
+    """The choices of one set: a changed one is a reason to run."""
+    return calibration_plan()[wildcards.set]
+
+
+rule calibration:
+    input:
+        findings=calibration_answers,
+        drawing=drawing("verdicts"),
+    output:
+        table=f"{RESULTS}/tables/calibration.csv",
+        png=f"{PLOTS}/calibration.png",
+        pdf=f"{PLOTS}/calibration.pdf",
+    log:
+        f"{RESULTS}/logs/calibration.log",
+    threads: 1
+    params:
+        dpi=DPI,
+    script:
+        "../scripts/calibration.py"
+
+
+rule calibration_set:
+    input:
+        kernel=rules.compile_kernel.output[0],
+        analysing=[*rules.map.input.analysing, *rules.findings.input.analysing],
+    output:
+        f"{RESULTS}/calibration/{{set}}/tables/findings.csv",
+    log:
+        f"{RESULTS}/logs/calibration/{{set}}.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/calibration/{{set}}.tsv"
+    threads: 1
+    params:
+        folder=f"{RESULTS}/calibration/{{set}}",
+        choices=calibration_set,
+    script:
+        "../scripts/calibration_set.py"

@@ -1,0 +1,12 @@
+"""One set of choices: a small study of its own, and what the claims say to it."""
+
+import sys
+
+from bladerub.study.calibration import answer
+
+sys.stderr = open(snakemake.log[0], "w", buffering=1)
+
+found = answer(
+    snakemake.params.choices, snakemake.params.folder, report=lambda run: print(run, file=sys.stderr)
+)
+found.to_csv(snakemake.output[0], index=False)

@@ -1,0 +1,83 @@
+import pandas as pd
+import pytest
+
+from bladerub.config import ROOT, ConfigError, load, validate
+from bladerub.study.calibration import COLUMNS, gather, plan, verdicts
+
+
+@pytest.fixture
+def study():
+    return validate(load(ROOT / "config" / "config.yaml"))
+
+
+@pytest.fixture
+def write(tmp_path):
+    def written(text):
+        path = tmp_path / "plan.yaml"
+        path.write_text(text)
+        return path
+
+    return written
+
+
+def test_each_set_is_laid_over_what_is_common(study, write):
+    path = write(
+        "common: {speeds: {start: 0.1}, contact: {damping_ratio: 1.0e-3}}\n"
+        "sets:\n"
+        "  as_it_is: {}\n"
+        "  stiff: {contact: {modulus_unit: 400.0e+6}}\n"
+        "  loose: {contact: {damping_ratio: 5e-3}}\n"
+    )
+    sets = plan(study, path)
+    assert list(sets) == ["as_it_is", "stiff", "loose"]
+    assert all(config["speeds"]["start"] == 0.1 for config in sets.values())
+    assert [config["contact"]["damping_ratio"] for config in sets.values()] == [1e-3, 1e-3, 5e-3]
+    assert sets["stiff"]["contact"]["modulus_unit"] == 400e6
+    assert sets["loose"]["contact"]["modulus_unit"] == study["contact"]["modulus_unit"]
+    assert study["speeds"]["start"] == 0.02
+
+
+def test_every_fault_is_told_with_its_set(study, write):
+    path = write("sets: {a: {contact: {damping_ratio: 2}}, ../b: {}, c: {contact: {damping: 1}}}\n")
+    with pytest.raises(ConfigError) as caught:
+        plan(study, path)
+    first, second, third = sorted(caught.value.faults)
+    assert "../b: the name of a set must be" in first
+    assert ": a: contact.damping_ratio = 2" in second
+    assert ": c: contact.damping" in third
+
+
+@pytest.mark.parametrize("text", ["sets: []\n", "common: {}\n", "sets: {a: {}}\nspeeds: {}\n"])
+def test_what_is_no_plan_is_refused(study, write, text):
+    with pytest.raises(ConfigError, match="must hold common and sets"):
+        plan(study, write(text))
+
+
+def test_the_plan_of_the_repository_is_one(study):
+    assert next(iter(plan(study, ROOT / "config" / "calibration.yaml"))) == "study"
+
+
+def test_findings_of_all_sets_stand_side_by_side(tmp_path):
+    answers = {}
+    for name, holds in (("b", ["yes", "no"]), ("a", ["partly"])):
+        rows = [
+            {
+                "id": f"C{i}",
+                "claim": "c",
+                "paper": 1,
+                "measured": 2,
+                "unit": "1",
+                "holds": each,
+                "margin": 0.5,
+            }
+            for i, each in enumerate(holds)
+        ]
+        answers[name] = tmp_path / f"{name}.csv"
+        pd.DataFrame(rows).to_csv(answers[name], index=False)
+    table = gather(answers)
+    assert list(table.columns) == COLUMNS
+    wide = verdicts(table, answers)
+    assert list(wide.columns) == ["b", "a"]
+    assert list(wide.loc["C0"]) == ["yes", "partly"]
+    assert wide.loc["C1", "b"] == "no"
+    assert pd.isna(wide.loc["C1", "a"])
