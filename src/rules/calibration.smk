@@ -45,7 +45,14 @@ rule calibration:
 rule calibration_set:
     input:
         kernel=rules.compile_kernel.output[0],
-        analysing=[*rules.map.input.analysing, *rules.findings.input.analysing],
+        building=rules.blade.input,
+        analysing=[
+            *rules.map.input.analysing,
+            *rules.peaks.input.analysing,
+            *rules.divergence.input.analysing,
+            *rules.findings.input.analysing,
+            *analysing("calibration"),
+        ],
     output:
         f"{RESULTS}/calibration/{{set}}/tables/findings.csv",
     log:

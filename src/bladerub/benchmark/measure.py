@@ -29,7 +29,7 @@ SHARE = 1 / 3
 """Share of the steps in contact."""
 REVOLUTIONS = 2
 REPEATS = 25
-"""Marches of the loop of the study in each round: one takes less than a millisecond, so the median counts."""
+"""Marches of the loop of the study in each round: free ones take half a millisecond, so the median counts."""
 PEAK_TURNS = 2_000_000
 FULL_RUNS = 8
 

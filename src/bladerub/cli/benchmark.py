@@ -25,9 +25,8 @@ def add_to(commands: Any) -> None:
         "over the leap, mean and bound of its way); with contact 32 more a mode (forces on the modes), a "
         "response of the 16 displacements to the 16 forces, 69 a bar under the tip (force once, wear and its "
         "ledger) and 60 a node: comparisons, repeated attempts at the forces and filled-up vectors are not. "
-        "Seconds a run: "
-        "drawn runs of the study at its step. The study's minutes are those of its simulations alone, "
-        "without those that are repeated longer.",
+        "Seconds a run: drawn runs of the study at its step. The study's minutes are those of its "
+        "simulations alone, without those that are repeated longer.",
     )
     parser.set_defaults(command=benchmark)
     inputs.add_to(parser)
@@ -49,10 +48,7 @@ def benchmark(options: argparse.Namespace) -> None:
         If an option is.
     """
     config = inputs.read_config(options)
-    for option in ("rounds", "cores"):
-        value = getattr(options, option)
-        if value is not None and value < 1:
-            raise InputError(f"--{option} = {value}: must be 1 or more")
+    inputs.require_at_least(options, rounds=1, cores=1)
     if all(entry.get("coating") == "rigid" for entry in config["coatings"]):
         raise InputError("coatings: must have an abradable one, whose rub is what is measured")
     _, blade = inputs.read_blade(options, config)

@@ -31,6 +31,20 @@ def add_to(parser: argparse.ArgumentParser) -> None:
     )
 
 
+def require_at_least(options: argparse.Namespace, **least: int) -> None:
+    """Check options by name against the least value of each; one that was not given passes.
+
+    Raises
+    ------
+    InputError
+        If one is too small.
+    """
+    for option, smallest in least.items():
+        value = getattr(options, option)
+        if value is not None and value < smallest:
+            raise InputError(f"--{option} = {value}: must be {smallest} or more")
+
+
 def read_config(options: argparse.Namespace) -> dict[str, Any]:
     """Read and check the config of the repository with the files of ``--config`` laid over it.
 

@@ -59,10 +59,7 @@ def verify(options: argparse.Namespace) -> None:
         If an option is.
     """
     config = inputs.read_config(options)
-    for option, least in (("seed", 0), ("jobs", 1)):
-        value = getattr(options, option)
-        if value < least:
-            raise InputError(f"--{option} = {value}: must be {least} or more")
+    inputs.require_at_least(options, seed=0, jobs=1)
 
     from bladerub.study.error_report import report
     from bladerub.study.verification import draw, study_runs, verify_runs

@@ -1,6 +1,6 @@
 """The time loop, by the contract of `bladerub.contact.schemes`: advance the modes, project, meet the casing.
 
-Pure functions on plain arrays, compiled with numba; no input or output.
+Compiled functions on the addresses of the arrays of five records, which `Rub` keeps; no input or output.
 """
 
 from __future__ import annotations

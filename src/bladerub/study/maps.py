@@ -15,7 +15,7 @@ from bladerub.blade.model import ReducedBlade
 from bladerub.datafile import Variable
 from bladerub.study.confirmation import confirmation_path
 from bladerub.study.grid import CoatingCase
-from bladerub.study.store import ManifestRow, StoredRun, read_manifest, read_run
+from bladerub.study.store import GATHERED, ManifestRow, StoredRun, read_manifest, read_run
 from bladerub.study.wear import lobes, mean_wear
 
 
@@ -104,9 +104,6 @@ _DATASETS = {
 }
 
 
-_GATHERED = {"wear", "spectrum_amplitude", "revolution_peak", "revolution_amplitude"}
-
-
 def build_map(
     config: Mapping[str, Any],
     case: CoatingCase,
@@ -139,7 +136,7 @@ def build_map(
     rows = sorted(read_manifest(folder / "manifest.tsv"), key=lambda row: row.f_omega)
     if not rows:
         raise OSError(f"{folder / 'manifest.tsv'}: lists no run")
-    runs = [_listed_run(folder, folder / row.file, row.run_key, _GATHERED) for row in rows]
+    runs = [_listed_run(folder, folder / row.file, row.run_key, GATHERED) for row in rows]
     scales = _listed_run(folder, folder / rows[0].file, rows[0].run_key, {"angle", "spectrum_order"}).data
     f_omega = np.array([row.f_omega for row in rows])
     angle = scales["angle"]

@@ -144,7 +144,8 @@ def write_run(
     datafile.write(path, variables, attributes)
 
 
-_NEEDED = {"wear", "spectrum_amplitude", "revolution_peak", "revolution_amplitude"}
+GATHERED = {"wear", "spectrum_amplitude", "revolution_peak", "revolution_amplitude"}
+"""What the map of a coating needs of each run."""
 
 
 def read_run(path: str | Path, only: Set[str] = frozenset()) -> StoredRun:
@@ -163,7 +164,7 @@ def read_run(path: str | Path, only: Set[str] = frozenset()) -> StoredRun:
         If the file is missing, damaged or not a run; the message names it.
     """
     data, attributes = datafile.read(path, only or None)
-    missing = (only or _NEEDED) - data.keys() | {"run_key"} - attributes.keys()
+    missing = (only or GATHERED) - data.keys() | {"run_key"} - attributes.keys()
     if missing:
         raise OSError(f"{path}: not a run, {', '.join(sorted(missing))} missing")
     return StoredRun(attributes, data)
