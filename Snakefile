@@ -32,8 +32,10 @@ include: "src/rules/blade.smk"
 include: "src/rules/runs.smk"
 include: "src/rules/maps.smk"
 include: "src/rules/figures.smk"
+include: "src/rules/margins.smk"
 include: "src/rules/cost.smk"
 include: "src/rules/calibration.smk"
+include: "src/rules/images.smk"
 
 
 localrules:
@@ -49,4 +51,5 @@ rule all:
         rules.divergence.output,
         rules.findings.output,
         FIGURES,
+        rules.margins.output,
         rules.cost.output,

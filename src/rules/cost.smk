@@ -8,6 +8,7 @@ rule cost:
         rules.divergence.output,
         rules.findings.output,
         FIGURES,
+        rules.margins.output,
         maps=expand(rules.map.output, coating=COATINGS),
         gathering="src/bladerub/study/cost.py",
         drawing=drawing("cost"),

@@ -19,6 +19,15 @@ SPECTRA = {
 PLOTS = f"{RESULTS}/figures"
 
 
+# Speeds at which the displacement of both is kept: the paper's two, and those where this blade has its peaks
+BOTH = [
+    f
+    for f in speeds(config)
+    if all(keeps_history(config, case, f) for case in (STRAIGHT, INCLINED))
+]
+OWN = [f_omega for f_omega in BOTH if f_omega not in (0.190, 0.197)]
+
+
 def map_of(case):
     return f"{RESULTS}/maps/{case.name}.h5"
 
@@ -370,6 +379,30 @@ rule fig18_history_0197:
         "../scripts/fig18_history_0197.py"
 
 
+rule history:
+    # as Figs. 17 and 18, at a speed of our own
+    input:
+        manifests=expand(
+            rules.coating.output,
+            coating=[STRAIGHT.name, INCLINED.name],
+        ),
+        drawing=drawing("history", "titles"),
+    output:
+        multiext(f"{PLOTS}/history_{{speed}}", png=".png", pdf=".pdf", data=".csv"),
+    log:
+        f"{RESULTS}/logs/history/{{speed}}.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/history/{{speed}}.tsv"
+    wildcard_constraints:
+        speed=r"\d\.\d{4}",
+    threads: 1
+    params:
+        dpi=DPI,
+        runs=lambda wildcards: runs_at(float(wildcards.speed)),
+    script:
+        "../scripts/history.py"
+
+
 rule fig19_wear_polar:
     input:
         maps=[map_of(STRAIGHT), map_of(INCLINED)],
@@ -383,7 +416,7 @@ rule fig19_wear_polar:
     threads: 1
     params:
         dpi=DPI,
-        speeds=[0.190, 0.197],
+        speeds=[0.190, 0.197, *OWN],
     script:
         "../scripts/fig19_wear_polar.py"
 
@@ -414,10 +447,11 @@ if set(config["analysis"]["peaks"]["orders"]) >= {4, 6} and any(
         rules.fig13_Y6.output,
         rules.fig14_f6.output,
     ]
-if all(keeps_history(config, case, 0.190) for case in (STRAIGHT, INCLINED)):
+if 0.190 in BOTH:
     FIGURES += [rules.fig17_history_0190.output]
-if all(keeps_history(config, case, 0.197) for case in (STRAIGHT, INCLINED)):
+if 0.197 in BOTH:
     FIGURES += [rules.fig18_history_0197.output]
+FIGURES += [expand(rules.history.output, speed=map(speed_name, OWN))]
 if {STRAIGHT.name, INCLINED.name} <= set(COATINGS) and {0.190, 0.197} <= set(
     speeds(config)
 ):

@@ -5,12 +5,13 @@ from pathlib import Path
 
 from bladerub.plots import style
 from bladerub.plots.verdicts import verdicts as draw
-from bladerub.study.calibration import gather, verdicts
+from bladerub.study.calibration import gather
+from bladerub.study.findings import verdicts
 
 sys.stderr = open(snakemake.log[0], "w", buffering=1)
 
 answers = {Path(path).parts[-3]: path for path in snakemake.input.findings}
 table = gather(answers)
 table.to_csv(snakemake.output.table, index=False)
-figure = draw(verdicts(table, answers))
+figure = draw(verdicts(table, by="set"))
 style.save(figure, snakemake.output.png, snakemake.output.pdf, snakemake.params.dpi)

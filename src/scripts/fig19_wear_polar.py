@@ -1,6 +1,7 @@
-"""Fig. 19: worn depth around the casing (m), straight and inclined elements, speeds of Figs. 17 and 18."""
+"""Fig. 19: worn depth around the casing (m), both angles of the elements, Figs. 17 and 18 and our speeds."""
 
 import sys
+from string import ascii_lowercase
 
 import numpy as np
 import pandas as pd
@@ -14,7 +15,7 @@ sys.stderr = open(snakemake.log[0], "w", buffering=1)
 maps = {titles.angle(coating.case.theta): coating for coating in map(read_map, snakemake.input.maps)}
 angle = next(iter(maps.values())).angle
 panels, columns = {}, {"angle": angle}
-for letter, f_omega in zip("ab", snakemake.params.speeds, strict=True):
+for letter, f_omega in zip(ascii_lowercase, snakemake.params.speeds, strict=False):
     panel = panels[f"({letter}) {titles.speed(f_omega)}"] = {}
     for name, coating in maps.items():
         panel[name] = coating.wear[np.flatnonzero(np.isclose(coating.f_omega, f_omega))[0]]

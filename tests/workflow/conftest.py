@@ -27,7 +27,7 @@ TINY = {
         {"casing": "2nd", "E": [2], "K": [0.5], "theta": [0.0, 0.15]},
         {"casing": "2nd", "coating": "rigid", "friction": [0.0]},
     ],
-    "speeds": {"start": 0.15, "stop": 0.35, "step": 0.04, "extra": [0.197]},
+    "speeds": {"start": 0.15, "stop": 0.35, "step": 0.04, "extra": [0.197, 0.206]},
     "solver": {"revolutions": 3},
     "analysis": {"spectrum_revolutions": 2, "divergence": {"revolutions": 3, "confirmation_revolutions": 6}},
 }

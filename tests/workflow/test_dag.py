@@ -7,7 +7,7 @@ import shutil
 import h5py
 import pytest
 
-TABLES = {"peaks": 1, "divergence": 1, "findings": 1}
+TABLES = {"peaks": 1, "divergence": 1, "findings": 1, "margins": 1}
 HISTOGRAMS = {"fig11_Y4": 1, "fig12_f4": 1, "fig13_Y6": 1, "fig14_f6": 1}
 
 
@@ -43,14 +43,16 @@ def test_a_new_coating_plans_itself_and_what_draws_from_it(study, with_E3):
 
 def test_resolution_plans_only_figures(study, tiny):
     plan = study.plan(tiny | {"figures": {"dpi": 50}})
-    assert len(plan) == 21
-    assert all(name.startswith("fig") or name in ("cost", "all") for name in plan)
+    assert len(plan) == 23
+    others = {name for name in plan if not name.startswith("fig")}
+    assert others == {"history", "margins", "cost", "all"}
 
 
 def test_peak_search_plans_no_map(study, tiny):
     tiny["analysis"]["peaks"] = {"speed_window": [0.9, 1.2]}
     plan = study.plan(tiny)
-    assert plan == {"peaks": 1, "findings": 1, "fig10_peaks": 1, "cost": 1, "all": 1} | HISTOGRAMS
+    others = {"peaks": 1, "findings": 1, "margins": 1, "fig10_peaks": 1, "cost": 1, "all": 1}
+    assert plan == others | HISTOGRAMS
 
 
 def test_a_casing_plans_only_its_coatings(study, tiny):
@@ -72,7 +74,8 @@ def test_an_edit_of_the_peak_search_plans_what_comes_of_it(copied_study, tiny):
     with (copied_study.folder / "src/bladerub/study/peaks.py").open("a") as source:
         source.write("# edited\n")
     plan = copied_study.plan(tiny)
-    assert plan == {"peaks": 1, "findings": 1, "fig10_peaks": 1, "cost": 1, "all": 1} | HISTOGRAMS
+    others = {"peaks": 1, "findings": 1, "margins": 1, "fig10_peaks": 1, "cost": 1, "all": 1}
+    assert plan == others | HISTOGRAMS
 
 
 def test_a_new_coating_computes_itself_alone(copied_study, with_E3):

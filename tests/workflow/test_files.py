@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import json
 import math
 
 import h5py
 import pandas as pd
 import pytest
 import xarray as xr
+
+from bladerub.cli import inputs, main
 
 COATING = "2nd_E2_K0.5_theta0.15"
 PLAIN_RUN = f"runs/{COATING}/0.2300.h5"
@@ -87,6 +90,7 @@ COLUMNS = {
         "status",
     },
     "findings": {"id", "claim", "paper", "measured", "unit", "holds", "margin"},
+    "margins": {"variation", "id", "claim", "paper", "measured", "unit", "holds", "margin"},
     "cost": {"stage", "rule", "job", "wall_s", "cpu_s", "memory_mb"},
 }
 
@@ -130,7 +134,7 @@ def test_reduced_model_is_square_with_eight_interface_nodes(results):
 
 def test_manifest_lists_every_run_with_its_key(results):
     manifest = pd.read_csv(results / "runs" / COATING / "manifest.tsv", sep="\t")
-    assert list(manifest.f_omega) == [0.15, 0.19, 0.197, 0.23, 0.27, 0.31, 0.35]
+    assert list(manifest.f_omega) == [0.15, 0.19, 0.197, 0.206, 0.23, 0.27, 0.31, 0.35]
     for row in manifest.itertuples():
         with h5py.File(results / "runs" / COATING / row.file) as run:
             assert (run.attrs["run_key"], run.attrs["status"]) == (row.run_key, row.status)
@@ -162,7 +166,7 @@ def test_the_rigid_casing_is_in_the_tables_but_not_in_the_histograms(results):
     with h5py.File(results / "runs/2nd_rigid_mu0/0.2300.h5") as run:
         assert (run.attrs["E"], run.attrs["K"], run.attrs["theta"]) == (math.inf, math.inf, 0)
         assert not run["wear"][:].any()
-    for name, rows in (("peaks", 2), ("divergence", 7)):
+    for name, rows in (("peaks", 2), ("divergence", 8)):
         table = pd.read_csv(results / "tables" / f"{name}.csv")
         assert len(table.query("E == inf and K == inf")) == rows
     histogram = pd.read_csv(results / "figures" / "fig11_Y4.csv", index_col="E")
@@ -173,7 +177,10 @@ def test_the_rigid_casing_is_in_the_tables_but_not_in_the_histograms(results):
 def test_every_figure_is_there_twice(results):
     for kind, first in (("png", b"\x89PNG"), ("pdf", b"%PDF")):
         files = sorted((results / "figures").glob(f"*.{kind}"))
-        assert [path.name[:5] for path in files] == [f"fig{number:02}" for number in range(1, 20)]
+        numbered = [path.name[:5] for path in files if path.name.startswith("fig")]
+        assert numbered == [f"fig{number:02}" for number in range(1, 20)]
+        ours = {path.stem for path in files if not path.name.startswith("fig")}
+        assert ours == {"history_0.2060", "margins"}
         assert all(path.read_bytes().startswith(first) for path in files)
 
 
@@ -186,6 +193,8 @@ def test_every_job_left_a_log_and_a_benchmark(results):
         "peaks",
         "divergence",
         "findings",
+        "margins",
+        "history/0.2060",
     ):
         assert (results / "logs" / f"{rule}.log").is_file()
         assert (results / "benchmarks" / f"{rule}.tsv").is_file()
@@ -194,5 +203,15 @@ def test_every_job_left_a_log_and_a_benchmark(results):
 def test_log_of_a_coating_has_a_line_a_run_with_the_time_left(results):
     lines = (results / "logs" / "coating" / f"{COATING}.log").read_text().splitlines()
     runs = [line for line in lines[:-1] if "confirmation/" not in line]
-    assert [line.split("]")[0] for line in runs] == [f"[{number}/7" for number in range(1, 8)]
+    assert [line.split("]")[0] for line in runs] == [f"[{number}/8" for number in range(1, 9)]
     assert all(line.endswith("s left") for line in lines[:-1])
+
+
+def test_status_counts_every_run_done(study, monkeypatch, capsys):
+    monkeypatch.setattr(inputs, "ROOT", study.folder)
+    assert main(["status", "--json", "--thorough", "--config", str(study.folder / "overlay.yaml")]) == 0
+    counts = json.loads(capsys.readouterr().out)
+    assert counts["planned"] == counts["done"] == 6 * 8
+    assert counts["longer_planned"] == counts["longer_done"]
+    runs = study.folder / "results" / "runs"
+    assert counts["bytes"] == sum(file.stat().st_size for file in runs.glob("*/**/*") if file.is_file())

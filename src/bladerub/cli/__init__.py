@@ -7,7 +7,7 @@ import sys
 from typing import NoReturn
 
 from bladerub import __version__
-from bladerub.cli import benchmark, run, verify
+from bladerub.cli import benchmark, run, status, verify
 from bladerub.cli.errors import InputError
 from bladerub.config import ConfigError
 
@@ -25,6 +25,7 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("--version", action="version", version=f"bladerub {__version__}")
     commands = parser.add_subparsers(title="commands", dest="name", required=True, metavar="COMMAND")
     run.add_to(commands)
+    status.add_to(commands)
     verify.add_to(commands)
     benchmark.add_to(commands)
     options = parser.parse_args(arguments)

@@ -18,6 +18,14 @@ BASE_CONFIG = ROOT / "config" / "config.yaml"
 
 def add_to(parser: argparse.ArgumentParser) -> None:
     """Add ``--config`` and ``--blade`` to the options of a command."""
+    add_config_to(parser)
+    parser.add_argument(
+        "--blade", type=Path, metavar="FILE", help="reduced blade (default: the one in the results folder)"
+    )
+
+
+def add_config_to(parser: argparse.ArgumentParser) -> None:
+    """Add ``--config`` to the options of a command."""
     parser.add_argument(
         "--config",
         nargs="+",
@@ -25,9 +33,6 @@ def add_to(parser: argparse.ArgumentParser) -> None:
         action="extend",
         metavar="FILE",
         help="YAML files laid over config/config.yaml, in order",
-    )
-    parser.add_argument(
-        "--blade", type=Path, metavar="FILE", help="reduced blade (default: the one in the results folder)"
     )
 
 

@@ -36,7 +36,7 @@ def peak_amplitudes(peaks: pd.DataFrame, order: int) -> tuple[pd.DataFrame, Figu
         In mm.
     """
     table = _over_moduli(peaks, order, "amplitude")
-    return table, histogram(table.index, table.columns, 1e3 * table.to_numpy(), f"$Y_{order}$ (mm)", digits=3)
+    return table, histogram(table.index, table.columns, 1e3 * table.to_numpy(), f"$Y_{order}$ (mm)", digits=2)
 
 
 def peak_speeds(peaks: pd.DataFrame, order: int) -> tuple[pd.DataFrame, Figure]:
@@ -44,7 +44,9 @@ def peak_speeds(peaks: pd.DataFrame, order: int) -> tuple[pd.DataFrame, Figure]:
     table = _over_moduli(peaks, order, "f_peak")
     label = f"rotational frequency $f_{order}$ (normalised)"
     floor = table.min(axis=None) - _ROOM
-    return table, histogram(table.index, table.columns, table.to_numpy(), label, digits=3, floor=floor)
+    return table, histogram(
+        table.index, table.columns, table.to_numpy(), label, digits=3, floor=floor, frame_maximum=False
+    )
 
 
 def _over_moduli(peaks: pd.DataFrame, order: int, column: str) -> pd.DataFrame:
@@ -53,7 +55,13 @@ def _over_moduli(peaks: pd.DataFrame, order: int, column: str) -> pd.DataFrame:
 
 @styled
 def histogram(
-    E: np.ndarray, K: np.ndarray, values: np.ndarray, label: str, digits: int, floor: float | None = None
+    E: np.ndarray,
+    K: np.ndarray,
+    values: np.ndarray,
+    label: str,
+    digits: int,
+    floor: float | None = None,
+    frame_maximum: bool = True,
 ) -> Figure:
     """Draw Figs. 11 to 14: `values` over (E, K) as 3D bars (a) and as an annotated map (b).
 
@@ -69,6 +77,8 @@ def histogram(
         Decimals in the cells.
     floor : float, optional
         Where the bars stand; by default at 0.
+    frame_maximum : bool, optional
+        Whether the cells of the greatest value are framed: of speeds, several are equal and none stands out.
 
     Raises
     ------
@@ -83,7 +93,14 @@ def histogram(
     figure = new_figure(PAGE, 0.52 * PAGE)
     left, right = figure.add_gridspec(1, 2, width_ratios=[1.1, 1])
     _bars(figure.add_subplot(left, projection="3d"), E, K, values, label, norm)
-    _cells(figure.add_subplot(right), E, K, values, label, digits, norm)
+    cells = figure.add_subplot(right)
+    _cells(cells, E, K, values, label, digits, norm)
+    if frame_maximum:
+        cells.set_title("(b) maximum framed")
+        for i, j in np.argwhere(values == np.nanmax(values)):
+            cells.add_patch(
+                Rectangle((i - 0.5, j - 0.5), 1, 1, fill=False, edgecolor=RED, linewidth=2, clip_on=False)
+            )
     return figure
 
 
@@ -111,7 +128,7 @@ def _bars(axes: Axes3D, E, K, values: np.ndarray, label: str, norm: Normalize) -
         ylabel="K",
     )
     axes.zaxis.set_major_locator(MaxNLocator(nbins=5))
-    axes.tick_params(pad=-2, labelsize=6.5)
+    axes.tick_params(pad=-2, labelsize=min(6.5, 55 / len(E)))
     axes.view_init(elev=32, azim=-60)
     axes.set_box_aspect((1.5, 1.1, 0.9), zoom=1.12)
     axes.set_title(f"(a) {label}", loc="left")
@@ -127,15 +144,12 @@ def _cells(axes: Axes, E, K, values: np.ndarray, label: str, digits: int, norm: 
         edgecolors="white",
         linewidth=0.8,
     )
+    size = min(7.0, 60 / len(E))
     for (i, j), value in np.ndenumerate(values):
         text = "–" if np.isnan(value) else f"{value:.{digits}f}"
         on_dark = not np.isnan(value) and norm(value) < 0.6
-        axes.text(i, j, text, ha="center", va="center", fontsize=7, color="white" if on_dark else "black")
-    axes.set_title("(b) maximum framed")
-    for i, j in np.argwhere(values == np.nanmax(values)):
-        axes.add_patch(
-            Rectangle((i - 0.5, j - 0.5), 1, 1, fill=False, edgecolor=RED, linewidth=2, clip_on=False)
-        )
+        axes.text(i, j, text, ha="center", va="center", fontsize=size, color="white" if on_dark else "black")
+    axes.set_title("(b)")
     axes.set_xticks(range(len(E)), [f"{e:g}" for e in E])
     axes.set_yticks(range(len(K)), [f"{k:g}" for k in K])
     axes.set(

@@ -7,7 +7,7 @@ of its own, from the blade to the findings, by the same functions as the study i
 from __future__ import annotations
 
 import copy
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -116,9 +116,3 @@ def gather(answers: Mapping[str, str | Path]) -> pd.DataFrame:
     """
     tables = [pd.read_csv(path).assign(set=name) for name, path in answers.items()]
     return pd.concat(tables, ignore_index=True)[COLUMNS]
-
-
-def verdicts(table: pd.DataFrame, sets: Iterable[str]) -> pd.DataFrame:
-    """Return ``holds`` of each claim (rows, in the order of the findings) in each set (columns)."""
-    wide = table.pivot_table(index="id", columns="set", values="holds", aggfunc="first")
-    return wide.loc[list(dict.fromkeys(table["id"])), list(sets)]

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pandas as pd
 
+FIGURES = "figures"
 STAGES = {
     "blade": "blade",
     "compile_kernel": "compilation",
@@ -14,9 +15,10 @@ STAGES = {
     "peaks": "tables",
     "divergence": "tables",
     "findings": "tables",
+    "margins": "tables",
+    "history": FIGURES,
 }
-"""Stage of each rule, in the order of the workflow; rules that draw are `FIGURES`."""
-FIGURES = "figures"
+"""Stage of each rule, in the order of the workflow; rules named after a figure of the paper are `FIGURES`."""
 COLUMNS = ["stage", "rule", "job", "wall_s", "cpu_s", "memory_mb"]
 
 
@@ -63,7 +65,7 @@ def by_stage(costs: pd.DataFrame) -> pd.DataFrame:
     grouped = costs.groupby("stage").agg(
         jobs=("rule", "size"), cpu_s=("cpu_s", "sum"), memory_mb=("memory_mb", "max")
     )
-    order = [stage for stage in [*dict.fromkeys(STAGES.values()), FIGURES] if stage in grouped.index]
+    order = [stage for stage in dict.fromkeys(STAGES.values()) if stage in grouped.index]
     stages = grouped.loc[order]
     stages.insert(2, "share", stages["cpu_s"] / stages["cpu_s"].sum())
     return stages

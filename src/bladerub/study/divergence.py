@@ -9,7 +9,7 @@ from typing import Any
 import pandas as pd
 
 from bladerub.study.growth import judge
-from bladerub.study.maps import read_map
+from bladerub.study.maps import CoatingMap, read_map
 
 COLUMNS = [
     "casing",
@@ -34,14 +34,19 @@ is one; ``lobes`` are of the study's own run.
 
 
 def table(config: Mapping[str, Any], map_paths: Iterable[str | Path]) -> pd.DataFrame:
+    """Judge every run of the study: `of_maps` on the files of `bladerub.study.maps.build_map`."""
+    return of_maps(config, map(read_map, map_paths))
+
+
+def of_maps(config: Mapping[str, Any], maps: Iterable[CoatingMap]) -> pd.DataFrame:
     """Judge every run of the maps.
 
     Parameters
     ----------
     config : mapping
         ``analysis.divergence`` has the thresholds.
-    map_paths : iterable of path-like
-        Files of `bladerub.study.maps.build_map`.
+    maps : iterable of CoatingMap
+        The coatings.
 
     Returns
     -------
@@ -50,7 +55,7 @@ def table(config: Mapping[str, Any], map_paths: Iterable[str | Path]) -> pd.Data
     """
     settings = config["analysis"]["divergence"]
     rows = []
-    for coating in map(read_map, map_paths):
+    for coating in maps:
         case = coating.case
         for f_omega, amplitude, longer, lobes, status in zip(
             coating.f_omega,

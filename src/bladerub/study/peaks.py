@@ -104,14 +104,19 @@ def peak(coating: CoatingMap, order: float, settings: Mapping[str, Any]) -> Peak
 
 
 def table(config: Mapping[str, Any], map_paths: Iterable[str | Path]) -> pd.DataFrame:
+    """Find the peaks of every coating: `of_maps` on the files of `bladerub.study.maps.build_map`."""
+    return of_maps(config, map(read_map, map_paths))
+
+
+def of_maps(config: Mapping[str, Any], maps: Iterable[CoatingMap]) -> pd.DataFrame:
     """Find the peaks of every coating.
 
     Parameters
     ----------
     config : mapping
         ``analysis.peaks`` has the engine orders and the windows.
-    map_paths : iterable of path-like
-        Files of `bladerub.study.maps.build_map`.
+    maps : iterable of CoatingMap
+        The coatings.
 
     Returns
     -------
@@ -125,7 +130,7 @@ def table(config: Mapping[str, Any], map_paths: Iterable[str | Path]) -> pd.Data
     """
     settings = config["analysis"]["peaks"]
     rows = []
-    for coating in map(read_map, map_paths):
+    for coating in maps:
         case = coating.case
         for order in settings["orders"]:
             found = peak(coating, order, settings)

@@ -2,7 +2,8 @@ import pandas as pd
 import pytest
 
 from bladerub.config import ROOT, ConfigError, load, validate
-from bladerub.study.calibration import COLUMNS, gather, plan, verdicts
+from bladerub.study.calibration import COLUMNS, gather, plan
+from bladerub.study.findings import verdicts
 
 
 @pytest.fixture
@@ -76,7 +77,7 @@ def test_findings_of_all_sets_stand_side_by_side(tmp_path):
         pd.DataFrame(rows).to_csv(answers[name], index=False)
     table = gather(answers)
     assert list(table.columns) == COLUMNS
-    wide = verdicts(table, answers)
+    wide = verdicts(table, by="set")
     assert list(wide.columns) == ["b", "a"]
     assert list(wide.loc["C0"]) == ["yes", "partly"]
     assert wide.loc["C1", "b"] == "no"

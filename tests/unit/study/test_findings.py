@@ -104,11 +104,9 @@ def paper(config, make_map):
 
 
 @pytest.fixture
-def judge(tmp_path):
+def judge():
     def judged(config, tables, maps):
-        for name, coating in maps.items():
-            write_map(tmp_path / f"{name}.h5", coating)
-        return findings.judge(Evidence(config, tables, sorted(tmp_path.glob("*.h5")))).set_index("id")
+        return findings.judge(Evidence(config, tables, maps.values())).set_index("id")
 
     return judged
 

@@ -6,9 +6,9 @@ from bladerub.study import grid
 from bladerub.study.grid import CoatingCase
 
 
-def test_the_papers_coatings_are_56_and_the_rigid_casing_with_names_that_lead_back_to_them(config):
+def test_the_papers_coatings_a_softer_one_and_the_rigid_casing_have_names_that_lead_back_to_them(config):
     cases = grid.coating_cases(config)
-    assert len(cases) == 1 + 9 * 6 + 1 + 1
+    assert len(cases) == 1 + (1 + 9) * 6 + 1 + 1
     assert cases[0].name == "2nd5nd_E11_K0.5_theta0"
     assert cases[-2].name == "2nd_E2_K0.5_theta0.15"
     assert cases[-1].name == "2nd_rigid_mu0"
@@ -34,7 +34,7 @@ def test_the_rigid_casing_is_a_coating_without_give_at_its_angle_of_friction(con
 
 
 def test_abradable_coatings_are_not_rigid(config):
-    assert [case.is_rigid for case in grid.coating_cases(config)] == [False] * 56 + [True]
+    assert [case.is_rigid for case in grid.coating_cases(config)] == [False] * 62 + [True]
 
 
 def test_order_of_keys_does_not_change_the_order_of_coatings(config):

@@ -83,7 +83,7 @@ def run(case):
 
 def test_every_run_of_the_study_is_listed_once(config):
     runs = study_runs(config)
-    assert len({run.name for run in runs}) == len(runs) == 57 * 40
+    assert len({run.name for run in runs}) == len(runs) == 63 * 192
     assert StudyRun(runs[0].case, 0.02).name == "2nd5nd_E11_K0.5_theta0/0.0200"
 
 
@@ -96,9 +96,9 @@ def test_a_seed_draws_the_same_distinct_runs_again(config):
     assert set(draw(runs, len(runs), seed=3)) == set(runs)
 
 
-@pytest.mark.parametrize("sample", [0, -1, 2281])
+@pytest.mark.parametrize("sample", [0, -1, 63 * 192 + 1])
 def test_more_runs_than_there_are_cannot_be_drawn(config, sample):
-    with pytest.raises(ValueError, match="must be from 1 to 2280, the number of runs of this study"):
+    with pytest.raises(ValueError, match="must be from 1 to 12096, the number of runs of this study"):
         draw(study_runs(config), sample, seed=1)
 
 

@@ -18,6 +18,7 @@ import pandas as pd
 from bladerub.study.findings import moduli, reduction, rigid_limit, spectra, tangential, wear_patterns
 from bladerub.study.findings.evidence import Evidence
 from bladerub.study.findings.finding import Finding, NotMeasurable
+from bladerub.study.maps import read_map
 
 CLAIMS: tuple[Callable[[Evidence], Finding], ...] = (
     reduction.first_six_modes,
@@ -89,7 +90,7 @@ def table(
     config : mapping
         The study.
     map_paths : iterable of path-like
-        Files of `bladerub.study.maps.build_map`, named after their coatings.
+        Files of `bladerub.study.maps.build_map`.
     peaks_path, divergence_path, rom_accuracy_path : path-like
         The tables of the same study.
 
@@ -103,7 +104,7 @@ def table(
         "divergence": pd.read_csv(divergence_path),
         "rom_accuracy": pd.read_csv(rom_accuracy_path),
     }
-    return judge(Evidence(config, tables, map_paths))
+    return judge(Evidence(config, tables, map(read_map, map_paths)))
 
 
 def judge(evidence: Evidence) -> pd.DataFrame:
@@ -115,3 +116,17 @@ def judge(evidence: Evidence) -> pd.DataFrame:
         except NotMeasurable as error:
             _log.warning("left out: %s (%s)", claim.__doc__.splitlines()[0], error)
     return pd.DataFrame(rows, columns=COLUMNS)
+
+
+def verdicts(table: pd.DataFrame, by: str) -> pd.DataFrame:
+    """Return ``holds`` of each claim (rows) by the values of the column `by` (columns), both in their order.
+
+    Parameters
+    ----------
+    table : DataFrame
+        Findings of several studies, or of several ways to look at one, told apart by the column `by`.
+    by : str
+        Name of that column.
+    """
+    wide = table.pivot_table(index="id", columns=by, values="holds", aggfunc="first")
+    return wide.loc[list(dict.fromkeys(table["id"])), list(dict.fromkeys(table[by]))]

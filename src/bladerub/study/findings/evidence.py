@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from functools import cache
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -12,7 +10,7 @@ import pandas as pd
 
 from bladerub.study.findings.finding import NotMeasurable
 from bladerub.study.grid import CoatingCase
-from bladerub.study.maps import CoatingMap, read_map
+from bladerub.study.maps import CoatingMap
 
 SAME_SPEED = 1e-6
 """Speeds closer than this are the same point of the grid."""
@@ -27,22 +25,21 @@ class Evidence:
         The study.
     tables : mapping of str to DataFrame
         ``rom_accuracy``, ``peaks`` and ``divergence``.
-    map_paths : iterable of path-like
-        Map files, named after their coatings.
+    maps : iterable of CoatingMap
+        The coatings.
     """
 
     def __init__(
         self,
         config: Mapping[str, Any],
         tables: Mapping[str, pd.DataFrame],
-        map_paths: Iterable[str | Path],
+        maps: Iterable[CoatingMap],
     ):
         self.config = config
         self.rom_accuracy = tables["rom_accuracy"]
         self.peaks = tables["peaks"]
         self.divergence = tables["divergence"]
-        self._map_paths = {Path(path).stem: Path(path) for path in map_paths}
-        self._read_map = cache(read_map)
+        self._maps = {coating.case.name: coating for coating in maps}
 
     def map(self, case: CoatingCase) -> CoatingMap:
         """Return the map of a coating.
@@ -52,9 +49,9 @@ class Evidence:
         NotMeasurable
             If the coating is not in the study.
         """
-        if case.name not in self._map_paths:
+        if case.name not in self._maps:
             raise NotMeasurable(f"coating {case.name} is not in the study")
-        return self._read_map(self._map_paths[case.name])
+        return self._maps[case.name]
 
     def peak(self, case: CoatingCase, order: int, column: str) -> float:
         """Return ``f_peak`` or ``amplitude`` (m) of one coating and engine order from the table of peaks.

@@ -11,8 +11,8 @@ from bladerub.study.findings.finding import NO, PARTLY, YES, Finding, NotMeasura
 CASING, THETA = "2nd", 0.0
 """The coatings of section "Mechanical properties of the abradable coating"."""
 
-SOFTEST = 0.11
-"""E_min of the paper."""
+SOFTEST, STIFFEST = 0.11, 20.0
+"""E_min and E_max of the paper; its statements on cells of (E, K) are on those between."""
 
 CRITICAL_E, CRITICAL_K = 1.1, 0.5
 """The cell where the paper finds the greatest Y4 and Y6."""
@@ -74,9 +74,14 @@ def y4_high_cells(evidence: Evidence) -> Finding:
 
 
 def _with_critical_cell(evidence: Evidence, order: int) -> pd.DataFrame:
-    table = evidence.moduli(CASING, THETA, order, "amplitude")
+    table = _moduli(evidence, order, "amplitude")
     _cell(table, CRITICAL_E, CRITICAL_K)
     return table
+
+
+def _moduli(evidence: Evidence, order: int, column: str) -> pd.DataFrame:
+    table = evidence.moduli(CASING, THETA, order, column)
+    return table.loc[:, (table.columns >= SOFTEST) & (table.columns <= STIFFEST)]
 
 
 def _cell(table: pd.DataFrame, young: float, hardening: float) -> float:
@@ -124,7 +129,7 @@ def _monotonic(evidence: Evidence, id_: str, order: int, figure: str) -> Finding
 
 def _stiffening(evidence: Evidence, order: int) -> list[pd.Series]:
     """Return f_k over ascending K, for each E above 0.5 that the study has with two K or more."""
-    table = evidence.moduli(CASING, THETA, order, "f_peak")
+    table = _moduli(evidence, order, "f_peak")
     columns = [table[young].dropna() for young in table.columns if young > STIFFENING_FROM]
     columns = [f_peak for f_peak in columns if f_peak.size >= 2]
     if not columns:
@@ -169,7 +174,7 @@ def _speed_spread(evidence: Evidence, id_: str, order: int, figure: str) -> Find
 
 
 def _soft_hardening(evidence: Evidence, order: int, column: str) -> pd.DataFrame:
-    table = evidence.moduli(CASING, THETA, order, column)
+    table = _moduli(evidence, order, column)
     table = table.loc[table.index <= SOFT_HARDENING]
     table = table[table.count(axis=1) >= 2]
     if table.empty:

@@ -1,0 +1,24 @@
+# How far the analysis itself decides the answers: the claims, put again to parts of the study.
+
+
+rule margins:
+    input:
+        maps=expand(rules.map.output, coating=COATINGS),
+        rom_accuracy=f"{RESULTS}/tables/rom_accuracy.csv",
+        judging=rules.findings.input.analysing,
+        analysing=analysing("margins", "divergence", "growth"),
+        drawing=drawing("verdicts"),
+    output:
+        table=f"{RESULTS}/tables/margins.csv",
+        png=f"{PLOTS}/margins.png",
+        pdf=f"{PLOTS}/margins.pdf",
+    log:
+        f"{RESULTS}/logs/margins.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/margins.tsv"
+    threads: 1
+    params:
+        analysis=config["analysis"],
+        dpi=DPI,
+    script:
+        "../scripts/margins.py"

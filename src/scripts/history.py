@@ -1,0 +1,12 @@
+"""Radial displacement of node 1 (m) as in Figs. 17 and 18, at a speed of our own."""
+
+import sys
+
+from bladerub.plots import style
+from bladerub.plots.history import history_of_runs
+
+sys.stderr = open(snakemake.log[0], "w", buffering=1)
+
+table, figure = history_of_runs(snakemake.params.runs)
+table.to_csv(snakemake.output.data, index=False, float_format="%.6g")
+style.save(figure, snakemake.output.png, snakemake.output.pdf, snakemake.params.dpi)

@@ -1,0 +1,96 @@
+import os
+
+import pytest
+
+from bladerub.study.inventory import Inventory, take, total
+from bladerub.study.store import write_manifest
+
+
+@pytest.fixture
+def done(simulated, growing, compute, tmp_path):
+    """Four runs: one unbounded (at 0.3), one that grows (at 0.2) and has a longer one."""
+    growing[0.2] = 0.05
+    write_manifest(tmp_path / "manifest.tsv", compute())
+
+
+@pytest.fixture
+def inventory(study, case, tmp_path):
+    def taken(digest="blade", **arguments):
+        return take(study, case, tmp_path, digest, **arguments)
+
+    return taken
+
+
+def counts(inventory):
+    return {name: getattr(inventory, name) for name in ("done", "missing", "stale", "corrupt", "unbounded")}
+
+
+NONE = {"done": 0, "missing": 0, "stale": 0, "corrupt": 0, "unbounded": 0}
+
+
+def test_before_anything_is_done_all_is_missing(inventory):
+    assert inventory() == Inventory(planned=4, missing=4)
+
+
+def test_what_is_done_is_counted(done, inventory, tmp_path):
+    found = inventory()
+    assert counts(found) == {**NONE, "done": 4, "unbounded": 1}
+    assert (found.planned, found.longer_planned, found.longer_done) == (4, 1, 1)
+    assert found.bytes == sum(path.stat().st_size for path in tmp_path.rglob("*.*") if path.is_file())
+    assert inventory(thorough=True) == found
+
+
+def test_another_blade_makes_every_run_stale(done, inventory):
+    found = inventory(digest="another")
+    assert counts(found) == {**NONE, "stale": 4}
+    assert found.longer_planned == 0
+    assert counts(inventory(digest=None)) == {**NONE, "stale": 4}
+
+
+def test_a_changed_setting_makes_every_run_stale_and_a_speed_only_itself(done, inventory, study):
+    study["speeds"]["extra"] = [0.19, 0.25]
+    assert counts(inventory()) == {**NONE, "done": 4, "missing": 1, "unbounded": 1}
+    study["contact"]["damping_ratio"] = 1e-3
+    assert counts(inventory()) == {**NONE, "stale": 4, "missing": 1}
+
+
+def test_a_speed_out_of_the_plan_is_not_counted_but_takes_its_place(done, inventory, study):
+    before = inventory().bytes
+    study["speeds"]["extra"] = []
+    found = inventory()
+    assert (found.planned, found.done, found.bytes) == (3, 3, before)
+
+
+def test_truncated_and_foreign_files_are_corrupt(done, inventory, tmp_path):
+    os.truncate(tmp_path / "0.1000.h5", 2000)
+    (tmp_path / "0.2000.h5").write_text("no HDF5")
+    (tmp_path / "0.1900.h5").unlink()
+    assert counts(inventory()) == {**NONE, "done": 1, "missing": 1, "corrupt": 2, "unbounded": 1}
+
+
+def test_damage_inside_a_file_is_found_where_it_is_read_to_its_end(done, inventory, tmp_path):
+    path = tmp_path / "0.1000.h5"
+    content = bytearray(path.read_bytes())
+    middle = slice(len(content) // 2, len(content) // 2 + 2000)
+    content[middle] = bytes(255 - byte for byte in content[middle])
+    path.write_bytes(content)
+    assert counts(inventory(thorough=True))["corrupt"] == 1
+
+
+def test_a_lost_longer_run_is_told(done, inventory, tmp_path):
+    (tmp_path / "confirmation" / "0.2000.h5").unlink()
+    found = inventory()
+    assert (found.done, found.longer_planned, found.longer_done) == (4, 1, 0)
+
+
+def test_each_planned_run_is_reported(done, inventory):
+    seen = []
+    inventory(seen=lambda: seen.append(1))
+    assert len(seen) == 4
+
+
+def test_a_total_adds_up():
+    assert total([Inventory(planned=2, done=1, bytes=5), Inventory(planned=3, stale=3)]) == Inventory(
+        planned=5, done=1, stale=3, bytes=5
+    )
+    assert total([]) == Inventory()
