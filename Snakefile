@@ -35,7 +35,7 @@ include: "src/rules/figures.smk"
 include: "src/rules/margins.smk"
 include: "src/rules/cost.smk"
 include: "src/rules/calibration.smk"
-include: "src/rules/images.smk"
+include: "src/rules/documents.smk"
 
 
 localrules:

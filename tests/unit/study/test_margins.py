@@ -1,4 +1,5 @@
 import itertools
+import logging
 
 import numpy as np
 import pandas as pd
@@ -77,6 +78,19 @@ def test_windows_and_thresholds_are_varied_one_at_a_time(varied, study):
     assert narrow["analysis"]["peaks"]["speed_window"] == [0.9, 1.2]
     narrow["analysis"]["peaks"]["speed_window"] = study["analysis"]["peaks"]["speed_window"]
     assert narrow == study
+
+
+def test_a_variation_without_a_speed_in_the_window_is_left_out(study, make_map, tmp_path, caplog):
+    study["speeds"] = {"start": 0.1, "stop": 0.4, "step": 0.1, "extra": []}
+    study["analysis"]["histories"] = []
+    path = tmp_path / "map.h5"
+    write_map(path, make_map(CoatingCase("2nd", 2.0, 0.5, 0.0), {}, speeds(study)))
+    (tmp_path / "a.csv").write_text("f_omega,mode,relative_error\n0,1,1e-4\n")
+    with caplog.at_level(logging.WARNING):
+        table = margins.table(study, [path], tmp_path / "a.csv")
+    assert "left out: speed step 0.2 (analysis.peaks.speed_window: no run of" in caplog.text
+    assert "speed step 0.2" not in set(table.variation)
+    assert margins.STUDY in set(table.variation)
 
 
 def test_a_table_has_every_claim_in_every_variation(study, maps, tmp_path):

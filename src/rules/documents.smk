@@ -1,0 +1,37 @@
+# What the repository shows of itself: pictures and the reference of the config, both committed. Not part of `all`.
+from pathlib import Path
+
+IMAGES = [
+    Path(path).name
+    for output in [*FIGURES, rules.margins.output]
+    for path in output
+    if path.endswith(".png")
+]
+
+
+rule images:
+    input:
+        [f"{PLOTS}/{name}" for name in IMAGES],
+    output:
+        [f"docs/images/{name}" for name in IMAGES],
+    log:
+        f"{RESULTS}/logs/images.log",
+    threads: 1
+    params:
+        colours=96,
+    script:
+        "../scripts/images.py"
+
+
+rule config_reference:
+    input:
+        schema="config/schema.yaml",
+        config="config/config.yaml",
+        writing="src/bladerub/config_reference.py",
+    output:
+        "docs/config.md",
+    log:
+        f"{RESULTS}/logs/config_reference.log",
+    threads: 1
+    script:
+        "../scripts/config_reference.py"
