@@ -14,7 +14,11 @@ rule cost:
         drawing=drawing("cost"),
     output:
         table=f"{RESULTS}/tables/cost.csv",
-        png=f"{RESULTS}/benchmarks/cost.png",
+        png=report(
+            f"{RESULTS}/benchmarks/cost.png",
+            caption="../report/cost.rst",
+            category="Cost",
+        ),
         pdf=f"{RESULTS}/benchmarks/cost.pdf",
     log:
         f"{RESULTS}/logs/cost.log",

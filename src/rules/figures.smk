@@ -40,6 +40,16 @@ def runs_at(f_omega):
     ]
 
 
+def drawn(name, category, **data):
+    """The files of a figure; Snakemake's report shows it under its category, with the caption of its name."""
+    caption = f"../report/{name.split('_{')[0]}.rst"
+    return {
+        "png": report(f"{PLOTS}/{name}.png", caption=caption, category=category),
+        "pdf": f"{PLOTS}/{name}.pdf",
+        **{key: f"{PLOTS}/{name}{suffix}" for key, suffix in data.items()},
+    }
+
+
 def drawing(*modules):
     """The modules that draw; Snakemake does not follow imports."""
     return expand("src/bladerub/plots/{module}.py", module=["style", *modules])
@@ -55,7 +65,7 @@ rule fig01_blade:
         mesh=rules.blade.output.mesh,
         drawing=drawing("blade_mesh", "surface"),
     output:
-        multiext(f"{PLOTS}/fig01_blade", png=".png", pdf=".pdf"),
+        **drawn("fig01_blade", "Model"),
     log:
         f"{RESULTS}/logs/fig01_blade.log",
     benchmark:
@@ -73,7 +83,7 @@ rule fig02_campbell:
         campbell=rules.blade.output.campbell,
         drawing=drawing("campbell", "engine_orders"),
     output:
-        multiext(f"{PLOTS}/fig02_campbell", png=".png", pdf=".pdf", data=".csv"),
+        **drawn("fig02_campbell", "Model", data=".csv"),
     log:
         f"{RESULTS}/logs/fig02_campbell.log",
     benchmark:
@@ -90,7 +100,7 @@ rule fig03_tip_profile:
         model=rubbing("coating", "tip"),
         drawing=drawing("tip_profile"),
     output:
-        multiext(f"{PLOTS}/fig03_tip_profile", png=".png", pdf=".pdf", data=".csv"),
+        **drawn("fig03_tip_profile", "Model", data=".csv"),
     log:
         f"{RESULTS}/logs/fig03_tip_profile.log",
     benchmark:
@@ -110,7 +120,7 @@ rule fig04_coating_cycle:
         model=rubbing("coating"),
         drawing=drawing("coating_cycle"),
     output:
-        multiext(f"{PLOTS}/fig04_coating_cycle", png=".png", pdf=".pdf", data=".csv"),
+        **drawn("fig04_coating_cycle", "Model", data=".csv"),
     log:
         f"{RESULTS}/logs/fig04_coating_cycle.log",
     benchmark:
@@ -128,7 +138,7 @@ rule fig05_casing:
         model=rubbing("casing"),
         drawing=drawing("casing_polar", "polar"),
     output:
-        multiext(f"{PLOTS}/fig05_casing", png=".png", pdf=".pdf", data=".csv"),
+        **drawn("fig05_casing", "Model", data=".csv"),
     log:
         f"{RESULTS}/logs/fig05_casing.log",
     benchmark:
@@ -147,7 +157,7 @@ rule fig06_wear_map:
         map=map_of(LOBED),
         drawing=drawing("wear_map", "cells", "titles"),
     output:
-        multiext(f"{PLOTS}/fig06_wear_map", png=".png", pdf=".pdf"),
+        **drawn("fig06_wear_map", "Wear and spectra"),
     log:
         f"{RESULTS}/logs/fig06_wear_map.log",
     benchmark:
@@ -164,7 +174,7 @@ rule fig07_spectrum_2nd5nd:
         map=map_of(LOBED),
         drawing=drawing("spectrum_map", "cells", "engine_orders", "titles"),
     output:
-        multiext(f"{PLOTS}/fig07_spectrum_2nd5nd", png=".png", pdf=".pdf"),
+        **drawn("fig07_spectrum_2nd5nd", "Wear and spectra"),
     log:
         f"{RESULTS}/logs/fig07_spectrum_2nd5nd.log",
     benchmark:
@@ -181,7 +191,7 @@ rule fig08_spectrum_soft:
         map=map_of(SOFT),
         drawing=drawing("spectrum_map", "cells", "engine_orders", "titles"),
     output:
-        multiext(f"{PLOTS}/fig08_spectrum_soft", png=".png", pdf=".pdf"),
+        **drawn("fig08_spectrum_soft", "Wear and spectra"),
     log:
         f"{RESULTS}/logs/fig08_spectrum_soft.log",
     benchmark:
@@ -198,7 +208,7 @@ rule fig09_spectrum_critical:
         map=map_of(CRITICAL),
         drawing=drawing("spectrum_map", "cells", "engine_orders", "titles"),
     output:
-        multiext(f"{PLOTS}/fig09_spectrum_critical", png=".png", pdf=".pdf"),
+        **drawn("fig09_spectrum_critical", "Wear and spectra"),
     log:
         f"{RESULTS}/logs/fig09_spectrum_critical.log",
     benchmark:
@@ -218,7 +228,7 @@ rule fig10_peaks:
             "peak_sections", "spectrum_map", "cells", "engine_orders", "titles"
         ),
     output:
-        multiext(f"{PLOTS}/fig10_peaks", png=".png", pdf=".pdf", data=".csv"),
+        **drawn("fig10_peaks", "Wear and spectra", data=".csv"),
     log:
         f"{RESULTS}/logs/fig10_peaks.log",
     benchmark:
@@ -236,7 +246,7 @@ rule fig11_Y4:
         peaks=rules.peaks.output[0],
         drawing=drawing("histogram"),
     output:
-        multiext(f"{PLOTS}/fig11_Y4", png=".png", pdf=".pdf", data=".csv"),
+        **drawn("fig11_Y4", "Moduli of the coating", data=".csv"),
     log:
         f"{RESULTS}/logs/fig11_Y4.log",
     benchmark:
@@ -254,7 +264,7 @@ rule fig12_f4:
         peaks=rules.peaks.output[0],
         drawing=drawing("histogram"),
     output:
-        multiext(f"{PLOTS}/fig12_f4", png=".png", pdf=".pdf", data=".csv"),
+        **drawn("fig12_f4", "Moduli of the coating", data=".csv"),
     log:
         f"{RESULTS}/logs/fig12_f4.log",
     benchmark:
@@ -272,7 +282,7 @@ rule fig13_Y6:
         peaks=rules.peaks.output[0],
         drawing=drawing("histogram"),
     output:
-        multiext(f"{PLOTS}/fig13_Y6", png=".png", pdf=".pdf", data=".csv"),
+        **drawn("fig13_Y6", "Moduli of the coating", data=".csv"),
     log:
         f"{RESULTS}/logs/fig13_Y6.log",
     benchmark:
@@ -290,7 +300,7 @@ rule fig14_f6:
         peaks=rules.peaks.output[0],
         drawing=drawing("histogram"),
     output:
-        multiext(f"{PLOTS}/fig14_f6", png=".png", pdf=".pdf", data=".csv"),
+        **drawn("fig14_f6", "Moduli of the coating", data=".csv"),
     log:
         f"{RESULTS}/logs/fig14_f6.log",
     benchmark:
@@ -308,7 +318,7 @@ rule fig15_spectrum_theta0:
         map=map_of(STRAIGHT),
         drawing=drawing("spectrum_map", "cells", "engine_orders", "titles"),
     output:
-        multiext(f"{PLOTS}/fig15_spectrum_theta0", png=".png", pdf=".pdf"),
+        **drawn("fig15_spectrum_theta0", "Angle of the elements"),
     log:
         f"{RESULTS}/logs/fig15_spectrum_theta0.log",
     benchmark:
@@ -325,7 +335,7 @@ rule fig16_spectrum_theta015:
         map=map_of(INCLINED),
         drawing=drawing("spectrum_map", "cells", "engine_orders", "titles"),
     output:
-        multiext(f"{PLOTS}/fig16_spectrum_theta015", png=".png", pdf=".pdf"),
+        **drawn("fig16_spectrum_theta015", "Angle of the elements"),
     log:
         f"{RESULTS}/logs/fig16_spectrum_theta015.log",
     benchmark:
@@ -345,7 +355,7 @@ rule fig17_history_0190:
         ),
         drawing=drawing("history", "titles"),
     output:
-        multiext(f"{PLOTS}/fig17_history_0190", png=".png", pdf=".pdf", data=".csv"),
+        **drawn("fig17_history_0190", "Angle of the elements", data=".csv"),
     log:
         f"{RESULTS}/logs/fig17_history_0190.log",
     benchmark:
@@ -366,7 +376,7 @@ rule fig18_history_0197:
         ),
         drawing=drawing("history", "titles"),
     output:
-        multiext(f"{PLOTS}/fig18_history_0197", png=".png", pdf=".pdf", data=".csv"),
+        **drawn("fig18_history_0197", "Angle of the elements", data=".csv"),
     log:
         f"{RESULTS}/logs/fig18_history_0197.log",
     benchmark:
@@ -388,7 +398,7 @@ rule history:
         ),
         drawing=drawing("history", "titles"),
     output:
-        multiext(f"{PLOTS}/history_{{speed}}", png=".png", pdf=".pdf", data=".csv"),
+        **drawn("history_{speed}", "Angle of the elements", data=".csv"),
     log:
         f"{RESULTS}/logs/history/{{speed}}.log",
     benchmark:
@@ -408,7 +418,7 @@ rule fig19_wear_polar:
         maps=[map_of(STRAIGHT), map_of(INCLINED)],
         drawing=drawing("wear_polar", "polar", "titles"),
     output:
-        multiext(f"{PLOTS}/fig19_wear_polar", png=".png", pdf=".pdf", data=".csv"),
+        **drawn("fig19_wear_polar", "Angle of the elements", data=".csv"),
     log:
         f"{RESULTS}/logs/fig19_wear_polar.log",
     benchmark:

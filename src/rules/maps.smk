@@ -77,7 +77,11 @@ rule findings:
             "findings/wear_patterns",
         ),
     output:
-        f"{RESULTS}/tables/findings.csv",
+        report(
+            f"{RESULTS}/tables/findings.csv",
+            caption="../report/findings.rst",
+            category="Findings",
+        ),
     log:
         f"{RESULTS}/logs/findings.log",
     benchmark:

@@ -9,9 +9,12 @@ rule margins:
         analysing=analysing("margins", "divergence", "growth"),
         drawing=drawing("verdicts"),
     output:
-        table=f"{RESULTS}/tables/margins.csv",
-        png=f"{PLOTS}/margins.png",
-        pdf=f"{PLOTS}/margins.pdf",
+        **drawn("margins", "Findings"),
+        table=report(
+            f"{RESULTS}/tables/margins.csv",
+            caption="../report/margins_table.rst",
+            category="Findings",
+        ),
     log:
         f"{RESULTS}/logs/margins.log",
     benchmark:
