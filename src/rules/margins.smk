@@ -22,6 +22,7 @@ rule margins:
     threads: 1
     params:
         analysis=config["analysis"],
+        speeds=config["speeds"],
         dpi=DPI,
     script:
         "../scripts/margins.py"

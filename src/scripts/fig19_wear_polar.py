@@ -15,7 +15,8 @@ sys.stderr = open(snakemake.log[0], "w", buffering=1)
 maps = {titles.angle(coating.case.theta): coating for coating in map(read_map, snakemake.input.maps)}
 angle = next(iter(maps.values())).angle
 panels, columns = {}, {"angle": angle}
-for letter, f_omega in zip(ascii_lowercase, snakemake.params.speeds, strict=False):
+for index, f_omega in enumerate(snakemake.params.speeds):
+    letter = ascii_lowercase[index % 26]
     panel = panels[f"({letter}) {titles.speed(f_omega)}"] = {}
     for name, coating in maps.items():
         panel[name] = coating.wear[np.flatnonzero(np.isclose(coating.f_omega, f_omega))[0]]

@@ -63,6 +63,19 @@ def test_counts_in_words(small, capsys):
     assert "0 of 0 done" in lines[5]
 
 
+def test_a_blade_of_another_config_makes_every_run_stale(small, tmp_path, capsys):
+    overlay = tmp_path / "small.yaml"
+    one = ["run", "--casing", "2nd", "--E", "2", "--K", "0.5", "--f", "0.2", "--revolutions", "2"]
+    folder = tmp_path / "results" / "runs" / "2nd_E2_K0.5_theta0"
+    assert main([*one, "--output", str(folder / "0.2000.h5"), *small]) == 0  # builds the blade
+    overlay.write_text(SMALL.replace("spanwise: 6", "spanwise: 7"))
+    capsys.readouterr()
+    assert main(["status", "--json", *small]) == 0
+    told = json.loads(capsys.readouterr().out)
+    assert (told["stale"], told["missing"]) == (1, 5)
+    assert "the blade is of another config" in told["note"]
+
+
 def test_nothing_is_written(small, tmp_path, capsys):
     main(["status", *small])
     assert [path.name for path in tmp_path.iterdir()] == ["small.yaml"]

@@ -82,7 +82,7 @@ def read_blade(options: argparse.Namespace, config: dict[str, Any]) -> tuple[Pat
     if not options.blade and not path.exists():
         print(f"bladerub {options.name}: building the blade first, into {path.parent}", file=sys.stderr)
         _build_blade(config, path)
-    elif not options.blade and not _is_of(config, path):
+    elif not options.blade and not is_of(config, path):
         raise InputError(
             f"{path}: was built from another config; build it again with snakemake, delete it, or name it "
             "with --blade"
@@ -96,7 +96,8 @@ def read_blade(options: argparse.Namespace, config: dict[str, Any]) -> tuple[Pat
     return path, blade
 
 
-def _is_of(config: dict[str, Any], path: Path) -> bool:
+def is_of(config: dict[str, Any], path: Path) -> bool:
+    """Tell whether the reduced blade at `path` was built from `config`."""
     from bladerub import datafile
     from bladerub.blade.build import made_from
 

@@ -50,10 +50,16 @@ def status(options: argparse.Namespace) -> None:
 
     results = inputs.ROOT / config["results"]
     model = results / "blade" / "reduced_model.h5"
-    try:
-        digest, note = blade_digest(model), None
-    except OSError as error:
-        digest, note = None, f"every run counts as stale without its blade: {error}"
+    digest, note = None, None
+    if not model.exists():
+        note = f"there is no blade yet, so every run counts as stale: {model}"
+    elif not inputs.is_of(config, model):
+        note = f"the blade is of another config, so every run counts as stale: {model}"
+    else:
+        try:
+            digest = blade_digest(model)
+        except OSError as error:
+            note = f"every run counts as stale without its blade: {error}"
     cases = coating_cases(config)
     with tqdm(
         total=len(cases) * len(speeds(config)),

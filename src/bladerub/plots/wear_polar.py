@@ -30,7 +30,7 @@ def wear_polar(angle: np.ndarray, wear: Mapping[str, Mapping[str, np.ndarray]]) 
         for (name, depth), look in zip(cases.items(), (FIRST, SECOND), strict=True):
             axes.plot(*close(angle, 1e3 * np.asarray(depth)), label=name, **look)
         axes.set(rorigin=-0.6 * deepest, rlim=(0, 1.06 * deepest), title=title)
-        axes.yaxis.set_major_locator(MaxNLocator(nbins=6 // len(wear)))
+        axes.yaxis.set_major_locator(MaxNLocator(nbins=max(2, 6 // len(wear))))
     handles, labels = axes.get_legend_handles_labels()
     figure.legend(
         handles,

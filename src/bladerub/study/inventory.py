@@ -7,11 +7,11 @@ from dataclasses import dataclass, fields
 from pathlib import Path
 from typing import Any
 
-from bladerub import datafile
-from bladerub.study.confirmation import confirmation_path
+from bladerub.study.confirmation import confirmation_path, confirmation_spec
 from bladerub.study.grid import CoatingCase, keeps_history, run_spec, speed_name, speeds
+from bladerub.study.growth import needs_confirmation
 from bladerub.study.key import run_key
-from bladerub.study.store import read_manifest, read_run
+from bladerub.study.store import StoredRun, read_run
 
 
 @dataclass(frozen=True)
@@ -33,7 +33,7 @@ class Inventory:
     unbounded : int
         Of those done, the ones that left all bounds.
     longer_planned, longer_done : int
-        Longer runs that the manifest asks for to see whether growth lasts, and those of them that are done.
+        Longer runs that show whether the growth of those done lasts, and how many of them are done.
     bytes : int
         Disk that the folders of the runs take, with what is on the shelf and no longer planned.
     """
@@ -76,55 +76,43 @@ def take(
     blade_digest : str or None
         From `bladerub.study.key.blade_digest`; without a blade every run that is there is stale.
     thorough : bool, optional
-        Read every number and compare its checksum, instead of only opening the file, which tells a
-        truncated one.
+        Read every number and compare its checksum, instead of only what tells a truncated file.
     seen : callable, optional
         Called after each planned run.
     """
     folder, analysis = Path(folder), config["analysis"]
-    count = dict.fromkeys(("done", "missing", "stale", "corrupt", "unbounded"), 0)
-    current = set()
+    settings = analysis["divergence"]
+    count = dict.fromkeys(("done", "missing", "stale", "corrupt", "unbounded", *_LONGER), 0)
     planned = speeds(config)
     for f_omega in planned:
         path = folder / f"{speed_name(f_omega)}.h5"
-        key = blade_digest and run_key(
-            run_spec(config, case, f_omega), blade_digest, keeps_history(config, case, f_omega), analysis
-        )
-        state, status = _state(path, key, thorough)
+        spec = run_spec(config, case, f_omega)
+        key = blade_digest and run_key(spec, blade_digest, keeps_history(config, case, f_omega), analysis)
+        state, run = _look(path, key, thorough)
         count[state] += 1
         if state == "done":
-            current.add(key)
+            status = run.attributes["status"]
             count["unbounded"] += status == "unbounded"
+            if needs_confirmation(run.data["revolution_amplitude"], status, settings):
+                key = run_key(confirmation_spec(spec, settings), blade_digest, False, analysis)
+                count["longer_planned"] += 1
+                count["longer_done"] += _look(confirmation_path(path), key, thorough)[0] == "done"
         seen()
-    longer = _longer_runs(folder, current)
     return Inventory(
         planned=len(planned),
         **count,
-        longer_planned=len(longer),
-        longer_done=sum(_state(path, key, thorough)[0] == "done" for path, key in longer.items()),
         bytes=sum(file.stat().st_size for file in folder.rglob("*") if file.is_file()),
     )
 
 
-def _state(path: Path, key: str | None, thorough: bool) -> tuple[str, str | None]:
+_LONGER = ("longer_planned", "longer_done")
+
+
+def _look(path: Path, key: str | None, thorough: bool) -> tuple[str, StoredRun | None]:
     if not path.exists():
         return "missing", None
     try:
-        about = read_run(path).attributes if thorough else datafile.read_attributes(path)
-    except OSError:
+        run = read_run(path, frozenset() if thorough else {"revolution_amplitude"})
+    except Exception:  # whatever is wrong with the file (as in `bladerub.study.store.is_current`)
         return "corrupt", None
-    if "run_key" not in about:
-        return "corrupt", None
-    return ("done" if about["run_key"] == key else "stale"), about.get("status")
-
-
-def _longer_runs(folder: Path, current: set[str]) -> dict[Path, str]:
-    try:
-        rows = read_manifest(folder / "manifest.tsv")
-    except OSError:  # not yet there, or to be made anew: the job of the coating decides then
-        return {}
-    return {
-        confirmation_path(folder / row.file): row.confirmation_key
-        for row in rows
-        if row.confirmation_key and row.run_key in current
-    }
+    return ("done" if run.attributes["run_key"] == key else "stale"), run

@@ -27,19 +27,19 @@ COLUMNS = ["variation", "id", "claim", "paper", "measured", "unit", "holds", "ma
 STUDY = "study"
 """Name of the variation that changes nothing."""
 
-WINDOWS = {"window 0.90 to 1.20": [0.9, 1.2], "window 0.75 to 1.50": [0.75, 1.5]}
-"""Other windows in which a peak is looked for, times the speed where the order crosses C1."""
-
-HALFWIDTHS = {"line of the order alone": 0.0, "half an order each side": 0.5}
-"""Other widths of an engine order."""
-
-GROWTHS = {"growth above 2 %": 0.02}
-"""Other thresholds of what grows; below that of the study there are no longer runs."""
+SETTINGS = {
+    "window 0.90 to 1.20": ("peaks", "speed_window", [0.9, 1.2]),
+    "window 0.75 to 1.50": ("peaks", "speed_window", [0.75, 1.5]),
+    "line of the order alone": ("peaks", "order_halfwidth", 0.0),
+    "half an order each side": ("peaks", "order_halfwidth", 0.5),
+    "growth above 2 %": ("divergence", "growth", 0.02),
+}
+"""Other values in ``config["analysis"]``: where a peak is looked for, how wide an order is, what grows."""
 
 
 _log = logging.getLogger(__name__)
 
-_NAMED = {"E": {0.11, 1.1, 2.0, 11.0, 20.0, np.inf}, "K": {0.5, np.inf}}
+_OF_FIGURES = {"E": {0.11, 1.1, 2.0, 11.0, 20.0, np.inf}, "K": {0.5, np.inf}}
 
 
 class Variation(NamedTuple):
@@ -67,23 +67,24 @@ def variations(config: Mapping[str, Any], maps: Iterable[CoatingMap]) -> dict[st
     maps : iterable of CoatingMap
         Its coatings.
     """
-    maps = list(maps)
-    varied = {STUDY: Variation(dict(config), maps)}
+    maps, config = list(maps), dict(config)
+    varied = {STUDY: Variation(config, maps)}
     if _even_speeds(config, 1).size < len(speeds(config)):
-        varied["even speeds only"] = Variation(dict(config), _at(maps, _even_speeds(config, 1)))
+        varied["even speeds only"] = Variation(config, _at(maps, _even_speeds(config, 1)))
     for every in (2, 4):
         step = every * config["speeds"]["step"]
-        varied[f"speed step {step:g}"] = Variation(dict(config), _at(maps, _even_speeds(config, every)))
-    for name, window in WINDOWS.items():
-        varied[name] = Variation(_with(config, ("peaks", "speed_window"), window), maps)
-    for name, halfwidth in HALFWIDTHS.items():
-        varied[name] = Variation(_with(config, ("peaks", "order_halfwidth"), halfwidth), maps)
-    for name, growth in GROWTHS.items():
-        varied[name] = Variation(_with(config, ("divergence", "growth"), growth), maps)
+        varied[f"speed step {step:g}"] = Variation(config, _at(maps, _even_speeds(config, every)))
+    for name, (part, key, value) in SETTINGS.items():
+        own = config["analysis"][part][key]
+        # below the study's threshold of growth there are no longer runs to judge by
+        if value != own and (key != "growth" or value > own):
+            varied[name] = Variation(_with(config, part, key, value), maps)
     for modulus in ("E", "K"):
         dropped = _every_second(maps, modulus)
         kept = [coating for coating in maps if getattr(coating.case, modulus) not in dropped]
-        varied[f"every second {modulus}"] = Variation(dict(config), kept)
+        if dropped and kept:
+            without = ", ".join(f"{value:g}" for value in sorted(dropped))
+            varied[f"without {modulus} = {without}"] = Variation(config, kept)
     return varied
 
 
@@ -116,16 +117,16 @@ def _select(coating: CoatingMap, chosen: np.ndarray) -> CoatingMap:
     )
 
 
-def _with(config: Mapping[str, Any], keys: tuple[str, str], value: Any) -> dict[str, Any]:
+def _with(config: Mapping[str, Any], part: str, key: str, value: Any) -> dict[str, Any]:
     varied = copy.deepcopy(dict(config))
-    varied["analysis"][keys[0]][keys[1]] = value
+    varied["analysis"][part][key] = value
     return varied
 
 
 def _every_second(maps: Iterable[CoatingMap], modulus: str) -> set[float]:
-    """Return every second value of the grid, but none of the coatings that claims name one by one."""
+    """Return every second of the values that no figure stands on (those are `_OF_FIGURES`)."""
     values = {getattr(coating.case, modulus) for coating in maps}
-    return set(sorted(values - _NAMED[modulus])[::2])
+    return set(sorted(values - _OF_FIGURES[modulus])[::2])
 
 
 def table(
@@ -147,14 +148,22 @@ def table(
     DataFrame
         A row for each claim in each variation, with `COLUMNS`; a claim that a variation cannot tell has none.
         A variation that leaves no speed to look for a peak at is left out; the log says so.
+
+    Raises
+    ------
+    ValueError
+        As `bladerub.study.peaks.of_maps`, of the study itself.
     """
     rom_accuracy = pd.read_csv(rom_accuracy_path)
     judged = []
     for name, (settings, maps) in variations(config, map(read_map, map_paths)).items():
+        _log.warning("%s:", name)  # a heading for what `findings` leaves out
         try:
             found = peaks.of_maps(settings, maps)
         except ValueError as error:
-            _log.warning("left out: %s (%s)", name, error)
+            if name == STUDY:
+                raise
+            _log.warning("left out: all of it (%s)", error)
             continue
         tables = {
             "peaks": found,

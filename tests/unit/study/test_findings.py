@@ -20,8 +20,8 @@ WORN = CoatingCase("2nd5nd", 11.0, 0.5, 0.0)
 
 PAPER_IDS = {
     *("C1a", "C1b", "C2a", "C2b", "C2c", "C2d", "C3a", "C3b", "C3c", "C3d", "C4a", "C4b", "C4c"),
-    *("C5a", "C5b", "C5c", "C6a", "C6b", "C6c", "C6d", "C7a", "C7b", "C8a", "C8b"),
-    *("C9a", "C9b", "C9c", "C9d", "C9e", "C9f", "C10a", "C10b", "C10c", "C10d"),
+    *("C5a", "C5b", "C5c", "C6a", "C6b", "C6c", "C7a", "C7b", "C8a", "C8b"),
+    *("C9a", "C9b", "C9c", "C9d", "C9e", "C10a", "C10b", "C10c", "C10d"),
     *(f"C11{part}" for part in "abcdefghijkl"),
     "C12a",
 }
@@ -54,18 +54,14 @@ def paper_peaks():
 
 
 def paper_divergence():
-    """The four runs of Figs. 17 to 19, two of which diverge, and every peak of two nodal diameters."""
-    at_peaks = paper_peaks().query("theta == 0 and E < inf")[["E", "K", "theta", "f_peak"]]
-    named = [(2.0, 0.5, theta, f_omega) for theta in (0.0, 0.15) for f_omega in (0.19, 0.197)]
     rows = []
-    for E, K, theta, f_omega in dict.fromkeys([*named, *at_peaks.itertuples(index=False, name=None)]):
-        diverges = (E, K, theta, f_omega) in ((2.0, 0.5, 0.0, 0.197), (2.0, 0.5, 0.15, 0.19))
-        growth = 0.03 if diverges else 0.0
+    for (theta, own), f_omega in itertools.product(((0.0, 0.197), (0.15, 0.19)), (0.19, 0.197)):
+        growth = 0.03 if f_omega == own else 0.0
         rows.append(
             {
                 "casing": "2nd",
-                "E": E,
-                "K": K,
+                "E": 2.0,
+                "K": 0.5,
                 "theta": theta,
                 "f_omega": f_omega,
                 "growth_per_revolution": growth,
@@ -153,20 +149,6 @@ def test_the_greatest_cells_are_named_with_their_heights(paper, judge):
     assert finding.margin == pytest.approx(0.1)
 
 
-@pytest.mark.parametrize(("diverges", "holds"), [((1.5, 0.5), "yes"), ((1.1, 0.5), "no"), (None, "partly")])
-def test_cells_that_diverge_are_left_out_of_one_ranking_and_not_of_the_other(paper, judge, diverges, holds):
-    peaks, divergence = paper[1]["peaks"], paper[1]["divergence"]
-    peaks.loc[(peaks.E == 1.5) & (peaks.K == 0.5) & (peaks.order == 4), "amplitude"] = 1.05e-3
-    if diverges:
-        E, K = diverges
-        divergence.loc[(divergence.E == E) & (divergence.K == K), "divergent"] = True
-    judged = judge(*paper)
-    assert (judged.holds["C6a"], judged.holds["C6d"]) == ("partly", holds)
-    if diverges == (1.1, 0.5):
-        assert judged.measured["C6d"].endswith("it diverges at (1.1, 0.5)")
-        assert np.isnan(judged.margin["C6d"])
-
-
 @pytest.mark.parametrize(
     ("E", "K", "f_peak", "id_", "holds"),
     [
@@ -182,6 +164,14 @@ def test_other_peak_speeds_break_the_claims_on_them(paper, judge, E, K, f_peak, 
     table = paper[1]["peaks"]
     table.loc[(table.E == E) & (table.K == K) & (table.order == 4), "f_peak"] = f_peak
     assert judge(*paper).holds[id_] == holds
+
+
+def test_one_column_of_moduli_ranks_nothing(paper, judge):
+    config, tables, maps = paper
+    critical = tables["peaks"][tables["peaks"].E == 1.1]
+    peaks = pd.concat([critical, critical.assign(E=0.05)])  # the second is outside the paper's range
+    judged = judge(config, {**tables, "peaks": peaks}, maps)
+    assert not [id_ for id_ in judged.index if id_[:2] in ("C6", "C7", "C8", "C9")]
 
 
 def test_falling_f6_is_no_contact_stiffening(paper, judge):
@@ -295,7 +285,7 @@ def test_a_wear_maximum_far_from_the_papers_is_not_compared_with_vibration(paper
 
 
 def test_soft_coatings_are_judged_when_the_study_has_them(paper, judge):
-    softer = paper[1]["divergence"].head(4).assign(E=0.05, theta=0.0, divergent=[False, False, False, True])
+    softer = paper[1]["divergence"].assign(E=0.05, theta=0.0, divergent=[False, False, False, True])
     paper[1]["divergence"] = pd.concat([paper[1]["divergence"], softer], ignore_index=True)
     finding = judge(*paper).loc["C12b"]
     assert (finding.holds, finding.measured) == ("no", 25)
@@ -351,7 +341,7 @@ def test_a_small_study_leaves_out_what_it_cannot_tell_and_logs_it(paper, judge, 
     del maps[WORN.name]
     with caplog.at_level(logging.WARNING):
         judged = judge(config, tables, maps)
-    out = {id_ for id_ in PAPER_IDS if id_.startswith(("C2", "C3", "C11"))} | {"C6c", "C6d", "C9f", "C12a"}
+    out = {id_ for id_ in PAPER_IDS if id_.startswith(("C2", "C3", "C11"))} | {"C6c", "C12a"}
     assert set(judged.index) == PAPER_IDS - out
     assert "left out: C2a: five worn lobes" in caplog.text
     assert "coating 2nd5nd_E11_K0.5_theta0 is not in the study" in caplog.text

@@ -40,6 +40,15 @@ def test_what_is_done_is_counted(done, inventory, tmp_path):
     assert inventory(thorough=True) == found
 
 
+def test_longer_runs_are_those_of_the_plan_not_of_the_manifest(done, inventory, study, tmp_path):
+    (tmp_path / "manifest.tsv").unlink()
+    assert (inventory().longer_planned, inventory().longer_done) == (1, 1)
+    study["analysis"]["divergence"]["confirmation_revolutions"] = 80
+    assert (inventory().longer_planned, inventory().longer_done) == (1, 0)
+    study["analysis"]["divergence"]["confirmation_revolutions"] = 0
+    assert (inventory().longer_planned, inventory().longer_done) == (0, 0)
+
+
 def test_another_blade_makes_every_run_stale(done, inventory):
     found = inventory(digest="another")
     assert counts(found) == {**NONE, "stale": 4}
@@ -68,13 +77,18 @@ def test_truncated_and_foreign_files_are_corrupt(done, inventory, tmp_path):
     assert counts(inventory()) == {**NONE, "done": 1, "missing": 1, "corrupt": 2, "unbounded": 1}
 
 
-def test_damage_inside_a_file_is_found_where_it_is_read_to_its_end(done, inventory, tmp_path):
+def test_damage_anywhere_in_a_file_ends_no_inventory(done, inventory, tmp_path):
     path = tmp_path / "0.1000.h5"
-    content = bytearray(path.read_bytes())
-    middle = slice(len(content) // 2, len(content) // 2 + 2000)
-    content[middle] = bytes(255 - byte for byte in content[middle])
-    path.write_bytes(content)
-    assert counts(inventory(thorough=True))["corrupt"] == 1
+    whole = path.read_bytes()
+    found = []
+    for start in range(0, len(whole), len(whole) // 40):
+        content = bytearray(whole)
+        damaged = slice(start, start + 300)
+        content[damaged] = bytes(255 - byte for byte in content[damaged])
+        path.write_bytes(content)
+        found.append(counts(inventory(thorough=True))["corrupt"])
+    assert set(found) <= {0, 1}
+    assert sum(found) > 20  # what lies between the datasets is nobody's loss
 
 
 def test_a_lost_longer_run_is_told(done, inventory, tmp_path):

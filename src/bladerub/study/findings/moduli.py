@@ -7,7 +7,6 @@ import pandas as pd
 
 from bladerub.study.findings.evidence import Evidence
 from bladerub.study.findings.finding import NO, PARTLY, YES, Finding, NotMeasurable, above, below
-from bladerub.study.grid import CoatingCase
 
 CASING, THETA = "2nd", 0.0
 """The coatings of section "Mechanical properties of the abradable coating"."""
@@ -39,49 +38,19 @@ def y6_greatest(evidence: Evidence) -> Finding:
 
 
 def _greatest(evidence: Evidence, id_: str, order: int, figure: str) -> Finding:
-    return _first_of(_with_critical_cell(evidence, order), id_, order, "cells", figure)
-
-
-def y4_greatest_bounded(evidence: Evidence) -> Finding:
-    """C6d: as C6a, of the cells whose run at the peak does not diverge.
-
-    Of the others the paper's 20 revolutions show what the blade has reached by then, not where it ends.
-    """
-    return _greatest_bounded(evidence, "C6d", 4, "Fig. 11")
-
-
-def y6_greatest_bounded(evidence: Evidence) -> Finding:
-    """C9f: as C9a, of the cells whose run at the peak does not diverge (see C6d)."""
-    return _greatest_bounded(evidence, "C9f", 6, "Fig. 13")
-
-
-def _greatest_bounded(evidence: Evidence, id_: str, order: int, figure: str) -> Finding:
-    table, f_peak = _with_critical_cell(evidence, order), _moduli(evidence, order, "f_peak")
-    for (hardening, young), speed in f_peak.stack().dropna().items():
-        case = CoatingCase(CASING, young, hardening, THETA)
-        if evidence.run(case, speed).divergent:
-            table.loc[hardening, young] = np.nan
-    if table.isna().all(axis=None):
-        raise NotMeasurable(f"at every (E, K) the run at the peak of engine order {order} diverges")
-    return _first_of(table, id_, order, "cells that do not diverge", figure)
-
-
-def _first_of(table: pd.DataFrame, id_: str, order: int, of_what: str, figure: str) -> Finding:
-    ranked = table.stack().dropna().sort_values(ascending=False)
+    ranked = _with_critical_cell(evidence, order).stack().dropna().sort_values(ascending=False)
     relative = ranked / ranked.iloc[0]
-    own = float(relative.get((CRITICAL_K, CRITICAL_E), np.nan))
+    own = relative[CRITICAL_K, CRITICAL_E]
     cells = [f"({e:g}, {k:g}) at {height:.2f}" for (k, e), height in relative.iloc[:3].items()]
     holds, _ = above(own, 1.0, 0.9)
-    greatest = f"Y{order} is greatest at (E, K) = (1.1, 0.5)"
-    where = "it diverges at (1.1, 0.5)" if np.isnan(own) else f"(1.1, 0.5) at {own:.2f}"
     return Finding(
         id=id_,
-        claim=f"{greatest} of {ranked.size} {of_what}: first three ({figure})",
+        claim=f"Y{order} is greatest at (E, K) = (1.1, 0.5) of {ranked.size} cells: first three ({figure})",
         paper="(1.1, 0.5)",
-        measured=f"{', '.join(cells)}; {where}",
+        measured=f"{', '.join(cells)}; (1.1, 0.5) at {own:.2f}",
         unit="1",
         holds=holds,
-        margin=float(own - relative.drop((CRITICAL_K, CRITICAL_E), errors="ignore").max()),
+        margin=float(own - relative.drop((CRITICAL_K, CRITICAL_E)).max()),
     )
 
 
@@ -89,6 +58,8 @@ def y4_ridge(evidence: Evidence) -> Finding:
     """C6b: for any K, Y4 is highest at E = 1.1 (section "Local maxima evolution", Fig. 11)."""
     table = _with_critical_cell(evidence, 4)
     table = table[table.count(axis=1) >= 2]
+    if table.empty:
+        raise NotMeasurable("no K with two E or more in the study")
     share = 100 * float(np.mean(table.idxmax(axis=1) == CRITICAL_E))
     holds, margin = above(share, 100, 50)
     claim = "Y4 is highest at E = 1.1 for any K: share of the K (Fig. 11)"
@@ -112,7 +83,10 @@ def _with_critical_cell(evidence: Evidence, order: int) -> pd.DataFrame:
 
 def _moduli(evidence: Evidence, order: int, column: str) -> pd.DataFrame:
     table = evidence.moduli(CASING, THETA, order, column)
-    return table.loc[:, (table.columns >= SOFTEST) & (table.columns <= STIFFEST)]
+    table = table.loc[:, (table.columns >= SOFTEST) & (table.columns <= STIFFEST)]
+    if table.shape[1] < 2:
+        raise NotMeasurable(f"fewer than two E from {SOFTEST:g} to {STIFFEST:g} in the study")
+    return table
 
 
 def _cell(table: pd.DataFrame, young: float, hardening: float) -> float:
