@@ -18,7 +18,7 @@ rule images:
         f"{RESULTS}/logs/images.log",
     threads: 1
     params:
-        colours=96,
+        colours=256,
     script:
         "../scripts/images.py"
 
