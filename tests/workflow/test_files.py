@@ -9,6 +9,7 @@ import h5py
 import pandas as pd
 import pytest
 import xarray as xr
+import yaml
 
 from bladerub.cli import inputs, main
 
@@ -207,9 +208,11 @@ def test_log_of_a_coating_has_a_line_a_run_with_the_time_left(results):
     assert all(line.endswith("s left") for line in lines[:-1])
 
 
-def test_status_counts_every_run_done(study, monkeypatch, capsys):
+def test_status_counts_every_run_done(study, tiny, tmp_path, monkeypatch, capsys):
     monkeypatch.setattr(inputs, "ROOT", study.folder)
-    assert main(["status", "--json", "--thorough", "--config", str(study.folder / "overlay.yaml")]) == 0
+    overlay = tmp_path / "tiny.yaml"
+    overlay.write_text(yaml.safe_dump(tiny))
+    assert main(["status", "--json", "--thorough", "--config", str(overlay)]) == 0
     counts = json.loads(capsys.readouterr().out)
     assert counts["planned"] == counts["done"] == 6 * 8
     assert counts["longer_planned"] == counts["longer_done"]
