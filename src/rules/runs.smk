@@ -1,28 +1,15 @@
 # Stage 2: the rubs. One job is one coating at all its speeds; one run is one file.
 from bladerub.study.confirmation import determinants
-from bladerub.study.grid import (
-    case_from_name,
-    keeps_history,
-    run_spec,
-    speed_name,
-    speeds,
-)
-from bladerub.study.key import run_key
+from bladerub.study import plan
+from bladerub.study.grid import case_from_name
 from bladerub.sources import solver_digest
 
 
 def planned_runs(wildcards):
     """All that determines the runs of a coating but the blade: a changed one is a reason to run."""
     case = case_from_name(config, wildcards.coating)
-    return {
-        speed_name(f_omega): run_key(
-            run_spec(config, case, f_omega),
-            "the blade is an input",
-            keeps_history(config, case, f_omega),
-            config["analysis"],
-        )
-        for f_omega in speeds(config)
-    }
+    runs = plan.planned_runs(config, case, "", "the blade is an input")
+    return {run.path.stem: run.key for run in runs}
 
 
 rule compile_kernel:

@@ -12,11 +12,9 @@ import numpy as np
 
 from bladerub.blade.model import ReducedBlade
 from bladerub.contact.run import simulate
-from bladerub.contact.spec import RunSpec
-from bladerub.study.confirmation import confirmation_path, confirmation_spec
-from bladerub.study.grid import CoatingCase, keeps_history, run_spec, speed_name, speeds
+from bladerub.study.grid import CoatingCase
 from bladerub.study.growth import needs_confirmation
-from bladerub.study.key import run_key
+from bladerub.study.plan import PlannedRun, longer_run, planned_runs
 from bladerub.study.shelf import shelve, unshelve
 from bladerub.study.store import ManifestRow, is_current, read_run, write_run
 
@@ -95,34 +93,18 @@ def compute_missing(
     """
     folder, analysis = Path(folder), config["analysis"]
     settings = analysis["divergence"]
-    runs = []
-    for f_omega in speeds(config):
-        history = keeps_history(config, case, f_omega)
-        spec = run_spec(config, case, f_omega)
-        path = folder / f"{speed_name(f_omega)}.h5"
-        runs.append(_Plan(path, spec, run_key(spec, blade_digest, history, analysis), history))
+    runs = planned_runs(config, case, folder, blade_digest)
     outcomes = _compute(runs, folder, case, blade, analysis, report)
 
     rows, confirmations = [], []
     for run in runs:
         (status, amplitude), confirmation_key = outcomes.get(run.path) or _stored(run.path), ""
         if needs_confirmation(amplitude, status, settings):
-            spec = confirmation_spec(run.spec, settings)
-            confirmation_key = run_key(spec, blade_digest, False, analysis)
-            confirmations.append(_Plan(confirmation_path(run.path), spec, confirmation_key, False))
+            confirmations.append(longer_run(config, run, blade_digest))
+            confirmation_key = confirmations[-1].key
         rows.append(ManifestRow(run.path.name, run.spec.f_omega, run.key, status, confirmation_key))
     _compute(confirmations, folder, case, blade, analysis, report)
     return rows
-
-
-@dataclass(frozen=True)
-class _Plan:
-    """One run that is to be in its file under its key."""
-
-    path: Path
-    spec: RunSpec
-    key: str
-    keep_history: bool
 
 
 class _Outcome(NamedTuple):
@@ -138,7 +120,7 @@ def _stored(path: Path) -> _Outcome:
 
 
 def _compute(
-    plans: Sequence[_Plan],
+    plans: Sequence[PlannedRun],
     folder: Path,
     case: CoatingCase,
     blade: ReducedBlade,

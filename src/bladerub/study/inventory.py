@@ -7,10 +7,9 @@ from dataclasses import dataclass, fields
 from pathlib import Path
 from typing import Any
 
-from bladerub.study.confirmation import confirmation_path, confirmation_spec
-from bladerub.study.grid import CoatingCase, keeps_history, run_spec, speed_name, speeds
+from bladerub.study.grid import CoatingCase
 from bladerub.study.growth import needs_confirmation
-from bladerub.study.key import run_key
+from bladerub.study.plan import PlannedRun, longer_run, planned_runs
 from bladerub.study.store import StoredRun, read_run
 
 
@@ -80,23 +79,19 @@ def take(
     seen : callable, optional
         Called after each planned run.
     """
-    folder, analysis = Path(folder), config["analysis"]
-    settings = analysis["divergence"]
+    folder, settings = Path(folder), config["analysis"]["divergence"]
     count = dict.fromkeys(("done", "missing", "stale", "corrupt", "unbounded", *_LONGER), 0)
-    planned = speeds(config)
-    for f_omega in planned:
-        path = folder / f"{speed_name(f_omega)}.h5"
-        spec = run_spec(config, case, f_omega)
-        key = blade_digest and run_key(spec, blade_digest, keeps_history(config, case, f_omega), analysis)
-        state, run = _look(path, key, thorough)
+    digest = blade_digest or "no blade"  # under which no run was ever made
+    planned = planned_runs(config, case, folder, digest)
+    for run in planned:
+        state, stored = _look(run, thorough)
         count[state] += 1
         if state == "done":
-            status = run.attributes["status"]
+            status = stored.attributes["status"]
             count["unbounded"] += status == "unbounded"
-            if needs_confirmation(run.data["revolution_amplitude"], status, settings):
-                key = run_key(confirmation_spec(spec, settings), blade_digest, False, analysis)
+            if needs_confirmation(stored.data["revolution_amplitude"], status, settings):
                 count["longer_planned"] += 1
-                count["longer_done"] += _look(confirmation_path(path), key, thorough)[0] == "done"
+                count["longer_done"] += _look(longer_run(config, run, digest), thorough)[0] == "done"
         seen()
     return Inventory(
         planned=len(planned),
@@ -108,11 +103,11 @@ def take(
 _LONGER = ("longer_planned", "longer_done")
 
 
-def _look(path: Path, key: str | None, thorough: bool) -> tuple[str, StoredRun | None]:
-    if not path.exists():
+def _look(run: PlannedRun, thorough: bool) -> tuple[str, StoredRun | None]:
+    if not run.path.exists():
         return "missing", None
     try:
-        run = read_run(path, frozenset() if thorough else {"revolution_amplitude"})
+        stored = read_run(run.path, frozenset() if thorough else {"revolution_amplitude"})
     except Exception:  # whatever is wrong with the file (as in `bladerub.study.store.is_current`)
         return "corrupt", None
-    return ("done" if run.attributes["run_key"] == key else "stale"), run
+    return ("done" if stored.attributes["run_key"] == run.key else "stale"), stored
