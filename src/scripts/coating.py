@@ -5,18 +5,23 @@ import sys
 from bladerub.blade.model import read_reduced_blade
 from bladerub.study.coating_job import compute_missing
 from bladerub.study.grid import case_from_name
+from bladerub.study.job_progress import JobProgress
 from bladerub.study.key import blade_digest
 from bladerub.study.store import write_manifest
 
-sys.stderr = open(snakemake.log[0], "w", buffering=1)
+terminal, sys.stderr = sys.stderr, open(snakemake.log[0], "w", buffering=1)
 
+name = snakemake.wildcards.coating
+progress = JobProgress(name, log=sys.stderr, terminal=terminal)
 rows = compute_missing(
     snakemake.config,
-    case_from_name(snakemake.config, snakemake.wildcards.coating),
+    case_from_name(snakemake.config, name),
     read_reduced_blade(snakemake.input.blade),
     snakemake.params.folder,
     blade_digest(snakemake.input.blade),
-    report=lambda run: print(run, file=sys.stderr),
+    report=progress,
 )
 write_manifest(snakemake.output[0], rows)
-print(f"all {len(rows)} runs are there", file=sys.stderr)
+summary = progress.summary(rows)
+print(summary, file=sys.stderr)
+print(summary)
