@@ -28,6 +28,7 @@ wildcard_constraints:
     coating="[A-Za-z0-9]+_(E[^_/]+_K[^_/]+_theta|rigid_mu)[^_/]+",
 
 
+include: "src/rules/report.smk"
 include: "src/rules/blade.smk"
 include: "src/rules/runs.smk"
 include: "src/rules/maps.smk"

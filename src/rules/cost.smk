@@ -14,11 +14,7 @@ rule cost:
         drawing=drawing("cost"),
     output:
         table=f"{RESULTS}/tables/cost.csv",
-        png=report(
-            f"{RESULTS}/benchmarks/cost.png",
-            caption="../report/cost.rst",
-            category="Cost",
-        ),
+        png=shown(f"{RESULTS}/benchmarks/cost.png", "cost", "Cost"),
         pdf=f"{RESULTS}/benchmarks/cost.pdf",
     log:
         f"{RESULTS}/logs/cost.log",

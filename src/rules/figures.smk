@@ -41,10 +41,9 @@ def runs_at(f_omega):
 
 
 def drawn(name, category, **data):
-    """The files of a figure; Snakemake's report shows it under its category, with the caption of its name."""
-    caption = f"../report/{name.split('_{')[0]}.rst"
+    """The files of a figure; the one with a speed in its name has one caption for all."""
     return {
-        "png": report(f"{PLOTS}/{name}.png", caption=caption, category=category),
+        "png": shown(f"{PLOTS}/{name}.png", name.split("_{")[0], category),
         "pdf": f"{PLOTS}/{name}.pdf",
         **{key: f"{PLOTS}/{name}{suffix}" for key, suffix in data.items()},
     }

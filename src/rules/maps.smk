@@ -77,11 +77,7 @@ rule findings:
             "findings/wear_patterns",
         ),
     output:
-        report(
-            f"{RESULTS}/tables/findings.csv",
-            caption="../report/findings.rst",
-            category="Findings",
-        ),
+        shown(f"{RESULTS}/tables/findings.csv", "findings", "Claims"),
     log:
         f"{RESULTS}/logs/findings.log",
     benchmark:

@@ -9,12 +9,8 @@ rule margins:
         analysing=analysing("margins", "divergence", "growth"),
         drawing=drawing("verdicts"),
     output:
-        **drawn("margins", "Findings"),
-        table=report(
-            f"{RESULTS}/tables/margins.csv",
-            caption="../report/margins_table.rst",
-            category="Findings",
-        ),
+        **drawn("margins", "Claims"),
+        table=shown(f"{RESULTS}/tables/margins.csv", "margins_table", "Claims"),
     log:
         f"{RESULTS}/logs/margins.log",
     benchmark:
