@@ -9,6 +9,7 @@ from collections.abc import Mapping, Set
 from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any
 
 import h5py
@@ -42,8 +43,25 @@ class Variable:
     long_name: str
 
 
-def write(path: str | Path, variables: Mapping[str, Variable], attributes: Mapping[str, Any]) -> None:
+def write(
+    path: str | Path,
+    variables: Mapping[str, Variable],
+    attributes: Mapping[str, Any],
+    origin: Mapping[str, str] = MappingProxyType({}),
+) -> None:
     """Write `variables` and `attributes` to `path`: under a temporary name first, then renamed.
+
+    Parameters
+    ----------
+    path : path-like
+        The file.
+    variables : mapping of str to Variable
+        The datasets by name.
+    attributes : mapping
+        Numbers and strings by name.
+    origin : mapping of str to str, optional
+        More attributes, from `bladerub.provenance.provenance`: the same in many files, and so not written
+        one by one.
 
     Raises
     ------
@@ -55,7 +73,8 @@ def write(path: str | Path, variables: Mapping[str, Variable], attributes: Mappi
         (name, variable.dims, data[name].shape, data[name].dtype.str, variable.units, variable.long_name)
         for name, variable in variables.items()
     )
-    image = _blank(layout, tuple((key, np.asarray(value).dtype.str) for key, value in attributes.items()))
+    kinds = tuple((key, np.asarray(value).dtype.str) for key, value in attributes.items())
+    image = _blank(layout, kinds, tuple(origin.items()))
     with h5py.File(h5py.h5f.open_file_image(image, flags=_READ_AND_WRITE)) as file:
         for key, value in attributes.items():
             file.attrs.modify(key, value)
@@ -78,11 +97,13 @@ def write(path: str | Path, variables: Mapping[str, Variable], attributes: Mappi
 
 
 @lru_cache(maxsize=8)
-def _blank(layout: tuple, attributes: tuple) -> bytes:
+def _blank(layout: tuple, attributes: tuple, origin: tuple) -> bytes:
     """Make a file without values: its names, units and scales take four times as long as filling it."""
     with h5py.File(io.BytesIO(), "w") as file:
         for key, kind in attributes:
             file.attrs[key] = "" if "U" in kind else np.zeros((), kind)
+        for key, value in origin:
+            file.attrs[key] = value
         lengths: dict[str, int] = {}
         for name, dims, shape, kind, units, long_name in sorted(layout, key=_coordinates_first):
             if len(shape) != len(dims):

@@ -25,6 +25,10 @@ rule blade:
         mesh=f"{config['results']}/blade/mesh.h5",
         campbell=f"{config['results']}/tables/campbell.csv",
         rom_accuracy=f"{config['results']}/tables/rom_accuracy.csv",
+        descriptions=[
+            f"{config['results']}/tables/{name}.csv-metadata.json"
+            for name in ("campbell", "rom_accuracy")
+        ],
     log:
         f"{config['results']}/logs/blade.log",
     benchmark:

@@ -31,6 +31,7 @@ rule calibration:
         drawing=drawing("verdicts"),
     output:
         table=f"{RESULTS}/tables/calibration.csv",
+        description=f"{RESULTS}/tables/calibration.csv-metadata.json",
         png=f"{PLOTS}/calibration.png",
         pdf=f"{PLOTS}/calibration.pdf",
     log:
@@ -55,6 +56,7 @@ rule calibration_set:
         ],
     output:
         f"{RESULTS}/calibration/{{set}}/tables/findings.csv",
+        description=f"{RESULTS}/calibration/{{set}}/tables/findings.csv-metadata.json",
     log:
         f"{RESULTS}/logs/calibration/{{set}}.log",
     benchmark:

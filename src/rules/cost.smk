@@ -15,6 +15,7 @@ rule cost:
     output:
         table=f"{RESULTS}/tables/cost.csv",
         png=shown(f"{RESULTS}/benchmarks/cost.png", "cost", "Cost"),
+        description=f"{RESULTS}/tables/cost.csv-metadata.json",
         pdf=f"{RESULTS}/benchmarks/cost.pdf",
     log:
         f"{RESULTS}/logs/cost.log",

@@ -40,13 +40,16 @@ def runs_at(f_omega):
     ]
 
 
-def drawn(name, category, **data):
+def drawn(name, category, with_data=False):
     """The files of a figure; the one with a speed in its name has one caption for all."""
-    return {
+    files = {
         "png": shown(f"{PLOTS}/{name}.png", name.split("_{")[0], category),
         "pdf": f"{PLOTS}/{name}.pdf",
-        **{key: f"{PLOTS}/{name}{suffix}" for key, suffix in data.items()},
     }
+    if with_data:
+        files["data"] = f"{PLOTS}/{name}.csv"
+        files["description"] = f"{PLOTS}/{name}.csv-metadata.json"
+    return files
 
 
 def drawing(*modules):
@@ -82,7 +85,7 @@ rule fig02_campbell:
         campbell=rules.blade.output.campbell,
         drawing=drawing("campbell", "engine_orders"),
     output:
-        **drawn("fig02_campbell", "Model", data=".csv"),
+        **drawn("fig02_campbell", "Model", with_data=True),
     log:
         f"{RESULTS}/logs/fig02_campbell.log",
     benchmark:
@@ -99,7 +102,7 @@ rule fig03_tip_profile:
         model=rubbing("coating", "tip"),
         drawing=drawing("tip_profile"),
     output:
-        **drawn("fig03_tip_profile", "Model", data=".csv"),
+        **drawn("fig03_tip_profile", "Model", with_data=True),
     log:
         f"{RESULTS}/logs/fig03_tip_profile.log",
     benchmark:
@@ -119,7 +122,7 @@ rule fig04_coating_cycle:
         model=rubbing("coating"),
         drawing=drawing("coating_cycle"),
     output:
-        **drawn("fig04_coating_cycle", "Model", data=".csv"),
+        **drawn("fig04_coating_cycle", "Model", with_data=True),
     log:
         f"{RESULTS}/logs/fig04_coating_cycle.log",
     benchmark:
@@ -137,7 +140,7 @@ rule fig05_casing:
         model=rubbing("casing"),
         drawing=drawing("casing_polar", "polar"),
     output:
-        **drawn("fig05_casing", "Model", data=".csv"),
+        **drawn("fig05_casing", "Model", with_data=True),
     log:
         f"{RESULTS}/logs/fig05_casing.log",
     benchmark:
@@ -227,7 +230,7 @@ rule fig10_peaks:
             "peak_sections", "spectrum_map", "cells", "engine_orders", "titles"
         ),
     output:
-        **drawn("fig10_peaks", "Wear and spectra", data=".csv"),
+        **drawn("fig10_peaks", "Wear and spectra", with_data=True),
     log:
         f"{RESULTS}/logs/fig10_peaks.log",
     benchmark:
@@ -245,7 +248,7 @@ rule fig11_Y4:
         peaks=rules.peaks.output[0],
         drawing=drawing("histogram"),
     output:
-        **drawn("fig11_Y4", "Moduli of the coating", data=".csv"),
+        **drawn("fig11_Y4", "Moduli of the coating", with_data=True),
     log:
         f"{RESULTS}/logs/fig11_Y4.log",
     benchmark:
@@ -263,7 +266,7 @@ rule fig12_f4:
         peaks=rules.peaks.output[0],
         drawing=drawing("histogram"),
     output:
-        **drawn("fig12_f4", "Moduli of the coating", data=".csv"),
+        **drawn("fig12_f4", "Moduli of the coating", with_data=True),
     log:
         f"{RESULTS}/logs/fig12_f4.log",
     benchmark:
@@ -281,7 +284,7 @@ rule fig13_Y6:
         peaks=rules.peaks.output[0],
         drawing=drawing("histogram"),
     output:
-        **drawn("fig13_Y6", "Moduli of the coating", data=".csv"),
+        **drawn("fig13_Y6", "Moduli of the coating", with_data=True),
     log:
         f"{RESULTS}/logs/fig13_Y6.log",
     benchmark:
@@ -299,7 +302,7 @@ rule fig14_f6:
         peaks=rules.peaks.output[0],
         drawing=drawing("histogram"),
     output:
-        **drawn("fig14_f6", "Moduli of the coating", data=".csv"),
+        **drawn("fig14_f6", "Moduli of the coating", with_data=True),
     log:
         f"{RESULTS}/logs/fig14_f6.log",
     benchmark:
@@ -354,7 +357,7 @@ rule fig17_history_0190:
         ),
         drawing=drawing("history", "titles"),
     output:
-        **drawn("fig17_history_0190", "Angle of the elements", data=".csv"),
+        **drawn("fig17_history_0190", "Angle of the elements", with_data=True),
     log:
         f"{RESULTS}/logs/fig17_history_0190.log",
     benchmark:
@@ -375,7 +378,7 @@ rule fig18_history_0197:
         ),
         drawing=drawing("history", "titles"),
     output:
-        **drawn("fig18_history_0197", "Angle of the elements", data=".csv"),
+        **drawn("fig18_history_0197", "Angle of the elements", with_data=True),
     log:
         f"{RESULTS}/logs/fig18_history_0197.log",
     benchmark:
@@ -397,7 +400,7 @@ rule history:
         ),
         drawing=drawing("history", "titles"),
     output:
-        **drawn("history_{speed}", "Angle of the elements", data=".csv"),
+        **drawn("history_{speed}", "Angle of the elements", with_data=True),
     log:
         f"{RESULTS}/logs/history/{{speed}}.log",
     benchmark:
@@ -417,7 +420,7 @@ rule fig19_wear_polar:
         maps=[map_of(STRAIGHT), map_of(INCLINED)],
         drawing=drawing("wear_polar", "polar", "titles"),
     output:
-        **drawn("fig19_wear_polar", "Angle of the elements", data=".csv"),
+        **drawn("fig19_wear_polar", "Angle of the elements", with_data=True),
     log:
         f"{RESULTS}/logs/fig19_wear_polar.log",
     benchmark:

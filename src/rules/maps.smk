@@ -30,6 +30,7 @@ rule peaks:
         analysing=analysing("peaks"),
     output:
         f"{RESULTS}/tables/peaks.csv",
+        description=f"{RESULTS}/tables/peaks.csv-metadata.json",
     log:
         f"{RESULTS}/logs/peaks.log",
     benchmark:
@@ -47,6 +48,7 @@ rule divergence:
         analysing=analysing("divergence", "growth"),
     output:
         f"{RESULTS}/tables/divergence.csv",
+        description=f"{RESULTS}/tables/divergence.csv-metadata.json",
     log:
         f"{RESULTS}/logs/divergence.log",
     benchmark:
@@ -78,6 +80,7 @@ rule findings:
         ),
     output:
         shown(f"{RESULTS}/tables/findings.csv", "findings", "Claims"),
+        description=f"{RESULTS}/tables/findings.csv-metadata.json",
     log:
         f"{RESULTS}/logs/findings.log",
     benchmark:

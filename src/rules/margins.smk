@@ -11,6 +11,7 @@ rule margins:
     output:
         **drawn("margins", "Claims"),
         table=shown(f"{RESULTS}/tables/margins.csv", "margins_table", "Claims"),
+        description=f"{RESULTS}/tables/margins.csv-metadata.json",
     log:
         f"{RESULTS}/logs/margins.log",
     benchmark:

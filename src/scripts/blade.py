@@ -3,6 +3,7 @@
 import logging
 
 from bladerub.blade.build import build, write
+from bladerub.provenance import provenance
 
 logging.basicConfig(
     filename=snakemake.log[0], filemode="w", level=logging.WARNING, format="%(asctime)s %(message)s"
@@ -10,4 +11,5 @@ logging.basicConfig(
 logging.getLogger("bladerub").setLevel(logging.INFO)
 
 built = build({"blade": snakemake.params.blade, "reduction": snakemake.params.reduction})
-write(built, **dict(snakemake.output.items()))
+files = {name: snakemake.output[name] for name in ("reduced_model", "mesh", "campbell", "rom_accuracy")}
+write(built, provenance(snakemake.config), **files)

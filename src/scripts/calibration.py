@@ -3,8 +3,10 @@
 import sys
 from pathlib import Path
 
+from bladerub import tablefile
 from bladerub.plots import style
 from bladerub.plots.verdicts import verdicts as draw
+from bladerub.provenance import provenance
 from bladerub.study.calibration import gather
 from bladerub.study.findings import verdicts
 
@@ -12,6 +14,6 @@ sys.stderr = open(snakemake.log[0], "w", buffering=1)
 
 answers = {Path(path).parts[-3]: path for path in snakemake.input.findings}
 table = gather(answers)
-table.to_csv(snakemake.output.table, index=False)
+tablefile.write(snakemake.output.table, table, provenance(snakemake.config))
 figure = draw(verdicts(table, by="set"))
 style.save(figure, snakemake.output.png, snakemake.output.pdf, snakemake.params.dpi)

@@ -2,6 +2,8 @@
 
 import sys
 
+from bladerub import tablefile
+from bladerub.provenance import provenance
 from bladerub.study.calibration import answer
 
 sys.stderr = open(snakemake.log[0], "w", buffering=1)
@@ -9,4 +11,4 @@ sys.stderr = open(snakemake.log[0], "w", buffering=1)
 found = answer(
     snakemake.params.choices, snakemake.params.folder, report=lambda run: print(run, file=sys.stderr)
 )
-found.to_csv(snakemake.output[0], index=False)
+tablefile.write(snakemake.output[0], found, provenance(snakemake.params.choices))

@@ -2,12 +2,14 @@
 
 import sys
 
+from bladerub import tablefile
 from bladerub.plots import style
 from bladerub.plots.cost import cost
+from bladerub.provenance import provenance
 from bladerub.study.cost import by_stage, table
 
 sys.stderr = open(snakemake.log[0], "w", buffering=1)
 
 costs = table(snakemake.params.benchmarks)
-costs.to_csv(snakemake.output.table, index=False)
+tablefile.write(snakemake.output.table, costs, provenance(snakemake.config))
 style.save(cost(by_stage(costs)), snakemake.output.png, snakemake.output.pdf, snakemake.params.dpi)

@@ -8,10 +8,12 @@ import sys
 import numpy as np
 import pandas as pd
 
+from bladerub import tablefile
 from bladerub.contact import coating, tip
 from bladerub.contact.spec import Coating, TipProfile
 from bladerub.plots import style
 from bladerub.plots.tip_profile import TipScene, tip_profile
+from bladerub.provenance import provenance
 
 PENETRATION = 0.15e-3  # of the node, m: a usual depth in the study
 REACH = 6  # elements shown on each side of the node
@@ -40,7 +42,8 @@ scene = TipScene(
     thickness=layer.thickness,
     theta=layer.theta,
 )
-table = {"element": element, "position": scene.element, "shortening": scene.shortening, "wear": wear}
-pd.DataFrame(table | {"stress": stress}).to_csv(snakemake.output.data, index=False, float_format="%.6g")
+columns = {"element": element, "position": scene.element, "shortening": scene.shortening, "wear": wear}
+table = pd.DataFrame(columns | {"stress": stress})
+tablefile.write(snakemake.output.data, table, provenance(snakemake.config), "%.6g")
 figure = tip_profile(scene, f"E = {layer.E:g}, K = {layer.K:g}")
 style.save(figure, snakemake.output.png, snakemake.output.pdf, snakemake.params.dpi)

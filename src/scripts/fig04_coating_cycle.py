@@ -7,10 +7,12 @@ from itertools import pairwise
 import numpy as np
 import pandas as pd
 
+from bladerub import tablefile
 from bladerub.contact import coating
 from bladerub.contact.spec import Coating
 from bladerub.plots import style
 from bladerub.plots.coating_cycle import Cycle, coating_cycle
+from bladerub.provenance import provenance
 
 STRAINS = (0.0, 0.03, 0.0, 0.05, 0.0)  # load, unload, reload further, unload
 STEPS = 400  # of each branch
@@ -35,5 +37,5 @@ for title, yield_stress in (
     columns = {"strain": strain, "stress": stress, "plastic_strain": wear / bar.thickness}
     tables.append(pd.DataFrame({"yield_stress": yield_stress} | columns))
 
-pd.concat(tables).to_csv(snakemake.output.data, index=False, float_format="%.6g")
+tablefile.write(snakemake.output.data, pd.concat(tables), provenance(snakemake.config), "%.6g")
 style.save(coating_cycle(cycles), snakemake.output.png, snakemake.output.pdf, snakemake.params.dpi)

@@ -6,10 +6,12 @@ from dataclasses import replace
 import numpy as np
 import pandas as pd
 
+from bladerub import tablefile
 from bladerub.contact.casing import shape
 from bladerub.contact.spec import Casing
 from bladerub.plots import style
 from bladerub.plots.casing_polar import casing_polar
+from bladerub.provenance import provenance
 
 MAGNIFICATION = 150
 
@@ -17,11 +19,15 @@ sys.stderr = open(snakemake.log[0], "w", buffering=1)
 
 combined = Casing(**snakemake.params.casing)
 diameters = combined.nodal_diameters
-casings = {f"{n} nodal diameters": replace(combined, nodal_diameters=(n,), weights=(1.0,)) for n in diameters}
-casings[f"{' + '.join(map(str, diameters))} nodal diameters"] = combined
+casings = {f"{n}": replace(combined, nodal_diameters=(n,), weights=(1.0,)) for n in diameters}
+casings[" + ".join(map(str, diameters))] = combined
 angle = np.linspace(0, 2 * np.pi, 720, endpoint=False)
 inward = {name: casing.amplitude * shape(casing, angle) for name, casing in casings.items()}
 
-pd.DataFrame({"angle": angle, **inward}).to_csv(snakemake.output.data, index=False, float_format="%.6g")
-figure = casing_polar(angle, inward, snakemake.params.casing_radius, MAGNIFICATION)
+table = pd.concat(
+    pd.DataFrame({"nodal_diameters": name, "angle": angle, "inward": u}) for name, u in inward.items()
+)
+tablefile.write(snakemake.output.data, table, provenance(snakemake.config), "%.6g")
+named = {f"{name} nodal diameters": u for name, u in inward.items()}
+figure = casing_polar(angle, named, snakemake.params.casing_radius, MAGNIFICATION)
 style.save(figure, snakemake.output.png, snakemake.output.pdf, snakemake.params.dpi)

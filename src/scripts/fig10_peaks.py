@@ -4,8 +4,10 @@ import sys
 
 import pandas as pd
 
+from bladerub import tablefile
 from bladerub.plots import style
 from bladerub.plots.peak_sections import PeakSection, peak_sections
+from bladerub.provenance import provenance
 from bladerub.study.maps import read_map
 from bladerub.study.peaks import crossing_speed, order_amplitude, peak
 
@@ -19,9 +21,10 @@ for k in settings["orders"][:2]:
     window = tuple(factor * crossing for factor in settings["speed_window"])
     sections.append(PeakSection(k, amplitude, window, best.f_omega, best.amplitude))
 
-columns = {f"amplitude_eo{section.order}": section.amplitude for section in sections}
-pd.DataFrame({"f_omega": coating.f_omega, **columns}).to_csv(
-    snakemake.output.data, index=False, float_format="%.6g"
+table = pd.concat(
+    pd.DataFrame({"order": section.order, "f_omega": coating.f_omega, "amplitude": section.amplitude})
+    for section in sections
 )
+tablefile.write(snakemake.output.data, table, provenance(snakemake.config), "%.6g")
 figure = peak_sections(coating, sections, snakemake.params.amplitude_range, snakemake.params.max_frequency)
 style.save(figure, snakemake.output.png, snakemake.output.pdf, snakemake.params.dpi)

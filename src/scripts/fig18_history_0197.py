@@ -2,11 +2,13 @@
 
 import sys
 
+from bladerub import tablefile
 from bladerub.plots import style
 from bladerub.plots.history import history_of_runs
+from bladerub.provenance import provenance
 
 sys.stderr = open(snakemake.log[0], "w", buffering=1)
 
 table, figure = history_of_runs(snakemake.params.runs)
-table.to_csv(snakemake.output.data, index=False, float_format="%.6g")
+tablefile.write(snakemake.output.data, table, provenance(snakemake.config), "%.6g")
 style.save(figure, snakemake.output.png, snakemake.output.pdf, snakemake.params.dpi)

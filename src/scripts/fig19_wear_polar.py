@@ -6,21 +6,24 @@ from string import ascii_lowercase
 import numpy as np
 import pandas as pd
 
+from bladerub import tablefile
 from bladerub.plots import style, titles
 from bladerub.plots.wear_polar import wear_polar
+from bladerub.provenance import provenance
 from bladerub.study.maps import read_map
 
 sys.stderr = open(snakemake.log[0], "w", buffering=1)
 
 maps = {titles.angle(coating.case.theta): coating for coating in map(read_map, snakemake.input.maps)}
 angle = next(iter(maps.values())).angle
-panels, columns = {}, {"angle": angle}
+panels, tables = {}, []
 for index, f_omega in enumerate(snakemake.params.speeds):
     letter = ascii_lowercase[index % 26]
     panel = panels[f"({letter}) {titles.speed(f_omega)}"] = {}
     for name, coating in maps.items():
         panel[name] = coating.wear[np.flatnonzero(np.isclose(coating.f_omega, f_omega))[0]]
-        columns[f"wear, f_omega = {f_omega:.3f}, {name}"] = panel[name]
+        about = {"f_omega": f_omega, "theta": coating.case.theta}
+        tables.append(pd.DataFrame(about | {"angle": angle, "wear": panel[name]}))
 
-pd.DataFrame(columns).to_csv(snakemake.output.data, index=False, float_format="%.6g")
+tablefile.write(snakemake.output.data, pd.concat(tables), provenance(snakemake.config), "%.6g")
 style.save(wear_polar(angle, panels), snakemake.output.png, snakemake.output.pdf, snakemake.params.dpi)

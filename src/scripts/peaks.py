@@ -2,8 +2,11 @@
 
 import sys
 
+from bladerub import tablefile
+from bladerub.provenance import provenance
 from bladerub.study import peaks
 
 sys.stderr = open(snakemake.log[0], "w", buffering=1)
 
-peaks.table(snakemake.config, snakemake.input.maps).to_csv(snakemake.output[0], index=False)
+table = peaks.table(snakemake.config, snakemake.input.maps)
+tablefile.write(snakemake.output[0], table, provenance(snakemake.config))

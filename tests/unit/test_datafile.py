@@ -34,6 +34,13 @@ def test_what_is_written_is_read(tmp_path):
     assert datafile.read_attributes(tmp_path / "file.h5") == attributes
 
 
+def test_the_origin_is_told_in_each_file(tmp_path):
+    for commit in ("abc", "def", "abc"):
+        datafile.write(tmp_path / "file.h5", VARIABLES, {"n": 3}, {"provenance_git_commit": commit})
+        attributes = datafile.read_attributes(tmp_path / "file.h5")
+        assert attributes == {"n": 3, "provenance_git_commit": commit}
+
+
 def test_disagreeing_lengths_are_refused_and_leave_the_old_file(tmp_path):
     path = tmp_path / "file.h5"
     datafile.write(path, VARIABLES, {"version": 1})

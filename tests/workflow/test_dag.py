@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import shutil
+import subprocess
 
 import h5py
 import pytest
@@ -25,6 +26,18 @@ def run_files(workspace):
             name = path.relative_to(workspace.folder).as_posix()
             files[name] = (file.attrs["run_key"], path.stat().st_mtime_ns)
     return files
+
+
+def test_a_commit_plans_nothing(copied_study, tiny):
+    git = ["git", "-c", "user.name=t", "-c", "user.email=t@t", "-c", "commit.gpgsign=false"]
+    for command in (["init", "-q"], ["add", "src"], ["commit", "-qm", "first"]):
+        subprocess.run([*git, *command], cwd=copied_study.folder, check=True)
+    assert copied_study.plan(tiny) == {}
+    before = run_files(copied_study)
+    manifest = "results/runs/2nd_E1.1_K0.5_theta0/manifest.tsv"
+    (copied_study.folder / manifest).unlink()
+    copied_study.build(tiny, manifest)
+    assert run_files(copied_study) == before
 
 
 def test_one_figure_plans_only_what_it_needs(workspace, tiny):

@@ -12,6 +12,7 @@ import xarray as xr
 import yaml
 
 from bladerub.cli import inputs, main
+from bladerub.tablefile import description_path
 
 COATING = "2nd_E2_K0.5_theta0.15"
 PLAIN_RUN = f"runs/{COATING}/0.2300.h5"
@@ -28,7 +29,7 @@ DATASETS = {
         "radial_direction",
         "tangential_direction",
     },
-    "blade/mesh.h5": {"points", "hexahedra"},
+    "blade/mesh.h5": {"points", "hexahedra", "recovery"},
     PLAIN_RUN: {
         "wear",
         "angle",
@@ -96,16 +97,62 @@ COLUMNS = {
 }
 
 
+COATING_KEYS = ["casing", "E", "K", "theta"]
+KEYS = {
+    "tables/campbell": ["f_omega", "mode"],
+    "tables/rom_accuracy": ["f_omega", "mode"],
+    "tables/peaks": [*COATING_KEYS, "order"],
+    "tables/divergence": [*COATING_KEYS, "f_omega"],
+    "tables/findings": ["id"],
+    "tables/margins": ["variation", "id"],
+    "tables/cost": ["rule", "job"],
+    "figures/fig05_casing": ["nodal_diameters", "angle"],
+    "figures/fig10_peaks": ["order", "f_omega"],
+    "figures/fig11_Y4": [*COATING_KEYS, "order"],
+    "figures/fig17_history_0190": ["theta", "revolution"],
+    "figures/fig19_wear_polar": ["f_omega", "theta", "angle"],
+}
+
+
 @pytest.fixture
 def results(study):
     return study.folder / "results"
 
 
+PROVENANCE = {"software", "git_commit", "git_state", "config_sha256", "packages"}
+
+
+def test_every_kind_of_file_is_looked_at(results):
+    kinds = {path.relative_to(results).parts[0] for path in results.rglob("*.h5")}
+    assert kinds == {name.split("/")[0] for name in DATASETS}
+    assert {path.name for path in (results / "blade").iterdir()} == {"reduced_model.h5", "mesh.h5"}
+
+
+def test_a_longer_run_opens_as_the_others_do(results):
+    longer, *_ = sorted((results / "runs").glob("*/confirmation/*.h5"))
+    test_file_opens_in_xarray_and_says_what_it_holds(results, longer.relative_to(results).as_posix())
+    with xr.open_dataset(longer, engine="h5netcdf", phony_dims="sort") as run:
+        assert set(run.variables) >= DATASETS[PLAIN_RUN]
+        assert run.sizes["revolution_number"] == 6
+
+
+def test_coordinates_are_what_users_select_by(results):
+    with xr.open_dataset(results / MAP, engine="h5netcdf", phony_dims="sort") as coating:
+        assert set(coating.coords) == set(coating.dims)
+        at_peak = coating.sel(f_omega=0.19, node=1, method="nearest")
+        assert at_peak.wear_node.dims == ("angle",)
+    with xr.open_dataset(results / "blade/reduced_model.h5", engine="h5netcdf", phony_dims="sort") as blade:
+        assert list(blade.axis) == ["x", "y", "z"]
+        assert list(blade.node) == list(range(1, 9))
+
+
 @pytest.mark.parametrize("name", DATASETS)
 def test_file_opens_in_xarray_and_says_what_it_holds(results, name):
     with xr.open_dataset(results / name, engine="h5netcdf", phony_dims="sort") as dataset:
-        assert set(dataset.variables) >= DATASETS[name]
-        assert set(dataset.attrs) >= ATTRIBUTES.get(name, set())
+        assert set(dataset.variables) >= DATASETS.get(name, set())
+        assert set(dataset.attrs) >= ATTRIBUTES.get(name, set()) | {
+            f"provenance_{what}" for what in PROVENANCE
+        }
     with h5py.File(results / name) as file:
         for variable in file.values():
             assert variable.attrs["units"], variable.name
@@ -163,6 +210,31 @@ def test_table_has_its_columns_and_rows(results, name):
     assert len(table) > 0
 
 
+def test_beside_every_table_stands_what_its_columns_hold(results):
+    tables = sorted([*(results / "tables").iterdir(), *(results / "figures").glob("*.csv*")])
+    plain = [path for path in tables if path.suffix == ".csv"]
+    assert {path.stem for path in plain} >= COLUMNS.keys()
+    assert tables == sorted([*plain, *map(description_path, plain)])
+    for path in plain:
+        about = json.loads(description_path(path).read_text(encoding="utf-8"))
+        described = about["tableSchema"]["columns"]
+        table = pd.read_csv(path)
+        assert [column["name"] for column in described] == list(table.columns), path
+        for column in described:
+            if column["datatype"] in ("number", "integer") and not table.empty:
+                assert table[column["name"]].dtype.kind in "if", (path, column)
+            if column["datatype"] == "integer":
+                assert (table[column["name"]].dropna() % 1 == 0).all(), (path, column)
+        told = {entry["schema:name"] for entry in about["dc:provenance"]}
+        assert told == {f"provenance_{what}" for what in PROVENANCE}
+
+
+def test_every_table_has_one_row_for_each_observation(results):
+    for name, keys in KEYS.items():
+        table = pd.read_csv(results / f"{name}.csv", keep_default_na=False)
+        assert not table.duplicated(keys).any(), name
+
+
 def test_the_rigid_casing_is_in_the_tables_but_not_in_the_histograms(results):
     with h5py.File(results / "runs/2nd_rigid_mu0/0.2300.h5") as run:
         assert (run.attrs["E"], run.attrs["K"], run.attrs["theta"]) == (math.inf, math.inf, 0)
@@ -170,9 +242,9 @@ def test_the_rigid_casing_is_in_the_tables_but_not_in_the_histograms(results):
     for name, rows in (("peaks", 2), ("divergence", 8)):
         table = pd.read_csv(results / "tables" / f"{name}.csv")
         assert len(table.query("E == inf and K == inf")) == rows
-    histogram = pd.read_csv(results / "figures" / "fig11_Y4.csv", index_col="E")
-    assert list(histogram.index) == [0.11, 1.1, 2]
-    assert list(histogram.columns) == ["0.5"]
+    histogram = pd.read_csv(results / "figures" / "fig11_Y4.csv")
+    assert list(histogram.E) == [0.11, 1.1, 2]
+    assert set(histogram.K) == {0.5}
 
 
 def test_every_figure_is_there_twice(results):

@@ -13,14 +13,14 @@ import numpy as np
 import pandas as pd
 from threadpoolctl import threadpool_limits
 
-from bladerub import datafile
+from bladerub import datafile, tablefile
 from bladerub.blade import geometry
 from bladerub.blade.accuracy import CAMPBELL_COLUMNS, accuracy_table
 from bladerub.blade.elasticity import Material, Solid
 from bladerub.blade.frequencies import reduced_frequencies
 from bladerub.blade.linear import lowest_modes
 from bladerub.blade.mesh import BladeMesh
-from bladerub.blade.model import ReducedBlade, write_reduced_blade
+from bladerub.blade.model import AXIS, ReducedBlade, write_reduced_blade
 from bladerub.blade.reduction import Partition, project, speed_law, stiffness_at, transformation
 from bladerub.blade.rotation import Equilibrium, equilibrium
 from bladerub.datafile import Variable
@@ -42,6 +42,8 @@ class BuiltBlade:
         Of the finite element model at rest, Hz.
     mode_shape : (n_modes, n_nodes, 3) ndarray
         The modes that go with it, largest displacement 1.
+    recovery : (n, n_nodes, 3) ndarray
+        Displacement of the nodes per unit of each reduced coordinate, eq. (5).
     static_displacement : (n_speeds, n_nodes, 3) ndarray
         Of the equilibria at ``static_speed`` (normalised), m.
     static_speed : (n_speeds,) ndarray
@@ -56,6 +58,7 @@ class BuiltBlade:
     mesh: BladeMesh
     frequency: np.ndarray
     mode_shape: np.ndarray
+    recovery: np.ndarray
     static_displacement: np.ndarray
     static_speed: np.ndarray
     accuracy: pd.DataFrame
@@ -129,6 +132,7 @@ def build(config: Mapping[str, Any]) -> BuiltBlade:
         mesh,
         frequency,
         shapes / np.abs(shapes).max(axis=(1, 2), keepdims=True),
+        np.stack([solid.full(column) for column in phi.T]),
         np.stack([solid.full(states[f_omega].displacement) for f_omega in table_speeds]),
         np.array(table_speeds),
         accuracy_table(reduced, finite_element, by_law),
@@ -167,19 +171,26 @@ def directions(position: np.ndarray, tip_cone: float) -> tuple[np.ndarray, np.nd
     return radial, np.stack([zero, np.cos(phi), -np.sin(phi)], axis=1)
 
 
-def write(built: BuiltBlade, reduced_model: Path, mesh: Path, campbell: Path, rom_accuracy: Path) -> None:
-    """Write the two HDF5 files and the two tables of stage 1."""
-    write_reduced_blade(reduced_model, built.reduced)
-    write_mesh(mesh, built)
+def write(
+    built: BuiltBlade,
+    origin: Mapping[str, str],
+    reduced_model: str | Path,
+    mesh: str | Path,
+    campbell: str | Path,
+    rom_accuracy: str | Path,
+) -> None:
+    """Write the two HDF5 files and the two tables of stage 1; `origin` is their provenance."""
+    write_reduced_blade(reduced_model, built.reduced, origin)
+    write_mesh(mesh, built, origin)
     for path, table in ((campbell, built.accuracy[CAMPBELL_COLUMNS]), (rom_accuracy, built.accuracy)):
-        Path(path).parent.mkdir(parents=True, exist_ok=True)
-        table.to_csv(path, index=False, float_format="%.10g")
+        tablefile.write(path, table, origin, float_format="%.10g")
 
 
-def write_mesh(path: str | Path, built: BuiltBlade) -> None:
-    """Write what a picture of the blade needs, with node numbers from 0."""
+def write_mesh(path: str | Path, built: BuiltBlade, origin: Mapping[str, str]) -> None:
+    """Write what a picture of the blade and of its motion needs, with node numbers from 0."""
     mesh = built.mesh
     variables = {
+        "axis": AXIS,
         "points": Variable(("node", "axis"), mesh.mesh.points, "m", "nodes at rest in the rotating frame"),
         "hexahedra": Variable(
             ("element", "element_node"),
@@ -196,9 +207,15 @@ def write_mesh(path: str | Path, built: BuiltBlade) -> None:
         "mode_shape": Variable(
             ("mode", "node", "axis"), built.mode_shape, "1", "modes at rest, largest displacement component 1"
         ),
+        "recovery": Variable(
+            ("coordinate", "node", "axis"),
+            built.recovery.astype(np.float32),  # 1e-7 of what is looked at
+            "1",
+            "displacement of the nodes per unit of each coordinate of the reduced model, eq. (5)",
+        ),
         "f_omega": Variable(("f_omega",), built.static_speed, "1", "normalised rotational frequency"),
         "static_displacement": Variable(
             ("f_omega", "node", "axis"), built.static_displacement, "m", "displacement under centrifugal load"
         ),
     }
-    datafile.write(path, variables, {"made_from": built.made_from})
+    datafile.write(path, variables, {"made_from": built.made_from}, origin)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -12,6 +13,10 @@ from bladerub.datafile import Variable
 
 N_INTERFACE = 8
 """Number of interface nodes on the blade tip, leading to trailing edge."""
+INTERFACE_NODE = Variable(
+    ("node",), np.arange(1, N_INTERFACE + 1), "1", "interface node, counted from 1 at the leading edge"
+)
+AXIS = Variable(("axis",), np.array(["x", "y", "z"]), "1", "x along the axis of rotation, z along the blade")
 
 
 @dataclass(frozen=True)
@@ -80,15 +85,15 @@ _UNITS = {
 _ATTRIBUTES = ("f1_hz", "f_omega_max", "eta", "rank_tolerance", "length")
 
 
-def write_reduced_blade(path: str | Path, blade: ReducedBlade) -> None:
-    """Write `blade` to the HDF5 file `path`, whole or not at all."""
-    variables = {}
+def write_reduced_blade(path: str | Path, blade: ReducedBlade, origin: Mapping[str, str]) -> None:
+    """Write `blade` to the HDF5 file `path`, whole or not at all; `origin` is its provenance."""
+    variables = {"node": INTERFACE_NODE, "axis": AXIS}
     for name, (units, long_name) in _UNITS.items():
         data = getattr(blade, name)
         is_matrix = data.shape == blade.mass.shape
         dims = ("coordinate", "coordinate_column") if is_matrix else ("node", "axis")
         variables[name] = Variable(dims, data, units, long_name)
-    datafile.write(path, variables, {name: getattr(blade, name) for name in _ATTRIBUTES})
+    datafile.write(path, variables, {name: getattr(blade, name) for name in _ATTRIBUTES}, origin)
 
 
 def read_reduced_blade(path: str | Path) -> ReducedBlade:

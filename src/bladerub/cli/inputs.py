@@ -110,10 +110,12 @@ def is_of(config: dict[str, Any], path: Path) -> bool:
 def _build_blade(config: dict[str, Any], path: Path) -> None:
     from bladerub.blade import build
     from bladerub.blade.rotation import EquilibriumError
+    from bladerub.provenance import provenance
 
     try:
         built = build.build(config)
     except EquilibriumError as error:
         raise InputError(str(error)) from error
     tables = path.parents[1] / "tables"
-    build.write(built, path, path.with_name("mesh.h5"), tables / "campbell.csv", tables / "rom_accuracy.csv")
+    campbell, accuracy = tables / "campbell.csv", tables / "rom_accuracy.csv"
+    build.write(built, provenance(config), path, path.with_name("mesh.h5"), campbell, accuracy)

@@ -97,7 +97,7 @@ def run(options: argparse.Namespace) -> None:
     if options.output:
         key = run_key(spec, blade_digest(blade_path), True, config["analysis"])
         try:
-            write_run(options.output, spec, result, case, key, config["analysis"], keep_history=True)
+            write_run(options.output, spec, result, case, key, config, keep_history=True)
         except OSError as error:
             raise InputError(f"--output {options.output}: cannot be written ({error})") from error
     print(json.dumps(figures, indent=2) if options.json else _in_words(figures))

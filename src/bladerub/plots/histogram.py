@@ -31,26 +31,28 @@ def peak_amplitudes(peaks: pd.DataFrame, order: int) -> tuple[pd.DataFrame, Figu
     Returns
     -------
     table : DataFrame
-        What is drawn, K over E, m.
+        What is drawn: the rows of `peaks` of that order, in m.
     figure : Figure
         In mm.
     """
-    table = _over_moduli(peaks, order, "amplitude")
-    return table, histogram(table.index, table.columns, 1e3 * table.to_numpy(), f"$Y_{order}$ (mm)", digits=2)
+    rows, over_moduli = _of_order(peaks, order, "amplitude")
+    E, K = over_moduli.index, over_moduli.columns
+    return rows, histogram(E, K, 1e3 * over_moduli.to_numpy(), f"$Y_{order}$ (mm)", digits=2)
 
 
 def peak_speeds(peaks: pd.DataFrame, order: int) -> tuple[pd.DataFrame, Figure]:
     """Draw Figs. 12 and 14 from the table of peaks: f_k over (E, K), normalised (see `peak_amplitudes`)."""
-    table = _over_moduli(peaks, order, "f_peak")
+    rows, over_moduli = _of_order(peaks, order, "f_peak")
     label = f"rotational frequency $f_{order}$ (normalised)"
-    floor = table.min(axis=None) - _ROOM
-    return table, histogram(
-        table.index, table.columns, table.to_numpy(), label, digits=3, floor=floor, frame_maximum=False
-    )
+    floor = over_moduli.min(axis=None) - _ROOM
+    E, K = over_moduli.index, over_moduli.columns
+    return rows, histogram(E, K, over_moduli.to_numpy(), label, digits=3, floor=floor, frame_maximum=False)
 
 
-def _over_moduli(peaks: pd.DataFrame, order: int, column: str) -> pd.DataFrame:
-    return peaks[peaks.order == order].pivot(index="E", columns="K", values=column)
+def _of_order(peaks: pd.DataFrame, order: int, column: str) -> tuple[pd.DataFrame, pd.DataFrame]:
+    """Return the rows of `peaks` with what tells them apart and `column`, and the same as E times K."""
+    rows = peaks.loc[peaks.order == order, ["casing", "E", "K", "theta", "order", column]]
+    return rows, rows.pivot(index="E", columns="K", values=column)
 
 
 @styled

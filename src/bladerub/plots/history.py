@@ -14,6 +14,8 @@ from bladerub.plots import titles
 from bladerub.plots.style import FIRST, PAGE, SECOND, new_figure, styled
 from bladerub.study.store import read_run
 
+_DRAWN = ("revolution", "radial_displacement")
+
 
 def history_of_runs(paths: Iterable[str | Path]) -> tuple[pd.DataFrame, Figure]:
     """Draw Figs. 17 and 18 from the files of two runs that differ in theta.
@@ -21,7 +23,7 @@ def history_of_runs(paths: Iterable[str | Path]) -> tuple[pd.DataFrame, Figure]:
     Returns
     -------
     table : DataFrame
-        ``revolution``, and the radial displacement of node 1 in each run, m.
+        ``theta``, ``revolution`` and ``radial_displacement`` of node 1, m, one run below the other.
     figure : Figure
         See `history`.
     """
@@ -31,7 +33,10 @@ def history_of_runs(paths: Iterable[str | Path]) -> tuple[pd.DataFrame, Figure]:
     run = next(iter(runs.values()))
     revolution, about = run.data["revolution"], run.attributes
     title = f"{titles.moduli(about['casing'], about['E'], about['K'])}, {titles.speed(about['f_omega'])}"
-    table = pd.DataFrame({"revolution": revolution, **displacement})
+    table = pd.concat(
+        pd.DataFrame({"theta": run.attributes["theta"]} | {name: run.data[name] for name in _DRAWN})
+        for run in runs.values()
+    )
     return table, history(revolution, displacement, amplitude, title)
 
 

@@ -10,6 +10,8 @@ import matplotlib
 from matplotlib.colors import LinearSegmentedColormap
 from matplotlib.figure import Figure
 
+from bladerub.provenance import software
+
 PAGE = 180 / 25.4
 """Width of a full-page figure, inches (180 mm)."""
 COLUMN = 120 / 25.4
@@ -84,7 +86,11 @@ def new_figure(width: float = PAGE, height: float = 0.6 * PAGE) -> Figure:
 
 
 def save(figure: Figure, png: str | Path, pdf: str | Path, dpi: float) -> None:
-    """Write `figure` as a PNG of `dpi` dots per inch and as a PDF; equal data give equal files."""
+    """Write `figure` as a PNG of `dpi` dots per inch and as a PDF; equal data give equal files.
+
+    Both say in their metadata what made them, the one as ``Software`` and the other as ``Creator``.
+    """
+    origin = f"{software()}, matplotlib {matplotlib.__version__}"
     with matplotlib.rc_context(_RC):
-        figure.savefig(png, dpi=dpi)
-        figure.savefig(pdf, dpi=_PDF_RASTER_DPI, metadata={"CreationDate": None})
+        figure.savefig(png, dpi=dpi, metadata={"Software": origin})
+        figure.savefig(pdf, dpi=_PDF_RASTER_DPI, metadata={"Creator": origin, "CreationDate": None})

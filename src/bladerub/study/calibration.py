@@ -17,6 +17,7 @@ from bladerub import config as configuration
 from bladerub.blade.build import build, write
 from bladerub.blade.model import read_reduced_blade
 from bladerub.config import ConfigError
+from bladerub.provenance import provenance
 from bladerub.study import divergence, findings, peaks
 from bladerub.study.coating_job import compute_missing
 from bladerub.study.grid import coating_cases
@@ -90,7 +91,8 @@ def answer(config: Mapping[str, Any], folder: str | Path, report: Callable[[obje
     """
     folder = Path(folder)
     model, accuracy = folder / "blade" / "reduced_model.h5", folder / "tables" / "rom_accuracy.csv"
-    write(build(config), model, folder / "blade" / "mesh.h5", folder / "tables" / "campbell.csv", accuracy)
+    campbell = accuracy.with_name("campbell.csv")
+    write(build(config), provenance(config), model, model.with_name("mesh.h5"), campbell, accuracy)
     blade, digest = read_reduced_blade(model), blade_digest(model)
     maps = []
     for case in coating_cases(config):

@@ -91,10 +91,9 @@ def compute_missing(
     list of ManifestRow
         A row per speed of the study, for `bladerub.study.store.write_manifest`.
     """
-    folder, analysis = Path(folder), config["analysis"]
-    settings = analysis["divergence"]
+    folder, settings = Path(folder), config["analysis"]["divergence"]
     runs = planned_runs(config, case, folder, blade_digest)
-    outcomes = _compute(runs, folder, case, blade, analysis, report)
+    outcomes = _compute(runs, folder, case, blade, config, report)
 
     rows, confirmations = [], []
     for run in runs:
@@ -103,7 +102,7 @@ def compute_missing(
             confirmations.append(longer_run(config, run, blade_digest))
             confirmation_key = confirmations[-1].key
         rows.append(ManifestRow(run.path.name, run.spec.f_omega, run.key, status, confirmation_key))
-    _compute(confirmations, folder, case, blade, analysis, report)
+    _compute(confirmations, folder, case, blade, config, report)
     return rows
 
 
@@ -124,7 +123,7 @@ def _compute(
     folder: Path,
     case: CoatingCase,
     blade: ReducedBlade,
-    analysis: Mapping[str, Any],
+    config: Mapping[str, Any],
     report: Callable[[RunDone], None],
 ) -> dict[Path, _Outcome]:
     """Compute what is missing or stale of `plans`, all of as many revolutions, and return how it went."""
@@ -139,7 +138,7 @@ def _compute(
         run_start = time.monotonic()
         result = simulate(blade, plan.spec)
         shelve(plan.path)
-        write_run(plan.path, plan.spec, result, case, plan.key, analysis, plan.keep_history)
+        write_run(plan.path, plan.spec, result, case, plan.key, config, plan.keep_history)
         outcomes[plan.path] = _Outcome(result.status, result.revolution_amplitude)
         now = time.monotonic()
         cost_done += 1 / plan.spec.f_omega

@@ -11,6 +11,7 @@ from typing import Any
 
 from bladerub import datafile
 from bladerub.contact.spec import RunSpec
+from bladerub.provenance import PREFIX
 from bladerub.sources import solver_digest, storage_digest
 
 SHAPING_SETTINGS = ("spectrum_revolutions", "max_order")
@@ -53,7 +54,7 @@ def run_key(spec: RunSpec, blade_digest: str, keep_history: bool, analysis: Mapp
 def blade_digest(path: str | Path) -> str:
     """Digest the datasets and attributes of the reduced blade at `path`, not the bytes of the file.
 
-    A rebuild with the same outcome keeps the digest, whatever time stamps or layout the file has.
+    A rebuild with the same outcome keeps the digest, wherever it comes from and whatever layout the file has.
 
     Raises
     ------
@@ -66,7 +67,6 @@ def blade_digest(path: str | Path) -> str:
         values = data[name]
         digest.update(json.dumps([name, values.dtype.str, values.shape]).encode())
         digest.update(values.tobytes())
-    digest.update(
-        json.dumps({name: repr(value) for name, value in attributes.items()}, sort_keys=True).encode()
-    )
+    about = {name: repr(value) for name, value in attributes.items() if not name.startswith(PREFIX)}
+    digest.update(json.dumps(about, sort_keys=True).encode())
     return digest.hexdigest()

@@ -11,8 +11,9 @@ import numpy as np
 
 from bladerub import datafile
 from bladerub.blade.frequencies import reduced_frequencies
-from bladerub.blade.model import ReducedBlade
+from bladerub.blade.model import INTERFACE_NODE, ReducedBlade
 from bladerub.datafile import Variable
+from bladerub.provenance import provenance
 from bladerub.study.confirmation import confirmation_path
 from bladerub.study.grid import CoatingCase
 from bladerub.study.store import GATHERED, ManifestRow, StoredRun, read_manifest, read_run
@@ -158,7 +159,7 @@ def build_map(
         lobes=np.array([lobes(angle, each, prominence) for each in wear]),
         status=np.array([run.attributes["status"] for run in runs]),
     )
-    write_map(path, coating)
+    write_map(path, coating, provenance(config))
 
 
 def _confirmation_amplitude(folder: Path, rows: Sequence[ManifestRow]) -> np.ndarray:
@@ -186,12 +187,13 @@ def _listed_run(folder: Path, path: Path, key: str, datasets: Set[str]) -> Store
     return run
 
 
-def write_map(path: str | Path, coating: CoatingMap) -> None:
-    """Write `coating` to the HDF5 file `path`, whole or not at all."""
+def write_map(path: str | Path, coating: CoatingMap, origin: Mapping[str, str]) -> None:
+    """Write `coating` to the HDF5 file `path`, whole or not at all; `origin` is its provenance."""
     variables = {
         name: Variable(dims, getattr(coating, name), units, long_name)
         for name, (dims, units, long_name) in _DATASETS.items()
     }
+    variables["node"] = INTERFACE_NODE
     for dim, gathered in (
         ("revolution_number", coating.revolution_amplitude),
         ("confirmation_revolution_number", coating.confirmation_amplitude),
@@ -199,7 +201,8 @@ def write_map(path: str | Path, coating: CoatingMap) -> None:
         number = np.arange(1, gathered.shape[1] + 1)
         variables[dim] = Variable((dim,), number, "1", "revolution, counted from 1")
     case = coating.case
-    datafile.write(path, variables, {"casing": case.casing, "E": case.E, "K": case.K, "theta": case.theta})
+    about = {"casing": case.casing, "E": case.E, "K": case.K, "theta": case.theta}
+    datafile.write(path, variables, about, origin)
 
 
 def read_map(path: str | Path, with_nodes: bool = False) -> CoatingMap:

@@ -12,8 +12,10 @@ from typing import Any
 import numpy as np
 
 from bladerub import datafile
+from bladerub.blade.model import INTERFACE_NODE
 from bladerub.contact.spec import RunResult, RunSpec
 from bladerub.datafile import Variable
+from bladerub.provenance import provenance
 from bladerub.study.grid import CoatingCase
 from bladerub.study.spectra import order_spectrum
 
@@ -59,7 +61,7 @@ def write_run(
     result: RunResult,
     case: CoatingCase,
     run_key: str,
-    analysis: Mapping[str, Any],
+    config: Mapping[str, Any],
     keep_history: bool,
 ) -> None:
     """Write one run to `path`, whole or not at all.
@@ -74,15 +76,17 @@ def write_run(
         Its coating.
     run_key : str
         From `bladerub.study.key.run_key`.
-    analysis : mapping
-        ``config["analysis"]``.
+    config : mapping
+        The study.
     keep_history : bool
         Whether to store the whole radial displacement of node 1.
     """
+    analysis = config["analysis"]
     order, amplitude = order_spectrum(
         result.radial_displacement, spec.revolutions, analysis["spectrum_revolutions"], analysis["max_order"]
     )
     variables = {
+        "node": INTERFACE_NODE,
         "angle": Variable(("angle",), result.angle, "rad", "casing angle of the element centres"),
         "wear": Variable(
             ("node", "angle"),
@@ -141,7 +145,7 @@ def write_run(
         "status": result.status,
         "message": result.message,
     }
-    datafile.write(path, variables, attributes)
+    datafile.write(path, variables, attributes, provenance(config))
 
 
 GATHERED = {"wear", "spectrum_amplitude", "revolution_peak", "revolution_amplitude"}

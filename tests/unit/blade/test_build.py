@@ -47,7 +47,7 @@ def test_radial_direction_is_the_normal_of_a_conical_flow_path(twisted_config):
 def test_files_hold_what_was_built(built, tmp_path):
     names = ("reduced_model", "mesh", "campbell", "rom_accuracy")
     paths = [tmp_path / "new" / name for name in names]
-    write(built, *paths)
+    write(built, {"provenance_software": "bladerub"}, *paths)
 
     blade = read_reduced_blade(paths[0])
     np.testing.assert_array_equal(blade.stiffness_1, built.reduced.stiffness_1)

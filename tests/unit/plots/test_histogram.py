@@ -63,19 +63,19 @@ def test_nothing_to_draw_is_said():
 
 PEAKS = pd.DataFrame(
     [
-        (1.1, 0.5, 4, 0.31, 2e-3),
-        (0.11, 0.5, 4, 0.30, 1e-3),
-        (0.11, 5.0, 4, 0.32, 3e-3),
-        (1.1, 0.5, 6, 0.2, 9e-3),
+        ("2nd", 1.1, 0.5, 0.0, 4, 0.31, 2e-3),
+        ("2nd", 0.11, 0.5, 0.0, 4, 0.30, 1e-3),
+        ("2nd", 0.11, 5.0, 0.0, 4, 0.32, 3e-3),
+        ("2nd", 1.1, 0.5, 0.0, 6, 0.2, 9e-3),
     ],
-    columns=["E", "K", "order", "f_peak", "amplitude"],
+    columns=["casing", "E", "K", "theta", "order", "f_peak", "amplitude"],
 )
 
 
 def test_amplitudes_of_one_order_are_drawn_in_mm(draws):
     table, figure = peak_amplitudes(PEAKS, order=4)
-    assert (list(table.index), list(table.columns)) == ([0.11, 1.1], [0.5, 5.0])
-    np.testing.assert_array_equal(table, [[1e-3, 3e-3], [2e-3, np.nan]])
+    assert list(table.columns) == ["casing", "E", "K", "theta", "order", "amplitude"]
+    pd.testing.assert_frame_equal(table, PEAKS[PEAKS.order == 4].drop(columns="f_peak"))
     bars, cells, _ = draws(figure).axes
     assert bars.get_title(loc="left") == "(a) $Y_4$ (mm)"
     assert [text.get_text() for text in cells.texts] == ["1.00", "3.00", "2.00", "–"]
@@ -83,7 +83,7 @@ def test_amplitudes_of_one_order_are_drawn_in_mm(draws):
 
 def test_speeds_of_one_order_stand_on_a_floor_below_the_lowest(draws):
     table, figure = peak_speeds(PEAKS, order=4)
-    np.testing.assert_array_equal(table, [[0.30, 0.32], [0.31, np.nan]])
+    pd.testing.assert_frame_equal(table, PEAKS[PEAKS.order == 4].drop(columns="amplitude"))
     bars, cells, _ = draws(figure).axes
     assert bars.get_zlim()[0] == pytest.approx(0.29)
     assert not [patch for patch in cells.patches if isinstance(patch, Rectangle)]

@@ -56,7 +56,7 @@ def run_files(tmp_path):
 
 def test_runs_are_read_from_their_files_and_named_by_their_angle(run_files, draws):
     table, figure = history_of_runs(run_files)
-    assert list(table.columns) == ["revolution", "θ = 0", "θ = 0.15 rad"]
-    np.testing.assert_array_equal(table["θ = 0.15 rad"], GROWING)
+    assert list(table.columns) == ["theta", "revolution", "radial_displacement"]
+    np.testing.assert_array_equal(table[table.theta == 0.15].radial_displacement, GROWING)
     assert draws(figure).get_suptitle() == r"casing 2nd, E = 2, K = 0.5, $f_\Omega$ = 0.190"
     np.testing.assert_allclose(figure.axes[2].lines[1].get_ydata(), [0.16, 0.27, 0.44, np.nan])

@@ -2,8 +2,10 @@ from itertools import pairwise
 
 import matplotlib
 import pytest
+from PIL import Image
 
 from bladerub.plots import style
+from bladerub.provenance import software
 
 
 def luminance(colour: str) -> float:
@@ -42,6 +44,13 @@ def test_equal_figures_give_equal_files(tmp_path):
         style.save(draw(), tmp_path / f"{name}.png", tmp_path / f"{name}.pdf", dpi=50)
     for suffix in ("png", "pdf"):
         assert (tmp_path / f"a.{suffix}").read_bytes() == (tmp_path / f"b.{suffix}").read_bytes()
+
+
+def test_pictures_say_what_made_them(tmp_path):
+    style.save(style.new_figure(2, 1), tmp_path / "a.png", tmp_path / "a.pdf", dpi=50)
+    with Image.open(tmp_path / "a.png") as image:
+        assert image.info["Software"].startswith(software())
+    assert software().split(",")[0].encode() in (tmp_path / "a.pdf").read_bytes()
 
 
 def test_dpi_sets_the_pixels_of_the_png(tmp_path):

@@ -14,7 +14,7 @@ def test_the_table_has_a_row_per_run(tmp_path, config, make_map):
         cases, (0.0, [0.0, 0.05, 0.002]), ("completed", ["completed", "completed", "unbounded"]), strict=True
     ):
         paths.append(tmp_path / f"{case.name}.h5")
-        write_map(paths[-1], make_map(case, {}, speeds, lobes=[5, 6, 4], growth=growth, status=status))
+        write_map(paths[-1], make_map(case, {}, speeds, lobes=[5, 6, 4], growth=growth, status=status), {})
     table = divergence.table(config, paths)
     assert list(table.columns) == divergence.COLUMNS
     assert list(table.columns[:9]) == (
@@ -39,7 +39,7 @@ def test_a_longer_run_decides_where_there_is_one(tmp_path, config, make_map, cas
     longer[2, :41] = 1.03 ** np.arange(41)
     speeds = [0.1, 0.2, 0.3, 0.4]
     coating = make_map(case, {}, speeds, growth=[0.03, 0.03, 0.03, 0.0], longer=longer)
-    write_map(tmp_path / "map.h5", coating)
+    write_map(tmp_path / "map.h5", coating, {})
     table = divergence.table(config, [tmp_path / "map.h5"])
     assert list(table.divergent) == [True, False, True, False]
     assert list(table.saturating) == [False, True, False, False]

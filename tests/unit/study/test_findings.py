@@ -359,7 +359,7 @@ def test_without_peaks_there_is_nothing_to_say_on_them(paper, judge):
 def test_the_table_is_read_from_the_files_of_a_study(paper, tmp_path):
     config, tables, maps = paper
     for name, coating in maps.items():
-        write_map(tmp_path / f"{name}.h5", coating)
+        write_map(tmp_path / f"{name}.h5", coating, {})
     for name, table in tables.items():
         table.to_csv(tmp_path / f"{name}.csv", index=False)
     table = findings.table(

@@ -5,7 +5,7 @@ import h5py
 import numpy as np
 import pytest
 
-from bladerub import datafile
+from bladerub import datafile, provenance
 from bladerub.datafile import Variable
 from bladerub.study import grid, key
 from bladerub.study.grid import CoatingCase
@@ -98,6 +98,12 @@ def test_another_source_of_solver_or_storage_is_another_run(monkeypatch, run_key
     assert run_key() != before
 
 
+def test_another_commit_is_the_same_run(monkeypatch, run_key):
+    before = run_key()
+    monkeypatch.setattr(provenance, "git_state", lambda: ("another", "modified"))
+    assert run_key() == before
+
+
 class TestBladeDigest:
     @pytest.fixture
     def path(self, tmp_path):
@@ -116,6 +122,11 @@ class TestBladeDigest:
             file["mass"].attrs["long_name"] = "mass matrix of the blade"
         assert first.read_bytes() != second.read_bytes()
         assert key.blade_digest(first) == key.blade_digest(second)
+
+    def test_where_it_comes_from_is_no_content(self, path):
+        eye = np.eye(3)
+        here, there = (path(f"{commit}.h5", eye, provenance_git_commit=commit) for commit in "ab")
+        assert key.blade_digest(here) == key.blade_digest(there) == key.blade_digest(path("c.h5", eye))
 
     def test_content_changes_it(self, path):
         other = np.eye(3)

@@ -22,11 +22,11 @@ def folder(tmp_path, config, case, make_result):
         result = make_result(order=order, complete=15 if order == 4 else None)
         spec = grid.run_spec(config, case, f_omega)
         name = f"{grid.speed_name(f_omega)}.h5"
-        store.write_run(tmp_path / name, spec, result, case, f"key {order}", config["analysis"], order == 6)
+        store.write_run(tmp_path / name, spec, result, case, f"key {order}", config, order == 6)
         if order != 10:
             longer, path = make_result(revolutions=60, growth=0.03), confirmation_path(tmp_path / name)
             long_spec = confirmation_spec(spec, config["analysis"]["divergence"])
-            store.write_run(path, long_spec, longer, case, f"long {order}", config["analysis"], False)
+            store.write_run(path, long_spec, longer, case, f"long {order}", config, False)
         long_key = "long 6" if order == 6 else ""
         rows.append(ManifestRow(name, f_omega, f"key {order}", result.status, long_key))
     store.write_manifest(tmp_path / "manifest.tsv", reversed(rows))
@@ -78,7 +78,7 @@ def test_xarray_opens_a_map_with_coordinates_and_units(build, tmp_path):
 
 def test_a_map_comes_back_as_written(tmp_path, case, make_map):
     written = make_map(case, {4: (0.3, 1e-4)}, status="completed")
-    maps.write_map(tmp_path / "map.h5", written)
+    maps.write_map(tmp_path / "map.h5", written, {})
     assert maps.read_map(tmp_path / "map.h5").wear_node is None
     read = maps.read_map(tmp_path / "map.h5", with_nodes=True)
     assert read.case == case

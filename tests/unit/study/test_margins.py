@@ -100,7 +100,7 @@ def test_a_variation_without_a_speed_in_the_window_is_left_out(study, make_map, 
     study["speeds"] = {"start": 0.1, "stop": 0.4, "step": 0.1, "extra": []}
     study["analysis"]["histories"] = []
     path = tmp_path / "map.h5"
-    write_map(path, make_map(CoatingCase("2nd", 2.0, 0.5, 0.0), {}, speeds(study)))
+    write_map(path, make_map(CoatingCase("2nd", 2.0, 0.5, 0.0), {}, speeds(study)), {})
     (tmp_path / "a.csv").write_text("f_omega,mode,relative_error\n0,1,1e-4\n")
     with caplog.at_level(logging.WARNING):
         table = margins.table(study, [path], tmp_path / "a.csv")
@@ -112,7 +112,7 @@ def test_a_variation_without_a_speed_in_the_window_is_left_out(study, make_map, 
 
 def test_a_table_has_every_claim_in_every_variation(study, maps, tmp_path):
     for coating in maps:
-        write_map(tmp_path / f"{coating.case.name}.h5", coating)
+        write_map(tmp_path / f"{coating.case.name}.h5", coating, {})
     accuracy = [(f, mode, 1e-4) for f in (0.0, 0.4) for mode in range(1, 11)]
     pd.DataFrame(accuracy, columns=["f_omega", "mode", "relative_error"]).to_csv(tmp_path / "a.csv")
     table = margins.table(study, sorted(tmp_path.glob("*.h5")), tmp_path / "a.csv")
@@ -132,7 +132,7 @@ def test_a_table_has_every_claim_in_every_variation(study, maps, tmp_path):
 def test_a_study_without_peaks_is_refused(study, make_map, tmp_path):
     study["speeds"] = {"start": 0.1, "stop": 0.2, "step": 0.05, "extra": []}
     study["analysis"]["histories"] = []
-    write_map(tmp_path / "map.h5", make_map(CoatingCase("2nd", 2.0, 0.5, 0.0), {}, speeds(study)))
+    write_map(tmp_path / "map.h5", make_map(CoatingCase("2nd", 2.0, 0.5, 0.0), {}, speeds(study)), {})
     (tmp_path / "a.csv").write_text("f_omega,mode,relative_error\n0,1,1e-4\n")
     with pytest.raises(ValueError, match="does not cross C1"):
         margins.table(study, [tmp_path / "map.h5"], tmp_path / "a.csv")

@@ -74,7 +74,7 @@ def test_the_table_has_a_row_per_coating_and_order(tmp_path, config, make_map):
     for E, f_peak in ((0.11, 0.19), (1.1, 0.21)):
         case = CoatingCase("2nd", E, 0.5, 0.0)
         paths.append(tmp_path / f"{case.name}.h5")
-        write_map(paths[-1], make_map(case, {4: (0.31, E * 1e-4), 6: (f_peak, E * 2e-4)}))
+        write_map(paths[-1], make_map(case, {4: (0.31, E * 1e-4), 6: (f_peak, E * 2e-4)}), {})
     table = peaks.table(config, paths)
     assert list(table.columns) == ["casing", "E", "K", "theta", "order", "f_peak", "amplitude"]
     assert list(table.E) == [0.11, 0.11, 1.1, 1.1]

@@ -11,7 +11,7 @@ from bladerub.study.store import ManifestRow
 def write(tmp_path, spec, case, config, make_result):
     def write_to(name="0.1900.h5", result=None, key="key", history=False):
         path = tmp_path / name
-        store.write_run(path, spec, result or make_result(), case, key, config["analysis"], history)
+        store.write_run(path, spec, result or make_result(), case, key, config, history)
         return path
 
     return write_to

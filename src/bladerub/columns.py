@@ -1,0 +1,100 @@
+"""What the columns of the tables mean: a name means the same in every table."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+STRING, NUMBER, INTEGER = "string", "number", "integer"
+BOOLEAN = {"base": "boolean", "format": "True|False"}
+
+
+class Column(NamedTuple):
+    """One column.
+
+    Parameters
+    ----------
+    datatype : str or dict
+        As in "CSV on the Web".
+    unit : str or None
+        SI unit, ``"1"`` for a pure or normalised number, None for text and for what another column gives the
+        unit of.
+    description : str
+        What it is, in words.
+    """
+
+    datatype: str | dict[str, Any]
+    unit: str | None
+    description: str
+
+
+COLUMNS = {
+    # coating and speed
+    "casing": Column(STRING, None, "casing of the config"),
+    "E": Column(NUMBER, "1", "Young modulus of the coating over contact.modulus_unit; inf: rigid casing"),
+    "K": Column(NUMBER, "1", "plastic modulus of the coating over contact.modulus_unit; inf: rigid casing"),
+    "theta": Column(
+        NUMBER,
+        "rad",
+        "angle of the coating's elements from the radial direction; on the rigid casing the angle of "
+        "friction, whose tangent is Coulomb's coefficient",
+    ),
+    "f_omega": Column(NUMBER, "1", "rotational frequency over the blade's first frequency at rest"),
+    # blade
+    "mode": Column(INTEGER, "1", "mode of vibration, counted from 1"),
+    "f_fe": Column(NUMBER, "Hz", "frequency of the finite element model about its true equilibrium"),
+    "f_fe_eq2": Column(NUMBER, "Hz", "frequency of the finite element model with the stiffness of eq. (2)"),
+    "f_rom": Column(NUMBER, "Hz", "frequency of the reduced model"),
+    "relative_error": Column(NUMBER, "1", "f_rom / f_fe - 1"),
+    "f_fe_over_f1": Column(NUMBER, "1", "f_fe over the blade's first frequency at rest"),
+    "f_rom_over_f1": Column(NUMBER, "1", "f_rom over the blade's first frequency at rest"),
+    # response
+    "order": Column(INTEGER, "1", "engine order: vibrations per revolution"),
+    "f_peak": Column(NUMBER, "1", "f_omega of the greatest amplitude on the engine order"),
+    "amplitude": Column(
+        NUMBER,
+        "m",
+        "amplitude of the radial displacement of node 1 on the engine order",
+    ),
+    "revolution": Column(NUMBER, "1", "time in revolutions from the start of the run"),
+    "radial_displacement": Column(NUMBER, "m", "radial displacement of node 1"),
+    "growth_per_revolution": Column(NUMBER, "1", "relative growth of the amplitude in a revolution"),
+    "growth_low": Column(NUMBER, "1", "lower end of its confidence interval"),
+    "growth_high": Column(NUMBER, "1", "upper end of its confidence interval"),
+    "saturating": Column(BOOLEAN, None, "whether growth ends within the longer run"),
+    "divergent": Column(BOOLEAN, None, "whether growth lasts or the blade leaves all bounds"),
+    "lobes": Column(INTEGER, "1", "number of worn lobes"),
+    "revolutions": Column(INTEGER, "1", "length of the run that the verdict rests on"),
+    "status": Column(STRING, None, "of that run: completed, or unbounded: the tip left all bounds"),
+    # coating and casing
+    "element": Column(INTEGER, "1", "element of the coating, counted from the one under the node"),
+    "position": Column(NUMBER, "m", "middle of the element along the casing, from the node"),
+    "shortening": Column(NUMBER, "m", "shortening of the element under the tip"),
+    "wear": Column(NUMBER, "m", "permanent shortening; around the casing, the mean over the interface nodes"),
+    "stress": Column(NUMBER, "1", "stress over contact.modulus_unit"),
+    "yield_stress": Column(NUMBER, "1", "elastic limit over contact.modulus_unit"),
+    "strain": Column(NUMBER, "1", "compressive strain"),
+    "plastic_strain": Column(NUMBER, "1", "permanent compressive strain"),
+    "angle": Column(NUMBER, "rad", "casing angle"),
+    "nodal_diameters": Column(STRING, None, "nodal diameters of the casing's shape, alone or combined"),
+    "inward": Column(NUMBER, "m", "inward displacement of the casing's inner surface"),
+    # claims
+    "set": Column(STRING, None, "set of choices, a part of the config laid over the study"),
+    "variation": Column(STRING, None, "part of the study, or way to look at it"),
+    "id": Column(STRING, None, "claim of the paper and part of it"),
+    "claim": Column(STRING, None, "the paper's statement, with its figure"),
+    "paper": Column(STRING, None, "what the paper says, in the unit of the column unit"),
+    "measured": Column(STRING, None, "the same of this model: a number, or words"),
+    "unit": Column(STRING, None, "unit of paper, measured and margin; 1 for pure and normalised numbers"),
+    "holds": Column(STRING, None, "yes, partly or no"),
+    "margin": Column(
+        NUMBER, None, "distance of measured from the border of yes, positive where it holds; in unit"
+    ),
+    # cost
+    "stage": Column(STRING, None, "stage of the workflow"),
+    "rule": Column(STRING, None, "rule of the workflow"),
+    "job": Column(STRING, None, "what tells the jobs of the rule apart"),
+    "wall_s": Column(NUMBER, "s", "time the job took"),
+    "cpu_s": Column(NUMBER, "s", "processor time of the job and its children"),
+    "memory_mb": Column(NUMBER, "MiB", "largest memory of the job and its children"),
+}
+"""Every column by its name."""

@@ -1,0 +1,43 @@
+import json
+
+import pandas as pd
+import pytest
+
+from bladerub import tablefile
+from bladerub.columns import COLUMNS
+
+ORIGIN = {"provenance_software": "bladerub 1", "provenance_git_commit": "abc"}
+
+
+@pytest.fixture
+def table():
+    return pd.DataFrame({"casing": ["2nd", "2nd"], "amplitude": [1 / 3, float("nan")]}, index=[5, 7])
+
+
+def test_the_table_is_plain_csv(table, tmp_path):
+    path = tmp_path / "new" / "peaks.csv"
+    tablefile.write(path, table, ORIGIN, "%.3g")
+    assert path.read_text() == "casing,amplitude\n2nd,0.333\n2nd,\n"
+    pd.testing.assert_frame_equal(
+        pd.read_csv(path), table.round({"amplitude": 3}).reset_index(drop=True), check_dtype=False
+    )
+
+
+def test_what_stands_beside_it_says_what_it_holds(table, tmp_path):
+    tablefile.write(tmp_path / "peaks.csv", table, ORIGIN)
+    about = json.loads((tmp_path / "peaks.csv-metadata.json").read_text(encoding="utf-8"))
+    assert about["@context"][0] == "http://www.w3.org/ns/csvw"
+    assert about["url"] == "peaks.csv"
+    told = {entry["schema:name"]: entry["schema:value"] for entry in about["dc:provenance"]}
+    assert told == ORIGIN
+    casing, amplitude = about["tableSchema"]["columns"]
+    assert (casing["name"], casing["datatype"], "schema:unitText" in casing) == ("casing", "string", False)
+    assert (amplitude["titles"], amplitude["datatype"]) == ("amplitude", "number")
+    assert amplitude["schema:unitText"] == "m"
+    assert amplitude["dc:description"] == COLUMNS["amplitude"].description
+
+
+def test_a_column_that_nobody_described_is_refused_before_anything_is_written(table, tmp_path):
+    with pytest.raises(ValueError, match=r"peaks\.csv: columns without a description .*: depth"):
+        tablefile.write(tmp_path / "peaks.csv", table.assign(depth=1), ORIGIN)
+    assert not list(tmp_path.iterdir())
