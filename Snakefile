@@ -1,25 +1,27 @@
 # The study as a graph of jobs: a blade is built once, it rubs many times, the rubs are gathered, the
 # gatherings are drawn. `snakemake -j2` makes all of it; config/config.yaml says what.
-import sys
-
 from snakemake.utils import min_version
 
 import bladerub.config
+from bladerub.config_faults import faults_end_the_program
 from bladerub.study.grid import coating_cases
 
 min_version("9.0")
 
-# Snakemake does not say where a malformed file is malformed; reading it here first does
-with bladerub.config.faults_end_the_program():
-    bladerub.config.load("config/config.yaml", *workflow.configfiles)
+# Snakemake knows neither the lines of a file nor the key `extend`: the config is read here, before it reads it
+with faults_end_the_program():
+    study = bladerub.config.read(
+        "config/config.yaml",
+        *workflow.configfiles,
+        command_line=workflow.config_settings.config,
+    )
 
 
 configfile: "config/config.yaml"
 
 
-with bladerub.config.faults_end_the_program():
-    config.update(bladerub.config.validate(config))
-
+config.clear()
+config.update(study)
 RESULTS = config["results"]
 COATINGS = [case.name for case in coating_cases(config)]
 

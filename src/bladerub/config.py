@@ -1,24 +1,23 @@
 """The configuration: read, merged, and checked before anything is computed.
 
-`load` reads YAML files and lays them over one another as Snakemake does; `validate` answers every fault
-with one line that names the key, the value and what would be right.
+`read` lays YAML files over one another as Snakemake does, and checks what comes out; every fault is answered
+with one line that names the place, the key, the value and what would be right.
 """
 
 from __future__ import annotations
 
-import copy
 import math
 import re
-import sys
 from collections.abc import Iterator, Mapping
-from contextlib import contextmanager
 from difflib import get_close_matches
 from functools import cache
 from pathlib import Path
 from typing import Any
 
 import jsonschema
-import yaml
+
+from bladerub import config_files
+from bladerub.config_faults import UNKNOWN, ConfigError, Fault, Place, key_path, shown
 
 ROOT = Path(__file__).resolve().parents[2]
 """The repository: the package is installed from it in place (``pip install -e .``)."""
@@ -26,91 +25,42 @@ ROOT = Path(__file__).resolve().parents[2]
 SCHEMA = ROOT / "config" / "schema.yaml"
 
 
-class ConfigError(ValueError):
-    """One or more faults of a configuration, one line each."""
-
-    def __init__(self, faults: list[str]):
-        super().__init__("\n".join(f"config: {fault}" for fault in faults))
-        self.faults = faults
-
-
-@contextmanager
-def faults_end_the_program() -> Iterator[None]:
-    """Turn a `ConfigError` into its lines on standard error and exit code 2, without a traceback."""
-    try:
-        yield
-    except ConfigError as error:
-        print(error, file=sys.stderr)
-        sys.exit(2)
-
-
-class _UniqueKeyLoader(yaml.SafeLoader):
-    """YAML's safe loader, but a key given twice is a fault, not silently the last one."""
-
-    def construct_mapping(self, node: yaml.MappingNode, deep: bool = False) -> dict:
-        seen = set()
-        for key_node, _ in node.value:
-            key = self.construct_object(key_node, deep=True)
-            if not isinstance(key, str | int | float):
-                raise yaml.MarkedYAMLError(problem="a key must be text", problem_mark=key_node.start_mark)
-            if key in seen:
-                raise yaml.MarkedYAMLError(problem=f"{key} is given twice", problem_mark=key_node.start_mark)
-            seen.add(key)
-        return super().construct_mapping(node, deep)
-
-
 def load(*paths: str | Path) -> dict[str, Any]:
-    """Read YAML files, each laid over those before it: mappings merge, all else is replaced.
+    """Read YAML files, each laid over those before it, without a check of what they hold.
 
     Raises
     ------
     ConfigError
-        If a file is missing, is not YAML or is not a mapping; names the file and the line.
+        As for `bladerub.config_files.compose`.
     """
-    config: dict[str, Any] = {}
-    for path in paths:
-        lay_over(config, _read(Path(path)))
-    return read_numbers(config)
+    return config_files.plain(config_files.compose(*paths))
 
 
-def _read(path: Path) -> dict[str, Any]:
-    try:
-        content = yaml.load(path.read_text(encoding="utf-8"), Loader=_UniqueKeyLoader)
-    except OSError as error:
-        raise ConfigError([f"{path}: cannot be read ({error.strerror})"]) from error
-    except UnicodeDecodeError as error:
-        raise ConfigError([f"{path}: is not text in UTF-8"]) from error
-    except yaml.YAMLError as error:
-        mark = getattr(error, "problem_mark", None)
-        line = f", line {mark.line + 1}" if mark else ""
-        problem = getattr(error, "problem", None) or str(error).splitlines()[0]
-        raise ConfigError([f"{path}{line}: not valid YAML ({problem})"]) from error
-    if not isinstance(content, dict):
-        raise ConfigError([f"{path}: must hold keys at its top level, such as those of config/config.yaml"])
-    return content
+def read(*paths: str | Path, command_line: Mapping[str, Any] | None = None) -> dict[str, Any]:
+    """Read a config and check it.
+
+    Parameters
+    ----------
+    paths, command_line
+        As for `bladerub.config_files.compose`.
+
+    Raises
+    ------
+    ConfigError
+        As for `bladerub.config_files.compose` and `validate`.
+    """
+    return checked(config_files.compose(*paths, command_line=command_line))
 
 
-def lay_over(base: dict[str, Any], overlay: Mapping[str, Any]) -> None:
-    """Change `base` by what `overlay` holds: mappings merge, all else is replaced."""
-    for key, value in overlay.items():
-        if isinstance(value, dict) and isinstance(base.get(key), dict):
-            lay_over(base[key], value)
-        else:
-            base[key] = value
+def checked(composed: config_files.Marked) -> dict[str, Any]:
+    """Return the values of a config that was read, after a check.
 
-
-_NUMBER = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)[eE][-+]?\d+")
-
-
-def read_numbers(value: Any) -> Any:
-    """Return a copy of `value` with numbers such as 1e-3 as floats: YAML 1.1 leaves them as text."""
-    if isinstance(value, dict):
-        return {key: read_numbers(entry) for key, entry in value.items()}
-    if isinstance(value, list):
-        return [read_numbers(entry) for entry in value]
-    if isinstance(value, str) and _NUMBER.fullmatch(value):
-        return float(value)
-    return copy.copy(value)
+    Raises
+    ------
+    ConfigError
+        Every fault found, with the file and line of the value.
+    """
+    return validate(config_files.plain(composed), config_files.places(composed))
 
 
 @cache
@@ -123,39 +73,49 @@ def schema() -> dict[str, Any]:
         If it is not beside the package, that is if the package was not installed in place.
     """
     if not SCHEMA.is_file():
-        raise ConfigError([f"{SCHEMA} is missing: install bladerub in place, pip install -e ."])
-    return _read(SCHEMA)
+        raise ConfigError(
+            [Fault(UNKNOWN, f"{SCHEMA} is missing: install bladerub in place, pip install -e .")]
+        )
+    return load(SCHEMA)
 
 
-def validate(config: dict[str, Any]) -> dict[str, Any]:
+def validate(config: dict[str, Any], places: Mapping[str, Place] | None = None) -> dict[str, Any]:
     """Check `config` against the schema and for what a schema cannot say.
 
     Parameters
     ----------
     config : dict
-        As from `load` or from Snakemake.
+        As from `load`.
+    places : mapping of str to Place, optional
+        From `bladerub.config_files.places`, to name the places of the faults.
 
     Returns
     -------
     dict
-        A copy with all numbers read as numbers.
+        `config` itself.
 
     Raises
     ------
     ConfigError
-        Every fault found, one line each: key, value and what would be right. What a schema cannot say is
-        checked for those parts of the config that agree with the schema.
+        Every fault found, one line each: place, key, value and what would be right. What a schema cannot say
+        is checked for those parts of the config that agree with the schema.
     """
     from bladerub.config_checks import check  # it needs the parts of the package that need this module
 
-    config = read_numbers(config)
     errors = sorted(_validator().iter_errors(config), key=lambda error: [str(part) for part in error.path])
     faults = [line for error in errors for line in _describe(error)]
     broken = {str(error.path[0]) if error.path else "" for error in errors}
     faults += check(config, broken | (set(schema()["required"]) - set(config)))
     if faults:
-        raise ConfigError(list(dict.fromkeys(faults)))
+        raise ConfigError([Fault(_place(fault, places or {}), fault) for fault in dict.fromkeys(faults)])
     return config
+
+
+def _place(fault: str, places: Mapping[str, Place]) -> Place:
+    """Find the place of the key that a fault begins with, or of the innermost group that it is missing in."""
+    ends = (match.start() for match in re.finditer(r"[ :.[]", fault))
+    keys = [fault[:end] for end in ends if fault[:end] in places]
+    return places[keys[-1]] if keys else UNKNOWN
 
 
 @cache
@@ -167,27 +127,17 @@ def _validator() -> jsonschema.protocols.Validator:
             "integer": lambda _, value: _is_number(value) and isinstance(value, int),
         }
     )
-    return jsonschema.validators.extend(base, type_checker=types)(schema())
+    return jsonschema.validators.extend(base, {"pattern": _pattern}, type_checker=types)(schema())
+
+
+def _pattern(_: Any, pattern: str, value: Any, __: Any) -> Iterator[jsonschema.ValidationError]:
+    """Match the whole text: ``$`` of a search lets a newline pass, which must not get into a file name."""
+    if isinstance(value, str) and not re.fullmatch(pattern, value):
+        yield jsonschema.ValidationError(f"{value!r} does not match {pattern!r}")
 
 
 def _is_number(value: Any) -> bool:
     return isinstance(value, int | float) and not isinstance(value, bool)
-
-
-def key_path(parts: list[Any]) -> str:
-    """Write a path into the config as ``coatings[1].E[0]``, a key that is no plain word in quotes."""
-    text = ""
-    for part in parts:
-        plain = isinstance(part, str) and re.fullmatch(r"\w+", part)
-        text += f"{'.' if text else ''}{part}" if plain else f"[{shown(part)}]"
-    return text
-
-
-def shown(value: Any) -> str:
-    """Write a value of the config on one short line."""
-    text = f'"{value}"' if isinstance(value, str) else repr(value)
-    text = " ".join(text.split())
-    return text if len(text) <= 60 else text[:57] + "..."
 
 
 def _describe(error: jsonschema.ValidationError) -> list[str]:
@@ -252,7 +202,9 @@ def _unit(rule: dict[str, Any]) -> str:
 
 def _range(rule: dict[str, Any]) -> str:
     if rule["type"] == "object":
-        return f" with at least {rule['minProperties']}" if "minProperties" in rule else ""
+        if "maxProperties" not in rule:
+            return ""
+        return f" with {rule['minProperties']} to {rule['maxProperties']} of them"
     if rule["type"] == "array":
         fewest, most = rule.get("minItems", 0), rule.get("maxItems", math.inf)
         if most == math.inf:

@@ -2,19 +2,36 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable, Collection, Iterator
+from itertools import accumulate
 from typing import Any
 
 import numpy as np
 
 from bladerub.blade import geometry
 from bladerub.blade.model import N_INTERFACE
+from bladerub.config import ROOT
+from bladerub.config_faults import shown
 from bladerub.contact.casing import shape
 from bladerub.contact.spec import Casing
 from bladerub.study.grid import SPEED_DECIMALS, coating_cases, listed_case, speeds
 
 Config = dict[str, Any]
 Check = Callable[[Config], Iterator[str]]
+
+SOURCE_FOLDERS = ("config", "docs", "src", "tests")
+"""Folders of the repository, which no results may go to."""
+
+MOST_ELEMENTS = 20_000
+"""Elements of a blade's mesh: some 300,000 unknowns, beyond which its factors fill the memory."""
+
+MOST_RUNS = 2_000_000
+"""Runs of a study."""
+
+MOST_SAMPLES = 20_000_000
+"""Samples that a run keeps in memory, one an element and revolution."""
+
 _checks: list[tuple[Check, frozenset[str]]] = []
 
 
@@ -31,8 +48,24 @@ def _reads(*parts: str) -> Callable[[Check], Check]:
     return register
 
 
+@_reads("results")
+def _results(config: Config) -> Iterator[str]:
+    folders = config["results"].split("/")
+    where = f"results = {shown(config['results'])}"
+    if folders[0].casefold() in SOURCE_FOLDERS:
+        yield f"{where}: must not be in {folders[0]}, which is the repository's own"
+    for path in accumulate(folders, os.path.join):
+        if os.path.isfile(ROOT / path):
+            yield f"{where}: must be a folder, {path} is a file"
+
+
 @_reads("blade")
 def _blade_shape(config: Config) -> Iterator[str]:
+    mesh = config["blade"]["mesh"]
+    n_elements = mesh["chordwise"] * mesh["thickness"] * mesh["spanwise"]
+    if n_elements > MOST_ELEMENTS:
+        yield f"blade.mesh: has {n_elements} elements, must be {MOST_ELEMENTS} or fewer"
+        return
     try:
         geometry.check(config["blade"])
     except ValueError as error:
@@ -146,10 +179,45 @@ def _speeds(config: Config) -> Iterator[str]:
         yield str(error)
 
 
+@_reads("coatings", "speeds")
+def _runs(config: Config) -> Iterator[str]:
+    try:
+        n_coatings, n_speeds = len(coating_cases(config)), len(speeds(config))
+    except ValueError:  # told by the checks of the coatings and of the speeds
+        return
+    if n_coatings * n_speeds > MOST_RUNS:
+        yield (
+            f"speeds: {n_speeds} speeds on {n_coatings} coatings are {n_coatings * n_speeds} runs, must be "
+            f"{MOST_RUNS} or fewer"
+        )
+
+
+def most_revolutions(config: Config) -> int:
+    """Return the revolutions that the samples of a run allow (`MOST_SAMPLES`)."""
+    return MOST_SAMPLES // config["contact"]["elements"]
+
+
+@_reads("analysis", "solver", "contact")
+def _samples(config: Config) -> Iterator[str]:
+    most = most_revolutions(config)
+    revolutions = {
+        "solver.revolutions": config["solver"]["revolutions"],
+        "analysis.divergence.confirmation_revolutions": config["analysis"]["divergence"][
+            "confirmation_revolutions"
+        ],
+    }
+    for where, number in revolutions.items():
+        if number > most:
+            yield (
+                f"{where} = {number}: must be at most {most} with contact.elements = "
+                f"{config['contact']['elements']}, a run keeps a sample for each element and revolution"
+            )
+
+
 @_reads("analysis", "coatings", "casings", "speeds")
 def _histories(config: Config) -> Iterator[str]:
     try:
-        cases, grid = coating_cases(config), speeds(config)
+        cases, grid = set(coating_cases(config)), set(speeds(config))
     except ValueError:  # told by the checks of the coatings and of the speeds
         return
     for index, entry in enumerate(config["analysis"]["histories"]):

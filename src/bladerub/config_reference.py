@@ -10,11 +10,17 @@ HEAD = """\
 
 Made from `config/schema.yaml` and `config/config.yaml` by `snakemake -j1 docs/config.md`. A file of your own
 needs only the keys that it changes: `snakemake -j2 --configfile my.yaml` lays it over the study.
-Mappings merge, a list is replaced as a whole. `[]` stands for each entry of a list, `<name>` for any name.
+Mappings merge, a list is replaced as a whole. A file can begin from others with `extend`; what is said on the
+command line, `--config`, goes over all files. `[]` stands for each entry of a list, `<name>` for any name.
 """
 
 _ENDS = {"minimum": "≥ {:g}", "exclusiveMinimum": "> {:g}", "maximum": "≤ {:g}", "exclusiveMaximum": "< {:g}"}
-_COUNTS = {"minItems": "≥ {} entries", "maxItems": "≤ {} entries", "minProperties": "≥ {} names"}
+_COUNTS = {
+    "minItems": "≥ {} entries",
+    "maxItems": "≤ {} entries",
+    "minProperties": "≥ {} names",
+    "maxProperties": "≤ {} names",
+}
 _NO_VALUE = object()
 
 

@@ -26,7 +26,7 @@ def config(paper):
 def faults(config):
     with pytest.raises(ConfigError) as error:
         validate(config)
-    return error.value.faults
+    return [fault.text for fault in error.value.faults]
 
 
 def rules(rule, path=""):
@@ -69,10 +69,10 @@ def test_every_entry_of_the_schema_says_what_it_is(path, rule):
         assert "additionalProperties" in rule
 
 
-def test_every_key_of_the_schema_is_needed_and_so_in_the_config():
+def test_every_key_of_the_schema_but_extend_is_needed_and_so_in_the_config():
     for path, rule in rules(schema()):
         if "properties" in rule:
-            assert set(rule["required"]) == set(rule["properties"]), path
+            assert set(rule["required"]) == set(rule["properties"]) - {"extend"}, path
 
 
 def test_overlays_merge_mappings_and_replace_lists(tmp_path):
@@ -105,12 +105,12 @@ def test_numbers_of_any_spelling_are_numbers(tmp_path, text, number):
 @pytest.mark.parametrize(
     ("content", "words"),
     [
-        (b"a: [1\nb: 2\n", "line 2: not valid YAML"),
-        (b"a: 1\n\nb: 2\nb: 3\n", "line 4: not valid YAML (b is given twice)"),
+        (b"a: [1\nb: 2\n", ":2: not valid YAML"),
+        (b"a: 1\n\nb: 2\nb: 3\n", ":4: not valid YAML (b is given twice)"),
         (b"- 1\n", "must hold keys at its top level"),
         (b"", "must hold keys at its top level"),
         (b"\xff\xfe", "is not text in UTF-8"),
-        (b"a: !!python/object/apply:os.getcwd []\n", "line 1: not valid YAML"),
+        (b"a: !!python/object/apply:os.getcwd []\n", ":1: not valid YAML"),
     ],
 )
 def test_malformed_file_is_named(tmp_path, content, words):
@@ -118,7 +118,7 @@ def test_malformed_file_is_named(tmp_path, content, words):
     path.write_bytes(content)
     with pytest.raises(ConfigError) as error:
         load(path)
-    (fault,) = error.value.faults
+    (fault,) = map(str, error.value.faults)
     assert fault.startswith(str(path))
     assert words in fault
 
@@ -203,7 +203,7 @@ def change(config, path, value):
             [2, 6],
             "analysis.peaks.orders[0] = 2: must be at least 2.5 to cross",
         ),
-        (("analysis", "peaks", "orders"), [], "must be a list of 1 or more entries"),
+        (("analysis", "peaks", "orders"), [], "must be a list of 1 to 1000 entries"),
         (("reduction", "accuracy_modes"), 31, "must be at most 30 with reduction.modes_per_speed = 6"),
         (("contact", "layer_thickness"), 3e-4, "must be below contact.layer_thickness = 0.0003 m"),
         (("casings", "2nd", "nodal_diameters"), [1001], "must be a whole number from 1 to 100"),
@@ -237,7 +237,7 @@ def test_parts_that_disagree_are_told(config, path, value, words):
 
 RIGID = {"casing": "2nd", "coating": "rigid", "friction": [0.0]}
 ABRADABLE = {"casing": "2nd", "E": [3], "K": [1], "theta": [0.0]}
-LISTED = "list of coefficients of friction must be a list of 1 or more entries"
+LISTED = "list of coefficients of friction must be a list of 1 to 1000 entries"
 KINDS = "kind of coating must be rigid, with friction; an abradable coating has neither key"
 
 
@@ -293,17 +293,78 @@ def test_confirmation_can_be_left_out_or_just_long_enough(config):
         assert validate(config) == config
 
 
+@pytest.mark.parametrize(
+    "name", ["src", "docs/images", "Config", "tests/results", "README.md", "LICENSE/runs"]
+)
+def test_results_do_not_go_into_the_repository_itself(config, name):
+    config["results"] = name
+    (fault,) = faults(config)
+    assert fault.startswith(f'results = "{name}": must ')
+
+
+def test_no_newline_gets_into_a_name(config):
+    config["results"] = "results\n"
+    config["casings"]["2nd\n"] = config["casings"]["2nd"]
+    assert [fault.split(":")[0] for fault in faults(config)] == ['casings["2nd "]', 'results = "results "']
+
+
+def test_a_plan_that_nobody_can_compute_is_refused_before_it_is_made(config):
+    config["analysis"]["histories"] = []
+    thousand = [index + 1 for index in range(1000)]
+    config["coatings"] = [{"casing": "2nd", "E": thousand, "K": thousand, "theta": [0.0]}]
+    assert faults(config) == [
+        "coatings[0]: brings the coatings to 1000000, all combinations counted; must be 5000 or fewer"
+    ]
+    config["coatings"] = [{"casing": "2nd", "E": thousand, "K": [1, 2, 3, 4, 5], "theta": [0.0]}]
+    config["speeds"] = {"start": 0.02, "stop": 0.4, "step": 1e-4, "extra": []}
+    assert faults(config) == [
+        "speeds: 3801 speeds on 5000 coatings are 19005000 runs, must be 2000000 or fewer"
+    ]
+
+
+def test_the_densest_chart_is_allowed(config):
+    grid = [0.05 * 1.3**index for index in range(24)]
+    dense = {"E": grid, "K": grid, "theta": [0.0]}
+    config["coatings"] += [{"casing": "2nd5nd"} | dense]
+    config["coatings"][1] |= dense
+    config["speeds"]["step"] = 0.001
+    config["solver"]["revolutions"] = 500
+    config["analysis"]["divergence"]["confirmation_revolutions"] = 1500
+    config["analysis"]["histories"] = []
+    config["coatings"] = [entry for entry in config["coatings"] if entry.get("E") == grid]
+    validate(config)
+
+
+def test_a_mesh_beyond_memory_is_refused_before_it_is_made(config):
+    config["blade"]["mesh"]["spanwise"] = 400
+    validate(config)
+    config["blade"]["mesh"] = {"chordwise": 200, "thickness": 20, "spanwise": 400}
+    assert faults(config) == ["blade.mesh: has 1600000 elements, must be 20000 or fewer"]
+
+
+def test_samples_beyond_memory_are_refused(config):
+    config["contact"]["elements"] = 100_000
+    validate(config)
+    config["solver"]["revolutions"] = 201
+    config["analysis"]["divergence"]["confirmation_revolutions"] = 300
+    assert [fault.split(" with")[0] for fault in faults(config)] == [
+        "solver.revolutions = 201: must be at most 200",
+        "analysis.divergence.confirmation_revolutions = 300: must be at most 200",
+    ]
+
+
+def test_thousands_of_faults_are_not_all_told(config):
+    config["speeds"]["extra"] = [-1] * 9000
+    with pytest.raises(ConfigError) as error:
+        validate(config)
+    assert len(str(error.value).splitlines()) == 41
+    assert str(error.value).endswith("config: and 8960 faults more")
+
+
 def test_one_broken_part_does_not_hide_the_faults_of_another(config):
     config["blade"]["length"] = "long"
     config["casings"]["2nd"]["weights"] = [0]
     assert len(faults(config)) == 2
-
-
-def test_validate_leaves_its_argument_alone(config):
-    before = copy.deepcopy(config)
-    config["solver"]["max_time_step"] = "25e-8"
-    assert validate(config)["solver"]["max_time_step"] == 2.5e-7
-    assert config == before | {"solver": before["solver"] | {"max_time_step": "25e-8"}}
 
 
 def test_quantities_are_checked_as_in_the_config():
@@ -312,14 +373,6 @@ def test_quantities_are_checked_as_in_the_config():
         check_quantity("E", 0)
     with pytest.raises(ValueError, match="Young modulus"):
         check_quantity("E", float("nan"))
-
-
-def test_long_values_are_cut():
-    assert (
-        configuration.shown(list(range(100)))
-        == "[0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16..."
-    )
-    assert "\n" not in configuration.shown("a\nb")
 
 
 def test_schema_is_beside_the_package():

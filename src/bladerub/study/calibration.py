@@ -6,7 +6,6 @@ of its own, from the blade to the findings, by the same functions as the study i
 
 from __future__ import annotations
 
-import copy
 from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
@@ -16,7 +15,9 @@ import pandas as pd
 from bladerub import config as configuration
 from bladerub.blade.build import build, write
 from bladerub.blade.model import read_reduced_blade
-from bladerub.config import ConfigError
+from bladerub.config_faults import UNKNOWN, ConfigError, Fault, Place
+from bladerub.config_files import extended, lay_over, mark
+from bladerub.config_files import read as read_file
 from bladerub.provenance import provenance
 from bladerub.study import divergence, findings, peaks
 from bladerub.study.coating_job import compute_missing
@@ -37,7 +38,7 @@ def plan(config: Mapping[str, Any], path: str | Path) -> dict[str, dict[str, Any
         The study that the sets vary.
     path : path-like
         YAML file with ``common``, laid over the study in every set, and ``sets``, by name what is laid over
-        that.
+        that. Each of them can extend other files.
 
     Returns
     -------
@@ -49,24 +50,24 @@ def plan(config: Mapping[str, Any], path: str | Path) -> dict[str, dict[str, Any
     ConfigError
         If the file is no plan or a set no config; every fault with the set it is in.
     """
-    content = configuration.load(path)
-    unknown = content.keys() - {"common", "sets"}
-    if unknown or not isinstance(content.get("sets"), dict):
-        raise ConfigError([f"{path}: must hold common and sets, and nothing else"])
-    configs, faults = {}, []
-    for name, choices in content["sets"].items():
-        if not str(name).replace("_", "").replace(".", "").isalnum():
-            faults.append(
-                f"{path}: {name}: the name of a set must be of letters, digits, dots and underscores"
-            )
+    content = read_file(path).content
+    sets = content.get("sets")
+    if content.keys() - {"common", "sets"} or sets is None or not isinstance(sets.content, dict):
+        raise ConfigError([Fault(Place(str(path)), "must hold common and sets, and nothing else")])
+    study, configs, faults = mark(config, UNKNOWN), {}, []
+    for name, choices in sets.content.items():
+        if not name.replace("_", "").replace(".", "").isalnum():
+            text = f"{name}: the name of a set must be of letters, digits, dots and underscores"
+            faults.append(Fault(choices.place, text))
             continue
-        varied = copy.deepcopy(dict(config))
-        configuration.lay_over(varied, content.get("common") or {})
-        configuration.lay_over(varied, choices or {})
+        varied = study
+        for layer in (content.get("common"), choices):
+            if layer is not None and layer.content is not None:
+                varied = lay_over(varied, extended(layer))
         try:
-            configs[str(name)] = configuration.validate(varied)
+            configs[name] = configuration.checked(varied)
         except ConfigError as error:
-            faults += [f"{path}: {name}: {fault}" for fault in error.faults]
+            faults += [Fault(place, f"{name}: {text}") for place, text in error.faults]
     if faults:
         raise ConfigError(faults)
     return configs

@@ -13,6 +13,9 @@ from bladerub.contact.spec import Casing, Coating, RunSpec, TipProfile
 SPEED_DECIMALS = 6
 """Speeds are rounded to this many decimals, so that start + i step and a written value agree."""
 
+MOST_COATINGS = 5000
+"""Coatings of a study; each is a job, and Snakemake plans no more than some ten thousand."""
+
 
 @dataclass(frozen=True)
 class CoatingCase:
@@ -62,11 +65,17 @@ def coating_cases(config: Mapping[str, Any]) -> list[CoatingCase]:
     Raises
     ------
     ValueError
-        If a coating is listed twice; the message names the entry.
+        If a coating is listed twice, or there are more than `MOST_COATINGS`; the message names the entry.
     """
     cases: dict[str, CoatingCase] = {}
     for index, entry in enumerate(config["coatings"]):
         varied = [key for key in ("E", "K", "theta", "friction") if key in entry]
+        n_cases = len(cases) + math.prod(len(entry[key]) for key in varied)
+        if n_cases > MOST_COATINGS:
+            raise ValueError(
+                f"coatings[{index}]: brings the coatings to {n_cases}, all combinations counted; must be "
+                f"{MOST_COATINGS} or fewer"
+            )
         for values in itertools.product(*(entry[key] for key in varied)):
             case = listed_case({**entry, **dict(zip(varied, values, strict=True))})
             if case.name in cases:
