@@ -3,6 +3,8 @@
 from snakemake.utils import min_version
 
 import bladerub.config
+import bladerub.faults
+import bladerub.invocation
 from bladerub.config_faults import faults_end_the_program
 from bladerub.study.grid import coating_cases
 
@@ -24,6 +26,17 @@ config.clear()
 config.update(study)
 RESULTS = config["results"]
 COATINGS = [case.name for case in coating_cases(config)]
+
+
+# Not in the jobs, which are processes that read this file as well
+if workflow.is_main_process:
+    with bladerub.faults.end_the_program():
+        LIVING = bladerub.invocation.begin(".snakemake", RESULTS)
+
+
+onstart:
+    with bladerub.faults.end_the_program():
+        bladerub.invocation.prepare(RESULTS)
 
 
 wildcard_constraints:

@@ -5,7 +5,8 @@ from __future__ import annotations
 import io
 import math
 import os
-from collections.abc import Mapping, Set
+from collections.abc import Iterator, Mapping, Set
+from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
@@ -14,6 +15,9 @@ from typing import Any
 
 import h5py
 import numpy as np
+
+from bladerub import atomic
+from bladerub.faults import DamagedFile
 
 _READ_AND_WRITE = 1  # H5LT_FILE_IMAGE_OPEN_RW
 _COMPRESSED_FROM = 1024
@@ -49,7 +53,7 @@ def write(
     attributes: Mapping[str, Any],
     origin: Mapping[str, str] = MappingProxyType({}),
 ) -> None:
-    """Write `variables` and `attributes` to `path`: under a temporary name first, then renamed.
+    """Write `variables` and `attributes` to `path`, whole or not at all.
 
     Parameters
     ----------
@@ -86,14 +90,8 @@ def write(
                 h5py.h5d.open(file.id, name.encode()).write(whole, whole, np.ascontiguousarray(values))
         file.flush()
         image = file.id.get_file_image()
-    path = Path(path)
-    path.parent.mkdir(parents=True, exist_ok=True)
-    temporary = path.with_name(f".{path.name}.{os.getpid()}.tmp")
-    try:
-        temporary.write_bytes(image)
-        os.replace(temporary, path)
-    finally:
-        temporary.unlink(missing_ok=True)
+    with atomic.writing(path, "wb") as stream:
+        stream.write(image)
 
 
 @lru_cache(maxsize=8)
@@ -158,23 +156,29 @@ def read(path: str | Path, only: Set[str] | None = None) -> tuple[dict[str, np.n
     Raises
     ------
     OSError
-        If the file is missing or is not a whole HDF5 file; the message names it.
+        If the file is missing or, as `DamagedFile`, not a whole HDF5 file; the message names it.
     """
-    try:
-        with h5py.File(path, "r") as file:
-            wanted = file.keys() if only is None else only & file.keys()
-            return {name: _values(file[name]) for name in wanted}, _plain_attributes(file)
-    except OSError as error:
-        raise OSError(f"{path}: not a readable HDF5 file ({error})") from error
+    with _opened(path) as file:
+        wanted = file.keys() if only is None else only & file.keys()
+        return {name: _values(file[name]) for name in wanted}, _plain_attributes(file)
 
 
 def read_attributes(path: str | Path) -> dict[str, Any]:
     """Read the attributes alone of the file at `path` (see `read`)."""
+    with _opened(path) as file:
+        return _plain_attributes(file)
+
+
+@contextmanager
+def _opened(path: str | Path) -> Iterator[h5py.File]:
     try:
         with h5py.File(path, "r") as file:
-            return _plain_attributes(file)
-    except OSError as error:
-        raise OSError(f"{path}: not a readable HDF5 file ({error})") from error
+            yield file
+    except (OSError, RuntimeError, KeyError, ValueError) as error:  # h5py raises any of them
+        code = getattr(error, "errno", None)
+        if code:  # of the system: missing, or not ours to read
+            raise OSError(code, os.strerror(code), str(path)) from error
+        raise DamagedFile(f"{path}: not a readable HDF5 file ({error})") from error
 
 
 def _values(dataset: h5py.Dataset) -> np.ndarray:

@@ -6,14 +6,17 @@ units, and where the table comes from.
 
 from __future__ import annotations
 
+import io
 import json
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from pathlib import Path
 from typing import Any
 
 import pandas as pd
 
+from bladerub import atomic
 from bladerub.columns import COLUMNS
+from bladerub.faults import DamagedFile
 
 
 def write(
@@ -39,9 +42,40 @@ def write(
     """
     path = Path(path)
     text = json.dumps(_description(path.name, table, origin), indent=2, ensure_ascii=False)
-    path.parent.mkdir(parents=True, exist_ok=True)
-    table.to_csv(path, index=False, float_format=float_format)
-    description_path(path).write_text(f"{text}\n", encoding="utf-8")
+    with atomic.writing(path) as stream:
+        table.to_csv(stream, index=False, float_format=float_format)
+    with atomic.writing(description_path(path)) as stream:
+        stream.write(f"{text}\n")
+
+
+def read(path: str | Path, columns: Collection[str] = (), separator: str = ",") -> pd.DataFrame:
+    """Read a table of which every row must be whole.
+
+    Parameters
+    ----------
+    path : path-like
+        The file.
+    columns : collection of str, optional
+        Columns that it must have.
+    separator : str, optional
+        Between the cells.
+
+    Raises
+    ------
+    OSError
+        If the file is missing, breaks off, is not a table or lacks one of `columns`; the message names it.
+    """
+    try:
+        text = Path(path).read_text(encoding="utf-8")
+        if not text.endswith("\n"):
+            raise DamagedFile(f"{path}: not a whole table, it breaks off in its last line")
+        table = pd.read_csv(io.StringIO(text), sep=separator)
+    except (UnicodeDecodeError, pd.errors.ParserError, pd.errors.EmptyDataError) as error:
+        raise DamagedFile(f"{path}: not a table ({str(error).strip()})") from error
+    missing = [column for column in columns if column not in table.columns]
+    if missing:
+        raise DamagedFile(f"{path}: not the right table, {', '.join(missing)} missing")
+    return table
 
 
 def description_path(path: str | Path) -> Path:

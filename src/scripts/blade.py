@@ -2,12 +2,12 @@
 
 import logging
 
+from bladerub import job
 from bladerub.blade.build import build, write
 from bladerub.provenance import provenance
 
-logging.basicConfig(
-    filename=snakemake.log[0], filemode="w", level=logging.WARNING, format="%(asctime)s %(message)s"
-)
+job.log_to(snakemake.log[0])
+logging.basicConfig(level=logging.WARNING, format="%(asctime)s %(message)s")
 logging.getLogger("bladerub").setLevel(logging.INFO)
 
 built = build({"blade": snakemake.params.blade, "reduction": snakemake.params.reduction})

@@ -1,16 +1,15 @@
 """What the claims say to each set of choices, side by side."""
 
-import sys
 from pathlib import Path
 
-from bladerub import tablefile
+from bladerub import job, tablefile
 from bladerub.plots import style
 from bladerub.plots.verdicts import verdicts as draw
 from bladerub.provenance import provenance
 from bladerub.study.calibration import gather
 from bladerub.study.findings import verdicts
 
-sys.stderr = open(snakemake.log[0], "w", buffering=1)
+job.log_to(snakemake.log[0])
 
 answers = {Path(path).parts[-3]: path for path in snakemake.input.findings}
 table = gather(answers)

@@ -2,11 +2,11 @@
 
 import sys
 
-from bladerub import tablefile
+from bladerub import job, tablefile
 from bladerub.provenance import provenance
 from bladerub.study.calibration import answer
 
-sys.stderr = open(snakemake.log[0], "w", buffering=1)
+job.log_to(snakemake.log[0])
 
 found = answer(
     snakemake.params.choices, snakemake.params.folder, report=lambda run: print(run, file=sys.stderr)

@@ -2,6 +2,7 @@
 
 import sys
 
+from bladerub import job
 from bladerub.blade.model import read_reduced_blade
 from bladerub.study.coating_job import compute_missing
 from bladerub.study.grid import case_from_name
@@ -9,10 +10,10 @@ from bladerub.study.job_progress import JobProgress
 from bladerub.study.key import blade_digest
 from bladerub.study.store import write_manifest
 
-terminal, sys.stderr = sys.stderr, open(snakemake.log[0], "w", buffering=1)
+job.log_to(snakemake.log[0])
 
 name = snakemake.wildcards.coating
-progress = JobProgress(name, log=sys.stderr, terminal=terminal)
+progress = JobProgress(name, log=sys.stderr, terminal=sys.__stderr__)
 rows = compute_missing(
     snakemake.config,
     case_from_name(snakemake.config, name),

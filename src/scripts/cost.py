@@ -1,14 +1,12 @@
 """Gather what the jobs of the study cost."""
 
-import sys
-
-from bladerub import tablefile
+from bladerub import job, tablefile
 from bladerub.plots import style
 from bladerub.plots.cost import cost
 from bladerub.provenance import provenance
 from bladerub.study.cost import by_stage, table
 
-sys.stderr = open(snakemake.log[0], "w", buffering=1)
+job.log_to(snakemake.log[0])
 
 costs = table(snakemake.params.benchmarks)
 tablefile.write(snakemake.output.table, costs, provenance(snakemake.config))

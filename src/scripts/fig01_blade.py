@@ -3,13 +3,11 @@
 The data are ``blade/mesh.h5``.
 """
 
-import sys
-
-from bladerub import datafile
+from bladerub import datafile, job
 from bladerub.plots import style
 from bladerub.plots.blade_mesh import blade_mesh
 
-sys.stderr = open(snakemake.log[0], "w", buffering=1)
+job.log_to(snakemake.log[0])
 
 mesh, _ = datafile.read(snakemake.input.mesh)
 figure = blade_mesh(mesh["points"], mesh["hexahedra"], mesh["interface_nodes"], mesh["root_nodes"])

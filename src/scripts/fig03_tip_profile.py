@@ -3,12 +3,10 @@
 The data are in m, stress normalised.
 """
 
-import sys
-
 import numpy as np
 import pandas as pd
 
-from bladerub import tablefile
+from bladerub import job, tablefile
 from bladerub.contact import coating, tip
 from bladerub.contact.spec import Coating, TipProfile
 from bladerub.plots import style
@@ -18,7 +16,7 @@ from bladerub.provenance import provenance
 PENETRATION = 0.15e-3  # of the node, m: a usual depth in the study
 REACH = 6  # elements shown on each side of the node
 
-sys.stderr = open(snakemake.log[0], "w", buffering=1)
+job.log_to(snakemake.log[0])
 
 layer, profile = Coating(**snakemake.params.coating), TipProfile(**snakemake.params.tip)
 width = 2 * np.pi * snakemake.params.casing_radius / layer.n_elements

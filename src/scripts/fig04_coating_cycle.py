@@ -1,13 +1,12 @@
 """Fig. 4: stress–strain cycle of the coating by its return mapping, for the study's σ_Y and a visible one."""
 
-import sys
 from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
 import pandas as pd
 
-from bladerub import tablefile
+from bladerub import job, tablefile
 from bladerub.contact import coating
 from bladerub.contact.spec import Coating
 from bladerub.plots import style
@@ -18,13 +17,13 @@ STRAINS = (0.0, 0.03, 0.0, 0.05, 0.0)  # load, unload, reload further, unload
 STEPS = 400  # of each branch
 VISIBLE_YIELD_STRESS = 0.015  # normalised
 
-sys.stderr = open(snakemake.log[0], "w", buffering=1)
+job.log_to(snakemake.log[0])
 
 layer = Coating(**snakemake.params.coating)
 branches = [np.linspace(start, end, STEPS + 1)[1:] for start, end in pairwise(STRAINS)]
 strain = np.concatenate([STRAINS[:1], *branches])
 
-cycles, tables = [], []
+cycles, parts = [], []
 for title, yield_stress in (
     ("(a) elastic limit of the study", layer.yield_stress),
     ("(b) a larger elastic limit", VISIBLE_YIELD_STRESS),
@@ -35,7 +34,7 @@ for title, yield_stress in (
         stress[step], wear[step] = coating.load(bar, strain[step] * bar.thickness, wear[step - 1])
     cycles.append(Cycle(title, strain, stress, wear / bar.thickness, bar.E, bar.K, yield_stress))
     columns = {"strain": strain, "stress": stress, "plastic_strain": wear / bar.thickness}
-    tables.append(pd.DataFrame({"yield_stress": yield_stress} | columns))
+    parts.append(pd.DataFrame({"yield_stress": yield_stress} | columns))
 
-tablefile.write(snakemake.output.data, pd.concat(tables), provenance(snakemake.config), "%.6g")
+tablefile.write(snakemake.output.data, pd.concat(parts), provenance(snakemake.config), "%.6g")
 style.save(coating_cycle(cycles), snakemake.output.png, snakemake.output.pdf, snakemake.params.dpi)

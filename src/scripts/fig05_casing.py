@@ -1,12 +1,11 @@
 """Fig. 5: initial inner shape of the casing, along each nodal diameter alone and combined (inward, m)."""
 
-import sys
 from dataclasses import replace
 
 import numpy as np
 import pandas as pd
 
-from bladerub import tablefile
+from bladerub import job, tablefile
 from bladerub.contact.casing import shape
 from bladerub.contact.spec import Casing
 from bladerub.plots import style
@@ -15,7 +14,7 @@ from bladerub.provenance import provenance
 
 MAGNIFICATION = 150
 
-sys.stderr = open(snakemake.log[0], "w", buffering=1)
+job.log_to(snakemake.log[0])
 
 combined = Casing(**snakemake.params.casing)
 diameters = combined.nodal_diameters

@@ -1,17 +1,15 @@
 """Fig. 10: maxima Y_k, f_k on the spectrum, and the amplitude along their engine orders (m)."""
 
-import sys
-
 import pandas as pd
 
-from bladerub import tablefile
+from bladerub import job, tablefile
 from bladerub.plots import style
 from bladerub.plots.peak_sections import PeakSection, peak_sections
 from bladerub.provenance import provenance
 from bladerub.study.maps import read_map
 from bladerub.study.peaks import crossing_speed, order_amplitude, peak
 
-sys.stderr = open(snakemake.log[0], "w", buffering=1)
+job.log_to(snakemake.log[0])
 
 coating, settings = read_map(snakemake.input.map), snakemake.params.peaks
 sections = []

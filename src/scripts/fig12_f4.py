@@ -1,17 +1,14 @@
 """Fig. 12: rotational frequency f4 of the maximum on engine order 4, over E and K."""
 
-import sys
-
-import pandas as pd
-
-from bladerub import tablefile
+from bladerub import job, tablefile
 from bladerub.plots import style
 from bladerub.plots.histogram import peak_speeds
 from bladerub.provenance import provenance
+from bladerub.study.peaks import COLUMNS
 
-sys.stderr = open(snakemake.log[0], "w", buffering=1)
+job.log_to(snakemake.log[0])
 
-peaks = pd.read_csv(snakemake.input.peaks).query(snakemake.params.coatings)
+peaks = tablefile.read(snakemake.input.peaks, COLUMNS).query(snakemake.params.coatings)
 table, figure = peak_speeds(peaks, order=4)
 tablefile.write(snakemake.output.data, table, provenance(snakemake.config), "%.6g")
 style.save(figure, snakemake.output.png, snakemake.output.pdf, snakemake.params.dpi)

@@ -3,13 +3,12 @@
 The data are the map of its coating in ``maps/``.
 """
 
-import sys
-
+from bladerub import job
 from bladerub.plots import style
 from bladerub.plots.spectrum_map import spectrum_map
 from bladerub.study.maps import read_map
 
-sys.stderr = open(snakemake.log[0], "w", buffering=1)
+job.log_to(snakemake.log[0])
 
 figure = spectrum_map(
     read_map(snakemake.input.map), snakemake.params.amplitude_range, snakemake.params.max_frequency

@@ -1,13 +1,11 @@
 """Fig. 17: radial displacement of node 1 (m) at f_Ω = 0.190, straight and inclined coating elements."""
 
-import sys
-
-from bladerub import tablefile
+from bladerub import job, tablefile
 from bladerub.plots import style
 from bladerub.plots.history import history_of_runs
 from bladerub.provenance import provenance
 
-sys.stderr = open(snakemake.log[0], "w", buffering=1)
+job.log_to(snakemake.log[0])
 
 table, figure = history_of_runs(snakemake.params.runs)
 tablefile.write(snakemake.output.data, table, provenance(snakemake.config), "%.6g")

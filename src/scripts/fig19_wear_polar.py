@@ -1,18 +1,17 @@
 """Fig. 19: worn depth around the casing (m), both angles of the elements, Figs. 17 and 18 and our speeds."""
 
-import sys
 from string import ascii_lowercase
 
 import numpy as np
 import pandas as pd
 
-from bladerub import tablefile
+from bladerub import job, tablefile
 from bladerub.plots import style, titles
 from bladerub.plots.wear_polar import wear_polar
 from bladerub.provenance import provenance
 from bladerub.study.maps import read_map
 
-sys.stderr = open(snakemake.log[0], "w", buffering=1)
+job.log_to(snakemake.log[0])
 
 maps = {titles.angle(coating.case.theta): coating for coating in map(read_map, snakemake.input.maps)}
 angle = next(iter(maps.values())).angle

@@ -1,12 +1,10 @@
 """Put the claims of the paper to the test."""
 
-import sys
-
-from bladerub import tablefile
+from bladerub import job, tablefile
 from bladerub.provenance import provenance
 from bladerub.study import findings
 
-sys.stderr = open(snakemake.log[0], "w", buffering=1)
+job.log_to(snakemake.log[0])
 
 table = findings.table(
     snakemake.config,

@@ -1,13 +1,13 @@
 """Gather the runs of one coating into a map over angle, engine order and speed."""
 
-import sys
 from pathlib import Path
 
+from bladerub import job
 from bladerub.blade.model import read_reduced_blade
 from bladerub.study.grid import case_from_name
 from bladerub.study.maps import build_map
 
-sys.stderr = open(snakemake.log[0], "w", buffering=1)
+job.log_to(snakemake.log[0])
 
 build_map(
     snakemake.config,

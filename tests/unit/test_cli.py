@@ -175,7 +175,7 @@ def without(option):
         (changed("--f", "-0.1"), "--f = -0.1: speed must be a number from 0.001 to 2 (normalised)"),
         (changed("--f", "0.41"), "--f = 0.41: must be at most 0.4 (normalised), the highest speed of"),
         ([*RUN, "--revolutions", "1"], "--revolutions = 1: must be from 2 to 10000"),
-        ([*RUN, "--blade", "no.h5"], "no.h5: not a readable HDF5 file"),
+        ([*RUN, "--blade", "no.h5"], "no.h5: No such file or directory"),
         ([*RUN, "--blade", __file__], "not a readable HDF5 file"),
         ([*RUN, "--output", "/"], "--output /: is a folder, must be a file"),
         ([*RUN, "--config", "no.yaml"], "no.yaml: cannot be read"),

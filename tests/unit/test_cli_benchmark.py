@@ -70,7 +70,7 @@ def test_in_words(benchmark, capsys):
     [
         (["--rounds", "0"], "--rounds = 0: must be 1 or more"),
         (["--cores", "-1"], "--cores = -1: must be 1 or more"),
-        (["--blade", "no.h5"], "no.h5: not a readable HDF5 file"),
+        (["--blade", "no.h5"], "no.h5: No such file or directory"),
     ],
 )
 def test_bad_input_is_answered_in_one_line(benchmark, capsys, arguments, message):

@@ -120,7 +120,7 @@ def test_progress_bar_on_a_terminal(verify, monkeypatch):
         (["--sample", "1", "--seed", "-1"], "--seed = -1: must be 0 or more"),
         (["--sample", "1", "--seed", "1", "--jobs", "0"], "--jobs = 0: must be 1 or more"),
         (["--sample", "1"], "the following arguments are required: --seed"),
-        (["--sample", "1", "--seed", "1", "--blade", "no.h5"], "no.h5: not a readable HDF5 file"),
+        (["--sample", "1", "--seed", "1", "--blade", "no.h5"], "no.h5: No such file or directory"),
         (["--sample", "1", "--seed", "1", "--config", "no.yaml"], "no.yaml: cannot be read"),
     ],
 )

@@ -5,6 +5,7 @@ import xarray as xr
 
 from bladerub import datafile
 from bladerub.datafile import Variable
+from bladerub.faults import DamagedFile
 
 VARIABLES = {
     "angle": Variable(("angle",), np.linspace(0, 6, 5), "rad", "casing angle"),
@@ -59,10 +60,10 @@ def test_dimensions_must_all_be_named(tmp_path):
 @pytest.mark.parametrize("read", [datafile.read, datafile.read_attributes])
 def test_unreadable_file_is_named(tmp_path, read):
     path = tmp_path / "file.h5"
-    with pytest.raises(OSError, match=r"file\.h5: not a readable HDF5 file"):
+    with pytest.raises(FileNotFoundError, match=r"file\.h5"):
         read(path)
     with h5py.File(path, "w") as file:
         file["wear"] = np.zeros(100_000)
     path.write_bytes(path.read_bytes()[:2000])
-    with pytest.raises(OSError, match=r"file\.h5: not a readable HDF5 file"):
+    with pytest.raises(DamagedFile, match=r"file\.h5: not a readable HDF5 file"):
         read(path)

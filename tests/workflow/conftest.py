@@ -41,7 +41,7 @@ class Workspace:
 
     @classmethod
     def at(cls, folder: Path) -> Workspace:
-        for part in ("config", "src"):
+        for part in ("config", "profiles", "src"):
             shutil.copytree(ROOT / part, folder / part)
         shutil.copy2(ROOT / "Snakefile", folder)
         return cls(folder)

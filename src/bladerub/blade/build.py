@@ -179,11 +179,14 @@ def write(
     campbell: str | Path,
     rom_accuracy: str | Path,
 ) -> None:
-    """Write the two HDF5 files and the two tables of stage 1; `origin` is their provenance."""
-    write_reduced_blade(reduced_model, built.reduced, origin)
+    """Write the two HDF5 files and the two tables of stage 1; `origin` is their provenance.
+
+    The reduced model is the last: where it is, all is.
+    """
     write_mesh(mesh, built, origin)
     for path, table in ((campbell, built.accuracy[CAMPBELL_COLUMNS]), (rom_accuracy, built.accuracy)):
         tablefile.write(path, table, origin, float_format="%.10g")
+    write_reduced_blade(reduced_model, built.reduced, origin)
 
 
 def write_mesh(path: str | Path, built: BuiltBlade, origin: Mapping[str, str]) -> None:

@@ -10,6 +10,7 @@ import numpy as np
 
 from bladerub import datafile
 from bladerub.datafile import Variable
+from bladerub.faults import DamagedFile
 
 N_INTERFACE = 8
 """Number of interface nodes on the blade tip, leading to trailing edge."""
@@ -110,4 +111,4 @@ def read_reduced_blade(path: str | Path) -> ReducedBlade:
             **{name: data[name] for name in _UNITS}, **{name: attributes[name] for name in _ATTRIBUTES}
         )
     except KeyError as error:
-        raise OSError(f"{path}: not a reduced blade, {error} is missing") from error
+        raise DamagedFile(f"{path}: not a reduced blade, {error} is missing") from error

@@ -6,7 +6,7 @@ import argparse
 import sys
 from typing import NoReturn
 
-from bladerub import __version__
+from bladerub import __version__, faults
 from bladerub.cli import benchmark, run, status, verify
 from bladerub.cli.errors import InputError
 from bladerub.config import ConfigError
@@ -36,6 +36,9 @@ def main(arguments: list[str] | None = None) -> int:
         return 2
     except InputError as error:
         print(f"bladerub {options.name}: {error}", file=sys.stderr)
+        return 2
+    except OSError as error:
+        print(f"bladerub {options.name}: {faults.in_words(error)}", file=sys.stderr)
         return 2
     except KeyboardInterrupt:
         print(f"bladerub {options.name}: interrupted", file=sys.stderr)

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from bladerub.cli.errors import InputError
 from bladerub.config import ROOT, load, validate
+from bladerub.faults import DamagedFile
 
 if TYPE_CHECKING:  # the rest of the package is imported when it is sure to be needed: numba takes its time
     from bladerub.blade.model import ReducedBlade
@@ -75,11 +76,13 @@ def read_blade(options: argparse.Namespace, config: dict[str, Any]) -> tuple[Pat
     ------
     InputError
         If the file is no reduced blade, or was built from another config, or the blade cannot be built.
+    OSError
+        If the files of the default blade are damaged or cannot be written.
     """
     from bladerub.blade.model import read_reduced_blade
 
     path = options.blade or ROOT / config["results"] / "blade" / "reduced_model.h5"
-    if not options.blade and not path.exists():
+    if not options.blade and not (path.exists() and _mesh_of(path).exists()):
         print(f"bladerub {options.name}: building the blade first, into {path.parent}", file=sys.stderr)
         _build_blade(config, path)
     elif not options.blade and not is_of(config, path):
@@ -89,22 +92,31 @@ def read_blade(options: argparse.Namespace, config: dict[str, Any]) -> tuple[Pat
         )
     try:
         blade = read_reduced_blade(path)
-    except OSError as error:
-        raise InputError(str(error)) from error
+    except DamagedFile as error:
+        if options.blade:  # it cannot be made anew
+            raise InputError(str(error)) from error
+        raise
     if options.blade:
         config["blade"]["length"] = blade.length
     return path, blade
 
 
 def is_of(config: dict[str, Any], path: Path) -> bool:
-    """Tell whether the reduced blade at `path` was built from `config`."""
+    """Tell whether the reduced blade at `path` was built from `config`.
+
+    Raises
+    ------
+    OSError
+        If its mesh, which tells, is missing or damaged.
+    """
     from bladerub import datafile
     from bladerub.blade.build import made_from
 
-    try:
-        return datafile.read_attributes(path.with_name("mesh.h5")).get("made_from") == made_from(config)
-    except OSError:
-        return False
+    return datafile.read_attributes(_mesh_of(path)).get("made_from") == made_from(config)
+
+
+def _mesh_of(path: Path) -> Path:
+    return path.with_name("mesh.h5")
 
 
 def _build_blade(config: dict[str, Any], path: Path) -> None:
@@ -118,4 +130,4 @@ def _build_blade(config: dict[str, Any], path: Path) -> None:
         raise InputError(str(error)) from error
     tables = path.parents[1] / "tables"
     campbell, accuracy = tables / "campbell.csv", tables / "rom_accuracy.csv"
-    build.write(built, provenance(config), path, path.with_name("mesh.h5"), campbell, accuracy)
+    build.write(built, provenance(config), path, _mesh_of(path), campbell, accuracy)

@@ -11,6 +11,7 @@ from typing import Any
 from tqdm import tqdm
 
 from bladerub.cli import inputs
+from bladerub.faults import in_words
 
 _COLUMNS = ("planned", "done", "missing", "stale", "corrupt", "unbounded")
 
@@ -51,15 +52,15 @@ def status(options: argparse.Namespace) -> None:
     results = inputs.ROOT / config["results"]
     model = results / "blade" / "reduced_model.h5"
     digest, note = None, None
-    if not model.exists():
-        note = f"there is no blade yet, so every run counts as stale: {model}"
-    elif not inputs.is_of(config, model):
-        note = f"the blade is of another config, so every run counts as stale: {model}"
-    else:
-        try:
+    try:
+        if not model.exists():
+            note = f"there is no blade yet, so every run counts as stale: {model}"
+        elif not inputs.is_of(config, model):
+            note = f"the blade is of another config, so every run counts as stale: {model}"
+        else:
             digest = blade_digest(model)
-        except OSError as error:
-            note = f"every run counts as stale without its blade: {error}"
+    except OSError as error:
+        note = f"every run counts as stale without its blade: {in_words(error)}"
     cases = coating_cases(config)
     with tqdm(
         total=len(cases) * len(speeds(config)),

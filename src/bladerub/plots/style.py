@@ -10,6 +10,7 @@ import matplotlib
 from matplotlib.colors import LinearSegmentedColormap
 from matplotlib.figure import Figure
 
+from bladerub import atomic
 from bladerub.provenance import software
 
 PAGE = 180 / 25.4
@@ -92,5 +93,8 @@ def save(figure: Figure, png: str | Path, pdf: str | Path, dpi: float) -> None:
     """
     origin = f"{software()}, matplotlib {matplotlib.__version__}"
     with matplotlib.rc_context(_RC):
-        figure.savefig(png, dpi=dpi, metadata={"Software": origin})
-        figure.savefig(pdf, dpi=_PDF_RASTER_DPI, metadata={"Creator": origin, "CreationDate": None})
+        with atomic.writing(png, "wb") as stream:
+            figure.savefig(stream, format="png", dpi=dpi, metadata={"Software": origin})
+        with atomic.writing(pdf, "wb") as stream:
+            about = {"Creator": origin, "CreationDate": None}
+            figure.savefig(stream, format="pdf", dpi=_PDF_RASTER_DPI, metadata=about)

@@ -13,6 +13,7 @@ from typing import Any
 import pandas as pd
 
 from bladerub import config as configuration
+from bladerub import tablefile
 from bladerub.blade.build import build, write
 from bladerub.blade.model import read_reduced_blade
 from bladerub.config_faults import UNKNOWN, ConfigError, Fault, Place
@@ -103,10 +104,10 @@ def answer(config: Mapping[str, Any], folder: str | Path, report: Callable[[obje
         )
         build_map(config, case, blade, runs, gathered)
         maps.append(gathered)
-    tables = {"peaks": peaks.table(config, maps), "divergence": divergence.table(config, maps)}
-    for name, table in tables.items():
-        table.to_csv(folder / "tables" / f"{name}.csv", index=False)
-    return findings.table(config, maps, *(folder / "tables" / f"{name}.csv" for name in tables), accuracy)
+    made = {"peaks": peaks.table(config, maps), "divergence": divergence.table(config, maps)}
+    for name, table in made.items():
+        tablefile.write(folder / "tables" / f"{name}.csv", table, provenance(config))
+    return findings.table(config, maps, *(folder / "tables" / f"{name}.csv" for name in made), accuracy)
 
 
 def gather(answers: Mapping[str, str | Path]) -> pd.DataFrame:
@@ -117,5 +118,5 @@ def gather(answers: Mapping[str, str | Path]) -> pd.DataFrame:
     answers : mapping of str to path-like
         File of findings by the name of the set.
     """
-    tables = [pd.read_csv(path).assign(set=name) for name, path in answers.items()]
-    return pd.concat(tables, ignore_index=True)[COLUMNS]
+    answered = [tablefile.read(path, findings.COLUMNS).assign(set=name) for name, path in answers.items()]
+    return pd.concat(answered, ignore_index=True)[COLUMNS]

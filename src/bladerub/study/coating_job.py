@@ -10,6 +10,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from bladerub import lock
 from bladerub.blade.model import ReducedBlade
 from bladerub.contact.run import simulate
 from bladerub.study.grid import CoatingCase
@@ -17,6 +18,9 @@ from bladerub.study.growth import needs_confirmation
 from bladerub.study.plan import PlannedRun, longer_run, planned_runs
 from bladerub.study.shelf import shelve, unshelve
 from bladerub.study.store import ManifestRow, is_current, read_run, write_run
+
+LOCK = ".lock"
+"""File beside the runs that the job at work on them holds; empty."""
 
 
 @dataclass(frozen=True)
@@ -51,7 +55,7 @@ class RunDone:
         )
 
 
-def _ignore(done: RunDone) -> None:
+def _ignore(line: object) -> None:
     """Report to nobody."""
 
 
@@ -61,7 +65,7 @@ def compute_missing(
     blade: ReducedBlade,
     folder: str | Path,
     blade_digest: str,
-    report: Callable[[RunDone], None] = _ignore,
+    report: Callable[[object], None] = _ignore,
 ) -> list[ManifestRow]:
     """Compute those runs of one coating whose file is missing or stale.
 
@@ -69,7 +73,8 @@ def compute_missing(
     `bladerub.study.growth`). Each run is written as soon as it is done, so an interrupted job continues
     where it stopped. Runs that are no longer in the plan are left where they are. A stale run, of another
     study in the same place, is put on the shelf before its file is written anew, and taken back when its
-    key is asked for again.
+    key is asked for again. One job at a time works on a folder: another, of another invocation, waits for its
+    end and takes over what it has computed.
 
     Parameters
     ----------
@@ -84,7 +89,7 @@ def compute_missing(
     blade_digest : str
         From `bladerub.study.key.blade_digest`.
     report : callable, optional
-        Called with a `RunDone` after each computed run.
+        Called with a line for a log: a `RunDone` after each computed run, or a text before waiting.
 
     Returns
     -------
@@ -93,17 +98,23 @@ def compute_missing(
     """
     folder, settings = Path(folder), config["analysis"]["divergence"]
     runs = planned_runs(config, case, folder, blade_digest)
-    outcomes = _compute(runs, folder, case, blade, config, report)
+    with lock.held(folder / LOCK, lambda: report(f"another job is at work in {folder}: waiting for its end")):
+        outcomes = _compute(runs, folder, case, blade, config, report)
+        outcomes |= {run.path: _stored(run.path) for run in runs if run.path not in outcomes}
+        longer = {
+            run.path: longer_run(config, run, blade_digest)
+            for run in runs
+            if needs_confirmation(outcomes[run.path].amplitude, outcomes[run.path].status, settings)
+        }
+        _compute(list(longer.values()), folder, case, blade, config, report)
+        return [_row(run, outcomes[run.path].status, longer.get(run.path)) for run in runs]
 
-    rows, confirmations = [], []
-    for run in runs:
-        (status, amplitude), confirmation_key = outcomes.get(run.path) or _stored(run.path), ""
-        if needs_confirmation(amplitude, status, settings):
-            confirmations.append(longer_run(config, run, blade_digest))
-            confirmation_key = confirmations[-1].key
-        rows.append(ManifestRow(run.path.name, run.spec.f_omega, run.key, status, confirmation_key))
-    _compute(confirmations, folder, case, blade, config, report)
-    return rows
+
+def _row(run: PlannedRun, status: str, longer: PlannedRun | None) -> ManifestRow:
+    confirmation = (longer.key, longer.path.stat().st_size) if longer else ()
+    return ManifestRow(
+        run.path.name, run.spec.f_omega, run.key, status, run.path.stat().st_size, *confirmation
+    )
 
 
 class _Outcome(NamedTuple):
@@ -124,7 +135,7 @@ def _compute(
     case: CoatingCase,
     blade: ReducedBlade,
     config: Mapping[str, Any],
-    report: Callable[[RunDone], None],
+    report: Callable[[object], None],
 ) -> dict[Path, _Outcome]:
     """Compute what is missing or stale of `plans`, all of as many revolutions, and return how it went."""
     missing = [

@@ -2,9 +2,15 @@
 
 from __future__ import annotations
 
+import logging
 from pathlib import Path
 
 import pandas as pd
+
+from bladerub import tablefile
+from bladerub.faults import DamagedFile
+
+_log = logging.getLogger(__name__)
 
 FIGURES = "figures"
 STAGES = {
@@ -19,6 +25,7 @@ STAGES = {
     "history": FIGURES,
 }
 """Stage of each rule, in the order of the workflow; rules named after a figure of the paper are `FIGURES`."""
+_RECORDED = ["s", "cpu_time", "max_rss"]
 COLUMNS = ["stage", "rule", "job", "wall_s", "cpu_s", "memory_mb"]
 
 
@@ -35,16 +42,20 @@ def table(benchmarks: str | Path) -> pd.DataFrame:
     DataFrame
         `COLUMNS`: ``job`` is what tells the jobs of a rule apart, empty for a rule of one job. CPU time and
         largest memory are those of the job's process and its children; NaN where a job was too short to be
-        looked at.
+        looked at. A record that breaks off is left out; the log says so.
     """
     rows = []
     for path in sorted(Path(benchmarks).rglob("*.tsv")):
         *rule, name = path.relative_to(benchmarks).with_suffix("").parts
         rule, job = (rule[0], name) if rule else (name, "")
         if rule in STAGES or rule.startswith("fig"):
-            record = pd.read_csv(path, sep="\t", na_values="-").iloc[-1]
-            stage = STAGES.get(rule, FIGURES)
-            rows.append((stage, rule, job, record["s"], record["cpu_time"], record["max_rss"]))
+            try:
+                last = tablefile.read(path, _RECORDED, separator="\t")[_RECORDED].tail(1)
+            except DamagedFile as error:  # Snakemake was stopped while it wrote: no job is worth doing again
+                _log.warning("left out: %s", error)
+                continue
+            figures = last.apply(pd.to_numeric, errors="coerce").itertuples(index=False)
+            rows += [(STAGES.get(rule, FIGURES), rule, job, *each) for each in figures]
     return pd.DataFrame(rows, columns=COLUMNS)
 
 

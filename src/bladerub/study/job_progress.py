@@ -38,9 +38,11 @@ class JobProgress:
         )
         self._computed, self._start = 0, time.monotonic()
 
-    def __call__(self, done: RunDone) -> None:
-        """Tell of one computed run."""
+    def __call__(self, done: RunDone | str) -> None:
+        """Tell of one computed run, or of what the job waits for."""
         print(done, file=self._log)
+        if isinstance(done, str):
+            return
         self._computed += 1
         if self._bar.total != done.total or done.number <= self._bar.n:  # the longer runs are counted anew
             self._bar.reset(done.total)

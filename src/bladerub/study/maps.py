@@ -13,6 +13,7 @@ from bladerub import datafile
 from bladerub.blade.frequencies import reduced_frequencies
 from bladerub.blade.model import INTERFACE_NODE, ReducedBlade
 from bladerub.datafile import Variable
+from bladerub.faults import DamagedFile
 from bladerub.provenance import provenance
 from bladerub.study.confirmation import confirmation_path
 from bladerub.study.grid import CoatingCase
@@ -131,12 +132,12 @@ def build_map(
     ------
     OSError
         If the manifest or a run is missing, damaged, or another run than the manifest's; the message names
-        the file and the remedy.
+        the file.
     """
     folder = Path(runs_folder)
     rows = sorted(read_manifest(folder / "manifest.tsv"), key=lambda row: row.f_omega)
     if not rows:
-        raise OSError(f"{folder / 'manifest.tsv'}: lists no run")
+        raise DamagedFile(f"{folder / 'manifest.tsv'}: lists no run")
     runs = [_listed_run(folder, folder / row.file, row.run_key, GATHERED) for row in rows]
     scales = _listed_run(folder, folder / rows[0].file, rows[0].run_key, {"angle", "spectrum_order"}).data
     f_omega = np.array([row.f_omega for row in rows])
@@ -177,13 +178,9 @@ def _confirmation_amplitude(folder: Path, rows: Sequence[ManifestRow]) -> np.nda
 
 
 def _listed_run(folder: Path, path: Path, key: str, datasets: Set[str]) -> StoredRun:
-    remedy = f"delete {folder / 'manifest.tsv'} and run the workflow again: it computes what is missing"
-    try:
-        run = read_run(path, datasets)
-    except OSError as error:
-        raise OSError(f"{error}; {remedy}") from error
+    run = read_run(path, datasets)
     if run.attributes["run_key"] != key:
-        raise OSError(f"{path}: not the run that the manifest lists (its key differs); {remedy}")
+        raise DamagedFile(f"{path}: not the run that {folder / 'manifest.tsv'} lists, its key differs")
     return run
 
 
@@ -220,4 +217,4 @@ def read_map(path: str | Path, with_nodes: bool = False) -> CoatingMap:
             data["wear_node"] = None
         return CoatingMap(case=case, **{name: data[name] for name in _DATASETS})
     except KeyError as error:
-        raise OSError(f"{path}: not a map, {error} is missing") from error
+        raise DamagedFile(f"{path}: not a map, {error} is missing") from error

@@ -17,9 +17,11 @@ import numpy as np
 import pandas as pd
 
 from bladerub.study import divergence, findings, peaks
+from bladerub.study.findings import reduction
 from bladerub.study.findings.evidence import SAME_SPEED, Evidence
 from bladerub.study.grid import SPEED_DECIMALS, speeds
 from bladerub.study.maps import CoatingMap, read_map
+from bladerub.tablefile import read as read_table
 
 COLUMNS = ["variation", "id", "claim", "paper", "measured", "unit", "holds", "margin"]
 """Columns of ``margins.csv``: those of ``findings.csv`` for each variation."""
@@ -154,7 +156,7 @@ def table(
     ValueError
         As `bladerub.study.peaks.of_maps`, of the study itself.
     """
-    rom_accuracy = pd.read_csv(rom_accuracy_path)
+    rom_accuracy = read_table(rom_accuracy_path, reduction.READS)
     judged = []
     for name, (settings, maps) in variations(config, map(read_map, map_paths)).items():
         _log.warning("%s:", name)  # a heading for what `findings` leaves out

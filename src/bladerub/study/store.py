@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import csv
-import os
 from collections.abc import Iterable, Mapping, Set
 from dataclasses import astuple, dataclass, fields
 from pathlib import Path
@@ -11,11 +10,13 @@ from typing import Any
 
 import numpy as np
 
-from bladerub import datafile
+from bladerub import atomic, datafile
 from bladerub.blade.model import INTERFACE_NODE
 from bladerub.contact.spec import RunResult, RunSpec
 from bladerub.datafile import Variable
+from bladerub.faults import DamagedFile
 from bladerub.provenance import provenance
+from bladerub.study.confirmation import confirmation_path
 from bladerub.study.grid import CoatingCase
 from bladerub.study.spectra import order_spectrum
 
@@ -170,7 +171,7 @@ def read_run(path: str | Path, only: Set[str] = frozenset()) -> StoredRun:
     data, attributes = datafile.read(path, only or None)
     missing = (only or GATHERED) - data.keys() | {"run_key"} - attributes.keys()
     if missing:
-        raise OSError(f"{path}: not a run, {', '.join(sorted(missing))} missing")
+        raise DamagedFile(f"{path}: not a run, {', '.join(sorted(missing))} missing")
     return StoredRun(attributes, data)
 
 
@@ -199,15 +200,21 @@ class ManifestRow:
         Key of the run.
     status : str
         ``completed`` or ``unbounded``.
+    bytes : int
+        Size of the file.
     confirmation_key : str
         Key of the longer run that shows whether its growth lasts; empty if it needs none.
+    confirmation_bytes : int
+        Size of its file.
     """
 
     file: str
     f_omega: float
     run_key: str
     status: str
+    bytes: int
     confirmation_key: str = ""
+    confirmation_bytes: int = 0
 
 
 _COLUMNS = [field.name for field in fields(ManifestRow)]
@@ -215,16 +222,10 @@ _COLUMNS = [field.name for field in fields(ManifestRow)]
 
 def write_manifest(path: str | Path, rows: Iterable[ManifestRow]) -> None:
     """Write the manifest (tab-separated, with a header) to `path`, whole or not at all."""
-    path = Path(path)
-    temporary = path.with_name(f".{path.name}.{os.getpid()}.tmp")
-    try:
-        with temporary.open("w", encoding="utf-8", newline="") as stream:
-            writer = csv.writer(stream, delimiter="\t", lineterminator="\n")
-            writer.writerow(_COLUMNS)
-            writer.writerows(astuple(row) for row in rows)
-        os.replace(temporary, path)
-    finally:
-        temporary.unlink(missing_ok=True)
+    with atomic.writing(path) as stream:
+        writer = csv.writer(stream, delimiter="\t", lineterminator="\n")
+        writer.writerow(_COLUMNS)
+        writer.writerows(astuple(row) for row in rows)
 
 
 def read_manifest(path: str | Path) -> list[ManifestRow]:
@@ -237,12 +238,29 @@ def read_manifest(path: str | Path) -> list[ManifestRow]:
     """
     with Path(path).open(encoding="utf-8", newline="") as stream:
         reader = csv.reader(stream, delimiter="\t")
-        if next(reader, None) != _COLUMNS:
-            raise OSError(f"{path}: not a manifest, its header is not {' '.join(_COLUMNS)}")
         try:
+            if next(reader, None) != _COLUMNS:
+                raise DamagedFile(f"{path}: not a manifest, its header is not {' '.join(_COLUMNS)}")
             return [
-                ManifestRow(file, float(f_omega), key, status, confirmation_key)
-                for file, f_omega, key, status, confirmation_key in reader
+                ManifestRow(file, float(f_omega), key, status, int(size), longer_key, int(longer_size))
+                for file, f_omega, key, status, size, longer_key, longer_size in reader
             ]
-        except ValueError as error:
-            raise OSError(f"{path}: not a manifest, line {reader.line_num}: {error}") from error
+        except (ValueError, csv.Error) as error:
+            raise DamagedFile(f"{path}: not a manifest, line {reader.line_num}: {error}") from error
+
+
+def lost_run(path: str | Path) -> str | None:
+    """Name a file that the manifest at `path` lists and that is missing or has another size, if there is one.
+
+    Raises
+    ------
+    OSError
+        As `read_manifest`.
+    """
+    folder = Path(path).parent
+    for row in read_manifest(path):
+        run = folder / row.file
+        for file, size in ((run, row.bytes), (confirmation_path(run), row.confirmation_bytes)):
+            if size and not (file.is_file() and file.stat().st_size == size):
+                return str(file)
+    return None

@@ -22,7 +22,7 @@ def test_all_runs_are_computed_once(compute, simulated, tmp_path):
 def test_only_listed_runs_have_a_history(compute, simulated, tmp_path):
     compute()
     with_history = [
-        path.name for path in tmp_path.iterdir() if "radial_displacement" in store.read_run(path).data
+        path.name for path in tmp_path.glob("*.h5") if "radial_displacement" in store.read_run(path).data
     ]
     assert with_history == ["0.1900.h5"]
 

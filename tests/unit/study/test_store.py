@@ -117,22 +117,25 @@ def test_reading_what_is_not_a_run_names_the_file(tmp_path, content):
         store.read_run(path)
 
 
+HEADER = "file\tf_omega\trun_key\tstatus\tbytes\tconfirmation_key\tconfirmation_bytes"
+
+
 def test_manifest_comes_back_as_written(tmp_path):
     rows = [
-        ManifestRow("0.1900.h5", 0.19, "a" * 64, "completed"),
-        ManifestRow("0.1970.h5", 0.197, "b", "unbounded"),
-        ManifestRow("0.2000.h5", 0.2, "c", "completed", "d" * 64),
+        ManifestRow("0.1900.h5", 0.19, "a" * 64, "completed", 70_000),
+        ManifestRow("0.1970.h5", 0.197, "b", "unbounded", 1),
+        ManifestRow("0.2000.h5", 0.2, "c", "completed", 2, "d" * 64, 3),
     ]
     path = tmp_path / "manifest.tsv"
     store.write_manifest(path, rows)
-    assert path.read_text().splitlines()[0] == "file\tf_omega\trun_key\tstatus\tconfirmation_key"
+    assert path.read_text().splitlines()[0] == HEADER
     assert store.read_manifest(path) == rows
     assert [entry.name for entry in tmp_path.iterdir()] == ["manifest.tsv"]
 
 
 @pytest.mark.parametrize(
     "content",
-    ["", "a\tb\n", "file\tf_omega\trun_key\tstatus\tconfirmation_key\n0.1900.h5\tfast\tk\tcompleted\t\n"],
+    ["", "a\tb\n", f"{HEADER}\n0.1900.h5\tfast\tk\tcompleted\t1\t\t0\n", f"{HEADER}\n0.1900.h5\t0.1"],
 )
 def test_what_is_not_a_manifest_is_an_error_with_its_name(tmp_path, content):
     path = tmp_path / "manifest.tsv"

@@ -15,10 +15,12 @@ from typing import Any
 
 import pandas as pd
 
+from bladerub.study import divergence, peaks
 from bladerub.study.findings import moduli, reduction, rigid_limit, spectra, tangential, wear_patterns
 from bladerub.study.findings.evidence import Evidence
 from bladerub.study.findings.finding import Finding, NotMeasurable
 from bladerub.study.maps import read_map
+from bladerub.tablefile import read as read_table
 
 CLAIMS: tuple[Callable[[Evidence], Finding], ...] = (
     reduction.first_six_modes,
@@ -100,9 +102,9 @@ def table(
         A row per measured part, with `COLUMNS`; what is left out is logged as a warning.
     """
     tables = {
-        "peaks": pd.read_csv(peaks_path),
-        "divergence": pd.read_csv(divergence_path),
-        "rom_accuracy": pd.read_csv(rom_accuracy_path),
+        "peaks": read_table(peaks_path, peaks.COLUMNS),
+        "divergence": read_table(divergence_path, divergence.COLUMNS),
+        "rom_accuracy": read_table(rom_accuracy_path, reduction.READS),
     }
     return judge(Evidence(config, tables, map(read_map, map_paths)))
 

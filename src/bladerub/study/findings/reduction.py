@@ -5,6 +5,9 @@ from __future__ import annotations
 from bladerub.study.findings.evidence import Evidence
 from bladerub.study.findings.finding import Finding, NotMeasurable, below
 
+READS = ("mode", "relative_error")
+"""What is read here of the table ``rom_accuracy``."""
+
 
 def first_six_modes(evidence: Evidence) -> Finding:
     """C1a: modes 1 to 6 agree (section "Reduced-order model and component mode synthesis", Fig. 2).

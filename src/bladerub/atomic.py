@@ -1,0 +1,84 @@
+"""Files that are written whole or not at all, whatever ends the process that writes them."""
+
+from __future__ import annotations
+
+import os
+import re
+import socket
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import IO
+
+_HOST = re.sub(r"\W", "-", socket.gethostname())
+_TEMPORARY = re.compile(r"\..+\.(?P<host>[\w-]+)\.(?P<process>\d+)\.tmp")
+_ABANDONED_AFTER = 3600.0
+"""Age in s at which a temporary file of another host is taken for a dead process's: the longest is written in
+seconds."""
+
+
+@contextmanager
+def writing(path: str | Path, mode: str = "w") -> Iterator[IO]:
+    """Open a stream whose content becomes the file `path` when the block ends well.
+
+    Until then it has a temporary name in the same folder, which carries host and process, and what was
+    there under `path` stays. The content is on the disk before the file gets its name. (The name itself
+    may be lost when the power fails right after: then the file is missing, never damaged. To make sure of
+    the name as well, that is to flush the folder, would double the cost.)
+
+    Parameters
+    ----------
+    path : path-like
+        The file; its folder is made if need be.
+    mode : {"w", "wb"}
+        For text in UTF-8, or for bytes.
+
+    Raises
+    ------
+    OSError
+        If it cannot be written; ``filename`` is `path`.
+    """
+    path = Path(path)
+    temporary = path.with_name(f".{path.name}.{_HOST}.{os.getpid()}.tmp")
+    text = {} if "b" in mode else {"encoding": "utf-8", "newline": ""}
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        with temporary.open(mode, **text) as stream:
+            yield stream
+            stream.flush()
+            os.fsync(stream.fileno())
+        os.replace(temporary, path)
+    except OSError as error:
+        if error.errno and error.filename in (None, str(temporary)):
+            raise OSError(error.errno, error.strerror, str(path)) from error
+        raise
+    finally:
+        temporary.unlink(missing_ok=True)
+
+
+def sweep(folder: str | Path) -> None:
+    """Delete, anywhere below `folder`, the temporary files of processes that no longer live."""
+    for path in Path(folder).rglob(".*.tmp"):
+        name = _TEMPORARY.fullmatch(path.name)
+        if name and _is_abandoned(path, name["host"], int(name["process"])):
+            path.unlink(missing_ok=True)
+
+
+def _is_abandoned(path: Path, host: str, process: int) -> bool:
+    if host == _HOST:
+        return not _lives(process)
+    try:
+        return time.time() - path.stat().st_mtime > _ABANDONED_AFTER
+    except FileNotFoundError:  # renamed meanwhile
+        return False
+
+
+def _lives(process: int) -> bool:
+    try:
+        os.kill(process, 0)
+    except ProcessLookupError:
+        return False
+    except PermissionError:  # somebody else's
+        return True
+    return True

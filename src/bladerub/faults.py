@@ -1,0 +1,43 @@
+"""What can be wrong with a file, in one line that names it and says what to do."""
+
+from __future__ import annotations
+
+import errno
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+_FULL = {errno.ENOSPC: "the disk is full", errno.EDQUOT: "the disk quota is used up"}
+_FORBIDDEN = {errno.EROFS, errno.EACCES, errno.EPERM}
+
+
+class DamagedFile(OSError):
+    """A file that is not, or no longer, what it should be; the message names it."""
+
+
+def in_words(error: OSError) -> str:
+    """Say in one line which file is at fault and what to do about it."""
+    if isinstance(error, DamagedFile):
+        return f"{error}; delete it and run the same command again: it is made anew, and nothing else is lost"
+    where = "" if error.filename is None else f"{error.filename}: "
+    if error.errno in _FULL:
+        return (
+            f"{where}{_FULL[error.errno]}; make room and run the same command again: "
+            "what is finished is kept and not computed anew"
+        )
+    if error.errno in _FORBIDDEN:
+        return (
+            f"{where}{error.strerror}; make it writable, or choose another folder with the key results "
+            "of the config"
+        )
+    return f"{where}{error.strerror or error}"
+
+
+@contextmanager
+def end_the_program() -> Iterator[None]:
+    """Turn an `OSError` into its line on standard error and exit code 2, without a traceback."""
+    try:
+        yield
+    except OSError as error:
+        print(in_words(error), file=sys.stderr)
+        sys.exit(2)
