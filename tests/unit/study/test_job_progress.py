@@ -48,9 +48,9 @@ def test_the_last_line_counts_what_was_computed_and_what_is_there():
     progress = JobProgress("2nd_E2_K0.5_theta0", io.StringIO(), io.StringIO())
     progress(done(1, 1))
     rows = [
-        ManifestRow("0.1000.h5", 0.1, "a", "completed"),
-        ManifestRow("0.2000.h5", 0.2, "b", "completed", "c"),
-        ManifestRow("0.3000.h5", 0.3, "d", "unbounded"),
+        ManifestRow("0.1000.h5", 0.1, "a", "completed", 9),
+        ManifestRow("0.2000.h5", 0.2, "b", "completed", 9, "c", 9),
+        ManifestRow("0.3000.h5", 0.3, "d", "unbounded", 9),
     ]
     line = progress.summary(rows)
     counts, cost = line.split("; ")
