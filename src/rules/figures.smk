@@ -463,7 +463,7 @@ if 0.190 in BOTH:
     FIGURES += [rules.fig17_history_0190.output]
 if 0.197 in BOTH:
     FIGURES += [rules.fig18_history_0197.output]
-FIGURES += [expand(rules.history.output, speed=map(speed_name, OWN))]
+FIGURES += [expand(rules.history.output, speed=[speed_name(f) for f in OWN])]
 if {STRAIGHT.name, INCLINED.name} <= set(COATINGS) and {0.190, 0.197} <= set(
     speeds(config)
 ):

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import logging
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -20,7 +20,7 @@ from bladerub.blade.elasticity import Material, Solid
 from bladerub.blade.frequencies import reduced_frequencies
 from bladerub.blade.linear import lowest_modes
 from bladerub.blade.mesh import BladeMesh
-from bladerub.blade.model import AXIS, ReducedBlade, write_reduced_blade
+from bladerub.blade.model import AXIS, INTERFACE_NODE, ReducedBlade, write_reduced_blade
 from bladerub.blade.reduction import Partition, project, speed_law, stiffness_at, transformation
 from bladerub.blade.rotation import Equilibrium, equilibrium
 from bladerub.datafile import Variable
@@ -206,6 +206,8 @@ def write_mesh(path: str | Path, built: BuiltBlade, origin: Mapping[str, str]) -
         "interface_nodes": Variable(
             ("interface_node",), mesh.interface, "1", "contact nodes, leading to trailing edge"
         ),
+        "interface_node": replace(INTERFACE_NODE, dims=("interface_node",)),
+        "mode": Variable(("mode",), np.arange(1, built.frequency.size + 1), "1", "mode, counted from 1"),
         "frequency": Variable(("mode",), built.frequency, "Hz", "natural frequencies at rest"),
         "mode_shape": Variable(
             ("mode", "node", "axis"), built.mode_shape, "1", "modes at rest, largest displacement component 1"

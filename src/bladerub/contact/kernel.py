@@ -349,18 +349,19 @@ class Rub:
         self.steps_per_element = steps_per_element
         self._records = [addresses(record) for record in (motion, flight, stator, tip, state)]
 
-    def revolve(self, displacement: np.ndarray) -> Progress:
-        """March one revolution of constant speed, or its beginning.
+    def revolve(self, displacement: np.ndarray, first: int = 0) -> Progress:
+        """March one revolution of constant speed, or a part of it.
 
         Parameters
         ----------
         displacement : (n,) ndarray
             Filled with the radial displacement of node 1, mean over the passage of each element, m; n = N
             makes one revolution.
+        first : int, optional
+            Elements that have been passed since the start of the revolution.
         """
-        turns, *made = _march(
-            *self._records, self.steps_per_element, displacement.size, displacement.ctypes.data
-        )
+        last = first + displacement.size
+        turns, *made = _march(*self._records, self.steps_per_element, first, last, displacement.ctypes.data)
         for rows in (self.state.q, self.state.u):  # the loop lets the three rows take turns
             rows[:] = rows[(np.arange(3) - turns) % 3]
         return Progress(*made)
@@ -437,7 +438,7 @@ def _meet(motion, stator, tip, state, when, where):
 
 
 @njit_on_disk()
-def _march(motion, flight, stator, tip, state, steps_per_element, n_elements, displacement):
+def _march(motion, flight, stator, tip, state, steps_per_element, first, last, displacement):
     turns = n_leaps = n_contact = 0
     bottom, top = np.inf, -np.inf
     per_step = 1.0 / steps_per_element
@@ -446,7 +447,7 @@ def _march(motion, flight, stator, tip, state, steps_per_element, n_elements, di
     damping = splat(0.0)
     q, q_before, q_next = state.q, at(state.q, motion.n), at(state.q, 2 * motion.n)
     u, u_before, u_next = state.u, at(state.u, 3 * LANES), at(state.u, 6 * LANES)
-    for element in range(n_elements):
+    for element in range(first, last):
         if element & 31 == 0:
             _drop_negligible(state.q, 3 * motion.n)
         floor = read(stator.floor, element)
@@ -494,7 +495,7 @@ def _march(motion, flight, stator, tip, state, steps_per_element, n_elements, di
                 turns += 1
                 q, q_before, q_next = q_next, q, q_before
                 u, u_before, u_next = u_next, u, u_before
-        write(displacement, element, mean * per_step)
+        write(displacement, element - first, mean * per_step)
     _enter(state.ledger, DAMPING, damping)
     if not (touched or touching):  # the last step added nothing
         _clear(at(state.ledger, STORED * LANES), 4 * LANES)

@@ -26,7 +26,20 @@ class Modes(NamedTuple):
 
 
 def modes_at(blade: ReducedBlade, f_omega: float) -> Modes:
+    """Find the modes of the blade at the normalised speed `f_omega`, as `mode_shapes_at`."""
+    omega, shapes = mode_shapes_at(blade, f_omega)
+    return Modes(omega, at_tip(blade, shapes))
+
+
+def mode_shapes_at(blade: ReducedBlade, f_omega: float) -> tuple[np.ndarray, np.ndarray]:
     """Diagonalise mass and stiffness, eq. (2), of the blade at the normalised speed `f_omega`.
+
+    Returns
+    -------
+    omega : (n,) ndarray
+        Natural angular frequencies, ascending, rad/s.
+    shapes : (n, n) ndarray
+        Reduced coordinates per unit of each mode, mass-normalised, kg^-1/2.
 
     Raises
     ------
@@ -36,7 +49,12 @@ def modes_at(blade: ReducedBlade, f_omega: float) -> Modes:
     squares, vectors = scipy.linalg.eigh(blade.stiffness(f_omega), blade.mass)
     if squares[0] <= 0:
         raise ValueError(f"f_omega = {f_omega:g}: the stiffness of the blade is not positive definite")
-    interface = vectors[: 3 * N_INTERFACE].reshape(N_INTERFACE, 3, -1)
+    return np.sqrt(squares), vectors
+
+
+def at_tip(blade: ReducedBlade, coordinates: np.ndarray) -> np.ndarray:
+    """Project reduced coordinates (n, k) on the tip (16, k): radial at the 8 nodes, then tangential."""
+    interface = coordinates[: 3 * N_INTERFACE].reshape(N_INTERFACE, 3, -1)
     radial = np.einsum("ja,jan->jn", blade.radial_direction, interface)
     tangential = np.einsum("ja,jan->jn", blade.tangential_direction, interface)
-    return Modes(np.sqrt(squares), np.ascontiguousarray(np.vstack([radial, tangential])))
+    return np.ascontiguousarray(np.vstack([radial, tangential]))

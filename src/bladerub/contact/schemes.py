@@ -57,6 +57,8 @@ class Recurrence(NamedTuple):
         Displacement of the tip per unit of each resolved mode, kg^-1/2.
     omega : (n,) ndarray
         Natural angular frequencies of the resolved modes, rad/s.
+    share : (all modes,) ndarray
+        Part of each mode of the blade that is resolved; the rest answers by its static displacement.
     compliance, static_compliance : (16, 16) ndarray
         Displacement of the tip per unit of force in the same step, as the law of contact sees it
         (contract, 3), and of the modes that are not resolved alone, m/N.
@@ -72,6 +74,7 @@ class Recurrence(NamedTuple):
     loss: np.ndarray
     tip: np.ndarray
     omega: np.ndarray
+    share: np.ndarray
     compliance: np.ndarray
     static_compliance: np.ndarray
     time_step: float
@@ -132,6 +135,7 @@ def central_differences(modes: Modes, damping_ratio: float, time_step: float, co
         before=(1.0 - damping_ratio * x) / implicit,
         gain=gain,
         corrects=True,
+        share=np.ones_like(x),
         compliance=compliance if np.isinf(contact.stiffness).any() else none,
         static_compliance=none,
         time_step=time_step,
@@ -176,7 +180,7 @@ def exponential(modes: Modes, damping_ratio: float, time_step: float, contact: C
     n = int(np.searchsorted(x, FASTEST_PHASE, side="right"))
     margin = gain[:n] / (1.0 + now[:n] + before[:n])
     while n > 0:
-        resolved, static = _hand_over(modes, x, n, contact)
+        resolved, share, static = _hand_over(modes, x, n, contact)
         if _kappa(resolved.tip, margin[:n], static, contact) <= STEADY:
             break
         n -= 1
@@ -188,6 +192,7 @@ def exponential(modes: Modes, damping_ratio: float, time_step: float, contact: C
         before=before[:n],
         gain=gain[:n],
         corrects=False,
+        share=share,
         compliance=static,
         static_compliance=static,
         time_step=time_step,
@@ -208,8 +213,8 @@ def normal_compliance(compliance: np.ndarray, radial: float, tangential: float) 
     )
 
 
-def _hand_over(modes: Modes, x: np.ndarray, n: int, contact: Contact) -> tuple[Modes, np.ndarray]:
-    """Part of the first `n` modes that is resolved, and the compliance (16, 16) of all the rest.
+def _hand_over(modes: Modes, x: np.ndarray, n: int, contact: Contact) -> tuple[Modes, np.ndarray, np.ndarray]:
+    """Part of the first `n` modes that is resolved, its share of each mode, and the compliance of the rest.
 
     Against the rigid casing a sharp cut leaves one vibration of the tip in contact above all resolved modes,
     which nothing damps: the force chatters for ever after an impact. There the modes go over gradually, by
@@ -223,7 +228,7 @@ def _hand_over(modes: Modes, x: np.ndarray, n: int, contact: Contact) -> tuple[M
     condensed = share < 1.0
     tip, omega = modes.tip[:, condensed], modes.omega[condensed]
     static = (tip * (1.0 - share[condensed]) / omega**2) @ tip.T
-    return Modes(modes.omega[:n], modes.tip[:, :n] * np.sqrt(share[:n])), static
+    return Modes(modes.omega[:n], modes.tip[:, :n] * np.sqrt(share[:n])), share, static
 
 
 def _kappa(tip: np.ndarray, margin: np.ndarray, static: np.ndarray, contact: Contact) -> float:

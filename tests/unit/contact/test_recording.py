@@ -1,0 +1,71 @@
+"""The recorded motion is that of the run, seen at the tip and at node 1."""
+
+import numpy as np
+import pytest
+
+from bladerub.contact.modes import at_tip
+from bladerub.contact.recording import record
+from bladerub.contact.run import set_up, simulate
+from bladerub.contact.spec import Coating
+
+
+@pytest.fixture(params=["exponential", "central_differences", "rigid"])
+def rubbing(request, spec, change):
+    """A run in each form of the law of contact; against the rigid casing the modes are shared out."""
+    if request.param == "central_differences":
+        return change(spec, scheme=request.param, max_time_step=1e-6)
+    if request.param == "rigid":
+        spec = change(spec, coating=Coating(np.inf, np.inf, 0.1, 1e-6, 150e6, 5e-3, 200))
+    return change(spec, steps_per_element=6, max_time_step=2e-5)  # too long for the highest mode
+
+
+def test_the_tip_is_where_the_run_has_it(blade, rubbing):
+    """State of the time loop at the end of the run, with contact at the tip or without."""
+    recording = record(blade, rubbing, rubbing.revolutions, 10)
+    rule, rub = set_up(blade, rubbing)
+    for _ in range(rubbing.revolutions):
+        rub.revolve(np.empty(200))
+    assert (rule.share < 1).any() == (rubbing.scheme == "exponential")
+    tip = at_tip(blade, recording.coordinates[-1:].T)[:, 0]
+    np.testing.assert_allclose(tip, rub.state.u[0, :16], rtol=0, atol=1e-9 * np.abs(tip).max())
+
+
+def test_contact_forces_move_what_the_scheme_does_not_resolve(blade, spec, change):
+    spec = change(spec, E=20.0, revolutions=1, steps_per_element=6, max_time_step=2e-5)
+    recording = record(blade, spec, 1, 200)
+    rule, rub = set_up(blade, spec)
+    pushed = 0
+    for element in range(200):
+        rub.revolve(np.empty(1), element)
+        tip = at_tip(blade, recording.coordinates[element : element + 1].T)[:, 0]
+        np.testing.assert_allclose(tip, rub.state.u[0, :16], rtol=0, atol=1e-12)
+        static = rule.static_compliance @ rub.state.force[0]
+        pushed += np.abs(static).max() > 1e-9
+    assert pushed > 5
+
+
+def test_node_1_moves_as_in_the_run(blade, rubbing):
+    result = simulate(blade, rubbing)
+    recording = record(blade, rubbing, 2, 200)
+    last = result.radial_displacement[200:]
+    scale = np.abs(last).max()
+    np.testing.assert_allclose(recording.radial_displacement, last, rtol=0, atol=1e-9 * scale)
+    np.testing.assert_allclose(recording.revolution_peak, result.revolution_peak, rtol=1e-9)
+    at_ends = at_tip(blade, recording.coordinates.T)[0]
+    between = 0.5 * (at_ends[1:] + at_ends[:-1])
+    np.testing.assert_allclose(between, last[1:], rtol=0, atol=0.06 * scale)  # of a coarse ring
+
+
+@pytest.mark.parametrize("n_instants", [1, 7, 200])
+def test_instants_end_with_the_revolution(blade, spec, n_instants):
+    recording = record(blade, spec, 1, n_instants)
+    assert recording.time.shape == (n_instants,)
+    assert recording.coordinates.shape == (n_instants, len(blade.mass))
+    assert recording.time[-1] == 1
+    np.testing.assert_allclose(recording.time, np.arange(1, n_instants + 1) / n_instants, atol=0.5 / 200)
+
+
+def test_progress_counts_revolutions(blade, spec):
+    seen = []
+    record(blade, spec, 2, 3, seen.append)
+    assert seen == [1, 2]
