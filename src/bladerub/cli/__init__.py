@@ -7,7 +7,7 @@ import sys
 from typing import NoReturn
 
 from bladerub import __version__, faults
-from bladerub.cli import benchmark, run, status, verify
+from bladerub.cli import benchmark, export, run, status, verify
 from bladerub.cli.errors import InputError
 from bladerub.config import ConfigError
 
@@ -28,6 +28,7 @@ def main(arguments: list[str] | None = None) -> int:
     status.add_to(commands)
     verify.add_to(commands)
     benchmark.add_to(commands)
+    export.add_to(commands)
     options = parser.parse_args(arguments)
     try:
         options.command(options)

@@ -62,6 +62,11 @@ def read_config(options: argparse.Namespace) -> dict[str, Any]:
     return validate(load(BASE_CONFIG, *options.config))
 
 
+def blade_path(options: argparse.Namespace, config: dict[str, Any]) -> Path:
+    """Return the file of ``--blade``, or where the blade of the results folder is or will be."""
+    return options.blade or ROOT / config["results"] / "blade" / "reduced_model.h5"
+
+
 def read_blade(options: argparse.Namespace, config: dict[str, Any]) -> tuple[Path, ReducedBlade]:
     """Read the reduced blade, build it if there is none; clearances are in lengths of that blade.
 
@@ -81,7 +86,7 @@ def read_blade(options: argparse.Namespace, config: dict[str, Any]) -> tuple[Pat
     """
     from bladerub.blade.model import read_reduced_blade
 
-    path = options.blade or ROOT / config["results"] / "blade" / "reduced_model.h5"
+    path = blade_path(options, config)
     if not options.blade and not (path.exists() and _mesh_of(path).exists()):
         print(f"bladerub {options.name}: building the blade first, into {path.parent}", file=sys.stderr)
         _build_blade(config, path)

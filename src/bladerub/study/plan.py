@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -11,6 +11,7 @@ from bladerub.contact.spec import RunSpec
 from bladerub.study.confirmation import confirmation_path, confirmation_spec
 from bladerub.study.grid import CoatingCase, keeps_history, run_spec, speed_name, speeds
 from bladerub.study.key import run_key
+from bladerub.study.store import StoredRun
 
 
 @dataclass(frozen=True)
@@ -58,6 +59,35 @@ def planned_runs(
         path = Path(folder) / f"{speed_name(f_omega)}.h5"
         runs.append(PlannedRun(path, spec, run_key(spec, blade_digest, history, config["analysis"]), history))
     return runs
+
+
+def claimed_run(config: Mapping[str, Any], path: str | Path, run: StoredRun, blade_digest: str) -> PlannedRun:
+    """Plan again what the file of a run says it is; its own key tells whether `config` and blade made it.
+
+    Parameters
+    ----------
+    config : mapping
+        The study.
+    path : path-like
+        The file, which may lie anywhere.
+    run : StoredRun
+        What is in it.
+    blade_digest : str
+        From `bladerub.study.key.blade_digest`.
+
+    Raises
+    ------
+    KeyError
+        If the file lacks an attribute of a run, or the config its casing.
+    """
+    about = run.attributes
+    case = CoatingCase(*(about[name] for name in ("casing", "E", "K", "theta")))
+    spec = replace(run_spec(config, case, about["f_omega"]), revolutions=about["revolutions"])
+    history = "radial_displacement" in run.data
+    analysis = config["analysis"]
+    shortest = min(analysis["spectrum_revolutions"], spec.revolutions)  # as of a short run asked for alone
+    key = run_key(spec, blade_digest, history, {**analysis, "spectrum_revolutions": shortest})
+    return PlannedRun(Path(path), spec, key, history)
 
 
 def longer_run(config: Mapping[str, Any], run: PlannedRun, blade_digest: str) -> PlannedRun:

@@ -1,6 +1,7 @@
 import numpy as np
 import pandas as pd
 import pytest
+import scipy.linalg
 
 from bladerub import datafile
 from bladerub.blade.build import build, directions, write
@@ -59,6 +60,7 @@ def test_files_hold_what_was_built(built, tmp_path):
     assert data["hexahedra"].max() == n_nodes - 1
     np.testing.assert_array_equal(data["points"][data["interface_nodes"]], blade.node_position)
     assert data["mode_shape"].shape == (4, n_nodes, 3)
+    assert list(data["interface_node"]) == list(range(1, 9))
     assert data["static_displacement"].shape == (3, n_nodes, 3)
     assert not data["mode_shape"][:, data["root_nodes"]].any()
     np.testing.assert_allclose(np.abs(data["mode_shape"]).max(axis=(1, 2)), 1.0)
@@ -68,6 +70,19 @@ def test_files_hold_what_was_built(built, tmp_path):
     assert list(accuracy.columns) == ["f_omega", "mode", "f_fe", "f_fe_eq2", "f_rom", "relative_error"]
     assert len(campbell) == len(accuracy) == 3 * 4
     assert accuracy.f_fe[0] == pytest.approx(blade.f1_hz, rel=1e-9)
+
+
+def test_nodes_follow_the_reduced_coordinates(built):
+    """At the interface by definition, eq. (5); in the first mode as in that of the finite elements."""
+    at_interface = built.recovery[:24, built.mesh.interface].reshape(24, 24)
+    np.testing.assert_array_equal(at_interface, np.eye(24))
+    assert not built.recovery[24:, built.mesh.interface].any()
+    assert not built.recovery[:, built.mesh.root].any()
+    _, modes = scipy.linalg.eigh(built.reduced.stiffness_0, built.reduced.mass)
+    recovered = np.tensordot(modes[:, 0], built.recovery, axes=1)
+    recovered /= recovered.flat[np.argmax(np.abs(built.mode_shape[0]))]
+    shape = built.mode_shape[0] / built.mode_shape[0].flat[np.argmax(np.abs(built.mode_shape[0]))]
+    np.testing.assert_allclose(recovered, shape, atol=1e-3)
 
 
 def test_reduced_blade_is_symmetric_and_of_the_size_of_eq_4(built):

@@ -1,0 +1,178 @@
+"""``bladerub export``: a run for other programs."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import os
+from pathlib import Path
+from shutil import get_terminal_size
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from tqdm import tqdm
+
+from bladerub.cli import inputs
+from bladerub.cli.errors import InputError
+
+if TYPE_CHECKING:
+    from bladerub.blade.model import ReducedBlade
+    from bladerub.contact.recording import Recording
+    from bladerub.study.plan import PlannedRun
+    from bladerub.study.store import StoredRun
+
+SAME = 1e-6
+"""Relative difference of the peaks up to which a run computed again is the run of the file."""
+
+
+def add_to(commands: Any) -> None:
+    """Add this command to the subparsers `commands`."""
+    parser = commands.add_parser(
+        "export",
+        help="write the blade's motion in a run for ParaView",
+        description="Compute a run again from its file, its config and its blade, and write the motion of "
+        "the finite element mesh in its last revolution. That it is the run of the file is told by its "
+        "run_key and the peaks of all revolutions.",
+        epilog="Open blade.pvd in ParaView and apply Warp By Vector to displacement. The mesh is the blade "
+        "at rest in the rotating frame; displacement (m) is that of each node about its running position, so "
+        "without the centrifugal displacement; time is in revolutions from the start of the run. Of a run "
+        "that left all bounds, the last revolution within them is written.",
+    )
+    parser.set_defaults(command=export)
+    parser.add_argument("--run", required=True, type=Path, metavar="FILE", help="the run (HDF5)")
+    form = parser.add_mutually_exclusive_group(required=True)
+    form.add_argument(
+        "--vtu", type=Path, metavar="DIR", help="a new folder for blade.pvd and a .vtu for each instant"
+    )
+    parser.add_argument(
+        "--samples",
+        default=100,
+        type=int,
+        metavar="N",
+        help="instants in the revolution, at most one for each element of the coating (default 100)",
+    )
+    inputs.add_to(parser)
+    parser.add_argument("--json", action="store_true", help="print the figures as JSON")
+
+
+def export(options: argparse.Namespace) -> None:
+    """Write the motion that the command line asks for, and print what was written.
+
+    Raises
+    ------
+    ConfigError
+        If the config is at fault.
+    InputError
+        If an option or a file is.
+    """
+    config = inputs.read_config(options)
+    inputs.require_at_least(options, samples=1)
+    if options.samples > config["contact"]["elements"]:
+        raise InputError(
+            f"--samples = {options.samples}: must be at most {config['contact']['elements']}, the elements "
+            "of the coating"
+        )
+    _check_folder(options.vtu)
+
+    from bladerub.study.store import read_run
+
+    try:
+        run = read_run(options.run)
+    except OSError as error:
+        raise InputError(f"--run {error}") from error
+    path, blade = _blade(options, config)
+
+    from bladerub.export.vtu import COLLECTION, read_mesh, write_motion
+    from bladerub.provenance import provenance
+
+    try:
+        mesh = read_mesh(path.with_name("mesh.h5"), blade)
+    except OSError as error:
+        raise InputError(str(error)) from error
+    plan = _plan(options, config, run, path)
+    recording = _record(options, run, plan, blade)
+    about = {name: run.attributes[name] for name in ("casing", "E", "K", "theta", "f_omega", "run_key")}
+    try:
+        largest = write_motion(options.vtu, mesh, recording, about | provenance(config))
+    except OSError as error:
+        raise InputError(f"--vtu {options.vtu}: cannot be written ({error})") from error
+    figures = {
+        "collection": str(options.vtu / COLLECTION),
+        "samples": options.samples,
+        "revolution": recording.revolution_peak.size,
+        "nodes": len(mesh["points"]),
+        "elements": len(mesh["hexahedra"]),
+        "largest_displacement": largest,
+        "bytes": sum(file.stat().st_size for file in options.vtu.iterdir()),
+    }
+    print(json.dumps(figures, indent=2) if options.json else _in_words(figures))
+
+
+def _check_folder(folder: Path) -> None:
+    if folder.exists():
+        raise InputError(f"--vtu {folder}: is there already, must be a new folder")
+    above = next(parent for parent in folder.absolute().parents if parent.exists())
+    if not above.is_dir() or not os.access(above, os.W_OK):
+        raise InputError(f"--vtu {folder}: cannot be written, {above} is not a folder that can be written to")
+
+
+def _blade(options: argparse.Namespace, config: dict[str, Any]) -> tuple[Path, ReducedBlade]:
+    path = inputs.blade_path(options, config)
+    if not path.exists():
+        raise InputError(f"{path}: is missing; name the blade of the run with --blade, or its --config")
+    return inputs.read_blade(options, config)
+
+
+def _plan(options: argparse.Namespace, config: dict[str, Any], run: StoredRun, blade: Path) -> PlannedRun:
+    from bladerub.study.key import blade_digest
+    from bladerub.study.plan import claimed_run
+
+    try:
+        plan = claimed_run(config, options.run, run, blade_digest(blade))
+    except (KeyError, TypeError, ValueError) as error:
+        raise InputError(
+            f"--run {options.run}: {error} is not known; must be a run of this config"
+        ) from error
+    if plan.key != run.attributes["run_key"]:
+        raise InputError(
+            f"--run {options.run}: is not of this config, the blade {blade} and this version of the solver "
+            "(its run_key differs); name those of the run with --config and --blade, or compute it anew"
+        )
+    return plan
+
+
+def _record(options: argparse.Namespace, run: StoredRun, plan: PlannedRun, blade: ReducedBlade) -> Recording:
+    from bladerub.contact.recording import record
+    from bladerub.contact.run import kernel_warm_up
+
+    peak = run.data["revolution_peak"]
+    last = plan.spec.revolutions
+    if run.attributes["status"] == "unbounded":
+        last = np.count_nonzero(np.isfinite(peak)) - 1
+    if last == 0:
+        raise InputError(
+            f"--run {options.run}: left all bounds in its first revolution, there is none to show"
+        )
+    kernel_warm_up()
+    with tqdm(total=last, unit="rev", ncols=get_terminal_size().columns, disable=None, leave=False) as bar:
+        recording = record(
+            blade, plan.spec, last, options.samples, progress=lambda done: bar.update(done - bar.n)
+        )
+    difference = np.max(np.abs(recording.revolution_peak - peak[:last]))
+    if not difference <= SAME * np.max(peak[:last]):
+        raise InputError(
+            f"--run {options.run}: computed again, its peaks differ by {difference:.2g} m: it was made on "
+            "another kind of machine or with other packages; compute it here with bladerub run --output"
+        )
+    return recording
+
+
+def _in_words(figures: dict[str, Any]) -> str:
+    return "\n".join(
+        [
+            f"{figures['samples']} instants of revolution {figures['revolution']}, "
+            f"{figures['nodes']} nodes, {figures['elements']} elements, {figures['bytes'] / 1e6:.3g} MB",
+            f"largest displacement {figures['largest_displacement'] * 1e3:.4g} mm",
+            f"open {figures['collection']} in ParaView",
+        ]
+    )

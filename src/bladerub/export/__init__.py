@@ -1,0 +1,1 @@
+"""What other programs read: the motion of a run for ParaView."""

@@ -1,0 +1,108 @@
+"""The motion of the blade for ParaView: a mesh file for each instant, and the collection of all.
+
+The mesh is that at rest in the rotating frame; ``displacement`` is the increment of each node about its
+running position, as in the run, so without the centrifugal displacement and without the rotation.
+"""
+
+from __future__ import annotations
+
+import os
+import shutil
+import xml.etree.ElementTree as ET
+from collections.abc import Mapping
+from pathlib import Path
+
+import meshio
+import numpy as np
+
+from bladerub import datafile
+from bladerub.blade.model import ReducedBlade
+from bladerub.contact.recording import Recording
+
+COLLECTION = "blade.pvd"
+"""The file to open: it names the others with their time in revolutions."""
+
+_MESH = {"points", "hexahedra", "interface_nodes", "recovery"}
+_FRAME = (
+    "Mesh: blade at rest in the rotating frame, x along the axis of rotation, m. displacement: of each node "
+    "about its running position (in equilibrium at speed), m. Time: revolutions from the start of the run."
+)
+
+
+def read_mesh(path: str | Path, blade: ReducedBlade) -> dict[str, np.ndarray]:
+    """Read the finite element mesh of a blade and how it follows the reduced coordinates.
+
+    Parameters
+    ----------
+    path : path-like
+        ``mesh.h5``.
+    blade : ReducedBlade
+        The blade.
+
+    Raises
+    ------
+    OSError
+        If the file is missing, damaged, or not the mesh of this blade; the message names it.
+    """
+    mesh, _ = datafile.read(path, _MESH)
+    missing = _MESH - mesh.keys()
+    if missing:
+        raise OSError(f"{path}: not the mesh of a blade, {', '.join(sorted(missing))} missing")
+    interface = mesh["points"][mesh["interface_nodes"]]
+    if len(mesh["recovery"]) != len(blade.mass) or not np.array_equal(interface, blade.node_position):
+        raise OSError(f"{path}: is the mesh of another blade than the reduced one beside it")
+    return mesh
+
+
+def write_motion(
+    folder: str | Path, mesh: Mapping[str, np.ndarray], recording: Recording, about: Mapping[str, str]
+) -> float:
+    """Write a recorded motion to a new folder, whole or not at all.
+
+    Parameters
+    ----------
+    folder : path-like
+        Must not exist.
+    mesh : mapping
+        From `read_mesh`.
+    recording : Recording
+        From `bladerub.contact.recording.record`.
+    about : mapping of str to str
+        What the motion is and where it comes from, for a comment in the collection.
+
+    Returns
+    -------
+    float
+        Largest displacement of any node, m.
+    """
+    folder = Path(folder)
+    folder.parent.mkdir(parents=True, exist_ok=True)
+    temporary = folder.with_name(f".{folder.name}.{os.getpid()}.tmp")
+    temporary.mkdir()
+    try:
+        names, largest = [], 0.0
+        for number, coordinates in enumerate(recording.coordinates, 1):
+            displacement = np.tensordot(coordinates, mesh["recovery"], axes=1).astype(np.float32)
+            largest = max(largest, float(np.linalg.norm(displacement, axis=1).max()))
+            names.append(f"blade_{number:04}.vtu")
+            meshio.Mesh(
+                mesh["points"],
+                [("hexahedron20", mesh["hexahedra"])],  # nodes in the order of VTK in mesh.h5 already
+                point_data={"displacement": displacement},
+            ).write(temporary / names[-1])
+        _write_collection(temporary / COLLECTION, names, recording.time, about)
+        os.rename(temporary, folder)
+    finally:
+        shutil.rmtree(temporary, ignore_errors=True)
+    return largest
+
+
+def _write_collection(path: Path, names: list[str], time: np.ndarray, about: Mapping[str, str]) -> None:
+    root = ET.Element("VTKFile", type="Collection", version="0.1")
+    lines = [_FRAME, *(f"{key}: {value}" for key, value in about.items())]
+    root.append(ET.Comment("\n".join(["", *(line.replace("--", "- -") for line in lines), ""])))
+    collection = ET.SubElement(root, "Collection")
+    for name, instant in zip(names, time, strict=True):
+        ET.SubElement(collection, "DataSet", timestep=f"{instant:.10g}", part="0", file=name)
+    ET.indent(root)
+    ET.ElementTree(root).write(path, encoding="utf-8", xml_declaration=True)
