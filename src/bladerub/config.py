@@ -153,7 +153,7 @@ def _describe(error: jsonschema.ValidationError) -> list[str]:
     if error.validator in ("required", "dependentRequired"):
         missing = [key for key in _required(rule, error.instance) if key not in error.instance]
         return [f"{key_path([*parts, key])}: missing, {_right(rule['properties'][key])}" for key in missing]
-    if error.validator == "pattern" and "propertyNames" in error.absolute_schema_path:
+    if "propertyNames" in error.absolute_schema_path:
         return [f"{key_path([*parts, error.instance])}: {_right(rule)}"]
     if error.validator == "uniqueItems":
         return [f"{key_path(parts)} = {shown(error.instance)}: {rule['title']} must not name one twice"]

@@ -68,8 +68,8 @@ def test_in_words(benchmark, capsys):
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        (["--rounds", "0"], "--rounds = 0: must be 1 or more"),
-        (["--cores", "-1"], "--cores = -1: must be 1 or more"),
+        (["--rounds", "0"], "--rounds = 0: must be from 1 to 1000"),
+        (["--cores", "-1"], "--cores = -1: must be from 1 to 1000000"),
         (["--blade", "no.h5"], "no.h5: No such file or directory"),
     ],
 )

@@ -87,4 +87,4 @@ def test_a_bad_config_is_refused(small, tmp_path, capsys):
     assert main(["status", *small, "--config", str(bad)]) == 2
     output = capsys.readouterr()
     assert output.out == ""
-    assert output.err.startswith("config: speeds.step = -1")
+    assert output.err.startswith(f"{bad}:1: speeds.step = -1")

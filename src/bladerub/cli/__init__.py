@@ -9,7 +9,7 @@ from typing import NoReturn
 from bladerub import __version__, faults
 from bladerub.cli import benchmark, export, run, status, verify
 from bladerub.cli.errors import InputError
-from bladerub.config import ConfigError
+from bladerub.config_faults import ConfigError
 
 
 class _Parser(argparse.ArgumentParser):
@@ -36,7 +36,7 @@ def main(arguments: list[str] | None = None) -> int:
         print(error, file=sys.stderr)
         return 2
     except InputError as error:
-        print(f"bladerub {options.name}: {error}", file=sys.stderr)
+        print(f"bladerub {options.name}: {' '.join(str(error).split())}", file=sys.stderr)
         return 2
     except OSError as error:
         print(f"bladerub {options.name}: {faults.in_words(error)}", file=sys.stderr)

@@ -48,7 +48,7 @@ def benchmark(options: argparse.Namespace) -> None:
         If an option is.
     """
     config = inputs.read_config(options)
-    inputs.require_at_least(options, rounds=1, cores=1)
+    inputs.require(options, rounds=(1, 1000), cores=(1, 1_000_000))
     if all(entry.get("coating") == "rigid" for entry in config["coatings"]):
         raise InputError("coatings: must have an abradable one, whose rub is what is measured")
     _, blade = inputs.read_blade(options, config)

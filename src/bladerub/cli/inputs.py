@@ -7,8 +7,10 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from bladerub import config as configuration
 from bladerub.cli.errors import InputError
-from bladerub.config import ROOT, load, validate
+from bladerub.config import ROOT
+from bladerub.config_faults import shown
 from bladerub.faults import DamagedFile
 
 if TYPE_CHECKING:  # the rest of the package is imported when it is sure to be needed: numba takes its time
@@ -37,18 +39,18 @@ def add_config_to(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def require_at_least(options: argparse.Namespace, **least: int) -> None:
-    """Check options by name against the least value of each; one that was not given passes.
+def require(options: argparse.Namespace, **bounds: tuple[int, int]) -> None:
+    """Check options by name against the smallest and largest value of each; one that was not given passes.
 
     Raises
     ------
     InputError
-        If one is too small.
+        If one is beyond them.
     """
-    for option, smallest in least.items():
+    for option, (smallest, largest) in bounds.items():
         value = getattr(options, option)
-        if value is not None and value < smallest:
-            raise InputError(f"--{option} = {value}: must be {smallest} or more")
+        if value is not None and not smallest <= value <= largest:
+            raise InputError(f"--{option} = {shown(value)}: must be from {smallest} to {largest}")
 
 
 def read_config(options: argparse.Namespace) -> dict[str, Any]:
@@ -59,7 +61,7 @@ def read_config(options: argparse.Namespace) -> dict[str, Any]:
     ConfigError
         If it is at fault.
     """
-    return validate(load(BASE_CONFIG, *options.config))
+    return configuration.read(BASE_CONFIG, *options.config)
 
 
 def blade_path(options: argparse.Namespace, config: dict[str, Any]) -> Path:
@@ -80,11 +82,11 @@ def read_blade(options: argparse.Namespace, config: dict[str, Any]) -> tuple[Pat
     Raises
     ------
     InputError
-        If the file is no reduced blade, or was built from another config, or the blade cannot be built.
+        If the file is no sound reduced blade, or was built from another config, or the blade cannot be built.
     OSError
         If the files of the default blade are damaged or cannot be written.
     """
-    from bladerub.blade.model import read_reduced_blade
+    from bladerub.blade.soundness import read_sound_blade
 
     path = blade_path(options, config)
     if not options.blade and not (path.exists() and _mesh_of(path).exists()):
@@ -96,11 +98,13 @@ def read_blade(options: argparse.Namespace, config: dict[str, Any]) -> tuple[Pat
             "with --blade"
         )
     try:
-        blade = read_reduced_blade(path)
+        blade = read_sound_blade(path)
     except DamagedFile as error:
         if options.blade:  # it cannot be made anew
             raise InputError(str(error)) from error
         raise
+    except ValueError as error:
+        raise InputError(str(error)) from error
     if options.blade:
         config["blade"]["length"] = blade.length
     return path, blade

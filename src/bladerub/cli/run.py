@@ -4,7 +4,10 @@ from __future__ import annotations
 
 import argparse
 import json
+import os
 import time
+from collections.abc import Collection
+from difflib import get_close_matches
 from pathlib import Path
 from shutil import get_terminal_size
 from typing import Any
@@ -14,6 +17,7 @@ from tqdm import tqdm
 from bladerub.cli import inputs
 from bladerub.cli.errors import InputError
 from bladerub.config import check_quantity
+from bladerub.config_faults import shown
 
 _QUANTITIES = {"abradable": {"E": None, "K": None, "theta": 0.0}, "rigid": {"friction": 0.0}}
 """What describes each kind of coating, and the default where there is one."""
@@ -105,9 +109,11 @@ def run(options: argparse.Namespace) -> None:
 
 def _config(options: argparse.Namespace) -> dict[str, Any]:
     config = inputs.read_config(options)
+
+    from bladerub.config_checks import most_revolutions
+
     if options.revolutions is not None:
-        if not 2 <= options.revolutions <= 10_000:
-            raise InputError(f"--revolutions = {options.revolutions}: must be from 2 to 10000")
+        inputs.require(options, revolutions=(2, min(10_000, most_revolutions(config))))
         config["solver"]["revolutions"] = options.revolutions
         analysis, divergence = config["analysis"], config["analysis"]["divergence"]
         analysis["spectrum_revolutions"] = min(analysis["spectrum_revolutions"], options.revolutions)
@@ -117,7 +123,7 @@ def _config(options: argparse.Namespace) -> dict[str, Any]:
 
 def _check_options(options: argparse.Namespace, config: dict[str, Any]) -> None:
     if options.casing not in config["casings"]:
-        raise InputError(f'--casing = "{options.casing}": must be one of {", ".join(config["casings"])}')
+        raise InputError(f"--casing = {shown(options.casing)}: {_one_of(options.casing, config['casings'])}")
     _complete_coating(options)
     for option in (*_QUANTITIES[options.coating], "f"):
         value = getattr(options, option)
@@ -125,8 +131,46 @@ def _check_options(options: argparse.Namespace, config: dict[str, Any]) -> None:
             check_quantity("f_omega" if option == "f" else option, value)
         except ValueError as error:
             raise InputError(f"--{option} = {value:g}: {error}") from error
-    if options.output and options.output.is_dir():
-        raise InputError(f"--output {options.output}: is a folder, must be a file")
+    fastest = config["reduction"]["f_omega_max"]
+    if not options.blade and options.f > fastest:  # of a blade that may not be built yet
+        raise InputError(
+            f"--f = {options.f:g}: must be at most reduction.f_omega_max = {fastest:g} (normalised)"
+        )
+    if options.output:
+        _check_output(options.output)
+
+
+def _one_of(name: str, known: Collection[str]) -> str:
+    close = get_close_matches(name, known, n=1)
+    return f"must be one of {', '.join(known)}" + (f"; did you mean {close[0]}?" if close else "")
+
+
+def _check_output(path: Path) -> None:
+    """See that a run can be written to `path`, and that nothing else is lost by it."""
+    try:
+        os.lstat(path)
+    except (FileNotFoundError, NotADirectoryError):
+        pass
+    except OSError as error:
+        raise InputError(f"--output {path}: cannot be written ({error.strerror})") from error
+    if path.is_dir():
+        raise InputError(f"--output {path}: is a folder, must be a file")
+    if os.path.lexists(path) and not _is_run(path):
+        raise InputError(f"--output {path}: is there and is no run, must be a new file or a run to replace")
+    folder = next(parent for parent in path.absolute().parents if os.path.lexists(parent))
+    if not folder.is_dir():
+        raise InputError(f"--output {path}: cannot be written, {folder} is no folder")
+    if not os.access(folder, os.W_OK):
+        raise InputError(f"--output {path}: cannot be written, {folder} is write-protected")
+
+
+def _is_run(path: Path) -> bool:
+    from bladerub.datafile import read_attributes
+
+    try:
+        return path.is_file() and "run_key" in read_attributes(path)
+    except OSError:
+        return False
 
 
 def _complete_coating(options: argparse.Namespace) -> None:

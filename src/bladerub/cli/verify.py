@@ -59,7 +59,7 @@ def verify(options: argparse.Namespace) -> None:
         If an option is.
     """
     config = inputs.read_config(options)
-    inputs.require_at_least(options, seed=0, jobs=1)
+    inputs.require(options, seed=(0, 2**63), jobs=(1, 1000))
 
     from bladerub.study.error_report import report
     from bladerub.study.verification import draw, study_runs, verify_runs

@@ -48,6 +48,34 @@ def test_every_fault_is_told_with_its_set(study, write):
     assert ": c: contact.damping" in third
 
 
+def test_a_plan_what_is_common_and_a_set_can_extend_files(study, write, tmp_path):
+    (tmp_path / "deeper").mkdir()
+    (tmp_path / "deeper" / "old.yaml").write_text("extend: finer.yaml\nsets: {old: {extend: finer.yaml}}\n")
+    (tmp_path / "deeper" / "finer.yaml").write_text("common: {}\n")
+    (tmp_path / "soft.yaml").write_text("contact: {modulus_unit: 1.0e+8, damping_ratio: 1.0e-3}\n")
+    path = write(
+        "extend: deeper/old.yaml\n"
+        "common: {extend: soft.yaml, speeds: {start: 0.1}}\n"
+        "sets: {old: {}, stiff: {contact: {modulus_unit: 4.0e+8}}, again: {extend: [soft.yaml]}}\n"
+    )
+    with pytest.raises(ConfigError) as caught:  # a plan is no config, so that one cannot begin from it
+        plan(study, path)
+    assert "finer.yaml:1: old: common = {}: unknown key" in str(caught.value)
+    (tmp_path / "deeper" / "old.yaml").write_text("extend: finer.yaml\nsets: {old: {}}\n")
+    sets = plan(study, path)
+    assert list(sets) == ["old", "stiff", "again"]
+    assert [config["contact"]["modulus_unit"] for config in sets.values()] == [1e8, 4e8, 1e8]
+    assert {config["contact"]["damping_ratio"] for config in sets.values()} == {1e-3}
+    assert {config["speeds"]["start"] for config in sets.values()} == {0.1}
+
+
+def test_faults_of_a_set_are_told_with_file_and_line(study, write):
+    path = write("common:\n  speeds: {start: 0.1}\nsets:\n  a:\n    contact:\n      damping_ratio: 2\n")
+    with pytest.raises(ConfigError) as caught:
+        plan(study, path)
+    assert str(caught.value).startswith(f"{path}:6: a: contact.damping_ratio = 2: ")
+
+
 @pytest.mark.parametrize("text", ["sets: []\n", "common: {}\n", "sets: {a: {}}\nspeeds: {}\n"])
 def test_what_is_no_plan_is_refused(study, write, text):
     with pytest.raises(ConfigError, match="must hold common and sets"):
