@@ -34,6 +34,9 @@ rule blade:
     benchmark:
         f"{config['results']}/benchmarks/blade.tsv"
     threads: 1
+    resources:
+        mem_mb=lambda wildcards, attempt: 2000 * attempt,  # 500 measured, and a finer mesh needs more
+        runtime=lambda wildcards, attempt: 10 * attempt,
     params:
         blade=config["blade"],
         reduction=config["reduction"],

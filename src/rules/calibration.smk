@@ -62,6 +62,9 @@ rule calibration_set:
     benchmark:
         f"{RESULTS}/benchmarks/calibration/{{set}}.tsv"
     threads: 1
+    resources:
+        mem_mb=lambda wildcards, attempt: 2000 * attempt,  # 600 measured
+        runtime=lambda wildcards, attempt: 30 * attempt,  # 5 measured
     params:
         folder=f"{RESULTS}/calibration/{{set}}",
         choices=calibration_set,

@@ -1,7 +1,9 @@
 # Stage 2: the rubs. One job is one coating at all its speeds; one run is one file.
+import math
+
 from bladerub.study.confirmation import determinants
 from bladerub.study import plan
-from bladerub.study.grid import case_from_name
+from bladerub.study.grid import case_from_name, speeds
 from bladerub.sources import solver_digest
 
 
@@ -10,6 +12,12 @@ def planned_runs(wildcards):
     case = case_from_name(config, wildcards.coating)
     runs = plan.planned_runs(config, case, "", "the blade is an input")
     return {run.path.stem: run.key for run in runs}
+
+
+def coating_minutes(wildcards, attempt):
+    """The time to ask a cluster for: three times what the revolutions take, repeated runs included, and a start."""
+    revolutions = len(speeds(config)) * config["solver"]["revolutions"]
+    return attempt * math.ceil((30 + 0.03 * revolutions) / 60)
 
 
 rule compile_kernel:
@@ -21,6 +29,9 @@ rule compile_kernel:
     benchmark:
         f"{RESULTS}/benchmarks/compile_kernel.tsv"
     threads: 1
+    resources:
+        mem_mb=lambda wildcards, attempt: 2000 * attempt,
+        runtime=lambda wildcards, attempt: 5 * attempt,
     params:
         solver=solver_digest(),
     script:
@@ -40,6 +51,9 @@ rule coating:
     benchmark:
         f"{RESULTS}/benchmarks/coating/{{coating}}.tsv"
     threads: 1
+    resources:
+        mem_mb=lambda wildcards, attempt: 2000 * attempt,  # 240 measured, beside two Pythons of Snakemake
+        runtime=coating_minutes,
     params:
         folder=subpath(output[0], parent=True),
         planned=planned_runs,
