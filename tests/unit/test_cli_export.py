@@ -155,7 +155,7 @@ def test_a_run_that_left_all_bounds_is_shown_until_then(export, tmp_path, folder
     [
         ({"run_key": "other"}, "is not of this config, the blade"),
         ({"E": 2.5}, "its run_key differs"),
-        ({"E": "stiff"}, "its attributes are not those of a run"),
+        ({"revolutions": "many"}, "its attributes are not those of a run"),
         ({"casing": "3rd"}, "'3rd' is not known"),
         ({"peak": 1}, "its peaks differ by"),
     ],
@@ -172,11 +172,11 @@ def test_a_run_of_something_else_is_refused(export, tmp_path, folder, attributes
 @pytest.mark.parametrize(
     ("more", "said"),
     [
-        (["--samples", "0"], "--samples = 0: must be 1 or more"),
-        (["--samples", "2001"], "--samples = 2001: must be at most 2000"),
+        (["--samples", "0"], "--samples = 0: must be from 1 to 2000"),
+        (["--samples", "2001"], "--samples = 2001: must be from 1 to 2000"),
         (["--samples", "many"], "argument --samples: invalid int value"),
         (["--blade", "none.h5"], "none.h5: is missing"),
-        (["--run", "none.h5"], "--run none.h5: not a readable HDF5 file"),
+        (["--run", "none.h5"], "--run none.h5: No such file or directory"),
         (["--vtu", "."], "--vtu .: is there already"),
     ],
 )

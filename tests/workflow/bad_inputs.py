@@ -370,7 +370,7 @@ def make_files(folder: Path) -> None:
     )
     os.mkfifo(folder / "pipe")
     sound = folder / "sound.h5"
-    write_reduced_blade(sound, _blade())
+    write_reduced_blade(sound, _blade(), {})
     (folder / "truncated.h5").write_bytes(sound.read_bytes()[:3000])
     for name, damage in _DAMAGES.items():
         (folder / name).write_bytes(sound.read_bytes())

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from tqdm import tqdm
 
+from bladerub import faults
 from bladerub.cli import inputs
 from bladerub.cli.errors import InputError
 
@@ -66,12 +67,7 @@ def export(options: argparse.Namespace) -> None:
         If an option or a file is.
     """
     config = inputs.read_config(options)
-    inputs.require_at_least(options, samples=1)
-    if options.samples > config["contact"]["elements"]:
-        raise InputError(
-            f"--samples = {options.samples}: must be at most {config['contact']['elements']}, the elements "
-            "of the coating"
-        )
+    inputs.require(options, samples=(1, config["contact"]["elements"]))
     _check_folder(options.vtu)
 
     from bladerub.study.store import read_run
@@ -79,7 +75,7 @@ def export(options: argparse.Namespace) -> None:
     try:
         run = read_run(options.run)
     except OSError as error:
-        raise InputError(f"--run {error}") from error
+        raise InputError(f"--run {faults.in_words(error)}") from error
     path, blade = _blade(options, config)
 
     from bladerub.export.vtu import COLLECTION, read_mesh, write_motion
@@ -129,10 +125,12 @@ def _plan(options: argparse.Namespace, config: dict[str, Any], run: StoredRun, b
 
     try:
         plan = claimed_run(config, options.run, run, blade_digest(blade))
-    except (KeyError, TypeError, ValueError) as error:
+    except KeyError as error:
         raise InputError(
             f"--run {options.run}: {error} is not known; must be a run of this config"
         ) from error
+    except (TypeError, ValueError) as error:
+        raise InputError(f"--run {options.run}: its attributes are not those of a run ({error})") from error
     if plan.key != run.attributes["run_key"]:
         raise InputError(
             f"--run {options.run}: is not of this config, the blade {blade} and this version of the solver "

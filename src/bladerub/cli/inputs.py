@@ -11,7 +11,6 @@ from bladerub import config as configuration
 from bladerub.cli.errors import InputError
 from bladerub.config import ROOT
 from bladerub.config_faults import shown
-from bladerub.faults import DamagedFile
 
 if TYPE_CHECKING:  # the rest of the package is imported when it is sure to be needed: numba takes its time
     from bladerub.blade.model import ReducedBlade
@@ -99,8 +98,8 @@ def read_blade(options: argparse.Namespace, config: dict[str, Any]) -> tuple[Pat
         )
     try:
         blade = read_sound_blade(path)
-    except DamagedFile as error:
-        if options.blade:  # it cannot be made anew
+    except OSError as error:
+        if options.blade and error.errno is None:  # damaged, and it cannot be made anew
             raise InputError(str(error)) from error
         raise
     except ValueError as error:

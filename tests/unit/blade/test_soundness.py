@@ -14,7 +14,7 @@ def told(blade, tmp_path):
 
     def answer(**changes):
         path = tmp_path / "blade.h5"
-        write_reduced_blade(path, dataclasses.replace(blade, **changes))
+        write_reduced_blade(path, dataclasses.replace(blade, **changes), {})
         with pytest.raises(ValueError, match="not a sound reduced blade") as error:
             read_sound_blade(path)
         return str(error.value).split("blade, ")[1]
@@ -23,7 +23,7 @@ def told(blade, tmp_path):
 
 
 def test_a_sound_blade_is_read_as_it_is(blade, tmp_path):
-    write_reduced_blade(tmp_path / "blade.h5", blade)
+    write_reduced_blade(tmp_path / "blade.h5", blade, {})
     read = read_sound_blade(tmp_path / "blade.h5")
     np.testing.assert_array_equal(read.mass, blade.mass)
     assert read.length == blade.length
@@ -44,7 +44,7 @@ def test_what_is_no_blade_is_named(told, blade):
 
 def test_matrices_beyond_memory_are_not_read(blade, tmp_path):
     path = tmp_path / "blade.h5"
-    write_reduced_blade(path, blade)
+    write_reduced_blade(path, blade, {})
     with h5py.File(path, "r+") as file:
         file.create_dataset("endless", (LARGEST_MATRIX + 1, 1), float, chunks=(1, 1))
     with pytest.raises(
