@@ -84,7 +84,7 @@ def export(options: argparse.Namespace) -> None:
     try:
         mesh = read_mesh(path.with_name("mesh.h5"), blade)
     except OSError as error:
-        raise InputError(str(error)) from error
+        raise InputError(faults.in_words(error)) from error
     plan = _plan(options, config, run, path)
     recording = _record(options, run, plan, blade)
     about = {name: run.attributes[name] for name in ("casing", "E", "K", "theta", "f_omega", "run_key")}
