@@ -29,7 +29,7 @@ LONGEST_VALUE = 1000
 DEEPEST = 32
 """Levels of mappings and lists in one another."""
 
-MOST_EXTENDED = 50
+MOST_EXTENDED = 20
 """Files that are read because one extends the other."""
 
 COMMAND_LINE = Place("--config")
