@@ -15,9 +15,9 @@ def planned_runs(wildcards):
 
 
 def coating_minutes(wildcards, attempt):
-    """The time to ask a cluster for: three times what the revolutions take, repeated runs included, and a start."""
+    """The time to ask a cluster for: a minute to start, and three times what the revolutions took."""
     revolutions = len(speeds(config)) * config["solver"]["revolutions"]
-    return attempt * math.ceil((30 + 0.03 * revolutions) / 60)
+    return attempt * math.ceil((60 + 0.03 * revolutions) / 60)
 
 
 rule compile_kernel:
