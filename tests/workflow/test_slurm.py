@@ -1,0 +1,124 @@
+"""The profile for clusters: what it sends to SLURM, and a real SLURM that loses a job."""
+
+from __future__ import annotations
+
+import os
+import re
+import shutil
+import subprocess
+import time
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+import h5py
+import numpy as np
+import pytest
+
+PROFILE = ["--workflow-profile", "config/profiles/slurm"]
+ONE_NODE = Path(__file__).parents[1] / "slurm" / "one_node.sh"
+JOBS_LOG = Path("/run/bladerub-slurm/jobs.log")
+
+
+def obstacle():
+    """Why there is no SLURM to test on; having it installed is no leave to start daemons as root."""
+    if os.environ.get("BLADERUB_TEST_SLURM") != "1":
+        return "starts SLURM on this machine, as root: set BLADERUB_TEST_SLURM=1 to run it"
+    if not all(map(shutil.which, ("slurmctld", "slurmd", "munged"))):
+        return "SLURM is not installed: apt-get install slurm-wlm munge"
+    return None if os.geteuid() == 0 else "SLURM's daemons need root"
+
+
+@pytest.fixture
+def cluster():
+    subprocess.run([ONE_NODE, "start"], check=True)
+    yield
+    subprocess.run([ONE_NODE, "stop"], check=True)
+
+
+@pytest.fixture
+def longer(tiny):
+    """The tiny study with runs long enough to be hit."""
+    del tiny["solver"], tiny["analysis"]
+    tiny["speeds"]["step"] = 0.02
+    return tiny
+
+
+def run_files(workspace):
+    return {path: path.stat().st_mtime_ns for path in (workspace.folder / "results/runs").rglob("*.h5")}
+
+
+def datasets(path):
+    with h5py.File(path) as file:
+        return {name: file[name][()] for name in file}
+
+
+def running_job(kind):
+    """Number of the running job of SLURM that a group of the profile has become."""
+    done = subprocess.run(
+        ["squeue", "--noheader", "--states=RUNNING", "--format=%i %k"], capture_output=True, text=True
+    )
+    return next(line.split()[0] for line in done.stdout.splitlines() if f"rule_{kind}" in line)
+
+
+def minutes_asked(workspace, config):
+    """What a dry-run says: rules that stay by themselves, groups, and the minutes each rule asks for."""
+    done = workspace.snakemake(*PROFILE, "--dry-run", config=config)
+    assert done.returncode == 0, done.stderr
+    text = done.stdout + done.stderr
+    alone = re.findall(r"^rule (\w+):", text, re.MULTILINE)
+    groups = re.findall(r"Group job (\w+)", text)
+    times = re.findall(r"rule (\w+):.*?runtime=(\d+)", text, re.DOTALL)
+    return alone, groups, {rule: int(minutes) for rule, minutes in times}
+
+
+def test_every_job_but_the_first_two_shares_its_place_in_the_queue(workspace, tiny):
+    alone, groups, minutes = minutes_asked(workspace, tiny)
+    assert alone == ["blade", "compile_kernel", "all"]
+    assert sorted(groups) == ["drawing", "rubs"]
+    assert (minutes["coating"], minutes["map"], minutes["margins"]) == (2, 1, 1)
+
+
+def test_time_asked_for_grows_with_the_revolutions_of_a_coating(workspace, tiny):
+    tiny["solver"]["revolutions"] = 300
+    tiny["analysis"]["divergence"]["confirmation_revolutions"] = 0
+    _, _, minutes = minutes_asked(workspace, tiny)
+    assert (minutes["coating"], minutes["map"]) == (3, 1)
+
+
+@pytest.mark.skipif(obstacle() is not None, reason=str(obstacle()))
+def test_study_goes_on_after_scancel_and_is_what_a_local_one_is(cluster, workspace, longer, tmp_path_factory):
+    on_cluster = [
+        *PROFILE,
+        "--slurm-status-command",
+        "squeue",
+        "--slurm-init-seconds-before-status-checks",
+        "3",
+    ]
+    with ThreadPoolExecutor() as pool:
+        killed = pool.submit(workspace.snakemake, *on_cluster, "--retries", "0", config=longer)
+        while len(run_files(workspace)) < 15:  # the second coating
+            assert not killed.done(), killed.result().stderr
+            time.sleep(0.05)
+        subprocess.run(["scancel", running_job("rubs")], check=True)
+    assert killed.result().returncode == 1
+    assert "Error in group rubs" in killed.result().stderr
+    finished = run_files(workspace)
+    assert not list((workspace.folder / "results/tables").glob("peaks.csv"))
+
+    completed = workspace.snakemake(*on_cluster, config=longer)
+    assert completed.returncode == 0, completed.stderr
+    assert workspace.plan(longer) == {}
+    runs = run_files(workspace)
+    assert finished.items() < runs.items()
+    # blade, kernel, rubs, rubs again, drawing
+    states = re.findall(r"JobState=(\w+)", JOBS_LOG.read_text())
+    assert sorted(states) == ["CANCELLED", *["COMPLETED"] * 4]
+
+    local = type(workspace).at(tmp_path_factory.mktemp("local"))
+    local.build(longer, "results/tables/findings.csv")
+    maps = (workspace.folder / "results/maps").glob("*.h5")
+    for path in [*runs, *maps]:
+        np.testing.assert_equal(datasets(path), datasets(local.folder / path.relative_to(workspace.folder)))
+    for table in ("peaks", "divergence", "findings"):
+        name = f"results/tables/{table}.csv"
+        assert (workspace.folder / name).read_text() == (local.folder / name).read_text()
