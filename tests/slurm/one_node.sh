@@ -36,7 +36,7 @@ wait_until() {
 }
 
 is_ours() { [[ -e $conf && $(head -n 1 "$conf") == "$mark" ]]; }
-is_idle() { [[ $(sinfo --noheader --format=%T) == idle ]]; }
+is_up() { [[ $(sinfo --noheader --format=%T) =~ ^(idle|mixed|allocated)$ ]]; }
 is_empty() { [[ -z $(squeue --noheader) ]]; }
 is_gone() { [[ -z $(process "$1") ]]; }
 
@@ -91,7 +91,7 @@ start() {
     fi
     if is_gone slurmctld; then slurmctld; fi
     if is_gone slurmd; then slurmd; fi
-    wait_until "the node did not become ready" is_idle
+    wait_until "the node did not become ready" is_up
 }
 
 stop() {

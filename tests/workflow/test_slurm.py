@@ -16,6 +16,7 @@ import pytest
 
 PROFILE = ["--workflow-profile", "config/profiles/slurm"]
 ONE_NODE = Path(__file__).parents[1] / "slurm" / "one_node.sh"
+FINDINGS = "results/tables/findings.csv"
 JOBS_LOG = Path("/run/bladerub-slurm/jobs.log")
 
 
@@ -87,15 +88,11 @@ def test_time_asked_for_grows_with_the_revolutions_of_a_coating(workspace, tiny)
 
 @pytest.mark.skipif(obstacle() is not None, reason=str(obstacle()))
 def test_study_goes_on_after_scancel_and_is_what_a_local_one_is(cluster, workspace, longer, tmp_path_factory):
-    on_cluster = [
-        *PROFILE,
-        "--slurm-status-command",
-        "squeue",
-        "--slurm-init-seconds-before-status-checks",
-        "3",
-    ]
+    often = "--slurm-init-seconds-before-status-checks=3"
+    on_cluster = [*PROFILE, "--slurm-status-command=squeue", often]
+    earlier = JOBS_LOG.read_text()
     with ThreadPoolExecutor() as pool:
-        killed = pool.submit(workspace.snakemake, *on_cluster, "--retries", "0", config=longer)
+        killed = pool.submit(workspace.snakemake, FINDINGS, *on_cluster, "--retries", "0", config=longer)
         while len(run_files(workspace)) < 15:  # the second coating
             assert not killed.done(), killed.result().stderr
             time.sleep(0.05)
@@ -103,19 +100,19 @@ def test_study_goes_on_after_scancel_and_is_what_a_local_one_is(cluster, workspa
     assert killed.result().returncode == 1
     assert "Error in group rubs" in killed.result().stderr
     finished = run_files(workspace)
-    assert not list((workspace.folder / "results/tables").glob("peaks.csv"))
+    assert not (workspace.folder / FINDINGS).exists()
 
-    completed = workspace.snakemake(*on_cluster, config=longer)
+    completed = workspace.snakemake(FINDINGS, *on_cluster, config=longer)
     assert completed.returncode == 0, completed.stderr
-    assert workspace.plan(longer) == {}
+    assert workspace.plan(longer, FINDINGS) == {}
     runs = run_files(workspace)
     assert finished.items() < runs.items()
     # blade, kernel, rubs, rubs again, drawing
-    states = re.findall(r"JobState=(\w+)", JOBS_LOG.read_text())
+    states = re.findall(r"JobState=(\w+)", JOBS_LOG.read_text().removeprefix(earlier))
     assert sorted(states) == ["CANCELLED", *["COMPLETED"] * 4]
 
     local = type(workspace).at(tmp_path_factory.mktemp("local"))
-    local.build(longer, "results/tables/findings.csv")
+    local.build(longer, FINDINGS)
     maps = (workspace.folder / "results/maps").glob("*.h5")
     for path in [*runs, *maps]:
         np.testing.assert_equal(datasets(path), datasets(local.folder / path.relative_to(workspace.folder)))
