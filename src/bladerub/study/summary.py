@@ -36,6 +36,19 @@ def spectral_peak(order: np.ndarray, amplitude: np.ndarray) -> tuple[float, floa
     return float(order[at]), float(vibration[at])
 
 
+def displacement_peak(revolution_peak: np.ndarray, revolutions: int) -> float:
+    """Find the largest displacement over the last `revolutions`, or over as many before an early end.
+
+    Parameters
+    ----------
+    revolution_peak : (r,) ndarray
+        Largest absolute displacement in each revolution, m; NaN after an unbounded end.
+    revolutions : int
+        How many of them count.
+    """
+    return float(revolution_peak[np.isfinite(revolution_peak)][-revolutions:].max())
+
+
 def summarise(spec: RunSpec, result: RunResult, config: Mapping[str, Any]) -> dict[str, Any]:
     """Sum up one run.
 
@@ -61,10 +74,9 @@ def summarise(spec: RunSpec, result: RunResult, config: Mapping[str, Any]) -> di
         result.radial_displacement, spec.revolutions, analysis["spectrum_revolutions"], analysis["max_order"]
     )
     engine_order, height = spectral_peak(order, amplitude)
-    peaks = result.revolution_peak[np.isfinite(result.revolution_peak)]
     verdict = judge(result.revolution_amplitude, result.status, analysis["divergence"])
     return {
-        "peak_amplitude": float(peaks[-analysis["spectrum_revolutions"] :].max()),
+        "peak_amplitude": displacement_peak(result.revolution_peak, analysis["spectrum_revolutions"]),
         "engine_order": engine_order if height > 0 else None,
         "max_wear": float(result.wear.max()),
         "lobes": lobes(result.angle, result.wear, analysis["lobe_prominence"]),
