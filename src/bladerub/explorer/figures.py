@@ -1,0 +1,90 @@
+"""The numbers that the page shows as text, from the tables and maps as they are."""
+
+from __future__ import annotations
+
+import shlex
+
+import numpy as np
+import pandas as pd
+
+from bladerub.study.grid import CoatingCase
+from bladerub.study.maps import CoatingMap
+from bladerub.study.store import ManifestRow
+from bladerub.study.summary import displacement_peak, spectral_peak
+
+VERDICTS = ["growth_per_revolution", "growth_low", "growth_high", "saturating", "divergent", "revolutions"]
+"""Columns of ``divergence.csv`` that the page shows, beside the status of the run they rest on."""
+
+
+def of_case(table: pd.DataFrame, case: CoatingCase) -> pd.DataFrame:
+    """Rows of `table` (``peaks.csv``, ``divergence.csv``) that are of `case`."""
+    same = table[["E", "K", "theta"]] == [case.E, case.K, case.theta]
+    return table[(table["casing"] == case.casing) & same.all(axis=1)]
+
+
+def of_runs(
+    coating: CoatingMap, divergence: pd.DataFrame, runs: list[ManifestRow], spectrum_revolutions: int
+) -> dict[str, list]:
+    """Figures of every run of one coating, each a list over its speeds.
+
+    Parameters
+    ----------
+    coating : CoatingMap
+        The runs.
+    divergence : DataFrame
+        ``divergence.csv``.
+    runs : list of ManifestRow
+        The manifest of the coating.
+    spectrum_revolutions : int
+        Revolutions at the end over which the peak is taken.
+
+    Returns
+    -------
+    dict
+        `VERDICTS` and ``verdict_status`` of the run that the verdict rests on. Of the run of the study:
+        ``status``, ``run_key``, ``lobes``, ``max_wear`` and ``peak`` (m), and ``order`` and
+        ``order_amplitude`` (m) of the largest spectral amplitude; NaN without a spectrum.
+
+    Raises
+    ------
+    ValueError
+        If table, manifest and map are not of the same speeds.
+    """
+    verdicts = of_case(divergence, coating.case).sort_values("f_omega")
+    listed = sorted(runs, key=lambda run: run.f_omega)
+    for source, speeds in (
+        ("divergence.csv", verdicts["f_omega"].to_numpy()),
+        ("manifest", np.array([run.f_omega for run in listed])),
+    ):
+        if not np.array_equal(speeds, coating.f_omega):
+            raise ValueError(f"{source}: not the speeds of the map of {coating.case.name}; make it again")
+    strongest = [spectral_peak(coating.spectrum_order, row) for row in coating.spectrum_amplitude]
+    return {
+        **{name: verdicts[name].tolist() for name in VERDICTS},
+        "verdict_status": verdicts["status"].tolist(),
+        "status": coating.status.tolist(),
+        "run_key": [run.run_key for run in listed],
+        "lobes": coating.lobes.tolist(),
+        "max_wear": [float(depth) for depth in coating.max_wear],
+        "peak": [displacement_peak(row, spectrum_revolutions) for row in coating.revolution_peak],
+        "order": [order for order, _ in strongest],
+        "order_amplitude": [amplitude for _, amplitude in strongest],
+    }
+
+
+def command(case: CoatingCase, configs: list[str]) -> str:
+    """Write the beginning of the command that repeats a run of `case`; ``--f`` and the speed are left to add.
+
+    Parameters
+    ----------
+    case : CoatingCase
+        The coating.
+    configs : list of str
+        Files that were laid over config/config.yaml.
+    """
+    if case.is_rigid:
+        coating = f"--coating rigid --friction {case.friction:.12g}"
+    else:
+        coating = f"--E {case.E:.12g} --K {case.K:.12g} --theta {case.theta:.12g}"
+    overlays = f" --config {' '.join(map(shlex.quote, configs))}" if configs else ""
+    return f"bladerub run{overlays} --casing {shlex.quote(case.casing)} {coating}"

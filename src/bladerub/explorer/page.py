@@ -1,0 +1,94 @@
+"""The page: template, style, program, drawing library and data in one file."""
+
+from __future__ import annotations
+
+import base64
+import hashlib
+from importlib.resources import files
+from pathlib import Path
+from string import Template
+from typing import Any
+
+import pandas as pd
+from plotly.offline import get_plotlyjs
+
+from bladerub.explorer import coating, study
+from bladerub.explorer.inert import json_text
+from bladerub.study.maps import read_map
+from bladerub.study.store import read_manifest
+
+_PROGRAM = ["data.js", "choice.js", "pictures.js", "words.js", "main.js"]
+"""In the order in which they use each other."""
+
+
+def build(
+    map_paths: list[str | Path],
+    manifest_paths: list[str | Path],
+    peaks: pd.DataFrame,
+    divergence: pd.DataFrame,
+    settings: dict[str, Any],
+    configs: list[str],
+) -> str:
+    """Make the page.
+
+    Parameters
+    ----------
+    map_paths, manifest_paths : list of path-like
+        Map and manifest of each coating, in the same order.
+    peaks, divergence : DataFrame
+        ``peaks.csv`` and ``divergence.csv``.
+    settings : dict
+        See `bladerub.explorer.study.about`.
+    configs : list of str
+        Files that were laid over config/config.yaml.
+
+    Returns
+    -------
+    str
+        HTML; equal data give equal text.
+
+    Raises
+    ------
+    OSError
+        If a map or a manifest cannot be read.
+    ValueError
+        If the coatings were not computed at the same speeds, or the tables are of other ones.
+    """
+    coatings, data, scales = [], [], None
+    max_frequency = settings["max_frequency"]
+    for index, (map_path, manifest_path) in enumerate(zip(map_paths, manifest_paths, strict=True)):
+        each = read_map(map_path)
+        own = study.scales(each, max_frequency)
+        scales = scales or own
+        if json_text(own) != json_text(scales):
+            raise ValueError(
+                f"{map_path}: not of the same blade, speeds and angles as {map_paths[0]}; make the maps again"
+            )
+        coatings.append(study.coating(each.case, peaks, configs))
+        parts = coating.parts(
+            each, divergence, read_manifest(manifest_path), settings["spectrum_revolutions"], max_frequency
+        )
+        data += [
+            f'<script type="application/gzip" id="{name}-{index}">{text}</script>'
+            for name, text in parts.items()
+        ]
+    library, program = get_plotlyjs(), "\n".join(map(_text, _PROGRAM))
+    return Template(_text("index.html")).substitute(
+        policy=_policy(library, program),
+        style=_text("style.css"),
+        study=json_text({**study.about(settings), **scales, "coatings": coatings}),
+        data="\n".join(data),
+        library=library,
+        program=program,
+    )
+
+
+def _text(name: str) -> str:
+    return files("bladerub.explorer").joinpath("page", name).read_text(encoding="utf-8")
+
+
+def _policy(*scripts: str) -> str:
+    """Content security policy: no connection, and no script but `scripts`."""
+    digests = [base64.b64encode(hashlib.sha256(text.encode()).digest()).decode() for text in scripts]
+    allowed = " ".join(f"'sha256-{digest}'" for digest in digests)
+    return f"default-src 'none'; script-src {allowed}; style-src 'unsafe-inline'; img-src data: blob:"

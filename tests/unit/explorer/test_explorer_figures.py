@@ -1,0 +1,62 @@
+import dataclasses
+import math
+
+import pytest
+
+from bladerub.explorer import figures
+from bladerub.study.grid import CoatingCase
+
+
+def test_figures_are_those_of_the_tables(coating, verdicts, runs):
+    found = figures.of_runs(coating, verdicts, runs[::-1], spectrum_revolutions=10)
+    assert found["growth_per_revolution"] == verdicts["growth_per_revolution"].tolist()
+    assert found["divergent"] == verdicts["divergent"].tolist() == [False, True, True]
+    assert found["revolutions"] == [20, 30, 6]
+    assert found["run_key"] == ["key-0.1", "key-0.2", "key-0.3"]
+    assert found["peak"] == pytest.approx([2e-3, 2e-3 * 1.03**19, 2e-3 * 1.2**5])
+    assert found["max_wear"] == [float(depth) for depth in coating.max_wear]
+    strongest = coating.spectrum_amplitude[0, 5:].argmax() + 5  # from order 0.5 up
+    assert found["order"][0] == coating.spectrum_order[strongest]
+    assert found["order_amplitude"][0] == coating.spectrum_amplitude[0, strongest]
+    assert math.isnan(found["order_amplitude"][2])
+
+
+def test_rows_are_of_the_case_alone(coating, verdicts):
+    others = [
+        CoatingCase("2nd", 2.0, 0.5, 0.0),
+        CoatingCase("5nd", 2.0, 0.5, 0.15),
+        CoatingCase.rigid("2nd", 0),
+    ]
+    assert len(figures.of_case(verdicts, coating.case)) == 3
+    assert [len(figures.of_case(verdicts, case)) for case in others] == [0, 0, 0]
+
+
+def test_rows_of_the_rigid_casing_are_found(coating, verdicts):
+    case = CoatingCase.rigid("2nd", 0.15)
+    table = verdicts.assign(E=math.inf, K=math.inf, theta=case.theta)
+    assert len(figures.of_case(table, case)) == 3
+
+
+def test_other_speeds_than_those_of_the_map_are_named(coating, verdicts, runs):
+    with pytest.raises(ValueError, match=r"divergence\.csv: not the speeds of the map of 2nd_E2_K0\.5"):
+        figures.of_runs(coating, verdicts[1:], runs, 10)
+    moved = [dataclasses.replace(run, f_omega=run.f_omega + 0.01) for run in runs]
+    with pytest.raises(ValueError, match="manifest: not the speeds"):
+        figures.of_runs(coating, verdicts, moved, 10)
+
+
+@pytest.mark.parametrize(
+    ("case", "configs", "command"),
+    [
+        (CoatingCase("2nd", 0.11, 0.5, 0.15), [], "bladerub run --casing 2nd --E 0.11 --K 0.5 --theta 0.15"),
+        (CoatingCase.rigid("2nd", 0.15), [], "bladerub run --casing 2nd --coating rigid --friction 0.15"),
+        (
+            CoatingCase("2nd", 2.0, 1.0, 0.0),
+            ["my study.yaml"],
+            "bladerub run --config 'my study.yaml' --casing 2nd --E 2 --K 1 --theta 0",
+        ),
+        (CoatingCase("2; rm", 2.0, 1.0, 0.0), [], "bladerub run --casing '2; rm' --E 2 --K 1 --theta 0"),
+    ],
+)
+def test_the_command_that_repeats_a_run(case, configs, command):
+    assert figures.command(case, configs) == command

@@ -1,0 +1,29 @@
+import numpy as np
+import pytest
+
+from bladerub.explorer.thinning import LAST_ORDER, MOST_ANGLES, kept_orders, stretch_means, stretches
+
+
+@pytest.mark.parametrize(("n_elements", "n_stretches"), [(2000, MOST_ANGLES), (1999, MOST_ANGLES), (60, 60)])
+def test_stretches_share_the_circumference(n_elements, n_stretches):
+    bounds = stretches(n_elements)
+    lengths = np.diff(bounds)
+    assert (bounds[0], bounds[-1], lengths.size) == (0, n_elements, n_stretches)
+    assert lengths.max() - lengths.min() <= 1
+
+
+def test_means_are_those_of_the_elements_of_each_stretch():
+    values = np.random.default_rng(1).random((2, 1999))
+    bounds = stretches(1999)
+    means = stretch_means(values, bounds)
+    assert means[1, 7] == pytest.approx(values[1, bounds[7] : bounds[8]].mean())
+    np.testing.assert_allclose((means * np.diff(bounds)).sum(axis=1), values.sum(axis=1))
+
+
+def test_orders_are_kept_up_to_the_end_of_the_figures():
+    order, f_omega = np.arange(601) / 10, np.array([0.02, 0.1, 0.4])
+    kept = kept_orders(f_omega, order, max_frequency=2.5)
+    ends = order[kept - 1]
+    assert ends[0] == 60  # all there are
+    assert 25 <= ends[1] <= 25.2
+    assert LAST_ORDER <= ends[2] <= LAST_ORDER + 0.2
