@@ -49,6 +49,7 @@ include: "src/rules/runs.smk"
 include: "src/rules/maps.smk"
 include: "src/rules/figures.smk"
 include: "src/rules/margins.smk"
+include: "src/rules/explorer.smk"
 include: "src/rules/cost.smk"
 include: "src/rules/calibration.smk"
 include: "src/rules/documents.smk"
@@ -68,4 +69,5 @@ rule all:
         rules.findings.output,
         FIGURES,
         rules.margins.output,
+        rules.explorer.output,
         rules.cost.output,

@@ -9,6 +9,7 @@ rule cost:
         rules.findings.output,
         FIGURES,
         rules.margins.output,
+        rules.explorer.output,
         maps=expand(rules.map.output, coating=COATINGS),
         gathering="src/bladerub/study/cost.py",
         drawing=drawing("cost"),

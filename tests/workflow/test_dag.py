@@ -51,7 +51,7 @@ def test_a_complete_study_has_nothing_left_to_do(study, tiny):
 
 def test_a_new_coating_plans_itself_and_what_draws_from_it(study, with_E3):
     new = {"coating": 2, "map": 2}  # with both theta
-    assert study.plan(with_E3) == new | TABLES | HISTOGRAMS | {"cost": 1, "all": 1}
+    assert study.plan(with_E3) == new | TABLES | HISTOGRAMS | {"explorer": 1, "cost": 1, "all": 1}
 
 
 def test_resolution_plans_only_figures(study, tiny):
@@ -61,10 +61,17 @@ def test_resolution_plans_only_figures(study, tiny):
     assert others == {"history", "margins", "cost", "all"}
 
 
+def test_the_scale_of_spectra_plans_what_shows_them(study, tiny):
+    plan = study.plan(tiny | {"figures": {"amplitude_range": [1.0e-6, 1.0e-3]}})
+    spectra = {"fig07", "fig08", "fig09", "fig10", "fig15", "fig16"}
+    assert {name[:5] for name in plan if name.startswith("fig")} == spectra
+    assert {name for name in plan if not name.startswith("fig")} == {"explorer", "cost", "all"}
+
+
 def test_peak_search_plans_no_map(study, tiny):
     tiny["analysis"]["peaks"] = {"speed_window": [0.9, 1.2]}
     plan = study.plan(tiny)
-    others = {"peaks": 1, "findings": 1, "margins": 1, "fig10_peaks": 1, "cost": 1, "all": 1}
+    others = {"peaks": 1, "findings": 1, "margins": 1, "fig10_peaks": 1, "explorer": 1, "cost": 1, "all": 1}
     assert plan == others | HISTOGRAMS
 
 
@@ -87,8 +94,14 @@ def test_an_edit_of_the_peak_search_plans_what_comes_of_it(copied_study, tiny):
     with (copied_study.folder / "src/bladerub/study/peaks.py").open("a") as source:
         source.write("# edited\n")
     plan = copied_study.plan(tiny)
-    others = {"peaks": 1, "findings": 1, "margins": 1, "fig10_peaks": 1, "cost": 1, "all": 1}
+    others = {"peaks": 1, "findings": 1, "margins": 1, "fig10_peaks": 1, "explorer": 1, "cost": 1, "all": 1}
     assert plan == others | HISTOGRAMS
+
+
+def test_an_edit_of_the_page_plans_the_page(copied_study, tiny):
+    with (copied_study.folder / "src/bladerub/explorer/page/style.css").open("a") as source:
+        source.write("/* edited */\n")
+    assert copied_study.plan(tiny) == {"explorer": 1, "cost": 1, "all": 1}
 
 
 def test_a_new_coating_computes_itself_alone(copied_study, with_E3):

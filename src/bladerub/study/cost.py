@@ -23,6 +23,7 @@ STAGES = {
     "findings": "tables",
     "margins": "tables",
     "history": FIGURES,
+    "explorer": "explorer",
 }
 """Stage of each rule, in the order of the workflow; rules named after a figure of the paper are `FIGURES`."""
 _RECORDED = ["s", "cpu_time", "max_rss"]
