@@ -1,0 +1,399 @@
+"""The explorer of the tiny study in a real browser; skipped where there is none."""
+
+from __future__ import annotations
+
+import json
+import shutil
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from bladerub.explorer.page import build
+from bladerub.study.maps import read_map, write_map
+from bladerub.study.store import read_manifest, write_manifest
+
+STRAIGHT, INCLINED, RIGID = "2nd_E2_K0.5_theta0", "2nd_E2_K0.5_theta0.15", "2nd_rigid_mu0"
+FLAGS = [
+    "headless",
+    "no-sandbox",
+    "disable-gpu",
+    "disable-quic",
+    "no-first-run",
+    "disable-background-networking",
+]
+SECONDS_TO_OPEN = 3.0
+
+
+class Explorer:
+    """The page in a browser: what a user does, and what can be seen then."""
+
+    def __init__(self, driver: Any, path: Path):
+        self.driver, self.path = driver, path
+
+    def open(self, link: str = "") -> Explorer:
+        """Open the page anew from its file, at `link`, and wait until it is drawn."""
+        self.driver.get("about:blank")
+        self.driver.get(self.path.as_uri() + link)
+        return self.wait()
+
+    def wait(self) -> Explorer:
+        """Wait until everything chosen is drawn, and the address holds it."""
+        from selenium.webdriver.support.ui import WebDriverWait
+
+        settled = (
+            "return document.querySelector('#main')?.getAttribute('aria-busy') === 'false'"
+            " && document.querySelector('#link').hash === location.hash"
+        )
+        WebDriverWait(self.driver, 30, poll_frequency=0.02).until(
+            lambda driver: driver.execute_script(settled)
+        )
+        return self
+
+    def find(self, selector: str) -> Any:
+        return self.driver.find_element("css selector", selector)
+
+    def all(self, selector: str) -> list[Any]:
+        return self.driver.find_elements("css selector", selector)
+
+    def click(self, selector: str) -> Explorer:
+        self.find(selector).click()
+        return self.wait()
+
+    def choose(self, selector: str, value: str) -> Explorer:
+        from selenium.webdriver.support.ui import Select
+
+        Select(self.find(selector)).select_by_value(value)
+        return self.wait()
+
+    def press(self, *keys: str) -> Explorer:
+        """Press keys where the focus is."""
+        self.driver.switch_to.active_element.send_keys(*keys)
+        return self.wait()
+
+    def click_map(self, name: str, x: float, y: float) -> Explorer:
+        """Click a picture at the values `x`, `y` of its axes."""
+        from selenium.webdriver import ActionChains
+
+        picture = self.find(f"#{name}")
+        self.driver.execute_script("arguments[0].scrollIntoView({block: 'center'})", picture)
+        right, down = self.driver.execute_script(
+            "const [picture, x, y] = arguments, { xaxis, yaxis } = picture._fullLayout;"
+            "const box = picture.getBoundingClientRect();"
+            "const [right, down] = [xaxis._offset + xaxis.l2p(x), yaxis._offset + yaxis.l2p(y)];"
+            "return [right - box.width / 2, down - box.height / 2]",
+            picture,
+            x,
+            y,
+        )
+        ActionChains(self.driver).move_to_element_with_offset(picture, right, down).pause(
+            0.2
+        ).click().perform()
+        return self.wait()
+
+    def drawn(self, name: str, key: str, trace: int = 0) -> np.ndarray:
+        """Values of one trace of a picture."""
+        values = self.driver.execute_script(
+            f"return Array.from(document.getElementById('{name}').data[{trace}].{key})"
+        )
+        return np.array(values, dtype=float)
+
+    @property
+    def run(self) -> dict[str, list[str]]:
+        """The table of the run: a text for each coating by the name of the row."""
+        rows = self.driver.execute_script(
+            "return [...document.querySelectorAll('#figures tbody tr')]"
+            ".map((row) => [...row.children].map((cell) => cell.textContent))"
+        )
+        return {name: texts for name, *texts in rows}
+
+    @property
+    def speed(self) -> float:
+        return float(self.find("#speed-text").text)
+
+    @property
+    def link(self) -> str:
+        return self.driver.execute_script("return location.hash")
+
+    @property
+    def complaints(self) -> list[str]:
+        return [entry["message"] for entry in self.driver.get_log("browser")]
+
+
+@pytest.fixture(scope="module")
+def driver(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Any]:
+    webdriver = pytest.importorskip(
+        "selenium.webdriver", reason="no selenium; .venv/bin/pip install -e .[browser]"
+    )
+    chromium, chromedriver = shutil.which("chromium"), shutil.which("chromedriver")
+    if not chromium or not chromedriver:
+        pytest.skip("no chromium and chromedriver; apt-get install chromium chromium-driver")
+    options = webdriver.ChromeOptions()
+    options.binary_location = chromium
+    for flag in [*FLAGS, "window-size=1400,1000", f"user-data-dir={tmp_path_factory.mktemp('browser')}"]:
+        options.add_argument(f"--{flag}")
+    options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
+    driver = webdriver.Chrome(options=options, service=webdriver.ChromeService(chromedriver))
+    yield driver
+    driver.quit()
+
+
+@pytest.fixture
+def explorer(study, driver) -> Explorer:
+    return Explorer(driver, study.folder / "results" / "explorer.html").open(f"#A={STRAIGHT}&f=0.206")
+
+
+@pytest.fixture
+def map_of(study) -> Callable:
+    return lambda name: read_map(study.folder / "results" / "maps" / f"{name}.h5")
+
+
+@pytest.fixture
+def table(study) -> Callable:
+    return lambda name: pd.read_csv(study.folder / "results" / "tables" / f"{name}.csv")
+
+
+def test_it_opens_soon_from_a_file_and_asks_nobody(explorer):
+    since = "return performance.now()"
+    taken = [explorer.open().driver.execute_script(since) / 1e3 for _ in range(3)]
+    assert min(taken) < SECONDS_TO_OPEN  # others may be at work on this machine
+    assert explorer.complaints == []
+    assert explorer.driver.execute_script("return performance.getEntriesByType('resource').length") == 0
+    assert explorer.path.stat().st_size < 15e6
+
+
+def test_the_first_view_is_the_strongest_peak(explorer, table):
+    explorer.open()
+    peaks = table("peaks")
+    strongest = peaks[(peaks["order"] == 4) & np.isfinite(peaks["E"])].nlargest(1, "amplitude").iloc[0]
+    assert explorer.speed == strongest["f_peak"]
+    assert explorer.run["Peak Y4 of the coating"] == [
+        f"{1e3 * strongest['amplitude']:.4g} mm at f4 = {strongest['f_peak']:g}"
+    ]
+
+
+def test_the_pictures_are_those_of_the_study(explorer, map_of):
+    coating = map_of(STRAIGHT)
+    at = int(np.flatnonzero(coating.f_omega == 0.206)[0])
+    wear = 1e3 * coating.wear[at].reshape(500, 4).mean(axis=1)
+    np.testing.assert_allclose(explorer.drawn("polar", "r")[:-1], wear, atol=wear.max() / 500)
+    amplitude = 1e3 * np.maximum(coating.spectrum_amplitude[at], 1e-8)
+    drawn = explorer.drawn("line", "y")
+    np.testing.assert_allclose(drawn, amplitude[: drawn.size], rtol=0.04)
+    np.testing.assert_allclose(
+        explorer.drawn("line", "x"), 0.206 * coating.spectrum_order[: drawn.size], rtol=1e-9
+    )
+    markers = explorer.drawn(
+        "growth",
+        "y",
+        trace=explorer.driver.execute_script(
+            "return document.getElementById('growth').data.findIndex(({ mode }) => mode === 'markers')"
+        ),
+    )
+    np.testing.assert_allclose(markers, 1e3 * coating.revolution_amplitude[at], rtol=2e-3)
+
+
+def test_the_numbers_are_those_of_the_tables(explorer, study, map_of, table):
+    verdicts = table("divergence")
+    verdict = verdicts[(verdicts["E"] == 2) & (verdicts["theta"] == 0) & (verdicts["f_omega"] == 0.206)].iloc[
+        0
+    ]
+    coating, shown = map_of(STRAIGHT), explorer.run
+    at = int(np.flatnonzero(coating.f_omega == 0.206)[0])
+    growth = f"{100 * verdict['growth_per_revolution']:.3g} % (".replace("-", "−")
+    assert shown["Growth per revolution"][0].startswith(growth)
+    assert shown["Worn lobes"] == [str(verdict["lobes"])]
+    assert shown["Greatest wear, any node"] == [f"{1e3 * coating.max_wear[at]:.4g} mm"]
+    manifest = read_manifest(study.folder / "results" / "runs" / STRAIGHT / "manifest.tsv")
+    assert shown["Key of the run"] == [run.run_key for run in manifest if run.f_omega == 0.206]
+    command = "bladerub run --config overlay.yaml --casing 2nd --E 2 --K 0.5 --theta 0 --f 0.206"
+    assert shown["Repeat it by"][0].startswith(command)
+
+
+def test_another_coating_changes_the_pictures(explorer):
+    def seen():
+        return [explorer.drawn(*of).tolist() for of in (("polar", "r"), ("line", "y"), ("growth", "y"))]
+
+    before, wear = seen(), explorer.drawn("wear-A", "z[0]")
+    explorer.choose("#coating-A [name=E]", "1.1")
+    assert all(now != then for now, then in zip(seen(), before, strict=True))
+    assert explorer.drawn("wear-A", "z[0]").tolist() != wear.tolist()
+    assert "E = 1.1" in explorer.find("#wear-A-title").text
+    assert "A=2nd_E1.1_K0.5_theta0" in explorer.link
+    explorer.choose("#coating-A [name=E]", "rigid")
+    assert f"A={RIGID}" in explorer.link
+    assert explorer.find("#coating-A .angle").text == "friction μ"
+    assert explorer.run["Greatest wear, any node"] == ["0 mm"]
+    explorer.choose("#coating-A [name=casing]", "2nd5nd")
+    assert "A=2nd5nd_E11_K0.5_theta0" in explorer.link
+    assert explorer.complaints == []
+
+
+@pytest.mark.parametrize(("name", "x", "y"), [("wear-A", 0.27, 100), ("spectrum-A", 1.0, 0.27)])
+def test_a_click_in_a_map_chooses_the_speed(explorer, name, x, y):
+    before = explorer.drawn("polar", "r").tolist(), explorer.run["Key of the run"]
+    explorer.click_map(name, x, y)
+    assert explorer.speed == 0.27
+    assert explorer.drawn("polar", "r").tolist() != before[0]
+    assert explorer.run["Key of the run"] != before[1]
+    lines = explorer.driver.execute_script(
+        "return ['wear-A', 'spectrum-A'].map((name) => document.getElementById(name).layout.shapes.at(-1))"
+    )
+    assert (lines[0]["x0"], lines[1]["y0"]) == (0.27, 0.27)
+
+
+def test_a_cell_of_the_moduli_chooses_its_coating(explorer, table):
+    cell = "#moduli-Y [data-coating='2nd_E0.11_K0.5_theta0']"
+    peaks = table("peaks")
+    soft = peaks[(peaks["E"] == 0.11) & (peaks["order"] == 4)].iloc[0]
+    assert explorer.find(cell).text == f"{1e3 * soft['amplitude']:.2f}"
+    explorer.click(cell)
+    assert "A=2nd_E0.11_K0.5_theta0" in explorer.link
+    assert "coating A" in explorer.find(cell).accessible_name
+    explorer.click("#order [value='6']")
+    soft = peaks[(peaks["E"] == 0.11) & (peaks["order"] == 6)].iloc[0]
+    text = explorer.find("#moduli-f [data-coating='2nd_E0.11_K0.5_theta0']").text
+    assert text.splitlines() == ["A", f"{soft['f_peak']:.3f}"]
+
+
+def test_two_coatings_side_by_side(explorer):
+    assert not explorer.find("#wear-B").is_displayed()
+    explorer.click("#compare").choose("#coating-B [name=casing]", "2nd").choose("#coating-B [name=E]", "2")
+    explorer.choose("#coating-B [name=angle]", "0.15")
+    assert f"A={STRAIGHT}&B={INCLINED}" in explorer.link
+    assert explorer.find("#spectrum-B").is_displayed()
+    assert explorer.drawn("polar", "r", 0).tolist() != explorer.drawn("polar", "r", 1).tolist()
+    looks = explorer.driver.execute_script(
+        "return document.getElementById('polar').data.map(({ line }) => [line.color, line.dash])"
+    )
+    assert looks[0][0] != looks[1][0]
+    assert looks[0][1] != looks[1][1]  # not by colour alone
+    tops = "return ['A', 'B'].map((side) => document.getElementById(`wear-${side}`).layout.coloraxis.cmax)"
+    one, same = explorer.driver.execute_script(tops)
+    assert one == same
+    explorer.click("#same-scale")
+    one, other = explorer.driver.execute_script(tops)
+    assert one != other
+    assert len(explorer.run["Key of the run"]) == 2
+    assert len(explorer.all("#moduli-Y [data-coating]")) == 1  # with the angle of B
+    explorer.click("#side [value=A]").click("#moduli-f [data-coating^='2nd_E1.1_']")
+    assert f"A=2nd_E1.1_K0.5_theta0&B={INCLINED}" in explorer.link
+    assert explorer.complaints == []
+
+
+def test_keys_change_the_speed(explorer):
+    from selenium.webdriver.common.keys import Keys
+
+    explorer.driver.execute_script("document.querySelector('#speed').focus()")
+    assert explorer.press(Keys.ARROW_RIGHT).speed == 0.23
+    assert explorer.press(Keys.ARROW_LEFT, Keys.ARROW_LEFT).speed == 0.197
+    assert explorer.press(Keys.END).speed == 0.35
+    assert explorer.press(Keys.ARROW_UP).speed == 0.35  # the last there is
+    assert explorer.press(Keys.HOME).speed == 0.15
+    explorer.driver.execute_script("document.querySelector('#growth').focus()")
+    assert explorer.press(Keys.ARROW_UP).speed == 0.19
+    assert "f=0.19&" in explorer.link
+    explorer.driver.execute_script("document.querySelector('#coating-A [name=E]').focus()")
+    assert explorer.press(Keys.ARROW_LEFT).speed == 0.19  # here they choose a coating
+
+
+def test_keys_walk_the_moduli(explorer):
+    from selenium.webdriver.common.keys import Keys
+
+    explorer.driver.execute_script(
+        f"document.querySelector('#moduli-Y [data-coating=\"{STRAIGHT}\"]').focus()"
+    )
+    explorer.press(Keys.ARROW_LEFT)
+    assert explorer.driver.switch_to.active_element.get_attribute("data-coating") == "2nd_E1.1_K0.5_theta0"
+    assert f"A={STRAIGHT}" in explorer.link
+    explorer.press(Keys.ENTER)
+    assert "A=2nd_E1.1_K0.5_theta0" in explorer.link
+    focused = explorer.driver.switch_to.active_element
+    assert focused.get_attribute("data-coating") == "2nd_E1.1_K0.5_theta0"
+    assert len(explorer.all("#moduli-Y [tabindex='0']")) == 1
+
+
+def test_the_tab_key_reaches_every_control_and_each_has_a_name_and_a_ring(explorer):
+    from selenium.webdriver.common.keys import Keys
+
+    explorer.open(f"#A={STRAIGHT}&B={INCLINED}&f=0.206")
+    reached = {}
+    for _ in range(80):
+        explorer.driver.switch_to.active_element.send_keys(Keys.TAB)
+        focused = explorer.driver.switch_to.active_element
+        if focused.tag_name == "body" or focused.id in reached:
+            break
+        ring = focused.value_of_css_property("outline-style"), focused.value_of_css_property("outline-width")
+        reached[focused.id] = focused.accessible_name, ring
+    assert [name for name, _ in reached.values() if not name] == []
+    assert {ring for _, ring in reached.values()} == {("solid", "3px")}
+    controls = explorer.all("select, input:not([type=radio]), .picture, #link, #slower, #faster")
+    assert [control.accessible_name for control in controls if control.id not in reached] == []
+
+
+def test_a_link_restores_the_view(explorer):
+    explorer.click("#compare").choose("#coating-B [name=E]", "0.11").choose("#axis", "order")
+    explorer.click("#same-scale").click("#order [value='6']").click_map("spectrum-A", 4.0, 0.31)
+    state = """return JSON.stringify([
+        [...document.querySelectorAll('select, input')].map((each) => [each.value, each.checked]),
+        [...document.querySelectorAll('h2, #moduli, #figures')].map((each) => each.innerText),
+        [...document.querySelectorAll('.picture')].map(
+            ({ data }) => data?.map(({ x, y, z, r }) => [x, y, z, r])),
+    ])"""
+    link, seen = explorer.link, explorer.driver.execute_script(state)
+    explorer.open()
+    assert explorer.link != link
+    assert explorer.driver.execute_script(state) != seen
+    explorer.open(link)
+    assert explorer.link == link
+    assert explorer.driver.execute_script(state) == seen
+
+
+def test_a_link_followed_within_the_page_is_shown(explorer):
+    explorer.driver.execute_script(f"location.hash = '#A={RIGID}&f=0.35'")
+    explorer.wait()
+    assert (explorer.speed, explorer.run["Worn lobes"]) == (0.35, ["0"])
+
+
+def test_a_foreign_link_says_what_is_amiss(explorer):
+    explorer.open("#A=<b>none</b>&f=fast&spectra=colour&peaks=9&B=")
+    text = explorer.find("#status").text
+    for part in ('coating "<b>none</b>"', 'f "fast"', 'spectra "colour"', 'peaks "9"', 'coating ""'):
+        assert part in text
+    assert explorer.complaints == []
+
+
+def test_hostile_names_run_nothing(study, driver, tmp_path):
+    hostile = (
+        "</script><script>document.title = 'taken'</script><img src=x onerror=\"document.title = 'taken'\">"
+    )
+    results = study.folder / "results"
+    coating = read_map(results / "maps" / f"{STRAIGHT}.h5", with_nodes=True)
+    object.__setattr__(coating.case, "casing", hostile)
+    write_map(tmp_path / "map.h5", coating)
+    write_manifest(tmp_path / "manifest.tsv", read_manifest(results / "runs" / STRAIGHT / "manifest.tsv"))
+    tables = []
+    for name in ("peaks", "divergence"):
+        rows = pd.read_csv(results / "tables" / f"{name}.csv")
+        mine = rows[(rows["E"] == 2) & (rows["theta"] == 0)]
+        tables.append(mine.assign(casing=hostile))
+    settings = {
+        "max_frequency": 2.5,
+        "amplitude_range": [2e-6, 3e-3],
+        "growth_revolutions": 3,
+        "spectrum_revolutions": 2,
+    }
+    page = tmp_path / "explorer.html"
+    page.write_text(
+        build([tmp_path / "map.h5"], [tmp_path / "manifest.tsv"], *tables, settings, [hostile]),
+        encoding="utf-8",
+    )
+    explorer = Explorer(driver, page).open()
+    assert driver.title == "bladerub explorer"
+    assert hostile in explorer.find("#wear-A-title").text
+    assert explorer.all("#main img") == []
+    assert explorer.complaints == []
+    assert json.loads(driver.execute_script("return JSON.stringify(document.scripts.length)")) == 7
