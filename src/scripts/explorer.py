@@ -1,20 +1,18 @@
 """Put the whole study into one page."""
 
-import sys
-from pathlib import Path
-
-import pandas as pd
-
+from bladerub import atomic, job, tablefile
 from bladerub.explorer.page import build
+from bladerub.study import divergence, peaks
 
-sys.stderr = open(snakemake.log[0], "w", buffering=1)
+job.log_to(snakemake.log[0])
 
 page = build(
     snakemake.input.maps,
     snakemake.input.manifests,
-    pd.read_csv(snakemake.input.peaks),
-    pd.read_csv(snakemake.input.divergence),
+    tablefile.read(snakemake.input.peaks, peaks.COLUMNS),
+    tablefile.read(snakemake.input.divergence, divergence.COLUMNS),
     snakemake.params.settings,
     snakemake.params.configs,
 )
-Path(snakemake.output[0]).write_text(page, encoding="utf-8")
+with atomic.writing(snakemake.output[0]) as stream:
+    stream.write(page)
