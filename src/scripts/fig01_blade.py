@@ -10,5 +10,6 @@ from bladerub.plots.blade_mesh import blade_mesh
 job.log_to(snakemake.log[0])
 
 mesh, _ = datafile.read(snakemake.input.mesh)
-figure = blade_mesh(mesh["points"], mesh["hexahedra"], mesh["interface_nodes"], mesh["root_nodes"])
+nodes = (mesh[f"{name}_nodes"] for name in ("interface", "root", "tip"))
+figure = blade_mesh(mesh["points"], mesh["cells"], *nodes)
 style.save(figure, snakemake.output.png, snakemake.output.pdf, snakemake.params.dpi)

@@ -40,7 +40,7 @@ def deck(built, material, f_omega):
     lines = ["*NODE, NSET=ALL"]
     lines += [f"{i}, {x:.12e}, {y:.12e}, {z:.12e}" for i, (x, y, z) in enumerate(mesh.points, 1)]
     lines.append("*ELEMENT, TYPE=C3D20, ELSET=BLADE")
-    for i, nodes in enumerate(mesh.hexahedra + 1, 1):
+    for i, nodes in enumerate(mesh.cells + 1, 1):
         first, last = ", ".join(map(str, nodes[:15])), ", ".join(map(str, nodes[15:]))
         lines += [f"{i}, {first},", last]
     lines.append("*NSET, NSET=ROOT")

@@ -29,7 +29,7 @@ DATASETS = {
         "radial_direction",
         "tangential_direction",
     },
-    "blade/mesh.h5": {"points", "hexahedra", "recovery"},
+    "blade/mesh.h5": {"points", "cells", "recovery"},
     PLAIN_RUN: {
         "wear",
         "angle",

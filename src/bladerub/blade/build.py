@@ -195,11 +195,11 @@ def write_mesh(path: str | Path, built: BuiltBlade, origin: Mapping[str, str]) -
     variables = {
         "axis": AXIS,
         "points": Variable(("node", "axis"), mesh.mesh.points, "m", "nodes at rest in the rotating frame"),
-        "hexahedra": Variable(
+        "cells": Variable(
             ("element", "element_node"),
-            mesh.mesh.hexahedra,
+            mesh.mesh.cells,
             "1",
-            "nodes of each 20-node hexahedron: 8 corners, then edges at the bottom, at the top, upright",
+            "nodes of each hexahedron (20) or tetrahedron (10): corners, then edges, as in CalculiX and VTK",
         ),
         "root_nodes": Variable(("root_node",), mesh.root, "1", "clamped nodes"),
         "tip_nodes": Variable(("tip_node",), mesh.tip, "1", "nodes of the tip face"),

@@ -6,8 +6,8 @@ rest, the virtual work and its linearisation are
     r(u; v)     = ∫ S : δE(v),                                 δE(v) = sym(Fᵀ∇v)
     k(u; v, w)  = ∫ δE(v) : C : δE(w) + ∫ S : (∇vᵀ∇w)          (material + geometric)
 
-scikit-fem gives the isoparametric map, the gradients of the shape functions at the 3×3×3 Gauss points and
-the numbering; the integrals of `k` are formed for all shape functions of an element at once, because the
+scikit-fem gives the isoparametric map, the gradients of the shape functions at the integration points and the
+numbering; the integrals of `k` are formed for all shape functions of an element at once, because the
 tangent is needed dozens of times and a form evaluated pair by pair costs ten times as much.
 """
 
@@ -19,9 +19,8 @@ from dataclasses import dataclass
 import numpy as np
 from scipy import sparse
 from skfem import Basis, BilinearForm, ElementVector
-from skfem.element import ElementHexS2
 
-from bladerub.blade.mesh import MeshHexS2
+from bladerub.blade.mesh import SolidMesh
 
 _CHUNK = 512  # elements integrated at once: bounds the memory on fine meshes
 
@@ -56,7 +55,7 @@ class Solid:
 
     Parameters
     ----------
-    mesh : MeshHexS2
+    mesh : MeshHexS2 or MeshTetP2
         The body at rest.
     material : Material
         What it is made of.
@@ -75,18 +74,18 @@ class Solid:
         ∫ ρ X · v for every v, with X the position at rest, kg m.
     """
 
-    def __init__(self, mesh: MeshHexS2, material: Material, clamped=()):
+    def __init__(self, mesh: SolidMesh, material: Material, clamped=()):
         self.mesh = mesh
         self.material = material
-        scalar = Basis(mesh, ElementHexS2(), quadrature=_gauss_3x3x3())
-        dofs = Basis(mesh, ElementVector(ElementHexS2()), quadrature=(scalar.X[:, :1], scalar.W[:1]))
+        scalar = Basis(mesh, mesh.elem(), quadrature=mesh.quadrature())
+        dofs = Basis(mesh, ElementVector(mesh.elem()), quadrature=(scalar.X[:, :1], scalar.W[:1]))
         is_free = np.ones(3 * mesh.doflocs.shape[1], dtype=bool)
         is_free.reshape(-1, 3)[np.asarray(clamped, dtype=int)] = False
         self.free = np.flatnonzero(is_free)
         self.axis = self.free % 3
         self._weights = scalar.dx  # (element, point)
         self._gradients = np.stack([np.moveaxis(np.asarray(b[0].grad), 0, -1) for b in scalar.basis], axis=-2)
-        self._dofs = dofs.element_dofs.T  # (element, 60), node by node as in `_gradients`
+        self._dofs = dofs.element_dofs.T  # (element, 3 n_nodes), node by node as in `_gradients`
         self._pattern = _Pattern(self._dofs, is_free)
         mass = sparse.kron(_product.assemble(scalar), sparse.eye_array(3), format="csc") * material.density
         self.mass = sparse.csc_array(mass[self.free][:, self.free])
@@ -115,7 +114,8 @@ class Solid:
     def tangent(self, u: np.ndarray) -> sparse.csc_array:
         """Evaluate k(u; v, w) for every v, w: the tangent stiffness (n, n), symmetric, N/m."""
         displacement = self._element_displacement(u)
-        elements = np.empty((len(self._dofs), 60, 60))
+        size = self._dofs.shape[1]
+        elements = np.empty((len(self._dofs), size, size))
         for start in range(0, len(elements), _CHUNK):
             part = slice(start, start + _CHUNK)
             elements[part] = self._element_tangents(
@@ -124,11 +124,11 @@ class Solid:
         return self._pattern.assemble(elements)
 
     def deformation_gradient(self, u: np.ndarray) -> np.ndarray:
-        """Evaluate F (n_elements, 27, 3, 3) at the Gauss points."""
+        """Evaluate F (n_elements, n_points, 3, 3) at the integration points."""
         return _deformation_gradient(self._gradients, self._element_displacement(u))
 
     def _element_displacement(self, u: np.ndarray) -> np.ndarray:
-        return self.full(u).ravel()[self._dofs].reshape(len(self._dofs), 20, 3)
+        return self.full(u).ravel()[self._dofs].reshape(len(self._dofs), -1, 3)
 
     def _stress(self, F: np.ndarray) -> np.ndarray:
         """Second Piola-Kirchhoff stress S (element, point, 3, 3), Pa."""
@@ -140,20 +140,20 @@ class Solid:
         lam, mu = self.material.lame
         F = _deformation_gradient(gradients, displacement)
         S = self._stress(F)
-        n_elements, n_points = weights.shape
+        n_elements, n_points, n_nodes, _ = gradients.shape
         Fv = np.einsum("eqiI,eqaJ->eqIJai", F, gradients, optimize=True).reshape(
-            n_elements, n_points, 3, 3, 60
+            n_elements, n_points, 3, 3, 3 * n_nodes
         )
         dE = 0.5 * (Fv + np.swapaxes(Fv, 2, 3))  # δE of each shape function
         root = np.sqrt(weights)
         volumetric = np.sqrt(lam) * root[..., None] * np.trace(dE, axis1=2, axis2=3)
         dE *= np.sqrt(2 * mu) * root[..., None, None, None]
-        dE = dE.reshape(n_elements, n_points * 9, 60)
+        dE = dE.reshape(n_elements, n_points * 9, 3 * n_nodes)
         material = np.swapaxes(dE, 1, 2) @ dE + np.swapaxes(volumetric, 1, 2) @ volumetric  # ∫ δE : C : δE
         Sg = np.einsum("eqIJ,eqbJ->eqIb", S * weights[..., None, None], gradients, optimize=True)
-        flat = np.swapaxes(gradients, 2, 3).reshape(n_elements, n_points * 3, 20)
-        geometric = np.swapaxes(flat, 1, 2) @ Sg.reshape(n_elements, n_points * 3, 20)  # ∫ S : (∇vᵀ∇w)
-        blocks = material.reshape(n_elements, 20, 3, 20, 3)
+        flat = np.swapaxes(gradients, 2, 3).reshape(n_elements, n_points * 3, n_nodes)
+        geometric = np.swapaxes(flat, 1, 2) @ Sg.reshape(n_elements, n_points * 3, n_nodes)  # ∫ S : (∇vᵀ∇w)
+        blocks = material.reshape(n_elements, n_nodes, 3, n_nodes, 3)
         for axis in range(3):
             blocks[:, :, axis, :, axis] += geometric
         return material
@@ -180,11 +180,3 @@ class _Pattern:
     def assemble(self, elements: np.ndarray) -> sparse.csc_array:
         values = np.bincount(self._target, weights=elements.ravel()[self._kept], minlength=self._rows.size)
         return sparse.csc_array((values, self._rows, self._starts), shape=self._shape)
-
-
-def _gauss_3x3x3() -> tuple[np.ndarray, np.ndarray]:
-    """Points (3, 27) and weights (27,) on the unit cube."""
-    x, w = np.polynomial.legendre.leggauss(3)
-    x, w = 0.5 * (x + 1), 0.5 * w
-    points = np.stack([axis.ravel() for axis in np.meshgrid(x, x, x, indexing="ij")])
-    return points, np.einsum("i,j,k->ijk", w, w, w).ravel()

@@ -1,27 +1,31 @@
-"""Mesh of 20-node hexahedra with true curved geometry at the mid-side nodes."""
+"""Meshes of quadratic elements, with true curved geometry at the mid-side nodes, and the blade's own mesh."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from typing import ClassVar
 
 import numpy as np
-from skfem import MeshHex1
-from skfem.element import Element, ElementHexS2
+from skfem import MeshHex1, MeshTet2
+from skfem.element import Element, ElementHexS2, ElementTetP2
+from skfem.quadrature import get_quadrature
+from skfem.refdom import RefTet
 
 from bladerub.blade.geometry import BladeShape, check_interface, lattice
 from bladerub.blade.model import N_INTERFACE
 
 
-@dataclass(repr=False)
-class MeshHexS2(MeshHex1):
-    """Hexahedra mapped by the 20-node serendipity element, corners first in `doflocs`, then edge midpoints.
+class _Solid:
+    """What the meshes of both kinds of element have in common; corners first in ``doflocs``, then edges.
 
-    scikit-fem has an isoparametric `MeshHex2`, but of 27 nodes: its geometry would be finer than the
-    displacement and no longer that of the C3D20 element of other codes.
+    Attributes
+    ----------
+    order : ndarray of int
+        Place in scikit-fem's element of each node as CalculiX (C3D20, C3D10) and VTK count them.
     """
 
-    elem: type[Element] = ElementHexS2
+    order: ClassVar[np.ndarray]
 
     @property
     def points(self) -> np.ndarray:
@@ -29,26 +33,73 @@ class MeshHexS2(MeshHex1):
         return self.doflocs.T
 
     @property
-    def hexahedra(self) -> np.ndarray:
-        """Nodes of each element (n_elements, 20), in the order of CalculiX's C3D20 and of VTK."""
-        return self.dofs.element_dofs[_C3D20_ORDER].T
+    def cells(self) -> np.ndarray:
+        """Nodes of each element (n_elements, 20 or 10), in the order of CalculiX and of VTK."""
+        return self.dofs.element_dofs[self.order].T
 
 
-def _c3d20_order() -> np.ndarray:
-    """Position in scikit-fem's element of each node of C3D20: corners, bottom, top, then upright edges."""
+def _order(element: type[Element], wanted: list[tuple[float, ...]]) -> np.ndarray:
+    places = {tuple(place): index for index, place in enumerate(element.doflocs.tolist())}
+    return np.array([places[node] for node in wanted])
+
+
+def _c3d20() -> list[tuple[float, ...]]:
+    """Nodes of C3D20 on the unit cube: corners, edges at the bottom, at the top, then upright."""
     ring = [(0, 0), (1, 0), (1, 1), (0, 1)]
     ring_middle = [(0.5, 0), (1, 0.5), (0.5, 1), (0, 0.5)]
-    wanted = [
+    return [
         (x, y, z)
         for corners, heights in ((ring, (0, 1)), (ring_middle, (0, 1)), (ring, (0.5,)))
         for z in heights
         for x, y in corners
     ]
-    places = {tuple(place): index for index, place in enumerate(ElementHexS2.doflocs.tolist())}
-    return np.array([places[node] for node in wanted])
 
 
-_C3D20_ORDER = _c3d20_order()
+_C3D10 = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)]
+_C3D10 += [(0.5, 0, 0), (0.5, 0.5, 0), (0, 0.5, 0), (0, 0, 0.5), (0.5, 0, 0.5), (0, 0.5, 0.5)]
+
+
+@dataclass(repr=False)
+class MeshHexS2(_Solid, MeshHex1):
+    """Hexahedra mapped by the 20-node serendipity element.
+
+    scikit-fem has an isoparametric `MeshHex2`, but of 27 nodes: its geometry would be finer than the
+    displacement and no longer that of the C3D20 element of other codes.
+    """
+
+    elem: type[Element] = ElementHexS2
+    order: ClassVar[np.ndarray] = _order(ElementHexS2, _c3d20())
+
+    @staticmethod
+    def quadrature() -> tuple[np.ndarray, np.ndarray]:
+        """Give the 3×3×3 Gauss points (3, 27) and weights (27,) on the unit cube."""
+        x, w = np.polynomial.legendre.leggauss(3)
+        x, w = 0.5 * (x + 1), 0.5 * w
+        points = np.stack([axis.ravel() for axis in np.meshgrid(x, x, x, indexing="ij")])
+        return points, np.einsum("i,j,k->ijk", w, w, w).ravel()
+
+
+@dataclass(repr=False)
+class MeshTetP2(_Solid, MeshTet2):
+    """Tetrahedra mapped by the 10-node element."""
+
+    elem: type[Element] = ElementTetP2
+    order: ClassVar[np.ndarray] = _order(ElementTetP2, _C3D10)
+
+    @staticmethod
+    def quadrature() -> tuple[np.ndarray, np.ndarray]:
+        """Give 14 points (3, 14) and weights (14,) on the unit tetrahedron, exact to the fifth degree.
+
+        The mass of straight elements needs the fourth; the rule of that degree has negative weights, which
+        could make a stiffness indefinite.
+        """
+        return get_quadrature(RefTet, 5)
+
+
+SolidMesh = MeshHexS2 | MeshTetP2
+"""A mesh that `bladerub.blade.elasticity.Solid` takes."""
+
+
 _ALONG_THE_CUBE = [7, 4, 6, 5, 2, 1, 3, 0]  # scikit-fem numbers its tensor meshes left-handed
 
 
@@ -77,13 +128,55 @@ def hexahedral_mesh(
     return MeshHexS2(points(*parameters), cube.t), parameters
 
 
+def solid_mesh(points: np.ndarray, cells: np.ndarray) -> tuple[SolidMesh, np.ndarray]:
+    """Make a mesh of quadratic elements, its nodes numbered as scikit-fem does.
+
+    Parameters
+    ----------
+    points : (n_points, 3) ndarray
+        Nodes, m.
+    cells : (n_elements, 20 or 10) ndarray of int
+        Nodes of each element, in the order of CalculiX and of VTK.
+
+    Returns
+    -------
+    mesh : MeshHexS2 or MeshTetP2
+        The same elements.
+    origin : (n_nodes,) ndarray of int
+        Where in `points` each node of the mesh is; what no element uses is left out.
+
+    Raises
+    ------
+    ValueError
+        If two elements that share an edge do not share its middle, or edges share a mid-side node; names an
+        element by its row in `cells`, counted from 1.
+    """
+    kind = MeshHexS2 if cells.shape[1] == 20 else MeshTetP2
+    n_corners = kind.elem.refdom.nnodes
+    vertices, corners = np.unique(cells[:, :n_corners], return_inverse=True)
+    t = np.empty((n_corners, len(cells)), dtype=np.int32)
+    t[kind.order[:n_corners]] = corners.reshape(-1, n_corners).T
+    numbered = kind(points[vertices].T, t).cells
+    origin = np.empty(numbered.max() + 1, dtype=int)
+    origin[numbered] = cells
+    loose = np.any(origin[numbered] != cells, axis=1)
+    if loose.any():
+        raise ValueError(
+            f"element {np.argmax(loose) + 1}: must share the mid-side nodes of its neighbours"
+        )
+    if np.unique(origin).size < origin.size:
+        twice = np.argmax(np.bincount(origin) > 1)
+        raise ValueError(f"node {twice + 1}: is in the middle of more than one edge, or a corner as well")
+    return kind(points[origin].T, t), origin
+
+
 @dataclass(frozen=True)
 class BladeMesh:
     """The blade's mesh and the node sets on it.
 
     Parameters
     ----------
-    mesh : MeshHexS2
+    mesh : MeshHexS2 or MeshTetP2
         The elements.
     root, tip : ndarray of int
         Nodes of the clamped root and of the tip face.
@@ -91,7 +184,7 @@ class BladeMesh:
         Nodes of the tip's camber line that may touch the casing, leading to trailing edge.
     """
 
-    mesh: MeshHexS2
+    mesh: SolidMesh
     root: np.ndarray = field(repr=False)
     tip: np.ndarray = field(repr=False)
     interface: np.ndarray

@@ -9,8 +9,9 @@ from matplotlib.collections import PolyCollection
 from matplotlib.figure import Figure
 from matplotlib.markers import CARETUP
 
+from bladerub.blade.surface import boundary_faces, normals
 from bladerub.plots.style import DARK, PAGE, RED, new_figure, styled
-from bladerub.plots.surface import View, boundary_faces, normals
+from bladerub.plots.surface import View
 
 _METAL = np.array(colors.to_rgb("#c3ccd6"))
 _LIGHT = np.array([-0.35, 0.85, 0.40])
@@ -25,31 +26,36 @@ _INTERFACE = {
     "markeredgewidth": 0.5,
 }
 _ROOT = {"marker": CARETUP, "color": DARK, "linestyle": "none", "markersize": 5, "markeredgewidth": 0.3}
+_KINDS = {20: "hexahedra", 10: "tetrahedra"}
 _AXIS = 35  # length of the drawn axes, mm
 
 
 @styled
-def blade_mesh(points: np.ndarray, hexahedra: np.ndarray, interface: np.ndarray, root: np.ndarray) -> Figure:
+def blade_mesh(
+    points: np.ndarray, cells: np.ndarray, interface: np.ndarray, root: np.ndarray, tip: np.ndarray
+) -> Figure:
     """Draw Fig. 1: the mesh with root and interface nodes (a), and the tip seen along the radius (b).
 
     Parameters
     ----------
     points : (n_nodes, 3) ndarray
         Nodes, m: x along the axis, y tangential, z along the stacking line.
-    hexahedra : (n_elements, 20) ndarray of int
-        Nodes of the elements, in the order of CalculiX's C3D20.
+    cells : (n_elements, 20 or 10) ndarray of int
+        Nodes of the elements, in the order of CalculiX's C3D20 or C3D10.
     interface : (8,) ndarray of int
         Interface nodes, leading to trailing edge.
     root : (n_root,) ndarray of int
         Clamped nodes.
+    tip : (n_tip,) ndarray of int
+        Nodes of the tip face.
     """
     figure = new_figure(PAGE, 0.86 * PAGE)
-    whole, tip = figure.subplots(1, 2, width_ratios=[1, 1.05])
+    whole, of_tip = figure.subplots(1, 2, width_ratios=[1, 1.05])
     millimetres = 1e3 * points
-    faces = boundary_faces(hexahedra)
+    faces = boundary_faces(cells)
     _draw_whole(whole, millimetres, faces, interface, root)
-    whole.set_title(f"(a) {len(hexahedra)} hexahedra, {len(points)} nodes")
-    _draw_tip(tip, millimetres, faces, interface)
+    whole.set_title(f"(a) {len(cells)} {_KINDS[cells.shape[1]]}, {len(points)} nodes")
+    _draw_tip(of_tip, millimetres, faces[np.isin(faces, tip).all(axis=1)], interface)
     figure.legend(*whole.get_legend_handles_labels(), loc="outside lower center", ncols=2)
     return figure
 
@@ -86,9 +92,8 @@ def _draw_directions(axes: Axes, origin: np.ndarray) -> None:
 
 
 def _draw_tip(axes: Axes, points: np.ndarray, faces: np.ndarray, interface: np.ndarray) -> None:
-    """Look inward along z at the faces of the tip."""
-    tip = faces[normals(points[faces])[:, 2] > 0.9]
-    axes.add_collection(PolyCollection(points[tip][:, :, :2], facecolors=_METAL, **_EDGES))
+    """Look inward along z at the `faces` of the tip."""
+    axes.add_collection(PolyCollection(points[faces][:, :, :2], facecolors=_METAL, **_EDGES))
     x, y = points[interface, 0], points[interface, 1]
     axes.plot(x, y, **_INTERFACE)
     for number, node in enumerate(zip(x, y, strict=True), start=1):

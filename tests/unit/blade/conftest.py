@@ -1,4 +1,4 @@
-"""A small blade and simple blocks of 20-node hexahedra."""
+"""A small blade and simple blocks of quadratic elements."""
 
 import numpy as np
 import pytest
@@ -37,7 +37,14 @@ def make_block():
     """Make a `Solid` of given side lengths, element counts, origin and distortion of its inside."""
 
     def make(
-        size, counts, origin=(0.0, 0.0, 0.0), poisson=0.3, young=2e11, clamp_bottom=False, distortion=0.0
+        size,
+        counts,
+        origin=(0.0, 0.0, 0.0),
+        poisson=0.3,
+        young=2e11,
+        clamp_bottom=False,
+        distortion=0.0,
+        make_mesh=hexahedral_mesh,
     ):
         size, origin = np.asarray(size, dtype=float), np.asarray(origin, dtype=float)
 
@@ -47,7 +54,7 @@ def make_block():
             shift = distortion * bubble * np.array([[1.0], [-2.0], [1.5]])
             return (cube + shift) * size[:, None] + origin[:, None]
 
-        mesh, parameters = hexahedral_mesh(*(np.linspace(0, 1, n + 1) for n in counts), points)
+        mesh, parameters = make_mesh(*(np.linspace(0, 1, n + 1) for n in counts), points)
         clamped = np.flatnonzero(parameters[2] == 0) if clamp_bottom else ()
         return Solid(mesh, Material(young, poisson, 7800.0), clamped)
 

@@ -56,8 +56,8 @@ def test_files_hold_what_was_built(built, tmp_path):
 
     data, _ = datafile.read(paths[1])
     n_nodes = len(data["points"])
-    assert data["hexahedra"].shape == (7 * 1 * 3, 20)
-    assert data["hexahedra"].max() == n_nodes - 1
+    assert data["cells"].shape == (7 * 1 * 3, 20)
+    assert data["cells"].max() == n_nodes - 1
     np.testing.assert_array_equal(data["points"][data["interface_nodes"]], blade.node_position)
     assert data["mode_shape"].shape == (4, n_nodes, 3)
     assert list(data["interface_node"]) == list(range(1, 9))

@@ -1,8 +1,10 @@
 import numpy as np
 import pytest
+from blade_parts import tetrahedral_mesh
 
 from bladerub.blade.geometry import EDGE_THICKNESS, BladeShape
-from bladerub.blade.mesh import BladeMesh, hexahedral_mesh
+from bladerub.blade.mesh import BladeMesh, hexahedral_mesh, solid_mesh
+from bladerub.blade.surface import EDGES
 
 
 @pytest.fixture
@@ -23,12 +25,12 @@ def test_every_node_lies_on_the_blade(twisted_config):
     np.testing.assert_array_equal(mesh.doflocs, shape.points(*parameters))
     corners, edges = 8 * 2 * 4, 7 * 2 * 4 + 8 * 1 * 4 + 8 * 2 * 3
     assert mesh.doflocs.shape[1] == corners + edges
-    assert np.unique(mesh.hexahedra).size == corners + edges
+    assert np.unique(mesh.cells).size == corners + edges
 
 
 def test_hexahedra_are_numbered_as_c3d20():
     mesh, _ = brick()
-    for element in mesh.points[mesh.hexahedra]:
+    for element in mesh.points[mesh.cells]:
         bottom, top = element[:4], element[4:8]
         np.testing.assert_allclose(top - bottom, [[0, 0, 1]] * 4)
         first, second = bottom[1] - bottom[0], bottom[3] - bottom[0]
@@ -36,6 +38,47 @@ def test_hexahedra_are_numbered_as_c3d20():
         np.testing.assert_allclose(element[8:12], (bottom + np.roll(bottom, -1, axis=0)) / 2)
         np.testing.assert_allclose(element[12:16], (top + np.roll(top, -1, axis=0)) / 2)
         np.testing.assert_allclose(element[16:], (bottom + top) / 2)
+
+
+def test_tetrahedra_are_numbered_as_c3d10():
+    corners = (np.array([0.0, 0.5, 1.0]), np.array([0.0, 1.0]), np.array([0.0, 1.0]))
+    mesh, _ = tetrahedral_mesh(*corners, lambda *cube: np.stack(cube))
+    for element in mesh.points[mesh.cells]:
+        first, second, third = element[1:4] - element[0]
+        assert np.cross(first, second) @ third > 0
+        np.testing.assert_allclose(element[4:], element[EDGES[10]].mean(axis=1))
+
+
+@pytest.mark.parametrize("make_mesh", [hexahedral_mesh, tetrahedral_mesh])
+def test_elements_survive_a_new_numbering(make_mesh):
+    corners = (np.array([0.0, 0.5, 1.0]), np.array([0.0, 1.0]), np.array([0.0, 0.4, 1.0]))
+    mesh, _ = make_mesh(*corners, lambda *cube: np.stack(cube))
+    shuffled = np.random.default_rng(2).permutation(len(mesh.points) + 1)[: len(mesh.points)]
+    points = np.full((len(mesh.points) + 1, 3), np.nan)
+    points[shuffled] = mesh.points
+    again, origin = solid_mesh(points, shuffled[mesh.cells])
+    np.testing.assert_array_equal(again.points, points[origin])
+    np.testing.assert_array_equal(again.points[again.cells], mesh.points[mesh.cells])
+
+
+def test_elements_that_do_not_share_their_mid_side_nodes_are_refused():
+    mesh, _ = brick()
+    cells = mesh.cells.copy()
+    shared = np.intersect1d(cells[0, 8:], cells[1, 8:])[0]
+    cells[1, cells[1] == shared] = len(mesh.points)
+    points = np.vstack([mesh.points, mesh.points[shared]])
+    with pytest.raises(ValueError, match=r"element \d: must share the mid-side nodes of its neighbours"):
+        solid_mesh(points, cells)
+
+
+def test_a_mid_side_node_of_two_edges_is_refused():
+    mesh, _ = brick()
+    cells = mesh.cells.copy()
+    (own,) = np.setdiff1d(cells[0, 8:12], cells[1])[:1]
+    other = np.setdiff1d(cells[1, 12:16], cells[0])[0]
+    cells[1, cells[1] == other] = own
+    with pytest.raises(ValueError, match=f"node {own + 1}: is in the middle of more than one edge"):
+        solid_mesh(mesh.points, cells)
 
 
 def test_jacobians_are_positive_throughout(twisted):

@@ -1,8 +1,9 @@
 import numpy as np
 import pytest
 
+from bladerub.blade.surface import boundary_faces, normals
 from bladerub.plots.blade_mesh import blade_mesh
-from bladerub.plots.surface import View, boundary_faces, normals
+from bladerub.plots.surface import View
 
 CORNERS = np.array(
     [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 0, 1], [1, 0, 1], [1, 1, 1], [0, 1, 1]], float
@@ -56,7 +57,7 @@ def test_farther_faces_are_drawn_first():
 def panels(draws):
     points, hexahedra = tower(3)
     top, bottom = np.flatnonzero(points[:, 2] == 3), np.flatnonzero(points[:, 2] == 0)
-    return draws(blade_mesh(points, hexahedra, top, bottom)).axes
+    return draws(blade_mesh(points, hexahedra, top, bottom, top)).axes
 
 
 def test_all_node_sets_are_marked(panels):
