@@ -80,7 +80,7 @@ def test_the_mesh_is_that_of_the_blade_with_20_nodes_each(motion, folder):
     np.testing.assert_array_equal(mesh.points, data["points"])
     (cells,) = mesh.cells
     assert cells.type == "hexahedron20"
-    np.testing.assert_array_equal(cells.data, data["hexahedra"])
+    np.testing.assert_array_equal(cells.data, data["cells"])
     corner, middle = mesh.points[cells.data[:, :8]], mesh.points[cells.data[:, 8:]]
     edges = np.array(
         [[0, 1], [1, 2], [2, 3], [3, 0], [4, 5], [5, 6], [6, 7], [7, 4], [0, 4], [1, 5], [2, 6], [3, 7]]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 import json
 import logging
 from collections.abc import Mapping
@@ -19,13 +20,17 @@ from bladerub.blade.accuracy import CAMPBELL_COLUMNS, accuracy_table
 from bladerub.blade.elasticity import Material, Solid
 from bladerub.blade.frequencies import reduced_frequencies
 from bladerub.blade.linear import lowest_modes
-from bladerub.blade.mesh import BladeMesh
+from bladerub.blade.mesh import BladeMesh, MeshedBlade
 from bladerub.blade.model import AXIS, INTERFACE_NODE, ReducedBlade, write_reduced_blade
 from bladerub.blade.reduction import Partition, project, speed_law, stiffness_at, transformation
 from bladerub.blade.rotation import Equilibrium, equilibrium
+from bladerub.blade.source.imported import Source, import_mesh
 from bladerub.datafile import Variable
 
 log = logging.getLogger(__name__)
+
+LENGTH_TOLERANCE = 0.05
+"""How far ``blade.length`` may be from what an imported blade measures: its root need not be a cylinder."""
 
 
 @dataclass(frozen=True)
@@ -66,28 +71,64 @@ class BuiltBlade:
 
 
 def made_from(config: Mapping[str, Any]) -> str:
-    """Write down what of `config` determines the blade, to tell later whether a blade is of a config."""
-    return json.dumps({block: config[block] for block in ("blade", "reduction")}, sort_keys=True)
+    """Write down what of `config` determines the blade, to tell later whether a blade is of a config.
+
+    Raises
+    ------
+    OSError
+        If the blade comes from a file that cannot be read.
+    """
+    blade = config["blade"]
+    if "source" in blade:
+        content = Source.from_config(blade["source"]).file.read_bytes()
+        blade = {name: blade[name] for name in ("material", "length", "source")}
+        blade["source"] = {**blade["source"], "file": hashlib.sha256(content).hexdigest()}
+    return json.dumps({"blade": blade, "reduction": config["reduction"]}, sort_keys=True)
+
+
+def build(config: Mapping[str, Any]) -> BuiltBlade:
+    """Build the blade of the ``blade`` and ``reduction`` blocks of `config`.
+
+    Raises
+    ------
+    ValueError
+        If the blade cannot be meshed (see `bladerub.blade.geometry.check`) or imported (see
+        `bladerub.blade.source.imported.import_mesh`).
+    EquilibriumError
+        If the blade has no static equilibrium at one of the speeds.
+    """
+    return reduce_blade(meshed_blade(config["blade"]), config)
 
 
 @threadpool_limits.wrap(limits=1)
-def build(config: Mapping[str, Any]) -> BuiltBlade:
-    """Build the blade of the ``blade`` and ``reduction`` blocks of `config`.
+def meshed_blade(blade: Mapping[str, Any]) -> MeshedBlade:
+    """Mesh the blade of the ``blade`` block of the config, or take its mesh from its source."""
+    if "source" not in blade:
+        geometry.check(blade)
+        shape = geometry.BladeShape.from_config(blade)
+        return MeshedBlade(BladeMesh.from_shape(shape, blade["mesh"]), shape.tip_cone, blade["length"])
+    given = import_mesh(Source.from_config(blade["source"])).blade
+    if abs(given.length / blade["length"] - 1) > LENGTH_TOLERANCE:
+        raise ValueError(
+            f"blade.length = {blade['length']:g}: must be that of the blade in {blade['source']['file']}, "
+            f"{given.length:.4g} m to within {LENGTH_TOLERANCE:.0%}; clearances are in this unit"
+        )
+    return given
+
+
+@threadpool_limits.wrap(limits=1)
+def reduce_blade(blade: MeshedBlade, config: Mapping[str, Any]) -> BuiltBlade:
+    """Reduce `blade`, of the material and by the ``reduction`` block of `config`.
 
     It runs in one thread: sums over several come out different in the last digit with their number, and
     another blade makes all its runs stale.
 
     Raises
     ------
-    ValueError
-        If the blade cannot be meshed (see `bladerub.blade.geometry.check`).
     EquilibriumError
         If the blade has no static equilibrium at one of the speeds.
     """
-    reduction = config["reduction"]
-    geometry.check(config["blade"])
-    shape = geometry.BladeShape.from_config(config["blade"])
-    mesh = BladeMesh.from_shape(shape, config["blade"]["mesh"])
+    reduction, mesh = config["reduction"], blade.mesh
     solid = Solid(mesh.mesh, Material.from_config(config["blade"]["material"]), clamped=mesh.root)
     log.info("%d elements, %d free coordinates", mesh.mesh.t.shape[1], solid.free.size)
 
@@ -103,7 +144,7 @@ def build(config: Mapping[str, Any]) -> BuiltBlade:
     phi = transformation(
         fits, solid.mass, partition, reduction["modes_per_speed"], reduction["rank_tolerance"]
     )
-    radial, tangential = directions(mesh.mesh.points[mesh.interface], shape.tip_cone)
+    radial, tangential = directions(mesh.mesh.points[mesh.interface], blade.tip_cone)
     reduced = ReducedBlade(
         project(solid.mass, phi),
         *speed_law(*(project(stiffness, phi) for stiffness in fits), f_max),

@@ -156,18 +156,16 @@ def solid_mesh(points: np.ndarray, cells: np.ndarray) -> tuple[SolidMesh, np.nda
     vertices, corners = np.unique(cells[:, :n_corners], return_inverse=True)
     t = np.empty((n_corners, len(cells)), dtype=np.int32)
     t[kind.order[:n_corners]] = corners.reshape(-1, n_corners).T
-    numbered = kind(points[vertices].T, t).cells
+    numbered = kind(np.ascontiguousarray(points[vertices].T), t).cells
     origin = np.empty(numbered.max() + 1, dtype=int)
     origin[numbered] = cells
     loose = np.any(origin[numbered] != cells, axis=1)
     if loose.any():
-        raise ValueError(
-            f"element {np.argmax(loose) + 1}: must share the mid-side nodes of its neighbours"
-        )
+        raise ValueError(f"element {np.argmax(loose) + 1}: must share the mid-side nodes of its neighbours")
     if np.unique(origin).size < origin.size:
         twice = np.argmax(np.bincount(origin) > 1)
         raise ValueError(f"node {twice + 1}: is in the middle of more than one edge, or a corner as well")
-    return kind(points[origin].T, t), origin
+    return kind(np.ascontiguousarray(points[origin].T), t), origin
 
 
 @dataclass(frozen=True)
@@ -205,3 +203,22 @@ class BladeMesh:
         camber_line = camber_line[np.argsort(xi[camber_line])]
         evenly = np.rint(np.linspace(0, camber_line.size - 1, N_INTERFACE)).astype(int)
         return cls(hexahedra, np.flatnonzero(zeta == 0), tip, camber_line[evenly])
+
+
+@dataclass(frozen=True)
+class MeshedBlade:
+    """A blade ready to be reduced, wherever its mesh comes from.
+
+    Parameters
+    ----------
+    mesh : BladeMesh
+        In the frame of `bladerub.blade.geometry`.
+    tip_cone : float
+        Half angle of the flow path at the tip, rad; positive where it widens with x.
+    length : float
+        From root to tip, m.
+    """
+
+    mesh: BladeMesh
+    tip_cone: float
+    length: float

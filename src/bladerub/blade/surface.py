@@ -4,6 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
+NAMES = {20: "hexahedron20", 10: "tetra10"}
+"""By the nodes of the element: its name in meshio."""
+
 EDGES = {
     20: np.array(
         [(0, 1), (1, 2), (2, 3), (3, 0), (4, 5), (5, 6), (6, 7), (7, 4), (0, 4), (1, 5), (2, 6), (3, 7)]

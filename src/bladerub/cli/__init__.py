@@ -7,7 +7,7 @@ import sys
 from typing import NoReturn
 
 from bladerub import __version__, faults
-from bladerub.cli import benchmark, export, run, status, verify
+from bladerub.cli import benchmark, export, import_blade, run, status, verify
 from bladerub.cli.errors import InputError
 from bladerub.config_faults import ConfigError
 
@@ -29,6 +29,7 @@ def main(arguments: list[str] | None = None) -> int:
     verify.add_to(commands)
     benchmark.add_to(commands)
     export.add_to(commands)
+    import_blade.add_to(commands)
     options = parser.parse_args(arguments)
     try:
         options.command(options)

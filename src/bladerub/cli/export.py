@@ -97,7 +97,7 @@ def export(options: argparse.Namespace) -> None:
         "samples": options.samples,
         "revolution": recording.revolution_peak.size,
         "nodes": len(mesh["points"]),
-        "elements": len(mesh["hexahedra"]),
+        "elements": len(mesh["cells"]),
         "largest_displacement": largest,
         "bytes": sum(file.stat().st_size for file in options.vtu.iterdir()),
     }

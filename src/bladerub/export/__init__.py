@@ -1,1 +1,1 @@
-"""What other programs read: the motion of a run for ParaView."""
+"""What other programs read: the motion of a run, the mesh, decks for CalculiX, the reduced matrices."""

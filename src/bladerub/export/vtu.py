@@ -17,12 +17,13 @@ import numpy as np
 
 from bladerub import datafile
 from bladerub.blade.model import ReducedBlade
+from bladerub.blade.surface import NAMES
 from bladerub.contact.recording import Recording
 
 COLLECTION = "blade.pvd"
 """The file to open: it names the others with their time in revolutions."""
 
-_MESH = {"points", "hexahedra", "interface_nodes", "recovery"}
+_MESH = {"points", "cells", "interface_nodes", "recovery"}
 _FRAME = (
     "Mesh: blade at rest in the rotating frame, x along the axis of rotation, m. displacement: of each node "
     "about its running position (in equilibrium at speed), m. Time: revolutions from the start of the run."
@@ -87,7 +88,7 @@ def write_motion(
             names.append(f"blade_{number:04}.vtu")
             meshio.Mesh(
                 mesh["points"],
-                [("hexahedron20", mesh["hexahedra"])],  # nodes in the order of VTK in mesh.h5 already
+                [(NAMES[mesh["cells"].shape[1]], mesh["cells"])],  # nodes in the order of VTK already
                 point_data={"displacement": displacement},
             ).write(temporary / names[-1])
         _write_collection(temporary / COLLECTION, names, recording.time, about)

@@ -1,0 +1,69 @@
+"""Units and axes by name, and the turn from a file's axes to the blade's frame.
+
+The blade's frame (`bladerub.blade.geometry`) has x along the engine axis, z along the blade, and a rotation
+that takes z towards y: by the right-hand rule, about -x. A file whose axes are named is therefore only
+turned, never mirrored, with x against its rotation vector; x then points downstream or upstream, as the
+blade has it, and which end is the leading edge is a question of its own.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+UNITS = {"m": 1.0, "mm": 1e-3, "cm": 1e-2, "inch": 0.0254, "feet": 0.3048}
+"""Metres of each unit of length."""
+AXES = ("x", "y", "z", "-x", "-y", "-z")
+
+
+@dataclass(frozen=True)
+class Frame:
+    """How a file is laid out; its engine axis passes through its origin.
+
+    Parameters
+    ----------
+    unit : str
+        One of `UNITS`.
+    rotation, downstream, radial : str
+        One of `AXES` each: about which the blade turns by the right-hand rule, along which the air flows,
+        along which the blade stands.
+
+    Raises
+    ------
+    ValueError
+        If `downstream` is not along the engine axis or `radial` is not across it.
+    """
+
+    unit: str = "m"
+    rotation: str = "-x"
+    downstream: str = "x"
+    radial: str = "z"
+
+    def __post_init__(self):
+        if self.downstream[-1] != self.rotation[-1]:
+            raise ValueError(
+                f"downstream = {self.downstream}: must be along the axis of rotation, {self.rotation[-1]} or "
+                f"-{self.rotation[-1]}"
+            )
+        if self.radial[-1] == self.rotation[-1]:
+            raise ValueError(f"radial = {self.radial}: must not be the axis of rotation")
+
+    @property
+    def turn(self) -> np.ndarray:
+        """Rotation matrix (3, 3) from the file's axes to the blade's."""
+        x, z = -_vector(self.rotation), _vector(self.radial)
+        return np.stack([x, np.cross(z, x), z])
+
+    @property
+    def downstream_x(self) -> int:
+        """1 where the blade's x points downstream, -1 where it points upstream."""
+        return -1 if self.downstream == self.rotation else 1
+
+    def metres(self, points: np.ndarray) -> np.ndarray:
+        """Bring points (n, 3) of the file to the blade's frame, m."""
+        return UNITS[self.unit] * points @ self.turn.T
+
+
+def _vector(axis: str) -> np.ndarray:
+    return (-1.0 if axis.startswith("-") else 1.0) * np.eye(3)["xyz".index(axis[-1])]

@@ -1,0 +1,162 @@
+"""From a mesh file to a blade that can be reduced, with what is worth knowing of it before."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, fields
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from bladerub.blade.mesh import BladeMesh, MeshedBlade, solid_mesh
+from bladerub.blade.source import mesh_file, node_sets, soundness, tip
+from bladerub.blade.source.frame import Frame
+from bladerub.blade.surface import EDGES, boundary_faces
+from bladerub.config import ROOT
+
+
+@dataclass(frozen=True)
+class Source:
+    """Where a blade comes from, as ``blade.source`` of the config says.
+
+    Parameters
+    ----------
+    file : Path
+        The mesh (`bladerub.blade.source.mesh_file`).
+    frame : Frame
+        Its unit and axes.
+    root_set, tip_set : str or None
+        Names of the node sets; found by which way the surface looks where they are not given.
+    tip_cone : float or None
+        Half angle (degrees) of the flow path at the tip, positive where it widens downstream; fitted to the
+        tip where it is not given.
+    """
+
+    file: Path
+    frame: Frame = field(default_factory=Frame)
+    root_set: str | None = None
+    tip_set: str | None = None
+    tip_cone: float | None = None
+
+    @classmethod
+    def from_config(cls, source: Mapping[str, Any]) -> Source:
+        """Read the ``blade.source`` block of the config; its file is relative to the repository."""
+        layout = {entry.name: source[entry.name] for entry in fields(Frame) if entry.name in source}
+        return cls(
+            ROOT / source["file"],
+            Frame(**layout),
+            *(source.get(name) for name in ("root_set", "tip_set", "tip_cone")),
+        )
+
+
+@dataclass(frozen=True)
+class Imported:
+    """A blade from a mesh file.
+
+    Parameters
+    ----------
+    blade : MeshedBlade
+        What the reduction needs.
+    is_raised : bool
+        Whether its elements were linear (see `bladerub.blade.source.mesh_file.read`).
+    n_unused : int
+        Nodes of the file that no element uses, which were left out.
+    node_sets : dict of str to int
+        Names of the node sets of the file and how many nodes each has.
+    jacobian_ratio : (n_elements,) ndarray
+        Smallest over largest Jacobian determinant in each element.
+    volume : float
+        m³.
+    chord, interface_offset : float
+        Length of the tip's camber line, and how far an interface node is at most from its place there, m.
+    lean : float
+        Angle (rad) about the engine axis between the blade's middle and the radial axis that was named.
+    """
+
+    blade: MeshedBlade
+    is_raised: bool
+    n_unused: int
+    node_sets: dict[str, int]
+    jacobian_ratio: np.ndarray = field(repr=False)
+    volume: float
+    chord: float
+    interface_offset: float
+    lean: float
+
+
+def import_mesh(source: Source) -> Imported:
+    """Read the mesh of `source` and find root, tip and interface nodes on it.
+
+    Raises
+    ------
+    ValueError
+        If the file cannot be used as a blade; the message names the file and the culprit.
+    """
+    content = mesh_file.read(source.file)
+    try:
+        return _import(content, source)
+    except ValueError as error:
+        raise ValueError(f"{source.file}: {error}") from error
+
+
+def _import(content: mesh_file.MeshFile, source: Source) -> Imported:
+    soundness.check_nodes(content.points, content.cells)
+    mesh, origin = solid_mesh(source.frame.metres(content.points), content.cells)
+    ratio, volume = soundness.jacobians(mesh)
+    faces = boundary_faces(mesh.cells)
+    root = _nodes(content, mesh.points, faces, origin, source.root_set, is_tip=False)
+    tip_nodes = _nodes(content, mesh.points, faces, origin, source.tip_set, is_tip=True)
+    if np.isin(tip_nodes, root).any():
+        raise ValueError("root and tip share nodes; name other node sets")
+    tip_faces = faces[np.isin(faces, tip_nodes).all(axis=1)]
+    if not len(tip_faces):
+        raise ValueError(f'tip not found: no face of the surface has all its nodes in "{source.tip_set}"')
+    radius = np.hypot(mesh.points[:, 1], mesh.points[:, 2])
+    if radius.min() <= 0:
+        raise ValueError("a node lies on the engine axis, which must pass through the origin of the file")
+    chosen = tip.interface(mesh.points, tip_faces, source.frame.downstream_x)
+    if source.tip_cone is None:
+        tip_cone = tip.fitted_cone(mesh.points[tip_nodes])
+    else:
+        tip_cone = source.frame.downstream_x * float(np.deg2rad(source.tip_cone))
+    length = float(radius[tip_nodes].mean() - radius[root].mean())
+    if length <= 0:
+        raise ValueError(f"the tip is no farther from the engine axis than the root ({length:.3g} m)")
+    middle = mesh.points.mean(axis=0)
+    return Imported(
+        MeshedBlade(BladeMesh(mesh, root, tip_nodes, chosen.nodes), tip_cone, length),
+        content.is_raised,
+        len(content.points) - origin.size,
+        {name: nodes.size for name, nodes in content.node_sets.items()},
+        ratio,
+        volume,
+        chosen.chord,
+        chosen.offset,
+        float(np.arctan2(middle[1], middle[2])),
+    )
+
+
+def _nodes(content, points, faces, origin, name: str | None, is_tip: bool) -> np.ndarray:
+    """Nodes of the mesh in the set `name` of the file, or found by the surface."""
+    part = "tip" if is_tip else "root"
+    try:
+        if name is None:
+            return node_sets.facing(points, faces, outwards=is_tip)
+        found = np.flatnonzero(
+            np.isin(origin, _with_middles(content, node_sets.named(content.node_sets, name)))
+        )
+    except ValueError as error:
+        raise ValueError(f"{part} not found: {error}") from error
+    if not found.size:
+        raise ValueError(f'{part} not found: no node of the set "{name}" is in an element')
+    return found
+
+
+def _with_middles(content: mesh_file.MeshFile, nodes: np.ndarray) -> np.ndarray:
+    """Add the nodes that raising put between two of `nodes`."""
+    if not content.is_raised:
+        return nodes
+    ends = content.cells[:, EDGES[content.cells.shape[1]]]
+    middles = content.cells[:, -ends.shape[1] :]
+    return np.union1d(nodes, middles[np.isin(ends, nodes).all(axis=-1)])

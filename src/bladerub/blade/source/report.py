@@ -1,0 +1,139 @@
+"""What to know of an imported blade before its study, and what to be wary of."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+import pandas as pd
+from scipy import sparse
+from scipy.sparse.csgraph import dijkstra
+
+from bladerub.blade.build import BuiltBlade
+from bladerub.blade.elasticity import Material
+from bladerub.blade.mesh import BladeMesh
+from bladerub.blade.source.imported import Imported, Source
+from bladerub.blade.surface import EDGES, NAMES
+
+LENGTHS = (0.005, 2.0)  # m, of blades that rotate
+FREQUENCIES = (5.0, 20e3)  # Hz, of their first mode
+COARSE = 10  # elements from root to tip
+EQ2_ERROR = 0.01
+REDUCED_ERROR = 0.02
+MODES = 6  # that the reduced model must follow, as the paper's does with its η
+
+
+def report(source: Source, imported: Imported, built: BuiltBlade, material: Material) -> dict[str, Any]:
+    """Figures of an imported and reduced blade, ready for JSON; SI units, warnings in words.
+
+    ``error_eq2`` and ``error_reduced_model`` hold for each mode the largest relative error of the frequency
+    over the speeds of the accuracy table: that of eq. (2) alone, and with the reduction.
+    """
+    mesh = imported.blade.mesh
+    table = built.accuracy
+    by_mode = table.assign(eq2=(table.f_fe_eq2 / table.f_fe - 1).abs(), rom=table.relative_error.abs())
+    first = table[table["mode"] == 1].sort_values("f_omega").f_fe.to_numpy()
+    moved = np.linalg.norm(built.static_displacement[-1], axis=1).max()
+    figures = {
+        "file": str(source.file),
+        "element": NAMES[mesh.mesh.cells.shape[1]],
+        "elements": len(mesh.mesh.cells),
+        "nodes": len(mesh.mesh.points),
+        "unknowns": 3 * (len(mesh.mesh.points) - mesh.root.size),
+        "elements_root_to_tip": spanwise_elements(mesh),
+        "node_sets": imported.node_sets,
+        "root_nodes": int(mesh.root.size),
+        "tip_nodes": int(mesh.tip.size),
+        "extents": _extents(mesh.mesh.points),
+        "length": imported.blade.length,
+        "tip_chord": imported.chord,
+        "tip_cone_degrees": source.frame.downstream_x * float(np.rad2deg(imported.blade.tip_cone)),
+        "interface_offset": imported.interface_offset,
+        "volume": imported.volume,
+        "mass": imported.volume * material.density,
+        "worst_jacobian": float(imported.jacobian_ratio.min()),
+        "f1_hz": float(built.frequency[0]),
+        "campbell_ratio": float(first[-1] / first[0]),
+        "f_omega_max": float(built.static_speed[-1]),
+        "centrifugal_displacement": float(moved),
+        "reduced_coordinates": len(built.reduced.mass),
+        "error_eq2": by_mode.groupby("mode").eq2.max().tolist(),
+        "error_reduced_model": by_mode.groupby("mode").rom.max().tolist(),
+    }
+    return figures | {"warnings": list(_warnings(figures, imported, source, table))}
+
+
+def spanwise_elements(mesh: BladeMesh) -> int:
+    """Count the element edges on the shortest way from the root to the tip."""
+    cells = mesh.mesh.cells
+    edges = cells[:, EDGES[cells.shape[1]]].reshape(-1, 2)
+    n_nodes = len(mesh.mesh.points)
+    ways = sparse.coo_array((np.ones(len(edges)), tuple(edges.T)), shape=(n_nodes, n_nodes)).tocsr()
+    ways.data[:] = 1
+    steps = dijkstra(ways, directed=False, indices=mesh.root, unweighted=True, min_only=True)
+    return int(steps[mesh.tip].min())
+
+
+def _extents(points: np.ndarray) -> dict[str, list[float]]:
+    radius = np.hypot(points[:, 1], points[:, 2])
+    return {
+        name: [float(values.min()), float(values.max())]
+        for name, values in (
+            ("x", points[:, 0]),
+            ("y", points[:, 1]),
+            ("z", points[:, 2]),
+            ("radius", radius),
+        )
+    }
+
+
+def _warnings(
+    figures: dict[str, Any], imported: Imported, source: Source, table: pd.DataFrame
+) -> Iterator[str]:
+    length = figures["length"]
+    if not LENGTHS[0] <= length <= LENGTHS[1]:
+        yield f"the blade is {length:.4g} m long: is its unit {source.frame.unit}?"
+    if not FREQUENCIES[0] <= figures["f1_hz"] <= FREQUENCIES[1]:
+        yield f"its first frequency is {figures['f1_hz']:.4g} Hz: are length and material in their units?"
+    if abs(imported.lean) > np.deg2rad(20):
+        yield (
+            f"its middle is {np.rad2deg(imported.lean):.3g} degrees about the engine axis from the radial "
+            f"axis {source.frame.radial}: is that axis, and is the origin on the engine axis?"
+        )
+    if imported.is_raised:
+        yield "its elements were linear; they got nodes in the middle of straight edges; faces stay faceted"
+    if imported.n_unused:
+        yield f"{imported.n_unused} nodes of the file are in no element and were left out"
+    if figures["elements_root_to_tip"] < COARSE:
+        yield (
+            f"its mesh is coarse: {figures['elements_root_to_tip']} elements from root to tip; check that "
+            "the frequencies hold with a finer one"
+        )
+    if figures["worst_jacobian"] < 0.1:
+        yield (
+            f"element {np.argmin(imported.jacobian_ratio) + 1} is badly shaped: its Jacobian varies by a "
+            f"factor of {1 / figures['worst_jacobian']:.3g}"
+        )
+    if figures["interface_offset"] > 0.03 * figures["tip_chord"]:
+        yield (
+            f"an interface node is {1e3 * figures['interface_offset']:.3g} mm off the camber line of the "
+            "tip: its mesh is coarse there"
+        )
+    yield from _of_reduction(figures, table)
+
+
+def _of_reduction(figures: dict[str, Any], table: pd.DataFrame) -> Iterator[str]:
+    eq2, reduced = (max(figures[name][:MODES]) for name in ("error_eq2", "error_reduced_model"))
+    if eq2 > EQ2_ERROR:
+        yield (
+            f"eq. (2) is up to {100 * eq2:.2g} % off in the first {MODES} modes: rotation moves the blade by "
+            f"{1e3 * figures['centrifugal_displacement']:.3g} mm; lower reduction.f_omega_max"
+        )
+    if reduced > max(REDUCED_ERROR, 1.5 * eq2):
+        yield (
+            f"the reduced model is up to {100 * reduced:.2g} % off in the first {MODES} modes: raise "
+            "reduction.modes_per_speed or lower reduction.rank_tolerance"
+        )
+    if (table.f_fe <= 0).any():
+        yield "a mode is unstable within the range of speeds"

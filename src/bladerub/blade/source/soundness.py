@@ -1,0 +1,76 @@
+"""Whether the elements of a mesh are what a solid can be made of."""
+
+from __future__ import annotations
+
+import numpy as np
+from scipy.spatial import cKDTree
+
+from bladerub.blade.mesh import SolidMesh
+from bladerub.blade.surface import EDGES
+
+_SAME_PLACE = 1e-7  # of the extent of the mesh
+_MOST_OFF = 0.35  # of the edge; the middle of a quarter of a circle is 0.21 off its chord
+
+
+def check_nodes(points: np.ndarray, cells: np.ndarray) -> None:
+    """See that the nodes of the elements have places of their own, mid-side ones in the middle.
+
+    Nodes and elements are counted from 1 in the order of the file.
+
+    Parameters
+    ----------
+    points : (n_points, 3) ndarray
+        Nodes; those that no element uses are not looked at.
+    cells : (n_elements, 20 or 10) ndarray of int
+        Nodes of each element.
+
+    Raises
+    ------
+    ValueError
+        If not; the message names the node or the element.
+    """
+    used = np.unique(cells)
+    lost = used[~np.isfinite(points[used]).all(axis=1)]
+    if lost.size:
+        raise ValueError(f"node {lost[0] + 1}: its coordinates are not finite numbers")
+    extent = np.ptp(points[used], axis=0).max()
+    twins = cKDTree(points[used]).query_pairs(_SAME_PLACE * extent, output_type="ndarray")
+    if len(twins):
+        first, second = np.sort(used[twins[0]]) + 1
+        raise ValueError(
+            f"nodes {first} and {second}: are in one place; merge them ({len(twins)} such pairs)"
+        )
+    ends = points[cells[:, EDGES[cells.shape[1]]]]
+    sides = points[cells[:, -ends.shape[1] :]]
+    off = np.linalg.norm(sides - ends.mean(axis=2), axis=-1)
+    astray = np.argwhere(off > _MOST_OFF * np.linalg.norm(ends[:, :, 1] - ends[:, :, 0], axis=-1))
+    if len(astray):
+        element, edge = astray[0]
+        node = cells.shape[1] - ends.shape[1] + edge
+        raise ValueError(
+            f"element {element + 1}: its {node + 1}th node is not in the middle of its edge; the nodes "
+            "must be in the order of CalculiX and VTK"
+        )
+
+
+def jacobians(mesh: SolidMesh) -> tuple[np.ndarray, float]:
+    """Smallest over largest Jacobian determinant of each element (n_elements,), and the volume, m³.
+
+    Raises
+    ------
+    ValueError
+        If one is not positive at an integration point; the message names the element.
+    """
+    points, weights = mesh.quadrature()
+    determinant = mesh.mapping().detDF(points)
+    bad = np.flatnonzero((determinant <= 0).any(axis=1))
+    if bad.size == len(determinant):
+        raise ValueError(
+            "all elements are left-handed; the mesh must not be mirrored, nor its nodes be counted backwards"
+        )
+    if bad.size:
+        raise ValueError(
+            f"element {bad[0] + 1}: its Jacobian is negative, it is turned inside out "
+            f"({bad.size} such of {len(determinant)})"
+        )
+    return determinant.min(axis=1) / determinant.max(axis=1), float(np.sum(determinant @ weights))

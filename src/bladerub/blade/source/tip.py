@@ -1,0 +1,145 @@
+"""The tip of a blade from elsewhere: the cone it lies on, its camber line, and the interface nodes there."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.optimize import linear_sum_assignment
+from scipy.spatial.distance import cdist
+
+from bladerub.blade.model import N_INTERFACE
+
+_STATIONS = np.linspace(0.06, 0.94, 45)  # of the chord; further out the normal may meet the edge itself
+_DEGREE = 5
+_ROUNDS = 8
+
+
+@dataclass(frozen=True)
+class Interface:
+    """Interface nodes of a tip.
+
+    Parameters
+    ----------
+    nodes : (8,) ndarray of int
+        Leading to trailing edge.
+    chord : float
+        Length of the camber line, m.
+    offset : float
+        Largest distance of a node from where it should be on the camber line, m.
+    """
+
+    nodes: np.ndarray
+    chord: float
+    offset: float
+
+
+def fitted_cone(points: np.ndarray) -> float:
+    """Half angle (rad) of the cone about the engine axis that fits `points` (n, 3) best; widens with x."""
+    radius = np.hypot(points[:, 1], points[:, 2])
+    x = points[:, 0] - points[:, 0].mean()
+    return float(np.arctan2(x @ (radius - radius.mean()), x @ x))
+
+
+def interface(points: np.ndarray, faces: np.ndarray, downstream_x: int) -> Interface:
+    """Choose the interface nodes, evenly by arc length along the camber line of the tip.
+
+    The tip is unrolled about the engine axis. Its camber line is the line midway between the two sides,
+    measured across itself, and goes on straight through the two ends.
+
+    Parameters
+    ----------
+    points : (n_nodes, 3) ndarray
+        In the blade's frame, m.
+    faces : (n_faces, 8 or 6) ndarray of int
+        The faces of the tip.
+    downstream_x : int
+        1 where x points downstream, so that the leading edge has the smaller x; else -1.
+
+    Raises
+    ------
+    ValueError
+        If the tip has fewer than 8 nodes, is no profile with two sides, or its nodes are too coarse.
+    """
+    nodes = np.unique(faces)
+    if nodes.size < N_INTERFACE:
+        raise ValueError(f"the tip has {nodes.size} nodes; must have {N_INTERFACE} or more")
+    flat = _unrolled(points)
+    outline = flat[_outline(faces)]
+    line = _camber_line(outline)
+    if downstream_x * (line[-1, 0] - line[0, 0]) < 0:
+        line = line[::-1]
+    arc = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(line, axis=0), axis=1))])
+    evenly = np.linspace(0, arc[-1], N_INTERFACE)
+    wanted = np.stack([np.interp(evenly, arc, line[:, axis]) for axis in range(2)], axis=1)
+    distance = cdist(wanted, flat[nodes])
+    chosen = linear_sum_assignment(distance**2)[1]
+    offset = distance[np.arange(N_INTERFACE), chosen].max()
+    if offset > arc[-1] / (2 * (N_INTERFACE - 1)):
+        raise ValueError(
+            f"the tip is too coarse: an interface node would be {offset:.3g} m off its place on a camber "
+            f"line of {arc[-1]:.3g} m"
+        )
+    return Interface(nodes[chosen], float(arc[-1]), float(offset))
+
+
+def _unrolled(points: np.ndarray) -> np.ndarray:
+    """Axial position and arc length around the engine axis (n, 2) of `points` (n, 3)."""
+    radius = np.hypot(points[:, 1], points[:, 2])
+    return np.stack([points[:, 0], radius * np.arctan2(points[:, 1], points[:, 2])], axis=1)
+
+
+def _outline(faces: np.ndarray) -> np.ndarray:
+    """List the ends (n, 2) of the pieces of edges that belong to one of `faces` only."""
+    pieces = np.stack([faces, np.roll(faces, -1, axis=1)], axis=-1).reshape(-1, 2)
+    _, first, count = np.unique(np.sort(pieces, axis=1), axis=0, return_index=True, return_counts=True)
+    return pieces[first[count == 1]]
+
+
+def _camber_line(outline: np.ndarray) -> np.ndarray:
+    """Points (n, 2) from one end of the profile to the other; `outline` (n, 2, 2) has ends of its pieces."""
+    corners = outline[:, 0]
+    apart = cdist(corners, corners)
+    first, last = np.unravel_index(np.argmax(apart), apart.shape)
+    chord = apart[first, last]
+    along = (corners[last] - corners[first]) / chord
+    to_chord = np.stack([along, [-along[1], along[0]]])
+    pieces = (outline - corners[first]) @ to_chord.T / chord
+    curve = np.polynomial.Polynomial([0.0])
+    for _ in range(_ROUNDS):
+        on_line = np.stack([_STATIONS, curve(_STATIONS)], axis=1)
+        slope = curve.deriv()(_STATIONS)
+        across = np.stack([-slope, np.ones_like(slope)], axis=1)
+        middle = np.array([_middle(pieces, *station) for station in zip(on_line, across, strict=True)])
+        curve = np.polynomial.Polynomial.fit(middle[:, 0], middle[:, 1], _DEGREE)
+    inner = np.stack([_STATIONS, curve(_STATIONS)], axis=1)
+    slope = curve.deriv()(_STATIONS)
+    ends = []
+    for at, sign in ((0, -1), (-1, 1)):
+        outwards = sign * np.array([1.0, slope[at]])
+        reached = _crossings(pieces, inner[at], outwards)
+        if not (reached > 0).any():
+            raise ValueError("the tip has no end; it must be a closed profile")
+        ends.append(inner[at] + reached[reached > 0].min() * outwards)
+    line = np.vstack([ends[0], inner, ends[1]])
+    return corners[first] + chord * line @ to_chord
+
+
+def _middle(pieces: np.ndarray, point: np.ndarray, direction: np.ndarray) -> np.ndarray:
+    """Point midway between the two sides on the line through `point` along `direction`."""
+    reached = _crossings(pieces, point, direction)
+    if reached.size < 2:
+        raise ValueError("the tip is no profile with two sides; name its node set, or the interface nodes")
+    nearest = reached[np.argsort(np.abs(reached))[:2]]
+    return point + nearest.mean() * direction
+
+
+def _crossings(pieces: np.ndarray, point: np.ndarray, direction: np.ndarray) -> np.ndarray:
+    """Where the line from `point` along `direction` meets `pieces` (n, 2, 2), in lengths of `direction`."""
+    start, step = pieces[:, 0] - point, pieces[:, 1] - pieces[:, 0]
+    across = np.array([-direction[1], direction[0]])
+    before, after = start @ across, (start + step) @ across
+    met = (before < 0) != (after < 0)
+    share = before[met] / (before[met] - after[met])
+    places = start[met] + share[:, None] * step[met]
+    return np.unique(places @ direction / (direction @ direction))

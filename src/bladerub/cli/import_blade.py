@@ -1,0 +1,109 @@
+"""``bladerub import``: look at a blade from another program before its study."""
+
+from __future__ import annotations
+
+import argparse
+import json
+from dataclasses import asdict
+from pathlib import Path
+from typing import Any
+
+import yaml
+
+from bladerub.cli import inputs
+from bladerub.cli.errors import InputError
+
+_UNITS = ("m", "mm", "cm", "inch", "feet")
+_AXES = ("x", "y", "z", "-x", "-y", "-z")
+_NAMES = ("unit", "rotation", "downstream", "radial", "root_set", "tip_set", "tip_cone")
+
+
+def add_to(commands: Any) -> None:
+    """Add this command to the subparsers `commands`."""
+    parser = commands.add_parser(
+        "import",
+        help="look at a blade from another program before its study",
+        description="Read a mesh, find its root, tip and interface nodes, reduce it as the config says, and "
+        "tell what comes out and what to be wary of. Nothing is written. What it prints last goes into a "
+        "config, whose study is then of that blade. Material and reduction are of the config; the other "
+        "options are what blade.source of the config says, or else as given here.",
+    )
+    parser.set_defaults(command=import_blade)
+    parser.add_argument("file", type=Path, metavar="FILE", help="mesh: .inp, .msh or .vtu")
+    inputs.add_config_to(parser)
+    parser.add_argument("--unit", choices=_UNITS, help="unit of length in the file (else m)")
+    for name, meaning in (
+        ("rotation", "the blade turns about this by the right-hand rule (else -x)"),
+        ("downstream", "the air flows along this (else x)"),
+        ("radial", "the blade stands along this (else z)"),
+    ):
+        parser.add_argument(f"--{name}", choices=_AXES, metavar="AXIS", help=f"axis of the file: {meaning}")
+    parser.add_argument("--root-set", metavar="NAME", help="set of the clamped nodes (else found)")
+    parser.add_argument("--tip-set", metavar="NAME", help="set of the nodes of the tip (else found)")
+    parser.add_argument(
+        "--tip-cone",
+        type=float,
+        metavar="DEGREES",
+        help="half angle of the casing, positive where it widens downstream (else fitted to the tip)",
+    )
+    parser.add_argument("--json", action="store_true", help="print the figures as JSON")
+
+
+def import_blade(options: argparse.Namespace) -> None:
+    """Look at the blade that the command line names, and print what it is.
+
+    Raises
+    ------
+    ConfigError
+        If the config is at fault.
+    InputError
+        If the file or an option is, or the blade has no equilibrium.
+    """
+    config = inputs.read_config(options)
+
+    from bladerub.blade.build import reduce_blade
+    from bladerub.blade.elasticity import Material
+    from bladerub.blade.rotation import EquilibriumError
+    from bladerub.blade.source.frame import Frame
+    from bladerub.blade.source.imported import Source, import_mesh
+    from bladerub.blade.source.report import report
+
+    given = {name: getattr(options, name) for name in _NAMES if getattr(options, name) is not None}
+    entry = {"file": str(options.file.resolve())} | asdict(Frame())
+    entry |= {name: value for name, value in config["blade"].get("source", {}).items() if name != "file"}
+    entry |= given
+    try:
+        source = Source.from_config(entry)
+        imported = import_mesh(source)
+        built = reduce_blade(imported.blade, config)
+    except (ValueError, EquilibriumError) as error:
+        raise InputError(str(error)) from error
+    figures = report(source, imported, built, Material.from_config(config["blade"]["material"]))
+    figures["config"] = {"blade": {"length": round(imported.blade.length, 6), "source": entry}}
+    print(json.dumps(figures, indent=2) if options.json else _in_words(figures))
+
+
+def _in_words(figures: dict[str, Any]) -> str:
+    millimetres = {name: [1e3 * end for end in ends] for name, ends in figures["extents"].items()}
+    worst = [max(figures[name][:6]) for name in ("error_eq2", "error_reduced_model")]
+    lines = [
+        f"mesh                {figures['elements']} {figures['element']}, {figures['nodes']} nodes, "
+        f"{figures['unknowns']} unknowns, {figures['elements_root_to_tip']} elements from root to tip",
+        *(f"{name:<19} {low:.4g} to {high:.4g} mm" for name, (low, high) in millimetres.items()),
+        f"length              {1e3 * figures['length']:.4g} mm, chord at the tip "
+        f"{1e3 * figures['tip_chord']:.4g} mm, cone there {figures['tip_cone_degrees']:.4g} degrees",
+        f"root and tip        {figures['root_nodes']} and {figures['tip_nodes']} nodes; interface nodes up "
+        f"to {1e3 * figures['interface_offset']:.3g} mm off the camber line",
+        f"volume and mass     {1e6 * figures['volume']:.4g} cm³, {figures['mass']:.4g} kg",
+        f"worst Jacobian      {figures['worst_jacobian']:.3g} (smallest over largest in an element)",
+        f"first frequency     {figures['f1_hz']:.6g} Hz, times {figures['campbell_ratio']:.4g} at f_omega = "
+        f"{figures['f_omega_max']:g}, where rotation moves the blade by "
+        f"{1e3 * figures['centrifugal_displacement']:.3g} mm",
+        f"reduced model       {figures['reduced_coordinates']} coordinates; in six modes eq. (2) is up to "
+        f"{100 * worst[0]:.2g} % off, with the reduction {100 * worst[1]:.2g} %",
+        *(f"warning             {line}" for line in figures["warnings"]),
+        "",
+        "# for the config of its study",
+        yaml.safe_dump(figures["config"], sort_keys=False).rstrip(),
+    ]
+    return "\n".join(lines)

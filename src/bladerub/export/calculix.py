@@ -1,0 +1,91 @@
+"""Decks for CalculiX, an independent finite element program: the blade at rest and rotating.
+
+CalculiX (Dhondt, The Finite Element Method for Three-Dimensional Thermomechanical Applications, 2004) gets
+the same nodes as C3D20 or C3D10 elements: a static step with geometric nonlinearity under centrifugal load,
+then the frequencies of small vibrations about it. Abaqus reads the same keywords.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from pathlib import Path
+
+import numpy as np
+
+from bladerub import atomic
+from bladerub.blade.elasticity import Material
+
+_KINDS = {20: "C3D20", 10: "C3D10"}
+
+
+def deck(
+    points: np.ndarray,
+    cells: np.ndarray,
+    root: np.ndarray,
+    material: Material,
+    omega: float,
+    n_modes: int = 10,
+) -> str:
+    """Input of CalculiX for the blade at the angular speed `omega`.
+
+    Parameters
+    ----------
+    points : (n_nodes, 3) ndarray
+        Nodes, m; the blade turns about the x axis.
+    cells : (n_elements, 20 or 10) ndarray of int
+        Nodes of the elements, in CalculiX's order but from 0.
+    root : ndarray of int
+        Clamped nodes.
+    material : Material
+        Of the whole blade.
+    omega : float
+        rad/s.
+    n_modes : int
+        How many frequencies.
+    """
+    lines = ["*NODE, NSET=ALL"]
+    # at most 20 characters a number
+    lines += [f"{i}, {x:.12e}, {y:.12e}, {z:.12e}" for i, (x, y, z) in enumerate(points, 1)]
+    lines.append(f"*ELEMENT, TYPE={_KINDS[cells.shape[1]]}, ELSET=BLADE")
+    for i, nodes in enumerate(cells + 1, 1):
+        lines += _in_lines([i, *nodes])
+    lines.append("*NSET, NSET=ROOT")
+    lines += [f"{node}," for node in np.asarray(root) + 1]
+    elastic = f"{material.young_modulus:.9e}, {material.poisson_ratio:.9e}"
+    lines += ["*MATERIAL, NAME=METAL", "*ELASTIC", elastic, "*DENSITY", f"{material.density:.9e}"]
+    lines += ["*SOLID SECTION, ELSET=BLADE, MATERIAL=METAL", "*BOUNDARY", "ROOT, 1, 3"]
+    if omega > 0:
+        lines += ["*STEP, NLGEOM", "*STATIC", "1., 1.", "*DLOAD"]
+        lines += [f"BLADE, CENTRIF, {omega**2:.12e}, 0., 0., 0., 1., 0., 0.", "*END STEP"]
+    lines.append("*STEP, PERTURBATION" if omega > 0 else "*STEP")
+    return "\n".join([*lines, "*FREQUENCY", str(n_modes), "*END STEP", ""])
+
+
+def _in_lines(numbers: list[int]) -> list[str]:
+    """Write `numbers` with at most 16 of them on a line, a comma at the end where they go on."""
+    rows = [numbers[at : at + 16] for at in range(0, len(numbers), 16)]
+    return [", ".join(map(str, row)) + ("," if row is not rows[-1] else "") for row in rows]
+
+
+def write_decks(
+    folder: str | Path,
+    points: np.ndarray,
+    cells: np.ndarray,
+    root: np.ndarray,
+    material: Material,
+    f1_hz: float,
+    f_omegas: Iterable[float],
+) -> list[Path]:
+    """Write a deck for each normalised speed into `folder`, named ``blade_<f_omega>.inp`` (see `deck`)."""
+    paths = []
+    for f_omega in f_omegas:
+        paths.append(Path(folder) / f"blade_{f_omega:.4f}.inp")
+        with atomic.writing(paths[-1]) as stream:
+            stream.write(deck(points, cells, root, material, 2 * np.pi * f_omega * f1_hz))
+    return paths
+
+
+def frequencies(dat: str | Path) -> np.ndarray:
+    """Frequencies (Hz) in the ``.dat`` file that CalculiX writes for a deck."""
+    rows = [line.split() for line in Path(dat).read_text().splitlines()]
+    return np.array([float(row[3]) for row in rows if len(row) == 5 and row[0].isdigit()])
