@@ -11,6 +11,7 @@ import numpy as np
 
 from bladerub.blade import geometry
 from bladerub.blade.model import N_INTERFACE
+from bladerub.blade.source.origin import Source
 from bladerub.config import ROOT
 from bladerub.config_faults import shown
 from bladerub.contact.casing import shape
@@ -61,6 +62,9 @@ def _results(config: Config) -> Iterator[str]:
 
 @_reads("blade")
 def _blade_shape(config: Config) -> Iterator[str]:
+    if "source" in config["blade"]:
+        yield from _blade_source(config["blade"]["source"])
+        return
     mesh = config["blade"]["mesh"]
     n_elements = mesh["chordwise"] * mesh["thickness"] * mesh["spanwise"]
     if n_elements > MOST_ELEMENTS:
@@ -70,6 +74,16 @@ def _blade_shape(config: Config) -> Iterator[str]:
         geometry.check(config["blade"])
     except ValueError as error:
         yield str(error)
+
+
+def _blade_source(source: Config) -> Iterator[str]:
+    try:
+        file = Source.from_config(source).file
+    except ValueError as error:
+        yield f"blade.source.{error}"
+        return
+    if not file.is_file():
+        yield f"blade.source.file = {shown(source['file'])}: there is no such file ({file})"
 
 
 @_reads("reduction")

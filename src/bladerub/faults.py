@@ -15,6 +15,10 @@ class DamagedFile(OSError):
     """A file that is not, or no longer, what it should be; the message names it."""
 
 
+class BadInput(ValueError):
+    """Something given that cannot be used; the message is one line that says what would be right."""
+
+
 def in_words(error: OSError) -> str:
     """Say in one line which file is at fault and what to do about it."""
     if isinstance(error, DamagedFile):

@@ -13,17 +13,19 @@ from bladerub import faults
 def log_to(path: str | Path) -> None:
     """Send standard error to the log at `path`, each line as it comes.
 
-    A fault of a file is then told in one line, in the log and on the former standard error, where whoever
-    runs the job sees it, also if the log is on a full disk. The traceback of any other goes to the log.
+    A fault of a file or of what is given is then told in one line, in the log and on the former standard
+    error, where whoever runs the job sees it, also if the log is on a full disk. The traceback of any other
+    goes to the log.
     """
     sys.stderr = open(path, "w", buffering=1)  # noqa: SIM115 (open to the end: a traceback must reach it)
     sys.excepthook = _tell
 
 
 def _tell(kind: type[BaseException], error: BaseException, trace: TracebackType | None) -> None:
-    if not isinstance(error, OSError):
+    if not isinstance(error, OSError | faults.BadInput):
         sys.__excepthook__(kind, error, trace)
         return
+    line = faults.in_words(error) if isinstance(error, OSError) else str(error)
     for stream in (sys.stderr, sys.__stderr__):
         with suppress(OSError):
-            print(faults.in_words(error), file=stream)
+            print(line, file=stream)

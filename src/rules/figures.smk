@@ -65,7 +65,7 @@ def rubbing(*modules):
 rule fig01_blade:
     input:
         mesh=rules.blade.output.mesh,
-        drawing=drawing("blade_mesh", "surface"),
+        drawing=[*drawing("blade_mesh", "surface"), "src/bladerub/blade/surface.py"],
     output:
         **drawn("fig01_blade", "Model"),
     log:

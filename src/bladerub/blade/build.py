@@ -24,8 +24,10 @@ from bladerub.blade.mesh import BladeMesh, MeshedBlade
 from bladerub.blade.model import AXIS, INTERFACE_NODE, ReducedBlade, write_reduced_blade
 from bladerub.blade.reduction import Partition, project, speed_law, stiffness_at, transformation
 from bladerub.blade.rotation import Equilibrium, equilibrium
-from bladerub.blade.source.imported import Source, import_mesh
+from bladerub.blade.source.imported import import_mesh
+from bladerub.blade.source.origin import Source
 from bladerub.datafile import Variable
+from bladerub.faults import BadInput
 
 log = logging.getLogger(__name__)
 
@@ -92,8 +94,9 @@ def build(config: Mapping[str, Any]) -> BuiltBlade:
     Raises
     ------
     ValueError
-        If the blade cannot be meshed (see `bladerub.blade.geometry.check`) or imported (see
-        `bladerub.blade.source.imported.import_mesh`).
+        If the blade cannot be meshed (see `bladerub.blade.geometry.check`).
+    BadInput
+        If it cannot be imported (see `bladerub.blade.source.imported.import_mesh`), or is not of its length.
     EquilibriumError
         If the blade has no static equilibrium at one of the speeds.
     """
@@ -109,7 +112,7 @@ def meshed_blade(blade: Mapping[str, Any]) -> MeshedBlade:
         return MeshedBlade(BladeMesh.from_shape(shape, blade["mesh"]), shape.tip_cone, blade["length"])
     given = import_mesh(Source.from_config(blade["source"])).blade
     if abs(given.length / blade["length"] - 1) > LENGTH_TOLERANCE:
-        raise ValueError(
+        raise BadInput(
             f"blade.length = {blade['length']:g}: must be that of the blade in {blade['source']['file']}, "
             f"{given.length:.4g} m to within {LENGTH_TOLERANCE:.0%}; clearances are in this unit"
         )

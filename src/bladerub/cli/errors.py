@@ -1,5 +1,7 @@
 """How a command says that what was asked for cannot be done."""
 
+from bladerub.faults import BadInput
 
-class InputError(ValueError):
-    """Bad input; the message is one line that says what would be right."""
+
+class InputError(BadInput):
+    """Bad input of the command line, or of what it names."""

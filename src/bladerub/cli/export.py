@@ -1,4 +1,4 @@
-"""``bladerub export``: a run for other programs."""
+"""``bladerub export``: a run or the blade for other programs."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ import numpy as np
 from tqdm import tqdm
 
 from bladerub import faults
-from bladerub.cli import inputs
+from bladerub.cli import export_blade, inputs
 from bladerub.cli.errors import InputError
 
 if TYPE_CHECKING:
@@ -30,20 +30,29 @@ def add_to(commands: Any) -> None:
     """Add this command to the subparsers `commands`."""
     parser = commands.add_parser(
         "export",
-        help="write the blade's motion in a run for ParaView",
-        description="Compute a run again from its file, its config and its blade, and write the motion of "
-        "the finite element mesh in its last revolution. That it is the run of the file is told by its "
-        "run_key and the peaks of all revolutions.",
+        help="write the blade's motion in a run, or the blade itself, for other programs",
+        description="With --vtu: compute a run again from its file, its config and its blade, and write the "
+        "motion of the finite element mesh in its last revolution. That it is the run of the file is told by "
+        "its run_key and the peaks of all revolutions. With --calculix, --mesh or --matrices: write the "
+        "blade, which is built first if the results folder has none yet.",
         epilog="Open blade.pvd in ParaView and apply Warp By Vector to displacement. The mesh is the blade "
         "at rest in the rotating frame; displacement (m) is that of each node about its running position, so "
         "without the centrifugal displacement; time is in revolutions from the start of the run. Of a run "
         "that left all bounds, the last revolution within them is written.",
     )
     parser.set_defaults(command=export)
-    parser.add_argument("--run", required=True, type=Path, metavar="FILE", help="the run (HDF5)")
+    parser.add_argument("--run", type=Path, metavar="FILE", help="the run (HDF5), for --vtu")
     form = parser.add_mutually_exclusive_group(required=True)
     form.add_argument(
         "--vtu", type=Path, metavar="DIR", help="a new folder for blade.pvd and a .vtu for each instant"
+    )
+    export_blade.add_to(form)
+    parser.add_argument(
+        "--speeds",
+        nargs="+",
+        type=float,
+        metavar="F_OMEGA",
+        help="of the decks, normalised (default: 0, half of and the highest of the reduced blade)",
     )
     parser.add_argument(
         "--samples",
@@ -57,7 +66,7 @@ def add_to(commands: Any) -> None:
 
 
 def export(options: argparse.Namespace) -> None:
-    """Write the motion that the command line asks for, and print what was written.
+    """Write what the command line asks for, and print what was written.
 
     Raises
     ------
@@ -67,6 +76,19 @@ def export(options: argparse.Namespace) -> None:
         If an option or a file is.
     """
     config = inputs.read_config(options)
+    if options.speeds and not options.calculix:
+        raise InputError("--speeds: goes with --calculix only")
+    if options.vtu and not options.run:
+        raise InputError("--vtu: needs --run, the run whose motion is written")
+    if options.run and not options.vtu:
+        raise InputError("--run: goes with --vtu only")
+    write, in_words = (_motion, _in_words) if options.vtu else (export_blade.write, export_blade.in_words)
+    figures = write(options, config)
+    print(json.dumps(figures, indent=2) if options.json else in_words(figures))
+
+
+def _motion(options: argparse.Namespace, config: dict[str, Any]) -> dict[str, Any]:
+    """Write the motion of a run; return what was written."""
     inputs.require(options, samples=(1, config["contact"]["elements"]))
     _check_folder(options.vtu)
 
@@ -92,7 +114,7 @@ def export(options: argparse.Namespace) -> None:
         largest = write_motion(options.vtu, mesh, recording, about | provenance(config))
     except OSError as error:
         raise InputError(f"--vtu {options.vtu}: cannot be written ({error})") from error
-    figures = {
+    return {
         "collection": str(options.vtu / COLLECTION),
         "samples": options.samples,
         "revolution": recording.revolution_peak.size,
@@ -101,7 +123,6 @@ def export(options: argparse.Namespace) -> None:
         "largest_displacement": largest,
         "bytes": sum(file.stat().st_size for file in options.vtu.iterdir()),
     }
-    print(json.dumps(figures, indent=2) if options.json else _in_words(figures))
 
 
 def _check_folder(folder: Path) -> None:

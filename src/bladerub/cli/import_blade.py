@@ -65,7 +65,8 @@ def import_blade(options: argparse.Namespace) -> None:
     from bladerub.blade.elasticity import Material
     from bladerub.blade.rotation import EquilibriumError
     from bladerub.blade.source.frame import Frame
-    from bladerub.blade.source.imported import Source, import_mesh
+    from bladerub.blade.source.imported import import_mesh
+    from bladerub.blade.source.origin import Source
     from bladerub.blade.source.report import report
 
     given = {name: getattr(options, name) for name in _NAMES if getattr(options, name) is not None}

@@ -11,6 +11,7 @@ from bladerub import config as configuration
 from bladerub.cli.errors import InputError
 from bladerub.config import ROOT
 from bladerub.config_faults import shown
+from bladerub.faults import BadInput
 
 if TYPE_CHECKING:  # the rest of the package is imported when it is sure to be needed: numba takes its time
     from bladerub.blade.model import ReducedBlade
@@ -134,7 +135,7 @@ def _build_blade(config: dict[str, Any], path: Path) -> None:
 
     try:
         built = build.build(config)
-    except EquilibriumError as error:
+    except (BadInput, EquilibriumError) as error:
         raise InputError(str(error)) from error
     tables = path.parents[1] / "tables"
     campbell, accuracy = tables / "campbell.csv", tables / "rom_accuracy.csv"

@@ -23,7 +23,7 @@ from bladerub.contact.recording import Recording
 COLLECTION = "blade.pvd"
 """The file to open: it names the others with their time in revolutions."""
 
-_MESH = {"points", "cells", "interface_nodes", "recovery"}
+_MESH = {"points", "cells", "root_nodes", "tip_nodes", "interface_nodes", "recovery"}
 _FRAME = (
     "Mesh: blade at rest in the rotating frame, x along the axis of rotation, m. displacement: of each node "
     "about its running position (in equilibrium at speed), m. Time: revolutions from the start of the run."

@@ -2,52 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass, field, fields
-from pathlib import Path
-from typing import Any
+from dataclasses import dataclass, field
 
 import numpy as np
 
 from bladerub.blade.mesh import BladeMesh, MeshedBlade, solid_mesh
 from bladerub.blade.source import mesh_file, node_sets, soundness, tip
-from bladerub.blade.source.frame import Frame
+from bladerub.blade.source.origin import Source
 from bladerub.blade.surface import EDGES, boundary_faces
-from bladerub.config import ROOT
+from bladerub.faults import BadInput
 
-
-@dataclass(frozen=True)
-class Source:
-    """Where a blade comes from, as ``blade.source`` of the config says.
-
-    Parameters
-    ----------
-    file : Path
-        The mesh (`bladerub.blade.source.mesh_file`).
-    frame : Frame
-        Its unit and axes.
-    root_set, tip_set : str or None
-        Names of the node sets; found by which way the surface looks where they are not given.
-    tip_cone : float or None
-        Half angle (degrees) of the flow path at the tip, positive where it widens downstream; fitted to the
-        tip where it is not given.
-    """
-
-    file: Path
-    frame: Frame = field(default_factory=Frame)
-    root_set: str | None = None
-    tip_set: str | None = None
-    tip_cone: float | None = None
-
-    @classmethod
-    def from_config(cls, source: Mapping[str, Any]) -> Source:
-        """Read the ``blade.source`` block of the config; its file is relative to the repository."""
-        layout = {entry.name: source[entry.name] for entry in fields(Frame) if entry.name in source}
-        return cls(
-            ROOT / source["file"],
-            Frame(**layout),
-            *(source.get(name) for name in ("root_set", "tip_set", "tip_cone")),
-        )
+MOST_UNKNOWNS = 400_000
+"""Beyond which the factors fill the memory."""
 
 
 @dataclass(frozen=True)
@@ -90,17 +56,18 @@ def import_mesh(source: Source) -> Imported:
 
     Raises
     ------
-    ValueError
+    BadInput
         If the file cannot be used as a blade; the message names the file and the culprit.
     """
-    content = mesh_file.read(source.file)
     try:
-        return _import(content, source)
+        return _import(mesh_file.read(source.file), source)
     except ValueError as error:
-        raise ValueError(f"{source.file}: {error}") from error
+        raise BadInput(f"{source.file}: {error}") from error
 
 
 def _import(content: mesh_file.MeshFile, source: Source) -> Imported:
+    if 3 * len(content.points) > MOST_UNKNOWNS:
+        raise ValueError(f"has {3 * len(content.points)} unknowns; must be {MOST_UNKNOWNS} or fewer")
     soundness.check_nodes(content.points, content.cells)
     mesh, origin = solid_mesh(source.frame.metres(content.points), content.cells)
     ratio, volume = soundness.jacobians(mesh)

@@ -54,27 +54,27 @@ def read(path: str | Path) -> MeshFile:
     Raises
     ------
     ValueError
-        If the file is not a mesh of one kind of element that we can use; the message names the file.
+        If the file is not a mesh of one kind of element that we can use.
     """
     path = Path(path)
     suffix = path.suffix.lower()
     if suffix not in READERS:
-        raise ValueError(f"{path}: must be a mesh that ends in {', '.join(READERS)}")
+        raise ValueError(f"must be a mesh file that ends in {', '.join(READERS)}")
     if not path.is_file():
-        raise ValueError(f"{path}: there is no such file")
+        raise ValueError("there is no such file")
     if path.stat().st_size == 0:
-        raise ValueError(f"{path}: is empty")
+        raise ValueError("is empty")
     if suffix == ".inp":
         _refuse_what_would_be_misread(path)
     try:
         mesh = READERS[suffix](str(path))
     except Exception as error:  # a parser of foreign files fails in every way there is
         reason = str(error) or type(error).__name__
-        raise ValueError(f"{path}: is not a {suffix} file that can be read ({reason})") from error
-    kind, cells = _volume(path, mesh)
+        raise ValueError(f"is not a {suffix} file that can be read ({reason})") from error
+    kind, cells = _volume(mesh)
     points = np.asarray(mesh.points, dtype=float)
     if points.shape[1:] != (3,):
-        raise ValueError(f"{path}: nodes must have three coordinates")
+        raise ValueError("nodes must have three coordinates")
     if kind in _LINEAR:
         points, cells = raised(points, cells)
     return MeshFile(points, cells, _node_sets(mesh), kind in _LINEAR)
@@ -94,25 +94,25 @@ def _refuse_what_would_be_misread(path: Path) -> None:
     lines = path.read_text(encoding="utf-8", errors="replace").upper().splitlines()
     keywords = [line.partition(",")[0].strip() for line in lines if line.startswith("*")]
     if keywords.count("*NODE") > 1:
-        raise ValueError(f"{path}: has {keywords.count('*NODE')} blocks *NODE; must have all nodes in one")
+        raise ValueError(f"has {keywords.count('*NODE')} blocks *NODE; must have all nodes in one")
     if "*INSTANCE" in keywords:
-        raise ValueError(f"{path}: is an assembly (*INSTANCE); must be the mesh of one part")
+        raise ValueError("is an assembly (*INSTANCE); must be the mesh of one part")
 
 
-def _volume(path: Path, mesh: meshio.Mesh) -> tuple[str, np.ndarray]:
+def _volume(mesh: meshio.Mesh) -> tuple[str, np.ndarray]:
     blocks = [block for block in mesh.cells if block.dim == 3]
     kinds = list(dict.fromkeys(block.type for block in blocks))
     known = ", ".join([*_QUADRATIC, *_LINEAR])
     if not kinds or not sum(len(block) for block in blocks):
-        raise ValueError(f"{path}: has no volume elements; must have some of one kind, {known}")
+        raise ValueError(f"has no volume elements; must have some of one kind, {known}")
     if len(kinds) > 1:
-        raise ValueError(f"{path}: mixes {' and '.join(kinds)}; must have elements of one kind")
+        raise ValueError(f"mixes {' and '.join(kinds)}; must have elements of one kind")
     (kind,) = kinds
     if kind not in _QUADRATIC | _LINEAR:
-        raise ValueError(f"{path}: is made of {kind}; must be one of {known}")
+        raise ValueError(f"is made of {kind}; must be one of {known}")
     cells = np.concatenate([np.asarray(block.data, dtype=int) for block in blocks])
     if cells.min() < 0 or cells.max() >= len(mesh.points):
-        raise ValueError(f"{path}: an element names a node that is not there")
+        raise ValueError("an element names a node that is not there")
     return kind, cells
 
 

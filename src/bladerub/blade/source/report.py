@@ -13,7 +13,8 @@ from scipy.sparse.csgraph import dijkstra
 from bladerub.blade.build import BuiltBlade
 from bladerub.blade.elasticity import Material
 from bladerub.blade.mesh import BladeMesh
-from bladerub.blade.source.imported import Imported, Source
+from bladerub.blade.source.imported import Imported
+from bladerub.blade.source.origin import Source
 from bladerub.blade.surface import EDGES, NAMES
 
 LENGTHS = (0.005, 2.0)  # m, of blades that rotate

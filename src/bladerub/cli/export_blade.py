@@ -1,0 +1,83 @@
+"""The blade itself for other programs, a part of ``bladerub export``."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+from typing import Any
+
+from bladerub.cli import inputs
+from bladerub.cli.errors import InputError
+
+
+def add_to(form: Any) -> None:
+    """Add the options that each name what to write of the blade."""
+    form.add_argument(
+        "--calculix",
+        type=Path,
+        metavar="DIR",
+        help="a folder for decks for CalculiX, one for each speed",
+    )
+    form.add_argument("--mesh", type=Path, metavar="FILE", help="mesh and node sets: .inp, .msh or .vtu")
+    form.add_argument("--matrices", type=Path, metavar="FILE", help="the reduced blade: .npz or .mat")
+
+
+def write(options: argparse.Namespace, config: dict[str, Any]) -> dict[str, Any]:
+    """Write what the command line asks for of the blade; return which files, and of how many nodes.
+
+    Raises
+    ------
+    InputError
+        If an option or a file is at fault.
+    """
+    path, blade = inputs.read_blade(options, config)
+
+    from bladerub.blade.elasticity import Material
+    from bladerub.export import calculix, matrices, mesh_file
+    from bladerub.export.vtu import read_mesh
+
+    try:
+        mesh = read_mesh(path.with_name("mesh.h5"), blade)
+        if options.matrices:
+            matrices.write_matrices(options.matrices, blade)
+            files = [options.matrices]
+        elif options.mesh:
+            sets = {name: mesh[f"{name}_nodes"] for name in ("root", "tip", "interface")}
+            mesh_file.write_mesh_file(options.mesh, mesh["points"], mesh["cells"], sets)
+            files = [options.mesh]
+        else:
+            files = calculix.write_decks(
+                options.calculix,
+                mesh["points"],
+                mesh["cells"],
+                mesh["root_nodes"],
+                Material.from_config(config["blade"]["material"]),
+                blade.f1_hz,
+                _speeds(options, blade.f_omega_max),
+            )
+    except OSError as error:
+        raise InputError(str(error)) from error
+    except ValueError as error:
+        raise InputError(f"--{'matrices' if options.matrices else 'mesh'} {error}") from error
+    return {
+        "files": [str(file) for file in files],
+        "nodes": len(mesh["points"]),
+        "elements": len(mesh["cells"]),
+        "coordinates": len(blade.mass),
+    }
+
+
+def _speeds(options: argparse.Namespace, highest: float) -> list[float]:
+    if options.speeds is None:
+        return [0.0, highest / 2, highest]
+    for speed in options.speeds:
+        if not 0 <= speed <= highest:
+            raise InputError(f"--speeds {speed:g}: must be from 0 to {highest:g} (normalised)")
+    return list(dict.fromkeys(options.speeds))
+
+
+def in_words(figures: dict[str, Any]) -> str:
+    """Say what was written."""
+    size = f"{figures['elements']} elements, {figures['nodes']} nodes"
+    about = f"blade of {size}, reduced to {figures['coordinates']} coordinates"
+    return "\n".join([about, *(f"wrote {file}" for file in figures["files"])])
