@@ -87,7 +87,8 @@ class Solid:
         self._gradients = np.stack([np.moveaxis(np.asarray(b[0].grad), 0, -1) for b in scalar.basis], axis=-2)
         self._dofs = dofs.element_dofs.T  # (element, 3 n_nodes), node by node as in `_gradients`
         self._pattern = _Pattern(self._dofs, is_free)
-        mass = sparse.kron(_product.assemble(scalar), sparse.eye_array(3), format="csc") * material.density
+        product = _product.assemble(Basis(mesh, mesh.elem(), quadrature=mesh.mass_quadrature()))
+        mass = sparse.kron(product, sparse.eye_array(3), format="csc") * material.density
         self.mass = sparse.csc_array(mass[self.free][:, self.free])
         self.first_moment = (mass @ mesh.points.ravel())[self.free]
 

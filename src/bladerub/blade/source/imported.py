@@ -71,6 +71,9 @@ def _import(content: mesh_file.MeshFile, source: Source) -> Imported:
     soundness.check_nodes(content.points, content.cells)
     mesh, origin = solid_mesh(source.frame.metres(content.points), content.cells)
     ratio, volume = soundness.jacobians(mesh)
+    radius = np.hypot(mesh.points[:, 1], mesh.points[:, 2])
+    if radius.min() <= 0:
+        raise ValueError("a node lies on the engine axis, which must pass through the origin of the file")
     faces = boundary_faces(mesh.cells)
     root = _nodes(content, mesh.points, faces, origin, source.root_set, is_tip=False)
     tip_nodes = _nodes(content, mesh.points, faces, origin, source.tip_set, is_tip=True)
@@ -79,9 +82,6 @@ def _import(content: mesh_file.MeshFile, source: Source) -> Imported:
     tip_faces = faces[np.isin(faces, tip_nodes).all(axis=1)]
     if not len(tip_faces):
         raise ValueError(f'tip not found: no face of the surface has all its nodes in "{source.tip_set}"')
-    radius = np.hypot(mesh.points[:, 1], mesh.points[:, 2])
-    if radius.min() <= 0:
-        raise ValueError("a node lies on the engine axis, which must pass through the origin of the file")
     chosen = tip.interface(mesh.points, tip_faces, source.frame.downstream_x)
     if source.tip_cone is None:
         tip_cone = tip.fitted_cone(mesh.points[tip_nodes])

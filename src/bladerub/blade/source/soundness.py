@@ -61,7 +61,7 @@ def jacobians(mesh: SolidMesh) -> tuple[np.ndarray, float]:
     ValueError
         If one is not positive at an integration point; the message names the element.
     """
-    points, weights = mesh.quadrature()
+    points, weights = mesh.mass_quadrature()
     determinant = mesh.mapping().detDF(points)
     bad = np.flatnonzero((determinant <= 0).any(axis=1))
     if bad.size == len(determinant):

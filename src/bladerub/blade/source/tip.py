@@ -64,7 +64,7 @@ def interface(points: np.ndarray, faces: np.ndarray, downstream_x: int) -> Inter
     nodes = np.unique(faces)
     if nodes.size < N_INTERFACE:
         raise ValueError(f"the tip has {nodes.size} nodes; must have {N_INTERFACE} or more")
-    flat = _unrolled(points)
+    flat = _unrolled(points, *points[nodes, 1:].mean(axis=0))
     outline = flat[_outline(faces)]
     line = _camber_line(outline)
     if downstream_x * (line[-1, 0] - line[0, 0]) < 0:
@@ -83,10 +83,11 @@ def interface(points: np.ndarray, faces: np.ndarray, downstream_x: int) -> Inter
     return Interface(nodes[chosen], float(arc[-1]), float(offset))
 
 
-def _unrolled(points: np.ndarray) -> np.ndarray:
-    """Axial position and arc length around the engine axis (n, 2) of `points` (n, 3)."""
+def _unrolled(points: np.ndarray, y: float, z: float) -> np.ndarray:
+    """Axial position and arc length about the engine axis (n, 2) of `points` (n, 3), from `y`, `z` on."""
     radius = np.hypot(points[:, 1], points[:, 2])
-    return np.stack([points[:, 0], radius * np.arctan2(points[:, 1], points[:, 2])], axis=1)
+    phi = np.arctan2(points[:, 1] * z - points[:, 2] * y, points[:, 2] * z + points[:, 1] * y)
+    return np.stack([points[:, 0], radius * phi], axis=1)
 
 
 def _outline(faces: np.ndarray) -> np.ndarray:
@@ -136,10 +137,10 @@ def _middle(pieces: np.ndarray, point: np.ndarray, direction: np.ndarray) -> np.
 
 def _crossings(pieces: np.ndarray, point: np.ndarray, direction: np.ndarray) -> np.ndarray:
     """Where the line from `point` along `direction` meets `pieces` (n, 2, 2), in lengths of `direction`."""
-    start, step = pieces[:, 0] - point, pieces[:, 1] - pieces[:, 0]
-    across = np.array([-direction[1], direction[0]])
-    before, after = start @ across, (start + step) @ across
-    met = (before < 0) != (after < 0)
-    share = before[met] / (before[met] - after[met])
-    places = start[met] + share[:, None] * step[met]
+    ends = pieces - point
+    side = ends @ np.array([-direction[1], direction[0]])
+    met = (side[:, 0] < 0) != (side[:, 1] < 0)  # once, where it goes through an end that two pieces share
+    start, stop = side[met].T
+    share = (start / (start - stop))[:, None]
+    places = (1 - share) * ends[met, 0] + share * ends[met, 1]
     return np.unique(places @ direction / (direction @ direction))

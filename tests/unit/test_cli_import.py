@@ -1,0 +1,88 @@
+import json
+from pathlib import Path
+
+import pytest
+import yaml
+
+from bladerub.blade.geometry import BladeShape
+from bladerub.blade.mesh import BladeMesh
+from bladerub.cli import main
+from bladerub.export.mesh_file import write_mesh_file
+
+CONFIG = Path(__file__).parents[2] / "config" / "config.yaml"
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    """The default blade on a coarse mesh, in mm, and a config that asks for few speeds."""
+    folder = tmp_path_factory.mktemp("blade")
+    blade = yaml.safe_load(CONFIG.read_text(encoding="utf-8"))["blade"]
+    mesh = BladeMesh.from_shape(
+        BladeShape.from_config(blade), {"chordwise": 7, "thickness": 1, "spanwise": 6}
+    )
+    sets = {"FOOT": mesh.root, "TOP": mesh.tip}
+    write_mesh_file(folder / "blade.inp", 1e3 * mesh.mesh.points, mesh.mesh.cells, sets)
+    (folder / "small.yaml").write_text("reduction: {accuracy_speeds: 3}\n")
+    return folder
+
+
+@pytest.fixture
+def look(folder, capsys):
+    """Run the command on a file in `folder`: exit code, what it printed and its errors."""
+
+    def run(*more, file="blade.inp"):
+        before = sorted(folder.iterdir())
+        code = main(["import", str(folder / file), "--config", str(folder / "small.yaml"), *more])
+        assert sorted(folder.iterdir()) == before
+        return code, *capsys.readouterr()
+
+    return run
+
+
+def test_figures_of_the_default_blade(look, folder):
+    code, out, _ = look("--unit", "mm", "--root-set", "foot", "--tip-set", "TOP", "--json")
+    figures = json.loads(out)
+    assert code == 0
+    assert figures["element"] == "hexahedron20"
+    assert figures["f1_hz"] == pytest.approx(195.3, abs=0.1)
+    assert figures["campbell_ratio"] == pytest.approx(1.305, abs=0.005)
+    assert figures["tip_cone_degrees"] == pytest.approx(12.45)
+    assert figures["node_sets"] == {"FOOT": 38, "TOP": 38}
+    assert figures["config"]["blade"]["source"] == {
+        "file": str(folder / "blade.inp"),
+        "unit": "mm",
+        "rotation": "-x",
+        "downstream": "x",
+        "radial": "z",
+        "root_set": "foot",
+        "tip_set": "TOP",
+    }
+
+
+def test_what_it_prints_is_a_config_of_the_blade(look, folder):
+    code, out, _ = look("--unit", "mm")
+    assert code == 0
+    assert "warning             its mesh is coarse: 6 elements" in out
+    (folder / "printed.yaml").write_text(out.split("# for the config of its study\n")[1])
+    code, again, _ = look("--config", str(folder / "printed.yaml"))
+    assert code == 0
+    assert again == out
+
+
+@pytest.mark.parametrize(
+    ("more", "said"),
+    [
+        (["--tip-set", "TIP"], 'tip not found: there is no node set "TIP"; did you mean TOP?'),
+        (["--radial", "x"], "radial = x: must not be the axis of rotation"),
+    ],
+)
+def test_what_cannot_be_imported_is_told_in_one_line(look, more, said):
+    code, out, err = look("--unit", "mm", *more)
+    assert (code, out, err.count("\n")) == (2, "", 1)
+    assert said in err
+
+
+def test_a_file_that_is_no_mesh_is_told(look, folder):
+    code, _, err = look(file="small.yaml")
+    assert code == 2
+    assert err == f"bladerub import: {folder}/small.yaml: must be a mesh file that ends in .inp, .msh, .vtu\n"

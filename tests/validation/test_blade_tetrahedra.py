@@ -1,0 +1,71 @@
+"""The default blade of tetrahedra, meshed by Gmsh and imported, against that of hexahedra.
+
+Gmsh (Geuzaine and Remacle 2009, International Journal for Numerical Methods in Engineering 79:1309) meshes a
+plate of the blade's length, chord and thickness; its nodes, those in the middle of edges as well, are then
+put on the blade. The test needs the package `gmsh` from PyPI.
+"""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+import yaml
+
+from bladerub.blade.elasticity import Material, Solid
+from bladerub.blade.geometry import BladeShape
+from bladerub.blade.linear import lowest_modes
+from bladerub.blade.mesh import BladeMesh
+from bladerub.blade.rotation import equilibrium
+from bladerub.blade.source.imported import import_mesh
+from bladerub.blade.source.origin import Source
+
+gmsh = pytest.importorskip("gmsh", reason="Gmsh (pip install gmsh) is not installed", exc_type=ImportError)
+
+CONFIG = Path(__file__).parents[2] / "config" / "config.yaml"
+PLATE = np.array([0.082, 0.008, 0.2])  # m
+
+
+def write_tetrahedra(path, shape, size):
+    gmsh.initialize(interruptible=False)
+    try:
+        gmsh.option.setNumber("General.Terminal", 0)
+        gmsh.option.setNumber("Mesh.MeshSizeMin", size)
+        gmsh.option.setNumber("Mesh.MeshSizeMax", size)
+        volume = gmsh.model.occ.addBox(0, 0, 0, *PLATE)
+        gmsh.model.occ.synchronize()
+        for name, height in (("root", 0.0), ("tip", PLATE[2])):
+            margin = 1e-6
+            faces = gmsh.model.getEntitiesInBoundingBox(
+                -margin, -margin, height - margin, PLATE[0] + margin, PLATE[1] + margin, height + margin, 2
+            )
+            gmsh.model.addPhysicalGroup(2, [tag for _, tag in faces], name=name)
+        gmsh.model.addPhysicalGroup(3, [volume], name="blade")
+        gmsh.model.mesh.generate(3)
+        gmsh.model.mesh.setOrder(2)
+        tags, coordinates, _ = gmsh.model.mesh.getNodes()
+        on_blade = shape.points(*np.clip(coordinates.reshape(-1, 3) / PLATE, 0, 1).T).T
+        for tag, place in zip(tags, on_blade, strict=True):
+            gmsh.model.mesh.setNode(tag, place, [])
+        gmsh.write(str(path))
+    finally:
+        gmsh.finalize()
+
+
+def first_frequencies(blade, material):
+    solid = Solid(blade.mesh, material, blade.root)
+    return lowest_modes(equilibrium(solid, 0.0).stiffness, solid.mass, 8)[0]
+
+
+def test_eight_frequencies_are_those_of_hexahedra(tmp_path):
+    config = yaml.safe_load(CONFIG.read_text(encoding="utf-8"))["blade"]
+    shape, material = BladeShape.from_config(config), Material.from_config(config["material"])
+    write_tetrahedra(tmp_path / "blade.msh", shape, 0.008)
+    imported = import_mesh(Source(tmp_path / "blade.msh", root_set="root", tip_set="tip"))
+    by_rule = import_mesh(Source(tmp_path / "blade.msh")).blade.mesh
+    np.testing.assert_array_equal(by_rule.root, imported.blade.mesh.root)
+    np.testing.assert_array_equal(by_rule.tip, imported.blade.mesh.tip)
+    tetrahedra = first_frequencies(imported.blade.mesh, material)
+    hexahedra = first_frequencies(BladeMesh.from_shape(shape, config["mesh"]), material)
+    difference = np.abs(tetrahedra / hexahedra - 1).max()
+    print(f"{imported.blade.mesh.mesh.t.shape[1]} tetrahedra: largest difference {difference:.1e}")
+    assert difference < 5e-3
