@@ -30,12 +30,15 @@ def write(options: argparse.Namespace, config: dict[str, Any]) -> dict[str, Any]
     InputError
         If an option or a file is at fault.
     """
-    path, blade = inputs.read_blade(options, config)
-
     from bladerub.blade.elasticity import Material
     from bladerub.export import calculix, matrices, mesh_file
     from bladerub.export.vtu import read_mesh
 
+    for option, suffixes in (("mesh", mesh_file.WRITERS), ("matrices", matrices.SUFFIXES)):
+        file = getattr(options, option)
+        if file and file.suffix.lower() not in suffixes:
+            raise InputError(f"--{option} {file}: must end in {', '.join(suffixes)}")
+    path, blade = inputs.read_blade(options, config)
     try:
         mesh = read_mesh(path.with_name("mesh.h5"), blade)
         if options.matrices:
@@ -57,8 +60,6 @@ def write(options: argparse.Namespace, config: dict[str, Any]) -> dict[str, Any]
             )
     except OSError as error:
         raise InputError(str(error)) from error
-    except ValueError as error:
-        raise InputError(f"--{'matrices' if options.matrices else 'mesh'} {error}") from error
     return {
         "files": [str(file) for file in files],
         "nodes": len(mesh["points"]),

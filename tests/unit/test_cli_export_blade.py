@@ -1,0 +1,84 @@
+import json
+
+import numpy as np
+import pytest
+
+from bladerub import datafile
+from bladerub.blade.model import read_reduced_blade
+from bladerub.blade.source import mesh_file
+from bladerub.cli import inputs, main
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    """Stands for the repository, with a config of a coarse blade."""
+    folder = tmp_path_factory.mktemp("repository")
+    (folder / "small.yaml").write_text(
+        "blade: {mesh: {chordwise: 7, thickness: 1, spanwise: 4}}\nreduction: {accuracy_speeds: 3}\n"
+    )
+    return folder
+
+
+@pytest.fixture
+def export(folder, monkeypatch, capsys):
+    """Run the command on `folder`: exit code, what it printed and its errors."""
+    monkeypatch.setattr(inputs, "ROOT", folder)
+
+    def run(*more):
+        capsys.readouterr()
+        try:
+            code = main(["export", "--config", str(folder / "small.yaml"), *map(str, more)])
+        except SystemExit as error:  # argparse ends the program itself
+            code = error.code
+        return code, *capsys.readouterr()
+
+    return run
+
+
+def test_decks_are_written_for_three_speeds_or_those_named(export, tmp_path):
+    code, out, _ = export("--calculix", tmp_path / "decks", "--json")
+    assert code == 0
+    names = ["blade_0.0000.inp", "blade_0.2000.inp", "blade_0.4000.inp"]
+    assert json.loads(out)["files"] == [str(tmp_path / "decks" / name) for name in names]
+    assert export("--calculix", tmp_path / "one", "--speeds", "0.3")[0] == 0
+    assert [path.name for path in (tmp_path / "one").iterdir()] == ["blade_0.3000.inp"]
+
+
+@pytest.mark.parametrize("name", ["blade.inp", "blade.msh", "blade.vtu"])
+def test_the_mesh_is_that_of_the_blade_with_its_sets(export, folder, tmp_path, name):
+    code, out, _ = export("--mesh", tmp_path / name)
+    assert code == 0
+    assert out.splitlines()[-1] == f"wrote {tmp_path / name}"
+    content = mesh_file.read(tmp_path / name)
+    mesh, _ = datafile.read(folder / "results" / "blade" / "mesh.h5")
+    np.testing.assert_array_equal(content.points, mesh["points"])
+    np.testing.assert_array_equal(content.cells, mesh["cells"])
+    for part in ("root", "tip", "interface"):
+        np.testing.assert_array_equal(content.node_sets[part], np.sort(mesh[f"{part}_nodes"]))
+
+
+def test_matrices_are_those_of_the_reduced_blade(export, folder, tmp_path):
+    assert export("--matrices", tmp_path / "blade.npz")[0] == 0
+    blade = read_reduced_blade(folder / "results" / "blade" / "reduced_model.h5")
+    with np.load(tmp_path / "blade.npz") as data:
+        np.testing.assert_array_equal(data["stiffness_1"], blade.stiffness_1)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        ([], "one of the arguments --vtu --calculix --mesh --matrices is required"),
+        (["--mesh", "{}/blade.stl"], "must end in .inp, .msh, .vtu"),
+        (["--matrices", "{}/blade.csv"], "must end in .npz, .mat"),
+        (["--calculix", "{}", "--speeds", "0.5"], "--speeds 0.5: must be from 0 to 0.4 (normalised)"),
+        (["--matrices", "{}/blade.npz", "--speeds", "0.1"], "--speeds: goes with --calculix only"),
+        (["--vtu", "{}/motion"], "--vtu: needs --run"),
+        (["--mesh", "{}/blade.inp", "--run", "run.h5"], "--run: goes with --vtu only"),
+        (["--mesh", "{}/blade.inp", "--matrices", "{}/blade.npz"], "not allowed with argument"),
+    ],
+)
+def test_what_cannot_be_written_is_told(export, tmp_path, arguments, said):
+    code, out, err = export(*(argument.format(tmp_path) for argument in arguments))
+    assert (code, out, err.count("\n")) == (2, "", 1)
+    assert said in err
+    assert not list(tmp_path.iterdir())
