@@ -6,6 +6,7 @@ import argparse
 from pathlib import Path
 from typing import Any
 
+from bladerub import faults
 from bladerub.cli import inputs
 from bladerub.cli.errors import InputError
 
@@ -59,7 +60,7 @@ def write(options: argparse.Namespace, config: dict[str, Any]) -> dict[str, Any]
                 _speeds(options, blade.f_omega_max),
             )
     except OSError as error:
-        raise InputError(str(error)) from error
+        raise InputError(faults.in_words(error)) from error
     return {
         "files": [str(file) for file in files],
         "nodes": len(mesh["points"]),
