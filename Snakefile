@@ -63,6 +63,8 @@ rule all:
     default_target: True
     input:
         rules.blade.output,
+        # the maps are of them, but Snakemake makes no lost one anew for a map that is there
+        expand(rules.coating.output, coating=COATINGS),
         expand(rules.map.output, coating=COATINGS),
         rules.peaks.output,
         rules.divergence.output,

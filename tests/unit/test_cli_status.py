@@ -36,7 +36,8 @@ def test_counts_as_json(small, capsys):
     assert main(["status", "--json", *small]) == 0
     output = capsys.readouterr()
     told = json.loads(output.out)
-    coatings, note = told.pop("coatings"), told.pop("note")
+    coatings, note, damaged = told.pop("coatings"), told.pop("note"), told.pop("damaged")
+    assert damaged == []
     assert told.keys() == COUNTS
     assert (told["planned"], told["missing"], told["done"]) == (6, 6, 0)
     assert coatings.keys() == {"2nd_E2_K0.5_theta0", "2nd_E20_K0.5_theta0"}

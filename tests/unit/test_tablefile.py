@@ -5,6 +5,7 @@ import pytest
 
 from bladerub import tablefile
 from bladerub.columns import COLUMNS
+from bladerub.faults import DamagedFile
 
 ORIGIN = {"provenance_software": "bladerub 1", "provenance_git_commit": "abc"}
 
@@ -19,7 +20,9 @@ def test_the_table_is_plain_csv(table, tmp_path):
     tablefile.write(path, table, ORIGIN, "%.3g")
     assert path.read_text() == "casing,amplitude\n2nd,0.333\n2nd,\n"
     pd.testing.assert_frame_equal(
-        pd.read_csv(path), table.round({"amplitude": 3}).reset_index(drop=True), check_dtype=False
+        tablefile.read(path, ["casing"]),
+        table.round({"amplitude": 3}).reset_index(drop=True),
+        check_dtype=False,
     )
 
 
@@ -41,3 +44,27 @@ def test_a_column_that_nobody_described_is_refused_before_anything_is_written(ta
     with pytest.raises(ValueError, match=r"peaks\.csv: columns without a description .*: depth"):
         tablefile.write(tmp_path / "peaks.csv", table.assign(depth=1), ORIGIN)
     assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize(
+    ("content", "words"),
+    [
+        (b"", "not a whole table, it breaks off"),
+        (b"E,amp", "not a whole table, it breaks off"),
+        (b"E,amplitude\n1,2\n1,0.0", "not a whole table, it breaks off"),
+        (b"\n", "not a table"),
+        (b"E,amplitude\n1,2\n1,2,3,4\n", "not a table"),
+        (b"\x89HDF\xff\xfe\n", "not a table"),
+        (b"K,amplitude\n1,2\n", "not the right table, E missing"),
+    ],
+)
+def test_what_is_not_the_whole_table_is_named(tmp_path, content, words):
+    path = tmp_path / "table.csv"
+    path.write_bytes(content)
+    with pytest.raises(DamagedFile, match=rf"table\.csv: {words}"):
+        tablefile.read(path, ["E", "amplitude"])
+
+
+def test_a_missing_table_is_named(tmp_path):
+    with pytest.raises(FileNotFoundError, match=r"table\.csv"):
+        tablefile.read(tmp_path / "table.csv")

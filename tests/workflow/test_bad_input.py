@@ -63,12 +63,9 @@ def test_bad_command_line(command, tmp_path, line):
 
 
 def lines_of_ours(stderr: str) -> list[str]:
-    """Snakemake says that it lays one config over the other; all else must be ours."""
-    return [
-        line
-        for line in stderr.splitlines()
-        if not line.startswith("Config file config/config.yaml is extended")
-    ]
+    """Snakemake says that it uses a profile and lays one config over the other; all else must be ours."""
+    its_own = ("Config file config/config.yaml is extended", "Using workflow specific profile")
+    return [line for line in stderr.splitlines() if not line.startswith(its_own)]
 
 
 SAMPLE = [

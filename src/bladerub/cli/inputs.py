@@ -86,10 +86,12 @@ def read_blade(options: argparse.Namespace, config: dict[str, Any]) -> tuple[Pat
     OSError
         If the files of the default blade are damaged or cannot be written.
     """
+    from bladerub import invocation
     from bladerub.blade.soundness import read_sound_blade
 
     path = blade_path(options, config)
     if not options.blade and not (path.exists() and _mesh_of(path).exists()):
+        invocation.prepare(path.parents[1])
         print(f"bladerub {options.name}: building the blade first, into {path.parent}", file=sys.stderr)
         _build_blade(config, path)
     elif not options.blade and not is_of(config, path):

@@ -61,7 +61,7 @@ def status(options: argparse.Namespace) -> None:
             digest = blade_digest(model)
     except OSError as error:
         note = f"every run counts as stale without its blade: {in_words(error)}"
-    cases = coating_cases(config)
+    cases, damaged = coating_cases(config), []
     with tqdm(
         total=len(cases) * len(speeds(config)),
         unit="run",
@@ -71,14 +71,21 @@ def status(options: argparse.Namespace) -> None:
     ) as bar:
         inventories = {
             case.name: take(
-                config, case, results / "runs" / case.name, digest, options.thorough, lambda: bar.update()
+                config,
+                case,
+                results / "runs" / case.name,
+                digest,
+                options.thorough,
+                seen=lambda: bar.update(),
+                damaged=damaged.append,
             )
             for case in cases
         }
     whole = total(inventories.values())
     if options.json:
+        told = asdict(whole) | {"note": note, "damaged": [str(path) for path in damaged]}
         coatings = {name: asdict(inventory) for name, inventory in inventories.items()}
-        print(json.dumps(asdict(whole) | {"note": note, "coatings": coatings}, indent=2))
+        print(json.dumps(told | {"coatings": coatings}, indent=2))
         return
     width = max(len(name) for name in ["coating", *inventories])
     print(f"{'coating':<{width}}" + "".join(f"{column:>10}" for column in _COLUMNS) + f"{'MB':>10}")
@@ -87,5 +94,8 @@ def status(options: argparse.Namespace) -> None:
         print(f"{name:<{width}}{counts}{inventory.bytes / 1e6:>10.1f}")
     done = f"{whole.longer_done} of {whole.longer_planned} done"
     print(f"\nlonger runs, where growth is to be confirmed: {done}")
+    if damaged:
+        print("damaged; delete these files and run snakemake again: they alone are computed anew")
+        print("\n".join(f"  {path}" for path in damaged))
     if note:
         print(note)

@@ -7,10 +7,11 @@ from dataclasses import dataclass, fields
 from pathlib import Path
 from typing import Any
 
+from bladerub.faults import DamagedFile
 from bladerub.study.grid import CoatingCase
 from bladerub.study.growth import needs_confirmation
 from bladerub.study.plan import PlannedRun, longer_run, planned_runs
-from bladerub.study.store import StoredRun, read_run
+from bladerub.study.store import StoredRun, read_manifest, read_run
 
 
 @dataclass(frozen=True)
@@ -61,6 +62,7 @@ def take(
     blade_digest: str | None,
     thorough: bool = False,
     seen: Callable[[], object] = lambda: None,
+    damaged: Callable[[Path], object] = lambda path: None,
 ) -> Inventory:
     """Compare the runs of one coating on disk with the plan.
 
@@ -78,20 +80,25 @@ def take(
         Read every number and compare its checksum, instead of only what tells a truncated file.
     seen : callable, optional
         Called after each planned run.
+    damaged : callable, optional
+        Called with each file that cannot be read to its end: runs, longer ones, the manifest.
     """
     folder, settings = Path(folder), config["analysis"]["divergence"]
     count = dict.fromkeys(("done", "missing", "stale", "corrupt", "unbounded", *_LONGER), 0)
     digest = blade_digest or "no blade"  # under which no run was ever made
     planned = planned_runs(config, case, folder, digest)
+    if _is_damaged(folder / "manifest.tsv"):
+        damaged(folder / "manifest.tsv")
     for run in planned:
-        state, stored = _look(run, thorough)
+        state, stored = _look(run, thorough, damaged)
         count[state] += 1
         if state == "done":
             status = stored.attributes["status"]
             count["unbounded"] += status == "unbounded"
             if needs_confirmation(stored.data["revolution_amplitude"], status, settings):
                 count["longer_planned"] += 1
-                count["longer_done"] += _look(longer_run(config, run, digest), thorough)[0] == "done"
+                longer, _ = _look(longer_run(config, run, digest), thorough, damaged)
+                count["longer_done"] += longer == "done"
         seen()
     return Inventory(
         planned=len(planned),
@@ -103,11 +110,22 @@ def take(
 _LONGER = ("longer_planned", "longer_done")
 
 
-def _look(run: PlannedRun, thorough: bool) -> tuple[str, StoredRun | None]:
+def _is_damaged(manifest: Path) -> bool:
+    try:
+        read_manifest(manifest)
+    except DamagedFile:
+        return True
+    except FileNotFoundError:
+        pass
+    return False
+
+
+def _look(run: PlannedRun, thorough: bool, damaged: Callable[[Path], object]) -> tuple[str, StoredRun | None]:
     if not run.path.exists():
         return "missing", None
     try:
         stored = read_run(run.path, frozenset() if thorough else {"revolution_amplitude"})
     except Exception:  # whatever is wrong with the file (as in `bladerub.study.store.is_current`)
+        damaged(run.path)
         return "corrupt", None
     return ("done" if stored.attributes["run_key"] == run.key else "stale"), stored

@@ -16,7 +16,7 @@ from bladerub.datafile import Variable
 from bladerub.faults import DamagedFile
 from bladerub.provenance import provenance
 from bladerub.study.confirmation import confirmation_path
-from bladerub.study.grid import CoatingCase
+from bladerub.study.grid import CoatingCase, speeds
 from bladerub.study.store import GATHERED, ManifestRow, StoredRun, read_manifest, read_run
 from bladerub.study.wear import lobes, mean_wear
 
@@ -118,7 +118,7 @@ def build_map(
     Parameters
     ----------
     config : mapping
-        ``analysis.lobe_prominence`` decides what counts as a lobe.
+        The study; its ``analysis.lobe_prominence`` decides what counts as a lobe.
     case : CoatingCase
         The coating.
     blade : ReducedBlade
@@ -131,13 +131,16 @@ def build_map(
     Raises
     ------
     OSError
-        If the manifest or a run is missing, damaged, or another run than the manifest's; the message names
-        the file.
+        If the manifest or a run is missing or damaged, if the manifest lists other speeds than the study has,
+        or a run is another than the manifest's; the message names the file.
     """
     folder = Path(runs_folder)
     rows = sorted(read_manifest(folder / "manifest.tsv"), key=lambda row: row.f_omega)
-    if not rows:
-        raise DamagedFile(f"{folder / 'manifest.tsv'}: lists no run")
+    planned = speeds(config)
+    if [row.f_omega for row in rows] != list(planned):
+        raise DamagedFile(
+            f"{folder / 'manifest.tsv'}: lists {len(rows)} speeds, not the {len(planned)} planned"
+        )
     runs = [_listed_run(folder, folder / row.file, row.run_key, GATHERED) for row in rows]
     scales = _listed_run(folder, folder / rows[0].file, rows[0].run_key, {"angle", "spectrum_order"}).data
     f_omega = np.array([row.f_omega for row in rows])

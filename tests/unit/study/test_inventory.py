@@ -108,3 +108,12 @@ def test_a_total_adds_up():
         planned=5, done=1, stale=3, bytes=5
     )
     assert total([]) == Inventory()
+
+
+def test_each_damaged_file_is_named(done, inventory, tmp_path):
+    hurt = [tmp_path / name for name in ("0.1000.h5", "confirmation/0.2000.h5", "manifest.tsv")]
+    for path in hurt:
+        os.truncate(path, path.stat().st_size // 2)
+    named = []
+    inventory(damaged=named.append)
+    assert sorted(named) == sorted(hurt)

@@ -18,6 +18,7 @@ def folder(tmp_path, config, case, make_result):
 
     The middle one was repeated for longer; of the last there is a longer one that the study has no use for.
     """
+    config["speeds"] = {"start": 0.1, "stop": 0.3, "step": 0.2, "extra": [0.19]}
     rows = []
     for f_omega, order in zip(SPEEDS, (10, 6, 4), strict=True):
         result = make_result(order=order, complete=15 if order == 4 else None)
@@ -119,7 +120,7 @@ def test_a_longer_run_that_is_missing_or_stale_is_named(build, folder, tmp_path)
 
 def test_no_manifest_or_an_empty_one_is_an_error(build, folder, tmp_path):
     store.write_manifest(folder / "manifest.tsv", [])
-    with pytest.raises(OSError, match=r"manifest\.tsv: lists no run"):
+    with pytest.raises(DamagedFile, match=r"manifest\.tsv: lists 0 speeds, not the 3 planned"):
         build(tmp_path / "map.h5")
     (folder / "manifest.tsv").unlink()
     with pytest.raises(OSError, match=r"manifest\.tsv"):

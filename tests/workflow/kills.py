@@ -1,0 +1,266 @@
+"""Kill the workflow at random moments, and see that nothing is lost.
+
+    python tests/workflow/kills.py --kills 20 --seed 1 --config config/quick.yaml
+
+An undisturbed study is made first. Then another is killed, in turns by SIGTERM to snakemake, by SIGKILL to
+all of its processes, and by SIGKILL to one job, at a random moment of what is left to do; the same command is
+given again and killed again. A study that has come to its end is compared with the undisturbed one, byte by
+byte, and begun anew. No run that was whole before a kill may be written again.
+"""
+
+from __future__ import annotations
+
+import argparse
+import filecmp
+import itertools
+import os
+import random
+import re
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import suppress
+from dataclasses import dataclass
+from pathlib import Path
+
+from bladerub.study.store import read_run
+
+WAYS = ("SIGTERM to snakemake", "SIGKILL to all processes", "SIGKILL to one job")
+UNEQUAL = re.compile(r"logs/|benchmarks/|tables/cost\.csv|.*\.lock")
+"""Files that tell of the machine, not of the study."""
+LAST = 600
+"""Longest that a study may take, s."""
+
+
+@dataclass(frozen=True)
+class Kill:
+    """One kill and what came of it.
+
+    Parameters
+    ----------
+    study : int
+        Which study it is, counted from 1: those before it have come to their end and were as they should be.
+    way : str
+        One of `WAYS`.
+    after : float
+        Moment, s from the start of the invocation.
+    jobs : str
+        Rules at work at that moment.
+    whole : int
+        Runs that were whole at that moment.
+    left : int
+        Temporary files that the kill has left.
+    """
+
+    study: int
+    way: str
+    after: float
+    jobs: str
+    whole: int
+    left: int
+
+    def __str__(self) -> str:
+        found = f"{self.whole:>4} runs whole, {self.left} files half written"
+        return f"study {self.study}: {self.way:<26}{self.after:>6.1f} s {found}, at work: {self.jobs}"
+
+
+@dataclass(frozen=True)
+class Study:
+    """A folder with the workflow in it, and the command that is given there.
+
+    Parameters
+    ----------
+    folder : Path
+        With the Snakefile.
+    arguments : sequence of str
+        Of snakemake.
+    environment : mapping of str to str
+        Where its sources and machine code are.
+    """
+
+    folder: Path
+    arguments: Sequence[str]
+    environment: Mapping[str, str]
+
+    @property
+    def results(self) -> Path:
+        return self.folder / "results"
+
+    def start(self) -> subprocess.Popen:
+        """Give the command, in a session of its own."""
+        with (self.folder / "output.txt").open("w") as output:
+            return subprocess.Popen(
+                [Path(sys.executable).with_name("snakemake"), *self.arguments],
+                cwd=self.folder,
+                env=os.environ | self.environment,
+                stdin=subprocess.DEVNULL,
+                stdout=output,
+                stderr=subprocess.STDOUT,
+                start_new_session=True,
+            )
+
+    def output(self) -> str:
+        """What the last command has said."""
+        return (self.folder / "output.txt").read_text()
+
+    def forget(self) -> None:
+        """Go back to where nothing has been made but the machine code, which takes longest to make."""
+        for name in ("results", ".snakemake"):
+            shutil.rmtree(self.folder / name, ignore_errors=True)
+
+    def runs(self) -> dict[str, tuple[int, int]]:
+        """Inode and time of writing of each whole run."""
+        whole = {}
+        for path in sorted(self.results.glob("runs/*/**/[0-9]*.h5")):
+            read_run(path)  # under its final name a file is whole at any time
+            status = path.stat()
+            whole[path.relative_to(self.results).as_posix()] = (status.st_ino, status.st_mtime_ns)
+        return whole
+
+    def differences(self, other: Study) -> list[str]:
+        """Files that are not the same here and there."""
+        files = [
+            {
+                path.relative_to(study.results).as_posix()
+                for path in study.results.rglob("*")
+                if path.is_file() and not UNEQUAL.match(path.relative_to(study.results).as_posix())
+            }
+            for study in (self, other)
+        ]
+        _, unequal, unreadable = filecmp.cmpfiles(
+            self.results, other.results, files[0] & files[1], shallow=False
+        )
+        return sorted((files[0] ^ files[1]) | {*unequal, *unreadable})
+
+
+def torment(study: Study, undisturbed: Study, seconds: float, seed: int) -> Iterator[Kill]:
+    """Kill `study` again and again.
+
+    Parameters
+    ----------
+    study, undisturbed : Study
+        The one to kill, and a finished one to compare it with.
+    seconds : float
+        How long the study takes undisturbed.
+    seed : int
+        Decides the moments.
+
+    Yields
+    ------
+    Kill
+        As it happens.
+
+    Raises
+    ------
+    AssertionError
+        If a kill has cost more than the work it interrupted.
+    """
+    draw, ways = random.Random(seed), itertools.cycle(WAYS)
+    way, spent, known, completed = next(ways), 0.0, {}, 0
+    while True:
+        after = draw.uniform(0.0, max(seconds - spent, seconds / 4))
+        process, began = study.start(), time.monotonic()
+        try:
+            try:
+                process.wait(after)
+            except subprocess.TimeoutExpired:
+                pass
+            else:  # there was less left to do than expected
+                _check_end(study, undisturbed, process.returncode, known)
+                study.forget()
+                seconds, spent, known = spent + time.monotonic() - began, 0.0, {}
+                completed += 1
+                continue
+            jobs = jobs_of(process)
+            while way == WAYS[2] and not jobs and process.poll() is None:
+                jobs = jobs_of(process)
+            before = study.runs()
+            _kill(way, process, draw)
+            process.wait(LAST)
+        finally:
+            with suppress(ProcessLookupError):
+                os.killpg(process.pid, signal.SIGKILL)
+        output = study.output()
+        assert "LockException" not in output, output
+        assert "IncompleteFilesException" not in output, output
+        known = _unchanged(known, study.runs()) | before
+        half = sum(1 for _ in study.results.rglob(".*.tmp"))
+        at_work = ", ".join(sorted(jobs.values())) or "snakemake alone"
+        yield Kill(completed + 1, way, after, at_work, len(before), half)
+        way, spent = next(ways), spent + time.monotonic() - began
+
+
+def finish(study: Study, undisturbed: Study) -> None:
+    """Let the study come to its end, and compare it."""
+    known = study.runs()
+    _check_end(study, undisturbed, study.start().wait(LAST), known)
+
+
+def _check_end(study: Study, undisturbed: Study, code: int, known: dict[str, tuple[int, int]]) -> None:
+    assert code == 0, study.output()
+    _unchanged(known, study.runs())
+    assert study.differences(undisturbed) == []
+
+
+def _unchanged(known: dict[str, tuple[int, int]], now: dict[str, tuple[int, int]]) -> dict:
+    anew = [name for name, written in known.items() if now.get(name) != written]
+    assert anew == [], "whole before, written again after a kill"
+    return now
+
+
+def jobs_of(process: subprocess.Popen) -> dict[int, str]:
+    """Rule of each job at work, by the process that executes its script."""
+    jobs = {}
+    for folder in Path("/proc").glob("[0-9]*"):
+        try:
+            if os.getpgid(int(folder.name)) == process.pid:
+                command = (folder / "cmdline").read_text().split("\0")
+                script = re.search(r"\.snakemake/scripts/tmp\w+\.(\w+)\.py$", "".join(command[1:2]))
+                jobs |= {int(folder.name): script[1]} if script else {}
+        except (FileNotFoundError, ProcessLookupError):
+            continue
+    return jobs
+
+
+def _kill(way: str, process: subprocess.Popen, draw: random.Random) -> None:
+    if way == WAYS[0]:
+        process.send_signal(signal.SIGTERM)
+    elif way == WAYS[1]:
+        os.killpg(process.pid, signal.SIGKILL)
+    elif jobs := jobs_of(process):
+        os.kill(draw.choice(sorted(jobs)), signal.SIGKILL)
+
+
+def main() -> None:
+    """Make a study, kill another, and print a line a kill."""
+    from conftest import Workspace
+
+    parser = argparse.ArgumentParser(description="Kill the workflow at random moments.")
+    parser.add_argument("--kills", type=int, default=20)
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--config", default="config/quick.yaml")
+    options = parser.parse_args()
+    with tempfile.TemporaryDirectory() as scratch:
+        command = ("-j2", "--configfile", str(Path(options.config).resolve()))
+        undisturbed, study = (
+            Study(folder, command, {"PYTHONPATH": str(folder / "src")})
+            for folder in (Workspace.at(Path(scratch) / name).folder for name in ("undisturbed", "killed"))
+        )
+        began = time.monotonic()
+        finish(undisturbed, undisturbed)
+        seconds = time.monotonic() - began
+        print(f"undisturbed: {seconds:.0f} s, {len(undisturbed.runs())} runs", flush=True)
+        for number, kill in enumerate(torment(study, undisturbed, seconds, options.seed), 1):
+            print(f"{number:>3}  {kill}", flush=True)
+            if number == options.kills:
+                break
+        finish(study, undisturbed)
+        print("every run was computed once, and the study is the same as the undisturbed one, byte by byte")
+
+
+if __name__ == "__main__":
+    main()

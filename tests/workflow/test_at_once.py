@@ -1,0 +1,101 @@
+"""Two invocations at the same time: in one folder, and in two that share their results."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+import yaml
+
+from bladerub import lock
+from bladerub.cli import inputs, main
+
+COATING = "2nd_E2_K0.5_theta0"
+COMMAND = (
+    *(Path(sys.executable).with_name("snakemake"), f"results/runs/{COATING}/manifest.tsv"),
+    *("--cores", "1", "--configfile", "overlay.yaml"),
+)
+
+
+@pytest.fixture
+def begin():
+    """Start the workflow in a folder and leave it at work."""
+    processes = []
+
+    def started(folder):
+        output = (folder / "output.txt").open("w")
+        processes.append(
+            subprocess.Popen(COMMAND, cwd=folder, env=environment(folder), stdout=output, stderr=output)
+        )
+        output.close()
+        return processes[-1]
+
+    yield started
+    for process in processes:
+        process.kill()
+        process.wait()
+
+
+def environment(folder):
+    return os.environ | {"PYTHONPATH": str(folder / "src")}
+
+
+def wait_for(text, path):
+    for _ in range(600):
+        if path.is_file() and text in path.read_text():
+            return
+        time.sleep(0.1)
+    raise AssertionError(f"{path} never said: {text}")
+
+
+@pytest.fixture
+def begun(copied_study, tiny):
+    """A study of which one coating is to be done anew."""
+    (copied_study.folder / "overlay.yaml").write_text(yaml.safe_dump(tiny))
+    coating = copied_study.folder / "results" / "runs" / COATING
+    (coating / "manifest.tsv").unlink()
+    return copied_study, coating
+
+
+def test_the_second_in_a_folder_is_kept_out_and_loses_nothing(begun, begin, tiny, monkeypatch, capsys):
+    study, coating = begun
+    log = study.folder / "results" / "logs" / "coating" / f"{COATING}.log"
+    with lock.held(coating / ".lock", lambda: None):  # so that the first stays at work
+        first = begin(study.folder)
+        wait_for("another job is at work in", log)
+        second = study.snakemake(*COMMAND[1:4])
+        assert second.returncode != 0
+        assert "another snakemake is at work in this folder" in second.stderr
+        assert "Traceback" not in second.stderr
+        monkeypatch.setattr(inputs, "ROOT", study.folder)
+        assert main(["status", "--json", "--config", str(study.folder / "overlay.yaml")]) == 0
+        counts = json.loads(capsys.readouterr().out)
+        assert (counts["done"], counts["damaged"]) == (6 * 8, [])
+        assert first.poll() is None
+    assert first.wait(300) == 0
+    assert study.plan(tiny, COMMAND[1]) == {}
+
+
+def test_two_folders_with_the_same_results_compute_each_run_once(begun, begin, tmp_path):
+    study, coating = begun
+    for speed in (0.1970, 0.2300):
+        (coating / f"{speed:.4f}.h5").unlink()
+    other = type(study).at(tmp_path / "other")
+    (other.folder / "overlay.yaml").write_text((study.folder / "overlay.yaml").read_text())
+    (other.folder / "results").symlink_to(study.folder / "results")
+    with lock.held(coating / ".lock", lambda: None):
+        both = [begin(study.folder), begin(other.folder)]
+        for folder in (study.folder, other.folder):
+            wait_for("rule coating:", folder / "output.txt")
+        time.sleep(4)  # for the jobs to come to the lock
+    while all(process.poll() is None for process in both):
+        time.sleep(0.05)
+    times = {path: path.stat().st_mtime_ns for path in coating.glob("[0-9]*.h5")}
+    assert len(times) == 8
+    assert [process.wait(300) for process in both] == [0, 0]
+    assert {path: path.stat().st_mtime_ns for path in coating.glob("[0-9]*.h5")} == times

@@ -1,0 +1,88 @@
+"""Truncated, lost and spoilt files: found and made anew by themselves, or named with what to do."""
+
+from __future__ import annotations
+
+import os
+import re
+from pathlib import Path
+
+import h5py
+import pytest
+
+COATING = "2nd_E1.1_K0.5_theta0"
+OTHER = "2nd_E0.11_K0.5_theta0"
+
+
+def cut_short(path: Path) -> None:
+    """Truncate the file without a new time, as what lies behind a damage: Snakemake sees nothing."""
+    times = path.stat()
+    os.truncate(path, times.st_size // 2)
+    os.utime(path, ns=(times.st_atime_ns, times.st_mtime_ns))
+
+
+def spoil(path: Path) -> None:
+    """Change bytes of the worn depth, and neither size nor time."""
+    with h5py.File(path) as file:
+        start = file["wear"].id.get_chunk_info(0).byte_offset
+    content, times = bytearray(path.read_bytes()), path.stat()
+    content[start : start + 20] = bytes(255 - byte for byte in content[start : start + 20])
+    path.write_bytes(content)
+    os.utime(path, ns=(times.st_atime_ns, times.st_mtime_ns))
+
+
+@pytest.fixture
+def results(copied_study):
+    return copied_study.folder / "results"
+
+
+def contents(results: Path) -> dict[str, bytes]:
+    folders = ("blade", "runs", "maps", "figures")
+    paths = [path for folder in folders for path in (results / folder).rglob("*.*") if path.is_file()]
+    return {path.relative_to(results).as_posix(): path.read_bytes() for path in paths}
+
+
+def times(results: Path) -> dict[str, int]:
+    runs = results / "runs"
+    return {path.relative_to(runs).as_posix(): path.stat().st_mtime_ns for path in runs.glob("*/[0-9]*.h5")}
+
+
+def test_damage_is_found_or_named_and_costs_only_itself(copied_study, tiny, results):
+    before, written = contents(results), times(results)
+    cut_short(results / "runs" / COATING / "0.2300.h5")
+    cut_short(results / "runs" / "2nd_E2_K0.5_theta0.15" / "manifest.tsv")
+    assert copied_study.plan(tiny)["coating"] == 2  # found without being told
+    named = {  # what is damaged, by what is made of it
+        f"maps/{OTHER}.h5": f"runs/{OTHER}/0.1970.h5",
+        "figures/fig15_spectrum_theta0.png": "maps/2nd_E2_K0.5_theta0.h5",
+        "figures/fig01_blade.png": "blade/mesh.h5",
+        "figures/fig02_campbell.png": "tables/campbell.csv",
+    }
+    for made, damaged in named.items():
+        (results / made).unlink()
+        (spoil if damaged.startswith("runs") else cut_short)(results / damaged)
+    targets = [*named, f"maps/{COATING}.h5", "maps/2nd_E2_K0.5_theta0.15.h5"]
+    command = (*(f"results/{target}" for target in targets), "--keep-going", "--cores", "2")
+    failed = copied_study.snakemake(*command, config=tiny)
+    assert failed.returncode != 0
+    told = re.findall(r"^results/(\S+): .*; delete it and run the same command", failed.stderr, re.MULTILINE)
+    assert set(told) == set(named.values())
+    for name in told:
+        (results / name).unlink()
+    done = copied_study.snakemake(*command, config=tiny)
+    assert done.returncode == 0, done.stderr
+    assert contents(results) == before
+    anew = {name for name, time in times(results).items() if time != written[name]}
+    assert anew == {f"{COATING}/0.2300.h5", f"{OTHER}/0.1970.h5"}
+
+
+def test_a_damaged_blade_costs_no_run(copied_study, tiny, results):
+    before, written = contents(results), times(results)
+    blade, manifest = results / "blade" / "reduced_model.h5", f"results/runs/{COATING}/manifest.tsv"
+    cut_short(blade)
+    (copied_study.folder / manifest).unlink()
+    failed = copied_study.snakemake(manifest, "--cores", "1", config=tiny)
+    assert failed.returncode != 0
+    assert re.search(r"^results/blade/reduced_model.h5: .*; delete it and run", failed.stderr, re.MULTILINE)
+    blade.unlink()
+    copied_study.build(tiny, manifest)
+    assert (contents(results), times(results)) == (before, written)
