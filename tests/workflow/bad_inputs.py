@@ -322,7 +322,7 @@ COMMANDS: dict[str, str] = {
     f"{_RUN} --output /dev/null": "--output /dev/null: is there and is no run, must be a new file or a run",
     f"{_RUN} --output loop": "--output loop: is there and is no run",
     f"{_RUN} --output {'x' * 300}": "x: cannot be written (File name too long)",
-    f"{_RUN} --blade no.h5": "no.h5: not a readable HDF5 file",
+    f"{_RUN} --blade no.h5": "no.h5: No such file or directory",
     f"{_RUN} --blade folder": "folder: is a folder, must be a reduced blade (HDF5)",
     f"{_RUN} --blade pipe": "pipe: is not a regular file, must be a reduced blade (HDF5)",
     f"{_RUN} --blade /dev/zero": "/dev/zero: is not a regular file, must be a reduced blade (HDF5)",

@@ -124,7 +124,7 @@ def test_a_malformed_study_is_answered_with_file_and_line(workspace):
     path = workspace.folder / "config" / "config.yaml"
     path.write_text("results: results\nblade: [1\ncontact: 2\n")
     done = workspace.snakemake("--cores", "1")
-    (line,) = done.stderr.splitlines()
+    (line,) = lines_of_ours(done.stderr)
     assert line.startswith("config/config.yaml:3: not valid YAML")
     assert done.returncode == 2
     assert not (workspace.folder / "results").exists()
