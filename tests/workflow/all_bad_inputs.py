@@ -16,8 +16,8 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from bad_inputs import COMMANDS, CONFIGS, UNREADABLE, make_files
-from conftest import Workspace
 from test_bad_input import lines_of_ours, write_overlay
+from workspace import Workspace
 
 WRITTEN_ANYWAY = (".snakemake/", "src/bladerub/", "overlay.yaml")
 """Snakemake's own notes, byte code, and the input itself."""

@@ -237,7 +237,7 @@ def _kill(way: str, process: subprocess.Popen, draw: random.Random) -> None:
 
 def main() -> None:
     """Make a study, kill another, and print a line a kill."""
-    from conftest import Workspace
+    from workspace import Workspace
 
     parser = argparse.ArgumentParser(description="Kill the workflow at random moments.")
     parser.add_argument("--kills", type=int, default=20)
