@@ -241,3 +241,18 @@ def test_interruption_leaves_no_traceback(small, blade_file, monkeypatch, capsys
 
     monkeypatch.setattr("bladerub.contact.run.simulate", interrupted)
     assert told(capsys, [*RUN, *small]) == (130, "bladerub run: interrupted\n")
+
+
+@pytest.mark.parametrize("name", ["reduced_model.h5", "mesh.h5"])
+def test_a_truncated_file_of_the_blade_is_named_and_made_anew_when_deleted(small, blade_file, name, capsys):
+    path = blade_file.with_name(name)
+    whole = path.read_bytes()
+    path.write_bytes(whole[: len(whole) // 2])
+    code, line = told(capsys, [*RUN, *small])
+    assert code == 2
+    assert line.startswith(f"bladerub run: {path}: not a readable HDF5 file")
+    assert "delete it and run the same command again" in line
+    assert line.count("\n") == 1
+    path.unlink()
+    assert main([*RUN, *small]) == 0
+    assert path.read_bytes() == whole
