@@ -23,14 +23,15 @@ COMMAND = (
 
 
 @pytest.fixture
-def begin():
+def begin(study):
     """Start the workflow in a folder and leave it at work."""
     processes = []
+    sources = {"PYTHONPATH": str(study.folder / "src")}  # whose machine code is there
 
     def started(folder):
         output = (folder / "output.txt").open("w")
         processes.append(
-            subprocess.Popen(COMMAND, cwd=folder, env=environment(folder), stdout=output, stderr=output)
+            subprocess.Popen(COMMAND, cwd=folder, env=os.environ | sources, stdout=output, stderr=output)
         )
         output.close()
         return processes[-1]
@@ -39,10 +40,6 @@ def begin():
     for process in processes:
         process.kill()
         process.wait()
-
-
-def environment(folder):
-    return os.environ | {"PYTHONPATH": str(folder / "src")}
 
 
 def wait_for(text, path):
@@ -99,3 +96,21 @@ def test_two_folders_with_the_same_results_compute_each_run_once(begun, begin, t
     assert len(times) == 8
     assert [process.wait(300) for process in both] == [0, 0]
     assert {path: path.stat().st_mtime_ns for path in coating.glob("[0-9]*.h5")} == times
+
+
+def test_a_job_that_outlives_its_snakemake_is_waited_for(begun, begin):
+    study, coating = begun
+    log = study.folder / "results" / "logs" / "coating" / f"{COATING}.log"
+    times = {path: path.stat().st_mtime_ns for path in coating.glob("[0-9]*.h5")}
+    with lock.held(coating / ".lock", lambda: None):
+        first = begin(study.folder)
+        wait_for("another job is at work in", log)
+        first.kill()
+        first.wait()
+        second = begin(study.folder)
+        wait_for("the last snakemake here was killed", study.folder / "output.txt")
+        wait_for("rule coating:", study.folder / "output.txt")
+        assert second.poll() is None
+    assert second.wait(300) == 0
+    assert {path: path.stat().st_mtime_ns for path in coating.glob("[0-9]*.h5")} == times
+    assert (coating / "manifest.tsv").is_file()
