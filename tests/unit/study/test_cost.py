@@ -52,3 +52,11 @@ def test_stages_come_in_the_order_of_the_workflow(benchmarks):
     assert list(stages.cpu_s) == [15.0, 30.0, 1.5]
     assert list(stages.memory_mb) == [480.0, 200.0, 250.0]
     assert stages.share.sum() == pytest.approx(1.0)
+
+
+@pytest.mark.parametrize("content", ["", "s\th:m:s\tmax", RECORD.splitlines(keepends=True)[0]])
+def test_a_record_that_breaks_off_is_left_out(benchmarks, content):
+    (benchmarks / "blade.tsv").write_text(content)
+    costs = table(benchmarks)
+    assert "blade" not in set(costs.rule)
+    assert len(costs) == 4
