@@ -18,6 +18,7 @@ rule blade:
                 "blade/model",
                 "blade/reduction",
                 "blade/rotation",
+                "blade/source/abaqus",
                 "blade/source/frame",
                 "blade/source/imported",
                 "blade/source/mesh_file",

@@ -1,5 +1,6 @@
 import json
 
+import meshio
 import numpy as np
 import pytest
 
@@ -55,6 +56,18 @@ def test_the_mesh_is_that_of_the_blade_with_its_sets(export, folder, tmp_path, n
     np.testing.assert_array_equal(content.cells, mesh["cells"])
     for part in ("root", "tip", "interface"):
         np.testing.assert_array_equal(content.node_sets[part], np.sort(mesh[f"{part}_nodes"]))
+
+
+def test_a_vtu_file_has_modes_and_centrifugal_displacements(export, folder, tmp_path):
+    assert export("--mesh", tmp_path / "blade.vtu")[0] == 0
+    data = meshio.vtu.read(tmp_path / "blade.vtu").point_data
+    mesh, _ = datafile.read(folder / "results" / "blade" / "mesh.h5")
+    modes = [name for name in data if name.startswith("mode_")]
+    assert len(modes) == len(mesh["frequency"])
+    assert modes[0] == f"mode_1_{mesh['frequency'][0]:.5g}_Hz"
+    np.testing.assert_array_equal(data[modes[2]], mesh["mode_shape"][2])
+    assert {"centrifugal_0.2000", "centrifugal_0.4000"} <= data.keys()
+    np.testing.assert_array_equal(data["centrifugal_0.4000"], mesh["static_displacement"][-1])
 
 
 def test_matrices_are_those_of_the_reduced_blade(export, folder, tmp_path):

@@ -19,7 +19,12 @@ def add_to(form: Any) -> None:
         metavar="DIR",
         help="a folder for decks for CalculiX, one for each speed",
     )
-    form.add_argument("--mesh", type=Path, metavar="FILE", help="mesh and node sets: .inp, .msh or .vtu")
+    form.add_argument(
+        "--mesh",
+        type=Path,
+        metavar="FILE",
+        help="mesh and node sets: .inp, .msh, or .vtu with modes and centrifugal displacements",
+    )
     form.add_argument("--matrices", type=Path, metavar="FILE", help="the reduced blade: .npz or .mat")
 
 
@@ -47,7 +52,8 @@ def write(options: argparse.Namespace, config: dict[str, Any]) -> dict[str, Any]
             files = [options.matrices]
         elif options.mesh:
             sets = {name: mesh[f"{name}_nodes"] for name in ("root", "tip", "interface")}
-            mesh_file.write_mesh_file(options.mesh, mesh["points"], mesh["cells"], sets)
+            fields = _fields(path.with_name("mesh.h5"))
+            mesh_file.write_mesh_file(options.mesh, mesh["points"], mesh["cells"], sets, fields)
             files = [options.mesh]
         else:
             files = calculix.write_decks(
@@ -66,6 +72,18 @@ def write(options: argparse.Namespace, config: dict[str, Any]) -> dict[str, Any]
         "nodes": len(mesh["points"]),
         "elements": len(mesh["cells"]),
         "coordinates": len(blade.mass),
+    }
+
+
+def _fields(path: Path) -> dict[str, Any]:
+    """Read the modes at rest and the centrifugal displacements (m) by name from ``mesh.h5``."""
+    from bladerub import datafile
+
+    data, _ = datafile.read(path, {"mode_shape", "frequency", "static_displacement", "f_omega"})
+    modes = enumerate(zip(data["frequency"], data["mode_shape"], strict=True), 1)
+    moved = zip(data["f_omega"], data["static_displacement"], strict=True)
+    return {f"mode_{number}_{hertz:.5g}_Hz": shape for number, (hertz, shape) in modes} | {
+        f"centrifugal_{f_omega:.4f}": displacement for f_omega, displacement in moved if f_omega > 0
     }
 
 

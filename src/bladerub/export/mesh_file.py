@@ -16,7 +16,11 @@ _FACES = {20: "quad8", 10: "triangle6"}
 
 
 def write_mesh_file(
-    path: str | Path, points: np.ndarray, cells: np.ndarray, node_sets: Mapping[str, np.ndarray]
+    path: str | Path,
+    points: np.ndarray,
+    cells: np.ndarray,
+    node_sets: Mapping[str, np.ndarray],
+    fields: Mapping[str, np.ndarray] | None = None,
 ) -> None:
     """Write the mesh in the format that the suffix of `path` names.
 
@@ -31,6 +35,8 @@ def write_mesh_file(
     node_sets : mapping of str to ndarray of int
         Become node sets in ``.inp``; in ``.msh`` physical groups of the faces of the surface that lie in
         them, or of points where there are none; in ``.vtu`` point data, 1 on the nodes of the set.
+    fields : mapping of str to (n_nodes, 3) ndarray, optional
+        Modes and displacements by name, more point data in ``.vtu``; the others have no place for them.
 
     Raises
     ------
@@ -42,24 +48,25 @@ def write_mesh_file(
         raise ValueError(f"{path}: must end in {', '.join(WRITERS)}")
     with TemporaryDirectory() as scratch, atomic.writing(path, "wb") as stream:
         whole = Path(scratch) / f"mesh{suffix}"  # meshio wants a path
-        WRITERS[suffix](str(whole), points, cells, node_sets)
+        WRITERS[suffix](str(whole), points, cells, node_sets, fields or {})
         stream.write(whole.read_bytes())
 
 
-def _write_inp(path: str, points, cells, node_sets) -> None:
+def _write_inp(path: str, points, cells, node_sets, _) -> None:
     meshio.abaqus.write(
         path, meshio.Mesh(points, [(NAMES[cells.shape[1]], cells)], point_sets=dict(node_sets))
     )
 
 
-def _write_vtu(path: str, points, cells, node_sets) -> None:
+def _write_vtu(path: str, points, cells, node_sets, fields) -> None:
     marks = {
         name: np.isin(np.arange(len(points)), nodes).astype(np.int8) for name, nodes in node_sets.items()
     }
-    meshio.vtu.write(path, meshio.Mesh(points, [(NAMES[cells.shape[1]], cells)], point_data=marks))
+    data = marks | dict(fields)
+    meshio.vtu.write(path, meshio.Mesh(points, [(NAMES[cells.shape[1]], cells)], point_data=data))
 
 
-def _write_msh(path: str, points, cells, node_sets) -> None:
+def _write_msh(path: str, points, cells, node_sets, _) -> None:
     surface = boundary_faces(cells)
     blocks, groups = [(NAMES[cells.shape[1]], cells)], {"blade": (1, 3)}
     for tag, (name, nodes) in enumerate(node_sets.items(), 2):

@@ -9,10 +9,11 @@ from pathlib import Path
 import meshio
 import numpy as np
 
+from bladerub.blade.source import abaqus
 from bladerub.blade.surface import EDGES
 
 READERS: dict[str, Callable[[str], meshio.Mesh]] = {
-    ".inp": meshio.abaqus.read,
+    ".inp": abaqus.read,
     ".msh": meshio.gmsh.read,
     ".vtu": meshio.vtu.read,
 }
@@ -33,8 +34,8 @@ class MeshFile:
     cells : (n_elements, 20 or 10) ndarray of int
         Nodes of the hexahedra or tetrahedra, in the order of CalculiX and VTK.
     node_sets : dict of str to ndarray of int
-        Nodes by the name of the set: node sets of Abaqus, physical groups of surfaces, lines and points of
-        Gmsh, point data of whole numbers of VTK (the nodes where it is not zero).
+        Nodes by the name of the set: node sets and sets of surface elements of Abaqus, physical groups of
+        surfaces, lines and points of Gmsh, point data of whole numbers of VTK (where it is not zero).
     is_raised : bool
         Whether the file has elements of 8 or 4 nodes, which got nodes in the middle of their edges.
     """
@@ -64,8 +65,6 @@ def read(path: str | Path) -> MeshFile:
         raise ValueError("there is no such file")
     if path.stat().st_size == 0:
         raise ValueError("is empty")
-    if suffix == ".inp":
-        _refuse_what_would_be_misread(path)
     try:
         mesh = READERS[suffix](str(path))
     except Exception as error:  # a parser of foreign files fails in every way there is
@@ -87,16 +86,6 @@ def raised(points: np.ndarray, cells: np.ndarray) -> tuple[np.ndarray, np.ndarra
     edges, edge = np.unique(ends.reshape(-1, 2), axis=0, return_inverse=True)
     middle = len(points) + edge.reshape(len(cells), -1)
     return np.vstack([points, points[edges].mean(axis=1)]), np.hstack([cells, middle])
-
-
-def _refuse_what_would_be_misread(path: Path) -> None:
-    # meshio keeps the last block of nodes only, and says nothing
-    lines = path.read_text(encoding="utf-8", errors="replace").upper().splitlines()
-    keywords = [line.partition(",")[0].strip() for line in lines if line.startswith("*")]
-    if keywords.count("*NODE") > 1:
-        raise ValueError(f"has {keywords.count('*NODE')} blocks *NODE; must have all nodes in one")
-    if "*INSTANCE" in keywords:
-        raise ValueError("is an assembly (*INSTANCE); must be the mesh of one part")
 
 
 def _volume(mesh: meshio.Mesh) -> tuple[str, np.ndarray]:

@@ -65,6 +65,22 @@ def test_node_sets_of_abaqus_go_by_range_as_well(tmp_path):
     np.testing.assert_array_equal(content.node_sets["Some"], [0, 1, 2])
 
 
+def test_faces_of_gmsh_in_abaqus_files_are_node_sets(tmp_path):
+    # What Gmsh writes of a tetrahedron with two physical surfaces; the first block is in no set here.
+    (tmp_path / "m.inp").write_text(
+        "*Node\n1, 0, 0, 0\n2, 1, 0, 0\n3, 0, 1, 0\n4, 0, 0, 1\n"
+        "*ELEMENT, type=T3D2\n1, 1, 2\n"
+        "*ELEMENT, type=cps3, ELSET=Root\n2, 1, 2, 3\n"
+        "*ELEMENT, type=M3D3, ELSET=Tip\n3, 1, 2, 4\n"
+        "*ELEMENT, type=c3d4, ELSET=Volume1\n4, 1, 2, 3, 4\n"
+    )
+    content = read(tmp_path / "m.inp")
+    assert {name: nodes.tolist() for name, nodes in content.node_sets.items()} == {
+        "Root": [0, 1, 2],
+        "Tip": [0, 1, 3],
+    }
+
+
 TETRAHEDRON = "*NODE\n1, 0, 0, 0\n2, 1, 0, 0\n3, 0, 1, 0\n4, 0, 0, 1\n5, 1, 1, 1\n6, 0, 1, 1\n"
 
 
@@ -85,7 +101,8 @@ TETRAHEDRON = "*NODE\n1, 0, 0, 0\n2, 1, 0, 0\n3, 0, 1, 0\n4, 0, 0, 1\n5, 1, 1, 1
         ),
         ("m.inp", TETRAHEDRON + "*ELEMENT, TYPE=C3D4\n1, 1, 2, 3, 9\n", "can be read"),
         ("m.inp", TETRAHEDRON + TETRAHEDRON, "has 2 blocks"),
-        ("m.inp", "*INSTANCE, NAME=a\n" + TETRAHEDRON, "is an assembly"),
+        ("m.inp", "*Instance, name=a\n" + TETRAHEDRON, r"has \*INSTANCE; must be the mesh of one part"),
+        ("m.inp", TETRAHEDRON + "*INCLUDE, INPUT=b.inp\n", r"has \*INCLUDE; must be in one file"),
     ],
 )
 def test_what_is_no_usable_mesh_is_told(name, text, said, tmp_path):
