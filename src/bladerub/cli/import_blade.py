@@ -15,6 +15,7 @@ from bladerub.cli.errors import InputError
 
 _UNITS = ("m", "mm", "cm", "inch", "feet")
 _AXES = ("x", "y", "z", "-x", "-y", "-z")
+_FEWEST_SPEEDS = 5
 _NAMES = ("unit", "rotation", "downstream", "radial", "root_set", "tip_set", "tip_cone")
 
 
@@ -60,6 +61,8 @@ def import_blade(options: argparse.Namespace) -> None:
         If the file or an option is, or the blade has no equilibrium.
     """
     config = inputs.read_config(options)
+    # with fewer, all speeds of the table are those of the fit, where eq. (2) is exact
+    config["reduction"]["accuracy_speeds"] = max(_FEWEST_SPEEDS, config["reduction"]["accuracy_speeds"])
 
     from bladerub.blade.build import reduce_blade
     from bladerub.blade.elasticity import Material
