@@ -373,7 +373,7 @@ def test_hostile_names_run_nothing(study, driver, tmp_path):
     results = study.folder / "results"
     coating = read_map(results / "maps" / f"{STRAIGHT}.h5", with_nodes=True)
     object.__setattr__(coating.case, "casing", hostile)
-    write_map(tmp_path / "map.h5", coating)
+    write_map(tmp_path / "map.h5", coating, {})
     write_manifest(tmp_path / "manifest.tsv", read_manifest(results / "runs" / STRAIGHT / "manifest.tsv"))
     tables = []
     for name in ("peaks", "divergence"):

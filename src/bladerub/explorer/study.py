@@ -9,10 +9,10 @@ import pandas as pd
 from matplotlib import colormaps
 from matplotlib.colors import Colormap, to_hex
 
-import bladerub
 from bladerub.explorer import figures, thinning
 from bladerub.explorer.coating import AMPLITUDE_FLOOR
 from bladerub.plots import cells, spectrum_map, style, titles
+from bladerub.provenance import software
 from bladerub.study.grid import CoatingCase
 from bladerub.study.maps import CoatingMap
 
@@ -100,7 +100,7 @@ def about(settings: dict[str, Any]) -> dict[str, Any]:
     """
     return {
         **settings,
-        "version": bladerub.__version__,
+        "made_by": software(),
         "amplitude_floor": AMPLITUDE_FLOOR,
         "orders": list(spectrum_map.ORDERS),
         "last_order": thinning.LAST_ORDER,

@@ -53,6 +53,6 @@ def verdicts(coating):
 @pytest.fixture
 def runs(coating):
     return [
-        ManifestRow(f"{f:.4f}.h5", f, f"key-{f}", status)
+        ManifestRow(f"{f:.4f}.h5", f, f"key-{f}", status, 1)
         for f, status in zip(coating.f_omega, coating.status, strict=True)
     ]

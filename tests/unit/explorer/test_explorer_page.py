@@ -32,7 +32,7 @@ def page(coating, verdicts, runs, tmp_path):
         for index, each in enumerate(coatings):
             maps.append(tmp_path / f"{index}.h5")
             manifests.append(tmp_path / f"{index}.tsv")
-            write_map(maps[-1], each)
+            write_map(maps[-1], each, {})
             write_manifest(manifests[-1], runs)
             case = dataclasses.asdict(each.case)
             tables.append(verdicts.assign(**case))

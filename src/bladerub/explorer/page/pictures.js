@@ -263,6 +263,9 @@ function polar(shown, choice) {
   };
 }
 
+// Ticks of an axis that spans little more than a decade; plotly.js would name all but the decades by one digit.
+const ONE_TWO_FIVE = [-5, -4, -3, -2, -1, 0, 1, 2].flatMap((decade) => [1, 2, 5].map((digit) => Number(`${digit}e${decade}`)));
+
 // Log axis in mm, which names its decades in full.
 function amplitudeAxis(more) {
   return axis("amplitude (mm)", { type: "log", exponentformat: "none", dtick: 1, showgrid: true, gridcolor: "#e8e8e8", ...more });
@@ -311,7 +314,7 @@ function spectrumLine(shown, choice) {
 // A steady amplitude looks steady: the axis spans a factor of three at least.
 function growthAxis(low, high) {
   const [middle, half] = [Math.log10(low * high) / 2, Math.max(Math.log10(3), 1.15 * Math.log10(high / low)) / 2];
-  return amplitudeAxis({ range: [middle - half, middle + half], dtick: half < 0.45 ? "D1" : half < 1.5 ? "D2" : 1 });
+  return amplitudeAxis({ range: [middle - half, middle + half], tickvals: ONE_TWO_FIVE, ticktext: ONE_TWO_FIVE.map(String) });
 }
 
 // Amplitude of each revolution, of the study's run and of the longer one, and the line of the growth found.

@@ -224,5 +224,5 @@ function tellThinned() {
     "1/255 of the deepest of each run. Spectra are kept up to the frequency " +
     `${study.max_frequency} or engine order ${study.last_order}, whichever is higher, from ${LOWEST} mm up, to about 3 %; amplitudes of revolutions to ` +
     "0.1 %. Values read from a picture therefore begin with ≈. Numbers in the tables above are those of the study, as computed. " +
-    `Everything in full: results/maps and results/tables. bladerub ${study.version}; drawn by plotly.js.`;
+    `Everything in full: results/maps and results/tables. Made by ${study.made_by}; drawn by plotly.js.`;
 }
