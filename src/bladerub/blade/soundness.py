@@ -10,6 +10,7 @@ import h5py
 import numpy as np
 
 from bladerub.blade.model import N_INTERFACE, ReducedBlade, read_reduced_blade
+from bladerub.faults import DamagedFile
 
 LARGEST_MATRIX = 10_000
 """Coordinates of a reduced blade; more is no reduction, and would fill the memory."""
@@ -48,7 +49,7 @@ def _check_sizes(path: str | Path) -> None:
         with h5py.File(path, "r") as file:
             sizes = {name: getattr(entry, "shape", None) for name, entry in file.items()}
     except (OSError, RuntimeError, KeyError) as error:
-        raise OSError(f"{path}: not a readable HDF5 file ({error})") from error
+        raise DamagedFile(f"{path}: not a readable HDF5 file ({error})") from error
     for name, shape in sizes.items():
         if shape is None or max(shape, default=0) > LARGEST_MATRIX:
             raise ValueError(f"{path}: not a reduced blade, {name} has the shape {shape}")
