@@ -3,8 +3,8 @@
 import pytest
 from edits import EDITS, outcome
 
-TARGET = "results/tables/divergence.csv"  # which figures are drawn again: test_dag
-SAMPLE = ("add theta = 0.1", "halve the speed step", "remove an E", "change the damping")
+TARGET = "results/tables/divergence.csv"
+SAMPLE = ("halve the speed step", "remove an E")  # for the others: test_dag
 
 
 @pytest.mark.parametrize("edit", [edit for edit in EDITS if edit.name in SAMPLE], ids=lambda edit: edit.name)
@@ -12,5 +12,5 @@ def test_an_edit_computes_what_is_missing_or_stale_and_nothing_else(copied_study
     found = outcome(copied_study, tiny, edit, TARGET)
     assert found.computed == found.planned
     assert found.lost == found.left == 0
-    assert (found.kept == 0) == (edit.name == "change the damping")
+    assert found.kept > 0
     assert (found.computed == 0) == (edit.name == "remove an E")
