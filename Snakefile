@@ -5,13 +5,12 @@ from snakemake.utils import min_version
 import bladerub.config
 import bladerub.faults
 import bladerub.invocation
-from bladerub.config_faults import faults_end_the_program
 from bladerub.study.grid import coating_cases
 
 min_version("9.0")
 
 # Snakemake knows neither the lines of a file nor the key `extend`: the config is read here, before it reads it
-with faults_end_the_program():
+with bladerub.faults.end_the_program():
     study = bladerub.config.read(
         "config/config.yaml",
         *workflow.configfiles,

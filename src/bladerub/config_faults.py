@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import re
-import sys
-from collections.abc import Iterable, Iterator
-from contextlib import contextmanager
+from collections.abc import Iterable
 from typing import Any, NamedTuple
+
+from bladerub.faults import BadInput
 
 _MOST_LINES = 40
 """Faults that are told; who has more will mend these first."""
@@ -51,7 +51,7 @@ class Fault(NamedTuple):
         return f"{self.place}: {self.text}"
 
 
-class ConfigError(ValueError):
+class ConfigError(BadInput):
     """One or more faults of a configuration, one line each."""
 
     def __init__(self, faults: Iterable[Fault]):
@@ -60,16 +60,6 @@ class ConfigError(ValueError):
         if len(self.faults) > _MOST_LINES:
             lines.append(f"config: and {len(self.faults) - _MOST_LINES} faults more")
         super().__init__("\n".join(lines))
-
-
-@contextmanager
-def faults_end_the_program() -> Iterator[None]:
-    """Turn a `ConfigError` into its lines on standard error and exit code 2, without a traceback."""
-    try:
-        yield
-    except ConfigError as error:
-        print(error, file=sys.stderr)
-        sys.exit(2)
 
 
 def key_path(parts: Iterable[Any]) -> str:

@@ -1,4 +1,4 @@
-"""What can be wrong with a file, in one line that names it and says what to do."""
+"""What can be wrong with a file or with what is given, in words that name it and say what to do."""
 
 from __future__ import annotations
 
@@ -16,11 +16,13 @@ class DamagedFile(OSError):
 
 
 class BadInput(ValueError):
-    """Something given that cannot be used; the message is one line that says what would be right."""
+    """Something given that cannot be used; the message says what would be right, in one line a fault."""
 
 
-def in_words(error: OSError) -> str:
-    """Say in one line which file is at fault and what to do about it."""
+def in_words(error: OSError | BadInput) -> str:
+    """Say what is at fault and what to do about it; in one line, if it is a file."""
+    if isinstance(error, BadInput):
+        return str(error)
     if isinstance(error, DamagedFile):
         return f"{error}; delete it and run the same command again: it is made anew, and nothing else is lost"
     where = "" if error.filename is None else f"{error.filename}: "
@@ -39,9 +41,9 @@ def in_words(error: OSError) -> str:
 
 @contextmanager
 def end_the_program() -> Iterator[None]:
-    """Turn an `OSError` into its line on standard error and exit code 2, without a traceback."""
+    """Turn an `OSError` or `BadInput` into its words on standard error and exit code 2, no traceback."""
     try:
         yield
-    except OSError as error:
+    except (OSError, BadInput) as error:
         print(in_words(error), file=sys.stderr)
         sys.exit(2)

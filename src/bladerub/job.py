@@ -25,7 +25,6 @@ def _tell(kind: type[BaseException], error: BaseException, trace: TracebackType 
     if not isinstance(error, OSError | faults.BadInput):
         sys.__excepthook__(kind, error, trace)
         return
-    line = faults.in_words(error) if isinstance(error, OSError) else str(error)
     for stream in (sys.stderr, sys.__stderr__):
         with suppress(OSError):
-            print(line, file=stream)
+            print(faults.in_words(error), file=stream)

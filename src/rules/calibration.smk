@@ -9,7 +9,7 @@ def calibration_plan():
     """The config of every set; read only when somebody asks for the calibration."""
     from bladerub.study.calibration import plan
 
-    with faults_end_the_program():
+    with bladerub.faults.end_the_program():
         return plan(config, CALIBRATION)
 
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 import json
-import os
 from pathlib import Path
 from shutil import get_terminal_size
 from typing import TYPE_CHECKING, Any
@@ -90,7 +89,9 @@ def export(options: argparse.Namespace) -> None:
 def _motion(options: argparse.Namespace, config: dict[str, Any]) -> dict[str, Any]:
     """Write the motion of a run; return what was written."""
     inputs.require(options, samples=(1, config["contact"]["elements"]))
-    _check_folder(options.vtu)
+    if options.vtu.exists():
+        raise InputError(f"--vtu {options.vtu}: is there already, must be a new folder")
+    inputs.require_room("vtu", options.vtu)
 
     from bladerub.study.store import read_run
 
@@ -123,14 +124,6 @@ def _motion(options: argparse.Namespace, config: dict[str, Any]) -> dict[str, An
         "largest_displacement": largest,
         "bytes": sum(file.stat().st_size for file in options.vtu.iterdir()),
     }
-
-
-def _check_folder(folder: Path) -> None:
-    if folder.exists():
-        raise InputError(f"--vtu {folder}: is there already, must be a new folder")
-    above = next(parent for parent in folder.absolute().parents if parent.exists())
-    if not above.is_dir() or not os.access(above, os.W_OK):
-        raise InputError(f"--vtu {folder}: cannot be written, {above} is not a folder that can be written to")
 
 
 def _blade(options: argparse.Namespace, config: dict[str, Any]) -> tuple[Path, ReducedBlade]:

@@ -10,11 +10,10 @@ from typing import Any
 
 import yaml
 
+from bladerub.blade.source.frame import AXES, UNITS, Frame
 from bladerub.cli import inputs
 from bladerub.cli.errors import InputError
 
-_UNITS = ("m", "mm", "cm", "inch", "feet")
-_AXES = ("x", "y", "z", "-x", "-y", "-z")
 _FEWEST_SPEEDS = 5
 _NAMES = ("unit", "rotation", "downstream", "radial", "root_set", "tip_set", "tip_cone")
 
@@ -32,13 +31,13 @@ def add_to(commands: Any) -> None:
     parser.set_defaults(command=import_blade)
     parser.add_argument("file", type=Path, metavar="FILE", help="mesh: .inp, .msh or .vtu")
     inputs.add_config_to(parser)
-    parser.add_argument("--unit", choices=_UNITS, help="unit of length in the file (else m)")
+    parser.add_argument("--unit", choices=tuple(UNITS), help="unit of length in the file (else m)")
     for name, meaning in (
         ("rotation", "the blade turns about this by the right-hand rule (else -x)"),
         ("downstream", "the air flows along this (else x)"),
         ("radial", "the blade stands along this (else z)"),
     ):
-        parser.add_argument(f"--{name}", choices=_AXES, metavar="AXIS", help=f"axis of the file: {meaning}")
+        parser.add_argument(f"--{name}", choices=AXES, metavar="AXIS", help=f"axis of the file: {meaning}")
     parser.add_argument("--root-set", metavar="NAME", help="set of the clamped nodes (else found)")
     parser.add_argument("--tip-set", metavar="NAME", help="set of the nodes of the tip (else found)")
     parser.add_argument(
@@ -67,7 +66,6 @@ def import_blade(options: argparse.Namespace) -> None:
     from bladerub.blade.build import reduce_blade
     from bladerub.blade.elasticity import Material
     from bladerub.blade.rotation import EquilibriumError
-    from bladerub.blade.source.frame import Frame
     from bladerub.blade.source.imported import import_mesh
     from bladerub.blade.source.origin import Source
     from bladerub.blade.source.report import report

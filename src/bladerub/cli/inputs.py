@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import os
 import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -51,6 +52,21 @@ def require(options: argparse.Namespace, **bounds: tuple[int, int]) -> None:
         value = getattr(options, option)
         if value is not None and not smallest <= value <= largest:
             raise InputError(f"--{option} = {shown(value)}: must be from {smallest} to {largest}")
+
+
+def require_room(option: str, path: Path) -> None:
+    """Check that `path`, which need not be there, lies in a folder that can be written to or made.
+
+    Raises
+    ------
+    InputError
+        If not; it names `option`.
+    """
+    folder = next(parent for parent in path.absolute().parents if os.path.lexists(parent))
+    if not folder.is_dir():
+        raise InputError(f"--{option} {path}: cannot be written, {folder} is no folder")
+    if not os.access(folder, os.W_OK):
+        raise InputError(f"--{option} {path}: cannot be written, {folder} is write-protected")
 
 
 def read_config(options: argparse.Namespace) -> dict[str, Any]:

@@ -157,11 +157,7 @@ def _check_output(path: Path) -> None:
         raise InputError(f"--output {path}: is a folder, must be a file")
     if os.path.lexists(path) and not _is_run(path):
         raise InputError(f"--output {path}: is there and is no run, must be a new file or a run to replace")
-    folder = next(parent for parent in path.absolute().parents if os.path.lexists(parent))
-    if not folder.is_dir():
-        raise InputError(f"--output {path}: cannot be written, {folder} is no folder")
-    if not os.access(folder, os.W_OK):
-        raise InputError(f"--output {path}: cannot be written, {folder} is write-protected")
+    inputs.require_room("output", path)
 
 
 def _is_run(path: Path) -> bool:
