@@ -1,8 +1,6 @@
 import errno
 import os
 import signal
-import subprocess
-import sys
 import time
 
 import pytest
@@ -21,23 +19,9 @@ with atomic.writing(sys.argv[1]) as stream:
 
 
 @pytest.fixture
-def half_writing(tmp_path):
+def half_writing(python_at_work):
     """Start a process that is about to replace the file that it is given."""
-    processes = []
-
-    def start(path):
-        process = subprocess.Popen(
-            [sys.executable, "-c", HALF_WRITTEN, str(path)], stdout=subprocess.PIPE, text=True
-        )
-        processes.append(process)
-        assert process.stdout.readline() == "half\n"
-        return process
-
-    yield start
-    for process in processes:
-        process.kill()
-        process.wait()
-        process.stdout.close()
+    return lambda path: python_at_work(HALF_WRITTEN, path)
 
 
 @pytest.mark.parametrize("mode", ["w", "wb"])

@@ -192,7 +192,7 @@ def test_a_place_that_cannot_be_written_is_refused(export, tmp_path, monkeypatch
     (tmp_path / "file").write_text("")
     code, _, err = export(tmp_path / "file" / "motion")
     assert (code, err.count("\n")) == (2, 1)
-    assert f"{tmp_path / 'file'} is not a folder that can be written to" in err
+    assert f"cannot be written, {tmp_path / 'file'} is no folder" in err
     monkeypatch.setattr(os, "rename", lambda *paths: (_ for _ in ()).throw(OSError(28, "No space left")))
     code, _, err = export(tmp_path / "motion", "--samples", "1")
     assert (code, err.count("\n")) == (2, 1)

@@ -28,8 +28,15 @@ def test_file_and_remedy_in_one_line(error, words):
     assert "\n" not in line
 
 
-def test_the_program_ends_without_a_traceback(capsys):
+@pytest.mark.parametrize(
+    ("error", "words"),
+    [
+        (OSError(errno.EROFS, "Read-only file system", "results"), "results: Read-only file system"),
+        (faults.BadInput("E = -1: must be positive\nK = x: must be a number"), "E = -1: must be positive\nK"),
+    ],
+)
+def test_the_program_ends_without_a_traceback(error, words, capsys):
     with pytest.raises(SystemExit) as ended, faults.end_the_program():
-        raise OSError(errno.EROFS, "Read-only file system", "results")
+        raise error
     assert ended.value.code == 2
-    assert capsys.readouterr().err.startswith("results: Read-only file system")
+    assert capsys.readouterr().err.startswith(words)

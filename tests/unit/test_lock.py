@@ -1,6 +1,3 @@
-import subprocess
-import sys
-
 import pytest
 
 from bladerub import lock
@@ -15,22 +12,9 @@ with lock.held(sys.argv[1], lambda: None):
 
 
 @pytest.fixture
-def holder(tmp_path):
+def holder(python_at_work, tmp_path):
     """Start a process that holds the lock for some seconds."""
-    processes = []
-
-    def start(seconds):
-        arguments = [sys.executable, "-c", HOLDER, str(tmp_path / "lock"), str(seconds)]
-        process = subprocess.Popen(arguments, stdout=subprocess.PIPE, text=True)
-        processes.append(process)
-        assert process.stdout.readline() == "held\n"
-        return process
-
-    yield start
-    for process in processes:
-        process.kill()
-        process.wait()
-        process.stdout.close()
+    return lambda seconds: python_at_work(HOLDER, tmp_path / "lock", seconds)
 
 
 def test_a_free_lock_is_held_without_waiting(tmp_path):

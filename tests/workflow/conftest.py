@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import copy
-import shutil
 from pathlib import Path
 from typing import Any
 
@@ -49,5 +48,4 @@ def study(tmp_path_factory: pytest.TempPathFactory) -> Workspace:
 @pytest.fixture
 def copied_study(study: Workspace, tmp_path: Path) -> Workspace:
     """A copy of the complete study that a test may change."""
-    shutil.copytree(study.folder, tmp_path / "copy")
-    return Workspace(tmp_path / "copy")
+    return study.copy(tmp_path / "copy")

@@ -10,10 +10,7 @@ from __future__ import annotations
 
 import argparse
 import copy
-import json
 import shutil
-import subprocess
-import sys
 import tempfile
 from collections.abc import Callable
 from dataclasses import astuple, dataclass
@@ -23,6 +20,9 @@ from typing import Any
 from workspace import Workspace
 
 from bladerub.config import load
+
+STUDY_RUNS = "*/*.h5"
+"""Without the longer runs, which are extra."""
 
 
 @dataclass(frozen=True)
@@ -78,7 +78,7 @@ class Outcome:
     coatings : int
         Those of them that compute runs.
     planned, computed : int
-        Runs that `bladerub status` called missing or stale before, and those written.
+        Runs that were missing or stale before, as `bladerub status` counts them, and those written.
     kept : int
         Runs of before that were left as they were.
     lost : int
@@ -101,16 +101,12 @@ def outcome(study: Workspace, overlay: dict[str, Any], edit: Edit, *targets: str
     overlay = copy.deepcopy(overlay)
     edit.config(overlay)
     if edit.source:
-        file, before, after = edit.source
-        path = study.folder / "src" / "bladerub" / file
-        text = path.read_text(encoding="utf-8")
-        assert before in text
-        path.write_text(text.replace(before, after, 1), encoding="utf-8")
+        study.edit(*edit.source)
     plan = study.plan(overlay, *targets)
     planned = _to_do(study)
-    runs = _runs(study)
+    runs = study.runs(STUDY_RUNS)
     study.build(overlay, *targets)
-    now = _runs(study)
+    now = study.runs(STUDY_RUNS)
     return Outcome(
         jobs=sum(plan.values()) - plan.get("all", 0),
         coatings=plan.get("coating", 0),
@@ -123,26 +119,8 @@ def outcome(study: Workspace, overlay: dict[str, Any], edit: Edit, *targets: str
 
 
 def _to_do(study: Workspace) -> int:
-    """Count the runs that are missing or stale, of the overlay last given to Snakemake."""
-    told = subprocess.run(
-        [Path(sys.executable).with_name("bladerub"), "status", "--json", "--config", "overlay.yaml"],
-        cwd=study.folder,
-        env=study.environment,
-        capture_output=True,
-        text=True,
-        check=True,
-    ).stdout
-    counts = json.loads(told)
+    counts = study.status()
     return counts["missing"] + counts["stale"]
-
-
-def _runs(study: Workspace) -> dict[str, tuple[int, int]]:
-    """Each run of the study with what changes when it is written; longer runs are not counted."""
-    folder = study.folder / "results" / "runs"
-    return {
-        path.relative_to(folder).as_posix(): (path.stat().st_ino, path.stat().st_mtime_ns)
-        for path in folder.glob("*/*.h5")
-    }
 
 
 def main() -> None:
@@ -167,8 +145,7 @@ def main() -> None:
         print(f"|{'---|' * len(columns)}")
         for number, edit in enumerate(EDITS):
             place = Path(folder) / str(number)
-            shutil.copytree(finished.folder, place)
-            found = outcome(Workspace(place), overlay, edit)
+            found = outcome(finished.copy(place), overlay, edit)
             cells = astuple(found)
             print(f"| {edit.name} | {' | '.join(map(str, cells))} |", flush=True)
             shutil.rmtree(place)

@@ -22,12 +22,12 @@ import subprocess
 import sys
 import tempfile
 import time
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 
-from bladerub.study.store import read_run
+from workspace import Workspace
 
 WAYS = ("SIGTERM to snakemake", "SIGKILL to all processes", "SIGKILL to one job")
 UNEQUAL = re.compile(r"logs/|benchmarks/|tables/cost\.csv|.*\.lock")
@@ -74,29 +74,22 @@ class Study:
 
     Parameters
     ----------
-    folder : Path
-        With the Snakefile.
+    workspace : Workspace
+        Where the workflow is.
     arguments : sequence of str
         Of snakemake.
-    environment : mapping of str to str
-        Where its sources and machine code are.
     """
 
-    folder: Path
+    workspace: Workspace
     arguments: Sequence[str]
-    environment: Mapping[str, str]
-
-    @property
-    def results(self) -> Path:
-        return self.folder / "results"
 
     def start(self) -> subprocess.Popen:
         """Give the command, in a session of its own."""
-        with (self.folder / "output.txt").open("w") as output:
+        with self._output.open("w") as output:
             return subprocess.Popen(
                 [Path(sys.executable).with_name("snakemake"), *self.arguments],
-                cwd=self.folder,
-                env=os.environ | self.environment,
+                cwd=self.workspace.folder,
+                env=self.workspace.environment,
                 stdin=subprocess.DEVNULL,
                 stdout=output,
                 stderr=subprocess.STDOUT,
@@ -105,45 +98,27 @@ class Study:
 
     def output(self) -> str:
         """What the last command has said."""
-        return (self.folder / "output.txt").read_text()
+        return self._output.read_text()
+
+    @property
+    def _output(self) -> Path:
+        return self.workspace.folder / "output.txt"
 
     def forget(self) -> None:
         """Go back to where nothing has been made but the machine code, which takes longest to make."""
         for name in ("results", ".snakemake"):
-            shutil.rmtree(self.folder / name, ignore_errors=True)
-
-    def runs(self) -> dict[str, tuple[int, int]]:
-        """Inode and time of writing of each whole run."""
-        whole = {}
-        for path in sorted(self.results.glob("runs/*/**/[0-9]*.h5")):
-            read_run(path)  # under its final name a file is whole at any time
-            status = path.stat()
-            whole[path.relative_to(self.results).as_posix()] = (status.st_ino, status.st_mtime_ns)
-        return whole
-
-    def differences(self, other: Study) -> list[str]:
-        """Files that are not the same here and there."""
-        files = [
-            {
-                path.relative_to(study.results).as_posix()
-                for path in study.results.rglob("*")
-                if path.is_file() and not UNEQUAL.match(path.relative_to(study.results).as_posix())
-            }
-            for study in (self, other)
-        ]
-        _, unequal, unreadable = filecmp.cmpfiles(
-            self.results, other.results, files[0] & files[1], shallow=False
-        )
-        return sorted((files[0] ^ files[1]) | {*unequal, *unreadable})
+            shutil.rmtree(self.workspace.folder / name, ignore_errors=True)
 
 
-def torment(study: Study, undisturbed: Study, seconds: float, seed: int) -> Iterator[Kill]:
+def torment(study: Study, compare: Callable[[], None], seconds: float, seed: int) -> Iterator[Kill]:
     """Kill `study` again and again.
 
     Parameters
     ----------
-    study, undisturbed : Study
-        The one to kill, and a finished one to compare it with.
+    study : Study
+        The one to kill.
+    compare : callable
+        Called when it has come to its end nevertheless, to see that it is as it should be.
     seconds : float
         How long the study takes undisturbed.
     seed : int
@@ -170,7 +145,8 @@ def torment(study: Study, undisturbed: Study, seconds: float, seed: int) -> Iter
             except subprocess.TimeoutExpired:
                 pass
             else:  # there was less left to do than expected
-                _check_end(study, undisturbed, process.returncode, known)
+                _check_end(study, process.returncode, known)
+                compare()
                 study.forget()
                 seconds, spent, known = spent + time.monotonic() - began, 0.0, {}
                 completed += 1
@@ -178,7 +154,7 @@ def torment(study: Study, undisturbed: Study, seconds: float, seed: int) -> Iter
             jobs = jobs_of(process)
             while way == WAYS[2] and not jobs and process.poll() is None:
                 jobs = jobs_of(process)
-            before = study.runs()
+            before = study.workspace.runs()
             _kill(way, process, draw)
             process.wait(LAST)
         finally:
@@ -187,23 +163,30 @@ def torment(study: Study, undisturbed: Study, seconds: float, seed: int) -> Iter
         output = study.output()
         assert "LockException" not in output, output
         assert "IncompleteFilesException" not in output, output
-        known = _unchanged(known, study.runs()) | before
-        half = sum(1 for _ in study.results.rglob(".*.tmp"))
+        known = _unchanged(known, study.workspace.runs()) | before
+        half = sum(1 for _ in study.workspace.results.rglob(".*.tmp"))
         at_work = ", ".join(sorted(jobs.values())) or "snakemake alone"
         yield Kill(completed + 1, way, after, at_work, len(before), half)
         way, spent = next(ways), spent + time.monotonic() - began
 
 
-def finish(study: Study, undisturbed: Study) -> None:
-    """Let the study come to its end, and compare it."""
-    known = study.runs()
-    _check_end(study, undisturbed, study.start().wait(LAST), known)
+def finish(study: Study) -> None:
+    """Let the study come to its end; no run that is whole may be written again."""
+    known = study.workspace.runs()
+    _check_end(study, study.start().wait(LAST), known)
 
 
-def _check_end(study: Study, undisturbed: Study, code: int, known: dict[str, tuple[int, int]]) -> None:
+def unlike(here: Workspace, there: Workspace) -> list[str]:
+    """Files of the results here that are not the same there."""
+    paths = (path.relative_to(here.results).as_posix() for path in here.results.rglob("*") if path.is_file())
+    names = [name for name in paths if not UNEQUAL.match(name)]
+    _, unequal, missing = filecmp.cmpfiles(here.results, there.results, names, shallow=False)
+    return sorted(unequal + missing)
+
+
+def _check_end(study: Study, code: int, known: dict[str, tuple[int, int]]) -> None:
     assert code == 0, study.output()
-    _unchanged(known, study.runs())
-    assert study.differences(undisturbed) == []
+    _unchanged(known, study.workspace.runs())
 
 
 def _unchanged(known: dict[str, tuple[int, int]], now: dict[str, tuple[int, int]]) -> dict:
@@ -237,28 +220,29 @@ def _kill(way: str, process: subprocess.Popen, draw: random.Random) -> None:
 
 def main() -> None:
     """Make a study, kill another, and print a line a kill."""
-    from workspace import Workspace
-
     parser = argparse.ArgumentParser(description="Kill the workflow at random moments.")
     parser.add_argument("--kills", type=int, default=20)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--config", default="config/quick.yaml")
     options = parser.parse_args()
+    command = ("-j2", "--configfile", str(Path(options.config).resolve()))
     with tempfile.TemporaryDirectory() as scratch:
-        command = ("-j2", "--configfile", str(Path(options.config).resolve()))
-        undisturbed, study = (
-            Study(folder, command, {"PYTHONPATH": str(folder / "src")})
-            for folder in (Workspace.at(Path(scratch) / name).folder for name in ("undisturbed", "killed"))
-        )
+        undisturbed, killed = (Workspace.at(Path(scratch) / name) for name in ("undisturbed", "killed"))
+
+        def compare() -> None:
+            assert unlike(killed, undisturbed) + unlike(undisturbed, killed) == []
+
         began = time.monotonic()
-        finish(undisturbed, undisturbed)
+        finish(Study(undisturbed, command))
         seconds = time.monotonic() - began
         print(f"undisturbed: {seconds:.0f} s, {len(undisturbed.runs())} runs", flush=True)
-        for number, kill in enumerate(torment(study, undisturbed, seconds, options.seed), 1):
+        study = Study(killed, command)
+        for number, kill in enumerate(torment(study, compare, seconds, options.seed), 1):
             print(f"{number:>3}  {kill}", flush=True)
             if number == options.kills:
                 break
-        finish(study, undisturbed)
+        finish(study)
+        compare()
         print("every run was computed once, and the study is the same as the undisturbed one, byte by byte")
 
 

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import json
-import os
 import subprocess
 import sys
 import time
@@ -13,7 +11,6 @@ import pytest
 import yaml
 
 from bladerub import lock
-from bladerub.cli import inputs, main
 
 COATING = "2nd_E2_K0.5_theta0"
 COMMAND = (
@@ -26,14 +23,12 @@ COMMAND = (
 def begin(study):
     """Start the workflow in a folder and leave it at work."""
     processes = []
-    sources = {"PYTHONPATH": str(study.folder / "src")}  # whose machine code is there
 
     def started(folder):
-        output = (folder / "output.txt").open("w")
-        processes.append(
-            subprocess.Popen(COMMAND, cwd=folder, env=os.environ | sources, stdout=output, stderr=output)
-        )
-        output.close()
+        with (folder / "output.txt").open("w") as output:
+            processes.append(
+                subprocess.Popen(COMMAND, cwd=folder, env=study.environment, stdout=output, stderr=output)
+            )
         return processes[-1]
 
     yield started
@@ -54,14 +49,14 @@ def wait_for(text, path):
 def begun(copied_study, tiny):
     """A study of which one coating is to be done anew."""
     (copied_study.folder / "overlay.yaml").write_text(yaml.safe_dump(tiny))
-    coating = copied_study.folder / "results" / "runs" / COATING
+    coating = copied_study.results / "runs" / COATING
     (coating / "manifest.tsv").unlink()
     return copied_study, coating
 
 
-def test_the_second_in_a_folder_is_kept_out_and_loses_nothing(begun, begin, tiny, monkeypatch, capsys):
+def test_the_second_in_a_folder_is_kept_out_and_loses_nothing(begun, begin, tiny):
     study, coating = begun
-    log = study.folder / "results" / "logs" / "coating" / f"{COATING}.log"
+    log = study.results / "logs" / "coating" / f"{COATING}.log"
     with lock.held(coating / ".lock", lambda: None):  # so that the first stays at work
         first = begin(study.folder)
         wait_for("another job is at work in", log)
@@ -69,9 +64,7 @@ def test_the_second_in_a_folder_is_kept_out_and_loses_nothing(begun, begin, tiny
         assert second.returncode != 0
         assert "another snakemake is at work in this folder" in second.stderr
         assert "Traceback" not in second.stderr
-        monkeypatch.setattr(inputs, "ROOT", study.folder)
-        assert main(["status", "--json", "--config", str(study.folder / "overlay.yaml")]) == 0
-        counts = json.loads(capsys.readouterr().out)
+        counts = study.status()
         assert (counts["done"], counts["damaged"]) == (6 * 8, [])
         assert first.poll() is None
     assert first.wait(300) == 0
@@ -92,16 +85,16 @@ def test_two_folders_with_the_same_results_compute_each_run_once(begun, begin, t
         time.sleep(4)  # for the jobs to come to the lock
     while all(process.poll() is None for process in both):
         time.sleep(0.05)
-    times = {path: path.stat().st_mtime_ns for path in coating.glob("[0-9]*.h5")}
-    assert len(times) == 8
+    runs = study.runs()
+    assert len(study.runs("*/*.h5")) == 6 * 8
     assert [process.wait(300) for process in both] == [0, 0]
-    assert {path: path.stat().st_mtime_ns for path in coating.glob("[0-9]*.h5")} == times
+    assert study.runs() == runs
 
 
 def test_a_job_that_outlives_its_snakemake_is_waited_for(begun, begin):
     study, coating = begun
-    log = study.folder / "results" / "logs" / "coating" / f"{COATING}.log"
-    times = {path: path.stat().st_mtime_ns for path in coating.glob("[0-9]*.h5")}
+    log = study.results / "logs" / "coating" / f"{COATING}.log"
+    runs = study.runs()
     with lock.held(coating / ".lock", lambda: None):
         first = begin(study.folder)
         wait_for("another job is at work in", log)
@@ -112,5 +105,5 @@ def test_a_job_that_outlives_its_snakemake_is_waited_for(begun, begin):
         wait_for("rule coating:", study.folder / "output.txt")
         assert second.poll() is None
     assert second.wait(300) == 0
-    assert {path: path.stat().st_mtime_ns for path in coating.glob("[0-9]*.h5")} == times
+    assert study.runs() == runs
     assert (coating / "manifest.tsv").is_file()

@@ -5,8 +5,9 @@ from __future__ import annotations
 import shutil
 import subprocess
 
-import h5py
 import pytest
+
+from bladerub.datafile import read_attributes
 
 TABLES = {"peaks": 1, "divergence": 1, "findings": 1, "margins": 1}
 HISTOGRAMS = {"fig11_Y4": 1, "fig12_f4": 1, "fig13_Y6": 1, "fig14_f6": 1}
@@ -18,26 +19,17 @@ def with_E3(tiny):
     return tiny
 
 
-def run_files(workspace):
-    """Run key and time of writing of each run."""
-    files = {}
-    for path in sorted((workspace.folder / "results" / "runs").glob("*/*.h5")):
-        with h5py.File(path) as file:
-            name = path.relative_to(workspace.folder).as_posix()
-            files[name] = (file.attrs["run_key"], path.stat().st_mtime_ns)
-    return files
-
-
 def test_a_commit_plans_nothing(copied_study, tiny):
+    copied_study.use_own_sources()  # whose state git is to tell
     git = ["git", "-c", "user.name=t", "-c", "user.email=t@t", "-c", "commit.gpgsign=false"]
     for command in (["init", "-q"], ["add", "src"], ["commit", "-qm", "first"]):
         subprocess.run([*git, *command], cwd=copied_study.folder, check=True)
     assert copied_study.plan(tiny) == {}
-    before = run_files(copied_study)
+    before = copied_study.runs()
     manifest = "results/runs/2nd_E1.1_K0.5_theta0/manifest.tsv"
     (copied_study.folder / manifest).unlink()
     copied_study.build(tiny, manifest)
-    assert run_files(copied_study) == before
+    assert copied_study.runs() == before
 
 
 def test_one_figure_plans_only_what_it_needs(workspace, tiny):
@@ -82,8 +74,7 @@ def test_a_casing_plans_only_its_coatings(study, tiny):
 
 
 def test_an_edit_of_the_solver_plans_every_coating(copied_study, tiny):
-    with (copied_study.folder / "src/bladerub/contact/modes.py").open("a") as source:
-        source.write("# edited\n")
+    copied_study.edit("contact/modes.py", '"""', '"""In short: ')
     plan = copied_study.plan(tiny)
     assert plan["compile_kernel"] == 1
     assert plan["coating"] == 6
@@ -91,47 +82,47 @@ def test_an_edit_of_the_solver_plans_every_coating(copied_study, tiny):
 
 
 def test_an_edit_of_the_peak_search_plans_what_comes_of_it(copied_study, tiny):
-    with (copied_study.folder / "src/bladerub/study/peaks.py").open("a") as source:
-        source.write("# edited\n")
+    copied_study.edit("study/peaks.py", '"""', '"""In short: ')
     plan = copied_study.plan(tiny)
     others = {"peaks": 1, "findings": 1, "margins": 1, "fig10_peaks": 1, "explorer": 1, "cost": 1, "all": 1}
     assert plan == others | HISTOGRAMS
 
 
 def test_an_edit_of_the_page_plans_the_page(copied_study, tiny):
-    with (copied_study.folder / "src/bladerub/explorer/page/style.css").open("a") as source:
-        source.write("/* edited */\n")
+    copied_study.edit("explorer/page/style.css", "}", "} /* edited */")
     assert copied_study.plan(tiny) == {"explorer": 1, "cost": 1, "all": 1}
 
 
 def test_a_new_coating_computes_itself_alone(copied_study, with_E3):
-    before = run_files(copied_study)
+    before = copied_study.runs()
     copied_study.build(with_E3, "results/tables/peaks.csv")
-    after = run_files(copied_study)
+    after = copied_study.runs()
     assert {name: after[name] for name in before} == before
-    new = {name.split("/")[2] for name in after.keys() - before.keys()}
+    new = {name.split("/")[0] for name in after.keys() - before.keys()}
     assert new == {"2nd_E3_K0.5_theta0", "2nd_E3_K0.5_theta0.15"}
 
 
 def test_a_lost_run_is_computed_alone(copied_study, tiny):
-    before = run_files(copied_study)
-    lost = "results/runs/2nd_E1.1_K0.5_theta0/0.1970.h5"
-    (copied_study.folder / lost).unlink()
+    before = copied_study.runs()
+    lost = "2nd_E1.1_K0.5_theta0/0.1970.h5"
+    path = copied_study.results / "runs" / lost
+    key = read_attributes(path)["run_key"]
+    path.unlink()
     manifest = "results/runs/2nd_E1.1_K0.5_theta0/manifest.tsv"
     (copied_study.folder / manifest).unlink()
     copied_study.build(tiny, manifest)
-    after = run_files(copied_study)
+    after = copied_study.runs()
     assert {name for name in before if after[name] != before[name]} == {lost}
-    assert after[lost][0] == before[lost][0]
+    assert read_attributes(path)["run_key"] == key
 
 
 def test_another_confirmation_computes_no_run_of_the_study(copied_study, tiny):
     manifest = "results/runs/2nd_E2_K0.5_theta0/manifest.tsv"
     tiny["analysis"]["divergence"]["confirmation_revolutions"] = 7
     assert copied_study.plan(tiny, manifest) == {"coating": 1}
-    before = run_files(copied_study)
+    before = copied_study.runs("*/*.h5")
     copied_study.build(tiny, manifest)
-    assert run_files(copied_study) == before
+    assert copied_study.runs("*/*.h5") == before
 
 
 def test_thresholds_of_growth_plan_no_coating_without_confirmation(copied_study, tiny):
@@ -143,16 +134,16 @@ def test_thresholds_of_growth_plan_no_coating_without_confirmation(copied_study,
 
 
 def test_a_failed_job_says_why_and_loses_no_run(copied_study, tiny):
-    before = run_files(copied_study)
+    before = copied_study.runs()
     manifest = "results/runs/2nd_E1.1_K0.5_theta0/manifest.tsv"
     unstable = tiny | {"solver": tiny["solver"] | {"scheme": "central_differences"}}
     done = copied_study.snakemake(manifest, "--cores", "1", config=unstable)
     assert done.returncode != 0
     log = copied_study.folder / "results/logs/coating/2nd_E1.1_K0.5_theta0.log"
     assert "ValueError" in log.read_text()
-    assert run_files(copied_study) == before
+    assert copied_study.runs() == before
     copied_study.build(tiny, manifest)
-    assert run_files(copied_study) == before
+    assert copied_study.runs() == before
 
 
 def test_quick_study_can_draw_every_figure(workspace):

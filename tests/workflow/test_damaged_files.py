@@ -41,13 +41,8 @@ def contents(results: Path) -> dict[str, bytes]:
     return {path.relative_to(results).as_posix(): path.read_bytes() for path in paths}
 
 
-def times(results: Path) -> dict[str, int]:
-    runs = results / "runs"
-    return {path.relative_to(runs).as_posix(): path.stat().st_mtime_ns for path in runs.glob("*/[0-9]*.h5")}
-
-
 def test_damage_is_found_or_named_and_costs_only_itself(copied_study, tiny, results):
-    before, written = contents(results), times(results)
+    before, written = contents(results), copied_study.runs()
     cut_short(results / "runs" / COATING / "0.2300.h5")
     cut_short(results / "runs" / "2nd_E2_K0.5_theta0.15" / "manifest.tsv")
     assert copied_study.plan(tiny)["coating"] == 2  # found without being told
@@ -71,12 +66,12 @@ def test_damage_is_found_or_named_and_costs_only_itself(copied_study, tiny, resu
     done = copied_study.snakemake(*command, config=tiny)
     assert done.returncode == 0, done.stderr
     assert contents(results) == before
-    anew = {name for name, time in times(results).items() if time != written[name]}
+    anew = {name for name, time in copied_study.runs().items() if time != written[name]}
     assert anew == {f"{COATING}/0.2300.h5", f"{OTHER}/0.1970.h5"}
 
 
 def test_a_damaged_blade_costs_no_run(copied_study, tiny, results):
-    before, written = contents(results), times(results)
+    before, written = contents(results), copied_study.runs()
     blade, manifest = results / "blade" / "reduced_model.h5", f"results/runs/{COATING}/manifest.tsv"
     cut_short(blade)
     (copied_study.folder / manifest).unlink()
@@ -85,4 +80,4 @@ def test_a_damaged_blade_costs_no_run(copied_study, tiny, results):
     assert re.search(r"^results/blade/reduced_model.h5: .*; delete it and run", failed.stderr, re.MULTILINE)
     blade.unlink()
     copied_study.build(tiny, manifest)
-    assert (contents(results), times(results)) == (before, written)
+    assert (contents(results), copied_study.runs()) == (before, written)

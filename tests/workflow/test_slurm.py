@@ -44,10 +44,6 @@ def longer(tiny):
     return tiny
 
 
-def run_files(workspace):
-    return {path: path.stat().st_mtime_ns for path in (workspace.folder / "results/runs").rglob("*.h5")}
-
-
 def datasets(path):
     with h5py.File(path) as file:
         return {name: file[name][()] for name in file}
@@ -93,19 +89,19 @@ def test_study_goes_on_after_scancel_and_is_what_a_local_one_is(cluster, workspa
     earlier = JOBS_LOG.read_text()
     with ThreadPoolExecutor() as pool:
         killed = pool.submit(workspace.snakemake, FINDINGS, *on_cluster, "--retries", "0", config=longer)
-        while len(run_files(workspace)) < 15:  # the second coating
+        while len(workspace.runs()) < 15:  # the second coating
             assert not killed.done(), killed.result().stderr
             time.sleep(0.05)
         subprocess.run(["scancel", running_job("rubs")], check=True)
     assert killed.result().returncode == 1
     assert "Error in group rubs" in killed.result().stderr
-    finished = run_files(workspace)
+    finished = workspace.runs()
     assert not (workspace.folder / FINDINGS).exists()
 
     completed = workspace.snakemake(FINDINGS, *on_cluster, config=longer)
     assert completed.returncode == 0, completed.stderr
     assert workspace.plan(longer, FINDINGS) == {}
-    runs = run_files(workspace)
+    runs = workspace.runs()
     assert finished.items() < runs.items()
     # blade, kernel, rubs, rubs again, drawing
     states = re.findall(r"JobState=(\w+)", JOBS_LOG.read_text().removeprefix(earlier))
@@ -113,9 +109,10 @@ def test_study_goes_on_after_scancel_and_is_what_a_local_one_is(cluster, workspa
 
     local = type(workspace).at(tmp_path_factory.mktemp("local"))
     local.build(longer, FINDINGS)
-    maps = (workspace.folder / "results/maps").glob("*.h5")
-    for path in [*runs, *maps]:
-        np.testing.assert_equal(datasets(path), datasets(local.folder / path.relative_to(workspace.folder)))
+    maps = (workspace.results / "maps").glob("*.h5")
+    names = [f"runs/{name}" for name in runs] + [f"maps/{path.name}" for path in maps]
+    for name in names:
+        np.testing.assert_equal(datasets(workspace.results / name), datasets(local.results / name))
     for table in ("peaks", "divergence", "findings"):
         name = f"results/tables/{table}.csv"
         assert (workspace.folder / name).read_text() == (local.folder / name).read_text()

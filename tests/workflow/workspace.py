@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 import re
 import shutil
@@ -13,26 +14,69 @@ from typing import Any
 
 import yaml
 
+from bladerub.study.store import read_run
+
 ROOT = Path(__file__).parents[2]
 
 
 @dataclass
 class Workspace:
-    """A copy of what the workflow needs, and the command that runs it there."""
+    """A copy of what the workflow needs, and the command that runs it there.
+
+    Parameters
+    ----------
+    folder : Path
+        With the Snakefile.
+    sources : Path
+        Those that the package is imported from: of this copy, or the same of another, where the machine code
+        is that takes a quarter of a minute to make.
+    """
 
     folder: Path
-
-    @property
-    def environment(self) -> dict[str, str]:
-        """For commands that are to use the sources of this copy."""
-        return os.environ | {"PYTHONPATH": str(self.folder / "src")}
+    sources: Path
 
     @classmethod
     def at(cls, folder: Path) -> Workspace:
         for part in ("config", "profiles", "src"):
             shutil.copytree(ROOT / part, folder / part)
         shutil.copy2(ROOT / "Snakefile", folder)
-        return cls(folder)
+        return cls(folder, folder / "src")
+
+    def copy(self, folder: Path, *without: str) -> Workspace:
+        """Copy it with all that was made here but what is named `without`, to work with the same sources."""
+        shutil.copytree(self.folder, folder, ignore=shutil.ignore_patterns(*without))
+        return Workspace(folder, self.sources)
+
+    def use_own_sources(self) -> None:
+        """From now on import the package from this copy."""
+        self.sources = self.folder / "src"
+
+    def edit(self, file: str, before: str, after: str) -> None:
+        """Change the first `before` of a file of the package into `after`, in this copy."""
+        self.use_own_sources()
+        path = self.sources / "bladerub" / file
+        text = path.read_text(encoding="utf-8")
+        assert before in text
+        path.write_text(text.replace(before, after, 1), encoding="utf-8")
+
+    @property
+    def environment(self) -> dict[str, str]:
+        """For commands that are to use `sources`."""
+        return os.environ | {"PYTHONPATH": str(self.sources)}
+
+    @property
+    def results(self) -> Path:
+        """The folder of results."""
+        return self.folder / "results"
+
+    def runs(self, pattern: str = "**/[0-9]*.h5") -> dict[str, tuple[int, int]]:
+        """Each whole run below ``results/runs``, with what changes when it is written: inode and time."""
+        folder, whole = self.results / "runs", {}
+        for path in sorted(folder.glob(pattern)):
+            read_run(path)  # under its final name a file is whole at any time
+            status = path.stat()
+            whole[path.relative_to(folder).as_posix()] = (status.st_ino, status.st_mtime_ns)
+        return whole
 
     def snakemake(
         self, *arguments: str, config: dict[str, Any] | str | None = None
@@ -66,3 +110,16 @@ class Workspace:
         """Run the workflow; it must succeed."""
         done = self.snakemake(*targets, "--cores", "2", config=config)
         assert done.returncode == 0, done.stderr
+
+    def status(self) -> dict[str, Any]:
+        """What `bladerub status` says of the study that was last given to Snakemake."""
+        own_sources = {"PYTHONPATH": str(self.folder / "src")}  # its results are those beside its sources
+        told = subprocess.run(
+            [Path(sys.executable).with_name("bladerub"), "status", "--json", "--config", "overlay.yaml"],
+            cwd=self.folder,
+            env=os.environ | own_sources,
+            capture_output=True,
+            text=True,
+            check=True,
+        )
+        return json.loads(told.stdout)
