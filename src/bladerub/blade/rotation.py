@@ -8,12 +8,14 @@ import numpy as np
 from scipy import sparse
 
 from bladerub.blade.elasticity import Solid
-from bladerub.blade.linear import factorise
+from bladerub.blade.linear import MOST_BY_DEGREE, factorise
 
 TOLERANCE = 1e-9
 """Largest residual force accepted, over the norm of the centrifugal load."""
 MAX_ITERATIONS = 12
 """Newton iterations granted to one load step."""
+KEEPING = 0.2
+"""Residual over that of the iteration before up to which a large model keeps its factors."""
 MAX_HALVINGS = 8
 """How often a load step that failed is halved before giving up."""
 
@@ -96,8 +98,11 @@ def residual(solid: Solid, u: np.ndarray, omega_squared: float) -> np.ndarray:
 
 
 def _newton(solid: Solid, omega_squared: float, start: np.ndarray) -> tuple[np.ndarray | None, int]:
-    """Displacement in equilibrium, or None, and the iterations made."""
-    u = start
+    """Displacement in equilibrium, or None, and the iterations made.
+
+    Where factors are dear they are kept for the next iteration as long as the residual falls fast.
+    """
+    u, solve, before = start, None, np.inf
     for iteration in range(MAX_ITERATIONS + 1):
         if not np.all(
             np.linalg.det(solid.deformation_gradient(u)) > 0
@@ -105,11 +110,16 @@ def _newton(solid: Solid, omega_squared: float, start: np.ndarray) -> tuple[np.n
             return None, iteration
         force = residual(solid, u, omega_squared)
         scale = np.linalg.norm(centrifugal_load(solid, u, omega_squared))
-        if np.linalg.norm(force) <= TOLERANCE * scale:
+        size = np.linalg.norm(force)
+        if size <= TOLERANCE * scale:
             return u, iteration
+        if u.size <= MOST_BY_DEGREE or size > KEEPING * before:
+            solve = None  # frees the memory before there are new ones
+        before = size
         if iteration < MAX_ITERATIONS:
             try:
-                u = u - factorise(rotating_stiffness(solid, u, omega_squared))(force)
+                solve = solve or factorise(rotating_stiffness(solid, u, omega_squared))
             except np.linalg.LinAlgError:
                 return None, iteration
+            u = u - solve(force)
     return None, MAX_ITERATIONS

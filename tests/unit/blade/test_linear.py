@@ -3,6 +3,7 @@ import pytest
 from scipy import sparse
 from scipy.linalg import eigh
 
+from bladerub.blade import linear
 from bladerub.blade.linear import factorise, lowest_modes
 
 
@@ -24,6 +25,18 @@ def test_solves_for_one_and_for_many(pair):
     rhs = np.random.default_rng(0).standard_normal((60, 3))
     np.testing.assert_allclose(stiffness @ solve(rhs), rhs, atol=1e-12)
     np.testing.assert_allclose(stiffness @ solve(rhs[:, 0]), rhs[:, 0], atol=1e-12)
+
+
+def test_large_matrices_are_solved_in_another_order(pair, monkeypatch):
+    stiffness, _ = pair
+    rhs = np.random.default_rng(0).standard_normal((60, 3))
+    expected = factorise(stiffness)(rhs)
+    monkeypatch.setattr(linear, "MOST_BY_DEGREE", 59)
+    solve = factorise(stiffness)
+    np.testing.assert_allclose(solve(rhs), expected, rtol=1e-11)
+    np.testing.assert_allclose(solve(rhs[:, 0]), expected[:, 0], rtol=1e-11)
+    with pytest.raises(np.linalg.LinAlgError, match="sparse factorisation"):
+        factorise(sparse.csc_array((60, 60)))
 
 
 def test_indefinite_matrix_is_solved(pair):

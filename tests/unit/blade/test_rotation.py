@@ -2,6 +2,7 @@ import numpy as np
 import pytest
 
 from bladerub.blade import rotation
+from bladerub.blade.linear import factorise
 from bladerub.blade.rotation import EquilibriumError, equilibrium, residual, rotating_stiffness
 
 BAR = {"size": (0.01, 0.01, 0.4), "counts": (1, 1, 6), "origin": (-0.005, -0.005, 0.3), "clamp_bottom": True}
@@ -64,6 +65,24 @@ def test_load_steps_are_halved_when_newton_needs_more(leaning_bar, monkeypatch):
     assert in_steps.n_steps > 1
     size = np.abs(freely.displacement).max()
     np.testing.assert_allclose(in_steps.displacement, freely.displacement, atol=1e-8 * size)
+
+
+def test_a_large_model_needs_fewer_factors_for_the_same_equilibrium(leaning_bar, monkeypatch):
+    made = []
+
+    def counted(matrix):
+        made.append(matrix.shape)
+        return factorise(matrix)
+
+    monkeypatch.setattr(rotation, "factorise", counted)
+    small = equilibrium(leaning_bar, 300.0)
+    each_time = len(made)
+    assert each_time == small.n_iterations
+    monkeypatch.setattr(rotation, "MOST_BY_DEGREE", 0)
+    large = equilibrium(leaning_bar, 300.0)
+    assert len(made) - each_time < each_time
+    size = np.abs(small.displacement).max()
+    np.testing.assert_allclose(large.displacement, small.displacement, atol=1e-8 * size)
 
 
 def test_rest_needs_no_solution(leaning_bar):
