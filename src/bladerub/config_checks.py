@@ -16,7 +16,7 @@ from bladerub.config import ROOT
 from bladerub.config_faults import shown
 from bladerub.contact.casing import shape
 from bladerub.contact.spec import Casing
-from bladerub.study.grid import SPEED_DECIMALS, coating_cases, listed_case, speeds
+from bladerub.study.grid import SPEED_DECIMALS, UNSCALED, coating_cases, listed_case, speeds
 
 Config = dict[str, Any]
 Check = Callable[[Config], Iterator[str]]
@@ -131,12 +131,13 @@ def _casings(config: Config) -> Iterator[str]:
 @_reads("casings", "contact", "blade")
 def _contact_at_all(config: Config) -> Iterator[str]:
     smallest = min(config["contact"]["clearance"].values()) * config["blade"]["length"]
+    scale = config["contact"].get("scale", UNSCALED)["length"]
     for name, casing in config["casings"].items():
         depth = casing["interference"]
-        if depth <= smallest:
+        if depth * scale <= smallest:
             yield (
                 f"casings.{name}.interference = {depth:g}: must be above the smaller contact.clearance, "
-                f"{smallest:g} m on this blade, or the blade never touches"
+                f"{smallest / scale:g} m on this blade, or the blade never touches"
             )
 
 

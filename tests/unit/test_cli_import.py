@@ -48,6 +48,9 @@ def test_figures_of_the_default_blade(look, folder):
     assert figures["campbell_ratio"] == pytest.approx(1.305, abs=0.005)
     assert max(figures["error_eq2"]) > 1e-5  # speeds between those of the fit are looked at
     assert figures["tip_cone_degrees"] == pytest.approx(12.45)
+    assert figures["config"]["contact"]["scale"] == pytest.approx(
+        {"length": 1, "modulus": 1, "time": 1}, abs=0.03
+    )
     assert figures["node_sets"] == {"FOOT": 38, "TOP": 38}
     assert figures["config"]["blade"]["source"] == {
         "file": str(folder / "blade.inp"),
@@ -64,7 +67,7 @@ def test_what_it_prints_is_a_config_of_the_blade(look, folder):
     code, out, _ = look("--unit", "mm")
     assert code == 0
     assert "warning             its mesh is coarse: 6 elements" in out
-    (folder / "printed.yaml").write_text(out.split("# for the config of its study\n")[1])
+    (folder / "printed.yaml").write_text(out.split("are absolute\n")[1])
     code, again, _ = look("--config", str(folder / "printed.yaml"))
     assert code == 0
     assert again == out

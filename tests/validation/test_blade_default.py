@@ -7,6 +7,7 @@ import pytest
 import yaml
 
 from bladerub.blade.build import build
+from bladerub.study.proportion import contact_scale
 
 CONFIG = Path(__file__).parents[2] / "config" / "config.yaml"
 
@@ -52,6 +53,10 @@ def test_speed_law_interpolates_the_stiffness(built):
     at_fit = error[[0.0, 0.2, 0.4]]
     assert at_fit.max() < 1e-9
     assert error.max() < 1.5e-3
+
+
+def test_other_blades_are_put_in_proportion_to_it(built):
+    assert contact_scale(built.reduced) == pytest.approx({"length": 1, "modulus": 1, "time": 1}, rel=1e-8)
 
 
 def test_centrifugal_load_hardly_bends_it(built):

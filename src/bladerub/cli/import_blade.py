@@ -69,6 +69,7 @@ def import_blade(options: argparse.Namespace) -> None:
     from bladerub.blade.source.imported import import_mesh
     from bladerub.blade.source.origin import Source
     from bladerub.blade.source.report import report
+    from bladerub.study.proportion import contact_scale, tip_stiffness
 
     given = {name: getattr(options, name) for name in _NAMES if getattr(options, name) is not None}
     entry = {"file": str(options.file.resolve())} | asdict(Frame())
@@ -77,11 +78,17 @@ def import_blade(options: argparse.Namespace) -> None:
     try:
         source = Source.from_config(entry)
         imported = import_mesh(source)
+        config["blade"]["length"] = round(imported.blade.length, 6)
         built = reduce_blade(imported.blade, config)
     except (ValueError, EquilibriumError) as error:
         raise InputError(str(error)) from error
     figures = report(source, imported, built, Material.from_config(config["blade"]["material"]))
-    figures["config"] = {"blade": {"length": round(imported.blade.length, 6), "source": entry}}
+    scale = {name: float(f"{factor:.6g}") for name, factor in contact_scale(built.reduced).items()}
+    figures["tip_stiffness"] = tip_stiffness(built.reduced)
+    figures["config"] = {
+        "blade": {"length": config["blade"]["length"], "source": entry},
+        "contact": {"scale": scale},
+    }
     print(json.dumps(figures, indent=2) if options.json else _in_words(figures))
 
 
@@ -103,9 +110,10 @@ def _in_words(figures: dict[str, Any]) -> str:
         f"{1e3 * figures['centrifugal_displacement']:.3g} mm",
         f"reduced model       {figures['reduced_coordinates']} coordinates; in six modes eq. (2) is up to "
         f"{100 * worst[0]:.2g} % off, with the reduction {100 * worst[1]:.2g} %",
+        f"tip stiffness       {figures['tip_stiffness']:.4g} N/m, static",
         *(f"warning             {line}" for line in figures["warnings"]),
         "",
-        "# for the config of its study",
+        "# for the config of its study; without contact.scale the values of the contact are absolute",
         yaml.safe_dump(figures["config"], sort_keys=False).rstrip(),
     ]
     return "\n".join(lines)

@@ -13,6 +13,8 @@ from bladerub.contact.spec import Casing, Coating, RunSpec, TipProfile
 SPEED_DECIMALS = 6
 """Speeds are rounded to this many decimals, so that start + i step and a written value agree."""
 
+UNSCALED = {"length": 1.0, "modulus": 1.0, "time": 1.0}
+"""``contact.scale`` where the config has none: all its values are absolute."""
 MOST_COATINGS = 5000
 """Coatings of a study; each is a job, and Snakemake plans no more than some ten thousand."""
 
@@ -131,7 +133,8 @@ def speed_name(f_omega: float) -> str:
 def run_spec(config: Mapping[str, Any], case: CoatingCase, f_omega: float) -> RunSpec:
     """Describe the run of coating `case` at the speed `f_omega` in SI units.
 
-    The one place where values that the config gives in blade lengths or degrees become SI.
+    The one place where values that the config gives in blade lengths, degrees or for the stand-in of the
+    paper's blade (``contact.scale``) become SI of this blade.
 
     Raises
     ------
@@ -140,13 +143,14 @@ def run_spec(config: Mapping[str, Any], case: CoatingCase, f_omega: float) -> Ru
     """
     contact, solver, casing = config["contact"], config["solver"], config["casings"][case.casing]
     length = float(config["blade"]["length"])
+    scale = contact.get("scale", UNSCALED)
     return RunSpec(
         casing=Casing(
             name=case.casing,
             nodal_diameters=tuple(int(n) for n in casing["nodal_diameters"]),
             weights=tuple(float(weight) for weight in casing["weights"]),
-            amplitude=float(casing["amplitude"]),
-            interference=float(casing["interference"]),
+            amplitude=float(casing["amplitude"] * scale["length"]),
+            interference=float(casing["interference"] * scale["length"]),
             start_angle=math.radians(casing["start_angle"]),
         ),
         coating=Coating(
@@ -154,13 +158,13 @@ def run_spec(config: Mapping[str, Any], case: CoatingCase, f_omega: float) -> Ru
             K=case.K,
             theta=case.theta,
             yield_stress=float(contact["yield_stress"]),
-            modulus_unit=float(contact["modulus_unit"]),
-            thickness=float(contact["layer_thickness"]),
+            modulus_unit=float(contact["modulus_unit"] * scale["modulus"]),
+            thickness=float(contact["layer_thickness"] * scale["length"]),
             n_elements=int(contact["elements"]),
         ),
         tip=TipProfile(
             half_width=float(contact["tip_profile"]["half_width"]),
-            edge_drop=float(contact["tip_profile"]["edge_drop"]),
+            edge_drop=float(contact["tip_profile"]["edge_drop"] * scale["length"]),
         ),
         clearance=(
             contact["clearance"]["leading_edge"] * length,
@@ -171,7 +175,7 @@ def run_spec(config: Mapping[str, Any], case: CoatingCase, f_omega: float) -> Ru
         revolutions=int(solver["revolutions"]),
         scheme=solver["scheme"],
         steps_per_element=int(solver["steps_per_element"]),
-        max_time_step=float(solver["max_time_step"]),
+        max_time_step=float(solver["max_time_step"] * scale["time"]),
         displacement_limit=solver["displacement_limit"] * length,
     )
 
