@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -46,6 +47,9 @@ class ReducedBlade:
         Relative singular value below which a column of eq. (4) is dropped.
     length : float
         Blade length, m.
+    stiffness_higher : tuple of (n, n) ndarray
+        Coefficients of the 6th, 8th ... power of the normalised rotational frequency, N/m, where the fit has
+        more speeds than the three of eq. (3).
     """
 
     mass: np.ndarray
@@ -60,6 +64,7 @@ class ReducedBlade:
     eta: int
     rank_tolerance: float
     length: float
+    stiffness_higher: tuple[np.ndarray, ...] = ()
 
     def stiffness(self, f_omega: float) -> np.ndarray:
         """Stiffness matrix (n, n) in N/m at the normalised rotational frequency `f_omega`, eq. (2).
@@ -71,7 +76,16 @@ class ReducedBlade:
         """
         if not 0 <= f_omega <= self.f_omega_max:
             raise ValueError(f"f_omega = {f_omega:g} is outside the fitted range [0, {self.f_omega_max:g}]")
-        return self.stiffness_0 + f_omega**2 * self.stiffness_1 + f_omega**4 * self.stiffness_2  # eq. (2)
+        total = self.stiffness_0 + f_omega**2 * self.stiffness_1 + f_omega**4 * self.stiffness_2  # eq. (2)
+        for power, coefficient in enumerate(self.stiffness_higher, 3):
+            total += f_omega ** (2 * power) * coefficient
+        return total
+
+    @property
+    def arrays(self) -> dict[str, np.ndarray]:
+        """Matrices and vectors by name; `stiffness_higher` are ``stiffness_3``, ``stiffness_4`` ..."""
+        higher = {f"stiffness_{power}": matrix for power, matrix in enumerate(self.stiffness_higher, 3)}
+        return {name: getattr(self, name) for name in _UNITS} | higher
 
 
 _UNITS = {
@@ -89,12 +103,16 @@ _ATTRIBUTES = ("f1_hz", "f_omega_max", "eta", "rank_tolerance", "length")
 def write_reduced_blade(path: str | Path, blade: ReducedBlade, origin: Mapping[str, str]) -> None:
     """Write `blade` to the HDF5 file `path`, whole or not at all; `origin` is its provenance."""
     variables = {"node": INTERFACE_NODE, "axis": AXIS}
-    for name, (units, long_name) in _UNITS.items():
-        data = getattr(blade, name)
+    for name, data in blade.arrays.items():
+        units, long_name = _UNITS.get(name) or _higher(name)
         is_matrix = data.shape == blade.mass.shape
         dims = ("coordinate", "coordinate_column") if is_matrix else ("node", "axis")
         variables[name] = Variable(dims, data, units, long_name)
     datafile.write(path, variables, {name: getattr(blade, name) for name in _ATTRIBUTES}, origin)
+
+
+def _higher(name: str) -> tuple[str, str]:
+    return "N/m", f"coefficient of f_omega^{2 * int(name.removeprefix('stiffness_'))} in the stiffness"
 
 
 def read_reduced_blade(path: str | Path) -> ReducedBlade:
@@ -106,9 +124,13 @@ def read_reduced_blade(path: str | Path) -> ReducedBlade:
         If the file is missing, unreadable or not a reduced blade; the message names it.
     """
     data, attributes = datafile.read(path)
+    names = (f"stiffness_{power}" for power in itertools.count(3))
+    higher = itertools.takewhile(data.__contains__, names)
     try:
         return ReducedBlade(
-            **{name: data[name] for name in _UNITS}, **{name: attributes[name] for name in _ATTRIBUTES}
+            **{name: data[name] for name in _UNITS},
+            **{name: attributes[name] for name in _ATTRIBUTES},
+            stiffness_higher=tuple(data[name] for name in higher),
         )
     except KeyError as error:
         raise DamagedFile(f"{path}: not a reduced blade, {error} is missing") from error

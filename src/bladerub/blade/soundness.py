@@ -15,7 +15,6 @@ from bladerub.faults import DamagedFile
 LARGEST_MATRIX = 10_000
 """Coordinates of a reduced blade; more is no reduction, and would fill the memory."""
 
-_MATRICES = ("mass", "stiffness_0", "stiffness_1", "stiffness_2")
 _AT_NODES = ("node_position", "radial_direction", "tangential_direction")
 _POSITIVE = ("f1_hz", "f_omega_max", "length")
 
@@ -61,20 +60,16 @@ def _check(blade: ReducedBlade) -> None:
         if not (isinstance(value, Real) and 0 < value < np.inf):
             raise ValueError(f"{name} = {value!r}: must be a number above 0")
     n = len(blade.mass) if np.ndim(blade.mass) else 0
-    shapes = dict.fromkeys(_MATRICES, (max(n, 3 * N_INTERFACE),) * 2) | dict.fromkeys(
-        _AT_NODES, (N_INTERFACE, 3)
-    )
-    for name, shape in shapes.items():
-        values = getattr(blade, name)
+    for name, values in blade.arrays.items():
+        shape = (N_INTERFACE, 3) if name in _AT_NODES else (max(n, 3 * N_INTERFACE),) * 2
         if values.shape != shape or values.dtype.kind != "f":
             raise ValueError(
                 f"{name}: must be numbers of the shape {shape}, is {values.dtype} {values.shape}"
             )
         if not np.all(np.isfinite(values)):
             raise ValueError(f"{name}: must be finite, has NaN or infinite entries")
-    for name in _MATRICES:
-        matrix = getattr(blade, name)
-        if not np.allclose(matrix, matrix.T, rtol=0, atol=1e-6 * np.abs(matrix).max()):
+        tolerance = 1e-6 * np.abs(values).max()
+        if name not in _AT_NODES and not np.allclose(values, values.T, rtol=0, atol=tolerance):
             raise ValueError(f"{name}: must be symmetric")
     try:
         np.linalg.cholesky(blade.mass)

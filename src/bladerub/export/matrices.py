@@ -25,8 +25,10 @@ def write_matrices(path: str | Path, blade: ReducedBlade) -> None:
     path = Path(path)
     if path.suffix.lower() not in SUFFIXES:
         raise ValueError(f"{path}: must end in {' or '.join(SUFFIXES)}")
+    content = asdict(blade) | blade.arrays
+    del content["stiffness_higher"]
     with atomic.writing(path, "wb") as file:
         if path.suffix.lower() == ".npz":
-            np.savez_compressed(file, **asdict(blade))
+            np.savez_compressed(file, **content)
         else:
-            savemat(file, asdict(blade), do_compression=True, oned_as="column")
+            savemat(file, content, do_compression=True, oned_as="column")
