@@ -10,6 +10,8 @@ rule blade:
                 "datafile",
                 "blade/accuracy",
                 "blade/build",
+                "blade/coordinates",
+                "blade/discrete",
                 "blade/elasticity",
                 "blade/frequencies",
                 "blade/geometry",

@@ -17,13 +17,20 @@ from threadpoolctl import threadpool_limits
 from bladerub import datafile, tablefile
 from bladerub.blade import geometry
 from bladerub.blade.accuracy import CAMPBELL_COLUMNS, accuracy_table
-from bladerub.blade.elasticity import Material, Solid
+from bladerub.blade.discrete import DiscreteBlade, by_finite_elements
+from bladerub.blade.elasticity import Material
 from bladerub.blade.frequencies import reduced_frequencies
 from bladerub.blade.linear import lowest_modes
 from bladerub.blade.mesh import BladeMesh, MeshedBlade
 from bladerub.blade.model import AXIS, INTERFACE_NODE, ReducedBlade, write_reduced_blade
-from bladerub.blade.reduction import Partition, project, speed_law, stiffness_at, transformation
-from bladerub.blade.rotation import Equilibrium, equilibrium
+from bladerub.blade.reduction import (
+    Partition,
+    fit_speeds,
+    project,
+    speed_law,
+    stiffness_at,
+    transformation,
+)
 from bladerub.blade.source.imported import import_mesh
 from bladerub.blade.source.origin import Source
 from bladerub.datafile import Variable
@@ -46,7 +53,7 @@ class BuiltBlade:
     mesh : BladeMesh
         The blade at rest.
     frequency : (n_modes,) ndarray
-        Of the finite element model at rest, Hz.
+        Of the unreduced model at rest, Hz.
     mode_shape : (n_modes, n_nodes, 3) ndarray
         The modes that go with it, largest displacement 1.
     recovery : (n, n_nodes, 3) ndarray
@@ -54,7 +61,7 @@ class BuiltBlade:
     static_displacement : (n_speeds, n_nodes, 3) ndarray
         Of the equilibria at ``static_speed`` (normalised), m.
     static_speed : (n_speeds,) ndarray
-        The accuracy speeds.
+        The accuracy speeds, as far as those equilibria are known.
     accuracy : DataFrame
         See `bladerub.blade.accuracy.accuracy_table`.
     made_from : str
@@ -96,11 +103,11 @@ def build(config: Mapping[str, Any]) -> BuiltBlade:
     ValueError
         If the blade cannot be meshed (see `bladerub.blade.geometry.check`).
     BadInput
-        If it cannot be imported (see `bladerub.blade.source.imported.import_mesh`), or is not of its length.
+        If it cannot be imported (see `bladerub.blade.source`), or is not of its length.
     EquilibriumError
         If the blade has no static equilibrium at one of the speeds.
     """
-    return reduce_blade(meshed_blade(config["blade"]), config)
+    return reduce_blade(discretise(meshed_blade(config["blade"]), config), config)
 
 
 @threadpool_limits.wrap(limits=1)
@@ -119,42 +126,44 @@ def meshed_blade(blade: Mapping[str, Any]) -> MeshedBlade:
     return given
 
 
-@threadpool_limits.wrap(limits=1)
-def reduce_blade(blade: MeshedBlade, config: Mapping[str, Any]) -> BuiltBlade:
-    """Reduce `blade`, of the material and by the ``reduction`` block of `config`.
-
-    It runs in one thread: sums over several come out different in the last digit with their number, and
-    another blade makes all its runs stale.
+def discretise(blade: MeshedBlade, config: Mapping[str, Any]) -> DiscreteBlade:
+    """Discretise `blade` by finite elements of the material and at the speeds that `config` asks for.
 
     Raises
     ------
     EquilibriumError
         If the blade has no static equilibrium at one of the speeds.
     """
-    reduction, mesh = config["reduction"], blade.mesh
-    solid = Solid(mesh.mesh, Material.from_config(config["blade"]["material"]), clamped=mesh.root)
-    log.info("%d elements, %d free coordinates", mesh.mesh.t.shape[1], solid.free.size)
-
-    f_max, n_modes = reduction["f_omega_max"], reduction["accuracy_modes"]
-    fit_speeds = [0.0, f_max / 2, f_max]
-    table_speeds = np.linspace(0, f_max, reduction["accuracy_speeds"]).tolist()
-    rest = equilibrium(solid, 0.0)
-    frequency, modes = lowest_modes(rest.stiffness, solid.mass, n_modes)
-    states = _equilibria(solid, rest, sorted({*fit_speeds, *table_speeds}), 2 * np.pi * frequency[0])
-
-    partition = Partition.around(solid.coordinates(mesh.interface), solid.free.size)
-    fits = [states[f_omega].stiffness for f_omega in fit_speeds]
-    phi = transformation(
-        fits, solid.mass, partition, reduction["modes_per_speed"], reduction["rank_tolerance"]
+    reduction = config["reduction"]
+    f_max = reduction["f_omega_max"]
+    return by_finite_elements(
+        blade,
+        Material.from_config(config["blade"]["material"]),
+        f_max,
+        np.linspace(0, f_max, reduction["accuracy_speeds"]).tolist(),
+        reduction["accuracy_modes"],
     )
-    radial, tangential = directions(mesh.mesh.points[mesh.interface], blade.tip_cone)
+
+
+@threadpool_limits.wrap(limits=1)
+def reduce_blade(blade: DiscreteBlade, config: Mapping[str, Any]) -> BuiltBlade:
+    """Reduce `blade` by the ``reduction`` block of `config`, in one thread as `by_finite_elements` is."""
+    reduction, mesh, full = config["reduction"], blade.layout.mesh, blade.free.full
+    f_max, n_modes = reduction["f_omega_max"], blade.frequency.size
+
+    partition = Partition.around(blade.free.coordinates(mesh.interface), blade.mass.shape[0])
+    fits = [blade.stiffness[f_omega] for f_omega in fit_speeds(f_max)]
+    phi = transformation(
+        fits, blade.mass, partition, reduction["modes_per_speed"], reduction["rank_tolerance"]
+    )
+    radial, tangential = directions(mesh.mesh.points[mesh.interface], blade.layout.tip_cone)
     reduced = ReducedBlade(
-        project(solid.mass, phi),
+        project(blade.mass, phi),
         *speed_law(*(project(stiffness, phi) for stiffness in fits), f_max),
         node_position=mesh.mesh.points[mesh.interface],
         radial_direction=radial,
         tangential_direction=tangential,
-        f1_hz=float(frequency[0]),
+        f1_hz=float(blade.frequency[0]),
         f_omega_max=f_max,
         eta=reduction["modes_per_speed"],
         rank_tolerance=reduction["rank_tolerance"],
@@ -166,41 +175,23 @@ def reduce_blade(blade: MeshedBlade, config: Mapping[str, Any]) -> BuiltBlade:
 
     coefficients = speed_law(*fits, f_max)
     finite_element, by_law = {}, {}
-    for f_omega in table_speeds:
-        finite_element[f_omega] = lowest_modes(states[f_omega].stiffness, solid.mass, n_modes)[0]
-        by_law[f_omega] = lowest_modes(stiffness_at(coefficients, f_omega), solid.mass, n_modes)[0]
+    for f_omega in blade.table_speeds:
+        finite_element[f_omega] = lowest_modes(blade.stiffness[f_omega], blade.mass, n_modes)[0]
+        by_law[f_omega] = lowest_modes(stiffness_at(coefficients, f_omega), blade.mass, n_modes)[0]
         log.info("f_omega = %.4f: first frequency %.4f Hz", f_omega, finite_element[f_omega][0])
-    shapes = np.stack([solid.full(mode) for mode in modes.T])
+    shapes = np.stack([full(mode) for mode in blade.modes.T])
+    moved = [f_omega for f_omega in blade.table_speeds if f_omega in blade.displacement]
     return BuiltBlade(
         reduced,
         mesh,
-        frequency,
+        blade.frequency,
         shapes / np.abs(shapes).max(axis=(1, 2), keepdims=True),
-        np.stack([solid.full(column) for column in phi.T]),
-        np.stack([solid.full(states[f_omega].displacement) for f_omega in table_speeds]),
-        np.array(table_speeds),
+        np.stack([full(column) for column in phi.T]),
+        np.array([full(blade.displacement[f_omega]) for f_omega in moved]).reshape(-1, *shapes.shape[1:]),
+        np.array(moved, dtype=float),
         accuracy_table(reduced, finite_element, by_law),
         made_from(config),
     )
-
-
-def _equilibria(
-    solid: Solid, rest: Equilibrium, f_omegas: list[float], unit: float
-) -> dict[float, Equilibrium]:
-    """Equilibria at ascending normalised speeds, each starting from the one before; `unit` in rad/s."""
-    states, state = {}, rest
-    for f_omega in f_omegas:
-        if f_omega > 0:
-            state = equilibrium(solid, f_omega * unit, state)
-            log.info(
-                "f_omega = %.4f: equilibrium in %d load steps, %d iterations, largest displacement %.4g mm",
-                f_omega,
-                state.n_steps,
-                state.n_iterations,
-                1e3 * np.linalg.norm(solid.full(state.displacement), axis=1).max(),
-            )
-        states[f_omega] = state
-    return states
 
 
 def directions(position: np.ndarray, tip_cone: float) -> tuple[np.ndarray, np.ndarray]:

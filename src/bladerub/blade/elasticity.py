@@ -20,6 +20,7 @@ import numpy as np
 from scipy import sparse
 from skfem import Basis, BilinearForm, ElementVector
 
+from bladerub.blade.coordinates import FreeCoordinates
 from bladerub.blade.mesh import SolidMesh
 
 _CHUNK = 512  # elements integrated at once: bounds the memory on fine meshes
@@ -50,7 +51,7 @@ def _product(u, v, _):
     return u * v
 
 
-class Solid:
+class Solid(FreeCoordinates):
     """Finite element model of an elastic body; vectors and matrices hold its free coordinates only.
 
     Parameters
@@ -64,10 +65,6 @@ class Solid:
 
     Attributes
     ----------
-    free : (n,) ndarray of int
-        Position of each free coordinate in the full vector ``3 * node + axis``.
-    axis : (n,) ndarray of int
-        0, 1, 2 for x, y, z.
     mass : (n, n) sparse array
         Consistent mass matrix, kg.
     first_moment : (n,) ndarray
@@ -75,41 +72,26 @@ class Solid:
     """
 
     def __init__(self, mesh: SolidMesh, material: Material, clamped=()):
+        super().__init__(mesh.doflocs.shape[1], clamped)
         self.mesh = mesh
         self.material = material
         scalar = Basis(mesh, mesh.elem(), quadrature=mesh.quadrature())
         dofs = Basis(mesh, ElementVector(mesh.elem()), quadrature=(scalar.X[:, :1], scalar.W[:1]))
-        is_free = np.ones(3 * mesh.doflocs.shape[1], dtype=bool)
-        is_free.reshape(-1, 3)[np.asarray(clamped, dtype=int)] = False
-        self.free = np.flatnonzero(is_free)
-        self.axis = self.free % 3
         self._weights = scalar.dx  # (element, point)
         self._gradients = np.stack([np.moveaxis(np.asarray(b[0].grad), 0, -1) for b in scalar.basis], axis=-2)
         self._dofs = dofs.element_dofs.T  # (element, 3 n_nodes), node by node as in `_gradients`
-        self._pattern = _Pattern(self._dofs, is_free)
+        self._pattern = _Pattern(self._dofs, self.free, 3 * self.n_nodes)
         product = _product.assemble(Basis(mesh, mesh.elem(), quadrature=mesh.mass_quadrature()))
         mass = sparse.kron(product, sparse.eye_array(3), format="csc") * material.density
         self.mass = sparse.csc_array(mass[self.free][:, self.free])
         self.first_moment = (mass @ mesh.points.ravel())[self.free]
-
-    def full(self, u: np.ndarray) -> np.ndarray:
-        """Displacement (n_nodes, 3) of all nodes for the free coordinates `u`, m."""
-        vector = np.zeros(3 * self.mesh.doflocs.shape[1])
-        vector[self.free] = u
-        return vector.reshape(-1, 3)
-
-    def coordinates(self, nodes: np.ndarray) -> np.ndarray:
-        """Places in the free vector of the x, y, z of `nodes`, node by node."""
-        return np.searchsorted(self.free, (3 * np.asarray(nodes)[:, None] + np.arange(3)).ravel())
 
     def internal_force(self, u: np.ndarray) -> np.ndarray:
         """Evaluate r(u; v) for every v: the internal force (n,) at the displacement `u`, N."""
         F = self.deformation_gradient(u)
         first_piola = F @ self._stress(F) * self._weights[..., None, None]
         force = np.einsum("eqij,eqaj->eai", first_piola, self._gradients, optimize=True)
-        total = np.bincount(
-            self._dofs.ravel(), weights=force.ravel(), minlength=3 * self.mesh.doflocs.shape[1]
-        )
+        total = np.bincount(self._dofs.ravel(), weights=force.ravel(), minlength=3 * self.n_nodes)
         return total[self.free]
 
     def tangent(self, u: np.ndarray) -> sparse.csc_array:
@@ -167,9 +149,11 @@ def _deformation_gradient(gradients: np.ndarray, displacement: np.ndarray) -> np
 class _Pattern:
     """Where the entries of the element matrices go in a sparse matrix of the free coordinates."""
 
-    def __init__(self, dofs: np.ndarray, is_free: np.ndarray):
-        n_free = int(is_free.sum())
-        number = np.where(is_free, np.cumsum(is_free) - 1, -1)[dofs]
+    def __init__(self, dofs: np.ndarray, free: np.ndarray, n_coordinates: int):
+        n_free = free.size
+        place = np.full(n_coordinates, -1)
+        place[free] = np.arange(n_free)
+        number = place[dofs]
         rows, columns = np.broadcast_arrays(number[:, :, None], number[:, None, :])
         self._kept = ((rows >= 0) & (columns >= 0)).ravel()
         places = columns.ravel()[self._kept].astype(np.int64) * n_free + rows.ravel()[self._kept]

@@ -113,6 +113,24 @@ SolidMesh = MeshHexS2 | MeshTetP2
 """A mesh that `bladerub.blade.elasticity.Solid` takes."""
 
 
+@dataclass(frozen=True)
+class NodeCloud:
+    """The nodes of a body whose elements are not known: what else wants a mesh finds none in it.
+
+    Parameters
+    ----------
+    points : (n_nodes, 3) ndarray
+        Nodes, m.
+    """
+
+    points: np.ndarray = field(repr=False)
+
+    @property
+    def cells(self) -> np.ndarray:
+        """Nodes of no elements (0, 20)."""
+        return np.empty((0, 20), dtype=int)
+
+
 _ALONG_THE_CUBE = [7, 4, 6, 5, 2, 1, 3, 0]  # scikit-fem numbers its tensor meshes left-handed
 
 
@@ -187,15 +205,15 @@ class BladeMesh:
 
     Parameters
     ----------
-    mesh : MeshHexS2 or MeshTetP2
-        The elements.
+    mesh : MeshHexS2, MeshTetP2 or NodeCloud
+        The elements, or their nodes alone where another program has made matrices of them.
     root, tip : ndarray of int
         Nodes of the clamped root and of the tip face.
     interface : (8,) ndarray of int
         Nodes of the tip's camber line that may touch the casing, leading to trailing edge.
     """
 
-    mesh: SolidMesh
+    mesh: SolidMesh | NodeCloud
     root: np.ndarray = field(repr=False)
     tip: np.ndarray = field(repr=False)
     interface: np.ndarray

@@ -11,6 +11,11 @@ from scipy import sparse
 from bladerub.blade.linear import Solve, factorise, lowest_modes
 
 
+def fit_speeds(f_max: float) -> tuple[float, float, float]:
+    """Give the normalised speeds whose stiffness the coefficients of eq. (2) are fitted to."""
+    return 0.0, f_max / 2, f_max
+
+
 def speed_law(at_rest, at_half, at_max, f_max: float):
     """Coefficients K⁰, K¹, K² of eq. (2) from the stiffness at f_Ω = 0, f_max / 2 and f_max, eq. (3).
 

@@ -5,7 +5,7 @@ import re
 import numpy as np
 import pytest
 
-from bladerub.blade.build import reduce_blade
+from bladerub.blade.build import discretise, reduce_blade
 from bladerub.blade.elasticity import Material
 from bladerub.blade.geometry import BladeShape
 from bladerub.blade.mesh import BladeMesh
@@ -37,7 +37,8 @@ def reported(twisted_config, tmp_path):
         write_mesh_file(path, blade.mesh.points, blade.mesh.cells, {"root": blade.root})
         source = Source(path, frame or Frame())
         imported = dataclasses.replace(import_mesh(source), **changes)
-        built = reduce_blade(imported.blade, {"blade": twisted_config, "reduction": REDUCTION})
+        config = {"blade": twisted_config, "reduction": REDUCTION}
+        built = reduce_blade(discretise(imported.blade, config), config)
         return report(source, imported, built, Material.from_config(twisted_config["material"])), built
 
     return make

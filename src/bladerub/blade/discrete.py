@@ -1,0 +1,120 @@
+"""The blade as matrices over its free coordinates: all that the reduction needs to know of it."""
+
+from __future__ import annotations
+
+import logging
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+from scipy import sparse
+from threadpoolctl import threadpool_limits
+
+from bladerub.blade.coordinates import FreeCoordinates
+from bladerub.blade.elasticity import Material, Solid
+from bladerub.blade.linear import lowest_modes
+from bladerub.blade.mesh import MeshedBlade
+from bladerub.blade.reduction import fit_speeds
+from bladerub.blade.rotation import Equilibrium, equilibrium
+
+log = logging.getLogger(__name__)
+
+
+@dataclass(frozen=True)
+class DiscreteBlade:
+    """Small motions of a blade about its equilibrium at several speeds, by whatever program.
+
+    Parameters
+    ----------
+    layout : MeshedBlade
+        Its nodes, and which of them are root, tip and interface.
+    free : FreeCoordinates
+        Which of the nodes' coordinates the matrices are of.
+    mass : (n, n) sparse array
+        kg.
+    stiffness : mapping of float to (n, n) sparse array
+        About the equilibrium at each normalised speed, those of `bladerub.blade.reduction.fit_speeds` among
+        them, N/m.
+    displacement : mapping of float to (n,) ndarray
+        From rest to that equilibrium, m; without the speeds where it is not known.
+    table_speeds : sequence of float
+        Those of `stiffness` at which the reduced blade is compared with this one, ascending.
+    frequency : (n_modes,) ndarray
+        At rest, Hz; the first is the unit of normalised speeds.
+    modes : (n, n_modes) ndarray
+        The columns that go with it.
+    """
+
+    layout: MeshedBlade
+    free: FreeCoordinates
+    mass: sparse.csc_array = field(repr=False)
+    stiffness: Mapping[float, sparse.csc_array] = field(repr=False)
+    displacement: Mapping[float, np.ndarray] = field(repr=False)
+    table_speeds: Sequence[float]
+    frequency: np.ndarray
+    modes: np.ndarray = field(repr=False)
+
+
+@threadpool_limits.wrap(limits=1)
+def by_finite_elements(
+    blade: MeshedBlade, material: Material, f_max: float, table_speeds: Sequence[float], n_modes: int
+) -> DiscreteBlade:
+    """Discretise `blade`, clamped at its root, by the finite elements of its mesh.
+
+    It runs in one thread: sums over several come out different in the last digit with their number, and
+    another blade makes all its runs stale.
+
+    Parameters
+    ----------
+    blade : MeshedBlade
+        With elements.
+    material : Material
+        What it is made of.
+    f_max : float
+        Highest speed of the fit, normalised.
+    table_speeds : sequence of float
+        More speeds at which its stiffness is wanted, normalised, ascending.
+    n_modes : int
+        How many modes at rest.
+
+    Raises
+    ------
+    EquilibriumError
+        If the blade has no static equilibrium at one of the speeds.
+    """
+    mesh = blade.mesh.mesh
+    solid = Solid(mesh, material, clamped=blade.mesh.root)
+    log.info("%d elements, %d free coordinates", len(mesh.cells), solid.free.size)
+    rest = equilibrium(solid, 0.0)
+    frequency, modes = lowest_modes(rest.stiffness, solid.mass, n_modes)
+    speeds = sorted({*fit_speeds(f_max), *table_speeds})
+    states = _equilibria(solid, rest, speeds, 2 * np.pi * frequency[0])
+    return DiscreteBlade(
+        blade,
+        FreeCoordinates(solid.n_nodes, blade.mesh.root),
+        solid.mass,
+        {f_omega: state.stiffness for f_omega, state in states.items()},
+        {f_omega: state.displacement for f_omega, state in states.items()},
+        table_speeds,
+        frequency,
+        modes,
+    )
+
+
+def _equilibria(
+    solid: Solid, rest: Equilibrium, f_omegas: list[float], unit: float
+) -> dict[float, Equilibrium]:
+    """Equilibria at ascending normalised speeds, each starting from the one before; `unit` in rad/s."""
+    states, state = {}, rest
+    for f_omega in f_omegas:
+        if f_omega > 0:
+            state = equilibrium(solid, f_omega * unit, state)
+            log.info(
+                "f_omega = %.4f: equilibrium in %d load steps, %d iterations, largest displacement %.4g mm",
+                f_omega,
+                state.n_steps,
+                state.n_iterations,
+                1e3 * np.linalg.norm(solid.full(state.displacement), axis=1).max(),
+            )
+        states[f_omega] = state
+    return states
