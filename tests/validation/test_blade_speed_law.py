@@ -1,8 +1,9 @@
 """Eqs. (2) and (3) of the paper, and the misprint in the factor of K²."""
 
 import numpy as np
+import pytest
 
-from bladerub.blade.reduction import speed_law, stiffness_at
+from bladerub.blade.reduction import fit_speeds, speed_law, stiffness_at
 
 F_MAX = 0.4
 
@@ -16,7 +17,7 @@ def fit_matrices():
 
 def test_eq_2_returns_the_three_fit_matrices():
     fits = fit_matrices()
-    coefficients = speed_law(*fits, F_MAX)
+    coefficients = speed_law(fits, F_MAX)
     for f_omega, expected in zip((0.0, F_MAX / 2, F_MAX), fits, strict=True):
         error = np.abs(stiffness_at(coefficients, f_omega) - expected).max()
         assert error <= 1e-12 * np.abs(expected).max()
@@ -24,7 +25,7 @@ def test_eq_2_returns_the_three_fit_matrices():
 
 def test_the_printed_factor_does_not():
     fits = fit_matrices()
-    k0, k1, k2 = speed_law(*fits, F_MAX)
+    k0, k1, k2 = speed_law(fits, F_MAX)
     printed = k0, k1, k2 * (3 / 4) / (4 / 3)
     for f_omega, expected in ((F_MAX / 2, fits[1]), (F_MAX, fits[2])):
         error = np.abs(stiffness_at(printed, f_omega) - expected).max()
@@ -34,5 +35,18 @@ def test_the_printed_factor_does_not():
 def test_a_stiffness_that_is_quadratic_in_the_square_of_the_speed_is_met_everywhere():
     terms = fit_matrices()
     fits = [stiffness_at(terms, f_omega) for f_omega in (0.0, F_MAX / 2, F_MAX)]
-    for found, expected in zip(speed_law(*fits, F_MAX), terms, strict=True):
+    for found, expected in zip(speed_law(fits, F_MAX), terms, strict=True):
         np.testing.assert_allclose(found, expected, atol=1e-9 * np.abs(terms[2]).max())
+
+
+@pytest.mark.parametrize("count", [3, 4, 7])
+def test_any_number_of_fits_is_met_by_as_many_even_powers(count):
+    rng = np.random.default_rng(count)
+    terms = [matrix / F_MAX ** (2 * power) for power, matrix in enumerate(rng.standard_normal((count, 6, 6)))]
+
+    def stiffness(f_omega):
+        return sum(f_omega ** (2 * power) * term for power, term in enumerate(terms))
+
+    coefficients = speed_law([stiffness(f_omega) for f_omega in fit_speeds(F_MAX, count)], F_MAX)
+    assert len(coefficients) == count
+    np.testing.assert_allclose(stiffness_at(coefficients, 0.33), stiffness(0.33), atol=1e-10)

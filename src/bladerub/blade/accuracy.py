@@ -14,6 +14,17 @@ CAMPBELL_COLUMNS = ["f_omega", "mode", "f_fe", "f_rom"]
 ACCURACY_COLUMNS = ["f_omega", "mode", "f_fe", "f_fe_eq2", "f_rom", "relative_error"]
 
 
+def errors_by_mode(table: pd.DataFrame) -> pd.DataFrame:
+    """Largest relative errors over the speeds of an `accuracy_table`, a row for each mode.
+
+    Columns ``speed_law`` for eq. (2) alone and ``reduced_model`` for eq. (2) and the reduction together.
+    """
+    errors = table[["mode"]].assign(
+        speed_law=(table.f_fe_eq2 / table.f_fe - 1).abs(), reduced_model=table.relative_error.abs()
+    )
+    return errors.groupby("mode").max()
+
+
 def accuracy_table(
     blade: ReducedBlade, finite_element: Mapping[float, np.ndarray], speed_law: Mapping[float, np.ndarray]
 ) -> pd.DataFrame:

@@ -17,6 +17,7 @@ from threadpoolctl import threadpool_limits
 from bladerub import datafile, tablefile
 from bladerub.blade import geometry
 from bladerub.blade.accuracy import CAMPBELL_COLUMNS, accuracy_table
+from bladerub.blade.adaptive import MOST_FIT_SPEEDS, reduce_within
 from bladerub.blade.discrete import DiscreteBlade, by_finite_elements
 from bladerub.blade.elasticity import Material
 from bladerub.blade.frequencies import reduced_frequencies
@@ -107,7 +108,26 @@ def build(config: Mapping[str, Any]) -> BuiltBlade:
     EquilibriumError
         If the blade has no static equilibrium at one of the speeds.
     """
-    return reduce_blade(discretise(meshed_blade(config["blade"]), config), config)
+    return reduce_meshed(meshed_blade(config["blade"]), config)
+
+
+def reduce_meshed(blade: MeshedBlade, config: Mapping[str, Any]) -> BuiltBlade:
+    """Reduce a blade that has a mesh, with more speeds and modes than `config` says if it needs them.
+
+    Raises
+    ------
+    BadInput
+        If ``reduction.tolerance`` is not reached.
+    EquilibriumError
+        If the blade has no static equilibrium at one of the speeds.
+    """
+
+    def attempt(reduction: Mapping[str, Any]) -> BuiltBlade:
+        asked = {**config, "reduction": reduction}
+        return reduce_blade(discretise(blade, asked), asked)
+
+    built = reduce_within(attempt, config["reduction"], MOST_FIT_SPEEDS)
+    return replace(built, made_from=made_from(config))
 
 
 @threadpool_limits.wrap(limits=1)
@@ -139,7 +159,7 @@ def discretise(blade: MeshedBlade, config: Mapping[str, Any]) -> DiscreteBlade:
     return by_finite_elements(
         blade,
         Material.from_config(config["blade"]["material"]),
-        f_max,
+        fit_speeds(f_max, reduction.get("fit_speeds", 3)),
         np.linspace(0, f_max, reduction["accuracy_speeds"]).tolist(),
         reduction["accuracy_modes"],
     )
@@ -152,14 +172,16 @@ def reduce_blade(blade: DiscreteBlade, config: Mapping[str, Any]) -> BuiltBlade:
     f_max, n_modes = reduction["f_omega_max"], blade.frequency.size
 
     partition = Partition.around(blade.free.coordinates(mesh.interface), blade.mass.shape[0])
-    fits = [blade.stiffness[f_omega] for f_omega in fit_speeds(f_max)]
+    speeds = fit_speeds(f_max, reduction.get("fit_speeds", 3))
+    fits = [blade.stiffness[f_omega] for f_omega in speeds]
     phi = transformation(
         fits, blade.mass, partition, reduction["modes_per_speed"], reduction["rank_tolerance"]
     )
     radial, tangential = directions(mesh.mesh.points[mesh.interface], blade.layout.tip_cone)
+    k0, k1, k2, *higher = speed_law([project(stiffness, phi) for stiffness in fits], f_max)
     reduced = ReducedBlade(
         project(blade.mass, phi),
-        *speed_law(*(project(stiffness, phi) for stiffness in fits), f_max),
+        *(k0, k1, k2),
         node_position=mesh.mesh.points[mesh.interface],
         radial_direction=radial,
         tangential_direction=tangential,
@@ -168,12 +190,13 @@ def reduce_blade(blade: DiscreteBlade, config: Mapping[str, Any]) -> BuiltBlade:
         eta=reduction["modes_per_speed"],
         rank_tolerance=reduction["rank_tolerance"],
         length=config["blade"]["length"],
+        stiffness_higher=tuple(higher),
     )
     log.info(
         "%d reduced coordinates, highest %.4g Hz", len(reduced.mass), reduced_frequencies(reduced, f_max)[-1]
     )
 
-    coefficients = speed_law(*fits, f_max)
+    coefficients = speed_law(fits, f_max)
     finite_element, by_law = {}, {}
     for f_omega in blade.table_speeds:
         finite_element[f_omega] = lowest_modes(blade.stiffness[f_omega], blade.mass, n_modes)[0]

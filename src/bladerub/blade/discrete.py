@@ -14,7 +14,6 @@ from bladerub.blade.coordinates import FreeCoordinates
 from bladerub.blade.elasticity import Material, Solid
 from bladerub.blade.linear import lowest_modes
 from bladerub.blade.mesh import MeshedBlade
-from bladerub.blade.reduction import fit_speeds
 from bladerub.blade.rotation import Equilibrium, equilibrium
 
 log = logging.getLogger(__name__)
@@ -57,7 +56,11 @@ class DiscreteBlade:
 
 @threadpool_limits.wrap(limits=1)
 def by_finite_elements(
-    blade: MeshedBlade, material: Material, f_max: float, table_speeds: Sequence[float], n_modes: int
+    blade: MeshedBlade,
+    material: Material,
+    fit_speeds: Sequence[float],
+    table_speeds: Sequence[float],
+    n_modes: int,
 ) -> DiscreteBlade:
     """Discretise `blade`, clamped at its root, by the finite elements of its mesh.
 
@@ -70,8 +73,8 @@ def by_finite_elements(
         With elements.
     material : Material
         What it is made of.
-    f_max : float
-        Highest speed of the fit, normalised.
+    fit_speeds : sequence of float
+        Speeds of the fit, normalised.
     table_speeds : sequence of float
         More speeds at which its stiffness is wanted, normalised, ascending.
     n_modes : int
@@ -87,7 +90,7 @@ def by_finite_elements(
     log.info("%d elements, %d free coordinates", len(mesh.cells), solid.free.size)
     rest = equilibrium(solid, 0.0)
     frequency, modes = lowest_modes(rest.stiffness, solid.mass, n_modes)
-    speeds = sorted({*fit_speeds(f_max), *table_speeds})
+    speeds = sorted({*fit_speeds, *table_speeds})
     states = _equilibria(solid, rest, speeds, 2 * np.pi * frequency[0])
     return DiscreteBlade(
         blade,

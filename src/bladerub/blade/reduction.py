@@ -11,16 +11,28 @@ from scipy import sparse
 from bladerub.blade.linear import Solve, factorise, lowest_modes
 
 
-def fit_speeds(f_max: float) -> tuple[float, float, float]:
+def fit_speeds(f_max: float, count: int = 3) -> list[float]:
     """Give the normalised speeds whose stiffness the coefficients of eq. (2) are fitted to."""
-    return 0.0, f_max / 2, f_max
+    return [f_max * index / (count - 1) for index in range(count)]
 
 
-def speed_law(at_rest, at_half, at_max, f_max: float):
-    """Coefficients K⁰, K¹, K² of eq. (2) from the stiffness at f_Ω = 0, f_max / 2 and f_max, eq. (3).
+def speed_law(fits: Sequence, f_max: float) -> tuple:
+    """Coefficients K⁰, K¹, K² ... of eq. (2) from the stiffness at each of `fit_speeds`.
 
+    With the three speeds of the paper this is eq. (3); with more, eq. (2) goes on with the next even powers.
     Works on any matrices, dense or sparse, of one shape.
     """
+    if len(fits) == 3:
+        return _quartic_law(*fits, f_max)
+    squares = np.square(fit_speeds(1.0, len(fits)))
+    shares = np.linalg.inv(np.vander(squares, increasing=True))  # of each fit in each coefficient
+    return tuple(
+        sum(share * fit for share, fit in zip(row, fits, strict=True)) / f_max ** (2 * power)
+        for power, row in enumerate(shares)
+    )
+
+
+def _quartic_law(at_rest, at_half, at_max, f_max: float) -> tuple:
     k0 = at_rest  # eq. (3)
     k1 = (16 * at_half - at_max - 15 * at_rest) / (3 * f_max**2)  # eq. (3)
     # eq. (3) is misprinted there: the factor 3 / (4 f_max^4) of the paper does not return K(f_max / 2) and
@@ -31,8 +43,9 @@ def speed_law(at_rest, at_half, at_max, f_max: float):
 
 def stiffness_at(coefficients, f_omega: float):
     """K(f_Ω) of the `coefficients` of `speed_law`, eq. (2)."""
-    k0, k1, k2 = coefficients
-    return k0 + f_omega**2 * k1 + f_omega**4 * k2  # eq. (2)
+    k0, k1, k2, *higher = coefficients
+    total = k0 + f_omega**2 * k1 + f_omega**4 * k2  # eq. (2)
+    return sum((f_omega ** (2 * power) * term for power, term in enumerate(higher, 3)), start=total)
 
 
 @dataclass(frozen=True)

@@ -63,7 +63,7 @@ def import_blade(options: argparse.Namespace) -> None:
     # with fewer, all speeds of the table are those of the fit, where eq. (2) is exact
     config["reduction"]["accuracy_speeds"] = max(_FEWEST_SPEEDS, config["reduction"]["accuracy_speeds"])
 
-    from bladerub.blade.build import discretise, reduce_blade
+    from bladerub.blade.build import reduce_meshed
     from bladerub.blade.elasticity import Material
     from bladerub.blade.rotation import EquilibriumError
     from bladerub.blade.source.imported import import_mesh
@@ -79,7 +79,7 @@ def import_blade(options: argparse.Namespace) -> None:
         source = Source.from_config(entry)
         imported = import_mesh(source)
         config["blade"]["length"] = round(imported.blade.length, 6)
-        built = reduce_blade(discretise(imported.blade, config), config)
+        built = reduce_meshed(imported.blade, config)
     except (ValueError, EquilibriumError) as error:
         raise InputError(str(error)) from error
     figures = report(source, imported, built, Material.from_config(config["blade"]["material"]))

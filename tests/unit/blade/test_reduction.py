@@ -92,8 +92,8 @@ def test_orthonormalisation_finds_the_rank_whatever_the_scale():
 
 def test_projection_and_speed_law_commute(blocks):
     fits, _, _, phi = blocks
-    of_reduced = speed_law(*(project(K, phi) for K in fits), 0.4)
-    of_full = [project(K, phi) for K in speed_law(*fits, 0.4)]
+    of_reduced = speed_law([project(K, phi) for K in fits], 0.4)
+    of_full = [project(K, phi) for K in speed_law(fits, 0.4)]
     for f_omega in (0.1, 0.3):
         one, other = stiffness_at(of_reduced, f_omega), stiffness_at(of_full, f_omega)
         np.testing.assert_allclose(one, other, atol=1e-9 * np.abs(one).max())

@@ -5,7 +5,7 @@ import re
 import numpy as np
 import pytest
 
-from bladerub.blade.build import discretise, reduce_blade
+from bladerub.blade.build import reduce_meshed
 from bladerub.blade.elasticity import Material
 from bladerub.blade.geometry import BladeShape
 from bladerub.blade.mesh import BladeMesh
@@ -38,7 +38,7 @@ def reported(twisted_config, tmp_path):
         source = Source(path, frame or Frame())
         imported = dataclasses.replace(import_mesh(source), **changes)
         config = {"blade": twisted_config, "reduction": REDUCTION}
-        built = reduce_blade(discretise(imported.blade, config), config)
+        built = reduce_meshed(imported.blade, config)
         return report(source, imported, built, Material.from_config(twisted_config["material"])), built
 
     return make
