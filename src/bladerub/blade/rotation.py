@@ -12,6 +12,8 @@ from bladerub.blade.linear import MOST_BY_DEGREE, factorise
 
 TOLERANCE = 1e-9
 """Largest residual force accepted, over the norm of the centrifugal load."""
+SETTLED = 1e-8
+"""Correction, over the norm of the displacement, after which Newton's method leaves its square: rounding."""
 MAX_ITERATIONS = 12
 """Newton iterations granted to one load step."""
 KEEPING = 0.2
@@ -121,5 +123,9 @@ def _newton(solid: Solid, omega_squared: float, start: np.ndarray) -> tuple[np.n
                 solve = solve or factorise(rotating_stiffness(solid, u, omega_squared))
             except np.linalg.LinAlgError:
                 return None, iteration
-            u = u - solve(force)
+            correction = solve(force)
+            u = u - correction
+            # a slow blade strains so little that the rounding of its forces exceeds what TOLERANCE allows
+            if np.linalg.norm(correction) <= SETTLED * np.linalg.norm(u):
+                return u, iteration + 1
     return None, MAX_ITERATIONS
