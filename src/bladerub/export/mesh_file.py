@@ -52,6 +52,13 @@ def write_mesh_file(
         stream.write(whole.read_bytes())
 
 
+def block(points: np.ndarray, cells: np.ndarray) -> tuple[str, np.ndarray]:
+    """Give `cells` with their name in meshio, or the nodes as such where there are none."""
+    if not len(cells):
+        return "vertex", np.arange(len(points))[:, None]
+    return NAMES[cells.shape[1]], cells
+
+
 def _write_inp(path: str, points, cells, node_sets, _) -> None:
     meshio.abaqus.write(
         path, meshio.Mesh(points, [(NAMES[cells.shape[1]], cells)], point_sets=dict(node_sets))
@@ -63,7 +70,7 @@ def _write_vtu(path: str, points, cells, node_sets, fields) -> None:
         name: np.isin(np.arange(len(points)), nodes).astype(np.int8) for name, nodes in node_sets.items()
     }
     data = marks | dict(fields)
-    meshio.vtu.write(path, meshio.Mesh(points, [(NAMES[cells.shape[1]], cells)], point_data=data))
+    meshio.vtu.write(path, meshio.Mesh(points, [block(points, cells)], point_data=data))
 
 
 def _write_msh(path: str, points, cells, node_sets, _) -> None:

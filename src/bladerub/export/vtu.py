@@ -17,8 +17,8 @@ import numpy as np
 
 from bladerub import datafile
 from bladerub.blade.model import ReducedBlade
-from bladerub.blade.surface import NAMES
 from bladerub.contact.recording import Recording
+from bladerub.export.mesh_file import block
 
 COLLECTION = "blade.pvd"
 """The file to open: it names the others with their time in revolutions."""
@@ -88,7 +88,7 @@ def write_motion(
             names.append(f"blade_{number:04}.vtu")
             meshio.Mesh(
                 mesh["points"],
-                [(NAMES[mesh["cells"].shape[1]], mesh["cells"])],  # nodes in the order of VTK already
+                [block(mesh["points"], mesh["cells"])],  # nodes in the order of VTK already
                 point_data={"displacement": displacement},
             ).write(temporary / names[-1])
         _write_collection(temporary / COLLECTION, names, recording.time, about)

@@ -1,4 +1,4 @@
-"""The blade's finite element mesh with its clamped root and the interface nodes."""
+"""The blade's mesh, or its nodes alone, with its clamped root and the interface nodes."""
 
 from __future__ import annotations
 
@@ -26,6 +26,7 @@ _INTERFACE = {
     "markeredgewidth": 0.5,
 }
 _ROOT = {"marker": CARETUP, "color": DARK, "linestyle": "none", "markersize": 5, "markeredgewidth": 0.3}
+_NODE = {"marker": ".", "linestyle": "none", "markeredgewidth": 0}
 _KINDS = {20: "hexahedra", 10: "tetrahedra"}
 _AXIS = 35  # length of the drawn axes, mm
 
@@ -41,11 +42,12 @@ def blade_mesh(
     points : (n_nodes, 3) ndarray
         Nodes, m: x along the axis, y tangential, z along the stacking line.
     cells : (n_elements, 20 or 10) ndarray of int
-        Nodes of the elements, in the order of CalculiX's C3D20 or C3D10.
+        Nodes of the elements, in the order of CalculiX's C3D20 or C3D10; where there are
+        none, the nodes are drawn.
     interface : (8,) ndarray of int
         Interface nodes, leading to trailing edge.
     root : (n_root,) ndarray of int
-        Clamped nodes.
+        Clamped nodes; none where another program has left them out.
     tip : (n_tip,) ndarray of int
         Nodes of the tip face.
     """
@@ -54,7 +56,10 @@ def blade_mesh(
     millimetres = 1e3 * points
     faces = boundary_faces(cells)
     _draw_whole(whole, millimetres, faces, interface, root)
-    whole.set_title(f"(a) {len(cells)} {_KINDS[cells.shape[1]]}, {len(points)} nodes")
+    elements = f"{len(cells)} {_KINDS[cells.shape[1]]}, " if len(cells) else ""
+    whole.set_title(f"(a) {elements}{len(points)} nodes")
+    if not len(cells):
+        of_tip.plot(*millimetres[tip, :2].T, color=DARK, markersize=5, **_NODE)
     _draw_tip(of_tip, millimetres, faces[np.isin(faces, tip).all(axis=1)], interface)
     figure.legend(*whole.get_legend_handles_labels(), loc="outside lower center", ncols=2)
     return figure
@@ -66,7 +71,10 @@ def _draw_whole(
     polygons = points[faces]
     seen = _VIEW.front_faces(polygons)
     shade = 0.5 + 0.5 * np.clip(normals(polygons[seen]) @ _LIGHT, 0, 1)
-    axes.plot(*_VIEW.project(points[root]).T, label="clamped root nodes", zorder=0.5, **_ROOT)
+    if len(root):
+        axes.plot(*_VIEW.project(points[root]).T, label="clamped root nodes", zorder=0.5, **_ROOT)
+    if not len(faces):
+        axes.plot(*_VIEW.project(points).T, color=_METAL * 0.75, markersize=2.5, label="_nodes", **_NODE)
     axes.add_collection(
         PolyCollection(_VIEW.project(polygons[seen]), facecolors=shade[:, None] * _METAL, **_EDGES)
     )

@@ -67,6 +67,17 @@ def test_all_node_sets_are_marked(panels):
     assert panels[0].get_title(loc="left") == "(a) 3 hexahedra, 44 nodes"
 
 
+def test_nodes_without_elements_are_drawn_as_points(draws):
+    points, _ = tower(3)
+    top, nothing = np.flatnonzero(points[:, 2] == 3), np.array([], dtype=int)
+    whole, tip = draws(blade_mesh(points, np.empty((0, 20), dtype=int), top, nothing, top)).axes
+    assert whole.get_title(loc="left") == "(a) 44 nodes"
+    counts = {line.get_label(): len(line.get_xdata()) for line in whole.lines}
+    assert counts["_nodes"] == 44
+    assert "clamped root nodes" not in counts
+    assert [len(line.get_xdata()) for line in tip.lines] == [8, 8]
+
+
 def test_the_tip_shows_its_face_and_numbered_nodes_in_mm(panels):
     (tip,) = panels[1].collections[0].get_paths()
     assert tip.vertices.max() == pytest.approx(1e3)
