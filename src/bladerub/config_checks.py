@@ -11,7 +11,8 @@ import numpy as np
 
 from bladerub.blade import geometry
 from bladerub.blade.model import N_INTERFACE
-from bladerub.blade.source.origin import Source
+from bladerub.blade.source import matrix_folder, origin
+from bladerub.blade.source.origin import MatrixSource
 from bladerub.config import ROOT
 from bladerub.config_faults import shown
 from bladerub.contact.casing import shape
@@ -78,10 +79,17 @@ def _blade_shape(config: Config) -> Iterator[str]:
 
 def _blade_source(source: Config) -> Iterator[str]:
     try:
-        file = Source.from_config(source).file
+        given = origin.read(source)
     except ValueError as error:
         yield f"blade.source.{error}"
         return
+    if isinstance(given, MatrixSource):
+        try:
+            matrix_folder.files(given.folder)
+        except ValueError as error:
+            yield f"blade.source.matrices = {shown(source['matrices'])}: {error} ({given.folder})"
+        return
+    file = given.file
     if not file.is_file():
         yield f"blade.source.file = {shown(source['file'])}: there is no such file ({file})"
 
@@ -95,6 +103,13 @@ def _accuracy_modes(config: Config) -> Iterator[str]:
             f"reduction.accuracy_modes = {reduction['accuracy_modes']}: must be at most {most} with "
             f"reduction.modes_per_speed = {reduction['modes_per_speed']}, the reduced model has no more"
         )
+
+
+@_reads("reduction", "blade")
+def _fit_speeds(config: Config) -> Iterator[str]:
+    count = config["reduction"].get("fit_speeds", 3)
+    if count != 3 and "matrices" in config["blade"].get("source", {}):
+        yield f"reduction.fit_speeds = {count}: must be 3 with blade.source.matrices"
 
 
 @_reads("casings", "contact")

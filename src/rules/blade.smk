@@ -1,5 +1,7 @@
 # Stage 1: the blade, built once: finite elements, reduction, accuracy of the reduction.
 
+from bladerub.blade.source.origin import files
+
 
 rule blade:
     input:
@@ -21,8 +23,11 @@ rule blade:
                 "blade/reduction",
                 "blade/rotation",
                 "blade/source/abaqus",
+                "blade/source/definite",
                 "blade/source/frame",
                 "blade/source/imported",
+                "blade/source/matrices",
+                "blade/source/matrix_folder",
                 "blade/source/mesh_file",
                 "blade/source/node_sets",
                 "blade/source/origin",
@@ -31,7 +36,7 @@ rule blade:
                 "blade/surface",
             ],
         ),
-        given=[config["blade"]["source"]["file"]] if "source" in config["blade"] else [],
+        given=files(config["blade"]["source"]) if "source" in config["blade"] else [],
     output:
         reduced_model=f"{config['results']}/blade/reduced_model.h5",
         mesh=f"{config['results']}/blade/mesh.h5",

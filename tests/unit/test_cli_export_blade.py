@@ -80,11 +80,14 @@ def test_matrices_are_those_of_the_reduced_blade(export, folder, tmp_path):
 @pytest.mark.parametrize(
     ("arguments", "said"),
     [
-        ([], "one of the arguments --vtu --calculix --mesh --matrices is required"),
+        ([], "one of the arguments --vtu --calculix --mesh --matrices --fe-matrices is required"),
         (["--mesh", "{}/blade.stl"], "must end in .inp, .msh, .vtu"),
         (["--matrices", "{}/blade.csv"], "must end in .npz, .mat"),
         (["--calculix", "{}", "--speeds", "0.5"], "--speeds 0.5: must be from 0 to 0.4 (normalised)"),
-        (["--matrices", "{}/blade.npz", "--speeds", "0.1"], "--speeds: goes with --calculix only"),
+        (
+            ["--matrices", "{}/blade.npz", "--speeds", "0.1"],
+            "--speeds: goes with --calculix or --fe-matrices only",
+        ),
         (["--vtu", "{}/motion"], "--vtu: needs --run"),
         (["--mesh", "{}/blade.inp", "--run", "run.h5"], "--run: goes with --vtu only"),
         (["--mesh", "{}/blade.inp", "--matrices", "{}/blade.npz"], "not allowed with argument"),

@@ -5,7 +5,7 @@ from __future__ import annotations
 import hashlib
 import json
 import logging
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -32,8 +32,10 @@ from bladerub.blade.reduction import (
     stiffness_at,
     transformation,
 )
+from bladerub.blade.source import matrix_folder
 from bladerub.blade.source.imported import import_mesh
-from bladerub.blade.source.origin import Source
+from bladerub.blade.source.matrices import import_matrices
+from bladerub.blade.source.origin import MatrixSource, Source
 from bladerub.datafile import Variable
 from bladerub.faults import BadInput
 
@@ -87,13 +89,24 @@ def made_from(config: Mapping[str, Any]) -> str:
     ------
     OSError
         If the blade comes from a file that cannot be read.
+    ValueError
+        If a file of a folder of matrices is missing.
     """
     blade = config["blade"]
-    if "source" in blade:
-        content = Source.from_config(blade["source"]).file.read_bytes()
-        blade = {name: blade[name] for name in ("material", "length", "source")}
-        blade["source"] = {**blade["source"], "file": hashlib.sha256(content).hexdigest()}
+    source = blade.get("source", {})
+    if "matrices" in source:
+        found = matrix_folder.files(MatrixSource.from_config(source).folder)
+        content = {name: _digest(path) for name, path in found.items()}
+        blade = {"length": blade["length"], "source": {**source, "matrices": content}}
+    elif source:
+        blade = {name: blade[name] for name in ("material", "length")}
+        blade["source"] = {**source, "file": _digest(Source.from_config(source).file)}
     return json.dumps({"blade": blade, "reduction": config["reduction"]}, sort_keys=True)
+
+
+def _digest(path: Path) -> str:
+    with path.open("rb") as file:
+        return hashlib.file_digest(file, "sha256").hexdigest()
 
 
 def build(config: Mapping[str, Any]) -> BuiltBlade:
@@ -108,6 +121,8 @@ def build(config: Mapping[str, Any]) -> BuiltBlade:
     EquilibriumError
         If the blade has no static equilibrium at one of the speeds.
     """
+    if "matrices" in config["blade"].get("source", {}):
+        return reduce_given(_of_matrices(config), config)
     return reduce_meshed(meshed_blade(config["blade"]), config)
 
 
@@ -121,13 +136,47 @@ def reduce_meshed(blade: MeshedBlade, config: Mapping[str, Any]) -> BuiltBlade:
     EquilibriumError
         If the blade has no static equilibrium at one of the speeds.
     """
+    return _reduce(lambda asked: discretise(blade, asked), config, MOST_FIT_SPEEDS)
 
+
+def reduce_given(blade: DiscreteBlade, config: Mapping[str, Any]) -> BuiltBlade:
+    """Reduce a blade whose matrices are given, with more modes than `config` says if it needs them.
+
+    Raises
+    ------
+    BadInput
+        If ``reduction.tolerance`` is not reached.
+    """
+    return _reduce(lambda _: blade, config, len(fit_speeds(1.0)))
+
+
+def _reduce(
+    discrete: Callable[[Mapping[str, Any]], DiscreteBlade], config: Mapping[str, Any], most_fit_speeds: int
+) -> BuiltBlade:
     def attempt(reduction: Mapping[str, Any]) -> BuiltBlade:
         asked = {**config, "reduction": reduction}
-        return reduce_blade(discretise(blade, asked), asked)
+        return reduce_blade(discrete(asked), asked)
 
-    built = reduce_within(attempt, config["reduction"], MOST_FIT_SPEEDS)
+    built = reduce_within(attempt, config["reduction"], most_fit_speeds)
     return replace(built, made_from=made_from(config))
+
+
+def _of_matrices(config: Mapping[str, Any]) -> DiscreteBlade:
+    """Read the matrices that `config` names, of a blade of its length."""
+    length, reduction = config["blade"]["length"], config["reduction"]
+    source = MatrixSource.from_config(config["blade"]["source"])
+    given = import_matrices(
+        source, reduction["f_omega_max"], reduction["accuracy_modes"], reduction["modes_per_speed"]
+    )
+    layout = given.blade.layout
+    if given.is_rooted:
+        _check_length(length, layout.length, source.folder)
+    elif not (1 - LENGTH_TOLERANCE) * layout.length <= length < layout.tip_radius:
+        raise BadInput(
+            f"blade.length = {length:g}: must be that of the blade in {source.folder}, whose nodes reach "
+            f"over {layout.length:.4g} m up to a tip at a radius of {layout.tip_radius:.4g} m"
+        )
+    return given.blade
 
 
 @threadpool_limits.wrap(limits=1)
@@ -138,12 +187,16 @@ def meshed_blade(blade: Mapping[str, Any]) -> MeshedBlade:
         shape = geometry.BladeShape.from_config(blade)
         return MeshedBlade(BladeMesh.from_shape(shape, blade["mesh"]), shape.tip_cone, blade["length"])
     given = import_mesh(Source.from_config(blade["source"])).blade
-    if abs(given.length / blade["length"] - 1) > LENGTH_TOLERANCE:
-        raise BadInput(
-            f"blade.length = {blade['length']:g}: must be that of the blade in {blade['source']['file']}, "
-            f"{given.length:.4g} m to within {LENGTH_TOLERANCE:.0%}; clearances are in this unit"
-        )
+    _check_length(blade["length"], given.length, blade["source"]["file"])
     return given
+
+
+def _check_length(length: float, measured: float, origin: str | Path) -> None:
+    if abs(measured / length - 1) > LENGTH_TOLERANCE:
+        raise BadInput(
+            f"blade.length = {length:g}: must be that of the blade in {origin}, {measured:.4g} m to within "
+            f"{LENGTH_TOLERANCE:.0%}; clearances are in this unit"
+        )
 
 
 def discretise(blade: MeshedBlade, config: Mapping[str, Any]) -> DiscreteBlade:

@@ -253,3 +253,9 @@ class MeshedBlade:
     mesh: BladeMesh
     tip_cone: float
     length: float
+
+    @property
+    def tip_radius(self) -> float:
+        """Mean distance of the tip's nodes from the engine axis, m."""
+        y, z = self.mesh.mesh.points[self.mesh.tip, 1:].T
+        return float(np.hypot(y, z).mean())

@@ -32,8 +32,8 @@ def add_to(commands: Any) -> None:
         help="write the blade's motion in a run, or the blade itself, for other programs",
         description="With --vtu: compute a run again from its file, its config and its blade, and write the "
         "motion of the finite element mesh in its last revolution. That it is the run of the file is told by "
-        "its run_key and the peaks of all revolutions. With --calculix, --mesh or --matrices: write the "
-        "blade, which is built first if the results folder has none yet.",
+        "its run_key and the peaks of all revolutions. With --calculix, --mesh, --matrices or "
+        "--fe-matrices: write the blade, which is built first if the results folder has none yet.",
         epilog="Open blade.pvd in ParaView and apply Warp By Vector to displacement. The mesh is the blade "
         "at rest in the rotating frame; displacement (m) is that of each node about its running position, so "
         "without the centrifugal displacement; time is in revolutions from the start of the run. Of a run "
@@ -51,7 +51,14 @@ def add_to(commands: Any) -> None:
         nargs="+",
         type=float,
         metavar="F_OMEGA",
-        help="of the decks, normalised (default: 0, half of and the highest of the reduced blade)",
+        help="of the decks, normalised (default: 0, half of and the highest of the reduced blade); with "
+        "--fe-matrices, of a stiffness beside those at these three",
+    )
+    parser.add_argument(
+        "--matrix-format",
+        default="mtx",
+        choices=("mtx", "npz"),
+        help="of --fe-matrices: Matrix Market, or what scipy.sparse.load_npz reads (default mtx)",
     )
     parser.add_argument(
         "--samples",
@@ -75,8 +82,8 @@ def export(options: argparse.Namespace) -> None:
         If an option or a file is.
     """
     config = inputs.read_config(options)
-    if options.speeds and not options.calculix:
-        raise InputError("--speeds: goes with --calculix only")
+    if options.speeds and not (options.calculix or options.fe_matrices):
+        raise InputError("--speeds: goes with --calculix or --fe-matrices only")
     if options.vtu and not options.run:
         raise InputError("--vtu: needs --run, the run whose motion is written")
     if options.run and not options.vtu:

@@ -9,6 +9,7 @@ from typing import Any
 from bladerub import faults
 from bladerub.cli import inputs
 from bladerub.cli.errors import InputError
+from bladerub.faults import BadInput
 
 
 def add_to(form: Any) -> None:
@@ -26,6 +27,13 @@ def add_to(form: Any) -> None:
         help="mesh and node sets: .inp, .msh, or .vtu with modes and centrifugal displacements",
     )
     form.add_argument("--matrices", type=Path, metavar="FILE", help="the reduced blade: .npz or .mat")
+    form.add_argument(
+        "--fe-matrices",
+        type=Path,
+        metavar="DIR",
+        help="a new folder for mass and stiffness of the finite elements, which are made anew for it, and a "
+        "list of the nodes: what bladerub import reads",
+    )
 
 
 def write(options: argparse.Namespace, config: dict[str, Any]) -> dict[str, Any]:
@@ -36,6 +44,9 @@ def write(options: argparse.Namespace, config: dict[str, Any]) -> dict[str, Any]
     InputError
         If an option or a file is at fault.
     """
+    if options.fe_matrices:
+        return _write_fe_matrices(options, config)
+
     from bladerub.blade.elasticity import Material
     from bladerub.export import calculix, matrices, mesh_file
     from bladerub.export.vtu import read_mesh
@@ -47,6 +58,11 @@ def write(options: argparse.Namespace, config: dict[str, Any]) -> dict[str, Any]
     path, blade = inputs.read_blade(options, config)
     try:
         mesh = read_mesh(path.with_name("mesh.h5"), blade)
+        needs_elements = options.calculix or (options.mesh and options.mesh.suffix.lower() != ".vtu")
+        if needs_elements and not len(mesh["cells"]):
+            raise InputError(
+                f"{path}: is of matrices, without elements; write --mesh with .vtu or --matrices"
+            )
         if options.matrices:
             matrices.write_matrices(options.matrices, blade)
             files = [options.matrices]
@@ -75,6 +91,43 @@ def write(options: argparse.Namespace, config: dict[str, Any]) -> dict[str, Any]
     }
 
 
+def _write_fe_matrices(options: argparse.Namespace, config: dict[str, Any]) -> dict[str, Any]:
+    """Discretise the blade of the config anew, and write its matrices."""
+    folder = options.fe_matrices
+    if folder.exists() and not (folder.is_dir() and not any(folder.iterdir())):
+        raise InputError(f"--fe-matrices {folder}: is there already, must be a new or an empty folder")
+    if "matrices" in config["blade"].get("source", {}):
+        raise InputError("--fe-matrices: the blade of the config is of matrices already, without elements")
+    inputs.require_room("fe-matrices", folder)
+    f_max = config["reduction"]["f_omega_max"]
+    speeds = sorted(_speeds(options, f_max))
+
+    from bladerub.blade.build import meshed_blade
+    from bladerub.blade.discrete import by_finite_elements
+    from bladerub.blade.elasticity import Material
+    from bladerub.blade.reduction import fit_speeds
+    from bladerub.blade.rotation import EquilibriumError
+    from bladerub.export.fe_matrices import write_fe_matrices
+
+    try:
+        blade = by_finite_elements(
+            meshed_blade(config["blade"]),
+            Material.from_config(config["blade"]["material"]),
+            fit_speeds(f_max),
+            speeds,
+            config["reduction"]["accuracy_modes"],
+        )
+    except (BadInput, EquilibriumError) as error:
+        raise InputError(str(error)) from error
+    mesh = blade.layout.mesh.mesh
+    return {
+        "files": [str(file) for file in write_fe_matrices(folder, blade, f_max, f".{options.matrix_format}")],
+        "nodes": len(mesh.points),
+        "elements": len(mesh.cells),
+        "coordinates": blade.free.free.size,
+    }
+
+
 def _fields(path: Path) -> dict[str, Any]:
     """Read the modes at rest and the centrifugal displacements (m) by name from ``mesh.h5``."""
     from bladerub import datafile
@@ -99,5 +152,5 @@ def _speeds(options: argparse.Namespace, highest: float) -> list[float]:
 def in_words(figures: dict[str, Any]) -> str:
     """Say what was written."""
     size = f"{figures['elements']} elements, {figures['nodes']} nodes"
-    about = f"blade of {size}, reduced to {figures['coordinates']} coordinates"
+    about = f"blade of {size}, matrices of {figures['coordinates']} coordinates"
     return "\n".join([about, *(f"wrote {file}" for file in figures["files"])])

@@ -4,18 +4,24 @@ from __future__ import annotations
 
 import argparse
 import json
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from pathlib import Path
 from typing import Any
 
 import yaml
 
+from bladerub.blade.model import ReducedBlade
+from bladerub.blade.source import origin
 from bladerub.blade.source.frame import AXES, UNITS, Frame
-from bladerub.cli import inputs
+from bladerub.blade.source.origin import MATRIX_UNITS, MatrixSource, Source
+from bladerub.cli import import_matrices, inputs
 from bladerub.cli.errors import InputError
 
 _FEWEST_SPEEDS = 5
-_NAMES = ("unit", "rotation", "downstream", "radial", "root_set", "tip_set", "tip_cone")
+_NAMES = (
+    *("unit", "rotation", "downstream", "radial", "root_set", "tip_set", "tip_cone"),
+    *("matrix_units", "omega_max"),
+)
 
 
 def add_to(commands: Any) -> None:
@@ -23,13 +29,16 @@ def add_to(commands: Any) -> None:
     parser = commands.add_parser(
         "import",
         help="look at a blade from another program before its study",
-        description="Read a mesh, find its root, tip and interface nodes, reduce it as the config says, and "
-        "tell what comes out and what to be wary of. Nothing is written. What it prints last goes into a "
-        "config, whose study is then of that blade. Material and reduction are of the config; the other "
-        "options are what blade.source of the config says, or else as given here.",
+        description="Read a mesh and find its root, tip and interface nodes, or read the matrices and the "
+        "list of nodes in a folder; reduce the blade as the config says, and tell what comes out and what to "
+        "be wary of. Nothing is written. What it prints last goes into a config, whose study is then of that "
+        "blade. Material (of a mesh) and reduction are of the config; the other options are what "
+        "blade.source of the config says, or else as given here.",
     )
     parser.set_defaults(command=import_blade)
-    parser.add_argument("file", type=Path, metavar="FILE", help="mesh: .inp, .msh or .vtu")
+    parser.add_argument(
+        "file", type=Path, metavar="PATH", help="mesh (.inp, .msh or .vtu) or folder of matrices"
+    )
     inputs.add_config_to(parser)
     parser.add_argument("--unit", choices=tuple(UNITS), help="unit of length in the file (else m)")
     for name, meaning in (
@@ -46,6 +55,13 @@ def add_to(commands: Any) -> None:
         metavar="DEGREES",
         help="half angle of the casing, positive where it widens downstream (else fitted to the tip)",
     )
+    parser.add_argument("--matrix-units", choices=tuple(MATRIX_UNITS), help="of the matrices (else SI)")
+    parser.add_argument(
+        "--omega-max",
+        type=float,
+        metavar="RAD_PER_S",
+        help="speed of stiffness_max, to be checked against reduction.f_omega_max",
+    )
     parser.add_argument("--json", action="store_true", help="print the figures as JSON")
 
 
@@ -60,42 +76,56 @@ def import_blade(options: argparse.Namespace) -> None:
         If the file or an option is, or the blade has no equilibrium.
     """
     config = inputs.read_config(options)
+    given = {name: getattr(options, name) for name in _NAMES if getattr(options, name) is not None}
+    kind = "matrices" if options.file.is_dir() else "file"
+    entry = {kind: str(options.file.resolve())} | asdict(Frame())
+    known = config["blade"].get("source", {})
+    entry |= {name: value for name, value in known.items() if name not in ("file", "matrices")} | given
+
+    from bladerub.blade.rotation import EquilibriumError
+    from bladerub.study.proportion import contact_scale, tip_stiffness
+
+    try:
+        source = origin.read(entry)
+        if isinstance(source, MatrixSource):
+            (figures, reduced), in_words = import_matrices.look(source, config), import_matrices.in_words
+        else:
+            (figures, reduced), in_words = _look(source, config), _in_words
+    except (ValueError, EquilibriumError) as error:
+        raise InputError(str(error)) from error
+    length = round(figures["length"], 6)
+    scale = contact_scale(replace(reduced, length=length))
+    figures["tip_stiffness"] = tip_stiffness(reduced)
+    figures["config"] = {
+        "blade": {"length": length, "source": entry},
+        "contact": {"scale": {name: float(f"{factor:.6g}") for name, factor in scale.items()}},
+    }
+    printed = (
+        json.dumps(figures, indent=2) if options.json else "\n".join([*in_words(figures), *_ending(figures)])
+    )
+    print(printed)
+
+
+def _look(source: Source, config: dict[str, Any]) -> tuple[dict[str, Any], ReducedBlade]:
+    """Import and reduce the mesh of `source`; return the figures and the reduced blade."""
     # with fewer, all speeds of the table are those of the fit, where eq. (2) is exact
     config["reduction"]["accuracy_speeds"] = max(_FEWEST_SPEEDS, config["reduction"]["accuracy_speeds"])
 
     from bladerub.blade.build import reduce_meshed
     from bladerub.blade.elasticity import Material
-    from bladerub.blade.rotation import EquilibriumError
     from bladerub.blade.source.imported import import_mesh
-    from bladerub.blade.source.origin import Source
     from bladerub.blade.source.report import report
-    from bladerub.study.proportion import contact_scale, tip_stiffness
 
-    given = {name: getattr(options, name) for name in _NAMES if getattr(options, name) is not None}
-    entry = {"file": str(options.file.resolve())} | asdict(Frame())
-    entry |= {name: value for name, value in config["blade"].get("source", {}).items() if name != "file"}
-    entry |= given
-    try:
-        source = Source.from_config(entry)
-        imported = import_mesh(source)
-        config["blade"]["length"] = round(imported.blade.length, 6)
-        built = reduce_meshed(imported.blade, config)
-    except (ValueError, EquilibriumError) as error:
-        raise InputError(str(error)) from error
+    imported = import_mesh(source)
+    built = reduce_meshed(imported.blade, config)
     figures = report(source, imported, built, Material.from_config(config["blade"]["material"]))
-    scale = {name: float(f"{factor:.6g}") for name, factor in contact_scale(built.reduced).items()}
-    figures["tip_stiffness"] = tip_stiffness(built.reduced)
-    figures["config"] = {
-        "blade": {"length": config["blade"]["length"], "source": entry},
-        "contact": {"scale": scale},
-    }
-    print(json.dumps(figures, indent=2) if options.json else _in_words(figures))
+    return figures, built.reduced
 
 
-def _in_words(figures: dict[str, Any]) -> str:
+def _in_words(figures: dict[str, Any]) -> list[str]:
     millimetres = {name: [1e3 * end for end in ends] for name, ends in figures["extents"].items()}
     worst = [max(figures[name][:6]) for name in ("error_eq2", "error_reduced_model")]
-    lines = [
+    return [
         f"mesh                {figures['elements']} {figures['element']}, {figures['nodes']} nodes, "
         f"{figures['unknowns']} unknowns, {figures['elements_root_to_tip']} elements from root to tip",
         *(f"{name:<19} {low:.4g} to {high:.4g} mm" for name, (low, high) in millimetres.items()),
@@ -110,10 +140,14 @@ def _in_words(figures: dict[str, Any]) -> str:
         f"{1e3 * figures['centrifugal_displacement']:.3g} mm",
         f"reduced model       {figures['reduced_coordinates']} coordinates; in six modes eq. (2) is up to "
         f"{100 * worst[0]:.2g} % off, with the reduction {100 * worst[1]:.2g} %",
+    ]
+
+
+def _ending(figures: dict[str, Any]) -> list[str]:
+    return [
         f"tip stiffness       {figures['tip_stiffness']:.4g} N/m, static",
         *(f"warning             {line}" for line in figures["warnings"]),
         "",
         "# for the config of its study; without contact.scale the values of the contact are absolute",
         yaml.safe_dump(figures["config"], sort_keys=False).rstrip(),
     ]
-    return "\n".join(lines)

@@ -67,7 +67,6 @@ def test_load_steps_are_halved_when_newton_needs_more(leaning_bar, monkeypatch):
     np.testing.assert_allclose(in_steps.displacement, freely.displacement, atol=1e-8 * size)
 
 
-<<<<<<< HEAD
 def test_a_large_model_needs_fewer_factors_for_the_same_equilibrium(leaning_bar, monkeypatch):
     made = []
 
@@ -84,7 +83,8 @@ def test_a_large_model_needs_fewer_factors_for_the_same_equilibrium(leaning_bar,
     assert len(made) - each_time < each_time
     size = np.abs(small.displacement).max()
     np.testing.assert_allclose(large.displacement, small.displacement, atol=1e-8 * size)
-=======
+
+
 def test_a_load_near_the_rounding_of_the_forces_is_carried(leaning_bar):
     creeping, slow = (equilibrium(leaning_bar, omega) for omega in (0.5, 5.0))
     force = residual(leaning_bar, creeping.displacement, 0.5**2)
@@ -92,7 +92,6 @@ def test_a_load_near_the_rounding_of_the_forces_is_carried(leaning_bar):
     assert np.linalg.norm(force) > rotation.TOLERANCE * np.linalg.norm(load)
     size = np.abs(slow.displacement).max()
     np.testing.assert_allclose(100 * creeping.displacement, slow.displacement, atol=1e-3 * size)
->>>>>>> 6bac0d6 (Accept an equilibrium when only rounding is left of the residual)
 
 
 def test_rest_needs_no_solution(leaning_bar):

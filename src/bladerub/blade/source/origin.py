@@ -2,13 +2,21 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Mapping
 from dataclasses import dataclass, field, fields
 from pathlib import Path
 from typing import Any
 
+from bladerub.blade.source import matrix_folder
 from bladerub.blade.source.frame import Frame
 from bladerub.config import ROOT
+
+MATRIX_UNITS = {"SI": 1.0, "mm-tonne": 1e3, "inch-lbf": 4.4482216152605 / 0.0254}
+"""By the name of a system of units with the second in it: N/m of its stiffness, and as well kg of its mass.
+
+The two are one number in every such system, so frequencies do not tell when the wrong one is named.
+"""
 
 
 @dataclass(frozen=True)
@@ -37,9 +45,81 @@ class Source:
     @classmethod
     def from_config(cls, source: Mapping[str, Any]) -> Source:
         """Read the ``blade.source`` block of the config; its file is relative to the repository."""
-        layout = {entry.name: source[entry.name] for entry in fields(Frame) if entry.name in source}
         return cls(
             ROOT / source["file"],
-            Frame(**layout),
+            _frame(source),
             *(source.get(name) for name in ("root_set", "tip_set", "tip_cone")),
         )
+
+
+@dataclass(frozen=True)
+class MatrixSource:
+    """Where the matrices of a blade come from, as ``blade.source`` of the config says.
+
+    Parameters
+    ----------
+    folder : Path
+        With the files (`bladerub.blade.source.matrix_folder`).
+    frame : Frame
+        Unit of the nodes' coordinates, and axes of nodes and matrices.
+    matrix_units : str
+        One of `MATRIX_UNITS`.
+    omega_max : float or None
+        Speed of ``stiffness_max``, rad/s, to be held against ``reduction.f_omega_max`` where it is given.
+    tip_cone : float or None
+        As in `Source`.
+    """
+
+    folder: Path
+    frame: Frame = field(default_factory=Frame)
+    matrix_units: str = "SI"
+    omega_max: float | None = None
+    tip_cone: float | None = None
+
+    @classmethod
+    def from_config(cls, source: Mapping[str, Any]) -> MatrixSource:
+        """Read the ``blade.source`` block of the config; its folder is relative to the repository."""
+        given = {name: source[name] for name in ("matrix_units", "omega_max", "tip_cone") if name in source}
+        return cls(ROOT / source["matrices"], _frame(source), **given)
+
+
+_OF_MATRICES_ONLY = ("matrix_units", "omega_max")
+_OF_FILES_ONLY = ("file", "root_set", "tip_set")
+
+
+def read(source: Mapping[str, Any]) -> Source | MatrixSource:
+    """Read the ``blade.source`` block of the config.
+
+    Raises
+    ------
+    ValueError
+        If it names not one of ``file`` and ``matrices``, or keys do not go together; begins with the key.
+    """
+    if "matrices" in source:
+        astray, kind = [key for key in _OF_FILES_ONLY if key in source], MatrixSource
+    elif "file" in source:
+        astray, kind = [key for key in _OF_MATRICES_ONLY if key in source], Source
+    else:
+        raise ValueError("file: missing; must be given, or matrices in its place")
+    if astray:
+        other = "matrices" if kind is MatrixSource else "file"
+        raise ValueError(f"{astray[0]} = {source[astray[0]]}: must not be given beside {other}")
+    return kind.from_config(source)
+
+
+def files(source: Mapping[str, Any]) -> list[str]:
+    """List the files that the ``blade.source`` block of the config names, as seen from where that is.
+
+    Raises
+    ------
+    ValueError
+        If a file of a folder of matrices is missing.
+    """
+    if "matrices" not in source:
+        return [source["file"]]
+    found = matrix_folder.files(MatrixSource.from_config(source).folder)
+    return [os.path.join(source["matrices"], path.name) for path in found.values()]
+
+
+def _frame(source: Mapping[str, Any]) -> Frame:
+    return Frame(**{entry.name: source[entry.name] for entry in fields(Frame) if entry.name in source})

@@ -6,7 +6,6 @@ from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
-import pandas as pd
 from scipy import sparse
 from scipy.sparse.csgraph import dijkstra
 
@@ -15,6 +14,7 @@ from bladerub.blade.adaptive import MODES
 from bladerub.blade.build import BuiltBlade
 from bladerub.blade.elasticity import Material
 from bladerub.blade.mesh import BladeMesh
+from bladerub.blade.source.frame import Frame
 from bladerub.blade.source.imported import Imported
 from bladerub.blade.source.origin import Source
 from bladerub.blade.surface import EDGES, NAMES
@@ -33,9 +33,6 @@ def report(source: Source, imported: Imported, built: BuiltBlade, material: Mate
     over the speeds of the accuracy table: that of eq. (2) alone, and with the reduction.
     """
     mesh = imported.blade.mesh
-    table = built.accuracy
-    errors = errors_by_mode(table)
-    first = table[table["mode"] == 1].sort_values("f_omega").f_fe.to_numpy()
     moved = np.linalg.norm(built.static_displacement[-1], axis=1).max()
     figures = {
         "file": str(source.file),
@@ -47,7 +44,7 @@ def report(source: Source, imported: Imported, built: BuiltBlade, material: Mate
         "node_sets": imported.node_sets,
         "root_nodes": int(mesh.root.size),
         "tip_nodes": int(mesh.tip.size),
-        "extents": _extents(mesh.mesh.points),
+        "extents": extents(mesh.mesh.points),
         "length": imported.blade.length,
         "tip_chord": imported.chord,
         "tip_cone_degrees": source.frame.downstream_x * float(np.rad2deg(imported.blade.tip_cone)),
@@ -55,15 +52,26 @@ def report(source: Source, imported: Imported, built: BuiltBlade, material: Mate
         "volume": imported.volume,
         "mass": imported.volume * material.density,
         "worst_jacobian": float(imported.jacobian_ratio.min()),
+        "centrifugal_displacement": float(moved),
+        **of_reduction(built),
+    }
+    return figures | {"warnings": list(_warnings(figures, imported, source))}
+
+
+def of_reduction(built: BuiltBlade) -> dict[str, Any]:
+    """Figures of the frequencies and of the reduced model, of a blade from wherever."""
+    table = built.accuracy
+    errors = errors_by_mode(table)
+    first = table[table["mode"] == 1].sort_values("f_omega").f_fe.to_numpy()
+    return {
         "f1_hz": float(built.frequency[0]),
         "campbell_ratio": float(first[-1] / first[0]),
-        "f_omega_max": float(built.static_speed[-1]),
-        "centrifugal_displacement": float(moved),
+        "f_omega_max": built.reduced.f_omega_max,
+        "lowest_frequency": float(table.f_fe.min()),
         "reduced_coordinates": len(built.reduced.mass),
         "error_eq2": errors.speed_law.tolist(),
         "error_reduced_model": errors.reduced_model.tolist(),
     }
-    return figures | {"warnings": list(_warnings(figures, imported, source, table))}
 
 
 def spanwise_elements(mesh: BladeMesh) -> int:
@@ -77,7 +85,8 @@ def spanwise_elements(mesh: BladeMesh) -> int:
     return int(steps[mesh.tip].min())
 
 
-def _extents(points: np.ndarray) -> dict[str, list[float]]:
+def extents(points: np.ndarray) -> dict[str, list[float]]:
+    """Give the ends of the ranges of the coordinates and of the radius of `points` (n, 3), m."""
     radius = np.hypot(points[:, 1], points[:, 2])
     return {
         name: [float(values.min()), float(values.max())]
@@ -90,19 +99,8 @@ def _extents(points: np.ndarray) -> dict[str, list[float]]:
     }
 
 
-def _warnings(
-    figures: dict[str, Any], imported: Imported, source: Source, table: pd.DataFrame
-) -> Iterator[str]:
-    length = figures["length"]
-    if not LENGTHS[0] <= length <= LENGTHS[1]:
-        yield f"the blade is {length:.4g} m long: is its unit {source.frame.unit}?"
-    if not FREQUENCIES[0] <= figures["f1_hz"] <= FREQUENCIES[1]:
-        yield f"its first frequency is {figures['f1_hz']:.4g} Hz: are length and material in their units?"
-    if abs(imported.lean) > np.deg2rad(20):
-        yield (
-            f"its middle is {np.rad2deg(imported.lean):.3g} degrees about the engine axis from the radial "
-            f"axis {source.frame.radial}: is that axis, and is the origin on the engine axis?"
-        )
+def _warnings(figures: dict[str, Any], imported: Imported, source: Source) -> Iterator[str]:
+    yield from of_frame(figures, source.frame, imported.lean)
     if imported.is_raised:
         yield "its elements were linear; they got nodes in the middle of straight edges; faces stay faceted"
     if imported.n_unused:
@@ -122,21 +120,37 @@ def _warnings(
             f"an interface node is {1e3 * figures['interface_offset']:.3g} mm off the camber line of the "
             "tip: its mesh is coarse there"
         )
-    yield from _of_reduction(figures, table)
-
-
-def _of_reduction(figures: dict[str, Any], table: pd.DataFrame) -> Iterator[str]:
-    eq2, reduced = (max(figures[name][:MODES]) for name in ("error_eq2", "error_reduced_model"))
+    eq2 = max(figures["error_eq2"][:MODES])
     if eq2 > EQ2_ERROR:
         yield (
             f"eq. (2) is up to {100 * eq2:.2g} % off in the first {MODES} modes: rotation moves the blade by "
             f"{1e3 * figures['centrifugal_displacement']:.3g} mm; give reduction.tolerance, or lower "
             "reduction.f_omega_max"
         )
+    yield from of_errors(figures)
+
+
+def of_frame(figures: dict[str, Any], frame: Frame, lean: float) -> Iterator[str]:
+    """Warn of slips of unit and axes; the middle of the blade is `lean` (rad) off its radial axis."""
+    length = figures["length"]
+    if not LENGTHS[0] <= length <= LENGTHS[1]:
+        yield f"the blade is {length:.4g} m long: is its unit {frame.unit}?"
+    if not FREQUENCIES[0] <= figures["f1_hz"] <= FREQUENCIES[1]:
+        yield f"its first frequency is {figures['f1_hz']:.4g} Hz: are length and material in their units?"
+    if abs(lean) > np.deg2rad(20):
+        yield (
+            f"its middle is {np.rad2deg(lean):.3g} degrees about the engine axis from the radial axis "
+            f"{frame.radial}: is that axis, and is the origin on the engine axis?"
+        )
+
+
+def of_errors(figures: dict[str, Any]) -> Iterator[str]:
+    """Warn of a reduced model that does not follow, and of a blade that is unstable."""
+    eq2, reduced = (max(figures[name][:MODES]) for name in ("error_eq2", "error_reduced_model"))
     if reduced > max(REDUCED_ERROR, 1.5 * eq2):
         yield (
             f"the reduced model is up to {100 * reduced:.2g} % off in the first {MODES} modes: raise "
             "reduction.modes_per_speed or lower reduction.rank_tolerance"
         )
-    if (table.f_fe <= 0).any():
+    if figures["lowest_frequency"] <= 0:
         yield "a mode is unstable within the range of speeds"

@@ -1,0 +1,207 @@
+"""Matrices of a blade as their folder has them: which files there are, and what each may hold."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+from scipy import sparse
+from scipy.io import mminfo, mmread
+
+from bladerub.blade.model import N_INTERFACE
+
+SUFFIXES = (".mtx", ".npz")
+NODES = "nodes.csv"
+MASS = "mass"
+FIT = ("stiffness_rest", "stiffness_half", "stiffness_max")
+"""Stiffness at the speeds of the fit, ascending."""
+AT_SPEED = "stiffness_at_"
+"""How the name of a stiffness at another speed begins; the normalised speed follows."""
+SYMMETRY = 1e-8
+"""Largest difference of two entries that must be equal, over the largest entry."""
+MOST_UNKNOWNS = 400_000
+"""Beyond which the factors fill the memory."""
+
+_POSITION = ("x", "y", "z")
+_MARKS = {"interface": N_INTERFACE, "clamped": 1, "tip": 1}  # largest value of each
+
+
+@dataclass(frozen=True)
+class Nodes:
+    """The content of ``nodes.csv``.
+
+    Parameters
+    ----------
+    points : (n_nodes, 3) ndarray
+        In the unit and axes of the file.
+    interface : (8,) ndarray of int
+        Rows of the interface nodes, leading to trailing edge.
+    clamped, tip : ndarray of int
+        Rows that are marked so.
+    """
+
+    points: np.ndarray = field(repr=False)
+    interface: np.ndarray
+    clamped: np.ndarray = field(repr=False)
+    tip: np.ndarray = field(repr=False)
+
+
+def files(folder: Path) -> dict[str, Path]:
+    """Find the files of `folder` that count, by their names without suffix.
+
+    Raises
+    ------
+    ValueError
+        If one is missing, or there in both formats.
+    """
+    if not folder.is_dir():
+        raise ValueError("there is no such folder")
+    more = {path.stem for path in folder.glob(f"{AT_SPEED}*") if path.suffix in SUFFIXES}
+    found = {}
+    for name in (MASS, *FIT, *sorted(more)):
+        there = [path for suffix in SUFFIXES if (path := folder / f"{name}{suffix}").is_file()]
+        if len(there) != 1:
+            either = f"{name}.mtx or {name}.npz"
+            raise ValueError(f"holds both {either.replace('or', 'and')}" if there else f"holds no {either}")
+        (found[name],) = there
+    if not (folder / NODES).is_file():
+        raise ValueError(f"holds no {NODES}")
+    return found | {"nodes": folder / NODES}
+
+
+def speeds(names: Mapping[str, Path], fit: Sequence[float]) -> dict[float, str]:
+    """Tell the normalised speed of each stiffness among `names`, in ascending order.
+
+    Raises
+    ------
+    ValueError
+        If the name of a file does not say a speed between those of `fit`.
+    """
+    found = dict(zip(fit, FIT, strict=True))
+    for name in names:
+        if name.startswith(AT_SPEED):
+            text = name.removeprefix(AT_SPEED)
+            speed = float(text) if re.fullmatch(r"\d*\.?\d+", text) else None
+            if speed is None or not fit[0] < speed < fit[-1] or speed in found:
+                raise ValueError(
+                    f"{names[name].name}: must be named after its normalised speed, between 0 and "
+                    f"reduction.f_omega_max = {fit[-1]:g}, and none that another file has"
+                )
+            found[speed] = name
+    return dict(sorted(found.items()))
+
+
+def read_nodes(path: Path) -> Nodes:
+    """Read ``nodes.csv``.
+
+    Raises
+    ------
+    ValueError
+        If it is not such a table; the message names the row, counted from 1 below the header.
+    """
+    if path.stat().st_size == 0:
+        raise ValueError("is empty")
+    try:
+        table = pd.read_csv(path, skipinitialspace=True, comment="#")
+    except (ValueError, OSError) as error:
+        raise ValueError(f"is no table that can be read ({' '.join(str(error).split())})") from error
+    table.columns = table.columns.astype(str).str.strip()
+    needed = [*_POSITION, "interface"]
+    missing = [name for name in needed if name not in table]
+    if missing:
+        raise ValueError(f"has no column {missing[0]}; must have {', '.join(needed)}")
+    points = np.stack([_numbers(table, name) for name in _POSITION], axis=1)
+    lost = np.flatnonzero(~np.isfinite(points).all(axis=1))
+    if lost.size:
+        raise ValueError(f"row {lost[0] + 1}: its coordinates are not finite numbers")
+    marks = {name: _marks(table, name) for name in _MARKS}
+    order = [np.flatnonzero(marks["interface"] == number) for number in range(1, N_INTERFACE + 1)]
+    for number, rows in enumerate(order, 1):
+        if rows.size != 1:
+            counted = f"{rows.size} nodes have" if rows.size else "no node has"
+            raise ValueError(f"{counted} interface = {number}; each of 1 to {N_INTERFACE} must be there once")
+    interface = np.concatenate(order)
+    clamped = np.flatnonzero(marks["clamped"])
+    held = np.intersect1d(interface, clamped)
+    if held.size:
+        raise ValueError(f"row {held[0] + 1}: an interface node must not be clamped")
+    return Nodes(points, interface, clamped, np.flatnonzero(marks["tip"]))
+
+
+def _numbers(table: pd.DataFrame, name: str) -> np.ndarray:
+    numbers = pd.to_numeric(table[name], errors="coerce")
+    words = np.flatnonzero(numbers.isna() & table[name].notna())
+    if words.size:
+        raise ValueError(f"row {words[0] + 1}: {name} = {table[name].iloc[words[0]]}: must be a number")
+    return numbers.to_numpy(dtype=float)
+
+
+def _marks(table: pd.DataFrame, name: str) -> np.ndarray:
+    if name not in table:
+        return np.zeros(len(table))
+    marks = np.nan_to_num(_numbers(table, name), nan=0.0, posinf=-1.0)
+    odd = np.flatnonzero((marks != np.rint(marks)) | (marks < 0) | (marks > _MARKS[name]))
+    if odd.size:
+        raise ValueError(
+            f"row {odd[0] + 1}: {name} = {table[name].iloc[odd[0]]}: must be a whole number from 0 to "
+            f"{_MARKS[name]}, or nothing"
+        )
+    return marks
+
+
+def read_matrix(path: Path) -> sparse.csc_array:
+    """Read a symmetric matrix: Matrix Market, or what `scipy.sparse.save_npz` writes.
+
+    Raises
+    ------
+    ValueError
+        If it is not a square matrix of finite real numbers, symmetric to `SYMMETRY`; entries are counted
+        from 1.
+    """
+    if path.stat().st_size == 0:
+        raise ValueError("is empty")
+    try:
+        rows, columns = mminfo(path)[:2] if path.suffix == ".mtx" else (0, 0)
+        if max(rows, columns) <= MOST_UNKNOWNS:
+            raw = mmread(path, spmatrix=False) if path.suffix == ".mtx" else sparse.load_npz(path)
+            rows, columns = raw.shape
+    except Exception as error:  # a reader of foreign files fails in every way there is
+        reason = str(error) or type(error).__name__
+        raise ValueError(f"is not a {path.suffix} file that can be read ({reason})") from error
+    if rows != columns:
+        raise ValueError(f"is {rows} x {columns}; must be square")
+    if rows > MOST_UNKNOWNS:
+        raise ValueError(f"is {rows} x {rows}; must have {MOST_UNKNOWNS} rows or fewer")
+    if raw.dtype.kind not in "iuf":
+        raise ValueError(f"holds numbers of the type {raw.dtype}; must be real")
+    entries = sparse.coo_array(raw)
+    matrix = sparse.csc_array(entries, dtype=float)  # sums what is there twice
+    if path.suffix == ".mtx" and matrix.nnz < entries.nnz:
+        raise ValueError("has entries twice; with the word symmetric it must hold one triangle only")
+    _check_symmetry(matrix)
+    return (matrix + matrix.T) / 2
+
+
+def _check_symmetry(matrix: sparse.csc_array) -> None:
+    entries = matrix.tocoo()
+    lost = np.flatnonzero(~np.isfinite(entries.data))
+    if lost.size:
+        at = _entry(entries, lost[0])
+        raise ValueError(f"its entry {at} is {entries.data[lost[0]]:g}; must be a finite number")
+    apart = (matrix - matrix.T).tocoo()
+    if apart.nnz and np.abs(apart.data).max() > SYMMETRY * np.abs(entries.data).max():
+        if len({*np.sign(entries.col - entries.row)}) < 3:
+            raise ValueError("holds one triangle only; must hold both, or say symmetric in a .mtx file")
+        worst = int(np.argmax(np.abs(apart.data)))
+        raise ValueError(
+            f"is not symmetric: its entry {_entry(apart, worst)} is {abs(apart.data[worst]):.3g} off its "
+            "mirror image"
+        )
+
+
+def _entry(matrix: sparse.coo_array, at: int) -> str:
+    return f"({matrix.row[at] + 1}, {matrix.col[at] + 1})"

@@ -1,0 +1,47 @@
+"""A blade written as finite element matrices and read again is the same blade, and rubs the same."""
+
+import numpy as np
+import pytest
+
+from bladerub.blade.build import discretise, meshed_blade, reduce_blade
+from bladerub.blade.source.matrices import import_matrices
+from bladerub.blade.source.origin import MatrixSource
+from bladerub.contact.run import simulate
+from bladerub.export.fe_matrices import write_fe_matrices
+from bladerub.study.grid import CoatingCase, run_spec
+
+COATING = CoatingCase("2nd", 2.0, 0.5, 0.0)
+SPEEDS = (0.12, 0.18, 0.295)  # the second and third in the resonances with engine orders 6 and 4
+
+
+@pytest.fixture(scope="module")
+def config(coarse_config):
+    return coarse_config | {"reduction": coarse_config["reduction"] | {"accuracy_modes": 8}}
+
+
+@pytest.fixture(scope="module")
+def blades(config, tmp_path_factory):
+    """The coarse blade as it is, and read from its matrices."""
+    folder, reduction = tmp_path_factory.mktemp("matrices"), config["reduction"]
+    ours = discretise(meshed_blade(config["blade"]), config)
+    write_fe_matrices(folder, ours, reduction["f_omega_max"], ".mtx")
+    source = MatrixSource(folder)
+    return ours, import_matrices(source, reduction["f_omega_max"], 8, reduction["modes_per_speed"]).blade
+
+
+def test_frequencies_are_the_same(blades):
+    ours, theirs = blades
+    difference = np.abs(theirs.frequency / ours.frequency - 1).max()
+    print(f"largest difference of {ours.frequency.size} frequencies at rest {difference:.1e}")
+    assert difference < 1e-9
+
+
+def test_wear_is_the_same(blades, config):
+    reduced = [reduce_blade(blade, config).reduced for blade in blades]
+    for f_omega in SPEEDS:
+        spec = run_spec(config, COATING, f_omega)
+        ours, theirs = (simulate(blade, spec).wear for blade in reduced)
+        difference = np.abs(theirs - ours).max() / ours.max()
+        print(f"f_omega = {f_omega}: deepest wear {1e6 * ours.max():.3g} µm, difference {difference:.1e}")
+        assert ours.max() > 1e-6
+        assert difference < 1e-4
