@@ -16,6 +16,8 @@ Solve = Callable[[np.ndarray], np.ndarray]
 
 MOST_BY_DEGREE = 30_000
 """Unknowns up to which minimum degree orders them; the default blade is well below."""
+MOST_UNKNOWNS = 400_000
+"""Beyond which the factors of the matrices of a blade fill the memory."""
 
 
 def factorise(matrix: sparse.csc_array) -> Solve:

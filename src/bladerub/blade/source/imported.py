@@ -6,14 +6,12 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from bladerub.blade.linear import MOST_UNKNOWNS
 from bladerub.blade.mesh import BladeMesh, MeshedBlade, solid_mesh
 from bladerub.blade.source import mesh_file, node_sets, soundness, tip
 from bladerub.blade.source.origin import Source
 from bladerub.blade.surface import EDGES, boundary_faces
 from bladerub.faults import BadInput
-
-MOST_UNKNOWNS = 400_000
-"""Beyond which the factors fill the memory."""
 
 
 @dataclass(frozen=True)

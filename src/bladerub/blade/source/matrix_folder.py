@@ -12,6 +12,7 @@ import pandas as pd
 from scipy import sparse
 from scipy.io import mminfo, mmread
 
+from bladerub.blade.linear import MOST_UNKNOWNS
 from bladerub.blade.model import N_INTERFACE
 
 SUFFIXES = (".mtx", ".npz")
@@ -23,8 +24,6 @@ AT_SPEED = "stiffness_at_"
 """How the name of a stiffness at another speed begins; the normalised speed follows."""
 SYMMETRY = 1e-8
 """Largest difference of two entries that must be equal, over the largest entry."""
-MOST_UNKNOWNS = 400_000
-"""Beyond which the factors fill the memory."""
 
 _POSITION = ("x", "y", "z")
 _MARKS = {"interface": N_INTERFACE, "clamped": 1, "tip": 1}  # largest value of each

@@ -154,6 +154,13 @@ def test_a_blade_that_nothing_holds_is_refused(discrete, folder):
         imported(folder)
 
 
+def test_matrices_with_fewer_modes_than_wanted_are_refused(folder):
+    with pytest.raises(
+        BadInput, match=r"nodes.csv: has 462 free coordinates off .* more than 462, the modes"
+    ):
+        import_matrices(MatrixSource(folder), 0.4, 8, 462)
+
+
 def test_a_length_that_is_not_the_blades_is_refused(config, folder):
     with pytest.raises(BadInput, match=r"blade.length = 0.2: must be that of .*, 0.001994? m"):
         build(of_folder(config, folder, unit="cm"))
