@@ -88,6 +88,10 @@ def test_matrices_are_those_of_the_reduced_blade(export, folder, tmp_path):
             ["--matrices", "{}/blade.npz", "--speeds", "0.1"],
             "--speeds: goes with --calculix or --fe-matrices only",
         ),
+        (
+            ["--matrices", "{}/blade.npz", "--matrix-format", "npz"],
+            "--matrix-format: goes with --fe-matrices only",
+        ),
         (["--vtu", "{}/motion"], "--vtu: needs --run"),
         (["--mesh", "{}/blade.inp", "--run", "run.h5"], "--run: goes with --vtu only"),
         (["--mesh", "{}/blade.inp", "--matrices", "{}/blade.npz"], "not allowed with argument"),

@@ -56,7 +56,6 @@ def add_to(commands: Any) -> None:
     )
     parser.add_argument(
         "--matrix-format",
-        default="mtx",
         choices=("mtx", "npz"),
         help="of --fe-matrices: Matrix Market, or what scipy.sparse.load_npz reads (default mtx)",
     )
@@ -84,6 +83,8 @@ def export(options: argparse.Namespace) -> None:
     config = inputs.read_config(options)
     if options.speeds and not (options.calculix or options.fe_matrices):
         raise InputError("--speeds: goes with --calculix or --fe-matrices only")
+    if options.matrix_format and not options.fe_matrices:
+        raise InputError("--matrix-format: goes with --fe-matrices only")
     if options.vtu and not options.run:
         raise InputError("--vtu: needs --run, the run whose motion is written")
     if options.run and not options.vtu:

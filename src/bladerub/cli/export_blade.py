@@ -121,7 +121,10 @@ def _write_fe_matrices(options: argparse.Namespace, config: dict[str, Any]) -> d
         raise InputError(str(error)) from error
     mesh = blade.layout.mesh.mesh
     return {
-        "files": [str(file) for file in write_fe_matrices(folder, blade, f_max, f".{options.matrix_format}")],
+        "files": [
+            str(file)
+            for file in write_fe_matrices(folder, blade, f_max, f".{options.matrix_format or 'mtx'}")
+        ],
         "nodes": len(mesh.points),
         "elements": len(mesh.cells),
         "coordinates": blade.free.free.size,
