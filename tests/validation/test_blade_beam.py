@@ -11,8 +11,7 @@ Expected: 0.1 %. In the third mode the solid beam is 0.02 % below (shear and rot
 
 import numpy as np
 import pytest
-from numpy.polynomial import Legendre, Polynomial
-from scipy.linalg import eigh
+from beam_solutions import ritz
 
 from bladerub.blade.elasticity import Material, Solid
 from bladerub.blade.linear import lowest_modes
@@ -34,22 +33,6 @@ WRIGHT_1982 = {
     12: (13.1702, 37.6031, 79.6145),
 }
 UNIT = np.sqrt(YOUNG * THICKNESS**2 / 12 / (DENSITY * LENGTH**4))  # √(EI / ρAL⁴), rad/s
-
-
-def ritz(speed, hub_radius=0.0, n_terms=16):
-    """Flapwise frequencies of the rotating Euler-Bernoulli beam, dimensionless.
-
-    Minimises ∫ w″² + T w′² over ∫ w² with T = η² (δ (1 − x) + (1 − x²) / 2), hub radius δ L, in x² times the
-    Legendre polynomials on [0, 1]; integrated exactly by Gauss's rule.
-    """
-    x, weight = np.polynomial.legendre.leggauss(n_terms + 4)
-    x, weight = (x + 1) / 2, weight / 2
-    clamped = Polynomial([0.0, 0.0, 1.0], [0, 1], [0, 1]).convert(kind=Legendre, domain=[0, 1])
-    shapes = [clamped * Legendre.basis(k, [0, 1]) for k in range(n_terms)]
-    w, slope, bend = (np.array([shape.deriv(order)(x) for shape in shapes]) for order in (0, 1, 2))
-    tension = speed**2 * (hub_radius * (1 - x) + (1 - x**2) / 2)
-    stiffness = (bend * weight) @ bend.T + (slope * weight * tension) @ slope.T
-    return np.sqrt(eigh(stiffness, (w * weight) @ w.T, eigvals_only=True))
 
 
 def cantilever(thin_axis, n_along=40, hub_radius=0.0):

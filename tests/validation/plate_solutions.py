@@ -1,0 +1,93 @@
+"""Cantilever plates, flat, twisted or curved: their shape, and their frequencies by a Ritz method.
+
+The displacements are products of Legendre polynomials over the whole plate, in three dimensions, so the
+method shares Hooke's law with the finite elements and nothing else: no element, no mesh, no quadrature of
+theirs. Its frequencies fall towards the exact ones as terms are added.
+"""
+
+import numpy as np
+from numpy.polynomial import Legendre
+from scipy.linalg import eigh
+
+
+def twisted(length, chord, thickness, degrees):
+    """Map the unit cube to a plate along z whose sections turn about z in proportion to z."""
+
+    def points(xi, eta, zeta):
+        turn = np.deg2rad(degrees) * zeta
+        along, across = chord * (xi - 0.5), thickness * (eta - 0.5)
+        return np.stack(
+            [
+                along * np.cos(turn) - across * np.sin(turn),
+                along * np.sin(turn) + across * np.cos(turn),
+                length * zeta,
+            ]
+        )
+
+    return points
+
+
+def curved(length, arc, thickness, radius):
+    """Map the unit cube to a plate along z whose sections are arcs of a circle."""
+
+    def points(xi, eta, zeta):
+        angle, r = arc / radius * (xi - 0.5), radius + thickness * (eta - 0.5)
+        return np.stack([r * np.sin(angle), r * np.cos(angle), length * zeta])
+
+    return points
+
+
+def plate_unit(material, thickness, length):
+    """√(D / ρh) / a², rad/s, in which frequencies of plates of length a are tabulated."""
+    rigidity = material.young_modulus * thickness**3 / (12 * (1 - material.poisson_ratio**2))
+    return np.sqrt(rigidity / (material.density * thickness)) / length**2
+
+
+def ritz(points, material, n_modes, terms=(9, 3, 11)):
+    """Lowest frequencies (n_modes,), Hz, of the body that `points` makes of the cube, clamped at ζ = 0.
+
+    Minimises the elastic over the kinetic energy with `terms` polynomials along ξ, η and ζ, those along ζ
+    times ζ; the Jacobian is that of `points` by differences, the integrals are Gauss's.
+    """
+    rules = [_shapes(n, clamped) for n, clamped in zip(terms, (False, False, True), strict=True)]
+    cube = np.stack([axis.ravel() for axis in np.meshgrid(*(rule[0] for rule in rules), indexing="ij")])
+    weight = np.einsum("i,j,k->ijk", *(rule[1] for rule in rules)).ravel()
+    jacobian = np.stack([_slope(points, cube, axis) for axis in range(3)], axis=1).transpose(2, 0, 1)
+
+    def products(*orders):
+        factors = (rule[2][order] for rule, order in zip(rules, orders, strict=True))
+        return np.einsum("ia,jb,kc->ijkabc", *factors).reshape(weight.size, -1)
+
+    on_cube = np.stack([products(1, 0, 0), products(0, 1, 0), products(0, 0, 1)])
+    gradient = np.einsum("dqn,qdi->iqn", on_cube, np.linalg.inv(jacobian))
+    volume = (weight * np.linalg.det(jacobian))[:, None]
+    shape = products(0, 0, 0)
+    product = [[(left * volume).T @ right for right in gradient] for left in gradient]
+    laplacian = product[0][0] + product[1][1] + product[2][2]
+    lame, shear = material.lame
+    stiffness = [
+        [
+            lame * product[i][j] + shear * product[j][i] + (shear * laplacian if i == j else 0)
+            for j in range(3)
+        ]
+        for i in range(3)
+    ]
+    mass = material.density * np.kron(np.eye(3), (shape * volume).T @ shape)
+    squares = eigh(np.block(stiffness), mass, eigvals_only=True, subset_by_index=[0, n_modes - 1])
+    return np.sqrt(squares) / (2 * np.pi)
+
+
+def _shapes(n_terms, clamped):
+    """Give Gauss's points and weights on [0, 1], and the terms and their slopes there."""
+    x, weight = np.polynomial.legendre.leggauss(n_terms + 4)
+    x, weight = (x + 1) / 2, weight / 2
+    clamp = Legendre([0.5, 0.5], [0, 1]) if clamped else Legendre([1.0], [0, 1])
+    terms = [clamp * Legendre.basis(k, [0, 1]) for k in range(n_terms)]
+    return x, weight, [np.stack([term.deriv(order)(x) for term in terms], axis=1) for order in (0, 1)]
+
+
+def _slope(points, cube, axis, step=1e-4):
+    """Derivative (3, n) of `points` along one axis of the cube, to the fourth order."""
+    shift = step * np.eye(3)[:, [axis]]
+    near, far = (points(*(cube + k * shift)) - points(*(cube - k * shift)) for k in (1, 2))
+    return (8 * near - far) / (12 * step)
