@@ -171,6 +171,25 @@ rule fig06_wear_map:
         "../scripts/fig06_wear_map.py"
 
 
+# The same of any coating, for the asking: not part of `all`
+rule wear_map:
+    input:
+        map=rules.map.output,
+        drawing=drawing("wear_map", "cells", "titles"),
+    output:
+        png=f"{PLOTS}/wear_map/{{coating}}.png",
+        pdf=f"{PLOTS}/wear_map/{{coating}}.pdf",
+    log:
+        f"{RESULTS}/logs/wear_map/{{coating}}.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/wear_map/{{coating}}.tsv"
+    threads: 1
+    params:
+        dpi=DPI,
+    script:
+        "../scripts/fig06_wear_map.py"
+
+
 rule fig07_spectrum_2nd5nd:
     input:
         map=map_of(LOBED),

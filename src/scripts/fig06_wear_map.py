@@ -1,4 +1,4 @@
-"""Fig. 6: wear patterns of the 2 + 5 casing.
+"""Fig. 6, wear patterns of the 2 + 5 casing, and the same of any coating.
 
 The data are the map of its coating in ``maps/``.
 """
@@ -10,5 +10,5 @@ from bladerub.study.maps import read_map
 
 job.log_to(snakemake.log[0])
 
-figure = wear_map(read_map(snakemake.input.map))
+figure = wear_map(read_map(str(snakemake.input.map)))
 style.save(figure, snakemake.output.png, snakemake.output.pdf, snakemake.params.dpi)

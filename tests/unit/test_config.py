@@ -10,6 +10,7 @@ from bladerub.config import ROOT, ConfigError, check_quantity, load, schema, val
 CONFIGS = [
     [ROOT / "config" / "config.yaml"],
     [ROOT / "config" / "config.yaml", ROOT / "config" / "quick.yaml"],
+    [ROOT / "config" / "config.yaml", ROOT / "config" / "twisted_plate.yaml"],
 ]
 
 
@@ -46,7 +47,7 @@ def rules(rule, path=""):
             yield from rules(rule[key], f"{path}[{key}]")
 
 
-@pytest.mark.parametrize("paths", CONFIGS, ids=["config", "quick"])
+@pytest.mark.parametrize("paths", CONFIGS, ids=["config", "quick", "plate"])
 def test_configs_of_the_repository_are_valid(paths):
     config = load(*paths)
     assert validate(config) == config

@@ -37,6 +37,13 @@ def test_one_figure_plans_only_what_it_needs(workspace, tiny):
     assert plan == {"blade": 1, "compile_kernel": 1, "coating": 1, "map": 1, "fig08_spectrum_soft": 1}
 
 
+def test_a_wear_map_of_any_coating_is_drawn_when_asked_for(copied_study, tiny):
+    name = "results/figures/wear_map/2nd_E1.1_K0.5_theta0.png"
+    assert copied_study.plan(tiny, name) == {"wear_map": 1}
+    copied_study.build(tiny, name)
+    assert (copied_study.folder / name).stat().st_size > 10_000
+
+
 def test_a_complete_study_has_nothing_left_to_do(study, tiny):
     assert study.plan(tiny) == {}
 
