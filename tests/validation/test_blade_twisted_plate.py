@@ -152,6 +152,7 @@ def test_the_blade_of_the_study_is_a_plate_that_its_reduced_model_follows():
     study = configuration.load(
         configuration.ROOT / "config" / "config.yaml", configuration.ROOT / "config" / "twisted_plate.yaml"
     )
+    study["reduction"].update(accuracy_speeds=5, accuracy_modes=7)
     built = build(study)
     material = Material.from_config(study["blade"]["material"])
     # Trimmed to hub and casing it is not quite the plate with straight ends.
@@ -161,8 +162,7 @@ def test_the_blade_of_the_study_is_a_plate_that_its_reduced_model_follows():
     first = table[table["mode"] == 1].f_fe
     print("Campbell ratio:", first.max() / first.min())
     assert first.max() / first.min() == pytest.approx(1.293, abs=0.005)
-    seven = table[table["mode"] <= 7]
-    law, reduced = (seven.f_fe_eq2 / seven.f_fe - 1).abs().max(), seven.relative_error.abs().max()
+    law, reduced = (table.f_fe_eq2 / table.f_fe - 1).abs().max(), table.relative_error.abs().max()
     print(f"seven modes: eq. (2) off by {law:.2%}, with the reduction by {reduced:.2%}")
     assert law < 1e-3
     assert reduced < 1.5e-2
