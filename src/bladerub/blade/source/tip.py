@@ -9,10 +9,7 @@ from scipy.optimize import linear_sum_assignment
 from scipy.spatial.distance import cdist
 
 from bladerub.blade.model import N_INTERFACE
-
-_STATIONS = np.linspace(0.06, 0.94, 45)  # of the chord; further out the normal may meet the edge itself
-_DEGREE = 5
-_ROUNDS = 8
+from bladerub.blade.source.profile import camber_line
 
 
 @dataclass(frozen=True)
@@ -66,7 +63,10 @@ def interface(points: np.ndarray, faces: np.ndarray, downstream_x: int) -> Inter
         raise ValueError(f"the tip has {nodes.size} nodes; must have {N_INTERFACE} or more")
     flat = _unrolled(points, *points[nodes, 1:].mean(axis=0))
     outline = flat[_outline(faces)]
-    line = _camber_line(outline)
+    try:
+        line = camber_line(outline)
+    except ValueError as error:
+        raise ValueError(f"the tip is {error}; name its node set") from error
     if downstream_x * (line[-1, 0] - line[0, 0]) < 0:
         line = line[::-1]
     arc = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(line, axis=0), axis=1))])
@@ -95,52 +95,3 @@ def _outline(faces: np.ndarray) -> np.ndarray:
     pieces = np.stack([faces, np.roll(faces, -1, axis=1)], axis=-1).reshape(-1, 2)
     _, first, count = np.unique(np.sort(pieces, axis=1), axis=0, return_index=True, return_counts=True)
     return pieces[first[count == 1]]
-
-
-def _camber_line(outline: np.ndarray) -> np.ndarray:
-    """Points (n, 2) from one end of the profile to the other; `outline` (n, 2, 2) has ends of its pieces."""
-    corners = outline[:, 0]
-    apart = cdist(corners, corners)
-    first, last = np.unravel_index(np.argmax(apart), apart.shape)
-    chord = apart[first, last]
-    along = (corners[last] - corners[first]) / chord
-    to_chord = np.stack([along, [-along[1], along[0]]])
-    pieces = (outline - corners[first]) @ to_chord.T / chord
-    curve = np.polynomial.Polynomial([0.0])
-    for _ in range(_ROUNDS):
-        on_line = np.stack([_STATIONS, curve(_STATIONS)], axis=1)
-        slope = curve.deriv()(_STATIONS)
-        across = np.stack([-slope, np.ones_like(slope)], axis=1)
-        middle = np.array([_middle(pieces, *station) for station in zip(on_line, across, strict=True)])
-        curve = np.polynomial.Polynomial.fit(middle[:, 0], middle[:, 1], _DEGREE)
-    inner = np.stack([_STATIONS, curve(_STATIONS)], axis=1)
-    slope = curve.deriv()(_STATIONS)
-    ends = []
-    for at, sign in ((0, -1), (-1, 1)):
-        outwards = sign * np.array([1.0, slope[at]])
-        reached = _crossings(pieces, inner[at], outwards)
-        if not (reached > 0).any():
-            raise ValueError("the tip has no end; it must be a closed profile")
-        ends.append(inner[at] + reached[reached > 0].min() * outwards)
-    line = np.vstack([ends[0], inner, ends[1]])
-    return corners[first] + chord * line @ to_chord
-
-
-def _middle(pieces: np.ndarray, point: np.ndarray, direction: np.ndarray) -> np.ndarray:
-    """Point midway between the two sides on the line through `point` along `direction`."""
-    reached = _crossings(pieces, point, direction)
-    if reached.size < 2:
-        raise ValueError("the tip is no profile with two sides; name its node set, or the interface nodes")
-    nearest = reached[np.argsort(np.abs(reached))[:2]]
-    return point + nearest.mean() * direction
-
-
-def _crossings(pieces: np.ndarray, point: np.ndarray, direction: np.ndarray) -> np.ndarray:
-    """Where the line from `point` along `direction` meets `pieces` (n, 2, 2), in lengths of `direction`."""
-    ends = pieces - point
-    side = ends @ np.array([-direction[1], direction[0]])
-    met = (side[:, 0] < 0) != (side[:, 1] < 0)  # once, where it goes through an end that two pieces share
-    start, stop = side[met].T
-    share = (start / (start - stop))[:, None]
-    places = (1 - share) * ends[met, 0] + share * ends[met, 1]
-    return np.unique(places @ direction / (direction @ direction))

@@ -1,0 +1,92 @@
+"""Profiles in the plane: the camber line between their two sides, and where lines meet them."""
+
+from __future__ import annotations
+
+import numpy as np
+from scipy.spatial.distance import cdist
+
+_STATIONS = np.linspace(0.06, 0.94, 45)  # of the chord; further out the normal may meet the edge itself
+_DEGREE = 5
+_ROUNDS = 8
+
+
+def camber_line(outline: np.ndarray) -> np.ndarray:
+    """Draw the line midway between the two sides, measured across itself.
+
+    It goes on straight through the two ends.
+
+    Parameters
+    ----------
+    outline : (n, 2, 2) ndarray
+        Ends of the straight pieces of the closed profile, in any order.
+
+    Returns
+    -------
+    (47, 2) ndarray
+        From one end of the profile to the other, whichever comes first.
+
+    Raises
+    ------
+    ValueError
+        If the outline is not such a profile; the message says what it is.
+    """
+    corners = outline[:, 0]
+    apart = cdist(corners, corners)
+    first, last = np.unravel_index(np.argmax(apart), apart.shape)
+    chord = apart[first, last]
+    along = (corners[last] - corners[first]) / chord
+    to_chord = np.stack([along, [-along[1], along[0]]])
+    pieces = (outline - corners[first]) @ to_chord.T / chord
+    curve = np.polynomial.Polynomial([0.0])
+    for _ in range(_ROUNDS):
+        on_line = np.stack([_STATIONS, curve(_STATIONS)], axis=1)
+        slope = curve.deriv()(_STATIONS)
+        across = np.stack([-slope, np.ones_like(slope)], axis=1)
+        middle = np.array([_middle(pieces, *station) for station in zip(on_line, across, strict=True)])
+        curve = np.polynomial.Polynomial.fit(middle[:, 0], middle[:, 1], _DEGREE)
+    inner = np.stack([_STATIONS, curve(_STATIONS)], axis=1)
+    slope = curve.deriv()(_STATIONS)
+    ends = []
+    for at, sign in ((0, -1), (-1, 1)):
+        outwards = sign * np.array([1.0, slope[at]])
+        reached, _ = crossings(pieces, inner[at], outwards)
+        if not (reached > 0).any():
+            raise ValueError("no closed profile")
+        ends.append(inner[at] + reached[reached > 0].min() * outwards)
+    line = np.vstack([ends[0], inner, ends[1]])
+    return corners[first] + chord * line @ to_chord
+
+
+def _middle(pieces: np.ndarray, point: np.ndarray, direction: np.ndarray) -> np.ndarray:
+    """Point midway between the two sides on the line through `point` along `direction`."""
+    reached = np.unique(crossings(pieces, point, direction)[0])
+    if reached.size < 2:
+        raise ValueError("no profile with two sides")
+    nearest = reached[np.argsort(np.abs(reached))[:2]]
+    return point + nearest.mean() * direction
+
+
+def crossings(pieces: np.ndarray, point: np.ndarray, direction: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Find where a line meets straight pieces.
+
+    Parameters
+    ----------
+    pieces : (n, 2, 2) ndarray
+        Ends of the pieces.
+    point, direction : (2,) ndarray
+        A point of the line and its direction.
+
+    Returns
+    -------
+    distance : (n_met,) ndarray
+        From the point to where the line meets a piece, in lengths of `direction`.
+    place : (n_met,) ndarray
+        Number of that piece, counted from 0, plus the share of it before.
+    """
+    ends = pieces - point
+    side = ends @ np.array([-direction[1], direction[0]])
+    met = (side[:, 0] < 0) != (side[:, 1] < 0)  # once, where it goes through an end that two pieces share
+    start, stop = side[met].T
+    share = start / (start - stop)
+    places = (1 - share)[:, None] * ends[met, 0] + share[:, None] * ends[met, 1]
+    return places @ direction / (direction @ direction), np.flatnonzero(met) + share
