@@ -64,22 +64,18 @@ def _results(config: Config) -> Iterator[str]:
 @_reads("blade")
 def _blade_shape(config: Config) -> Iterator[str]:
     if "source" in config["blade"]:
-        yield from _blade_source(config["blade"]["source"])
-        return
-    mesh = config["blade"]["mesh"]
-    n_elements = mesh["chordwise"] * mesh["thickness"] * mesh["spanwise"]
-    if n_elements > MOST_ELEMENTS:
-        yield f"blade.mesh: has {n_elements} elements, must be {MOST_ELEMENTS} or fewer"
+        yield from _blade_source(config["blade"])
         return
     try:
+        _check_size(config["blade"]["mesh"])
         geometry.check(config["blade"])
     except ValueError as error:
         yield str(error)
 
 
-def _blade_source(source: Config) -> Iterator[str]:
+def _blade_source(blade: Config) -> Iterator[str]:
     try:
-        given = origin.read(source)
+        given = origin.read(blade["source"])
     except ValueError as error:
         yield f"blade.source.{error}"
         return
@@ -87,11 +83,22 @@ def _blade_source(source: Config) -> Iterator[str]:
         try:
             matrix_folder.files(given.folder)
         except ValueError as error:
-            yield f"blade.source.matrices = {shown(source['matrices'])}: {error} ({given.folder})"
+            yield f"blade.source.matrices = {shown(blade['source']['matrices'])}: {error} ({given.folder})"
         return
-    file = given.file
-    if not file.is_file():
-        yield f"blade.source.file = {shown(source['file'])}: there is no such file ({file})"
+    if not given.file.is_file():
+        yield f"blade.source.file = {shown(blade['source']['file'])}: there is no such file ({given.file})"
+    if given.is_table:
+        try:
+            _check_size(blade["mesh"])
+            geometry.check_interface(blade["mesh"])
+        except ValueError as error:
+            yield str(error)
+
+
+def _check_size(mesh: Config) -> None:
+    n_elements = mesh["chordwise"] * mesh["thickness"] * mesh["spanwise"]
+    if n_elements > MOST_ELEMENTS:
+        raise ValueError(f"blade.mesh: has {n_elements} elements, must be {MOST_ELEMENTS} or fewer")
 
 
 @_reads("reduction")

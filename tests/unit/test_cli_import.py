@@ -89,4 +89,7 @@ def test_what_cannot_be_imported_is_told_in_one_line(look, more, said):
 def test_a_file_that_is_no_mesh_is_told(look, folder):
     code, _, err = look(file="small.yaml")
     assert code == 2
-    assert err == f"bladerub import: {folder}/small.yaml: must be a mesh file that ends in .inp, .msh, .vtu\n"
+    assert err == (
+        f"bladerub import: {folder}/small.yaml: must be a mesh file that ends in .inp, .msh, .vtu, "
+        "or a table of sections in .csv, .txt, .dat\n"
+    )

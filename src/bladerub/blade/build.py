@@ -33,7 +33,7 @@ from bladerub.blade.reduction import (
     transformation,
 )
 from bladerub.blade.source import matrix_folder
-from bladerub.blade.source.imported import import_mesh
+from bladerub.blade.source.importing import import_blade
 from bladerub.blade.source.matrices import import_matrices
 from bladerub.blade.source.origin import MatrixSource, Source
 from bladerub.datafile import Variable
@@ -93,14 +93,16 @@ def made_from(config: Mapping[str, Any]) -> str:
         If a file of a folder of matrices is missing.
     """
     blade = config["blade"]
-    source = blade.get("source", {})
-    if "matrices" in source:
-        found = matrix_folder.files(MatrixSource.from_config(source).folder)
+    given = blade.get("source", {})
+    if "matrices" in given:
+        found = matrix_folder.files(MatrixSource.from_config(given).folder)
         content = {name: _digest(path) for name, path in found.items()}
-        blade = {"length": blade["length"], "source": {**source, "matrices": content}}
-    elif source:
-        blade = {name: blade[name] for name in ("material", "length")}
-        blade["source"] = {**source, "file": _digest(Source.from_config(source).file)}
+        blade = {"length": blade["length"], "source": {**given, "matrices": content}}
+    elif given:
+        source = Source.from_config(given)
+        parts = ("material", "length", *(("mesh",) if source.is_table else ()))
+        blade = {name: blade[name] for name in parts}
+        blade["source"] = {**given, "file": _digest(source.file)}
     return json.dumps({"blade": blade, "reduction": config["reduction"]}, sort_keys=True)
 
 
@@ -181,12 +183,12 @@ def _of_matrices(config: Mapping[str, Any]) -> DiscreteBlade:
 
 @threadpool_limits.wrap(limits=1)
 def meshed_blade(blade: Mapping[str, Any]) -> MeshedBlade:
-    """Mesh the blade of the ``blade`` block of the config, or take its mesh from its source."""
+    """Mesh the blade of the ``blade`` block of the config, or the one of its source."""
     if "source" not in blade:
         geometry.check(blade)
         shape = geometry.BladeShape.from_config(blade)
         return MeshedBlade(BladeMesh.from_shape(shape, blade["mesh"]), shape.tip_cone, blade["length"])
-    given = import_mesh(Source.from_config(blade["source"])).blade
+    given = import_blade(Source.from_config(blade["source"]), blade["mesh"]).blade
     _check_length(blade["length"], given.length, blade["source"]["file"])
     return given
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import ClassVar
+from typing import ClassVar, Protocol
 
 import numpy as np
 from skfem import MeshHex1, MeshTet2
@@ -12,7 +12,7 @@ from skfem.element import Element, ElementHexS2, ElementTetP2
 from skfem.quadrature import get_quadrature
 from skfem.refdom import RefTet
 
-from bladerub.blade.geometry import BladeShape, check_interface, lattice
+from bladerub.blade.geometry import check_interface, lattice
 from bladerub.blade.model import N_INTERFACE
 
 
@@ -199,6 +199,13 @@ def solid_mesh(points: np.ndarray, cells: np.ndarray) -> tuple[SolidMesh, np.nda
     return kind(np.ascontiguousarray(points[origin].T), t), origin
 
 
+class Shape(Protocol):
+    """A blade as a map from the unit cube, such as `bladerub.blade.geometry.BladeShape`."""
+
+    def points(self, xi: np.ndarray, eta: np.ndarray, zeta: np.ndarray) -> np.ndarray:
+        """Map chordwise ξ, η through the thickness and spanwise ζ to space: points (3, ...), m."""
+
+
 @dataclass(frozen=True)
 class BladeMesh:
     """The blade's mesh and the node sets on it.
@@ -219,7 +226,7 @@ class BladeMesh:
     interface: np.ndarray
 
     @classmethod
-    def from_shape(cls, shape: BladeShape, mesh: Mapping[str, int]) -> BladeMesh:
+    def from_shape(cls, shape: Shape, mesh: Mapping[str, int]) -> BladeMesh:
         """Mesh `shape` with the element counts of the config's ``blade.mesh``.
 
         Raises

@@ -12,7 +12,7 @@ import numpy as np
 from tqdm import tqdm
 
 from bladerub import faults
-from bladerub.cli import export_blade, inputs
+from bladerub.cli import export_blade, export_sections, inputs
 from bladerub.cli.errors import InputError
 
 if TYPE_CHECKING:
@@ -33,7 +33,8 @@ def add_to(commands: Any) -> None:
         description="With --vtu: compute a run again from its file, its config and its blade, and write the "
         "motion of the finite element mesh in its last revolution. That it is the run of the file is told by "
         "its run_key and the peaks of all revolutions. With --calculix, --mesh, --matrices or "
-        "--fe-matrices: write the blade, which is built first if the results folder has none yet.",
+        "--fe-matrices: write the blade, which is built first if the results folder has none yet. With "
+        "--sections: write the sections of the config, for which no blade is built.",
         epilog="Open blade.pvd in ParaView and apply Warp By Vector to displacement. The mesh is the blade "
         "at rest in the rotating frame; displacement (m) is that of each node about its running position, so "
         "without the centrifugal displacement; time is in revolutions from the start of the run. Of a run "
@@ -58,6 +59,11 @@ def add_to(commands: Any) -> None:
         "--matrix-format",
         choices=("mtx", "npz"),
         help="of --fe-matrices: Matrix Market, or what scipy.sparse.load_npz reads (default mtx)",
+    )
+    parser.add_argument(
+        "--coordinates",
+        choices=export_sections.COORDINATES,
+        help="of the sections: points of the surface, or axial position, radius and angles (else cartesian)",
     )
     parser.add_argument(
         "--samples",
@@ -89,7 +95,14 @@ def export(options: argparse.Namespace) -> None:
         raise InputError("--vtu: needs --run, the run whose motion is written")
     if options.run and not options.vtu:
         raise InputError("--run: goes with --vtu only")
-    write, in_words = (_motion, _in_words) if options.vtu else (export_blade.write, export_blade.in_words)
+    if options.coordinates and not options.sections:
+        raise InputError("--coordinates: goes with --sections only")
+    if options.vtu:
+        write, in_words = _motion, _in_words
+    elif options.sections:
+        write, in_words = export_sections.write, export_sections.in_words
+    else:
+        write, in_words = export_blade.write, export_blade.in_words
     figures = write(options, config)
     print(json.dumps(figures, indent=2) if options.json else in_words(figures))
 

@@ -34,6 +34,12 @@ def add_to(form: Any) -> None:
         help="a new folder for mass and stiffness of the finite elements, which are made anew for it, and a "
         "list of the nodes: what bladerub import reads",
     )
+    form.add_argument(
+        "--sections",
+        type=Path,
+        metavar="FILE",
+        help="table of sections of a parametric blade: .csv, .txt, .dat",
+    )
 
 
 def write(options: argparse.Namespace, config: dict[str, Any]) -> dict[str, Any]:

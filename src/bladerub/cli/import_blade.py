@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import json
+from collections.abc import Iterator
 from dataclasses import asdict, replace
 from pathlib import Path
 from typing import Any
@@ -12,14 +13,14 @@ import yaml
 
 from bladerub.blade.model import ReducedBlade
 from bladerub.blade.source import origin
-from bladerub.blade.source.frame import AXES, UNITS, Frame
+from bladerub.blade.source.frame import ANGLE_UNITS, AXES, UNITS, Frame
 from bladerub.blade.source.origin import MATRIX_UNITS, MatrixSource, Source
 from bladerub.cli import import_matrices, inputs
 from bladerub.cli.errors import InputError
 
 _FEWEST_SPEEDS = 5
 _NAMES = (
-    *("unit", "rotation", "downstream", "radial", "root_set", "tip_set", "tip_cone"),
+    *("unit", "angle_unit", "rotation", "downstream", "radial", "root_set", "tip_set", "tip_cone"),
     *("matrix_units", "omega_max"),
 )
 
@@ -29,18 +30,25 @@ def add_to(commands: Any) -> None:
     parser = commands.add_parser(
         "import",
         help="look at a blade from another program before its study",
-        description="Read a mesh and find its root, tip and interface nodes, or read the matrices and the "
-        "list of nodes in a folder; reduce the blade as the config says, and tell what comes out and what to "
-        "be wary of. Nothing is written. What it prints last goes into a config, whose study is then of that "
-        "blade. Material (of a mesh) and reduction are of the config; the other options are what "
+        description="Read a mesh and find its root, tip and interface nodes, or mesh the sections of a table "
+        "with the numbers of elements of the config, or read the matrices and the list of nodes in a folder; "
+        "reduce the blade as the config says, and tell what comes out and what to be wary of. Nothing is "
+        "written. What it prints last goes into a config, whose study is then of that blade. Material (but "
+        "of matrices) and reduction are of the config; the other options are what "
         "blade.source of the config says, or else as given here.",
     )
     parser.set_defaults(command=import_blade)
     parser.add_argument(
-        "file", type=Path, metavar="PATH", help="mesh (.inp, .msh or .vtu) or folder of matrices"
+        "file",
+        type=Path,
+        metavar="PATH",
+        help="mesh (.inp, .msh or .vtu), sections (.csv, .txt or .dat) or folder of matrices",
     )
     inputs.add_config_to(parser)
     parser.add_argument("--unit", choices=tuple(UNITS), help="unit of length in the file (else m)")
+    parser.add_argument(
+        "--angle-unit", choices=tuple(ANGLE_UNITS), help="unit of theta1 and theta2 of sections (else rad)"
+    )
     for name, meaning in (
         ("rotation", "the blade turns about this by the right-hand rule (else -x)"),
         ("downstream", "the air flows along this (else x)"),
@@ -113,10 +121,10 @@ def _look(source: Source, config: dict[str, Any]) -> tuple[dict[str, Any], Reduc
 
     from bladerub.blade.build import reduce_meshed
     from bladerub.blade.elasticity import Material
-    from bladerub.blade.source.imported import import_mesh
+    from bladerub.blade.source import importing
     from bladerub.blade.source.report import report
 
-    imported = import_mesh(source)
+    imported = importing.import_blade(source, config["blade"]["mesh"])
     built = reduce_meshed(imported.blade, config)
     figures = report(source, imported, built, Material.from_config(config["blade"]["material"]))
     return figures, built.reduced
@@ -140,6 +148,7 @@ def _in_words(figures: dict[str, Any]) -> list[str]:
         f"{1e3 * figures['centrifugal_displacement']:.3g} mm",
         f"reduced model       {figures['reduced_coordinates']} coordinates; in six modes eq. (2) is up to "
         f"{100 * worst[0]:.2g} % off, with the reduction {100 * worst[1]:.2g} %",
+        *_sections_in_words(figures),
     ]
 
 
@@ -151,3 +160,15 @@ def _ending(figures: dict[str, Any]) -> list[str]:
         "# for the config of its study; without contact.scale the values of the contact are absolute",
         yaml.safe_dump(figures["config"], sort_keys=False).rstrip(),
     ]
+
+
+def _sections_in_words(figures: dict[str, Any]) -> Iterator[str]:
+    if "sections" in figures:
+        hub, *_, tip = figures["sections"]
+        chords, thicknesses = (
+            f"{1e3 * hub[name]:.4g} to {1e3 * tip[name]:.4g} mm" for name in ("chord", "thickness")
+        )
+        yield (
+            f"sections            {len(figures['sections'])}, {hub['name']} to {tip['name']}: chord "
+            f"{chords}, largest thickness {thicknesses}"
+        )

@@ -14,6 +14,8 @@ import numpy as np
 
 UNITS = {"m": 1.0, "mm": 1e-3, "cm": 1e-2, "inch": 0.0254, "feet": 0.3048}
 """Metres of each unit of length."""
+ANGLE_UNITS = {"rad": 1.0, "deg": np.pi / 180}
+"""Radians of each unit of angle."""
 AXES = ("x", "y", "z", "-x", "-y", "-z")
 
 
@@ -63,6 +65,19 @@ class Frame:
     def metres(self, points: np.ndarray) -> np.ndarray:
         """Bring points (n, 3) of the file to the blade's frame, m."""
         return UNITS[self.unit] * points @ self.turn.T
+
+    def cartesian(self, z: np.ndarray, r: np.ndarray, theta: np.ndarray) -> np.ndarray:
+        """Turn cylindrical coordinates of the file (n,) into its Cartesian ones (n, 3).
+
+        `z` counts along the engine axis in the positive direction of its letter, whichever sign `rotation`
+        has; `theta` (rad) turns about that direction by the right-hand rule, from `radial` on. So the blade
+        turns towards greater angles where `rotation` is x, y or z, to smaller ones where it is -x, -y or -z.
+        """
+        axis, radial = _vector(self.rotation[-1]), _vector(self.radial)
+        around = np.cross(axis, radial)
+        r = r[:, None]
+        theta = theta[:, None]
+        return z[:, None] * axis + r * (np.cos(theta) * radial + np.sin(theta) * around)
 
 
 def _vector(axis: str) -> np.ndarray:

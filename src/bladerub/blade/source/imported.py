@@ -1,8 +1,9 @@
-"""From a mesh file to a blade that can be reduced, with what is worth knowing of it before."""
+"""From a file to a blade that can be reduced, with what is worth knowing of it before."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 
@@ -10,13 +11,14 @@ from bladerub.blade.linear import MOST_UNKNOWNS
 from bladerub.blade.mesh import BladeMesh, MeshedBlade, solid_mesh
 from bladerub.blade.source import mesh_file, node_sets, soundness, tip
 from bladerub.blade.source.origin import Source
+from bladerub.blade.source.section_profile import Profile
 from bladerub.blade.surface import EDGES, boundary_faces
 from bladerub.faults import BadInput
 
 
 @dataclass(frozen=True)
 class Imported:
-    """A blade from a mesh file.
+    """A blade from a mesh file or a table of sections.
 
     Parameters
     ----------
@@ -36,6 +38,8 @@ class Imported:
         Length of the tip's camber line, and how far an interface node is at most from its place there, m.
     lean : float
         Angle (rad) about the engine axis between the blade's middle and the radial axis that was named.
+    sections : tuple of Profile
+        Of a table, hub to tip; a mesh has none.
     """
 
     blade: MeshedBlade
@@ -47,6 +51,7 @@ class Imported:
     chord: float
     interface_offset: float
     lean: float
+    sections: tuple[Profile, ...] = field(default=(), repr=False)
 
 
 def import_mesh(source: Source) -> Imported:
@@ -81,25 +86,39 @@ def _import(content: mesh_file.MeshFile, source: Source) -> Imported:
     if not len(tip_faces):
         raise ValueError(f'tip not found: no face of the surface has all its nodes in "{source.tip_set}"')
     chosen = tip.interface(mesh.points, tip_faces, source.frame.downstream_x)
+    return described(
+        BladeMesh(mesh, root, tip_nodes, chosen.nodes),
+        source,
+        is_raised=content.is_raised,
+        n_unused=len(content.points) - origin.size,
+        node_sets={name: nodes.size for name, nodes in content.node_sets.items()},
+        jacobian_ratio=ratio,
+        volume=volume,
+        chord=chosen.chord,
+        interface_offset=chosen.offset,
+    )
+
+
+def described(blade: BladeMesh, source: Source, **known: Any) -> Imported:
+    """Measure what else an `Imported` holds of `blade`, next to what is `known`.
+
+    Raises
+    ------
+    ValueError
+        If its tip is not above its root.
+    """
+    points = blade.mesh.points
+    radius = np.hypot(points[:, 1], points[:, 2])
     if source.tip_cone is None:
-        tip_cone = tip.fitted_cone(mesh.points[tip_nodes])
+        tip_cone = tip.fitted_cone(points[blade.tip])
     else:
         tip_cone = source.frame.downstream_x * float(np.deg2rad(source.tip_cone))
-    length = float(radius[tip_nodes].mean() - radius[root].mean())
+    length = float(radius[blade.tip].mean() - radius[blade.root].mean())
     if length <= 0:
         raise ValueError(f"the tip is no farther from the engine axis than the root ({length:.3g} m)")
-    middle = mesh.points.mean(axis=0)
-    return Imported(
-        MeshedBlade(BladeMesh(mesh, root, tip_nodes, chosen.nodes), tip_cone, length),
-        content.is_raised,
-        len(content.points) - origin.size,
-        {name: nodes.size for name, nodes in content.node_sets.items()},
-        ratio,
-        volume,
-        chosen.chord,
-        chosen.offset,
-        float(np.arctan2(middle[1], middle[2])),
-    )
+    middle = points.mean(axis=0)
+    lean = float(np.arctan2(middle[1], middle[2]))
+    return Imported(MeshedBlade(blade, tip_cone, length), lean=lean, **known)
 
 
 def _nodes(content, points, faces, origin, name: str | None, is_tip: bool) -> np.ndarray:

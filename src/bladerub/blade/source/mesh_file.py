@@ -10,6 +10,7 @@ import meshio
 import numpy as np
 
 from bladerub.blade.source import abaqus
+from bladerub.blade.source.origin import TABLE_SUFFIXES
 from bladerub.blade.surface import EDGES
 
 READERS: dict[str, Callable[[str], meshio.Mesh]] = {
@@ -60,7 +61,10 @@ def read(path: str | Path) -> MeshFile:
     path = Path(path)
     suffix = path.suffix.lower()
     if suffix not in READERS:
-        raise ValueError(f"must be a mesh file that ends in {', '.join(READERS)}")
+        raise ValueError(
+            f"must be a mesh file that ends in {', '.join(READERS)}, or a table of sections in "
+            f"{', '.join(TABLE_SUFFIXES)}"
+        )
     if not path.is_file():
         raise ValueError("there is no such file")
     if path.stat().st_size == 0:

@@ -17,6 +17,10 @@ MATRIX_UNITS = {"SI": 1.0, "mm-tonne": 1e3, "inch-lbf": 4.4482216152605 / 0.0254
 
 The two are one number in every such system, so frequencies do not tell when the wrong one is named.
 """
+TABLE_SUFFIXES = (".csv", ".txt", ".dat")
+"""Files that end so are tables of sections, all others meshes."""
+
+_OF_A_MESH = ("root_set", "tip_set")
 
 
 @dataclass(frozen=True)
@@ -26,7 +30,8 @@ class Source:
     Parameters
     ----------
     file : Path
-        The mesh (`bladerub.blade.source.mesh_file`).
+        The mesh (`bladerub.blade.source.mesh_file`) or table of sections
+        (`bladerub.blade.source.section_table`).
     frame : Frame
         Its unit and axes.
     root_set, tip_set : str or None
@@ -34,6 +39,14 @@ class Source:
     tip_cone : float or None
         Half angle (degrees) of the flow path at the tip, positive where it widens downstream; fitted to the
         tip where it is not given.
+    angle_unit : str or None
+        Of the angles in a table of sections, one of `bladerub.blade.source.frame.ANGLE_UNITS`; rad where it
+        is not given.
+
+    Raises
+    ------
+    ValueError
+        If something is given that a file of this kind has no use for.
     """
 
     file: Path
@@ -41,6 +54,21 @@ class Source:
     root_set: str | None = None
     tip_set: str | None = None
     tip_cone: float | None = None
+    angle_unit: str | None = None
+
+    def __post_init__(self):
+        useless = _OF_A_MESH if self.is_table else ("angle_unit",)
+        for name in useless:
+            if getattr(self, name) is not None:
+                kind = "mesh" if self.is_table else "table of sections"
+                raise ValueError(
+                    f"{name} = {getattr(self, name)}: goes with a {kind}, not with {self.file.name}"
+                )
+
+    @property
+    def is_table(self) -> bool:
+        """Whether the file is a table of sections, which is meshed here, by ``blade.mesh`` of the config."""
+        return self.file.suffix.lower() in TABLE_SUFFIXES
 
     @classmethod
     def from_config(cls, source: Mapping[str, Any]) -> Source:
@@ -48,7 +76,7 @@ class Source:
         return cls(
             ROOT / source["file"],
             _frame(source),
-            *(source.get(name) for name in ("root_set", "tip_set", "tip_cone")),
+            *(source.get(name) for name in ("root_set", "tip_set", "tip_cone", "angle_unit")),
         )
 
 
@@ -84,7 +112,7 @@ class MatrixSource:
 
 
 _OF_MATRICES_ONLY = ("matrix_units", "omega_max")
-_OF_FILES_ONLY = ("file", "root_set", "tip_set")
+_OF_FILES_ONLY = ("file", "angle_unit", *_OF_A_MESH)
 
 
 def read(source: Mapping[str, Any]) -> Source | MatrixSource:

@@ -17,6 +17,7 @@ from bladerub.blade.mesh import BladeMesh
 from bladerub.blade.source.frame import Frame
 from bladerub.blade.source.imported import Imported
 from bladerub.blade.source.origin import Source
+from bladerub.blade.source.section_profile import EDGE_SHARE, Profile
 from bladerub.blade.surface import EDGES, NAMES
 
 LENGTHS = (0.005, 2.0)  # m, of blades that rotate
@@ -55,6 +56,18 @@ def report(source: Source, imported: Imported, built: BuiltBlade, material: Mate
         "centrifugal_displacement": float(moved),
         **of_reduction(built),
     }
+    if imported.sections:
+        figures["sections"] = [
+            {
+                "name": section.name,
+                "mean_radius": section.radius,
+                "chord": section.chord,
+                "thickness": section.thickness,
+                "cut_leading_edge": section.cut[0],
+                "cut_trailing_edge": section.cut[1],
+            }
+            for section in imported.sections
+        ]
     return figures | {"warnings": list(_warnings(figures, imported, source))}
 
 
@@ -115,6 +128,7 @@ def _warnings(figures: dict[str, Any], imported: Imported, source: Source) -> It
             f"element {np.argmin(imported.jacobian_ratio) + 1} is badly shaped: its Jacobian varies by a "
             f"factor of {1 / figures['worst_jacobian']:.3g}"
         )
+    yield from _of_edges(imported.sections)
     if figures["interface_offset"] > 0.03 * figures["tip_chord"]:
         yield (
             f"an interface node is {1e3 * figures['interface_offset']:.3g} mm off the camber line of the "
@@ -128,6 +142,18 @@ def _warnings(figures: dict[str, Any], imported: Imported, source: Source) -> It
             "reduction.f_omega_max"
         )
     yield from of_errors(figures)
+
+
+def _of_edges(sections: tuple[Profile, ...]) -> Iterator[str]:
+    cut = [section for section in sections if max(section.cut) > 0]
+    if cut:
+        worst = max(cut, key=lambda section: max(section.cut) / section.chord)
+        most = max(worst.cut)
+        yield (
+            f"edges of {len(cut)} of {len(sections)} sections were cut off where they are thinner than "
+            f"{EDGE_SHARE:.0%} of the section: up to {1e3 * most:.3g} mm, {most / worst.chord:.2%} of the "
+            f"chord (section {worst.name})"
+        )
 
 
 def of_frame(figures: dict[str, Any], frame: Frame, lean: float) -> Iterator[str]:

@@ -1,0 +1,103 @@
+"""The parametric blade as a table of sections, for CAD and other programs, and for `bladerub import`."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+
+from bladerub import atomic
+from bladerub.blade.geometry import BladeShape
+from bladerub.blade.source.frame import Frame
+from bladerub.blade.source.section_table import CYLINDRICAL, POINTS
+
+N_SECTIONS, N_STATIONS = 21, 61
+_FINE = 4000  # points along a side, between which angles are interpolated to 1e-8
+_SAME = 1e-9  # of the axial chord
+
+
+def write_sections(path: str | Path, shape: BladeShape, coordinates: str) -> tuple[int, int]:
+    """Write `shape` as a table of 21 sections, hub to tip, of 61 or some more stations.
+
+    Lengths are in m, angles in rad, axes those of the blade's frame, so those that an import takes for
+    granted.
+
+    Parameters
+    ----------
+    path : path-like
+        The file.
+    shape : BladeShape
+        The blade.
+    coordinates : str
+        ``cartesian`` for points of the surface, ``cylindrical`` for axial position, radius and angles (see
+        `bladerub.blade.source.section_table`).
+
+    Returns
+    -------
+    n_sections, n_stations : int
+        Sections, and stations of all of them.
+
+    Raises
+    ------
+    ValueError
+        If a side goes back along the axis, so that cylindrical coordinates cannot tell it.
+    """
+    write_section = _cartesian if coordinates == "cartesian" else _cylindrical
+    columns = POINTS if coordinates == "cartesian" else CYLINDRICAL
+    parts = []
+    for number, zeta in enumerate(np.linspace(0, 1, N_SECTIONS), 1):
+        table = pd.DataFrame(write_section(shape, float(zeta)), columns=list(columns))
+        table.insert(0, "section", number)
+        parts.append(table)
+    frame, whole = Frame(), pd.concat(parts)
+    with atomic.writing(path) as stream:
+        stream.write(
+            f"# sections of the blade, hub to tip; m, rad; it turns about {frame.rotation}, the air flows "
+            f"along {frame.downstream}\n"
+        )
+        whole.to_csv(stream, index=False, float_format="%.12g")
+    return len(parts), len(whole)
+
+
+def _cartesian(shape: BladeShape, zeta: float) -> np.ndarray:
+    """Points (61, 6) of both sides at the same places along the chord, closer at its ends."""
+    xi = _denser_at_the_ends(N_STATIONS)
+    return np.hstack([shape.points(xi, side, zeta).T for side in (0.0, 1.0)])
+
+
+def _cylindrical(shape: BladeShape, zeta: float) -> np.ndarray:
+    """Axial positions, radii and angles (n, 4) of both sides; an edge askew to the axis is part of a side."""
+    edges = [shape.points(np.array(xi), np.array([0.0, 1.0]), zeta)[0] for xi in (0.0, 1.0)]
+    is_askew = [np.ptp(edge) > _SAME * (edges[1].max() - edges[0].min()) for edge in edges]
+    outlines = []
+    for side in (0, 1):
+        first = np.argmin(edges[0]) if is_askew[0] else side
+        last = np.argmax(edges[1]) if is_askew[1] else side
+        outlines.append(_outline(shape, zeta, side, first, last))
+    foremost, rearmost = edges[0].max(), edges[1].min()
+    axial = foremost + (rearmost - foremost) * _denser_at_the_ends(N_STATIONS)
+    if is_askew[0]:
+        axial = np.insert(axial, 0, edges[0].min())
+    if is_askew[1]:
+        axial = np.append(axial, edges[1].max())
+    (radius, theta1), (_, theta2) = (
+        [np.interp(axial, outline[0], values) for values in outline[1:]] for outline in outlines
+    )
+    return np.column_stack([axial, radius, theta1, theta2])
+
+
+def _outline(shape: BladeShape, zeta: float, side: int, first: int, last: int) -> np.ndarray:
+    """Axial position, radius and angle (3, n) along `side`, with the edges from `first` and to `last`."""
+    way = np.array([(0.0, first), (0.0, side), (1.0, side), (1.0, last)])
+    way = way[np.concatenate([[True], np.any(np.diff(way, axis=0) != 0, axis=1)])]
+    number = np.arange(len(way))
+    fine = np.linspace(0, number[-1], _FINE * number[-1] + 1)
+    x, y, z = shape.points(*(np.interp(fine, number, coordinate) for coordinate in way.T), zeta)
+    if (np.diff(x) <= 0).any():
+        raise ValueError(f"the section at {zeta:.0%} of the span goes back along the axis; choose cartesian")
+    return np.stack([x, np.hypot(y, z), -np.arctan2(y, z)])
+
+
+def _denser_at_the_ends(n: int) -> np.ndarray:
+    return (1 - np.cos(np.linspace(0, np.pi, n))) / 2
