@@ -14,6 +14,7 @@ from bladerub.blade.source import section_table, soundness
 from bladerub.blade.source.imported import Imported, described
 from bladerub.blade.source.origin import Source
 from bladerub.blade.source.section_profile import SAMPLES, Profile, profile
+from bladerub.blade.source.section_table import Section
 from bladerub.faults import BadInput
 
 LONGEST = 10.0
@@ -83,16 +84,15 @@ def import_sections(source: Source, counts: Mapping[str, int]) -> Imported:
 
 def _import(source: Source, counts: Mapping[str, int]) -> Imported:
     sections = section_table.read(source.file, source.frame, source.angle_unit or "rad")
+    _check_units(sections, source.frame.unit)
     profiles = [profile(section, source.frame.downstream_x) for section in sections]
-    _check(profiles, source.frame.unit)
+    _check_order(profiles)
     shape = SectionShape.through(profiles)
     mesh = BladeMesh.from_shape(shape, counts)
     try:
         ratio, volume = soundness.jacobians(mesh.mesh)
     except ValueError as error:
-        raise ValueError(
-            f"{error}; the blade between the sections crosses itself, give more of them"
-        ) from error
+        raise ValueError("between its sections the blade crosses itself; give more sections") from error
     tip = profiles[-1]
     evenly = shape.points(np.linspace(0, 1, mesh.interface.size), 0.5, 1.0).T
     offset = np.linalg.norm(mesh.mesh.points[mesh.interface] - evenly, axis=1).max()
@@ -110,8 +110,23 @@ def _import(source: Source, counts: Mapping[str, int]) -> Imported:
     )
 
 
-def _check(profiles: list[Profile], unit: str) -> None:
-    """See that the sections lie above one another, in one unit that makes sense."""
+def _check_units(sections: list[Section], unit: str) -> None:
+    """See that the sections could be those of a blade, as far as lengths go."""
+    hub, tip = (np.hypot(*section.points[..., 1:].T).mean() for section in (sections[0], sections[-1]))
+    length = abs(tip - hub)
+    if length > LONGEST:
+        raise ValueError(f"its blade is {length:.4g} m long, no blade is; is its unit {unit}?")
+    for section in sections:
+        chord = np.linalg.norm(np.ptp(section.points.mean(axis=0)[[0, -1]], axis=0))
+        if chord > WIDEST * length:
+            raise ValueError(
+                f"section {section.name} (line {section.lines[0]}): its chord of {chord:.4g} m is more than "
+                f"{WIDEST:g} times the length of the blade, {length:.4g} m; all lengths must be in one unit"
+            )
+
+
+def _check_order(profiles: list[Profile]) -> None:
+    """See that the sections lie above one another."""
     for below, above in pairwise(profiles):
         if above.radius <= below.radius:
             raise ValueError(
@@ -125,12 +140,3 @@ def _check(profiles: list[Profile], unit: str) -> None:
                 f"sections {below.name} and {above.name} cross: {above.name} is not the farther from the "
                 f"engine axis at {share:.0%} of the chord"
             )
-    length = profiles[-1].radius - profiles[0].radius
-    if length > LONGEST:
-        raise ValueError(f"its blade is {length:.4g} m long, no blade is; is its unit {unit}?")
-    widest = max(profiles, key=lambda profile: profile.chord)
-    if widest.chord > WIDEST * length:
-        raise ValueError(
-            f"section {widest.name}: its chord of {widest.chord:.4g} m is {widest.chord / length:.3g} times "
-            "the length of the blade; all lengths must be in one unit"
-        )

@@ -212,7 +212,8 @@ def _edge(sides: list[_Curve], thickness: float, name: str) -> _Edge:
                 return _Edge(tuple(starts))
     starts = _cut(sides, least, name)
     ends = [side(np.array([start]))[0, 3:] for side, start in zip(sides, starts, strict=True)]
-    return _Edge(starts, float(chord @ (np.mean(ends, axis=0) - (first + second) / 2)))
+    foremost = min((side.fine @ chord).min() for side in sides)
+    return _Edge(starts, float(chord @ np.mean(ends, axis=0) - foremost))
 
 
 def _cut(sides: list[_Curve], least: float, name: str) -> tuple[float, float]:

@@ -90,7 +90,7 @@ def _table(path: Path) -> pd.DataFrame:
     header, *lines = content
     separator = "," if "," in content[header] else r"\s+"
     cells = content[header].split("," if separator == "," else None)
-    names = [name.strip(' "').lower() for name in cells]
+    names = [name.strip(' "').lower() or f"column {number}" for number, name in enumerate(cells, 1)]
     twice = {name for name in names if names.count(name) > 1}
     if twice:
         raise ValueError(f"line {header}: has the column {', '.join(sorted(twice))} twice")
