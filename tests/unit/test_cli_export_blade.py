@@ -80,7 +80,7 @@ def test_matrices_are_those_of_the_reduced_blade(export, folder, tmp_path):
 @pytest.mark.parametrize(
     ("arguments", "said"),
     [
-        ([], "one of the arguments --vtu --calculix --mesh --matrices --fe-matrices is required"),
+        ([], "one of the arguments --vtu --calculix --mesh --matrices --fe-matrices --sections is required"),
         (["--mesh", "{}/blade.stl"], "must end in .inp, .msh, .vtu"),
         (["--matrices", "{}/blade.csv"], "must end in .npz, .mat"),
         (["--calculix", "{}", "--speeds", "0.5"], "--speeds 0.5: must be from 0 to 0.4 (normalised)"),
@@ -102,3 +102,39 @@ def test_what_cannot_be_written_is_told(export, tmp_path, arguments, said):
     assert (code, out, err.count("\n")) == (2, "", 1)
     assert said in err
     assert not list(tmp_path.iterdir())
+
+
+def test_sections_need_no_blade_and_come_in_two_coordinates(export, folder, tmp_path):
+    code, out, _ = export("--sections", tmp_path / "blade.csv", "--json")
+    assert code == 0
+    assert json.loads(out) == {
+        "files": [str(tmp_path / "blade.csv")],
+        "coordinates": "cartesian",
+        "sections": 21,
+        "stations": 21 * 61,
+    }
+    code, out, _ = export("--sections", tmp_path / "blade.txt", "--coordinates", "cylindrical")
+    assert code == 0
+    assert out.splitlines()[-1] == f"wrote {tmp_path / 'blade.txt'}"
+    headers = [(tmp_path / name).read_text().splitlines()[1] for name in ("blade.csv", "blade.txt")]
+    assert headers == ["section,x1,y1,z1,x2,y2,z2", "section,z,r,theta1,theta2"]
+
+
+def test_sections_that_cannot_be_written_are_told(export, tmp_path):
+    code, _, err = export("--sections", tmp_path / "blade.xls")
+    assert code == 2
+    assert err == f"bladerub export: --sections {tmp_path}/blade.xls: must end in .csv, .txt, .dat\n"
+    code, _, err = export("--mesh", tmp_path / "blade.vtu", "--coordinates", "cartesian")
+    assert (code, err) == (2, "bladerub export: --coordinates: goes with --sections only\n")
+    export("--sections", tmp_path / "blade.csv")
+    (tmp_path / "foreign.yaml").write_text(f"blade: {{source: {{file: {tmp_path}/blade.csv}}}}\n")
+    code, _, err = export("--sections", tmp_path / "other.csv", "--config", tmp_path / "foreign.yaml")
+    assert code == 2
+    assert "blade.csv; only a parametric one has sections" in err
+    assert not (tmp_path / "other.csv").exists()
+    steep = "{span: %g, chord: 0.08, thickness: 0.1, camber: 40, stagger: 75, sweep: 0, lean: 0}"
+    (tmp_path / "steep.yaml").write_text(f"blade: {{sections: [{steep % 0}, {steep % 1}]}}\n")
+    to_steep = ("--sections", tmp_path / "other.csv", "--config", tmp_path / "steep.yaml")
+    code, _, err = export(*to_steep, "--coordinates", "cylindrical")
+    assert (code, err.count("\n")) == (2, 1)
+    assert "--coordinates cylindrical: the section at 0% of the span goes back along the axis" in err

@@ -8,6 +8,7 @@ from bladerub.blade.geometry import BladeShape
 from bladerub.blade.mesh import BladeMesh
 from bladerub.cli import main
 from bladerub.export.mesh_file import write_mesh_file
+from bladerub.export.sections import write_sections
 
 CONFIG = Path(__file__).parents[2] / "config" / "config.yaml"
 
@@ -93,3 +94,42 @@ def test_a_file_that_is_no_mesh_is_told(look, folder):
         f"bladerub import: {folder}/small.yaml: must be a mesh file that ends in .inp, .msh, .vtu, "
         "or a table of sections in .csv, .txt, .dat\n"
     )
+
+
+def test_sections_are_meshed_as_the_config_says_and_reported(look, folder):
+    shape = BladeShape.from_config(yaml.safe_load(CONFIG.read_text(encoding="utf-8"))["blade"])
+    write_sections(folder / "blade.csv", shape, "cylindrical")
+    (folder / "coarse.yaml").write_text("blade: {mesh: {chordwise: 7, thickness: 1, spanwise: 6}}\n")
+    coarse = ("--config", str(folder / "coarse.yaml"))
+    code, out, _ = look("--angle-unit", "rad", "--json", *coarse, file="blade.csv")
+    figures = json.loads(out)
+    assert code == 0
+    assert figures["f1_hz"] == pytest.approx(195.3, abs=0.1)
+    assert figures["elements"] == 7 * 1 * 6
+    assert len(figures["sections"]) == 21
+    assert figures["sections"][0]["name"] == "1"
+    assert figures["sections"][-1]["mean_radius"] == pytest.approx(0.6582, abs=0.01)
+    assert figures["sections"][-1]["cut_leading_edge"] == 0
+    assert figures["config"]["blade"]["source"]["angle_unit"] == "rad"
+    code, out, err = look("--tip-set", "TIP", *coarse, file="blade.csv")
+    assert (code, out) == (2, "")
+    assert err == "bladerub import: tip_set = TIP: goes with a mesh, not with blade.csv\n"
+    (folder / "blade.csv").write_text("section,z,r\n1,0,1\n")
+    code, _, err = look(*coarse, file="blade.csv")
+    assert code == 2
+    assert err.startswith(f"bladerub import: {folder}/blade.csv: has no column theta1, theta2; must have")
+
+
+def test_sharp_edges_are_reported_as_cut(look, folder):
+    rows = ["section x1 y1 z1 x2 y2 z2"]
+    for name, z in (("hub", 0.45), ("tip", 0.65)):
+        rows += [
+            f"{name} {x} {half} {z} {x} {-half} {z}"
+            for x, half in ((-0.04, 0), (-0.02, 3e-3), (0, 4e-3), (0.02, 3e-3), (0.04, 0))
+        ]
+    (folder / "lens.txt").write_text("\n".join(rows))
+    (folder / "coarse.yaml").write_text("blade: {mesh: {chordwise: 7, thickness: 1, spanwise: 6}}\n")
+    code, out, _ = look("--json", "--config", str(folder / "coarse.yaml"), file="lens.txt")
+    assert code == 0
+    (cut,) = [line for line in json.loads(out)["warnings"] if "cut" in line]
+    assert cut.startswith("edges of 2 of 2 sections were cut off where they are thinner than 10% of the")

@@ -344,6 +344,21 @@ def test_a_mesh_beyond_memory_is_refused_before_it_is_made(config):
     assert faults(config) == ["blade.mesh: has 1600000 elements, must be 20000 or fewer"]
 
 
+def test_the_mesh_counts_for_sections_and_not_for_a_mesh(config, tmp_path):
+    for name in ("blade.csv", "blade.msh"):
+        (tmp_path / name).write_text("anything")
+    config["blade"]["mesh"] = {"chordwise": 4, "thickness": 1, "spanwise": 2}
+    config["blade"]["source"] = {"file": str(tmp_path / "blade.msh"), "root_set": "ROOT"}
+    validate(config)
+    config["blade"]["source"] = {"file": str(tmp_path / "blade.csv")}
+    (fault,) = faults(config)
+    assert fault.startswith("blade.mesh.chordwise = 4: gives 5 nodes on the tip's camber line, not 8")
+    config["blade"]["mesh"] = {"chordwise": 200, "thickness": 20, "spanwise": 400}
+    assert faults(config) == ["blade.mesh: has 1600000 elements, must be 20000 or fewer"]
+    config["blade"]["source"]["root_set"] = "ROOT"
+    assert faults(config) == ["blade.source.root_set = ROOT: goes with a mesh, not with blade.csv"]
+
+
 def test_samples_beyond_memory_are_refused(config):
     config["contact"]["elements"] = 100_000
     validate(config)
