@@ -54,8 +54,8 @@ def read(path: str | Path, frame: Frame, angle_unit: str = "rad") -> list[Sectio
         If the file is no such table; the message names the line or the section.
     """
     table = _table(Path(path))
-    wanted = _form(set(table.columns))
-    numbers = table[list(wanted)].apply(pd.to_numeric, errors="coerce").astype(float)
+    wanted = table.columns.drop("section")
+    numbers = table[wanted].apply(pd.to_numeric, errors="coerce").astype(float)
     for column in wanted:
         bad = ~np.isfinite(numbers[column])
         if bad.any():
@@ -74,7 +74,7 @@ def read(path: str | Path, frame: Frame, angle_unit: str = "rad") -> list[Sectio
 
 
 def _table(path: Path) -> pd.DataFrame:
-    """Read the cells of all rows as text, by the line of the file."""
+    """Read the cells of all rows as text, by the line of the file; only the columns of the form."""
     if not path.is_file():
         raise ValueError("there is no such file")
     try:
@@ -91,6 +91,7 @@ def _table(path: Path) -> pd.DataFrame:
     separator = "," if "," in content[header] else r"\s+"
     cells = content[header].split("," if separator == "," else None)
     names = [name.strip(' "').lower() or f"column {number}" for number, name in enumerate(cells, 1)]
+    wanted = ["section", *_form(set(names))]
     twice = {name for name in names if names.count(name) > 1}
     if twice:
         raise ValueError(f"line {header}: has the column {', '.join(sorted(twice))} twice")
@@ -108,7 +109,7 @@ def _table(path: Path) -> pd.DataFrame:
         keep_default_na=False,
         skipinitialspace=True,
     )
-    return table.set_index(pd.Index(lines))
+    return table.set_index(pd.Index(lines))[wanted]
 
 
 def _form(columns: set[str]) -> tuple[str, ...]:

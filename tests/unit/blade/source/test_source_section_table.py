@@ -75,6 +75,7 @@ def test_degrees_are_radians_by_another_name(table):
             "has no column theta1; must have section, x1, y1, z1, x2",
         ),
         (COMMAS.replace("Section", "part"), "has no column section; must have"),
+        (COMMAS[COMMAS.index("hub") :], "has no column section, x1, y1, z1, x2, y2, z2; must have"),
         (COMMAS.replace("remark", "R"), "line 2: has the column r twice"),
         (COMMAS.replace("2, 40.5,", "2, ,"), "line 5: r = nothing, must be a number"),
         (COMMAS.replace("-0.02", "nan"), "line 5: theta1 = nan, must be a number"),
