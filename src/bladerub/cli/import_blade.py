@@ -17,6 +17,7 @@ from bladerub.blade.source.frame import ANGLE_UNITS, AXES, UNITS, Frame
 from bladerub.blade.source.origin import MATRIX_UNITS, MatrixSource, Source
 from bladerub.cli import import_matrices, inputs
 from bladerub.cli.errors import InputError
+from bladerub.config import ROOT
 
 _FEWEST_SPEEDS = 5
 _NAMES = (
@@ -86,7 +87,9 @@ def import_blade(options: argparse.Namespace) -> None:
     config = inputs.read_config(options)
     given = {name: getattr(options, name) for name in _NAMES if getattr(options, name) is not None}
     kind = "matrices" if options.file.is_dir() else "file"
-    entry = {kind: str(options.file.resolve())} | asdict(Frame())
+    path = options.file.resolve()
+    named = path.relative_to(ROOT) if path.is_relative_to(ROOT) else path  # as configs name it
+    entry = {kind: str(named)} | asdict(Frame())
     known = config["blade"].get("source", {})
     entry |= {name: value for name, value in known.items() if name not in ("file", "matrices")} | given
 
