@@ -16,6 +16,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from bad_inputs import COMMANDS, CONFIGS, UNREADABLE, make_files
+from broken_blades import IMPORTS, make_blades
 from test_bad_input import lines_of_ours, write_overlay
 from workspace import Workspace
 
@@ -52,7 +53,7 @@ def cases() -> Iterator[tuple[str, dict | str | bytes | None, str, list[str]]]:
         yield name, config, words, ["snakemake", "--cores", "1", "--configfile", "overlay.yaml"]
     for name, (config, words) in (CONFIGS | UNREADABLE).items():
         yield name, config, words, ["snakemake", "--cores", "1", "--config", "extend=overlay.yaml"]
-    for line, words in COMMANDS.items():
+    for line, words in (COMMANDS | IMPORTS).items():
         yield line[:80], None, words, ["bladerub", *line.split()]
 
 
@@ -62,6 +63,7 @@ def main() -> int:
     with tempfile.TemporaryDirectory() as folder:
         workspace = Workspace.at(Path(folder))
         make_files(workspace.folder)
+        make_blades(workspace.folder)
         before = contents(workspace.folder)
         for name, config, words, (program, *arguments) in cases():
             if config is not None:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable
-from dataclasses import fields
+from dataclasses import MISSING, fields
 from itertools import pairwise
 from pathlib import Path
 from typing import Any
@@ -381,7 +381,7 @@ def make_files(folder: Path) -> None:
 def _blade() -> ReducedBlade:
     """Make a blade of 24 coordinates without any physics."""
     kinds = {"float": 1.0, "int": 6, "np.ndarray": np.eye(24)}
-    values = {field.name: kinds[field.type] for field in fields(ReducedBlade)}
+    values = {field.name: kinds[field.type] for field in fields(ReducedBlade) if field.default is MISSING}
     axes = np.eye(8, 3)
     nodes = {"node_position": axes, "radial_direction": axes, "tangential_direction": axes}
     return ReducedBlade(**values | nodes | {"f_omega_max": 0.4})

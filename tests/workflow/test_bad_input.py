@@ -11,6 +11,7 @@ from pathlib import Path
 import pytest
 import yaml
 from bad_inputs import COMMANDS, CONFIGS, UNREADABLE, make_files
+from broken_blades import IMPORTS, make_blades
 
 from bladerub.cli import inputs, main
 
@@ -60,6 +61,26 @@ def test_bad_command_line(command, tmp_path, line):
     assert code == 2
     assert COMMANDS[line] in told
     assert told.count("\n") == 1
+
+
+@pytest.fixture(scope="module")
+def blades(tmp_path_factory):
+    """Here are the blades that cannot be one."""
+    folder = tmp_path_factory.mktemp("broken")
+    make_blades(folder)
+    return folder
+
+
+@pytest.mark.parametrize("line", IMPORTS)
+def test_broken_blade(blades, monkeypatch, capsys, line):
+    monkeypatch.chdir(blades)
+    before = sorted(blades.rglob("*"))
+    assert main(line.split()) == 2
+    assert sorted(blades.rglob("*")) == before
+    told = capsys.readouterr()
+    assert told.out == ""
+    assert IMPORTS[line] in told.err
+    assert told.err.count("\n") == 1
 
 
 def lines_of_ours(stderr: str) -> list[str]:

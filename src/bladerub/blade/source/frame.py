@@ -16,6 +16,8 @@ UNITS = {"m": 1.0, "mm": 1e-3, "cm": 1e-2, "inch": 0.0254, "feet": 0.3048}
 """Metres of each unit of length."""
 ANGLE_UNITS = {"rad": 1.0, "deg": np.pi / 180}
 """Radians of each unit of angle."""
+LENGTHS = (0.01, 3.0)
+"""Shortest and longest blade that there is, m: those that ``blade.length`` of the config may have."""
 AXES = ("x", "y", "z", "-x", "-y", "-z")
 
 
@@ -61,6 +63,21 @@ class Frame:
     def downstream_x(self) -> int:
         """1 where the blade's x points downstream, -1 where it points upstream."""
         return -1 if self.downstream == self.rotation else 1
+
+    def check_length(self, length: float) -> None:
+        """See that a blade from root to tip has the `length` (m) of one.
+
+        Raises
+        ------
+        ValueError
+            If not: the unit is not what it is said to be.
+        """
+        shortest, longest = LENGTHS
+        if not shortest <= length <= longest:
+            raise ValueError(
+                f"the blade is {length:.4g} m long, must be from {shortest:g} to {longest:g} m: is its unit "
+                f"{self.unit}?"
+            )
 
     def metres(self, points: np.ndarray) -> np.ndarray:
         """Bring points (n, 3) of the file to the blade's frame, m."""

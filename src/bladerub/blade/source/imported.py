@@ -116,6 +116,7 @@ def described(blade: BladeMesh, source: Source, **known: Any) -> Imported:
     length = float(radius[blade.tip].mean() - radius[blade.root].mean())
     if length <= 0:
         raise ValueError(f"the tip is no farther from the engine axis than the root ({length:.3g} m)")
+    source.frame.check_length(length)
     middle = points.mean(axis=0)
     lean = float(np.arctan2(middle[1], middle[2]))
     return Imported(MeshedBlade(blade, tip_cone, length), lean=lean, **known)

@@ -157,6 +157,8 @@ def _layout(nodes: matrix_folder.Nodes, source: MatrixSource) -> MeshedBlade:
         raise ValueError(
             f"the tip is no farther from the engine axis than the clamped nodes ({length:.3g} m)"
         )
+    if nodes.clamped.size:
+        source.frame.check_length(length)
     if source.tip_cone is None:
         tip_cone = tip.fitted_cone(points[tip_nodes])
     else:

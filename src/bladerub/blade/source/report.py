@@ -20,7 +20,6 @@ from bladerub.blade.source.origin import Source
 from bladerub.blade.source.section_profile import EDGE_SHARE, Profile
 from bladerub.blade.surface import EDGES, NAMES
 
-LENGTHS = (0.005, 2.0)  # m, of blades that rotate
 FREQUENCIES = (5.0, 20e3)  # Hz, of their first mode
 COARSE = 10  # elements from root to tip
 EQ2_ERROR = 0.01
@@ -158,9 +157,6 @@ def _of_edges(sections: tuple[Profile, ...]) -> Iterator[str]:
 
 def of_frame(figures: dict[str, Any], frame: Frame, lean: float) -> Iterator[str]:
     """Warn of slips of unit and axes; the middle of the blade is `lean` (rad) off its radial axis."""
-    length = figures["length"]
-    if not LENGTHS[0] <= length <= LENGTHS[1]:
-        yield f"the blade is {length:.4g} m long: is its unit {frame.unit}?"
     if not FREQUENCIES[0] <= figures["f1_hz"] <= FREQUENCIES[1]:
         yield f"its first frequency is {figures['f1_hz']:.4g} Hz: are length and material in their units?"
     if abs(lean) > np.deg2rad(20):

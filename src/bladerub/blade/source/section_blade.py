@@ -11,14 +11,12 @@ from scipy.interpolate import CubicSpline
 
 from bladerub.blade.mesh import BladeMesh
 from bladerub.blade.source import section_table, soundness
+from bladerub.blade.source.frame import Frame
 from bladerub.blade.source.imported import Imported, described
 from bladerub.blade.source.origin import Source
 from bladerub.blade.source.section_profile import SAMPLES, Profile, profile
 from bladerub.blade.source.section_table import Section
 from bladerub.faults import BadInput
-
-LONGEST = 10.0
-"""Length (m) beyond which no blade rotates that rubs on a coating."""
 
 WIDEST = 50.0
 """Chord over length beyond which they are not in the same unit."""
@@ -84,7 +82,7 @@ def import_sections(source: Source, counts: Mapping[str, int]) -> Imported:
 
 def _import(source: Source, counts: Mapping[str, int]) -> Imported:
     sections = section_table.read(source.file, source.frame, source.angle_unit or "rad")
-    _check_units(sections, source.frame.unit)
+    _check_units(sections, source.frame)
     profiles = [profile(section, source.frame.downstream_x) for section in sections]
     _check_order(profiles)
     shape = SectionShape.through(profiles)
@@ -110,12 +108,11 @@ def _import(source: Source, counts: Mapping[str, int]) -> Imported:
     )
 
 
-def _check_units(sections: list[Section], unit: str) -> None:
+def _check_units(sections: list[Section], frame: Frame) -> None:
     """See that the sections could be those of a blade, as far as lengths go."""
     hub, tip = (np.hypot(*section.points[..., 1:].T).mean() for section in (sections[0], sections[-1]))
     length = abs(tip - hub)
-    if length > LONGEST:
-        raise ValueError(f"its blade is {length:.4g} m long, no blade is; is its unit {unit}?")
+    frame.check_length(length)
     for section in sections:
         chord = np.linalg.norm(np.ptp(section.points.mean(axis=0)[[0, -1]], axis=0))
         if chord > WIDEST * length:

@@ -11,6 +11,7 @@ from bladerub.blade.source.matrices import ImportedMatrices, import_matrices
 from bladerub.blade.source.matrix_report import report
 from bladerub.blade.source.origin import MatrixSource
 from bladerub.export.fe_matrices import write_fe_matrices
+from bladerub.faults import BadInput
 
 REDUCTION = {
     "f_omega_max": 0.4,
@@ -71,9 +72,10 @@ def test_a_slip_of_the_matrices_units_is_told_though_the_frequencies_are_right(r
 
 
 def test_a_slip_of_the_nodes_unit_is_told(reported):
-    figures, _ = reported(Frame("mm"))
-    assert [line for line in figures["warnings"] if "m long: is its unit mm?" in line]
-    assert [line for line in figures["warnings"] if "are the matrices in SI, and the nodes in mm?" in line]
+    with pytest.raises(BadInput, match=r"is 0.0002 m long, must be from 0.01 to 3 m: is its unit mm\?"):
+        reported(Frame("mm"))
+    figures, _ = reported(Frame("inch"))
+    assert [line for line in figures["warnings"] if "are the matrices in SI, and the nodes in inch?" in line]
 
 
 def test_files_of_other_speeds_are_told(reported):

@@ -14,6 +14,7 @@ from bladerub.blade.source.imported import import_mesh
 from bladerub.blade.source.origin import Source
 from bladerub.blade.source.report import report, spanwise_elements
 from bladerub.export.mesh_file import write_mesh_file
+from bladerub.faults import BadInput
 
 REDUCTION = {
     "f_omega_max": 0.4,
@@ -66,9 +67,14 @@ def test_elements_are_counted_along_the_shortest_way(twisted_config):
     assert spanwise_elements(BladeMesh.from_shape(BladeShape.from_config(twisted_config), counts)) == 5
 
 
-def test_a_slip_of_the_unit_is_told(reported):
-    figures, _ = reported(Frame("mm"))
-    assert any("m long: is its unit mm?" in line for line in figures["warnings"])
+def test_a_slip_of_the_unit_is_refused(reported):
+    with pytest.raises(BadInput, match=r"is 0.0002 m long, must be from 0.01 to 3 m: is its unit mm\?"):
+        reported(Frame("mm"))
+
+
+def test_a_frequency_that_no_blade_has_is_told(reported, twisted_config):
+    twisted_config["material"]["young_modulus"] = 110.0  # GPa
+    figures, _ = reported()
     assert any("Hz: are length and material in their units?" in line for line in figures["warnings"])
 
 

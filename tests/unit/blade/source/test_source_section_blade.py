@@ -154,7 +154,10 @@ def thin_above_the_hub(table):
         (lambda t: t.assign(y1=0.0, z1=0.0), "line 2: lies on the engine axis"),
         (lambda t: moved(t, "s3", z=0.15), "section s4: its mean radius of .* sections must go from hub to"),
         (lambda t: moved(t, "s4", z=1.5 * t.x1), "sections s3 and s4 cross: s4 is not the farther from"),
-        (lambda t: t.assign(**100 * t.iloc[:, 1:]), "its blade is 20 m long, no blade is; is its unit m"),
+        (
+            lambda t: t.assign(**100 * t.iloc[:, 1:]),
+            "the blade is 20 m long, must be from 0.01 to 3 m",
+        ),
         (lambda t: t.assign(x1=900 * t.x1, x2=900 * t.x2), "all lengths must be in one unit"),
         (thin_above_the_hub, "between its sections the blade crosses itself"),
     ],
