@@ -252,13 +252,12 @@ def reduce_blade(blade: DiscreteBlade, config: Mapping[str, Any]) -> BuiltBlade:
     )
 
     coefficients = speed_law(fits, f_max)
-    finite_element, by_law = {}, {}
-    for f_omega in blade.table_speeds:
-        finite_element[f_omega] = lowest_modes(blade.stiffness[f_omega], blade.mass, n_modes)[0]
-        by_law[f_omega] = lowest_modes(stiffness_at(coefficients, f_omega), blade.mass, n_modes)[0]
-        log.info("f_omega = %.4f: first frequency %.4f Hz", f_omega, finite_element[f_omega][0])
+    by_law = {
+        f_omega: lowest_modes(stiffness_at(coefficients, f_omega), blade.mass, n_modes)[0]
+        for f_omega in blade.frequencies
+    }
     shapes = np.stack([full(mode) for mode in blade.modes.T])
-    moved = [f_omega for f_omega in blade.table_speeds if f_omega in blade.displacement]
+    moved = [f_omega for f_omega in blade.frequencies if f_omega in blade.displacement]
     return BuiltBlade(
         reduced,
         mesh,
@@ -267,7 +266,7 @@ def reduce_blade(blade: DiscreteBlade, config: Mapping[str, Any]) -> BuiltBlade:
         np.stack([full(column) for column in phi.T]),
         np.array([full(blade.displacement[f_omega]) for f_omega in moved]).reshape(-1, *shapes.shape[1:]),
         np.array(moved, dtype=float),
-        accuracy_table(reduced, finite_element, by_law),
+        accuracy_table(reduced, blade.frequencies, by_law),
         made_from(config),
     )
 

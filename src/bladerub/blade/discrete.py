@@ -14,7 +14,7 @@ from bladerub.blade.coordinates import FreeCoordinates
 from bladerub.blade.elasticity import Material, Solid
 from bladerub.blade.linear import lowest_modes
 from bladerub.blade.mesh import MeshedBlade
-from bladerub.blade.rotation import Equilibrium, equilibrium
+from bladerub.blade.rotation import equilibrium
 
 log = logging.getLogger(__name__)
 
@@ -33,11 +33,11 @@ class DiscreteBlade:
         kg.
     stiffness : mapping of float to (n, n) sparse array
         About the equilibrium at each normalised speed, those of `bladerub.blade.reduction.fit_speeds` among
-        them, N/m.
+        them, N/m. No others but those that are asked for: they fill the memory.
     displacement : mapping of float to (n,) ndarray
         From rest to that equilibrium, m; without the speeds where it is not known.
-    table_speeds : sequence of float
-        Those of `stiffness` at which the reduced blade is compared with this one, ascending.
+    frequencies : mapping of float to (n_modes,) ndarray
+        At the normalised speeds at which the reduced blade is compared with this one, ascending; Hz.
     frequency : (n_modes,) ndarray
         At rest, Hz; the first is the unit of normalised speeds.
     modes : (n, n_modes) ndarray
@@ -49,7 +49,7 @@ class DiscreteBlade:
     mass: sparse.csc_array = field(repr=False)
     stiffness: Mapping[float, sparse.csc_array] = field(repr=False)
     displacement: Mapping[float, np.ndarray] = field(repr=False)
-    table_speeds: Sequence[float]
+    frequencies: Mapping[float, np.ndarray]
     frequency: np.ndarray
     modes: np.ndarray = field(repr=False)
 
@@ -58,7 +58,7 @@ class DiscreteBlade:
 def by_finite_elements(
     blade: MeshedBlade,
     material: Material,
-    fit_speeds: Sequence[float],
+    speeds: Sequence[float],
     table_speeds: Sequence[float],
     n_modes: int,
 ) -> DiscreteBlade:
@@ -73,12 +73,12 @@ def by_finite_elements(
         With elements.
     material : Material
         What it is made of.
-    fit_speeds : sequence of float
-        Speeds of the fit, normalised.
+    speeds : sequence of float
+        Where its stiffness is wanted, normalised, those of the fit among them.
     table_speeds : sequence of float
-        More speeds at which its stiffness is wanted, normalised, ascending.
+        Where its frequencies are, normalised, ascending.
     n_modes : int
-        How many modes at rest.
+        How many modes.
 
     Raises
     ------
@@ -88,28 +88,11 @@ def by_finite_elements(
     mesh = blade.mesh.mesh
     solid = Solid(mesh, material, clamped=blade.mesh.root)
     log.info("%d elements, %d free coordinates", len(mesh.cells), solid.free.size)
-    rest = equilibrium(solid, 0.0)
-    frequency, modes = lowest_modes(rest.stiffness, solid.mass, n_modes)
-    speeds = sorted({*fit_speeds, *table_speeds})
-    states = _equilibria(solid, rest, speeds, 2 * np.pi * frequency[0])
-    return DiscreteBlade(
-        blade,
-        FreeCoordinates(solid.n_nodes, blade.mesh.root),
-        solid.mass,
-        {f_omega: state.stiffness for f_omega, state in states.items()},
-        {f_omega: state.displacement for f_omega, state in states.items()},
-        table_speeds,
-        frequency,
-        modes,
-    )
-
-
-def _equilibria(
-    solid: Solid, rest: Equilibrium, f_omegas: list[float], unit: float
-) -> dict[float, Equilibrium]:
-    """Equilibria at ascending normalised speeds, each starting from the one before; `unit` in rad/s."""
-    states, state = {}, rest
-    for f_omega in f_omegas:
+    state = equilibrium(solid, 0.0)
+    frequency, modes = lowest_modes(state.stiffness, solid.mass, n_modes)
+    unit = 2 * np.pi * frequency[0]  # rad/s
+    stiffness, displacement, frequencies = {}, {}, {}
+    for f_omega in sorted({0.0, *speeds, *table_speeds}):
         if f_omega > 0:
             state = equilibrium(solid, f_omega * unit, state)
             log.info(
@@ -119,5 +102,19 @@ def _equilibria(
                 state.n_iterations,
                 1e3 * np.linalg.norm(solid.full(state.displacement), axis=1).max(),
             )
-        states[f_omega] = state
-    return states
+        displacement[f_omega] = state.displacement
+        if f_omega in speeds:
+            stiffness[f_omega] = state.stiffness
+        if f_omega in table_speeds:
+            frequencies[f_omega] = lowest_modes(state.stiffness, solid.mass, n_modes)[0]
+            log.info("f_omega = %.4f: first frequency %.4f Hz", f_omega, frequencies[f_omega][0])
+    return DiscreteBlade(
+        blade,
+        FreeCoordinates(solid.n_nodes, blade.mesh.root),
+        solid.mass,
+        stiffness,
+        displacement,
+        frequencies,
+        frequency,
+        modes,
+    )

@@ -93,6 +93,7 @@ def transformation(
         solve = factorise(stiffness_ii)
         statics.append(constraint_modes(stiffness, partition, solve))
         fixed.append(lowest_modes(stiffness_ii, mass_ii, eta, solve)[1])
+        del solve  # frees the memory before there are new factors
     phi_r = statics[0]
     columns = np.hstack([*(later - phi_r for later in statics[1:]), *fixed])  # eq. (4)
     psi = mass_orthonormal(columns, mass_ii, rank_tolerance)

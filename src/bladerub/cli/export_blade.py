@@ -119,8 +119,8 @@ def _write_fe_matrices(options: argparse.Namespace, config: dict[str, Any]) -> d
         blade = by_finite_elements(
             meshed_blade(config["blade"]),
             Material.from_config(config["blade"]["material"]),
-            fit_speeds(f_max),
-            speeds,
+            [*fit_speeds(f_max), *speeds],
+            [],
             config["reduction"]["accuracy_modes"],
         )
     except (BadInput, EquilibriumError) as error:

@@ -168,8 +168,8 @@ def test_broken_meshes_are_refused_with_file_and_culprit(blade, write):
 
 
 def test_a_length_that_is_not_the_blades_is_refused(twisted_config, write):
-    config = twisted_config | {"source": {"file": str(write()), "unit": "cm"}}
-    with pytest.raises(BadInput, match=r"blade.length = 0.2: must be that of the blade in .*, 0.00199"):
+    config = twisted_config | {"source": {"file": str(write())}, "length": 0.25}
+    with pytest.raises(BadInput, match=r"blade.length = 0.25: must be that of the blade in .*, 0.199"):
         build({"blade": config, "reduction": REDUCTION})
 
 

@@ -9,7 +9,8 @@ from blade_parts import TITANIUM, section
 from scipy import sparse
 from scipy.io import mmwrite
 
-from bladerub.blade.build import build, discretise, made_from, meshed_blade
+from bladerub.blade.build import build, made_from, meshed_blade
+from bladerub.blade.discrete import by_finite_elements
 from bladerub.blade.elasticity import Material, Solid
 from bladerub.blade.frequencies import reduced_frequencies
 from bladerub.blade.rotation import rotating_stiffness
@@ -48,7 +49,9 @@ def config():
 
 @pytest.fixture(scope="module")
 def discrete():
-    return discretise(meshed_blade(BLADE), {"blade": BLADE, "reduction": REDUCTION})
+    speeds = np.linspace(0, 0.4, REDUCTION["accuracy_speeds"]).tolist()
+    material = Material.from_config(BLADE["material"])
+    return by_finite_elements(meshed_blade(BLADE), material, speeds, [], REDUCTION["accuracy_modes"])
 
 
 @pytest.fixture(scope="module")
@@ -162,8 +165,9 @@ def test_matrices_with_fewer_modes_than_wanted_are_refused(folder):
 
 
 def test_a_length_that_is_not_the_blades_is_refused(config, folder):
-    with pytest.raises(BadInput, match=r"blade.length = 0.2: must be that of .*, 0.001994? m"):
-        build(of_folder(config, folder, unit="cm"))
+    config["blade"]["length"] = 0.25
+    with pytest.raises(BadInput, match=r"blade.length = 0.25: must be that of .*, 0.1994? m"):
+        build(of_folder(config, folder))
 
 
 def test_a_speed_that_is_not_the_configs_is_refused(folder, discrete):
