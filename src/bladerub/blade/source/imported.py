@@ -109,10 +109,7 @@ def described(blade: BladeMesh, source: Source, **known: Any) -> Imported:
     """
     points = blade.mesh.points
     radius = np.hypot(points[:, 1], points[:, 2])
-    if source.tip_cone is None:
-        tip_cone = tip.fitted_cone(points[blade.tip])
-    else:
-        tip_cone = source.frame.downstream_x * float(np.deg2rad(source.tip_cone))
+    tip_cone = tip.cone(points[blade.tip], source.tip_cone, source.frame.downstream_x)
     length = float(radius[blade.tip].mean() - radius[blade.root].mean())
     if length <= 0:
         raise ValueError(f"the tip is no farther from the engine axis than the root ({length:.3g} m)")

@@ -159,10 +159,7 @@ def _layout(nodes: matrix_folder.Nodes, source: MatrixSource) -> MeshedBlade:
         )
     if nodes.clamped.size:
         source.frame.check_length(length)
-    if source.tip_cone is None:
-        tip_cone = tip.fitted_cone(points[tip_nodes])
-    else:
-        tip_cone = source.frame.downstream_x * float(np.deg2rad(source.tip_cone))
+    tip_cone = tip.cone(points[tip_nodes], source.tip_cone, source.frame.downstream_x)
     return MeshedBlade(
         BladeMesh(NodeCloud(points), nodes.clamped, tip_nodes, nodes.interface), tip_cone, length
     )

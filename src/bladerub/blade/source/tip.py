@@ -31,8 +31,20 @@ class Interface:
     offset: float
 
 
-def fitted_cone(points: np.ndarray) -> float:
-    """Half angle (rad) of the cone about the engine axis that fits `points` (n, 3) best; widens with x."""
+def cone(points: np.ndarray, degrees: float | None, downstream_x: int) -> float:
+    """Half angle (rad) of the cone that the tip lies on, positive where it widens with x.
+
+    Parameters
+    ----------
+    points : (n, 3) ndarray
+        Nodes of the tip, m, to which the cone is fitted where its angle is not given.
+    degrees : float or None
+        The angle, positive where it widens downstream.
+    downstream_x : int
+        1 where x points downstream, -1 where it points upstream.
+    """
+    if degrees is not None:
+        return downstream_x * float(np.deg2rad(degrees))
     radius = np.hypot(points[:, 1], points[:, 2])
     x = points[:, 0] - points[:, 0].mean()
     return float(np.arctan2(x @ (radius - radius.mean()), x @ x))

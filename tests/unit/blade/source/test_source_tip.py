@@ -4,7 +4,8 @@ from blade_parts import section, tetrahedral_mesh
 
 from bladerub.blade.geometry import BladeShape, lattice
 from bladerub.blade.mesh import hexahedral_mesh
-from bladerub.blade.source.tip import fitted_cone, interface
+from bladerub.blade.source import tip
+from bladerub.blade.source.tip import interface
 from bladerub.blade.surface import boundary_faces
 
 
@@ -19,7 +20,7 @@ def tip_of(blade_config, make_mesh, counts):
 def test_the_cone_of_the_tip_is_found(twisted_config, cone):
     twisted_config["tip_cone"] = cone
     _, points, faces = tip_of(twisted_config, hexahedral_mesh, twisted_config["mesh"])
-    assert np.rad2deg(fitted_cone(points[np.unique(faces)])) == pytest.approx(cone, abs=1e-9)
+    assert np.rad2deg(tip.cone(points[np.unique(faces)], None, -1)) == pytest.approx(cone, abs=1e-9)
 
 
 @pytest.mark.parametrize("camber", [0.0, 30.0, 80.0])
@@ -68,3 +69,7 @@ def test_a_coarse_tip_is_refused(twisted_config):
     )
     with pytest.raises(ValueError, match=r"the tip is too coarse: .* on a camber line of 0.07"):
         interface(points, faces, 1)
+
+
+def test_a_cone_that_is_named_is_not_fitted():
+    assert tip.cone(np.eye(3), 12.0, -1) == pytest.approx(-np.deg2rad(12.0))
