@@ -74,6 +74,22 @@ def test_what_it_prints_is_a_config_of_the_blade(look, folder):
     assert again == out
 
 
+def test_an_axis_may_begin_with_a_minus(look):
+    code, out, _ = look("--unit", "mm", "--rotation", "x", "--downstream", "-x", "--radial", "-z", "--json")
+    assert code == 0
+    source = json.loads(out)["config"]["blade"]["source"]
+    assert (source["rotation"], source["downstream"], source["radial"]) == ("x", "-x", "-z")
+
+
+def test_a_sense_of_rotation_that_no_compressor_has_is_told(look):
+    right, wrong = (json.loads(look("--unit", "mm", "--rotation", axis, "--json")[1]) for axis in ("-x", "x"))
+    assert right["tip_stagger_degrees"] == pytest.approx(62, abs=0.5)
+    assert wrong["tip_stagger_degrees"] == pytest.approx(-62, abs=0.5)
+    told = [line for line in wrong["warnings"] if line not in right["warnings"]]
+    assert len(told) == 1
+    assert "has rotation = x or downstream = x the wrong sign?" in told[0]
+
+
 @pytest.mark.parametrize(
     ("more", "said"),
     [

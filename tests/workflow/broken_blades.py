@@ -34,7 +34,7 @@ IMPORTS: dict[str, str] = {
     f"{_VTU} --tip-set FACE": "the tip is no profile with two sides; name its node set",
     f"{_VTU} --tip-set FOOT --root-set FOOT": "root and tip share nodes; name other node sets",
     f"{_VTU} --tip-set INSIDE": "tip not found: no face of the surface has all its nodes in",
-    f"{_VTU} --unit mm": "m long, must be from 0.01 to 3 m: is its unit mm?",
+    f"{_VTU} --unit mm": "with the unit mm the blade is 0.0001996 m long; must be from 0.01 to 3 m",
     f"{_VTU} --radial x": "radial = x: must not be the axis of rotation",
     "import blades/mixed.vtu": "mixes hexahedron20 and tetra10; must have elements of one kind",
     "import blades/shell.vtu": "has no volume elements; must have some of one kind",

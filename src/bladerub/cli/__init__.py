@@ -30,7 +30,7 @@ def main(arguments: list[str] | None = None) -> int:
     benchmark.add_to(commands)
     export.add_to(commands)
     import_blade.add_to(commands)
-    options = parser.parse_args(arguments)
+    options = parser.parse_args(import_blade.joined(sys.argv[1:] if arguments is None else arguments))
     try:
         options.command(options)
     except ConfigError as error:

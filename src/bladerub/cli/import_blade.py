@@ -19,6 +19,7 @@ from bladerub.cli import import_matrices, inputs
 from bladerub.cli.errors import InputError
 from bladerub.config import ROOT
 
+_AXIS_OPTIONS = ("--rotation", "--downstream", "--radial")
 _FEWEST_SPEEDS = 5
 _NAMES = (
     *("unit", "angle_unit", "rotation", "downstream", "radial", "root_set", "tip_set", "tip_cone"),
@@ -72,6 +73,17 @@ def add_to(commands: Any) -> None:
         help="speed of stiffness_max, to be checked against reduction.f_omega_max",
     )
     parser.add_argument("--json", action="store_true", help="print the figures as JSON")
+
+
+def joined(arguments: list[str]) -> list[str]:
+    """Write ``--downstream -z`` as ``--downstream=-z``: argparse takes a word with a minus for an option."""
+    words = []
+    for word in arguments:
+        if words and words[-1] in _AXIS_OPTIONS and word in AXES:
+            words[-1] += f"={word}"
+        else:
+            words.append(word)
+    return words
 
 
 def import_blade(options: argparse.Namespace) -> None:
@@ -141,9 +153,9 @@ def _in_words(figures: dict[str, Any]) -> list[str]:
         f"{figures['unknowns']} unknowns, {figures['elements_root_to_tip']} elements from root to tip",
         *(f"{name:<19} {low:.4g} to {high:.4g} mm" for name, (low, high) in millimetres.items()),
         f"length              {1e3 * figures['length']:.4g} mm, chord at the tip "
-        f"{1e3 * figures['tip_chord']:.4g} mm, cone there {figures['tip_cone_degrees']:.4g} degrees",
+        f"{1e3 * figures['tip_chord']:.4g} mm, cone there {round(figures['tip_cone_degrees'], 6):g} degrees",
         f"root and tip        {figures['root_nodes']} and {figures['tip_nodes']} nodes; interface nodes up "
-        f"to {1e3 * figures['interface_offset']:.3g} mm off the camber line",
+        f"to {1e3 * figures['interface_offset']:.3g} mm from their even places on the camber line",
         f"volume and mass     {1e6 * figures['volume']:.4g} cm³, {figures['mass']:.4g} kg",
         f"worst Jacobian      {figures['worst_jacobian']:.3g} (smallest over largest in an element)",
         f"first frequency     {figures['f1_hz']:.6g} Hz, times {figures['campbell_ratio']:.4g} at f_omega = "
@@ -157,6 +169,8 @@ def _in_words(figures: dict[str, Any]) -> list[str]:
 
 def _ending(figures: dict[str, Any]) -> list[str]:
     return [
+        f"stagger at the tip  {abs(figures['tip_stagger_degrees']):.4g} degrees, the leading edge "
+        f"{'ahead' if figures['tip_stagger_degrees'] >= 0 else 'behind'} in rotation",
         f"tip stiffness       {figures['tip_stiffness']:.4g} N/m, static",
         *(f"warning             {line}" for line in figures["warnings"]),
         "",

@@ -75,8 +75,8 @@ class Frame:
         shortest, longest = LENGTHS
         if not shortest <= length <= longest:
             raise ValueError(
-                f"the blade is {length:.4g} m long, must be from {shortest:g} to {longest:g} m: is its unit "
-                f"{self.unit}?"
+                f"with the unit {self.unit} the blade is {length:.4g} m long; must be from {shortest:g} to "
+                f"{longest:g} m"
             )
 
     def metres(self, points: np.ndarray) -> np.ndarray:

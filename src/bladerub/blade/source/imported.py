@@ -76,7 +76,10 @@ def _import(content: mesh_file.MeshFile, source: Source) -> Imported:
     ratio, volume = soundness.jacobians(mesh)
     radius = np.hypot(mesh.points[:, 1], mesh.points[:, 2])
     if radius.min() <= 0:
-        raise ValueError("a node lies on the engine axis, which must pass through the origin of the file")
+        raise ValueError(
+            f"a node lies on the engine axis, through the origin of the file and along rotation = "
+            f"{source.frame.rotation}: is that the engine axis?"
+        )
     faces = boundary_faces(mesh.cells)
     root = _nodes(content, mesh.points, faces, origin, source.root_set, is_tip=False)
     tip_nodes = _nodes(content, mesh.points, faces, origin, source.tip_set, is_tip=True)

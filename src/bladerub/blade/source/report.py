@@ -14,6 +14,7 @@ from bladerub.blade.adaptive import MODES
 from bladerub.blade.build import BuiltBlade
 from bladerub.blade.elasticity import Material
 from bladerub.blade.mesh import BladeMesh
+from bladerub.blade.model import ReducedBlade
 from bladerub.blade.source.frame import Frame
 from bladerub.blade.source.imported import Imported
 from bladerub.blade.source.origin import Source
@@ -21,6 +22,7 @@ from bladerub.blade.source.section_profile import EDGE_SHARE, Profile
 from bladerub.blade.surface import EDGES, NAMES
 
 FREQUENCIES = (5.0, 20e3)  # Hz, of their first mode
+BEHIND = 5.0  # degrees; less is a straight blade
 COARSE = 10  # elements from root to tip
 EQ2_ERROR = 0.01
 REDUCED_ERROR = 0.02
@@ -77,6 +79,7 @@ def of_reduction(built: BuiltBlade) -> dict[str, Any]:
     first = table[table["mode"] == 1].sort_values("f_omega").f_fe.to_numpy()
     return {
         "f1_hz": float(built.frequency[0]),
+        "tip_stagger_degrees": _stagger(built.reduced),
         "campbell_ratio": float(first[-1] / first[0]),
         "f_omega_max": built.reduced.f_omega_max,
         "lowest_frequency": float(table.f_fe.min()),
@@ -84,6 +87,13 @@ def of_reduction(built: BuiltBlade) -> dict[str, Any]:
         "error_eq2": errors.speed_law.tolist(),
         "error_reduced_model": errors.reduced_model.tolist(),
     }
+
+
+def _stagger(blade: ReducedBlade) -> float:
+    """Angle (degrees) of the tip's chord to the axis, positive where its leading edge is ahead."""
+    leading, trailing = blade.node_position[[0, -1]]
+    across = (leading - trailing) @ blade.tangential_direction[[0, -1]].mean(axis=0)
+    return float(np.rad2deg(np.arctan2(across, abs(leading[0] - trailing[0]))))
 
 
 def spanwise_elements(mesh: BladeMesh) -> int:
@@ -130,8 +140,8 @@ def _warnings(figures: dict[str, Any], imported: Imported, source: Source) -> It
     yield from _of_edges(imported.sections)
     if figures["interface_offset"] > 0.03 * figures["tip_chord"]:
         yield (
-            f"an interface node is {1e3 * figures['interface_offset']:.3g} mm off the camber line of the "
-            "tip: its mesh is coarse there"
+            f"an interface node is {1e3 * figures['interface_offset']:.3g} mm from its place on the camber "
+            "line of the tip: its mesh is coarse there"
         )
     eq2 = max(figures["error_eq2"][:MODES])
     if eq2 > EQ2_ERROR:
@@ -164,6 +174,12 @@ def of_frame(figures: dict[str, Any], frame: Frame, lean: float) -> Iterator[str
             f"its middle is {np.rad2deg(lean):.3g} degrees about the engine axis from the radial axis "
             f"{frame.radial}: is that axis, and is the origin on the engine axis?"
         )
+    if figures["tip_stagger_degrees"] < -BEHIND:
+        yield (
+            f"the leading edge of the tip is behind its trailing edge in rotation, by a stagger of "
+            f"{-figures['tip_stagger_degrees']:.3g} degrees; that of a compressor blade is ahead: has "
+            f"rotation = {frame.rotation} or downstream = {frame.downstream} the wrong sign?"
+        )
 
 
 def of_errors(figures: dict[str, Any]) -> Iterator[str]:
@@ -171,8 +187,8 @@ def of_errors(figures: dict[str, Any]) -> Iterator[str]:
     eq2, reduced = (max(figures[name][:MODES]) for name in ("error_eq2", "error_reduced_model"))
     if reduced > max(REDUCED_ERROR, 1.5 * eq2):
         yield (
-            f"the reduced model is up to {100 * reduced:.2g} % off in the first {MODES} modes: raise "
-            "reduction.modes_per_speed or lower reduction.rank_tolerance"
+            f"the reduced model is up to {100 * reduced:.2g} % off in the first {MODES} modes: give "
+            "reduction.tolerance, or raise reduction.modes_per_speed"
         )
     if figures["lowest_frequency"] <= 0:
         yield "a mode is unstable within the range of speeds"

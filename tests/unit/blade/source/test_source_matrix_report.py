@@ -76,7 +76,7 @@ def test_a_slip_of_the_matrices_units_is_told_though_the_frequencies_are_right(r
 
 
 def test_a_slip_of_the_nodes_unit_is_refused(reported):
-    with pytest.raises(BadInput, match=r"is 0.0002 m long, must be from 0.01 to 3 m: is its unit mm\?"):
+    with pytest.raises(BadInput, match=r"with the unit mm the blade is 0.0002 m long; must be"):
         reported(Frame("mm"))
 
 

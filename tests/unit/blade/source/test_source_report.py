@@ -68,7 +68,7 @@ def test_elements_are_counted_along_the_shortest_way(twisted_config):
 
 
 def test_a_slip_of_the_unit_is_refused(reported):
-    with pytest.raises(BadInput, match=r"is 0.0002 m long, must be from 0.01 to 3 m: is its unit mm\?"):
+    with pytest.raises(BadInput, match=r"with the unit mm the blade is 0.0002 m long; must be"):
         reported(Frame("mm"))
 
 
@@ -84,7 +84,7 @@ def test_a_frequency_that_no_blade_has_is_told(reported, twisted_config):
         ({"is_raised": True}, "its elements were linear"),
         ({"n_unused": 4}, "4 nodes of the file are in no element"),
         ({"lean": np.deg2rad(50.0)}, "its middle is 50 degrees about the engine axis"),
-        ({"interface_offset": 0.004}, "an interface node is 4 mm off the camber line"),
+        ({"interface_offset": 0.004}, "an interface node is 4 mm from its place on the camber line"),
         ({"jacobian_ratio": np.array([0.5, 0.05, 0.4])}, "element 2 is badly shaped: .* factor of 20"),
     ],
 )

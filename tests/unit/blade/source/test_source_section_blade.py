@@ -156,7 +156,7 @@ def thin_above_the_hub(table):
         (lambda t: moved(t, "s4", z=1.5 * t.x1), "sections s3 and s4 cross: s4 is not the farther from"),
         (
             lambda t: t.assign(**100 * t.iloc[:, 1:]),
-            "the blade is 20 m long, must be from 0.01 to 3 m",
+            "with the unit m the blade is 20 m long; must be from 0.01 to 3 m",
         ),
         (lambda t: t.assign(x1=900 * t.x1, x2=900 * t.x2), "all lengths must be in one unit"),
         (thin_above_the_hub, "between its sections the blade crosses itself"),
