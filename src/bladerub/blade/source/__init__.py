@@ -1,1 +1,1 @@
-"""Blades from elsewhere: a mesh of another program becomes a blade of ours."""
+"""Blades from elsewhere: a mesh, sections or matrices of another program become a blade of ours."""

@@ -66,6 +66,11 @@ def _middle(pieces: np.ndarray, point: np.ndarray, direction: np.ndarray) -> np.
     return point + nearest.mean() * direction
 
 
+def arc_length(points: np.ndarray) -> np.ndarray:
+    """Length (n,) of the way through `points` (n, 2) from the first to each of them."""
+    return np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1))])
+
+
 def crossings(pieces: np.ndarray, point: np.ndarray, direction: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Find where a line meets straight pieces.
 

@@ -8,7 +8,7 @@ import numpy as np
 from scipy.interpolate import CubicSpline
 from scipy.spatial import cKDTree
 
-from bladerub.blade.source.profile import camber_line, crossings
+from bladerub.blade.source.profile import arc_length, camber_line, crossings
 from bladerub.blade.source.section_table import Section
 
 EDGE_SHARE = 0.1
@@ -226,7 +226,7 @@ def _cut(sides: list[_Curve], least: float, name: str) -> tuple[float, float]:
     start = (sides[0].fine[0] + sides[1].fine[0]) / 2
     if np.linalg.norm(line[-1] - start) < np.linalg.norm(line[0] - start):
         line = line[::-1]
-    arc = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(line, axis=0), axis=1))])
+    arc = arc_length(line)
     places = _CUTS[::-1] * arc[-1]
     points = np.stack([np.interp(places, arc, axis) for axis in line.T], axis=1)
     ways = np.stack([np.interp(places, arc, axis) for axis in np.gradient(line, arc, axis=0).T], axis=1)
@@ -260,7 +260,7 @@ def _paired(sides: list[_Curve], ends: list[tuple[float, float]]) -> tuple[np.nd
     """
     parameters = [_even(side, *end) for side, end in zip(sides, ends, strict=True)]
     flat = [side(parameter)[:, 3:] for side, parameter in zip(sides, parameters, strict=True)]
-    arc = _arc((flat[0] + flat[1]) / 2)
+    arc = arc_length((flat[0] + flat[1]) / 2)
     at = np.interp(SAMPLES, arc / arc[-1], np.linspace(0, 1, arc.size))
     share = np.linspace(0, 1, arc.size)
     places = [
@@ -274,9 +274,5 @@ def _even(side: _Curve, start: float, stop: float) -> np.ndarray:
     """Parameters at even steps of the arc length between two of them."""
     inside = (side.fine_parameter > start) & (side.fine_parameter < stop)
     parameter = np.concatenate([[start], side.fine_parameter[inside], [stop]])
-    arc = _arc(side(parameter)[:, 3:])
+    arc = arc_length(side(parameter)[:, 3:])
     return np.interp(np.linspace(0, arc[-1], 8 * SAMPLES.size), arc, parameter)
-
-
-def _arc(points: np.ndarray) -> np.ndarray:
-    return np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1))])

@@ -9,7 +9,7 @@ from scipy.optimize import linear_sum_assignment
 from scipy.spatial.distance import cdist
 
 from bladerub.blade.model import N_INTERFACE
-from bladerub.blade.source.profile import camber_line
+from bladerub.blade.source.profile import arc_length, camber_line
 
 
 @dataclass(frozen=True)
@@ -81,7 +81,7 @@ def interface(points: np.ndarray, faces: np.ndarray, downstream_x: int) -> Inter
         raise ValueError(f"the tip is {error}; name its node set") from error
     if downstream_x * (line[-1, 0] - line[0, 0]) < 0:
         line = line[::-1]
-    arc = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(line, axis=0), axis=1))])
+    arc = arc_length(line)
     evenly = np.linspace(0, arc[-1], N_INTERFACE)
     wanted = np.stack([np.interp(evenly, arc, line[:, axis]) for axis in range(2)], axis=1)
     distance = cdist(wanted, flat[nodes])
