@@ -8,7 +8,6 @@ from dataclasses import dataclass, field, fields
 from pathlib import Path
 from typing import Any
 
-from bladerub.blade.source import matrix_folder
 from bladerub.blade.source.frame import Frame
 from bladerub.config import ROOT
 
@@ -145,6 +144,8 @@ def files(source: Mapping[str, Any]) -> list[str]:
     """
     if "matrices" not in source:
         return [source["file"]]
+    from bladerub.blade.source import matrix_folder  # brings pandas, which no command needs to begin
+
     found = matrix_folder.files(MatrixSource.from_config(source).folder)
     return [os.path.join(source["matrices"], path.name) for path in found.values()]
 
