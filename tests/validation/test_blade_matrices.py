@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from bladerub.blade.build import discretise, meshed_blade, reduce_blade
+from bladerub.blade.build import discretise, meshed_blade, reduce_given
 from bladerub.blade.source.matrices import import_matrices
 from bladerub.blade.source.origin import MatrixSource
 from bladerub.contact.run import simulate
@@ -37,7 +37,7 @@ def test_frequencies_are_the_same(blades):
 
 
 def test_wear_is_the_same(blades, config):
-    reduced = [reduce_blade(blade, config).reduced for blade in blades]
+    reduced = [reduce_given(blade, config).reduced for blade in blades]
     for f_omega in SPEEDS:
         spec = run_spec(config, COATING, f_omega)
         ours, theirs = (simulate(blade, spec).wear for blade in reduced)

@@ -7,6 +7,7 @@ import json
 import logging
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
+from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
@@ -138,7 +139,12 @@ def reduce_meshed(blade: MeshedBlade, config: Mapping[str, Any]) -> BuiltBlade:
     EquilibriumError
         If the blade has no static equilibrium at one of the speeds.
     """
-    return _reduce(lambda asked: discretise(blade, asked), config, MOST_FIT_SPEEDS)
+
+    @lru_cache(maxsize=1)  # more modes at each speed need no new equilibria
+    def discrete(n_speeds: int) -> DiscreteBlade:
+        return discretise(blade, {**config, "reduction": {**config["reduction"], "fit_speeds": n_speeds}})
+
+    return _reduce(discrete, config, MOST_FIT_SPEEDS)
 
 
 def reduce_given(blade: DiscreteBlade, config: Mapping[str, Any]) -> BuiltBlade:
@@ -153,14 +159,15 @@ def reduce_given(blade: DiscreteBlade, config: Mapping[str, Any]) -> BuiltBlade:
 
 
 def _reduce(
-    discrete: Callable[[Mapping[str, Any]], DiscreteBlade], config: Mapping[str, Any], most_fit_speeds: int
+    discrete: Callable[[int], DiscreteBlade], config: Mapping[str, Any], most_fit_speeds: int
 ) -> BuiltBlade:
-    def attempt(reduction: Mapping[str, Any]) -> BuiltBlade:
-        asked = {**config, "reduction": reduction}
-        return reduce_blade(discrete(asked), asked)
+    """Reduce the blade that `discrete` gives for a number of fit speeds."""
+    origin, length = made_from(config), config["blade"]["length"]
 
-    built = reduce_within(attempt, config["reduction"], most_fit_speeds)
-    return replace(built, made_from=made_from(config))
+    def attempt(reduction: Mapping[str, Any]) -> BuiltBlade:
+        return reduce_blade(discrete(reduction.get("fit_speeds", 3)), reduction, length, origin)
+
+    return reduce_within(attempt, config["reduction"], most_fit_speeds)
 
 
 def _of_matrices(config: Mapping[str, Any]) -> DiscreteBlade:
@@ -221,9 +228,14 @@ def discretise(blade: MeshedBlade, config: Mapping[str, Any]) -> DiscreteBlade:
 
 
 @threadpool_limits.wrap(limits=1)
-def reduce_blade(blade: DiscreteBlade, config: Mapping[str, Any]) -> BuiltBlade:
-    """Reduce `blade` by the ``reduction`` block of `config`, in one thread as `by_finite_elements` is."""
-    reduction, mesh, full = config["reduction"], blade.layout.mesh, blade.free.full
+def reduce_blade(
+    blade: DiscreteBlade, reduction: Mapping[str, Any], length: float, origin: str
+) -> BuiltBlade:
+    """Reduce `blade` by a ``reduction`` block, in one thread as `by_finite_elements` is.
+
+    `length` (m) is that of the config, `origin` what `made_from` says of it.
+    """
+    mesh, full = blade.layout.mesh, blade.free.full
     f_max, n_modes = reduction["f_omega_max"], blade.frequency.size
 
     partition = Partition.around(blade.free.coordinates(mesh.interface), blade.mass.shape[0])
@@ -244,7 +256,7 @@ def reduce_blade(blade: DiscreteBlade, config: Mapping[str, Any]) -> BuiltBlade:
         f_omega_max=f_max,
         eta=reduction["modes_per_speed"],
         rank_tolerance=reduction["rank_tolerance"],
-        length=config["blade"]["length"],
+        length=length,
         stiffness_higher=tuple(higher),
     )
     log.info(
@@ -267,7 +279,7 @@ def reduce_blade(blade: DiscreteBlade, config: Mapping[str, Any]) -> BuiltBlade:
         np.array([full(blade.displacement[f_omega]) for f_omega in moved]).reshape(-1, *shapes.shape[1:]),
         np.array(moved, dtype=float),
         accuracy_table(reduced, blade.frequencies, by_law),
-        made_from(config),
+        origin,
     )
 
 

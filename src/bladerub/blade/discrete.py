@@ -106,7 +106,9 @@ def by_finite_elements(
         if f_omega in speeds:
             stiffness[f_omega] = state.stiffness
         if f_omega in table_speeds:
-            frequencies[f_omega] = lowest_modes(state.stiffness, solid.mass, n_modes)[0]
+            frequencies[f_omega] = (
+                lowest_modes(state.stiffness, solid.mass, n_modes)[0] if f_omega > 0 else frequency
+            )
             log.info("f_omega = %.4f: first frequency %.4f Hz", f_omega, frequencies[f_omega][0])
     return DiscreteBlade(
         blade,

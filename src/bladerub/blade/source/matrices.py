@@ -115,7 +115,10 @@ def import_matrices(source: MatrixSource, f_max: float, n_modes: int, eta: int) 
             mass,
             stiffness,
             {},
-            {f_omega: lowest_modes(matrix, mass, n_modes)[0] for f_omega, matrix in stiffness.items()},
+            {
+                f_omega: lowest_modes(matrix, mass, n_modes)[0] if f_omega > 0 else frequency
+                for f_omega, matrix in stiffness.items()
+            },
             frequency,
             modes,
         ),
