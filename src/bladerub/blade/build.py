@@ -25,6 +25,7 @@ from bladerub.blade.frequencies import reduced_frequencies
 from bladerub.blade.linear import lowest_modes
 from bladerub.blade.mesh import BladeMesh, MeshedBlade
 from bladerub.blade.model import AXIS, INTERFACE_NODE, ReducedBlade, write_reduced_blade
+from bladerub.blade.nearby import Nearby
 from bladerub.blade.reduction import (
     Partition,
     fit_speeds,
@@ -236,13 +237,18 @@ def reduce_blade(
     `length` (m) is that of the config, `origin` what `made_from` says of it.
     """
     mesh, full = blade.layout.mesh, blade.free.full
-    f_max, n_modes = reduction["f_omega_max"], blade.frequency.size
+    f_max = reduction["f_omega_max"]
 
     partition = Partition.around(blade.free.coordinates(mesh.interface), blade.mass.shape[0])
     speeds = fit_speeds(f_max, reduction.get("fit_speeds", 3))
     fits = [blade.stiffness[f_omega] for f_omega in speeds]
     phi = transformation(
-        fits, blade.mass, partition, reduction["modes_per_speed"], reduction["rank_tolerance"]
+        fits,
+        blade.mass,
+        partition,
+        reduction["modes_per_speed"],
+        reduction["rank_tolerance"],
+        blade.at_rest,
     )
     radial, tangential = directions(mesh.mesh.points[mesh.interface], blade.layout.tip_cone)
     k0, k1, k2, *higher = speed_law([project(stiffness, phi) for stiffness in fits], f_max)
@@ -263,11 +269,7 @@ def reduce_blade(
         "%d reduced coordinates, highest %.4g Hz", len(reduced.mass), reduced_frequencies(reduced, f_max)[-1]
     )
 
-    coefficients = speed_law(fits, f_max)
-    by_law = {
-        f_omega: lowest_modes(stiffness_at(coefficients, f_omega), blade.mass, n_modes)[0]
-        for f_omega in blade.frequencies
-    }
+    by_law = _frequencies_by_law(blade, speed_law(fits, f_max))
     shapes = np.stack([full(mode) for mode in blade.modes.T])
     moved = [f_omega for f_omega in blade.frequencies if f_omega in blade.displacement]
     return BuiltBlade(
@@ -281,6 +283,19 @@ def reduce_blade(
         accuracy_table(reduced, blade.frequencies, by_law),
         origin,
     )
+
+
+def _frequencies_by_law(blade: DiscreteBlade, coefficients: tuple) -> dict[float, np.ndarray]:
+    """Frequencies (Hz) of the unreduced `blade` with the stiffness of eq. (2), at the speeds of its own."""
+    found = {}
+    for f_omega in blade.frequencies:
+        stiffness = stiffness_at(coefficients, f_omega)
+        if blade.at_rest is None:
+            found[f_omega] = lowest_modes(stiffness, blade.mass, blade.frequency.size)[0]
+        else:
+            nearby = Nearby(stiffness, blade.at_rest)
+            found[f_omega] = nearby.lowest_modes(blade.mass, blade.modes_at_speed[f_omega])[0]
+    return found
 
 
 def directions(position: np.ndarray, tip_cone: float) -> tuple[np.ndarray, np.ndarray]:

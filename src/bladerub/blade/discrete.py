@@ -12,8 +12,9 @@ from threadpoolctl import threadpool_limits
 
 from bladerub.blade.coordinates import FreeCoordinates
 from bladerub.blade.elasticity import Material, Solid
-from bladerub.blade.linear import lowest_modes
+from bladerub.blade.linear import MOST_BY_DEGREE, Solve, factorise, lowest_modes
 from bladerub.blade.mesh import MeshedBlade
+from bladerub.blade.nearby import Nearby
 from bladerub.blade.rotation import equilibrium
 
 log = logging.getLogger(__name__)
@@ -42,6 +43,11 @@ class DiscreteBlade:
         At rest, Hz; the first is the unit of normalised speeds.
     modes : (n, n_modes) ndarray
         The columns that go with it.
+    at_rest : callable, optional
+        The factored stiffness at rest of a large blade: what solves at speed, too, by
+        `bladerub.blade.nearby.Nearby`.
+    modes_at_speed : mapping of float to (n, n_modes) ndarray
+        With it, the modes that go with `frequencies`.
     """
 
     layout: MeshedBlade
@@ -52,6 +58,8 @@ class DiscreteBlade:
     frequencies: Mapping[float, np.ndarray]
     frequency: np.ndarray
     modes: np.ndarray = field(repr=False)
+    at_rest: Solve | None = field(repr=False, default=None)
+    modes_at_speed: Mapping[float, np.ndarray] = field(repr=False, default_factory=dict)
 
 
 @threadpool_limits.wrap(limits=1)
@@ -89,12 +97,15 @@ def by_finite_elements(
     solid = Solid(mesh, material, clamped=blade.mesh.root)
     log.info("%d elements, %d free coordinates", len(mesh.cells), solid.free.size)
     state = equilibrium(solid, 0.0)
-    frequency, modes = lowest_modes(state.stiffness, solid.mass, n_modes)
+    factors = factorise(state.stiffness)
+    frequency, modes = lowest_modes(state.stiffness, solid.mass, n_modes, factors)
+    at_rest = factors if solid.free.size > MOST_BY_DEGREE else None
+    del factors
     unit = 2 * np.pi * frequency[0]  # rad/s
-    stiffness, displacement, frequencies = {}, {}, {}
+    stiffness, displacement, frequencies, shapes = {}, {}, {}, {0.0: modes}
     for f_omega in sorted({0.0, *speeds, *table_speeds}):
         if f_omega > 0:
-            state = equilibrium(solid, f_omega * unit, state)
+            state = equilibrium(solid, f_omega * unit, state, at_rest)
             log.info(
                 "f_omega = %.4f: equilibrium in %d load steps, %d iterations, largest displacement %.4g mm",
                 f_omega,
@@ -106,9 +117,14 @@ def by_finite_elements(
         if f_omega in speeds:
             stiffness[f_omega] = state.stiffness
         if f_omega in table_speeds:
-            frequencies[f_omega] = (
-                lowest_modes(state.stiffness, solid.mass, n_modes)[0] if f_omega > 0 else frequency
-            )
+            if f_omega == 0:
+                frequencies[f_omega] = frequency
+            elif at_rest is None:
+                frequencies[f_omega] = lowest_modes(state.stiffness, solid.mass, n_modes)[0]
+            else:
+                nearest = shapes[max(shapes)]
+                nearby = Nearby(state.stiffness, at_rest)
+                frequencies[f_omega], shapes[f_omega] = nearby.lowest_modes(solid.mass, nearest)
             log.info("f_omega = %.4f: first frequency %.4f Hz", f_omega, frequencies[f_omega][0])
     return DiscreteBlade(
         blade,
@@ -119,4 +135,6 @@ def by_finite_elements(
         frequencies,
         frequency,
         modes,
+        at_rest,
+        shapes,
     )

@@ -80,7 +80,7 @@ class Solid(FreeCoordinates):
         self._weights = scalar.dx  # (element, point)
         self._gradients = np.stack([np.moveaxis(np.asarray(b[0].grad), 0, -1) for b in scalar.basis], axis=-2)
         self._dofs = dofs.element_dofs.T  # (element, 3 n_nodes), node by node as in `_gradients`
-        self._pattern = _Pattern(self._dofs, self.free, 3 * self.n_nodes)
+        self._pattern = _Pattern(self._dofs[:, ::3] // 3, self.free[::3] // 3, self.n_nodes)
         product = _product.assemble(Basis(mesh, mesh.elem(), quadrature=mesh.mass_quadrature()))
         mass = sparse.kron(product, sparse.eye_array(3), format="csc") * material.density
         self.mass = sparse.csc_array(mass[self.free][:, self.free])
@@ -147,21 +147,37 @@ def _deformation_gradient(gradients: np.ndarray, displacement: np.ndarray) -> np
 
 
 class _Pattern:
-    """Where the entries of the element matrices go in a sparse matrix of the free coordinates."""
+    """Where the entries of the element matrices go in a sparse matrix of the free coordinates.
 
-    def __init__(self, dofs: np.ndarray, free: np.ndarray, n_coordinates: int):
-        n_free = free.size
-        place = np.full(n_coordinates, -1)
-        place[free] = np.arange(n_free)
-        number = place[dofs]
+    It is found node by node: three coordinates of one are coupled to the three of another.
+    """
+
+    def __init__(self, cells: np.ndarray, free_nodes: np.ndarray, n_nodes: int):
+        n_free = free_nodes.size
+        place = np.full(n_nodes, -1)
+        place[free_nodes] = np.arange(n_free)
+        number = place[cells]  # (element, node)
         rows, columns = np.broadcast_arrays(number[:, :, None], number[:, None, :])
-        self._kept = ((rows >= 0) & (columns >= 0)).ravel()
-        places = columns.ravel()[self._kept].astype(np.int64) * n_free + rows.ravel()[self._kept]
-        entries, self._target = np.unique(places, return_inverse=True)
-        self._rows = (entries % n_free).astype(np.int32)
-        self._starts = np.searchsorted(entries // n_free, np.arange(n_free + 1)).astype(np.int32)
-        self._shape = (n_free, n_free)
+        kept = (rows >= 0) & (columns >= 0)
+        pairs, which = np.unique(columns[kept].astype(np.int64) * n_free + rows[kept], return_inverse=True)
+        starts = np.searchsorted(pairs // n_free, np.arange(n_free + 1))
+        above, column = np.arange(pairs.size) - starts[pairs // n_free], pairs // n_free
+        height = np.diff(starts)[column]  # of the column, in nodes
+
+        axis = np.arange(3)
+        # a pair's entry at row axis i, column axis j, in a matrix stored column by column
+        first = 9 * starts[column] + 3 * above
+        entries = first[:, None, None] + axis[:, None] + 3 * height[:, None, None] * axis
+        size = 9 * pairs.size
+        target = np.full((*rows.shape, 3, 3), size, dtype=np.int32)  # what is clamped goes behind the last
+        target[kept] = entries[which]
+        self._target = np.swapaxes(target, 2, 3).ravel()
+        self._rows = np.empty(size, dtype=np.int32)
+        self._rows[entries] = (3 * (pairs % n_free))[:, None, None] + axis[:, None]
+        self._starts = np.append(0, np.cumsum(np.repeat(3 * np.diff(starts), 3))).astype(np.int32)
+        self._shape = (3 * n_free, 3 * n_free)
 
     def assemble(self, elements: np.ndarray) -> sparse.csc_array:
-        values = np.bincount(self._target, weights=elements.ravel()[self._kept], minlength=self._rows.size)
+        size = self._rows.size
+        values = np.bincount(self._target, weights=elements.ravel(), minlength=size + 1)[:size]
         return sparse.csc_array((values, self._rows, self._starts), shape=self._shape)

@@ -7,10 +7,9 @@ import weakref
 from collections.abc import Callable
 
 import numpy as np
+import rslab
 from scipy import sparse
-from scipy.sparse.linalg import LinearOperator, SuperLU, eigsh, splu
-
-from bladerub.blade.dissection import nested_dissection
+from scipy.sparse.linalg import LinearOperator, eigsh, splu
 
 Solve = Callable[[np.ndarray], np.ndarray]
 
@@ -18,13 +17,16 @@ MOST_BY_DEGREE = 30_000
 """Unknowns up to which minimum degree orders them; the default blade is well below."""
 MOST_UNKNOWNS = 400_000
 """Beyond which the factors of the matrices of a blade fill the memory."""
+THREADS = 2
+"""With which RSLAB works; its own choice may be more than there are cores, and they wait for each other."""
 
 
 def factorise(matrix: sparse.csc_array) -> Solve:
     """Factor `matrix`, symmetric and regular; return what solves for a right-hand side (n,) or (n, k).
 
-    PARDISO does the work when pypardiso is installed, SuperLU otherwise. Beyond `MOST_BY_DEGREE` unknowns
-    SuperLU's own order fills the memory, and METIS finds one with a third of the entries.
+    PARDISO does the work when pypardiso is installed, else SuperLU up to `MOST_BY_DEGREE` unknowns, and
+    beyond them RSLAB: the factors of LDLᵀ take half the memory and a fraction of the time, and are the same
+    to the last bit with any number of threads.
 
     Raises
     ------
@@ -33,30 +35,28 @@ def factorise(matrix: sparse.csc_array) -> Solve:
     """
     if importlib.util.find_spec("pypardiso"):
         return _Pardiso(matrix)
-    if matrix.shape[0] <= MOST_BY_DEGREE:
-        # Minimum degree on A + Aᵀ without pivoting keeps the symmetry: far less fill than COLAMD.
-        return _super_lu(matrix, "MMD_AT_PLUS_A").solve
-    order = nested_dissection(matrix)
-    factors = _super_lu(matrix[order][:, order], "NATURAL")
-
-    def solve(rhs: np.ndarray) -> np.ndarray:
-        solution = np.empty_like(rhs)
-        solution[order] = factors.solve(rhs[order])
-        return solution
-
-    return solve
+    return _super_lu(matrix) if matrix.shape[0] <= MOST_BY_DEGREE else _ldlt(matrix)
 
 
-def _super_lu(matrix: sparse.csc_array, order: str) -> SuperLU:
+def _super_lu(matrix: sparse.csc_array) -> Solve:
     try:
         return splu(
             sparse.csc_matrix(matrix),
-            permc_spec=order,
+            # Minimum degree on A + Aᵀ without pivoting keeps the symmetry: far less fill than COLAMD.
+            permc_spec="MMD_AT_PLUS_A",
             diag_pivot_thresh=0.0,
             options={"SymmetricMode": True},
-        )
+        ).solve
     except RuntimeError as error:
         raise np.linalg.LinAlgError(f"sparse factorisation: {error}") from error
+
+
+def _ldlt(matrix: sparse.csc_array) -> Solve:
+    try:
+        factors = rslab.ldlt(matrix, threads=THREADS)
+    except RuntimeError as error:
+        raise np.linalg.LinAlgError(f"sparse factorisation: {error}") from error
+    return lambda rhs: factors.solve(rhs) if rhs.ndim == 1 else factors.solve_many(rhs)
 
 
 class _Pardiso:
@@ -105,4 +105,9 @@ def lowest_modes(
     )  # the same every time, unlike ARPACK's
     squares, modes = eigsh(stiffness, n_modes, M=mass, sigma=0.0, OPinv=inverse, v0=start)
     order = np.argsort(squares)
-    return np.sign(squares[order]) * np.sqrt(np.abs(squares[order])) / (2 * np.pi), modes[:, order]
+    return in_hertz(squares[order]), modes[:, order]
+
+
+def in_hertz(squares: np.ndarray) -> np.ndarray:
+    """Frequencies of the eigenvalues `squares` (rad²/s²), those of unstable modes negative."""
+    return np.sign(squares) * np.sqrt(np.abs(squares)) / (2 * np.pi)

@@ -9,6 +9,7 @@ import numpy as np
 from scipy import sparse
 
 from bladerub.blade.linear import Solve, factorise, lowest_modes
+from bladerub.blade.nearby import Nearby
 
 
 def fit_speeds(f_max: float, count: int = 3) -> list[float]:
@@ -73,26 +74,55 @@ def constraint_modes(stiffness: sparse.csc_array, partition: Partition, solve: S
     return -solve(coupling.toarray())
 
 
+def internal_solve(solve: Solve, partition: Partition) -> Solve:
+    """Solve by K_ii with the factors of the whole K, `solve`.
+
+    What is solved for with the whole has interface displacements; forces on the interface take them back.
+    """
+    n, n_interface = partition.interface.size + partition.internal.size, partition.interface.size
+    unit_forces = np.zeros((n, n_interface))
+    unit_forces[partition.interface, np.arange(n_interface)] = 1
+    flexibility = solve(unit_forces)
+    unit_displacements = np.linalg.solve(flexibility[partition.interface].T, flexibility.T).T
+
+    def solve_internal(rhs: np.ndarray) -> np.ndarray:
+        forces = np.zeros((n, *rhs.shape[1:]))
+        forces[partition.internal] = rhs
+        moved = solve(forces)
+        return (moved - unit_displacements @ moved[partition.interface])[partition.internal]
+
+    return solve_internal
+
+
 def transformation(
     stiffnesses: Sequence[sparse.csc_array],
     mass: sparse.csc_array,
     partition: Partition,
     eta: int,
     rank_tolerance: float,
+    at_rest: Solve | None = None,
 ) -> np.ndarray:
     """Φ of eq. (5), (n, n_reduced), from the stiffness at the fit speeds, rest first.
+
+    For a large blade `at_rest` is the factored stiffness at rest, which then stands in for other factors.
 
     The internal columns of eq. (4) are scaled to unit norm in the mass, then made orthonormal in it by a
     singular value decomposition that drops what lies below `rank_tolerance` times the largest singular value.
     """
     internal = partition.internal
     mass_ii = mass[internal][:, internal]
+    near = at_rest and internal_solve(at_rest, partition)
     statics, fixed = [], []
     for stiffness in stiffnesses:
         stiffness_ii = sparse.csc_array(stiffness[internal][:, internal])
-        solve = factorise(stiffness_ii)
+        if near and fixed:
+            solve = Nearby(stiffness_ii, near)
+            modes = solve.lowest_modes(mass_ii, fixed[-1])[1]
+        else:
+            solve = near or factorise(stiffness_ii)
+            modes = lowest_modes(stiffness_ii, mass_ii, eta, solve)[1]
         statics.append(constraint_modes(stiffness, partition, solve))
-        fixed.append(lowest_modes(stiffness_ii, mass_ii, eta, solve)[1])
+        fixed.append(modes)
         del solve  # frees the memory before there are new factors
     phi_r = statics[0]
     columns = np.hstack([*(later - phi_r for later in statics[1:]), *fixed])  # eq. (4)

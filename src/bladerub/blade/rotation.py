@@ -8,7 +8,8 @@ import numpy as np
 from scipy import sparse
 
 from bladerub.blade.elasticity import Solid
-from bladerub.blade.linear import MOST_BY_DEGREE, factorise
+from bladerub.blade.linear import Solve, factorise
+from bladerub.blade.nearby import Nearby
 
 TOLERANCE = 1e-9
 """Largest residual force accepted, over the norm of the centrifugal load."""
@@ -17,7 +18,9 @@ SETTLED = 1e-8
 MAX_ITERATIONS = 12
 """Newton iterations granted to one load step."""
 KEEPING = 0.2
-"""Residual over that of the iteration before up to which a large model keeps its factors."""
+"""Residual over that of the iteration before up to which a large model keeps its tangent."""
+CORRECTION = 1e-4
+"""Error accepted of a correction of a large model, relative: the next one makes up for it."""
 MAX_HALVINGS = 8
 """How often a load step that failed is halved before giving up."""
 
@@ -50,11 +53,14 @@ class Equilibrium:
     n_steps: int
 
 
-def equilibrium(solid: Solid, omega: float, start: Equilibrium | None = None) -> Equilibrium:
+def equilibrium(
+    solid: Solid, omega: float, start: Equilibrium | None = None, at_rest: Solve | None = None
+) -> Equilibrium:
     """Find the equilibrium of `solid` at the angular speed `omega` (rad/s).
 
     The load acts on the displaced position, ``ρ Ω² (0, y + u_y, z + u_z)``. Load steps go in Ω² from `start`
     (rest if not given) to the target: all at once first, in halves where Newton's method does not converge.
+    For a large model `at_rest` is its factored stiffness at rest, which then stands in for factors at speed.
 
     Raises
     ------
@@ -68,7 +74,7 @@ def equilibrium(solid: Solid, omega: float, start: Equilibrium | None = None) ->
     n_iterations = n_steps = 0
     while reached != target:
         aim = target if abs(target - reached) <= abs(step) else reached + step
-        found, iterations = _newton(solid, aim, u)
+        found, iterations = _newton(solid, aim, u, at_rest)
         n_iterations += iterations
         if found is not None:
             reached, u = aim, found
@@ -99,10 +105,12 @@ def residual(solid: Solid, u: np.ndarray, omega_squared: float) -> np.ndarray:
     return solid.internal_force(u) - centrifugal_load(solid, u, omega_squared)
 
 
-def _newton(solid: Solid, omega_squared: float, start: np.ndarray) -> tuple[np.ndarray | None, int]:
+def _newton(
+    solid: Solid, omega_squared: float, start: np.ndarray, at_rest: Solve | None
+) -> tuple[np.ndarray | None, int]:
     """Displacement in equilibrium, or None, and the iterations made.
 
-    Where factors are dear they are kept for the next iteration as long as the residual falls fast.
+    A large model, one with factors `at_rest`, keeps its tangent as long as the residual falls fast.
     """
     u, solve, before = start, None, np.inf
     for iteration in range(MAX_ITERATIONS + 1):
@@ -115,15 +123,18 @@ def _newton(solid: Solid, omega_squared: float, start: np.ndarray) -> tuple[np.n
         size = np.linalg.norm(force)
         if size <= TOLERANCE * scale:
             return u, iteration
-        if u.size <= MOST_BY_DEGREE or size > KEEPING * before:
-            solve = None  # frees the memory before there are new ones
+        if at_rest is None or size > KEEPING * before:
+            solve = None  # frees the memory before there is a new one
         before = size
         if iteration < MAX_ITERATIONS:
             try:
-                solve = solve or factorise(rotating_stiffness(solid, u, omega_squared))
+                if solve is None:
+                    tangent = rotating_stiffness(solid, u, omega_squared)
+                    solve = factorise(tangent) if at_rest is None else Nearby(tangent, at_rest, CORRECTION)
+                    del tangent
+                correction = solve(force)
             except np.linalg.LinAlgError:
                 return None, iteration
-            correction = solve(force)
             u = u - correction
             # a slow blade strains so little that the rounding of its forces exceeds what TOLERANCE allows
             if np.linalg.norm(correction) <= SETTLED * np.linalg.norm(u):

@@ -6,6 +6,7 @@ from scipy.linalg import eigh
 from bladerub.blade.linear import factorise, lowest_modes
 from bladerub.blade.reduction import (
     Partition,
+    internal_solve,
     mass_orthonormal,
     project,
     speed_law,
@@ -97,3 +98,13 @@ def test_projection_and_speed_law_commute(blocks):
     for f_omega in (0.1, 0.3):
         one, other = stiffness_at(of_reduced, f_omega), stiffness_at(of_full, f_omega)
         np.testing.assert_allclose(one, other, atol=1e-9 * np.abs(one).max())
+
+
+def test_factors_of_the_whole_solve_for_the_internal_coordinates(blocks):
+    fits, _, partition, _ = blocks
+    internal = partition.internal
+    rhs = np.random.default_rng(4).standard_normal((internal.size, 2))
+    solve, exact = internal_solve(factorise(fits[1]), partition), factorise(fits[1][internal][:, internal])
+    for columns in (slice(None), 0):
+        wanted = exact(rhs[:, columns])
+        np.testing.assert_allclose(solve(rhs[:, columns]), wanted, atol=1e-9 * np.abs(wanted).max())
