@@ -269,7 +269,7 @@ def reduce_blade(
         "%d reduced coordinates, highest %.4g Hz", len(reduced.mass), reduced_frequencies(reduced, f_max)[-1]
     )
 
-    by_law = _frequencies_by_law(blade, speed_law(fits, f_max))
+    by_law = _frequencies_by_law(blade, fits, f_max)
     shapes = np.stack([full(mode) for mode in blade.modes.T])
     moved = [f_omega for f_omega in blade.frequencies if f_omega in blade.displacement]
     return BuiltBlade(
@@ -285,16 +285,20 @@ def reduce_blade(
     )
 
 
-def _frequencies_by_law(blade: DiscreteBlade, coefficients: tuple) -> dict[float, np.ndarray]:
+def _frequencies_by_law(blade: DiscreteBlade, fits: list, f_max: float) -> dict[float, np.ndarray]:
     """Frequencies (Hz) of the unreduced `blade` with the stiffness of eq. (2), at the speeds of its own."""
+    if blade.at_rest is None:
+        coefficients = speed_law(fits, f_max)
+        return {
+            f_omega: lowest_modes(stiffness_at(coefficients, f_omega), blade.mass, blade.frequency.size)[0]
+            for f_omega in blade.frequencies
+        }
+    shares = speed_law(np.eye(len(fits)), f_max)  # of the fits: coefficients as large would fill the memory
     found = {}
     for f_omega in blade.frequencies:
-        stiffness = stiffness_at(coefficients, f_omega)
-        if blade.at_rest is None:
-            found[f_omega] = lowest_modes(stiffness, blade.mass, blade.frequency.size)[0]
-        else:
-            nearby = Nearby(stiffness, blade.at_rest)
-            found[f_omega] = nearby.lowest_modes(blade.mass, blade.modes_at_speed[f_omega])[0]
+        weighted = zip(stiffness_at(shares, f_omega), fits, strict=True)
+        nearby = Nearby(sum(weight * fit for weight, fit in weighted), blade.at_rest)
+        found[f_omega] = nearby.lowest_modes(blade.mass, blade.modes_at_speed[f_omega])[0]
     return found
 
 

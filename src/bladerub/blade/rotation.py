@@ -70,14 +70,18 @@ def equilibrium(
     """
     target = omega**2
     reached, u = (start.omega**2, start.displacement) if start else (0.0, np.zeros(solid.free.size))
+    # the tangent of a large model is dear: the first is known, but for the spin softening
+    known = start.stiffness if start and at_rest else None
     step, smallest = target - reached, abs(target - reached) / 2**MAX_HALVINGS
     n_iterations = n_steps = 0
     while reached != target:
         aim = target if abs(target - reached) <= abs(step) else reached + step
-        found, iterations = _newton(solid, aim, u, at_rest)
+        found, iterations = _newton(
+            solid, aim, u, at_rest, None if known is None else known - (aim - reached) * _spin(solid)
+        )
         n_iterations += iterations
         if found is not None:
-            reached, u = aim, found
+            reached, u, known = aim, found, None
             n_steps += 1
         elif abs(step) / 2 < smallest:
             raise EquilibriumError(
@@ -91,8 +95,11 @@ def equilibrium(
 
 def rotating_stiffness(solid: Solid, u: np.ndarray, omega_squared: float) -> sparse.csc_array:
     """Evaluate the derivative (n, n) of `residual` at `u`, N/m; the spin softening acts on y and z."""
-    spin = solid.mass * (solid.axis != 0)  # columns of y and z: mass couples no two axes
-    return sparse.csc_array(solid.tangent(u) - omega_squared * spin)
+    return sparse.csc_array(solid.tangent(u) - omega_squared * _spin(solid))
+
+
+def _spin(solid: Solid) -> sparse.csc_array:
+    return solid.mass * (solid.axis != 0)  # columns of y and z: mass couples no two axes
 
 
 def centrifugal_load(solid: Solid, u: np.ndarray, omega_squared: float) -> np.ndarray:
@@ -106,11 +113,16 @@ def residual(solid: Solid, u: np.ndarray, omega_squared: float) -> np.ndarray:
 
 
 def _newton(
-    solid: Solid, omega_squared: float, start: np.ndarray, at_rest: Solve | None
+    solid: Solid,
+    omega_squared: float,
+    start: np.ndarray,
+    at_rest: Solve | None,
+    tangent: sparse.csc_array | None,
 ) -> tuple[np.ndarray | None, int]:
     """Displacement in equilibrium, or None, and the iterations made.
 
-    A large model, one with factors `at_rest`, keeps its tangent as long as the residual falls fast.
+    A large model, one with factors `at_rest`, keeps its tangent as long as the residual falls fast; at the
+    start it may be given.
     """
     u, solve, before = start, None, np.inf
     for iteration in range(MAX_ITERATIONS + 1):
@@ -129,9 +141,10 @@ def _newton(
         if iteration < MAX_ITERATIONS:
             try:
                 if solve is None:
-                    tangent = rotating_stiffness(solid, u, omega_squared)
+                    if tangent is None:
+                        tangent = rotating_stiffness(solid, u, omega_squared)
                     solve = factorise(tangent) if at_rest is None else Nearby(tangent, at_rest, CORRECTION)
-                    del tangent
+                    tangent = None
                 correction = solve(force)
             except np.linalg.LinAlgError:
                 return None, iteration
