@@ -169,7 +169,7 @@ class _Pattern:
         first = 9 * starts[column] + 3 * above
         entries = first[:, None, None] + axis[:, None] + 3 * height[:, None, None] * axis
         size = 9 * pairs.size
-        target = np.full((*rows.shape, 3, 3), size, dtype=np.int32)  # what is clamped goes behind the last
+        target = np.full((*rows.shape, 3, 3), size)  # what is clamped goes behind the last
         target[kept] = entries[which]
         self._target = np.swapaxes(target, 2, 3).ravel()
         self._rows = np.empty(size, dtype=np.int32)

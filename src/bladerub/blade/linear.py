@@ -66,8 +66,8 @@ class _Pardiso:
         from pypardiso import PyPardisoSolver
         from pypardiso.pardiso_wrapper import PyPardisoError
 
-        self._matrix = sparse.csr_matrix(matrix)
-        self._solver = PyPardisoSolver()
+        self._matrix = sparse.csr_matrix(sparse.triu(matrix))
+        self._solver = PyPardisoSolver(mtype=-2)  # symmetric: half the memory of one that need not be
         weakref.finalize(self, self._solver.free_memory, everything=True)
         try:
             self._solver.factorize(self._matrix)
