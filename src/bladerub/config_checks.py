@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Collection, Iterator
-from itertools import accumulate
+from itertools import accumulate, pairwise
 from typing import Any
 
 import numpy as np
@@ -327,3 +327,24 @@ def _figures(config: Config) -> Iterator[str]:
     low, high = config["figures"]["amplitude_range"]
     if low >= high:
         yield f"figures.amplitude_range = {[low, high]}: must be the lower end first, then the upper"
+
+
+@_reads("chart", "casings")
+def _chart_casing(config: Config) -> Iterator[str]:
+    yield from _known_casing(config, "chart", config["chart"]["casing"])
+
+
+@_reads("chart")
+def _chart_moduli(config: Config) -> Iterator[str]:
+    for name in ("E", "K"):
+        values = config["chart"][name]
+        for index, (lower, upper) in enumerate(pairwise(values), 1):
+            if upper <= lower:
+                yield f"chart.{name}[{index}] = {upper:g}: must be above the one before ({lower:g})"
+
+
+@_reads("chart", "speeds")
+def _chart_speeds(config: Config) -> Iterator[str]:
+    start, stop = config["chart"]["speeds"]["start"], config["speeds"]["stop"]
+    if start >= stop:
+        yield f"chart.speeds.start = {start:g}: must be below speeds.stop = {stop:g}"

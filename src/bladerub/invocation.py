@@ -5,11 +5,13 @@ from __future__ import annotations
 import shutil
 import sys
 import tempfile
+from collections.abc import Callable
 from pathlib import Path
 from typing import IO
 
 from bladerub import atomic, lock
 from bladerub.faults import DamagedFile
+from bladerub.study.chart.manifest import lost_cell
 from bladerub.study.store import lost_run
 
 
@@ -23,8 +25,8 @@ def begin(snakemake_folder: str | Path, results: str | Path) -> IO:
     deleted, and Snakemake itself decides by the notes whether the two get into each other's way. (Without
     Snakemake's own lock, its ``nolock``, two invocations would delete each other's files.)
 
-    Second, the manifest of a coating that lists a run which is lost or of another size: without its manifest
-    the coating is planned again, and computes that run alone.
+    Second, the manifest of a coating that lists a run which is lost or of another size, and that of a column
+    of the chart with such a cell: without its manifest the job is planned again, and computes that alone.
 
     Parameters
     ----------
@@ -50,14 +52,15 @@ def begin(snakemake_folder: str | Path, results: str | Path) -> IO:
     elif any(locks.glob("*.lock")):
         shutil.rmtree(locks)
         _tell("the last snakemake here was killed; what it had finished is kept")
-    for manifest in sorted(Path(results).glob("runs/*/manifest.tsv")):
-        _forget_if_wrong(manifest)
+    for pattern, lost_file in (("runs/*/manifest.tsv", lost_run), ("chart/columns/*.tsv", lost_cell)):
+        for manifest in sorted(Path(results).glob(pattern)):
+            _forget_if_wrong(manifest, lost_file)
     return stream
 
 
-def _forget_if_wrong(manifest: Path) -> None:
+def _forget_if_wrong(manifest: Path, lost_file: Callable[[Path], str | None]) -> None:
     try:
-        lost = lost_run(manifest)
+        lost = lost_file(manifest)
     except DamagedFile as error:
         fault = str(error)
     else:

@@ -31,6 +31,14 @@ def growth_digest() -> str:
     return _source_digest([_PACKAGE / "study" / "growth.py"])
 
 
+@cache
+def chart_digest() -> str:
+    """Digest the source of what chooses the speeds of a cell of the chart and what it keeps of each run."""
+    measuring = [f"{name}.py" for name in ("spectra", "peaks", "growth", "wear")]
+    searching = [f"chart/{name}.py" for name in ("grid", "placement", "search", "cell")]
+    return _source_digest([_PACKAGE / "study" / name for name in measuring + searching])
+
+
 def _source_digest(paths: Iterable[Path]) -> str:
     digest = hashlib.sha256()
     for path in sorted(paths):

@@ -5,15 +5,26 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, Protocol
 
 import numpy as np
 import pandas as pd
 
+from bladerub.study.grid import CoatingCase
 from bladerub.study.maps import CoatingMap, read_map
 
 COLUMNS = ["casing", "E", "K", "theta", "order", "f_peak", "amplitude"]
 """Columns of ``peaks.csv``; f_peak is normalised, amplitude in m."""
+
+
+class Response(Protocol):
+    """What the search for peaks needs of one coating; a `CoatingMap` has it."""
+
+    case: CoatingCase
+    f_omega: np.ndarray
+    C1: np.ndarray
+    spectrum_order: np.ndarray
+    spectrum_amplitude: np.ndarray
 
 
 @dataclass(frozen=True)
@@ -32,7 +43,7 @@ class Peak:
     amplitude: float
 
 
-def crossing_speed(coating: CoatingMap, order: float) -> float:
+def crossing_speed(coating: Response, order: float) -> float:
     """Speed at which the engine order crosses C1, ``order * f_omega = C1(f_omega)``, normalised.
 
     C1 is taken as linear between the speeds of the map.
@@ -53,7 +64,7 @@ def crossing_speed(coating: CoatingMap, order: float) -> float:
     return float(np.interp(0.0, distance, f_omega))  # distance rises with speed, since C1 grows slowly
 
 
-def order_amplitude(coating: CoatingMap, order: float, halfwidth: float) -> np.ndarray:
+def order_amplitude(coating: Response, order: float, halfwidth: float) -> np.ndarray:
     """Largest amplitude within `halfwidth` of an engine order at each speed, m (n,); NaN without a spectrum.
 
     Raises
@@ -69,7 +80,22 @@ def order_amplitude(coating: CoatingMap, order: float, halfwidth: float) -> np.n
     return coating.spectrum_amplitude[:, on_order].max(axis=1)
 
 
-def peak(coating: CoatingMap, order: float, settings: Mapping[str, Any]) -> Peak:
+def amplitude_in_window(coating: Response, order: float, settings: Mapping[str, Any]) -> np.ndarray:
+    """Amplitude among which the peak of an engine order is sought, m (n,); NaN outside its speed window.
+
+    Parameters and errors are those of `peak`.
+    """
+    low, high = _window(coating, order, settings)
+    inside = (coating.f_omega >= low) & (coating.f_omega <= high)
+    return np.where(inside, order_amplitude(coating, order, settings["order_halfwidth"]), np.nan)
+
+
+def _window(coating: Response, order: float, settings: Mapping[str, Any]) -> tuple[float, float]:
+    low, high = (factor * crossing_speed(coating, order) for factor in settings["speed_window"])
+    return low, high
+
+
+def peak(coating: Response, order: float, settings: Mapping[str, Any]) -> Peak:
     """Find the maximum (f_k, Y_k) of one engine order near its crossing with C1.
 
     Y_k is the largest amplitude within ``order_halfwidth`` of the order, over the speeds within
@@ -78,8 +104,8 @@ def peak(coating: CoatingMap, order: float, settings: Mapping[str, Any]) -> Peak
 
     Parameters
     ----------
-    coating : CoatingMap
-        Runs of one coating.
+    coating : Response
+        Runs of one coating; amplitudes are NaN at speeds without a run.
     order : float
         Engine order k.
     settings : mapping
@@ -91,10 +117,9 @@ def peak(coating: CoatingMap, order: float, settings: Mapping[str, Any]) -> Peak
         If the order does not cross C1 within the map, or no run with a spectrum lies in the window: a table
         with a hole would pass for a soft coating in the histograms. The message names key and window.
     """
-    low, high = (factor * crossing_speed(coating, order) for factor in settings["speed_window"])
-    inside = (coating.f_omega >= low) & (coating.f_omega <= high)
-    amplitude = np.where(inside, order_amplitude(coating, order, settings["order_halfwidth"]), np.nan)
+    amplitude = amplitude_in_window(coating, order, settings)
     if np.isnan(amplitude).all():
+        low, high = _window(coating, order, settings)
         raise ValueError(
             f"analysis.peaks.speed_window: no run of {coating.case.name} between f_omega = {low:.4f} and "
             f"{high:.4f} has a spectrum for engine order {order:g}; add speeds there or widen the window"

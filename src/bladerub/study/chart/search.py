@@ -1,0 +1,167 @@
+"""The runs of one cell of the chart: which ones, and what is taken of each.
+
+1. The cell is run at the coarse speeds, then where `bladerub.study.chart.placement` says: around the maxima
+   of Y4 and Y6 within the windows of `bladerub.study.peaks`, and of the displacement over all speeds.
+2. Each run is the study's run of that coating and speed, and is measured as there.
+3. Whether it diverges is judged at the uniform speeds alone, as in `bladerub.study.growth`, with the longer
+   run where it grows: the share over them does not know where the search has looked closer.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from collections.abc import Callable, Mapping
+from dataclasses import asdict
+from typing import Any
+
+import numpy as np
+
+from bladerub.blade.model import ReducedBlade
+from bladerub.contact.run import simulate, strip_width
+from bladerub.contact.spec import RunResult, RunSpec
+from bladerub.sources import chart_digest, solver_digest
+from bladerub.study.chart.cell import MEASURES, Cell
+from bladerub.study.chart.grid import ORDERS, ChartSpeeds
+from bladerub.study.chart.placement import next_speeds
+from bladerub.study.confirmation import confirmation_spec
+from bladerub.study.grid import CoatingCase, run_spec
+from bladerub.study.growth import judge, needs_confirmation
+from bladerub.study.peaks import amplitude_in_window
+from bladerub.study.spectra import order_spectrum
+from bladerub.study.wear import lobes
+
+
+def cell_key(config: Mapping[str, Any], case: CoatingCase, speeds: ChartSpeeds, blade_digest: str) -> str:
+    """Digest all that determines the file of one cell (compare `bladerub.study.key.run_key`).
+
+    Parameters
+    ----------
+    config : mapping
+        The study.
+    case : CoatingCase
+        The coating.
+    speeds : ChartSpeeds
+        From `bladerub.study.chart.grid.chart_speeds`.
+    blade_digest : str
+        From `bladerub.study.key.blade_digest`.
+
+    Returns
+    -------
+    str
+        SHA-256 in hexadecimal. Other cells, and the coatings of the study, have no part in it.
+    """
+    analysis = config["analysis"]
+    determinants = {
+        "spec": asdict(run_spec(config, case, f_omega=0.0)),
+        "f_omega": speeds.f_omega.tolist(),
+        "uniform": np.flatnonzero(speeds.uniform).tolist(),
+        "coarse": np.flatnonzero(speeds.coarse).tolist(),
+        "refine_above": float(config["chart"]["speeds"]["refine_above"]),
+        "orders": ORDERS,
+        "window": [float(end) for end in analysis["peaks"]["speed_window"]],
+        **{key: float(analysis[key]) for key in ("spectrum_revolutions", "lobe_prominence")},
+        "order_halfwidth": float(analysis["peaks"]["order_halfwidth"]),
+        "divergence": {key: float(value) for key, value in analysis["divergence"].items()},
+        "blade": blade_digest,
+        "solver": solver_digest(),
+        "chart": chart_digest(),
+    }
+    return hashlib.sha256(json.dumps(determinants, sort_keys=True).encode()).hexdigest()
+
+
+def compute(
+    config: Mapping[str, Any], case: CoatingCase, blade: ReducedBlade, speeds: ChartSpeeds, C1: np.ndarray
+) -> Cell:
+    """Run one coating where the search wants it, and judge it at the uniform speeds.
+
+    Parameters
+    ----------
+    config, case, speeds
+        As `cell_key`.
+    blade : ReducedBlade
+        The blade.
+    C1 : (n,) ndarray
+        Its first eigenfrequency at each speed, normalised.
+    """
+    cell = empty(case, speeds, C1)
+    fill(cell, config, speeds, lambda index: _run(config, blade, cell, index))
+    return cell
+
+
+def empty(case: CoatingCase, speeds: ChartSpeeds, C1: np.ndarray) -> Cell:
+    """Make a cell of which no speed was run yet."""
+    n = speeds.f_omega.size
+    return Cell(
+        case=case,
+        f_omega=speeds.f_omega,
+        C1=C1,
+        spectrum_order=np.array(ORDERS, dtype=float),
+        spectrum_amplitude=np.full((n, len(ORDERS)), np.nan),
+        uniform=speeds.uniform,
+        measures={name: np.full(n, np.nan) for name in MEASURES},
+    )
+
+
+def fill(cell: Cell, config: Mapping[str, Any], speeds: ChartSpeeds, run: Callable[[int], None]) -> None:
+    """Let `run` put into `cell` one speed after the other, until the search wants no more."""
+    pending = np.flatnonzero(speeds.coarse).tolist()
+    while pending:
+        for index in pending:
+            run(index)
+        pending = next_speeds(cell.known, _sought(cell, config), config["chart"]["speeds"]["refine_above"])
+
+
+def _sought(cell: Cell, config: Mapping[str, Any]) -> list[np.ndarray]:
+    """Curves (n,) over speed whose maxima the cell is after; NaN where they are not sought."""
+    settings = config["analysis"]["peaks"]
+    on_orders = [amplitude_in_window(cell, order, settings) for order in ORDERS]
+    return [*on_orders, cell.measures["peak"]]
+
+
+def _run(config: Mapping[str, Any], blade: ReducedBlade, cell: Cell, index: int) -> None:
+    spec = run_spec(config, cell.case, cell.f_omega[index])
+    result = simulate(blade, spec)
+    cell.spectrum_amplitude[index] = _amplitudes(config, spec, result)
+    for name, value in _measured(config, blade, spec, result).items():
+        cell.measures[name][index] = value
+    if cell.uniform[index]:
+        cell.measures["divergent"][index] = _diverges(config, blade, spec, result)
+
+
+def _amplitudes(config: Mapping[str, Any], spec: RunSpec, result: RunResult) -> list[float]:
+    """Largest amplitude on each of `ORDERS`, m."""
+    analysis = config["analysis"]
+    halfwidth = analysis["peaks"]["order_halfwidth"]
+    order, amplitude = order_spectrum(
+        result.radial_displacement, spec.revolutions, analysis["spectrum_revolutions"], max(ORDERS) + 1
+    )
+    return [float(amplitude[np.abs(order - wanted) <= halfwidth + 1e-9].max()) for wanted in ORDERS]
+
+
+def _measured(
+    config: Mapping[str, Any], blade: ReducedBlade, spec: RunSpec, result: RunResult
+) -> dict[str, float]:
+    made = result.n_steps * result.time_step * spec.f_omega * blade.f1_hz
+    return {
+        "peak": float(np.nanmax(result.revolution_peak)),
+        "worn_volume": float(result.wear.sum(axis=1) @ _element_area(blade, spec)),
+        "deepest_wear": float(result.wear.max()),
+        "lobes": lobes(result.angle, result.wear, config["analysis"]["lobe_prominence"]),
+        "unbounded": float(result.status == "unbounded"),
+        "revolutions": made,
+        **{f"energy_{name}": getattr(result.energy, name) for name in ("damping", "wear", "sliding")},
+    }
+
+
+def _element_area(blade: ReducedBlade, spec: RunSpec) -> np.ndarray:
+    """Area (8,) of one element of the coating under each node, m²."""
+    y, z = blade.node_position[:, 1], blade.node_position[:, 2]
+    return strip_width(blade) * 2 * np.pi * np.hypot(y, z) / spec.coating.n_elements
+
+
+def _diverges(config: Mapping[str, Any], blade: ReducedBlade, spec: RunSpec, result: RunResult) -> float:
+    settings, longer = config["analysis"]["divergence"], None
+    if needs_confirmation(result.revolution_amplitude, result.status, settings):
+        longer = simulate(blade, confirmation_spec(spec, settings)).revolution_amplitude
+    return float(judge(result.revolution_amplitude, result.status, settings, longer).divergent)
