@@ -51,6 +51,7 @@ include: "src/rules/margins.smk"
 include: "src/rules/explorer.smk"
 include: "src/rules/cost.smk"
 include: "src/rules/calibration.smk"
+include: "src/rules/chart.smk"
 include: "src/rules/documents.smk"
 
 

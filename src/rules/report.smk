@@ -12,6 +12,7 @@ CATEGORIES = {
             "Angle of the elements",
             "Claims",
             "Cost",
+            "Choice of a coating",
         ],
         1,
     )

@@ -14,8 +14,9 @@ from bladerub.blade.frequencies import reduced_frequencies
 from bladerub.blade.model import ReducedBlade
 from bladerub.study.chart import cell as cells
 from bladerub.study.chart.grid import chart_speeds
+from bladerub.study.chart.key import cell_key
 from bladerub.study.chart.manifest import CellRow, is_current
-from bladerub.study.chart.search import cell_key, compute
+from bladerub.study.chart.search import compute
 from bladerub.study.grid import CoatingCase
 
 

@@ -22,7 +22,7 @@ class CellRow(NamedTuple):
     file : str
         Name of its file in the folder `CELLS`.
     cell_key : str
-        From `bladerub.study.chart.search.cell_key`.
+        From `bladerub.study.chart.key.cell_key`.
     bytes : int
         Size of the file.
     """

@@ -9,10 +9,7 @@
 
 from __future__ import annotations
 
-import hashlib
-import json
 from collections.abc import Callable, Mapping
-from dataclasses import asdict
 from typing import Any
 
 import numpy as np
@@ -20,7 +17,6 @@ import numpy as np
 from bladerub.blade.model import ReducedBlade
 from bladerub.contact.run import simulate, strip_width
 from bladerub.contact.spec import RunResult, RunSpec
-from bladerub.sources import chart_digest, solver_digest
 from bladerub.study.chart.cell import MEASURES, Cell
 from bladerub.study.chart.grid import ORDERS, ChartSpeeds
 from bladerub.study.chart.placement import next_speeds
@@ -32,44 +28,6 @@ from bladerub.study.spectra import order_spectrum
 from bladerub.study.wear import lobes
 
 
-def cell_key(config: Mapping[str, Any], case: CoatingCase, speeds: ChartSpeeds, blade_digest: str) -> str:
-    """Digest all that determines the file of one cell (compare `bladerub.study.key.run_key`).
-
-    Parameters
-    ----------
-    config : mapping
-        The study.
-    case : CoatingCase
-        The coating.
-    speeds : ChartSpeeds
-        From `bladerub.study.chart.grid.chart_speeds`.
-    blade_digest : str
-        From `bladerub.study.key.blade_digest`.
-
-    Returns
-    -------
-    str
-        SHA-256 in hexadecimal. Other cells, and the coatings of the study, have no part in it.
-    """
-    analysis = config["analysis"]
-    determinants = {
-        "spec": asdict(run_spec(config, case, f_omega=0.0)),
-        "f_omega": speeds.f_omega.tolist(),
-        "uniform": np.flatnonzero(speeds.uniform).tolist(),
-        "coarse": np.flatnonzero(speeds.coarse).tolist(),
-        "refine_above": float(config["chart"]["speeds"]["refine_above"]),
-        "orders": ORDERS,
-        "window": [float(end) for end in analysis["peaks"]["speed_window"]],
-        **{key: float(analysis[key]) for key in ("spectrum_revolutions", "lobe_prominence")},
-        "order_halfwidth": float(analysis["peaks"]["order_halfwidth"]),
-        "divergence": {key: float(value) for key, value in analysis["divergence"].items()},
-        "blade": blade_digest,
-        "solver": solver_digest(),
-        "chart": chart_digest(),
-    }
-    return hashlib.sha256(json.dumps(determinants, sort_keys=True).encode()).hexdigest()
-
-
 def compute(
     config: Mapping[str, Any], case: CoatingCase, blade: ReducedBlade, speeds: ChartSpeeds, C1: np.ndarray
 ) -> Cell:
@@ -77,10 +35,14 @@ def compute(
 
     Parameters
     ----------
-    config, case, speeds
-        As `cell_key`.
+    config : mapping
+        The study.
+    case : CoatingCase
+        The coating.
     blade : ReducedBlade
         The blade.
+    speeds : ChartSpeeds
+        From `bladerub.study.chart.grid.chart_speeds`.
     C1 : (n,) ndarray
         Its first eigenfrequency at each speed, normalised.
     """

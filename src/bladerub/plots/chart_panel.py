@@ -1,0 +1,68 @@
+"""A panel of the chart: one quantity over both moduli, on logarithmic axes, the paper's coatings marked."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+import pandas as pd
+from matplotlib.axes import Axes
+from matplotlib.collections import QuadMesh
+from matplotlib.figure import Figure
+
+from bladerub.plots.cells import edges
+from bladerub.plots.style import DARK, MISSING
+
+PAPER_E = (0.11, 0.2, 0.5, 1.1, 1.5, 2.0, 5.0, 11.0, 20.0)
+PAPER_K = (0.05, 0.1, 0.5, 1.0, 5.0, 10.0)
+"""Moduli of the paper's Figs. 11 to 14, which make 54 coatings."""
+
+
+class Grid(NamedTuple):
+    """One quantity of the chart at one θ.
+
+    Parameters
+    ----------
+    E, K : (n_E,), (n_K,) ndarray
+        Ascending moduli, normalised.
+    values : (n_E, n_K) ndarray
+        The quantity, NaN where there is no cell.
+    """
+
+    E: np.ndarray
+    K: np.ndarray
+    values: np.ndarray
+
+
+def over_moduli(rows: pd.DataFrame, column: str) -> Grid:
+    """Arrange `column` of the rows of one casing and θ over E and K."""
+    wide = rows.pivot(index="E", columns="K", values=column)
+    return Grid(wide.index.to_numpy(), wide.columns.to_numpy(), wide.to_numpy(dtype=float))
+
+
+def panels(figure: Figure, chart: pd.DataFrame) -> list[tuple[Axes, pd.DataFrame]]:
+    """Make a panel for each θ of the chart, side by side, and return it with the rows it is for."""
+    angles = sorted(chart.theta.unique())
+    row = figure.subplots(1, len(angles), sharey=True, squeeze=False)[0]
+    for index, (axes, theta) in enumerate(zip(row, angles, strict=True)):
+        axes.set_title(rf"({'abcdefghij'[index]}) $\theta$ = {theta:g} rad")
+        axes.set(xscale="log", yscale="log", xlabel="Young modulus E (normalised)", facecolor=MISSING)
+    row[0].set_ylabel("plastic modulus K (normalised)")
+    return [(axes, chart[chart.theta == theta]) for axes, theta in zip(row, angles, strict=True)]
+
+
+def colour(axes: Axes, grid: Grid, **look) -> QuadMesh:
+    """Colour the cells of the grid; `look` is that of matplotlib's ``pcolormesh``."""
+    return axes.pcolormesh(
+        10 ** edges(np.log10(grid.E)),
+        10 ** edges(np.log10(grid.K)),
+        np.ma.masked_invalid(grid.values.T),
+        rasterized=True,
+        **look,
+    )
+
+
+def mark_paper(axes: Axes, rows: pd.DataFrame) -> None:
+    """Put a dot on those of the rows that are the paper's coatings."""
+    marked = rows[rows.E.isin(PAPER_E) & rows.K.isin(PAPER_K)]
+    axes.plot(marked.E, marked.K, "o", ms=2.4, mfc="white", mec=DARK, mew=0.5, ls="none")

@@ -1,0 +1,248 @@
+# A dense chart of coatings at speeds that the search for its peaks chooses (docs/chart.md). Not part of `all`.
+from functools import cache
+
+from bladerub.study.chart.grid import chart_speeds, check, columns
+from bladerub.study.chart.key import cell_key
+
+CHARTED = [
+    "Y4",
+    "f4",
+    "Y6",
+    "f6",
+    "peak",
+    "worn_volume",
+    "divergent_share",
+]
+
+
+@cache
+def chart_columns():
+    """The cells of every column; checked only when somebody asks for the chart."""
+    with bladerub.faults.end_the_program():
+        check(config)
+    return columns(config)
+
+
+def chart_manifests(wildcards):
+    return [f"{RESULTS}/chart/columns/{column}.tsv" for column in chart_columns()]
+
+
+def planned_cells(wildcards):
+    """All that determines the cells of a column but the blade: a changed one is a reason to run."""
+    grid = chart_speeds(config)
+    return {
+        case.name: cell_key(config, case, grid, "the blade is an input")
+        for case in chart_columns()[wildcards.column]
+    }
+
+
+def charted_maps(wildcards):
+    """Maps of those coatings of the study that are on the casing and have an angle of the chart."""
+    chart = config["chart"]
+    return [
+        map_of(case)
+        for case in coating_cases(config)
+        if not case.is_rigid
+        and case.casing == chart["casing"]
+        and case.theta in chart["theta"]
+    ]
+
+
+def charting(*modules):
+    """The modules that make a table of the chart; Snakemake does not follow imports."""
+    return analysing(*(f"chart/{module}" for module in ("cell", "grid", *modules)))
+
+
+rule chart_column:
+    # The cells lie beside the manifests, undeclared, for the reason that the runs of a coating do.
+    input:
+        blade=f"{RESULTS}/blade/reduced_model.h5",
+        kernel=rules.compile_kernel.output[0],
+    output:
+        f"{RESULTS}/chart/columns/{{column}}.tsv",
+    log:
+        f"{RESULTS}/logs/chart_column/{{column}}.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/chart_column/{{column}}.tsv"
+    wildcard_constraints:
+        column="[A-Za-z0-9]+_E[^_/]+_theta[^_/]+",
+    threads: 1
+    resources:
+        mem_mb=lambda wildcards, attempt: 2000 * attempt,
+        runtime=lambda wildcards, attempt: attempt * (2 + len(config["chart"]["K"])),  # a fifth of it measured
+    params:
+        planned=planned_cells,
+    script:
+        "../scripts/chart_column.py"
+
+
+rule chart_table:
+    input:
+        manifests=chart_manifests,
+        analysing=[*charting("table"), *analysing("peaks")],
+    output:
+        f"{RESULTS}/tables/chart.csv",
+        description=f"{RESULTS}/tables/chart.csv-metadata.json",
+    log:
+        f"{RESULTS}/logs/chart_table.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/chart_table.tsv"
+    threads: 1
+    params:
+        peaks=config["analysis"]["peaks"],
+    script:
+        "../scripts/chart_table.py"
+
+
+rule chart_ridge:
+    input:
+        manifests=chart_manifests,
+        analysing=[*charting("table", "ridge", "explanation"), *analysing("peaks")],
+    output:
+        f"{RESULTS}/tables/chart_ridge.csv",
+        description=f"{RESULTS}/tables/chart_ridge.csv-metadata.json",
+        summary=f"{RESULTS}/tables/chart_ridge_summary.csv",
+        summary_description=f"{RESULTS}/tables/chart_ridge_summary.csv-metadata.json",
+    log:
+        f"{RESULTS}/logs/chart_ridge.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/chart_ridge.tsv"
+    threads: 1
+    params:
+        peaks=config["analysis"]["peaks"],
+    script:
+        "../scripts/chart_ridge.py"
+
+
+rule chart_map:
+    input:
+        table=rules.chart_table.output[0],
+        drawing=drawing("chart_map", "chart_panel", "cells"),
+    output:
+        **drawn("chart_{quantity}", "Choice of a coating"),
+    log:
+        f"{RESULTS}/logs/chart_map/{{quantity}}.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/chart_map/{{quantity}}.tsv"
+    wildcard_constraints:
+        quantity="|".join(CHARTED),
+    threads: 1
+    params:
+        dpi=DPI,
+    script:
+        "../scripts/chart_map.py"
+
+
+rule chart_safe:
+    input:
+        table=rules.chart_table.output[0],
+        analysing=charting("choice"),
+        drawing=drawing("chart_safe", "chart_panel", "cells"),
+    output:
+        **drawn("chart_safe", "Choice of a coating"),
+    log:
+        f"{RESULTS}/logs/chart_safe.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/chart_safe.tsv"
+    threads: 1
+    params:
+        dpi=DPI,
+        limits=config["chart"]["limits"],
+    script:
+        "../scripts/chart_safe.py"
+
+
+rule chart_pareto:
+    input:
+        table=rules.chart_table.output[0],
+        analysing=charting("choice"),
+        drawing=drawing("chart_pareto"),
+    output:
+        **drawn("chart_pareto", "Choice of a coating"),
+        table=f"{RESULTS}/tables/chart_pareto.csv",
+        description=f"{RESULTS}/tables/chart_pareto.csv-metadata.json",
+    log:
+        f"{RESULTS}/logs/chart_pareto.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/chart_pareto.tsv"
+    threads: 1
+    params:
+        dpi=DPI,
+        limits=config["chart"]["limits"],
+    script:
+        "../scripts/chart_pareto.py"
+
+
+rule chart_explanation:
+    input:
+        manifests=chart_manifests,
+        analysing=[*charting("table", "explanation"), *analysing("peaks")],
+        drawing=drawing("chart_explanation"),
+    output:
+        **drawn("chart_explanation", "Choice of a coating"),
+        table=f"{RESULTS}/tables/chart_explanation.csv",
+        description=f"{RESULTS}/tables/chart_explanation.csv-metadata.json",
+    log:
+        f"{RESULTS}/logs/chart_explanation.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/chart_explanation.tsv"
+    threads: 1
+    params:
+        dpi=DPI,
+        peaks=config["analysis"]["peaks"],
+    script:
+        "../scripts/chart_explanation.py"
+
+
+rule chart_placement:
+    # how well the search does, from the study alone: `snakemake results/tables/chart_placement.csv`
+    input:
+        maps=charted_maps,
+        analysing=[*charting("placement", "search", "check"), *analysing("peaks")],
+    output:
+        f"{RESULTS}/tables/chart_placement.csv",
+        description=f"{RESULTS}/tables/chart_placement.csv-metadata.json",
+        summary=f"{RESULTS}/tables/chart_placement_summary.csv",
+        summary_description=f"{RESULTS}/tables/chart_placement_summary.csv-metadata.json",
+    log:
+        f"{RESULTS}/logs/chart_placement.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/chart_placement.tsv"
+    threads: 1
+    params:
+        peaks=config["analysis"]["peaks"],
+        speeds=config["chart"]["speeds"],
+    script:
+        "../scripts/chart_placement.py"
+
+
+rule chart_agreement:
+    # needs both the chart and the study: `snakemake results/tables/chart_agreement.csv`
+    input:
+        chart=rules.chart_table.output[0],
+        placement=rules.chart_placement.output[0],
+        analysing=charting("check"),
+    output:
+        f"{RESULTS}/tables/chart_agreement.csv",
+        description=f"{RESULTS}/tables/chart_agreement.csv-metadata.json",
+    log:
+        f"{RESULTS}/logs/chart_agreement.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/chart_agreement.tsv"
+    threads: 1
+    script:
+        "../scripts/chart_agreement.py"
+
+
+rule chart:
+    input:
+        rules.chart_table.output,
+        rules.chart_ridge.output,
+        expand(rules.chart_map.output, quantity=CHARTED),
+        rules.chart_safe.output,
+        rules.chart_pareto.output,
+        rules.chart_explanation.output,
+
+
+localrules:
+    chart,
