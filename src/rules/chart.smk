@@ -114,23 +114,27 @@ rule chart_ridge:
         "../scripts/chart_ridge.py"
 
 
-rule chart_map:
+rule chart_maps:
+    # one job, because to start it takes longer than to draw one
     input:
         table=rules.chart_table.output[0],
         drawing=drawing("chart_map", "chart_panel", "cells"),
     output:
-        **drawn("chart_{quantity}", "Choice of a coating"),
+        png=[
+            shown(f"{PLOTS}/chart_{name}.png", f"chart_{name}", "Choice of a coating")
+            for name in CHARTED
+        ],
+        pdf=[f"{PLOTS}/chart_{name}.pdf" for name in CHARTED],
     log:
-        f"{RESULTS}/logs/chart_map/{{quantity}}.log",
+        f"{RESULTS}/logs/chart_maps.log",
     benchmark:
-        f"{RESULTS}/benchmarks/chart_map/{{quantity}}.tsv"
-    wildcard_constraints:
-        quantity="|".join(CHARTED),
+        f"{RESULTS}/benchmarks/chart_maps.tsv"
     threads: 1
     params:
         dpi=DPI,
+        quantities=CHARTED,
     script:
-        "../scripts/chart_map.py"
+        "../scripts/chart_maps.py"
 
 
 rule chart_safe:
@@ -238,7 +242,7 @@ rule chart:
     input:
         rules.chart_table.output,
         rules.chart_ridge.output,
-        expand(rules.chart_map.output, quantity=CHARTED),
+        rules.chart_maps.output,
         rules.chart_safe.output,
         rules.chart_pareto.output,
         rules.chart_explanation.output,

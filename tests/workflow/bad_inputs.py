@@ -224,6 +224,34 @@ CONFIGS: dict[str, tuple[dict[str, Any] | str, str]] = {
         "extend: https://host/a.yaml\n",
         'overlay.yaml:1: extend = "https://host/a.yaml": must be the path of a .yaml file',
     ),
+    "chart without moduli": (
+        {"chart": {"E": []}},
+        "overlay.yaml:2: chart.E = []: list of Young moduli of the chart must be a list of 2 to 200 entries",
+    ),
+    "chart with E of nothing": (
+        {"chart": {"E": [0, 1]}},
+        "overlay.yaml:3: chart.E[0] = 0: Young modulus must be a number above 0 and at most 1e+06",
+    ),
+    "chart with K of nothing": (
+        {"chart": {"K": [0, 1]}},
+        "overlay.yaml:3: chart.K[0] = 0: plastic modulus of the chart must be a number above 0",
+    ),
+    "chart that goes back": (
+        {"chart": {"K": [0.5, 5, 1]}},
+        "overlay.yaml:5: chart.K[2] = 1: must be above the one before (5)",
+    ),
+    "chart on no casing": (
+        {"chart": {"casing": "3nd"}},
+        'overlay.yaml:2: chart.casing = "3nd": must be one of the casings, 2nd, 2nd5nd',
+    ),
+    "chart above all speeds": (
+        {"chart": {"speeds": {"start": 0.5}}},
+        "overlay.yaml:3: chart.speeds.start = 0.5: must be below speeds.stop = 0.4",
+    ),
+    "chart without a limit": (
+        {"chart": {"limits": {"wear": None}}},
+        "overlay.yaml:3: chart.limits.wear = None: deepest wear of a safe coating must be a number above 0",
+    ),
     "number as a key": ("blade:\n  1: 2\n", 'overlay.yaml:2: not valid YAML (a key must be text, write "1")'),
     "key given twice": (
         "blade: {length: 0.2, length: 0.3}\n",

@@ -5,13 +5,22 @@ from __future__ import annotations
 import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.ticker import LogLocator, NullFormatter, StrMethodFormatter
 
 from bladerub.plots.style import FIRST, GREY, PAGE, SECOND, new_figure, styled
 
 _AGAINST = {
     "E_T": "contact stiffness $E_T = EK/(E+K)$",
-    "wear_per_cycle": "energy taken by wear in a cycle (J)",
+    "wear_per_cycle": "wear energy per cycle (J)",
     "lobes": "worn lobes",
+}
+_RIDGE = {**FIRST, "linewidth": 0.9, "marker": "s", "markersize": 3, "label": "on the ridge, by E"}
+_ACROSS = {
+    **SECOND,
+    "linewidth": 0.9,
+    "marker": "^",
+    "markersize": 3,
+    "label": "across its highest cell, by K",
 }
 
 
@@ -46,19 +55,13 @@ def _draw(axes: Axes, cells: pd.DataFrame, column: str) -> None:
     top = ridge.loc[ridge.amplitude.idxmax()]
     across = cells[cells.E == top.E].sort_values("K")
     axes.plot(cells[column], 1e3 * cells.amplitude, ".", color=GREY, ms=2.5, mec="none", label="all coatings")
-    axes.plot(
-        ridge[column], 1e3 * ridge.amplitude, **FIRST, lw=0.9, marker="s", ms=3, label="on the ridge, by E"
-    )
-    axes.plot(
-        across[column],
-        1e3 * across.amplitude,
-        **SECOND,
-        lw=0.9,
-        marker="^",
-        ms=3,
-        label="across its highest cell, by K",
-    )
+    for rows, look in ((ridge, _RIDGE), (across, _ACROSS)):
+        joined = {"linestyle": "none"} if column == "lobes" else {}
+        axes.plot(rows[column], 1e3 * rows.amplitude, **look | joined)
     axes.set_yscale("log")
+    axes.yaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
+    axes.yaxis.set_major_formatter(StrMethodFormatter("{x:g}"))
+    axes.yaxis.set_minor_formatter(NullFormatter())
     axes.grid(True)
     if column != "lobes":
         axes.set_xscale("log")

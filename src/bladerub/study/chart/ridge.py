@@ -40,13 +40,12 @@ def table(config: Mapping[str, Any], chart: Iterable[Cell]) -> pd.DataFrame:
         A row for each cell on a ridge: ``casing, theta, order, along, speed_step, E, K, E_T, f_peak``,
         ``amplitude`` (m), and ``lowest_neighbour`` and ``highest_neighbour`` (m).
     """
-    rows = []
+    cells, rows = list(chart), []
     for multiple in MULTIPLES:
-        for (casing, theta, order), peaks in _peaks(config, list(chart), multiple).groupby(
-            ["casing", "theta", "order"]
-        ):
+        peaks = _peaks(config, cells, multiple)
+        for (casing, theta, order), over_moduli in peaks.groupby(["casing", "theta", "order"]):
             about = {"casing": casing, "theta": theta, "order": order}
-            rows += [about | row for row in _ridge(peaks, config["speeds"]["step"] * multiple)]
+            rows += [about | row for row in _ridge(over_moduli, config["speeds"]["step"] * multiple)]
     return pd.DataFrame(rows)
 
 

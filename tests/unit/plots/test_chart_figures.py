@@ -1,0 +1,73 @@
+import itertools
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from bladerub.plots.chart_explanation import chart_explanation
+from bladerub.plots.chart_map import QUANTITIES, chart_map
+from bladerub.plots.chart_pareto import chart_pareto
+from bladerub.plots.chart_safe import chart_safe
+from bladerub.study.chart.choice import broken_limits, pareto
+
+LIMITS = {"amplitude": 2.5e-3, "wear": 1e-3, "divergent_share": 0.0}
+
+
+@pytest.fixture
+def chart():
+    """Two θ, three E, three K; highest at K = 0.5, which with E = 0.11 and 1.1 is the paper's."""
+    rows = [
+        {
+            "theta": theta,
+            "E": E,
+            "K": K,
+            **dict.fromkeys(("Y4", "Y6", "peak", "worn_volume", "deepest_wear"), height * (1 + E)),
+            "f4": 0.3,
+            "f6": 0.2,
+            "divergent_share": 0.0,
+        }
+        for theta, E, (K, height) in itertools.product(
+            (0.0, 0.15), (0.11, 0.5, 1.1), ((0.3, 5e-4), (0.5, 1e-3), (2.0, 8e-4))
+        )
+    ]
+    return pd.DataFrame(rows)
+
+
+@pytest.mark.parametrize("quantity", QUANTITIES)
+def test_every_quantity_is_drawn_with_the_paper_s_coatings_and_the_ridge(chart, draws, quantity):
+    panel, other, bar = draws(chart_map(chart, quantity)).axes
+    assert bar.get_xlabel() == QUANTITIES[quantity].label
+    assert other.get_title(loc="left") == r"(b) $\theta$ = 0.15 rad"
+    dots, _, ridge = panel.lines
+    assert sorted(zip(*dots.get_data(), strict=True)) == [(0.11, 0.5), (0.5, 0.5), (1.1, 0.5)]
+    if quantity == "divergent_share":  # nothing diverges: no ridge
+        assert ridge.get_xdata().size == 0
+    else:
+        np.testing.assert_array_equal(ridge.get_data(), [[0.11, 0.5, 1.1], [0.5, 0.5, 0.5]])
+
+
+def test_cells_say_which_limits_they_break(chart, draws):
+    chart.loc[0, "divergent_share"] = 0.1
+    figure = draws(chart_safe(chart, broken_limits(chart, LIMITS), LIMITS))
+    said = {text.get_position(): text.get_text() for text in figure.axes[0].texts}
+    assert said[0.11, 0.3] == "D"
+    assert said[0.5, 0.5] == "W"
+    assert said[0.5, 0.3] == ""
+
+
+def test_the_front_is_drawn_and_named(chart, draws):
+    axes = draws(chart_pareto(chart, pareto(chart, LIMITS))).axes[0]
+    (front,) = [line for line in axes.lines if line.get_label() == "bettered by none in both"]
+    np.testing.assert_allclose(front.get_xdata(), [1.11 * 0.5])
+    assert [text.get_text() for text in axes.texts] == ["E 0.11, K 0.3"]
+
+
+def test_the_ridge_is_drawn_against_what_explains_it(chart, draws):
+    peaks = chart.assign(order=4, amplitude=chart.Y4, E_T=chart.E * chart.K / (chart.E + chart.K))
+    peaks = peaks.assign(wear_per_cycle=1e3 * peaks.amplitude, lobes=4)
+    figure = draws(chart_explanation(peaks))
+    stiffness, energy, lobes = figure.axes[:3]
+    labels = [line.get_label() for line in stiffness.lines]
+    assert labels == ["all coatings", "on the ridge, by E", "across its highest cell, by K"]
+    np.testing.assert_allclose(energy.lines[1].get_xdata(), [1.11, 1.5, 2.1])
+    assert lobes.lines[1].get_linestyle() == "None"
