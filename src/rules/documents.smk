@@ -7,6 +7,7 @@ IMAGES = [
     for path in output
     if path.endswith(".png")
 ]
+CHART_FIGURES = [*CHARTED, "safe", "pareto", "explanation"]
 
 
 rule images:
@@ -16,6 +17,20 @@ rule images:
         [f"docs/images/{name}" for name in IMAGES],
     log:
         f"{RESULTS}/logs/images.log",
+    threads: 1
+    params:
+        colours=256,
+    script:
+        "../scripts/images.py"
+
+
+rule chart_images:
+    input:
+        [f"{PLOTS}/chart_{name}.png" for name in CHART_FIGURES],
+    output:
+        [f"docs/images/chart_{name}.png" for name in CHART_FIGURES],
+    log:
+        f"{RESULTS}/logs/chart_images.log",
     threads: 1
     params:
         colours=256,

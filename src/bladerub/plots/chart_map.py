@@ -44,7 +44,7 @@ QUANTITIES = {
     "f6": Quantity("rotational frequency $f_6$ (normalised)", 1.0, "Y6", False),
     "peak": Quantity("greatest radial displacement of node 1 (mm)", 1e3, "peak", True),
     "worn_volume": Quantity("greatest worn volume (cm³)", 1e6, "worn_volume", True),
-    "divergent_share": Quantity("share of divergent speeds (%)", 100.0, "divergent_share", False),
+    "divergent_share": Quantity("share of divergent speeds (%)", 100.0, "peak", False),
 }
 """What is drawn, by column of ``chart.csv``."""
 
@@ -77,7 +77,7 @@ def chart_map(chart: pd.DataFrame, quantity: str) -> Figure:
         bar.locator = LogLocator(subs=(1, 2, 5))
         bar.formatter = "{x:g}"
         bar.minorticks_off()
-    figure.legend(handles=_KEYS, loc="outside upper center", ncols=len(_KEYS))
+    figure.legend(handles=_keys(about), loc="outside upper center", ncols=2)
     return figure
 
 
@@ -101,16 +101,17 @@ def _contours(axes: Axes, grid: Grid, norm: Normalize) -> None:
 def _ridge(axes: Axes, grid: Grid) -> None:
     """Join for each E the K of the greatest value, where there is one."""
     highest = np.nan_to_num(grid.values, nan=-np.inf)
-    exists = highest.max(axis=1) > np.maximum(highest.min(axis=1), 0)
+    exists = highest.max(axis=1) > 0
     along, across = grid.E[exists], grid.K[highest.argmax(axis=1)][exists]
     axes.plot(along, across, color="white", linewidth=3)
     axes.plot(along, across, **_RIDGE)
 
 
 _RIDGE = {"color": DARK, "linewidth": 1.3, "marker": "s", "markersize": 2.2}
-_KEYS = [
-    Line2D([], [], **_RIDGE, label="ridge: for each E the K of the greatest value"),
-    Line2D(
-        [], [], marker="o", ms=3.5, mfc="white", mec=DARK, mew=0.5, ls="none", label="the paper's coatings"
-    ),
-]
+_RIDGE_OF = {"Y4": "$Y_4$", "Y6": "$Y_6$", "peak": "displacement", "worn_volume": "worn volume"}
+
+
+def _keys(about: Quantity) -> list[Line2D]:
+    ridge = f"ridge: for each E the K of the greatest {_RIDGE_OF[about.ridge]}"
+    paper = {"marker": "o", "ms": 3.5, "mfc": "white", "mec": DARK, "mew": 0.5, "ls": "none"}
+    return [Line2D([], [], **_RIDGE, label=ridge), Line2D([], [], **paper, label="the paper's coatings")]

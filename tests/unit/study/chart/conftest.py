@@ -9,7 +9,7 @@ F_OMEGA = np.round(np.arange(0.152, 0.4001, 0.002), 6)
 
 @pytest.fixture
 def make_cell():
-    """A cell that was run at all speeds, its response on each order a hat over speed; C1² = 1 + 3 f_omega²."""
+    """A cell that was run at all speeds; its response on each order is a hat, C1² = 1 + 3 f_omega²."""
 
     def make(E, K, Y4=1e-3, Y6=5e-4, f4=0.32, f6=0.19, theta=0.0, divergent=0.0, depth=1e-4):
         hats = [
