@@ -336,10 +336,9 @@ def _chart_casing(config: Config) -> Iterator[str]:
 
 @_reads("chart")
 def _chart_moduli(config: Config) -> Iterator[str]:
-    for name in ("E", "K"):
-        values = config["chart"][name]
-        for index, (lower, upper) in enumerate(pairwise(values), 1):
-            if upper <= lower:
+    for name in ("theta", "E", "K"):
+        for index, (lower, upper) in enumerate(pairwise(config["chart"][name]), 1):
+            if float(f"{upper:g}") <= float(f"{lower:g}"):  # six digits, as in the names of the files
                 yield f"chart.{name}[{index}] = {upper:g}: must be above the one before ({lower:g})"
 
 

@@ -69,7 +69,7 @@ rule chart_column:
     threads: 1
     resources:
         mem_mb=lambda wildcards, attempt: 2000 * attempt,
-        runtime=lambda wildcards, attempt: attempt * (2 + len(config["chart"]["K"])),  # a fifth of it measured
+        runtime=lambda wildcards, attempt: attempt * (2 + len(config["chart"]["K"])),  # a tenth of it measured
     params:
         planned=planned_cells,
     script:
