@@ -28,11 +28,14 @@ def normal_of(tip, radial, tangential, rise):
 
 
 @njit(inline="always")
-def force_of(stator, normal_radial, normal_tangential, push):
-    """Radial and tangential force on the blade: along the normal where each node now is, turned by θ."""
+def force_of(stator, along, normal_radial, normal_tangential, push):
+    """Radial and tangential force on the blade: along the normal where each node now is, turned by θ.
+
+    `along`, of each node, is ``stator.tangential`` or what friction leaves of it.
+    """
     return (
-        push * (stator.radial * normal_radial - stator.tangential * normal_tangential),
-        push * (stator.radial * normal_tangential + stator.tangential * normal_radial),
+        push * (stator.radial * normal_radial - along * normal_tangential),
+        push * (stator.radial * normal_tangential + along * normal_radial),
     )
 
 

@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 from numba import njit
 
-from bladerub.contact import abradable, leap, rigid
+from bladerub.contact import abradable, friction, leap, rigid
 from bladerub.contact.geometry import force_of, is_within_bounds, normal_of, position_of, rise_of
 from bladerub.contact.leap import Leap
 from bladerub.contact.ledger import (
@@ -21,6 +21,8 @@ from bladerub.contact.ledger import (
     N_ENTRIES,
     NORMAL,
     RADIAL,
+    RETREAT,
+    REVERSED,
     SHAPE,
     STORED,
     STORED_BEFORE,
@@ -38,6 +40,7 @@ from bladerub.contact.vectors import (
     at,
     choose,
     everywhere,
+    higher,
     highest,
     load,
     magnitude,
@@ -80,7 +83,10 @@ class Stator(NamedTuple):
     radial, tangential : float
         Direction of the force on a node of the blade that has not moved, −cos θ and −sin θ.
     own_compliance : (8,) ndarray
-        Retreat of each node per unit of its own contact force, as the law of contact sees it, m/N.
+        Retreat of each node per unit of its own contact force in that direction, as the law of contact sees
+        it, m/N.
+    reverses : bool
+        Whether the tangential part of the force follows the sliding of the node by Coulomb's law.
     """
 
     gap: np.ndarray
@@ -95,6 +101,7 @@ class Stator(NamedTuple):
     radial: float
     tangential: float
     own_compliance: np.ndarray
+    reverses: bool = False
 
 
 class Tip(NamedTuple):
@@ -145,11 +152,15 @@ class State(NamedTuple):
         Of each node at the same times: size of the contact force (N) and its moment about the axis (N m).
     way : (16,) ndarray
         Displacement of the tip by the forces of the last step in that step: where their search begins, m.
+    drift : (24,) ndarray
+        Way of the tip over the casing without the forces of this step: radial, tangential and by rotation, m.
+    along : (8,) ndarray
+        Tangential part of the force on each node: that of the stator, or what friction leaves of it.
     wear : (N, 8) ndarray
         Permanent shortening of the bars, in the rows of `Stator`, m.
-    ledger : (12, 8) ndarray
+    ledger : (14, 8) ndarray
         Entries of `bladerub.contact.ledger`, to be summed over the nodes.
-    scratch : (4, 16) ndarray
+    scratch : (5, 16) ndarray
         Of no meaning between steps.
     """
 
@@ -159,6 +170,8 @@ class State(NamedTuple):
     push: np.ndarray
     moment: np.ndarray
     way: np.ndarray
+    drift: np.ndarray
+    along: np.ndarray
     wear: np.ndarray
     ledger: np.ndarray
     scratch: np.ndarray
@@ -173,9 +186,11 @@ def at_rest(n_modes: int, n_elements: int) -> State:
         push=np.zeros((2, LANES)),
         moment=np.zeros((2, LANES)),
         way=np.zeros(2 * LANES),
+        drift=np.zeros(3 * LANES),
+        along=np.zeros(LANES),
         wear=np.zeros((n_elements, LANES)),
         ledger=np.zeros((N_ENTRIES, LANES)),
-        scratch=np.zeros((4, 2 * LANES)),
+        scratch=np.zeros((5, 2 * LANES)),
     )
     return aligned(state)
 
@@ -197,7 +212,7 @@ def _is_clear(tip, radial, tangential, rise, floor):
 
 
 @njit(forceinline=True)
-def _find_forces(motion, stator, tip, passed, state, u):
+def _find_forces(motion, stator, tip, passed, state, u, reverses):
     """Find the contact forces that agree with the displacement they cause, by Newton's method.
 
     `u` comes as the displacement without forces of this step and leaves under them; what the forces of the
@@ -222,7 +237,12 @@ def _find_forces(motion, stator, tip, passed, state, u):
                 )
             by_coating = push_evaluated + stiffness * (rise - evaluated)
             store(push, 0, by_coating)
-            by_radial, by_tangential = force_of(stator, normal_radial, normal_tangential, by_coating)
+            if reverses:
+                friction.take_hold(motion, stator, tip, state, normal_radial, normal_tangential, rise)
+                along = load(state.along, 0)
+            else:
+                along = splat(stator.tangential)
+            by_radial, by_tangential = force_of(stator, along, normal_radial, normal_tangential, by_coating)
             store(force, 0, by_radial)
             store(force, LANES, by_tangential)
             radial, tangential = respond(motion.compliance, force, free_radial, free_tangential)
@@ -265,7 +285,12 @@ def _settle(stator, tip, passed, per_step, state, u, u_before):
     rise = load(u, 2 * LANES)
     position = position_of(tip, tangential, passed)
     position_before = position_of(tip, tangential_before, passed - per_step)
-    push = load(state.push, 0)
+    push, along = load(state.push, 0), load(state.along, 0)
+    slid = choose(push > 0.0, position - position_before, per_step)
+    store(state.ledger, RETREAT * LANES, higher(load(state.ledger, RETREAT * LANES), per_step - slid))
+    withheld = choose(push > 0.0, along - stator.tangential, 0.0)
+    if not everywhere((slid > 0.0) & (withheld <= 0.0)):
+        write(state.ledger, REVERSED * LANES, read(state.ledger, REVERSED * LANES) + 1.0)
     if stator.is_rigid:
         stored, loss = splat(0.0), splat(0.0)
         shape = rigid.surface(stator, position_before) - rigid.surface(stator, position)
@@ -274,7 +299,7 @@ def _settle(stator, tip, passed, per_step, state, u, u_before):
         stored, loss, supplied = abradable.settle(
             stator, tip, state.wear, position, rise, position_before, load(u_before, 2 * LANES)
         )
-    store(state.moment, 0, -stator.tangential * push * (load(tip.lever, 0) + rise))
+    store(state.moment, 0, (0.0 - along) * push * (load(tip.lever, 0) + rise))
     entry = state.ledger
     store(entry, STORED_BEFORE * LANES, load(entry, STORED * LANES))
     store(entry, STORED * LANES, stored)
@@ -347,6 +372,7 @@ class Rub:
     ):
         self.motion, self.flight, self.stator, self.tip, self.state = motion, flight, stator, tip, state
         self.steps_per_element = steps_per_element
+        state.along[:] = stator.tangential  # Coulomb's law finds its own before it is used
         self._records = [addresses(record) for record in (motion, flight, stator, tip, state)]
 
     def revolve(self, displacement: np.ndarray, first: int = 0) -> Progress:
@@ -415,14 +441,19 @@ def _meet(motion, stator, tip, state, when, where):
         Whether the tip stayed within bounds, and whether it touches now.
     """
     touched, clear, passed, per_step = when
-    q_next, u_before, u, u_next = where
+    q, q_next, u_before, u, u_next = where
     touching = False
     if clear:
         _clear(state.force, 2 * LANES)
         _clear(state.push, LANES)
         _clear(state.way, 2 * LANES)
     else:
-        if not _find_forces(motion, stator, tip, passed, state, u_next):
+        if stator.reverses:
+            friction.foresee(motion, tip, state, q_next, q, per_step)
+            within = _find_forces(motion, stator, tip, passed, state, u_next, True)
+        else:
+            within = _find_forces(motion, stator, tip, passed, state, u_next, False)
+        if not within:
             _copy(at(state.force, 2 * LANES), state.force, 2 * LANES)
             return False, False
         touching = highest(load(state.push, 0)) > 0.0
@@ -482,7 +513,7 @@ def _march(motion, flight, stator, tip, state, steps_per_element, first, last, d
                 if touched or not clear:
                     passed = element + step * per_step
                     when = touched, clear, passed, per_step
-                    where = q_next, u_before, u, u_next
+                    where = q, q_next, u_before, u, u_next
                     within, touching = _meet(motion, stator, tip, state, when, where)
                     if not within:
                         _copy(q, q_next, motion.n)  # the damping loss is complete up to here

@@ -20,7 +20,11 @@ the blade and of the shape whatever its sign, energy taken by wear."""
 STORED, STORED_BEFORE, LAST_SHAPE, LAST_WEAR = range(8, 12)
 """Of the last step: energy in the coating at its end and start, and what it added to two of the sums."""
 
-N_ENTRIES = 12
+REVERSED, RETREAT = 12, 13
+"""No energies: the number of steps in which a node that touches did not slide with the rotation (one number),
+and how much less than the rotation such a node slid at most in a step (of each node), elements."""
+
+N_ENTRIES = 14
 
 
 def blade_energy(rule: Recurrence, state) -> tuple[float, float]:

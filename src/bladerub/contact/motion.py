@@ -28,6 +28,11 @@ class Motion(NamedTuple):
         Displacement of the tip in the step of each force itself, m/N.
     corrects : bool
         Whether forces act in the step they are evaluated in.
+    mobility : (16, 16) ndarray
+        Way of the tip in a step, as `bladerub.contact.friction` counts it, per unit of each force of the
+        step, by the modes that the scheme resolves, m/N.
+    stopping : (8,) ndarray
+        The most that tangential forces of 1 N on all nodes take from the way of each, m.
     """
 
     n: int
@@ -38,10 +43,13 @@ class Motion(NamedTuple):
     gain: np.ndarray
     compliance: np.ndarray
     corrects: bool
+    mobility: np.ndarray
+    stopping: np.ndarray
 
 
 def pack(rule: Recurrence) -> Motion:
     """Arrange the coefficients of a scheme for the time loop."""
+    mobility = (1.0 if rule.corrects else 0.5) * (rule.tip * rule.gain) @ rule.tip.T
     motion = Motion(
         n=rule.now.size + -rule.now.size % LANES,
         now=_padded(rule.now),
@@ -51,6 +59,8 @@ def pack(rule: Recurrence) -> Motion:
         gain=_padded(rule.gain),
         compliance=rule.compliance,
         corrects=rule.corrects,
+        mobility=mobility,
+        stopping=np.abs(mobility[LANES:, LANES:]).sum(axis=1),
     )
     return aligned(motion)
 

@@ -11,7 +11,7 @@ import math
 import numpy as np
 from numba import njit
 
-from bladerub.contact import rigid
+from bladerub.contact import friction, rigid
 from bladerub.contact.abradable import wrap
 from bladerub.contact.coating import return_mapping
 from bladerub.contact.geometry import force_of, is_within_bounds, normal_of, position_of, rise_of
@@ -45,8 +45,12 @@ def relax(motion, stator, tip, state, passed, u, settled):
         store(position, 0, here)
         if stator.is_rigid:
             store(surface, 0, rigid.surface(stator, here))
+        if stator.reverses:
+            height = rise_of(tip, load(u, 0), load(u, LANES))
+            across, along = normal_of(tip, load(u, 0), load(u, LANES), height)
+            friction.take_hold(motion, stator, tip, state, across, along, height)
         for j in range(LANES):
-            own, guess = read(stator.own_compliance, j), read(push, j)
+            own, guess = _own_compliance(motion, stator, state, j), read(push, j)
             store(rise, 0, rise_of(tip, load(u, 0), load(u, LANES)))
             free_rise = read(rise, j) + own * guess
             if stator.is_rigid:
@@ -58,7 +62,7 @@ def relax(motion, stator, tip, state, passed, u, settled):
             change = max(change, own * abs(found - guess))
             write(push, j, found)
             across, along = normal_of(tip, load(u, 0), load(u, LANES), load(rise, 0))
-            radial, tangential = force_of(stator, across, along, load(push, 0))
+            radial, tangential = force_of(stator, load(state.along, 0), across, along, load(push, 0))
             store(turned, 0, radial)
             store(turned, LANES, tangential)
             for k in (j, LANES + j):
@@ -68,6 +72,13 @@ def relax(motion, stator, tip, state, passed, u, settled):
                     store(u, i, load(u, i) + load(motion.compliance, 16 * k + i) * by)
         if change <= settled:
             break
+
+
+@njit
+def _own_compliance(motion, stator, state, j):
+    """Retreat of node `j` per unit of its own force in the direction that friction gives to that, m/N."""
+    turned = stator.tangential - read(state.along, j)
+    return max(0.0, read(stator.own_compliance, j) + turned * read(motion.compliance, 16 * j + LANES + j))
 
 
 @njit

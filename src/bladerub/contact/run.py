@@ -31,7 +31,8 @@ def simulate(blade: ReducedBlade, spec: RunSpec, progress: Callable[[int], None]
        ``spec.steps_per_element`` at least, makes the passage of one coating element.
     3. Displacements are increments about the running position of the blade, and so are clearances.
     4. The contact force of a node is along the normal to the casing where the node is, turned by θ
-       against the rotation; tangential displacement is positive with the rotation.
+       against the rotation, or by Coulomb's law against the sliding of the node
+       (`bladerub.contact.friction`); tangential displacement is positive with the rotation.
     5. The blade starts at rest, deflected in its first mode where the spec says so.
 
     Parameters
@@ -87,6 +88,8 @@ def simulate(blade: ReducedBlade, spec: RunSpec, progress: Callable[[int], None]
         time_step=rule.time_step,
         n_steps=n_steps,
         n_contact_steps=n_contact_steps,
+        n_reversed_steps=int(rub.state.ledger[ledger.REVERSED, 0]),
+        slowest_sliding=1.0 - float(rub.state.ledger[ledger.RETREAT].max()) * rub.steps_per_element,
         n_modes=rule.omega.size,
         energy=ledger.close(rule, rub.state, initial, 2 * np.pi / steps_per_revolution),
     )
@@ -196,6 +199,7 @@ def _stator(blade: ReducedBlade, spec: RunSpec, tip: kernel.Tip, rule: Recurrenc
         radial=radial,
         tangential=tangential,
         own_compliance=_own_compliance(rule, coating),
+        reverses=coating.reverses,
     )
     return aligned(stator)
 
@@ -217,8 +221,10 @@ def _bars(blade: ReducedBlade, spec: RunSpec) -> dict[str, np.ndarray]:
 
 
 def _own_compliance(rule: Recurrence, coating: Coating) -> np.ndarray:
-    own = np.diag(normal_compliance(rule.compliance, -math.cos(coating.theta), -math.sin(coating.theta)))
-    if coating.is_rigid and np.min(own) <= 0:
+    radial, tangential = -math.cos(coating.theta), -math.sin(coating.theta)
+    own = np.diag(normal_compliance(rule.compliance, radial, tangential))
+    backward = np.diag(normal_compliance(rule.compliance, radial, -tangential))
+    if coating.is_rigid and min(np.min(own), np.min(backward)) <= 0:
         raise ValueError(
             f"friction {math.tan(coating.theta):g} on the rigid casing: must be so low that no node of this "
             "blade is drawn into the casing by its own friction (Painlevé's paradox)"

@@ -60,6 +60,9 @@ class Coating:
         Layer thickness, m.
     n_elements : int
         Bar elements around the circumference, for each interface node.
+    law : str
+        ``"theta"``: the force has a constant direction. ``"coulomb"``: its tangential part opposes the
+        sliding of each node over the casing (`bladerub.contact.friction`).
     """
 
     E: float
@@ -69,11 +72,17 @@ class Coating:
     modulus_unit: float
     thickness: float
     n_elements: int
+    law: str = "theta"
 
     @property
     def is_rigid(self) -> bool:
         """Whether this is direct contact with the rigid casing."""
         return math.isinf(self.E) and math.isinf(self.K)
+
+    @property
+    def reverses(self) -> bool:
+        """Whether the tangential force follows the sliding."""
+        return self.law == "coulomb"
 
 
 @dataclass(frozen=True)
@@ -158,7 +167,7 @@ class Energy:
     work_shape : float
         Done by the rotation in moving the tip over the casing, against its shape and onto new bars.
     work_rotation : float
-        Done by the rotation against the tangential force of the coating (θ) or the friction of the casing.
+        Done by the rotation against the tangential force of the coating (θ) or friction.
     sliding : float
         Dissipated between tip and casing by that tangential resistance.
     exchanged : float
@@ -216,6 +225,12 @@ class RunResult:
         Step used, s.
     n_steps, n_contact_steps : int
         Steps made, and those of them with contact.
+    n_reversed_steps : int
+        Steps with contact in which a node that touches did not slide over the casing with the rotation: it
+        slid back or, by Coulomb's law, stuck. Without any, both laws of friction give the same run.
+    slowest_sliding : float
+        Lowest speed over the casing of a node that touches, over that by the rotation: below 0 it slid back.
+        At most 1, which is also that of a run without contact.
     n_modes : int
         Modes that the scheme resolved; the others were condensed.
     energy : Energy
@@ -232,5 +247,7 @@ class RunResult:
     time_step: float
     n_steps: int
     n_contact_steps: int
+    n_reversed_steps: int
+    slowest_sliding: float
     n_modes: int
     energy: Energy
