@@ -39,7 +39,7 @@ onstart:
 
 
 wildcard_constraints:
-    coating="[A-Za-z0-9]+_(E[^_/]+_K[^_/]+_theta|rigid_mu)[^_/]+",
+    coating="[A-Za-z0-9]+_(E[^_/]+_K[^_/]+_(theta|mu)|rigid_mu)[^_/]+",
 
 
 include: "src/rules/report.smk"

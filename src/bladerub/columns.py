@@ -35,8 +35,11 @@ COLUMNS = {
     "theta": Column(
         NUMBER,
         "rad",
-        "angle of the coating's elements from the radial direction; on the rigid casing the angle of "
-        "friction, whose tangent is Coulomb's coefficient",
+        "angle of the coating's elements from the radial direction; by Coulomb's law the angle of "
+        "friction, whose tangent is the coefficient",
+    ),
+    "law": Column(
+        STRING, None, "of the tangential force: theta (constant direction) or coulomb (against sliding)"
     ),
     "f_omega": Column(NUMBER, "1", "rotational frequency over the blade's first frequency at rest"),
     # blade

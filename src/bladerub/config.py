@@ -150,8 +150,8 @@ def _describe(error: jsonschema.ValidationError) -> list[str]:
             f"{key_path([*parts, key])} = {shown(value)}: unknown key, {_nearest(parts, key, known)}"
             for key, value in unknown.items()
         ]
-    if error.validator in ("required", "dependentRequired"):
-        missing = [key for key in _required(rule, error.instance) if key not in error.instance]
+    if error.validator == "required":
+        missing = [key for key in rule["required"] if key not in error.instance]
         return [f"{key_path([*parts, key])}: missing, {_right(rule['properties'][key])}" for key in missing]
     if "propertyNames" in error.absolute_schema_path:
         return [f"{key_path([*parts, error.instance])}: {_right(rule)}"]
@@ -163,11 +163,6 @@ def _describe(error: jsonschema.ValidationError) -> list[str]:
     if has_digits and rule["type"] in ("number", "integer"):
         fault += ", the number alone"
     return [fault]
-
-
-def _required(rule: dict[str, Any], entry: dict[str, Any]) -> list[str]:
-    needs = rule.get("dependentRequired", {})
-    return [*rule.get("required", []), *(need for key in needs if key in entry for need in needs[key])]
 
 
 def _nearest(parts: list[Any], key: Any, known: dict[str, Any]) -> str:

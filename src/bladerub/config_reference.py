@@ -56,6 +56,7 @@ def reference(schema: Mapping[str, Any], config: Mapping[str, Any]) -> str:
     for name, part in schema["properties"].items():
         keys = list(_keys(schema, name, part, config.get(name, _NO_VALUE)))
         rows = [_row(key) for key in keys if key.path != name or len(keys) == 1]
+        rows = list(dict.fromkeys(rows))  # kinds of entry have keys in common
         table = ["| key | what | unit | may be | in the study | why |", "|---|---|---|---|---|---|", *rows]
         sections.append("\n".join([f"## {name}", "", part["description"].strip(), "", *table, ""]))
     return "\n".join(sections)

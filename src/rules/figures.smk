@@ -9,7 +9,7 @@ SOFT = CoatingCase("2nd", 0.11, 0.5, 0.0)
 CRITICAL = CoatingCase("2nd", 1.1, 0.5, 0.0)
 STRAIGHT = CoatingCase("2nd", 2.0, 0.5, 0.0)
 INCLINED = CoatingCase("2nd", 2.0, 0.5, 0.15)
-MODULI = "casing == '2nd' and theta == 0 and E < inf"  # the coatings of the histograms
+MODULI = "casing == '2nd' and theta == 0 and law == 'theta'"  # the coatings of the histograms
 
 CASING_RADIUS = config["blade"]["hub_radius"] + config["blade"]["length"]
 DPI = config["figures"]["dpi"]
@@ -469,7 +469,7 @@ if SOFT.name in COATINGS:
 if CRITICAL.name in COATINGS:
     FIGURES += [rules.fig09_spectrum_critical.output]
 if set(config["analysis"]["peaks"]["orders"]) >= {4, 6} and any(
-    case.casing == "2nd" and case.theta == 0 and not case.is_rigid
+    case.casing == "2nd" and case.theta == 0 and case.law == "theta"
     for case in coating_cases(config)
 ):
     FIGURES += [

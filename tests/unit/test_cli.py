@@ -193,7 +193,7 @@ def without(option):
         ([*RUN, "--config", "no.yaml"], "no.yaml: cannot be read"),
         (without("--E"), "--E: missing, an abradable coating needs it"),
         (without("--K"), "--K: missing, an abradable coating needs it"),
-        ([*RUN, "--friction", "0.1"], "--friction = 0.1: goes with --coating rigid only"),
+        ([*RUN, "--friction", "0.1"], "--friction = 0.1: goes without --theta"),
         ([*RUN, "--coating", "rigid"], "--E = 2: goes with --coating abradable only"),
         ([*RIGID, "--theta", "0"], "--theta = 0: goes with --coating abradable only"),
         (

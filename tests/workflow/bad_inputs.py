@@ -154,8 +154,7 @@ CONFIGS: dict[str, tuple[dict[str, Any] | str, str]] = {
     ),
     "friction of an abradable coating": (
         _coatings(friction=[0.1]),
-        "overlay.yaml:2: coatings[0].coating: missing, kind of coating must be rigid, with friction; an "
-        "abradable coating has neither key",
+        "overlay.yaml:2: coatings[0].theta = [0.0]: unknown key, known here: casing, E, K, friction",
     ),
     "negative friction": (
         {"coatings": _coatings()["coatings"] + [{"casing": "2nd", "coating": "rigid", "friction": [-0.1]}]},
@@ -326,7 +325,7 @@ COMMANDS: dict[str, str] = {
     f"{_RUN} --f 1e400": f"--f = inf: {_SPEED}",
     f"{_RUN} --f 0.41": "--f = 0.41: must be at most reduction.f_omega_max = 0.4 (normalised)",
     f"{_RUN} --f 0.19 --f": "argument --f: expected one argument",
-    f"{_RUN} --friction 0.1": "--friction = 0.1: goes with --coating rigid only",
+    f"{_RUN} --theta 0.1 --friction 0.1": "--friction = 0.1: goes without --theta, which says the same",
     f"{_RUN} --coating stiff": "argument --coating: invalid choice: 'stiff'",
     f"{_RIGID} --friction 1e400": "--friction = inf: coefficient of friction must be a number from 0 to 1",
     f"{_RIGID} --theta 0": "--theta = 0: goes with --coating abradable only",

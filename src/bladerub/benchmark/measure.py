@@ -162,7 +162,7 @@ def useful_flops(blade: ReducedBlade, spec: RunSpec) -> float:
 
 
 def _middle_run(config: Mapping[str, Any]) -> RunSpec:
-    cases = [case for case in coating_cases(config) if np.isfinite(case.E)]
+    cases = [replace(case, law="theta") for case in coating_cases(config) if np.isfinite(case.E)]
     listed = speeds(config)
     spec = run_spec(config, cases[len(cases) // 2], listed[len(listed) // 2])
     return replace(spec, revolutions=REVOLUTIONS, scheme="exponential")

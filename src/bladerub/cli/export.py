@@ -131,7 +131,9 @@ def _motion(options: argparse.Namespace, config: dict[str, Any]) -> dict[str, An
         raise InputError(faults.in_words(error)) from error
     plan = _plan(options, config, run, path)
     recording = _record(options, run, plan, blade)
-    about = {name: run.attributes[name] for name in ("casing", "E", "K", "theta", "f_omega", "run_key")}
+    about = {
+        name: run.attributes[name] for name in ("casing", "E", "K", "theta", "law", "f_omega", "run_key")
+    }
     try:
         largest = write_motion(options.vtu, mesh, recording, about | provenance(config))
     except OSError as error:

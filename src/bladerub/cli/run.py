@@ -19,8 +19,8 @@ from bladerub.cli.errors import InputError
 from bladerub.config import check_quantity
 from bladerub.config_faults import shown
 
-_QUANTITIES = {"abradable": {"E": None, "K": None, "theta": 0.0}, "rigid": {"friction": 0.0}}
-"""What describes each kind of coating, and the default where there is one."""
+_KINDS = {"abradable": ("E", "K", "theta", "friction"), "rigid": ("friction",)}
+"""What describes each kind of coating; of theta and friction an abradable one has either."""
 
 
 def add_to(commands: Any) -> None:
@@ -36,15 +36,20 @@ def add_to(commands: Any) -> None:
     parser.add_argument("--casing", required=True, help="name of a casing of the config, such as 2nd")
     parser.add_argument(
         "--coating",
-        choices=list(_QUANTITIES),
+        choices=list(_KINDS),
         default="abradable",
-        help="abradable, with E, K and theta (default), or rigid, with friction",
+        help="abradable, with E, K and theta or friction (default), or rigid, with friction",
     )
     parser.add_argument("--E", type=float, help="Young modulus of the abradable coating (normalised)")
     parser.add_argument("--K", type=float, help="plastic modulus of the abradable coating (normalised)")
-    parser.add_argument("--theta", type=float, help="angle of its elements, rad (default 0)")
     parser.add_argument(
-        "--friction", type=float, metavar="MU", help="coefficient of friction on the rigid casing (default 0)"
+        "--theta", type=float, help="angle of its elements, rad (default 0): a force of constant direction"
+    )
+    parser.add_argument(
+        "--friction",
+        type=float,
+        metavar="MU",
+        help="coefficient of Coulomb friction, instead of --theta, or on the rigid casing (default 0)",
     )
     parser.add_argument("--f", required=True, type=float, metavar="F_OMEGA", help="speed (normalised)")
     inputs.add_to(parser)
@@ -84,6 +89,8 @@ def run(options: argparse.Namespace) -> None:
         )
     if options.coating == "rigid":
         case = CoatingCase.rigid(options.casing, options.friction)
+    elif options.theta is None:
+        case = CoatingCase.coulomb(options.casing, options.E, options.K, options.friction)
     else:
         case = CoatingCase(options.casing, options.E, options.K, options.theta)
     spec = run_spec(config, case, options.f)
@@ -125,8 +132,10 @@ def _check_options(options: argparse.Namespace, config: dict[str, Any]) -> None:
     if options.casing not in config["casings"]:
         raise InputError(f"--casing = {shown(options.casing)}: {_one_of(options.casing, config['casings'])}")
     _complete_coating(options)
-    for option in (*_QUANTITIES[options.coating], "f"):
+    for option in (*_KINDS[options.coating], "f"):
         value = getattr(options, option)
+        if value is None:  # theta beside friction, or friction beside theta
+            continue
         try:
             check_quantity("f_omega" if option == "f" else option, value)
         except ValueError as error:
@@ -170,16 +179,21 @@ def _is_run(path: Path) -> bool:
 
 
 def _complete_coating(options: argparse.Namespace) -> None:
-    """Fill in the defaults of what describes the coating; what does not belong to its kind is an error."""
-    for kind, quantities in _QUANTITIES.items():
-        for option, default in quantities.items():
+    """Fill in the default of what describes the coating; what does not belong to its kind is an error."""
+    if options.coating == "rigid":
+        for option in ("E", "K", "theta"):
             given = getattr(options, option)
-            if kind != options.coating and given is not None:
-                raise InputError(f"--{option} = {given:g}: goes with --coating {kind} only")
-            if kind == options.coating and given is None:
-                if default is None:
-                    raise InputError(f"--{option}: missing, an abradable coating needs it")
-                setattr(options, option, default)
+            if given is not None:
+                raise InputError(f"--{option} = {given:g}: goes with --coating abradable only")
+        options.friction = options.friction or 0.0
+        return
+    for option in ("E", "K"):
+        if getattr(options, option) is None:
+            raise InputError(f"--{option}: missing, an abradable coating needs it")
+    if options.friction is None:
+        options.theta = options.theta or 0.0
+    elif options.theta is not None:
+        raise InputError(f"--friction = {options.friction:g}: goes without --theta, which says the same")
 
 
 def _in_words(figures: dict[str, Any]) -> str:

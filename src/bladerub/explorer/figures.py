@@ -19,7 +19,7 @@ VERDICTS = ["growth_per_revolution", "growth_low", "growth_high", "saturating", 
 def of_case(table: pd.DataFrame, case: CoatingCase) -> pd.DataFrame:
     """Rows of `table` (``peaks.csv``, ``divergence.csv``) that are of `case`."""
     same = table[["E", "K", "theta"]] == [case.E, case.K, case.theta]
-    return table[(table["casing"] == case.casing) & same.all(axis=1)]
+    return table[(table["casing"] == case.casing) & same.all(axis=1) & (table["law"] == case.law)]
 
 
 def of_runs(
@@ -85,6 +85,7 @@ def command(case: CoatingCase, configs: list[str]) -> str:
     if case.is_rigid:
         coating = f"--coating rigid --friction {case.friction:.12g}"
     else:
-        coating = f"--E {case.E:.12g} --K {case.K:.12g} --theta {case.theta:.12g}"
+        angle = f"--theta {case.theta:.12g}" if case.law == "theta" else f"--friction {case.friction:.12g}"
+        coating = f"--E {case.E:.12g} --K {case.K:.12g} {angle}"
     overlays = f" --config {' '.join(map(shlex.quote, configs))}" if configs else ""
     return f"bladerub run{overlays} --casing {shlex.quote(case.casing)} {coating}"

@@ -59,6 +59,7 @@ def coating(case: CoatingCase, peaks: pd.DataFrame, configs: list[str]) -> dict[
         "E": case.E,
         "K": case.K,
         "theta": case.theta,
+        "law": case.law,
         "rigid": case.is_rigid,
         "friction": case.friction,
         "command": figures.command(case, configs),

@@ -19,7 +19,8 @@ def coating(case: CoatingCase) -> str:
     """All of it: ``casing 2nd, E = 2, K = 0.5, θ = 0.15 rad``, or ``rigid casing 2nd, μ = 0.15``."""
     if case.is_rigid:
         return f"rigid casing {case.casing}, μ = {case.friction:g}"
-    return f"{moduli(case.casing, case.E, case.K)}, {angle(case.theta)}"
+    tangential = angle(case.theta) if case.law == "theta" else f"μ = {case.friction:g}"
+    return f"{moduli(case.casing, case.E, case.K)}, {tangential}"
 
 
 def speed(f_omega: float) -> str:

@@ -25,6 +25,7 @@ COLUMNS = [
     "growth_high",
     "revolutions",
     "status",
+    "law",
 ]
 """Columns of ``divergence.csv``: f_omega is normalised, growth relative (0.03 is 3 % a revolution).
 
@@ -82,6 +83,7 @@ def of_maps(config: Mapping[str, Any], maps: Iterable[CoatingMap]) -> pd.DataFra
                     "growth_high": growth.high,
                     "revolutions": verdict.revolutions,
                     "status": verdict.status,
+                    "law": case.law,
                 }
             )
     return pd.DataFrame(rows, columns=COLUMNS)

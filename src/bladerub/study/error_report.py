@@ -86,6 +86,7 @@ def _entry(verified: VerifiedRun) -> dict[str, Any]:
         "E": _finite(case.E),
         "K": _finite(case.K),
         "theta": case.theta,
+        "law": case.law,
         "f_omega": verified.run.f_omega,
         "status": verified.status,
         **_plain(verified.error),

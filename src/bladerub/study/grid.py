@@ -5,7 +5,7 @@ from __future__ import annotations
 import itertools
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from typing import Any
 
 from bladerub.contact.spec import Casing, Coating, RunSpec, TipProfile
@@ -30,18 +30,37 @@ class CoatingCase:
     E, K : float
         Young and plastic modulus, normalised; both infinite for direct contact with the rigid casing.
     theta : float
-        Rotation of the abradable elements, or angle of friction on the rigid casing, rad.
+        Rotation of the abradable elements, or angle of friction by Coulomb's law, rad.
+    law : str
+        ``"theta"`` or ``"coulomb"`` (`bladerub.contact.spec.Coating`).
     """
 
     casing: str
     E: float
     K: float
     theta: float
+    law: str = "theta"
+
+    @classmethod
+    def coulomb(cls, casing: str, E: float, K: float, friction: float) -> CoatingCase:
+        """Describe an abradable coating under Coulomb's coefficient `friction`."""
+        return cls(casing, E, K, math.atan(friction), "coulomb")
 
     @classmethod
     def rigid(cls, casing: str, friction: float) -> CoatingCase:
         """Direct contact with the rigid casing under Coulomb's coefficient `friction`."""
-        return cls(casing, math.inf, math.inf, math.atan(friction))
+        return cls.coulomb(casing, math.inf, math.inf, friction)
+
+    @classmethod
+    def described(cls, attributes: Mapping[str, Any]) -> CoatingCase:
+        """Read what `attributes` of a run or a map say of the coating.
+
+        Raises
+        ------
+        KeyError
+            If one of them is missing.
+        """
+        return cls(**{field.name: attributes[field.name] for field in fields(cls)})
 
     @property
     def is_rigid(self) -> bool:
@@ -55,10 +74,10 @@ class CoatingCase:
 
     @property
     def name(self) -> str:
-        """Name in paths, for instance ``2nd_E0.11_K0.5_theta0`` or ``2nd_rigid_mu0.15``."""
-        if self.is_rigid:
-            return f"{self.casing}_rigid_mu{self.friction:g}"
-        return f"{self.casing}_E{self.E:g}_K{self.K:g}_theta{self.theta:g}"
+        """Name in paths, for instance ``2nd_E0.11_K0.5_theta0``, ``..._mu0.15`` or ``2nd_rigid_mu0.15``."""
+        layer = "rigid" if self.is_rigid else f"E{self.E:g}_K{self.K:g}"
+        angle = f"theta{self.theta:g}" if self.law == "theta" else f"mu{self.friction:g}"
+        return f"{self.casing}_{layer}_{angle}"
 
 
 def coating_cases(config: Mapping[str, Any]) -> list[CoatingCase]:
@@ -87,9 +106,15 @@ def coating_cases(config: Mapping[str, Any]) -> list[CoatingCase]:
 
 
 def listed_case(entry: Mapping[str, Any]) -> CoatingCase:
-    """Read one coating as the config lists it: ``casing, E, K, theta`` or ``casing, coating, friction``."""
+    """Read one coating as the config lists it.
+
+    ``casing, E, K`` with ``theta`` or ``friction``, or ``casing, coating, friction``.
+    """
     if "coating" in entry:
         return CoatingCase.rigid(entry["casing"], float(entry["friction"]))
+    if "friction" in entry:
+        modulus = float(entry["E"]), float(entry["K"])
+        return CoatingCase.coulomb(entry["casing"], *modulus, float(entry["friction"]))
     return CoatingCase(entry["casing"], float(entry["E"]), float(entry["K"]), float(entry["theta"]))
 
 
@@ -161,6 +186,7 @@ def run_spec(config: Mapping[str, Any], case: CoatingCase, f_omega: float) -> Ru
             modulus_unit=float(contact["modulus_unit"] * scale["modulus"]),
             thickness=float(contact["layer_thickness"] * scale["length"]),
             n_elements=int(contact["elements"]),
+            law=case.law,
         ),
         tip=TipProfile(
             half_width=float(contact["tip_profile"]["half_width"]),

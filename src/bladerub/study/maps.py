@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence, Set
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
@@ -200,9 +200,7 @@ def write_map(path: str | Path, coating: CoatingMap, origin: Mapping[str, str]) 
     ):
         number = np.arange(1, gathered.shape[1] + 1)
         variables[dim] = Variable((dim,), number, "1", "revolution, counted from 1")
-    case = coating.case
-    about = {"casing": case.casing, "E": case.E, "K": case.K, "theta": case.theta}
-    datafile.write(path, variables, about, origin)
+    datafile.write(path, variables, asdict(coating.case), origin)
 
 
 def read_map(path: str | Path, with_nodes: bool = False) -> CoatingMap:
@@ -215,7 +213,7 @@ def read_map(path: str | Path, with_nodes: bool = False) -> CoatingMap:
     """
     data, attributes = datafile.read(path, _DATASETS.keys() - (set() if with_nodes else {"wear_node"}))
     try:
-        case = CoatingCase(*(attributes[name] for name in ("casing", "E", "K", "theta")))
+        case = CoatingCase.described(attributes)
         if not with_nodes:
             data["wear_node"] = None
         return CoatingMap(case=case, **{name: data[name] for name in _DATASETS})

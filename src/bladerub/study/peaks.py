@@ -13,7 +13,7 @@ import pandas as pd
 from bladerub.study.grid import CoatingCase
 from bladerub.study.maps import CoatingMap, read_map
 
-COLUMNS = ["casing", "E", "K", "theta", "order", "f_peak", "amplitude"]
+COLUMNS = ["casing", "E", "K", "theta", "order", "f_peak", "amplitude", "law"]
 """Columns of ``peaks.csv``; f_peak is normalised, amplitude in m."""
 
 
@@ -159,5 +159,6 @@ def of_maps(config: Mapping[str, Any], maps: Iterable[CoatingMap]) -> pd.DataFra
         case = coating.case
         for order in settings["orders"]:
             found = peak(coating, order, settings)
-            rows.append((case.casing, case.E, case.K, case.theta, order, found.f_omega, found.amplitude))
+            coating_of = (case.casing, case.E, case.K, case.theta)
+            rows.append((*coating_of, order, found.f_omega, found.amplitude, case.law))
     return pd.DataFrame(rows, columns=COLUMNS)

@@ -81,7 +81,7 @@ def claimed_run(config: Mapping[str, Any], path: str | Path, run: StoredRun, bla
         If the file lacks an attribute of a run, or the config its casing.
     """
     about = run.attributes
-    case = CoatingCase(*(about[name] for name in ("casing", "E", "K", "theta")))
+    case = CoatingCase.described(about)
     spec = replace(run_spec(config, case, about["f_omega"]), revolutions=about["revolutions"])
     history = "radial_displacement" in run.data
     analysis = config["analysis"]

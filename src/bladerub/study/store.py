@@ -43,8 +43,8 @@ class StoredRun:
     Parameters
     ----------
     attributes : dict
-        ``casing``, ``E``, ``K``, ``theta``, ``f_omega``, ``revolutions``, ``time_step``, ``n_steps``,
-        ``run_key``, ``status`` and more.
+        ``casing``, ``E``, ``K``, ``theta``, ``law``, ``f_omega``, ``revolutions``, ``time_step``,
+        ``n_steps``, ``run_key``, ``status`` and more.
     data : dict of str to ndarray
         The datasets by name, in SI units: ``wear`` (8, n), ``angle`` (n,), ``spectrum_order`` and
         ``spectrum_amplitude`` (m,), ``revolution_peak``, ``revolution_amplitude`` and ``revolution_number``
@@ -133,11 +133,14 @@ def write_run(
         "E": case.E,
         "K": case.K,
         "theta": case.theta,
+        "law": case.law,
         "f_omega": spec.f_omega,
         "revolutions": spec.revolutions,
         "time_step": result.time_step,
         "n_steps": result.n_steps,
         "n_contact_steps": result.n_contact_steps,
+        "n_reversed_steps": result.n_reversed_steps,
+        "slowest_sliding": result.slowest_sliding,
         "scheme": spec.scheme,
         "energy_residual": result.energy.residual,
         "damping_ratio": spec.damping_ratio,

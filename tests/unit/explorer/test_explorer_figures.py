@@ -33,7 +33,7 @@ def test_rows_are_of_the_case_alone(coating, verdicts):
 
 def test_rows_of_the_rigid_casing_are_found(coating, verdicts):
     case = CoatingCase.rigid("2nd", 0.15)
-    table = verdicts.assign(E=math.inf, K=math.inf, theta=case.theta)
+    table = verdicts.assign(E=math.inf, K=math.inf, theta=case.theta, law=case.law)
     assert len(figures.of_case(table, case)) == 3
 
 

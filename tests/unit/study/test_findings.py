@@ -40,15 +40,15 @@ def paper_peaks():
     for E, K in itertools.product(YOUNG, HARDENING):
         shift = 0.002 * HARDENING.index(K)
         for order, f_peak in ((4, 0.30), (6, 0.193)):
-            rows.append(("2nd", E, K, 0.0, order, f_peak + shift, 1e-3 * _height(E, K)))
+            rows.append(("2nd", E, K, 0.0, order, f_peak + shift, 1e-3 * _height(E, K), "theta"))
     table = pd.DataFrame(rows, columns=peaks.COLUMNS)
     soft = (table.E == 0.11) & (table.K == 0.5)
     table.loc[soft, "f_peak"] = table.loc[soft, "order"].map({4: 0.31, 6: 0.21})
     others = [
-        ("2nd", 2.0, 0.5, 0.15, 4, 0.295, 5e-4),
-        ("2nd", 2.0, 0.5, 0.15, 6, 0.19, 5e-4),
-        ("2nd", np.inf, np.inf, 0.0, 4, 0.312, 5.5e-4),
-        ("2nd", np.inf, np.inf, 0.0, 6, 0.205, 5.5e-4),
+        ("2nd", 2.0, 0.5, 0.15, 4, 0.295, 5e-4, "theta"),
+        ("2nd", 2.0, 0.5, 0.15, 6, 0.19, 5e-4, "theta"),
+        ("2nd", np.inf, np.inf, 0.0, 4, 0.312, 5.5e-4, "coulomb"),
+        ("2nd", np.inf, np.inf, 0.0, 6, 0.205, 5.5e-4, "coulomb"),
     ]
     return pd.concat([table, pd.DataFrame(others, columns=peaks.COLUMNS)], ignore_index=True)
 
@@ -72,6 +72,7 @@ def paper_divergence():
                 "growth_high": growth + 0.01,
                 "revolutions": 60 if growth else 20,
                 "status": "completed",
+                "law": "theta",
             }
         )
     return pd.DataFrame(rows, columns=divergence.COLUMNS)

@@ -77,7 +77,10 @@ function fromHash(hash) {
 const PROPERTIES = ["casing", "E", "K", "angle"];
 
 function property(coating, name) {
-  if (name === "angle") return coating.rigid ? coating.friction : coating.theta;
+  if (name === "angle") {
+    if (coating.rigid) return coating.friction;
+    return coating.law === "coulomb" ? `μ = ${Number(coating.friction.toPrecision(6))}` : coating.theta;
+  }
   return coating[name] === null ? "rigid" : coating[name];
 }
 

@@ -108,7 +108,7 @@ function showControls() {
     PROPERTIES.forEach((name, i) => {
       const options = fitting(now, PROPERTIES.slice(0, i)).map((other) => property(other, name));
       const distinct = [...new Set(options)];
-      if (name !== "casing") distinct.sort((a, b) => (a === "rigid") - (b === "rigid") || a - b);
+      if (name !== "casing") distinct.sort((a, b) => isNaN(a) - isNaN(b) || a - b);
       const select = group.querySelector(`[name=${name}]`);
       fill(select, distinct, property(now, name));
       select.disabled = each === "B" && !choice.compare;

@@ -94,12 +94,14 @@ const ascending = (values) => [...new Set(values)].sort((a, b) => a - b);
 
 // The abradable coatings to be compared over E and K with the one at `index`: same casing and angle.
 function family(index) {
-  const { casing, rigid, theta } = study.coatings[index];
+  const { casing, rigid, theta, law } = study.coatings[index];
   const abradable = study.coatings.filter((each) => each.casing === casing && !each.rigid);
   const angle = rigid ? Math.min(...abradable.map((each) => each.theta)) : theta;
+  const alike = abradable.filter((each) => each.theta === angle);
+  const wanted = rigid ? alike[0]?.law : law;
   return {
     angle,
-    members: abradable.filter((each) => each.theta === angle),
+    members: alike.filter((each) => each.law === wanted),
     E: ascending(abradable.map((each) => each.E)),
     K: ascending(abradable.map((each) => each.K)),
   };

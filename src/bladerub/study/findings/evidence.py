@@ -76,7 +76,7 @@ class Evidence:
         """
         peaks = self.peaks
         wanted = (peaks.casing == casing) & (peaks.theta == theta) & (peaks.order == order)
-        rows = peaks[wanted & np.isfinite(peaks.E)]  # not the rigid casing
+        rows = peaks[wanted & (peaks.law == "theta")]
         table = rows.pivot_table(index="K", columns="E", values=column)
         if min(table.shape) < 2:
             raise NotMeasurable(f"engine order {order} on casing {casing}: fewer than two E or two K")
@@ -103,4 +103,5 @@ def _of_case(table: pd.DataFrame, case: CoatingCase) -> pd.Series:
         & (table.E == case.E)
         & (table.K == case.K)
         & (table.theta == case.theta)
+        & (table.law == case.law)
     )

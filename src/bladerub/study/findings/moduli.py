@@ -194,6 +194,7 @@ def softer_is_harmless(evidence: Evidence) -> Finding:
     """
     table = evidence.divergence
     softer = table[(table.casing == CASING) & (table.theta == THETA) & (table.E < SOFTEST)]
+    softer = softer[softer.law == "theta"]
     if softer.empty:
         raise NotMeasurable(f"no coating softer than E = {SOFTEST:g} in the study")
     share = 100 * float(softer.divergent.mean())
