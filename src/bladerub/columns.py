@@ -41,6 +41,24 @@ COLUMNS = {
     "law": Column(
         STRING, None, "of the tangential force: theta (constant direction) or coulomb (against sliding)"
     ),
+    "peak_theta": Column(NUMBER, "m", "largest displacement of node 1 with a force of constant direction"),
+    "peak_coulomb": Column(NUMBER, "m", "the same by Coulomb's law"),
+    "difference": Column(NUMBER, "1", "peak_coulomb / peak_theta - 1"),
+    "reversed_theta": Column(
+        NUMBER,
+        "1",
+        "share of the steps in contact in which a node that touches does not slide with the rotation, with a "
+        "force of constant direction",
+    ),
+    "reversed_coulomb": Column(NUMBER, "1", "the same by Coulomb's law"),
+    "slowest_sliding": Column(
+        NUMBER,
+        "1",
+        "lowest speed over the casing of a node that touches over that by the rotation, with a force of "
+        "constant direction",
+    ),
+    "status_theta": Column(STRING, None, "of the run with a force of constant direction"),
+    "status_coulomb": Column(STRING, None, "of the run by Coulomb's law"),
     "f_omega": Column(NUMBER, "1", "rotational frequency over the blade's first frequency at rest"),
     # blade
     "mode": Column(INTEGER, "1", "mode of vibration, counted from 1"),

@@ -184,6 +184,12 @@ def _coating_casings(config: Config) -> Iterator[str]:
         yield from _known_casing(config, f"coatings[{index}]", entry["casing"])
 
 
+@_reads("friction", "casings")
+def _compared_casings(config: Config) -> Iterator[str]:
+    for index, entry in enumerate(config.get("friction", [])):
+        yield from _known_casing(config, f"friction[{index}]", entry["casing"])
+
+
 def _known_casing(config: Config, where: str, casing: str) -> Iterator[str]:
     if casing not in config["casings"]:
         yield f'{where}.casing = "{casing}": must be one of the casings, {", ".join(config["casings"])}'

@@ -136,6 +136,16 @@ def test_run_on_the_rigid_casing_wears_nothing(small, blade_file, folder, capsys
     assert (about["E"], about["K"], about["theta"]) == (math.inf, math.inf, math.atan(friction))
 
 
+def test_run_by_coulombs_law_is_kept_as_such(small, blade_file, folder, capsys):
+    path = folder / "coulomb.h5"
+    command = [*without("--theta"), "--friction", "0.15"]
+    assert main([*command, *small, "--json", "--output", str(path)]) == 0
+    assert json.loads(capsys.readouterr().out)["peak_amplitude"] > 0
+    about = read_run(path).attributes
+    assert (about["law"], about["theta"]) == ("coulomb", math.atan(0.15))
+    assert 0 < about["slowest_sliding"] < 1
+
+
 def test_clearances_are_in_lengths_of_the_given_blade(small, blade_file, folder, capsys):
     main([*RUN, *small, "--json", "--blade", str(blade_file)])
     same = json.loads(capsys.readouterr().out)

@@ -118,15 +118,24 @@ def listed_case(entry: Mapping[str, Any]) -> CoatingCase:
     return CoatingCase(entry["casing"], float(entry["E"]), float(entry["K"]), float(entry["theta"]))
 
 
+def compared_cases(config: Mapping[str, Any]) -> list[tuple[CoatingCase, CoatingCase]]:
+    """List the coatings that are run by both laws of friction: constant direction first, then Coulomb's."""
+    return [
+        (CoatingCase(entry["casing"], *values), CoatingCase(entry["casing"], *values, law="coulomb"))
+        for entry in config.get("friction", [])
+        for values in itertools.product(*(map(float, entry[key]) for key in ("E", "K", "theta")))
+    ]
+
+
 def case_from_name(config: Mapping[str, Any], name: str) -> CoatingCase:
-    """Find the coating called `name` in the config.
+    """Find the coating called `name` in the config, among `coating_cases` or `compared_cases`.
 
     Raises
     ------
     ValueError
         If the config has no such coating.
     """
-    for case in coating_cases(config):
+    for case in itertools.chain(coating_cases(config), *compared_cases(config)):
         if case.name == name:
             return case
     raise ValueError(f"coating {name} is not in the config; add it to coatings")

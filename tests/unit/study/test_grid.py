@@ -1,3 +1,4 @@
+import dataclasses
 import math
 
 import pytest
@@ -123,3 +124,22 @@ def test_histories_may_be_of_the_rigid_casing(config):
     assert grid.keeps_history(config, rigid, 0.19)
     assert not grid.keeps_history(config, rigid, 0.197)
     assert not grid.keeps_history(config, CoatingCase.rigid("2nd", 0.0), 0.19)
+
+
+def test_friction_instead_of_theta_is_coulombs_law_at_its_angle(config):
+    config["coatings"] = [{"casing": "2nd", "E": [2], "K": [0.5], "friction": [0.15]}]
+    (case,) = grid.coating_cases(config)
+    assert case.name == "2nd_E2_K0.5_mu0.15"
+    assert case == grid.case_from_name(config, case.name)
+    assert case != grid.CoatingCase("2nd", 2.0, 0.5, case.theta)
+    coating = grid.run_spec(config, case, 0.19).coating
+    assert (coating.law, coating.theta) == ("coulomb", math.atan(0.15))
+    assert grid.CoatingCase.described(dataclasses.asdict(case)) == case
+
+
+def test_compared_coatings_are_found_by_name_and_are_no_part_of_the_study(config):
+    config["friction"] = [{"casing": "2nd", "E": [3], "K": [0.5], "theta": [0.15, 0.3]}]
+    pairs = grid.compared_cases(config)
+    assert [case.name for case in pairs[0]] == ["2nd_E3_K0.5_theta0.15", "2nd_E3_K0.5_mu0.151135"]
+    assert pairs[1][1] == grid.case_from_name(config, pairs[1][1].name)
+    assert not {case for pair in pairs for case in pair} & set(grid.coating_cases(config))

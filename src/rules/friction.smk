@@ -1,0 +1,25 @@
+# Coulomb friction beside a contact force of constant direction, on the coatings listed for it. Not part of `all`.
+from bladerub.study.grid import compared_cases
+
+COMPARED = [case.name for pair in compared_cases(config) for case in pair]
+
+
+rule friction:
+    input:
+        manifests=expand(rules.coating.output[0], coating=COMPARED),
+        analysing=analysing("friction", "summary"),
+        drawing=drawing("friction"),
+    output:
+        **drawn("friction", "Angle of the elements"),
+        table=f"{RESULTS}/tables/friction.csv",
+        description=f"{RESULTS}/tables/friction.csv-metadata.json",
+    log:
+        f"{RESULTS}/logs/friction.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/friction.tsv"
+    threads: 1
+    params:
+        revolutions=config["analysis"]["spectrum_revolutions"],
+        dpi=DPI,
+    script:
+        "../scripts/friction.py"
