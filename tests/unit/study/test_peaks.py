@@ -76,7 +76,7 @@ def test_the_table_has_a_row_per_coating_and_order(tmp_path, config, make_map):
         paths.append(tmp_path / f"{case.name}.h5")
         write_map(paths[-1], make_map(case, {4: (0.31, E * 1e-4), 6: (f_peak, E * 2e-4)}), {})
     table = peaks.table(config, paths)
-    assert list(table.columns) == ["casing", "E", "K", "theta", "order", "f_peak", "amplitude"]
+    assert list(table.columns) == ["casing", "E", "K", "theta", "order", "f_peak", "amplitude", "law"]
     assert list(table.E) == [0.11, 0.11, 1.1, 1.1]
     assert list(table.order) == [4, 6, 4, 6]
     np.testing.assert_allclose(table.f_peak, [0.31, 0.19, 0.31, 0.21])
