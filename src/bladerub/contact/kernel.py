@@ -375,6 +375,11 @@ class Rub:
         state.along[:] = stator.tangential  # Coulomb's law finds its own before it is used
         self._records = [addresses(record) for record in (motion, flight, stator, tip, state)]
 
+    @property
+    def angle_per_step(self) -> float:
+        """Angle by which the blade turns in a step, rad."""
+        return 2 * np.pi / (self.steps_per_element * self.stator.n_elements)
+
     def revolve(self, displacement: np.ndarray, first: int = 0) -> Progress:
         """March one revolution of constant speed, or a part of it.
 

@@ -16,6 +16,7 @@ from bladerub.contact.motion import pack
 from bladerub.contact.schemes import SCHEMES, Contact, Recurrence, normal_compliance
 from bladerub.contact.spec import Coating, RunResult, RunSpec
 from bladerub.contact.tip import profile
+from bladerub.contact.track import Part, march
 from bladerub.contact.vectors import aligned
 
 STRAY = 4
@@ -57,41 +58,25 @@ def simulate(blade: ReducedBlade, spec: RunSpec, progress: Callable[[int], None]
     """
     n_elements, revolutions = spec.coating.n_elements, spec.revolutions
     rule, rub = set_up(blade, spec)
-    steps_per_revolution = rub.steps_per_element * n_elements
     initial = sum(ledger.blade_energy(rule, rub.state))
-    displacement = np.full((revolutions, n_elements), np.nan)
-    lowest, highest = np.full(revolutions, np.nan), np.full(revolutions, np.nan)
-    n_steps = n_contact_steps = 0
-    status, message = "completed", f"{revolutions} revolutions completed"
-    for revolution in range(revolutions):
-        made = rub.revolve(displacement[revolution])
-        n_steps += made.n_steps
-        n_contact_steps += made.n_contact_steps
-        lowest[revolution], highest[revolution] = made.lowest, made.highest
-        if made.n_steps < steps_per_revolution:
-            status = "unbounded"
-            message = (
-                f"the tip moved by more than {spec.displacement_limit:g} m "
-                f"after {n_steps / steps_per_revolution:.2f} revolutions"
-            )
-            break
-        if progress is not None:
-            progress(revolution + 1)
+    whole = (Part(rub, revolution, 0, n_elements) for revolution in range(revolutions))
+    track = march(whole, revolutions, n_elements, progress)
+    status, message = track.verdict(spec.displacement_limit)
     return RunResult(
         status=status,
         message=message,
-        angle=_element_angle(n_elements),
-        wear=_by_angle(blade, spec, rub.state.wear),
-        radial_displacement=displacement.ravel(),
-        revolution_peak=np.maximum(np.abs(lowest), np.abs(highest)),
-        revolution_amplitude=0.5 * (highest - lowest),
+        angle=element_angle(n_elements),
+        wear=by_angle(blade, spec, rub.state.wear),
+        radial_displacement=track.displacement.ravel(),
+        revolution_peak=track.peak,
+        revolution_amplitude=track.amplitude,
         time_step=rule.time_step,
-        n_steps=n_steps,
-        n_contact_steps=n_contact_steps,
+        n_steps=track.n_steps,
+        n_contact_steps=track.n_contact_steps,
         n_reversed_steps=int(rub.state.ledger[ledger.REVERSED, 0]),
         slowest_sliding=1.0 - float(rub.state.ledger[ledger.RETREAT].max()) * rub.steps_per_element,
         n_modes=rule.omega.size,
-        energy=ledger.close(rule, rub.state, initial, 2 * np.pi / steps_per_revolution),
+        energy=ledger.close(rule, rub.state, initial, rub.angle_per_step),
     )
 
 
@@ -103,8 +88,12 @@ def set_up(blade: ReducedBlade, spec: RunSpec) -> tuple[Recurrence, kernel.Rub]:
     ValueError
         As `simulate`.
     """
+    return set_up_modes(modes_at(blade, spec.f_omega), blade, spec)
+
+
+def set_up_modes(modes: Modes, blade: ReducedBlade, spec: RunSpec) -> tuple[Recurrence, kernel.Rub]:
+    """Do as `set_up`, with the modes at this speed."""
     steps_per_element, time_step = _time_step(blade, spec)
-    modes = modes_at(blade, spec.f_omega)
     contact = Contact(
         _bar_stiffness(blade, spec) * 2 * spec.tip.half_width,  # the shares under the tip add up to its width
         -math.cos(spec.coating.theta),
@@ -135,7 +124,7 @@ def _lowest_within(reach: float, gap: np.ndarray) -> np.ndarray:
     return minimum_filter1d(gap, 2 * math.ceil(reach) + 1, axis=1, mode="wrap")
 
 
-def _element_angle(n_elements: int) -> np.ndarray:
+def element_angle(n_elements: int) -> np.ndarray:
     return (np.arange(n_elements) + 0.5) * (2 * np.pi / n_elements)
 
 
@@ -185,7 +174,7 @@ def _stator(blade: ReducedBlade, spec: RunSpec, tip: kernel.Tip, rule: Recurrenc
     radial, tangential = -math.cos(coating.theta), -math.sin(coating.theta)
     chord_fraction = _chord_fraction(blade)
     clearance = spec.clearance[0] + (spec.clearance[1] - spec.clearance[0]) * chord_fraction
-    gap = casing.gap(spec.casing, clearance[:, None], _element_angle(coating.n_elements))
+    gap = casing.gap(spec.casing, clearance[:, None], element_angle(coating.n_elements))
     rows = np.array(
         [np.roll(of_node, -at) for of_node, at in zip(gap, _first_element(blade, spec), strict=True)]
     )
@@ -264,7 +253,7 @@ def _first_element(blade: ReducedBlade, spec: RunSpec) -> np.ndarray:
     return _start_position(blade, spec).astype(int)
 
 
-def _by_angle(blade: ReducedBlade, spec: RunSpec, rows: np.ndarray) -> np.ndarray:
+def by_angle(blade: ReducedBlade, spec: RunSpec, rows: np.ndarray) -> np.ndarray:
     """Bring (N, 8) rows of elements into the order (8, N) of the angle."""
     first = _first_element(blade, spec)
     return np.array([np.roll(of_node, at) for of_node, at in zip(rows.T, first, strict=True)])

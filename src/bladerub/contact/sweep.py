@@ -1,0 +1,266 @@
+"""One passage through a range of speeds in time: `SweepSpec` → `SweepResult`.
+
+1. The speed rises or falls at a constant rate. It goes in small steps: each is a stretch of constant speed, to
+   whole elements of the casing, over which the blade marches as in `bladerub.contact.run`.
+2. Between two stretches the stiffness changes as eq. (2) has it. Displacement and velocity of the blade are
+   continuous there and so is the contact force; the modes are found anew and what moves is handed over to
+   them.
+3. The rotation thereby does the work ``½ uᵀ ΔK u`` on the blade, which the ledger counts on its own
+   (`SweepResult.work_stiffness`).
+4. As in eq. (1), displacements are increments about the running position, which itself changes with the speed.
+   Forces of the angular acceleration itself (Euler's) are left out: at an acceleration through the range of the
+   paper in five seconds they are a thousandth of the centrifugal ones.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
+from typing import NamedTuple
+
+import numpy as np
+
+from bladerub.blade.model import ReducedBlade
+from bladerub.contact import kernel, ledger
+from bladerub.contact.modes import Modes, at_tip, mode_shapes_at
+from bladerub.contact.run import by_angle, element_angle, set_up_modes
+from bladerub.contact.schemes import Recurrence
+from bladerub.contact.spec import Energy, RunSpec
+from bladerub.contact.track import Part, march
+from bladerub.contact.vectors import LANES
+
+
+@dataclass(frozen=True)
+class SweepSpec:
+    """One passage through the speeds.
+
+    Parameters
+    ----------
+    run : RunSpec
+        The run, at the speed where the passage begins; it stays there for its ``revolutions``, if any.
+    f_end : float
+        Speed where it ends, normalised; above or below the first.
+    rate : float
+        Change of the normalised speed in a second, positive, 1/s.
+    speed_step : float
+        Largest change of speed between two stretches of constant speed, normalised.
+    """
+
+    run: RunSpec
+    f_end: float
+    rate: float
+    speed_step: float
+
+
+@dataclass(frozen=True)
+class SweepResult:
+    """Outcome of one passage.
+
+    Parameters
+    ----------
+    status, message, angle, wear, radial_displacement, revolution_peak, revolution_amplitude, n_steps, \
+n_contact_steps
+        As of `bladerub.contact.spec.RunResult`.
+    f_omega : (revolutions,) ndarray
+        Mean speed of each revolution, normalised.
+    time : (revolutions,) ndarray
+        Middle of each revolution, s from the start.
+    energy : Energy
+        The ledger of a run, without what the change of the stiffness does.
+    work_stiffness : float
+        Work of the rotation on the blade through the change of its stiffness, J.
+    """
+
+    status: str
+    message: str
+    angle: np.ndarray
+    wear: np.ndarray
+    radial_displacement: np.ndarray
+    revolution_peak: np.ndarray
+    revolution_amplitude: np.ndarray
+    n_steps: int
+    n_contact_steps: int
+    f_omega: np.ndarray
+    time: np.ndarray
+    energy: Energy
+    work_stiffness: float
+
+    @property
+    def residual(self) -> float:
+        """What the ledger of blade and casing misses, over the work exchanged; 0 without contact."""
+        stiffened = replace(self.energy, work_rotation=self.energy.work_rotation + self.work_stiffness)
+        return stiffened.residual
+
+
+class Stretch(NamedTuple):
+    """Elements `first` to `last`, counted from the start of the run, at the speed `f_omega`."""
+
+    f_omega: float
+    first: int
+    last: int
+
+
+def stretches(spec: SweepSpec, f1_hz: float) -> list[Stretch]:
+    """Divide a passage of a blade of first frequency `f1_hz` (Hz) into stretches of constant speed.
+
+    The speed of each is the mean over it. The last is prolonged to the end of its revolution.
+    """
+    n_elements, start = spec.run.coating.n_elements, spec.run.f_omega
+    n_stretches = max(1, int(np.ceil(abs(spec.f_end - start) / spec.speed_step - 1e-9)))
+    edges = np.linspace(start, spec.f_end, n_stretches + 1)
+    speeds = 0.5 * (edges[1:] + edges[:-1])
+    duration = abs(spec.f_end - start) / n_stretches / spec.rate
+    passed = spec.run.revolutions + np.concatenate([[0.0], np.cumsum(speeds * f1_hz * duration)])
+    cuts = np.rint(passed * n_elements).astype(int)
+    cuts[-1] += -cuts[-1] % n_elements
+    planned = [Stretch(start, 0, int(cuts[0]))]
+    planned += [Stretch(*each) for each in zip(speeds.tolist(), cuts.tolist(), cuts[1:].tolist(), strict=False)]
+    return [stretch for stretch in planned if stretch.last > stretch.first]
+
+
+def simulate_sweep(
+    blade: ReducedBlade, spec: SweepSpec, progress: Callable[[int], None] | None = None
+) -> SweepResult:
+    """Let the blade rub while its speed changes.
+
+    Parameters
+    ----------
+    blade : ReducedBlade
+        The blade.
+    spec : SweepSpec
+        Run, end, rate.
+    progress : callable, optional
+        Called with the number of revolutions done after each of them.
+
+    Raises
+    ------
+    ValueError
+        If a speed is outside the range of the blade, or the step too long for the scheme.
+    """
+    n_elements = spec.run.coating.n_elements
+    plan = stretches(spec, blade.f1_hz)
+    passage = _Passage(blade, spec.run, plan)
+    initial = sum(ledger.blade_energy(passage.stage.rule, passage.stage.rub.state))
+    revolutions = plan[-1].last // n_elements
+    track = march(passage.parts(), revolutions, n_elements, progress)
+    status, message = track.verdict(spec.run.displacement_limit)
+    rule, rub = passage.stage.rule, passage.stage.rub
+    f_omega, time = _speed_by_revolution(plan, n_elements, blade.f1_hz)
+    return SweepResult(
+        status=status,
+        message=message,
+        angle=element_angle(n_elements),
+        wear=by_angle(blade, spec.run, rub.state.wear),
+        radial_displacement=track.displacement.ravel(),
+        revolution_peak=track.peak,
+        revolution_amplitude=track.amplitude,
+        n_steps=track.n_steps,
+        n_contact_steps=track.n_contact_steps,
+        f_omega=f_omega,
+        time=time,
+        energy=ledger.close(rule, rub.state, initial, rub.angle_per_step),
+        work_stiffness=passage.work,
+    )
+
+
+def _speed_by_revolution(plan: list[Stretch], n_elements: int, f1_hz: float) -> tuple[np.ndarray, np.ndarray]:
+    """Mean speed and middle of each revolution."""
+    cuts = np.array([0, *(stretch.last for stretch in plan)])
+    duration = np.diff(cuts) / (n_elements * f1_hz * np.array([stretch.f_omega for stretch in plan]))
+    elapsed = np.concatenate([[0.0], np.cumsum(duration)])
+    ends = np.interp(np.arange(0, cuts[-1] + 1, n_elements), cuts, elapsed)
+    return 1.0 / (f1_hz * np.diff(ends)), 0.5 * (ends[1:] + ends[:-1])
+
+
+class _Stage(NamedTuple):
+    """The blade at one speed: all its modes, and what marches in them."""
+
+    omega: np.ndarray
+    shapes: np.ndarray
+    tip: np.ndarray
+    rule: Recurrence
+    rub: kernel.Rub
+
+
+class _Passage:
+    """The blade on its way from stretch to stretch; `stage` is where it is."""
+
+    def __init__(self, blade: ReducedBlade, run: RunSpec, plan: list[Stretch]):
+        self.blade, self.run, self.plan = blade, run, plan
+        self.work = 0.0
+        self.stage = self._stage(plan[0].f_omega)
+
+    def parts(self) -> Iterator[Part]:
+        n_elements = self.run.coating.n_elements
+        for stretch in self.plan:
+            if stretch is not self.plan[0]:
+                before, self.stage = self.stage, self._stage(stretch.f_omega)
+                self.work += _hand_over(self.blade, before, self.stage)
+            first = stretch.first
+            while first < stretch.last:
+                revolution, passed = divmod(first, n_elements)
+                last = min(stretch.last, (revolution + 1) * n_elements)
+                yield Part(self.stage.rub, revolution, passed, passed + last - first)
+                first = last
+
+    def _stage(self, f_omega: float) -> _Stage:
+        omega, shapes = mode_shapes_at(self.blade, f_omega)
+        tip = at_tip(self.blade, shapes)
+        run = replace(self.run, f_omega=f_omega)
+        return _Stage(omega, shapes, tip, *set_up_modes(Modes(omega, tip), self.blade, run))
+
+
+def _hand_over(blade: ReducedBlade, old: _Stage, new: _Stage) -> float:
+    """Go on from the state of `old` in `new`; return the work of the change of stiffness, J."""
+    state, here = new.rub.state, old.rub.state
+    for name in ("force", "push", "moment", "way", "wear", "ledger"):
+        getattr(state, name)[:] = getattr(here, name)
+    state.ledger[ledger.TORQUE] *= old.rub.angle_per_step / new.rub.angle_per_step
+
+    into = new.shapes.T @ blade.mass @ old.shapes  # from modal coordinates to modal coordinates
+    force = here.force[0]
+    static, static_new = old.tip.T @ force / old.omega**2, new.tip.T @ force / new.omega**2
+    n, n_new = old.rule.omega.size, new.rule.omega.size
+    share, share_new = np.sqrt(old.rule.share[:n]), np.sqrt(new.rule.share[:n_new])
+    swing, velocity = _swing(old.rule, here.q, force)
+
+    total = static.copy()
+    total[:n] += share * swing
+    moved = into @ total
+    work = 0.5 * (np.sum((new.omega * moved) ** 2) - np.sum((old.omega * total) ** 2))
+
+    swing = into[:n_new, :n] @ swing + share_new * (into @ static - static_new)[:n_new]
+    state.q[:, :n_new] = _rows(new.rule, swing, into[:n_new, :n] @ velocity, force)
+    back = new.rule.time_step / old.rule.time_step
+    state.u[0] = here.u[0]
+    state.u[1] = here.u[0] + back * (here.u[1] - here.u[0])
+    state.u[2] = here.u[0] + 2 * back * (here.u[1] - here.u[0])
+    radius, limit = new.rub.tip.radius, slice(0, LANES)
+    for row in state.u:
+        row[2 * LANES :] = np.hypot(radius + row[limit], row[LANES : 2 * LANES]) - radius
+    return float(work)
+
+
+def _motion(rule: Recurrence) -> tuple[np.ndarray, np.ndarray]:
+    """Angular frequency and decay (1/s) at which the recurrence itself swings."""
+    phase = np.arccos(rule.now / (2.0 * np.sqrt(rule.before)))
+    return phase / rule.time_step, -0.5 * np.log(rule.before) / rule.time_step
+
+
+def _swing(rule: Recurrence, q: np.ndarray, force: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Displacement and velocity of each resolved mode about its rest under `force`."""
+    frequency, decay = _motion(rule)
+    h = rule.time_step
+    rest = rule.tip.T @ force / rule.omega**2
+    now, before = q[:2, : rule.omega.size] - rest
+    sine = (now * np.cos(frequency * h) - before * np.exp(-decay * h)) / np.sin(frequency * h)
+    return now, frequency * sine - decay * now
+
+
+def _rows(rule: Recurrence, swing: np.ndarray, velocity: np.ndarray, force: np.ndarray) -> np.ndarray:
+    """Coordinates (3, n) now, one and two steps before, of that motion."""
+    frequency, decay = _motion(rule)
+    sine = (velocity + decay * swing) / frequency
+    time = -rule.time_step * np.arange(3)[:, None]
+    turned = swing * np.cos(frequency * time) + sine * np.sin(frequency * time)
+    return rule.tip.T @ force / rule.omega**2 + np.exp(-decay * time) * turned
