@@ -53,6 +53,7 @@ include: "src/rules/explorer.smk"
 include: "src/rules/cost.smk"
 include: "src/rules/calibration.smk"
 include: "src/rules/chart.smk"
+include: "src/rules/passages.smk"
 include: "src/rules/documents.smk"
 
 

@@ -127,6 +127,22 @@ COLUMNS = {
     "worst_missed": Column(NUMBER, "1", "greatest of missed"),
     "in_chart": Column(NUMBER, "m", "the value in the chart"),
     "difference": Column(NUMBER, "1", "in_chart / found - 1"),
+    # sweeps and long runs
+    "direction": Column(STRING, None, "up: the speed rises, down: it falls"),
+    "rate": Column(NUMBER, "1/s", "change of f_omega in a second"),
+    "f_peak_constant": Column(NUMBER, "1", "f_peak of the runs at constant speed"),
+    "amplitude_constant": Column(NUMBER, "m", "amplitude there"),
+    "ratio": Column(NUMBER, "1", "amplitude over amplitude_constant"),
+    "survives": Column(BOOLEAN, None, "whether the ratio is at least sweeps.survival"),
+    "f_end": Column(NUMBER, "1", "f_omega at which the passage ended"),
+    "max_wear": Column(NUMBER, "m", "greatest worn depth under any interface node"),
+    "energy_residual": Column(NUMBER, "1", "what the energy ledger misses, over the work exchanged"),
+    "why": Column(STRING, None, "why the run was made longer: it grows, or it is the peak f_k"),
+    "verdict": Column(STRING, None, "steady, saturating, divergent or unbounded after so many revolutions"),
+    "late_amplitude": Column(
+        NUMBER, "m", "half the range of the radial displacement of node 1, mean over the last revolutions"
+    ),
+    "ms_per_revolution": Column(NUMBER, "ms", "wall time of a revolution, mean over all until then"),
     # coating and casing
     "element": Column(INTEGER, "1", "element of the coating, counted from the one under the node"),
     "position": Column(NUMBER, "m", "middle of the element along the casing, from the node"),

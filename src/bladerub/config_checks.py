@@ -240,6 +240,18 @@ def most_revolutions(config: Config) -> int:
     return MOST_SAMPLES // config["contact"]["elements"]
 
 
+@_reads("sweeps", "reduction")
+def _sweeps(config: Config) -> Iterator[str]:
+    sweeps, highest = config["sweeps"], config["reduction"]["f_omega_max"]
+    if sweeps["stop"] > highest:
+        yield (
+            f"sweeps.stop = {sweeps['stop']:g}: must be at most reduction.f_omega_max = {highest:g}, beyond "
+            "which the stiffness of the blade is not fitted"
+        )
+    if not sweeps["start"] < sweeps["stop"]:
+        yield f"sweeps.stop = {sweeps['stop']:g}: must be above sweeps.start = {sweeps['start']:g}"
+
+
 @_reads("analysis", "solver", "contact")
 def _samples(config: Config) -> Iterator[str]:
     most = most_revolutions(config)

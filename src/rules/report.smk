@@ -11,6 +11,7 @@ CATEGORIES = {
             "Moduli of the coating",
             "Angle of the elements",
             "Claims",
+            "Sweeps and long runs",
             "Cost",
             "Choice of a coating",
         ],

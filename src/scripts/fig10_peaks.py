@@ -7,16 +7,16 @@ from bladerub.plots import style
 from bladerub.plots.peak_sections import PeakSection, peak_sections
 from bladerub.provenance import provenance
 from bladerub.study.maps import read_map
-from bladerub.study.peaks import crossing_speed, order_amplitude, peak
+from bladerub.study.peaks import order_amplitude, peak, speed_window
 
 job.log_to(snakemake.log[0])
 
 coating, settings = read_map(snakemake.input.map), snakemake.params.peaks
 sections = []
 for k in settings["orders"][:2]:
-    crossing, best = crossing_speed(coating, k), peak(coating, k, settings)
+    best = peak(coating, k, settings)
     amplitude = order_amplitude(coating, k, settings["order_halfwidth"])
-    window = tuple(factor * crossing for factor in settings["speed_window"])
+    window = speed_window(coating, k, settings)
     sections.append(PeakSection(k, amplitude, window, best.f_omega, best.amplitude))
 
 table = pd.concat(

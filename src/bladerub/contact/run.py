@@ -125,6 +125,7 @@ def _lowest_within(reach: float, gap: np.ndarray) -> np.ndarray:
 
 
 def element_angle(n_elements: int) -> np.ndarray:
+    """Casing angle (N,) of the element centres, rad."""
     return (np.arange(n_elements) + 0.5) * (2 * np.pi / n_elements)
 
 

@@ -1,15 +1,15 @@
 """One passage through a range of speeds in time: `SweepSpec` → `SweepResult`.
 
-1. The speed rises or falls at a constant rate. It goes in small steps: each is a stretch of constant speed, to
-   whole elements of the casing, over which the blade marches as in `bladerub.contact.run`.
+1. The speed rises or falls at a constant rate, in small steps: each is a stretch of constant speed, to whole
+   elements of the casing, over which the blade marches as in `bladerub.contact.run`.
 2. Between two stretches the stiffness changes as eq. (2) has it. Displacement and velocity of the blade are
    continuous there and so is the contact force; the modes are found anew and what moves is handed over to
    them.
 3. The rotation thereby does the work ``½ uᵀ ΔK u`` on the blade, which the ledger counts on its own
    (`SweepResult.work_stiffness`).
-4. As in eq. (1), displacements are increments about the running position, which itself changes with the speed.
-   Forces of the angular acceleration itself (Euler's) are left out: at an acceleration through the range of the
-   paper in five seconds they are a thousandth of the centrifugal ones.
+4. As in eq. (1), displacements are increments about the running position, which itself changes with the
+   speed. The force of the angular acceleration (Euler's) is left out: on a way through the range of the paper
+   in five seconds it is below a hundredth of the centrifugal one from f_Ω = 0.1 on.
 """
 
 from __future__ import annotations
@@ -114,7 +114,9 @@ def stretches(spec: SweepSpec, f1_hz: float) -> list[Stretch]:
     cuts = np.rint(passed * n_elements).astype(int)
     cuts[-1] += -cuts[-1] % n_elements
     planned = [Stretch(start, 0, int(cuts[0]))]
-    planned += [Stretch(*each) for each in zip(speeds.tolist(), cuts.tolist(), cuts[1:].tolist(), strict=False)]
+    planned += [
+        Stretch(*each) for each in zip(speeds.tolist(), cuts.tolist(), cuts[1:].tolist(), strict=False)
+    ]
     return [stretch for stretch in planned if stretch.last > stretch.first]
 
 

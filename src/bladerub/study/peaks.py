@@ -85,14 +85,29 @@ def amplitude_in_window(coating: Response, order: float, settings: Mapping[str, 
 
     Parameters and errors are those of `peak`.
     """
-    low, high = _window(coating, order, settings)
+    return amplitude_within(coating, order, speed_window(coating, order, settings), settings)
+
+
+def amplitude_within(
+    coating: Response, order: float, window: tuple[float, float], settings: Mapping[str, Any]
+) -> np.ndarray:
+    """Amplitude on an engine order, m (n,); NaN outside the `window` of speeds."""
+    low, high = window
     inside = (coating.f_omega >= low) & (coating.f_omega <= high)
     return np.where(inside, order_amplitude(coating, order, settings["order_halfwidth"]), np.nan)
 
 
-def _window(coating: Response, order: float, settings: Mapping[str, Any]) -> tuple[float, float]:
-    low, high = (factor * crossing_speed(coating, order) for factor in settings["speed_window"])
-    return low, high
+def speed_window(coating: Response, order: float, settings: Mapping[str, Any]) -> tuple[float, float]:
+    """Lowest and highest speed between which the peak of an engine order is sought, normalised.
+
+    Raises
+    ------
+    ValueError
+        As `crossing_speed`.
+    """
+    low, high = settings["speed_window"]
+    crossing = crossing_speed(coating, order)
+    return low * crossing, high * crossing
 
 
 def peak(coating: Response, order: float, settings: Mapping[str, Any]) -> Peak:
@@ -119,7 +134,7 @@ def peak(coating: Response, order: float, settings: Mapping[str, Any]) -> Peak:
     """
     amplitude = amplitude_in_window(coating, order, settings)
     if np.isnan(amplitude).all():
-        low, high = _window(coating, order, settings)
+        low, high = speed_window(coating, order, settings)
         raise ValueError(
             f"analysis.peaks.speed_window: no run of {coating.case.name} between f_omega = {low:.4f} and "
             f"{high:.4f} has a spectrum for engine order {order:g}; add speeds there or widen the window"

@@ -1,0 +1,117 @@
+# Longer, and at a speed that changes: studies beside the main one, each from its maps. Not part of `all`.
+from bladerub.study.sweeps import DIRECTIONS, swept_cases, sweep_spec
+
+SWEPT = [case.name for case in swept_cases(config)]
+PASSAGES = f"{RESULTS}/sweeps/{{coating}}_{{direction}}_{{rate}}.h5"
+RATES = [f"{rate:g}" for rate in config["sweeps"]["rates"]]
+
+
+def swept_maps(wildcards):
+    if not SWEPT:
+        with bladerub.faults.end_the_program():
+            raise bladerub.faults.BadInput(
+                "sweeps.coatings: the study has none of them; must name some of its coatings"
+            )
+    return expand(rules.map.output, coating=SWEPT)
+
+
+def planned_sweep(wildcards):
+    """All that determines a passage but the blade: a changed one is a reason to run."""
+    case = case_from_name(config, wildcards.coating)
+    return asdict(sweep_spec(config, case, wildcards.direction, float(wildcards.rate)))
+
+
+rule sweeps:
+    input:
+        maps=swept_maps,
+        passages=expand(PASSAGES, coating=SWEPT, direction=DIRECTIONS, rate=RATES),
+        analysing=analysing("sweeps", "peaks"),
+        drawing=drawing("sweeps", "titles"),
+    output:
+        **drawn("sweeps", "Sweeps and long runs"),
+        table=shown(
+            f"{RESULTS}/tables/sweeps.csv", "sweeps_table", "Sweeps and long runs"
+        ),
+        description=f"{RESULTS}/tables/sweeps.csv-metadata.json",
+    log:
+        f"{RESULTS}/logs/sweeps.log",
+    threads: 1
+    params:
+        peaks=config["analysis"]["peaks"],
+        survival=config["sweeps"]["survival"],
+        dpi=DPI,
+    script:
+        "../scripts/sweeps.py"
+
+
+rule sweep:
+    input:
+        blade=f"{RESULTS}/blade/reduced_model.h5",
+        kernel=rules.compile_kernel.output[0],
+        analysing=analysing("sweeps", "spectra"),
+    output:
+        PASSAGES,
+    log:
+        f"{RESULTS}/logs/sweep/{{coating}}_{{direction}}_{{rate}}.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/sweep/{{coating}}_{{direction}}_{{rate}}.tsv"
+    wildcard_constraints:
+        direction="|".join(DIRECTIONS),
+        rate=r"[0-9.e+-]+",
+    threads: 1
+    resources:
+        mem_mb=lambda wildcards, attempt: 2000 * attempt,
+        runtime=lambda wildcards, attempt: 10 * attempt,
+    params:
+        spec=planned_sweep,
+        spectra=[
+            config["analysis"][key] for key in ("spectrum_revolutions", "max_order")
+        ],
+    script:
+        "../scripts/sweep.py"
+
+
+rule long_runs:
+    input:
+        long=expand(f"{RESULTS}/long_runs/{{coating}}.h5", coating=COATINGS),
+        analysing=analysing("long_runs", "growth"),
+        drawing=drawing("long_runs", "titles"),
+    output:
+        **drawn("long_runs", "Sweeps and long runs"),
+        table=shown(
+            f"{RESULTS}/tables/long_runs.csv",
+            "long_runs_table",
+            "Sweeps and long runs",
+        ),
+        description=f"{RESULTS}/tables/long_runs.csv-metadata.json",
+    log:
+        f"{RESULTS}/logs/long_runs.log",
+    threads: 1
+    params:
+        divergence=config["analysis"]["divergence"],
+        dpi=DPI,
+    script:
+        "../scripts/long_runs.py"
+
+
+rule long_coating:
+    input:
+        map=rules.map.output[0],
+        blade=f"{RESULTS}/blade/reduced_model.h5",
+        kernel=rules.compile_kernel.output[0],
+        analysing=analysing("long_runs", "peaks", "growth"),
+    output:
+        f"{RESULTS}/long_runs/{{coating}}.h5",
+    log:
+        f"{RESULTS}/logs/long_coating/{{coating}}.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/long_coating/{{coating}}.tsv"
+    threads: 1
+    resources:
+        mem_mb=lambda wildcards, attempt: 2000 * attempt,
+        runtime=lambda wildcards, attempt: 10 * attempt,
+    params:
+        revolutions=config["long_runs"]["revolutions"],
+        analysis=config["analysis"],
+    script:
+        "../scripts/long_coating.py"

@@ -1,0 +1,18 @@
+"""Compute the long runs of one coating."""
+
+import sys
+
+from bladerub import job
+from bladerub.blade.model import read_reduced_blade
+from bladerub.study import long_runs
+from bladerub.study.maps import read_map
+
+job.log_to(snakemake.log[0])
+
+long_runs.make(
+    snakemake.config,
+    read_map(snakemake.input.map),
+    read_reduced_blade(snakemake.input.blade),
+    snakemake.output[0],
+    report=lambda line: print(line, file=sys.stderr),
+)

@@ -1,0 +1,14 @@
+"""Judge the long runs of all coatings after more and more of their revolutions."""
+
+from bladerub import job, tablefile
+from bladerub.plots import style
+from bladerub.plots.long_runs import long_runs as draw
+from bladerub.provenance import provenance
+from bladerub.study import long_runs
+
+job.log_to(snakemake.log[0])
+
+coatings = [long_runs.read(path) for path in snakemake.input.long]
+table = long_runs.table(snakemake.config, coatings)
+tablefile.write(snakemake.output.table, table, provenance(snakemake.config))
+style.save(draw(coatings, table), snakemake.output.png, snakemake.output.pdf, snakemake.params.dpi)
