@@ -54,12 +54,10 @@ def sweeps(passages: Sequence[Passage], maps: Mapping[CoatingCase, CoatingMap]) 
                     _draw(axes, passage, looks[passage.rate])
             axes.grid(axis="y")
         row[0].set_title(titles.coating(case))
-        row[1].set_title(_ARROWS["down"], color=GREY)
         row[0].set_ylabel("amplitude (mm)")
         _fit(row[0], case, passages, constant)
-    panels[0, 0].annotate(
-        _ARROWS["up"], (1, 1.03), xycoords="axes fraction", ha="right", color=GREY, fontsize=9.5
-    )
+    for axes, direction in zip(panels[0], DIRECTIONS, strict=True):
+        axes.set_title(_ARROWS[direction], loc="right", color=GREY)
     speeds = np.concatenate([passage.speed for passage in passages])
     panels[0, 0].set_xlim(speeds.min(), speeds.max())
     for axes in panels[-1]:

@@ -19,7 +19,7 @@ from bladerub.faults import DamagedFile
 from bladerub.provenance import provenance
 from bladerub.study.grid import CoatingCase, coating_cases, run_spec
 from bladerub.study.maps import CoatingMap
-from bladerub.study.peaks import peak, peak_within, speed_window
+from bladerub.study.peaks import Peak, peak, peak_within, speed_window
 from bladerub.study.spectra import order_spectrum
 
 DIRECTIONS = ("up", "down")
@@ -142,17 +142,8 @@ def make(
             f"sweeps.rates = {rate:g}: the passage of {case.name} has {revolutions} revolutions, a spectrum "
             f"needs {window}; must be slower"
         )
-    track = result.radial_displacement.reshape(revolutions, -1)
-    starts = np.arange(revolutions - window + 1)
-    spectra = [
-        order_spectrum(track[start : start + window].ravel(), window, window, analysis["max_order"])
-        for start in starts
-    ]
-    f_omega = np.array([result.f_omega[start : start + window].mean() for start in starts])
-    ascending = np.argsort(f_omega, kind="stable")
-    f_omega = f_omega[ascending]
+    f_omega, order, amplitude = _spectra(result, window, analysis["max_order"])
     C1 = np.array([reduced_frequencies(blade, f, n_modes=1)[0] for f in f_omega]) / blade.f1_hz
-    amplitude = np.stack([amplitude for _, amplitude in spectra])[ascending]
     variables = {
         "angle": Variable(("angle",), result.angle, "rad", "casing angle of the element centres"),
         "wear": Variable(
@@ -170,7 +161,7 @@ def make(
             ("window",), f_omega, "1", f"mean rotational frequency of {window} revolutions, normalised"
         ),
         "C1": Variable(("window",), C1, "1", "first eigenfrequency at speed over that at rest"),
-        "spectrum_order": Variable(("spectrum_order",), spectra[0][0], "1", "engine order"),
+        "spectrum_order": Variable(("spectrum_order",), order, "1", "engine order"),
         "spectrum_amplitude": Variable(
             ("window", "spectrum_order"),
             amplitude.astype(np.float32),
@@ -198,6 +189,21 @@ def make(
     return result
 
 
+def _spectra(result: SweepResult, window: int, max_order: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Mean speed (n,), ascending, of each `window` of whole revolutions, orders (m,) and spectra (n, m)."""
+    track = result.radial_displacement.reshape(result.f_omega.size, -1)
+    whole = int(np.isfinite(track).all(axis=1).sum())
+    order, _ = order_spectrum(np.zeros(window * result.angle.size), window, window, max_order)
+    f_omega, amplitude = [], []
+    for start in range(whole - window + 1):
+        part = slice(start, start + window)
+        f_omega.append(result.f_omega[part].mean())
+        amplitude.append(order_spectrum(track[part].ravel(), window, window, max_order)[1])
+    ascending = np.argsort(f_omega, kind="stable").astype(int)
+    spectra = np.array(amplitude).reshape(-1, order.size)
+    return np.array(f_omega, float)[ascending], order, spectra[ascending]
+
+
 def read(path: str | Path) -> Passage:
     """Read a passage written by `make`.
 
@@ -221,6 +227,17 @@ def read(path: str | Path) -> Passage:
         raise DamagedFile(f"{path}: not a passage, {error} is missing") from error
 
 
+def _peak_if_reached(
+    passage: Passage, order: float, window: tuple[float, float], settings: Mapping[str, Any]
+) -> Peak:
+    """Find a peak as `peak_within`; not a number if the passage ended before it came to the window."""
+    low, high = window
+    inside = (passage.f_omega >= low) & (passage.f_omega <= high)
+    if np.isnan(passage.spectrum_amplitude[inside]).all():
+        return Peak(np.nan, np.nan)
+    return peak_within(passage, order, window, settings)
+
+
 def table(
     config: Mapping[str, Any], passages: Iterable[Passage], maps: Mapping[CoatingCase, CoatingMap]
 ) -> pd.DataFrame:
@@ -241,7 +258,8 @@ def table(
     Returns
     -------
     DataFrame
-        A row per passage and engine order, with `COLUMNS`.
+        A row per passage and engine order, with `COLUMNS`; no peak where a passage left all bounds before it
+        came to the window.
 
     Raises
     ------
@@ -255,7 +273,7 @@ def table(
         for order in settings["orders"]:
             constant = peak(maps[case], order, settings)
             window = speed_window(maps[case], order, settings)
-            found = peak_within(passage, order, window, settings)
+            found = _peak_if_reached(passage, order, window, settings)
             ratio = found.amplitude / constant.amplitude
             ended = np.flatnonzero(np.isfinite(passage.revolution_amplitude))
             rows.append(
