@@ -126,7 +126,7 @@ COLUMNS = {
     "within_5_percent": Column(INTEGER, "1", "coatings of which it misses at most 5 %"),
     "worst_missed": Column(NUMBER, "1", "greatest of missed"),
     "in_chart": Column(NUMBER, "m", "the value in the chart"),
-    "difference": Column(NUMBER, "1", "in_chart / found - 1"),
+    "disagreement": Column(NUMBER, "1", "in_chart / found - 1"),
     # sweeps and long runs
     "direction": Column(STRING, None, "up: the speed rises, down: it falls"),
     "rate": Column(NUMBER, "1/s", "change of f_omega in a second"),

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -36,6 +36,7 @@ COLUMNS = [
     "max_wear",
     "status",
     "ms_per_revolution",
+    "law",
 ]
 """Columns of ``long_runs.csv``: a row per run and number of revolutions after which it is judged;
 ``max_wear`` and ``status`` are of the whole run."""
@@ -149,8 +150,7 @@ def make(
             ("run", "revolution_number"), seconds, "s", "wall time until the end of each revolution"
         ),
     }
-    about = {"casing": case.casing, "E": case.E, "K": case.K, "theta": case.theta}
-    datafile.write(path, variables, about, provenance(config))
+    datafile.write(path, variables, asdict(case), provenance(config))
 
 
 def _watch(elapsed: np.ndarray) -> Callable[[int], None]:
@@ -174,8 +174,7 @@ def read(path: str | Path) -> LongRuns:
     data, about = datafile.read(path)
     names = ("f_omega", "why", "revolution_amplitude", "max_wear", "status", "seconds")
     try:
-        case = CoatingCase(*(about[name] for name in ("casing", "E", "K", "theta")))
-        return LongRuns(case, *(data[name] for name in names))
+        return LongRuns(CoatingCase.described(about), *(data[name] for name in names))
     except KeyError as error:
         raise DamagedFile(f"{path}: no long runs, {error} is missing") from error
 
@@ -229,7 +228,7 @@ def table(config: Mapping[str, Any], coatings: Iterable[LongRuns]) -> pd.DataFra
                     (
                         *(case.casing, case.E, case.K, case.theta, f_omega, long.why[index], revolutions),
                         *(name, verdict.growth.per_revolution, late),
-                        *(long.max_wear[index], long.status[index], cost),
+                        *(long.max_wear[index], long.status[index], cost, case.law),
                     )
                 )
     return pd.DataFrame(rows, columns=COLUMNS)

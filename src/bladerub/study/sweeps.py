@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -19,7 +19,7 @@ from bladerub.faults import DamagedFile
 from bladerub.provenance import provenance
 from bladerub.study.grid import CoatingCase, coating_cases, run_spec
 from bladerub.study.maps import CoatingMap
-from bladerub.study.peaks import Peak, peak, peak_within, speed_window
+from bladerub.study.peaks import Peak, amplitude_within, peak, speed_window
 from bladerub.study.spectra import order_spectrum
 
 DIRECTIONS = ("up", "down")
@@ -42,6 +42,7 @@ COLUMNS = [
     "f_end",
     "max_wear",
     "energy_residual",
+    "law",
 ]
 """Columns of ``sweeps.csv``, a row per passage and engine order."""
 
@@ -70,10 +71,12 @@ class Passage:
         Half the range of the radial displacement of node 1 in each of them, m; NaN after an unbounded end.
     f_omega : (n,) ndarray
         Mean speed of each window of revolutions, ascending, normalised.
+    C1 : (n,) ndarray
+        First eigenfrequency at those speeds, normalised.
     spectrum_order : (m,) ndarray
         Engine order.
     spectrum_amplitude : (n, m) ndarray
-        Amplitude of the radial displacement of node 1 in each window, m; NaN after an unbounded end.
+        Amplitude of the radial displacement of node 1 in each window, m.
     """
 
     case: CoatingCase
@@ -85,6 +88,7 @@ class Passage:
     speed: np.ndarray
     revolution_amplitude: np.ndarray
     f_omega: np.ndarray
+    C1: np.ndarray
     spectrum_order: np.ndarray
     spectrum_amplitude: np.ndarray
 
@@ -171,10 +175,7 @@ def make(
     }
     energies = {f"energy_{name}": value for name, value in vars(result.energy).items()}
     about = {
-        "casing": case.casing,
-        "E": case.E,
-        "K": case.K,
-        "theta": case.theta,
+        **asdict(case),
         "direction": direction,
         "rate": rate,
         "status": result.status,
@@ -215,13 +216,13 @@ def read(path: str | Path) -> Passage:
     data, about = datafile.read(path)
     try:
         return Passage(
-            CoatingCase(*(about[name] for name in ("casing", "E", "K", "theta"))),
+            CoatingCase.described(about),
             *(about[name] for name in ("direction", "rate", "status")),
             float(data["wear"].max()),
             about["energy_residual"],
             data["speed"],
             data["revolution_amplitude"],
-            *(data[name] for name in ("f_omega", "spectrum_order", "spectrum_amplitude")),
+            *(data[name] for name in ("f_omega", "C1", "spectrum_order", "spectrum_amplitude")),
         )
     except KeyError as error:
         raise DamagedFile(f"{path}: not a passage, {error} is missing") from error
@@ -230,12 +231,12 @@ def read(path: str | Path) -> Passage:
 def _peak_if_reached(
     passage: Passage, order: float, window: tuple[float, float], settings: Mapping[str, Any]
 ) -> Peak:
-    """Find a peak as `peak_within`; not a number if the passage ended before it came to the window."""
-    low, high = window
-    inside = (passage.f_omega >= low) & (passage.f_omega <= high)
-    if np.isnan(passage.spectrum_amplitude[inside]).all():
+    """Find a peak as `peak`; not a number if the passage ended before it came to the window."""
+    amplitude = amplitude_within(passage, order, window, settings)
+    if np.isnan(amplitude).all():
         return Peak(np.nan, np.nan)
-    return peak_within(passage, order, window, settings)
+    best = int(np.nanargmax(amplitude))
+    return Peak(float(passage.f_omega[best]), float(amplitude[best]))
 
 
 def table(
@@ -281,7 +282,7 @@ def table(
                     *(case.casing, case.E, case.K, case.theta, passage.direction, passage.rate, order),
                     *(found.f_omega, found.amplitude, constant.f_omega, constant.amplitude),
                     *(ratio, bool(ratio >= config["sweeps"]["survival"]), passage.status),
-                    *(passage.speed[ended[-1]], passage.max_wear, passage.energy_residual),
+                    *(passage.speed[ended[-1]], passage.max_wear, passage.energy_residual, case.law),
                 )
             )
     return pd.DataFrame(rows, columns=COLUMNS)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
@@ -87,8 +87,7 @@ def write(path: str | Path, cell: Cell, key: str, config: Mapping[str, Any]) -> 
     }
     for name, (unit, long_name) in MEASURES.items():
         variables[name] = Variable(over_speed, cell.measures[name], unit, f"{long_name}; NaN: not run")
-    about = {name: getattr(cell.case, name) for name in ("casing", "E", "K", "theta")}
-    datafile.write(path, variables, about | {"cell_key": key}, provenance(config))
+    datafile.write(path, variables, asdict(cell.case) | {"cell_key": key}, provenance(config))
 
 
 def read(path: str | Path) -> Cell:
@@ -102,7 +101,7 @@ def read(path: str | Path) -> Cell:
     data, attributes = datafile.read(path)
     try:
         return Cell(
-            case=CoatingCase(*(attributes[name] for name in ("casing", "E", "K", "theta"))),
+            case=CoatingCase.described(attributes),
             **{name: data[name] for name in ("f_omega", "C1", "spectrum_order", "spectrum_amplitude")},
             uniform=data["uniform"].astype(bool),
             measures={name: data[name] for name in MEASURES},

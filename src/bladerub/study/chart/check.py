@@ -82,12 +82,12 @@ def agreement(chart: pd.DataFrame, compared: pd.DataFrame) -> pd.DataFrame:
     Returns
     -------
     DataFrame
-        The rows of `compared` that are cells, with ``in_chart`` (m) and ``difference`` of it from ``found``,
+        The rows of `compared` that are cells, with ``in_chart`` (m) and ``disagreement`` of it with ``found``,
         relative: 0 where the runs are the same.
     """
     wide = chart.melt(CELL, [*(f"Y{order}" for order in ORDERS), "peak"], "quantity", "in_chart")
     both = compared.merge(wide, on=[*CELL, "quantity"])
-    return both.assign(difference=both.in_chart / both.found - 1)
+    return both.assign(disagreement=both.in_chart / both.found - 1)
 
 
 def _whole(config: Mapping[str, Any], coating: CoatingMap) -> Cell:
