@@ -82,7 +82,7 @@ def agreement(chart: pd.DataFrame, compared: pd.DataFrame) -> pd.DataFrame:
     Returns
     -------
     DataFrame
-        The rows of `compared` that are cells, with ``in_chart`` (m) and ``disagreement`` of it with ``found``,
+        The rows of `compared` that are cells, with ``in_chart`` (m) and its ``disagreement`` with ``found``,
         relative: 0 where the runs are the same.
     """
     wide = chart.melt(CELL, [*(f"Y{order}" for order in ORDERS), "peak"], "quantity", "in_chart")
