@@ -13,7 +13,9 @@ tangent is needed dozens of times and a form evaluated pair by pair costs ten ti
 
 from __future__ import annotations
 
+from collections import deque
 from collections.abc import Mapping
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 
 import numpy as np
@@ -24,6 +26,7 @@ from bladerub.blade.coordinates import FreeCoordinates
 from bladerub.blade.mesh import SolidMesh
 
 _CHUNK = 512  # elements integrated at once: bounds the memory on fine meshes
+_THREADS = 2  # that integrate; a chunk is one's own, so their number changes no bit
 
 
 @dataclass(frozen=True)
@@ -99,11 +102,15 @@ class Solid(FreeCoordinates):
         displacement = self._element_displacement(u)
         size = self._dofs.shape[1]
         elements = np.empty((len(self._dofs), size, size))
-        for start in range(0, len(elements), _CHUNK):
+
+        def integrate(start: int) -> None:
             part = slice(start, start + _CHUNK)
             elements[part] = self._element_tangents(
                 self._gradients[part], displacement[part], self._weights[part]
             )
+
+        with ThreadPoolExecutor(_THREADS) as pool:
+            deque(pool.map(integrate, range(0, len(elements), _CHUNK)), maxlen=0)  # for their errors
         return self._pattern.assemble(elements)
 
     def deformation_gradient(self, u: np.ndarray) -> np.ndarray:

@@ -80,20 +80,21 @@ class Nearby:
             The modes of a matrix that is near.
         """
         n_modes, settled = start.shape[1], False
-        basis, images, addition = np.empty((len(start), 0)), np.empty((len(start), 0)), start
+        empty = np.empty((len(start), 0))
+        basis, images, momenta, addition = empty, empty, empty, start
         for _ in range(MOST_ITERATIONS):
             try:
-                addition = _orthonormal(addition, basis, mass)
+                addition, momentum = _orthonormal(addition, basis, momenta, mass)
             except np.linalg.LinAlgError:  # nothing new in it
                 break
-            basis = np.hstack([basis, addition])
+            basis, momenta = np.hstack([basis, addition]), np.hstack([momenta, momentum])
             images = np.hstack([images, self.matrix @ addition])
             squares, shares = np.linalg.eigh(basis.T @ images)
             squares, shares = squares[:n_modes], shares[:, :n_modes]
             modes = basis @ shares
             if settled:
                 return linear.in_hertz(squares), modes
-            residual = images @ shares - (mass @ modes) * squares
+            residual = images @ shares - (momenta @ shares) * squares
             addition = self.factors(residual)
             far = np.sum(residual * addition, axis=0) > CLOSE * np.abs(squares)
             settled = not far.any()
@@ -102,10 +103,17 @@ class Nearby:
         return linear.lowest_modes(self.matrix, mass, n_modes)
 
 
-def _orthonormal(block: np.ndarray, basis: np.ndarray, mass: sparse.csc_array) -> np.ndarray:
-    """Make what `block` (n, k) adds to `basis` (n, m) orthonormal in `mass`, as that is."""
+def _orthonormal(
+    block: np.ndarray, basis: np.ndarray, momenta: np.ndarray, mass: sparse.csc_array
+) -> tuple[np.ndarray, np.ndarray]:
+    """Make what `block` (n, k) adds to `basis` (n, m) orthonormal in `mass`, as that is.
+
+    `momenta` are the mass times the basis; returned are the addition and the mass times it.
+    """
     for _ in range(2):  # once more, against the rounding of the first time
-        block = block - basis @ (basis.T @ (mass @ block))
-        block = block / np.sqrt(np.sum(block * (mass @ block), axis=0))
-        block = solve_triangular(np.linalg.cholesky(block.T @ (mass @ block)), block.T, lower=True).T
-    return block
+        block = block - basis @ (momenta.T @ block)
+        block = block / np.linalg.norm(block, axis=0)
+        momentum = mass @ block
+        factor = np.linalg.cholesky(block.T @ momentum)
+        block, momentum = (solve_triangular(factor, each.T, lower=True).T for each in (block, momentum))
+    return block, momentum
