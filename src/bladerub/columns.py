@@ -138,7 +138,9 @@ COLUMNS = {
     "max_wear": Column(NUMBER, "m", "greatest worn depth under any interface node"),
     "energy_residual": Column(NUMBER, "1", "what the energy ledger misses, over the work exchanged"),
     "why": Column(STRING, None, "why the run was made longer: it grows, or it is the peak f_k"),
-    "verdict": Column(STRING, None, "steady, saturating, divergent or unbounded after so many revolutions"),
+    "verdict": Column(
+        STRING, None, "steady, saturating, free (worn), divergent or unbounded after so many revolutions"
+    ),
     "late_amplitude": Column(
         NUMBER, "m", "half the range of the radial displacement of node 1, mean over the last revolutions"
     ),

@@ -8,6 +8,7 @@ IMAGES = [
     if path.endswith(".png")
 ]
 CHART_FIGURES = [*CHARTED, "safe", "pareto", "explanation"]
+PASSAGE_FIGURES = ["sweeps", "long_runs"]
 
 
 rule images:
@@ -31,6 +32,20 @@ rule chart_images:
         [f"docs/images/chart_{name}.png" for name in CHART_FIGURES],
     log:
         f"{RESULTS}/logs/chart_images.log",
+    threads: 1
+    params:
+        colours=256,
+    script:
+        "../scripts/images.py"
+
+
+rule passage_images:
+    input:
+        [f"{PLOTS}/{name}.png" for name in PASSAGE_FIGURES],
+    output:
+        [f"docs/images/{name}.png" for name in PASSAGE_FIGURES],
+    log:
+        f"{RESULTS}/logs/passage_images.log",
     threads: 1
     params:
         colours=256,

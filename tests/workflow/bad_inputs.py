@@ -154,7 +154,7 @@ CONFIGS: dict[str, tuple[dict[str, Any] | str, str]] = {
     ),
     "friction of an abradable coating": (
         _coatings(friction=[0.1]),
-        "overlay.yaml:2: coatings[0].theta = [0.0]: unknown key, known here: casing, E, K, friction",
+        "overlay.yaml:9: coatings[0].theta = [0.0, 0.15]: unknown key, known here: casing, E, K, friction",
     ),
     "negative friction": (
         {"coatings": _coatings()["coatings"] + [{"casing": "2nd", "coating": "rigid", "friction": [-0.1]}]},

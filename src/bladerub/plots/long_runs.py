@@ -12,8 +12,16 @@ from matplotlib.figure import Figure
 from bladerub.plots.style import BLUE, DARK, GREY, ORANGE, PAGE, RED, new_figure, styled
 from bladerub.study.long_runs import LongRuns
 
-_VERDICTS = {"steady": "#dfe7ee", "saturating": BLUE, "divergent": ORANGE, "unbounded": RED}
-_HATCHES = {"steady": "", "saturating": "", "divergent": "//", "unbounded": "xx"}
+_VERDICTS = {
+    "free": "#ffffff",
+    "steady": "#dfe7ee",
+    "saturating": BLUE,
+    "divergent": ORANGE,
+    "unbounded": RED,
+}
+_HATCHES = {"divergent": "//", "unbounded": "xx"}
+_FLOOR = 1e-3
+"""Amplitude at which the picture ends, mm: what comes below has died out."""
 _LOOKS = {True: {"color": DARK, "linewidth": 0.7}, False: {"color": GREY, "linewidth": 0.5}}
 
 
@@ -37,6 +45,7 @@ def long_runs(coatings: Sequence[LongRuns], table: pd.DataFrame) -> Figure:
 
 
 def _draw_growth(axes: Axes, coatings: Sequence[LongRuns]) -> None:
+    bounded = [long.revolution_amplitude[long.status == "completed"] for long in coatings]
     labels = {True: "grew to the end of the study's longest run", False: "at a peak"}
     for long in coatings:
         for why, amplitude in zip(long.why, long.revolution_amplitude, strict=True):
@@ -49,6 +58,7 @@ def _draw_growth(axes: Axes, coatings: Sequence[LongRuns]) -> None:
         xscale="log",
         yscale="log",
         xlim=(1, number[-1]),
+        ylim=(_FLOOR, 3e3 * np.max(np.concatenate(bounded))),
         xlabel="revolution",
         ylabel="amplitude (mm)",
         title="(a) half the range of $u_r$ in each revolution",
@@ -64,26 +74,29 @@ def _draw_verdicts(axes: Axes, table: pd.DataFrame) -> None:
     for verdict, color in _VERDICTS.items():
         n = counts[verdict].to_numpy()
         bars = axes.bar(
-            places, n, bottom=bottom, color=color, hatch=_HATCHES[verdict], label=verdict, edgecolor="white"
+            places, n, bottom=bottom, color=color, hatch=_HATCHES.get(verdict), label=verdict, edgecolor=GREY
         )
         axes.bar_label(bars, [f"{each}" if each else "" for each in n], label_type="center", fontsize=7)
         bottom += n
     axes.set_xticks(places, [f"{revolutions}" for revolutions in counts.index])
     axes.set(xlabel="judged after so many revolutions", ylabel="runs", title="(b) what is said of them")
-    axes.set_ylim(0, 1.3 * bottom.max())
-    axes.legend(ncols=2, loc="upper center")
+    axes.set_ylim(0, 1.45 * bottom.max())
+    axes.legend(ncols=3, loc="upper center", columnspacing=1.0)
 
 
 def _draw_cost(axes: Axes, coatings: Sequence[LongRuns]) -> None:
-    for long in coatings:
-        number = np.arange(1, long.seconds.shape[1] + 1)
-        for seconds in long.seconds:
-            axes.plot(number, 1e3 * seconds / number, color=DARK, linewidth=0.4, alpha=0.5)
+    seconds = np.concatenate([long.seconds for long in coatings])
+    number = np.arange(1, seconds.shape[1] + 1)
+    made = np.isfinite(seconds).all(axis=1)
+    low, middle, high = np.quantile(1e3 * seconds[made] / number, [0.1, 0.5, 0.9], axis=0)
+    axes.fill_between(number, low, high, color="#dfe7ee", label="eight runs of ten")
+    axes.plot(number, middle, color=DARK, label="median of the runs that stay in bounds")
     axes.set(
         xscale="log",
-        yscale="log",
         xlim=(1, number[-1]),
+        ylim=(0, None),
         xlabel="revolution",
         ylabel="ms per revolution until there",
         title="(c) cost",
     )
+    axes.legend()

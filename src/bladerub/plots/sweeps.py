@@ -57,7 +57,9 @@ def sweeps(passages: Sequence[Passage], maps: Mapping[CoatingCase, CoatingMap]) 
         row[0].set_ylabel("amplitude (mm)")
         _fit(row[0], case, passages, constant)
     for axes, direction in zip(panels[0], DIRECTIONS, strict=True):
-        axes.set_title(_ARROWS[direction], loc="right", color=GREY)
+        axes.annotate(
+            _ARROWS[direction], (0.02, 0.97), xycoords="axes fraction", va="top", color=GREY, fontsize=9.5
+        )
     speeds = np.concatenate([passage.speed for passage in passages])
     panels[0, 0].set_xlim(speeds.min(), speeds.max())
     for axes in panels[-1]:

@@ -42,6 +42,10 @@ COLUMNS = [
 ``max_wear`` and ``status`` are of the whole run."""
 
 
+DIED_OUT = 0.01
+"""Part of the greatest amplitude below which a vibration has died out."""
+
+
 @dataclass(frozen=True)
 class LongRuns:
     """The long runs of one coating.
@@ -190,8 +194,9 @@ def stops(config: Mapping[str, Any]) -> list[int]:
 def verdict_after(config: Mapping[str, Any], amplitude: np.ndarray, revolutions: int) -> tuple[str, Verdict]:
     """Judge the first `revolutions` of a long run.
 
-    It is ``unbounded``, ``divergent``, ``saturating`` if it grew in the revolutions of the study and does not
-    any more, or ``steady``.
+    It is ``unbounded``, ``divergent``, ``free`` if the vibration has died out because the blade has worn its
+    way free (`DIED_OUT`), ``saturating`` if it grew in the revolutions of the study and does not any more, or
+    ``steady``.
     """
     settings, whole = config["analysis"]["divergence"], amplitude[:revolutions]
     status = "completed" if np.isfinite(whole).all() else "unbounded"
@@ -200,6 +205,8 @@ def verdict_after(config: Mapping[str, Any], amplitude: np.ndarray, revolutions:
         return status, verdict
     if verdict.divergent:
         return "divergent", verdict
+    if whole[-1] < DIED_OUT * whole.max():
+        return "free", verdict
     grew = verdict.growth.grows or growth(amplitude[: config["solver"]["revolutions"]], settings).grows
     return ("saturating" if grew else "steady"), verdict
 

@@ -56,7 +56,7 @@ def test_the_rigid_casing_has_a_key_of_its_own(run_key, config):
 def test_every_field_of_the_run_changes_the_key(run_key, spec):
     keys = {run_key()}
     leaves = list(_leaves(spec))
-    assert len(leaves) == 24
+    assert len(leaves) == 25
     for path, leaf in leaves:
         keys.add(run_key(_replaced(spec, path, _other(leaf))))
     assert len(keys) == 1 + len(leaves)

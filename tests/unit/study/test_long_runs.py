@@ -80,13 +80,15 @@ def test_when_long_runs_are_judged(study, revolutions, confirmation, expected):
 
 def amplitudes():
     number = np.arange(200.0)
-    ended = 1e-4 * 1.05**number
+    ended, free = 1e-4 * 1.05**number, 1e-4 * 1.05**number
+    free[70:] = free[69] * 0.9 ** np.arange(1, 131)
     ended[70:] = np.nan
     return {
         "steady": np.full(200, 1e-4),
         "saturating": 1e-4 * (2 - np.exp(-number / 30)),
         "divergent": 1e-4 * 1.02**number,
         "unbounded": ended,
+        "free": free,
     }
 
 
@@ -97,6 +99,7 @@ def amplitudes():
         ("saturating", ["divergent", "saturating", "saturating", "saturating"]),
         ("divergent", ["divergent"] * 4),
         ("unbounded", ["divergent", "divergent", "unbounded", "unbounded"]),
+        ("free", ["divergent", "divergent", "saturating", "free"]),
     ],
 )
 def test_what_is_said_after_more_and_more_revolutions(study, name, verdicts):
@@ -115,7 +118,7 @@ def test_the_table_has_a_row_for_each_run_and_stop(study):
         np.array(["grows"] * n),
         np.stack(list(several.values())),
         np.full(n, 1e-4),
-        np.array(["completed"] * (n - 1) + ["unbounded"]),
+        np.array(["unbounded" if name == "unbounded" else "completed" for name in several]),
         seconds,
     )
     table = long_runs.table(study, [long])
@@ -124,7 +127,7 @@ def test_the_table_has_a_row_for_each_run_and_stop(study):
     assert table.ms_per_revolution.to_numpy() == pytest.approx(4.0)
     last = table[table.revolutions == 200].set_index("status")
     assert last.late_amplitude["unbounded"] == pytest.approx(several["unbounded"][60:70].mean())
-    assert last.verdict["completed"].tolist() == ["steady", "saturating", "divergent"]
+    assert last.verdict["completed"].tolist() == ["steady", "saturating", "divergent", "free"]
 
 
 def test_another_file_is_named(tmp_path, coating):
