@@ -94,9 +94,9 @@ def _draw_cost(axes: Axes, coatings: Sequence[LongRuns]) -> None:
     axes.set(
         xscale="log",
         xlim=(1, number[-1]),
-        ylim=(0, None),
+        ylim=(0, 1.4 * high.max()),
         xlabel="revolution",
         ylabel="ms per revolution until there",
         title="(c) cost",
     )
-    axes.legend()
+    axes.legend(loc="upper right")
