@@ -1,5 +1,5 @@
 # Longer, and at a speed that changes: studies beside the main one, each from its maps. Not part of `all`.
-from bladerub.study.sweeps import DIRECTIONS, swept_cases, sweep_spec
+from bladerub.study.sweep_grid import DIRECTIONS, swept_cases, sweep_spec
 
 SWEPT = [case.name for case in swept_cases(config)]
 PASSAGES = f"{RESULTS}/sweeps/{{coating}}_{{direction}}_{{rate}}.h5"
@@ -48,7 +48,7 @@ rule sweep:
     input:
         blade=f"{RESULTS}/blade/reduced_model.h5",
         kernel=rules.compile_kernel.output[0],
-        analysing=analysing("sweeps", "spectra"),
+        analysing=analysing("sweeps", "sweep_grid", "spectra"),
     output:
         PASSAGES,
     log:

@@ -156,7 +156,7 @@ def _start(modes: Modes, rule: Recurrence, spec: RunSpec, tip: kernel.Tip) -> ke
     return state
 
 
-def _bar_area(blade: ReducedBlade, spec: RunSpec) -> np.ndarray:
+def bar_area(blade: ReducedBlade, spec: RunSpec) -> np.ndarray:
     """Area (8,) of one bar under each node, m²."""
     return strip_width(blade) * 2 * np.pi * _radius(blade) / spec.coating.n_elements
 
@@ -167,7 +167,7 @@ def _bar_stiffness(blade: ReducedBlade, spec: RunSpec) -> np.ndarray:
 
 
 def _slope(blade: ReducedBlade, spec: RunSpec) -> np.ndarray:
-    return spec.coating.modulus_unit * _bar_area(blade, spec) / spec.coating.thickness
+    return spec.coating.modulus_unit * bar_area(blade, spec) / spec.coating.thickness
 
 
 def _stator(blade: ReducedBlade, spec: RunSpec, tip: kernel.Tip, rule: Recurrence) -> kernel.Stator:
@@ -204,7 +204,7 @@ def _bars(blade: ReducedBlade, spec: RunSpec) -> dict[str, np.ndarray]:
     return {
         "elastic": elastic,
         "hardening": hardening,
-        "strength": coating.yield_stress * coating.modulus_unit * _bar_area(blade, spec),
+        "strength": coating.yield_stress * coating.modulus_unit * bar_area(blade, spec),
         "yielding": 1 / (elastic + hardening),
         "softness": 0.5 / elastic,
     }

@@ -144,6 +144,28 @@ class RunSpec:
 
 
 @dataclass(frozen=True)
+class SweepSpec:
+    """One passage through the speeds.
+
+    Parameters
+    ----------
+    run : RunSpec
+        The run, at the speed where the passage begins; it stays there for its ``revolutions``, if any.
+    f_end : float
+        Speed where it ends, normalised; above or below the first.
+    rate : float
+        Change of the normalised speed in a second, positive, 1/s.
+    speed_step : float
+        Largest change of speed between two stretches of constant speed, normalised.
+    """
+
+    run: RunSpec
+    f_end: float
+    rate: float
+    speed_step: float
+
+
+@dataclass(frozen=True)
 class Energy:
     """Energy ledger of the run, J.
 

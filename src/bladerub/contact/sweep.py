@@ -25,31 +25,9 @@ from bladerub.contact import kernel, ledger
 from bladerub.contact.modes import Modes, at_tip, mode_shapes_at
 from bladerub.contact.run import by_angle, element_angle, set_up_modes
 from bladerub.contact.schemes import Recurrence
-from bladerub.contact.spec import Energy, RunSpec
+from bladerub.contact.spec import Energy, RunSpec, SweepSpec
 from bladerub.contact.track import Part, march
 from bladerub.contact.vectors import LANES
-
-
-@dataclass(frozen=True)
-class SweepSpec:
-    """One passage through the speeds.
-
-    Parameters
-    ----------
-    run : RunSpec
-        The run, at the speed where the passage begins; it stays there for its ``revolutions``, if any.
-    f_end : float
-        Speed where it ends, normalised; above or below the first.
-    rate : float
-        Change of the normalised speed in a second, positive, 1/s.
-    speed_step : float
-        Largest change of speed between two stretches of constant speed, normalised.
-    """
-
-    run: RunSpec
-    f_end: float
-    rate: float
-    speed_step: float
 
 
 @dataclass(frozen=True)

@@ -12,7 +12,8 @@ from bladerub.plots import titles
 from bladerub.plots.style import BLUE, DARK, GREY, ORANGE, PAGE, RED, new_figure, styled
 from bladerub.study.grid import CoatingCase
 from bladerub.study.maps import CoatingMap
-from bladerub.study.sweeps import DIRECTIONS, Passage
+from bladerub.study.sweep_grid import DIRECTIONS
+from bladerub.study.sweeps import Passage
 
 _LOOKS = (
     {"color": DARK, "linestyle": "-", "linewidth": 1.3},

@@ -132,13 +132,20 @@ def peak(coating: Response, order: float, settings: Mapping[str, Any]) -> Peak:
         If the order does not cross C1 within the map, or no run with a spectrum lies in the window: a table
         with a hole would pass for a soft coating in the histograms. The message names key and window.
     """
-    amplitude = amplitude_in_window(coating, order, settings)
-    if np.isnan(amplitude).all():
+    found = maximum(coating, amplitude_in_window(coating, order, settings))
+    if np.isnan(found.amplitude):
         low, high = speed_window(coating, order, settings)
         raise ValueError(
             f"analysis.peaks.speed_window: no run of {coating.case.name} between f_omega = {low:.4f} and "
             f"{high:.4f} has a spectrum for engine order {order:g}; add speeds there or widen the window"
         )
+    return found
+
+
+def maximum(coating: Response, amplitude: np.ndarray) -> Peak:
+    """Return the greatest of an amplitude (n,) over the speeds of `coating`; not a number if it has none."""
+    if np.isnan(amplitude).all():
+        return Peak(np.nan, np.nan)
     best = int(np.nanargmax(amplitude))
     return Peak(float(coating.f_omega[best]), float(amplitude[best]))
 

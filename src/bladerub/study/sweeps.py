@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import asdict, dataclass, replace
+from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
@@ -13,16 +13,15 @@ import pandas as pd
 from bladerub import datafile
 from bladerub.blade.frequencies import reduced_frequencies
 from bladerub.blade.model import ReducedBlade
-from bladerub.contact.sweep import SweepResult, SweepSpec, simulate_sweep
+from bladerub.contact.sweep import SweepResult, simulate_sweep
 from bladerub.datafile import Variable
 from bladerub.faults import DamagedFile
 from bladerub.provenance import provenance
-from bladerub.study.grid import CoatingCase, coating_cases, run_spec
+from bladerub.study.grid import CoatingCase
 from bladerub.study.maps import CoatingMap
-from bladerub.study.peaks import Peak, amplitude_within, peak, speed_window
+from bladerub.study.peaks import amplitude_within, maximum, peak, speed_window
 from bladerub.study.spectra import order_spectrum
-
-DIRECTIONS = ("up", "down")
+from bladerub.study.sweep_grid import sweep_spec
 
 COLUMNS = [
     "casing",
@@ -91,21 +90,6 @@ class Passage:
     C1: np.ndarray
     spectrum_order: np.ndarray
     spectrum_amplitude: np.ndarray
-
-
-def swept_cases(config: Mapping[str, Any]) -> list[CoatingCase]:
-    """List the coatings of ``sweeps.coatings`` that the study has."""
-    listed = set(config["sweeps"]["coatings"])
-    return [case for case in coating_cases(config) if case.name in listed]
-
-
-def sweep_spec(config: Mapping[str, Any], case: CoatingCase, direction: str, rate: float) -> SweepSpec:
-    """Describe one passage in SI units; it begins at rest, on a new coating."""
-    settings = config["sweeps"]
-    ends = settings["start"], settings["stop"]
-    start, stop = ends if direction == "up" else ends[::-1]
-    run = replace(run_spec(config, case, start), revolutions=0)
-    return SweepSpec(run, float(stop), rate, float(settings["speed_step"]))
 
 
 def make(
@@ -228,17 +212,6 @@ def read(path: str | Path) -> Passage:
         raise DamagedFile(f"{path}: not a passage, {error} is missing") from error
 
 
-def _peak_if_reached(
-    passage: Passage, order: float, window: tuple[float, float], settings: Mapping[str, Any]
-) -> Peak:
-    """Find a peak as `peak`; not a number if the passage ended before it came to the window."""
-    amplitude = amplitude_within(passage, order, window, settings)
-    if np.isnan(amplitude).all():
-        return Peak(np.nan, np.nan)
-    best = int(np.nanargmax(amplitude))
-    return Peak(float(passage.f_omega[best]), float(amplitude[best]))
-
-
 def table(
     config: Mapping[str, Any], passages: Iterable[Passage], maps: Mapping[CoatingCase, CoatingMap]
 ) -> pd.DataFrame:
@@ -274,7 +247,7 @@ def table(
         for order in settings["orders"]:
             constant = peak(maps[case], order, settings)
             window = speed_window(maps[case], order, settings)
-            found = _peak_if_reached(passage, order, window, settings)
+            found = maximum(passage, amplitude_within(passage, order, window, settings))
             ratio = found.amplitude / constant.amplitude
             ended = np.flatnonzero(np.isfinite(passage.revolution_amplitude))
             rows.append(

@@ -6,7 +6,7 @@ import pytest
 from bladerub.contact.spec import Energy
 from bladerub.contact.sweep import SweepResult
 from bladerub.faults import DamagedFile
-from bladerub.study import sweeps
+from bladerub.study import sweep_grid, sweeps
 from bladerub.study.grid import CoatingCase
 from bladerub.study.peaks import peak
 
@@ -59,19 +59,19 @@ def make(config, blade, passed, tmp_path):
 
 def test_the_study_s_coatings_alone_are_swept(config):
     config["sweeps"]["coatings"] = ["2nd_E1.1_K0.5_theta0", "2nd_E7_K0.5_theta0", "2nd_rigid_mu0"]
-    assert sweeps.swept_cases(config) == [CASE, CoatingCase.rigid("2nd", 0.0)]
+    assert sweep_grid.swept_cases(config) == [CASE, CoatingCase.rigid("2nd", 0.0)]
 
 
 @pytest.mark.parametrize(("direction", "start", "end"), [("up", 0.14, 0.4), ("down", 0.4, 0.14)])
 def test_a_passage_is_the_run_of_the_study_from_end_to_end(config, direction, start, end):
     config["sweeps"] |= {"start": 0.14, "stop": 0.4, "speed_step": 5e-4}
-    spec = sweeps.sweep_spec(config, CASE, direction, 0.05)
+    spec = sweep_grid.sweep_spec(config, CASE, direction, 0.05)
     assert (spec.run.f_omega, spec.f_end, spec.rate, spec.speed_step) == (start, end, 0.05, 5e-4)
     assert spec.run.revolutions == 0
     assert spec.run.coating.E == 1.1
 
 
-@pytest.mark.parametrize("direction", sweeps.DIRECTIONS)
+@pytest.mark.parametrize("direction", sweep_grid.DIRECTIONS)
 def test_spectra_are_of_windows_in_the_order_of_speed(make, config, direction):
     passage = make(direction, 0.05)
     window = config["analysis"]["spectrum_revolutions"]

@@ -12,10 +12,10 @@ import pandas as pd
 
 from bladerub.study.chart.cell import Cell
 from bladerub.study.chart.grid import ORDERS, chart_speeds
-from bladerub.study.chart.search import empty, fill
+from bladerub.study.chart.search import empty, fill, sought
 from bladerub.study.chart.table import CELL
 from bladerub.study.maps import CoatingMap, read_map
-from bladerub.study.peaks import amplitude_in_window, order_amplitude
+from bladerub.study.peaks import order_amplitude
 
 
 def table(config: Mapping[str, Any], map_paths: Iterable[str | Path]) -> pd.DataFrame:
@@ -45,8 +45,8 @@ def of_maps(config: Mapping[str, Any], maps: Iterable[CoatingMap]) -> pd.DataFra
         everything = _whole(config, coating)
         searched = _searched(config, everything)
         about = {name: getattr(coating.case, name) for name in CELL}
-        there = _curves(config, everything)
-        for quantity, found in _curves(config, searched).items():
+        there = sought(everything, config)
+        for quantity, found in sought(searched, config).items():
             at, truth = int(np.nanargmax(found)), int(np.nanargmax(there[quantity]))
             rows.append(
                 about
@@ -111,9 +111,3 @@ def _searched(config: Mapping[str, Any], everything: Cell) -> Cell:
 
     fill(cell, config, speeds, take)
     return cell
-
-
-def _curves(config: Mapping[str, Any], cell: Cell) -> dict[str, np.ndarray]:
-    settings = config["analysis"]["peaks"]
-    on_orders = {f"Y{order}": amplitude_in_window(cell, order, settings) for order in ORDERS}
-    return on_orders | {"peak": cell.measures["peak"]}

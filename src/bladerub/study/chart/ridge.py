@@ -18,7 +18,7 @@ import pandas as pd
 from bladerub.study.chart.cell import Cell
 from bladerub.study.chart.explanation import contact_stiffness
 from bladerub.study.chart.grid import ORDERS
-from bladerub.study.peaks import amplitude_in_window
+from bladerub.study.peaks import amplitude_in_window, maximum
 
 MULTIPLES = (1, 2, 4)
 """Speed steps that are compared, in those of the study."""
@@ -57,9 +57,7 @@ def _peaks(config: Mapping[str, Any], chart: list[Cell], multiple: int) -> pd.Da
         even = np.abs(steps - np.rint(steps)) < 1e-6
         seen = cell if multiple == 1 else replace(cell, spectrum_amplitude=_only(even, cell))
         for order in ORDERS:
-            amplitude = amplitude_in_window(seen, order, config["analysis"]["peaks"])
-            found = np.isfinite(amplitude).any()
-            at = int(np.nanargmax(amplitude)) if found else 0
+            found = maximum(seen, amplitude_in_window(seen, order, config["analysis"]["peaks"]))
             rows.append(
                 {
                     "casing": cell.case.casing,
@@ -67,8 +65,8 @@ def _peaks(config: Mapping[str, Any], chart: list[Cell], multiple: int) -> pd.Da
                     "order": order,
                     "E": cell.case.E,
                     "K": cell.case.K,
-                    "f_peak": cell.f_omega[at] if found else np.nan,
-                    "amplitude": amplitude[at],
+                    "f_peak": found.f_omega,
+                    "amplitude": found.amplitude,
                 }
             )
     return pd.DataFrame(rows)

@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 
 from bladerub.blade.model import ReducedBlade
-from bladerub.contact.run import simulate, strip_width
+from bladerub.contact.run import bar_area, simulate
 from bladerub.contact.spec import RunResult, RunSpec
 from bladerub.study.chart.cell import MEASURES, Cell
 from bladerub.study.chart.grid import ORDERS, ChartSpeeds
@@ -71,14 +71,16 @@ def fill(cell: Cell, config: Mapping[str, Any], speeds: ChartSpeeds, run: Callab
     while pending:
         for index in pending:
             run(index)
-        pending = next_speeds(cell.known, _sought(cell, config), config["chart"]["speeds"]["refine_above"])
+        pending = next_speeds(
+            cell.known, list(sought(cell, config).values()), config["chart"]["speeds"]["refine_above"]
+        )
 
 
-def _sought(cell: Cell, config: Mapping[str, Any]) -> list[np.ndarray]:
-    """Curves (n,) over speed whose maxima the cell is after; NaN where they are not sought."""
+def sought(cell: Cell, config: Mapping[str, Any]) -> dict[str, np.ndarray]:
+    """Curves (n,) over speed whose maxima the cell is after, by the column; NaN where they are not sought."""
     settings = config["analysis"]["peaks"]
-    on_orders = [amplitude_in_window(cell, order, settings) for order in ORDERS]
-    return [*on_orders, cell.measures["peak"]]
+    on_orders = {f"Y{order}": amplitude_in_window(cell, order, settings) for order in ORDERS}
+    return on_orders | {"peak": cell.measures["peak"]}
 
 
 def _run(config: Mapping[str, Any], blade: ReducedBlade, cell: Cell, index: int) -> None:
@@ -107,19 +109,13 @@ def _measured(
     made = result.n_steps * result.time_step * spec.f_omega * blade.f1_hz
     return {
         "peak": float(np.nanmax(result.revolution_peak)),
-        "worn_volume": float(result.wear.sum(axis=1) @ _element_area(blade, spec)),
+        "worn_volume": float(result.wear.sum(axis=1) @ bar_area(blade, spec)),
         "deepest_wear": float(result.wear.max()),
         "lobes": lobes(result.angle, result.wear, config["analysis"]["lobe_prominence"]),
         "unbounded": float(result.status == "unbounded"),
         "revolutions": made,
         **{f"energy_{name}": getattr(result.energy, name) for name in ("damping", "wear", "sliding")},
     }
-
-
-def _element_area(blade: ReducedBlade, spec: RunSpec) -> np.ndarray:
-    """Area (8,) of one element of the coating under each node, m²."""
-    y, z = blade.node_position[:, 1], blade.node_position[:, 2]
-    return strip_width(blade) * 2 * np.pi * np.hypot(y, z) / spec.coating.n_elements
 
 
 def _diverges(config: Mapping[str, Any], blade: ReducedBlade, spec: RunSpec, result: RunResult) -> float:

@@ -1,0 +1,27 @@
+"""Which coatings pass through the speeds, and how; for the graph of jobs, which simulates nothing."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import Any
+
+from bladerub.contact.spec import SweepSpec
+from bladerub.study.grid import CoatingCase, coating_cases, run_spec
+
+DIRECTIONS = ("up", "down")
+
+
+def swept_cases(config: Mapping[str, Any]) -> list[CoatingCase]:
+    """List the coatings of ``sweeps.coatings`` that the study has."""
+    listed = set(config["sweeps"]["coatings"])
+    return [case for case in coating_cases(config) if case.name in listed]
+
+
+def sweep_spec(config: Mapping[str, Any], case: CoatingCase, direction: str, rate: float) -> SweepSpec:
+    """Describe one passage in SI units; it begins at rest, on a new coating."""
+    settings = config["sweeps"]
+    ends = settings["start"], settings["stop"]
+    start, stop = ends if direction == "up" else ends[::-1]
+    run = replace(run_spec(config, case, start), revolutions=0)
+    return SweepSpec(run, float(stop), rate, float(settings["speed_step"]))
