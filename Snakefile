@@ -54,6 +54,7 @@ include: "src/rules/cost.smk"
 include: "src/rules/calibration.smk"
 include: "src/rules/chart.smk"
 include: "src/rules/passages.smk"
+include: "src/rules/robustness.smk"
 include: "src/rules/documents.smk"
 
 

@@ -1,4 +1,6 @@
 # Stages 3 and 4: what the runs of a coating show together, and the tables over all coatings.
+import csv
+import os
 
 
 def analysing(*modules):
@@ -60,6 +62,16 @@ rule divergence:
         "../scripts/divergence.py"
 
 
+def reported_robustness(wildcards):
+    """In which share of the design each claim holds, if `snakemake robustness` was run: the study needs it not."""
+    if not os.path.exists(f"{RESULTS}/tables/robustness.csv"):
+        return {}
+    with open(
+        f"{RESULTS}/tables/robustness.csv", encoding="utf-8", newline=""
+    ) as lines:
+        return {row["id"]: float(row["yes_share"]) for row in csv.DictReader(lines)}
+
+
 rule findings:
     input:
         maps=expand(rules.map.output, coating=COATINGS),
@@ -86,5 +98,7 @@ rule findings:
     benchmark:
         f"{RESULTS}/benchmarks/findings.tsv"
     threads: 1
+    params:
+        robustness=reported_robustness,
     script:
         "../scripts/findings.py"

@@ -13,4 +13,5 @@ table = findings.table(
     divergence_path=snakemake.input.divergence,
     rom_accuracy_path=snakemake.input.rom_accuracy,
 )
+table["robustness"] = table["id"].map(snakemake.params.robustness)
 tablefile.write(snakemake.output[0], table, provenance(snakemake.config))

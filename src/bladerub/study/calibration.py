@@ -15,17 +15,12 @@ import pandas as pd
 from bladerub import config as configuration
 from bladerub import tablefile
 from bladerub.blade.build import build, write
-from bladerub.blade.model import read_reduced_blade
 from bladerub.config_faults import UNKNOWN, ConfigError, Fault, Place
 from bladerub.config_files import extended, lay_over, mark
 from bladerub.config_files import read as read_file
 from bladerub.provenance import provenance
 from bladerub.study import divergence, findings, peaks
-from bladerub.study.coating_job import compute_missing
-from bladerub.study.grid import coating_cases
-from bladerub.study.key import blade_digest
-from bladerub.study.maps import build_map
-from bladerub.study.store import write_manifest
+from bladerub.study.small import make_maps
 
 COLUMNS = ["set", "id", "claim", "paper", "measured", "unit", "holds", "margin"]
 
@@ -95,15 +90,7 @@ def answer(config: Mapping[str, Any], folder: str | Path, report: Callable[[obje
     model, accuracy = folder / "blade" / "reduced_model.h5", folder / "tables" / "rom_accuracy.csv"
     campbell = accuracy.with_name("campbell.csv")
     write(build(config), provenance(config), model, model.with_name("mesh.h5"), campbell, accuracy)
-    blade, digest = read_reduced_blade(model), blade_digest(model)
-    maps = []
-    for case in coating_cases(config):
-        runs, gathered = folder / "runs" / case.name, folder / "maps" / f"{case.name}.h5"
-        write_manifest(
-            runs / "manifest.tsv", compute_missing(config, case, blade, runs, digest, report=report)
-        )
-        build_map(config, case, blade, runs, gathered)
-        maps.append(gathered)
+    maps = make_maps(config, model, folder, report)
     made = {"peaks": peaks.table(config, maps), "divergence": divergence.table(config, maps)}
     for name, table in made.items():
         tablefile.write(folder / "tables" / f"{name}.csv", table, provenance(config))

@@ -8,9 +8,10 @@ missing.
 from __future__ import annotations
 
 import logging
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Collection, Iterable, Mapping
 from dataclasses import asdict, fields
 from pathlib import Path
+from string import ascii_lowercase
 from typing import Any
 
 import pandas as pd
@@ -72,6 +73,16 @@ CLAIMS: tuple[Callable[[Evidence], Finding], ...] = (
 )
 """Every measurable part of every claim, in the order of the table."""
 
+
+def _split(claim: Callable[[Evidence], Finding]) -> tuple[str, str]:
+    """Take id and statement from the first sentence of a claim's docstring."""
+    id_, _, statement = claim.__doc__.split("\n\n")[0].partition(": ")
+    return id_, " ".join(statement.split()).rstrip(".")
+
+
+TITLES = dict(map(_split, CLAIMS))
+"""What each part says, by its id, in the order of the table."""
+
 COLUMNS = [field.name for field in fields(Finding)]
 """Columns of ``findings.csv``, see `Finding`."""
 
@@ -109,10 +120,20 @@ def table(
     return judge(Evidence(config, tables, map(read_map, map_paths)))
 
 
-def judge(evidence: Evidence) -> pd.DataFrame:
-    """Measure every claim on `evidence` (see `table`)."""
+def of_claims(claims: Collection[str]) -> list[Callable[[Evidence], Finding]]:
+    """Return the measurable parts of the claims named, ``C2`` for C2a to C2d."""
+    return [part for part, id_ in zip(CLAIMS, TITLES, strict=True) if claim_of(id_) in claims]
+
+
+def claim_of(id_: str) -> str:
+    """Return the claim that ``C2a`` is a part of: ``C2``."""
+    return id_.rstrip(ascii_lowercase)
+
+
+def judge(evidence: Evidence, claims: Iterable[Callable[[Evidence], Finding]] = CLAIMS) -> pd.DataFrame:
+    """Measure `claims` on `evidence` (see `table`)."""
     rows = []
-    for claim in CLAIMS:
+    for claim in claims:
         try:
             rows.append(asdict(claim(evidence)))
         except NotMeasurable as error:

@@ -1,0 +1,23 @@
+"""Tell in which share of the design each claim holds and what decides it, and draw that."""
+
+import pandas as pd
+
+from bladerub import job, tablefile
+from bladerub.plots import style
+from bladerub.plots.robustness import robustness as draw
+from bladerub.provenance import provenance
+from bladerub.study.robustness import summary
+from bladerub.study.robustness.plan import read_plan
+from bladerub.study.robustness.sample import COST
+
+job.log_to(snakemake.log[0])
+
+plan = read_plan(snakemake.input.plan)
+verdicts = summary.gather(snakemake.input.verdicts)
+cost = pd.concat([tablefile.read(path, COST) for path in snakemake.input.cost], ignore_index=True)
+indices = summary.sensitivities(plan, verdicts)
+table = summary.summary(plan, verdicts, indices, cost)
+made = {"table": table, "indices": indices, "verdicts": verdicts, "design": summary.design(plan)}
+for name, each in made.items():
+    tablefile.write(snakemake.output[name], each, provenance(snakemake.config))
+style.save(draw(table, indices), snakemake.output.png, snakemake.output.pdf, snakemake.params.dpi)

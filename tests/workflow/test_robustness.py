@@ -1,0 +1,118 @@
+"""The design over all that the paper leaves open, by the real workflow: complete, and restartable."""
+
+from __future__ import annotations
+
+import pytest
+import yaml
+
+from bladerub import tablefile
+
+PLAN = {
+    "seed": 1,
+    "factors": {
+        "unit": {
+            "title": "unit of E and K",
+            "unit": "Pa",
+            "scale": "log",
+            "sets": {"contact.modulus_unit": [2.0e8, 8.0e8]},
+        },
+        "lean": {
+            "title": "cone of the flow path",
+            "unit": "degrees",
+            "sets": {"blade.tip_cone": [12.0, 13.0]},
+            "multiple_of": 1,
+        },
+        "step": {
+            "title": "speed step",
+            "unit": "1",
+            "sets": {"speeds.step": [0.03, 0.05]},
+            "multiple_of": 0.005,
+        },
+    },
+    "parts": {
+        "lobes": {
+            "claims": ["C1", "C3"],
+            "samples": 16,
+            "study": {
+                "coatings": [{"casing": "2nd5nd", "E": [11], "K": [0.5], "theta": [0.0]}],
+                "analysis": {"histories": []},
+            },
+        },
+        "angle": {
+            "claims": ["C10"],
+            "samples": 2,
+            "study": {
+                "coatings": [{"casing": "2nd", "E": [2], "K": [0.5], "theta": [0.0, 0.15]}],
+                "analysis": {"histories": []},
+            },
+        },
+    },
+}
+
+
+@pytest.fixture
+def planned(copied_study, tiny):
+    (copied_study.folder / "config" / "robustness.yaml").write_text(yaml.safe_dump(PLAN, sort_keys=False))
+    return tiny
+
+
+def test_the_design_is_made_once_and_a_lost_job_is_made_anew_alone(copied_study, planned):
+    assert copied_study.plan(planned, "robustness") == {
+        "robustness_blade": 2,
+        "robustness_batch": 3,
+        "robustness": 1,
+    }
+    copied_study.build(planned, "robustness")
+    tables = copied_study.results / "tables"
+    table = tablefile.read(tables / "robustness.csv").set_index("id")
+    assert list(table.index) == ["C1a", "C1b", "C3a", "C3c", "C10a", "C10b", "C10c", "C10d"]
+    assert (table.samples[:4] == 16).all()
+    assert (table.samples[4:] == 2).all()
+    assert (table.yes_share + table.partly_share + table.no_share).to_numpy() == pytest.approx(1)
+    assert (table.runs > 0).all()
+    design = tablefile.read(tables / "robustness_design.csv")
+    assert len(design) == 16 * 3
+    assert set(design.value[design.factor == "lean"]) == {12, 13}
+    assert len(tablefile.read(tables / "robustness_verdicts.csv")) == 4 * 16 + 4 * 2
+    assert (copied_study.results / "figures" / "robustness.png").stat().st_size > 10_000
+
+    assert copied_study.plan(planned, "robustness") == {}
+    before = tablefile.read(tables / "findings.csv")
+    assert before.robustness.isna().all()
+    anew = copied_study.plan(planned)
+    assert "findings" in anew
+    assert not {"coating", "map", "robustness_batch"} & anew.keys()
+    copied_study.build(planned)
+    reported = tablefile.read(tables / "findings.csv").set_index("id").robustness
+    assert (reported[table.index] == table.yes_share).all()
+    assert reported.drop(table.index).isna().all()
+    assert copied_study.plan(planned) == {}
+
+    lost = copied_study.results / "robustness" / "lobes" / "1" / "verdicts.csv"
+    said = lost.read_bytes()
+    lost.unlink()
+    (tables / "robustness.csv").unlink()
+    assert copied_study.plan(planned, "robustness") == {"robustness_batch": 1, "robustness": 1}
+    copied_study.build(planned, "robustness")
+    assert lost.read_bytes() == said
+
+    more = PLAN | {"parts": {**PLAN["parts"], "angle": {**PLAN["parts"]["angle"], "samples": 4}}}
+    (copied_study.folder / "config" / "robustness.yaml").write_text(yaml.safe_dump(more, sort_keys=False))
+    assert copied_study.plan(planned, "robustness") == {"robustness_batch": 1, "robustness": 1}
+
+
+@pytest.mark.parametrize(
+    ("change", "told"),
+    [
+        ({"seed": -1}, "config/robustness.yaml:1: seed = -1: must be a whole number from 0 to 4294967295"),
+        ({"factors": {}}, "factors = {}: must be a group of at least one"),
+    ],
+)
+def test_a_bad_plan_is_refused_before_any_work(workspace, tiny, change, told):
+    plan = yaml.safe_dump(PLAN | change, sort_keys=False)
+    (workspace.folder / "config" / "robustness.yaml").write_text(plan)
+    done = workspace.snakemake("robustness", "--dry-run", config=tiny)
+    assert done.returncode == 2
+    assert told in done.stderr
+    assert not workspace.results.exists()
+    assert workspace.plan(tiny)["blade"] == 1  # a study needs no plan
