@@ -23,7 +23,7 @@ PREFIX = "provenance_"
 """Begins the name of each of these attributes, and of no other."""
 UNKNOWN = "unknown"
 
-_PACKAGES = ("numpy", "scipy", "numba", "h5py", "scikit-fem", "pandas", "pypardiso")
+_PACKAGES = ("numpy", "scipy", "numba", "h5py", "scikit-fem", "rslab", "pandas", "openturns", "pypardiso")
 _NOT_THE_STUDY = {"results"}  # where files lie says nothing of what is in them
 _SECONDS = 10
 

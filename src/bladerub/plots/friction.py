@@ -10,7 +10,7 @@ from bladerub.plots import style
 
 NONE = 1e-12
 """Relative difference that stands for none on the logarithmic axis."""
-COLOURS = (style.DARK, style.ORANGE, style.BLUE, style.RED, style.GREY, "#7a4fa3")
+COLOURS = (style.DARK, style.ORANGE, style.BLUE, style.RED, style.GREY, style.VIOLET)
 
 
 @style.styled
