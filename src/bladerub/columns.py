@@ -97,7 +97,9 @@ COLUMNS = {
     "deepest_wear": Column(NUMBER, "m", "greatest worn depth under any node over the speeds"),
     "divergent_share": Column(NUMBER, "1", "share of evenly spaced speeds whose run diverges"),
     "unbounded_share": Column(NUMBER, "1", "share of them at which the tip left all bounds"),
-    "runs": Column(INTEGER, "1", "runs simulated for it"),
+    "runs": Column(
+        INTEGER, "1", "speeds at which the coating was run; in the cost of a sample, runs made for it"
+    ),
     "safe": Column(BOOLEAN, None, "whether the limits of the config are kept"),
     "E_T": Column(NUMBER, "1", "modulus of the contact while it wears, E K / (E + K)"),
     "wear_per_cycle": Column(NUMBER, "J", "energy dissipated by wear in a cycle of the vibration"),
@@ -173,35 +175,42 @@ COLUMNS = {
     "robustness": Column(
         NUMBER,
         "1",
-        "share of the design of the last `snakemake robustness` in which it holds; empty before any",
+        "share in which the claim holds of the samples of the last `snakemake robustness` that can tell; "
+        "empty where their reference says otherwise than holds, and before any",
     ),
     "part": Column(STRING, None, "part of the design: a small study for some of the claims"),
-    "sample": Column(INTEGER, "1", "sample of the design, counted from 0"),
-    "samples": Column(INTEGER, "1", "samples in which the claim can be measured"),
+    "sample": Column(INTEGER, "1", "sample of the design, counted from 0; -1: the study's own values"),
+    "samples": Column(INTEGER, "1", "samples that can tell whether the claim holds"),
     "yes_share": Column(NUMBER, "1", "share of them in which it holds"),
     "partly_share": Column(NUMBER, "1", "share of them in which it holds partly"),
     "no_share": Column(NUMBER, "1", "share of them in which it does not hold"),
+    "reference": Column(STRING, None, "holds in the same small study with the study's own values"),
     "predicted": Column(
         NUMBER,
         "1",
         "share of the variance that the expansion behind the indices predicts for samples left out of it",
     ),
-    "decided_by": Column(
-        STRING,
-        None,
-        "factors with a total index of the verdict from 0.1 on; none if predicted is below 0.1",
-    ),
+    "decided_by": Column(STRING, None, "factors with a total index of the verdict from 0.1 on"),
+    "runs_per_sample": Column(NUMBER, "1", "runs that a sample takes, median"),
+    "cpu_s_per_sample": Column(NUMBER, "s", "processor time that a sample takes, median, without the blade"),
     "factor": Column(STRING, None, "choice that the paper leaves open"),
+    "key": Column(STRING, None, "number of the config that it sets"),
     "value": Column(NUMBER, None, "its value in the sample, in the unit of the column unit"),
     "output": Column(STRING, None, "what is decided: the verdict (1, 0.5 or 0) or the rank of the margin"),
-    "first": Column(NUMBER, "1", "first-order Sobol index: share of the variance by the factor alone"),
+    "first": Column(
+        NUMBER, "1", "first-order Sobol index: share of the variance by the factor alone, as far as predicted"
+    ),
     "total": Column(NUMBER, "1", "total Sobol index: the same with all interactions of the factor"),
     # cost
     "stage": Column(STRING, None, "stage of the workflow"),
     "rule": Column(STRING, None, "rule of the workflow"),
     "job": Column(STRING, None, "what tells the jobs of the rule apart"),
     "wall_s": Column(NUMBER, "s", "time the job took"),
-    "cpu_s": Column(NUMBER, "s", "processor time of it, with all its processes"),
+    "cpu_s": Column(
+        NUMBER,
+        "s",
+        "processor time of the job and its children, or of a sample",
+    ),
     "memory_mb": Column(NUMBER, "MiB", "largest memory of the job and its children"),
 }
 """Every column by its name."""

@@ -2,6 +2,14 @@
 from functools import cache
 
 CALIBRATION = "config/calibration.yaml"
+# The modules that make a small study in one job, from the runs to the findings
+JUDGED_STUDY = [
+    *analysing("small", "grid", "plan", "coating_job", "store", "spectra", "growth"),
+    *rules.map.input.analysing,
+    *rules.peaks.input.analysing,
+    *rules.divergence.input.analysing,
+    *rules.findings.input.analysing,
+]
 
 
 @cache
@@ -47,13 +55,7 @@ rule calibration_set:
     input:
         kernel=rules.compile_kernel.output[0],
         building=rules.blade.input,
-        analysing=[
-            *rules.map.input.analysing,
-            *rules.peaks.input.analysing,
-            *rules.divergence.input.analysing,
-            *rules.findings.input.analysing,
-            *analysing("calibration"),
-        ],
+        analysing=[*JUDGED_STUDY, *analysing("calibration")],
     output:
         f"{RESULTS}/calibration/{{set}}/tables/findings.csv",
         description=f"{RESULTS}/calibration/{{set}}/tables/findings.csv-metadata.json",

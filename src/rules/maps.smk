@@ -63,13 +63,16 @@ rule divergence:
 
 
 def reported_robustness(wildcards):
-    """In which share of the design each claim holds, if `snakemake robustness` was run: the study needs it not."""
+    """Reference and share of each claim, if `snakemake robustness` was run: the study does not wait for it."""
     if not os.path.exists(f"{RESULTS}/tables/robustness.csv"):
         return {}
     with open(
         f"{RESULTS}/tables/robustness.csv", encoding="utf-8", newline=""
     ) as lines:
-        return {row["id"]: float(row["yes_share"]) for row in csv.DictReader(lines)}
+        return {
+            row["id"]: (row["reference"], float(row["yes_share"] or "nan"))
+            for row in csv.DictReader(lines)
+        }
 
 
 rule findings:

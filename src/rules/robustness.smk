@@ -19,53 +19,81 @@ def robustness_plan():
 
 
 @cache
-def robustness_samples(part):
-    """The config of every sample of a part."""
-    from bladerub.study.robustness.design import sample_configs
+def robustness_batch(part, batch):
+    """The config of each sample of one job by its number."""
+    from bladerub.study.robustness import design
 
+    plan = robustness_plan()
     with bladerub.faults.end_the_program():
-        return sample_configs(config, robustness_plan(), robustness_plan().parts[part])
+        return design.batch(config, plan, plan.parts[part], batch)
+
+
+def robustness_batches():
+    """Part and name of every job."""
+    from bladerub.study.robustness.plan import REFERENCE_BATCH
+
+    return [
+        (part.name, batch)
+        for part in robustness_plan().parts.values()
+        for batch in (REFERENCE_BATCH, *map(str, range(len(part.batches()))))
+    ]
 
 
 @cache
 def robustness_blades():
-    """One sample that has it, for each of the blades by name."""
+    """The config of a sample that has it, for each of the blades by name."""
     from bladerub.study.robustness.design import blade_name
 
     return {
         blade_name(sample): sample
-        for part in robustness_plan().parts
-        for sample in robustness_samples(part)
+        for part, batch in robustness_batches()
+        for sample in robustness_batch(part, batch).values()
     }
 
 
-def robustness_batch(wildcards):
-    """The samples of one job by their numbers."""
-    batch = robustness_plan().parts[wildcards.part].batches()[int(wildcards.batch)]
-    return {number: robustness_samples(wildcards.part)[number] for number in batch}
+def of_robustness_blades(file):
+    """That file of the blade of every sample of a job."""
+
+    def paths(wildcards):
+        from bladerub.study.robustness.design import blade_name
+
+        samples = robustness_batch(wildcards.part, wildcards.batch).values()
+        return [f"{OF_SAMPLES}/blades/{blade_name(each)}/{file}" for each in samples]
+
+    return paths
 
 
-def robustness_batch_blades(wildcards):
-    from bladerub.study.robustness.design import blade_name
-
-    return [
-        f"{OF_SAMPLES}/blades/{blade_name(sample)}/{name}"
-        for sample in robustness_batch(wildcards).values()
-        for name in ("reduced_model.h5", "rom_accuracy.csv")
-    ]
-
-
-def robustness_batches(file):
-    """What all jobs write under the name `file`."""
+def of_robustness_batches(file):
+    """What all jobs write under that name."""
 
     def paths(wildcards):
         return [
-            f"{OF_SAMPLES}/{part.name}/{number}/{file}"
-            for part in robustness_plan().parts.values()
-            for number in range(len(part.batches()))
+            f"{OF_SAMPLES}/{part}/{batch}/{file}"
+            for part, batch in robustness_batches()
         ]
 
     return paths
+
+
+def planned_samples(wildcards):
+    """All that determines what the samples of a job say but the blades: a changed one is a reason to run."""
+    from bladerub.study.robustness.design import sample_digest
+
+    samples = robustness_batch(wildcards.part, wildcards.batch)
+    return {number: sample_digest(sample) for number, sample in samples.items()}
+
+
+def robustness_minutes(wildcards, attempt):
+    """As `coating_minutes`, over the coatings and elements of the samples."""
+    revolutions = sum(
+        len(coating_cases(sample))
+        * len(speeds(sample))
+        * sample["solver"]["revolutions"]
+        * sample["contact"]["elements"]
+        / config["contact"]["elements"]
+        for sample in robustness_batch(wildcards.part, wildcards.batch).values()
+    )
+    return attempt * math.ceil((60 + 0.03 * revolutions) / 60)
 
 
 use rule blade as robustness_blade with:
@@ -89,15 +117,10 @@ use rule blade as robustness_blade with:
 
 rule robustness_batch:
     input:
-        blades=robustness_batch_blades,
+        models=of_robustness_blades("reduced_model.h5"),
+        accuracies=of_robustness_blades("rom_accuracy.csv"),
         kernel=rules.compile_kernel.output[0],
-        analysing=[
-            *rules.map.input.analysing,
-            *rules.peaks.input.analysing,
-            *rules.divergence.input.analysing,
-            *rules.findings.input.analysing,
-            *analysing("small", "robustness/sample"),
-        ],
+        analysing=[*JUDGED_STUDY, *analysing("robustness/sample")],
     output:
         verdicts=f"{OF_SAMPLES}/{{part}}/{{batch}}/verdicts.csv",
         verdicts_description=f"{OF_SAMPLES}/{{part}}/{{batch}}/verdicts.csv-metadata.json",
@@ -109,13 +132,14 @@ rule robustness_batch:
         f"{RESULTS}/benchmarks/robustness_batch/{{part}}_{{batch}}.tsv"
     wildcard_constraints:
         part="[A-Za-z][A-Za-z0-9_]*",
-        batch="[0-9]+",
+        batch="[0-9]+|reference",
     threads: 1
     resources:
         mem_mb=lambda wildcards, attempt: 2000 * attempt,
-        runtime=lambda wildcards, attempt: 60 * attempt,  # a tenth of it measured
+        runtime=robustness_minutes,
     params:
-        samples=robustness_batch,
+        plan=ROBUSTNESS,
+        planned=planned_samples,
         claims=lambda wildcards: robustness_plan().parts[wildcards.part].claims,
     script:
         "../scripts/robustness_batch.py"
@@ -123,8 +147,8 @@ rule robustness_batch:
 
 rule robustness:
     input:
-        verdicts=robustness_batches("verdicts.csv"),
-        cost=robustness_batches("cost.csv"),
+        verdicts=of_robustness_batches("verdicts.csv"),
+        cost=of_robustness_batches("cost.csv"),
         plan=ROBUSTNESS,
         analysing=[
             "src/bladerub/study/findings/__init__.py",

@@ -10,6 +10,7 @@ job.log_to(snakemake.log[0])
 logging.basicConfig(level=logging.WARNING, format="%(asctime)s %(message)s")
 logging.getLogger("bladerub").setLevel(logging.INFO)
 
-built = build({"blade": snakemake.params.blade, "reduction": snakemake.params.reduction})
+# of the study, or of a sample of the robustness
+config = {**snakemake.config, "blade": snakemake.params.blade, "reduction": snakemake.params.reduction}
 files = {name: snakemake.output[name] for name in ("reduced_model", "mesh", "campbell", "rom_accuracy")}
-write(built, provenance(snakemake.config), **files)
+write(build(config), provenance(config), **files)

@@ -2,20 +2,24 @@
 
 import pandas as pd
 
+from bladerub import config as configuration
 from bladerub import job, tablefile
 from bladerub.provenance import provenance
+from bladerub.study.robustness.design import batch
+from bladerub.study.robustness.plan import read_plan
 from bladerub.study.robustness.sample import COLUMNS, COST, answer
 
 job.log_to(snakemake.log[0])
 
-models, accuracies = snakemake.input.blades[::2], snakemake.input.blades[1::2]
-samples = zip(snakemake.params.samples.items(), models, accuracies, strict=True)
+plan, part = read_plan(snakemake.params.plan), snakemake.wildcards.part
+samples = batch(snakemake.config, plan, plan.parts[part], snakemake.wildcards.batch)
+blades = zip(snakemake.input.models, snakemake.input.accuracies, strict=True)
 verdicts, cost = [], []
-for (number, config), model, accuracy in samples:
+for (number, config), (model, accuracy) in zip(samples.items(), blades, strict=True):
     said = answer(config, snakemake.params.claims, model, accuracy)
     verdicts.append(said.findings.assign(sample=number)[COLUMNS])
-    cost.append((snakemake.wildcards.part, number, said.runs, said.cpu_s))
+    cost.append((part, number, said.runs, said.cpu_s))
     print(f"sample {number}: {said.runs} runs in {said.cpu_s:.1f} s", flush=True)
-origin = provenance(snakemake.config)
+origin = provenance({**snakemake.config, "robustness": configuration.load(snakemake.params.plan)})
 tablefile.write(snakemake.output.verdicts, pd.concat(verdicts, ignore_index=True), origin)
 tablefile.write(snakemake.output.cost, pd.DataFrame(cost, columns=COST), origin)

@@ -7,7 +7,7 @@ import pandas as pd
 from matplotlib.figure import Figure
 
 from bladerub.plots import style
-from bladerub.study.robustness.summary import DECIDES, TRUSTED, VERDICT
+from bladerub.study.robustness.summary import DECIDES, VERDICT
 
 SHARES = {
     "yes": {"color": style.DARK},
@@ -51,9 +51,9 @@ def _draw_shares(axes, table: pd.DataFrame) -> None:
 
 
 def _draw_factors(axes, table: pd.DataFrame, indices: pd.DataFrame):
-    trusted = indices[(indices.output == VERDICT) & (indices.predicted >= TRUSTED)]
+    of_verdict = indices[indices.output == VERDICT]
     factors = list(dict.fromkeys(indices.factor))
-    total = trusted.pivot(index="id", columns="factor", values="total")
+    total = of_verdict.pivot(index="id", columns="factor", values="total")
     total = total.reindex(index=table.id, columns=factors).astype(float)
     columns, rows = np.arange(len(factors) + 1) - 0.5, np.arange(len(table) + 1) - 0.5
     image = axes.pcolormesh(columns, rows, total, cmap=style.WEAR_MAP, vmin=0, vmax=1)
@@ -64,7 +64,7 @@ def _draw_factors(axes, table: pd.DataFrame, indices: pd.DataFrame):
     for row, predicted in enumerate(table.predicted):
         axes.axhline(row - 0.5, color="white", linewidth=0.6)
         if np.isfinite(predicted):
-            axes.text(len(factors) - 0.3, row, f"{max(predicted, 0):.2f}", va="center", fontsize=6)
+            axes.text(len(factors) - 0.3, row, f"{predicted:.2f}", va="center", fontsize=6)
     axes.set_facecolor(style.MISSING)
     axes.text(len(factors) - 0.3, len(table) - 0.2, "predicted", rotation=90, va="top", fontsize=8)
     axes.set_xticks(range(len(factors)), factors, rotation=90)

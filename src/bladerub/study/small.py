@@ -15,7 +15,10 @@ from bladerub.study.store import write_manifest
 
 
 def make_maps(
-    config: Mapping[str, Any], model: str | Path, folder: str | Path, report: Callable[[object], None]
+    config: Mapping[str, Any],
+    model: str | Path,
+    folder: str | Path,
+    report: Callable[[object], None] = lambda line: None,
 ) -> list[Path]:
     """Run every coating of `config` and gather its map.
 
@@ -27,8 +30,8 @@ def make_maps(
         Its reduced blade.
     folder : path-like
         For its runs and maps; runs that are there and current are kept.
-    report : callable
-        Called with a `bladerub.study.coating_job.RunDone` after each run.
+    report : callable, optional
+        As of `bladerub.study.coating_job.compute_missing`.
 
     Returns
     -------

@@ -5,8 +5,8 @@ import pytest
 import yaml
 
 from bladerub.config import ROOT, ConfigError, load, validate
-from bladerub.study.robustness.design import blade_name, check, sample_configs
-from bladerub.study.robustness.plan import BATCH, read_plan
+from bladerub.study.robustness.design import batch, blade_name, check, sample_configs, sample_digest
+from bladerub.study.robustness.plan import BATCH, REFERENCE, REFERENCE_BATCH, read_plan
 
 PLAN = {
     "seed": 3,
@@ -129,6 +129,11 @@ def changed(*keys, to):
             changed("factors", "unit", "sets", "contact.modulus_unit", to=[0, 1]),
             "contact.modulus_unit = [0, 1]: must be above 0 on a logarithmic scale",
         ),
+        (changed("factors", "turns", "multiple_of", to=7), "[12, 30]: must be multiples of 7"),
+        (
+            changed("factors", "weight", "sets", "contact.modulus_unit", to=[1, 2]),
+            "factors.weight.sets.contact.modulus_unit: is set by another factor, must be by one alone",
+        ),
         (changed("factors", "turns", "multiple_of", to=0), "multiple_of = 0: must be a number above 0"),
         (changed("parts", "soft", "samples", to=12), "parts.soft.samples = 12: must be a power of two"),
         (changed("parts", "soft", "samples", to=1), "parts.soft.samples = 1: must be a whole number from 2"),
@@ -160,11 +165,35 @@ def test_a_factor_must_set_a_number_of_the_study(study, write, path, told):
     assert told in str(caught.value)
 
 
-def test_ends_that_make_no_study_are_told_with_the_line_of_the_factor(study, write):
+def test_values_that_make_no_study_are_told_with_part_and_sample(study, write):
     path = write(changed("factors", "turns", "sets", to={"solver.revolutions": [12, 90]}))
     with pytest.raises(ConfigError) as caught:
         check(study, read_plan(path))
+    assert "parts.soft, sample " in str(caught.value)
     assert "confirmation_revolutions = 60: must be 0, or at least" in str(caught.value)
+
+
+def test_only_what_determines_a_sample_is_in_its_digest(study, write):
+    plan = read_plan(write(PLAN))
+    digests = [sample_digest(config) for config in sample_configs(study, plan, plan.parts["soft"])]
+    assert len(set(digests)) == 16
+    study["figures"]["dpi"] += 1
+    study["chart"]["theta"] = [0.0]
+    study["casings"]["unused"] = study["casings"]["2nd"]
+    assert [sample_digest(each) for each in sample_configs(study, plan, plan.parts["soft"])] == digests
+    study["solver"]["steps_per_element"] += 1
+    assert sample_digest(sample_configs(study, plan, plan.parts["soft"])[0]) != digests[0]
+
+
+def test_jobs_have_their_samples_and_one_the_study_s_own_values(study, write):
+    plan = read_plan(write(PLAN))
+    part = plan.parts["soft"]
+    samples = sample_configs(study, plan, part)
+    assert batch(study, plan, part, "1") == {number: samples[number] for number in range(8, 16)}
+    own = batch(study, plan, part, REFERENCE_BATCH)
+    assert own.keys() == {REFERENCE}
+    assert own[REFERENCE]["contact"] == study["contact"]
+    assert own[REFERENCE]["speeds"]["start"] == 0.1
 
 
 def test_the_plan_of_the_repository_is_one(study):

@@ -84,7 +84,7 @@ TITLES = dict(map(_split, CLAIMS))
 """What each part says, by its id, in the order of the table."""
 
 COLUMNS = [field.name for field in fields(Finding)]
-"""Columns of ``findings.csv``, see `Finding`."""
+"""Columns of `table`, see `Finding`."""
 
 _log = logging.getLogger(__name__)
 

@@ -14,26 +14,36 @@ import numpy as np
 from bladerub import config as configuration
 from bladerub.config_faults import UNKNOWN, ConfigError, Fault, shown
 from bladerub.config_files import Marked, extended, lay_over, mark, plain
-from bladerub.study.robustness.plan import Part, Plan
+from bladerub.study.grid import coating_cases
+from bladerub.study.robustness.plan import REFERENCE, REFERENCE_BATCH, Part, Plan
+
+_DETERMINING = ("blade", "reduction", "contact", "coatings", "speeds", "solver", "analysis")  # and casings
 
 
 def check(study: Mapping[str, Any], plan: Plan) -> None:
-    """Check that the factors' ends, all low and all high, give a study in each part.
-
-    Each sample is checked again before its work; this is what can be told before any.
+    """Check every sample of every part.
 
     Raises
     ------
     ConfigError
-        As `sample_config`.
+        If a factor sets what the study does not have, or the values of a sample make no study together; names
+        part and sample.
     """
     for part in plan.parts.values():
-        for at in (0.0, 1.0):
-            configuration.checked(_varied(study, plan, part, np.full(len(plan.factors), at)))
+        for number, places in enumerate(plan.places()[: part.samples]):
+            varied = _varied(study, plan, part, places)
+            try:
+                configuration.checked(varied)
+            except ConfigError as error:
+                faults = [
+                    Fault(place, f"parts.{part.name}, sample {number}: {text}")
+                    for place, text in error.faults
+                ]
+                raise ConfigError(faults) from error
 
 
 def sample_configs(study: Mapping[str, Any], plan: Plan, part: Part) -> list[dict[str, Any]]:
-    """Make the config of every sample of a part, in their order; see `check` for how far they are checked.
+    """Make the config of every sample of a part, in their order, unchecked.
 
     Raises
     ------
@@ -43,10 +53,40 @@ def sample_configs(study: Mapping[str, Any], plan: Plan, part: Part) -> list[dic
     return [plain(_varied(study, plan, part, places)) for places in plan.places()[: part.samples]]
 
 
+def reference_config(study: Mapping[str, Any], part: Part) -> dict[str, Any]:
+    """Make the config of a part with the study's own values in place of a sample's."""
+    return plain(lay_over(mark(study, UNKNOWN), extended(part.study)))
+
+
+def batch(study: Mapping[str, Any], plan: Plan, part: Part, name: str) -> dict[int, dict[str, Any]]:
+    """Make the config of each sample of one job by its number.
+
+    Parameters
+    ----------
+    name : str
+        Number of the job, one of `bladerub.study.robustness.plan.Part.batches`, or `REFERENCE_BATCH`.
+    """
+    if name == REFERENCE_BATCH:
+        return {REFERENCE: reference_config(study, part)}
+    samples = sample_configs(study, plan, part)
+    return {number: samples[number] for number in part.batches()[int(name)]}
+
+
+def sample_digest(config: Mapping[str, Any]) -> str:
+    """Digest what of its config determines what a sample says."""
+    used = {case.casing for case in coating_cases(config)}
+    determining = {key: config[key] for key in _DETERMINING}
+    determining["casings"] = {name: config["casings"][name] for name in sorted(used)}
+    return _digest(determining)
+
+
 def blade_name(config: Mapping[str, Any]) -> str:
     """Name the blade of a sample; samples with the same blade have the same."""
-    described = json.dumps([config["blade"], config["reduction"]], sort_keys=True)
-    return hashlib.sha256(described.encode()).hexdigest()[:12]
+    return _digest([config["blade"], config["reduction"]])[:12]
+
+
+def _digest(content: Any) -> str:
+    return hashlib.sha256(json.dumps(content, sort_keys=True).encode()).hexdigest()
 
 
 def _varied(study: Mapping[str, Any], plan: Plan, part: Part, places: np.ndarray) -> Marked:

@@ -23,6 +23,9 @@ from bladerub.config_files import read as read_file
 BATCH = 8
 """Samples of one job."""
 
+REFERENCE, REFERENCE_BATCH = -1, "reference"
+"""Number of the sample that has the study's own values, and name of its job."""
+
 MOST_SAMPLES = 4096
 """Samples of one part."""
 
@@ -99,7 +102,7 @@ class Part:
     study: Marked
 
     def batches(self) -> list[range]:
-        """Return the samples of each job."""
+        """Return the samples of each job; that of the reference is one more."""
         return [range(first, min(first + BATCH, self.samples)) for first in range(0, self.samples, BATCH)]
 
 
@@ -143,6 +146,12 @@ def read_plan(path: str | Path) -> Plan:
     factors = tuple(
         _factor(name, entry, f"factors.{name}") for name, entry in _named(groups["factors"], "factors")
     )
+    set_before: set[str] = set()
+    for factor in factors:
+        if twice := set_before & factor.ends.keys():
+            text = f"factors.{factor.name}.sets.{min(twice)}: is set by another factor, must be by one alone"
+            raise ConfigError([Fault(factor.place, text)])
+        set_before |= factor.ends.keys()
     parts: dict[str, Part] = {}
     answered: set[str] = set()
     for name, entry in _named(groups["parts"], "parts"):
@@ -159,28 +168,30 @@ def _factor(name: str, entry: Marked, where: str) -> Factor:
     scale = _text(group["scale"], f"{where}.scale") if "scale" in group else "linear"
     if scale not in ("linear", "log"):
         _refuse(group["scale"], f"{where}.scale", "linear or log")
-    ends = {
-        path: _ends(pair, f"{where}.sets.{path}", scale)
-        for path, pair in _group(group["sets"], f"{where}.sets").items()
-    }
-    if not ends:
-        _refuse(group["sets"], f"{where}.sets", "at least one number of the config, with its two ends")
     multiple = None
     if "multiple_of" in group:
         multiple = plain(group["multiple_of"])
         if not _is_number(multiple) or multiple <= 0:
             _refuse(group["multiple_of"], f"{where}.multiple_of", "a number above 0")
+    ends = {
+        path: _ends(pair, f"{where}.sets.{path}", scale, multiple)
+        for path, pair in _group(group["sets"], f"{where}.sets").items()
+    }
+    if not ends:
+        _refuse(group["sets"], f"{where}.sets", "at least one number of the config, with its two ends")
     return Factor(
         name, **texts, ends=ends, logarithmic=scale == "log", multiple_of=multiple, place=entry.place
     )
 
 
-def _ends(entry: Marked, where: str, scale: str) -> tuple[float, float]:
+def _ends(entry: Marked, where: str, scale: str, multiple: float | None) -> tuple[float, float]:
     pair = plain(entry)
     if not isinstance(pair, list) or len(pair) != 2 or not all(map(_is_number, pair)) or pair[0] >= pair[1]:
         _refuse(entry, where, "a list of two numbers, the lower first")
     if scale == "log" and pair[0] <= 0:
         _refuse(entry, where, "above 0 on a logarithmic scale")
+    if multiple and any(abs(end / multiple - round(end / multiple)) > 1e-6 for end in pair):
+        _refuse(entry, where, f"multiples of {multiple:g}, as all values between them are")
     return float(pair[0]), float(pair[1])
 
 

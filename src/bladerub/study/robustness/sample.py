@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import logging
 import tempfile
 import time
@@ -69,7 +70,7 @@ def answer(
     start = time.process_time()
     configuration.validate(dict(config))
     with tempfile.TemporaryDirectory() as folder:
-        paths = make_maps(config, model, folder, report=_ignore)
+        paths = make_maps(config, model, folder)
         maps = [read_map(path) for path in paths]
         rows = [row for path in Path(folder).rglob("manifest.tsv") for row in read_manifest(path)]
     tables = {
@@ -83,15 +84,12 @@ def answer(
 
 
 def _peaks(config: Mapping[str, Any], maps: Iterable[CoatingMap]) -> pd.DataFrame:
-    """Find the peaks of every coating that has them; claims on one whose runs are unbounded have no row."""
+    """Find the peaks that there are: without a bounded run near its crossing an order has no row."""
     found = [pd.DataFrame(columns=peaks.COLUMNS)]
-    for coating in maps:
+    for coating, order in itertools.product(maps, config["analysis"]["peaks"]["orders"]):
+        analysis = {**config["analysis"], "peaks": {**config["analysis"]["peaks"], "orders": [order]}}
         try:
-            found.append(peaks.of_maps(config, [coating]))
+            found.append(peaks.of_maps({**config, "analysis": analysis}, [coating]))
         except ValueError as error:
-            _log.warning("%s: no peaks (%s)", coating.case.name, error)
+            _log.warning("%s: no peak of engine order %g (%s)", coating.case.name, order, error)
     return pd.concat(found[1:] or found, ignore_index=True)
-
-
-def _ignore(line: object) -> None:
-    """Report to nobody."""

@@ -2,8 +2,9 @@
 
 The samples are those of one design, so that the indices cost no further run; the expansion is OpenTURNS's
 (Sudret 2008, Reliability Engineering & System Safety 93; Blatman and Sudret 2011, Journal of Computational
-Physics 230). How far the indices are to be trusted is told by the share of the variance that expansions made
-without a fifth of the samples predict for that fifth.
+Physics 230). An expansion explains a part of the output only. How much is measured by the share of the
+variance that expansions made without a fifth of the samples predict for that fifth; the indices, which are
+shares of what is explained, are taken times that, and so become shares of the whole.
 """
 
 from __future__ import annotations
@@ -32,9 +33,9 @@ class Indices(NamedTuple):
     Parameters
     ----------
     first, total : (d,) ndarray
-        Share of the variance by each factor alone, and with all its interactions.
+        Share of the variance by each factor alone, and with all its interactions, as far as it is predicted.
     predicted : float
-        Share of the variance that is predicted for samples left out; 0 or less: the indices say nothing.
+        Share of the variance that is predicted for samples left out; 0 if that is worse than their mean.
     """
 
     first: np.ndarray
@@ -60,7 +61,8 @@ def indices(places: np.ndarray, output: np.ndarray) -> Indices:
     sobol = openturns.FunctionalChaosSobolIndices(_expansion(places, output))
     first = [sobol.getSobolIndex(factor) for factor in range(n_factors)]
     total = [sobol.getSobolTotalIndex(factor) for factor in range(n_factors)]
-    return Indices(np.array(first), np.array(total), _predicted(places, output))
+    predicted = max(_predicted(places, output), 0.0)
+    return Indices(predicted * np.array(first), predicted * np.array(total), predicted)
 
 
 def _predicted(places: np.ndarray, output: np.ndarray) -> float:

@@ -7,12 +7,11 @@ from pathlib import Path
 
 import numpy as np
 import pandas as pd
-from scipy import stats
 
 from bladerub.study.findings import TITLES, claim_of
 from bladerub.study.findings.finding import NO, PARTLY, YES
 from bladerub.study.robustness import sample
-from bladerub.study.robustness.plan import Plan
+from bladerub.study.robustness.plan import REFERENCE, Plan
 from bladerub.study.robustness.sensitivity import indices
 from bladerub.tablefile import read as read_table
 
@@ -22,27 +21,29 @@ SCORE = {YES: 1.0, PARTLY: 0.5, NO: 0.0}
 DECIDES = 0.1
 """Total index from which on a factor is named among those that decide."""
 
-TRUSTED = 0.1
-"""Share of the variance that must be predicted before any factor is named."""
-
 VERDICT, MARGIN = "verdict", "margin"
 """Outputs whose indices are estimated: `SCORE`, and the rank of the margin, which may be infinite."""
 
+INDICES = ["id", "output", "factor", "first", "total", "predicted"]
+"""Columns of the table of `sensitivities`."""
+
 
 def design(plan: Plan) -> pd.DataFrame:
-    """List the value of each factor in each sample."""
+    """List what each factor sets in each sample: a row for each number of the config."""
     return pd.DataFrame(
         [
-            {"sample": number, "factor": factor.name, "value": factor.value(float(at)), "unit": factor.unit}
+            {"sample": number, "factor": factor.name, "key": key, "value": value, "unit": factor.unit}
             for number, places in enumerate(plan.places())
             for factor, at in zip(plan.factors, places, strict=True)
+            for key, value in factor.values(float(at)).items()
         ]
     )
 
 
 def gather(paths: Iterable[str | Path]) -> pd.DataFrame:
-    """Put what the samples say into one table, ordered by claim and sample."""
-    whole = pd.concat([read_table(path, sample.COLUMNS) for path in paths], ignore_index=True)
+    """Put what the samples say into one table, ordered by claim and sample, the reference first."""
+    said = [read_table(path, sample.COLUMNS) for path in paths]
+    whole = pd.concat([each for each in said if len(each)], ignore_index=True)
     whole["id"] = pd.Categorical(whole["id"], list(TITLES), ordered=True)
     return whole.sort_values(["id", "sample"], ignore_index=True).astype({"id": str})
 
@@ -63,28 +64,19 @@ def sensitivities(plan: Plan, verdicts: pd.DataFrame) -> pd.DataFrame:
         A row per claim, output (`VERDICT`, `MARGIN`) and factor; none where there are no indices.
     """
     places, rows = plan.places(), []
-    for id_, said in verdicts.groupby("id", sort=False):
-        ranked = said[said.margin.notna()]
-        outputs = {
-            VERDICT: (said["sample"], said.holds.map(SCORE).to_numpy()),
-            MARGIN: (ranked["sample"], stats.rankdata(ranked.margin)),
-        }
-        for output, (samples, values) in outputs.items():
-            found = indices(places[samples.to_numpy()], values)
+    for id_, said in verdicts[verdicts["sample"] != REFERENCE].groupby("id", sort=False):
+        # a claim that fails because nothing is found has no margin: it fails by more than any other
+        margin = said.margin.where(said.margin.notna() | (said.holds != NO), -np.inf)
+        outputs = {VERDICT: said.holds.map(SCORE), MARGIN: margin[margin.notna()].rank()}
+        for output, values in outputs.items():
+            found = indices(places[said.loc[values.index, "sample"]], values.to_numpy())
             if np.isnan(found.predicted):
                 continue
             rows += [
-                {
-                    "id": id_,
-                    "output": output,
-                    "factor": factor.name,
-                    "first": found.first[number],
-                    "total": found.total[number],
-                    "predicted": found.predicted,
-                }
+                (id_, output, factor.name, found.first[number], found.total[number], found.predicted)
                 for number, factor in enumerate(plan.factors)
             ]
-    return pd.DataFrame(rows, columns=["id", "output", "factor", "first", "total", "predicted"])
+    return pd.DataFrame(rows, columns=INDICES)
 
 
 def summary(
@@ -95,6 +87,7 @@ def summary(
     Parameters
     ----------
     plan : Plan
+        The design.
     verdicts, sensitivity : DataFrame
         From `gather` and `sensitivities`.
     cost : DataFrame
@@ -103,28 +96,33 @@ def summary(
     Returns
     -------
     DataFrame
-        A row per claim.
+        A row for each part of each claim of the plan; shares are of the samples that can tell.
     """
     part_of = {claim: part.name for part in plan.parts.values() for claim in part.claims}
-    of_part, rows = cost.groupby("part")[["runs", "cpu_s"]].median(), []
-    for id_, said in verdicts.groupby("id", sort=False):
-        part = part_of[claim_of(id_)]
-        shares = said.holds.value_counts(normalize=True)
+    own_values, drawn = (verdicts["sample"] == REFERENCE), cost[cost["sample"] != REFERENCE]
+    reference = verdicts[own_values].set_index("id").holds
+    of_part = drawn.groupby("part")[["runs", "cpu_s"]].median()
+    shares = pd.crosstab(verdicts.id[~own_values], verdicts.holds[~own_values])
+    shares = shares.reindex(index=TITLES, columns=SCORE, fill_value=0)
+    rows = []
+    for id_, counts in shares.iterrows():
+        if claim_of(id_) not in part_of:
+            continue
+        part, n_samples = part_of[claim_of(id_)], counts.sum()
         own = sensitivity[(sensitivity.id == id_) & (sensitivity.output == VERDICT)]
-        predicted = own.predicted.iloc[0] if len(own) else np.nan
         deciding = own[own.total >= DECIDES].sort_values("total", ascending=False)
-        named = (f"{row.factor} {row.total:.2f}" for row in deciding.itertuples())
         rows.append(
             {
                 "id": id_,
                 "claim": TITLES[id_],
                 "part": part,
-                "samples": len(said),
-                **{f"{word}_share": shares.get(word, 0.0) for word in (YES, PARTLY, NO)},
-                "predicted": predicted,
-                "decided_by": ", ".join(named) if predicted >= TRUSTED else "",
-                "runs": of_part.runs[part],
-                "cpu_s": of_part.cpu_s[part],
+                "samples": n_samples,
+                **{f"{word}_share": counts[word] / n_samples if n_samples else np.nan for word in SCORE},
+                "reference": reference.get(id_, ""),
+                "predicted": own.predicted.iloc[0] if len(own) else np.nan,
+                "decided_by": ", ".join(f"{row.factor} {row.total:.2f}" for row in deciding.itertuples()),
+                "runs_per_sample": of_part.runs[part],
+                "cpu_s_per_sample": of_part.cpu_s[part],
             }
         )
     return pd.DataFrame(rows)
