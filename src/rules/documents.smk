@@ -25,32 +25,33 @@ rule images:
         "../scripts/images.py"
 
 
-rule chart_images:
+use rule images as chart_images with:
     input:
         [f"{PLOTS}/chart_{name}.png" for name in CHART_FIGURES],
     output:
         [f"docs/images/chart_{name}.png" for name in CHART_FIGURES],
     log:
         f"{RESULTS}/logs/chart_images.log",
-    threads: 1
-    params:
-        colours=256,
-    script:
-        "../scripts/images.py"
 
 
-rule passage_images:
+use rule images as passage_images with:
     input:
         [f"{PLOTS}/{name}.png" for name in PASSAGE_FIGURES],
     output:
         [f"docs/images/{name}.png" for name in PASSAGE_FIGURES],
     log:
         f"{RESULTS}/logs/passage_images.log",
-    threads: 1
+
+
+use rule images as robustness_image with:
+    input:
+        f"{PLOTS}/robustness.png",
+    output:
+        "docs/images/robustness.png",
+    log:
+        f"{RESULTS}/logs/robustness_image.log",
     params:
-        colours=256,
-    script:
-        "../scripts/images.py"
+        colours=64,
 
 
 rule config_reference:
