@@ -55,11 +55,12 @@ def _draw_factors(axes, table: pd.DataFrame, indices: pd.DataFrame):
     factors = list(dict.fromkeys(indices.factor))
     total = of_verdict.pivot(index="id", columns="factor", values="total")
     total = total.reindex(index=table.id, columns=factors).astype(float)
+    most = np.fmax(DECIDES, total.max(axis=None))  # often small: many factors have their share
     columns, rows = np.arange(len(factors) + 1) - 0.5, np.arange(len(table) + 1) - 0.5
-    image = axes.pcolormesh(columns, rows, total, cmap=style.WEAR_MAP, vmin=0, vmax=1)
+    image = axes.pcolormesh(columns, rows, total, cmap=style.WEAR_MAP, vmin=0, vmax=most)
     for row, column in np.argwhere(total.to_numpy() >= DECIDES):
         value = total.iat[row, column]
-        colour = "white" if value > 0.5 else style.DARK
+        colour = "white" if value > most / 2 else style.DARK
         axes.text(column, row, f"{value:.1f}", ha="center", va="center", fontsize=6, color=colour)
     for row, predicted in enumerate(table.predicted):
         axes.axhline(row - 0.5, color="white", linewidth=0.6)
