@@ -123,8 +123,8 @@ def _validator() -> jsonschema.protocols.Validator:
     base = jsonschema.Draft202012Validator
     types = base.TYPE_CHECKER.redefine_many(
         {
-            "number": lambda _, value: _is_number(value) and abs(value) < math.inf,
-            "integer": lambda _, value: _is_number(value) and isinstance(value, int),
+            "number": lambda _, value: is_number(value) and abs(value) < math.inf,
+            "integer": lambda _, value: is_number(value) and isinstance(value, int),
         }
     )
     return jsonschema.validators.extend(base, {"pattern": _pattern}, type_checker=types)(schema())
@@ -136,7 +136,8 @@ def _pattern(_: Any, pattern: str, value: Any, __: Any) -> Iterator[jsonschema.V
         yield jsonschema.ValidationError(f"{value!r} does not match {pattern!r}")
 
 
-def _is_number(value: Any) -> bool:
+def is_number(value: Any) -> bool:
+    """Tell whether `value` is a number; those of Python include True and False, those of a config do not."""
     return isinstance(value, int | float) and not isinstance(value, bool)
 
 

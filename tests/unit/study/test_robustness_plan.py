@@ -5,7 +5,7 @@ import pytest
 import yaml
 
 from bladerub.config import ROOT, ConfigError, load, validate
-from bladerub.study.robustness.design import batch, blade_name, check, sample_configs, sample_digest
+from bladerub.study.robustness.design import batch, blade_name, check, sample_digest
 from bladerub.study.robustness.plan import BATCH, REFERENCE, REFERENCE_BATCH, read_plan
 
 PLAN = {
@@ -34,6 +34,14 @@ PLAN = {
         "stiff": {"claims": ["C12"], "samples": 4, "study": {}},
     },
 }
+
+
+def sample_configs(study, plan, part):
+    """The config of every sample of a part, in their order, from all of its jobs."""
+    made = {}
+    for name in range(len(part.batches())):
+        made |= batch(study, plan, part, str(name))
+    return [made[number] for number in range(part.samples)]
 
 
 @pytest.fixture

@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import copy
-import hashlib
-import json
 import re
 from collections.abc import Mapping
 from typing import Any
@@ -14,6 +12,7 @@ import numpy as np
 from bladerub import config as configuration
 from bladerub.config_faults import UNKNOWN, ConfigError, Fault, shown
 from bladerub.config_files import Marked, extended, lay_over, mark, plain
+from bladerub.provenance import config_digest
 from bladerub.study.grid import coating_cases
 from bladerub.study.robustness.plan import REFERENCE, REFERENCE_BATCH, Part, Plan
 
@@ -31,9 +30,8 @@ def check(study: Mapping[str, Any], plan: Plan) -> None:
     """
     for part in plan.parts.values():
         for number, places in enumerate(plan.places()[: part.samples]):
-            varied = _varied(study, plan, part, places)
             try:
-                configuration.checked(varied)
+                configuration.checked(_varied(study, plan, part, places))
             except ConfigError as error:
                 faults = [
                     Fault(place, f"parts.{part.name}, sample {number}: {text}")
@@ -42,34 +40,24 @@ def check(study: Mapping[str, Any], plan: Plan) -> None:
                 raise ConfigError(faults) from error
 
 
-def sample_configs(study: Mapping[str, Any], plan: Plan, part: Part) -> list[dict[str, Any]]:
-    """Make the config of every sample of a part, in their order, unchecked.
+def batch(study: Mapping[str, Any], plan: Plan, part: Part, name: str) -> dict[int, dict[str, Any]]:
+    """Make the config of each sample of one job by its number, unchecked.
+
+    Parameters
+    ----------
+    name : str
+        Number of the job, one of `bladerub.study.robustness.plan.Part.batches`, or `REFERENCE_BATCH`,
+        whose only sample has the study's own values.
 
     Raises
     ------
     ConfigError
         If a factor sets what the study does not have.
     """
-    return [plain(_varied(study, plan, part, places)) for places in plan.places()[: part.samples]]
-
-
-def reference_config(study: Mapping[str, Any], part: Part) -> dict[str, Any]:
-    """Make the config of a part with the study's own values in place of a sample's."""
-    return plain(lay_over(mark(study, UNKNOWN), extended(part.study)))
-
-
-def batch(study: Mapping[str, Any], plan: Plan, part: Part, name: str) -> dict[int, dict[str, Any]]:
-    """Make the config of each sample of one job by its number.
-
-    Parameters
-    ----------
-    name : str
-        Number of the job, one of `bladerub.study.robustness.plan.Part.batches`, or `REFERENCE_BATCH`.
-    """
     if name == REFERENCE_BATCH:
-        return {REFERENCE: reference_config(study, part)}
-    samples = sample_configs(study, plan, part)
-    return {number: samples[number] for number in part.batches()[int(name)]}
+        return {REFERENCE: plain(_laid_over(study, part))}
+    places = plan.places()
+    return {number: plain(_varied(study, plan, part, places[number])) for number in part.batches()[int(name)]}
 
 
 def sample_digest(config: Mapping[str, Any]) -> str:
@@ -77,20 +65,20 @@ def sample_digest(config: Mapping[str, Any]) -> str:
     used = {case.casing for case in coating_cases(config)}
     determining = {key: config[key] for key in _DETERMINING}
     determining["casings"] = {name: config["casings"][name] for name in sorted(used)}
-    return _digest(determining)
+    return config_digest(determining)
 
 
 def blade_name(config: Mapping[str, Any]) -> str:
     """Name the blade of a sample; samples with the same blade have the same."""
-    return _digest([config["blade"], config["reduction"]])[:12]
+    return config_digest({key: config[key] for key in ("blade", "reduction")})[:12]
 
 
-def _digest(content: Any) -> str:
-    return hashlib.sha256(json.dumps(content, sort_keys=True).encode()).hexdigest()
+def _laid_over(study: Mapping[str, Any], part: Part) -> Marked:
+    return lay_over(mark(study, UNKNOWN), extended(part.study))
 
 
 def _varied(study: Mapping[str, Any], plan: Plan, part: Part, places: np.ndarray) -> Marked:
-    varied = lay_over(mark(study, UNKNOWN), extended(part.study))
+    varied = _laid_over(study, part)
     for factor, at in zip(plan.factors, places, strict=True):
         for path, value in factor.values(float(at)).items():
             said = f"factors.{factor.name}.sets.{path}"
@@ -107,7 +95,7 @@ def _replaced(config: Marked, keys: list[str | int], value: Marked, said: str) -
     """Set the number that `keys` lead to, in a copy."""
     content = config.content
     if not keys:
-        if isinstance(content, bool) or not isinstance(content, int | float):
+        if not configuration.is_number(content):
             raise ConfigError([Fault(value.place, f"{said} = {shown(plain(config))}: must be a number")])
         return value
     known = content if isinstance(content, dict) else range(len(content)) if isinstance(content, list) else ()

@@ -16,6 +16,7 @@ from typing import Any, NoReturn
 import numpy as np
 from scipy.stats import qmc
 
+from bladerub.config import is_number
 from bladerub.config_faults import UNKNOWN, ConfigError, Fault, Place, shown
 from bladerub.config_files import Marked, plain
 from bladerub.config_files import read as read_file
@@ -64,10 +65,6 @@ class Factor:
     def values(self, at: float) -> dict[str, float]:
         """Return each number that the factor sets, `at` between 0 and 1 of its range."""
         return {path: self._between(*ends, at) for path, ends in self.ends.items()}
-
-    def value(self, at: float) -> float:
-        """Return the first of those numbers."""
-        return next(iter(self.values(at).values()))
 
     def _between(self, low: float, high: float, at: float) -> float:
         if self.logarithmic:
@@ -171,7 +168,7 @@ def _factor(name: str, entry: Marked, where: str) -> Factor:
     multiple = None
     if "multiple_of" in group:
         multiple = plain(group["multiple_of"])
-        if not _is_number(multiple) or multiple <= 0:
+        if not _is_finite(multiple) or multiple <= 0:
             _refuse(group["multiple_of"], f"{where}.multiple_of", "a number above 0")
     ends = {
         path: _ends(pair, f"{where}.sets.{path}", scale, multiple)
@@ -186,7 +183,7 @@ def _factor(name: str, entry: Marked, where: str) -> Factor:
 
 def _ends(entry: Marked, where: str, scale: str, multiple: float | None) -> tuple[float, float]:
     pair = plain(entry)
-    if not isinstance(pair, list) or len(pair) != 2 or not all(map(_is_number, pair)) or pair[0] >= pair[1]:
+    if not isinstance(pair, list) or len(pair) != 2 or not all(map(_is_finite, pair)) or pair[0] >= pair[1]:
         _refuse(entry, where, "a list of two numbers, the lower first")
     if scale == "log" and pair[0] <= 0:
         _refuse(entry, where, "above 0 on a logarithmic scale")
@@ -245,8 +242,8 @@ def _whole(entry: Marked, where: str, least: int, most: int) -> int:
     return value
 
 
-def _is_number(value: Any) -> bool:
-    return isinstance(value, int | float) and not isinstance(value, bool) and math.isfinite(value)
+def _is_finite(value: Any) -> bool:
+    return is_number(value) and abs(value) < math.inf
 
 
 def _refuse(entry: Marked, where: str, right: str) -> NoReturn:
