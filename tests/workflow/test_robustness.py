@@ -11,19 +11,16 @@ PLAN = {
     "seed": 1,
     "factors": {
         "unit": {
-            "title": "unit of E and K",
             "unit": "Pa",
             "scale": "log",
             "sets": {"contact.modulus_unit": [2.0e8, 8.0e8]},
         },
         "lean": {
-            "title": "cone of the flow path",
             "unit": "degrees",
             "sets": {"blade.tip_cone": [12.0, 13.0]},
             "multiple_of": 1,
         },
         "step": {
-            "title": "speed step",
             "unit": "1",
             "sets": {"speeds.step": [0.03, 0.05]},
             "multiple_of": 0.005,

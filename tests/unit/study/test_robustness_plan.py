@@ -12,18 +12,15 @@ PLAN = {
     "seed": 3,
     "factors": {
         "unit": {
-            "title": "unit of E and K",
             "unit": "Pa",
             "scale": "log",
             "sets": {"contact.modulus_unit": [1.0e8, 1.0e10]},
         },
         "weight": {
-            "title": "weight",
             "unit": "1",
             "sets": {"casings.2nd5nd.weights[0]": [0.0, 1.0], "casings.2nd.amplitude": [2e-3, 4e-3]},
         },
         "turns": {
-            "title": "revolutions",
             "unit": "1",
             "sets": {"solver.revolutions": [12, 30]},
             "multiple_of": 1,

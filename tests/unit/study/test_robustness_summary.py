@@ -11,13 +11,8 @@ IDLE = {"contact.damping_ratio": (0.0, 1.0), "contact.tip_profile.half_width": (
 PLAN = Plan(
     seed=1,
     factors=(
-        Factor("unit", "unit of E and K", "Pa", {"contact.modulus_unit": (1e8, 1e10)}, logarithmic=True),
-        Factor(
-            "idle",
-            "nothing",
-            "1",
-            {"contact.damping_ratio": (0.0, 1.0), "contact.tip_profile.half_width": (0, 2)},
-        ),
+        Factor("unit", "Pa", {"contact.modulus_unit": (1e8, 1e10)}, logarithmic=True),
+        Factor("idle", "1", {"contact.damping_ratio": (0.0, 1.0), "contact.tip_profile.half_width": (0, 2)}),
     ),
     parts={"lobes": Part("lobes", ("C2", "C3"), 64, Marked({}, UNKNOWN))},
 )

@@ -42,8 +42,8 @@ class Factor:
 
     Parameters
     ----------
-    name, title, unit : str
-        Name in the plan, in words, and the unit of its values.
+    name, unit : str
+        Name in the plan, and the unit of its values.
     ends : dict of str to tuple of float
         Lowest and highest value of each number of the config that the factor sets.
     logarithmic : bool
@@ -55,7 +55,6 @@ class Factor:
     """
 
     name: str
-    title: str
     unit: str
     ends: dict[str, tuple[float, float]]
     logarithmic: bool = False
@@ -160,8 +159,8 @@ def read_plan(path: str | Path) -> Plan:
 
 
 def _factor(name: str, entry: Marked, where: str) -> Factor:
-    group = _group(entry, where, {"title", "unit", "sets"}, {"scale", "multiple_of"})
-    texts = {key: _text(group[key], f"{where}.{key}") for key in ("title", "unit")}
+    group = _group(entry, where, {"unit", "sets"}, {"scale", "multiple_of"})
+    unit = _text(group["unit"], f"{where}.unit")
     scale = _text(group["scale"], f"{where}.scale") if "scale" in group else "linear"
     if scale not in ("linear", "log"):
         _refuse(group["scale"], f"{where}.scale", "linear or log")
@@ -176,9 +175,7 @@ def _factor(name: str, entry: Marked, where: str) -> Factor:
     }
     if not ends:
         _refuse(group["sets"], f"{where}.sets", "at least one number of the config, with its two ends")
-    return Factor(
-        name, **texts, ends=ends, logarithmic=scale == "log", multiple_of=multiple, place=entry.place
-    )
+    return Factor(name, unit, ends, logarithmic=scale == "log", multiple_of=multiple, place=entry.place)
 
 
 def _ends(entry: Marked, where: str, scale: str, multiple: float | None) -> tuple[float, float]:
