@@ -13,6 +13,8 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
+from scipy import sparse
+from scipy.linalg import blas
 from threadpoolctl import threadpool_limits
 
 from bladerub import datafile, tablefile
@@ -296,8 +298,11 @@ def _frequencies_by_law(blade: DiscreteBlade, fits: list, f_max: float) -> dict[
     shares = speed_law(np.eye(len(fits)), f_max)  # of the fits: coefficients as large would fill the memory
     found = {}
     for f_omega in blade.frequencies:
-        weighted = zip(stiffness_at(shares, f_omega), fits, strict=True)
-        nearby = Nearby(sum(weight * fit for weight, fit in weighted), blade.at_rest)
+        values = np.zeros(fits[0].nnz)
+        for weight, fit in zip(stiffness_at(shares, f_omega), fits, strict=True):
+            values = blas.daxpy(fit.data, values, a=weight)  # in place
+        law = sparse.csc_array((values, fits[0].indices, fits[0].indptr), shape=fits[0].shape)
+        nearby = Nearby(law, blade.at_rest)
         found[f_omega] = nearby.lowest_modes(blade.mass, blade.modes_at_speed[f_omega])[0]
     return found
 

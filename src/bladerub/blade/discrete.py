@@ -45,7 +45,7 @@ class DiscreteBlade:
         The columns that go with it.
     at_rest : callable, optional
         The factored stiffness at rest of a large blade: what solves at speed, too, by
-        `bladerub.blade.nearby.Nearby`.
+        `bladerub.blade.nearby.Nearby`. With it, `stiffness` has the same pattern at each speed.
     modes_at_speed : mapping of float to (n, n_modes) ndarray
         With it, the modes that go with `frequencies`.
     """

@@ -17,6 +17,7 @@ from collections import deque
 from collections.abc import Mapping
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from scipy import sparse
@@ -113,6 +114,11 @@ class Solid(FreeCoordinates):
             deque(pool.map(integrate, range(0, len(elements), _CHUNK)), maxlen=0)  # for their errors
         return self._pattern.assemble(elements)
 
+    @cached_property
+    def spinning_mass(self) -> np.ndarray:
+        """Mass of motion along y and z at each entry of `tangent`, kg: what the rotation acts on."""
+        return self._pattern.values_of(self.mass * (self.axis != 0))  # columns: mass couples no two axes
+
     def deformation_gradient(self, u: np.ndarray) -> np.ndarray:
         """Evaluate F (n_elements, n_points, 3, 3) at the integration points."""
         return _deformation_gradient(self._gradients, self._element_displacement(u))
@@ -188,3 +194,13 @@ class _Pattern:
         size = self._rows.size
         values = np.bincount(self._target, weights=elements.ravel(), minlength=size + 1)[:size]
         return sparse.csc_array((values, self._rows, self._starts), shape=self._shape)
+
+    def values_of(self, matrix: sparse.sparray) -> np.ndarray:
+        """Values of a `matrix` with some of these entries at each of them, 0 where it has none."""
+        matrix = sparse.csc_array(matrix).sorted_indices()
+        numbers = np.arange(1.0, self._rows.size + 1)
+        numbered = sparse.csc_array((numbers, self._rows, self._starts), shape=self._shape)
+        there = sparse.csc_array((np.ones(matrix.nnz), matrix.indices, matrix.indptr), shape=self._shape)
+        values = np.zeros(self._rows.size)
+        values[(numbered * there).data.astype(np.intp) - 1] = matrix.data
+        return values

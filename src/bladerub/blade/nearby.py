@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from scipy import sparse
@@ -10,6 +10,7 @@ from scipy.linalg import solve_triangular
 
 from bladerub.blade import linear
 from bladerub.blade.linear import Solve
+from bladerub.blade.products import Product
 
 MOST_ITERATIONS = 40
 """Iterations after which the matrix is not near, and gets factors of its own."""
@@ -34,7 +35,10 @@ class Nearby:
     matrix: sparse.csc_array
     factors: Solve
     tolerance: float = 1e-12
-    _own: Solve | None = None
+    _own: Solve | None = field(init=False, default=None)
+
+    def __post_init__(self):
+        self._times = Product(self.matrix)
 
     def __call__(self, rhs: np.ndarray) -> np.ndarray:
         """Solve for a right-hand side (n,) or several (n, k)."""
@@ -47,7 +51,7 @@ class Nearby:
 
     def _by_conjugate_gradients(self, rhs: np.ndarray) -> np.ndarray | None:
         solution = self.factors(rhs)
-        residual = rhs - self.matrix @ solution
+        residual = rhs - self._times(solution)
         goal = self.tolerance**2 * np.sum(rhs * solution, axis=0)
         direction, size_before = 0.0, 1.0
         for _ in range(MOST_ITERATIONS):
@@ -56,7 +60,7 @@ class Nearby:
             if np.all(size <= goal):
                 return solution
             direction = correction + (size / size_before) * direction
-            image = self.matrix @ direction
+            image = self._times(direction)
             curvature = np.sum(direction * image, axis=0)
             if not np.all(curvature > 0):  # not positive definite, or a right-hand side of zeros
                 return None
@@ -88,7 +92,7 @@ class Nearby:
             except np.linalg.LinAlgError:  # nothing new in it
                 break
             basis, momenta = np.hstack([basis, addition]), np.hstack([momenta, momentum])
-            images = np.hstack([images, self.matrix @ addition])
+            images = np.hstack([images, self._times(addition)])
             squares, shares = np.linalg.eigh(basis.T @ images)
             squares, shares = squares[:n_modes], shares[:, :n_modes]
             modes = basis @ shares

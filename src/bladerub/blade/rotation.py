@@ -76,9 +76,8 @@ def equilibrium(
     n_iterations = n_steps = 0
     while reached != target:
         aim = target if abs(target - reached) <= abs(step) else reached + step
-        found, iterations = _newton(
-            solid, aim, u, at_rest, None if known is None else known - (aim - reached) * _spin(solid)
-        )
+        tangent = None if known is None else _softened(solid, known, aim - reached)
+        found, iterations = _newton(solid, aim, u, at_rest, tangent)
         n_iterations += iterations
         if found is not None:
             reached, u, known = aim, found, None
@@ -95,11 +94,13 @@ def equilibrium(
 
 def rotating_stiffness(solid: Solid, u: np.ndarray, omega_squared: float) -> sparse.csc_array:
     """Evaluate the derivative (n, n) of `residual` at `u`, N/m; the spin softening acts on y and z."""
-    return sparse.csc_array(solid.tangent(u) - omega_squared * _spin(solid))
+    return _softened(solid, solid.tangent(u), omega_squared)
 
 
-def _spin(solid: Solid) -> sparse.csc_array:
-    return solid.mass * (solid.axis != 0)  # columns of y and z: mass couples no two axes
+def _softened(solid: Solid, stiffness: sparse.csc_array, omega_squared: float) -> sparse.csc_array:
+    values = -omega_squared * solid.spinning_mass
+    values += stiffness.data
+    return sparse.csc_array((values, stiffness.indices, stiffness.indptr), shape=stiffness.shape)
 
 
 def centrifugal_load(solid: Solid, u: np.ndarray, omega_squared: float) -> np.ndarray:

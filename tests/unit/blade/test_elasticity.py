@@ -1,6 +1,7 @@
 import numpy as np
 import pytest
 from blade_parts import tetrahedral_mesh
+from scipy import sparse
 from scipy.sparse.linalg import spsolve
 from skfem import Basis, BilinearForm, ElementVector, LinearForm
 from skfem.helpers import ddot, eye, grad, identity, trace, transpose
@@ -102,6 +103,14 @@ def test_elements_in_pieces_give_the_same_tangent(block, monkeypatch):
     np.testing.assert_allclose(
         block.tangent(u).toarray(), at_once, rtol=0, atol=1e-14 * np.abs(at_once).max()
     )
+
+
+def test_spinning_mass_has_the_places_of_the_tangent(make_block):
+    block = make_block(SIZE, (2, 1, 2), clamp_bottom=True)
+    tangent = block.tangent(np.zeros(block.free.size))
+    placed = sparse.csc_array((block.spinning_mass, tangent.indices, tangent.indptr), shape=tangent.shape)
+    np.testing.assert_array_equal(placed.toarray(), block.mass.toarray() * (block.axis != 0))
+    assert placed.nnz == tangent.nnz
 
 
 def test_patch_of_distorted_elements_holds_a_uniform_strain(make_block, make_mesh):
