@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 from matplotlib.ticker import LogLocator, NullFormatter, StrMethodFormatter
@@ -24,6 +25,7 @@ def chart_pareto(chart: pd.DataFrame, front: pd.DataFrame) -> Figure:
         From `bladerub.study.chart.choice.pareto`.
     """
     angles = sorted(chart.theta.unique())
+    chart, front = (rows[rows.worn_volume > 0] for rows in (chart, front))  # as logarithmic axes have it
     figure = new_figure(PAGE, 0.5 * PAGE)
     row = figure.subplots(1, len(angles), sharex=True, sharey=True, squeeze=False)[0]
     for index, (axes, theta) in enumerate(zip(row, angles, strict=True)):
@@ -34,7 +36,7 @@ def chart_pareto(chart: pd.DataFrame, front: pd.DataFrame) -> Figure:
         axes.plot(
             *_point(safe), "s", mfc=ORANGE, mec=DARK, ms=5, ls="none", label="of these, within all limits"
         )
-        for place in sorted({round(i * (len(best) - 1) / (_LABELLED - 1)) for i in range(_LABELLED)}):
+        for place in _labelled(best, chart):
             coating = best.iloc[place]
             axes.annotate(
                 f"E {coating.E:g}, K {coating.K:g}",
@@ -52,6 +54,16 @@ def chart_pareto(chart: pd.DataFrame, front: pd.DataFrame) -> Figure:
     row[0].set_ylabel("greatest worn volume (cm³)")
     figure.legend(*row[0].get_legend_handles_labels(), loc="outside upper center", ncols=3)
     return figure
+
+
+def _labelled(front: pd.DataFrame, chart: pd.DataFrame) -> list[int]:
+    """Places in `front` of coatings that lie evenly along it, as it is drawn."""
+    if front.empty:
+        return []
+    sides = [np.ptp(np.log(values)) for values in _point(chart)]
+    steps = [np.diff(np.log(values)) / side for values, side in zip(_point(front), sides, strict=True)]
+    along = np.append(0, np.cumsum(np.hypot(*steps)))
+    return sorted({int(np.abs(along - at).argmin()) for at in np.linspace(0, along[-1], _LABELLED)})
 
 
 def _point(rows: pd.DataFrame) -> tuple[pd.Series, pd.Series]:

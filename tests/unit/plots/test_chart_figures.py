@@ -59,6 +59,26 @@ def test_the_front_is_drawn_and_named(chart, draws):
     assert [text.get_text() for text in axes.texts] == ["E 0.11, K 0.3"]
 
 
+def test_names_lie_evenly_along_the_front(draws):
+    n = 101
+    curve = pd.DataFrame({"theta": 0.0, "E": np.arange(n), "K": 1.0, "peak": np.geomspace(1e-3, 1e-2, n)})
+    curve["worn_volume"] = 1e-4 * np.minimum(1, np.geomspace(1e2, 1e-2, n))  # flat, then steep
+    curve["safe"] = False
+    axes = draws(chart_pareto(curve, curve)).axes[0]
+    named = np.array([int(text.get_text().split()[1].rstrip(",")) for text in axes.texts])
+    assert named[0] == 0
+    assert named[-1] == n - 1
+    apart = np.hypot(np.diff(named) / 100, np.diff(np.log(curve.worn_volume[named])) / np.log(100))
+    assert np.ptp(apart) < 0.5 * apart.mean()
+
+
+def test_coatings_that_are_not_worn_have_no_place_on_the_axis(chart, draws):
+    chart.loc[chart.theta == 0, "worn_volume"] = 0.0
+    at_0, at_15 = draws(chart_pareto(chart, pareto(chart, LIMITS))).axes
+    assert not at_0.texts
+    assert [text.get_text() for text in at_15.texts] == ["E 0.11, K 0.3"]
+
+
 def test_the_ridge_is_drawn_against_what_explains_it(chart, draws):
     peaks = chart.assign(order=4, amplitude=chart.Y4, E_T=chart.E * chart.K / (chart.E + chart.K))
     peaks = peaks.assign(wear_per_cycle=1e3 * peaks.amplitude, lobes=4)
