@@ -17,7 +17,7 @@ class Product:
     """Multiplies by a symmetric matrix whose rows come in threes, those of a node, with the same columns.
 
     A node's three rows are summed together, so that what they are multiplied by is fetched once; SciPy
-    fetches it for each and keeps other threads waiting meanwhile. It is left the matrices that are otherwise.
+    fetches it for each and keeps other threads waiting meanwhile. Matrices that are otherwise are left to it.
 
     Parameters
     ----------
@@ -38,7 +38,8 @@ class Product:
         padded[:, :width], padded[:, width:] = block, 0
         product = _aligned(*padded.shape)
         starts = self._matrix.indptr
-        shares = np.searchsorted(starts[::3], np.linspace(0, starts[-1], _THREADS + 1))
+        even = np.linspace(0, starts[-1], _THREADS + 1)[1:-1]
+        shares = [0, *np.searchsorted(starts[::3], even), n // 3]  # of the nodes, with as many entries each
 
         def multiply(first_node: int, last_node: int) -> None:
             _multiply(

@@ -47,6 +47,15 @@ def test_the_number_of_threads_changes_no_bit(stiffness, monkeypatch):
         np.testing.assert_array_equal(Product(stiffness)(block), both)
 
 
+def test_rows_without_entries_are_zeros(stiffness, monkeypatch):
+    none = sparse.csc_array((3, 3))
+    padded = sparse.csc_array(sparse.block_diag([none, stiffness, none]))
+    monkeypatch.setattr(products.np, "empty", lambda size: np.full(size, np.nan))
+    product = Product(padded)(np.ones((padded.shape[0], 2)))
+    np.testing.assert_array_equal(product[[0, 1, 2, -3, -2, -1]], 0)
+    assert np.isfinite(product).all()
+
+
 def test_a_vector_and_other_patterns_are_left_to_scipy(solid, stiffness, scipy_products):
     n = stiffness.shape[0]
     less_one = sparse.csc_array(stiffness[:-1][:, :-1])
