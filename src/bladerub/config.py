@@ -123,7 +123,7 @@ def _validator() -> jsonschema.protocols.Validator:
     base = jsonschema.Draft202012Validator
     types = base.TYPE_CHECKER.redefine_many(
         {
-            "number": lambda _, value: is_number(value) and abs(value) < math.inf,
+            "number": lambda _, value: is_number(value),
             "integer": lambda _, value: is_number(value) and isinstance(value, int),
         }
     )
@@ -137,8 +137,8 @@ def _pattern(_: Any, pattern: str, value: Any, __: Any) -> Iterator[jsonschema.V
 
 
 def is_number(value: Any) -> bool:
-    """Tell whether `value` is a number; those of Python include True and False, those of a config do not."""
-    return isinstance(value, int | float) and not isinstance(value, bool)
+    """Tell whether `value` is a finite number; True and False are none in a config, unlike in Python."""
+    return isinstance(value, int | float) and not isinstance(value, bool) and abs(value) < math.inf
 
 
 def _describe(error: jsonschema.ValidationError) -> list[str]:

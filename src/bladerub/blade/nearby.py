@@ -10,7 +10,6 @@ from scipy.linalg import solve_triangular
 
 from bladerub.blade import linear
 from bladerub.blade.linear import Solve
-from bladerub.blade.products import Product
 
 MOST_ITERATIONS = 40
 """Iterations after which the matrix is not near, and gets factors of its own."""
@@ -38,6 +37,8 @@ class Nearby:
     _own: Solve | None = field(init=False, default=None)
 
     def __post_init__(self):
+        from bladerub.blade.products import Product  # compiles, which small blades need not wait for
+
         self._times = Product(self.matrix)
 
     def __call__(self, rhs: np.ndarray) -> np.ndarray:

@@ -34,9 +34,9 @@ class Product:
         if block.ndim == 1 or not self._is_by_node:
             return self._matrix @ block
         n, width = block.shape
-        padded = _aligned(n, -(-width // LANES) * LANES)
-        padded[:, :width], padded[:, width:] = block, 0
-        product = _aligned(*padded.shape)
+        padded = np.zeros((n, -(-width // LANES) * LANES))
+        padded[:, :width] = block
+        product = np.empty(padded.shape)
         starts = self._matrix.indptr
         even = np.linspace(0, starts[-1], _THREADS + 1)[1:-1]
         shares = [0, *np.searchsorted(starts[::3], even), n // 3]  # of the nodes, with as many entries each
@@ -51,13 +51,6 @@ class Product:
         with ThreadPoolExecutor(_THREADS) as pool:
             list(pool.map(multiply, shares, shares[1:]))  # for their errors
         return product[:, :width]
-
-
-def _aligned(n: int, width: int) -> np.ndarray:
-    """Make an array (n, width) that starts where a vector may: one that straddles cache lines is slow."""
-    buffer = np.empty(n * width + LANES)
-    start = -(buffer.ctypes.data // buffer.itemsize) % LANES
-    return buffer[start : start + n * width].reshape(n, width)
 
 
 @njit(nogil=True)

@@ -11,7 +11,7 @@ import re
 from collections.abc import Iterator, Set
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, NoReturn
+from typing import NoReturn
 
 import numpy as np
 from scipy.stats import qmc
@@ -167,7 +167,7 @@ def _factor(name: str, entry: Marked, where: str) -> Factor:
     multiple = None
     if "multiple_of" in group:
         multiple = plain(group["multiple_of"])
-        if not _is_finite(multiple) or multiple <= 0:
+        if not is_number(multiple) or multiple <= 0:
             _refuse(group["multiple_of"], f"{where}.multiple_of", "a number above 0")
     ends = {
         path: _ends(pair, f"{where}.sets.{path}", scale, multiple)
@@ -180,7 +180,7 @@ def _factor(name: str, entry: Marked, where: str) -> Factor:
 
 def _ends(entry: Marked, where: str, scale: str, multiple: float | None) -> tuple[float, float]:
     pair = plain(entry)
-    if not isinstance(pair, list) or len(pair) != 2 or not all(map(_is_finite, pair)) or pair[0] >= pair[1]:
+    if not isinstance(pair, list) or len(pair) != 2 or not all(map(is_number, pair)) or pair[0] >= pair[1]:
         _refuse(entry, where, "a list of two numbers, the lower first")
     if scale == "log" and pair[0] <= 0:
         _refuse(entry, where, "above 0 on a logarithmic scale")
@@ -237,10 +237,6 @@ def _whole(entry: Marked, where: str, least: int, most: int) -> int:
     if isinstance(value, bool) or not isinstance(value, int) or not least <= value <= most:
         _refuse(entry, where, f"a whole number from {least} to {most}")
     return value
-
-
-def _is_finite(value: Any) -> bool:
-    return is_number(value) and abs(value) < math.inf
 
 
 def _refuse(entry: Marked, where: str, right: str) -> NoReturn:
