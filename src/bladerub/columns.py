@@ -102,6 +102,18 @@ COLUMNS = {
     ),
     "safe": Column(BOOLEAN, None, "whether the limits of the config are kept"),
     "E_T": Column(NUMBER, "1", "modulus of the contact while it wears, E K / (E + K)"),
+    "f_crossing": Column(NUMBER, "1", "f_omega at which the engine order crosses C1, without contact"),
+    "below_crossing": Column(INTEGER, "1", "coatings whose f_peak is below f_crossing, so another response"),
+    **{
+        f"rank_correlation_{modulus}": Column(NUMBER, "1", f"rank correlation of f_peak with {modulus}")
+        for modulus in ("E_T", "K", "E")
+    },
+    **{
+        f"scatter_{modulus}": Column(
+            NUMBER, "1", f"distance of f_peak from the best curve that rises with {modulus}, root mean square"
+        )
+        for modulus in ("E_T", "K", "E")
+    },
     "wear_per_cycle": Column(NUMBER, "J", "energy dissipated by wear in a cycle of the vibration"),
     "sliding_per_cycle": Column(NUMBER, "J", "energy dissipated by the tangential resistance in a cycle"),
     "damping_per_cycle": Column(NUMBER, "J", "energy dissipated by modal damping in a cycle"),

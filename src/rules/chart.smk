@@ -198,6 +198,26 @@ rule chart_explanation:
         "../scripts/chart_explanation.py"
 
 
+rule chart_stiffening:
+    input:
+        peaks=rules.chart_explanation.output.table,
+        analysing=charting("stiffening"),
+        drawing=drawing("chart_stiffening"),
+    output:
+        **drawn("chart_stiffening", "Choice of a coating"),
+        table=f"{RESULTS}/tables/chart_stiffening.csv",
+        description=f"{RESULTS}/tables/chart_stiffening.csv-metadata.json",
+    log:
+        f"{RESULTS}/logs/chart_stiffening.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/chart_stiffening.tsv"
+    threads: 1
+    params:
+        dpi=DPI,
+    script:
+        "../scripts/chart_stiffening.py"
+
+
 rule chart_placement:
     # how well the search does, from the study alone: `snakemake results/tables/chart_placement.csv`
     input:
@@ -246,6 +266,7 @@ rule chart:
         rules.chart_safe.output,
         rules.chart_pareto.output,
         rules.chart_explanation.output,
+        rules.chart_stiffening.output,
 
 
 localrules:

@@ -7,7 +7,7 @@ IMAGES = [
     for path in output
     if path.endswith(".png")
 ]
-CHART_FIGURES = [*CHARTED, "safe", "pareto", "explanation"]
+CHART_FIGURES = [*CHARTED, "safe", "pareto", "explanation", "stiffening"]
 PASSAGE_FIGURES = ["sweeps", "long_runs"]
 
 

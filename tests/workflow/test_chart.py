@@ -7,7 +7,19 @@ import pytest
 
 from bladerub import tablefile
 
-FIGURES = ["Y4", "f4", "Y6", "f6", "peak", "worn_volume", "divergent_share", "safe", "pareto", "explanation"]
+FIGURES = [
+    "Y4",
+    "f4",
+    "Y6",
+    "f6",
+    "peak",
+    "worn_volume",
+    "divergent_share",
+    "safe",
+    "pareto",
+    "explanation",
+    "stiffening",
+]
 AGREEMENT = "results/tables/chart_agreement.csv"
 
 

@@ -8,6 +8,8 @@ from bladerub.plots.chart_explanation import chart_explanation
 from bladerub.plots.chart_map import QUANTITIES, chart_map
 from bladerub.plots.chart_pareto import chart_pareto
 from bladerub.plots.chart_safe import chart_safe
+from bladerub.plots.chart_stiffening import chart_stiffening
+from bladerub.study.chart import stiffening
 from bladerub.study.chart.choice import broken_limits, pareto
 
 LIMITS = {"amplitude": 2.5e-3, "wear": 1e-3, "divergent_share": 0.0}
@@ -88,3 +90,14 @@ def test_the_ridge_is_drawn_against_what_explains_it(chart, draws):
     assert labels == ["all coatings", "on the ridge, by E", "across its highest cell, by K"]
     np.testing.assert_allclose(energy.lines[1].get_xdata(), [1.11, 1.5, 2.1])
     assert lobes.lines[1].get_linestyle() == "None"
+
+
+def test_stiffening_is_drawn_over_the_modulus_of_the_contact(chart, draws):
+    peaks = chart.assign(order=4, f_crossing=0.29, E_T=chart.E * chart.K / (chart.E + chart.K))
+    peaks["f_peak"] = 0.29 + 0.05 * peaks.E_T
+    peaks.loc[peaks.E == 0.11, "f_peak"] = 0.28
+    (axes,) = draws(chart_stiffening(peaks, stiffening.table(peaks))).axes
+    found, other, *_ = axes.lines
+    np.testing.assert_allclose(found.get_ydata(), 0.29 + 0.05 * found.get_xdata())
+    assert found.get_label() == r"$\theta$ = 0 rad, rank correlation 1.00"
+    np.testing.assert_array_equal(other.get_ydata(), [0.28] * 3)

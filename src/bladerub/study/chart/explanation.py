@@ -11,7 +11,7 @@ import pandas as pd
 from bladerub.study.chart.cell import Cell
 from bladerub.study.chart.grid import ORDERS
 from bladerub.study.chart.table import CELL
-from bladerub.study.peaks import peak
+from bladerub.study.peaks import crossing_speed, peak
 
 LOSSES = ("wear", "sliding", "damping")
 """Where the energy goes: into the coating, into its tangential resistance, into the blade's own damping."""
@@ -28,9 +28,9 @@ def table(config: Mapping[str, Any], chart: Iterable[Cell]) -> pd.DataFrame:
     Returns
     -------
     DataFrame
-        A row per cell and order: `bladerub.study.chart.table.CELL`, ``order``, ``E_T``, ``f_peak``,
-        ``amplitude`` (m), ``lobes`` and each of `LOSSES` as ``<loss>_per_cycle`` (J): the mean over the run,
-        in which a vibration on the order k has k cycles a revolution.
+        A row per cell and order: `bladerub.study.chart.table.CELL`, ``order``, ``E_T``, ``f_crossing``,
+        ``f_peak``, ``amplitude`` (m), ``lobes`` and each of `LOSSES` as ``<loss>_per_cycle`` (J): the mean
+        over the run, in which a vibration on the order k has k cycles a revolution.
 
     Raises
     ------
@@ -48,6 +48,7 @@ def table(config: Mapping[str, Any], chart: Iterable[Cell]) -> pd.DataFrame:
                 | {
                     "order": order,
                     "E_T": contact_stiffness(cell.case.E, cell.case.K),
+                    "f_crossing": crossing_speed(cell, order),
                     "f_peak": found.f_omega,
                     "amplitude": found.amplitude,
                     "lobes": int(cell.measures["lobes"][at]),

@@ -3,7 +3,7 @@ import pandas as pd
 import pytest
 
 from bladerub.columns import COLUMNS
-from bladerub.study.chart import check, choice, explanation, ridge, table
+from bladerub.study.chart import check, choice, explanation, ridge, stiffening, table
 from bladerub.study.chart.cell import read, write
 from bladerub.study.chart.manifest import CellRow, is_current, lost_cell
 from bladerub.study.chart.manifest import write as write_manifest
@@ -88,7 +88,54 @@ def test_the_explanation_counts_cycles(config, chart):
     assert found.wear_per_cycle[1.0, 1.0, 4] == pytest.approx(240 / (20 * 4))
     assert found.wear_per_cycle[1.0, 1.0, 6] == pytest.approx(240 / (20 * 6))
     assert found.E_T[1.0, 1.0, 4] == pytest.approx(0.5)
+    assert found.f_crossing[1.0, 1.0, 4] == pytest.approx(1 / np.sqrt(13), abs=1e-5)
     assert set(found.reset_index().columns) <= COLUMNS.keys()
+
+
+@pytest.fixture
+def peaks():
+    """f4 is a function of E_T alone; f6 lies below the crossing where E = 2."""
+    rows = [
+        {"order": order, "theta": 0.0, "E": e, "K": k, "E_T": e * k / (e + k)}
+        for order in (4, 6)
+        for e in E
+        for k in K
+    ]
+    found = pd.DataFrame(rows)
+    found["f_peak"] = 0.3 + 0.05 * np.tanh(found.E_T)
+    found["f_crossing"] = np.where((found.order == 6) & (found.E == 2), 0.4, 0.3)
+    return found
+
+
+def test_a_speed_that_follows_the_modulus_of_the_contact_does_not_scatter_about_it(peaks):
+    found = stiffening.table(peaks)
+    of_four = found.set_index("order").loc[4]
+    assert of_four.rank_correlation_E_T == pytest.approx(1)
+    assert of_four.scatter_E_T == pytest.approx(0, abs=1e-12)
+    assert max(of_four.rank_correlation_K, of_four.rank_correlation_E) < 0.95
+    assert set(found.columns) <= COLUMNS.keys()
+
+
+def test_scatter_is_that_about_the_mean_where_f_falls_throughout(peaks):
+    peaks = peaks[peaks.order == 4].drop_duplicates("E_T")
+    falling = peaks.assign(f_peak=0.35 - 0.02 * peaks.E_T)  # the nearest curve that never falls is flat
+    assert stiffening.table(falling).scatter_E_T[0] == pytest.approx(falling.f_peak.std(ddof=0))
+
+
+def test_coatings_of_one_modulus_scatter_about_their_mean(peaks):
+    peaks = peaks[(peaks.order == 4) & (peaks.K == 1)].assign(f_peak=[0.31, 0.32, 0.36])
+    found = stiffening.table(peaks)
+    assert found.scatter_K[0] == pytest.approx(np.std([0.31, 0.32, 0.36]))
+    assert np.isnan(found.rank_correlation_K[0])
+
+
+def test_peaks_below_the_crossing_are_counted_and_left_out(peaks):
+    found = stiffening.table(peaks).set_index("order")
+    assert list(found.coatings) == [9, 6]
+    assert list(found.below_crossing) == [0, 3]
+    nowhere = stiffening.table(peaks.assign(f_crossing=0.5))
+    assert (nowhere.coatings == 0).all()
+    assert nowhere.scatter_E_T.isna().all()
 
 
 def test_the_front_holds_what_nothing_betters():
