@@ -114,6 +114,10 @@ COLUMNS = {
         )
         for modulus in ("E_T", "K", "E")
     },
+    "modulus_ratio": Column(
+        NUMBER, "1", "E_T over that of the lowest theta at the same f_peak, where stiffening is small"
+    ),
+    "modulus_ratio_by_share": Column(NUMBER, "1", "the same by the work of the bars on the first mode"),
     "wear_per_cycle": Column(NUMBER, "J", "energy dissipated by wear in a cycle of the vibration"),
     "sliding_per_cycle": Column(NUMBER, "J", "energy dissipated by the tangential resistance in a cycle"),
     "damping_per_cycle": Column(NUMBER, "J", "energy dissipated by modal damping in a cycle"),

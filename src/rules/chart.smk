@@ -201,6 +201,7 @@ rule chart_explanation:
 rule chart_stiffening:
     input:
         peaks=rules.chart_explanation.output.table,
+        blade=f"{RESULTS}/blade/reduced_model.h5",
         analysing=charting("stiffening"),
         drawing=drawing("chart_stiffening"),
     output:

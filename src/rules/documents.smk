@@ -7,7 +7,7 @@ IMAGES = [
     for path in output
     if path.endswith(".png")
 ]
-CHART_FIGURES = [*CHARTED, "safe", "pareto", "explanation", "stiffening"]
+CHART_FIGURES = ["Y4", "safe", "pareto", "explanation", "stiffening"]
 PASSAGE_FIGURES = ["sweeps", "long_runs"]
 
 
@@ -32,6 +32,8 @@ use rule images as chart_images with:
         [f"docs/images/chart_{name}.png" for name in CHART_FIGURES],
     log:
         f"{RESULTS}/logs/chart_images.log",
+    params:
+        colours=48,
 
 
 use rule images as passage_images with:

@@ -92,11 +92,11 @@ def test_the_ridge_is_drawn_against_what_explains_it(chart, draws):
     assert lobes.lines[1].get_linestyle() == "None"
 
 
-def test_stiffening_is_drawn_over_the_modulus_of_the_contact(chart, draws):
+def test_stiffening_is_drawn_over_the_modulus_of_the_contact(chart, blade, draws):
     peaks = chart.assign(order=4, f_crossing=0.29, E_T=chart.E * chart.K / (chart.E + chart.K))
     peaks["f_peak"] = 0.29 + 0.05 * peaks.E_T
     peaks.loc[peaks.E == 0.11, "f_peak"] = 0.28
-    (axes,) = draws(chart_stiffening(peaks, stiffening.table(peaks))).axes
+    (axes,) = draws(chart_stiffening(peaks, stiffening.table(peaks, blade))).axes
     found, other, *_ = axes.lines
     np.testing.assert_allclose(found.get_ydata(), 0.29 + 0.05 * found.get_xdata())
     assert found.get_label() == r"$\theta$ = 0 rad, rank correlation 1.00"

@@ -1,3 +1,5 @@
+from dataclasses import replace
+
 import numpy as np
 import pandas as pd
 import pytest
@@ -93,6 +95,17 @@ def test_the_explanation_counts_cycles(config, chart):
 
 
 @pytest.fixture
+def leaning(blade):
+    """The first mode takes node 1 away from the casing by a fifth of its way along it; the others rest."""
+    axial = np.eye(3)[0]  # the first mode of this blade is axial
+    return replace(
+        blade,
+        radial_direction=blade.radial_direction - 0.2 * axial,
+        tangential_direction=blade.tangential_direction + axial,
+    )
+
+
+@pytest.fixture
 def peaks():
     """f4 is a function of E_T alone; f6 lies below the crossing where E = 2."""
     rows = [
@@ -107,8 +120,8 @@ def peaks():
     return found
 
 
-def test_a_speed_that_follows_the_modulus_of_the_contact_does_not_scatter_about_it(peaks):
-    found = stiffening.table(peaks)
+def test_a_speed_that_follows_the_modulus_of_the_contact_does_not_scatter_about_it(peaks, leaning):
+    found = stiffening.table(peaks, leaning)
     of_four = found.set_index("order").loc[4]
     assert of_four.rank_correlation_E_T == pytest.approx(1)
     assert of_four.scatter_E_T == pytest.approx(0, abs=1e-12)
@@ -116,26 +129,41 @@ def test_a_speed_that_follows_the_modulus_of_the_contact_does_not_scatter_about_
     assert set(found.columns) <= COLUMNS.keys()
 
 
-def test_scatter_is_that_about_the_mean_where_f_falls_throughout(peaks):
+def test_scatter_is_that_about_the_mean_where_f_falls_throughout(peaks, leaning):
     peaks = peaks[peaks.order == 4].drop_duplicates("E_T")
     falling = peaks.assign(f_peak=0.35 - 0.02 * peaks.E_T)  # the nearest curve that never falls is flat
-    assert stiffening.table(falling).scatter_E_T[0] == pytest.approx(falling.f_peak.std(ddof=0))
+    assert stiffening.table(falling, leaning).scatter_E_T[0] == pytest.approx(falling.f_peak.std(ddof=0))
 
 
-def test_coatings_of_one_modulus_scatter_about_their_mean(peaks):
+def test_coatings_of_one_modulus_scatter_about_their_mean(peaks, leaning):
     peaks = peaks[(peaks.order == 4) & (peaks.K == 1)].assign(f_peak=[0.31, 0.32, 0.36])
-    found = stiffening.table(peaks)
+    found = stiffening.table(peaks, leaning)
     assert found.scatter_K[0] == pytest.approx(np.std([0.31, 0.32, 0.36]))
     assert np.isnan(found.rank_correlation_K[0])
 
 
-def test_peaks_below_the_crossing_are_counted_and_left_out(peaks):
-    found = stiffening.table(peaks).set_index("order")
+def test_peaks_below_the_crossing_are_counted_and_left_out(peaks, leaning):
+    found = stiffening.table(peaks, leaning).set_index("order")
     assert list(found.coatings) == [9, 6]
     assert list(found.below_crossing) == [0, 3]
-    nowhere = stiffening.table(peaks.assign(f_crossing=0.5))
+    nowhere = stiffening.table(peaks.assign(f_peak=0.29), leaning)
     assert (nowhere.coatings == 0).all()
     assert nowhere.scatter_E_T.isna().all()
+
+
+def test_the_share_follows_from_the_lean_of_the_first_mode(leaning):
+    assert stiffening.share(leaning, 0.15, 0.2) == pytest.approx(np.cos(0.15) - np.sin(0.15) / 0.2)
+    assert stiffening.share(leaning, 0.0, 0.2) == 1.0
+
+
+def test_inclined_bars_need_so_much_more_modulus_at_the_same_speed(peaks, leaning):
+    peaks["f_peak"] = 0.3 + 0.01 * peaks.E_T
+    inclined = peaks.assign(theta=0.15, E_T=3.5 * peaks.E_T)  # the same f_k
+    inclined.loc[inclined.f_peak > 0.315, "f_peak"] = 0.4  # beyond what is small
+    found = stiffening.table(pd.concat([peaks, inclined]), leaning)
+    assert list(found[found.order == 4].modulus_ratio) == pytest.approx([1, 3.5])
+    expected = 1 / stiffening.share(leaning, 0.15, 0.3)
+    assert list(found[found.order == 4].modulus_ratio_by_share) == pytest.approx([1, expected])
 
 
 def test_the_front_holds_what_nothing_betters():
