@@ -32,6 +32,7 @@ STUDY = "study"
 SETTINGS = {
     "window 0.90 to 1.20": ("peaks", "speed_window", [0.9, 1.2]),
     "window 0.75 to 1.50": ("peaks", "speed_window", [0.75, 1.5]),
+    "window from the crossing": ("peaks", "speed_window", [1.0, 1.35]),  # contact can but stiffen
     "line of the order alone": ("peaks", "order_halfwidth", 0.0),
     "half an order each side": ("peaks", "order_halfwidth", 0.5),
     "growth above 2 %": ("divergence", "growth", 0.02),

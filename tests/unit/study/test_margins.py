@@ -93,7 +93,11 @@ def test_settings_of_the_study_and_lower_growth_are_no_variations(study, maps):
     study["analysis"]["peaks"] |= {"speed_window": [0.9, 1.2], "order_halfwidth": 0.5}
     study["analysis"]["divergence"]["growth"] = 0.05
     names = set(margins.variations(study, maps))
-    assert margins.SETTINGS.keys() & names == {"window 0.75 to 1.50", "line of the order alone"}
+    assert margins.SETTINGS.keys() & names == {
+        "window 0.75 to 1.50",
+        "window from the crossing",
+        "line of the order alone",
+    }
 
 
 def test_a_variation_without_a_speed_in_the_window_is_left_out(study, make_map, tmp_path, caplog):
