@@ -105,13 +105,11 @@ COLUMNS = {
     "f_crossing": Column(NUMBER, "1", "f_omega at which the engine order crosses C1, without contact"),
     "below_crossing": Column(INTEGER, "1", "coatings whose f_peak is below f_crossing, so another response"),
     **{
-        f"rank_correlation_{modulus}": Column(NUMBER, "1", f"rank correlation of f_peak with {modulus}")
-        for modulus in ("E_T", "K", "E")
-    },
-    **{
-        f"scatter_{modulus}": Column(
-            NUMBER, "1", f"distance of f_peak from the best curve that rises with {modulus}, root mean square"
-        )
+        f"{measure}_{modulus}": Column(NUMBER, "1", f"{meaning} {modulus}")
+        for measure, meaning in {
+            "rank_correlation": "rank correlation of f_peak with",
+            "scatter": "root mean square distance of f_peak from the best curve that rises with",
+        }.items()
         for modulus in ("E_T", "K", "E")
     },
     "modulus_ratio": Column(

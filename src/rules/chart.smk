@@ -118,7 +118,7 @@ rule chart_maps:
     # one job, because to start it takes longer than to draw one
     input:
         table=rules.chart_table.output[0],
-        drawing=drawing("chart_map", "chart_panel", "cells"),
+        drawing=drawing("chart_map", "chart_panel", "cells", "titles"),
     output:
         png=[
             shown(f"{PLOTS}/chart_{name}.png", f"chart_{name}", "Choice of a coating")
@@ -141,7 +141,7 @@ rule chart_safe:
     input:
         table=rules.chart_table.output[0],
         analysing=charting("choice"),
-        drawing=drawing("chart_safe", "chart_panel", "cells"),
+        drawing=drawing("chart_safe", "chart_panel", "cells", "titles"),
     output:
         **drawn("chart_safe", "Choice of a coating"),
     log:
@@ -160,7 +160,7 @@ rule chart_pareto:
     input:
         table=rules.chart_table.output[0],
         analysing=charting("choice"),
-        drawing=drawing("chart_pareto"),
+        drawing=drawing("chart_pareto", "titles"),
     output:
         **drawn("chart_pareto", "Choice of a coating"),
         table=f"{RESULTS}/tables/chart_pareto.csv",
@@ -203,7 +203,7 @@ rule chart_stiffening:
         peaks=rules.chart_explanation.output.table,
         blade=f"{RESULTS}/blade/reduced_model.h5",
         analysing=charting("stiffening"),
-        drawing=drawing("chart_stiffening"),
+        drawing=drawing("chart_stiffening", "titles"),
     output:
         **drawn("chart_stiffening", "Choice of a coating"),
         table=f"{RESULTS}/tables/chart_stiffening.csv",

@@ -10,6 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.collections import QuadMesh
 from matplotlib.figure import Figure
 
+from bladerub.plots import titles
 from bladerub.plots.cells import edges
 from bladerub.plots.style import DARK, MISSING
 
@@ -45,7 +46,7 @@ def panels(figure: Figure, chart: pd.DataFrame) -> list[tuple[Axes, pd.DataFrame
     angles = sorted(chart.theta.unique())
     row = figure.subplots(1, len(angles), sharey=True, squeeze=False)[0]
     for index, (axes, theta) in enumerate(zip(row, angles, strict=True)):
-        axes.set_title(rf"({'abcdefghij'[index]}) $\theta$ = {theta:g} rad")
+        axes.set_title(titles.panel(index, rf"$\theta$ = {theta:g} rad"))
         axes.set(xscale="log", yscale="log", xlabel="Young modulus E (normalised)", facecolor=MISSING)
     row[0].set_ylabel("plastic modulus K (normalised)")
     return [(axes, chart[chart.theta == theta]) for axes, theta in zip(row, angles, strict=True)]

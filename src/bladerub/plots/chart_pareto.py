@@ -7,6 +7,7 @@ import pandas as pd
 from matplotlib.figure import Figure
 from matplotlib.ticker import LogLocator, NullFormatter, StrMethodFormatter
 
+from bladerub.plots import titles
 from bladerub.plots.style import DARK, GREY, ORANGE, PAGE, new_figure, styled
 
 _LABELLED = 6
@@ -49,7 +50,7 @@ def chart_pareto(chart: pd.DataFrame, front: pd.DataFrame) -> Figure:
         axes.xaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
         axes.xaxis.set_major_formatter(StrMethodFormatter("{x:g}"))
         axes.xaxis.set_minor_formatter(NullFormatter())
-        axes.set_title(rf"({'abcdefghij'[index]}) $\theta$ = {theta:g} rad")
+        axes.set_title(titles.panel(index, rf"$\theta$ = {theta:g} rad"))
         axes.grid(True)
     row[0].set_ylabel("greatest worn volume (cm³)")
     figure.legend(*row[0].get_legend_handles_labels(), loc="outside upper center", ncols=3)

@@ -7,6 +7,7 @@ from itertools import cycle
 import pandas as pd
 from matplotlib.figure import Figure
 
+from bladerub.plots import titles
 from bladerub.plots.style import DARK, GREY, ORANGE, PAGE, new_figure, styled
 from bladerub.study.chart.stiffening import is_stiffened
 
@@ -43,7 +44,7 @@ def chart_stiffening(peaks: pd.DataFrame, summary: pd.DataFrame) -> Figure:
             )
         axes.axhline(of_order.f_crossing.mean(), color=GREY, lw=0.9, ls="--", label="crossing with $C_1$")
         axes.set(xscale="log", xlabel="contact modulus $E_T = EK/(E+K)$", ylabel=f"$f_{order}$")
-        axes.set_title(f"({'abcdefghij'[index]}) eo({order})", pad=38)
+        axes.set_title(titles.panel(index, f"eo({order})"), pad=38)
         axes.legend(loc="lower center", bbox_to_anchor=(0.5, 1), fontsize=7, borderaxespad=0.1)
         axes.grid(True)
     return figure

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from string import ascii_lowercase
+
 from bladerub.study.grid import CoatingCase
 
 
@@ -26,3 +28,8 @@ def coating(case: CoatingCase) -> str:
 def speed(f_omega: float) -> str:
     """Rotational frequency to three decimals."""
     return rf"$f_\Omega$ = {f_omega:.3f}"
+
+
+def panel(index: int, name: str) -> str:
+    """Name of a panel with its letter, for instance ``(a) eo(4)`` for index 0."""
+    return f"({ascii_lowercase[index]}) {name}"

@@ -16,3 +16,7 @@ def test_the_rigid_casing_is_named_with_its_friction():
 
 def test_speeds_have_three_decimals():
     assert titles.speed(0.19) == r"$f_\Omega$ = 0.190"
+
+
+def test_panels_are_lettered():
+    assert [titles.panel(index, "eo(4)") for index in (0, 1)] == ["(a) eo(4)", "(b) eo(4)"]

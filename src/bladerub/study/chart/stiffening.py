@@ -27,8 +27,9 @@ SMALL = 0.05
 def is_stiffened(peaks: pd.DataFrame) -> pd.Series:
     """Tell which peaks are the resonance of their order.
 
-    Contact can but raise the first frequency, and with it the crossing. Where the resonance does not stand
-    out, the greatest amplitude of the window is that of another response, which may lie below.
+    As long as its `share` is positive, contact can but raise the first frequency, and with it the crossing.
+    Where the resonance does not stand out, the greatest amplitude of the window is that of another response,
+    which may lie below.
     """
     return peaks.f_peak >= peaks.f_crossing
 
