@@ -120,8 +120,15 @@ def _walk(marked: Marked, parts: tuple) -> Iterator[tuple[tuple, Place]]:
         yield from _walk(entry, (*parts, part))
 
 
-def read(path: str | Path) -> Marked:
+def read(path: str | Path, key: str | None = None) -> Marked:
     """Read one YAML file and those that it extends.
+
+    Parameters
+    ----------
+    path : path-like
+        The file.
+    key : str, optional
+        The key of the config that names it, told if the file cannot be read.
 
     Raises
     ------
@@ -129,7 +136,8 @@ def read(path: str | Path) -> Marked:
         As for `compose`.
     """
     path = Path(path)
-    return _extended(_read(path, Place(_name(path)), ""), [], (os.path.realpath(path),))
+    asked, said = (UNKNOWN, f"{key} = {shown(str(path))}: ") if key else (Place(_name(path)), "")
+    return _extended(_read(path, asked, said), [], (os.path.realpath(path),))
 
 
 def extended(layer: Marked) -> Marked:

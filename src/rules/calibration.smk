@@ -1,7 +1,6 @@
 # The choices that the paper leaves open, varied (docs/calibration.md). Not part of `all`.
 from functools import cache
 
-CALIBRATION = "config/calibration.yaml"
 # The modules that make a small study in one job, from the runs to the findings
 JUDGED_STUDY = [
     *analysing("small", "grid", "plan", "coating_job", "store", "spectra", "growth"),
@@ -18,7 +17,7 @@ def calibration_plan():
     from bladerub.study.calibration import plan
 
     with bladerub.faults.end_the_program():
-        return plan(config, CALIBRATION)
+        return plan(config)
 
 
 def calibration_answers(wildcards):

@@ -25,16 +25,14 @@ from bladerub.study.small import make_maps
 COLUMNS = ["set", "id", "claim", "paper", "measured", "unit", "holds", "margin"]
 
 
-def plan(config: Mapping[str, Any], path: str | Path) -> dict[str, dict[str, Any]]:
-    """Read a plan and make the config of each of its sets.
+def plan(config: Mapping[str, Any]) -> dict[str, dict[str, Any]]:
+    """Read the plan of a study and make the config of each of its sets.
 
     Parameters
     ----------
     config : mapping
-        The study that the sets vary.
-    path : path-like
-        YAML file with ``common``, laid over the study in every set, and ``sets``, by name what is laid over
-        that. Each of them can extend other files.
+        The study that the sets vary. Its ``calibration`` names a YAML file with ``common``, laid over the
+        study in every set, and ``sets``, by name what is laid over that. Each of them can extend other files.
 
     Returns
     -------
@@ -46,10 +44,11 @@ def plan(config: Mapping[str, Any], path: str | Path) -> dict[str, dict[str, Any
     ConfigError
         If the file is no plan or a set no config; every fault with the set it is in.
     """
-    content = read_file(path).content
+    path = config["calibration"]
+    content = read_file(path, "calibration").content
     sets = content.get("sets")
     if content.keys() - {"common", "sets"} or sets is None or not isinstance(sets.content, dict):
-        raise ConfigError([Fault(Place(str(path)), "must hold common and sets, and nothing else")])
+        raise ConfigError([Fault(Place(path), "must hold common and sets, and nothing else")])
     study, configs, faults = mark(config, UNKNOWN), {}, []
     for name, choices in sets.content.items():
         if not name.replace("_", "").replace(".", "").isalnum():
