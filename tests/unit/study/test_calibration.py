@@ -92,6 +92,12 @@ def test_the_plans_of_the_repository_have_the_study_in_them(study, file, of_the_
     assert all(own[part] == study[part] for part in ("blade", "contact", "casings", "solver"))
 
 
+def test_the_plan_of_the_calibration_begins_with_the_study(study, monkeypatch):
+    monkeypatch.chdir(ROOT)
+    assert study["calibration"] == "config/calibration.yaml"
+    assert next(iter(plan(study))) == "study"
+
+
 def test_a_plan_that_is_not_there_is_told_with_its_key(study):
     with pytest.raises(ConfigError) as caught:
         plan(study | {"calibration": "nowhere.yaml"})
