@@ -2,16 +2,16 @@
 # gatherings are drawn. `snakemake -j2` makes all of it; config/config.yaml says what.
 from snakemake.utils import min_version
 
-import bladerub.config
-import bladerub.faults
-import bladerub.invocation
+import bladerub.config.read
+import bladerub.io.errors
+import bladerub.workflow.invocation
 from bladerub.study.grid import coating_cases
 
 min_version("9.0")
 
 # Snakemake knows neither the lines of a file nor the key `extend`: the config is read here, before it reads it
-with bladerub.faults.end_the_program():
-    study = bladerub.config.read(
+with bladerub.io.errors.end_the_program():
+    study = bladerub.config.read.read(
         "config/config.yaml",
         *workflow.configfiles,
         command_line=workflow.config_settings.config,
@@ -29,13 +29,13 @@ COATINGS = [case.name for case in coating_cases(config)]
 
 # Not in the jobs, which are processes that read this file as well
 if workflow.is_main_process:
-    with bladerub.faults.end_the_program():
-        LIVING = bladerub.invocation.begin(".snakemake", RESULTS)
+    with bladerub.io.errors.end_the_program():
+        LIVING = bladerub.workflow.invocation.begin(".snakemake", RESULTS)
 
 
 onstart:
-    with bladerub.faults.end_the_program():
-        bladerub.invocation.prepare(RESULTS)
+    with bladerub.io.errors.end_the_program():
+        bladerub.workflow.invocation.prepare(RESULTS)
 
 
 wildcard_constraints:

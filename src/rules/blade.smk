@@ -1,48 +1,12 @@
 # Stage 1: the blade, built once: finite elements, reduction, accuracy of the reduction.
 
-from bladerub.blade.source.origin import files
+from bladerub.blade.sources.origin import files
+from bladerub.io.sources import files_behind
 
 
 rule blade:
     input:
-        # Snakemake does not follow imports: an edit of these changes the blade.
-        expand(
-            "src/bladerub/{module}.py",
-            module=[
-                "datafile",
-                "blade/accuracy",
-                "blade/adaptive",
-                "blade/build",
-                "blade/coordinates",
-                "blade/discrete",
-                "blade/elasticity",
-                "blade/frequencies",
-                "blade/geometry",
-                "blade/linear",
-                "blade/mesh",
-                "blade/model",
-                "blade/nearby",
-                "blade/reduction",
-                "blade/rotation",
-                "blade/source/abaqus",
-                "blade/source/definite",
-                "blade/source/frame",
-                "blade/source/imported",
-                "blade/source/importing",
-                "blade/source/matrices",
-                "blade/source/matrix_folder",
-                "blade/source/mesh_file",
-                "blade/source/node_sets",
-                "blade/source/origin",
-                "blade/source/profile",
-                "blade/source/section_blade",
-                "blade/source/section_profile",
-                "blade/source/section_table",
-                "blade/source/soundness",
-                "blade/source/tip",
-                "blade/surface",
-            ],
-        ),
+        code=files_behind("blade.build"),
         given=files(config["blade"]["source"]) if "source" in config["blade"] else [],
     output:
         reduced_model=f"{config['results']}/blade/reduced_model.h5",

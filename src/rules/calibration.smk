@@ -3,7 +3,15 @@ from functools import cache
 
 # The modules that make a small study in one job, from the runs to the findings
 JUDGED_STUDY = [
-    *analysing("small", "grid", "plan", "coating_job", "store", "spectra", "growth"),
+    *files_behind(
+        "extensions.small_study",
+        "study.grid",
+        "study.plan",
+        "study.job",
+        "study.store",
+        "study.spectra",
+        "study.growth",
+    ),
     *rules.map.input.analysing,
     *rules.peaks.input.analysing,
     *rules.divergence.input.analysing,
@@ -14,9 +22,9 @@ JUDGED_STUDY = [
 @cache
 def calibration_plan():
     """The config of every set; read only when somebody asks for the calibration."""
-    from bladerub.study.calibration import plan
+    from bladerub.extensions.calibration import plan
 
-    with bladerub.faults.end_the_program():
+    with bladerub.io.errors.end_the_program():
         return plan(config)
 
 
@@ -35,7 +43,7 @@ def calibration_set(wildcards):
 rule calibration:
     input:
         findings=calibration_answers,
-        drawing=drawing("verdicts"),
+        drawing=files_behind("plots.verdicts"),
     output:
         table=f"{RESULTS}/tables/calibration.csv",
         description=f"{RESULTS}/tables/calibration.csv-metadata.json",
@@ -54,7 +62,7 @@ rule calibration_set:
     input:
         kernel=rules.compile_kernel.output[0],
         building=rules.blade.input,
-        analysing=[*JUDGED_STUDY, *analysing("calibration")],
+        analysing=[*JUDGED_STUDY, *files_behind("extensions.calibration")],
     output:
         f"{RESULTS}/calibration/{{set}}/tables/findings.csv",
         description=f"{RESULTS}/calibration/{{set}}/tables/findings.csv-metadata.json",

@@ -1,8 +1,8 @@
 # A dense chart of coatings at speeds that the search for its peaks chooses (docs/chart.md). Not part of `all`.
 from functools import cache
 
-from bladerub.study.chart.grid import chart_speeds, check, columns
-from bladerub.study.chart.key import cell_key
+from bladerub.extensions.chart.grid import chart_speeds, check, columns
+from bladerub.extensions.chart.key import cell_key
 
 CHARTED = [
     "Y4",
@@ -18,7 +18,7 @@ CHARTED = [
 @cache
 def chart_columns():
     """The cells of every column; checked only when somebody asks for the chart."""
-    with bladerub.faults.end_the_program():
+    with bladerub.io.errors.end_the_program():
         check(config)
     return columns(config)
 
@@ -48,11 +48,6 @@ def charted_maps(wildcards):
     ]
 
 
-def charting(*modules):
-    """The modules that make a table of the chart; Snakemake does not follow imports."""
-    return analysing(*(f"chart/{module}" for module in ("cell", "grid", *modules)))
-
-
 rule chart_column:
     # The cells lie beside the manifests, undeclared, for the reason that the runs of a coating do.
     input:
@@ -79,7 +74,7 @@ rule chart_column:
 rule chart_table:
     input:
         manifests=chart_manifests,
-        analysing=[*charting("table"), *analysing("peaks")],
+        analysing=files_behind("extensions.chart.table", "study.peaks"),
     output:
         f"{RESULTS}/tables/chart.csv",
         description=f"{RESULTS}/tables/chart.csv-metadata.json",
@@ -97,7 +92,12 @@ rule chart_table:
 rule chart_ridge:
     input:
         manifests=chart_manifests,
-        analysing=[*charting("table", "ridge", "explanation"), *analysing("peaks")],
+        analysing=files_behind(
+            "extensions.chart.table",
+            "extensions.chart.ridge",
+            "extensions.chart.explanation",
+            "study.peaks",
+        ),
     output:
         f"{RESULTS}/tables/chart_ridge.csv",
         description=f"{RESULTS}/tables/chart_ridge.csv-metadata.json",
@@ -118,7 +118,12 @@ rule chart_maps:
     # one job, because to start it takes longer than to draw one
     input:
         table=rules.chart_table.output[0],
-        drawing=drawing("chart_map", "chart_panel", "cells", "titles"),
+        drawing=files_behind(
+            "extensions.plots.chart_map",
+            "extensions.plots.chart_panel",
+            "plots.cells",
+            "plots.titles",
+        ),
     output:
         png=[
             shown(f"{PLOTS}/chart_{name}.png", f"chart_{name}", "Choice of a coating")
@@ -140,8 +145,13 @@ rule chart_maps:
 rule chart_safe:
     input:
         table=rules.chart_table.output[0],
-        analysing=charting("choice"),
-        drawing=drawing("chart_safe", "chart_panel", "cells", "titles"),
+        analysing=files_behind("extensions.chart.choice"),
+        drawing=files_behind(
+            "extensions.plots.chart_safe",
+            "extensions.plots.chart_panel",
+            "plots.cells",
+            "plots.titles",
+        ),
     output:
         **drawn("chart_safe", "Choice of a coating"),
     log:
@@ -159,8 +169,8 @@ rule chart_safe:
 rule chart_pareto:
     input:
         table=rules.chart_table.output[0],
-        analysing=charting("choice"),
-        drawing=drawing("chart_pareto", "titles"),
+        analysing=files_behind("extensions.chart.choice"),
+        drawing=files_behind("extensions.plots.chart_pareto", "plots.titles"),
     output:
         **drawn("chart_pareto", "Choice of a coating"),
         table=f"{RESULTS}/tables/chart_pareto.csv",
@@ -180,8 +190,10 @@ rule chart_pareto:
 rule chart_explanation:
     input:
         manifests=chart_manifests,
-        analysing=[*charting("table", "explanation"), *analysing("peaks")],
-        drawing=drawing("chart_explanation"),
+        analysing=files_behind(
+            "extensions.chart.table", "extensions.chart.explanation", "study.peaks"
+        ),
+        drawing=files_behind("extensions.plots.chart_explanation", "plots.style"),
     output:
         **drawn("chart_explanation", "Choice of a coating"),
         table=f"{RESULTS}/tables/chart_explanation.csv",
@@ -202,8 +214,8 @@ rule chart_stiffening:
     input:
         peaks=rules.chart_explanation.output.table,
         blade=f"{RESULTS}/blade/reduced_model.h5",
-        analysing=charting("stiffening"),
-        drawing=drawing("chart_stiffening", "titles"),
+        analysing=files_behind("extensions.chart.stiffening"),
+        drawing=files_behind("extensions.plots.chart_stiffening", "plots.titles"),
     output:
         **drawn("chart_stiffening", "Choice of a coating"),
         table=f"{RESULTS}/tables/chart_stiffening.csv",
@@ -223,7 +235,12 @@ rule chart_placement:
     # how well the search does, from the study alone: `snakemake results/tables/chart_placement.csv`
     input:
         maps=charted_maps,
-        analysing=[*charting("placement", "search", "check"), *analysing("peaks")],
+        analysing=files_behind(
+            "extensions.chart.placement",
+            "extensions.chart.search",
+            "extensions.chart.check",
+            "study.peaks",
+        ),
     output:
         f"{RESULTS}/tables/chart_placement.csv",
         description=f"{RESULTS}/tables/chart_placement.csv-metadata.json",
@@ -246,7 +263,7 @@ rule chart_agreement:
     input:
         chart=rules.chart_table.output[0],
         placement=rules.chart_placement.output[0],
-        analysing=charting("check"),
+        analysing=files_behind("extensions.chart.check"),
     output:
         f"{RESULTS}/tables/chart_agreement.csv",
         description=f"{RESULTS}/tables/chart_agreement.csv-metadata.json",

@@ -11,8 +11,8 @@ rule cost:
         rules.margins.output,
         rules.explorer.output,
         maps=expand(rules.map.output, coating=COATINGS),
-        gathering="src/bladerub/study/cost.py",
-        drawing=drawing("cost"),
+        gathering="src/bladerub/workflow/cost.py",
+        drawing=files_behind("plots.cost"),
     output:
         table=f"{RESULTS}/tables/cost.csv",
         png=shown(f"{RESULTS}/benchmarks/cost.png", "cost", "Cost"),

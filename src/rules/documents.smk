@@ -60,7 +60,7 @@ rule config_reference:
     input:
         schema="config/schema.yaml",
         config="config/config.yaml",
-        writing="src/bladerub/config_reference.py",
+        writing="src/bladerub/config/reference.py",
     output:
         "docs/config.md",
     log:

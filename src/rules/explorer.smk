@@ -28,8 +28,8 @@ rule explorer:
                 "page/words.js",
             ],
         ),
-        analysing=analysing("summary"),
-        drawing=drawing("cells", "spectrum_map", "titles"),
+        analysing=files_behind("study.summary"),
+        drawing=files_behind("plots.cells", "plots.spectrum_map", "plots.titles"),
     output:
         f"{RESULTS}/explorer.html",
     log:

@@ -52,20 +52,10 @@ def drawn(name, category, with_data=False):
     return files
 
 
-def drawing(*modules):
-    """The modules that draw; Snakemake does not follow imports."""
-    return expand("src/bladerub/plots/{module}.py", module=["style", *modules])
-
-
-def rubbing(*modules):
-    """The modules of the model that a figure shows at work."""
-    return expand("src/bladerub/contact/{module}.py", module=modules)
-
-
 rule fig01_blade:
     input:
         mesh=rules.blade.output.mesh,
-        drawing=[*drawing("blade_mesh", "surface"), "src/bladerub/blade/surface.py"],
+        drawing=files_behind("plots.blade_mesh", "plots.surface"),
     output:
         **drawn("fig01_blade", "Model"),
     log:
@@ -83,7 +73,7 @@ rule fig02_campbell:
     input:
         blade=rules.blade.output.reduced_model,
         campbell=rules.blade.output.campbell,
-        drawing=drawing("campbell", "engine_orders"),
+        drawing=files_behind("plots.campbell", "plots.engine_orders"),
     output:
         **drawn("fig02_campbell", "Model", with_data=True),
     log:
@@ -99,8 +89,8 @@ rule fig02_campbell:
 
 rule fig03_tip_profile:
     input:
-        model=rubbing("coating", "tip"),
-        drawing=drawing("tip_profile"),
+        model=files_behind("contact.law", "contact.tip"),
+        drawing=files_behind("plots.tip_profile"),
     output:
         **drawn("fig03_tip_profile", "Model", with_data=True),
     log:
@@ -119,8 +109,8 @@ rule fig03_tip_profile:
 
 rule fig04_coating_cycle:
     input:
-        model=rubbing("coating"),
-        drawing=drawing("coating_cycle"),
+        model=files_behind("contact.law"),
+        drawing=files_behind("plots.coating_cycle"),
     output:
         **drawn("fig04_coating_cycle", "Model", with_data=True),
     log:
@@ -137,8 +127,8 @@ rule fig04_coating_cycle:
 
 rule fig05_casing:
     input:
-        model=rubbing("casing"),
-        drawing=drawing("casing_polar", "polar"),
+        model=files_behind("contact.casing"),
+        drawing=files_behind("plots.casing_polar", "plots.polar"),
     output:
         **drawn("fig05_casing", "Model", with_data=True),
     log:
@@ -157,7 +147,7 @@ rule fig05_casing:
 rule fig06_wear_map:
     input:
         map=map_of(LOBED),
-        drawing=drawing("wear_map", "cells", "titles"),
+        drawing=files_behind("plots.wear_map", "plots.cells", "plots.titles"),
     output:
         **drawn("fig06_wear_map", "Wear and spectra"),
     log:
@@ -175,7 +165,7 @@ rule fig06_wear_map:
 rule wear_map:
     input:
         map=rules.map.output,
-        drawing=drawing("wear_map", "cells", "titles"),
+        drawing=files_behind("plots.wear_map", "plots.cells", "plots.titles"),
     output:
         png=f"{PLOTS}/wear_map/{{coating}}.png",
         pdf=f"{PLOTS}/wear_map/{{coating}}.pdf",
@@ -193,7 +183,9 @@ rule wear_map:
 rule fig07_spectrum_2nd5nd:
     input:
         map=map_of(LOBED),
-        drawing=drawing("spectrum_map", "cells", "engine_orders", "titles"),
+        drawing=files_behind(
+            "plots.spectrum_map", "plots.cells", "plots.engine_orders", "plots.titles"
+        ),
     output:
         **drawn("fig07_spectrum_2nd5nd", "Wear and spectra"),
     log:
@@ -210,7 +202,9 @@ rule fig07_spectrum_2nd5nd:
 rule fig08_spectrum_soft:
     input:
         map=map_of(SOFT),
-        drawing=drawing("spectrum_map", "cells", "engine_orders", "titles"),
+        drawing=files_behind(
+            "plots.spectrum_map", "plots.cells", "plots.engine_orders", "plots.titles"
+        ),
     output:
         **drawn("fig08_spectrum_soft", "Wear and spectra"),
     log:
@@ -227,7 +221,9 @@ rule fig08_spectrum_soft:
 rule fig09_spectrum_critical:
     input:
         map=map_of(CRITICAL),
-        drawing=drawing("spectrum_map", "cells", "engine_orders", "titles"),
+        drawing=files_behind(
+            "plots.spectrum_map", "plots.cells", "plots.engine_orders", "plots.titles"
+        ),
     output:
         **drawn("fig09_spectrum_critical", "Wear and spectra"),
     log:
@@ -244,9 +240,13 @@ rule fig09_spectrum_critical:
 rule fig10_peaks:
     input:
         map=map_of(SOFT),
-        analysing=analysing("peaks"),
-        drawing=drawing(
-            "peak_sections", "spectrum_map", "cells", "engine_orders", "titles"
+        analysing=files_behind("study.peaks"),
+        drawing=files_behind(
+            "plots.peak_sections",
+            "plots.spectrum_map",
+            "plots.cells",
+            "plots.engine_orders",
+            "plots.titles",
         ),
     output:
         **drawn("fig10_peaks", "Wear and spectra", with_data=True),
@@ -265,7 +265,7 @@ rule fig10_peaks:
 rule fig11_Y4:
     input:
         peaks=rules.peaks.output[0],
-        drawing=drawing("histogram"),
+        drawing=files_behind("plots.histogram"),
     output:
         **drawn("fig11_Y4", "Moduli of the coating", with_data=True),
     log:
@@ -283,7 +283,7 @@ rule fig11_Y4:
 rule fig12_f4:
     input:
         peaks=rules.peaks.output[0],
-        drawing=drawing("histogram"),
+        drawing=files_behind("plots.histogram"),
     output:
         **drawn("fig12_f4", "Moduli of the coating", with_data=True),
     log:
@@ -301,7 +301,7 @@ rule fig12_f4:
 rule fig13_Y6:
     input:
         peaks=rules.peaks.output[0],
-        drawing=drawing("histogram"),
+        drawing=files_behind("plots.histogram"),
     output:
         **drawn("fig13_Y6", "Moduli of the coating", with_data=True),
     log:
@@ -319,7 +319,7 @@ rule fig13_Y6:
 rule fig14_f6:
     input:
         peaks=rules.peaks.output[0],
-        drawing=drawing("histogram"),
+        drawing=files_behind("plots.histogram"),
     output:
         **drawn("fig14_f6", "Moduli of the coating", with_data=True),
     log:
@@ -337,7 +337,9 @@ rule fig14_f6:
 rule fig15_spectrum_theta0:
     input:
         map=map_of(STRAIGHT),
-        drawing=drawing("spectrum_map", "cells", "engine_orders", "titles"),
+        drawing=files_behind(
+            "plots.spectrum_map", "plots.cells", "plots.engine_orders", "plots.titles"
+        ),
     output:
         **drawn("fig15_spectrum_theta0", "Angle of the elements"),
     log:
@@ -354,7 +356,9 @@ rule fig15_spectrum_theta0:
 rule fig16_spectrum_theta015:
     input:
         map=map_of(INCLINED),
-        drawing=drawing("spectrum_map", "cells", "engine_orders", "titles"),
+        drawing=files_behind(
+            "plots.spectrum_map", "plots.cells", "plots.engine_orders", "plots.titles"
+        ),
     output:
         **drawn("fig16_spectrum_theta015", "Angle of the elements"),
     log:
@@ -374,7 +378,7 @@ rule fig17_history_0190:
             rules.coating.output,
             coating=[STRAIGHT.name, INCLINED.name],
         ),
-        drawing=drawing("history", "titles"),
+        drawing=files_behind("plots.history", "plots.titles"),
     output:
         **drawn("fig17_history_0190", "Angle of the elements", with_data=True),
     log:
@@ -395,7 +399,7 @@ rule fig18_history_0197:
             rules.coating.output,
             coating=[STRAIGHT.name, INCLINED.name],
         ),
-        drawing=drawing("history", "titles"),
+        drawing=files_behind("plots.history", "plots.titles"),
     output:
         **drawn("fig18_history_0197", "Angle of the elements", with_data=True),
     log:
@@ -417,7 +421,7 @@ rule history:
             rules.coating.output,
             coating=[STRAIGHT.name, INCLINED.name],
         ),
-        drawing=drawing("history", "titles"),
+        drawing=files_behind("plots.history", "plots.titles"),
     output:
         **drawn("history_{speed}", "Angle of the elements", with_data=True),
     log:
@@ -437,7 +441,7 @@ rule history:
 rule fig19_wear_polar:
     input:
         maps=[map_of(STRAIGHT), map_of(INCLINED)],
-        drawing=drawing("wear_polar", "polar", "titles"),
+        drawing=files_behind("plots.wear_polar", "plots.polar", "plots.titles"),
     output:
         **drawn("fig19_wear_polar", "Angle of the elements", with_data=True),
     log:

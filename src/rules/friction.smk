@@ -7,8 +7,8 @@ COMPARED = [case.name for pair in compared_cases(config) for case in pair]
 rule friction:
     input:
         manifests=expand(rules.coating.output[0], coating=COMPARED),
-        analysing=analysing("friction", "summary"),
-        drawing=drawing("friction"),
+        analysing=files_behind("extensions.friction", "study.summary"),
+        drawing=files_behind("extensions.plots.friction", "plots.style"),
     output:
         **drawn("friction", "Angle of the elements"),
         table=f"{RESULTS}/tables/friction.csv",

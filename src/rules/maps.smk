@@ -3,16 +3,11 @@ import csv
 import os
 
 
-def analysing(*modules):
-    """The modules that make a map or a table; Snakemake does not follow imports."""
-    return expand("src/bladerub/study/{module}.py", module=modules)
-
-
 rule map:
     input:
         manifest=rules.coating.output[0],
         blade=f"{RESULTS}/blade/reduced_model.h5",
-        analysing=analysing("maps", "wear"),
+        analysing=files_behind("study.maps", "study.wear"),
     output:
         f"{RESULTS}/maps/{{coating}}.h5",
     log:
@@ -29,7 +24,7 @@ rule map:
 rule peaks:
     input:
         maps=expand(rules.map.output, coating=COATINGS),
-        analysing=analysing("peaks"),
+        analysing=files_behind("study.peaks"),
     output:
         f"{RESULTS}/tables/peaks.csv",
         description=f"{RESULTS}/tables/peaks.csv-metadata.json",
@@ -47,7 +42,7 @@ rule peaks:
 rule divergence:
     input:
         maps=expand(rules.map.output, coating=COATINGS),
-        analysing=analysing("divergence", "growth"),
+        analysing=files_behind("study.divergence", "study.growth"),
     output:
         f"{RESULTS}/tables/divergence.csv",
         description=f"{RESULTS}/tables/divergence.csv-metadata.json",
@@ -81,17 +76,17 @@ rule findings:
         peaks=rules.peaks.output[0],
         divergence=rules.divergence.output[0],
         rom_accuracy=f"{RESULTS}/tables/rom_accuracy.csv",
-        analysing=analysing(
-            "peaks",
-            "findings/__init__",
-            "findings/evidence",
-            "findings/finding",
-            "findings/moduli",
-            "findings/reduction",
-            "findings/rigid_limit",
-            "findings/spectra",
-            "findings/tangential",
-            "findings/wear_patterns",
+        analysing=files_behind(
+            "study.peaks",
+            "study.findings",
+            "study.findings.evidence",
+            "study.findings.finding",
+            "study.findings.moduli",
+            "study.findings.reduction",
+            "study.findings.rigid_limit",
+            "study.findings.spectra",
+            "study.findings.tangential",
+            "study.findings.wear_patterns",
         ),
     output:
         shown(f"{RESULTS}/tables/findings.csv", "findings", "Claims"),

@@ -6,8 +6,8 @@ rule margins:
         maps=expand(rules.map.output, coating=COATINGS),
         rom_accuracy=f"{RESULTS}/tables/rom_accuracy.csv",
         judging=rules.findings.input.analysing,
-        analysing=analysing("margins", "divergence", "growth"),
-        drawing=drawing("verdicts"),
+        analysing=files_behind("study.margins", "study.divergence", "study.growth"),
+        drawing=files_behind("plots.verdicts"),
     output:
         **drawn("margins", "Claims"),
         table=shown(f"{RESULTS}/tables/margins.csv", "margins_table", "Claims"),

@@ -1,5 +1,5 @@
 # Longer, and at a speed that changes: studies beside the main one, each from its maps. Not part of `all`.
-from bladerub.study.sweep_grid import DIRECTIONS, swept_cases, sweep_spec
+from bladerub.extensions.sweep_grid import DIRECTIONS, swept_cases, sweep_spec
 
 SWEPT = [case.name for case in swept_cases(config)]
 PASSAGES = f"{RESULTS}/sweeps/{{coating}}_{{direction}}_{{rate}}.h5"
@@ -8,8 +8,8 @@ RATES = [f"{rate:g}" for rate in config["sweeps"]["rates"]]
 
 def swept_maps(wildcards):
     if not SWEPT:
-        with bladerub.faults.end_the_program():
-            raise bladerub.faults.BadInput(
+        with bladerub.io.errors.end_the_program():
+            raise bladerub.io.errors.BadInput(
                 "sweeps.coatings: the study has none of them; must name some of its coatings"
             )
     return expand(rules.map.output, coating=SWEPT)
@@ -25,8 +25,8 @@ rule sweeps:
     input:
         maps=swept_maps,
         passages=expand(PASSAGES, coating=SWEPT, direction=DIRECTIONS, rate=RATES),
-        analysing=analysing("sweeps", "peaks"),
-        drawing=drawing("sweeps", "titles"),
+        analysing=files_behind("extensions.sweeps", "study.peaks"),
+        drawing=files_behind("extensions.plots.sweeps", "plots.titles"),
     output:
         **drawn("sweeps", "Sweeps and long runs"),
         table=shown(
@@ -48,7 +48,9 @@ rule sweep:
     input:
         blade=f"{RESULTS}/blade/reduced_model.h5",
         kernel=rules.compile_kernel.output[0],
-        analysing=analysing("sweeps", "sweep_grid", "spectra"),
+        analysing=files_behind(
+            "extensions.sweeps", "extensions.sweep_grid", "study.spectra"
+        ),
     output:
         PASSAGES,
     log:
@@ -74,8 +76,8 @@ rule sweep:
 rule long_runs:
     input:
         long=expand(f"{RESULTS}/long_runs/{{coating}}.h5", coating=COATINGS),
-        analysing=analysing("long_runs", "growth"),
-        drawing=drawing("long_runs", "titles"),
+        analysing=files_behind("extensions.long_runs", "study.growth"),
+        drawing=files_behind("extensions.plots.long_runs", "plots.titles"),
     output:
         **drawn("long_runs", "Sweeps and long runs"),
         table=shown(
@@ -99,7 +101,7 @@ rule long_coating:
         map=rules.map.output[0],
         blade=f"{RESULTS}/blade/reduced_model.h5",
         kernel=rules.compile_kernel.output[0],
-        analysing=analysing("long_runs", "peaks", "growth"),
+        analysing=files_behind("extensions.long_runs", "study.peaks", "study.growth"),
     output:
         f"{RESULTS}/long_runs/{{coating}}.h5",
     log:

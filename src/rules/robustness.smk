@@ -8,10 +8,10 @@ OF_SAMPLES = f"{RESULTS}/robustness"
 @cache
 def robustness_plan():
     """The plan; read and checked only when somebody asks for the robustness."""
-    from bladerub.study.robustness.design import check
-    from bladerub.study.robustness.plan import read_plan
+    from bladerub.extensions.robustness.design import check
+    from bladerub.extensions.robustness.plan import read_plan
 
-    with bladerub.faults.end_the_program():
+    with bladerub.io.errors.end_the_program():
         plan = read_plan(ROBUSTNESS)
         if workflow.is_main_process:
             check(config, plan)
@@ -21,16 +21,16 @@ def robustness_plan():
 @cache
 def robustness_batch(part, batch):
     """The config of each sample of one job by its number."""
-    from bladerub.study.robustness import design
+    from bladerub.extensions.robustness import design
 
     plan = robustness_plan()
-    with bladerub.faults.end_the_program():
+    with bladerub.io.errors.end_the_program():
         return design.batch(config, plan, plan.parts[part], batch)
 
 
 def robustness_batches():
     """Part and name of every job."""
-    from bladerub.study.robustness.plan import REFERENCE_BATCH
+    from bladerub.extensions.robustness.plan import REFERENCE_BATCH
 
     return [
         (part.name, batch)
@@ -42,7 +42,7 @@ def robustness_batches():
 @cache
 def robustness_blades():
     """The config of a sample that has it, for each of the blades by name."""
-    from bladerub.study.robustness.design import blade_name
+    from bladerub.extensions.robustness.design import blade_name
 
     return {
         blade_name(sample): sample
@@ -55,7 +55,7 @@ def of_robustness_blades(file):
     """That file of the blade of every sample of a job."""
 
     def paths(wildcards):
-        from bladerub.study.robustness.design import blade_name
+        from bladerub.extensions.robustness.design import blade_name
 
         samples = robustness_batch(wildcards.part, wildcards.batch).values()
         return [f"{OF_SAMPLES}/blades/{blade_name(each)}/{file}" for each in samples]
@@ -77,7 +77,7 @@ def of_robustness_batches(file):
 
 def planned_samples(wildcards):
     """All that determines what the samples of a job say but the blades: a changed one is a reason to run."""
-    from bladerub.study.robustness.design import sample_digest
+    from bladerub.extensions.robustness.design import sample_digest
 
     samples = robustness_batch(wildcards.part, wildcards.batch)
     return {number: sample_digest(sample) for number, sample in samples.items()}
@@ -120,7 +120,7 @@ rule robustness_batch:
         models=of_robustness_blades("reduced_model.h5"),
         accuracies=of_robustness_blades("rom_accuracy.csv"),
         kernel=rules.compile_kernel.output[0],
-        analysing=[*JUDGED_STUDY, *analysing("robustness/sample")],
+        analysing=[*JUDGED_STUDY, *files_behind("extensions.robustness.sample")],
     output:
         verdicts=f"{OF_SAMPLES}/{{part}}/{{batch}}/verdicts.csv",
         verdicts_description=f"{OF_SAMPLES}/{{part}}/{{batch}}/verdicts.csv-metadata.json",
@@ -150,13 +150,13 @@ rule robustness:
         verdicts=of_robustness_batches("verdicts.csv"),
         cost=of_robustness_batches("cost.csv"),
         plan=ROBUSTNESS,
-        analysing=[
-            "src/bladerub/study/findings/__init__.py",
-            *analysing(
-                "robustness/plan", "robustness/sensitivity", "robustness/summary"
-            ),
-        ],
-        drawing=drawing("robustness"),
+        analysing=files_behind(
+            "study.findings",
+            "extensions.robustness.plan",
+            "extensions.robustness.sensitivity",
+            "extensions.robustness.summary",
+        ),
+        drawing=files_behind("extensions.plots.robustness", "plots.style"),
     output:
         **drawn("robustness", "Claims"),
         table=shown(f"{RESULTS}/tables/robustness.csv", "robustness_table", "Claims"),

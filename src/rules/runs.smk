@@ -4,7 +4,7 @@ import math
 from bladerub.study.confirmation import determinants
 from bladerub.study import plan
 from bladerub.study.grid import case_from_name, speeds
-from bladerub.sources import solver_digest
+from bladerub.io.sources import solver_digest
 
 
 def planned_runs(wildcards):

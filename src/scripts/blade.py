@@ -2,9 +2,9 @@
 
 import logging
 
-from bladerub import job
 from bladerub.blade.build import build, write
-from bladerub.provenance import provenance
+from bladerub.io.provenance import provenance
+from bladerub.workflow import job
 
 job.log_to(snakemake.log[0])
 logging.basicConfig(level=logging.WARNING, format="%(asctime)s %(message)s")

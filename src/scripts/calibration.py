@@ -2,17 +2,18 @@
 
 from pathlib import Path
 
-from bladerub import job, tablefile
+from bladerub.extensions.calibration import gather
+from bladerub.io import tables
+from bladerub.io.provenance import provenance
 from bladerub.plots import style
 from bladerub.plots.verdicts import verdicts as draw
-from bladerub.provenance import provenance
-from bladerub.study.calibration import gather
 from bladerub.study.findings import verdicts
+from bladerub.workflow import job
 
 job.log_to(snakemake.log[0])
 
 answers = {Path(path).parts[-3]: path for path in snakemake.input.findings}
 table = gather(answers)
-tablefile.write(snakemake.output.table, table, provenance(snakemake.config))
+tables.write(snakemake.output.table, table, provenance(snakemake.config))
 figure = draw(verdicts(table, by="set"))
 style.save(figure, snakemake.output.png, snakemake.output.pdf, snakemake.params.dpi)

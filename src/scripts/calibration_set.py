@@ -2,13 +2,14 @@
 
 import sys
 
-from bladerub import job, tablefile
-from bladerub.provenance import provenance
-from bladerub.study.calibration import answer
+from bladerub.extensions.calibration import answer
+from bladerub.io import tables
+from bladerub.io.provenance import provenance
+from bladerub.workflow import job
 
 job.log_to(snakemake.log[0])
 
 found = answer(
     snakemake.params.choices, snakemake.params.folder, report=lambda run: print(run, file=sys.stderr)
 )
-tablefile.write(snakemake.output[0], found, provenance(snakemake.params.choices))
+tables.write(snakemake.output[0], found, provenance(snakemake.params.choices))

@@ -1,10 +1,11 @@
 """Compare the cells of the chart with the coatings of the study that they are."""
 
-from bladerub import job, tablefile
-from bladerub.provenance import provenance
-from bladerub.study.chart.check import agreement
+from bladerub.extensions.chart.check import agreement
+from bladerub.io import tables
+from bladerub.io.provenance import provenance
+from bladerub.workflow import job
 
 job.log_to(snakemake.log[0])
 
-compared = agreement(tablefile.read(snakemake.input.chart), tablefile.read(snakemake.input.placement))
-tablefile.write(snakemake.output[0], compared, provenance(snakemake.config))
+compared = agreement(tables.read(snakemake.input.chart), tables.read(snakemake.input.placement))
+tables.write(snakemake.output[0], compared, provenance(snakemake.config))

@@ -3,12 +3,12 @@
 import sys
 from pathlib import Path
 
-from bladerub import job
 from bladerub.blade.model import read_reduced_blade
-from bladerub.study.chart import manifest
-from bladerub.study.chart.column import compute_missing
-from bladerub.study.chart.grid import columns
+from bladerub.extensions.chart import manifest
+from bladerub.extensions.chart.column import compute_missing
+from bladerub.extensions.chart.grid import columns
 from bladerub.study.key import blade_digest
+from bladerub.workflow import job
 
 job.log_to(snakemake.log[0])
 

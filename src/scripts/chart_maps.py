@@ -1,12 +1,13 @@
 """Draw each quantity of the chart over E and K, for each theta."""
 
-from bladerub import job, tablefile
+from bladerub.extensions.plots.chart_map import chart_map
+from bladerub.io import tables
 from bladerub.plots import style
-from bladerub.plots.chart_map import chart_map
+from bladerub.workflow import job
 
 job.log_to(snakemake.log[0])
 
-chart = tablefile.read(snakemake.input.table)
+chart = tables.read(snakemake.input.table)
 for quantity, png, pdf in zip(
     snakemake.params.quantities, snakemake.output.png, snakemake.output.pdf, strict=True
 ):

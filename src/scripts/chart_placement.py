@@ -1,11 +1,12 @@
 """Put the search of the chart to the maps of the study, which knows every speed."""
 
-from bladerub import job, tablefile
-from bladerub.provenance import provenance
-from bladerub.study.chart.check import summary, table
+from bladerub.extensions.chart.check import summary, table
+from bladerub.io import tables
+from bladerub.io.provenance import provenance
+from bladerub.workflow import job
 
 job.log_to(snakemake.log[0])
 
 compared, origin = table(snakemake.config, snakemake.input.maps), provenance(snakemake.config)
-tablefile.write(snakemake.output[0], compared, origin)
-tablefile.write(snakemake.output.summary, summary(compared), origin)
+tables.write(snakemake.output[0], compared, origin)
+tables.write(snakemake.output.summary, summary(compared), origin)

@@ -2,13 +2,13 @@
 
 import sys
 
-from bladerub import job
 from bladerub.blade.model import read_reduced_blade
-from bladerub.study.coating_job import compute_missing
 from bladerub.study.grid import case_from_name
-from bladerub.study.job_progress import JobProgress
+from bladerub.study.job import compute_missing
 from bladerub.study.key import blade_digest
 from bladerub.study.store import write_manifest
+from bladerub.workflow import job
+from bladerub.workflow.progress import JobProgress
 
 job.log_to(snakemake.log[0])
 

@@ -4,8 +4,9 @@ import json
 import sys
 import time
 
-from bladerub import atomic, job
 from bladerub.contact.run import kernel_warm_up
+from bladerub.io import atomic
+from bladerub.workflow import job
 
 job.log_to(snakemake.log[0])
 

@@ -1,8 +1,9 @@
 """Write the reference of the config from its schema."""
 
-from bladerub import atomic, job
-from bladerub.config import load
-from bladerub.config_reference import reference
+from bladerub.config.read import load
+from bladerub.config.reference import reference
+from bladerub.io import atomic
+from bladerub.workflow import job
 
 job.log_to(snakemake.log[0])
 

@@ -1,13 +1,14 @@
 """Gather what the jobs of the study cost."""
 
-from bladerub import job, tablefile
+from bladerub.io import tables
+from bladerub.io.provenance import provenance
 from bladerub.plots import style
 from bladerub.plots.cost import cost
-from bladerub.provenance import provenance
-from bladerub.study.cost import by_stage, table
+from bladerub.workflow import job
+from bladerub.workflow.cost import by_stage, table
 
 job.log_to(snakemake.log[0])
 
 costs = table(snakemake.params.benchmarks)
-tablefile.write(snakemake.output.table, costs, provenance(snakemake.config))
+tables.write(snakemake.output.table, costs, provenance(snakemake.config))
 style.save(cost(by_stage(costs)), snakemake.output.png, snakemake.output.pdf, snakemake.params.dpi)

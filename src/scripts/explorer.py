@@ -1,16 +1,17 @@
 """Put the whole study into one page."""
 
-from bladerub import atomic, job, tablefile
 from bladerub.explorer.page import build
+from bladerub.io import atomic, tables
 from bladerub.study import divergence, peaks
+from bladerub.workflow import job
 
 job.log_to(snakemake.log[0])
 
 page = build(
     snakemake.input.maps,
     snakemake.input.manifests,
-    tablefile.read(snakemake.input.peaks, peaks.COLUMNS),
-    tablefile.read(snakemake.input.divergence, divergence.COLUMNS),
+    tables.read(snakemake.input.peaks, peaks.COLUMNS),
+    tables.read(snakemake.input.divergence, divergence.COLUMNS),
     snakemake.params.settings,
     snakemake.params.configs,
 )

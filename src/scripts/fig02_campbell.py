@@ -1,18 +1,19 @@
 """Fig. 2: Campbell diagram of the finite element model and of the reduced model, normalised by f1 at rest."""
 
-from bladerub import datafile, job, tablefile
 from bladerub.blade.accuracy import CAMPBELL_COLUMNS
+from bladerub.io import hdf5, tables
+from bladerub.io.provenance import provenance
 from bladerub.plots import style
 from bladerub.plots.campbell import campbell
-from bladerub.provenance import provenance
+from bladerub.workflow import job
 
 job.log_to(snakemake.log[0])
 
-f1_hz = datafile.read_attributes(snakemake.input.blade)["f1_hz"]
-table = tablefile.read(snakemake.input.campbell, CAMPBELL_COLUMNS)
+f1_hz = hdf5.read_attributes(snakemake.input.blade)["f1_hz"]
+table = tables.read(snakemake.input.campbell, CAMPBELL_COLUMNS)
 table[["f_fe", "f_rom"]] /= f1_hz
 table = table.rename(columns={"f_fe": "f_fe_over_f1", "f_rom": "f_rom_over_f1"})
-tablefile.write(snakemake.output.data, table, provenance(snakemake.config), "%.6g")
+tables.write(snakemake.output.data, table, provenance(snakemake.config), "%.6g")
 
 modes = table.pivot(index="f_omega", columns="mode")
 figure = campbell(modes.index, modes["f_fe_over_f1"], modes["f_rom_over_f1"], orders=range(1, 13))

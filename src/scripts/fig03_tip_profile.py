@@ -6,12 +6,13 @@ The data are in m, stress normalised.
 import numpy as np
 import pandas as pd
 
-from bladerub import job, tablefile
-from bladerub.contact import coating, tip
+from bladerub.contact import law, tip
 from bladerub.contact.spec import Coating, TipProfile
+from bladerub.io import tables
+from bladerub.io.provenance import provenance
 from bladerub.plots import style
 from bladerub.plots.tip_profile import TipScene, tip_profile
-from bladerub.provenance import provenance
+from bladerub.workflow import job
 
 PENETRATION = 0.15e-3  # of the node, m: a usual depth in the study
 REACH = 6  # elements shown on each side of the node
@@ -27,7 +28,7 @@ for node in np.linspace(-2 * REACH, 0, 40 * REACH + 1):  # the tip passes in sma
     covered = tip.coverage(profile, element - node) > 0
     depth = PENETRATION + tip.profile(profile, element - node)
     penetration = np.where(covered, np.maximum(depth, 0), 0)
-    stress, wear = coating.load(layer, penetration, wear)
+    stress, wear = law.load(layer, penetration, wear)
 
 offset = np.linspace(-1, 1, 81) * (profile.half_width + 0.5)
 scene = TipScene(
@@ -42,6 +43,6 @@ scene = TipScene(
 )
 columns = {"element": element, "position": scene.element, "shortening": scene.shortening, "wear": wear}
 table = pd.DataFrame(columns | {"stress": stress})
-tablefile.write(snakemake.output.data, table, provenance(snakemake.config), "%.6g")
+tables.write(snakemake.output.data, table, provenance(snakemake.config), "%.6g")
 figure = tip_profile(scene, f"E = {layer.E:g}, K = {layer.K:g}")
 style.save(figure, snakemake.output.png, snakemake.output.pdf, snakemake.params.dpi)

@@ -6,12 +6,13 @@ from itertools import pairwise
 import numpy as np
 import pandas as pd
 
-from bladerub import job, tablefile
-from bladerub.contact import coating
+from bladerub.contact import law
 from bladerub.contact.spec import Coating
+from bladerub.io import tables
+from bladerub.io.provenance import provenance
 from bladerub.plots import style
 from bladerub.plots.coating_cycle import Cycle, coating_cycle
-from bladerub.provenance import provenance
+from bladerub.workflow import job
 
 STRAINS = (0.0, 0.03, 0.0, 0.05, 0.0)  # load, unload, reload further, unload
 STEPS = 400  # of each branch
@@ -31,10 +32,10 @@ for title, yield_stress in (
     bar = replace(layer, yield_stress=yield_stress)
     stress, wear = np.zeros(strain.size), np.zeros(strain.size)
     for step in range(1, strain.size):
-        stress[step], wear[step] = coating.load(bar, strain[step] * bar.thickness, wear[step - 1])
+        stress[step], wear[step] = law.load(bar, strain[step] * bar.thickness, wear[step - 1])
     cycles.append(Cycle(title, strain, stress, wear / bar.thickness, bar.E, bar.K, yield_stress))
     columns = {"strain": strain, "stress": stress, "plastic_strain": wear / bar.thickness}
     parts.append(pd.DataFrame({"yield_stress": yield_stress} | columns))
 
-tablefile.write(snakemake.output.data, pd.concat(parts), provenance(snakemake.config), "%.6g")
+tables.write(snakemake.output.data, pd.concat(parts), provenance(snakemake.config), "%.6g")
 style.save(coating_cycle(cycles), snakemake.output.png, snakemake.output.pdf, snakemake.params.dpi)

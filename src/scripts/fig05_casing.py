@@ -5,12 +5,13 @@ from dataclasses import replace
 import numpy as np
 import pandas as pd
 
-from bladerub import job, tablefile
 from bladerub.contact.casing import shape
 from bladerub.contact.spec import Casing
+from bladerub.io import tables
+from bladerub.io.provenance import provenance
 from bladerub.plots import style
 from bladerub.plots.casing_polar import casing_polar
-from bladerub.provenance import provenance
+from bladerub.workflow import job
 
 MAGNIFICATION = 150
 
@@ -26,7 +27,7 @@ inward = {name: casing.amplitude * shape(casing, angle) for name, casing in casi
 table = pd.concat(
     pd.DataFrame({"nodal_diameters": name, "angle": angle, "inward": u}) for name, u in inward.items()
 )
-tablefile.write(snakemake.output.data, table, provenance(snakemake.config), "%.6g")
+tables.write(snakemake.output.data, table, provenance(snakemake.config), "%.6g")
 named = {f"{name} nodal diameters": u for name, u in inward.items()}
 figure = casing_polar(angle, named, snakemake.params.casing_radius, MAGNIFICATION)
 style.save(figure, snakemake.output.png, snakemake.output.pdf, snakemake.params.dpi)

@@ -3,10 +3,10 @@
 The data are the map of its coating in ``maps/``.
 """
 
-from bladerub import job
 from bladerub.plots import style
 from bladerub.plots.spectrum_map import spectrum_map
 from bladerub.study.maps import read_map
+from bladerub.workflow import job
 
 job.log_to(snakemake.log[0])
 

@@ -2,12 +2,13 @@
 
 import pandas as pd
 
-from bladerub import job, tablefile
+from bladerub.io import tables
+from bladerub.io.provenance import provenance
 from bladerub.plots import style
 from bladerub.plots.peak_sections import PeakSection, peak_sections
-from bladerub.provenance import provenance
 from bladerub.study.maps import read_map
 from bladerub.study.peaks import order_amplitude, peak, speed_window
+from bladerub.workflow import job
 
 job.log_to(snakemake.log[0])
 
@@ -23,6 +24,6 @@ table = pd.concat(
     pd.DataFrame({"order": section.order, "f_omega": coating.f_omega, "amplitude": section.amplitude})
     for section in sections
 )
-tablefile.write(snakemake.output.data, table, provenance(snakemake.config), "%.6g")
+tables.write(snakemake.output.data, table, provenance(snakemake.config), "%.6g")
 figure = peak_sections(coating, sections, snakemake.params.amplitude_range, snakemake.params.max_frequency)
 style.save(figure, snakemake.output.png, snakemake.output.pdf, snakemake.params.dpi)

@@ -1,14 +1,15 @@
 """Fig. 14: rotational frequency f6 of the maximum on engine order 6, over E and K."""
 
-from bladerub import job, tablefile
+from bladerub.io import tables
+from bladerub.io.provenance import provenance
 from bladerub.plots import style
 from bladerub.plots.histogram import peak_speeds
-from bladerub.provenance import provenance
 from bladerub.study.peaks import COLUMNS
+from bladerub.workflow import job
 
 job.log_to(snakemake.log[0])
 
-peaks = tablefile.read(snakemake.input.peaks, COLUMNS).query(snakemake.params.coatings)
+peaks = tables.read(snakemake.input.peaks, COLUMNS).query(snakemake.params.coatings)
 table, figure = peak_speeds(peaks, order=6)
-tablefile.write(snakemake.output.data, table, provenance(snakemake.config), "%.6g")
+tables.write(snakemake.output.data, table, provenance(snakemake.config), "%.6g")
 style.save(figure, snakemake.output.png, snakemake.output.pdf, snakemake.params.dpi)

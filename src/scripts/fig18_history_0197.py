@@ -1,12 +1,13 @@
 """Fig. 18: radial displacement of node 1 (m) at f_Ω = 0.197, straight and inclined coating elements."""
 
-from bladerub import job, tablefile
+from bladerub.io import tables
+from bladerub.io.provenance import provenance
 from bladerub.plots import style
 from bladerub.plots.history import history_of_runs
-from bladerub.provenance import provenance
+from bladerub.workflow import job
 
 job.log_to(snakemake.log[0])
 
 table, figure = history_of_runs(snakemake.params.runs)
-tablefile.write(snakemake.output.data, table, provenance(snakemake.config), "%.6g")
+tables.write(snakemake.output.data, table, provenance(snakemake.config), "%.6g")
 style.save(figure, snakemake.output.png, snakemake.output.pdf, snakemake.params.dpi)

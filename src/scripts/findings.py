@@ -2,9 +2,10 @@
 
 import math
 
-from bladerub import job, tablefile
-from bladerub.provenance import provenance
+from bladerub.io import tables
+from bladerub.io.provenance import provenance
 from bladerub.study import findings
+from bladerub.workflow import job
 
 job.log_to(snakemake.log[0])
 
@@ -21,4 +22,4 @@ table["robustness"] = [
     share if reference == holds else math.nan
     for (reference, share), holds in zip(known, table["holds"], strict=True)
 ]
-tablefile.write(snakemake.output[0], table, provenance(snakemake.config))
+tables.write(snakemake.output[0], table, provenance(snakemake.config))

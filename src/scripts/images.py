@@ -2,7 +2,8 @@
 
 from PIL import Image
 
-from bladerub import atomic, job
+from bladerub.io import atomic
+from bladerub.workflow import job
 
 job.log_to(snakemake.log[0])
 

@@ -2,10 +2,10 @@
 
 import sys
 
-from bladerub import job
 from bladerub.blade.model import read_reduced_blade
-from bladerub.study import long_runs
+from bladerub.extensions import long_runs
 from bladerub.study.maps import read_map
+from bladerub.workflow import job
 
 job.log_to(snakemake.log[0])
 

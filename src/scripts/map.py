@@ -2,10 +2,10 @@
 
 from pathlib import Path
 
-from bladerub import job
 from bladerub.blade.model import read_reduced_blade
 from bladerub.study.grid import case_from_name
 from bladerub.study.maps import build_map
+from bladerub.workflow import job
 
 job.log_to(snakemake.log[0])
 

@@ -2,22 +2,23 @@
 
 import pandas as pd
 
-from bladerub import job, tablefile
+from bladerub.extensions.plots.robustness import robustness as draw
+from bladerub.extensions.robustness import summary
+from bladerub.extensions.robustness.plan import read_plan
+from bladerub.extensions.robustness.sample import COST
+from bladerub.io import tables
+from bladerub.io.provenance import provenance
 from bladerub.plots import style
-from bladerub.plots.robustness import robustness as draw
-from bladerub.provenance import provenance
-from bladerub.study.robustness import summary
-from bladerub.study.robustness.plan import read_plan
-from bladerub.study.robustness.sample import COST
+from bladerub.workflow import job
 
 job.log_to(snakemake.log[0])
 
 plan = read_plan(snakemake.input.plan)
 verdicts = summary.gather(snakemake.input.verdicts)
-cost = pd.concat([tablefile.read(path, COST) for path in snakemake.input.cost], ignore_index=True)
+cost = pd.concat([tables.read(path, COST) for path in snakemake.input.cost], ignore_index=True)
 indices = summary.sensitivities(plan, verdicts)
 table = summary.summary(plan, verdicts, indices, cost)
 made = {"table": table, "indices": indices, "verdicts": verdicts, "design": summary.design(plan)}
 for name, each in made.items():
-    tablefile.write(snakemake.output[name], each, provenance(snakemake.config))
+    tables.write(snakemake.output[name], each, provenance(snakemake.config))
 style.save(draw(table, indices), snakemake.output.png, snakemake.output.pdf, snakemake.params.dpi)

@@ -2,12 +2,13 @@
 
 import pandas as pd
 
-from bladerub import config as configuration
-from bladerub import job, tablefile
-from bladerub.provenance import provenance
-from bladerub.study.robustness.design import batch
-from bladerub.study.robustness.plan import read_plan
-from bladerub.study.robustness.sample import COLUMNS, COST, answer
+from bladerub.config import read as configuration
+from bladerub.extensions.robustness.design import batch
+from bladerub.extensions.robustness.plan import read_plan
+from bladerub.extensions.robustness.sample import COLUMNS, COST, answer
+from bladerub.io import tables
+from bladerub.io.provenance import provenance
+from bladerub.workflow import job
 
 job.log_to(snakemake.log[0])
 
@@ -21,5 +22,5 @@ for (number, config), (model, accuracy) in zip(samples.items(), blades, strict=T
     cost.append((part, number, said.runs, said.cpu_s))
     print(f"sample {number}: {said.runs} runs in {said.cpu_s:.1f} s", flush=True)
 origin = provenance({**snakemake.config, "robustness": configuration.load(snakemake.params.plan)})
-tablefile.write(snakemake.output.verdicts, pd.concat(verdicts, ignore_index=True), origin)
-tablefile.write(snakemake.output.cost, pd.DataFrame(cost, columns=COST), origin)
+tables.write(snakemake.output.verdicts, pd.concat(verdicts, ignore_index=True), origin)
+tables.write(snakemake.output.cost, pd.DataFrame(cost, columns=COST), origin)

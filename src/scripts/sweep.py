@@ -2,10 +2,10 @@
 
 import sys
 
-from bladerub import job
 from bladerub.blade.model import read_reduced_blade
-from bladerub.study import sweeps
+from bladerub.extensions import sweeps
 from bladerub.study.grid import case_from_name
+from bladerub.workflow import job
 
 job.log_to(snakemake.log[0])
 

@@ -1,12 +1,8 @@
-import dataclasses
 import subprocess
 import sys
 
-import numpy as np
 import pytest
-
-from bladerub.blade.model import ReducedBlade
-from bladerub.contact.spec import Casing, Coating, RunSpec, TipProfile
+from stand_in import blade, change, spec  # noqa: F401 (fixtures)
 
 
 @pytest.fixture
@@ -26,64 +22,3 @@ def python_at_work():
         process.kill()
         process.wait()
         process.stdout.close()
-
-
-@pytest.fixture(scope="session")
-def blade():
-    """A dense 30-coordinate stand-in with the tip geometry of a blade; its highest mode is at 30 kHz."""
-    n = 30
-    rng = np.random.default_rng(7)
-    vectors, _ = np.linalg.qr(rng.normal(size=(n, n)))
-    omega = 2 * np.pi * np.geomspace(192.0, 30e3, n)
-    root_mass = np.sqrt(np.geomspace(0.05, 2e-3, n))
-    stiffness = root_mass[:, None] * (vectors * omega**2) @ vectors.T * root_mass
-    angle = np.linspace(-0.05, 0.05, 8)
-    zero = 0 * angle
-    return ReducedBlade(
-        mass=np.diag(root_mass**2),
-        stiffness_0=stiffness,
-        stiffness_1=0.6 * stiffness,
-        stiffness_2=0.01 * stiffness,
-        node_position=np.column_stack(
-            [np.linspace(-0.023, 0.024, 8), 0.65 * np.sin(angle), 0.65 * np.cos(angle)]
-        ),
-        radial_direction=np.column_stack([zero, np.sin(angle), np.cos(angle)]),
-        tangential_direction=np.column_stack([zero, np.cos(angle), -np.sin(angle)]),
-        f1_hz=192.0,
-        f_omega_max=0.4,
-        eta=6,
-        rank_tolerance=1e-5,
-        length=0.2,
-    )
-
-
-@pytest.fixture(scope="session")
-def spec():
-    """A short run with a coarse ring, so that nodes meet many elements, lobes and the wrap-around."""
-    return RunSpec(
-        casing=Casing("2nd5nd", (2, 5), (0.25, 1.0), 0.5e-3, 0.3e-3, np.deg2rad(108.0)),
-        coating=Coating(1.1, 0.5, 0.1, 1e-6, 150e6, 5e-3, 200),
-        tip=TipProfile(2.0, 20e-6),
-        clearance=(30e-6, 86e-6),
-        damping_ratio=2.3e-3,
-        f_omega=0.3,
-        revolutions=2,
-        scheme="exponential",
-        steps_per_element=12,
-        max_time_step=1e-5,
-        displacement_limit=0.02,
-    )
-
-
-@pytest.fixture(scope="session")
-def change():
-    """Copy a spec with other values; keys of the coating, casing or tip are found where they are."""
-
-    def changed(spec, **values):
-        for part in ("coating", "casing", "tip"):
-            names = {field.name for field in dataclasses.fields(getattr(spec, part))} & values.keys()
-            inner = {name: values.pop(name) for name in names}
-            spec = dataclasses.replace(spec, **{part: dataclasses.replace(getattr(spec, part), **inner)})
-        return dataclasses.replace(spec, **values)
-
-    return changed

@@ -7,7 +7,7 @@ import pytest
 import yaml
 
 from bladerub.blade.build import build
-from bladerub.study.proportion import contact_scale
+from bladerub.study.similarity import contact_scale
 
 CONFIG = Path(__file__).parents[2] / "config" / "config.yaml"
 

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from bladerub.blade.build import discretise, meshed_blade, reduce_given
-from bladerub.blade.source.matrices import import_matrices
-from bladerub.blade.source.origin import MatrixSource
+from bladerub.blade.sources.matrices import import_matrices
+from bladerub.blade.sources.origin import MatrixSource
 from bladerub.contact.run import simulate
 from bladerub.export.fe_matrices import write_fe_matrices
 from bladerub.study.grid import CoatingCase, run_spec

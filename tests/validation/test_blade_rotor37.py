@@ -11,9 +11,9 @@ import pandas as pd
 import pytest
 from scipy.interpolate import PchipInterpolator
 
-from bladerub.blade.source.frame import Frame
-from bladerub.blade.source.importing import import_blade
-from bladerub.blade.source.origin import Source
+from bladerub.blade.sources.frame import Frame
+from bladerub.blade.sources.importing import import_blade
+from bladerub.blade.sources.origin import Source
 
 FILE = Path(__file__).parent / "rotor37_sections.dat"
 

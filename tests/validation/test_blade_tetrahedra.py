@@ -16,8 +16,8 @@ from bladerub.blade.geometry import BladeShape
 from bladerub.blade.linear import lowest_modes
 from bladerub.blade.mesh import BladeMesh
 from bladerub.blade.rotation import equilibrium
-from bladerub.blade.source.imported import import_mesh
-from bladerub.blade.source.origin import Source
+from bladerub.blade.sources.imported import import_mesh
+from bladerub.blade.sources.origin import Source
 
 gmsh = pytest.importorskip("gmsh", reason="Gmsh (pip install gmsh) is not installed", exc_type=ImportError)
 

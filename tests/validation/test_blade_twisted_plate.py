@@ -27,14 +27,14 @@ import numpy as np
 import pytest
 from plate_solutions import curved, plate_unit, ritz, twisted
 
-from bladerub import config as configuration
 from bladerub.blade.build import build
 from bladerub.blade.elasticity import Material, Solid
 from bladerub.blade.linear import factorise, lowest_modes
 from bladerub.blade.mesh import hexahedral_mesh
 from bladerub.blade.rotation import equilibrium
-from bladerub.blade.source import mesh_file
+from bladerub.blade.sources import mesh_file
 from bladerub.blade.surface import boundary_faces
+from bladerub.config import read as configuration
 
 BLADE = configuration.ROOT / "config" / "blades" / "twisted_plate.inp"  # of config/twisted_plate.yaml
 

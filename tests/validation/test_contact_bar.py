@@ -27,10 +27,10 @@ from bar_solutions import (
     second_contact_force,
 )
 
-from bladerub.contact import kernel
-from bladerub.contact.leap import leap_of
+from bladerub.contact.kernel import loop
+from bladerub.contact.kernel.free_flight import leap_of
+from bladerub.contact.kernel.modal import pack
 from bladerub.contact.modes import Modes
-from bladerub.contact.motion import pack
 from bladerub.contact.schemes import Contact, exponential, normal_compliance
 
 T = DOYEN.crossing
@@ -62,7 +62,7 @@ def march(gravity, duration):
     gap[:, 0] = -SPEED * at_centre - gravity * at_centre**2 / 2
     zeros, ones = np.zeros(8), np.ones(8)
     own = np.diag(normal_compliance(rule.compliance, -1.0, 0.0))
-    stator = kernel.Stator(
+    stator = loop.Stator(
         gap=gap,
         floor=np.full(at_centre.size, -np.inf),
         elastic=zeros,
@@ -76,7 +76,7 @@ def march(gravity, duration):
         tangential=0.0,
         own_compliance=np.where(own > 0, own, 1.0),  # of nodes that meet nothing
     )
-    here = kernel.Tip(
+    here = loop.Tip(
         start=zeros,
         per_metre=ones,
         radius=1e4 * ones,
@@ -86,11 +86,11 @@ def march(gravity, duration):
         stray=0.0,
         limit=1e6,
     )
-    motion, flight, state = pack(rule), leap_of(rule, 1, 0.0), kernel.at_rest(rule.omega.size, at_centre.size)
+    motion, flight, state = pack(rule), leap_of(rule, 1, 0.0), loop.at_rest(rule.omega.size, at_centre.size)
     force, speed = np.empty(n_steps), np.empty(n_steps)
     for i in range(n_steps):
         tip = here._replace(start=np.full(8, i + 1.0))
-        kernel.Rub(motion, flight, stator, tip, state, 1).revolve(np.zeros(1))
+        loop.Rub(motion, flight, stator, tip, state, 1).revolve(np.zeros(1))
         force[i] = -state.force[0, 0]
         speed[i] = -(state.q[0, 0] - state.q[1, 0]) / step * rule.tip[0, 0]
     time = step * np.arange(1, n_steps + 1) - LEAD_IN * T

@@ -7,7 +7,7 @@ elastoplastic modulus is E K / (E + K) and a strain increment beyond yield gives
 import numpy as np
 import pytest
 
-from bladerub.contact.coating import load
+from bladerub.contact.law import load
 from bladerub.contact.spec import Coating
 
 

@@ -11,10 +11,10 @@ circle of the radius w, which it keeps: friction takes what vibration is faster 
 import numpy as np
 import pytest
 
-from bladerub.contact import kernel
-from bladerub.contact.leap import leap_of
+from bladerub.contact.kernel import loop
+from bladerub.contact.kernel.free_flight import leap_of
+from bladerub.contact.kernel.modal import pack
 from bladerub.contact.modes import Modes
-from bladerub.contact.motion import pack
 from bladerub.contact.schemes import SCHEMES, Contact
 
 M, OMEGA, W, D = 0.1, 1.0, 1.0, 0.5
@@ -41,7 +41,7 @@ def vibration(s_0, reverses, n_cycles, scheme):
     zeros, ones, half_width = np.zeros(8), np.ones(8), 2.0
     each = ones * PUSH / (2 * half_width)  # the elements under the tip add up to its width
     hard = 1e12 * each
-    stator = kernel.Stator(
+    stator = loop.Stator(
         gap=gap,
         floor=np.full(N, -np.inf),
         elastic=each,
@@ -56,7 +56,7 @@ def vibration(s_0, reverses, n_cycles, scheme):
         own_compliance=zeros,
         reverses=reverses,
     )
-    tip = kernel.Tip(
+    tip = loop.Tip(
         start=zeros,
         per_metre=ones / (speed * STEP),
         radius=1e9 * ones,
@@ -66,13 +66,13 @@ def vibration(s_0, reverses, n_cycles, scheme):
         stray=0.0,
         limit=1e6,
     )
-    state = kernel.at_rest(1, N)
+    state = loop.at_rest(1, N)
     start = np.sqrt(W**2 + s_0 * abs(s_0))  # from −d, where the circle is farthest out
     positions = unit * np.array([start, start * np.cos(OMEGA * STEP), start * np.cos(2 * OMEGA * STEP)]) - d
     state.q[:, 0] = positions / tip_modes[8, 0]
     state.u[:, 8] = positions
     state.push[0, 0], state.force[0, 8] = PUSH, PUSH * tangential
-    rub = kernel.Rub(pack(rule), leap_of(rule, 1, 0.0), stator, tip, state, 1)
+    rub = loop.Rub(pack(rule), leap_of(rule, 1, 0.0), stator, tip, state, 1)
     seen, taken = np.empty(n_cycles * PER_CYCLE), np.empty(n_cycles * PER_CYCLE)
     for i in range(seen.size):
         rub.revolve(np.zeros(1), i)

@@ -10,10 +10,10 @@ Batailly and Pierre, J. Comput. Nonlinear Dyn. 7 (2012), section 3.)
 import numpy as np
 import pytest
 
-from bladerub.contact import kernel
-from bladerub.contact.leap import leap_of
+from bladerub.contact.kernel import loop
+from bladerub.contact.kernel.free_flight import leap_of
+from bladerub.contact.kernel.modal import pack
 from bladerub.contact.modes import Modes
-from bladerub.contact.motion import pack
 from bladerub.contact.schemes import Contact, central_differences, exponential
 
 M, H, N = 0.1, 1e-6, 64
@@ -35,18 +35,18 @@ def deviations(kappa, n_revolutions=2, start=1e-8, scheme=central_differences):
     each = zeros + bar / (2 * half_width)  # the elements under the tip add up to its width
     hard = 1e12 * each
     bars = each, hard, zeros, 1 / (each + hard), 0.5 / each
-    stator = kernel.Stator(gap, gap.min(axis=1), *bars, N, False, -1.0, 0.0, zeros)
-    tip = kernel.Tip(zeros, zeros, zeros + 1.0, zeros + 1.0, half_width, 0.0, 0.0, 1.0)
+    stator = loop.Stator(gap, gap.min(axis=1), *bars, N, False, -1.0, 0.0, zeros)
+    tip = loop.Tip(zeros, zeros, zeros + 1.0, zeros + 1.0, half_width, 0.0, 0.0, 1.0)
     # the paper's scheme takes the force at the prediction (1 − β) u of a resting mass
     predicted = 1 - BETA if rule.corrects else 1.0
     rest = -DEPTH * kappa / (BETA + kappa * predicted)
-    state = kernel.at_rest(1, N)
+    state = loop.at_rest(1, N)
     state.q[:, 0] = (rest + start) / tip_modes[0, 0]
     state.u[:, [0, 16]] = rest + start  # displacement and height of the first node
     if not rule.corrects:  # the bars already press
         state.push[0, 0] = bar * (rest + start + DEPTH)
         state.force[:, 0] = -state.push[0, 0]
-    rub = kernel.Rub(pack(rule), leap_of(rule, 1, 0.0), stator, tip, state, 1)
+    rub = loop.Rub(pack(rule), leap_of(rule, 1, 0.0), stator, tip, state, 1)
     seen = []
     for _ in range(n_revolutions):
         displacement = np.zeros(N)

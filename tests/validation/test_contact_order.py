@@ -12,10 +12,10 @@ finer. Expected: order 2 (exponential, at least 1.8) and 1 (central differences)
 import numpy as np
 import pytest
 
-from bladerub.contact import kernel
-from bladerub.contact.leap import leap_of
+from bladerub.contact.kernel import loop
+from bladerub.contact.kernel.free_flight import leap_of
+from bladerub.contact.kernel.modal import pack
 from bladerub.contact.modes import modes_at
-from bladerub.contact.motion import pack
 from bladerub.contact.schemes import SCHEMES, Contact, normal_compliance
 
 F_OMEGA, REVOLUTIONS, N = 0.3, 3, 400
@@ -32,7 +32,7 @@ def march(blade, scheme, steps_per_element):
     rule = SCHEMES[scheme](modes_at(blade, F_OMEGA), DAMPING, step, contact)
     angle = (np.arange(N) + 0.5) * 2 * np.pi / N
     gap = np.tile(1e-3 * (1 + np.cos(angle)) - DEPTH, (8, 1)).T.copy()
-    stator = kernel.Stator(
+    stator = loop.Stator(
         gap=gap,
         floor=np.full(N, -np.inf),
         elastic=ELASTIC * ones,
@@ -46,10 +46,10 @@ def march(blade, scheme, steps_per_element):
         tangential=tangential,
         own_compliance=np.diag(normal_compliance(rule.compliance, radial, tangential)).copy(),
     )
-    motion, flight, state = pack(rule), leap_of(rule, 1, 0.0), kernel.at_rest(rule.omega.size, N)
+    motion, flight, state = pack(rule), leap_of(rule, 1, 0.0), loop.at_rest(rule.omega.size, N)
     piece = np.zeros(N // 8)
     seen = []
-    tip = kernel.Tip(
+    tip = loop.Tip(
         start=np.linspace(0, 20, 8),
         per_metre=N / (2 * np.pi * RADIUS) * ones,
         radius=RADIUS * ones,
@@ -60,7 +60,7 @@ def march(blade, scheme, steps_per_element):
         limit=1.0,
     )
     for _ in range(8 * REVOLUTIONS):
-        kernel.Rub(motion, flight, stator, tip, state, steps_per_element).revolve(piece)
+        loop.Rub(motion, flight, stator, tip, state, steps_per_element).revolve(piece)
         seen.append(state.u[0, :16].copy())
         tip = tip._replace(start=(tip.start + piece.size) % N)
     return np.array(seen), state.wear

@@ -7,9 +7,9 @@ import pytest
 
 from bladerub.blade.build import build
 from bladerub.contact.run import simulate
-from bladerub.study import proportion
+from bladerub.study import similarity
 from bladerub.study.grid import CoatingCase, run_spec
-from bladerub.study.proportion import contact_scale, tip_stiffness, track_area
+from bladerub.study.similarity import contact_scale, tip_stiffness, track_area
 
 
 @pytest.fixture(scope="module")
@@ -34,7 +34,7 @@ def test_a_similar_blade_rubs_alike_in_its_own_units(
         ("TIP_STIFFNESS", tip_stiffness(coarse_blade)),
         ("TRACK_AREA", track_area(coarse_blade)),
     ):
-        monkeypatch.setattr(proportion, name, value)
+        monkeypatch.setattr(similarity, name, value)
     blade = build(similar_config).reduced
     scale = contact_scale(blade)
     assert scale["length"] == pytest.approx(0.37)

@@ -19,7 +19,7 @@ from typing import Any
 
 from workspace import Workspace
 
-from bladerub.config import load
+from bladerub.config.read import load
 
 STUDY_RUNS = "*/*.h5"
 """Without the longer runs, which are extra."""

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 import yaml
 
-from bladerub import lock
+from bladerub.io import lock
 
 COATING = "2nd_E2_K0.5_theta0"
 COMMAND = (

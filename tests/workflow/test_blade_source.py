@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 from skfem import MeshTet1
 
-from bladerub import datafile
 from bladerub.blade.geometry import BladeShape, lattice
-from bladerub.blade.source.mesh_file import raised
-from bladerub.config import load
+from bladerub.blade.sources.mesh_file import raised
+from bladerub.config.read import load
 from bladerub.export.mesh_file import write_mesh_file
+from bladerub.io import hdf5
 
 PICTURE = "results/figures/fig01_blade.png"
 
@@ -31,7 +31,7 @@ def foreign(workspace, tiny):
 
 def test_a_blade_from_a_file_is_made_and_drawn_and_made_anew_with_the_file(workspace, foreign):
     workspace.build(foreign, PICTURE)
-    mesh, _ = datafile.read(workspace.folder / "results" / "blade" / "mesh.h5")
+    mesh, _ = hdf5.read(workspace.folder / "results" / "blade" / "mesh.h5")
     assert mesh["cells"].shape == (10 * 4 * 6, 10)
     assert (workspace.folder / PICTURE).stat().st_size > 10_000
     assert workspace.plan(foreign, PICTURE) == {}

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pandas as pd
 import pytest
 
-from bladerub import tablefile
+from bladerub.io import tables
 
 FIGURES = [
     "Y4",
@@ -38,15 +38,15 @@ def test_the_chart_is_drawn_once_and_a_lost_cell_is_made_anew_alone(copied_study
     copied_study.build(charted, "chart", AGREEMENT)
     for name in FIGURES:
         assert (copied_study.results / "figures" / f"chart_{name}.png").stat().st_size > 10_000
-    chart = tablefile.read(copied_study.results / "tables" / "chart.csv")
+    chart = tables.read(copied_study.results / "tables" / "chart.csv")
     assert len(chart) == 4
     assert (chart.runs == 8).all()
 
     # E = 0.11 and 2 with K = 0.5 are coatings of the study as well, at the same speeds
-    agreement = tablefile.read(copied_study.folder / AGREEMENT)
+    agreement = tables.read(copied_study.folder / AGREEMENT)
     assert len(agreement) == 2 * 3
     assert (agreement.in_chart == agreement.greatest).all()
-    in_study = tablefile.read(copied_study.results / "tables" / "peaks.csv")
+    in_study = tables.read(copied_study.results / "tables" / "peaks.csv")
     both = pd.merge(chart, in_study, on=["casing", "E", "K", "theta"])
     for order in (4, 6):
         of_order = both[both.order == order]

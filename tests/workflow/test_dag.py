@@ -7,7 +7,7 @@ import subprocess
 
 import pytest
 
-from bladerub.datafile import read_attributes
+from bladerub.io.hdf5 import read_attributes
 
 TABLES = {"peaks": 1, "divergence": 1, "findings": 1, "margins": 1}
 HISTOGRAMS = {"fig11_Y4": 1, "fig12_f4": 1, "fig13_Y6": 1, "fig14_f6": 1}

@@ -12,7 +12,7 @@ import xarray as xr
 import yaml
 
 from bladerub.cli import inputs, main
-from bladerub.tablefile import description_path
+from bladerub.io.tables import description_path
 
 COATING = "2nd_E2_K0.5_theta0.15"
 PLAIN_RUN = f"runs/{COATING}/0.2300.h5"

@@ -5,10 +5,10 @@ from __future__ import annotations
 import pytest
 from scipy import sparse
 
-from bladerub import datafile
 from bladerub.blade.build import discretise, meshed_blade
-from bladerub.config import load
+from bladerub.config.read import load
 from bladerub.export.fe_matrices import write_fe_matrices
+from bladerub.io import hdf5
 
 PICTURE = "results/figures/fig01_blade.png"
 
@@ -27,7 +27,7 @@ def foreign(workspace, tiny):
 
 def test_a_blade_of_matrices_is_made_and_drawn_and_made_anew_with_a_file(workspace, foreign):
     workspace.build(foreign, PICTURE)
-    mesh, _ = datafile.read(workspace.folder / "results" / "blade" / "mesh.h5")
+    mesh, _ = hdf5.read(workspace.folder / "results" / "blade" / "mesh.h5")
     assert mesh["cells"].shape == (0, 20)
     assert mesh["static_displacement"].shape == (0, *mesh["points"].shape)
     assert (workspace.folder / PICTURE).stat().st_size > 10_000

@@ -4,7 +4,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from bladerub import datafile
+from bladerub.io import hdf5
 
 SWEPT = ["2nd_E1.1_K0.5_theta0", "2nd_rigid_mu0"]
 
@@ -33,10 +33,10 @@ def test_sweeps_and_long_runs_are_made_when_asked_for(copied_study, beside):
     long = pd.read_csv(copied_study.results / "tables" / "long_runs.csv")
     assert set(long.revolutions) == {3, 6, 12}
     path = copied_study.results / "long_runs" / "2nd_E1.1_K0.5_theta0.h5"
-    data, _ = datafile.read(path)
+    data, _ = hdf5.read(path)
     for f_omega, amplitude in zip(data["f_omega"], data["revolution_amplitude"], strict=True):
         run = copied_study.results / "runs" / "2nd_E1.1_K0.5_theta0" / f"{f_omega:.4f}.h5"
-        np.testing.assert_array_equal(datafile.read(run)[0]["revolution_amplitude"], amplitude[:3])
+        np.testing.assert_array_equal(hdf5.read(run)[0]["revolution_amplitude"], amplitude[:3])
 
     assert copied_study.plan(beside, "sweeps", "long_runs") == {}
     beside["sweeps"]["rates"] = [1.0, 3.0]

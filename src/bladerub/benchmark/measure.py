@@ -18,12 +18,12 @@ import numpy as np
 
 from bladerub.benchmark import peak, plain
 from bladerub.blade.model import ReducedBlade
-from bladerub.contact.kernel import Progress, Rub
+from bladerub.contact.kernel.loop import Progress, Rub
+from bladerub.contact.kernel.vectors import LANES
 from bladerub.contact.run import set_up, simulate
 from bladerub.contact.spec import RunSpec
-from bladerub.contact.vectors import LANES
 from bladerub.study.grid import coating_cases, run_spec, speeds
-from bladerub.study.verification import draw, study_runs
+from bladerub.verification.verify import draw, study_runs
 
 SHARE = 1 / 3
 """Share of the steps in contact."""

@@ -1,15 +1,15 @@
 """The time loop written plainly with NumPy, for the exponential scheme and abradable coatings.
 
-What `bladerub.contact.kernel` computes, but for the energy ledger and the search for forces node by node,
-which no run of the study needs: modes, tip and contact forces a step at a time, in whole arrays of modes,
-nodes and bars. It runs as it stands, and compiled by numba.
+What `bladerub.contact.kernel.loop` computes, but for the energy ledger and the search for forces node by
+node, which no run of the study needs: modes, tip and contact forces a step at a time, in whole arrays of
+modes, nodes and bars. It runs as it stands, and compiled by numba.
 """
 
 from __future__ import annotations
 
 import numpy as np
 
-from bladerub.contact.kernel import ATTEMPTS, SETTLED, Rub
+from bladerub.contact.kernel.loop import ATTEMPTS, SETTLED, Rub
 from bladerub.contact.schemes import Recurrence
 
 

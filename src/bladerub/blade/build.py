@@ -17,17 +17,15 @@ from scipy import sparse
 from scipy.linalg import blas
 from threadpoolctl import threadpool_limits
 
-from bladerub import datafile, tablefile
 from bladerub.blade import geometry
 from bladerub.blade.accuracy import CAMPBELL_COLUMNS, accuracy_table
-from bladerub.blade.adaptive import MOST_FIT_SPEEDS, reduce_within
 from bladerub.blade.discrete import DiscreteBlade, by_finite_elements
 from bladerub.blade.elasticity import Material
 from bladerub.blade.frequencies import reduced_frequencies
 from bladerub.blade.linear import lowest_modes
 from bladerub.blade.mesh import BladeMesh, MeshedBlade
 from bladerub.blade.model import AXIS, INTERFACE_NODE, ReducedBlade, write_reduced_blade
-from bladerub.blade.nearby import Nearby
+from bladerub.blade.preconditioned_cg import Nearby
 from bladerub.blade.reduction import (
     Partition,
     fit_speeds,
@@ -36,12 +34,14 @@ from bladerub.blade.reduction import (
     stiffness_at,
     transformation,
 )
-from bladerub.blade.source import matrix_folder
-from bladerub.blade.source.importing import import_blade
-from bladerub.blade.source.matrices import import_matrices
-from bladerub.blade.source.origin import MatrixSource, Source
-from bladerub.datafile import Variable
-from bladerub.faults import BadInput
+from bladerub.blade.refinement import MOST_FIT_SPEEDS, reduce_within
+from bladerub.blade.sources import matrix_folder
+from bladerub.blade.sources.importing import import_blade
+from bladerub.blade.sources.matrices import import_matrices
+from bladerub.blade.sources.origin import MatrixSource, Source
+from bladerub.io import hdf5, tables
+from bladerub.io.errors import BadInput
+from bladerub.io.hdf5 import Variable
 
 log = logging.getLogger(__name__)
 
@@ -123,7 +123,7 @@ def build(config: Mapping[str, Any]) -> BuiltBlade:
     ValueError
         If the blade cannot be meshed (see `bladerub.blade.geometry.check`).
     BadInput
-        If it cannot be imported (see `bladerub.blade.source`), or is not of its length.
+        If it cannot be imported (see `bladerub.blade.sources`), or is not of its length.
     EquilibriumError
         If the blade has no static equilibrium at one of the speeds.
     """
@@ -333,7 +333,7 @@ def write(
     """
     write_mesh(mesh, built, origin)
     for path, table in ((campbell, built.accuracy[CAMPBELL_COLUMNS]), (rom_accuracy, built.accuracy)):
-        tablefile.write(path, table, origin, float_format="%.10g")
+        tables.write(path, table, origin, float_format="%.10g")
     write_reduced_blade(reduced_model, built.reduced, origin)
 
 
@@ -371,4 +371,4 @@ def write_mesh(path: str | Path, built: BuiltBlade, origin: Mapping[str, str]) -
             ("f_omega", "node", "axis"), built.static_displacement, "m", "displacement under centrifugal load"
         ),
     }
-    datafile.write(path, variables, {"made_from": built.made_from}, origin)
+    hdf5.write(path, variables, {"made_from": built.made_from}, origin)

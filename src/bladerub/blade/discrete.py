@@ -14,7 +14,7 @@ from bladerub.blade.coordinates import FreeCoordinates
 from bladerub.blade.elasticity import Material, Solid
 from bladerub.blade.linear import MOST_BY_DEGREE, Solve, factorise, lowest_modes
 from bladerub.blade.mesh import MeshedBlade
-from bladerub.blade.nearby import Nearby
+from bladerub.blade.preconditioned_cg import Nearby
 from bladerub.blade.rotation import equilibrium
 
 log = logging.getLogger(__name__)
@@ -45,7 +45,7 @@ class DiscreteBlade:
         The columns that go with it.
     at_rest : callable, optional
         The factored stiffness at rest of a large blade: what solves at speed, too, by
-        `bladerub.blade.nearby.Nearby`. With it, `stiffness` has the same pattern at each speed.
+        `bladerub.blade.preconditioned_cg.Nearby`. With it, `stiffness` has the same pattern at each speed.
     modes_at_speed : mapping of float to (n, n_modes) ndarray
         With it, the modes that go with `frequencies`.
     """

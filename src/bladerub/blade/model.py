@@ -9,9 +9,9 @@ from pathlib import Path
 
 import numpy as np
 
-from bladerub import datafile
-from bladerub.datafile import Variable
-from bladerub.faults import DamagedFile
+from bladerub.io import hdf5
+from bladerub.io.errors import DamagedFile
+from bladerub.io.hdf5 import Variable
 
 N_INTERFACE = 8
 """Number of interface nodes on the blade tip, leading to trailing edge."""
@@ -108,7 +108,7 @@ def write_reduced_blade(path: str | Path, blade: ReducedBlade, origin: Mapping[s
         is_matrix = data.shape == blade.mass.shape
         dims = ("coordinate", "coordinate_column") if is_matrix else ("node", "axis")
         variables[name] = Variable(dims, data, units, long_name)
-    datafile.write(path, variables, {name: getattr(blade, name) for name in _ATTRIBUTES}, origin)
+    hdf5.write(path, variables, {name: getattr(blade, name) for name in _ATTRIBUTES}, origin)
 
 
 def _higher(name: str) -> tuple[str, str]:
@@ -123,7 +123,7 @@ def read_reduced_blade(path: str | Path) -> ReducedBlade:
     OSError
         If the file is missing, unreadable or not a reduced blade; the message names it.
     """
-    data, attributes = datafile.read(path)
+    data, attributes = hdf5.read(path)
     names = (f"stiffness_{power}" for power in itertools.count(3))
     higher = itertools.takewhile(data.__contains__, names)
     try:

@@ -9,7 +9,7 @@ import numpy as np
 from scipy import sparse
 
 from bladerub.blade.linear import Solve, factorise, lowest_modes
-from bladerub.blade.nearby import Nearby
+from bladerub.blade.preconditioned_cg import Nearby
 
 
 def fit_speeds(f_max: float, count: int = 3) -> list[float]:

@@ -9,7 +9,7 @@ from scipy import sparse
 
 from bladerub.blade.elasticity import Solid
 from bladerub.blade.linear import Solve, factorise
-from bladerub.blade.nearby import Nearby
+from bladerub.blade.preconditioned_cg import Nearby
 
 TOLERANCE = 1e-9
 """Largest residual force accepted, over the norm of the centrifugal load."""

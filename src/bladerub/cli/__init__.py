@@ -6,10 +6,11 @@ import argparse
 import sys
 from typing import NoReturn
 
-from bladerub import __version__, faults
+from bladerub import __version__
 from bladerub.cli import benchmark, export, import_blade, run, status, verify
 from bladerub.cli.errors import InputError
-from bladerub.config_faults import ConfigError
+from bladerub.config.errors import ConfigError
+from bladerub.io import errors
 
 
 class _Parser(argparse.ArgumentParser):
@@ -40,7 +41,7 @@ def main(arguments: list[str] | None = None) -> int:
         print(f"bladerub {options.name}: {' '.join(str(error).split())}", file=sys.stderr)
         return 2
     except OSError as error:
-        print(f"bladerub {options.name}: {faults.in_words(error)}", file=sys.stderr)
+        print(f"bladerub {options.name}: {errors.in_words(error)}", file=sys.stderr)
         return 2
     except KeyboardInterrupt:
         print(f"bladerub {options.name}: interrupted", file=sys.stderr)

@@ -1,6 +1,6 @@
 """How a command says that what was asked for cannot be done."""
 
-from bladerub.faults import BadInput
+from bladerub.io.errors import BadInput
 
 
 class InputError(BadInput):

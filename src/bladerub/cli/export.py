@@ -11,9 +11,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from tqdm import tqdm
 
-from bladerub import faults
 from bladerub.cli import export_blade, export_sections, inputs
 from bladerub.cli.errors import InputError
+from bladerub.io import errors
 
 if TYPE_CHECKING:
     from bladerub.blade.model import ReducedBlade
@@ -119,16 +119,16 @@ def _motion(options: argparse.Namespace, config: dict[str, Any]) -> dict[str, An
     try:
         run = read_run(options.run)
     except OSError as error:
-        raise InputError(f"--run {faults.in_words(error)}") from error
+        raise InputError(f"--run {errors.in_words(error)}") from error
     path, blade = _blade(options, config)
 
     from bladerub.export.vtu import COLLECTION, read_mesh, write_motion
-    from bladerub.provenance import provenance
+    from bladerub.io.provenance import provenance
 
     try:
         mesh = read_mesh(path.with_name("mesh.h5"), blade)
     except OSError as error:
-        raise InputError(faults.in_words(error)) from error
+        raise InputError(errors.in_words(error)) from error
     plan = _plan(options, config, run, path)
     recording = _record(options, run, plan, blade)
     about = {

@@ -6,10 +6,10 @@ import argparse
 from pathlib import Path
 from typing import Any
 
-from bladerub import faults
 from bladerub.cli import inputs
 from bladerub.cli.errors import InputError
-from bladerub.faults import BadInput
+from bladerub.io import errors
+from bladerub.io.errors import BadInput
 
 
 def add_to(form: Any) -> None:
@@ -88,7 +88,7 @@ def write(options: argparse.Namespace, config: dict[str, Any]) -> dict[str, Any]
                 _speeds(options, blade.f_omega_max),
             )
     except OSError as error:
-        raise InputError(faults.in_words(error)) from error
+        raise InputError(errors.in_words(error)) from error
     return {
         "files": [str(file) for file in files],
         "nodes": len(mesh["points"]),
@@ -139,9 +139,9 @@ def _write_fe_matrices(options: argparse.Namespace, config: dict[str, Any]) -> d
 
 def _fields(path: Path) -> dict[str, Any]:
     """Read the modes at rest and the centrifugal displacements (m) by name from ``mesh.h5``."""
-    from bladerub import datafile
+    from bladerub.io import hdf5
 
-    data, _ = datafile.read(path, {"mode_shape", "frequency", "static_displacement", "f_omega"})
+    data, _ = hdf5.read(path, {"mode_shape", "frequency", "static_displacement", "f_omega"})
     modes = enumerate(zip(data["frequency"], data["mode_shape"], strict=True), 1)
     moved = zip(data["f_omega"], data["static_displacement"], strict=True)
     return {f"mode_{number}_{hertz:.5g}_Hz": shape for number, (hertz, shape) in modes} | {

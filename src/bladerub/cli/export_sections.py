@@ -5,9 +5,9 @@ from __future__ import annotations
 import argparse
 from typing import Any
 
-from bladerub import faults
-from bladerub.blade.source.origin import TABLE_SUFFIXES
+from bladerub.blade.sources.origin import TABLE_SUFFIXES
 from bladerub.cli.errors import InputError
+from bladerub.io import errors
 
 COORDINATES = ("cartesian", "cylindrical")
 
@@ -38,7 +38,7 @@ def write(options: argparse.Namespace, config: dict[str, Any]) -> dict[str, Any]
     except ValueError as error:
         raise InputError(f"--coordinates {coordinates}: {error}") from error
     except OSError as error:
-        raise InputError(faults.in_words(error)) from error
+        raise InputError(errors.in_words(error)) from error
     return {"files": [str(path)], "coordinates": coordinates, "sections": n_sections, "stations": n_stations}
 
 

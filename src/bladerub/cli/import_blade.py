@@ -12,12 +12,12 @@ from typing import Any
 import yaml
 
 from bladerub.blade.model import ReducedBlade
-from bladerub.blade.source import origin
-from bladerub.blade.source.frame import ANGLE_UNITS, AXES, UNITS, Frame
-from bladerub.blade.source.origin import MATRIX_UNITS, MatrixSource, Source
+from bladerub.blade.sources import origin
+from bladerub.blade.sources.frame import ANGLE_UNITS, AXES, UNITS, Frame
+from bladerub.blade.sources.origin import MATRIX_UNITS, MatrixSource, Source
 from bladerub.cli import import_matrices, inputs
 from bladerub.cli.errors import InputError
-from bladerub.config import ROOT
+from bladerub.io.sources import ROOT
 
 _AXIS_OPTIONS = ("--rotation", "--downstream", "--radial")
 _FEWEST_SPEEDS = 5
@@ -106,7 +106,7 @@ def import_blade(options: argparse.Namespace) -> None:
     entry |= {name: value for name, value in known.items() if name not in ("file", "matrices")} | given
 
     from bladerub.blade.rotation import EquilibriumError
-    from bladerub.study.proportion import contact_scale, tip_stiffness
+    from bladerub.study.similarity import contact_scale, tip_stiffness
 
     try:
         source = origin.read(entry)
@@ -136,8 +136,8 @@ def _look(source: Source, config: dict[str, Any]) -> tuple[dict[str, Any], Reduc
 
     from bladerub.blade.build import reduce_meshed
     from bladerub.blade.elasticity import Material
-    from bladerub.blade.source import importing
-    from bladerub.blade.source.report import report
+    from bladerub.blade.sources import importing
+    from bladerub.blade.sources.report import report
 
     imported = importing.import_blade(source, config["blade"]["mesh"])
     built = reduce_meshed(imported.blade, config)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from bladerub.blade.model import ReducedBlade
-from bladerub.blade.source.origin import MatrixSource
+from bladerub.blade.sources.origin import MatrixSource
 
 
 def look(source: MatrixSource, config: dict[str, Any]) -> tuple[dict[str, Any], ReducedBlade]:
@@ -17,8 +17,8 @@ def look(source: MatrixSource, config: dict[str, Any]) -> tuple[dict[str, Any], 
         If the folder cannot be used as a blade.
     """
     from bladerub.blade.build import reduce_given
-    from bladerub.blade.source.matrices import import_matrices
-    from bladerub.blade.source.matrix_report import report
+    from bladerub.blade.sources.matrices import import_matrices
+    from bladerub.blade.sources.matrix_report import report
 
     reduction = config["reduction"]
     imported = import_matrices(

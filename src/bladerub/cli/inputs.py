@@ -8,11 +8,11 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from bladerub import config as configuration
 from bladerub.cli.errors import InputError
-from bladerub.config import ROOT
-from bladerub.config_faults import shown
-from bladerub.faults import BadInput
+from bladerub.config import read as configuration
+from bladerub.config.errors import shown
+from bladerub.io.errors import BadInput
+from bladerub.io.sources import ROOT
 
 if TYPE_CHECKING:  # the rest of the package is imported when it is sure to be needed: numba takes its time
     from bladerub.blade.model import ReducedBlade
@@ -102,8 +102,8 @@ def read_blade(options: argparse.Namespace, config: dict[str, Any]) -> tuple[Pat
     OSError
         If the files of the default blade are damaged or cannot be written.
     """
-    from bladerub import invocation
-    from bladerub.blade.soundness import read_sound_blade
+    from bladerub.blade.validation import read_sound_blade
+    from bladerub.workflow import invocation
 
     path = blade_path(options, config)
     if not options.blade and not (path.exists() and _mesh_of(path).exists()):
@@ -136,10 +136,10 @@ def is_of(config: dict[str, Any], path: Path) -> bool:
     OSError
         If its mesh, which tells, is missing or damaged.
     """
-    from bladerub import datafile
     from bladerub.blade.build import made_from
+    from bladerub.io import hdf5
 
-    return datafile.read_attributes(_mesh_of(path)).get("made_from") == made_from(config)
+    return hdf5.read_attributes(_mesh_of(path)).get("made_from") == made_from(config)
 
 
 def _mesh_of(path: Path) -> Path:
@@ -149,7 +149,7 @@ def _mesh_of(path: Path) -> Path:
 def _build_blade(config: dict[str, Any], path: Path) -> None:
     from bladerub.blade import build
     from bladerub.blade.rotation import EquilibriumError
-    from bladerub.provenance import provenance
+    from bladerub.io.provenance import provenance
 
     try:
         built = build.build(config)

@@ -16,8 +16,8 @@ from tqdm import tqdm
 
 from bladerub.cli import inputs
 from bladerub.cli.errors import InputError
-from bladerub.config import check_quantity
-from bladerub.config_faults import shown
+from bladerub.config.errors import shown
+from bladerub.config.read import check_quantity
 
 _KINDS = {"abradable": ("E", "K", "theta", "friction"), "rigid": ("friction",)}
 """What describes each kind of coating; of theta and friction an abradable one has either."""
@@ -117,7 +117,7 @@ def run(options: argparse.Namespace) -> None:
 def _config(options: argparse.Namespace) -> dict[str, Any]:
     config = inputs.read_config(options)
 
-    from bladerub.config_checks import most_revolutions
+    from bladerub.config.checks import most_revolutions
 
     if options.revolutions is not None:
         inputs.require(options, revolutions=(2, min(10_000, most_revolutions(config))))
@@ -170,7 +170,7 @@ def _check_output(path: Path) -> None:
 
 
 def _is_run(path: Path) -> bool:
-    from bladerub.datafile import read_attributes
+    from bladerub.io.hdf5 import read_attributes
 
     try:
         return path.is_file() and "run_key" in read_attributes(path)

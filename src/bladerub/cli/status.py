@@ -11,7 +11,7 @@ from typing import Any
 from tqdm import tqdm
 
 from bladerub.cli import inputs
-from bladerub.faults import in_words
+from bladerub.io.errors import in_words
 
 _COLUMNS = ("planned", "done", "missing", "stale", "corrupt", "unbounded")
 

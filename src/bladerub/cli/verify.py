@@ -61,8 +61,8 @@ def verify(options: argparse.Namespace) -> None:
     config = inputs.read_config(options)
     inputs.require(options, seed=(0, 2**63), jobs=(1, 1000))
 
-    from bladerub.study.error_report import report
-    from bladerub.study.verification import draw, study_runs, verify_runs
+    from bladerub.verification.report import report
+    from bladerub.verification.verify import draw, study_runs, verify_runs
 
     try:
         runs = draw(study_runs(config), options.sample, options.seed)

@@ -21,8 +21,8 @@ from __future__ import annotations
 
 from numba import njit
 
-from bladerub.contact.motion import displacement, no_projection, project, respond
-from bladerub.contact.vectors import LANES, at, choose, load, store
+from bladerub.contact.kernel.modal import displacement, no_projection, project, respond
+from bladerub.contact.kernel.vectors import LANES, at, choose, load, store
 
 
 @njit(forceinline=True)

@@ -9,15 +9,16 @@ import numpy as np
 from scipy.ndimage import minimum_filter1d
 
 from bladerub.blade.model import N_INTERFACE, ReducedBlade
-from bladerub.contact import casing, kernel, ledger
-from bladerub.contact.leap import LONGEST, Leap, leap_of
+from bladerub.contact import casing, energy
+from bladerub.contact.integration import Part, march
+from bladerub.contact.kernel import loop
+from bladerub.contact.kernel.free_flight import LONGEST, Leap, leap_of
+from bladerub.contact.kernel.modal import pack
+from bladerub.contact.kernel.vectors import aligned
 from bladerub.contact.modes import Modes, modes_at
-from bladerub.contact.motion import pack
 from bladerub.contact.schemes import SCHEMES, Contact, Recurrence, normal_compliance
 from bladerub.contact.spec import Coating, RunResult, RunSpec
 from bladerub.contact.tip import profile
-from bladerub.contact.track import Part, march
-from bladerub.contact.vectors import aligned
 
 STRAY = 4
 """Elements a node may move along the casing before the search for contact looks at it alone."""
@@ -58,7 +59,7 @@ def simulate(blade: ReducedBlade, spec: RunSpec, progress: Callable[[int], None]
     """
     n_elements, revolutions = spec.coating.n_elements, spec.revolutions
     rule, rub = set_up(blade, spec)
-    initial = sum(ledger.blade_energy(rule, rub.state))
+    initial = sum(energy.blade_energy(rule, rub.state))
     whole = (Part(rub, revolution, 0, n_elements) for revolution in range(revolutions))
     track = march(whole, revolutions, n_elements, progress)
     status, message = track.verdict(spec.displacement_limit)
@@ -73,14 +74,14 @@ def simulate(blade: ReducedBlade, spec: RunSpec, progress: Callable[[int], None]
         time_step=rule.time_step,
         n_steps=track.n_steps,
         n_contact_steps=track.n_contact_steps,
-        n_reversed_steps=int(rub.state.ledger[ledger.REVERSED, 0]),
-        slowest_sliding=1.0 - float(rub.state.ledger[ledger.RETREAT].max()) * rub.steps_per_element,
+        n_reversed_steps=int(rub.state.ledger[energy.REVERSED, 0]),
+        slowest_sliding=1.0 - float(rub.state.ledger[energy.RETREAT].max()) * rub.steps_per_element,
         n_modes=rule.omega.size,
-        energy=ledger.close(rule, rub.state, initial, rub.angle_per_step),
+        energy=energy.close(rule, rub.state, initial, rub.angle_per_step),
     )
 
 
-def set_up(blade: ReducedBlade, spec: RunSpec) -> tuple[Recurrence, kernel.Rub]:
+def set_up(blade: ReducedBlade, spec: RunSpec) -> tuple[Recurrence, loop.Rub]:
     """Bring blade and run into the form of the time loop, at rest.
 
     Raises
@@ -91,7 +92,7 @@ def set_up(blade: ReducedBlade, spec: RunSpec) -> tuple[Recurrence, kernel.Rub]:
     return set_up_modes(modes_at(blade, spec.f_omega), blade, spec)
 
 
-def set_up_modes(modes: Modes, blade: ReducedBlade, spec: RunSpec) -> tuple[Recurrence, kernel.Rub]:
+def set_up_modes(modes: Modes, blade: ReducedBlade, spec: RunSpec) -> tuple[Recurrence, loop.Rub]:
     """Do as `set_up`, with the modes at this speed."""
     steps_per_element, time_step = _time_step(blade, spec)
     contact = Contact(
@@ -104,7 +105,7 @@ def set_up_modes(modes: Modes, blade: ReducedBlade, spec: RunSpec) -> tuple[Recu
     stator = _stator(blade, spec, tip, rule)
     flight = _flight(rule, tip, steps_per_element)
     start = _start(modes, rule, spec, tip)
-    return rule, kernel.Rub(pack(rule), flight, stator, tip, start, steps_per_element)
+    return rule, loop.Rub(pack(rule), flight, stator, tip, start, steps_per_element)
 
 
 def kernel_warm_up() -> None:
@@ -114,10 +115,10 @@ def kernel_warm_up() -> None:
     rule = SCHEMES["exponential"](modes, 0.0, 1e-6, Contact(zeros + 1.0, -1.0, 0.0))
     gap = np.ones((8, N_INTERFACE))
     bars = [zeros + 1.0] * 5
-    stator = kernel.Stator(gap, gap[:, 0].copy(), *bars, 8, False, -1.0, 0.0, zeros)
-    tip = kernel.Tip(zeros, zeros, zeros + 1.0, zeros + 1.0, 2.0, 0.0, 0.0, 1.0)
-    records = pack(rule), leap_of(rule, 1, 0.0), aligned(stator), aligned(tip), kernel.at_rest(1, 8)
-    kernel.Rub(*records, 1).revolve(np.zeros(8))
+    stator = loop.Stator(gap, gap[:, 0].copy(), *bars, 8, False, -1.0, 0.0, zeros)
+    tip = loop.Tip(zeros, zeros, zeros + 1.0, zeros + 1.0, 2.0, 0.0, 0.0, 1.0)
+    records = pack(rule), leap_of(rule, 1, 0.0), aligned(stator), aligned(tip), loop.at_rest(1, 8)
+    loop.Rub(*records, 1).revolve(np.zeros(8))
 
 
 def _lowest_within(reach: float, gap: np.ndarray) -> np.ndarray:
@@ -135,15 +136,15 @@ def _time_step(blade: ReducedBlade, spec: RunSpec) -> tuple[int, float]:
     return steps_per_element, passage / steps_per_element
 
 
-def _flight(rule: Recurrence, tip: kernel.Tip, steps_per_element: int) -> Leap:
+def _flight(rule: Recurrence, tip: loop.Tip, steps_per_element: int) -> Leap:
     parts = math.ceil(steps_per_element / LONGEST)
     slope = tip.stray / float(np.min(tip.radius - tip.limit))
     return leap_of(rule, steps_per_element // parts, slope)
 
 
-def _start(modes: Modes, rule: Recurrence, spec: RunSpec, tip: kernel.Tip) -> kernel.State:
+def _start(modes: Modes, rule: Recurrence, spec: RunSpec, tip: loop.Tip) -> loop.State:
     """At rest, deflected in the first mode; the step before is the exact free motion back from there."""
-    state = kernel.at_rest(rule.omega.size, spec.coating.n_elements)
+    state = loop.at_rest(rule.omega.size, spec.coating.n_elements)
     if spec.initial_displacement:
         x, damping = rule.omega[0] * rule.time_step, spec.damping_ratio
         damped = math.sqrt(1.0 - damping**2)
@@ -170,7 +171,7 @@ def _slope(blade: ReducedBlade, spec: RunSpec) -> np.ndarray:
     return spec.coating.modulus_unit * bar_area(blade, spec) / spec.coating.thickness
 
 
-def _stator(blade: ReducedBlade, spec: RunSpec, tip: kernel.Tip, rule: Recurrence) -> kernel.Stator:
+def _stator(blade: ReducedBlade, spec: RunSpec, tip: loop.Tip, rule: Recurrence) -> loop.Stator:
     coating = spec.coating
     radial, tangential = -math.cos(coating.theta), -math.sin(coating.theta)
     chord_fraction = _chord_fraction(blade)
@@ -180,7 +181,7 @@ def _stator(blade: ReducedBlade, spec: RunSpec, tip: kernel.Tip, rule: Recurrenc
         [np.roll(of_node, -at) for of_node, at in zip(gap, _first_element(blade, spec), strict=True)]
     )
     reach = spec.tip.half_width + 1 + STRAY + 1  # + 1 each: a node stands anywhere within an element
-    stator = kernel.Stator(
+    stator = loop.Stator(
         gap=rows.T,
         floor=_lowest_within(reach, rows).min(axis=0),
         **_bars(blade, spec),
@@ -222,14 +223,14 @@ def _own_compliance(rule: Recurrence, coating: Coating) -> np.ndarray:
     return np.maximum(own, 0.0)
 
 
-def _tip(blade: ReducedBlade, spec: RunSpec) -> kernel.Tip:
+def _tip(blade: ReducedBlade, spec: RunSpec) -> loop.Tip:
     n_elements = spec.coating.n_elements
     y, z = blade.node_position[:, 1], blade.node_position[:, 2]
     radius = _radius(blade)
     # Where the flow path is a cone, its normal section curves less than its circle (Meusnier)
     outward = (blade.radial_direction[:, 1] * y + blade.radial_direction[:, 2] * z) / radius
     per_metre = n_elements / (2 * np.pi * radius)
-    tip = kernel.Tip(
+    tip = loop.Tip(
         start=_start_position(blade, spec) % 1.0,
         per_metre=per_metre,
         radius=radius / outward,

@@ -239,7 +239,7 @@ class RunResult:
         unbounded end.
     revolution_peak : (revolutions,) ndarray
         Largest absolute radial displacement of node 1 in each revolution, m; NaN likewise. Between the ends
-        of a leap (`bladerub.contact.leap`) it is that of a parabola.
+        of a leap (`bladerub.contact.kernel.free_flight`) it is that of a parabola.
     revolution_amplitude : (revolutions,) ndarray
         Half the range of the radial displacement of node 1 in each revolution, m: its vibration without
         the mean deflection; NaN likewise.

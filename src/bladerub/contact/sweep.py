@@ -21,13 +21,14 @@ from typing import NamedTuple
 import numpy as np
 
 from bladerub.blade.model import ReducedBlade
-from bladerub.contact import kernel, ledger
+from bladerub.contact import energy
+from bladerub.contact.integration import Part, march
+from bladerub.contact.kernel import loop
+from bladerub.contact.kernel.vectors import LANES
 from bladerub.contact.modes import Modes, at_tip, mode_shapes_at
 from bladerub.contact.run import by_angle, element_angle, set_up_modes
 from bladerub.contact.schemes import Recurrence
 from bladerub.contact.spec import Energy, RunSpec, SweepSpec
-from bladerub.contact.track import Part, march
-from bladerub.contact.vectors import LANES
 
 
 @dataclass(frozen=True)
@@ -120,7 +121,7 @@ def simulate_sweep(
     n_elements = spec.run.coating.n_elements
     plan = stretches(spec, blade.f1_hz)
     passage = _Passage(blade, spec.run, plan)
-    initial = sum(ledger.blade_energy(passage.stage.rule, passage.stage.rub.state))
+    initial = sum(energy.blade_energy(passage.stage.rule, passage.stage.rub.state))
     revolutions = plan[-1].last // n_elements
     track = march(passage.parts(), revolutions, n_elements, progress)
     status, message = track.verdict(spec.run.displacement_limit)
@@ -138,7 +139,7 @@ def simulate_sweep(
         n_contact_steps=track.n_contact_steps,
         f_omega=f_omega,
         time=time,
-        energy=ledger.close(rule, rub.state, initial, rub.angle_per_step),
+        energy=energy.close(rule, rub.state, initial, rub.angle_per_step),
         work_stiffness=passage.work,
     )
 
@@ -159,7 +160,7 @@ class _Stage(NamedTuple):
     shapes: np.ndarray
     tip: np.ndarray
     rule: Recurrence
-    rub: kernel.Rub
+    rub: loop.Rub
 
 
 class _Passage:
@@ -195,7 +196,7 @@ def _hand_over(blade: ReducedBlade, old: _Stage, new: _Stage) -> float:
     state, here = new.rub.state, old.rub.state
     for name in ("force", "push", "moment", "way", "wear", "ledger"):
         getattr(state, name)[:] = getattr(here, name)
-    state.ledger[ledger.TORQUE] *= old.rub.angle_per_step / new.rub.angle_per_step
+    state.ledger[energy.TORQUE] *= old.rub.angle_per_step / new.rub.angle_per_step
 
     into = new.shapes.T @ blade.mass @ old.shapes  # from modal coordinates to modal coordinates
     force = here.force[0]

@@ -11,8 +11,8 @@ from matplotlib.colors import Colormap, to_hex
 
 from bladerub.explorer import figures, thinning
 from bladerub.explorer.coating import AMPLITUDE_FLOOR
+from bladerub.io.provenance import software
 from bladerub.plots import cells, spectrum_map, style, titles
-from bladerub.provenance import software
 from bladerub.study.grid import CoatingCase
 from bladerub.study.maps import CoatingMap
 

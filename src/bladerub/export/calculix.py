@@ -12,8 +12,8 @@ from pathlib import Path
 
 import numpy as np
 
-from bladerub import atomic
 from bladerub.blade.elasticity import Material
+from bladerub.io import atomic
 
 _KINDS = {20: "C3D20", 10: "C3D10"}
 

@@ -10,11 +10,11 @@ import pandas as pd
 from scipy import sparse
 from scipy.io import mmwrite
 
-from bladerub import atomic
 from bladerub.blade.discrete import DiscreteBlade
 from bladerub.blade.mesh import BladeMesh
 from bladerub.blade.reduction import fit_speeds
-from bladerub.blade.source.matrix_folder import AT_SPEED, FIT, MASS, NODES
+from bladerub.blade.sources.matrix_folder import AT_SPEED, FIT, MASS, NODES
+from bladerub.io import atomic
 
 _DIGITS = 17  # with which a number comes back as it was
 

@@ -8,8 +8,8 @@ from pathlib import Path
 import numpy as np
 from scipy.io import savemat
 
-from bladerub import atomic
 from bladerub.blade.model import ReducedBlade
+from bladerub.io import atomic
 
 SUFFIXES = (".npz", ".mat")
 

@@ -9,8 +9,8 @@ from tempfile import TemporaryDirectory
 import meshio
 import numpy as np
 
-from bladerub import atomic
 from bladerub.blade.surface import NAMES, boundary_faces
+from bladerub.io import atomic
 
 _FACES = {20: "quad8", 10: "triangle6"}
 

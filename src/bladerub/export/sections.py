@@ -7,10 +7,10 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
-from bladerub import atomic
 from bladerub.blade.geometry import BladeShape
-from bladerub.blade.source.frame import Frame
-from bladerub.blade.source.section_table import CYLINDRICAL, POINTS
+from bladerub.blade.sources.frame import Frame
+from bladerub.blade.sources.section_table import CYLINDRICAL, POINTS
+from bladerub.io import atomic
 
 N_SECTIONS, N_STATIONS = 21, 61
 _FINE = 4000  # points along a side, between which angles are interpolated to 1e-8
@@ -31,7 +31,7 @@ def write_sections(path: str | Path, shape: BladeShape, coordinates: str) -> tup
         The blade.
     coordinates : str
         ``cartesian`` for points of the surface, ``cylindrical`` for axial position, radius and angles (see
-        `bladerub.blade.source.section_table`).
+        `bladerub.blade.sources.section_table`).
 
     Returns
     -------

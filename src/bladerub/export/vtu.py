@@ -15,10 +15,10 @@ from pathlib import Path
 import meshio
 import numpy as np
 
-from bladerub import datafile
 from bladerub.blade.model import ReducedBlade
 from bladerub.contact.recording import Recording
 from bladerub.export.mesh_file import block
+from bladerub.io import hdf5
 
 COLLECTION = "blade.pvd"
 """The file to open: it names the others with their time in revolutions."""
@@ -45,7 +45,7 @@ def read_mesh(path: str | Path, blade: ReducedBlade) -> dict[str, np.ndarray]:
     OSError
         If the file is missing, damaged, or not the mesh of this blade; the message names it.
     """
-    mesh, _ = datafile.read(path, _MESH)
+    mesh, _ = hdf5.read(path, _MESH)
     missing = _MESH - mesh.keys()
     if missing:
         raise OSError(f"{path}: not the mesh of a blade, {', '.join(sorted(missing))} missing")

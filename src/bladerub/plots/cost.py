@@ -16,7 +16,7 @@ def cost(stages: pd.DataFrame) -> Figure:
     Parameters
     ----------
     stages : DataFrame
-        From `bladerub.study.cost.by_stage`.
+        From `bladerub.workflow.cost.by_stage`.
     """
     figure = style.new_figure(style.PAGE, 0.34 * style.PAGE)
     time, memory = figure.subplots(1, 2, sharey=True, width_ratios=[3, 2])

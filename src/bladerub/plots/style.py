@@ -10,8 +10,8 @@ import matplotlib
 from matplotlib.colors import LinearSegmentedColormap
 from matplotlib.figure import Figure
 
-from bladerub import atomic
-from bladerub.provenance import software
+from bladerub.io import atomic
+from bladerub.io.provenance import software
 
 PAGE = 180 / 25.4
 """Width of a full-page figure, inches (180 mm)."""

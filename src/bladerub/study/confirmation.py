@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from bladerub.contact.spec import RunSpec
-from bladerub.sources import growth_digest
+from bladerub.io.sources import growth_digest
 
 FOLDER = "confirmation"
 """Folder of the longer runs, beside the runs of a coating; each has the name of the run it repeats."""

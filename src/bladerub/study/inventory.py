@@ -7,7 +7,7 @@ from dataclasses import dataclass, fields
 from pathlib import Path
 from typing import Any
 
-from bladerub.faults import DamagedFile
+from bladerub.io.errors import DamagedFile
 from bladerub.study.grid import CoatingCase
 from bladerub.study.growth import needs_confirmation
 from bladerub.study.plan import PlannedRun, longer_run, planned_runs

@@ -9,10 +9,10 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
-from bladerub import datafile
 from bladerub.contact.spec import RunSpec
-from bladerub.provenance import PREFIX
-from bladerub.sources import solver_digest, storage_digest
+from bladerub.io import hdf5
+from bladerub.io.provenance import PREFIX
+from bladerub.io.sources import solver_digest, storage_digest
 
 SHAPING_SETTINGS = ("spectrum_revolutions", "max_order")
 """Keys of ``config["analysis"]`` that decide what a run file holds; the others act on maps and tables."""
@@ -61,7 +61,7 @@ def blade_digest(path: str | Path) -> str:
     OSError
         If the file is missing or unreadable.
     """
-    data, attributes = datafile.read(path)
+    data, attributes = hdf5.read(path)
     digest = hashlib.sha256()
     for name in sorted(data):
         values = data[name]

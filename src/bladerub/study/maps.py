@@ -9,12 +9,12 @@ from typing import Any
 
 import numpy as np
 
-from bladerub import datafile
 from bladerub.blade.frequencies import reduced_frequencies
 from bladerub.blade.model import INTERFACE_NODE, ReducedBlade
-from bladerub.datafile import Variable
-from bladerub.faults import DamagedFile
-from bladerub.provenance import provenance
+from bladerub.io import hdf5
+from bladerub.io.errors import DamagedFile
+from bladerub.io.hdf5 import Variable
+from bladerub.io.provenance import provenance
 from bladerub.study.confirmation import confirmation_path
 from bladerub.study.grid import CoatingCase, speeds
 from bladerub.study.store import GATHERED, ManifestRow, StoredRun, read_manifest, read_run
@@ -200,7 +200,7 @@ def write_map(path: str | Path, coating: CoatingMap, origin: Mapping[str, str]) 
     ):
         number = np.arange(1, gathered.shape[1] + 1)
         variables[dim] = Variable((dim,), number, "1", "revolution, counted from 1")
-    datafile.write(path, variables, asdict(coating.case), origin)
+    hdf5.write(path, variables, asdict(coating.case), origin)
 
 
 def read_map(path: str | Path, with_nodes: bool = False) -> CoatingMap:
@@ -211,7 +211,7 @@ def read_map(path: str | Path, with_nodes: bool = False) -> CoatingMap:
     OSError
         If the file is missing, damaged or not a map; the message names it.
     """
-    data, attributes = datafile.read(path, _DATASETS.keys() - (set() if with_nodes else {"wear_node"}))
+    data, attributes = hdf5.read(path, _DATASETS.keys() - (set() if with_nodes else {"wear_node"}))
     try:
         case = CoatingCase.described(attributes)
         if not with_nodes:

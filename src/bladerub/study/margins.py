@@ -16,12 +16,12 @@ from typing import Any, NamedTuple
 import numpy as np
 import pandas as pd
 
+from bladerub.io.tables import read as read_table
 from bladerub.study import divergence, findings, peaks
 from bladerub.study.findings import reduction
 from bladerub.study.findings.evidence import SAME_SPEED, Evidence
 from bladerub.study.grid import SPEED_DECIMALS, speeds
 from bladerub.study.maps import CoatingMap, read_map
-from bladerub.tablefile import read as read_table
 
 COLUMNS = ["variation", "id", "claim", "paper", "measured", "unit", "holds", "margin"]
 """Columns of ``margins.csv``: those of ``findings.csv`` for each variation."""

@@ -10,12 +10,12 @@ from typing import Any
 
 import numpy as np
 
-from bladerub import atomic, datafile
 from bladerub.blade.model import INTERFACE_NODE
 from bladerub.contact.spec import RunResult, RunSpec
-from bladerub.datafile import Variable
-from bladerub.faults import DamagedFile
-from bladerub.provenance import provenance
+from bladerub.io import atomic, hdf5
+from bladerub.io.errors import DamagedFile
+from bladerub.io.hdf5 import Variable
+from bladerub.io.provenance import provenance
 from bladerub.study.confirmation import confirmation_path
 from bladerub.study.grid import CoatingCase
 from bladerub.study.spectra import order_spectrum
@@ -149,7 +149,7 @@ def write_run(
         "status": result.status,
         "message": result.message,
     }
-    datafile.write(path, variables, attributes, provenance(config))
+    hdf5.write(path, variables, attributes, provenance(config))
 
 
 GATHERED = {"wear", "spectrum_amplitude", "revolution_peak", "revolution_amplitude"}
@@ -171,7 +171,7 @@ def read_run(path: str | Path, only: Set[str] = frozenset()) -> StoredRun:
     OSError
         If the file is missing, damaged or not a run; the message names it.
     """
-    data, attributes = datafile.read(path, only or None)
+    data, attributes = hdf5.read(path, only or None)
     missing = (only or GATHERED) - data.keys() | {"run_key"} - attributes.keys()
     if missing:
         raise DamagedFile(f"{path}: not a run, {', '.join(sorted(missing))} missing")

@@ -3,12 +3,12 @@ import pandas as pd
 import pytest
 import scipy.linalg
 
-from bladerub import datafile
 from bladerub.blade import discrete, linear
 from bladerub.blade.build import build, directions, write
 from bladerub.blade.frequencies import reduced_frequencies
 from bladerub.blade.geometry import BladeShape
 from bladerub.blade.model import read_reduced_blade
+from bladerub.io import hdf5
 
 CONFIG = {
     "f_omega_max": 0.4,
@@ -81,7 +81,7 @@ def test_files_hold_what_was_built(built, tmp_path):
     np.testing.assert_array_equal(blade.stiffness_1, built.reduced.stiffness_1)
     assert blade.f1_hz == built.frequency[0]
 
-    data, _ = datafile.read(paths[1])
+    data, _ = hdf5.read(paths[1])
     n_nodes = len(data["points"])
     assert data["cells"].shape == (7 * 1 * 3, 20)
     assert data["cells"].max() == n_nodes - 1

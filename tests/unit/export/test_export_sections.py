@@ -7,10 +7,10 @@ from bladerub.blade.geometry import BladeShape
 from bladerub.blade.linear import lowest_modes
 from bladerub.blade.mesh import BladeMesh
 from bladerub.blade.rotation import equilibrium
-from bladerub.blade.source.frame import Frame
-from bladerub.blade.source.importing import import_blade
-from bladerub.blade.source.origin import Source
-from bladerub.config import ROOT, load
+from bladerub.blade.sources.frame import Frame
+from bladerub.blade.sources.importing import import_blade
+from bladerub.blade.sources.origin import Source
+from bladerub.config.read import ROOT, load
 from bladerub.export.sections import write_sections
 
 COUNTS = {"chordwise": 7, "thickness": 1, "spanwise": 6}

@@ -1,8 +1,8 @@
 import numpy as np
 import pytest
 
-from bladerub import datafile
-from bladerub.datafile import Variable
+from bladerub.io import hdf5
+from bladerub.io.hdf5 import Variable
 from bladerub.plots.history import history, history_of_runs
 
 REVOLUTION = (np.arange(200) + 0.5) / 50
@@ -50,7 +50,7 @@ def run_files(tmp_path):
             "spectrum_amplitude": Variable(("spectrum_order",), np.zeros(3), "m", "amplitude"),
         }
         about = {"casing": "2nd", "E": 2.0, "K": 0.5, "theta": theta, "f_omega": 0.19, "run_key": "key"}
-        datafile.write(paths[-1], variables, about)
+        hdf5.write(paths[-1], variables, about)
     return paths
 
 

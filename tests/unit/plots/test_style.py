@@ -4,8 +4,8 @@ import matplotlib
 import pytest
 from PIL import Image
 
+from bladerub.io.provenance import software
 from bladerub.plots import style
-from bladerub.provenance import software
 
 
 def luminance(colour: str) -> float:

@@ -5,8 +5,8 @@ import h5py
 import numpy as np
 import pytest
 
-from bladerub import datafile, provenance
-from bladerub.datafile import Variable
+from bladerub.io import hdf5, provenance
+from bladerub.io.hdf5 import Variable
 from bladerub.study import grid, key
 from bladerub.study.grid import CoatingCase
 
@@ -109,7 +109,7 @@ class TestBladeDigest:
     def path(self, tmp_path):
         def write(name, mass, **attributes):
             variables = {"mass": Variable(("row", "column"), mass, "kg", "mass")}
-            datafile.write(tmp_path / name, variables, {"f1_hz": 192.0, **attributes})
+            hdf5.write(tmp_path / name, variables, {"f1_hz": 192.0, **attributes})
             return tmp_path / name
 
         return write

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 import xarray
 
-from bladerub.faults import DamagedFile
+from bladerub.io.errors import DamagedFile
 from bladerub.study import grid, maps, store
 from bladerub.study.confirmation import confirmation_path, confirmation_spec
 from bladerub.study.store import ManifestRow

@@ -16,12 +16,12 @@ from typing import Any
 
 import pandas as pd
 
+from bladerub.io.tables import read as read_table
 from bladerub.study import divergence, peaks
 from bladerub.study.findings import moduli, reduction, rigid_limit, spectra, tangential, wear_patterns
 from bladerub.study.findings.evidence import Evidence
 from bladerub.study.findings.finding import Finding, NotMeasurable
 from bladerub.study.maps import read_map
-from bladerub.tablefile import read as read_table
 
 CLAIMS: tuple[Callable[[Evidence], Finding], ...] = (
     reduction.first_six_modes,

@@ -1,0 +1,124 @@
+"""Solve with a large matrix by the factors of one that is near, such as that of the blade at rest."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+from scipy import sparse
+from scipy.linalg import solve_triangular
+
+from bladerub.blade import linear
+from bladerub.blade.linear import Solve
+
+MOST_ITERATIONS = 40
+"""Iterations after which the matrix is not near, and gets factors of its own."""
+CLOSE = 1e-12
+"""Relative error of the squared frequencies at which one correction more ends the search for the modes."""
+
+
+@dataclass
+class Nearby:
+    """Solves with a matrix by conjugate gradients; with its own factors once these do not converge.
+
+    Parameters
+    ----------
+    matrix : (n, n) sparse array
+        Symmetric.
+    factors : callable
+        Solves with a positive definite matrix that is near.
+    tolerance : float, optional
+        Error accepted of a solution, relative, in the norm of that matrix.
+    """
+
+    matrix: sparse.csc_array
+    factors: Solve
+    tolerance: float = 1e-12
+    _own: Solve | None = field(init=False, default=None)
+
+    def __post_init__(self):
+        from bladerub.blade.sparse_products import Product  # compiles, which small blades need not wait for
+
+        self._times = Product(self.matrix)
+
+    def __call__(self, rhs: np.ndarray) -> np.ndarray:
+        """Solve for a right-hand side (n,) or several (n, k)."""
+        if self._own is None:
+            solution = self._by_conjugate_gradients(rhs)
+            if solution is not None:
+                return solution
+            self._own = linear.factorise(self.matrix)
+        return self._own(rhs)
+
+    def _by_conjugate_gradients(self, rhs: np.ndarray) -> np.ndarray | None:
+        solution = self.factors(rhs)
+        residual = rhs - self._times(solution)
+        goal = self.tolerance**2 * np.sum(rhs * solution, axis=0)
+        direction, size_before = 0.0, 1.0
+        for _ in range(MOST_ITERATIONS):
+            correction = self.factors(residual)
+            size = np.sum(residual * correction, axis=0)
+            if np.all(size <= goal):
+                return solution
+            direction = correction + (size / size_before) * direction
+            image = self._times(direction)
+            curvature = np.sum(direction * image, axis=0)
+            if not np.all(curvature > 0):  # not positive definite, or a right-hand side of zeros
+                return None
+            step = size / curvature
+            solution = solution + step * direction
+            residual = residual - step * image
+            size_before = size
+        return None
+
+    def lowest_modes(self, mass: sparse.csc_array, start: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Lowest modes by the method of Davidson, as `bladerub.blade.linear.lowest_modes` gives them.
+
+        The residuals of the modes, solved for by the factors, widen the space in which the modes are sought.
+        A residual times what it is solved to is the error of the squared frequency, to first order.
+
+        Parameters
+        ----------
+        mass : (n, n) sparse array
+            Positive definite.
+        start : (n, n_modes) ndarray
+            The modes of a matrix that is near.
+        """
+        n_modes, settled = start.shape[1], False
+        empty = np.empty((len(start), 0))
+        basis, images, momenta, addition = empty, empty, empty, start
+        for _ in range(MOST_ITERATIONS):
+            try:
+                addition, momentum = _orthonormal(addition, basis, momenta, mass)
+            except np.linalg.LinAlgError:  # nothing new in it
+                break
+            basis, momenta = np.hstack([basis, addition]), np.hstack([momenta, momentum])
+            images = np.hstack([images, self._times(addition)])
+            squares, shares = np.linalg.eigh(basis.T @ images)
+            squares, shares = squares[:n_modes], shares[:, :n_modes]
+            modes = basis @ shares
+            if settled:
+                return linear.in_hertz(squares), modes
+            residual = images @ shares - (momenta @ shares) * squares
+            addition = self.factors(residual)
+            far = np.sum(residual * addition, axis=0) > CLOSE * np.abs(squares)
+            settled = not far.any()
+            if not settled:
+                addition = addition[:, far]
+        return linear.lowest_modes(self.matrix, mass, n_modes)
+
+
+def _orthonormal(
+    block: np.ndarray, basis: np.ndarray, momenta: np.ndarray, mass: sparse.csc_array
+) -> tuple[np.ndarray, np.ndarray]:
+    """Make what `block` (n, k) adds to `basis` (n, m) orthonormal in `mass`, as that is.
+
+    `momenta` are the mass times the basis; returned are the addition and the mass times it.
+    """
+    for _ in range(2):  # once more, against the rounding of the first time
+        block = block - basis @ (momenta.T @ block)
+        block = block / np.linalg.norm(block, axis=0)
+        momentum = mass @ block
+        factor = np.linalg.cholesky(block.T @ momentum)
+        block, momentum = (solve_triangular(factor, each.T, lower=True).T for each in (block, momentum))
+    return block, momentum

@@ -1,0 +1,202 @@
+"""From mass and stiffness of another program to a blade that can be reduced."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, TypeVar
+
+import numpy as np
+from scipy import sparse
+from scipy.sparse.linalg import ArpackError
+from scipy.spatial.distance import cdist
+from threadpoolctl import threadpool_limits
+
+from bladerub.blade.coordinates import FreeCoordinates
+from bladerub.blade.discrete import DiscreteBlade
+from bladerub.blade.linear import lowest_modes
+from bladerub.blade.mesh import BladeMesh, MeshedBlade, NodeCloud
+from bladerub.blade.reduction import fit_speeds
+from bladerub.blade.sources import matrix_folder, tip
+from bladerub.blade.sources.definite import check_definite, check_held
+from bladerub.blade.sources.matrix_folder import FIT, MASS, NODES
+from bladerub.blade.sources.origin import MATRIX_UNITS, MatrixSource
+from bladerub.io.errors import BadInput
+
+T = TypeVar("T")
+
+OMEGA_TOLERANCE = 1e-3
+"""How far the speed of the files may be from that of the config, relative."""
+
+
+@dataclass(frozen=True)
+class ImportedMatrices:
+    """A blade from the matrices of another program.
+
+    Parameters
+    ----------
+    blade : DiscreteBlade
+        What the reduction needs. Its length is that from the clamped nodes to the tip, or, where no node is
+        clamped, what its nodes reach over along the radius.
+    mass : float
+        Of the blade moved as a whole, kg.
+    mass_is_whole : bool
+        Whether the files have the rows of the clamped nodes, whose mass is missing otherwise.
+    half_way : float
+        How much the stiffness changes to half the highest speed, over its change to the highest; about 1/4.
+    lean : float
+        Angle (rad) about the engine axis between the blade's middle and the radial axis that was named.
+    """
+
+    blade: DiscreteBlade
+    mass: float
+    mass_is_whole: bool
+    half_way: float
+    lean: float
+
+    @property
+    def is_rooted(self) -> bool:
+        """Whether clamped nodes are listed, so that the length is known."""
+        return self.blade.layout.mesh.root.size > 0
+
+
+@threadpool_limits.wrap(limits=1)
+def import_matrices(source: MatrixSource, f_max: float, n_modes: int, eta: int) -> ImportedMatrices:
+    """Read the matrices of `source` and see that they are of a blade.
+
+    Parameters
+    ----------
+    source : MatrixSource
+        The folder.
+    f_max : float
+        Normalised speed of ``stiffness_max``.
+    n_modes : int
+        How many modes at rest.
+    eta : int
+        How many modes with a clamped interface the reduction will ask for.
+
+    Raises
+    ------
+    BadInput
+        If the folder cannot be used as a blade; the message names the file and the culprit.
+    """
+    names = _naming(source.folder, matrix_folder.files, source.folder)
+    at_speeds = _naming(source.folder, matrix_folder.speeds, names, fit_speeds(f_max))
+    path = names["nodes"]
+    nodes = _naming(path, matrix_folder.read_nodes, path)
+    layout = _naming(path, _layout, nodes, source)
+    free = FreeCoordinates(len(nodes.points), nodes.clamped)
+    n_internal = free.free.size - 3 * nodes.interface.size
+    if n_internal <= max(n_modes, eta):
+        raise BadInput(
+            f"{path}: has {n_internal} free coordinates off the interface; must have more than "
+            f"{max(n_modes, eta)}, the modes that are wanted"
+        )
+    paths = {f_omega: names[name] for f_omega, name in at_speeds.items()}
+    whole_mass = _naming(names[MASS], matrix_folder.read_matrix, names[MASS])
+    mass = _naming(names[MASS], _of_free, whole_mass, free, source)
+    stiffness = {f_omega: _naming(path, _stiffness, path, free, source) for f_omega, path in paths.items()}
+    rest, half, highest = (stiffness[f_omega] for f_omega in fit_speeds(f_max))
+    _naming(names[MASS], check_definite, mass)
+    _naming(names[FIT[0]], check_definite, rest)
+    try:
+        frequency, modes = lowest_modes(rest, mass, n_modes)
+    except (np.linalg.LinAlgError, ArpackError) as error:
+        raise BadInput(f"{names[FIT[0]]}: is singular ({error}); are the clamped nodes marked?") from error
+    _naming(names[FIT[0]], check_held, rest, modes[:, 0])
+    _check_speed(source, f_max, frequency[0])
+    change = sparse.linalg.norm(highest - rest)
+    middle = layout.mesh.mesh.points.mean(axis=0)
+    return ImportedMatrices(
+        DiscreteBlade(
+            layout,
+            free,
+            mass,
+            stiffness,
+            {},
+            {
+                f_omega: lowest_modes(matrix, mass, n_modes)[0] if f_omega > 0 else frequency
+                for f_omega, matrix in stiffness.items()
+            },
+            frequency,
+            modes,
+        ),
+        MATRIX_UNITS[source.matrix_units] * _translated(whole_mass),
+        nodes.clamped.size > 0 and whole_mass.shape[0] == 3 * len(nodes.points),
+        float(sparse.linalg.norm(half - rest) / change) if change else 0.0,
+        float(np.arctan2(middle[1], middle[2])),
+    )
+
+
+def _naming(path: Path, function: Callable[..., T], *arguments: Any) -> T:
+    """Call `function`; what it finds wrong is wrong with `path`."""
+    try:
+        return function(*arguments)
+    except ValueError as error:
+        raise BadInput(f"{path}: {error}") from error
+
+
+def _layout(nodes: matrix_folder.Nodes, source: MatrixSource) -> MeshedBlade:
+    """Bring the nodes to the blade's frame, and see that the interface is where a tip is."""
+    points = source.frame.metres(nodes.points)
+    radius = np.hypot(points[:, 1], points[:, 2])
+    ends = points[nodes.interface]
+    if radius[nodes.interface].min() <= 0:
+        raise ValueError("an interface node lies on the engine axis, which must pass through the origin")
+    twins = np.argwhere(np.triu(cdist(ends, ends) == 0, k=1))
+    if len(twins):
+        first, second = twins[0] + 1
+        raise ValueError(f"interface nodes {first} and {second} are in one place")
+    if source.frame.downstream_x * (ends[-1, 0] - ends[0, 0]) <= 0:
+        raise ValueError(
+            f"interface node 1 is downstream of node {len(ends)}; must be at the leading edge: is downstream "
+            f"= {source.frame.downstream} the way of the flow?"
+        )
+    tip_nodes = nodes.tip if nodes.tip.size else nodes.interface
+    lowest = radius[nodes.clamped].mean() if nodes.clamped.size else radius.min()
+    length = float(radius[tip_nodes].mean() - lowest)
+    if nodes.clamped.size and length <= 0:
+        raise ValueError(
+            f"the tip is no farther from the engine axis than the clamped nodes ({length:.3g} m)"
+        )
+    if nodes.clamped.size:
+        source.frame.check_length(length)
+    tip_cone = tip.cone(points[tip_nodes], source.tip_cone, source.frame.downstream_x)
+    return MeshedBlade(
+        BladeMesh(NodeCloud(points), nodes.clamped, tip_nodes, nodes.interface), tip_cone, length
+    )
+
+
+def _stiffness(path: Path, free: FreeCoordinates, source: MatrixSource) -> sparse.csc_array:
+    return _of_free(matrix_folder.read_matrix(path), free, source)
+
+
+def _of_free(matrix: sparse.csc_array, free: FreeCoordinates, source: MatrixSource) -> sparse.csc_array:
+    """Take the free coordinates out of `matrix`, in the blade's axes and SI units."""
+    n, n_all = free.free.size, 3 * free.n_nodes
+    if matrix.shape[0] not in (n, n_all):
+        raise ValueError(
+            f"is {matrix.shape[0]} x {matrix.shape[0]}; must have three rows for each of the {free.n_nodes} "
+            f"nodes of {NODES} ({n_all})" + (f", or for each that is not clamped ({n})" if n < n_all else "")
+        )
+    if matrix.shape[0] > n:
+        matrix = matrix[free.free][:, free.free]
+    turn = sparse.kron(sparse.eye_array(n // 3), source.frame.turn, format="csc")
+    return sparse.csc_array(MATRIX_UNITS[source.matrix_units] * (turn @ matrix @ turn.T))
+
+
+def _translated(mass: sparse.csc_array) -> float:
+    """Mass of the body moved as a whole, the mean of the three directions."""
+    rigid = np.tile(np.eye(3), (mass.shape[0] // 3, 1))
+    return float(np.trace(rigid.T @ (mass @ rigid)) / 3)
+
+
+def _check_speed(source: MatrixSource, f_max: float, f1_hz: float) -> None:
+    omega = 2 * np.pi * f1_hz * f_max
+    if source.omega_max is not None and abs(source.omega_max / omega - 1) > OMEGA_TOLERANCE:
+        right = source.omega_max / (2 * np.pi * f1_hz)
+        raise BadInput(
+            f"{source.folder}: omega_max = {source.omega_max:g} rad/s is {right:.6g} of the blade's first "
+            f"frequency, {f1_hz:.6g} Hz; reduction.f_omega_max = {f_max:g} must be that"
+        )

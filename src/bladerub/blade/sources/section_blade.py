@@ -1,0 +1,139 @@
+"""From a table of sections to a blade that can be reduced: smooth along the span, straight through."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+from scipy.interpolate import CubicSpline
+
+from bladerub.blade.mesh import BladeMesh
+from bladerub.blade.sources import element_quality, section_table
+from bladerub.blade.sources.frame import Frame
+from bladerub.blade.sources.imported import Imported, described
+from bladerub.blade.sources.origin import Source
+from bladerub.blade.sources.section_profile import SAMPLES, Profile, profile
+from bladerub.blade.sources.section_table import Section
+from bladerub.io.errors import BadInput
+
+WIDEST = 50.0
+"""Chord over length beyond which they are not in the same unit."""
+
+
+@dataclass(frozen=True)
+class SectionShape:
+    """A blade as a map from the unit cube: chordwise ξ, through the thickness η, spanwise ζ.
+
+    Root and tip are the first and the last section. Axial position, radius and angle are cubic splines of the
+    span (a parabola through three sections, a straight line through two) and straight in η, so that a point
+    between two sections or sides is on the surface of revolution between theirs.
+
+    Parameters
+    ----------
+    span : (n,) ndarray
+        Relative mean radius of the sections, ascending from 0 to 1.
+    samples : (n, 201, 2, 3) ndarray
+        Their `Profile.samples`.
+    """
+
+    span: np.ndarray
+    samples: np.ndarray
+
+    @classmethod
+    def through(cls, profiles: list[Profile]) -> SectionShape:
+        """Lay the shape through `profiles`, hub to tip."""
+        radius = np.array([profile.radius for profile in profiles])
+        span = (radius - radius[0]) / (radius[-1] - radius[0])
+        return cls(span, np.stack([profile.samples for profile in profiles]))
+
+    def points(self, xi: np.ndarray, eta: np.ndarray, zeta: np.ndarray) -> np.ndarray:
+        """Map the unit cube to space, as `bladerub.blade.geometry.BladeShape.points` does."""
+        xi, eta, zeta = np.broadcast_arrays(xi, eta, zeta)
+        stations, station = np.unique(xi, return_inverse=True)
+        heights, height = np.unique(zeta, return_inverse=True)
+        lattice = CubicSpline(self.span, CubicSpline(SAMPLES, self.samples, axis=1)(stations))(heights)
+        sides = np.moveaxis(lattice[height, station], (-2, -1), (0, 1))
+        x, radius, phi = (1 - eta) * sides[0] + eta * sides[1]
+        return np.stack([x, radius * np.sin(phi), radius * np.cos(phi)])
+
+
+def import_sections(source: Source, counts: Mapping[str, int]) -> Imported:
+    """Read the sections of `source` and mesh the blade through them.
+
+    Parameters
+    ----------
+    source : Source
+        Names the table.
+    counts : mapping of str to int
+        Numbers of elements, as ``blade.mesh`` of the config.
+
+    Raises
+    ------
+    BadInput
+        If the table cannot be used as a blade; the message names the file and the culprit.
+    """
+    try:
+        return _import(source, counts)
+    except ValueError as error:
+        raise BadInput(f"{source.file}: {error}") from error
+
+
+def _import(source: Source, counts: Mapping[str, int]) -> Imported:
+    sections = section_table.read(source.file, source.frame, source.angle_unit or "rad")
+    _check_units(sections, source.frame)
+    profiles = [profile(section, source.frame.downstream_x) for section in sections]
+    _check_order(profiles)
+    shape = SectionShape.through(profiles)
+    mesh = BladeMesh.from_shape(shape, counts)
+    try:
+        ratio, volume = element_quality.jacobians(mesh.mesh)
+    except ValueError as error:
+        raise ValueError("between its sections the blade crosses itself; give more sections") from error
+    tip = profiles[-1]
+    evenly = shape.points(np.linspace(0, 1, mesh.interface.size), 0.5, 1.0).T
+    offset = np.linalg.norm(mesh.mesh.points[mesh.interface] - evenly, axis=1).max()
+    return described(
+        mesh,
+        source,
+        is_raised=False,
+        n_unused=0,
+        node_sets={},
+        jacobian_ratio=ratio,
+        volume=volume,
+        chord=tip.chord,
+        interface_offset=float(offset),
+        sections=tuple(profiles),
+    )
+
+
+def _check_units(sections: list[Section], frame: Frame) -> None:
+    """See that the sections could be those of a blade, as far as lengths go."""
+    hub, tip = (np.hypot(*section.points[..., 1:].T).mean() for section in (sections[0], sections[-1]))
+    length = abs(tip - hub)
+    frame.check_length(length)
+    for section in sections:
+        chord = np.linalg.norm(np.ptp(section.points.mean(axis=0)[[0, -1]], axis=0))
+        if chord > WIDEST * length:
+            raise ValueError(
+                f"section {section.name} (line {section.lines[0]}): its chord of {chord:.4g} m is more than "
+                f"{WIDEST:g} times the length of the blade, {length:.4g} m; all lengths must be in one unit"
+            )
+
+
+def _check_order(profiles: list[Profile]) -> None:
+    """See that the sections lie above one another."""
+    for below, above in pairwise(profiles):
+        if above.radius <= below.radius:
+            raise ValueError(
+                f"section {above.name}: its mean radius of {above.radius:.4g} m is not above that of section "
+                f"{below.name} before it, {below.radius:.4g} m; sections must go from hub to tip"
+            )
+        gap = above.samples[..., 1] - below.samples[..., 1]
+        if gap.min() <= 0:
+            share = SAMPLES[np.argmin(gap.min(axis=1))]
+            raise ValueError(
+                f"sections {below.name} and {above.name} cross: {above.name} is not the farther from the "
+                f"engine axis at {share:.0%} of the chord"
+            )

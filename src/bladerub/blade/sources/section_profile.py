@@ -1,0 +1,278 @@
+"""The profile of a section: two sides as curves, paired along the chord, without too thin edges."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+from scipy.interpolate import CubicSpline
+from scipy.spatial import cKDTree
+
+from bladerub.blade.sources.profile import arc_length, camber_line, crossings
+from bladerub.blade.sources.section_table import Section
+
+EDGE_SHARE = 0.1
+"""Thickness of an edge over the largest of its section below which the edge is cut off.
+
+Where the sides meet, hexahedra have no room.
+"""
+
+SAMPLES = np.linspace(0, 1, 201)
+"""Chordwise parameter of the samples of a profile: relative arc length of the camber line."""
+
+_CORNER = np.deg2rad(60)  # a side that turns more at a station has a corner there, else it is smooth
+_FINE = 400  # points of a curve, or some more
+_LAST_OF_EDGE = 0.25  # of the side; a corner further on is none of a blunt edge
+_CUTS = 0.5 * np.linspace(0, 1, 201) ** 2  # of the camber line, where its thickness is looked at
+
+
+@dataclass(frozen=True)
+class Profile:
+    """A section that can be meshed.
+
+    Parameters
+    ----------
+    name : str
+        Of the section.
+    samples : (201, 2, 3) ndarray
+        Axial position (m), radius (m) and angle ``atan2(y, z)`` (rad) in the blade's frame, at `SAMPLES`, on
+        the two sides: the second follows the first in the direction in which that angle grows, or, where x
+        runs upstream, the other way, so that elements are right-handed.
+    radius : float
+        Mean radius, m.
+    chord : float
+        Length of the camber line, m.
+    thickness : float
+        Largest, m.
+    cut : tuple of float
+        Chord cut off at the leading and at the trailing edge, m.
+    """
+
+    name: str
+    samples: np.ndarray = field(repr=False)
+    radius: float
+    chord: float
+    thickness: float
+    cut: tuple[float, float]
+
+
+def profile(section: Section, downstream_x: int) -> Profile:
+    """Make the profile of `section`.
+
+    Parameters
+    ----------
+    section : Section
+        From the table.
+    downstream_x : int
+        1 where x points downstream, else -1.
+
+    Raises
+    ------
+    ValueError
+        If it is not given as sections are; the message names it and a line of its table.
+    """
+    place = _cylindrical(section)
+    flat = _unrolled(place)
+    is_swapped = _check(section, flat, downstream_x)
+    if is_swapped:
+        place, flat = place[::-1], flat[::-1]
+    sides = [_Curve(*side) for side in zip(place, flat, strict=True)]
+    thickness = cKDTree(sides[1].fine).query(sides[0].fine)[0].max()
+    leading = _edge(sides, thickness, section.name)
+    backwards = [_Curve(*side) for side in zip(place[:, ::-1], flat[:, ::-1], strict=True)]
+    trailing = _edge(backwards, thickness, section.name)
+    ends = [
+        (start, side.knots[-1] - stop)
+        for side, start, stop in zip(sides, leading.starts, trailing.starts, strict=True)
+    ]
+    samples, chord = _paired(sides, ends)
+    radius = float(samples[:, :, 1].mean())
+    return Profile(section.name, samples, radius, chord, float(thickness), (leading.cut, trailing.cut))
+
+
+def _cylindrical(section: Section) -> np.ndarray:
+    """Axial position, radius and angle (2, n, 3) of the stations, the angles of one turn."""
+    x, y, z = np.moveaxis(section.points, -1, 0)
+    radius = np.hypot(y, z)
+    if radius.min() <= 0:
+        line = section.lines[np.argmin(radius.min(axis=0))]
+        raise ValueError(f"line {line}: lies on the engine axis, which must pass through the origin")
+    middle = np.arctan2(y.mean(), z.mean())
+    phi = middle + np.arctan2(
+        y * np.cos(middle) - z * np.sin(middle), z * np.cos(middle) + y * np.sin(middle)
+    )
+    return np.stack([x, radius, phi], axis=-1)
+
+
+def _unrolled(place: np.ndarray) -> np.ndarray:
+    """Axial position and arc length about the engine axis (2, n, 2)."""
+    x, radius, phi = np.moveaxis(place, -1, 0)
+    return np.stack([x, radius * (phi - phi.mean())], axis=-1)
+
+
+def _cross(a: np.ndarray, b: np.ndarray) -> np.ndarray:
+    return a[..., 0] * b[..., 1] - a[..., 1] * b[..., 0]
+
+
+def _check(section: Section, flat: np.ndarray, downstream_x: int) -> bool:
+    """See that stations go along the chord and sides keep apart; tell whether the sides must be swapped."""
+    middle = flat.mean(axis=0)
+    chord = middle[-1] - middle[0]
+    length = np.linalg.norm(chord)
+    steps = np.diff(middle, axis=0) @ chord
+    if length == 0 or (steps <= 0).any():
+        at = np.argmin(steps)
+        raise ValueError(
+            f"line {section.lines[at + 1]}: this station of section {section.name} is no further along the "
+            f"chord than that of line {section.lines[at]}; they must go from the leading to the trailing edge"
+        )
+    if downstream_x * chord[0] < -1e-3 * length:
+        raise ValueError(
+            f"section {section.name} (line {section.lines[0]}): its first station lies downstream of its "
+            "last; must begin at the leading edge, or blade.source.downstream is the other way"
+        )
+    thickness = _cross(np.gradient(middle, axis=0), flat[1] - flat[0])
+    sign = 1 if thickness.sum() > 0 else -1
+    bad = sign * thickness < -1e-9 * np.abs(thickness).max()
+    bad[1:-1] |= thickness[1:-1] == 0
+    if bad.any():
+        raise ValueError(
+            f"line {section.lines[np.argmax(bad)]}: the sides of section {section.name} touch or cross here; "
+            "they may meet at its first and last station only"
+        )
+    return sign < 0
+
+
+class _Curve:
+    """One side as a smooth curve through its stations, but for corners.
+
+    Attributes
+    ----------
+    knots : (n,) ndarray
+        Its parameter at the stations: length along the straight lines between them, m.
+    corners : ndarray of int
+        Stations where it turns sharply.
+    fine_parameter, fine : (m,), (m, 2) ndarray
+        Many points of the curve, unrolled.
+    """
+
+    def __init__(self, place: np.ndarray, flat: np.ndarray):
+        steps = np.linalg.norm(np.diff(flat, axis=0), axis=1)
+        apart = np.concatenate([[True], steps > 0])
+        place, flat = place[apart], flat[apart]
+        self.knots = np.concatenate([[0.0], np.cumsum(steps[steps > 0])])
+        ways = np.diff(flat, axis=0)
+        turn = np.arctan2(np.abs(_cross(ways[:-1], ways[1:])), np.sum(ways[:-1] * ways[1:], axis=1))
+        self.corners = 1 + np.flatnonzero(turn > _CORNER)
+        self._stops = [0, *self.corners, len(flat) - 1]
+        both = np.hstack([place, flat])
+        self._pieces = [
+            CubicSpline(self.knots[a : b + 1], both[a : b + 1])
+            for a, b in zip(self._stops[:-1], self._stops[1:], strict=True)
+        ]
+        number, finer = np.arange(len(flat)), -(-_FINE // (len(flat) - 1))
+        self.fine_parameter = np.interp(
+            np.linspace(0, number[-1], finer * number[-1] + 1), number, self.knots
+        )
+        self.fine = self(self.fine_parameter)[:, 3:]
+
+    def __call__(self, parameter: np.ndarray) -> np.ndarray:
+        """Places (n, 5): axial position, radius and angle, then the same unrolled."""
+        piece = np.searchsorted(self.knots[self._stops[1:-1]], parameter, side="right")
+        values = np.empty((parameter.size, 5))
+        for at, spline in enumerate(self._pieces):
+            values[piece == at] = spline(parameter[piece == at])
+        return values
+
+
+@dataclass(frozen=True)
+class _Edge:
+    """Where the two sides start behind the leading edge, and how much chord lies before."""
+
+    starts: tuple[float, float]
+    cut: float = 0.0
+
+
+def _edge(sides: list[_Curve], thickness: float, name: str) -> _Edge:
+    """Find a leading edge that is wide enough: as it is, between two corners, or after a cut."""
+    least = EDGE_SHARE * thickness
+    first, second = (side.fine[0] for side in sides)
+    chord = sides[0].fine[-1] + sides[1].fine[-1] - first - second
+    chord /= np.linalg.norm(chord)
+    if abs(_cross(second - first, chord)) >= least:
+        return _Edge((0.0, 0.0))
+    for at, side in enumerate(sides):
+        corners = side.knots[side.corners]
+        corners = corners[corners < _LAST_OF_EDGE * side.knots[-1]]
+        if corners.size:
+            corner = side(corners[-1:])[0, 3:]
+            if np.linalg.norm(corner - sides[1 - at].fine[0]) >= least:
+                starts = [0.0, 0.0]
+                starts[at] = corners[-1]
+                return _Edge(tuple(starts))
+    starts = _cut(sides, least, name)
+    ends = [side(np.array([start]))[0, 3:] for side, start in zip(sides, starts, strict=True)]
+    foremost = min((side.fine @ chord).min() for side in sides)
+    return _Edge(starts, float(chord @ np.mean(ends, axis=0) - foremost))
+
+
+def _cut(sides: list[_Curve], least: float, name: str) -> tuple[float, float]:
+    """Where the thickness across the camber line comes to `least`, from the leading edge on."""
+    outline = np.vstack([sides[0].fine, sides[1].fine[::-1]])
+    try:
+        line = camber_line(np.stack([outline, np.roll(outline, -1, axis=0)], axis=1))
+    except ValueError as error:
+        raise ValueError(f"section {name}: is {error}") from error
+    start = (sides[0].fine[0] + sides[1].fine[0]) / 2
+    if np.linalg.norm(line[-1] - start) < np.linalg.norm(line[0] - start):
+        line = line[::-1]
+    arc = arc_length(line)
+    places = _CUTS[::-1] * arc[-1]
+    points = np.stack([np.interp(places, arc, axis) for axis in line.T], axis=1)
+    ways = np.stack([np.interp(places, arc, axis) for axis in np.gradient(line, arc, axis=0).T], axis=1)
+    across = np.stack([-ways[:, 1], ways[:, 0]], axis=1) / np.linalg.norm(ways, axis=1, keepdims=True)
+    inner = None
+    for point, normal in zip(points, across, strict=True):  # from the middle to the edge
+        met = [_nearest(side, point, normal) for side in sides]
+        gap = 0.0 if None in met else abs(met[0][0] - met[1][0])
+        if gap < least:
+            break
+        inner = [parameter for _, parameter in met]
+    if inner is None:
+        raise ValueError(f"section {name}: is too thin in the middle of its chord to be cut at its edges")
+    return tuple(inner)
+
+
+def _nearest(side: _Curve, point: np.ndarray, normal: np.ndarray) -> tuple[float, float] | None:
+    """Distance to where the line along `normal` meets `side` next, and the parameter there."""
+    distance, place = crossings(np.stack([side.fine[:-1], side.fine[1:]], axis=1), point, normal)
+    if not distance.size:
+        return None
+    at = np.argmin(np.abs(distance))
+    numbers = np.arange(len(side.fine_parameter))
+    return distance[at], float(np.interp(place[at], numbers, side.fine_parameter))
+
+
+def _paired(sides: list[_Curve], ends: list[tuple[float, float]]) -> tuple[np.ndarray, float]:
+    """Places (201, 2, 3) on both sides at `SAMPLES` of the camber line, and its length.
+
+    Points at the same relative arc length of the two sides belong together, the camber line is midway.
+    """
+    parameters = [_even(side, *end) for side, end in zip(sides, ends, strict=True)]
+    flat = [side(parameter)[:, 3:] for side, parameter in zip(sides, parameters, strict=True)]
+    arc = arc_length((flat[0] + flat[1]) / 2)
+    at = np.interp(SAMPLES, arc / arc[-1], np.linspace(0, 1, arc.size))
+    share = np.linspace(0, 1, arc.size)
+    places = [
+        side(np.interp(at, share, parameter))[:, :3]
+        for side, parameter in zip(sides, parameters, strict=True)
+    ]
+    return np.stack(places, axis=1), float(arc[-1])
+
+
+def _even(side: _Curve, start: float, stop: float) -> np.ndarray:
+    """Parameters at even steps of the arc length between two of them."""
+    inside = (side.fine_parameter > start) & (side.fine_parameter < stop)
+    parameter = np.concatenate([[start], side.fine_parameter[inside], [stop]])
+    arc = arc_length(side(parameter)[:, 3:])
+    return np.interp(np.linspace(0, arc[-1], 8 * SAMPLES.size), arc, parameter)

@@ -1,0 +1,161 @@
+"""Tables of blade sections, as text: a row for each station of a section, from the leading edge on.
+
+The names of the columns, in capital or small letters, tell which of two forms a table has. In both, `section`
+names the section, hub to tip; other columns are not looked at; what follows a ``#`` is a comment; cells are
+apart by commas, if the header has one, or else by white space.
+
+- Points of the surface: x, y and z of one side (`x1`, `y1`, `z1`) and of the other (`x2`, `y2`, `z2`).
+- As compressor rotors are published: axial position `z` and radius `r`, and at both the angles `theta1` and
+  `theta2` of the two sides (`bladerub.blade.sources.frame.Frame.cartesian` says from where and which way).
+"""
+
+from __future__ import annotations
+
+import io
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+
+from bladerub.blade.sources.frame import ANGLE_UNITS, Frame
+
+POINTS = ("x1", "y1", "z1", "x2", "y2", "z2")
+CYLINDRICAL = ("z", "r", "theta1", "theta2")
+STATIONS = (5, 2000)
+"""Fewest and most of a section."""
+
+
+@dataclass(frozen=True)
+class Section:
+    """A section as its table has it.
+
+    Parameters
+    ----------
+    name : str
+        Of the table.
+    lines : (n,) ndarray of int
+        Line of the file of each station.
+    points : (2, n, 3) ndarray
+        The stations on both sides, leading to trailing edge, in the blade's frame, m.
+    """
+
+    name: str
+    lines: np.ndarray = field(repr=False)
+    points: np.ndarray = field(repr=False)
+
+
+def read(path: str | Path, frame: Frame, angle_unit: str = "rad") -> list[Section]:
+    """Read the sections of the table at `path`, in the order of the file.
+
+    Raises
+    ------
+    ValueError
+        If the file is no such table; the message names the line or the section.
+    """
+    table = _table(Path(path))
+    wanted = table.columns.drop("section")
+    numbers = table[wanted].apply(pd.to_numeric, errors="coerce").astype(float)
+    for column in wanted:
+        bad = ~np.isfinite(numbers[column])
+        if bad.any():
+            line = bad.idxmax()
+            raise ValueError(f"line {line}: {column} = {table[column][line] or 'nothing'}, must be a number")
+    names = table["section"].str.strip()
+    if (names == "").any():
+        raise ValueError(f"line {(names == '').idxmax()}: has no section")
+    part = (names != names.shift()).cumsum()
+    sections = [
+        _section(names[rows.index[0]], rows, frame, angle_unit)
+        for _, rows in numbers.groupby(part.to_numpy())
+    ]
+    _check_names(sections)
+    return sections
+
+
+def _table(path: Path) -> pd.DataFrame:
+    """Read the cells of all rows as text, by the line of the file; only the columns of the form."""
+    if not path.is_file():
+        raise ValueError("there is no such file")
+    try:
+        text = path.read_text(encoding="utf-8-sig")
+    except UnicodeDecodeError:
+        text = "\0"
+    if "\0" in text:
+        raise ValueError("is not text in UTF-8")
+    bare = {number: line.split("#")[0].strip() for number, line in enumerate(text.splitlines(), 1)}
+    content = {number: line for number, line in bare.items() if line}
+    if not content:
+        raise ValueError("is empty")
+    header, *lines = content
+    separator = "," if "," in content[header] else r"\s+"
+    cells = content[header].split("," if separator == "," else None)
+    names = [name.strip(' "').lower() or f"column {number}" for number, name in enumerate(cells, 1)]
+    wanted = ["section", *_form(set(names))]
+    twice = {name for name in names if names.count(name) > 1}
+    if twice:
+        raise ValueError(f"line {header}: has the column {', '.join(sorted(twice))} twice")
+    if not lines:
+        raise ValueError("has no rows below the names of its columns")
+    for line in lines:
+        n_cells = content[line].count(",") + 1 if separator == "," else len(content[line].split())
+        if n_cells != len(names):
+            raise ValueError(f"line {line}: has {n_cells} cells, must have {len(names)} as the header has")
+    table = pd.read_csv(
+        io.StringIO("\n".join(content[line] for line in lines)),
+        sep=separator,
+        names=names,
+        dtype=str,
+        keep_default_na=False,
+        skipinitialspace=True,
+    )
+    return table.set_index(pd.Index(lines))[wanted]
+
+
+def _form(columns: set[str]) -> tuple[str, ...]:
+    """Choose the form that `columns` belong to."""
+    known = [form for form in (POINTS, CYLINDRICAL) if columns.issuperset(form)]
+    if len(known) == 1 and "section" in columns:
+        return known[0]
+    both = f"section, {', '.join(POINTS)} or section, {', '.join(CYLINDRICAL)}"
+    if len(known) == 2:
+        raise ValueError(f"has the columns of both forms; must have either {both}")
+    near = max((POINTS, CYLINDRICAL), key=lambda form: len(columns.intersection(form)))
+    missing = [name for name in ("section", *(known[0] if known else near)) if name not in columns]
+    raise ValueError(f"has no column {', '.join(missing)}; must have {both}")
+
+
+def _section(name: str, rows: pd.DataFrame, frame: Frame, angle_unit: str) -> Section:
+    lines = rows.index.to_numpy()
+    if not STATIONS[0] <= len(rows) <= STATIONS[1]:
+        raise ValueError(
+            f"section {name} (line {lines[0]}): has {len(rows)} stations; must have {STATIONS[0]} to "
+            f"{STATIONS[1]}, in rows that follow one another"
+        )
+    if "r" in rows:
+        if (rows.r <= 0).any():
+            line = (rows.r <= 0).idxmax()
+            raise ValueError(f"line {line}: r = {rows.r[line]:g}, must be above 0")
+        angles = ANGLE_UNITS[angle_unit] * rows[["theta1", "theta2"]].to_numpy().T
+        if np.ptp(angles) > np.pi:
+            raise ValueError(
+                f"section {name} (line {lines[0]}): its angles go over {np.ptp(angles):.3g} rad, more than "
+                f"half around the engine axis; are they in {angle_unit}?"
+            )
+        sides = [frame.cartesian(rows.z.to_numpy(), rows.r.to_numpy(), theta) for theta in angles]
+    else:
+        sides = [rows[list(side)].to_numpy() for side in (POINTS[:3], POINTS[3:])]
+    return Section(name, lines, np.stack([frame.metres(side) for side in sides]))
+
+
+def _check_names(sections: list[Section]) -> None:
+    if len(sections) < 2:
+        raise ValueError(f"has {len(sections)} section; must have two or more, from hub to tip")
+    seen = {}
+    for section in sections:
+        if section.name in seen:
+            raise ValueError(
+                f"line {section.lines[0]}: section {section.name} comes back; all its stations must follow "
+                f"line {seen[section.name]}"
+            )
+        seen[section.name] = section.lines[0]

@@ -1,0 +1,109 @@
+"""The tip of a blade from elsewhere: the cone it lies on, its camber line, and the interface nodes there."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.optimize import linear_sum_assignment
+from scipy.spatial.distance import cdist
+
+from bladerub.blade.model import N_INTERFACE
+from bladerub.blade.sources.profile import arc_length, camber_line
+
+
+@dataclass(frozen=True)
+class Interface:
+    """Interface nodes of a tip.
+
+    Parameters
+    ----------
+    nodes : (8,) ndarray of int
+        Leading to trailing edge.
+    chord : float
+        Length of the camber line, m.
+    offset : float
+        Largest distance of a node from where it should be on the camber line, m.
+    """
+
+    nodes: np.ndarray
+    chord: float
+    offset: float
+
+
+def cone(points: np.ndarray, degrees: float | None, downstream_x: int) -> float:
+    """Half angle (rad) of the cone that the tip lies on, positive where it widens with x.
+
+    Parameters
+    ----------
+    points : (n, 3) ndarray
+        Nodes of the tip, m, to which the cone is fitted where its angle is not given.
+    degrees : float or None
+        The angle, positive where it widens downstream.
+    downstream_x : int
+        1 where x points downstream, -1 where it points upstream.
+    """
+    if degrees is not None:
+        return downstream_x * float(np.deg2rad(degrees))
+    radius = np.hypot(points[:, 1], points[:, 2])
+    x = points[:, 0] - points[:, 0].mean()
+    return float(np.arctan2(x @ (radius - radius.mean()), x @ x))
+
+
+def interface(points: np.ndarray, faces: np.ndarray, downstream_x: int) -> Interface:
+    """Choose the interface nodes, evenly by arc length along the camber line of the tip.
+
+    The tip is unrolled about the engine axis. Its camber line is the line midway between the two sides,
+    measured across itself, and goes on straight through the two ends.
+
+    Parameters
+    ----------
+    points : (n_nodes, 3) ndarray
+        In the blade's frame, m.
+    faces : (n_faces, 8 or 6) ndarray of int
+        The faces of the tip.
+    downstream_x : int
+        1 where x points downstream, so that the leading edge has the smaller x; else -1.
+
+    Raises
+    ------
+    ValueError
+        If the tip has fewer than 8 nodes, is no profile with two sides, or its nodes are too coarse.
+    """
+    nodes = np.unique(faces)
+    if nodes.size < N_INTERFACE:
+        raise ValueError(f"the tip has {nodes.size} nodes; must have {N_INTERFACE} or more")
+    flat = _unrolled(points, *points[nodes, 1:].mean(axis=0))
+    outline = flat[_outline(faces)]
+    try:
+        line = camber_line(outline)
+    except ValueError as error:
+        raise ValueError(f"the tip is {error}; name its node set") from error
+    if downstream_x * (line[-1, 0] - line[0, 0]) < 0:
+        line = line[::-1]
+    arc = arc_length(line)
+    evenly = np.linspace(0, arc[-1], N_INTERFACE)
+    wanted = np.stack([np.interp(evenly, arc, line[:, axis]) for axis in range(2)], axis=1)
+    distance = cdist(wanted, flat[nodes])
+    chosen = linear_sum_assignment(distance**2)[1]
+    offset = distance[np.arange(N_INTERFACE), chosen].max()
+    if offset > arc[-1] / (2 * (N_INTERFACE - 1)):
+        raise ValueError(
+            f"the tip is too coarse: an interface node would be {offset:.3g} m off its place on a camber "
+            f"line of {arc[-1]:.3g} m"
+        )
+    return Interface(nodes[chosen], float(arc[-1]), float(offset))
+
+
+def _unrolled(points: np.ndarray, y: float, z: float) -> np.ndarray:
+    """Axial position and arc length about the engine axis (n, 2) of `points` (n, 3), from `y`, `z` on."""
+    radius = np.hypot(points[:, 1], points[:, 2])
+    phi = np.arctan2(points[:, 1] * z - points[:, 2] * y, points[:, 2] * z + points[:, 1] * y)
+    return np.stack([points[:, 0], radius * phi], axis=1)
+
+
+def _outline(faces: np.ndarray) -> np.ndarray:
+    """List the ends (n, 2) of the pieces of edges that belong to one of `faces` only."""
+    pieces = np.stack([faces, np.roll(faces, -1, axis=1)], axis=-1).reshape(-1, 2)
+    _, first, count = np.unique(np.sort(pieces, axis=1), axis=0, return_index=True, return_counts=True)
+    return pieces[first[count == 1]]

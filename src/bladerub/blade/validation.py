@@ -1,0 +1,77 @@
+"""Whether a reduced blade that somebody hands over can be computed with."""
+
+from __future__ import annotations
+
+import os
+from numbers import Real
+from pathlib import Path
+
+import h5py
+import numpy as np
+
+from bladerub.blade.model import N_INTERFACE, ReducedBlade, read_reduced_blade
+from bladerub.io.errors import DamagedFile
+
+LARGEST_MATRIX = 10_000
+"""Coordinates of a reduced blade; more is no reduction, and would fill the memory."""
+
+_AT_NODES = ("node_position", "radial_direction", "tangential_direction")
+_POSITIVE = ("f1_hz", "f_omega_max", "length")
+
+
+def read_sound_blade(path: str | Path) -> ReducedBlade:
+    """Read a reduced blade and see that it is one.
+
+    Raises
+    ------
+    OSError
+        If the file is missing, unreadable or not a reduced blade; the message names it.
+    ValueError
+        If its matrices, nodes or attributes are none of a blade; the message names the file and the dataset.
+    """
+    if os.path.exists(path) and not os.path.isfile(path):
+        kind = "a folder" if os.path.isdir(path) else "not a regular file"
+        raise OSError(f"{path}: is {kind}, must be a reduced blade (HDF5)")
+    if h5py.is_hdf5(path):
+        _check_sizes(path)
+    blade = read_reduced_blade(path)
+    try:
+        _check(blade)
+    except ValueError as error:
+        raise ValueError(f"{path}: not a sound reduced blade, {error}") from error
+    return blade
+
+
+def _check_sizes(path: str | Path) -> None:
+    """See that the datasets fit the memory before they are read."""
+    try:
+        with h5py.File(path, "r") as file:
+            sizes = {name: getattr(entry, "shape", None) for name, entry in file.items()}
+    except (OSError, RuntimeError, KeyError) as error:
+        raise DamagedFile(f"{path}: not a readable HDF5 file ({error})") from error
+    for name, shape in sizes.items():
+        if shape is None or max(shape, default=0) > LARGEST_MATRIX:
+            raise ValueError(f"{path}: not a reduced blade, {name} has the shape {shape}")
+
+
+def _check(blade: ReducedBlade) -> None:
+    for name in _POSITIVE:
+        value = getattr(blade, name)
+        if not (isinstance(value, Real) and 0 < value < np.inf):
+            raise ValueError(f"{name} = {value!r}: must be a number above 0")
+    n = len(blade.mass) if np.ndim(blade.mass) else 0
+    for name, values in blade.arrays.items():
+        shape = (N_INTERFACE, 3) if name in _AT_NODES else (max(n, 3 * N_INTERFACE),) * 2
+        if values.shape != shape or values.dtype.kind != "f":
+            raise ValueError(
+                f"{name}: must be numbers of the shape {shape}, is {values.dtype} {values.shape}"
+            )
+        if not np.all(np.isfinite(values)):
+            raise ValueError(f"{name}: must be finite, has NaN or infinite entries")
+        tolerance = 1e-6 * np.abs(values).max()
+        if name not in _AT_NODES and not np.allclose(values, values.T, rtol=0, atol=tolerance):
+            raise ValueError(f"{name}: must be symmetric")
+    try:
+        np.linalg.cholesky(blade.mass)
+    except np.linalg.LinAlgError as error:
+        raise ValueError("mass: must be positive definite") from error

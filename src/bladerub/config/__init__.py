@@ -1,0 +1,1 @@
+"""The configuration: read, laid over one another, and checked before anything is computed."""

@@ -1,0 +1,1 @@
+"""The compiled time loop and what it consists of."""

@@ -1,0 +1,33 @@
+"""Keeps compiled machine code on disk for exactly the sources it was compiled from.
+
+Numba notices a change of the file that holds a cached function, but not of functions that it calls in
+other files: a run after an edit could use old code. The folder of the cache therefore carries a digest
+of all sources of the solver.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import numba
+
+from bladerub.io.sources import solver_digest
+
+
+def njit_on_disk(**options) -> Callable[[Callable], Callable]:
+    """As `numba.njit` with ``cache=True``, in a folder that belongs to the present sources.
+
+    The folder is beside the sources, or in ``NUMBA_CACHE_DIR`` where that is set.
+    """
+
+    def decorate(function: Callable) -> Callable:
+        user_folder = numba.config.CACHE_DIR
+        parent = Path(user_folder or Path(__file__).parent / "__pycache__")
+        numba.config.CACHE_DIR = str(parent / f"machine-code-{solver_digest()[:16]}")
+        try:
+            return numba.njit(cache=True, **options)(function)
+        finally:
+            numba.config.CACHE_DIR = user_folder
+
+    return decorate

@@ -1,0 +1,110 @@
+"""One cell of the chart: what is kept of the runs of one coating, and its file."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from bladerub.io import hdf5
+from bladerub.io.errors import DamagedFile
+from bladerub.io.hdf5 import Variable
+from bladerub.io.provenance import provenance
+from bladerub.study.grid import CoatingCase
+
+MEASURES = {
+    "peak": ("m", "greatest absolute radial displacement of node 1"),
+    "worn_volume": ("m3", "volume worn off the coating"),
+    "deepest_wear": ("m", "greatest worn depth under any node"),
+    "lobes": ("1", "number of worn lobes"),
+    "unbounded": ("1", "1 where the tip left all bounds"),
+    "divergent": ("1", "1 where the run diverges; judged at the uniform speeds alone"),
+    "revolutions": ("1", "revolutions made, the longer run for confirmation not counted"),
+    "energy_damping": ("J", "energy dissipated by modal damping"),
+    "energy_wear": ("J", "energy dissipated by plastic shortening of the coating"),
+    "energy_sliding": ("J", "energy dissipated by the tangential resistance of the coating"),
+}
+"""What is kept of each run, with unit and meaning; NaN at speeds that were not run."""
+
+
+@dataclass(frozen=True)
+class Cell:
+    """What the chart keeps of one coating, over all speeds of the study.
+
+    Parameters
+    ----------
+    case : CoatingCase
+        The coating.
+    f_omega : (n,) ndarray
+        Speeds of the study, normalised.
+    C1 : (n,) ndarray
+        First eigenfrequency of the blade at each of them, normalised.
+    spectrum_order : (k,) ndarray
+        The engine orders of the chart.
+    spectrum_amplitude : (n, k) ndarray
+        Largest amplitude on each of them, to within ``analysis.peaks.order_halfwidth``, m; NaN where not run.
+    uniform : (n,) ndarray of bool
+        The speeds of which the shares are.
+    measures : dict of str to (n,) ndarray
+        `MEASURES`.
+    """
+
+    case: CoatingCase
+    f_omega: np.ndarray
+    C1: np.ndarray
+    spectrum_order: np.ndarray
+    spectrum_amplitude: np.ndarray
+    uniform: np.ndarray
+    measures: dict[str, np.ndarray]
+
+    @property
+    def known(self) -> np.ndarray:
+        """Which speeds were run (n,)."""
+        return np.isfinite(self.measures["peak"])
+
+
+def write(path: str | Path, cell: Cell, key: str, config: Mapping[str, Any]) -> None:
+    """Write `cell` to the HDF5 file `path` under its `key`, whole or not at all."""
+    over_speed = ("f_omega",)
+    variables = {
+        "f_omega": Variable(
+            over_speed, cell.f_omega, "1", "rotational frequency over that of the blade at rest"
+        ),
+        "spectrum_order": Variable(("spectrum_order",), cell.spectrum_order, "1", "engine order"),
+        "C1": Variable(over_speed, cell.C1, "1", "first eigenfrequency at speed over that at rest"),
+        "spectrum_amplitude": Variable(
+            ("f_omega", "spectrum_order"),
+            cell.spectrum_amplitude,
+            "m",
+            "largest amplitude of the radial displacement of node 1 on the engine order; NaN: not run",
+        ),
+        "uniform": Variable(
+            over_speed, cell.uniform.astype(np.int8), "1", "1 at the speeds of which shares are"
+        ),
+    }
+    for name, (unit, long_name) in MEASURES.items():
+        variables[name] = Variable(over_speed, cell.measures[name], unit, f"{long_name}; NaN: not run")
+    hdf5.write(path, variables, asdict(cell.case) | {"cell_key": key}, provenance(config))
+
+
+def read(path: str | Path) -> Cell:
+    """Read a cell written by `write`.
+
+    Raises
+    ------
+    OSError
+        If the file is missing, damaged or not a cell; the message names it.
+    """
+    data, attributes = hdf5.read(path)
+    try:
+        return Cell(
+            case=CoatingCase.described(attributes),
+            **{name: data[name] for name in ("f_omega", "C1", "spectrum_order", "spectrum_amplitude")},
+            uniform=data["uniform"].astype(bool),
+            measures={name: data[name] for name in MEASURES},
+        )
+    except KeyError as error:
+        raise DamagedFile(f"{path}: not a cell of the chart, {error} is missing") from error

@@ -1,0 +1,40 @@
+"""Which coating to choose: limits that a safe one keeps, and those that nothing is better than."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+import pandas as pd
+
+LIMITED = {"amplitude": "peak", "wear": "deepest_wear", "divergent_share": "divergent_share"}
+"""Column of the chart that each of ``chart.limits`` is for."""
+
+
+def broken_limits(chart: pd.DataFrame, limits: Mapping[str, float]) -> pd.DataFrame:
+    """Tell for each row of the chart which of the limits it breaks, a column of bool for each."""
+    return pd.DataFrame({name: chart[column] > limits[name] for name, column in LIMITED.items()})
+
+
+def pareto(chart: pd.DataFrame, limits: Mapping[str, float]) -> pd.DataFrame:
+    """List the coatings that no other of the same θ betters in displacement and worn volume together.
+
+    Parameters
+    ----------
+    chart : DataFrame
+        From `bladerub.extensions.chart.table.table`.
+    limits : mapping
+        ``config["chart"]["limits"]``.
+
+    Returns
+    -------
+    DataFrame
+        Their rows, by ascending displacement, and ``safe``: whether all limits are kept.
+    """
+    judged = chart.assign(safe=~broken_limits(chart, limits).any(axis=1))
+    fronts = []
+    for _, rows in judged.groupby("theta"):
+        ordered = rows.sort_values(["peak", "worn_volume"])
+        best_before = np.minimum.accumulate(np.append(np.inf, ordered.worn_volume.to_numpy()[:-1]))
+        fronts.append(ordered[ordered.worn_volume.to_numpy() < best_before])
+    return pd.concat(fronts, ignore_index=True)

@@ -1,0 +1,75 @@
+"""Which coatings the chart has, and which speeds every one of them is run at from the beginning."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from bladerub.io.errors import BadInput
+from bladerub.study.grid import CoatingCase, speeds
+
+ORDERS = (4, 6)
+"""Engine orders of the chart: Y4, f4 and Y6, f6, as in the paper's Figs. 11 to 14."""
+
+
+def columns(config: Mapping[str, Any]) -> dict[str, list[CoatingCase]]:
+    """List the cells of the chart by the name of their column, all K at one θ and E."""
+    chart = config["chart"]
+    return {
+        f"{chart['casing']}_E{E:g}_theta{theta:g}": [
+            CoatingCase(chart["casing"], float(E), float(K), float(theta)) for K in chart["K"]
+        ]
+        for theta in chart["theta"]
+        for E in chart["E"]
+    }
+
+
+class ChartSpeeds(NamedTuple):
+    """Speeds that a cell may be run at, and those that it is run at whatever comes out.
+
+    Parameters
+    ----------
+    f_omega : (n,) ndarray
+        All speeds of the study, normalised: a run of the chart is one of the study's.
+    uniform : (n,) ndarray of bool
+        Speeds at even steps, of which the shares of the chart are.
+    coarse : (n,) ndarray of bool
+        These and the denser ones below: where the search for maxima begins.
+    """
+
+    f_omega: np.ndarray
+    uniform: np.ndarray
+    coarse: np.ndarray
+
+
+def chart_speeds(config: Mapping[str, Any]) -> ChartSpeeds:
+    """Choose the speeds of the study that are nearest to the even ones of ``chart.speeds``."""
+    f_omega, wanted = np.array(speeds(config)), config["chart"]["speeds"]
+    uniform = _nearest(f_omega, wanted["start"], f_omega[-1], wanted["step"])
+    dense = _nearest(f_omega, wanted["start"], min(wanted["dense_stop"], f_omega[-1]), wanted["dense_step"])
+    return ChartSpeeds(f_omega, uniform, uniform | dense)
+
+
+def _nearest(f_omega: np.ndarray, start: float, stop: float, step: float) -> np.ndarray:
+    even = np.arange(start, stop + 1e-9, step)
+    chosen = np.zeros(f_omega.size, dtype=bool)
+    chosen[np.abs(f_omega - even[:, None]).argmin(axis=1)] = True
+    return chosen
+
+
+def check(config: Mapping[str, Any]) -> None:
+    """See before any work that the chart finds its peaks in the speeds of the study.
+
+    Raises
+    ------
+    BadInput
+        If an engine order of the chart crosses no first frequency; the message names the key.
+    """
+    highest = config["speeds"]["stop"]
+    if min(ORDERS) * highest < 1:  # rotation stiffens the blade: C1 is nowhere below its value at rest, 1
+        raise BadInput(
+            f"speeds.stop = {highest:g}: must be at least {1 / min(ORDERS):g} for the chart, or engine order "
+            f"{min(ORDERS)} does not cross the first frequency"
+        )

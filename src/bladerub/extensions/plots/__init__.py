@@ -1,0 +1,1 @@
+"""Figures of the extensions, in the style of `bladerub.plots`."""

@@ -1,0 +1,128 @@
+"""Tables of the design: in which share of it a claim holds, what decides that, and what a sample costs."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+
+from bladerub.extensions.robustness import sample
+from bladerub.extensions.robustness.plan import REFERENCE, Plan
+from bladerub.extensions.robustness.sensitivity import indices
+from bladerub.io.tables import read as read_table
+from bladerub.study.findings import TITLES, claim_of
+from bladerub.study.findings.finding import NO, PARTLY, YES
+
+SCORE = {YES: 1.0, PARTLY: 0.5, NO: 0.0}
+"""A verdict as a number, for what decides it."""
+
+DECIDES = 0.1
+"""Total index from which on a factor is named among those that decide."""
+
+VERDICT, MARGIN = "verdict", "margin"
+"""Outputs whose indices are estimated: `SCORE`, and the rank of the margin, which may be infinite."""
+
+INDICES = ["id", "output", "factor", "first", "total", "predicted"]
+"""Columns of the table of `sensitivities`."""
+
+
+def design(plan: Plan) -> pd.DataFrame:
+    """List what each factor sets in each sample: a row for each number of the config."""
+    return pd.DataFrame(
+        [
+            {"sample": number, "factor": factor.name, "key": key, "value": value, "unit": factor.unit}
+            for number, places in enumerate(plan.places())
+            for factor, at in zip(plan.factors, places, strict=True)
+            for key, value in factor.values(float(at)).items()
+        ]
+    )
+
+
+def gather(paths: Iterable[str | Path]) -> pd.DataFrame:
+    """Put what the samples say into one table, ordered by claim and sample, the reference first."""
+    said = [read_table(path, sample.COLUMNS) for path in paths]
+    whole = pd.concat([each for each in said if len(each)], ignore_index=True)
+    whole["id"] = pd.Categorical(whole["id"], list(TITLES), ordered=True)
+    return whole.sort_values(["id", "sample"], ignore_index=True).astype({"id": str})
+
+
+def sensitivities(plan: Plan, verdicts: pd.DataFrame) -> pd.DataFrame:
+    """Estimate what decides each claim, and what moves its margin.
+
+    Parameters
+    ----------
+    plan : Plan
+        The design.
+    verdicts : DataFrame
+        From `gather`.
+
+    Returns
+    -------
+    DataFrame
+        A row per claim, output (`VERDICT`, `MARGIN`) and factor; none where there are no indices.
+    """
+    places, rows = plan.places(), []
+    for id_, said in verdicts[verdicts["sample"] != REFERENCE].groupby("id", sort=False):
+        # a claim that fails because nothing is found has no margin: it fails by more than any other
+        margin = said.margin.where(said.margin.notna() | (said.holds != NO), -np.inf)
+        outputs = {VERDICT: said.holds.map(SCORE), MARGIN: margin[margin.notna()].rank()}
+        for output, values in outputs.items():
+            found = indices(places[said.loc[values.index, "sample"]], values.to_numpy())
+            if np.isnan(found.predicted):
+                continue
+            rows += [
+                (id_, output, factor.name, found.first[number], found.total[number], found.predicted)
+                for number, factor in enumerate(plan.factors)
+            ]
+    return pd.DataFrame(rows, columns=INDICES)
+
+
+def summary(
+    plan: Plan, verdicts: pd.DataFrame, sensitivity: pd.DataFrame, cost: pd.DataFrame
+) -> pd.DataFrame:
+    """Tell of each claim in which share of the design it holds, what decides that, and what it costs to know.
+
+    Parameters
+    ----------
+    plan : Plan
+        The design.
+    verdicts, sensitivity : DataFrame
+        From `gather` and `sensitivities`.
+    cost : DataFrame
+        A row per part and sample, with `bladerub.extensions.robustness.sample.COST`.
+
+    Returns
+    -------
+    DataFrame
+        A row for each part of each claim of the plan; shares are of the samples that can tell.
+    """
+    part_of = {claim: part.name for part in plan.parts.values() for claim in part.claims}
+    own_values, drawn = (verdicts["sample"] == REFERENCE), cost[cost["sample"] != REFERENCE]
+    reference = verdicts[own_values].set_index("id").holds
+    of_part = drawn.groupby("part")[["runs", "cpu_s"]].median()
+    shares = pd.crosstab(verdicts.id[~own_values], verdicts.holds[~own_values])
+    shares = shares.reindex(index=TITLES, columns=SCORE, fill_value=0)
+    rows = []
+    for id_, counts in shares.iterrows():
+        if claim_of(id_) not in part_of:
+            continue
+        part, n_samples = part_of[claim_of(id_)], counts.sum()
+        own = sensitivity[(sensitivity.id == id_) & (sensitivity.output == VERDICT)]
+        deciding = own[own.total >= DECIDES].sort_values("total", ascending=False)
+        rows.append(
+            {
+                "id": id_,
+                "claim": TITLES[id_],
+                "part": part,
+                "samples": n_samples,
+                **{f"{word}_share": counts[word] / n_samples if n_samples else np.nan for word in SCORE},
+                "reference": reference.get(id_, ""),
+                "predicted": own.predicted.iloc[0] if len(own) else np.nan,
+                "decided_by": ", ".join(f"{row.factor} {row.total:.2f}" for row in deciding.itertuples()),
+                "runs_per_sample": of_part.runs[part],
+                "cpu_s_per_sample": of_part.cpu_s[part],
+            }
+        )
+    return pd.DataFrame(rows)

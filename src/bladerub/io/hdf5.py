@@ -1,0 +1,193 @@
+"""HDF5 files with names, units and dimension scales, written whole or not at all."""
+
+from __future__ import annotations
+
+import io
+import math
+import os
+from collections.abc import Iterator, Mapping, Set
+from contextlib import contextmanager
+from dataclasses import dataclass
+from functools import lru_cache
+from pathlib import Path
+from types import MappingProxyType
+from typing import Any
+
+import h5py
+import numpy as np
+
+from bladerub.io import atomic
+from bladerub.io.errors import DamagedFile
+
+_READ_AND_WRITE = 1  # H5LT_FILE_IMAGE_OPEN_RW
+_COMPRESSED_FROM = 1024
+"""Entries from which a dataset is compressed; below, the chunk index costs more than it saves."""
+
+
+@dataclass(frozen=True)
+class Variable:
+    """One dataset with what a reader must know of it.
+
+    Parameters
+    ----------
+    dims : tuple of str
+        Name of each dimension. A variable that is named like its only dimension is a coordinate
+        and becomes that dimension's scale.
+    data : array_like
+        The values, with ``len(dims)`` dimensions; numbers or strings.
+    units : str
+        SI unit, ``"1"`` for a pure number.
+    long_name : str
+        What it is, in words.
+    """
+
+    dims: tuple[str, ...]
+    data: Any
+    units: str
+    long_name: str
+
+
+def write(
+    path: str | Path,
+    variables: Mapping[str, Variable],
+    attributes: Mapping[str, Any],
+    origin: Mapping[str, str] = MappingProxyType({}),
+) -> None:
+    """Write `variables` and `attributes` to `path`, whole or not at all.
+
+    Parameters
+    ----------
+    path : path-like
+        The file.
+    variables : mapping of str to Variable
+        The datasets by name.
+    attributes : mapping
+        Numbers and strings by name.
+    origin : mapping of str to str, optional
+        More attributes, from `bladerub.io.provenance.provenance`: the same in many files, and so not written
+        one by one.
+
+    Raises
+    ------
+    ValueError
+        If two variables disagree on the length of a dimension.
+    """
+    data = {name: np.asarray(variable.data) for name, variable in variables.items()}
+    layout = tuple(
+        (name, variable.dims, data[name].shape, data[name].dtype.str, variable.units, variable.long_name)
+        for name, variable in variables.items()
+    )
+    kinds = tuple((key, np.asarray(value).dtype.str) for key, value in attributes.items())
+    image = _blank(layout, kinds, tuple(origin.items()))
+    with h5py.File(h5py.h5f.open_file_image(image, flags=_READ_AND_WRITE)) as file:
+        for key, value in attributes.items():
+            file.attrs.modify(key, value)
+        for name, values in data.items():
+            if values.dtype.kind == "U":
+                file[name][...] = values
+            else:  # past h5py's indexing, which takes longer than the writing
+                whole = h5py.h5s.ALL
+                h5py.h5d.open(file.id, name.encode()).write(whole, whole, np.ascontiguousarray(values))
+        file.flush()
+        image = file.id.get_file_image()
+    with atomic.writing(path, "wb") as stream:
+        stream.write(image)
+
+
+@lru_cache(maxsize=8)
+def _blank(layout: tuple, attributes: tuple, origin: tuple) -> bytes:
+    """Make a file without values: its names, units and scales take four times as long as filling it."""
+    with h5py.File(io.BytesIO(), "w") as file:
+        for key, kind in attributes:
+            file.attrs[key] = "" if "U" in kind else np.zeros((), kind)
+        for key, value in origin:
+            file.attrs[key] = value
+        lengths: dict[str, int] = {}
+        for name, dims, shape, kind, units, long_name in sorted(layout, key=_coordinates_first):
+            if len(shape) != len(dims):
+                raise ValueError(f"{name}: {len(shape)} dimensions, but named {dims}")
+            dataset = _dataset(file, name, shape, np.dtype(kind), units, long_name)
+            if dims == (name,):
+                lengths[name] = shape[0]
+                dataset.make_scale(name)
+                continue
+            for axis, dim in enumerate(dims):
+                if lengths.setdefault(dim, shape[axis]) != shape[axis]:
+                    raise ValueError(f"{name}: dimension {dim} has {shape[axis]}, not {lengths[dim]} entries")
+                if dim not in file:
+                    index = np.arange(lengths[dim])
+                    scale = _dataset(file, dim, index.shape, index.dtype, "1", f"index along {dim}")
+                    scale[...] = index
+                    scale.make_scale(dim)
+                dataset.dims[axis].attach_scale(file[dim])
+        file.flush()
+        return file.id.get_file_image()
+
+
+def _coordinates_first(entry: tuple) -> bool:
+    name, dims, *_ = entry
+    return dims != (name,)
+
+
+def _dataset(
+    file: h5py.File, name: str, shape: tuple[int, ...], kind: np.dtype, units: str, long_name: str
+) -> h5py.Dataset:
+    storage = {}
+    if kind.kind == "U":
+        kind = h5py.string_dtype()
+    elif math.prod(shape) >= _COMPRESSED_FROM:
+        storage = {"compression": "gzip", "compression_opts": 1, "shuffle": True, "fletcher32": True}
+    dataset = file.create_dataset(name, shape, kind, **storage)
+    dataset.attrs["units"] = units
+    dataset.attrs["long_name"] = long_name
+    return dataset
+
+
+def read(path: str | Path, only: Set[str] | None = None) -> tuple[dict[str, np.ndarray], dict[str, Any]]:
+    """Read the datasets and attributes of the file at `path`.
+
+    Parameters
+    ----------
+    path : path-like
+        The file.
+    only : set of str, optional
+        Names of the datasets to read, all by default.
+
+    Raises
+    ------
+    OSError
+        If the file is missing or, as `DamagedFile`, not a whole HDF5 file; the message names it.
+    """
+    with _opened(path) as file:
+        wanted = file.keys() if only is None else only & file.keys()
+        return {name: _values(file[name]) for name in wanted}, _plain_attributes(file)
+
+
+def read_attributes(path: str | Path) -> dict[str, Any]:
+    """Read the attributes alone of the file at `path` (see `read`)."""
+    with _opened(path) as file:
+        return _plain_attributes(file)
+
+
+@contextmanager
+def _opened(path: str | Path) -> Iterator[h5py.File]:
+    try:
+        with h5py.File(path, "r") as file:
+            yield file
+    except (OSError, RuntimeError, KeyError, ValueError) as error:  # h5py raises any of them
+        code = getattr(error, "errno", None)
+        if code:  # of the system: missing, or not ours to read
+            raise OSError(code, os.strerror(code), str(path)) from error
+        raise DamagedFile(f"{path}: not a readable HDF5 file ({error})") from error
+
+
+def _values(dataset: h5py.Dataset) -> np.ndarray:
+    if h5py.check_string_dtype(dataset.dtype):
+        return np.array(dataset.asstr()[...], dtype=str)
+    return dataset[...]
+
+
+def _plain_attributes(file: h5py.File) -> dict[str, Any]:
+    return {
+        key: value.item() if isinstance(value, np.generic) else value for key, value in file.attrs.items()
+    }

@@ -1,0 +1,123 @@
+"""Where a file comes from: version, sources, config and packages that made it.
+
+Nothing here tells one machine or moment from another, so that equal studies have equal files. It says where
+results come from and determines none: no run key and no digest of the blade depends on it.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import os
+import platform
+import subprocess
+from collections.abc import Mapping
+from functools import cache
+from importlib.metadata import PackageNotFoundError, version
+from typing import Any
+
+from bladerub import __version__
+from bladerub.io.sources import ROOT
+
+PREFIX = "provenance_"
+"""Begins the name of each of these attributes, and of no other."""
+UNKNOWN = "unknown"
+
+_PACKAGES = ("numpy", "scipy", "numba", "h5py", "scikit-fem", "rslab", "pandas", "openturns", "pypardiso")
+_NOT_THE_STUDY = {"results"}  # where files lie says nothing of what is in them
+_SECONDS = 10
+
+
+def provenance(config: Mapping[str, Any]) -> dict[str, str]:
+    """Describe what makes a file now, as attributes for it.
+
+    Parameters
+    ----------
+    config : mapping
+        The validated study.
+
+    Returns
+    -------
+    dict of str to str
+        ``provenance_software`` (name and version), ``provenance_git_commit`` of the repository that the
+        package is installed from, ``provenance_git_state`` (``clean``, or ``modified``: a file in it differs
+        from the commit, or one of its sources is not in it), ``provenance_config_sha256`` (see
+        `config_digest`) and ``provenance_packages``, as pip writes them. What git cannot tell is ``unknown``.
+    """
+    commit, state = git_state()
+    return {
+        f"{PREFIX}software": f"bladerub {__version__}",
+        f"{PREFIX}git_commit": commit,
+        f"{PREFIX}git_state": state,
+        f"{PREFIX}config_sha256": config_digest(config),
+        f"{PREFIX}packages": _packages(),
+    }
+
+
+def software() -> str:
+    """Describe the same on one line, without config and packages."""
+    commit, state = git_state()
+    return f"bladerub {__version__}, git commit {commit} ({state})"
+
+
+def config_digest(config: Mapping[str, Any]) -> str:
+    """Digest (SHA-256) what the config says, not how it is written, nor where the results go."""
+    study = {key: value for key, value in config.items() if key not in _NOT_THE_STUDY}
+    return hashlib.sha256(json.dumps(_as_floats(study), sort_keys=True).encode()).hexdigest()
+
+
+def _as_floats(value: Any) -> Any:
+    if isinstance(value, Mapping):
+        return {str(key): _as_floats(entry) for key, entry in value.items()}
+    if isinstance(value, list | tuple):
+        return [_as_floats(entry) for entry in value]
+    if isinstance(value, int) and not isinstance(value, bool):
+        return float(value)
+    return value
+
+
+@cache
+def git_state() -> tuple[str, str]:
+    """Return commit and state of the repository, once for each process (see `provenance`)."""
+    return _read_git_state()
+
+
+def _read_git_state() -> tuple[str, str]:
+    # a repository that this one only lies in is another's, and a hook of git names the one it runs for
+    environment = {name: value for name, value in os.environ.items() if not name.startswith("GIT_")}
+    environment |= {"GIT_CEILING_DIRECTORIES": str(ROOT.parent), "GIT_OPTIONAL_LOCKS": "0"}
+    try:
+        told = subprocess.run(
+            ["git", "status", "--porcelain=v2", "--branch", "--untracked-files=normal"],
+            cwd=ROOT,
+            env=environment,
+            stdin=subprocess.DEVNULL,
+            capture_output=True,
+            encoding="utf-8",
+            errors="replace",
+            timeout=_SECONDS,
+            check=True,
+        ).stdout
+    except (OSError, subprocess.SubprocessError):
+        return UNKNOWN, UNKNOWN
+    commit, modified = UNKNOWN, False
+    for line in told.splitlines():
+        if line.startswith("# branch.oid "):
+            commit = line.split()[-1]
+        elif not line.startswith(("#", "?")) or line.startswith("? src/"):
+            modified = True
+    if set(commit) - set("0123456789abcdef"):  # "(initial)": nothing is committed yet
+        return UNKNOWN, UNKNOWN
+    return commit, "modified" if modified else "clean"
+
+
+@cache
+def _packages() -> str:
+    """Versions of what shapes the numbers; PARDISO takes part in the blade where it is installed."""
+    found = [f"python=={platform.python_version()}"]
+    for name in _PACKAGES:
+        try:
+            found.append(f"{name}=={version(name)}")
+        except PackageNotFoundError:
+            continue
+    return " ".join(found)

@@ -1,0 +1,93 @@
+"""Digests of the package's own sources: results and machine code are valid for the code that made them."""
+
+from __future__ import annotations
+
+import ast
+import hashlib
+import json
+from collections.abc import Iterable
+from functools import cache
+from pathlib import Path
+
+import bladerub
+
+_PACKAGE = Path(bladerub.__file__).parent
+ROOT = _PACKAGE.parents[1]
+"""The repository: the package is installed from it in place (``pip install -e .``)."""
+
+
+def files_behind(*modules: str) -> list[str]:
+    """List the source files of modules and of what they import, directly or not, from their own subpackages.
+
+    Snakemake does not follow imports. What is computed in other subpackages reaches a rule by the files that
+    it reads.
+
+    Parameters
+    ----------
+    modules : str
+        Such as ``"study.maps"``, below ``bladerub``.
+
+    Returns
+    -------
+    list of str
+        Paths from the root of the repository, sorted.
+    """
+    subpackages = {module.partition(".")[0] for module in modules}
+    found, waiting = set(), list(modules)
+    while waiting:
+        path = _path_of(waiting.pop())
+        if path not in found:
+            found.add(path)
+            waiting += [name for name in _imports(path) if name.partition(".")[0] in subpackages]
+    return sorted(path.relative_to(ROOT).as_posix() for path in found)
+
+
+def _path_of(module: str) -> Path:
+    path = _PACKAGE.joinpath(*module.split("."))
+    return path / "__init__.py" if path.is_dir() else path.with_suffix(".py")
+
+
+@cache
+def _imports(path: Path) -> tuple[str, ...]:
+    """Modules of this package that the file at `path` imports, wherever in it."""
+    names = []
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.ImportFrom) and (node.module or "").startswith("bladerub."):
+            base = node.module.removeprefix("bladerub.")
+            names += [base, *(f"{base}.{alias.name}" for alias in node.names)]
+    return tuple(name for name in names if _path_of(name).is_file())
+
+
+@cache
+def solver_digest() -> str:
+    """Digest the source of what computes a run: the package ``contact`` and the reduced blade's own class."""
+    return _source_digest([*(_PACKAGE / "contact").rglob("*.py"), _PACKAGE / "blade" / "model.py"])
+
+
+@cache
+def storage_digest() -> str:
+    """Digest the source of what turns a result into its file."""
+    return _source_digest([_PACKAGE / "study" / name for name in ("store.py", "spectra.py")])
+
+
+@cache
+def growth_digest() -> str:
+    """Digest the source of what decides whether a run grows."""
+    return _source_digest([_PACKAGE / "study" / "growth.py"])
+
+
+@cache
+def chart_digest() -> str:
+    """Digest the source of what chooses the speeds of a cell of the chart and what it keeps of each run."""
+    measuring = [f"study/{name}.py" for name in ("spectra", "peaks", "growth", "wear")]
+    searching = [f"extensions/chart/{name}.py" for name in ("grid", "placement", "search", "cell")]
+    return _source_digest(_PACKAGE / name for name in measuring + searching)
+
+
+def _source_digest(paths: Iterable[Path]) -> str:
+    digest = hashlib.sha256()
+    for path in sorted(paths):
+        # universal newlines: a checkout with other line ends is the same source
+        entry = [path.relative_to(_PACKAGE).as_posix(), path.read_text(encoding="utf-8")]
+        digest.update(json.dumps(entry).encode())
+    return digest.hexdigest()

@@ -1,0 +1,1 @@
+"""The error of a run: finer steps, the other scheme, neighbouring starts."""

@@ -1,0 +1,258 @@
+"""The error of each run: the same run with finer steps, with the paper's scheme and from neighbouring starts.
+
+1. *The study's run*: scheme and step of the config.
+2. *Its error*: its `Differences` from the same scheme with a step `REFINEMENT` times finer.
+3. *The paper's scheme*, at `STABLE_PART` of its largest stable step and at one `REFINEMENT` times finer.
+   Being of first order, it has at the finer step an error of its own, ``1 / (REFINEMENT − 1)`` of the
+   difference between the two: the uncertainty of a comparison with it.
+4. *Sensitive* is a run beyond `TOLERANCE` that neighbouring starts change by at least half as much as a
+   finer step does. Its error says more about the run than about the solver.
+5. *Speed-up at equal error* (`speedup_at_equal_error`): what the paper's scheme would cost at the error of
+   the study's run, over what the study's run costs.
+"""
+
+from __future__ import annotations
+
+import math
+import multiprocessing
+import signal
+import time
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import partial
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from bladerub.blade.model import ReducedBlade
+from bladerub.contact.modes import modes_at
+from bladerub.contact.run import kernel_warm_up, simulate
+from bladerub.contact.spec import RunResult, RunSpec
+from bladerub.study.grid import CoatingCase, coating_cases, run_spec, speed_name, speeds
+from bladerub.verification.differences import Differences, differences, largest
+
+TOLERANCE = 0.01
+"""Differences beyond this are listed by run."""
+
+REFINEMENT = 4
+"""How many times finer the finer step is: it leaves 1/16 of an error of second order, 1/4 of one of first."""
+
+STABLE_PART = 0.7
+"""Coarser step of the paper's scheme, in largest stable steps ``2 / ω_max``: contact stiffens the blade."""
+
+NEIGHBOURS = (-1e-7, -5e-8, 5e-8, 1e-7)
+"""Initial radial displacements of node 1 in neighbouring starts, m: far below what the tip of a blade is made
+to (some 0.01 mm) and far above rounding, so that no two blades are alike to within them."""
+
+
+class StudyRun(NamedTuple):
+    """One point of the study's grid.
+
+    Parameters
+    ----------
+    case : CoatingCase
+        The coating.
+    f_omega : float
+        Normalised speed.
+    """
+
+    case: CoatingCase
+    f_omega: float
+
+    @property
+    def name(self) -> str:
+        """Path of the run's file below ``runs``, without its suffix: ``2nd_E2_K0.5_theta0/0.1900``."""
+        return f"{self.case.name}/{speed_name(self.f_omega)}"
+
+
+class Seconds(NamedTuple):
+    """CPU time of one run, s: the study's, with finer steps, the paper's scheme, that with finer steps."""
+
+    study: float
+    finer: float
+    paper: float
+    paper_finer: float
+
+
+@dataclass(frozen=True)
+class VerifiedRun:
+    """What is known of the error of one run.
+
+    Parameters
+    ----------
+    run : StudyRun
+        Which one.
+    status : str
+        ``"unbounded"`` if the run or the one with finer steps is, otherwise ``"completed"``.
+    error : Differences
+        From the same scheme with finer steps.
+    against_paper : Differences
+        From the paper's scheme with finer steps.
+    paper_uncertainty : Differences
+        Error that the paper's scheme with finer steps has itself.
+    spread : Differences or None
+        Largest differences of neighbouring starts from the run; None if no error is beyond `TOLERANCE`, or
+        the run itself is unbounded.
+    sensitive : bool
+        Whether the spread is at least half of the error wherever that is beyond `TOLERANCE`.
+    energy_residual : float
+        Imbalance of the energy ledger, in parts of the work exchanged.
+    seconds : Seconds
+        Cost.
+    speedup : float or None
+        From `speedup_at_equal_error`, by wear, or by spectral peak where nothing wears.
+    """
+
+    run: StudyRun
+    status: str
+    error: Differences
+    against_paper: Differences
+    paper_uncertainty: Differences
+    spread: Differences | None
+    sensitive: bool
+    energy_residual: float
+    seconds: Seconds
+    speedup: float | None
+
+    @property
+    def is_beyond(self) -> bool:
+        """Whether any error is beyond `TOLERANCE`."""
+        return max(self.error) > TOLERANCE
+
+
+def study_runs(config: Mapping[str, Any]) -> list[StudyRun]:
+    """List every run of the study."""
+    return [StudyRun(case, f_omega) for case in coating_cases(config) for f_omega in speeds(config)]
+
+
+def draw(runs: Sequence[StudyRun], sample: int, seed: int) -> list[StudyRun]:
+    """Draw distinct runs, all alike likely; the same seed draws the same.
+
+    Raises
+    ------
+    ValueError
+        If there are not as many.
+    """
+    if not 1 <= sample <= len(runs):
+        raise ValueError(f"must be from 1 to {len(runs)}, the number of runs of this study")
+    drawn = np.random.default_rng(seed).choice(len(runs), size=sample, replace=False)
+    return [runs[index] for index in drawn]
+
+
+def verify_runs(
+    blade: ReducedBlade, config: Mapping[str, Any], runs: Sequence[StudyRun], jobs: int = 1
+) -> Iterator[VerifiedRun]:
+    """Verify runs in `jobs` processes; yield each when it is done, in their order.
+
+    Raises
+    ------
+    ValueError
+        If a speed is outside the range of the blade, or the config's step too long for its scheme.
+    """
+    kernel_warm_up()
+    verify = partial(verify_run, blade, config)
+    if jobs == 1:
+        yield from map(verify, runs)
+        return
+    context = multiprocessing.get_context("spawn")  # a fork of a process with threads may hang
+    with context.Pool(min(jobs, len(runs)), _start_worker) as pool:
+        yield from pool.imap(verify, runs)
+
+
+def _start_worker() -> None:
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # the parent process ends its workers
+    kernel_warm_up()
+
+
+def verify_run(blade: ReducedBlade, config: Mapping[str, Any], run: StudyRun) -> VerifiedRun:
+    """Find the error of one run.
+
+    Raises
+    ------
+    ValueError
+        As `bladerub.contact.run.simulate`.
+    """
+    spec, analysis = run_spec(config, run.case, run.f_omega), config["analysis"]
+    passage = 1 / (spec.f_omega * blade.f1_hz * spec.coating.n_elements)
+    outcome, seconds = _timed(blade, spec)
+    steps = round(passage / outcome.time_step)
+    finer, finer_seconds = _timed(blade, _with_steps(spec, REFINEMENT * steps))
+
+    paper = replace(spec, scheme="central_differences")
+    longest = STABLE_PART * 2 / modes_at(blade, spec.f_omega).omega[-1]
+    paper_steps = math.ceil(passage / longest)
+    paper_outcome, paper_seconds = _timed(blade, _with_steps(paper, paper_steps))
+    paper_finer, paper_finer_seconds = _timed(blade, _with_steps(paper, REFINEMENT * paper_steps))
+
+    error = differences(outcome, finer, analysis)
+    spread = None
+    if max(error) > TOLERANCE and outcome.status == "completed":
+        starts = (replace(spec, initial_displacement=start) for start in NEIGHBOURS)
+        spread = largest(differences(simulate(blade, start), outcome, analysis) for start in starts)
+    between = differences(paper_outcome, paper_finer, analysis)
+    measure = Differences._fields.index("wear_l2" if finer.wear.any() else "peak")
+    return VerifiedRun(
+        run=run,
+        status="completed" if outcome.status == finer.status == "completed" else "unbounded",
+        error=error,
+        against_paper=differences(outcome, paper_finer, analysis),
+        paper_uncertainty=Differences(*(difference / (REFINEMENT - 1) for difference in between)),
+        spread=spread,
+        sensitive=spread is not None and is_sensitive(error, spread),
+        energy_residual=outcome.energy.residual,
+        seconds=Seconds(seconds, finer_seconds, paper_seconds, paper_finer_seconds),
+        speedup=speedup_at_equal_error(
+            error[measure],
+            seconds,
+            differences(paper_outcome, finer, analysis)[measure],
+            differences(paper_finer, finer, analysis)[measure],
+            paper_finer_seconds,
+        ),
+    )
+
+
+def is_sensitive(error: Differences, spread: Differences) -> bool:
+    """Tell whether neighbouring starts explain every error beyond `TOLERANCE`, by half of it at least."""
+    beyond = [(e, s) for e, s in zip(error, spread, strict=True) if e > TOLERANCE]
+    return bool(beyond) and all(s >= e / 2 for e, s in beyond)
+
+
+def speedup_at_equal_error(
+    error: float, seconds: float, paper_error: float, paper_finer_error: float, paper_finer_seconds: float
+) -> float | None:
+    """Cost of the paper's scheme at the error of the study's run, over the cost of the study's run.
+
+    All errors are differences from the same reference, the study's scheme with finer steps. The paper's
+    scheme is of first order: its error is taken as proportional to the step, through the one at the finer
+    step. Its step of equal error is at most its coarser step, as stability allows no longer one. Its cost
+    goes as 1 / step.
+
+    Parameters
+    ----------
+    error, seconds : float
+        Of the study's run.
+    paper_error, paper_finer_error : float
+        Of the paper's scheme at its coarser step and at one `REFINEMENT` times finer.
+    paper_finer_seconds : float
+        Cost of the paper's scheme at the finer step, s.
+
+    Returns
+    -------
+    float or None
+        None if an error is zero or infinite, or that of the paper's scheme does not shrink with its step.
+    """
+    errors = (error, paper_error, paper_finer_error)
+    if min(errors) == 0 or max(errors) == math.inf or paper_finer_error >= paper_error:
+        return None
+    step = min(error / paper_finer_error, REFINEMENT)  # in units of the finer step
+    return paper_finer_seconds / step / seconds
+
+
+def _with_steps(spec: RunSpec, steps_per_element: int) -> RunSpec:
+    return replace(spec, steps_per_element=steps_per_element, max_time_step=math.inf)
+
+
+def _timed(blade: ReducedBlade, spec: RunSpec) -> tuple[RunResult, float]:
+    start = time.thread_time()  # other processes and threads do not count
+    result = simulate(blade, spec)
+    return result, time.thread_time() - start

@@ -1,0 +1,83 @@
+"""What a study costs: the records that Snakemake keeps of its jobs, a row a job."""
+
+from __future__ import annotations
+
+import logging
+from pathlib import Path
+
+import pandas as pd
+
+from bladerub.io import tables
+from bladerub.io.errors import DamagedFile
+
+_log = logging.getLogger(__name__)
+
+FIGURES = "figures"
+STAGES = {
+    "blade": "blade",
+    "compile_kernel": "compilation",
+    "coating": "rubs",
+    "map": "maps",
+    "peaks": "tables",
+    "divergence": "tables",
+    "findings": "tables",
+    "margins": "tables",
+    "history": FIGURES,
+    "explorer": "explorer",
+}
+"""Stage of each rule, in the order of the workflow; rules named after a figure of the paper are `FIGURES`."""
+_RECORDED = ["s", "cpu_time", "max_rss"]
+COLUMNS = ["stage", "rule", "job", "wall_s", "cpu_s", "memory_mb"]
+
+
+def table(benchmarks: str | Path) -> pd.DataFrame:
+    """Gather the records of the last execution of each job.
+
+    Parameters
+    ----------
+    benchmarks : path-like
+        The folder that the rules write them to: ``<rule>.tsv``, or ``<rule>/<job>.tsv``.
+
+    Returns
+    -------
+    DataFrame
+        `COLUMNS`: ``job`` is what tells the jobs of a rule apart, empty for a rule of one job. CPU time and
+        largest memory are those of the job's process and its children; NaN where a job was too short to be
+        looked at. A record that breaks off is left out; the log says so.
+    """
+    rows = []
+    for path in sorted(Path(benchmarks).rglob("*.tsv")):
+        *rule, name = path.relative_to(benchmarks).with_suffix("").parts
+        rule, job = (rule[0], name) if rule else (name, "")
+        if rule in STAGES or rule.startswith("fig"):
+            try:
+                last = tables.read(path, _RECORDED, separator="\t")[_RECORDED].tail(1)
+            except DamagedFile as error:  # Snakemake was stopped while it wrote: no job is worth doing again
+                _log.warning("left out: %s", error)
+                continue
+            figures = last.apply(pd.to_numeric, errors="coerce").itertuples(index=False)
+            rows += [(STAGES.get(rule, FIGURES), rule, job, *each) for each in figures]
+    return pd.DataFrame(rows, columns=COLUMNS)
+
+
+def by_stage(costs: pd.DataFrame) -> pd.DataFrame:
+    """Sum up the jobs of each stage.
+
+    Parameters
+    ----------
+    costs : DataFrame
+        From `table`.
+
+    Returns
+    -------
+    DataFrame
+        Indexed by stage in the order of the workflow: ``jobs``, ``cpu_s`` and their ``share``, and the
+        largest ``memory_mb`` of a job.
+    """
+    grouped = costs.groupby("stage").agg(
+        jobs=("rule", "size"), cpu_s=("cpu_s", "sum"), memory_mb=("memory_mb", "max")
+    )
+    order = [stage for stage in dict.fromkeys(STAGES.values()) if stage in grouped.index]
+    stages = grouped.loc[order]
+    stages.insert(2, "share", stages["cpu_s"] / stages["cpu_s"].sum())
+    return stages

@@ -1,0 +1,61 @@
+"""What a coating's job tells while it runs: its log, a bar on a terminal, and one line at the end."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Sequence
+from shutil import get_terminal_size
+from typing import TextIO
+
+from tqdm import tqdm
+
+from bladerub.study.job import RunDone
+from bladerub.study.store import ManifestRow
+
+
+class JobProgress:
+    """Report of `bladerub.study.job.compute_missing`: call it with each run that is done.
+
+    Parameters
+    ----------
+    name : str
+        Name of the coating.
+    log : text stream
+        Takes a line a run, with the estimated time left.
+    terminal : text stream
+        Takes a bar while the job runs, if it is a terminal. Jobs that run side by side take turns on it.
+    """
+
+    def __init__(self, name: str, log: TextIO, terminal: TextIO):
+        self._name, self._log = name, log
+        self._bar = tqdm(
+            desc=name,
+            bar_format="{desc}: {n_fmt}/{total_fmt} |{bar}|{postfix}",
+            file=terminal,
+            disable=not terminal.isatty(),
+            leave=False,
+            ncols=get_terminal_size().columns,
+        )
+        self._computed, self._start = 0, time.monotonic()
+
+    def __call__(self, done: RunDone | str) -> None:
+        """Tell of one computed run, or of what the job waits for."""
+        print(done, file=self._log)
+        if isinstance(done, str):
+            return
+        self._computed += 1
+        if self._bar.total != done.total or done.number <= self._bar.n:  # the longer runs are counted anew
+            self._bar.reset(done.total)
+        # not the time that tqdm makes of the rate so far: slow speeds cost more, and come first
+        self._bar.set_postfix_str(f"about {done.seconds_left:.0f} s left", refresh=False)
+        self._bar.update(done.number - self._bar.n)
+
+    def summary(self, rows: Sequence[ManifestRow]) -> str:
+        """Close the bar and sum up in one line what `compute_missing` returned."""
+        self._bar.close()
+        longer = sum(bool(row.confirmation_key) for row in rows)
+        unbounded = sum(row.status == "unbounded" for row in rows)
+        return (
+            f"{self._name}: {len(rows)} runs, {longer} of them longer as well, {unbounded} unbounded; "
+            f"{self._computed} computed in {time.monotonic() - self._start:.0f} s"
+        )

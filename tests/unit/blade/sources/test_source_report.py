@@ -1,0 +1,93 @@
+import dataclasses
+import json
+import re
+
+import numpy as np
+import pytest
+
+from bladerub.blade.build import reduce_meshed
+from bladerub.blade.elasticity import Material
+from bladerub.blade.geometry import BladeShape
+from bladerub.blade.mesh import BladeMesh
+from bladerub.blade.sources.frame import Frame
+from bladerub.blade.sources.imported import import_mesh
+from bladerub.blade.sources.origin import Source
+from bladerub.blade.sources.report import report, spanwise_elements
+from bladerub.export.mesh_file import write_mesh_file
+from bladerub.io.errors import BadInput
+
+REDUCTION = {
+    "f_omega_max": 0.4,
+    "modes_per_speed": 6,
+    "rank_tolerance": 1e-6,
+    "accuracy_speeds": 3,
+    "accuracy_modes": 8,
+}
+
+
+@pytest.fixture
+def reported(twisted_config, tmp_path):
+    """Report on the twisted blade in a file, with changes to its sections, frame or what was imported."""
+
+    def make(frame=None, sections=None, counts=None, **changes):
+        if sections:
+            twisted_config["sections"] = sections
+        shape = BladeShape.from_config(twisted_config)
+        blade = BladeMesh.from_shape(shape, counts or twisted_config["mesh"])
+        path = tmp_path / "blade.vtu"
+        write_mesh_file(path, blade.mesh.points, blade.mesh.cells, {"root": blade.root})
+        source = Source(path, frame or Frame())
+        imported = dataclasses.replace(import_mesh(source), **changes)
+        config = {"blade": twisted_config, "reduction": REDUCTION}
+        built = reduce_meshed(imported.blade, config)
+        return report(source, imported, built, Material.from_config(twisted_config["material"])), built
+
+    return make
+
+
+def test_figures_are_those_of_the_blade(reported):
+    figures, built = reported()
+    assert json.loads(json.dumps(figures)) == figures
+    assert figures["unknowns"] == 3 * (figures["nodes"] - built.mesh.root.size)
+    assert figures["mass"] == pytest.approx(4430.0 * figures["volume"])
+    assert figures["extents"]["radius"] == pytest.approx([0.45, 0.65])
+    assert figures["f1_hz"] == built.frequency[0]
+    first = built.accuracy[built.accuracy["mode"] == 1].f_fe.to_numpy()
+    assert figures["campbell_ratio"] == first[-1] / first[0] > 1
+    assert len(figures["error_eq2"]) == len(figures["error_reduced_model"]) == 8
+    assert max(figures["error_eq2"]) < 1e-6  # the three speeds are those of the fit
+    assert figures["error_reduced_model"][0] < 1e-3
+    assert figures["elements_root_to_tip"] == 3
+    (coarse,) = figures["warnings"]
+    assert coarse.startswith("its mesh is coarse: 3 elements from root to tip")
+
+
+def test_elements_are_counted_along_the_shortest_way(twisted_config):
+    counts = {"chordwise": 7, "thickness": 1, "spanwise": 5}
+    assert spanwise_elements(BladeMesh.from_shape(BladeShape.from_config(twisted_config), counts)) == 5
+
+
+def test_a_slip_of_the_unit_is_refused(reported):
+    with pytest.raises(BadInput, match=r"with the unit mm the blade is 0.0002 m long; must be"):
+        reported(Frame("mm"))
+
+
+def test_a_frequency_that_no_blade_has_is_told(reported, twisted_config):
+    twisted_config["material"]["young_modulus"] = 110.0  # GPa
+    figures, _ = reported()
+    assert any("Hz: are length and material in their units?" in line for line in figures["warnings"])
+
+
+@pytest.mark.parametrize(
+    ("change", "said"),
+    [
+        ({"is_raised": True}, "its elements were linear"),
+        ({"n_unused": 4}, "4 nodes of the file are in no element"),
+        ({"lean": np.deg2rad(50.0)}, "its middle is 50 degrees about the engine axis"),
+        ({"interface_offset": 0.004}, "an interface node is 4 mm from its place on the camber line"),
+        ({"jacobian_ratio": np.array([0.5, 0.05, 0.4])}, "element 2 is badly shaped: .* factor of 20"),
+    ],
+)
+def test_what_is_odd_about_a_mesh_is_told(reported, change, said):
+    figures, _ = reported(**change)
+    assert any(re.match(said, line) for line in figures["warnings"])

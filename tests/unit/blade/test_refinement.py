@@ -1,0 +1,73 @@
+import pandas as pd
+import pytest
+
+from bladerub.blade import build as stage_1
+from bladerub.blade import refinement
+from bladerub.blade.accuracy import errors_by_mode
+from bladerub.blade.build import build
+from bladerub.io.errors import BadInput
+
+REDUCTION = {
+    "f_omega_max": 0.8,  # so fast that eq. (2) is not enough
+    "modes_per_speed": 2,
+    "rank_tolerance": 1e-6,
+    "accuracy_speeds": 5,
+    "accuracy_modes": 7,
+}
+
+
+@pytest.fixture
+def reduced(twisted_config):
+    """Reduce the twisted blade with changes to the ``reduction`` block."""
+    return lambda **changes: build({"blade": twisted_config, "reduction": REDUCTION | changes})
+
+
+def largest(built):
+    return errors_by_mode(built.accuracy)[:6].max()
+
+
+def test_speeds_are_added_until_the_error_is_allowed(reduced):
+    plain = reduced()
+    tolerance = 0.2 * largest(plain).speed_law
+    assert largest(plain).reduced_model > 2 * tolerance
+    built = reduced(tolerance=tolerance)
+    assert largest(built).reduced_model <= tolerance
+    assert len(built.reduced.stiffness_higher) > 0
+    assert built.made_from == reduced(tolerance=tolerance, accuracy_speeds=5).made_from != plain.made_from
+
+
+def test_modes_are_added_where_the_speed_law_is_good_enough(reduced):
+    slow = {"f_omega_max": 0.05}
+    plain = largest(reduced(**slow))
+    assert plain.speed_law < 0.05 * plain.reduced_model
+    built = reduced(**slow, tolerance=0.2 * plain.reduced_model)
+    assert largest(built).reduced_model <= 0.2 * plain.reduced_model
+    assert built.reduced.eta > 2
+    assert built.reduced.stiffness_higher == ()
+
+
+def test_more_fit_speeds_can_be_asked_for(reduced):
+    three, five = reduced(), reduced(fit_speeds=5)
+    assert len(five.reduced.stiffness_higher) == 2
+    assert largest(five).speed_law < 0.2 * largest(three).speed_law
+
+
+def test_a_tolerance_out_of_reach_is_refused_with_what_is_reached(reduced, monkeypatch):
+    monkeypatch.setattr(refinement, "MOST_MODES_PER_SPEED", 4)
+    monkeypatch.setattr(stage_1, "MOST_FIT_SPEEDS", 3)
+    with pytest.raises(BadInput, match=r"reduction.tolerance = 1e-05: the reduced model comes to"):
+        reduced(tolerance=1e-5, rank_tolerance=0.1)
+
+
+def test_errors_are_the_largest_over_the_speeds():
+    table = pd.DataFrame(
+        {
+            "mode": [1, 2, 1, 2],
+            "f_fe": [10.0, 20.0, 10.0, 20.0],
+            "f_fe_eq2": [10.1, 20.0, 10.0, 19.0],
+            "relative_error": [0.001, -0.3, -0.002, 0.1],
+        }
+    )
+    errors = errors_by_mode(table)
+    assert errors.loc[1].tolist() == pytest.approx([0.01, 0.002])
+    assert errors.loc[2].tolist() == pytest.approx([0.05, 0.3])

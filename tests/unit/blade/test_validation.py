@@ -1,0 +1,61 @@
+import dataclasses
+
+import h5py
+import numpy as np
+import pytest
+
+from bladerub.blade.model import write_reduced_blade
+from bladerub.blade.validation import LARGEST_MATRIX, read_sound_blade
+
+
+@pytest.fixture
+def told(blade, tmp_path):
+    """Write the blade with some values changed: what is said of it."""
+
+    def answer(**changes):
+        path = tmp_path / "blade.h5"
+        write_reduced_blade(path, dataclasses.replace(blade, **changes), {})
+        with pytest.raises(ValueError, match="not a sound reduced blade") as error:
+            read_sound_blade(path)
+        return str(error.value).split("blade, ")[1]
+
+    return answer
+
+
+def test_a_sound_blade_is_read_as_it_is(blade, tmp_path):
+    write_reduced_blade(tmp_path / "blade.h5", blade, {})
+    read = read_sound_blade(tmp_path / "blade.h5")
+    np.testing.assert_array_equal(read.mass, blade.mass)
+    assert read.length == blade.length
+
+
+def test_what_is_no_blade_is_named(told, blade):
+    broken = blade.mass.copy()
+    broken[3, 4] = np.nan
+    assert told(mass=broken) == "mass: must be finite, has NaN or infinite entries"
+    assert told(stiffness_2=np.triu(blade.stiffness_2)) == "stiffness_2: must be symmetric"
+    assert told(mass=-blade.mass) == "mass: must be positive definite"
+    assert told(f1_hz=np.inf) == "f1_hz = inf: must be a number above 0"
+    assert told(length=-0.2) == "length = -0.2: must be a number above 0"
+    assert told(radial_direction=np.full((8, 3), np.nan)).startswith("radial_direction: must be finite")
+
+
+def test_a_blade_with_too_few_nodes_is_named(blade, tmp_path):
+    path = tmp_path / "blade.h5"
+    write_reduced_blade(path, blade, {})
+    with h5py.File(path, "r+") as file:  # no writer of ours makes such a file
+        del file["node_position"]
+        file["node_position"] = np.zeros((7, 3))
+    with pytest.raises(ValueError, match=r"node_position: must be numbers of the shape \(8, 3\)"):
+        read_sound_blade(path)
+
+
+def test_matrices_beyond_memory_are_not_read(blade, tmp_path):
+    path = tmp_path / "blade.h5"
+    write_reduced_blade(path, blade, {})
+    with h5py.File(path, "r+") as file:
+        file.create_dataset("endless", (LARGEST_MATRIX + 1, 1), float, chunks=(1, 1))
+    with pytest.raises(
+        ValueError, match=r"blade\.h5: not a reduced blade, endless has the shape \(10001, 1\)"
+    ):
+        read_sound_blade(path)

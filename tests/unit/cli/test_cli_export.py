@@ -1,0 +1,216 @@
+import json
+import os
+import xml.etree.ElementTree as ET
+
+import h5py
+import meshio
+import numpy as np
+import pytest
+
+from bladerub.blade.model import read_reduced_blade
+from bladerub.cli import inputs, main
+from bladerub.io import hdf5
+
+RUN = ["--casing", "2nd", "--E", "2", "--K", "0.5", "--theta", "0.15", "--f", "0.19", "--revolutions", "2"]
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    """Stands for the repository: a coarse blade in its results folder, and beside it a short run."""
+    folder = tmp_path_factory.mktemp("repository")
+    (folder / "small.yaml").write_text(
+        "blade: {mesh: {chordwise: 7, thickness: 1, spanwise: 6}}\nreduction: {accuracy_speeds: 3}\n"
+    )
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(inputs, "ROOT", folder)
+        config = ["--config", str(folder / "small.yaml")]
+        assert main(["run", *RUN, *config, "--output", str(folder / "run.h5")]) == 0
+    return folder
+
+
+@pytest.fixture
+def export(folder, monkeypatch, capsys):
+    """Run the command on `folder`: exit code, what it printed and its errors."""
+    monkeypatch.setattr(inputs, "ROOT", folder)
+
+    def run(vtu, *more, run=folder / "run.h5", config=folder / "small.yaml"):
+        capsys.readouterr()
+        arguments = ["export", "--run", str(run), "--vtu", str(vtu), "--config", str(config), *more]
+        try:
+            code = main(arguments)
+        except SystemExit as error:  # argparse ends the program itself
+            code = error.code
+        return code, *capsys.readouterr()
+
+    return run
+
+
+@pytest.fixture(scope="module")
+def motion(folder):
+    """Export of 40 instants: the folder, and the figures printed."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(inputs, "ROOT", folder)
+        command = ["export", "--run", str(folder / "run.h5"), "--vtu", str(folder / "new" / "motion")]
+        assert main([*command, "--config", str(folder / "small.yaml"), "--samples", "40"]) == 0
+    return folder / "new" / "motion"
+
+
+def collection(folder):
+    entries = ET.parse(folder / "blade.pvd").getroot().find("Collection")
+    return {entry.get("file"): float(entry.get("timestep")) for entry in entries}
+
+
+def test_the_collection_names_every_file_with_its_time(motion):
+    times = collection(motion)
+    assert sorted(path.name for path in motion.iterdir()) == sorted(["blade.pvd", *times])
+    np.testing.assert_allclose(list(times.values()), 1 + np.arange(1, 41) / 40)
+    assert [path.name for path in motion.parent.iterdir()] == ["motion"]
+
+
+def test_the_collection_says_what_it_shows_and_where_it_comes_from(motion, folder):
+    text = (motion / "blade.pvd").read_text(encoding="utf-8")
+    assert f"run_key: {hdf5.read_attributes(folder / 'run.h5')['run_key']}\n" in text
+    assert "about its running position" in text
+    assert "provenance_git_commit: " in text
+
+
+def test_the_mesh_is_that_of_the_blade_with_20_nodes_each(motion, folder):
+    mesh = meshio.read(motion / "blade_0001.vtu")
+    data, _ = hdf5.read(folder / "results" / "blade" / "mesh.h5")
+    np.testing.assert_array_equal(mesh.points, data["points"])
+    (cells,) = mesh.cells
+    assert cells.type == "hexahedron20"
+    np.testing.assert_array_equal(cells.data, data["cells"])
+    corner, middle = mesh.points[cells.data[:, :8]], mesh.points[cells.data[:, 8:]]
+    edges = np.array(
+        [[0, 1], [1, 2], [2, 3], [3, 0], [4, 5], [5, 6], [6, 7], [7, 4], [0, 4], [1, 5], [2, 6], [3, 7]]
+    )
+    ends = corner[:, edges]
+    length = np.linalg.norm(ends[:, :, 0] - ends[:, :, 1], axis=-1)
+    off = np.linalg.norm(middle - ends.mean(axis=2), axis=-1)
+    assert (off < 0.1 * length).all()  # VTK's order of the nodes between corners
+    across, along, up = (corner[:, i] - corner[:, 0] for i in (1, 3, 4))
+    assert (np.einsum("ij,ij->i", np.cross(across, along), up) > 0).all()
+
+
+def test_node_1_moves_as_in_the_history_of_the_run(motion, folder):
+    blade = read_reduced_blade(folder / "results" / "blade" / "reduced_model.h5")
+    data, _ = hdf5.read(folder / "results" / "blade" / "mesh.h5")
+    history = hdf5.read(folder / "run.h5")[0]["radial_displacement"]
+    node_1, root = data["interface_nodes"][0], data["root_nodes"]
+    for name, time in list(collection(motion).items())[:-1]:
+        displacement = meshio.read(motion / name).point_data["displacement"]
+        assert not displacement[root].any()
+        passed = round(time * 2000)
+        in_run = history[passed - 1 : passed + 1].mean()  # means over the elements before and after
+        radial = displacement[node_1] @ blade.radial_direction[0]
+        assert radial == pytest.approx(in_run, abs=2e-3 * np.abs(history).max())
+
+
+def test_figures_as_json(export, tmp_path, folder):
+    code, out, err = export(tmp_path / "motion", "--samples", "2", "--json")
+    assert (code, err) == (0, "")
+    figures = json.loads(out)
+    files = list((tmp_path / "motion").iterdir())
+    assert figures["bytes"] == sum(file.stat().st_size for file in files)
+    assert (figures["samples"], figures["revolution"]) == (2, 2)
+    largest = max(
+        np.linalg.norm(meshio.read(file).point_data["displacement"], axis=1).max()
+        for file in files
+        if file.suffix == ".vtu"
+    )
+    assert figures["largest_displacement"] == pytest.approx(largest)
+
+
+def test_equal_exports_are_equal_files(export, tmp_path):
+    for name in "ab":
+        assert export(tmp_path / name, "--samples", "2")[0] == 0
+    for file in (tmp_path / "a").iterdir():
+        assert file.read_bytes() == (tmp_path / "b" / file.name).read_bytes()
+
+
+def changed(run, path, **attributes):
+    path.write_bytes(run.read_bytes())
+    with h5py.File(path, "a") as file:
+        for name, value in attributes.items():
+            file.attrs[name] = value
+        if "peak" in attributes:
+            file["revolution_peak"][...] *= 1.001
+    return path
+
+
+def test_a_run_that_left_all_bounds_is_shown_until_then(export, tmp_path, folder):
+    run = changed(folder / "run.h5", tmp_path / "run.h5", status="unbounded")
+    code, out, _ = export(tmp_path / "motion", "--samples", "1", "--json", run=run)
+    assert (code, json.loads(out)["revolution"]) == (0, 1)
+    with h5py.File(run, "a") as file:
+        file["revolution_peak"][1] = np.nan
+    code, _, err = export(tmp_path / "other", run=run)
+    assert code == 2
+    assert "left all bounds in its first revolution" in err
+
+
+@pytest.mark.parametrize(
+    ("attributes", "said"),
+    [
+        ({"run_key": "other"}, "is not of this config, the blade"),
+        ({"E": 2.5}, "its run_key differs"),
+        ({"revolutions": "many"}, "its attributes are not those of a run"),
+        ({"casing": "3rd"}, "'3rd' is not known"),
+        ({"peak": 1}, "its peaks differ by"),
+    ],
+)
+def test_a_run_of_something_else_is_refused(export, tmp_path, folder, attributes, said):
+    run = changed(folder / "run.h5", tmp_path / "run.h5", **attributes)
+    code, out, err = export(tmp_path / "motion", run=run)
+    assert (code, out, err.count("\n")) == (2, "", 1)
+    assert err.startswith(f"bladerub export: --run {run}: ")
+    assert said in err
+    assert not (tmp_path / "motion").exists()
+
+
+@pytest.mark.parametrize(
+    ("more", "said"),
+    [
+        (["--samples", "0"], "--samples = 0: must be from 1 to 2000"),
+        (["--samples", "2001"], "--samples = 2001: must be from 1 to 2000"),
+        (["--samples", "many"], "argument --samples: invalid int value"),
+        (["--blade", "none.h5"], "none.h5: is missing"),
+        (["--run", "none.h5"], "--run none.h5: No such file or directory"),
+        (["--vtu", "."], "--vtu .: is there already"),
+    ],
+)
+def test_bad_options_are_refused_and_write_nothing(export, tmp_path, monkeypatch, more, said):
+    monkeypatch.chdir(tmp_path)
+    code, out, err = export(tmp_path / "motion", *more)
+    assert (code, out, err.count("\n")) == (2, "", 1)
+    assert said in err
+    assert not list(tmp_path.iterdir())
+
+
+def test_a_place_that_cannot_be_written_is_refused(export, tmp_path, monkeypatch):
+    (tmp_path / "file").write_text("")
+    code, _, err = export(tmp_path / "file" / "motion")
+    assert (code, err.count("\n")) == (2, 1)
+    assert f"cannot be written, {tmp_path / 'file'} is no folder" in err
+    monkeypatch.setattr(os, "rename", lambda *paths: (_ for _ in ()).throw(OSError(28, "No space left")))
+    code, _, err = export(tmp_path / "motion", "--samples", "1")
+    assert (code, err.count("\n")) == (2, 1)
+    assert f"--vtu {tmp_path / 'motion'}: cannot be written" in err
+    assert [path.name for path in tmp_path.iterdir()] == ["file"]
+
+
+def test_a_blade_without_its_mesh_is_refused(export, tmp_path, folder):
+    blade = tmp_path / "blade" / "reduced_model.h5"
+    blade.parent.mkdir()
+    blade.write_bytes((folder / "results" / "blade" / "reduced_model.h5").read_bytes())
+    mesh = blade.with_name("mesh.h5")
+    code, _, err = export(tmp_path / "motion", "--blade", str(blade))
+    assert (code, err.count("\n")) == (2, 1)
+    assert f"{mesh}: No such file or directory" in err
+    changed(folder / "results" / "blade" / "mesh.h5", mesh)
+    with h5py.File(mesh, "a") as file:
+        file["points"][...] *= 1.01
+    assert "is the mesh of another blade" in export(tmp_path / "motion", "--blade", str(blade))[2]
+    mesh.write_bytes(blade.read_bytes())
+    assert "not the mesh of a blade" in export(tmp_path / "motion", "--blade", str(blade))[2]

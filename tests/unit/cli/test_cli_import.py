@@ -1,0 +1,151 @@
+import json
+from pathlib import Path
+
+import pytest
+import yaml
+
+from bladerub.blade.geometry import BladeShape
+from bladerub.blade.mesh import BladeMesh
+from bladerub.cli import main
+from bladerub.export.mesh_file import write_mesh_file
+from bladerub.export.sections import write_sections
+
+CONFIG = Path(__file__).parents[3] / "config" / "config.yaml"
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    """The default blade on a coarse mesh, in mm, and a config that asks for few speeds."""
+    folder = tmp_path_factory.mktemp("blade")
+    blade = yaml.safe_load(CONFIG.read_text(encoding="utf-8"))["blade"]
+    mesh = BladeMesh.from_shape(
+        BladeShape.from_config(blade), {"chordwise": 7, "thickness": 1, "spanwise": 6}
+    )
+    sets = {"FOOT": mesh.root, "TOP": mesh.tip}
+    write_mesh_file(folder / "blade.inp", 1e3 * mesh.mesh.points, mesh.mesh.cells, sets)
+    (folder / "small.yaml").write_text("reduction: {accuracy_speeds: 3}\n")
+    return folder
+
+
+@pytest.fixture
+def look(folder, capsys):
+    """Run the command on a file in `folder`: exit code, what it printed and its errors."""
+
+    def run(*more, file="blade.inp"):
+        before = sorted(folder.iterdir())
+        code = main(["import", str(folder / file), "--config", str(folder / "small.yaml"), *more])
+        assert sorted(folder.iterdir()) == before
+        return code, *capsys.readouterr()
+
+    return run
+
+
+def test_figures_of_the_default_blade(look, folder):
+    code, out, _ = look("--unit", "mm", "--root-set", "foot", "--tip-set", "TOP", "--json")
+    figures = json.loads(out)
+    assert code == 0
+    assert figures["element"] == "hexahedron20"
+    assert figures["f1_hz"] == pytest.approx(195.3, abs=0.1)
+    assert figures["campbell_ratio"] == pytest.approx(1.305, abs=0.005)
+    assert max(figures["error_eq2"]) > 1e-5  # speeds between those of the fit are looked at
+    assert figures["tip_cone_degrees"] == pytest.approx(12.45)
+    assert figures["config"]["contact"]["scale"] == pytest.approx(
+        {"length": 1, "modulus": 1, "time": 1}, abs=0.03
+    )
+    assert figures["node_sets"] == {"FOOT": 38, "TOP": 38}
+    assert figures["config"]["blade"]["source"] == {
+        "file": str(folder / "blade.inp"),
+        "unit": "mm",
+        "rotation": "-x",
+        "downstream": "x",
+        "radial": "z",
+        "root_set": "foot",
+        "tip_set": "TOP",
+    }
+
+
+def test_what_it_prints_is_a_config_of_the_blade(look, folder):
+    code, out, _ = look("--unit", "mm")
+    assert code == 0
+    assert "warning             its mesh is coarse: 6 elements" in out
+    (folder / "printed.yaml").write_text(out.split("are absolute\n")[1])
+    code, again, _ = look("--config", str(folder / "printed.yaml"))
+    assert code == 0
+    assert again == out
+
+
+def test_an_axis_may_begin_with_a_minus(look):
+    code, out, _ = look("--unit", "mm", "--rotation", "x", "--downstream", "-x", "--radial", "-z", "--json")
+    assert code == 0
+    source = json.loads(out)["config"]["blade"]["source"]
+    assert (source["rotation"], source["downstream"], source["radial"]) == ("x", "-x", "-z")
+
+
+def test_a_sense_of_rotation_that_no_compressor_has_is_told(look):
+    right, wrong = (json.loads(look("--unit", "mm", "--rotation", axis, "--json")[1]) for axis in ("-x", "x"))
+    assert right["tip_stagger_degrees"] == pytest.approx(62, abs=0.5)
+    assert wrong["tip_stagger_degrees"] == pytest.approx(-62, abs=0.5)
+    told = [line for line in wrong["warnings"] if line not in right["warnings"]]
+    assert len(told) == 1
+    assert "has rotation = x or downstream = x the wrong sign?" in told[0]
+
+
+@pytest.mark.parametrize(
+    ("more", "said"),
+    [
+        (["--tip-set", "TIP"], 'tip not found: there is no node set "TIP"; did you mean TOP?'),
+        (["--radial", "x"], "radial = x: must not be the axis of rotation"),
+    ],
+)
+def test_what_cannot_be_imported_is_told_in_one_line(look, more, said):
+    code, out, err = look("--unit", "mm", *more)
+    assert (code, out, err.count("\n")) == (2, "", 1)
+    assert said in err
+
+
+def test_a_file_that_is_no_mesh_is_told(look, folder):
+    code, _, err = look(file="small.yaml")
+    assert code == 2
+    assert err == (
+        f"bladerub import: {folder}/small.yaml: must be a mesh file that ends in .inp, .msh, .vtu, "
+        "or a table of sections in .csv, .txt, .dat\n"
+    )
+
+
+def test_sections_are_meshed_as_the_config_says_and_reported(look, folder):
+    shape = BladeShape.from_config(yaml.safe_load(CONFIG.read_text(encoding="utf-8"))["blade"])
+    write_sections(folder / "blade.csv", shape, "cylindrical")
+    (folder / "coarse.yaml").write_text("blade: {mesh: {chordwise: 7, thickness: 1, spanwise: 6}}\n")
+    coarse = ("--config", str(folder / "coarse.yaml"))
+    code, out, _ = look("--angle-unit", "rad", "--json", *coarse, file="blade.csv")
+    figures = json.loads(out)
+    assert code == 0
+    assert figures["f1_hz"] == pytest.approx(195.3, abs=0.1)
+    assert figures["elements"] == 7 * 1 * 6
+    assert len(figures["sections"]) == 21
+    assert figures["sections"][0]["name"] == "1"
+    assert figures["sections"][-1]["mean_radius"] == pytest.approx(0.6582, abs=0.01)
+    assert figures["sections"][-1]["cut_leading_edge"] == 0
+    assert figures["config"]["blade"]["source"]["angle_unit"] == "rad"
+    code, out, err = look("--tip-set", "TIP", *coarse, file="blade.csv")
+    assert (code, out) == (2, "")
+    assert err == "bladerub import: tip_set = TIP: goes with a mesh, not with blade.csv\n"
+    (folder / "blade.csv").write_text("section,z,r\n1,0,1\n")
+    code, _, err = look(*coarse, file="blade.csv")
+    assert code == 2
+    assert err.startswith(f"bladerub import: {folder}/blade.csv: has no column theta1, theta2; must have")
+
+
+def test_sharp_edges_are_reported_as_cut(look, folder):
+    rows = ["section x1 y1 z1 x2 y2 z2"]
+    for name, z in (("hub", 0.45), ("tip", 0.65)):
+        rows += [
+            f"{name} {x} {half} {z} {x} {-half} {z}"
+            for x, half in ((-0.04, 0), (-0.02, 3e-3), (0, 4e-3), (0.02, 3e-3), (0.04, 0))
+        ]
+    (folder / "lens.txt").write_text("\n".join(rows))
+    (folder / "coarse.yaml").write_text("blade: {mesh: {chordwise: 7, thickness: 1, spanwise: 6}}\n")
+    code, out, _ = look("--json", "--config", str(folder / "coarse.yaml"), file="lens.txt")
+    assert code == 0
+    (cut,) = [line for line in json.loads(out)["warnings"] if "cut" in line]
+    assert cut.startswith("edges of 2 of 2 sections were cut off where they are thinner than 10% of the")

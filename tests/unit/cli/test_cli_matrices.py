@@ -1,0 +1,135 @@
+"""``bladerub export --fe-matrices`` and ``bladerub import`` of what it writes."""
+
+import json
+import shutil
+
+import meshio
+import numpy as np
+import pytest
+import yaml
+
+from bladerub.cli import inputs, main
+from bladerub.io import hdf5
+
+SMALL = """\
+blade: {mesh: {chordwise: 7, thickness: 1, spanwise: 6}}
+reduction: {accuracy_speeds: 3}
+"""
+
+
+@pytest.fixture
+def command(capsys):
+    """Run a command: exit code, what it printed and its errors."""
+
+    def run(*words):
+        try:
+            code = main([str(word) for word in words])
+        except SystemExit as error:  # argparse ends the program itself
+            code = error.code
+        return code, *capsys.readouterr()
+
+    return run
+
+
+@pytest.fixture(scope="module")
+def written(tmp_path_factory):
+    """The matrices of a coarse default blade at five speeds, and its config."""
+    folder = tmp_path_factory.mktemp("blade")
+    (folder / "small.yaml").write_text(SMALL)
+    words = [
+        "export",
+        "--config",
+        folder / "small.yaml",
+        "--fe-matrices",
+        folder / "m",
+        "--speeds",
+        "0.1",
+        "0.3",
+    ]
+    assert main([str(word) for word in [*words, "--matrix-format", "npz"]]) == 0
+    return folder
+
+
+def test_what_is_written_can_be_looked_at(written, command):
+    names = ["mass", *(f"stiffness_{name}" for name in ("at_0.1", "at_0.3", "half", "max", "rest"))]
+    assert {path.name for path in (written / "m").iterdir()} == {"nodes.csv", *(f"{n}.npz" for n in names)}
+    code, out, _ = command("import", written / "m", "--json")
+    figures = json.loads(out)
+    assert code == 0
+    assert figures["f1_hz"] == pytest.approx(195.313, abs=1e-3)
+    assert figures["length"] == pytest.approx(0.2, rel=0.01)
+    assert figures["warnings"] == []
+    assert figures["config"]["blade"]["source"] == {
+        "matrices": str(written / "m"),
+        "unit": "m",
+        "rotation": "-x",
+        "downstream": "x",
+        "radial": "z",
+    }
+
+
+def test_what_it_prints_is_a_config_of_the_blade(written, command, tmp_path):
+    code, out, _ = command("import", written / "m", "--matrix-units", "inch-lbf")
+    assert code == 0
+    assert "warning             it weighs" in out
+    (tmp_path / "printed.yaml").write_text(out.split("are absolute\n")[1])
+    assert command("import", written / "m", "--config", tmp_path / "printed.yaml") == (0, out, "")
+
+
+@pytest.mark.parametrize(
+    ("more", "said"),
+    [
+        (["--omega-max", "400"], "omega_max = 400 rad/s is 0.325"),
+        (["--root-set", "FOOT"], "root_set = FOOT: must not be given beside matrices"),
+    ],
+)
+def test_what_cannot_be_imported_is_told_in_one_line(written, command, more, said):
+    code, out, err = command("import", written / "m", *more)
+    assert (code, out, err.count("\n")) == (2, "", 1)
+    assert said in err
+
+
+def test_a_folder_of_something_else_is_told(command, tmp_path):
+    code, _, err = command("import", tmp_path)
+    assert (code, err) == (2, f"bladerub import: {tmp_path}: holds no mass.mtx or mass.npz\n")
+
+
+def test_nothing_is_written_over_or_at_speeds_that_are_not_there(written, command):
+    before = {path: path.stat().st_mtime_ns for path in (written / "m").iterdir()}
+    code, _, err = command("export", "--fe-matrices", written / "m")
+    assert code == 2
+    assert "is there already, must be a new or an empty folder" in err
+    code, _, err = command("export", "--fe-matrices", written / "new", "--speeds", "0.5")
+    assert code == 2
+    assert "--speeds 0.5: must be from 0 to 0.4 (normalised)" in err
+    assert not (written / "new").exists()
+    assert {path: path.stat().st_mtime_ns for path in (written / "m").iterdir()} == before
+
+
+@pytest.fixture
+def study(written, tmp_path, monkeypatch):
+    """Stands for the repository, with a config of a blade of matrices."""
+    monkeypatch.setattr(inputs, "ROOT", tmp_path)
+    shutil.copytree(written / "m", tmp_path / "m")
+    source = {"source": {"matrices": str(tmp_path / "m")}}
+    (tmp_path / "mine.yaml").write_text(yaml.safe_dump({"blade": source}))
+    return tmp_path
+
+
+def test_a_blade_without_elements_goes_to_programs_that_need_none(study, command):
+    words = ("export", "--config", study / "mine.yaml")
+    assert command(*words, "--mesh", study / "blade.vtu")[0] == 0
+    mesh = meshio.vtu.read(study / "blade.vtu")
+    data, _ = hdf5.read(study / "results" / "blade" / "mesh.h5")
+    assert [block.type for block in mesh.cells] == ["vertex"]
+    np.testing.assert_array_equal(mesh.points, data["points"])
+    modes = [name for name in mesh.point_data if name.startswith("mode_")]
+    np.testing.assert_array_equal(mesh.point_data[modes[1]], data["mode_shape"][1])
+    assert command(*words, "--matrices", study / "blade.npz")[0] == 0
+    before = sorted(study.iterdir())
+    for option, name in (("--calculix", "decks"), ("--mesh", "blade.inp"), ("--fe-matrices", "again")):
+        code, out, err = command(*words, option, study / name)
+        assert (code, out, err.count("\n")) == (2, "", 1)
+        assert "of matrices" in err
+        assert "without elements" in err
+    assert sorted(study.iterdir()) == before

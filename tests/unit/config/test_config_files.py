@@ -1,0 +1,215 @@
+import os
+
+import pytest
+
+from bladerub.config import files
+from bladerub.config.errors import ConfigError, key_path, shown
+from bladerub.config.files import (
+    LARGEST_FILE,
+    LONGEST_VALUE,
+    MOST_EXTENDED,
+    MOST_VALUES,
+    compose,
+    places,
+    plain,
+)
+
+
+@pytest.fixture
+def folder(tmp_path, monkeypatch):
+    """The working directory, and how to write a file there."""
+    monkeypatch.chdir(tmp_path)
+
+    def write(**files):
+        for name, content in files.items():
+            content = content.encode() if isinstance(content, str) else content
+            (tmp_path / f"{name}.yaml").write_bytes(content)
+
+    return write
+
+
+def told(*paths, command_line=None):
+    with pytest.raises(ConfigError) as error:
+        compose(*paths, command_line=command_line)
+    return str(error.value)
+
+
+def test_every_value_has_the_place_that_it_comes_from(folder):
+    folder(
+        base="a:\n  b: 1\n  c: 2\nlist:\n  - x: 1\n    y: 2\n  - {x: 3}\n",
+        over="a: {c: 3,\n    d: 4}\n",
+    )
+    composed = compose("base.yaml", "over.yaml", command_line={"a": {"d": "5", "e": "6"}})
+    assert plain(composed) == {"a": {"b": 1, "c": 3, "d": 5, "e": 6}, "list": [{"x": 1, "y": 2}, {"x": 3}]}
+    told_at = {key: str(place) for key, place in places(composed).items()}
+    assert told_at == {
+        "a": "--config",
+        "a.b": "base.yaml:2",
+        "a.c": "over.yaml:1",
+        "a.d": "--config",
+        "a.e": "--config",
+        "list": "base.yaml:4",
+        "list[0]": "base.yaml:5",
+        "list[0].x": "base.yaml:5",
+        "list[0].y": "base.yaml:6",
+        "list[1]": "base.yaml:7",
+        "list[1].x": "base.yaml:7",
+    }
+
+
+def test_a_list_that_is_replaced_leaves_no_places_behind(folder):
+    folder(base="a: [1, 2, 3]\n", over="\na: [4]\n")
+    assert {key: place.line for key, place in places(compose("base.yaml", "over.yaml")).items()} == {
+        "a": 2,
+        "a[0]": 2,
+    }
+
+
+def test_files_elsewhere_are_named_in_full(tmp_path, monkeypatch):
+    (tmp_path / "here").mkdir()
+    (tmp_path / "a.yaml").write_text("a: 1\n")
+    monkeypatch.chdir(tmp_path / "here")
+    assert str(places(compose("../a.yaml"))["a"]) == f"{tmp_path}/a.yaml:1"
+
+
+@pytest.mark.parametrize(
+    ("text", "value"),
+    [("1", 1), ("0.5", 0.5), ("1e-3", 1e-3), (".nan", "nan"), ("true", True), ("2nd", "2nd"), ("", None)],
+)
+def test_the_command_line_reads_values_as_a_file_does(text, value):
+    read = plain(compose(command_line={"a": [text]}))["a"][0]
+    assert read == value or str(read) == value
+
+
+def test_values_that_only_look_like_a_date_stay_text_on_the_command_line():
+    assert plain(compose(command_line={"a": {"b": "2001-99-99"}})) == {"a": {"b": "2001-99-99"}}
+
+
+def test_a_file_is_laid_over_those_that_it_extends(folder, tmp_path):
+    (tmp_path / "deeper").mkdir()
+    (tmp_path / "deeper" / "second.yaml").write_text("extend: ../first.yaml\na: {c: 2}\n")
+    folder(
+        base="a: {b: 0, c: 0, d: 0, e: 0}\n",
+        first="a: {b: 1, c: 1, d: 1}\n",
+        mine="extend: [first.yaml, deeper/second.yaml]\na: {d: 3}\n",
+    )
+    composed = compose("base.yaml", "mine.yaml", command_line={"a": {"e": "4"}})
+    assert plain(composed) == {"a": {"b": 1, "c": 2, "d": 3, "e": 4}}
+    assert str(places(composed)["a.c"]) == "deeper/second.yaml:2"
+
+
+def test_the_command_line_can_extend(folder):
+    folder(base="a: {b: 0, c: 0, d: 0}\n", mine="a: {c: 1, d: 1}\n")
+    composed = compose("base.yaml", command_line={"extend": "mine.yaml", "a": {"d": "2"}})
+    assert plain(composed) == {"a": {"b": 0, "c": 1, "d": 2}}
+
+
+NAME = "must be the path of a .yaml file, or a list of such, as seen from the file that says so"
+
+
+@pytest.mark.parametrize(
+    ("text", "answer"),
+    [
+        ("\nextend: no.yaml\n", 'a.yaml:2: extend = "no.yaml": cannot be read (No such file or directory)'),
+        ("extend:\n  - b.yaml\n  - no.yaml\n", 'a.yaml:3: extend = "no.yaml": cannot be read'),
+        ("extend: a.yaml\n", 'a.yaml:1: extend = "a.yaml": these files extend each other in a circle'),
+        ("extend: b.yaml\n", 'b.yaml:1: extend = "./a.yaml": these files extend each other in a circle'),
+        ("extend: folder.yaml\n", 'a.yaml:1: extend = "folder.yaml": is a folder, must be a YAML file'),
+        ("extend: https://host/b.yaml\n", f'a.yaml:1: extend = "https://host/b.yaml": {NAME}'),
+        ("extend: /etc/passwd\n", f'a.yaml:1: extend = "/etc/passwd": {NAME}'),
+        ("extend: 3\n", f"a.yaml:1: extend = 3: {NAME}"),
+        ("extend: {b: c}\n", f"a.yaml:1: extend = {{'b': 'c'}}: {NAME}"),
+        ('extend: "b\\0.yaml"\n', f'a.yaml:1: extend = "b .yaml": {NAME}'),
+        ("extend: broken.yaml\n", "broken.yaml:2: not valid YAML (expected ',' or ']', but got ':')"),
+        ("extend: " + "b" * 300 + ".yaml\n", "cannot be read (File name too long)"),
+    ],
+)
+def test_what_cannot_be_extended_is_told_with_its_place(folder, tmp_path, text, answer):
+    (tmp_path / "folder.yaml").mkdir()
+    folder(a=text, b="extend: ./a.yaml\n", broken="a: [1\nb: 2\n")
+    if "- b.yaml" in text:
+        folder(b="c: 1\n")
+    assert answer in told("a.yaml")
+
+
+def test_files_that_extend_ever_more_are_refused(folder):
+    """Each of a few small files names the next one ten times: no circle, but a billion readings."""
+    folder(**{f"f{i}": f"extend: [{', '.join([f'f{i + 1}.yaml'] * 10)}]\n" for i in range(9)}, f9="a: 1\n")
+    assert f"must not lead to more than {MOST_EXTENDED} files" in told("f0.yaml")
+
+
+def laughs(of):
+    lines = [f"x0: &x0 {of('z')}"]
+    lines += [f"x{i + 1}: &x{i + 1} {of(f'*x{i}')}" for i in range(12)]
+    return "\n".join(lines)
+
+
+@pytest.mark.parametrize(
+    ("content", "answer"),
+    [
+        (laughs(lambda each: f"[{', '.join([each] * 10)}]"), f"more than {MOST_VALUES} values"),
+        (laughs(lambda each: "{" + ", ".join(f"k{i}: {each}" for i in range(10)) + "}"), "more than 100000"),
+        ("a: " + "[" * 5000 + "]" * 5000, "a.yaml:1: not valid YAML (more than 32 levels in one another)"),
+        ("b: 1\na: &a [*a]", "a.yaml:2: not valid YAML (more than 32 levels in one another)"),
+        ("a: &a {b: *a}", "more than 32 levels in one another"),
+        ("a: " + "9" * 5000, f"a.yaml:1: not valid YAML (a value of more than {LONGEST_VALUE} characters)"),
+        ("k" * 1010 + ": 1", "a.yaml:1: not valid YAML (a key of more than 1000 characters)"),
+        ("#" * (LARGEST_FILE + 1), "a.yaml: is larger than 1 MB, no config is"),
+        ("a: 1\nb: !!python/object/apply:os.system [exit]", "a.yaml:2: not valid YAML (the tag"),
+        ("a: !!python/name:os.system", "a.yaml:1: not valid YAML (could not determine a constructor for"),
+        ("a: !mine 3", "a.yaml:1: not valid YAML (could not determine a constructor for the tag '!mine')"),
+        ("a: !!set {b}", "a.yaml:1: not valid YAML (the tag"),
+        ("a: !!bool perhaps", 'a.yaml:1: not valid YAML ("perhaps" is no bool)'),
+        ("a: 2001-99-99", 'a.yaml:1: not valid YAML ("2001-99-99" is no timestamp)'),
+        ('a: !!int ""', 'not valid YAML ("" is no int)'),
+        ("a: 1\n1: 2", 'a.yaml:2: not valid YAML (a key must be text, write "1")'),
+        ("? [a, b]\n: 1", "a.yaml:1: not valid YAML (a key must be text)"),
+        ("a: &a {b: 1}\nc: {<<: *a}", "a.yaml:2: not valid YAML (a key must be text"),
+        ("a: 1\n---\nb: 2", "a.yaml:2: not valid YAML (but found another document)"),
+        ("a: b: c", "a.yaml:1: not valid YAML (mapping values are not allowed here)"),
+        ("a:\n\t- 1", "a.yaml:2: not valid YAML (found character '\\t' that cannot start any token)"),
+        ("a: 1\nb: *nowhere", "a.yaml:2: not valid YAML (found undefined alias 'nowhere')"),
+        (b"a: 1\nb: x\0y", "a.yaml:2: not valid YAML (special characters are not allowed)"),
+        (b"\xff\xfea\0:\0", "a.yaml: is not text in UTF-8"),
+        (b"a: \xe9", "a.yaml: is not text in UTF-8"),
+    ],
+)
+def test_hostile_files_are_answered_in_one_line(folder, content, answer):
+    folder(a=content)
+    line = told("a.yaml")
+    assert answer in line
+    assert "\n" not in line
+    assert len(line) < 250
+
+
+def test_long_lists_are_not_even_read_to_their_end(folder, monkeypatch):
+    monkeypatch.setattr(files, "MOST_VALUES", 100)
+    folder(a=f"a: [{'1,' * 100}\n]")
+    assert told("a.yaml").startswith("a.yaml:1: not valid YAML (more than 100 values")
+
+
+def test_a_byte_order_mark_is_no_part_of_the_first_key(folder):
+    folder(a="\ufeffa: 1\n")
+    assert plain(compose("a.yaml")) == {"a": 1}
+
+
+def test_aliases_are_read(folder):
+    folder(a="a: &a [1, 2]\nb: *a\n")
+    composed = compose("a.yaml")
+    assert plain(composed) == {"a": [1, 2], "b": [1, 2]}
+    assert places(composed)["b"].line == 2
+
+
+def test_only_regular_files_are_opened(folder, tmp_path):
+    os.mkfifo(tmp_path / "pipe.yaml")
+    assert told("pipe.yaml") == "pipe.yaml: is not a regular file, must be a YAML file"
+    assert told(tmp_path).endswith("is a folder, must be a YAML file")
+    (tmp_path / "loop.yaml").symlink_to("loop.yaml")
+    assert told("loop.yaml") == "loop.yaml: cannot be read (Too many levels of symbolic links)"
+
+
+def test_keys_and_values_are_written_on_one_short_line():
+    assert key_path(("coatings", 1, "E", 0)) == "coatings[1].E[0]"
+    assert key_path(("casings", "../2nd")) == 'casings["../2nd"]'
+    assert shown(list(range(100))) == "[0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16..."
+    assert shown("a\nb\x1b[31m") == '"a b [31m"'

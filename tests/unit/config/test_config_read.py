@@ -1,0 +1,402 @@
+import copy
+
+import jsonschema
+import pytest
+
+from bladerub.config import read as configuration
+from bladerub.config.read import ROOT, ConfigError, check_quantity, load, schema, validate
+
+CONFIGS = [
+    [ROOT / "config" / "config.yaml"],
+    [ROOT / "config" / "config.yaml", ROOT / "config" / "quick.yaml"],
+    [ROOT / "config" / "config.yaml", ROOT / "config" / "twisted_plate.yaml"],
+]
+
+
+@pytest.fixture(scope="module")
+def paper():
+    return load(*CONFIGS[0])
+
+
+@pytest.fixture
+def config(paper):
+    return copy.deepcopy(paper)
+
+
+def faults(config):
+    with pytest.raises(ConfigError) as error:
+        validate(config)
+    return [fault.text for fault in error.value.faults]
+
+
+def rules(rule, path=""):
+    """Every entry of the schema, with its path."""
+    if "allOf" in rule:  # kinds of entry, told apart by their keys
+        for number, kind in enumerate(rule["allOf"]):
+            if "then" in kind:
+                yield from rules(kind["then"], f"{path}[{number}]")
+        return
+    yield path, rule
+    for key in ("properties", "$defs"):
+        for name, inner in rule.get(key, {}).items():
+            if "$ref" not in inner:
+                yield from rules(inner, f"{path}.{name}")
+    for key in ("items", "additionalProperties", "propertyNames"):
+        if isinstance(rule.get(key), dict) and "$ref" not in rule[key]:
+            yield from rules(rule[key], f"{path}[{key}]")
+
+
+@pytest.mark.parametrize("paths", CONFIGS, ids=["config", "quick", "plate"])
+def test_configs_of_the_repository_are_valid(paths):
+    config = load(*paths)
+    assert validate(config) == config
+
+
+def test_schema_is_a_schema():
+    jsonschema.Draft202012Validator.check_schema(schema())
+
+
+@pytest.mark.parametrize(("path", "rule"), [pytest.param(p, r, id=p or "top") for p, r in rules(schema())])
+def test_every_entry_of_the_schema_says_what_it_is(path, rule):
+    assert {"title", "type", "unit", "description"} <= rule.keys()
+    if rule["type"] in ("number", "integer"):
+        assert rule.keys() & {"minimum", "exclusiveMinimum"}
+        assert rule.keys() & {"maximum", "exclusiveMaximum"}
+        assert rule["unit"] != "none"
+    if rule["type"] == "string":
+        assert {"pattern", "form"} <= rule.keys()
+    if rule["type"] == "object" and path:
+        assert "additionalProperties" in rule
+
+
+def test_every_key_of_the_schema_is_needed_but_extend_and_what_another_blade_brings():
+    optional = {"extend", "source", "scale", "fit_speeds", "tolerance", "friction"}
+    for path, rule in rules(schema()):
+        if "properties" in rule and not path.startswith(".blade.source"):
+            known, required = set(rule["properties"]), set(rule["required"])
+            assert known - optional <= required <= known, path
+
+
+def test_overlays_merge_mappings_and_replace_lists(tmp_path):
+    base, overlay = tmp_path / "base.yaml", tmp_path / "overlay.yaml"
+    base.write_text("a: {b: 1, c: [1, 2]}\nd: 5\n")
+    overlay.write_text("a: {c: [3]}\nd: {e: 6}\n")
+    assert load(base, overlay) == {"a": {"b": 1, "c": [3]}, "d": {"e": 6}}
+
+
+@pytest.mark.parametrize(
+    ("text", "number"),
+    [
+        ("1e-3", 1e-3),
+        ("1.0e3", 1e3),
+        ("1.e+3", 1e3),
+        (".5E2", 50.0),
+        ("-2e1", -20.0),
+        ("1_000", 1000),
+        ("3", 3),
+    ],
+)
+def test_numbers_of_any_spelling_are_numbers(tmp_path, text, number):
+    path = tmp_path / "config.yaml"
+    path.write_text(f"value: {text}\nlist: [{text}]\n")
+    config = load(path)
+    assert config == {"value": number, "list": [number]}
+    assert not isinstance(config["value"], str)
+
+
+@pytest.mark.parametrize(
+    ("content", "words"),
+    [
+        (b"a: [1\nb: 2\n", ":2: not valid YAML"),
+        (b"a: 1\n\nb: 2\nb: 3\n", ":4: not valid YAML (b is given twice)"),
+        (b"- 1\n", "must hold keys at its top level"),
+        (b"", "must hold keys at its top level"),
+        (b"\xff\xfe", "is not text in UTF-8"),
+        (b"a: !!python/object/apply:os.getcwd []\n", ":1: not valid YAML"),
+    ],
+)
+def test_malformed_file_is_named(tmp_path, content, words):
+    path = tmp_path / "config.yaml"
+    path.write_bytes(content)
+    with pytest.raises(ConfigError) as error:
+        load(path)
+    (fault,) = map(str, error.value.faults)
+    assert fault.startswith(str(path))
+    assert words in fault
+
+
+def test_missing_file_is_named(tmp_path):
+    with pytest.raises(ConfigError, match=r"no\.yaml: cannot be read \(No such file or directory\)"):
+        load(tmp_path / "no.yaml")
+
+
+def test_missing_schema_is_named(monkeypatch, tmp_path):
+    monkeypatch.setattr(configuration, "SCHEMA", tmp_path / "schema.yaml")
+    configuration.schema.cache_clear()
+    try:
+        with pytest.raises(ConfigError, match=r"schema\.yaml is missing: install bladerub in place"):
+            configuration.schema()
+    finally:
+        configuration.schema.cache_clear()
+
+
+def test_missing_key_is_named(config):
+    del config["blade"]["length"]
+    assert faults(config) == ["blade.length: missing, blade length must be a number from 0.01 to 3, in m"]
+
+
+def test_key_like_no_other_is_answered_with_all(config):
+    config["figures"]["xyz"] = 1
+    (fault,) = faults(config)
+    assert fault.startswith("figures.xyz = 1: unknown key, known here: dpi, max_frequency")
+
+
+def test_integer_is_not_a_float(config):
+    config["solver"]["revolutions"] = 20.0
+    assert faults(config) == [
+        "solver.revolutions = 20.0: revolutions of a run must be a whole number from 1 to 10000"
+    ]
+
+
+@pytest.mark.parametrize(
+    "value", [True, None, "0.2", [0.2], float("nan"), float("-inf"), 10**400], ids=lambda v: str(v)[:5]
+)
+def test_only_numbers_are_numbers(config, value):
+    config["blade"]["length"] = value
+    (fault,) = faults(config)
+    assert fault.startswith("blade.length = ")
+
+
+@pytest.mark.parametrize("name", ["..", "a/../b", "/tmp", "", "a b", "a//b", ".hidden", "a/"])
+def test_results_stay_below_the_repository(config, name):
+    config["results"] = name
+    (fault,) = faults(config)
+    assert fault.startswith("results = ")
+
+
+def change(config, path, value):
+    *parents, key = path
+    for parent in parents:
+        config = config[parent]
+    config[key] = value
+
+
+@pytest.mark.parametrize(
+    ("path", "value", "words"),
+    [
+        (("speeds", "stop"), 0.01, "speeds.stop = 0.01: must not be below speeds.start = 0.02"),
+        (("speeds", "stop"), 0.41, "speeds.stop = 0.41: must be at most reduction.f_omega_max = 0.4"),
+        (("speeds", "extra"), [0.197, 0.19701], "speeds: 0.197 and 0.19701 are closer than 0.0001"),
+        (("casings", "2nd", "weights"), [0.0], "casings.2nd.weights = [0.0]: at least one must not be 0"),
+        (
+            ("casings", "2nd", "interference"),
+            2.5e-3,
+            "must be at most 0.002 m, or the blade touches all around",
+        ),
+        (("casings", "2nd", "interference"), 2e-5, "must be above the smaller contact.clearance, 3e-05 m"),
+        (("speeds", "extra"), [0.197, 1e-6], "speeds.extra[1] = 1e-06: speed must be a number from 0.001"),
+        (
+            ("speeds",),
+            {"start": 0.19, "stop": 0.19, "step": 0.01, "extra": []},
+            "must give two speeds or more",
+        ),
+        (
+            ("analysis", "peaks", "orders"),
+            [2, 6],
+            "analysis.peaks.orders[0] = 2: must be at least 2.5 to cross",
+        ),
+        (("analysis", "peaks", "orders"), [], "must be a list of 1 to 1000 entries"),
+        (("reduction", "accuracy_modes"), 31, "must be at most 30 with reduction.modes_per_speed = 6"),
+        (("contact", "layer_thickness"), 3e-4, "must be below contact.layer_thickness = 0.0003 m"),
+        (("casings", "2nd", "nodal_diameters"), [1001], "must be a whole number from 1 to 100"),
+        (("analysis", "max_order"), 1001, "must be at most half of contact.elements = 2000"),
+        (
+            ("solver", "revolutions"),
+            9,
+            "analysis.spectrum_revolutions = 10: must be at most solver.revolutions = 9",
+        ),
+        (("solver", "revolutions"), 9, "analysis.divergence.revolutions = 10: must be at most"),
+        (
+            ("analysis", "divergence", "confirmation_revolutions"),
+            29,
+            "analysis.divergence.confirmation_revolutions = 29: must be 0, or at least "
+            "solver.revolutions + analysis.divergence.revolutions = 30",
+        ),
+        (("analysis", "peaks", "orders"), [4, 70], "analysis.peaks.orders[1] = 70: must be at most"),
+        (("analysis", "peaks", "orders"), [4, 4], "must not name one twice"),
+        (("analysis", "histories", 0, "casing"), "3nd", "analysis.histories[0].casing"),
+        (
+            ("analysis", "histories", 0, "E"),
+            2.5,
+            "analysis.histories[0] = 2nd_E2.5_K0.5_theta0: must be one of",
+        ),
+    ],
+)
+def test_parts_that_disagree_are_told(config, path, value, words):
+    change(config, path, value)
+    assert any(words in fault for fault in faults(config))
+
+
+RIGID = {"casing": "2nd", "coating": "rigid", "friction": [0.0]}
+ABRADABLE = {"casing": "2nd", "E": [3], "K": [1], "theta": [0.0]}
+LISTED = "list of coefficients of friction must be a list of 1 to 1000 entries"
+KINDS = "kind of coating must be rigid; an abradable coating has no such key"
+
+
+@pytest.mark.parametrize(
+    ("entry", "fault"),
+    [
+        (RIGID | {"E": [2]}, "coatings[0].E = [2]: unknown key, known here: casing, coating, friction"),
+        (
+            {"casing": "2nd", "coating": "rigid"},
+            f"coatings[0].friction: missing, {LISTED}",
+        ),
+        (
+            RIGID | {"friction": [0.1, -0.1]},
+            "coatings[0].friction[1] = -0.1: coefficient of friction must be a number from 0 to 1",
+        ),
+        (
+            RIGID | {"friction": 0.1},
+            f"coatings[0].friction = 0.1: {LISTED}",
+        ),
+        (RIGID | {"casing": "3nd"}, 'coatings[0].casing = "3nd": must be one of the casings, 2nd, 2nd5nd'),
+        (
+            ABRADABLE | {"friction": [0.1]},
+            "coatings[0].theta = [0.0]: unknown key, known here: casing, E, K, friction",
+        ),
+        (
+            {"casing": "2nd", "E": [3], "friction": [0.1]},
+            "coatings[0].K: missing, list of plastic moduli must be a list of 1 to 1000 entries",
+        ),
+        (RIGID | {"coating": "stiff"}, f'coatings[0].coating = "stiff": {KINDS}'),
+        (ABRADABLE | {"coating": "stiff"}, f'coatings[0].coating = "stiff": {KINDS}'),
+        (ABRADABLE | {"depth": 3}, "coatings[0].depth = 3: unknown key, known here: casing, E, K, theta"),
+        ("rigid", 'coatings[0] = "rigid": coating must be a group of keys'),
+    ],
+)
+def test_mixed_up_coatings_are_answered_in_one_line(config, entry, fault):
+    config["coatings"] = [entry]
+    config["analysis"]["histories"] = []
+    assert faults(config) == [fault]
+
+
+def test_histories_name_the_rigid_casing_as_the_coatings_do(config):
+    history = {"casing": "2nd", "coating": "rigid", "friction": 0.0, "f_omega": 0.19}
+    config["analysis"]["histories"] = [history]
+    validate(config)
+    config["analysis"]["histories"] = [history | {"friction": 0.15}]
+    assert faults(config) == [
+        "analysis.histories[0] = 2nd_rigid_mu0.15: must be one of the coatings, add it there or drop it here"
+    ]
+    config["analysis"]["histories"] = [history | {"E": 2}]
+    (fault,) = faults(config)
+    assert fault.startswith("analysis.histories[0].E = 2: unknown key, known here: casing, coating, friction")
+    config["analysis"]["histories"] = [history | {"coating": "stiff"}]
+    assert faults(config) == [f'analysis.histories[0].coating = "stiff": {KINDS}']
+
+
+def test_confirmation_can_be_left_out_or_just_long_enough(config):
+    for revolutions in (0, 30):
+        config["analysis"]["divergence"]["confirmation_revolutions"] = revolutions
+        assert validate(config) == config
+
+
+@pytest.mark.parametrize(
+    "name", ["src", "docs/images", "Config", "tests/results", "README.md", "LICENSE/runs"]
+)
+def test_results_do_not_go_into_the_repository_itself(config, name):
+    config["results"] = name
+    (fault,) = faults(config)
+    assert fault.startswith(f'results = "{name}": must ')
+
+
+def test_no_newline_gets_into_a_name(config):
+    config["results"] = "results\n"
+    config["casings"]["2nd\n"] = config["casings"]["2nd"]
+    assert [fault.split(":")[0] for fault in faults(config)] == ['casings["2nd "]', 'results = "results "']
+
+
+def test_a_plan_that_nobody_can_compute_is_refused_before_it_is_made(config):
+    config["analysis"]["histories"] = []
+    thousand = [index + 1 for index in range(1000)]
+    config["coatings"] = [{"casing": "2nd", "E": thousand, "K": thousand, "theta": [0.0]}]
+    assert faults(config) == [
+        "coatings[0]: brings the coatings to 1000000, all combinations counted; must be 5000 or fewer"
+    ]
+    config["coatings"] = [{"casing": "2nd", "E": thousand, "K": [1, 2, 3, 4, 5], "theta": [0.0]}]
+    config["speeds"] = {"start": 0.02, "stop": 0.4, "step": 1e-4, "extra": []}
+    assert faults(config) == [
+        "speeds: 3801 speeds on 5000 coatings are 19005000 runs, must be 2000000 or fewer"
+    ]
+
+
+def test_the_densest_chart_is_allowed(config):
+    grid = [0.05 * 1.3**index for index in range(24)]
+    dense = {"E": grid, "K": grid, "theta": [0.0]}
+    config["coatings"] += [{"casing": "2nd5nd"} | dense]
+    config["coatings"][1] |= dense
+    config["speeds"]["step"] = 0.001
+    config["solver"]["revolutions"] = 500
+    config["analysis"]["divergence"]["confirmation_revolutions"] = 1500
+    config["analysis"]["histories"] = []
+    config["coatings"] = [entry for entry in config["coatings"] if entry.get("E") == grid]
+    validate(config)
+
+
+def test_a_mesh_beyond_memory_is_refused_before_it_is_made(config):
+    config["blade"]["mesh"]["spanwise"] = 400
+    validate(config)
+    config["blade"]["mesh"] = {"chordwise": 200, "thickness": 20, "spanwise": 400}
+    assert faults(config) == ["blade.mesh: has 1600000 elements, must be 20000 or fewer"]
+
+
+def test_the_mesh_counts_for_sections_and_not_for_a_mesh(config, tmp_path):
+    for name in ("blade.csv", "blade.msh"):
+        (tmp_path / name).write_text("anything")
+    config["blade"]["mesh"] = {"chordwise": 4, "thickness": 1, "spanwise": 2}
+    config["blade"]["source"] = {"file": str(tmp_path / "blade.msh"), "root_set": "ROOT"}
+    validate(config)
+    config["blade"]["source"] = {"file": str(tmp_path / "blade.csv")}
+    (fault,) = faults(config)
+    assert fault.startswith("blade.mesh.chordwise = 4: gives 5 nodes on the tip's camber line, not 8")
+    config["blade"]["mesh"] = {"chordwise": 200, "thickness": 20, "spanwise": 400}
+    assert faults(config) == ["blade.mesh: has 1600000 elements, must be 20000 or fewer"]
+    config["blade"]["source"]["root_set"] = "ROOT"
+    assert faults(config) == ["blade.source.root_set = ROOT: goes with a mesh, not with blade.csv"]
+
+
+def test_samples_beyond_memory_are_refused(config):
+    config["contact"]["elements"] = 100_000
+    validate(config)
+    config["solver"]["revolutions"] = 201
+    config["analysis"]["divergence"]["confirmation_revolutions"] = 300
+    assert [fault.split(" with")[0] for fault in faults(config)] == [
+        "solver.revolutions = 201: must be at most 200",
+        "analysis.divergence.confirmation_revolutions = 300: must be at most 200",
+    ]
+
+
+def test_thousands_of_faults_are_not_all_told(config):
+    config["speeds"]["extra"] = [-1] * 9000
+    with pytest.raises(ConfigError) as error:
+        validate(config)
+    assert len(str(error.value).splitlines()) == 41
+    assert str(error.value).endswith("config: and 8960 faults more")
+
+
+def test_one_broken_part_does_not_hide_the_faults_of_another(config):
+    config["blade"]["length"] = "long"
+    config["casings"]["2nd"]["weights"] = [0]
+    assert len(faults(config)) == 2
+
+
+def test_quantities_are_checked_as_in_the_config():
+    check_quantity("E", 0.11)
+    with pytest.raises(ValueError, match="Young modulus must be a number above 0"):
+        check_quantity("E", 0)
+    with pytest.raises(ValueError, match="Young modulus"):
+        check_quantity("E", float("nan"))
+
+
+def test_schema_is_beside_the_package():
+    assert configuration.SCHEMA.is_file()

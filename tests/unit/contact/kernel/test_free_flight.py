@@ -1,0 +1,151 @@
+"""Leaps of free flight against the steps they stand for."""
+
+from dataclasses import astuple
+from typing import NamedTuple
+
+import numpy as np
+import pytest
+from numba import njit
+
+from bladerub.contact import energy
+from bladerub.contact.kernel import free_flight, loop, modal
+from bladerub.contact.kernel.vectors import addresses, aligned, at, store, total
+from bladerub.contact.modes import modes_at
+from bladerub.contact.run import set_up
+from bladerub.contact.schemes import SCHEMES, Contact
+
+STEPS = 7
+SLOPE = 0.02
+
+
+class Flight(NamedTuple):
+    q: np.ndarray
+    radial: np.ndarray
+    tangential: np.ndarray
+
+
+@njit
+def by_leap(rule, flight, record):
+    q, n = record.q, rule.n
+    here = free_flight.reach(flight, n, q, at(q, n))
+    radial, tangential, loss, way, far = free_flight.take(flight, rule, q, at(q, n), at(q, 2 * n))
+    store(record.radial, 0, radial)
+    store(record.tangential, 0, tangential)
+    return total(loss), way, far, here
+
+
+@njit
+def next_loss(rule, record):
+    """Loss that the next step enters."""
+    q, n = record.q, rule.n
+    _, _, loss = modal.advance(rule, q, at(q, n), at(q, 2 * n))
+    return total(loss)
+
+
+@pytest.fixture(params=["exponential", "central_differences"])
+def scheme(request, blade):
+    step = 2.4e-6
+    contact = Contact(np.full(8, 1e5), -1.0, 0.0)
+    return SCHEMES[request.param](modes_at(blade, 0.3), 2e-3, step, contact)
+
+
+@pytest.fixture
+def vibration(scheme):
+    """Displacement of the modes now and in the two steps before: all modes vibrate, and none is at rest."""
+    rng = np.random.default_rng(3)
+    q = rng.normal(size=(3, scheme.omega.size)) / scheme.omega
+    q[1] = q[0] - rng.normal(size=scheme.omega.size) * scheme.time_step
+    q[2] = q[1] - rng.normal(size=scheme.omega.size) * scheme.time_step
+    return q
+
+
+def in_steps(scheme, q, n_steps):
+    """Every state of the free recurrence from the oldest on."""
+    history = [q[2], q[1], q[0]]
+    for _ in range(n_steps):
+        history.append(scheme.now * history[-1] - scheme.before * history[-2])
+    return np.array(history)
+
+
+def leapt(scheme, q):
+    """The record after a leap, and what it gave."""
+    rule, n = modal.pack(scheme), scheme.omega.size
+    flight = free_flight.leap_of(scheme, STEPS, SLOPE)
+    padded = np.zeros((3, rule.n))
+    padded[:, :n] = q
+    record = aligned(Flight(padded, np.zeros(8), np.zeros(8)))
+    given = by_leap(addresses(rule), addresses(flight), addresses(record))
+    return rule, record, given
+
+
+def test_a_leap_is_its_steps(scheme, vibration):
+    rule, record, (loss, way, *_) = leapt(scheme, vibration)
+    n = scheme.omega.size
+    after = in_steps(scheme, vibration, STEPS)
+    np.testing.assert_allclose(record.q[0, :n], after[-1], rtol=0, atol=1e-13 * np.abs(after).max())
+    np.testing.assert_allclose(record.q[1, :n], after[-2], rtol=0, atol=1e-13 * np.abs(after).max())
+    tip = after @ scheme.tip.T
+    scale = 1e-12 * np.abs(tip).max()
+    np.testing.assert_allclose(record.radial, tip[-1, :8], rtol=0, atol=scale)
+    np.testing.assert_allclose(record.tangential, tip[-1, 8:], rtol=0, atol=scale)
+    node_1 = tip[2:, 0]
+    assert way == pytest.approx(np.trapezoid(node_1) / STEPS - node_1[0], rel=1e-9)
+    # a step enters the loss of the step before: the next one must find nothing left of the leap
+    lost = np.sum(scheme.loss * (after[2:] - after[:-2]) ** 2)
+    assert loss == pytest.approx(lost, rel=1e-10)
+    assert next_loss(addresses(rule), addresses(record)) == 0.0
+
+
+def test_no_node_rises_by_more_than_the_bound(scheme, vibration):
+    _, _, (*_, next_bound, bound) = leapt(scheme, vibration)
+    tip = in_steps(scheme, vibration, 2 * STEPS)[2:] @ scheme.tip.T
+    for start, limit in ((0, bound), (STEPS, next_bound)):
+        way = np.abs(tip[start : start + STEPS + 1] - tip[start])
+        rise = (way[:, :8] + SLOPE * way[:, 8:]).max()
+        assert rise <= limit < 30 * rise
+        assert way[:, 8:].max() <= free_flight.leap_of(scheme, STEPS, SLOPE).sideways * limit
+
+
+@pytest.mark.parametrize("n_steps", [1, 2, 24])
+def test_any_number_of_steps(scheme, vibration, n_steps):
+    flight = free_flight.leap_of(scheme, n_steps, SLOPE)
+    way_q, way_d = (np.ravel(flight.forms[:, i])[: scheme.omega.size] for i in (0, 1))
+    history = in_steps(scheme, vibration, n_steps)
+    expected = history[-1] - vibration[0]
+    found = way_q * vibration[0] + way_d * (vibration[0] - vibration[1])
+    np.testing.assert_allclose(found, expected, rtol=0, atol=1e-12 * np.abs(history).max())
+
+
+@pytest.mark.parametrize("parabola", [(1.0, -3.0, 1.0), (-2.0, 1.5, 0.3), (0.0, 1.0, 0.0), (0.0, 0.0, 2.0)])
+def test_extremes_of_a_parabola(parabola):
+    x = np.linspace(0, 1, 100_001)
+    curve = np.polyval(parabola, x)
+    found = free_flight.extremes(curve[0], curve[-1], np.trapezoid(curve, x))
+    assert found == pytest.approx((curve.min(), curve.max()), abs=1e-9)
+
+
+@pytest.mark.parametrize(("E", "theta"), [(1.1, 0.0), (20.0, 0.1), (np.inf, 0.0)])
+def test_a_run_is_the_same_without_leaps(blade, spec, change, E, theta):
+    spec = change(spec, E=E, K=E / 2, theta=theta, clearance=(2e-4, 2.5e-4), initial_displacement=1e-6)
+    spec = change(spec, amplitude=4e-3, interference=4e-4)
+    results = []
+    for may_leap in (True, False):
+        rule, rub = set_up(blade, spec)
+        if not may_leap:
+            never = rub.flight._replace(n_steps=rub.steps_per_element + 1)
+            rub = loop.Rub(rub.motion, never, rub.stator, rub.tip, rub.state, rub.steps_per_element)
+        displacement = np.zeros((3, 200))
+        results.append(([rub.revolve(revolution) for revolution in displacement], displacement, rub.state))
+    (made, displacement, state), (stepwise, expected, state_stepwise) = results
+    assert sum(a.n_leaps for a in made) > 100
+    assert not any(b.n_leaps for b in stepwise)
+    assert [a.n_steps for a in made] == [b.n_steps for b in stepwise]
+    assert [a.n_contact_steps for a in made] == [b.n_contact_steps for b in stepwise]
+    assert sum(a.n_contact_steps for a in made) > 100
+    tolerance = 1e-9 if np.isfinite(E) else 1e-4  # heights are found to 1e-11 m, and impacts spread that
+    scale = np.abs(expected).max()
+    np.testing.assert_allclose(displacement, expected, rtol=0, atol=tolerance * scale)
+    for a, b in zip(made, stepwise, strict=True):
+        assert a[3:] == pytest.approx(b[3:], abs=1e-2 * scale)  # of the parabola: elements are long here
+    entries, stepwise = (astuple(energy.close(rule, end, 0.0, 1.0)) for end in (state, state_stepwise))
+    assert entries == pytest.approx(stepwise, rel=tolerance, abs=tolerance * max(stepwise))

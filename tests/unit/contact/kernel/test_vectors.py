@@ -1,0 +1,116 @@
+"""Vectors in compiled code against NumPy, lane by lane."""
+
+from typing import NamedTuple
+
+import numpy as np
+import pytest
+from numba import njit
+
+from bladerub.contact.kernel import vectors
+from bladerub.contact.kernel.vectors import LANES, addresses, aligned
+
+
+class Data(NamedTuple):
+    a: np.ndarray
+    b: np.ndarray
+    out: np.ndarray
+    number: float
+
+
+@pytest.fixture(scope="module")
+def data():
+    rng = np.random.default_rng(1)
+    return aligned(Data(rng.normal(size=(8, LANES)), rng.normal(size=LANES), np.zeros(LANES), 0.3))
+
+
+def vector_of(function):
+    """Compile a function of the first row of `a`, of `b` and of the number; its result is an array."""
+    compiled = njit(function)
+
+    @njit
+    def call(data):
+        a, b = vectors.load(data.a, 0), vectors.load(data.b, 0)
+        vectors.store(data.out, 0, compiled(a, b, data.number))
+
+    def result(data):
+        call(addresses(data))
+        return data.out.copy()
+
+    return result
+
+
+@pytest.mark.parametrize(
+    ("function", "expected"),
+    [
+        (lambda a, b, c: (a + b) * (c - a) / (2 + b * b), lambda a, b, c: (a + b) * (c - a) / (2 + b * b)),
+        (lambda a, b, c: vectors.lower(a, b), lambda a, b, c: np.minimum(a, b)),
+        (lambda a, b, c: vectors.higher(a, c), lambda a, b, c: np.maximum(a, c)),
+        (lambda a, b, c: vectors.root(vectors.magnitude(a)), lambda a, b, c: np.sqrt(np.abs(a))),
+        (lambda a, b, c: vectors.choose(a > b, a, c), lambda a, b, c: np.where(a > b, a, c)),
+        (
+            lambda a, b, c: vectors.choose((a > b) & (b <= c), a, b),
+            lambda a, b, c: np.where((a > b) & (b <= c), a, b),
+        ),
+    ],
+    ids=["arithmetic", "lower", "higher", "root of magnitude", "choose", "both"],
+)
+def test_lane_by_lane(data, function, expected):
+    found = vector_of(function)(data)
+    np.testing.assert_allclose(found, expected(data.a[0], data.b, data.number), rtol=1e-15)
+
+
+def test_sums_and_extremes_over_the_lanes(data):
+    @njit
+    def over(data):
+        a = vectors.load(data.a, 0)
+        return vectors.total(a), vectors.lowest(a), vectors.highest(a)
+
+    a = data.a[0]
+    assert over(addresses(data)) == (pytest.approx(a.sum(), rel=1e-14), a.min(), a.max())
+
+
+def test_totals_of_eight_vectors(data):
+    @njit
+    def over(data):
+        a, b = vectors.load(data.a, 0), vectors.load(data.a, 8)
+        c, d = vectors.load(data.a, 16), vectors.load(data.a, 24)
+        e, f = vectors.load(data.a, 32), vectors.load(data.a, 40)
+        g, h = vectors.load(data.a, 48), vectors.load(data.a, 56)
+        vectors.store(data.out, 0, vectors.totals(a, b, c, d, e, f, g, h))
+
+    over(addresses(data))
+    np.testing.assert_allclose(data.out, data.a.sum(axis=1), rtol=1e-14)
+
+
+@pytest.mark.parametrize("lane", range(LANES))
+@pytest.mark.parametrize("value", [1.0, np.nan])
+def test_a_condition_holds_everywhere_or_not(data, lane, value):
+    @njit
+    def over(data):
+        return vectors.everywhere(vectors.load(data.a, 0) <= 0.5)
+
+    lanes = np.zeros((1, LANES))
+    assert over(addresses(aligned(data._replace(a=lanes))))
+    lanes[0, lane] = value
+    assert not over(addresses(aligned(data._replace(a=lanes))))
+
+
+def test_single_numbers(data):
+    @njit
+    def move(data):
+        vectors.write(vectors.at(data.out, 2), 1, vectors.read(data.a, 5))
+
+    data.out[:] = 0.0
+    move(addresses(data))
+    assert data.out[3] == data.a[0, 5]
+    assert np.count_nonzero(data.out) == 1
+
+
+def test_aligned_records_keep_what_is_in_them():
+    odd = np.arange(64.0).reshape(8, 8)[:, ::2].T  # neither contiguous nor aligned
+    record = aligned(Data(odd, odd[0], np.zeros(3), 1.5))
+    assert np.array_equal(record.a, odd)
+    assert record.number == 1.5
+    for array in record[:3]:
+        assert array.flags.c_contiguous
+        assert array.ctypes.data % 64 == 0

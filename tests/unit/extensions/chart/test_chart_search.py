@@ -1,0 +1,94 @@
+import numpy as np
+import pytest
+
+from bladerub.contact.run import strip_width
+from bladerub.extensions.chart import column, search
+from bladerub.extensions.chart.grid import chart_speeds, columns
+from bladerub.study.grid import CoatingCase
+
+CASE = CoatingCase("2nd", 2.0, 0.5, 0.0)
+
+
+@pytest.fixture
+def few_speeds(config):
+    """Even speeds 0.16, 0.24 and 0.32; the study has those between as well."""
+    config["speeds"] = {"start": 0.16, "stop": 0.34, "step": 0.02, "extra": []}
+    config["chart"]["speeds"] |= {"start": 0.16, "step": 0.08, "dense_stop": 0.16, "dense_step": 0.08}
+    return config
+
+
+@pytest.fixture
+def simulated(monkeypatch, make_result):
+    """Stand in for the solver: highest at 0.28, growing at 0.16 and 0.28; lists speeds and revolutions."""
+    asked = []
+
+    def simulate(blade, spec):
+        asked.append((spec.f_omega, spec.revolutions))
+        growth = 0.05 if spec.f_omega in (0.16, 0.28) else 0.0
+        order = 6.0 if spec.f_omega < 0.25 else 4.0
+        height = 1e-3 * (1 - 2 * abs(spec.f_omega - 0.28))
+        return make_result(revolutions=spec.revolutions, order=order, amplitude=height, growth=growth)
+
+    monkeypatch.setattr(search, "simulate", simulate)
+    return asked
+
+
+def test_the_search_encloses_the_peaks_and_judges_even_speeds_alone(few_speeds, blade, simulated):
+    speeds = chart_speeds(few_speeds)
+    np.testing.assert_allclose(speeds.f_omega[speeds.coarse], [0.16, 0.24, 0.32])
+    cell = search.compute(few_speeds, CASE, blade, speeds, np.sqrt(1 + 3 * speeds.f_omega**2))
+    runs = [f_omega for f_omega, revolutions in simulated if revolutions == 20]
+    assert runs[:3] == [0.16, 0.24, 0.32]
+    assert sorted(runs) == list(cell.f_omega[cell.known])
+    assert {0.26, 0.28, 0.3} <= set(runs)
+    assert [f_omega for f_omega, revolutions in simulated if revolutions == 60] == [0.16]
+    judged = dict(zip(cell.f_omega, cell.measures["divergent"], strict=True))
+    assert (judged[0.16], judged[0.24], judged[0.32]) == (1.0, 0.0, 0.0)
+    assert np.isnan(judged[0.28])
+
+
+def test_worn_volume_is_depth_times_area(few_speeds, blade, simulated):
+    speeds = chart_speeds(few_speeds)
+    cell = search.compute(few_speeds, CASE, blade, speeds, np.sqrt(1 + 3 * speeds.f_omega**2))
+    depth = 2e-4 * np.linspace(1, 0.5, 8) / np.pi  # the mean of clip(cos, 0) is 1/π
+    expected = np.sum(depth * strip_width(blade) * 2 * np.pi * 0.65)
+    volume = cell.measures["worn_volume"][cell.known]
+    np.testing.assert_allclose(volume, expected, rtol=1e-5)
+    assert np.all(cell.measures["deepest_wear"][cell.known] == pytest.approx(2e-4, rel=1e-4))
+
+
+def test_a_column_computes_what_is_not_there(few_speeds, blade, make_cell, monkeypatch, tmp_path):
+    computed = []
+
+    def compute(config, case, *_):
+        computed.append(case.K)
+        return make_cell(case.E, case.K)
+
+    monkeypatch.setattr(column, "compute", compute)
+    lines = []
+
+    def build(K, digest="blade"):
+        few_speeds["chart"] |= {"E": [2], "K": K, "theta": [0.0]}
+        computed.clear()
+        ((_, cases),) = columns(few_speeds).items()
+        return column.compute_missing(few_speeds, cases, blade, tmp_path, digest, lines.append)
+
+    rows = build([0.5, 5])
+    assert computed == [0.5, 5]
+    assert [row.file for row in rows] == ["2nd_E2_K0.5_theta0.h5", "2nd_E2_K5_theta0.h5"]
+    assert len(lines) == 2
+    assert build([0.5, 5]) == rows
+    assert computed == []
+    build([0.5, 1, 5])
+    assert computed == [1]
+    (tmp_path / rows[1].file).write_bytes(b"")
+    build([0.5, 5])
+    assert computed == [5]
+    few_speeds["chart"]["limits"]["wear"] = 1e-9
+    build([5])
+    assert computed == []
+    few_speeds["analysis"]["divergence"]["growth"] = 0.02
+    build([5])
+    assert computed == [5]
+    build([5], digest="another blade")
+    assert computed == [5]

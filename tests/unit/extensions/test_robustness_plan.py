@@ -1,0 +1,208 @@
+import copy
+
+import numpy as np
+import pytest
+import yaml
+
+from bladerub.config.read import ROOT, ConfigError, load, validate
+from bladerub.extensions.robustness.design import batch, blade_name, check, sample_digest
+from bladerub.extensions.robustness.plan import BATCH, REFERENCE, REFERENCE_BATCH, read_plan
+
+PLAN = {
+    "seed": 3,
+    "factors": {
+        "unit": {
+            "unit": "Pa",
+            "scale": "log",
+            "sets": {"contact.modulus_unit": [1.0e8, 1.0e10]},
+        },
+        "weight": {
+            "unit": "1",
+            "sets": {"casings.2nd5nd.weights[0]": [0.0, 1.0], "casings.2nd.amplitude": [2e-3, 4e-3]},
+        },
+        "turns": {
+            "unit": "1",
+            "sets": {"solver.revolutions": [12, 30]},
+            "multiple_of": 1,
+        },
+    },
+    "parts": {
+        "soft": {"claims": ["C4"], "samples": 16, "study": {"speeds": {"start": 0.1}}},
+        "stiff": {"claims": ["C12"], "samples": 4, "study": {}},
+    },
+}
+
+
+def sample_configs(study, plan, part):
+    """The config of every sample of a part, in their order, from all of its jobs."""
+    made = {}
+    for name in range(len(part.batches())):
+        made |= batch(study, plan, part, str(name))
+    return [made[number] for number in range(part.samples)]
+
+
+@pytest.fixture
+def study():
+    config = validate(load(ROOT / "config" / "config.yaml"))
+    config["solver"]["revolutions"] = 20
+    return config
+
+
+@pytest.fixture
+def write(tmp_path):
+    def written(plan):
+        path = tmp_path / "plan.yaml"
+        path.write_text(yaml.safe_dump(plan, sort_keys=False))
+        return path
+
+    return written
+
+
+def test_a_sample_sets_every_number_of_its_factors(study, write):
+    plan = read_plan(write(PLAN))
+    check(study, plan)
+    configs = sample_configs(study, plan, plan.parts["soft"])
+    places = plan.places()
+    assert len(configs) == 16 == len(places)
+    for config, (unit, weight, turns) in zip(configs, places, strict=True):
+        assert config["contact"]["modulus_unit"] == pytest.approx(1e8 * 100**unit)
+        assert config["casings"]["2nd5nd"]["weights"] == pytest.approx([weight, 1.0])
+        assert config["casings"]["2nd"]["amplitude"] == pytest.approx(2e-3 + 2e-3 * weight)
+        assert config["solver"]["revolutions"] == round(12 + 18 * turns)
+        assert isinstance(config["solver"]["revolutions"], int)
+        assert config["speeds"]["start"] == 0.1
+    assert study["casings"]["2nd5nd"]["weights"] == [0.25, 1.0]
+
+
+def test_samples_are_the_same_in_each_part_and_each_time(study, write):
+    plan = read_plan(write(PLAN))
+    soft, stiff = (sample_configs(study, plan, part) for part in plan.parts.values())
+    assert [config["casings"] for config in soft[:4]] == [config["casings"] for config in stiff]
+    assert np.array_equal(plan.places(), read_plan(write(PLAN)).places())
+    assert not np.array_equal(plan.places(), read_plan(write(PLAN | {"seed": 4})).places())
+
+
+def test_samples_fill_the_ranges_evenly(write):
+    places = read_plan(write(PLAN)).places()
+    for column in places.T:  # a Sobol sequence of 16 has one sample in each sixteenth of each factor
+        assert sorted((16 * column).astype(int)) == list(range(16))
+
+
+def test_jobs_have_all_samples_once(write):
+    plan = read_plan(write(PLAN))
+    for part in plan.parts.values():
+        batches = part.batches()
+        assert [number for batch in batches for number in batch] == list(range(part.samples))
+        assert max(map(len, batches)) <= BATCH
+
+
+def test_a_blade_is_shared_by_samples_that_do_not_change_it(study, write):
+    plan = read_plan(write(PLAN))
+    assert len({blade_name(config) for config in sample_configs(study, plan, plan.parts["soft"])}) == 1
+    leaning = copy.deepcopy(PLAN)
+    leaning["factors"]["turns"] |= {"sets": {"blade.tip_cone": [11, 13]}}
+    plan = read_plan(write(leaning))
+    assert len({blade_name(config) for config in sample_configs(study, plan, plan.parts["soft"])}) == 3
+
+
+def changed(*keys, to):
+    plan = copy.deepcopy(PLAN)
+    inner = plan
+    for key in keys[:-1]:
+        inner = inner[key]
+    inner[keys[-1]] = to
+    return plan
+
+
+@pytest.mark.parametrize(
+    ("plan", "told"),
+    [
+        (changed("seed", to=1.5), "seed = 1.5: must be a whole number"),
+        (changed("sedd", to=1), "sedd: unknown key, known here: factors, parts, seed"),
+        ({"seed": 1, "parts": {}}, "factors: missing"),
+        (changed("factors", to={}), "factors = {}: must be a group of at least one"),
+        (changed("factors", to=[1]), "factors = [1]: must be a group of keys"),
+        (changed("factors", "a b", to={}), "factors.a b = {}: must be named by letters"),
+        (changed("factors", "unit", "unit", to=1), "factors.unit.unit = 1: must be text"),
+        (changed("factors", "unit", "scale", to="cubic"), 'scale = "cubic": must be linear or log'),
+        (changed("factors", "unit", "sets", to={}), "factors.unit.sets = {}: must be at least one number"),
+        (
+            changed("factors", "unit", "sets", "contact.modulus_unit", to=[2, 1]),
+            "contact.modulus_unit = [2, 1]: must be a list of two numbers, the lower first",
+        ),
+        (
+            changed("factors", "unit", "sets", "contact.modulus_unit", to=[0, 1]),
+            "contact.modulus_unit = [0, 1]: must be above 0 on a logarithmic scale",
+        ),
+        (changed("factors", "turns", "multiple_of", to=7), "[12, 30]: must be multiples of 7"),
+        (
+            changed("factors", "weight", "sets", "contact.modulus_unit", to=[1, 2]),
+            "factors.weight.sets.contact.modulus_unit: is set by another factor, must be by one alone",
+        ),
+        (changed("factors", "turns", "multiple_of", to=0), "multiple_of = 0: must be a number above 0"),
+        (changed("parts", "soft", "samples", to=12), "parts.soft.samples = 12: must be a power of two"),
+        (changed("parts", "soft", "samples", to=1), "parts.soft.samples = 1: must be a whole number from 2"),
+        (changed("parts", "soft", "claims", to=["C13"]), 'claims = ["C13"]: must be a list of claims, C1 to'),
+        (changed("parts", "soft", "claims", to=["C12"]), "must be of claims that no other part has"),
+        (changed("parts", "soft", "study", to=3), "parts.soft.study = 3: must be a group of keys"),
+    ],
+)
+def test_what_is_no_plan_is_refused(write, plan, told):
+    with pytest.raises(ConfigError) as caught:
+        read_plan(write(plan))
+    assert told in str(caught.value).replace("'", '"')
+    assert str(caught.value).startswith("/") or "plan.yaml" in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("path", "told"),
+    [
+        ("contact.modulus", "factors.unit.sets.contact.modulus: must be a number of the study"),
+        ("casings.2nd.weights[1]", "weights[1]: must be a number of the study, it has none there"),
+        ("casings.2nd.weights", "casings.2nd.weights = [1.0]: must be a number"),
+        ("results", 'results = "results": must be a number'),
+    ],
+)
+def test_a_factor_must_set_a_number_of_the_study(study, write, path, told):
+    plan = read_plan(write(changed("factors", "unit", "sets", to={path: [1, 2]})))
+    with pytest.raises(ConfigError) as caught:
+        sample_configs(study, plan, plan.parts["soft"])
+    assert told in str(caught.value)
+
+
+def test_values_that_make_no_study_are_told_with_part_and_sample(study, write):
+    path = write(changed("factors", "turns", "sets", to={"solver.revolutions": [12, 90]}))
+    with pytest.raises(ConfigError) as caught:
+        check(study, read_plan(path))
+    assert "parts.soft, sample " in str(caught.value)
+    assert "confirmation_revolutions = 60: must be 0, or at least" in str(caught.value)
+
+
+def test_only_what_determines_a_sample_is_in_its_digest(study, write):
+    plan = read_plan(write(PLAN))
+    digests = [sample_digest(config) for config in sample_configs(study, plan, plan.parts["soft"])]
+    assert len(set(digests)) == 16
+    study["figures"]["dpi"] += 1
+    study["chart"]["theta"] = [0.0]
+    study["casings"]["unused"] = study["casings"]["2nd"]
+    assert [sample_digest(each) for each in sample_configs(study, plan, plan.parts["soft"])] == digests
+    study["solver"]["steps_per_element"] += 1
+    assert sample_digest(sample_configs(study, plan, plan.parts["soft"])[0]) != digests[0]
+
+
+def test_jobs_have_their_samples_and_one_the_study_s_own_values(study, write):
+    plan = read_plan(write(PLAN))
+    part = plan.parts["soft"]
+    samples = sample_configs(study, plan, part)
+    assert batch(study, plan, part, "1") == {number: samples[number] for number in range(8, 16)}
+    own = batch(study, plan, part, REFERENCE_BATCH)
+    assert own.keys() == {REFERENCE}
+    assert own[REFERENCE]["contact"] == study["contact"]
+    assert own[REFERENCE]["speeds"]["start"] == 0.1
+
+
+def test_the_plan_of_the_repository_is_one(study):
+    plan = read_plan(ROOT / "config" / "robustness.yaml")
+    check(study, plan)
+    assert [part.samples for name, part in plan.parts.items() if name != "moduli"] == [256, 256, 256]
+    assert {claim for part in plan.parts.values() for claim in part.claims} == {f"C{i}" for i in range(1, 13)}

@@ -1,0 +1,92 @@
+import errno
+import os
+import signal
+import time
+
+import pytest
+
+from bladerub.io import atomic
+
+HALF_WRITTEN = """
+import os, sys, time
+from bladerub.io import atomic
+with atomic.writing(sys.argv[1]) as stream:
+    stream.write("new" * 10_000)
+    stream.flush()
+    print("half", flush=True)
+    time.sleep(60)
+"""
+
+
+@pytest.fixture
+def half_writing(python_at_work):
+    """Start a process that is about to replace the file that it is given."""
+    return lambda path: python_at_work(HALF_WRITTEN, path)
+
+
+@pytest.mark.parametrize("mode", ["w", "wb"])
+def test_what_is_written_is_there_under_its_name_alone(tmp_path, mode):
+    path = tmp_path / "folder" / "file"
+    content = "ä\n" if mode == "w" else b"\x00\n"
+    with atomic.writing(path, mode) as stream:
+        stream.write(content)
+        assert not path.exists()
+    assert path.read_bytes() == (content.encode() if mode == "w" else content)
+    assert list(path.parent.iterdir()) == [path]
+
+
+def test_a_fault_leaves_the_old_file_and_nothing_else(tmp_path):
+    path = tmp_path / "file"
+    path.write_text("old")
+    with pytest.raises(ZeroDivisionError), atomic.writing(path) as stream:
+        stream.write(str(1 / 0))
+    assert path.read_text() == "old"
+    assert list(tmp_path.iterdir()) == [path]
+
+
+@pytest.mark.parametrize("sign", [signal.SIGTERM, signal.SIGKILL])
+def test_a_kill_leaves_the_old_file_and_a_temporary_one_that_is_swept(tmp_path, half_writing, sign):
+    path = tmp_path / "file"
+    path.write_text("old")
+    process = half_writing(path)
+    atomic.sweep(tmp_path.parent)
+    assert len(list(tmp_path.iterdir())) == 2  # it lives, and its file stays
+    process.send_signal(sign)
+    process.wait()
+    assert path.read_text() == "old"
+    assert len(list(tmp_path.iterdir())) == 2
+    atomic.sweep(tmp_path.parent)
+    assert list(tmp_path.iterdir()) == [path]
+
+
+def test_of_another_host_only_what_is_old_is_swept(tmp_path):
+    fresh, old, foreign = (tmp_path / name for name in (".a.node1.7.tmp", ".b.node1.7.tmp", ".b.tmp"))
+    for path in (fresh, old, foreign):
+        path.touch()
+    long_ago = time.time() - 7200
+    os.utime(old, (long_ago, long_ago))
+    os.utime(foreign, (long_ago, long_ago))
+    atomic.sweep(tmp_path)
+    assert sorted(tmp_path.iterdir()) == [fresh, foreign]
+
+
+def test_a_failed_flush_names_the_file(tmp_path, monkeypatch):
+    def full(_):
+        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+
+    monkeypatch.setattr(atomic.os, "fsync", full)
+    with pytest.raises(OSError, match="No space left") as raised, atomic.writing(tmp_path / "file") as stream:
+        stream.write("new")
+    assert (raised.value.errno, raised.value.filename) == (errno.ENOSPC, str(tmp_path / "file"))
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_folder_that_is_a_file_is_named(tmp_path):
+    (tmp_path / "folder").touch()
+    with pytest.raises(OSError, match="folder"), atomic.writing(tmp_path / "folder" / "file"):
+        pass
+
+
+def test_a_fault_of_another_file_keeps_its_name(tmp_path):
+    with pytest.raises(FileNotFoundError, match="elsewhere"), atomic.writing(tmp_path / "file"):
+        (tmp_path / "elsewhere").read_text()

@@ -1,0 +1,42 @@
+import errno
+import os
+
+import pytest
+
+from bladerub.io import errors
+
+
+@pytest.mark.parametrize(
+    ("error", "words"),
+    [
+        (errors.DamagedFile("a.h5: not a map"), "a.h5: not a map; delete it and run the same command again"),
+        (OSError(errno.ENOSPC, "No space left on device", "a.h5"), "a.h5: the disk is full; make room"),
+        (OSError(errno.EDQUOT, "Quota exceeded", "a.h5"), "a.h5: the disk quota is used up; make room"),
+        (
+            OSError(errno.EROFS, "Read-only file system", "runs"),
+            "runs: Read-only file system; make it",
+        ),
+        (OSError(errno.EACCES, "Permission denied", "runs"), "runs: Permission denied; make it writable"),
+        (OSError(errno.ENOENT, os.strerror(errno.ENOENT), "a"), "a: No such file or directory"),
+        (OSError(errno.ENOSPC, "No space left on device"), "the disk is full; make room"),
+        (OSError("something else"), "something else"),
+    ],
+)
+def test_file_and_remedy_in_one_line(error, words):
+    line = errors.in_words(error)
+    assert line.startswith(words)
+    assert "\n" not in line
+
+
+@pytest.mark.parametrize(
+    ("error", "words"),
+    [
+        (OSError(errno.EROFS, "Read-only file system", "results"), "results: Read-only file system"),
+        (errors.BadInput("E = -1: must be positive\nK = x: must be a number"), "E = -1: must be positive\nK"),
+    ],
+)
+def test_the_program_ends_without_a_traceback(error, words, capsys):
+    with pytest.raises(SystemExit) as ended, errors.end_the_program():
+        raise error
+    assert ended.value.code == 2
+    assert capsys.readouterr().err.startswith(words)

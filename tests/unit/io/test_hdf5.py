@@ -1,0 +1,69 @@
+import h5py
+import numpy as np
+import pytest
+import xarray as xr
+
+from bladerub.io import hdf5
+from bladerub.io.errors import DamagedFile
+from bladerub.io.hdf5 import Variable
+
+VARIABLES = {
+    "angle": Variable(("angle",), np.linspace(0, 6, 5), "rad", "casing angle"),
+    "wear": Variable(("node", "angle"), np.arange(10.0).reshape(2, 5), "m", "worn depth"),
+    "energy": Variable((), 3.5, "J", "energy"),
+}
+
+
+def test_xarray_opens_the_file(tmp_path):
+    path = tmp_path / "folder" / "file.h5"
+    hdf5.write(path, VARIABLES, {"casing": "2nd", "E": 2.0})
+    with xr.open_dataset(path, engine="h5netcdf", phony_dims="sort") as dataset:
+        assert dataset.wear.dims == ("node", "angle")
+        np.testing.assert_array_equal(dataset.wear.angle, VARIABLES["angle"].data)
+        assert dataset.wear.attrs["units"] == "m"
+        assert dataset.wear.attrs["long_name"] == "worn depth"
+        assert dict(dataset.attrs) == {"casing": "2nd", "E": 2.0}
+        assert dataset.energy == 3.5
+
+
+def test_what_is_written_is_read(tmp_path):
+    hdf5.write(tmp_path / "file.h5", VARIABLES, {"n": 3, "status": "completed"})
+    data, attributes = hdf5.read(tmp_path / "file.h5")
+    np.testing.assert_array_equal(data["wear"], VARIABLES["wear"].data)
+    np.testing.assert_array_equal(data["node"], [0, 1])
+    assert attributes == {"n": 3, "status": "completed"}
+    assert hdf5.read_attributes(tmp_path / "file.h5") == attributes
+
+
+def test_the_origin_is_told_in_each_file(tmp_path):
+    for commit in ("abc", "def", "abc"):
+        hdf5.write(tmp_path / "file.h5", VARIABLES, {"n": 3}, {"provenance_git_commit": commit})
+        attributes = hdf5.read_attributes(tmp_path / "file.h5")
+        assert attributes == {"n": 3, "provenance_git_commit": commit}
+
+
+def test_disagreeing_lengths_are_refused_and_leave_the_old_file(tmp_path):
+    path = tmp_path / "file.h5"
+    hdf5.write(path, VARIABLES, {"version": 1})
+    wrong = VARIABLES | {"peak": Variable(("angle",), np.zeros(4), "m", "peak")}
+    with pytest.raises(ValueError, match="peak: dimension angle has 4, not 5 entries"):
+        hdf5.write(path, {"peak": wrong["peak"], "angle": wrong["angle"]}, {"version": 2})
+    assert hdf5.read_attributes(path) == {"version": 1}
+    assert list(tmp_path.iterdir()) == [path]
+
+
+def test_dimensions_must_all_be_named(tmp_path):
+    with pytest.raises(ValueError, match="wear: 2 dimensions, but named"):
+        hdf5.write(tmp_path / "file.h5", {"wear": Variable(("node",), np.zeros((2, 5)), "m", "")}, {})
+
+
+@pytest.mark.parametrize("read", [hdf5.read, hdf5.read_attributes])
+def test_unreadable_file_is_named(tmp_path, read):
+    path = tmp_path / "file.h5"
+    with pytest.raises(FileNotFoundError, match=r"file\.h5"):
+        read(path)
+    with h5py.File(path, "w") as file:
+        file["wear"] = np.zeros(100_000)
+    path.write_bytes(path.read_bytes()[:2000])
+    with pytest.raises(DamagedFile, match=r"file\.h5: not a readable HDF5 file"):
+        read(path)

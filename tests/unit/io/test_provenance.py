@@ -1,0 +1,112 @@
+import copy
+import os
+import platform
+import subprocess
+
+import pytest
+
+from bladerub import __version__
+from bladerub.io import provenance
+
+GIT = ["git", "-c", "user.name=t", "-c", "user.email=t@t", "-c", "commit.gpgsign=false"]
+CONFIG = {"blade": {"length": 0.2, "eta": 6}, "coatings": [{"E": [11], "rigid": False}], "results": "results"}
+
+
+@pytest.fixture
+def repository(tmp_path, monkeypatch):
+    """Stands for the repository that the package is installed from, with one commit."""
+    for name in [name for name in os.environ if name.startswith("GIT_")]:
+        monkeypatch.delenv(name)
+    root = tmp_path / "repository"
+    (root / "src").mkdir(parents=True)
+    (root / "src" / "a.py").write_text("a = 1\n")
+    (root / ".gitignore").write_text("results/\n")
+    for command in (["init", "-q"], ["add", "."], ["commit", "-qm", "first"]):
+        subprocess.run([*GIT, *command], cwd=root, check=True)
+    monkeypatch.setattr(provenance, "ROOT", root)
+    return root
+
+
+def head(root):
+    told = subprocess.run([*GIT, "rev-parse", "HEAD"], cwd=root, check=True, capture_output=True, text=True)
+    return told.stdout.strip()
+
+
+def test_a_clean_repository_is_told_by_its_commit(repository):
+    (repository / "results").mkdir()
+    (repository / "results" / "run.h5").write_text("ignored")
+    (repository / "my.yaml").write_text("the config has a digest of its own")
+    assert provenance._read_git_state() == (head(repository), "clean")
+
+
+@pytest.mark.parametrize("name", ["src/a.py", "src/new.py", ".gitignore"])
+def test_an_edit_or_a_new_source_is_a_modification(repository, name):
+    (repository / name).write_text("edited\n")
+    assert provenance._read_git_state() == (head(repository), "modified")
+
+
+def test_asking_leaves_the_repository_alone(repository):
+    os.utime(repository / "src" / "a.py", (1, 1))  # git would note that in its index
+    index = (repository / ".git" / "index").read_bytes()
+    provenance._read_git_state()
+    assert (repository / ".git" / "index").read_bytes() == index
+
+
+def test_the_repository_of_a_hook_is_not_ours(repository, tmp_path, monkeypatch):
+    commit = head(repository)
+    monkeypatch.setenv("GIT_DIR", str(tmp_path / "other"))
+    assert provenance._read_git_state() == (commit, "clean")
+
+
+def test_a_folder_inside_another_repository_has_no_commit(repository, monkeypatch):
+    monkeypatch.setattr(provenance, "ROOT", repository / "src")
+    assert provenance._read_git_state() == ("unknown", "unknown")
+
+
+@pytest.mark.parametrize("missing", ["commit", "git", "folder", "answer"])
+def test_what_git_cannot_tell_is_unknown(repository, tmp_path, monkeypatch, missing):
+    if missing == "commit":
+        new = tmp_path / "new"
+        subprocess.run([*GIT, "init", "-q", new], check=True)
+        monkeypatch.setattr(provenance, "ROOT", new)
+    elif missing == "git":
+        monkeypatch.setenv("PATH", str(tmp_path))
+    elif missing == "folder":
+        monkeypatch.setattr(provenance, "ROOT", tmp_path / "none")
+    else:
+        (tmp_path / "git").write_text("#!/bin/sh\nexec sleep 60\n")
+        (tmp_path / "git").chmod(0o755)
+        monkeypatch.setenv("PATH", str(tmp_path), prepend=os.pathsep)
+        monkeypatch.setattr(provenance, "_SECONDS", 0.1)
+    assert provenance._read_git_state() == ("unknown", "unknown")
+
+
+def test_a_file_is_told_what_made_it(monkeypatch):
+    monkeypatch.setattr(provenance, "git_state", lambda: ("abc", "clean"))
+    told = provenance.provenance(CONFIG)
+    packages = dict(entry.split("==") for entry in told.pop("provenance_packages").split())
+    assert packages["python"] == platform.python_version()
+    assert {"numpy", "scipy", "numba", "h5py", "scikit-fem", "pandas"} <= packages.keys()
+    assert told == {
+        "provenance_software": f"bladerub {__version__}",
+        "provenance_git_commit": "abc",
+        "provenance_git_state": "clean",
+        "provenance_config_sha256": provenance.config_digest(CONFIG),
+    }
+    assert provenance.software() == f"bladerub {__version__}, git commit abc (clean)"
+
+
+def test_how_a_config_is_written_does_not_matter():
+    other = {"results": "elsewhere", "coatings": [{"rigid": False, "E": (11.0,)}], "blade": CONFIG["blade"]}
+    assert provenance.config_digest(other) == provenance.config_digest(CONFIG)
+
+
+@pytest.mark.parametrize("value", [11.000000000000002, "11", None])
+def test_another_config_has_another_digest(value):
+    other = copy.deepcopy(CONFIG)
+    other["coatings"][0]["E"] = [value]
+    assert provenance.config_digest(other) != provenance.config_digest(CONFIG)
+
+
+def test_true_is_not_one():
+    assert provenance.config_digest({"a": True}) != provenance.config_digest({"a": 1})

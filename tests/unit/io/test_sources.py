@@ -1,0 +1,48 @@
+import pytest
+
+from bladerub.io import sources
+
+
+@pytest.fixture
+def package(tmp_path, monkeypatch):
+    for folder in ("contact", "blade", "study"):
+        (tmp_path / folder).mkdir()
+    for name in (
+        "contact/kernel.py",
+        "blade/model.py",
+        "study/store.py",
+        "study/spectra.py",
+        "study/growth.py",
+    ):
+        (tmp_path / name).write_text("a = 1\n")
+    monkeypatch.setattr(sources, "_PACKAGE", tmp_path)
+    return tmp_path
+
+
+SOLVER, STORAGE = sources.solver_digest.__wrapped__, sources.storage_digest.__wrapped__
+GROWTH = sources.growth_digest.__wrapped__
+
+
+@pytest.mark.parametrize(
+    ("changed", "digest", "other"),
+    [
+        ("contact/kernel.py", SOLVER, STORAGE),
+        ("contact/new.py", SOLVER, STORAGE),
+        ("blade/model.py", SOLVER, STORAGE),
+        ("study/store.py", STORAGE, SOLVER),
+        ("study/spectra.py", STORAGE, SOLVER),
+        ("study/growth.py", GROWTH, STORAGE),
+        ("study/growth.py", GROWTH, SOLVER),
+    ],
+)
+def test_an_edit_changes_the_digest_it_belongs_to_alone(package, changed, digest, other):
+    before = digest(), other()
+    (package / changed).write_text("a = 2\n")
+    assert digest() != before[0]
+    assert other() == before[1]
+
+
+def test_line_ends_do_not_matter(package):
+    before = SOLVER()
+    (package / "contact/kernel.py").write_bytes(b"a = 1\r\n")
+    assert SOLVER() == before

@@ -1,0 +1,70 @@
+import json
+
+import pandas as pd
+import pytest
+
+from bladerub.io import tables
+from bladerub.io.columns import COLUMNS
+from bladerub.io.errors import DamagedFile
+
+ORIGIN = {"provenance_software": "bladerub 1", "provenance_git_commit": "abc"}
+
+
+@pytest.fixture
+def table():
+    return pd.DataFrame({"casing": ["2nd", "2nd"], "amplitude": [1 / 3, float("nan")]}, index=[5, 7])
+
+
+def test_the_table_is_plain_csv(table, tmp_path):
+    path = tmp_path / "new" / "peaks.csv"
+    tables.write(path, table, ORIGIN, "%.3g")
+    assert path.read_text() == "casing,amplitude\n2nd,0.333\n2nd,\n"
+    pd.testing.assert_frame_equal(
+        tables.read(path, ["casing"]),
+        table.round({"amplitude": 3}).reset_index(drop=True),
+        check_dtype=False,
+    )
+
+
+def test_what_stands_beside_it_says_what_it_holds(table, tmp_path):
+    tables.write(tmp_path / "peaks.csv", table, ORIGIN)
+    about = json.loads((tmp_path / "peaks.csv-metadata.json").read_text(encoding="utf-8"))
+    assert about["@context"][0] == "http://www.w3.org/ns/csvw"
+    assert about["url"] == "peaks.csv"
+    told = {entry["schema:name"]: entry["schema:value"] for entry in about["dc:provenance"]}
+    assert told == ORIGIN
+    casing, amplitude = about["tableSchema"]["columns"]
+    assert (casing["name"], casing["datatype"], "schema:unitText" in casing) == ("casing", "string", False)
+    assert (amplitude["titles"], amplitude["datatype"]) == ("amplitude", "number")
+    assert amplitude["schema:unitText"] == "m"
+    assert amplitude["dc:description"] == COLUMNS["amplitude"].description
+
+
+def test_a_column_that_nobody_described_is_refused_before_anything_is_written(table, tmp_path):
+    with pytest.raises(ValueError, match=r"peaks\.csv: columns not described in .*: depth"):
+        tables.write(tmp_path / "peaks.csv", table.assign(depth=1), ORIGIN)
+    assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize(
+    ("content", "words"),
+    [
+        (b"", "not a whole table, it breaks off"),
+        (b"E,amp", "not a whole table, it breaks off"),
+        (b"E,amplitude\n1,2\n1,0.0", "not a whole table, it breaks off"),
+        (b"\n", "not a table"),
+        (b"E,amplitude\n1,2\n1,2,3,4\n", "not a table"),
+        (b"\x89HDF\xff\xfe\n", "not a table"),
+        (b"K,amplitude\n1,2\n", "not the right table, E missing"),
+    ],
+)
+def test_what_is_not_the_whole_table_is_named(tmp_path, content, words):
+    path = tmp_path / "table.csv"
+    path.write_bytes(content)
+    with pytest.raises(DamagedFile, match=rf"table\.csv: {words}"):
+        tables.read(path, ["E", "amplitude"])
+
+
+def test_a_missing_table_is_named(tmp_path):
+    with pytest.raises(FileNotFoundError, match=r"table\.csv"):
+        tables.read(tmp_path / "table.csv")

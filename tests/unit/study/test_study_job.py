@@ -1,0 +1,176 @@
+import math
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from bladerub.study import divergence, job, maps, peaks, store
+from bladerub.study.grid import CoatingCase
+from bladerub.study.job import compute_missing
+
+
+def test_all_runs_are_computed_once(compute, simulated, tmp_path):
+    rows = compute()
+    assert simulated == [0.1, 0.19, 0.2, 0.3]
+    assert [row.file for row in rows] == ["0.1000.h5", "0.1900.h5", "0.2000.h5", "0.3000.h5"]
+    assert [row.status for row in rows] == ["completed"] * 3 + ["unbounded"]
+    assert all(store.is_current(tmp_path / row.file, row.run_key) for row in rows)
+    assert compute() == rows
+    assert len(simulated) == 4
+
+
+def test_only_listed_runs_have_a_history(compute, simulated, tmp_path):
+    compute()
+    with_history = [
+        path.name for path in tmp_path.glob("*.h5") if "radial_displacement" in store.read_run(path).data
+    ]
+    assert with_history == ["0.1900.h5"]
+
+
+def test_missing_damaged_and_new_runs_are_computed_and_no_others(compute, study, simulated, tmp_path):
+    compute()
+    (tmp_path / "0.1000.h5").unlink()
+    (tmp_path / "0.2000.h5").write_bytes((tmp_path / "0.2000.h5").read_bytes()[:3000])
+    study["speeds"]["extra"].append(0.25)
+    simulated.clear()
+    compute()
+    assert simulated == [0.1, 0.2, 0.25]
+
+
+def test_another_blade_makes_every_run_stale(compute, simulated):
+    compute()
+    simulated.clear()
+    compute(digest="another blade")
+    assert len(simulated) == 4
+
+
+def test_runs_that_left_the_plan_stay(compute, study, simulated, tmp_path):
+    compute()
+    study["speeds"]["extra"] = []
+    assert len(compute()) == 3
+    assert (tmp_path / "0.1900.h5").exists()
+
+
+def test_an_interrupted_job_goes_on_where_it_stopped(compute, simulated, monkeypatch):
+    class Stopped(Exception):
+        pass
+
+    def stop_after_two(done):
+        if done.number == 2:
+            raise Stopped
+
+    with pytest.raises(Stopped):
+        compute(report=stop_after_two)
+    simulated.clear()
+    compute()
+    assert simulated == [0.2, 0.3]
+
+
+def test_each_computed_run_is_reported_with_the_time_left(compute, simulated, monkeypatch):
+    clock = iter([0.0, 0.0, 12.0, 12.0, 18.0, 18.0, 24.0, 24.0, 30.0, 30.0])
+    monkeypatch.setattr(job.time, "monotonic", lambda: next(clock))
+    reports = []
+    compute(report=reports.append)
+    assert [(done.number, done.total, done.file) for done in reports] == [
+        (1, 4, "0.1000.h5"),
+        (2, 4, "0.1900.h5"),
+        (3, 4, "0.2000.h5"),
+        (4, 4, "0.3000.h5"),
+    ]
+    # 10 units of cost (1 / speed) took 12 s, and 1/0.19 + 1/0.2 + 1/0.3 are left
+    assert reports[0].seconds_left == pytest.approx(12 / 10 * (1 / 0.19 + 1 / 0.2 + 1 / 0.3))
+    assert reports[-1].seconds_left == pytest.approx(0, abs=1e-9)
+    assert str(reports[1]).startswith("[2/4] 0.1900.h5 completed in 6.0 s, about ")
+
+
+def test_runs_that_grow_are_repeated_for_longer_once(compute, simulated, growing, repeated, tmp_path):
+    growing.update({0.1: 0.03, 0.2: 0.02, 0.19: 0.001, 0.3: 0.5})
+    reports = []
+    rows = compute(report=reports.append)
+    assert repeated == [0.1, 0.2]  # 0.3 left all bounds
+    assert [bool(row.confirmation_key) for row in rows] == [True, False, True, False]
+    assert [row.file for row in rows] == ["0.1000.h5", "0.1900.h5", "0.2000.h5", "0.3000.h5"]
+    assert [(done.number, done.total, done.file) for done in reports[4:]] == [
+        (1, 2, "confirmation/0.1000.h5"),
+        (2, 2, "confirmation/0.2000.h5"),
+    ]
+    longer = store.read_run(tmp_path / "confirmation" / "0.2000.h5")
+    assert longer.attributes["run_key"] == rows[2].confirmation_key != rows[2].run_key
+    assert longer.data["revolution_amplitude"].shape == (60,)
+    assert store.read_run(tmp_path / "0.2000.h5").data["revolution_amplitude"].shape == (20,)
+    assert compute() == rows
+    assert (len(simulated), len(repeated)) == (4, 2)
+
+
+def test_another_length_of_confirmation_repeats_only_what_grows(compute, study, simulated, growing, repeated):
+    growing[0.2] = 0.03
+    before = compute()
+    settings = study["analysis"]["divergence"]
+    settings["confirmation_revolutions"] = 40
+    rows = compute()
+    assert (len(simulated), repeated) == (4, [0.2, 0.2])
+    assert [row.run_key for row in rows] == [row.run_key for row in before]
+    settings["confirmation_revolutions"] = 60
+    assert compute() == before  # from the shelf
+    settings["confirmation_revolutions"] = 0
+    assert not any(row.confirmation_key for row in compute())
+    assert (len(simulated), len(repeated)) == (4, 2)
+
+
+def test_another_threshold_repeats_other_runs(compute, study, simulated, growing, repeated):
+    growing.update({0.1: 0.02, 0.2: 0.03})
+    study["analysis"]["divergence"]["growth"] = 0.025
+    assert [bool(row.confirmation_key) for row in compute()] == [False, False, True, False]
+    study["analysis"]["divergence"]["growth"] = 0.01
+    assert [bool(row.confirmation_key) for row in compute()] == [True, False, True, False]
+    assert (len(simulated), repeated) == (4, [0.2, 0.1])
+
+
+def test_a_damaged_longer_run_is_computed_alone(compute, simulated, growing, repeated, tmp_path):
+    growing.update({0.1: 0.03, 0.2: 0.03})
+    rows = compute()
+    (tmp_path / "confirmation" / "0.1000.h5").write_bytes(b"")
+    assert compute() == rows
+    assert (len(simulated), repeated) == (4, [0.1, 0.2, 0.1])
+
+
+def test_real_rubs_go_from_the_solver_to_the_table(study, case, blade, tmp_path):
+    study["speeds"] = {"start": 0.1, "stop": 0.3, "step": 0.2, "extra": []}
+    study["contact"]["elements"] = 200
+    study["solver"].update(revolutions=3, max_time_step=2e-5)
+    study["analysis"]["spectrum_revolutions"] = 2
+    study["analysis"]["divergence"].update(revolutions=3, confirmation_revolutions=0)
+    folder, reports = tmp_path / "runs", []
+    rows = compute_missing(study, case, blade, folder, "digest", reports.append)
+    store.write_manifest(folder / "manifest.tsv", rows)
+    maps.build_map(study, case, blade, folder, tmp_path / "map.h5")
+    table = divergence.table(study, [tmp_path / "map.h5"])
+    assert [done.file for done in reports] == ["0.1000.h5", "0.3000.h5"]
+    assert list(table.f_omega) == [0.1, 0.3]
+    assert set(table.status) == {"completed"}
+    coating = maps.read_map(tmp_path / "map.h5", with_nodes=True)
+    assert coating.wear_node.shape == (2, 8, 200)
+    assert (coating.max_wear > 0).all()
+    assert list(coating.lobes) == [2, 2]  # stiff and heavy, it cuts the two lobes of the casing
+    assert compute_missing(study, case, blade, folder, "digest", reports.append) == rows
+    assert len(reports) == 2
+
+
+def test_runs_on_the_rigid_casing_go_to_the_tables_as_those_of_infinite_moduli(
+    study, blade, make_result, monkeypatch, tmp_path
+):
+    monkeypatch.setattr(job, "simulate", lambda _, spec: make_result(spec.revolutions, order=4.0, depth=0.0))
+    case = CoatingCase.rigid("2nd", 0.15)
+    rows = compute_missing(study, case, blade, tmp_path, "digest")
+    store.write_manifest(tmp_path / "manifest.tsv", rows)
+    maps.build_map(study, case, blade, tmp_path, tmp_path / "map.h5")
+    coating = maps.read_map(tmp_path / "map.h5")
+    assert coating.case == case
+    assert not coating.max_wear.any()
+    assert not coating.lobes.any()
+    for table, name in ((peaks.table, "peaks"), (divergence.table, "divergence")):
+        table(study, [tmp_path / "map.h5"]).to_csv(tmp_path / f"{name}.csv", index=False)
+        read = pd.read_csv(tmp_path / f"{name}.csv")
+        assert (np.isinf(read.E) & np.isinf(read.K)).all()
+        assert read.theta.to_numpy() == pytest.approx(math.atan(0.15))
+        assert not read.drop(columns=["E", "K"]).isna().any(axis=None)

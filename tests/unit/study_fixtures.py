@@ -1,0 +1,171 @@
+from pathlib import Path
+
+import numpy as np
+import pytest
+import yaml
+
+from bladerub.blade.model import ReducedBlade
+from bladerub.contact.spec import Energy, RunResult
+from bladerub.study import job
+from bladerub.study.grid import CoatingCase, run_spec
+from bladerub.study.job import compute_missing
+from bladerub.study.maps import CoatingMap
+
+N_ELEMENTS = 2000
+
+
+@pytest.fixture
+def config():
+    path = Path(__file__).parents[2] / "config" / "config.yaml"
+    return yaml.safe_load(path.read_text(encoding="utf-8"))
+
+
+@pytest.fixture
+def case():
+    return CoatingCase("2nd", 2.0, 0.5, 0.15)
+
+
+@pytest.fixture
+def spec(config, case):
+    return run_spec(config, case, 0.19)
+
+
+@pytest.fixture
+def angle():
+    return (np.arange(N_ELEMENTS) + 0.5) * (2 * np.pi / N_ELEMENTS)
+
+
+@pytest.fixture
+def blade():
+    """24 uncoupled masses at the tip; C1² = 1 + 3 f_omega² at f1 = 192 Hz, the highest at 940 Hz."""
+    stiffness = np.diag((2 * np.pi * 192.0) ** 2 * np.arange(1.0, 25.0))
+    phi = np.linspace(-0.05, 0.05, 8)
+    axial, zero = np.linspace(-0.03, 0.03, 8), np.zeros(8)
+    return ReducedBlade(
+        mass=np.eye(24),
+        stiffness_0=stiffness,
+        stiffness_1=3 * stiffness,
+        stiffness_2=0 * stiffness,
+        node_position=np.stack([axial, 0.65 * np.sin(phi), 0.65 * np.cos(phi)], axis=1),
+        radial_direction=np.stack([zero, np.sin(phi), np.cos(phi)], axis=1),
+        tangential_direction=np.stack([zero, np.cos(phi), -np.sin(phi)], axis=1),
+        f1_hz=192.0,
+        f_omega_max=0.4,
+        eta=6,
+        rank_tolerance=1e-5,
+        length=0.2,
+    )
+
+
+@pytest.fixture
+def make_result(angle):
+    """A run that vibrates at one engine order, wears as many lobes and ends after `complete` revolutions."""
+
+    def make(revolutions=20, order=6.0, amplitude=1e-3, growth=0.0, complete=None, depth=2e-4):
+        time = (np.arange(revolutions * N_ELEMENTS) + 0.5) / N_ELEMENTS  # in revolutions
+        displacement = amplitude * (1 + growth) ** np.floor(time) * np.sin(2 * np.pi * order * time)
+        end = time.size if complete is None else int(complete * N_ELEMENTS)
+        displacement[end:] = np.nan
+        peak, half_range = np.full((2, revolutions), np.nan)
+        begun = int(np.ceil(end / N_ELEMENTS))
+        each = displacement.reshape(revolutions, -1)[:begun]
+        peak[:begun] = np.nanmax(np.abs(each), axis=1)
+        half_range[:begun] = (np.nanmax(each, axis=1) - np.nanmin(each, axis=1)) / 2
+        lobe = np.clip(np.cos(order * angle), 0, None)
+        return RunResult(
+            status="completed" if complete is None else "unbounded",
+            message="for a test",
+            angle=angle,
+            wear=depth * np.linspace(1, 0.5, 8)[:, None] * lobe,
+            radial_displacement=displacement,
+            revolution_peak=peak,
+            revolution_amplitude=half_range,
+            time_step=2e-7,
+            n_steps=1000,
+            n_reversed_steps=0,
+            slowest_sliding=0.9,
+            n_contact_steps=300,
+            n_modes=24,
+            energy=Energy(*(float(i) for i in range(1, 13))),
+        )
+
+    return make
+
+
+@pytest.fixture
+def make_map(angle):
+    """A map whose response on each given order is a hat over speed; C1² = 1 + 3 f_omega²."""
+
+    def make(
+        case, peaks, f_omega=None, lobes=6, growth=0.0, status="completed", background=1e-7, longer=None
+    ):
+        f_omega = np.round(np.arange(0.02, 0.4001, 0.01), 6) if f_omega is None else np.asarray(f_omega)
+        n = f_omega.size
+        order = np.arange(241) / 10
+        amplitude = np.full((n, order.size), background)
+        for k, (f_peak, height) in peaks.items():
+            hat = height * np.clip(1 - np.abs(f_omega - f_peak) / 0.025, 0, None)
+            amplitude[:, round(10 * k)] = np.maximum(background, hat)
+        response = amplitude.max(axis=1)
+        envelope = response[:, None] * (1 + np.broadcast_to(growth, n)[:, None]) ** np.arange(20)
+        return CoatingMap(
+            case=case,
+            f_omega=f_omega,
+            C1=np.sqrt(1 + 3 * f_omega**2),
+            angle=angle,
+            wear=np.zeros((n, N_ELEMENTS), dtype=np.float32),
+            wear_node=np.zeros((n, 8, N_ELEMENTS), dtype=np.float32),
+            spectrum_order=order,
+            spectrum_amplitude=amplitude,
+            revolution_peak=envelope + 1e-3,
+            revolution_amplitude=envelope,
+            confirmation_amplitude=np.empty((n, 0)) if longer is None else longer,
+            max_wear=0.5 * response,
+            lobes=np.broadcast_to(lobes, n).copy(),
+            status=np.broadcast_to(status, n).astype(str),
+        )
+
+    return make
+
+
+@pytest.fixture
+def growing():
+    """Growth of the simulated runs by speed, none where there is no entry."""
+    return {}
+
+
+@pytest.fixture
+def repeated():
+    """Lists the speeds at which the solver was asked for a longer run."""
+    return []
+
+
+@pytest.fixture
+def simulated(monkeypatch, make_result, growing, repeated):
+    """Stand in for the solver, and list the speeds it was asked for."""
+    speeds = []
+
+    def simulate(blade, spec):
+        (speeds if spec.revolutions == 20 else repeated).append(spec.f_omega)
+        return make_result(
+            revolutions=spec.revolutions,
+            growth=growing.get(spec.f_omega, 0.0),
+            complete=1.5 if spec.f_omega == 0.3 else None,
+        )
+
+    monkeypatch.setattr(job, "simulate", simulate)
+    return speeds
+
+
+@pytest.fixture
+def study(config):
+    config["speeds"] = {"start": 0.1, "stop": 0.3, "step": 0.1, "extra": [0.19]}
+    return config
+
+
+@pytest.fixture
+def compute(study, case, tmp_path):
+    def run(digest="blade", **arguments):
+        return compute_missing(study, case, None, tmp_path, digest, **arguments)
+
+    return run

@@ -1,0 +1,58 @@
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from bladerub.verification.differences import UNBOUNDED, Differences, differences, largest
+
+
+@pytest.fixture
+def compare(config):
+    return lambda outcome, reference: differences(outcome, reference, config["analysis"])
+
+
+def test_no_difference(make_result, compare):
+    assert compare(make_result(), make_result()) == Differences(0.0, 0.0, 0.0)
+
+
+def test_each_difference_is_relative_to_the_reference(make_result, compare):
+    reference = make_result(amplitude=1e-3, depth=2e-4)
+    assert compare(make_result(amplitude=1.02e-3, depth=2.1e-4), reference) == pytest.approx(
+        Differences(wear_l2=0.05, peak=0.02, revolution_peak=0.02)
+    )
+
+
+def test_wear_elsewhere_differs_though_it_is_as_much(make_result, compare):
+    reference = make_result()
+    turned = replace(
+        reference, wear=np.roll(reference.wear, 1000 // 6, axis=1)
+    )  # into the valleys of 6 lobes
+    assert compare(turned, reference).wear_l2 == pytest.approx(math.sqrt(2), rel=0.01)
+
+
+def test_the_revolution_that_differs_most_counts_against_the_greatest_peak(make_result, compare):
+    reference = make_result()
+    peaks = reference.revolution_peak.copy()
+    peaks[3] *= 0.5
+    peaks[7] *= 1.1
+    lower = peaks.copy()
+    lower[3] -= 1e-4
+    outcome = replace(reference, revolution_peak=lower)
+    assert compare(outcome, replace(reference, revolution_peak=peaks)).revolution_peak == pytest.approx(
+        1e-4 / 1.1e-3, rel=1e-3
+    )
+
+
+def test_a_casing_that_does_not_wear(make_result, compare):
+    assert compare(make_result(depth=0.0), make_result(depth=0.0)).wear_l2 == 0.0
+    assert compare(make_result(depth=1e-4), make_result(depth=0.0)).wear_l2 == math.inf
+
+
+@pytest.mark.parametrize(("first", "second"), [(None, 3), (3, None), (3, 3)])
+def test_nothing_is_said_of_an_unbounded_run(make_result, compare, first, second):
+    assert compare(make_result(complete=first), make_result(complete=second)) == UNBOUNDED
+
+
+def test_largest():
+    assert largest([Differences(1, 5, 3), Differences(2, 4, 6)]) == Differences(2, 5, 6)

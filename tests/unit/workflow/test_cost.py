@@ -1,0 +1,62 @@
+import pandas as pd
+import pytest
+
+from bladerub.workflow.cost import COLUMNS, by_stage, table
+
+RECORD = (
+    "s\th:m:s\tmax_rss\tmax_vms\tmax_uss\tmax_pss\tio_in\tio_out\tmean_load\tcpu_time\n"
+    "{s}\t0:00:01\t{memory}\t1\t1\t1\t0\t0\t99\t{cpu}\n"
+)
+
+
+@pytest.fixture
+def benchmarks(tmp_path):
+    for name, s, memory, cpu in (
+        ("blade.tsv", 20.0, 480.0, 15.0),
+        ("coating/2nd_E1.1_K0.5_theta0.tsv", 10.0, 190.0, 9.0),
+        ("coating/2nd_E2_K0.5_theta0.15.tsv", 30.0, 200.0, 21.0),
+        ("fig08_spectrum_soft.tsv", 2.0, 250.0, 1.5),
+        ("fig05_casing.tsv", 0.1, "-", "-"),
+        ("somebody_elses.tsv", 99.0, 99.0, 99.0),
+    ):
+        path = tmp_path / name
+        path.parent.mkdir(exist_ok=True)
+        path.write_text(RECORD.format(s=s, memory=memory, cpu=cpu))
+    return tmp_path
+
+
+def test_a_row_a_job(benchmarks):
+    costs = table(benchmarks).set_index(["rule", "job"])
+    assert [*costs.index.names, *costs.columns] == [
+        "rule",
+        "job",
+        *(c for c in COLUMNS if c not in ("rule", "job")),
+    ]
+    rub = costs.loc[("coating", "2nd_E2_K0.5_theta0.15")]
+    assert (rub.stage, rub.wall_s, rub.cpu_s, rub.memory_mb) == ("rubs", 30.0, 21.0, 200.0)
+    assert costs.loc[("blade", ""), "stage"] == "blade"
+    assert len(costs) == 5
+
+
+def test_a_job_too_short_to_be_looked_at_has_no_figures(benchmarks):
+    short = table(benchmarks).set_index("rule").loc["fig05_casing"]
+    assert short.wall_s == 0.1
+    assert pd.isna(short.cpu_s)
+    assert pd.isna(short.memory_mb)
+
+
+def test_stages_come_in_the_order_of_the_workflow(benchmarks):
+    stages = by_stage(table(benchmarks))
+    assert list(stages.index) == ["blade", "rubs", "figures"]
+    assert list(stages.jobs) == [1, 2, 2]
+    assert list(stages.cpu_s) == [15.0, 30.0, 1.5]
+    assert list(stages.memory_mb) == [480.0, 200.0, 250.0]
+    assert stages.share.sum() == pytest.approx(1.0)
+
+
+@pytest.mark.parametrize("content", ["", "s\th:m:s\tmax", RECORD.splitlines(keepends=True)[0]])
+def test_a_record_that_breaks_off_is_left_out(benchmarks, content):
+    (benchmarks / "blade.tsv").write_text(content)
+    costs = table(benchmarks)
+    assert "blade" not in set(costs.rule)
+    assert len(costs) == 4

@@ -1,0 +1,101 @@
+import pytest
+
+from bladerub.io import errors
+from bladerub.study.store import ManifestRow, write_manifest
+from bladerub.workflow import invocation
+
+
+@pytest.fixture
+def manifest(tmp_path):
+    """Of two runs, one of which has a longer one."""
+    folder = tmp_path / "results" / "runs" / "2nd_E2_K0.5_theta0"
+    (folder / "confirmation").mkdir(parents=True)
+    for name, size in (("0.1.h5", 10), ("0.2.h5", 20), ("confirmation/0.2.h5", 30)):
+        (folder / name).write_bytes(bytes(size))
+    rows = [
+        ManifestRow("0.1.h5", 0.1, "a", "completed", 10),
+        ManifestRow("0.2.h5", 0.2, "b", "completed", 20, "c", 30),
+    ]
+    write_manifest(folder / "manifest.tsv", rows)
+    return folder / "manifest.tsv"
+
+
+@pytest.fixture
+def begin(tmp_path):
+    streams = []
+
+    def begun():
+        streams.append(invocation.begin(tmp_path / ".snakemake", tmp_path / "results"))
+        return streams[-1]
+
+    yield begun
+    for stream in streams:
+        stream.close()
+
+
+@pytest.fixture
+def note(tmp_path):
+    """What Snakemake leaves of the files that it makes."""
+    path = tmp_path / ".snakemake" / "locks" / "0.output.lock"
+    path.parent.mkdir(parents=True)
+    path.write_text("results/tables/peaks.csv\n")
+    return path
+
+
+def test_the_lock_of_the_dead_is_deleted(begin, note, capsys):
+    begin()
+    assert not note.exists()
+    assert "the last snakemake here was killed" in capsys.readouterr().err
+
+
+def test_the_lock_of_the_living_stays(begin, note, tmp_path, capsys):
+    living = begin()
+    note.parent.mkdir()
+    note.touch()
+    begin().close()
+    assert note.exists()
+    assert "another snakemake is at work" in capsys.readouterr().err
+    living.close()
+    begin()
+    assert not note.exists()
+
+
+def test_a_whole_coating_keeps_its_manifest(begin, manifest, capsys):
+    begin()
+    assert manifest.exists()
+    assert capsys.readouterr().err == ""
+
+
+@pytest.mark.parametrize("name", ["0.1.h5", "confirmation/0.2.h5"])
+@pytest.mark.parametrize("size", [None, 0, 9])
+def test_a_manifest_goes_when_a_run_is_lost_or_cut_short(begin, manifest, name, size, capsys):
+    run = manifest.parent / name
+    run.unlink() if size is None else run.write_bytes(bytes(size))
+    begin()
+    assert not manifest.exists()
+    assert f"{run}: missing, or not as long as it was written" in capsys.readouterr().err
+    assert (manifest.parent / "0.2.h5").exists()
+
+
+@pytest.mark.parametrize("end", [0, 50, -2, -9])
+def test_a_manifest_goes_when_it_is_cut_short(begin, manifest, end, capsys):
+    manifest.write_bytes(manifest.read_bytes()[:end])
+    begin()
+    assert not manifest.exists()
+    assert "its coating is planned again" in capsys.readouterr().err
+
+
+def test_preparing_makes_the_folder_and_sweeps_it(tmp_path):
+    results = tmp_path / "results"
+    invocation.prepare(results)
+    abandoned = results / ".peaks.csv.node1.7.tmp"
+    abandoned.touch()
+    invocation.prepare(results)
+    assert list(results.iterdir()) == [abandoned]  # of another host, and fresh
+
+
+def test_a_folder_that_cannot_be_made_is_named(tmp_path):
+    (tmp_path / "results").touch()
+    with pytest.raises(OSError, match="results") as raised:
+        invocation.prepare(tmp_path / "results")
+    assert "\n" not in errors.in_words(raised.value)

@@ -1,0 +1,38 @@
+import subprocess
+import sys
+
+import pytest
+
+SCRIPT = """
+import sys
+from bladerub.workflow import job
+from bladerub.io.errors import DamagedFile
+job.log_to(sys.argv[1])
+print("at work", file=sys.stderr)
+{}
+"""
+
+
+@pytest.fixture
+def fail(tmp_path):
+    def run(statement, log=tmp_path / "job.log"):
+        arguments = [sys.executable, "-c", SCRIPT.format(statement), str(log)]
+        done = subprocess.run(arguments, capture_output=True, text=True)
+        assert done.returncode == 1
+        return done.stderr, log.read_text() if log.is_file() else ""
+
+    return run
+
+
+def test_a_fault_of_a_file_is_told_in_one_line_in_the_log_and_to_the_caller(fail):
+    told, log = fail('raise DamagedFile("a.h5: not a map")')
+    assert told.startswith("a.h5: not a map; delete it and run the same command again")
+    assert told.count("\n") == 1
+    assert log == "at work\n" + told
+
+
+def test_any_other_fault_leaves_its_traceback_in_the_log(fail):
+    told, log = fail("1 / 0")
+    assert told == ""
+    assert log.startswith("at work\nTraceback")
+    assert log.endswith("ZeroDivisionError: division by zero\n")
