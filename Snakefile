@@ -10,7 +10,7 @@ from bladerub.study.grid import coating_cases
 min_version("9.0")
 
 # Snakemake knows neither the lines of a file nor the key `extend`: the config is read here, before it reads it
-with bladerub.io.errors.end_the_program():
+with bladerub.io.errors.exit_on_error():
     study = bladerub.config.read.read(
         "config/config.yaml",
         *workflow.configfiles,
@@ -29,12 +29,12 @@ COATINGS = [case.name for case in coating_cases(config)]
 
 # Not in the jobs, which are processes that read this file as well
 if workflow.is_main_process:
-    with bladerub.io.errors.end_the_program():
+    with bladerub.io.errors.exit_on_error():
         LIVING = bladerub.workflow.invocation.begin(".snakemake", RESULTS)
 
 
 onstart:
-    with bladerub.io.errors.end_the_program():
+    with bladerub.io.errors.exit_on_error():
         bladerub.workflow.invocation.prepare(RESULTS)
 
 

@@ -24,7 +24,7 @@ def calibration_plan():
     """The config of every set; read only when somebody asks for the calibration."""
     from bladerub.extensions.calibration import plan
 
-    with bladerub.io.errors.end_the_program():
+    with bladerub.io.errors.exit_on_error():
         return plan(config)
 
 

@@ -18,7 +18,7 @@ CHARTED = [
 @cache
 def chart_columns():
     """The cells of every column; checked only when somebody asks for the chart."""
-    with bladerub.io.errors.end_the_program():
+    with bladerub.io.errors.exit_on_error():
         check(config)
     return columns(config)
 

@@ -8,7 +8,7 @@ RATES = [f"{rate:g}" for rate in config["sweeps"]["rates"]]
 
 def swept_maps(wildcards):
     if not SWEPT:
-        with bladerub.io.errors.end_the_program():
+        with bladerub.io.errors.exit_on_error():
             raise bladerub.io.errors.BadInput(
                 "sweeps.coatings: the study has none of them; must name some of its coatings"
             )

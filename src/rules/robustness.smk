@@ -11,7 +11,7 @@ def robustness_plan():
     from bladerub.extensions.robustness.design import check
     from bladerub.extensions.robustness.plan import read_plan
 
-    with bladerub.io.errors.end_the_program():
+    with bladerub.io.errors.exit_on_error():
         plan = read_plan(ROBUSTNESS)
         if workflow.is_main_process:
             check(config, plan)
@@ -24,7 +24,7 @@ def robustness_batch(part, batch):
     from bladerub.extensions.robustness import design
 
     plan = robustness_plan()
-    with bladerub.io.errors.end_the_program():
+    with bladerub.io.errors.exit_on_error():
         return design.batch(config, plan, plan.parts[part], batch)
 
 

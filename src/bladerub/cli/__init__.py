@@ -41,7 +41,7 @@ def main(arguments: list[str] | None = None) -> int:
         print(f"bladerub {options.name}: {' '.join(str(error).split())}", file=sys.stderr)
         return 2
     except OSError as error:
-        print(f"bladerub {options.name}: {errors.in_words(error)}", file=sys.stderr)
+        print(f"bladerub {options.name}: {errors.message_for(error)}", file=sys.stderr)
         return 2
     except KeyboardInterrupt:
         print(f"bladerub {options.name}: interrupted", file=sys.stderr)

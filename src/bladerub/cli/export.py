@@ -119,7 +119,7 @@ def _motion(options: argparse.Namespace, config: dict[str, Any]) -> dict[str, An
     try:
         run = read_run(options.run)
     except OSError as error:
-        raise InputError(f"--run {errors.in_words(error)}") from error
+        raise InputError(f"--run {errors.message_for(error)}") from error
     path, blade = _blade(options, config)
 
     from bladerub.export.vtu import COLLECTION, read_mesh, write_motion
@@ -128,7 +128,7 @@ def _motion(options: argparse.Namespace, config: dict[str, Any]) -> dict[str, An
     try:
         mesh = read_mesh(path.with_name("mesh.h5"), blade)
     except OSError as error:
-        raise InputError(errors.in_words(error)) from error
+        raise InputError(errors.message_for(error)) from error
     plan = _plan(options, config, run, path)
     recording = _record(options, run, plan, blade)
     about = {

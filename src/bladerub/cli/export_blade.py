@@ -88,7 +88,7 @@ def write(options: argparse.Namespace, config: dict[str, Any]) -> dict[str, Any]
                 _speeds(options, blade.f_omega_max),
             )
     except OSError as error:
-        raise InputError(errors.in_words(error)) from error
+        raise InputError(errors.message_for(error)) from error
     return {
         "files": [str(file) for file in files],
         "nodes": len(mesh["points"]),

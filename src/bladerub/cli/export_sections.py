@@ -38,7 +38,7 @@ def write(options: argparse.Namespace, config: dict[str, Any]) -> dict[str, Any]
     except ValueError as error:
         raise InputError(f"--coordinates {coordinates}: {error}") from error
     except OSError as error:
-        raise InputError(errors.in_words(error)) from error
+        raise InputError(errors.message_for(error)) from error
     return {"files": [str(path)], "coordinates": coordinates, "sections": n_sections, "stations": n_stations}
 
 

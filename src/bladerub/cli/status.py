@@ -11,7 +11,7 @@ from typing import Any
 from tqdm import tqdm
 
 from bladerub.cli import inputs
-from bladerub.io.errors import in_words
+from bladerub.io.errors import message_for
 
 _COLUMNS = ("planned", "done", "missing", "stale", "corrupt", "unbounded")
 
@@ -60,7 +60,7 @@ def status(options: argparse.Namespace) -> None:
         else:
             digest = blade_digest(model)
     except OSError as error:
-        note = f"every run counts as stale without its blade: {in_words(error)}"
+        note = f"every run counts as stale without its blade: {message_for(error)}"
     cases, damaged = coating_cases(config), []
     with tqdm(
         total=len(cases) * len(speeds(config)),

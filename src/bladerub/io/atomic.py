@@ -57,7 +57,7 @@ def writing(path: str | Path, mode: str = "w") -> Iterator[IO]:
         temporary.unlink(missing_ok=True)
 
 
-def sweep(folder: str | Path) -> None:
+def delete_abandoned(folder: str | Path) -> None:
     """Delete, anywhere below `folder`, the temporary files of processes that no longer live."""
     for path in Path(folder).rglob(".*.tmp"):
         name = _TEMPORARY.fullmatch(path.name)

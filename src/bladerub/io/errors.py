@@ -19,7 +19,7 @@ class BadInput(ValueError):
     """Something given that cannot be used; the message says what would be right, in one line a fault."""
 
 
-def in_words(error: OSError | BadInput) -> str:
+def message_for(error: OSError | BadInput) -> str:
     """Say what is at fault and what to do about it; in one line, if it is a file."""
     if isinstance(error, BadInput):
         return str(error)
@@ -40,10 +40,10 @@ def in_words(error: OSError | BadInput) -> str:
 
 
 @contextmanager
-def end_the_program() -> Iterator[None]:
+def exit_on_error() -> Iterator[None]:
     """Turn an `OSError` or `BadInput` into its words on standard error and exit code 2, no traceback."""
     try:
         yield
     except (OSError, BadInput) as error:
-        print(in_words(error), file=sys.stderr)
+        print(message_for(error), file=sys.stderr)
         sys.exit(2)

@@ -33,7 +33,7 @@ def held(path: str | Path, on_wait: Callable[[], object]) -> Iterator[None]:
         yield
 
 
-def join(path: str | Path) -> tuple[IO, bool]:
+def share(path: str | Path) -> tuple[IO, bool]:
     """Share the lock file `path` until the returned stream is closed, and tell whether nobody else did."""
     stream, alone = _opened(path), False
     with suppress(OSError):  # no such locks here

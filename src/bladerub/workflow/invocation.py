@@ -46,7 +46,7 @@ def begin(snakemake_folder: str | Path, results: str | Path) -> IO:
         If one of the folders cannot be written.
     """
     locks = Path(snakemake_folder) / "locks"
-    stream, alone = lock.join(Path(snakemake_folder) / "bladerub.io.lock")
+    stream, alone = lock.share(Path(snakemake_folder) / "bladerub.lock")
     if not alone:
         _tell("another snakemake is at work in this folder; if it keeps this one out, wait for its end")
     elif any(locks.glob("*.lock")):
@@ -90,4 +90,4 @@ def prepare(results: str | Path) -> None:
             pass
     except OSError as error:
         raise OSError(error.errno, error.strerror, str(results)) from error
-    atomic.sweep(results)
+    atomic.delete_abandoned(results)

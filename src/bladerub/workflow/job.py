@@ -27,4 +27,4 @@ def _tell(kind: type[BaseException], error: BaseException, trace: TracebackType 
         return
     for stream in (sys.stderr, sys.__stderr__):
         with suppress(OSError):
-            print(errors.in_words(error), file=stream)
+            print(errors.message_for(error), file=stream)

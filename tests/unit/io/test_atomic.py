@@ -49,13 +49,13 @@ def test_a_kill_leaves_the_old_file_and_a_temporary_one_that_is_swept(tmp_path, 
     path = tmp_path / "file"
     path.write_text("old")
     process = half_writing(path)
-    atomic.sweep(tmp_path.parent)
+    atomic.delete_abandoned(tmp_path.parent)
     assert len(list(tmp_path.iterdir())) == 2  # it lives, and its file stays
     process.send_signal(sign)
     process.wait()
     assert path.read_text() == "old"
     assert len(list(tmp_path.iterdir())) == 2
-    atomic.sweep(tmp_path.parent)
+    atomic.delete_abandoned(tmp_path.parent)
     assert list(tmp_path.iterdir()) == [path]
 
 
@@ -66,7 +66,7 @@ def test_of_another_host_only_what_is_old_is_swept(tmp_path):
     long_ago = time.time() - 7200
     os.utime(old, (long_ago, long_ago))
     os.utime(foreign, (long_ago, long_ago))
-    atomic.sweep(tmp_path)
+    atomic.delete_abandoned(tmp_path)
     assert sorted(tmp_path.iterdir()) == [fresh, foreign]
 
 

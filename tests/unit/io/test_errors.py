@@ -23,7 +23,7 @@ from bladerub.io import errors
     ],
 )
 def test_file_and_remedy_in_one_line(error, words):
-    line = errors.in_words(error)
+    line = errors.message_for(error)
     assert line.startswith(words)
     assert "\n" not in line
 
@@ -36,7 +36,7 @@ def test_file_and_remedy_in_one_line(error, words):
     ],
 )
 def test_the_program_ends_without_a_traceback(error, words, capsys):
-    with pytest.raises(SystemExit) as ended, errors.end_the_program():
+    with pytest.raises(SystemExit) as ended, errors.exit_on_error():
         raise error
     assert ended.value.code == 2
     assert capsys.readouterr().err.startswith(words)

@@ -42,13 +42,13 @@ def test_a_killed_holder_leaves_no_lock(tmp_path, holder):
 
 
 def test_joining_tells_whether_somebody_else_is_there(tmp_path):
-    first, alone = lock.join(tmp_path / "lock")
+    first, alone = lock.share(tmp_path / "lock")
     assert alone
-    second, alone = lock.join(tmp_path / "lock")
+    second, alone = lock.share(tmp_path / "lock")
     assert not alone
     first.close()
     second.close()
-    third, alone = lock.join(tmp_path / "lock")
+    third, alone = lock.share(tmp_path / "lock")
     assert alone
     third.close()
 
@@ -61,6 +61,6 @@ def test_where_there_are_no_locks_work_goes_on(tmp_path, monkeypatch):
     done = []
     with lock.held(tmp_path / "lock", lambda: None):
         done.append(1)
-    stream, alone = lock.join(tmp_path / "lock")
+    stream, alone = lock.share(tmp_path / "lock")
     stream.close()
     assert (done, alone) == ([1], False)

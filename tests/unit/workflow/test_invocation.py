@@ -98,4 +98,4 @@ def test_a_folder_that_cannot_be_made_is_named(tmp_path):
     (tmp_path / "results").touch()
     with pytest.raises(OSError, match="results") as raised:
         invocation.prepare(tmp_path / "results")
-    assert "\n" not in errors.in_words(raised.value)
+    assert "\n" not in errors.message_for(raised.value)
