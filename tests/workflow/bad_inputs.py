@@ -259,7 +259,7 @@ CONFIGS: dict[str, tuple[dict[str, Any] | str, str]] = {
     "aliases without end": (
         "a: &a [x, x, x, x, x, x, x, x]\n"
         + "".join(f"{new}: &{new} [{', '.join([f'*{old}'] * 9)}]\n" for old, new in pairwise("abcdefg")),
-        "overlay.yaml:1: not valid YAML (more than 100000 values, aliases counted wherever they stand)",
+        "overlay.yaml:1: not valid YAML (more than 100000 values, aliases counted wherever they are used)",
     ),
 }
 
@@ -281,7 +281,7 @@ UNREADABLE: dict[str, tuple[str | bytes, str]] = {
             f"{new}: &{new} {{{', '.join(f'{key}: *{old}' for key in 'pqrstuvwx')}}}\n"
             for old, new in pairwise("abcdefghijkl")
         ),
-        "overlay.yaml:1: not valid YAML (more than 100000 values, aliases counted wherever they stand)",
+        "overlay.yaml:1: not valid YAML (more than 100000 values, aliases counted wherever they are used)",
     ),
     "more digits than Python reads": (
         "blade: {length: " + "9" * 5000 + "}\n",

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from bladerub.cli.errors import InputError
 from bladerub.config import read as configuration
-from bladerub.config.errors import shown
+from bladerub.config.errors import format_value
 from bladerub.io.errors import BadInput
 from bladerub.io.sources import ROOT
 
@@ -51,7 +51,7 @@ def require(options: argparse.Namespace, **bounds: tuple[int, int]) -> None:
     for option, (smallest, largest) in bounds.items():
         value = getattr(options, option)
         if value is not None and not smallest <= value <= largest:
-            raise InputError(f"--{option} = {shown(value)}: must be from {smallest} to {largest}")
+            raise InputError(f"--{option} = {format_value(value)}: must be from {smallest} to {largest}")
 
 
 def require_room(option: str, path: Path) -> None:
@@ -75,7 +75,7 @@ def read_config(options: argparse.Namespace) -> dict[str, Any]:
     Raises
     ------
     ConfigError
-        If it is at fault.
+        If it is at problem.
     """
     return configuration.read(BASE_CONFIG, *options.config)
 

@@ -16,7 +16,7 @@ from tqdm import tqdm
 
 from bladerub.cli import inputs
 from bladerub.cli.errors import InputError
-from bladerub.config.errors import shown
+from bladerub.config.errors import format_value
 from bladerub.config.read import check_quantity
 
 _KINDS = {"abradable": ("E", "K", "theta", "friction"), "rigid": ("friction",)}
@@ -68,7 +68,7 @@ def run(options: argparse.Namespace) -> None:
     Raises
     ------
     ConfigError
-        If the config is at fault.
+        If the config is at problem.
     InputError
         If an option is.
     """
@@ -130,7 +130,9 @@ def _config(options: argparse.Namespace) -> dict[str, Any]:
 
 def _check_options(options: argparse.Namespace, config: dict[str, Any]) -> None:
     if options.casing not in config["casings"]:
-        raise InputError(f"--casing = {shown(options.casing)}: {_one_of(options.casing, config['casings'])}")
+        raise InputError(
+            f"--casing = {format_value(options.casing)}: {_one_of(options.casing, config['casings'])}"
+        )
     _complete_coating(options)
     for option in (*_KINDS[options.coating], "f"):
         value = getattr(options, option)

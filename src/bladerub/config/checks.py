@@ -13,7 +13,7 @@ from bladerub.blade import geometry
 from bladerub.blade.model import N_INTERFACE
 from bladerub.blade.sources import matrix_folder, origin
 from bladerub.blade.sources.origin import MatrixSource
-from bladerub.config.errors import shown
+from bladerub.config.errors import format_value
 from bladerub.contact.casing import shape
 from bladerub.contact.spec import Casing
 from bladerub.io.sources import ROOT
@@ -38,8 +38,8 @@ _checks: list[tuple[Check, frozenset[str]]] = []
 
 
 def check(config: Config, broken: Collection[str]) -> list[str]:
-    """List the faults of `config`, leaving out checks that read a top-level key in `broken`."""
-    return [fault for function, parts in _checks if not parts & set(broken) for fault in function(config)]
+    """List the problems of `config`, leaving out checks that read a top-level key in `broken`."""
+    return [problem for function, parts in _checks if not parts & set(broken) for problem in function(config)]
 
 
 def _reads(*parts: str) -> Callable[[Check], Check]:
@@ -53,7 +53,7 @@ def _reads(*parts: str) -> Callable[[Check], Check]:
 @_reads("results")
 def _results(config: Config) -> Iterator[str]:
     folders = config["results"].split("/")
-    where = f"results = {shown(config['results'])}"
+    where = f"results = {format_value(config['results'])}"
     if folders[0].casefold() in SOURCE_FOLDERS:
         yield f"{where}: must not be in {folders[0]}, which is the repository's own"
     for path in accumulate(folders, os.path.join):
@@ -83,10 +83,12 @@ def _blade_source(blade: Config) -> Iterator[str]:
         try:
             matrix_folder.files(given.folder)
         except ValueError as error:
-            yield f"blade.source.matrices = {shown(blade['source']['matrices'])}: {error} ({given.folder})"
+            where = f"blade.source.matrices = {format_value(blade['source']['matrices'])}"
+            yield f"{where}: {error} ({given.folder})"
         return
     if not given.file.is_file():
-        yield f"blade.source.file = {shown(blade['source']['file'])}: there is no such file ({given.file})"
+        where = f"blade.source.file = {format_value(blade['source']['file'])}"
+        yield f"{where}: there is no such file ({given.file})"
     if given.is_table:
         try:
             _check_size(blade["mesh"])

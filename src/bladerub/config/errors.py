@@ -1,4 +1,4 @@
-"""Faults of a config: where each is, and how it is told."""
+"""Problems of a config: where each is, and the line that reports it."""
 
 from __future__ import annotations
 
@@ -8,11 +8,10 @@ from typing import Any, NamedTuple
 
 from bladerub.io.errors import BadInput
 
-_MOST_LINES = 40
-"""Faults that are told; who has more will mend these first."""
+_MOST_REPORTED = 40
 
 
-class Place(NamedTuple):
+class Location(NamedTuple):
     """Where a value of a config comes from.
 
     Parameters
@@ -30,36 +29,33 @@ class Place(NamedTuple):
         return f"{self.source}:{self.line}" if self.line else self.source
 
 
-UNKNOWN = Place("config")
+UNKNOWN = Location("config")
 
 
-class Fault(NamedTuple):
-    """What is wrong, and where.
+class Problem(NamedTuple):
+    """Location, and a text of key, value and what would be right: ``coatings[1].E[0] = -1: must be ...``."""
 
-    Parameters
-    ----------
-    place : Place
-        The file and line, as far as they are known.
-    text : str
-        Key, value and what would be right: ``coatings[1].E[0] = -1: Young modulus must be ...``.
-    """
-
-    place: Place
+    location: Location
     text: str
 
     def __str__(self) -> str:
-        return f"{self.place}: {self.text}"
+        return f"{self.location}: {self.text}"
 
 
 class ConfigError(BadInput):
-    """One or more faults of a configuration, one line each."""
+    """One or more problems of a configuration, one line each."""
 
-    def __init__(self, faults: Iterable[Fault]):
-        self.faults = list(faults)
-        lines = [str(fault) for fault in self.faults[:_MOST_LINES]]
-        if len(self.faults) > _MOST_LINES:
-            lines.append(f"config: and {len(self.faults) - _MOST_LINES} faults more")
+    def __init__(self, problems: Iterable[Problem]):
+        self.problems = list(problems)
+        lines = [str(problem) for problem in self.problems[:_MOST_REPORTED]]
+        if len(self.problems) > _MOST_REPORTED:
+            lines.append(f"config: and {len(self.problems) - _MOST_REPORTED} problems more")
         super().__init__("\n".join(lines))
+
+    @classmethod
+    def at(cls, location: Location, text: str) -> ConfigError:
+        """Make the error of a single problem."""
+        return cls([Problem(location, text)])
 
 
 def key_path(parts: Iterable[Any]) -> str:
@@ -67,13 +63,12 @@ def key_path(parts: Iterable[Any]) -> str:
     text = ""
     for part in parts:
         plain = isinstance(part, str) and re.fullmatch(r"\w{1,60}", part)
-        text += f"{'.' if text else ''}{part}" if plain else f"[{shown(part)}]"
+        text += f"{'.' if text else ''}{part}" if plain else f"[{format_value(part)}]"
     return text
 
 
-def shown(value: Any) -> str:
+def format_value(value: Any) -> str:
     """Write a value of the config on one short line of printable characters."""
     text = f'"{value}"' if isinstance(value, str) else repr(value)
-    text = "".join(char if char.isprintable() else " " for char in text)
-    text = " ".join(text.split())
+    text = " ".join("".join(char if char.isprintable() else " " for char in text).split())
     return text if len(text) <= 60 else text[:57] + "..."

@@ -1,7 +1,7 @@
-"""Config files: YAML read with the place of every value, and laid over one another.
+"""Config files: YAML read with the location of every value, and laid over one another.
 
-A file can extend others (key ``extend``): they are read first, and it is laid over them. Files are read with
-bounds, so that none of them can run code, fill the memory or take for ever.
+A file can extend others (key ``extend``): they are read first, and it is laid over them. The limits below
+keep any file from running code, filling the memory or taking for ever.
 """
 
 from __future__ import annotations
@@ -15,46 +15,71 @@ from typing import Any, NamedTuple
 
 import yaml
 
-from bladerub.config.errors import UNKNOWN, ConfigError, Fault, Place, key_path, shown
+from bladerub.config.errors import UNKNOWN, ConfigError, Location, format_value, key_path
 
-LARGEST_FILE = 1_000_000
-"""Bytes of a config file."""
-
-MOST_VALUES = 100_000
-"""Values in a config file, those of an alias counted wherever it stands."""
-
-LONGEST_VALUE = 1000
-"""Characters of one value or key."""
-
-DEEPEST = 32
-"""Levels of mappings and lists in one another."""
-
-MOST_EXTENDED = 20
-"""Files that are read because one extends the other."""
-
-COMMAND_LINE = Place("--config")
+LARGEST_FILE = 1_000_000  # bytes
+MOST_VALUES = 100_000  # in a file, those of an alias counted wherever it is used
+LONGEST_VALUE = 1000  # characters of a value or key
+DEEPEST = 32  # levels of mappings and lists
+MOST_EXTENDED = 20  # files read because one extends the other
 
 _NUMBER = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)[eE][-+]?\d+")
 _TAGS = {yaml.MappingNode: "tag:yaml.org,2002:map", yaml.SequenceNode: "tag:yaml.org,2002:seq"}
-_TEXT = "tag:yaml.org,2002:str"
 
 
-class Marked(NamedTuple):
-    """A value of a config and its place.
+class Located(NamedTuple):
+    """A value of a config and its location.
 
     Parameters
     ----------
     content : object
-        A `dict` of `Marked` by key, a `list` of them, or a plain value.
-    place : Place
-        Where it stands; that of a mapping is where it was last added to.
+        A `dict` of `Located` by key, a `list` of them, or a plain value.
+    location : Location
+        Of a mapping, where it was last added to.
     """
 
     content: Any
-    place: Place
+    location: Location
+
+    @classmethod
+    def of(cls, value: Any, location: Location) -> Located:
+        """Give `value` and all that is in it the same location."""
+        if isinstance(value, Mapping):
+            return cls({str(key): cls.of(entry, location) for key, entry in value.items()}, location)
+        if isinstance(value, list):
+            return cls([cls.of(entry, location) for entry in value], location)
+        return cls(value, location)
+
+    def plain(self) -> Any:
+        """Return the values alone."""
+        if isinstance(self.content, dict):
+            return {key: entry.plain() for key, entry in self.content.items()}
+        if isinstance(self.content, list):
+            return [entry.plain() for entry in self.content]
+        return self.content
+
+    def merged(self, overlay: Located) -> Located:
+        """Change a copy by what `overlay` holds: mappings merge, all else is replaced."""
+        if not isinstance(self.content, dict) or not isinstance(overlay.content, dict):
+            return overlay
+        merged = dict(self.content)
+        for key, value in overlay.content.items():
+            merged[key] = merged[key].merged(value) if key in merged else value
+        return Located(merged, overlay.location)
+
+    def locations(self) -> dict[str, Location]:
+        """Return the location of every value, by its path as `bladerub.config.errors.key_path` writes it."""
+        return {key_path(parts): location for parts, location in self._walk(()) if parts}
+
+    def _walk(self, parts: tuple) -> Iterator[tuple[tuple, Location]]:
+        yield parts, self.location
+        if isinstance(self.content, dict | list):
+            pairs = self.content.items() if isinstance(self.content, dict) else enumerate(self.content)
+            for part, entry in pairs:
+                yield from entry._walk((*parts, part))
 
 
-def compose(*paths: str | Path, command_line: Mapping[str, Any] | None = None) -> Marked:
+def compose(*paths: str | Path, command_line: Mapping[str, Any] | None = None) -> Located:
     """Read YAML files, each laid over those before it, and the values of the command line over them all.
 
     Parameters
@@ -63,64 +88,23 @@ def compose(*paths: str | Path, command_line: Mapping[str, Any] | None = None) -
         The files; each is laid over those that it extends.
     command_line : mapping, optional
         What ``snakemake --config`` was given; below the top, Snakemake leaves numbers as text. A key
-        ``extend`` names files as seen from the working directory.
+        ``extend`` names files relative to the working directory.
 
     Raises
     ------
     ConfigError
-        If a file is missing, is not YAML, not a mapping or beyond bounds; names the file and the line.
+        If a file is missing, is not YAML, not a mapping or beyond limits; names the file and the line.
     """
     layers = [read(path) for path in paths]
     if command_line:
-        layers.append(extended(mark(_from_text(command_line), COMMAND_LINE)))
-    whole = Marked({}, UNKNOWN)
+        layers.append(resolve_extend(Located.of(_from_text(command_line), Location("--config"))))
+    whole = Located({}, UNKNOWN)
     for layer in layers:
-        whole = lay_over(whole, layer)
+        whole = whole.merged(layer)
     return whole
 
 
-def lay_over(base: Marked, overlay: Marked) -> Marked:
-    """Change `base` by what `overlay` holds, into a copy: mappings merge, all else is replaced."""
-    if not isinstance(base.content, dict) or not isinstance(overlay.content, dict):
-        return overlay
-    merged = dict(base.content)
-    for key, value in overlay.content.items():
-        merged[key] = lay_over(merged[key], value) if key in merged else value
-    return Marked(merged, overlay.place)
-
-
-def mark(value: Any, place: Place) -> Marked:
-    """Give `value` and all that is in it the same place."""
-    if isinstance(value, Mapping):
-        return Marked({str(key): mark(entry, place) for key, entry in value.items()}, place)
-    if isinstance(value, list):
-        return Marked([mark(entry, place) for entry in value], place)
-    return Marked(value, place)
-
-
-def plain(marked: Marked) -> Any:
-    """Return the values alone."""
-    if isinstance(marked.content, dict):
-        return {key: plain(entry) for key, entry in marked.content.items()}
-    if isinstance(marked.content, list):
-        return [plain(entry) for entry in marked.content]
-    return marked.content
-
-
-def places(marked: Marked) -> dict[str, Place]:
-    """Return the place of every value, by its path as `bladerub.config.errors.key_path` writes it."""
-    return {key_path(parts): place for parts, place in _walk(marked, ()) if parts}
-
-
-def _walk(marked: Marked, parts: tuple) -> Iterator[tuple[tuple, Place]]:
-    yield parts, marked.place
-    inner = marked.content
-    pairs = inner.items() if isinstance(inner, dict) else enumerate(inner) if isinstance(inner, list) else ()
-    for part, entry in pairs:
-        yield from _walk(entry, (*parts, part))
-
-
-def read(path: str | Path, key: str | None = None) -> Marked:
+def read(path: str | Path, key: str | None = None) -> Located:
     """Read one YAML file and those that it extends.
 
     Parameters
@@ -128,7 +112,7 @@ def read(path: str | Path, key: str | None = None) -> Marked:
     path : path-like
         The file.
     key : str, optional
-        The key of the config that names it, told if the file cannot be read.
+        The key of the config that names it, reported if the file cannot be read.
 
     Raises
     ------
@@ -136,99 +120,98 @@ def read(path: str | Path, key: str | None = None) -> Marked:
         As for `compose`.
     """
     path = Path(path)
-    asked, said = (UNKNOWN, f"{key} = {shown(str(path))}: ") if key else (Place(_name(path)), "")
-    return _extended(_read(path, asked, said), [], (os.path.realpath(path),))
+    asked, prefix = Location(_name(path)), ""
+    if key:
+        asked, prefix = UNKNOWN, f"{key} = {format_value(str(path))}: "
+    return _extended(_read(path, asked, prefix), [], (os.path.realpath(path),))
 
 
-def extended(layer: Marked) -> Marked:
+def resolve_extend(layer: Located) -> Located:
     """Lay the mapping `layer` over the files that its key ``extend`` names.
 
     Raises
     ------
     ConfigError
-        As for `compose`; the place is that of the name which is at fault.
+        As for `compose`, at the location of the name.
     """
     return _extended(layer, [], ())
 
 
-def _extended(layer: Marked, opened: list[Path], chain: tuple[str, ...]) -> Marked:
+def _extended(layer: Located, opened: list[Path], chain: tuple[str, ...]) -> Located:
     if not isinstance(layer.content, dict) or "extend" not in layer.content:
         return layer
-    whole = Marked({}, layer.place)
+    whole = Located({}, layer.location)
     for name in _names(layer.content["extend"]):
-        folder = Path(name.place.source).parent if name.place.line else Path()
-        path, said = folder / name.content, f"extend = {shown(name.content)}: "
+        folder = Path(name.location.source).parent if name.location.line else Path()
+        path, prefix = folder / name.content, f"extend = {format_value(name.content)}: "
         real = os.path.realpath(path)
         if real in chain:
-            raise ConfigError([Fault(name.place, f"{said}these files extend each other in a circle")])
+            raise ConfigError.at(name.location, f"{prefix}these files extend each other in a circle")
         opened.append(path)
         if len(opened) > MOST_EXTENDED:
-            raise ConfigError([Fault(name.place, f"{said}must not lead to more than {MOST_EXTENDED} files")])
-        base = _extended(_read(path, name.place, said), opened, (*chain, real))
-        whole = lay_over(whole, base)
+            raise ConfigError.at(name.location, f"{prefix}must not lead to more than {MOST_EXTENDED} files")
+        base = _extended(_read(path, name.location, prefix), opened, (*chain, real))
+        whole = whole.merged(base)
     own = {key: value for key, value in layer.content.items() if key != "extend"}
-    return lay_over(whole, Marked(own, layer.place))
+    return whole.merged(Located(own, layer.location))
 
 
-def _names(entry: Marked) -> list[Marked]:
+def _names(entry: Located) -> list[Located]:
     names = entry.content if isinstance(entry.content, list) else [entry]
     for name in names:
         is_file = isinstance(name.content, str) and re.fullmatch(r"[^\0]+\.ya?ml", name.content)
         if not is_file or "://" in name.content:
             right = "the path of a .yaml file, or a list of such, as seen from the file that says so"
-            raise ConfigError([Fault(name.place, f"extend = {shown(plain(name))}: must be {right}")])
+            raise ConfigError.at(name.location, f"extend = {format_value(name.plain())}: must be {right}")
     return names
 
 
 def _name(path: Path) -> str:
-    """Write `path` as seen from the working directory, if it is below that."""
+    """Write `path` relative to the working directory, if it is below that."""
     path = Path(os.path.abspath(path))
     return str(path.relative_to(Path.cwd()) if path.is_relative_to(Path.cwd()) else path)
 
 
-def _read(path: Path, asked: Place, said: str) -> Marked:
-    """Read one YAML file; that it cannot be read is told at the place that `asked` for it."""
+def _read(path: Path, asked: Location, prefix: str) -> Located:
+    """Read one YAML file; that it cannot be opened is reported at the location that `asked` for it."""
     try:
         about = os.stat(path)
         if not stat.S_ISREG(about.st_mode):
             kind = "is a folder" if stat.S_ISDIR(about.st_mode) else "is not a regular file"
-            raise ConfigError([Fault(asked, f"{said}{kind}, must be a YAML file")])
+            raise ConfigError.at(asked, f"{prefix}{kind}, must be a YAML file")
         if about.st_size > LARGEST_FILE:
-            raise ConfigError([Fault(asked, f"{said}is larger than {LARGEST_FILE / 1e6:g} MB, no config is")])
+            raise ConfigError.at(asked, f"{prefix}is larger than {LARGEST_FILE / 1e6:g} MB, no config is")
         text = path.read_text(encoding="utf-8")
     except OSError as error:
-        raise ConfigError([Fault(asked, f"{said}cannot be read ({error.strerror})")]) from error
+        raise ConfigError.at(asked, f"{prefix}cannot be read ({error.strerror})") from error
     except UnicodeDecodeError as error:
-        raise ConfigError([Fault(asked, f"{said}is not text in UTF-8")]) from error
+        raise ConfigError.at(asked, f"{prefix}is not text in UTF-8") from error
     source = _name(path)
     try:
-        marked = _Loader(text).read(source)
+        located = _Loader(text).read(source)
     except yaml.YAMLError as error:
-        mark = getattr(error, "problem_mark", None)
-        line = mark.line + 1 if mark else _line_of(text, getattr(error, "position", None))
+        mark, position = getattr(error, "problem_mark", None), getattr(error, "position", None)
+        line = mark.line + 1 if mark else 0 if position is None else text.count("\n", 0, position) + 1
         problem = getattr(error, "problem", None) or getattr(error, "reason", None) or str(error)
-        fault = Fault(Place(source, line), f"not valid YAML ({' '.join(problem.split())})")
-        raise ConfigError([fault]) from error
-    if not isinstance(marked.content, dict):
+        raise ConfigError.at(
+            Location(source, line), f"not valid YAML ({' '.join(problem.split())})"
+        ) from error
+    if not isinstance(located.content, dict):
         problem = "must hold keys at its top level, such as those of config/config.yaml"
-        raise ConfigError([Fault(Place(source), problem)])
-    return marked
-
-
-def _line_of(text: str, position: int | None) -> int:
-    return 0 if position is None else text.count("\n", 0, position) + 1
+        raise ConfigError.at(Location(source), problem)
+    return located
 
 
 class _Loader(yaml.SafeLoader):
-    """Reads one document into `Marked` values; a key given twice and what is beyond bounds are faults."""
+    """Reads one document into `Located` values; refuses a key given twice and what is beyond limits."""
 
     def __init__(self, text: str):
         super().__init__(text)
         self._depth = self._n_nodes = self._n_values = 0
 
-    def read(self, source: str) -> Marked:
+    def read(self, source: str) -> Located:
         node = self.get_single_node()
-        return Marked(None, Place(source)) if node is None else self._marked(node, source, 1)
+        return Located(None, Location(source)) if node is None else self._located(node, source, 1)
 
     def compose_node(self, parent: yaml.Node | None, index: Any) -> yaml.Node:
         self._depth += 1
@@ -238,31 +221,31 @@ class _Loader(yaml.SafeLoader):
         self._depth -= 1
         return node
 
-    def _marked(self, node: yaml.Node, source: str, depth: int) -> Marked:
+    def _located(self, node: yaml.Node, source: str, depth: int) -> Located:
         self._n_values += 1
         self._check(depth, self._n_values, node.start_mark)
-        place = Place(source, node.start_mark.line + 1)
+        location = Location(source, node.start_mark.line + 1)
         if isinstance(node, yaml.ScalarNode):
-            return Marked(self.scalar(node), place)
+            return Located(self.scalar(node), location)
         if node.tag != _TAGS[type(node)]:
-            raise _problem(f"the tag {shown(node.tag)} is not for configs", node)
+            raise _error(f"the tag {format_value(node.tag)} is not for configs", node)
         if isinstance(node, yaml.SequenceNode):
-            return Marked([self._marked(entry, source, depth + 1) for entry in node.value], place)
-        content: dict[str, Marked] = {}
+            return Located([self._located(entry, source, depth + 1) for entry in node.value], location)
+        content: dict[str, Located] = {}
         for key_node, entry in node.value:
             key = self._key(key_node)
             if key in content:
-                raise _problem(f"{key_path([key])} is given twice", key_node)
-            value = self._marked(entry, source, depth + 1)
-            content[key] = value._replace(place=Place(source, key_node.start_mark.line + 1))
-        return Marked(content, place)
+                raise _error(f"{key_path([key])} is given twice", key_node)
+            value = self._located(entry, source, depth + 1)
+            content[key] = value._replace(location=Location(source, key_node.start_mark.line + 1))
+        return Located(content, location)
 
     @staticmethod
     def _check(depth: int, number: int, mark: yaml.Mark) -> None:
         if depth > DEEPEST:
             problem = f"more than {DEEPEST} levels in one another"
         elif number > MOST_VALUES:
-            problem = f"more than {MOST_VALUES} values, aliases counted wherever they stand"
+            problem = f"more than {MOST_VALUES} values, aliases counted wherever they are used"
         else:
             return
         raise yaml.MarkedYAMLError(problem=problem, problem_mark=mark)
@@ -270,32 +253,28 @@ class _Loader(yaml.SafeLoader):
     @staticmethod
     def _key(node: yaml.Node) -> str:
         if not isinstance(node, yaml.ScalarNode):
-            raise _problem("a key must be text", node)
+            raise _error("a key must be text", node)
         if len(node.value) > LONGEST_VALUE:
-            raise _problem(f"a key of more than {LONGEST_VALUE} characters", node)
-        if node.tag != _TEXT:
-            raise _problem(f"a key must be text, write {shown(node.value)}", node)
+            raise _error(f"a key of more than {LONGEST_VALUE} characters", node)
+        if node.tag != "tag:yaml.org,2002:str":
+            raise _error(f"a key must be text, write {format_value(node.value)}", node)
         return node.value
 
     def scalar(self, node: yaml.ScalarNode) -> Any:
         if len(node.value) > LONGEST_VALUE:
-            raise _problem(f"a value of more than {LONGEST_VALUE} characters", node)
+            raise _error(f"a value of more than {LONGEST_VALUE} characters", node)
         try:
             value = self.construct_object(node)
         except yaml.YAMLError:
             raise
         except Exception as error:  # the text may not hold what its tag or its form promises
-            raise _problem(f"{shown(node.value)} is no {node.tag.rsplit(':', 1)[-1]}", node) from error
-        return _number(value) if isinstance(value, str) else value
+            raise _error(f"{format_value(node.value)} is no {node.tag.rsplit(':', 1)[-1]}", node) from error
+        # YAML 1.1 leaves numbers such as 1e-3 as text
+        return float(value) if isinstance(value, str) and _NUMBER.fullmatch(value) else value
 
 
-def _problem(problem: str, node: yaml.Node) -> yaml.MarkedYAMLError:
+def _error(problem: str, node: yaml.Node) -> yaml.MarkedYAMLError:
     return yaml.MarkedYAMLError(problem=problem, problem_mark=node.start_mark)
-
-
-def _number(text: str) -> float | str:
-    """Read numbers such as 1e-3, which YAML 1.1 leaves as text."""
-    return float(text) if _NUMBER.fullmatch(text) else text
 
 
 def _from_text(value: Any) -> Any:

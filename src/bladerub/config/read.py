@@ -1,7 +1,7 @@
 """The configuration: read, merged, and checked before anything is computed.
 
-`read` lays YAML files over one another as Snakemake does, and checks what comes out; every fault is answered
-with one line that names the place, the key, the value and what would be right.
+`read` lays YAML files over one another as Snakemake does and checks the result; it reports every problem in
+one line that names the location, the key, the value and what would be right.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from typing import Any
 import jsonschema
 
 from bladerub.config import files
-from bladerub.config.errors import UNKNOWN, ConfigError, Fault, Place, key_path, shown
+from bladerub.config.errors import UNKNOWN, ConfigError, Location, Problem, format_value, key_path
 from bladerub.io.sources import ROOT
 
 SCHEMA = ROOT / "config" / "schema.yaml"
@@ -31,7 +31,7 @@ def load(*paths: str | Path) -> dict[str, Any]:
     ConfigError
         As for `bladerub.config.files.compose`.
     """
-    return files.plain(files.compose(*paths))
+    return files.compose(*paths).plain()
 
 
 def read(*paths: str | Path, command_line: Mapping[str, Any] | None = None) -> dict[str, Any]:
@@ -47,18 +47,18 @@ def read(*paths: str | Path, command_line: Mapping[str, Any] | None = None) -> d
     ConfigError
         As for `bladerub.config.files.compose` and `validate`.
     """
-    return checked(files.compose(*paths, command_line=command_line))
+    return validate_located(files.compose(*paths, command_line=command_line))
 
 
-def checked(composed: files.Marked) -> dict[str, Any]:
+def validate_located(composed: files.Located) -> dict[str, Any]:
     """Return the values of a config that was read, after a check.
 
     Raises
     ------
     ConfigError
-        Every fault found, with the file and line of the value.
+        Every problem found, with the file and line of the value.
     """
-    return validate(files.plain(composed), files.places(composed))
+    return validate(composed.plain(), composed.locations())
 
 
 @cache
@@ -71,21 +71,19 @@ def schema() -> dict[str, Any]:
         If it is not beside the package, that is if the package was not installed in place.
     """
     if not SCHEMA.is_file():
-        raise ConfigError(
-            [Fault(UNKNOWN, f"{SCHEMA} is missing: install bladerub in place, pip install -e .")]
-        )
+        raise ConfigError.at(UNKNOWN, f"{SCHEMA} is missing: install bladerub in place, pip install -e .")
     return load(SCHEMA)
 
 
-def validate(config: dict[str, Any], places: Mapping[str, Place] | None = None) -> dict[str, Any]:
+def validate(config: dict[str, Any], locations: Mapping[str, Location] | None = None) -> dict[str, Any]:
     """Check `config` against the schema and for what a schema cannot say.
 
     Parameters
     ----------
     config : dict
         As from `load`.
-    places : mapping of str to Place, optional
-        From `bladerub.config.files.places`, to name the places of the faults.
+    locations : mapping of str to Location, optional
+        From `bladerub.config.files.Located.locations`, to name the locations of the problems.
 
     Returns
     -------
@@ -95,25 +93,27 @@ def validate(config: dict[str, Any], places: Mapping[str, Place] | None = None) 
     Raises
     ------
     ConfigError
-        Every fault found, one line each: place, key, value and what would be right. What a schema cannot say
-        is checked for those parts of the config that agree with the schema.
+        Every problem found, one line each: location, key, value and what would be right. What a schema cannot
+        say is checked for those parts of the config that agree with the schema.
     """
     from bladerub.config.checks import check  # it needs the parts of the package that need this module
 
     errors = sorted(_validator().iter_errors(config), key=lambda error: [str(part) for part in error.path])
-    faults = [line for error in errors for line in _describe(error)]
+    problems = [line for error in errors for line in _describe(error)]
     broken = {str(error.path[0]) if error.path else "" for error in errors}
-    faults += check(config, broken | (set(schema()["required"]) - set(config)))
-    if faults:
-        raise ConfigError([Fault(_place(fault, places or {}), fault) for fault in dict.fromkeys(faults)])
+    problems += check(config, broken | (set(schema()["required"]) - set(config)))
+    if problems:
+        raise ConfigError(
+            [Problem(_location(problem, locations or {}), problem) for problem in dict.fromkeys(problems)]
+        )
     return config
 
 
-def _place(fault: str, places: Mapping[str, Place]) -> Place:
-    """Find the place of the key that a fault begins with, or of the innermost group that it is missing in."""
-    ends = (match.start() for match in re.finditer(r"[ :.[]", fault))
-    keys = [fault[:end] for end in ends if fault[:end] in places]
-    return places[keys[-1]] if keys else UNKNOWN
+def _location(problem: str, locations: Mapping[str, Location]) -> Location:
+    """Find the location of the key that a problem begins with, or of its innermost known group."""
+    ends = (match.start() for match in re.finditer(r"[ :.[]", problem))
+    keys = [problem[:end] for end in ends if problem[:end] in locations]
+    return locations[keys[-1]] if keys else UNKNOWN
 
 
 @cache
@@ -146,7 +146,7 @@ def _describe(error: jsonschema.ValidationError) -> list[str]:
         known = rule["properties"]
         unknown = {key: value for key, value in error.instance.items() if key not in known}
         return [
-            f"{key_path([*parts, key])} = {shown(value)}: unknown key, {_nearest(parts, key, known)}"
+            f"{key_path([*parts, key])} = {format_value(value)}: unknown key, {_nearest(parts, key, known)}"
             for key, value in unknown.items()
         ]
     if error.validator == "required":
@@ -155,13 +155,15 @@ def _describe(error: jsonschema.ValidationError) -> list[str]:
     if "propertyNames" in error.absolute_schema_path:
         return [f"{key_path([*parts, error.instance])}: {_right(rule)}"]
     if error.validator == "uniqueItems":
-        return [f"{key_path(parts)} = {shown(error.instance)}: {rule['title']} must not name one twice"]
-    where = f"{key_path(parts)} = {shown(error.instance)}" if parts else shown(error.instance)
-    fault = f"{where}: {_right(rule)}"
+        return [
+            f"{key_path(parts)} = {format_value(error.instance)}: {rule['title']} must not name one twice"
+        ]
+    where = f"{key_path(parts)} = {format_value(error.instance)}" if parts else format_value(error.instance)
+    problem = f"{where}: {_right(rule)}"
     has_digits = isinstance(error.instance, str) and re.match(r"\s*[-+.\d]", error.instance)
     if has_digits and rule["type"] in ("number", "integer"):
-        fault += ", the number alone"
-    return [fault]
+        problem += ", the number alone"
+    return [problem]
 
 
 def _nearest(parts: list[Any], key: Any, known: dict[str, Any]) -> str:

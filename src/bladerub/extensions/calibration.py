@@ -14,8 +14,8 @@ import pandas as pd
 
 from bladerub.blade.build import build, write
 from bladerub.config import read as configuration
-from bladerub.config.errors import UNKNOWN, ConfigError, Fault, Place
-from bladerub.config.files import extended, lay_over, mark
+from bladerub.config.errors import UNKNOWN, ConfigError, Location, Problem
+from bladerub.config.files import Located, resolve_extend
 from bladerub.config.files import read as read_file
 from bladerub.extensions.small_study import make_maps
 from bladerub.io import tables
@@ -42,29 +42,29 @@ def plan(config: Mapping[str, Any]) -> dict[str, dict[str, Any]]:
     Raises
     ------
     ConfigError
-        If the file is no plan or a set no config; every fault with the set it is in.
+        If the file is no plan or a set no config; every problem with the set it is in.
     """
     path = config["calibration"]
     content = read_file(path, "calibration").content
     sets = content.get("sets")
     if content.keys() - {"common", "sets"} or sets is None or not isinstance(sets.content, dict):
-        raise ConfigError([Fault(Place(path), "must hold common and sets, and nothing else")])
-    study, configs, faults = mark(config, UNKNOWN), {}, []
+        raise ConfigError.at(Location(path), "must hold common and sets, and nothing else")
+    study, configs, problems = Located.of(config, UNKNOWN), {}, []
     for name, choices in sets.content.items():
         if not name.replace("_", "").replace(".", "").isalnum():
             text = f"{name}: the name of a set must be of letters, digits, dots and underscores"
-            faults.append(Fault(choices.place, text))
+            problems.append(Problem(choices.location, text))
             continue
         varied = study
         for layer in (content.get("common"), choices):
             if layer is not None and layer.content is not None:
-                varied = lay_over(varied, extended(layer))
+                varied = varied.merged(resolve_extend(layer))
         try:
-            configs[name] = configuration.checked(varied)
+            configs[name] = configuration.validate_located(varied)
         except ConfigError as error:
-            faults += [Fault(place, f"{name}: {text}") for place, text in error.faults]
-    if faults:
-        raise ConfigError(faults)
+            problems += [Problem(place, f"{name}: {text}") for place, text in error.problems]
+    if problems:
+        raise ConfigError(problems)
     return configs
 
 

@@ -3,15 +3,13 @@ import os
 import pytest
 
 from bladerub.config import files
-from bladerub.config.errors import ConfigError, key_path, shown
+from bladerub.config.errors import ConfigError, format_value, key_path
 from bladerub.config.files import (
     LARGEST_FILE,
     LONGEST_VALUE,
     MOST_EXTENDED,
     MOST_VALUES,
     compose,
-    places,
-    plain,
 )
 
 
@@ -40,8 +38,11 @@ def test_every_value_has_the_place_that_it_comes_from(folder):
         over="a: {c: 3,\n    d: 4}\n",
     )
     composed = compose("base.yaml", "over.yaml", command_line={"a": {"d": "5", "e": "6"}})
-    assert plain(composed) == {"a": {"b": 1, "c": 3, "d": 5, "e": 6}, "list": [{"x": 1, "y": 2}, {"x": 3}]}
-    told_at = {key: str(place) for key, place in places(composed).items()}
+    assert composed.plain() == {
+        "a": {"b": 1, "c": 3, "d": 5, "e": 6},
+        "list": [{"x": 1, "y": 2}, {"x": 3}],
+    }
+    told_at = {key: str(location) for key, location in composed.locations().items()}
     assert told_at == {
         "a": "--config",
         "a.b": "base.yaml:2",
@@ -59,7 +60,9 @@ def test_every_value_has_the_place_that_it_comes_from(folder):
 
 def test_a_list_that_is_replaced_leaves_no_places_behind(folder):
     folder(base="a: [1, 2, 3]\n", over="\na: [4]\n")
-    assert {key: place.line for key, place in places(compose("base.yaml", "over.yaml")).items()} == {
+    assert {
+        key: location.line for key, location in compose("base.yaml", "over.yaml").locations().items()
+    } == {
         "a": 2,
         "a[0]": 2,
     }
@@ -69,7 +72,7 @@ def test_files_elsewhere_are_named_in_full(tmp_path, monkeypatch):
     (tmp_path / "here").mkdir()
     (tmp_path / "a.yaml").write_text("a: 1\n")
     monkeypatch.chdir(tmp_path / "here")
-    assert str(places(compose("../a.yaml"))["a"]) == f"{tmp_path}/a.yaml:1"
+    assert str(compose("../a.yaml").locations()["a"]) == f"{tmp_path}/a.yaml:1"
 
 
 @pytest.mark.parametrize(
@@ -77,12 +80,12 @@ def test_files_elsewhere_are_named_in_full(tmp_path, monkeypatch):
     [("1", 1), ("0.5", 0.5), ("1e-3", 1e-3), (".nan", "nan"), ("true", True), ("2nd", "2nd"), ("", None)],
 )
 def test_the_command_line_reads_values_as_a_file_does(text, value):
-    read = plain(compose(command_line={"a": [text]}))["a"][0]
+    read = compose(command_line={"a": [text]}).plain()["a"][0]
     assert read == value or str(read) == value
 
 
 def test_values_that_only_look_like_a_date_stay_text_on_the_command_line():
-    assert plain(compose(command_line={"a": {"b": "2001-99-99"}})) == {"a": {"b": "2001-99-99"}}
+    assert compose(command_line={"a": {"b": "2001-99-99"}}).plain() == {"a": {"b": "2001-99-99"}}
 
 
 def test_a_file_is_laid_over_those_that_it_extends(folder, tmp_path):
@@ -94,14 +97,14 @@ def test_a_file_is_laid_over_those_that_it_extends(folder, tmp_path):
         mine="extend: [first.yaml, deeper/second.yaml]\na: {d: 3}\n",
     )
     composed = compose("base.yaml", "mine.yaml", command_line={"a": {"e": "4"}})
-    assert plain(composed) == {"a": {"b": 1, "c": 2, "d": 3, "e": 4}}
-    assert str(places(composed)["a.c"]) == "deeper/second.yaml:2"
+    assert composed.plain() == {"a": {"b": 1, "c": 2, "d": 3, "e": 4}}
+    assert str(composed.locations()["a.c"]) == "deeper/second.yaml:2"
 
 
 def test_the_command_line_can_extend(folder):
     folder(base="a: {b: 0, c: 0, d: 0}\n", mine="a: {c: 1, d: 1}\n")
     composed = compose("base.yaml", command_line={"extend": "mine.yaml", "a": {"d": "2"}})
-    assert plain(composed) == {"a": {"b": 0, "c": 1, "d": 2}}
+    assert composed.plain() == {"a": {"b": 0, "c": 1, "d": 2}}
 
 
 NAME = "must be the path of a .yaml file, or a list of such, as seen from the file that says so"
@@ -190,14 +193,14 @@ def test_long_lists_are_not_even_read_to_their_end(folder, monkeypatch):
 
 def test_a_byte_order_mark_is_no_part_of_the_first_key(folder):
     folder(a="\ufeffa: 1\n")
-    assert plain(compose("a.yaml")) == {"a": 1}
+    assert compose("a.yaml").plain() == {"a": 1}
 
 
 def test_aliases_are_read(folder):
     folder(a="a: &a [1, 2]\nb: *a\n")
     composed = compose("a.yaml")
-    assert plain(composed) == {"a": [1, 2], "b": [1, 2]}
-    assert places(composed)["b"].line == 2
+    assert composed.plain() == {"a": [1, 2], "b": [1, 2]}
+    assert composed.locations()["b"].line == 2
 
 
 def test_only_regular_files_are_opened(folder, tmp_path):
@@ -211,5 +214,5 @@ def test_only_regular_files_are_opened(folder, tmp_path):
 def test_keys_and_values_are_written_on_one_short_line():
     assert key_path(("coatings", 1, "E", 0)) == "coatings[1].E[0]"
     assert key_path(("casings", "../2nd")) == 'casings["../2nd"]'
-    assert shown(list(range(100))) == "[0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16..."
-    assert shown("a\nb\x1b[31m") == '"a b [31m"'
+    assert format_value(list(range(100))) == "[0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16..."
+    assert format_value("a\nb\x1b[31m") == '"a b [31m"'

@@ -23,10 +23,10 @@ def config(paper):
     return copy.deepcopy(paper)
 
 
-def faults(config):
+def problems(config):
     with pytest.raises(ConfigError) as error:
         validate(config)
-    return [fault.text for fault in error.value.faults]
+    return [problem.text for problem in error.value.problems]
 
 
 def rules(rule, path=""):
@@ -120,9 +120,9 @@ def test_malformed_file_is_named(tmp_path, content, words):
     path.write_bytes(content)
     with pytest.raises(ConfigError) as error:
         load(path)
-    (fault,) = map(str, error.value.faults)
-    assert fault.startswith(str(path))
-    assert words in fault
+    (problem,) = map(str, error.value.problems)
+    assert problem.startswith(str(path))
+    assert words in problem
 
 
 def test_missing_file_is_named(tmp_path):
@@ -142,18 +142,18 @@ def test_missing_schema_is_named(monkeypatch, tmp_path):
 
 def test_missing_key_is_named(config):
     del config["blade"]["length"]
-    assert faults(config) == ["blade.length: missing, blade length must be a number from 0.01 to 3, in m"]
+    assert problems(config) == ["blade.length: missing, blade length must be a number from 0.01 to 3, in m"]
 
 
 def test_key_like_no_other_is_answered_with_all(config):
     config["figures"]["xyz"] = 1
-    (fault,) = faults(config)
-    assert fault.startswith("figures.xyz = 1: unknown key, known here: dpi, max_frequency")
+    (problem,) = problems(config)
+    assert problem.startswith("figures.xyz = 1: unknown key, known here: dpi, max_frequency")
 
 
 def test_integer_is_not_a_float(config):
     config["solver"]["revolutions"] = 20.0
-    assert faults(config) == [
+    assert problems(config) == [
         "solver.revolutions = 20.0: revolutions of a run must be a whole number from 1 to 10000"
     ]
 
@@ -163,15 +163,15 @@ def test_integer_is_not_a_float(config):
 )
 def test_only_numbers_are_numbers(config, value):
     config["blade"]["length"] = value
-    (fault,) = faults(config)
-    assert fault.startswith("blade.length = ")
+    (problem,) = problems(config)
+    assert problem.startswith("blade.length = ")
 
 
 @pytest.mark.parametrize("name", ["..", "a/../b", "/tmp", "", "a b", "a//b", ".hidden", "a/"])
 def test_results_stay_below_the_repository(config, name):
     config["results"] = name
-    (fault,) = faults(config)
-    assert fault.startswith("results = ")
+    (problem,) = problems(config)
+    assert problem.startswith("results = ")
 
 
 def change(config, path, value):
@@ -234,7 +234,7 @@ def change(config, path, value):
 )
 def test_parts_that_disagree_are_told(config, path, value, words):
     change(config, path, value)
-    assert any(words in fault for fault in faults(config))
+    assert any(words in problem for problem in problems(config))
 
 
 RIGID = {"casing": "2nd", "coating": "rigid", "friction": [0.0]}
@@ -244,7 +244,7 @@ KINDS = "kind of coating must be rigid; an abradable coating has no such key"
 
 
 @pytest.mark.parametrize(
-    ("entry", "fault"),
+    ("entry", "problem"),
     [
         (RIGID | {"E": [2]}, "coatings[0].E = [2]: unknown key, known here: casing, coating, friction"),
         (
@@ -274,10 +274,10 @@ KINDS = "kind of coating must be rigid; an abradable coating has no such key"
         ("rigid", 'coatings[0] = "rigid": coating must be a group of keys'),
     ],
 )
-def test_mixed_up_coatings_are_answered_in_one_line(config, entry, fault):
+def test_mixed_up_coatings_are_answered_in_one_line(config, entry, problem):
     config["coatings"] = [entry]
     config["analysis"]["histories"] = []
-    assert faults(config) == [fault]
+    assert problems(config) == [problem]
 
 
 def test_histories_name_the_rigid_casing_as_the_coatings_do(config):
@@ -285,14 +285,16 @@ def test_histories_name_the_rigid_casing_as_the_coatings_do(config):
     config["analysis"]["histories"] = [history]
     validate(config)
     config["analysis"]["histories"] = [history | {"friction": 0.15}]
-    assert faults(config) == [
+    assert problems(config) == [
         "analysis.histories[0] = 2nd_rigid_mu0.15: must be one of the coatings, add it there or drop it here"
     ]
     config["analysis"]["histories"] = [history | {"E": 2}]
-    (fault,) = faults(config)
-    assert fault.startswith("analysis.histories[0].E = 2: unknown key, known here: casing, coating, friction")
+    (problem,) = problems(config)
+    assert problem.startswith(
+        "analysis.histories[0].E = 2: unknown key, known here: casing, coating, friction"
+    )
     config["analysis"]["histories"] = [history | {"coating": "stiff"}]
-    assert faults(config) == [f'analysis.histories[0].coating = "stiff": {KINDS}']
+    assert problems(config) == [f'analysis.histories[0].coating = "stiff": {KINDS}']
 
 
 def test_confirmation_can_be_left_out_or_just_long_enough(config):
@@ -306,26 +308,29 @@ def test_confirmation_can_be_left_out_or_just_long_enough(config):
 )
 def test_results_do_not_go_into_the_repository_itself(config, name):
     config["results"] = name
-    (fault,) = faults(config)
-    assert fault.startswith(f'results = "{name}": must ')
+    (problem,) = problems(config)
+    assert problem.startswith(f'results = "{name}": must ')
 
 
 def test_no_newline_gets_into_a_name(config):
     config["results"] = "results\n"
     config["casings"]["2nd\n"] = config["casings"]["2nd"]
-    assert [fault.split(":")[0] for fault in faults(config)] == ['casings["2nd "]', 'results = "results "']
+    assert [problem.split(":")[0] for problem in problems(config)] == [
+        'casings["2nd "]',
+        'results = "results "',
+    ]
 
 
 def test_a_plan_that_nobody_can_compute_is_refused_before_it_is_made(config):
     config["analysis"]["histories"] = []
     thousand = [index + 1 for index in range(1000)]
     config["coatings"] = [{"casing": "2nd", "E": thousand, "K": thousand, "theta": [0.0]}]
-    assert faults(config) == [
+    assert problems(config) == [
         "coatings[0]: brings the coatings to 1000000, all combinations counted; must be 5000 or fewer"
     ]
     config["coatings"] = [{"casing": "2nd", "E": thousand, "K": [1, 2, 3, 4, 5], "theta": [0.0]}]
     config["speeds"] = {"start": 0.02, "stop": 0.4, "step": 1e-4, "extra": []}
-    assert faults(config) == [
+    assert problems(config) == [
         "speeds: 3801 speeds on 5000 coatings are 19005000 runs, must be 2000000 or fewer"
     ]
 
@@ -347,7 +352,7 @@ def test_a_mesh_beyond_memory_is_refused_before_it_is_made(config):
     config["blade"]["mesh"]["spanwise"] = 400
     validate(config)
     config["blade"]["mesh"] = {"chordwise": 200, "thickness": 20, "spanwise": 400}
-    assert faults(config) == ["blade.mesh: has 1600000 elements, must be 20000 or fewer"]
+    assert problems(config) == ["blade.mesh: has 1600000 elements, must be 20000 or fewer"]
 
 
 def test_the_mesh_counts_for_sections_and_not_for_a_mesh(config, tmp_path):
@@ -357,12 +362,12 @@ def test_the_mesh_counts_for_sections_and_not_for_a_mesh(config, tmp_path):
     config["blade"]["source"] = {"file": str(tmp_path / "blade.msh"), "root_set": "ROOT"}
     validate(config)
     config["blade"]["source"] = {"file": str(tmp_path / "blade.csv")}
-    (fault,) = faults(config)
-    assert fault.startswith("blade.mesh.chordwise = 4: gives 5 nodes on the tip's camber line, not 8")
+    (problem,) = problems(config)
+    assert problem.startswith("blade.mesh.chordwise = 4: gives 5 nodes on the tip's camber line, not 8")
     config["blade"]["mesh"] = {"chordwise": 200, "thickness": 20, "spanwise": 400}
-    assert faults(config) == ["blade.mesh: has 1600000 elements, must be 20000 or fewer"]
+    assert problems(config) == ["blade.mesh: has 1600000 elements, must be 20000 or fewer"]
     config["blade"]["source"]["root_set"] = "ROOT"
-    assert faults(config) == ["blade.source.root_set = ROOT: goes with a mesh, not with blade.csv"]
+    assert problems(config) == ["blade.source.root_set = ROOT: goes with a mesh, not with blade.csv"]
 
 
 def test_samples_beyond_memory_are_refused(config):
@@ -370,7 +375,7 @@ def test_samples_beyond_memory_are_refused(config):
     validate(config)
     config["solver"]["revolutions"] = 201
     config["analysis"]["divergence"]["confirmation_revolutions"] = 300
-    assert [fault.split(" with")[0] for fault in faults(config)] == [
+    assert [problem.split(" with")[0] for problem in problems(config)] == [
         "solver.revolutions = 201: must be at most 200",
         "analysis.divergence.confirmation_revolutions = 300: must be at most 200",
     ]
@@ -381,13 +386,13 @@ def test_thousands_of_faults_are_not_all_told(config):
     with pytest.raises(ConfigError) as error:
         validate(config)
     assert len(str(error.value).splitlines()) == 41
-    assert str(error.value).endswith("config: and 8960 faults more")
+    assert str(error.value).endswith("config: and 8960 problems more")
 
 
 def test_one_broken_part_does_not_hide_the_faults_of_another(config):
     config["blade"]["length"] = "long"
     config["casings"]["2nd"]["weights"] = [0]
-    assert len(faults(config)) == 2
+    assert len(problems(config)) == 2
 
 
 def test_quantities_are_checked_as_in_the_config():

@@ -44,7 +44,7 @@ def test_every_fault_is_told_with_its_set(study, asked):
     config = asked("sets: {a: {contact: {damping_ratio: 2}}, ../b: {}, c: {contact: {damping: 1}}}\n")
     with pytest.raises(ConfigError) as caught:
         plan(config)
-    first, second, third = sorted(map(str, caught.value.faults))
+    first, second, third = sorted(map(str, caught.value.problems))
     assert "../b: the name of a set must be" in first
     assert ": a: contact.damping_ratio = 2" in second
     assert ": c: contact.damping" in third

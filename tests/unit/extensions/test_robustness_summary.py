@@ -3,7 +3,7 @@ import pandas as pd
 import pytest
 
 from bladerub.config.errors import UNKNOWN
-from bladerub.config.files import Marked
+from bladerub.config.files import Located
 from bladerub.extensions.robustness import sample, summary
 from bladerub.extensions.robustness.plan import Factor, Part, Plan
 
@@ -14,7 +14,7 @@ PLAN = Plan(
         Factor("unit", "Pa", {"contact.modulus_unit": (1e8, 1e10)}, logarithmic=True),
         Factor("idle", "1", {"contact.damping_ratio": (0.0, 1.0), "contact.tip_profile.half_width": (0, 2)}),
     ),
-    parts={"lobes": Part("lobes", ("C2", "C3"), 64, Marked({}, UNKNOWN))},
+    parts={"lobes": Part("lobes", ("C2", "C3"), 64, Located({}, UNKNOWN))},
 )
 
 

@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 
 from bladerub.config import read as configuration
-from bladerub.config.errors import UNKNOWN, ConfigError, Fault, shown
-from bladerub.config.files import Marked, extended, lay_over, mark, plain
+from bladerub.config.errors import UNKNOWN, ConfigError, Problem, format_value
+from bladerub.config.files import Located, resolve_extend
 from bladerub.extensions.robustness.plan import REFERENCE, REFERENCE_BATCH, Part, Plan
 from bladerub.io.provenance import config_digest
 from bladerub.study.grid import coating_cases
@@ -31,13 +31,13 @@ def check(study: Mapping[str, Any], plan: Plan) -> None:
     for part in plan.parts.values():
         for number, places in enumerate(plan.places()[: part.samples]):
             try:
-                configuration.checked(_varied(study, plan, part, places))
+                configuration.validate_located(_varied(study, plan, part, places))
             except ConfigError as error:
-                faults = [
-                    Fault(place, f"parts.{part.name}, sample {number}: {text}")
-                    for place, text in error.faults
+                problems = [
+                    Problem(place, f"parts.{part.name}, sample {number}: {text}")
+                    for place, text in error.problems
                 ]
-                raise ConfigError(faults) from error
+                raise ConfigError(problems) from error
 
 
 def batch(study: Mapping[str, Any], plan: Plan, part: Part, name: str) -> dict[int, dict[str, Any]]:
@@ -55,9 +55,11 @@ def batch(study: Mapping[str, Any], plan: Plan, part: Part, name: str) -> dict[i
         If a factor sets what the study does not have.
     """
     if name == REFERENCE_BATCH:
-        return {REFERENCE: plain(_laid_over(study, part))}
+        return {REFERENCE: _laid_over(study, part).plain()}
     places = plan.places()
-    return {number: plain(_varied(study, plan, part, places[number])) for number in part.batches()[int(name)]}
+    return {
+        number: _varied(study, plan, part, places[number]).plain() for number in part.batches()[int(name)]
+    }
 
 
 def sample_digest(config: Mapping[str, Any]) -> str:
@@ -73,16 +75,16 @@ def blade_name(config: Mapping[str, Any]) -> str:
     return config_digest({key: config[key] for key in ("blade", "reduction")})[:12]
 
 
-def _laid_over(study: Mapping[str, Any], part: Part) -> Marked:
-    return lay_over(mark(study, UNKNOWN), extended(part.study))
+def _laid_over(study: Mapping[str, Any], part: Part) -> Located:
+    return Located.of(study, UNKNOWN).merged(resolve_extend(part.study))
 
 
-def _varied(study: Mapping[str, Any], plan: Plan, part: Part, places: np.ndarray) -> Marked:
+def _varied(study: Mapping[str, Any], plan: Plan, part: Part, places: np.ndarray) -> Located:
     varied = _laid_over(study, part)
     for factor, at in zip(plan.factors, places, strict=True):
         for path, value in factor.values(float(at)).items():
             said = f"factors.{factor.name}.sets.{path}"
-            varied = _replaced(varied, _keys(path), Marked(value, factor.place), said)
+            varied = _replaced(varied, _keys(path), Located(value, factor.location), said)
     return varied
 
 
@@ -91,16 +93,16 @@ def _keys(path: str) -> list[str | int]:
     return [name or int(index) for name, index in re.findall(r"([^.\[\]]+)|\[(\d+)\]", path)]
 
 
-def _replaced(config: Marked, keys: list[str | int], value: Marked, said: str) -> Marked:
+def _replaced(config: Located, keys: list[str | int], value: Located, said: str) -> Located:
     """Set the number that `keys` lead to, in a copy."""
     content = config.content
     if not keys:
         if not configuration.is_number(content):
-            raise ConfigError([Fault(value.place, f"{said} = {shown(plain(config))}: must be a number")])
+            raise ConfigError.at(value.location, f"{said} = {format_value(config.plain())}: must be a number")
         return value
     known = content if isinstance(content, dict) else range(len(content)) if isinstance(content, list) else ()
     if keys[0] not in known:
-        raise ConfigError([Fault(value.place, f"{said}: must be a number of the study, it has none there")])
+        raise ConfigError.at(value.location, f"{said}: must be a number of the study, it has none there")
     changed = copy.copy(content)
     changed[keys[0]] = _replaced(content[keys[0]], keys[1:], value, said)
-    return Marked(changed, config.place)
+    return Located(changed, config.location)

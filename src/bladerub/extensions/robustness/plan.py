@@ -16,8 +16,8 @@ from typing import NoReturn
 import numpy as np
 from scipy.stats import qmc
 
-from bladerub.config.errors import UNKNOWN, ConfigError, Fault, Place, shown
-from bladerub.config.files import Marked, plain
+from bladerub.config.errors import UNKNOWN, ConfigError, Location, format_value
+from bladerub.config.files import Located
 from bladerub.config.files import read as read_file
 from bladerub.config.read import is_number
 
@@ -50,7 +50,7 @@ class Factor:
         Whether the values lie evenly on a logarithmic scale.
     multiple_of : float or None
         Values are rounded to a multiple of it.
-    place : Place
+    location : Location
         Where the plan has it.
     """
 
@@ -59,7 +59,7 @@ class Factor:
     ends: dict[str, tuple[float, float]]
     logarithmic: bool = False
     multiple_of: float | None = None
-    place: Place = UNKNOWN
+    location: Location = UNKNOWN
 
     def values(self, at: float) -> dict[str, float]:
         """Return each number that the factor sets, `at` between 0 and 1 of its range."""
@@ -88,14 +88,14 @@ class Part:
         Claims that it is for, ``C2`` or ``C12``.
     samples : int
         So many of the sequence.
-    study : Marked
+    study : Located
         What is laid over the study.
     """
 
     name: str
     claims: tuple[str, ...]
     samples: int
-    study: Marked
+    study: Located
 
     def batches(self) -> list[range]:
         """Return the samples of each job; that of the reference is one more."""
@@ -146,7 +146,7 @@ def read_plan(path: str | Path) -> Plan:
     for factor in factors:
         if twice := set_before & factor.ends.keys():
             text = f"factors.{factor.name}.sets.{min(twice)}: is set by another factor, must be by one alone"
-            raise ConfigError([Fault(factor.place, text)])
+            raise ConfigError.at(factor.location, text)
         set_before |= factor.ends.keys()
     parts: dict[str, Part] = {}
     answered: set[str] = set()
@@ -158,7 +158,7 @@ def read_plan(path: str | Path) -> Plan:
     return Plan(seed, factors, parts)
 
 
-def _factor(name: str, entry: Marked, where: str) -> Factor:
+def _factor(name: str, entry: Located, where: str) -> Factor:
     group = _group(entry, where, {"unit", "sets"}, {"scale", "multiple_of"})
     unit = _text(group["unit"], f"{where}.unit")
     scale = _text(group["scale"], f"{where}.scale") if "scale" in group else "linear"
@@ -166,7 +166,7 @@ def _factor(name: str, entry: Marked, where: str) -> Factor:
         _refuse(group["scale"], f"{where}.scale", "linear or log")
     multiple = None
     if "multiple_of" in group:
-        multiple = plain(group["multiple_of"])
+        multiple = group["multiple_of"].plain()
         if not is_number(multiple) or multiple <= 0:
             _refuse(group["multiple_of"], f"{where}.multiple_of", "a number above 0")
     ends = {
@@ -175,11 +175,11 @@ def _factor(name: str, entry: Marked, where: str) -> Factor:
     }
     if not ends:
         _refuse(group["sets"], f"{where}.sets", "at least one number of the config, with its two ends")
-    return Factor(name, unit, ends, logarithmic=scale == "log", multiple_of=multiple, place=entry.place)
+    return Factor(name, unit, ends, logarithmic=scale == "log", multiple_of=multiple, location=entry.location)
 
 
-def _ends(entry: Marked, where: str, scale: str, multiple: float | None) -> tuple[float, float]:
-    pair = plain(entry)
+def _ends(entry: Located, where: str, scale: str, multiple: float | None) -> tuple[float, float]:
+    pair = entry.plain()
     if not isinstance(pair, list) or len(pair) != 2 or not all(map(is_number, pair)) or pair[0] >= pair[1]:
         _refuse(entry, where, "a list of two numbers, the lower first")
     if scale == "log" and pair[0] <= 0:
@@ -189,9 +189,9 @@ def _ends(entry: Marked, where: str, scale: str, multiple: float | None) -> tupl
     return float(pair[0]), float(pair[1])
 
 
-def _part(name: str, entry: Marked, where: str) -> Part:
+def _part(name: str, entry: Located, where: str) -> Part:
     group = _group(entry, where, {"claims", "samples", "study"})
-    claims = plain(group["claims"])
+    claims = group["claims"].plain()
     if not isinstance(claims, list) or not all(str(claim) in CLAIMS for claim in claims) or not claims:
         _refuse(group["claims"], f"{where}.claims", f"a list of claims, {CLAIMS[0]} to {CLAIMS[-1]}")
     samples = _whole(group["samples"], f"{where}.samples", 2, MOST_SAMPLES)
@@ -201,7 +201,7 @@ def _part(name: str, entry: Marked, where: str) -> Part:
     return Part(name, tuple(claims), samples, group["study"])
 
 
-def _named(entry: Marked, where: str) -> Iterator[tuple[str, Marked]]:
+def _named(entry: Located, where: str) -> Iterator[tuple[str, Located]]:
     entries = _group(entry, where)
     if not entries:
         _refuse(entry, where, "a group of at least one")
@@ -212,32 +212,32 @@ def _named(entry: Marked, where: str) -> Iterator[tuple[str, Marked]]:
 
 
 def _group(
-    entry: Marked, where: str, needed: Set[str] = frozenset(), optional: Set[str] | None = None
-) -> dict[str, Marked]:
+    entry: Located, where: str, needed: Set[str] = frozenset(), optional: Set[str] | None = None
+) -> dict[str, Located]:
     """Return the keys of a group; `needed` and `optional` are all it may have, if there are any needed."""
     if not isinstance(entry.content, dict):
         _refuse(entry, where, "a group of keys")
     dot = f"{where}." if where else ""
     for key in sorted(needed - entry.content.keys()):
-        raise ConfigError([Fault(entry.place, f"{dot}{key}: missing")])
+        raise ConfigError.at(entry.location, f"{dot}{key}: missing")
     for key in entry.content.keys() - needed - (optional or set()) if needed else ():
         known = ", ".join(sorted(needed | (optional or set())))
-        raise ConfigError([Fault(entry.content[key].place, f"{dot}{key}: unknown key, known here: {known}")])
+        raise ConfigError.at(entry.content[key].location, f"{dot}{key}: unknown key, known here: {known}")
     return entry.content
 
 
-def _text(entry: Marked, where: str) -> str:
+def _text(entry: Located, where: str) -> str:
     if not isinstance(entry.content, str):
         _refuse(entry, where, "text")
     return entry.content
 
 
-def _whole(entry: Marked, where: str, least: int, most: int) -> int:
+def _whole(entry: Located, where: str, least: int, most: int) -> int:
     value = entry.content
     if isinstance(value, bool) or not isinstance(value, int) or not least <= value <= most:
         _refuse(entry, where, f"a whole number from {least} to {most}")
     return value
 
 
-def _refuse(entry: Marked, where: str, right: str) -> NoReturn:
-    raise ConfigError([Fault(entry.place, f"{where} = {shown(plain(entry))}: must be {right}")])
+def _refuse(entry: Located, where: str, right: str) -> NoReturn:
+    raise ConfigError.at(entry.location, f"{where} = {format_value(entry.plain())}: must be {right}")
