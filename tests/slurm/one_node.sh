@@ -28,9 +28,9 @@ process() {
 wait_until() {
     local what=$1
     shift
-    for _ in {1..100}; do
+    local end=$((SECONDS + 30))
+    while ((SECONDS < end)); do
         if "$@" >/dev/null 2>&1; then return; fi
-        sleep 0.2
     done
     fail "$what; see the logs in $folder"
 }

@@ -7,18 +7,17 @@ from stand_in import blade, change, spec  # noqa: F401 (fixtures)
 
 @pytest.fixture
 def python_at_work():
-    """Start a Python program in a process of its own, and go on when it has said its first line."""
+    """Start a Python program in a process of its own, wait for its first line, kill it after the test."""
     processes = []
 
     def start(program, *arguments):
         command = [sys.executable, "-c", program, *map(str, arguments)]
-        process = subprocess.Popen(command, stdout=subprocess.PIPE, text=True)
+        process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
         processes.append(process)
         assert process.stdout.readline()
         return process
 
     yield start
     for process in processes:
-        process.kill()
-        process.wait()
-        process.stdout.close()
+        with process:
+            process.kill()

@@ -20,6 +20,8 @@ from bladerub.blade.linear import lowest_modes
 from bladerub.blade.mesh import hexahedral_mesh
 from bladerub.blade.rotation import equilibrium
 
+pytestmark = pytest.mark.slow
+
 CONFIG = Path(__file__).parents[2] / "config" / "config.yaml"
 FINENESS = np.array([0.5, 1.0, 1.5])  # over the config's mesh, in all three directions
 

@@ -9,6 +9,8 @@ import yaml
 from bladerub.blade.build import build
 from bladerub.study.similarity import contact_scale
 
+pytestmark = pytest.mark.slow
+
 CONFIG = Path(__file__).parents[2] / "config" / "config.yaml"
 
 

@@ -15,6 +15,8 @@ from bladerub.contact.run import simulate
 from bladerub.contact.sweep import SweepSpec, simulate_sweep
 from bladerub.study.grid import CoatingCase, run_spec
 
+pytestmark = pytest.mark.slow
+
 ELASTIC = 1e6
 """Elastic limit that no stress reaches, normalised."""
 DAMPED = 0.01

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import subprocess
 import sys
-import time
+from concurrent.futures import FIRST_COMPLETED, ThreadPoolExecutor, wait
 from pathlib import Path
 
 import pytest
@@ -37,12 +37,25 @@ def begin(study):
         process.wait()
 
 
-def wait_for(text, path):
+def wait_until(condition, process):
+    """Wait for `condition`, while `process` must stay at work."""
     for _ in range(600):
-        if path.is_file() and text in path.read_text():
+        if condition():
             return
-        time.sleep(0.1)
-    raise AssertionError(f"{path} never said: {text}")
+        with pytest.raises(subprocess.TimeoutExpired):
+            process.wait(0.1)
+    raise AssertionError("what was waited for did not come within a minute")
+
+
+def contains(path, text):
+    return lambda: path.is_file() and text in path.read_text()
+
+
+def has_waiters(path, number):
+    """Whether that many processes wait for the lock file `path`."""
+    waiting = f":{path.stat().st_ino} "
+    locks = Path("/proc/locks").read_text().splitlines()
+    return sum(waiting in line and "->" in line for line in locks) == number
 
 
 @pytest.fixture
@@ -59,7 +72,7 @@ def test_the_second_in_a_folder_is_kept_out_and_loses_nothing(begun, begin, tiny
     log = study.results / "logs" / "coating" / f"{COATING}.log"
     with lock.held(coating / ".lock", lambda: None):  # so that the first stays at work
         first = begin(study.folder)
-        wait_for("another job is at work in", log)
+        wait_until(contains(log, "another job is at work in"), first)
         second = study.snakemake(*COMMAND[1:4])
         assert second.returncode != 0
         assert "another snakemake is at work in this folder" in second.stderr
@@ -80,14 +93,13 @@ def test_two_folders_with_the_same_results_compute_each_run_once(begun, begin, t
     (other.folder / "results").symlink_to(study.folder / "results")
     with lock.held(coating / ".lock", lambda: None):
         both = [begin(study.folder), begin(other.folder)]
-        for folder in (study.folder, other.folder):
-            wait_for("rule coating:", folder / "output.txt")
-        time.sleep(4)  # for the jobs to come to the lock
-    while all(process.poll() is None for process in both):
-        time.sleep(0.05)
-    runs = study.runs()
-    assert len(study.runs("*/*.h5")) == 6 * 8
-    assert [process.wait(300) for process in both] == [0, 0]
+        wait_until(lambda: has_waiters(coating / ".lock", 2), both[0])
+    with ThreadPoolExecutor() as pool:
+        ends = [pool.submit(process.wait, 300) for process in both]
+        wait(ends, return_when=FIRST_COMPLETED)
+        runs = study.runs()
+        assert len(study.runs("*/*.h5")) == 6 * 8
+        assert [end.result() for end in ends] == [0, 0]
     assert study.runs() == runs
 
 
@@ -97,12 +109,12 @@ def test_a_job_that_outlives_its_snakemake_is_waited_for(begun, begin):
     runs = study.runs()
     with lock.held(coating / ".lock", lambda: None):
         first = begin(study.folder)
-        wait_for("another job is at work in", log)
+        wait_until(contains(log, "another job is at work in"), first)
         first.kill()
         first.wait()
         second = begin(study.folder)
-        wait_for("the last snakemake here was killed", study.folder / "output.txt")
-        wait_for("rule coating:", study.folder / "output.txt")
+        for text in ("the last snakemake here was killed", "rule coating:"):
+            wait_until(contains(study.folder / "output.txt", text), second)
         assert second.poll() is None
     assert second.wait(300) == 0
     assert study.runs() == runs

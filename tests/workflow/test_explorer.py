@@ -16,6 +16,8 @@ from bladerub.explorer.page import build
 from bladerub.study.maps import read_map, write_map
 from bladerub.study.store import read_manifest, write_manifest
 
+pytestmark = pytest.mark.browser
+
 STRAIGHT, INCLINED, RIGID = "2nd_E2_K0.5_theta0", "2nd_E2_K0.5_theta0.15", "2nd_rigid_mu0"
 FLAGS = [
     "headless",

@@ -6,8 +6,7 @@ import os
 import re
 import shutil
 import subprocess
-import time
-from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import ThreadPoolExecutor, wait
 from pathlib import Path
 
 import h5py
@@ -82,6 +81,7 @@ def test_time_asked_for_grows_with_the_revolutions_of_a_coating(workspace, tiny)
     assert (minutes["coating"], minutes["map"]) == (3, 1)
 
 
+@pytest.mark.slurm
 @pytest.mark.skipif(obstacle() is not None, reason=str(obstacle()))
 def test_study_goes_on_after_scancel_and_is_what_a_local_one_is(cluster, workspace, longer, tmp_path_factory):
     often = "--slurm-init-seconds-before-status-checks=3"
@@ -91,7 +91,7 @@ def test_study_goes_on_after_scancel_and_is_what_a_local_one_is(cluster, workspa
         killed = pool.submit(workspace.snakemake, FINDINGS, *on_cluster, "--retries", "0", config=longer)
         while len(workspace.runs()) < 15:  # the second coating
             assert not killed.done(), killed.result().stderr
-            time.sleep(0.05)
+            wait([killed], timeout=0.05)
         subprocess.run(["scancel", running_job("rubs")], check=True)
     assert killed.result().returncode == 1
     assert "Error in group rubs" in killed.result().stderr

@@ -6,6 +6,7 @@ from bladerub.benchmark import measure, peak
 from bladerub.contact.run import set_up, simulate
 
 
+@pytest.mark.slow
 def test_the_casing_is_brought_near_until_a_third_is_contact(blade, spec):
     found, share = measure.in_contact(blade, spec)
     assert share == pytest.approx(1 / 3, abs=0.02)

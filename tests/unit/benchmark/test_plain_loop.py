@@ -7,6 +7,8 @@ import pytest
 from bladerub.benchmark import plain
 from bladerub.contact.run import set_up, simulate
 
+pytestmark = pytest.mark.slow
+
 
 @pytest.mark.parametrize("march", [plain.march, numba.njit(plain.march)], ids=["numpy", "numba"])
 @pytest.mark.parametrize(("E", "K", "theta"), [(1.1, 0.5, 0.0), (2.0, 0.1, 0.15)])

@@ -4,6 +4,8 @@ import pytest
 
 from bladerub.cli import inputs, main
 
+pytestmark = pytest.mark.slow
+
 SMALL = """
 blade: {mesh: {chordwise: 7, thickness: 1, spanwise: 6}}
 reduction: {accuracy_speeds: 3}

@@ -8,13 +8,13 @@ import pytest
 from bladerub.io import atomic
 
 HALF_WRITTEN = """
-import os, sys, time
+import sys
 from bladerub.io import atomic
 with atomic.writing(sys.argv[1]) as stream:
     stream.write("new" * 10_000)
     stream.flush()
     print("half", flush=True)
-    time.sleep(60)
+    sys.stdin.read()
 """
 
 

@@ -3,18 +3,18 @@ import pytest
 from bladerub.io import lock
 
 HOLDER = """
-import sys, time
+import sys
 from bladerub.io import lock
 with lock.held(sys.argv[1], lambda: None):
     print("held", flush=True)
-    time.sleep(float(sys.argv[2]))
+    sys.stdin.read()
 """
 
 
 @pytest.fixture
 def holder(python_at_work, tmp_path):
-    """Start a process that holds the lock for some seconds."""
-    return lambda seconds: python_at_work(HOLDER, tmp_path / "lock", seconds)
+    """A process that holds the lock until its input is closed."""
+    return python_at_work(HOLDER, tmp_path / "lock")
 
 
 def test_a_free_lock_is_held_without_waiting(tmp_path):
@@ -25,17 +25,22 @@ def test_a_free_lock_is_held_without_waiting(tmp_path):
     assert waited == []
 
 
-def test_who_comes_second_waits_for_the_end(tmp_path, holder):
-    process, waited = holder(1), []
-    with lock.held(tmp_path / "lock", lambda: waited.append(process.poll())):
-        assert process.wait(timeout=5) == 0
+def test_the_second_to_ask_waits_until_the_first_is_done(tmp_path, holder):
+    waited = []
+
+    def release():
+        waited.append(holder.poll())
+        holder.stdin.close()
+
+    with lock.held(tmp_path / "lock", release):
+        assert holder.wait(timeout=60) == 0
     assert waited == [None]
 
 
 def test_a_killed_holder_leaves_no_lock(tmp_path, holder):
-    process, waited = holder(60), []
-    process.kill()
-    process.wait()
+    waited = []
+    holder.kill()
+    holder.wait()
     with lock.held(tmp_path / "lock", lambda: waited.append(1)):
         pass
     assert waited == []

@@ -74,7 +74,8 @@ def test_what_git_cannot_tell_is_unknown(repository, tmp_path, monkeypatch, miss
     elif missing == "folder":
         monkeypatch.setattr(provenance, "ROOT", tmp_path / "none")
     else:
-        (tmp_path / "git").write_text("#!/bin/sh\nexec sleep 60\n")
+        os.mkfifo(tmp_path / "silent")
+        (tmp_path / "git").write_text(f"#!/bin/sh\nread answer < '{tmp_path / 'silent'}'\n")
         (tmp_path / "git").chmod(0o755)
         monkeypatch.setenv("PATH", str(tmp_path), prepend=os.pathsep)
         monkeypatch.setattr(provenance, "_SECONDS", 0.1)

@@ -14,6 +14,8 @@ from bladerub.contact.run import simulate
 CHILD = """
 import pickle, sys
 from bladerub.contact.run import simulate
+
+pytestmark = pytest.mark.slow
 with open(sys.argv[1], "rb") as file:
     blade, spec = pickle.load(file)
 result = simulate(blade, spec)
