@@ -236,7 +236,6 @@ rule chart_placement:
     input:
         maps=charted_maps,
         analysing=files_behind(
-            "extensions.chart.placement",
             "extensions.chart.search",
             "extensions.chart.check",
             "study.peaks",

@@ -1,5 +1,5 @@
 """The coating chart: peaks, wear and divergence over a dense grid of E and K, at few but chosen speeds.
 
-It lies beside the study (``config["chart"]``) and shares its blade, its solver and its speeds, but keeps of
-each run only what the chart shows: one file a coating, a *cell*; one job a *column*, all K at one E and θ.
+The chart (``config["chart"]``) shares blade, solver and speeds with the study, but keeps of each run only
+what it shows: one file per coating, a *point* of the chart; one job per *column*, all K at one E and θ.
 """

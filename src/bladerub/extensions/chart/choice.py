@@ -1,4 +1,4 @@
-"""Which coating to choose: limits that a safe one keeps, and those that nothing is better than."""
+"""Which coating to choose: limits that a safe one keeps, and the coatings that no other is better than."""
 
 from __future__ import annotations
 
@@ -12,24 +12,14 @@ LIMITED = {"amplitude": "peak", "wear": "deepest_wear", "divergent_share": "dive
 
 
 def broken_limits(chart: pd.DataFrame, limits: Mapping[str, float]) -> pd.DataFrame:
-    """Tell for each row of the chart which of the limits it breaks, a column of bool for each."""
+    """Return for each row of the chart which of the limits it breaks, a column of bool for each."""
     return pd.DataFrame({name: chart[column] > limits[name] for name, column in LIMITED.items()})
 
 
 def pareto(chart: pd.DataFrame, limits: Mapping[str, float]) -> pd.DataFrame:
-    """List the coatings that no other of the same θ betters in displacement and worn volume together.
+    """List the coatings to which no other of the same θ is better in both displacement and worn volume.
 
-    Parameters
-    ----------
-    chart : DataFrame
-        From `bladerub.extensions.chart.table.table`.
-    limits : mapping
-        ``config["chart"]["limits"]``.
-
-    Returns
-    -------
-    DataFrame
-        Their rows, by ascending displacement, and ``safe``: whether all limits are kept.
+    Their rows of the chart, by ascending displacement, and ``safe``: whether all limits are kept.
     """
     judged = chart.assign(safe=~broken_limits(chart, limits).any(axis=1))
     fronts = []

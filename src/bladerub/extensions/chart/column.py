@@ -11,7 +11,7 @@ import numpy as np
 
 from bladerub.blade.frequencies import reduced_frequencies
 from bladerub.blade.model import ReducedBlade
-from bladerub.extensions.chart import cell as cells
+from bladerub.extensions.chart import point as points
 from bladerub.extensions.chart.grid import chart_speeds
 from bladerub.extensions.chart.key import cell_key
 from bladerub.extensions.chart.manifest import CellRow, is_current
@@ -63,10 +63,10 @@ def compute_missing(
             C1 = np.array([reduced_frequencies(blade, f, n_modes=1)[0] for f in speeds.f_omega]) / blade.f1_hz
         for number, case in enumerate(missing, 1):
             start = time.monotonic()
-            cell = compute(config, case, blade, speeds, C1)
-            cells.write(_path(folder, case), cell, keys[case], config)
+            point = compute(config, case, blade, speeds, C1)
+            points.write(_path(folder, case), point, keys[case], config)
             report(
-                f"[{number}/{len(missing)}] {case.name}: {cell.known.sum()} runs in "
+                f"[{number}/{len(missing)}] {case.name}: {point.known.sum()} runs in "
                 f"{time.monotonic() - start:.1f} s"
             )
         return [_row(_path(folder, case), keys[case]) for case in cases]

@@ -8,13 +8,13 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from bladerub.extensions.chart.cell import Cell
 from bladerub.extensions.chart.grid import ORDERS
-from bladerub.extensions.chart.table import CELL
+from bladerub.extensions.chart.point import ChartPoint
+from bladerub.extensions.chart.table import COATING
 from bladerub.study.peaks import crossing_speed, peak
 
 LOSSES = ("wear", "sliding", "damping")
-"""Where the energy goes: into the coating, into its tangential resistance, into the blade's own damping."""
+"""Where the energy goes: wear of the coating, its tangential resistance, damping of the blade."""
 
 
 def contact_stiffness(E: float, K: float) -> float:
@@ -22,37 +22,29 @@ def contact_stiffness(E: float, K: float) -> float:
     return E * K / (E + K)
 
 
-def table(config: Mapping[str, Any], chart: Iterable[Cell]) -> pd.DataFrame:
+def table(config: Mapping[str, Any], points: Iterable[ChartPoint]) -> pd.DataFrame:
     """Look at the run at the peak of each engine order.
 
-    Returns
-    -------
-    DataFrame
-        A row per cell and order: `bladerub.extensions.chart.table.CELL`, ``order``, ``E_T``, ``f_crossing``,
-        ``f_peak``, ``amplitude`` (m), ``lobes`` and each of `LOSSES` as ``<loss>_per_cycle`` (J): the mean
-        over the run, in which a vibration on the order k has k cycles a revolution.
-
-    Raises
-    ------
-    ValueError
-        As `bladerub.study.peaks.peak`.
+    A row per point and order: `COATING`, ``order``, ``E_T``, ``f_crossing``, ``f_peak``, ``amplitude`` (m),
+    ``lobes`` and each of `LOSSES` as ``<loss>_per_cycle`` (J), the mean over the run, in which a vibration on
+    the order k has k cycles per revolution. Raises `ValueError` as `bladerub.study.peaks.peak`.
     """
     rows = []
-    for cell in chart:
+    for point in points:
         for order in ORDERS:
-            found = peak(cell, order, config["analysis"]["peaks"])
-            at = int(np.flatnonzero(cell.f_omega == found.f_omega)[0])
-            cycles = order * cell.measures["revolutions"][at]
+            found = peak(point, order, config["analysis"]["peaks"])
+            at = int(np.flatnonzero(point.f_omega == found.f_omega)[0])
+            cycles = order * point.measures["revolutions"][at]
             rows.append(
-                {name: getattr(cell.case, name) for name in CELL}
+                {name: getattr(point.case, name) for name in COATING}
                 | {
                     "order": order,
-                    "E_T": contact_stiffness(cell.case.E, cell.case.K),
-                    "f_crossing": crossing_speed(cell, order),
+                    "E_T": contact_stiffness(point.case.E, point.case.K),
+                    "f_crossing": crossing_speed(point, order),
                     "f_peak": found.f_omega,
                     "amplitude": found.amplitude,
-                    "lobes": int(cell.measures["lobes"][at]),
+                    "lobes": int(point.measures["lobes"][at]),
                 }
-                | {f"{loss}_per_cycle": cell.measures[f"energy_{loss}"][at] / cycles for loss in LOSSES}
+                | {f"{loss}_per_cycle": point.measures[f"energy_{loss}"][at] / cycles for loss in LOSSES}
             )
     return pd.DataFrame(rows)

@@ -1,4 +1,4 @@
-"""Which coatings the chart has, and which speeds every one of them is run at from the beginning."""
+"""Which coatings the chart has, and the speeds at which each of them is run first."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ ORDERS = (4, 6)
 
 
 def columns(config: Mapping[str, Any]) -> dict[str, list[CoatingCase]]:
-    """List the cells of the chart by the name of their column, all K at one θ and E."""
+    """List the coatings of each column, all K at one θ and E, by the name of the column."""
     chart = config["chart"]
     return {
         f"{chart['casing']}_E{E:g}_theta{theta:g}": [
@@ -27,16 +27,16 @@ def columns(config: Mapping[str, Any]) -> dict[str, list[CoatingCase]]:
 
 
 class ChartSpeeds(NamedTuple):
-    """Speeds that a cell may be run at, and those that it is run at whatever comes out.
+    """Speeds at which a point may be run, and those at which every point is.
 
     Parameters
     ----------
     f_omega : (n,) ndarray
         All speeds of the study, normalised: a run of the chart is one of the study's.
     uniform : (n,) ndarray of bool
-        Speeds at even steps, of which the shares of the chart are.
+        Speeds at even steps, to which the shares of the chart refer.
     coarse : (n,) ndarray of bool
-        These and the denser ones below: where the search for maxima begins.
+        These and the denser ones at low speed: where the search for maxima begins.
     """
 
     f_omega: np.ndarray
@@ -60,13 +60,7 @@ def _nearest(f_omega: np.ndarray, start: float, stop: float, step: float) -> np.
 
 
 def check(config: Mapping[str, Any]) -> None:
-    """See before any work that the chart finds its peaks in the speeds of the study.
-
-    Raises
-    ------
-    BadInput
-        If an engine order of the chart crosses no first frequency; the message names the key.
-    """
+    """Raise `BadInput`, naming the key, if an engine order of the chart has no crossing with C1."""
     highest = config["speeds"]["stop"]
     if min(ORDERS) * highest < 1:  # rotation stiffens the blade: C1 is nowhere below its value at rest, 1
         raise BadInput(

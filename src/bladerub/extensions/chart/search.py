@@ -1,15 +1,18 @@
-"""The runs of one cell of the chart: which ones, and what is taken of each.
+"""The runs of one point of the chart: at which speeds, and what is kept of each.
 
-1. The cell is run at the coarse speeds, then where `bladerub.extensions.chart.placement` says: around the
-   maxima of Y4 and Y6 within the windows of `bladerub.study.peaks`, and of the displacement over all speeds.
-2. Each run is the study's run of that coating and speed, and is measured as there.
-3. Whether it diverges is judged at the uniform speeds alone, as in `bladerub.study.growth`, with the longer
-   run where it grows: the share over them does not know where the search has looked closer.
+1. The point is run at the coarse speeds, then around the maxima of `sought`: Y4 and Y6 within the windows of
+   `bladerub.study.peaks`, and the greatest displacement over all speeds.
+2. The intervals on both sides of each local maximum are halved until the neighbours on the grid are run.
+   Local maxima below a set share of the greatest are left as they are. The peaks are ragged, so that a low
+   local maximum may hide a higher peak; `bladerub.extensions.chart.check` measures how often it does.
+3. Each run is the study's run of that coating and speed, and is measured as there.
+4. Divergence is judged at the uniform speeds alone, as in `bladerub.study.growth`, with the longer run where
+   the amplitude grows: the search must not weigh in the share of divergent speeds.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 import numpy as np
@@ -17,44 +20,22 @@ import numpy as np
 from bladerub.blade.model import ReducedBlade
 from bladerub.contact.run import bar_area, simulate
 from bladerub.contact.spec import RunResult, RunSpec
-from bladerub.extensions.chart.cell import MEASURES, Cell
 from bladerub.extensions.chart.grid import ORDERS, ChartSpeeds
-from bladerub.extensions.chart.placement import next_speeds
+from bladerub.extensions.chart.point import MEASURES, ChartPoint
 from bladerub.study.confirmation import confirmation_spec
 from bladerub.study.grid import CoatingCase, run_spec
 from bladerub.study.growth import judge, needs_confirmation
-from bladerub.study.peaks import amplitude_in_window
+from bladerub.study.peaks import Response, amplitude_in_window
 from bladerub.study.spectra import order_spectrum
 from bladerub.study.wear import lobes
 
 
 def compute(
     config: Mapping[str, Any], case: CoatingCase, blade: ReducedBlade, speeds: ChartSpeeds, C1: np.ndarray
-) -> Cell:
-    """Run one coating where the search wants it, and judge it at the uniform speeds.
-
-    Parameters
-    ----------
-    config : mapping
-        The study.
-    case : CoatingCase
-        The coating.
-    blade : ReducedBlade
-        The blade.
-    speeds : ChartSpeeds
-        From `bladerub.extensions.chart.grid.chart_speeds`.
-    C1 : (n,) ndarray
-        Its first eigenfrequency at each speed, normalised.
-    """
-    cell = empty(case, speeds, C1)
-    fill(cell, config, speeds, lambda index: _run(config, blade, cell, index))
-    return cell
-
-
-def empty(case: CoatingCase, speeds: ChartSpeeds, C1: np.ndarray) -> Cell:
-    """Make a cell of which no speed was run yet."""
+) -> ChartPoint:
+    """Run the coating `case` at the speeds that the search chooses; `C1` (n,) is normalised."""
     n = speeds.f_omega.size
-    return Cell(
+    point = ChartPoint(
         case=case,
         f_omega=speeds.f_omega,
         C1=C1,
@@ -63,39 +44,63 @@ def empty(case: CoatingCase, speeds: ChartSpeeds, C1: np.ndarray) -> Cell:
         uniform=speeds.uniform,
         measures={name: np.full(n, np.nan) for name in MEASURES},
     )
-
-
-def fill(cell: Cell, config: Mapping[str, Any], speeds: ChartSpeeds, run: Callable[[int], None]) -> None:
-    """Let `run` put into `cell` one speed after the other, until the search wants no more."""
-    pending = np.flatnonzero(speeds.coarse).tolist()
+    share, pending = config["chart"]["speeds"]["refine_above"], np.flatnonzero(speeds.coarse).tolist()
     while pending:
         for index in pending:
-            run(index)
-        pending = next_speeds(
-            cell.known, list(sought(cell, config).values()), config["chart"]["speeds"]["refine_above"]
-        )
+            _run(config, blade, point, index)
+        pending = next_speeds(point.known, sought(config, point, point.measures["peak"]).values(), share)
+    return point
 
 
-def sought(cell: Cell, config: Mapping[str, Any]) -> dict[str, np.ndarray]:
-    """Curves (n,) over speed whose maxima the cell is after, by the column; NaN where they are not sought."""
+def sought(config: Mapping[str, Any], response: Response, peak: np.ndarray) -> dict[str, np.ndarray]:
+    """Curves (n,) over speed whose maxima are sought, by column of the chart; NaN where not sought or run.
+
+    `peak` (n,) is the greatest displacement at each speed, m.
+    """
     settings = config["analysis"]["peaks"]
-    on_orders = {f"Y{order}": amplitude_in_window(cell, order, settings) for order in ORDERS}
-    return on_orders | {"peak": cell.measures["peak"]}
+    amplitudes = {f"Y{order}": amplitude_in_window(response, order, settings) for order in ORDERS}
+    return amplitudes | {"peak": peak}
 
 
-def _run(config: Mapping[str, Any], blade: ReducedBlade, cell: Cell, index: int) -> None:
-    spec = run_spec(config, cell.case, cell.f_omega[index])
+def next_speeds(known: np.ndarray, curves: Iterable[np.ndarray], share: float) -> list[int]:
+    """Return the speeds to run next, as ascending indices into the grid; none once all maxima are enclosed.
+
+    Parameters
+    ----------
+    known : (n,) ndarray of bool
+        Which speeds of the grid were run.
+    curves : iterable of (n,) ndarray
+        Quantities whose maxima are sought; NaN where the maximum is not sought.
+    share : float
+        Local maxima below this share of the greatest are left as they are.
+    """
+    at = np.flatnonzero(known)
+    wanted: set[int] = set()
+    for curve in curves:
+        values = np.nan_to_num(curve[at], nan=-np.inf)
+        if not np.isfinite(values).any():
+            continue
+        left, right = np.append(-np.inf, values[:-1]), np.append(values[1:], -np.inf)
+        maxima = np.flatnonzero((values >= left) & (values >= right) & (values >= share * values.max()))
+        for low, high in [*zip(maxima - 1, maxima, strict=True), *zip(maxima, maxima + 1, strict=True)]:
+            if low >= 0 and high < at.size and at[high] - at[low] > 1:
+                wanted.add(int(at[low] + at[high]) // 2)
+    return sorted(wanted)
+
+
+def _run(config: Mapping[str, Any], blade: ReducedBlade, point: ChartPoint, index: int) -> None:
+    """Run `point` at one speed and put what is measured into it."""
+    spec = run_spec(config, point.case, point.f_omega[index])
     result = simulate(blade, spec)
-    cell.spectrum_amplitude[index] = _amplitudes(config, spec, result)
-    for name, value in _measured(config, blade, spec, result).items():
-        cell.measures[name][index] = value
-    if cell.uniform[index]:
-        cell.measures["divergent"][index] = _diverges(config, blade, spec, result)
+    point.spectrum_amplitude[index] = _amplitudes(config["analysis"], spec, result)
+    for name, value in _measured(config["analysis"], blade, spec, result).items():
+        point.measures[name][index] = value
+    if point.uniform[index]:
+        point.measures["divergent"][index] = _diverges(config["analysis"], blade, spec, result)
 
 
-def _amplitudes(config: Mapping[str, Any], spec: RunSpec, result: RunResult) -> list[float]:
+def _amplitudes(analysis: Mapping[str, Any], spec: RunSpec, result: RunResult) -> list[float]:
     """Largest amplitude on each of `ORDERS`, m."""
-    analysis = config["analysis"]
     halfwidth = analysis["peaks"]["order_halfwidth"]
     order, amplitude = order_spectrum(
         result.radial_displacement, spec.revolutions, analysis["spectrum_revolutions"], max(ORDERS) + 1
@@ -104,22 +109,21 @@ def _amplitudes(config: Mapping[str, Any], spec: RunSpec, result: RunResult) -> 
 
 
 def _measured(
-    config: Mapping[str, Any], blade: ReducedBlade, spec: RunSpec, result: RunResult
+    analysis: Mapping[str, Any], blade: ReducedBlade, spec: RunSpec, result: RunResult
 ) -> dict[str, float]:
-    made = result.n_steps * result.time_step * spec.f_omega * blade.f1_hz
     return {
         "peak": float(np.nanmax(result.revolution_peak)),
         "worn_volume": float(result.wear.sum(axis=1) @ bar_area(blade, spec)),
         "deepest_wear": float(result.wear.max()),
-        "lobes": lobes(result.angle, result.wear, config["analysis"]["lobe_prominence"]),
+        "lobes": lobes(result.angle, result.wear, analysis["lobe_prominence"]),
         "unbounded": float(result.status == "unbounded"),
-        "revolutions": made,
+        "revolutions": result.n_steps * result.time_step * spec.f_omega * blade.f1_hz,
         **{f"energy_{name}": getattr(result.energy, name) for name in ("damping", "wear", "sliding")},
     }
 
 
-def _diverges(config: Mapping[str, Any], blade: ReducedBlade, spec: RunSpec, result: RunResult) -> float:
-    settings, longer = config["analysis"]["divergence"], None
+def _diverges(analysis: Mapping[str, Any], blade: ReducedBlade, spec: RunSpec, result: RunResult) -> float:
+    settings, longer = analysis["divergence"], None
     if needs_confirmation(result.revolution_amplitude, result.status, settings):
         longer = simulate(blade, confirmation_spec(spec, settings)).revolution_amplitude
     return float(judge(result.revolution_amplitude, result.status, settings, longer).divergent)

@@ -1,15 +1,15 @@
 import numpy as np
 import pytest
 
-from bladerub.extensions.chart.cell import MEASURES, Cell
+from bladerub.extensions.chart.point import MEASURES, ChartPoint
 from bladerub.study.grid import CoatingCase
 
 F_OMEGA = np.round(np.arange(0.152, 0.4001, 0.002), 6)
 
 
 @pytest.fixture
-def make_cell():
-    """A cell that was run at all speeds; its response on each order is a hat, C1² = 1 + 3 f_omega²."""
+def make_point():
+    """A point that was run at all speeds; its response on each order is a hat, C1² = 1 + 3 f_omega²."""
 
     def make(E, K, Y4=1e-3, Y6=5e-4, f4=0.32, f6=0.19, theta=0.0, divergent=0.0, depth=1e-4):
         hats = [
@@ -28,6 +28,6 @@ def make_cell():
         }
         case = CoatingCase("2nd", E, K, theta)
         C1 = np.sqrt(1 + 3 * F_OMEGA**2)
-        return Cell(case, F_OMEGA, C1, np.array([4.0, 6.0]), np.stack(hats, axis=1), uniform, measures)
+        return ChartPoint(case, F_OMEGA, C1, np.array([4.0, 6.0]), np.stack(hats, axis=1), uniform, measures)
 
     return make

@@ -36,33 +36,33 @@ def simulated(monkeypatch, make_result):
 def test_the_search_encloses_the_peaks_and_judges_even_speeds_alone(few_speeds, blade, simulated):
     speeds = chart_speeds(few_speeds)
     np.testing.assert_allclose(speeds.f_omega[speeds.coarse], [0.16, 0.24, 0.32])
-    cell = search.compute(few_speeds, CASE, blade, speeds, np.sqrt(1 + 3 * speeds.f_omega**2))
+    point = search.compute(few_speeds, CASE, blade, speeds, np.sqrt(1 + 3 * speeds.f_omega**2))
     runs = [f_omega for f_omega, revolutions in simulated if revolutions == 20]
     assert runs[:3] == [0.16, 0.24, 0.32]
-    assert sorted(runs) == list(cell.f_omega[cell.known])
+    assert sorted(runs) == list(point.f_omega[point.known])
     assert {0.26, 0.28, 0.3} <= set(runs)
     assert [f_omega for f_omega, revolutions in simulated if revolutions == 60] == [0.16]
-    judged = dict(zip(cell.f_omega, cell.measures["divergent"], strict=True))
+    judged = dict(zip(point.f_omega, point.measures["divergent"], strict=True))
     assert (judged[0.16], judged[0.24], judged[0.32]) == (1.0, 0.0, 0.0)
     assert np.isnan(judged[0.28])
 
 
 def test_worn_volume_is_depth_times_area(few_speeds, blade, simulated):
     speeds = chart_speeds(few_speeds)
-    cell = search.compute(few_speeds, CASE, blade, speeds, np.sqrt(1 + 3 * speeds.f_omega**2))
+    point = search.compute(few_speeds, CASE, blade, speeds, np.sqrt(1 + 3 * speeds.f_omega**2))
     depth = 2e-4 * np.linspace(1, 0.5, 8) / np.pi  # the mean of clip(cos, 0) is 1/π
     expected = np.sum(depth * strip_width(blade) * 2 * np.pi * 0.65)
-    volume = cell.measures["worn_volume"][cell.known]
+    volume = point.measures["worn_volume"][point.known]
     np.testing.assert_allclose(volume, expected, rtol=1e-5)
-    assert np.all(cell.measures["deepest_wear"][cell.known] == pytest.approx(2e-4, rel=1e-4))
+    assert np.all(point.measures["deepest_wear"][point.known] == pytest.approx(2e-4, rel=1e-4))
 
 
-def test_a_column_computes_what_is_not_there(few_speeds, blade, make_cell, monkeypatch, tmp_path):
+def test_a_column_computes_what_is_not_there(few_speeds, blade, make_point, monkeypatch, tmp_path):
     computed = []
 
     def compute(config, case, *_):
         computed.append(case.K)
-        return make_cell(case.E, case.K)
+        return make_point(case.E, case.K)
 
     monkeypatch.setattr(column, "compute", compute)
     lines = []

@@ -5,9 +5,9 @@ import pandas as pd
 import pytest
 
 from bladerub.extensions.chart import check, choice, explanation, ridge, stiffening, table
-from bladerub.extensions.chart.cell import read, write
 from bladerub.extensions.chart.manifest import CellRow, is_current, lost_cell
 from bladerub.extensions.chart.manifest import write as write_manifest
+from bladerub.extensions.chart.point import read, write
 from bladerub.io.columns import COLUMNS
 from bladerub.study.grid import CoatingCase
 
@@ -15,46 +15,48 @@ E, K = (0.5, 1.0, 2.0), (0.1, 1.0, 10.0)
 
 
 @pytest.fixture
-def chart(make_cell):
+def chart(make_point):
     """Highest at K = 1 for each E; the peak of E = 2 lies between the even speeds."""
     heights = {0.1: 1e-3, 1.0: 2e-3, 10.0: 1.5e-3}
     return [
-        make_cell(e, k, Y4=e * heights[k], f4=0.322 if e == 2 else 0.32, depth=1e-4 * k) for e in E for k in K
+        make_point(e, k, Y4=e * heights[k], f4=0.322 if e == 2 else 0.32, depth=1e-4 * k)
+        for e in E
+        for k in K
     ]
 
 
-def test_a_cell_comes_back_from_its_file(tmp_path, config, make_cell):
-    cell, path = make_cell(1.0, 2.0), tmp_path / "cell.h5"
-    cell.measures["peak"][3] = np.nan
-    write(path, cell, "key", config)
+def test_a_point_comes_back_from_its_file(tmp_path, config, make_point):
+    point, path = make_point(1.0, 2.0), tmp_path / "point.h5"
+    point.measures["peak"][3] = np.nan
+    write(path, point, "key", config)
     again = read(path)
-    assert again.case == cell.case
-    np.testing.assert_array_equal(again.uniform, cell.uniform)
-    np.testing.assert_array_equal(again.spectrum_amplitude, cell.spectrum_amplitude)
-    for name, values in cell.measures.items():
+    assert again.case == point.case
+    np.testing.assert_array_equal(again.uniform, point.uniform)
+    np.testing.assert_array_equal(again.spectrum_amplitude, point.spectrum_amplitude)
+    for name, values in point.measures.items():
         np.testing.assert_array_equal(again.measures[name], values)
-    assert again.known.sum() == cell.f_omega.size - 1
+    assert again.known.sum() == point.f_omega.size - 1
     assert is_current(path, "key")
     assert not is_current(path, "another")
     path.write_bytes(path.read_bytes()[:1000])
     assert not is_current(path, "key")
 
 
-def test_a_lost_or_short_cell_is_named(tmp_path):
-    manifest, cell = tmp_path / "columns" / "a.tsv", tmp_path / "cells" / "a.h5"
+def test_a_lost_or_short_point_is_named(tmp_path):
+    manifest, file = tmp_path / "columns" / "a.tsv", tmp_path / "cells" / "a.h5"
     write_manifest(manifest, [CellRow("a.h5", "key", 3)])
-    assert lost_cell(manifest) == str(cell)
-    cell.parent.mkdir()
-    cell.write_bytes(b"12")
-    assert lost_cell(manifest) == str(cell)
-    cell.write_bytes(b"123")
+    assert lost_cell(manifest) == str(file)
+    file.parent.mkdir()
+    file.write_bytes(b"12")
+    assert lost_cell(manifest) == str(file)
+    file.write_bytes(b"123")
     assert lost_cell(manifest) is None
 
 
-def test_a_row_sums_up_a_cell(config, make_cell):
-    cell = make_cell(2.0, 1.0, Y4=3e-3, f4=0.33, divergent=1.0)
-    cell.measures["divergent"][0] = 0.0
-    found = table.table(config, [cell]).iloc[0]
+def test_a_row_sums_up_a_cell(config, make_point):
+    point = make_point(2.0, 1.0, Y4=3e-3, f4=0.33, divergent=1.0)
+    point.measures["divergent"][0] = 0.0
+    found = table.table(config, [point]).iloc[0]
     assert (found.Y4, found.f4, found.Y6, found.f6) == (3e-3, 0.33, 5e-4, 0.19)
     assert (found.peak, found.f_at_peak, found.deepest_wear) == (3e-3, 0.33, 1e-4)
     assert found.divergent_share == pytest.approx(31 / 32)
@@ -193,7 +195,7 @@ def test_the_search_is_put_to_the_study(config, make_map):
         make_map(CoatingCase("2nd", e, 0.5, 0.0), {4: (0.322, 2e-3), 6: (0.19, 1e-3)}, f_omega) for e in E
     ]
     maps[1].spectrum_amplitude[f_omega == 0.274, 40] = 3e-3  # a spike that no local maximum leads to
-    found = check.of_maps(config, maps)
+    found = check.table(config, maps)
     spike = (found.E == 1.0) & (found.quantity == "Y4")
     assert (found.missed[~spike] == 0).all()
     assert found.missed[spike].item() == pytest.approx(1 / 3)

@@ -1,6 +1,6 @@
 import numpy as np
 
-from bladerub.extensions.chart.placement import next_speeds
+from bladerub.extensions.chart.search import next_speeds
 
 
 def search(curve, step, share):

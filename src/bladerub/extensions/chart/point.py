@@ -1,4 +1,4 @@
-"""One cell of the chart: what is kept of the runs of one coating, and its file."""
+"""One point of the chart, a coating: what is kept of the runs of one coating, and its file."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ MEASURES = {
 
 
 @dataclass(frozen=True)
-class Cell:
+class ChartPoint:
     """What the chart keeps of one coating, over all speeds of the study.
 
     Parameters
@@ -66,45 +66,45 @@ class Cell:
         return np.isfinite(self.measures["peak"])
 
 
-def write(path: str | Path, cell: Cell, key: str, config: Mapping[str, Any]) -> None:
-    """Write `cell` to the HDF5 file `path` under its `key`, whole or not at all."""
+def write(path: str | Path, point: ChartPoint, key: str, config: Mapping[str, Any]) -> None:
+    """Write `point` to the HDF5 file `path` under its `key`, whole or not at all."""
     over_speed = ("f_omega",)
     variables = {
         "f_omega": Variable(
-            over_speed, cell.f_omega, "1", "rotational frequency over that of the blade at rest"
+            over_speed, point.f_omega, "1", "rotational frequency over that of the blade at rest"
         ),
-        "spectrum_order": Variable(("spectrum_order",), cell.spectrum_order, "1", "engine order"),
-        "C1": Variable(over_speed, cell.C1, "1", "first eigenfrequency at speed over that at rest"),
+        "spectrum_order": Variable(("spectrum_order",), point.spectrum_order, "1", "engine order"),
+        "C1": Variable(over_speed, point.C1, "1", "first eigenfrequency at speed over that at rest"),
         "spectrum_amplitude": Variable(
             ("f_omega", "spectrum_order"),
-            cell.spectrum_amplitude,
+            point.spectrum_amplitude,
             "m",
             "largest amplitude of the radial displacement of node 1 on the engine order; NaN: not run",
         ),
         "uniform": Variable(
-            over_speed, cell.uniform.astype(np.int8), "1", "1 at the speeds of which shares are"
+            over_speed, point.uniform.astype(np.int8), "1", "1 at the speeds of which shares are"
         ),
     }
     for name, (unit, long_name) in MEASURES.items():
-        variables[name] = Variable(over_speed, cell.measures[name], unit, f"{long_name}; NaN: not run")
-    hdf5.write(path, variables, asdict(cell.case) | {"cell_key": key}, provenance(config))
+        variables[name] = Variable(over_speed, point.measures[name], unit, f"{long_name}; NaN: not run")
+    hdf5.write(path, variables, asdict(point.case) | {"cell_key": key}, provenance(config))
 
 
-def read(path: str | Path) -> Cell:
-    """Read a cell written by `write`.
+def read(path: str | Path) -> ChartPoint:
+    """Read a point written by `write`.
 
     Raises
     ------
     OSError
-        If the file is missing, damaged or not a cell; the message names it.
+        If the file is missing, damaged or not a point of the chart; the message names it.
     """
     data, attributes = hdf5.read(path)
     try:
-        return Cell(
+        return ChartPoint(
             case=CoatingCase.described(attributes),
             **{name: data[name] for name in ("f_omega", "C1", "spectrum_order", "spectrum_amplitude")},
             uniform=data["uniform"].astype(bool),
             measures={name: data[name] for name in MEASURES},
         )
     except KeyError as error:
-        raise DamagedFile(f"{path}: not a cell of the chart, {error} is missing") from error
+        raise DamagedFile(f"{path}: not a point of the chart, {error} is missing") from error
