@@ -11,11 +11,11 @@ import pytest
 
 from bladerub.contact.run import simulate
 
+pytestmark = pytest.mark.slow
+
 CHILD = """
 import pickle, sys
 from bladerub.contact.run import simulate
-
-pytestmark = pytest.mark.slow
 with open(sys.argv[1], "rb") as file:
     blade, spec = pickle.load(file)
 result = simulate(blade, spec)
