@@ -35,8 +35,9 @@ from bladerub.blade.rotation import equilibrium
 from bladerub.blade.sources import mesh_file
 from bladerub.blade.surface import boundary_faces
 from bladerub.config import read as configuration
+from bladerub.io.sources import ROOT
 
-BLADE = configuration.ROOT / "config" / "blades" / "twisted_plate.inp"  # of config/twisted_plate.yaml
+BLADE = ROOT / "config" / "blades" / "twisted_plate.inp"  # of config/twisted_plate.yaml
 
 STEEL = Material(2e11, 0.3, 8000.0)
 
@@ -149,9 +150,7 @@ def test_the_mesh_of_the_study_is_what_its_script_makes():
 
 
 def test_the_blade_of_the_study_is_a_plate_that_its_reduced_model_follows():
-    study = configuration.load(
-        configuration.ROOT / "config" / "config.yaml", configuration.ROOT / "config" / "twisted_plate.yaml"
-    )
+    study = configuration.load(ROOT / "config" / "config.yaml", ROOT / "config" / "twisted_plate.yaml")
     study["reduction"].update(accuracy_speeds=5, accuracy_modes=7)
     built = build(study)
     material = Material.from_config(study["blade"]["material"])

@@ -17,7 +17,7 @@ from tqdm import tqdm
 from bladerub.cli import inputs
 from bladerub.cli.errors import InputError
 from bladerub.config.errors import format_value
-from bladerub.config.read import check_quantity
+from bladerub.config.schema import check_quantity
 
 _KINDS = {"abradable": ("E", "K", "theta", "friction"), "rigid": ("friction",)}
 """What describes each kind of coating; of theta and friction an abradable one has either."""

@@ -67,6 +67,11 @@ def key_path(parts: Iterable[Any]) -> str:
     return text
 
 
+def top_key(problem: str) -> str:
+    """Return the key at the top of the config that the text of a problem begins with."""
+    return re.match(r"\w*", problem)[0]
+
+
 def format_value(value: Any) -> str:
     """Write a value of the config on one short line of printable characters."""
     text = f'"{value}"' if isinstance(value, str) else repr(value)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from typing import Any, NamedTuple
+from typing import Any
 
 HEAD = """\
 # What a config may hold
@@ -14,35 +14,21 @@ Mappings merge, a list is replaced as a whole. A file can begin from others with
 command line, `--config`, goes over all files. `[]` stands for each entry of a list, `<name>` for any name.
 """
 
-_ENDS = {"minimum": "≥ {:g}", "exclusiveMinimum": "> {:g}", "maximum": "≤ {:g}", "exclusiveMaximum": "< {:g}"}
-_COUNTS = {
+_RANGES = {
+    "minimum": "≥ {:g}",
+    "exclusiveMinimum": "> {:g}",
+    "maximum": "≤ {:g}",
+    "exclusiveMaximum": "< {:g}",
     "minItems": "≥ {} entries",
     "maxItems": "≤ {} entries",
     "minProperties": "≥ {} names",
     "maxProperties": "≤ {} names",
 }
-_NO_VALUE = object()
+
+Rule = Mapping[str, Any]
 
 
-class Key(NamedTuple):
-    """One key as the reference shows it.
-
-    Parameters
-    ----------
-    path : str
-        Where it is, for instance ``casings.<name>.weights[]``.
-    about : mapping
-        Its part of the schema, references resolved.
-    value : object
-        What the study has there; `None` if it is no single value.
-    """
-
-    path: str
-    about: Mapping[str, Any]
-    value: Any
-
-
-def reference(schema: Mapping[str, Any], config: Mapping[str, Any]) -> str:
+def reference(schema: Rule, config: Mapping[str, Any]) -> str:
     """Write the reference in Markdown: a section for each key at the top, a row for each key below it.
 
     Parameters
@@ -54,64 +40,49 @@ def reference(schema: Mapping[str, Any], config: Mapping[str, Any]) -> str:
     """
     sections = [HEAD]
     for name, part in schema["properties"].items():
-        keys = list(_keys(schema, name, part, config.get(name, _NO_VALUE)))
-        rows = [_row(key) for key in keys if key.path != name or len(keys) == 1]
+        keys = list(_keys(schema, name, part, config.get(name)))
+        rows = [_row(*key) for key in keys if key[0] != name or len(keys) == 1]
         rows = list(dict.fromkeys(rows))  # kinds of entry have keys in common
         table = ["| key | what | unit | may be | in the study | why |", "|---|---|---|---|---|---|", *rows]
         sections.append("\n".join([f"## {name}", "", part["description"].strip(), "", *table, ""]))
     return "\n".join(sections)
 
 
-def _keys(schema: Mapping[str, Any], path: str, part: Mapping[str, Any], value: Any) -> Iterator[Key]:
-    part = _resolved(schema, part)
-    yield Key(path, part, None if isinstance(value, dict | list) or value is _NO_VALUE else value)
-    for name, inner in part.get("properties", {}).items():
-        inside = value.get(name, _NO_VALUE) if isinstance(value, Mapping) else _NO_VALUE
+def _keys(schema: Rule, path: str, rule: Rule, value: Any) -> Iterator[tuple[str, Rule, Any]]:
+    """Yield path, rule and value of each key, the value None where the study has no single one."""
+    if "$ref" in rule:
+        rule = schema["$defs"][rule["$ref"].rsplit("/", 1)[1]]
+    yield path, rule, None if isinstance(value, dict | list) else value
+    for name, inner in rule.get("properties", {}).items():
+        inside = value.get(name) if isinstance(value, dict) else None
         yield from _keys(schema, f"{path}.{name}", inner, inside)
-    named = part.get("additionalProperties")
-    if isinstance(named, Mapping):
-        yield from _keys(schema, f"{path}.<name>", named, _NO_VALUE)
-    if "items" in part:
-        for kind in _kinds(part["items"]):
-            yield from _keys(schema, f"{path}[]", kind, _NO_VALUE)
+    if isinstance(rule.get("additionalProperties"), Mapping):
+        yield from _keys(schema, f"{path}.<name>", rule["additionalProperties"], None)
+    for kind in _kinds(rule["items"]) if "items" in rule else ():
+        yield from _keys(schema, f"{path}[]", kind, None)
 
 
-def _resolved(schema: Mapping[str, Any], part: Mapping[str, Any]) -> Mapping[str, Any]:
-    if "$ref" not in part:
-        return part
-    return schema["$defs"][part["$ref"].rsplit("/", 1)[1]]
-
-
-def _kinds(items: Mapping[str, Any]) -> list[Mapping[str, Any]]:
+def _kinds(items: Rule) -> list[Rule]:
     """Return the kinds of entry that a list may have: those of its conditions, or the one it has."""
     return [branch["then"] for branch in items.get("allOf", []) if "then" in branch] or [items]
 
 
-def _row(key: Key) -> str:
-    about = key.about
+def _row(path: str, rule: Rule, value: Any) -> str:
     cells = (
-        f"`{key.path}`",
-        about["title"],
-        "" if about["unit"] in ("none", "1") else about["unit"],
-        _range(about),
-        "" if key.value is None else f"`{_shown(key.value)}`",
-        about["description"],
+        f"`{path}`",
+        rule["title"],
+        "" if rule["unit"] in ("none", "1") else rule["unit"],
+        _range(rule),
+        "" if value is None else f"`{value:g}`" if isinstance(value, float) else f"`{value}`",
+        rule["description"],
     )
     return "| " + " | ".join(" ".join(str(cell).replace("|", "\\|").split()) for cell in cells) + " |"
 
 
-def _range(about: Mapping[str, Any]) -> str:
-    if "form" in about:
-        return about["form"]
-    limits = [
-        text.format(about[name])
-        for texts in (_ENDS, _COUNTS)
-        for name, text in texts.items()
-        if name in about
-    ]
-    kind = {"integer": "a whole number"}.get(about.get("type"), "")
-    return ", ".join(part for part in (kind, *limits) if part)
-
-
-def _shown(value: Any) -> str:
-    return f"{value:g}" if isinstance(value, float) else str(value)
+def _range(rule: Rule) -> str:
+    if "form" in rule:
+        return rule["form"]
+    limits = [text.format(rule[name]) for name, text in _RANGES.items() if name in rule]
+    limits += ["ascending"] if "ascending" in rule else []
+    limits += [limit.partition(",")[0] for limit in rule.get("limits", [])]
+    return ", ".join(["a whole number"] * (rule["type"] == "integer") + limits)

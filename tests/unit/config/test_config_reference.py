@@ -2,8 +2,9 @@ from pathlib import Path
 
 import pytest
 
-from bladerub.config.read import load, schema
+from bladerub.config.read import load
 from bladerub.config.reference import reference
+from bladerub.config.schema import schema
 
 ROOT = Path(__file__).parents[3]
 

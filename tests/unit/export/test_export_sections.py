@@ -10,8 +10,9 @@ from bladerub.blade.rotation import equilibrium
 from bladerub.blade.sources.frame import Frame
 from bladerub.blade.sources.importing import import_blade
 from bladerub.blade.sources.origin import Source
-from bladerub.config.read import ROOT, load
+from bladerub.config.read import load
 from bladerub.export.sections import write_sections
+from bladerub.io.sources import ROOT
 
 COUNTS = {"chordwise": 7, "thickness": 1, "spanwise": 6}
 

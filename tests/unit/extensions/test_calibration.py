@@ -1,8 +1,10 @@
 import pandas as pd
 import pytest
 
-from bladerub.config.read import ROOT, ConfigError, load, validate
+from bladerub.config.errors import ConfigError
+from bladerub.config.read import load, validate
 from bladerub.extensions.calibration import COLUMNS, gather, plan
+from bladerub.io.sources import ROOT
 from bladerub.study.findings import verdicts
 
 

@@ -12,6 +12,7 @@ import numpy as np
 from bladerub.config import read as configuration
 from bladerub.config.errors import UNKNOWN, ConfigError, Problem, format_value
 from bladerub.config.files import Located, resolve_extend
+from bladerub.config.schema import is_number
 from bladerub.extensions.robustness.plan import REFERENCE, REFERENCE_BATCH, Part, Plan
 from bladerub.io.provenance import config_digest
 from bladerub.study.grid import coating_cases
@@ -97,7 +98,7 @@ def _replaced(config: Located, keys: list[str | int], value: Located, said: str)
     """Set the number that `keys` lead to, in a copy."""
     content = config.content
     if not keys:
-        if not configuration.is_number(content):
+        if not is_number(content):
             raise ConfigError.at(value.location, f"{said} = {format_value(config.plain())}: must be a number")
         return value
     known = content if isinstance(content, dict) else range(len(content)) if isinstance(content, list) else ()

@@ -19,7 +19,7 @@ from scipy.stats import qmc
 from bladerub.config.errors import UNKNOWN, ConfigError, Location, format_value
 from bladerub.config.files import Located
 from bladerub.config.files import read as read_file
-from bladerub.config.read import is_number
+from bladerub.config.schema import is_number
 
 BATCH = 8
 """Samples of one job."""

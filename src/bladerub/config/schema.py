@@ -1,0 +1,190 @@
+"""What the schema, ``config/schema.yaml``, says of a config, in words that name key, value and what is right.
+
+Three keywords of the schema are ours. ``limits`` and ``keyOf`` compare a value with other keys of the config:
+``limits: [at most contact.elements / 8, the tip of a blade is narrow]`` or ``keyOf: casings``; ``ascending``
+asks each entry of a list to be above the one before.
+"""
+
+from __future__ import annotations
+
+import math
+import operator
+import re
+from collections.abc import Iterator, Mapping
+from difflib import get_close_matches
+from functools import cache
+from itertools import pairwise
+from typing import Any
+
+import jsonschema
+
+from bladerub.config import files
+from bladerub.config.errors import UNKNOWN, ConfigError, format_value, key_path
+from bladerub.io.sources import ROOT
+
+SCHEMA = ROOT / "config" / "schema.yaml"
+
+_COMPARING = {"limits", "keyOf"}
+_LIMIT = re.compile(r"(at most|below|at least|above) ([\w.]+)(?: / (\d+))?(?:, .+)?")
+_RELATIONS = {"at most": operator.le, "below": operator.lt, "at least": operator.ge, "above": operator.gt}
+_KINDS = {
+    "number": "a number",
+    "integer": "a whole number",
+    "string": "text",
+    "array": "a list",
+    "object": "a group of keys",
+}
+
+
+@cache
+def schema() -> dict[str, Any]:
+    """Return the schema of the repository, with ``$ref`` left as they are.
+
+    Raises
+    ------
+    ConfigError
+        If it is missing, that is if the package was not installed in place.
+    """
+    if not SCHEMA.is_file():
+        raise ConfigError.at(UNKNOWN, f"{SCHEMA} is missing: install bladerub in place, pip install -e .")
+    return files.compose(SCHEMA).plain()
+
+
+def problems(config: Mapping[str, Any]) -> Iterator[str]:
+    """Yield a line for each problem; values are compared with other keys if the schema allows both parts."""
+    errors = sorted(_validator().iter_errors(config), key=lambda error: [str(part) for part in error.path])
+    alone = [error for error in errors if error.validator not in _COMPARING]
+    for error in alone:
+        yield from _describe(error)
+    broken = {error.path[0] if error.path else "" for error in alone}
+    valid = {key: value for key, value in config.items() if key not in broken}
+    for error in errors:
+        if error.validator in _COMPARING and error.path[0] in valid:
+            where = f"{key_path(error.path)} = {format_value(error.instance)}"
+            yield from (f"{where}: must be {right}" for right in _compare(error, valid))
+
+
+def check_quantity(name: str, value: Any) -> None:
+    """Check one value against the schema's definition of `name`, for instance ``E`` or ``f_omega``.
+
+    Raises
+    ------
+    ValueError
+        Says what would be right.
+    """
+    rule = schema()["$defs"][name]
+    errors = _validator().evolve(schema=rule).iter_errors(value)
+    if any(error.validator not in _COMPARING for error in errors):
+        raise ValueError(_right(rule))
+
+
+def is_number(value: Any) -> bool:
+    """Return whether `value` is a finite number; True and False are none in a config, unlike in Python."""
+    return isinstance(value, int | float) and not isinstance(value, bool) and abs(value) < math.inf
+
+
+@cache
+def _validator() -> jsonschema.protocols.Validator:
+    base = jsonschema.Draft202012Validator
+    types = base.TYPE_CHECKER.redefine_many(
+        {
+            "number": lambda _, value: is_number(value),
+            "integer": lambda _, value: is_number(value) and isinstance(value, int),
+        }
+    )
+    keywords = {"pattern": _pattern, "ascending": _ascending} | dict.fromkeys(_COMPARING, _to_compare)
+    return jsonschema.validators.extend(base, keywords, type_checker=types)(schema())
+
+
+def _pattern(_: Any, pattern: str, value: Any, __: Any) -> Iterator[jsonschema.ValidationError]:
+    """Match the whole text: ``$`` of a search lets a newline pass, which must not get into a file name."""
+    if isinstance(value, str) and not re.fullmatch(pattern, value):
+        yield jsonschema.ValidationError(f"{value!r} does not match {pattern!r}")
+
+
+def _ascending(_: Any, __: Any, values: Any, ___: Any) -> Iterator[jsonschema.ValidationError]:
+    if isinstance(values, list) and all(map(is_number, values)):
+        for index, (lower, upper) in enumerate(pairwise(values), 1):
+            if float(f"{upper:g}") <= float(f"{lower:g}"):  # six digits, as in the names of files
+                right = f"above the one before ({lower:g})"
+                yield jsonschema.ValidationError(right, path=[index], instance=upper)
+
+
+def _to_compare(_: Any, __: Any, ___: Any, ____: Any) -> Iterator[jsonschema.ValidationError]:
+    """Yield what `problems` is to compare: a keyword does not see the other keys."""
+    yield jsonschema.ValidationError("")
+
+
+def _compare(error: jsonschema.ValidationError, config: Mapping[str, Any]) -> Iterator[str]:
+    """Yield what would be right, for each comparison of ``keyOf`` or ``limits`` that fails."""
+    if error.validator == "keyOf":
+        names = config.get(error.validator_value, {error.instance})
+        if error.instance not in names:
+            yield f"one of the {error.validator_value}, {', '.join(names)}"
+        return
+    for limit in error.validator_value:
+        relation, key, divisor = _LIMIT.fullmatch(limit).groups()
+        bound: Any = config
+        for part in key.split("."):
+            bound = bound.get(part, {})
+        if is_number(bound) and not _RELATIONS[relation](error.instance, bound / int(divisor or 1)):
+            named, comma, reason = limit.partition(",")
+            yield f"{named} = {bound / int(divisor or 1):g}{comma}{reason}"
+
+
+def _describe(error: jsonschema.ValidationError) -> list[str]:
+    """Turn one error of the schema into our lines."""
+    parts, rule = list(error.absolute_path), error.schema
+    where = f"{key_path(parts)} = {format_value(error.instance)}" if parts else format_value(error.instance)
+    if error.validator == "additionalProperties":
+        known = rule["properties"]
+        unknown = {key: value for key, value in error.instance.items() if key not in known}
+        return [
+            f"{key_path([*parts, key])} = {format_value(value)}: unknown key, {_nearest(parts, key, known)}"
+            for key, value in unknown.items()
+        ]
+    if error.validator == "required":
+        missing = [key for key in rule["required"] if key not in error.instance]
+        return [f"{key_path([*parts, key])}: missing, {_right(rule['properties'][key])}" for key in missing]
+    if "propertyNames" in error.absolute_schema_path:
+        return [f"{key_path([*parts, error.instance])}: {_right(rule)}"]
+    if error.validator == "uniqueItems":
+        return [f"{where}: {rule['title']} must not name one twice"]
+    if error.validator == "ascending":
+        return [f"{where}: must be {error.message}"]
+    has_digits = isinstance(error.instance, str) and re.match(r"\s*[-+.\d]", error.instance)
+    with_unit = has_digits and rule["type"] in ("number", "integer")
+    return [f"{where}: {_right(rule)}{', the number alone' if with_unit else ''}"]
+
+
+def _nearest(parts: list[Any], key: Any, known: dict[str, Any]) -> str:
+    close = get_close_matches(str(key), known, n=1)
+    return f"did you mean {key_path([*parts, close[0]])}?" if close else f"known here: {', '.join(known)}"
+
+
+def _right(rule: dict[str, Any]) -> str:
+    """Say what a value must be, from its entry in the schema."""
+    if "$ref" in rule:
+        rule = schema()["$defs"][rule["$ref"].rsplit("/", 1)[-1]]
+    kind, unit = rule.get("form") or _KINDS[rule["type"]], ""
+    if rule["type"] != "integer" and rule["unit"] not in ("none", "1"):
+        unit = " (normalised)" if rule["unit"] == "normalised" else f", in {rule['unit']}"
+    return f"{rule['title']} must be {kind}{_range(rule)}{unit}"
+
+
+def _range(rule: dict[str, Any]) -> str:
+    if rule["type"] == "object":
+        if "maxProperties" not in rule:
+            return ""
+        return f" with {rule['minProperties']} to {rule['maxProperties']} of them"
+    if rule["type"] == "array":
+        fewest, most = rule.get("minItems", 0), rule.get("maxItems", math.inf)
+        if most == math.inf:
+            return f" of {fewest} or more entries"
+        return f" of {fewest} entries" if fewest == most else f" of {fewest} to {most} entries"
+    if {"minimum", "maximum"} <= rule.keys():
+        return f" from {rule['minimum']:g} to {rule['maximum']:g}"
+    words = {"exclusiveMinimum": "above", "minimum": "of at least"}
+    words |= {"exclusiveMaximum": "below", "maximum": "at most"}
+    bounds = [f"{word} {rule[bound]:g}" for bound, word in words.items() if bound in rule]
+    return f" {' and '.join(bounds)}" if bounds else ""
