@@ -84,8 +84,8 @@ def summary(ridges: pd.DataFrame) -> pd.DataFrame:
 
     Place and height of the highest point on the ridge; ``lowest_E_T`` and ``highest_E_T`` of the ridge;
     medians over the ridge of ``neighbour_spread``, the range of the neighbours over the height, of
-    ``height_lost`` against the finest step, relative, and of ``K_shift``, the factor between K and that of the
-    finest step.
+    ``height_lost`` against the finest step, relative, and of ``K_shift``, the factor between K and that of
+    the finest step.
     """
     rows = []
     for surface, ridge in ridges[ridges.along == "E"].groupby(_SURFACE):
