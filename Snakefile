@@ -53,7 +53,7 @@ include: "src/rules/explorer.smk"
 include: "src/rules/cost.smk"
 include: "src/rules/calibration.smk"
 include: "src/rules/chart.smk"
-include: "src/rules/passages.smk"
+include: "src/rules/sweeps.smk"
 include: "src/rules/robustness.smk"
 include: "src/rules/documents.smk"
 

@@ -1,4 +1,4 @@
-"""Compute one passage of one coating through the speeds."""
+"""Compute one speed sweep of one coating."""
 
 import sys
 
@@ -9,13 +9,13 @@ from bladerub.workflow import job
 
 job.log_to(snakemake.log[0])
 
-passage = snakemake.wildcards
+asked = snakemake.wildcards
 result = sweeps.make(
     snakemake.config,
-    case_from_name(snakemake.config, passage.coating),
+    case_from_name(snakemake.config, asked.coating),
     read_reduced_blade(snakemake.input.blade),
-    passage.direction,
-    float(passage.rate),
+    asked.direction,
+    float(asked.rate),
     snakemake.output[0],
 )
 print(result.message, file=sys.stderr)

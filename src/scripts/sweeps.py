@@ -1,4 +1,4 @@
-"""Set the peaks of all passages beside those at constant speed."""
+"""Compare the peaks of all speed sweeps with those at constant speed."""
 
 from bladerub.extensions import sweeps
 from bladerub.extensions.plots.sweeps import sweeps as draw
@@ -10,9 +10,8 @@ from bladerub.workflow import job
 
 job.log_to(snakemake.log[0])
 
-passages = [sweeps.read(path) for path in snakemake.input.passages]
+swept = [sweeps.read(path) for path in snakemake.input.sweeps]
 maps = {coating.case: coating for coating in map(read_map, snakemake.input.maps)}
-table = sweeps.table(snakemake.config, passages, maps)
+table = sweeps.table(snakemake.config, swept, maps)
 tables.write(snakemake.output.table, table, provenance(snakemake.config))
-figure = draw(passages, maps)
-style.save(figure, snakemake.output.png, snakemake.output.pdf, snakemake.params.dpi)
+style.save(draw(swept, maps), snakemake.output.png, snakemake.output.pdf, snakemake.params.dpi)

@@ -1,10 +1,10 @@
-"""Runs of hundreds of revolutions: what becomes of the runs that still grew, and of the peaks."""
+"""Runs of hundreds of revolutions: what becomes of the runs that still grow, and of the peaks."""
 
 from __future__ import annotations
 
 import time
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import asdict, dataclass, replace
+from dataclasses import asdict, dataclass, fields, replace
 from pathlib import Path
 from typing import Any
 
@@ -22,28 +22,8 @@ from bladerub.study.growth import Verdict, growth, judge
 from bladerub.study.maps import CoatingMap
 from bladerub.study.peaks import peak
 
-COLUMNS = [
-    "casing",
-    "E",
-    "K",
-    "theta",
-    "f_omega",
-    "why",
-    "revolutions",
-    "verdict",
-    "growth_per_revolution",
-    "late_amplitude",
-    "max_wear",
-    "status",
-    "ms_per_revolution",
-    "law",
-]
-"""Columns of ``long_runs.csv``: a row per run and number of revolutions after which it is judged;
-``max_wear`` and ``status`` are of the whole run."""
-
-
 DIED_OUT = 0.01
-"""Part of the greatest amplitude below which a vibration has died out."""
+"""Share of the greatest amplitude below which a vibration has died out."""
 
 
 @dataclass(frozen=True)
@@ -78,28 +58,23 @@ class LongRuns:
 
 
 def chosen(config: Mapping[str, Any], coating: CoatingMap) -> dict[float, str]:
-    """Choose the runs of a coating that are worth a long one: by speed, why.
+    """Choose the runs of a coating that are repeated for longer: the reason for each, by speed.
 
-    These are its peaks, and the runs that still grow at the end of the longest that the study made of them.
-    Those that left all bounds have come to their end.
+    These are its peaks, and the completed runs that still grow at the end of the longest that the study has.
     """
-    analysis = config["analysis"]
-    reasons = {peak(coating, order, analysis["peaks"]).f_omega: f"f{order:g}" for order in _orders(config)}
-    verdicts = map(
-        judge,
+    peaks, divergence = config["analysis"]["peaks"], config["analysis"]["divergence"]
+    reasons = {peak(coating, order, peaks).f_omega: f"f{order:g}" for order in peaks["orders"]}
+    for f_omega, amplitude, status, longer in zip(
+        coating.f_omega,
         coating.revolution_amplitude,
         coating.status,
-        [analysis["divergence"]] * coating.f_omega.size,
         coating.confirmation_amplitude,
-    )
-    for f_omega, verdict in zip(coating.f_omega, verdicts, strict=True):
+        strict=True,
+    ):
+        verdict = judge(amplitude, status, divergence, longer)
         if verdict.divergent and verdict.status == "completed":
             reasons.setdefault(float(f_omega), "grows")
     return dict(sorted(reasons.items()))
-
-
-def _orders(config: Mapping[str, Any]) -> list[float]:
-    return config["analysis"]["peaks"]["orders"]
 
 
 def make(
@@ -109,28 +84,17 @@ def make(
     path: str | Path,
     report: Callable[[str], None],
 ) -> None:
-    """Compute the long runs of one coating and write them to `path`.
+    """Compute the long runs of a coating, of ``long_runs.revolutions``, and write them to the file `path`.
 
-    Parameters
-    ----------
-    config : mapping
-        The study; ``long_runs.revolutions`` is their length.
-    coating : CoatingMap
-        The coating at all speeds.
-    blade : ReducedBlade
-        The blade.
-    path : path-like
-        The HDF5 file.
-    report : callable
-        Called with a line after each run.
+    `report` is called with a line after each run.
     """
-    kernel_warm_up()  # or the first run would be charged with loading the machine code
+    kernel_warm_up()  # or the time of the first run would include the loading of the machine code
     case, revolutions = coating.case, config["long_runs"]["revolutions"]
     reasons = chosen(config, coating)
     results, seconds = [], np.full((len(reasons), revolutions), np.nan)
     for elapsed, (f_omega, why) in zip(seconds, reasons.items(), strict=True):
         spec = replace(run_spec(config, case, f_omega), revolutions=revolutions)
-        results.append(simulate(blade, spec, _watch(elapsed)))
+        results.append(simulate(blade, spec, _stopwatch(elapsed)))
         report(f"{f_omega:.4f} ({why}): {results[-1].message}")
     variables = {
         "f_omega": Variable(("run",), np.array(list(reasons)), "1", "rotational frequency, normalised"),
@@ -157,8 +121,8 @@ def make(
     hdf5.write(path, variables, asdict(case), provenance(config))
 
 
-def _watch(elapsed: np.ndarray) -> Callable[[int], None]:
-    """Fill `elapsed` (r,) with the wall time until the end of each revolution, s."""
+def _stopwatch(elapsed: np.ndarray) -> Callable[[int], None]:
+    """Return a callback that fills `elapsed` (r,) with the wall time until the end of each revolution, s."""
     start = time.perf_counter()
 
     def note(done: int) -> None:
@@ -168,23 +132,17 @@ def _watch(elapsed: np.ndarray) -> Callable[[int], None]:
 
 
 def read(path: str | Path) -> LongRuns:
-    """Read what `make` has written.
-
-    Raises
-    ------
-    OSError
-        If the file is missing, damaged or another; the message names it.
-    """
+    """Read what `make` has written; raises `OSError`, naming the file, if it is missing or damaged."""
     data, about = hdf5.read(path)
-    names = ("f_omega", "why", "revolution_amplitude", "max_wear", "status", "seconds")
+    names = [field.name for field in fields(LongRuns) if field.name != "case"]
     try:
-        return LongRuns(CoatingCase.described(about), *(data[name] for name in names))
+        return LongRuns(CoatingCase.described(about), **{name: data[name] for name in names})
     except KeyError as error:
         raise DamagedFile(f"{path}: no long runs, {error} is missing") from error
 
 
 def stops(config: Mapping[str, Any]) -> list[int]:
-    """After how many revolutions a long run is judged: those of the study, of its confirmation, and on."""
+    """After how many revolutions a long run is judged: as in the study, as in its confirmation, and later."""
     settings, last = config["analysis"]["divergence"], config["long_runs"]["revolutions"]
     first = {config["solver"]["revolutions"], settings["confirmation_revolutions"]} - {0}
     doubled = [last // 2**halvings for halvings in range(3) if last // 2**halvings > max(first)]
@@ -194,9 +152,9 @@ def stops(config: Mapping[str, Any]) -> list[int]:
 def verdict_after(config: Mapping[str, Any], amplitude: np.ndarray, revolutions: int) -> tuple[str, Verdict]:
     """Judge the first `revolutions` of a long run.
 
-    It is ``unbounded``, ``divergent``, ``free`` if the vibration has died out because the blade has worn its
-    way free (`DIED_OUT`), ``saturating`` if it grew in the revolutions of the study and does not any more, or
-    ``steady``.
+    It is ``unbounded``, ``divergent``, ``free`` if the vibration has died out because the blade has worn the
+    coating away (`DIED_OUT`), ``saturating`` if it grew in the revolutions of the study and no longer does,
+    or ``steady``.
     """
     settings, whole = config["analysis"]["divergence"], amplitude[:revolutions]
     status = "completed" if np.isfinite(whole).all() else "unbounded"
@@ -212,30 +170,34 @@ def verdict_after(config: Mapping[str, Any], amplitude: np.ndarray, revolutions:
 
 
 def table(config: Mapping[str, Any], coatings: Iterable[LongRuns]) -> pd.DataFrame:
-    """Judge long runs after more and more of their revolutions.
+    """Judge long runs after each of `stops`: a row per run and stop.
 
-    Returns
-    -------
-    DataFrame
-        With `COLUMNS`.
+    ``max_wear`` and ``status`` are of the whole run, all else of the revolutions until the stop.
     """
     last = config["analysis"]["divergence"]["revolutions"]
     rows = []
     for long in coatings:
-        case = long.case
-        for index, (f_omega, amplitude) in enumerate(
-            zip(long.f_omega, long.revolution_amplitude, strict=True)
-        ):
+        for index, amplitude in enumerate(long.revolution_amplitude):
             for revolutions in stops(config):
                 name, verdict = verdict_after(config, amplitude, revolutions)
                 made = np.flatnonzero(np.isfinite(long.seconds[index, :revolutions]))
-                late = amplitude[made[-last:]].mean() if made.size else np.nan
                 cost = 1e3 * long.seconds[index, made[-1]] / made.size if made.size else np.nan
                 rows.append(
-                    (
-                        *(case.casing, case.E, case.K, case.theta, f_omega, long.why[index], revolutions),
-                        *(name, verdict.growth.per_revolution, late),
-                        *(long.max_wear[index], long.status[index], cost, case.law),
-                    )
+                    {
+                        "casing": long.case.casing,
+                        "E": long.case.E,
+                        "K": long.case.K,
+                        "theta": long.case.theta,
+                        "f_omega": long.f_omega[index],
+                        "why": long.why[index],
+                        "revolutions": revolutions,
+                        "verdict": name,
+                        "growth_per_revolution": verdict.growth.per_revolution,
+                        "late_amplitude": amplitude[made[-last:]].mean() if made.size else np.nan,
+                        "max_wear": long.max_wear[index],
+                        "status": long.status[index],
+                        "ms_per_revolution": cost,
+                        "law": long.case.law,
+                    }
                 )
-    return pd.DataFrame(rows, columns=COLUMNS)
+    return pd.DataFrame(rows)

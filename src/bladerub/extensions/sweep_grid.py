@@ -1,4 +1,4 @@
-"""Which coatings pass through the speeds, and how; for the graph of jobs, which simulates nothing."""
+"""Which coatings are swept, and how; without the solver, for the planning of the jobs."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ def swept_cases(config: Mapping[str, Any]) -> list[CoatingCase]:
 
 
 def sweep_spec(config: Mapping[str, Any], case: CoatingCase, direction: str, rate: float) -> SweepSpec:
-    """Describe one passage in SI units; it begins at rest, on a new coating."""
+    """Describe one sweep in SI units; it begins at rest, on a new coating."""
     settings = config["sweeps"]
     ends = settings["start"], settings["stop"]
     start, stop = ends if direction == "up" else ends[::-1]

@@ -1,4 +1,4 @@
-"""Passages through the speeds, up and down, beside the runs at constant speed."""
+"""Speed sweeps: run-up and run-down at a constant rate, compared with the runs at constant speed."""
 
 from __future__ import annotations
 
@@ -23,32 +23,10 @@ from bladerub.study.maps import CoatingMap
 from bladerub.study.peaks import amplitude_within, maximum, peak, speed_window
 from bladerub.study.spectra import order_spectrum
 
-COLUMNS = [
-    "casing",
-    "E",
-    "K",
-    "theta",
-    "direction",
-    "rate",
-    "order",
-    "f_peak",
-    "amplitude",
-    "f_peak_constant",
-    "amplitude_constant",
-    "ratio",
-    "survives",
-    "status",
-    "f_end",
-    "max_wear",
-    "energy_residual",
-    "law",
-]
-"""Columns of ``sweeps.csv``, a row per passage and engine order."""
-
 
 @dataclass(frozen=True)
-class Passage:
-    """One passage, its spectra in the order of the speed.
+class SpeedSweep:
+    """One sweep, its spectra sorted by speed.
 
     Parameters
     ----------
@@ -57,21 +35,19 @@ class Passage:
     direction : str
         ``up`` or ``down``.
     rate : float
-        Change of the normalised speed in a second, 1/s.
+        Sweep rate: change of the normalised speed per second, 1/s.
     status : str
         ``completed`` or ``unbounded``.
-    max_wear : float
-        Greatest worn depth at the end, m.
     energy_residual : float
         See `bladerub.contact.sweep.SweepResult.residual`.
+    max_wear : float
+        Greatest worn depth at the end, m.
     speed : (r,) ndarray
         Mean speed of each revolution, in the order of time, normalised.
     revolution_amplitude : (r,) ndarray
         Half the range of the radial displacement of node 1 in each of them, m; NaN after an unbounded end.
-    f_omega : (n,) ndarray
-        Mean speed of each window of revolutions, ascending, normalised.
-    C1 : (n,) ndarray
-        First eigenfrequency at those speeds, normalised.
+    f_omega, C1 : (n,) ndarray
+        Mean speed of each window of revolutions, ascending, and first eigenfrequency there, normalised.
     spectrum_order : (m,) ndarray
         Engine order.
     spectrum_amplitude : (n, m) ndarray
@@ -82,8 +58,8 @@ class Passage:
     direction: str
     rate: float
     status: str
-    max_wear: float
     energy_residual: float
+    max_wear: float
     speed: np.ndarray
     revolution_amplitude: np.ndarray
     f_omega: np.ndarray
@@ -100,34 +76,16 @@ def make(
     rate: float,
     path: str | Path,
 ) -> SweepResult:
-    """Compute one passage and write it to `path`.
+    """Compute one sweep, ``up`` or ``down`` at `rate` (1/s), and write it to the HDF5 file `path`.
 
-    Parameters
-    ----------
-    config : mapping
-        The study; ``sweeps`` has the ends of the passage, ``analysis`` says how its spectra are made.
-    case : CoatingCase
-        The coating.
-    blade : ReducedBlade
-        The blade.
-    direction : str
-        ``up`` or ``down``.
-    rate : float
-        Change of the normalised speed in a second, 1/s.
-    path : path-like
-        The HDF5 file.
-
-    Raises
-    ------
-    ValueError
-        If the passage has fewer revolutions than a spectrum; the message names the rate.
+    Raises `ValueError`, naming the rate, if the sweep has fewer revolutions than a spectrum.
     """
     result = simulate_sweep(blade, sweep_spec(config, case, direction, rate))
     analysis = config["analysis"]
     window, revolutions = analysis["spectrum_revolutions"], result.f_omega.size
     if revolutions < window:
         raise ValueError(
-            f"sweeps.rates = {rate:g}: the passage of {case.name} has {revolutions} revolutions, a spectrum "
+            f"sweeps.rates = {rate:g}: the sweep of {case.name} has {revolutions} revolutions, a spectrum "
             f"needs {window}; must be slower"
         )
     f_omega, order, amplitude = _spectra(result, window, analysis["max_order"])
@@ -157,20 +115,16 @@ def make(
             "amplitude of the radial displacement of node 1",
         ),
     }
-    energies = {f"energy_{name}": value for name, value in vars(result.energy).items()}
-    about = {
+    attributes = {
         **asdict(case),
         "direction": direction,
         "rate": rate,
-        "status": result.status,
-        "message": result.message,
-        "n_steps": result.n_steps,
-        "n_contact_steps": result.n_contact_steps,
+        **{name: getattr(result, name) for name in ("status", "message", "n_steps", "n_contact_steps")},
         "energy_residual": result.residual,
         "energy_work_stiffness": result.work_stiffness,
-        **energies,
+        **{f"energy_{name}": value for name, value in vars(result.energy).items()},
     }
-    hdf5.write(path, variables, about, provenance(config))
+    hdf5.write(path, variables, attributes, provenance(config))
     return result
 
 
@@ -179,52 +133,40 @@ def _spectra(result: SweepResult, window: int, max_order: float) -> tuple[np.nda
     track = result.radial_displacement.reshape(result.f_omega.size, -1)
     whole = int(np.isfinite(track).all(axis=1).sum())
     order, _ = order_spectrum(np.zeros(window * result.angle.size), window, window, max_order)
-    f_omega, amplitude = [], []
-    for start in range(whole - window + 1):
-        part = slice(start, start + window)
-        f_omega.append(result.f_omega[part].mean())
-        amplitude.append(order_spectrum(track[part].ravel(), window, window, max_order)[1])
-    ascending = np.argsort(f_omega, kind="stable").astype(int)
-    spectra = np.array(amplitude).reshape(-1, order.size)
-    return np.array(f_omega, float)[ascending], order, spectra[ascending]
+    windows = [slice(first, first + window) for first in range(whole - window + 1)]
+    f_omega = np.array([result.f_omega[part].mean() for part in windows], dtype=float)
+    spectra = [order_spectrum(track[part].ravel(), window, window, max_order)[1] for part in windows]
+    ascending = np.argsort(f_omega, kind="stable")
+    return f_omega[ascending], order, np.array(spectra).reshape(-1, order.size)[ascending]
 
 
-def read(path: str | Path) -> Passage:
-    """Read a passage written by `make`.
-
-    Raises
-    ------
-    OSError
-        If the file is missing, damaged or not a passage; the message names it.
-    """
+def read(path: str | Path) -> SpeedSweep:
+    """Read a sweep written by `make`; raises `OSError`, naming the file, if it is missing or damaged."""
     data, about = hdf5.read(path)
+    arrays = ("speed", "revolution_amplitude", "f_omega", "C1", "spectrum_order", "spectrum_amplitude")
     try:
-        return Passage(
-            CoatingCase.described(about),
-            *(about[name] for name in ("direction", "rate", "status")),
-            float(data["wear"].max()),
-            about["energy_residual"],
-            data["speed"],
-            data["revolution_amplitude"],
-            *(data[name] for name in ("f_omega", "C1", "spectrum_order", "spectrum_amplitude")),
+        return SpeedSweep(
+            case=CoatingCase.described(about),
+            max_wear=float(data["wear"].max()),
+            **{name: about[name] for name in ("direction", "rate", "status", "energy_residual")},
+            **{name: data[name] for name in arrays},
         )
     except KeyError as error:
-        raise DamagedFile(f"{path}: not a passage, {error} is missing") from error
+        raise DamagedFile(f"{path}: not a speed sweep, {error} is missing") from error
 
 
 def table(
-    config: Mapping[str, Any], passages: Iterable[Passage], maps: Mapping[CoatingCase, CoatingMap]
+    config: Mapping[str, Any], sweeps: Iterable[SpeedSweep], maps: Mapping[CoatingCase, CoatingMap]
 ) -> pd.DataFrame:
-    """Set the peaks of passages beside those at constant speed.
+    """Compare the peaks of sweeps with those at constant speed.
 
-    The peak of a passage is sought in the window of speeds that it is sought in at constant speed (see
-    `bladerub.study.peaks.peak`). It survives where it keeps ``sweeps.survival`` of the amplitude there.
+    The peak of a sweep is sought in the same window of speeds as at constant speed (`bladerub.study.peaks`).
 
     Parameters
     ----------
     config : mapping
-        The study.
-    passages : iterable of Passage
+        The study; ``sweeps.survival`` is the ratio of amplitudes from which a peak ``survives``.
+    sweeps : iterable of SpeedSweep
         Of any coatings.
     maps : mapping of CoatingCase to CoatingMap
         The same coatings at constant speed.
@@ -232,30 +174,38 @@ def table(
     Returns
     -------
     DataFrame
-        A row per passage and engine order, with `COLUMNS`; no peak where a passage left all bounds before it
-        came to the window.
-
-    Raises
-    ------
-    ValueError
-        As `bladerub.study.peaks.peak`.
+        A row per sweep and engine order; the peak is NaN where a sweep exceeds the displacement limit before
+        it reaches the window. Raises `ValueError` as `bladerub.study.peaks.peak`.
     """
     settings = config["analysis"]["peaks"]
     rows = []
-    for passage in passages:
-        case = passage.case
+    for sweep in sweeps:
+        case, constant = sweep.case, maps[sweep.case]
         for order in settings["orders"]:
-            constant = peak(maps[case], order, settings)
-            window = speed_window(maps[case], order, settings)
-            found = maximum(passage, amplitude_within(passage, order, window, settings))
-            ratio = found.amplitude / constant.amplitude
-            ended = np.flatnonzero(np.isfinite(passage.revolution_amplitude))
+            at_constant = peak(constant, order, settings)
+            window = speed_window(constant, order, settings)
+            found = maximum(sweep, amplitude_within(sweep, order, window, settings))
+            ratio = found.amplitude / at_constant.amplitude
             rows.append(
-                (
-                    *(case.casing, case.E, case.K, case.theta, passage.direction, passage.rate, order),
-                    *(found.f_omega, found.amplitude, constant.f_omega, constant.amplitude),
-                    *(ratio, bool(ratio >= config["sweeps"]["survival"]), passage.status),
-                    *(passage.speed[ended[-1]], passage.max_wear, passage.energy_residual, case.law),
-                )
+                {
+                    "casing": case.casing,
+                    "E": case.E,
+                    "K": case.K,
+                    "theta": case.theta,
+                    "direction": sweep.direction,
+                    "rate": sweep.rate,
+                    "order": order,
+                    "f_peak": found.f_omega,
+                    "amplitude": found.amplitude,
+                    "f_peak_constant": at_constant.f_omega,
+                    "amplitude_constant": at_constant.amplitude,
+                    "ratio": ratio,
+                    "survives": bool(ratio >= config["sweeps"]["survival"]),
+                    "status": sweep.status,
+                    "f_end": sweep.speed[np.isfinite(sweep.revolution_amplitude)][-1],
+                    "max_wear": sweep.max_wear,
+                    "energy_residual": sweep.energy_residual,
+                    "law": case.law,
+                }
             )
-    return pd.DataFrame(rows, columns=COLUMNS)
+    return pd.DataFrame(rows)

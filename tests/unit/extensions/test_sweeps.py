@@ -6,6 +6,7 @@ import pytest
 from bladerub.contact.spec import Energy
 from bladerub.contact.sweep import SweepResult
 from bladerub.extensions import sweep_grid, sweeps
+from bladerub.io.columns import COLUMNS
 from bladerub.io.errors import DamagedFile
 from bladerub.study.grid import CoatingCase
 from bladerub.study.peaks import peak
@@ -16,7 +17,7 @@ REVOLUTIONS = 60
 
 @pytest.fixture
 def passed(monkeypatch, angle):
-    """Let each passage vibrate on engine order 4, by a hat over speed; return what was asked for."""
+    """Let each sweep vibrate on engine order 4, by a hat over speed; return what was asked for."""
     asked = []
 
     def simulate_sweep(_, spec):
@@ -63,7 +64,7 @@ def test_the_study_s_coatings_alone_are_swept(config):
 
 
 @pytest.mark.parametrize(("direction", "start", "end"), [("up", 0.14, 0.4), ("down", 0.4, 0.14)])
-def test_a_passage_is_the_run_of_the_study_from_end_to_end(config, direction, start, end):
+def test_a_sweep_is_the_run_of_the_study_from_end_to_end(config, direction, start, end):
     config["sweeps"] |= {"start": 0.14, "stop": 0.4, "speed_step": 5e-4}
     spec = sweep_grid.sweep_spec(config, CASE, direction, 0.05)
     assert (spec.run.f_omega, spec.f_end, spec.rate, spec.speed_step) == (start, end, 0.05, 5e-4)
@@ -73,32 +74,32 @@ def test_a_passage_is_the_run_of_the_study_from_end_to_end(config, direction, st
 
 @pytest.mark.parametrize("direction", sweep_grid.DIRECTIONS)
 def test_spectra_are_of_windows_in_the_order_of_speed(make, config, direction):
-    passage = make(direction, 0.05)
+    sweep = make(direction, 0.05)
     window = config["analysis"]["spectrum_revolutions"]
-    assert passage.f_omega.size == REVOLUTIONS - window + 1
-    assert (np.diff(passage.f_omega) > 0).all()
-    assert (np.diff(passage.speed) > 0).all() == (direction == "up")
-    best = np.unravel_index(np.argmax(passage.spectrum_amplitude), passage.spectrum_amplitude.shape)
-    assert passage.f_omega[best[0]] == pytest.approx(0.3, abs=0.003)
-    assert passage.spectrum_order[best[1]] == 4
-    np.testing.assert_allclose(passage.C1, np.sqrt(1 + 3 * passage.f_omega**2))
-    assert (passage.case, passage.direction, passage.rate, passage.status) == (
+    assert sweep.f_omega.size == REVOLUTIONS - window + 1
+    assert (np.diff(sweep.f_omega) > 0).all()
+    assert (np.diff(sweep.speed) > 0).all() == (direction == "up")
+    best = np.unravel_index(np.argmax(sweep.spectrum_amplitude), sweep.spectrum_amplitude.shape)
+    assert sweep.f_omega[best[0]] == pytest.approx(0.3, abs=0.003)
+    assert sweep.spectrum_order[best[1]] == 4
+    np.testing.assert_allclose(sweep.C1, np.sqrt(1 + 3 * sweep.f_omega**2))
+    assert (sweep.case, sweep.direction, sweep.rate, sweep.status) == (
         CASE,
         direction,
         0.05,
         "completed",
     )
-    assert passage.max_wear == pytest.approx(2e-4)
+    assert sweep.max_wear == pytest.approx(2e-4)
 
 
-def test_a_passage_that_ended_has_spectra_of_whole_revolutions(make, config):
-    passage = make("up", 7.0)
-    assert passage.f_omega.size == 14 - config["analysis"]["spectrum_revolutions"] + 1
-    assert np.isfinite(passage.spectrum_amplitude).all()
-    assert np.isfinite(passage.revolution_amplitude).sum() == 15
+def test_a_sweep_that_ended_has_spectra_of_whole_revolutions(make, config):
+    sweep = make("up", 7.0)
+    assert sweep.f_omega.size == 14 - config["analysis"]["spectrum_revolutions"] + 1
+    assert np.isfinite(sweep.spectrum_amplitude).all()
+    assert np.isfinite(sweep.revolution_amplitude).sum() == 15
 
 
-def test_a_passage_shorter_than_a_spectrum_names_its_rate(make, config):
+def test_a_sweep_shorter_than_a_spectrum_names_its_rate(make, config):
     config["analysis"]["spectrum_revolutions"] = REVOLUTIONS + 1
     with pytest.raises(
         ValueError, match=r"sweeps\.rates = 0\.05: .* has 60 revolutions, a spectrum needs 61"
@@ -111,7 +112,7 @@ def test_peaks_stand_beside_those_at_constant_speed(make, make_map, config):
     maps = {CASE: make_map(CASE, {4: (0.3, 1.5e-3), 6: (0.2, 5e-4)})}
     settings = config["analysis"]["peaks"]
     table = sweeps.table(config, [make("up", 0.05), make("down", 0.05), make("up", 7.0)], maps)
-    assert list(table.columns) == sweeps.COLUMNS
+    assert set(table.columns) <= COLUMNS.keys()
     assert len(table) == 6
     whole = table[(table.order == 4) & (table.rate == 0.05)]
     constant = peak(maps[CASE], 4, settings)
@@ -136,7 +137,7 @@ def test_another_file_is_named(tmp_path, make_map):
 
     path = tmp_path / "map.h5"
     write_map(path, make_map(CASE, {}), {})
-    with pytest.raises(DamagedFile, match=r"map\.h5: not a passage"):
+    with pytest.raises(DamagedFile, match=r"map\.h5: not a speed sweep"):
         sweeps.read(path)
 
 

@@ -1,8 +1,8 @@
-# Longer, and at a speed that changes: studies beside the main one, each from its maps. Not part of `all`.
+# Speed sweeps and long runs, compared with the study (docs/sweeps.md). Not part of `all`.
 from bladerub.extensions.sweep_grid import DIRECTIONS, swept_cases, sweep_spec
 
 SWEPT = [case.name for case in swept_cases(config)]
-PASSAGES = f"{RESULTS}/sweeps/{{coating}}_{{direction}}_{{rate}}.h5"
+SWEEPS = f"{RESULTS}/sweeps/{{coating}}_{{direction}}_{{rate}}.h5"
 RATES = [f"{rate:g}" for rate in config["sweeps"]["rates"]]
 
 
@@ -16,7 +16,7 @@ def swept_maps(wildcards):
 
 
 def planned_sweep(wildcards):
-    """All that determines a passage but the blade: a changed one is a reason to run."""
+    """All that determines a sweep but the blade: a changed one is a reason to run."""
     case = case_from_name(config, wildcards.coating)
     return asdict(sweep_spec(config, case, wildcards.direction, float(wildcards.rate)))
 
@@ -24,7 +24,7 @@ def planned_sweep(wildcards):
 rule sweeps:
     input:
         maps=swept_maps,
-        passages=expand(PASSAGES, coating=SWEPT, direction=DIRECTIONS, rate=RATES),
+        sweeps=expand(SWEEPS, coating=SWEPT, direction=DIRECTIONS, rate=RATES),
         analysing=files_behind("extensions.sweeps", "study.peaks"),
         drawing=files_behind("extensions.plots.sweeps", "plots.titles"),
     output:
@@ -52,7 +52,7 @@ rule sweep:
             "extensions.sweeps", "extensions.sweep_grid", "study.spectra"
         ),
     output:
-        PASSAGES,
+        SWEEPS,
     log:
         f"{RESULTS}/logs/sweep/{{coating}}_{{direction}}_{{rate}}.log",
     benchmark:

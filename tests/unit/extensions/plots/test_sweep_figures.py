@@ -5,7 +5,7 @@ import pytest
 from bladerub.extensions.long_runs import LongRuns
 from bladerub.extensions.plots.long_runs import long_runs
 from bladerub.extensions.plots.sweeps import sweeps
-from bladerub.extensions.sweeps import Passage
+from bladerub.extensions.sweeps import SpeedSweep
 from bladerub.study.grid import CoatingCase
 from bladerub.study.maps import CoatingMap
 
@@ -13,14 +13,14 @@ CASE = CoatingCase("2nd", 1.1, 0.5, 0.0)
 SPEED = np.linspace(0.14, 0.4, 30)
 
 
-def passage(direction, rate, status="completed"):
+def sweep(direction, rate, status="completed"):
     amplitude = 1e-3 * np.exp(-(((SPEED - 0.3) / 0.02) ** 2))
     if status == "unbounded":
         amplitude[20:] = np.nan
     speed = SPEED if direction == "up" else SPEED[::-1]
     none = np.empty((0, 3))
-    return Passage(
-        CASE, direction, rate, status, 1e-4, 1e-5, speed, amplitude, none[:, 0], none[:, 0], SPEED[:3], none
+    return SpeedSweep(
+        CASE, direction, rate, status, 1e-5, 1e-4, speed, amplitude, none[:, 0], none[:, 0], SPEED[:3], none
     )
 
 
@@ -34,8 +34,8 @@ def constant():
     )
 
 
-def test_a_passage_is_drawn_by_direction_over_the_runs_at_constant_speed(draws, constant):
-    drawn = [passage("up", 0.05), passage("down", 0.05), passage("up", 0.2, "unbounded")]
+def test_a_sweep_is_drawn_by_direction_over_the_runs_at_constant_speed(draws, constant):
+    drawn = [sweep("up", 0.05), sweep("down", 0.05), sweep("up", 0.2, "unbounded")]
     up, down = draws(sweeps(drawn, {CASE: constant})).axes
     np.testing.assert_allclose(up.lines[0].get_ydata(), [0.2, 2.0, 9.0])
     assert [line.get_label() for line in up.lines] == [
