@@ -26,7 +26,7 @@ COLUMNS = [
     "status_theta",
     "status_coulomb",
 ]
-"""Columns of ``friction.csv``, described in `bladerub.io.columns`."""
+"""Columns of ``friction.csv``, described in ``io/columns.csv``."""
 
 
 def table(pairs: Iterable[tuple[str | Path, str | Path]], revolutions: int) -> pd.DataFrame:

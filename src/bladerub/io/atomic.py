@@ -13,19 +13,16 @@ from typing import IO
 
 _HOST = re.sub(r"\W", "-", socket.gethostname())
 _TEMPORARY = re.compile(r"\..+\.(?P<host>[\w-]+)\.(?P<process>\d+)\.tmp")
-_ABANDONED_AFTER = 3600.0
-"""Age in s at which a temporary file of another host is taken for a dead process's: the longest is written in
-seconds."""
+_ABANDONED_AFTER = 3600.0  # s, for temporary files of other hosts: the longest is written in seconds
 
 
 @contextmanager
 def writing(path: str | Path, mode: str = "w") -> Iterator[IO]:
-    """Open a stream whose content becomes the file `path` when the block ends well.
+    """Open a stream whose content becomes the file `path` when the block ends without an error.
 
-    Until then it has a temporary name in the same folder, which carries host and process, and what was
-    there under `path` stays. The content is on the disk before the file gets its name. (The name itself
-    may be lost when the power fails right after: then the file is missing, never damaged. To make sure of
-    the name as well, that is to flush the folder, would double the cost.)
+    Until then it has a temporary name in the same folder, and `path` stays as it was. The content is on the
+    disk before the file gets its name. (A power failure right after may lose the name: the file is then
+    missing, never damaged. To flush the folder as well would double the cost.)
 
     Parameters
     ----------
@@ -66,19 +63,12 @@ def delete_abandoned(folder: str | Path) -> None:
 
 
 def _is_abandoned(path: Path, host: str, process: int) -> bool:
-    if host == _HOST:
-        return not _lives(process)
     try:
-        return time.time() - path.stat().st_mtime > _ABANDONED_AFTER
-    except FileNotFoundError:  # renamed meanwhile
-        return False
-
-
-def _lives(process: int) -> bool:
-    try:
-        os.kill(process, 0)
+        if host != _HOST:
+            return time.time() - path.stat().st_mtime > _ABANDONED_AFTER
+        os.kill(process, 0)  # sends nothing, but looks for the process
     except ProcessLookupError:
-        return False
-    except PermissionError:  # somebody else's
+        return True
+    except (PermissionError, FileNotFoundError):  # somebody else's process; renamed meanwhile
         pass
-    return True
+    return False

@@ -1,4 +1,4 @@
-"""What can be wrong with a file or with what is given, in words that name it and say what to do."""
+"""What can be wrong with a file or an input, and the message that names it and says what to do."""
 
 from __future__ import annotations
 
@@ -16,32 +16,28 @@ class DamagedFile(OSError):
 
 
 class BadInput(ValueError):
-    """Something given that cannot be used; the message says what would be right, in one line a fault."""
+    """An input that cannot be used; the message says what would be right, one line for each problem."""
 
 
 def message_for(error: OSError | BadInput) -> str:
-    """Say what is at fault and what to do about it; in one line, if it is a file."""
+    """Say what is wrong and what to do about it; in one line, if it is a file."""
     if isinstance(error, BadInput):
         return str(error)
     if isinstance(error, DamagedFile):
-        return f"{error}; delete it and run the same command again: it is made anew, and nothing else is lost"
+        return f"{error}; delete it and run the same command again: it is made again, nothing else is lost"
     where = "" if error.filename is None else f"{error.filename}: "
+    problem, remedy = error.strerror or str(error), ""
     if error.errno in _FULL:
-        return (
-            f"{where}{_FULL[error.errno]}; make room and run the same command again: "
-            "what is finished is kept and not computed anew"
-        )
-    if error.errno in _FORBIDDEN:
-        return (
-            f"{where}{error.strerror}; make it writable, or choose another folder with the key results "
-            "of the config"
-        )
-    return f"{where}{error.strerror or error}"
+        problem = _FULL[error.errno]
+        remedy = "; make room and run the same command again: what is finished is kept and not computed again"
+    elif error.errno in _FORBIDDEN:
+        remedy = "; make it writable, or choose another folder with the key results of the config"
+    return f"{where}{problem}{remedy}"
 
 
 @contextmanager
 def exit_on_error() -> Iterator[None]:
-    """Turn an `OSError` or `BadInput` into its words on standard error and exit code 2, no traceback."""
+    """Turn an `OSError` or `BadInput` into its message on standard error and exit code 2, no traceback."""
     try:
         yield
     except (OSError, BadInput) as error:

@@ -20,8 +20,7 @@ from bladerub.io import atomic
 from bladerub.io.errors import DamagedFile
 
 _READ_AND_WRITE = 1  # H5LT_FILE_IMAGE_OPEN_RW
-_COMPRESSED_FROM = 1024
-"""Entries from which a dataset is compressed; below, the chunk index costs more than it saves."""
+_COMPRESSED_FROM = 1024  # entries; below, the chunk index costs more than it saves
 
 
 @dataclass(frozen=True)
@@ -31,14 +30,11 @@ class Variable:
     Parameters
     ----------
     dims : tuple of str
-        Name of each dimension. A variable that is named like its only dimension is a coordinate
-        and becomes that dimension's scale.
+        Name of each dimension; a variable named like its only dimension becomes the scale of that.
     data : array_like
         The values, with ``len(dims)`` dimensions; numbers or strings.
-    units : str
-        SI unit, ``"1"`` for a pure number.
-    long_name : str
-        What it is, in words.
+    units, long_name : str
+        SI unit, ``"1"`` for a pure number, and what it is, in words.
     """
 
     dims: tuple[str, ...]
@@ -53,19 +49,10 @@ def write(
     attributes: Mapping[str, Any],
     origin: Mapping[str, str] = MappingProxyType({}),
 ) -> None:
-    """Write `variables` and `attributes` to `path`, whole or not at all.
+    """Write datasets and attributes (numbers and strings) by name to `path`, whole or not at all.
 
-    Parameters
-    ----------
-    path : path-like
-        The file.
-    variables : mapping of str to Variable
-        The datasets by name.
-    attributes : mapping
-        Numbers and strings by name.
-    origin : mapping of str to str, optional
-        More attributes, from `bladerub.io.provenance.provenance`: the same in many files, and so not written
-        one by one.
+    `origin` are more attributes, from `bladerub.io.provenance.provenance`: the same in many files, and not
+    written one by one.
 
     Raises
     ------
@@ -103,7 +90,8 @@ def _blank(layout: tuple, attributes: tuple, origin: tuple) -> bytes:
         for key, value in origin:
             file.attrs[key] = value
         lengths: dict[str, int] = {}
-        for name, dims, shape, kind, units, long_name in sorted(layout, key=_coordinates_first):
+        coordinates_first = sorted(layout, key=lambda entry: entry[1] != (entry[0],))
+        for name, dims, shape, kind, units, long_name in coordinates_first:
             if len(shape) != len(dims):
                 raise ValueError(f"{name}: {len(shape)} dimensions, but named {dims}")
             dataset = _dataset(file, name, shape, np.dtype(kind), units, long_name)
@@ -124,11 +112,6 @@ def _blank(layout: tuple, attributes: tuple, origin: tuple) -> bytes:
         return file.id.get_file_image()
 
 
-def _coordinates_first(entry: tuple) -> bool:
-    name, dims, *_ = entry
-    return dims != (name,)
-
-
 def _dataset(
     file: h5py.File, name: str, shape: tuple[int, ...], kind: np.dtype, units: str, long_name: str
 ) -> h5py.Dataset:
@@ -144,14 +127,7 @@ def _dataset(
 
 
 def read(path: str | Path, only: Set[str] | None = None) -> tuple[dict[str, np.ndarray], dict[str, Any]]:
-    """Read the datasets and attributes of the file at `path`.
-
-    Parameters
-    ----------
-    path : path-like
-        The file.
-    only : set of str, optional
-        Names of the datasets to read, all by default.
+    """Read the datasets, all or `only` these, and attributes of the file at `path`.
 
     Raises
     ------
@@ -160,13 +136,13 @@ def read(path: str | Path, only: Set[str] | None = None) -> tuple[dict[str, np.n
     """
     with _opened(path) as file:
         wanted = file.keys() if only is None else only & file.keys()
-        return {name: _values(file[name]) for name in wanted}, _plain_attributes(file)
+        return {name: _values(file[name]) for name in wanted}, _attributes(file)
 
 
 def read_attributes(path: str | Path) -> dict[str, Any]:
     """Read the attributes alone of the file at `path` (see `read`)."""
     with _opened(path) as file:
-        return _plain_attributes(file)
+        return _attributes(file)
 
 
 @contextmanager
@@ -187,7 +163,6 @@ def _values(dataset: h5py.Dataset) -> np.ndarray:
     return dataset[...]
 
 
-def _plain_attributes(file: h5py.File) -> dict[str, Any]:
-    return {
-        key: value.item() if isinstance(value, np.generic) else value for key, value in file.attrs.items()
-    }
+def _attributes(file: h5py.File) -> dict[str, Any]:
+    values = file.attrs.items()
+    return {key: value.item() if isinstance(value, np.generic) else value for key, value in values}

@@ -1,8 +1,7 @@
 """Locks between processes that end with the process that holds them, however it ends.
 
-They are ``flock`` locks: the kernel drops them when the last process with the file open is gone, so a kill
-leaves none behind. Where a file system has no such locks nobody is kept out; files are written whole all the
-same, so that all there is to lose is the time of computing something twice.
+They are ``flock`` locks: the kernel drops them when the last process with the file open is gone. Where a file
+system has no such locks nobody is kept out; files are written whole all the same, so that only time is lost.
 """
 
 from __future__ import annotations
@@ -23,32 +22,31 @@ def held(path: str | Path, on_wait: Callable[[], object]) -> Iterator[None]:
     path : path-like
         The lock file; it and its folder are made if need be, and stay.
     on_wait : callable
-        Called once if somebody else holds it, before waiting for the end of that.
+        Called once before waiting, if somebody else holds the lock.
     """
     with _opened(path) as stream:
         with suppress(OSError):  # no such locks here
-            if not _taken_alone(stream):
+            if not _try_alone(stream):
                 on_wait()
                 fcntl.flock(stream, fcntl.LOCK_EX)
         yield
 
 
 def share(path: str | Path) -> tuple[IO, bool]:
-    """Share the lock file `path` until the returned stream is closed, and tell whether nobody else did."""
+    """Share the lock file `path` until the returned stream is closed; also return whether nobody else did."""
     stream, alone = _opened(path), False
     with suppress(OSError):  # no such locks here
-        alone = _taken_alone(stream)
+        alone = _try_alone(stream)
         fcntl.flock(stream, fcntl.LOCK_SH)
     return stream, alone
 
 
 def _opened(path: str | Path) -> IO:
-    path = Path(path)
-    path.parent.mkdir(parents=True, exist_ok=True)
-    return path.open("a")
+    Path(path).parent.mkdir(parents=True, exist_ok=True)
+    return open(path, "a")
 
 
-def _taken_alone(stream: IO) -> bool:
+def _try_alone(stream: IO) -> bool:
     try:
         fcntl.flock(stream, fcntl.LOCK_EX | fcntl.LOCK_NB)
     except BlockingIOError:

@@ -1,7 +1,7 @@
 """Where a file comes from: version, sources, config and packages that made it.
 
-Nothing here tells one machine or moment from another, so that equal studies have equal files. It says where
-results come from and determines none: no run key and no digest of the blade depends on it.
+Nothing here depends on the machine or the time, so that equal studies have equal files, and no run key and no
+digest of the blade depends on any of it.
 """
 
 from __future__ import annotations
@@ -12,6 +12,7 @@ import os
 import platform
 import subprocess
 from collections.abc import Mapping
+from contextlib import suppress
 from functools import cache
 from importlib.metadata import PackageNotFoundError, version
 from typing import Any
@@ -19,8 +20,7 @@ from typing import Any
 from bladerub import __version__
 from bladerub.io.sources import ROOT
 
-PREFIX = "provenance_"
-"""Begins the name of each of these attributes, and of no other."""
+PREFIX = "provenance_"  # of the name of each of these attributes, and of no other
 UNKNOWN = "unknown"
 
 _PACKAGES = ("numpy", "scipy", "numba", "h5py", "scikit-fem", "rslab", "pandas", "openturns", "pypardiso")
@@ -29,20 +29,12 @@ _SECONDS = 10
 
 
 def provenance(config: Mapping[str, Any]) -> dict[str, str]:
-    """Describe what makes a file now, as attributes for it.
+    """Describe what makes a file of the study `config` now, as attributes for it.
 
-    Parameters
-    ----------
-    config : mapping
-        The validated study.
-
-    Returns
-    -------
-    dict of str to str
-        ``provenance_software`` (name and version), ``provenance_git_commit`` of the repository that the
-        package is installed from, ``provenance_git_state`` (``clean``, or ``modified``: a file in it differs
-        from the commit, or one of its sources is not in it), ``provenance_config_sha256`` (see
-        `config_digest`) and ``provenance_packages``, as pip writes them. What git cannot tell is ``unknown``.
+    These are ``provenance_software`` (name and version), ``provenance_git_commit`` of the repository that the
+    package is installed from, ``provenance_git_state`` (``clean``, or ``modified``: a file in it differs from
+    the commit, or one of its sources is not in it), ``provenance_config_sha256`` (see `config_digest`) and
+    ``provenance_packages``, as pip writes them. What git does not know is ``unknown``.
     """
     commit, state = git_state()
     return {
@@ -71,24 +63,19 @@ def _as_floats(value: Any) -> Any:
         return {str(key): _as_floats(entry) for key, entry in value.items()}
     if isinstance(value, list | tuple):
         return [_as_floats(entry) for entry in value]
-    if isinstance(value, int) and not isinstance(value, bool):
-        return float(value)
-    return value
+    return float(value) if isinstance(value, int) and not isinstance(value, bool) else value
 
 
 @cache
 def git_state() -> tuple[str, str]:
     """Return commit and state of the repository, once for each process (see `provenance`)."""
-    return _read_git_state()
-
-
-def _read_git_state() -> tuple[str, str]:
     # a repository that this one only lies in is another's, and a hook of git names the one it runs for
     environment = {name: value for name, value in os.environ.items() if not name.startswith("GIT_")}
     environment |= {"GIT_CEILING_DIRECTORIES": str(ROOT.parent), "GIT_OPTIONAL_LOCKS": "0"}
+    command = ["git", "status", "--porcelain=v2", "--branch", "--untracked-files=normal"]
     try:
-        told = subprocess.run(
-            ["git", "status", "--porcelain=v2", "--branch", "--untracked-files=normal"],
+        status = subprocess.run(
+            command,
             cwd=ROOT,
             env=environment,
             stdin=subprocess.DEVNULL,
@@ -101,7 +88,7 @@ def _read_git_state() -> tuple[str, str]:
     except (OSError, subprocess.SubprocessError):
         return UNKNOWN, UNKNOWN
     commit, modified = UNKNOWN, False
-    for line in told.splitlines():
+    for line in status.splitlines():
         if line.startswith("# branch.oid "):
             commit = line.split()[-1]
         elif not line.startswith(("#", "?")) or line.startswith("? src/"):
@@ -116,8 +103,6 @@ def _packages() -> str:
     """Versions of what shapes the numbers; PARDISO takes part in the blade where it is installed."""
     found = [f"python=={platform.python_version()}"]
     for name in _PACKAGES:
-        try:
+        with suppress(PackageNotFoundError):
             found.append(f"{name}=={version(name)}")
-        except PackageNotFoundError:
-            continue
     return " ".join(found)

@@ -20,17 +20,8 @@ def files_behind(*modules: str) -> list[str]:
     """List the source files of modules and of what they import, directly or not, from their own subpackages.
 
     Snakemake does not follow imports. What is computed in other subpackages reaches a rule by the files that
-    it reads.
-
-    Parameters
-    ----------
-    modules : str
-        Such as ``"study.maps"``, below ``bladerub``.
-
-    Returns
-    -------
-    list of str
-        Paths from the root of the repository, sorted.
+    it reads. Modules are named below ``bladerub``, such as ``"study.maps"``; the paths are relative to the
+    root of the repository, sorted.
     """
     subpackages = {module.partition(".")[0] for module in modules}
     found, waiting = set(), list(modules)

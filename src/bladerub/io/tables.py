@@ -1,35 +1,39 @@
-"""Tables as plain CSV, each with a description beside it in the form of the W3C's "CSV on the Web".
+"""Tables as plain CSV, each with a description next to it in the form of the W3C's "CSV on the Web".
 
 ``X.csv`` is for every program that reads CSV; ``X.csv-metadata.json`` says what its columns hold, in which
-units, and where the table comes from.
+units, and where the table comes from. A column means the same in every table: ``columns.csv`` in this folder
+lists them all, with unit ``1`` for a pure or normalised number, none for text.
 """
 
 from __future__ import annotations
 
+import csv
 import io
 import json
 from collections.abc import Collection, Mapping
+from functools import cache
 from pathlib import Path
 from typing import Any
 
 import pandas as pd
 
 from bladerub.io import atomic
-from bladerub.io.columns import COLUMNS
 from bladerub.io.errors import DamagedFile
+
+COLUMNS_FILE = Path(__file__).with_name("columns.csv")
 
 
 def write(
     path: str | Path, table: pd.DataFrame, origin: Mapping[str, str], float_format: str | None = None
 ) -> None:
-    """Write `table` to `path`, without its index, and its description beside it.
+    """Write `table` to `path`, without its index, and its description next to it.
 
     Parameters
     ----------
     path : path-like
         The CSV file; its folder is made if need be.
     table : DataFrame
-        One observation a row; its columns are in `bladerub.io.columns.COLUMNS`.
+        One observation a row; its columns are in `COLUMNS_FILE`.
     origin : mapping of str to str
         From `bladerub.io.provenance.provenance`.
     float_format : str, optional
@@ -49,21 +53,12 @@ def write(
 
 
 def read(path: str | Path, columns: Collection[str] = (), separator: str = ",") -> pd.DataFrame:
-    """Read a table of which every row must be whole.
-
-    Parameters
-    ----------
-    path : path-like
-        The file.
-    columns : collection of str, optional
-        Columns that it must have.
-    separator : str, optional
-        Between the cells.
+    """Read a table that has the columns `columns` and of which every row must be whole.
 
     Raises
     ------
     OSError
-        If the file is missing, breaks off, is not a table or lacks one of `columns`; the message names it.
+        If the file is missing, breaks off, is not a table or lacks a column; the message names it.
     """
     try:
         text = Path(path).read_text(encoding="utf-8")
@@ -79,24 +74,30 @@ def read(path: str | Path, columns: Collection[str] = (), separator: str = ",") 
 
 
 def description_path(path: str | Path) -> Path:
-    """Return where the description of the table at `path` is: the place that the W3C names first."""
+    """Return where the description of the table at `path` is: the location that the W3C names first."""
     path = Path(path)
     return path.with_name(f"{path.name}-metadata.json")
 
 
+@cache
+def described_columns() -> dict[str, dict[str, Any]]:
+    """Return the description of every column by its name, as "CSV on the Web" has it."""
+    described, (_, *rows) = {}, csv.reader(COLUMNS_FILE.read_text(encoding="utf-8").splitlines())
+    for name, datatype, unit, description in rows:
+        kind = {"base": "boolean", "format": "True|False"} if datatype == "boolean" else datatype
+        about = {"name": name, "titles": name, "datatype": kind, "dc:description": description}
+        described[name] = about | ({"schema:unitText": unit} if unit else {})
+    return described
+
+
 def _description(name: str, table: pd.DataFrame, origin: Mapping[str, str]) -> dict[str, Any]:
-    unknown = [column for column in table.columns if column not in COLUMNS]
+    columns = described_columns()
+    unknown = [column for column in table.columns if column not in columns]
     if unknown:
-        raise ValueError(f"{name}: columns not described in bladerub.io.columns: {', '.join(unknown)}")
+        raise ValueError(f"{name}: columns not described in {COLUMNS_FILE.name}: {', '.join(unknown)}")
     return {
         "@context": ["http://www.w3.org/ns/csvw", {"@language": "en"}],
         "url": name,
         "dc:provenance": [{"schema:name": key, "schema:value": value} for key, value in origin.items()],
-        "tableSchema": {"columns": [_column(column) for column in table.columns]},
+        "tableSchema": {"columns": [columns[column] for column in table.columns]},
     }
-
-
-def _column(name: str) -> dict[str, Any]:
-    datatype, unit, description = COLUMNS[name]
-    about = {"name": name, "titles": name, "datatype": datatype, "dc:description": description}
-    return about if unit is None else about | {"schema:unitText": unit}

@@ -5,8 +5,8 @@ import pytest
 
 from bladerub.extensions import long_runs
 from bladerub.extensions.long_runs import LongRuns
-from bladerub.io.columns import COLUMNS
 from bladerub.io.errors import DamagedFile
+from bladerub.io.tables import described_columns
 from bladerub.study.grid import CoatingCase
 from bladerub.study.maps import write_map
 
@@ -123,7 +123,7 @@ def test_the_table_has_a_row_for_each_run_and_stop(study):
         seconds,
     )
     table = long_runs.table(study, [long])
-    assert set(table.columns) <= COLUMNS.keys()
+    assert set(table.columns) <= described_columns().keys()
     assert len(table) == 4 * n
     assert table.ms_per_revolution.to_numpy() == pytest.approx(4.0)
     last = table[table.revolutions == 200].set_index("status")

@@ -6,8 +6,8 @@ import pytest
 from bladerub.contact.spec import Energy
 from bladerub.contact.sweep import SweepResult
 from bladerub.extensions import sweep_grid, sweeps
-from bladerub.io.columns import COLUMNS
 from bladerub.io.errors import DamagedFile
+from bladerub.io.tables import described_columns
 from bladerub.study.grid import CoatingCase
 from bladerub.study.peaks import peak
 
@@ -112,7 +112,7 @@ def test_peaks_stand_beside_those_at_constant_speed(make, make_map, config):
     maps = {CASE: make_map(CASE, {4: (0.3, 1.5e-3), 6: (0.2, 5e-4)})}
     settings = config["analysis"]["peaks"]
     table = sweeps.table(config, [make("up", 0.05), make("down", 0.05), make("up", 7.0)], maps)
-    assert set(table.columns) <= COLUMNS.keys()
+    assert set(table.columns) <= described_columns().keys()
     assert len(table) == 6
     whole = table[(table.order == 4) & (table.rate == 0.05)]
     constant = peak(maps[CASE], 4, settings)

@@ -61,13 +61,31 @@ def test_a_kill_leaves_the_old_file_and_a_temporary_one_that_is_swept(tmp_path, 
 
 def test_of_another_host_only_what_is_old_is_swept(tmp_path):
     fresh, old, foreign = (tmp_path / name for name in (".a.node1.7.tmp", ".b.node1.7.tmp", ".b.tmp"))
-    for path in (fresh, old, foreign):
+    for path, age in ((fresh, 3500), (old, 3700), (foreign, 3700)):
         path.touch()
-    long_ago = time.time() - 7200
-    os.utime(old, (long_ago, long_ago))
-    os.utime(foreign, (long_ago, long_ago))
+        os.utime(path, (time.time() - age, time.time() - age))
     atomic.delete_abandoned(tmp_path)
     assert sorted(tmp_path.iterdir()) == [fresh, foreign]
+
+
+@pytest.mark.parametrize("mode", ["w", "wb"])
+def test_the_content_is_on_the_disk_before_the_file_gets_its_name(tmp_path, monkeypatch, mode):
+    """What Python still buffers when the file is synchronised would be lost with the power."""
+    path, sync, rename, steps = tmp_path / "file", os.fsync, os.replace, []
+
+    def synchronised(descriptor):
+        steps.append(("synchronised", os.fstat(descriptor).st_size))
+        sync(descriptor)
+
+    def renamed(source, target):
+        steps.append(("renamed", os.stat(source).st_size))
+        rename(source, target)
+
+    monkeypatch.setattr(atomic.os, "fsync", synchronised)
+    monkeypatch.setattr(atomic.os, "replace", renamed)
+    with atomic.writing(path, mode) as stream:
+        stream.write("seven\n\n" if mode == "w" else b"seven\n\n")
+    assert steps == [("synchronised", 7), ("renamed", 7)]
 
 
 def test_a_failed_flush_names_the_file(tmp_path, monkeypatch):

@@ -8,6 +8,7 @@ import pytest
 from bladerub import __version__
 from bladerub.io import provenance
 
+git_state = provenance.git_state.__wrapped__  # without the cache
 GIT = ["git", "-c", "user.name=t", "-c", "user.email=t@t", "-c", "commit.gpgsign=false"]
 CONFIG = {"blade": {"length": 0.2, "eta": 6}, "coatings": [{"E": [11], "rigid": False}], "results": "results"}
 
@@ -36,31 +37,31 @@ def test_a_clean_repository_is_told_by_its_commit(repository):
     (repository / "results").mkdir()
     (repository / "results" / "run.h5").write_text("ignored")
     (repository / "my.yaml").write_text("the config has a digest of its own")
-    assert provenance._read_git_state() == (head(repository), "clean")
+    assert git_state() == (head(repository), "clean")
 
 
 @pytest.mark.parametrize("name", ["src/a.py", "src/new.py", ".gitignore"])
 def test_an_edit_or_a_new_source_is_a_modification(repository, name):
     (repository / name).write_text("edited\n")
-    assert provenance._read_git_state() == (head(repository), "modified")
+    assert git_state() == (head(repository), "modified")
 
 
 def test_asking_leaves_the_repository_alone(repository):
     os.utime(repository / "src" / "a.py", (1, 1))  # git would note that in its index
     index = (repository / ".git" / "index").read_bytes()
-    provenance._read_git_state()
+    git_state()
     assert (repository / ".git" / "index").read_bytes() == index
 
 
 def test_the_repository_of_a_hook_is_not_ours(repository, tmp_path, monkeypatch):
     commit = head(repository)
     monkeypatch.setenv("GIT_DIR", str(tmp_path / "other"))
-    assert provenance._read_git_state() == (commit, "clean")
+    assert git_state() == (commit, "clean")
 
 
 def test_a_folder_inside_another_repository_has_no_commit(repository, monkeypatch):
     monkeypatch.setattr(provenance, "ROOT", repository / "src")
-    assert provenance._read_git_state() == ("unknown", "unknown")
+    assert git_state() == ("unknown", "unknown")
 
 
 @pytest.mark.parametrize("missing", ["commit", "git", "folder", "answer"])
@@ -79,7 +80,7 @@ def test_what_git_cannot_tell_is_unknown(repository, tmp_path, monkeypatch, miss
         (tmp_path / "git").chmod(0o755)
         monkeypatch.setenv("PATH", str(tmp_path), prepend=os.pathsep)
         monkeypatch.setattr(provenance, "_SECONDS", 0.1)
-    assert provenance._read_git_state() == ("unknown", "unknown")
+    assert git_state() == ("unknown", "unknown")
 
 
 def test_a_file_is_told_what_made_it(monkeypatch):

@@ -1,10 +1,10 @@
+import csv
 import json
 
 import pandas as pd
 import pytest
 
 from bladerub.io import tables
-from bladerub.io.columns import COLUMNS
 from bladerub.io.errors import DamagedFile
 
 ORIGIN = {"provenance_software": "bladerub 1", "provenance_git_commit": "abc"}
@@ -37,11 +37,33 @@ def test_what_stands_beside_it_says_what_it_holds(table, tmp_path):
     assert (casing["name"], casing["datatype"], "schema:unitText" in casing) == ("casing", "string", False)
     assert (amplitude["titles"], amplitude["datatype"]) == ("amplitude", "number")
     assert amplitude["schema:unitText"] == "m"
-    assert amplitude["dc:description"] == COLUMNS["amplitude"].description
+    assert amplitude["dc:description"] == "amplitude of the radial displacement of node 1 on the engine order"
+
+
+def test_every_column_is_described_once_with_datatype_and_unit():
+    (header, *rows) = csv.reader(tables.COLUMNS_FILE.read_text(encoding="utf-8").splitlines())
+    assert header == ["column", "datatype", "unit", "description"]
+    assert len({name for name, *_ in rows}) == len(rows)
+    assert tables.described_columns().keys() == {name for name, *_ in rows}
+    for name, datatype, unit, description in rows:
+        assert datatype in {"string", "number", "integer", "boolean"}, name
+        assert description, name
+        if datatype in {"string", "boolean"}:
+            assert unit == "", name
+        if datatype == "integer":
+            assert unit == "1", name
+
+
+def test_truth_is_written_as_pandas_does(tmp_path):
+    tables.write(tmp_path / "chart.csv", pd.DataFrame({"safe": [True, False]}), ORIGIN)
+    about = json.loads((tmp_path / "chart.csv-metadata.json").read_text(encoding="utf-8"))
+    (safe,) = about["tableSchema"]["columns"]
+    assert (tmp_path / "chart.csv").read_text() == "safe\nTrue\nFalse\n"
+    assert safe["datatype"] == {"base": "boolean", "format": "True|False"}
 
 
 def test_a_column_that_nobody_described_is_refused_before_anything_is_written(table, tmp_path):
-    with pytest.raises(ValueError, match=r"peaks\.csv: columns not described in .*: depth"):
+    with pytest.raises(ValueError, match=r"peaks\.csv: columns not described in columns\.csv: depth"):
         tables.write(tmp_path / "peaks.csv", table.assign(depth=1), ORIGIN)
     assert not list(tmp_path.iterdir())
 

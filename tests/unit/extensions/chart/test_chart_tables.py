@@ -8,7 +8,7 @@ from bladerub.extensions.chart import check, choice, explanation, ridge, stiffen
 from bladerub.extensions.chart.manifest import CellRow, is_current, lost_cell
 from bladerub.extensions.chart.manifest import write as write_manifest
 from bladerub.extensions.chart.point import read, write
-from bladerub.io.columns import COLUMNS
+from bladerub.io.tables import described_columns
 from bladerub.study.grid import CoatingCase
 
 E, K = (0.5, 1.0, 2.0), (0.1, 1.0, 10.0)
@@ -60,7 +60,7 @@ def test_a_row_sums_up_a_cell(config, make_point):
     assert (found.Y4, found.f4, found.Y6, found.f6) == (3e-3, 0.33, 5e-4, 0.19)
     assert (found.peak, found.f_at_peak, found.deepest_wear) == (3e-3, 0.33, 1e-4)
     assert found.divergent_share == pytest.approx(31 / 32)
-    assert set(found.index) <= COLUMNS.keys()
+    assert set(found.index) <= described_columns().keys()
 
 
 def test_the_ridge_is_the_greatest_of_each_E_and_of_each_K(config, chart):
@@ -84,7 +84,7 @@ def test_a_coarser_step_loses_what_lies_between(config, chart):
     )
     assert (of_order.K_shift == 1).all()
     assert (of_order.height_lost == 0).all()  # the median: two ridge cells of three lie on even speeds
-    assert set(found.columns) <= COLUMNS.keys()
+    assert set(found.columns) <= described_columns().keys()
 
 
 def test_the_explanation_counts_cycles(config, chart):
@@ -93,7 +93,7 @@ def test_the_explanation_counts_cycles(config, chart):
     assert found.wear_per_cycle[1.0, 1.0, 6] == pytest.approx(240 / (20 * 6))
     assert found.E_T[1.0, 1.0, 4] == pytest.approx(0.5)
     assert found.f_crossing[1.0, 1.0, 4] == pytest.approx(1 / np.sqrt(13), abs=1e-5)
-    assert set(found.reset_index().columns) <= COLUMNS.keys()
+    assert set(found.reset_index().columns) <= described_columns().keys()
 
 
 @pytest.fixture
@@ -128,7 +128,7 @@ def test_a_speed_that_follows_the_modulus_of_the_contact_does_not_scatter_about_
     assert of_four.rank_correlation_E_T == pytest.approx(1)
     assert of_four.scatter_E_T == pytest.approx(0, abs=1e-12)
     assert max(of_four.rank_correlation_K, of_four.rank_correlation_E) < 0.95
-    assert set(found.columns) <= COLUMNS.keys()
+    assert set(found.columns) <= described_columns().keys()
 
 
 def test_scatter_is_that_about_the_mean_where_f_falls_throughout(peaks, leaning):
@@ -203,4 +203,4 @@ def test_the_search_is_put_to_the_study(config, make_map):
     assert tuple(counts.loc["Y4", ["coatings", "exact", "within_5_percent"]]) == (3, 2, 2)
     assert counts.worst_missed["Y4"] == pytest.approx(1 / 3)
     assert (counts.exact[["Y6", "peak"]] == 3).all()
-    assert {*found.columns, *counts.reset_index().columns} <= COLUMNS.keys()
+    assert {*found.columns, *counts.reset_index().columns} <= described_columns().keys()
