@@ -12,38 +12,20 @@ from bladerub.io.errors import DamagedFile
 
 _log = logging.getLogger(__name__)
 
-FIGURES = "figures"
-STAGES = {
-    "blade": "blade",
-    "compile_kernel": "compilation",
-    "coating": "rubs",
-    "map": "maps",
-    "peaks": "tables",
-    "divergence": "tables",
-    "findings": "tables",
-    "margins": "tables",
-    "history": FIGURES,
-    "explorer": "explorer",
-}
-"""Stage of each rule, in the order of the workflow; rules named after a figure of the paper are `FIGURES`."""
+STAGES = {"blade": "blade", "compile_kernel": "compilation", "coating": "rubs", "map": "maps"}
+STAGES |= dict.fromkeys(("peaks", "divergence", "findings", "margins"), "tables")
+STAGES |= {"history": "figures", "explorer": "explorer"}
+"""Stage of each rule, in the order of the workflow; rules named after a figure of the paper: ``figures``."""
 _RECORDED = ["s", "cpu_time", "max_rss"]
 COLUMNS = ["stage", "rule", "job", "wall_s", "cpu_s", "memory_mb"]
 
 
 def table(benchmarks: str | Path) -> pd.DataFrame:
-    """Gather the records of the last execution of each job.
+    """Collect the records of the last execution of each job, a row a job.
 
-    Parameters
-    ----------
-    benchmarks : path-like
-        The folder that the rules write them to: ``<rule>.tsv``, or ``<rule>/<job>.tsv``.
-
-    Returns
-    -------
-    DataFrame
-        `COLUMNS`: ``job`` is what tells the jobs of a rule apart, empty for a rule of one job. CPU time and
-        largest memory are those of the job's process and its children; NaN where a job was too short to be
-        looked at. A record that breaks off is left out; the log says so.
+    They are in the folder `benchmarks`: ``<rule>.tsv``, or ``<rule>/<job>.tsv``. `COLUMNS`: ``job`` is empty
+    for a rule of one job. CPU time and largest memory are those of the job's process and its children; NaN
+    where a job was too short to be measured. A record that breaks off is left out; the log says so.
     """
     rows = []
     for path in sorted(Path(benchmarks).rglob("*.tsv")):
@@ -56,28 +38,18 @@ def table(benchmarks: str | Path) -> pd.DataFrame:
                 _log.warning("left out: %s", error)
                 continue
             figures = last.apply(pd.to_numeric, errors="coerce").itertuples(index=False)
-            rows += [(STAGES.get(rule, FIGURES), rule, job, *each) for each in figures]
+            rows += [(STAGES.get(rule, "figures"), rule, job, *each) for each in figures]
     return pd.DataFrame(rows, columns=COLUMNS)
 
 
 def by_stage(costs: pd.DataFrame) -> pd.DataFrame:
-    """Sum up the jobs of each stage.
+    """Sum up the jobs of `table` by stage, in the order of the workflow.
 
-    Parameters
-    ----------
-    costs : DataFrame
-        From `table`.
-
-    Returns
-    -------
-    DataFrame
-        Indexed by stage in the order of the workflow: ``jobs``, ``cpu_s`` and their ``share``, and the
-        largest ``memory_mb`` of a job.
+    The columns are ``jobs``, ``cpu_s`` and their ``share``, and the largest ``memory_mb`` of a job.
     """
     grouped = costs.groupby("stage").agg(
         jobs=("rule", "size"), cpu_s=("cpu_s", "sum"), memory_mb=("memory_mb", "max")
     )
-    order = [stage for stage in dict.fromkeys(STAGES.values()) if stage in grouped.index]
-    stages = grouped.loc[order]
+    stages = grouped.loc[[stage for stage in dict.fromkeys(STAGES.values()) if stage in grouped.index]]
     stages.insert(2, "share", stages["cpu_s"] / stages["cpu_s"].sum())
     return stages

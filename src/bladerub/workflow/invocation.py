@@ -1,4 +1,4 @@
-"""What an invocation of the workflow does about those killed before it, so that it just goes on."""
+"""What an invocation of the workflow clears away of those killed before it."""
 
 from __future__ import annotations
 
@@ -16,42 +16,27 @@ from bladerub.study.store import lost_run
 
 
 def begin(snakemake_folder: str | Path, results: str | Path) -> IO:
-    """Clear away what keeps Snakemake from going on, before it plans.
+    """Clear away what keeps Snakemake from continuing, before it plans; keep the returned stream open.
 
-    That is, first, the lock of a killed Snakemake: Snakemake notes in files which files it makes, and takes
-    any such note for that of a living process, until somebody calls it with ``--unlock``. So each invocation
-    also shares a lock that the kernel drops when its process dies, however it dies; if no other holds
-    that one, there is nobody whose notes these could be, and they are deleted. If another does, nothing is
-    deleted, and Snakemake itself decides by the notes whether the two get into each other's way. (Without
-    Snakemake's own lock, its ``nolock``, two invocations would delete each other's files.)
+    First, the lock of a killed Snakemake: Snakemake notes in files which files it makes, and takes any such
+    note for that of a living process, until somebody calls it with ``--unlock``. So each invocation also
+    shares a lock that the kernel drops when its process dies. If no other process holds that one, the notes
+    are of a dead one and are deleted. If another does, they stay, and Snakemake decides by them whether the
+    two conflict. (Without Snakemake's own lock, its ``nolock``, two invocations would delete each other's files.)
 
     Second, the manifest of a coating that lists a run which is lost or of another size, and that of a column
-    of the chart with such a cell: without its manifest the job is planned again, and computes that alone.
+    of the chart with such a point: without its manifest the job is planned again, and computes that alone.
 
-    Parameters
-    ----------
-    snakemake_folder : path-like
-        ``.snakemake`` of the working directory.
-    results : path-like
-        The results folder.
-
-    Returns
-    -------
-    stream
-        To be kept open as long as the invocation lives.
-
-    Raises
-    ------
-    OSError
-        If one of the folders cannot be written.
+    `snakemake_folder` is ``.snakemake`` of the working directory. Raises an `OSError` if a folder cannot be
+    written.
     """
     locks = Path(snakemake_folder) / "locks"
     stream, alone = lock.share(Path(snakemake_folder) / "bladerub.lock")
     if not alone:
-        _tell("another snakemake is at work in this folder; if it keeps this one out, wait for its end")
+        _print("another snakemake is at work in this folder; if it keeps this one out, wait for its end")
     elif any(locks.glob("*.lock")):
         shutil.rmtree(locks)
-        _tell("the last snakemake here was killed; what it had finished is kept")
+        _print("the last snakemake here was killed; what it had finished is kept")
     for pattern, lost_file in (("runs/*/manifest.tsv", lost_run), ("chart/columns/*.tsv", lost_cell)):
         for manifest in sorted(Path(results).glob(pattern)):
             _forget_if_wrong(manifest, lost_file)
@@ -62,27 +47,21 @@ def _forget_if_wrong(manifest: Path, lost_file: Callable[[Path], str | None]) ->
     try:
         lost = lost_file(manifest)
     except DamagedFile as error:
-        fault = str(error)
+        problem = str(error)
     else:
         if lost is None:
             return
-        fault = f"{lost}: missing, or not as long as it was written"
+        problem = f"{lost}: missing, or not as long as it was written"
     manifest.unlink(missing_ok=True)
-    _tell(f"{fault}; its coating is planned again and computes only what is not there")
+    _print(f"{problem}; its coating is planned again and computes only what is not there")
 
 
-def _tell(line: str) -> None:
+def _print(line: str) -> None:
     print(f"bladerub: {line}", file=sys.stderr)
 
 
 def prepare(results: str | Path) -> None:
-    """Make sure that the results folder can be written, and delete what killed jobs were writing.
-
-    Raises
-    ------
-    OSError
-        If it cannot be written; ``filename`` is the folder.
-    """
+    """Delete what killed jobs were writing; raise an `OSError` if the results folder cannot be written."""
     results = Path(results)
     try:
         results.mkdir(parents=True, exist_ok=True)

@@ -1,4 +1,4 @@
-"""The start of every job of the workflow: where it says what it does, and how it tells a fault."""
+"""The start of every job of the workflow: where it says what it does, and how it reports an error."""
 
 from __future__ import annotations
 
@@ -13,15 +13,14 @@ from bladerub.io import errors
 def log_to(path: str | Path) -> None:
     """Send standard error to the log at `path`, each line as it comes.
 
-    A fault of a file or of what is given is then told in one line, in the log and on the former standard
-    error, where whoever runs the job sees it, also if the log is on a full disk. The traceback of any other
-    goes to the log.
+    The error of a file or input is then reported in one line, in the log and on the former standard error, so
+    that it is seen even if the log is on a full disk. The traceback of any other goes to the log.
     """
     sys.stderr = open(path, "w", buffering=1)  # noqa: SIM115 (open to the end: a traceback must reach it)
-    sys.excepthook = _tell
+    sys.excepthook = _report
 
 
-def _tell(kind: type[BaseException], error: BaseException, trace: TracebackType | None) -> None:
+def _report(kind: type[BaseException], error: BaseException, trace: TracebackType | None) -> None:
     if not isinstance(error, OSError | errors.BadInput):
         sys.__excepthook__(kind, error, trace)
         return

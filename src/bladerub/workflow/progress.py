@@ -1,10 +1,9 @@
-"""What a coating's job tells while it runs: its log, a bar on a terminal, and one line at the end."""
+"""What a coating's job reports while it runs: its log, a bar on a terminal, and one line at the end."""
 
 from __future__ import annotations
 
 import time
 from collections.abc import Sequence
-from shutil import get_terminal_size
 from typing import TextIO
 
 from tqdm import tqdm
@@ -14,16 +13,10 @@ from bladerub.study.store import ManifestRow
 
 
 class JobProgress:
-    """Report of `bladerub.study.job.compute_missing`: call it with each run that is done.
+    """Report of `bladerub.study.job.compute_missing` on the coating `name`, called with each finished run.
 
-    Parameters
-    ----------
-    name : str
-        Name of the coating.
-    log : text stream
-        Takes a line a run, with the estimated time left.
-    terminal : text stream
-        Takes a bar while the job runs, if it is a terminal. Jobs that run side by side take turns on it.
+    `log` takes a line for each run, with the estimated time left; `terminal` takes a bar while the job runs,
+    if it is a terminal. Jobs that run at the same time take turns on it.
     """
 
     def __init__(self, name: str, log: TextIO, terminal: TextIO):
@@ -34,19 +27,19 @@ class JobProgress:
             file=terminal,
             disable=not terminal.isatty(),
             leave=False,
-            ncols=get_terminal_size().columns,
+            dynamic_ncols=True,
         )
         self._computed, self._start = 0, time.monotonic()
 
     def __call__(self, done: RunDone | str) -> None:
-        """Tell of one computed run, or of what the job waits for."""
+        """Report one computed run, or what the job waits for."""
         print(done, file=self._log)
         if isinstance(done, str):
             return
         self._computed += 1
-        if self._bar.total != done.total or done.number <= self._bar.n:  # the longer runs are counted anew
+        if self._bar.total != done.total or done.number <= self._bar.n:  # the longer runs are counted again
             self._bar.reset(done.total)
-        # not the time that tqdm makes of the rate so far: slow speeds cost more, and come first
+        # not tqdm's own estimate from the rate so far: slow speeds cost more, and come first
         self._bar.set_postfix_str(f"about {done.seconds_left:.0f} s left", refresh=False)
         self._bar.update(done.number - self._bar.n)
 
