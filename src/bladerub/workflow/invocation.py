@@ -22,7 +22,7 @@ def begin(snakemake_folder: str | Path, results: str | Path) -> IO:
     note for that of a living process, until somebody calls it with ``--unlock``. So each invocation also
     shares a lock that the kernel drops when its process dies. If no other process holds that one, the notes
     are of a dead one and are deleted. If another does, they stay, and Snakemake decides by them whether the
-    two conflict. (Without Snakemake's own lock, its ``nolock``, two invocations would delete each other's files.)
+    two conflict. (Without that lock, Snakemake's ``nolock``, two would delete each other's files.)
 
     Second, the manifest of a coating that lists a run which is lost or of another size, and that of a column
     of the chart with such a point: without its manifest the job is planned again, and computes that alone.
