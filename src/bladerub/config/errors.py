@@ -12,15 +12,7 @@ _MOST_REPORTED = 40
 
 
 class Location(NamedTuple):
-    """Where a value of a config comes from.
-
-    Parameters
-    ----------
-    source : str
-        A file, ``--config`` for the command line, ``config`` where nothing more is known.
-    line : int, optional
-        Counted from 1; 0 if there are no lines.
-    """
+    """Where a value comes from: a file (or ``--config``) and the line, counted from 1, or 0 for none."""
 
     source: str
     line: int = 0
@@ -33,7 +25,7 @@ UNKNOWN = Location("config")
 
 
 class Problem(NamedTuple):
-    """Location, and a text of key, value and what would be right: ``coatings[1].E[0] = -1: must be ...``."""
+    """A location, and key, value and what would be right: ``coatings[1].E[0] = -1: must be ...``."""
 
     location: Location
     text: str

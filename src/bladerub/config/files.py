@@ -30,12 +30,8 @@ _TAGS = {yaml.MappingNode: "tag:yaml.org,2002:map", yaml.SequenceNode: "tag:yaml
 class Located(NamedTuple):
     """A value of a config and its location.
 
-    Parameters
-    ----------
-    content : object
-        A `dict` of `Located` by key, a `list` of them, or a plain value.
-    location : Location
-        Of a mapping, where it was last added to.
+    The content is a `dict` of `Located` by key, a `list` of them, or a plain value; the location of a mapping
+    is where it was last added to.
     """
 
     content: Any
@@ -105,14 +101,7 @@ def compose(*paths: str | Path, command_line: Mapping[str, Any] | None = None) -
 
 
 def read(path: str | Path, key: str | None = None) -> Located:
-    """Read one YAML file and those that it extends.
-
-    Parameters
-    ----------
-    path : path-like
-        The file.
-    key : str, optional
-        The key of the config that names it, reported if the file cannot be read.
+    """Read one YAML file and those that it extends; `key` is the key of the config that names it, if any.
 
     Raises
     ------
@@ -196,10 +185,9 @@ def _read(path: Path, asked: Location, prefix: str) -> Located:
         raise ConfigError.at(
             Location(source, line), f"not valid YAML ({' '.join(problem.split())})"
         ) from error
-    if not isinstance(located.content, dict):
-        problem = "must hold keys at its top level, such as those of config/config.yaml"
-        raise ConfigError.at(Location(source), problem)
-    return located
+    if isinstance(located.content, dict):
+        return located
+    raise ConfigError.at(Location(source), "must hold keys at its top level, as config/config.yaml does")
 
 
 class _Loader(yaml.SafeLoader):
@@ -216,14 +204,14 @@ class _Loader(yaml.SafeLoader):
     def compose_node(self, parent: yaml.Node | None, index: Any) -> yaml.Node:
         self._depth += 1
         self._n_nodes += 1
-        self._check(self._depth, self._n_nodes, self.peek_event().start_mark)
+        _limit(self._depth, self._n_nodes, self.peek_event())
         node = super().compose_node(parent, index)
         self._depth -= 1
         return node
 
     def _located(self, node: yaml.Node, source: str, depth: int) -> Located:
         self._n_values += 1
-        self._check(depth, self._n_values, node.start_mark)
+        _limit(depth, self._n_values, node)
         location = Location(source, node.start_mark.line + 1)
         if isinstance(node, yaml.ScalarNode):
             return Located(self.scalar(node), location)
@@ -239,16 +227,6 @@ class _Loader(yaml.SafeLoader):
             value = self._located(entry, source, depth + 1)
             content[key] = value._replace(location=Location(source, key_node.start_mark.line + 1))
         return Located(content, location)
-
-    @staticmethod
-    def _check(depth: int, number: int, mark: yaml.Mark) -> None:
-        if depth > DEEPEST:
-            problem = f"more than {DEEPEST} levels in one another"
-        elif number > MOST_VALUES:
-            problem = f"more than {MOST_VALUES} values, aliases counted wherever they are used"
-        else:
-            return
-        raise yaml.MarkedYAMLError(problem=problem, problem_mark=mark)
 
     @staticmethod
     def _key(node: yaml.Node) -> str:
@@ -273,7 +251,14 @@ class _Loader(yaml.SafeLoader):
         return float(value) if isinstance(value, str) and _NUMBER.fullmatch(value) else value
 
 
-def _error(problem: str, node: yaml.Node) -> yaml.MarkedYAMLError:
+def _limit(depth: int, number: int, node: yaml.Node | yaml.Event) -> None:
+    if depth > DEEPEST:
+        raise _error(f"more than {DEEPEST} levels in one another", node)
+    if number > MOST_VALUES:
+        raise _error(f"more than {MOST_VALUES} values, aliases counted wherever they are used", node)
+
+
+def _error(problem: str, node: yaml.Node | yaml.Event) -> yaml.MarkedYAMLError:
     return yaml.MarkedYAMLError(problem=problem, problem_mark=node.start_mark)
 
 

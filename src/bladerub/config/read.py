@@ -13,6 +13,7 @@ from typing import Any
 
 from bladerub.config import files, schema
 from bladerub.config.errors import UNKNOWN, ConfigError, Location, Problem, top_key
+from bladerub.config.files import Located
 
 
 def load(*paths: str | Path) -> dict[str, Any]:
@@ -27,46 +28,23 @@ def load(*paths: str | Path) -> dict[str, Any]:
 
 
 def read(*paths: str | Path, command_line: Mapping[str, Any] | None = None) -> dict[str, Any]:
-    """Read a config and check it.
-
-    Parameters
-    ----------
-    paths, command_line
-        As for `bladerub.config.files.compose`.
+    """Read a config and check it; parameters as for `bladerub.config.files.compose`.
 
     Raises
     ------
     ConfigError
         As for `bladerub.config.files.compose` and `validate`.
     """
-    return validate_located(files.compose(*paths, command_line=command_line))
+    return validate(files.compose(*paths, command_line=command_line))
 
 
-def validate_located(config: files.Located) -> dict[str, Any]:
-    """Return the values of a config after a check.
-
-    Raises
-    ------
-    ConfigError
-        Every problem found, with the file and line of the value.
-    """
-    return validate(config.plain(), config.locations())
-
-
-def validate(config: dict[str, Any], locations: Mapping[str, Location] | None = None) -> dict[str, Any]:
-    """Check `config` against the schema and for what a schema cannot say.
+def validate(config: Located | Mapping[str, Any]) -> dict[str, Any]:
+    """Check a config against the schema and for what a schema cannot say; return its values.
 
     Parameters
     ----------
-    config : dict
-        As from `load`.
-    locations : mapping of str to Location, optional
-        From `bladerub.config.files.Located.locations`, to name the locations of the problems.
-
-    Returns
-    -------
-    dict
-        `config` itself.
+    config : Located or mapping
+        From `bladerub.config.files.compose`, or values alone, whose problems then have no file and line.
 
     Raises
     ------
@@ -76,12 +54,14 @@ def validate(config: dict[str, Any], locations: Mapping[str, Location] | None = 
     """
     from bladerub.config.checks import check  # takes half a second to import, `bladerub --help` does without
 
-    problems = list(schema.problems(config))
-    missing = set(schema.schema()["required"]) - set(config)
-    problems += check(config, missing | set(map(top_key, problems)))
+    located = config if isinstance(config, Located) else Located.of(config, UNKNOWN)
+    values, locations = located.plain(), located.locations()
+    problems = list(schema.problems(values))
+    missing = set(schema.schema()["required"]) - set(values)
+    problems += check(values, missing | set(map(top_key, problems)))
     if problems:
-        raise ConfigError(Problem(_location(text, locations or {}), text) for text in dict.fromkeys(problems))
-    return config
+        raise ConfigError(Problem(_location(text, locations), text) for text in dict.fromkeys(problems))
+    return values
 
 
 def _location(problem: str, locations: Mapping[str, Location]) -> Location:

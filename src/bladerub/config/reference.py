@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import Any
 
+from bladerub.config.schema import allowed
+
 HEAD = """\
 # What a config may hold
 
@@ -14,29 +16,13 @@ Mappings merge, a list is replaced as a whole. A file can begin from others with
 command line, `--config`, goes over all files. `[]` stands for each entry of a list, `<name>` for any name.
 """
 
-_RANGES = {
-    "minimum": "≥ {:g}",
-    "exclusiveMinimum": "> {:g}",
-    "maximum": "≤ {:g}",
-    "exclusiveMaximum": "< {:g}",
-    "minItems": "≥ {} entries",
-    "maxItems": "≤ {} entries",
-    "minProperties": "≥ {} names",
-    "maxProperties": "≤ {} names",
-}
-
 Rule = Mapping[str, Any]
 
 
 def reference(schema: Rule, config: Mapping[str, Any]) -> str:
     """Write the reference in Markdown: a section for each key at the top, a row for each key below it.
 
-    Parameters
-    ----------
-    schema : mapping
-        ``config/schema.yaml``.
-    config : mapping
-        The study, for the values that a config without that key has.
+    `config` is the study, for the values that a config without that key has.
     """
     sections = [HEAD]
     for name, part in schema["properties"].items():
@@ -72,17 +58,8 @@ def _row(path: str, rule: Rule, value: Any) -> str:
         f"`{path}`",
         rule["title"],
         "" if rule["unit"] in ("none", "1") else rule["unit"],
-        _range(rule),
+        "; ".join([allowed(rule), *(limit.partition(",")[0] for limit in rule.get("limits", []))]),
         "" if value is None else f"`{value:g}`" if isinstance(value, float) else f"`{value}`",
         rule["description"],
     )
     return "| " + " | ".join(" ".join(str(cell).replace("|", "\\|").split()) for cell in cells) + " |"
-
-
-def _range(rule: Rule) -> str:
-    if "form" in rule:
-        return rule["form"]
-    limits = [text.format(rule[name]) for name, text in _RANGES.items() if name in rule]
-    limits += ["ascending"] if "ascending" in rule else []
-    limits += [limit.partition(",")[0] for limit in rule.get("limits", [])]
-    return ", ".join(["a whole number"] * (rule["type"] == "integer") + limits)

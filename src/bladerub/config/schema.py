@@ -166,25 +166,24 @@ def _right(rule: dict[str, Any]) -> str:
     """Say what a value must be, from its entry in the schema."""
     if "$ref" in rule:
         rule = schema()["$defs"][rule["$ref"].rsplit("/", 1)[-1]]
-    kind, unit = rule.get("form") or _KINDS[rule["type"]], ""
+    unit = ""
     if rule["type"] != "integer" and rule["unit"] not in ("none", "1"):
         unit = " (normalised)" if rule["unit"] == "normalised" else f", in {rule['unit']}"
-    return f"{rule['title']} must be {kind}{_range(rule)}{unit}"
+    return f"{rule['title']} must be {allowed(rule)}{unit}"
 
 
-def _range(rule: dict[str, Any]) -> str:
-    if rule["type"] == "object":
-        if "maxProperties" not in rule:
-            return ""
-        return f" with {rule['minProperties']} to {rule['maxProperties']} of them"
+def allowed(rule: Mapping[str, Any]) -> str:
+    """Say kind and range of the values that an entry of the schema allows, ``a number from 0.01 to 3``."""
+    kind = rule.get("form") or _KINDS[rule["type"]]
+    if "maxProperties" in rule:
+        return f"{kind} with {rule['minProperties']} to {rule['maxProperties']} of them"
     if rule["type"] == "array":
-        fewest, most = rule.get("minItems", 0), rule.get("maxItems", math.inf)
-        if most == math.inf:
-            return f" of {fewest} or more entries"
-        return f" of {fewest} entries" if fewest == most else f" of {fewest} to {most} entries"
+        fewest, most = rule.get("minItems", 0), rule["maxItems"]
+        order = ", ascending" if "ascending" in rule else ""
+        return f"{kind} of {fewest if fewest == most else f'{fewest} to {most}'} entries{order}"
     if {"minimum", "maximum"} <= rule.keys():
-        return f" from {rule['minimum']:g} to {rule['maximum']:g}"
+        return f"{kind} from {rule['minimum']:g} to {rule['maximum']:g}"
     words = {"exclusiveMinimum": "above", "minimum": "of at least"}
     words |= {"exclusiveMaximum": "below", "maximum": "at most"}
     bounds = [f"{word} {rule[bound]:g}" for bound, word in words.items() if bound in rule]
-    return f" {' and '.join(bounds)}" if bounds else ""
+    return f"{kind} {' and '.join(bounds)}".rstrip()

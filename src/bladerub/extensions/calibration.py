@@ -60,7 +60,7 @@ def plan(config: Mapping[str, Any]) -> dict[str, dict[str, Any]]:
             if layer is not None and layer.content is not None:
                 varied = varied.merged(resolve_extend(layer))
         try:
-            configs[name] = configuration.validate_located(varied)
+            configs[name] = configuration.validate(varied)
         except ConfigError as error:
             problems += [Problem(place, f"{name}: {text}") for place, text in error.problems]
     if problems:

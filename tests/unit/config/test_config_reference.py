@@ -25,9 +25,14 @@ def row(text, path):
 
 def test_a_row_has_unit_range_value_and_reason(text):
     _, title, unit, may_be, value, why = row(text, "contact.damping_ratio")
-    assert (title, unit, may_be, value) == ("modal damping ratio", "", "≥ 0, < 1", "`0.0023`")
+    assert (title, unit, may_be, value) == (
+        "modal damping ratio",
+        "",
+        "a number of at least 0 and below 1",
+        "`0.0023`",
+    )
     assert "titanium" in why
-    assert row(text, "solver.revolutions")[3:5] == ["a whole number, ≥ 1, ≤ 10000", "`20`"]
+    assert row(text, "solver.revolutions")[3:5] == ["a whole number from 1 to 10000", "`20`"]
     assert row(text, "solver.scheme")[3] == "exponential or central_differences"
 
 

@@ -32,7 +32,7 @@ def check(study: Mapping[str, Any], plan: Plan) -> None:
     for part in plan.parts.values():
         for number, places in enumerate(plan.places()[: part.samples]):
             try:
-                configuration.validate_located(_varied(study, plan, part, places))
+                configuration.validate(_varied(study, plan, part, places))
             except ConfigError as error:
                 problems = [
                     Problem(place, f"parts.{part.name}, sample {number}: {text}")
