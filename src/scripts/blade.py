@@ -2,7 +2,8 @@
 
 import logging
 
-from bladerub.blade.build import build, write
+from bladerub.blade.build import build
+from bladerub.blade.built import write
 from bladerub.io.provenance import provenance
 from bladerub.workflow import job
 

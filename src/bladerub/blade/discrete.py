@@ -14,7 +14,7 @@ from bladerub.blade.coordinates import FreeCoordinates
 from bladerub.blade.elasticity import Material, Solid
 from bladerub.blade.linear import MOST_BY_DEGREE, Solve, factorise, lowest_modes
 from bladerub.blade.mesh import MeshedBlade
-from bladerub.blade.preconditioned_cg import Nearby
+from bladerub.blade.preconditioned_cg import PreconditionedCG
 from bladerub.blade.rotation import equilibrium
 
 log = logging.getLogger(__name__)
@@ -44,8 +44,8 @@ class DiscreteBlade:
     modes : (n, n_modes) ndarray
         The columns that go with it.
     at_rest : callable, optional
-        The factored stiffness at rest of a large blade: what solves at speed, too, by
-        `bladerub.blade.preconditioned_cg.Nearby`. With it, `stiffness` has the same pattern at each speed.
+        The factored stiffness at rest of a large blade, which preconditions the solutions at speed
+        (`bladerub.blade.preconditioned_cg`). With it, `stiffness` has the same pattern at each speed.
     modes_at_speed : mapping of float to (n, n_modes) ndarray
         With it, the modes that go with `frequencies`.
     """
@@ -123,7 +123,7 @@ def by_finite_elements(
                 frequencies[f_omega] = lowest_modes(state.stiffness, solid.mass, n_modes)[0]
             else:
                 nearest = shapes[max(shapes)]
-                nearby = Nearby(state.stiffness, at_rest)
+                nearby = PreconditionedCG(state.stiffness, at_rest)
                 frequencies[f_omega], shapes[f_omega] = nearby.lowest_modes(solid.mass, nearest)
             log.info("f_omega = %.4f: first frequency %.4f Hz", f_omega, frequencies[f_omega][0])
     return DiscreteBlade(

@@ -18,7 +18,7 @@ CLOSE = 1e-12
 
 
 @dataclass
-class Nearby:
+class PreconditionedCG:
     """Solves with a matrix by conjugate gradients; with its own factors once these do not converge.
 
     Parameters

@@ -9,7 +9,7 @@ import numpy as np
 from scipy import sparse
 
 from bladerub.blade.linear import Solve, factorise, lowest_modes
-from bladerub.blade.preconditioned_cg import Nearby
+from bladerub.blade.preconditioned_cg import PreconditionedCG
 
 
 def fit_speeds(f_max: float, count: int = 3) -> list[float]:
@@ -116,7 +116,7 @@ def transformation(
     for stiffness in stiffnesses:
         stiffness_ii = sparse.csc_array(stiffness[internal][:, internal])
         if near and fixed:
-            solve = Nearby(stiffness_ii, near)
+            solve = PreconditionedCG(stiffness_ii, near)
             modes = solve.lowest_modes(mass_ii, fixed[-1])[1]
         else:
             solve = near or factorise(stiffness_ii)

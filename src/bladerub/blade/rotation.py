@@ -9,7 +9,7 @@ from scipy import sparse
 
 from bladerub.blade.elasticity import Solid
 from bladerub.blade.linear import Solve, factorise
-from bladerub.blade.preconditioned_cg import Nearby
+from bladerub.blade.preconditioned_cg import PreconditionedCG
 
 TOLERANCE = 1e-9
 """Largest residual force accepted, over the norm of the centrifugal load."""
@@ -144,7 +144,10 @@ def _newton(
                 if solve is None:
                     if tangent is None:
                         tangent = rotating_stiffness(solid, u, omega_squared)
-                    solve = factorise(tangent) if at_rest is None else Nearby(tangent, at_rest, CORRECTION)
+                    if at_rest is None:
+                        solve = factorise(tangent)
+                    else:
+                        solve = PreconditionedCG(tangent, at_rest, CORRECTION)
                     tangent = None
                 correction = solve(force)
             except np.linalg.LinAlgError:

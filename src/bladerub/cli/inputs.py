@@ -147,14 +147,15 @@ def _mesh_of(path: Path) -> Path:
 
 
 def _build_blade(config: dict[str, Any], path: Path) -> None:
-    from bladerub.blade import build
+    from bladerub.blade.build import build
+    from bladerub.blade.built import write
     from bladerub.blade.rotation import EquilibriumError
     from bladerub.io.provenance import provenance
 
     try:
-        built = build.build(config)
+        built = build(config)
     except (BadInput, EquilibriumError) as error:
         raise InputError(str(error)) from error
     tables = path.parents[1] / "tables"
     campbell, accuracy = tables / "campbell.csv", tables / "rom_accuracy.csv"
-    build.write(built, provenance(config), path, _mesh_of(path), campbell, accuracy)
+    write(built, provenance(config), path, _mesh_of(path), campbell, accuracy)

@@ -12,7 +12,8 @@ from typing import Any
 
 import pandas as pd
 
-from bladerub.blade.build import build, write
+from bladerub.blade.build import build
+from bladerub.blade.built import write
 from bladerub.config import read as configuration
 from bladerub.config.errors import UNKNOWN, ConfigError, Location, Problem
 from bladerub.config.files import Located, resolve_extend

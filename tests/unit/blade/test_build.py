@@ -4,10 +4,12 @@ import pytest
 import scipy.linalg
 
 from bladerub.blade import discrete, linear
-from bladerub.blade.build import build, directions, write
+from bladerub.blade.build import build
+from bladerub.blade.built import write
 from bladerub.blade.frequencies import reduced_frequencies
 from bladerub.blade.geometry import BladeShape
 from bladerub.blade.model import read_reduced_blade
+from bladerub.blade.refinement import directions
 from bladerub.io import hdf5
 
 CONFIG = {

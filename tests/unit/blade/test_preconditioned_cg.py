@@ -5,7 +5,7 @@ from scipy.linalg import eigh
 
 from bladerub.blade import linear
 from bladerub.blade.linear import factorise
-from bladerub.blade.preconditioned_cg import Nearby
+from bladerub.blade.preconditioned_cg import PreconditionedCG
 
 
 @pytest.fixture
@@ -36,7 +36,7 @@ def test_near_factors_solve_for_one_and_for_many(near, factored):
     exact = factorise(strained)(rhs)
     assert np.linalg.norm(factors(rhs) - exact) > 1e-3 * np.linalg.norm(exact)
     for columns in (slice(None), 0):
-        error = Nearby(strained, factors)(rhs[:, columns]) - exact[:, columns]
+        error = PreconditionedCG(strained, factors)(rhs[:, columns]) - exact[:, columns]
         assert np.linalg.norm(error) < 1e-7 * np.linalg.norm(exact)
     assert not factored
 
@@ -44,7 +44,7 @@ def test_near_factors_solve_for_one_and_for_many(near, factored):
 def test_modes_come_from_those_of_a_near_matrix(near, factored):
     rest, mass, factors, strained = near
     _, start = linear.lowest_modes(rest, mass, 5, factors)
-    frequencies, modes = Nearby(strained, factors).lowest_modes(mass, start)
+    frequencies, modes = PreconditionedCG(strained, factors).lowest_modes(mass, start)
     exact, before = (
         np.sqrt(eigh(matrix.toarray(), mass.toarray(), eigvals_only=True)[:5]) / (2 * np.pi)
         for matrix in (strained, rest)
@@ -60,12 +60,12 @@ def test_a_matrix_that_is_not_near_gets_its_own_factors(near, factored):
     frequencies, start = linear.lowest_modes(rest, mass, 3, factors)
     unstable = sparse.csc_array(rest - (2 * np.pi * 1.1 * frequencies[0]) ** 2 * mass)
     rhs = np.ones(rest.shape[0])
-    solve = Nearby(unstable, factors)
+    solve = PreconditionedCG(unstable, factors)
     for _ in range(2):
         np.testing.assert_allclose(solve(rhs), factorise(unstable)(rhs), rtol=1e-8)
     assert len(factored) == 1
     strange = np.random.default_rng(1).standard_normal(start.shape)
     far = sparse.csc_array(sparse.diags_array(np.geomspace(1, 1e9, rest.shape[0])) @ rest)
     far = sparse.csc_array(far + far.T)
-    found, _ = Nearby(far, factors).lowest_modes(mass, strange)
+    found, _ = PreconditionedCG(far, factors).lowest_modes(mass, strange)
     np.testing.assert_allclose(found, linear.lowest_modes(far, mass, 3)[0], rtol=1e-7)

@@ -1,7 +1,7 @@
 import pandas as pd
 import pytest
 
-from bladerub.blade import build as stage_1
+from bladerub.blade import build as building
 from bladerub.blade import refinement
 from bladerub.blade.accuracy import errors_by_mode
 from bladerub.blade.build import build
@@ -54,7 +54,7 @@ def test_more_fit_speeds_can_be_asked_for(reduced):
 
 def test_a_tolerance_out_of_reach_is_refused_with_what_is_reached(reduced, monkeypatch):
     monkeypatch.setattr(refinement, "MOST_MODES_PER_SPEED", 4)
-    monkeypatch.setattr(stage_1, "MOST_FIT_SPEEDS", 3)
+    monkeypatch.setattr(building, "MOST_FIT_SPEEDS", 3)
     with pytest.raises(BadInput, match=r"reduction.tolerance = 1e-05: the reduced model comes to"):
         reduced(tolerance=1e-5, rank_tolerance=0.1)
 

@@ -1,0 +1,86 @@
+"""What building a blade gives, and the files that keep it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+
+from bladerub.blade.accuracy import CAMPBELL_COLUMNS
+from bladerub.blade.mesh import BladeMesh
+from bladerub.blade.model import AXIS, INTERFACE_NODE, ReducedBlade, write_reduced_blade
+from bladerub.io import hdf5, tables
+from bladerub.io.hdf5 import Variable
+
+
+@dataclass(frozen=True)
+class BuiltBlade:
+    """The reduced blade, the mesh that it comes from, and how well the one follows the other."""
+
+    reduced: ReducedBlade
+    mesh: BladeMesh  # at rest
+    frequency: np.ndarray  # (n_modes,), of the unreduced model at rest, Hz
+    mode_shape: np.ndarray  # (n_modes, n_nodes, 3), of these frequencies, largest displacement 1
+    recovery: np.ndarray  # (n, n_nodes, 3), displacement of the nodes per reduced coordinate, eq. (5)
+    static_displacement: np.ndarray  # (n_speeds, n_nodes, 3), from rest to the equilibria at speed, m
+    static_speed: np.ndarray  # (n_speeds,), normalised, the accuracy speeds whose equilibria are known
+    accuracy: pd.DataFrame  # from `bladerub.blade.accuracy.accuracy_table`
+    made_from: str  # from `bladerub.blade.build.made_from`
+
+
+def write(
+    built: BuiltBlade,
+    origin: Mapping[str, str],
+    reduced_model: str | Path,
+    mesh: str | Path,
+    campbell: str | Path,
+    rom_accuracy: str | Path,
+) -> None:
+    """Write the two HDF5 files and the two tables of a blade; `origin` is their provenance.
+
+    The reduced model is written last: if it exists, the other files do too.
+    """
+    _write_mesh(mesh, built, origin)
+    for path, table in ((campbell, built.accuracy[CAMPBELL_COLUMNS]), (rom_accuracy, built.accuracy)):
+        tables.write(path, table, origin, float_format="%.10g")
+    write_reduced_blade(reduced_model, built.reduced, origin)
+
+
+def _write_mesh(path: str | Path, built: BuiltBlade, origin: Mapping[str, str]) -> None:
+    """Write what a picture of the blade and of its motion needs, with node numbers from 0."""
+    mesh = built.mesh
+    variables = {
+        "axis": AXIS,
+        "points": Variable(("node", "axis"), mesh.mesh.points, "m", "nodes at rest in the rotating frame"),
+        "cells": Variable(
+            ("element", "element_node"),
+            mesh.mesh.cells,
+            "1",
+            "nodes of each hexahedron (20) or tetrahedron (10): corners, then edges, as in CalculiX and VTK",
+        ),
+        "root_nodes": Variable(("root_node",), mesh.root, "1", "clamped nodes"),
+        "tip_nodes": Variable(("tip_node",), mesh.tip, "1", "nodes of the tip face"),
+        "interface_nodes": Variable(
+            ("interface_node",), mesh.interface, "1", "contact nodes, leading to trailing edge"
+        ),
+        "interface_node": replace(INTERFACE_NODE, dims=("interface_node",)),
+        "mode": Variable(("mode",), np.arange(1, built.frequency.size + 1), "1", "mode, counted from 1"),
+        "frequency": Variable(("mode",), built.frequency, "Hz", "natural frequencies at rest"),
+        "mode_shape": Variable(
+            ("mode", "node", "axis"), built.mode_shape, "1", "modes at rest, largest displacement component 1"
+        ),
+        "recovery": Variable(
+            ("coordinate", "node", "axis"),
+            built.recovery.astype(np.float32),  # enough for pictures: 1e-7 of the displacement
+            "1",
+            "displacement of the nodes per unit of each coordinate of the reduced model, eq. (5)",
+        ),
+        "f_omega": Variable(("f_omega",), built.static_speed, "1", "normalised rotational frequency"),
+        "static_displacement": Variable(
+            ("f_omega", "node", "axis"), built.static_displacement, "m", "displacement under centrifugal load"
+        ),
+    }
+    hdf5.write(path, variables, {"made_from": built.made_from}, origin)
