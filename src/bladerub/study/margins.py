@@ -16,10 +16,8 @@ from typing import Any, NamedTuple
 import numpy as np
 import pandas as pd
 
-from bladerub.io.tables import read as read_table
 from bladerub.study import divergence, findings, peaks
-from bladerub.study.findings import reduction
-from bladerub.study.findings.evidence import SAME_SPEED, Evidence
+from bladerub.study.findings.evidence import SAME_SPEED, Evidence, read_rom_accuracy
 from bladerub.study.grid import SPEED_DECIMALS, speeds
 from bladerub.study.maps import CoatingMap, read_map
 
@@ -157,7 +155,7 @@ def table(
     ValueError
         As `bladerub.study.peaks.of_maps`, of the study itself.
     """
-    rom_accuracy = read_table(rom_accuracy_path, reduction.READS)
+    rom_accuracy = read_rom_accuracy(rom_accuracy_path)
     judged = []
     for name, (settings, maps) in variations(config, map(read_map, map_paths)).items():
         _log.warning("%s:", name)  # a heading for what `findings` leaves out

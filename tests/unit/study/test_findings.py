@@ -8,7 +8,6 @@ import pytest
 
 from bladerub.study import divergence, findings, peaks
 from bladerub.study.findings.evidence import Evidence
-from bladerub.study.findings.finding import above, below
 from bladerub.study.grid import CoatingCase
 from bladerub.study.maps import write_map
 
@@ -373,13 +372,3 @@ def test_the_table_is_read_from_the_files_of_a_study(paper, tmp_path):
     assert list(table.columns) == ["id", "claim", "paper", "measured", "unit", "holds", "margin"]
     assert set(table.id) == PAPER_IDS
     assert set(table.holds) == {"yes"}
-
-
-def test_verdicts_at_their_borders():
-    assert below(1.0, 1.0, 2.0) == ("yes", 0.0)
-    assert below(2.0, 1.0, 2.0) == ("partly", -1.0)
-    assert below(2.1, 1.0, 2.0)[0] == "no"
-    assert above(1.0, 1.0, 0.5) == ("yes", 0.0)
-    assert above(0.5, 1.0, 0.5) == ("partly", -0.5)
-    assert above(0.4, 1.0, 0.5)[0] == "no"
-    assert below(float("nan"), 1.0, 2.0)[0] == above(float("nan"), 1.0, 0.5)[0] == "no"

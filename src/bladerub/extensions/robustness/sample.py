@@ -14,10 +14,8 @@ import pandas as pd
 
 from bladerub.config import read as configuration
 from bladerub.extensions.small_study import make_maps
-from bladerub.io.tables import read as read_table
 from bladerub.study import divergence, findings, peaks
-from bladerub.study.findings import reduction
-from bladerub.study.findings.evidence import Evidence
+from bladerub.study.findings.evidence import Evidence, read_rom_accuracy
 from bladerub.study.maps import CoatingMap, read_map
 from bladerub.study.store import read_manifest
 
@@ -76,7 +74,7 @@ def answer(
     tables = {
         "peaks": _peaks(config, maps),
         "divergence": divergence.of_maps(config, maps),
-        "rom_accuracy": read_table(rom_accuracy, reduction.READS),
+        "rom_accuracy": read_rom_accuracy(rom_accuracy),
     }
     found = findings.judge(Evidence(config, tables, maps), findings.of_claims(claims))
     runs = len(rows) + sum(bool(row.confirmation_key) for row in rows)

@@ -1,14 +1,17 @@
-"""What the claims are measured on: the tables and maps of the study, and nothing else."""
+"""What the claims are measured on: the tables and maps of a study, and nothing else."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
+from dataclasses import asdict
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pandas as pd
 
-from bladerub.study.findings.finding import NotMeasurable
+from bladerub.io import tables
+from bladerub.study.findings.claim import NotMeasurable
 from bladerub.study.grid import CoatingCase
 from bladerub.study.maps import CoatingMap
 
@@ -30,50 +33,31 @@ class Evidence:
     """
 
     def __init__(
-        self,
-        config: Mapping[str, Any],
-        tables: Mapping[str, pd.DataFrame],
-        maps: Iterable[CoatingMap],
+        self, config: Mapping[str, Any], tables: Mapping[str, pd.DataFrame], maps: Iterable[CoatingMap]
     ):
         self.config = config
         self.rom_accuracy = tables["rom_accuracy"]
         self.peaks = tables["peaks"]
         self.divergence = tables["divergence"]
-        self._maps = {coating.case.name: coating for coating in maps}
+        self._maps = {coating.case: coating for coating in maps}
+
+    # Each of these raises `NotMeasurable` where the study has nothing to return.
 
     def map(self, case: CoatingCase) -> CoatingMap:
-        """Return the map of a coating.
-
-        Raises
-        ------
-        NotMeasurable
-            If the coating is not in the study.
-        """
-        if case.name not in self._maps:
+        """Return the map of a coating."""
+        if case not in self._maps:
             raise NotMeasurable(f"coating {case.name} is not in the study")
-        return self._maps[case.name]
+        return self._maps[case]
 
     def peak(self, case: CoatingCase, order: int, column: str) -> float:
-        """Return ``f_peak`` or ``amplitude`` (m) of one coating and engine order from the table of peaks.
-
-        Raises
-        ------
-        NotMeasurable
-            If the table has no such row.
-        """
+        """Return ``f_peak`` or ``amplitude`` (m) of one coating and engine order from the table of peaks."""
         rows = self.peaks[_of_case(self.peaks, case) & (self.peaks.order == order)]
         if rows.empty:
             raise NotMeasurable(f"no peak of engine order {order} for coating {case.name}")
         return float(rows[column].iloc[0])
 
     def moduli(self, casing: str, theta: float, order: int, column: str) -> pd.DataFrame:
-        """Return ``f_peak`` or ``amplitude`` (m) over K (rows) and E (columns), both ascending and finite.
-
-        Raises
-        ------
-        NotMeasurable
-            If the study has fewer than two E or two K.
-        """
+        """Return ``f_peak`` or ``amplitude`` (m) over K (rows) and E (columns), both ascending and finite."""
         peaks = self.peaks
         wanted = (peaks.casing == casing) & (peaks.theta == theta) & (peaks.order == order)
         rows = peaks[wanted & (peaks.law == "theta")]
@@ -83,13 +67,7 @@ class Evidence:
         return table
 
     def run(self, case: CoatingCase, f_omega: float) -> pd.Series:
-        """Return the row of one run from the table of divergence.
-
-        Raises
-        ------
-        NotMeasurable
-            If the study has no such run.
-        """
+        """Return the row of one run from the table of divergence."""
         table = self.divergence
         rows = table[_of_case(table, case) & (np.abs(table.f_omega - f_omega) < SAME_SPEED)]
         if rows.empty:
@@ -97,11 +75,16 @@ class Evidence:
         return rows.iloc[0]
 
 
+def read_rom_accuracy(path: str | Path) -> pd.DataFrame:
+    """Read the table of the reduced model's accuracy, as far as the claims need it.
+
+    Raises
+    ------
+    OSError
+        As `bladerub.io.tables.read`.
+    """
+    return tables.read(path, ["mode", "relative_error"])
+
+
 def _of_case(table: pd.DataFrame, case: CoatingCase) -> pd.Series:
-    return (
-        (table.casing == case.casing)
-        & (table.E == case.E)
-        & (table.K == case.K)
-        & (table.theta == case.theta)
-        & (table.law == case.law)
-    )
+    return np.logical_and.reduce([table[name] == value for name, value in asdict(case).items()])

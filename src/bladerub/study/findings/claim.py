@@ -1,0 +1,111 @@
+"""The paper's statements: each testable part is measured by a function that `claim` registers."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+YES, PARTLY, NO = "yes", "partly", "no"
+
+
+@dataclass(frozen=True)
+class Finding:
+    """What this model shows of one part of a claim: a row of ``findings.csv`` without its id.
+
+    Parameters
+    ----------
+    claim : str
+        The paper's statement as measured, with its figure.
+    paper : float or str
+        What the paper says, in `unit`.
+    measured : float or str
+        The same, of this model.
+    unit : str
+        Unit of `paper`, `measured` and `margin`; ``"1"`` for pure numbers and normalised speeds.
+    holds : str
+        ``yes``, ``partly`` or ``no``.
+    margin : float
+        Distance of `measured` from the border between yes and not yes, positive on the side of yes; NaN when
+        there is nothing to measure a distance from.
+    """
+
+    claim: str
+    paper: float | str
+    measured: float | str
+    unit: str
+    holds: str
+    margin: float
+
+
+class NotMeasurable(Exception):
+    """The study lacks the runs that a claim speaks of; the message says which."""
+
+
+class Claim(NamedTuple):
+    """A separately testable part of a statement: its id, what it says, and what measures it on `Evidence`."""
+
+    id: str
+    statement: str
+    measure: Callable[[Any], Finding]
+
+
+REGISTERED: dict[str, Claim] = {}
+"""The claims by id, in the order of their registration."""
+
+
+def claim(id_: str, statement: str, *arguments: Any) -> Callable[[Callable], Callable]:
+    """Register a function ``measure(evidence, *arguments)`` as the measurement of a claim.
+
+    Parameters
+    ----------
+    id_ : str
+        Claim and part: letters, number and, for one of several parts, a letter, for instance ``C4a``.
+    statement : str
+        What the paper says, and where.
+    *arguments
+        What tells this claim from the others that the same function measures.
+
+    Raises
+    ------
+    ValueError
+        If the id has another form or is taken.
+    """
+    _place(id_)
+    if id_ in REGISTERED:
+        raise ValueError(f"claim {id_} is registered twice")
+
+    def register(measure: Callable) -> Callable:
+        REGISTERED[id_] = Claim(id_, statement, lambda evidence: measure(evidence, *arguments))
+        return measure
+
+    return register
+
+
+def in_order() -> tuple[Claim, ...]:
+    """Return all claims by number and part, which is the order of the paper."""
+    return tuple(sorted(REGISTERED.values(), key=lambda each: _place(each.id)))
+
+
+def claim_of(id_: str) -> str:
+    """Return the claim that ``C2a`` is a part of: ``C2``."""
+    letters, number, _ = _place(id_)
+    return f"{letters}{number}"
+
+
+def _place(id_: str) -> tuple[str, int, str]:
+    parts = re.fullmatch(r"([A-Z]+)(\d+)([a-z]?)", id_)
+    if parts is None:
+        raise ValueError(f"claim {id_}: an id is letters, a number and at most one letter, such as C4a")
+    return parts[1], int(parts[2]), parts[3]
+
+
+def below(value: float, yes: float, partly: float) -> tuple[str, float]:
+    """Judge a value that should be small, yes up to `yes`, partly up to `partly`: verdict and margin."""
+    return (YES if value <= yes else PARTLY if value <= partly else NO), yes - value
+
+
+def above(value: float, yes: float, partly: float) -> tuple[str, float]:
+    """Judge a value that should be large, yes from `yes`, partly from `partly`: verdict and margin."""
+    return below(-value, -yes, -partly)

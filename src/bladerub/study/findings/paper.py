@@ -1,0 +1,27 @@
+"""What the paper's statements speak of, and how close to them this model, of another blade, has to come."""
+
+from __future__ import annotations
+
+from bladerub.study.grid import CoatingCase
+
+CASING, THETA = "2nd", 0.0  # section "Mechanical properties of the abradable coating"
+SOFTEST, STIFFEST = 0.11, 20.0  # E_min and E_max of that section; below E_min nothing dangerous happens
+CRITICAL_E, CRITICAL_K = 1.1, 0.5  # of the greatest Y4 and Y6
+TILTED_SPEED, STRAIGHT_SPEED = 0.190, 0.197  # divergence with θ = 0.15 and with θ = 0 (Figs. 17 and 18)
+
+WORN = CoatingCase("2nd5nd", 11.0, 0.5, 0.0)  # Figs. 6 and 7
+SOFT = CoatingCase(CASING, SOFTEST, 0.5, THETA)  # Figs. 8 and 10
+CRITICAL = CoatingCase(CASING, CRITICAL_E, CRITICAL_K, THETA)  # Fig. 9
+STRAIGHT = CoatingCase(CASING, 2.0, 0.5, THETA)  # Fig. 15
+TILTED = CoatingCase(CASING, 2.0, 0.5, 0.15)  # Fig. 16
+RIGID = CoatingCase.rigid(CASING, friction=0.0)  # direct contact with the casing
+
+NEAR = 0.025
+"""How far a speed may lie from the paper's, normalised: about a line's width in its maps, and the C1 of
+another blade."""
+
+SIGNIFICANT = 0.1
+"""Share of the greatest value from which on a value still shows in a plot."""
+
+HARDLY = {"amplitude": 0.2, "f_peak": 0.01}
+"""Differences that count as hardly any: of Y relative, of f normalised."""

@@ -1,0 +1,80 @@
+"""The register of claims: ids, order and statements."""
+
+import pytest
+
+from bladerub.study import findings
+from bladerub.study.findings import claim as register
+from bladerub.study.findings.claim import above, below, claim, claim_of, in_order
+
+
+@pytest.fixture
+def registered(monkeypatch):
+    """Claims registered by the test alone."""
+    monkeypatch.setattr(register, "REGISTERED", {})
+    return register.REGISTERED
+
+
+def test_claims_come_by_number_and_part_whatever_the_order_of_their_registration(registered):
+    for id_ in ("C10b", "C2", "C9e", "C10a", "B3a"):
+        claim(id_, "statement")(lambda evidence: None)
+    assert [each.id for each in in_order()] == ["B3a", "C2", "C9e", "C10a", "C10b"]
+
+
+def test_one_function_measures_several_claims_with_the_arguments_of_each(registered):
+    @claim("C1a", "first", 4, "Fig. 1")
+    @claim("C1b", "second", 6, "Fig. 2")
+    def measure(evidence, order, figure):
+        return evidence, order, figure
+
+    assert [(each.statement, each.measure("evidence")) for each in in_order()] == [
+        ("first", ("evidence", 4, "Fig. 1")),
+        ("second", ("evidence", 6, "Fig. 2")),
+    ]
+
+
+def test_an_id_is_taken_once(registered):
+    claim("C1a", "statement")(lambda evidence: None)
+    with pytest.raises(ValueError, match="C1a"):
+        claim("C1a", "another")
+
+
+@pytest.mark.parametrize("id_", ["", "C", "4a", "C4ab", "C4A", "c4a", "C4a "])
+def test_an_id_of_another_form_is_refused(registered, id_):
+    with pytest.raises(ValueError, match="id"):
+        claim(id_, "statement")
+
+
+def test_parts_are_found_by_their_claim():
+    assert claim_of("C12b") == "C12"
+    assert [part.id for part in findings.of_claims({"C1", "C12"})] == ["C1a", "C1b", "C12a", "C12b"]
+
+
+def test_every_claim_has_a_statement_and_stands_in_the_paper_s_order():
+    numbers = [int(claim_of(each.id)[1:]) for each in findings.CLAIMS]
+    assert numbers == sorted(numbers)
+    assert set(numbers) == set(range(1, 13))
+    assert all(findings.TITLES.values())
+    assert len(findings.TITLES) == len(findings.CLAIMS) == 46
+
+
+@pytest.mark.parametrize(
+    ("judge", "value", "expected"),
+    [
+        (below, 1.0, ("yes", 0.0)),
+        (below, 1.5, ("partly", -0.5)),
+        (below, 2.0, ("partly", -1.0)),
+        (below, 2.25, ("no", -1.25)),
+        (above, 1.0, ("yes", 0.0)),
+        (above, 0.75, ("partly", -0.25)),
+        (above, 0.5, ("partly", -0.5)),
+        (above, 0.25, ("no", -0.75)),
+    ],
+)
+def test_verdicts_at_their_borders(judge, value, expected):
+    partly = 2.0 if judge is below else 0.5
+    assert judge(value, 1.0, partly) == expected
+
+
+@pytest.mark.parametrize("judge", [below, above])
+def test_what_is_not_a_number_does_not_hold(judge):
+    assert judge(float("nan"), 1.0, 1.0)[0] == "no"
