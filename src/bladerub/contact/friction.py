@@ -22,7 +22,7 @@ from __future__ import annotations
 from numba import njit
 
 from bladerub.contact.kernel.modal import displacement, no_projection, project, respond
-from bladerub.contact.kernel.vectors import LANES, at, choose, load, store
+from bladerub.contact.kernel.vectors import LANES, address_of, load, store, where
 
 
 @njit(forceinline=True)
@@ -56,12 +56,12 @@ def foresee(motion, tip, state, q, q_before, per_step):
 @njit
 def take_hold(motion, stator, tip, state, normal_radial, normal_tangential, rise):
     """Find how the casing grips each node, under the pushes in ``state.push``."""
-    push, without = load(state.push, 0), at(state.scratch, 4 * 2 * LANES)
+    push, without = load(state.push, 0), address_of(state.scratch, 4 * 2 * LANES)
     store(without, 0, stator.radial * normal_radial * push)
     store(without, LANES, stator.radial * normal_tangential * push)
     radial, tangential = respond(motion.mobility, without, load(state.drift, 0), load(state.drift, LANES))
     turned = load(state.drift, 2 * LANES) * (1.0 + rise / load(tip.lever, 0))
     slid = turned + normal_radial * tangential - normal_tangential * radial
     full = (0.0 - stator.tangential) * push * load(motion.stopping, 0)
-    grip = choose(slid > (0.0 - full), slid / full, -1.0)
-    store(state.along, 0, choose(slid > full, stator.tangential, stator.tangential * grip))
+    grip = where(slid > (0.0 - full), slid / full, -1.0)
+    store(state.along, 0, where(slid > full, stator.tangential, stator.tangential * grip))

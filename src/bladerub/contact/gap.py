@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from numba import njit
 
-from bladerub.contact.kernel.vectors import everywhere, load, magnitude, root
+from bladerub.contact.kernel.vectors import absolute, all_lanes, load, sqrt
 
 
 @njit(inline="always")
 def rise_of(tip, radial, tangential):
     """Height of each node above its place at rest: tangential vibration closes the clearance too, m."""
     along = load(tip.radius, 0) + radial
-    return root(along * along + tangential * tangential) - load(tip.radius, 0)
+    return sqrt(along * along + tangential * tangential) - load(tip.radius, 0)
 
 
 @njit(inline="always")
@@ -42,4 +42,4 @@ def force_of(stator, along, normal_radial, normal_tangential, push):
 @njit(inline="always")
 def is_within_bounds(tip, radial, tangential):
     """Whether every displacement is a number below the limit."""
-    return everywhere((magnitude(radial) <= tip.limit) & (magnitude(tangential) <= tip.limit))
+    return all_lanes((absolute(radial) <= tip.limit) & (absolute(tangential) <= tip.limit))

@@ -1,58 +1,102 @@
-"""Bar element of the abradable layer: one-dimensional plasticity with linear hardening (Fig. 4)."""
+"""Law of an abradable element: one-dimensional plasticity with linear hardening (Fig. 4).
+
+This module is all that the program knows of the law. The time loop calls it with eight interface nodes at a
+time, its fallback with one, the reference model and Fig. 4 with arrays. Another law changes this file alone.
+"""
 
 from __future__ import annotations
 
-import numpy as np
-from numba import njit
+from typing import NamedTuple
 
+import numpy as np
+
+from bladerub.contact.kernel.vectors import absolute, elementwise, maximum, minimum, where
 from bladerub.contact.spec import Coating
 
 
-@njit(inline="always")
-def return_mapping(penetration, wear, elastic, hardening, strength):
-    """Force and new wear of one bar compressed by `penetration`.
-
-    The law is homogeneous: with (N/m, N/m, N) it gives a force, with (1/m, 1/m, 1) a stress.
+class Element(NamedTuple):
+    """Parameters of the law, each a float, an array or a vector.
 
     Parameters
     ----------
-    penetration : float
-        Depth of the tip below the original surface, m.
+    elastic, hardening : N/m
+        Stiffness that belongs to E and to K.
+    yield_force : N
+        Elastic limit of the unworn element, σ_Y times its area.
+    elastic_compliance, plastic_compliance : m/N
+        1 / elastic and 1 / (elastic + hardening).
+    """
+
+    elastic: np.ndarray
+    hardening: np.ndarray
+    yield_force: np.ndarray
+    elastic_compliance: np.ndarray
+    plastic_compliance: np.ndarray
+
+
+def element(coating: Coating, area: float | np.ndarray) -> Element:
+    """Return the parameters of elements of the cross-section `area`, m²."""
+    stiffness = coating.modulus_unit * area / coating.thickness
+    elastic, hardening = coating.E * stiffness, coating.K * stiffness
+    yield_force = coating.yield_stress * coating.modulus_unit * area
+    return Element(elastic, hardening, yield_force, 1 / elastic, 1 / (elastic + hardening))
+
+
+@elementwise
+def return_mapping(element, depth, wear):
+    """Find the force of an element and how much it wears.
+
+    Parameters
+    ----------
+    element : Element
+        Parameters of the law.
+    depth : float
+        Depth of the tip below the worn surface, m; negative above it.
     wear : float
-        Permanent shortening of the bar so far, m.
-    elastic, hardening : float
-        Slopes that belong to E and to K.
-    strength : float
-        Elastic limit of the unworn bar.
+        Permanent shortening before, m.
 
     Returns
     -------
-    force, wear : float
-        Force of the bar, 0 where the tip does not reach the worn surface, and the wear after it.
+    force : float
+        Compressive force, 0 above the worn surface, N.
+    increment : float
+        Permanent shortening that is added, m.
 
     Notes
     -----
-    Bars push and never pull, so the accumulated plastic strain is wear over thickness and the
-    plastic multiplier is ``Δγ = f / (E + K)``; loading follows ``E_T = E K / (E + K)``.
+    An element only pushes, so the accumulated plastic strain is wear over thickness. The plastic multiplier
+    is ``Δγ = f / (E + K)``; loading follows ``E_T = E K / (E + K)`` (Simo and Hughes 1998, box 1.4).
     """
-    trial = elastic * (penetration - wear)
-    if trial <= 0.0:
-        return 0.0, wear
-    excess = trial - strength - hardening * wear
-    if excess <= 0.0:
-        return trial, wear
-    shortening = excess / (elastic + hardening)
-    return trial - elastic * shortening, wear + shortening
+    trial = element.elastic * depth
+    excess = trial - element.yield_force - element.hardening * wear  # yield function f of the trial state
+    increment = element.plastic_compliance * maximum(excess, 0.0)
+    return maximum(trial - element.elastic * increment, 0.0), increment
 
 
-@njit
-def _load(penetration, wear, elastic, hardening, strength, stress, new_wear):
-    for i in range(penetration.size):
-        stress[i], new_wear[i] = return_mapping(penetration[i], wear[i], elastic, hardening, strength)
+@elementwise
+def tangent(element, depth, wear):
+    """Find the stiffness of an element (N/m), and the change of depth up to which it is constant (m)."""
+    trial = element.elastic * depth
+    excess = trial - element.yield_force - element.hardening * wear
+    plastic = element.elastic * element.plastic_compliance * element.hardening  # E_T
+    stiffness = where(trial > 0.0, where(excess > 0.0, plastic, element.elastic), 0.0)
+    return stiffness, element.elastic_compliance * minimum(absolute(trial), absolute(excess))
+
+
+@elementwise
+def stored_energy(element, force):
+    """Elastic energy of an element under `force`, J."""
+    return 0.5 * element.elastic_compliance * (force * force)
+
+
+@elementwise
+def dissipated_energy(element, wear, increment):
+    """Energy that an element takes up as its wear grows from `wear` by `increment`, J."""
+    return (element.yield_force + element.hardening * (wear + 0.5 * increment)) * increment
 
 
 def load(coating: Coating, penetration: np.ndarray, wear: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Compress bars of the coating to `penetration`.
+    """Compress elements of the coating to `penetration`.
 
     Parameters
     ----------
@@ -68,16 +112,6 @@ def load(coating: Coating, penetration: np.ndarray, wear: np.ndarray) -> tuple[n
     wear : ndarray
         Permanent shortening after it, m.
     """
-    penetration, wear = np.broadcast_arrays(np.asarray(penetration, float), np.asarray(wear, float))
-    stress, new_wear = np.empty(penetration.size), np.empty(penetration.size)
-    per_metre = 1.0 / coating.thickness
-    _load(
-        penetration.ravel(),
-        wear.ravel(),
-        coating.E * per_metre,
-        coating.K * per_metre,
-        coating.yield_stress,
-        stress,
-        new_wear,
-    )
-    return stress.reshape(penetration.shape), new_wear.reshape(penetration.shape)
+    unit_force = element(coating, 1 / coating.modulus_unit)
+    stress, increment = return_mapping(unit_force, np.subtract(penetration, wear), wear)
+    return stress, wear + increment

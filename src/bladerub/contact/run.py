@@ -9,7 +9,7 @@ import numpy as np
 from scipy.ndimage import minimum_filter1d
 
 from bladerub.blade.model import N_INTERFACE, ReducedBlade
-from bladerub.contact import casing, energy
+from bladerub.contact import casing, energy, law
 from bladerub.contact.integration import Part, march
 from bladerub.contact.kernel import loop
 from bladerub.contact.kernel.free_flight import LONGEST, Leap, leap_of
@@ -18,7 +18,6 @@ from bladerub.contact.kernel.vectors import aligned
 from bladerub.contact.modes import Modes, modes_at
 from bladerub.contact.schemes import SCHEMES, Contact, Recurrence, normal_compliance
 from bladerub.contact.spec import Coating, RunResult, RunSpec
-from bladerub.contact.tip import profile
 
 STRAY = 4
 """Elements a node may move along the casing before the search for contact looks at it alone."""
@@ -114,8 +113,7 @@ def kernel_warm_up() -> None:
     zeros = np.zeros(N_INTERFACE)
     rule = SCHEMES["exponential"](modes, 0.0, 1e-6, Contact(zeros + 1.0, -1.0, 0.0))
     gap = np.ones((8, N_INTERFACE))
-    bars = [zeros + 1.0] * 5
-    stator = loop.Stator(gap, gap[:, 0].copy(), *bars, 8, False, -1.0, 0.0, zeros)
+    stator = loop.Stator(gap, gap[:, 0].copy(), np.ones((5, 8)), 8, False, -1.0, 0.0, zeros)
     tip = loop.Tip(zeros, zeros, zeros + 1.0, zeros + 1.0, 2.0, 0.0, 0.0, 1.0)
     records = pack(rule), leap_of(rule, 1, 0.0), aligned(stator), aligned(tip), loop.at_rest(1, 8)
     loop.Rub(*records, 1).revolve(np.zeros(8))
@@ -184,7 +182,7 @@ def _stator(blade: ReducedBlade, spec: RunSpec, tip: loop.Tip, rule: Recurrence)
     stator = loop.Stator(
         gap=rows.T,
         floor=_lowest_within(reach, rows).min(axis=0),
-        **_bars(blade, spec),
+        law=_law(blade, spec),
         n_elements=coating.n_elements,
         is_rigid=coating.is_rigid,
         radial=radial,
@@ -195,20 +193,10 @@ def _stator(blade: ReducedBlade, spec: RunSpec, tip: loop.Tip, rule: Recurrence)
     return aligned(stator)
 
 
-def _bars(blade: ReducedBlade, spec: RunSpec) -> dict[str, np.ndarray]:
-    coating = spec.coating
-    if coating.is_rigid:
-        return dict.fromkeys(
-            ("elastic", "hardening", "strength", "yielding", "softness"), np.zeros(N_INTERFACE)
-        )
-    elastic, hardening = coating.E * _slope(blade, spec), coating.K * _slope(blade, spec)
-    return {
-        "elastic": elastic,
-        "hardening": hardening,
-        "strength": coating.yield_stress * coating.modulus_unit * bar_area(blade, spec),
-        "yielding": 1 / (elastic + hardening),
-        "softness": 0.5 / elastic,
-    }
+def _law(blade: ReducedBlade, spec: RunSpec) -> np.ndarray:
+    if spec.coating.is_rigid:
+        return np.zeros((len(law.Element._fields), N_INTERFACE))
+    return np.array(law.element(spec.coating, bar_area(blade, spec)))
 
 
 def _own_compliance(rule: Recurrence, coating: Coating) -> np.ndarray:
@@ -236,7 +224,7 @@ def _tip(blade: ReducedBlade, spec: RunSpec) -> loop.Tip:
         radius=radius / outward,
         lever=radius,
         half_width=spec.tip.half_width,
-        drop=-float(profile(spec.tip, 1.0)),
+        curvature=spec.tip.curvature,
         stray=STRAY / float(np.max(per_metre)),
         limit=spec.displacement_limit,
     )

@@ -100,6 +100,11 @@ class TipProfile:
     half_width: float
     edge_drop: float
 
+    @property
+    def curvature(self) -> float:
+        """Drop at a distance of one element, m."""
+        return self.edge_drop * (1.0 / self.half_width) ** 2
+
 
 @dataclass(frozen=True)
 class RunSpec:

@@ -1,36 +1,39 @@
-"""Circumferential profile of the blade tip under one interface node (Fig. 3)."""
+"""Circumferential profile of the blade tip under one interface node (Fig. 3).
+
+The profile is a parabola. It carries elements up to ``half_width`` on either side of the node. An element at
+the edge is partly covered: its force counts by the covered share, which fades over the width of one element,
+from ``half_width - 0.5`` to ``half_width + 0.5``. The parabola goes on to there. So the force does not jump
+when an element passes the edge, and the shares always add up to the width of the profile.
+"""
 
 from __future__ import annotations
 
-import numpy as np
-
-from bladerub.contact.spec import TipProfile
+from bladerub.contact.kernel.vectors import absolute, elementwise, maximum, minimum
 
 
-def profile(tip: TipProfile, offset: np.ndarray) -> np.ndarray:
-    """Height of the tip above its highest point, m (negative off the middle).
+@elementwise
+def relief(tip, offset):
+    """Depth of the profile below its highest point, m.
 
     Parameters
     ----------
-    tip : TipProfile
-        Half width and edge drop of the parabola.
-    offset : array_like
+    tip : bladerub.contact.spec.TipProfile
+        Or the time loop's record of the tip.
+    offset : float
         Tangential distance from the node, in element widths.
     """
-    return -tip.edge_drop * (np.asarray(offset, dtype=float) / tip.half_width) ** 2
+    return tip.curvature * (offset * offset)
 
 
-def coverage(tip: TipProfile, offset: np.ndarray) -> np.ndarray:
-    """Share (0 to 1) of an element that lies under the tip.
-
-    The coating force fades in and out with it, so that it does not jump when an element passes the
-    edge of the profile.
+@elementwise
+def coverage(tip, offset):
+    """Share (0 to 1) of an element that the profile covers.
 
     Parameters
     ----------
-    tip : TipProfile
-        Profile of the tip.
-    offset : array_like
+    tip : bladerub.contact.spec.TipProfile
+        Or the time loop's record of the tip.
+    offset : float
         Tangential distance of the element's centre from the node, in element widths.
     """
-    return np.clip(tip.half_width + 0.5 - np.abs(offset), 0.0, 1.0)
+    return maximum(minimum(tip.half_width + 0.5 - absolute(offset), 1.0), 0.0)

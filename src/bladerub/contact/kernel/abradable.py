@@ -10,18 +10,21 @@ import math
 
 from numba import njit
 
+from bladerub.contact import law
 from bladerub.contact.kernel.vectors import (
     LANES,
-    choose,
-    higher,
-    highest,
+    absolute,
+    broadcast,
+    largest_lane,
     load,
-    lower,
-    lowest,
-    magnitude,
-    splat,
+    load_fields,
+    maximum,
+    minimum,
+    smallest_lane,
     store,
+    where,
 )
+from bladerub.contact.tip import coverage, relief
 
 LEVEL = 1e-12
 """Change of penetration below which the force of a bar is taken as constant over a step, m."""
@@ -40,17 +43,9 @@ def wrap(index, n_elements):
 @njit(inline="always")
 def rows_under(tip, behind, ahead):
     """First and last row that the profile covers of any node between positions `behind` and `ahead`."""
-    return math.floor(lowest(behind) - tip.half_width), math.floor(highest(ahead) + tip.half_width)
-
-
-@njit(inline="always")
-def _covered(tip, offset):
-    return higher(lower(tip.half_width + 0.5 - magnitude(offset), 1.0), 0.0)
-
-
-@njit(inline="always")
-def _drop(tip, offset):
-    return tip.drop * (offset * offset)
+    return math.floor(smallest_lane(behind) - tip.half_width), math.floor(
+        largest_lane(ahead) + tip.half_width
+    )
 
 
 @njit(forceinline=True)
@@ -64,23 +59,21 @@ def push_at(stator, tip, wear, position, rows, rise):
     margin : vector
         Change of height over which it is linear, m: no bar comes to bear, yields or is let go.
     """
-    elastic, hardening = load(stator.elastic, 0), load(stator.hardening, 0)
-    strength = load(stator.strength, 0)
-    yielding = elastic * load(stator.yielding, 0)
-    plastic = yielding * hardening
-    push, stiffness, margin = splat(0.0), splat(0.0), splat(math.inf)
+    element = load_fields(law.Element, stator.law)
+    push, stiffness, margin = broadcast(0.0), broadcast(0.0), broadcast(math.inf)
     first, last = rows
     for row in range(first, last + 1):
         at = wrap(row, stator.n_elements) * LANES
         offset = (row + 0.5) - position
-        share = _covered(tip, offset)
+        share = coverage(tip, offset)
         worn = load(wear, at)
-        trial = elastic * (rise - _drop(tip, offset) - load(stator.gap, at) - worn)
-        excess = trial - strength - hardening * worn
-        push = push + share * higher(trial - yielding * higher(excess, 0.0), 0.0)
-        stiffness = stiffness + share * choose(trial > 0.0, choose(excess > 0.0, plastic, elastic), 0.0)
-        margin = lower(margin, lower(magnitude(trial), magnitude(excess)))
-    return push, stiffness, 2.0 * load(stator.softness, 0) * margin
+        depth = rise - relief(tip, offset) - load(stator.gap, at) - worn
+        force, _ = law.return_mapping(element, depth, worn)
+        slope, linear = law.tangent(element, depth, worn)
+        push = push + share * force
+        stiffness = stiffness + share * slope
+        margin = minimum(margin, linear)
+    return push, stiffness, margin
 
 
 @njit(forceinline=True)
@@ -108,42 +101,39 @@ def settle(stator, tip, wear, position, rise, position_before, rise_before):
     supplied : vector
         Work of the rotation on the bars in this step, J.
     """
-    elastic, hardening = load(stator.elastic, 0), load(stator.hardening, 0)
-    strength = load(stator.strength, 0)
-    yielding, softness = load(stator.yielding, 0), load(stator.softness, 0)
-    stored, loss, supplied = splat(0.0), splat(0.0), splat(0.0)
-    first, last = rows_under(tip, lower(position, position_before), higher(position, position_before))
+    element = load_fields(law.Element, stator.law)
+    stored, loss, supplied = broadcast(0.0), broadcast(0.0), broadcast(0.0)
+    first, last = rows_under(tip, minimum(position, position_before), maximum(position, position_before))
     way, climb = position - position_before, rise - rise_before
-    shift, slope = _drop(tip, way), 2.0 * tip.drop * way
+    shift, slope = relief(tip, way), 2.0 * tip.curvature * way
     for row in range(first, last + 1):
         at = wrap(row, stator.n_elements) * LANES
         offset = (row + 0.5) - position
-        share, share_before = _covered(tip, offset), _covered(tip, offset + way)
+        share, share_before = coverage(tip, offset), coverage(tip, offset + way)
         lowering = slope * offset + shift  # of the profile over this bar, in the step
         worn = load(wear, at)
-        penetration = rise - _drop(tip, offset) - load(stator.gap, at) - worn
+        depth = rise - relief(tip, offset) - load(stator.gap, at) - worn
         deeper = climb + lowering
-        trial, trial_before = elastic * penetration, elastic * higher(penetration - deeper, 0.0)
-        limit = strength + hardening * worn
+        force, shortening = law.return_mapping(element, depth, worn)
+        force_before, _ = law.return_mapping(element, depth - deeper, worn)
         under = share > 0.0
-        shortening = choose(under, yielding * higher(choose(trial > 0.0, trial - limit, 0.0), 0.0), 0.0)
+        shortening, force = where(under, shortening, 0.0), where(under, force, 0.0)
         store(wear, at, worn + shortening)
-        force = choose(under, higher(trial - elastic * shortening, 0.0), 0.0)
-        energy, energy_before = softness * (force * force), softness * (trial_before * trial_before)
-        taken = (limit + 0.5 * hardening * shortening) * shortening
+        energy, energy_before = law.stored_energy(element, force), law.stored_energy(element, force_before)
+        taken = law.dissipated_energy(element, worn, shortening)
         stored = stored + share * energy
         loss = loss + taken
         mean_share = 0.5 * (share + share_before)
-        moved = magnitude(deeper) > LEVEL
-        mean_force = choose(moved, (energy - energy_before + taken) / choose(moved, deeper, 1.0), force)
+        moved = absolute(deeper) > LEVEL
+        mean_force = where(moved, (energy - energy_before + taken) / where(moved, deeper, 1.0), force)
         staying = (
             mean_share * mean_force * lowering
             + 0.5 * (energy + energy_before) * (share - share_before)
             + (1.0 - mean_share) * taken
         )
-        supplied = supplied + choose(
+        supplied = supplied + where(
             under,
-            choose(share_before > 0.0, staying, share * energy + taken),
-            splat(0.0) - share_before * energy_before,
+            where(share_before > 0.0, staying, share * energy + taken),
+            broadcast(0.0) - share_before * energy_before,
         )
     return stored, loss, supplied

@@ -12,7 +12,7 @@ import numpy as np
 from numba import njit
 
 from bladerub.contact.kernel.modal import displacement, in_vectors, no_projection, project
-from bladerub.contact.kernel.vectors import LANES, aligned, load, magnitude, splat, store, total
+from bladerub.contact.kernel.vectors import LANES, absolute, aligned, broadcast, lane_sum, load, store
 from bladerub.contact.schemes import Recurrence
 
 LONGEST = 24
@@ -84,12 +84,12 @@ def leap_of(rule: Recurrence, n_steps: int, slope: float) -> Leap:
 def reach(leap, n, q, q_before):
     """Bound of what any node can rise in a leap from here, m."""
     forms = leap.forms
-    far = splat(0.0)
+    far = broadcast(0.0)
     for k in range(0, n, LANES):
         present = load(q, k)
-        far = far + load(forms, N_FORMS * k + 80) * magnitude(present)
-        far = far + load(forms, N_FORMS * k + 88) * magnitude(present - load(q_before, k))
-    return total(far)
+        far = far + load(forms, N_FORMS * k + 80) * absolute(present)
+        far = far + load(forms, N_FORMS * k + 88) * absolute(present - load(q_before, k))
+    return lane_sum(far)
 
 
 @njit(forceinline=True)
@@ -109,7 +109,7 @@ def take(leap, motion, q, q1, q2):
         As `reach`, of the next leap.
     """
     forms = leap.forms
-    loss = mean = far = splat(0.0)
+    loss = mean = far = broadcast(0.0)
     sums = no_projection()
     for k in range(0, motion.n, LANES):
         form = N_FORMS * k
@@ -124,10 +124,10 @@ def take(leap, motion, q, q1, q2):
         store(q, k, x)
         store(q1, k, x - last_step)
         store(q2, k, x)
-        far = far + load(forms, form + 80) * magnitude(x) + load(forms, form + 88) * magnitude(last_step)
+        far = far + load(forms, form + 80) * absolute(x) + load(forms, form + 88) * absolute(last_step)
         sums = project(motion, k, x, sums)
     radial, tangential = displacement(sums)
-    return radial, tangential, loss, total(mean), total(far)
+    return radial, tangential, loss, lane_sum(mean), lane_sum(far)
 
 
 @njit(forceinline=True)

@@ -11,12 +11,12 @@ import math
 import numpy as np
 from numba import njit
 
-from bladerub.contact import friction
+from bladerub.contact import friction, law
 from bladerub.contact.gap import force_of, is_within_bounds, normal_of, position_of, rise_of
 from bladerub.contact.kernel import rigid
 from bladerub.contact.kernel.abradable import wrap
-from bladerub.contact.kernel.vectors import LANES, at, load, read, store, write
-from bladerub.contact.law import return_mapping
+from bladerub.contact.kernel.vectors import LANES, address_of, load, read, read_fields, store, write
+from bladerub.contact.tip import coverage, relief
 
 FOUND = 1e-12
 """Error of a node's height at which its force is taken as found, m."""
@@ -36,8 +36,8 @@ def relax(motion, stator, tip, state, passed, u, settled):
         Change of any node's height in a sweep at which the forces are taken as found, m.
     """
     force, push = state.force, state.push
-    position, surface = state.scratch, at(state.scratch, 16)
-    rise, turned = at(state.scratch, 32), at(state.scratch, 48)
+    position, surface = state.scratch, address_of(state.scratch, 16)
+    rise, turned = address_of(state.scratch, 32), address_of(state.scratch, 48)
     for _ in range(SWEEPS):
         if not is_within_bounds(tip, load(u, 0), load(u, LANES)):
             break
@@ -111,19 +111,17 @@ def _resistance(stator, tip, wear, j, position, rise):
     """Force (N) and stiffness (N/m) of the bars under node `j`, as `abradable.push_at`."""
     push = 0.0
     stiffness = 0.0
-    elastic, hardening = read(stator.elastic, j), read(stator.hardening, j)
-    strength = read(stator.strength, j)
-    plastic = elastic * hardening / (elastic + hardening)
+    element = read_fields(law.Element, address_of(stator.law, j))
     first = math.floor(position - tip.half_width)
     last = math.floor(position + tip.half_width)
     for i in range(first, last + 1):
         offset = i + 0.5 - position
-        bar = wrap(i, stator.n_elements) * LANES + j
-        worn = read(wear, bar)
-        penetration = rise - tip.drop * offset**2 - read(stator.gap, bar)
-        force, worn_now = return_mapping(penetration, worn, elastic, hardening, strength)
-        if force > 0.0:
-            share = max(0.0, min(1.0, tip.half_width + 0.5 - abs(offset)))
-            push += share * force
-            stiffness += share * (plastic if worn_now > worn else elastic)
+        entry = wrap(i, stator.n_elements) * LANES + j
+        worn = read(wear, entry)
+        depth = rise - relief(tip, offset) - read(stator.gap, entry) - worn
+        force, _ = law.return_mapping(element, depth, worn)
+        slope, _ = law.tangent(element, depth, worn)
+        share = coverage(tip, offset)
+        push += share * force
+        stiffness += share * slope
     return push, stiffness

@@ -36,18 +36,18 @@ from bladerub.contact.kernel.machine_code import njit_on_disk
 from bladerub.contact.kernel.modal import Motion, advance, advance_under, push_modes, respond
 from bladerub.contact.kernel.vectors import (
     LANES,
+    absolute,
+    address_of,
     addresses,
     aligned,
-    at,
-    choose,
-    everywhere,
-    higher,
-    highest,
+    all_lanes,
+    broadcast,
+    largest_lane,
     load,
-    magnitude,
+    maximum,
     read,
-    splat,
     store,
+    where,
     write,
 )
 
@@ -73,10 +73,8 @@ class Stator(NamedTuple):
     floor : (N,) ndarray
         By elements passed since the start of the revolution: the smallest of all gaps that any node
         may meet then, if none moves further than `Tip.stray` along the casing, m.
-    elastic, hardening, strength : (8,) ndarray
-        N/m, N/m and N of one bar under each node, for `bladerub.contact.law.return_mapping`.
-    yielding, softness : (8,) ndarray
-        Compliance of one bar that yields, without its elastic part, and half of the elastic one, m/N.
+    law : (5, 8) ndarray
+        `bladerub.contact.law.Element` of one element under each node, a row for each parameter.
     n_elements : int
         N.
     is_rigid : bool
@@ -92,11 +90,7 @@ class Stator(NamedTuple):
 
     gap: np.ndarray
     floor: np.ndarray
-    elastic: np.ndarray
-    hardening: np.ndarray
-    strength: np.ndarray
-    yielding: np.ndarray
-    softness: np.ndarray
+    law: np.ndarray
     n_elements: int
     is_rigid: bool
     radial: float
@@ -120,8 +114,8 @@ class Tip(NamedTuple):
         Distance of each node from the axis of rotation, m.
     half_width : float
         Of the profile, elements.
-    drop : float
-        Of the profile, one element from its middle, m.
+    curvature : float
+        Of the profile, m per element width squared.
     stray : float
         Tangential displacement up to which `Stator.floor` holds, m.
     limit : float
@@ -133,7 +127,7 @@ class Tip(NamedTuple):
     radius: np.ndarray
     lever: np.ndarray
     half_width: float
-    drop: float
+    curvature: float
     stray: float
     limit: float
 
@@ -209,7 +203,7 @@ def _put(tip, radial, tangential, u):
 @njit(forceinline=True)
 def _is_clear(tip, radial, tangential, rise, floor):
     """Whether the tip surely touches nothing: its highest node is below the lowest gap in reach."""
-    return everywhere((rise <= floor) & (magnitude(tangential) <= tip.stray) & (radial > -tip.limit))
+    return all_lanes((rise <= floor) & (absolute(tangential) <= tip.stray) & (radial > -tip.limit))
 
 
 @njit(forceinline=True)
@@ -227,11 +221,11 @@ def _find_forces(motion, stator, tip, passed, state, u, reverses):
     normal_radial, normal_tangential = normal_of(tip, radial, tangential, rise)
     position = position_of(tip, tangential, passed)
     rows = abradable.rows_under(tip, position, position)
-    evaluated, push_evaluated, stiffness, margin = rise, rise, rise, splat(-1.0)
+    evaluated, push_evaluated, stiffness, margin = rise, rise, rise, broadcast(-1.0)
     found = False
     if not stator.is_rigid and is_within_bounds(tip, radial, tangential):
         for _ in range(ATTEMPTS):
-            if not everywhere(magnitude(rise - evaluated) <= margin):
+            if not all_lanes(absolute(rise - evaluated) <= margin):
                 evaluated = rise
                 push_evaluated, stiffness, margin = abradable.push_at(
                     stator, tip, state.wear, position, rows, rise
@@ -242,7 +236,7 @@ def _find_forces(motion, stator, tip, passed, state, u, reverses):
                 friction.take_hold(motion, stator, tip, state, normal_radial, normal_tangential, rise)
                 along = load(state.along, 0)
             else:
-                along = splat(stator.tangential)
+                along = broadcast(stator.tangential)
             by_radial, by_tangential = force_of(stator, along, normal_radial, normal_tangential, by_coating)
             store(force, 0, by_radial)
             store(force, LANES, by_tangential)
@@ -250,11 +244,11 @@ def _find_forces(motion, stator, tip, passed, state, u, reverses):
             way_radial, way_tangential = radial - there_radial, tangential - there_tangential
             met = met_there + normal_radial * way_radial + normal_tangential * way_tangential
             error = rise - met
-            if everywhere((magnitude(error) <= SETTLED) & (magnitude(way_tangential) <= NEAR)):
+            if all_lanes((absolute(error) <= SETTLED) & (absolute(way_tangential) <= NEAR)):
                 found = True
                 break
             rise = rise - error / (1.0 + load(stator.own_compliance, 0) * stiffness)
-            if not everywhere(magnitude(way_tangential) <= NEAR):
+            if not all_lanes(absolute(way_tangential) <= NEAR):
                 if not is_within_bounds(tip, radial, tangential):
                     break
                 there_radial, there_tangential = radial, tangential
@@ -262,7 +256,7 @@ def _find_forces(motion, stator, tip, passed, state, u, reverses):
                 normal_radial, normal_tangential = normal_of(tip, radial, tangential, met_there)
                 position = position_of(tip, tangential, passed)
                 rows = abradable.rows_under(tip, position, position)
-                margin = splat(-1.0)
+                margin = broadcast(-1.0)
         if not found:  # it may be anywhere by now: begin again
             _clear(force, 2 * LANES)
             _clear(push, LANES)
@@ -287,13 +281,13 @@ def _settle(stator, tip, passed, per_step, state, u, u_before):
     position = position_of(tip, tangential, passed)
     position_before = position_of(tip, tangential_before, passed - per_step)
     push, along = load(state.push, 0), load(state.along, 0)
-    slid = choose(push > 0.0, position - position_before, per_step)
-    store(state.ledger, RETREAT * LANES, higher(load(state.ledger, RETREAT * LANES), per_step - slid))
-    withheld = choose(push > 0.0, along - stator.tangential, 0.0)
-    if not everywhere((slid > 0.0) & (withheld <= 0.0)):
+    slid = where(push > 0.0, position - position_before, per_step)
+    store(state.ledger, RETREAT * LANES, maximum(load(state.ledger, RETREAT * LANES), per_step - slid))
+    withheld = where(push > 0.0, along - stator.tangential, 0.0)
+    if not all_lanes((slid > 0.0) & (withheld <= 0.0)):
         write(state.ledger, REVERSED * LANES, read(state.ledger, REVERSED * LANES) + 1.0)
     if stator.is_rigid:
-        stored, loss = splat(0.0), splat(0.0)
+        stored, loss = broadcast(0.0), broadcast(0.0)
         shape = rigid.surface(stator, position_before) - rigid.surface(stator, position)
         supplied = 0.5 * (push + load(state.push, LANES)) * shape
     else:
@@ -308,7 +302,7 @@ def _settle(stator, tip, passed, per_step, state, u, u_before):
     store(entry, LAST_SHAPE * LANES, supplied)
     _enter(entry, WEAR, loss)
     _enter(entry, SHAPE, supplied)
-    _enter(entry, EXCHANGED, magnitude(supplied))
+    _enter(entry, EXCHANGED, absolute(supplied))
 
 
 @njit(forceinline=True)
@@ -320,7 +314,7 @@ def _enter_work(state, u_new, u_old):
     climb = load(u_new, 2 * LANES) - load(u_old, 2 * LANES)
     _enter(entry, RADIAL, by_radial)
     _enter(entry, TANGENTIAL, by_tangential)
-    _enter(entry, EXCHANGED, magnitude(by_radial) + magnitude(by_tangential))
+    _enter(entry, EXCHANGED, absolute(by_radial) + absolute(by_tangential))
     _enter(entry, NORMAL, 0.5 * load(state.push, LANES) * climb)
     _enter(entry, TORQUE, load(state.moment, LANES))
 
@@ -339,14 +333,14 @@ def _copy(source, target, n):
 @njit(inline="always")
 def _clear(target, n):
     for k in range(0, n, LANES):
-        store(target, k, splat(0.0))
+        store(target, k, broadcast(0.0))
 
 
 @njit(forceinline=True)
 def _drop_negligible(q, n):
     for k in range(0, n, LANES):
         x = load(q, k)
-        store(q, k, choose(magnitude(x) > NEGLIGIBLE, x, 0.0))
+        store(q, k, where(absolute(x) > NEGLIGIBLE, x, 0.0))
 
 
 class Rub:
@@ -422,16 +416,16 @@ class Progress(NamedTuple):
 def _stays_clear(flight, tip, u, far, floor):
     """Whether a leap in which no node rises by more than `far` surely touches nothing."""
     radial, tangential, rise = load(u, 0), load(u, LANES), load(u, 2 * LANES)
-    return _is_clear(tip, radial - far, magnitude(tangential) + flight.sideways * far, rise + far, floor)
+    return _is_clear(tip, radial - far, absolute(tangential) + flight.sideways * far, rise + far, floor)
 
 
 @njit(forceinline=True)
 def _move(motion, state, touched, q, q_before, q_next):
     """Move the modes by one step, as `bladerub.contact.kernel.modal.advance`, under the forces there are."""
     if touched:
-        _copy(state.force, at(state.force, 2 * LANES), 2 * LANES)
-        _copy(state.push, at(state.push, LANES), LANES)
-        _copy(state.moment, at(state.moment, LANES), LANES)
+        _copy(state.force, address_of(state.force, 2 * LANES), 2 * LANES)
+        _copy(state.push, address_of(state.push, LANES), LANES)
+        _copy(state.moment, address_of(state.moment, LANES), LANES)
         if not motion.corrects:
             return advance_under(motion, state.force, q, q_before, q_next)
     return advance(motion, q, q_before, q_next)
@@ -460,9 +454,9 @@ def _meet(motion, stator, tip, state, when, where):
         else:
             within = _find_forces(motion, stator, tip, passed, state, u_next, False)
         if not within:
-            _copy(at(state.force, 2 * LANES), state.force, 2 * LANES)
+            _copy(address_of(state.force, 2 * LANES), state.force, 2 * LANES)
             return False, False
-        touching = highest(load(state.push, 0)) > 0.0
+        touching = largest_lane(load(state.push, 0)) > 0.0
     if touching or touched:
         _settle(stator, tip, passed, per_step, state, u_next, u)
     if touching and motion.corrects:
@@ -470,7 +464,7 @@ def _meet(motion, stator, tip, state, when, where):
         _put(tip, radial, tangential, u_next)
     if touched:
         _enter_work(state, u_next, u_before)
-        _clear(at(state.push, LANES), LANES)
+        _clear(address_of(state.push, LANES), LANES)
     return True, touching
 
 
@@ -479,11 +473,11 @@ def _march(motion, flight, stator, tip, state, steps_per_element, first, last, d
     turns = n_leaps = n_contact = 0
     bottom, top = np.inf, -np.inf
     per_step = 1.0 / steps_per_element
-    touched = touching = highest(load(state.push, 0)) > 0.0
+    touched = touching = largest_lane(load(state.push, 0)) > 0.0
     leapt, far = False, 0.0
-    damping = splat(0.0)
-    q, q_before, q_next = state.q, at(state.q, motion.n), at(state.q, 2 * motion.n)
-    u, u_before, u_next = state.u, at(state.u, 3 * LANES), at(state.u, 6 * LANES)
+    damping = broadcast(0.0)
+    q, q_before, q_next = state.q, address_of(state.q, motion.n), address_of(state.q, 2 * motion.n)
+    u, u_before, u_next = state.u, address_of(state.u, 3 * LANES), address_of(state.u, 6 * LANES)
     for element in range(first, last):
         if element & 31 == 0:
             _drop_negligible(state.q, 3 * motion.n)
@@ -535,5 +529,5 @@ def _march(motion, flight, stator, tip, state, steps_per_element, first, last, d
         write(displacement, element - first, mean * per_step)
     _enter(state.ledger, DAMPING, damping)
     if not (touched or touching):  # the last step added nothing
-        _clear(at(state.ledger, STORED * LANES), 4 * LANES)
+        _clear(address_of(state.ledger, STORED * LANES), 4 * LANES)
     return turns, turns + n_leaps * flight.n_steps, n_leaps, n_contact, bottom, top

@@ -7,7 +7,16 @@ from typing import NamedTuple
 import numpy as np
 from numba import njit
 
-from bladerub.contact.kernel.vectors import LANES, aligned, at, load, read, splat, store, totals
+from bladerub.contact.kernel.vectors import (
+    LANES,
+    address_of,
+    aligned,
+    broadcast,
+    lane_sums,
+    load,
+    read,
+    store,
+)
 from bladerub.contact.schemes import Recurrence
 
 
@@ -87,7 +96,7 @@ def advance(motion, q, q1, q2):
     loss : vector
         Damping loss of the step before, J, spread over the lanes: its end is known only now.
     """
-    loss = splat(0.0)
+    loss = broadcast(0.0)
     sums = no_projection()
     for k in range(0, motion.n, LANES):
         x, more = _step(motion, k, q, q1, q2)
@@ -101,7 +110,7 @@ def advance(motion, q, q1, q2):
 @njit(forceinline=True)
 def advance_under(motion, force, q, q1, q2):
     """Do as `advance`, with the contact forces of the step before."""
-    loss = splat(0.0)
+    loss = broadcast(0.0)
     forces = _spread(force)
     for k in range(0, motion.n, LANES):
         x, more = _step(motion, k, q, q1, q2)
@@ -139,14 +148,14 @@ def _projection(motion, q):
 @njit(inline="always")
 def no_projection():
     """Begin the sums that `project` adds to and `displacement` closes."""
-    zero = splat(0.0)
+    zero = broadcast(0.0)
     return (zero, zero, zero, zero, zero, zero, zero, zero, zero, zero, zero, zero, zero, zero, zero, zero)
 
 
 @njit(inline="always")
 def project(motion, k, x, sums):
     """Add what the modes `x`, from mode k on, displace at the tip: the interface rows of eq. (6)."""
-    rows = at(motion.tip, 16 * k)
+    rows = address_of(motion.tip, 16 * k)
     return (
         sums[0] + load(rows, 0) * x,
         sums[1] + load(rows, 8) * x,
@@ -171,12 +180,12 @@ def project(motion, k, x, sums):
 def displacement(sums):
     """Radial and tangential displacement of the tip, m."""
     r0, r1, r2, r3, r4, r5, r6, r7, t0, t1, t2, t3, t4, t5, t6, t7 = sums
-    return totals(r0, r1, r2, r3, r4, r5, r6, r7), totals(t0, t1, t2, t3, t4, t5, t6, t7)
+    return lane_sums(r0, r1, r2, r3, r4, r5, r6, r7), lane_sums(t0, t1, t2, t3, t4, t5, t6, t7)
 
 
 @njit(inline="always")
 def _pushed(motion, k, forces):
-    rows = at(motion.tip, 16 * k)
+    rows = address_of(motion.tip, 16 * k)
     x, y = load(rows, 0) * forces[0], load(rows, 8) * forces[1]  # halves of the sum, found at the same time
     x, y = x + load(rows, 16) * forces[2], y + load(rows, 24) * forces[3]
     x, y = x + load(rows, 32) * forces[4], y + load(rows, 40) * forces[5]
@@ -191,29 +200,32 @@ def _pushed(motion, k, forces):
 @njit(inline="always")
 def _spread(force):
     return (
-        splat(read(force, 0)),
-        splat(read(force, 1)),
-        splat(read(force, 2)),
-        splat(read(force, 3)),
-        splat(read(force, 4)),
-        splat(read(force, 5)),
-        splat(read(force, 6)),
-        splat(read(force, 7)),
-        splat(read(force, 8)),
-        splat(read(force, 9)),
-        splat(read(force, 10)),
-        splat(read(force, 11)),
-        splat(read(force, 12)),
-        splat(read(force, 13)),
-        splat(read(force, 14)),
-        splat(read(force, 15)),
+        broadcast(read(force, 0)),
+        broadcast(read(force, 1)),
+        broadcast(read(force, 2)),
+        broadcast(read(force, 3)),
+        broadcast(read(force, 4)),
+        broadcast(read(force, 5)),
+        broadcast(read(force, 6)),
+        broadcast(read(force, 7)),
+        broadcast(read(force, 8)),
+        broadcast(read(force, 9)),
+        broadcast(read(force, 10)),
+        broadcast(read(force, 11)),
+        broadcast(read(force, 12)),
+        broadcast(read(force, 13)),
+        broadcast(read(force, 14)),
+        broadcast(read(force, 15)),
     )
 
 
 @njit(forceinline=True)
 def respond(response, force, radial, tangential):
     """Add to the displacement of the tip what the contact forces cause, a row of `response` for each."""
-    more_radial, more_tangential = splat(0.0), splat(0.0)  # halves of the sums, found at the same time
+    more_radial, more_tangential = (
+        broadcast(0.0),
+        broadcast(0.0),
+    )  # halves of the sums, found at the same time
     for i in range(0, 16, 2):
         by, by_next = read(force, i), read(force, i + 1)
         radial = radial + load(response, 16 * i) * by

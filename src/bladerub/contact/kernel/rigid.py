@@ -7,14 +7,22 @@ import math
 from numba import njit
 
 from bladerub.contact.kernel.abradable import wrap
-from bladerub.contact.kernel.vectors import LANES, higher, highest, load, lowest, magnitude, splat
+from bladerub.contact.kernel.vectors import (
+    LANES,
+    absolute,
+    broadcast,
+    largest_lane,
+    load,
+    maximum,
+    smallest_lane,
+)
 
 
 @njit
 def surface(stator, position):
     """Gap of each node to the smooth surface through the centres of the elements, m."""
-    met = splat(0.0)
-    for row in range(math.floor(lowest(position)) - 1, math.floor(highest(position)) + 2):
-        weight = higher(1.0 - magnitude((row + 0.5) - position), 0.0)
+    met = broadcast(0.0)
+    for row in range(math.floor(smallest_lane(position)) - 1, math.floor(largest_lane(position)) + 2):
+        weight = maximum(1.0 - absolute((row + 0.5) - position), 0.0)
         met = met + weight * load(stator.gap, wrap(row, stator.n_elements) * LANES)
     return met

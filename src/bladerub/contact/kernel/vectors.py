@@ -3,6 +3,9 @@
 LLVM maps such a vector to what the processor has: one register of 512 bits, two of 256 or four of 128. Numba
 alone leaves the choice to LLVM's loop vectoriser, which does not keep sixteen sums in registers. Inside
 compiled functions vectors take part in arithmetic and comparison with each other and with floats.
+
+`maximum`, `minimum`, `where`, `absolute` and `sqrt` are those of NumPy when Python calls them. A formula
+written with them, marked by `elementwise`, so serves arrays, and in compiled code arrays, floats and vectors.
 """
 
 from __future__ import annotations
@@ -14,7 +17,7 @@ import numpy as np
 from llvmlite import ir
 from numba import njit, types
 from numba.core import cgutils
-from numba.extending import intrinsic, models, overload, register_model
+from numba.extending import intrinsic, models, overload, register_jitable, register_model
 
 LANES = 8
 FUSED = ("contract", "nsz")  # a product and a sum may be one instruction; nothing is reordered
@@ -98,47 +101,83 @@ def _and(a, b):
     return None
 
 
-def _call(builder, name, result, *arguments):
+def _call(builder, name, result, flags, *arguments):
     kind = ir.FunctionType(result, [argument.type for argument in arguments])
     function = cgutils.get_or_insert_function(builder.module, kind, name)
-    return builder.call(function, arguments, fastmath=ANY_ORDER if result == _DOUBLE else FUSED)
+    return builder.call(function, arguments, fastmath=flags)
 
 
-def _function(name, doc):
-    """Make a function of one vector from an LLVM intrinsic of that name."""
-
-    @intrinsic
-    def function(context, a):
-        def generate(context, builder, signature, arguments):
-            return _call(builder, name, _VECTOR, *arguments)
-
-        return vector(a), generate
-
-    function.__doc__ = doc
-    return function
+def elementwise(function):
+    """Mark a formula that compiled code inlines and that Python calls with arrays."""
+    return register_jitable(forceinline=True)(function)
 
 
-magnitude = _function("llvm.fabs.v8f64", "Absolute value.")
-root = _function("llvm.sqrt.v8f64", "Square root.")
-
-
-def _extreme(comparison, doc):
-    """Make a function that takes the extreme of two: one instruction, which LLVM's own is not for its NaN."""
+def _unary(function, numpy_function, name):
+    """Let compiled code compute `function` of arrays by NumPy, of floats and vectors by an LLVM intrinsic."""
 
     @intrinsic
-    def function(context, a, b):
+    def instruction(context, a):
         def generate(context, builder, signature, arguments):
-            a, b = _operands(builder, signature, arguments)
+            (kind,) = signature.args
+            suffix, result = ("v8f64", _VECTOR) if kind == vector else ("f64", _DOUBLE)
+            return _call(builder, f"{name}.{suffix}", result, FUSED, *arguments)
+
+        return a(a), generate
+
+    @overload(function, inline="always")
+    def overloaded(a):
+        if isinstance(a, types.Array):
+            return lambda a: numpy_function(a)
+        return lambda a: instruction(a)
+
+
+def absolute(a):
+    """Absolute value."""
+    return np.absolute(a)
+
+
+def sqrt(a):
+    """Square root."""
+    return np.sqrt(a)
+
+
+_unary(absolute, np.absolute, "llvm.fabs")
+_unary(sqrt, np.sqrt, "llvm.sqrt")
+
+
+def _extreme(function, numpy_function, comparison):
+    """Do the same for an extreme of two, by one instruction, which LLVM's own is not for its NaN."""
+
+    @intrinsic
+    def instruction(context, a, b):
+        def generate(context, builder, signature, arguments):
+            if vector in signature.args:
+                arguments = _operands(builder, signature, arguments)
+            a, b = arguments
             return builder.select(builder.fcmp_ordered(comparison, a, b), a, b)
 
-        return vector(*_typed(a, b)), generate
+        a, b = _typed(a, b)
+        return (vector if vector in (a, b) else types.float64)(a, b), generate
 
-    function.__doc__ = doc
-    return function
+    @overload(function, inline="always")
+    def overloaded(a, b):
+        if isinstance(a, types.Array) or isinstance(b, types.Array):
+            return lambda a, b: numpy_function(a, b)
+        return lambda a, b: instruction(a, b)
 
 
-lower = _extreme("<", "Lane by lane the lower of two; the second where one is not a number.")
-higher = _extreme(">", "Lane by lane the higher of two; the second where one is not a number.")
+def minimum(a, b):
+    """Lower of two; in compiled code the second where one is not a number."""
+    return np.minimum(a, b)
+
+
+def maximum(a, b):
+    """Higher of two; in compiled code the second where one is not a number."""
+    return np.maximum(a, b)
+
+
+_extreme(minimum, np.minimum, "<")
+_extreme(maximum, np.maximum, ">")
 
 
 def _extreme_lane(comparison, doc):
@@ -159,12 +198,12 @@ def _extreme_lane(comparison, doc):
     return function
 
 
-lowest = _extreme_lane("<", "Lowest of all lanes, none of which may be not a number.")
-highest = _extreme_lane(">", "Highest of all lanes, none of which may be not a number.")
+smallest_lane = _extreme_lane("<", "Lowest of all lanes, none of which may be not a number.")
+largest_lane = _extreme_lane(">", "Highest of all lanes, none of which may be not a number.")
 
 
 @intrinsic
-def splat(context, number):
+def broadcast(context, number):
     """Put the same number in every lane."""
 
     def generate(context, builder, signature, arguments):
@@ -174,31 +213,44 @@ def splat(context, number):
 
 
 @intrinsic
-def total(context, a):
+def lane_sum(context, a):
     """Sum of all lanes."""
 
     def generate(context, builder, signature, arguments):
-        return _call(builder, "llvm.vector.reduce.fadd.v8f64", _DOUBLE, ir.Constant(_DOUBLE, 0.0), *arguments)
+        zero = ir.Constant(_DOUBLE, 0.0)
+        return _call(builder, "llvm.vector.reduce.fadd.v8f64", _DOUBLE, ANY_ORDER, zero, *arguments)
 
     return types.float64(a), generate
 
 
 @intrinsic
-def choose(context, condition, a, b):
-    """Take `a` in the lanes where the condition holds and `b` in the others."""
-
+def _select(context, condition, a, b):
     def generate(context, builder, signature, arguments):
-        yes, no = (
-            value if kind == vector else _spread(builder, value)
-            for kind, value in zip(signature.args[1:], arguments[1:], strict=True)
-        )
-        return builder.select(arguments[0], yes, no)
+        kinds, (chosen, *values) = signature.args[1:], arguments
+        if condition == mask:
+            values = [
+                value if kind == vector else _spread(builder, value)
+                for kind, value in zip(kinds, values, strict=True)
+            ]
+        return builder.select(chosen, *values)
 
-    return vector(mask, *_typed(a, b)), generate
+    return (vector if condition == mask else types.float64)(condition, *_typed(a, b)), generate
+
+
+def where(condition, a, b):
+    """Take `a` where the condition holds and `b` elsewhere."""
+    return np.where(condition, a, b)
+
+
+@overload(where, inline="always")
+def _where(condition, a, b):
+    if isinstance(condition, types.Array):
+        return lambda condition, a, b: np.where(condition, a, b)
+    return lambda condition, a, b: _select(condition, a, b)
 
 
 @intrinsic
-def everywhere(context, condition):
+def all_lanes(context, condition):
     """Whether the condition holds in all lanes."""
 
     def generate(context, builder, signature, arguments):
@@ -236,7 +288,7 @@ def _place(builder, address, index, kind):
 
 
 @njit(inline="always")
-def at(address, index):
+def address_of(address, index):
     """Address of the number `index` of the array at `address`."""
     return address + 8 * index
 
@@ -285,6 +337,33 @@ def write(context, address, index, number):
     return types.void(types.intp, types.intp, types.float64), generate
 
 
+@intrinsic
+def load_fields(context, record, address):
+    """Load a vector for each field of the named tuple `record` from consecutive rows of eight numbers."""
+    return _fields(record, vector, _VECTOR, LANES)
+
+
+@intrinsic
+def read_fields(context, record, address):
+    """Read a number for each field of the named tuple `record`, eight numbers apart: those of one lane."""
+    return _fields(record, types.float64, _DOUBLE, LANES)
+
+
+def _fields(record, kind, llvm_type, stride):
+    names = record.instance_class._fields
+    result = types.NamedUniTuple(kind, len(names), record.instance_class)
+
+    def generate(context, builder, signature, arguments):
+        address = arguments[1]
+        places = (
+            _place(builder, address, ir.Constant(address.type, stride * row), llvm_type)
+            for row in range(len(names))
+        )
+        return context.make_tuple(builder, result, [builder.load(place, align=8) for place in places])
+
+    return result(record, types.intp), generate
+
+
 def _shuffle(lanes):
     @intrinsic
     def shuffled(context, a, b):
@@ -312,7 +391,7 @@ def _fours(a, b):
 
 
 @njit(inline="always")
-def totals(a, b, c, d, e, f, g, h):
+def lane_sums(a, b, c, d, e, f, g, h):
     """Vector of the sums of all lanes of eight vectors."""
     first, second = _fours(_pairs(a, b), _pairs(c, d)), _fours(_pairs(e, f), _pairs(g, h))
     return _left_4(first, second) + _right_4(first, second)

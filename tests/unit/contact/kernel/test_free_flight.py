@@ -9,7 +9,7 @@ from numba import njit
 
 from bladerub.contact import energy
 from bladerub.contact.kernel import free_flight, loop, modal
-from bladerub.contact.kernel.vectors import addresses, aligned, at, store, total
+from bladerub.contact.kernel.vectors import address_of, addresses, aligned, lane_sum, store
 from bladerub.contact.modes import modes_at
 from bladerub.contact.run import set_up
 from bladerub.contact.schemes import SCHEMES, Contact
@@ -27,19 +27,21 @@ class Flight(NamedTuple):
 @njit
 def by_leap(rule, flight, record):
     q, n = record.q, rule.n
-    here = free_flight.reach(flight, n, q, at(q, n))
-    radial, tangential, loss, way, far = free_flight.take(flight, rule, q, at(q, n), at(q, 2 * n))
+    here = free_flight.reach(flight, n, q, address_of(q, n))
+    radial, tangential, loss, way, far = free_flight.take(
+        flight, rule, q, address_of(q, n), address_of(q, 2 * n)
+    )
     store(record.radial, 0, radial)
     store(record.tangential, 0, tangential)
-    return total(loss), way, far, here
+    return lane_sum(loss), way, far, here
 
 
 @njit
 def next_loss(rule, record):
     """Loss that the next step enters."""
     q, n = record.q, rule.n
-    _, _, loss = modal.advance(rule, q, at(q, n), at(q, 2 * n))
-    return total(loss)
+    _, _, loss = modal.advance(rule, q, address_of(q, n), address_of(q, 2 * n))
+    return lane_sum(loss)
 
 
 @pytest.fixture(params=["exponential", "central_differences"])

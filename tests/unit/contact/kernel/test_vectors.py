@@ -43,12 +43,12 @@ def vector_of(function):
     ("function", "expected"),
     [
         (lambda a, b, c: (a + b) * (c - a) / (2 + b * b), lambda a, b, c: (a + b) * (c - a) / (2 + b * b)),
-        (lambda a, b, c: vectors.lower(a, b), lambda a, b, c: np.minimum(a, b)),
-        (lambda a, b, c: vectors.higher(a, c), lambda a, b, c: np.maximum(a, c)),
-        (lambda a, b, c: vectors.root(vectors.magnitude(a)), lambda a, b, c: np.sqrt(np.abs(a))),
-        (lambda a, b, c: vectors.choose(a > b, a, c), lambda a, b, c: np.where(a > b, a, c)),
+        (lambda a, b, c: vectors.minimum(a, b), lambda a, b, c: np.minimum(a, b)),
+        (lambda a, b, c: vectors.maximum(a, c), lambda a, b, c: np.maximum(a, c)),
+        (lambda a, b, c: vectors.sqrt(vectors.absolute(a)), lambda a, b, c: np.sqrt(np.abs(a))),
+        (lambda a, b, c: vectors.where(a > b, a, c), lambda a, b, c: np.where(a > b, a, c)),
         (
-            lambda a, b, c: vectors.choose((a > b) & (b <= c), a, b),
+            lambda a, b, c: vectors.where((a > b) & (b <= c), a, b),
             lambda a, b, c: np.where((a > b) & (b <= c), a, b),
         ),
     ],
@@ -63,7 +63,7 @@ def test_sums_and_extremes_over_the_lanes(data):
     @njit
     def over(data):
         a = vectors.load(data.a, 0)
-        return vectors.total(a), vectors.lowest(a), vectors.highest(a)
+        return vectors.lane_sum(a), vectors.smallest_lane(a), vectors.largest_lane(a)
 
     a = data.a[0]
     assert over(addresses(data)) == (pytest.approx(a.sum(), rel=1e-14), a.min(), a.max())
@@ -76,7 +76,7 @@ def test_totals_of_eight_vectors(data):
         c, d = vectors.load(data.a, 16), vectors.load(data.a, 24)
         e, f = vectors.load(data.a, 32), vectors.load(data.a, 40)
         g, h = vectors.load(data.a, 48), vectors.load(data.a, 56)
-        vectors.store(data.out, 0, vectors.totals(a, b, c, d, e, f, g, h))
+        vectors.store(data.out, 0, vectors.lane_sums(a, b, c, d, e, f, g, h))
 
     over(addresses(data))
     np.testing.assert_allclose(data.out, data.a.sum(axis=1), rtol=1e-14)
@@ -87,7 +87,7 @@ def test_totals_of_eight_vectors(data):
 def test_a_condition_holds_everywhere_or_not(data, lane, value):
     @njit
     def over(data):
-        return vectors.everywhere(vectors.load(data.a, 0) <= 0.5)
+        return vectors.all_lanes(vectors.load(data.a, 0) <= 0.5)
 
     lanes = np.zeros((1, LANES))
     assert over(addresses(aligned(data._replace(a=lanes))))
@@ -98,7 +98,7 @@ def test_a_condition_holds_everywhere_or_not(data, lane, value):
 def test_single_numbers(data):
     @njit
     def move(data):
-        vectors.write(vectors.at(data.out, 2), 1, vectors.read(data.a, 5))
+        vectors.write(vectors.address_of(data.out, 2), 1, vectors.read(data.a, 5))
 
     data.out[:] = 0.0
     move(addresses(data))
