@@ -4,14 +4,14 @@ import json
 import sys
 import time
 
-from bladerub.contact.run import kernel_warm_up
+from bladerub.contact.setup import compile_kernel
 from bladerub.io import atomic
 from bladerub.workflow import job
 
 job.log_to(snakemake.log[0])
 
 start = time.monotonic()
-kernel_warm_up()
+compile_kernel()
 seconds = time.monotonic() - start
 print(f"time loop compiled in {seconds:.1f} s", file=sys.stderr)
 with atomic.writing(snakemake.output[0]) as stream:

@@ -5,7 +5,7 @@ import pytest
 import yaml
 
 from bladerub.blade.model import ReducedBlade
-from bladerub.contact.spec import Energy, RunResult
+from bladerub.contact.result import Energy, RunResult
 from bladerub.study import job
 from bladerub.study.grid import CoatingCase, run_spec
 from bladerub.study.job import compute_missing

@@ -18,10 +18,11 @@ import numpy as np
 
 from bladerub.benchmark import peak, plain
 from bladerub.blade.model import ReducedBlade
-from bladerub.contact.kernel.loop import Progress, Rub
-from bladerub.contact.kernel.vectors import LANES
-from bladerub.contact.run import set_up, simulate
+from bladerub.contact.kernel.loop import Progress, Simulation
+from bladerub.contact.run import simulate
+from bladerub.contact.setup import set_up
 from bladerub.contact.spec import RunSpec
+from bladerub.numerics.vectors import LANES
 from bladerub.study.grid import coating_cases, run_spec, speeds
 from bladerub.verification.verify import draw, study_runs
 
@@ -35,11 +36,11 @@ FULL_RUNS = 8
 
 FLOPS_PER_MODE = 39
 """Of a step by itself: recurrence 3, damping loss 4, displacement of 16 coordinates of the tip 32."""
-FLOPS_PER_LEAP = 61
-"""Of a mode in a leap: way and last step 9, damping loss 12, mean 4, bound 4, displacement of the tip 32."""
-FLOPS_PER_PUSHED_MODE = 32
+FLOPS_PER_FLIGHT = 61
+"""Of a mode in free flight: increment and last step 9, damping loss 12, mean 4, bound 4, tip 32."""
+FLOPS_PER_FORCED_MODE = 32
 FLOPS_PER_RESPONSE = 2 * 16 * 16
-FLOPS_PER_BAR = 17 + 52  # force once, and wear with its ledger
+FLOPS_PER_ELEMENT = 17 + 52  # force once, and wear with its ledger
 FLOPS_PER_NODE = 60
 
 
@@ -74,7 +75,7 @@ def benchmark(
     touching, share = in_contact(blade, _middle_run(config))
     free = replace(touching, clearance=(blade.length, blade.length), initial_displacement=1e-6 * blade.length)
     progress("compiling the plain loop")
-    compiled = numba.njit(plain.march)
+    compiled = numba.njit(plain.integrate)
     specs = {"contact": touching, "free": free}
     _plain(compiled, blade, touching, 1)
     peak.turns(1)
@@ -88,7 +89,7 @@ def benchmark(
             steps = _steps(blade, spec)
             seconds[name].append(
                 {
-                    "numpy": _plain(plain.march, blade, spec, steps) / steps,
+                    "numpy": _plain(plain.integrate, blade, spec, steps) / steps,
                     "numba": _plain(compiled, blade, spec, steps) / steps,
                     "production": _production(blade, spec) / steps,
                 }
@@ -149,16 +150,16 @@ def in_contact(blade: ReducedBlade, spec: RunSpec) -> tuple[RunSpec, float]:
 
 def useful_flops(blade: ReducedBlade, spec: RunSpec) -> float:
     """March a run, and count the useful operations of its mean step; comparisons are not."""
-    rule, rub = set_up(blade, spec)
-    n, bars = rule.omega.size, int(2 * rub.tip.half_width) + 1
-    marched = [_revolve(rub) for _ in range(spec.revolutions)]
-    steps, leaps, touching = (
-        sum(getattr(made, count) for made in marched) for count in ("n_steps", "n_leaps", "n_contact_steps")
+    rule, simulation = set_up(blade, spec)
+    n, n_under = rule.omega.size, int(2 * simulation.tip.half_width) + 1
+    made_in = [_revolve(simulation) for _ in range(spec.revolutions)]
+    steps, flights, touching = (
+        sum(getattr(made, count) for made in made_in) for count in ("n_steps", "n_flights", "n_contact_steps")
     )
-    contact = FLOPS_PER_PUSHED_MODE * n + FLOPS_PER_RESPONSE
-    contact += LANES * (bars * FLOPS_PER_BAR + FLOPS_PER_NODE)
-    single = steps - leaps * rub.flight.n_steps
-    return (n * (FLOPS_PER_MODE * single + FLOPS_PER_LEAP * leaps) + contact * touching) / steps
+    contact = FLOPS_PER_FORCED_MODE * n + FLOPS_PER_RESPONSE
+    contact += LANES * (n_under * FLOPS_PER_ELEMENT + FLOPS_PER_NODE)
+    single = steps - flights * simulation.flight.n_steps
+    return (n * (FLOPS_PER_MODE * single + FLOPS_PER_FLIGHT * flights) + contact * touching) / steps
 
 
 def _middle_run(config: Mapping[str, Any]) -> RunSpec:
@@ -174,20 +175,20 @@ def _timed(function: Callable, *arguments: Any) -> float:
     return time.thread_time() - start
 
 
-def _plain(march: Callable, blade: ReducedBlade, spec: RunSpec, steps: int) -> float:
-    return _timed(march, *plain.arguments(*set_up(blade, spec)), np.zeros(steps))
+def _plain(integrate: Callable, blade: ReducedBlade, spec: RunSpec, steps: int) -> float:
+    return _timed(integrate, *plain.arguments(*set_up(blade, spec)), np.zeros(steps))
 
 
 def _production(blade: ReducedBlade, spec: RunSpec) -> float:
     seconds = []
     for _ in range(REPEATS):
-        _, rub = set_up(blade, spec)
-        seconds.append(sum(_timed(_revolve, rub) for _ in range(spec.revolutions)))
+        _, simulation = set_up(blade, spec)
+        seconds.append(sum(_timed(_revolve, simulation) for _ in range(spec.revolutions)))
     return statistics.median(seconds)
 
 
-def _revolve(rub: Rub) -> Progress:
-    return rub.revolve(np.zeros(rub.stator.n_elements))
+def _revolve(simulation: Simulation) -> Progress:
+    return simulation.advance(np.zeros(simulation.stator.n_elements))
 
 
 def _mean_run(blade: ReducedBlade, config: Mapping[str, Any]) -> tuple[float, int]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from numba import njit
 
-from bladerub.contact.kernel.vectors import LANES, broadcast, lane_sum
+from bladerub.numerics.vectors import LANES, broadcast, lane_sum
 
 CHAINS = 12
 """Products and sums under way at once: more than a processor needs to be busy, fewer than its registers."""

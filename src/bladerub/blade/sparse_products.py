@@ -8,7 +8,7 @@ import numpy as np
 from numba import njit
 from scipy import sparse
 
-from bladerub.contact.kernel.vectors import LANES, load, splat, store
+from bladerub.numerics.vectors import LANES, broadcast, load, store
 
 _THREADS = 2  # that multiply; a node is one's own, so their number changes no bit
 
@@ -73,7 +73,7 @@ def _multiply(starts, columns, values, block, product, width, first_row, last_ro
     for row in range(first_row, last_row, 3):
         x, y, z = starts[row], starts[row + 1], starts[row + 2]
         for tile in range(0, width, LANES):
-            sum_x = sum_y = sum_z = splat(0.0)
+            sum_x = sum_y = sum_z = broadcast(0.0)
             for entry in range(y - x):
                 factor = load(block, columns[x + entry] * width + tile)
                 sum_x = sum_x + values[x + entry] * factor

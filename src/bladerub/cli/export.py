@@ -178,7 +178,7 @@ def _plan(options: argparse.Namespace, config: dict[str, Any], run: StoredRun, b
 
 def _record(options: argparse.Namespace, run: StoredRun, plan: PlannedRun, blade: ReducedBlade) -> Recording:
     from bladerub.contact.recording import record
-    from bladerub.contact.run import kernel_warm_up
+    from bladerub.contact.setup import compile_kernel
 
     peak = run.data["revolution_peak"]
     last = plan.spec.revolutions
@@ -188,7 +188,7 @@ def _record(options: argparse.Namespace, run: StoredRun, plan: PlannedRun, blade
         raise InputError(
             f"--run {options.run}: left all bounds in its first revolution, there is none to show"
         )
-    kernel_warm_up()
+    compile_kernel()
     with tqdm(total=last, unit="rev", ncols=get_terminal_size().columns, disable=None, leave=False) as bar:
         recording = record(
             blade, plan.spec, last, options.samples, progress=lambda done: bar.update(done - bar.n)

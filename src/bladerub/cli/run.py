@@ -76,7 +76,8 @@ def run(options: argparse.Namespace) -> None:
     _check_options(options, config)
     blade_path, blade = inputs.read_blade(options, config)
 
-    from bladerub.contact.run import kernel_warm_up, simulate
+    from bladerub.contact.run import simulate
+    from bladerub.contact.setup import compile_kernel
     from bladerub.study.grid import CoatingCase, run_spec
     from bladerub.study.key import blade_digest, run_key
     from bladerub.study.store import write_run
@@ -94,7 +95,7 @@ def run(options: argparse.Namespace) -> None:
     else:
         case = CoatingCase(options.casing, options.E, options.K, options.theta)
     spec = run_spec(config, case, options.f)
-    kernel_warm_up()
+    compile_kernel()
     with tqdm(
         total=spec.revolutions, unit="rev", ncols=get_terminal_size().columns, disable=None, leave=False
     ) as bar:

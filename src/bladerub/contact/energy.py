@@ -1,30 +1,35 @@
-"""The energy ledger of a run: what the time loop adds up, and what becomes of it.
+"""The energy ledger of a run: what the time loop adds up, and the balance that it makes.
 
 Every quadrature is the one that the schemes conserve: the work of the contact forces over a step is the mean
 of the forces at its ends times the displacement between, which the loop adds up as ``F (u⁺ − u⁻) / 2``. All
 sums so reach to the middle of the last step, and the energies are taken there.
+
+Sliding is not what is left over: the loop adds up the tangential force times the distance that the tip slides
+over the casing, and apart from that the moment of the contact forces, which times the angle of a step is the
+work of the rotation.
 """
 
 from __future__ import annotations
 
 import numpy as np
 
+from bladerub.contact.result import Energy
 from bladerub.contact.schemes import Recurrence
-from bladerub.contact.spec import Energy
 
-RADIAL, TANGENTIAL, DAMPING, NORMAL, SHAPE, TORQUE, EXCHANGED, WEAR = range(8)
-"""Sums of the loop: work of the radial and tangential forces on the blade, damping loss, work of the tip on
-the coating, work of the casing shape, moment of the forces about the axis (N m, one entry a step), work on
-the blade and of the shape whatever its sign, energy taken by wear."""
+RADIAL, TANGENTIAL, DAMPING, SLIDING, SHAPE, TORQUE, EXCHANGED, WEAR = range(8)
+"""Sums of the loop: work of the radial and tangential forces on the blade, damping loss, energy taken by
+sliding, work of the casing shape, moment of the forces about the axis (N m, one entry a step), work on the
+blade and of the shape whatever its sign, energy taken by wear."""
 
 STORED, STORED_BEFORE, LAST_SHAPE, LAST_WEAR = range(8, 12)
 """Of the last step: energy in the coating at its end and start, and what it added to two of the sums."""
 
-REVERSED, RETREAT = 12, 13
-"""No energies: the number of steps in which a node that touches did not slide with the rotation (one number),
-and how much less than the rotation such a node slid at most in a step (of each node), elements."""
+REVERSED, FALLBACK, UNCONVERGED, RETREAT = range(12, 16)
+"""No energies. Single numbers: steps in which a node in contact did not slide with the rotation, steps whose
+forces were found node by node, steps whose forces did not converge. Of each node: how much less than the
+rotation it slid at most in a step, in elements."""
 
-N_ENTRIES = 14
+N_ENTRIES = 16
 
 
 def blade_energy(rule: Recurrence, state) -> tuple[float, float]:
@@ -36,14 +41,14 @@ def blade_energy(rule: Recurrence, state) -> tuple[float, float]:
     return float(kinetic), float(0.5 * (np.sum(rule.omega**2 * q * before) + condensed))
 
 
-def close(rule: Recurrence, state, initial: float, angle_per_step: float) -> Energy:
-    """Close the ledger at the middle of the last step.
+def balance(rule: Recurrence, state, initial: float, angle_per_step: float) -> Energy:
+    """Balance the ledger at the middle of the last step.
 
     Parameters
     ----------
     rule : Recurrence
         The scheme.
-    state : bladerub.contact.kernel.loop.State
+    state : bladerub.contact.kernel.records.State
         At the end of the run.
     initial : float
         Energy of the blade at the start, J.
@@ -54,9 +59,6 @@ def close(rule: Recurrence, state, initial: float, angle_per_step: float) -> Ene
     kinetic, elastic = blade_energy(rule, state)
     entry = state.ledger.sum(axis=1)
     damping = entry[DAMPING] + np.sum(rule.loss * (q[:n] - oldest[:n]) ** 2)
-    shape = entry[SHAPE] - 0.5 * entry[LAST_SHAPE]
-    rotation = entry[TORQUE] * angle_per_step
-    on_blade = entry[RADIAL] + entry[TANGENTIAL]
     return Energy(
         initial=initial,
         kinetic=kinetic,
@@ -66,8 +68,8 @@ def close(rule: Recurrence, state, initial: float, angle_per_step: float) -> Ene
         work_tangential=float(entry[TANGENTIAL]),
         stored=float(0.5 * (entry[STORED] + entry[STORED_BEFORE])),
         wear=float(entry[WEAR] - 0.5 * entry[LAST_WEAR]),
-        work_shape=float(shape),
-        work_rotation=float(rotation),
-        sliding=float(rotation - on_blade - entry[NORMAL]),
+        work_shape=float(entry[SHAPE] - 0.5 * entry[LAST_SHAPE]),
+        work_rotation=float(entry[TORQUE] * angle_per_step),
+        sliding=float(entry[SLIDING]),
         exchanged=float(entry[EXCHANGED]),
     )

@@ -1,45 +1,53 @@
-"""Where the nodes of the vibrating tip are on the casing, a lane a node."""
+"""Gap between the vibrating tip and the coating, eqs. (7) and (8), a lane a node.
+
+Node and casing meet on the cone of the flow path: displacements are those normal to it (radial) and along the
+circumference (tangential). The casing is curved, so a node approaches it by tangential motion too.
+"""
 
 from __future__ import annotations
 
 from numba import njit
 
-from bladerub.contact.kernel.vectors import absolute, all_lanes, load, sqrt
+from bladerub.numerics.vectors import absolute, all_lanes, elementwise, load, sqrt
 
 
 @njit(inline="always")
-def rise_of(tip, radial, tangential):
-    """Height of each node above its place at rest: tangential vibration closes the clearance too, m."""
-    along = load(tip.radius, 0) + radial
-    return sqrt(along * along + tangential * tangential) - load(tip.radius, 0)
+def closest_position(tip, tangential, passed):
+    """Position of the point of the casing closest to each node, eq. (7), in elements.
 
-
-@njit(inline="always")
-def position_of(tip, tangential, passed):
-    """Position of each node along the casing, in rows of elements."""
+    Parameters
+    ----------
+    tip : bladerub.contact.kernel.records.Tip
+        Where the nodes are at the start of the revolution.
+    tangential : vector
+        Displacement of the nodes, m.
+    passed : float
+        Elements that the rotation has passed since the start of the revolution.
+    """
     return load(tip.start, 0) + passed + tangential * load(tip.per_metre, 0)
 
 
 @njit(inline="always")
-def normal_of(tip, radial, tangential, rise):
-    """Outward normal of the casing where each node now is, by its own radial and tangential direction."""
-    share = 1.0 / (load(tip.radius, 0) + rise)
+def normal_approach(tip, radial, tangential):
+    """Displacement of each node towards the casing, the product (u · n) of eq. (8), m."""
+    outward = load(tip.radius, 0) + radial
+    return sqrt(outward * outward + tangential * tangential) - load(tip.radius, 0)
+
+
+@njit(inline="always")
+def normal(tip, radial, tangential, approach):
+    """Outward normal n of the casing at each node, by its own radial and tangential direction."""
+    share = 1.0 / (load(tip.radius, 0) + approach)
     return share * (load(tip.radius, 0) + radial), share * tangential
 
 
-@njit(inline="always")
-def force_of(stator, along, normal_radial, normal_tangential, push):
-    """Radial and tangential force on the blade: along the normal where each node now is, turned by θ.
-
-    `along`, of each node, is ``stator.tangential`` or what friction leaves of it.
-    """
-    return (
-        push * (stator.radial * normal_radial - along * normal_tangential),
-        push * (stator.radial * normal_tangential + along * normal_radial),
-    )
+@elementwise
+def penetration(approach, relief, initial_gap, wear):
+    """Depth of the tip below the worn surface of an element, m: minus the gap g of eq. (8)."""
+    return approach - relief - initial_gap - wear
 
 
 @njit(inline="always")
-def is_within_bounds(tip, radial, tangential):
+def is_within_limit(tip, radial, tangential):
     """Whether every displacement is a number below the limit."""
     return all_lanes((absolute(radial) <= tip.limit) & (absolute(tangential) <= tip.limit))

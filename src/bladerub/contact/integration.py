@@ -1,4 +1,4 @@
-"""The march of a blade over the casing, part by part, and what is kept of it."""
+"""Integration of a run segment by segment, and what is kept of it."""
 
 from __future__ import annotations
 
@@ -8,31 +8,31 @@ from typing import NamedTuple
 
 import numpy as np
 
-from bladerub.contact.kernel.loop import Rub
+from bladerub.contact.kernel.loop import Simulation
 
 
-class Part(NamedTuple):
+class Segment(NamedTuple):
     """A whole revolution or a part of one, at one speed.
 
     Parameters
     ----------
-    rub : Rub
-        What marches.
+    simulation : Simulation
+        What is integrated.
     revolution : int
         Counted from 0.
     first, last : int
-        Elements passed since the start of the revolution, at the start and at the end of the part.
+        Elements passed since the start of the revolution, at the start and at the end of the segment.
     """
 
-    rub: Rub
+    simulation: Simulation
     revolution: int
     first: int
     last: int
 
 
 @dataclass
-class Track:
-    """What is kept of a march.
+class History:
+    """What is kept of an integration.
 
     Parameters
     ----------
@@ -42,7 +42,7 @@ class Track:
         Range of that displacement in each revolution, m; NaN likewise.
     n_steps, n_contact_steps : int
         Steps made, and those of them with contact.
-    made : float
+    revolutions_made : float
         Revolutions made.
     """
 
@@ -51,15 +51,10 @@ class Track:
     highest: np.ndarray = field(init=False)
     n_steps: int = 0
     n_contact_steps: int = 0
-    made: float = 0.0
+    revolutions_made: float = 0.0
 
     def __post_init__(self):
         self.lowest, self.highest = np.full((2, len(self.displacement)), np.nan)
-
-    @property
-    def is_whole(self) -> bool:
-        """Whether the tip stayed within bounds to the end."""
-        return self.made == len(self.displacement)
 
     @property
     def peak(self) -> np.ndarray:
@@ -71,37 +66,42 @@ class Track:
         """Half the range of the displacement in each revolution, m."""
         return 0.5 * (self.highest - self.lowest)
 
-    def verdict(self, limit: float) -> tuple[str, str]:
+    def outcome(self, limit: float) -> tuple[str, str]:
         """Status and message of the run, whose tip must not move by more than `limit` (m)."""
-        if self.is_whole:
+        if self.revolutions_made == len(self.displacement):
             return "completed", f"{len(self.displacement)} revolutions completed"
-        return "unbounded", f"the tip moved by more than {limit:g} m after {self.made:.2f} revolutions"
+        made = self.revolutions_made
+        return "unbounded", f"the tip moved by more than {limit:g} m after {made:.2f} revolutions"
 
 
-def march(
-    parts: Iterable[Part], revolutions: int, n_elements: int, progress: Callable[[int], None] | None = None
-) -> Track:
-    """March `parts`, which follow each other, until the last or until the tip leaves all bounds.
+def integrate(
+    segments: Iterable[Segment],
+    revolutions: int,
+    n_elements: int,
+    progress: Callable[[int], None] | None = None,
+) -> History:
+    """Integrate consecutive segments, until the last or until a displacement exceeds the limit.
 
     Parameters
     ----------
-    parts : iterable of Part
+    segments : iterable of Segment
         Each is asked for when those before are done.
     revolutions, n_elements : int
         Length of the run, and elements in a revolution.
     progress : callable, optional
         Called with the number of revolutions done after each of them.
     """
-    track = Track(np.full((revolutions, n_elements), np.nan))
-    for rub, revolution, first, last in parts:
-        made = rub.revolve(track.displacement[revolution, first:last], first)
-        track.n_steps += made.n_steps
-        track.n_contact_steps += made.n_contact_steps
-        track.lowest[revolution] = np.fmin(track.lowest[revolution], made.lowest)
-        track.highest[revolution] = np.fmax(track.highest[revolution], made.highest)
-        track.made = revolution + (first + made.n_steps / rub.steps_per_element) / n_elements
-        if made.n_steps < (last - first) * rub.steps_per_element:
+    history = History(np.full((revolutions, n_elements), np.nan))
+    for simulation, revolution, first, last in segments:
+        made = simulation.advance(history.displacement[revolution, first:last], first)
+        history.n_steps += made.n_steps
+        history.n_contact_steps += made.n_contact_steps
+        history.lowest[revolution] = np.fmin(history.lowest[revolution], made.lowest)
+        history.highest[revolution] = np.fmax(history.highest[revolution], made.highest)
+        passed = first + made.n_steps / simulation.steps_per_element
+        history.revolutions_made = revolution + passed / n_elements
+        if made.n_steps < (last - first) * simulation.steps_per_element:
             break
         if progress is not None and last == n_elements:
             progress(revolution + 1)
-    return track
+    return history

@@ -10,8 +10,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from bladerub.contact.kernel.vectors import absolute, elementwise, maximum, minimum, where
 from bladerub.contact.spec import Coating
+from bladerub.numerics.vectors import absolute, elementwise, maximum, minimum, where
 
 
 class Element(NamedTuple):
@@ -68,16 +68,27 @@ def return_mapping(element, depth, wear):
     is ``Δγ = f / (E + K)``; loading follows ``E_T = E K / (E + K)`` (Simo and Hughes 1998, box 1.4).
     """
     trial = element.elastic * depth
-    excess = trial - element.yield_force - element.hardening * wear  # yield function f of the trial state
-    increment = element.plastic_compliance * maximum(excess, 0.0)
+    increment = element.plastic_compliance * maximum(trial - yield_force(element, wear), 0.0)
     return maximum(trial - element.elastic * increment, 0.0), increment
+
+
+@elementwise
+def yield_force(element, wear):
+    """Elastic limit of an element that is worn, N."""
+    return element.yield_force + element.hardening * wear
+
+
+@elementwise
+def elastic_force(element, depth):
+    """Force of an element at a depth that it has borne before, N."""
+    return element.elastic * maximum(depth, 0.0)
 
 
 @elementwise
 def tangent(element, depth, wear):
     """Find the stiffness of an element (N/m), and the change of depth up to which it is constant (m)."""
     trial = element.elastic * depth
-    excess = trial - element.yield_force - element.hardening * wear
+    excess = trial - yield_force(element, wear)
     plastic = element.elastic * element.plastic_compliance * element.hardening  # E_T
     stiffness = where(trial > 0.0, where(excess > 0.0, plastic, element.elastic), 0.0)
     return stiffness, element.elastic_compliance * minimum(absolute(trial), absolute(excess))
@@ -92,7 +103,7 @@ def stored_energy(element, force):
 @elementwise
 def dissipated_energy(element, wear, increment):
     """Energy that an element takes up as its wear grows from `wear` by `increment`, J."""
-    return (element.yield_force + element.hardening * (wear + 0.5 * increment)) * increment
+    return (yield_force(element, wear) + 0.5 * element.hardening * increment) * increment
 
 
 def load(coating: Coating, penetration: np.ndarray, wear: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -10,8 +10,8 @@ import numpy as np
 
 from bladerub.blade.model import ReducedBlade
 from bladerub.contact.modes import at_tip, mode_shapes_at
-from bladerub.contact.run import set_up
 from bladerub.contact.schemes import Recurrence
+from bladerub.contact.setup import set_up
 from bladerub.contact.spec import RunSpec
 
 
@@ -65,7 +65,7 @@ def record(
     ValueError
         As `simulate`.
     """
-    rule, rub = set_up(blade, spec)
+    rule, simulation = set_up(blade, spec)
     n_elements = spec.coating.n_elements
     stops = np.rint(np.linspace(0, n_elements, n_instants + 1)).astype(int)
     displacement, peak = np.empty(n_elements), np.zeros(revolution)
@@ -73,11 +73,11 @@ def record(
     for number in range(revolution):
         recorded = number == revolution - 1
         for first, last in pairwise(stops if recorded else (0, n_elements)):
-            made = rub.revolve(displacement[first:last], first)
+            made = simulation.advance(displacement[first:last], first)
             peak[number] = max(peak[number], abs(made.lowest), abs(made.highest))
             if recorded:
-                amplitudes.append(rub.state.q[0, : rule.omega.size].copy())
-                forces.append(rub.state.force[0].copy())
+                amplitudes.append(simulation.state.q[0, : rule.omega.size].copy())
+                forces.append(simulation.state.force[0].copy())
         if progress is not None:
             progress(number + 1)
     coordinates = _reduced_coordinates(blade, spec, rule, np.array(amplitudes), np.array(forces))

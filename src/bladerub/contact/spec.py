@@ -1,11 +1,9 @@
-"""What one run is (`RunSpec`) and what it gives (`RunResult`), in SI units unless said to be normalised."""
+"""What one run is, in SI units unless said to be normalised."""
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-
-import numpy as np
 
 
 @dataclass(frozen=True)
@@ -80,7 +78,7 @@ class Coating:
         return math.isinf(self.E) and math.isinf(self.K)
 
     @property
-    def reverses(self) -> bool:
+    def coulomb(self) -> bool:
         """Whether the tangential force follows the sliding."""
         return self.law == "coulomb"
 
@@ -168,113 +166,3 @@ class SweepSpec:
     f_end: float
     rate: float
     speed_step: float
-
-
-@dataclass(frozen=True)
-class Energy:
-    """Energy ledger of the run, J.
-
-    The blade: ``kinetic + elastic − initial + damping = work_radial + work_tangential``. Blade and casing:
-    ``kinetic + elastic − initial + damping + stored + wear + sliding = work_shape + work_rotation``.
-
-    Parameters
-    ----------
-    initial : float
-        In the blade at the start.
-    kinetic, elastic : float
-        In the blade at the end of the run.
-    damping : float
-        Dissipated by modal damping.
-    work_radial, work_tangential : float
-        Done on the blade by the radial and by the tangential contact forces.
-    stored : float
-        Elastic energy in the coating at the end of the run.
-    wear : float
-        Dissipated by plastic shortening of the coating.
-    work_shape : float
-        Done by the rotation in moving the tip over the casing, against its shape and onto new bars.
-    work_rotation : float
-        Done by the rotation against the tangential force of the coating (θ) or friction.
-    sliding : float
-        Dissipated between tip and casing by that tangential resistance.
-    exchanged : float
-        Work exchanged in the contact: on the blade and of the casing shape, of each node in each step,
-        whatever its sign.
-    """
-
-    initial: float
-    kinetic: float
-    elastic: float
-    damping: float
-    work_radial: float
-    work_tangential: float
-    stored: float
-    wear: float
-    work_shape: float
-    work_rotation: float
-    sliding: float
-    exchanged: float
-
-    @property
-    def residual(self) -> float:
-        """What the ledger of blade and casing together misses, over the work exchanged; 0 without contact."""
-        supplied = self.work_shape + self.work_rotation
-        taken = (
-            self.kinetic + self.elastic - self.initial + self.damping + self.stored + self.wear + self.sliding
-        )
-        return abs(supplied - taken) / self.exchanged if self.exchanged else 0.0
-
-
-@dataclass(frozen=True)
-class RunResult:
-    """Outcome of one run.
-
-    Parameters
-    ----------
-    status : str
-        ``"completed"``, or ``"unbounded"`` when the tip left all bounds.
-    message : str
-        The same in words.
-    angle : (n_elements,) ndarray
-        Casing angle of the element centres, rad.
-    wear : (8, n_elements) ndarray
-        Permanent shortening of each element under each node, m.
-    radial_displacement : (revolutions * n_elements,) ndarray
-        Radial displacement of node 1, mean over the passage of each element, m; NaN after an
-        unbounded end.
-    revolution_peak : (revolutions,) ndarray
-        Largest absolute radial displacement of node 1 in each revolution, m; NaN likewise. Between the ends
-        of a leap (`bladerub.contact.kernel.free_flight`) it is that of a parabola.
-    revolution_amplitude : (revolutions,) ndarray
-        Half the range of the radial displacement of node 1 in each revolution, m: its vibration without
-        the mean deflection; NaN likewise.
-    time_step : float
-        Step used, s.
-    n_steps, n_contact_steps : int
-        Steps made, and those of them with contact.
-    n_reversed_steps : int
-        Steps with contact in which a node that touches did not slide over the casing with the rotation: it
-        slid back or, by Coulomb's law, stuck. Without any, both laws of friction give the same run.
-    slowest_sliding : float
-        Lowest speed over the casing of a node that touches, over that by the rotation: below 0 it slid back.
-        At most 1, which is also that of a run without contact.
-    n_modes : int
-        Modes that the scheme resolved; the others were condensed.
-    energy : Energy
-        The ledger.
-    """
-
-    status: str
-    message: str
-    angle: np.ndarray
-    wear: np.ndarray
-    radial_displacement: np.ndarray
-    revolution_peak: np.ndarray
-    revolution_amplitude: np.ndarray
-    time_step: float
-    n_steps: int
-    n_contact_steps: int
-    n_reversed_steps: int
-    slowest_sliding: float
-    n_modes: int
-    energy: Energy

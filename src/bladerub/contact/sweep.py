@@ -1,7 +1,7 @@
 """One passage through a range of speeds in time: `SweepSpec` → `SweepResult`.
 
 1. The speed rises or falls at a constant rate, in small steps: each is a stretch of constant speed, to whole
-   elements of the casing, over which the blade marches as in `bladerub.contact.run`.
+   elements of the casing, over which it is integrated as in `bladerub.contact.run`.
 2. Between two stretches the stiffness changes as eq. (2) has it. Displacement and velocity of the blade are
    continuous there and so is the contact force; the modes are found anew and what moves is handed over to
    them.
@@ -22,13 +22,14 @@ import numpy as np
 
 from bladerub.blade.model import ReducedBlade
 from bladerub.contact import energy
-from bladerub.contact.integration import Part, march
-from bladerub.contact.kernel import loop
-from bladerub.contact.kernel.vectors import LANES
+from bladerub.contact.integration import Segment, integrate
+from bladerub.contact.kernel.loop import Simulation
 from bladerub.contact.modes import Modes, at_tip, mode_shapes_at
-from bladerub.contact.run import by_angle, element_angle, set_up_modes
+from bladerub.contact.result import Energy
 from bladerub.contact.schemes import Recurrence
-from bladerub.contact.spec import Energy, RunSpec, SweepSpec
+from bladerub.contact.setup import by_angle, element_angle, set_up_modes
+from bladerub.contact.spec import RunSpec, SweepSpec
+from bladerub.numerics.vectors import LANES
 
 
 @dataclass(frozen=True)
@@ -39,7 +40,7 @@ class SweepResult:
     ----------
     status, message, angle, wear, radial_displacement, revolution_peak, revolution_amplitude, n_steps, \
 n_contact_steps
-        As of `bladerub.contact.spec.RunResult`.
+        As of `bladerub.contact.result.RunResult`.
     f_omega : (revolutions,) ndarray
         Mean speed of each revolution, normalised.
     time : (revolutions,) ndarray
@@ -121,25 +122,25 @@ def simulate_sweep(
     n_elements = spec.run.coating.n_elements
     plan = stretches(spec, blade.f1_hz)
     passage = _Passage(blade, spec.run, plan)
-    initial = sum(energy.blade_energy(passage.stage.rule, passage.stage.rub.state))
+    initial = sum(energy.blade_energy(passage.stage.rule, passage.stage.simulation.state))
     revolutions = plan[-1].last // n_elements
-    track = march(passage.parts(), revolutions, n_elements, progress)
-    status, message = track.verdict(spec.run.displacement_limit)
-    rule, rub = passage.stage.rule, passage.stage.rub
+    history = integrate(passage.segments(), revolutions, n_elements, progress)
+    status, message = history.outcome(spec.run.displacement_limit)
+    rule, simulation = passage.stage.rule, passage.stage.simulation
     f_omega, time = _speed_by_revolution(plan, n_elements, blade.f1_hz)
     return SweepResult(
         status=status,
         message=message,
         angle=element_angle(n_elements),
-        wear=by_angle(blade, spec.run, rub.state.wear),
-        radial_displacement=track.displacement.ravel(),
-        revolution_peak=track.peak,
-        revolution_amplitude=track.amplitude,
-        n_steps=track.n_steps,
-        n_contact_steps=track.n_contact_steps,
+        wear=by_angle(blade, spec.run, simulation.state.wear),
+        radial_displacement=history.displacement.ravel(),
+        revolution_peak=history.peak,
+        revolution_amplitude=history.amplitude,
+        n_steps=history.n_steps,
+        n_contact_steps=history.n_contact_steps,
         f_omega=f_omega,
         time=time,
-        energy=energy.close(rule, rub.state, initial, rub.angle_per_step),
+        energy=energy.balance(rule, simulation.state, initial, simulation.angle_per_step),
         work_stiffness=passage.work,
     )
 
@@ -160,7 +161,7 @@ class _Stage(NamedTuple):
     shapes: np.ndarray
     tip: np.ndarray
     rule: Recurrence
-    rub: loop.Rub
+    simulation: Simulation
 
 
 class _Passage:
@@ -171,7 +172,7 @@ class _Passage:
         self.work = 0.0
         self.stage = self._stage(plan[0].f_omega)
 
-    def parts(self) -> Iterator[Part]:
+    def segments(self) -> Iterator[Segment]:
         n_elements = self.run.coating.n_elements
         for stretch in self.plan:
             if stretch is not self.plan[0]:
@@ -181,7 +182,7 @@ class _Passage:
             while first < stretch.last:
                 revolution, passed = divmod(first, n_elements)
                 last = min(stretch.last, (revolution + 1) * n_elements)
-                yield Part(self.stage.rub, revolution, passed, passed + last - first)
+                yield Segment(self.stage.simulation, revolution, passed, passed + last - first)
                 first = last
 
     def _stage(self, f_omega: float) -> _Stage:
@@ -193,10 +194,10 @@ class _Passage:
 
 def _hand_over(blade: ReducedBlade, old: _Stage, new: _Stage) -> float:
     """Go on from the state of `old` in `new`; return the work of the change of stiffness, J."""
-    state, here = new.rub.state, old.rub.state
-    for name in ("force", "push", "moment", "way", "wear", "ledger"):
+    state, here = new.simulation.state, old.simulation.state
+    for name in ("force", "normal_force", "moment", "tangential_factor", "response", "wear", "ledger"):
         getattr(state, name)[:] = getattr(here, name)
-    state.ledger[energy.TORQUE] *= old.rub.angle_per_step / new.rub.angle_per_step
+    state.ledger[energy.TORQUE] *= old.simulation.angle_per_step / new.simulation.angle_per_step
 
     into = new.shapes.T @ blade.mass @ old.shapes  # from modal coordinates to modal coordinates
     force = here.force[0]
@@ -216,7 +217,7 @@ def _hand_over(blade: ReducedBlade, old: _Stage, new: _Stage) -> float:
     state.u[0] = here.u[0]
     state.u[1] = here.u[0] + back * (here.u[1] - here.u[0])
     state.u[2] = here.u[0] + 2 * back * (here.u[1] - here.u[0])
-    radius, limit = new.rub.tip.radius, slice(0, LANES)
+    radius, limit = new.simulation.tip.radius, slice(0, LANES)
     for row in state.u:
         row[2 * LANES :] = np.hypot(radius + row[limit], row[LANES : 2 * LANES]) - radius
     return float(work)

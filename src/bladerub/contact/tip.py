@@ -8,7 +8,7 @@ when an element passes the edge, and the shares always add up to the width of th
 
 from __future__ import annotations
 
-from bladerub.contact.kernel.vectors import absolute, elementwise, maximum, minimum
+from bladerub.numerics.vectors import absolute, elementwise, maximum, minimum
 
 
 @elementwise

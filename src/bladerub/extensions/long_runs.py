@@ -12,7 +12,8 @@ import numpy as np
 import pandas as pd
 
 from bladerub.blade.model import ReducedBlade
-from bladerub.contact.run import kernel_warm_up, simulate
+from bladerub.contact.run import simulate
+from bladerub.contact.setup import compile_kernel
 from bladerub.io import hdf5
 from bladerub.io.errors import DamagedFile
 from bladerub.io.hdf5 import Variable
@@ -88,7 +89,7 @@ def make(
 
     `report` is called with a line after each run.
     """
-    kernel_warm_up()  # or the time of the first run would include the loading of the machine code
+    compile_kernel()  # or the time of the first run would include the loading of the machine code
     case, revolutions = coating.case, config["long_runs"]["revolutions"]
     reasons = chosen(config, coating)
     results, seconds = [], np.full((len(reasons), revolutions), np.nan)

@@ -51,8 +51,10 @@ def _imports(path: Path) -> tuple[str, ...]:
 
 @cache
 def solver_digest() -> str:
-    """Digest the source of what computes a run: the package ``contact`` and the reduced blade's own class."""
-    return _source_digest([*(_PACKAGE / "contact").rglob("*.py"), _PACKAGE / "blade" / "model.py"])
+    """Digest the source of what computes a run: contact, numerics and the reduced blade's own class."""
+    folders = (_PACKAGE / "contact", _PACKAGE / "numerics")
+    sources = [path for folder in folders for path in folder.rglob("*.py")]
+    return _source_digest([*sources, _PACKAGE / "blade" / "model.py"])
 
 
 @cache

@@ -10,7 +10,7 @@ from __future__ import annotations
 import numpy as np
 
 from bladerub.blade.model import N_INTERFACE, ReducedBlade
-from bladerub.contact.run import strip_width
+from bladerub.contact.setup import strip_width
 
 LENGTH = 0.2
 """Blade length, m, of the stand-in of config/config.yaml, which the values of the contact there are for."""

@@ -11,7 +11,8 @@ from typing import Any
 import numpy as np
 
 from bladerub.blade.model import INTERFACE_NODE
-from bladerub.contact.spec import RunResult, RunSpec
+from bladerub.contact.result import RunResult
+from bladerub.contact.spec import RunSpec
 from bladerub.io import atomic, hdf5
 from bladerub.io.errors import DamagedFile
 from bladerub.io.hdf5 import Variable

@@ -7,7 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from bladerub.contact.spec import RunResult, RunSpec
+from bladerub.contact.result import RunResult
+from bladerub.contact.spec import RunSpec
 from bladerub.study.growth import judge
 from bladerub.study.spectra import order_spectrum
 from bladerub.study.wear import lobes

@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from bladerub.contact.spec import RunResult
+from bladerub.contact.result import RunResult
 from bladerub.study.spectra import order_spectrum
 from bladerub.study.summary import spectral_peak
 

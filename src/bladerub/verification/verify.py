@@ -26,8 +26,10 @@ import numpy as np
 
 from bladerub.blade.model import ReducedBlade
 from bladerub.contact.modes import modes_at
-from bladerub.contact.run import kernel_warm_up, simulate
-from bladerub.contact.spec import RunResult, RunSpec
+from bladerub.contact.result import RunResult
+from bladerub.contact.run import simulate
+from bladerub.contact.setup import compile_kernel
+from bladerub.contact.spec import RunSpec
 from bladerub.study.grid import CoatingCase, coating_cases, run_spec, speed_name, speeds
 from bladerub.verification.differences import Differences, differences, largest
 
@@ -149,7 +151,7 @@ def verify_runs(
     ValueError
         If a speed is outside the range of the blade, or the config's step too long for its scheme.
     """
-    kernel_warm_up()
+    compile_kernel()
     verify = partial(verify_run, blade, config)
     if jobs == 1:
         yield from map(verify, runs)
@@ -161,7 +163,7 @@ def verify_runs(
 
 def _start_worker() -> None:
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # the parent process ends its workers
-    kernel_warm_up()
+    compile_kernel()
 
 
 def verify_run(blade: ReducedBlade, config: Mapping[str, Any], run: StudyRun) -> VerifiedRun:

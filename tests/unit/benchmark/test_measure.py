@@ -3,7 +3,8 @@
 import pytest
 
 from bladerub.benchmark import measure, peak
-from bladerub.contact.run import set_up, simulate
+from bladerub.contact.run import simulate
+from bladerub.contact.setup import set_up
 
 
 @pytest.mark.slow

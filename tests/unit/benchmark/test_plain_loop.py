@@ -5,7 +5,8 @@ import numpy as np
 import pytest
 
 from bladerub.benchmark import plain
-from bladerub.contact.run import set_up, simulate
+from bladerub.contact.run import simulate
+from bladerub.contact.setup import set_up
 
 pytestmark = pytest.mark.slow
 

@@ -5,7 +5,8 @@ import pytest
 
 from bladerub.contact.modes import at_tip
 from bladerub.contact.recording import record
-from bladerub.contact.run import set_up, simulate
+from bladerub.contact.run import simulate
+from bladerub.contact.setup import set_up
 from bladerub.contact.spec import Coating
 
 

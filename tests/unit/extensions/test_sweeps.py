@@ -3,7 +3,7 @@ import dataclasses
 import numpy as np
 import pytest
 
-from bladerub.contact.spec import Energy
+from bladerub.contact.result import Energy
 from bladerub.contact.sweep import SweepResult
 from bladerub.extensions import sweep_grid, sweeps
 from bladerub.io.errors import DamagedFile

@@ -1,7 +1,7 @@
-"""Free flight over many time steps at once: what the recurrence of a scheme gives there, in one stride.
+"""Free flight: the recurrence of a scheme over many time steps at once.
 
-A leap is taken only where nothing that the modes can reach in it closes the gap. It leaves the state that its
-steps would leave, but for rounding.
+The propagator is used only where no displacement that the modes can reach within it closes the gap. It leaves
+the state that its single steps would leave, but for rounding.
 """
 
 from __future__ import annotations
@@ -11,28 +11,44 @@ from typing import NamedTuple
 import numpy as np
 from numba import njit
 
-from bladerub.contact.kernel.modal import displacement, in_vectors, no_projection, project
-from bladerub.contact.kernel.vectors import LANES, absolute, aligned, broadcast, lane_sum, load, store
+from bladerub.contact.kernel.modal import add_tip_displacement, in_vectors, tip_displacement
 from bladerub.contact.schemes import Recurrence
+from bladerub.numerics.vectors import LANES, absolute, aligned, broadcast, lane_sum, load, no_sums, store
 
-LONGEST = 24
-"""Most time steps of a leap: longer ones reach further, and so fit between two contacts less often."""
+MOST_STEPS = 24
+"""Most time steps at once: more reach further, and so fit between two contacts less often."""
+
 N_FORMS = 12
+(
+    INCREMENT_Q,
+    INCREMENT_D,
+    LAST_STEP_Q,
+    LAST_STEP_D,
+    LOSS_QQ,
+    LOSS_QD,
+    LOSS_DD,
+    LOSS_BEFORE,
+    MEAN_Q,
+    MEAN_D,
+    BOUND_Q,
+    BOUND_D,
+) = (LANES * row for row in range(N_FORMS))
+"""Where the coefficients of a vector of modes begin, per unit of q or of d, or of their products: see
+`FreeFlight.forms`."""
 
 
-class Leap(NamedTuple):
+class FreeFlight(NamedTuple):
     """Coefficients of `n_steps` free steps of modes that are at q and have moved by d in the last step.
 
     Parameters
     ----------
     n_steps : int
-        Time steps of a leap.
+        Time steps at once.
     forms : (n / 8, 12, 8) ndarray
-        For each vector of modes: way per unit of q and of d; last step of the leap per unit of q and of d;
-        damping loss per unit of q², q d and d², and of the step before the leap; mean way of node 1 per unit
-        of q and of d; most that any node rises on the way per unit of ``|q|`` and of ``|d|``.
+        For each vector of modes: increment of q; last of the steps; damping loss, and that of the step
+        before; mean increment of node 1; bound of the approach of any node to the casing within the steps.
     sideways : float
-        Most that any node moves along the casing while the bound of its rise is 1.
+        Most that any node moves along the casing while the bound of its approach is 1.
     """
 
     n_steps: int
@@ -40,7 +56,7 @@ class Leap(NamedTuple):
     sideways: float
 
 
-def leap_of(rule: Recurrence, n_steps: int, slope: float) -> Leap:
+def free_flight(rule: Recurrence, n_steps: int, slope: float) -> FreeFlight:
     """Find what `n_steps` free steps of a scheme add up to.
 
     Parameters
@@ -48,91 +64,94 @@ def leap_of(rule: Recurrence, n_steps: int, slope: float) -> Leap:
     rule : Recurrence
         The scheme.
     n_steps : int
-        Time steps of a leap.
+        Time steps at once.
     slope : float
-        Most that a node rises per unit of its displacement along the casing.
+        Most that a node approaches the casing per unit of its displacement along it.
     """
-    # Per unit of q (row 0) and of d (row 1), after each step: the way so far, and the step itself
-    steps, ways = np.zeros((2, n_steps + 1, 2, rule.now.size))
+    # Per unit of q (row 0) and of d (row 1), after each step: the increment so far, and the step itself
+    steps, increments = np.zeros((2, n_steps + 1, 2, rule.now.size))
     steps[0, 1] = 1.0
     for i in range(n_steps):
-        steps[i + 1] = (rule.now - rule.before - 1.0) * ways[i] + rule.before * steps[i]
+        steps[i + 1] = (rule.now - rule.before - 1.0) * increments[i] + rule.before * steps[i]
         steps[i + 1, 0] += rule.now - rule.before - 1.0
-        ways[i + 1] = ways[i] + steps[i + 1]
+        increments[i + 1] = increments[i] + steps[i + 1]
     by_q, by_d = (steps[1:] + steps[:-1]).swapaxes(0, 1)
-    mean = (ways[1:-1].sum(axis=0) + 0.5 * ways[-1]) / n_steps
-    radial, tangential = np.abs(rule.tip[:8]).max(axis=0), np.abs(rule.tip[8:]).max(axis=0)
-    rise = radial + slope * tangential
-    furthest = np.abs(ways).max(axis=0) * rise
+    mean = (increments[1:-1].sum(axis=0) + 0.5 * increments[-1]) / n_steps
+    radial, tangential = np.abs(rule.tip[:LANES]).max(axis=0), np.abs(rule.tip[LANES:]).max(axis=0)
+    approach = radial + slope * tangential
+    bound = np.abs(increments).max(axis=0) * approach
     forms = [
-        *ways[-1],
+        *increments[-1],
         *steps[-1],
         rule.loss * np.sum(by_q**2, axis=0),
         rule.loss * np.sum(2.0 * by_q * by_d, axis=0),
         rule.loss * np.sum(by_d**2, axis=0),
         rule.loss,
         *mean * rule.tip[0],
-        *furthest,
+        *bound,
     ]
     moving = tangential > 0
     with np.errstate(divide="ignore"):
-        sideways = np.max(tangential[moving] / rise[moving], initial=0.0)
-    return aligned(Leap(n_steps, in_vectors(np.array(forms)), float(sideways)))
+        sideways = np.max(tangential[moving] / approach[moving], initial=0.0)
+    return aligned(FreeFlight(n_steps, in_vectors(np.array(forms)), float(sideways)))
+
+
+@njit(inline="always")
+def _form(flight, k, row):
+    return load(flight.forms, N_FORMS * k + row)
 
 
 @njit(forceinline=True)
-def reach(leap, n, q, q_before):
-    """Bound of what any node can rise in a leap from here, m."""
-    forms = leap.forms
+def bound(flight, n, q, q_before):
+    """Bound of what any node can approach the casing in the next free flight, m."""
     far = broadcast(0.0)
     for k in range(0, n, LANES):
         present = load(q, k)
-        far = far + load(forms, N_FORMS * k + 80) * absolute(present)
-        far = far + load(forms, N_FORMS * k + 88) * absolute(present - load(q_before, k))
+        far = far + _form(flight, k, BOUND_Q) * absolute(present)
+        far = far + _form(flight, k, BOUND_D) * absolute(present - load(q_before, k))
     return lane_sum(far)
 
 
 @njit(forceinline=True)
-def take(leap, motion, q, q1, q2):
-    """Move the modes freely by a leap, in place, and project them on the tip.
+def fly(flight, modal, q, q1, q2):
+    """Move the modes freely by all steps at once, in place, and project them on the tip.
 
     Returns
     -------
     radial, tangential : vector
         Displacement of the tip, m.
     loss : vector
-        Damping loss up to the end of the leap, J, spread over the lanes. The oldest coordinates `q2` become
-        such that `bladerub.contact.kernel.modal.advance` enters none of it again.
+        Damping loss up to the end of the flight, J, spread over the lanes. The oldest coordinates `q2` become
+        such that `bladerub.contact.kernel.modal.advance_free` enters none of it again.
     mean : float
-        Mean of the way of node 1 over the leap, m.
+        Mean increment of node 1 over the flight, m.
     far : float
-        As `reach`, of the next leap.
+        As `bound`, of the next flight.
     """
-    forms = leap.forms
     loss = mean = far = broadcast(0.0)
-    sums = no_projection()
-    for k in range(0, motion.n, LANES):
-        form = N_FORMS * k
+    sums = no_sums()
+    for k in range(0, modal.n, LANES):
         present = load(q, k)
         last, change = present - load(q1, k), present - load(q2, k)
-        way = load(forms, form) * present + load(forms, form + 8) * last
-        last_step = load(forms, form + 16) * present + load(forms, form + 24) * last
-        loss = loss + (load(forms, form + 32) * present + load(forms, form + 40) * last) * present
-        loss = loss + load(forms, form + 48) * last * last + load(forms, form + 56) * change * change
-        mean = mean + load(forms, form + 64) * present + load(forms, form + 72) * last
-        x = present + way
+        increment = _form(flight, k, INCREMENT_Q) * present + _form(flight, k, INCREMENT_D) * last
+        last_step = _form(flight, k, LAST_STEP_Q) * present + _form(flight, k, LAST_STEP_D) * last
+        loss = loss + (_form(flight, k, LOSS_QQ) * present + _form(flight, k, LOSS_QD) * last) * present
+        before = _form(flight, k, LOSS_BEFORE) * change * change
+        loss = loss + _form(flight, k, LOSS_DD) * last * last + before
+        mean = mean + _form(flight, k, MEAN_Q) * present + _form(flight, k, MEAN_D) * last
+        x = present + increment
         store(q, k, x)
         store(q1, k, x - last_step)
         store(q2, k, x)
-        far = far + load(forms, form + 80) * absolute(x) + load(forms, form + 88) * absolute(last_step)
-        sums = project(motion, k, x, sums)
-    radial, tangential = displacement(sums)
+        far = far + _form(flight, k, BOUND_Q) * absolute(x) + _form(flight, k, BOUND_D) * absolute(last_step)
+        sums = add_tip_displacement(modal, k, x, sums)
+    radial, tangential = tip_displacement(sums)
     return radial, tangential, loss, lane_sum(mean), lane_sum(far)
 
 
 @njit(forceinline=True)
 def extremes(start, end, mean):
-    """Lowest and highest value on the way from start to end, of the parabola that has this mean."""
+    """Lowest and highest value between start and end, of the parabola that has this mean."""
     bottom, top = min(start, end), max(start, end)
     bulge = mean - 0.5 * (start + end)
     if abs(end - start) < 6.0 * abs(bulge):

@@ -1,7 +1,7 @@
-"""Contact forces node by node until none changes any more: slow, and sure to get there.
+"""Contact forces node by node, by Gauss-Seidel sweeps: slow and robust.
 
-For the rigid casing, and for the few steps of stiff coatings that Newton's method of the time loop cannot
-settle.
+For the rigid casing, and for the few steps of stiff coatings in which the Newton iteration of
+`bladerub.contact.kernel.newton` does not converge.
 """
 
 from __future__ import annotations
@@ -12,104 +12,118 @@ import numpy as np
 from numba import njit
 
 from bladerub.contact import friction, law
-from bladerub.contact.gap import force_of, is_within_bounds, normal_of, position_of, rise_of
+from bladerub.contact.friction import contact_force
+from bladerub.contact.gap import closest_position, is_within_limit, normal, normal_approach, penetration
 from bladerub.contact.kernel import rigid
-from bladerub.contact.kernel.abradable import wrap
-from bladerub.contact.kernel.vectors import LANES, address_of, load, read, read_fields, store, write
+from bladerub.contact.kernel.elements import wrap
 from bladerub.contact.tip import coverage, relief
+from bladerub.numerics.vectors import LANES, address_of, load, read, read_fields, store, write
 
-FOUND = 1e-12
-"""Error of a node's height at which its force is taken as found, m."""
-ATTEMPTS = 40
-SWEEPS = 200
+NODE_TOLERANCE = 1e-12
+"""Error of a node's approach at which its own force has converged, m."""
+MAX_NODE_ITERATIONS = 40
+MAX_SWEEPS = 200
 
 
 @njit
-def relax(motion, stator, tip, state, passed, u, settled):
-    """Find the contact forces that agree with the displacement they cause, by Gauss-Seidel sweeps.
+def gauss_seidel(modal, stator, tip, state, passed, u, tolerance):
+    """Find the contact forces that agree with the displacement they cause, eq. (9).
 
     Parameters
     ----------
     u : address
         Comes as the displacement (16,) under ``state.force`` and leaves under the forces found, m.
-    settled : float
-        Change of any node's height in a sweep at which the forces are taken as found, m.
+    tolerance : float
+        Change of any node's approach in a sweep at which the forces have converged, m.
+
+    Returns
+    -------
+    bool
+        Whether they converged, or a displacement exceeds the limit.
     """
-    force, push = state.force, state.push
+    force, normal_force = state.force, state.normal_force
     position, surface = state.scratch, address_of(state.scratch, 16)
-    rise, turned = address_of(state.scratch, 32), address_of(state.scratch, 48)
-    for _ in range(SWEEPS):
-        if not is_within_bounds(tip, load(u, 0), load(u, LANES)):
-            break
-        change = 0.0
-        here = position_of(tip, load(u, LANES), passed)
+    approaches, turned = address_of(state.scratch, 32), address_of(state.scratch, 48)
+    for _ in range(MAX_SWEEPS):
+        if not is_within_limit(tip, load(u, 0), load(u, LANES)):
+            return True
+        change, converged = 0.0, True
+        here = closest_position(tip, load(u, LANES), passed)
         store(position, 0, here)
         if stator.is_rigid:
             store(surface, 0, rigid.surface(stator, here))
-        if stator.reverses:
-            height = rise_of(tip, load(u, 0), load(u, LANES))
-            across, along = normal_of(tip, load(u, 0), load(u, LANES), height)
-            friction.take_hold(motion, stator, tip, state, across, along, height)
+        if stator.coulomb:
+            towards = normal_approach(tip, load(u, 0), load(u, LANES))
+            normal_radial, normal_tangential = normal(tip, load(u, 0), load(u, LANES), towards)
+            friction.mobilise(modal, stator, tip, state, normal_radial, normal_tangential, towards)
         for j in range(LANES):
-            own, guess = _own_compliance(motion, stator, state, j), read(push, j)
-            store(rise, 0, rise_of(tip, load(u, 0), load(u, LANES)))
-            free_rise = read(rise, j) + own * guess
+            own, guess = _self_compliance(modal, stator, state, j), read(normal_force, j)
+            store(approaches, 0, normal_approach(tip, load(u, 0), load(u, LANES)))
+            free_approach = read(approaches, j) + own * guess
             if stator.is_rigid:
-                found = max(0.0, free_rise - read(surface, j)) / own
+                found = max(0.0, free_approach - read(surface, j)) / own  # eq. (9)
             else:
-                found = _push_of(stator, tip, state.wear, j, read(position, j), free_rise, own, guess)
+                found, node_converged = _force_on(
+                    stator, tip, state.wear, j, read(position, j), free_approach, own, guess
+                )
+                converged = converged and node_converged
             if found == 0.0 and guess == 0.0:
                 continue
             change = max(change, own * abs(found - guess))
-            write(push, j, found)
-            across, along = normal_of(tip, load(u, 0), load(u, LANES), load(rise, 0))
-            radial, tangential = force_of(stator, load(state.along, 0), across, along, load(push, 0))
+            write(normal_force, j, found)
+            towards = load(approaches, 0)
+            normal_radial, normal_tangential = normal(tip, load(u, 0), load(u, LANES), towards)
+            factor = load(state.tangential_factor, 0)
+            radial, tangential = contact_force(
+                stator, factor, normal_radial, normal_tangential, load(normal_force, 0)
+            )
             store(turned, 0, radial)
             store(turned, LANES, tangential)
             for k in (j, LANES + j):
                 by = read(turned, k) - read(force, k)
                 write(force, k, read(turned, k))
                 for i in range(0, 2 * LANES, LANES):
-                    store(u, i, load(u, i) + load(motion.compliance, 16 * k + i) * by)
-        if change <= settled:
-            break
+                    store(u, i, load(u, i) + load(modal.compliance, 16 * k + i) * by)
+        if change <= tolerance:
+            return converged
+    return False
 
 
 @njit
-def _own_compliance(motion, stator, state, j):
+def _self_compliance(modal, stator, state, j):
     """Retreat of node `j` per unit of its own force in the direction that friction gives to that, m/N."""
-    turned = stator.tangential - read(state.along, j)
-    return max(0.0, read(stator.own_compliance, j) + turned * read(motion.compliance, 16 * j + LANES + j))
+    turned = stator.tangential_factor - read(state.tangential_factor, j)
+    return max(0.0, read(stator.self_compliance, j) + turned * read(modal.compliance, 16 * j + LANES + j))
 
 
 @njit
-def _push_of(stator, tip, wear, j, position, free_rise, own, guess):
-    """Push of the coating on node `j`, which gives way by `own` per unit of it, N.
+def _force_on(stator, tip, wear, j, position, free_approach, own, guess):
+    """Find the force N of the coating on node `j`, which retreats by `own` per unit of it.
 
-    Solves ``rise + own P(rise) = free_rise`` by Newton's method within a bracket: P is piecewise linear, so
-    it ends in a few steps.
+    Solves ``a + own N(a) = free_approach`` for the approach a by Newton's method within a bracket: N is
+    piecewise linear, so it ends in a few steps. Returns N and whether it converged.
     """
     low, high = -np.inf, np.inf
-    rise = free_rise - own * guess
-    for _ in range(ATTEMPTS):
-        push, stiffness = _resistance(stator, tip, wear, j, position, rise)
-        error = rise + own * push - free_rise
-        if abs(error) <= FOUND:
-            break
-        if error > 0.0:
-            high = rise
+    approach = free_approach - own * guess
+    for _ in range(MAX_NODE_ITERATIONS):
+        force, stiffness = _resistance(stator, tip, wear, j, position, approach)
+        residual = approach + own * force - free_approach
+        if abs(residual) <= NODE_TOLERANCE:
+            return force, True
+        if residual > 0.0:
+            high = approach
         else:
-            low = rise
-        rise -= error / (1.0 + own * stiffness)
-        if not low < rise < high:  # or it would go round between two pieces
-            rise = 0.5 * (low + high)
-    return push
+            low = approach
+        approach -= residual / (1.0 + own * stiffness)
+        if not low < approach < high:  # or it would alternate between two pieces
+            approach = 0.5 * (low + high)
+    return force, False
 
 
 @njit
-def _resistance(stator, tip, wear, j, position, rise):
-    """Force (N) and stiffness (N/m) of the bars under node `j`, as `abradable.push_at`."""
-    push = 0.0
+def _resistance(stator, tip, wear, j, position, approach):
+    """Force (N) and stiffness (N/m) of the elements under node `j`, as `elements.linearise`."""
+    force = 0.0
     stiffness = 0.0
     element = read_fields(law.Element, address_of(stator.law, j))
     first = math.floor(position - tip.half_width)
@@ -118,10 +132,10 @@ def _resistance(stator, tip, wear, j, position, rise):
         offset = i + 0.5 - position
         entry = wrap(i, stator.n_elements) * LANES + j
         worn = read(wear, entry)
-        depth = rise - relief(tip, offset) - read(stator.gap, entry) - worn
-        force, _ = law.return_mapping(element, depth, worn)
+        depth = penetration(approach, relief(tip, offset), read(stator.initial_gap, entry), worn)
+        force_here, _ = law.return_mapping(element, depth, worn)
         slope, _ = law.tangent(element, depth, worn)
         share = coverage(tip, offset)
-        push += share * force
+        force += share * force_here
         stiffness += share * slope
-    return push, stiffness
+    return force, stiffness

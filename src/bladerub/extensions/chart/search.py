@@ -18,8 +18,10 @@ from typing import Any
 import numpy as np
 
 from bladerub.blade.model import ReducedBlade
-from bladerub.contact.run import bar_area, simulate
-from bladerub.contact.spec import RunResult, RunSpec
+from bladerub.contact.run import simulate
+from bladerub.contact.setup import element_area
+from bladerub.contact.result import RunResult
+from bladerub.contact.spec import RunSpec
 from bladerub.extensions.chart.grid import ORDERS, ChartSpeeds
 from bladerub.extensions.chart.point import MEASURES, ChartPoint
 from bladerub.study.confirmation import confirmation_spec
@@ -113,7 +115,7 @@ def _measured(
 ) -> dict[str, float]:
     return {
         "peak": float(np.nanmax(result.revolution_peak)),
-        "worn_volume": float(result.wear.sum(axis=1) @ bar_area(blade, spec)),
+        "worn_volume": float(result.wear.sum(axis=1) @ element_area(blade, spec)),
         "deepest_wear": float(result.wear.max()),
         "lobes": lobes(result.angle, result.wear, analysis["lobe_prominence"]),
         "unbounded": float(result.status == "unbounded"),

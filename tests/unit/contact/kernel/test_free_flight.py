@@ -9,10 +9,10 @@ from numba import njit
 
 from bladerub.contact import energy
 from bladerub.contact.kernel import free_flight, loop, modal
-from bladerub.contact.kernel.vectors import address_of, addresses, aligned, lane_sum, store
 from bladerub.contact.modes import modes_at
-from bladerub.contact.run import set_up
 from bladerub.contact.schemes import SCHEMES, Contact
+from bladerub.contact.setup import set_up
+from bladerub.numerics.vectors import address_of, addresses, aligned, lane_sum, store
 
 STEPS = 7
 SLOPE = 0.02

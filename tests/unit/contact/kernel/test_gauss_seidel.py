@@ -8,10 +8,10 @@ import pytest
 from bladerub.contact.kernel import loop
 from bladerub.contact.kernel.gauss_seidel import relax
 from bladerub.contact.kernel.modal import pack
-from bladerub.contact.kernel.vectors import LANES, addresses
 from bladerub.contact.modes import modes_at
-from bladerub.contact.run import _stator, _tip
 from bladerub.contact.schemes import SCHEMES, Contact
+from bladerub.contact.setup import stator_record, tip_record
+from bladerub.numerics.vectors import LANES, addresses
 
 STEP = 2e-5
 
@@ -30,8 +30,8 @@ def parts(blade, spec, change):
         )
         rule = SCHEMES["exponential"](modes_at(blade, 0.3), 0.0, STEP, contact)
         state = loop.at_rest(rule.omega.size, 2000)
-        tip = _tip(blade, chosen)
-        stator = _stator(blade, chosen, tip, rule)
+        tip = tip_record(blade, chosen)
+        stator = stator_record(blade, chosen, tip, rule)
         state.along[:] = stator.tangential
         return pack(rule), stator, tip, state
 

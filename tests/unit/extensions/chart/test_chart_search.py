@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from bladerub.contact.run import strip_width
+from bladerub.contact.setup import strip_width
 from bladerub.extensions.chart import column, search
 from bladerub.extensions.chart.grid import chart_speeds, columns
 from bladerub.study.grid import CoatingCase

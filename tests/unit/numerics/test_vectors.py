@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from numba import njit
 
-from bladerub.contact.kernel import vectors
-from bladerub.contact.kernel.vectors import LANES, addresses, aligned
+from bladerub.numerics import vectors
+from bladerub.numerics.vectors import LANES, addresses, aligned
 
 
 class Data(NamedTuple):

@@ -337,6 +337,32 @@ def write(context, address, index, number):
     return types.void(types.intp, types.intp, types.float64), generate
 
 
+@njit(inline="always")
+def add_to(address, index, a):
+    """Add a vector to the eight numbers of the array at `address`, from flat position `index` on."""
+    store(address, index, load(address, index) + a)
+
+
+@njit(inline="always")
+def add_to_number(address, index, number):
+    """Add to one number of the array at `address`."""
+    write(address, index, read(address, index) + number)
+
+
+@njit(inline="always")
+def copy(source, target, n):
+    """Copy `n` numbers, a multiple of 8."""
+    for k in range(0, n, LANES):
+        store(target, k, load(source, k))
+
+
+@njit(inline="always")
+def clear(target, n):
+    """Set `n` numbers, a multiple of 8, to zero."""
+    for k in range(0, n, LANES):
+        store(target, k, broadcast(0.0))
+
+
 @intrinsic
 def load_fields(context, record, address):
     """Load a vector for each field of the named tuple `record` from consecutive rows of eight numbers."""
@@ -362,6 +388,74 @@ def _fields(record, kind, llvm_type, stride):
         return context.make_tuple(builder, result, [builder.load(place, align=8) for place in places])
 
     return result(record, types.intp), generate
+
+
+_SIXTEEN = types.UniTuple(vector, 16)
+
+
+@intrinsic
+def no_sums(context):
+    """Sixteen vectors of zeros, for `add_products`."""
+
+    def generate(context, builder, signature, arguments):
+        zero = ir.Constant(_VECTOR, [0.0] * LANES)
+        return context.make_tuple(builder, _SIXTEEN, [zero] * 16)
+
+    return _SIXTEEN(), generate
+
+
+@intrinsic
+def add_products(context, sums, rows, a):
+    """Add to each of sixteen sums the product of `a` and the vector in its row of the array at `rows`."""
+
+    def generate(context, builder, signature, arguments):
+        sums, rows, a = arguments
+        products = (builder.fmul(row, a, flags=FUSED) for row in _rows(builder, rows))
+        more = [
+            builder.fadd(so_far, product, flags=FUSED)
+            for so_far, product in zip(cgutils.unpack_tuple(builder, sums), products, strict=True)
+        ]
+        return context.make_tuple(builder, _SIXTEEN, more)
+
+    return _SIXTEEN(_SIXTEEN, types.intp, vector), generate
+
+
+@intrinsic
+def broadcast_each(context, address):
+    """Read sixteen numbers and put each in every lane of a vector."""
+
+    def generate(context, builder, signature, arguments):
+        (address,) = arguments
+        numbers = (
+            builder.load(_place(builder, address, ir.Constant(address.type, i), _DOUBLE)) for i in range(16)
+        )
+        return context.make_tuple(builder, _SIXTEEN, [_spread(builder, number) for number in numbers])
+
+    return _SIXTEEN(types.intp), generate
+
+
+@intrinsic
+def sum_of_products(context, rows, factors):
+    """Sum up the products of sixteen rows of vectors and sixteen vectors, in two halves at the same time."""
+
+    def generate(context, builder, signature, arguments):
+        rows, factors = arguments
+        products = [
+            (row, factor)
+            for row, factor in zip(_rows(builder, rows), cgutils.unpack_tuple(builder, factors), strict=True)
+        ]
+        halves = [builder.fmul(*product, flags=FUSED) for product in products[:2]]
+        for i, product in enumerate(products[2:]):
+            halves[i % 2] = builder.fadd(halves[i % 2], builder.fmul(*product, flags=FUSED), flags=FUSED)
+        return builder.fadd(*halves, flags=FUSED)
+
+    return vector(types.intp, _SIXTEEN), generate
+
+
+def _rows(builder, address):
+    """Load sixteen consecutive vectors."""
+    places = (_place(builder, address, ir.Constant(address.type, LANES * i), _VECTOR) for i in range(16))
+    return [builder.load(place, align=8) for place in places]
 
 
 def _shuffle(lanes):

@@ -1,0 +1,133 @@
+"""The abradable elements under the tip's nodes (Fig. 3), a lane a node."""
+
+from __future__ import annotations
+
+import math
+
+from numba import njit
+
+from bladerub.contact import law
+from bladerub.contact.gap import penetration
+from bladerub.contact.tip import coverage, relief
+from bladerub.numerics.vectors import (
+    LANES,
+    absolute,
+    broadcast,
+    largest_lane,
+    load,
+    load_fields,
+    maximum,
+    minimum,
+    smallest_lane,
+    store,
+    where,
+)
+
+NO_CHANGE = 1e-12
+"""Change of depth below which the force of an element is taken as constant over a step, m."""
+
+
+@njit(inline="always")
+def wrap(index, n_elements):
+    """Bring an index less than one turn outside into [0, N)."""
+    if index >= n_elements:
+        return index - n_elements
+    if index < 0:
+        return index + n_elements
+    return index
+
+
+@njit(inline="always")
+def rows_under(tip, behind, ahead):
+    """First and last row that the profile covers of any node between positions `behind` and `ahead`."""
+    first = math.floor(smallest_lane(behind) - tip.half_width)
+    return first, math.floor(largest_lane(ahead) + tip.half_width)
+
+
+@njit(forceinline=True)
+def linearise(stator, tip, wear, position, rows, approach):
+    """Press the elements under each node by its `approach`, but leave them as they are.
+
+    Returns
+    -------
+    force, stiffness : vector
+        Of all elements under each node, N and N/m.
+    valid : vector
+        Change of the approach over which the force is linear, m: no element comes into contact, begins to
+        flow or to unload.
+    """
+    element = load_fields(law.Element, stator.law)
+    force, stiffness, valid = broadcast(0.0), broadcast(0.0), broadcast(math.inf)
+    first, last = rows
+    for row in range(first, last + 1):
+        entry = wrap(row, stator.n_elements) * LANES
+        offset = (row + 0.5) - position
+        share = coverage(tip, offset)
+        worn = load(wear, entry)
+        depth = penetration(approach, relief(tip, offset), load(stator.initial_gap, entry), worn)
+        force_here, _ = law.return_mapping(element, depth, worn)
+        slope, linear = law.tangent(element, depth, worn)
+        force = force + share * force_here
+        stiffness = stiffness + share * slope
+        valid = minimum(valid, linear)
+    return force, stiffness, valid
+
+
+@njit(forceinline=True)
+def update_wear(stator, tip, wear, position, approach, position_before, approach_before):
+    """Leave the elements as the tip presses them at the end of a step, and account for it.
+
+    An element partly under the tip counts as elements of which a share is under it: as the edge of the
+    profile moves on, whole elements are pressed down or released, at the cost or to the profit of the
+    rotation. Between the ends of the step, approach and profile change linearly, and the law is integrated
+    exactly along that path.
+
+    Parameters
+    ----------
+    position, approach : vector
+        Of the nodes at the end of the step: rows, less than N from those before, and m.
+    position_before, approach_before : vector
+        The same at its start.
+
+    Returns
+    -------
+    stored : vector
+        Elastic energy in the elements, J.
+    dissipated : vector
+        Energy taken by wear in this step, J.
+    supplied : vector
+        Work of the rotation on the elements in this step, J.
+    """
+    element = load_fields(law.Element, stator.law)
+    stored, dissipated, supplied = broadcast(0.0), broadcast(0.0), broadcast(0.0)
+    first, last = rows_under(tip, minimum(position, position_before), maximum(position, position_before))
+    advance, closer = position - position_before, approach - approach_before
+    constant, slope = relief(tip, advance), 2.0 * tip.curvature * advance
+    for row in range(first, last + 1):
+        entry = wrap(row, stator.n_elements) * LANES
+        offset = (row + 0.5) - position
+        share, share_before = coverage(tip, offset), coverage(tip, offset + advance)
+        lowering = slope * offset + constant  # of the profile over this element, in the step
+        worn = load(wear, entry)
+        depth = penetration(approach, relief(tip, offset), load(stator.initial_gap, entry), worn)
+        deeper = closer + lowering
+        force, increment = law.return_mapping(element, depth, worn)
+        force_before = law.elastic_force(element, depth - deeper)
+        under = share > 0.0
+        increment, force = where(under, increment, 0.0), where(under, force, 0.0)
+        store(wear, entry, worn + increment)
+        energy, energy_before = law.stored_energy(element, force), law.stored_energy(element, force_before)
+        loss = law.dissipated_energy(element, worn, increment)
+        stored = stored + share * energy
+        dissipated = dissipated + loss
+        mean_share = 0.5 * (share + share_before)
+        moved = absolute(deeper) > NO_CHANGE
+        mean_force = where(moved, (energy - energy_before + loss) / where(moved, deeper, 1.0), force)
+        staying = (
+            mean_share * mean_force * lowering
+            + 0.5 * (energy + energy_before) * (share - share_before)
+            + (1.0 - mean_share) * loss
+        )
+        entering, leaving = share * energy + loss, broadcast(0.0) - share_before * energy_before
+        supplied = supplied + where(under, where(share_before > 0.0, staying, entering), leaving)
+    return stored, dissipated, supplied

@@ -1,0 +1,207 @@
+"""From blade and run to what the time loop works on."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from scipy.ndimage import minimum_filter1d
+
+from bladerub.blade.model import N_INTERFACE, ReducedBlade
+from bladerub.contact import casing, law
+from bladerub.contact.kernel import records
+from bladerub.contact.kernel.free_flight import MOST_STEPS, FreeFlight, free_flight
+from bladerub.contact.kernel.loop import Simulation
+from bladerub.contact.kernel.modal import pack
+from bladerub.contact.modes import Modes, modes_at
+from bladerub.contact.schemes import SCHEMES, Contact, Recurrence, normal_compliance
+from bladerub.contact.spec import Coating, RunSpec
+from bladerub.numerics.vectors import aligned
+
+SEARCH_RANGE = 4
+"""Elements a node may move along the casing before the search for contact looks at it alone."""
+
+
+def set_up(blade: ReducedBlade, spec: RunSpec) -> tuple[Recurrence, Simulation]:
+    """Prepare a run from rest.
+
+    Raises
+    ------
+    ValueError
+        If the speed is outside the range of the blade, or the step too long for the scheme.
+    """
+    return set_up_modes(modes_at(blade, spec.f_omega), blade, spec)
+
+
+def set_up_modes(modes: Modes, blade: ReducedBlade, spec: RunSpec) -> tuple[Recurrence, Simulation]:
+    """Prepare a run as `set_up`, with the modes at its speed."""
+    steps_per_element, time_step = _time_step(blade, spec)
+    stiffness = spec.coating.E * _stiffness_unit(blade, spec)  # infinite for the rigid casing
+    contact = Contact(
+        stiffness * 2 * spec.tip.half_width,  # the shares under the tip add up to its width
+        *_force_direction(spec.coating),
+    )
+    rule = SCHEMES[spec.scheme](modes, spec.damping_ratio, time_step, contact)
+    tip = tip_record(blade, spec)
+    stator = stator_record(blade, spec, tip, rule)
+    state = _initial_state(modes, rule, spec, tip)
+    flight = _free_flight(rule, tip, steps_per_element)
+    return rule, Simulation(pack(rule), flight, stator, tip, state, steps_per_element)
+
+
+def compile_kernel() -> None:
+    """Compile the time loop, so that its machine code is on disk before runs start."""
+    modes = Modes(np.ones(1), np.zeros((2 * N_INTERFACE, 1)))
+    zeros = np.zeros(N_INTERFACE)
+    rule = SCHEMES["exponential"](modes, 0.0, 1e-6, Contact(zeros + 1.0, -1.0, 0.0))
+    gap, elements = np.ones((8, N_INTERFACE)), np.ones((len(law.Element._fields), N_INTERFACE))
+    stator = records.Stator(gap, gap[:, 0].copy(), elements, 8, False, -1.0, 0.0, zeros)
+    tip = records.Tip(zeros, zeros, zeros + 1.0, zeros + 1.0, 2.0, 0.0, 0.0, 1.0)
+    state = records.at_rest(1, 8)
+    Simulation(pack(rule), free_flight(rule, 1, 0.0), aligned(stator), aligned(tip), state, 1).advance(
+        np.zeros(8)
+    )
+
+
+def element_angle(n_elements: int) -> np.ndarray:
+    """Casing angle (N,) of the element centres, rad."""
+    return (np.arange(n_elements) + 0.5) * (2 * np.pi / n_elements)
+
+
+def element_area(blade: ReducedBlade, spec: RunSpec) -> np.ndarray:
+    """Area (8,) of one element under each node, m²."""
+    return strip_width(blade) * 2 * np.pi * _radius(blade) / spec.coating.n_elements
+
+
+def strip_width(blade: ReducedBlade) -> np.ndarray:
+    """Axial width (8,) of the coating strip under each interface node, m: its share of the axial chord."""
+    x = blade.node_position[:, 0]
+    middle = np.concatenate([x[:1], (x[1:] + x[:-1]) / 2, x[-1:]])
+    return np.abs(np.diff(middle))
+
+
+def by_angle(blade: ReducedBlade, spec: RunSpec, rows: np.ndarray) -> np.ndarray:
+    """Bring (N, 8) rows of elements into the order (8, N) of the angle."""
+    first = _first_element(blade, spec)
+    return np.array([np.roll(of_node, at) for of_node, at in zip(rows.T, first, strict=True)])
+
+
+def stator_record(blade: ReducedBlade, spec: RunSpec, tip: records.Tip, rule: Recurrence) -> records.Stator:
+    """Describe coating and casing for the time loop, in rows of elements."""
+    coating = spec.coating
+    normal_factor, tangential_factor = _force_direction(coating)
+    x = blade.node_position[:, 0]
+    chord_fraction = (x - x[0]) / (x[-1] - x[0])
+    clearance = spec.clearance[0] + (spec.clearance[1] - spec.clearance[0]) * chord_fraction
+    gap = casing.gap(spec.casing, clearance[:, None], element_angle(coating.n_elements))
+    first = _first_element(blade, spec)
+    rows = np.array([np.roll(of_node, -at) for of_node, at in zip(gap, first, strict=True)])
+    reach = spec.tip.half_width + 1 + SEARCH_RANGE + 1  # + 1 each: a node stands anywhere within an element
+    stator = records.Stator(
+        initial_gap=rows.T,
+        minimum_gap=_lowest_within(reach, rows).min(axis=0),
+        law=_law_parameters(blade, spec),
+        n_elements=coating.n_elements,
+        is_rigid=coating.is_rigid,
+        normal_factor=normal_factor,
+        tangential_factor=tangential_factor,
+        self_compliance=_self_compliance(rule, coating),
+        coulomb=coating.coulomb,
+    )
+    return aligned(stator)
+
+
+def tip_record(blade: ReducedBlade, spec: RunSpec) -> records.Tip:
+    """Describe the blade tip for the time loop."""
+    n_elements = spec.coating.n_elements
+    y, z = blade.node_position[:, 1], blade.node_position[:, 2]
+    radius = _radius(blade)
+    # Where the flow path is a cone, its normal section curves less than its circle (Meusnier)
+    outward = (blade.radial_direction[:, 1] * y + blade.radial_direction[:, 2] * z) / radius
+    per_metre = n_elements / (2 * np.pi * radius)
+    tip = records.Tip(
+        start=_start_position(blade, spec) % 1.0,
+        per_metre=per_metre,
+        radius=radius / outward,
+        lever=radius,
+        half_width=spec.tip.half_width,
+        curvature=spec.tip.curvature,
+        search_range=SEARCH_RANGE / float(np.max(per_metre)),
+        limit=spec.displacement_limit,
+    )
+    return aligned(tip)
+
+
+def _time_step(blade: ReducedBlade, spec: RunSpec) -> tuple[int, float]:
+    passage = 1.0 / (spec.f_omega * blade.f1_hz * spec.coating.n_elements)
+    steps_per_element = max(spec.steps_per_element, math.ceil(passage / spec.max_time_step))
+    return steps_per_element, passage / steps_per_element
+
+
+def _force_direction(coating: Coating) -> tuple[float, float]:
+    """Direction of the contact force on the blade: −cos θ and −sin θ."""
+    return -math.cos(coating.theta), -math.sin(coating.theta)
+
+
+def _free_flight(rule: Recurrence, tip: records.Tip, steps_per_element: int) -> FreeFlight:
+    parts = math.ceil(steps_per_element / MOST_STEPS)
+    slope = tip.search_range / float(np.min(tip.radius - tip.limit))
+    return free_flight(rule, steps_per_element // parts, slope)
+
+
+def _initial_state(modes: Modes, rule: Recurrence, spec: RunSpec, tip: records.Tip) -> records.State:
+    """At rest, deflected in the first mode; the step before is the exact free motion back from there."""
+    state = records.at_rest(rule.omega.size, spec.coating.n_elements)
+    if spec.initial_displacement:
+        x, damping = rule.omega[0] * rule.time_step, spec.damping_ratio
+        damped = math.sqrt(1.0 - damping**2)
+        back = math.exp(damping * x) * (math.cos(damped * x) - damping / damped * math.sin(damped * x))
+        n = rule.omega.size
+        state.q[:, 0] = np.array([1.0, back, back]) * spec.initial_displacement / modes.tip[0, 0]
+        radial, tangential = np.split(state.q[:, :n] @ rule.tip.T, 2, axis=1)
+        approach = np.hypot(tip.radius + radial, tangential) - tip.radius
+        state.u[:] = np.concatenate([radial, tangential, approach], axis=1)
+    return state
+
+
+def _stiffness_unit(blade: ReducedBlade, spec: RunSpec) -> np.ndarray:
+    """Elastic stiffness (8,) of one element under each node at E = 1, N/m."""
+    return spec.coating.modulus_unit * element_area(blade, spec) / spec.coating.thickness
+
+
+def _law_parameters(blade: ReducedBlade, spec: RunSpec) -> np.ndarray:
+    if spec.coating.is_rigid:
+        return np.zeros((len(law.Element._fields), N_INTERFACE))
+    return np.array(law.element(spec.coating, element_area(blade, spec)))
+
+
+def _self_compliance(rule: Recurrence, coating: Coating) -> np.ndarray:
+    normal_factor, tangential_factor = _force_direction(coating)
+    own = np.diag(normal_compliance(rule.compliance, normal_factor, tangential_factor))
+    backward = np.diag(normal_compliance(rule.compliance, normal_factor, -tangential_factor))
+    if coating.is_rigid and min(np.min(own), np.min(backward)) <= 0:
+        raise ValueError(
+            f"friction {math.tan(coating.theta):g} on the rigid casing: must be so low that no node of this "
+            "blade is drawn into the casing by its own friction (Painlevé's paradox)"
+        )
+    return np.maximum(own, 0.0)
+
+
+def _lowest_within(reach: float, gap: np.ndarray) -> np.ndarray:
+    return minimum_filter1d(gap, 2 * math.ceil(reach) + 1, axis=1, mode="wrap")
+
+
+def _start_position(blade: ReducedBlade, spec: RunSpec) -> np.ndarray:
+    """Position (8,) of each node at the start of a revolution, in elements, within [0, N)."""
+    angle = spec.casing.start_angle + np.arctan2(blade.node_position[:, 1], blade.node_position[:, 2])
+    n_elements = spec.coating.n_elements
+    return angle / (2 * np.pi) * n_elements % n_elements
+
+
+def _first_element(blade: ReducedBlade, spec: RunSpec) -> np.ndarray:
+    """Element (8,) that each node stands over at the start of a revolution: the first row."""
+    return _start_position(blade, spec).astype(int)
+
+
+def _radius(blade: ReducedBlade) -> np.ndarray:
+    return np.hypot(blade.node_position[:, 1], blade.node_position[:, 2])

@@ -1,0 +1,1 @@
+"""Compiled arithmetic: eight numbers as one value, and machine code kept on disk."""
