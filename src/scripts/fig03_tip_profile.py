@@ -26,7 +26,7 @@ element = np.arange(-REACH, REACH + 1)
 wear = np.zeros(element.size)
 for node in np.linspace(-2 * REACH, 0, 40 * REACH + 1):  # the tip passes in small steps and stops at 0
     covered = tip.coverage(profile, element - node) > 0
-    depth = PENETRATION + tip.profile(profile, element - node)
+    depth = PENETRATION - tip.relief(profile, element - node)
     penetration = np.where(covered, np.maximum(depth, 0), 0)
     stress, wear = law.load(layer, penetration, wear)
 
@@ -36,7 +36,7 @@ scene = TipScene(
     shortening=np.maximum(penetration, wear),
     wear=wear,
     tip_position=offset * width,
-    tip_depth=PENETRATION + tip.profile(profile, offset),
+    tip_depth=PENETRATION - tip.relief(profile, offset),
     width=width,
     thickness=layer.thickness,
     theta=layer.theta,

@@ -26,7 +26,7 @@ def coarse_blade(coarse_config):
 
 
 @pytest.fixture(scope="session")
-def rub(coarse_config, coarse_blade):
+def run(coarse_config, coarse_blade):
     """Run a coating on the casing with 2 nodal diameters, with other values of the spec where given."""
 
     def run(E, K, f_omega, theta=0.0, **values):

@@ -27,8 +27,9 @@ from bar_solutions import (
     second_contact_force,
 )
 
-from bladerub.contact.kernel import loop
-from bladerub.contact.kernel.free_flight import leap_of
+from bladerub.contact.kernel import records
+from bladerub.contact.kernel.free_flight import free_flight
+from bladerub.contact.kernel.loop import Simulation
 from bladerub.contact.kernel.modal import pack
 from bladerub.contact.modes import Modes
 from bladerub.contact.schemes import Contact, exponential, normal_compliance
@@ -47,7 +48,7 @@ class History(NamedTuple):
     speed: np.ndarray
 
 
-def march(gravity, duration):
+def fall(gravity, duration):
     """Let the casing fall on the resting bar; one call of the loop a step, to see every force."""
     k = np.arange(N_MODES)
     tip_modes = np.zeros((16, N_MODES))
@@ -62,35 +63,35 @@ def march(gravity, duration):
     gap[:, 0] = -SPEED * at_centre - gravity * at_centre**2 / 2
     zeros, ones = np.zeros(8), np.ones(8)
     own = np.diag(normal_compliance(rule.compliance, -1.0, 0.0))
-    stator = loop.Stator(
-        gap=gap,
-        floor=np.full(at_centre.size, -np.inf),
-        elastic=zeros,
-        hardening=zeros,
-        strength=zeros,
-        yielding=zeros,
-        softness=zeros,
+    stator = records.Stator(
+        initial_gap=gap,
+        minimum_gap=np.full(at_centre.size, -np.inf),
+        law=np.zeros((5, 8)),
         n_elements=at_centre.size,
         is_rigid=True,
-        radial=-1.0,
-        tangential=0.0,
-        own_compliance=np.where(own > 0, own, 1.0),  # of nodes that meet nothing
+        normal_factor=-1.0,
+        tangential_factor=0.0,
+        self_compliance=np.where(own > 0, own, 1.0),  # of nodes that meet nothing
     )
-    here = loop.Tip(
+    here = records.Tip(
         start=zeros,
         per_metre=ones,
         radius=1e4 * ones,
         lever=1e4 * ones,
         half_width=2.0,
-        drop=0.0,
-        stray=0.0,
+        curvature=0.0,
+        search_range=0.0,
         limit=1e6,
     )
-    motion, flight, state = pack(rule), leap_of(rule, 1, 0.0), loop.at_rest(rule.omega.size, at_centre.size)
+    modal, flight, state = (
+        pack(rule),
+        free_flight(rule, 1, 0.0),
+        records.at_rest(rule.omega.size, at_centre.size),
+    )
     force, speed = np.empty(n_steps), np.empty(n_steps)
     for i in range(n_steps):
         tip = here._replace(start=np.full(8, i + 1.0))
-        loop.Rub(motion, flight, stator, tip, state, 1).revolve(np.zeros(1))
+        Simulation(modal, flight, stator, tip, state, 1).advance(np.zeros(1))
         force[i] = -state.force[0, 0]
         speed[i] = -(state.q[0, 0] - state.q[1, 0]) / step * rule.tip[0, 0]
     time = step * np.arange(1, n_steps + 1) - LEAD_IN * T
@@ -117,12 +118,12 @@ def modified_mass(gravity, n_elements):
 
 @pytest.fixture(scope="module")
 def impacting():
-    return march(0.0, 1.5 * T)
+    return fall(0.0, 1.5 * T)
 
 
 @pytest.fixture(scope="module")
 def bouncing():
-    return march(GRAVITY, 5.5 * T)
+    return fall(GRAVITY, 5.5 * T)
 
 
 def chatter(time, force, exact, start=0.0):

@@ -11,10 +11,10 @@ import pytest
 @pytest.mark.parametrize(
     ("E", "K", "theta", "f_omega"), [(1.1, 0.5, 0.0, 0.12), (20.0, 10.0, 0.0, 0.31), (1.1, 0.5, 0.15, 0.31)]
 )
-def test_residual_is_of_second_order(rub, E, K, theta, f_omega):
+def test_residual_is_of_second_order(run, E, K, theta, f_omega):
     steps = np.array([20, 40, 80, 160])
     residual = [
-        abs(rub(E, K, f_omega, theta=theta, revolutions=4, steps_per_element=n).energy.residual)
+        abs(run(E, K, f_omega, theta=theta, revolutions=4, steps_per_element=n).energy.residual)
         for n in steps
     ]
     order = -np.polyfit(np.log(steps), np.log(residual), 1)[0]

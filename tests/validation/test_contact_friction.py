@@ -11,8 +11,10 @@ circle of the radius w, which it keeps: friction takes what vibration is faster 
 import numpy as np
 import pytest
 
-from bladerub.contact.kernel import loop
-from bladerub.contact.kernel.free_flight import leap_of
+from bladerub.contact import law
+from bladerub.contact.kernel import records
+from bladerub.contact.kernel.free_flight import free_flight
+from bladerub.contact.kernel.loop import Simulation
 from bladerub.contact.kernel.modal import pack
 from bladerub.contact.modes import Modes
 from bladerub.contact.schemes import SCHEMES, Contact
@@ -23,7 +25,7 @@ STEP = 2 * np.pi / PER_CYCLE
 PUSH, THETA = 0.25, 0.2
 
 
-def vibration(s_0, reverses, n_cycles, scheme):
+def vibration(s_0, coulomb, n_cycles, scheme):
     """Distance from −d (n,) of the mass in each step, and work taken by friction in it, from s = `s_0`.
 
     Below 0 for a circle with r² = w² − s², which never turns.
@@ -41,44 +43,40 @@ def vibration(s_0, reverses, n_cycles, scheme):
     zeros, ones, half_width = np.zeros(8), np.ones(8), 2.0
     each = ones * PUSH / (2 * half_width)  # the elements under the tip add up to its width
     hard = 1e12 * each
-    stator = loop.Stator(
-        gap=gap,
-        floor=np.full(N, -np.inf),
-        elastic=each,
-        hardening=hard,
-        strength=zeros,
-        yielding=1 / (each + hard),
-        softness=0.5 / each,
+    stator = records.Stator(
+        initial_gap=gap,
+        minimum_gap=np.full(N, -np.inf),
+        law=np.array(law.Element(each, hard, zeros, 1 / each, 1 / (each + hard))),
         n_elements=N,
         is_rigid=False,
-        radial=radial,
-        tangential=tangential,
-        own_compliance=zeros,
-        reverses=reverses,
+        normal_factor=radial,
+        tangential_factor=tangential,
+        self_compliance=zeros,
+        coulomb=coulomb,
     )
-    tip = loop.Tip(
+    tip = records.Tip(
         start=zeros,
         per_metre=ones / (speed * STEP),
         radius=1e9 * ones,
-        lever=1e9 * ones,
+        lever=N * speed * STEP / (2 * np.pi) * ones,
         half_width=half_width,
-        drop=0.0,
-        stray=0.0,
+        curvature=0.0,
+        search_range=0.0,
         limit=1e6,
     )
-    state = loop.at_rest(1, N)
+    state = records.at_rest(1, N)
     start = np.sqrt(W**2 + s_0 * abs(s_0))  # from −d, where the circle is farthest out
     positions = unit * np.array([start, start * np.cos(OMEGA * STEP), start * np.cos(2 * OMEGA * STEP)]) - d
     state.q[:, 0] = positions / tip_modes[8, 0]
     state.u[:, 8] = positions
-    state.push[0, 0], state.force[0, 8] = PUSH, PUSH * tangential
-    rub = loop.Rub(pack(rule), leap_of(rule, 1, 0.0), stator, tip, state, 1)
+    state.normal_force[0, 0], state.force[0, 8] = PUSH, PUSH * tangential
+    simulation = Simulation(pack(rule), free_flight(rule, 1, 0.0), stator, tip, state, 1)
     seen, taken = np.empty(n_cycles * PER_CYCLE), np.empty(n_cycles * PER_CYCLE)
     for i in range(seen.size):
-        rub.revolve(np.zeros(1), i)
+        simulation.advance(np.zeros(1), i)
         seen[i] = (state.u[0, 8] + d) / unit
-        way = 0.5 * (state.u[0, 8] - state.u[2, 8]) + speed * STEP
-        taken[i] = -state.force[1, 8] * way
+        distance = 0.5 * (state.u[0, 8] - state.u[2, 8]) + speed * STEP
+        taken[i] = -state.force[1, 8] * distance
     return seen, taken
 
 
@@ -127,9 +125,9 @@ def test_friction_never_drives(s_0):
 
 
 @pytest.mark.parametrize(("f_omega", "theta"), [(0.19, 0.15), (0.206, 0.15), (0.31, 0.15), (0.02, 0.15)])
-def test_both_laws_agree_where_sliding_never_turns(rub, f_omega, theta):
+def test_both_laws_agree_where_sliding_never_turns(run, f_omega, theta):
     constant, coulomb = (
-        rub(2.0, 0.5, f_omega, theta=theta, law=law, revolutions=5) for law in ("theta", "coulomb")
+        run(2.0, 0.5, f_omega, theta=theta, law=law, revolutions=5) for law in ("theta", "coulomb")
     )
     assert constant.n_reversed_steps == coulomb.n_reversed_steps == 0
     assert 0 < constant.slowest_sliding < 1
@@ -138,10 +136,10 @@ def test_both_laws_agree_where_sliding_never_turns(rub, f_omega, theta):
     np.testing.assert_allclose(coulomb.wear, constant.wear, rtol=0, atol=1e-6 * constant.wear.max())
 
 
-def test_a_blade_that_vibrates_faster_than_it_turns_is_damped(rub):
+def test_a_blade_that_vibrates_faster_than_it_turns_is_damped(run):
     """A slow rotor and a first mode deflected by 2 mm: friction turns, and takes more than if it did not."""
     constant, coulomb = (
-        rub(2.0, 0.5, 0.002, theta=0.3, law=law, revolutions=1, initial_displacement=2e-3)
+        run(2.0, 0.5, 0.002, theta=0.3, law=law, revolutions=1, initial_displacement=2e-3)
         for law in ("theta", "coulomb")
     )
     for result in (constant, coulomb):

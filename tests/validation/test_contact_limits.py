@@ -22,8 +22,8 @@ def apart(found, exact):
 @pytest.mark.parametrize(
     ("E", "K", "f_omega"), [(2.0, 0.5, 0.206), (2.0, 0.5, 0.30), (1.1, 0.5, 0.31), (5.0, 1.0, 0.33)]
 )
-def test_lobes_are_the_vibrations_a_turn(rub, E, K, f_omega):
-    result = rub(E, K, f_omega)
+def test_lobes_are_the_vibrations_a_turn(run, E, K, f_omega):
+    result = run(E, K, f_omega)
     order, amplitude = order_spectrum(result.radial_displacement, 20, 10, 30.0)
     vibrations = order[np.argmax(np.where(order >= 0.5, amplitude, 0.0))]
     found = lobes(result.angle, result.wear, 0.1)
@@ -31,12 +31,12 @@ def test_lobes_are_the_vibrations_a_turn(rub, E, K, f_omega):
     assert found == round(vibrations)
 
 
-def test_stiff_coating_becomes_the_rigid_casing(rub):
+def test_stiff_coating_becomes_the_rigid_casing(run):
     """E = K over a decade and a half: wear and distance to the rigid run shrink from value to value."""
-    rigid = rub(np.inf, np.inf, 0.25, revolutions=4)
+    rigid = run(np.inf, np.inf, 0.25, revolutions=4)
     wear, peaks, displacement = [], [], []
     for modulus in (100.0, 316.0, 1e3, 3.16e3):
-        result = rub(modulus, modulus, 0.25, revolutions=4)
+        result = run(modulus, modulus, 0.25, revolutions=4)
         wear.append(result.wear.mean())
         peaks.append(np.abs(result.revolution_peak / rigid.revolution_peak - 1).max())
         displacement.append(apart(result.radial_displacement, rigid.radial_displacement))
@@ -48,11 +48,11 @@ def test_stiff_coating_becomes_the_rigid_casing(rub):
     assert displacement[-1] < 0.03
 
 
-def test_no_rotation_of_the_elements_is_the_limit_of_little(rub):
+def test_no_rotation_of_the_elements_is_the_limit_of_little(run):
     """Expected: first order in θ."""
-    upright = rub(1.1, 0.5, 0.31, revolutions=10)
+    upright = run(1.1, 0.5, 0.31, revolutions=10)
     thetas = np.array([0.01, 0.005, 0.0025])
-    runs = [rub(1.1, 0.5, 0.31, theta=theta, revolutions=10) for theta in thetas]
+    runs = [run(1.1, 0.5, 0.31, theta=theta, revolutions=10) for theta in thetas]
     wear = [apart(run.wear, upright.wear) for run in runs]
     peaks = [np.abs(run.revolution_peak / upright.revolution_peak - 1).max() for run in runs]
     orders = [np.polyfit(np.log(thetas), np.log(errors), 1)[0] for errors in (wear, peaks)]
@@ -60,11 +60,11 @@ def test_no_rotation_of_the_elements_is_the_limit_of_little(rub):
     np.testing.assert_allclose(orders, 1, atol=0.15)
 
 
-def test_finer_bars_change_less_and_less(rub):
+def test_finer_bars_change_less_and_less(run):
     """1,000, 2,000 and 4,000 bars under a tip of one width. Expected: second order."""
     counts = np.array([1000, 2000, 4000])
     runs = [
-        rub(
+        run(
             2.0,
             0.5,
             0.40,  # off the peaks, which magnify any change
@@ -85,20 +85,20 @@ def test_finer_bars_change_less_and_less(rub):
     assert change[1] < 0.005
 
 
-def test_runs_know_nothing_of_each_other(rub):
+def test_runs_know_nothing_of_each_other(run):
     """Alone, after another run and after it at another speed: the same to the last bit."""
-    first = rub(2.0, 0.5, 0.31, revolutions=2)
-    rub(20.0, 10.0, 0.31, theta=0.15, revolutions=2)
-    rub(2.0, 0.5, 0.12, revolutions=2)
-    again = rub(2.0, 0.5, 0.31, revolutions=2)
+    first = run(2.0, 0.5, 0.31, revolutions=2)
+    run(20.0, 10.0, 0.31, theta=0.15, revolutions=2)
+    run(2.0, 0.5, 0.12, revolutions=2)
+    again = run(2.0, 0.5, 0.31, revolutions=2)
     np.testing.assert_array_equal(again.wear, first.wear)
     np.testing.assert_array_equal(again.radial_displacement, first.radial_displacement)
 
 
-def test_a_common_turn_of_casing_and_blade_changes_nothing(rub):
+def test_a_common_turn_of_casing_and_blade_changes_nothing(run):
     """The casing with 2 nodal diameters is the same after half a turn. Expected: rounding."""
     start = np.pi / 2
-    here, there = (rub(2.0, 0.5, 0.31, revolutions=4, start_angle=start + turn) for turn in (0.0, np.pi))
+    here, there = (run(2.0, 0.5, 0.31, revolutions=4, start_angle=start + turn) for turn in (0.0, np.pi))
     difference = apart(np.roll(there.wear, 1000, axis=1), here.wear)
     print(f"wear differs by {difference:.1e}")
     assert difference < 1e-8

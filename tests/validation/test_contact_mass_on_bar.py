@@ -10,8 +10,10 @@ Batailly and Pierre, J. Comput. Nonlinear Dyn. 7 (2012), section 3.)
 import numpy as np
 import pytest
 
-from bladerub.contact.kernel import loop
-from bladerub.contact.kernel.free_flight import leap_of
+from bladerub.contact import law
+from bladerub.contact.kernel import records
+from bladerub.contact.kernel.free_flight import free_flight
+from bladerub.contact.kernel.loop import Simulation
 from bladerub.contact.kernel.modal import pack
 from bladerub.contact.modes import Modes
 from bladerub.contact.schemes import Contact, central_differences, exponential
@@ -22,7 +24,7 @@ DEPTH = 1e-3
 
 
 def deviations(kappa, n_revolutions=2, start=1e-8, scheme=central_differences):
-    """March the compiled loop from a small deviation about the equilibrium on the bars."""
+    """Run the compiled loop from a small deviation about the equilibrium on the bars."""
     spring, bar = BETA * M / H**2, kappa * M / H**2
     tip_modes = np.zeros((16, 1))
     tip_modes[0, 0] = M**-0.5
@@ -34,23 +36,23 @@ def deviations(kappa, n_revolutions=2, start=1e-8, scheme=central_differences):
     half_width = 2.0
     each = zeros + bar / (2 * half_width)  # the elements under the tip add up to its width
     hard = 1e12 * each
-    bars = each, hard, zeros, 1 / (each + hard), 0.5 / each
-    stator = loop.Stator(gap, gap.min(axis=1), *bars, N, False, -1.0, 0.0, zeros)
-    tip = loop.Tip(zeros, zeros, zeros + 1.0, zeros + 1.0, half_width, 0.0, 0.0, 1.0)
+    elements = np.array(law.Element(each, hard, zeros, 1 / each, 1 / (each + hard)))
+    stator = records.Stator(gap, gap.min(axis=1), elements, N, False, -1.0, 0.0, zeros)
+    tip = records.Tip(zeros, zeros, zeros + 1.0, zeros + 1.0, half_width, 0.0, 0.0, 1.0)
     # the paper's scheme takes the force at the prediction (1 − β) u of a resting mass
     predicted = 1 - BETA if rule.corrects else 1.0
     rest = -DEPTH * kappa / (BETA + kappa * predicted)
-    state = loop.at_rest(1, N)
+    state = records.at_rest(1, N)
     state.q[:, 0] = (rest + start) / tip_modes[0, 0]
     state.u[:, [0, 16]] = rest + start  # displacement and height of the first node
-    if not rule.corrects:  # the bars already press
-        state.push[0, 0] = bar * (rest + start + DEPTH)
-        state.force[:, 0] = -state.push[0, 0]
-    rub = loop.Rub(pack(rule), leap_of(rule, 1, 0.0), stator, tip, state, 1)
+    if not rule.corrects:  # the elements are already pressed
+        state.normal_force[0, 0] = bar * (rest + start + DEPTH)
+        state.force[:, 0] = -state.normal_force[0, 0]
+    simulation = Simulation(pack(rule), free_flight(rule, 1, 0.0), stator, tip, state, 1)
     seen = []
     for _ in range(n_revolutions):
         displacement = np.zeros(N)
-        rub.revolve(displacement)
+        simulation.advance(displacement)
         seen.append(displacement - rest)  # the means of two steps each: the same recurrence
     return np.concatenate(seen)
 

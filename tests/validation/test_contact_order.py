@@ -12,8 +12,10 @@ finer. Expected: order 2 (exponential, at least 1.8) and 1 (central differences)
 import numpy as np
 import pytest
 
-from bladerub.contact.kernel import loop
-from bladerub.contact.kernel.free_flight import leap_of
+from bladerub.contact import law
+from bladerub.contact.kernel import records
+from bladerub.contact.kernel.free_flight import free_flight
+from bladerub.contact.kernel.loop import Simulation
 from bladerub.contact.kernel.modal import pack
 from bladerub.contact.modes import modes_at
 from bladerub.contact.schemes import SCHEMES, Contact, normal_compliance
@@ -32,35 +34,31 @@ def march(blade, scheme, steps_per_element):
     rule = SCHEMES[scheme](modes_at(blade, F_OMEGA), DAMPING, step, contact)
     angle = (np.arange(N) + 0.5) * 2 * np.pi / N
     gap = np.tile(1e-3 * (1 + np.cos(angle)) - DEPTH, (8, 1)).T.copy()
-    stator = loop.Stator(
-        gap=gap,
-        floor=np.full(N, -np.inf),
-        elastic=ELASTIC * ones,
-        hardening=HARDENING * ones,
-        strength=0 * ones,
-        yielding=ones / (ELASTIC + HARDENING),
-        softness=0.5 / ELASTIC * ones,
+    stator = records.Stator(
+        initial_gap=gap,
+        minimum_gap=np.full(N, -np.inf),
+        law=np.outer(law.Element(ELASTIC, HARDENING, 0.0, 1 / ELASTIC, 1 / (ELASTIC + HARDENING)), ones),
         n_elements=N,
         is_rigid=False,
-        radial=radial,
-        tangential=tangential,
-        own_compliance=np.diag(normal_compliance(rule.compliance, radial, tangential)).copy(),
+        normal_factor=radial,
+        tangential_factor=tangential,
+        self_compliance=np.diag(normal_compliance(rule.compliance, radial, tangential)).copy(),
     )
-    motion, flight, state = pack(rule), leap_of(rule, 1, 0.0), loop.at_rest(rule.omega.size, N)
+    modal, flight, state = pack(rule), free_flight(rule, 1, 0.0), records.at_rest(rule.omega.size, N)
     piece = np.zeros(N // 8)
     seen = []
-    tip = loop.Tip(
+    tip = records.Tip(
         start=np.linspace(0, 20, 8),
         per_metre=N / (2 * np.pi * RADIUS) * ones,
         radius=RADIUS * ones,
         lever=RADIUS * ones,
         half_width=HALF_WIDTH,
-        drop=EDGE_DROP / HALF_WIDTH**2,
-        stray=0.0,
+        curvature=EDGE_DROP / HALF_WIDTH**2,
+        search_range=0.0,
         limit=1.0,
     )
     for _ in range(8 * REVOLUTIONS):
-        loop.Rub(motion, flight, stator, tip, state, steps_per_element).revolve(piece)
+        Simulation(modal, flight, stator, tip, state, steps_per_element).advance(piece)
         seen.append(state.u[0, :16].copy())
         tip = tip._replace(start=(tip.start + piece.size) % N)
     return np.array(seen), state.wear

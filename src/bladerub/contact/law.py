@@ -68,12 +68,12 @@ def return_mapping(element, depth, wear):
     is ``Δγ = f / (E + K)``; loading follows ``E_T = E K / (E + K)`` (Simo and Hughes 1998, box 1.4).
     """
     trial = element.elastic * depth
-    increment = element.plastic_compliance * maximum(trial - yield_force(element, wear), 0.0)
+    increment = element.plastic_compliance * maximum(trial - elastic_limit(element, wear), 0.0)
     return maximum(trial - element.elastic * increment, 0.0), increment
 
 
 @elementwise
-def yield_force(element, wear):
+def elastic_limit(element, wear):
     """Elastic limit of an element that is worn, N."""
     return element.yield_force + element.hardening * wear
 
@@ -88,7 +88,7 @@ def elastic_force(element, depth):
 def tangent(element, depth, wear):
     """Find the stiffness of an element (N/m), and the change of depth up to which it is constant (m)."""
     trial = element.elastic * depth
-    excess = trial - yield_force(element, wear)
+    excess = trial - elastic_limit(element, wear)
     plastic = element.elastic * element.plastic_compliance * element.hardening  # E_T
     stiffness = where(trial > 0.0, where(excess > 0.0, plastic, element.elastic), 0.0)
     return stiffness, element.elastic_compliance * minimum(absolute(trial), absolute(excess))
@@ -103,7 +103,7 @@ def stored_energy(element, force):
 @elementwise
 def dissipated_energy(element, wear, increment):
     """Energy that an element takes up as its wear grows from `wear` by `increment`, J."""
-    return (yield_force(element, wear) + 0.5 * element.hardening * increment) * increment
+    return (elastic_limit(element, wear) + 0.5 * element.hardening * increment) * increment
 
 
 def load(coating: Coating, penetration: np.ndarray, wear: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -123,6 +123,7 @@ def load(coating: Coating, penetration: np.ndarray, wear: np.ndarray) -> tuple[n
     wear : ndarray
         Permanent shortening after it, m.
     """
-    unit_force = element(coating, 1 / coating.modulus_unit)
-    stress, increment = return_mapping(unit_force, np.subtract(penetration, wear), wear)
+    penetration, wear = np.asarray(penetration, dtype=float), np.asarray(wear, dtype=float)
+    of_unit_force = element(coating, 1 / coating.modulus_unit)
+    stress, increment = return_mapping(of_unit_force, penetration - wear, wear)
     return stress, wear + increment

@@ -15,14 +15,14 @@ def test_the_casing_is_brought_near_until_a_third_is_contact(blade, spec):
 
 
 def test_useful_operations_of_a_step(blade, spec, change):
-    rule, rub = set_up(blade, spec)
-    n, leap = rule.omega.size, rub.flight.n_steps
+    rule, simulation = set_up(blade, spec)
+    n, flight = rule.omega.size, simulation.flight.n_steps
     free = change(spec, clearance=(1.0, 1.0))
-    assert measure.useful_flops(blade, free) == pytest.approx(61 * n / leap)
+    assert measure.useful_flops(blade, free) == pytest.approx(61 * n / flight)
     result = simulate(blade, spec)
     flops = measure.useful_flops(blade, spec) * result.n_steps
     contact = (32 * n + 512 + 8 * (5 * 69 + 60)) * result.n_contact_steps
-    single = (flops - contact - 61 * n / leap * result.n_steps) / (39 * n - 61 * n / leap)
+    single = (flops - contact - 61 * n / flight * result.n_steps) / (39 * n - 61 * n / flight)
     assert result.n_contact_steps <= single < result.n_steps
     assert single == pytest.approx(round(single))
 

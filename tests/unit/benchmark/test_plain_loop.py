@@ -11,17 +11,17 @@ from bladerub.contact.setup import set_up
 pytestmark = pytest.mark.slow
 
 
-@pytest.mark.parametrize("march", [plain.march, numba.njit(plain.march)], ids=["numpy", "numba"])
+@pytest.mark.parametrize("integrate", [plain.integrate, numba.njit(plain.integrate)], ids=["numpy", "numba"])
 @pytest.mark.parametrize(("E", "K", "theta"), [(1.1, 0.5, 0.0), (2.0, 0.1, 0.15)])
-def test_the_same_run(blade, spec, change, march, E, K, theta):
+def test_the_same_run(blade, spec, change, integrate, E, K, theta):
     spec = change(spec, E=E, K=K, theta=theta, revolutions=2)
-    result, (rule, rub) = simulate(blade, spec), set_up(blade, spec)
-    arguments = plain.arguments(rule, rub)
+    result, (rule, simulation) = simulate(blade, spec), set_up(blade, spec)
+    arguments = plain.arguments(rule, simulation)
     displacement = np.zeros(result.n_steps)
-    march(*arguments, displacement)
+    integrate(*arguments, displacement)
     middle = 0.5 * (displacement + np.concatenate([[0.0], displacement[:-1]]))
-    per_element = middle.reshape(-1, rub.steps_per_element).mean(axis=1)
+    per_element = middle.reshape(-1, simulation.steps_per_element).mean(axis=1)
     scale = np.abs(per_element).max()
     np.testing.assert_allclose(result.radial_displacement, per_element, rtol=0, atol=1e-7 * scale)
-    wear = arguments[6]
+    wear = arguments[8]
     np.testing.assert_allclose(np.sort(result.wear), np.sort(wear.T), rtol=0, atol=1e-6 * wear.max())

@@ -11,7 +11,7 @@ from bladerub.contact.spec import Coating
 
 
 @pytest.fixture(params=["exponential", "central_differences", "rigid"])
-def rubbing(request, spec, change):
+def in_contact(request, spec, change):
     """A run in each form of the law of contact; against the rigid casing the modes are shared out."""
     if request.param == "central_differences":
         return change(spec, scheme=request.param, max_time_step=1e-6)
@@ -20,34 +20,34 @@ def rubbing(request, spec, change):
     return change(spec, steps_per_element=6, max_time_step=2e-5)  # too long for the highest mode
 
 
-def test_the_tip_is_where_the_run_has_it(blade, rubbing):
+def test_the_tip_is_where_the_run_has_it(blade, in_contact):
     """State of the time loop at the end of the run, with contact at the tip or without."""
-    recording = record(blade, rubbing, rubbing.revolutions, 10)
-    rule, rub = set_up(blade, rubbing)
-    for _ in range(rubbing.revolutions):
-        rub.revolve(np.empty(200))
-    assert (rule.share < 1).any() == (rubbing.scheme == "exponential")
+    recording = record(blade, in_contact, in_contact.revolutions, 10)
+    rule, simulation = set_up(blade, in_contact)
+    for _ in range(in_contact.revolutions):
+        simulation.advance(np.empty(200))
+    assert (rule.share < 1).any() == (in_contact.scheme == "exponential")
     tip = at_tip(blade, recording.coordinates[-1:].T)[:, 0]
-    np.testing.assert_allclose(tip, rub.state.u[0, :16], rtol=0, atol=1e-9 * np.abs(tip).max())
+    np.testing.assert_allclose(tip, simulation.state.u[0, :16], rtol=0, atol=1e-9 * np.abs(tip).max())
 
 
 def test_contact_forces_move_what_the_scheme_does_not_resolve(blade, spec, change):
     spec = change(spec, E=20.0, revolutions=1, steps_per_element=6, max_time_step=2e-5)
     recording = record(blade, spec, 1, 200)
-    rule, rub = set_up(blade, spec)
-    pushed = 0
+    rule, simulation = set_up(blade, spec)
+    moved = 0
     for element in range(200):
-        rub.revolve(np.empty(1), element)
+        simulation.advance(np.empty(1), element)
         tip = at_tip(blade, recording.coordinates[element : element + 1].T)[:, 0]
-        np.testing.assert_allclose(tip, rub.state.u[0, :16], rtol=0, atol=1e-12)
-        static = rule.static_compliance @ rub.state.force[0]
-        pushed += np.abs(static).max() > 1e-9
-    assert pushed > 5
+        np.testing.assert_allclose(tip, simulation.state.u[0, :16], rtol=0, atol=1e-12)
+        static = rule.static_compliance @ simulation.state.force[0]
+        moved += np.abs(static).max() > 1e-9
+    assert moved > 5
 
 
-def test_node_1_moves_as_in_the_run(blade, rubbing):
-    result = simulate(blade, rubbing)
-    recording = record(blade, rubbing, 2, 200)
+def test_node_1_moves_as_in_the_run(blade, in_contact):
+    result = simulate(blade, in_contact)
+    recording = record(blade, in_contact, 2, 200)
     last = result.radial_displacement[200:]
     scale = np.abs(last).max()
     np.testing.assert_allclose(recording.radial_displacement, last, rtol=0, atol=1e-9 * scale)

@@ -2,13 +2,13 @@ import numpy as np
 import pytest
 
 from bladerub.contact.spec import TipProfile
-from bladerub.contact.tip import coverage, profile
+from bladerub.contact.tip import coverage, relief
 
 TIP = TipProfile(half_width=2.0, edge_drop=20e-6)
 
 
 def test_profile_is_a_parabola_with_the_given_edge():
-    np.testing.assert_allclose(profile(TIP, np.array([0.0, 1.0, 2.0, -2.0])), [0, -5e-6, -20e-6, -20e-6])
+    np.testing.assert_allclose(relief(TIP, np.array([0.0, 1.0, 2.0, -2.0])), [0, 5e-6, 20e-6, 20e-6])
 
 
 @pytest.mark.parametrize("position", [0.0, 0.2, 0.5, 0.77])

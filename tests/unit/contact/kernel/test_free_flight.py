@@ -1,4 +1,4 @@
-"""Leaps of free flight against the steps they stand for."""
+"""Free flight over many steps against the single steps."""
 
 from dataclasses import astuple
 from typing import NamedTuple
@@ -8,7 +8,8 @@ import pytest
 from numba import njit
 
 from bladerub.contact import energy
-from bladerub.contact.kernel import free_flight, loop, modal
+from bladerub.contact.kernel import free_flight, modal
+from bladerub.contact.kernel.loop import Simulation
 from bladerub.contact.modes import modes_at
 from bladerub.contact.schemes import SCHEMES, Contact
 from bladerub.contact.setup import set_up
@@ -25,22 +26,22 @@ class Flight(NamedTuple):
 
 
 @njit
-def by_leap(rule, flight, record):
+def flown(rule, flight, record):
     q, n = record.q, rule.n
-    here = free_flight.reach(flight, n, q, address_of(q, n))
-    radial, tangential, loss, way, far = free_flight.take(
+    here = free_flight.bound(flight, n, q, address_of(q, n))
+    radial, tangential, loss, mean, far = free_flight.fly(
         flight, rule, q, address_of(q, n), address_of(q, 2 * n)
     )
     store(record.radial, 0, radial)
     store(record.tangential, 0, tangential)
-    return lane_sum(loss), way, far, here
+    return lane_sum(loss), mean, far, here
 
 
 @njit
 def next_loss(rule, record):
     """Loss that the next step enters."""
     q, n = record.q, rule.n
-    _, _, loss = modal.advance(rule, q, address_of(q, n), address_of(q, 2 * n))
+    _, _, loss = modal.advance_free(rule, q, address_of(q, n), address_of(q, 2 * n))
     return lane_sum(loss)
 
 
@@ -69,19 +70,19 @@ def in_steps(scheme, q, n_steps):
     return np.array(history)
 
 
-def leapt(scheme, q):
-    """The record after a leap, and what it gave."""
+def after_flight(scheme, q):
+    """The record after a free flight, and what it returned."""
     rule, n = modal.pack(scheme), scheme.omega.size
-    flight = free_flight.leap_of(scheme, STEPS, SLOPE)
+    flight = free_flight.free_flight(scheme, STEPS, SLOPE)
     padded = np.zeros((3, rule.n))
     padded[:, :n] = q
     record = aligned(Flight(padded, np.zeros(8), np.zeros(8)))
-    given = by_leap(addresses(rule), addresses(flight), addresses(record))
+    given = flown(addresses(rule), addresses(flight), addresses(record))
     return rule, record, given
 
 
-def test_a_leap_is_its_steps(scheme, vibration):
-    rule, record, (loss, way, *_) = leapt(scheme, vibration)
+def test_free_flight_equals_its_single_steps(scheme, vibration):
+    rule, record, (loss, mean, *_) = after_flight(scheme, vibration)
     n = scheme.omega.size
     after = in_steps(scheme, vibration, STEPS)
     np.testing.assert_allclose(record.q[0, :n], after[-1], rtol=0, atol=1e-13 * np.abs(after).max())
@@ -91,30 +92,30 @@ def test_a_leap_is_its_steps(scheme, vibration):
     np.testing.assert_allclose(record.radial, tip[-1, :8], rtol=0, atol=scale)
     np.testing.assert_allclose(record.tangential, tip[-1, 8:], rtol=0, atol=scale)
     node_1 = tip[2:, 0]
-    assert way == pytest.approx(np.trapezoid(node_1) / STEPS - node_1[0], rel=1e-9)
-    # a step enters the loss of the step before: the next one must find nothing left of the leap
+    assert mean == pytest.approx(np.trapezoid(node_1) / STEPS - node_1[0], rel=1e-9)
+    # a step enters the loss of the step before: the next one must find nothing left of the flight
     lost = np.sum(scheme.loss * (after[2:] - after[:-2]) ** 2)
     assert loss == pytest.approx(lost, rel=1e-10)
     assert next_loss(addresses(rule), addresses(record)) == 0.0
 
 
-def test_no_node_rises_by_more_than_the_bound(scheme, vibration):
-    _, _, (*_, next_bound, bound) = leapt(scheme, vibration)
+def test_no_node_approaches_by_more_than_the_bound(scheme, vibration):
+    _, _, (*_, next_bound, bound) = after_flight(scheme, vibration)
     tip = in_steps(scheme, vibration, 2 * STEPS)[2:] @ scheme.tip.T
     for start, limit in ((0, bound), (STEPS, next_bound)):
-        way = np.abs(tip[start : start + STEPS + 1] - tip[start])
-        rise = (way[:, :8] + SLOPE * way[:, 8:]).max()
-        assert rise <= limit < 30 * rise
-        assert way[:, 8:].max() <= free_flight.leap_of(scheme, STEPS, SLOPE).sideways * limit
+        moved = np.abs(tip[start : start + STEPS + 1] - tip[start])
+        approach = (moved[:, :8] + SLOPE * moved[:, 8:]).max()
+        assert approach <= limit < 30 * approach
+        assert moved[:, 8:].max() <= free_flight.free_flight(scheme, STEPS, SLOPE).sideways * limit
 
 
 @pytest.mark.parametrize("n_steps", [1, 2, 24])
 def test_any_number_of_steps(scheme, vibration, n_steps):
-    flight = free_flight.leap_of(scheme, n_steps, SLOPE)
-    way_q, way_d = (np.ravel(flight.forms[:, i])[: scheme.omega.size] for i in (0, 1))
+    flight = free_flight.free_flight(scheme, n_steps, SLOPE)
+    by_q, by_d = (np.ravel(flight.forms[:, i])[: scheme.omega.size] for i in (0, 1))
     history = in_steps(scheme, vibration, n_steps)
     expected = history[-1] - vibration[0]
-    found = way_q * vibration[0] + way_d * (vibration[0] - vibration[1])
+    found = by_q * vibration[0] + by_d * (vibration[0] - vibration[1])
     np.testing.assert_allclose(found, expected, rtol=0, atol=1e-12 * np.abs(history).max())
 
 
@@ -127,20 +128,20 @@ def test_extremes_of_a_parabola(parabola):
 
 
 @pytest.mark.parametrize(("E", "theta"), [(1.1, 0.0), (20.0, 0.1), (np.inf, 0.0)])
-def test_a_run_is_the_same_without_leaps(blade, spec, change, E, theta):
+def test_a_run_is_the_same_without_free_flight(blade, spec, change, E, theta):
     spec = change(spec, E=E, K=E / 2, theta=theta, clearance=(2e-4, 2.5e-4), initial_displacement=1e-6)
     spec = change(spec, amplitude=4e-3, interference=4e-4)
     results = []
-    for may_leap in (True, False):
-        rule, rub = set_up(blade, spec)
-        if not may_leap:
-            never = rub.flight._replace(n_steps=rub.steps_per_element + 1)
-            rub = loop.Rub(rub.motion, never, rub.stator, rub.tip, rub.state, rub.steps_per_element)
+    for may_fly in (True, False):
+        rule, run = set_up(blade, spec)
+        if not may_fly:
+            never = run.flight._replace(n_steps=run.steps_per_element + 1)
+            run = Simulation(run.modal, never, run.stator, run.tip, run.state, run.steps_per_element)
         displacement = np.zeros((3, 200))
-        results.append(([rub.revolve(revolution) for revolution in displacement], displacement, rub.state))
+        results.append(([run.advance(revolution) for revolution in displacement], displacement, run.state))
     (made, displacement, state), (stepwise, expected, state_stepwise) = results
-    assert sum(a.n_leaps for a in made) > 100
-    assert not any(b.n_leaps for b in stepwise)
+    assert sum(a.n_flights for a in made) > 100
+    assert not any(b.n_flights for b in stepwise)
     assert [a.n_steps for a in made] == [b.n_steps for b in stepwise]
     assert [a.n_contact_steps for a in made] == [b.n_contact_steps for b in stepwise]
     assert sum(a.n_contact_steps for a in made) > 100
@@ -149,5 +150,5 @@ def test_a_run_is_the_same_without_leaps(blade, spec, change, E, theta):
     np.testing.assert_allclose(displacement, expected, rtol=0, atol=tolerance * scale)
     for a, b in zip(made, stepwise, strict=True):
         assert a[3:] == pytest.approx(b[3:], abs=1e-2 * scale)  # of the parabola: elements are long here
-    entries, stepwise = (astuple(energy.close(rule, end, 0.0, 1.0)) for end in (state, state_stepwise))
+    entries, stepwise = (astuple(energy.balance(rule, end, 0.0, 1.0)) for end in (state, state_stepwise))
     assert entries == pytest.approx(stepwise, rel=tolerance, abs=tolerance * max(stepwise))

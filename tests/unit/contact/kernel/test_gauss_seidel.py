@@ -5,8 +5,8 @@ import math
 import numpy as np
 import pytest
 
-from bladerub.contact.kernel import loop
-from bladerub.contact.kernel.gauss_seidel import relax
+from bladerub.contact.kernel import newton, records
+from bladerub.contact.kernel.gauss_seidel import gauss_seidel
 from bladerub.contact.kernel.modal import pack
 from bladerub.contact.modes import modes_at
 from bladerub.contact.schemes import SCHEMES, Contact
@@ -29,52 +29,54 @@ def parts(blade, spec, change):
             -math.sin(angle),
         )
         rule = SCHEMES["exponential"](modes_at(blade, 0.3), 0.0, STEP, contact)
-        state = loop.at_rest(rule.omega.size, 2000)
+        state = records.at_rest(rule.omega.size, 2000)
         tip = tip_record(blade, chosen)
         stator = stator_record(blade, chosen, tip, rule)
-        state.along[:] = stator.tangential
+        state.tangential_factor[:] = stator.tangential_factor
         return pack(rule), stator, tip, state
 
     return build
 
 
-def pressed(stator, tip, depth):
+def pressed_in(stator, tip, depth):
     """Displacement that puts node j by `depth` times (1 + j / 10) into the coating, all slightly along it."""
-    rows = stator.gap[0] + depth * (1 + np.arange(LANES) / 10)
+    rows = stator.initial_gap[0] + depth * (1 + np.arange(LANES) / 10)
     return np.concatenate([rows, np.full(LANES, 0.2 / tip.per_metre), np.zeros(LANES)])
 
 
 @pytest.mark.parametrize("theta", [0.0, 0.15])
 @pytest.mark.parametrize("depth", [-1e-6, 1e-6, 3e-5])
 def test_the_same_forces_as_newton(parts, depth, theta):
-    motion, stator, tip, state = parts(E=20.0, K=10.0, theta=theta)
-    assert motion.compliance.any()
-    records = [addresses(record) for record in (motion, stator, tip, state)]
-    free = pressed(stator, tip, depth)
+    modal, stator, tip, state = parts(E=20.0, K=10.0, theta=theta)
+    assert modal.compliance.any()
+    records = [addresses(record) for record in (modal, stator, tip, state)]
+    free = pressed_in(stator, tip, depth)
     u = free.copy()
-    assert loop._find_forces(*records[:3], 0.0, records[3], u.ctypes.data, False)
-    newton = state.force[0].copy(), state.push[0].copy(), u[: 2 * LANES].copy()
-    state.force[:], state.push[:] = 0.0, 0.0
+    assert newton.find_forces(*records[:3], 0.0, records[3], u.ctypes.data, False)
+    by_newton = state.force[0].copy(), state.normal_force[0].copy(), u[: 2 * LANES].copy()
+    state.force[:], state.normal_force[:] = 0.0, 0.0
     u[:] = free
-    relax(*records[:3], records[3], 0.0, u.ctypes.data, 1e-13)
-    for found, expected in zip((state.force[0], state.push[0], u[: 2 * LANES]), newton, strict=True):
-        tolerance = 2 * loop.SETTLED / abs(depth)  # of heights, in parts of the penetration
+    gauss_seidel(*records[:3], records[3], 0.0, u.ctypes.data, 1e-13)
+    for found, expected in zip(
+        (state.force[0], state.normal_force[0], u[: 2 * LANES]), by_newton, strict=True
+    ):
+        tolerance = 2 * newton.TOLERANCE / abs(depth)  # of heights, in parts of the penetration
         np.testing.assert_allclose(found, expected, rtol=0, atol=tolerance * np.abs(expected).max())
-    assert (state.push[0] > 0).sum() >= (8 if depth > 0 else 0)
+    assert (state.normal_force[0] > 0).sum() >= (8 if depth > 0 else 0)
 
 
 def test_rigid_casing_stops_the_tip(parts):
-    motion, stator, tip, state = parts(E=np.inf, K=np.inf, theta=0.0)
-    records = [addresses(record) for record in (motion, stator, tip, state)]
-    u = pressed(stator, tip, 1e-5)
-    relax(*records[:3], records[3], 0.0, u.ctypes.data, 1e-13)
+    modal, stator, tip, state = parts(E=np.inf, K=np.inf, theta=0.0)
+    records = [addresses(record) for record in (modal, stator, tip, state)]
+    u = pressed_in(stator, tip, 1e-5)
+    gauss_seidel(*records[:3], records[3], 0.0, u.ctypes.data, 1e-13)
     height = np.hypot(tip.radius + u[:LANES], u[LANES : 2 * LANES]) - tip.radius
-    touching = state.push[0] > 0
+    touching = state.normal_force[0] > 0
     assert touching.any()
     position = tip.start + u[LANES : 2 * LANES] * tip.per_metre
     along = np.arange(-3, 4)
     for j in range(LANES):
-        gap = np.interp(position[j], along + 0.5, stator.gap[along, j])
+        gap = np.interp(position[j], along + 0.5, stator.initial_gap[along, j])
         if touching[j]:
             assert height[j] == pytest.approx(gap, abs=1e-11)
         else:
