@@ -84,6 +84,8 @@ def make_result(angle):
             n_steps=1000,
             n_reversed_steps=0,
             slowest_sliding=0.9,
+            n_fallback_steps=0,
+            n_unconverged_steps=0,
             n_contact_steps=300,
             n_modes=24,
             energy=Energy(*(float(i) for i in range(1, 13))),

@@ -19,79 +19,44 @@ have no velocity, and what they store of friction they give back.
 
 from __future__ import annotations
 
-from numba import njit
-
-from bladerub.contact.kernel.modal import add_tip_displacement, displaced, tip_displacement
-from bladerub.numerics.vectors import LANES, address_of, broadcast, load, no_sums, store, where
+from bladerub.numerics.vectors import elementwise, where
 
 
-@njit(inline="always")
-def contact_force(stator, tangential_factor, normal_radial, normal_tangential, normal_force):
+@elementwise
+def contact_force(normal_factor, tangential_factor, normal_radial, normal_tangential, normal_force):
     """Split the contact force on the blade, F_r = −cos θ |F| e_r and F_θ = −sin θ |F| e_θ of the paper.
 
-    Both directions are those at the displaced node. `tangential_factor` of each node is −sin θ, or what
-    friction mobilises of it.
-
-    Returns
-    -------
-    radial, tangential : vector
-        By the node's own directions at rest, N.
-    """
-    return (
-        normal_force * (stator.normal_factor * normal_radial - tangential_factor * normal_tangential),
-        normal_force * (stator.normal_factor * normal_tangential + tangential_factor * normal_radial),
-    )
-
-
-@njit(inline="always")
-def rotation_distance(tip, angle, approach):
-    """Distance by which a rotation by `angle` (rad) moves each displaced node along the casing, m."""
-    return angle * (load(tip.lever, 0) + approach)
-
-
-@njit(forceinline=True)
-def predict_sliding(modal, state, q, q_before, angle):
-    """Find how far the tip would slide over the casing in this step without contact forces.
-
-    A force of the paper's scheme acts on the step that led to `q`; one of the exponential scheme on the
-    steps before and after, of which the mean is meant.
+    Both directions are those at the displaced node.
 
     Parameters
     ----------
-    q, q_before : address
-        Modal coordinates of this step, without its forces, and of the one before.
-    angle : float
-        By which the blade rotates in a step, rad.
+    normal_factor, tangential_factor : float
+        −cos θ, and −sin θ or what friction mobilises of it.
+    normal_radial, normal_tangential : float
+        Normal of the casing at the node, by its own directions at rest.
+    normal_force : float
+        Force N of the elements, N.
+
+    Returns
+    -------
+    radial, tangential : float
+        By the node's own directions at rest, N.
     """
-    sums = no_sums()
-    for k in range(0, modal.n, LANES):
-        now, before = load(q, k), load(q_before, k)
-        if modal.corrects:
-            increment = now - before
-        else:
-            increment = 0.5 * (load(modal.now, k) * now - load(modal.before, k) * before - before)
-        sums = add_tip_displacement(modal, k, increment, sums)
-    radial, tangential = tip_displacement(sums)
-    store(state.free_sliding, 0, radial)
-    store(state.free_sliding, LANES, tangential)
-    store(state.free_sliding, 2 * LANES, broadcast(angle))
+    return (
+        normal_force * (normal_factor * normal_radial - tangential_factor * normal_tangential),
+        normal_force * (normal_factor * normal_tangential + tangential_factor * normal_radial),
+    )
 
 
-@njit
-def mobilise(modal, stator, tip, state, normal_radial, normal_tangential, approach):
-    """Find the tangential factor of each node by Coulomb's law, under the forces in `state.normal_force`."""
-    normal_force, frictionless = load(state.normal_force, 0), address_of(state.scratch, 4 * 2 * LANES)
-    store(frictionless, 0, stator.normal_factor * normal_radial * normal_force)
-    store(frictionless, LANES, stator.normal_factor * normal_tangential * normal_force)
-    radial, tangential = displaced(
-        modal.mobility, frictionless, load(state.free_sliding, 0), load(state.free_sliding, LANES)
-    )
-    rotation = rotation_distance(tip, load(state.free_sliding, 2 * LANES), approach)
-    sliding = rotation + normal_radial * tangential - normal_tangential * radial
-    stopping = (0.0 - stator.tangential_factor) * normal_force * load(modal.stopping, 0)
-    mobilised = where(sliding > (0.0 - stopping), sliding / stopping, -1.0)
-    store(
-        state.tangential_factor,
-        0,
-        where(sliding > stopping, stator.tangential_factor, stator.tangential_factor * mobilised),
-    )
+@elementwise
+def mobilisation(sliding, stopping):
+    """Share m of the friction that Coulomb's law mobilises.
+
+    Parameters
+    ----------
+    sliding : float
+        Distance s that the tip would slide in this step without friction, m.
+    stopping : float
+        γ N sin θ: the most that friction takes from it, m.
+    """
+    return where(sliding > stopping, 1.0, where(sliding > (0.0 - stopping), sliding / stopping, -1.0))

@@ -41,6 +41,12 @@ def normal(tip, radial, tangential, approach):
     return share * (load(tip.radius, 0) + radial), share * tangential
 
 
+@njit(inline="always")
+def rotation_distance(tip, angle, approach):
+    """Distance by which a rotation by `angle` (rad) moves each displaced node along the casing, m."""
+    return angle * (load(tip.lever, 0) + approach)
+
+
 @elementwise
 def penetration(approach, relief, initial_gap, wear):
     """Depth of the tip below the worn surface of an element, m: minus the gap g of eq. (8)."""

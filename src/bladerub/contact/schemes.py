@@ -1,6 +1,6 @@
 """Time integration: the coefficients of two schemes behind one contract.
 
-What a scheme promises, and `bladerub.contact.kernel.loop.Rub.revolve` carries out:
+What a scheme promises, and `bladerub.contact.kernel.loop.Simulation.advance` carries out:
 
 1. Eq. (1) is solved in the modal coordinates q of the reduced blade at one speed, at a constant step h. Each
    resolved mode follows a two-step recurrence, ``q⁺ = now q − before q⁻``, plus ``gain tip · F`` from the

@@ -21,8 +21,7 @@ from bladerub.contact.energy import (
     TORQUE,
     WEAR,
 )
-from bladerub.contact.friction import rotation_distance
-from bladerub.contact.gap import closest_position, normal, normal_approach
+from bladerub.contact.gap import closest_position, normal, normal_approach, rotation_distance
 from bladerub.contact.kernel import elements, rigid
 from bladerub.numerics.vectors import (
     LANES,

@@ -11,10 +11,11 @@ import math
 import numpy as np
 from numba import njit
 
-from bladerub.contact import friction, law
+from bladerub.contact import law
 from bladerub.contact.friction import contact_force
 from bladerub.contact.gap import closest_position, is_within_limit, normal, normal_approach, penetration
 from bladerub.contact.kernel import rigid
+from bladerub.contact.kernel.coulomb import mobilise
 from bladerub.contact.kernel.elements import wrap
 from bladerub.contact.tip import coverage, relief
 from bladerub.numerics.vectors import LANES, address_of, load, read, read_fields, store, write
@@ -55,7 +56,7 @@ def gauss_seidel(modal, stator, tip, state, passed, u, tolerance):
         if stator.coulomb:
             towards = normal_approach(tip, load(u, 0), load(u, LANES))
             normal_radial, normal_tangential = normal(tip, load(u, 0), load(u, LANES), towards)
-            friction.mobilise(modal, stator, tip, state, normal_radial, normal_tangential, towards)
+            mobilise(modal, stator, tip, state, normal_radial, normal_tangential, towards)
         for j in range(LANES):
             own, guess = _self_compliance(modal, stator, state, j), read(normal_force, j)
             store(approaches, 0, normal_approach(tip, load(u, 0), load(u, LANES)))
@@ -75,7 +76,7 @@ def gauss_seidel(modal, stator, tip, state, passed, u, tolerance):
             normal_radial, normal_tangential = normal(tip, load(u, 0), load(u, LANES), towards)
             factor = load(state.tangential_factor, 0)
             radial, tangential = contact_force(
-                stator, factor, normal_radial, normal_tangential, load(normal_force, 0)
+                stator.normal_factor, factor, normal_radial, normal_tangential, load(normal_force, 0)
             )
             store(turned, 0, radial)
             store(turned, LANES, tangential)

@@ -13,11 +13,11 @@ from typing import NamedTuple
 import numpy as np
 from numba import njit
 
-from bladerub.contact import friction
 from bladerub.contact.energy import DAMPING, STORED
 from bladerub.contact.gap import normal_approach
 from bladerub.contact.kernel import free_flight
 from bladerub.contact.kernel.accounting import add_work, update_coating
+from bladerub.contact.kernel.coulomb import predict_sliding
 from bladerub.contact.kernel.free_flight import FreeFlight
 from bladerub.contact.kernel.modal import Modal, advance_forced, advance_free, correct
 from bladerub.contact.kernel.newton import find_forces
@@ -197,7 +197,7 @@ def _contact(modal, stator, tip, state, step, rows, clear_of_casing):
     else:
         if stator.coulomb:
             angle = step.per_step * (2.0 * np.pi / stator.n_elements)
-            friction.predict_sliding(modal, state, rows.q_next, rows.q, angle)
+            predict_sliding(modal, state, rows.q_next, rows.q, angle)
             within = find_forces(modal, stator, tip, step.passed, state, rows.u_next, True)
         else:
             within = find_forces(modal, stator, tip, step.passed, state, rows.u_next, False)

@@ -14,11 +14,11 @@ from typing import NamedTuple
 import numpy as np
 from numba import njit
 
-from bladerub.contact import friction
 from bladerub.contact.energy import FALLBACK, UNCONVERGED
 from bladerub.contact.friction import contact_force
 from bladerub.contact.gap import closest_position, is_within_limit, normal, normal_approach
 from bladerub.contact.kernel import elements
+from bladerub.contact.kernel.coulomb import mobilise
 from bladerub.contact.kernel.gauss_seidel import gauss_seidel
 from bladerub.contact.kernel.modal import displaced
 from bladerub.numerics.vectors import (
@@ -136,12 +136,12 @@ def _displace(modal, stator, tip, state, here, linear, approach, free_radial, fr
     normal_force = linear.force + linear.stiffness * (approach - linear.approach)
     store(state.normal_force, 0, normal_force)
     if coulomb:
-        friction.mobilise(modal, stator, tip, state, here.normal_radial, here.normal_tangential, approach)
+        mobilise(modal, stator, tip, state, here.normal_radial, here.normal_tangential, approach)
         factor = load(state.tangential_factor, 0)
     else:
         factor = broadcast(stator.tangential_factor)
     by_radial, by_tangential = contact_force(
-        stator, factor, here.normal_radial, here.normal_tangential, normal_force
+        stator.normal_factor, factor, here.normal_radial, here.normal_tangential, normal_force
     )
     store(state.force, 0, by_radial)
     store(state.force, LANES, by_tangential)

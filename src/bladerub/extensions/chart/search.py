@@ -18,9 +18,9 @@ from typing import Any
 import numpy as np
 
 from bladerub.blade.model import ReducedBlade
+from bladerub.contact.result import RunResult
 from bladerub.contact.run import simulate
 from bladerub.contact.setup import element_area
-from bladerub.contact.result import RunResult
 from bladerub.contact.spec import RunSpec
 from bladerub.extensions.chart.grid import ORDERS, ChartSpeeds
 from bladerub.extensions.chart.point import MEASURES, ChartPoint

@@ -1,0 +1,53 @@
+"""Coulomb's law of friction in the time loop (`bladerub.contact.friction`), a lane a node."""
+
+from __future__ import annotations
+
+from numba import njit
+
+from bladerub.contact.friction import mobilisation
+from bladerub.contact.gap import rotation_distance
+from bladerub.contact.kernel.modal import add_tip_displacement, displaced, tip_displacement
+from bladerub.numerics.vectors import LANES, address_of, broadcast, load, no_sums, store
+
+
+@njit(forceinline=True)
+def predict_sliding(modal, state, q, q_before, angle):
+    """Find how far the tip would slide over the casing in this step without contact forces.
+
+    A force of the paper's scheme acts on the step that led to `q`; one of the exponential scheme on the
+    steps before and after, of which the mean is meant.
+
+    Parameters
+    ----------
+    q, q_before : address
+        Modal coordinates of this step, without its forces, and of the one before.
+    angle : float
+        By which the blade rotates in a step, rad.
+    """
+    sums = no_sums()
+    for k in range(0, modal.n, LANES):
+        now, before = load(q, k), load(q_before, k)
+        if modal.corrects:
+            increment = now - before
+        else:
+            increment = 0.5 * (load(modal.now, k) * now - load(modal.before, k) * before - before)
+        sums = add_tip_displacement(modal, k, increment, sums)
+    radial, tangential = tip_displacement(sums)
+    store(state.free_sliding, 0, radial)
+    store(state.free_sliding, LANES, tangential)
+    store(state.free_sliding, 2 * LANES, broadcast(angle))
+
+
+@njit
+def mobilise(modal, stator, tip, state, normal_radial, normal_tangential, approach):
+    """Find the tangential factor of each node by Coulomb's law, under the forces in `state.normal_force`."""
+    normal_force, frictionless = load(state.normal_force, 0), address_of(state.scratch, 4 * 2 * LANES)
+    store(frictionless, 0, stator.normal_factor * normal_radial * normal_force)
+    store(frictionless, LANES, stator.normal_factor * normal_tangential * normal_force)
+    radial, tangential = displaced(
+        modal.mobility, frictionless, load(state.free_sliding, 0), load(state.free_sliding, LANES)
+    )
+    rotation = rotation_distance(tip, load(state.free_sliding, 2 * LANES), approach)
+    sliding = rotation + normal_radial * tangential - normal_tangential * radial
+    stopping = (0.0 - stator.tangential_factor) * normal_force * load(modal.stopping, 0)
+    store(state.tangential_factor, 0, stator.tangential_factor * mobilisation(sliding, stopping))
