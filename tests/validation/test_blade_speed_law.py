@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from bladerub.blade.reduction import fit_speeds, speed_law, stiffness_at
+from bladerub.blade.model import stiffness_at
+from bladerub.blade.reduction import fit_speeds, speed_law
 
 F_MAX = 0.4
 

@@ -28,22 +28,11 @@ def errors_by_mode(table: pd.DataFrame) -> pd.DataFrame:
 def accuracy_table(
     blade: ReducedBlade, finite_element: Mapping[float, np.ndarray], speed_law: Mapping[float, np.ndarray]
 ) -> pd.DataFrame:
-    """Table of `ACCURACY_COLUMNS`: one row for each speed and mode, frequencies in Hz.
+    """Table of `ACCURACY_COLUMNS`: one row for each speed and mode (from 1), frequencies in Hz.
 
-    Parameters
-    ----------
-    blade : ReducedBlade
-        Gives ``f_rom``: eq. (2) and the reduction together.
-    finite_element : mapping of float to ndarray
-        At each normalised speed the frequencies about the true equilibrium, ``f_fe``.
-    speed_law : mapping of float to ndarray
-        The same with the stiffness of eq. (2), unreduced, ``f_fe_eq2``: tells the error of the
-        interpolation over the speed from that of the reduction.
-
-    Returns
-    -------
-    DataFrame
-        ``relative_error`` is ``f_rom / f_fe - 1``; modes count from 1.
+    ``f_fe`` are those about the true equilibrium at each normalised speed (`finite_element`), ``f_fe_eq2``
+    those of the unreduced model with the stiffness of eq. (2) (`speed_law`), ``f_rom`` those of the reduced
+    `blade`: eq. (2) and the reduction together. ``relative_error`` is ``f_rom / f_fe - 1``.
     """
     rows = []
     for f_omega, frequencies in finite_element.items():

@@ -6,29 +6,14 @@ import numpy as np
 
 
 class FreeCoordinates:
-    """The coordinates of nodes that are not clamped; full vectors have them at ``3 * node + axis``.
-
-    Parameters
-    ----------
-    n_nodes : int
-        Of all nodes, those clamped among them.
-    clamped : array_like of int
-        Nodes that cannot move.
-
-    Attributes
-    ----------
-    free : (n,) ndarray of int
-        Position of each free coordinate in the full vector.
-    axis : (n,) ndarray of int
-        0, 1, 2 for x, y, z.
-    """
+    """The coordinates of `n_nodes` nodes that are not `clamped`; full vectors have all, node by node."""
 
     def __init__(self, n_nodes: int, clamped=()):
         self.n_nodes = n_nodes
         is_free = np.ones((n_nodes, 3), dtype=bool)
         is_free[np.asarray(clamped, dtype=int)] = False
-        self.free = np.flatnonzero(is_free)
-        self.axis = self.free % 3
+        self.free = np.flatnonzero(is_free)  # (n,), place of each free coordinate in the full vector
+        self.axis = self.free % 3  # (n,), 0, 1, 2 for x, y, z
 
     def full(self, u: np.ndarray) -> np.ndarray:
         """Displacement (n_nodes, 3) of all nodes for the free coordinates `u`, m."""

@@ -22,44 +22,22 @@ log = logging.getLogger(__name__)
 
 @dataclass(frozen=True)
 class DiscreteBlade:
-    """Small motions of a blade about its equilibrium at several speeds, by whatever program.
+    """Small motions of a blade about its equilibrium at several normalised speeds.
 
-    Parameters
-    ----------
-    layout : MeshedBlade
-        Its nodes, and which of them are root, tip and interface.
-    free : FreeCoordinates
-        Which of the nodes' coordinates the matrices are of.
-    mass : (n, n) sparse array
-        kg.
-    stiffness : mapping of float to (n, n) sparse array
-        About the equilibrium at each normalised speed, those of `bladerub.blade.reduction.fit_speeds` among
-        them, N/m. No others but those that are asked for: they fill the memory.
-    displacement : mapping of float to (n,) ndarray
-        From rest to that equilibrium, m; without the speeds where it is not known.
-    frequencies : mapping of float to (n_modes,) ndarray
-        At the normalised speeds at which the reduced blade is compared with this one, ascending; Hz.
-    frequency : (n_modes,) ndarray
-        At rest, Hz; the first is the unit of normalised speeds.
-    modes : (n, n_modes) ndarray
-        The columns that go with it.
-    at_rest : callable, optional
-        The factored stiffness at rest of a large blade, which preconditions the solutions at speed
-        (`bladerub.blade.preconditioned_cg`). With it, `stiffness` has the same pattern at each speed.
-    modes_at_speed : mapping of float to (n, n_modes) ndarray
-        With it, the modes that go with `frequencies`.
+    `at_rest` is there for a large blade only: the factored stiffness at rest preconditions the solutions at
+    speed (`bladerub.blade.preconditioned_cg`), where `stiffness` then has the same pattern.
     """
 
     layout: MeshedBlade
-    free: FreeCoordinates
-    mass: sparse.csc_array = field(repr=False)
-    stiffness: Mapping[float, sparse.csc_array] = field(repr=False)
-    displacement: Mapping[float, np.ndarray] = field(repr=False)
-    frequencies: Mapping[float, np.ndarray]
-    frequency: np.ndarray
-    modes: np.ndarray = field(repr=False)
+    free: FreeCoordinates  # the nodes' coordinates that the matrices are of
+    mass: sparse.csc_array = field(repr=False)  # (n, n), kg
+    stiffness: Mapping[float, sparse.csc_array] = field(repr=False)  # (n, n), N/m; few, as they are large
+    displacement: Mapping[float, np.ndarray] = field(repr=False)  # (n,), from rest, m, where known
+    frequencies: Mapping[float, np.ndarray]  # (n_modes,), Hz, ascending speeds, for the accuracy table
+    frequency: np.ndarray  # (n_modes,), at rest, Hz; the first is the unit of normalised speeds
+    modes: np.ndarray = field(repr=False)  # (n, n_modes), at rest
     at_rest: Solve | None = field(repr=False, default=None)
-    modes_at_speed: Mapping[float, np.ndarray] = field(repr=False, default_factory=dict)
+    modes_at_speed: Mapping[float, np.ndarray] = field(repr=False, default_factory=dict)  # of `frequencies`
 
 
 @threadpool_limits.wrap(limits=1)
@@ -72,8 +50,8 @@ def by_finite_elements(
 ) -> DiscreteBlade:
     """Discretise `blade`, clamped at its root, by the finite elements of its mesh.
 
-    It runs in one thread: sums over several come out different in the last digit with their number, and
-    another blade makes all its runs stale.
+    It runs in one thread: the last digit of sums depends on the number of threads, and another blade makes
+    all its runs stale.
 
     Parameters
     ----------
@@ -81,12 +59,10 @@ def by_finite_elements(
         With elements.
     material : Material
         What it is made of.
-    speeds : sequence of float
-        Where its stiffness is wanted, normalised, those of the fit among them.
-    table_speeds : sequence of float
-        Where its frequencies are, normalised, ascending.
+    speeds, table_speeds : sequence of float
+        Normalised speeds at which to keep the stiffness, and to find the frequencies (ascending).
     n_modes : int
-        How many modes.
+        Number of modes.
 
     Raises
     ------
@@ -123,8 +99,8 @@ def by_finite_elements(
                 frequencies[f_omega] = lowest_modes(state.stiffness, solid.mass, n_modes)[0]
             else:
                 nearest = shapes[max(shapes)]
-                nearby = PreconditionedCG(state.stiffness, at_rest)
-                frequencies[f_omega], shapes[f_omega] = nearby.lowest_modes(solid.mass, nearest)
+                solver = PreconditionedCG(state.stiffness, at_rest)
+                frequencies[f_omega], shapes[f_omega] = solver.lowest_modes(solid.mass, nearest)
             log.info("f_omega = %.4f: first frequency %.4f Hz", f_omega, frequencies[f_omega][0])
     return DiscreteBlade(
         blade,

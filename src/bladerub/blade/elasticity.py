@@ -27,7 +27,7 @@ from bladerub.blade.coordinates import FreeCoordinates
 from bladerub.blade.mesh import SolidMesh
 
 _CHUNK = 512  # elements integrated at once: bounds the memory on fine meshes
-_THREADS = 2  # that integrate; a chunk is one's own, so their number changes no bit
+_THREADS = 2  # each integrates chunks of its own, so their number changes no bit
 
 
 @dataclass(frozen=True)
@@ -58,21 +58,8 @@ def _product(u, v, _):
 class Solid(FreeCoordinates):
     """Finite element model of an elastic body; vectors and matrices hold its free coordinates only.
 
-    Parameters
-    ----------
-    mesh : MeshHexS2 or MeshTetP2
-        The body at rest.
-    material : Material
-        What it is made of.
-    clamped : array_like of int
-        Nodes that cannot move.
-
-    Attributes
-    ----------
-    mass : (n, n) sparse array
-        Consistent mass matrix, kg.
-    first_moment : (n,) ndarray
-        ∫ ρ X · v for every v, with X the position at rest, kg m.
+    ``mass`` (n, n) is the consistent mass matrix, kg; ``first_moment`` (n,) is ∫ ρ X · v for every v, with X
+    the position at rest, kg m.
     """
 
     def __init__(self, mesh: SolidMesh, material: Material, clamped=()):
@@ -111,7 +98,7 @@ class Solid(FreeCoordinates):
             )
 
         with ThreadPoolExecutor(_THREADS) as pool:
-            deque(pool.map(integrate, range(0, len(elements), _CHUNK)), maxlen=0)  # for their errors
+            deque(pool.map(integrate, range(0, len(elements), _CHUNK)), maxlen=0)  # raises their errors
         return self._pattern.assemble(elements)
 
     @cached_property

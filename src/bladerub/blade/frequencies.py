@@ -12,4 +12,9 @@ def reduced_frequencies(blade: ReducedBlade, f_omega: float, n_modes: int | None
     """Lowest `n_modes` frequencies (all if not given) of the reduced model at `f_omega`, Hz."""
     last = len(blade.mass) if n_modes is None else n_modes
     squares = eigh(blade.stiffness(f_omega), blade.mass, eigvals_only=True, subset_by_index=[0, last - 1])
+    return in_hertz(squares)
+
+
+def in_hertz(squares: np.ndarray) -> np.ndarray:
+    """Frequencies (Hz) of the eigenvalues `squares` (rad²/s²), those of unstable modes negative."""
     return np.sign(squares) * np.sqrt(np.abs(squares)) / (2 * np.pi)

@@ -37,24 +37,14 @@ _COLUMNS = ("chord", "thickness", "camber", "stagger", "sweep", "lean")
 class BladeShape:
     """A blade as a map from the unit cube: chordwise ξ, through the thickness η, spanwise ζ.
 
-    Parameters
-    ----------
-    hub_radius, length : float
-        Radius of the clamped root and height of the blade on the stacking line, m.
-    tip_cone : float
-        Half angle of the flow path at the tip, rad; positive where it widens downstream.
-    span : (n,) ndarray
-        Relative height of the sections, ascending from 0 to 1.
-    sections : (n, 6) ndarray
-        chord (m), thickness / chord, camber and stagger (rad), sweep and lean (m) of each section; a cubic
-        spline between them (a parabola through three, a straight line through two).
+    Between the sections lies a cubic spline (a parabola through three, a straight line through two).
     """
 
-    hub_radius: float
-    length: float
-    tip_cone: float
-    span: np.ndarray
-    sections: np.ndarray
+    hub_radius: float  # of the clamped root, m
+    length: float  # height of the blade on the stacking line, m
+    tip_cone: float  # half angle of the flow path at the tip, rad; positive where it widens downstream
+    span: np.ndarray  # (n,), relative height of the sections, ascending from 0 to 1
+    sections: np.ndarray  # (n, 6): chord (m), thickness / chord, camber, stagger (rad), sweep, lean (m)
 
     @classmethod
     def from_config(cls, blade: Mapping[str, Any]) -> BladeShape:
@@ -80,10 +70,10 @@ class BladeShape:
         """
         xi, eta, zeta = np.broadcast_arrays(xi, eta, zeta)
         chord, thickness, camber, stagger, sweep, lean = self.section(zeta)
-        rise = chord * np.tan(camber / 2) / 4  # of the parabola with end slopes ±tan(camber / 2)
+        height = chord * np.tan(camber / 2) / 4  # of the parabola with end slopes ±tan(camber / 2)
         along = chord * (xi - 0.5)
-        across = rise * (2 / 3 - 4 * xi * (1 - xi))  # its centroid on the chord line
-        slope = -4 * rise * (1 - 2 * xi) / chord
+        across = height * (2 / 3 - 4 * xi * (1 - xi))  # its centroid on the chord line
+        slope = -4 * height * (1 - 2 * xi) / chord
         offset = (eta - 0.5) * chord * thickness * (1 - (1 - EDGE_THICKNESS) * (2 * xi - 1) ** 2)
         along = along - offset * slope / np.hypot(1, slope)
         across = across + offset / np.hypot(1, slope)
@@ -100,7 +90,7 @@ def lattice(mesh: Mapping[str, int]) -> tuple[np.ndarray, np.ndarray, np.ndarray
 
 
 def check(blade: Mapping[str, Any]) -> None:
-    """See that the ``blade`` block of the config describes a blade that can be meshed.
+    """Check that the ``blade`` block of the config describes a blade that can be meshed.
 
     Raises
     ------
@@ -138,13 +128,7 @@ def check(blade: Mapping[str, Any]) -> None:
 
 
 def check_interface(mesh: Mapping[str, int]) -> None:
-    """See that the camber line of the tip has nodes enough for the interface.
-
-    Raises
-    ------
-    ValueError
-        If not; the message says what would be right.
-    """
+    """Check that the tip's camber line has enough nodes for the interface, or raise ValueError."""
     # Through an odd number of elements the line meets nodes only where it crosses their corner edges.
     n_nodes = mesh["chordwise"] * (2 if mesh["thickness"] % 2 == 0 else 1) + 1
     if n_nodes < N_INTERFACE:
@@ -157,15 +141,7 @@ def check_interface(mesh: Mapping[str, int]) -> None:
 def corner_jacobians(points: np.ndarray) -> np.ndarray:
     """Jacobian determinant (m³) at the 8 corners of each straight-edged element of a lattice of points.
 
-    Parameters
-    ----------
-    points : (3, nx, ny, nz) ndarray
-        The corners.
-
-    Returns
-    -------
-    (8, nx - 1, ny - 1, nz - 1) ndarray
-        Positive for a right-handed element.
+    From the corners (3, nx, ny, nz) to (8, nx - 1, ny - 1, nz - 1); positive for a right-handed element.
     """
     edges = [np.diff(points, axis=axis) for axis in (1, 2, 3)]
     corners = []

@@ -11,6 +11,8 @@ import rslab
 from scipy import sparse
 from scipy.sparse.linalg import LinearOperator, eigsh, splu
 
+from bladerub.blade.frequencies import in_hertz
+
 Solve = Callable[[np.ndarray], np.ndarray]
 
 MOST_BY_DEGREE = 30_000
@@ -18,7 +20,7 @@ MOST_BY_DEGREE = 30_000
 MOST_UNKNOWNS = 400_000
 """Beyond which the factors of the matrices of a blade fill the memory."""
 THREADS = 2
-"""With which RSLAB works; its own choice may be more than there are cores, and they wait for each other."""
+"""Threads of RSLAB; its own choice may be more than there are cores."""
 
 
 def factorise(matrix: sparse.csc_array) -> Solve:
@@ -60,7 +62,7 @@ def _ldlt(matrix: sparse.csc_array) -> Solve:
 
 
 class _Pardiso:
-    """Factors kept by PARDISO, whose memory outlives Python's objects unless it is told."""
+    """Factors kept by PARDISO, whose memory must be freed explicitly."""
 
     def __init__(self, matrix: sparse.csc_array):
         from pypardiso import PyPardisoSolver
@@ -81,33 +83,13 @@ class _Pardiso:
 def lowest_modes(
     stiffness: sparse.csc_array, mass: sparse.csc_array, n_modes: int, solve: Solve | None = None
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Lowest modes of a clamped body.
+    """Lowest frequencies (n_modes,), Hz, ascending, and their modes (n, n_modes), orthonormal in the mass.
 
-    Parameters
-    ----------
-    stiffness, mass : (n, n) sparse array
-        Both symmetric, the mass positive definite, the stiffness regular.
-    n_modes : int
-        How many.
-    solve : callable, optional
-        The factored stiffness, where it is there already.
-
-    Returns
-    -------
-    frequencies : (n_modes,) ndarray
-        Hz, ascending; negative for an unstable mode (``-sqrt(-ω²) / 2π``).
-    modes : (n, n_modes) ndarray
-        Columns orthonormal in the mass.
+    The mass is positive definite, the stiffness regular; `solve` is by the stiffness, factored here if not
+    given. The frequency of an unstable mode is negative, ``-sqrt(-ω²) / 2π``.
     """
     inverse = LinearOperator(stiffness.shape, matvec=solve or factorise(stiffness), dtype=float)
-    start = np.random.default_rng(0).standard_normal(
-        stiffness.shape[0]
-    )  # the same every time, unlike ARPACK's
+    start = np.random.default_rng(0).standard_normal(stiffness.shape[0])  # reproducible, unlike ARPACK's
     squares, modes = eigsh(stiffness, n_modes, M=mass, sigma=0.0, OPinv=inverse, v0=start)
     order = np.argsort(squares)
     return in_hertz(squares[order]), modes[:, order]
-
-
-def in_hertz(squares: np.ndarray) -> np.ndarray:
-    """Frequencies of the eigenvalues `squares` (rad²/s²), those of unstable modes negative."""
-    return np.sign(squares) * np.sqrt(np.abs(squares)) / (2 * np.pi)

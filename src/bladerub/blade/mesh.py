@@ -20,14 +20,9 @@ class _Solid:
     """What the meshes of both kinds of element have in common; corners first in ``doflocs``, then edges.
 
     ``quadrature`` gives the integration points of the stiffness, ``mass_quadrature`` of mass and volume.
-
-    Attributes
-    ----------
-    order : ndarray of int
-        Place in scikit-fem's element of each node as CalculiX (C3D20, C3D10) and VTK count them.
     """
 
-    order: ClassVar[np.ndarray]
+    order: ClassVar[np.ndarray]  # in scikit-fem's element, of the nodes of C3D20 or C3D10 (CalculiX, VTK)
 
     @property
     def points(self) -> np.ndarray:
@@ -115,15 +110,9 @@ SolidMesh = MeshHexS2 | MeshTetP2
 
 @dataclass(frozen=True)
 class NodeCloud:
-    """The nodes of a body whose elements are not known: what else wants a mesh finds none in it.
+    """The nodes of a body whose elements are not known: a mesh without elements."""
 
-    Parameters
-    ----------
-    points : (n_nodes, 3) ndarray
-        Nodes, m.
-    """
-
-    points: np.ndarray = field(repr=False)
+    points: np.ndarray = field(repr=False)  # (n_nodes, 3), m
 
     @property
     def cells(self) -> np.ndarray:
@@ -137,21 +126,10 @@ _ALONG_THE_CUBE = [7, 4, 6, 5, 2, 1, 3, 0]  # scikit-fem numbers its tensor mesh
 def hexahedral_mesh(
     xi: np.ndarray, eta: np.ndarray, zeta: np.ndarray, points
 ) -> tuple[MeshHexS2, np.ndarray]:
-    """Map a lattice of the unit cube to space.
+    """Map a lattice of the unit cube to space by ``points(xi, eta, zeta) -> (3, n)``, m.
 
-    Parameters
-    ----------
-    xi, eta, zeta : ndarray
-        Ascending coordinates of the element corners; elements are numbered bottom to top along ζ.
-    points : callable
-        ``points(xi, eta, zeta) -> (3, n)``: place in space, m.
-
-    Returns
-    -------
-    mesh : MeshHexS2
-        The mesh, every node on `points`.
-    parameters : (3, n_nodes) ndarray
-        ξ, η, ζ of every node.
+    `xi`, `eta`, `zeta` are the ascending coordinates of the element corners; elements are numbered bottom to
+    top along ζ. Also returns ξ, η, ζ (3, n_nodes) of every node.
     """
     cube = MeshHex1.init_tensor(xi, eta, zeta)
     cube = MeshHex1(cube.doflocs, cube.t[_ALONG_THE_CUBE])
@@ -162,19 +140,8 @@ def hexahedral_mesh(
 def solid_mesh(points: np.ndarray, cells: np.ndarray) -> tuple[SolidMesh, np.ndarray]:
     """Make a mesh of quadratic elements, its nodes numbered as scikit-fem does.
 
-    Parameters
-    ----------
-    points : (n_points, 3) ndarray
-        Nodes, m.
-    cells : (n_elements, 20 or 10) ndarray of int
-        Nodes of each element, in the order of CalculiX and of VTK.
-
-    Returns
-    -------
-    mesh : MeshHexS2 or MeshTetP2
-        The same elements.
-    origin : (n_nodes,) ndarray of int
-        Where in `points` each node of the mesh is; what no element uses is left out.
+    `points` (n_points, 3) are in m; `cells` (n_elements, 20 or 10) are in the order of CalculiX and VTK. Also
+    returns the row of `points` (n_nodes,) of each node of the mesh; rows that no element uses are left out.
 
     Raises
     ------
@@ -208,31 +175,18 @@ class Shape(Protocol):
 
 @dataclass(frozen=True)
 class BladeMesh:
-    """The blade's mesh and the node sets on it.
+    """The blade's mesh and the node sets on it."""
 
-    Parameters
-    ----------
-    mesh : MeshHexS2, MeshTetP2 or NodeCloud
-        The elements, or their nodes alone where another program has made matrices of them.
-    root, tip : ndarray of int
-        Nodes of the clamped root and of the tip face.
-    interface : (8,) ndarray of int
-        Nodes of the tip's camber line that may touch the casing, leading to trailing edge.
-    """
-
-    mesh: SolidMesh | NodeCloud
-    root: np.ndarray = field(repr=False)
-    tip: np.ndarray = field(repr=False)
-    interface: np.ndarray
+    mesh: SolidMesh | NodeCloud  # nodes alone where another program has made matrices of the elements
+    root: np.ndarray = field(repr=False)  # nodes that are clamped
+    tip: np.ndarray = field(repr=False)  # nodes of the tip face
+    interface: np.ndarray  # (8,) nodes of the tip's camber line that may touch, leading to trailing edge
 
     @classmethod
     def from_shape(cls, shape: Shape, mesh: Mapping[str, int]) -> BladeMesh:
         """Mesh `shape` with the element counts of the config's ``blade.mesh``.
 
-        Raises
-        ------
-        ValueError
-            If the tip's camber line has fewer than 8 nodes.
+        Raises ValueError if the tip's camber line has fewer than 8 nodes.
         """
         check_interface(mesh)
         hexahedra, (xi, eta, zeta) = hexahedral_mesh(*lattice(mesh), shape.points)
@@ -245,21 +199,11 @@ class BladeMesh:
 
 @dataclass(frozen=True)
 class MeshedBlade:
-    """A blade ready to be reduced, wherever its mesh comes from.
+    """A meshed blade, parametric or imported, ready to be reduced."""
 
-    Parameters
-    ----------
-    mesh : BladeMesh
-        In the frame of `bladerub.blade.geometry`.
-    tip_cone : float
-        Half angle of the flow path at the tip, rad; positive where it widens with x.
-    length : float
-        From root to tip, m.
-    """
-
-    mesh: BladeMesh
-    tip_cone: float
-    length: float
+    mesh: BladeMesh  # in the frame of `bladerub.blade.geometry`
+    tip_cone: float  # half angle of the flow path at the tip, rad; positive where it widens with x
+    length: float  # from root to tip, m
 
     @property
     def tip_radius(self) -> float:

@@ -1,9 +1,9 @@
-"""The reduced blade: all that the rub needs to know of the finite element model."""
+"""The reduced blade: all that the contact simulation needs to know of the finite element model."""
 
 from __future__ import annotations
 
 import itertools
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -23,7 +23,7 @@ AXIS = Variable(("axis",), np.array(["x", "y", "z"]), "1", "x along the axis of 
 
 @dataclass(frozen=True)
 class ReducedBlade:
-    """Craig-Bampton model of a rotating blade with centrifugal stiffening, eqs. (2)-(6).
+    """Craig-Bampton model of a rotating blade with centrifugal stiffening, eqs. (2) to (6).
 
     Parameters
     ----------
@@ -76,16 +76,21 @@ class ReducedBlade:
         """
         if not 0 <= f_omega <= self.f_omega_max:
             raise ValueError(f"f_omega = {f_omega:g} is outside the fitted range [0, {self.f_omega_max:g}]")
-        total = self.stiffness_0 + f_omega**2 * self.stiffness_1 + f_omega**4 * self.stiffness_2  # eq. (2)
-        for power, coefficient in enumerate(self.stiffness_higher, 3):
-            total += f_omega ** (2 * power) * coefficient
-        return total
+        coefficients = (self.stiffness_0, self.stiffness_1, self.stiffness_2, *self.stiffness_higher)
+        return stiffness_at(coefficients, f_omega)
 
     @property
     def arrays(self) -> dict[str, np.ndarray]:
         """Matrices and vectors by name; `stiffness_higher` are ``stiffness_3``, ``stiffness_4`` ..."""
         higher = {f"stiffness_{power}": matrix for power, matrix in enumerate(self.stiffness_higher, 3)}
         return {name: getattr(self, name) for name in _UNITS} | higher
+
+
+def stiffness_at(coefficients: Sequence, f_omega: float):
+    """K(f_Ω) of eq. (2) from K⁰, K¹, K² and, where the fit has more speeds, those of the next even powers."""
+    k0, k1, k2, *higher = coefficients
+    total = k0 + f_omega**2 * k1 + f_omega**4 * k2  # eq. (2)
+    return sum((f_omega ** (2 * power) * term for power, term in enumerate(higher, 3)), start=total)
 
 
 _UNITS = {
@@ -104,25 +109,19 @@ def write_reduced_blade(path: str | Path, blade: ReducedBlade, origin: Mapping[s
     """Write `blade` to the HDF5 file `path`, whole or not at all; `origin` is its provenance."""
     variables = {"node": INTERFACE_NODE, "axis": AXIS}
     for name, data in blade.arrays.items():
-        units, long_name = _UNITS.get(name) or _higher(name)
+        power = name.removeprefix("stiffness_")
+        higher = (
+            ("N/m", f"coefficient of f_omega^{2 * int(power)} in the stiffness") if power.isdigit() else ()
+        )
+        units, long_name = _UNITS.get(name, higher)
         is_matrix = data.shape == blade.mass.shape
         dims = ("coordinate", "coordinate_column") if is_matrix else ("node", "axis")
         variables[name] = Variable(dims, data, units, long_name)
     hdf5.write(path, variables, {name: getattr(blade, name) for name in _ATTRIBUTES}, origin)
 
 
-def _higher(name: str) -> tuple[str, str]:
-    return "N/m", f"coefficient of f_omega^{2 * int(name.removeprefix('stiffness_'))} in the stiffness"
-
-
 def read_reduced_blade(path: str | Path) -> ReducedBlade:
-    """Read a blade written by `write_reduced_blade`.
-
-    Raises
-    ------
-    OSError
-        If the file is missing, unreadable or not a reduced blade; the message names it.
-    """
+    """Read a blade written by `write_reduced_blade`, or raise an OSError that names the file."""
     data, attributes = hdf5.read(path)
     names = (f"stiffness_{power}" for power in itertools.count(3))
     higher = itertools.takewhile(data.__contains__, names)

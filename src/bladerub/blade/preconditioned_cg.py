@@ -1,4 +1,4 @@
-"""Solve with a large matrix by the factors of one that is near, such as that of the blade at rest."""
+"""Preconditioned conjugate gradients for a large blade at speed, by the factors of its stiffness at rest."""
 
 from __future__ import annotations
 
@@ -9,35 +9,26 @@ from scipy import sparse
 from scipy.linalg import solve_triangular
 
 from bladerub.blade import linear
+from bladerub.blade.frequencies import in_hertz
 from bladerub.blade.linear import Solve
 
 MOST_ITERATIONS = 40
-"""Iterations after which the matrix is not near, and gets factors of its own."""
+"""Iterations after which the preconditioner is too far, and the matrix gets factors of its own."""
 CLOSE = 1e-12
-"""Relative error of the squared frequencies at which one correction more ends the search for the modes."""
+"""Relative error of the squared frequencies after which one more correction ends the search for the modes."""
 
 
 @dataclass
 class PreconditionedCG:
-    """Solves with a matrix by conjugate gradients; with its own factors once these do not converge.
+    """Solves with a matrix by conjugate gradients, or by its own factors once these do not converge."""
 
-    Parameters
-    ----------
-    matrix : (n, n) sparse array
-        Symmetric.
-    factors : callable
-        Solves with a positive definite matrix that is near.
-    tolerance : float, optional
-        Error accepted of a solution, relative, in the norm of that matrix.
-    """
-
-    matrix: sparse.csc_array
-    factors: Solve
-    tolerance: float = 1e-12
+    matrix: sparse.csc_array  # symmetric
+    factors: Solve  # by a positive definite matrix close to it: the preconditioner
+    tolerance: float = 1e-12  # relative error of a solution, in the norm of that matrix
     _own: Solve | None = field(init=False, default=None)
 
     def __post_init__(self):
-        from bladerub.blade.sparse_products import Product  # compiles, which small blades need not wait for
+        from bladerub.blade.sparse_products import Product  # compiles, which takes seconds
 
         self._times = Product(self.matrix)
 
@@ -72,19 +63,13 @@ class PreconditionedCG:
         return None
 
     def lowest_modes(self, mass: sparse.csc_array, start: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Lowest modes by the method of Davidson, as `bladerub.blade.linear.lowest_modes` gives them.
+        """Lowest modes by Davidson's method, as `bladerub.blade.linear.lowest_modes` gives them.
 
-        The residuals of the modes, solved for by the factors, widen the space in which the modes are sought.
-        A residual times what it is solved to is the error of the squared frequency, to first order.
-
-        Parameters
-        ----------
-        mass : (n, n) sparse array
-            Positive definite.
-        start : (n, n_modes) ndarray
-            The modes of a matrix that is near.
+        The search starts from the modes of a close matrix, `start` (n, n_modes). The preconditioned residuals
+        of the modes widen the space in which they are sought. A residual times its preconditioned one is the
+        error of the squared frequency, to first order.
         """
-        n_modes, settled = start.shape[1], False
+        n_modes, converged = start.shape[1], False
         empty = np.empty((len(start), 0))
         basis, images, momenta, addition = empty, empty, empty, start
         for _ in range(MOST_ITERATIONS):
@@ -97,13 +82,13 @@ class PreconditionedCG:
             squares, shares = np.linalg.eigh(basis.T @ images)
             squares, shares = squares[:n_modes], shares[:, :n_modes]
             modes = basis @ shares
-            if settled:
-                return linear.in_hertz(squares), modes
+            if converged:
+                return in_hertz(squares), modes
             residual = images @ shares - (momenta @ shares) * squares
             addition = self.factors(residual)
             far = np.sum(residual * addition, axis=0) > CLOSE * np.abs(squares)
-            settled = not far.any()
-            if not settled:
+            converged = not far.any()
+            if not converged:
                 addition = addition[:, far]
         return linear.lowest_modes(self.matrix, mass, n_modes)
 
@@ -111,11 +96,11 @@ class PreconditionedCG:
 def _orthonormal(
     block: np.ndarray, basis: np.ndarray, momenta: np.ndarray, mass: sparse.csc_array
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Make what `block` (n, k) adds to `basis` (n, m) orthonormal in `mass`, as that is.
+    """Make what `block` (n, k) adds to the orthonormal `basis` (n, m) orthonormal in `mass`, too.
 
-    `momenta` are the mass times the basis; returned are the addition and the mass times it.
+    `momenta` are the mass times the basis. Returns the addition and the mass times it.
     """
-    for _ in range(2):  # once more, against the rounding of the first time
+    for _ in range(2):  # the second time against the rounding of the first
         block = block - basis @ (momenta.T @ block)
         block = block / np.linalg.norm(block, axis=0)
         momentum = mass @ block

@@ -18,10 +18,9 @@ def fit_speeds(f_max: float, count: int = 3) -> list[float]:
 
 
 def speed_law(fits: Sequence, f_max: float) -> tuple:
-    """Coefficients K⁰, K¹, K² ... of eq. (2) from the stiffness at each of `fit_speeds`.
+    """Coefficients K⁰, K¹, K² ... of eq. (2) from the stiffness, dense or sparse, at each of `fit_speeds`.
 
     With the three speeds of the paper this is eq. (3); with more, eq. (2) goes on with the next even powers.
-    Works on any matrices, dense or sparse, of one shape.
     """
     if len(fits) == 3:
         return _quartic_law(*fits, f_max)
@@ -42,24 +41,11 @@ def _quartic_law(at_rest, at_half, at_max, f_max: float) -> tuple:
     return k0, k1, k2
 
 
-def stiffness_at(coefficients, f_omega: float):
-    """K(f_Ω) of the `coefficients` of `speed_law`, eq. (2)."""
-    k0, k1, k2, *higher = coefficients
-    total = k0 + f_omega**2 * k1 + f_omega**4 * k2  # eq. (2)
-    return sum((f_omega ** (2 * power) * term for power, term in enumerate(higher, 3)), start=total)
-
-
 @dataclass(frozen=True)
 class Partition:
-    """Free coordinates split into those of the interface and the internal ones.
+    """Free coordinates split into those of the interface, u_f, and the internal ones, u_i, of eq. (6)."""
 
-    Parameters
-    ----------
-    interface, internal : ndarray of int
-        Places in the free vector; the interface node by node, x, y, z.
-    """
-
-    interface: np.ndarray
+    interface: np.ndarray  # places in the free vector, node by node, x, y, z
     internal: np.ndarray
 
     @classmethod
@@ -69,16 +55,16 @@ class Partition:
 
 
 def constraint_modes(stiffness: sparse.csc_array, partition: Partition, solve: Solve) -> np.ndarray:
-    """Φ_R (n_internal, n_interface): static response to unit interface displacements; `solve` is by K_ii."""
+    """Constraint modes Φ_R (n_internal, n_interface) of eq. (4); `solve` is by K_ii.
+
+    They are the static response to unit displacements of the interface.
+    """
     coupling = stiffness[partition.internal][:, partition.interface]
     return -solve(coupling.toarray())
 
 
 def internal_solve(solve: Solve, partition: Partition) -> Solve:
-    """Solve by K_ii with the factors of the whole K, `solve`.
-
-    What is solved for with the whole has interface displacements; forces on the interface take them back.
-    """
+    """Solve by K_ii with the factors of the full K, `solve`: forces on the interface keep it at rest."""
     n, n_interface = partition.interface.size + partition.internal.size, partition.interface.size
     unit_forces = np.zeros((n, n_interface))
     unit_forces[partition.interface, np.arange(n_interface)] = 1
@@ -104,28 +90,26 @@ def transformation(
 ) -> np.ndarray:
     """Φ of eq. (5), (n, n_reduced), from the stiffness at the fit speeds, rest first.
 
-    For a large blade `at_rest` is the factored stiffness at rest, which then stands in for other factors.
-
-    The internal columns of eq. (4) are scaled to unit norm in the mass, then made orthonormal in it by a
-    singular value decomposition that drops what lies below `rank_tolerance` times the largest singular value.
+    The columns of eq. (4) that belong to the internal coordinates are made orthonormal in the mass (see
+    `mass_orthonormal`). For a large blade `at_rest`, the factored stiffness at rest, is the preconditioner.
     """
     internal = partition.internal
     mass_ii = mass[internal][:, internal]
-    near = at_rest and internal_solve(at_rest, partition)
-    statics, fixed = [], []
+    preconditioner = at_rest and internal_solve(at_rest, partition)
+    constraint, fixed = [], []  # Φ_R and Φ_L of eq. (4)
     for stiffness in stiffnesses:
         stiffness_ii = sparse.csc_array(stiffness[internal][:, internal])
-        if near and fixed:
-            solve = PreconditionedCG(stiffness_ii, near)
+        if preconditioner and fixed:
+            solve = PreconditionedCG(stiffness_ii, preconditioner)
             modes = solve.lowest_modes(mass_ii, fixed[-1])[1]
         else:
-            solve = near or factorise(stiffness_ii)
+            solve = preconditioner or factorise(stiffness_ii)
             modes = lowest_modes(stiffness_ii, mass_ii, eta, solve)[1]
-        statics.append(constraint_modes(stiffness, partition, solve))
+        constraint.append(constraint_modes(stiffness, partition, solve))
         fixed.append(modes)
         del solve  # frees the memory before there are new factors
-    phi_r = statics[0]
-    columns = np.hstack([*(later - phi_r for later in statics[1:]), *fixed])  # eq. (4)
+    phi_r = constraint[0]
+    columns = np.hstack([*(later - phi_r for later in constraint[1:]), *fixed])  # eq. (4)
     psi = mass_orthonormal(columns, mass_ii, rank_tolerance)
 
     n_interface = partition.interface.size
@@ -137,9 +121,10 @@ def transformation(
 
 
 def mass_orthonormal(columns: np.ndarray, mass: sparse.csc_array, rank_tolerance: float) -> np.ndarray:
-    """Basis (n, rank) of the span of `columns` (n, k), orthonormal in `mass`.
+    """Basis Ψ (n, rank) of the span of `columns` (n, k), orthonormal in `mass`.
 
-    Singular values are those of the columns scaled to unit mass norm.
+    The columns are scaled to unit norm in the mass; singular directions below `rank_tolerance` times the
+    largest singular value are dropped.
     """
     columns = columns / np.sqrt(np.sum(columns * (mass @ columns), axis=0))
     squares, directions = np.linalg.eigh(columns.T @ (mass @ columns))
@@ -151,6 +136,6 @@ def mass_orthonormal(columns: np.ndarray, mass: sparse.csc_array, rank_tolerance
 
 
 def project(matrix: sparse.csc_array, phi: np.ndarray) -> np.ndarray:
-    """Φᵀ A Φ of a symmetric matrix, eq. (6), exactly symmetric."""
-    reduced = phi.T @ (matrix @ phi)
+    """Φᵀ A Φ, exactly symmetric, of the symmetric matrix A of a model whose u is Φ (u_f, q), eq. (6)."""
+    reduced = phi.T @ (matrix @ phi)  # eq. (6)
     return 0.5 * (reduced + reduced.T)

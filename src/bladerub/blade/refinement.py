@@ -16,14 +16,13 @@ from bladerub.blade.built import BuiltBlade
 from bladerub.blade.discrete import DiscreteBlade
 from bladerub.blade.frequencies import reduced_frequencies
 from bladerub.blade.linear import lowest_modes
-from bladerub.blade.model import ReducedBlade
+from bladerub.blade.model import ReducedBlade, stiffness_at
 from bladerub.blade.preconditioned_cg import PreconditionedCG
 from bladerub.blade.reduction import (
     Partition,
     fit_speeds,
     project,
     speed_law,
-    stiffness_at,
     transformation,
 )
 from bladerub.io.errors import BadInput

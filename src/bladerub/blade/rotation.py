@@ -13,14 +13,14 @@ from bladerub.blade.preconditioned_cg import PreconditionedCG
 
 TOLERANCE = 1e-9
 """Largest residual force accepted, over the norm of the centrifugal load."""
-SETTLED = 1e-8
-"""Correction, over the norm of the displacement, after which Newton's method leaves its square: rounding."""
+NEGLIGIBLE = 1e-8
+"""Correction, over the norm of the displacement, after which the next one would be rounding."""
 MAX_ITERATIONS = 12
 """Newton iterations granted to one load step."""
 KEEPING = 0.2
-"""Residual over that of the iteration before up to which a large model keeps its tangent."""
+"""Largest ratio of two successive residuals at which a large model keeps its tangent."""
 CORRECTION = 1e-4
-"""Error accepted of a correction of a large model, relative: the next one makes up for it."""
+"""Relative error of a correction of a large model; the next correction removes it."""
 MAX_HALVINGS = 8
 """How often a load step that failed is halved before giving up."""
 
@@ -33,24 +33,15 @@ class EquilibriumError(RuntimeError):
 class Equilibrium:
     """Static equilibrium of a solid that rotates about the x axis.
 
-    Parameters
-    ----------
-    omega : float
-        Angular speed, rad/s.
-    displacement : (n,) ndarray
-        From rest, free coordinates, m.
-    stiffness : (n, n) sparse array
-        K(Ω): material tangent + stress stiffness − spin softening, for small motions about the
-        equilibrium, without Coriolis forces, N/m.
-    n_iterations, n_steps : int
-        Newton iterations and load steps it took.
+    The stiffness K(Ω) of small motions about it is material tangent + stress stiffness − spin softening,
+    without Coriolis forces.
     """
 
-    omega: float
-    displacement: np.ndarray
-    stiffness: sparse.csc_array
-    n_iterations: int
-    n_steps: int
+    omega: float  # angular speed, rad/s
+    displacement: np.ndarray  # (n,), free coordinates, from rest, m
+    stiffness: sparse.csc_array  # (n, n), N/m
+    n_iterations: int  # of Newton's method
+    n_steps: int  # of the load
 
 
 def equilibrium(
@@ -59,8 +50,8 @@ def equilibrium(
     """Find the equilibrium of `solid` at the angular speed `omega` (rad/s).
 
     The load acts on the displaced position, ``ρ Ω² (0, y + u_y, z + u_z)``. Load steps go in Ω² from `start`
-    (rest if not given) to the target: all at once first, in halves where Newton's method does not converge.
-    For a large model `at_rest` is its factored stiffness at rest, which then stands in for factors at speed.
+    (rest if not given) to the target: one step first, halved where Newton's method does not converge. For a
+    large model `at_rest`, its factored stiffness at rest, is the preconditioner.
 
     Raises
     ------
@@ -70,7 +61,7 @@ def equilibrium(
     """
     target = omega**2
     reached, u = (start.omega**2, start.displacement) if start else (0.0, np.zeros(solid.free.size))
-    # the tangent of a large model is dear: the first is known, but for the spin softening
+    # the tangent of a large model is expensive: the first is known, except for the spin softening
     known = start.stiffness if start and at_rest else None
     step, smallest = target - reached, abs(target - reached) / 2**MAX_HALVINGS
     n_iterations = n_steps = 0
@@ -122,38 +113,34 @@ def _newton(
 ) -> tuple[np.ndarray | None, int]:
     """Displacement in equilibrium, or None, and the iterations made.
 
-    A large model, one with factors `at_rest`, keeps its tangent as long as the residual falls fast; at the
-    start it may be given.
+    A large model, one with factors `at_rest`, keeps its tangent, the first of which may be given, as long as
+    the residual decreases fast.
     """
     u, solve, before = start, None, np.inf
     for iteration in range(MAX_ITERATIONS + 1):
-        if not np.all(
-            np.linalg.det(solid.deformation_gradient(u)) > 0
-        ):  # matter turned inside out, or not finite
+        volume_ratio = np.linalg.det(solid.deformation_gradient(u))
+        if not np.all(volume_ratio > 0):  # matter turned inside out, or not finite
             return None, iteration
         force = residual(solid, u, omega_squared)
         scale = np.linalg.norm(centrifugal_load(solid, u, omega_squared))
         size = np.linalg.norm(force)
         if size <= TOLERANCE * scale:
             return u, iteration
+        if iteration == MAX_ITERATIONS:
+            break
         if at_rest is None or size > KEEPING * before:
             solve = None  # frees the memory before there is a new one
         before = size
-        if iteration < MAX_ITERATIONS:
-            try:
-                if solve is None:
-                    if tangent is None:
-                        tangent = rotating_stiffness(solid, u, omega_squared)
-                    if at_rest is None:
-                        solve = factorise(tangent)
-                    else:
-                        solve = PreconditionedCG(tangent, at_rest, CORRECTION)
-                    tangent = None
-                correction = solve(force)
-            except np.linalg.LinAlgError:
-                return None, iteration
-            u = u - correction
-            # a slow blade strains so little that the rounding of its forces exceeds what TOLERANCE allows
-            if np.linalg.norm(correction) <= SETTLED * np.linalg.norm(u):
-                return u, iteration + 1
+        try:
+            if solve is None:
+                tangent = rotating_stiffness(solid, u, omega_squared) if tangent is None else tangent
+                solve = PreconditionedCG(tangent, at_rest, CORRECTION) if at_rest else factorise(tangent)
+                tangent = None
+            correction = solve(force)
+        except np.linalg.LinAlgError:
+            return None, iteration
+        u = u - correction
+        # a slow blade strains so little that the rounding of its forces exceeds what TOLERANCE allows
+        if np.linalg.norm(correction) <= NEGLIGIBLE * np.linalg.norm(u):
+            return u, iteration + 1
     return None, MAX_ITERATIONS

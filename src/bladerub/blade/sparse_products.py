@@ -10,23 +10,18 @@ from scipy import sparse
 
 from bladerub.numerics.vectors import LANES, broadcast, load, store
 
-_THREADS = 2  # that multiply; a node is one's own, so their number changes no bit
+_THREADS = 2  # each computes rows of its own, so their number changes no bit
 
 
 class Product:
-    """Multiplies by a symmetric matrix whose rows come in threes, those of a node, with the same columns.
+    """Multiplies by a symmetric matrix (n, n) whose three rows of a node have the same columns.
 
-    A node's three rows are summed together, so that what they are multiplied by is fetched once; SciPy
-    fetches it for each and keeps other threads waiting meanwhile. Matrices that are otherwise are left to it.
-
-    Parameters
-    ----------
-    matrix : (n, n) sparse array
-        Symmetric: its columns are read as rows.
+    A node's three rows are summed together, so that what they are multiplied by is loaded once; SciPy loads
+    it for each row and holds the lock of the interpreter. Other matrices are left to SciPy.
     """
 
     def __init__(self, matrix: sparse.csc_array):
-        self._matrix = matrix
+        self._matrix = matrix  # its columns are read as rows
         self._is_by_node = matrix.shape[0] % 3 == 0 and _is_by_node(matrix.indptr, matrix.indices)
 
     def __call__(self, block: np.ndarray) -> np.ndarray:
@@ -49,13 +44,13 @@ class Product:
             )
 
         with ThreadPoolExecutor(_THREADS) as pool:
-            list(pool.map(multiply, shares, shares[1:]))  # for their errors
+            list(pool.map(multiply, shares, shares[1:]))  # raises their errors
         return product[:, :width]
 
 
 @njit(nogil=True)
 def _is_by_node(starts, columns):
-    """Tell whether each row of three has the same columns as the first."""
+    """Whether each row of three has the same columns as the first."""
     for row in range(0, starts.size - 1, 3):
         first, count = starts[row], starts[row + 1] - starts[row]
         for other in (row + 1, row + 2):

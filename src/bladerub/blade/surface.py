@@ -34,18 +34,10 @@ _FACES = {n_nodes: _faces(n_nodes) for n_nodes in EDGES}
 
 
 def boundary_faces(cells: np.ndarray) -> np.ndarray:
-    """Faces that belong to one element only.
+    """Faces (n_faces, 8 or 6) that belong to one element only, of `cells` (n_elements, 20 or 10).
 
-    Parameters
-    ----------
-    cells : (n_elements, 20 or 10) ndarray of int
-        Nodes in the order of CalculiX's C3D20 or C3D10.
-
-    Returns
-    -------
-    (n_faces, 8 or 6) ndarray of int
-        Nodes around each face: corners and mid-side nodes in turn, a corner first, counter-clockwise seen
-        from outside.
+    The nodes of elements are in the order of CalculiX's C3D20 or C3D10; those of a face are corners and
+    mid-side nodes in turn, a corner first, counter-clockwise seen from outside.
     """
     faces = cells[:, _FACES[cells.shape[1]]]
     faces = faces.reshape(-1, faces.shape[-1])

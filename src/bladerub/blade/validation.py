@@ -1,4 +1,4 @@
-"""Whether a reduced blade that somebody hands over can be computed with."""
+"""Validation of a reduced blade from a file of unknown origin."""
 
 from __future__ import annotations
 
@@ -13,21 +13,21 @@ from bladerub.blade.model import N_INTERFACE, ReducedBlade, read_reduced_blade
 from bladerub.io.errors import DamagedFile
 
 LARGEST_MATRIX = 10_000
-"""Coordinates of a reduced blade; more is no reduction, and would fill the memory."""
+"""Coordinates of a reduced blade; more would fill the memory."""
 
 _AT_NODES = ("node_position", "radial_direction", "tangential_direction")
 _POSITIVE = ("f1_hz", "f_omega_max", "length")
 
 
-def read_sound_blade(path: str | Path) -> ReducedBlade:
-    """Read a reduced blade and see that it is one.
+def read_valid_blade(path: str | Path) -> ReducedBlade:
+    """Read a reduced blade and check that runs can be computed with it.
 
     Raises
     ------
     OSError
         If the file is missing, unreadable or not a reduced blade; the message names it.
     ValueError
-        If its matrices, nodes or attributes are none of a blade; the message names the file and the dataset.
+        If a matrix, a node or an attribute is invalid; the message names the file and the dataset.
     """
     if os.path.exists(path) and not os.path.isfile(path):
         kind = "a folder" if os.path.isdir(path) else "not a regular file"
@@ -38,12 +38,12 @@ def read_sound_blade(path: str | Path) -> ReducedBlade:
     try:
         _check(blade)
     except ValueError as error:
-        raise ValueError(f"{path}: not a sound reduced blade, {error}") from error
+        raise ValueError(f"{path}: not a valid reduced blade, {error}") from error
     return blade
 
 
 def _check_sizes(path: str | Path) -> None:
-    """See that the datasets fit the memory before they are read."""
+    """Check that the datasets fit into memory before they are read."""
     try:
         with h5py.File(path, "r") as file:
             sizes = {name: getattr(entry, "shape", None) for name, entry in file.items()}

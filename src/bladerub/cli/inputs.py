@@ -98,11 +98,11 @@ def read_blade(options: argparse.Namespace, config: dict[str, Any]) -> tuple[Pat
     Raises
     ------
     InputError
-        If the file is no sound reduced blade, or was built from another config, or the blade cannot be built.
+        If the file is no valid reduced blade, or was built from another config, or the blade cannot be built.
     OSError
         If the files of the default blade are damaged or cannot be written.
     """
-    from bladerub.blade.validation import read_sound_blade
+    from bladerub.blade.validation import read_valid_blade
     from bladerub.workflow import invocation
 
     path = blade_path(options, config)
@@ -116,7 +116,7 @@ def read_blade(options: argparse.Namespace, config: dict[str, Any]) -> tuple[Pat
             "with --blade"
         )
     try:
-        blade = read_sound_blade(path)
+        blade = read_valid_blade(path)
     except OSError as error:
         if options.blade and error.errno is None:  # damaged, and it cannot be made anew
             raise InputError(str(error)) from error

@@ -4,13 +4,13 @@ from scipy import sparse
 from scipy.linalg import eigh
 
 from bladerub.blade.linear import factorise, lowest_modes
+from bladerub.blade.model import stiffness_at
 from bladerub.blade.reduction import (
     Partition,
     internal_solve,
     mass_orthonormal,
     project,
     speed_law,
-    stiffness_at,
     transformation,
 )
 from bladerub.blade.rotation import equilibrium

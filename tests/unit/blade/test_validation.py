@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 from bladerub.blade.model import write_reduced_blade
-from bladerub.blade.validation import LARGEST_MATRIX, read_sound_blade
+from bladerub.blade.validation import LARGEST_MATRIX, read_valid_blade
 
 
 @pytest.fixture
@@ -15,16 +15,16 @@ def told(blade, tmp_path):
     def answer(**changes):
         path = tmp_path / "blade.h5"
         write_reduced_blade(path, dataclasses.replace(blade, **changes), {})
-        with pytest.raises(ValueError, match="not a sound reduced blade") as error:
-            read_sound_blade(path)
+        with pytest.raises(ValueError, match="not a valid reduced blade") as error:
+            read_valid_blade(path)
         return str(error.value).split("blade, ")[1]
 
     return answer
 
 
-def test_a_sound_blade_is_read_as_it_is(blade, tmp_path):
+def test_a_valid_blade_is_read_as_it_is(blade, tmp_path):
     write_reduced_blade(tmp_path / "blade.h5", blade, {})
-    read = read_sound_blade(tmp_path / "blade.h5")
+    read = read_valid_blade(tmp_path / "blade.h5")
     np.testing.assert_array_equal(read.mass, blade.mass)
     assert read.length == blade.length
 
@@ -47,7 +47,7 @@ def test_a_blade_with_too_few_nodes_is_named(blade, tmp_path):
         del file["node_position"]
         file["node_position"] = np.zeros((7, 3))
     with pytest.raises(ValueError, match=r"node_position: must be numbers of the shape \(8, 3\)"):
-        read_sound_blade(path)
+        read_valid_blade(path)
 
 
 def test_matrices_beyond_memory_are_not_read(blade, tmp_path):
@@ -58,4 +58,4 @@ def test_matrices_beyond_memory_are_not_read(blade, tmp_path):
     with pytest.raises(
         ValueError, match=r"blade\.h5: not a reduced blade, endless has the shape \(10001, 1\)"
     ):
-        read_sound_blade(path)
+        read_valid_blade(path)
