@@ -88,6 +88,17 @@ def test_the_content_is_on_the_disk_before_the_file_gets_its_name(tmp_path, monk
     assert steps == [("synchronised", 7), ("renamed", 7)]
 
 
+def test_a_temporary_file_that_another_process_sweeps_first_is_no_error(tmp_path, monkeypatch):
+    def swept_meanwhile(path, *_):
+        path.unlink()
+        return True
+
+    monkeypatch.setattr(atomic, "_is_abandoned", swept_meanwhile)
+    (tmp_path / ".a.node1.7.tmp").touch()
+    atomic.delete_abandoned(tmp_path)
+    assert list(tmp_path.iterdir()) == []
+
+
 def test_a_failed_flush_names_the_file(tmp_path, monkeypatch):
     def full(_):
         raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
