@@ -120,3 +120,12 @@ def test_the_mesh_has_as_many_elements_as_fit_the_memory_and_eight_nodes_at_the_
     else:
         with pytest.raises(ConfigError, match=r"blade\.mesh"):
             validate(config)
+
+
+def test_order_is_asked_of_numbers_alone():
+    config = copy.deepcopy(PAPER)
+    config["analysis"]["peaks"]["speed_window"] = [1.35, "0.85"]
+    with pytest.raises(ConfigError) as error:
+        validate(config)
+    (problem,) = error.value.problems
+    assert problem.text.startswith('analysis.peaks.speed_window[1] = "0.85": ')

@@ -1,6 +1,7 @@
 import dataclasses
 import math
 
+import pandas as pd
 import pytest
 
 from bladerub.study import grid
@@ -100,6 +101,21 @@ def test_clearance_and_limit_follow_the_blade_length(config, case):
     after = grid.run_spec(config, case, 0.19)
     assert after.clearance == pytest.approx([2 * c for c in before.clearance])
     assert after.displacement_limit == pytest.approx(2 * before.displacement_limit)
+
+
+def test_the_scale_of_another_blade_multiplies_lengths_moduli_and_times(config, case):
+    before = pd.json_normalize(dataclasses.asdict(grid.run_spec(config, case, 0.19))).iloc[0]
+    config["contact"]["scale"] = {"length": 3.0, "modulus": 5.0, "time": 7.0}
+    after = pd.json_normalize(dataclasses.asdict(grid.run_spec(config, case, 0.19))).iloc[0]
+    factors = {
+        **dict.fromkeys(
+            ("casing.amplitude", "casing.interference", "coating.thickness", "tip.edge_drop"), 3.0
+        ),
+        "coating.modulus_unit": 5.0,
+        "max_time_step": 7.0,
+    }
+    for name, value in before.items():
+        assert after[name] == (factors[name] * value if name in factors else value), name
 
 
 def test_integers_in_the_config_give_the_same_run_as_floats(config, case):
