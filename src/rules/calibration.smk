@@ -1,23 +1,6 @@
 # The choices that the paper leaves open, varied (docs/calibration.md). Not part of `all`.
 from functools import cache
 
-# The modules that make a small study in one job, from the runs to the findings
-JUDGED_STUDY = [
-    *files_behind(
-        "extensions.small_study",
-        "study.grid",
-        "study.plan",
-        "study.job",
-        "study.store",
-        "study.spectra",
-        "study.growth",
-    ),
-    *rules.map.input.analysing,
-    *rules.peaks.input.analysing,
-    *rules.divergence.input.analysing,
-    *rules.findings.input.analysing,
-]
-
 
 @cache
 def calibration_plan():
@@ -28,7 +11,7 @@ def calibration_plan():
         return plan(config)
 
 
-def calibration_answers(wildcards):
+def calibration_findings(wildcards):
     return [
         f"{RESULTS}/calibration/{name}/tables/findings.csv"
         for name in calibration_plan()
@@ -42,7 +25,7 @@ def calibration_set(wildcards):
 
 rule calibration:
     input:
-        findings=calibration_answers,
+        findings=calibration_findings,
         drawing=files_behind("plots.verdicts"),
     output:
         table=f"{RESULTS}/tables/calibration.csv",
@@ -62,7 +45,7 @@ rule calibration_set:
     input:
         kernel=rules.compile_kernel.output[0],
         building=rules.blade.input,
-        analysing=[*JUDGED_STUDY, *files_behind("extensions.calibration")],
+        analysing=files_behind("extensions.calibration", "study.findings"),
     output:
         f"{RESULTS}/calibration/{{set}}/tables/findings.csv",
         description=f"{RESULTS}/calibration/{{set}}/tables/findings.csv-metadata.json",

@@ -120,7 +120,7 @@ rule robustness_batch:
         models=of_robustness_blades("reduced_model.h5"),
         accuracies=of_robustness_blades("rom_accuracy.csv"),
         kernel=rules.compile_kernel.output[0],
-        analysing=[*JUDGED_STUDY, *files_behind("extensions.robustness.sample")],
+        analysing=files_behind("extensions.robustness.sample", "study.findings"),
     output:
         verdicts=f"{OF_SAMPLES}/{{part}}/{{batch}}/verdicts.csv",
         verdicts_description=f"{OF_SAMPLES}/{{part}}/{{batch}}/verdicts.csv-metadata.json",

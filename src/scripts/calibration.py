@@ -1,8 +1,8 @@
-"""What the claims say to each set of choices, side by side."""
+"""Tabulate and draw the findings of all sets of choices."""
 
 from pathlib import Path
 
-from bladerub.extensions.calibration import gather
+from bladerub.extensions.calibration import collect
 from bladerub.io import tables
 from bladerub.io.provenance import provenance
 from bladerub.plots import style
@@ -12,8 +12,8 @@ from bladerub.workflow import job
 
 job.log_to(snakemake.log[0])
 
-answers = {Path(path).parts[-3]: path for path in snakemake.input.findings}
-table = gather(answers)
+paths = {Path(path).parts[-3]: path for path in snakemake.input.findings}
+table = collect(paths)
 tables.write(snakemake.output.table, table, provenance(snakemake.config))
 figure = draw(verdicts(table, by="set"))
 style.save(figure, snakemake.output.png, snakemake.output.pdf, snakemake.params.dpi)

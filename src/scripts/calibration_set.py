@@ -1,15 +1,15 @@
-"""One set of choices: a small study of its own, and what the claims say to it."""
+"""Make the small study of one set of choices, and judge the claims."""
 
 import sys
 
-from bladerub.extensions.calibration import answer
+from bladerub.extensions.calibration import judge
 from bladerub.io import tables
 from bladerub.io.provenance import provenance
 from bladerub.workflow import job
 
 job.log_to(snakemake.log[0])
 
-found = answer(
+found = judge(
     snakemake.params.choices, snakemake.params.folder, report=lambda run: print(run, file=sys.stderr)
 )
 tables.write(snakemake.output[0], found, provenance(snakemake.params.choices))

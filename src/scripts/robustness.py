@@ -1,4 +1,4 @@
-"""Tell in which share of the design each claim holds and what decides it, and draw that."""
+"""Tabulate and draw the share of the design in which each claim holds, and what decides it."""
 
 import pandas as pd
 
@@ -14,7 +14,7 @@ from bladerub.workflow import job
 job.log_to(snakemake.log[0])
 
 plan = read_plan(snakemake.input.plan)
-verdicts = summary.gather(snakemake.input.verdicts)
+verdicts = summary.collect(snakemake.input.verdicts)
 cost = pd.concat([tables.read(path, COST) for path in snakemake.input.cost], ignore_index=True)
 indices = summary.sensitivities(plan, verdicts)
 table = summary.summary(plan, verdicts, indices, cost)

@@ -104,17 +104,17 @@ def test_the_design_is_made_once_and_a_lost_job_is_made_anew_alone(copied_study,
 
 
 @pytest.mark.parametrize(
-    ("change", "told"),
+    ("change", "problem"),
     [
-        ({"seed": -1}, "config/robustness.yaml:1: seed = -1: must be a whole number from 0 to 4294967295"),
-        ({"factors": {}}, "factors = {}: must be a group of at least one"),
+        ({"seed": -1}, "config/robustness.yaml:1: seed = -1:"),
+        ({"factors": {}}, "config/robustness.yaml:2: factors = {}:"),
     ],
 )
-def test_a_bad_plan_is_refused_before_any_work(workspace, tiny, change, told):
+def test_a_bad_plan_is_refused_before_any_work(workspace, tiny, change, problem):
     plan = yaml.safe_dump(PLAN | change, sort_keys=False)
     (workspace.folder / "config" / "robustness.yaml").write_text(plan)
     done = workspace.snakemake("robustness", "--dry-run", config=tiny)
     assert done.returncode == 2
-    assert told in done.stderr
+    assert problem in done.stderr
     assert not workspace.results.exists()
     assert workspace.plan(tiny)["blade"] == 1  # a study needs no plan

@@ -38,13 +38,48 @@ def read(*paths: str | Path, command_line: Mapping[str, Any] | None = None) -> d
     return validate(files.compose(*paths, command_line=command_line))
 
 
-def validate(config: Located | Mapping[str, Any]) -> dict[str, Any]:
+def read_plan(path: str | Path, definition: str, key: str | None = None) -> Located:
+    """Read and check a plan, which varies a config.
+
+    Parameters
+    ----------
+    path : path-like
+        The YAML file.
+    definition : str
+        What it is, of the definitions of the schema.
+    key : str, optional
+        The key of the config that names the file, reported if it cannot be read.
+
+    Raises
+    ------
+    ConfigError
+        As for `bladerub.config.files.compose`, and every problem found.
+    """
+    plan = files.read(path, key)
+    texts, locations = dict.fromkeys(schema.problems(plan.plain(), definition)), plan.locations()
+    if texts:
+        raise ConfigError(Problem(_location(text, locations, plan.location), text) for text in texts)
+    return plan
+
+
+def vary(config: Mapping[str, Any], *variations: Located) -> Located:
+    """Lay variations of a plan over a config, each with the files that it extends, without a check."""
+    varied = Located.of(config, UNKNOWN)
+    for variation in variations:
+        if variation.content is not None:
+            varied = varied.merged(files.resolve_extend(variation))
+    return varied
+
+
+def validate(config: Located | Mapping[str, Any], variation: str = "") -> dict[str, Any]:
     """Check a config against the schema and for what a schema cannot say; return its values.
 
     Parameters
     ----------
     config : Located or mapping
         From `bladerub.config.files.compose`, or values alone, whose problems then have no file and line.
+    variation : str, optional
+        What the text of each problem begins with: the name of this variation of the study.
 
     Raises
     ------
@@ -60,12 +95,15 @@ def validate(config: Located | Mapping[str, Any]) -> dict[str, Any]:
     missing = set(schema.schema()["required"]) - set(values)
     problems += check(values, missing | set(map(top_key, problems)))
     if problems:
-        raise ConfigError(Problem(_location(text, locations), text) for text in dict.fromkeys(problems))
+        raise ConfigError(
+            Problem(_location(text, locations), f"{variation}: {text}" if variation else text)
+            for text in dict.fromkeys(problems)
+        )
     return values
 
 
-def _location(problem: str, locations: Mapping[str, Location]) -> Location:
+def _location(problem: str, locations: Mapping[str, Location], whole: Location = UNKNOWN) -> Location:
     """Find the location of the key that a problem begins with, or of its innermost known group."""
     ends = (match.start() for match in re.finditer(r"[ :.[]", problem))
     keys = [problem[:end] for end in ends if problem[:end] in locations]
-    return locations[keys[-1]] if keys else UNKNOWN
+    return locations[keys[-1]] if keys else whole

@@ -50,9 +50,13 @@ def schema() -> dict[str, Any]:
     return files.compose(SCHEMA).plain()
 
 
-def problems(config: Mapping[str, Any]) -> Iterator[str]:
-    """Yield a line for each problem; values are compared with other keys if the schema allows both parts."""
-    errors = sorted(_validator().iter_errors(config), key=lambda error: [str(part) for part in error.path])
+def problems(config: Mapping[str, Any], definition: str | None = None) -> Iterator[str]:
+    """Yield a line for each problem, of a config or of what a `definition` of the schema describes.
+
+    Values are compared with other keys if the schema allows both parts.
+    """
+    validator = _validator().evolve(schema=schema()["$defs"][definition]) if definition else _validator()
+    errors = sorted(validator.iter_errors(config), key=lambda error: [str(part) for part in error.path])
     alone = [error for error in errors if error.validator not in _COMPARING]
     for error in alone:
         yield from _describe(error)

@@ -1,48 +1,91 @@
-"""A small study beside the main one: its runs and maps, by the same functions, in a folder of its own."""
+"""A small study beside the main one, from the runs to the findings, by the same functions."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+import itertools
+import logging
+from collections.abc import Callable, Collection, Iterable, Mapping
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
+
+import pandas as pd
 
 from bladerub.blade.model import read_reduced_blade
+from bladerub.study import divergence, findings, peaks
+from bladerub.study.findings.evidence import Evidence, read_rom_accuracy
 from bladerub.study.grid import coating_cases
 from bladerub.study.job import compute_missing
 from bladerub.study.key import blade_digest
-from bladerub.study.maps import build_map
+from bladerub.study.maps import CoatingMap, build_map, read_map
 from bladerub.study.store import write_manifest
 
+_log = logging.getLogger(__name__)
 
-def make_maps(
+
+class SmallStudy(NamedTuple):
+    """What a small study shows.
+
+    Parameters
+    ----------
+    peaks, divergence : DataFrame
+        As ``peaks.csv`` and ``divergence.csv``.
+    findings : DataFrame
+        As `bladerub.study.findings.judge`.
+    n_runs : int
+        Runs that it takes, longer ones for confirmation included.
+    """
+
+    peaks: pd.DataFrame
+    divergence: pd.DataFrame
+    findings: pd.DataFrame
+    n_runs: int
+
+
+def conduct(
     config: Mapping[str, Any],
     model: str | Path,
+    rom_accuracy: str | Path,
     folder: str | Path,
+    claims: Collection[str] | None = None,
     report: Callable[[object], None] = lambda line: None,
-) -> list[Path]:
-    """Run every coating of `config` and gather its map.
+) -> SmallStudy:
+    """Run every coating of `config`, and judge the claims of the paper.
 
     Parameters
     ----------
     config : mapping
         The small study.
-    model : path-like
-        Its reduced blade.
+    model, rom_accuracy : path-like
+        Its reduced blade, and the table of the accuracy of that.
     folder : path-like
         For its runs and maps; runs that are there and current are kept.
+    claims : collection of str, optional
+        ``C2`` stands for all its parts; all claims by default.
     report : callable, optional
         As of `bladerub.study.job.compute_missing`.
-
-    Returns
-    -------
-    list of Path
-        The maps, in the order of the coatings.
     """
-    folder, blade, digest, maps = Path(folder), read_reduced_blade(model), blade_digest(model), []
+    folder, blade, digest = Path(folder), read_reduced_blade(model), blade_digest(model)
+    maps, n_runs = [], 0
     for case in coating_cases(config):
-        runs, gathered = folder / "runs" / case.name, folder / "maps" / f"{case.name}.h5"
+        runs, path = folder / "runs" / case.name, folder / "maps" / f"{case.name}.h5"
         rows = compute_missing(config, case, blade, runs, digest, report=report)
         write_manifest(runs / "manifest.tsv", rows)
-        build_map(config, case, blade, runs, gathered)
-        maps.append(gathered)
-    return maps
+        build_map(config, case, blade, runs, path)
+        maps.append(read_map(path))
+        n_runs += len(rows) + sum(bool(row.confirmation_key) for row in rows)
+    made = {"peaks": _peaks(config, maps), "divergence": divergence.of_maps(config, maps)}
+    evidence = Evidence(config, made | {"rom_accuracy": read_rom_accuracy(rom_accuracy)}, maps)
+    wanted = findings.CLAIMS if claims is None else findings.of_claims(claims)
+    return SmallStudy(**made, findings=findings.judge(evidence, wanted), n_runs=n_runs)
+
+
+def _peaks(config: Mapping[str, Any], maps: Iterable[CoatingMap]) -> pd.DataFrame:
+    """Find the peaks; an order without a bounded run near its crossing has no row, and the log says so."""
+    found = [pd.DataFrame(columns=peaks.COLUMNS)]
+    for coating, order in itertools.product(maps, config["analysis"]["peaks"]["orders"]):
+        analysis = {**config["analysis"], "peaks": {**config["analysis"]["peaks"], "orders": [order]}}
+        try:
+            found.append(peaks.of_maps({**config, "analysis": analysis}, [coating]))
+        except ValueError as error:
+            _log.warning("%s: no peak of engine order %g (%s)", coating.case.name, order, error)
+    return pd.concat(found[1:] or found, ignore_index=True)

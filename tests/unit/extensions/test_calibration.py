@@ -3,7 +3,7 @@ import pytest
 
 from bladerub.config.errors import ConfigError
 from bladerub.config.read import load, validate
-from bladerub.extensions.calibration import COLUMNS, gather, plan
+from bladerub.extensions.calibration import COLUMNS, collect, plan
 from bladerub.io.sources import ROOT
 from bladerub.study.findings import verdicts
 
@@ -42,14 +42,21 @@ def test_each_set_is_laid_over_what_is_common(study, asked):
     assert study["speeds"]["start"] == 0.02
 
 
-def test_every_fault_is_told_with_its_set(study, asked):
-    config = asked("sets: {a: {contact: {damping_ratio: 2}}, ../b: {}, c: {contact: {damping: 1}}}\n")
+def test_every_problem_is_reported_with_its_set(study, asked):
+    config = asked("sets: {a: {contact: {damping_ratio: 2}}, c: {contact: {damping: 1}}}\n")
     with pytest.raises(ConfigError) as caught:
         plan(config)
-    first, second, third = sorted(map(str, caught.value.problems))
-    assert "../b: the name of a set must be" in first
-    assert ": a: contact.damping_ratio = 2" in second
-    assert ": c: contact.damping" in third
+    first, second = sorted(problem.text for problem in caught.value.problems)
+    assert first.startswith("a: contact.damping_ratio = 2")
+    assert second.startswith("c: contact.damping")
+
+
+@pytest.mark.parametrize("name", ["../b", "a b", "..", "é"])
+def test_the_name_of_a_set_must_be_that_of_a_folder(study, asked, name):
+    with pytest.raises(ConfigError) as caught:
+        plan(asked(f"sets: {{a: {{}}, {name}: {{}}}}\n"))
+    (problem,) = caught.value.problems
+    assert problem.text.startswith("sets")
 
 
 def test_a_plan_what_is_common_and_a_set_can_extend_files(study, asked, tmp_path):
@@ -73,17 +80,29 @@ def test_a_plan_what_is_common_and_a_set_can_extend_files(study, asked, tmp_path
     assert {config["speeds"]["start"] for config in sets.values()} == {0.1}
 
 
-def test_faults_of_a_set_are_told_with_file_and_line(study, asked):
+def test_problems_of_a_set_are_reported_with_file_and_line(study, asked):
     config = asked("common:\n  speeds: {start: 0.1}\nsets:\n  a:\n    contact:\n      damping_ratio: 2\n")
     with pytest.raises(ConfigError) as caught:
         plan(config)
     assert str(caught.value).startswith(f"{config['calibration']}:6: a: contact.damping_ratio = 2: ")
 
 
-@pytest.mark.parametrize("text", ["sets: []\n", "common: {}\n", "sets: {a: {}}\nspeeds: {}\n"])
-def test_what_is_no_plan_is_refused(study, asked, text):
-    with pytest.raises(ConfigError, match="must hold common and sets"):
-        plan(asked(text))
+@pytest.mark.parametrize(
+    ("text", "key"),
+    [("sets: []\n", "sets"), ("common: {}\n", "sets"), ("sets: {a: {}}\nspeeds: {}\n", "speeds")],
+)
+def test_what_is_no_plan_is_refused(study, asked, text, key):
+    config = asked(text)
+    with pytest.raises(ConfigError) as caught:
+        plan(config)
+    (problem,) = caught.value.problems
+    assert problem.text.startswith(key)
+    assert problem.location.source == config["calibration"]
+
+
+def test_a_set_without_choices_is_the_study(study, asked):
+    config = asked("common:\nsets:\n  as_it_is:\n")
+    assert plan(config) == {"as_it_is": config}
 
 
 @pytest.mark.parametrize(("file", "of_the_study"), [("calibration", "study"), ("neighbours", "unit_600_50")])
@@ -100,14 +119,14 @@ def test_the_plan_of_the_calibration_begins_with_the_study(study, monkeypatch):
     assert next(iter(plan(study))) == "study"
 
 
-def test_a_plan_that_is_not_there_is_told_with_its_key(study):
+def test_a_plan_that_is_not_there_is_reported_with_its_key(study):
     with pytest.raises(ConfigError) as caught:
         plan(study | {"calibration": "nowhere.yaml"})
     assert str(caught.value).startswith('config: calibration = "nowhere.yaml": cannot be read (')
 
 
-def test_findings_of_all_sets_stand_side_by_side(tmp_path):
-    answers = {}
+def test_findings_of_all_sets_make_one_table(tmp_path):
+    paths = {}
     for name, holds in (("b", ["yes", "no"]), ("a", ["partly"])):
         rows = [
             {
@@ -121,9 +140,9 @@ def test_findings_of_all_sets_stand_side_by_side(tmp_path):
             }
             for i, each in enumerate(holds)
         ]
-        answers[name] = tmp_path / f"{name}.csv"
-        pd.DataFrame(rows).to_csv(answers[name], index=False)
-    table = gather(answers)
+        paths[name] = tmp_path / f"{name}.csv"
+        pd.DataFrame(rows).to_csv(paths[name], index=False)
+    table = collect(paths)
     assert list(table.columns) == COLUMNS
     wide = verdicts(table, by="set")
     assert list(wide.columns) == ["b", "a"]

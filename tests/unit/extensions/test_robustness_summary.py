@@ -25,7 +25,7 @@ OF_C3A = [number for number in range(64) if number % 3 and number > 5]
 @pytest.fixture
 def verdicts(tmp_path):
     """C2a holds above the middle of the unit, C2b always, C3a below it where it can be told."""
-    unit = PLAN.places()[:, 0]
+    unit = PLAN.positions()[:, 0]
     rows = [{"sample": -1, "id": id_, "holds": "partly", "margin": 0.0} for id_ in ("C2a", "C3a")]
     for number in reversed(range(64)):
         rows.append({"sample": number, "id": "C2b", "holds": "yes", "margin": np.inf})
@@ -39,10 +39,10 @@ def verdicts(tmp_path):
     for part, chunk in enumerate((rows[:50], rows[50:], [])):
         paths.append(tmp_path / f"{part}.csv")
         pd.DataFrame(chunk, columns=sample.COLUMNS).to_csv(paths[-1], index=False)
-    return summary.gather(paths)
+    return summary.collect(paths)
 
 
-def test_what_samples_say_is_ordered_by_claim_and_sample(verdicts):
+def test_verdicts_are_ordered_by_claim_and_sample(verdicts):
     assert list(dict.fromkeys(verdicts.id)) == ["C2a", "C2b", "C3a"]
     assert list(verdicts["sample"][:65]) == list(range(-1, 64))
 

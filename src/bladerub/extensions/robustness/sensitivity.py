@@ -1,10 +1,10 @@
 """What decides: first-order and total Sobol indices of each factor, from a sparse polynomial chaos expansion.
 
-The samples are those of one design, so that the indices cost no further run; the expansion is OpenTURNS's
+The samples are those of one design, so that the indices take no further run; the expansion is OpenTURNS's
 (Sudret 2008, Reliability Engineering & System Safety 93; Blatman and Sudret 2011, Journal of Computational
-Physics 230). An expansion explains a part of the output only. How much is measured by the share of the
-variance that expansions made without a fifth of the samples predict for that fifth; the indices, which are
-shares of what is explained, are taken times that, and so become shares of the whole.
+Physics 230). An expansion explains a part of the output only: the share of the variance that expansions made
+without a fifth of the samples predict for that fifth. The indices are shares of what is explained; multiplied
+by that share they become shares of the whole variance.
 """
 
 from __future__ import annotations
@@ -15,10 +15,10 @@ import numpy as np
 import openturns
 
 FEWEST = 16
-"""Samples without which there are no indices."""
+"""Number of samples below which there are no indices."""
 
 FOLDS = 5
-"""Parts that the samples are split into, each predicted from the others."""
+"""Number of parts that the samples are split into, each predicted from the others."""
 
 DEGREE = 4
 """Highest degree of a polynomial in one factor."""
@@ -43,29 +43,23 @@ class Indices(NamedTuple):
     predicted: float
 
 
-def indices(places: np.ndarray, output: np.ndarray) -> Indices:
-    """Estimate the indices of `output`.
+def indices(positions: np.ndarray, output: np.ndarray) -> Indices:
+    """Estimate the indices of `output` (n,) at `positions` (n, d), each factor evenly between 0 and 1.
 
-    Parameters
-    ----------
-    places : (n, d) ndarray
-        Samples, each factor evenly between 0 and 1.
-    output : (n,) ndarray
-        A number for each. Where all are the same there is nothing to decide, and of fewer samples than
-        `FEWEST` nothing can be told: all indices are NaN.
+    They are NaN if all of `output` is the same, and of fewer samples than `FEWEST`.
     """
-    n_factors = places.shape[1]
+    n_factors = positions.shape[1]
     if output.size < FEWEST or np.ptp(output) == 0:
         nothing = np.full(n_factors, np.nan)
         return Indices(nothing, nothing, np.nan)
-    sobol = openturns.FunctionalChaosSobolIndices(_expansion(places, output))
+    sobol = openturns.FunctionalChaosSobolIndices(_expansion(positions, output))
     first = [sobol.getSobolIndex(factor) for factor in range(n_factors)]
     total = [sobol.getSobolTotalIndex(factor) for factor in range(n_factors)]
-    predicted = max(_predicted(places, output), 0.0)
+    predicted = max(_predicted(positions, output), 0.0)
     return Indices(predicted * np.array(first), predicted * np.array(total), predicted)
 
 
-def _predicted(places: np.ndarray, output: np.ndarray) -> float:
+def _predicted(positions: np.ndarray, output: np.ndarray) -> float:
     missed = np.empty_like(output, dtype=float)
     fold = np.arange(output.size) % FOLDS
     for left_out in range(FOLDS):
@@ -73,19 +67,19 @@ def _predicted(places: np.ndarray, output: np.ndarray) -> float:
         if np.ptp(output[inside]) == 0:
             missed[outside] = output[outside] - output[inside][0]
             continue
-        model = _expansion(places[inside], output[inside]).getMetaModel()
-        missed[outside] = output[outside] - np.array(model(places[outside])).ravel()
+        model = _expansion(positions[inside], output[inside]).getMetaModel()
+        missed[outside] = output[outside] - np.array(model(positions[outside])).ravel()
     return float(1 - np.mean(missed**2) / np.var(output))
 
 
-def _expansion(places: np.ndarray, output: np.ndarray) -> openturns.FunctionalChaosResult:
-    n_factors = places.shape[1]
+def _expansion(positions: np.ndarray, output: np.ndarray) -> openturns.FunctionalChaosResult:
+    n_factors = positions.shape[1]
     uniform = openturns.Uniform(0.0, 1.0)
     counting = openturns.HyperbolicAnisotropicEnumerateFunction(n_factors, SPARSITY)
     polynomials = [openturns.StandardDistributionPolynomialFactory(uniform)] * n_factors
     basis = openturns.OrthogonalProductPolynomialFactory(polynomials, counting)
     expansion = openturns.FunctionalChaosAlgorithm(
-        openturns.Sample(places),
+        openturns.Sample(positions),
         openturns.Sample(output[:, None].astype(float)),
         openturns.JointDistribution([uniform] * n_factors),
         openturns.FixedStrategy(basis, counting.getMaximumDegreeCardinal(DEGREE)),

@@ -1,4 +1,4 @@
-"""Tables of the design: in which share of it a claim holds, what decides that, and what a sample costs."""
+"""Tables of the design: the share in which a claim holds, what decides that, and the cost of a sample."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ SCORE = {YES: 1.0, PARTLY: 0.5, NO: 0.0}
 """A verdict as a number, for what decides it."""
 
 DECIDES = 0.1
-"""Total index from which on a factor is named among those that decide."""
+"""Total index from which a factor is named among those that decide."""
 
 VERDICT, MARGIN = "verdict", "margin"
 """Outputs whose indices are estimated: `SCORE`, and the rank of the margin, which may be infinite."""
@@ -33,43 +33,33 @@ def design(plan: Plan) -> pd.DataFrame:
     return pd.DataFrame(
         [
             {"sample": number, "factor": factor.name, "key": key, "value": value, "unit": factor.unit}
-            for number, places in enumerate(plan.places())
-            for factor, at in zip(plan.factors, places, strict=True)
-            for key, value in factor.values(float(at)).items()
+            for number, row in enumerate(plan.positions())
+            for factor, position in zip(plan.factors, row, strict=True)
+            for key, value in factor.values(float(position)).items()
         ]
     )
 
 
-def gather(paths: Iterable[str | Path]) -> pd.DataFrame:
-    """Put what the samples say into one table, ordered by claim and sample, the reference first."""
-    said = [read_table(path, sample.COLUMNS) for path in paths]
-    whole = pd.concat([each for each in said if len(each)], ignore_index=True)
+def collect(paths: Iterable[str | Path]) -> pd.DataFrame:
+    """Put the verdicts of all jobs into one table, ordered by claim and sample, the reference first."""
+    verdicts = [read_table(path, sample.COLUMNS) for path in paths]
+    whole = pd.concat([each for each in verdicts if len(each)], ignore_index=True)
     whole["id"] = pd.Categorical(whole["id"], list(TITLES), ordered=True)
     return whole.sort_values(["id", "sample"], ignore_index=True).astype({"id": str})
 
 
 def sensitivities(plan: Plan, verdicts: pd.DataFrame) -> pd.DataFrame:
-    """Estimate what decides each claim, and what moves its margin.
+    """Estimate what decides each claim, and what changes its margin, from `verdicts` of `collect`.
 
-    Parameters
-    ----------
-    plan : Plan
-        The design.
-    verdicts : DataFrame
-        From `gather`.
-
-    Returns
-    -------
-    DataFrame
-        A row per claim, output (`VERDICT`, `MARGIN`) and factor; none where there are no indices.
+    A row per claim, output (`VERDICT`, `MARGIN`) and factor, with `INDICES`; none where there are no indices.
     """
-    places, rows = plan.places(), []
-    for id_, said in verdicts[verdicts["sample"] != REFERENCE].groupby("id", sort=False):
+    positions, rows = plan.positions(), []
+    for id_, of_claim in verdicts[verdicts["sample"] != REFERENCE].groupby("id", sort=False):
         # a claim that fails because nothing is found has no margin: it fails by more than any other
-        margin = said.margin.where(said.margin.notna() | (said.holds != NO), -np.inf)
-        outputs = {VERDICT: said.holds.map(SCORE), MARGIN: margin[margin.notna()].rank()}
+        margin = of_claim.margin.where(of_claim.margin.notna() | (of_claim.holds != NO), -np.inf)
+        outputs = {VERDICT: of_claim.holds.map(SCORE), MARGIN: margin[margin.notna()].rank()}
         for output, values in outputs.items():
-            found = indices(places[said.loc[values.index, "sample"]], values.to_numpy())
+            found = indices(positions[of_claim.loc[values.index, "sample"]], values.to_numpy())
             if np.isnan(found.predicted):
                 continue
             rows += [
@@ -82,21 +72,21 @@ def sensitivities(plan: Plan, verdicts: pd.DataFrame) -> pd.DataFrame:
 def summary(
     plan: Plan, verdicts: pd.DataFrame, sensitivity: pd.DataFrame, cost: pd.DataFrame
 ) -> pd.DataFrame:
-    """Tell of each claim in which share of the design it holds, what decides that, and what it costs to know.
+    """Sum up each claim: the share of the design in which it holds, what decides that, and the cost.
 
     Parameters
     ----------
     plan : Plan
         The design.
     verdicts, sensitivity : DataFrame
-        From `gather` and `sensitivities`.
+        From `collect` and `sensitivities`.
     cost : DataFrame
         A row per part and sample, with `bladerub.extensions.robustness.sample.COST`.
 
     Returns
     -------
     DataFrame
-        A row for each part of each claim of the plan; shares are of the samples that can tell.
+        A row for each part of each claim of the plan; shares are of the samples that have a verdict.
     """
     part_of = {claim: part.name for part in plan.parts.values() for claim in part.claims}
     own_values, drawn = (verdicts["sample"] == REFERENCE), cost[cost["sample"] != REFERENCE]
