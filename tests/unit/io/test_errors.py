@@ -17,6 +17,10 @@ from bladerub.io import errors
             "runs: Read-only file system; make it",
         ),
         (OSError(errno.EACCES, "Permission denied", "runs"), "runs: Permission denied; make it writable"),
+        (
+            OSError(errno.EPERM, "Operation not permitted", "a"),
+            "a: Operation not permitted; make it writable",
+        ),
         (OSError(errno.ENOENT, os.strerror(errno.ENOENT), "a"), "a: No such file or directory"),
         (OSError(errno.ENOSPC, "No space left on device"), "the disk is full; make room"),
         (OSError("something else"), "something else"),

@@ -1,3 +1,5 @@
+import threading
+
 import pytest
 
 from bladerub.io import lock
@@ -37,6 +39,22 @@ def test_the_second_to_ask_waits_until_the_first_is_done(tmp_path, holder):
     assert waited == [None]
 
 
+def test_the_second_to_ask_gets_no_further_before(tmp_path):
+    waits, holds = threading.Event(), threading.Event()
+
+    def hold():
+        with lock.held(tmp_path / "lock", waits.set):
+            holds.set()
+
+    second = threading.Thread(target=hold)
+    with lock.held(tmp_path / "lock", lambda: None):
+        second.start()
+        assert waits.wait(timeout=60)
+        assert not holds.wait(timeout=0.2)
+    second.join(timeout=60)
+    assert holds.is_set()
+
+
 def test_a_killed_holder_leaves_no_lock(tmp_path, holder):
     waited = []
     holder.kill()
@@ -46,16 +64,19 @@ def test_a_killed_holder_leaves_no_lock(tmp_path, holder):
     assert waited == []
 
 
-def test_joining_tells_whether_somebody_else_is_there(tmp_path):
+def test_sharing_tells_whether_somebody_else_is_there(tmp_path):
     first, alone = lock.share(tmp_path / "lock")
     assert alone
     second, alone = lock.share(tmp_path / "lock")
     assert not alone
     first.close()
-    second.close()
     third, alone = lock.share(tmp_path / "lock")
-    assert alone
+    assert not alone  # the second is still there
+    second.close()
     third.close()
+    fourth, alone = lock.share(tmp_path / "lock")
+    assert alone
+    fourth.close()
 
 
 def test_where_there_are_no_locks_work_goes_on(tmp_path, monkeypatch):

@@ -5,10 +5,11 @@ from bladerub.io import sources
 
 @pytest.fixture
 def package(tmp_path, monkeypatch):
-    for folder in ("contact", "blade", "study"):
-        (tmp_path / folder).mkdir()
+    for folder in ("contact/kernel", "blade", "study"):
+        (tmp_path / folder).mkdir(parents=True)
     for name in (
-        "contact/kernel.py",
+        "contact/run.py",
+        "contact/kernel/run.py",
         "blade/model.py",
         "study/store.py",
         "study/spectra.py",
@@ -26,7 +27,8 @@ GROWTH = sources.growth_digest.__wrapped__
 @pytest.mark.parametrize(
     ("changed", "digest", "other"),
     [
-        ("contact/kernel.py", SOLVER, STORAGE),
+        ("contact/run.py", SOLVER, STORAGE),
+        ("contact/kernel/run.py", SOLVER, STORAGE),
         ("contact/new.py", SOLVER, STORAGE),
         ("blade/model.py", SOLVER, STORAGE),
         ("study/store.py", STORAGE, SOLVER),
@@ -42,7 +44,15 @@ def test_an_edit_changes_the_digest_it_belongs_to_alone(package, changed, digest
     assert other() == before[1]
 
 
+def test_a_file_that_moves_changes_the_digest(package):
+    before = SOLVER()
+    (package / "contact/run.py").rename(package / "contact/kernel/new.py")
+    after = SOLVER()
+    (package / "contact/kernel/new.py").rename(package / "contact/new.py")
+    assert len({before, after, SOLVER()}) == 3
+
+
 def test_line_ends_do_not_matter(package):
     before = SOLVER()
-    (package / "contact/kernel.py").write_bytes(b"a = 1\r\n")
+    (package / "contact/run.py").write_bytes(b"a = 1\r\n")
     assert SOLVER() == before
