@@ -16,7 +16,7 @@ from bladerub.blade.geometry import BladeShape
 from bladerub.blade.linear import lowest_modes
 from bladerub.blade.mesh import BladeMesh
 from bladerub.blade.rotation import equilibrium
-from bladerub.blade.sources.imported import import_mesh
+from bladerub.blade.sources.importing import import_blade
 from bladerub.blade.sources.origin import Source
 
 gmsh = pytest.importorskip("gmsh", reason="Gmsh (pip install gmsh) is not installed", exc_type=ImportError)
@@ -60,8 +60,8 @@ def test_eight_frequencies_are_those_of_hexahedra(tmp_path):
     config = yaml.safe_load(CONFIG.read_text(encoding="utf-8"))["blade"]
     shape, material = BladeShape.from_config(config), Material.from_config(config["material"])
     write_tetrahedra(tmp_path / "blade.msh", shape, 0.008)
-    imported = import_mesh(Source(tmp_path / "blade.msh", root_set="root", tip_set="tip"))
-    by_rule = import_mesh(Source(tmp_path / "blade.msh")).blade.mesh
+    imported = import_blade(Source(tmp_path / "blade.msh", root_set="root", tip_set="tip"), {})
+    by_rule = import_blade(Source(tmp_path / "blade.msh"), {}).blade.mesh
     np.testing.assert_array_equal(by_rule.root, imported.blade.mesh.root)
     np.testing.assert_array_equal(by_rule.tip, imported.blade.mesh.tip)
     tetrahedra = first_frequencies(imported.blade.mesh, material)

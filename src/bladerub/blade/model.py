@@ -109,15 +109,15 @@ def write_reduced_blade(path: str | Path, blade: ReducedBlade, origin: Mapping[s
     """Write `blade` to the HDF5 file `path`, whole or not at all; `origin` is its provenance."""
     variables = {"node": INTERFACE_NODE, "axis": AXIS}
     for name, data in blade.arrays.items():
-        power = name.removeprefix("stiffness_")
-        higher = (
-            ("N/m", f"coefficient of f_omega^{2 * int(power)} in the stiffness") if power.isdigit() else ()
-        )
-        units, long_name = _UNITS.get(name, higher)
+        units, long_name = _UNITS.get(name) or _higher(name)
         is_matrix = data.shape == blade.mass.shape
         dims = ("coordinate", "coordinate_column") if is_matrix else ("node", "axis")
         variables[name] = Variable(dims, data, units, long_name)
     hdf5.write(path, variables, {name: getattr(blade, name) for name in _ATTRIBUTES}, origin)
+
+
+def _higher(name: str) -> tuple[str, str]:
+    return "N/m", f"coefficient of f_omega^{2 * int(name.removeprefix('stiffness_'))} in the stiffness"
 
 
 def read_reduced_blade(path: str | Path) -> ReducedBlade:

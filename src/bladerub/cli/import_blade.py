@@ -137,11 +137,11 @@ def _look(source: Source, config: dict[str, Any]) -> tuple[dict[str, Any], Reduc
     from bladerub.blade.build import reduce_meshed
     from bladerub.blade.elasticity import Material
     from bladerub.blade.sources import importing
-    from bladerub.blade.sources.report import report
+    from bladerub.blade.sources.report import mesh_report
 
     imported = importing.import_blade(source, config["blade"]["mesh"])
     built = reduce_meshed(imported.blade, config)
-    figures = report(source, imported, built, Material.from_config(config["blade"]["material"]))
+    figures = mesh_report(source, imported, built, Material.from_config(config["blade"]["material"]))
     return figures, built.reduced
 
 

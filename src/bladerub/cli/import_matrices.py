@@ -18,14 +18,14 @@ def look(source: MatrixSource, config: dict[str, Any]) -> tuple[dict[str, Any], 
     """
     from bladerub.blade.build import reduce_given
     from bladerub.blade.sources.matrices import import_matrices
-    from bladerub.blade.sources.matrix_report import report
+    from bladerub.blade.sources.report import matrix_report
 
     reduction = config["reduction"]
     imported = import_matrices(
         source, reduction["f_omega_max"], reduction["accuracy_modes"], reduction["modes_per_speed"]
     )
     built = reduce_given(imported.blade, config)
-    return report(source, imported, built), built.reduced
+    return matrix_report(source, imported, built), built.reduced
 
 
 def in_words(figures: dict[str, Any]) -> list[str]:

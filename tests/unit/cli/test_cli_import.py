@@ -67,7 +67,7 @@ def test_figures_of_the_default_blade(look, folder):
 def test_what_it_prints_is_a_config_of_the_blade(look, folder):
     code, out, _ = look("--unit", "mm")
     assert code == 0
-    assert "warning             its mesh is coarse: 6 elements" in out
+    assert "warning             its mesh is coarse, with 6 elements" in out
     (folder / "printed.yaml").write_text(out.split("are absolute\n")[1])
     code, again, _ = look("--config", str(folder / "printed.yaml"))
     assert code == 0

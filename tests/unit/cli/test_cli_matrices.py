@@ -71,7 +71,7 @@ def test_what_is_written_can_be_looked_at(written, command):
 def test_what_it_prints_is_a_config_of_the_blade(written, command, tmp_path):
     code, out, _ = command("import", written / "m", "--matrix-units", "inch-lbf")
     assert code == 0
-    assert "warning             it weighs" in out
+    assert "warning             its mass is" in out
     (tmp_path / "printed.yaml").write_text(out.split("are absolute\n")[1])
     assert command("import", written / "m", "--config", tmp_path / "printed.yaml") == (0, out, "")
 

@@ -1,4 +1,4 @@
-"""Abaqus and CalculiX files through meshio, with care for what it would misread without a word."""
+"""Abaqus and CalculiX files through meshio, except what it would silently misread."""
 
 from __future__ import annotations
 
@@ -15,17 +15,11 @@ _AS_MESHIO_KNOWS_THEM = {
     **dict.fromkeys(("CPE3", "M3D3", "SFM3D3"), "CPS3"),
     **dict.fromkeys(("CPE4", "CPE4R", "M3D4", "M3D4R", "SFM3D4"), "CPS4"),
 }
-"""Faces of Gmsh and others that mark a surface, by what meshio calls elements with these nodes."""
+"""What meshio calls the elements of surfaces that Gmsh and others write."""
 
 
 def read(path: str | Path) -> meshio.Mesh:
-    """Read the mesh of one part.
-
-    Raises
-    ------
-    ValueError
-        If the file holds an assembly, several blocks of nodes, or points to other files.
-    """
+    """Read the mesh of one part; ValueError if there are several, or several blocks of nodes or files."""
     lines = Path(path).read_text(encoding="utf-8", errors="replace").splitlines()
     keywords = [line.partition(",")[0].strip().upper() for line in lines]
     if keywords.count("*NODE") > 1:

@@ -1,4 +1,4 @@
-"""Whether mass and stiffness are such that a clamped body vibrates about a stable rest."""
+"""Checks that mass and stiffness are those of a clamped body with a stable equilibrium."""
 
 from __future__ import annotations
 
@@ -12,20 +12,10 @@ _ENERGY = 1e-13  # of what would be there if nothing cancelled; 1e-8 in the firs
 
 
 def check_definite(matrix: sparse.csc_array) -> None:
-    """Refuse a matrix that cannot be positive definite.
+    """Raise ValueError if a symmetric matrix has an entry on its diagonal or an eigenvalue below zero.
 
-    Ritz values of Lanczos's method lie between the eigenvalues, so a negative one is proof; that there is
-    none proves nothing of eigenvalues near zero (see `check_held` for these).
-
-    Parameters
-    ----------
-    matrix : (n, n) sparse array
-        Symmetric.
-
-    Raises
-    ------
-    ValueError
-        If its diagonal is not positive, or a Ritz value is negative; the message names the row, from 1.
+    Ritz values of Lanczos's method lie between the eigenvalues, so a negative one is proof. Eigenvalues near
+    zero may stay unnoticed (see `check_held` for these).
     """
     diagonal = matrix.diagonal()
     low = np.flatnonzero(diagonal <= 0)
@@ -58,20 +48,7 @@ def _ritz_values(product, n: int) -> np.ndarray:
 
 
 def check_held(stiffness: sparse.csc_array, mode: np.ndarray) -> None:
-    """Refuse a stiffness that leaves the body free to move.
-
-    Parameters
-    ----------
-    stiffness : (n, n) sparse array
-        At rest, symmetric.
-    mode : (n,) ndarray
-        Its lowest mode.
-
-    Raises
-    ------
-    ValueError
-        If the energy of that mode is nothing but rounding, or negative.
-    """
+    """Raise ValueError if the energy of the lowest `mode` of a stiffness is negative or only rounding."""
     size = np.abs(mode)
     if mode @ (stiffness @ mode) <= _ENERGY * (size @ (abs(stiffness) @ size)):
         raise ValueError(

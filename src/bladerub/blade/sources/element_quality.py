@@ -1,4 +1,4 @@
-"""Whether the elements of a mesh are what a solid can be made of."""
+"""Checks of the nodes and elements of a mesh."""
 
 from __future__ import annotations
 
@@ -13,21 +13,9 @@ _MOST_OFF = 0.35  # of the edge; the middle of a quarter of a circle is 0.21 off
 
 
 def check_nodes(points: np.ndarray, cells: np.ndarray) -> None:
-    """See that the nodes of the elements have places of their own, mid-side ones in the middle.
+    """Check that no two nodes of `cells` are in one place and that mid-side nodes are in the middle.
 
-    Nodes and elements are counted from 1 in the order of the file.
-
-    Parameters
-    ----------
-    points : (n_points, 3) ndarray
-        Nodes; those that no element uses are not looked at.
-    cells : (n_elements, 20 or 10) ndarray of int
-        Nodes of each element.
-
-    Raises
-    ------
-    ValueError
-        If not; the message names the node or the element.
+    Raises a ValueError that names the node or element, counted from 1. Nodes of no element are not checked.
     """
     used = np.unique(cells)
     lost = used[~np.isfinite(points[used]).all(axis=1)]
@@ -43,9 +31,9 @@ def check_nodes(points: np.ndarray, cells: np.ndarray) -> None:
     ends = points[cells[:, EDGES[cells.shape[1]]]]
     sides = points[cells[:, -ends.shape[1] :]]
     off = np.linalg.norm(sides - ends.mean(axis=2), axis=-1)
-    astray = np.argwhere(off > _MOST_OFF * np.linalg.norm(ends[:, :, 1] - ends[:, :, 0], axis=-1))
-    if len(astray):
-        element, edge = astray[0]
+    misplaced = np.argwhere(off > _MOST_OFF * np.linalg.norm(ends[:, :, 1] - ends[:, :, 0], axis=-1))
+    if len(misplaced):
+        element, edge = misplaced[0]
         node = cells.shape[1] - ends.shape[1] + edge
         raise ValueError(
             f"element {element + 1}: its {node + 1}th node is not in the middle of its edge; the nodes "
@@ -56,10 +44,7 @@ def check_nodes(points: np.ndarray, cells: np.ndarray) -> None:
 def jacobians(mesh: SolidMesh) -> tuple[np.ndarray, float]:
     """Smallest over largest Jacobian determinant of each element (n_elements,), and the volume, m³.
 
-    Raises
-    ------
-    ValueError
-        If one is not positive at an integration point; the message names the element.
+    Raises a ValueError that names the element if one is not positive at an integration point.
     """
     points, weights = mesh.mass_quadrature()
     determinant = mesh.mapping().detDF(points)

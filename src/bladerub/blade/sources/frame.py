@@ -1,9 +1,9 @@
-"""Units and axes by name, and the turn from a file's axes to the blade's frame.
+"""Units and axes by name, and the rotation from a file's axes to the blade's frame.
 
 The blade's frame (`bladerub.blade.geometry`) has x along the engine axis, z along the blade, and a rotation
 that takes z towards y: by the right-hand rule, about -x. A file whose axes are named is therefore only
-turned, never mirrored, with x against its rotation vector; x then points downstream or upstream, as the
-blade has it, and which end is the leading edge is a question of its own.
+turned, never mirrored, with x against its rotation vector. So x points downstream or upstream, depending on
+the blade, and the leading edge may have the smaller or the larger x.
 """
 
 from __future__ import annotations
@@ -17,21 +17,13 @@ UNITS = {"m": 1.0, "mm": 1e-3, "cm": 1e-2, "inch": 0.0254, "feet": 0.3048}
 ANGLE_UNITS = {"rad": 1.0, "deg": np.pi / 180}
 """Radians of each unit of angle."""
 LENGTHS = (0.01, 3.0)
-"""Shortest and longest blade that there is, m: those that ``blade.length`` of the config may have."""
+"""Limits of the length of a blade, m, as those of ``blade.length`` of the config."""
 AXES = ("x", "y", "z", "-x", "-y", "-z")
 
 
 @dataclass(frozen=True)
 class Frame:
-    """How a file is laid out; its engine axis passes through its origin.
-
-    Parameters
-    ----------
-    unit : str
-        One of `UNITS`.
-    rotation, downstream, radial : str
-        One of `AXES` each: about which the blade turns by the right-hand rule, along which the air flows,
-        along which the blade stands.
+    """Unit (of `UNITS`) and axes (of `AXES`) of a file; its engine axis passes through its origin.
 
     Raises
     ------
@@ -40,9 +32,9 @@ class Frame:
     """
 
     unit: str = "m"
-    rotation: str = "-x"
-    downstream: str = "x"
-    radial: str = "z"
+    rotation: str = "-x"  # about which the blade turns by the right-hand rule
+    downstream: str = "x"  # along which the air flows
+    radial: str = "z"  # from root to tip
 
     def __post_init__(self):
         if self.downstream[-1] != self.rotation[-1]:
@@ -65,13 +57,7 @@ class Frame:
         return -1 if self.downstream == self.rotation else 1
 
     def check_length(self, length: float) -> None:
-        """See that a blade from root to tip has the `length` (m) of one.
-
-        Raises
-        ------
-        ValueError
-            If not: the unit is not what it is said to be.
-        """
+        """Check that `length` (m) is one of a blade, or raise ValueError: the unit is wrong."""
         shortest, longest = LENGTHS
         if not shortest <= length <= longest:
             raise ValueError(
@@ -80,15 +66,15 @@ class Frame:
             )
 
     def metres(self, points: np.ndarray) -> np.ndarray:
-        """Bring points (n, 3) of the file to the blade's frame, m."""
+        """Convert points (n, 3) of the file to the blade's frame, m."""
         return UNITS[self.unit] * points @ self.turn.T
 
     def cartesian(self, z: np.ndarray, r: np.ndarray, theta: np.ndarray) -> np.ndarray:
         """Turn cylindrical coordinates of the file (n,) into its Cartesian ones (n, 3).
 
         `z` counts along the engine axis in the positive direction of its letter, whichever sign `rotation`
-        has; `theta` (rad) turns about that direction by the right-hand rule, from `radial` on. So the blade
-        turns towards greater angles where `rotation` is x, y or z, to smaller ones where it is -x, -y or -z.
+        has; `theta` (rad) counts about that direction by the right-hand rule, from `radial` on. So the blade
+        turns towards larger angles where `rotation` is x, y or z, to smaller ones where it is -x, -y or -z.
         """
         axis, radial = _vector(self.rotation[-1]), _vector(self.radial)
         around = np.cross(axis, radial)

@@ -34,26 +34,14 @@ OMEGA_TOLERANCE = 1e-3
 class ImportedMatrices:
     """A blade from the matrices of another program.
 
-    Parameters
-    ----------
-    blade : DiscreteBlade
-        What the reduction needs. Its length is that from the clamped nodes to the tip, or, where no node is
-        clamped, what its nodes reach over along the radius.
-    mass : float
-        Of the blade moved as a whole, kg.
-    mass_is_whole : bool
-        Whether the files have the rows of the clamped nodes, whose mass is missing otherwise.
-    half_way : float
-        How much the stiffness changes to half the highest speed, over its change to the highest; about 1/4.
-    lean : float
-        Angle (rad) about the engine axis between the blade's middle and the radial axis that was named.
+    Its length is that from the clamped nodes to the tip or, where no node is clamped, the range of the radii.
     """
 
     blade: DiscreteBlade
-    mass: float
-    mass_is_whole: bool
-    half_way: float
-    lean: float
+    mass: float  # of the rigid blade, kg
+    mass_is_complete: bool  # whether the files have rows of the clamped nodes, whose mass is missing else
+    half_speed_change: float  # of the stiffness to half the highest speed, over that to the highest; ~ 1/4
+    lean: float  # as in `bladerub.blade.sources.importing.Imported`, rad
 
     @property
     def is_rooted(self) -> bool:
@@ -63,23 +51,15 @@ class ImportedMatrices:
 
 @threadpool_limits.wrap(limits=1)
 def import_matrices(source: MatrixSource, f_max: float, n_modes: int, eta: int) -> ImportedMatrices:
-    """Read the matrices of `source` and see that they are of a blade.
+    """Read the matrices of `source` and check that they are of a blade.
 
-    Parameters
-    ----------
-    source : MatrixSource
-        The folder.
-    f_max : float
-        Normalised speed of ``stiffness_max``.
-    n_modes : int
-        How many modes at rest.
-    eta : int
-        How many modes with a clamped interface the reduction will ask for.
+    `f_max` is the normalised speed of ``stiffness_max``. There must be coordinates enough for `n_modes` modes
+    at rest and for `eta` modes with a clamped interface.
 
     Raises
     ------
     BadInput
-        If the folder cannot be used as a blade; the message names the file and the culprit.
+        If the folder cannot be used as a blade; the message names the file and what is wrong in it.
     """
     names = _naming(source.folder, matrix_folder.files, source.folder)
     at_speeds = _naming(source.folder, matrix_folder.speeds, names, fit_speeds(f_max))
@@ -94,9 +74,13 @@ def import_matrices(source: MatrixSource, f_max: float, n_modes: int, eta: int) 
             f"{max(n_modes, eta)}, the modes that are wanted"
         )
     paths = {f_omega: names[name] for f_omega, name in at_speeds.items()}
-    whole_mass = _naming(names[MASS], matrix_folder.read_matrix, names[MASS])
-    mass = _naming(names[MASS], _of_free, whole_mass, free, source)
-    stiffness = {f_omega: _naming(path, _stiffness, path, free, source) for f_omega, path in paths.items()}
+
+    def read_free(path: Path) -> sparse.csc_array:
+        return _of_free(matrix_folder.read_matrix(path), free, source)
+
+    mass_of_all = _naming(names[MASS], matrix_folder.read_matrix, names[MASS])
+    mass = _naming(names[MASS], _of_free, mass_of_all, free, source)
+    stiffness = {f_omega: _naming(path, read_free, path) for f_omega, path in paths.items()}
     rest, half, highest = (stiffness[f_omega] for f_omega in fit_speeds(f_max))
     _naming(names[MASS], check_definite, mass)
     _naming(names[FIT[0]], check_definite, rest)
@@ -122,15 +106,15 @@ def import_matrices(source: MatrixSource, f_max: float, n_modes: int, eta: int) 
             frequency,
             modes,
         ),
-        MATRIX_UNITS[source.matrix_units] * _translated(whole_mass),
-        nodes.clamped.size > 0 and whole_mass.shape[0] == 3 * len(nodes.points),
+        MATRIX_UNITS[source.matrix_units] * _rigid_mass(mass_of_all),
+        nodes.clamped.size > 0 and mass_of_all.shape[0] == 3 * len(nodes.points),
         float(sparse.linalg.norm(half - rest) / change) if change else 0.0,
         float(np.arctan2(middle[1], middle[2])),
     )
 
 
 def _naming(path: Path, function: Callable[..., T], *arguments: Any) -> T:
-    """Call `function`; what it finds wrong is wrong with `path`."""
+    """Call `function`; add `path` to the message of its ValueError."""
     try:
         return function(*arguments)
     except ValueError as error:
@@ -138,7 +122,7 @@ def _naming(path: Path, function: Callable[..., T], *arguments: Any) -> T:
 
 
 def _layout(nodes: matrix_folder.Nodes, source: MatrixSource) -> MeshedBlade:
-    """Bring the nodes to the blade's frame, and see that the interface is where a tip is."""
+    """Convert the nodes to the blade's frame, and check that the interface is that of a tip."""
     points = source.frame.metres(nodes.points)
     radius = np.hypot(points[:, 1], points[:, 2])
     ends = points[nodes.interface]
@@ -151,7 +135,7 @@ def _layout(nodes: matrix_folder.Nodes, source: MatrixSource) -> MeshedBlade:
     if source.frame.downstream_x * (ends[-1, 0] - ends[0, 0]) <= 0:
         raise ValueError(
             f"interface node 1 is downstream of node {len(ends)}; must be at the leading edge: is downstream "
-            f"= {source.frame.downstream} the way of the flow?"
+            f"= {source.frame.downstream} the direction of the flow?"
         )
     tip_nodes = nodes.tip if nodes.tip.size else nodes.interface
     lowest = radius[nodes.clamped].mean() if nodes.clamped.size else radius.min()
@@ -168,12 +152,8 @@ def _layout(nodes: matrix_folder.Nodes, source: MatrixSource) -> MeshedBlade:
     )
 
 
-def _stiffness(path: Path, free: FreeCoordinates, source: MatrixSource) -> sparse.csc_array:
-    return _of_free(matrix_folder.read_matrix(path), free, source)
-
-
 def _of_free(matrix: sparse.csc_array, free: FreeCoordinates, source: MatrixSource) -> sparse.csc_array:
-    """Take the free coordinates out of `matrix`, in the blade's axes and SI units."""
+    """Rows and columns of the free coordinates in `matrix`, in the blade's axes and SI units."""
     n, n_all = free.free.size, 3 * free.n_nodes
     if matrix.shape[0] not in (n, n_all):
         raise ValueError(
@@ -182,12 +162,12 @@ def _of_free(matrix: sparse.csc_array, free: FreeCoordinates, source: MatrixSour
         )
     if matrix.shape[0] > n:
         matrix = matrix[free.free][:, free.free]
-    turn = sparse.kron(sparse.eye_array(n // 3), source.frame.turn, format="csc")
-    return sparse.csc_array(MATRIX_UNITS[source.matrix_units] * (turn @ matrix @ turn.T))
+    rotation = sparse.kron(sparse.eye_array(n // 3), source.frame.turn, format="csc")
+    return sparse.csc_array(MATRIX_UNITS[source.matrix_units] * (rotation @ matrix @ rotation.T))
 
 
-def _translated(mass: sparse.csc_array) -> float:
-    """Mass of the body moved as a whole, the mean of the three directions."""
+def _rigid_mass(mass: sparse.csc_array) -> float:
+    """Mass of the rigid body, the mean of the three directions."""
     rigid = np.tile(np.eye(3), (mass.shape[0] // 3, 1))
     return float(np.trace(rigid.T @ (mass @ rigid)) / 3)
 

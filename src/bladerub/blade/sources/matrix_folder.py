@@ -1,4 +1,4 @@
-"""Matrices of a blade as their folder has them: which files there are, and what each may hold."""
+"""A folder with the matrices of a blade: its files and their formats."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ MASS = "mass"
 FIT = ("stiffness_rest", "stiffness_half", "stiffness_max")
 """Stiffness at the speeds of the fit, ascending."""
 AT_SPEED = "stiffness_at_"
-"""How the name of a stiffness at another speed begins; the normalised speed follows."""
+"""Prefix of the name of a stiffness at another speed; the normalised speed follows."""
 SYMMETRY = 1e-8
 """Largest difference of two entries that must be equal, over the largest entry."""
 
@@ -31,26 +31,16 @@ _MARKS = {"interface": N_INTERFACE, "clamped": 1, "tip": 1}  # largest value of 
 
 @dataclass(frozen=True)
 class Nodes:
-    """The content of ``nodes.csv``.
+    """The content of ``nodes.csv``."""
 
-    Parameters
-    ----------
-    points : (n_nodes, 3) ndarray
-        In the unit and axes of the file.
-    interface : (8,) ndarray of int
-        Rows of the interface nodes, leading to trailing edge.
-    clamped, tip : ndarray of int
-        Rows that are marked so.
-    """
-
-    points: np.ndarray = field(repr=False)
-    interface: np.ndarray
-    clamped: np.ndarray = field(repr=False)
+    points: np.ndarray = field(repr=False)  # (n_nodes, 3), in the unit and axes of the file
+    interface: np.ndarray  # (8,), rows of the interface nodes, leading to trailing edge
+    clamped: np.ndarray = field(repr=False)  # rows that are marked so
     tip: np.ndarray = field(repr=False)
 
 
 def files(folder: Path) -> dict[str, Path]:
-    """Find the files of `folder` that count, by their names without suffix.
+    """Find the matrices and the list of nodes in `folder`, by their names without suffix.
 
     Raises
     ------
@@ -73,12 +63,9 @@ def files(folder: Path) -> dict[str, Path]:
 
 
 def speeds(names: Mapping[str, Path], fit: Sequence[float]) -> dict[float, str]:
-    """Tell the normalised speed of each stiffness among `names`, in ascending order.
+    """Find the normalised speed of each stiffness among `names`, in ascending order.
 
-    Raises
-    ------
-    ValueError
-        If the name of a file does not say a speed between those of `fit`.
+    Raises a ValueError for a name without a speed between those of `fit`.
     """
     found = dict(zip(fit, FIT, strict=True))
     for name in names:
@@ -95,13 +82,7 @@ def speeds(names: Mapping[str, Path], fit: Sequence[float]) -> dict[float, str]:
 
 
 def read_nodes(path: Path) -> Nodes:
-    """Read ``nodes.csv``.
-
-    Raises
-    ------
-    ValueError
-        If it is not such a table; the message names the row, counted from 1 below the header.
-    """
+    """Read ``nodes.csv``; a ValueError names the row, counted from 1 below the header."""
     if path.stat().st_size == 0:
         raise ValueError("is empty")
     try:
@@ -155,11 +136,7 @@ def _marks(table: pd.DataFrame, name: str) -> np.ndarray:
 def read_matrix(path: Path) -> sparse.csc_array:
     """Read a symmetric matrix: Matrix Market, or what `scipy.sparse.save_npz` writes.
 
-    Raises
-    ------
-    ValueError
-        If it is not a square matrix of finite real numbers, symmetric to `SYMMETRY`; entries are counted
-        from 1.
+    Raises a ValueError if it is not a square matrix of finite real numbers, symmetric to `SYMMETRY`.
     """
     if path.stat().st_size == 0:
         raise ValueError("is empty")
@@ -168,7 +145,7 @@ def read_matrix(path: Path) -> sparse.csc_array:
         if max(rows, columns) <= MOST_UNKNOWNS:
             raw = mmread(path, spmatrix=False) if path.suffix == ".mtx" else sparse.load_npz(path)
             rows, columns = raw.shape
-    except Exception as error:  # a reader of foreign files fails in every way there is
+    except Exception as error:  # readers of foreign files raise all kinds of errors
         reason = str(error) or type(error).__name__
         raise ValueError(f"is not a {path.suffix} file that can be read ({reason})") from error
     if rows != columns:
@@ -178,7 +155,7 @@ def read_matrix(path: Path) -> sparse.csc_array:
     if raw.dtype.kind not in "iuf":
         raise ValueError(f"holds numbers of the type {raw.dtype}; must be real")
     entries = sparse.coo_array(raw)
-    matrix = sparse.csc_array(entries, dtype=float)  # sums what is there twice
+    matrix = sparse.csc_array(entries, dtype=float)  # adds up entries that are there twice
     if path.suffix == ".mtx" and matrix.nnz < entries.nnz:
         raise ValueError("has entries twice; with the word symmetric it must hold one triangle only")
     _check_symmetry(matrix)

@@ -1,4 +1,4 @@
-"""A mesh as its file has it: nodes, one kind of quadratic element, node sets."""
+"""The content of a mesh file: nodes, one kind of quadratic element, node sets."""
 
 from __future__ import annotations
 
@@ -28,35 +28,20 @@ _LINEAR = {"hexahedron": 20, "tetra": 10}  # nodes after mid-side ones are added
 class MeshFile:
     """The content of a mesh file.
 
-    Parameters
-    ----------
-    points : (n_points, 3) ndarray
-        Nodes in the unit and axes of the file, then those added.
-    cells : (n_elements, 20 or 10) ndarray of int
-        Nodes of the hexahedra or tetrahedra, in the order of CalculiX and VTK.
-    node_sets : dict of str to ndarray of int
-        Nodes by the name of the set: node sets and sets of surface elements of Abaqus, physical groups of
-        surfaces, lines and points of Gmsh, point data of whole numbers of VTK (where it is not zero).
-    is_raised : bool
-        Whether the file has elements of 8 or 4 nodes, which got nodes in the middle of their edges.
+    `node_sets` are node sets and sets of surface elements of Abaqus, physical groups of surfaces, lines and
+    points of Gmsh, and integer point data of VTK (nodes where it is not zero).
     """
 
-    points: np.ndarray = field(repr=False)
-    cells: np.ndarray = field(repr=False)
+    points: np.ndarray = field(repr=False)  # (n_points, 3), in unit and axes of the file, then those added
+    cells: np.ndarray = field(repr=False)  # (n_elements, 20 or 10), in the order of CalculiX and VTK
     node_sets: dict[str, np.ndarray]
-    is_raised: bool
+    is_raised: bool  # whether elements of 8 or 4 nodes got nodes in the middle of their edges
 
 
 def read(path: str | Path) -> MeshFile:
-    """Read the mesh at `path`.
+    """Read the mesh at `path`; a ValueError says why it cannot be used.
 
-    Elements of 8 and 4 nodes become such of 20 and 10 with straight edges: the ones are far too stiff in
-    bending.
-
-    Raises
-    ------
-    ValueError
-        If the file is not a mesh of one kind of element that we can use.
+    Elements of 8 and 4 nodes, far too stiff in bending, become such of 20 and 10 with straight edges.
     """
     path = Path(path)
     suffix = path.suffix.lower()
@@ -71,7 +56,7 @@ def read(path: str | Path) -> MeshFile:
         raise ValueError("is empty")
     try:
         mesh = READERS[suffix](str(path))
-    except Exception as error:  # a parser of foreign files fails in every way there is
+    except Exception as error:  # readers of foreign files raise all kinds of errors
         reason = str(error) or type(error).__name__
         raise ValueError(f"is not a {suffix} file that can be read ({reason})") from error
     kind, cells = _volume(mesh)
@@ -84,7 +69,7 @@ def read(path: str | Path) -> MeshFile:
 
 
 def raised(points: np.ndarray, cells: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Put nodes in the middle of all edges of hexahedra (n, 8) or tetrahedra (n, 4)."""
+    """Add nodes in the middle of all edges of hexahedra (n, 8) or tetrahedra (n, 4)."""
     n_corners = cells.shape[1]
     ends = np.sort(cells[:, EDGES[{8: 20, 4: 10}[n_corners]]], axis=-1)
     edges, edge = np.unique(ends.reshape(-1, 2), axis=0, return_inverse=True)
@@ -122,5 +107,5 @@ def _node_sets(mesh: meshio.Mesh) -> dict[str, np.ndarray]:
         for block, rows in zip(mesh.cells, members, strict=False):
             if block.dim < 3 and rows is not None and not name.startswith("gmsh:"):
                 sets.setdefault(name, []).append(np.ravel(block.data[np.asarray(rows, dtype=int)]))
-    together = {name: np.unique(np.concatenate(nodes)) for name, nodes in sets.items()}
-    return {name: nodes for name, nodes in together.items() if nodes.size or name in mesh.point_sets}
+    merged = {name: np.unique(np.concatenate(nodes)) for name, nodes in sets.items()}
+    return {name: nodes for name, nodes in merged.items() if nodes.size or name in mesh.point_sets}

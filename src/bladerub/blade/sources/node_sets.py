@@ -1,4 +1,4 @@
-"""Clamped nodes and tip nodes of a mesh: by the name of a set, or by which way its surface looks."""
+"""Clamped nodes and tip nodes of a mesh: by the name of a set, or by the direction of its surface."""
 
 from __future__ import annotations
 
@@ -15,12 +15,9 @@ _FACING = np.cos(np.pi / 4)
 
 
 def named(node_sets: Mapping[str, np.ndarray], name: str) -> np.ndarray:
-    """Nodes of the set `name`; capital or small letters are the same where no other set differs in them.
+    """Nodes of the set `name`, in capital or small letters unless another set differs in them only.
 
-    Raises
-    ------
-    ValueError
-        If there is no such set, or nothing in it; names those there are.
+    Raises a ValueError if there is no such set, or no node in it.
     """
     alike = [known for known in node_sets if known.lower() == name.lower()]
     found = name if name in node_sets else alike[0] if len(alike) == 1 else None
@@ -34,35 +31,21 @@ def named(node_sets: Mapping[str, np.ndarray], name: str) -> np.ndarray:
 
 
 def facing(points: np.ndarray, faces: np.ndarray, outwards: bool) -> np.ndarray:
-    """Nodes of that part of the surface that is farthest from (or nearest to) the engine axis and looks so.
+    """Nodes of the part of the surface that is farthest from the engine axis and faces `outwards`: the tip.
 
-    Faces count that look within 45 degrees of the radial direction, and of those the ones that hang
-    together with the farthest (nearest): a tip or root may be a cylinder, a cone or a plane, but ends
-    at its edges.
-
-    Parameters
-    ----------
-    points : (n_nodes, 3) ndarray
-        In the blade's frame.
-    faces : (n_faces, 8 or 6) ndarray of int
-        The surface (`bladerub.blade.surface.boundary_faces`).
-    outwards : bool
-        The tip if true, the root if not.
-
-    Raises
-    ------
-    ValueError
-        If there is none.
+    If not `outwards`, the part nearest to the axis that faces inwards: the root. Its normals are within 45
+    degrees of the radial direction, and its `faces` are connected: it may be a cylinder, a cone or a plane,
+    but ends at its edges. Raises a ValueError if there is none.
     """
     sign = 1 if outwards else -1
     middle = points[faces].mean(axis=1)
     radius = np.hypot(middle[:, 1], middle[:, 2])
     radial = normals(points[faces])[:, 1:] * middle[:, 1:]
-    looking = faces[sign * radial.sum(axis=1) > _FACING * radius]
-    if not len(looking):
-        raise ValueError("no part of the surface looks along the radius; name a node set")
-    rows = np.repeat(np.arange(len(looking)), looking.shape[1])
-    touching = sparse.coo_array((np.ones(rows.size), (rows, looking.ravel())))
+    facing_so = faces[sign * radial.sum(axis=1) > _FACING * radius]
+    if not len(facing_so):
+        raise ValueError("no part of the surface faces along the radius; name a node set")
+    rows = np.repeat(np.arange(len(facing_so)), facing_so.shape[1])
+    touching = sparse.coo_array((np.ones(rows.size), (rows, facing_so.ravel())))
     _, part = connected_components(touching @ touching.T, directed=False)
-    height = (sign * np.hypot(points[:, 1], points[:, 2]))[looking].max(axis=1)
-    return np.unique(looking[part == part[np.argmax(height)]])
+    height = (sign * np.hypot(points[:, 1], points[:, 2]))[facing_so].max(axis=1)
+    return np.unique(facing_so[part == part[np.argmax(height)]])

@@ -1,4 +1,4 @@
-"""Where a blade comes from, as the config says it."""
+"""Where a blade comes from: the ``blade.source`` block of the config."""
 
 from __future__ import annotations
 
@@ -12,52 +12,39 @@ from bladerub.blade.sources.frame import Frame
 from bladerub.io.sources import ROOT
 
 MATRIX_UNITS = {"SI": 1.0, "mm-tonne": 1e3, "inch-lbf": 4.4482216152605 / 0.0254}
-"""By the name of a system of units with the second in it: N/m of its stiffness, and as well kg of its mass.
+"""N/m of the stiffness, and equally kg of the mass, by the name of a system of units with the second in it.
 
-The two are one number in every such system, so frequencies do not tell when the wrong one is named.
+As the two are equal, frequencies do not show when the wrong system is named.
 """
 TABLE_SUFFIXES = (".csv", ".txt", ".dat")
-"""Files that end so are tables of sections, all others meshes."""
+"""Suffixes of tables of sections; all other files are meshes."""
 
 _OF_A_MESH = ("root_set", "tip_set")
 
 
 @dataclass(frozen=True)
 class Source:
-    """Where a blade comes from, as ``blade.source`` of the config says.
+    """A file that a blade comes from, as ``blade.source`` of the config describes it.
 
-    Parameters
-    ----------
-    file : Path
-        The mesh (`bladerub.blade.sources.mesh_file`) or table of sections
-        (`bladerub.blade.sources.section_table`).
-    frame : Frame
-        Its unit and axes.
-    root_set, tip_set : str or None
-        Names of the node sets; found by which way the surface looks where they are not given.
-    tip_cone : float or None
-        Half angle (degrees) of the flow path at the tip, positive where it widens downstream; fitted to the
-        tip where it is not given.
-    angle_unit : str or None
-        Of the angles in a table of sections, one of `bladerub.blade.sources.frame.ANGLE_UNITS`; rad where it
-        is not given.
+    It is a mesh (`bladerub.blade.sources.mesh_file`) or a table of sections
+    (`bladerub.blade.sources.section_table`). What is not given is found: the node sets by the direction of
+    the surface, the cone by a fit to the tip.
 
     Raises
     ------
     ValueError
-        If something is given that a file of this kind has no use for.
+        If something is given that does not apply to this kind of file.
     """
 
     file: Path
     frame: Frame = field(default_factory=Frame)
     root_set: str | None = None
     tip_set: str | None = None
-    tip_cone: float | None = None
-    angle_unit: str | None = None
+    tip_cone: float | None = None  # half angle of the flow path at the tip, degrees, positive: it widens
+    angle_unit: str | None = None  # of a table, one of `bladerub.blade.sources.frame.ANGLE_UNITS`; else rad
 
     def __post_init__(self):
-        useless = _OF_A_MESH if self.is_table else ("angle_unit",)
-        for name in useless:
+        for name in _OF_A_MESH if self.is_table else ("angle_unit",):
             if getattr(self, name) is not None:
                 kind = "mesh" if self.is_table else "table of sections"
                 raise ValueError(
@@ -81,27 +68,13 @@ class Source:
 
 @dataclass(frozen=True)
 class MatrixSource:
-    """Where the matrices of a blade come from, as ``blade.source`` of the config says.
-
-    Parameters
-    ----------
-    folder : Path
-        With the files (`bladerub.blade.sources.matrix_folder`).
-    frame : Frame
-        Unit of the nodes' coordinates, and axes of nodes and matrices.
-    matrix_units : str
-        One of `MATRIX_UNITS`.
-    omega_max : float or None
-        Speed of ``stiffness_max``, rad/s, to be held against ``reduction.f_omega_max`` where it is given.
-    tip_cone : float or None
-        As in `Source`.
-    """
+    """A folder of matrices that a blade comes from (`bladerub.blade.sources.matrix_folder`)."""
 
     folder: Path
-    frame: Frame = field(default_factory=Frame)
-    matrix_units: str = "SI"
-    omega_max: float | None = None
-    tip_cone: float | None = None
+    frame: Frame = field(default_factory=Frame)  # unit of the coordinates, axes of nodes and matrices
+    matrix_units: str = "SI"  # one of `MATRIX_UNITS`
+    omega_max: float | None = None  # speed of ``stiffness_max``, rad/s, to check ``reduction.f_omega_max``
+    tip_cone: float | None = None  # as in `Source`
 
     @classmethod
     def from_config(cls, source: Mapping[str, Any]) -> MatrixSource:
@@ -123,28 +96,25 @@ def read(source: Mapping[str, Any]) -> Source | MatrixSource:
         If it names not one of ``file`` and ``matrices``, or keys do not go together; begins with the key.
     """
     if "matrices" in source:
-        astray, kind = [key for key in _OF_FILES_ONLY if key in source], MatrixSource
+        given, kind, others = "matrices", MatrixSource, _OF_FILES_ONLY
     elif "file" in source:
-        astray, kind = [key for key in _OF_MATRICES_ONLY if key in source], Source
+        given, kind, others = "file", Source, _OF_MATRICES_ONLY
     else:
         raise ValueError("file: missing; must be given, or matrices in its place")
-    if astray:
-        other = "matrices" if kind is MatrixSource else "file"
-        raise ValueError(f"{astray[0]} = {source[astray[0]]}: must not be given beside {other}")
+    for key in others:
+        if key in source:
+            raise ValueError(f"{key} = {source[key]}: must not be given beside {given}")
     return kind.from_config(source)
 
 
 def files(source: Mapping[str, Any]) -> list[str]:
-    """List the files that the ``blade.source`` block of the config names, as seen from where that is.
+    """List the files that the ``blade.source`` block of the config names, relative to the repository.
 
-    Raises
-    ------
-    ValueError
-        If a file of a folder of matrices is missing.
+    Raises ValueError if a file of a folder of matrices is missing.
     """
     if "matrices" not in source:
         return [source["file"]]
-    from bladerub.blade.sources import matrix_folder  # brings pandas, which no command needs to begin
+    from bladerub.blade.sources import matrix_folder  # imports pandas, which takes time
 
     found = matrix_folder.files(MatrixSource.from_config(source).folder)
     return [os.path.join(source["matrices"], path.name) for path in found.values()]

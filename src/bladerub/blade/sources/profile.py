@@ -11,24 +11,10 @@ _ROUNDS = 8
 
 
 def camber_line(outline: np.ndarray) -> np.ndarray:
-    """Draw the line midway between the two sides, measured across itself.
+    """Draw the line (47, 2) midway between the two sides, measured across itself, from one end to the other.
 
-    It goes on straight through the two ends.
-
-    Parameters
-    ----------
-    outline : (n, 2, 2) ndarray
-        Ends of the straight pieces of the closed profile, in any order.
-
-    Returns
-    -------
-    (47, 2) ndarray
-        From one end of the profile to the other, whichever comes first.
-
-    Raises
-    ------
-    ValueError
-        If the outline is not such a profile; the message says what it is.
+    `outline` (n, 2, 2) holds the ends of the straight pieces of the closed profile, in any order. The line is
+    continued straight to the two ends. Raises a ValueError if the outline is not such a profile.
     """
     corners = outline[:, 0]
     apart = cdist(corners, corners)
@@ -67,26 +53,15 @@ def _middle(pieces: np.ndarray, point: np.ndarray, direction: np.ndarray) -> np.
 
 
 def arc_length(points: np.ndarray) -> np.ndarray:
-    """Length (n,) of the way through `points` (n, 2) from the first to each of them."""
+    """Length (n,) of the polygon through `points` (n, 2) from the first to each of them."""
     return np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1))])
 
 
 def crossings(pieces: np.ndarray, point: np.ndarray, direction: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Find where a line meets straight pieces.
+    """Find where the line through `point` along `direction` meets straight pieces with the ends (n, 2, 2).
 
-    Parameters
-    ----------
-    pieces : (n, 2, 2) ndarray
-        Ends of the pieces.
-    point, direction : (2,) ndarray
-        A point of the line and its direction.
-
-    Returns
-    -------
-    distance : (n_met,) ndarray
-        From the point to where the line meets a piece, in lengths of `direction`.
-    place : (n_met,) ndarray
-        Number of that piece, counted from 0, plus the share of it before.
+    Returns the distance (n_met,) from the point, in lengths of `direction`, and the number (n_met,) of the
+    piece, from 0, plus the share of it before the crossing.
     """
     ends = pieces - point
     side = ends @ np.array([-direction[1], direction[0]])

@@ -1,4 +1,4 @@
-"""What to know of an imported blade before its study, and what to be wary of."""
+"""The figures of an imported blade, and warnings of what is probably wrong with it."""
 
 from __future__ import annotations
 
@@ -10,26 +10,32 @@ from scipy import sparse
 from scipy.sparse.csgraph import dijkstra
 
 from bladerub.blade.accuracy import errors_by_mode
-from bladerub.blade.build import BuiltBlade
+from bladerub.blade.built import BuiltBlade
 from bladerub.blade.elasticity import Material
 from bladerub.blade.mesh import BladeMesh
 from bladerub.blade.model import ReducedBlade
 from bladerub.blade.refinement import MODES
 from bladerub.blade.sources.frame import Frame
-from bladerub.blade.sources.imported import Imported
-from bladerub.blade.sources.origin import Source
+from bladerub.blade.sources.importing import Imported
+from bladerub.blade.sources.matrices import ImportedMatrices
+from bladerub.blade.sources.origin import MatrixSource, Source
 from bladerub.blade.sources.section_profile import EDGE_SHARE, Profile
 from bladerub.blade.surface import EDGES, NAMES
 
-FREQUENCIES = (5.0, 20e3)  # Hz, of their first mode
-BEHIND = 5.0  # degrees; less is a straight blade
-COARSE = 10  # elements from root to tip
+FREQUENCIES = (5.0, 20e3)  # Hz, of the first mode
+LARGEST_LEAN = 20.0  # degrees
+LEAST_STAGGER = -5.0  # degrees; above, the blade is nearly straight
+FEWEST_ELEMENTS = 10  # from root to tip
+LEAST_JACOBIAN_RATIO = 0.1
+LARGEST_OFFSET = 0.03  # of an interface node, over the chord
 EQ2_ERROR = 0.01
 REDUCED_ERROR = 0.02
+DENSITIES = (10.0, 25e3)  # kg/m³ of the box around a blade, of which it fills some hundredths or all
+HALF_SPEED_CHANGE = (0.15, 0.35)  # a quarter, as centrifugal forces grow with the square of the speed
 
 
-def report(source: Source, imported: Imported, built: BuiltBlade, material: Material) -> dict[str, Any]:
-    """Figures of an imported and reduced blade, ready for JSON; SI units, warnings in words.
+def mesh_report(source: Source, imported: Imported, built: BuiltBlade, material: Material) -> dict[str, Any]:
+    """Figures of a blade from a mesh or sections, and warnings, ready for JSON; SI units.
 
     ``error_eq2`` and ``error_reduced_model`` hold for each mode the largest relative error of the frequency
     over the speeds of the accuracy table: that of eq. (2) alone, and with the reduction.
@@ -46,7 +52,7 @@ def report(source: Source, imported: Imported, built: BuiltBlade, material: Mate
         "node_sets": imported.node_sets,
         "root_nodes": int(mesh.root.size),
         "tip_nodes": int(mesh.tip.size),
-        "extents": extents(mesh.mesh.points),
+        "extents": _extents(mesh.mesh.points),
         "length": imported.blade.length,
         "tip_chord": imported.chord,
         "tip_cone_degrees": source.frame.downstream_x * float(np.rad2deg(imported.blade.tip_cone)),
@@ -55,7 +61,7 @@ def report(source: Source, imported: Imported, built: BuiltBlade, material: Mate
         "mass": imported.volume * material.density,
         "worst_jacobian": float(imported.jacobian_ratio.min()),
         "centrifugal_displacement": float(moved),
-        **of_reduction(built),
+        **_of_reduction(built),
     }
     if imported.sections:
         figures["sections"] = [
@@ -69,11 +75,43 @@ def report(source: Source, imported: Imported, built: BuiltBlade, material: Mate
             }
             for section in imported.sections
         ]
-    return figures | {"warnings": list(_warnings(figures, imported, source))}
+    return figures | {"warnings": list(_warn_of_mesh(figures, imported, source))}
 
 
-def of_reduction(built: BuiltBlade) -> dict[str, Any]:
-    """Figures of the frequencies and of the reduced model, of a blade from wherever."""
+def matrix_report(source: MatrixSource, imported: ImportedMatrices, built: BuiltBlade) -> dict[str, Any]:
+    """Figures of a blade from matrices, and warnings, as `mesh_report`.
+
+    ``error_eq2`` is none where all files are of the speeds of the fit, where eq. (2) is exact.
+    """
+    layout = imported.blade.layout
+    points = layout.mesh.mesh.points
+    speeds = list(imported.blade.stiffness)
+    figures = {
+        "folder": str(source.folder),
+        "nodes": len(points),
+        "unknowns": imported.blade.mass.shape[0],
+        "clamped_nodes": int(layout.mesh.root.size),
+        "tip_nodes": int(layout.mesh.tip.size),
+        "interface": points[layout.mesh.interface].tolist(),
+        "extents": _extents(points),
+        "length": layout.length,
+        "length_is_measured": imported.is_rooted,
+        "tip_cone_degrees": source.frame.downstream_x * float(np.rad2deg(layout.tip_cone)),
+        "mass": imported.mass,
+        "mass_is_whole": imported.mass_is_complete,
+        "speeds": speeds,
+        "omega_max": 2 * np.pi * float(built.frequency[0]) * speeds[-1],
+        "stiffness_half_way": imported.half_speed_change,
+        **_of_reduction(built),
+    }
+    warnings = list(_warn_of_matrices(figures, imported, source))
+    if len(speeds) == 3:
+        figures["error_eq2"] = None
+    return figures | {"warnings": warnings}
+
+
+def _of_reduction(built: BuiltBlade) -> dict[str, Any]:
+    """Figures of the frequencies and of the reduced model."""
     table = built.accuracy
     errors = errors_by_mode(table)
     first = table[table["mode"] == 1].sort_values("f_omega").f_fe.to_numpy()
@@ -97,63 +135,54 @@ def _stagger(blade: ReducedBlade) -> float:
 
 
 def spanwise_elements(mesh: BladeMesh) -> int:
-    """Count the element edges on the shortest way from the root to the tip."""
+    """Count the element edges on the shortest path from the root to the tip."""
     cells = mesh.mesh.cells
     edges = cells[:, EDGES[cells.shape[1]]].reshape(-1, 2)
     n_nodes = len(mesh.mesh.points)
-    ways = sparse.coo_array((np.ones(len(edges)), tuple(edges.T)), shape=(n_nodes, n_nodes)).tocsr()
-    ways.data[:] = 1
-    steps = dijkstra(ways, directed=False, indices=mesh.root, unweighted=True, min_only=True)
+    graph = sparse.coo_array((np.ones(len(edges)), tuple(edges.T)), shape=(n_nodes, n_nodes)).tocsr()
+    steps = dijkstra(graph, directed=False, indices=mesh.root, unweighted=True, min_only=True)
     return int(steps[mesh.tip].min())
 
 
-def extents(points: np.ndarray) -> dict[str, list[float]]:
+def _extents(points: np.ndarray) -> dict[str, list[float]]:
     """Give the ends of the ranges of the coordinates and of the radius of `points` (n, 3), m."""
-    radius = np.hypot(points[:, 1], points[:, 2])
-    return {
-        name: [float(values.min()), float(values.max())]
-        for name, values in (
-            ("x", points[:, 0]),
-            ("y", points[:, 1]),
-            ("z", points[:, 2]),
-            ("radius", radius),
-        )
-    }
+    values = dict(zip("xyz", points.T, strict=True)) | {"radius": np.hypot(points[:, 1], points[:, 2])}
+    return {name: [float(value.min()), float(value.max())] for name, value in values.items()}
 
 
-def _warnings(figures: dict[str, Any], imported: Imported, source: Source) -> Iterator[str]:
-    yield from of_frame(figures, source.frame, imported.lean)
+def _warn_of_mesh(figures: dict[str, Any], imported: Imported, source: Source) -> Iterator[str]:
+    yield from _warn_of_frame(figures, source.frame, imported.lean)
     if imported.is_raised:
-        yield "its elements were linear; they got nodes in the middle of straight edges; faces stay faceted"
+        yield "its elements were linear: straight edges got mid-side nodes, and curved faces stay faceted"
     if imported.n_unused:
-        yield f"{imported.n_unused} nodes of the file are in no element and were left out"
-    if figures["elements_root_to_tip"] < COARSE:
+        yield f"{imported.n_unused} nodes of the file belong to no element and were left out"
+    if figures["elements_root_to_tip"] < FEWEST_ELEMENTS:
         yield (
-            f"its mesh is coarse: {figures['elements_root_to_tip']} elements from root to tip; check that "
-            "the frequencies hold with a finer one"
+            f"its mesh is coarse, with {figures['elements_root_to_tip']} elements from root to tip: compare "
+            "the frequencies with those of a finer mesh"
         )
-    if figures["worst_jacobian"] < 0.1:
+    if figures["worst_jacobian"] < LEAST_JACOBIAN_RATIO:
         yield (
             f"element {np.argmin(imported.jacobian_ratio) + 1} is badly shaped: its Jacobian varies by a "
             f"factor of {1 / figures['worst_jacobian']:.3g}"
         )
-    yield from _of_edges(imported.sections)
-    if figures["interface_offset"] > 0.03 * figures["tip_chord"]:
+    yield from _warn_of_edges(imported.sections)
+    if figures["interface_offset"] > LARGEST_OFFSET * figures["tip_chord"]:
         yield (
             f"an interface node is {1e3 * figures['interface_offset']:.3g} mm from its place on the camber "
-            "line of the tip: its mesh is coarse there"
+            "line of the tip: the mesh is coarse there"
         )
     eq2 = max(figures["error_eq2"][:MODES])
     if eq2 > EQ2_ERROR:
         yield (
-            f"eq. (2) is up to {100 * eq2:.2g} % off in the first {MODES} modes: rotation moves the blade by "
-            f"{1e3 * figures['centrifugal_displacement']:.3g} mm; give reduction.tolerance, or lower "
-            "reduction.f_omega_max"
+            f"the frequencies of eq. (2) are up to {100 * eq2:.2g} % off in the first {MODES} modes, as "
+            f"rotation moves the blade by {1e3 * figures['centrifugal_displacement']:.3g} mm: set "
+            "reduction.tolerance, or lower reduction.f_omega_max"
         )
-    yield from of_errors(figures)
+    yield from _warn_of_errors(figures)
 
 
-def _of_edges(sections: tuple[Profile, ...]) -> Iterator[str]:
+def _warn_of_edges(sections: tuple[Profile, ...]) -> Iterator[str]:
     cut = [section for section in sections if max(section.cut) > 0]
     if cut:
         worst = max(cut, key=lambda section: max(section.cut) / section.chord)
@@ -165,16 +194,50 @@ def _of_edges(sections: tuple[Profile, ...]) -> Iterator[str]:
         )
 
 
-def of_frame(figures: dict[str, Any], frame: Frame, lean: float) -> Iterator[str]:
-    """Warn of slips of unit and axes; the middle of the blade is `lean` (rad) off its radial axis."""
+def _warn_of_matrices(
+    figures: dict[str, Any], imported: ImportedMatrices, source: MatrixSource
+) -> Iterator[str]:
+    yield from _warn_of_frame(figures, source.frame, imported.lean)
+    box = np.prod(np.ptp(imported.blade.layout.mesh.mesh.points, axis=0))
+    if not DENSITIES[0] * box <= figures["mass"] <= DENSITIES[1] * box:
+        yield (
+            f"its mass is {figures['mass']:.3g} kg in a box of {1e6 * box:.3g} cm³: are the matrices in "
+            f"{source.matrix_units}, and the nodes in {source.frame.unit}?"
+        )
+    if not imported.is_rooted:
+        yield (
+            f"no node is clamped in nodes.csv, so its length is not known; its nodes reach over "
+            f"{figures['length']:.4g} m: set blade.length"
+        )
+    if not HALF_SPEED_CHANGE[0] <= imported.half_speed_change <= HALF_SPEED_CHANGE[1]:
+        yield (
+            f"stiffness_half shows {imported.half_speed_change:.2g} of the change from stiffness_rest to "
+            "stiffness_max, not about a quarter: do the names of the files state their speeds?"
+        )
+    if len(figures["speeds"]) == 3:
+        yield (
+            "the error of eq. (2) is not known, as it is exact at the three speeds of the fit, and there are "
+            "no files of others: add stiffness_at_<f_omega>"
+        )
+    eq2 = max(figures["error_eq2"][:MODES])
+    if eq2 > EQ2_ERROR:
+        yield (
+            f"the frequencies of eq. (2) are up to {100 * eq2:.2g} % off in the first {MODES} modes: lower "
+            "reduction.f_omega_max"
+        )
+    yield from _warn_of_errors(figures)
+
+
+def _warn_of_frame(figures: dict[str, Any], frame: Frame, lean: float) -> Iterator[str]:
+    """Warn of a wrong unit or wrong axes; the middle of the blade is `lean` (rad) off its radial axis."""
     if not FREQUENCIES[0] <= figures["f1_hz"] <= FREQUENCIES[1]:
         yield f"its first frequency is {figures['f1_hz']:.4g} Hz: are length and material in their units?"
-    if abs(lean) > np.deg2rad(20):
+    if abs(lean) > np.deg2rad(LARGEST_LEAN):
         yield (
             f"its middle is {np.rad2deg(lean):.3g} degrees about the engine axis from the radial axis "
-            f"{frame.radial}: is that axis, and is the origin on the engine axis?"
+            f"{frame.radial}: is that the right axis, and is the origin on the engine axis?"
         )
-    if figures["tip_stagger_degrees"] < -BEHIND:
+    if figures["tip_stagger_degrees"] < LEAST_STAGGER:
         yield (
             f"the leading edge of the tip is behind its trailing edge in rotation, by a stagger of "
             f"{-figures['tip_stagger_degrees']:.3g} degrees; that of a compressor blade is ahead: has "
@@ -182,13 +245,13 @@ def of_frame(figures: dict[str, Any], frame: Frame, lean: float) -> Iterator[str
         )
 
 
-def of_errors(figures: dict[str, Any]) -> Iterator[str]:
-    """Warn of a reduced model that does not follow, and of a blade that is unstable."""
+def _warn_of_errors(figures: dict[str, Any]) -> Iterator[str]:
+    """Warn of an inaccurate reduced model and of an unstable blade."""
     eq2, reduced = (max(figures[name][:MODES]) for name in ("error_eq2", "error_reduced_model"))
     if reduced > max(REDUCED_ERROR, 1.5 * eq2):
         yield (
-            f"the reduced model is up to {100 * reduced:.2g} % off in the first {MODES} modes: give "
-            "reduction.tolerance, or raise reduction.modes_per_speed"
+            f"the frequencies of the reduced model are up to {100 * reduced:.2g} % off in the first {MODES} "
+            "modes: set reduction.tolerance, or raise reduction.modes_per_speed"
         )
     if figures["lowest_frequency"] <= 0:
         yield "a mode is unstable within the range of speeds"

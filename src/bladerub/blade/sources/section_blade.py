@@ -1,25 +1,21 @@
-"""From a table of sections to a blade that can be reduced: smooth along the span, straight through."""
+"""The shape of a blade through sections: smooth along the span, straight through the thickness."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
 from scipy.interpolate import CubicSpline
 
-from bladerub.blade.mesh import BladeMesh
-from bladerub.blade.sources import element_quality, section_table
+from bladerub.blade.sources import section_table
 from bladerub.blade.sources.frame import Frame
-from bladerub.blade.sources.imported import Imported, described
 from bladerub.blade.sources.origin import Source
 from bladerub.blade.sources.section_profile import SAMPLES, Profile, profile
 from bladerub.blade.sources.section_table import Section
-from bladerub.io.errors import BadInput
 
 WIDEST = 50.0
-"""Chord over length beyond which they are not in the same unit."""
+"""Largest chord over length: beyond, they are not in the same unit."""
 
 
 @dataclass(frozen=True)
@@ -29,17 +25,10 @@ class SectionShape:
     Root and tip are the first and the last section. Axial position, radius and angle are cubic splines of the
     span (a parabola through three sections, a straight line through two) and straight in η, so that a point
     between two sections or sides is on the surface of revolution between theirs.
-
-    Parameters
-    ----------
-    span : (n,) ndarray
-        Relative mean radius of the sections, ascending from 0 to 1.
-    samples : (n, 201, 2, 3) ndarray
-        Their `Profile.samples`.
     """
 
-    span: np.ndarray
-    samples: np.ndarray
+    span: np.ndarray  # (n,), relative mean radius of the sections, ascending from 0 to 1
+    samples: np.ndarray  # (n, 201, 2, 3), their `Profile.samples`
 
     @classmethod
     def through(cls, profiles: list[Profile]) -> SectionShape:
@@ -59,57 +48,17 @@ class SectionShape:
         return np.stack([x, radius * np.sin(phi), radius * np.cos(phi)])
 
 
-def import_sections(source: Source, counts: Mapping[str, int]) -> Imported:
-    """Read the sections of `source` and mesh the blade through them.
-
-    Parameters
-    ----------
-    source : Source
-        Names the table.
-    counts : mapping of str to int
-        Numbers of elements, as ``blade.mesh`` of the config.
-
-    Raises
-    ------
-    BadInput
-        If the table cannot be used as a blade; the message names the file and the culprit.
-    """
-    try:
-        return _import(source, counts)
-    except ValueError as error:
-        raise BadInput(f"{source.file}: {error}") from error
-
-
-def _import(source: Source, counts: Mapping[str, int]) -> Imported:
+def read_profiles(source: Source) -> list[Profile]:
+    """Read the sections of the table that `source` names as profiles that a blade can have, hub to tip."""
     sections = section_table.read(source.file, source.frame, source.angle_unit or "rad")
     _check_units(sections, source.frame)
     profiles = [profile(section, source.frame.downstream_x) for section in sections]
     _check_order(profiles)
-    shape = SectionShape.through(profiles)
-    mesh = BladeMesh.from_shape(shape, counts)
-    try:
-        ratio, volume = element_quality.jacobians(mesh.mesh)
-    except ValueError as error:
-        raise ValueError("between its sections the blade crosses itself; give more sections") from error
-    tip = profiles[-1]
-    evenly = shape.points(np.linspace(0, 1, mesh.interface.size), 0.5, 1.0).T
-    offset = np.linalg.norm(mesh.mesh.points[mesh.interface] - evenly, axis=1).max()
-    return described(
-        mesh,
-        source,
-        is_raised=False,
-        n_unused=0,
-        node_sets={},
-        jacobian_ratio=ratio,
-        volume=volume,
-        chord=tip.chord,
-        interface_offset=float(offset),
-        sections=tuple(profiles),
-    )
+    return profiles
 
 
 def _check_units(sections: list[Section], frame: Frame) -> None:
-    """See that the sections could be those of a blade, as far as lengths go."""
+    """Check the lengths of the sections against each other."""
     hub, tip = (np.hypot(*section.points[..., 1:].T).mean() for section in (sections[0], sections[-1]))
     length = abs(tip - hub)
     frame.check_length(length)
@@ -123,7 +72,7 @@ def _check_units(sections: list[Section], frame: Frame) -> None:
 
 
 def _check_order(profiles: list[Profile]) -> None:
-    """See that the sections lie above one another."""
+    """Check that each section lies above the one before."""
     for below, above in pairwise(profiles):
         if above.radius <= below.radius:
             raise ValueError(

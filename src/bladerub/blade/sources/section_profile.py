@@ -12,10 +12,7 @@ from bladerub.blade.sources.profile import arc_length, camber_line, crossings
 from bladerub.blade.sources.section_table import Section
 
 EDGE_SHARE = 0.1
-"""Thickness of an edge over the largest of its section below which the edge is cut off.
-
-Where the sides meet, hexahedra have no room.
-"""
+"""Thickness over the largest of a section below which an edge is cut off, to leave room for hexahedra."""
 
 SAMPLES = np.linspace(0, 1, 201)
 """Chordwise parameter of the samples of a profile: relative arc length of the camber line."""
@@ -30,46 +27,23 @@ _CUTS = 0.5 * np.linspace(0, 1, 201) ** 2  # of the camber line, where its thick
 class Profile:
     """A section that can be meshed.
 
-    Parameters
-    ----------
-    name : str
-        Of the section.
-    samples : (201, 2, 3) ndarray
-        Axial position (m), radius (m) and angle ``atan2(y, z)`` (rad) in the blade's frame, at `SAMPLES`, on
-        the two sides: the second follows the first in the direction in which that angle grows, or, where x
-        runs upstream, the other way, so that elements are right-handed.
-    radius : float
-        Mean radius, m.
-    chord : float
-        Length of the camber line, m.
-    thickness : float
-        Largest, m.
-    cut : tuple of float
-        Chord cut off at the leading and at the trailing edge, m.
+    `samples` are axial position (m), radius (m) and angle ``atan2(y, z)`` (rad) in the blade's frame, at
+    `SAMPLES`, on the two sides. The angle of the second side is larger, or, where x points upstream, smaller,
+    so that elements are right-handed.
     """
 
     name: str
-    samples: np.ndarray = field(repr=False)
-    radius: float
-    chord: float
-    thickness: float
-    cut: tuple[float, float]
+    samples: np.ndarray = field(repr=False)  # (201, 2, 3)
+    radius: float  # mean, m
+    chord: float  # length of the camber line, m
+    thickness: float  # largest, m
+    cut: tuple[float, float]  # chord cut off at the leading and at the trailing edge, m
 
 
 def profile(section: Section, downstream_x: int) -> Profile:
-    """Make the profile of `section`.
+    """Make the profile of `section`; `downstream_x` is 1 where x points downstream, else -1.
 
-    Parameters
-    ----------
-    section : Section
-        From the table.
-    downstream_x : int
-        1 where x points downstream, else -1.
-
-    Raises
-    ------
-    ValueError
-        If it is not given as sections are; the message names it and a line of its table.
+    Raises a ValueError that names the section and a line of its table if no profile can be made of it.
     """
     place = _cylindrical(section)
     flat = _unrolled(place)
@@ -115,7 +89,7 @@ def _cross(a: np.ndarray, b: np.ndarray) -> np.ndarray:
 
 
 def _check(section: Section, flat: np.ndarray, downstream_x: int) -> bool:
-    """See that stations go along the chord and sides keep apart; tell whether the sides must be swapped."""
+    """Check that stations follow the chord and sides are apart; return whether the sides must be swapped."""
     middle = flat.mean(axis=0)
     chord = middle[-1] - middle[0]
     length = np.linalg.norm(chord)
@@ -129,7 +103,7 @@ def _check(section: Section, flat: np.ndarray, downstream_x: int) -> bool:
     if downstream_x * chord[0] < -1e-3 * length:
         raise ValueError(
             f"section {section.name} (line {section.lines[0]}): its first station lies downstream of its "
-            "last; must begin at the leading edge, or blade.source.downstream is the other way"
+            "last; must begin at the leading edge, or blade.source.downstream has the wrong sign"
         )
     thickness = _cross(np.gradient(middle, axis=0), flat[1] - flat[0])
     sign = 1 if thickness.sum() > 0 else -1
@@ -144,16 +118,10 @@ def _check(section: Section, flat: np.ndarray, downstream_x: int) -> bool:
 
 
 class _Curve:
-    """One side as a smooth curve through its stations, but for corners.
+    """One side as a curve through its stations, smooth except at corners.
 
-    Attributes
-    ----------
-    knots : (n,) ndarray
-        Its parameter at the stations: length along the straight lines between them, m.
-    corners : ndarray of int
-        Stations where it turns sharply.
-    fine_parameter, fine : (m,), (m, 2) ndarray
-        Many points of the curve, unrolled.
+    Its parameter is the length of the polygon through the stations, m: `knots` at the stations. `corners` are
+    stations where it turns sharply, `fine` are many points of the curve, unrolled, at `fine_parameter`.
     """
 
     def __init__(self, place: np.ndarray, flat: np.ndarray):
@@ -161,8 +129,8 @@ class _Curve:
         apart = np.concatenate([[True], steps > 0])
         place, flat = place[apart], flat[apart]
         self.knots = np.concatenate([[0.0], np.cumsum(steps[steps > 0])])
-        ways = np.diff(flat, axis=0)
-        turn = np.arctan2(np.abs(_cross(ways[:-1], ways[1:])), np.sum(ways[:-1] * ways[1:], axis=1))
+        chords = np.diff(flat, axis=0)
+        turn = np.arctan2(np.abs(_cross(chords[:-1], chords[1:])), np.sum(chords[:-1] * chords[1:], axis=1))
         self.corners = 1 + np.flatnonzero(turn > _CORNER)
         self._stops = [0, *self.corners, len(flat) - 1]
         both = np.hstack([place, flat])
@@ -187,7 +155,7 @@ class _Curve:
 
 @dataclass(frozen=True)
 class _Edge:
-    """Where the two sides start behind the leading edge, and how much chord lies before."""
+    """Parameters of both sides behind the leading edge, and the chord before, which is cut off."""
 
     starts: tuple[float, float]
     cut: float = 0.0
@@ -217,7 +185,7 @@ def _edge(sides: list[_Curve], thickness: float, name: str) -> _Edge:
 
 
 def _cut(sides: list[_Curve], least: float, name: str) -> tuple[float, float]:
-    """Where the thickness across the camber line comes to `least`, from the leading edge on."""
+    """Parameters of both sides where the thickness across the camber line reaches `least`."""
     outline = np.vstack([sides[0].fine, sides[1].fine[::-1]])
     try:
         line = camber_line(np.stack([outline, np.roll(outline, -1, axis=0)], axis=1))
@@ -229,8 +197,9 @@ def _cut(sides: list[_Curve], least: float, name: str) -> tuple[float, float]:
     arc = arc_length(line)
     places = _CUTS[::-1] * arc[-1]
     points = np.stack([np.interp(places, arc, axis) for axis in line.T], axis=1)
-    ways = np.stack([np.interp(places, arc, axis) for axis in np.gradient(line, arc, axis=0).T], axis=1)
-    across = np.stack([-ways[:, 1], ways[:, 0]], axis=1) / np.linalg.norm(ways, axis=1, keepdims=True)
+    tangents = np.stack([np.interp(places, arc, axis) for axis in np.gradient(line, arc, axis=0).T], axis=1)
+    across = np.stack([-tangents[:, 1], tangents[:, 0]], axis=1)
+    across /= np.linalg.norm(tangents, axis=1, keepdims=True)
     inner = None
     for point, normal in zip(points, across, strict=True):  # from the middle to the edge
         met = [_nearest(side, point, normal) for side in sides]
@@ -244,7 +213,7 @@ def _cut(sides: list[_Curve], least: float, name: str) -> tuple[float, float]:
 
 
 def _nearest(side: _Curve, point: np.ndarray, normal: np.ndarray) -> tuple[float, float] | None:
-    """Distance to where the line along `normal` meets `side` next, and the parameter there."""
+    """Distance to the nearest point of `side` on the line along `normal`, and the parameter there."""
     distance, place = crossings(np.stack([side.fine[:-1], side.fine[1:]], axis=1), point, normal)
     if not distance.size:
         return None

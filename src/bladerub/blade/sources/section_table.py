@@ -1,12 +1,12 @@
 """Tables of blade sections, as text: a row for each station of a section, from the leading edge on.
 
-The names of the columns, in capital or small letters, tell which of two forms a table has. In both, `section`
-names the section, hub to tip; other columns are not looked at; what follows a ``#`` is a comment; cells are
-apart by commas, if the header has one, or else by white space.
+The names of the columns, in capital or small letters, show which of two forms a table has. In both, `section`
+names the section, hub to tip; other columns are ignored; what follows a ``#`` is a comment; cells are
+separated by commas, if the header has one, or else by white space.
 
 - Points of the surface: x, y and z of one side (`x1`, `y1`, `z1`) and of the other (`x2`, `y2`, `z2`).
 - As compressor rotors are published: axial position `z` and radius `r`, and at both the angles `theta1` and
-  `theta2` of the two sides (`bladerub.blade.sources.frame.Frame.cartesian` says from where and which way).
+  `theta2` of the two sides (`bladerub.blade.sources.frame.Frame.cartesian` defines their origin and sign).
 """
 
 from __future__ import annotations
@@ -28,30 +28,17 @@ STATIONS = (5, 2000)
 
 @dataclass(frozen=True)
 class Section:
-    """A section as its table has it.
-
-    Parameters
-    ----------
-    name : str
-        Of the table.
-    lines : (n,) ndarray of int
-        Line of the file of each station.
-    points : (2, n, 3) ndarray
-        The stations on both sides, leading to trailing edge, in the blade's frame, m.
-    """
+    """A section of a table."""
 
     name: str
-    lines: np.ndarray = field(repr=False)
-    points: np.ndarray = field(repr=False)
+    lines: np.ndarray = field(repr=False)  # (n,), line of the file of each station
+    points: np.ndarray = field(repr=False)  # (2, n, 3), both sides from the leading edge, blade's frame, m
 
 
 def read(path: str | Path, frame: Frame, angle_unit: str = "rad") -> list[Section]:
     """Read the sections of the table at `path`, in the order of the file.
 
-    Raises
-    ------
-    ValueError
-        If the file is no such table; the message names the line or the section.
+    Raises a ValueError that names the line or the section if the file is no such table.
     """
     table = _table(Path(path))
     wanted = table.columns.drop("section")

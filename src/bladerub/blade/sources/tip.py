@@ -1,4 +1,4 @@
-"""The tip of a blade from elsewhere: the cone it lies on, its camber line, and the interface nodes there."""
+"""The tip of an imported blade: the cone it lies on, its camber line, and the interface nodes there."""
 
 from __future__ import annotations
 
@@ -14,34 +14,18 @@ from bladerub.blade.sources.profile import arc_length, camber_line
 
 @dataclass(frozen=True)
 class Interface:
-    """Interface nodes of a tip.
+    """Interface nodes of a tip."""
 
-    Parameters
-    ----------
-    nodes : (8,) ndarray of int
-        Leading to trailing edge.
-    chord : float
-        Length of the camber line, m.
-    offset : float
-        Largest distance of a node from where it should be on the camber line, m.
-    """
-
-    nodes: np.ndarray
-    chord: float
-    offset: float
+    nodes: np.ndarray  # (8,), leading to trailing edge
+    chord: float  # length of the camber line, m
+    offset: float  # largest distance of a node from its place on the camber line, m
 
 
 def cone(points: np.ndarray, degrees: float | None, downstream_x: int) -> float:
     """Half angle (rad) of the cone that the tip lies on, positive where it widens with x.
 
-    Parameters
-    ----------
-    points : (n, 3) ndarray
-        Nodes of the tip, m, to which the cone is fitted where its angle is not given.
-    degrees : float or None
-        The angle, positive where it widens downstream.
-    downstream_x : int
-        1 where x points downstream, -1 where it points upstream.
+    It is fitted to the `points` (n, 3) of the tip unless given in `degrees`, positive where the cone widens
+    downstream; `downstream_x` is 1 where x points downstream, else -1.
     """
     if degrees is not None:
         return downstream_x * float(np.deg2rad(degrees))
@@ -53,22 +37,10 @@ def cone(points: np.ndarray, degrees: float | None, downstream_x: int) -> float:
 def interface(points: np.ndarray, faces: np.ndarray, downstream_x: int) -> Interface:
     """Choose the interface nodes, evenly by arc length along the camber line of the tip.
 
-    The tip is unrolled about the engine axis. Its camber line is the line midway between the two sides,
-    measured across itself, and goes on straight through the two ends.
-
-    Parameters
-    ----------
-    points : (n_nodes, 3) ndarray
-        In the blade's frame, m.
-    faces : (n_faces, 8 or 6) ndarray of int
-        The faces of the tip.
-    downstream_x : int
-        1 where x points downstream, so that the leading edge has the smaller x; else -1.
-
-    Raises
-    ------
-    ValueError
-        If the tip has fewer than 8 nodes, is no profile with two sides, or its nodes are too coarse.
+    The tip, the `faces` of the mesh there, is unrolled about the engine axis (see
+    `bladerub.blade.sources.profile.camber_line`). The leading edge has the smaller x where `downstream_x` is
+    1, else the larger. Raises a ValueError if the tip has fewer than 8 nodes, is no profile with two sides,
+    or its nodes are too coarse.
     """
     nodes = np.unique(faces)
     if nodes.size < N_INTERFACE:

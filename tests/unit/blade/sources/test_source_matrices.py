@@ -116,7 +116,7 @@ def test_rows_of_clamped_nodes_other_axes_and_units(config, discrete, tmp_path):
     given = imported(tmp_path, frame=frame, matrix_units="mm-tonne", omega_max=omega[-1])
     volume = solid.mass.sum() / 3 / TITANIUM["density"]
     assert given.mass == pytest.approx(TITANIUM["density"] * volume)
-    assert given.mass_is_whole
+    assert given.mass_is_complete
     assert given.blade.layout.length == pytest.approx(0.2, rel=0.01)
     np.testing.assert_allclose(given.blade.frequency, discrete.frequency, rtol=1e-9)
     np.testing.assert_allclose(given.blade.layout.mesh.mesh.points, mesh.mesh.points, atol=1e-15)
@@ -132,7 +132,7 @@ def test_nodes_without_clamped_ones_tell_no_length(config, folder):
     nodes[nodes.clamped == 0].drop(columns="clamped").to_csv(folder / "nodes.csv", index=False)
     given = imported(folder)
     assert not given.is_rooted
-    assert not given.mass_is_whole
+    assert not given.mass_is_complete
     assert 0.1 < given.blade.layout.length < 0.199
     assert build(of_folder(config, folder)).reduced.length == 0.2
     for length in (0.1, 0.7):

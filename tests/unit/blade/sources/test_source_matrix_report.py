@@ -10,8 +10,8 @@ from bladerub.blade.discrete import by_finite_elements
 from bladerub.blade.elasticity import Material
 from bladerub.blade.sources.frame import Frame
 from bladerub.blade.sources.matrices import ImportedMatrices, import_matrices
-from bladerub.blade.sources.matrix_report import report
 from bladerub.blade.sources.origin import MatrixSource
+from bladerub.blade.sources.report import matrix_report
 from bladerub.export.fe_matrices import write_fe_matrices
 from bladerub.io.errors import BadInput
 
@@ -36,7 +36,7 @@ def reported(twisted_config, tmp_path):
         write_fe_matrices(tmp_path, blade, 0.4, ".npz")
         source = MatrixSource(tmp_path, frame or Frame(), matrix_units)
         imported = dataclasses.replace(import_matrices(source, 0.4, 8, 6), **changes)
-        return report(source, imported, reduce_given(imported.blade, config)), blade
+        return matrix_report(source, imported, reduce_given(imported.blade, config)), blade
 
     return make
 
@@ -62,33 +62,33 @@ def test_between_three_speeds_the_error_of_eq_2_is_not_known(reported):
     figures, _ = reported(n_speeds=3)
     assert figures["error_eq2"] is None
     (unknown,) = figures["warnings"]
-    assert unknown.startswith("the files are of the three speeds of the fit only")
+    assert "stiffness_at_<f_omega>" in unknown
 
 
 @pytest.mark.parametrize("units", ["mm-tonne", "inch-lbf"])
-def test_a_slip_of_the_matrices_units_is_told_though_the_frequencies_are_right(reported, units):
+def test_wrong_units_of_the_matrices_get_a_warning_though_the_frequencies_are_right(reported, units):
     figures, blade = reported(matrix_units=units)
     assert figures["f1_hz"] == pytest.approx(blade.frequency[0])
-    (slip,) = figures["warnings"]
+    (wrong_units,) = figures["warnings"]
     assert re.fullmatch(
-        rf"it weighs .* kg in a box of .* are the matrices in {units}, and the nodes in m\?", slip
+        rf"its mass is .* kg in a box of .* are the matrices in {units}, and the nodes in m\?", wrong_units
     )
 
 
-def test_a_slip_of_the_nodes_unit_is_refused(reported):
+def test_a_wrong_unit_of_the_nodes_is_refused(reported):
     with pytest.raises(BadInput, match=r"with the unit mm the blade is 0.0002 m long; must be"):
         reported(Frame("mm"))
 
 
-def test_files_of_other_speeds_are_told(reported):
-    figures, _ = reported(half_way=0.56)
+def test_files_of_other_speeds_get_a_warning(reported):
+    figures, _ = reported(half_speed_change=0.56)
     (odd,) = figures["warnings"]
-    assert odd.startswith("to stiffness_half the stiffness changes by 0.56 of its change to stiffness_max")
+    assert odd.startswith("stiffness_half shows 0.56 of the change")
 
 
-def test_that_nothing_is_clamped_is_told(reported, monkeypatch):
+def test_a_blade_without_clamped_nodes_gets_a_warning(reported, monkeypatch):
     monkeypatch.setattr(ImportedMatrices, "is_rooted", False)
     figures, _ = reported()
     assert not figures["length_is_measured"]
     (loose,) = figures["warnings"]
-    assert loose.startswith("no node is clamped in nodes.csv: its length is not known")
+    assert loose.startswith("no node is clamped in nodes.csv")

@@ -8,7 +8,7 @@ from bladerub.blade.frequencies import reduced_frequencies
 from bladerub.blade.geometry import BladeShape, lattice
 from bladerub.blade.mesh import BladeMesh
 from bladerub.blade.sources.frame import Frame
-from bladerub.blade.sources.imported import import_mesh
+from bladerub.blade.sources.importing import import_blade
 from bladerub.blade.sources.origin import Source
 from bladerub.export.mesh_file import write_mesh_file
 from bladerub.io.errors import BadInput
@@ -44,7 +44,7 @@ def write(blade, tmp_path):
 @pytest.mark.parametrize("name", ["blade.inp", "blade.msh", "blade.vtu"])
 @pytest.mark.parametrize("sets", [{}, {"root_set": "ROOT", "tip_set": "tip"}], ids=["by rule", "by name"])
 def test_the_blade_comes_back_from_its_file(blade, write, name, sets):
-    imported = import_mesh(Source(write(name), **sets))
+    imported = import_blade(Source(write(name), **sets), {})
     mesh = imported.blade.mesh
     for nodes in ("root", "tip", "interface"):
         ours, theirs = getattr(blade, nodes), getattr(mesh, nodes)
@@ -79,13 +79,13 @@ def test_the_same_blade_in_other_axes_and_units(blade, write):
     frame = Frame("mm", rotation="z", downstream="-z", radial="x")
     np.testing.assert_array_equal(frame.turn, turn)
     path = write("turned.inp", points=1e3 * blade.mesh.points @ turn)
-    mesh = import_mesh(Source(path, frame)).blade.mesh
+    mesh = import_blade(Source(path, frame), {}).blade.mesh
     found = mesh.mesh.points[mesh.interface]
     np.testing.assert_allclose(found, blade.mesh.points[blade.interface], atol=1e-15)
 
 
 def test_flow_against_x_turns_the_interface_and_the_cone_around(blade, write):
-    imported = import_mesh(Source(write(), Frame(downstream="-x"), tip_cone=-9.0))
+    imported = import_blade(Source(write(), Frame(downstream="-x"), tip_cone=-9.0), {})
     mesh = imported.blade.mesh
     ours = blade.mesh.points[blade.interface]
     np.testing.assert_array_equal(mesh.mesh.points[mesh.interface], ours[::-1])
@@ -96,7 +96,7 @@ def test_tetrahedra_become_a_blade(twisted_config, tmp_path):
     counts = {"chordwise": 14, "thickness": 2, "spanwise": 6}
     mesh, cube = tetrahedral_mesh(*lattice(counts), BladeShape.from_config(twisted_config).points)
     write_mesh_file(tmp_path / "blade.msh", mesh.points, mesh.cells, {})
-    found = import_mesh(Source(tmp_path / "blade.msh")).blade.mesh
+    found = import_blade(Source(tmp_path / "blade.msh"), {}).blade.mesh
     for nodes, end in ((found.root, 0), (found.tip, 1)):
         expected = mesh.points[cube[2] == end]
         np.testing.assert_array_equal(
@@ -105,7 +105,7 @@ def test_tetrahedra_become_a_blade(twisted_config, tmp_path):
 
 
 def test_nodes_in_no_element_are_left_out(blade, write):
-    imported = import_mesh(Source(write(points=np.vstack([blade.mesh.points, [[0, 0, 0], [9, 9, 9]]]))))
+    imported = import_blade(Source(write(points=np.vstack([blade.mesh.points, [[0, 0, 0], [9, 9, 9]]]))), {})
     assert imported.n_unused == 2
     assert len(imported.blade.mesh.mesh.points) == len(blade.mesh.points)
 
@@ -117,7 +117,7 @@ def test_sets_of_linear_elements_get_the_middles_too(blade, tmp_path):
         blade.mesh.points[corners], [("hexahedron", number.reshape(-1, 8))], point_sets={"ROOT": root}
     )
     meshio.abaqus.write(str(tmp_path / "linear.inp"), mesh)
-    imported = import_mesh(Source(tmp_path / "linear.inp", root_set="ROOT"))
+    imported = import_blade(Source(tmp_path / "linear.inp", root_set="ROOT"), {})
     assert imported.is_raised
     assert imported.blade.mesh.root.size == blade.root.size
 
@@ -162,7 +162,7 @@ def test_broken_meshes_are_refused_with_file_and_culprit(blade, write):
     for number, (content, source, said) in enumerate(cases):
         path = write(f"broken{number}.inp", **content)
         with pytest.raises(BadInput, match=said) as caught:
-            import_mesh(Source(path, **source))
+            import_blade(Source(path, **source), {})
         assert str(caught.value).startswith(f"{path}: ")
         assert "\n" not in str(caught.value)
 
