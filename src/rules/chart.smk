@@ -1,8 +1,8 @@
 # A dense chart of coatings at speeds that the search for its peaks chooses (docs/chart.md). Not part of `all`.
 from functools import cache
 
-from bladerub.extensions.chart.grid import chart_speeds, check, columns
-from bladerub.extensions.chart.key import cell_key
+from bladerub.extensions.chart.column import plan_column
+from bladerub.extensions.chart.grid import check, columns
 
 CHARTED = [
     "Y4",
@@ -17,7 +17,7 @@ CHARTED = [
 
 @cache
 def chart_columns():
-    """The cells of every column; checked only when somebody asks for the chart."""
+    """The points of every column; checked only when somebody asks for the chart."""
     with bladerub.io.errors.exit_on_error():
         check(config)
     return columns(config)
@@ -27,13 +27,9 @@ def chart_manifests(wildcards):
     return [f"{RESULTS}/chart/columns/{column}.tsv" for column in chart_columns()]
 
 
-def planned_cells(wildcards):
-    """All that determines the cells of a column but the blade: a changed one is a reason to run."""
-    grid = chart_speeds(config)
-    return {
-        case.name: cell_key(config, case, grid, "the blade is an input")
-        for case in chart_columns()[wildcards.column]
-    }
+def planned_points(wildcards):
+    """All that determines the points of a column but the blade: a changed one is a reason to run."""
+    return plan_column(config, chart_columns()[wildcards.column])
 
 
 def charted_maps(wildcards):
@@ -49,7 +45,7 @@ def charted_maps(wildcards):
 
 
 rule chart_column:
-    # The cells lie beside the manifests, undeclared, for the reason that the runs of a coating do.
+    # The points have a folder next to that of the manifests, undeclared as the runs of a coating are.
     input:
         blade=f"{RESULTS}/blade/reduced_model.h5",
         kernel=rules.compile_kernel.output[0],
@@ -66,7 +62,7 @@ rule chart_column:
         mem_mb=lambda wildcards, attempt: 2000 * attempt,
         runtime=lambda wildcards, attempt: attempt * (2 + len(config["chart"]["K"])),  # a tenth of it measured
     params:
-        planned=planned_cells,
+        plan=planned_points,
     script:
         "../scripts/chart_column.py"
 

@@ -1,17 +1,21 @@
 # Stage 2: the rubs. One job is one coating at all its speeds; one run is one file.
 import math
+from functools import cache
 
-from bladerub.study.confirmation import determinants
-from bladerub.study import plan
 from bladerub.study.grid import case_from_name, speeds
+from bladerub.study.growth import confirmation_determinants
+from bladerub.study.plan import coating_plan
 from bladerub.io.sources import solver_digest
+
+
+@cache
+def plan_of(coating):
+    return coating_plan(config, case_from_name(config, coating))
 
 
 def planned_runs(wildcards):
     """All that determines the runs of a coating but the blade: a changed one is a reason to run."""
-    case = case_from_name(config, wildcards.coating)
-    runs = plan.planned_runs(config, case, "", "the blade is an input")
-    return {run.path.stem: run.key for run in runs}
+    return {run.file: run.determinants for run in plan_of(wildcards.coating).runs}
 
 
 def coating_minutes(wildcards, attempt):
@@ -39,8 +43,8 @@ rule compile_kernel:
 
 
 rule coating:
-    # The runs lie beside the manifest, undeclared: Snakemake deletes what a failed job declares, and
-    # finished runs must survive. Whether a run is current is told by the key inside its file.
+    # The runs are next to the manifest, undeclared: Snakemake deletes what a failed job declares, and
+    # finished runs must survive. The key inside the file of a run shows whether it is current.
     input:
         blade=f"{RESULTS}/blade/reduced_model.h5",
         kernel=rules.compile_kernel.output[0],
@@ -56,7 +60,8 @@ rule coating:
         runtime=coating_minutes,
     params:
         folder=subpath(output[0], parent=True),
+        plan=lambda wildcards: plan_of(wildcards.coating),  # no reason to run, being an object
         planned=planned_runs,
-        confirmed=determinants(config["analysis"]["divergence"]),
+        confirmed=confirmation_determinants(config["analysis"]["divergence"]),
     script:
         "../scripts/coating.py"

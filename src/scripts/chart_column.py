@@ -1,13 +1,13 @@
-"""Compute the cells of one column of the chart that are missing or stale, then write its manifest."""
+"""Compute the points of one column of the chart that are missing or stale, then write its manifest."""
 
 import sys
 from pathlib import Path
 
 from bladerub.blade.model import read_reduced_blade
-from bladerub.extensions.chart import manifest
 from bladerub.extensions.chart.column import compute_missing
-from bladerub.extensions.chart.grid import columns
-from bladerub.study.key import blade_digest
+from bladerub.extensions.chart.point import POINTS, PointRow
+from bladerub.study.cache import blade_digest
+from bladerub.study.manifest import write_manifest
 from bladerub.workflow import job
 
 job.log_to(snakemake.log[0])
@@ -15,10 +15,10 @@ job.log_to(snakemake.log[0])
 path = Path(snakemake.output[0])
 rows = compute_missing(
     snakemake.config,
-    columns(snakemake.config)[snakemake.wildcards.column],
+    snakemake.params.plan,
     read_reduced_blade(snakemake.input.blade),
-    path.parents[1] / manifest.CELLS,
+    path.parents[1] / POINTS,
     blade_digest(snakemake.input.blade),
     report=lambda line: print(line, file=sys.stderr),
 )
-manifest.write(path, rows)
+write_manifest(path, rows, PointRow)

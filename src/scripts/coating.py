@@ -3,20 +3,19 @@
 import sys
 
 from bladerub.blade.model import read_reduced_blade
-from bladerub.study.grid import case_from_name
+from bladerub.study.cache import blade_digest
 from bladerub.study.job import compute_missing
-from bladerub.study.key import blade_digest
-from bladerub.study.store import write_manifest
+from bladerub.study.manifest import write_manifest
 from bladerub.workflow import job
 from bladerub.workflow.progress import JobProgress
 
 job.log_to(snakemake.log[0])
 
-name = snakemake.wildcards.coating
-progress = JobProgress(name, log=sys.stderr, terminal=sys.__stderr__)
+plan = snakemake.params.plan
+progress = JobProgress(plan.case.name, log=sys.stderr, terminal=sys.__stderr__)
 rows = compute_missing(
     snakemake.config,
-    case_from_name(snakemake.config, name),
+    plan,
     read_reduced_blade(snakemake.input.blade),
     snakemake.params.folder,
     blade_digest(snakemake.input.blade),

@@ -6,10 +6,12 @@ import yaml
 
 from bladerub.blade.model import ReducedBlade
 from bladerub.contact.result import Energy, RunResult
-from bladerub.study import job
+from bladerub.io.provenance import provenance
+from bladerub.study import job, store
 from bladerub.study.grid import CoatingCase, run_spec
 from bladerub.study.job import compute_missing
 from bladerub.study.maps import CoatingMap
+from bladerub.study.plan import coating_plan
 
 N_ELEMENTS = 2000
 
@@ -160,6 +162,19 @@ def simulated(monkeypatch, make_result, growing, repeated):
 
 
 @pytest.fixture
+def write_run(tmp_path, spec, case, config, make_result):
+    """Write a run of the study to a file, by default what `make_result` makes, and return the path."""
+
+    def write(name="0.1900.h5", key="key", result=None, history=False, spec=spec, **made):
+        result = result or make_result(**made)
+        stored = store.stored_run(case, spec, result, key, config["analysis"], history)
+        store.write_run(tmp_path / name, stored, provenance(config))
+        return tmp_path / name
+
+    return write
+
+
+@pytest.fixture
 def study(config):
     config["speeds"] = {"start": 0.1, "stop": 0.3, "step": 0.1, "extra": [0.19]}
     return config
@@ -168,6 +183,6 @@ def study(config):
 @pytest.fixture
 def compute(study, case, tmp_path):
     def run(digest="blade", **arguments):
-        return compute_missing(study, case, None, tmp_path, digest, **arguments)
+        return compute_missing(study, coating_plan(study, case), None, tmp_path, digest, **arguments)
 
     return run

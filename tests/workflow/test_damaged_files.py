@@ -1,8 +1,9 @@
-"""Truncated, lost and spoilt files: found and made anew by themselves, or named with what to do."""
+"""Truncated, lost and spoilt files: found and computed again without being asked, or named with what to do."""
 
 from __future__ import annotations
 
 import os
+import random
 import re
 from pathlib import Path
 
@@ -45,7 +46,7 @@ def test_damage_is_found_or_named_and_costs_only_itself(copied_study, tiny, resu
     before, written = contents(results), copied_study.runs()
     cut_short(results / "runs" / COATING / "0.2300.h5")
     cut_short(results / "runs" / "2nd_E2_K0.5_theta0.15" / "manifest.tsv")
-    assert copied_study.plan(tiny)["coating"] == 2  # found without being told
+    assert copied_study.plan(tiny)["coating"] == 2  # found without being asked
     named = {  # what is damaged, by what is made of it
         f"maps/{OTHER}.h5": f"runs/{OTHER}/0.1970.h5",
         "figures/fig15_spectrum_theta0.png": "maps/2nd_E2_K0.5_theta0.h5",
@@ -59,15 +60,44 @@ def test_damage_is_found_or_named_and_costs_only_itself(copied_study, tiny, resu
     command = (*(f"results/{target}" for target in targets), "--keep-going", "--cores", "2")
     failed = copied_study.snakemake(*command, config=tiny)
     assert failed.returncode != 0
-    told = re.findall(r"^results/(\S+): .*; delete it and run the same command", failed.stderr, re.MULTILINE)
-    assert set(told) == set(named.values())
-    for name in told:
+    named_by_snakemake = re.findall(
+        r"^results/(\S+): .*; delete it and run the same command", failed.stderr, re.MULTILINE
+    )
+    assert set(named_by_snakemake) == set(named.values())
+    for name in named_by_snakemake:
         (results / name).unlink()
     done = copied_study.snakemake(*command, config=tiny)
     assert done.returncode == 0, done.stderr
     assert contents(results) == before
-    anew = {name for name, time in copied_study.runs().items() if time != written[name]}
-    assert anew == {f"{COATING}/0.2300.h5", f"{OTHER}/0.1970.h5"}
+    again = {name for name, time in copied_study.runs().items() if time != written[name]}
+    assert again == {f"{COATING}/0.2300.h5", f"{OTHER}/0.1970.h5"}
+
+
+def flip_a_bit(path: Path, draw: random.Random) -> None:
+    """Change one bit anywhere in the file, and neither size nor time."""
+    content, times = bytearray(path.read_bytes()), path.stat()
+    bit = draw.randrange(8 * len(content))
+    content[bit // 8] ^= 1 << bit % 8
+    path.write_bytes(content)
+    os.utime(path, ns=(times.st_atime_ns, times.st_mtime_ns))
+
+
+def test_one_random_bit_in_each_of_40_runs_is_found_and_costs_these_runs(copied_study, tiny, results):
+    before, written = contents(results), copied_study.runs()
+    draw = random.Random(40)
+    hit = sorted(draw.sample(sorted(written), 40))
+    assert any("confirmation" in name for name in hit)
+    for name in hit:
+        flip_a_bit(results / "runs" / name, draw)
+    runs = [str(results / "runs" / name) for name in hit]
+    assert copied_study.plan(tiny) == {}  # nothing shows it from outside
+    assert sorted(copied_study.status("--thorough")["damaged"]) == runs
+    assert sorted(copied_study.status("--thorough", "--discard")["damaged"]) == runs
+    copied_study.build(tiny, *(f"results/maps/{path.name}" for path in (results / "maps").iterdir()))
+    assert contents(results) == before
+    now = copied_study.runs()
+    assert sorted(name for name, stamp in now.items() if stamp != written[name]) == hit
+    assert copied_study.status("--thorough")["damaged"] == []
 
 
 def test_a_damaged_blade_costs_no_run(copied_study, tiny, results):

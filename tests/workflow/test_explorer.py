@@ -13,8 +13,8 @@ import pandas as pd
 import pytest
 
 from bladerub.explorer.page import build
+from bladerub.study.manifest import read_manifest, write_manifest
 from bladerub.study.maps import read_map, write_map
-from bladerub.study.store import read_manifest, write_manifest
 
 pytestmark = pytest.mark.browser
 

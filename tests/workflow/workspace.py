@@ -111,11 +111,18 @@ class Workspace:
         done = self.snakemake(*targets, "--cores", "2", config=config)
         assert done.returncode == 0, done.stderr
 
-    def status(self) -> dict[str, Any]:
+    def status(self, *options: str) -> dict[str, Any]:
         """What `bladerub status` says of the study that was last given to Snakemake."""
         own_sources = {"PYTHONPATH": str(self.folder / "src")}  # its results are those beside its sources
         told = subprocess.run(
-            [Path(sys.executable).with_name("bladerub"), "status", "--json", "--config", "overlay.yaml"],
+            [
+                Path(sys.executable).with_name("bladerub"),
+                "status",
+                "--json",
+                "--config",
+                "overlay.yaml",
+                *options,
+            ],
             cwd=self.folder,
             env=os.environ | own_sources,
             capture_output=True,

@@ -157,18 +157,18 @@ def _blade(options: argparse.Namespace, config: dict[str, Any]) -> tuple[Path, R
 
 
 def _plan(options: argparse.Namespace, config: dict[str, Any], run: StoredRun, blade: Path) -> PlannedRun:
-    from bladerub.study.key import blade_digest
+    from bladerub.study.cache import blade_digest
     from bladerub.study.plan import claimed_run
 
     try:
-        plan = claimed_run(config, options.run, run, blade_digest(blade))
+        plan = claimed_run(config, options.run.name, run)
     except KeyError as error:
         raise InputError(
             f"--run {options.run}: {error} is not known; must be a run of this config"
         ) from error
     except (TypeError, ValueError) as error:
         raise InputError(f"--run {options.run}: its attributes are not those of a run ({error})") from error
-    if plan.key != run.attributes["run_key"]:
+    if plan.key(blade_digest(blade)) != run.attributes["run_key"]:
         raise InputError(
             f"--run {options.run}: is not of this config, the blade {blade} and this version of the solver "
             "(its run_key differs); name those of the run with --config and --blade, or compute it anew"

@@ -78,9 +78,11 @@ def run(options: argparse.Namespace) -> None:
 
     from bladerub.contact.run import simulate
     from bladerub.contact.setup import compile_kernel
+    from bladerub.io.provenance import provenance
+    from bladerub.study.cache import blade_digest
     from bladerub.study.grid import CoatingCase, run_spec
-    from bladerub.study.key import blade_digest, run_key
-    from bladerub.study.store import write_run
+    from bladerub.study.plan import planned_run
+    from bladerub.study.store import stored_run, write_run
     from bladerub.study.summary import summarise
 
     if options.f > blade.f_omega_max:
@@ -107,9 +109,11 @@ def run(options: argparse.Namespace) -> None:
         seconds = time.perf_counter() - start
     figures = summarise(spec, result, config) | {"steps_per_second": result.n_steps / seconds}
     if options.output:
-        key = run_key(spec, blade_digest(blade_path), True, config["analysis"])
+        plan = planned_run(config, spec, options.output.name, keep_history=True)
+        key = plan.key(blade_digest(blade_path))
+        stored = stored_run(case, spec, result, key, config["analysis"], keep_history=True)
         try:
-            write_run(options.output, spec, result, case, key, config, keep_history=True)
+            write_run(options.output, stored, provenance(config))
         except OSError as error:
             raise InputError(f"--output {options.output}: cannot be written ({error})") from error
     print(json.dumps(figures, indent=2) if options.json else _in_words(figures))

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import argparse
 import json
+from collections.abc import Mapping
 from dataclasses import asdict
+from pathlib import Path
 from shutil import get_terminal_size
 from typing import Any
 
@@ -22,15 +24,22 @@ def add_to(commands: Any) -> None:
         "status",
         help="count the runs of the study that are done, missing, stale, corrupt and unbounded",
         description="Compare the runs in the results folder with the plan, coating by coating. Nothing is "
-        "computed or changed. Stale runs are those of another blade, solver or setting; the next "
-        "snakemake computes them anew, as it does missing and corrupt ones.",
+        "computed. Stale runs are those of another blade, solver or setting; the next snakemake computes "
+        "them again, as it does missing and corrupt ones.",
     )
     parser.set_defaults(command=status)
     inputs.add_config_to(parser)
     parser.add_argument(
         "--thorough",
         action="store_true",
-        help="read every run to its end, which finds damage inside a file as well (some minutes)",
+        help="read every run, longer run and point of the chart to its end and compare its checksum with "
+        "that in the manifest, which finds a single changed bit (some minutes)",
+    )
+    parser.add_argument(
+        "--discard",
+        action="store_true",
+        help="delete the damaged files that are found, so that the next snakemake computes them again, and "
+        "them alone",
     )
     parser.add_argument("--json", action="store_true", help="print the counts as JSON")
 
@@ -45,57 +54,78 @@ def status(options: argparse.Namespace) -> None:
     """
     config = inputs.read_config(options)
 
-    from bladerub.study.grid import coating_cases, speeds
-    from bladerub.study.inventory import take, total
-    from bladerub.study.key import blade_digest
+    from bladerub.study import inventory
+    from bladerub.study.grid import coating_cases
+    from bladerub.study.plan import coating_plan
 
     results = inputs.ROOT / config["results"]
-    model = results / "blade" / "reduced_model.h5"
-    digest, note = None, None
-    try:
-        if not model.exists():
-            note = f"there is no blade yet, so every run counts as stale: {model}"
-        elif not inputs.is_of(config, model):
-            note = f"the blade is of another config, so every run counts as stale: {model}"
-        else:
-            digest = blade_digest(model)
-    except OSError as error:
-        note = f"every run counts as stale without its blade: {message_for(error)}"
-    cases, damaged = coating_cases(config), []
-    with tqdm(
-        total=len(cases) * len(speeds(config)),
-        unit="run",
-        ncols=get_terminal_size().columns,
-        disable=True if options.json else None,
-        leave=False,
-    ) as bar:
-        inventories = {
-            case.name: take(
-                config,
-                case,
-                results / "runs" / case.name,
-                digest,
-                options.thorough,
-                seen=lambda: bar.update(),
-                damaged=damaged.append,
-            )
-            for case in cases
-        }
-    whole = total(inventories.values())
+    digest, note = _blade_digest(config, results / "blade" / "reduced_model.h5")
+    counts, damaged = {}, []
+    quiet = True if options.json else None
+    width = get_terminal_size().columns
+    for case in tqdm(coating_cases(config), unit="coating", ncols=width, disable=quiet, leave=False):
+        folder = results / "runs" / case.name
+        counts[case.name], found = inventory.take(
+            config, coating_plan(config, case), folder, digest, options.thorough
+        )
+        damaged += found
+    if options.thorough:
+        damaged += _damaged_points(results / "chart" / "columns")
+    if options.discard:
+        for path in damaged:
+            path.unlink(missing_ok=True)
+    whole = inventory.total(counts.values())
     if options.json:
-        told = asdict(whole) | {"note": note, "damaged": [str(path) for path in damaged]}
-        coatings = {name: asdict(inventory) for name, inventory in inventories.items()}
-        print(json.dumps(told | {"coatings": coatings}, indent=2))
+        about = {"note": note, "damaged": [str(path) for path in damaged], "discarded": options.discard}
+        coatings = {name: asdict(each) for name, each in counts.items()}
+        print(json.dumps(asdict(whole) | about | {"coatings": coatings}, indent=2))
         return
-    width = max(len(name) for name in ["coating", *inventories])
-    print(f"{'coating':<{width}}" + "".join(f"{column:>10}" for column in _COLUMNS) + f"{'MB':>10}")
-    for name, inventory in [*inventories.items(), ("all", whole)]:
-        counts = "".join(f"{getattr(inventory, column):>10}" for column in _COLUMNS)
-        print(f"{name:<{width}}{counts}{inventory.bytes / 1e6:>10.1f}")
-    done = f"{whole.longer_done} of {whole.longer_planned} done"
-    print(f"\nlonger runs, where growth is to be confirmed: {done}")
+    _print_table(counts | {"all": whole})
+    print(
+        f"\nlonger runs, where growth is to be confirmed: {whole.longer_done} of {whole.longer_planned} done"
+    )
+    if whole.unconverged:
+        print(f"runs with steps whose contact forces did not converge: {whole.unconverged}")
     if damaged:
-        print("damaged; delete these files and run snakemake again: they alone are computed anew")
+        state = "damaged and deleted" if options.discard else "damaged; delete them, as status --discard does"
+        print(f"{state}; then run snakemake again, which computes them alone:")
         print("\n".join(f"  {path}" for path in damaged))
     if note:
         print(note)
+
+
+def _blade_digest(config: Mapping[str, Any], model: Path) -> tuple[str | None, str | None]:
+    """Return the digest of the blade, or None and why there is none."""
+    from bladerub.study.cache import blade_digest
+
+    try:
+        if not model.exists():
+            return None, f"there is no blade yet, so every run counts as stale: {model}"
+        if not inputs.is_of(config, model):
+            return None, f"the blade is of another config, so every run counts as stale: {model}"
+        return blade_digest(model), None
+    except OSError as error:
+        return None, f"every run counts as stale without its blade: {message_for(error)}"
+
+
+def _damaged_points(columns: Path) -> list[Path]:
+    """List the points of the chart, and the manifests of its columns, that are not as they were written."""
+    from bladerub.extensions.chart.point import PointRow
+    from bladerub.io.errors import DamagedFile
+    from bladerub.study.manifest import listed_files
+
+    damaged = []
+    for manifest in sorted(columns.glob("*.tsv")):
+        try:
+            damaged += [file.path for file in listed_files(manifest, PointRow) if file.is_damaged()]
+        except DamagedFile:
+            damaged.append(manifest)
+    return damaged
+
+
+def _print_table(counts: Mapping[str, Any]) -> None:
+    width = max(len(name) for name in ["coating", *counts])
+    print(f"{'coating':<{width}}" + "".join(f"{column:>10}" for column in _COLUMNS) + f"{'MB':>10}")
+    for name, inventory in counts.items():
+        numbers = "".join(f"{getattr(inventory, column):>10}" for column in _COLUMNS)
+        print(f"{name:<{width}}{numbers}{inventory.bytes / 1e6:>10.1f}")

@@ -8,8 +8,8 @@ import pandas as pd
 from bladerub.explorer import figures, thinning
 from bladerub.explorer.codes import differences, linear, log_range, logarithmic, packed
 from bladerub.explorer.inert import json_text
+from bladerub.study.manifest import ManifestRow
 from bladerub.study.maps import CoatingMap
-from bladerub.study.store import ManifestRow
 
 AMPLITUDE_FLOOR = 1e-8
 """Smallest spectral amplitude that is told apart, m; far below the colour scale of the figures."""

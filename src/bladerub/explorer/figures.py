@@ -8,8 +8,8 @@ import numpy as np
 import pandas as pd
 
 from bladerub.study.grid import CoatingCase
+from bladerub.study.manifest import ManifestRow
 from bladerub.study.maps import CoatingMap
-from bladerub.study.store import ManifestRow
 from bladerub.study.summary import displacement_peak, spectral_peak
 
 VERDICTS = ["growth_per_revolution", "growth_low", "growth_high", "saturating", "divergent", "revolutions"]

@@ -14,8 +14,8 @@ from plotly.offline import get_plotlyjs
 
 from bladerub.explorer import coating, study
 from bladerub.explorer.inert import json_text
+from bladerub.study.manifest import read_manifest
 from bladerub.study.maps import read_map
-from bladerub.study.store import read_manifest
 
 _PROGRAM = ["data.js", "choice.js", "pictures.js", "words.js", "main.js"]
 """In the order in which they use each other."""

@@ -8,7 +8,8 @@ from pathlib import Path
 import pandas as pd
 
 from bladerub.io.errors import DamagedFile
-from bladerub.study.store import StoredRun, read_manifest, read_run
+from bladerub.study.manifest import read_manifest
+from bladerub.study.store import StoredRun, read_run
 from bladerub.study.summary import displacement_peak
 
 COLUMNS = [

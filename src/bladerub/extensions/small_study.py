@@ -12,12 +12,13 @@ import pandas as pd
 
 from bladerub.blade.model import read_reduced_blade
 from bladerub.study import divergence, findings, peaks
+from bladerub.study.cache import blade_digest
 from bladerub.study.findings.evidence import Evidence, read_rom_accuracy
 from bladerub.study.grid import coating_cases
 from bladerub.study.job import compute_missing
-from bladerub.study.key import blade_digest
+from bladerub.study.manifest import write_manifest
 from bladerub.study.maps import CoatingMap, build_map, read_map
-from bladerub.study.store import write_manifest
+from bladerub.study.plan import coating_plan
 
 _log = logging.getLogger(__name__)
 
@@ -68,7 +69,7 @@ def conduct(
     maps, n_runs = [], 0
     for case in coating_cases(config):
         runs, path = folder / "runs" / case.name, folder / "maps" / f"{case.name}.h5"
-        rows = compute_missing(config, case, blade, runs, digest, report=report)
+        rows = compute_missing(config, coating_plan(config, case), blade, runs, digest, report)
         write_manifest(runs / "manifest.tsv", rows)
         build_map(config, case, blade, runs, path)
         maps.append(read_map(path))

@@ -17,6 +17,7 @@ import h5py
 import numpy as np
 
 from bladerub.io import atomic
+from bladerub.io.checksum import checksum
 from bladerub.io.errors import DamagedFile
 
 _READ_AND_WRITE = 1  # H5LT_FILE_IMAGE_OPEN_RW
@@ -48,11 +49,16 @@ def write(
     variables: Mapping[str, Variable],
     attributes: Mapping[str, Any],
     origin: Mapping[str, str] = MappingProxyType({}),
-) -> None:
+) -> str:
     """Write datasets and attributes (numbers and strings) by name to `path`, whole or not at all.
 
     `origin` are more attributes, from `bladerub.io.provenance.provenance`: the same in many files, and not
     written one by one.
+
+    Returns
+    -------
+    str
+        Checksum of the file, as of `bladerub.io.checksum.file_checksum`.
 
     Raises
     ------
@@ -79,6 +85,7 @@ def write(
         image = file.id.get_file_image()
     with atomic.writing(path, "wb") as stream:
         stream.write(image)
+    return checksum(image)
 
 
 @lru_cache(maxsize=8)

@@ -72,7 +72,8 @@ def growth_digest() -> str:
 @cache
 def chart_digest() -> str:
     """Digest the source of what chooses the speeds of a point of the chart and what it keeps of each run."""
-    measuring = [f"study/{name}.py" for name in ("spectra", "peaks", "growth", "wear")]
+    measuring = ["blade/frequencies.py"]
+    measuring += [f"study/{name}.py" for name in ("spectra", "peaks", "growth", "wear")]
     searching = [f"extensions/chart/{name}.py" for name in ("grid", "search", "point")]
     return _source_digest(_PACKAGE / name for name in measuring + searching)
 

@@ -40,11 +40,14 @@ revolutions:
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 from scipy.special import stdtrit
+
+from bladerub.contact.spec import RunSpec
+from bladerub.io.sources import growth_digest
 
 RESOLUTION = 1e-3
 """Relative scatter below which amplitudes tell nothing: the accuracy of a run is not better."""
@@ -190,3 +193,15 @@ def judge(
         revolutions=int(np.isfinite(longest).sum()),
         status=status,
     )
+
+
+def confirmation_spec(spec: RunSpec, settings: Mapping[str, Any]) -> RunSpec:
+    """Describe the longer run of `spec`: the same from rest with the same step, for more revolutions."""
+    return replace(spec, revolutions=int(settings["confirmation_revolutions"]))
+
+
+def confirmation_determinants(settings: Mapping[str, Any]) -> dict[str, Any]:
+    """Return what decides which runs are repeated, besides the runs themselves; nothing where none is."""
+    if settings["confirmation_revolutions"] == 0:
+        return {}
+    return {**settings, "definition": growth_digest()}

@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections import Counter
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, fields
 from pathlib import Path
 from typing import Any
 
 from bladerub.io.errors import DamagedFile
-from bladerub.study.grid import CoatingCase
 from bladerub.study.growth import needs_confirmation
-from bladerub.study.plan import PlannedRun, longer_run, planned_runs
-from bladerub.study.store import StoredRun, read_manifest, read_run
+from bladerub.study.manifest import ListedFile, listed_files
+from bladerub.study.plan import CoatingPlan, PlannedRun, longer_run
+from bladerub.study.store import ALL, StoredRun, read_run
 
 
 @dataclass(frozen=True)
@@ -29,13 +30,15 @@ class Inventory:
     stale : int
         Whole, but of another blade, solver or setting.
     corrupt : int
-        Cannot be read to the end.
+        Cannot be read to the end, or not as its manifest says that it was written.
     unbounded : int
-        Of those done, the ones that left all bounds.
+        Of those done, the ones that exceeded the displacement limit.
+    unconverged : int
+        Of those done, the ones in which the contact forces of some step did not converge.
     longer_planned, longer_done : int
         Longer runs that show whether the growth of those done lasts, and how many of them are done.
     bytes : int
-        Disk that the folders of the runs take, with what is on the shelf and no longer planned.
+        Disk that the folders of the runs take, with what is archived and no longer planned.
     """
 
     planned: int = 0
@@ -44,6 +47,7 @@ class Inventory:
     stale: int = 0
     corrupt: int = 0
     unbounded: int = 0
+    unconverged: int = 0
     longer_planned: int = 0
     longer_done: int = 0
     bytes: int = 0
@@ -57,75 +61,74 @@ def total(inventories: Iterable[Inventory]) -> Inventory:
 
 def take(
     config: Mapping[str, Any],
-    case: CoatingCase,
+    plan: CoatingPlan,
     folder: str | Path,
     blade_digest: str | None,
     thorough: bool = False,
-    seen: Callable[[], object] = lambda: None,
-    damaged: Callable[[Path], object] = lambda path: None,
-) -> Inventory:
+) -> tuple[Inventory, list[Path]]:
     """Compare the runs of one coating on disk with the plan.
 
     Parameters
     ----------
     config : mapping
         The study.
-    case : CoatingCase
-        The coating.
+    plan : CoatingPlan
+        The coating and its runs.
     folder : path-like
-        Folder of its runs.
+        Folder of the runs.
     blade_digest : str or None
-        From `bladerub.study.key.blade_digest`; without a blade every run that is there is stale.
+        From `bladerub.study.cache.blade_digest`; without a blade every run that is there is stale.
     thorough : bool, optional
-        Read every number and compare its checksum, instead of only what tells a truncated file.
-    seen : callable, optional
-        Called after each planned run.
-    damaged : callable, optional
-        Called with each file that cannot be read to its end: runs, longer ones, the manifest.
+        Compare every byte with the checksum in the manifest, or read every number where there is no
+        manifest yet. Otherwise read only what shows a truncated file.
+
+    Returns
+    -------
+    Inventory
+        The counts.
+    list of Path
+        The damaged files: runs, longer runs, the manifest.
     """
     folder, settings = Path(folder), config["analysis"]["divergence"]
-    count = dict.fromkeys(("done", "missing", "stale", "corrupt", "unbounded", *_LONGER), 0)
-    digest = blade_digest or "no blade"  # under which no run was ever made
-    planned = planned_runs(config, case, folder, digest)
-    if _is_damaged(folder / "manifest.tsv"):
-        damaged(folder / "manifest.tsv")
-    for run in planned:
-        state, stored = _look(run, thorough, damaged)
-        count[state] += 1
-        if state == "done":
-            status = stored.attributes["status"]
-            count["unbounded"] += status == "unbounded"
-            if needs_confirmation(stored.data["revolution_amplitude"], status, settings):
-                count["longer_planned"] += 1
-                longer, _ = _look(longer_run(config, run, digest), thorough, damaged)
-                count["longer_done"] += longer == "done"
-        seen()
-    return Inventory(
-        planned=len(planned),
-        **count,
-        bytes=sum(file.stat().st_size for file in folder.rglob("*") if file.is_file()),
-    )
+    listed, damaged = _listed(folder / "manifest.tsv")
+    if thorough:
+        damaged += [file.path for file in listed.values() if file.is_damaged()]
+
+    def look(run: PlannedRun) -> tuple[str, StoredRun | None]:
+        path = folder / run.file
+        if not path.exists():
+            return "missing", None
+        if path in damaged:
+            return "corrupt", None
+        try:
+            stored = read_run(path, ALL if thorough and path not in listed else {"revolution_amplitude"})
+        except Exception:  # whatever a damaged file makes h5py raise
+            damaged.append(path)
+            return "corrupt", None
+        current = blade_digest is not None and stored.attributes["run_key"] == run.key(blade_digest)
+        return ("done" if current else "stale"), stored
+
+    counts: Counter[str] = Counter()
+    for run in plan.runs:
+        state, stored = look(run)
+        counts[state] += 1
+        if state != "done":
+            continue
+        status = stored.attributes["status"]
+        counts["unbounded"] += status == "unbounded"
+        counts["unconverged"] += stored.attributes.get("n_unconverged_steps", 0) > 0
+        if needs_confirmation(stored.data["revolution_amplitude"], status, settings):
+            counts["longer_planned"] += 1
+            counts["longer_done"] += look(longer_run(config, run))[0] == "done"
+    size = sum(file.stat().st_size for file in folder.rglob("*") if file.is_file())
+    return Inventory(planned=len(plan.runs), bytes=size, **counts), damaged
 
 
-_LONGER = ("longer_planned", "longer_done")
-
-
-def _is_damaged(manifest: Path) -> bool:
+def _listed(manifest: Path) -> tuple[dict[Path, ListedFile], list[Path]]:
+    """Return the files that the manifest lists by path, and the manifest itself if it is damaged."""
     try:
-        read_manifest(manifest)
-    except DamagedFile:
-        return True
+        return {file.path: file for file in listed_files(manifest)}, []
     except FileNotFoundError:
-        pass
-    return False
-
-
-def _look(run: PlannedRun, thorough: bool, damaged: Callable[[Path], object]) -> tuple[str, StoredRun | None]:
-    if not run.path.exists():
-        return "missing", None
-    try:
-        stored = read_run(run.path, frozenset() if thorough else {"revolution_amplitude"})
-    except Exception:  # whatever is wrong with the file (as in `bladerub.study.store.is_current`)
-        damaged(run.path)
-        return "corrupt", None
-    return ("done" if stored.attributes["run_key"] == run.key else "stale"), stored
+        return {}, []
+    except DamagedFile:
+        return {}, [manifest]

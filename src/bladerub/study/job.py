@@ -1,4 +1,4 @@
-"""The job of one coating: every run that is missing or stale, and the manifest of all."""
+"""The job of one coating: every run that is missing or stale, and the rows of its manifest."""
 
 from __future__ import annotations
 
@@ -13,11 +13,14 @@ import numpy as np
 from bladerub.blade.model import ReducedBlade
 from bladerub.contact.run import simulate
 from bladerub.io import lock
-from bladerub.study.archive import shelve, unshelve
+from bladerub.io.checksum import file_checksum
+from bladerub.io.provenance import provenance
+from bladerub.study.cache import Entry
 from bladerub.study.grid import CoatingCase
 from bladerub.study.growth import needs_confirmation
-from bladerub.study.plan import PlannedRun, longer_run, planned_runs
-from bladerub.study.store import ManifestRow, is_current, read_run, write_run
+from bladerub.study.manifest import CONFIRMATION, ManifestRow
+from bladerub.study.plan import CoatingPlan, PlannedRun, longer_run
+from bladerub.study.store import MAPPED, read_run, stored_run, write_run
 
 LOCK = ".lock"
 """File beside the runs that the job at work on them holds; empty."""
@@ -30,7 +33,7 @@ class RunDone:
     Parameters
     ----------
     number, total : int
-        This run among those that had to be computed; longer ones for confirmation are counted anew.
+        This run among those that had to be computed; longer ones for confirmation are counted separately.
     file : str
         Name of the run file, in the folder of the coating.
     status : str
@@ -55,106 +58,125 @@ class RunDone:
         )
 
 
-def _ignore(line: object) -> None:
-    """Report to nobody."""
+class _Done(NamedTuple):
+    """A run that is in its file."""
+
+    status: str
+    amplitude: np.ndarray
+    key: str
+    bytes: int
+    checksum: str
 
 
 def compute_missing(
     config: Mapping[str, Any],
-    case: CoatingCase,
+    plan: CoatingPlan,
     blade: ReducedBlade,
     folder: str | Path,
     blade_digest: str,
-    report: Callable[[object], None] = _ignore,
+    report: Callable[[object], None] = lambda line: None,
 ) -> list[ManifestRow]:
     """Compute those runs of one coating whose file is missing or stale.
 
     A run that grows is then repeated for as many revolutions as the config has for its confirmation (see
     `bladerub.study.growth`). Each run is written as soon as it is done, so an interrupted job continues
-    where it stopped. Runs that are no longer in the plan are left where they are. A stale run, of another
-    study in the same place, is put on the shelf before its file is written anew, and taken back when its
-    key is asked for again. One job at a time works on a folder: another, of another invocation, waits for its
-    end and takes over what it has computed.
+    where it stopped. Runs that are no longer planned stay, stale ones are archived
+    (`bladerub.study.cache`). One job at a time works on a folder: another, of another invocation, waits for
+    its end and takes over what it has computed.
 
     Parameters
     ----------
     config : mapping
         The study.
-    case : CoatingCase
-        The coating.
+    plan : CoatingPlan
+        The coating and its runs.
     blade : ReducedBlade
         The blade.
     folder : path-like
-        Where the runs of this coating live.
+        Where the runs of this coating are.
     blade_digest : str
-        From `bladerub.study.key.blade_digest`.
+        From `bladerub.study.cache.blade_digest`.
     report : callable, optional
         Called with a line for a log: a `RunDone` after each computed run, or a text before waiting.
 
     Returns
     -------
     list of ManifestRow
-        A row per speed of the study, for `bladerub.study.store.write_manifest`.
+        A row per run, for `bladerub.study.manifest.write_manifest`.
     """
     folder, settings = Path(folder), config["analysis"]["divergence"]
-    runs = planned_runs(config, case, folder, blade_digest)
+
+    def compute(runs: Sequence[PlannedRun]) -> dict[str, _Done]:
+        return _compute(config, plan.case, runs, blade, folder, blade_digest, report)
+
     with lock.held(folder / LOCK, lambda: report(f"another job is at work in {folder}: waiting for its end")):
-        outcomes = _compute(runs, folder, case, blade, config, report)
-        outcomes |= {run.path: _stored(run.path) for run in runs if run.path not in outcomes}
-        longer = {
-            run.path: longer_run(config, run, blade_digest)
-            for run in runs
-            if needs_confirmation(outcomes[run.path].amplitude, outcomes[run.path].status, settings)
+        done = compute(plan.runs)
+        growing = [
+            run
+            for run in plan.runs
+            if needs_confirmation(done[run.file].amplitude, done[run.file].status, settings)
+        ]
+        longer = compute([longer_run(config, run) for run in growing])
+        return [_row(run, done[run.file], longer.get(f"{CONFIRMATION}/{run.file}")) for run in plan.runs]
+
+
+def _row(run: PlannedRun, done: _Done, longer: _Done | None) -> ManifestRow:
+    confirmation = {}
+    if longer:
+        confirmation = {
+            "confirmation_key": longer.key,
+            "confirmation_bytes": longer.bytes,
+            "confirmation_checksum": longer.checksum,
         }
-        _compute(list(longer.values()), folder, case, blade, config, report)
-        return [_row(run, outcomes[run.path].status, longer.get(run.path)) for run in runs]
-
-
-def _row(run: PlannedRun, status: str, longer: PlannedRun | None) -> ManifestRow:
-    confirmation = (longer.key, longer.path.stat().st_size) if longer else ()
     return ManifestRow(
-        run.path.name, run.spec.f_omega, run.key, status, run.path.stat().st_size, *confirmation
+        file=run.file,
+        f_omega=run.spec.f_omega,
+        run_key=done.key,
+        status=done.status,
+        bytes=done.bytes,
+        checksum=done.checksum,
+        **confirmation,
     )
 
 
-class _Outcome(NamedTuple):
-    """What tells whether a run needs a longer one."""
-
-    status: str
-    amplitude: np.ndarray
-
-
-def _stored(path: Path) -> _Outcome:
-    run = read_run(path, {"revolution_amplitude"})
-    return _Outcome(run.attributes["status"], run.data["revolution_amplitude"])
-
-
 def _compute(
-    plans: Sequence[PlannedRun],
-    folder: Path,
-    case: CoatingCase,
-    blade: ReducedBlade,
     config: Mapping[str, Any],
+    case: CoatingCase,
+    runs: Sequence[PlannedRun],
+    blade: ReducedBlade,
+    folder: Path,
+    blade_digest: str,
     report: Callable[[object], None],
-) -> dict[Path, _Outcome]:
-    """Compute what is missing or stale of `plans`, all of as many revolutions, and return how it went."""
-    missing = [
-        plan for plan in plans if not (is_current(plan.path, plan.key) or unshelve(plan.path, plan.key))
-    ]
+) -> dict[str, _Done]:
+    """Compute what is missing or stale of `runs`, which are of equal length; return all by file."""
+    entries = {run.file: Entry(folder / run.file, run.key(blade_digest), MAPPED) for run in runs}
+    missing = [run for run in runs if not entries[run.file].fetch()]
+    done = {}
     # a run takes as many steps as its revolutions take time: its cost goes as 1 / speed
-    cost_left = sum(1 / plan.spec.f_omega for plan in missing)
+    cost_left = sum(1 / run.spec.f_omega for run in missing)
     cost_done, start = 0.0, time.monotonic()
-    outcomes = {}
-    for number, plan in enumerate(missing, 1):
-        run_start = time.monotonic()
-        result = simulate(blade, plan.spec)
-        shelve(plan.path)
-        write_run(plan.path, plan.spec, result, case, plan.key, config, plan.keep_history)
-        outcomes[plan.path] = _Outcome(result.status, result.revolution_amplitude)
+    for number, run in enumerate(missing, 1):
+        run_start, entry = time.monotonic(), entries[run.file]
+        result = simulate(blade, run.spec)
+        stored = stored_run(case, run.spec, result, entry.key, config["analysis"], run.keep_history)
+        entry.make_room()
+        checksum = write_run(entry.path, stored, provenance(config))
+        done[run.file] = _done(entry, result.status, result.revolution_amplitude, checksum)
         now = time.monotonic()
-        cost_done += 1 / plan.spec.f_omega
-        cost_left -= 1 / plan.spec.f_omega
+        cost_done += 1 / run.spec.f_omega
+        cost_left -= 1 / run.spec.f_omega
         seconds_left = (now - start) * max(cost_left, 0.0) / cost_done
-        file = plan.path.relative_to(folder).as_posix()
-        report(RunDone(number, len(missing), file, result.status, now - run_start, seconds_left))
-    return outcomes
+        report(RunDone(number, len(missing), run.file, result.status, now - run_start, seconds_left))
+    for file in entries.keys() - done.keys():
+        done[file] = _stored(entries[file])
+    return done
+
+
+def _stored(entry: Entry) -> _Done:
+    run = read_run(entry.path, {"revolution_amplitude"})
+    amplitude = run.data["revolution_amplitude"]
+    return _done(entry, run.attributes["status"], amplitude, file_checksum(entry.path))
+
+
+def _done(entry: Entry, status: str, amplitude: np.ndarray, checksum: str) -> _Done:
+    return _Done(status, amplitude, entry.key, entry.path.stat().st_size, checksum)

@@ -15,9 +15,9 @@ from bladerub.io import hdf5
 from bladerub.io.errors import DamagedFile
 from bladerub.io.hdf5 import Variable
 from bladerub.io.provenance import provenance
-from bladerub.study.confirmation import confirmation_path
 from bladerub.study.grid import CoatingCase, speeds
-from bladerub.study.store import GATHERED, ManifestRow, StoredRun, read_manifest, read_run
+from bladerub.study.manifest import ManifestRow, confirmation_path, read_manifest
+from bladerub.study.store import MAPPED, StoredRun, read_run
 from bladerub.study.wear import lobes, mean_wear
 
 
@@ -141,7 +141,7 @@ def build_map(
         raise DamagedFile(
             f"{folder / 'manifest.tsv'}: lists {len(rows)} speeds, not the {len(planned)} planned"
         )
-    runs = [_listed_run(folder, folder / row.file, row.run_key, GATHERED) for row in rows]
+    runs = [_listed_run(folder, folder / row.file, row.run_key, MAPPED) for row in rows]
     scales = _listed_run(folder, folder / rows[0].file, rows[0].run_key, {"angle", "spectrum_order"}).data
     f_omega = np.array([row.f_omega for row in rows])
     angle = scales["angle"]

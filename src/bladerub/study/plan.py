@@ -3,96 +3,95 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
-from pathlib import Path
+from dataclasses import asdict, dataclass, replace
 from typing import Any
 
 from bladerub.contact.spec import RunSpec
-from bladerub.study.confirmation import confirmation_path, confirmation_spec
+from bladerub.io.sources import solver_digest, storage_digest
+from bladerub.study import cache
 from bladerub.study.grid import CoatingCase, keeps_history, run_spec, speed_name, speeds
-from bladerub.study.key import run_key
+from bladerub.study.growth import confirmation_spec
+from bladerub.study.manifest import CONFIRMATION
 from bladerub.study.store import StoredRun
+
+SHAPING_SETTINGS = ("spectrum_revolutions", "max_order")
+"""Keys of ``config["analysis"]`` that decide what a run file holds; the others act on maps and tables."""
 
 
 @dataclass(frozen=True)
 class PlannedRun:
-    """One run that is to be in its file under its key.
+    """One run of the study.
 
     Parameters
     ----------
-    path : Path
-        The file.
     spec : RunSpec
         The run.
-    key : str
-        From `bladerub.study.key.run_key`.
+    file : str
+        Its file, in the folder of the coating.
     keep_history : bool
         Whether to store the whole radial displacement of node 1.
+    determinants : str
+        Digest of everything that determines the file but the blade. Other coatings or speeds of the study
+        have no part in it.
     """
 
-    path: Path
     spec: RunSpec
-    key: str
+    file: str
     keep_history: bool
+    determinants: str
+
+    def key(self, blade_digest: str) -> str:
+        """Key of this run of the blade with that digest (`bladerub.study.cache.blade_digest`)."""
+        return cache.digest([self.determinants, blade_digest])
 
 
-def planned_runs(
-    config: Mapping[str, Any], case: CoatingCase, folder: str | Path, blade_digest: str
-) -> list[PlannedRun]:
-    """List the runs of one coating at all speeds of the study.
+@dataclass(frozen=True)
+class CoatingPlan:
+    """All runs of one coating, at ascending speeds."""
 
-    Parameters
-    ----------
-    config : mapping
-        The study.
-    case : CoatingCase
-        The coating.
-    folder : path-like
-        Where its runs live.
-    blade_digest : str
-        From `bladerub.study.key.blade_digest`.
-    """
-    runs = []
+    case: CoatingCase
+    runs: tuple[PlannedRun, ...]
+
+
+def planned_run(config: Mapping[str, Any], spec: RunSpec, file: str, keep_history: bool) -> PlannedRun:
+    """Plan one run (see `PlannedRun`); `config` is the study."""
+    determinants = {
+        "spec": asdict(spec),
+        "solver": solver_digest(),
+        "storage": storage_digest(),
+        "keep_history": bool(keep_history),
+        "analysis": {name: float(config["analysis"][name]) for name in SHAPING_SETTINGS},
+    }
+    return PlannedRun(spec, file, keep_history, cache.digest(determinants))
+
+
+def coating_plan(config: Mapping[str, Any], case: CoatingCase) -> CoatingPlan:
+    """Plan the runs of one coating at all speeds of the study `config`."""
+    spec, runs = run_spec(config, case, f_omega=0.0), []
     for f_omega in speeds(config):
         history = keeps_history(config, case, f_omega)
-        spec = run_spec(config, case, f_omega)
-        path = Path(folder) / f"{speed_name(f_omega)}.h5"
-        runs.append(PlannedRun(path, spec, run_key(spec, blade_digest, history, config["analysis"]), history))
-    return runs
+        at_speed = replace(spec, f_omega=f_omega)  # what is the same at all speeds is one object
+        runs.append(planned_run(config, at_speed, f"{speed_name(f_omega)}.h5", history))
+    return CoatingPlan(case, tuple(runs))
 
 
-def claimed_run(config: Mapping[str, Any], path: str | Path, run: StoredRun, blade_digest: str) -> PlannedRun:
-    """Plan again what the file of a run says it is; its own key tells whether `config` and blade made it.
+def longer_run(config: Mapping[str, Any], run: PlannedRun) -> PlannedRun:
+    """Plan the longer run that shows whether the growth of `run` lasts."""
+    spec = confirmation_spec(run.spec, config["analysis"]["divergence"])
+    return planned_run(config, spec, f"{CONFIRMATION}/{run.file}", keep_history=False)
 
-    Parameters
-    ----------
-    config : mapping
-        The study.
-    path : path-like
-        The file, which may lie anywhere.
-    run : StoredRun
-        What is in it.
-    blade_digest : str
-        From `bladerub.study.key.blade_digest`.
+
+def claimed_run(config: Mapping[str, Any], file: str, run: StoredRun) -> PlannedRun:
+    """Plan again what a stored run says it is; its own key shows whether `config` and blade made it.
 
     Raises
     ------
     KeyError
         If the file lacks an attribute of a run, or the config its casing.
     """
-    about = run.attributes
-    case = CoatingCase.described(about)
-    spec = replace(run_spec(config, case, about["f_omega"]), revolutions=about["revolutions"])
-    history = "radial_displacement" in run.data
-    analysis = config["analysis"]
+    attributes, analysis = run.attributes, config["analysis"]
+    case = CoatingCase.described(attributes)
+    spec = replace(run_spec(config, case, attributes["f_omega"]), revolutions=attributes["revolutions"])
     shortest = min(analysis["spectrum_revolutions"], spec.revolutions)  # as of a short run asked for alone
-    key = run_key(spec, blade_digest, history, {**analysis, "spectrum_revolutions": shortest})
-    return PlannedRun(Path(path), spec, key, history)
-
-
-def longer_run(config: Mapping[str, Any], run: PlannedRun, blade_digest: str) -> PlannedRun:
-    """Plan the longer run that shows whether the growth of `run` lasts (see `planned_runs`)."""
-    analysis = config["analysis"]
-    spec = confirmation_spec(run.spec, analysis["divergence"])
-    key = run_key(spec, blade_digest, False, analysis)
-    return PlannedRun(confirmation_path(run.path), spec, key, False)
+    config = {**config, "analysis": {**analysis, "spectrum_revolutions": shortest}}
+    return planned_run(config, spec, file, keep_history="radial_displacement" in run.data)

@@ -5,14 +5,13 @@ from __future__ import annotations
 import shutil
 import sys
 import tempfile
-from collections.abc import Callable
 from pathlib import Path
 from typing import IO
 
-from bladerub.extensions.chart.manifest import lost_cell
+from bladerub.extensions.chart.point import PointRow
 from bladerub.io import atomic, lock
 from bladerub.io.errors import DamagedFile
-from bladerub.study.store import lost_run
+from bladerub.study.manifest import ManifestRow, Row, listed_files
 
 
 def begin(snakemake_folder: str | Path, results: str | Path) -> IO:
@@ -37,21 +36,21 @@ def begin(snakemake_folder: str | Path, results: str | Path) -> IO:
     elif any(locks.glob("*.lock")):
         shutil.rmtree(locks)
         _print("the last snakemake here was killed; what it had finished is kept")
-    for pattern, lost_file in (("runs/*/manifest.tsv", lost_run), ("chart/columns/*.tsv", lost_cell)):
+    for pattern, kind in (("runs/*/manifest.tsv", ManifestRow), ("chart/columns/*.tsv", PointRow)):
         for manifest in sorted(Path(results).glob(pattern)):
-            _forget_if_wrong(manifest, lost_file)
+            _delete_if_wrong(manifest, kind)
     return stream
 
 
-def _forget_if_wrong(manifest: Path, lost_file: Callable[[Path], str | None]) -> None:
+def _delete_if_wrong(manifest: Path, kind: type[Row]) -> None:
     try:
-        lost = lost_file(manifest)
+        lost = [file.path for file in listed_files(manifest, kind) if file.is_lost()]
     except DamagedFile as error:
         problem = str(error)
     else:
-        if lost is None:
+        if not lost:
             return
-        problem = f"{lost}: missing, or not as long as it was written"
+        problem = f"{lost[0]}: missing, or not as long as it was written"
     manifest.unlink(missing_ok=True)
     _print(f"{problem}; its coating is planned again and computes only what is not there")
 

@@ -9,7 +9,7 @@ from typing import TextIO
 from tqdm import tqdm
 
 from bladerub.study.job import RunDone
-from bladerub.study.store import ManifestRow
+from bladerub.study.manifest import ManifestRow
 
 
 class JobProgress:

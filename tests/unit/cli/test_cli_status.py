@@ -3,6 +3,9 @@ import json
 import pytest
 
 from bladerub.cli import inputs, main
+from bladerub.extensions.chart.point import PointRow
+from bladerub.io.checksum import file_checksum
+from bladerub.study.manifest import ManifestRow, write_manifest
 
 COUNTS = {
     "planned",
@@ -11,6 +14,7 @@ COUNTS = {
     "stale",
     "corrupt",
     "unbounded",
+    "unconverged",
     "longer_planned",
     "longer_done",
     "bytes",
@@ -35,11 +39,11 @@ def small(tmp_path, monkeypatch):
 def test_counts_as_json(small, capsys):
     assert main(["status", "--json", *small]) == 0
     output = capsys.readouterr()
-    told = json.loads(output.out)
-    coatings, note, damaged = told.pop("coatings"), told.pop("note"), told.pop("damaged")
-    assert damaged == []
-    assert told.keys() == COUNTS
-    assert (told["planned"], told["missing"], told["done"]) == (6, 6, 0)
+    printed = json.loads(output.out)
+    coatings, note = printed.pop("coatings"), printed.pop("note")
+    assert (printed.pop("damaged"), printed.pop("discarded")) == ([], False)
+    assert printed.keys() == COUNTS
+    assert (printed["planned"], printed["missing"], printed["done"]) == (6, 6, 0)
     assert coatings.keys() == {"2nd_E2_K0.5_theta0", "2nd_E20_K0.5_theta0"}
     assert all(each.keys() == COUNTS and each["planned"] == 3 for each in coatings.values())
     assert "reduced_model.h5" in note
@@ -72,9 +76,53 @@ def test_a_blade_of_another_config_makes_every_run_stale(small, tmp_path, capsys
     overlay.write_text(SMALL.replace("spanwise: 6", "spanwise: 7"))
     capsys.readouterr()
     assert main(["status", "--json", *small]) == 0
-    told = json.loads(capsys.readouterr().out)
-    assert (told["stale"], told["missing"]) == (1, 5)
-    assert "the blade is of another config" in told["note"]
+    printed = json.loads(capsys.readouterr().out)
+    assert (printed["stale"], printed["missing"]) == (1, 5)
+    assert "the blade is of another config" in printed["note"]
+
+
+@pytest.fixture
+def files(tmp_path):
+    """A run, a longer run and a point of the chart, each with one that is whole, and their manifests."""
+    runs, chart = tmp_path / "results" / "runs" / "2nd_E2_K0.5_theta0", tmp_path / "results" / "chart"
+    names = ["0.2000.h5", "0.3000.h5", "confirmation/0.2000.h5", "confirmation/0.3000.h5"]
+    paths = [runs / name for name in names] + [chart / "cells" / name for name in ("a.h5", "b.h5")]
+    for path in paths:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(path.name)
+    sums = [file_checksum(path) for path in paths]
+    rows = [
+        ManifestRow(name, 0.2, "a", "completed", 9, "b", 9, sums[index], sums[index + 2])
+        for index, name in enumerate(names[:2])
+    ]
+    write_manifest(runs / "manifest.tsv", rows)
+    points = [PointRow("a.h5", "c", 4, sums[4]), PointRow("b.h5", "d", 4, sums[5])]
+    write_manifest(chart / "columns" / "2nd_E2_theta0.tsv", points, PointRow)
+    return paths
+
+
+def test_every_kind_of_damaged_file_is_named_and_deleted_on_request(small, files, capsys):
+    hurt = files[1::2]
+    for path in hurt:
+        path.write_text(path.name.replace("h", "i"))
+    main(["status", "--thorough", "--json", *small])
+    printed = json.loads(capsys.readouterr().out)
+    assert set(map(str, hurt)) <= set(printed["damaged"])
+    assert not {str(files[2]), str(files[4])} & set(printed["damaged"])
+    assert not printed["discarded"]
+    assert all(path.exists() for path in files)
+    assert main(["status", "--thorough", "--discard", *small]) == 0
+    assert all(str(path) in capsys.readouterr().out for path in hurt[:1])
+    assert not any(path.exists() for path in hurt)
+    assert files[2].exists()
+    assert files[4].exists()
+
+
+def test_a_damaged_manifest_of_the_chart_is_named(small, files, tmp_path, capsys):
+    manifest = tmp_path / "results" / "chart" / "columns" / "2nd_E2_theta0.tsv"
+    manifest.write_text(manifest.read_text()[:-9])
+    main(["status", "--thorough", "--json", *small])
+    assert str(manifest) in json.loads(capsys.readouterr().out)["damaged"]
 
 
 def test_nothing_is_written(small, tmp_path, capsys):

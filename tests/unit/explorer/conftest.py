@@ -3,8 +3,8 @@ import pytest
 
 from bladerub.study import divergence
 from bladerub.study.grid import CoatingCase
+from bladerub.study.manifest import ManifestRow
 from bladerub.study.maps import CoatingMap
-from bladerub.study.store import ManifestRow
 
 SETTINGS = {"growth": 0.01, "revolutions": 10, "confidence": 0.95, "confirmation_revolutions": 30}
 

@@ -12,8 +12,8 @@ import pytest
 from bladerub.explorer.coating import AMPLITUDE_FLOOR, parts
 from bladerub.explorer.page import build
 from bladerub.study.grid import CoatingCase
+from bladerub.study.manifest import write_manifest
 from bladerub.study.maps import write_map
-from bladerub.study.store import write_manifest
 
 SETTINGS = {
     "max_frequency": 2.5,

@@ -2,10 +2,19 @@ import pytest
 
 from bladerub.io import sources
 
+CHARTING = [
+    "blade/frequencies.py",
+    "study/peaks.py",
+    "study/wear.py",
+    "extensions/chart/grid.py",
+    "extensions/chart/search.py",
+    "extensions/chart/point.py",
+]
+
 
 @pytest.fixture
 def package(tmp_path, monkeypatch):
-    for folder in ("contact/kernel", "blade", "study"):
+    for folder in ("contact/kernel", "blade", "study", "extensions/chart"):
         (tmp_path / folder).mkdir(parents=True)
     for name in (
         "contact/run.py",
@@ -14,6 +23,7 @@ def package(tmp_path, monkeypatch):
         "study/store.py",
         "study/spectra.py",
         "study/growth.py",
+        *CHARTING,
     ):
         (tmp_path / name).write_text("a = 1\n")
     monkeypatch.setattr(sources, "_PACKAGE", tmp_path)
@@ -22,6 +32,7 @@ def package(tmp_path, monkeypatch):
 
 SOLVER, STORAGE = sources.solver_digest.__wrapped__, sources.storage_digest.__wrapped__
 GROWTH = sources.growth_digest.__wrapped__
+CHART = sources.chart_digest.__wrapped__
 
 
 @pytest.mark.parametrize(
@@ -35,6 +46,10 @@ GROWTH = sources.growth_digest.__wrapped__
         ("study/spectra.py", STORAGE, SOLVER),
         ("study/growth.py", GROWTH, STORAGE),
         ("study/growth.py", GROWTH, SOLVER),
+        ("study/growth.py", CHART, SOLVER),
+        ("study/spectra.py", CHART, SOLVER),
+        *((name, CHART, SOLVER) for name in CHARTING),
+        *((name, CHART, STORAGE) for name in CHARTING),
     ],
 )
 def test_an_edit_changes_the_digest_it_belongs_to_alone(package, changed, digest, other):

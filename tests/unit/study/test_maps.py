@@ -5,15 +5,15 @@ import pytest
 import xarray
 
 from bladerub.io.errors import DamagedFile
-from bladerub.study import grid, maps, store
-from bladerub.study.confirmation import confirmation_path, confirmation_spec
-from bladerub.study.store import ManifestRow
+from bladerub.study import grid, maps
+from bladerub.study.growth import confirmation_spec
+from bladerub.study.manifest import ManifestRow, confirmation_path, write_manifest
 
 SPEEDS = [0.1, 0.19, 0.3]
 
 
 @pytest.fixture
-def folder(tmp_path, config, case, make_result):
+def folder(tmp_path, config, case, make_result, write_run):
     """Runs of one coating that vibrate and wear at orders 10, 6, 4; the manifest is not in order of speed.
 
     The middle one was repeated for longer; of the last there is a longer one that the study has no use for.
@@ -24,14 +24,14 @@ def folder(tmp_path, config, case, make_result):
         result = make_result(order=order, complete=15 if order == 4 else None)
         spec = grid.run_spec(config, case, f_omega)
         name = f"{grid.speed_name(f_omega)}.h5"
-        store.write_run(tmp_path / name, spec, result, case, f"key {order}", config, order == 6)
+        write_run(name, f"key {order}", result, history=order == 6, spec=spec)
         if order != 10:
-            longer, path = make_result(revolutions=60, growth=0.03), confirmation_path(tmp_path / name)
             long_spec = confirmation_spec(spec, config["analysis"]["divergence"])
-            store.write_run(path, long_spec, longer, case, f"long {order}", config, False)
+            longer = make_result(revolutions=60, growth=0.03)
+            write_run(f"confirmation/{name}", f"long {order}", longer, spec=long_spec)
         long_key = "long 6" if order == 6 else ""
         rows.append(ManifestRow(name, f_omega, f"key {order}", result.status, 1, long_key, 1))
-    store.write_manifest(tmp_path / "manifest.tsv", reversed(rows))
+    write_manifest(tmp_path / "manifest.tsv", reversed(rows))
     return tmp_path
 
 
@@ -119,7 +119,7 @@ def test_a_longer_run_that_is_missing_or_stale_is_named(build, folder, tmp_path)
 
 
 def test_no_manifest_or_an_empty_one_is_an_error(build, folder, tmp_path):
-    store.write_manifest(folder / "manifest.tsv", [])
+    write_manifest(folder / "manifest.tsv", [])
     with pytest.raises(DamagedFile, match=r"manifest\.tsv: lists 0 speeds, not the 3 planned"):
         build(tmp_path / "map.h5")
     (folder / "manifest.tsv").unlink()

@@ -4,9 +4,12 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from bladerub.study import divergence, job, maps, peaks, store
+from bladerub.study import divergence, job, maps, peaks
 from bladerub.study.grid import CoatingCase
 from bladerub.study.job import compute_missing
+from bladerub.study.manifest import write_manifest
+from bladerub.study.plan import coating_plan
+from bladerub.study.store import read_run
 
 
 def test_all_runs_are_computed_once(compute, simulated, tmp_path):
@@ -14,7 +17,8 @@ def test_all_runs_are_computed_once(compute, simulated, tmp_path):
     assert simulated == [0.1, 0.19, 0.2, 0.3]
     assert [row.file for row in rows] == ["0.1000.h5", "0.1900.h5", "0.2000.h5", "0.3000.h5"]
     assert [row.status for row in rows] == ["completed"] * 3 + ["unbounded"]
-    assert all(store.is_current(tmp_path / row.file, row.run_key) for row in rows)
+    assert all(read_run(tmp_path / row.file).attributes["run_key"] == row.run_key for row in rows)
+    assert all(not file.is_damaged() for row in rows for file in row.files(tmp_path))
     assert compute() == rows
     assert len(simulated) == 4
 
@@ -22,7 +26,7 @@ def test_all_runs_are_computed_once(compute, simulated, tmp_path):
 def test_only_listed_runs_have_a_history(compute, simulated, tmp_path):
     compute()
     with_history = [
-        path.name for path in tmp_path.glob("*.h5") if "radial_displacement" in store.read_run(path).data
+        path.name for path in tmp_path.glob("*.h5") if "radial_displacement" in read_run(path).data
     ]
     assert with_history == ["0.1900.h5"]
 
@@ -87,17 +91,17 @@ def test_runs_that_grow_are_repeated_for_longer_once(compute, simulated, growing
     growing.update({0.1: 0.03, 0.2: 0.02, 0.19: 0.001, 0.3: 0.5})
     reports = []
     rows = compute(report=reports.append)
-    assert repeated == [0.1, 0.2]  # 0.3 left all bounds
+    assert repeated == [0.1, 0.2]  # 0.3 is unbounded
     assert [bool(row.confirmation_key) for row in rows] == [True, False, True, False]
     assert [row.file for row in rows] == ["0.1000.h5", "0.1900.h5", "0.2000.h5", "0.3000.h5"]
     assert [(done.number, done.total, done.file) for done in reports[4:]] == [
         (1, 2, "confirmation/0.1000.h5"),
         (2, 2, "confirmation/0.2000.h5"),
     ]
-    longer = store.read_run(tmp_path / "confirmation" / "0.2000.h5")
+    longer = read_run(tmp_path / "confirmation" / "0.2000.h5")
     assert longer.attributes["run_key"] == rows[2].confirmation_key != rows[2].run_key
     assert longer.data["revolution_amplitude"].shape == (60,)
-    assert store.read_run(tmp_path / "0.2000.h5").data["revolution_amplitude"].shape == (20,)
+    assert read_run(tmp_path / "0.2000.h5").data["revolution_amplitude"].shape == (20,)
     assert compute() == rows
     assert (len(simulated), len(repeated)) == (4, 2)
 
@@ -111,7 +115,7 @@ def test_another_length_of_confirmation_repeats_only_what_grows(compute, study, 
     assert (len(simulated), repeated) == (4, [0.2, 0.2])
     assert [row.run_key for row in rows] == [row.run_key for row in before]
     settings["confirmation_revolutions"] = 60
-    assert compute() == before  # from the shelf
+    assert compute() == before  # from the archive
     settings["confirmation_revolutions"] = 0
     assert not any(row.confirmation_key for row in compute())
     assert (len(simulated), len(repeated)) == (4, 2)
@@ -134,15 +138,15 @@ def test_a_damaged_longer_run_is_computed_alone(compute, simulated, growing, rep
     assert (len(simulated), repeated) == (4, [0.1, 0.2, 0.1])
 
 
-def test_real_rubs_go_from_the_solver_to_the_table(study, case, blade, tmp_path):
+def test_real_runs_go_from_the_solver_to_the_table(study, case, blade, tmp_path):
     study["speeds"] = {"start": 0.1, "stop": 0.3, "step": 0.2, "extra": []}
     study["contact"]["elements"] = 200
     study["solver"].update(revolutions=3, max_time_step=2e-5)
     study["analysis"]["spectrum_revolutions"] = 2
     study["analysis"]["divergence"].update(revolutions=3, confirmation_revolutions=0)
     folder, reports = tmp_path / "runs", []
-    rows = compute_missing(study, case, blade, folder, "digest", reports.append)
-    store.write_manifest(folder / "manifest.tsv", rows)
+    rows = compute_missing(study, coating_plan(study, case), blade, folder, "digest", reports.append)
+    write_manifest(folder / "manifest.tsv", rows)
     maps.build_map(study, case, blade, folder, tmp_path / "map.h5")
     table = divergence.table(study, [tmp_path / "map.h5"])
     assert [done.file for done in reports] == ["0.1000.h5", "0.3000.h5"]
@@ -152,7 +156,7 @@ def test_real_rubs_go_from_the_solver_to_the_table(study, case, blade, tmp_path)
     assert coating.wear_node.shape == (2, 8, 200)
     assert (coating.max_wear > 0).all()
     assert list(coating.lobes) == [2, 2]  # stiff and heavy, it cuts the two lobes of the casing
-    assert compute_missing(study, case, blade, folder, "digest", reports.append) == rows
+    assert compute_missing(study, coating_plan(study, case), blade, folder, "digest", reports.append) == rows
     assert len(reports) == 2
 
 
@@ -161,8 +165,8 @@ def test_runs_on_the_rigid_casing_go_to_the_tables_as_those_of_infinite_moduli(
 ):
     monkeypatch.setattr(job, "simulate", lambda _, spec: make_result(spec.revolutions, order=4.0, depth=0.0))
     case = CoatingCase.rigid("2nd", 0.15)
-    rows = compute_missing(study, case, blade, tmp_path, "digest")
-    store.write_manifest(tmp_path / "manifest.tsv", rows)
+    rows = compute_missing(study, coating_plan(study, case), blade, tmp_path, "digest")
+    write_manifest(tmp_path / "manifest.tsv", rows)
     maps.build_map(study, case, blade, tmp_path, tmp_path / "map.h5")
     coating = maps.read_map(tmp_path / "map.h5")
     assert coating.case == case

@@ -1,7 +1,7 @@
 import pytest
 
 from bladerub.io import errors
-from bladerub.study.store import ManifestRow, write_manifest
+from bladerub.study.manifest import ManifestRow, write_manifest
 from bladerub.workflow import invocation
 
 

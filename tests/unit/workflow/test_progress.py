@@ -1,7 +1,7 @@
 import io
 
 from bladerub.study.job import RunDone
-from bladerub.study.store import ManifestRow
+from bladerub.study.manifest import ManifestRow
 from bladerub.workflow.progress import JobProgress
 
 

@@ -1,9 +1,10 @@
-"""The job of one column of the chart: every cell that is missing or stale, each written when it is done."""
+"""The job of one column of the chart: every point that is missing or stale, and the rows of its manifest."""
 
 from __future__ import annotations
 
 import time
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
@@ -12,69 +13,103 @@ import numpy as np
 from bladerub.blade.frequencies import reduced_frequencies
 from bladerub.blade.model import ReducedBlade
 from bladerub.extensions.chart import point as points
-from bladerub.extensions.chart.grid import chart_speeds
-from bladerub.extensions.chart.key import cell_key
-from bladerub.extensions.chart.manifest import CellRow, is_current
+from bladerub.extensions.chart.grid import ORDERS, ChartSpeeds, chart_speeds
+from bladerub.extensions.chart.point import PointRow
 from bladerub.extensions.chart.search import compute
 from bladerub.io import lock
-from bladerub.study.grid import CoatingCase
+from bladerub.io.checksum import file_checksum
+from bladerub.io.sources import chart_digest, solver_digest
+from bladerub.study import cache
+from bladerub.study.grid import CoatingCase, run_spec
+
+
+def determinants(config: Mapping[str, Any], case: CoatingCase, speeds: ChartSpeeds) -> str:
+    """Digest all that determines the file of the point of a coating but the blade.
+
+    Other points, and the coatings of the study, have no part in it.
+    """
+    analysis = config["analysis"]
+    return cache.digest(
+        {
+            "spec": asdict(run_spec(config, case, f_omega=0.0)),
+            "f_omega": speeds.f_omega.tolist(),
+            "uniform": np.flatnonzero(speeds.uniform).tolist(),
+            "coarse": np.flatnonzero(speeds.coarse).tolist(),
+            "refine_above": float(config["chart"]["speeds"]["refine_above"]),
+            "orders": ORDERS,
+            "window": [float(end) for end in analysis["peaks"]["speed_window"]],
+            "order_halfwidth": float(analysis["peaks"]["order_halfwidth"]),
+            "spectrum_revolutions": float(analysis["spectrum_revolutions"]),
+            "lobe_prominence": float(analysis["lobe_prominence"]),
+            "divergence": {name: float(value) for name, value in analysis["divergence"].items()},
+            "solver": solver_digest(),
+            "chart": chart_digest(),
+        }
+    )
+
+
+def plan_column(config: Mapping[str, Any], cases: Sequence[CoatingCase]) -> dict[CoatingCase, str]:
+    """Plan the points of a column: the `determinants` of each."""
+    speeds = chart_speeds(config)
+    return {case: determinants(config, case, speeds) for case in cases}
 
 
 def compute_missing(
     config: Mapping[str, Any],
-    cases: Sequence[CoatingCase],
+    plan: Mapping[CoatingCase, str],
     blade: ReducedBlade,
     folder: str | Path,
     blade_digest: str,
     report: Callable[[str], None],
-) -> list[CellRow]:
-    """Compute those cells of a column whose file is missing or stale.
-
-    Cells that are no longer asked for are left where they are. One job at a time works on a column, as for
-    the runs of a coating (`bladerub.study.job`).
+) -> list[PointRow]:
+    """Compute those points of a column whose file is missing or stale, as `bladerub.study.job` does runs.
 
     Parameters
     ----------
     config : mapping
         The study.
-    cases : sequence of CoatingCase
-        The coatings of the column, of one casing, E and θ.
+    plan : mapping of CoatingCase to str
+        From `plan_column`.
     blade : ReducedBlade
         The blade.
     folder : path-like
-        Where the cells of the whole chart live.
+        Where the points of the whole chart are.
     blade_digest : str
-        From `bladerub.study.key.blade_digest`.
+        From `bladerub.study.cache.blade_digest`.
     report : callable
-        Called with a line for a log after each computed cell, and before waiting.
+        Called with a line for a log after each computed point, and before waiting.
 
     Returns
     -------
-    list of CellRow
-        A row per coating, for `bladerub.extensions.chart.manifest.write`.
+    list of PointRow
+        A row per coating, for `bladerub.study.manifest.write_manifest`.
     """
-    folder, speeds = Path(folder), chart_speeds(config)
-    first = cases[0]
+    folder, speeds, first = Path(folder), chart_speeds(config), next(iter(plan))
     column_lock = folder / f".{first.casing}_E{first.E:g}_theta{first.theta:g}.lock"
+    entries = {
+        case: cache.Entry(
+            folder / f"{case.name}.h5", cache.digest([planned, blade_digest]), points.MEASURES.keys()
+        )
+        for case, planned in plan.items()
+    }
     with lock.held(column_lock, lambda: report("another job is at work on this column: waiting for its end")):
-        keys = {case: cell_key(config, case, speeds, blade_digest) for case in cases}
-        missing = [case for case in cases if not is_current(_path(folder, case), keys[case])]
+        checksums = {}
+        missing = [case for case, entry in entries.items() if not entry.fetch()]
         if missing:
             C1 = np.array([reduced_frequencies(blade, f, n_modes=1)[0] for f in speeds.f_omega]) / blade.f1_hz
         for number, case in enumerate(missing, 1):
-            start = time.monotonic()
+            start, entry = time.monotonic(), entries[case]
             point = compute(config, case, blade, speeds, C1)
-            points.write(_path(folder, case), point, keys[case], config)
-            report(
-                f"[{number}/{len(missing)}] {case.name}: {point.known.sum()} runs in "
-                f"{time.monotonic() - start:.1f} s"
+            entry.make_room()
+            checksums[case] = points.write(entry.path, point, entry.key, config)
+            seconds = time.monotonic() - start
+            report(f"[{number}/{len(missing)}] {case.name}: {point.known.sum()} runs in {seconds:.1f} s")
+        return [
+            PointRow(
+                entry.path.name,
+                entry.key,
+                entry.path.stat().st_size,
+                checksums.get(case) or file_checksum(entry.path),
             )
-        return [_row(_path(folder, case), keys[case]) for case in cases]
-
-
-def _row(path: Path, key: str) -> CellRow:
-    return CellRow(path.name, key, path.stat().st_size)
-
-
-def _path(folder: Path, case: CoatingCase) -> Path:
-    return folder / f"{case.name}.h5"
+            for case, entry in entries.items()
+        ]

@@ -14,6 +14,7 @@ from bladerub.io.errors import DamagedFile
 from bladerub.io.hdf5 import Variable
 from bladerub.io.provenance import provenance
 from bladerub.study.grid import CoatingCase
+from bladerub.study.manifest import ListedFile
 
 MEASURES = {
     "peak": ("m", "greatest absolute radial displacement of node 1"),
@@ -28,6 +29,24 @@ MEASURES = {
     "energy_sliding": ("J", "energy dissipated by the tangential resistance of the coating"),
 }
 """What is kept of each run, with unit and meaning; NaN at speeds that were not run."""
+
+
+POINTS = "cells"
+"""Folder of the points, next to that of the manifests."""
+
+
+@dataclass(frozen=True)
+class PointRow:
+    """One point in the manifest of its column: its file in the folder `POINTS`, key, size and SHA-256."""
+
+    file: str
+    cell_key: str
+    bytes: int
+    checksum: str
+
+    def files(self, folder: Path) -> list[ListedFile]:
+        """List the file of the point; `folder` is that of the manifest."""
+        return [ListedFile(folder.parent / POINTS / self.file, self.bytes, self.checksum)]
 
 
 @dataclass(frozen=True)
@@ -66,8 +85,8 @@ class ChartPoint:
         return np.isfinite(self.measures["peak"])
 
 
-def write(path: str | Path, point: ChartPoint, key: str, config: Mapping[str, Any]) -> None:
-    """Write `point` to the HDF5 file `path` under its `key`, whole or not at all."""
+def write(path: str | Path, point: ChartPoint, key: str, config: Mapping[str, Any]) -> str:
+    """Write `point` to `path` under its `key`, whole or not at all; return the checksum of the file."""
     over_speed = ("f_omega",)
     variables = {
         "f_omega": Variable(
@@ -87,7 +106,7 @@ def write(path: str | Path, point: ChartPoint, key: str, config: Mapping[str, An
     }
     for name, (unit, long_name) in MEASURES.items():
         variables[name] = Variable(over_speed, point.measures[name], unit, f"{long_name}; NaN: not run")
-    hdf5.write(path, variables, asdict(point.case) | {"cell_key": key}, provenance(config))
+    return hdf5.write(path, variables, asdict(point.case) | {"cell_key": key}, provenance(config))
 
 
 def read(path: str | Path) -> ChartPoint:

@@ -24,9 +24,8 @@ from bladerub.contact.setup import element_area
 from bladerub.contact.spec import RunSpec
 from bladerub.extensions.chart.grid import ORDERS, ChartSpeeds
 from bladerub.extensions.chart.point import MEASURES, ChartPoint
-from bladerub.study.confirmation import confirmation_spec
 from bladerub.study.grid import CoatingCase, run_spec
-from bladerub.study.growth import judge, needs_confirmation
+from bladerub.study.growth import confirmation_spec, judge, needs_confirmation
 from bladerub.study.peaks import Response, amplitude_in_window
 from bladerub.study.spectra import order_spectrum
 from bladerub.study.wear import lobes

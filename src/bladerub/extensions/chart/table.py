@@ -9,11 +9,11 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from bladerub.extensions.chart import manifest
 from bladerub.extensions.chart import point as files
 from bladerub.extensions.chart.grid import ORDERS
-from bladerub.extensions.chart.point import ChartPoint
+from bladerub.extensions.chart.point import ChartPoint, PointRow
 from bladerub.io.errors import DamagedFile
+from bladerub.study.manifest import listed_files
 from bladerub.study.peaks import peak
 
 COATING = ["casing", "E", "K", "theta"]
@@ -26,11 +26,10 @@ def read_points(manifests: Iterable[str | Path]) -> Iterator[ChartPoint]:
     Raises `OSError`, naming the file, if one is missing, damaged or not the one that its manifest lists.
     """
     for path in manifests:
-        for row in manifest.read(path):
-            file = manifest.cell_path(path, row)
-            if not manifest.is_current(file, row.cell_key):
-                raise DamagedFile(f"{file}: not the point of the chart that {path} lists")
-            yield files.read(file)
+        for file in listed_files(path, PointRow):
+            if file.is_damaged():
+                raise DamagedFile(f"{file.path}: not the point of the chart that {path} lists")
+            yield files.read(file.path)
 
 
 def table(config: Mapping[str, Any], points: Iterable[ChartPoint]) -> pd.DataFrame:

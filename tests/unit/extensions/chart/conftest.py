@@ -31,3 +31,11 @@ def make_point():
         return ChartPoint(case, F_OMEGA, C1, np.array([4.0, 6.0]), np.stack(hats, axis=1), uniform, measures)
 
     return make
+
+
+@pytest.fixture
+def few_speeds(config):
+    """Even speeds 0.16, 0.24 and 0.32; the study has those between as well."""
+    config["speeds"] = {"start": 0.16, "stop": 0.34, "step": 0.02, "extra": []}
+    config["chart"]["speeds"] |= {"start": 0.16, "step": 0.08, "dense_stop": 0.16, "dense_step": 0.08}
+    return config

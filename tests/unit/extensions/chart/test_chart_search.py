@@ -2,19 +2,11 @@ import numpy as np
 import pytest
 
 from bladerub.contact.setup import strip_width
-from bladerub.extensions.chart import column, search
-from bladerub.extensions.chart.grid import chart_speeds, columns
+from bladerub.extensions.chart import search
+from bladerub.extensions.chart.grid import chart_speeds
 from bladerub.study.grid import CoatingCase
 
 CASE = CoatingCase("2nd", 2.0, 0.5, 0.0)
-
-
-@pytest.fixture
-def few_speeds(config):
-    """Even speeds 0.16, 0.24 and 0.32; the study has those between as well."""
-    config["speeds"] = {"start": 0.16, "stop": 0.34, "step": 0.02, "extra": []}
-    config["chart"]["speeds"] |= {"start": 0.16, "step": 0.08, "dense_stop": 0.16, "dense_step": 0.08}
-    return config
 
 
 @pytest.fixture
@@ -55,40 +47,3 @@ def test_worn_volume_is_depth_times_area(few_speeds, blade, simulated):
     volume = point.measures["worn_volume"][point.known]
     np.testing.assert_allclose(volume, expected, rtol=1e-5)
     assert np.all(point.measures["deepest_wear"][point.known] == pytest.approx(2e-4, rel=1e-4))
-
-
-def test_a_column_computes_what_is_not_there(few_speeds, blade, make_point, monkeypatch, tmp_path):
-    computed = []
-
-    def compute(config, case, *_):
-        computed.append(case.K)
-        return make_point(case.E, case.K)
-
-    monkeypatch.setattr(column, "compute", compute)
-    lines = []
-
-    def build(K, digest="blade"):
-        few_speeds["chart"] |= {"E": [2], "K": K, "theta": [0.0]}
-        computed.clear()
-        ((_, cases),) = columns(few_speeds).items()
-        return column.compute_missing(few_speeds, cases, blade, tmp_path, digest, lines.append)
-
-    rows = build([0.5, 5])
-    assert computed == [0.5, 5]
-    assert [row.file for row in rows] == ["2nd_E2_K0.5_theta0.h5", "2nd_E2_K5_theta0.h5"]
-    assert len(lines) == 2
-    assert build([0.5, 5]) == rows
-    assert computed == []
-    build([0.5, 1, 5])
-    assert computed == [1]
-    (tmp_path / rows[1].file).write_bytes(b"")
-    build([0.5, 5])
-    assert computed == [5]
-    few_speeds["chart"]["limits"]["wear"] = 1e-9
-    build([5])
-    assert computed == []
-    few_speeds["analysis"]["divergence"]["growth"] = 0.02
-    build([5])
-    assert computed == [5]
-    build([5], digest="another blade")
-    assert computed == [5]

@@ -5,8 +5,6 @@ import pandas as pd
 import pytest
 
 from bladerub.extensions.chart import check, choice, explanation, ridge, stiffening, table
-from bladerub.extensions.chart.manifest import CellRow, is_current, lost_cell
-from bladerub.extensions.chart.manifest import write as write_manifest
 from bladerub.extensions.chart.point import read, write
 from bladerub.io.tables import described_columns
 from bladerub.study.grid import CoatingCase
@@ -36,21 +34,6 @@ def test_a_point_comes_back_from_its_file(tmp_path, config, make_point):
     for name, values in point.measures.items():
         np.testing.assert_array_equal(again.measures[name], values)
     assert again.known.sum() == point.f_omega.size - 1
-    assert is_current(path, "key")
-    assert not is_current(path, "another")
-    path.write_bytes(path.read_bytes()[:1000])
-    assert not is_current(path, "key")
-
-
-def test_a_lost_or_short_point_is_named(tmp_path):
-    manifest, file = tmp_path / "columns" / "a.tsv", tmp_path / "cells" / "a.h5"
-    write_manifest(manifest, [CellRow("a.h5", "key", 3)])
-    assert lost_cell(manifest) == str(file)
-    file.parent.mkdir()
-    file.write_bytes(b"12")
-    assert lost_cell(manifest) == str(file)
-    file.write_bytes(b"123")
-    assert lost_cell(manifest) is None
 
 
 def test_a_row_sums_up_a_cell(config, make_point):

@@ -1,0 +1,104 @@
+"""Computed files under keys, so that nothing is computed twice and a change of mind loses nothing.
+
+An entry of the cache is one HDF5 file: a run of the study, or a point of the chart. It holds as an attribute
+its key, a digest of everything that determines it. An entry of another key in its place, as of another
+blade or other solver settings, is stale. Before a stale entry is overwritten it is moved to the archive, the
+folder `ARCHIVE` beside it, and it is taken back from there when its key is asked for again.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import os
+from collections.abc import Set
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from bladerub.io import hdf5
+from bladerub.io.provenance import PREFIX
+
+ARCHIVE = ".archive"
+"""Folder of the archived entries, each under its key; it may be deleted at any time."""
+
+_KEYS = ("run_key", "cell_key")  # attribute of a run, of a point of the chart
+
+
+def digest(determinants: Any) -> str:
+    """Digest what JSON can express, as SHA-256 in hexadecimal; the order of keys does not count."""
+    return hashlib.sha256(json.dumps(determinants, sort_keys=True).encode()).hexdigest()
+
+
+def blade_digest(path: str | Path) -> str:
+    """Digest the datasets and attributes of the reduced blade at `path`, not the bytes of the file.
+
+    A rebuild with the same outcome keeps the digest, wherever it comes from and whatever layout the file has.
+
+    Raises
+    ------
+    OSError
+        If the file is missing or unreadable.
+    """
+    data, attributes = hdf5.read(path)
+    content = hashlib.sha256()
+    for name in sorted(data):
+        values = data[name]
+        content.update(json.dumps([name, values.dtype.str, values.shape]).encode())
+        content.update(values.tobytes())
+    described = {name: repr(value) for name, value in attributes.items() if not name.startswith(PREFIX)}
+    content.update(json.dumps(described, sort_keys=True).encode())
+    return content.hexdigest()
+
+
+@dataclass(frozen=True)
+class Entry:
+    """One file that is to hold what its key stands for.
+
+    Parameters
+    ----------
+    path : Path
+        The file.
+    key : str
+        Its key.
+    datasets : set of str
+        What it must contain at least.
+    """
+
+    path: Path
+    key: str
+    datasets: Set[str]
+
+    def fetch(self) -> bool:
+        """Take the file back from the archive unless it is current; return whether it is now.
+
+        A file is current if it can be read to its end and has the key and the datasets.
+        """
+        if self._key_in(self.path) == self.key:
+            return True
+        archived = self._archived(self.key)
+        if self._key_in(archived) != self.key:
+            return False
+        self.make_room()
+        os.replace(archived, self.path)
+        return True
+
+    def make_room(self) -> None:
+        """Move what is in the file now to the archive, if it is a whole entry."""
+        key = self._key_in(self.path)
+        if key is not None:
+            archived = self._archived(key)
+            archived.parent.mkdir(exist_ok=True)
+            os.replace(self.path, archived)
+
+    def _archived(self, key: str) -> Path:
+        return self.path.parent / ARCHIVE / f"{key}{self.path.suffix}"
+
+    def _key_in(self, path: Path) -> str | None:
+        """Read the whole file and return its key, or None if anything is wrong with it."""
+        try:
+            data, attributes = hdf5.read(path)
+        except Exception:  # whatever a damaged file makes h5py raise, the answer is to compute it again
+            return None
+        keys = [attributes[name] for name in _KEYS if name in attributes]
+        return keys[0] if keys and self.datasets <= data.keys() else None

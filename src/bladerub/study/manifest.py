@@ -1,0 +1,127 @@
+"""Manifests: tables of the finished files of a job, written last, by which losses and damage are noticed."""
+
+from __future__ import annotations
+
+import csv
+from collections.abc import Iterable
+from dataclasses import astuple, dataclass, fields
+from pathlib import Path
+from typing import NamedTuple, Protocol, TypeVar
+
+from bladerub.io import atomic
+from bladerub.io.checksum import file_checksum
+from bladerub.io.errors import DamagedFile
+
+CONFIRMATION = "confirmation"
+"""Folder of the longer runs, beside the runs of a coating; each has the name of the run it repeats."""
+
+
+class ListedFile(NamedTuple):
+    """A file as its manifest lists it: where, of how many bytes, with which checksum of them."""
+
+    path: Path
+    bytes: int
+    checksum: str
+
+    def is_lost(self) -> bool:
+        """Whether it is missing or has another size, which is known without reading it."""
+        return not (self.path.is_file() and self.path.stat().st_size == self.bytes)
+
+    def is_damaged(self) -> bool:
+        """Whether it is there and a single bit of it is not as it was written."""
+        return self.path.exists() and (self.is_lost() or file_checksum(self.path) != self.checksum)
+
+
+class Row(Protocol):
+    """A row of a manifest: a dataclass of strings and numbers."""
+
+    def files(self, folder: Path) -> list[ListedFile]:
+        """Files that the row lists; `folder` is that of the manifest."""
+
+
+AnyRow = TypeVar("AnyRow", bound=Row)
+
+
+@dataclass(frozen=True)
+class ManifestRow:
+    """One run in the manifest of a coating.
+
+    Parameters
+    ----------
+    file : str
+        Name of the run file, beside the manifest.
+    f_omega : float
+        Normalised speed.
+    run_key : str
+        Key of the run.
+    status : str
+        ``completed`` or ``unbounded``.
+    bytes : int
+        Size of the file.
+    confirmation_key : str
+        Key of the longer run that shows whether its growth lasts; empty if it needs none.
+    confirmation_bytes : int
+        Size of its file.
+    checksum, confirmation_checksum : str
+        SHA-256 of both files.
+    """
+
+    file: str
+    f_omega: float
+    run_key: str
+    status: str
+    bytes: int
+    confirmation_key: str = ""
+    confirmation_bytes: int = 0
+    checksum: str = ""
+    confirmation_checksum: str = ""
+
+    def files(self, folder: Path) -> list[ListedFile]:
+        """List the run and, if it has one, its longer run."""
+        run = folder / self.file
+        listed = [ListedFile(run, self.bytes, self.checksum)]
+        if self.confirmation_key:
+            longer = confirmation_path(run), self.confirmation_bytes, self.confirmation_checksum
+            listed.append(ListedFile(*longer))
+        return listed
+
+
+def confirmation_path(run_path: str | Path) -> Path:
+    """Return where the longer run of the run at `run_path` is."""
+    run_path = Path(run_path)
+    return run_path.parent / CONFIRMATION / run_path.name
+
+
+def write_manifest(path: str | Path, rows: Iterable[Row], kind: type[Row] = ManifestRow) -> None:
+    """Write rows of that `kind` (tab-separated, with a header) to `path`, whole or not at all."""
+    with atomic.writing(path) as stream:
+        writer = csv.writer(stream, delimiter="\t", lineterminator="\n")
+        writer.writerow(field.name for field in fields(kind))
+        writer.writerows(astuple(row) for row in rows)
+
+
+def read_manifest(path: str | Path, kind: type[AnyRow] = ManifestRow) -> list[AnyRow]:
+    """Read the rows of that `kind` written by `write_manifest`.
+
+    Raises
+    ------
+    OSError
+        If the file is missing or not such a manifest; the message names it.
+    """
+    columns = [field.name for field in fields(kind)]
+    convert = [{"str": str, "int": int, "float": float}[field.type] for field in fields(kind)]
+    lines = Path(path).read_text(encoding="utf-8", errors="replace").splitlines(keepends=True)
+    reader = csv.reader(lines, delimiter="\t")
+    try:
+        if next(reader, None) != columns:
+            raise DamagedFile(f"{path}: not a manifest, its header is not {' '.join(columns)}")
+        if not lines[-1].endswith("\n"):
+            raise ValueError("breaks off")
+        return [kind(*(read(text) for read, text in zip(convert, row, strict=True))) for row in reader]
+    except (ValueError, csv.Error) as error:
+        raise DamagedFile(f"{path}: not a manifest, line {reader.line_num}: {error}") from error
+
+
+def listed_files(path: str | Path, kind: type[Row] = ManifestRow) -> list[ListedFile]:
+    """List all files of the rows of the manifest at `path`; raises `OSError` as `read_manifest`."""
+    return [file for row in read_manifest(path, kind) for file in row.files(Path(path).parent)]

@@ -1,0 +1,76 @@
+import pytest
+
+from bladerub.io.checksum import file_checksum
+from bladerub.study.manifest import (
+    ListedFile,
+    ManifestRow,
+    confirmation_path,
+    listed_files,
+    read_manifest,
+    write_manifest,
+)
+
+HEADER = (
+    "file\tf_omega\trun_key\tstatus\tbytes\tconfirmation_key\tconfirmation_bytes\tchecksum\t"
+    "confirmation_checksum"
+)
+ROWS = [
+    ManifestRow("0.1900.h5", 0.19, "a" * 64, "completed", 70_000, checksum="e" * 64),
+    ManifestRow("0.1970.h5", 0.197, "b", "unbounded", 1, checksum="f"),
+    ManifestRow("0.2000.h5", 0.2, "c", "completed", 2, "d" * 64, 3, "g", "h"),
+]
+
+
+@pytest.fixture
+def path(tmp_path):
+    return tmp_path / "manifest.tsv"
+
+
+def test_a_manifest_comes_back_as_written(path):
+    write_manifest(path, ROWS)
+    assert path.read_text().splitlines()[0] == HEADER
+    assert read_manifest(path) == ROWS
+    assert [entry.name for entry in path.parent.iterdir()] == ["manifest.tsv"]
+
+
+def test_it_lists_runs_and_longer_runs(path):
+    write_manifest(path, ROWS)
+    assert listed_files(path) == [
+        ListedFile(path.with_name("0.1900.h5"), 70_000, "e" * 64),
+        ListedFile(path.with_name("0.1970.h5"), 1, "f"),
+        ListedFile(path.with_name("0.2000.h5"), 2, "g"),
+        ListedFile(path.parent / "confirmation" / "0.2000.h5", 3, "h"),
+    ]
+    assert listed_files(path)[3].path == confirmation_path(path.with_name("0.2000.h5"))
+
+
+@pytest.mark.parametrize(
+    "content",
+    [
+        "",
+        "a\tb\n",
+        f"{HEADER}\n0.1900.h5\tfast\tk\tcompleted\t1\t\t0\t\t\n",
+        f"{HEADER}\n0.1900.h5\t0.1",
+        f"{HEADER}\n0.1900.h5\t0.1\tk\tcompleted\t1\t\t0\t\t\tmore\n",
+        f"{HEADER}\n0.1900.h5\t0.1\tk\tcompleted\t1\t\t0\t1234\tbreaks off",
+        f"{HEADER}\n0.1900.h5\t0.1\tk\tcompleted\t1\t\t0\xff\t\t\n".encode("latin-1"),
+    ],
+)
+def test_what_is_not_a_manifest_is_an_error_with_its_name(path, content):
+    path.write_bytes(content if isinstance(content, bytes) else content.encode())
+    with pytest.raises(OSError, match=r"manifest\.tsv: not a manifest"):
+        read_manifest(path)
+
+
+def test_a_file_is_lost_if_missing_or_of_another_size_and_damaged_if_a_bit_differs(tmp_path):
+    path, content = tmp_path / "run.h5", b"0123456789"
+    path.write_bytes(content)
+    file = ListedFile(path, 10, file_checksum(path))
+    assert (file.is_lost(), file.is_damaged()) == (False, False)
+    path.write_bytes(b"1123456789")
+    assert (file.is_lost(), file.is_damaged()) == (False, True)
+    for other in (content[:-1], content + b"\0"):
+        path.write_bytes(other)
+        assert (file.is_lost(), file.is_damaged()) == (True, True)
+    path.unlink()
+    assert (file.is_lost(), file.is_damaged()) == (True, False)

@@ -1,0 +1,152 @@
+"""The key of a run changes with everything that determines its file, and with nothing else."""
+
+import dataclasses
+import math
+
+import pytest
+
+from bladerub.io import provenance
+from bladerub.study import grid, plan
+from bladerub.study.grid import CoatingCase, run_spec
+from bladerub.study.growth import confirmation_determinants, confirmation_spec
+from bladerub.study.plan import claimed_run, coating_plan, longer_run, planned_run
+from bladerub.study.store import StoredRun
+
+
+@pytest.fixture
+def key(config, spec):
+    def make(spec=spec, blade="blade", history=False):
+        return planned_run(config, spec, "0.1900.h5", history).key(blade)
+
+    return make
+
+
+def _leaves(value, path=()):
+    """Every field of a nested dataclass, with the path that leads to it."""
+    if dataclasses.is_dataclass(value):
+        for field in dataclasses.fields(value):
+            yield from _leaves(getattr(value, field.name), (*path, field.name))
+    else:
+        yield path, value
+
+
+def _replaced(value, path, leaf):
+    if not path:
+        return leaf
+    return dataclasses.replace(value, **{path[0]: _replaced(getattr(value, path[0]), path[1:], leaf)})
+
+
+def _other(leaf):
+    if isinstance(leaf, str):
+        return leaf + "x"
+    if isinstance(leaf, tuple):
+        return (*leaf[:-1], _other(leaf[-1]))
+    return leaf + 1 if isinstance(leaf, int) else math.nextafter(leaf, math.inf)
+
+
+def test_the_key_is_stable(key, config, case):
+    assert len(key()) == 64
+    assert key() == key(run_spec(config, case, 0.19))
+
+
+def test_the_rigid_casing_has_a_key_of_its_own(key, config):
+    rigid, stiff = CoatingCase.rigid("2nd", 0.0), CoatingCase("2nd", 1e6, 1e6, 0.0)
+    keys = [key(run_spec(config, case, 0.19)) for case in (rigid, rigid, stiff)]
+    assert keys[0] == keys[1] != keys[2]
+
+
+def test_every_field_of_the_run_changes_the_key(key, spec):
+    keys = {key()}
+    leaves = list(_leaves(spec))
+    assert len(leaves) == 25
+    for path, leaf in leaves:
+        keys.add(key(_replaced(spec, path, _other(leaf))))
+    assert len(keys) == 1 + len(leaves)
+
+
+@pytest.mark.parametrize("setting", ["spectrum_revolutions", "max_order"])
+def test_what_shapes_the_file_changes_the_key(key, config, setting):
+    before = key()
+    config["analysis"][setting] += 1
+    assert key() != before
+
+
+def test_blade_and_history_change_the_key(key):
+    assert len({key(), key(blade="other"), key(history=True)}) == 3
+
+
+def test_settings_of_maps_and_tables_and_the_folder_leave_the_key(key, config):
+    before = key()
+    config["analysis"]["lobe_prominence"] = 0.9
+    config["analysis"]["peaks"]["orders"] = [2]
+    config["analysis"]["divergence"] = {"growth": 0.5, "confirmation_revolutions": 100}
+    config["analysis"]["histories"] = []
+    config["results"] = "elsewhere"
+    assert key() == before
+
+
+def test_a_finer_grid_or_other_coatings_leave_the_keys(config, case):
+    before = {run.file: run.key("blade") for run in coating_plan(config, case).runs}
+    config["speeds"]["step"] /= 2
+    config["coatings"] = [{"casing": case.casing, "E": [2, 3], "K": [0.5], "theta": [0.15]}]
+    assert case in grid.coating_cases(config)
+    after = {run.file: run.key("blade") for run in coating_plan(config, case).runs}
+    assert before.items() < after.items()
+
+
+@pytest.mark.parametrize("digest", ["solver_digest", "storage_digest"])
+def test_another_source_of_solver_or_storage_is_another_run(monkeypatch, key, digest):
+    before = key()
+    monkeypatch.setattr(plan, digest, lambda: "other")
+    assert key() != before
+
+
+def test_another_commit_is_the_same_run(monkeypatch, key):
+    before = key()
+    monkeypatch.setattr(provenance, "git_state", lambda: ("another", "modified"))
+    assert key() == before
+
+
+def test_the_plan_of_a_coating_has_each_speed_and_its_own_history(config, case):
+    planned = coating_plan(config, case)
+    assert planned.case == case
+    assert [run.spec.f_omega for run in planned.runs] == grid.speeds(config)
+    assert [run.file for run in planned.runs] == [f"{f:.4f}.h5" for f in grid.speeds(config)]
+    for run in planned.runs:
+        assert run.spec == run_spec(config, case, run.spec.f_omega)
+        assert run.keep_history == grid.keeps_history(config, case, run.spec.f_omega)
+    assert any(run.keep_history for run in planned.runs)
+    assert len({run.key("blade") for run in planned.runs}) == len(planned.runs)
+
+
+def test_the_longer_run_is_the_same_run_for_longer(config, spec):
+    settings = config["analysis"]["divergence"]
+    assert confirmation_spec(spec, settings).revolutions == 60
+    assert dataclasses.replace(confirmation_spec(spec, settings), revolutions=spec.revolutions) == spec
+    run = planned_run(config, spec, "0.1900.h5", keep_history=True)
+    longer = longer_run(config, run)
+    assert longer.file == "confirmation/0.1900.h5"
+    assert (longer.spec, longer.keep_history) == (confirmation_spec(spec, settings), False)
+    assert longer.key("blade") != run.key("blade")
+
+
+def test_every_setting_decides_which_runs_are_repeated_and_none_where_none_is(config):
+    settings = config["analysis"]["divergence"]
+    before = confirmation_determinants(settings)
+    for name, value in settings.items():
+        assert confirmation_determinants(settings | {name: 2 * value}) != before
+    off = settings | {"confirmation_revolutions": 0}
+    assert confirmation_determinants(off) == confirmation_determinants(off | {"growth": 0.5}) == {}
+
+
+@pytest.mark.parametrize("history", [False, True])
+@pytest.mark.parametrize("revolutions", [20, 3])
+def test_a_stored_run_is_planned_again_from_what_it_says(config, case, spec, history, revolutions):
+    spec = dataclasses.replace(spec, revolutions=revolutions)
+    attributes = dataclasses.asdict(case) | {"f_omega": spec.f_omega, "revolutions": revolutions}
+    stored = StoredRun(attributes, {"radial_displacement": None} if history else {})
+    claimed = claimed_run(config, "mine.h5", stored)
+    config["analysis"]["spectrum_revolutions"] = min(10, revolutions)
+    assert claimed == planned_run(config, spec, "mine.h5", history)
+    with pytest.raises(KeyError):
+        claimed_run(config, "mine.h5", StoredRun(attributes | {"casing": "unknown"}, {}))
