@@ -1,4 +1,4 @@
-"""Truncated, lost and spoilt files: found and computed again without being asked, or named with what to do."""
+"""Truncated, lost and damaged files: computed again without being asked, or named with what to do."""
 
 from __future__ import annotations
 
@@ -93,7 +93,9 @@ def test_one_random_bit_in_each_of_40_runs_is_found_and_costs_these_runs(copied_
     assert copied_study.plan(tiny) == {}  # nothing shows it from outside
     assert sorted(copied_study.status("--thorough")["damaged"]) == runs
     assert sorted(copied_study.status("--thorough", "--discard")["damaged"]) == runs
-    copied_study.build(tiny, *(f"results/maps/{path.name}" for path in (results / "maps").iterdir()))
+    coatings = [path.stem for path in (results / "maps").iterdir()]
+    manifests = [f"results/runs/{coating}/manifest.tsv" for coating in coatings]
+    copied_study.build(tiny, *manifests, *(f"results/maps/{coating}.h5" for coating in coatings))
     assert contents(results) == before
     now = copied_study.runs()
     assert sorted(name for name, stamp in now.items() if stamp != written[name]) == hit
