@@ -116,7 +116,7 @@ def take(
             continue
         status = stored.attributes["status"]
         counts["unbounded"] += status == "unbounded"
-        counts["unconverged"] += stored.attributes.get("n_unconverged_steps", 0) > 0
+        counts["unconverged"] += stored.attributes["n_unconverged_steps"] > 0
         if needs_confirmation(stored.data["revolution_amplitude"], status, settings):
             counts["longer_planned"] += 1
             counts["longer_done"] += look(longer_run(config, run))[0] == "done"

@@ -129,6 +129,8 @@ def stored_run(
         "n_steps": result.n_steps,
         "n_contact_steps": result.n_contact_steps,
         "n_reversed_steps": result.n_reversed_steps,
+        "n_fallback_steps": result.n_fallback_steps,
+        "n_unconverged_steps": result.n_unconverged_steps,
         "slowest_sliding": result.slowest_sliding,
         "scheme": spec.scheme,
         "energy_residual": result.energy.residual,

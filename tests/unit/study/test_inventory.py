@@ -1,11 +1,14 @@
 import os
 import random
+from dataclasses import replace
 
 import pytest
 
+from bladerub.study import job
 from bladerub.study.inventory import Inventory, take, total
 from bladerub.study.manifest import write_manifest
 from bladerub.study.plan import coating_plan
+from bladerub.study.store import read_run
 
 
 @pytest.fixture
@@ -109,6 +112,22 @@ def test_a_lost_longer_run_is_counted(done, inventory, tmp_path):
     (tmp_path / "confirmation" / "0.2000.h5").unlink()
     found = inventory()
     assert (found.done, found.longer_planned, found.longer_done) == (4, 1, 0)
+
+
+def test_runs_whose_contact_forces_did_not_converge_are_counted(
+    simulated, compute, inventory, monkeypatch, tmp_path
+):
+    simulate = job.simulate
+
+    def unconverged(blade, spec):
+        steps = {0.1: 3, 0.2: 1}.get(spec.f_omega, 0)
+        return replace(simulate(blade, spec), n_unconverged_steps=steps, n_fallback_steps=9)
+
+    monkeypatch.setattr(job, "simulate", unconverged)
+    compute()
+    assert (inventory().done, inventory().unconverged) == (4, 2)
+    attributes = read_run(tmp_path / "0.1000.h5").attributes
+    assert (attributes["n_unconverged_steps"], attributes["n_fallback_steps"]) == (3, 9)
 
 
 def test_a_total_adds_up():
