@@ -1,6 +1,7 @@
 """Bad inputs, and what each must be answered with: one line with these words, exit code 2, nothing written.
 
-`CONFIGS` are laid over config/config.yaml as ``overlay.yaml``: a mapping, or the text of the file.
+`CONFIGS` are laid over config/config.yaml as ``overlay.yaml``: a mapping, or the text of the file. Their
+answers begin with file, line and key; tests/unit/config has the wording, a sentence of each kind.
 `COMMANDS` are command lines of ``bladerub``; the files that they name are made by `make_files`.
 """
 
@@ -39,59 +40,53 @@ _CASING = {
 CONFIGS: dict[str, tuple[dict[str, Any] | str, str]] = {
     "unknown key": (
         "contact:\n  damping: 0.01\n",
-        "overlay.yaml:2: contact.damping = 0.01: unknown key, did you mean contact.damping_ratio?",
+        "overlay.yaml:2: contact.damping =",
     ),
-    "unknown group": ("coating: []\n", "overlay.yaml:1: coating = []: unknown key, did you mean coatings?"),
+    "unknown group": ("coating: []\n", "overlay.yaml:1: coating ="),
     "number is text": (
         "# a comment\n\nreduction: {f_omega_max: high}\n",
-        'overlay.yaml:3: reduction.f_omega_max = "high": highest speed of the reduced model must be a number '
-        "from 0.01 to 2 (normalised)",
+        "overlay.yaml:3: reduction.f_omega_max =",
     ),
     "number with its unit": (
         {"blade": {"length": "200 mm"}},
-        'overlay.yaml:2: blade.length = "200 mm": blade length must be a number from 0.01 to 3, in m, '
-        "the number alone",
+        "overlay.yaml:2: blade.length =",
     ),
     "millimetres for metres": (
         {"blade": {"length": 200}},
-        "overlay.yaml:2: blade.length = 200: blade length must be a number from 0.01 to 3, in m",
+        "overlay.yaml:2: blade.length =",
     ),
     "not a number": (
         {"solver": {"max_time_step": float("nan")}},
-        "overlay.yaml:2: solver.max_time_step = nan: largest time step must be a number from 1e-09 to "
-        "0.0001, in s",
+        "overlay.yaml:2: solver.max_time_step =",
     ),
     "infinite": (
         {"contact": {"modulus_unit": float("inf")}},
-        "overlay.yaml:2: contact.modulus_unit = inf: unit of the normalised moduli must be a number from "
-        "1000 to 1e+12, in Pa",
+        "overlay.yaml:2: contact.modulus_unit =",
     ),
     "beyond all numbers": (
         "blade: {length: 1e400}\n",
-        "overlay.yaml:1: blade.length = inf: blade length must be a number from 0.01 to 3, in m",
+        "overlay.yaml:1: blade.length =",
     ),
     "huge whole number": (
         {"solver": {"revolutions": 10**300}},
-        "overlay.yaml:2: solver.revolutions = 100000000000000000000000000000000000000000000000000000000...: "
-        "revolutions of a run must be a whole number from 1 to 10000",
+        "overlay.yaml:2: solver.revolutions =",
     ),
     "truth for a number": (
         {"solver": {"revolutions": True}},
-        "overlay.yaml:2: solver.revolutions = True: revolutions of a run must be a whole number from 1 to "
-        "10000",
+        "overlay.yaml:2: solver.revolutions =",
     ),
     "nothing for a number": (
         {"blade": {"hub_radius": None}},
-        "overlay.yaml:2: blade.hub_radius = None: hub radius must be a number from 0.01 to 5, in m",
+        "overlay.yaml:2: blade.hub_radius =",
     ),
     "date for a number": (
         "blade: {length: 2001-01-01}\n",
-        "overlay.yaml:1: blade.length = datetime.date(2001, 1, 1): blade length must be a number",
+        "overlay.yaml:1: blade.length =",
     ),
-    "text for a group": ("blade: big\n", 'overlay.yaml:1: blade = "big": blade must be a group of keys'),
+    "text for a group": ("blade: big\n", "overlay.yaml:1: blade ="),
     "sections out of order": (
         {"blade": {"sections": [_section(0), _section(0.6), _section(0.5), _section(1)]}},
-        "overlay.yaml:20: blade.sections[2].span = 0.5: must be above that of the section before (0.6)",
+        "overlay.yaml:20: blade.sections[2].span =",
     ),
     "mesh turned inside out": (
         {
@@ -104,175 +99,168 @@ CONFIGS: dict[str, tuple[dict[str, Any] | str, str]] = {
                 ]
             }
         },
-        "overlay.yaml:2: blade.sections: mesh turned inside out at span 0.1 to 0.15; chord and "
-        "thickness must stay above zero between the sections, and neighbours must not cross",
+        "overlay.yaml:2: blade.sections:",
     ),
     "mesh beyond all memory": (
         "blade: {mesh: {chordwise: 200, thickness: 20, spanwise: 400}}\n",
-        "overlay.yaml:1: blade.mesh: has 1600000 elements, must be 20000 or fewer",
+        "overlay.yaml:1: blade.mesh:",
     ),
     "samples beyond all memory": (
         "contact: {elements: 100000}\nsolver: {revolutions: 10000}\n"
         "analysis: {divergence: {confirmation_revolutions: 0}}\n",
-        "overlay.yaml:2: solver.revolutions = 10000: must be at most 200 with contact.elements = 100000",
+        "overlay.yaml:2: solver.revolutions =",
     ),
     "speed above the reduced model's": (
         "speeds:\n  extra:\n    - 0.197\n    - 0.41\n",
-        "overlay.yaml:4: speeds.extra[1] = 0.41: must be at most reduction.f_omega_max = 0.4, the reduced "
-        "blade is not valid above",
+        "overlay.yaml:4: speeds.extra[1] =",
     ),
     "speed step of nothing": (
         "speeds: {step: 1e-9}\n",
-        "overlay.yaml:1: speeds.step = 1e-09: speed step must be a number from 0.0001 to 2 (normalised)",
+        "overlay.yaml:1: speeds.step =",
     ),
     "E of nothing": (
         _coatings(E=[2, -0.11]),
-        "overlay.yaml:4: coatings[0].E[1] = -0.11: Young modulus must be a number above 0 and at most "
-        "1e+06 (normalised)",
+        "overlay.yaml:4: coatings[0].E[1] =",
     ),
     "negative K": (
         _coatings(K=[0.5, -1]),
-        "coatings[0].K[1] = -1: plastic modulus must be a number from 0 to 1e+06 (normalised)",
+        "overlay.yaml:6: coatings[0].K[1] =",
     ),
     "coating without angle": (
         "coatings:\n  - {casing: 2nd, E: [2], K: [1], theta: [0]}\n  - {casing: 2nd, E: [3], K: [1]}\n"
         "analysis: {histories: []}\n",
-        "overlay.yaml:3: coatings[1].theta: missing, list of angles",
+        "overlay.yaml:3: coatings[1].theta:",
     ),
     "coating listed twice": (
         {"coatings": _coatings()["coatings"] + _coatings(E=[1, 2], theta=[0.15])["coatings"]},
-        "coatings[1]: 2nd_E2_K0.5_theta0.15 is listed twice; list each coating once",
+        "overlay.yaml:10: coatings[1]:",
     ),
     "a million coatings": (
         _coatings(E=[index + 1 for index in range(1000)], K=[index + 1 for index in range(1000)]),
-        "overlay.yaml:2: coatings[0]: brings the coatings to 2000000, all combinations counted; must be 5000 "
-        "or fewer",
+        "overlay.yaml:2: coatings[0]:",
     ),
     "E of the rigid casing": (
         {"coatings": [{"casing": "2nd", "coating": "rigid", "friction": [0], "E": [2]}]},
-        "overlay.yaml:2: coatings[0].E = [2]: unknown key, known here: casing, coating, friction",
+        "overlay.yaml:2: coatings[0].E =",
     ),
     "friction of an abradable coating": (
         _coatings(friction=[0.1]),
-        "overlay.yaml:9: coatings[0].theta = [0.0, 0.15]: unknown key, known here: casing, E, K, friction",
+        "overlay.yaml:9: coatings[0].theta =",
     ),
     "negative friction": (
         {"coatings": _coatings()["coatings"] + [{"casing": "2nd", "coating": "rigid", "friction": [-0.1]}]},
-        "coatings[1].friction[0] = -0.1: coefficient of friction must be a number from 0 to 1",
+        "overlay.yaml:13: coatings[1].friction[0] =",
     ),
     "unknown casing": (
         {"coatings": _coatings()["coatings"] + _coatings(casing="3nd")["coatings"]},
-        'coatings[1].casing = "3nd": must be one of the casings, 2nd, 2nd5nd',
+        "overlay.yaml:14: coatings[1].casing =",
     ),
     "casing named like a path": (
         {"casings": {"../2nd": _CASING}},
-        'overlay.yaml:2: casings["../2nd"]: name of a casing must be at most 40 letters and digits, it '
-        "becomes part of file names",
+        'overlay.yaml:2: casings["../2nd"]:',
     ),
-    "casing that is a path": (_coatings(casing="/tmp/2nd"), 'coatings[0].casing = "/tmp/2nd": '),
+    "casing that is a path": (_coatings(casing="/tmp/2nd"), "overlay.yaml:6: coatings[0].casing ="),
     "casing with a newline": (
         {"casings": {"2nd\n": _CASING}},
-        'overlay.yaml:2: casings["2nd "]: name of a casing must be at most 40 letters and digits',
+        'overlay.yaml:2: casings["2nd "]:',
     ),
     "casing with too long a name": (
         {"casings": {"x" * 300: _CASING}},
-        "x...]: name of a casing must be at most 40 letters and digits",
+        'overlay.yaml:2: casings["' + "x" * 50,
     ),
     "results outside the repository": (
         {"results": "../elsewhere"},
-        'overlay.yaml:1: results = "../elsewhere": results folder must be a folder below the one Snakemake '
-        'runs in, of at most 120 letters, digits and _ . - only, without ".."',
+        "overlay.yaml:1: results =",
     ),
-    "results at the root": ({"results": "/"}, 'overlay.yaml:1: results = "/": results folder must be'),
+    "results at the root": ({"results": "/"}, "overlay.yaml:1: results ="),
     "results among the sources": (
         {"results": "src"},
-        'overlay.yaml:1: results = "src": must not be in src, which is the repository\'s own',
+        "overlay.yaml:1: results =",
     ),
     "results in a file": (
         {"results": "Snakefile/results"},
-        'overlay.yaml:1: results = "Snakefile/results": must be a folder, Snakefile is a file',
+        "overlay.yaml:1: results =",
     ),
-    "results with code": ({"results": "$(touch x)"}, 'results = "$(touch x)": results folder must be'),
+    "results with code": ({"results": "$(touch x)"}, "overlay.yaml:1: results ="),
     "template with code": (
         "__use_yte__: [touch, x]\n",
-        "overlay.yaml:1: __use_yte__ = ['touch', 'x']: unknown key, known here: extend, results",
+        "overlay.yaml:1: __use_yte__ =",
     ),
     "history of no run": (
         {"analysis": {"histories": [{"casing": "2nd", "E": 2, "K": 0.5, "theta": 0, "f_omega": 0.1911}]}},
-        "overlay.yaml:6: analysis.histories[0].f_omega = 0.1911: must be one of the speeds, add it to "
-        "speeds.extra or drop it here",
+        "overlay.yaml:6: analysis.histories[0].f_omega =",
     ),
     "window upside down": (
         {"analysis": {"peaks": {"speed_window": [1.25, 0.85]}}},
-        "overlay.yaml:5: analysis.peaks.speed_window[1] = 0.85: must be above the one before (1.25)",
+        "overlay.yaml:5: analysis.peaks.speed_window[1] =",
     ),
     "weight for no nodal diameter": (
         {"casings": {"2nd": {"weights": [1, 2]}}},
-        "overlay.yaml:3: casings.2nd.weights = [1, 2]: must be 1, one for each of nodal_diameters",
+        "overlay.yaml:3: casings.2nd.weights =",
     ),
     "extends what is not there": (
         "extend: no.yaml\n",
-        'overlay.yaml:1: extend = "no.yaml": cannot be read (No such file or directory)',
+        "overlay.yaml:1: extend =",
     ),
     "extends itself": (
         "\nextend: [overlay.yaml]\n",
-        'overlay.yaml:2: extend = "overlay.yaml": these files extend each other in a circle',
+        "overlay.yaml:2: extend =",
     ),
     "extends a page": (
         "extend: https://host/a.yaml\n",
-        'overlay.yaml:1: extend = "https://host/a.yaml": must be the path of a .yaml file',
+        "overlay.yaml:1: extend =",
     ),
     "chart without moduli": (
         {"chart": {"E": []}},
-        "overlay.yaml:2: chart.E = []: list of Young moduli of the chart must be a list of 2 to 200 entries",
+        "overlay.yaml:2: chart.E =",
     ),
     "chart with E of nothing": (
         {"chart": {"E": [0, 1]}},
-        "overlay.yaml:3: chart.E[0] = 0: Young modulus must be a number above 0 and at most 1e+06",
+        "overlay.yaml:3: chart.E[0] =",
     ),
     "chart with K of nothing": (
         {"chart": {"K": [0, 1]}},
-        "overlay.yaml:3: chart.K[0] = 0: plastic modulus of the chart must be a number above 0",
+        "overlay.yaml:3: chart.K[0] =",
     ),
     "chart that goes back": (
         {"chart": {"K": [0.5, 5, 1]}},
-        "overlay.yaml:5: chart.K[2] = 1: must be above the one before (5)",
+        "overlay.yaml:5: chart.K[2] =",
     ),
     "chart on no casing": (
         {"chart": {"casing": "3nd"}},
-        'overlay.yaml:2: chart.casing = "3nd": must be one of the casings, 2nd, 2nd5nd',
+        "overlay.yaml:2: chart.casing =",
     ),
     "chart above all speeds": (
         {"chart": {"speeds": {"start": 0.5}}},
-        "overlay.yaml:3: chart.speeds.start = 0.5: must be below speeds.stop = 0.4",
+        "overlay.yaml:3: chart.speeds.start =",
     ),
     "chart without a limit": (
         {"chart": {"limits": {"wear": None}}},
-        "overlay.yaml:3: chart.limits.wear = None: deepest wear of a safe coating must be a number above 0",
+        "overlay.yaml:3: chart.limits.wear =",
     ),
-    "number as a key": ("blade:\n  1: 2\n", 'overlay.yaml:2: not valid YAML (a key must be text, write "1")'),
+    "number as a key": ("blade:\n  1: 2\n", "overlay.yaml:2: not valid YAML"),
     "key given twice": (
         "blade: {length: 0.2, length: 0.3}\n",
-        "overlay.yaml:1: not valid YAML (length is given twice)",
+        "overlay.yaml:1: not valid YAML",
     ),
     "aliases without end": (
         "a: &a [x, x, x, x, x, x, x, x]\n"
         + "".join(f"{new}: &{new} [{', '.join([f'*{old}'] * 9)}]\n" for old, new in pairwise("abcdefg")),
-        "overlay.yaml:1: not valid YAML (more than 100000 values, aliases counted wherever they are used)",
+        "overlay.yaml:1: not valid YAML",
     ),
 }
 
 UNREADABLE: dict[str, tuple[str | bytes, str]] = {
     "list at the top": ("- 1\n", "overlay.yaml: must hold keys at its top level"),
     "nothing at all": ("", "overlay.yaml: must hold keys at its top level"),
-    "no YAML": ("results: r\nblade: [1\ncontact: 2\n", "overlay.yaml:3: not valid YAML (expected ',' or ']'"),
+    "no YAML": ("results: r\nblade: [1\ncontact: 2\n", "overlay.yaml:3: not valid YAML"),
     "call of a function": (
         "a: !!python/object/apply:os.system ['touch x']\n",
-        "overlay.yaml:1: not valid YAML (the tag ",
+        "overlay.yaml:1: not valid YAML",
     ),
     "deep nesting": (
         "a: " + "[" * 3000 + "]" * 3000,
-        "overlay.yaml:1: not valid YAML (more than 32 levels in one another)",
+        "overlay.yaml:1: not valid YAML",
     ),
     "groups without end": (
         "a: &a {p: x}\n"
@@ -280,20 +268,20 @@ UNREADABLE: dict[str, tuple[str | bytes, str]] = {
             f"{new}: &{new} {{{', '.join(f'{key}: *{old}' for key in 'pqrstuvwx')}}}\n"
             for old, new in pairwise("abcdefghijkl")
         ),
-        "overlay.yaml:1: not valid YAML (more than 100000 values, aliases counted wherever they are used)",
+        "overlay.yaml:1: not valid YAML",
     ),
     "more digits than Python reads": (
         "blade: {length: " + "9" * 5000 + "}\n",
-        "overlay.yaml:1: not valid YAML (a value of more than 1000 characters)",
+        "overlay.yaml:1: not valid YAML",
     ),
     "no such date": (
         "results: 2001-99-99\n",
-        'overlay.yaml:1: not valid YAML ("2001-99-99" is no timestamp)',
+        "overlay.yaml:1: not valid YAML",
     ),
-    "zero byte": (b"results: a\0b\n", "overlay.yaml:1: not valid YAML (special characters are not allowed)"),
-    "other encoding": ("results: r\n".encode("utf-16"), "is not text in UTF-8"),
-    "Latin letters": ("results: é\n".encode("latin-1"), "is not text in UTF-8"),
-    "hundred megabytes": (b"#" * 100_000_000, "is larger than 1 MB, no config is"),
+    "zero byte": (b"results: a\0b\n", "overlay.yaml:1: not valid YAML"),
+    "other encoding": ("results: r\n".encode("utf-16"), "overlay.yaml: is not text in UTF-8"),
+    "Latin letters": ("results: é\n".encode("latin-1"), "overlay.yaml: is not text in UTF-8"),
+    "hundred megabytes": (b"#" * 100_000_000, "overlay.yaml: is larger than 1 MB"),
 }
 """Configs that Snakemake's own reading of ``--configfile`` fails on, or runs, or never ends."""
 

@@ -186,6 +186,10 @@ def test_every_list_and_group_of_names_has_its_length_in_the_table():
     assert lengths == COUNTS
 
 
+def just_above(value):
+    return math.nextafter(value, math.inf)
+
+
 def change(config, keys, value):
     *parents, key = keys
     for parent in parents:
@@ -216,16 +220,33 @@ def test_a_number_is_allowed_up_to_its_bounds_and_not_beyond(complete, keys, nam
             assert is_out_of_range(complete, keys) != allowed, value
 
 
+@pytest.mark.parametrize(
+    ("keys", "inside", "outside"),
+    [
+        (("seed",), (0, 2**32 - 1), (-1, 2**32)),
+        (("factors", "unit", "multiple_of"), (5e-324, 1e12), (0, just_above(1e12))),
+        (("factors", "unit", "sets", "contact.modulus_unit", 0), (-1e12,), (-just_above(1e12),)),
+        (("factors", "unit", "sets", "contact.modulus_unit", 1), (1e12,), (just_above(1e12),)),
+        (("parts", "lobes", "samples"), (2, 64, 4096), (0, 1, 3, 100, 8192)),
+    ],
+)
+def test_the_numbers_of_a_plan_are_allowed_up_to_their_bounds_and_not_beyond(keys, inside, outside):
+    factor = {"unit": "Pa", "multiple_of": 1, "sets": {"contact.modulus_unit": [1, 2]}}
+    part = {"claims": ["C2"], "samples": 2, "study": {}}
+    plan = {"seed": 1, "factors": {"unit": factor}, "parts": {"lobes": part}}
+    for value in (*inside, *outside):
+        change(plan, keys, value)
+        found = list(config_schema.problems(plan, "robustness_plan"))
+        assert bool(found) == (value in outside)
+        assert all(problem.startswith(f"{key_path(keys)} = ") for problem in found)
+
+
 def problems(config):
     try:
         validate(config)
     except ConfigError as error:
         return [problem.text for problem in error.problems]
     return []
-
-
-def just_above(value):
-    return math.nextafter(value, math.inf)
 
 
 CLEARANCE = min(STUDY["contact"]["clearance"].values()) * STUDY["blade"]["length"]
