@@ -96,10 +96,9 @@ def stator_record(blade: ReducedBlade, spec: RunSpec, tip: records.Tip, rule: Re
     gap = casing.gap(spec.casing, clearance[:, None], element_angle(coating.n_elements))
     first = _first_element(blade, spec)
     rows = np.array([np.roll(of_node, -at) for of_node, at in zip(gap, first, strict=True)])
-    reach = spec.tip.half_width + 1 + SEARCH_RANGE + 1  # + 1 each: a node stands anywhere within an element
     stator = records.Stator(
         initial_gap=rows.T,
-        minimum_gap=_lowest_within(reach, rows).min(axis=0),
+        minimum_gap=minimum_gap(rows, spec.tip.half_width),
         law=_law_parameters(blade, spec),
         n_elements=coating.n_elements,
         is_rigid=coating.is_rigid,
@@ -109,6 +108,12 @@ def stator_record(blade: ReducedBlade, spec: RunSpec, tip: records.Tip, rule: Re
         coulomb=coating.coulomb,
     )
     return aligned(stator)
+
+
+def minimum_gap(rows: np.ndarray, half_width: float) -> np.ndarray:
+    """Smallest gap (N,) that any node may meet in the passage of an element, from the gaps (8, N) in rows."""
+    reach = half_width + 1 + SEARCH_RANGE + 1  # + 1 each: a node stands anywhere within an element
+    return minimum_filter1d(rows, 2 * math.ceil(reach) + 1, axis=1, mode="wrap").min(axis=0)
 
 
 def tip_record(blade: ReducedBlade, spec: RunSpec) -> records.Tip:
@@ -185,10 +190,6 @@ def _self_compliance(rule: Recurrence, coating: Coating) -> np.ndarray:
             "blade is drawn into the casing by its own friction (Painlevé's paradox)"
         )
     return np.maximum(own, 0.0)
-
-
-def _lowest_within(reach: float, gap: np.ndarray) -> np.ndarray:
-    return minimum_filter1d(gap, 2 * math.ceil(reach) + 1, axis=1, mode="wrap")
 
 
 def _start_position(blade: ReducedBlade, spec: RunSpec) -> np.ndarray:

@@ -109,6 +109,19 @@ def test_no_node_approaches_by_more_than_the_bound(scheme, vibration):
         assert moved[:, 8:].max() <= free_flight.free_flight(scheme, STEPS, SLOPE).sideways * limit
 
 
+@pytest.mark.parametrize("mode", [0, 7, 20])
+@pytest.mark.parametrize("by", [0, 1])
+def test_the_bound_of_one_mode_is_reached(scheme, mode, by):
+    """Of a single mode that starts with a displacement alone or with a step alone."""
+    start = np.zeros((3, scheme.omega.size))
+    start[:, mode] = [1e-3, 1e-3, 1e-3] if by == 0 else [0.0, -1e-3, -2e-3]
+    flight = free_flight.free_flight(scheme, STEPS, 0.0)
+    tip = in_steps(scheme, start, STEPS)[2:] @ scheme.tip[:8].T
+    form = (free_flight.BOUND_Q, free_flight.BOUND_D)[by] // 8
+    found = np.ravel(flight.forms[:, form])[mode] * 1e-3
+    assert found == pytest.approx(np.abs(tip - tip[0]).max(), rel=1e-9)
+
+
 @pytest.mark.parametrize("n_steps", [1, 2, 24])
 def test_any_number_of_steps(scheme, vibration, n_steps):
     flight = free_flight.free_flight(scheme, n_steps, SLOPE)

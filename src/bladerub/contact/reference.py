@@ -1,0 +1,159 @@
+"""The whole model of one run on a page: the paper's equations in plain NumPy.
+
+Slow and direct, without tables, shortcuts or compiled code. The time loop is tested against it. Of the
+package it uses the law of an element (Fig. 4), the profile of the tip (Fig. 3) and the shape of the casing
+(Fig. 5); all else is written out here. To see the model at work:
+
+    history, wear = simulate(blade, spec, n_steps=20_000)
+"""
+
+from __future__ import annotations
+
+import numpy as np
+import scipy.linalg
+import scipy.optimize
+
+from bladerub.blade.model import N_INTERFACE, ReducedBlade
+from bladerub.contact import law
+from bladerub.contact.casing import shape
+from bladerub.contact.spec import RunSpec
+from bladerub.contact.tip import coverage, relief
+
+
+def simulate(
+    blade: ReducedBlade, spec: RunSpec, n_steps: int, n_modes: int | None = None
+) -> tuple[np.ndarray, np.ndarray]:
+    """Simulate a run by the scheme that `spec` names.
+
+    Parameters
+    ----------
+    blade : ReducedBlade
+        The blade.
+    spec : RunSpec
+        The run; it starts at rest. Coulomb friction and the rigid casing are left to the time loop.
+    n_steps : int
+        Time steps.
+    n_modes : int, optional
+        Modes that the exponential scheme resolves, all by default.
+
+    Returns
+    -------
+    history : (n_steps, 16) ndarray
+        Radial, then tangential displacement of the interface nodes after each step, m.
+    wear : (8, N) ndarray
+        Permanent shortening of the elements, m.
+    """
+    if spec.scheme == "central_differences":
+        return _central_differences(blade, spec, n_steps)
+    return _exponential(blade, spec, n_steps, n_modes or len(blade.mass))
+
+
+def _central_differences(blade, spec, n_steps):
+    """Integrate eq. (1), M u'' + D u' + K u + F = 0, by the paper's scheme."""
+    h = time_step(blade, spec)
+    M, K = blade.mass, blade.stiffness(spec.f_omega)  # in the coordinates of eq. (6); K by eq. (2)
+    squares, modes = scipy.linalg.eigh(K, M)
+    D = (
+        M @ modes @ np.diag(2 * spec.damping_ratio * np.sqrt(squares)) @ modes.T @ M
+    )  # the same ξ in all modes
+    inverse = np.linalg.inv(M / h**2 + D / (2 * h))
+    tip, coating = tip_rows(blade), _Coating(blade, spec)
+    u, u_before = np.zeros(len(M)), np.zeros(len(M))
+    history = []
+    for step in range(1, n_steps + 1):
+        # eq. (1) at the present step, without contact: prediction
+        predicted = inverse @ ((2 * M / h**2 - K) @ u + (D / (2 * h) - M / h**2) @ u_before)
+        force, coating.wear = coating.contact(step * h, tip @ predicted)
+        u, u_before = predicted + inverse @ (tip.T @ force), u  # correction
+        history.append(tip @ u)
+    return np.array(history), coating.wear
+
+
+def _exponential(blade, spec, n_steps, n_modes):
+    """Integrate eq. (1) mode by mode, exactly for a force held over two steps; condense the fast modes."""
+    h, coating = time_step(blade, spec), _Coating(blade, spec)
+    squares, modes = scipy.linalg.eigh(blade.stiffness(spec.f_omega), blade.mass)
+    tip = tip_rows(blade) @ modes
+    compliance = (tip[:, n_modes:] / squares[n_modes:]) @ tip[:, n_modes:].T
+    tip, squares = tip[:, :n_modes], squares[:n_modes]
+    # free motion over ±h of z'' + 2 ξ ω z' + ω² z = 0, from the roots of its characteristic equation
+    root = np.sqrt(squares) * h * (-spec.damping_ratio + 1j * np.sqrt(1 - spec.damping_ratio**2))
+    now, before = 2 * np.exp(root).real, np.abs(np.exp(root)) ** 2
+    q, q_before, force = np.zeros(n_modes), np.zeros(n_modes), np.zeros(2 * N_INTERFACE)
+    history = []
+    for step in range(1, n_steps + 1):
+        rest = tip.T @ force / squares  # equilibrium under the force; the motion about it is free
+        q, q_before = rest + now * (q - rest) - before * (q_before - rest), q
+        force = _implicit_forces(coating, step * h, tip @ q, compliance, force)
+        history.append(tip @ q + compliance @ force)
+        _, coating.wear = coating.contact(step * h, history[-1])
+    return np.array(history), coating.wear
+
+
+def _implicit_forces(coating, time, u, compliance, guess):
+    """Find the forces that the coating answers to the displacement they cause."""
+    if not coating.contact(time, u)[0].any():
+        return np.zeros(2 * N_INTERFACE)
+
+    def imbalance(force):
+        return coating.contact(time, u + compliance @ force)[0] - force
+
+    found = scipy.optimize.root(imbalance, guess, tol=1e-12)
+    remaining = imbalance(found.x)
+    if np.abs(remaining).max() > 1e-6:
+        raise RuntimeError(f"contact forces at {time:g} s did not converge: {found.message}")
+    return found.x + remaining
+
+
+class _Coating:
+    """The abradable elements around the casing, a ring for each interface node, and their wear so far."""
+
+    def __init__(self, blade: ReducedBlade, spec: RunSpec):
+        self.spec, n = spec, spec.coating.n_elements
+        x, y, z = blade.node_position.T[:, :, None]  # a row for each interface node
+        self.radius, self.node_angle = np.hypot(y, z), spec.casing.start_angle + np.arctan2(y, z)
+        self.speed = 2 * np.pi * spec.f_omega * blade.f1_hz
+        self.angle = (np.arange(n) + 0.5) * 2 * np.pi / n
+        edges = np.concatenate([x[:1], (x[1:] + x[:-1]) / 2, x[-1:]])
+        area = np.abs(np.diff(edges, axis=0)) * 2 * np.pi * self.radius / n  # share of the chord, times width
+        self.element = law.element(spec.coating, area)
+        leading, trailing = spec.clearance
+        clearance = leading + (trailing - leading) * (x - x[0]) / (x[-1] - x[0])
+        casing = spec.casing
+        overlap = casing.interference - casing.amplitude + casing.amplitude * shape(casing, self.angle)
+        self.initial_gap = clearance - overlap  # g₀ of eq. (8)
+        self.wear = np.zeros((N_INTERFACE, n))
+
+    def contact(self, time: float, u: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Contact forces (16,) on the tip at the displacement `u` (16,), and the wear (8, N) under them."""
+        u_r, u_t = u.reshape(2, N_INTERFACE, 1)
+        # eq. (7): the closest point of the casing turns with the blade and moves with its vibration
+        position = self.node_angle + self.speed * time + u_t / self.radius
+        offset = (self.angle - position + np.pi) % (2 * np.pi) - np.pi
+        offset *= self.spec.coating.n_elements / (2 * np.pi)
+        # eq. (8): g = g₀ + (u^m − u^s) · n, under the profile of Fig. 3; u^s is the wear
+        approach = np.hypot(self.radius + u_r, u_t) - self.radius - relief(self.spec.tip, offset)
+        gap = self.initial_gap - approach + self.wear
+        # Fig. 4, and eq. (9): no force where the gap is open, and never a pulling one
+        share = coverage(self.spec.tip, offset)
+        element_force, increment = law.return_mapping(self.element, -gap, self.wear)
+        magnitude = np.sum(share * element_force, axis=1, keepdims=True)
+        # F_r = −cos θ |F| e_r and F_θ = −sin θ |F| e_θ, at the displaced node
+        direction = np.arctan2(u_t, self.radius + u_r) + self.spec.coating.theta
+        force = np.concatenate([-magnitude * np.cos(direction), -magnitude * np.sin(direction)])
+        return force.ravel(), self.wear + np.where(share > 0, increment, 0.0)
+
+
+def time_step(blade: ReducedBlade, spec: RunSpec) -> float:
+    """Largest step that divides the passage of an element and keeps within the limits of `spec`, s."""
+    passage = 1.0 / (spec.f_omega * blade.f1_hz * spec.coating.n_elements)
+    return passage / max(spec.steps_per_element, np.ceil(passage / spec.max_time_step))
+
+
+def tip_rows(blade: ReducedBlade) -> np.ndarray:
+    """Rows (16, n) that take radial and tangential displacements of the tip from the reduced coordinates."""
+    rows = np.zeros((2 * N_INTERFACE, len(blade.mass)))
+    for j in range(N_INTERFACE):
+        rows[j, 3 * j : 3 * j + 3] = blade.radial_direction[j]
+        rows[N_INTERFACE + j, 3 * j : 3 * j + 3] = blade.tangential_direction[j]
+    return rows

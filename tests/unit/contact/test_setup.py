@@ -1,0 +1,55 @@
+"""What the time loop gets, against a brute-force search."""
+
+import numpy as np
+import pytest
+
+from bladerub.contact import setup
+from bladerub.contact.setup import SEARCH_RANGE, minimum_gap
+
+N = 200
+
+
+def lowest_met(rows, half_width, element):
+    """Smallest gap under a node in the passage of an element, wherever it starts and is displaced to."""
+    edge = 1.0 - 1e-9
+    met = [
+        np.arange(np.floor(position - half_width), np.floor(position + half_width) + 1).astype(int)
+        for start in (0.0, edge)
+        for passed in (0.0, 1.0)
+        for displaced in (-SEARCH_RANGE, SEARCH_RANGE)
+        for position in [start + element + passed + displaced]
+    ]
+    return rows[:, np.concatenate(met) % rows.shape[1]].min()
+
+
+@pytest.mark.parametrize("half_width", [0.5, 2.0, 3.3])
+def test_no_node_meets_less_than_the_minimum_gap(half_width):
+    rows = np.random.default_rng(2).random((8, N))
+    found = minimum_gap(rows, half_width)
+    met = np.array([lowest_met(rows, half_width, element) for element in range(N)])
+    assert (found <= met).all()
+    spike = np.ones((8, N))
+    spike[3, 100] = 0.0  # is seen no longer than by one element on either side of where it can be met
+    seen = np.flatnonzero(minimum_gap(spike, half_width) == 0.0)
+    reached = np.flatnonzero([lowest_met(spike, half_width, element) == 0.0 for element in range(N)])
+    assert reached[0] - 2 <= seen[0] <= reached[0]
+    assert reached[-1] <= seen[-1] <= reached[-1] + 2
+
+
+def test_clearance_is_linear_along_the_chord_not_by_node(blade, spec, change):
+    spec = change(spec, interference=0.0, amplitude=1e-12)
+    x = np.array([0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 70.0]) * 1e-3
+    uneven = blade.node_position.copy()
+    uneven[:, 0] = x
+    blade = type(blade)(**{**vars(blade), "node_position": uneven})
+    _, simulation = setup.set_up(blade, spec)
+    expected = spec.clearance[0] + (spec.clearance[1] - spec.clearance[0]) * x / x[-1]
+    np.testing.assert_allclose(simulation.stator.initial_gap[0], expected, atol=1e-11)
+
+
+def test_friction_is_limited_by_what_all_nodes_together_take(blade, spec, change):
+    """γ of a node: the most that forces of ±1 N, or none, on all nodes take from its sliding."""
+    _, simulation = setup.set_up(blade, change(spec, theta=0.15, law="coulomb"))
+    signs = np.array(np.meshgrid(*[[-1.0, 1.0]] * 8)).reshape(8, -1)
+    most = (simulation.modal.mobility[8:, 8:] @ signs).max(axis=1)
+    np.testing.assert_allclose(simulation.modal.stopping, most, rtol=1e-12)
