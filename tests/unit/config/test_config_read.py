@@ -143,24 +143,6 @@ def test_missing_schema_is_named(monkeypatch, tmp_path):
         schema_module.schema.cache_clear()
 
 
-def test_missing_key_is_named(config):
-    del config["blade"]["length"]
-    assert problems(config) == ["blade.length: missing, blade length must be a number from 0.01 to 3, in m"]
-
-
-def test_key_like_no_other_is_answered_with_all(config):
-    config["figures"]["xyz"] = 1
-    (problem,) = problems(config)
-    assert problem.startswith("figures.xyz = 1: unknown key, known here: dpi, max_frequency")
-
-
-def test_integer_is_not_a_float(config):
-    config["solver"]["revolutions"] = 20.0
-    assert problems(config) == [
-        "solver.revolutions = 20.0: revolutions of a run must be a whole number from 1 to 10000"
-    ]
-
-
 @pytest.mark.parametrize(
     "value", [True, None, "0.2", [0.2], float("nan"), float("-inf"), 10**400], ids=lambda v: str(v)[:5]
 )
@@ -177,133 +159,113 @@ def test_results_stay_below_the_repository(config, name):
     assert problem.startswith("results = ")
 
 
-def change(config, path, value):
-    *parents, key = path
-    for parent in parents:
-        config = config[parent]
-    config[key] = value
-
-
 @pytest.mark.parametrize(
-    ("path", "value", "words"),
+    ("path", "value", "sentence"),
     [
-        (("speeds", "stop"), 0.01, "speeds.stop = 0.01: must be at least speeds.start = 0.02"),
-        (("speeds", "stop"), 0.41, "speeds.stop = 0.41: must be at most reduction.f_omega_max = 0.4"),
-        (("speeds", "extra"), [0.197, 0.19701], "speeds: 0.197 and 0.19701 are closer than 0.0001"),
-        (("casings", "2nd", "weights"), [0.0], "casings.2nd.weights = [0.0]: at least one must not be 0"),
+        ("blade.length", None, "blade.length: missing, blade length must be a number from 0.01 to 3, in m"),
         (
-            ("casings", "2nd", "interference"),
-            2.5e-3,
-            "must be at most 0.002 m, or the blade touches all around",
+            "figures.xyz",
+            1,
+            "figures.xyz = 1: unknown key, known here: dpi, max_frequency, amplitude_range",
         ),
-        (("casings", "2nd", "interference"), 2e-5, "must be above the smaller contact.clearance, 3e-05 m"),
-        (("speeds", "extra"), [0.197, 1e-6], "speeds.extra[1] = 1e-06: speed must be a number from 0.001"),
+        ("figures.dpj", 1, "figures.dpj = 1: unknown key, did you mean figures.dpi?"),
         (
-            ("speeds",),
-            {"start": 0.19, "stop": 0.19, "step": 0.01, "extra": []},
-            "must give two speeds or more",
+            "solver.revolutions",
+            20.0,
+            "solver.revolutions = 20.0: revolutions of a run must be a whole number from 1 to 10000",
         ),
         (
-            ("analysis", "peaks", "orders"),
-            [2, 6],
-            "analysis.peaks.orders[0] = 2: must be at least 2.5 to cross",
+            "blade.length",
+            "200 mm",
+            'blade.length = "200 mm": blade length must be a number from 0.01 to 3, in m, the number alone',
         ),
-        (("analysis", "peaks", "orders"), [], "must be a list of 1 to 1000 entries"),
-        (("reduction", "accuracy_modes"), 31, "must be at most 30 with reduction.modes_per_speed = 6"),
-        (("contact", "layer_thickness"), 3e-4, "must be below contact.layer_thickness = 0.0003, "),
-        (("casings", "2nd", "nodal_diameters"), [1001], "must be a whole number from 1 to 100"),
-        (("analysis", "max_order"), 1001, "must be at most contact.elements / 2 = 1000"),
         (
-            ("solver", "revolutions"),
-            9,
-            "analysis.spectrum_revolutions = 10: must be at most solver.revolutions = 9",
+            "contact.damping_ratio",
+            1,
+            "contact.damping_ratio = 1: modal damping ratio must be a number of at least 0 and below 1",
         ),
-        (("solver", "revolutions"), 9, "analysis.divergence.revolutions = 10: must be at most"),
         (
-            ("analysis", "divergence", "confirmation_revolutions"),
-            29,
-            "analysis.divergence.confirmation_revolutions = 29: must be 0, or at least "
-            "solver.revolutions + analysis.divergence.revolutions = 30",
+            "reduction.f_omega_max",
+            3,
+            "reduction.f_omega_max = 3: highest speed of the reduced model must be a number from 0.01 to 2 "
+            "(normalised)",
         ),
-        (("analysis", "peaks", "orders"), [4, 70], "analysis.peaks.orders[1] = 70: must be at most"),
-        (("analysis", "peaks", "orders"), [4, 4], "must not name one twice"),
-        (("analysis", "histories", 0, "casing"), "3nd", "analysis.histories[0].casing"),
         (
-            ("analysis", "histories", 0, "E"),
-            2.5,
-            "analysis.histories[0] = 2nd_E2.5_K0.5_theta0: must be one of",
+            "analysis.peaks.orders",
+            [],
+            "analysis.peaks.orders = []: list of engine orders must be a list of 1 to 1000 entries",
+        ),
+        ("casings", {}, "casings = {}: casings must be a group of keys with 1 to 100 of them"),
+        (
+            "analysis.peaks.orders",
+            [4, 4],
+            "analysis.peaks.orders = [4, 4]: list of engine orders must not name one twice",
+        ),
+        ("chart.K", [1, 5, 2], "chart.K[2] = 2: must be above the one before (5)"),
+        ("chart.casing", "3nd", 'chart.casing = "3nd": must be one of the casings, 2nd, 2nd5nd'),
+        (
+            "speeds.stop",
+            0.41,
+            "speeds.stop = 0.41: must be at most reduction.f_omega_max = 0.4, the reduced blade is not valid "
+            "above",
+        ),
+        (
+            "analysis.max_order",
+            1001,
+            "analysis.max_order = 1001: must be at most contact.elements / 2 = 1000, there is one sample an "
+            "element",
         ),
     ],
 )
-def test_parts_that_disagree_are_told(config, path, value, words):
-    change(config, path, value)
-    assert any(words in problem for problem in problems(config))
+def test_each_kind_of_problem_has_its_sentence(config, path, value, sentence):
+    *groups, key = path.split(".")
+    part = config
+    for group in groups:
+        part = part[group]
+    part[key] = value
+    if value is None:
+        del part[key]
+    assert sentence in problems(config)
 
 
 RIGID = {"casing": "2nd", "coating": "rigid", "friction": [0.0]}
 ABRADABLE = {"casing": "2nd", "E": [3], "K": [1], "theta": [0.0]}
-LISTED = "list of coefficients of friction must be a list of 1 to 1000 entries"
-KINDS = "kind of coating must be rigid; an abradable coating has no such key"
 
 
 @pytest.mark.parametrize(
-    ("entry", "problem"),
+    ("entry", "start"),
     [
-        (RIGID | {"E": [2]}, "coatings[0].E = [2]: unknown key, known here: casing, coating, friction"),
-        (
-            {"casing": "2nd", "coating": "rigid"},
-            f"coatings[0].friction: missing, {LISTED}",
-        ),
-        (
-            RIGID | {"friction": [0.1, -0.1]},
-            "coatings[0].friction[1] = -0.1: coefficient of friction must be a number from 0 to 1",
-        ),
-        (
-            RIGID | {"friction": 0.1},
-            f"coatings[0].friction = 0.1: {LISTED}",
-        ),
-        (RIGID | {"casing": "3nd"}, 'coatings[0].casing = "3nd": must be one of the casings, 2nd, 2nd5nd'),
-        (
-            ABRADABLE | {"friction": [0.1]},
-            "coatings[0].theta = [0.0]: unknown key, known here: casing, E, K, friction",
-        ),
-        (
-            {"casing": "2nd", "E": [3], "friction": [0.1]},
-            "coatings[0].K: missing, list of plastic moduli must be a list of 1 to 1000 entries",
-        ),
-        (RIGID | {"coating": "stiff"}, f'coatings[0].coating = "stiff": {KINDS}'),
-        (ABRADABLE | {"coating": "stiff"}, f'coatings[0].coating = "stiff": {KINDS}'),
-        (ABRADABLE | {"depth": 3}, "coatings[0].depth = 3: unknown key, known here: casing, E, K, theta"),
-        ("rigid", 'coatings[0] = "rigid": coating must be a group of keys'),
+        (RIGID | {"E": [2]}, "coatings[0].E = [2]: unknown key"),
+        ({"casing": "2nd", "coating": "rigid"}, "coatings[0].friction: missing"),
+        (RIGID | {"friction": [0.1, -0.1]}, "coatings[0].friction[1] = -0.1: "),
+        (RIGID | {"friction": 0.1}, "coatings[0].friction = 0.1: "),
+        (RIGID | {"casing": "3nd"}, 'coatings[0].casing = "3nd": '),
+        (ABRADABLE | {"friction": [0.1]}, "coatings[0].theta = [0.0]: unknown key"),
+        ({"casing": "2nd", "E": [3], "friction": [0.1]}, "coatings[0].K: missing"),
+        (RIGID | {"coating": "stiff"}, 'coatings[0].coating = "stiff": '),
+        (ABRADABLE | {"coating": "stiff"}, 'coatings[0].coating = "stiff": '),
+        (ABRADABLE | {"depth": 3}, "coatings[0].depth = 3: unknown key"),
+        ("rigid", 'coatings[0] = "rigid": '),
     ],
 )
-def test_mixed_up_coatings_are_answered_in_one_line(config, entry, problem):
-    config["coatings"] = [entry]
-    config["analysis"]["histories"] = []
-    assert problems(config) == [problem]
+def test_each_kind_of_coating_has_keys_of_its_own(config, entry, start):
+    config["coatings"], config["analysis"]["histories"] = [entry], []
+    (problem,) = problems(config)
+    assert problem.startswith(start)
 
 
 def test_histories_name_the_rigid_casing_as_the_coatings_do(config):
     history = {"casing": "2nd", "coating": "rigid", "friction": 0.0, "f_omega": 0.19}
     config["analysis"]["histories"] = [history]
     validate(config)
-    config["analysis"]["histories"] = [history | {"friction": 0.15}]
-    assert problems(config) == [
-        "analysis.histories[0] = 2nd_rigid_mu0.15: must be one of the coatings, add it there or drop it here"
-    ]
-    config["analysis"]["histories"] = [history | {"E": 2}]
-    (problem,) = problems(config)
-    assert problem.startswith(
-        "analysis.histories[0].E = 2: unknown key, known here: casing, coating, friction"
-    )
-    config["analysis"]["histories"] = [history | {"coating": "stiff"}]
-    assert problems(config) == [f'analysis.histories[0].coating = "stiff": {KINDS}']
-
-
-def test_confirmation_can_be_left_out_or_just_long_enough(config):
-    for revolutions in (0, 30):
-        config["analysis"]["divergence"]["confirmation_revolutions"] = revolutions
-        assert validate(config) == config
+    for change, start in (
+        ({"friction": 0.15}, "analysis.histories[0] = 2nd_rigid_mu0.15: must be one of the coatings"),
+        ({"E": 2}, "analysis.histories[0].E = 2: unknown key"),
+        ({"coating": "stiff"}, 'analysis.histories[0].coating = "stiff": '),
+    ):
+        config["analysis"]["histories"] = [history | change]
+        (problem,) = problems(config)
+        assert problem.startswith(start)
 
 
 @pytest.mark.parametrize(
@@ -328,14 +290,8 @@ def test_a_plan_that_nobody_can_compute_is_refused_before_it_is_made(config):
     config["analysis"]["histories"] = []
     thousand = [index + 1 for index in range(1000)]
     config["coatings"] = [{"casing": "2nd", "E": thousand, "K": thousand, "theta": [0.0]}]
-    assert problems(config) == [
-        "coatings[0]: brings the coatings to 1000000, all combinations counted; must be 5000 or fewer"
-    ]
-    config["coatings"] = [{"casing": "2nd", "E": thousand, "K": [1, 2, 3, 4, 5], "theta": [0.0]}]
-    config["speeds"] = {"start": 0.02, "stop": 0.4, "step": 1e-4, "extra": []}
-    assert problems(config) == [
-        "speeds: 3801 speeds on 5000 coatings are 19005000 runs, must be 2000000 or fewer"
-    ]
+    (problem,) = problems(config)
+    assert problem.startswith("coatings[0]: ")
 
 
 def test_the_densest_chart_is_allowed(config):
@@ -351,13 +307,6 @@ def test_the_densest_chart_is_allowed(config):
     validate(config)
 
 
-def test_a_mesh_beyond_memory_is_refused_before_it_is_made(config):
-    config["blade"]["mesh"]["spanwise"] = 400
-    validate(config)
-    config["blade"]["mesh"] = {"chordwise": 200, "thickness": 20, "spanwise": 400}
-    assert problems(config) == ["blade.mesh: has 1600000 elements, must be 20000 or fewer"]
-
-
 def test_the_mesh_counts_for_sections_and_not_for_a_mesh(config, tmp_path):
     for name in ("blade.csv", "blade.msh"):
         (tmp_path / name).write_text("anything")
@@ -366,25 +315,14 @@ def test_the_mesh_counts_for_sections_and_not_for_a_mesh(config, tmp_path):
     validate(config)
     config["blade"]["source"] = {"file": str(tmp_path / "blade.csv")}
     (problem,) = problems(config)
-    assert problem.startswith("blade.mesh.chordwise = 4: gives 5 nodes on the tip's camber line, not 8")
+    assert problem.startswith("blade.mesh.chordwise = 4: ")
     config["blade"]["mesh"] = {"chordwise": 200, "thickness": 20, "spanwise": 400}
-    assert problems(config) == ["blade.mesh: has 1600000 elements, must be 20000 or fewer"]
+    assert [problem.split(":")[0] for problem in problems(config)] == ["blade.mesh"]
     config["blade"]["source"]["root_set"] = "ROOT"
-    assert problems(config) == ["blade.source.root_set = ROOT: goes with a mesh, not with blade.csv"]
+    assert [problem.split(":")[0] for problem in problems(config)] == ["blade.source.root_set = ROOT"]
 
 
-def test_samples_beyond_memory_are_refused(config):
-    config["contact"]["elements"] = 100_000
-    validate(config)
-    config["solver"]["revolutions"] = 201
-    config["analysis"]["divergence"]["confirmation_revolutions"] = 300
-    assert [problem.split(" with")[0] for problem in problems(config)] == [
-        "solver.revolutions = 201: must be at most 200",
-        "analysis.divergence.confirmation_revolutions = 300: must be at most 200",
-    ]
-
-
-def test_thousands_of_faults_are_not_all_told(config):
+def test_of_thousands_of_problems_forty_are_reported(config):
     config["speeds"]["extra"] = [-1] * 9000
     with pytest.raises(ConfigError) as error:
         validate(config)
@@ -392,7 +330,7 @@ def test_thousands_of_faults_are_not_all_told(config):
     assert str(error.value).endswith("config: and 8960 problems more")
 
 
-def test_one_broken_part_does_not_hide_the_faults_of_another(config):
+def test_one_broken_part_does_not_hide_the_problems_of_another(config):
     config["blade"]["length"] = "long"
     config["casings"]["2nd"]["weights"] = [0]
     assert len(problems(config)) == 2
