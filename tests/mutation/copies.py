@@ -39,6 +39,7 @@ ROOMS = {
     "study": Room(f"{SOURCES}/study", ("tests/unit/study", "tests/unit/verification")),
     "findings": Room(f"{SOURCES}/study/findings", ("tests/unit/study/test_findings*.py", "tests/unit/study")),
     "contact": Room(f"{SOURCES}/contact", ("tests/unit/contact", "tests/validation/test_contact_*.py")),
+    "kernel": Room(f"{SOURCES}/contact/kernel", ("tests/unit/contact", "tests/validation/test_contact_*.py")),
     "blade": Room(f"{SOURCES}/blade", ("tests/unit/blade", "tests/validation/test_blade_*.py")),
     "extensions": Room(f"{SOURCES}/extensions", ("tests/unit/extensions",)),
     "explorer": Room(f"{SOURCES}/explorer", ("tests/unit/explorer",)),
@@ -85,7 +86,7 @@ class Copy:
         room = room_of(mutant.file)
         try:
             path.write_text(mutant.apply(source), encoding="utf-8")
-            if room == ROOMS["contact"] and not _is_compiled(mutant.file, source):
+            if room == ROOMS["contact"] and "njit" not in source:
                 self._share_machine_code()
             return self._test(room, mutant.file, limit=4 * self.seconds[room] + 120)
         finally:
@@ -128,8 +129,3 @@ class Copy:
                 os.killpg(process.pid, 9)
                 raise
         return subprocess.CompletedProcess(command, process.returncode, output, errors)
-
-
-def _is_compiled(file: str, source: str) -> bool:
-    """Whether numba compiles functions of this file, or takes constants from it."""
-    return "/kernel/" in file or "njit" in source

@@ -1,5 +1,7 @@
 """What the time loop gets, against a brute-force search."""
 
+import dataclasses
+
 import numpy as np
 import pytest
 
@@ -7,6 +9,8 @@ from bladerub.contact import setup
 from bladerub.contact.setup import SEARCH_RANGE, minimum_gap
 
 N = 200
+UNEVEN = np.array([-0.023, -0.021, -0.016, -0.015, -0.002, 0.011, 0.013, 0.024])
+"""Axial position of the nodes, m."""
 
 
 def lowest_met(rows, half_width, element):
@@ -53,3 +57,45 @@ def test_friction_is_limited_by_what_all_nodes_together_take(blade, spec, change
     signs = np.array(np.meshgrid(*[[-1.0, 1.0]] * 8)).reshape(8, -1)
     most = (simulation.modal.mobility[8:, 8:] @ signs).max(axis=1)
     np.testing.assert_allclose(simulation.modal.stopping, most, rtol=1e-12)
+
+
+@pytest.fixture
+def uneven(blade):
+    """The blade with nodes unevenly along the chord, and at an uneven angle."""
+    angle = 2 * UNEVEN + 0.01 * np.sin(200 * UNEVEN)
+    zero = 0 * angle
+    position = np.column_stack([UNEVEN, 0.65 * np.sin(angle), 0.65 * np.cos(angle)])
+    return dataclasses.replace(
+        blade,
+        node_position=position,
+        radial_direction=np.column_stack([zero, np.sin(angle), np.cos(angle)]),
+        tangential_direction=np.column_stack([zero, np.cos(angle), -np.sin(angle)]),
+    )
+
+
+def test_strips_reach_half_way_to_the_next_node_and_fill_the_chord(uneven):
+    width = setup.strip_width(uneven)
+    assert width.sum() == pytest.approx(UNEVEN[-1] - UNEVEN[0])
+    assert width[0] == pytest.approx((UNEVEN[1] - UNEVEN[0]) / 2)
+    assert width[3] == pytest.approx((UNEVEN[4] - UNEVEN[2]) / 2)
+
+
+def test_the_blade_begins_over_the_element_at_its_angle(uneven, spec):
+    _, simulation = setup.set_up(uneven, spec)
+    n_elements = spec.coating.n_elements
+    angle = spec.casing.start_angle + np.arctan2(uneven.node_position[:, 1], uneven.node_position[:, 2])
+    marked = np.zeros((n_elements, 8))
+    marked[0] = 1.0  # the first row
+    elements = setup.by_angle(uneven, spec, marked).argmax(axis=1)
+    np.testing.assert_array_equal(elements, np.floor(angle / (2 * np.pi) * n_elements) % n_elements)
+    np.testing.assert_allclose(simulation.tip.start, angle / (2 * np.pi) * n_elements % 1.0, atol=1e-9)
+
+
+@pytest.mark.parametrize(("max_time_step", "steps"), [(1.0, 12), (1e-6, 87)])
+def test_the_step_is_the_longest_that_is_allowed(uneven, spec, change, max_time_step, steps):
+    spec = change(spec, max_time_step=max_time_step)
+    rule, simulation = setup.set_up(uneven, spec)
+    passage = 1 / (spec.f_omega * uneven.f1_hz * spec.coating.n_elements)
+    assert simulation.steps_per_element == steps
+    assert rule.time_step == pytest.approx(passage / steps)
+    assert rule.time_step <= max_time_step
