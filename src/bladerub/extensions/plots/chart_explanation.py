@@ -5,8 +5,8 @@ from __future__ import annotations
 import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.ticker import LogLocator, NullFormatter, StrMethodFormatter
 
+from bladerub.extensions.plots.chart_panel import label_1_2_5
 from bladerub.plots.style import FIRST, GREY, PAGE, SECOND, new_figure, styled
 
 _AGAINST = {
@@ -14,34 +14,25 @@ _AGAINST = {
     "wear_per_cycle": "wear energy per cycle (J)",
     "lobes": "worn lobes",
 }
-_RIDGE = {**FIRST, "linewidth": 0.9, "marker": "s", "markersize": 3, "label": "on the ridge, by E"}
-_ACROSS = {
-    **SECOND,
-    "linewidth": 0.9,
-    "marker": "^",
-    "markersize": 3,
-    "label": "across its highest cell, by K",
-}
+_POINTS = {"color": GREY, "markersize": 2.5, "markeredgecolor": "none", "label": "all coatings"}
+_LOOK = {"linewidth": 0.9, "markersize": 3}
+_RIDGE = {**FIRST, **_LOOK, "marker": "s", "label": "on the ridge, by E"}
+_ACROSS = {**SECOND, **_LOOK, "marker": "^", "label": "across its highest cell, by K"}
 
 
 @styled
 def chart_explanation(peaks: pd.DataFrame) -> Figure:
-    """Draw Y_k of all cells against each of three quantities, a row for each order and θ.
+    """Draw Y_k of ``chart_explanation.csv`` against three quantities, a row for each order and θ.
 
-    The ridge is the cells of the greatest Y_k for each E; across it runs the column of cells of the E at
-    which it is highest.
-
-    Parameters
-    ----------
-    peaks : DataFrame
-        Rows of ``chart_explanation.csv``.
+    The ridge is the points of the greatest Y_k for each E; the column of the E at which it is highest runs
+    across it.
     """
     groups = list(peaks.groupby(["order", "theta"]))
     figure = new_figure(PAGE, 0.27 * PAGE * len(groups) + 0.4)
     rows = figure.subplots(len(groups), len(_AGAINST), sharey="row", sharex="col", squeeze=False)
-    for row, ((order, theta), cells) in zip(rows, groups, strict=True):
+    for row, ((order, theta), points) in zip(rows, groups, strict=True):
         for axes, column in zip(row, _AGAINST, strict=True):
-            _draw(axes, cells, column)
+            _draw(axes, points, column)
         row[0].set_ylabel(f"$Y_{order}$ (mm)")
         row[0].set_title(rf"$\theta$ = {theta:g} rad", fontsize=8)
     for axes, label in zip(rows[-1], _AGAINST.values(), strict=True):
@@ -50,18 +41,16 @@ def chart_explanation(peaks: pd.DataFrame) -> Figure:
     return figure
 
 
-def _draw(axes: Axes, cells: pd.DataFrame, column: str) -> None:
-    ridge = cells.loc[cells.groupby("E").amplitude.idxmax()].sort_values("E")
+def _draw(axes: Axes, points: pd.DataFrame, column: str) -> None:
+    ridge = points.loc[points.groupby("E").amplitude.idxmax()].sort_values("E")
     top = ridge.loc[ridge.amplitude.idxmax()]
-    across = cells[cells.E == top.E].sort_values("K")
-    axes.plot(cells[column], 1e3 * cells.amplitude, ".", color=GREY, ms=2.5, mec="none", label="all coatings")
+    across = points[points.E == top.E].sort_values("K")
+    axes.plot(points[column], 1e3 * points.amplitude, ".", **_POINTS)
     for rows, look in ((ridge, _RIDGE), (across, _ACROSS)):
         joined = {"linestyle": "none"} if column == "lobes" else {}
         axes.plot(rows[column], 1e3 * rows.amplitude, **look | joined)
     axes.set_yscale("log")
-    axes.yaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
-    axes.yaxis.set_major_formatter(StrMethodFormatter("{x:g}"))
-    axes.yaxis.set_minor_formatter(NullFormatter())
+    label_1_2_5(axes.yaxis)
     axes.grid(True)
     if column != "lobes":
         axes.set_xscale("log")

@@ -1,4 +1,4 @@
-"""One quantity of the chart over E and K: cells, contour lines, the paper's coatings and the ridge."""
+"""One quantity of the chart over E and K: colours, contour lines, the paper's coatings and the ridge."""
 
 from __future__ import annotations
 
@@ -19,16 +19,8 @@ from bladerub.plots.style import DARK, HEIGHT_MAP, PAGE, new_figure, styled
 class Quantity(NamedTuple):
     """How a column of the chart is drawn.
 
-    Parameters
-    ----------
-    label : str
-        With the unit of the figure.
-    factor : float
-        From SI to that unit.
-    ridge : str
-        Column whose maxima the ridge joins.
-    logarithmic : bool
-        Whether its colours are: amplitudes and volumes spread over decades.
+    `label` has the unit of the figure, `factor` is from SI to that unit, `ridge` is the column whose maxima
+    the ridge joins. Colours are `logarithmic` for amplitudes and volumes, which spread over decades.
     """
 
     label: str
@@ -51,15 +43,7 @@ QUANTITIES = {
 
 @styled
 def chart_map(chart: pd.DataFrame, quantity: str) -> Figure:
-    """Draw one of `QUANTITIES` for each θ.
-
-    Parameters
-    ----------
-    chart : DataFrame
-        Rows of ``chart.csv``.
-    quantity : str
-        Its column.
-    """
+    """Draw one of `QUANTITIES`, a column of ``chart.csv``, for each θ."""
     about = QUANTITIES[quantity]
     norm = _norm(chart[quantity] * about.factor, about.logarithmic)
     figure = new_figure(PAGE, 0.58 * PAGE)
@@ -99,7 +83,7 @@ def _contours(axes: Axes, grid: Grid, norm: Normalize) -> None:
 
 
 def _ridge(axes: Axes, grid: Grid) -> None:
-    """Join for each E the K of the greatest value, where there is one."""
+    """Join the K of the greatest value for each E that has one."""
     highest = np.nan_to_num(grid.values, nan=-np.inf)
     exists = highest.max(axis=1) > 0
     along, across = grid.E[exists], grid.K[highest.argmax(axis=1)][exists]

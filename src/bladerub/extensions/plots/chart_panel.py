@@ -1,4 +1,4 @@
-"""A panel of the chart: one quantity over both moduli, on logarithmic axes, the paper's coatings marked."""
+"""Panels of the chart: one quantity over both moduli, on logarithmic axes, and the paper's coatings."""
 
 from __future__ import annotations
 
@@ -7,8 +7,10 @@ from typing import NamedTuple
 import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
+from matplotlib.axis import Axis
 from matplotlib.collections import QuadMesh
 from matplotlib.figure import Figure
+from matplotlib.ticker import LogLocator, NullFormatter, StrMethodFormatter
 
 from bladerub.plots import titles
 from bladerub.plots.cells import edges
@@ -20,15 +22,7 @@ PAPER_K = (0.05, 0.1, 0.5, 1.0, 5.0, 10.0)
 
 
 class Grid(NamedTuple):
-    """One quantity of the chart at one θ.
-
-    Parameters
-    ----------
-    E, K : (n_E,), (n_K,) ndarray
-        Ascending moduli, normalised.
-    values : (n_E, n_K) ndarray
-        The quantity, NaN where there is no cell.
-    """
+    """One quantity of the chart at one θ: `values` (n_E, n_K) over ascending moduli, NaN without a point."""
 
     E: np.ndarray
     K: np.ndarray
@@ -42,7 +36,7 @@ def over_moduli(rows: pd.DataFrame, column: str) -> Grid:
 
 
 def panels(figure: Figure, chart: pd.DataFrame) -> list[tuple[Axes, pd.DataFrame]]:
-    """Make a panel for each θ of the chart, side by side, and return it with the rows it is for."""
+    """Make a panel for each θ of the chart, side by side; return each with the rows of its θ."""
     angles = sorted(chart.theta.unique())
     row = figure.subplots(1, len(angles), sharey=True, squeeze=False)[0]
     for index, (axes, theta) in enumerate(zip(row, angles, strict=True)):
@@ -53,7 +47,7 @@ def panels(figure: Figure, chart: pd.DataFrame) -> list[tuple[Axes, pd.DataFrame
 
 
 def colour(axes: Axes, grid: Grid, **look) -> QuadMesh:
-    """Colour the cells of the grid; `look` is that of matplotlib's ``pcolormesh``."""
+    """Colour a rectangle for each point of the grid; `look` is that of matplotlib's ``pcolormesh``."""
     return axes.pcolormesh(
         10 ** edges(np.log10(grid.E)),
         10 ** edges(np.log10(grid.K)),
@@ -64,6 +58,13 @@ def colour(axes: Axes, grid: Grid, **look) -> QuadMesh:
 
 
 def mark_paper(axes: Axes, rows: pd.DataFrame) -> None:
-    """Put a dot on those of the rows that are the paper's coatings."""
+    """Mark those of the rows that are the paper's coatings with a dot."""
     marked = rows[rows.E.isin(PAPER_E) & rows.K.isin(PAPER_K)]
     axes.plot(marked.E, marked.K, "o", ms=2.4, mfc="white", mec=DARK, mew=0.5, ls="none")
+
+
+def label_1_2_5(axis: Axis) -> None:
+    """Label a logarithmic axis at 1, 2 and 5 times the powers of ten, in plain numbers."""
+    axis.set_major_locator(LogLocator(subs=(1, 2, 5)))
+    axis.set_major_formatter(StrMethodFormatter("{x:g}"))
+    axis.set_minor_formatter(NullFormatter())

@@ -1,12 +1,12 @@
-"""Amplitude against wear: every coating of the chart, and those that no other betters in both."""
+"""Amplitude against wear: every coating of the chart, and those to which no other is better in both."""
 
 from __future__ import annotations
 
 import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
-from matplotlib.ticker import LogLocator, NullFormatter, StrMethodFormatter
 
+from bladerub.extensions.plots.chart_panel import label_1_2_5
 from bladerub.plots import titles
 from bladerub.plots.style import DARK, GREY, ORANGE, PAGE, new_figure, styled
 
@@ -18,25 +18,19 @@ _LABELLED = 6
 def chart_pareto(chart: pd.DataFrame, front: pd.DataFrame) -> Figure:
     """Draw for each θ the greatest displacement against the greatest worn volume.
 
-    Parameters
-    ----------
-    chart : DataFrame
-        Rows of ``chart.csv``.
-    front : DataFrame
-        From `bladerub.extensions.chart.choice.pareto`.
+    `chart` is ``chart.csv``, `front` is from `bladerub.extensions.chart.choice.pareto`.
     """
     angles = sorted(chart.theta.unique())
-    chart, front = (rows[rows.worn_volume > 0] for rows in (chart, front))  # as logarithmic axes have it
+    chart, front = (rows[rows.worn_volume > 0] for rows in (chart, front))  # for the logarithmic axis
     figure = new_figure(PAGE, 0.5 * PAGE)
     row = figure.subplots(1, len(angles), sharex=True, sharey=True, squeeze=False)[0]
     for index, (axes, theta) in enumerate(zip(row, angles, strict=True)):
-        cells, best = chart[chart.theta == theta], front[front.theta == theta]
-        axes.plot(*_point(cells), ".", color=GREY, ms=3, mec="none", label="coatings of the chart")
-        axes.plot(*_point(best), "-s", color=DARK, ms=3.5, lw=1, label="bettered by none in both")
+        coatings, best = chart[chart.theta == theta], front[front.theta == theta]
+        axes.plot(*_coordinates(coatings), ".", color=GREY, ms=3, mec="none", label="coatings of the chart")
+        axes.plot(*_coordinates(best), "-s", color=DARK, ms=3.5, lw=1, label="bettered by none in both")
         safe = best[best.safe]
-        axes.plot(
-            *_point(safe), "s", mfc=ORANGE, mec=DARK, ms=5, ls="none", label="of these, within all limits"
-        )
+        look = {"mfc": ORANGE, "mec": DARK, "ms": 5, "ls": "none", "label": "of these, within all limits"}
+        axes.plot(*_coordinates(safe), "s", **look)
         for place in _labelled(best, chart):
             coating = best.iloc[place]
             axes.annotate(
@@ -47,9 +41,7 @@ def chart_pareto(chart: pd.DataFrame, front: pd.DataFrame) -> Figure:
                 fontsize=6.5,
             )
         axes.set(xscale="log", yscale="log", xlabel="greatest displacement of node 1 (mm)")
-        axes.xaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
-        axes.xaxis.set_major_formatter(StrMethodFormatter("{x:g}"))
-        axes.xaxis.set_minor_formatter(NullFormatter())
+        label_1_2_5(axes.xaxis)
         axes.set_title(titles.panel(index, rf"$\theta$ = {theta:g} rad"))
         axes.grid(True)
     row[0].set_ylabel("greatest worn volume (cm³)")
@@ -58,14 +50,14 @@ def chart_pareto(chart: pd.DataFrame, front: pd.DataFrame) -> Figure:
 
 
 def _labelled(front: pd.DataFrame, chart: pd.DataFrame) -> list[int]:
-    """Places in `front` of coatings that lie evenly along it, as it is drawn."""
+    """Return the places in `front` of coatings that are evenly spaced along it, as it is drawn."""
     if front.empty:
         return []
-    sides = [np.ptp(np.log(values)) for values in _point(chart)]
-    steps = [np.diff(np.log(values)) / side for values, side in zip(_point(front), sides, strict=True)]
+    sides = [np.ptp(np.log(values)) for values in _coordinates(chart)]
+    steps = [np.diff(np.log(values)) / side for values, side in zip(_coordinates(front), sides, strict=True)]
     along = np.append(0, np.cumsum(np.hypot(*steps)))
     return sorted({int(np.abs(along - at).argmin()) for at in np.linspace(0, along[-1], _LABELLED)})
 
 
-def _point(rows: pd.DataFrame) -> tuple[pd.Series, pd.Series]:
+def _coordinates(rows: pd.DataFrame) -> tuple[pd.Series, pd.Series]:
     return 1e3 * rows.peak, 1e6 * rows.worn_volume

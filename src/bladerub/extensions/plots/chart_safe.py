@@ -1,4 +1,4 @@
-"""Which coatings of the chart keep the limits, and which limits the others break."""
+"""Which coatings of the chart keep the limits, and which limits the others exceed."""
 
 from __future__ import annotations
 
@@ -13,23 +13,16 @@ from bladerub.extensions.plots.chart_panel import colour, mark_paper, over_modul
 from bladerub.plots.style import DARK, PAGE, new_figure, styled
 
 LETTERS = {"amplitude": "A", "wear": "W", "divergent_share": "D"}
-"""Letter of each limit in a cell that breaks it."""
+"""Letter of each limit, written where it is exceeded."""
 _SHADES = ["#ffffff", "#f3d9a4", "#e08e0b", "#8f4b08"]
-"""From none to all of the limits broken, ever darker."""
+"""From none to all limits exceeded."""
 
 
 @styled
 def chart_safe(chart: pd.DataFrame, broken: pd.DataFrame, limits: Mapping[str, float]) -> Figure:
-    """Draw for each θ which of the limits are broken where.
+    """Draw for each θ which coatings of ``chart.csv`` exceed which of the `limits`.
 
-    Parameters
-    ----------
-    chart : DataFrame
-        Rows of ``chart.csv``.
-    broken : DataFrame
-        For the same rows, from `bladerub.extensions.chart.choice.broken_limits`.
-    limits : mapping
-        ``config["chart"]["limits"]``.
+    `broken` is for the same rows, from `bladerub.extensions.chart.choice.broken_limits`.
     """
     judged = chart.assign(
         broken=broken.sum(axis=1),
@@ -37,16 +30,8 @@ def chart_safe(chart: pd.DataFrame, broken: pd.DataFrame, limits: Mapping[str, f
     )
     figure = new_figure(PAGE, 0.55 * PAGE)
     for axes, rows in panels(figure, judged):
-        grid = over_moduli(rows, "broken")
-        colour(
-            axes,
-            grid,
-            cmap=ListedColormap(_SHADES),
-            vmin=-0.5,
-            vmax=len(_SHADES) - 0.5,
-            edgecolors="white",
-            lw=0.2,
-        )
+        grid, colours = over_moduli(rows, "broken"), ListedColormap(_SHADES)
+        colour(axes, grid, cmap=colours, vmin=-0.5, vmax=len(_SHADES) - 0.5, edgecolors="white", lw=0.2)
         size = min(7.0, 75 / max(grid.values.shape))
         for row in rows.itertuples():
             shade = "white" if row.broken == len(LETTERS) else DARK

@@ -9,18 +9,15 @@ from matplotlib.figure import Figure
 from bladerub.plots import style
 
 NONE = 1e-12
-"""Relative difference that stands for none on the logarithmic axis."""
+"""Relative difference that is drawn for none on the logarithmic axis."""
 COLOURS = (style.DARK, style.ORANGE, style.BLUE, style.RED, style.GREY, style.VIOLET)
 
 
 @style.styled
 def friction(table: pd.DataFrame) -> Figure:
-    """Draw, over the speed, how far the peaks differ and how slowly the tip slides, a colour a coating.
+    """Draw the difference of the peaks and the slowest sliding over the speed, a colour for each coating.
 
-    Parameters
-    ----------
-    table : DataFrame
-        From `bladerub.extensions.friction.table`.
+    `table` is from `bladerub.extensions.friction.table`.
     """
     figure = style.new_figure(style.PAGE, 0.85 * style.PAGE)
     difference, sliding = figure.subplots(2, 1, sharex=True)

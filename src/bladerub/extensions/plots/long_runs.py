@@ -1,4 +1,4 @@
-"""What becomes of runs in hundreds of revolutions."""
+"""Growth, verdicts and cost of runs of hundreds of revolutions."""
 
 from __future__ import annotations
 
@@ -21,21 +21,13 @@ _VERDICTS = {
 }
 _HATCHES = {"divergent": "//", "unbounded": "xx"}
 _FLOOR = 1e-3
-"""Amplitude at which the picture ends, mm: what comes below has died out."""
+"""Lowest amplitude that is drawn, mm: below it a vibration has died out."""
 _LOOKS = {True: {"color": DARK, "linewidth": 0.7}, False: {"color": GREY, "linewidth": 0.5}}
 
 
 @styled
 def long_runs(coatings: Sequence[LongRuns], table: pd.DataFrame) -> Figure:
-    """Draw growth, verdicts and cost.
-
-    Parameters
-    ----------
-    coatings : sequence of LongRuns
-        The runs.
-    table : DataFrame
-        From `bladerub.extensions.long_runs.table`.
-    """
+    """Draw growth, verdicts and cost; `table` is from `bladerub.extensions.long_runs.table`."""
     figure = new_figure(PAGE, 0.72 * PAGE)
     panels = figure.subplot_mosaic([["growth", "growth"], ["verdicts", "cost"]], height_ratios=[1.2, 1])
     _draw_growth(panels["growth"], coatings)
@@ -50,10 +42,8 @@ def _draw_growth(axes: Axes, coatings: Sequence[LongRuns]) -> None:
     for long in coatings:
         for why, amplitude in zip(long.why, long.revolution_amplitude, strict=True):
             grows = why == "grows"
-            number = np.arange(1, amplitude.size + 1)
-            axes.plot(
-                number, 1e3 * amplitude, label=labels.pop(grows, "_more"), zorder=2 + grows, **_LOOKS[grows]
-            )
+            number, label = np.arange(1, amplitude.size + 1), labels.pop(grows, "_more")
+            axes.plot(number, 1e3 * amplitude, label=label, zorder=2 + grows, **_LOOKS[grows])
     axes.set(
         xscale="log",
         yscale="log",
@@ -69,8 +59,7 @@ def _draw_growth(axes: Axes, coatings: Sequence[LongRuns]) -> None:
 def _draw_verdicts(axes: Axes, table: pd.DataFrame) -> None:
     counts = table.pivot_table(index="revolutions", columns="verdict", aggfunc="size", fill_value=0)
     counts = counts.reindex(columns=list(_VERDICTS), fill_value=0)
-    bottom = np.zeros(len(counts))
-    places = np.arange(len(counts))
+    bottom, places = np.zeros(len(counts)), np.arange(len(counts))
     for verdict, color in _VERDICTS.items():
         n = counts[verdict].to_numpy()
         bars = axes.bar(

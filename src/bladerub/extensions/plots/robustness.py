@@ -9,22 +9,15 @@ from matplotlib.figure import Figure
 from bladerub.extensions.robustness.summary import DECIDES, VERDICT
 from bladerub.plots import style
 
-SHARES = {
-    "yes": {"color": style.DARK},
-    "partly": {"color": style.ORANGE},
-    "no": {"color": style.MISSING},
-}
-"""Dark, middle and light, so that grey print tells them apart."""
+SHARES = {"yes": style.DARK, "partly": style.ORANGE, "no": style.MISSING}
+"""Dark, middle and light, so that they can be distinguished in grey print."""
 
 
 @style.styled
 def robustness(table: pd.DataFrame, indices: pd.DataFrame) -> Figure:
-    """Draw a row a claim: the shares of the design on the left, the factors on the right.
+    """Draw a row for each claim: the shares of the design on the left, the factors on the right.
 
-    Parameters
-    ----------
-    table, indices : DataFrame
-        From `bladerub.extensions.robustness.summary`, ``summary`` and ``sensitivities``.
+    `table` and `indices` are those of `bladerub.extensions.robustness.summary`.
     """
     figure = style.new_figure(style.PAGE, 1.6 + 0.155 * len(table))
     shares, factors = figure.subplots(1, 2, sharey=True, width_ratios=(1, 1.5))
@@ -38,9 +31,9 @@ def robustness(table: pd.DataFrame, indices: pd.DataFrame) -> Figure:
 
 def _draw_shares(axes, table: pd.DataFrame) -> None:
     rows, left = np.arange(len(table)), np.zeros(len(table))
-    for word, look in SHARES.items():
+    for word, colour in SHARES.items():
         share = 100 * table[f"{word}_share"].to_numpy()
-        axes.barh(rows, share, left=left, height=0.72, label=word, **look)
+        axes.barh(rows, share, left=left, height=0.72, label=word, color=colour)
         left += share
     axes.set_yticks(rows, table.id)
     axes.set_ylim(len(table) - 0.4, -0.6)
@@ -55,7 +48,7 @@ def _draw_factors(axes, table: pd.DataFrame, indices: pd.DataFrame):
     factors = list(dict.fromkeys(indices.factor))
     total = of_verdict.pivot(index="id", columns="factor", values="total")
     total = total.reindex(index=table.id, columns=factors).astype(float)
-    most = np.fmax(DECIDES, total.max(axis=None))  # often small: many factors have their share
+    most = np.fmax(DECIDES, total.max(axis=None))  # often small, because there are many factors
     columns, rows = np.arange(len(factors) + 1) - 0.5, np.arange(len(table) + 1) - 0.5
     image = axes.pcolormesh(columns, rows, total, cmap=style.WEAR_MAP, vmin=0, vmax=most)
     for row, column in np.argwhere(total.to_numpy() >= DECIDES):

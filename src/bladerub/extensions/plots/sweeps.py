@@ -21,6 +21,8 @@ _LOOKS = (
     {"color": ORANGE, "linestyle": "-.", "linewidth": 1.0},
     {"color": RED, "linestyle": ":", "linewidth": 1.2},
 )
+_CONSTANT = {"color": GREY, "marker": "o", "markersize": 1.8, "linestyle": "none"}
+_CONSTANT |= {"label": "constant speed, last revolution"}
 _ARROWS = {"up": "speed rises →", "down": "← speed falls"}
 
 
@@ -28,12 +30,7 @@ _ARROWS = {"up": "speed rises →", "down": "← speed falls"}
 def sweeps(swept: Sequence[SpeedSweep], maps: Mapping[CoatingCase, CoatingMap]) -> Figure:
     """Draw half the range of the displacement in each revolution over the speed, a row for each coating.
 
-    Parameters
-    ----------
-    swept : sequence of SpeedSweep
-        Of at most four rates.
-    maps : mapping of CoatingCase to CoatingMap
-        The same coatings at constant speed.
+    `maps` has the same coatings at constant speed. Up to four rates have different lines.
     """
     rates = sorted({sweep.rate for sweep in swept})
     looks = {rate: _LOOKS[index % len(_LOOKS)] for index, rate in enumerate(rates)}
@@ -41,15 +38,7 @@ def sweeps(swept: Sequence[SpeedSweep], maps: Mapping[CoatingCase, CoatingMap]) 
     panels = figure.subplots(len(maps), 2, sharex=True, sharey="row", squeeze=False)
     for row, (case, constant) in zip(panels, maps.items(), strict=True):
         for axes, direction in zip(row, DIRECTIONS, strict=True):
-            axes.plot(
-                constant.f_omega,
-                1e3 * constant.revolution_amplitude[:, -1],
-                color=GREY,
-                marker="o",
-                markersize=1.8,
-                linestyle="none",
-                label="constant speed, last revolution",
-            )
+            axes.plot(constant.f_omega, 1e3 * constant.revolution_amplitude[:, -1], **_CONSTANT)
             for sweep in swept:
                 if (sweep.case, sweep.direction) == (case, direction):
                     _draw(axes, sweep, looks[sweep.rate])
