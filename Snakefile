@@ -1,5 +1,5 @@
-# The study as a graph of jobs: a blade is built once, it rubs many times, the rubs are gathered, the
-# gatherings are drawn. `snakemake -j2` makes all of it; config/config.yaml says what.
+# The study as a graph of jobs: a blade is built once, it is simulated on many coatings at many speeds, the runs
+# are collected, analysed and drawn. `snakemake -j2` makes all of it; config/config.yaml says what.
 from snakemake.utils import min_version
 
 import bladerub.config.read
@@ -42,7 +42,7 @@ wildcard_constraints:
     coating="[A-Za-z0-9]+_(E[^_/]+_K[^_/]+_(theta|mu)|rigid_mu)[^_/]+",
 
 
-include: "src/rules/report.smk"
+include: "src/rules/outputs.smk"
 include: "src/rules/blade.smk"
 include: "src/rules/runs.smk"
 include: "src/rules/maps.smk"
@@ -66,7 +66,7 @@ rule all:
     default_target: True
     input:
         rules.blade.output,
-        # the maps are of them, but Snakemake makes no lost one anew for a map that is there
+        # the maps need them, but Snakemake replaces no lost one for a map that is there
         expand(rules.coating.output, coating=COATINGS),
         expand(rules.map.output, coating=COATINGS),
         rules.peaks.output,

@@ -1,7 +1,6 @@
 # Stage 1: the blade, built once: finite elements, reduction, accuracy of the reduction.
 
 from bladerub.blade.sources.origin import files
-from bladerub.io.sources import files_behind
 
 
 rule blade:
@@ -9,22 +8,19 @@ rule blade:
         code=files_behind("blade.build"),
         given=files(config["blade"]["source"]) if "source" in config["blade"] else [],
     output:
-        reduced_model=f"{config['results']}/blade/reduced_model.h5",
-        mesh=f"{config['results']}/blade/mesh.h5",
-        campbell=f"{config['results']}/tables/campbell.csv",
-        rom_accuracy=f"{config['results']}/tables/rom_accuracy.csv",
-        descriptions=[
-            f"{config['results']}/tables/{name}.csv-metadata.json"
-            for name in ("campbell", "rom_accuracy")
-        ],
+        **described(
+            campbell=f"{TABLES}/campbell.csv",
+            rom_accuracy=f"{TABLES}/rom_accuracy.csv",
+        ),
+        reduced_model=f"{RESULTS}/blade/reduced_model.h5",
+        mesh=f"{RESULTS}/blade/mesh.h5",
     log:
-        f"{config['results']}/logs/blade.log",
+        f"{RESULTS}/logs/blade.log",
     benchmark:
-        f"{config['results']}/benchmarks/blade.tsv"
-    threads: 1
+        f"{RESULTS}/benchmarks/blade.tsv"
     resources:
-        mem_mb=lambda wildcards, attempt: 2000 * attempt,  # 500 measured, and a finer mesh needs more
-        runtime=lambda wildcards, attempt: 10 * attempt,
+        mem_mb=memory_mb,  # 500 measured, and a finer mesh needs more
+        runtime=minutes(10),
     params:
         blade=config["blade"],
         reduction=config["reduction"],

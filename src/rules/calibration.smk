@@ -34,7 +34,6 @@ rule calibration:
         pdf=f"{PLOTS}/calibration.pdf",
     log:
         f"{RESULTS}/logs/calibration.log",
-    threads: 1
     params:
         dpi=DPI,
     script:
@@ -53,7 +52,6 @@ rule calibration_set:
         f"{RESULTS}/logs/calibration/{{set}}.log",
     benchmark:
         f"{RESULTS}/benchmarks/calibration/{{set}}.tsv"
-    threads: 1
     resources:
         mem_mb=lambda wildcards, attempt: 2000 * attempt,  # 600 measured
         runtime=lambda wildcards, attempt: 30 * attempt,  # 5 measured

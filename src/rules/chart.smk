@@ -57,7 +57,6 @@ rule chart_column:
         f"{RESULTS}/benchmarks/chart_column/{{column}}.tsv"
     wildcard_constraints:
         column="[A-Za-z0-9]+_E[^_/]+_theta[^_/]+",
-    threads: 1
     resources:
         mem_mb=lambda wildcards, attempt: 2000 * attempt,
         runtime=lambda wildcards, attempt: attempt * (2 + len(config["chart"]["K"])),  # a tenth of it measured
@@ -78,7 +77,6 @@ rule chart_table:
         f"{RESULTS}/logs/chart_table.log",
     benchmark:
         f"{RESULTS}/benchmarks/chart_table.tsv"
-    threads: 1
     params:
         peaks=config["analysis"]["peaks"],
     script:
@@ -103,7 +101,6 @@ rule chart_ridge:
         f"{RESULTS}/logs/chart_ridge.log",
     benchmark:
         f"{RESULTS}/benchmarks/chart_ridge.tsv"
-    threads: 1
     params:
         peaks=config["analysis"]["peaks"],
     script:
@@ -114,12 +111,7 @@ rule chart_maps:
     # one job, because to start it takes longer than to draw one
     input:
         table=rules.chart_table.output[0],
-        drawing=files_behind(
-            "extensions.plots.chart_map",
-            "extensions.plots.chart_panel",
-            "plots.cells",
-            "plots.titles",
-        ),
+        drawing=files_behind("extensions.plots.chart_map", "plots.style"),
     output:
         png=[
             shown(f"{PLOTS}/chart_{name}.png", f"chart_{name}", "Choice of a coating")
@@ -130,7 +122,6 @@ rule chart_maps:
         f"{RESULTS}/logs/chart_maps.log",
     benchmark:
         f"{RESULTS}/benchmarks/chart_maps.tsv"
-    threads: 1
     params:
         dpi=DPI,
         quantities=CHARTED,
@@ -142,19 +133,13 @@ rule chart_safe:
     input:
         table=rules.chart_table.output[0],
         analysing=files_behind("extensions.chart.choice"),
-        drawing=files_behind(
-            "extensions.plots.chart_safe",
-            "extensions.plots.chart_panel",
-            "plots.cells",
-            "plots.titles",
-        ),
+        drawing=files_behind("extensions.plots.chart_safe", "plots.style"),
     output:
         **drawn("chart_safe", "Choice of a coating"),
     log:
         f"{RESULTS}/logs/chart_safe.log",
     benchmark:
         f"{RESULTS}/benchmarks/chart_safe.tsv"
-    threads: 1
     params:
         dpi=DPI,
         limits=config["chart"]["limits"],
@@ -175,7 +160,6 @@ rule chart_pareto:
         f"{RESULTS}/logs/chart_pareto.log",
     benchmark:
         f"{RESULTS}/benchmarks/chart_pareto.tsv"
-    threads: 1
     params:
         dpi=DPI,
         limits=config["chart"]["limits"],
@@ -198,7 +182,6 @@ rule chart_explanation:
         f"{RESULTS}/logs/chart_explanation.log",
     benchmark:
         f"{RESULTS}/benchmarks/chart_explanation.tsv"
-    threads: 1
     params:
         dpi=DPI,
         peaks=config["analysis"]["peaks"],
@@ -220,7 +203,6 @@ rule chart_stiffening:
         f"{RESULTS}/logs/chart_stiffening.log",
     benchmark:
         f"{RESULTS}/benchmarks/chart_stiffening.tsv"
-    threads: 1
     params:
         dpi=DPI,
     script:
@@ -245,7 +227,6 @@ rule chart_placement:
         f"{RESULTS}/logs/chart_placement.log",
     benchmark:
         f"{RESULTS}/benchmarks/chart_placement.tsv"
-    threads: 1
     params:
         peaks=config["analysis"]["peaks"],
         speeds=config["chart"]["speeds"],
@@ -266,7 +247,6 @@ rule chart_agreement:
         f"{RESULTS}/logs/chart_agreement.log",
     benchmark:
         f"{RESULTS}/benchmarks/chart_agreement.tsv"
-    threads: 1
     script:
         "../scripts/chart_agreement.py"
 

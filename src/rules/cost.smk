@@ -3,7 +3,7 @@
 
 rule cost:
     input:
-        # not for what is in them: any job done anew may have another cost
+        # not for what is in them: any job that was repeated may have another cost
         rules.peaks.output,
         rules.divergence.output,
         rules.findings.output,
@@ -11,16 +11,14 @@ rule cost:
         rules.margins.output,
         rules.explorer.output,
         maps=expand(rules.map.output, coating=COATINGS),
-        gathering="src/bladerub/workflow/cost.py",
+        collecting=files_behind("workflow.cost"),
         drawing=files_behind("plots.cost"),
     output:
-        table=f"{RESULTS}/tables/cost.csv",
+        **described(table=f"{TABLES}/cost.csv"),
         png=shown(f"{RESULTS}/benchmarks/cost.png", "cost", "Cost"),
-        description=f"{RESULTS}/tables/cost.csv-metadata.json",
         pdf=f"{RESULTS}/benchmarks/cost.pdf",
     log:
         f"{RESULTS}/logs/cost.log",
-    threads: 1
     params:
         benchmarks=f"{RESULTS}/benchmarks",
         dpi=DPI,

@@ -18,7 +18,6 @@ rule images:
         [f"docs/images/{name}" for name in IMAGES],
     log:
         f"{RESULTS}/logs/images.log",
-    threads: 1
     params:
         colours=256,
     script:
@@ -60,11 +59,10 @@ rule config_reference:
     input:
         schema="config/schema.yaml",
         config="config/config.yaml",
-        writing="src/bladerub/config/reference.py",
+        writing=files_behind("config.reference"),
     output:
         "docs/config.md",
     log:
         f"{RESULTS}/logs/config_reference.log",
-    threads: 1
     script:
         "../scripts/config_reference.py"

@@ -1,5 +1,6 @@
-# The whole study on one page, to be opened in a browser from the file. It has no place in Snakemake's report,
-# which would hold another copy of it inside a page of its own.
+# The whole study on one page, to be opened in a browser from the file. It is not in Snakemake's report,
+# which would hold another copy of it inside its own page.
+from glob import glob
 from os.path import relpath
 
 
@@ -9,34 +10,16 @@ rule explorer:
         maps=expand(rules.map.output, coating=COATINGS),
         peaks=rules.peaks.output[0],
         divergence=rules.divergence.output[0],
-        explaining=expand(
-            "src/bladerub/explorer/{file}",
-            file=[
-                "codes.py",
-                "coating.py",
-                "figures.py",
-                "inert.py",
-                "page.py",
-                "study.py",
-                "thinning.py",
-                "page/choice.js",
-                "page/data.js",
-                "page/index.html",
-                "page/main.js",
-                "page/pictures.js",
-                "page/style.css",
-                "page/words.js",
-            ],
-        ),
+        packing=files_behind("explorer.page"),
+        page=sorted(glob("src/bladerub/explorer/page/*")),
         analysing=files_behind("study.summary"),
-        drawing=files_behind("plots.cells", "plots.spectrum_map", "plots.titles"),
+        drawing=files_behind("plots.spectrum"),
     output:
         f"{RESULTS}/explorer.html",
     log:
         f"{RESULTS}/logs/explorer.log",
     benchmark:
         f"{RESULTS}/benchmarks/explorer.tsv"
-    threads: 1
     params:
         settings={
             "max_frequency": config["figures"]["max_frequency"],

@@ -1,4 +1,4 @@
-# Coulomb friction beside a contact force of constant direction, on the coatings listed for it. Not part of `all`.
+# Coulomb friction compared with a contact force of constant direction, on the coatings listed for it. Not part of `all`.
 from bladerub.study.grid import compared_cases
 
 COMPARED = [case.name for pair in compared_cases(config) for case in pair]
@@ -8,16 +8,14 @@ rule friction:
     input:
         manifests=expand(rules.coating.output[0], coating=COMPARED),
         analysing=files_behind("extensions.friction", "study.summary"),
-        drawing=files_behind("extensions.plots.friction", "plots.style"),
+        drawing=files_behind("extensions.plots.friction"),
     output:
         **drawn("friction", "Angle of the elements"),
-        table=f"{RESULTS}/tables/friction.csv",
-        description=f"{RESULTS}/tables/friction.csv-metadata.json",
+        **described(table=f"{TABLES}/friction.csv"),
     log:
         f"{RESULTS}/logs/friction.log",
     benchmark:
         f"{RESULTS}/benchmarks/friction.tsv"
-    threads: 1
     params:
         revolutions=config["analysis"]["spectrum_revolutions"],
         dpi=DPI,

@@ -6,15 +6,14 @@ import os
 rule map:
     input:
         manifest=rules.coating.output[0],
-        blade=f"{RESULTS}/blade/reduced_model.h5",
-        analysing=files_behind("study.maps", "study.wear"),
+        blade=rules.blade.output.reduced_model,
+        analysing=files_behind("study.maps"),
     output:
         f"{RESULTS}/maps/{{coating}}.h5",
     log:
         f"{RESULTS}/logs/map/{{coating}}.log",
     benchmark:
         f"{RESULTS}/benchmarks/map/{{coating}}.tsv"
-    threads: 1
     params:
         lobe_prominence=config["analysis"]["lobe_prominence"],
     script:
@@ -26,13 +25,11 @@ rule peaks:
         maps=expand(rules.map.output, coating=COATINGS),
         analysing=files_behind("study.peaks"),
     output:
-        f"{RESULTS}/tables/peaks.csv",
-        description=f"{RESULTS}/tables/peaks.csv-metadata.json",
+        **described(table=f"{TABLES}/peaks.csv"),
     log:
         f"{RESULTS}/logs/peaks.log",
     benchmark:
         f"{RESULTS}/benchmarks/peaks.tsv"
-    threads: 1
     params:
         peaks=config["analysis"]["peaks"],
     script:
@@ -42,15 +39,13 @@ rule peaks:
 rule divergence:
     input:
         maps=expand(rules.map.output, coating=COATINGS),
-        analysing=files_behind("study.divergence", "study.growth"),
+        analysing=files_behind("study.divergence"),
     output:
-        f"{RESULTS}/tables/divergence.csv",
-        description=f"{RESULTS}/tables/divergence.csv-metadata.json",
+        **described(table=f"{TABLES}/divergence.csv"),
     log:
         f"{RESULTS}/logs/divergence.log",
     benchmark:
         f"{RESULTS}/benchmarks/divergence.tsv"
-    threads: 1
     params:
         divergence=config["analysis"]["divergence"],
     script:
@@ -59,11 +54,10 @@ rule divergence:
 
 def reported_robustness(wildcards):
     """Reference and share of each claim, if `snakemake robustness` was run: the study does not wait for it."""
-    if not os.path.exists(f"{RESULTS}/tables/robustness.csv"):
+    path = f"{TABLES}/robustness.csv"
+    if not os.path.exists(path):
         return {}
-    with open(
-        f"{RESULTS}/tables/robustness.csv", encoding="utf-8", newline=""
-    ) as lines:
+    with open(path, encoding="utf-8", newline="") as lines:
         return {
             row["id"]: (row["reference"], float(row["yes_share"] or "nan"))
             for row in csv.DictReader(lines)
@@ -75,16 +69,14 @@ rule findings:
         maps=expand(rules.map.output, coating=COATINGS),
         peaks=rules.peaks.output[0],
         divergence=rules.divergence.output[0],
-        rom_accuracy=f"{RESULTS}/tables/rom_accuracy.csv",
+        rom_accuracy=rules.blade.output.rom_accuracy,
         analysing=files_behind("study.findings"),
     output:
-        shown(f"{RESULTS}/tables/findings.csv", "findings", "Claims"),
-        description=f"{RESULTS}/tables/findings.csv-metadata.json",
+        **described(table=shown(f"{TABLES}/findings.csv", "findings", "Claims")),
     log:
         f"{RESULTS}/logs/findings.log",
     benchmark:
         f"{RESULTS}/benchmarks/findings.tsv"
-    threads: 1
     params:
         robustness=reported_robustness,
     script:

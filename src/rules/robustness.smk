@@ -133,7 +133,6 @@ rule robustness_batch:
     wildcard_constraints:
         part="[A-Za-z][A-Za-z0-9_]*",
         batch="[0-9]+|reference",
-    threads: 1
     resources:
         mem_mb=lambda wildcards, attempt: 2000 * attempt,
         runtime=robustness_minutes,
@@ -171,7 +170,6 @@ rule robustness:
         f"{RESULTS}/logs/robustness.log",
     benchmark:
         f"{RESULTS}/benchmarks/robustness.tsv"
-    threads: 1
     params:
         dpi=DPI,
     script:

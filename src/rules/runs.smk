@@ -32,7 +32,6 @@ rule compile_kernel:
         f"{RESULTS}/logs/compile_kernel.log",
     benchmark:
         f"{RESULTS}/benchmarks/compile_kernel.tsv"
-    threads: 1
     resources:
         mem_mb=lambda wildcards, attempt: 2000 * attempt,
         runtime=lambda wildcards, attempt: 5 * attempt,
@@ -54,7 +53,6 @@ rule coating:
         f"{RESULTS}/logs/coating/{{coating}}.log",
     benchmark:
         f"{RESULTS}/benchmarks/coating/{{coating}}.tsv"
-    threads: 1
     resources:
         mem_mb=lambda wildcards, attempt: 2000 * attempt,  # 240 measured, beside two Pythons of Snakemake
         runtime=coating_minutes,

@@ -35,7 +35,6 @@ rule sweeps:
         description=f"{RESULTS}/tables/sweeps.csv-metadata.json",
     log:
         f"{RESULTS}/logs/sweeps.log",
-    threads: 1
     params:
         peaks=config["analysis"]["peaks"],
         survival=config["sweeps"]["survival"],
@@ -60,7 +59,6 @@ rule sweep:
     wildcard_constraints:
         direction="|".join(DIRECTIONS),
         rate=r"[0-9.e+-]+",
-    threads: 1
     resources:
         mem_mb=lambda wildcards, attempt: 2000 * attempt,
         runtime=lambda wildcards, attempt: 10 * attempt,
@@ -88,7 +86,6 @@ rule long_runs:
         description=f"{RESULTS}/tables/long_runs.csv-metadata.json",
     log:
         f"{RESULTS}/logs/long_runs.log",
-    threads: 1
     params:
         divergence=config["analysis"]["divergence"],
         dpi=DPI,
@@ -108,7 +105,6 @@ rule long_coating:
         f"{RESULTS}/logs/long_coating/{{coating}}.log",
     benchmark:
         f"{RESULTS}/benchmarks/long_coating/{{coating}}.tsv"
-    threads: 1
     resources:
         mem_mb=lambda wildcards, attempt: 2000 * attempt,
         runtime=lambda wildcards, attempt: 10 * attempt,

@@ -4,13 +4,11 @@ The data are ``blade/mesh.h5``.
 """
 
 from bladerub.io import hdf5
-from bladerub.plots import style
 from bladerub.plots.blade_mesh import blade_mesh
-from bladerub.workflow import job
+from bladerub.workflow import job, outputs
 
 job.log_to(snakemake.log[0])
 
 mesh, _ = hdf5.read(snakemake.input.mesh)
 nodes = (mesh[f"{name}_nodes"] for name in ("interface", "root", "tip"))
-figure = blade_mesh(mesh["points"], mesh["cells"], *nodes)
-style.save(figure, snakemake.output.png, snakemake.output.pdf, snakemake.params.dpi)
+outputs.save(snakemake, blade_mesh(mesh["points"], mesh["cells"], *nodes))

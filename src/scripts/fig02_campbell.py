@@ -2,19 +2,14 @@
 
 from bladerub.blade.accuracy import CAMPBELL_COLUMNS
 from bladerub.io import hdf5, tables
-from bladerub.io.provenance import provenance
-from bladerub.plots import style
 from bladerub.plots.campbell import campbell
-from bladerub.workflow import job
+from bladerub.workflow import job, outputs
 
 job.log_to(snakemake.log[0])
 
-f1_hz = hdf5.read_attributes(snakemake.input.blade)["f1_hz"]
 table = tables.read(snakemake.input.campbell, CAMPBELL_COLUMNS)
-table[["f_fe", "f_rom"]] /= f1_hz
+table[["f_fe", "f_rom"]] /= hdf5.read_attributes(snakemake.input.blade)["f1_hz"]
 table = table.rename(columns={"f_fe": "f_fe_over_f1", "f_rom": "f_rom_over_f1"})
-tables.write(snakemake.output.data, table, provenance(snakemake.config), "%.6g")
-
 modes = table.pivot(index="f_omega", columns="mode")
 figure = campbell(modes.index, modes["f_fe_over_f1"], modes["f_rom_over_f1"], orders=range(1, 13))
-style.save(figure, snakemake.output.png, snakemake.output.pdf, snakemake.params.dpi)
+outputs.save(snakemake, figure, data=table)

@@ -7,11 +7,8 @@ import pandas as pd
 
 from bladerub.contact.casing import shape
 from bladerub.contact.spec import Casing
-from bladerub.io import tables
-from bladerub.io.provenance import provenance
-from bladerub.plots import style
-from bladerub.plots.casing_polar import casing_polar
-from bladerub.workflow import job
+from bladerub.plots.polar import casing_polar
+from bladerub.workflow import job, outputs
 
 MAGNIFICATION = 150
 
@@ -24,10 +21,9 @@ casings[" + ".join(map(str, diameters))] = combined
 angle = np.linspace(0, 2 * np.pi, 720, endpoint=False)
 inward = {name: casing.amplitude * shape(casing, angle) for name, casing in casings.items()}
 
+radius = snakemake.params.hub_radius + snakemake.params.length
+named = {f"{name} nodal diameters": u for name, u in inward.items()}
 table = pd.concat(
     pd.DataFrame({"nodal_diameters": name, "angle": angle, "inward": u}) for name, u in inward.items()
 )
-tables.write(snakemake.output.data, table, provenance(snakemake.config), "%.6g")
-named = {f"{name} nodal diameters": u for name, u in inward.items()}
-figure = casing_polar(angle, named, snakemake.params.casing_radius, MAGNIFICATION)
-style.save(figure, snakemake.output.png, snakemake.output.pdf, snakemake.params.dpi)
+outputs.save(snakemake, casing_polar(angle, named, radius, MAGNIFICATION), data=table)

@@ -1,11 +1,9 @@
-"""Put the claims of the paper to the test."""
+"""Judge the claims of the paper."""
 
 import math
 
-from bladerub.io import tables
-from bladerub.io.provenance import provenance
 from bladerub.study import findings
-from bladerub.workflow import job
+from bladerub.workflow import job, outputs
 
 job.log_to(snakemake.log[0])
 
@@ -16,10 +14,10 @@ table = findings.table(
     divergence_path=snakemake.input.divergence,
     rom_accuracy_path=snakemake.input.rom_accuracy,
 )
-# a smaller study that says otherwise already at our own values tells nothing of what the others do
+# the robustness counts only where its own reference has the verdict of this study
 known = [snakemake.params.robustness.get(id_, ("", math.nan)) for id_ in table["id"]]
 table["robustness"] = [
     share if reference == holds else math.nan
     for (reference, share), holds in zip(known, table["holds"], strict=True)
 ]
-tables.write(snakemake.output[0], table, provenance(snakemake.config))
+outputs.save(snakemake, table=table)

@@ -1,13 +1,9 @@
-"""Radial displacement of node 1 (m) as in Figs. 17 and 18, at a speed of our own."""
+"""Figs. 17 and 18, and the same at our own speeds: radial displacement of node 1 (m), both angles."""
 
-from bladerub.io import tables
-from bladerub.io.provenance import provenance
-from bladerub.plots import style
 from bladerub.plots.history import history_of_runs
-from bladerub.workflow import job
+from bladerub.workflow import job, outputs
 
 job.log_to(snakemake.log[0])
 
-table, figure = history_of_runs(snakemake.params.runs)
-tables.write(snakemake.output.data, table, provenance(snakemake.config), "%.6g")
-style.save(figure, snakemake.output.png, snakemake.output.pdf, snakemake.params.dpi)
+data, figure = history_of_runs(snakemake.params.runs)
+outputs.save(snakemake, figure, data=data)

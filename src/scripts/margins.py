@@ -1,16 +1,11 @@
-"""Put the claims again to parts of the study, to see what decides the answers."""
+"""Judge the claims again on parts of the study, to see what decides the verdicts."""
 
-from bladerub.io import tables
-from bladerub.io.provenance import provenance
-from bladerub.plots import style
 from bladerub.plots.verdicts import verdicts as draw
 from bladerub.study import margins
 from bladerub.study.findings import verdicts
-from bladerub.workflow import job
+from bladerub.workflow import job, outputs
 
 job.log_to(snakemake.log[0])
 
 table = margins.table(snakemake.config, snakemake.input.maps, snakemake.input.rom_accuracy)
-tables.write(snakemake.output.table, table, provenance(snakemake.config))
-figure = draw(verdicts(table, by="variation"))
-style.save(figure, snakemake.output.png, snakemake.output.pdf, snakemake.params.dpi)
+outputs.save(snakemake, draw(verdicts(table, by="variation")), table=table)

@@ -12,7 +12,7 @@ from matplotlib.colors import Colormap, to_hex
 from bladerub.explorer import figures, thinning
 from bladerub.explorer.coating import AMPLITUDE_FLOOR
 from bladerub.io.provenance import software
-from bladerub.plots import cells, spectrum_map, style, titles
+from bladerub.plots import bins, spectrum, style, titles
 from bladerub.study.grid import CoatingCase
 from bladerub.study.maps import CoatingMap
 
@@ -24,17 +24,17 @@ def scales(coating: CoatingMap, max_frequency: float) -> dict[str, Any]:
     -------
     dict
         ``f_omega`` and ``C1`` (n,); ``speed_edges`` and ``speed_of_cell``, the cells of the maps as
-        `bladerub.plots.cells.with_holes` makes them, with None in the holes; ``angle_edges``, in degrees;
+        `bladerub.plots.bins.with_gaps` makes them, with None in the holes; ``angle_edges``, in degrees;
         ``order`` (m,) and how many of them are ``kept`` at each speed.
     """
-    speed_edges, speed_of_cell = cells.with_holes(coating.f_omega, np.arange(coating.f_omega.size))
+    speed_edges, speed_of_cell = bins.with_gaps(coating.f_omega, np.arange(coating.f_omega.size))
     bounds = thinning.stretches(coating.angle.size)
     return {
         "f_omega": coating.f_omega,
         "C1": coating.C1,
         "speed_edges": speed_edges,
         "speed_of_cell": speed_of_cell,
-        "angle_edges": np.degrees(cells.edges(coating.angle)[bounds]),
+        "angle_edges": np.degrees(bins.edges(coating.angle)[bounds]),
         "order": coating.spectrum_order,
         "kept": thinning.kept_orders(coating.f_omega, coating.spectrum_order, max_frequency),
     }
@@ -103,7 +103,7 @@ def about(settings: dict[str, Any]) -> dict[str, Any]:
         **settings,
         "made_by": software(),
         "amplitude_floor": AMPLITUDE_FLOOR,
-        "orders": list(spectrum_map.ORDERS),
+        "orders": list(spectrum.ORDERS),
         "last_order": thinning.LAST_ORDER,
         "look": look(),
     }

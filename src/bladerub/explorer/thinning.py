@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from bladerub.plots.spectrum_map import ORDERS
+from bladerub.plots.spectrum import ORDERS
 
 MOST_ANGLES = 500
 """Wear is averaged to at most so many stretches of the circumference."""

@@ -35,7 +35,8 @@ def files_behind(*modules: str) -> list[str]:
 
 def _path_of(module: str) -> Path:
     path = _PACKAGE.joinpath(*module.split("."))
-    return path / "__init__.py" if path.is_dir() else path.with_suffix(".py")
+    package = path / "__init__.py"
+    return package if package.is_file() else path.with_suffix(".py")
 
 
 @cache

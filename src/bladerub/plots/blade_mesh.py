@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 from matplotlib import colors
 from matplotlib.axes import Axes
@@ -11,7 +13,39 @@ from matplotlib.markers import CARETUP
 
 from bladerub.blade.surface import boundary_faces, normals
 from bladerub.plots.style import DARK, PAGE, RED, new_figure, styled
-from bladerub.plots.surface import View
+
+
+@dataclass(frozen=True)
+class View:
+    """Parallel projection with z upwards.
+
+    Parameters
+    ----------
+    elevation, azimuth : float
+        Direction from the object to the eye, degrees: over the x-y plane, and in it from x towards y.
+    """
+
+    elevation: float
+    azimuth: float
+
+    @property
+    def towards_eye(self) -> np.ndarray:
+        """Unit vector (3,) from the object to the eye."""
+        elevation, azimuth = np.radians([self.elevation, self.azimuth])
+        level = np.cos(elevation)
+        return np.array([level * np.cos(azimuth), level * np.sin(azimuth), np.sin(elevation)])
+
+    def project(self, points: np.ndarray) -> np.ndarray:
+        """Horizontal and vertical position (..., 2) of points (..., 3) in the picture, in the same unit."""
+        right = np.cross([0, 0, 1], self.towards_eye)
+        right /= np.linalg.norm(right)
+        return points @ np.stack([right, np.cross(self.towards_eye, right)], axis=1)
+
+    def front_faces(self, polygons: np.ndarray) -> np.ndarray:
+        """List the faces among (n, 8 or 6, 3) that are turned to the eye, the farthest first."""
+        facing = np.flatnonzero(normals(polygons) @ self.towards_eye > 1e-6)  # not those seen edge-on
+        return facing[np.argsort((polygons[facing] @ self.towards_eye).mean(axis=1))]
+
 
 _METAL = np.array(colors.to_rgb("#c3ccd6"))
 _LIGHT = np.array([-0.35, 0.85, 0.40])
@@ -28,12 +62,17 @@ _INTERFACE = {
 _ROOT = {"marker": CARETUP, "color": DARK, "linestyle": "none", "markersize": 5, "markeredgewidth": 0.3}
 _NODE = {"marker": ".", "linestyle": "none", "markeredgewidth": 0}
 _KINDS = {20: "hexahedra", 10: "tetrahedra"}
+_AXES = (
+    ("x, axial ", "right", "center"),
+    ("y, rotation", "center", "top"),
+    ("z, radial", "center", "bottom"),
+)
 _AXIS = 35  # length of the drawn axes, mm
 
 
 @styled
 def blade_mesh(
-    points: np.ndarray, cells: np.ndarray, interface: np.ndarray, root: np.ndarray, tip: np.ndarray
+    points: np.ndarray, elements: np.ndarray, interface: np.ndarray, root: np.ndarray, tip: np.ndarray
 ) -> Figure:
     """Draw Fig. 1: the mesh with root and interface nodes (a), and the tip seen along the radius (b).
 
@@ -41,9 +80,8 @@ def blade_mesh(
     ----------
     points : (n_nodes, 3) ndarray
         Nodes, m: x along the axis, y tangential, z along the stacking line.
-    cells : (n_elements, 20 or 10) ndarray of int
-        Nodes of the elements, in the order of CalculiX's C3D20 or C3D10; where there are
-        none, the nodes are drawn.
+    elements : (n_elements, 20 or 10) ndarray of int
+        Nodes of the elements, in the order of CalculiX's C3D20 or C3D10; without them the nodes are drawn.
     interface : (8,) ndarray of int
         Interface nodes, leading to trailing edge.
     root : (n_root,) ndarray of int
@@ -54,11 +92,11 @@ def blade_mesh(
     figure = new_figure(PAGE, 0.86 * PAGE)
     whole, of_tip = figure.subplots(1, 2, width_ratios=[1, 1.05])
     millimetres = 1e3 * points
-    faces = boundary_faces(cells)
+    faces = boundary_faces(elements)
     _draw_whole(whole, millimetres, faces, interface, root)
-    elements = f"{len(cells)} {_KINDS[cells.shape[1]]}, " if len(cells) else ""
-    whole.set_title(f"(a) {elements}{len(points)} nodes")
-    if not len(cells):
+    counted = f"{len(elements)} {_KINDS[elements.shape[1]]}, " if len(elements) else ""
+    whole.set_title(f"(a) {counted}{len(points)} nodes")
+    if not len(elements):
         of_tip.plot(*millimetres[tip, :2].T, color=DARK, markersize=5, **_NODE)
     _draw_tip(of_tip, millimetres, faces[np.isin(faces, tip).all(axis=1)], interface)
     figure.legend(*whole.get_legend_handles_labels(), loc="outside lower center", ncols=2)
@@ -86,14 +124,8 @@ def _draw_whole(
 
 
 def _draw_directions(axes: Axes, origin: np.ndarray) -> None:
-    for axis, (name, ha, va) in enumerate(
-        (
-            ("x, axial ", "right", "center"),
-            ("y, rotation", "center", "top"),
-            ("z, radial", "center", "bottom"),
-        )
-    ):
-        foot, head = _VIEW.project(np.stack([origin, origin + _AXIS * np.eye(3)[axis]]))
+    for direction, (name, ha, va) in zip(np.eye(3), _AXES, strict=True):
+        foot, head = _VIEW.project(np.stack([origin, origin + _AXIS * direction]))
         axes.plot(*np.transpose([foot, head]), color=DARK, linewidth=0.9, label="_direction")
         axes.annotate("", head, foot, arrowprops={"arrowstyle": "-|>", "color": DARK, "linewidth": 0})
         axes.annotate(name, head, ha=ha, va=va, fontsize=7.5, annotation_clip=False)
@@ -102,21 +134,16 @@ def _draw_directions(axes: Axes, origin: np.ndarray) -> None:
 def _draw_tip(axes: Axes, points: np.ndarray, faces: np.ndarray, interface: np.ndarray) -> None:
     """Look inward along z at the `faces` of the tip."""
     axes.add_collection(PolyCollection(points[faces][:, :, :2], facecolors=_METAL, **_EDGES))
-    x, y = points[interface, 0], points[interface, 1]
-    axes.plot(x, y, **_INTERFACE)
-    for number, node in enumerate(zip(x, y, strict=True), start=1):
-        axes.annotate(str(number), node, xytext=(6, 4), textcoords="offset points", color=RED)
-    for node, name, side, align in ((0, "leading edge", 1, "bottom"), (-1, "trailing edge", -1, "top")):
-        axes.annotate(
-            name, (x[node], y[node]), xytext=(0, 14 * side), textcoords="offset points", ha="center", va=align
-        )
+    nodes = points[interface, :2]
+    axes.plot(*nodes.T, **_INTERFACE)
+    near = {"textcoords": "offset points"}
+    for number, node in enumerate(nodes, start=1):
+        axes.annotate(str(number), node, xytext=(6, 4), color=RED, **near)
+    axes.annotate("leading edge", nodes[0], xytext=(0, 14), ha="center", va="bottom", **near)
+    axes.annotate("trailing edge", nodes[-1], xytext=(0, -14), ha="center", va="top", **near)
+    arrow = {"arrowstyle": "-|>", "color": DARK}
     axes.annotate(
-        "rotation",
-        (0.85, 0.95),
-        (0.85, 0.75),
-        xycoords="axes fraction",
-        ha="center",
-        arrowprops={"arrowstyle": "-|>", "color": DARK},
+        "rotation", (0.85, 0.95), (0.85, 0.75), xycoords="axes fraction", ha="center", arrowprops=arrow
     )
     axes.set(aspect="equal", xlabel="axial x (mm)", ylabel="tangential y (mm)")
     axes.set_title("(b) the tip from outside")

@@ -48,13 +48,6 @@ def _modes(axes: Axes, f_omega: np.ndarray, f_fe: np.ndarray, f_rom: np.ndarray)
         rom, fe = ("reduced model", "finite elements") if mode == 0 else ("_rom", "_fe")
         axes.plot(f_omega, f_rom[:, mode], color=ORANGE, linewidth=2.6, label=rom)
         axes.plot(f_omega, f_fe[:, mode], color=DARK, linestyle=(0, (4, 2)), linewidth=1.0, label=fe)
-        axes.annotate(
-            f"{mode + 1}",
-            (f_omega[0], f_rom[0, mode]),
-            xytext=(3 + 10 * (mode % 2), 2.5),
-            textcoords="offset points",
-            fontsize=7,
-            color=DARK,
-            clip_on=True,
-            annotation_clip=True,
-        )
+        at, place = (f_omega[0], f_rom[0, mode]), (3 + 10 * (mode % 2), 2.5)
+        look = {"fontsize": 7, "color": DARK, "clip_on": True, "annotation_clip": True}
+        axes.annotate(f"{mode + 1}", at, xytext=place, textcoords="offset points", **look)

@@ -7,9 +7,7 @@ from collections.abc import Iterable
 from matplotlib.axes import Axes
 
 _LINE = {"color": "#8f8f8f", "linewidth": 0.6, "zorder": 1.5}
-_NEAREST = (0.1, 0.035)  # shares of the axes; a name that stands closer to the one before is left out
-LABEL = "engine orders eo(k)"
-"""Label of the first line, for the legend; the others have none."""
+_NEAREST = (0.1, 0.035)  # shares of the axes; a name closer than that to the one before is left out
 
 
 def over_speed(axes: Axes, orders: Iterable[int], speed_max: float, f_max: float) -> None:
@@ -23,7 +21,7 @@ def over_frequency(axes: Axes, orders: Iterable[int], f_max: float, speed_max: f
 
 
 def _draw(axes: Axes, slopes: dict[int, float], x_max: float, y_max: float) -> None:
-    label, named = LABEL, (x_max, 0.0)
+    label, named = "engine orders eo(k)", (x_max, 0.0)
     for k, slope in slopes.items():
         x = min(x_max, y_max / slope)
         axes.plot([0, x], [0, slope * x], label=label, **_LINE)
@@ -31,15 +29,9 @@ def _draw(axes: Axes, slopes: dict[int, float], x_max: float, y_max: float) -> N
         if abs(x - named[0]) < _NEAREST[0] * x_max and abs(slope * x - named[1]) < _NEAREST[1] * y_max:
             continue
         named = (x, slope * x)
-        at_top = slope * x_max > y_max
-        axes.annotate(
-            f"eo({k})",
-            named,
-            xytext=(0, 2) if at_top else (2, 0),
-            textcoords="offset points",
-            ha="center" if at_top else "left",
-            va="bottom" if at_top else "center",
-            fontsize=7,
-            color="#555555",
-            annotation_clip=False,
-        )
+        if slope * x_max > y_max:
+            place = {"xytext": (0, 2), "ha": "center", "va": "bottom"}
+        else:
+            place = {"xytext": (2, 0), "ha": "left", "va": "center"}
+        look = {"fontsize": 7, "color": "#555555", "annotation_clip": False}
+        axes.annotate(f"eo({k})", named, textcoords="offset points", **place, **look)

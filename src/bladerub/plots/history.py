@@ -1,4 +1,4 @@
-"""Displacement over the whole run, one run above the other, and the growth of all."""
+"""Displacement over the whole run, one run above the other, and the growth of both."""
 
 from __future__ import annotations
 
@@ -27,17 +27,17 @@ def history_of_runs(paths: Iterable[str | Path]) -> tuple[pd.DataFrame, Figure]:
     figure : Figure
         See `history`.
     """
-    runs = {titles.angle(run.attributes["theta"]): run for run in map(read_run, paths)}
-    displacement = {name: run.data["radial_displacement"] for name, run in runs.items()}
-    amplitude = {name: run.data["revolution_amplitude"] for name, run in runs.items()}
-    run = next(iter(runs.values()))
-    revolution, about = run.data["revolution"], run.attributes
+    runs = {run.attributes["theta"]: run for run in map(read_run, paths)}
+    displacement = {titles.angle(theta): run.data["radial_displacement"] for theta, run in runs.items()}
+    amplitude = {titles.angle(theta): run.data["revolution_amplitude"] for theta, run in runs.items()}
+    first = next(iter(runs.values()))
+    about = first.attributes
     title = f"{titles.moduli(about['casing'], about['E'], about['K'])}, {titles.speed(about['f_omega'])}"
     table = pd.concat(
-        pd.DataFrame({"theta": run.attributes["theta"]} | {name: run.data[name] for name in _DRAWN})
-        for run in runs.values()
+        pd.DataFrame({"theta": theta} | {name: run.data[name] for name in _DRAWN})
+        for theta, run in runs.items()
     )
-    return table, history(revolution, displacement, amplitude, title)
+    return table, history(first.data["revolution"], displacement, amplitude, title)
 
 
 @styled
@@ -70,13 +70,8 @@ def history(
         axes.set(ylim=(-limit, limit), ylabel="$u_r$ (mm)", title=f"({letter}) {name}")
         envelope = 1e3 * np.asarray(amplitude[name])
         below.plot(np.arange(envelope.size) + 0.5, envelope, marker="o", markersize=3, label=name, **look)
-    below.set(
-        title="(c) half the range of $u_r$ in each revolution",
-        xlim=(0, envelope.size),
-        ylim=(0, limit),
-        xlabel="revolution",
-        ylabel="amplitude (mm)",
-    )
+    below.set_title("(c) half the range of $u_r$ in each revolution")
+    below.set(xlim=(0, envelope.size), ylim=(0, limit), xlabel="revolution", ylabel="amplitude (mm)")
     below.xaxis.set_major_locator(MaxNLocator(integer=True))
     below.grid(axis="y")
     figure.legend(*below.get_legend_handles_labels(), loc="outside lower center", ncols=2)

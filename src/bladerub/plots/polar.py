@@ -2,12 +2,113 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Mapping
+
 import numpy as np
+import pandas as pd
 from matplotlib.figure import Figure
 from matplotlib.projections.polar import PolarAxes
+from matplotlib.ticker import MaxNLocator
+
+from bladerub.plots import titles
+from bladerub.plots.style import BLUE, COLUMN, DARK, FIRST, GREY, ORANGE, PAGE, SECOND, new_figure, styled
+from bladerub.study.maps import CoatingMap
+
+_SHAPES = (
+    {"color": ORANGE, "linestyle": (0, (6, 2)), "linewidth": 1.4},
+    {"color": BLUE, "linestyle": (0, (1.5, 1.2)), "linewidth": 1.4},
+    {"color": DARK, "linestyle": "-", "linewidth": 2.0},
+)
 
 
-def open_polar(figure: Figure, *position: int) -> PolarAxes:
+@styled
+def casing_polar(
+    angle: np.ndarray, inward: Mapping[str, np.ndarray], radius: float, magnification: float
+) -> Figure:
+    """Draw Fig. 5: the round casing and up to three distorted ones.
+
+    Parameters
+    ----------
+    angle : (n,) array_like
+        Casing angle, rad.
+    inward : mapping of str to (n,) array_like
+        Inward displacement of the inner surface by name of the shape, m.
+    radius : float
+        Radius of the round casing, m.
+    magnification : float
+        By how much the displacement is magnified.
+    """
+    figure = new_figure(COLUMN, 1.25 * COLUMN)
+    largest = max(np.abs(u).max() for u in inward.values())
+    axes = _open(figure, 1, 1, 1)
+    axes.plot(
+        *_closed(angle, np.full(np.size(angle), radius)), color=GREY, linewidth=1.0, label="round casing"
+    )
+    for (name, displacement), line in zip(inward.items(), _SHAPES, strict=False):
+        axes.plot(*_closed(angle, radius - magnification * np.asarray(displacement)), label=name, **line)
+    axes.set_rgrids(radius + magnification * largest * np.array([-1, 0, 1]), [])
+    axes.set_rlim(0, radius + 1.1 * magnification * largest)
+    figure.legend(
+        loc="outside lower center",
+        ncols=2,
+        title=f"change of the inner radius ({1e3 * radius:.0f} mm), magnified {magnification:g} times\n"
+        f"(rings {1e3 * largest:.2g} mm apart)",
+    )
+    return figure
+
+
+def wear_profiles(maps: Iterable[CoatingMap], speeds: Iterable[float]) -> tuple[pd.DataFrame, Figure]:
+    """Draw Fig. 19 from the maps of two coatings that differ in theta.
+
+    Returns
+    -------
+    table : DataFrame
+        ``f_omega``, ``theta``, ``angle`` (rad) and ``wear`` (m).
+    figure : Figure
+        See `wear_polar`.
+    """
+    maps, panels, profiles = list(maps), {}, []
+    for index, f_omega in enumerate(speeds):
+        panel = panels[titles.panel(index % 26, titles.speed(f_omega))] = {}
+        for coating in maps:
+            theta = coating.case.theta
+            wear = coating.wear[np.flatnonzero(np.isclose(coating.f_omega, f_omega))[0]]
+            panel[titles.angle(theta)] = wear
+            columns = {"f_omega": f_omega, "theta": theta, "angle": coating.angle, "wear": wear}
+            profiles.append(pd.DataFrame(columns))
+    return pd.concat(profiles), wear_polar(maps[0].angle, panels)
+
+
+@styled
+def wear_polar(angle: np.ndarray, wear: Mapping[str, Mapping[str, np.ndarray]]) -> Figure:
+    """Draw Fig. 19: a panel for each speed, in it a line for each of two cases, on one scale.
+
+    Parameters
+    ----------
+    angle : (n_elements,) array_like
+        Casing angle, rad.
+    wear : mapping of str to mapping of str to (n_elements,) array_like
+        Worn depth, m, by panel title and name of the case.
+    """
+    figure = new_figure(PAGE, (0.2 + 0.8 / len(wear)) * PAGE)
+    deepest = 1e3 * max(np.nanmax(depth) for panel in wear.values() for depth in panel.values())
+    for index, (title, cases) in enumerate(wear.items()):
+        axes = _open(figure, 1, len(wear), index + 1)
+        for (name, depth), look in zip(cases.items(), (FIRST, SECOND), strict=True):
+            axes.plot(*_closed(angle, 1e3 * np.asarray(depth)), label=name, **look)
+        axes.set(rorigin=-0.6 * deepest, rlim=(0, 1.06 * deepest), title=title)
+        axes.yaxis.set_major_locator(MaxNLocator(nbins=max(2, 6 // len(wear))))
+    figure.legend(
+        *axes.get_legend_handles_labels(),
+        loc="outside lower center",
+        ncols=2,
+        title="worn depth (mm) outward from the inner circle, the unworn surface",
+        title_fontsize=8,
+    )
+    return figure
+
+
+def _open(figure: Figure, *position: int) -> PolarAxes:
     """Add polar axes to `figure` at the subplot `position`; labels of the radius stay readable over lines."""
     axes = figure.add_subplot(*position, projection="polar")
     axes.set_theta_zero_location("N")
@@ -19,7 +120,7 @@ def open_polar(figure: Figure, *position: int) -> PolarAxes:
     return axes
 
 
-def close(angle: np.ndarray, radius: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def _closed(angle: np.ndarray, radius: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Angles and radii (n + 1,) with the first point repeated at the end, so that the line closes."""
     angle, radius = np.asarray(angle), np.asarray(radius)
     return np.append(angle, angle[0] + 2 * np.pi), np.append(radius, radius[0])

@@ -1,4 +1,4 @@
-"""One style for every picture: sizes for print, colours told apart by the colour-blind and in grey."""
+"""One style for every figure: sizes for print, colours that the colour-blind and grey print keep apart."""
 
 from __future__ import annotations
 

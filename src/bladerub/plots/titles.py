@@ -1,4 +1,4 @@
-"""How coatings and speeds are named in the pictures."""
+"""How coatings and speeds are named in the figures."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ def angle(theta: float) -> str:
 
 
 def coating(case: CoatingCase) -> str:
-    """All of it: ``casing 2nd, E = 2, K = 0.5, θ = 0.15 rad``, or ``rigid casing 2nd, μ = 0.15``."""
+    """Full name: ``casing 2nd, E = 2, K = 0.5, θ = 0.15 rad``, or ``rigid casing 2nd, μ = 0.15``."""
     if case.is_rigid:
         return f"rigid casing {case.casing}, μ = {case.friction:g}"
     tangential = angle(case.theta) if case.law == "theta" else f"μ = {case.friction:g}"

@@ -1,4 +1,4 @@
-"""How claims answer to sets of choices: a mark for each claim in each set."""
+"""Verdicts on the claims in several studies: a mark for each claim in each study."""
 
 from __future__ import annotations
 
@@ -13,17 +13,17 @@ MARKS = {
     "partly": {"marker": "o", "facecolor": style.ORANGE, "edgecolor": style.DARK},
     "no": {"marker": "x", "facecolor": style.GREY},
 }
-"""Full, light and crossed, so that grey print tells them apart."""
+"""Full, light and crossed, so that grey print keeps them apart."""
 
 
 @style.styled
 def verdicts(holds: pd.DataFrame) -> Figure:
-    """Draw a column a set and a row a claim.
+    """Draw a column a study and a row a claim.
 
     Parameters
     ----------
     holds : DataFrame
-        ``yes``, ``partly`` or ``no`` by claim (rows) and set (columns); NaN where a set cannot tell.
+        ``yes``, ``partly`` or ``no`` by claim (rows) and study (columns); NaN where it gives no verdict.
     """
     rows, columns = holds.shape
     figure = style.new_figure(style.PAGE, 0.9 + 0.155 * rows + 0.045 * max(map(len, holds.columns)))
@@ -33,15 +33,13 @@ def verdicts(holds: pd.DataFrame) -> Figure:
         axes.scatter(chosen, claim, s=26, linewidth=0.8, label=word, zorder=2, **mark)
     axes.set_xticks(range(columns), holds.columns, rotation=90)
     axes.set_yticks(range(rows), holds.index)
-    axes.set_xlim(-0.7, columns - 0.3)
-    axes.set_ylim(rows - 0.4, -0.6)
+    axes.set(xlim=(-0.7, columns - 0.3), ylim=(rows - 0.4, -0.6))
     axes.xaxis.tick_top()
     axes.tick_params(length=0)
     axes.spines[:].set_visible(False)
     for row in range(rows):
         axes.axhline(row, color="#e9e9e9", linewidth=0.6, zorder=1)
-    counts = (holds == "yes").sum()
-    for column, count in enumerate(counts):
+    for column, count in enumerate((holds == "yes").sum()):
         axes.text(column, rows - 0.3, str(count), ha="center", va="top", fontsize=8)
     axes.text(-0.9, rows - 0.3, "yes", ha="right", va="top", fontsize=8)
     figure.legend(loc="outside lower center", ncols=3, handletextpad=0.2)

@@ -3,26 +3,30 @@
 from __future__ import annotations
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
-from bladerub.plots import cells, titles
+from bladerub.plots import bins, titles
 from bladerub.plots.style import DARK, MISSING, PAGE, RED, WEAR_MAP, new_figure, styled
 from bladerub.study.maps import CoatingMap
+
+_COMPLETED = {"marker": "o", "markersize": 2.5, "color": DARK, "label": "completed"}
+_ENDED_EARLY = {"marker": "x", "markersize": 4, "color": RED, "label": "ended early"}
 
 
 @styled
 def wear_map(coating: CoatingMap) -> Figure:
     """Draw Fig. 6: worn depth over speed and casing angle, below it the number of worn lobes.
 
-    Runs that left all bounds are crossed in the lower panel: their wear is that of the moment they ended.
+    Runs that exceeded the displacement limit are crossed below: their wear is that of their early end.
     """
-    speed_edges, rows = cells.with_holes(coating.f_omega, 1e3 * coating.wear)
+    speed_edges, rows = bins.with_gaps(coating.f_omega, 1e3 * coating.wear)
     figure = new_figure(PAGE, 0.68 * PAGE)
     upper, lower = figure.subplots(2, 1, sharex=True, height_ratios=[4, 1])
     mesh = upper.pcolormesh(
         speed_edges,
-        np.degrees(cells.edges(coating.angle)),
+        np.degrees(bins.edges(coating.angle)),
         np.ma.masked_invalid(rows.T),
         cmap=WEAR_MAP,
         vmin=0,
@@ -31,23 +35,20 @@ def wear_map(coating: CoatingMap) -> Figure:
     figure.colorbar(mesh, ax=upper, label="worn depth, mean of the 8 nodes (mm)", pad=0.015)
     upper.set(facecolor=MISSING, ylim=(0, 360), yticks=range(0, 361, 60), ylabel="casing angle (°)")
     upper.set_title(titles.coating(coating.case))
-    completed = coating.status == "completed"
-    for runs, look in (
-        (completed, {"marker": "o", "markersize": 2.5, "color": DARK, "label": "completed"}),
-        (~completed, {"marker": "x", "markersize": 4, "color": RED, "label": "ended early"}),
-    ):
-        if runs.any():
-            lower.plot(coating.f_omega[runs], coating.lobes[runs], linestyle="none", **look)
-    room = 1.2
-    if not completed.all():
-        room = 1.7  # for the legend above the markers
-        lower.legend(loc="upper left", ncols=2)
-    lower.yaxis.set_major_locator(MaxNLocator(integer=True, nbins=5))
-    lower.grid(axis="y")
-    lower.set(
-        xlim=(0, speed_edges[-1]),
-        ylim=(0, room * max(1, coating.lobes.max())),
-        xlabel=r"rotational frequency $f_\Omega\,/\,f_1(0)$",
-        ylabel="worn lobes",
-    )
+    _draw_lobes(lower, coating)
+    lower.set(xlim=(0, speed_edges[-1]), xlabel=r"rotational frequency $f_\Omega\,/\,f_1(0)$")
     return figure
+
+
+def _draw_lobes(axes: Axes, coating: CoatingMap) -> None:
+    completed = coating.status == "completed"
+    for runs, look in ((completed, _COMPLETED), (~completed, _ENDED_EARLY)):
+        if runs.any():
+            axes.plot(coating.f_omega[runs], coating.lobes[runs], linestyle="none", **look)
+    height = 1.2
+    if not completed.all():
+        height = 1.7  # for the legend above the markers
+        axes.legend(loc="upper left", ncols=2)
+    axes.yaxis.set_major_locator(MaxNLocator(integer=True, nbins=5))
+    axes.grid(axis="y")
+    axes.set(ylim=(0, height * max(1, coating.lobes.max())), ylabel="worn lobes")

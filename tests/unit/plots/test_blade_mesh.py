@@ -2,8 +2,7 @@ import numpy as np
 import pytest
 
 from bladerub.blade.surface import boundary_faces, normals
-from bladerub.plots.blade_mesh import blade_mesh
-from bladerub.plots.surface import View
+from bladerub.plots.blade_mesh import View, blade_mesh
 
 CORNERS = np.array(
     [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 0, 1], [1, 0, 1], [1, 1, 1], [0, 1, 1]], float

@@ -1,23 +1,35 @@
 import numpy as np
 import pytest
 
-from bladerub.plots.coating_cycle import Cycle, coating_cycle
+from bladerub.contact.illustration import LoadingCycle
+from bladerub.contact.spec import Coating
+from bladerub.plots.coating_cycle import coating_cycle
 
 E, K = 2.0, 0.5
 
 
-def cycle(yield_stress: float) -> Cycle:
+def cycle(yield_stress: float) -> LoadingCycle:
     """Load to 0.03 and unload, in closed form."""
     strain = np.concatenate([np.linspace(0, 0.03, 31), np.linspace(0.029, 0, 30)])
     highest = np.maximum.accumulate(strain)
     plastic = np.maximum(E * highest - yield_stress, 0) / (E + K)
     stress = np.maximum(E * (strain - plastic), 0)
-    return Cycle("(a)", strain, stress, plastic, E, K, yield_stress)
+    coating = Coating(E, K, 0.0, yield_stress, modulus_unit=1e8, thickness=5e-3, n_elements=2000)
+    return LoadingCycle(coating, strain, stress, plastic)
 
 
 @pytest.fixture
 def panels(draws):
-    return draws(coating_cycle([cycle(0.0), cycle(0.02)])).axes
+    return draws(coating_cycle({"(a) small": cycle(0.0), "(b) large": cycle(0.02)})).axes
+
+
+def test_axes_are_strain_and_stress_from_zero(panels):
+    for panel, title in zip(panels, ("(a) small", "(b) large"), strict=True):
+        assert panel.get_title(loc="left") == title
+        assert r"\varepsilon" in panel.get_xlabel()
+        assert panel.get_xlim() == pytest.approx((0, 0.033))
+        assert panel.get_ylim()[0] == 0
+    assert r"\sigma" in panels[0].get_ylabel()
 
 
 def test_slopes_and_elastic_limit_are_written(panels):
@@ -35,15 +47,16 @@ def test_slope_triangles_have_the_slopes_they_name(panels):
         assert slopes == pytest.approx([2.0, 0.4])
 
 
-def test_plastic_and_elastic_branches_are_told_apart(panels):
+def test_plastic_and_elastic_branches_have_lines_of_their_own(panels):
     elastic, plastic, *_ = panels[1].lines
+    assert plastic.get_label() == "plastic loading"
     flowing = plastic.get_xydata()[~np.isnan(plastic.get_ydata())]
     np.testing.assert_allclose(np.diff(flowing[1:, 1]) / np.diff(flowing[1:, 0]), 0.4)
     unloading = elastic.get_xydata()[32:37]
     np.testing.assert_allclose(np.diff(unloading[:, 1]) / np.diff(unloading[:, 0]), 2.0)
 
 
-def test_the_remaining_strain_is_marked_where_the_bar_comes_free(panels):
+def test_the_remaining_strain_is_marked_where_the_element_is_released(panels):
     for panel, yield_stress in zip(panels, (0.0, 0.02), strict=True):
         (mark,) = [line for line in panel.lines if line.get_marker() == "v"]
         assert mark.get_xdata() == pytest.approx([(E * 0.03 - yield_stress) / (E + K)])

@@ -5,15 +5,16 @@ from matplotlib.colors import to_rgba
 from matplotlib.patches import Rectangle
 from mpl_toolkits.mplot3d import Axes3D
 
-from bladerub.plots.histogram import histogram, peak_amplitudes, peak_speeds
+from bladerub.plots.histogram import histogram, peak_histogram
 from bladerub.plots.style import MISSING, RED
 
 VALUES = np.array([[0.1, np.nan], [0.4, 0.3], [np.nan, 0.2]])
+TABLE = pd.DataFrame(VALUES, index=[0.11, 1.1, 20], columns=[0.5, 5])
 
 
 @pytest.fixture
 def figure():
-    return histogram([0.11, 1.1, 20], [0.5, 5], VALUES, "$Y_4$ (mm)", digits=2)
+    return histogram(TABLE, "$Y_4$ (mm)", digits=2)
 
 
 def test_both_views_save(figure, draws):
@@ -28,7 +29,7 @@ def test_both_views_save(figure, draws):
 def test_a_bar_for_each_value_and_none_for_a_hole(monkeypatch):
     bars = []
     monkeypatch.setattr(Axes3D, "bar3d", lambda self, *bar, **look: bars.append(bar))
-    histogram([0.11, 1.1, 20], [0.5, 5], VALUES, "$Y_4$ (mm)", digits=2, floor=0.05)
+    histogram(TABLE, "$Y_4$ (mm)", digits=2, floor=0.05)
     ((x, y, floor, width, depth, height),) = bars
     places = np.rint(np.transpose([x + width / 2, y + depth / 2])).astype(int)
     np.testing.assert_array_equal(places, [[0, 0], [1, 0], [1, 1], [2, 1]])
@@ -51,14 +52,14 @@ def test_the_maximum_is_framed(figure):
 
 
 def test_bars_stand_on_the_floor(draws):
-    figure = draws(histogram([1, 2], [1, 2], 0.3 + VALUES[1:] / 100, "$f_4$", digits=3, floor=0.29))
+    figure = draws(histogram(0.3 + TABLE[1:] / 100, "$f_4$", digits=3, floor=0.29))
     assert figure.axes[0].get_zlim()[0] == pytest.approx(0.29)
     assert figure.axes[1].collections[0].norm.vmin == pytest.approx(0.29)
 
 
 def test_nothing_to_draw_is_said():
     with pytest.raises(ValueError, match="is missing"):
-        histogram([1, 2], [1], np.full((2, 1), np.nan), "$Y_4$ (mm)", digits=2)
+        histogram(np.nan * TABLE, "$Y_4$ (mm)", digits=2)
 
 
 PEAKS = pd.DataFrame(
@@ -73,7 +74,7 @@ PEAKS = pd.DataFrame(
 
 
 def test_amplitudes_of_one_order_are_drawn_in_mm(draws):
-    table, figure = peak_amplitudes(PEAKS, order=4)
+    table, figure = peak_histogram(PEAKS, "amplitude", order=4)
     assert list(table.columns) == ["casing", "E", "K", "theta", "order", "amplitude"]
     pd.testing.assert_frame_equal(table, PEAKS[PEAKS.order == 4].drop(columns="f_peak"))
     bars, cells, _ = draws(figure).axes
@@ -82,7 +83,7 @@ def test_amplitudes_of_one_order_are_drawn_in_mm(draws):
 
 
 def test_speeds_of_one_order_stand_on_a_floor_below_the_lowest(draws):
-    table, figure = peak_speeds(PEAKS, order=4)
+    table, figure = peak_histogram(PEAKS, "f_peak", order=4)
     pd.testing.assert_frame_equal(table, PEAKS[PEAKS.order == 4].drop(columns="amplitude"))
     bars, cells, _ = draws(figure).axes
     assert bars.get_zlim()[0] == pytest.approx(0.29)

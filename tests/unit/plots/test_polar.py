@@ -1,17 +1,12 @@
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
-from bladerub.plots.casing_polar import casing_polar
-from bladerub.plots.polar import close
-from bladerub.plots.wear_polar import wear_polar
+from bladerub.plots.polar import casing_polar, wear_polar, wear_profiles
+from bladerub.study.grid import CoatingCase
 
 ANGLE = np.linspace(0, 2 * np.pi, 60, endpoint=False)
-
-
-def test_lines_close():
-    angle, radius = close(ANGLE, np.cos(ANGLE))
-    assert angle[-1] - angle[0] == pytest.approx(2 * np.pi)
-    assert radius[-1] == radius[0]
 
 
 def test_casing_is_magnified_inward(draws):
@@ -21,6 +16,14 @@ def test_casing_is_magnified_inward(draws):
     np.testing.assert_allclose(circle.get_ydata(), 0.65)
     np.testing.assert_allclose(two.get_ydata()[:-1], 0.65 - 0.1 * np.cos(2 * ANGLE))
     np.testing.assert_allclose(five.get_ydata()[:-1], 0.65 - 0.1 * np.cos(5 * ANGLE))
+    for line in axes.lines:  # closed
+        angle, radius = line.get_data()
+        assert angle[-1] - angle[0] == pytest.approx(2 * np.pi)
+        assert radius[-1] == radius[0]
+    assert (axes.get_theta_offset(), axes.get_theta_direction()) == (
+        np.pi / 2,
+        1,
+    )  # from the top, with rotation
     assert len({str(line.get_linestyle()) + str(line.get_color()) for line in axes.lines}) == 3
 
 
@@ -38,3 +41,19 @@ def test_worn_depth_in_mm_on_one_scale_around_the_unworn_circle(draws):
     assert first.get_rorigin() < 0
     assert first.get_title(loc="left") == "(a)"
     assert "(mm)" in figure.legends[0].get_title().get_text()
+
+
+def test_wear_is_that_of_the_speeds_asked_for(coating_map, draws):
+    straight = replace(coating_map, case=CoatingCase("2nd", 2.0, 0.5, 0.0), wear=2 * coating_map.wear)
+    table, figure = wear_profiles([straight, coating_map], [0.15, 0.3])
+    assert list(table.columns) == ["f_omega", "theta", "angle", "wear"]
+    for theta, coating in ((0.0, straight), (0.15, coating_map)):
+        rows = table[(table.f_omega == 0.3) & (table.theta == theta)]
+        np.testing.assert_array_equal(rows[["angle", "wear"]], np.transpose([coating.angle, coating.wear[4]]))
+    first, second = draws(figure).axes
+    assert [panel.get_title(loc="left") for panel in (first, second)] == [
+        r"(a) $f_\Omega$ = 0.150",
+        r"(b) $f_\Omega$ = 0.300",
+    ]
+    assert [line.get_label() for line in second.lines] == ["θ = 0", "θ = 0.15 rad"]
+    np.testing.assert_allclose(second.lines[0].get_ydata()[:-1], 1e3 * straight.wear[4])

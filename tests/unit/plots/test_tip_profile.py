@@ -2,39 +2,52 @@ import numpy as np
 import pytest
 from matplotlib.colors import to_rgba
 
+from bladerub.contact.illustration import PressedElements
+from bladerub.contact.spec import Coating
 from bladerub.plots.style import ORANGE
-from bladerub.plots.tip_profile import TipScene, tip_profile
+from bladerub.plots.tip_profile import tip_profile
 
-SCENE = TipScene(
-    element=np.arange(-3, 4) * 2e-3,
+SCENE = PressedElements(
+    coating=Coating(2.0, 0.5, 0.15, yield_stress=0.0, modulus_unit=1e8, thickness=5e-3, n_elements=2000),
+    width=2e-3,
+    element=np.arange(-3, 4),
     shortening=np.array([80e-6, 80e-6, 90e-6, 100e-6, 90e-6, 0, 0]),
     wear=np.array([80e-6, 80e-6, 80e-6, 80e-6, 70e-6, 0, 0]),
-    tip_position=np.linspace(-3e-3, 3e-3, 21),
+    stress=np.zeros(7),
+    tip_offset=np.linspace(-1.5, 1.5, 21),
     tip_depth=100e-6 - 20e-6 * np.linspace(-1, 1, 21) ** 2,
-    width=2e-3,
-    thickness=5e-3,
-    theta=0.15,
 )
 
 
 @pytest.fixture
 def panels(draws):
-    return draws(tip_profile(SCENE, "E = 2")).axes
+    return draws(tip_profile(SCENE)).axes
 
 
-def test_bars_reach_from_the_surface_to_the_casing_at_their_angle(panels):
-    bars = panels[0].collections[0]
-    corners = np.array([path.vertices[:4] for path in bars.get_paths()])
+def test_elements_reach_from_the_surface_to_the_casing_at_their_angle(panels):
+    corners = np.array([path.vertices[:4] for path in panels[0].collections[0].get_paths()])
     np.testing.assert_allclose(corners[:, 0, 1], 1e3 * SCENE.shortening, atol=1e-12)
     np.testing.assert_allclose(corners[:, 2, 1], 5.0)
     lean = corners[:, 3] - corners[:, 0]
     np.testing.assert_allclose(lean[:, 0] / lean[:, 1], np.tan(0.15))
+    at_surface = (corners[:, 0, 0] + corners[:, 1, 0]) / 2 - np.tan(0.15) * corners[:, 0, 1]
+    np.testing.assert_allclose(at_surface, 2.0 * SCENE.element, atol=1e-9)
     assert panels[0].get_aspect() == 1
+    assert panels[0].get_title(loc="left") == "(a) to scale: E = 2, K = 0.5"
 
 
-def test_bars_that_push_stand_out(panels):
+def test_pressed_elements_stand_out(panels):
     pressed = [tuple(colour) == to_rgba(ORANGE) for colour in panels[0].collections[0].get_facecolors()]
     assert pressed == [False, False, True, True, True, False, False]
+
+
+def test_the_tip_is_drawn_in_both_panels(panels):
+    for panel, depth in zip(panels, (1e3, 1e6), strict=True):  # mm, µm
+        (tip,) = [line for line in panel.lines if line.get_label() in ("_tip", "blade tip")]
+        np.testing.assert_allclose(tip.get_xdata(), 2.0 * SCENE.tip_offset)
+        np.testing.assert_allclose(tip.get_ydata(), depth * SCENE.tip_depth)
+        (node,) = [line for line in panel.lines if line.get_marker() == "o"]
+        assert (node.get_xdata()[0], node.get_ydata()[0]) == pytest.approx((0, depth * 100e-6))
 
 
 def test_worn_heights_in_micrometres(panels):
@@ -44,12 +57,14 @@ def test_worn_heights_in_micrometres(panels):
         [bar.get_height() for bar in elastic], 1e6 * (SCENE.shortening - SCENE.wear), atol=1e-9
     )
     np.testing.assert_allclose([bar.get_y() for bar in element], 1e6 * SCENE.shortening)
+    np.testing.assert_allclose([bar.get_x() + bar.get_width() / 2 for bar in worn], 2.0 * SCENE.element)
     assert "(µm)" in panels[1].get_ylabel()
     assert "(mm)" in panels[1].get_xlabel()
 
 
 def test_angle_and_force_are_drawn(panels):
-    texts = [text.get_text() for text in panels[0].texts]
-    assert r"$\theta$ = 0.15 rad" in texts
-    assert "$F^c$" in texts
-    assert "rigid casing" in texts
+    texts = {text.get_text(): text for text in panels[0].texts}
+    assert {r"$\theta$ = 0.15 rad", "rigid casing"} <= texts.keys()
+    x, y = texts["$F^c$"].xy  # end of the force on the node at (0, 0.1) mm, along the elements
+    assert (x < 0, y < 0.1) == (True, True)
+    assert x / (y - 0.1) == pytest.approx(np.tan(0.15))

@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import LogLocator, NullFormatter, StrMethodFormatter
 
 from bladerub.plots import titles
-from bladerub.plots.cells import edges
+from bladerub.plots.bins import edges
 from bladerub.plots.style import DARK, MISSING
 
 PAPER_E = (0.11, 0.2, 0.5, 1.1, 1.5, 2.0, 5.0, 11.0, 20.0)

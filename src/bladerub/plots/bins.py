@@ -1,4 +1,4 @@
-"""Cells of colour maps: where each simulated speed reaches to, and where nothing was simulated."""
+"""Bins of colour maps: where each simulated speed reaches to, and where nothing was simulated."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import numpy as np
 
 
 def edges(centres: np.ndarray) -> np.ndarray:
-    """Edges (n + 1,) of the cells around the ascending `centres` (n,), half-way between neighbours.
+    """Edges (n + 1,) of the bins around the ascending `centres` (n,), half-way between neighbours.
 
     Raises
     ------
@@ -15,16 +15,16 @@ def edges(centres: np.ndarray) -> np.ndarray:
     """
     centres = np.asarray(centres, dtype=float)
     if centres.size < 2 or np.any(np.diff(centres) <= 0):
-        raise ValueError(f"cells need two or more ascending centres, not {centres}")
+        raise ValueError(f"bins need two or more ascending centres, not {centres}")
     middle = (centres[1:] + centres[:-1]) / 2
     return np.concatenate([[2 * centres[0] - middle[0]], middle, [2 * centres[-1] - middle[-1]]])
 
 
-def with_holes(f_omega: np.ndarray, values: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Cells around the simulated speeds, with an empty row wherever speeds are missing.
+def with_gaps(f_omega: np.ndarray, values: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Bins around the simulated speeds, with an empty row wherever speeds are missing.
 
-    A cell reaches to the middle between neighbours, but no further than the usual speed step: a long
-    stretch without a simulation stays a hole and is not filled by its ends.
+    A bin reaches to the middle between neighbours, but no further than the usual speed step: a long
+    stretch without a simulation stays a gap.
 
     Parameters
     ----------
@@ -36,20 +36,19 @@ def with_holes(f_omega: np.ndarray, values: np.ndarray) -> tuple[np.ndarray, np.
     Returns
     -------
     speed_edges : (m + 1,) ndarray
-        Edges of the m ≥ n cells.
+        Edges of the m ≥ n bins.
     rows : (m, ...) ndarray
-        The rows of `values`, and rows of NaN in the holes.
+        The rows of `values`, and rows of NaN in the gaps.
     """
     f_omega, values = np.asarray(f_omega, dtype=float), np.asarray(values, dtype=float)
     middle = edges(f_omega)
     reach = np.median(np.diff(f_omega))
     lower, upper = np.maximum(middle[:-1], f_omega - reach), np.minimum(middle[1:], f_omega + reach)
-    hole = np.full(values.shape[1:], np.nan)
     speed_edges, rows = [lower[0]], []
     for low, high, row in zip(lower, upper, values, strict=True):
         if low > speed_edges[-1]:
             speed_edges.append(low)
-            rows.append(hole)
+            rows.append(np.full(row.shape, np.nan))
         speed_edges.append(high)
         rows.append(row)
     return np.array(speed_edges), np.array(rows)

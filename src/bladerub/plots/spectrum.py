@@ -1,0 +1,150 @@
+"""Spectrum of the blade over frequency and speed, with the engine orders, C1 and the peaks."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.collections import QuadMesh
+from matplotlib.colors import LogNorm
+from matplotlib.figure import Figure
+
+from bladerub.plots import bins, engine_orders, titles
+from bladerub.plots.style import AMPLITUDE_MAP, BLUE, DARK, MISSING, ORANGE, PAGE, RED, new_figure, styled
+from bladerub.study.maps import CoatingMap
+from bladerub.study.peaks import Peak
+
+ORDERS = range(1, 13)
+"""Engine orders that are drawn and labelled."""
+
+_LOOKS = (
+    {"color": DARK, "linestyle": "-", "marker": "o"},
+    {"color": ORANGE, "linestyle": "--", "marker": "s"},
+)
+_RING = {"marker": "o", "fillstyle": "none", "zorder": 4, "linestyle": "none"}
+
+
+@dataclass(frozen=True)
+class PeakSection:
+    """Amplitude along one engine order, and its maximum.
+
+    Parameters
+    ----------
+    order : int
+        The engine order k.
+    amplitude : (n,) ndarray
+        Amplitude on eo(k) at each speed, m.
+    window : (float, float)
+        Speeds between which the maximum was searched, normalised.
+    peak : Peak
+        The maximum: f_k and Y_k.
+    """
+
+    order: int
+    amplitude: np.ndarray
+    window: tuple[float, float]
+    peak: Peak
+
+
+@styled
+def spectrum_map(coating: CoatingMap, amplitude_range: tuple[float, float], f_max: float) -> Figure:
+    """Draw Figs. 7, 8, 9, 15 and 16: f horizontally, f_Ω vertically, amplitude in colour.
+
+    Parameters
+    ----------
+    coating : CoatingMap
+        Runs of one coating at all speeds.
+    amplitude_range : (float, float)
+        Ends of the logarithmic colour scale, m.
+    f_max : float
+        Right end of the frequency axis, normalised.
+    """
+    figure = new_figure(PAGE, 0.62 * PAGE)
+    axes = figure.add_subplot()
+    mesh = _draw_spectrum(axes, coating, amplitude_range, f_max)
+    axes.set_title(titles.coating(coating.case), pad=16)
+    _add_colour_bar(figure, axes, mesh)
+    return figure
+
+
+@styled
+def peak_sections(
+    coating: CoatingMap, sections: list[PeakSection], amplitude_range: tuple[float, float], f_max: float
+) -> Figure:
+    """Draw Fig. 10: the spectrum with Y_k marked (a), the amplitude along eo(k) with its window (b).
+
+    Parameters
+    ----------
+    coating, amplitude_range, f_max
+        As of `spectrum_map`.
+    sections : list of PeakSection
+        One or two.
+    """
+    figure = new_figure(PAGE, 0.66 * PAGE)
+    spectrum, curves = figure.subplots(1, 2, sharey=True, width_ratios=[1.5, 1])
+    mesh = _draw_spectrum(spectrum, coating, amplitude_range, f_max)
+    spectrum.set_title("(a) " + titles.coating(coating.case), pad=16)
+    _add_colour_bar(figure, spectrum, mesh, location="bottom", aspect=40)
+    ray = coating.f_omega[-1] * np.array([0, 1])
+    for section, look in zip(sections, _LOOKS, strict=False):
+        spectrum.plot(section.order * ray, ray, color=RED, linewidth=0.8, label="_section")
+        _draw_ring(spectrum, section.order * section.peak.f_omega, section.peak.f_omega)
+        _draw_section(curves, coating.f_omega, section, look)
+    curves.set_title("(b) along the engine orders", pad=16)
+    end = 1e3 * max(np.nanmax(section.amplitude) for section in sections)
+    curves.set(xlim=(0, 1.1 * end), xlabel="amplitude (mm)")
+    curves.tick_params(labelleft=True)
+    legend = curves.legend(
+        loc="upper center", bbox_to_anchor=(0.45, -0.11), title="shaded: searched speeds", title_fontsize=7
+    )
+    legend.set_in_layout(False)  # it is in the room that the colour bar makes
+    return figure
+
+
+def _draw_spectrum(
+    axes: Axes, coating: CoatingMap, amplitude_range: tuple[float, float], f_max: float
+) -> QuadMesh:
+    speed_edges, rows = bins.with_gaps(coating.f_omega, 1e3 * coating.spectrum_amplitude)
+    order_edges = np.maximum(bins.edges(coating.spectrum_order), 0)
+    frequency_edges = np.outer(speed_edges, order_edges)
+    low, high = amplitude_range
+    mesh = axes.pcolormesh(
+        frequency_edges,
+        np.broadcast_to(speed_edges[:, None], frequency_edges.shape),
+        np.ma.masked_invalid(rows),
+        cmap=AMPLITUDE_MAP,
+        norm=LogNorm(1e3 * low, 1e3 * high),
+        rasterized=True,
+    )
+    speed_max = float(speed_edges[-1])
+    engine_orders.over_frequency(axes, ORDERS, f_max, speed_max)
+    dashed = {"color": BLUE, "linestyle": (0, (5, 2)), "linewidth": 1.4}
+    axes.plot(coating.C1, coating.f_omega, label="$C_1$", zorder=3, **dashed)
+    axes.set(
+        facecolor=MISSING,
+        xlim=(0, f_max),
+        ylim=(0, speed_max),
+        xlabel=r"frequency $f\,/\,f_1(0)$",
+        ylabel=r"rotational frequency $f_\Omega\,/\,f_1(0)$",
+    )
+    axes.legend(loc="lower right", title="grey: not computed", title_fontsize=7)
+    return mesh
+
+
+def _add_colour_bar(figure: Figure, axes: Axes, mesh: QuadMesh, **place) -> None:
+    label = "amplitude of node 1, radial (mm, log scale)"
+    figure.colorbar(mesh, ax=axes, label=label, extend="both", pad=0.015, **place)
+
+
+def _draw_section(axes: Axes, f_omega: np.ndarray, section: PeakSection, look: dict) -> None:
+    k, f_peak, height = section.order, section.peak.f_omega, 1e3 * section.peak.amplitude
+    label = f"eo({k}): $Y_{{{k}}}$ = {height:.3g} mm at $f_{{{k}}}$ = {f_peak:.3f}"
+    axes.axhspan(*section.window, color=look["color"], alpha=0.13, linewidth=0, label=f"_window{k}")
+    axes.plot(1e3 * section.amplitude, f_omega, markersize=2.2, linewidth=1.0, label=label, **look)
+    _draw_ring(axes, height, f_peak)
+
+
+def _draw_ring(axes: Axes, x: float, y: float) -> None:
+    axes.plot(x, y, color="white", markersize=10, markeredgewidth=3, label="_halo", **_RING)
+    axes.plot(x, y, color=RED, markersize=10, markeredgewidth=1.4, label="_peak", **_RING)

@@ -1,0 +1,31 @@
+"""What the scripts of the rules write: tables that say what made them, and figures."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pandas as pd
+from matplotlib.figure import Figure
+
+from bladerub.io import tables
+from bladerub.io.provenance import provenance
+from bladerub.plots import style
+
+
+def save(snakemake: Any, figure: Figure | None = None, **named: pd.DataFrame) -> None:
+    """Write the outputs of a job of the workflow.
+
+    Parameters
+    ----------
+    snakemake : object
+        What Snakemake hands to a script: ``output``, ``config`` and ``params``, the last with ``dpi``.
+    figure : Figure, optional
+        Goes to the outputs ``png`` and ``pdf``.
+    **named : DataFrame
+        Tables by the name of their output. That of a figure, ``data``, is written to six digits.
+    """
+    for name, table in named.items():
+        digits = "%.6g" if name == "data" else None
+        tables.write(snakemake.output[name], table, provenance(snakemake.config), digits)
+    if figure is not None:
+        style.save(figure, snakemake.output["png"], snakemake.output["pdf"], snakemake.params["dpi"])

@@ -1,0 +1,68 @@
+# Where the rules write to, and what Snakemake's report (`snakemake --report report.html`) shows, in which order.
+from bladerub.io.sources import files_behind
+
+
+report: "../report/workflow.rst"
+
+
+TABLES = f"{RESULTS}/tables"
+PLOTS = f"{RESULTS}/figures"
+DPI = config["figures"]["dpi"]
+
+CATEGORIES = {
+    name: f"{number}. {name}"  # the report sorts them by name
+    for number, name in enumerate(
+        [
+            "Model",
+            "Wear and spectra",
+            "Moduli of the coating",
+            "Angle of the elements",
+            "Claims",
+            "Sweeps and long runs",
+            "Cost",
+            "Choice of a coating",
+        ],
+        1,
+    )
+}
+
+
+def shown(path, name, category):
+    """A file that the report shows; the first line of its caption is its name there."""
+    caption = f"../report/{name}.rst"
+    with open(workflow.source_path(caption), encoding="utf-8") as lines:
+        title = next(lines).strip()
+    return report(
+        path,
+        caption=caption,
+        category=CATEGORIES[category],
+        labels={"what": title, "as": path.rsplit(".", 1)[-1]},
+    )
+
+
+def described(**tables):
+    """Tables by name, each with the description of its columns that is written next to it."""
+    descriptions = {
+        f"{name}_description": f"{path}-metadata.json" for name, path in tables.items()
+    }
+    return tables | descriptions
+
+
+def drawn(name, category, with_data=False):
+    """The files of a figure; the one with a speed in its name has one caption for all."""
+    files = {
+        "png": shown(f"{PLOTS}/{name}.png", name.split("_{")[0], category),
+        "pdf": f"{PLOTS}/{name}.pdf",
+    }
+    data = described(data=f"{PLOTS}/{name}.csv") if with_data else {}
+    return files | data
+
+
+def memory_mb(wildcards, attempt):
+    """At least three times what was measured."""
+    return 2000 * attempt
+
+
+def minutes(first):
+    """Time to ask a cluster for: at least three times what was measured."""
+    return lambda wildcards, attempt: first * attempt

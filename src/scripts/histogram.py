@@ -1,0 +1,12 @@
+"""Figs. 11 to 14: amplitude (m, drawn in mm) or speed of the peak on an engine order, over E and K."""
+
+from bladerub.io import tables
+from bladerub.plots.histogram import peak_histogram
+from bladerub.study.peaks import COLUMNS
+from bladerub.workflow import job, outputs
+
+job.log_to(snakemake.log[0])
+
+peaks = tables.read(snakemake.input.peaks, COLUMNS).query(snakemake.params.coatings)
+data, figure = peak_histogram(peaks, snakemake.params.quantity, snakemake.params.order)
+outputs.save(snakemake, figure, data=data)

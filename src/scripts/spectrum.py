@@ -1,0 +1,14 @@
+"""Figs. 7, 8, 9, 15 and 16: spectrum of the blade over the speed on one coating.
+
+The data are the map of the coating in ``maps/``.
+"""
+
+from bladerub.plots.spectrum import spectrum_map
+from bladerub.study.maps import read_map
+from bladerub.workflow import job, outputs
+
+job.log_to(snakemake.log[0])
+
+settings = snakemake.params
+figure = spectrum_map(read_map(snakemake.input.map), settings.amplitude_range, settings.max_frequency)
+outputs.save(snakemake, figure)

@@ -1,0 +1,12 @@
+"""Fig. 6, wear patterns of the 2 + 5 casing, and the same of any coating.
+
+The data are the map of the coating in ``maps/``.
+"""
+
+from bladerub.plots.wear_map import wear_map
+from bladerub.study.maps import read_map
+from bladerub.workflow import job, outputs
+
+job.log_to(snakemake.log[0])
+
+outputs.save(snakemake, wear_map(read_map(snakemake.input.map)))

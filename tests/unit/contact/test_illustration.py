@@ -1,0 +1,43 @@
+import numpy as np
+import pytest
+
+from bladerub.contact.illustration import loading_cycle, pressed_elements
+from bladerub.contact.spec import Coating, TipProfile
+
+COATING = Coating(2.0, 0.5, 0.15, yield_stress=0.01, modulus_unit=1e8, thickness=5e-3, n_elements=2000)
+
+
+def test_a_loading_cycle_follows_the_moduli():
+    cycle = loading_cycle(COATING, (0.0, 0.03, 0.0), steps=30)
+    np.testing.assert_allclose(cycle.strain, np.concatenate([np.arange(31), np.arange(29, -1, -1)]) * 1e-3)
+    plastic = (2 * 0.03 - 0.01) / 2.5
+    assert cycle.plastic_strain[30:] == pytest.approx(plastic)
+    assert cycle.stress[30] == pytest.approx(2 * (0.03 - plastic))
+    np.testing.assert_allclose(cycle.stress[:5], 2 * cycle.strain[:5])  # below the elastic limit
+    np.testing.assert_allclose(np.diff(cycle.stress[8:30]), 1e-3 * 2 * 0.5 / 2.5)
+    assert cycle.stress[-1] == 0
+
+
+@pytest.fixture
+def scene():
+    return pressed_elements(COATING, TipProfile(half_width=3.0, edge_drop=1e-4), 0.65, depth=1.5e-4, reach=6)
+
+
+def test_elements_behind_the_tip_are_worn_and_those_ahead_are_not(scene):
+    assert scene.element.tolist() == list(range(-6, 7))
+    assert scene.width == pytest.approx(2 * np.pi * 0.65 / 2000)
+    behind, ahead = scene.element < -3, scene.element > 3
+    assert (scene.wear[behind] > 0).all()
+    assert scene.wear[behind] == pytest.approx(scene.wear[0])
+    assert not scene.wear[ahead].any()
+    assert not scene.stress[behind | ahead].any()
+
+
+def test_elements_under_the_tip_are_as_short_as_its_profile(scene):
+    under = np.abs(scene.element) <= 3
+    profile = 1.5e-4 - 1e-4 * (scene.element[under] / 3) ** 2
+    np.testing.assert_allclose(scene.shortening[under], np.maximum(profile, scene.wear[under]))
+    assert scene.shortening[6] == scene.tip_depth.max() == 1.5e-4
+    assert scene.stress[6] == pytest.approx(2 * (scene.shortening[6] - scene.wear[6]) / 5e-3)
+    np.testing.assert_allclose(scene.tip_depth, 1.5e-4 - 1e-4 * (scene.tip_offset / 3) ** 2)
+    assert scene.tip_offset[[0, -1]] == pytest.approx([-3.5, 3.5])

@@ -1,0 +1,90 @@
+import numpy as np
+import pytest
+
+from bladerub.plots.spectrum import ORDERS, PeakSection, peak_sections, spectrum_map
+from bladerub.study.peaks import Peak
+
+RANGE = (5e-7, 5e-4)
+
+
+@pytest.fixture
+def axes(coating_map, draws):
+    return draws(spectrum_map(coating_map, RANGE, f_max=2.5)).axes
+
+
+def test_axes_and_colour_bar_are_named_with_their_units(axes):
+    assert "f" in axes[0].get_xlabel()
+    assert r"f_\Omega" in axes[0].get_ylabel()
+    assert "(mm, log scale)" in axes[1].get_ylabel()
+    assert axes[0].get_title(loc="left") == "casing 2nd, E = 0.11, K = 0.5, θ = 0.15 rad"
+
+
+def test_colours_are_the_amplitudes_in_mm_on_the_given_scale(axes, coating_map):
+    mesh = axes[0].collections[0]
+    drawn = mesh.get_array().reshape(6, -1)
+    np.testing.assert_allclose(drawn[4], 1e3 * coating_map.spectrum_amplitude[4])
+    assert (mesh.norm.vmin, mesh.norm.vmax) == pytest.approx((5e-4, 0.5))
+
+
+def test_a_run_without_a_spectrum_is_a_gap(axes):
+    drawn = axes[0].collections[0].get_array().reshape(6, -1)
+    assert drawn.mask[2].all()
+    assert not drawn.mask[[0, 1, 3, 4, 5]].any()
+
+
+def test_each_bin_lies_on_its_frequency(axes, coating_map):
+    corners = axes[0].collections[0].get_coordinates()
+    centres = (corners[1:, 1:] + corners[:-1, :-1]) / 2
+    speed, order = 4, 8  # f_Ω = 0.3, eo(4)
+    assert corners[speed, order, 0] < 4 * 0.3 < corners[speed + 1, order + 1, 0]
+    assert centres[speed, order, 1] == pytest.approx(coating_map.f_omega[speed])
+
+
+def test_c1_is_the_frequency_of_the_blade(axes, coating_map):
+    (c1,) = [line for line in axes[0].lines if line.get_label() == "$C_1$"]
+    np.testing.assert_array_equal(c1.get_xdata(), coating_map.C1)
+    np.testing.assert_array_equal(c1.get_ydata(), coating_map.f_omega)
+    assert c1.is_dashed()
+    assert len(axes[0].lines) == len(ORDERS) + 1
+
+
+@pytest.fixture
+def sections(coating_map):
+    on_order = coating_map.spectrum_amplitude[:, 8]
+    return [
+        PeakSection(4, on_order, (0.25, 0.36), Peak(0.3, on_order[4])),
+        PeakSection(6, coating_map.spectrum_amplitude[:, 12], (0.16, 0.24), Peak(0.2, 1e-6)),
+    ]
+
+
+@pytest.fixture
+def peak_axes(coating_map, sections, draws):
+    return draws(peak_sections(coating_map, sections, RANGE, f_max=2.5)).axes
+
+
+def test_curves_are_the_amplitudes_in_mm(peak_axes, sections):
+    curves = [line for line in peak_axes[1].lines if line.get_label().startswith("eo(")]
+    assert len(curves) == 2
+    for curve, section in zip(curves, sections, strict=True):
+        np.testing.assert_allclose(curve.get_xdata(), 1e3 * section.amplitude)
+    assert peak_axes[1].get_xlabel() == "amplitude (mm)"
+
+
+def test_the_legend_gives_height_and_speed(peak_axes):
+    texts = [text.get_text() for text in peak_axes[1].get_legend().get_texts()]
+    assert texts[0] == "eo(4): $Y_{4}$ = 0.101 mm at $f_{4}$ = 0.300"
+
+
+def test_maxima_are_ringed_in_both_panels(peak_axes):
+    on_spectrum = [line.get_xydata()[0] for line in peak_axes[0].lines if line.get_label() == "_peak"]
+    on_curves = [line.get_xydata()[0] for line in peak_axes[1].lines if line.get_label() == "_peak"]
+    np.testing.assert_allclose(on_spectrum, [[4 * 0.3, 0.3], [6 * 0.2, 0.2]])
+    np.testing.assert_allclose(on_curves, [[0.101, 0.3], [1e-3, 0.2]])
+
+
+def test_the_searched_speeds_are_shaded(peak_axes, sections):
+    bands = [
+        patch.get_extents().transformed(peak_axes[1].transData.inverted()) for patch in peak_axes[1].patches
+    ]
+    for band, section in zip(bands, sections, strict=True):
+        assert (band.y0, band.y1) == pytest.approx(section.window)

@@ -1,0 +1,32 @@
+from types import SimpleNamespace
+
+import pandas as pd
+import pytest
+from matplotlib.image import imread
+
+from bladerub.io import tables
+from bladerub.plots import style
+from bladerub.workflow import outputs
+
+TABLE = pd.DataFrame({"f_omega": [0.1234567891], "theta": [0.15]})
+
+
+@pytest.fixture
+def job(tmp_path):
+    paths = {name: str(tmp_path / f"a.{name}") for name in ("png", "pdf")}
+    paths |= {name: str(tmp_path / f"{name}.csv") for name in ("table", "data")}
+    return SimpleNamespace(output=paths, config={"seed": 1}, params={"dpi": 70})
+
+
+def test_tables_and_figure_go_to_their_outputs(job):
+    outputs.save(job, style.new_figure(2, 1), table=TABLE, data=TABLE)
+    assert imread(job.output["png"]).shape[:2] == (70, 140)
+    with open(job.output["pdf"], "rb") as stream:
+        assert stream.read(4) == b"%PDF"
+    pd.testing.assert_frame_equal(tables.read(job.output["table"]), TABLE)
+    assert tables.read(job.output["data"])["f_omega"].tolist() == [0.123457]
+
+
+def test_a_table_alone_needs_no_figure(job, tmp_path):
+    outputs.save(job, table=TABLE)
+    assert {path.name for path in tmp_path.iterdir()} == {"table.csv", "table.csv-metadata.json"}
