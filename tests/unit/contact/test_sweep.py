@@ -114,13 +114,11 @@ def test_the_energy_of_free_motion_is_the_work_of_the_stiffness(blade, away, cha
     assert passage.work_stiffness == pytest.approx(gained, rel=1e-3)
 
 
-@pytest.mark.parametrize("max_time_step", [1e-5, 2e-6], ids=["same steps", "more steps where slower"])
-def test_the_ledger_closes_as_at_constant_speed(blade, spec, change, max_time_step):
-    run = change(spec, f_omega=0.25, revolutions=0, steps_per_element=40, max_time_step=max_time_step)
+def test_the_ledger_closes_as_at_constant_speed(blade, spec, change):
+    run = change(spec, f_omega=0.25, revolutions=0, steps_per_element=40)
     passage = simulate_sweep(blade, SweepSpec(run, 0.35, 1.0, 1e-3))
     constant = simulate(blade, change(run, f_omega=0.3, revolutions=passage.f_omega.size))
     assert passage.n_contact_steps > 1000
-    assert passage.energy.work_rotation > 0
     assert passage.residual < 3 * max(constant.energy.residual, 1e-5)
 
 
