@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
+from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
@@ -12,20 +13,9 @@ from bladerub.study.growth import judge
 from bladerub.study.maps import CoatingMap, read_map
 
 COLUMNS = [
-    "casing",
-    "E",
-    "K",
-    "theta",
-    "f_omega",
-    "growth_per_revolution",
-    "saturating",
-    "divergent",
-    "lobes",
-    "growth_low",
-    "growth_high",
-    "revolutions",
-    "status",
-    "law",
+    *("casing", "E", "K", "theta", "f_omega"),
+    *("growth_per_revolution", "saturating", "divergent", "lobes"),
+    *("growth_low", "growth_high", "revolutions", "status", "law"),
 ]
 """Columns of ``divergence.csv``: f_omega is normalised, growth relative (0.03 is 3 % a revolution).
 
@@ -40,24 +30,10 @@ def table(config: Mapping[str, Any], map_paths: Iterable[str | Path]) -> pd.Data
 
 
 def of_maps(config: Mapping[str, Any], maps: Iterable[CoatingMap]) -> pd.DataFrame:
-    """Judge every run of the maps.
-
-    Parameters
-    ----------
-    config : mapping
-        ``analysis.divergence`` has the thresholds.
-    maps : iterable of CoatingMap
-        The coatings.
-
-    Returns
-    -------
-    DataFrame
-        A row per run, with `COLUMNS`.
-    """
+    """Judge every run of the maps by ``analysis.divergence``: a row each, with `COLUMNS`."""
     settings = config["analysis"]["divergence"]
     rows = []
     for coating in maps:
-        case = coating.case
         for f_omega, amplitude, longer, lobes, status in zip(
             coating.f_omega,
             coating.revolution_amplitude,
@@ -67,23 +43,18 @@ def of_maps(config: Mapping[str, Any], maps: Iterable[CoatingMap]) -> pd.DataFra
             strict=True,
         ):
             verdict = judge(amplitude, status, settings, longer)
-            growth = verdict.growth
             rows.append(
-                {
-                    "casing": case.casing,
-                    "E": case.E,
-                    "K": case.K,
-                    "theta": case.theta,
+                asdict(coating.case)
+                | {
                     "f_omega": f_omega,
-                    "growth_per_revolution": growth.per_revolution,
+                    "growth_per_revolution": verdict.growth.per_revolution,
+                    "growth_low": verdict.growth.low,
+                    "growth_high": verdict.growth.high,
                     "saturating": verdict.saturating,
                     "divergent": verdict.divergent,
                     "lobes": lobes,
-                    "growth_low": growth.low,
-                    "growth_high": growth.high,
                     "revolutions": verdict.revolutions,
                     "status": verdict.status,
-                    "law": case.law,
                 }
             )
     return pd.DataFrame(rows, columns=COLUMNS)

@@ -15,8 +15,11 @@ SPEED_DECIMALS = 6
 
 UNSCALED = {"length": 1.0, "modulus": 1.0, "time": 1.0}
 """``contact.scale`` where the config has none: all its values are absolute."""
-MOST_COATINGS = 5000
+
+MAX_COATINGS = 5000
 """Coatings of a study; each is a job, and Snakemake plans no more than some ten thousand."""
+
+_VARIED = ("E", "K", "theta", "friction")  # lists in an entry of coatings, of which every combination is run
 
 
 @dataclass(frozen=True)
@@ -53,13 +56,7 @@ class CoatingCase:
 
     @classmethod
     def described(cls, attributes: Mapping[str, Any]) -> CoatingCase:
-        """Read what `attributes` of a run or a map say of the coating.
-
-        Raises
-        ------
-        KeyError
-            If one of them is missing.
-        """
+        """Read the coating from the attributes of a run or a map; raise `KeyError` if one is missing."""
         return cls(**{field.name: attributes[field.name] for field in fields(cls)})
 
     @property
@@ -86,16 +83,16 @@ def coating_cases(config: Mapping[str, Any]) -> list[CoatingCase]:
     Raises
     ------
     ValueError
-        If a coating is listed twice, or there are more than `MOST_COATINGS`; the message names the entry.
+        If a coating is listed twice, or there are more than `MAX_COATINGS`; the message names the entry.
     """
     cases: dict[str, CoatingCase] = {}
     for index, entry in enumerate(config["coatings"]):
-        varied = [key for key in ("E", "K", "theta", "friction") if key in entry]
+        varied = [key for key in _VARIED if key in entry]
         n_cases = len(cases) + math.prod(len(entry[key]) for key in varied)
-        if n_cases > MOST_COATINGS:
+        if n_cases > MAX_COATINGS:
             raise ValueError(
                 f"coatings[{index}]: brings the coatings to {n_cases}, all combinations counted; must be "
-                f"{MOST_COATINGS} or fewer"
+                f"{MAX_COATINGS} or fewer"
             )
         for values in itertools.product(*(entry[key] for key in varied)):
             case = listed_case({**entry, **dict(zip(varied, values, strict=True))})
@@ -106,16 +103,11 @@ def coating_cases(config: Mapping[str, Any]) -> list[CoatingCase]:
 
 
 def listed_case(entry: Mapping[str, Any]) -> CoatingCase:
-    """Read one coating as the config lists it.
-
-    ``casing, E, K`` with ``theta`` or ``friction``, or ``casing, coating, friction``.
-    """
+    """Read one coating: ``casing, E, K`` with ``theta`` or ``friction``, or ``casing, coating, friction``."""
+    casing, values = entry["casing"], {key: float(entry[key]) for key in _VARIED if key in entry}
     if "coating" in entry:
-        return CoatingCase.rigid(entry["casing"], float(entry["friction"]))
-    if "friction" in entry:
-        modulus = float(entry["E"]), float(entry["K"])
-        return CoatingCase.coulomb(entry["casing"], *modulus, float(entry["friction"]))
-    return CoatingCase(entry["casing"], float(entry["E"]), float(entry["K"]), float(entry["theta"]))
+        return CoatingCase.rigid(casing, **values)
+    return CoatingCase.coulomb(casing, **values) if "friction" in values else CoatingCase(casing, **values)
 
 
 def compared_cases(config: Mapping[str, Any]) -> list[tuple[CoatingCase, CoatingCase]]:
@@ -128,7 +120,7 @@ def compared_cases(config: Mapping[str, Any]) -> list[tuple[CoatingCase, Coating
 
 
 def case_from_name(config: Mapping[str, Any], name: str) -> CoatingCase:
-    """Find the coating called `name` in the config, among `coating_cases` or `compared_cases`.
+    """Find the coating called `name` among `coating_cases` and `compared_cases`.
 
     Raises
     ------

@@ -3,35 +3,35 @@
 The paper calls a run divergent when its amplitude "continuously grows with time". Here that is:
 
 1. The amplitude A_i is half the range of the radial displacement of node 1 in revolution i. The mean
-   deflection under the rub, which changes as the coating wears, is no part of it.
-2. The growth rate is the slope s of ln A_i over the last ``revolutions``, by least squares; of a run that
-   left all bounds, over the last before its end. Growth per revolution is ``exp(s) - 1``.
+   deflection in contact, which changes as the coating wears, is no part of it.
+2. The growth rate is the slope s of ln A_i over the last ``revolutions``, by least squares; of an unbounded
+   run, over the last before its end. Growth per revolution is ``exp(s) - 1``.
 3. Its confidence interval is ``exp(s ± t e) - 1``: e is the standard error of the slope from the scatter of
    ln A_i about the line, t the two-sided quantile of Student's distribution at ``confidence`` with n − 2
    degrees of freedom. The scatter counts as `RESOLUTION` at least, and revolutions as independent of each
    other.
 4. A run grows when the lower end of that interval is above ``growth``, and the greatest amplitude of those
    revolutions exceeds the greatest before them by more than so much growth would make in that time: a beat
-   that comes round again is no growth.
+   that returns is no growth.
 5. A growing run levels off when a parabola through the same ln A_i is surely bent downwards (the interval
    of its curvature is below 0) and its slope at the last revolution is no longer surely above ``growth``
    (the lower end of its interval is not); both with t at n − 3 degrees of freedom.
 6. A completed run that grows, levelling off or not, is repeated for ``confirmation_revolutions``, and the
-   last ``revolutions`` of the longer run are judged in the same way.
+   last ``revolutions`` of the longer run are judged in the same manner.
 7. A run is saturating when it grows but levels off, or when it grew and the longer run no longer does (it
    may also have turned to decay).
-8. A run is divergent when it left all bounds, or grows and does not level off.
+8. A run is divergent when it is unbounded, or grows and does not level off.
 
-What 20 revolutions can tell, from the last 10 of them at a threshold of 1 % and a confidence of 95 %, found
+What 20 revolutions can show, from the last 10 of them at a threshold of 1 % and a confidence of 95 %, found
 on made-up amplitudes (``tests/unit/study/test_growth.py``); real runs scatter by 0.1 to 20 % between
 revolutions:
 
 - A steady run passes for growing in at most 1 case of 100, whatever the scatter, and in 7 where
   neighbouring revolutions are correlated by 0.8.
 - Growth of 3 % is found whenever the scatter is below 2 %, in 9 cases of 10 at 5 % and in 3 of 10 at 10 %.
-- Saturation as ``1 - exp(-i / τ)`` is told from growth for τ of 6 to 9 revolutions; faster ones are steady
-  by then. From τ = 11 on the growth at the end is still surely above 1 %, and the run passes for divergent.
-  A scatter of 2 % hides the bend in half of the cases.
+- Saturation as ``1 - exp(-i / τ)`` is distinguished from growth for τ of 6 to 9 revolutions; faster ones are
+  steady by then. From τ = 11 on the growth at the end is still surely above 1 %, and the run passes for
+  divergent. A scatter of 2 % hides the bend in half of the cases.
 - A beat with a period above 20 revolutions passes for growing in up to 4 of 10 phases, and so does a
   slow onset that wear will end. Both are what the longer run is for: with 60 revolutions, saturation is
   found up to τ = 45 and no beat with a period up to 60 passes.
@@ -40,8 +40,8 @@ revolutions:
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
-from typing import Any
+from dataclasses import replace
+from typing import Any, NamedTuple
 
 import numpy as np
 from scipy.special import stdtrit
@@ -50,11 +50,10 @@ from bladerub.contact.spec import RunSpec
 from bladerub.io.sources import growth_digest
 
 RESOLUTION = 1e-3
-"""Relative scatter below which amplitudes tell nothing: the accuracy of a run is not better."""
+"""Relative scatter below which amplitudes show nothing: the accuracy of a run is not better."""
 
 
-@dataclass(frozen=True)
-class Growth:
+class Growth(NamedTuple):
     """Growth of an amplitude over its last revolutions, see the definitions 2 to 5 of this module.
 
     Parameters
@@ -70,13 +69,12 @@ class Growth:
     per_revolution: float
     low: float
     high: float
-    grows: bool
-    levels_off: bool
+    grows: bool = False
+    levels_off: bool = False
 
 
-@dataclass(frozen=True)
-class Verdict:
-    """What is said of one run, see the definitions 6 to 8 of this module.
+class Verdict(NamedTuple):
+    """The verdict on one run, see the definitions 6 to 8 of this module.
 
     Parameters
     ----------
@@ -110,11 +108,11 @@ def growth(amplitude: np.ndarray, settings: Mapping[str, Any]) -> Growth:
     begun = amplitude[np.isfinite(amplitude)]
     window = begun[-settings["revolutions"] :]
     if window.size and not window.any():
-        return Growth(0.0, 0.0, 0.0, False, False)
+        return Growth(0.0, 0.0, 0.0)
     number = np.flatnonzero(window > 0)
     log_amplitude, time = np.log(window[number]), number - float(window.size - 1)
     if number.size < 2:
-        return Growth(float("nan"), float("nan"), float("nan"), False, False)
+        return Growth(float("nan"), float("nan"), float("nan"))
     (_, slope), (_, margin) = _parameters(time, log_amplitude, 1, settings["confidence"])
     low, high = np.expm1(slope - margin), np.expm1(slope + margin)
     threshold, before = settings["growth"], begun[: -settings["revolutions"]].max(initial=0.0)
@@ -137,8 +135,8 @@ def _parameters(
 ) -> tuple[np.ndarray, np.ndarray]:
     """Fit a polynomial in `time`: coefficients from the constant up, and half their confidence intervals.
 
-    Time is 0 at the last revolution, so the second coefficient is the slope there. The half widths are
-    NaN where no revolution is left over to show the scatter.
+    Time is 0 at the last revolution, so the second coefficient is the slope there. The half widths are NaN
+    where no revolution is left to show the scatter.
     """
     design = np.vander(time, degree + 1, increasing=True)
     if time.size <= degree:
@@ -155,7 +153,7 @@ def _parameters(
 
 
 def needs_confirmation(amplitude: np.ndarray, status: str, settings: Mapping[str, Any]) -> bool:
-    """Tell whether a run of this amplitude and status is to be repeated for more revolutions."""
+    """Return whether a run of this amplitude and status is to be repeated for more revolutions."""
     wanted = settings["confirmation_revolutions"] > 0
     return wanted and status == "completed" and growth(amplitude, settings).grows
 

@@ -1,4 +1,4 @@
-"""How far the choices of the analysis decide the answers: the claims, put again to parts of the study.
+"""How far the choices of the analysis decide the verdicts: the claims, judged again on parts of the study.
 
 Nothing is simulated. Each variation drops speeds, Young moduli or plastic moduli of the study, or reads the
 peaks through another window; then every claim is judged as in the study.
@@ -9,7 +9,7 @@ from __future__ import annotations
 import copy
 import logging
 from collections.abc import Iterable, Mapping
-from dataclasses import fields, replace
+from dataclasses import replace
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -19,9 +19,9 @@ import pandas as pd
 from bladerub.study import divergence, findings, peaks
 from bladerub.study.findings.evidence import SAME_SPEED, Evidence, read_rom_accuracy
 from bladerub.study.grid import SPEED_DECIMALS, speeds
-from bladerub.study.maps import CoatingMap, read_map
+from bladerub.study.maps import DATASETS, CoatingMap, read_map
 
-COLUMNS = ["variation", "id", "claim", "paper", "measured", "unit", "holds", "margin"]
+COLUMNS = ["variation", *findings.COLUMNS]
 """Columns of ``margins.csv``: those of ``findings.csv`` for each variation."""
 
 STUDY = "study"
@@ -37,37 +37,19 @@ SETTINGS = {
 }
 """Other values in ``config["analysis"]``: where a peak is looked for, how wide an order is, what grows."""
 
-
+_IN_FIGURES = {"E": {0.11, 1.1, 2.0, 11.0, 20.0, np.inf}, "K": {0.5, np.inf}}  # moduli that are never dropped
 _log = logging.getLogger(__name__)
-
-_OF_FIGURES = {"E": {0.11, 1.1, 2.0, 11.0, 20.0, np.inf}, "K": {0.5, np.inf}}
 
 
 class Variation(NamedTuple):
-    """One way to look at the study.
-
-    Parameters
-    ----------
-    config : dict
-        With other windows or thresholds.
-    maps : list of CoatingMap
-        With fewer coatings or speeds.
-    """
+    """The study's config with another window or threshold, or its maps with fewer coatings or speeds."""
 
     config: dict[str, Any]
     maps: list[CoatingMap]
 
 
 def variations(config: Mapping[str, Any], maps: Iterable[CoatingMap]) -> dict[str, Variation]:
-    """List the variations by name, `STUDY` first.
-
-    Parameters
-    ----------
-    config : mapping
-        The study.
-    maps : iterable of CoatingMap
-        Its coatings.
-    """
+    """List the variations of the study of these `maps` by name, `STUDY` first."""
     maps, config = list(maps), dict(config)
     varied = {STUDY: Variation(config, maps)}
     if _even_speeds(config, 1).size < len(speeds(config)):
@@ -79,12 +61,15 @@ def variations(config: Mapping[str, Any], maps: Iterable[CoatingMap]) -> dict[st
         own = config["analysis"][part][key]
         # below the study's threshold of growth there are no longer runs to judge by
         if value != own and (key != "growth" or value > own):
-            varied[name] = Variation(_with(config, part, key, value), maps)
+            changed = copy.deepcopy(config)
+            changed["analysis"][part][key] = value
+            varied[name] = Variation(changed, maps)
     for modulus in ("E", "K"):
-        dropped = _every_second(maps, modulus)
+        values = {getattr(coating.case, modulus) for coating in maps}
+        dropped = sorted(values - _IN_FIGURES[modulus])[::2]
         kept = [coating for coating in maps if getattr(coating.case, modulus) not in dropped]
         if dropped and kept:
-            without = ", ".join(f"{value:g}" for value in sorted(dropped))
+            without = ", ".join(f"{value:g}" for value in dropped)
             varied[f"without {modulus} = {without}"] = Variation(config, kept)
     return varied
 
@@ -98,36 +83,15 @@ def _even_speeds(config: Mapping[str, Any], every: int) -> np.ndarray:
 
 
 def _at(maps: Iterable[CoatingMap], f_omega: np.ndarray) -> list[CoatingMap]:
-    return [
-        _select(coating, np.abs(coating.f_omega[:, None] - f_omega).min(axis=1) < SAME_SPEED)
-        for coating in maps
-    ]
-
-
-_NOT_OVER_SPEED = {"case", "angle", "spectrum_order"}
-
-
-def _select(coating: CoatingMap, chosen: np.ndarray) -> CoatingMap:
-    over_speed = {
-        field.name: getattr(coating, field.name)
-        for field in fields(CoatingMap)
-        if field.name not in _NOT_OVER_SPEED
-    }
-    return replace(
-        coating, **{name: values[chosen] for name, values in over_speed.items() if values is not None}
-    )
-
-
-def _with(config: Mapping[str, Any], part: str, key: str, value: Any) -> dict[str, Any]:
-    varied = copy.deepcopy(dict(config))
-    varied["analysis"][part][key] = value
-    return varied
-
-
-def _every_second(maps: Iterable[CoatingMap], modulus: str) -> set[float]:
-    """Return every second of the values that no figure stands on (those are `_OF_FIGURES`)."""
-    values = {getattr(coating.case, modulus) for coating in maps}
-    return set(sorted(values - _OF_FIGURES[modulus])[::2])
+    """Return `maps` at those of their speeds that are in `f_omega`."""
+    over_speed = [name for name, (dims, *_) in DATASETS.items() if dims[0] == "f_omega"]
+    selected = []
+    for coating in maps:
+        chosen = np.abs(coating.f_omega[:, None] - f_omega).min(axis=1) < SAME_SPEED
+        all_values = {name: getattr(coating, name) for name in over_speed}
+        values = {name: each[chosen] for name, each in all_values.items() if each is not None}
+        selected.append(replace(coating, **values))
+    return selected
 
 
 def table(
@@ -147,7 +111,7 @@ def table(
     Returns
     -------
     DataFrame
-        A row for each claim in each variation, with `COLUMNS`; a claim that a variation cannot tell has none.
+        A row for each claim in each variation, with `COLUMNS`; one that cannot be judged there has none.
         A variation that leaves no speed to look for a peak at is left out; the log says so.
 
     Raises
@@ -166,10 +130,7 @@ def table(
                 raise
             _log.warning("left out: all of it (%s)", error)
             continue
-        tables = {
-            "peaks": found,
-            "divergence": divergence.of_maps(settings, maps),
-            "rom_accuracy": rom_accuracy,
-        }
+        growing = divergence.of_maps(settings, maps)
+        tables = {"peaks": found, "divergence": growing, "rom_accuracy": rom_accuracy}
         judged.append(findings.judge(Evidence(settings, tables, maps)).assign(variation=name))
     return pd.concat(judged, ignore_index=True)[COLUMNS]

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Protocol
+from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 import pandas as pd
@@ -27,17 +26,8 @@ class Response(Protocol):
     spectrum_amplitude: np.ndarray
 
 
-@dataclass(frozen=True)
-class Peak:
-    """Maximum of the response near the crossing of one engine order with C1.
-
-    Parameters
-    ----------
-    f_omega : float
-        Speed f_k of the maximum, normalised.
-    amplitude : float
-        Amplitude Y_k, m.
-    """
+class Peak(NamedTuple):
+    """Maximum of the response: speed f_k, normalised, and amplitude Y_k, m."""
 
     f_omega: float
     amplitude: float
@@ -61,7 +51,17 @@ def crossing_speed(coating: Response, order: float) -> float:
             f"{coating.case.name} ({f_omega[0]:g} to {f_omega[-1]:g}): widen speeds or drop the order from "
             "analysis.peaks.orders"
         )
-    return float(np.interp(0.0, distance, f_omega))  # distance rises with speed, since C1 grows slowly
+    return float(np.interp(0.0, distance, f_omega))  # distance increases with speed, since C1 grows slowly
+
+
+def speed_window(coating: Response, order: float, settings: Mapping[str, Any]) -> tuple[float, float]:
+    """Lowest and highest speed between which the peak of an engine order is sought, normalised.
+
+    Raises `ValueError` as `crossing_speed`.
+    """
+    low, high = settings["speed_window"]
+    crossing = crossing_speed(coating, order)
+    return low * crossing, high * crossing
 
 
 def order_amplitude(coating: Response, order: float, halfwidth: float) -> np.ndarray:
@@ -80,14 +80,6 @@ def order_amplitude(coating: Response, order: float, halfwidth: float) -> np.nda
     return coating.spectrum_amplitude[:, on_order].max(axis=1)
 
 
-def amplitude_in_window(coating: Response, order: float, settings: Mapping[str, Any]) -> np.ndarray:
-    """Amplitude among which the peak of an engine order is sought, m (n,); NaN outside its speed window.
-
-    Parameters and errors are those of `peak`.
-    """
-    return amplitude_within(coating, order, speed_window(coating, order, settings), settings)
-
-
 def amplitude_within(
     coating: Response, order: float, window: tuple[float, float], settings: Mapping[str, Any]
 ) -> np.ndarray:
@@ -97,17 +89,12 @@ def amplitude_within(
     return np.where(inside, order_amplitude(coating, order, settings["order_halfwidth"]), np.nan)
 
 
-def speed_window(coating: Response, order: float, settings: Mapping[str, Any]) -> tuple[float, float]:
-    """Lowest and highest speed between which the peak of an engine order is sought, normalised.
+def amplitude_in_window(coating: Response, order: float, settings: Mapping[str, Any]) -> np.ndarray:
+    """Amplitude among which the peak of an engine order is sought, m (n,); NaN outside its speed window.
 
-    Raises
-    ------
-    ValueError
-        As `crossing_speed`.
+    Parameters and errors are those of `peak`.
     """
-    low, high = settings["speed_window"]
-    crossing = crossing_speed(coating, order)
-    return low * crossing, high * crossing
+    return amplitude_within(coating, order, speed_window(coating, order, settings), settings)
 
 
 def peak(coating: Response, order: float, settings: Mapping[str, Any]) -> Peak:
@@ -143,7 +130,7 @@ def peak(coating: Response, order: float, settings: Mapping[str, Any]) -> Peak:
 
 
 def maximum(coating: Response, amplitude: np.ndarray) -> Peak:
-    """Return the greatest of an amplitude (n,) over the speeds of `coating`; not a number if it has none."""
+    """Return the greatest of an amplitude (n,) over the speeds of `coating`; NaN if it has none."""
     if np.isnan(amplitude).all():
         return Peak(np.nan, np.nan)
     best = int(np.nanargmax(amplitude))
@@ -156,24 +143,9 @@ def table(config: Mapping[str, Any], map_paths: Iterable[str | Path]) -> pd.Data
 
 
 def of_maps(config: Mapping[str, Any], maps: Iterable[CoatingMap]) -> pd.DataFrame:
-    """Find the peaks of every coating.
+    """Find the peaks of every coating at ``analysis.peaks.orders``: a row each, with `COLUMNS`.
 
-    Parameters
-    ----------
-    config : mapping
-        ``analysis.peaks`` has the engine orders and the windows.
-    maps : iterable of CoatingMap
-        The coatings.
-
-    Returns
-    -------
-    DataFrame
-        A row per coating and order, with `COLUMNS`.
-
-    Raises
-    ------
-    ValueError
-        As `peak`.
+    Raises `ValueError` as `peak`.
     """
     settings = config["analysis"]["peaks"]
     rows = []
@@ -181,6 +153,5 @@ def of_maps(config: Mapping[str, Any], maps: Iterable[CoatingMap]) -> pd.DataFra
         case = coating.case
         for order in settings["orders"]:
             found = peak(coating, order, settings)
-            coating_of = (case.casing, case.E, case.K, case.theta)
-            rows.append((*coating_of, order, found.f_omega, found.amplitude, case.law))
+            rows.append((case.casing, case.E, case.K, case.theta, order, *found, case.law))
     return pd.DataFrame(rows, columns=COLUMNS)

@@ -1,8 +1,8 @@
-"""What makes the rub of another blade the same in proportion, so that the paper's E and K keep their meaning.
+"""Similarity: the contact of another blade scaled so that the paper's E and K keep their meaning.
 
-Lengths of the contact go with the length of the blade, the stiffness of an element of the coating with the
-static stiffness of the tip, times with the period of the first mode. A blade that is the stand-in's in other
-units then does the same in these units; for another one, E and K compare coating and blade as they do there.
+Lengths of the contact scale with the length of the blade, the stiffness of a coating element with the static
+stiffness of the tip, times with the period of the first mode. A blade that is the stand-in in other units
+then behaves the same in these units; for another one, E and K compare coating and blade as they do there.
 """
 
 from __future__ import annotations
@@ -12,21 +12,18 @@ import numpy as np
 from bladerub.blade.model import N_INTERFACE, ReducedBlade
 from bladerub.contact.setup import strip_width
 
-LENGTH = 0.2
-"""Blade length, m, of the stand-in of config/config.yaml, which the values of the contact there are for."""
-F1_HZ = 192.198910
-"""First frequency of the stand-in at rest, Hz."""
-TIP_STIFFNESS = 147967.472
-"""`tip_stiffness` of the stand-in, N/m."""
-TRACK_AREA = 0.0194115063
-"""`track_area` of the stand-in, m²."""
+# The stand-in of config/config.yaml, which the values of the contact there are for
+LENGTH = 0.2  # m
+F1_HZ = 192.198910  # at rest
+TIP_STIFFNESS = 147967.472  # N/m
+TRACK_AREA = 0.0194115063  # m²
 
 
 def tip_stiffness(blade: ReducedBlade) -> float:
     """Evaluate the static stiffness of the tip at rest, N/m.
 
-    The force is spread evenly over the interface nodes and points where they give way most on average: that
-    is across the blade, whatever its stagger and flow path.
+    The force is spread evenly over the interface nodes, in the direction in which they are most compliant on
+    average: that is across the blade, whatever its stagger and flow path.
     """
     spread = np.zeros((len(blade.mass), 3))
     spread[: 3 * N_INTERFACE] = np.tile(np.eye(3), (N_INTERFACE, 1)) / N_INTERFACE
@@ -41,13 +38,10 @@ def track_area(blade: ReducedBlade) -> float:
 
 
 def contact_scale(blade: ReducedBlade) -> dict[str, float]:
-    """Give ``contact.scale`` of the config, which makes the contact of the stand-in that of `blade`.
+    """Return ``contact.scale`` of the config, which scales the contact of the stand-in to `blade`.
 
-    Returns
-    -------
-    dict
-        ``length``, ``modulus`` and ``time``: by what the lengths, the unit of the moduli and the largest
-        time step are multiplied.
+    ``length``, ``modulus`` and ``time`` multiply the lengths, the unit of the moduli and the largest time
+    step.
     """
     length = blade.length / LENGTH
     # E modulus_unit area / thickness is the stiffness of all elements of a track together

@@ -12,7 +12,7 @@ def order_spectrum(
     """Amplitude spectrum over engine order of the last revolutions of a run.
 
     A Hann window over a whole number of revolutions puts every engine order on a bin. The mean is removed
-    and the window's gain corrected, so that a sine of amplitude A on a bin reads A; half way between two
+    and the window's gain corrected, so that a sine of amplitude A on a bin reads A; midway between two
     bins it reads 0.85 A.
 
     A run that ended early is analysed over its last complete revolutions, `spectrum_revolutions` of them at

@@ -1,4 +1,4 @@
-"""The few figures that sum up one run."""
+"""The summary of one run in a few numbers."""
 
 from __future__ import annotations
 
@@ -18,19 +18,9 @@ _LOWEST_ORDER = 0.5
 
 
 def spectral_peak(order: np.ndarray, amplitude: np.ndarray) -> tuple[float, float]:
-    """Find the largest amplitude of a spectrum from order 0.5 up.
+    """Return order and height (m) of the largest amplitude of a spectrum (m,) from order 0.5 up.
 
-    Parameters
-    ----------
-    order, amplitude : (m,) ndarray
-        From `bladerub.study.spectra.order_spectrum`, m.
-
-    Returns
-    -------
-    order : float
-        Engine order of the peak.
-    amplitude : float
-        Its height, m; NaN when the spectrum is.
+    The height is NaN when the spectrum is.
     """
     vibration = np.where(order >= _LOWEST_ORDER, amplitude, 0.0)
     at = np.argmax(vibration)
@@ -38,27 +28,15 @@ def spectral_peak(order: np.ndarray, amplitude: np.ndarray) -> tuple[float, floa
 
 
 def displacement_peak(revolution_peak: np.ndarray, revolutions: int) -> float:
-    """Find the largest displacement over the last `revolutions`, or over as many before an early end.
+    """Find the largest displacement (m) over the last `revolutions`, or over as many before an early end.
 
-    Parameters
-    ----------
-    revolution_peak : (r,) ndarray
-        Largest absolute displacement in each revolution, m; NaN after an unbounded end.
-    revolutions : int
-        How many of them count.
+    `revolution_peak` (r,) is the largest in each revolution, m; NaN after an unbounded end.
     """
     return float(revolution_peak[np.isfinite(revolution_peak)][-revolutions:].max())
 
 
 def summarise(spec: RunSpec, result: RunResult, config: Mapping[str, Any]) -> dict[str, Any]:
-    """Sum up one run.
-
-    Parameters
-    ----------
-    spec, result
-        The run and its outcome.
-    config : mapping
-        ``analysis`` decides over which revolutions.
+    """Summarise one run by the settings in ``config["analysis"]``, in plain Python values.
 
     Returns
     -------
@@ -68,7 +46,7 @@ def summarise(spec: RunSpec, result: RunResult, config: Mapping[str, Any]) -> di
         largest spectral amplitude from order 0.5 up; None when the run ended within its first revolution or
         the blade never moved. ``max_wear`` (m), ``lobes``. ``growth_per_revolution`` with its confidence
         interval ``growth_low``, ``growth_high`` (0.03 is 3 %; None of a run too short), ``saturating``,
-        ``divergent``: see `bladerub.study.growth`, by this run alone. ``n_steps``, ``status``.
+        ``divergent``: see `bladerub.study.growth`, from this run alone. ``n_steps``, ``status``.
     """
     analysis = config["analysis"]
     order, amplitude = order_spectrum(
@@ -76,20 +54,19 @@ def summarise(spec: RunSpec, result: RunResult, config: Mapping[str, Any]) -> di
     )
     engine_order, height = spectral_peak(order, amplitude)
     verdict = judge(result.revolution_amplitude, result.status, analysis["divergence"])
+    growth = {
+        "growth_per_revolution": verdict.growth.per_revolution,
+        "growth_low": verdict.growth.low,
+        "growth_high": verdict.growth.high,
+    }
     return {
         "peak_amplitude": displacement_peak(result.revolution_peak, analysis["spectrum_revolutions"]),
         "engine_order": engine_order if height > 0 else None,
         "max_wear": float(result.wear.max()),
         "lobes": lobes(result.angle, result.wear, analysis["lobe_prominence"]),
-        "growth_per_revolution": _number(verdict.growth.per_revolution),
-        "growth_low": _number(verdict.growth.low),
-        "growth_high": _number(verdict.growth.high),
+        **{name: value if np.isfinite(value) else None for name, value in growth.items()},  # JSON has no NaN
         "saturating": verdict.saturating,
         "divergent": verdict.divergent,
         "n_steps": result.n_steps,
         "status": result.status,
     }
-
-
-def _number(value: float) -> float | None:
-    return value if np.isfinite(value) else None  # JSON has no NaN

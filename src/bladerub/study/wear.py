@@ -10,24 +10,19 @@ SMOOTHING_ANGLE = np.radians(6.0)
 and twenty lobes further apart."""
 
 
-def mean_wear(wear: np.ndarray) -> np.ndarray:
-    """Average the wear (8, n) under the interface nodes, m (n,); a pattern (n,) is returned as it is."""
-    return wear.mean(axis=0) if wear.ndim == 2 else wear
-
-
 def lobes(angle: np.ndarray, wear: np.ndarray, prominence: float) -> int:
     """Count the worn lobes around the circumference.
 
     The wear is averaged over the nodes and smoothed around the circle over `SMOOTHING_ANGLE`. A lobe is a
-    maximum that stands above the valleys beside it by at least `prominence` of the greatest smoothed depth. A
-    casing that is worn evenly all around has none.
+    maximum above the valleys on both sides by at least `prominence` of the greatest smoothed depth. A casing
+    that is worn evenly all around has none.
 
     Parameters
     ----------
     angle : (n,) ndarray
         Casing angle of the elements, rad, evenly spaced around the whole circle.
     wear : (8, n) or (n,) ndarray
-        Worn depth, m.
+        Worn depth, m, of each interface node or their mean.
     prominence : float
         Relative prominence of a lobe, in (0, 1).
 
@@ -38,7 +33,8 @@ def lobes(angle: np.ndarray, wear: np.ndarray, prominence: float) -> int:
     """
     width = max(1, round(SMOOTHING_ANGLE / (2 * np.pi / angle.size)))
     kernel = np.hanning(width + 2)[1:-1]  # without its two zeros
-    depth = ndimage.convolve1d(mean_wear(wear), kernel / kernel.sum(), mode="wrap")
+    mean = np.atleast_2d(wear).mean(axis=0)
+    depth = ndimage.convolve1d(mean, kernel / kernel.sum(), mode="wrap")
     if depth.max() <= 0:
         return 0
     # cut the circle at its lowest point, so that no lobe is split and every valley is seen from both sides
@@ -47,14 +43,14 @@ def lobes(angle: np.ndarray, wear: np.ndarray, prominence: float) -> int:
 
 
 def _count_peaks(curve: np.ndarray, prominence: float) -> int:
-    """Count the maxima of a curve that begins at its lowest point, and comes back to it, by prominence.
+    """Count the maxima of a curve that begins and ends at its lowest point, by prominence.
 
-    They are as many as there are ways up by `prominence`, each followed by a way down by as much. (The
+    They are as many as there are ascents by `prominence`, each followed by a descent by as much. (The
     library's peaks take a job longer to import than everything else that it does.)
     """
     changing = curve[np.append(True, np.diff(curve) != 0)]
-    rises = np.diff(changing, append=curve[0])
-    turns = changing[rises * np.roll(rises, 1) <= 0]
+    steps = np.diff(changing, append=curve[0])
+    turns = changing[steps * np.roll(steps, 1) <= 0]
     count, high, extreme = 0, False, curve[0]  # on high ground the extreme is the top, else the bottom
     for value in [*turns, curve[0]]:
         extreme = max(extreme, value) if high else min(extreme, value)
