@@ -14,16 +14,11 @@ from bladerub.study.summary import spectral_peak
 
 
 class Differences(NamedTuple):
-    """Relative differences of one outcome from another, 0.01 being 1 %.
+    """Relative differences of one outcome from a reference, 0.01 being 1 %.
 
-    Parameters
-    ----------
-    wear_l2 : float
-        L2 norm of the difference of the wear profiles (8, n) over the norm of the reference.
-    peak : float
-        Of the largest spectral amplitude from order 0.5 up.
-    revolution_peak : float
-        Largest difference of a revolution's peak, over the largest peak of all revolutions.
+    ``wear_l2`` is the L2 norm of the difference of the wear profiles (8, n) over the norm of the reference,
+    ``peak`` that of the largest spectral amplitude from order 0.5 up, ``revolution_peak`` the largest
+    difference of a revolution's peak over the largest peak of all revolutions.
     """
 
     wear_l2: float
@@ -32,24 +27,14 @@ class Differences(NamedTuple):
 
 
 UNBOUNDED = Differences(math.inf, math.inf, math.inf)
-"""What stands for the differences where one of two outcomes is unbounded."""
+"""The differences where one of two outcomes is unbounded."""
 
 
 def differences(outcome: RunResult, reference: RunResult, analysis: Mapping[str, Any]) -> Differences:
-    """Compare two outcomes of the same run.
+    """Compare two outcomes of the same run; ``config["analysis"]`` decides on the spectrum.
 
-    Parameters
-    ----------
-    outcome, reference : RunResult
-        The reference is what the differences are relative to.
-    analysis : mapping
-        ``config["analysis"]`` decides on the spectrum.
-
-    Returns
-    -------
-    Differences
-        0 where both are zero, infinite where only the reference is; `UNBOUNDED` if either run is not
-        ``"completed"``.
+    A difference is 0 where both are zero, infinite where only the reference is; all are infinite if either
+    run is unbounded.
     """
     if "unbounded" in (outcome.status, reference.status):
         return UNBOUNDED

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from dataclasses import asdict
 from typing import Any
 
 import numpy as np
@@ -13,17 +14,12 @@ from bladerub.verification.verify import TOLERANCE, Seconds, VerifiedRun
 
 
 def report(verified: Sequence[VerifiedRun]) -> dict[str, Any]:
-    """Sum up the errors of runs.
-
-    Parameters
-    ----------
-    verified : sequence of VerifiedRun
-        One run or more.
+    """Summarise the errors of one run or more, in plain values that JSON can hold.
 
     Returns
     -------
     dict
-        Plain values that JSON can hold; differences are fractions, None for infinite ones.
+        Differences are fractions, None for infinite ones.
 
         - ``n``, and ``within_1_percent``: the fraction within `TOLERANCE` in wear and spectral peak;
         - ``wear_l2``, ``peak``, ``revolution_peak``, ``energy_residual``: each from `distribution`;
@@ -35,14 +31,13 @@ def report(verified: Sequence[VerifiedRun]) -> dict[str, Any]:
         - ``seconds``: mean cost of a run of each kind;
         - ``beyond``: the runs beyond `TOLERANCE` in any of the three, the worst first.
     """
-    errors = [run.error for run in verified]
-    within = [max(error.wear_l2, error.peak) <= TOLERANCE for error in errors]
-    speedups = [run.speedup for run in verified if run.speedup is not None and not run.sensitive]
+    within = [max(run.error.wear_l2, run.error.peak) <= TOLERANCE for run in verified]
+    speedups = [run.speedup for run in verified if run.speedup is not None and not run.is_sensitive]
     beyond = sorted((run for run in verified if run.is_beyond), key=lambda run: -max(run.error))
     return {
         "n": len(verified),
         "within_1_percent": float(np.mean(within)),
-        **_distributions(errors),
+        **_distributions([run.error for run in verified]),
         "energy_residual": distribution([run.energy_residual for run in verified]),
         "worst": {
             measure: max(verified, key=lambda run: getattr(run.error, measure)).run.name
@@ -52,18 +47,13 @@ def report(verified: Sequence[VerifiedRun]) -> dict[str, Any]:
         | {"uncertainty": _distributions([run.paper_uncertainty for run in verified])},
         "speedup_at_equal_error": float(np.median(speedups)) if speedups else None,
         "left_out": len(verified) - len(speedups),
-        "seconds": dict(
-            zip(Seconds._fields, np.mean([run.seconds for run in verified], axis=0).tolist(), strict=True)
-        ),
+        "seconds": Seconds(*np.mean([run.seconds for run in verified], axis=0).tolist())._asdict(),
         "beyond": [_entry(run) for run in beyond],
     }
 
 
 def distribution(values: Sequence[float]) -> dict[str, float | None]:
-    """Median, 95th centile and maximum.
-
-    The 95th centile is the smallest value that at least 95 % of the values do not exceed.
-    """
+    """Median, smallest value that at least 95 % of the values do not exceed, and maximum."""
     return {
         "median": _finite(np.median(values)),
         "p95": _finite(np.quantile(values, 0.95, method="inverted_cdf")),
@@ -72,26 +62,20 @@ def distribution(values: Sequence[float]) -> dict[str, float | None]:
 
 
 def _distributions(several: Sequence[Differences]) -> dict[str, Any]:
-    return {
-        measure: distribution(values)
-        for measure, values in zip(Differences._fields, zip(*several, strict=True), strict=True)
-    }
+    by_measure = zip(Differences._fields, zip(*several, strict=True), strict=True)
+    return {measure: distribution(values) for measure, values in by_measure}
 
 
 def _entry(verified: VerifiedRun) -> dict[str, Any]:
-    case = verified.run.case
+    case = asdict(verified.run.case)
     return {
         "name": verified.run.name,
-        "casing": case.casing,
-        "E": _finite(case.E),
-        "K": _finite(case.K),
-        "theta": case.theta,
-        "law": case.law,
+        **case | {modulus: _finite(case[modulus]) for modulus in ("E", "K")},
         "f_omega": verified.run.f_omega,
         "status": verified.status,
         **_plain(verified.error),
         "spread": None if verified.spread is None else _plain(verified.spread),
-        "sensitive": verified.sensitive,
+        "sensitive": verified.is_sensitive,
     }
 
 

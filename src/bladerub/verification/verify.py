@@ -6,7 +6,7 @@
    Being of first order, it has at the finer step an error of its own, ``1 / (REFINEMENT − 1)`` of the
    difference between the two: the uncertainty of a comparison with it.
 4. *Sensitive* is a run beyond `TOLERANCE` that neighbouring starts change by at least half as much as a
-   finer step does. Its error says more about the run than about the solver.
+   finer step does. Its error comes from the run rather than from the solver.
 5. *Speed-up at equal error* (`speedup_at_equal_error`): what the paper's scheme would cost at the error of
    the study's run, over what the study's run costs.
 """
@@ -43,20 +43,12 @@ STABLE_PART = 0.7
 """Coarser step of the paper's scheme, in largest stable steps ``2 / ω_max``: contact stiffens the blade."""
 
 NEIGHBOURS = (-1e-7, -5e-8, 5e-8, 1e-7)
-"""Initial radial displacements of node 1 in neighbouring starts, m: far below what the tip of a blade is made
-to (some 0.01 mm) and far above rounding, so that no two blades are alike to within them."""
+"""Initial radial displacements of node 1 in neighbouring starts, m: far below the tolerance to which a blade
+tip is made (some 0.01 mm) and far above rounding."""
 
 
 class StudyRun(NamedTuple):
-    """One point of the study's grid.
-
-    Parameters
-    ----------
-    case : CoatingCase
-        The coating.
-    f_omega : float
-        Normalised speed.
-    """
+    """One point of the study's grid: a coating at a normalised speed."""
 
     case: CoatingCase
     f_omega: float
@@ -78,48 +70,30 @@ class Seconds(NamedTuple):
 
 @dataclass(frozen=True)
 class VerifiedRun:
-    """What is known of the error of one run.
-
-    Parameters
-    ----------
-    run : StudyRun
-        Which one.
-    status : str
-        ``"unbounded"`` if the run or the one with finer steps is, otherwise ``"completed"``.
-    error : Differences
-        From the same scheme with finer steps.
-    against_paper : Differences
-        From the paper's scheme with finer steps.
-    paper_uncertainty : Differences
-        Error that the paper's scheme with finer steps has itself.
-    spread : Differences or None
-        Largest differences of neighbouring starts from the run; None if no error is beyond `TOLERANCE`, or
-        the run itself is unbounded.
-    sensitive : bool
-        Whether the spread is at least half of the error wherever that is beyond `TOLERANCE`.
-    energy_residual : float
-        Imbalance of the energy ledger, in parts of the work exchanged.
-    seconds : Seconds
-        Cost.
-    speedup : float or None
-        From `speedup_at_equal_error`, by wear, or by spectral peak where nothing wears.
-    """
+    """The error of one run, see the definitions of this module."""
 
     run: StudyRun
-    status: str
+    status: str  # "unbounded" if the run or the one with finer steps is, otherwise "completed"
     error: Differences
-    against_paper: Differences
+    against_paper: Differences  # from the paper's scheme with finer steps
     paper_uncertainty: Differences
-    spread: Differences | None
-    sensitive: bool
+    spread: Differences | None  # largest of neighbouring starts; None within tolerance and if unbounded
     energy_residual: float
     seconds: Seconds
-    speedup: float | None
+    speedup: float | None  # by wear, or by spectral peak where nothing wears
 
     @property
     def is_beyond(self) -> bool:
         """Whether any error is beyond `TOLERANCE`."""
         return max(self.error) > TOLERANCE
+
+    @property
+    def is_sensitive(self) -> bool:
+        """Whether neighbouring starts explain every error beyond `TOLERANCE`, by half of it at least."""
+        if self.spread is None or not self.is_beyond:
+            return False
+        pairs = zip(self.error, self.spread, strict=True)
+        return all(spread >= error / 2 for error, spread in pairs if error > TOLERANCE)
 
 
 def study_runs(config: Mapping[str, Any]) -> list[StudyRun]:
@@ -128,13 +102,7 @@ def study_runs(config: Mapping[str, Any]) -> list[StudyRun]:
 
 
 def draw(runs: Sequence[StudyRun], sample: int, seed: int) -> list[StudyRun]:
-    """Draw distinct runs, all alike likely; the same seed draws the same.
-
-    Raises
-    ------
-    ValueError
-        If there are not as many.
-    """
+    """Draw `sample` distinct runs, all equally likely; raises `ValueError` if there are fewer."""
     if not 1 <= sample <= len(runs):
         raise ValueError(f"must be from 1 to {len(runs)}, the number of runs of this study")
     drawn = np.random.default_rng(seed).choice(len(runs), size=sample, replace=False)
@@ -144,13 +112,7 @@ def draw(runs: Sequence[StudyRun], sample: int, seed: int) -> list[StudyRun]:
 def verify_runs(
     blade: ReducedBlade, config: Mapping[str, Any], runs: Sequence[StudyRun], jobs: int = 1
 ) -> Iterator[VerifiedRun]:
-    """Verify runs in `jobs` processes; yield each when it is done, in their order.
-
-    Raises
-    ------
-    ValueError
-        If a speed is outside the range of the blade, or the config's step too long for its scheme.
-    """
+    """Verify runs in `jobs` processes, and yield them in their order; raises as `verify_run`."""
     compile_kernel()
     verify = partial(verify_run, blade, config)
     if jobs == 1:
@@ -172,7 +134,7 @@ def verify_run(blade: ReducedBlade, config: Mapping[str, Any], run: StudyRun) ->
     Raises
     ------
     ValueError
-        As `bladerub.contact.run.simulate`.
+        If the speed is outside the range of the blade, or the config's step too long for its scheme.
     """
     spec, analysis = run_spec(config, run.case, run.f_omega), config["analysis"]
     passage = 1 / (spec.f_omega * blade.f1_hz * spec.coating.n_elements)
@@ -191,16 +153,15 @@ def verify_run(blade: ReducedBlade, config: Mapping[str, Any], run: StudyRun) ->
     if max(error) > TOLERANCE and outcome.status == "completed":
         starts = (replace(spec, initial_displacement=start) for start in NEIGHBOURS)
         spread = largest(differences(simulate(blade, start), outcome, analysis) for start in starts)
-    between = differences(paper_outcome, paper_finer, analysis)
+    own = differences(paper_outcome, paper_finer, analysis)
     measure = Differences._fields.index("wear_l2" if finer.wear.any() else "peak")
     return VerifiedRun(
         run=run,
         status="completed" if outcome.status == finer.status == "completed" else "unbounded",
         error=error,
         against_paper=differences(outcome, paper_finer, analysis),
-        paper_uncertainty=Differences(*(difference / (REFINEMENT - 1) for difference in between)),
+        paper_uncertainty=Differences(*(difference / (REFINEMENT - 1) for difference in own)),
         spread=spread,
-        sensitive=spread is not None and is_sensitive(error, spread),
         energy_residual=outcome.energy.residual,
         seconds=Seconds(seconds, finer_seconds, paper_seconds, paper_finer_seconds),
         speedup=speedup_at_equal_error(
@@ -213,35 +174,16 @@ def verify_run(blade: ReducedBlade, config: Mapping[str, Any], run: StudyRun) ->
     )
 
 
-def is_sensitive(error: Differences, spread: Differences) -> bool:
-    """Tell whether neighbouring starts explain every error beyond `TOLERANCE`, by half of it at least."""
-    beyond = [(e, s) for e, s in zip(error, spread, strict=True) if e > TOLERANCE]
-    return bool(beyond) and all(s >= e / 2 for e, s in beyond)
-
-
 def speedup_at_equal_error(
     error: float, seconds: float, paper_error: float, paper_finer_error: float, paper_finer_seconds: float
 ) -> float | None:
     """Cost of the paper's scheme at the error of the study's run, over the cost of the study's run.
 
     All errors are differences from the same reference, the study's scheme with finer steps. The paper's
-    scheme is of first order: its error is taken as proportional to the step, through the one at the finer
-    step. Its step of equal error is at most its coarser step, as stability allows no longer one. Its cost
-    goes as 1 / step.
-
-    Parameters
-    ----------
-    error, seconds : float
-        Of the study's run.
-    paper_error, paper_finer_error : float
-        Of the paper's scheme at its coarser step and at one `REFINEMENT` times finer.
-    paper_finer_seconds : float
-        Cost of the paper's scheme at the finer step, s.
-
-    Returns
-    -------
-    float or None
-        None if an error is zero or infinite, or that of the paper's scheme does not shrink with its step.
+    scheme is of first order: its error is taken as proportional to the step, through the one at the step
+    `REFINEMENT` times finer. Its step of equal error is at most its coarser step, as stability allows no
+    longer one. Its cost is proportional to 1 / step. None if an error is zero or infinite, or that of the
+    paper's scheme does not decrease with its step.
     """
     errors = (error, paper_error, paper_finer_error)
     if min(errors) == 0 or max(errors) == math.inf or paper_finer_error >= paper_error:

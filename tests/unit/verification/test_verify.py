@@ -1,5 +1,5 @@
 import math
-from dataclasses import replace
+from dataclasses import fields, replace
 from types import SimpleNamespace
 
 import numpy as np
@@ -10,8 +10,8 @@ from bladerub.verification.differences import Differences
 from bladerub.verification.verify import (
     NEIGHBOURS,
     StudyRun,
+    VerifiedRun,
     draw,
-    is_sensitive,
     speedup_at_equal_error,
     study_runs,
     verify_run,
@@ -131,7 +131,7 @@ def test_errors_of_known_order(blade, config, run, solver):
     assert verified.energy_residual == 1e-4
     assert not verified.is_beyond
     assert verified.spread is None
-    assert not verified.sensitive
+    assert not verified.is_sensitive
 
 
 def test_a_run_beyond_one_percent_is_started_again_beside_its_start(blade, config, run, solver):
@@ -141,9 +141,14 @@ def test_a_run_beyond_one_percent_is_started_again_beside_its_start(blade, confi
     assert [spec.initial_displacement for spec in solver.specs[4:]] == list(NEIGHBOURS)
     assert verified.is_beyond
     assert verified.spread == pytest.approx(Differences(*3 * [0.01 / 1.032]))
-    assert not verified.sensitive
+    assert not verified.is_sensitive
     solver.neighbour = 0.02
-    assert verify_run(blade, config, run).sensitive
+    assert verify_run(blade, config, run).is_sensitive
+
+
+def verified_with(error, spread):
+    values = dict.fromkeys(field.name for field in fields(VerifiedRun))
+    return VerifiedRun(**values | {"error": error, "spread": spread})
 
 
 @pytest.mark.parametrize(
@@ -153,11 +158,14 @@ def test_a_run_beyond_one_percent_is_started_again_beside_its_start(blade, confi
         (Differences(0.03, 0.001, 0.001), Differences(0.014, 1, 1), False),
         (Differences(0.03, 0.02, 0.001), Differences(0.016, 0.009, 0), False),
         (Differences(0.03, 0.02, math.inf), Differences(0.016, 0.01, math.inf), True),
+        (Differences(0.02, 0.01, 0.0), Differences(0.01, 0.0, 0.0), True),  # at the borders of both
+        (Differences(0.02, 0.0100001, 0.0), Differences(0.01, 0.0, 0.0), False),
         (Differences(0.009, 0.009, 0.009), Differences(1, 1, 1), False),
+        (Differences(0.03, 0.001, 0.001), None, False),
     ],
 )
 def test_sensitive_is_what_spreads_half_as_much_in_all_that_is_beyond(error, spread, sensitive):
-    assert is_sensitive(error, spread) is sensitive
+    assert verified_with(error, spread).is_sensitive is sensitive
 
 
 def test_an_unbounded_run_is_beyond_all_tolerance_and_not_excused(blade, config, run, solver):
@@ -166,7 +174,7 @@ def test_an_unbounded_run_is_beyond_all_tolerance_and_not_excused(blade, config,
     assert verified.status == "unbounded"
     assert verified.error == Differences(math.inf, math.inf, math.inf)
     assert verified.is_beyond
-    assert (verified.spread, verified.sensitive, verified.speedup) == (None, False, None)
+    assert (verified.spread, verified.is_sensitive, verified.speedup) == (None, False, None)
 
 
 def test_the_finer_run_alone_is_unbounded(blade, config, run, solver):
@@ -174,7 +182,7 @@ def test_the_finer_run_alone_is_unbounded(blade, config, run, solver):
     verified = verify_run(blade, config, run)
     assert verified.status == "unbounded"
     assert verified.spread == Differences(0, 0, 0)
-    assert not verified.sensitive
+    assert not verified.is_sensitive
 
 
 def test_speed_up_between_a_second_order_and_a_first_order_scheme():
