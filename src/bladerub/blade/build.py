@@ -32,12 +32,7 @@ LENGTH_TOLERANCE = 0.05
 def made_from(config: Mapping[str, Any]) -> str:
     """Write down what of `config` determines the blade: equal for two configs of the same blade.
 
-    Raises
-    ------
-    OSError
-        If the blade comes from a file that cannot be read.
-    ValueError
-        If a file of a folder of matrices is missing.
+    Raises OSError or ValueError if a file that the blade comes from cannot be read or is missing.
     """
     blade = config["blade"]
     given = blade.get("source", {})
@@ -77,15 +72,7 @@ def build(config: Mapping[str, Any]) -> BuiltBlade:
 
 
 def reduce_meshed(blade: MeshedBlade, config: Mapping[str, Any]) -> BuiltBlade:
-    """Reduce a blade that has a mesh, with as many speeds and modes as its tolerance asks for.
-
-    Raises
-    ------
-    BadInput
-        If ``reduction.tolerance`` is not reached.
-    EquilibriumError
-        If the blade has no static equilibrium at one of the speeds.
-    """
+    """Reduce a meshed blade with as many speeds and modes as its tolerance asks for; see `build`."""
 
     @lru_cache(maxsize=1)  # more modes at each speed need no new equilibria
     def discrete(n_speeds: int) -> DiscreteBlade:
@@ -95,13 +82,7 @@ def reduce_meshed(blade: MeshedBlade, config: Mapping[str, Any]) -> BuiltBlade:
 
 
 def reduce_given(blade: DiscreteBlade, config: Mapping[str, Any]) -> BuiltBlade:
-    """Reduce a blade whose matrices are given, with as many modes as its tolerance asks for.
-
-    Raises
-    ------
-    BadInput
-        If ``reduction.tolerance`` is not reached.
-    """
+    """Reduce a blade of given matrices with as many modes as its tolerance asks for; see `build`."""
     return reduce_to_tolerance(lambda _: blade, config, made_from(config), len(fit_speeds(1.0)))
 
 
@@ -144,13 +125,7 @@ def _check_length(length: float, measured: float, origin: str | Path) -> None:
 
 
 def discretise(blade: MeshedBlade, config: Mapping[str, Any]) -> DiscreteBlade:
-    """Discretise `blade` by finite elements of the material and at the speeds that `config` asks for.
-
-    Raises
-    ------
-    EquilibriumError
-        If the blade has no static equilibrium at one of the speeds.
-    """
+    """Discretise `blade` by finite elements of the material and at the speeds that `config` asks for."""
     reduction = config["reduction"]
     f_max = reduction["f_omega_max"]
     return by_finite_elements(

@@ -51,23 +51,8 @@ def by_finite_elements(
     """Discretise `blade`, clamped at its root, by the finite elements of its mesh.
 
     It runs in one thread: the last digit of sums depends on the number of threads, and another blade makes
-    all its runs stale.
-
-    Parameters
-    ----------
-    blade : MeshedBlade
-        With elements.
-    material : Material
-        What it is made of.
-    speeds, table_speeds : sequence of float
-        Normalised speeds at which to keep the stiffness, and to find the frequencies (ascending).
-    n_modes : int
-        Number of modes.
-
-    Raises
-    ------
-    EquilibriumError
-        If the blade has no static equilibrium at one of the speeds.
+    all its runs stale. The stiffness is kept at the normalised `speeds`, the first `n_modes` frequencies are
+    found at the ascending `table_speeds`. Raises EquilibriumError if there is no equilibrium at one of them.
     """
     mesh = blade.mesh.mesh
     solid = Solid(mesh, material, clamped=blade.mesh.root)

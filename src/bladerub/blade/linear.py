@@ -28,12 +28,7 @@ def factorise(matrix: sparse.csc_array) -> Solve:
 
     PARDISO does the work when pypardiso is installed, else SuperLU up to `MOST_BY_DEGREE` unknowns, and
     beyond them RSLAB: the factors of LDLᵀ take half the memory and a fraction of the time, and are the same
-    to the last bit with any number of threads.
-
-    Raises
-    ------
-    numpy.linalg.LinAlgError
-        If the matrix is singular.
+    to the last bit with any number of threads. Raises numpy.linalg.LinAlgError if the matrix is singular.
     """
     if importlib.util.find_spec("pypardiso"):
         return _Pardiso(matrix)

@@ -69,10 +69,7 @@ class ReducedBlade:
     def stiffness(self, f_omega: float) -> np.ndarray:
         """Stiffness matrix (n, n) in N/m at the normalised rotational frequency `f_omega`, eq. (2).
 
-        Raises
-        ------
-        ValueError
-            If `f_omega` lies outside the fitted range ``[0, f_omega_max]``.
+        Raises a ValueError outside the fitted range ``[0, f_omega_max]``.
         """
         if not 0 <= f_omega <= self.f_omega_max:
             raise ValueError(f"f_omega = {f_omega:g} is outside the fitted range [0, {self.f_omega_max:g}]")

@@ -51,13 +51,8 @@ def equilibrium(
 
     The load acts on the displaced position, ``ρ Ω² (0, y + u_y, z + u_z)``. Load steps go in Ω² from `start`
     (rest if not given) to the target: one step first, halved where Newton's method does not converge. For a
-    large model `at_rest`, its factored stiffness at rest, is the preconditioner.
-
-    Raises
-    ------
-    EquilibriumError
-        If a step is still without equilibrium after `MAX_HALVINGS` halvings; the message says how far
-        the load came.
+    large model `at_rest`, its factored stiffness at rest, is the preconditioner. Raises EquilibriumError if a
+    step is still without equilibrium after `MAX_HALVINGS` halvings.
     """
     target = omega**2
     reached, u = (start.omega**2, start.displacement) if start else (0.0, np.zeros(solid.free.size))

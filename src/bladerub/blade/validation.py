@@ -22,12 +22,8 @@ _POSITIVE = ("f1_hz", "f_omega_max", "length")
 def read_valid_blade(path: str | Path) -> ReducedBlade:
     """Read a reduced blade and check that runs can be computed with it.
 
-    Raises
-    ------
-    OSError
-        If the file is missing, unreadable or not a reduced blade; the message names it.
-    ValueError
-        If a matrix, a node or an attribute is invalid; the message names the file and the dataset.
+    Raises an OSError if the file is missing, unreadable or not a reduced blade, a ValueError if a matrix, a
+    node or an attribute is invalid; the messages name the file and the dataset.
     """
     if os.path.exists(path) and not os.path.isfile(path):
         kind = "a folder" if os.path.isdir(path) else "not a regular file"

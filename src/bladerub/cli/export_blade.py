@@ -113,7 +113,7 @@ def _write_fe_matrices(options: argparse.Namespace, config: dict[str, Any]) -> d
     from bladerub.blade.elasticity import Material
     from bladerub.blade.reduction import fit_speeds
     from bladerub.blade.rotation import EquilibriumError
-    from bladerub.export.fe_matrices import write_fe_matrices
+    from bladerub.export.matrices import write_fe_matrices
 
     try:
         blade = by_finite_elements(

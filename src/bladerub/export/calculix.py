@@ -26,22 +26,10 @@ def deck(
     omega: float,
     n_modes: int = 10,
 ) -> str:
-    """Input of CalculiX for the blade at the angular speed `omega`.
+    """Input of CalculiX for the blade at the angular speed `omega` (rad/s) about the x axis.
 
-    Parameters
-    ----------
-    points : (n_nodes, 3) ndarray
-        Nodes, m; the blade turns about the x axis.
-    cells : (n_elements, 20 or 10) ndarray of int
-        Nodes of the elements, in CalculiX's order but from 0.
-    root : ndarray of int
-        Clamped nodes.
-    material : Material
-        Of the whole blade.
-    omega : float
-        rad/s.
-    n_modes : int
-        How many frequencies.
+    `points` (n_nodes, 3) are in m, `cells` (n_elements, 20 or 10) in CalculiX's order but from 0, `root` the
+    clamped nodes.
     """
     lines = ["*NODE, NSET=ALL"]
     # at most 20 characters a number
@@ -62,7 +50,7 @@ def deck(
 
 
 def _in_lines(numbers: list[int]) -> list[str]:
-    """Write `numbers` with at most 16 of them on a line, a comma at the end where they go on."""
+    """Write at most 16 of `numbers` on a line, with a comma at its end if more follow."""
     rows = [numbers[at : at + 16] for at in range(0, len(numbers), 16)]
     return [", ".join(map(str, row)) + ("," if row is not rows[-1] else "") for row in rows]
 

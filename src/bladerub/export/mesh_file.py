@@ -22,38 +22,24 @@ def write_mesh_file(
     node_sets: Mapping[str, np.ndarray],
     fields: Mapping[str, np.ndarray] | None = None,
 ) -> None:
-    """Write the mesh in the format that the suffix of `path` names.
+    """Write a mesh as ``.inp``, ``.msh`` or ``.vtu``, as the suffix of `path` says.
 
-    Parameters
-    ----------
-    path : path-like
-        Ends in ``.inp``, ``.msh`` or ``.vtu``.
-    points : (n_nodes, 3) ndarray
-        Nodes, m.
-    cells : (n_elements, 20 or 10) ndarray of int
-        Nodes of the elements, in the order of CalculiX and VTK.
-    node_sets : mapping of str to ndarray of int
-        Become node sets in ``.inp``; in ``.msh`` physical groups of the faces of the surface that lie in
-        them, or of points where there are none; in ``.vtu`` point data, 1 on the nodes of the set.
-    fields : mapping of str to (n_nodes, 3) ndarray, optional
-        Modes and displacements by name, more point data in ``.vtu``; the others have no place for them.
-
-    Raises
-    ------
-    ValueError
-        If the suffix is another.
+    `points` (n_nodes, 3) are in m, `cells` (n_elements, 20 or 10) in the order of CalculiX and VTK. The node
+    sets become node sets in ``.inp``; in ``.msh`` physical groups of the faces of the surface that lie in
+    them, or of points if there are none; in ``.vtu`` point data, 1 on the nodes of the set. Modes and
+    displacements (`fields`) are point data in ``.vtu``; the other formats have no place for them.
     """
     suffix = Path(path).suffix.lower()
     if suffix not in WRITERS:
         raise ValueError(f"{path}: must end in {', '.join(WRITERS)}")
     with TemporaryDirectory() as scratch, atomic.writing(path, "wb") as stream:
-        whole = Path(scratch) / f"mesh{suffix}"  # meshio wants a path
-        WRITERS[suffix](str(whole), points, cells, node_sets, fields or {})
-        stream.write(whole.read_bytes())
+        file = Path(scratch) / f"mesh{suffix}"  # meshio wants a path
+        WRITERS[suffix](str(file), points, cells, node_sets, fields or {})
+        stream.write(file.read_bytes())
 
 
 def block(points: np.ndarray, cells: np.ndarray) -> tuple[str, np.ndarray]:
-    """Give `cells` with their name in meshio, or the nodes as such where there are none."""
+    """Give `cells` with their name in meshio, or the nodes as vertices if there are no cells."""
     if not len(cells):
         return "vertex", np.arange(len(points))[:, None]
     return NAMES[cells.shape[1]], cells

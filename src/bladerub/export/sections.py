@@ -13,51 +13,37 @@ from bladerub.blade.sources.section_table import CYLINDRICAL, POINTS
 from bladerub.io import atomic
 
 N_SECTIONS, N_STATIONS = 21, 61
-_FINE = 4000  # points along a side, between which angles are interpolated to 1e-8
+_FINE = 4000  # points along a side: angles interpolated between them are accurate to 1e-8
 _SAME = 1e-9  # of the axial chord
 
 
 def write_sections(path: str | Path, shape: BladeShape, coordinates: str) -> tuple[int, int]:
-    """Write `shape` as a table of 21 sections, hub to tip, of 61 or some more stations.
+    """Write `shape` as a table of sections, hub to tip; return the number of sections and of all stations.
 
-    Lengths are in m, angles in rad, axes those of the blade's frame, so those that an import takes for
-    granted.
-
-    Parameters
-    ----------
-    path : path-like
-        The file.
-    shape : BladeShape
-        The blade.
-    coordinates : str
-        ``cartesian`` for points of the surface, ``cylindrical`` for axial position, radius and angles (see
-        `bladerub.blade.sources.section_table`).
-
-    Returns
-    -------
-    n_sections, n_stations : int
-        Sections, and stations of all of them.
+    Units and axes are the defaults of an import: m, rad, the blade's frame. Coordinates are ``cartesian``,
+    points of the surface, or ``cylindrical``, axial position, radius and angles
+    (`bladerub.blade.sources.section_table`).
 
     Raises
     ------
     ValueError
-        If a side goes back along the axis, so that cylindrical coordinates cannot tell it.
+        If a side goes back along the axis, which cylindrical coordinates cannot describe.
     """
     write_section = _cartesian if coordinates == "cartesian" else _cylindrical
     columns = POINTS if coordinates == "cartesian" else CYLINDRICAL
     parts = []
     for number, zeta in enumerate(np.linspace(0, 1, N_SECTIONS), 1):
-        table = pd.DataFrame(write_section(shape, float(zeta)), columns=list(columns))
-        table.insert(0, "section", number)
-        parts.append(table)
-    frame, whole = Frame(), pd.concat(parts)
+        part = pd.DataFrame(write_section(shape, float(zeta)), columns=list(columns))
+        part.insert(0, "section", number)
+        parts.append(part)
+    frame, table = Frame(), pd.concat(parts)
     with atomic.writing(path) as stream:
         stream.write(
             f"# sections of the blade, hub to tip; m, rad; it turns about {frame.rotation}, the air flows "
             f"along {frame.downstream}\n"
         )
-        whole.to_csv(stream, index=False, float_format="%.12g")
-    return len(parts), len(whole)
+        table.to_csv(stream, index=False, float_format="%.12g")
+    return len(parts), len(table)
 
 
 def _cartesian(shape: BladeShape, zeta: float) -> np.ndarray:
@@ -89,11 +75,11 @@ def _cylindrical(shape: BladeShape, zeta: float) -> np.ndarray:
 
 def _outline(shape: BladeShape, zeta: float, side: int, first: int, last: int) -> np.ndarray:
     """Axial position, radius and angle (3, n) along `side`, with the edges from `first` and to `last`."""
-    way = np.array([(0.0, first), (0.0, side), (1.0, side), (1.0, last)])
-    way = way[np.concatenate([[True], np.any(np.diff(way, axis=0) != 0, axis=1)])]
-    number = np.arange(len(way))
+    path = np.array([(0.0, first), (0.0, side), (1.0, side), (1.0, last)])  # of (ξ, η)
+    path = path[np.concatenate([[True], np.any(np.diff(path, axis=0) != 0, axis=1)])]
+    number = np.arange(len(path))
     fine = np.linspace(0, number[-1], _FINE * number[-1] + 1)
-    x, y, z = shape.points(*(np.interp(fine, number, coordinate) for coordinate in way.T), zeta)
+    x, y, z = shape.points(*(np.interp(fine, number, coordinate) for coordinate in path.T), zeta)
     if (np.diff(x) <= 0).any():
         raise ValueError(f"the section at {zeta:.0%} of the span goes back along the axis; choose cartesian")
     return np.stack([x, np.hypot(y, z), -np.arctan2(y, z)])

@@ -31,14 +31,7 @@ _FRAME = (
 
 
 def read_mesh(path: str | Path, blade: ReducedBlade) -> dict[str, np.ndarray]:
-    """Read the finite element mesh of a blade and how it follows the reduced coordinates.
-
-    Parameters
-    ----------
-    path : path-like
-        ``mesh.h5``.
-    blade : ReducedBlade
-        The blade.
+    """Read the mesh of a blade and how it follows the reduced coordinates from its ``mesh.h5``.
 
     Raises
     ------
@@ -51,30 +44,17 @@ def read_mesh(path: str | Path, blade: ReducedBlade) -> dict[str, np.ndarray]:
         raise OSError(f"{path}: not the mesh of a blade, {', '.join(sorted(missing))} missing")
     interface = mesh["points"][mesh["interface_nodes"]]
     if len(mesh["recovery"]) != len(blade.mass) or not np.array_equal(interface, blade.node_position):
-        raise OSError(f"{path}: is the mesh of another blade than the reduced one beside it")
+        raise OSError(f"{path}: is not the mesh of the reduced blade in the same folder")
     return mesh
 
 
 def write_motion(
     folder: str | Path, mesh: Mapping[str, np.ndarray], recording: Recording, about: Mapping[str, str]
 ) -> float:
-    """Write a recorded motion to a new folder, whole or not at all.
+    """Write a recorded motion to a new folder, whole or not at all; return the largest displacement, m.
 
-    Parameters
-    ----------
-    folder : path-like
-        Must not exist.
-    mesh : mapping
-        From `read_mesh`.
-    recording : Recording
-        From `bladerub.contact.recording.record`.
-    about : mapping of str to str
-        What the motion is and where it comes from, for a comment in the collection.
-
-    Returns
-    -------
-    float
-        Largest displacement of any node, m.
+    `mesh` is from `read_mesh`; `about` is what the motion is and where it comes from, for a comment in the
+    collection.
     """
     folder = Path(folder)
     folder.parent.mkdir(parents=True, exist_ok=True)

@@ -42,10 +42,7 @@ class Nodes:
 def files(folder: Path) -> dict[str, Path]:
     """Find the matrices and the list of nodes in `folder`, by their names without suffix.
 
-    Raises
-    ------
-    ValueError
-        If one is missing, or there in both formats.
+    Raises a ValueError if one is missing, or there in both formats.
     """
     if not folder.is_dir():
         raise ValueError("there is no such folder")

@@ -90,10 +90,8 @@ _OF_FILES_ONLY = ("file", "angle_unit", *_OF_A_MESH)
 def read(source: Mapping[str, Any]) -> Source | MatrixSource:
     """Read the ``blade.source`` block of the config.
 
-    Raises
-    ------
-    ValueError
-        If it names not one of ``file`` and ``matrices``, or keys do not go together; begins with the key.
+    Raises a ValueError that begins with the key if neither ``file`` nor ``matrices`` is there, or keys do not
+    go together.
     """
     if "matrices" in source:
         given, kind, others = "matrices", MatrixSource, _OF_FILES_ONLY

@@ -17,7 +17,7 @@ from bladerub.blade.rotation import rotating_stiffness
 from bladerub.blade.sources.frame import Frame
 from bladerub.blade.sources.matrices import import_matrices
 from bladerub.blade.sources.origin import MatrixSource, read
-from bladerub.export.fe_matrices import write_fe_matrices
+from bladerub.export.matrices import write_fe_matrices
 from bladerub.io.errors import BadInput
 
 REDUCTION = {
