@@ -1,6 +1,6 @@
 """Speeds of the time loop, measured side by side in one process.
 
-Every loop marches the same two revolutions from rest: once on a casing brought so near that the tip touches
+Every loop integrates the same two revolutions from rest: once on a casing brought so near that the tip touches
 it in a third of the steps, once vibrating freely far from it. Rounds take turns, and the median counts.
 """
 
@@ -149,7 +149,7 @@ def in_contact(blade: ReducedBlade, spec: RunSpec) -> tuple[RunSpec, float]:
 
 
 def useful_flops(blade: ReducedBlade, spec: RunSpec) -> float:
-    """March a run, and count the useful operations of its mean step; comparisons are not."""
+    """Simulate a run, and count the useful operations of its mean step; comparisons are not."""
     rule, simulation = set_up(blade, spec)
     n, n_under = rule.omega.size, int(2 * simulation.tip.half_width) + 1
     made_in = [_revolve(simulation) for _ in range(spec.revolutions)]

@@ -7,7 +7,7 @@ from numba import njit
 from bladerub.numerics.vectors import LANES, broadcast, lane_sum
 
 CHAINS = 12
-"""Products and sums under way at once: more than a processor needs to be busy, fewer than its registers."""
+"""Products and sums in progress at once: more than a processor needs to be busy, fewer than its registers."""
 FLOPS_PER_TURN = CHAINS * LANES * 2
 
 

@@ -2,7 +2,7 @@
 
 What `bladerub.contact.kernel.loop` computes, but for the energy ledger and the search for forces node by
 node, which no run of the study needs: modes, tip and contact forces a step at a time, in whole arrays of
-modes, nodes and bars. It runs as it stands, and compiled by numba.
+modes, nodes and elements. It runs in Python, and compiled by numba.
 """
 
 from __future__ import annotations

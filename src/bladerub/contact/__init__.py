@@ -1,5 +1,5 @@
-"""Stage 2: one rub of the reduced blade on one coating at one speed (`RunSpec` → `RunResult`).
+"""Stage 2: contact of the reduced blade with one coating at one speed (`RunSpec` → `RunResult`).
 
-`bladerub.contact.run.simulate` is the way in. It is not imported here, so that who only describes runs
-(`bladerub.contact.spec`) does not wait for the compiler.
+Call `bladerub.contact.run.simulate`. It is not imported here, so that a program that only describes runs
+(`bladerub.contact.spec`) does not load the compiler. `bladerub.contact.reference` has the model on a page.
 """

@@ -43,7 +43,7 @@ def record(
     n_instants: int,
     progress: Callable[[int], None] | None = None,
 ) -> Recording:
-    """Let the blade rub as `bladerub.contact.run.simulate` does, and record one revolution.
+    """Simulate a run as `bladerub.contact.run.simulate` does, and record one revolution.
 
     Parameters
     ----------

@@ -29,7 +29,7 @@ class Energy:
     wear : float
         Dissipated by plastic shortening of the coating.
     work_shape : float
-        Done by the rotation in moving the tip over the casing, against its shape and onto new bars.
+        Done by the rotation in moving the tip over the casing, against its shape and onto new elements.
     work_rotation : float
         Done by the rotation against the tangential force of the coating (θ) or friction.
     sliding : float
@@ -97,7 +97,7 @@ class RunResult:
         At most 1, which is also that of a run without contact.
     n_fallback_steps : int
         Steps in which Newton's method did not converge, so that the forces were found node by node; always 0
-        for the rigid casing, whose forces are found that way in the first place.
+        for the rigid casing, whose forces are always found so.
     n_unconverged_steps : int
         Steps whose contact forces did not converge: what they leave of imbalance goes into the run.
     n_modes : int

@@ -8,10 +8,10 @@ What a scheme promises, and `bladerub.contact.kernel.loop.Simulation.advance` ca
 2. *When* that is: a scheme that `corrects` evaluates F at the predicted position of the new step and adds
    ``gain tip · F`` there (prediction and correction, the paper's scheme). One that does not evaluates F at
    the position itself and adds ``gain tip · F`` to the step after.
-3. Contact is judged at ``tip · q + compliance · F``, implicitly in F: where the tip gives way in the step of
-   the force itself, forces and displacement agree with the law of contact. The matrix is symmetric and
+3. Contact is judged at ``tip · q + compliance · F``, implicitly in F: where the tip moves in the step of the
+   force itself, forces and displacement agree with the law of contact. The matrix is symmetric and
    positive semidefinite.
-4. A scheme chooses which modes it resolves. Those it does not answer to a force by their static
+4. A scheme chooses which modes it resolves. The others respond to a force by their static
    displacement, which is part of the compliance.
 5. Blade energy ``Σ kinetic (q⁺ − q)² + ½ ω² q⁺ q + ½ F⁺ · C F``, C the compliance of modes not resolved,
    changes by the work ``F · (u⁺ − u⁻) / 2`` less the damping ``Σ loss (q⁺ − q⁻)²``, to rounding: the ledger
@@ -48,7 +48,7 @@ class Recurrence(NamedTuple):
     now, before : (n,) ndarray
         Coefficients of the present and of the previous modal coordinate.
     gain : (n,) ndarray
-        Modal coordinate per unit of modal force, s²; a tip force pushes each mode by its displacement there.
+        Modal coordinate per unit of modal force, s²; a tip force acts on each mode by its displacement there.
     corrects : bool
         Whether the force acts in the step it is evaluated in (contract, 2).
     kinetic, loss : (n,) ndarray
@@ -58,7 +58,7 @@ class Recurrence(NamedTuple):
     omega : (n,) ndarray
         Natural angular frequencies of the resolved modes, rad/s.
     share : (all modes,) ndarray
-        Part of each mode of the blade that is resolved; the rest answers by its static displacement.
+        Part of each mode of the blade that is resolved; the rest responds by its static displacement.
     compliance, static_compliance : (16, 16) ndarray
         Displacement of the tip per unit of force in the same step, as the law of contact sees it
         (contract, 3), and of the modes that are not resolved alone, m/N.
@@ -81,7 +81,7 @@ class Recurrence(NamedTuple):
 
 
 class Contact(NamedTuple):
-    """What a scheme may ask of the contact it will meet.
+    """What a scheme needs to know of the contact.
 
     Parameters
     ----------
@@ -180,7 +180,7 @@ def exponential(modes: Modes, damping_ratio: float, time_step: float, contact: C
     n = int(np.searchsorted(x, FASTEST_PHASE, side="right"))
     margin = gain[:n] / (1.0 + now[:n] + before[:n])
     while n > 0:
-        resolved, share, static = _hand_over(modes, x, n, contact)
+        resolved, share, static = _resolve(modes, x, n, contact)
         if _kappa(resolved.tip, margin[:n], static, contact) <= STEADY:
             break
         n -= 1
@@ -213,12 +213,12 @@ def normal_compliance(compliance: np.ndarray, radial: float, tangential: float) 
     )
 
 
-def _hand_over(modes: Modes, x: np.ndarray, n: int, contact: Contact) -> tuple[Modes, np.ndarray, np.ndarray]:
+def _resolve(modes: Modes, x: np.ndarray, n: int, contact: Contact) -> tuple[Modes, np.ndarray, np.ndarray]:
     """Part of the first `n` modes that is resolved, its share of each mode, and the compliance of the rest.
 
     Against the rigid casing a sharp cut leaves one vibration of the tip in contact above all resolved modes,
-    which nothing damps: the force chatters for ever after an impact. There the modes go over gradually, by
-    the share ``(1 − (x / x_n)²)²``, and the impact travels on.
+    which nothing damps: the force chatters after an impact and never stops. There the share decreases
+    gradually, ``(1 − (x / x_n)²)²``, and the impact propagates.
     """
     share = np.zeros(x.size)
     share[:n] = 1.0
@@ -239,7 +239,7 @@ def _kappa(tip: np.ndarray, margin: np.ndarray, static: np.ndarray, contact: Con
     if not moves.any():
         return 0.0
     step, series = step[np.ix_(moves, moves)], series[np.ix_(moves, moves)]
-    if np.linalg.cond(series) > ILL_CONDITIONED:  # neither the casing nor the tip gives way
+    if np.linalg.cond(series) > ILL_CONDITIONED:  # neither the casing nor the tip is compliant
         return np.inf
     return float(np.max(np.abs(np.linalg.eigvals(np.linalg.solve(series, step)))))
 

@@ -41,7 +41,7 @@ class Casing:
 class Coating:
     """Abradable layer: E, K and σ_Y normalised by `modulus_unit`.
 
-    Infinite E and K stand for direct contact with the rigid casing: it does not give way and does not wear.
+    Infinite E and K stand for direct contact with the rigid casing: it neither deforms nor wears.
 
     Parameters
     ----------
@@ -57,7 +57,7 @@ class Coating:
     thickness : float
         Layer thickness, m.
     n_elements : int
-        Bar elements around the circumference, for each interface node.
+        Abradable elements around the circumference, for each interface node.
     law : str
         ``"theta"``: the force has a constant direction. ``"coulomb"``: its tangential part opposes the
         sliding of each node over the casing (`bladerub.contact.friction`).
@@ -159,7 +159,7 @@ class SweepSpec:
     rate : float
         Change of the normalised speed in a second, positive, 1/s.
     speed_step : float
-        Largest change of speed between two stretches of constant speed, normalised.
+        Largest change of speed between two steps of constant speed, normalised.
     """
 
     run: RunSpec

@@ -1,15 +1,14 @@
-"""One passage through a range of speeds in time: `SweepSpec` → `SweepResult`.
+"""One sweep through a range of speeds in time: `SweepSpec` → `SweepResult`.
 
-1. The speed rises or falls at a constant rate, in small steps: each is a stretch of constant speed, to whole
-   elements of the casing, over which it is integrated as in `bladerub.contact.run`.
-2. Between two stretches the stiffness changes as eq. (2) has it. Displacement and velocity of the blade are
-   continuous there and so is the contact force; the modes are found anew and what moves is handed over to
-   them.
-3. The rotation thereby does the work ``½ uᵀ ΔK u`` on the blade, which the ledger counts on its own
+1. The speed rises or falls at a constant rate, in small steps. Over each step, to whole elements of the casing,
+   it is constant and the blade is integrated as in `bladerub.contact.run`.
+2. Between two steps the stiffness changes by eq. (2). Displacement and velocity of the blade are continuous
+   there and so is the contact force; the state is transferred to the modes at the new speed.
+3. The rotation thereby does the work ``½ uᵀ ΔK u`` on the blade, an entry of the ledger
    (`SweepResult.work_stiffness`).
 4. As in eq. (1), displacements are increments about the running position, which itself changes with the
-   speed. The force of the angular acceleration (Euler's) is left out: on a way through the range of the paper
-   in five seconds it is below a hundredth of the centrifugal one from f_Ω = 0.1 on.
+   speed. The force of the angular acceleration (Euler's) is left out: in a sweep through the range of the
+   paper in five seconds it is below a hundredth of the centrifugal one from f_Ω = 0.1 on.
 """
 
 from __future__ import annotations
@@ -34,7 +33,7 @@ from bladerub.numerics.vectors import LANES
 
 @dataclass(frozen=True)
 class SweepResult:
-    """Outcome of one passage.
+    """Outcome of one sweep.
 
     Parameters
     ----------
@@ -72,7 +71,7 @@ n_contact_steps
         return stiffened.residual
 
 
-class Stretch(NamedTuple):
+class SpeedStep(NamedTuple):
     """Elements `first` to `last`, counted from the start of the run, at the speed `f_omega`."""
 
     f_omega: float
@@ -80,30 +79,30 @@ class Stretch(NamedTuple):
     last: int
 
 
-def stretches(spec: SweepSpec, f1_hz: float) -> list[Stretch]:
-    """Divide a passage of a blade of first frequency `f1_hz` (Hz) into stretches of constant speed.
+def speed_steps(spec: SweepSpec, f1_hz: float) -> list[SpeedStep]:
+    """Divide a sweep of a blade of first frequency `f1_hz` (Hz) into steps of constant speed.
 
     The speed of each is the mean over it. The last is prolonged to the end of its revolution.
     """
     n_elements, start = spec.run.coating.n_elements, spec.run.f_omega
-    n_stretches = max(1, int(np.ceil(abs(spec.f_end - start) / spec.speed_step - 1e-9)))
-    edges = np.linspace(start, spec.f_end, n_stretches + 1)
+    n_steps_of_speed = max(1, int(np.ceil(abs(spec.f_end - start) / spec.speed_step - 1e-9)))
+    edges = np.linspace(start, spec.f_end, n_steps_of_speed + 1)
     speeds = 0.5 * (edges[1:] + edges[:-1])
-    duration = abs(spec.f_end - start) / n_stretches / spec.rate
+    duration = abs(spec.f_end - start) / n_steps_of_speed / spec.rate
     passed = spec.run.revolutions + np.concatenate([[0.0], np.cumsum(speeds * f1_hz * duration)])
     cuts = np.rint(passed * n_elements).astype(int)
     cuts[-1] += -cuts[-1] % n_elements
-    planned = [Stretch(start, 0, int(cuts[0]))]
+    planned = [SpeedStep(start, 0, int(cuts[0]))]
     planned += [
-        Stretch(*each) for each in zip(speeds.tolist(), cuts.tolist(), cuts[1:].tolist(), strict=False)
+        SpeedStep(*each) for each in zip(speeds.tolist(), cuts.tolist(), cuts[1:].tolist(), strict=False)
     ]
-    return [stretch for stretch in planned if stretch.last > stretch.first]
+    return [step for step in planned if step.last > step.first]
 
 
 def simulate_sweep(
     blade: ReducedBlade, spec: SweepSpec, progress: Callable[[int], None] | None = None
 ) -> SweepResult:
-    """Let the blade rub while its speed changes.
+    """Simulate contact while the speed changes.
 
     Parameters
     ----------
@@ -120,13 +119,13 @@ def simulate_sweep(
         If a speed is outside the range of the blade, or the step too long for the scheme.
     """
     n_elements = spec.run.coating.n_elements
-    plan = stretches(spec, blade.f1_hz)
-    passage = _Passage(blade, spec.run, plan)
-    initial = sum(energy.blade_energy(passage.stage.rule, passage.stage.simulation.state))
+    plan = speed_steps(spec, blade.f1_hz)
+    sweep = _Sweep(blade, spec.run, plan)
+    initial = sum(energy.blade_energy(sweep.stage.rule, sweep.stage.simulation.state))
     revolutions = plan[-1].last // n_elements
-    history = integrate(passage.segments(), revolutions, n_elements, progress)
+    history = integrate(sweep.segments(), revolutions, n_elements, progress)
     status, message = history.outcome(spec.run.displacement_limit)
-    rule, simulation = passage.stage.rule, passage.stage.simulation
+    rule, simulation = sweep.stage.rule, sweep.stage.simulation
     f_omega, time = _speed_by_revolution(plan, n_elements, blade.f1_hz)
     return SweepResult(
         status=status,
@@ -141,21 +140,23 @@ def simulate_sweep(
         f_omega=f_omega,
         time=time,
         energy=energy.balance(rule, simulation.state, initial, simulation.angle_per_step),
-        work_stiffness=passage.work,
+        work_stiffness=sweep.work,
     )
 
 
-def _speed_by_revolution(plan: list[Stretch], n_elements: int, f1_hz: float) -> tuple[np.ndarray, np.ndarray]:
+def _speed_by_revolution(
+    plan: list[SpeedStep], n_elements: int, f1_hz: float
+) -> tuple[np.ndarray, np.ndarray]:
     """Mean speed and middle of each revolution."""
-    cuts = np.array([0, *(stretch.last for stretch in plan)])
-    duration = np.diff(cuts) / (n_elements * f1_hz * np.array([stretch.f_omega for stretch in plan]))
+    cuts = np.array([0, *(step.last for step in plan)])
+    duration = np.diff(cuts) / (n_elements * f1_hz * np.array([step.f_omega for step in plan]))
     elapsed = np.concatenate([[0.0], np.cumsum(duration)])
     ends = np.interp(np.arange(0, cuts[-1] + 1, n_elements), cuts, elapsed)
     return 1.0 / (f1_hz * np.diff(ends)), 0.5 * (ends[1:] + ends[:-1])
 
 
 class _Stage(NamedTuple):
-    """The blade at one speed: all its modes, and what marches in them."""
+    """The blade at one speed: all its modes, and the simulation in them."""
 
     omega: np.ndarray
     shapes: np.ndarray
@@ -164,24 +165,24 @@ class _Stage(NamedTuple):
     simulation: Simulation
 
 
-class _Passage:
-    """The blade on its way from stretch to stretch; `stage` is where it is."""
+class _Sweep:
+    """The blade during a sweep; `stage` is where it is."""
 
-    def __init__(self, blade: ReducedBlade, run: RunSpec, plan: list[Stretch]):
+    def __init__(self, blade: ReducedBlade, run: RunSpec, plan: list[SpeedStep]):
         self.blade, self.run, self.plan = blade, run, plan
         self.work = 0.0
         self.stage = self._stage(plan[0].f_omega)
 
     def segments(self) -> Iterator[Segment]:
         n_elements = self.run.coating.n_elements
-        for stretch in self.plan:
-            if stretch is not self.plan[0]:
-                before, self.stage = self.stage, self._stage(stretch.f_omega)
-                self.work += _hand_over(self.blade, before, self.stage)
-            first = stretch.first
-            while first < stretch.last:
+        for step in self.plan:
+            if step is not self.plan[0]:
+                before, self.stage = self.stage, self._stage(step.f_omega)
+                self.work += _transfer(self.blade, before, self.stage)
+            first = step.first
+            while first < step.last:
                 revolution, passed = divmod(first, n_elements)
-                last = min(stretch.last, (revolution + 1) * n_elements)
+                last = min(step.last, (revolution + 1) * n_elements)
                 yield Segment(self.stage.simulation, revolution, passed, passed + last - first)
                 first = last
 
@@ -192,8 +193,8 @@ class _Passage:
         return _Stage(omega, shapes, tip, *set_up_modes(Modes(omega, tip), self.blade, run))
 
 
-def _hand_over(blade: ReducedBlade, old: _Stage, new: _Stage) -> float:
-    """Go on from the state of `old` in `new`; return the work of the change of stiffness, J."""
+def _transfer(blade: ReducedBlade, old: _Stage, new: _Stage) -> float:
+    """Transfer the state of `old` to `new`; return the work of the change of stiffness, J."""
     state, here = new.simulation.state, old.simulation.state
     for name in ("force", "normal_force", "moment", "tangential_factor", "response", "wear", "ledger"):
         getattr(state, name)[:] = getattr(here, name)
@@ -204,15 +205,15 @@ def _hand_over(blade: ReducedBlade, old: _Stage, new: _Stage) -> float:
     static, static_new = old.tip.T @ force / old.omega**2, new.tip.T @ force / new.omega**2
     n, n_new = old.rule.omega.size, new.rule.omega.size
     share, share_new = np.sqrt(old.rule.share[:n]), np.sqrt(new.rule.share[:n_new])
-    swing, velocity = _swing(old.rule, here.q, force)
+    vibration, velocity = _free_motion(old.rule, here.q, force)
 
     total = static.copy()
-    total[:n] += share * swing
+    total[:n] += share * vibration
     moved = into @ total
     work = 0.5 * (np.sum((new.omega * moved) ** 2) - np.sum((old.omega * total) ** 2))
 
-    swing = into[:n_new, :n] @ swing + share_new * (into @ static - static_new)[:n_new]
-    state.q[:, :n_new] = _rows(new.rule, swing, into[:n_new, :n] @ velocity, force)
+    vibration = into[:n_new, :n] @ vibration + share_new * (into @ static - static_new)[:n_new]
+    state.q[:, :n_new] = _rows(new.rule, vibration, into[:n_new, :n] @ velocity, force)
     back = new.rule.time_step / old.rule.time_step
     state.u[0] = here.u[0]
     state.u[1] = here.u[0] + back * (here.u[1] - here.u[0])
@@ -223,15 +224,15 @@ def _hand_over(blade: ReducedBlade, old: _Stage, new: _Stage) -> float:
     return float(work)
 
 
-def _motion(rule: Recurrence) -> tuple[np.ndarray, np.ndarray]:
-    """Angular frequency and decay (1/s) at which the recurrence itself swings."""
+def _frequency(rule: Recurrence) -> tuple[np.ndarray, np.ndarray]:
+    """Angular frequency and decay (1/s) of the recurrence itself."""
     phase = np.arccos(rule.now / (2.0 * np.sqrt(rule.before)))
     return phase / rule.time_step, -0.5 * np.log(rule.before) / rule.time_step
 
 
-def _swing(rule: Recurrence, q: np.ndarray, force: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def _free_motion(rule: Recurrence, q: np.ndarray, force: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Displacement and velocity of each resolved mode about its rest under `force`."""
-    frequency, decay = _motion(rule)
+    frequency, decay = _frequency(rule)
     h = rule.time_step
     rest = rule.tip.T @ force / rule.omega**2
     now, before = q[:2, : rule.omega.size] - rest
@@ -239,10 +240,10 @@ def _swing(rule: Recurrence, q: np.ndarray, force: np.ndarray) -> tuple[np.ndarr
     return now, frequency * sine - decay * now
 
 
-def _rows(rule: Recurrence, swing: np.ndarray, velocity: np.ndarray, force: np.ndarray) -> np.ndarray:
+def _rows(rule: Recurrence, vibration: np.ndarray, velocity: np.ndarray, force: np.ndarray) -> np.ndarray:
     """Coordinates (3, n) now, one and two steps before, of that motion."""
-    frequency, decay = _motion(rule)
-    sine = (velocity + decay * swing) / frequency
+    frequency, decay = _frequency(rule)
+    sine = (velocity + decay * vibration) / frequency
     time = -rule.time_step * np.arange(3)[:, None]
-    turned = swing * np.cos(frequency * time) + sine * np.sin(frequency * time)
+    turned = vibration * np.cos(frequency * time) + sine * np.sin(frequency * time)
     return rule.tip.T @ force / rule.omega**2 + np.exp(-decay * time) * turned

@@ -5,7 +5,7 @@ from scipy.integrate import solve_ivp
 from bladerub.contact.modes import at_tip, mode_shapes_at
 from bladerub.contact.run import simulate
 from bladerub.contact.setup import set_up
-from bladerub.contact.sweep import SweepSpec, simulate_sweep, stretches
+from bladerub.contact.sweep import SweepSpec, simulate_sweep, speed_steps
 
 N = 200
 """Elements of the ring."""
@@ -18,39 +18,39 @@ def away(spec, change):
 
 
 @pytest.mark.parametrize(("start", "end"), [(0.1, 0.3), (0.3, 0.1)])
-def test_stretches_follow_a_constant_rate(spec, change, start, end):
+def test_speed_steps_follow_a_constant_rate(spec, change, start, end):
     run, rate = change(spec, f_omega=start, revolutions=2), 0.5
-    plan = stretches(SweepSpec(run, end, rate, 0.004), f1_hz=192.0)
-    firsts, lasts = [stretch.first for stretch in plan], [stretch.last for stretch in plan]
+    plan = speed_steps(SweepSpec(run, end, rate, 0.004), f1_hz=192.0)
+    firsts, lasts = [step.first for step in plan], [step.last for step in plan]
     assert firsts == [0, *lasts[:-1]]
     assert lasts[-1] % N == 0
     assert plan[0] == (start, 0, 2 * N)  # where it begins it stays
     revolutions = 192.0 * (start + end) / 2 * abs(end - start) / rate
     assert lasts[-1] / N - 2 == pytest.approx(revolutions, abs=1)
-    speeds = np.array([stretch.f_omega for stretch in plan[1:]])
+    speeds = np.array([step.f_omega for step in plan[1:]])
     assert np.diff(speeds) == pytest.approx(np.sign(end - start) * 0.004)
     assert np.mean(speeds) == pytest.approx((start + end) / 2)
     seconds = np.diff([2 * N, *lasts[1:-1]]) / N / (192.0 * speeds[:-1])
     assert seconds == pytest.approx(0.004 / rate, abs=1 / N / 192.0 / 0.1)  # to an element
 
 
-def test_a_fast_passage_leaves_out_what_no_element_falls_to(spec, change):
+def test_a_fast_sweep_leaves_out_steps_without_an_element(spec, change):
     run = change(spec, f_omega=0.1, revolutions=0)
-    plan = stretches(SweepSpec(run, 0.3, 50.0, 1e-4), f1_hz=192.0)
-    assert all(stretch.last > stretch.first for stretch in plan)
-    assert [stretch.first for stretch in plan] == [0, *(stretch.last for stretch in plan[:-1])]
+    plan = speed_steps(SweepSpec(run, 0.3, 50.0, 1e-4), f1_hz=192.0)
+    assert all(step.last > step.first for step in plan)
+    assert [step.first for step in plan] == [0, *(step.last for step in plan[:-1])]
 
 
-def test_a_passage_that_leads_nowhere_is_the_run_at_that_speed(blade, spec):
-    run, passage = simulate(blade, spec), simulate_sweep(blade, SweepSpec(spec, spec.f_omega, 1.0, 1e-3))
-    np.testing.assert_array_equal(passage.radial_displacement, run.radial_displacement)
-    np.testing.assert_array_equal(passage.wear, run.wear)
-    np.testing.assert_array_equal(passage.revolution_amplitude, run.revolution_amplitude)
-    assert (passage.energy, passage.status, passage.message) == (run.energy, run.status, run.message)
-    assert passage.work_stiffness == 0
-    assert passage.residual == run.energy.residual
-    assert passage.f_omega == pytest.approx(spec.f_omega)
-    assert passage.time == pytest.approx((np.arange(2) + 0.5) / (192.0 * spec.f_omega))
+def test_a_sweep_over_no_range_is_the_run_at_that_speed(blade, spec):
+    run, sweep = simulate(blade, spec), simulate_sweep(blade, SweepSpec(spec, spec.f_omega, 1.0, 1e-3))
+    np.testing.assert_array_equal(sweep.radial_displacement, run.radial_displacement)
+    np.testing.assert_array_equal(sweep.wear, run.wear)
+    np.testing.assert_array_equal(sweep.revolution_amplitude, run.revolution_amplitude)
+    assert (sweep.energy, sweep.status, sweep.message) == (run.energy, run.status, run.message)
+    assert sweep.work_stiffness == 0
+    assert sweep.residual == run.energy.residual
+    assert sweep.f_omega == pytest.approx(spec.f_omega)
+    assert sweep.time == pytest.approx((np.arange(2) + 0.5) / (192.0 * spec.f_omega))
 
 
 RIGID = {"E": np.inf, "K": np.inf, "theta": 0.0, "max_time_step": 2e-6}
@@ -66,14 +66,14 @@ def test_a_change_of_speed_by_nothing_changes_nothing(blade, spec, change, value
     whole = simulate(blade, run)
     little = 1e-12
     rate = little * run.f_omega * 192.0 / 2  # in two revolutions
-    passage = simulate_sweep(
+    sweep = simulate_sweep(
         blade, SweepSpec(change(run, revolutions=1), run.f_omega + little, rate, little / 8)
     )
     assert whole.n_contact_steps > 100
-    assert passage.f_omega.size == 3
-    worst = np.abs(passage.radial_displacement - whole.radial_displacement)[:compared].max()
+    assert sweep.f_omega.size == 3
+    worst = np.abs(sweep.radial_displacement - whole.radial_displacement)[:compared].max()
     assert worst < 1e-6 * np.abs(whole.radial_displacement).max()
-    assert passage.residual < 2 * whole.energy.residual
+    assert sweep.residual < 2 * whole.energy.residual
 
 
 def test_free_motion_is_that_of_the_equation_with_stiffness_in_time(blade, away, change):
@@ -95,40 +95,40 @@ def test_free_motion_is_that_of_the_equation_with_stiffness_in_time(blade, away,
     turned = 192.0 * (start * time + rate * time**2 / 2)
     errors = []
     for step in (8e-3, 4e-3, 2e-3):
-        passage = simulate_sweep(blade, SweepSpec(change(away, f_omega=start), end, rate, step))
-        x = (np.arange(passage.radial_displacement.size) + 0.5) / N
+        sweep = simulate_sweep(blade, SweepSpec(change(away, f_omega=start), end, rate, step))
+        x = (np.arange(sweep.radial_displacement.size) + 0.5) / N
         within = x < turned[-1]
-        errors.append(np.abs(np.interp(x, turned, tip) - passage.radial_displacement)[within].max() / 1e-3)
+        errors.append(np.abs(np.interp(x, turned, tip) - sweep.radial_displacement)[within].max() / 1e-3)
     assert errors[2] < 0.01
     assert errors[2] < 0.5 * errors[0]
 
 
 @pytest.mark.parametrize(("start", "end"), [(0.05, 0.4), (0.4, 0.05)])
 def test_the_energy_of_free_motion_is_the_work_of_the_stiffness(blade, away, change, start, end):
-    passage = simulate_sweep(blade, SweepSpec(change(away, f_omega=start), end, 2.0, 2e-3))
-    energy = passage.energy
-    assert passage.n_contact_steps == 0
+    sweep = simulate_sweep(blade, SweepSpec(change(away, f_omega=start), end, 2.0, 2e-3))
+    energy = sweep.energy
+    assert sweep.n_contact_steps == 0
     gained = energy.kinetic + energy.elastic - energy.initial
     assert abs(gained) > 0.03 * energy.initial
     assert np.sign(gained) == np.sign(end - start)
-    assert passage.work_stiffness == pytest.approx(gained, rel=1e-3)
+    assert sweep.work_stiffness == pytest.approx(gained, rel=1e-3)
 
 
 def test_the_ledger_closes_as_at_constant_speed(blade, spec, change):
     run = change(spec, f_omega=0.25, revolutions=0, steps_per_element=40)
-    passage = simulate_sweep(blade, SweepSpec(run, 0.35, 1.0, 1e-3))
-    constant = simulate(blade, change(run, f_omega=0.3, revolutions=passage.f_omega.size))
-    assert passage.n_contact_steps > 1000
-    assert passage.residual < 3 * max(constant.energy.residual, 1e-5)
+    sweep = simulate_sweep(blade, SweepSpec(run, 0.35, 1.0, 1e-3))
+    constant = simulate(blade, change(run, f_omega=0.3, revolutions=sweep.f_omega.size))
+    assert sweep.n_contact_steps > 1000
+    assert sweep.residual < 3 * max(constant.energy.residual, 1e-5)
 
 
-def test_a_tip_out_of_bounds_ends_the_passage(blade, spec, change):
+def test_a_tip_out_of_bounds_ends_the_sweep(blade, spec, change):
     run = change(spec, f_omega=0.25, revolutions=0, displacement_limit=3e-4)
-    passage = simulate_sweep(blade, SweepSpec(run, 0.35, 1.0, 1e-3))
-    assert passage.status == "unbounded"
-    assert "more than 0.0003 m" in passage.message
-    assert np.isnan(passage.revolution_amplitude[-1])
-    assert np.isfinite(passage.residual)
+    sweep = simulate_sweep(blade, SweepSpec(run, 0.35, 1.0, 1e-3))
+    assert sweep.status == "unbounded"
+    assert "more than 0.0003 m" in sweep.message
+    assert np.isnan(sweep.revolution_amplitude[-1])
+    assert np.isfinite(sweep.residual)
 
 
 def test_a_speed_outside_the_fit_is_an_error(blade, spec):
