@@ -5,7 +5,6 @@ from __future__ import annotations
 import argparse
 import json
 from collections.abc import Mapping
-from dataclasses import asdict
 from pathlib import Path
 from shutil import get_terminal_size
 from typing import Any
@@ -45,17 +44,13 @@ def add_to(commands: Any) -> None:
 
 
 def status(options: argparse.Namespace) -> None:
-    """Count the runs of the study and print the counts.
-
-    Raises
-    ------
-    ConfigError
-        If the config is at fault.
-    """
+    """Count the runs of the study and print the counts; raises `ConfigError`."""
     config = inputs.read_config(options)
 
+    from bladerub.extensions.chart.point import PointRow
     from bladerub.study import inventory
     from bladerub.study.grid import coating_cases
+    from bladerub.study.manifest import damaged_files
     from bladerub.study.plan import coating_plan
 
     results = inputs.ROOT / config["results"]
@@ -70,22 +65,21 @@ def status(options: argparse.Namespace) -> None:
         )
         damaged += found
     if options.thorough:
-        damaged += _damaged_points(results / "chart" / "columns")
+        for manifest in sorted((results / "chart" / "columns").glob("*.tsv")):
+            damaged += damaged_files(manifest, PointRow)
     if options.discard:
         for path in damaged:
             path.unlink(missing_ok=True)
     whole = inventory.total(counts.values())
     if options.json:
         about = {"note": note, "damaged": [str(path) for path in damaged], "discarded": options.discard}
-        coatings = {name: asdict(each) for name, each in counts.items()}
-        print(json.dumps(asdict(whole) | about | {"coatings": coatings}, indent=2))
+        print(json.dumps(whole | about | {"coatings": counts}, indent=2))
         return
     _print_table(counts | {"all": whole})
-    print(
-        f"\nlonger runs, where growth is to be confirmed: {whole.longer_done} of {whole.longer_planned} done"
-    )
-    if whole.unconverged:
-        print(f"runs with steps whose contact forces did not converge: {whole.unconverged}")
+    longer = f"{whole['longer_done']} of {whole['longer_planned']} done"
+    print(f"\nlonger runs, where growth is to be confirmed: {longer}")
+    if whole["unconverged"]:
+        print(f"runs with steps whose contact forces did not converge: {whole['unconverged']}")
     if damaged:
         state = "damaged and deleted" if options.discard else "damaged; delete them, as status --discard does"
         print(f"{state}; then run snakemake again, which computes them alone:")
@@ -108,24 +102,9 @@ def _blade_digest(config: Mapping[str, Any], model: Path) -> tuple[str | None, s
         return None, f"every run counts as stale without its blade: {message_for(error)}"
 
 
-def _damaged_points(columns: Path) -> list[Path]:
-    """List the points of the chart, and the manifests of its columns, that are not as they were written."""
-    from bladerub.extensions.chart.point import PointRow
-    from bladerub.io.errors import DamagedFile
-    from bladerub.study.manifest import listed_files
-
-    damaged = []
-    for manifest in sorted(columns.glob("*.tsv")):
-        try:
-            damaged += [file.path for file in listed_files(manifest, PointRow) if file.is_damaged()]
-        except DamagedFile:
-            damaged.append(manifest)
-    return damaged
-
-
-def _print_table(counts: Mapping[str, Any]) -> None:
+def _print_table(counts: Mapping[str, Mapping[str, int]]) -> None:
     width = max(len(name) for name in ["coating", *counts])
     print(f"{'coating':<{width}}" + "".join(f"{column:>10}" for column in _COLUMNS) + f"{'MB':>10}")
     for name, inventory in counts.items():
-        numbers = "".join(f"{getattr(inventory, column):>10}" for column in _COLUMNS)
-        print(f"{name:<{width}}{numbers}{inventory.bytes / 1e6:>10.1f}")
+        numbers = "".join(f"{inventory[column]:>10}" for column in _COLUMNS)
+        print(f"{name:<{width}}{numbers}{inventory['bytes'] / 1e6:>10.1f}")

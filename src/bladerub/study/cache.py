@@ -34,11 +34,7 @@ def blade_digest(path: str | Path) -> str:
     """Digest the datasets and attributes of the reduced blade at `path`, not the bytes of the file.
 
     A rebuild with the same outcome keeps the digest, wherever it comes from and whatever layout the file has.
-
-    Raises
-    ------
-    OSError
-        If the file is missing or unreadable.
+    Raises `OSError` if the file is missing or unreadable.
     """
     data, attributes = hdf5.read(path)
     content = hashlib.sha256()
@@ -53,17 +49,7 @@ def blade_digest(path: str | Path) -> str:
 
 @dataclass(frozen=True)
 class Entry:
-    """One file that is to hold what its key stands for.
-
-    Parameters
-    ----------
-    path : Path
-        The file.
-    key : str
-        Its key.
-    datasets : set of str
-        What it must contain at least.
-    """
+    """A file that is to hold what its key stands for, and at least these datasets."""
 
     path: Path
     key: str

@@ -28,20 +28,10 @@ LOCK = ".lock"
 
 @dataclass(frozen=True)
 class RunDone:
-    """Report of one computed run; its string is a line for a log.
+    """Report of one computed run, whose string is a line for a log.
 
-    Parameters
-    ----------
-    number, total : int
-        This run among those that had to be computed; longer ones for confirmation are counted separately.
-    file : str
-        Name of the run file, in the folder of the coating.
-    status : str
-        ``completed`` or ``unbounded``.
-    seconds : float
-        Wall time of the run.
-    seconds_left : float
-        Estimated wall time of the runs still to compute.
+    It is the run `number` of the `total` that had to be computed, longer ones counted separately. It took so
+    many `seconds` of wall time, and the others will take about `seconds_left`.
     """
 
     number: int
@@ -61,11 +51,11 @@ class RunDone:
 class _Done(NamedTuple):
     """A run that is in its file."""
 
-    status: str
-    amplitude: np.ndarray
     key: str
     bytes: int
     checksum: str
+    status: str
+    amplitude: np.ndarray
 
 
 def compute_missing(
@@ -86,16 +76,10 @@ def compute_missing(
 
     Parameters
     ----------
-    config : mapping
-        The study.
-    plan : CoatingPlan
-        The coating and its runs.
-    blade : ReducedBlade
-        The blade.
+    config, plan, blade, blade_digest
+        The study, the coating with its runs, the blade and its digest (`bladerub.study.cache.blade_digest`).
     folder : path-like
         Where the runs of this coating are.
-    blade_digest : str
-        From `bladerub.study.cache.blade_digest`.
     report : callable, optional
         Called with a line for a log: a `RunDone` after each computed run, or a text before waiting.
 
@@ -121,21 +105,9 @@ def compute_missing(
 
 
 def _row(run: PlannedRun, done: _Done, longer: _Done | None) -> ManifestRow:
-    confirmation = {}
-    if longer:
-        confirmation = {
-            "confirmation_key": longer.key,
-            "confirmation_bytes": longer.bytes,
-            "confirmation_checksum": longer.checksum,
-        }
+    key, size, checksum = longer[:3] if longer else ("", 0, "")
     return ManifestRow(
-        file=run.file,
-        f_omega=run.spec.f_omega,
-        run_key=done.key,
-        status=done.status,
-        bytes=done.bytes,
-        checksum=done.checksum,
-        **confirmation,
+        run.file, run.spec.f_omega, done.key, done.status, done.bytes, key, size, done.checksum, checksum
     )
 
 
@@ -151,7 +123,7 @@ def _compute(
     """Compute what is missing or stale of `runs`, which are of equal length; return all by file."""
     entries = {run.file: Entry(folder / run.file, run.key(blade_digest), MAPPED) for run in runs}
     missing = [run for run in runs if not entries[run.file].fetch()]
-    done = {}
+    checksums = {}
     # a run takes as many steps as its revolutions take time: its cost goes as 1 / speed
     cost_left = sum(1 / run.spec.f_omega for run in missing)
     cost_done, start = 0.0, time.monotonic()
@@ -160,23 +132,16 @@ def _compute(
         result = simulate(blade, run.spec)
         stored = stored_run(case, run.spec, result, entry.key, config["analysis"], run.keep_history)
         entry.make_room()
-        checksum = write_run(entry.path, stored, provenance(config))
-        done[run.file] = _done(entry, result.status, result.revolution_amplitude, checksum)
+        checksums[run.file] = write_run(entry.path, stored, provenance(config))
         now = time.monotonic()
         cost_done += 1 / run.spec.f_omega
         cost_left -= 1 / run.spec.f_omega
         seconds_left = (now - start) * max(cost_left, 0.0) / cost_done
         report(RunDone(number, len(missing), run.file, result.status, now - run_start, seconds_left))
-    for file in entries.keys() - done.keys():
-        done[file] = _stored(entries[file])
-    return done
+    return {file: _done(entry, checksums.get(file)) for file, entry in entries.items()}
 
 
-def _stored(entry: Entry) -> _Done:
-    run = read_run(entry.path, {"revolution_amplitude"})
-    amplitude = run.data["revolution_amplitude"]
-    return _done(entry, run.attributes["status"], amplitude, file_checksum(entry.path))
-
-
-def _done(entry: Entry, status: str, amplitude: np.ndarray, checksum: str) -> _Done:
-    return _Done(status, amplitude, entry.key, entry.path.stat().st_size, checksum)
+def _done(entry: Entry, checksum: str | None) -> _Done:
+    run, size = read_run(entry.path, {"revolution_amplitude"}), entry.path.stat().st_size
+    checksum = checksum or file_checksum(entry.path)
+    return _Done(entry.key, size, checksum, run.attributes["status"], run.data["revolution_amplitude"])

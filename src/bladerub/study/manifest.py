@@ -44,26 +44,10 @@ AnyRow = TypeVar("AnyRow", bound=Row)
 
 @dataclass(frozen=True)
 class ManifestRow:
-    """One run in the manifest of a coating.
+    """One run in the manifest of a coating: its file next to the manifest, normalised speed, key and status.
 
-    Parameters
-    ----------
-    file : str
-        Name of the run file, beside the manifest.
-    f_omega : float
-        Normalised speed.
-    run_key : str
-        Key of the run.
-    status : str
-        ``completed`` or ``unbounded``.
-    bytes : int
-        Size of the file.
-    confirmation_key : str
-        Key of the longer run that shows whether its growth lasts; empty if it needs none.
-    confirmation_bytes : int
-        Size of its file.
-    checksum, confirmation_checksum : str
-        SHA-256 of both files.
+    ``confirmation_...`` is of the longer run that shows whether its growth lasts, empty if it needs none. The
+    checksums are the SHA-256 of both files.
     """
 
     file: str
@@ -81,8 +65,8 @@ class ManifestRow:
         run = folder / self.file
         listed = [ListedFile(run, self.bytes, self.checksum)]
         if self.confirmation_key:
-            longer = confirmation_path(run), self.confirmation_bytes, self.confirmation_checksum
-            listed.append(ListedFile(*longer))
+            longer = confirmation_path(run)
+            listed.append(ListedFile(longer, self.confirmation_bytes, self.confirmation_checksum))
         return listed
 
 
@@ -125,3 +109,13 @@ def read_manifest(path: str | Path, kind: type[AnyRow] = ManifestRow) -> list[An
 def listed_files(path: str | Path, kind: type[Row] = ManifestRow) -> list[ListedFile]:
     """List all files of the rows of the manifest at `path`; raises `OSError` as `read_manifest`."""
     return [file for row in read_manifest(path, kind) for file in row.files(Path(path).parent)]
+
+
+def damaged_files(path: str | Path, kind: type[Row] = ManifestRow, thorough: bool = True) -> list[Path]:
+    """List the damaged files of a manifest, looked for only if `thorough`, or itself if it is damaged."""
+    try:
+        return [file.path for file in listed_files(path, kind) if thorough and file.is_damaged()]
+    except FileNotFoundError:
+        return []
+    except DamagedFile:
+        return [Path(path)]

@@ -20,19 +20,10 @@ SHAPING_SETTINGS = ("spectrum_revolutions", "max_order")
 
 @dataclass(frozen=True)
 class PlannedRun:
-    """One run of the study.
+    """One run of the study, to be in `file` in the folder of its coating.
 
-    Parameters
-    ----------
-    spec : RunSpec
-        The run.
-    file : str
-        Its file, in the folder of the coating.
-    keep_history : bool
-        Whether to store the whole radial displacement of node 1.
-    determinants : str
-        Digest of everything that determines the file but the blade. Other coatings or speeds of the study
-        have no part in it.
+    `keep_history` is whether the whole radial displacement of node 1 is stored, `determinants` a digest of
+    everything that determines the file but the blade; other coatings or speeds have no part in it.
     """
 
     spec: RunSpec

@@ -65,18 +65,11 @@ ALL: Set[str] = frozenset()
 
 @dataclass(frozen=True)
 class StoredRun:
-    """What is stored of a run.
+    """What is stored of a run: its attributes, and its datasets by name in SI units.
 
-    Parameters
-    ----------
-    attributes : dict
-        ``casing``, ``E``, ``K``, ``theta``, ``law``, ``f_omega``, ``revolutions``, ``time_step``,
-        ``n_steps``, ``run_key``, ``status`` and more.
-    data : dict of str to ndarray
-        The datasets by name, in SI units: ``wear`` (8, n), ``angle`` (n,), ``spectrum_order`` and
-        ``spectrum_amplitude`` (m,), ``revolution_peak``, ``revolution_amplitude`` and ``revolution_number``
-        (r,), ``energy_*`` (scalars), and for runs with history ``radial_displacement`` over ``revolution``
-        (r n,).
+    The datasets are ``wear`` (8, n), ``angle`` (n,), ``spectrum_order`` and ``spectrum_amplitude`` (m,),
+    ``revolution_peak``, ``revolution_amplitude`` and ``revolution_number`` (r,), ``energy_*`` (scalars), and
+    for runs with history ``radial_displacement`` over ``revolution`` (r n,).
     """
 
     attributes: dict[str, Any]
@@ -91,18 +84,9 @@ def stored_run(
     analysis: Mapping[str, Any],
     keep_history: bool,
 ) -> StoredRun:
-    """Take from the outcome of a run what is stored of it.
+    """Take from the outcome of a run what is stored of it, `keep_history` the displacement at all times.
 
-    Parameters
-    ----------
-    case, spec, result
-        The coating, the run and its outcome.
-    run_key : str
-        From `bladerub.study.plan.PlannedRun.key`.
-    analysis : mapping
-        ``config["analysis"]``, for the spectrum.
-    keep_history : bool
-        Whether to store the whole radial displacement of node 1.
+    `run_key` is of `bladerub.study.plan.PlannedRun.key`, `analysis` of the config, for the spectrum.
     """
     order, amplitude = order_spectrum(
         result.radial_displacement, spec.revolutions, analysis["spectrum_revolutions"], analysis["max_order"]
@@ -156,19 +140,9 @@ def write_run(path: str | Path, run: StoredRun, origin: Mapping[str, str]) -> st
 
 
 def read_run(path: str | Path, only: Set[str] = ALL) -> StoredRun:
-    """Read one run.
+    """Read one run, or `only` the named datasets of it.
 
-    Parameters
-    ----------
-    path : path-like
-        The file.
-    only : set of str, optional
-        Names of the datasets to read, all by default.
-
-    Raises
-    ------
-    OSError
-        If the file is missing, damaged or not a run; the message names it.
+    Raises `OSError` if the file is missing, damaged or not a run; the message names it.
     """
     data, attributes = hdf5.read(path, only or None)
     missing = (only or MAPPED) - data.keys() | {"run_key"} - attributes.keys()

@@ -64,25 +64,9 @@ def compute_missing(
 ) -> list[PointRow]:
     """Compute those points of a column whose file is missing or stale, as `bladerub.study.job` does runs.
 
-    Parameters
-    ----------
-    config : mapping
-        The study.
-    plan : mapping of CoatingCase to str
-        From `plan_column`.
-    blade : ReducedBlade
-        The blade.
-    folder : path-like
-        Where the points of the whole chart are.
-    blade_digest : str
-        From `bladerub.study.cache.blade_digest`.
-    report : callable
-        Called with a line for a log after each computed point, and before waiting.
-
-    Returns
-    -------
-    list of PointRow
-        A row per coating, for `bladerub.study.manifest.write_manifest`.
+    `plan` is of `plan_column`, `blade_digest` of `bladerub.study.cache`, `folder` that of the points of the
+    whole chart; `report` is called with a line for a log after each computed point, and before waiting. The
+    rows are for `bladerub.study.manifest.write_manifest`.
     """
     folder, speeds, first = Path(folder), chart_speeds(config), next(iter(plan))
     column_lock = folder / f".{first.casing}_E{first.E:g}_theta{first.theta:g}.lock"

@@ -21,7 +21,7 @@ MEASURES = {
     "worn_volume": ("m3", "volume worn off the coating"),
     "deepest_wear": ("m", "greatest worn depth under any node"),
     "lobes": ("1", "number of worn lobes"),
-    "unbounded": ("1", "1 where the tip left all bounds"),
+    "unbounded": ("1", "1 where the tip exceeded the displacement limit"),
     "divergent": ("1", "1 where the run diverges; judged at the uniform speeds alone"),
     "revolutions": ("1", "revolutions made, the longer run for confirmation not counted"),
     "energy_damping": ("J", "energy dissipated by modal damping"),
@@ -29,6 +29,17 @@ MEASURES = {
     "energy_sliding": ("J", "energy dissipated by the tangential resistance of the coating"),
 }
 """What is kept of each run, with unit and meaning; NaN at speeds that were not run."""
+
+_DATASETS = {
+    "f_omega": ("1", "rotational frequency over that of the blade at rest"),
+    "spectrum_order": ("1", "engine order"),
+    "C1": ("1", "first eigenfrequency at speed over that at rest"),
+    "spectrum_amplitude": (
+        "m",
+        "largest amplitude of the radial displacement of node 1 on the engine order; NaN: not run",
+    ),
+    "uniform": ("1", "1 at the speeds of which shares are"),
+}
 
 
 POINTS = "cells"
@@ -51,24 +62,12 @@ class PointRow:
 
 @dataclass(frozen=True)
 class ChartPoint:
-    """What the chart keeps of one coating, over all speeds of the study.
+    """What the chart keeps of one coating, over all n speeds of the study.
 
-    Parameters
-    ----------
-    case : CoatingCase
-        The coating.
-    f_omega : (n,) ndarray
-        Speeds of the study, normalised.
-    C1 : (n,) ndarray
-        First eigenfrequency of the blade at each of them, normalised.
-    spectrum_order : (k,) ndarray
-        The engine orders of the chart.
-    spectrum_amplitude : (n, k) ndarray
-        Largest amplitude on each of them, to within ``analysis.peaks.order_halfwidth``, m; NaN where not run.
-    uniform : (n,) ndarray of bool
-        The speeds of which the shares are.
-    measures : dict of str to (n,) ndarray
-        `MEASURES`.
+    `f_omega`, `C1` (the first eigenfrequency of the blade), `uniform` (the speeds of which the shares are)
+    and each of `MEASURES` are (n,). `spectrum_order` has the k engine orders of the chart, and
+    `spectrum_amplitude` (n, k) the largest amplitude on each of them, to within
+    ``analysis.peaks.order_halfwidth``, m; NaN where not run. Frequencies are normalised.
     """
 
     case: CoatingCase
@@ -87,36 +86,18 @@ class ChartPoint:
 
 def write(path: str | Path, point: ChartPoint, key: str, config: Mapping[str, Any]) -> str:
     """Write `point` to `path` under its `key`, whole or not at all; return the checksum of the file."""
-    over_speed = ("f_omega",)
+    described = _DATASETS | {name: (unit, f"{what}; NaN: not run") for name, (unit, what) in MEASURES.items()}
+    values = vars(point) | point.measures | {"uniform": point.uniform.astype(np.int8)}
+    dims = {"spectrum_order": ("spectrum_order",), "spectrum_amplitude": ("f_omega", "spectrum_order")}
     variables = {
-        "f_omega": Variable(
-            over_speed, point.f_omega, "1", "rotational frequency over that of the blade at rest"
-        ),
-        "spectrum_order": Variable(("spectrum_order",), point.spectrum_order, "1", "engine order"),
-        "C1": Variable(over_speed, point.C1, "1", "first eigenfrequency at speed over that at rest"),
-        "spectrum_amplitude": Variable(
-            ("f_omega", "spectrum_order"),
-            point.spectrum_amplitude,
-            "m",
-            "largest amplitude of the radial displacement of node 1 on the engine order; NaN: not run",
-        ),
-        "uniform": Variable(
-            over_speed, point.uniform.astype(np.int8), "1", "1 at the speeds of which shares are"
-        ),
+        name: Variable(dims.get(name, ("f_omega",)), values[name], unit, long_name)
+        for name, (unit, long_name) in described.items()
     }
-    for name, (unit, long_name) in MEASURES.items():
-        variables[name] = Variable(over_speed, point.measures[name], unit, f"{long_name}; NaN: not run")
     return hdf5.write(path, variables, asdict(point.case) | {"cell_key": key}, provenance(config))
 
 
 def read(path: str | Path) -> ChartPoint:
-    """Read a point written by `write`.
-
-    Raises
-    ------
-    OSError
-        If the file is missing, damaged or not a point of the chart; the message names it.
-    """
+    """Read a point written by `write`; raises `OSError` if the file is missing, damaged or none."""
     data, attributes = hdf5.read(path)
     try:
         return ChartPoint(
