@@ -1,7 +1,7 @@
 """Speeds of the time loop, measured side by side in one process.
 
-Every loop integrates the same two revolutions from rest: once on a casing brought so near that the tip touches
-it in a third of the steps, once vibrating freely far from it. Rounds take turns, and the median counts.
+Every loop integrates the same two revolutions from rest: once on a casing so near that the tip touches it in
+a third of the steps, once vibrating freely far from it. Rounds take turns, and the median counts.
 """
 
 from __future__ import annotations
