@@ -1,7 +1,7 @@
 """One sweep through a range of speeds in time: `SweepSpec` → `SweepResult`.
 
-1. The speed changes at a constant rate, in small steps. Over each step, to whole elements of the casing, it is
-   constant and the blade is integrated as in `bladerub.contact.run`.
+1. The speed changes at a constant rate, in small steps. Over each step, to whole elements of the casing, it
+   is constant and the blade is integrated as in `bladerub.contact.run`.
 2. Between two steps the stiffness changes by eq. (2). Displacement and velocity of the blade are continuous
    there and so is the contact force; the state is transferred to the modes at the new speed.
 3. The rotation thereby does the work ``½ uᵀ ΔK u`` on the blade, an entry of the ledger
