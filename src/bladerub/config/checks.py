@@ -107,13 +107,10 @@ def _check_size(mesh: Config) -> None:
 
 @_reads("reduction")
 def _accuracy_modes(config: Config) -> Iterator[str]:
-    reduction = config["reduction"]
-    most = 3 * N_INTERFACE + reduction["modes_per_speed"]  # coordinates that the reduced model has for sure
-    if reduction["accuracy_modes"] > most:
-        yield (
-            f"reduction.accuracy_modes = {reduction['accuracy_modes']}: must be at most {most} with "
-            f"reduction.modes_per_speed = {reduction['modes_per_speed']}, the reduced model has no more"
-        )
+    modes, per_speed = config["reduction"]["accuracy_modes"], config["reduction"]["modes_per_speed"]
+    most = 3 * N_INTERFACE + per_speed  # coordinates that the reduced model has for sure
+    if modes > most:
+        yield f"reduction.accuracy_modes = {modes}: must be at most {most}, with {per_speed} modes_per_speed"
 
 
 @_reads("reduction", "blade")
@@ -135,10 +132,8 @@ def _casings(config: Config) -> Iterator[str]:
             depth, amplitude = casing["interference"], casing["amplitude"]
             deepest = amplitude * (1 - _lowest(tuple(diameters), tuple(weights)))
             if depth > deepest:
-                yield (
-                    f"{where}.interference = {depth:g}: must be at most {deepest:g} m, or the "
-                    f"blade touches all around at an amplitude of {amplitude:g} m"
-                )
+                right = f"at most {deepest:g} m, or the blade touches all around"
+                yield f"{where}.interference = {depth:g}: must be {right}"
 
 
 def _lowest(nodal_diameters: tuple[int, ...], weights: tuple[float, ...]) -> float:
@@ -150,13 +145,10 @@ def _lowest(nodal_diameters: tuple[int, ...], weights: tuple[float, ...]) -> flo
 def _contact_at_all(config: Config) -> Iterator[str]:
     smallest = min(config["contact"]["clearance"].values()) * config["blade"]["length"]
     scale = config["contact"].get("scale", UNSCALED)["length"]
+    right = f"above the smaller contact.clearance, {smallest / scale:g} m, or the blade never touches"
     for name, casing in config["casings"].items():
-        depth = casing["interference"]
-        if depth * scale <= smallest:
-            yield (
-                f"casings.{name}.interference = {depth:g}: must be above the smaller contact.clearance, "
-                f"{smallest / scale:g} m on this blade, or the blade never touches"
-            )
+        if casing["interference"] * scale <= smallest:
+            yield f"casings.{name}.interference = {casing['interference']:g}: must be {right}"
 
 
 @_reads("coatings", "speeds")
@@ -165,34 +157,23 @@ def _runs(config: Config) -> Iterator[str]:
     if n_speeds < 2:
         stop = config["speeds"]["stop"]
         yield f"speeds.stop = {stop:g}: must give two speeds or more, for maps and peaks"
-    n_coatings = len(coating_cases(config))
-    if n_coatings * n_speeds > MOST_RUNS:
-        yield (
-            f"speeds: {n_speeds} speeds on {n_coatings} coatings are {n_coatings * n_speeds} runs, must be "
-            f"{MOST_RUNS} or fewer"
-        )
+    n_runs = len(coating_cases(config)) * n_speeds
+    if n_runs > MOST_RUNS:
+        yield f"speeds: {n_speeds} speeds are {n_runs} runs on all coatings, must be {MOST_RUNS} or fewer"
 
 
 @_reads("analysis", "solver", "contact")
 def _revolutions(config: Config) -> Iterator[str]:
     most, divergence = most_revolutions(config), config["analysis"]["divergence"]
     revolutions, confirmation = config["solver"]["revolutions"], divergence["confirmation_revolutions"]
-    keys = {
-        "solver.revolutions": revolutions,
-        "analysis.divergence.confirmation_revolutions": confirmation,
-    }
-    for where, number in keys.items():
+    where = f"analysis.divergence.confirmation_revolutions = {confirmation}"
+    for key, number in ((f"solver.revolutions = {revolutions}", revolutions), (where, confirmation)):
         if number > most:
-            yield (
-                f"{where} = {number}: must be at most {most} with contact.elements = "
-                f"{config['contact']['elements']}, a run keeps a sample for each element and revolution"
-            )
+            yield f"{key}: must be at most {most}, a run keeps a sample for each element and revolution"
     fewest = revolutions + divergence["revolutions"]
     if 0 < confirmation < fewest:
-        yield (
-            f"analysis.divergence.confirmation_revolutions = {confirmation}: must be 0, or at least "
-            f"solver.revolutions + analysis.divergence.revolutions = {fewest}, to show what comes after a run"
-        )
+        sum_of = "solver.revolutions + analysis.divergence.revolutions"
+        yield f"{where}: must be 0, or at least {sum_of} = {fewest}, to show what comes after a run"
 
 
 @_reads("analysis", "coatings", "speeds")
@@ -203,10 +184,8 @@ def _histories(config: Config) -> Iterator[str]:
         if case not in cases:
             yield f"{where} = {case.name}: must be one of the coatings, add it there or drop it here"
         if round(entry["f_omega"], SPEED_DECIMALS) not in grid:
-            yield (
-                f"{where}.f_omega = {entry['f_omega']:g}: must be one of the speeds, add it to "
-                "speeds.extra or drop it here"
-            )
+            right = "one of the speeds, add it to speeds.extra or drop it here"
+            yield f"{where}.f_omega = {entry['f_omega']:g}: must be {right}"
 
 
 @_reads("analysis", "speeds")
@@ -214,7 +193,5 @@ def _crossings(config: Config) -> Iterator[str]:
     fastest = speeds(config)[-1]
     for index, order in enumerate(config["analysis"]["peaks"]["orders"]):
         if order * fastest < 1:  # rotation stiffens the blade: C1 is nowhere below its value at rest, 1
-            yield (
-                f"analysis.peaks.orders[{index}] = {order}: must be at least {1 / fastest:.3g} to cross the "
-                f"first frequency below the highest speed, {fastest:g}"
-            )
+            right = f"at least {1 / fastest:.3g} to cross the first frequency below the highest speed"
+            yield f"analysis.peaks.orders[{index}] = {order}: must be {right}"
