@@ -357,3 +357,14 @@ def test_order_is_asked_of_numbers_alone(config):
     config["analysis"]["peaks"]["speed_window"] = [1.35, "0.85"]
     (problem,) = problems(config)
     assert problem.startswith('analysis.peaks.speed_window[1] = "0.85": ')
+
+
+def test_every_comparison_of_the_schema_names_a_number_or_a_group_of_the_config():
+    limits = [limit for *_, rule in ENTRIES for limit in rule.get("limits", [])]
+    assert limits
+    for limit in limits:
+        value = STUDY
+        for key in config_schema._LIMIT.fullmatch(limit)[2].split("."):
+            value = value[key]
+        assert config_schema.is_number(value), limit
+    assert {rule["keyOf"] for *_, rule in ENTRIES if "keyOf" in rule} == {"casings"} <= STUDY.keys()
