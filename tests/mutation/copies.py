@@ -22,7 +22,7 @@ DIGEST = "from bladerub.io.sources import solver_digest; print(solver_digest()[:
 
 @dataclass(frozen=True)
 class Room:
-    """A folder of the sources, and the tests that are to notice its mutants (patterns, from the root)."""
+    """A folder, and the tests that are to notice mutants of its sources (patterns, from the root)."""
 
     folder: str
     tests: tuple[str, ...]
@@ -36,6 +36,7 @@ class Room:
 ROOMS = {
     "io": Room(f"{SOURCES}/io", ("tests/unit/io",)),
     "config": Room(f"{SOURCES}/config", ("tests/unit/config", "tests/unit/cli/test_cli.py")),
+    "schema": Room("config", ("tests/unit/config",)),
     "study": Room(f"{SOURCES}/study", ("tests/unit/study",)),
     "findings": Room(
         f"{SOURCES}/study/findings", ("tests/unit/study/test_*find*.py", "tests/unit/study/test_claims.py")

@@ -2,6 +2,7 @@ import random
 
 import pytest
 from mutants import find_mutants, sample
+from run import ROOT, named_faults
 
 
 @pytest.mark.parametrize(
@@ -46,3 +47,11 @@ def test_a_sample_has_mutants_of_every_file_and_of_rare_kinds():
     assert {mutant.file for mutant in drawn} == {"large.py", "small.py"}
     assert "sign" in {mutant.kind for mutant in drawn}
     assert len(drawn) == 10
+
+
+def test_every_named_fault_changes_its_file():
+    faults = named_faults()
+    assert len({fault.kind for fault in faults}) == len(faults) > 20
+    for fault in faults:
+        source = (ROOT / fault.file).read_text(encoding="utf-8")
+        assert fault.apply(source) != source

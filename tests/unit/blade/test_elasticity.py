@@ -4,7 +4,7 @@ from blade_parts import tetrahedral_mesh
 from scipy import sparse
 from scipy.sparse.linalg import spsolve
 from skfem import Basis, BilinearForm, ElementVector, LinearForm
-from skfem.helpers import ddot, eye, grad, identity, trace, transpose
+from skfem.helpers import ddot, dot, eye, grad, identity, trace, transpose
 from skfem.models.elasticity import lame_parameters, linear_elasticity
 
 from bladerub.blade import elasticity
@@ -154,6 +154,18 @@ def test_a_large_rotation_strains_nothing(block):
     u = ((Q - np.eye(3)) @ block.mesh.doflocs).T.ravel()
     scale = 2e11 * SIZE[0] * SIZE[1]
     assert np.abs(block.internal_force(u)).max() < 1e-14 * scale
+
+
+def test_mass_of_straight_tetrahedra_is_exact(make_block):
+    # The products of two quadratic shapes are of the fourth degree.
+    block = make_block(SIZE, (1, 2, 1), make_mesh=tetrahedral_mesh)
+
+    @BilinearForm
+    def mass(u, v, _):
+        return 7800.0 * dot(u, v)
+
+    expected = mass.assemble(Basis(block.mesh, ElementVector(block.mesh.elem()), intorder=8)).toarray()
+    np.testing.assert_allclose(block.mass.toarray(), expected, rtol=0, atol=1e-12 * np.abs(expected).max())
 
 
 def test_mass_and_first_moment_are_those_of_the_body(make_block, make_mesh):
