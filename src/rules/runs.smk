@@ -1,4 +1,4 @@
-# Stage 2: the rubs. One job is one coating at all its speeds; one run is one file.
+# Stage 2: the runs. One job is one coating at all its speeds; one run is one file.
 import math
 from functools import cache
 
@@ -25,7 +25,7 @@ def coating_minutes(wildcards, attempt):
 
 
 rule compile_kernel:
-    # before any rub, because jobs that start together on a cold cache would all compile
+    # before any run, because jobs that start together on a cold cache would all compile
     output:
         f"{RESULTS}/runs/kernel.json",
     log:
@@ -54,7 +54,7 @@ rule coating:
     benchmark:
         f"{RESULTS}/benchmarks/coating/{{coating}}.tsv"
     resources:
-        mem_mb=lambda wildcards, attempt: 2000 * attempt,  # 240 measured, beside two Pythons of Snakemake
+        mem_mb=lambda wildcards, attempt: 2000 * attempt,  # 240 measured, and two Pythons of Snakemake
         runtime=coating_minutes,
     params:
         folder=subpath(output[0], parent=True),

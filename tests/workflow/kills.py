@@ -5,7 +5,7 @@
 An undisturbed study is made first. Then another is killed, in turns by SIGTERM to snakemake, by SIGKILL to
 all of its processes, and by SIGKILL to one job, at a random moment of what is left to do; the same command is
 given again and killed again. A study that has come to its end is compared with the undisturbed one, byte by
-byte, and begun anew. No run that was whole before a kill may be written again.
+byte, and begun again. No run that was whole before a kill may be written again.
 """
 
 from __future__ import annotations
@@ -190,8 +190,8 @@ def _check_end(study: Study, code: int, known: dict[str, tuple[int, int]]) -> No
 
 
 def _unchanged(known: dict[str, tuple[int, int]], now: dict[str, tuple[int, int]]) -> dict:
-    anew = [name for name, written in known.items() if now.get(name) != written]
-    assert anew == [], "whole before, written again after a kill"
+    again = [name for name, written in known.items() if now.get(name) != written]
+    assert again == [], "whole before, written again after a kill"
     return now
 
 

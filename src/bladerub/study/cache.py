@@ -3,7 +3,7 @@
 An entry of the cache is one HDF5 file: a run of the study, or a point of the chart. It holds as an attribute
 its key, a digest of everything that determines it. An entry of another key in its place, as of another
 blade or other solver settings, is stale. Before a stale entry is overwritten it is moved to the archive, the
-folder `ARCHIVE` beside it, and it is taken back from there when its key is asked for again.
+folder `ARCHIVE` next to it, and it is taken back from there when its key is asked for again.
 """
 
 from __future__ import annotations
@@ -84,7 +84,7 @@ class Entry:
         """Read the whole file and return its key, or None if anything is wrong with it."""
         try:
             data, attributes = hdf5.read(path)
-        except Exception:  # whatever a damaged file makes h5py raise, the answer is to compute it again
+        except Exception:  # h5py raises anything on a damaged file, which is to be computed again
             return None
         keys = [attributes[name] for name in _KEYS if name in attributes]
         return keys[0] if keys and self.datasets <= data.keys() else None

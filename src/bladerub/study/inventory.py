@@ -69,7 +69,7 @@ def take(
             return "corrupt", None
         try:
             stored = read_run(path, ALL if thorough else {"revolution_amplitude"})
-        except Exception:  # whatever a damaged file makes h5py raise
+        except Exception:  # h5py raises anything on a damaged file
             damaged.append(path)
             return "corrupt", None
         current = blade_digest is not None and stored.attributes["run_key"] == run.key(blade_digest)

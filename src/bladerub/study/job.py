@@ -23,7 +23,7 @@ from bladerub.study.plan import CoatingPlan, PlannedRun, longer_run
 from bladerub.study.store import MAPPED, read_run, stored_run, write_run
 
 LOCK = ".lock"
-"""File beside the runs that the job at work on them holds; empty."""
+"""Empty file in the folder of the runs, locked by the job at work on them."""
 
 
 @dataclass(frozen=True)

@@ -13,7 +13,7 @@ from bladerub.io.checksum import file_checksum
 from bladerub.io.errors import DamagedFile
 
 CONFIRMATION = "confirmation"
-"""Folder of the longer runs, beside the runs of a coating; each has the name of the run it repeats."""
+"""Folder of the longer runs, in that of a coating's runs; each has the name of the run that it repeats."""
 
 
 class ListedFile(NamedTuple):

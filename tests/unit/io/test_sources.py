@@ -71,3 +71,41 @@ def test_line_ends_do_not_matter(package):
     before = SOLVER()
     (package / "contact/run.py").write_bytes(b"a = 1\r\n")
     assert SOLVER() == before
+
+
+class TestCoverage:
+    """What the digests of results leave out determines no number, for the reason that is given here."""
+
+    @pytest.fixture
+    def left_out(self, monkeypatch):
+        """Modules behind `entry`, directly or not, that none of the digests covers."""
+        monkeypatch.setattr(sources, "_source_digest", set)
+
+        def of(entry, *digests):
+            covered = set().union(*(digest() for digest in digests))
+            found, waiting = set(), [entry]
+            while waiting:
+                path = sources._path_of(waiting.pop())
+                if path not in found:
+                    found.add(path)
+                    waiting += sources._imports(path)
+            names = {path.relative_to(sources._PACKAGE).as_posix() for path in found - covered}
+            return {name for name in names if not name.startswith("io/")}  # moves numbers, computes none
+
+        return of
+
+    def test_of_the_solver(self, left_out):
+        assert left_out("contact.run", SOLVER) == set()
+
+    def test_of_the_files_of_runs(self, left_out):
+        # the values that the grid makes of the config are in the key
+        assert left_out("study.store", SOLVER, STORAGE) == {"study/grid.py"}
+
+    def test_of_the_decision_which_runs_are_repeated(self, left_out):
+        assert left_out("study.growth", SOLVER, GROWTH) == set()
+
+    def test_of_the_points_of_the_chart(self, left_out):
+        # peaks are read from maps elsewhere, here from the runs themselves
+        reading = {"study/maps.py", "study/store.py", "study/manifest.py"}
+        found = left_out("extensions.chart.search", SOLVER, CHART)
+        assert found == {"study/grid.py", *reading}

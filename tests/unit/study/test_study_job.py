@@ -102,6 +102,9 @@ def test_runs_that_grow_are_repeated_for_longer_once(compute, simulated, growing
     assert longer.attributes["run_key"] == rows[2].confirmation_key != rows[2].run_key
     assert longer.data["revolution_amplitude"].shape == (60,)
     assert read_run(tmp_path / "0.2000.h5").data["revolution_amplitude"].shape == (20,)
+    listed = [file for row in rows for file in row.files(tmp_path)]
+    assert sorted(file.path for file in listed) == sorted(tmp_path.rglob("*.h5"))
+    assert not any(file.is_lost() or file.is_damaged() for file in listed)
     assert compute() == rows
     assert (len(simulated), len(repeated)) == (4, 2)
 

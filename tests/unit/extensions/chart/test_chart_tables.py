@@ -66,7 +66,7 @@ def test_a_coarser_step_loses_what_lies_between(config, chart):
         [4e-3, 4e-3 * (1 - 0.002 / 0.05), 4e-3 * (1 - 0.002 / 0.05)]
     )
     assert (of_order.K_shift == 1).all()
-    assert (of_order.height_lost == 0).all()  # the median: two ridge cells of three lie on even speeds
+    assert (of_order.height_lost == 0).all()  # the median: two ridge points of three lie on even speeds
     assert set(found.columns) <= described_columns().keys()
 
 
