@@ -277,6 +277,7 @@ BORDERS = [
     (COARSE, "casings.2nd.nodal_diameters[0]", 50, 51),
     ({}, "casings.2nd.weights", [1], [1, 1]),
     ({}, "casings.2nd.weights", [-1e-9], [0]),
+    ({}, "casings.2nd5nd.weights", [0, 1], [0, 0]),
     (TWO_SPEEDS, "speeds.stop", 0.3, 0.289),
     (TWO_SPEEDS, "speeds.stop", 0.3, 0.299),
     ({}, "speeds.stop", 0.4, just_above(0.4)),
