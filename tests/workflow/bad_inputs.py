@@ -369,7 +369,7 @@ COMMANDS: dict[str, str] = {
     "benchmark --rounds inf": "argument --rounds: invalid int value: 'inf'",
     f"benchmark --cores {10**30}": f"--cores = {10**30}: must be from 1 to 1000000",
     "benchmark --blade truncated.h5": "truncated.h5: not a readable HDF5 file",
-    "benchmark --config rigid.yaml": "coatings: must have an abradable one, whose rub is what is measured",
+    "benchmark --config rigid.yaml": "coatings: must have an abradable one, as contact with",
 }
 
 

@@ -10,6 +10,7 @@ from scipy import sparse
 from bladerub.blade.elasticity import Solid
 from bladerub.blade.linear import Solve, factorise
 from bladerub.blade.preconditioned_cg import PreconditionedCG
+from bladerub.io.errors import BadInput
 
 TOLERANCE = 1e-9
 """Largest residual force accepted, over the norm of the centrifugal load."""
@@ -25,7 +26,7 @@ MAX_HALVINGS = 8
 """How often a load step that failed is halved before giving up."""
 
 
-class EquilibriumError(RuntimeError):
+class EquilibriumError(BadInput):
     """Newton's method found no static equilibrium under the centrifugal load."""
 
 

@@ -1,49 +1,38 @@
-"""The command ``bladerub``; each of its commands is a module that says what it does in `add_to`."""
+"""The command ``bladerub``: each of its commands is a module with `add_to`, which names its options."""
 
 from __future__ import annotations
 
-import argparse
 import sys
-from typing import NoReturn
 
 from bladerub import __version__
 from bladerub.cli import benchmark, export, import_blade, run, status, verify
-from bladerub.cli.errors import InputError
+from bladerub.cli.inputs import Parser
 from bladerub.config.errors import ConfigError
-from bladerub.io import errors
+from bladerub.io.errors import BadInput, message_for
 
-
-class _Parser(argparse.ArgumentParser):
-    """Answers a bad command line with one line, not with the whole usage."""
-
-    def error(self, message: str) -> NoReturn:
-        self.exit(2, f"{self.prog}: {message} (see {self.prog} --help)\n")
+_COMMANDS = (run, status, verify, benchmark, export, import_blade)
 
 
 def main(arguments: list[str] | None = None) -> int:
     """Run the command line; return 0 on success, 2 on bad input, 130 when interrupted."""
-    parser = _Parser(prog="bladerub", description="Rub of a compressor blade on its abradable coating.")
+    parser = Parser("bladerub", description="Contact of a compressor blade with its abradable coating.")
     parser.add_argument("--version", action="version", version=f"bladerub {__version__}")
     commands = parser.add_subparsers(title="commands", dest="name", required=True, metavar="COMMAND")
-    run.add_to(commands)
-    status.add_to(commands)
-    verify.add_to(commands)
-    benchmark.add_to(commands)
-    export.add_to(commands)
-    import_blade.add_to(commands)
+    for command in _COMMANDS:
+        command.add_to(commands)
     options = parser.parse_args(import_blade.joined(sys.argv[1:] if arguments is None else arguments))
+    code, message = 2, None
     try:
         options.command(options)
+        return 0
     except ConfigError as error:
         print(error, file=sys.stderr)
         return 2
-    except InputError as error:
-        print(f"bladerub {options.name}: {' '.join(str(error).split())}", file=sys.stderr)
-        return 2
+    except BadInput as error:
+        message = " ".join(str(error).split())
     except OSError as error:
-        print(f"bladerub {options.name}: {errors.message_for(error)}", file=sys.stderr)
-        return 2
+        message = message_for(error)
     except KeyboardInterrupt:
-        print(f"bladerub {options.name}: interrupted", file=sys.stderr)
-        return 130
-    return 0
+        code, message = 130, "interrupted"
+    print(f"bladerub {options.name}: {message}", file=sys.stderr)
+    return code

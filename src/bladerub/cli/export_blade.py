@@ -6,50 +6,35 @@ import argparse
 from pathlib import Path
 from typing import Any
 
+from bladerub.blade.sources.origin import TABLE_SUFFIXES
 from bladerub.cli import inputs
-from bladerub.cli.errors import InputError
-from bladerub.io import errors
-from bladerub.io.errors import BadInput
+from bladerub.cli.inputs import InputError, refused
+
+COORDINATES = ("cartesian", "cylindrical")
 
 
 def add_to(form: Any) -> None:
     """Add the options that each name what to write of the blade."""
-    form.add_argument(
-        "--calculix",
-        type=Path,
-        metavar="DIR",
-        help="a folder for decks for CalculiX, one for each speed",
-    )
-    form.add_argument(
-        "--mesh",
-        type=Path,
-        metavar="FILE",
-        help="mesh and node sets: .inp, .msh, or .vtu with modes and centrifugal displacements",
-    )
-    form.add_argument("--matrices", type=Path, metavar="FILE", help="the reduced blade: .npz or .mat")
-    form.add_argument(
-        "--fe-matrices",
-        type=Path,
-        metavar="DIR",
-        help="a new folder for mass and stiffness of the finite elements, which are made anew for it, and a "
-        "list of the nodes: what bladerub import reads",
-    )
-    form.add_argument(
-        "--sections",
-        type=Path,
-        metavar="FILE",
-        help="table of sections of a parametric blade: .csv, .txt, .dat",
-    )
+    for option, metavar, text in (
+        ("--calculix", "DIR", "a folder for CalculiX decks, one for each speed"),
+        (
+            "--mesh",
+            "FILE",
+            "mesh and node sets: .inp, .msh, or .vtu with modes and centrifugal displacements",
+        ),
+        ("--matrices", "FILE", "the reduced blade: .npz or .mat"),
+        (
+            "--fe-matrices",
+            "DIR",
+            "a new folder for what bladerub import reads: finite element matrices, nodes",
+        ),
+        ("--sections", "FILE", "table of sections of a parametric blade: .csv, .txt, .dat"),
+    ):
+        form.add_argument(option, type=Path, metavar=metavar, help=text)
 
 
 def write(options: argparse.Namespace, config: dict[str, Any]) -> dict[str, Any]:
-    """Write what the command line asks for of the blade; return which files, and of how many nodes.
-
-    Raises
-    ------
-    InputError
-        If an option or a file is at fault.
-    """
+    """Write what the command line asks for of the blade; return the files and the size of the blade."""
     if options.fe_matrices:
         return _write_fe_matrices(options, config)
 
@@ -62,8 +47,8 @@ def write(options: argparse.Namespace, config: dict[str, Any]) -> dict[str, Any]
         if file and file.suffix.lower() not in suffixes:
             raise InputError(f"--{option} {file}: must end in {', '.join(suffixes)}")
     path, blade = inputs.read_blade(options, config)
-    try:
-        mesh = read_mesh(path.with_name("mesh.h5"), blade)
+    with refused(OSError):
+        mesh = read_mesh(inputs.mesh_path(path), blade)
         needs_elements = options.calculix or (options.mesh and options.mesh.suffix.lower() != ".vtu")
         if needs_elements and not len(mesh["cells"]):
             raise InputError(
@@ -74,7 +59,7 @@ def write(options: argparse.Namespace, config: dict[str, Any]) -> dict[str, Any]
             files = [options.matrices]
         elif options.mesh:
             sets = {name: mesh[f"{name}_nodes"] for name in ("root", "tip", "interface")}
-            fields = _fields(path.with_name("mesh.h5"))
+            fields = _fields(inputs.mesh_path(path))
             mesh_file.write_mesh_file(options.mesh, mesh["points"], mesh["cells"], sets, fields)
             files = [options.mesh]
         else:
@@ -87,24 +72,17 @@ def write(options: argparse.Namespace, config: dict[str, Any]) -> dict[str, Any]
                 blade.f1_hz,
                 _speeds(options, blade.f_omega_max),
             )
-    except OSError as error:
-        raise InputError(errors.message_for(error)) from error
-    return {
-        "files": [str(file) for file in files],
-        "nodes": len(mesh["points"]),
-        "elements": len(mesh["cells"]),
-        "coordinates": len(blade.mass),
-    }
+    return _figures(files, mesh["points"], mesh["cells"], len(blade.mass))
 
 
 def _write_fe_matrices(options: argparse.Namespace, config: dict[str, Any]) -> dict[str, Any]:
-    """Discretise the blade of the config anew, and write its matrices."""
+    """Compute the finite element matrices of the blade of the config again, and write them."""
     folder = options.fe_matrices
     if folder.exists() and not (folder.is_dir() and not any(folder.iterdir())):
         raise InputError(f"--fe-matrices {folder}: is there already, must be a new or an empty folder")
     if "matrices" in config["blade"].get("source", {}):
         raise InputError("--fe-matrices: the blade of the config is of matrices already, without elements")
-    inputs.require_room("fe-matrices", folder)
+    inputs.require_writable("fe-matrices", folder)
     f_max = config["reduction"]["f_omega_max"]
     speeds = sorted(_speeds(options, f_max))
 
@@ -112,28 +90,26 @@ def _write_fe_matrices(options: argparse.Namespace, config: dict[str, Any]) -> d
     from bladerub.blade.discrete import by_finite_elements
     from bladerub.blade.elasticity import Material
     from bladerub.blade.reduction import fit_speeds
-    from bladerub.blade.rotation import EquilibriumError
     from bladerub.export.matrices import write_fe_matrices
 
-    try:
-        blade = by_finite_elements(
-            meshed_blade(config["blade"]),
-            Material.from_config(config["blade"]["material"]),
-            [*fit_speeds(f_max), *speeds],
-            [],
-            config["reduction"]["accuracy_modes"],
-        )
-    except (BadInput, EquilibriumError) as error:
-        raise InputError(str(error)) from error
+    blade = by_finite_elements(
+        meshed_blade(config["blade"]),
+        Material.from_config(config["blade"]["material"]),
+        [*fit_speeds(f_max), *speeds],
+        [],
+        config["reduction"]["accuracy_modes"],
+    )
+    files = write_fe_matrices(folder, blade, f_max, f".{options.matrix_format or 'mtx'}")
     mesh = blade.layout.mesh.mesh
+    return _figures(files, mesh.points, mesh.cells, blade.free.free.size)
+
+
+def _figures(files: Any, points: Any, cells: Any, coordinates: int) -> dict[str, Any]:
     return {
-        "files": [
-            str(file)
-            for file in write_fe_matrices(folder, blade, f_max, f".{options.matrix_format or 'mtx'}")
-        ],
-        "nodes": len(mesh.points),
-        "elements": len(mesh.cells),
-        "coordinates": blade.free.free.size,
+        "files": [str(file) for file in files],
+        "nodes": len(points),
+        "elements": len(cells),
+        "coordinates": coordinates,
     }
 
 
@@ -159,7 +135,36 @@ def _speeds(options: argparse.Namespace, highest: float) -> list[float]:
 
 
 def in_words(figures: dict[str, Any]) -> str:
-    """Say what was written."""
+    """Report what was written."""
     size = f"{figures['elements']} elements, {figures['nodes']} nodes"
     about = f"blade of {size}, matrices of {figures['coordinates']} coordinates"
     return "\n".join([about, *(f"wrote {file}" for file in figures["files"])])
+
+
+def write_sections(options: argparse.Namespace, config: dict[str, Any]) -> dict[str, Any]:
+    """Write the table that the command line asks for; return its size."""
+    path = options.sections
+    if path.suffix.lower() not in TABLE_SUFFIXES:
+        raise InputError(f"--sections {path}: must end in {', '.join(TABLE_SUFFIXES)}")
+    if source := config["blade"].get("source"):
+        origin = source.get("file") or source["matrices"]
+        raise InputError(
+            f"--sections {path}: the blade comes from {origin}; only a parametric one has sections"
+        )
+
+    from bladerub.blade.geometry import BladeShape
+    from bladerub.export import sections
+
+    coordinates = options.coordinates or COORDINATES[0]
+    with refused(OSError), refused(ValueError, because=f"--coordinates {coordinates}: "):
+        n_sections, n_stations = sections.write_sections(
+            path, BladeShape.from_config(config["blade"]), coordinates
+        )
+    return {"files": [str(path)], "coordinates": coordinates, "sections": n_sections, "stations": n_stations}
+
+
+def sections_in_words(figures: dict[str, Any]) -> str:
+    """Report what was written."""
+    (file,) = figures["files"]
+    size = f"{figures['sections']} sections, {figures['stations']} stations in all"
+    return f"{size}, in m and rad, {figures['coordinates']} coordinates\nwrote {file}"

@@ -1,10 +1,8 @@
-"""``bladerub import``: look at a blade from another program before its study."""
+"""``bladerub import``: check a blade from another program before its study."""
 
 from __future__ import annotations
 
 import argparse
-import json
-from collections.abc import Iterator
 from dataclasses import asdict, replace
 from pathlib import Path
 from typing import Any
@@ -15,8 +13,7 @@ from bladerub.blade.model import ReducedBlade
 from bladerub.blade.sources import origin
 from bladerub.blade.sources.frame import ANGLE_UNITS, AXES, UNITS, Frame
 from bladerub.blade.sources.origin import MATRIX_UNITS, MatrixSource, Source
-from bladerub.cli import import_matrices, inputs
-from bladerub.cli.errors import InputError
+from bladerub.cli import inputs
 from bladerub.io.sources import ROOT
 
 _AXIS_OPTIONS = ("--rotation", "--downstream", "--radial")
@@ -29,50 +26,37 @@ _NAMES = (
 
 def add_to(commands: Any) -> None:
     """Add this command to the subparsers `commands`."""
-    parser = commands.add_parser(
+    parser = inputs.add_command(
+        commands,
         "import",
-        help="look at a blade from another program before its study",
+        import_blade,
+        blade=False,
+        help="check a blade from another program before its study",
         description="Read a mesh and find its root, tip and interface nodes, or mesh the sections of a table "
-        "with the numbers of elements of the config, or read the matrices and the list of nodes in a folder; "
-        "reduce the blade as the config says, and tell what comes out and what to be wary of. Nothing is "
-        "written. What it prints last goes into a config, whose study is then of that blade. Material (but "
-        "of matrices) and reduction are of the config; the other options are what "
-        "blade.source of the config says, or else as given here.",
+        "with the numbers of elements of the config, or read a folder with matrices and a list of nodes. "
+        "Reduce the blade as the config says, and report its properties and warnings. Nothing is written. "
+        "The last lines printed go into a config, whose study is then of that blade. Material (not for "
+        "matrices) and reduction are those of the config. The other options default to blade.source of the "
+        "config, and if that has none to the values given here.",
     )
-    parser.set_defaults(command=import_blade)
-    parser.add_argument(
-        "file",
-        type=Path,
-        metavar="PATH",
-        help="mesh (.inp, .msh or .vtu), sections (.csv, .txt or .dat) or folder of matrices",
-    )
-    inputs.add_config_to(parser)
-    parser.add_argument("--unit", choices=tuple(UNITS), help="unit of length in the file (else m)")
-    parser.add_argument(
-        "--angle-unit", choices=tuple(ANGLE_UNITS), help="unit of theta1 and theta2 of sections (else rad)"
-    )
+    text = "mesh (.inp, .msh or .vtu), sections (.csv, .txt or .dat) or folder of matrices"
+    parser.add_argument("file", type=Path, metavar="PATH", help=text)
+    parser.option("--unit", "unit of length in the file (default m)", choices=tuple(UNITS))
+    text = "unit of theta1 and theta2 of sections (default rad)"
+    parser.option("--angle-unit", text, choices=tuple(ANGLE_UNITS))
     for name, meaning in (
-        ("rotation", "the blade turns about this by the right-hand rule (else -x)"),
-        ("downstream", "the air flows along this (else x)"),
-        ("radial", "the blade stands along this (else z)"),
+        ("rotation", "the blade turns about this by the right-hand rule (default -x)"),
+        ("downstream", "the air flows along this (default x)"),
+        ("radial", "from root to tip (default z)"),
     ):
-        parser.add_argument(f"--{name}", choices=AXES, metavar="AXIS", help=f"axis of the file: {meaning}")
-    parser.add_argument("--root-set", metavar="NAME", help="set of the clamped nodes (else found)")
-    parser.add_argument("--tip-set", metavar="NAME", help="set of the nodes of the tip (else found)")
-    parser.add_argument(
-        "--tip-cone",
-        type=float,
-        metavar="DEGREES",
-        help="half angle of the casing, positive where it widens downstream (else fitted to the tip)",
-    )
-    parser.add_argument("--matrix-units", choices=tuple(MATRIX_UNITS), help="of the matrices (else SI)")
-    parser.add_argument(
-        "--omega-max",
-        type=float,
-        metavar="RAD_PER_S",
-        help="speed of stiffness_max, to be checked against reduction.f_omega_max",
-    )
-    parser.add_argument("--json", action="store_true", help="print the figures as JSON")
+        parser.option(f"--{name}", f"axis of the file: {meaning}", choices=AXES, metavar="AXIS")
+    parser.option("--root-set", "set of the clamped nodes (default: found)", metavar="NAME")
+    parser.option("--tip-set", "set of the nodes of the tip (default: found)", metavar="NAME")
+    text = "half angle of the casing, positive where it widens downstream (default: fitted to the tip)"
+    parser.option("--tip-cone", text, float, metavar="DEGREES")
+    parser.option("--matrix-units", "of the matrices (default SI)", choices=tuple(MATRIX_UNITS))
+    text = "speed of stiffness_max, to be checked against reduction.f_omega_max"
+    parser.option("--omega-max", text, float, metavar="RAD_PER_S")
 
 
 def joined(arguments: list[str]) -> list[str]:
@@ -87,35 +71,24 @@ def joined(arguments: list[str]) -> list[str]:
 
 
 def import_blade(options: argparse.Namespace) -> None:
-    """Look at the blade that the command line names, and print what it is.
-
-    Raises
-    ------
-    ConfigError
-        If the config is at fault.
-    InputError
-        If the file or an option is, or the blade has no equilibrium.
-    """
+    """Read and reduce the blade that the command line names, and print its properties."""
     config = inputs.read_config(options)
     given = {name: getattr(options, name) for name in _NAMES if getattr(options, name) is not None}
     kind = "matrices" if options.file.is_dir() else "file"
     path = options.file.resolve()
     named = path.relative_to(ROOT) if path.is_relative_to(ROOT) else path  # as configs name it
-    entry = {kind: str(named)} | asdict(Frame())
     known = config["blade"].get("source", {})
-    entry |= {name: value for name, value in known.items() if name not in ("file", "matrices")} | given
+    known = {name: value for name, value in known.items() if name not in ("file", "matrices")}
+    entry = {kind: str(named)} | asdict(Frame()) | known | given
 
-    from bladerub.blade.rotation import EquilibriumError
     from bladerub.study.similarity import contact_scale, tip_stiffness
 
-    try:
+    with inputs.refused(ValueError):
         source = origin.read(entry)
         if isinstance(source, MatrixSource):
-            (figures, reduced), in_words = import_matrices.look(source, config), import_matrices.in_words
+            (figures, reduced), rows = _read_matrices(source, config), _matrix_rows
         else:
-            (figures, reduced), in_words = _look(source, config), _in_words
-    except (ValueError, EquilibriumError) as error:
-        raise InputError(str(error)) from error
+            (figures, reduced), rows = _read_mesh(source, config), _mesh_rows
     length = round(figures["length"], 6)
     scale = contact_scale(replace(reduced, length=length))
     figures["tip_stiffness"] = tip_stiffness(reduced)
@@ -123,13 +96,10 @@ def import_blade(options: argparse.Namespace) -> None:
         "blade": {"length": length, "source": entry},
         "contact": {"scale": {name: float(f"{factor:.6g}") for name, factor in scale.items()}},
     }
-    printed = (
-        json.dumps(figures, indent=2) if options.json else "\n".join([*in_words(figures), *_ending(figures)])
-    )
-    print(printed)
+    inputs.show(options, figures, lambda figures: _in_words(rows(figures), figures))
 
 
-def _look(source: Source, config: dict[str, Any]) -> tuple[dict[str, Any], ReducedBlade]:
+def _read_mesh(source: Source, config: dict[str, Any]) -> tuple[dict[str, Any], ReducedBlade]:
     """Import and reduce the mesh of `source`; return the figures and the reduced blade."""
     # with fewer, all speeds of the table are those of the fit, where eq. (2) is exact
     config["reduction"]["accuracy_speeds"] = max(_FEWEST_SPEEDS, config["reduction"]["accuracy_speeds"])
@@ -145,47 +115,107 @@ def _look(source: Source, config: dict[str, Any]) -> tuple[dict[str, Any], Reduc
     return figures, built.reduced
 
 
-def _in_words(figures: dict[str, Any]) -> list[str]:
-    millimetres = {name: [1e3 * end for end in ends] for name, ends in figures["extents"].items()}
-    worst = [max(figures[name][:6]) for name in ("error_eq2", "error_reduced_model")]
-    return [
-        f"mesh                {figures['elements']} {figures['element']}, {figures['nodes']} nodes, "
+def _mesh_rows(figures: dict[str, Any]) -> dict[str, str]:
+    """Describe the figures of a mesh or of sections, by the name of each."""
+    eq2, rom = (max(figures[name][:6]) for name in ("error_eq2", "error_reduced_model"))
+    rows = {
+        "mesh": f"{figures['elements']} {figures['element']}, {figures['nodes']} nodes, "
         f"{figures['unknowns']} unknowns, {figures['elements_root_to_tip']} elements from root to tip",
-        *(f"{name:<19} {low:.4g} to {high:.4g} mm" for name, (low, high) in millimetres.items()),
-        f"length              {1e3 * figures['length']:.4g} mm, chord at the tip "
-        f"{1e3 * figures['tip_chord']:.4g} mm, cone there {round(figures['tip_cone_degrees'], 6):g} degrees",
-        f"root and tip        {figures['root_nodes']} and {figures['tip_nodes']} nodes; interface nodes up "
-        f"to {1e3 * figures['interface_offset']:.3g} mm from their even places on the camber line",
-        f"volume and mass     {1e6 * figures['volume']:.4g} cm³, {figures['mass']:.4g} kg",
-        f"worst Jacobian      {figures['worst_jacobian']:.3g} (smallest over largest in an element)",
-        f"first frequency     {figures['f1_hz']:.6g} Hz, times {figures['campbell_ratio']:.4g} at f_omega = "
-        f"{figures['f_omega_max']:g}, where rotation moves the blade by "
+        **_extents(figures),
+        "length": f"{1e3 * figures['length']:.4g} mm, chord at the tip {1e3 * figures['tip_chord']:.4g} mm, "
+        f"cone there {round(figures['tip_cone_degrees'], 6):g} degrees",
+        "root and tip": f"{figures['root_nodes']} and {figures['tip_nodes']} nodes; interface nodes up to "
+        f"{1e3 * figures['interface_offset']:.3g} mm from their even places on the camber line",
+        "volume and mass": f"{1e6 * figures['volume']:.4g} cm³, {figures['mass']:.4g} kg",
+        "worst Jacobian": f"{figures['worst_jacobian']:.3g} (smallest over largest in an element)",
+        "first frequency": f"{_first_frequency(figures)}, where rotation moves the blade by "
         f"{1e3 * figures['centrifugal_displacement']:.3g} mm",
-        f"reduced model       {figures['reduced_coordinates']} coordinates; in six modes eq. (2) is up to "
-        f"{100 * worst[0]:.2g} % off, with the reduction {100 * worst[1]:.2g} %",
-        *_sections_in_words(figures),
-    ]
-
-
-def _ending(figures: dict[str, Any]) -> list[str]:
-    return [
-        f"stagger at the tip  {abs(figures['tip_stagger_degrees']):.4g} degrees, the leading edge "
-        f"{'ahead' if figures['tip_stagger_degrees'] >= 0 else 'behind'} in rotation",
-        f"tip stiffness       {figures['tip_stiffness']:.4g} N/m, static",
-        *(f"warning             {line}" for line in figures["warnings"]),
-        "",
-        "# for the config of its study; without contact.scale the values of the contact are absolute",
-        yaml.safe_dump(figures["config"], sort_keys=False).rstrip(),
-    ]
-
-
-def _sections_in_words(figures: dict[str, Any]) -> Iterator[str]:
+        "reduced model": f"{figures['reduced_coordinates']} coordinates; in six modes eq. (2) is up to "
+        f"{100 * eq2:.2g} % off, with the reduction {100 * rom:.2g} %",
+    }
     if "sections" in figures:
         hub, *_, tip = figures["sections"]
         chords, thicknesses = (
             f"{1e3 * hub[name]:.4g} to {1e3 * tip[name]:.4g} mm" for name in ("chord", "thickness")
         )
-        yield (
-            f"sections            {len(figures['sections'])}, {hub['name']} to {tip['name']}: chord "
-            f"{chords}, largest thickness {thicknesses}"
+        rows["sections"] = (
+            f"{len(figures['sections'])}, {hub['name']} to {tip['name']}: chord {chords}, largest thickness "
+            f"{thicknesses}"
         )
+    return rows
+
+
+def _read_matrices(source: MatrixSource, config: dict[str, Any]) -> tuple[dict[str, Any], ReducedBlade]:
+    """Import and reduce the matrices of `source`; return the figures and the reduced blade."""
+    from bladerub.blade.build import reduce_given
+    from bladerub.blade.sources.matrices import import_matrices
+    from bladerub.blade.sources.report import matrix_report
+
+    reduction = config["reduction"]
+    imported = import_matrices(
+        source, reduction["f_omega_max"], reduction["accuracy_modes"], reduction["modes_per_speed"]
+    )
+    built = reduce_given(imported.blade, config)
+    return matrix_report(source, imported, built), built.reduced
+
+
+def _matrix_rows(figures: dict[str, Any]) -> dict[str, str]:
+    """Describe the figures, by the name of each."""
+    measured = "" if figures["length_is_measured"] else " that its nodes reach over"
+    whole = "" if figures["mass_is_whole"] else " without that of the clamped nodes, whose rows are not there"
+    first, last = (figures["interface"][at] for at in (0, -1))
+    rom = max(figures["error_reduced_model"][:6])
+    if figures["error_eq2"] is None:
+        eq2 = "eq. (2) is exact at the speeds of the files"
+    else:
+        eq2 = f"eq. (2) is up to {100 * max(figures['error_eq2'][:6]):.2g} % off"
+    return {
+        "matrices": f"{figures['nodes']} nodes, {figures['unknowns']} unknowns",
+        **_extents(figures),
+        "length": f"{1e3 * figures['length']:.4g} mm{measured}, cone at the tip "
+        f"{figures['tip_cone_degrees']:.4g} degrees",
+        "clamped and tip": f"{figures['clamped_nodes']} and {figures['tip_nodes']} nodes",
+        "interface": f"from {_place(first)} to {_place(last)} mm, leading to trailing edge",
+        "mass": f"{figures['mass']:.4g} kg{whole}",
+        "speeds": f"f_omega = {', '.join(f'{speed:g}' for speed in figures['speeds'])}; the highest is "
+        f"{figures['omega_max']:.6g} rad/s",
+        "first frequency": _first_frequency(figures),
+        "reduced model": f"{figures['reduced_coordinates']} coordinates; in six modes {eq2}, with the "
+        f"reduction {100 * rom:.2g} %",
+    }
+
+
+def _extents(figures: dict[str, Any]) -> dict[str, str]:
+    """Describe how far the blade extends, by the name of each direction."""
+    return {
+        name: f"{1e3 * low:.4g} to {1e3 * high:.4g} mm" for name, (low, high) in figures["extents"].items()
+    }
+
+
+def _first_frequency(figures: dict[str, Any]) -> str:
+    """Describe the first frequency at rest and at the highest speed."""
+    return (
+        f"{figures['f1_hz']:.6g} Hz, times {figures['campbell_ratio']:.4g} at f_omega = "
+        f"{figures['f_omega_max']:g}"
+    )
+
+
+def _place(point: list[float]) -> str:
+    return "(" + ", ".join(f"{1e3 * x:.4g}" for x in point) + ")"
+
+
+def _in_words(rows: dict[str, str], figures: dict[str, Any]) -> str:
+    stagger = figures["tip_stagger_degrees"]
+    rows |= {
+        "stagger at the tip": f"{abs(stagger):.4g} degrees, the leading edge "
+        f"{'ahead' if stagger >= 0 else 'behind'} in rotation",
+        "tip stiffness": f"{figures['tip_stiffness']:.4g} N/m, static",
+    }
+    return "\n".join(
+        [
+            *inputs.aligned([*rows.items(), *(("warning", line) for line in figures["warnings"])]),
+            "",
+            "# for the config of its study; without contact.scale the values of the contact are absolute",
+            yaml.safe_dump(figures["config"], sort_keys=False).rstrip(),
+        ]
+    )

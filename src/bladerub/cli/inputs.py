@@ -1,67 +1,84 @@
-"""The study and the blade that a command works on: its options for them, and their reading."""
+"""What the commands share: options, the study and the blade that they name, errors, progress and output."""
 
 from __future__ import annotations
 
 import argparse
+import json
 import os
 import sys
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from shutil import get_terminal_size
+from typing import TYPE_CHECKING, Any, NoReturn
 
-from bladerub.cli.errors import InputError
+from tqdm import tqdm
+
 from bladerub.config import read as configuration
 from bladerub.config.errors import format_value
-from bladerub.io.errors import BadInput
+from bladerub.io.errors import BadInput, message_for
 from bladerub.io.sources import ROOT
 
-if TYPE_CHECKING:  # the rest of the package is imported when it is sure to be needed: numba takes its time
+if TYPE_CHECKING:  # imports that load numba are made where they are needed, so that --help answers at once
     from bladerub.blade.model import ReducedBlade
 
 BASE_CONFIG = ROOT / "config" / "config.yaml"
 
 
-def add_to(parser: argparse.ArgumentParser) -> None:
-    """Add ``--config`` and ``--blade`` to the options of a command."""
+class InputError(BadInput):
+    """Bad input of the command line, or in what it names."""
+
+
+class Parser(argparse.ArgumentParser):
+    """Reports a bad command line in one line, without the usage."""
+
+    def error(self, message: str) -> NoReturn:
+        """Exit with code 2."""
+        self.exit(2, f"{self.prog}: {message} (see {self.prog} --help)\n")
+
+    def option(self, name: str, text: str, kind: Callable | None = None, **more: Any) -> None:
+        """Add an option of this kind (default text) with its help text."""
+        self.add_argument(name, type=kind, help=text, **more)
+
+
+@contextmanager
+def refused(*kinds: type[Exception], because: str = "") -> Iterator[None]:
+    """Turn errors of these kinds into `InputError`, with the words `because` before their message."""
+    try:
+        yield
+    except kinds as error:
+        text = message_for(error) if isinstance(error, OSError) else str(error)
+        raise InputError(because + text) from error
+
+
+def add_command(commands: Any, name: str, command: Callable, blade: bool = True, **texts: str) -> Parser:
+    """Add a command with ``--config``, ``--json`` and perhaps ``--blade`` to the subparsers `commands`."""
+    parser = commands.add_parser(name, **texts)
+    parser.set_defaults(command=command)
     add_config_to(parser)
-    parser.add_argument(
-        "--blade", type=Path, metavar="FILE", help="reduced blade (default: the one in the results folder)"
-    )
+    if blade:
+        text = "reduced blade (default: the one in the results folder)"
+        parser.option("--blade", text, Path, metavar="FILE")
+    parser.add_argument("--json", action="store_true", help="print the figures as JSON")
+    return parser
 
 
-def add_config_to(parser: argparse.ArgumentParser) -> None:
+def add_config_to(parser: Parser) -> None:
     """Add ``--config`` to the options of a command."""
-    parser.add_argument(
-        "--config",
-        nargs="+",
-        default=[],
-        action="extend",
-        metavar="FILE",
-        help="YAML files laid over config/config.yaml, in order",
-    )
+    text = "YAML files laid over config/config.yaml, in order"
+    parser.option("--config", text, nargs="+", default=[], action="extend", metavar="FILE")
 
 
 def require(options: argparse.Namespace, **bounds: tuple[int, int]) -> None:
-    """Check options by name against the smallest and largest value of each; one that was not given passes.
-
-    Raises
-    ------
-    InputError
-        If one is beyond them.
-    """
+    """Check options by name against their smallest and largest value; those not given pass."""
     for option, (smallest, largest) in bounds.items():
         value = getattr(options, option)
         if value is not None and not smallest <= value <= largest:
             raise InputError(f"--{option} = {format_value(value)}: must be from {smallest} to {largest}")
 
 
-def require_room(option: str, path: Path) -> None:
-    """Check that `path`, which need not be there, lies in a folder that can be written to or made.
-
-    Raises
-    ------
-    InputError
-        If not; it names `option`.
-    """
+def require_writable(option: str, path: Path) -> None:
+    """Check that `path`, which need not exist, is in a folder that can be written to or made."""
     folder = next(parent for parent in path.absolute().parents if os.path.lexists(parent))
     if not folder.is_dir():
         raise InputError(f"--{option} {path}: cannot be written, {folder} is no folder")
@@ -69,14 +86,31 @@ def require_room(option: str, path: Path) -> None:
         raise InputError(f"--{option} {path}: cannot be written, {folder} is write-protected")
 
 
-def read_config(options: argparse.Namespace) -> dict[str, Any]:
-    """Read and check the config of the repository with the files of ``--config`` laid over it.
+def progress_bar(total: int, unit: str, items: Iterable | None = None, quiet: bool = False) -> tqdm:
+    """Show progress on standard error if that is a terminal, unless `quiet`."""
+    columns = get_terminal_size().columns
+    return tqdm(items, total=total, unit=unit, ncols=columns, disable=quiet or None, leave=False)
 
-    Raises
-    ------
-    ConfigError
-        If it is at problem.
-    """
+
+def show(options: argparse.Namespace, figures: dict[str, Any], in_words: Callable[[dict], str]) -> None:
+    """Print the figures, as JSON if that is asked for."""
+    print(json.dumps(figures, indent=2, allow_nan=False) if options.json else in_words(figures))
+
+
+def row(width: int, name: str, *cells: str) -> str:
+    """Write a row of a table: its name in this width, then its cells."""
+    return f"{name:<{width}}" + "".join(f"{cell:>12}" for cell in cells)
+
+
+def aligned(rows: Iterable[tuple[str, str]]) -> list[str]:
+    """Write pairs of name and value as lines, the values in one column."""
+    rows = list(rows)
+    width = max(len(name) for name, _ in rows) + 2
+    return [f"{name:<{width}}{value}" for name, value in rows]
+
+
+def read_config(options: argparse.Namespace) -> dict[str, Any]:
+    """Read and check the config of the repository with the files of ``--config`` laid over it."""
     return configuration.read(BASE_CONFIG, *options.config)
 
 
@@ -85,28 +119,22 @@ def blade_path(options: argparse.Namespace, config: dict[str, Any]) -> Path:
     return options.blade or ROOT / config["results"] / "blade" / "reduced_model.h5"
 
 
+def mesh_path(blade: Path) -> Path:
+    """Return the file of the mesh that belongs to the reduced blade in the file `blade`."""
+    return blade.with_name("mesh.h5")
+
+
 def read_blade(options: argparse.Namespace, config: dict[str, Any]) -> tuple[Path, ReducedBlade]:
-    """Read the reduced blade, build it if there is none; clearances are in lengths of that blade.
+    """Read the reduced blade, and build it first if the results folder has none.
 
-    Parameters
-    ----------
-    options
-        The command's, with ``blade`` and its ``name``.
-    config : dict
-        The study; its ``blade.length`` becomes that of a blade named by ``--blade``.
-
-    Raises
-    ------
-    InputError
-        If the file is no valid reduced blade, or was built from another config, or the blade cannot be built.
-    OSError
-        If the files of the default blade are damaged or cannot be written.
+    ``blade.length`` of `config` becomes that of a blade given with ``--blade``: clearances are in this unit.
+    A damaged file is an `OSError` if the command can make it again, an `InputError` if not.
     """
     from bladerub.blade.validation import read_valid_blade
     from bladerub.workflow import invocation
 
     path = blade_path(options, config)
-    if not options.blade and not (path.exists() and _mesh_of(path).exists()):
+    if not options.blade and not (path.exists() and mesh_path(path).exists()):
         invocation.prepare(path.parents[1])
         print(f"bladerub {options.name}: building the blade first, into {path.parent}", file=sys.stderr)
         _build_blade(config, path)
@@ -116,46 +144,31 @@ def read_blade(options: argparse.Namespace, config: dict[str, Any]) -> tuple[Pat
             "with --blade"
         )
     try:
-        blade = read_valid_blade(path)
+        with refused(ValueError):
+            blade = read_valid_blade(path)
     except OSError as error:
-        if options.blade and error.errno is None:  # damaged, and it cannot be made anew
+        if options.blade and error.errno is None:  # damaged, and it cannot be made again
             raise InputError(str(error)) from error
         raise
-    except ValueError as error:
-        raise InputError(str(error)) from error
     if options.blade:
         config["blade"]["length"] = blade.length
     return path, blade
 
 
 def is_of(config: dict[str, Any], path: Path) -> bool:
-    """Tell whether the reduced blade at `path` was built from `config`.
-
-    Raises
-    ------
-    OSError
-        If its mesh, which tells, is missing or damaged.
-    """
+    """Return whether the reduced blade at `path` was built from `config`, as its mesh states."""
     from bladerub.blade.build import made_from
     from bladerub.io import hdf5
 
-    return hdf5.read_attributes(_mesh_of(path)).get("made_from") == made_from(config)
-
-
-def _mesh_of(path: Path) -> Path:
-    return path.with_name("mesh.h5")
+    return hdf5.read_attributes(mesh_path(path)).get("made_from") == made_from(config)
 
 
 def _build_blade(config: dict[str, Any], path: Path) -> None:
     from bladerub.blade.build import build
     from bladerub.blade.built import write
-    from bladerub.blade.rotation import EquilibriumError
     from bladerub.io.provenance import provenance
 
-    try:
-        built = build(config)
-    except (BadInput, EquilibriumError) as error:
-        raise InputError(str(error)) from error
+    built = build(config)
     tables = path.parents[1] / "tables"
     campbell, accuracy = tables / "campbell.csv", tables / "rom_accuracy.csv"
-    write(built, provenance(config), path, _mesh_of(path), campbell, accuracy)
+    write(built, provenance(config), path, mesh_path(path), campbell, accuracy)

@@ -1,77 +1,49 @@
-"""``bladerub run``: one simulation, summed up."""
+"""``bladerub run``: one simulation and a summary of it."""
 
 from __future__ import annotations
 
 import argparse
-import json
 import os
 import time
 from collections.abc import Collection
 from difflib import get_close_matches
 from pathlib import Path
-from shutil import get_terminal_size
 from typing import Any
 
-from tqdm import tqdm
-
 from bladerub.cli import inputs
-from bladerub.cli.errors import InputError
+from bladerub.cli.inputs import InputError, refused
 from bladerub.config.errors import format_value
 from bladerub.config.schema import check_quantity
 
 _KINDS = {"abradable": ("E", "K", "theta", "friction"), "rigid": ("friction",)}
-"""What describes each kind of coating; of theta and friction an abradable one has either."""
+"""Options of each kind of coating; an abradable one has either theta or friction."""
 
 
 def add_to(commands: Any) -> None:
     """Add this command to the subparsers `commands`."""
-    parser = commands.add_parser(
+    parser = inputs.add_command(
+        commands,
         "run",
+        run,
         help="run one simulation",
-        description="Let the blade rub at one speed on one coating, or on the rigid casing; neither need be "
-        "in the config. "
-        "The blade is built first if the results folder has none yet.",
+        description="Simulate contact at one speed with one coating, or with the rigid casing. Coating and "
+        "speed need not be in the config. The blade is built first if the results folder has none.",
     )
-    parser.set_defaults(command=run)
-    parser.add_argument("--casing", required=True, help="name of a casing of the config, such as 2nd")
-    parser.add_argument(
-        "--coating",
-        choices=list(_KINDS),
-        default="abradable",
-        help="abradable, with E, K and theta or friction (default), or rigid, with friction",
-    )
-    parser.add_argument("--E", type=float, help="Young modulus of the abradable coating (normalised)")
-    parser.add_argument("--K", type=float, help="plastic modulus of the abradable coating (normalised)")
-    parser.add_argument(
-        "--theta", type=float, help="angle of its elements, rad (default 0): a force of constant direction"
-    )
-    parser.add_argument(
-        "--friction",
-        type=float,
-        metavar="MU",
-        help="coefficient of Coulomb friction, instead of --theta, or on the rigid casing (default 0)",
-    )
-    parser.add_argument("--f", required=True, type=float, metavar="F_OMEGA", help="speed (normalised)")
-    inputs.add_to(parser)
-    parser.add_argument(
-        "--revolutions", type=int, metavar="N", help="instead of solver.revolutions, at least 2"
-    )
-    parser.add_argument(
-        "--output", type=Path, metavar="FILE", help="write the run with its whole history (HDF5)"
-    )
-    parser.add_argument("--json", action="store_true", help="print the figures as JSON")
+    parser.option("--casing", "name of a casing of the config, such as 2nd", required=True)
+    text = "abradable, with E, K and theta or friction (default), or rigid, with friction"
+    parser.option("--coating", text, choices=list(_KINDS), default="abradable")
+    parser.option("--E", "Young modulus of the abradable coating (normalised)", float)
+    parser.option("--K", "plastic modulus of the abradable coating (normalised)", float)
+    parser.option("--theta", "angle of its elements, rad (default 0): direction of the contact force", float)
+    text = "coefficient of Coulomb friction, instead of --theta, or on the rigid casing (default 0)"
+    parser.option("--friction", text, float, metavar="MU")
+    parser.option("--f", "speed (normalised)", float, required=True, metavar="F_OMEGA")
+    parser.option("--revolutions", "instead of solver.revolutions, at least 2", int, metavar="N")
+    parser.option("--output", "write the run with its whole history (HDF5)", Path, metavar="FILE")
 
 
 def run(options: argparse.Namespace) -> None:
-    """Run the simulation that the command line asks for, and print what comes out.
-
-    Raises
-    ------
-    ConfigError
-        If the config is at problem.
-    InputError
-        If an option is.
-    """
+    """Run the simulation that the command line asks for, and print its summary."""
     config = _config(options)
     _check_options(options, config)
     blade_path, blade = inputs.read_blade(options, config)
@@ -98,25 +70,18 @@ def run(options: argparse.Namespace) -> None:
         case = CoatingCase(options.casing, options.E, options.K, options.theta)
     spec = run_spec(config, case, options.f)
     compile_kernel()
-    with tqdm(
-        total=spec.revolutions, unit="rev", ncols=get_terminal_size().columns, disable=None, leave=False
-    ) as bar:
+    with inputs.progress_bar(spec.revolutions, "rev") as bar, refused(ValueError):
         start = time.perf_counter()
-        try:
-            result = simulate(blade, spec, progress=lambda done: bar.update(done - bar.n))
-        except ValueError as error:
-            raise InputError(str(error)) from error
+        result = simulate(blade, spec, progress=lambda done: bar.update(done - bar.n))
         seconds = time.perf_counter() - start
     figures = summarise(spec, result, config) | {"steps_per_second": result.n_steps / seconds}
     if options.output:
         plan = planned_run(config, spec, options.output.name, keep_history=True)
         key = plan.key(blade_digest(blade_path))
         stored = stored_run(case, spec, result, key, config["analysis"], keep_history=True)
-        try:
+        with refused(OSError, because=f"--output {options.output}: cannot be written: "):
             write_run(options.output, stored, provenance(config))
-        except OSError as error:
-            raise InputError(f"--output {options.output}: cannot be written ({error})") from error
-    print(json.dumps(figures, indent=2) if options.json else _in_words(figures))
+    inputs.show(options, figures, _in_words)
 
 
 def _config(options: argparse.Namespace) -> dict[str, Any]:
@@ -141,12 +106,9 @@ def _check_options(options: argparse.Namespace, config: dict[str, Any]) -> None:
     _complete_coating(options)
     for option in (*_KINDS[options.coating], "f"):
         value = getattr(options, option)
-        if value is None:  # theta beside friction, or friction beside theta
-            continue
-        try:
-            check_quantity("f_omega" if option == "f" else option, value)
-        except ValueError as error:
-            raise InputError(f"--{option} = {value:g}: {error}") from error
+        if value is not None:  # of theta and friction only one is given
+            with refused(ValueError, because=f"--{option} = {value:g}: "):
+                check_quantity("f_omega" if option == "f" else option, value)
     fastest = config["reduction"]["f_omega_max"]
     if not options.blade and options.f > fastest:  # of a blade that may not be built yet
         raise InputError(
@@ -161,32 +123,8 @@ def _one_of(name: str, known: Collection[str]) -> str:
     return f"must be one of {', '.join(known)}" + (f"; did you mean {close[0]}?" if close else "")
 
 
-def _check_output(path: Path) -> None:
-    """See that a run can be written to `path`, and that nothing else is lost by it."""
-    try:
-        os.lstat(path)
-    except (FileNotFoundError, NotADirectoryError):
-        pass
-    except OSError as error:
-        raise InputError(f"--output {path}: cannot be written ({error.strerror})") from error
-    if path.is_dir():
-        raise InputError(f"--output {path}: is a folder, must be a file")
-    if os.path.lexists(path) and not _is_run(path):
-        raise InputError(f"--output {path}: is there and is no run, must be a new file or a run to replace")
-    inputs.require_room("output", path)
-
-
-def _is_run(path: Path) -> bool:
-    from bladerub.io.hdf5 import read_attributes
-
-    try:
-        return path.is_file() and "run_key" in read_attributes(path)
-    except OSError:
-        return False
-
-
 def _complete_coating(options: argparse.Namespace) -> None:
-    """Fill in the default of what describes the coating; what does not belong to its kind is an error."""
+    """Fill in the defaults of the coating; an option of the other kind is an error."""
     if options.coating == "rigid":
         for option in ("E", "K", "theta"):
             given = getattr(options, option)
@@ -203,22 +141,46 @@ def _complete_coating(options: argparse.Namespace) -> None:
         raise InputError(f"--friction = {options.friction:g}: goes without --theta, which says the same")
 
 
+def _check_output(path: Path) -> None:
+    """Check that a run can be written to `path`, and that nothing but a run is replaced."""
+    try:
+        os.lstat(path)
+    except (FileNotFoundError, NotADirectoryError):
+        inputs.require_writable("output", path)
+        return
+    except OSError as error:
+        raise InputError(f"--output {path}: cannot be written ({error.strerror})") from error
+    if path.is_dir():
+        raise InputError(f"--output {path}: is a folder, must be a file")
+    if not _is_run(path):
+        raise InputError(f"--output {path}: is there and is no run, must be a new file or a run to replace")
+    inputs.require_writable("output", path)
+
+
+def _is_run(path: Path) -> bool:
+    from bladerub.io.hdf5 import read_attributes
+
+    try:
+        return path.is_file() and "run_key" in read_attributes(path)
+    except OSError:
+        return False
+
+
 def _in_words(figures: dict[str, Any]) -> str:
     order = figures["engine_order"]
-    return "\n".join(
-        [
-            f"peak amplitude    {figures['peak_amplitude'] * 1e3:.4g} mm",
-            f"engine order      {'none' if order is None else f'{order:.4g}'}",
-            f"maximum wear      {figures['max_wear'] * 1e3:.4g} mm",
-            f"lobes             {figures['lobes']}",
-            f"growth            {_growth_in_words(figures)}",
-            f"saturating        {'yes' if figures['saturating'] else 'no'}",
-            f"divergent         {'yes' if figures['divergent'] else 'no'}",
-            f"status            {figures['status']}",
-            f"steps             {figures['n_steps']}",
-            f"steps per second  {figures['steps_per_second']:.3g}",
-        ]
-    )
+    rows = {
+        "peak amplitude": f"{figures['peak_amplitude'] * 1e3:.4g} mm",
+        "engine order": "none" if order is None else f"{order:.4g}",
+        "maximum wear": f"{figures['max_wear'] * 1e3:.4g} mm",
+        "lobes": figures["lobes"],
+        "growth": _growth_in_words(figures),
+        "saturating": "yes" if figures["saturating"] else "no",
+        "divergent": "yes" if figures["divergent"] else "no",
+        "status": figures["status"],
+        "steps": figures["n_steps"],
+        "steps per second": f"{figures['steps_per_second']:.3g}",
+    }
+    return "\n".join(inputs.aligned(rows.items()))
 
 
 def _growth_in_words(figures: dict[str, Any]) -> str:

@@ -147,7 +147,7 @@ def test_a_run_that_left_all_bounds_is_shown_until_then(export, tmp_path, folder
         file["revolution_peak"][1] = np.nan
     code, _, err = export(tmp_path / "other", run=run)
     assert code == 2
-    assert "left all bounds in its first revolution" in err
+    assert "exceeds the displacement limit in its first revolution" in err
 
 
 @pytest.mark.parametrize(
