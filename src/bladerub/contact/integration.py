@@ -12,46 +12,28 @@ from bladerub.contact.kernel.loop import Simulation
 
 
 class Segment(NamedTuple):
-    """A whole revolution or a part of one, at one speed.
+    """A whole revolution or a part of one, at one speed."""
 
-    Parameters
-    ----------
-    simulation : Simulation
-        What is integrated.
-    revolution : int
-        Counted from 0.
-    first, last : int
-        Elements passed since the start of the revolution, at the start and at the end of the segment.
-    """
-
-    simulation: Simulation
-    revolution: int
+    simulation: Simulation  # What is integrated
+    revolution: int  # Counted from 0
+    # Elements passed since the start of the revolution, at the start and at the end of the segment
     first: int
     last: int
 
 
 @dataclass
 class History:
-    """What is kept of an integration.
+    """What is kept of an integration."""
 
-    Parameters
-    ----------
-    displacement : (revolutions, N) ndarray
-        Radial displacement of node 1, mean over the passage of each element, m; NaN after an early end.
-    lowest, highest : (revolutions,) ndarray
-        Range of that displacement in each revolution, m; NaN likewise.
-    n_steps, n_contact_steps : int
-        Steps made, and those of them with contact.
-    revolutions_made : float
-        Revolutions made.
-    """
-
+    # (revolutions, N): Radial displacement of node 1, mean over the passage of each element, m; NaN after
+    # an early end
     displacement: np.ndarray
+    # (revolutions,): Range of that displacement in each revolution, m; NaN likewise
     lowest: np.ndarray = field(init=False)
     highest: np.ndarray = field(init=False)
-    n_steps: int = 0
+    n_steps: int = 0  # Steps made, and those of them with contact
     n_contact_steps: int = 0
-    revolutions_made: float = 0.0
+    revolutions_made: float = 0.0  # Revolutions made
 
     def __post_init__(self):
         self.lowest, self.highest = np.full((2, len(self.displacement)), np.nan)

@@ -11,17 +11,11 @@ from bladerub.blade.model import N_INTERFACE, ReducedBlade
 
 
 class Modes(NamedTuple):
-    """Mass-normalised modes seen from the blade tip.
+    """Mass-normalised modes seen from the blade tip."""
 
-    Parameters
-    ----------
-    omega : (n,) ndarray
-        Natural angular frequencies, ascending, rad/s.
-    tip : (16, n) ndarray
-        Displacement of the tip per unit of each mode: radial at the 8 nodes, then tangential, kg^-1/2.
-    """
-
-    omega: np.ndarray
+    omega: np.ndarray  # (n,): Natural angular frequencies, ascending, rad/s
+    # (16, n): Displacement of the tip per unit of each mode: radial at the 8 nodes, then tangential,
+    # kg^-1/2
     tip: np.ndarray
 
 

@@ -16,23 +16,15 @@ from bladerub.contact.spec import RunSpec
 
 
 class Recording(NamedTuple):
-    """Motion of the blade at some instants.
+    """Motion of the blade at some instants."""
 
-    Parameters
-    ----------
-    time : (s,) ndarray
-        The instants, in revolutions from the start of the run.
-    coordinates : (s, n) ndarray
-        Reduced coordinates of the blade, increments about its running position.
-    radial_displacement : (n_elements,) ndarray
-        Of node 1 in the recorded revolution, mean over the passage of each element, m.
-    revolution_peak : (r,) ndarray
-        Largest absolute radial displacement of node 1 in each revolution, the recorded one being the last, m.
-    """
-
-    time: np.ndarray
+    time: np.ndarray  # (s,): The instants, in revolutions from the start of the run
+    # (s, n): Reduced coordinates of the blade, increments about its running position
     coordinates: np.ndarray
+    # (n_elements,): Of node 1 in the recorded revolution, mean over the passage of each element, m
     radial_displacement: np.ndarray
+    # (r,): Largest absolute radial displacement of node 1 in each revolution, the recorded one being the
+    # last, m
     revolution_peak: np.ndarray
 
 

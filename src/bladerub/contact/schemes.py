@@ -41,58 +41,34 @@ ILL_CONDITIONED = 1e9
 
 
 class Recurrence(NamedTuple):
-    """Coefficients of a scheme; n is the number of modes it resolves.
+    """Coefficients of a scheme; n is the number of modes it resolves."""
 
-    Parameters
-    ----------
-    now, before : (n,) ndarray
-        Coefficients of the present and of the previous modal coordinate.
-    gain : (n,) ndarray
-        Modal coordinate per unit of modal force, s²; a tip force acts on each mode by its displacement there.
-    corrects : bool
-        Whether the force acts in the step it is evaluated in (contract, 2).
-    kinetic, loss : (n,) ndarray
-        Kinetic energy per ``(q⁺ − q)²`` and energy lost to damping per ``(q⁺ − q⁻)²``, 1/s².
-    tip : (16, n) ndarray
-        Displacement of the tip per unit of each resolved mode, kg^-1/2.
-    omega : (n,) ndarray
-        Natural angular frequencies of the resolved modes, rad/s.
-    share : (all modes,) ndarray
-        Part of each mode of the blade that is resolved; the rest responds by its static displacement.
-    compliance, static_compliance : (16, 16) ndarray
-        Displacement of the tip per unit of force in the same step, as the law of contact sees it
-        (contract, 3), and of the modes that are not resolved alone, m/N.
-    time_step : float
-        h, s.
-    """
-
-    now: np.ndarray
+    now: np.ndarray  # (n,): Coefficients of the present and of the previous modal coordinate
     before: np.ndarray
+    # (n,): Modal coordinate per unit of modal force, s²; a tip force acts on each mode by its
+    # displacement there
     gain: np.ndarray
-    corrects: bool
+    corrects: bool  # Whether the force acts in the step it is evaluated in (contract, 2)
+    # (n,): Kinetic energy per ``(q⁺ − q)²`` and energy lost to damping per ``(q⁺ − q⁻)²``, 1/s²
     kinetic: np.ndarray
     loss: np.ndarray
-    tip: np.ndarray
-    omega: np.ndarray
+    tip: np.ndarray  # (16, n): Displacement of the tip per unit of each resolved mode, kg^-1/2
+    omega: np.ndarray  # (n,): Natural angular frequencies of the resolved modes, rad/s
+    # (all modes,): Part of each mode of the blade that is resolved; the rest responds by its static
+    # displacement
     share: np.ndarray
+    # (16, 16): Displacement of the tip per unit of force in the same step, as the law of contact sees it
+    # (contract, 3), and of the modes that are not resolved alone, m/N
     compliance: np.ndarray
     static_compliance: np.ndarray
-    time_step: float
+    time_step: float  # h, s
 
 
 class Contact(NamedTuple):
-    """What a scheme needs to know of the contact.
+    """What a scheme needs to know of the contact."""
 
-    Parameters
-    ----------
-    stiffness : (8,) ndarray
-        Largest stiffness under each node, N/m; infinite for the rigid casing.
-    radial, tangential : float
-        Direction of the force on the blade.
-    """
-
-    stiffness: np.ndarray
-    radial: float
+    stiffness: np.ndarray  # (8,): Largest stiffness under each node, N/m; infinite for the rigid casing
+    radial: float  # Direction of the force on the blade
     tangential: float
 
 

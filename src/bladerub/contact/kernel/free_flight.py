@@ -38,22 +38,14 @@ N_FORMS = 12
 
 
 class FreeFlight(NamedTuple):
-    """Coefficients of `n_steps` free steps of modes that are at q and have moved by d in the last step.
+    """Coefficients of `n_steps` free steps of modes that are at q and have moved by d in the last step."""
 
-    Parameters
-    ----------
-    n_steps : int
-        Time steps at once.
-    forms : (n / 8, 12, 8) ndarray
-        For each vector of modes: increment of q; last of the steps; damping loss, and that of the step
-        before; mean increment of node 1; bound of the approach of any node to the casing within the steps.
-    sideways : float
-        Most that any node moves along the casing while the bound of its approach is 1.
-    """
-
-    n_steps: int
+    n_steps: int  # Time steps at once
+    # (n / 8, 12, 8): For each vector of modes: increment of q; last of the steps; damping loss, and that
+    # of the step before; mean increment of node 1; bound of the approach of any node to the casing within
+    # the steps
     forms: np.ndarray
-    sideways: float
+    sideways: float  # Most that any node moves along the casing while the bound of its approach is 1
 
 
 def free_flight(rule: Recurrence, n_steps: int, slope: float) -> FreeFlight:

@@ -48,21 +48,14 @@ CLEANING_INTERVAL = 32
 
 
 class Progress(NamedTuple):
-    """What was integrated in a revolution or a part of it.
+    """What was integrated in a revolution or a part of it."""
 
-    Parameters
-    ----------
-    n_steps, n_flights, n_contact_steps : int
-        Steps, free flights that many of them were made in, and steps with contact; fewer steps than asked for
-        when a displacement exceeds the limit.
-    lowest, highest : float
-        Range of the radial displacement of node 1, m.
-    """
-
+    # Steps, free flights that many of them were made in, and steps with contact; fewer steps than asked
+    # for when a displacement exceeds the limit
     n_steps: int
     n_flights: int
     n_contact_steps: int
-    lowest: float
+    lowest: float  # Range of the radial displacement of node 1, m
     highest: float
 
 

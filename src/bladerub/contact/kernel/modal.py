@@ -28,38 +28,21 @@ ROWS = 2 * LANES
 
 
 class Modal(NamedTuple):
-    """A `Recurrence` as the time loop reads it: modes padded with zeros to whole vectors.
+    """A `Recurrence` as the time loop reads it: modes padded with zeros to whole vectors."""
 
-    Parameters
-    ----------
-    n : int
-        Number of modes, a multiple of 8.
-    now, before, loss : (n,) ndarray
-        Coefficients of the recurrence.
-    tip : (n / 8, 16, 8) ndarray
-        Displacement of the tip per unit of each mode, a block for each vector of modes.
-    gain : (n,) ndarray
-        Modal coordinates per unit of modal force.
-    compliance : (16, 16) ndarray
-        Displacement of the tip in the step of each force itself, m/N.
-    corrects : bool
-        Whether forces act in the step they are evaluated in.
-    mobility : (16, 16) ndarray
-        Displacement of the tip in a step, as `bladerub.contact.friction` counts it, per unit of each force of
-        the step, by the modes that the scheme resolves, m/N.
-    stopping : (8,) ndarray
-        The most that tangential forces of 1 N on all nodes take from the sliding distance of each, m.
-    """
-
-    n: int
-    now: np.ndarray
+    n: int  # Number of modes, a multiple of 8
+    now: np.ndarray  # (n,): Coefficients of the recurrence
     before: np.ndarray
     loss: np.ndarray
+    # (n / 8, 16, 8): Displacement of the tip per unit of each mode, a block for each vector of modes
     tip: np.ndarray
-    gain: np.ndarray
-    compliance: np.ndarray
-    corrects: bool
+    gain: np.ndarray  # (n,): Modal coordinates per unit of modal force
+    compliance: np.ndarray  # (16, 16): Displacement of the tip in the step of each force itself, m/N
+    corrects: bool  # Whether forces act in the step they are evaluated in
+    # (16, 16): Displacement of the tip in a step, as `bladerub.contact.friction` counts it, per unit of
+    # each force of the step, by the modes that the scheme resolves, m/N
     mobility: np.ndarray
+    # (8,): The most that tangential forces of 1 N on all nodes take from the sliding distance of each, m
     stopping: np.ndarray
 
 
