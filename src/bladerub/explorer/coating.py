@@ -1,20 +1,44 @@
-"""One coating as the page holds it: pictures coded and compressed, figures as they are."""
+"""One coating as the page holds it: pictures thinned and compressed, figures as they are."""
 
 from __future__ import annotations
 
 import numpy as np
 import pandas as pd
 
-from bladerub.explorer import figures, thinning
-from bladerub.explorer.codes import differences, linear, log_range, logarithmic, packed
-from bladerub.explorer.inert import json_text
+from bladerub.explorer import encoding, figures
+from bladerub.plots.spectrum import ORDERS
 from bladerub.study.manifest import ManifestRow
 from bladerub.study.maps import CoatingMap
 
+MOST_ANGLES = 500
+"""Wear is averaged to at most so many arcs of the circumference."""
+LAST_ORDER = ORDERS[-1] + 1
+"""Spectra are kept up to this engine order at least, the end of the axis of orders."""
 AMPLITUDE_FLOOR = 1e-8
-"""Smallest spectral amplitude that is told apart, m; far below the colour scale of the figures."""
+"""Smallest spectral amplitude that the page resolves, m; far below the colour scale of the figures."""
 _SMALLEST = 1e-15
 """Amplitude of a blade at rest in the pictures of growth, m: a logarithmic axis has no zero."""
+
+
+def arcs(n_elements: int) -> np.ndarray:
+    """First element of each arc of the circumference, and the end: (m + 1,) ndarray of int."""
+    m = min(n_elements, MOST_ANGLES)
+    return np.arange(m + 1) * n_elements // m
+
+
+def arc_means(values: np.ndarray, bounds: np.ndarray) -> np.ndarray:
+    """Average `values` (n, n_elements) over the arcs between `bounds` (m + 1,), giving (n, m)."""
+    return np.add.reduceat(values, bounds[:-1], axis=1, dtype=float) / np.diff(bounds)
+
+
+def kept_orders(f_omega: np.ndarray, order: np.ndarray, max_frequency: float) -> np.ndarray:
+    """Count the engine orders `order` (m,), from 0, that are kept at each of the speeds `f_omega` (n,).
+
+    All up to `max_frequency`, at which the figures end, and up to `LAST_ORDER`.
+    """
+    step = order[1] - order[0]
+    last = np.maximum(LAST_ORDER, max_frequency / f_omega) + step  # the bin around the end is drawn
+    return np.searchsorted(order, last, side="right")
 
 
 def parts(
@@ -29,38 +53,38 @@ def parts(
     Parameters
     ----------
     coating, divergence, runs, spectrum_revolutions
-        As `bladerub.explorer.figures.of_runs`.
+        As of `bladerub.explorer.figures.of_runs`.
     max_frequency : float
         Spectra are kept up to there at least, normalised.
 
     Returns
     -------
     dict of str to str
-        Each value as `bladerub.explorer.codes.packed`. ``wear``: bytes, n speeds × m stretches, differences
-        along each row of `linear` codes. ``spectrum``: bytes, `logarithmic`, the kept orders of each speed
-        one after the other. ``growth``: the same in two bytes (little-endian), the revolutions of the study's
-        run, then those of the longer run, for each speed. ``figures``: JSON, `figures.of_runs` and the
-        scales of the codes, in m.
+        Each value as `encoding.packed`. ``wear``: bytes, n speeds × m arcs, differences along each row of
+        `linear_steps`. ``spectrum``: bytes, `logarithmic_steps`, the kept orders of each speed one after the
+        other. ``growth``: the same in two bytes (little-endian), for each speed the revolutions of
+        the study's run and of the longer run. ``figures``: JSON, `figures.of_runs` and the scales, in mm.
     """
-    bounds = thinning.stretches(coating.angle.size)
-    wear, deepest = linear(thinning.stretch_means(coating.wear, bounds))
-    kept = thinning.kept_orders(coating.f_omega, coating.spectrum_order, max_frequency)
+    wear, deepest = encoding.linear_steps(arc_means(coating.wear, arcs(coating.angle.size)))
+    kept = kept_orders(coating.f_omega, coating.spectrum_order, max_frequency)
     spectra = [row[:n] for row, n in zip(coating.spectrum_amplitude, kept, strict=True)]
     spectrum = np.concatenate(spectra)
-    spectrum_range = AMPLITUDE_FLOOR, log_range(spectrum, AMPLITUDE_FLOOR)[1]
+    spectrum_range = AMPLITUDE_FLOOR, encoding.log_range(spectrum, AMPLITUDE_FLOOR)[1]
     growth = np.hstack([coating.revolution_amplitude, coating.confirmation_amplitude])
-    growth_range = log_range(growth, _SMALLEST)
+    growth_range = encoding.log_range(growth, _SMALLEST)
     numbers = {
         "runs": figures.of_runs(coating, divergence, runs, spectrum_revolutions),
-        "deepest": deepest,
-        "spectrum_range": spectrum_range,
-        "growth_range": growth_range,
+        "deepest": figures.mm(deepest),
+        "spectrum_range": figures.mm(spectrum_range),
+        "growth_range": figures.mm(growth_range),
         "revolutions": coating.revolution_amplitude.shape[1],
         "confirmation_revolutions": coating.confirmation_amplitude.shape[1],
     }
+    spectrum_steps = encoding.logarithmic_steps(spectrum, *spectrum_range, np.uint8)
+    growth_steps = encoding.logarithmic_steps(growth, *growth_range, np.uint16).astype("<u2")
     return {
-        "wear": packed(differences(wear).tobytes()),
-        "spectrum": packed(logarithmic(spectrum, *spectrum_range, np.uint8).tobytes()),
-        "growth": packed(logarithmic(growth, *growth_range, np.uint16).astype("<u2").tobytes()),
-        "figures": packed(json_text(numbers).encode()),
+        "wear": encoding.packed(encoding.differences(wear).tobytes()),
+        "spectrum": encoding.packed(spectrum_steps.tobytes()),
+        "growth": encoding.packed(growth_steps.tobytes()),
+        "figures": encoding.packed(encoding.json_text(numbers).encode()),
     }

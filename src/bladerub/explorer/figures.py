@@ -1,4 +1,4 @@
-"""The numbers that the page shows as text, from the tables and maps as they are."""
+"""The numbers that the page shows as text, from the tables and maps of the study: lengths in mm."""
 
 from __future__ import annotations
 
@@ -13,7 +13,12 @@ from bladerub.study.maps import CoatingMap
 from bladerub.study.summary import displacement_peak, spectral_peak
 
 VERDICTS = ["growth_per_revolution", "growth_low", "growth_high", "saturating", "divergent", "revolutions"]
-"""Columns of ``divergence.csv`` that the page shows, beside the status of the run they rest on."""
+"""Columns of ``divergence.csv`` that the page shows, with the status of the run they rest on."""
+
+
+def mm(metres: np.ndarray) -> np.ndarray:
+    """Convert lengths; the page itself converts nothing."""
+    return 1e3 * np.asarray(metres, dtype=float)
 
 
 def of_case(table: pd.DataFrame, case: CoatingCase) -> pd.DataFrame:
@@ -42,8 +47,8 @@ def of_runs(
     -------
     dict
         `VERDICTS` and ``verdict_status`` of the run that the verdict rests on. Of the run of the study:
-        ``status``, ``run_key``, ``lobes``, ``max_wear`` and ``peak`` (m), and ``order`` and
-        ``order_amplitude`` (m) of the largest spectral amplitude; NaN without a spectrum.
+        ``status``, ``run_key``, ``lobes``, ``max_wear`` and ``peak`` (mm), and ``order`` and
+        ``order_amplitude`` (mm) of the largest spectral amplitude; NaN without a spectrum.
 
     Raises
     ------
@@ -65,22 +70,19 @@ def of_runs(
         "status": coating.status.tolist(),
         "run_key": [run.run_key for run in listed],
         "lobes": coating.lobes.tolist(),
-        "max_wear": [float(depth) for depth in coating.max_wear],
-        "peak": [displacement_peak(row, spectrum_revolutions) for row in coating.revolution_peak],
+        "max_wear": mm(coating.max_wear).tolist(),
+        "peak": mm(
+            [displacement_peak(row, spectrum_revolutions) for row in coating.revolution_peak]
+        ).tolist(),
         "order": [order for order, _ in strongest],
-        "order_amplitude": [amplitude for _, amplitude in strongest],
+        "order_amplitude": mm([amplitude for _, amplitude in strongest]).tolist(),
     }
 
 
 def command(case: CoatingCase, configs: list[str]) -> str:
-    """Write the beginning of the command that repeats a run of `case`; ``--f`` and the speed are left to add.
+    """Write the command that repeats a run of `case`, up to ``--f`` and the speed, which the page adds.
 
-    Parameters
-    ----------
-    case : CoatingCase
-        The coating.
-    configs : list of str
-        Files that were laid over config/config.yaml.
+    `configs` are the files that were laid over config/config.yaml.
     """
     if case.is_rigid:
         coating = f"--coating rigid --friction {case.friction:.12g}"

@@ -13,7 +13,7 @@ import pandas as pd
 from plotly.offline import get_plotlyjs
 
 from bladerub.explorer import coating, study
-from bladerub.explorer.inert import json_text
+from bladerub.explorer.encoding import json_text
 from bladerub.study.manifest import read_manifest
 from bladerub.study.maps import read_map
 

@@ -1,4 +1,4 @@
-"""What the page knows of the study before a coating is opened."""
+"""What the page holds of the study besides its coatings: axes, names, peaks and colours."""
 
 from __future__ import annotations
 
@@ -7,10 +7,10 @@ from typing import Any
 import numpy as np
 import pandas as pd
 from matplotlib import colormaps
-from matplotlib.colors import Colormap, to_hex
+from matplotlib.colors import to_hex
 
-from bladerub.explorer import figures, thinning
-from bladerub.explorer.coating import AMPLITUDE_FLOOR
+from bladerub.explorer import figures
+from bladerub.explorer.coating import AMPLITUDE_FLOOR, LAST_ORDER, arcs, kept_orders
 from bladerub.io.provenance import software
 from bladerub.plots import bins, spectrum, style, titles
 from bladerub.study.grid import CoatingCase
@@ -23,35 +23,24 @@ def scales(coating: CoatingMap, max_frequency: float) -> dict[str, Any]:
     Returns
     -------
     dict
-        ``f_omega`` and ``C1`` (n,); ``speed_edges`` and ``speed_of_cell``, the cells of the maps as
-        `bladerub.plots.bins.with_gaps` makes them, with None in the holes; ``angle_edges``, in degrees;
+        ``f_omega`` and ``C1`` (n,); ``speed_edges`` and ``speed_of_bin``, the bins of the maps as
+        `bladerub.plots.bins.with_gaps` makes them, with NaN in the gaps; ``angle_edges``, in degrees;
         ``order`` (m,) and how many of them are ``kept`` at each speed.
     """
-    speed_edges, speed_of_cell = bins.with_gaps(coating.f_omega, np.arange(coating.f_omega.size))
-    bounds = thinning.stretches(coating.angle.size)
+    speed_edges, speed_of_bin = bins.with_gaps(coating.f_omega, np.arange(coating.f_omega.size))
     return {
         "f_omega": coating.f_omega,
         "C1": coating.C1,
         "speed_edges": speed_edges,
-        "speed_of_cell": speed_of_cell,
-        "angle_edges": np.degrees(bins.edges(coating.angle)[bounds]),
+        "speed_of_bin": speed_of_bin,
+        "angle_edges": np.degrees(bins.edges(coating.angle)[arcs(coating.angle.size)]),
         "order": coating.spectrum_order,
-        "kept": thinning.kept_orders(coating.f_omega, coating.spectrum_order, max_frequency),
+        "kept": kept_orders(coating.f_omega, coating.spectrum_order, max_frequency),
     }
 
 
 def coating(case: CoatingCase, peaks: pd.DataFrame, configs: list[str]) -> dict[str, Any]:
-    """Name, properties and resonant peaks of one coating.
-
-    Parameters
-    ----------
-    case : CoatingCase
-        The coating.
-    peaks : DataFrame
-        ``peaks.csv``.
-    configs : list of str
-        Files that were laid over config/config.yaml.
-    """
+    """Name, properties and resonant peaks (``peaks.csv``; amplitude Y in mm) of one coating."""
     return {
         "name": case.name,
         "title": titles.coating(case),
@@ -64,34 +53,14 @@ def coating(case: CoatingCase, peaks: pd.DataFrame, configs: list[str]) -> dict[
         "friction": case.friction,
         "command": figures.command(case, configs),
         "peaks": [
-            {"order": row.order, "f": row.f_peak, "Y": row.amplitude}
+            {"order": row.order, "f": row.f_peak, "Y": figures.mm(row.amplitude)}
             for row in figures.of_case(peaks, case).itertuples()
         ],
     }
 
 
-def look() -> dict[str, Any]:
-    """Colours and lines of the figures of the paper, for the page to draw in the same."""
-    return {
-        "wear": _colours(style.WEAR_MAP),
-        "amplitude": _colours(style.AMPLITUDE_MAP),
-        "height": _colours(colormaps[style.HEIGHT_MAP]),
-        "A": style.FIRST["color"],
-        "B": style.SECOND["color"],
-        "dark": style.DARK,
-        "blue": style.BLUE,
-        "red": style.RED,
-        "orange": style.ORANGE,
-        "missing": style.MISSING,
-    }
-
-
-def _colours(colour_map: Colormap) -> list[str]:
-    return [to_hex(colour) for colour in colour_map(np.linspace(0, 1, 64))]
-
-
 def about(settings: dict[str, Any]) -> dict[str, Any]:
-    """Gather what the page says and draws besides the data.
+    """Collect what the page says and draws besides the data.
 
     Parameters
     ----------
@@ -101,9 +70,21 @@ def about(settings: dict[str, Any]) -> dict[str, Any]:
     """
     return {
         **settings,
+        "amplitude_range": figures.mm(settings["amplitude_range"]),
         "made_by": software(),
-        "amplitude_floor": AMPLITUDE_FLOOR,
+        "amplitude_floor": figures.mm(AMPLITUDE_FLOOR),
         "orders": list(spectrum.ORDERS),
-        "last_order": thinning.LAST_ORDER,
+        "last_order": LAST_ORDER,
         "look": look(),
     }
+
+
+def look() -> dict[str, Any]:
+    """Colours and lines of the figures of the paper, for the page to draw in the same."""
+    maps = {"wear": style.WEAR_MAP, "amplitude": style.AMPLITUDE_MAP, "height": colormaps[style.HEIGHT_MAP]}
+    lines = {"A": style.FIRST["color"], "B": style.SECOND["color"], "dark": style.DARK, "blue": style.BLUE}
+    others = {"red": style.RED, "orange": style.ORANGE, "missing": style.MISSING}
+    steps = np.linspace(0, 1, 64)
+    return (
+        {name: [to_hex(each) for each in colours(steps)] for name, colours in maps.items()} | lines | others
+    )

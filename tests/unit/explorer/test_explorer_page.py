@@ -4,13 +4,18 @@ import gzip
 import hashlib
 import json
 import re
+import shutil
+import subprocess
+from importlib.resources import files
 
 import numpy as np
 import pandas as pd
 import pytest
+from matplotlib.colors import to_hex
 
 from bladerub.explorer.coating import AMPLITUDE_FLOOR, parts
 from bladerub.explorer.page import build
+from bladerub.plots import style
 from bladerub.study.grid import CoatingCase
 from bladerub.study.manifest import write_manifest
 from bladerub.study.maps import write_map
@@ -53,20 +58,20 @@ def test_what_is_packed_comes_back(coating, verdicts, runs):
 
     steps = np.cumsum(np.frombuffer(data["wear"], np.uint8).reshape(3, 60), axis=1, dtype=np.uint8)
     deepest = np.array(numbers["deepest"])[:, None]
-    assert (np.abs(steps / 255 * deepest - coating.wear) <= deepest / 509).all()
+    assert (np.abs(steps / 255 * deepest - 1e3 * coating.wear) <= deepest / 509).all()
 
     low, high = numbers["spectrum_range"]
     codes = np.frombuffer(data["spectrum"], np.uint8)[:252]  # to order 25 at the first speed, and a cell
     amplitude = low * (high / low) ** ((codes - 1.0) / 254)
-    shown = np.maximum(coating.spectrum_amplitude[0, :252], AMPLITUDE_FLOOR)
+    shown = 1e3 * np.maximum(coating.spectrum_amplitude[0, :252], AMPLITUDE_FLOOR)
     np.testing.assert_allclose(amplitude, shown, rtol=0.03)
     assert not np.frombuffer(data["spectrum"], np.uint8)[-132:].any()  # the last run has no spectrum
 
     low, high = numbers["growth_range"]
     codes = np.frombuffer(data["growth"], "<u2").reshape(3, 50)
     amplitude = np.where(codes, low * (high / low) ** ((codes - 1.0) / 65534), np.nan)
-    np.testing.assert_allclose(amplitude[:, :20], coating.revolution_amplitude, rtol=1e-3)
-    np.testing.assert_allclose(amplitude[:, 20:], coating.confirmation_amplitude, rtol=1e-3)
+    np.testing.assert_allclose(amplitude[:, :20], 1e3 * coating.revolution_amplitude, rtol=1e-3)
+    np.testing.assert_allclose(amplitude[:, 20:], 1e3 * coating.confirmation_amplitude, rtol=1e-3)
     assert numbers["runs"]["growth_per_revolution"] == verdicts["growth_per_revolution"].tolist()
 
 
@@ -90,10 +95,68 @@ def test_the_page_holds_every_coating_and_needs_nothing_else(page, coating):
     first, second = json.loads(study)["coatings"]
     assert (first["name"], first["title"]) == (coating.case.name, "casing 2nd, E = 2, K = 0.5, θ = 0.15 rad")
     assert (second["E"], second["rigid"], second["friction"]) == (None, True, 0.0)
-    assert first["peaks"] == [{"order": 4, "f": 0.2, "Y": 1.25e-3}]
+    assert first["peaks"] == [{"order": 4, "f": 0.2, "Y": 1.25}]
     assert len(scripts(text, "application/gzip")) == 8
     assert re.findall(r"<(?:script|link|img|iframe)[^>]*\b(?:src|href)=", text) == []
     assert text == page(coating, other)
+
+
+def test_axes_are_those_of_the_maps(page, coating):
+    (study,) = map(json.loads, scripts(page(coating), "application/json"))
+    assert study["f_omega"] == coating.f_omega.tolist()
+    assert study["C1"] == coating.C1.tolist()
+    assert study["speed_edges"] == pytest.approx([0.05, 0.15, 0.25, 0.35])
+    assert study["speed_of_bin"] == [0, 1, 2]
+    assert study["angle_edges"] == pytest.approx(np.arange(61) * 6.0, abs=1e-9)  # degrees
+    assert study["order"] == coating.spectrum_order.tolist()
+    assert study["kept"] == [252, 132, 132]  # to 2.5 / f_omega, but to order 13 at least, and one more
+    assert study["amplitude_range"] == pytest.approx([2e-3, 3.0])  # mm
+    assert study["amplitude_floor"] == pytest.approx(1e3 * AMPLITUDE_FLOOR)
+    assert study["last_order"] == 13
+    assert {
+        name: study[name] for name in ("max_frequency", "growth_revolutions", "spectrum_revolutions")
+    } == {name: SETTINGS[name] for name in ("max_frequency", "growth_revolutions", "spectrum_revolutions")}
+
+
+def test_colours_are_those_of_the_figures(page, coating):
+    (study,) = map(json.loads, scripts(page(coating), "application/json"))
+    look = study["look"]
+    for name, colours in (("wear", style.WEAR_MAP), ("amplitude", style.AMPLITUDE_MAP)):
+        assert len(look[name]) == 64
+        assert (look[name][0], look[name][-1]) == (to_hex(colours(0.0)), to_hex(colours(1.0)))
+    assert (look["A"], look["B"]) == (style.FIRST["color"], style.SECOND["color"])
+
+
+UNPACK = """
+const { page, program } = JSON.parse(require("fs").readFileSync(0));
+globalThis.document = { getElementById: (id) => ({ textContent: page[id] }) };
+globalThis.show = ({ wear, spectrum, growth, deepest, highest, revolutions }) => console.log(JSON.stringify({
+  wear: wear.map((row) => [...row]),
+  spectrum: spectrum.map((row) => [...row]),
+  growth: growth.map(({ own, longer }) => [...own, ...longer]),
+  deepest, highest, revolutions,
+}));
+new Function(`${program}; open(0).then(show)`)();
+"""
+
+
+@pytest.mark.skipif(shutil.which("node") is None, reason="no node, which runs the program of the page")
+def test_the_program_of_the_page_unpacks_the_study(page, coating):
+    texts = re.findall(r'<script type="[^"]*" id="([^"]*)">(.*?)</script>', page(coating), re.DOTALL)
+    program = files("bladerub.explorer").joinpath("page", "data.js").read_text(encoding="utf-8")
+    given = json.dumps({"page": dict(texts), "program": program})
+    done = subprocess.run(["node", "-e", UNPACK], input=given, capture_output=True, text=True, check=True)
+    shown = json.loads(done.stdout)
+    np.testing.assert_allclose(shown["wear"], 1e3 * coating.wear, atol=1.0 / 509)
+    for speed, n in enumerate((252, 132)):
+        amplitude = 1e3 * np.maximum(coating.spectrum_amplitude[speed, :n], AMPLITUDE_FLOOR)
+        np.testing.assert_allclose(shown["spectrum"][speed], amplitude, rtol=0.03)
+    assert shown["spectrum"][2] == [None] * 132
+    amplitude = 1e3 * np.hstack([coating.revolution_amplitude, coating.confirmation_amplitude])
+    np.testing.assert_allclose(np.array(shown["growth"], dtype=float), amplitude, rtol=1e-3)
+    assert shown["deepest"] == pytest.approx(1e3 * coating.wear.max())
+    assert shown["highest"] == pytest.approx(1e3 * np.nanmax(coating.spectrum_amplitude[:, :252]), rel=0.05)
+    assert shown["revolutions"] == 20
 
 
 def test_the_policy_lets_only_its_own_scripts_run(page, coating):

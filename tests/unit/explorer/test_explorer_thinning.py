@@ -1,21 +1,21 @@
 import numpy as np
 import pytest
 
-from bladerub.explorer.thinning import LAST_ORDER, MOST_ANGLES, kept_orders, stretch_means, stretches
+from bladerub.explorer.coating import LAST_ORDER, MOST_ANGLES, arc_means, arcs, kept_orders
 
 
-@pytest.mark.parametrize(("n_elements", "n_stretches"), [(2000, MOST_ANGLES), (1999, MOST_ANGLES), (60, 60)])
-def test_stretches_share_the_circumference(n_elements, n_stretches):
-    bounds = stretches(n_elements)
+@pytest.mark.parametrize(("n_elements", "n_arcs"), [(2000, MOST_ANGLES), (1999, MOST_ANGLES), (60, 60)])
+def test_arcs_share_the_circumference(n_elements, n_arcs):
+    bounds = arcs(n_elements)
     lengths = np.diff(bounds)
-    assert (bounds[0], bounds[-1], lengths.size) == (0, n_elements, n_stretches)
+    assert (bounds[0], bounds[-1], lengths.size) == (0, n_elements, n_arcs)
     assert lengths.max() - lengths.min() <= 1
 
 
-def test_means_are_those_of_the_elements_of_each_stretch():
+def test_means_are_those_of_the_elements_of_each_arc():
     values = np.random.default_rng(1).random((2, 1999))
-    bounds = stretches(1999)
-    means = stretch_means(values, bounds)
+    bounds = arcs(1999)
+    means = arc_means(values, bounds)
     assert means[1, 7] == pytest.approx(values[1, bounds[7] : bounds[8]].mean())
     np.testing.assert_allclose((means * np.diff(bounds)).sum(axis=1), values.sum(axis=1))
 

@@ -46,17 +46,17 @@ function toHash(choice) {
 function fromHash(hash) {
   const link = new URLSearchParams(hash.slice(1));
   const choice = firstChoice();
-  const faults = [];
+  const errors = [];
   for (const side of SIDES) {
     if (!link.has(side)) continue;
     const index = study.coatings.findIndex(({ name }) => name === link.get(side));
-    if (index < 0) faults.push(`coating "${link.get(side)}" is not in this study`);
+    if (index < 0) errors.push(`coating "${link.get(side)}" is not in this study`);
     else choice[side] = index;
     choice.compare ||= side === "B" && index >= 0;
   }
   if (link.has("f")) {
     const wanted = Number(link.get("f"));
-    if (link.get("f") === "" || Number.isNaN(wanted)) faults.push(`f "${link.get("f")}" is not a speed`);
+    if (link.get("f") === "" || Number.isNaN(wanted)) errors.push(`f "${link.get("f")}" is not a speed`);
     else choice.speed = nearest(study.f_omega, wanted);
   } else choice.speed = speedOfPeak(choice.A);
   for (const [key, name, allowed] of [
@@ -67,10 +67,10 @@ function fromHash(hash) {
     if (!link.has(key)) continue;
     const value = allowed.find((each) => String(each) === link.get(key));
     if (value !== undefined) choice[name] = value;
-    else faults.push(`${key} "${link.get(key)}" is not ${allowed.join(" or ")}`);
+    else errors.push(`${key} "${link.get(key)}" is not ${allowed.join(" or ")}`);
   }
   choice.sameScale = link.get("scale") !== "own";
-  return { choice, faults };
+  return { choice, errors };
 }
 
 // Properties in the order in which they are chosen; each offers what the study has with those before it.

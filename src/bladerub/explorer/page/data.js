@@ -9,25 +9,25 @@ async function unpacked(id) {
   return new Response(stream).arrayBuffer();
 }
 
-// Depth in mm by speed: codes are differences along the circumference, in steps of 1/255 of the deepest.
+// Depth by speed: differences along the circumference, in steps of 1/255 of the deepest. All lengths are in mm.
 function wear(buffer, deepest) {
-  const codes = new Uint8Array(buffer);
-  const width = codes.length / deepest.length;
+  const steps = new Uint8Array(buffer);
+  const width = steps.length / deepest.length;
   return deepest.map((depth, speed) => {
     const row = new Float32Array(width);
-    let code = 0;
+    let step = 0;
     for (let i = 0; i < width; i += 1) {
-      code = (code + codes[speed * width + i]) & 255;
-      row[i] = (1e3 * depth * code) / 255;
+      step = (step + steps[speed * width + i]) & 255;
+      row[i] = (depth * step) / 255;
     }
     return row;
   });
 }
 
-// Values in mm on a scale of equal ratios from `low` to `high` (m); code 0 stands for no value.
-function ratios(codes, top, [low, high]) {
-  const step = Math.log(high / low) / (top - 1);
-  return Float32Array.from(codes, (code) => (code ? 1e3 * low * Math.exp((code - 1) * step) : NaN));
+// Values on a scale of equal ratios from `low` to `high`; step 0 stands for no value.
+function ratios(steps, top, [low, high]) {
+  const ratio = Math.log(high / low) / (top - 1);
+  return Float32Array.from(steps, (step) => (step ? low * Math.exp((step - 1) * ratio) : NaN));
 }
 
 function split(values, lengths) {
@@ -48,8 +48,8 @@ async function open(index) {
     index,
     runs: numbers.runs,
     revolutions,
-    deepest: 1e3 * Math.max(...numbers.deepest),
-    highest: 1e3 * numbers.spectrum_range[1],
+    deepest: Math.max(...numbers.deepest),
+    highest: numbers.spectrum_range[1],
     wear: wear(buffers[0], numbers.deepest),
     spectrum: split(spectrum, study.kept),
     growth: split(growth, study.f_omega.map(() => revolutions + longer)).map((row) => ({

@@ -1,6 +1,6 @@
 // From a choice to what is seen: controls change the choice, the choice is drawn.
 
-let { choice, faults } = fromHash(location.hash);
+let { choice, errors } = fromHash(location.hash);
 let drawn = {}; // what the maps show now
 let drawing = null;
 let again = false;
@@ -49,16 +49,16 @@ async function drawChoice(now) {
     const { data, layout } = picture(shown, now);
     pictures.push(Plotly.react(name, data, layout, CONFIG));
   }
-  tellTitles(shown);
-  tellRun(shown, now, (speed) => change({ speed }));
-  tellModuli(now, (index) => change({ [now.side]: index }));
+  showTitles(shown);
+  showRun(shown, now, (speed) => change({ speed }));
+  showModuli(now, (index) => change({ [now.side]: index }));
   describe(shown, now);
   await Promise.all(pictures);
   await new Promise(requestAnimationFrame);
   remember();
 }
 
-// A map is drawn anew only if it shows something else; a changed speed moves its line.
+// A map is drawn again only if it shows something else; a changed speed moves its line.
 function map(name, shows, shapes, draft) {
   const key = JSON.stringify(shows);
   if (drawn[name] === key) return Plotly.relayout(name, { shapes });
@@ -165,7 +165,7 @@ function listen() {
   page("#side").addEventListener("change", ({ target }) => change({ side: target.value }));
   document.addEventListener("keydown", key);
   window.addEventListener("hashchange", () => {
-    ({ choice, faults } = fromHash(location.hash));
+    ({ choice, errors } = fromHash(location.hash));
     begin();
   });
   page("#link").addEventListener("click", async (event) => {
@@ -182,7 +182,7 @@ function listen() {
 
 function begin() {
   showControls();
-  page("#status").textContent = faults.length ? `Not all of the link could be restored: ${faults.join("; ")}.` : "";
+  page("#status").textContent = errors.length ? `Not all of the link could be restored: ${errors.join("; ")}.` : "";
   draw();
 }
 
@@ -191,6 +191,6 @@ page("#order").append(
   "Engine order ",
   ...PEAK_ORDERS.map((order) => element("label", {}, element("input", { type: "radio", name: "order", value: order }), ` ${order}`)),
 );
-tellThinned();
+showThinned();
 listen();
 begin();

@@ -28,11 +28,11 @@ function layout(more) {
   };
 }
 
-// Stretches of cells of equal width without a hole: plotly.js draws such maps many times faster than others.
+// Stretches of bins of equal width without a gap: plotly.js draws such maps many times faster than others.
 const STRETCHES = (() => {
   const stretches = [];
   let width = null;
-  study.speed_of_cell.forEach((speed, i) => {
+  study.speed_of_bin.forEach((speed, i) => {
     const own = study.speed_edges[i + 1] - study.speed_edges[i];
     if (speed === null) width = null;
     else if (width !== null && Math.abs(own - width) < 1e-3 * width) stretches.at(-1).speeds.push(speed);
@@ -73,7 +73,7 @@ const VERDICTS = {
   steady: { words: "steady", symbol: "circle", color: LOOK.dark, size: 4 },
   saturating: { words: "saturating", symbol: "circle-open", color: LOOK.blue, size: 7 },
   divergent: { words: "divergent", symbol: "triangle-up", color: LOOK.orange, size: 8 },
-  unbounded: { words: "left all bounds", symbol: "x-thin-open", color: LOOK.red, size: 6 },
+  unbounded: { words: "exceeded the limit", symbol: "x-thin-open", color: LOOK.red, size: 6 },
 };
 
 function verdict(runs, speed) {
@@ -89,13 +89,13 @@ function wasRepeated(coating, speed) {
 
 const MISSING = { type: "rect", layer: "below", line: { width: 0 }, fillcolor: LOOK.missing };
 // Speeds at which nothing was computed, from the lower end of the axis on.
-const HOLES = [[0, study.speed_edges[0]]];
-study.speed_of_cell.forEach((speed, i) => speed ?? HOLES.push([study.speed_edges[i], study.speed_edges[i + 1]]));
+const GAPS = [[0, study.speed_edges[0]]];
+study.speed_of_bin.forEach((speed, i) => speed ?? GAPS.push([study.speed_edges[i], study.speed_edges[i + 1]]));
 
 function wearShapes(speed) {
   const f = study.f_omega[speed];
   return [
-    ...HOLES.map(([x0, x1]) => ({ ...MISSING, xref: "x", yref: "y domain", x0, x1, y0: 0, y1: 1 })),
+    ...GAPS.map(([x0, x1]) => ({ ...MISSING, xref: "x", yref: "y domain", x0, x1, y0: 0, y1: 1 })),
     ...marker({ xref: "x", yref: "paper", x0: f, x1: f, y0: 0, y1: 1 }),
   ];
 }
@@ -137,19 +137,19 @@ function wearMap(coating, speed, deepest) {
   };
 }
 
-// Column of a spectrum at each of `n` equal steps of frequency: the cells that Figs. 7 to 9 have.
-const FREQUENCY_CELLS = 500;
+// Column of a spectrum at each of `n` equal steps of frequency: the bins that Figs. 7 to 9 have.
+const FREQUENCY_BINS = 500;
 
 function overFrequency(row, speed) {
-  const scale = study.max_frequency / FREQUENCY_CELLS / study.f_omega[speed] / study.order[1];
-  return Array.from({ length: FREQUENCY_CELLS }, (_, i) => row[Math.round((i + 0.5) * scale)] ?? NaN);
+  const scale = study.max_frequency / FREQUENCY_BINS / study.f_omega[speed] / study.order[1];
+  return Array.from({ length: FREQUENCY_BINS }, (_, i) => row[Math.round((i + 0.5) * scale)] ?? NaN);
 }
 
 function overOrder(row) {
-  return Array.from(row.subarray(0, ORDER_CELLS));
+  return Array.from(row.subarray(0, ORDER_BINS));
 }
 
-const ORDER_CELLS = study.order.filter((order) => order <= study.last_order).length;
+const ORDER_BINS = study.order.filter((order) => order <= study.last_order).length;
 
 // Each order as a line, and its name where it leaves the picture; names too close to the last one are left out.
 function engineOrders(choice) {
@@ -193,9 +193,9 @@ function decades([low, high]) {
 function spectrumMap(coating, choice) {
   const byOrder = choice.axis === "order";
   const across = byOrder ? study.last_order : study.max_frequency;
-  const step = byOrder ? study.order[1] : across / FREQUENCY_CELLS;
+  const step = byOrder ? study.order[1] : across / FREQUENCY_BINS;
   const level = (value) => (Number.isNaN(value) ? null : Math.log10(value));
-  const scale = study.amplitude_range.map((amplitude) => 1e3 * amplitude);
+  const scale = study.amplitude_range;
   const row = (i) => (byOrder ? overOrder : overFrequency)(coating.spectrum[i], i);
   const place = (edges) => ({ x0: byOrder ? 0 : step / 2, dx: step, y: edges });
   const map = maps((i) => row(i).map(level), place, (speeds) => ({
@@ -217,7 +217,7 @@ function spectrumMap(coating, choice) {
     name: `${coating.peaks.map(({ order }) => `Y${order}`).join(", ")}`,
     x: coating.peaks.map(({ order, f }) => (byOrder ? order : order * f)),
     y: coating.peaks.map(({ f }) => f),
-    text: coating.peaks.map(({ order, f, Y }) => `Y${order} = ${digits(1e3 * Y)} mm<br>f${order} = ${f}`),
+    text: coating.peaks.map(({ order, f, Y }) => `Y${order} = ${digits(Y)} mm<br>f${order} = ${f}`),
     hovertemplate: "%{text}<extra></extra>",
     marker: { symbol: "diamond", size: 9, color: "white", line: { color: LOOK.blue, width: 2 } },
   };
@@ -271,7 +271,7 @@ function amplitudeAxis(more) {
   return axis("amplitude (mm)", { type: "log", exponentformat: "none", dtick: 1, showgrid: true, gridcolor: "#e8e8e8", ...more });
 }
 
-const LOWEST = 1e3 * study.amplitude_floor;
+const LOWEST = study.amplitude_floor;
 
 // One line of the spectrum map for each coating.
 function spectrumLine(shown, choice) {

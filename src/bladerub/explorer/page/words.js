@@ -1,4 +1,4 @@
-// What stands beside the pictures: the numbers of the run, the peaks over the moduli, titles and notes. Names and
+// What is written around the pictures: the numbers of the run, the peaks over the moduli, titles and notes. Names and
 // values from the study go into the page as text, never as markup.
 
 const page = (selector) => document.querySelector(selector);
@@ -19,7 +19,7 @@ function digits(value, n = 4) {
 }
 
 function millimetres(value) {
-  return value === null ? "none" : `${digits(1e3 * value)} mm`;
+  return value === null ? "none" : `${digits(value)} mm`;
 }
 
 function percent(value) {
@@ -59,7 +59,7 @@ function peakRow(at, order, goTo) {
   ];
 }
 
-function tellRun(shown, choice, goTo) {
+function showRun(shown, choice, goTo) {
   const { speed } = choice;
   const rows = [
     ["Vibration", (at) => verdictInWords(at, speed)],
@@ -108,11 +108,11 @@ function family(index) {
 }
 
 const QUANTITIES = {
-  Y: { of: ({ Y }) => 1e3 * Y, unit: "mm", decimals: 2, floor: () => 0 },
+  Y: { of: ({ Y }) => Y, unit: "mm", decimals: 2, floor: () => 0 },
   f: { of: ({ f }) => f, unit: "normalised", decimals: 3, floor: (values) => Math.min(...values) - 0.01 },
 };
 
-function tellModuli(choice, choose) {
+function showModuli(choice, choose) {
   const kin = family(choice[choice.side]);
   const { casing, name } = study.coatings[choice[choice.side]];
   page("#moduli-seen").textContent = kin.members.length
@@ -168,7 +168,7 @@ function moduliTable(letter, { of, unit, decimals, floor }, kin, choice, choose)
   return table;
 }
 
-// Arrow keys go from cell to cell of a table; one cell of it is in the order of the tab key.
+// Arrow keys go from cell to cell of a table; the tab key reaches one of its cells.
 function walkTable(event) {
   const steps = { ArrowLeft: [0, -1], ArrowRight: [0, 1], ArrowUp: [-1, 0], ArrowDown: [1, 0] };
   const step = steps[event.key];
@@ -193,7 +193,7 @@ function walkTable(event) {
 
 const names = { wear: "Wear", spectrum: "Spectrum" };
 
-function tellTitles(shown) {
+function showTitles(shown) {
   for (const { side, coating } of shown) {
     for (const [picture, name] of Object.entries(names)) {
       const badge = element("span", { class: `badge ${side}` }, side);
@@ -219,7 +219,7 @@ function describe(shown, choice) {
     `repetition (line), if it grew. Red: the growth found over the last ${study.growth_revolutions}.`;
 }
 
-function tellThinned() {
+function showThinned() {
   const stretches = study.angle_edges.length - 1;
   page("#thinned").textContent =
     `Pictures of wear show the mean of the 8 nodes, averaged over ${stretches} stretches of the circumference, in steps of ` +

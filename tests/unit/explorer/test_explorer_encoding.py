@@ -1,0 +1,86 @@
+import base64
+import gzip
+import json
+
+import numpy as np
+import pytest
+
+from bladerub.explorer.encoding import (
+    differences,
+    json_text,
+    linear_steps,
+    log_range,
+    logarithmic_steps,
+    packed,
+)
+
+
+@pytest.fixture
+def rng():
+    return np.random.default_rng(5)
+
+
+def test_linear_steps_keep_each_row_to_half_a_step(rng):
+    values = rng.random((4, 300)) * [[1e-6], [1.0], [1e3], [0.0]]
+    steps, greatest = linear_steps(values)
+    assert steps.dtype == np.uint8
+    np.testing.assert_array_equal(greatest, values.max(axis=1))
+    back = steps / 255 * greatest[:, None]
+    assert (np.abs(back - values) <= greatest[:, None] / 510 * (1 + 1e-9)).all()
+
+
+def test_differences_add_up_to_the_steps(rng):
+    steps = rng.integers(0, 256, (3, 50), dtype=np.uint8)
+    np.testing.assert_array_equal(np.cumsum(differences(steps), axis=1, dtype=np.uint8), steps)
+
+
+@pytest.mark.parametrize("dtype", [np.uint8, np.uint16])
+def test_logarithmic_steps_keep_values_to_half_a_ratio(rng, dtype):
+    values = 10 ** rng.uniform(-8, -2, 1000)
+    steps = logarithmic_steps(values, 1e-8, 1e-2, dtype)
+    n_steps = np.iinfo(dtype).max - 1
+    back = 1e-8 * 1e6 ** ((steps - 1.0) / n_steps)
+    assert steps.dtype == dtype
+    assert np.abs(np.log(back / values)).max() <= np.log(1e6) / n_steps / 2 * (1 + 1e-6)
+
+
+def test_no_value_and_values_beyond_the_ends_have_their_steps():
+    steps = logarithmic_steps(np.array([np.nan, 0.0, 1e-9, 1e-8, 1e-2, 1.0]), 1e-8, 1e-2, np.uint8)
+    assert steps.tolist() == [0, 1, 1, 1, 255, 255]
+
+
+@pytest.mark.parametrize(
+    ("values", "ends"),
+    [
+        ([np.nan, 0.0, 1e-3, 1e-1], (1e-3, 1e-1)),
+        ([1e-3, 1.1e-3], (1e-3, 2e-3)),
+        ([np.nan, 0.0], (1e-9, 2e-9)),
+    ],
+)
+def test_a_range_holds_what_is_above_the_floor(values, ends):
+    assert log_range(np.array(values), 1e-9) == pytest.approx(ends)
+
+
+def test_packed_data_come_back_and_equal_data_give_equal_text(rng):
+    data = rng.bytes(1000)
+    assert gzip.decompress(base64.b64decode(packed(data))) == data
+    assert packed(data) == packed(data)
+
+
+@pytest.mark.parametrize(
+    "name", ["</script><script>alert(1)</script>", "<!--<script>", "a & b", "\u2028\u2029", "\\u003c", "\"'`"]
+)
+def test_a_hostile_name_stays_a_name(name):
+    text = json_text({name: [name]})
+    assert json.loads(text) == {name: [name]}
+    assert not set("<>&\u2028\u2029") & set(text)
+
+
+def test_arrays_and_what_json_lacks():
+    value = {"a": np.array([1.0, np.nan]), "b": np.float64(np.inf), "c": (np.int64(3), True, None)}
+    assert json.loads(json_text(value)) == {"a": [1.0, None], "b": None, "c": [3, True, None]}
+
+
+def test_numbers_keep_all_digits():
+    number = 0.1 + 0.2
+    assert json.loads(json_text([number])) == [number]
