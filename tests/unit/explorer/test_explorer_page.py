@@ -140,7 +140,8 @@ new Function(`${program}; open(0).then(show)`)();
 """
 
 
-@pytest.mark.skipif(shutil.which("node") is None, reason="no node, which runs the program of the page")
+@pytest.mark.browser
+@pytest.mark.skipif(shutil.which("node") is None, reason="no node; apt-get install nodejs")
 def test_the_program_of_the_page_unpacks_the_study(page, coating):
     texts = re.findall(r'<script type="[^"]*" id="([^"]*)">(.*?)</script>', page(coating), re.DOTALL)
     program = files("bladerub.explorer").joinpath("page", "data.js").read_text(encoding="utf-8")
