@@ -1,4 +1,4 @@
-"""A blade of another size and material that is the stand-in's in proportion: its rub must be so too."""
+"""A blade similar to the stand-in, of another size and material: what it does in contact must be similar."""
 
 import copy
 
