@@ -4,6 +4,7 @@ import copy
 import math
 import re
 
+import numpy as np
 import pytest
 
 from bladerub.config import schema as config_schema
@@ -250,6 +251,8 @@ def problems(config):
 
 
 CLEARANCE = min(STUDY["contact"]["clearance"].values()) * STUDY["blade"]["length"]
+WAVES = np.cos(np.outer(np.linspace(0, 2 * np.pi, 100_000), [2, 5])) @ [0.25, 1.0]
+DEEPEST = STUDY["casings"]["2nd5nd"]["amplitude"] * (1 - WAVES.min() / WAVES.max())
 TWO_SPEEDS = {"analysis.histories": [], "speeds": {"start": 0.29, "stop": 0.3, "step": 0.01, "extra": []}}
 COARSE = {"contact.elements": 100, "analysis.max_order": 50}
 SAMPLES = {"contact.elements": 100_000}
@@ -278,6 +281,7 @@ BORDERS = [
     ({}, "casings.2nd.weights", [1], [1, 1]),
     ({}, "casings.2nd.weights", [-1e-9], [0]),
     ({}, "casings.2nd5nd.weights", [0, 1], [0, 0]),
+    ({}, "casings.2nd5nd.interference", DEEPEST * (1 - 1e-5), DEEPEST * (1 + 1e-5)),
     (TWO_SPEEDS, "speeds.stop", 0.3, 0.289),
     (TWO_SPEEDS, "speeds.stop", 0.3, 0.299),
     ({}, "speeds.stop", 0.4, just_above(0.4)),

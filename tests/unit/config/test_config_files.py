@@ -191,6 +191,24 @@ def test_long_lists_are_not_even_read_to_their_end(folder, monkeypatch):
     assert told("a.yaml").startswith("a.yaml:1: not valid YAML (more than 100 values")
 
 
+@pytest.mark.parametrize(
+    ("text", "is_allowed"),
+    [
+        (f"a: [{', '.join('1' * 97)}]", True),  # with the list, its key and the whole
+        (f"a: [{', '.join('1' * 98)}]", False),
+        (f"a: &a [{', '.join('1' * 48)}]\nb: *a", True),  # 48 + 1 each, and the whole
+        (f"a: &a [{', '.join('1' * 49)}]\nb: *a", False),
+    ],
+)
+def test_as_many_values_as_the_limit_are_read(folder, monkeypatch, text, is_allowed):
+    monkeypatch.setattr(files, "MOST_VALUES", 100)
+    folder(a=text)
+    if is_allowed:
+        assert compose("a.yaml").plain()["a"][0] == 1
+    else:
+        assert "more than 100 values" in told("a.yaml")
+
+
 def test_a_byte_order_mark_is_no_part_of_the_first_key(folder):
     folder(a="\ufeffa: 1\n")
     assert compose("a.yaml").plain() == {"a": 1}
