@@ -26,21 +26,9 @@ from bladerub.numerics.vectors import elementwise, where
 def contact_force(normal_factor, tangential_factor, normal_radial, normal_tangential, normal_force):
     """Split the contact force on the blade, F_r = −cos θ |F| e_r and F_θ = −sin θ |F| e_θ of the paper.
 
-    Both directions are those at the displaced node.
-
-    Parameters
-    ----------
-    normal_factor, tangential_factor : float
-        −cos θ, and −sin θ or what friction mobilises of it.
-    normal_radial, normal_tangential : float
-        Normal of the casing at the node, by its own directions at rest.
-    normal_force : float
-        Force N of the elements, N.
-
-    Returns
-    -------
-    radial, tangential : float
-        By the node's own directions at rest, N.
+    Both directions are those at the displaced node, given by the normal of the casing there; the result is by
+    the node's own directions at rest (radial, tangential, N). The factors are −cos θ, and −sin θ or what
+    friction mobilises of it; `normal_force` is the force N of the elements (N).
     """
     return (
         normal_force * (normal_factor * normal_radial - tangential_factor * normal_tangential),
@@ -52,11 +40,7 @@ def contact_force(normal_factor, tangential_factor, normal_radial, normal_tangen
 def mobilisation(sliding, stopping):
     """Share m of the friction that Coulomb's law mobilises.
 
-    Parameters
-    ----------
-    sliding : float
-        Distance s that the tip would slide in this step without friction, m.
-    stopping : float
-        γ N sin θ: the most that friction takes from it, m.
+    `sliding` is the distance s that the tip would slide in this step without friction, `stopping` is γ N sin θ,
+    the most that friction takes from it (m).
     """
     return where(sliding > stopping, 1.0, where(sliding > (0.0 - stopping), sliding / stopping, -1.0))

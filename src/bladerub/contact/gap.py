@@ -15,14 +15,8 @@ from bladerub.numerics.vectors import absolute, all_lanes, elementwise, load, sq
 def closest_position(tip, tangential, passed):
     """Position of the point of the casing closest to each node, eq. (7), in elements.
 
-    Parameters
-    ----------
-    tip : bladerub.contact.kernel.records.Tip
-        Where the nodes are at the start of the revolution.
-    tangential : vector
-        Displacement of the nodes, m.
-    passed : float
-        Elements that the rotation has passed since the start of the revolution.
+    `tangential` is the displacement of the nodes (m), `passed` the number of elements that the rotation has
+    passed since the start of the revolution.
     """
     return load(tip.start, 0) + passed + tangential * load(tip.per_metre, 0)
 

@@ -64,14 +64,8 @@ def integrate(
 ) -> History:
     """Integrate consecutive segments, until the last or until a displacement exceeds the limit.
 
-    Parameters
-    ----------
-    segments : iterable of Segment
-        Each is asked for when those before are done.
-    revolutions, n_elements : int
-        Length of the run, and elements in a revolution.
-    progress : callable, optional
-        Called with the number of revolutions done after each of them.
+    Each segment is asked for when those before are done; `progress` is called with the number of revolutions
+    done after each of them.
     """
     history = History(np.full((revolutions, n_elements), np.nan))
     for simulation, revolution, first, last in segments:

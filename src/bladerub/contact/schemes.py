@@ -73,26 +73,11 @@ class Contact(NamedTuple):
 
 
 def central_differences(modes: Modes, damping_ratio: float, time_step: float, contact: Contact) -> Recurrence:
-    """Explicit central differences with prediction and correction, the paper's scheme.
+    """Set up explicit central differences with prediction and correction, the paper's scheme.
 
-    The forces of the coating are those of the predicted position. Those of the rigid casing are Lagrange
-    multipliers that put the corrected position on the surface (Carpenter, Taylor and Katona 1991).
-
-    Parameters
-    ----------
-    modes : Modes
-        Natural frequencies and tip displacements; all modes are resolved.
-    damping_ratio : float
-        ξ of every mode.
-    time_step : float
-        h, s.
-    contact : Contact
-        The contact to come.
-
-    Raises
-    ------
-    ValueError
-        If the scheme is unstable at this step for the highest mode (``ω h ≥ 2``).
+    All modes are resolved. The forces of the coating are those of the predicted position. Those of the rigid
+    casing are Lagrange multipliers that put the corrected position on the surface (Carpenter, Taylor and Katona
+    1991). Raises `ValueError` if the scheme is unstable at this step for the highest mode (``ω h ≥ 2``).
     """
     x = modes.omega * time_step
     if x[-1] >= 2.0:
@@ -119,7 +104,7 @@ def central_differences(modes: Modes, damping_ratio: float, time_step: float, co
 
 
 def exponential(modes: Modes, damping_ratio: float, time_step: float, contact: Contact) -> Recurrence:
-    """Exact recurrence of each mode under a force held over two steps, with the fast modes condensed.
+    """Set up the exact recurrence of each mode under a force held over two steps, with the fast modes condensed.
 
     A Gautschi-type exponential integrator (Hochbruck and Lubich 1999, eq. 5; Hairer, Lubich and Wanner 2006,
     section XIII.1) for the modes with ``ω h`` up to `FASTEST_PHASE`. The others are condensed to their static
@@ -128,22 +113,7 @@ def exponential(modes: Modes, damping_ratio: float, time_step: float, contact: C
     stable however stiff: more modes are condensed until κ, the largest eigenvalue of
     ``Σ φ tan²(ω h/2)/ω² φᵀ`` over the resolved modes times the stiffness of coating and condensed modes in
     series, is at most `STEADY`. (The modes in contact are stable as long as ``gain k < 1 + now + before``.)
-
-    Parameters
-    ----------
-    modes : Modes
-        Natural frequencies and tip displacements.
-    damping_ratio : float
-        ξ of every mode.
-    time_step : float
-        h, s.
-    contact : Contact
-        The contact to come.
-
-    Raises
-    ------
-    ValueError
-        If even the lowest mode alone is too light for the contact at this step.
+    Raises `ValueError` if even the lowest mode alone is too light for the contact at this step.
     """
     x = modes.omega * time_step
     decay = np.exp(-damping_ratio * x)

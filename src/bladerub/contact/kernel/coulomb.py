@@ -14,15 +14,9 @@ from bladerub.numerics.vectors import LANES, address_of, broadcast, load, no_sum
 def predict_sliding(modal, state, q, q_before, angle):
     """Find how far the tip would slide over the casing in this step without contact forces.
 
-    A force of the paper's scheme acts on the step that led to `q`; one of the exponential scheme on the
-    steps before and after, of which the mean is meant.
-
-    Parameters
-    ----------
-    q, q_before : address
-        Modal coordinates of this step, without its forces, and of the one before.
-    angle : float
-        By which the blade rotates in a step, rad.
+    A force of the paper's scheme acts on the step that led to `q`, which is without its forces; one of the
+    exponential scheme on the steps before and after, of which the mean is meant. The blade rotates by `angle`
+    (rad) in a step.
     """
     sums = no_sums()
     for k in range(0, modal.n, LANES):

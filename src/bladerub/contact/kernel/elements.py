@@ -48,13 +48,8 @@ def rows_under(tip, behind, ahead):
 def linearise(stator, tip, wear, position, rows, approach):
     """Press the elements under each node by its `approach`, but leave them as they are.
 
-    Returns
-    -------
-    force, stiffness : vector
-        Of all elements under each node, N and N/m.
-    valid : vector
-        Change of the approach over which the force is linear, m: no element comes into contact, begins to
-        flow or to unload.
+    Returns force (N) and stiffness (N/m) of all elements under each node, and the change of the approach over
+    which the force is linear (m): no element comes into contact, begins to flow or to unload.
     """
     element = load_fields(law.Element, stator.law)
     force, stiffness, valid = broadcast(0.0), broadcast(0.0), broadcast(math.inf)

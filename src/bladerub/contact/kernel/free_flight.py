@@ -51,14 +51,7 @@ class FreeFlight(NamedTuple):
 def free_flight(rule: Recurrence, n_steps: int, slope: float) -> FreeFlight:
     """Find what `n_steps` free steps of a scheme add up to.
 
-    Parameters
-    ----------
-    rule : Recurrence
-        The scheme.
-    n_steps : int
-        Time steps at once.
-    slope : float
-        Most that a node approaches the casing per unit of its displacement along it.
+    `slope` is the most that a node approaches the casing per unit of its displacement along it.
     """
     # Per unit of q (row 0) and of d (row 1), after each step: the increment so far, and the step itself
     steps, increments = np.zeros((2, n_steps + 1, 2, rule.now.size))
@@ -108,17 +101,9 @@ def bound(flight, n, q, q_before):
 def fly(flight, modal, q, q1, q2):
     """Move the modes freely by all steps at once, in place, and project them on the tip.
 
-    Returns
-    -------
-    radial, tangential : vector
-        Displacement of the tip, m.
-    loss : vector
-        Damping loss up to the end of the flight, J, spread over the lanes. The oldest coordinates `q2` become
-        such that `bladerub.contact.kernel.modal.advance_free` enters none of it again.
-    mean : float
-        Mean increment of node 1 over the flight, m.
-    far : float
-        As `bound`, of the next flight.
+    Returns the displacement of the tip (radial, tangential, m); the damping loss up to the end of the flight,
+    spread over the lanes (J), where the oldest coordinates `q2` become such that `modal.advance_free` enters
+    none of it again; the mean increment of node 1 (m); and the `bound` of the next flight (m).
     """
     loss = mean = far = broadcast(0.0)
     sums = no_sums()

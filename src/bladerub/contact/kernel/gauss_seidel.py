@@ -30,17 +30,9 @@ MAX_SWEEPS = 200
 def gauss_seidel(modal, stator, tip, state, passed, u, tolerance):
     """Find the contact forces that agree with the displacement they cause, eq. (9).
 
-    Parameters
-    ----------
-    u : address
-        Comes as the displacement (16,) under ``state.force`` and leaves under the forces found, m.
-    tolerance : float
-        Change of any node's approach in a sweep at which the forces have converged, m.
-
-    Returns
-    -------
-    bool
-        Whether they converged, or a displacement exceeds the limit.
+    `u` comes as the displacement (16,) under ``state.force`` and leaves under the forces found. They have
+    converged where no approach changes by more than `tolerance` (m) in a sweep. Returns whether they did, or a
+    displacement exceeds the limit.
     """
     force, normal_force = state.force, state.normal_force
     position, surface = state.scratch, address_of(state.scratch, 16)

@@ -177,10 +177,7 @@ def _advance(modal, state, touched, q, q_before, q_next):
 def _contact(modal, stator, tip, state, step, rows, clear_of_casing):
     """Find the contact forces at the end of a step, and what they do to coating, modes and ledger.
 
-    Returns
-    -------
-    within, touching : bool
-        Whether the displacement is within the limit, and whether there is contact now.
+    Returns whether the displacement is within the limit, and whether there is contact now.
     """
     touching = False
     if clear_of_casing:
