@@ -44,8 +44,8 @@ def blade_energy(rule: Recurrence, state) -> tuple[float, float]:
 def balance(rule: Recurrence, state, initial: float, angle_per_step: float) -> Energy:
     """Balance the ledger at the middle of the last step.
 
-    `state` is that at the end of the run, `initial` the energy of the blade at its start (J), `angle_per_step`
-    the angle by which the blade turns in a step (rad).
+    `state` is that at the end of the run, `initial` the energy of the blade at its start (J),
+    `angle_per_step` the angle by which the blade turns in a step (rad).
     """
     (q, _, oldest), n = state.q, rule.omega.size
     kinetic, elastic = blade_energy(rule, state)
