@@ -40,7 +40,7 @@ def contact_force(normal_factor, tangential_factor, normal_radial, normal_tangen
 def mobilisation(sliding, stopping):
     """Share m of the friction that Coulomb's law mobilises.
 
-    `sliding` is the distance s that the tip would slide in this step without friction, `stopping` is γ N sin θ,
-    the most that friction takes from it (m).
+    `sliding` is the distance s that the tip would slide in this step without friction, `stopping` is γ N
+    sin θ, the most that friction takes from it (m).
     """
     return where(sliding > stopping, 1.0, where(sliding > (0.0 - stopping), sliding / stopping, -1.0))

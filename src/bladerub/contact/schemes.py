@@ -75,9 +75,10 @@ class Contact(NamedTuple):
 def central_differences(modes: Modes, damping_ratio: float, time_step: float, contact: Contact) -> Recurrence:
     """Set up explicit central differences with prediction and correction, the paper's scheme.
 
-    All modes are resolved. The forces of the coating are those of the predicted position. Those of the rigid
-    casing are Lagrange multipliers that put the corrected position on the surface (Carpenter, Taylor and Katona
-    1991). Raises `ValueError` if the scheme is unstable at this step for the highest mode (``ω h ≥ 2``).
+    All modes are resolved. The forces of the coating are those of the predicted position. Those of the
+    rigid casing are Lagrange multipliers that put the corrected position on the surface (Carpenter, Taylor
+    and Katona 1991). Raises `ValueError` if the scheme is unstable at this step for the highest mode (``ω h
+    ≥ 2``).
     """
     x = modes.omega * time_step
     if x[-1] >= 2.0:
@@ -104,7 +105,7 @@ def central_differences(modes: Modes, damping_ratio: float, time_step: float, co
 
 
 def exponential(modes: Modes, damping_ratio: float, time_step: float, contact: Contact) -> Recurrence:
-    """Set up the exact recurrence of each mode under a force held over two steps, with the fast modes condensed.
+    """Set up the exact recurrence of each mode under a force held over two steps, fast modes condensed.
 
     A Gautschi-type exponential integrator (Hochbruck and Lubich 1999, eq. 5; Hairer, Lubich and Wanner 2006,
     section XIII.1) for the modes with ``ω h`` up to `FASTEST_PHASE`. The others are condensed to their static

@@ -31,8 +31,8 @@ def gauss_seidel(modal, stator, tip, state, passed, u, tolerance):
     """Find the contact forces that agree with the displacement they cause, eq. (9).
 
     `u` comes as the displacement (16,) under ``state.force`` and leaves under the forces found. They have
-    converged where no approach changes by more than `tolerance` (m) in a sweep. Returns whether they did, or a
-    displacement exceeds the limit.
+    converged where no approach changes by more than `tolerance` (m) in a sweep. Returns whether they did,
+    or a displacement exceeds the limit.
     """
     force, normal_force = state.force, state.normal_force
     position, surface = state.scratch, address_of(state.scratch, 16)

@@ -79,8 +79,8 @@ def in_vectors(rows: np.ndarray) -> np.ndarray:
 def advance_free(modal, q, q1, q2):
     """Move the modes freely by one step, in place of the oldest coordinates `q2`; project them on the tip.
 
-    Returns the displacement of the tip (radial, tangential, m), the interface rows of eq. (6), and the damping
-    loss of the step before, spread over the lanes (J): its end is known only now.
+    Returns the displacement of the tip (radial, tangential, m), the interface rows of eq. (6), and the
+    damping loss of the step before, spread over the lanes (J): its end is known only now.
     """
     loss = broadcast(0.0)
     sums = no_sums()
