@@ -77,10 +77,10 @@ def main() -> int:
                 "something on standard output": not done.stdout,
                 "something written": contents(workspace.folder) == before,
             }
-            faults = [fault for fault, is_right in checks.items() if not is_right]
-            n_cases, n_bad = n_cases + 1, n_bad + bool(faults)
-            if faults or "--verbose" in sys.argv:
-                print(f"{program} {name}: {', '.join(faults) or 'as it should be'}\n    {done.stderr[-300:]}")
+            wrong = [what for what, is_right in checks.items() if not is_right]
+            n_cases, n_bad = n_cases + 1, n_bad + bool(wrong)
+            if wrong or "--verbose" in sys.argv:
+                print(f"{program} {name}: {', '.join(wrong) or 'as it should be'}\n    {done.stderr[-300:]}")
     print(f"{n_cases} bad inputs, {n_cases - n_bad} answered as they should be")
     return 1 if n_bad else 0
 

@@ -60,7 +60,7 @@ def has_waiters(path, number):
 
 @pytest.fixture
 def begun(copied_study, tiny):
-    """A study of which one coating is to be done anew."""
+    """A study of which one coating is to be done again."""
     (copied_study.folder / "overlay.yaml").write_text(yaml.safe_dump(tiny))
     coating = copied_study.results / "runs" / COATING
     (coating / "manifest.tsv").unlink()

@@ -26,7 +26,7 @@ def write_overlay(folder: Path, content: dict | str | bytes) -> None:
 
 @pytest.fixture
 def command(tmp_path, monkeypatch, capsys):
-    """Run a command line in an empty folder that stands for the repository: exit code, and what was told."""
+    """Run a command line in an empty folder that stands for the repository: exit code and standard error."""
     monkeypatch.setattr(inputs, "ROOT", tmp_path)
     monkeypatch.chdir(tmp_path)
 
@@ -44,9 +44,9 @@ def command(tmp_path, monkeypatch, capsys):
     return run
 
 
-@pytest.mark.parametrize("fault", ALL_CONFIGS)
-def test_bad_config(command, tmp_path, fault):
-    content, words = ALL_CONFIGS[fault]
+@pytest.mark.parametrize("case", ALL_CONFIGS)
+def test_bad_config(command, tmp_path, case):
+    content, words = ALL_CONFIGS[case]
     write_overlay(tmp_path, content)
     code, line = command(["status", "--config", "overlay.yaml"])
     assert code == 2
@@ -57,10 +57,10 @@ def test_bad_config(command, tmp_path, fault):
 @pytest.mark.parametrize("line", COMMANDS)
 def test_bad_command_line(command, tmp_path, line):
     make_files(tmp_path)
-    code, told = command(line.split())
+    code, output = command(line.split())
     assert code == 2
-    assert COMMANDS[line] in told
-    assert told.count("\n") == 1
+    assert COMMANDS[line] in output
+    assert output.count("\n") == 1
 
 
 @pytest.fixture(scope="module")
@@ -77,10 +77,10 @@ def test_broken_blade(blades, monkeypatch, capsys, line):
     before = sorted(blades.rglob("*"))
     assert main(line.split()) == 2
     assert sorted(blades.rglob("*")) == before
-    told = capsys.readouterr()
-    assert told.out == ""
-    assert IMPORTS[line] in told.err
-    assert told.err.count("\n") == 1
+    output = capsys.readouterr()
+    assert output.out == ""
+    assert IMPORTS[line] in output.err
+    assert output.err.count("\n") == 1
 
 
 def lines_of_ours(stderr: str) -> list[str]:
@@ -106,9 +106,9 @@ SAMPLE = [
 ]
 
 
-@pytest.mark.parametrize("fault", SAMPLE)
-def test_snakemake_with_a_bad_config(workspace, fault):
-    config, words = CONFIGS[fault]
+@pytest.mark.parametrize("case", SAMPLE)
+def test_snakemake_with_a_bad_config(workspace, case):
+    config, words = CONFIGS[case]
     done = workspace.snakemake("--cores", "1", config=config)
     (line,) = lines_of_ours(done.stderr)
     assert line.startswith(words)
@@ -117,9 +117,9 @@ def test_snakemake_with_a_bad_config(workspace, fault):
     assert not (workspace.folder / "results").exists()
 
 
-@pytest.mark.parametrize("fault", ["call of a function", "groups without end", "other encoding"])
-def test_snakemake_with_a_config_that_it_does_not_read_itself(workspace, fault):
-    content, words = UNREADABLE[fault]
+@pytest.mark.parametrize("case", ["call of a function", "groups without end", "other encoding"])
+def test_snakemake_with_a_config_that_it_does_not_read_itself(workspace, case):
+    content, words = UNREADABLE[case]
     write_overlay(workspace.folder, content)
     done = workspace.snakemake("--cores", "1", "--config", "extend=overlay.yaml")
     (line,) = lines_of_ours(done.stderr)
@@ -128,7 +128,7 @@ def test_snakemake_with_a_config_that_it_does_not_read_itself(workspace, fault):
     assert not (workspace.folder / "results").exists()
 
 
-def test_all_faults_are_told_at_once_with_their_places(workspace):
+def test_all_problems_are_reported_at_once_with_their_locations(workspace):
     (workspace.folder / "mine.yaml").write_text("extend: config/quick.yaml\nblade:\n  length: 200\n")
     done = workspace.snakemake(
         "--cores", "1", "--configfile", "mine.yaml", "--config", "coating=[]", "figures={dpi: 2}"

@@ -38,9 +38,9 @@ def test_a_full_disk_loses_nothing(workspace, study, tiny, mount):
     mount(f"size={(before + runs // 2) // 1024}k")
     failed = workspace.snakemake(TARGET, "--cores", "1", config=tiny)
     assert failed.returncode != 0
-    told = failed.stdout + failed.stderr
-    assert f"results/runs/{COATING}/" in told
-    assert ".h5: the disk is full; make room and run the same command again" in told
+    output = failed.stdout + failed.stderr
+    assert f"results/runs/{COATING}/" in output
+    assert ".h5: the disk is full; make room and run the same command again" in output
     times = workspace.runs()
     assert 0 < len(times) < 8
     assert not list((workspace.folder / "results").rglob(".*.tmp"))
@@ -64,8 +64,8 @@ def test_a_folder_that_cannot_be_written_is_named_before_any_work(
     monkeypatch.setattr(inputs, "ROOT", workspace.folder)
     overlay = ["--config", str(workspace.folder / "overlay.yaml")]
     assert main(["run", "--casing", "2nd", "--E", "2", "--K", "0.5", "--f", "0.2", *overlay]) == 2
-    told = capsys.readouterr()
-    assert told.out == ""
-    assert told.err.startswith(f"bladerub run: {results}: Read-only file system; make it writable")
-    assert told.err.count("\n") == 1
+    output = capsys.readouterr()
+    assert output.out == ""
+    assert output.err.startswith(f"bladerub run: {results}: Read-only file system; make it writable")
+    assert output.err.count("\n") == 1
     assert main(["status", *overlay]) == 0  # it writes nothing

@@ -26,13 +26,13 @@ def folder(tmp_path, monkeypatch):
     return write
 
 
-def told(*paths, command_line=None):
+def error_of(*paths, command_line=None):
     with pytest.raises(ConfigError) as error:
         compose(*paths, command_line=command_line)
     return str(error.value)
 
 
-def test_every_value_has_the_place_that_it_comes_from(folder):
+def test_every_value_has_the_location_that_it_comes_from(folder):
     folder(
         base="a:\n  b: 1\n  c: 2\nlist:\n  - x: 1\n    y: 2\n  - {x: 3}\n",
         over="a: {c: 3,\n    d: 4}\n",
@@ -42,8 +42,8 @@ def test_every_value_has_the_place_that_it_comes_from(folder):
         "a": {"b": 1, "c": 3, "d": 5, "e": 6},
         "list": [{"x": 1, "y": 2}, {"x": 3}],
     }
-    told_at = {key: str(location) for key, location in composed.locations().items()}
-    assert told_at == {
+    reported_at = {key: str(location) for key, location in composed.locations().items()}
+    assert reported_at == {
         "a": "--config",
         "a.b": "base.yaml:2",
         "a.c": "over.yaml:1",
@@ -58,7 +58,7 @@ def test_every_value_has_the_place_that_it_comes_from(folder):
     }
 
 
-def test_a_list_that_is_replaced_leaves_no_places_behind(folder):
+def test_a_list_that_is_replaced_leaves_no_locations_behind(folder):
     folder(base="a: [1, 2, 3]\n", over="\na: [4]\n")
     assert {
         key: location.line for key, location in compose("base.yaml", "over.yaml").locations().items()
@@ -127,18 +127,18 @@ NAME = "must be the path of a .yaml file, or a list of such, as seen from the fi
         ("extend: " + "b" * 300 + ".yaml\n", "cannot be read (File name too long)"),
     ],
 )
-def test_what_cannot_be_extended_is_told_with_its_place(folder, tmp_path, text, answer):
+def test_what_cannot_be_extended_is_reported_with_its_location(folder, tmp_path, text, answer):
     (tmp_path / "folder.yaml").mkdir()
     folder(a=text, b="extend: ./a.yaml\n", broken="a: [1\nb: 2\n")
     if "- b.yaml" in text:
         folder(b="c: 1\n")
-    assert answer in told("a.yaml")
+    assert answer in error_of("a.yaml")
 
 
 def test_files_that_extend_ever_more_are_refused(folder):
     """Each of a few small files names the next one ten times: no circle, but a billion readings."""
     folder(**{f"f{i}": f"extend: [{', '.join([f'f{i + 1}.yaml'] * 10)}]\n" for i in range(9)}, f9="a: 1\n")
-    assert f"must not lead to more than {MOST_EXTENDED} files" in told("f0.yaml")
+    assert f"must not lead to more than {MOST_EXTENDED} files" in error_of("f0.yaml")
 
 
 def laughs(of):
@@ -179,7 +179,7 @@ def laughs(of):
 )
 def test_hostile_files_are_answered_in_one_line(folder, content, answer):
     folder(a=content)
-    line = told("a.yaml")
+    line = error_of("a.yaml")
     assert answer in line
     assert "\n" not in line
     assert len(line) < 250
@@ -188,7 +188,7 @@ def test_hostile_files_are_answered_in_one_line(folder, content, answer):
 def test_long_lists_are_not_even_read_to_their_end(folder, monkeypatch):
     monkeypatch.setattr(files, "MOST_VALUES", 100)
     folder(a=f"a: [{'1,' * 100}\n]")
-    assert told("a.yaml").startswith("a.yaml:1: not valid YAML (more than 100 values")
+    assert error_of("a.yaml").startswith("a.yaml:1: not valid YAML (more than 100 values")
 
 
 @pytest.mark.parametrize(
@@ -223,10 +223,10 @@ def test_aliases_are_read(folder):
 
 def test_only_regular_files_are_opened(folder, tmp_path):
     os.mkfifo(tmp_path / "pipe.yaml")
-    assert told("pipe.yaml") == "pipe.yaml: is not a regular file, must be a YAML file"
-    assert told(tmp_path).endswith("is a folder, must be a YAML file")
+    assert error_of("pipe.yaml") == "pipe.yaml: is not a regular file, must be a YAML file"
+    assert error_of(tmp_path).endswith("is a folder, must be a YAML file")
     (tmp_path / "loop.yaml").symlink_to("loop.yaml")
-    assert told("loop.yaml") == "loop.yaml: cannot be read (Too many levels of symbolic links)"
+    assert error_of("loop.yaml") == "loop.yaml: cannot be read (Too many levels of symbolic links)"
 
 
 def test_keys_and_values_are_written_on_one_short_line():

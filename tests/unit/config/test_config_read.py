@@ -34,7 +34,7 @@ def problems(config):
 
 def rules(rule, path=""):
     """Every entry of the schema, with its path."""
-    if "allOf" in rule:  # kinds of entry, told apart by their keys
+    if "allOf" in rule:  # kinds of entry, distinguished by their keys
         for number, kind in enumerate(rule["allOf"]):
             if "then" in kind:
                 yield from rules(kind["then"], f"{path}[{number}]")

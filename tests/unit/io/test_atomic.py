@@ -35,7 +35,7 @@ def test_what_is_written_is_there_under_its_name_alone(tmp_path, mode):
     assert list(path.parent.iterdir()) == [path]
 
 
-def test_a_fault_leaves_the_old_file_and_nothing_else(tmp_path):
+def test_an_error_leaves_the_old_file_and_nothing_else(tmp_path):
     path = tmp_path / "file"
     path.write_text("old")
     with pytest.raises(ZeroDivisionError), atomic.writing(path) as stream:
@@ -127,6 +127,6 @@ def test_a_folder_that_is_a_file_is_named(tmp_path):
         pass
 
 
-def test_a_fault_of_another_file_keeps_its_name(tmp_path):
+def test_the_error_of_another_file_keeps_its_name(tmp_path):
     with pytest.raises(FileNotFoundError, match="elsewhere"), atomic.writing(tmp_path / "file"):
         (tmp_path / "elsewhere").read_text()

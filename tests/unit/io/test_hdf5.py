@@ -59,7 +59,7 @@ def test_what_is_written_is_read(tmp_path):
     assert hdf5.read_attributes(tmp_path / "file.h5") == attributes
 
 
-def test_the_origin_is_told_in_each_file(tmp_path):
+def test_each_file_has_its_origin_as_attributes(tmp_path):
     for commit in ("abc", "def", "abc"):
         hdf5.write(tmp_path / "file.h5", VARIABLES, {"n": 3}, {"provenance_git_commit": commit})
         attributes = hdf5.read_attributes(tmp_path / "file.h5")

@@ -64,7 +64,7 @@ def test_a_killed_holder_leaves_no_lock(tmp_path, holder):
     assert waited == []
 
 
-def test_sharing_tells_whether_somebody_else_is_there(tmp_path):
+def test_sharing_reports_whether_another_process_shares(tmp_path):
     first, alone = lock.share(tmp_path / "lock")
     assert alone
     second, alone = lock.share(tmp_path / "lock")

@@ -29,11 +29,11 @@ def repository(tmp_path, monkeypatch):
 
 
 def head(root):
-    told = subprocess.run([*GIT, "rev-parse", "HEAD"], cwd=root, check=True, capture_output=True, text=True)
-    return told.stdout.strip()
+    output = subprocess.run([*GIT, "rev-parse", "HEAD"], cwd=root, check=True, capture_output=True, text=True)
+    return output.stdout.strip()
 
 
-def test_a_clean_repository_is_told_by_its_commit(repository):
+def test_a_clean_repository_is_named_by_its_commit(repository):
     (repository / "results").mkdir()
     (repository / "results" / "run.h5").write_text("ignored")
     (repository / "my.yaml").write_text("the config has a digest of its own")
@@ -65,7 +65,7 @@ def test_a_folder_inside_another_repository_has_no_commit(repository, monkeypatc
 
 
 @pytest.mark.parametrize("missing", ["commit", "git", "folder", "answer"])
-def test_what_git_cannot_tell_is_unknown(repository, tmp_path, monkeypatch, missing):
+def test_what_git_does_not_know_is_unknown(repository, tmp_path, monkeypatch, missing):
     if missing == "commit":
         new = tmp_path / "new"
         subprocess.run([*GIT, "init", "-q", new], check=True)
@@ -83,13 +83,13 @@ def test_what_git_cannot_tell_is_unknown(repository, tmp_path, monkeypatch, miss
     assert git_state() == ("unknown", "unknown")
 
 
-def test_a_file_is_told_what_made_it(monkeypatch):
+def test_a_file_has_what_made_it_as_attributes(monkeypatch):
     monkeypatch.setattr(provenance, "git_state", lambda: ("abc", "clean"))
-    told = provenance.provenance(CONFIG)
-    packages = dict(entry.split("==") for entry in told.pop("provenance_packages").split())
+    output = provenance.provenance(CONFIG)
+    packages = dict(entry.split("==") for entry in output.pop("provenance_packages").split())
     assert packages["python"] == platform.python_version()
     assert {"numpy", "scipy", "numba", "h5py", "scikit-fem", "pandas"} <= packages.keys()
-    assert told == {
+    assert output == {
         "provenance_software": f"bladerub {__version__}",
         "provenance_git_commit": "abc",
         "provenance_git_state": "clean",

@@ -26,13 +26,13 @@ def test_the_table_is_plain_csv(table, tmp_path):
     )
 
 
-def test_what_stands_beside_it_says_what_it_holds(table, tmp_path):
+def test_the_description_has_units_datatypes_and_origin(table, tmp_path):
     tables.write(tmp_path / "peaks.csv", table, ORIGIN)
     about = json.loads((tmp_path / "peaks.csv-metadata.json").read_text(encoding="utf-8"))
     assert about["@context"][0] == "http://www.w3.org/ns/csvw"
     assert about["url"] == "peaks.csv"
-    told = {entry["schema:name"]: entry["schema:value"] for entry in about["dc:provenance"]}
-    assert told == ORIGIN
+    output = {entry["schema:name"]: entry["schema:value"] for entry in about["dc:provenance"]}
+    assert output == ORIGIN
     casing, amplitude = about["tableSchema"]["columns"]
     assert (casing["name"], casing["datatype"], "schema:unitText" in casing) == ("casing", "string", False)
     assert (amplitude["titles"], amplitude["datatype"]) == ("amplitude", "number")

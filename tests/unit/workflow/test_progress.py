@@ -34,7 +34,7 @@ def test_the_bar_is_on_a_terminal_only():
     assert file.getvalue() == ""
 
 
-def test_the_bar_begins_anew_with_the_longer_runs():
+def test_the_bar_starts_again_with_the_longer_runs():
     terminal = Terminal()
     progress = JobProgress("2nd_E2_K0.5_theta0", io.StringIO(), terminal)
     progress(done(1, 1))

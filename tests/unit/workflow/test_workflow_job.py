@@ -24,15 +24,15 @@ def fail(tmp_path):
     return run
 
 
-def test_a_fault_of_a_file_is_told_in_one_line_in_the_log_and_to_the_caller(fail):
-    told, log = fail('raise DamagedFile("a.h5: not a map")')
-    assert told.startswith("a.h5: not a map; delete it and run the same command again")
-    assert told.count("\n") == 1
-    assert log == "at work\n" + told
+def test_an_error_of_a_file_is_one_line_in_the_log_and_for_the_caller(fail):
+    output, log = fail('raise DamagedFile("a.h5: not a map")')
+    assert output.startswith("a.h5: not a map; delete it and run the same command again")
+    assert output.count("\n") == 1
+    assert log == "at work\n" + output
 
 
-def test_any_other_fault_leaves_its_traceback_in_the_log(fail):
-    told, log = fail("1 / 0")
-    assert told == ""
+def test_any_other_error_leaves_its_traceback_in_the_log(fail):
+    output, log = fail("1 / 0")
+    assert output == ""
     assert log.startswith("at work\nTraceback")
     assert log.endswith("ZeroDivisionError: division by zero\n")
