@@ -373,3 +373,10 @@ def test_every_comparison_of_the_schema_names_a_number_or_a_group_of_the_config(
             value = value[key]
         assert config_schema.is_number(value), limit
     assert {rule["keyOf"] for *_, rule in ENTRIES if "keyOf" in rule} == {"casings"} <= STUDY.keys()
+
+
+@pytest.mark.parametrize("value", ["fast", None, [0.4], True, math.inf])
+def test_what_is_no_number_is_not_compared(config, value):
+    config["speeds"]["stop"] = value
+    (problem,) = problems(config)
+    assert problem.startswith("speeds.stop = ")

@@ -135,6 +135,14 @@ def test_what_cannot_be_extended_is_reported_with_its_location(folder, tmp_path,
     assert answer in error_of("a.yaml")
 
 
+def test_as_many_files_are_extended_as_the_limit_says(folder):
+    names = [f"f{index}.yaml" for index in range(MOST_EXTENDED + 1)]
+    folder(**{name.removesuffix(".yaml"): f"{name[0]}: 1\n" for name in names})
+    folder(a=f"extend: [{', '.join(names[:-1])}]\n", b=f"extend: [{', '.join(names)}]\n")
+    assert compose("a.yaml").plain() == {"f": 1}
+    assert f'b.yaml:1: extend = "f{MOST_EXTENDED}.yaml"' in error_of("b.yaml")
+
+
 def test_files_that_extend_ever_more_are_refused(folder):
     """Each of a few small files names the next one ten times: no circle, but a billion readings."""
     folder(**{f"f{i}": f"extend: [{', '.join([f'f{i + 1}.yaml'] * 10)}]\n" for i in range(9)}, f9="a: 1\n")
@@ -206,7 +214,7 @@ def test_as_many_values_as_the_limit_are_read(folder, monkeypatch, text, is_allo
     if is_allowed:
         assert compose("a.yaml").plain()["a"][0] == 1
     else:
-        assert "more than 100 values" in told("a.yaml")
+        assert "more than 100 values" in error_of("a.yaml")
 
 
 def test_a_byte_order_mark_is_no_part_of_the_first_key(folder):
