@@ -1,4 +1,4 @@
-"""Files that are written whole or not at all, whatever ends the process that writes them."""
+"""Files that are written whole or not at all, however the process that writes them ends."""
 
 from __future__ import annotations
 
