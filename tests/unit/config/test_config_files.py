@@ -135,6 +135,13 @@ def test_what_cannot_be_extended_is_reported_with_its_location(folder, tmp_path,
     assert answer in error_of("a.yaml")
 
 
+def test_as_many_levels_are_read_as_the_limit_says(folder):
+    lists = files.DEEPEST - 1  # in the mapping at the top
+    folder(a=f"a: {'[' * lists}{']' * lists}\n", b=f"b: {'[' * (lists + 1)}{']' * (lists + 1)}\n")
+    assert key_path(("a", *[0] * (lists - 1))) in compose("a.yaml").locations()
+    assert f"more than {files.DEEPEST} levels" in error_of("b.yaml")
+
+
 def test_as_many_files_are_extended_as_the_limit_says(folder):
     names = [f"f{index}.yaml" for index in range(MOST_EXTENDED + 1)]
     folder(**{name.removesuffix(".yaml"): f"{name[0]}: 1\n" for name in names})
