@@ -11,4 +11,5 @@ from study_fixtures import (  # noqa: F401 (fixtures)
     simulated,
     spec,
     study,
+    write_run,
 )

@@ -1,3 +1,5 @@
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -47,3 +49,55 @@ def test_worn_volume_is_depth_times_area(few_speeds, blade, simulated):
     volume = point.measures["worn_volume"][point.known]
     np.testing.assert_allclose(volume, expected, rtol=1e-5)
     assert np.all(point.measures["deepest_wear"][point.known] == pytest.approx(2e-4, rel=1e-4))
+
+
+@pytest.fixture
+def measured(few_speeds, blade, make_result, monkeypatch):
+    """Run a point with one result for the runs of the study and another for the longer ones."""
+
+    def compute(result, longer=None):
+        by_length = {result.revolution_peak.size: result}
+        if longer is not None:
+            by_length[longer.revolution_peak.size] = longer
+        monkeypatch.setattr(search, "simulate", lambda _, spec: by_length[spec.revolutions])
+        speeds = chart_speeds(few_speeds)
+        return search.compute(few_speeds, CASE, blade, speeds, np.sqrt(1 + 3 * speeds.f_omega**2))
+
+    return compute
+
+
+def test_each_measure_is_that_of_its_run(measured, make_result, blade):
+    result = make_result(order=4.0, amplitude=1e-3)
+    result = replace(result, revolution_peak=result.revolution_peak + np.linspace(0, 1e-3, 20))
+    point = measured(result)
+    f_omega, of = point.f_omega[point.known], {k: v[point.known] for k, v in point.measures.items()}
+    assert of["peak"] == pytest.approx(2e-3, rel=1e-4)
+    assert of["lobes"] == pytest.approx(4)
+    assert (of["unbounded"] == 0).all()
+    assert of["revolutions"] == pytest.approx(1000 * 2e-7 * f_omega * blade.f1_hz)
+    for name in ("damping", "wear", "sliding"):
+        assert (of[f"energy_{name}"] == getattr(result.energy, name)).all()
+    np.testing.assert_allclose(point.spectrum_amplitude[point.known, 0], 1e-3, rtol=1e-3)
+    assert (point.spectrum_amplitude[point.known, 1] < 1e-6).all()
+
+
+def test_shallow_lobes_are_not_counted(measured, make_result, few_speeds, angle):
+    low = np.where(np.cos(4 * angle) > 0, 1.0, np.where(np.cos(2 * angle) > 0, 0.5, 0.2))
+    result = replace(make_result(), wear=1e-4 * low * np.cos(4 * angle) ** 2 * np.ones((8, 1)))
+    counts = []
+    for prominence in (0.05, 0.9):
+        few_speeds["analysis"]["lobe_prominence"] = prominence
+        counts.append(np.nanmax(measured(result).measures["lobes"]))
+    assert counts[0] > counts[1]
+
+
+def test_an_unbounded_run_is_divergent(measured, make_result):
+    point = measured(make_result(complete=12.5))
+    assert (point.measures["unbounded"][point.known] == 1).all()
+    assert (point.measures["divergent"][point.uniform] == 1).all()
+
+
+@pytest.mark.parametrize(("later", "divergent"), [(0.05, 1.0), (0.0, 0.0)])
+def test_the_longer_run_decides_whether_growth_lasts(measured, make_result, later, divergent):
+    point = measured(make_result(growth=0.05), make_result(revolutions=60, growth=later))
+    assert (point.measures["divergent"][point.uniform] == divergent).all()
