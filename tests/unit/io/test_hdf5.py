@@ -101,3 +101,12 @@ def test_whatever_h5py_raises_is_a_damaged_file(tmp_path, monkeypatch, error):
     monkeypatch.setattr(hdf5.h5py, "File", broken)
     with pytest.raises(DamagedFile, match=r"file\.h5: not a readable HDF5 file"):
         hdf5.read(tmp_path / "file.h5")
+
+
+def test_text_is_written_and_read_as_text(tmp_path):
+    names = Variable(("node",), np.array(["leading edge", "Bürste"]), "1", "name of a node")
+    hdf5.write(tmp_path / "file.h5", {"name": names}, {})
+    data, _ = hdf5.read(tmp_path / "file.h5")
+    assert data["name"].tolist() == ["leading edge", "Bürste"]
+    with xr.open_dataset(tmp_path / "file.h5", engine="h5netcdf") as dataset:
+        assert dataset.name.to_numpy().tolist() == ["leading edge", "Bürste"]
