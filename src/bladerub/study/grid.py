@@ -24,25 +24,13 @@ _VARIED = ("E", "K", "theta", "friction")  # lists in an entry of coatings, of w
 
 @dataclass(frozen=True)
 class CoatingCase:
-    """One coating of the study: a casing and the normalised properties of its layer.
+    """One coating of the study: a casing and the normalised properties of its layer."""
 
-    Parameters
-    ----------
-    casing : str
-        Name of a casing in the config.
-    E, K : float
-        Young and plastic modulus, normalised; both infinite for direct contact with the rigid casing.
-    theta : float
-        Rotation of the abradable elements, or angle of friction by Coulomb's law, rad.
-    law : str
-        ``"theta"`` or ``"coulomb"`` (`bladerub.contact.spec.Coating`).
-    """
-
-    casing: str
-    E: float
+    casing: str  # a name in the config
+    E: float  # Young and plastic modulus; both infinite for direct contact with the rigid casing
     K: float
-    theta: float
-    law: str = "theta"
+    theta: float  # rotation of the abradable elements, or angle of friction by Coulomb's law, rad
+    law: str = "theta"  # or "coulomb", see `bladerub.contact.spec.Coating`
 
     @classmethod
     def coulomb(cls, casing: str, E: float, K: float, friction: float) -> CoatingCase:
@@ -160,12 +148,7 @@ def run_spec(config: Mapping[str, Any], case: CoatingCase, f_omega: float) -> Ru
     """Describe the run of coating `case` at the speed `f_omega` in SI units.
 
     The one place where values that the config gives in blade lengths, degrees or for the stand-in of the
-    paper's blade (``contact.scale``) become SI of this blade.
-
-    Raises
-    ------
-    KeyError
-        If the config has no casing of that name.
+    paper's blade (``contact.scale``) become SI of this blade. Raises `KeyError` if it has no such casing.
     """
     contact, solver, casing = config["contact"], config["solver"], config["casings"][case.casing]
     length = float(config["blade"]["length"])
@@ -208,7 +191,7 @@ def run_spec(config: Mapping[str, Any], case: CoatingCase, f_omega: float) -> Ru
 
 
 def keeps_history(config: Mapping[str, Any], case: CoatingCase, f_omega: float) -> bool:
-    """Tell whether the config lists this run among those whose whole displacement is kept."""
+    """Return whether the config lists this run among those whose whole displacement is kept."""
     return any(
         listed_case(entry) == case
         and round(float(entry["f_omega"]), SPEED_DECIMALS) == round(f_omega, SPEED_DECIMALS)

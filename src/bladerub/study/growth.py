@@ -22,19 +22,7 @@ The paper calls a run divergent when its amplitude "continuously grows with time
    may also have turned to decay).
 8. A run is divergent when it is unbounded, or grows and does not level off.
 
-What 20 revolutions can show, from the last 10 of them at a threshold of 1 % and a confidence of 95 %, found
-on made-up amplitudes (``tests/unit/study/test_growth.py``); real runs scatter by 0.1 to 20 % between
-revolutions:
-
-- A steady run passes for growing in at most 1 case of 100, whatever the scatter, and in 7 where
-  neighbouring revolutions are correlated by 0.8.
-- Growth of 3 % is found whenever the scatter is below 2 %, in 9 cases of 10 at 5 % and in 3 of 10 at 10 %.
-- Saturation as ``1 - exp(-i / τ)`` is distinguished from growth for τ of 6 to 9 revolutions; faster ones are
-  steady by then. From τ = 11 on the growth at the end is still surely above 1 %, and the run passes for
-  divergent. A scatter of 2 % hides the bend in half of the cases.
-- A beat with a period above 20 revolutions passes for growing in up to 4 of 10 phases, and so does a
-  slow onset that wear will end. Both are what the longer run is for: with 60 revolutions, saturation is
-  found up to τ = 45 and no beat with a period up to 60 passes.
+``tests/unit/study/test_growth.py`` shows what that finds in 20 and in 60 revolutions, and what it does not.
 """
 
 from __future__ import annotations
@@ -54,38 +42,19 @@ RESOLUTION = 1e-3
 
 
 class Growth(NamedTuple):
-    """Growth of an amplitude over its last revolutions, see the definitions 2 to 5 of this module.
+    """Growth of an amplitude over its last revolutions, see the definitions 2 to 5 of this module."""
 
-    Parameters
-    ----------
-    per_revolution : float
-        Relative growth (0.03 is 3 %); 0 for a blade that never moved, NaN from fewer than two revolutions.
-    low, high : float
-        Confidence interval of `per_revolution`; NaN from fewer than three revolutions.
-    grows, levels_off : bool
-        The latter only of a run that grows.
-    """
-
-    per_revolution: float
-    low: float
+    per_revolution: float  # 0.03 is 3 %; 0 for a blade that never moved, NaN from fewer than two revolutions
+    low: float  # confidence interval; NaN from fewer than three revolutions
     high: float
     grows: bool = False
-    levels_off: bool = False
+    levels_off: bool = False  # only of a run that grows
 
 
 class Verdict(NamedTuple):
-    """The verdict on one run, see the definitions 6 to 8 of this module.
+    """The verdict on one run, never both saturating and divergent; see the definitions 6 to 8 of this module.
 
-    Parameters
-    ----------
-    growth : Growth
-        Of the longest run there is.
-    saturating, divergent : bool
-        Never both.
-    revolutions : int
-        Length of the run that the verdict rests on; of an unbounded one, those begun before its end.
-    status : str
-        Of that run.
+    Growth, length and status are of the longest run there is; an unbounded one counts as long as it lasted.
     """
 
     growth: Growth

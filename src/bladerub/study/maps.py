@@ -78,20 +78,10 @@ def build_map(
     runs_folder: str | Path,
     path: str | Path,
 ) -> None:
-    """Collect the runs of one coating in the map file `path`.
+    """Collect the runs of one coating in the map file `path`, with its `DATASETS`.
 
-    Parameters
-    ----------
-    config : mapping
-        The study; its ``analysis.lobe_prominence`` decides what counts as a lobe.
-    case : CoatingCase
-        The coating.
-    blade : ReducedBlade
-        For its first frequency at each speed.
-    runs_folder : path-like
-        Folder of the coating's runs; its ``manifest.tsv`` says which of them belong to the study.
-    path : path-like
-        The map file, see `CoatingMap` for its datasets.
+    ``manifest.tsv`` in `runs_folder` lists which of the runs there belong to the study `config`, whose
+    ``analysis.lobe_prominence`` decides what counts as a lobe; `blade` is for its first frequency.
 
     Raises
     ------

@@ -97,16 +97,7 @@ def _at(maps: Iterable[CoatingMap], f_omega: np.ndarray) -> list[CoatingMap]:
 def table(
     config: Mapping[str, Any], map_paths: Iterable[str | Path], rom_accuracy_path: str | Path
 ) -> pd.DataFrame:
-    """Judge every claim in every variation.
-
-    Parameters
-    ----------
-    config : mapping
-        The study.
-    map_paths : iterable of path-like
-        Files of `bladerub.study.maps.build_map`.
-    rom_accuracy_path : path-like
-        The table of the same study.
+    """Judge every claim in every variation of the study with these files.
 
     Returns
     -------

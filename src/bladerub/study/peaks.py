@@ -104,14 +104,7 @@ def peak(coating: Response, order: float, settings: Mapping[str, Any]) -> Peak:
     ``speed_window`` times the crossing speed; f_k is the speed where it occurs. The speed is one of the
     grid: f_k is known to a speed step. Runs that ended early count with what their spectrum holds.
 
-    Parameters
-    ----------
-    coating : Response
-        Runs of one coating; amplitudes are NaN at speeds without a run.
-    order : float
-        Engine order k.
-    settings : mapping
-        ``config["analysis"]["peaks"]``.
+    `settings` is ``config["analysis"]["peaks"]``; amplitudes of `coating` are NaN at speeds without a run.
 
     Raises
     ------

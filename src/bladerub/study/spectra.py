@@ -23,10 +23,8 @@ def order_spectrum(
     ----------
     radial_displacement : (revolutions * n,) ndarray
         Displacement at n equal steps of angle in each revolution, m; NaN after an early end.
-    revolutions : int
-        Revolutions in the record.
-    spectrum_revolutions : int
-        Revolutions in the spectrum.
+    revolutions, spectrum_revolutions : int
+        Revolutions in the record and in the spectrum.
     max_order : float
         Highest engine order returned.
 

@@ -37,6 +37,8 @@ def test_the_rigid_casing_is_a_coating_without_give_at_its_angle_of_friction(con
 
 def test_abradable_coatings_are_not_rigid(config):
     assert [case.is_rigid for case in grid.coating_cases(config)] == [False] * 62 + [True]
+    assert not CoatingCase("2nd", math.inf, 0.5, 0.0).is_rigid
+    assert not CoatingCase("2nd", 0.5, math.inf, 0.0).is_rigid
 
 
 def test_order_of_keys_does_not_change_the_order_of_coatings(config):
@@ -76,6 +78,26 @@ def test_speeds_that_would_share_a_file_are_an_error(config):
     config["speeds"]["extra"] = [0.19002]
     with pytest.raises(ValueError, match=r"0\.19 and 0\.19002 are closer"):
         grid.speeds(config)
+
+
+def test_rounding_loses_no_speed_at_the_stop(config):
+    config["speeds"] = {"start": 0.02, "stop": 0.32, "step": 0.1, "extra": []}
+    assert (0.32 - 0.02) / 0.1 < 3
+    assert grid.speeds(config) == [0.02, 0.12, 0.22, 0.32]
+
+
+def test_speeds_are_kept_to_six_decimals(config):
+    config["speeds"] = {"start": 0.1, "stop": 0.2, "step": 0.1, "extra": [0.1234564, 0.1567896]}
+    assert grid.speeds(config) == [0.1, 0.123456, 0.15679, 0.2]
+
+
+def test_as_many_coatings_as_are_planned_and_no_more(config):
+    young = [1 + 1e-3 * number for number in range(grid.MAX_COATINGS)]
+    config["coatings"] = [{"casing": "2nd", "E": young, "K": [0.5], "theta": [0.0]}]
+    assert len(grid.coating_cases(config)) == grid.MAX_COATINGS == 5000
+    config["coatings"].append({"casing": "2nd5nd", "E": [1], "K": [0.5], "theta": [0.0]})
+    with pytest.raises(ValueError, match=r"coatings\[1\]: .*5001"):
+        grid.coating_cases(config)
 
 
 def test_speed_name():

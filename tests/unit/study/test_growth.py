@@ -1,4 +1,18 @@
-"""The definition of divergence on made-up amplitudes of 20 and 60 revolutions, and its limits."""
+"""The definition of divergence on made-up amplitudes of 20 and 60 revolutions, and its limits.
+
+What 20 revolutions can show, from the last 10 of them at a threshold of 1 % and a confidence of 95 %, found
+here on made-up amplitudes; real runs scatter by 0.1 to 20 % between revolutions:
+
+- A steady run passes for growing in at most 1 case of 100, whatever the scatter, and in 7 where
+  neighbouring revolutions are correlated by 0.8.
+- Growth of 3 % is found whenever the scatter is below 2 %, in 9 cases of 10 at 5 % and in 3 of 10 at 10 %.
+- Saturation as ``1 - exp(-i / τ)`` is distinguished from growth for τ of 6 to 9 revolutions; faster ones are
+  steady by then. From τ = 11 on the growth at the end is still surely above 1 %, and the run passes for
+  divergent. A scatter of 2 % hides the bend in half of the cases.
+- A beat with a period above 20 revolutions passes for growing in up to 4 of 10 phases, and so does a
+  slow onset that wear will end. Both are what the longer run is for: with 60 revolutions, saturation is
+  found up to τ = 45 and no beat with a period up to 60 passes.
+"""
 
 import numpy as np
 import pytest
@@ -101,6 +115,11 @@ class TestGrows:
         rising_again = np.where(NUMBER <= 10, 2.0, 1.03 ** (NUMBER - 10))
         assert growth(rising_again, SETTINGS).low > 0.01
         assert not growth(rising_again, SETTINGS).grows
+
+    @pytest.mark.parametrize(("greatest", "grows"), [(1.104, False), (1.105, True)])
+    def test_when_greater_than_before_by_ten_revolutions_of_threshold_growth(self, greatest, grows):
+        amplitude = np.r_[np.ones(10), greatest * 1.03 ** np.arange(-9, 1)]  # 1.01 ** 10 is 1.1046
+        assert growth(amplitude, SETTINGS).grows == grows
 
     @pytest.mark.parametrize("depth", [0.1, 0.3, 0.8])
     def test_for_some_phases_of_beats_until_the_run_is_longer_than_they_are(self, depth):

@@ -42,6 +42,18 @@ def test_two_sines_and_the_mean_do_not_mix():
     assert together[0] == pytest.approx(0.0, abs=1e-12)
 
 
+def test_order_zero_has_no_mirror_image():
+    # the Hann window leaks half of the line on the first bin to each of its neighbours
+    _, amplitude = spectrum(sine(0.1, phase=np.pi / 2))
+    assert amplitude[:3] == pytest.approx([0.5, 1.0, 0.5], rel=1e-3)
+
+
+def test_a_spectrum_may_be_over_the_whole_record_and_all_orders_that_it_resolves():
+    order, amplitude = spectrum(sine(6), spectrum_revolutions=20, max_order=SAMPLES / 2)
+    assert order[-1] == SAMPLES / 2
+    assert amplitude[6 * 20] == pytest.approx(1.0)
+
+
 def test_only_the_last_revolutions_count():
     early = sine(4, amplitude=50.0)
     early[10 * SAMPLES :] = 0

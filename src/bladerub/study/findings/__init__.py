@@ -43,21 +43,9 @@ def table(
     divergence_path: str | Path,
     rom_accuracy_path: str | Path,
 ) -> pd.DataFrame:
-    """Measure every claim that the study allows.
+    """Measure every claim that the maps and tables of a study allow: a row each, with `COLUMNS`.
 
-    Parameters
-    ----------
-    config : mapping
-        The study.
-    map_paths : iterable of path-like
-        Files of `bladerub.study.maps.build_map`.
-    peaks_path, divergence_path, rom_accuracy_path : path-like
-        The tables of the same study.
-
-    Returns
-    -------
-    DataFrame
-        A row per measured part, with `COLUMNS`; what is left out is logged as a warning.
+    What is left out is logged as a warning.
     """
     tables = {
         "peaks": read_table(peaks_path, peaks.COLUMNS),

@@ -12,31 +12,14 @@ YES, PARTLY, NO = "yes", "partly", "no"
 
 @dataclass(frozen=True)
 class Finding:
-    """What this model shows of one part of a claim: a row of ``findings.csv`` without its id.
+    """What this model shows of one part of a claim: a row of ``findings.csv`` without its id."""
 
-    Parameters
-    ----------
-    claim : str
-        The paper's statement as measured, with its figure.
-    paper : float or str
-        What the paper says, in `unit`.
-    measured : float or str
-        The same, of this model.
-    unit : str
-        Unit of `paper`, `measured` and `margin`; ``"1"`` for pure numbers and normalised speeds.
-    holds : str
-        ``yes``, ``partly`` or ``no``.
-    margin : float
-        Distance of `measured` from the border between yes and not yes, positive on the side of yes; NaN when
-        there is nothing to measure a distance from.
-    """
-
-    claim: str
-    paper: float | str
-    measured: float | str
-    unit: str
-    holds: str
-    margin: float
+    claim: str  # the paper's statement as measured, with its figure
+    paper: float | str  # what the paper says, in `unit`
+    measured: float | str  # the same, of this model
+    unit: str  # "1" for pure numbers and normalised speeds
+    holds: str  # yes, partly or no
+    margin: float  # of `measured` to the border between yes and not yes, positive if yes; NaN if it has none
 
 
 class NotMeasurable(Exception):
@@ -58,14 +41,8 @@ REGISTERED: dict[str, Claim] = {}
 def claim(id_: str, statement: str, *arguments: Any) -> Callable[[Callable], Callable]:
     """Register a function ``measure(evidence, *arguments)`` as the measurement of a claim.
 
-    Parameters
-    ----------
-    id_ : str
-        Claim and part: letters, number and, for one of several parts, a letter, for instance ``C4a``.
-    statement : str
-        What the paper says, and where.
-    *arguments
-        What tells this claim from the others that the same function measures.
+    The `id_` is letters, a number and, for one of several parts, a letter: ``C4a``; the `statement` is what
+    the paper says, and where. One function may measure several claims, with other `arguments` each.
 
     Raises
     ------

@@ -20,17 +20,7 @@ SAME_SPEED = 1e-6
 
 
 class Evidence:
-    """Tables and maps of one study.
-
-    Parameters
-    ----------
-    config : mapping
-        The study.
-    tables : mapping of str to DataFrame
-        ``rom_accuracy``, ``peaks`` and ``divergence``.
-    maps : iterable of CoatingMap
-        The coatings.
-    """
+    """Maps of the coatings of one study, and its tables ``rom_accuracy``, ``peaks`` and ``divergence``."""
 
     def __init__(
         self, config: Mapping[str, Any], tables: Mapping[str, pd.DataFrame], maps: Iterable[CoatingMap]
@@ -76,13 +66,7 @@ class Evidence:
 
 
 def read_rom_accuracy(path: str | Path) -> pd.DataFrame:
-    """Read the table of the reduced model's accuracy, as far as the claims need it.
-
-    Raises
-    ------
-    OSError
-        As `bladerub.io.tables.read`.
-    """
+    """Read the table of the reduced model's accuracy; raises as `bladerub.io.tables.read`."""
     return tables.read(path, ["mode", "relative_error"])
 
 
