@@ -1,3 +1,4 @@
+import copy
 from pathlib import Path
 
 import numpy as np
@@ -16,10 +17,13 @@ from bladerub.study.plan import coating_plan
 N_ELEMENTS = 2000
 
 
+CONFIG = yaml.safe_load((Path(__file__).parents[2] / "config" / "config.yaml").read_text(encoding="utf-8"))
+
+
 @pytest.fixture
 def config():
-    path = Path(__file__).parents[2] / "config" / "config.yaml"
-    return yaml.safe_load(path.read_text(encoding="utf-8"))
+    """The study of the repository, to be changed at will."""
+    return copy.deepcopy(CONFIG)
 
 
 @pytest.fixture
