@@ -28,8 +28,7 @@ rule calibration:
         findings=calibration_findings,
         drawing=files_behind("plots.verdicts"),
     output:
-        table=f"{RESULTS}/tables/calibration.csv",
-        description=f"{RESULTS}/tables/calibration.csv-metadata.json",
+        **described(table=f"{TABLES}/calibration.csv"),
         png=f"{PLOTS}/calibration.png",
         pdf=f"{PLOTS}/calibration.pdf",
     log:
@@ -46,15 +45,14 @@ rule calibration_set:
         building=rules.blade.input,
         analysing=files_behind("extensions.calibration", "study.findings"),
     output:
-        f"{RESULTS}/calibration/{{set}}/tables/findings.csv",
-        description=f"{RESULTS}/calibration/{{set}}/tables/findings.csv-metadata.json",
+        **described(table=f"{RESULTS}/calibration/{{set}}/tables/findings.csv"),
     log:
         f"{RESULTS}/logs/calibration/{{set}}.log",
     benchmark:
         f"{RESULTS}/benchmarks/calibration/{{set}}.tsv"
     resources:
-        mem_mb=lambda wildcards, attempt: 2000 * attempt,  # 600 measured
-        runtime=lambda wildcards, attempt: 30 * attempt,  # 5 measured
+        mem_mb=memory_mb,  # 600 measured
+        runtime=minutes(30),  # 5 measured
     params:
         folder=f"{RESULTS}/calibration/{{set}}",
         choices=calibration_set,

@@ -47,7 +47,7 @@ def charted_maps(wildcards):
 rule chart_column:
     # The points have a folder next to that of the manifests, undeclared as the runs of a coating are.
     input:
-        blade=f"{RESULTS}/blade/reduced_model.h5",
+        blade=rules.blade.output.reduced_model,
         kernel=rules.compile_kernel.output[0],
     output:
         f"{RESULTS}/chart/columns/{{column}}.tsv",
@@ -58,7 +58,7 @@ rule chart_column:
     wildcard_constraints:
         column="[A-Za-z0-9]+_E[^_/]+_theta[^_/]+",
     resources:
-        mem_mb=lambda wildcards, attempt: 2000 * attempt,
+        mem_mb=memory_mb,
         runtime=lambda wildcards, attempt: attempt * (2 + len(config["chart"]["K"])),  # a tenth of it measured
     params:
         plan=planned_points,
@@ -71,8 +71,7 @@ rule chart_table:
         manifests=chart_manifests,
         analysing=files_behind("extensions.chart.table", "study.peaks"),
     output:
-        f"{RESULTS}/tables/chart.csv",
-        description=f"{RESULTS}/tables/chart.csv-metadata.json",
+        **described(table=f"{TABLES}/chart.csv"),
     log:
         f"{RESULTS}/logs/chart_table.log",
     benchmark:
@@ -93,10 +92,10 @@ rule chart_ridge:
             "study.peaks",
         ),
     output:
-        f"{RESULTS}/tables/chart_ridge.csv",
-        description=f"{RESULTS}/tables/chart_ridge.csv-metadata.json",
-        summary=f"{RESULTS}/tables/chart_ridge_summary.csv",
-        summary_description=f"{RESULTS}/tables/chart_ridge_summary.csv-metadata.json",
+        **described(
+            table=f"{TABLES}/chart_ridge.csv",
+            summary=f"{TABLES}/chart_ridge_summary.csv",
+        ),
     log:
         f"{RESULTS}/logs/chart_ridge.log",
     benchmark:
@@ -154,8 +153,7 @@ rule chart_pareto:
         drawing=files_behind("extensions.plots.chart_pareto", "plots.titles"),
     output:
         **drawn("chart_pareto", "Choice of a coating"),
-        table=f"{RESULTS}/tables/chart_pareto.csv",
-        description=f"{RESULTS}/tables/chart_pareto.csv-metadata.json",
+        **described(table=f"{TABLES}/chart_pareto.csv"),
     log:
         f"{RESULTS}/logs/chart_pareto.log",
     benchmark:
@@ -176,8 +174,7 @@ rule chart_explanation:
         drawing=files_behind("extensions.plots.chart_explanation", "plots.style"),
     output:
         **drawn("chart_explanation", "Choice of a coating"),
-        table=f"{RESULTS}/tables/chart_explanation.csv",
-        description=f"{RESULTS}/tables/chart_explanation.csv-metadata.json",
+        **described(table=f"{TABLES}/chart_explanation.csv"),
     log:
         f"{RESULTS}/logs/chart_explanation.log",
     benchmark:
@@ -192,13 +189,12 @@ rule chart_explanation:
 rule chart_stiffening:
     input:
         peaks=rules.chart_explanation.output.table,
-        blade=f"{RESULTS}/blade/reduced_model.h5",
+        blade=rules.blade.output.reduced_model,
         analysing=files_behind("extensions.chart.stiffening"),
         drawing=files_behind("extensions.plots.chart_stiffening", "plots.titles"),
     output:
         **drawn("chart_stiffening", "Choice of a coating"),
-        table=f"{RESULTS}/tables/chart_stiffening.csv",
-        description=f"{RESULTS}/tables/chart_stiffening.csv-metadata.json",
+        **described(table=f"{TABLES}/chart_stiffening.csv"),
     log:
         f"{RESULTS}/logs/chart_stiffening.log",
     benchmark:
@@ -219,10 +215,10 @@ rule chart_placement:
             "study.peaks",
         ),
     output:
-        f"{RESULTS}/tables/chart_placement.csv",
-        description=f"{RESULTS}/tables/chart_placement.csv-metadata.json",
-        summary=f"{RESULTS}/tables/chart_placement_summary.csv",
-        summary_description=f"{RESULTS}/tables/chart_placement_summary.csv-metadata.json",
+        **described(
+            table=f"{TABLES}/chart_placement.csv",
+            summary=f"{TABLES}/chart_placement_summary.csv",
+        ),
     log:
         f"{RESULTS}/logs/chart_placement.log",
     benchmark:
@@ -241,8 +237,7 @@ rule chart_agreement:
         placement=rules.chart_placement.output[0],
         analysing=files_behind("extensions.chart.check"),
     output:
-        f"{RESULTS}/tables/chart_agreement.csv",
-        description=f"{RESULTS}/tables/chart_agreement.csv-metadata.json",
+        **described(table=f"{TABLES}/chart_agreement.csv"),
     log:
         f"{RESULTS}/logs/chart_agreement.log",
     benchmark:

@@ -76,7 +76,7 @@ def of_robustness_batches(file):
 
 
 def planned_samples(wildcards):
-    """All that determines what the samples of a job say but the blades: a changed one is a reason to run."""
+    """All that determines the findings of the samples of a job but the blades: a changed one is a reason to run."""
     from bladerub.extensions.robustness.design import sample_digest
 
     samples = robustness_batch(wildcards.part, wildcards.batch)
@@ -98,14 +98,12 @@ def robustness_minutes(wildcards, attempt):
 
 use rule blade as robustness_blade with:
     output:
+        **described(
+            campbell=f"{OF_SAMPLES}/blades/{{blade}}/campbell.csv",
+            rom_accuracy=f"{OF_SAMPLES}/blades/{{blade}}/rom_accuracy.csv",
+        ),
         reduced_model=f"{OF_SAMPLES}/blades/{{blade}}/reduced_model.h5",
         mesh=f"{OF_SAMPLES}/blades/{{blade}}/mesh.h5",
-        campbell=f"{OF_SAMPLES}/blades/{{blade}}/campbell.csv",
-        rom_accuracy=f"{OF_SAMPLES}/blades/{{blade}}/rom_accuracy.csv",
-        descriptions=[
-            f"{OF_SAMPLES}/blades/{{blade}}/{name}.csv-metadata.json"
-            for name in ("campbell", "rom_accuracy")
-        ],
     log:
         f"{RESULTS}/logs/robustness_blade/{{blade}}.log",
     benchmark:
@@ -122,10 +120,10 @@ rule robustness_batch:
         kernel=rules.compile_kernel.output[0],
         analysing=files_behind("extensions.robustness.sample", "study.findings"),
     output:
-        verdicts=f"{OF_SAMPLES}/{{part}}/{{batch}}/verdicts.csv",
-        verdicts_description=f"{OF_SAMPLES}/{{part}}/{{batch}}/verdicts.csv-metadata.json",
-        cost=f"{OF_SAMPLES}/{{part}}/{{batch}}/cost.csv",
-        cost_description=f"{OF_SAMPLES}/{{part}}/{{batch}}/cost.csv-metadata.json",
+        **described(
+            verdicts=f"{OF_SAMPLES}/{{part}}/{{batch}}/verdicts.csv",
+            cost=f"{OF_SAMPLES}/{{part}}/{{batch}}/cost.csv",
+        ),
     log:
         f"{RESULTS}/logs/robustness_batch/{{part}}_{{batch}}.log",
     benchmark:
@@ -134,7 +132,7 @@ rule robustness_batch:
         part="[A-Za-z][A-Za-z0-9_]*",
         batch="[0-9]+|reference",
     resources:
-        mem_mb=lambda wildcards, attempt: 2000 * attempt,
+        mem_mb=memory_mb,
         runtime=robustness_minutes,
     params:
         plan=ROBUSTNESS,
@@ -158,14 +156,12 @@ rule robustness:
         drawing=files_behind("extensions.plots.robustness", "plots.style"),
     output:
         **drawn("robustness", "Claims"),
-        table=shown(f"{RESULTS}/tables/robustness.csv", "robustness_table", "Claims"),
-        indices=f"{RESULTS}/tables/robustness_indices.csv",
-        verdicts=f"{RESULTS}/tables/robustness_verdicts.csv",
-        design=f"{RESULTS}/tables/robustness_design.csv",
-        descriptions=[
-            f"{RESULTS}/tables/robustness{name}.csv-metadata.json"
-            for name in ("", "_indices", "_verdicts", "_design")
-        ],
+        **described(
+            table=shown(f"{TABLES}/robustness.csv", "robustness_table", "Claims"),
+            indices=f"{TABLES}/robustness_indices.csv",
+            verdicts=f"{TABLES}/robustness_verdicts.csv",
+            design=f"{TABLES}/robustness_design.csv",
+        ),
     log:
         f"{RESULTS}/logs/robustness.log",
     benchmark:

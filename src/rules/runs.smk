@@ -33,8 +33,8 @@ rule compile_kernel:
     benchmark:
         f"{RESULTS}/benchmarks/compile_kernel.tsv"
     resources:
-        mem_mb=lambda wildcards, attempt: 2000 * attempt,
-        runtime=lambda wildcards, attempt: 5 * attempt,
+        mem_mb=memory_mb,
+        runtime=minutes(5),
     params:
         solver=solver_digest(),
     script:
@@ -45,7 +45,7 @@ rule coating:
     # The runs are next to the manifest, undeclared: Snakemake deletes what a failed job declares, and
     # finished runs must survive. The key inside the file of a run shows whether it is current.
     input:
-        blade=f"{RESULTS}/blade/reduced_model.h5",
+        blade=rules.blade.output.reduced_model,
         kernel=rules.compile_kernel.output[0],
     output:
         f"{RESULTS}/runs/{{coating}}/manifest.tsv",
@@ -54,7 +54,7 @@ rule coating:
     benchmark:
         f"{RESULTS}/benchmarks/coating/{{coating}}.tsv"
     resources:
-        mem_mb=lambda wildcards, attempt: 2000 * attempt,  # 240 measured, and two Pythons of Snakemake
+        mem_mb=memory_mb,  # 240 measured, and two Pythons of Snakemake
         runtime=coating_minutes,
     params:
         folder=subpath(output[0], parent=True),

@@ -29,10 +29,9 @@ rule sweeps:
         drawing=files_behind("extensions.plots.sweeps", "plots.titles"),
     output:
         **drawn("sweeps", "Sweeps and long runs"),
-        table=shown(
-            f"{RESULTS}/tables/sweeps.csv", "sweeps_table", "Sweeps and long runs"
+        **described(
+            table=shown(f"{TABLES}/sweeps.csv", "sweeps_table", "Sweeps and long runs")
         ),
-        description=f"{RESULTS}/tables/sweeps.csv-metadata.json",
     log:
         f"{RESULTS}/logs/sweeps.log",
     params:
@@ -45,7 +44,7 @@ rule sweeps:
 
 rule sweep:
     input:
-        blade=f"{RESULTS}/blade/reduced_model.h5",
+        blade=rules.blade.output.reduced_model,
         kernel=rules.compile_kernel.output[0],
         analysing=files_behind(
             "extensions.sweeps", "extensions.sweep_grid", "study.spectra"
@@ -60,8 +59,8 @@ rule sweep:
         direction="|".join(DIRECTIONS),
         rate=r"[0-9.e+-]+",
     resources:
-        mem_mb=lambda wildcards, attempt: 2000 * attempt,
-        runtime=lambda wildcards, attempt: 10 * attempt,
+        mem_mb=memory_mb,
+        runtime=minutes(10),
     params:
         spec=planned_sweep,
         spectra=[
@@ -78,12 +77,11 @@ rule long_runs:
         drawing=files_behind("extensions.plots.long_runs", "plots.titles"),
     output:
         **drawn("long_runs", "Sweeps and long runs"),
-        table=shown(
-            f"{RESULTS}/tables/long_runs.csv",
-            "long_runs_table",
-            "Sweeps and long runs",
+        **described(
+            table=shown(
+                f"{TABLES}/long_runs.csv", "long_runs_table", "Sweeps and long runs"
+            )
         ),
-        description=f"{RESULTS}/tables/long_runs.csv-metadata.json",
     log:
         f"{RESULTS}/logs/long_runs.log",
     params:
@@ -96,7 +94,7 @@ rule long_runs:
 rule long_coating:
     input:
         map=rules.map.output[0],
-        blade=f"{RESULTS}/blade/reduced_model.h5",
+        blade=rules.blade.output.reduced_model,
         kernel=rules.compile_kernel.output[0],
         analysing=files_behind("extensions.long_runs", "study.peaks", "study.growth"),
     output:
@@ -106,8 +104,8 @@ rule long_coating:
     benchmark:
         f"{RESULTS}/benchmarks/long_coating/{{coating}}.tsv"
     resources:
-        mem_mb=lambda wildcards, attempt: 2000 * attempt,
-        runtime=lambda wildcards, attempt: 10 * attempt,
+        mem_mb=memory_mb,
+        runtime=minutes(10),
     params:
         revolutions=config["long_runs"]["revolutions"],
         analysis=config["analysis"],

@@ -3,11 +3,10 @@
 from bladerub.extensions.chart.choice import broken_limits
 from bladerub.extensions.plots.chart_safe import chart_safe
 from bladerub.io import tables
-from bladerub.plots import style
-from bladerub.workflow import job
+from bladerub.workflow import job, outputs
 
 job.log_to(snakemake.log[0])
 
 chart = tables.read(snakemake.input.table)
 figure = chart_safe(chart, broken_limits(chart, snakemake.params.limits), snakemake.params.limits)
-style.save(figure, snakemake.output.png, snakemake.output.pdf, snakemake.params.dpi)
+outputs.save(snakemake, figure)

@@ -1,4 +1,4 @@
-"""Put the whole study into one page."""
+"""Write the whole study to one page."""
 
 from bladerub.explorer.page import build
 from bladerub.io import atomic, tables

@@ -1,4 +1,4 @@
-"""Gather the runs of one coating into a map over angle, engine order and speed."""
+"""Collect the runs of one coating in a map over angle, engine order and speed."""
 
 from pathlib import Path
 

@@ -7,9 +7,7 @@ from bladerub.extensions.robustness import summary
 from bladerub.extensions.robustness.plan import read_plan
 from bladerub.extensions.robustness.sample import COST
 from bladerub.io import tables
-from bladerub.io.provenance import provenance
-from bladerub.plots import style
-from bladerub.workflow import job
+from bladerub.workflow import job, outputs
 
 job.log_to(snakemake.log[0])
 
@@ -19,6 +17,4 @@ cost = pd.concat([tables.read(path, COST) for path in snakemake.input.cost], ign
 indices = summary.sensitivities(plan, verdicts)
 table = summary.summary(plan, verdicts, indices, cost)
 made = {"table": table, "indices": indices, "verdicts": verdicts, "design": summary.design(plan)}
-for name, each in made.items():
-    tables.write(snakemake.output[name], each, provenance(snakemake.config))
-style.save(draw(table, indices), snakemake.output.png, snakemake.output.pdf, snakemake.params.dpi)
+outputs.save(snakemake, draw(table, indices), **made)

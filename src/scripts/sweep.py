@@ -9,13 +9,13 @@ from bladerub.workflow import job
 
 job.log_to(snakemake.log[0])
 
-asked = snakemake.wildcards
+wildcards = snakemake.wildcards
 result = sweeps.make(
     snakemake.config,
-    case_from_name(snakemake.config, asked.coating),
+    case_from_name(snakemake.config, wildcards.coating),
     read_reduced_blade(snakemake.input.blade),
-    asked.direction,
-    float(asked.rate),
+    wildcards.direction,
+    float(wildcards.rate),
     snakemake.output[0],
 )
 print(result.message, file=sys.stderr)
