@@ -1,15 +1,20 @@
+import dataclasses
+
 import numpy as np
 import pandas as pd
 import pytest
 import scipy.linalg
 
 from bladerub.blade import discrete, linear
-from bladerub.blade.build import build
+from bladerub.blade.build import build, meshed_blade, reduce_meshed
 from bladerub.blade.built import write
+from bladerub.blade.discrete import by_finite_elements
+from bladerub.blade.elasticity import Material, Solid
 from bladerub.blade.frequencies import reduced_frequencies
 from bladerub.blade.geometry import BladeShape
 from bladerub.blade.model import read_reduced_blade
 from bladerub.blade.refinement import directions
+from bladerub.blade.rotation import equilibrium
 from bladerub.io import hdf5
 
 CONFIG = {
@@ -99,6 +104,31 @@ def test_files_hold_what_was_built(built, tmp_path):
     assert list(accuracy.columns) == ["f_omega", "mode", "f_fe", "f_fe_eq2", "f_rom", "relative_error"]
     assert len(campbell) == len(accuracy) == 3 * 4
     assert accuracy.f_fe[0] == pytest.approx(blade.f1_hz, rel=1e-9)
+
+
+def test_static_displacements_are_those_of_their_speeds(built):
+    """From rest on; at low speed they grow with its square, later less, as the blade gets stiffer."""
+    assert built.static_speed.tolist() == pytest.approx([0, 0.2, 0.4])
+    at_rest, half, full = np.linalg.norm(built.static_displacement, axis=(1, 2))
+    assert at_rest == 0
+    assert 2 < full / half < 4
+
+
+def test_speeds_are_in_units_of_the_first_frequency(twisted_config):
+    blade = meshed_blade(twisted_config)
+    material = Material.from_config(twisted_config["material"])
+    found = by_finite_elements(blade, material, [0.3], [0.0, 0.3], 3)
+    solid = Solid(blade.mesh.mesh, material, clamped=blade.mesh.root)
+    at_speed = equilibrium(solid, 2 * np.pi * 0.3 * found.frequency[0])
+    exact, _ = linear.lowest_modes(at_speed.stiffness, solid.mass, 3)
+    np.testing.assert_allclose(found.frequencies[0.3], exact, rtol=1e-9)
+    assert list(found.stiffness) == [0.3]
+    np.testing.assert_allclose(found.stiffness[0.3].data, at_speed.stiffness.data, rtol=1e-6)
+
+
+def test_the_length_of_the_config_is_that_of_the_reduced_blade(twisted_config):
+    meshed = dataclasses.replace(meshed_blade(twisted_config), length=0.201)
+    assert reduce_meshed(meshed, {"blade": twisted_config, "reduction": CONFIG}).reduced.length == 0.2
 
 
 def test_nodes_follow_the_reduced_coordinates(built):

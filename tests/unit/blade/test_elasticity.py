@@ -8,7 +8,8 @@ from skfem.helpers import ddot, dot, eye, grad, identity, trace, transpose
 from skfem.models.elasticity import lame_parameters, linear_elasticity
 
 from bladerub.blade import elasticity
-from bladerub.blade.mesh import hexahedral_mesh
+from bladerub.blade.mesh import hexahedral_mesh, solid_mesh
+from bladerub.blade.surface import EDGES
 
 SIZE = (0.3, 0.2, 0.5)
 
@@ -182,3 +183,47 @@ def test_mass_and_first_moment_are_those_of_the_body(make_block, make_mesh):
             assert solid.first_moment[solid.axis == axis].sum() == pytest.approx(
                 mass * centre[axis], rel=1e-6
             )
+
+
+def test_mass_of_a_straight_tetrahedron_is_the_closed_form():
+    """ρ V / 420 times 6, 1 (corners), -4, -6 (corner and edge), 32, 16, 8 (edges): Zienkiewicz and Taylor."""
+    corners = np.array([[0.1, 0.0, 0.3], [0.5, 0.1, 0.2], [0.2, 0.6, 0.1], [0.0, 0.2, 0.9]])
+    points = np.vstack([corners, corners[EDGES[10]].mean(axis=1)])
+    mesh, origin = solid_mesh(points, np.arange(10)[None])
+    solid = elasticity.Solid(mesh, elasticity.Material(2e11, 0.3, 7800.0))
+    ends = [{corner} for corner in range(4)] + [set(edge) for edge in EDGES[10].tolist()]
+    factors = {  # by the numbers of ends of both nodes, and how many they share
+        (1, 1, 1): 6,
+        (1, 1, 0): 1,
+        (1, 2, 1): -4,
+        (1, 2, 0): -6,
+        (2, 2, 2): 32,
+        (2, 2, 1): 16,
+        (2, 2, 0): 8,
+    }
+    shares = np.array([[factors[(*sorted((len(a), len(b))), len(a & b))] for b in ends] for a in ends])
+    volume = np.linalg.det(corners[1:] - corners[0]) / 6
+    expected = np.kron(7800.0 * volume / 420 * shares[np.ix_(origin, origin)], np.eye(3))
+    np.testing.assert_allclose(solid.mass.toarray(), expected, rtol=1e-12, atol=1e-12 * expected.max())
+
+
+@pytest.mark.parametrize("powers", [(2, 0, 0), (0, 2, 0), (0, 0, 2), (1, 1, 0), (0, 1, 1)])
+def test_kinetic_energy_of_quadratic_velocities_is_exact(make_block, make_mesh, powers):
+    """Both elements hold quadratic fields, so ∫ ρ v² over a box is a product of powers of its sides."""
+    block = make_block(SIZE, (1, 2, 1), make_mesh=make_mesh)
+    field = np.prod(block.mesh.points ** np.array(powers), axis=1)
+    velocity = np.kron(field, [1.0, 0.0, 0.0])
+    orders = 2 * np.array(powers) + 1
+    exact = 7800.0 * np.prod(np.array(SIZE) ** orders / orders)
+    assert velocity @ block.mass @ velocity == pytest.approx(exact, rel=1e-12)
+
+
+def test_strain_energy_of_a_field_of_the_element_is_exact(make_block):
+    """One hexahedron holds u_x = x² y, whose energy density goes up to x⁴: too much for two points a side."""
+    block = make_block(SIZE, (1, 1, 1))
+    x, y, _ = block.mesh.doflocs
+    u = np.kron(x**2 * y, [1.0, 0.0, 0.0])
+    a, b, c = SIZE
+    lam, mu = block.material.lame
+    exact = (lam + 2 * mu) * 4 * a**3 / 3 * b**3 / 3 * c + mu * a**5 / 5 * b * c
+    assert u @ block.tangent(np.zeros(u.size)) @ u == pytest.approx(exact, rel=1e-12)

@@ -104,3 +104,25 @@ def test_corner_jacobians_of_a_brick_are_its_volume():
     points = np.stack(np.meshgrid([0.0, 2.0], [0.0, 3.0], [0.0, 0.5], indexing="ij"))
     np.testing.assert_allclose(corner_jacobians(points), np.full((8, 1, 1, 1), 3.0))
     np.testing.assert_allclose(corner_jacobians(points[:, ::-1]), np.full((8, 1, 1, 1), -3.0))
+
+
+def test_the_flow_path_widens_gradually_from_a_cylindrical_hub_to_the_tip(blade_config):
+    blade_config["tip_cone"] = 12.0
+    for section_at in blade_config["sections"]:
+        section_at["stagger"] = 30.0
+    shape = BladeShape.from_config(blade_config)
+    for zeta in (0.0, 0.5, 1.0):
+        x, y, z = shape.points(np.array([0.0, 1.0]), 0.5, zeta)
+        expected = 0.45 + zeta * (0.2 + x * np.tan(np.deg2rad(12.0)))
+        np.testing.assert_allclose(np.hypot(y, z), expected, rtol=1e-14)
+
+
+def test_check_finds_elements_inside_out_at_some_corners(blade_config):
+    """A section so thick that its hollow side folds, while the other elements stay sound."""
+    blade_config["sections"] = [section(span, thickness=1.0, camber=100.0) for span in (0.0, 1.0)]
+    blade_config["mesh"].update(spanwise=1)
+    corners = np.meshgrid(np.linspace(0, 1, 8), [0.0, 1.0], [0.0, 1.0], indexing="ij")
+    jacobian = corner_jacobians(BladeShape.from_config(blade_config).points(*corners))
+    assert jacobian.min() < 0 < jacobian.max()
+    with pytest.raises(ValueError, match="inside out"):
+        check(blade_config)

@@ -101,6 +101,15 @@ def test_interface_is_evenly_spaced_on_a_finer_mesh(twisted_config):
     np.testing.assert_allclose(blade.mesh.points[blade.interface], expected.T, atol=1e-15)
 
 
+def test_interface_takes_the_nodes_nearest_to_even_places(twisted_config):
+    shape = BladeShape.from_config(twisted_config)
+    blade = BladeMesh.from_shape(shape, {"chordwise": 8, "thickness": 2, "spanwise": 1})  # 17 nodes for 8
+    on_line = np.linspace(0, 1, 17)
+    nearest = [np.argmin(np.abs(on_line - place)) for place in np.linspace(0, 1, 8)]
+    expected = shape.points(on_line[nearest], 0.5, 1.0)
+    np.testing.assert_allclose(blade.mesh.points[blade.interface], expected.T, atol=1e-15)
+
+
 def test_root_and_tip_are_whole_faces(twisted):
     _, blade = twisted
     radius = np.hypot(*blade.mesh.doflocs[1:])

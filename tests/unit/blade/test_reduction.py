@@ -7,6 +7,7 @@ from bladerub.blade.linear import factorise, lowest_modes
 from bladerub.blade.model import stiffness_at
 from bladerub.blade.reduction import (
     Partition,
+    fit_speeds,
     internal_solve,
     mass_orthonormal,
     project,
@@ -91,6 +92,16 @@ def test_orthonormalisation_finds_the_rank_whatever_the_scale():
     np.testing.assert_allclose(psi @ (psi.T @ (mass @ independent)), independent, atol=1e-10)
 
 
+@pytest.mark.parametrize(("share", "rank"), [(0.9, 2), (1.1, 1)])
+def test_columns_are_dropped_below_the_tolerance_of_their_singular_values(share, rank):
+    """Two unit columns at an angle α have singular values whose ratio is tan(α / 2)."""
+    mass, angle = np.array([2.0, 5.0, 1.0]), 0.02
+    columns = np.array([[1.0, np.cos(angle)], [0.0, np.sin(angle)], [0.0, 0.0]]) * [3.0, 1e-4]
+    columns /= np.sqrt(mass)[:, None]
+    found = mass_orthonormal(columns, sparse.diags_array(mass).tocsc(), share * np.tan(angle / 2))
+    assert found.shape == (3, rank)
+
+
 def test_projection_and_speed_law_commute(blocks):
     fits, _, _, phi = blocks
     of_reduced = speed_law([project(K, phi) for K in fits], 0.4)
@@ -108,3 +119,13 @@ def test_factors_of_the_whole_solve_for_the_internal_coordinates(blocks):
     for columns in (slice(None), 0):
         wanted = exact(rhs[:, columns])
         np.testing.assert_allclose(solve(rhs[:, columns]), wanted, atol=1e-9 * np.abs(wanted).max())
+
+
+def test_the_speed_law_returns_what_it_was_fitted_to():
+    rng = np.random.default_rng(3)
+    assert fit_speeds(0.4, 5) == pytest.approx([0, 0.1, 0.2, 0.3, 0.4])
+    for count in (3, 5):
+        fits = [rng.standard_normal((2, 2)) for _ in range(count)]
+        law = speed_law(fits, 0.4)
+        for f_omega, fit in zip(fit_speeds(0.4, count), fits, strict=True):
+            np.testing.assert_allclose(stiffness_at(law, f_omega), fit, atol=1e-12)

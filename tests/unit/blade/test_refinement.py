@@ -1,3 +1,5 @@
+import types
+
 import pandas as pd
 import pytest
 
@@ -57,6 +59,52 @@ def test_a_tolerance_out_of_reach_is_refused_with_what_is_reached(reduced, monke
     monkeypatch.setattr(building, "MOST_FIT_SPEEDS", 3)
     with pytest.raises(BadInput, match=r"reduction.tolerance = 1e-05: the reduced model comes to"):
         reduced(tolerance=1e-5, rank_tolerance=0.1)
+
+
+@pytest.fixture
+def tried(monkeypatch):
+    """Search for a reduction with given errors by (fit speeds, modes); return what was tried, in order."""
+
+    def search(tolerance, speed_law, reduced_model, most_fit_speeds=7, mode=1):
+        tried = []
+
+        def reduce(n_speeds, reduction, *_):
+            tried.append((n_speeds, reduction["modes_per_speed"]))
+            table = pd.DataFrame({"mode": range(1, 9)}).assign(f_fe=1.0, f_fe_eq2=1.0, relative_error=0.0)
+            errors = [1 + speed_law(*tried[-1]), reduced_model(*tried[-1])]
+            table.loc[table["mode"] == mode, ["f_fe_eq2", "relative_error"]] = errors
+            return types.SimpleNamespace(accuracy=table)
+
+        monkeypatch.setattr(refinement, "_reduce", reduce)
+        config = {"blade": {"length": 0.2}, "reduction": {"modes_per_speed": 6, "tolerance": tolerance}}
+        refinement.reduce_to_tolerance(lambda n_speeds: n_speeds, config, "", most_fit_speeds)
+        return tried
+
+    return search
+
+
+def test_a_fit_speed_is_added_while_eq_2_has_more_than_half_of_the_tolerance(tried):
+    law = {3: 0.02, 4: 0.0051, 5: 0.0049}
+    found = tried(0.01, lambda n, _: law[n], lambda n, modes: 0.02 if modes < 10 else 0.01)
+    assert found == [(3, 6), (4, 6), (5, 6), (5, 8), (5, 10)]
+
+
+def test_fit_speeds_end_at_the_most_there_can_be(tried):
+    found = tried(0.01, lambda *_: 0.5, lambda _, modes: 0.02 if modes < 8 else 0.0, most_fit_speeds=4)
+    assert found == [(3, 6), (4, 6), (4, 8)]
+
+
+@pytest.mark.parametrize(("mode", "steps"), [(6, 13), (7, 1)])
+def test_the_first_six_modes_count_and_thirty_at_a_speed_are_the_most(tried, mode, steps):
+    def in_that_mode(_, modes):
+        return 0.0 if modes == 30 else 0.02
+
+    assert len(tried(0.01, lambda *_: 0.0, in_that_mode, mode=mode)) == steps
+
+
+def test_thirty_modes_that_are_not_enough_are_the_end(tried):
+    with pytest.raises(BadInput, match="30 modes at each"):
+        tried(0.01, lambda *_: 0.0, lambda *_: 0.02)
 
 
 def test_errors_are_the_largest_over_the_speeds():

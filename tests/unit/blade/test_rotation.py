@@ -57,6 +57,23 @@ def test_equilibrium_is_one_and_the_same_from_any_start(leaning_bar):
     assert np.linalg.norm(force) <= rotation.TOLERANCE * np.linalg.norm(load)
 
 
+@pytest.mark.parametrize("omega", [20.0, 100.0, 400.0, 900.0])
+def test_forces_balance_to_a_billionth_of_the_load(leaning_bar, omega):
+    u = equilibrium(leaning_bar, omega).displacement
+    load = np.linalg.norm(rotation.centrifugal_load(leaning_bar, u, omega**2))
+    assert np.linalg.norm(residual(leaning_bar, u, omega**2)) <= 1e-9 * load
+
+
+def test_matter_turned_inside_out_is_no_equilibrium(leaning_bar):
+    """Mirrored at its clamped end the bar is as free of strain as before, and Newton's method would stay."""
+    mirrored = leaning_bar.full(np.zeros(leaning_bar.free.size))
+    mirrored[:, 2] = -2 * (leaning_bar.mesh.points[:, 2] - 0.3)
+    u = mirrored.ravel()[leaning_bar.free]
+    start = rotation.Equilibrium(1.0, u, rotating_stiffness(leaning_bar, u, 1.0), 0, 0)
+    with pytest.raises(EquilibriumError):
+        equilibrium(leaning_bar, 30.0, start)
+
+
 def test_load_steps_are_halved_when_newton_needs_more(leaning_bar, monkeypatch):
     freely = equilibrium(leaning_bar, 900.0)
     assert freely.n_steps == 1
@@ -77,6 +94,8 @@ def test_a_large_model_has_the_same_equilibrium_by_its_factors_at_rest(leaning_b
     for start in (None, halfway):
         large = equilibrium(leaning_bar, 300.0, start, at_rest)
         np.testing.assert_allclose(large.displacement, small.displacement, atol=1e-8 * size)
+    assert halfway.n_iterations < 20
+    assert equilibrium(leaning_bar, 600.0, halfway, at_rest).n_iterations < 24
     assert not made
 
 
@@ -87,6 +106,14 @@ def test_a_load_near_the_rounding_of_the_forces_is_carried(leaning_bar):
     assert np.linalg.norm(force) > rotation.TOLERANCE * np.linalg.norm(load)
     size = np.abs(slow.displacement).max()
     np.testing.assert_allclose(100 * creeping.displacement, slow.displacement, atol=1e-3 * size)
+
+
+def test_the_stiffness_kept_is_that_of_the_equilibrium_at_its_speed(leaning_bar):
+    state = equilibrium(leaning_bar, 300.0)
+    expected = rotating_stiffness(leaning_bar, state.displacement, 300.0**2)
+    np.testing.assert_array_equal(state.stiffness.data, expected.data)
+    again = equilibrium(leaning_bar, 300.0, state)
+    assert (again.n_steps, again.n_iterations) == (0, 0)
 
 
 def test_rest_needs_no_solution(leaning_bar):

@@ -52,3 +52,12 @@ def test_units_are_those_of_the_law():
 def test_axes_that_do_not_go_together_are_refused(axes, said):
     with pytest.raises(ValueError, match=said):
         Frame(**axes)
+
+
+@pytest.mark.parametrize(("length", "is_valid"), [(0.0099, False), (0.01, True), (3.0, True), (3.01, False)])
+def test_lengths_of_blades_go_from_a_centimetre_to_three_metres(length, is_valid):
+    if is_valid:
+        Frame().check_length(length)
+    else:
+        with pytest.raises(ValueError, match="with the unit m the blade is"):
+            Frame().check_length(length)
