@@ -97,28 +97,21 @@ def make(
         spec = replace(run_spec(config, case, f_omega), revolutions=revolutions)
         results.append(simulate(blade, spec, _stopwatch(elapsed)))
         report(f"{f_omega:.4f} ({why}): {results[-1].message}")
-    variables = {
-        "f_omega": Variable(("run",), np.array(list(reasons)), "1", "rotational frequency, normalised"),
-        "why": Variable(("run",), np.array(list(reasons.values())), "1", "why it was made"),
-        "revolution_number": Variable(
-            ("revolution_number",), np.arange(1, revolutions + 1), "1", "revolution, counted from 1"
-        ),
-        "revolution_amplitude": Variable(
-            ("run", "revolution_number"),
-            np.stack([result.revolution_amplitude for result in results]),
-            "m",
+    over_runs, over_time, number = ("run",), ("run", "revolution_number"), np.arange(1, revolutions + 1)
+    amplitude = np.stack([result.revolution_amplitude for result in results])
+    described = {
+        "f_omega": (over_runs, list(reasons), "1", "rotational frequency, normalised"),
+        "why": (over_runs, list(reasons.values()), "1", "why it was made"),
+        "revolution_number": (("revolution_number",), number, "1", "revolution, counted from 1"),
+        "revolution_amplitude": (
+            *(over_time, amplitude, "m"),
             "half the range of the radial displacement of node 1 in each revolution",
         ),
-        "max_wear": Variable(
-            ("run",), np.array([result.wear.max() for result in results]), "m", "greatest worn depth"
-        ),
-        "status": Variable(
-            ("run",), np.array([result.status for result in results]), "1", "completed or unbounded"
-        ),
-        "seconds": Variable(
-            ("run", "revolution_number"), seconds, "s", "wall time until the end of each revolution"
-        ),
+        "max_wear": (over_runs, [result.wear.max() for result in results], "m", "greatest worn depth"),
+        "status": (over_runs, [result.status for result in results], "1", "completed or unbounded"),
+        "seconds": (over_time, seconds, "s", "wall time until the end of each revolution"),
     }
+    variables = {name: Variable(*description) for name, description in described.items()}
     hdf5.write(path, variables, asdict(case), provenance(config))
 
 
