@@ -142,6 +142,13 @@ def test_as_many_levels_are_read_as_the_limit_says(folder):
     assert f"more than {files.DEEPEST} levels" in error_of("b.yaml")
 
 
+@pytest.mark.parametrize("write", [lambda text: f"a: {text}", lambda text: f"{text}: a"])
+def test_keys_and_values_are_as_long_as_the_limit_says(folder, write):
+    folder(a=write("x" * LONGEST_VALUE), b=write("x" * (LONGEST_VALUE + 1)))
+    assert len(str(compose("a.yaml").plain())) > LONGEST_VALUE
+    assert f"more than {LONGEST_VALUE} characters" in error_of("b.yaml")
+
+
 def test_as_many_files_are_extended_as_the_limit_says(folder):
     names = [f"f{index}.yaml" for index in range(MOST_EXTENDED + 1)]
     folder(**{name.removesuffix(".yaml"): f"{name[0]}: 1\n" for name in names})
