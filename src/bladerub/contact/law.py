@@ -44,7 +44,7 @@ def element(coating: Coating, area: float | np.ndarray) -> Element:
 
 @elementwise
 def return_mapping(element, depth, wear):
-    """Find the force of an element and how much it wears.
+    """Find the force of an element and how much it wears (Fig. 4).
 
     Parameters
     ----------

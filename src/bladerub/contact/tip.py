@@ -13,7 +13,7 @@ from bladerub.numerics.vectors import absolute, elementwise, maximum, minimum
 
 @elementwise
 def relief(tip, offset):
-    """Depth of the profile below its highest point, m.
+    """Depth of the profile below its highest point (Fig. 3), m.
 
     Parameters
     ----------
@@ -27,7 +27,7 @@ def relief(tip, offset):
 
 @elementwise
 def coverage(tip, offset):
-    """Share (0 to 1) of an element that the profile covers.
+    """Share (0 to 1) of an element that the profile covers (Fig. 3).
 
     Parameters
     ----------
