@@ -1,4 +1,4 @@
-"""Each line of docs/reference/equations.md names a function, and its tag is in the source of that function."""
+"""Each line of docs/reference/equations.md names a function whose source bears the tag of that line."""
 
 from __future__ import annotations
 
