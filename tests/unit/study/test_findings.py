@@ -215,6 +215,18 @@ def test_wear_maxima_elsewhere_break_the_claims_on_them(paper, judge, make_map):
     assert list(judge(*paper).measured[["C3a", "C3c"]]) == ["none", "none"]
 
 
+def test_a_claim_says_the_same_whether_it_holds_or_nothing_is_found(paper, judge, make_map):
+    before = judge(*paper)
+    nothing = make_map(WORN, {5: (0.26, 1e-3)}, SPEEDS, lobes=3)
+    nothing.max_wear[:] = 1e-4
+    paper[2][WORN.name] = nothing
+    after = judge(*paper)
+    assert list(after.measured[["C2c", "C3a"]]) == ["none"] * 2
+    for column in ("claim", "paper", "unit"):
+        pd.testing.assert_series_equal(after[column], before[column])
+    assert after.margin[["C2c", "C3a"]].isna().all()
+
+
 def test_odd_orders_and_missing_orders_break_the_claims_on_them(paper, judge, make_map):
     soft, critical = CoatingCase("2nd", 0.11, 0.5, 0.0), CoatingCase("2nd", 1.1, 0.5, 0.0)
     paper[2][soft.name] = make_map(soft, {4: (0.31, 1e-4), 5: (0.24, 5e-5)}, SPEEDS)
