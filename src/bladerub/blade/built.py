@@ -24,7 +24,7 @@ class BuiltBlade:
     mesh: BladeMesh  # at rest
     frequency: np.ndarray  # (n_modes,), of the unreduced model at rest, Hz
     mode_shape: np.ndarray  # (n_modes, n_nodes, 3), of these frequencies, largest displacement 1
-    recovery: np.ndarray  # (n, n_nodes, 3), displacement of the nodes per reduced coordinate, eq. (5)
+    recovery: np.ndarray  # (n, n_nodes, 3), displacement of the nodes per reduced coordinate, eq. (6)
     static_displacement: np.ndarray  # (n_speeds, n_nodes, 3), from rest to the equilibria at speed, m
     static_speed: np.ndarray  # (n_speeds,), normalised, the accuracy speeds whose equilibria are known
     accuracy: pd.DataFrame  # from `bladerub.blade.accuracy.accuracy_table`

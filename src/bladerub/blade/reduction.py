@@ -37,7 +37,7 @@ def _quartic_law(at_rest, at_half, at_max, f_max: float) -> tuple:
     k1 = (16 * at_half - at_max - 15 * at_rest) / (3 * f_max**2)  # eq. (3)
     # eq. (3) is misprinted there: the factor 3 / (4 f_max^4) of the paper does not return K(f_max / 2) and
     # K(f_max); its reciprocal in the numbers, 4 / (3 f_max^4), does.
-    k2 = 4 / (3 * f_max**4) * (at_max - 4 * at_half + 3 * at_rest)
+    k2 = 4 / (3 * f_max**4) * (at_max - 4 * at_half + 3 * at_rest)  # eq. (3), corrected
     return k0, k1, k2
 
 

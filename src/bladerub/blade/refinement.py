@@ -108,7 +108,7 @@ def _reduce(blade: DiscreteBlade, reduction: Mapping[str, Any], length: float, m
         mesh,
         blade.frequency,
         shapes / np.abs(shapes).max(axis=(1, 2), keepdims=True),
-        np.stack([full(column) for column in phi.T]),
+        np.stack([full(column) for column in phi.T]),  # eq. (6)
         np.array([full(blade.displacement[f_omega]) for f_omega in moved]).reshape(-1, *shapes.shape[1:]),
         np.array(moved, dtype=float),
         accuracy_table(reduced, blade.frequencies, _frequencies_by_law(blade, fits, f_max)),

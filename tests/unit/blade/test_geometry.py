@@ -118,7 +118,7 @@ def test_the_flow_path_widens_gradually_from_a_cylindrical_hub_to_the_tip(blade_
 
 
 def test_check_finds_elements_inside_out_at_some_corners(blade_config):
-    """A section so thick that its hollow side folds, while the other elements stay sound."""
+    """A section so thick that its hollow side folds, while the other elements stay in order."""
     blade_config["sections"] = [section(span, thickness=1.0, camber=100.0) for span in (0.0, 1.0)]
     blade_config["mesh"].update(spanwise=1)
     corners = np.meshgrid(np.linspace(0, 1, 8), [0.0, 1.0], [0.0, 1.0], indexing="ij")

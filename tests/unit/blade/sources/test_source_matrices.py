@@ -14,9 +14,10 @@ from bladerub.blade.discrete import by_finite_elements
 from bladerub.blade.elasticity import Material, Solid
 from bladerub.blade.frequencies import reduced_frequencies
 from bladerub.blade.rotation import rotating_stiffness
+from bladerub.blade.sources import matrix_folder
 from bladerub.blade.sources.frame import Frame
 from bladerub.blade.sources.matrices import import_matrices
-from bladerub.blade.sources.origin import MatrixSource, read
+from bladerub.blade.sources.origin import MATRIX_UNITS, MatrixSource, read
 from bladerub.export.matrices import write_fe_matrices
 from bladerub.io.errors import BadInput
 
@@ -369,3 +370,20 @@ def test_broken_folders_are_refused_with_file_and_culprit(folder, name):
 def test_keys_that_do_not_go_together_are_refused(source, said):
     with pytest.raises(ValueError, match=said):
         read(source)
+
+
+def test_units_of_matrices_are_those_of_their_systems():
+    pound_force, inch = 4.4482216152605, 0.0254
+    assert {"SI": 1.0, "mm-tonne": 1e3, "inch-lbf": pytest.approx(pound_force / inch)} == MATRIX_UNITS
+
+
+@pytest.mark.parametrize(("off", "is_symmetric"), [(0.9e-8, True), (1.1e-8, False)])
+def test_matrices_are_symmetric_to_1e_8_of_their_largest_entry(tmp_path, off, is_symmetric):
+    entries = np.array([[4.0, 1.0], [1.0 + 4.0 * off, 2.0]])
+    sparse.save_npz(tmp_path / "mass.npz", sparse.csc_array(entries))
+    if is_symmetric:
+        matrix = matrix_folder.read_matrix(tmp_path / "mass.npz").toarray()
+        np.testing.assert_array_equal(matrix, matrix.T)
+    else:
+        with pytest.raises(ValueError, match=r"is not symmetric: its entry \(\d, \d\)"):
+            matrix_folder.read_matrix(tmp_path / "mass.npz")
