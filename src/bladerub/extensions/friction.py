@@ -1,4 +1,4 @@
-"""The two laws of friction side by side: a force of constant direction, and Coulomb's."""
+"""The two laws of friction compared: a contact force of constant direction, and Coulomb's law."""
 
 from __future__ import annotations
 
@@ -31,31 +31,26 @@ COLUMNS = [
 
 
 def table(pairs: Iterable[tuple[str | Path, str | Path]], revolutions: int) -> pd.DataFrame:
-    """Compare the runs of each pair of coatings, speed by speed.
+    """Compare the runs of each pair of coatings, speed by speed: a row per run, with `COLUMNS`.
 
     Parameters
     ----------
     pairs : iterable of (path, path)
-        Manifests of a coating with a constant direction and of the same by Coulomb's law.
+        Manifests of a coating with a force of constant direction and of the same by Coulomb's law.
     revolutions : int
-        The peaks are those of so many last revolutions.
-
-    Returns
-    -------
-    DataFrame
-        A row per coating and speed, with `COLUMNS`.
+        Number of last revolutions in which the peaks are sought.
 
     Raises
     ------
     OSError
-        If a manifest or run is missing or damaged, or a pair has not the same speeds.
+        If a manifest or run is missing or damaged, or the speeds of a pair differ.
     """
     rows = []
     for constant_path, coulomb_path in pairs:
         pair = list(_runs(Path(constant_path))), list(_runs(Path(coulomb_path)))
         speeds, others = ([run.attributes["f_omega"] for run in runs] for runs in pair)
         if speeds != others:
-            raise DamagedFile(f"{coulomb_path}: not of the speeds of {constant_path}")
+            raise DamagedFile(f"{coulomb_path}: its speeds are not those of {constant_path}")
         for constant, coulomb in zip(*pair, strict=True):
             about = constant.attributes
             peaks = [
@@ -83,5 +78,5 @@ def _runs(manifest: Path) -> Iterator[StoredRun]:
 
 
 def _reversed(run: StoredRun) -> float:
-    """Share of the steps in contact in which a node that touches does not slide with the rotation."""
+    """Share of the steps in contact in which a node in contact does not slide with the rotation."""
     return run.attributes["n_reversed_steps"] / max(run.attributes["n_contact_steps"], 1)

@@ -101,3 +101,9 @@ def test_an_unbounded_run_is_divergent(measured, make_result):
 def test_the_longer_run_decides_whether_growth_lasts(measured, make_result, later, divergent):
     point = measured(make_result(growth=0.05), make_result(revolutions=60, growth=later))
     assert (point.measures["divergent"][point.uniform] == divergent).all()
+
+
+def test_the_amplitude_just_above_the_highest_order_counts(measured, make_result, few_speeds):
+    few_speeds["analysis"]["peaks"]["order_halfwidth"] = 0.2
+    point = measured(make_result(order=6.1, amplitude=1e-3))
+    np.testing.assert_allclose(point.spectrum_amplitude[point.known, 1], 1e-3, rtol=1e-3)
