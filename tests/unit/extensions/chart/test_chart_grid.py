@@ -42,3 +42,8 @@ def test_an_order_without_a_crossing_is_refused(config):
     config["speeds"]["stop"] = 0.24
     with pytest.raises(BadInput, match=r"speeds.stop = 0.24: must be at least 0.25 for the chart"):
         check(config)
+
+
+def test_an_order_that_crosses_at_the_highest_speed_is_enough(config):
+    config["speeds"]["stop"] = 0.25
+    check(config)
