@@ -304,3 +304,22 @@ def test_share_of_divergent_runs_on_softer_coatings(paper, verdict, n_runs, n_di
     others = pd.concat([table.iloc[:1]] * 9).assign(E=0.11, divergent=True)  # of the paper's range
     paper[1]["divergence"] = pd.concat([table, softer, others], ignore_index=True)
     assert verdict("C12b") == holds
+
+
+def test_without_a_run_in_the_range_of_five_lobes_it_is_not_judged(paper, verdict, make_map):
+    paper[2][WORN.name] = make_map(WORN, {5: (0.26, 1e-3)}, [0.09, 0.1, 0.23, 0.35, 0.38])
+    assert [verdict(id_) for id_ in ("C2a", "C2b")] == [None, None]
+
+
+@pytest.mark.parametrize(("id_", "mode", "others"), [("C1a", 3, "C1b"), ("C1b", 7, "C1a")])
+def test_without_a_mode_the_reduced_model_is_not_judged(paper, verdict, id_, mode, others):
+    table = paper[1]["rom_accuracy"]
+    paper[1]["rom_accuracy"] = table[table["mode"] != mode]
+    assert (verdict(id_), verdict(others)) == (None, "yes")
+
+
+def test_moduli_are_compared_along_rows_and_columns_with_two_of_them(paper, verdict, peaks):
+    diagonal = rows(peaks, 4, 1.1, 0.5) | rows(peaks, 4, 2.0, 0.1)
+    paper[1]["peaks"] = peaks[diagonal]
+    assert verdict("C6a") == "yes"
+    assert [verdict(id_) for id_ in ("C6b", "C7a", "C7b", "C8a", "C8b")] == [None] * 5
