@@ -48,14 +48,7 @@ def parts(
     spectrum_revolutions: int,
     max_frequency: float,
 ) -> dict[str, str]:
-    """Pack one coating.
-
-    Parameters
-    ----------
-    coating, divergence, runs, spectrum_revolutions
-        As of `bladerub.explorer.figures.of_runs`.
-    max_frequency : float
-        Spectra are kept up to there at least, normalised.
+    """Pack one coating; parameters as of `figures.of_runs` and `kept_orders`.
 
     Returns
     -------

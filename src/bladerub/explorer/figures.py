@@ -32,16 +32,8 @@ def of_runs(
 ) -> dict[str, list]:
     """Figures of every run of one coating, each a list over its speeds.
 
-    Parameters
-    ----------
-    coating : CoatingMap
-        The runs.
-    divergence : DataFrame
-        ``divergence.csv``.
-    runs : list of ManifestRow
-        The manifest of the coating.
-    spectrum_revolutions : int
-        Revolutions at the end over which the peak is taken.
+    They come from its map, from ``divergence.csv`` and from its manifest; the peak is that of the last
+    `spectrum_revolutions`.
 
     Returns
     -------

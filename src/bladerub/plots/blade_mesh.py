@@ -19,10 +19,7 @@ from bladerub.plots.style import DARK, PAGE, RED, new_figure, styled
 class View:
     """Parallel projection with z upwards.
 
-    Parameters
-    ----------
-    elevation, azimuth : float
-        Direction from the object to the eye, degrees: over the x-y plane, and in it from x towards y.
+    The eye is at `elevation` over the x-y plane and at `azimuth` in it from x towards y, degrees.
     """
 
     elevation: float

@@ -49,26 +49,10 @@ def peak_histogram(peaks: pd.DataFrame, quantity: str, order: int) -> tuple[pd.D
 def histogram(
     table: pd.DataFrame, label: str, digits: int, floor: float = 0.0, frame_maximum: bool = True
 ) -> Figure:
-    """Draw a quantity over (E, K) as 3D bars (a) and as an annotated map (b).
+    """Draw a quantity over E (rows) and K (columns) as 3D bars (a) and as an annotated map (b).
 
-    Parameters
-    ----------
-    table : DataFrame
-        The quantity by E (rows) and K (columns), ascending moduli that are drawn as equal steps; NaN where
-        it is missing: no bar, and a grey field with a dash.
-    label : str
-        Name of the quantity with its unit.
-    digits : int
-        Decimals in the map.
-    floor : float, optional
-        Where the bars and the colours begin.
-    frame_maximum : bool, optional
-        Whether the greatest value is framed: of speeds, several are equal and none stands out.
-
-    Raises
-    ------
-    ValueError
-        If all values are missing.
+    The moduli are drawn as equal steps, NaN as no bar and a grey field with a dash; a `table` of NaN alone
+    is a ValueError. Bars and colours begin at the `floor`.
     """
     values = table.to_numpy(dtype=float)
     if np.isnan(values).all():

@@ -47,18 +47,9 @@ def history(
     amplitude: Mapping[str, np.ndarray],
     title: str,
 ) -> Figure:
-    """Draw Figs. 17 and 18: the radial displacement of node 1 in two runs.
+    """Draw the radial displacement of node 1 in two runs, m, by their names; NaN after an early end.
 
-    Parameters
-    ----------
-    revolution : (n,) array_like
-        Time in revolutions.
-    displacement : mapping of str to (n,) array_like
-        Radial displacement, m, by the name of the run; two runs. NaN after an early end.
-    amplitude : mapping of str to (n_revolutions,) array_like
-        Half the range of the displacement in each revolution, m, by the same names.
-    title : str
-        What was simulated.
+    `revolution` is the time, `amplitude` half the range of the displacement in each revolution, m.
     """
     figure = new_figure(PAGE, 0.76 * PAGE)
     figure.suptitle(title, fontsize=9.5, x=0.01, ha="left")

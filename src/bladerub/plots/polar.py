@@ -81,15 +81,7 @@ def wear_profiles(maps: Iterable[CoatingMap], speeds: Iterable[float]) -> tuple[
 
 @styled
 def wear_polar(angle: np.ndarray, wear: Mapping[str, Mapping[str, np.ndarray]]) -> Figure:
-    """Draw Fig. 19: a panel for each speed, in it a line for each of two cases, on one scale.
-
-    Parameters
-    ----------
-    angle : (n_elements,) array_like
-        Casing angle, rad.
-    wear : mapping of str to mapping of str to (n_elements,) array_like
-        Worn depth, m, by panel title and name of the case.
-    """
+    """Draw the worn depth, m, by panel title and name of the case: two cases in a panel, all on one scale."""
     figure = new_figure(PAGE, (0.2 + 0.8 / len(wear)) * PAGE)
     deepest = 1e3 * max(np.nanmax(depth) for panel in wear.values() for depth in panel.values())
     for index, (title, cases) in enumerate(wear.items()):

@@ -29,16 +29,8 @@ _RING = {"marker": "o", "fillstyle": "none", "zorder": 4, "linestyle": "none"}
 class PeakSection:
     """Amplitude along one engine order, and its maximum.
 
-    Parameters
-    ----------
-    order : int
-        The engine order k.
-    amplitude : (n,) ndarray
-        Amplitude on eo(k) at each speed, m.
-    window : (float, float)
-        Speeds between which the maximum was searched, normalised.
-    peak : Peak
-        The maximum: f_k and Y_k.
+    `amplitude` (n,) is that on eo(k) at each speed, m; the maximum `peak` was searched between the speeds of
+    the `window`, normalised.
     """
 
     order: int
