@@ -82,5 +82,9 @@ def test_the_tip_shows_its_face_and_numbered_nodes_in_mm(panels):
     assert tip.vertices.max() == pytest.approx(1e3)
     numbers = [text.get_text() for text in panels[1].texts if text.get_text().isdigit()]
     assert numbers == [str(i) for i in range(1, 9)]
+    points, _ = tower(3)
+    ends = 1e3 * points[points[:, 2] == 3][[0, -1], :2]
+    at = {text.get_text(): text.xy for text in panels[1].texts}
+    np.testing.assert_allclose([at["leading edge"], at["trailing edge"]], ends)
     assert panels[1].get_xlabel() == "axial x (mm)"
     assert panels[1].get_aspect() == 1

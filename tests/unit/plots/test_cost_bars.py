@@ -19,3 +19,5 @@ def test_bars_are_minutes_and_megabytes(stages):
     assert [label.get_text() for label in time.get_yticklabels()] == ["blade", "rubs"]
     assert {text.get_text() for text in time.texts} == {"10.0%, 1 job", "90.0%, 57 jobs"}
     assert time.yaxis_inverted()
+    assert time.get_xlim() == pytest.approx((0, 1.45 * 9))  # with room for the words
+    assert memory.get_xlim() == pytest.approx((0, 1.2 * 480))

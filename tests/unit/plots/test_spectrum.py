@@ -68,6 +68,12 @@ def test_curves_are_the_amplitudes_in_mm(peak_axes, sections):
     for curve, section in zip(curves, sections, strict=True):
         np.testing.assert_allclose(curve.get_xdata(), 1e3 * section.amplitude)
     assert peak_axes[1].get_xlabel() == "amplitude (mm)"
+    assert peak_axes[1].get_xlim() == pytest.approx((0, 1.1 * 0.101))
+
+
+def test_the_engine_orders_of_the_peaks_are_marked(peak_axes):
+    rays = [line.get_xydata()[1] for line in peak_axes[0].lines if line.get_label() == "_section"]
+    np.testing.assert_allclose(rays, [[4 * 0.35, 0.35], [6 * 0.35, 0.35]])
 
 
 def test_the_legend_gives_height_and_speed(peak_axes):

@@ -1,6 +1,7 @@
 from dataclasses import replace
 
 import numpy as np
+import pytest
 
 from bladerub.plots.wear_map import wear_map
 from bladerub.study.grid import CoatingCase
@@ -12,6 +13,9 @@ def test_depth_over_speed_and_angle(coating_map, draws):
     np.testing.assert_allclose(mesh.get_array().reshape(40, 6), 1e3 * coating_map.wear.T)
     assert mesh.norm.vmin == 0
     assert upper.get_ylim() == (0, 360)
+    np.testing.assert_allclose(mesh.get_coordinates()[:, 0, 1], np.arange(41) * 9.0, atol=1e-9)  # degrees
+    assert lower.get_xlim() == pytest.approx((0, 0.375))
+    assert lower.get_ylim()[0] == 0
     assert upper.get_ylabel() == "casing angle (°)"
     assert "(mm)" in bar.get_ylabel()
     assert r"f_\Omega" in lower.get_xlabel()
