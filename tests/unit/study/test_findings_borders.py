@@ -128,6 +128,17 @@ def test_wear_maxima_that_are_compared_with_vibration(evidence, make_map, offset
     assert (measure("C3c", evidence([coating])).measured != "none") == found
 
 
+@pytest.mark.parametrize(("offset", "near"), [(0.0249, True), (0.0251, False)])
+@pytest.mark.parametrize("id_", ["C2d", "C3b", "C3d"])
+def test_speeds_that_can_show_what_the_paper_sees_near_its_own(evidence, make_map, id_, offset, near):
+    study = evidence([make_map(WORN, {}, [0.02, 0.1, 0.38 - offset])])
+    if near:
+        assert measure(id_, study).paper is not None
+    else:
+        with pytest.raises(findings.NotMeasurable):
+            measure(id_, study)
+
+
 @pytest.mark.parametrize(("height", "found"), [(1.01e-5, True), (0.99e-5, False)])
 def test_prominence_of_a_maximum_over_speed(evidence, make_map, height, found):
     f_omega = np.array([0.02, 0.05, 0.24, 0.26, 0.28, 0.4])
@@ -170,7 +181,15 @@ def test_ratio_of_the_critical_to_the_soft_peak(evidence, id_, ratio, holds):
 
 @pytest.mark.parametrize(
     ("n_orders", "n_significant", "holds"),
-    [(10, 10, "yes"), (10, 9, "yes"), (9, 8, "partly"), (10, 8, "partly"), (10, 6, "partly"), (10, 5, "no")],
+    [
+        (10, 10, "yes"),
+        (10, 9, "yes"),
+        (9, 8, "partly"),
+        (10, 8, "partly"),
+        (10, 6, "partly"),
+        (7, 4, "no"),
+        (10, 5, "no"),
+    ],
 )
 def test_share_of_orders_with_a_significant_amplitude(evidence, make_map, n_orders, n_significant, holds):
     orders = range(13 - n_orders, 13)  # those that cross C1 up to the highest speed

@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from bladerub.study.summary import summarise
+from bladerub.study.summary import spectral_peak, summarise
 
 
 def test_a_steady_run(spec, config, make_result):
@@ -26,6 +26,13 @@ def test_a_growing_run(spec, config, make_result):
     assert summary["growth_per_revolution"] == pytest.approx(0.03)
     assert summary["growth_low"] < 0.03 < summary["growth_high"]
     assert summary["peak_amplitude"] == pytest.approx(1e-3 * 1.03**19, rel=1e-4)
+
+
+@pytest.mark.parametrize(("order", "found"), [(0.4, 6.0), (0.5, 0.5)])
+def test_slow_drift_is_no_vibration(order, found):
+    orders = np.arange(100) / 10
+    amplitude = np.where(orders == order, 2.0, np.where(orders == 6.0, 1.0, 0.0))
+    assert spectral_peak(orders, amplitude) == (found, 1.0 if order < 0.5 else 2.0)
 
 
 def test_the_peak_is_of_the_last_revolutions(spec, config, make_result):

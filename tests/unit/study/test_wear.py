@@ -42,6 +42,11 @@ def test_nodes_are_averaged(angle):
     assert lobes(angle, wear, PROMINENCE) == 5
 
 
+def test_lobes_that_the_mean_of_the_nodes_levels_do_not_count(angle):
+    wave = 1e-3 * np.cos(5 * angle)
+    assert lobes(angle, np.stack([1e-3 + wave, 1e-3 - wave]), PROMINENCE) == 0
+
+
 def test_shallow_lobes_do_not_count(angle):
     wear = pattern(angle, 2)
     wear += 0.1 * wear.max() * (np.abs(angle - np.pi / 2) < 0.1)
