@@ -296,7 +296,8 @@ def test_difference_from_the_rigid_casing(peaks, verdict, difference, holds, sid
 
 
 @pytest.mark.parametrize(
-    ("n_runs", "n_divergent", "holds"), [(40, 0, "yes"), (40, 1, "partly"), (20, 1, "partly"), (19, 1, "no")]
+    ("n_runs", "n_divergent", "holds"),
+    [(400, 0, "yes"), (400, 1, "partly"), (400, 20, "partly"), (399, 20, "no")],
 )
 def test_share_of_divergent_runs_on_softer_coatings(paper, verdict, n_runs, n_divergent, holds):
     table = paper[1]["divergence"]
@@ -323,3 +324,32 @@ def test_moduli_are_compared_along_rows_and_columns_with_two_of_them(paper, verd
     paper[1]["peaks"] = peaks[diagonal]
     assert verdict("C6a") == "yes"
     assert [verdict(id_) for id_ in ("C6b", "C7a", "C7b", "C8a", "C8b")] == [None] * 5
+
+
+@pytest.mark.parametrize("dropped", [[20.0], [5.0, 11.0]])
+def test_the_rigid_casing_is_compared_with_the_stiffest_and_a_softer_one(verdict, peaks, dropped):
+    highest = peaks.E.isin(dropped) & (HARDENING[-1] == peaks.K)
+    peaks.loc[highest, "amplitude"] = np.nan
+    assert verdict("C12a") is None
+
+
+def test_one_row_of_moduli_ranks_nothing(paper, verdict, peaks):
+    paper[1]["peaks"] = peaks[peaks.K == 0.5]
+    assert [verdict(id_) for id_ in ("C6a", "C6b", "C7a", "C9a")] == [None] * 4
+
+
+@pytest.mark.parametrize(("speeds", "is_judged"), [([0.2, 0.25, 0.29], True), ([0.25, 0.29], False)])
+def test_one_order_alone_shows_no_share(paper, verdict, make_map, speeds, is_judged):
+    """C1 is crossed by order 4 at 0.277, by order 5 at 0.213."""
+    paper[2][CRITICAL.name] = make_map(CRITICAL, {4: (0.25, 1e-3), 5: (0.2, 1e-3)}, speeds)
+    assert (verdict("C5c") is not None) == is_judged
+
+
+def test_verdicts_of_several_studies_are_laid_out_in_their_order():
+    table = pd.DataFrame(
+        [("C2a", "b", "yes"), ("C1a", "b", "no"), ("C2a", "a", "partly"), ("C1a", "a", "no")],
+        columns=["id", "study", "holds"],
+    )
+    wide = findings.verdicts(table, by="study")
+    assert (list(wide.index), list(wide.columns)) == (["C2a", "C1a"], ["b", "a"])
+    assert wide.to_numpy().tolist() == [["yes", "partly"], ["no", "no"]]
