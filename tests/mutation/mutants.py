@@ -71,7 +71,9 @@ def find_mutants(file: str, source: str) -> list[Mutant]:
     finder = _Finder(source)
     finder.visit(ast.parse(source))
     mutants = [Mutant(file, *change) for change in finder.changes]
-    return [mutant for mutant in mutants if _compiles(mutant.apply(source))]
+    return [
+        mutant for mutant in mutants if mutant.apply(source) != source and _compiles(mutant.apply(source))
+    ]
 
 
 def sample(mutants: Sequence[Mutant], number: int, draw: random.Random) -> list[Mutant]:

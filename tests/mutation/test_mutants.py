@@ -29,9 +29,10 @@ def test_each_kind_of_mutant(source, kind, mutated):
 
 
 @pytest.mark.parametrize(
-    "source", ["import a", "def f(a: 1 + 2) -> 3: ...", "@f(a=1)\ndef g(): ...", "a = f'{b + 1}'"]
+    "source",
+    ["import a", "def f(a: 1 + 2) -> 3: ...", "@f(a=1)\ndef g(): ...", "a = f'{b + 1}'", "a = b(c, c)"],
 )
-def test_imports_annotations_decorators_and_messages_stay(source):
+def test_imports_annotations_decorators_messages_and_equal_arguments_stay(source):
     assert find_mutants("file.py", source) == []
 
 
