@@ -112,6 +112,8 @@ class _Coating:
         self.spec, n = spec, spec.coating.n_elements
         x, y, z = blade.node_position.T[:, :, None]  # a row for each interface node
         self.radius, self.node_angle = np.hypot(y, z), spec.casing.start_angle + np.arctan2(y, z)
+        outward = np.sum(blade.radial_direction[:, 1:] * blade.node_position[:, 1:], axis=1)[:, None]
+        self.curvature_radius = self.radius**2 / outward  # of the conical flow path (Meusnier)
         self.speed = 2 * np.pi * spec.f_omega * blade.f1_hz
         self.angle = (np.arange(n) + 0.5) * 2 * np.pi / n
         edges = np.concatenate([x[:1], (x[1:] + x[:-1]) / 2, x[-1:]])
@@ -132,14 +134,15 @@ class _Coating:
         offset = (self.angle - position + np.pi) % (2 * np.pi) - np.pi
         offset *= self.spec.coating.n_elements / (2 * np.pi)
         # eq. (8): g = g₀ + (u^m − u^s) · n, under the profile of Fig. 3; u^s is the wear
-        approach = np.hypot(self.radius + u_r, u_t) - self.radius - relief(self.spec.tip, offset)
+        R = self.curvature_radius
+        approach = np.hypot(R + u_r, u_t) - R - relief(self.spec.tip, offset)
         gap = self.initial_gap - approach + self.wear
         # Fig. 4, and eq. (9): no force where the gap is open, and never a pulling one
         share = coverage(self.spec.tip, offset)
         element_force, increment = law.return_mapping(self.element, -gap, self.wear)
         magnitude = np.sum(share * element_force, axis=1, keepdims=True)
         # F_r = −cos θ |F| e_r and F_θ = −sin θ |F| e_θ, at the displaced node
-        direction = np.arctan2(u_t, self.radius + u_r) + self.spec.coating.theta
+        direction = np.arctan2(u_t, R + u_r) + self.spec.coating.theta
         force = np.concatenate([-magnitude * np.cos(direction), -magnitude * np.sin(direction)])
         return force.ravel(), self.wear + np.where(share > 0, increment, 0.0)
 

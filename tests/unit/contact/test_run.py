@@ -21,7 +21,9 @@ def test_loop_agrees_with_numpy_reference_to_rounding(blade, spec, change, schem
     spec = change(spec, E=E, K=K, theta=theta, revolutions=1)
     x = np.array([-23, -20, -12, -8, 1, 9, 14, 24]) * 1e-3  # unevenly along the chord
     position = np.column_stack([x, *blade.node_position[:, 1:].T])
-    blade = dataclasses.replace(blade, node_position=position)
+    cone = np.deg2rad(20.0)
+    outward = np.cos(cone) * blade.radial_direction + [np.sin(cone), 0.0, 0.0]
+    blade = dataclasses.replace(blade, node_position=position, radial_direction=outward)
     spec = change(spec, scheme=scheme, steps_per_element=steps, max_time_step=1e-3)
     result = simulate(blade, spec)
     history, wear = reference.simulate(blade, spec, result.n_steps, result.n_modes)
