@@ -211,6 +211,6 @@ def test_a_blade_without_its_mesh_is_refused(export, tmp_path, folder):
     changed(folder / "results" / "blade" / "mesh.h5", mesh)
     with h5py.File(mesh, "a") as file:
         file["points"][...] *= 1.01
-    assert "is the mesh of another blade" in export(tmp_path / "motion", "--blade", str(blade))[2]
+    assert f"{mesh}: is not the mesh" in export(tmp_path / "motion", "--blade", str(blade))[2]
     mesh.write_bytes(blade.read_bytes())
     assert "not the mesh of a blade" in export(tmp_path / "motion", "--blade", str(blade))[2]
