@@ -140,14 +140,15 @@ def choose(options: argparse.Namespace, done: dict[tuple[str, ...], Row]) -> lis
     """Choose what is to be tried: named faults, survivors of the table, or a sample of each room."""
     if options.named:
         return named_faults()
+    equivalent = read_rows(HERE / "equivalent.tsv")
     if options.again:
-        survivors = {key for key, row in done.items() if row["outcome"] == "survived"}
+        survivors = {
+            key for key, row in done.items() if row["outcome"] == "survived" and key not in equivalent
+        }
         found = (mutant for mutants in all_mutants(list(ROOMS)).values() for mutant in mutants)
         return list({key: mutant for mutant in found if (key := _key(mutant)) in survivors}.values())
-    draw = random.Random(options.seed)
     numbers = {name: int(number) for name, number in (part.split("=") for part in options.rooms)}
-    equivalent = read_rows(HERE / "equivalent.tsv")
-    chosen = []
+    draw, chosen = random.Random(options.seed), []
     for name, mutants in all_mutants(list(numbers)).items():
         differing = list(
             {key: mutant for mutant in mutants if (key := _key(mutant)) not in equivalent}.values()
