@@ -110,6 +110,8 @@ class Copy:
         if done.returncode == 0:
             return "", time.monotonic() - began
         failed = FAILED.search(done.stdout)
+        if done.returncode < 0:
+            return "crash", time.monotonic() - began
         if not failed and done.returncode not in (3, 4):  # a conftest that cannot be imported
             raise RuntimeError(f"pytest failed in {self.folder}:\n{done.stdout}{done.stderr}")
         return failed[1] if failed else "conftest", time.monotonic() - began

@@ -101,6 +101,8 @@ def try_all(mutants: Sequence[Mutant], jobs: int, table: Path) -> list[Row]:
 
         list(pool.map(prepare, range(jobs)))
         for done in as_completed([pool.submit(attempt, mutant) for mutant in mutants]):
+            if done.exception():
+                pool.shutdown(cancel_futures=True)
             rows.append(done.result())
             append(table, rows[-1])
             print(f"{len(rows)}/{len(mutants)}", *rows[-1].values(), sep=" | ", flush=True)
