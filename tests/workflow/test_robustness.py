@@ -5,6 +5,8 @@ from __future__ import annotations
 import pytest
 import yaml
 
+from bladerub.io import tables
+
 PLAN = {
     "seed": 1,
     "factors": {
@@ -58,8 +60,8 @@ def test_the_design_is_made_once_and_a_lost_job_is_made_anew_alone(copied_study,
         "robustness": 1,
     }
     copied_study.build(planned, "robustness")
-    tables = copied_study.results / "tables"
-    table = tables.read(tables / "robustness.csv").set_index("id")
+    folder = copied_study.results / "tables"
+    table = tables.read(folder / "robustness.csv").set_index("id")
     assert list(table.index[4:6]) == ["C3c", "C3d"]
     table = table[table.samples > 0]  # the tiny study does not reach 0.38
     assert list(table.index) == ["C1a", "C1b", "C3a", "C3c", "C10a", "C10b", "C10c", "C10d"]
@@ -67,20 +69,20 @@ def test_the_design_is_made_once_and_a_lost_job_is_made_anew_alone(copied_study,
     assert (table.samples[4:] == 2).all()
     assert (table.yes_share + table.partly_share + table.no_share).to_numpy() == pytest.approx(1)
     assert (table.runs_per_sample > 0).all()
-    design = tables.read(tables / "robustness_design.csv")
+    design = tables.read(folder / "robustness_design.csv")
     assert len(design) == 16 * 3
     assert set(design.value[design.factor == "lean"]) == {12, 13}
-    assert len(tables.read(tables / "robustness_verdicts.csv")) == 4 * 17 + 4 * 3
+    assert len(tables.read(folder / "robustness_verdicts.csv")) == 4 * 17 + 4 * 3
     assert (copied_study.results / "figures" / "robustness.png").stat().st_size > 10_000
 
     assert copied_study.plan(planned, "robustness") == {}
-    before = tables.read(tables / "findings.csv")
+    before = tables.read(folder / "findings.csv")
     assert before.robustness.isna().all()
     anew = copied_study.plan(planned)
     assert "findings" in anew
     assert not {"coating", "map", "robustness_batch"} & anew.keys()
     copied_study.build(planned)
-    reported = tables.read(tables / "findings.csv").set_index("id")
+    reported = tables.read(folder / "findings.csv").set_index("id")
     alike = reported.holds[table.index] == table.reference
     assert alike.any()
     assert (reported.robustness[table.index][alike] == table.yes_share[alike]).all()
@@ -93,7 +95,7 @@ def test_the_design_is_made_once_and_a_lost_job_is_made_anew_alone(copied_study,
     lost = copied_study.results / "robustness" / "lobes" / "1" / "verdicts.csv"
     said = lost.read_bytes()
     lost.unlink()
-    (tables / "robustness.csv").unlink()
+    (folder / "robustness.csv").unlink()
     assert copied_study.plan(planned, "robustness") == {"robustness_batch": 1, "robustness": 1}
     copied_study.build(planned, "robustness")
     assert lost.read_bytes() == said
