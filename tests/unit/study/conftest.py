@@ -1,15 +1,1 @@
-from study_fixtures import (  # noqa: F401 (fixtures)
-    angle,
-    blade,
-    case,
-    compute,
-    config,
-    growing,
-    make_map,
-    make_result,
-    repeated,
-    simulated,
-    spec,
-    study,
-    write_run,
-)
+from study_fixtures import *  # noqa: F403 (fixtures)
