@@ -1,7 +1,5 @@
 """Copies of the repository in which mutants are tried."""
 
-from __future__ import annotations
-
 import os
 import re
 import shutil

@@ -5,8 +5,6 @@ statements, keyword arguments and elements of lists are removed. Annotations, de
 stay. The text is changed, so that functions that numba compiles are mutated like any other.
 """
 
-from __future__ import annotations
-
 import ast
 import random
 from collections import defaultdict

@@ -13,8 +13,6 @@ code is 0 if at least 90 % of the mutants, and all named faults, are noticed.
 removes no statements, arguments or elements, and has one test command for all.)
 """
 
-from __future__ import annotations
-
 import argparse
 import csv
 import queue

@@ -1,7 +1,5 @@
 """Links, pictures, paths and names in README.md, CONTRIBUTING.md and docs/ lead somewhere."""
 
-from __future__ import annotations
-
 import ast
 import re
 from pathlib import Path

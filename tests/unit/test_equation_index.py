@@ -1,7 +1,5 @@
 """Each line of docs/reference/equations.md names a function whose source bears the tag of that line."""
 
-from __future__ import annotations
-
 import ast
 import re
 from functools import cache

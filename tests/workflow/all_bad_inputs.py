@@ -5,8 +5,6 @@
 Takes some minutes. Ends with exit code 1 if one input was answered otherwise than it should be.
 """
 
-from __future__ import annotations
-
 import hashlib
 import os
 import subprocess

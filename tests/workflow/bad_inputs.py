@@ -5,8 +5,6 @@ answers begin with file, line and key; tests/unit/config has the wording, a sent
 `COMMANDS` are command lines of ``bladerub``; the files that they name are made by `make_files`.
 """
 
-from __future__ import annotations
-
 import os
 from collections.abc import Callable
 from dataclasses import MISSING, fields

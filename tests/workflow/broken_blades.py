@@ -3,8 +3,6 @@
 `IMPORTS` are command lines of ``bladerub``; the files and folders that they name are made by `make_blades`.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from pathlib import Path
 

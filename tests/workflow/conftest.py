@@ -1,7 +1,5 @@
 """The tiny study, and copies of the repository to run it in."""
 
-from __future__ import annotations
-
 import copy
 from pathlib import Path
 from typing import Any

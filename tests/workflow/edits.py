@@ -6,8 +6,6 @@ The study is made once. Each edit is then made on a copy of it: Snakemake and `b
 plan, Snakemake does it, and the files tell which runs were computed.
 """
 
-from __future__ import annotations
-
 import argparse
 import copy
 import shutil

@@ -8,8 +8,6 @@ given again and killed again. A study that has come to its end is compared with 
 byte, and begun again. No run that was whole before a kill may be written again.
 """
 
-from __future__ import annotations
-
 import argparse
 import filecmp
 import itertools

@@ -1,7 +1,5 @@
 """Two invocations at the same time: in one folder, and in two that share their results."""
 
-from __future__ import annotations
-
 import subprocess
 import sys
 from concurrent.futures import FIRST_COMPLETED, ThreadPoolExecutor, wait

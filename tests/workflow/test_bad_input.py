@@ -4,8 +4,6 @@ All of them go through the functions behind the commands; a sample goes through 
 ``python tests/workflow/all_bad_inputs.py`` puts all of them through those.
 """
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

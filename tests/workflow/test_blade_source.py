@@ -1,7 +1,5 @@
 """A study of a blade whose mesh comes from a file."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from skfem import MeshTet1

@@ -1,7 +1,5 @@
 """The chart of coatings on the real workflow: complete, restartable, and equal to the study."""
 
-from __future__ import annotations
-
 import pandas as pd
 import pytest
 

@@ -1,7 +1,5 @@
 """What the real workflow plans and computes, on a tiny study."""
 
-from __future__ import annotations
-
 import shutil
 import subprocess
 

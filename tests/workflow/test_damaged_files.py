@@ -1,7 +1,5 @@
 """Truncated, lost and damaged files: computed again without being asked, or named with what to do."""
 
-from __future__ import annotations
-
 import os
 import random
 import re

@@ -1,7 +1,5 @@
 """The explorer of the tiny study in a real browser; skipped where there is none."""
 
-from __future__ import annotations
-
 import json
 import shutil
 from collections.abc import Callable, Iterator
@@ -36,13 +34,13 @@ class Explorer:
     def __init__(self, driver: Any, path: Path):
         self.driver, self.path = driver, path
 
-    def open(self, link: str = "") -> Explorer:
+    def open(self, link: str = "") -> "Explorer":
         """Open the page anew from its file, at `link`, and wait until it is drawn."""
         self.driver.get("about:blank")
         self.driver.get(self.path.as_uri() + link)
         return self.wait()
 
-    def wait(self) -> Explorer:
+    def wait(self) -> "Explorer":
         """Wait until everything chosen is drawn, and the address holds it."""
         from selenium.webdriver.support.ui import WebDriverWait
 
@@ -61,22 +59,22 @@ class Explorer:
     def all(self, selector: str) -> list[Any]:
         return self.driver.find_elements("css selector", selector)
 
-    def click(self, selector: str) -> Explorer:
+    def click(self, selector: str) -> "Explorer":
         self.find(selector).click()
         return self.wait()
 
-    def choose(self, selector: str, value: str) -> Explorer:
+    def choose(self, selector: str, value: str) -> "Explorer":
         from selenium.webdriver.support.ui import Select
 
         Select(self.find(selector)).select_by_value(value)
         return self.wait()
 
-    def press(self, *keys: str) -> Explorer:
+    def press(self, *keys: str) -> "Explorer":
         """Press keys where the focus is."""
         self.driver.switch_to.active_element.send_keys(*keys)
         return self.wait()
 
-    def click_map(self, name: str, x: float, y: float) -> Explorer:
+    def click_map(self, name: str, x: float, y: float) -> "Explorer":
         """Click a picture at the values `x`, `y` of its axes."""
         from selenium.webdriver import ActionChains
 

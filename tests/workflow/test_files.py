@@ -1,7 +1,5 @@
 """The files that users rely on: names, datasets, units; the tiny study has made them all."""
 
-from __future__ import annotations
-
 import json
 import math
 

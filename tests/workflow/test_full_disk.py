@@ -1,7 +1,5 @@
 """A results folder on a disk of its own that is full, or that nobody may write."""
 
-from __future__ import annotations
-
 import subprocess
 
 import pytest

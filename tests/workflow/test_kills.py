@@ -1,7 +1,5 @@
 """Real kills of the real workflow; `kills.py` does it on a larger study, as often as asked."""
 
-from __future__ import annotations
-
 import itertools
 
 import kills

@@ -1,7 +1,5 @@
 """A study of a blade whose mass and stiffness come from another program."""
 
-from __future__ import annotations
-
 import pytest
 from scipy import sparse
 

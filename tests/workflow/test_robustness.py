@@ -1,7 +1,5 @@
 """The design over all that the paper leaves open, by the real workflow: complete, and restartable."""
 
-from __future__ import annotations
-
 import pytest
 import yaml
 

@@ -1,7 +1,5 @@
 """The profile for clusters: what it sends to SLURM, and a real SLURM that loses a job."""
 
-from __future__ import annotations
-
 import os
 import re
 import shutil

@@ -1,7 +1,5 @@
 """A copy of the repository in which the real workflow runs."""
 
-from __future__ import annotations
-
 import json
 import os
 import re
@@ -36,13 +34,13 @@ class Workspace:
     sources: Path
 
     @classmethod
-    def at(cls, folder: Path) -> Workspace:
+    def at(cls, folder: Path) -> "Workspace":
         for part in ("config", "profiles", "src"):
             shutil.copytree(ROOT / part, folder / part)
         shutil.copy2(ROOT / "Snakefile", folder)
         return cls(folder, folder / "src")
 
-    def copy(self, folder: Path, *without: str) -> Workspace:
+    def copy(self, folder: Path, *without: str) -> "Workspace":
         """Copy it with all that was made here but what is named `without`, to work with the same sources."""
         shutil.copytree(self.folder, folder, ignore=shutil.ignore_patterns(*without))
         return Workspace(folder, self.sources)

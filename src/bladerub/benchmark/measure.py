@@ -4,8 +4,6 @@ Every loop integrates the same two revolutions from rest: once on a casing so ne
 a third of the steps, once vibrating freely far from it. Rounds take turns, and the median counts.
 """
 
-from __future__ import annotations
-
 import os
 import statistics
 import time

@@ -1,7 +1,5 @@
 """The arithmetic that this processor can do at best, in the vectors of the time loop."""
 
-from __future__ import annotations
-
 from numba import njit
 
 from bladerub.numerics.vectors import LANES, broadcast, lane_sum

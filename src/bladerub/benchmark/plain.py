@@ -5,8 +5,6 @@ node, which no run of the study needs: modes, tip and contact forces a step at a
 modes, nodes and elements. It runs in Python, and compiled by numba.
 """
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 import numpy as np

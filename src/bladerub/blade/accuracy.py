@@ -1,7 +1,5 @@
 """Frequencies of the finite element model, of eq. (2) and of the reduced model, side by side."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 
 import numpy as np

@@ -1,7 +1,5 @@
 """From the config to the reduced blade and the tables that say how good it is."""
 
-from __future__ import annotations
-
 import hashlib
 import json
 from collections.abc import Mapping

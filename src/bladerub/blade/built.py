@@ -1,7 +1,5 @@
 """What building a blade gives, and the files that keep it."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path

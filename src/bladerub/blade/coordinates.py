@@ -1,7 +1,5 @@
 """Which coordinates of the nodes can move, and where each is in vectors of those alone."""
 
-from __future__ import annotations
-
 import numpy as np
 
 

@@ -1,7 +1,5 @@
 """The blade as matrices over its free coordinates: all that the reduction needs to know of it."""
 
-from __future__ import annotations
-
 import logging
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field

@@ -11,8 +11,6 @@ numbering; the integrals of `k` are formed for all shape functions of an element
 tangent is needed dozens of times and a form evaluated pair by pair costs ten times as much.
 """
 
-from __future__ import annotations
-
 from collections import deque
 from collections.abc import Mapping
 from concurrent.futures import ThreadPoolExecutor
@@ -39,7 +37,7 @@ class Material:
     density: float
 
     @classmethod
-    def from_config(cls, material: Mapping[str, float]) -> Material:
+    def from_config(cls, material: Mapping[str, float]) -> "Material":
         """Read the ``blade.material`` block of the config."""
         return cls(*(float(material[name]) for name in ("young_modulus", "poisson_ratio", "density")))
 

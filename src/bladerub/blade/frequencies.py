@@ -1,7 +1,5 @@
 """Natural frequencies of the reduced blade at speed."""
 
-from __future__ import annotations
-
 import numpy as np
 from scipy.linalg import eigh
 

@@ -16,8 +16,6 @@ positive with the rotation, and then wrapped: ``phi = t / r``.
   bends with the rotation also moves downstream, so a widening flow path moves its tip away from the casing.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
@@ -47,7 +45,7 @@ class BladeShape:
     sections: np.ndarray  # (n, 6): chord (m), thickness / chord, camber, stagger (rad), sweep, lean (m)
 
     @classmethod
-    def from_config(cls, blade: Mapping[str, Any]) -> BladeShape:
+    def from_config(cls, blade: Mapping[str, Any]) -> "BladeShape":
         """Read the shape from the ``blade`` block of the config (angles there in degrees)."""
         sections = np.array(
             [[section[name] for name in _COLUMNS] for section in blade["sections"]], dtype=float

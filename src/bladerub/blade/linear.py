@@ -1,7 +1,5 @@
 """Factor a sparse symmetric matrix once, solve many times; lowest modes by shift-invert."""
 
-from __future__ import annotations
-
 import importlib.util
 import weakref
 from collections.abc import Callable

@@ -1,7 +1,5 @@
 """Meshes of quadratic elements, with true curved geometry at the mid-side nodes, and the blade's own mesh."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import ClassVar, Protocol
@@ -183,7 +181,7 @@ class BladeMesh:
     interface: np.ndarray  # (8,) nodes of the tip's camber line that may touch, leading to trailing edge
 
     @classmethod
-    def from_shape(cls, shape: Shape, mesh: Mapping[str, int]) -> BladeMesh:
+    def from_shape(cls, shape: Shape, mesh: Mapping[str, int]) -> "BladeMesh":
         """Mesh `shape` with the element counts of the config's ``blade.mesh``.
 
         Raises ValueError if the tip's camber line has fewer than 8 nodes.

@@ -1,7 +1,5 @@
 """The reduced blade: all that the contact simulation needs to know of the finite element model."""
 
-from __future__ import annotations
-
 import itertools
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass

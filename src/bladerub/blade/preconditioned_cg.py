@@ -1,7 +1,5 @@
 """Preconditioned conjugate gradients for a large blade at speed, by the factors of its stiffness at rest."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Craig-Bampton reduction with centrifugal stiffening, eqs. (2) to (6)."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -49,7 +47,7 @@ class Partition:
     internal: np.ndarray
 
     @classmethod
-    def around(cls, interface: np.ndarray, n: int) -> Partition:
+    def around(cls, interface: np.ndarray, n: int) -> "Partition":
         """Take `interface` out of `n` coordinates."""
         return cls(interface, np.setdiff1d(np.arange(n), interface))
 

@@ -1,7 +1,5 @@
 """The reduction of a discretised blade, with more fit speeds and modes where a tolerance asks for them."""
 
-from __future__ import annotations
-
 import logging
 from collections.abc import Callable, Mapping
 from typing import Any

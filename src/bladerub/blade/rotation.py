@@ -1,7 +1,5 @@
 """The rotating blade: static equilibrium under centrifugal load, and the stiffness about it."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

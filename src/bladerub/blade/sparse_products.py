@@ -1,7 +1,5 @@
 """Products of a large sparse symmetric matrix with several vectors at once."""
 
-from __future__ import annotations
-
 from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np

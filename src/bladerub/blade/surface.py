@@ -1,7 +1,5 @@
 """Edges and faces of quadratic elements, and the surface of a mesh of them."""
 
-from __future__ import annotations
-
 import numpy as np
 
 NAMES = {20: "hexahedron20", 10: "tetra10"}

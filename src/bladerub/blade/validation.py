@@ -1,7 +1,5 @@
 """Validation of a reduced blade from a file of unknown origin."""
 
-from __future__ import annotations
-
 import os
 from numbers import Real
 from pathlib import Path

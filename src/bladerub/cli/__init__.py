@@ -1,7 +1,5 @@
 """The command ``bladerub``: each of its commands is a module with `add_to`, which names its options."""
 
-from __future__ import annotations
-
 import sys
 
 from bladerub import __version__

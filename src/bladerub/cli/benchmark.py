@@ -1,7 +1,5 @@
 """``bladerub benchmark``: how fast the time loop is on this machine."""
 
-from __future__ import annotations
-
 import argparse
 import sys
 from typing import Any

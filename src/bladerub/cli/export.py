@@ -1,7 +1,5 @@
 """``bladerub export``: a run or the blade for other programs."""
 
-from __future__ import annotations
-
 import argparse
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -117,7 +115,7 @@ def _motion(options: argparse.Namespace, config: dict[str, Any]) -> dict[str, An
     }
 
 
-def _plan(options: argparse.Namespace, config: dict[str, Any], run: StoredRun, blade: Path) -> PlannedRun:
+def _plan(options: argparse.Namespace, config: dict[str, Any], run: "StoredRun", blade: Path) -> "PlannedRun":
     from bladerub.study.cache import blade_digest
     from bladerub.study.plan import claimed_run
 
@@ -137,7 +135,9 @@ def _plan(options: argparse.Namespace, config: dict[str, Any], run: StoredRun, b
     return plan
 
 
-def _record(options: argparse.Namespace, run: StoredRun, plan: PlannedRun, blade: ReducedBlade) -> Recording:
+def _record(
+    options: argparse.Namespace, run: "StoredRun", plan: "PlannedRun", blade: "ReducedBlade"
+) -> "Recording":
     from bladerub.contact.recording import record
     from bladerub.contact.setup import compile_kernel
 

@@ -1,7 +1,5 @@
 """The blade itself for other programs, a part of ``bladerub export``."""
 
-from __future__ import annotations
-
 import argparse
 from pathlib import Path
 from typing import Any

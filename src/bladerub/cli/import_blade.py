@@ -1,7 +1,5 @@
 """``bladerub import``: check a blade from another program before its study."""
 
-from __future__ import annotations
-
 import argparse
 from dataclasses import asdict, replace
 from pathlib import Path

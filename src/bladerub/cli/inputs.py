@@ -1,7 +1,5 @@
 """What the commands share: options, the study and the blade that they name, errors, progress and output."""
 
-from __future__ import annotations
-
 import argparse
 import json
 import os
@@ -124,7 +122,7 @@ def mesh_path(blade: Path) -> Path:
     return blade.with_name("mesh.h5")
 
 
-def read_blade(options: argparse.Namespace, config: dict[str, Any]) -> tuple[Path, ReducedBlade]:
+def read_blade(options: argparse.Namespace, config: dict[str, Any]) -> "tuple[Path, ReducedBlade]":
     """Read the reduced blade, and build it first if the results folder has none.
 
     ``blade.length`` of `config` becomes that of a blade given with ``--blade``: clearances are in this unit.

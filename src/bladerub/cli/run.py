@@ -1,7 +1,5 @@
 """``bladerub run``: one simulation and a summary of it."""
 
-from __future__ import annotations
-
 import argparse
 import os
 import time

@@ -1,7 +1,5 @@
 """``bladerub status``: what of the study is done."""
 
-from __future__ import annotations
-
 import argparse
 import json
 from collections.abc import Mapping

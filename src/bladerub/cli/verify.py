@@ -1,7 +1,5 @@
 """``bladerub verify``: how accurate the study is, by runs drawn from it."""
 
-from __future__ import annotations
-
 import argparse
 from typing import Any
 

@@ -1,7 +1,5 @@
 """What the schema cannot say of a config: that its parts agree with each other."""
 
-from __future__ import annotations
-
 import os
 from collections.abc import Callable, Collection, Iterator
 from itertools import accumulate

@@ -1,7 +1,5 @@
 """Problems of a config: where each is, and the line that reports it."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterable
 from typing import Any, NamedTuple
@@ -45,7 +43,7 @@ class ConfigError(BadInput):
         super().__init__("\n".join(lines))
 
     @classmethod
-    def at(cls, location: Location, text: str) -> ConfigError:
+    def at(cls, location: Location, text: str) -> "ConfigError":
         """Make the error of a single problem."""
         return cls([Problem(location, text)])
 

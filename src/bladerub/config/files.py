@@ -4,8 +4,6 @@ A file can extend others (key ``extend``): they are read first, and it is laid o
 keep any file from running code, filling the memory or taking for ever.
 """
 
-from __future__ import annotations
-
 import os
 import re
 import stat
@@ -38,7 +36,7 @@ class Located(NamedTuple):
     location: Location
 
     @classmethod
-    def of(cls, value: Any, location: Location) -> Located:
+    def of(cls, value: Any, location: Location) -> "Located":
         """Give `value` and all that is in it the same location."""
         if isinstance(value, Mapping):
             return cls({str(key): cls.of(entry, location) for key, entry in value.items()}, location)
@@ -54,7 +52,7 @@ class Located(NamedTuple):
             return [entry.plain() for entry in self.content]
         return self.content
 
-    def merged(self, overlay: Located) -> Located:
+    def merged(self, overlay: "Located") -> "Located":
         """Change a copy by what `overlay` holds: mappings merge, all else is replaced."""
         if not isinstance(self.content, dict) or not isinstance(overlay.content, dict):
             return overlay

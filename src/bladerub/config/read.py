@@ -4,8 +4,6 @@
 one line that names the location, the key, the value and what would be right.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Mapping
 from pathlib import Path

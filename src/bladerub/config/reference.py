@@ -1,7 +1,5 @@
 """The reference of all keys of a config, docs/config.md, written from the schema and the study's values."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping
 from typing import Any
 

@@ -5,8 +5,6 @@ Three keywords of the schema are ours. ``limits`` and ``keyOf`` compare a value 
 asks each entry of a list to be above the one before.
 """
 
-from __future__ import annotations
-
 import math
 import operator
 import re

@@ -1,7 +1,5 @@
 """Inner shape of the distorted casing and the gap it leaves (Fig. 5)."""
 
-from __future__ import annotations
-
 from functools import lru_cache
 
 import numpy as np

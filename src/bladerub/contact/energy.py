@@ -9,8 +9,6 @@ over the casing, and apart from that the moment of the contact forces, which tim
 work of the rotation.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from bladerub.contact.result import Energy

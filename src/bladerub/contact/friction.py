@@ -17,8 +17,6 @@ over the modes that it resolves: there friction of all nodes together never driv
 have no velocity, and what they store of friction they give back.
 """
 
-from __future__ import annotations
-
 from bladerub.numerics.vectors import elementwise, where
 
 

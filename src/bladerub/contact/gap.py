@@ -4,8 +4,6 @@ Node and casing meet on the cone of the flow path: displacements are those norma
 circumference (tangential). The casing is curved, so a node approaches it by tangential motion too.
 """
 
-from __future__ import annotations
-
 from numba import njit
 
 from bladerub.numerics.vectors import absolute, all_lanes, elementwise, load, sqrt

@@ -1,7 +1,5 @@
 """The law of the coating and the profile of the tip without a blade, as Figs. 3 and 4 show them."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise

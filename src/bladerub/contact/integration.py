@@ -1,7 +1,5 @@
 """Integration of a run segment by segment, and what is kept of it."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 from typing import NamedTuple

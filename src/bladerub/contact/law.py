@@ -4,8 +4,6 @@ This module is all that the program knows of the law. The time loop calls it wit
 time, its fallback with one, the reference model and Fig. 4 with arrays. Another law changes this file alone.
 """
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Modal coordinates of the reduced blade at one speed."""
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 import numpy as np

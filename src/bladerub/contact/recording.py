@@ -1,7 +1,5 @@
 """The motion of the whole blade in one revolution of a run, which the run itself does not keep."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from itertools import pairwise
 from typing import NamedTuple

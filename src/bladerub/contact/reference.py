@@ -7,8 +7,6 @@ package it uses the law of an element (Fig. 4), the profile of the tip (Fig. 3) 
     history, wear = simulate(blade, spec, n_steps=20_000)
 """
 
-from __future__ import annotations
-
 import numpy as np
 import scipy.linalg
 import scipy.optimize

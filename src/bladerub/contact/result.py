@@ -1,7 +1,5 @@
 """What a run gives, in SI units."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

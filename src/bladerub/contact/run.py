@@ -1,7 +1,5 @@
 """One run from rest: `RunSpec` → `RunResult`."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 from bladerub.blade.model import ReducedBlade

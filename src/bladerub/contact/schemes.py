@@ -21,8 +21,6 @@ What a scheme promises, and `bladerub.contact.kernel.loop.Simulation.advance` ca
 a highest mode to resolve, and damps contact artificially.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import NamedTuple
 

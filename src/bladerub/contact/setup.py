@@ -1,7 +1,5 @@
 """From blade and run to what the time loop works on."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

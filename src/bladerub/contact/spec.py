@@ -1,7 +1,5 @@
 """What one run is, in SI units unless said to be normalised."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 

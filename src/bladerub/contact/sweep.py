@@ -11,8 +11,6 @@
    paper in five seconds it is below a hundredth of the centrifugal one from f_Ω = 0.1 on.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from typing import NamedTuple

@@ -6,8 +6,6 @@ from ``half_width - 0.5`` to ``half_width + 0.5``. The parabola goes on to there
 when an element passes the edge, and the shares always add up to the width of the profile.
 """
 
-from __future__ import annotations
-
 from bladerub.numerics.vectors import absolute, elementwise, maximum, minimum
 
 

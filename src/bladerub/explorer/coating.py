@@ -1,7 +1,5 @@
 """One coating as the page holds it: pictures thinned and compressed, figures as they are."""
 
-from __future__ import annotations
-
 import numpy as np
 import pandas as pd
 

@@ -3,8 +3,6 @@
 What the small numbers lose is below what a picture shows. Numbers that a reader may quote are not among them.
 """
 
-from __future__ import annotations
-
 import base64
 import gzip
 import json

@@ -1,7 +1,5 @@
 """The numbers that the page shows as text, from the tables and maps of the study: lengths in mm."""
 
-from __future__ import annotations
-
 import shlex
 
 import numpy as np

@@ -1,7 +1,5 @@
 """The page: template, style, program, drawing library and data in one file."""
 
-from __future__ import annotations
-
 import base64
 import hashlib
 from importlib.resources import files

@@ -1,7 +1,5 @@
 """What the page holds of the study besides its coatings: axes, names, peaks and colours."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

@@ -5,8 +5,6 @@ the same nodes as C3D20 or C3D10 elements: a static step with geometric nonlinea
 then the frequencies of small vibrations about it. Abaqus reads the same keywords.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from pathlib import Path
 

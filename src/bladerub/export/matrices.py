@@ -1,7 +1,5 @@
 """Matrices for other programs: of the reduced blade, and of its finite elements."""
 
-from __future__ import annotations
-
 from dataclasses import asdict
 from pathlib import Path
 

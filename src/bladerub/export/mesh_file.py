@@ -1,7 +1,5 @@
 """The blade's mesh for other programs: Abaqus and CalculiX, Gmsh, VTK."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from pathlib import Path
 from tempfile import TemporaryDirectory

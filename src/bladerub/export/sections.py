@@ -1,7 +1,5 @@
 """The parametric blade as a table of sections, for CAD and other programs, and for `bladerub import`."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

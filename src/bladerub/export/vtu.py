@@ -4,8 +4,6 @@ The mesh is that at rest in the rotating frame; ``displacement`` is the incremen
 running position, as in the run, so without the centrifugal displacement and without the rotation.
 """
 
-from __future__ import annotations
-
 import os
 import shutil
 import xml.etree.ElementTree as ET

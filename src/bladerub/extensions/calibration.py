@@ -4,8 +4,6 @@ A plan names sets of choices, each a part of a config that is laid over the stud
 of its own, from the blade to the findings.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any

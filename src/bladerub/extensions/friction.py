@@ -1,7 +1,5 @@
 """The two laws of friction compared: a contact force of constant direction, and Coulomb's law."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator
 from pathlib import Path
 

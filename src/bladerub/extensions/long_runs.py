@@ -1,7 +1,5 @@
 """Runs of hundreds of revolutions: what becomes of the runs that still grow, and of the peaks."""
 
-from __future__ import annotations
-
 import time
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import asdict, dataclass, fields, replace

@@ -1,7 +1,5 @@
 """A small study beside the main one, from the runs to the findings, by the same functions."""
 
-from __future__ import annotations
-
 import itertools
 import logging
 from collections.abc import Callable, Collection, Iterable, Mapping

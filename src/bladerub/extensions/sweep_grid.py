@@ -1,7 +1,5 @@
 """Which coatings are swept, and how; without the solver, for the planning of the jobs."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import replace
 from typing import Any

@@ -1,7 +1,5 @@
 """Speed sweeps: run-up and run-down at a constant rate, compared with the runs at constant speed."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping
 from dataclasses import asdict, dataclass
 from pathlib import Path

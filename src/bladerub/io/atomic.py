@@ -1,7 +1,5 @@
 """Files that are written whole or not at all, however the process that writes them ends."""
 
-from __future__ import annotations
-
 import os
 import re
 import socket

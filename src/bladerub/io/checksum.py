@@ -1,7 +1,5 @@
 """Checksums of files, by which a manifest notices that one has changed on the disk."""
 
-from __future__ import annotations
-
 import hashlib
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """What can be wrong with a file or an input, and the message that names it and says what to do."""
 
-from __future__ import annotations
-
 import errno
 import sys
 from collections.abc import Iterator

@@ -1,7 +1,5 @@
 """HDF5 files with names, units and dimension scales, written whole or not at all."""
 
-from __future__ import annotations
-
 import io
 import math
 import os

@@ -4,8 +4,6 @@ They are ``flock`` locks: the kernel drops them when the last process with the f
 system has no such locks nobody is kept out; files are written whole all the same, so that only time is lost.
 """
 
-from __future__ import annotations
-
 import fcntl
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress

@@ -4,8 +4,6 @@ Nothing here depends on the machine or the time, so that equal studies have equa
 digest of the blade depends on any of it.
 """
 
-from __future__ import annotations
-
 import hashlib
 import json
 import os

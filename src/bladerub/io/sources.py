@@ -1,7 +1,5 @@
 """Digests of the package's own sources: results and machine code are valid for the code that made them."""
 
-from __future__ import annotations
-
 import ast
 import hashlib
 import json

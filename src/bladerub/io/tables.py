@@ -5,8 +5,6 @@ units, and where the table comes from. A column means the same in every table: `
 lists them all, with unit ``1`` for a pure or normalised number, none for text.
 """
 
-from __future__ import annotations
-
 import csv
 import io
 import json

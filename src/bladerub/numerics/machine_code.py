@@ -5,8 +5,6 @@ other files: a run after an edit could use old code. The folder of the cache the
 of all sources of the solver.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from pathlib import Path
 

@@ -8,8 +8,6 @@ compiled functions vectors take part in arithmetic and comparison with each othe
 written with them, marked by `elementwise`, so serves arrays, and in compiled code arrays, floats and vectors.
 """
 
-from __future__ import annotations
-
 import operator
 from typing import NamedTuple
 

@@ -1,7 +1,5 @@
 """Bins of colour maps: where each simulated speed reaches to, and where nothing was simulated."""
 
-from __future__ import annotations
-
 import numpy as np
 
 

@@ -1,7 +1,5 @@
 """The blade's mesh, or its nodes alone, with its clamped root and the interface nodes."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

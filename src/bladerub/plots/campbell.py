@@ -1,7 +1,5 @@
 """Campbell diagram: eigenfrequencies of the finite element model and of the reduced model over the speed."""
 
-from __future__ import annotations
-
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure

@@ -1,7 +1,5 @@
 """Stress–strain cycle of an abradable element with its slopes and its elastic limit."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 
 import numpy as np

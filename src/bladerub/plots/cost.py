@@ -1,7 +1,5 @@
 """What each stage of a study costs: processor time, and memory of its largest job."""
 
-from __future__ import annotations
-
 import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure

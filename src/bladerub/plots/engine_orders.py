@@ -1,7 +1,5 @@
 """Engine-order lines f = k f_Ω, named where they leave the picture."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 
 from matplotlib.axes import Axes

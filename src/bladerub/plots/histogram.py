@@ -1,7 +1,5 @@
 """A quantity over Young modulus and plastic modulus: bars like the paper's, and a map to read from."""
 
-from __future__ import annotations
-
 import numpy as np
 import pandas as pd
 from matplotlib import colormaps

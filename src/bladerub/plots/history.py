@@ -1,7 +1,5 @@
 """Displacement over the whole run, one run above the other, and the growth of both."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 

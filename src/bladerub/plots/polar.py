@@ -1,7 +1,5 @@
 """Polar views of the casing: the casing angle runs with the rotation, from the stacking line at the top."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping
 
 import numpy as np

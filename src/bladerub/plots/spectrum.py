@@ -1,7 +1,5 @@
 """Spectrum of the blade over frequency and speed, with the engine orders, C1 and the peaks."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -1,7 +1,5 @@
 """One style for every figure: sizes for print, colours that the colour-blind and grey print keep apart."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from functools import wraps
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Tip of the blade under one interface node, and the abradable elements it presses on."""
 
-from __future__ import annotations
-
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.collections import PolyCollection

@@ -1,7 +1,5 @@
 """How coatings and speeds are named in the figures."""
 
-from __future__ import annotations
-
 from string import ascii_lowercase
 
 from bladerub.study.grid import CoatingCase

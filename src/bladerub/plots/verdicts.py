@@ -1,7 +1,5 @@
 """Verdicts on the claims in several studies: a mark for each claim in each study."""
 
-from __future__ import annotations
-
 import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure

@@ -1,7 +1,5 @@
 """Wear around the casing over the speed, each vertical line one simulation."""
 
-from __future__ import annotations
-
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure

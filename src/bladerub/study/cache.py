@@ -6,8 +6,6 @@ blade or other solver settings, is stale. Before a stale entry is overwritten it
 folder `ARCHIVE` next to it, and it is taken back from there when its key is asked for again.
 """
 
-from __future__ import annotations
-
 import hashlib
 import json
 import os

@@ -1,7 +1,5 @@
 """Divergence: the table of which runs' amplitudes keep growing, as `bladerub.study.growth` defines it."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping
 from dataclasses import asdict
 from pathlib import Path

@@ -1,7 +1,5 @@
 """The grid of the study: which coatings at which speeds, and the SI run behind each point."""
 
-from __future__ import annotations
-
 import itertools
 import math
 from collections.abc import Mapping
@@ -33,17 +31,17 @@ class CoatingCase:
     law: str = "theta"  # or "coulomb", see `bladerub.contact.spec.Coating`
 
     @classmethod
-    def coulomb(cls, casing: str, E: float, K: float, friction: float) -> CoatingCase:
+    def coulomb(cls, casing: str, E: float, K: float, friction: float) -> "CoatingCase":
         """Describe an abradable coating under Coulomb's coefficient `friction`."""
         return cls(casing, E, K, math.atan(friction), "coulomb")
 
     @classmethod
-    def rigid(cls, casing: str, friction: float) -> CoatingCase:
+    def rigid(cls, casing: str, friction: float) -> "CoatingCase":
         """Direct contact with the rigid casing under Coulomb's coefficient `friction`."""
         return cls.coulomb(casing, math.inf, math.inf, friction)
 
     @classmethod
-    def described(cls, attributes: Mapping[str, Any]) -> CoatingCase:
+    def described(cls, attributes: Mapping[str, Any]) -> "CoatingCase":
         """Read the coating from the attributes of a run or a map; raise `KeyError` if one is missing."""
         return cls(**{field.name: attributes[field.name] for field in fields(cls)})
 

@@ -25,8 +25,6 @@ The paper calls a run divergent when its amplitude "continuously grows with time
 ``tests/unit/study/test_growth.py`` shows what that finds in 20 and in 60 revolutions, and what it does not.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import replace
 from typing import Any, NamedTuple

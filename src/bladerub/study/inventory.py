@@ -1,7 +1,5 @@
 """What of the plan is on disk: runs done, missing, stale and corrupt, by coating."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any

@@ -1,7 +1,5 @@
 """The job of one coating: every run that is missing or stale, and the rows of its manifest."""
 
-from __future__ import annotations
-
 import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass

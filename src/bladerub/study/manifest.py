@@ -1,7 +1,5 @@
 """Manifests: tables of the finished files of a job, written last, by which losses and damage are noticed."""
 
-from __future__ import annotations
-
 import csv
 from collections.abc import Iterable
 from dataclasses import astuple, dataclass, fields
@@ -93,7 +91,7 @@ def read_manifest(path: str | Path, kind: type[AnyRow] = ManifestRow) -> list[An
         If the file is missing or not such a manifest; the message names it.
     """
     columns = [field.name for field in fields(kind)]
-    convert = [{"str": str, "int": int, "float": float}[field.type] for field in fields(kind)]
+    convert = [field.type for field in fields(kind)]
     lines = Path(path).read_text(encoding="utf-8", errors="replace").splitlines(keepends=True)
     reader = csv.reader(lines, delimiter="\t")
     try:

@@ -1,7 +1,5 @@
 """Maps: wear and spectra of one coating over all its speeds."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence, Set
 from dataclasses import asdict, dataclass
 from pathlib import Path

@@ -4,8 +4,6 @@ Nothing is simulated. Each variation drops speeds, Young moduli or plastic modul
 peaks through another window; then every claim is judged as in the study.
 """
 
-from __future__ import annotations
-
 import copy
 import logging
 from collections.abc import Iterable, Mapping

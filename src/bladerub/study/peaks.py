@@ -1,7 +1,5 @@
 """Resonant peaks: Y_k and f_k, where the engine order k crosses the first frequency C1 (Fig. 10)."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any, NamedTuple, Protocol

@@ -1,7 +1,5 @@
 """The runs that a study asks for: what each one is, in which file and under which key."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, replace
 from typing import Any

@@ -5,8 +5,6 @@ stiffness of the tip, times with the period of the first mode. A blade that is t
 then behaves the same in these units; for another one, E and K compare coating and blade as they do there.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from bladerub.blade.model import N_INTERFACE, ReducedBlade

@@ -1,7 +1,5 @@
 """Spectra of the blade's response over engine orders."""
 
-from __future__ import annotations
-
 import numpy as np
 from scipy import fft
 

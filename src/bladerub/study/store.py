@@ -1,7 +1,5 @@
 """Runs on disk: one HDF5 file a run."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Set
 from dataclasses import asdict, dataclass
 from pathlib import Path

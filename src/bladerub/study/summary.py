@@ -1,7 +1,5 @@
 """The summary of one run in a few numbers."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Any
 

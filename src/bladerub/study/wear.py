@@ -1,7 +1,5 @@
 """Worn patterns: how many lobes the blade has cut around the casing."""
 
-from __future__ import annotations
-
 import numpy as np
 from scipy import ndimage
 

@@ -1,7 +1,5 @@
 """How much two outcomes of the same run differ."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterable, Mapping
 from typing import Any, NamedTuple

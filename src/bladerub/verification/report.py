@@ -1,7 +1,5 @@
 """The report on the errors of many runs: how they are distributed, and which runs are beyond tolerance."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from dataclasses import asdict

@@ -11,8 +11,6 @@
    the study's run, over what the study's run costs.
 """
 
-from __future__ import annotations
-
 import math
 import multiprocessing
 import signal

@@ -1,7 +1,5 @@
 """What a study costs: the records that Snakemake keeps of its jobs, a row a job."""
 
-from __future__ import annotations
-
 import logging
 from pathlib import Path
 

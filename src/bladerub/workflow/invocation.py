@@ -1,7 +1,5 @@
 """What an invocation of the workflow clears away of those killed before it."""
 
-from __future__ import annotations
-
 import shutil
 import sys
 import tempfile

@@ -1,7 +1,5 @@
 """The start of every job of the workflow: where it says what it does, and how it reports an error."""
 
-from __future__ import annotations
-
 import sys
 from contextlib import suppress
 from pathlib import Path

@@ -1,7 +1,5 @@
 """What the scripts of the rules write: tables that say what made them, and figures."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import pandas as pd

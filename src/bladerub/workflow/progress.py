@@ -1,7 +1,5 @@
 """What a coating's job reports while it runs: its log, a bar on a terminal, and one line at the end."""
 
-from __future__ import annotations
-
 import time
 from collections.abc import Sequence
 from typing import TextIO

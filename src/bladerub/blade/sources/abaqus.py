@@ -1,7 +1,5 @@
 """Abaqus and CalculiX files through meshio, except what it would silently misread."""
 
-from __future__ import annotations
-
 import io
 import re
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Checks that mass and stiffness are those of a clamped body with a stable equilibrium."""
 
-from __future__ import annotations
-
 import numpy as np
 from scipy import sparse
 from scipy.linalg import eigvalsh_tridiagonal

@@ -1,7 +1,5 @@
 """Checks of the nodes and elements of a mesh."""
 
-from __future__ import annotations
-
 import numpy as np
 from scipy.spatial import cKDTree
 

@@ -6,8 +6,6 @@ turned, never mirrored, with x against its rotation vector. So x points downstre
 the blade, and the leading edge may have the smaller or the larger x.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -1,7 +1,5 @@
 """From a mesh file or a table of sections to a blade that can be reduced."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any

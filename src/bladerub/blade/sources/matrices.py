@@ -1,7 +1,5 @@
 """From mass and stiffness of another program to a blade that can be reduced."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path

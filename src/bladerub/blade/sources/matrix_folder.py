@@ -1,7 +1,5 @@
 """A folder with the matrices of a blade: its files and their formats."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field

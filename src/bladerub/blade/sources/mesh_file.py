@@ -1,7 +1,5 @@
 """The content of a mesh file: nodes, one kind of quadratic element, node sets."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Clamped nodes and tip nodes of a mesh: by the name of a set, or by the direction of its surface."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from difflib import get_close_matches
 

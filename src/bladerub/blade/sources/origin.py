@@ -1,7 +1,5 @@
 """Where a blade comes from: the ``blade.source`` block of the config."""
 
-from __future__ import annotations
-
 import os
 from collections.abc import Mapping
 from dataclasses import dataclass, field, fields
@@ -57,7 +55,7 @@ class Source:
         return self.file.suffix.lower() in TABLE_SUFFIXES
 
     @classmethod
-    def from_config(cls, source: Mapping[str, Any]) -> Source:
+    def from_config(cls, source: Mapping[str, Any]) -> "Source":
         """Read the ``blade.source`` block of the config; its file is relative to the repository."""
         return cls(
             ROOT / source["file"],
@@ -77,7 +75,7 @@ class MatrixSource:
     tip_cone: float | None = None  # as in `Source`
 
     @classmethod
-    def from_config(cls, source: Mapping[str, Any]) -> MatrixSource:
+    def from_config(cls, source: Mapping[str, Any]) -> "MatrixSource":
         """Read the ``blade.source`` block of the config; its folder is relative to the repository."""
         given = {name: source[name] for name in ("matrix_units", "omega_max", "tip_cone") if name in source}
         return cls(ROOT / source["matrices"], _frame(source), **given)

@@ -1,7 +1,5 @@
 """Profiles in the plane: the camber line between their two sides, and where lines meet them."""
 
-from __future__ import annotations
-
 import numpy as np
 from scipy.spatial.distance import cdist
 

@@ -1,7 +1,5 @@
 """The figures of an imported blade, and warnings of what is probably wrong with it."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from typing import Any
 

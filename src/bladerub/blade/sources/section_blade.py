@@ -1,7 +1,5 @@
 """The shape of a blade through sections: smooth along the span, straight through the thickness."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from itertools import pairwise
 
@@ -31,7 +29,7 @@ class SectionShape:
     samples: np.ndarray  # (n, 201, 2, 3), their `Profile.samples`
 
     @classmethod
-    def through(cls, profiles: list[Profile]) -> SectionShape:
+    def through(cls, profiles: list[Profile]) -> "SectionShape":
         """Lay the shape through `profiles`, hub to tip."""
         radius = np.array([profile.radius for profile in profiles])
         span = (radius - radius[0]) / (radius[-1] - radius[0])

@@ -1,7 +1,5 @@
 """The profile of a section: two sides as curves, paired along the chord, without too thin edges."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field
 
 import numpy as np

@@ -9,8 +9,6 @@ separated by commas, if the header has one, or else by white space.
   `theta2` of the two sides (`bladerub.blade.sources.frame.Frame.cartesian` defines their origin and sign).
 """
 
-from __future__ import annotations
-
 import io
 from dataclasses import dataclass, field
 from pathlib import Path

@@ -1,7 +1,5 @@
 """The tip of an imported blade: the cone it lies on, its camber line, and the interface nodes there."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Wear and energy of a step: the coating is updated once its forces are found, and the ledger kept."""
 
-from __future__ import annotations
-
 import math
 
 from numba import njit

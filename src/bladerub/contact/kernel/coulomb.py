@@ -1,7 +1,5 @@
 """Coulomb's law of friction in the time loop (`bladerub.contact.friction`), a lane a node."""
 
-from __future__ import annotations
-
 from numba import njit
 
 from bladerub.contact.friction import mobilisation

@@ -1,7 +1,5 @@
 """The abradable elements under the tip's nodes (Fig. 3), a lane a node."""
 
-from __future__ import annotations
-
 import math
 
 from numba import njit

@@ -4,8 +4,6 @@ The propagator is used only where no displacement that the modes can reach withi
 the state that its single steps would leave, but for rounding.
 """
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 import numpy as np

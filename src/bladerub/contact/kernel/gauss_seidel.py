@@ -4,8 +4,6 @@ For the rigid casing, and for the few steps of stiff coatings in which the Newto
 `bladerub.contact.kernel.newton` does not converge.
 """
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -6,8 +6,6 @@ Compiled functions on the addresses of the arrays of five records, which `Simula
 output. Where the tip surely touches nothing, many steps are made at once (`free_flight`).
 """
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Modal coordinates from step to step, eight in a vector, and the displacement of the tip that they make."""
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 import numpy as np

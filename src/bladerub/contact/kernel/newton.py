@@ -7,8 +7,6 @@ and rows of elements are those of a nearby displacement, and are found again whe
 casing.
 """
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 import numpy as np

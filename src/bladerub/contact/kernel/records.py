@@ -4,8 +4,6 @@ Rows of elements: row r has for each node the element r past the one it stands o
 revolution, so that all nodes meet the same few rows at the same time.
 """
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 import numpy as np

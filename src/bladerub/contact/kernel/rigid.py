@@ -1,7 +1,5 @@
 """The rigid casing: nodes may touch its surface and not pass it, eq. (9)."""
 
-from __future__ import annotations
-
 import math
 
 from numba import njit

@@ -1,7 +1,5 @@
 """How well the search for maxima does, tried on the maps of the study, which has every speed."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping
 from typing import Any
 

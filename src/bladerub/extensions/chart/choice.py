@@ -1,7 +1,5 @@
 """Which coating to choose: limits that a safe one keeps, and the coatings that no other is better than."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 
 import numpy as np

@@ -1,7 +1,5 @@
 """What goes with the height of a peak: stiffness of the contact, energy dissipated in a cycle, worn lobes."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping
 from typing import Any
 

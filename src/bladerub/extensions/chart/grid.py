@@ -1,7 +1,5 @@
 """Which coatings the chart has, and the speeds at which each of them is run first."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Any, NamedTuple
 

@@ -1,7 +1,5 @@
 """One point of the chart, a coating: what is kept of the runs of one coating, and its file."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from pathlib import Path

@@ -6,8 +6,6 @@
    chart would show if it had no finer speeds.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 from typing import Any

@@ -10,8 +10,6 @@
    the amplitude grows: the search must not weigh in the share of divergent speeds.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping
 from typing import Any
 

@@ -7,8 +7,6 @@ elements, that is the *share* of E_T that stiffens the mode. If nothing else mat
 need ``1 / share`` times the modulus for the same f_k.
 """
 
-from __future__ import annotations
-
 import numpy as np
 import pandas as pd
 from scipy.optimize import isotonic_regression

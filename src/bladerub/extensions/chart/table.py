@@ -1,7 +1,5 @@
 """The chart as a table, a row for each point."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import Any

@@ -1,7 +1,5 @@
 """Height of the peaks against contact stiffness, dissipated energy and lobes: along the ridge and across."""
 
-from __future__ import annotations
-
 import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure

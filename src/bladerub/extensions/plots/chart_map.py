@@ -1,7 +1,5 @@
 """One quantity of the chart over E and K: colours, contour lines, the paper's coatings and the ridge."""
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 import numpy as np

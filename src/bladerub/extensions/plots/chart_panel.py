@@ -1,7 +1,5 @@
 """Panels of the chart: one quantity over both moduli, on logarithmic axes, and the paper's coatings."""
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 import numpy as np

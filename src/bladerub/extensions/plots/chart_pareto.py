@@ -1,7 +1,5 @@
 """Amplitude against wear: every coating of the chart, and those to which no other is better in both."""
 
-from __future__ import annotations
-
 import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure

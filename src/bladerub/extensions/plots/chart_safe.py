@@ -1,7 +1,5 @@
 """Which coatings of the chart keep the limits, and which limits the others exceed."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 
 import pandas as pd

@@ -1,7 +1,5 @@
 """Speeds of the peaks against the modulus of the contact: contact stiffening is one curve."""
 
-from __future__ import annotations
-
 from itertools import cycle
 
 import pandas as pd

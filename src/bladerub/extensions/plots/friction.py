@@ -1,7 +1,5 @@
 """Where Coulomb friction differs from a contact force of constant direction."""
 
-from __future__ import annotations
-
 import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure

@@ -1,7 +1,5 @@
 """Growth, verdicts and cost of runs of hundreds of revolutions."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np

@@ -1,7 +1,5 @@
 """How far the claims depend on what the paper leaves open: shares of the design, and what decides."""
 
-from __future__ import annotations
-
 import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure

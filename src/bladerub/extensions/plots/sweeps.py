@@ -1,7 +1,5 @@
 """Amplitude in speed sweeps, up and down, over that at constant speed."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 
 import numpy as np

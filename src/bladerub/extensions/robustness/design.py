@@ -1,7 +1,5 @@
 """The config of each sample of a design, and the blade that it needs."""
 
-from __future__ import annotations
-
 import copy
 import re
 from collections.abc import Mapping

@@ -4,8 +4,6 @@ Each part has as many samples as its runs allow. All draw from one Sobol sequenc
 factors in each.
 """
 
-from __future__ import annotations
-
 import itertools
 import math
 from dataclasses import dataclass

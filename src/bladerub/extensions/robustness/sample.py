@@ -1,7 +1,5 @@
 """The samples of one job: a small study with the values of each, and its findings."""
 
-from __future__ import annotations
-
 import tempfile
 import time
 from collections.abc import Collection, Iterable, Mapping

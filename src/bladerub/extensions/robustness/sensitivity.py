@@ -7,8 +7,6 @@ without a fifth of the samples predict for that fifth. The indices are shares of
 by that share they become shares of the whole variance.
 """
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 import numpy as np

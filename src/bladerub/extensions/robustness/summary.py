@@ -1,7 +1,5 @@
 """Tables of the design: the share in which a claim holds, what decides that, and the cost of a sample."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from pathlib import Path
 

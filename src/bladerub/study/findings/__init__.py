@@ -5,8 +5,6 @@ part. A part that speaks of coatings or speeds outside the study has no row: the
 missing.
 """
 
-from __future__ import annotations
-
 import logging
 from collections.abc import Collection, Iterable, Mapping
 from dataclasses import asdict, fields

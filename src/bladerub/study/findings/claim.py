@@ -1,7 +1,5 @@
 """The paper's statements: each testable part is measured by a function that `claim` registers."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Callable
 from dataclasses import dataclass

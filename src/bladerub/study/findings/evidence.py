@@ -1,7 +1,5 @@
 """What the claims are measured on: the tables and maps of a study, and nothing else."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping
 from dataclasses import asdict
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Claim C12: stiff coatings act like the bare rigid casing, soft ones are harmless; two diameters, θ = 0."""
 
-from __future__ import annotations
-
 import pandas as pd
 
 from bladerub.study.findings.claim import NO, PARTLY, YES, Finding, NotMeasurable, below, claim

@@ -1,7 +1,5 @@
 """Claims C6 to C9: what E and K do to the peaks, two nodal diameters, θ = 0."""
 
-from __future__ import annotations
-
 import numpy as np
 import pandas as pd
 

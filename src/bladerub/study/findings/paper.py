@@ -1,7 +1,5 @@
 """What the paper's statements speak of, and how close to them this model, of another blade, has to come."""
 
-from __future__ import annotations
-
 from bladerub.study.grid import CoatingCase
 
 CASING, THETA = "2nd", 0.0  # section "Mechanical properties of the abradable coating"

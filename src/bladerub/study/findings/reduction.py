@@ -1,7 +1,5 @@
 """Claim C1: the reduced model has the frequencies of the finite element model."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 from bladerub.study.findings.claim import Finding, NotMeasurable, below, claim

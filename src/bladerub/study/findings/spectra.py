@@ -1,7 +1,5 @@
 """Claims C4 and C5: response spectra on the soft and on the critical coating, two nodal diameters."""
 
-from __future__ import annotations
-
 import contextlib
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Claims C10 and C11: what the tangential force of θ = 0.15 rad does, E = 2, K = 0.5."""
 
-from __future__ import annotations
-
 import pandas as pd
 
 from bladerub.study.findings.claim import NO, PARTLY, YES, Finding, NotMeasurable, below, claim

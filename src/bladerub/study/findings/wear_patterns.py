@@ -1,7 +1,5 @@
 """Claims C2 and C3: worn lobes and wear maxima of the casing with 2 and 5 nodal diameters."""
 
-from __future__ import annotations
-
 import numpy as np
 from scipy import signal
 
