@@ -25,16 +25,9 @@ COLUMNS = ["set", "id", "claim", "paper", "measured", "unit", "holds", "margin"]
 def plan(config: Mapping[str, Any]) -> dict[str, dict[str, Any]]:
     """Read the plan of a study and make the config of each of its sets, by name and in the order of the plan.
 
-    Parameters
-    ----------
-    config : mapping
-        The study that the sets vary. Its ``calibration`` names a YAML file with ``common``, laid over the
-        study in every set, and ``sets``, by name what is laid over that. Each of them can extend other files.
-
-    Raises
-    ------
-    ConfigError
-        If the file is no plan or a set no config; every problem with the set it is in.
+    ``calibration`` of the study `config` names a YAML file with ``common``, laid over the study in every set,
+    and ``sets``, by name what is laid over that. Each of them can extend other files. Raises `ConfigError` if
+    the file is no plan or a set no config, with every problem and the set it is in.
     """
     content = configuration.read_plan(config["calibration"], "calibration_plan", "calibration").content
     common = [content["common"]] if "common" in content else []
@@ -51,16 +44,10 @@ def plan(config: Mapping[str, Any]) -> dict[str, dict[str, Any]]:
 
 
 def judge(config: Mapping[str, Any], folder: str | Path, report: Callable[[object], None]) -> pd.DataFrame:
-    """Make the study of one set, and return its findings.
+    """Make the study of one set, with its config from `plan`, and return its findings.
 
-    Parameters
-    ----------
-    config : mapping
-        From `plan`.
-    folder : path-like
-        For its blade, runs, maps and tables; runs that are there and current are kept.
-    report : callable
-        Called with a `bladerub.study.job.RunDone` after each run.
+    `folder` is for its blade, runs, maps and tables; runs that are there and current are kept. `report` is
+    called with a `bladerub.study.job.RunDone` after each run.
     """
     folder, origin = Path(folder), provenance(config)
     model, mesh = (folder / "blade" / name for name in ("reduced_model.h5", "mesh.h5"))

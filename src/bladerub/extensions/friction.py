@@ -31,17 +31,9 @@ COLUMNS = [
 def table(pairs: Iterable[tuple[str | Path, str | Path]], revolutions: int) -> pd.DataFrame:
     """Compare the runs of each pair of coatings, speed by speed: a row per run, with `COLUMNS`.
 
-    Parameters
-    ----------
-    pairs : iterable of (path, path)
-        Manifests of a coating with a force of constant direction and of the same by Coulomb's law.
-    revolutions : int
-        Number of last revolutions in which the peaks are sought.
-
-    Raises
-    ------
-    OSError
-        If a manifest or run is missing or damaged, or the speeds of a pair differ.
+    A pair is the manifest of a coating with a force of constant direction and that of the same by Coulomb's
+    law; peaks are sought in the last `revolutions`. Raises `OSError` if a manifest or run is missing or
+    damaged, or the speeds of a pair differ.
     """
     rows = []
     for constant_path, coulomb_path in pairs:

@@ -1,5 +1,6 @@
 """Runs of hundreds of revolutions: what becomes of the runs that still grow, and of the peaks."""
 
+import itertools
 import time
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import asdict, dataclass, fields, replace
@@ -21,39 +22,27 @@ from bladerub.study.growth import Verdict, growth, judge
 from bladerub.study.maps import CoatingMap
 from bladerub.study.peaks import peak
 
+COLUMNS = [
+    *("casing", "E", "K", "theta", "f_omega", "why", "revolutions", "verdict", "growth_per_revolution"),
+    *("late_amplitude", "max_wear", "status", "ms_per_revolution", "law"),
+]
+"""Columns of ``long_runs.csv``."""
+
 DIED_OUT = 0.01
 """Share of the greatest amplitude below which a vibration has died out."""
 
 
 @dataclass(frozen=True)
 class LongRuns:
-    """The long runs of one coating.
-
-    Parameters
-    ----------
-    case : CoatingCase
-        The coating.
-    f_omega : (n,) ndarray
-        Their speeds, normalised.
-    why : (n,) ndarray of str
-        ``grows``, or the peak they are of: ``f4``.
-    revolution_amplitude : (n, r) ndarray
-        Half the range of the radial displacement of node 1 in each revolution, m; NaN after an unbounded end.
-    max_wear : (n,) ndarray
-        Greatest worn depth, m.
-    status : (n,) ndarray of str
-        ``completed`` or ``unbounded``.
-    seconds : (n, r) ndarray
-        Wall time until the end of each revolution; NaN likewise.
-    """
+    """The n long runs of one coating, of r revolutions."""
 
     case: CoatingCase
-    f_omega: np.ndarray
-    why: np.ndarray
-    revolution_amplitude: np.ndarray
-    max_wear: np.ndarray
-    status: np.ndarray
-    seconds: np.ndarray
+    f_omega: np.ndarray  # (n,), normalised
+    why: np.ndarray  # (n,) of str: ``grows``, or the peak that a run is of, such as ``f4``
+    revolution_amplitude: np.ndarray  # (n, r), half the range of u_r of node 1, m; NaN after an unbounded end
+    max_wear: np.ndarray  # (n,), m
+    status: np.ndarray  # (n,) of str: completed or unbounded
+    seconds: np.ndarray  # (n, r), wall time until the end of each revolution; NaN likewise
 
 
 def chosen(config: Mapping[str, Any], coating: CoatingMap) -> dict[float, str]:
@@ -169,27 +158,20 @@ def table(config: Mapping[str, Any], coatings: Iterable[LongRuns]) -> pd.DataFra
     last = config["analysis"]["divergence"]["revolutions"]
     rows = []
     for long in coatings:
-        for index, amplitude in enumerate(long.revolution_amplitude):
-            for revolutions in stops(config):
-                name, verdict = verdict_after(config, amplitude, revolutions)
-                made = np.flatnonzero(np.isfinite(long.seconds[index, :revolutions]))
-                cost = 1e3 * long.seconds[index, made[-1]] / made.size if made.size else np.nan
-                rows.append(
-                    {
-                        "casing": long.case.casing,
-                        "E": long.case.E,
-                        "K": long.case.K,
-                        "theta": long.case.theta,
-                        "f_omega": long.f_omega[index],
-                        "why": long.why[index],
-                        "revolutions": revolutions,
-                        "verdict": name,
-                        "growth_per_revolution": verdict.growth.per_revolution,
-                        "late_amplitude": amplitude[made[-last:]].mean() if made.size else np.nan,
-                        "max_wear": long.max_wear[index],
-                        "status": long.status[index],
-                        "ms_per_revolution": cost,
-                        "law": long.case.law,
-                    }
-                )
-    return pd.DataFrame(rows)
+        for index, revolutions in itertools.product(range(long.f_omega.size), stops(config)):
+            run = {name: getattr(long, name)[index] for name in ("f_omega", "why", "max_wear", "status")}
+            amplitude, seconds = long.revolution_amplitude[index], long.seconds[index, :revolutions]
+            name, verdict = verdict_after(config, amplitude, revolutions)
+            made = np.flatnonzero(np.isfinite(seconds))
+            rows.append(
+                asdict(long.case)
+                | run
+                | {
+                    "revolutions": revolutions,
+                    "verdict": name,
+                    "growth_per_revolution": verdict.growth.per_revolution,
+                    "late_amplitude": amplitude[made[-last:]].mean() if made.size else np.nan,
+                    "ms_per_revolution": 1e3 * seconds[made[-1]] / made.size if made.size else np.nan,
+                }
+            )
+    return pd.DataFrame(rows, columns=COLUMNS)

@@ -22,22 +22,12 @@ _log = logging.getLogger(__name__)
 
 
 class SmallStudy(NamedTuple):
-    """What a small study shows.
+    """What a small study shows."""
 
-    Parameters
-    ----------
-    peaks, divergence : DataFrame
-        As ``peaks.csv`` and ``divergence.csv``.
-    findings : DataFrame
-        As `bladerub.study.findings.judge`.
-    n_runs : int
-        Runs that it takes, longer ones for confirmation included.
-    """
-
-    peaks: pd.DataFrame
-    divergence: pd.DataFrame
-    findings: pd.DataFrame
-    n_runs: int
+    peaks: pd.DataFrame  # as ``peaks.csv``
+    divergence: pd.DataFrame  # as ``divergence.csv``
+    findings: pd.DataFrame  # as of `bladerub.study.findings.judge`
+    n_runs: int  # longer ones for confirmation included
 
 
 def conduct(
@@ -50,18 +40,9 @@ def conduct(
 ) -> SmallStudy:
     """Run every coating of `config`, and judge the claims of the paper.
 
-    Parameters
-    ----------
-    config : mapping
-        The small study.
-    model, rom_accuracy : path-like
-        Its reduced blade, and the table of the accuracy of that.
-    folder : path-like
-        For its runs and maps; runs that are there and current are kept.
-    claims : collection of str, optional
-        ``C2`` stands for all its parts; all claims by default.
-    report : callable, optional
-        As of `bladerub.study.job.compute_missing`.
+    `model` and `rom_accuracy` are the files of its reduced blade and of the accuracy of that, `folder` is for
+    its runs and maps; runs that are there and current are kept. `claims` are all by default, ``C2`` standing
+    for all its parts; `report` is as of `bladerub.study.job.compute_missing`.
     """
     folder, blade, digest = Path(folder), read_reduced_blade(model), blade_digest(model)
     maps, n_runs = [], 0

@@ -1,5 +1,6 @@
 """Speed sweeps: run-up and run-down at a constant rate, compared with the runs at constant speed."""
 
+import itertools
 from collections.abc import Iterable, Mapping
 from dataclasses import asdict, dataclass
 from pathlib import Path
@@ -21,49 +22,46 @@ from bladerub.study.maps import CoatingMap
 from bladerub.study.peaks import amplitude_within, maximum, peak, speed_window
 from bladerub.study.spectra import order_spectrum
 
+COLUMNS = [
+    *("casing", "E", "K", "theta", "direction", "rate", "order", "f_peak", "amplitude"),
+    *("f_peak_constant", "amplitude_constant", "ratio", "survives"),
+    *("status", "f_end", "max_wear", "energy_residual", "law"),
+]
+"""Columns of ``sweeps.csv``."""
+
+_DATASETS = {
+    "angle": (("angle",), "rad", "casing angle of the element centres"),
+    "wear": (("node", "angle"), "m", "worn depth under each node at the end"),
+    "speed": (("revolution",), "1", "mean rotational frequency, normalised"),
+    "time": (("revolution",), "s", "middle of each revolution"),
+    "revolution_peak": (("revolution",), "m", "largest absolute radial displacement of node 1"),
+    "revolution_amplitude": (("revolution",), "m", "half the range of that displacement"),
+    "f_omega": (("window",), "1", "mean rotational frequency of {window} revolutions, normalised"),
+    "C1": (("window",), "1", "first eigenfrequency at speed over that at rest"),
+    "spectrum_order": (("spectrum_order",), "1", "engine order"),
+    "spectrum_amplitude": (
+        *(("window", "spectrum_order"), "m"),
+        "amplitude of the radial displacement of node 1",
+    ),
+}
+
 
 @dataclass(frozen=True)
 class SpeedSweep:
-    """One sweep, its spectra sorted by speed.
-
-    Parameters
-    ----------
-    case : CoatingCase
-        The coating.
-    direction : str
-        ``up`` or ``down``.
-    rate : float
-        Sweep rate: change of the normalised speed per second, 1/s.
-    status : str
-        ``completed`` or ``unbounded``.
-    energy_residual : float
-        See `bladerub.contact.sweep.SweepResult.residual`.
-    max_wear : float
-        Greatest worn depth at the end, m.
-    speed : (r,) ndarray
-        Mean speed of each revolution, in the order of time, normalised.
-    revolution_amplitude : (r,) ndarray
-        Half the range of the radial displacement of node 1 in each of them, m; NaN after an unbounded end.
-    f_omega, C1 : (n,) ndarray
-        Mean speed of each window of revolutions, ascending, and first eigenfrequency there, normalised.
-    spectrum_order : (m,) ndarray
-        Engine order.
-    spectrum_amplitude : (n, m) ndarray
-        Amplitude of the radial displacement of node 1 in each window, m.
-    """
+    """One sweep of r revolutions, with the spectra of its n windows of revolutions sorted by speed."""
 
     case: CoatingCase
-    direction: str
-    rate: float
-    status: str
-    energy_residual: float
-    max_wear: float
-    speed: np.ndarray
-    revolution_amplitude: np.ndarray
-    f_omega: np.ndarray
-    C1: np.ndarray
-    spectrum_order: np.ndarray
-    spectrum_amplitude: np.ndarray
+    direction: str  # up or down
+    rate: float  # change of the normalised speed per second, 1/s
+    status: str  # completed or unbounded
+    energy_residual: float  # see `bladerub.contact.sweep.SweepResult.residual`
+    max_wear: float  # at the end, m
+    speed: np.ndarray  # (r,), mean of each revolution in the order of time, normalised
+    revolution_amplitude: np.ndarray  # (r,), half the range of u_r of node 1, m; NaN after an unbounded end
+    f_omega: np.ndarray  # (n,), mean speed of each window, ascending, normalised
+    C1: np.ndarray  # (n,), first eigenfrequency there, normalised
+    spectrum_order: np.ndarray  # (m,)
+    spectrum_amplitude: np.ndarray  # (n, m), of u_r of node 1, m
 
 
 def make(
@@ -88,30 +86,17 @@ def make(
         )
     f_omega, order, amplitude = _spectra(result, window, analysis["max_order"])
     C1 = np.array([reduced_frequencies(blade, f, n_modes=1)[0] for f in f_omega]) / blade.f1_hz
+    values = vars(result) | {
+        "wear": result.wear.astype(np.float32),
+        "speed": result.f_omega,
+        "f_omega": f_omega,
+        "C1": C1,
+        "spectrum_order": order,
+        "spectrum_amplitude": amplitude.astype(np.float32),
+    }
     variables = {
-        "angle": Variable(("angle",), result.angle, "rad", "casing angle of the element centres"),
-        "wear": Variable(
-            ("node", "angle"), result.wear.astype(np.float32), "m", "worn depth under each node at the end"
-        ),
-        "speed": Variable(("revolution",), result.f_omega, "1", "mean rotational frequency, normalised"),
-        "time": Variable(("revolution",), result.time, "s", "middle of each revolution"),
-        "revolution_peak": Variable(
-            ("revolution",), result.revolution_peak, "m", "largest absolute radial displacement of node 1"
-        ),
-        "revolution_amplitude": Variable(
-            ("revolution",), result.revolution_amplitude, "m", "half the range of that displacement"
-        ),
-        "f_omega": Variable(
-            ("window",), f_omega, "1", f"mean rotational frequency of {window} revolutions, normalised"
-        ),
-        "C1": Variable(("window",), C1, "1", "first eigenfrequency at speed over that at rest"),
-        "spectrum_order": Variable(("spectrum_order",), order, "1", "engine order"),
-        "spectrum_amplitude": Variable(
-            ("window", "spectrum_order"),
-            amplitude.astype(np.float32),
-            "m",
-            "amplitude of the radial displacement of node 1",
-        ),
+        name: Variable(dims, values[name], units, long_name.format(window=window))
+        for name, (dims, units, long_name) in _DATASETS.items()
     }
     attributes = {
         **asdict(case),
@@ -156,54 +141,35 @@ def read(path: str | Path) -> SpeedSweep:
 def table(
     config: Mapping[str, Any], sweeps: Iterable[SpeedSweep], maps: Mapping[CoatingCase, CoatingMap]
 ) -> pd.DataFrame:
-    """Compare the peaks of sweeps with those at constant speed.
+    """Compare the peaks of sweeps with those at constant speed, in `maps`: a row per sweep and engine order.
 
-    The peak of a sweep is sought in the same window of speeds as at constant speed (`bladerub.study.peaks`).
-
-    Parameters
-    ----------
-    config : mapping
-        The study; ``sweeps.survival`` is the ratio of amplitudes from which a peak ``survives``.
-    sweeps : iterable of SpeedSweep
-        Of any coatings.
-    maps : mapping of CoatingCase to CoatingMap
-        The same coatings at constant speed.
-
-    Returns
-    -------
-    DataFrame
-        A row per sweep and engine order; the peak is NaN where a sweep exceeds the displacement limit before
-        it reaches the window. Raises `ValueError` as `bladerub.study.peaks.peak`.
+    Both are sought in the same window of speeds (`bladerub.study.peaks`); that of a sweep is NaN if it
+    exceeds the displacement limit before. A peak ``survives`` from the ratio ``sweeps.survival`` of
+    amplitudes on. Raises `ValueError` as `bladerub.study.peaks.peak`.
     """
     settings = config["analysis"]["peaks"]
     rows = []
-    for sweep in sweeps:
-        case, constant = sweep.case, maps[sweep.case]
-        for order in settings["orders"]:
-            at_constant = peak(constant, order, settings)
-            window = speed_window(constant, order, settings)
-            found = maximum(sweep, amplitude_within(sweep, order, window, settings))
-            ratio = found.amplitude / at_constant.amplitude
-            rows.append(
-                {
-                    "casing": case.casing,
-                    "E": case.E,
-                    "K": case.K,
-                    "theta": case.theta,
-                    "direction": sweep.direction,
-                    "rate": sweep.rate,
-                    "order": order,
-                    "f_peak": found.f_omega,
-                    "amplitude": found.amplitude,
-                    "f_peak_constant": at_constant.f_omega,
-                    "amplitude_constant": at_constant.amplitude,
-                    "ratio": ratio,
-                    "survives": bool(ratio >= config["sweeps"]["survival"]),
-                    "status": sweep.status,
-                    "f_end": sweep.speed[np.isfinite(sweep.revolution_amplitude)][-1],
-                    "max_wear": sweep.max_wear,
-                    "energy_residual": sweep.energy_residual,
-                    "law": case.law,
-                }
-            )
-    return pd.DataFrame(rows)
+    for sweep, order in itertools.product(sweeps, settings["orders"]):
+        constant = maps[sweep.case]
+        at_constant, window = peak(constant, order, settings), speed_window(constant, order, settings)
+        found = maximum(sweep, amplitude_within(sweep, order, window, settings))
+        rows.append(
+            asdict(sweep.case)
+            | {
+                "direction": sweep.direction,
+                "rate": sweep.rate,
+                "order": order,
+                "f_peak": found.f_omega,
+                "amplitude": found.amplitude,
+                "f_peak_constant": at_constant.f_omega,
+                "amplitude_constant": at_constant.amplitude,
+                "status": sweep.status,
+                "f_end": sweep.speed[np.isfinite(sweep.revolution_amplitude)][-1],
+                "max_wear": sweep.max_wear,
+                "energy_residual": sweep.energy_residual,
+            }
+        )
+    table = pd.DataFrame(rows)
+    table["ratio"] = table.amplitude / table.amplitude_constant
+    table["survives"] = table.ratio >= config["sweeps"]["survival"]
+    return table[COLUMNS]

@@ -4,13 +4,7 @@ import numpy as np
 
 
 def edges(centres: np.ndarray) -> np.ndarray:
-    """Edges (n + 1,) of the bins around the ascending `centres` (n,), half-way between neighbours.
-
-    Raises
-    ------
-    ValueError
-        If there are fewer than two centres or they do not ascend.
-    """
+    """Edges (n + 1,) of the bins around `centres` (n,), half-way between; `ValueError` unless they ascend."""
     centres = np.asarray(centres, dtype=float)
     if centres.size < 2 or np.any(np.diff(centres) <= 0):
         raise ValueError(f"bins need two or more ascending centres, not {centres}")
@@ -19,24 +13,11 @@ def edges(centres: np.ndarray) -> np.ndarray:
 
 
 def with_gaps(f_omega: np.ndarray, values: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Bins around the simulated speeds, with an empty row wherever speeds are missing.
+    """Bins around the simulated speeds (n,), with an empty row wherever speeds are missing.
 
-    A bin reaches to the middle between neighbours, but no further than the usual speed step: a long
-    stretch without a simulation stays a gap.
-
-    Parameters
-    ----------
-    f_omega : (n,) array_like
-        Ascending speeds.
-    values : (n, ...) array_like
-        A row for each speed.
-
-    Returns
-    -------
-    speed_edges : (m + 1,) ndarray
-        Edges of the m ≥ n bins.
-    rows : (m, ...) ndarray
-        The rows of `values`, and rows of NaN in the gaps.
+    A bin reaches to the middle between neighbours, but no further than the usual speed step: a long stretch
+    without a simulation stays a gap. Returns the edges of the m ≥ n bins, and the rows of `values` (n, ...)
+    with rows of NaN in the gaps.
     """
     f_omega, values = np.asarray(f_omega, dtype=float), np.asarray(values, dtype=float)
     middle = edges(f_omega)

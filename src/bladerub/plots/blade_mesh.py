@@ -71,18 +71,10 @@ def blade_mesh(
 ) -> Figure:
     """Draw Fig. 1: the mesh with root and interface nodes (a), and the tip seen along the radius (b).
 
-    Parameters
-    ----------
-    points : (n_nodes, 3) ndarray
-        Nodes, m: x along the axis, y tangential, z along the stacking line.
-    elements : (n_elements, 20 or 10) ndarray of int
-        Nodes of the elements, in the order of CalculiX's C3D20 or C3D10; without them the nodes are drawn.
-    interface : (8,) ndarray of int
-        Interface nodes, leading to trailing edge.
-    root : (n_root,) ndarray of int
-        Clamped nodes; none where another program has left them out.
-    tip : (n_tip,) ndarray of int
-        Nodes of the tip face.
+    `points` (n, 3) are the nodes, m: x along the axis, y tangential, z along the stacking line. `elements`
+    are their nodes in the order of CalculiX's C3D20 or C3D10; without them the nodes are drawn. `interface`
+    (8,) are the interface nodes from leading to trailing edge, `tip` those of the tip face, `root` the
+    clamped ones: none where another program has left them out.
     """
     figure = new_figure(PAGE, 0.86 * PAGE)
     whole, of_tip = figure.subplots(1, 2, width_ratios=[1, 1.05])

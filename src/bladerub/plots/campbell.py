@@ -10,26 +10,18 @@ from bladerub.plots.style import DARK, ORANGE, PAGE, new_figure, styled
 
 @styled
 def campbell(f_omega: np.ndarray, f_fe: np.ndarray, f_rom: np.ndarray, orders: range) -> Figure:
-    """Draw Fig. 2: all modes (a) and the first of them, which the engine orders cross (b).
+    """Draw Fig. 2: all modes (a) and the first of them, which the engine `orders` cross (b).
 
-    Finite elements dashed on top of the reduced model, solid.
-
-    Parameters
-    ----------
-    f_omega : (n,) array_like
-        Speeds, normalised.
-    f_fe, f_rom : (n, n_modes) array_like
-        Eigenfrequencies, normalised, ascending; NaN where one is unknown.
-    orders : range
-        Engine orders to draw.
+    Finite elements `f_fe` dashed on top of the reduced model `f_rom`, solid: eigenfrequencies (n, n_modes),
+    ascending, NaN where unknown, at the speeds `f_omega` (n,); all normalised.
     """
     f_omega, f_fe, f_rom = np.asarray(f_omega), np.asarray(f_fe), np.asarray(f_rom)
     figure = new_figure(PAGE, 0.62 * PAGE)
     whole, first = figure.subplots(1, 2)
     speed_max = float(f_omega.max())
     whole_max, first_max = 1.04 * float(np.nanmax([f_fe, f_rom])), 1.5 * float(np.nanmax(f_rom[:, 0]))
-    engine_orders.over_speed(whole, orders[-1:], speed_max, whole_max)
-    engine_orders.over_speed(first, orders, speed_max, first_max)
+    engine_orders.draw(whole, {k: k for k in orders[-1:]}, speed_max, whole_max)
+    engine_orders.draw(first, {k: k for k in orders}, speed_max, first_max)
     for axes in (whole, first):
         _modes(axes, f_omega, f_fe, f_rom)
         axes.set(xlim=(0, speed_max), xlabel=r"rotational frequency $f_\Omega\,/\,f_1(0)$")

@@ -17,23 +17,10 @@ _ROOM = 0.01  # from the floor to the lowest speed, normalised: it is seen, and 
 
 
 def peak_histogram(peaks: pd.DataFrame, quantity: str, order: int) -> tuple[pd.DataFrame, Figure]:
-    """Draw Figs. 11 to 14 from the table of peaks: Y_k or f_k over (E, K).
+    """Draw Figs. 11 to 14: the column ``amplitude`` or ``f_peak`` of ``peaks.csv`` over (E, K).
 
-    Parameters
-    ----------
-    peaks : DataFrame
-        Rows of ``peaks.csv``, of one casing and one theta.
-    quantity : {"amplitude", "f_peak"}
-        Its column that is drawn.
-    order : int
-        The engine order k.
-
-    Returns
-    -------
-    table : DataFrame
-        What is drawn: the rows of `peaks` of that order, amplitudes in m.
-    figure : Figure
-        Amplitudes in mm, speeds normalised.
+    `peaks` are the rows of one casing and one theta. Returns those of the `order`, which are drawn, and the
+    figure, with amplitudes in mm.
     """
     rows = peaks.loc[peaks.order == order, ["casing", "E", "K", "theta", "order", quantity]]
     values = rows.pivot(index="E", columns="K", values=quantity)

@@ -18,12 +18,8 @@ _DRAWN = ("revolution", "radial_displacement")
 def history_of_runs(paths: Iterable[str | Path]) -> tuple[pd.DataFrame, Figure]:
     """Draw Figs. 17 and 18 from the files of two runs that differ in theta.
 
-    Returns
-    -------
-    table : DataFrame
-        ``theta``, ``revolution`` and ``radial_displacement`` of node 1, m, one run below the other.
-    figure : Figure
-        See `history`.
+    Returns the table of what is drawn (``theta``, ``revolution``, ``radial_displacement`` of node 1, m) and
+    `history`.
     """
     runs = {run.attributes["theta"]: run for run in map(read_run, paths)}
     displacement = {titles.angle(theta): run.data["radial_displacement"] for theta, run in runs.items()}

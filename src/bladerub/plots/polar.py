@@ -23,18 +23,10 @@ _SHAPES = (
 def casing_polar(
     angle: np.ndarray, inward: Mapping[str, np.ndarray], radius: float, magnification: float
 ) -> Figure:
-    """Draw Fig. 5: the round casing and up to three distorted ones.
+    """Draw Fig. 5: the round casing of a `radius` (m) and up to three distorted ones.
 
-    Parameters
-    ----------
-    angle : (n,) array_like
-        Casing angle, rad.
-    inward : mapping of str to (n,) array_like
-        Inward displacement of the inner surface by name of the shape, m.
-    radius : float
-        Radius of the round casing, m.
-    magnification : float
-        By how much the displacement is magnified.
+    `inward` is the displacement of the inner surface (n,), m, by name of the shape, at the casing `angle`
+    (n,), rad; it is drawn with a `magnification`.
     """
     figure = new_figure(COLUMN, 1.25 * COLUMN)
     largest = max(np.abs(u).max() for u in inward.values())
@@ -58,12 +50,8 @@ def casing_polar(
 def wear_profiles(maps: Iterable[CoatingMap], speeds: Iterable[float]) -> tuple[pd.DataFrame, Figure]:
     """Draw Fig. 19 from the maps of two coatings that differ in theta.
 
-    Returns
-    -------
-    table : DataFrame
-        ``f_omega``, ``theta``, ``angle`` (rad) and ``wear`` (m).
-    figure : Figure
-        See `wear_polar`.
+    Returns the table of what is drawn (``f_omega``, ``theta``, ``angle``, rad, and ``wear``, m) and
+    `wear_polar`.
     """
     maps, panels, profiles = list(maps), {}, []
     for index, f_omega in enumerate(speeds):

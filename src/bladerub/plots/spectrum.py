@@ -25,15 +25,11 @@ _RING = {"marker": "o", "fillstyle": "none", "zorder": 4, "linestyle": "none"}
 
 @dataclass(frozen=True)
 class PeakSection:
-    """Amplitude along one engine order, and its maximum.
-
-    `amplitude` (n,) is that on eo(k) at each speed, m; the maximum `peak` was searched between the speeds of
-    the `window`, normalised.
-    """
+    """Amplitude along one engine order, and its maximum."""
 
     order: int
-    amplitude: np.ndarray
-    window: tuple[float, float]
+    amplitude: np.ndarray  # (n,), on eo(k) at each speed, m
+    window: tuple[float, float]  # speeds between which the maximum was searched, normalised
     peak: Peak
 
 
@@ -41,14 +37,8 @@ class PeakSection:
 def spectrum_map(coating: CoatingMap, amplitude_range: tuple[float, float], f_max: float) -> Figure:
     """Draw Figs. 7, 8, 9, 15 and 16: f horizontally, f_Ω vertically, amplitude in colour.
 
-    Parameters
-    ----------
-    coating : CoatingMap
-        Runs of one coating at all speeds.
-    amplitude_range : (float, float)
-        Ends of the logarithmic colour scale, m.
-    f_max : float
-        Right end of the frequency axis, normalised.
+    `amplitude_range` are the ends of the logarithmic colour scale, m, `f_max` is that of the frequency axis,
+    normalised.
     """
     figure = new_figure(PAGE, 0.62 * PAGE)
     axes = figure.add_subplot()
@@ -64,12 +54,7 @@ def peak_sections(
 ) -> Figure:
     """Draw Fig. 10: the spectrum with Y_k marked (a), the amplitude along eo(k) with its window (b).
 
-    Parameters
-    ----------
-    coating, amplitude_range, f_max
-        As of `spectrum_map`.
-    sections : list of PeakSection
-        One or two.
+    There are one or two `sections`; the other arguments are as of `spectrum_map`.
     """
     figure = new_figure(PAGE, 0.66 * PAGE)
     spectrum, curves = figure.subplots(1, 2, sharey=True, width_ratios=[1.5, 1])
@@ -108,7 +93,7 @@ def _draw_spectrum(
         rasterized=True,
     )
     speed_max = float(speed_edges[-1])
-    engine_orders.over_frequency(axes, ORDERS, f_max, speed_max)
+    engine_orders.draw(axes, {k: 1 / k for k in ORDERS}, f_max, speed_max)
     dashed = {"color": BLUE, "linestyle": (0, (5, 2)), "linewidth": 1.4}
     axes.plot(coating.C1, coating.f_omega, label="$C_1$", zorder=3, **dashed)
     axes.set(

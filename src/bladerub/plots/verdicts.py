@@ -16,13 +16,7 @@ MARKS = {
 
 @style.styled
 def verdicts(holds: pd.DataFrame) -> Figure:
-    """Draw a column a study and a row a claim.
-
-    Parameters
-    ----------
-    holds : DataFrame
-        ``yes``, ``partly`` or ``no`` by claim (rows) and study (columns); NaN where it gives no verdict.
-    """
+    """Draw a column a study and a row a claim: `holds` is yes, partly, no or, without a verdict, NaN."""
     rows, columns = holds.shape
     figure = style.new_figure(style.PAGE, 0.9 + 0.155 * rows + 0.045 * max(map(len, holds.columns)))
     axes = figure.subplots()

@@ -66,10 +66,8 @@ class CoatingCase:
 def coating_cases(config: Mapping[str, Any]) -> list[CoatingCase]:
     """List every coating of the config, in its order.
 
-    Raises
-    ------
-    ValueError
-        If a coating is listed twice, or there are more than `MAX_COATINGS`; the message names the entry.
+    Raises `ValueError`, naming the entry, if a coating is listed twice, or there are more than
+    `MAX_COATINGS`.
     """
     cases: dict[str, CoatingCase] = {}
     for index, entry in enumerate(config["coatings"]):
@@ -106,13 +104,7 @@ def compared_cases(config: Mapping[str, Any]) -> list[tuple[CoatingCase, Coating
 
 
 def case_from_name(config: Mapping[str, Any], name: str) -> CoatingCase:
-    """Find the coating called `name` among `coating_cases` and `compared_cases`.
-
-    Raises
-    ------
-    ValueError
-        If the config has no such coating.
-    """
+    """Find the coating called `name` in `coating_cases` or `compared_cases`; `ValueError` if none is."""
     for case in itertools.chain(coating_cases(config), *compared_cases(config)):
         if case.name == name:
             return case
@@ -122,10 +114,7 @@ def case_from_name(config: Mapping[str, Any], name: str) -> CoatingCase:
 def speeds(config: Mapping[str, Any]) -> list[float]:
     """List the speeds of the study, sorted, each once, normalised.
 
-    Raises
-    ------
-    ValueError
-        If two speeds are so close that their runs would have the same file name.
+    Raises `ValueError` if two are so close that their runs would have the same file name.
     """
     grid = config["speeds"]
     n_steps = math.floor((grid["stop"] - grid["start"]) / grid["step"] + 1e-6)

@@ -37,24 +37,11 @@ def take(
     blade_digest: str | None,
     thorough: bool = False,
 ) -> tuple[dict[str, int], list[Path]]:
-    """Compare the runs of one coating on disk with the plan.
+    """Compare the runs of one coating in `folder` with its `plan`: `COUNTS`, and the damaged files.
 
-    Parameters
-    ----------
-    config, plan, folder
-        The study, the coating with its runs, and where these are.
-    blade_digest : str or None
-        From `bladerub.study.cache.blade_digest`; without a blade every run that is there is stale.
-    thorough : bool, optional
-        Read every number, and compare every byte with the checksum in the manifest if the job is done.
-        Otherwise read only what shows a truncated file.
-
-    Returns
-    -------
-    dict of str to int
-        `COUNTS`.
-    list of Path
-        The damaged files: runs, longer runs, the manifest.
+    Without a blade, whose digest is `bladerub.study.cache.blade_digest`, every run that is there is stale. If
+    `thorough`, every number is read, and every byte compared with the checksum in the manifest if the job is
+    done; otherwise only what shows a truncated file.
     """
     folder, settings = Path(folder), config["analysis"]["divergence"]
     damaged = damaged_files(folder / "manifest.tsv", thorough=thorough)

@@ -64,27 +64,14 @@ def compute_missing(
     blade_digest: str,
     report: Callable[[object], None] = lambda line: None,
 ) -> list[ManifestRow]:
-    """Compute those runs of one coating whose file is missing or stale.
+    """Compute those runs of one coating whose file is missing or stale; return the rows of its manifest.
 
     A run that grows is then repeated for as many revolutions as the config has for its confirmation (see
-    `bladerub.study.growth`). Each run is written as soon as it is done, so an interrupted job continues
-    where it stopped. Runs that are no longer planned stay, stale ones are archived
-    (`bladerub.study.cache`). One job at a time works on a folder: another, of another invocation, waits for
-    its end and takes over what it has computed.
-
-    Parameters
-    ----------
-    config, plan, blade, blade_digest
-        The study, the coating with its runs, the blade and its digest (`bladerub.study.cache.blade_digest`).
-    folder : path-like
-        Where the runs of this coating are.
-    report : callable, optional
-        Called with a line for a log: a `RunDone` after each computed run, or a text before waiting.
-
-    Returns
-    -------
-    list of ManifestRow
-        A row per run, for `bladerub.study.manifest.write_manifest`.
+    `bladerub.study.growth`). Each run is written as soon as it is done, so an interrupted job continues where
+    it stopped. Runs that are no longer planned stay, stale ones are archived (`bladerub.study.cache`, whose
+    `blade_digest` is that of the blade). One job at a time works on a folder: another, of another invocation,
+    waits for its end and takes over what it has computed. `report` is called with a line for a log: a
+    `RunDone` after each computed run, or a text before waiting.
     """
     folder, settings = Path(folder), config["analysis"]["divergence"]
 

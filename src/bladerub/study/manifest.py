@@ -85,10 +85,7 @@ def write_manifest(path: str | Path, rows: Iterable[Row], kind: type[Row] = Mani
 def read_manifest(path: str | Path, kind: type[AnyRow] = ManifestRow) -> list[AnyRow]:
     """Read the rows of that `kind` written by `write_manifest`.
 
-    Raises
-    ------
-    OSError
-        If the file is missing or not such a manifest; the message names it.
+    Raises `OSError`, naming the file, if it is missing or not such a manifest.
     """
     columns = [field.name for field in fields(kind)]
     convert = [field.type for field in fields(kind)]

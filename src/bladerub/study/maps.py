@@ -79,13 +79,9 @@ def build_map(
     """Collect the runs of one coating in the map file `path`, with its `DATASETS`.
 
     ``manifest.tsv`` in `runs_folder` lists which of the runs there belong to the study `config`, whose
-    ``analysis.lobe_prominence`` decides what counts as a lobe; `blade` is for its first frequency.
-
-    Raises
-    ------
-    OSError
-        If the manifest or a run is missing or damaged, if the manifest lists other speeds than the study has,
-        or a run is another than the manifest's; the message names the file.
+    ``analysis.lobe_prominence`` decides what counts as a lobe; `blade` is for its first frequency. Raises
+    `OSError`, naming the file, if the manifest or a run is missing or damaged, if the manifest lists other
+    speeds than the study has, or a run is another than the manifest's.
     """
     folder, planned = Path(runs_folder), speeds(config)
     rows = sorted(read_manifest(folder / "manifest.tsv"), key=lambda row: row.f_omega)
@@ -151,10 +147,7 @@ def write_map(path: str | Path, coating: CoatingMap, origin: Mapping[str, str]) 
 def read_map(path: str | Path, with_nodes: bool = False) -> CoatingMap:
     """Read a map written by `write_map`, `with_nodes` all of it.
 
-    Raises
-    ------
-    OSError
-        If the file is missing, damaged or not a map; the message names it.
+    Raises `OSError`, naming the file, if it is missing, damaged or not a map.
     """
     data, attributes = hdf5.read(path, DATASETS.keys() - (set() if with_nodes else {"wear_node"}))
     try:

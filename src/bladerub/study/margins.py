@@ -95,18 +95,10 @@ def _at(maps: Iterable[CoatingMap], f_omega: np.ndarray) -> list[CoatingMap]:
 def table(
     config: Mapping[str, Any], map_paths: Iterable[str | Path], rom_accuracy_path: str | Path
 ) -> pd.DataFrame:
-    """Judge every claim in every variation of the study with these files.
+    """Judge every claim in every variation of the study with these files: a row each, with `COLUMNS`.
 
-    Returns
-    -------
-    DataFrame
-        A row for each claim in each variation, with `COLUMNS`; one that cannot be judged there has none.
-        A variation that leaves no speed to look for a peak at is left out; the log says so.
-
-    Raises
-    ------
-    ValueError
-        As `bladerub.study.peaks.of_maps`, of the study itself.
+    A claim that cannot be judged has no row. A variation that leaves no speed to look for a peak at is left
+    out; the log says so. Raises `ValueError` as `bladerub.study.peaks.of_maps`, of the study itself.
     """
     rom_accuracy = read_rom_accuracy(rom_accuracy_path)
     judged = []

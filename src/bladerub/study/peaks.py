@@ -34,12 +34,7 @@ class Peak(NamedTuple):
 def crossing_speed(coating: Response, order: float) -> float:
     """Speed at which the engine order crosses C1, ``order * f_omega = C1(f_omega)``, normalised.
 
-    C1 is taken as linear between the speeds of the map.
-
-    Raises
-    ------
-    ValueError
-        If the crossing lies outside the speeds of the map.
+    C1 is taken as linear between the speeds of the map; `ValueError` if the crossing lies outside them.
     """
     f_omega = coating.f_omega
     distance = order * f_omega - coating.C1
@@ -65,10 +60,7 @@ def speed_window(coating: Response, order: float, settings: Mapping[str, Any]) -
 def order_amplitude(coating: Response, order: float, halfwidth: float) -> np.ndarray:
     """Largest amplitude within `halfwidth` of an engine order at each speed, m (n,); NaN without a spectrum.
 
-    Raises
-    ------
-    ValueError
-        If the spectra do not reach that order.
+    Raises `ValueError` if the spectra do not reach that order.
     """
     on_order = np.abs(coating.spectrum_order - order) <= halfwidth + 1e-9
     if not on_order.any():

@@ -73,10 +73,7 @@ def longer_run(config: Mapping[str, Any], run: PlannedRun) -> PlannedRun:
 def claimed_run(config: Mapping[str, Any], file: str, run: StoredRun) -> PlannedRun:
     """Plan again what a stored run says it is; its own key shows whether `config` and blade made it.
 
-    Raises
-    ------
-    KeyError
-        If the file lacks an attribute of a run, or the config its casing.
+    Raises `KeyError` if the file lacks an attribute of a run, or the config its casing.
     """
     attributes, analysis = run.attributes, config["analysis"]
     case = CoatingCase.described(attributes)

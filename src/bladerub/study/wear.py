@@ -9,25 +9,12 @@ and twenty lobes further apart."""
 
 
 def lobes(angle: np.ndarray, wear: np.ndarray, prominence: float) -> int:
-    """Count the worn lobes around the circumference.
+    """Count the worn lobes around the circumference; their number does not change when the casing is turned.
 
-    The wear is averaged over the nodes and smoothed around the circle over `SMOOTHING_ANGLE`. A lobe is a
-    maximum above the valleys on both sides by at least `prominence` of the greatest smoothed depth. A casing
-    that is worn evenly all around has none.
-
-    Parameters
-    ----------
-    angle : (n,) ndarray
-        Casing angle of the elements, rad, evenly spaced around the whole circle.
-    wear : (8, n) or (n,) ndarray
-        Worn depth, m, of each interface node or their mean.
-    prominence : float
-        Relative prominence of a lobe, in (0, 1).
-
-    Returns
-    -------
-    int
-        Number of lobes; it does not change when the casing is turned.
+    The worn depth `wear`, (8, n) or (n,), m, is averaged over the nodes and smoothed around the circle over
+    `SMOOTHING_ANGLE`; `angle` (n,), rad, is even around it. A lobe is a maximum above the valleys on both
+    sides by at least `prominence` of the greatest smoothed depth. A casing that is worn evenly all around has
+    none.
     """
     width = max(1, round(SMOOTHING_ANGLE / (2 * np.pi / angle.size)))
     kernel = np.hanning(width + 2)[1:-1]  # without its two zeros

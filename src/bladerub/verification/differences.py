@@ -12,16 +12,11 @@ from bladerub.study.summary import spectral_peak
 
 
 class Differences(NamedTuple):
-    """Relative differences of one outcome from a reference, 0.01 being 1 %.
+    """Relative differences of one outcome from a reference, 0.01 being 1 %."""
 
-    ``wear_l2`` is the L2 norm of the difference of the wear profiles (8, n) over the norm of the reference,
-    ``peak`` that of the largest spectral amplitude from order 0.5 up, ``revolution_peak`` the largest
-    difference of a revolution's peak over the largest peak of all revolutions.
-    """
-
-    wear_l2: float
-    peak: float
-    revolution_peak: float
+    wear_l2: float  # L2 norm of the difference of the wear profiles (8, n) over the norm of the reference
+    peak: float  # of the largest spectral amplitude from order 0.5 up
+    revolution_peak: float  # largest of a revolution's peak, over the largest peak of all revolutions
 
 
 UNBOUNDED = Differences(math.inf, math.inf, math.inf)

@@ -12,22 +12,15 @@ from bladerub.verification.verify import TOLERANCE, Seconds, VerifiedRun
 
 
 def report(verified: Sequence[VerifiedRun]) -> dict[str, Any]:
-    """Summarise the errors of one run or more, in plain values that JSON can hold.
+    """Summarise the errors of one run or more, in plain values that JSON can hold; infinite ones are None.
 
-    Returns
-    -------
-    dict
-        Differences are fractions, None for infinite ones.
-
-        - ``n``, and ``within_1_percent``: the fraction within `TOLERANCE` in wear and spectral peak;
-        - ``wear_l2``, ``peak``, ``revolution_peak``, ``energy_residual``: each from `distribution`;
-        - ``worst``: the name of the worst run in each of the first three;
-        - ``against_paper_scheme``: the three for the differences from the paper's scheme, and under
-          ``uncertainty`` the three for its own error;
-        - ``speedup_at_equal_error``: the median over the runs that have one and are not sensitive, None if
-          there are none, and ``left_out``: how many runs are not in that median;
-        - ``seconds``: mean cost of a run of each kind;
-        - ``beyond``: the runs beyond `TOLERANCE` in any of the three, the worst first.
+    ``n``, and ``within_1_percent``, the fraction within `TOLERANCE` in wear and spectral peak; ``wear_l2``,
+    ``peak``, ``revolution_peak``, ``energy_residual``, each from `distribution`; ``worst``, the name of the
+    worst run in each of the first three; ``against_paper_scheme``, the three for the differences from the
+    paper's scheme, and under ``uncertainty`` the three for its own error; ``speedup_at_equal_error``, the
+    median over the runs that have one and are not sensitive, and ``left_out``, how many runs are not in that
+    median; ``seconds``, mean cost of a run of each kind; ``beyond``, the runs beyond `TOLERANCE` in any of
+    the three, the worst first.
     """
     within = [max(run.error.wear_l2, run.error.peak) <= TOLERANCE for run in verified]
     speedups = [run.speedup for run in verified if run.speedup is not None and not run.is_sensitive]

@@ -129,10 +129,7 @@ def _start_worker() -> None:
 def verify_run(blade: ReducedBlade, config: Mapping[str, Any], run: StudyRun) -> VerifiedRun:
     """Find the error of one run.
 
-    Raises
-    ------
-    ValueError
-        If the speed is outside the range of the blade, or the config's step too long for its scheme.
+    Raises `ValueError` if the blade has no such speed, or the step is too long for the scheme.
     """
     spec, analysis = run_spec(config, run.case, run.f_omega), config["analysis"]
     passage = 1 / (spec.f_omega * blade.f1_hz * spec.coating.n_elements)

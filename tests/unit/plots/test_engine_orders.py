@@ -9,10 +9,10 @@ from bladerub.plots import engine_orders
 def test_lines_have_slope_k_and_end_at_the_frame(over):
     axes = Figure().add_subplot()
     if over == "speed":
-        engine_orders.over_speed(axes, range(1, 9), speed_max=0.4, f_max=2.0)
+        engine_orders.draw(axes, {k: k for k in range(1, 9)}, 0.4, 2.0)
         lines = [line.get_xydata() for line in axes.lines]
     else:
-        engine_orders.over_frequency(axes, range(1, 9), f_max=2.0, speed_max=0.4)
+        engine_orders.draw(axes, {k: 1 / k for k in range(1, 9)}, 2.0, 0.4)
         lines = [line.get_xydata()[:, ::-1] for line in axes.lines]
     for k, line in enumerate(lines, start=1):
         (x0, y0), (speed, f) = line
@@ -24,7 +24,7 @@ def test_lines_have_slope_k_and_end_at_the_frame(over):
 
 def test_names_do_not_stand_on_each_other():
     axes = Figure().add_subplot()
-    engine_orders.over_speed(axes, range(1, 41), speed_max=0.4, f_max=2.0)
+    engine_orders.draw(axes, {k: k for k in range(1, 41)}, 0.4, 2.0)
     at_top = np.array([text.xy[0] for text in axes.texts if text.xy[1] == pytest.approx(2.0)])
     assert len(axes.lines) == 40
     assert len(at_top) > 2

@@ -25,21 +25,11 @@ def columns(config: Mapping[str, Any]) -> dict[str, list[CoatingCase]]:
 
 
 class ChartSpeeds(NamedTuple):
-    """Speeds at which a point may be run, and those at which every point is.
+    """Speeds at which a point may be run, and those at which every point is."""
 
-    Parameters
-    ----------
-    f_omega : (n,) ndarray
-        All speeds of the study, normalised: a run of the chart is one of the study's.
-    uniform : (n,) ndarray of bool
-        Speeds at even steps, to which the shares of the chart refer.
-    coarse : (n,) ndarray of bool
-        These and the denser ones at low speed: where the search for maxima begins.
-    """
-
-    f_omega: np.ndarray
-    uniform: np.ndarray
-    coarse: np.ndarray
+    f_omega: np.ndarray  # (n,), all speeds of the study, normalised: a run of the chart is one of the study's
+    uniform: np.ndarray  # (n,) of bool, at even steps, to which the shares of the chart refer
+    coarse: np.ndarray  # (n,) of bool, these and denser ones at low speed: where the search for maxima begins
 
 
 def chart_speeds(config: Mapping[str, Any]) -> ChartSpeeds:

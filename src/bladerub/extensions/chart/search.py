@@ -64,14 +64,8 @@ def sought(config: Mapping[str, Any], response: Response, peak: np.ndarray) -> d
 def next_speeds(known: np.ndarray, curves: Iterable[np.ndarray], share: float) -> list[int]:
     """Return the speeds to run next, as ascending indices into the grid; none once all maxima are enclosed.
 
-    Parameters
-    ----------
-    known : (n,) ndarray of bool
-        Which speeds of the grid were run.
-    curves : iterable of (n,) ndarray
-        Quantities whose maxima are sought; NaN where the maximum is not sought.
-    share : float
-        Local maxima below this share of the greatest are left as they are.
+    `known` (n,) are the speeds that were run, `curves` (n,) the quantities whose maxima are sought, NaN where
+    not; local maxima below `share` of the greatest are left as they are.
     """
     at = np.flatnonzero(known)
     wanted: set[int] = set()

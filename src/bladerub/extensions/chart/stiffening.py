@@ -39,24 +39,14 @@ def share(blade: ReducedBlade, theta: float, f_omega: float) -> float:
 
 
 def table(peaks: pd.DataFrame, blade: ReducedBlade) -> pd.DataFrame:
-    """Sum up how closely f_k follows each of `MODULI`, and how θ changes it.
+    """Sum up how closely f_k follows each of `MODULI`, and how θ changes it, from ``chart_explanation.csv``.
 
-    Parameters
-    ----------
-    peaks : DataFrame
-        Rows of ``chart_explanation.csv``.
-    blade : ReducedBlade
-        The blade of the chart.
-
-    Returns
-    -------
-    DataFrame
-        A row per order and θ: ``coatings``, the number of those in `is_stiffened`, to which the other columns
-        refer; ``below_crossing``, the number of the others; for each of `MODULI` the rank correlation
-        ``rank_correlation_<modulus>``, and ``scatter_<modulus>``, the root mean square distance of f_k from
-        the nearest curve that nowhere falls with the modulus; ``modulus_ratio``, E_T over that of the
-        first θ at the same f_k (medians at each f_k that both have, the median of these ratios) where
-        stiffening is `SMALL`, and ``modulus_ratio_by_share``, the ratio expected from `share`.
+    A row per order and θ: ``coatings``, the number of those in `is_stiffened`, to which the other columns
+    refer; ``below_crossing``, the number of the others; for each of `MODULI` the rank correlation
+    ``rank_correlation_<modulus>``, and ``scatter_<modulus>``, the root mean square distance of f_k from the
+    nearest curve that nowhere falls with the modulus; ``modulus_ratio``, E_T over that of the first θ at the
+    same f_k (medians at each f_k that both have, the median of these ratios) where stiffening is `SMALL`, and
+    ``modulus_ratio_by_share``, the ratio expected from `share`.
     """
     rows = []
     for order, of_order in peaks.groupby("order"):

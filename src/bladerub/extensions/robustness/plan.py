@@ -25,28 +25,14 @@ REFERENCE, REFERENCE_BATCH = -1, "reference"
 
 @dataclass(frozen=True)
 class Factor:
-    """One choice that the paper leaves open.
-
-    Parameters
-    ----------
-    name, unit : str
-        Name in the plan, and the unit of its values.
-    ranges : dict of str to tuple of float
-        Lowest and highest value of each number of the config that the factor sets.
-    logarithmic : bool
-        Whether the values are spread evenly on a logarithmic scale.
-    multiple_of : float or None
-        Values are rounded to a multiple of it.
-    location : Location
-        Of the factor in the plan.
-    """
+    """One choice that the paper leaves open."""
 
     name: str
     unit: str
-    ranges: dict[str, tuple[float, float]]
-    logarithmic: bool = False
-    multiple_of: float | None = None
-    location: Location = UNKNOWN
+    ranges: dict[str, tuple[float, float]]  # lowest and highest of each number of the config that it sets
+    logarithmic: bool = False  # whether the values are spread evenly on a logarithmic scale
+    multiple_of: float | None = None  # values are rounded to a multiple of it
+    location: Location = UNKNOWN  # in the plan
 
     def values(self, position: float) -> dict[str, float]:
         """Return each number that the factor sets, at a `position` from 0 to 1 of its range."""
@@ -65,27 +51,13 @@ class Factor:
 
 @dataclass(frozen=True)
 class Part:
-    """A small study for some of the claims.
-
-    Parameters
-    ----------
-    name : str
-        Name in the plan.
-    claims : tuple of str
-        Claims that it judges, ``C2`` or ``C12``.
-    samples : int
-        Number of samples, the first ones of the sequence.
-    study : Located
-        What is laid over the study.
-    location : Location
-        Of the part in the plan.
-    """
+    """A small study for some of the claims."""
 
     name: str
-    claims: tuple[str, ...]
-    samples: int
-    study: Located
-    location: Location = UNKNOWN
+    claims: tuple[str, ...]  # ``C2`` or ``C12``
+    samples: int  # their number, the first ones of the sequence
+    study: Located  # what is laid over the study
+    location: Location = UNKNOWN  # in the plan
 
     def batches(self) -> list[range]:
         """Return the samples of each job but that of the reference."""
@@ -109,10 +81,7 @@ class Plan:
 def read_plan(path: str | Path) -> Plan:
     """Read a plan (config/robustness.yaml says what it holds).
 
-    Raises
-    ------
-    ConfigError
-        If it is no such plan; names file, line, key, value and what would be right.
+    Raises `ConfigError` if it is none: the message has file, line, key, value and what would be right.
     """
     plan = configuration.read_plan(path, "robustness_plan")
     factors = tuple(_factor(name, entry) for name, entry in plan.content["factors"].content.items())

@@ -24,28 +24,11 @@ def judge(
     claims: Collection[str],
     blades: Iterable[tuple[str | Path, str | Path]],
 ) -> tuple[pd.DataFrame, pd.DataFrame]:
-    """Make the study of each sample in a temporary folder, and judge `claims`.
+    """Make the study of each sample in a temporary folder, and judge the `claims` of their `part`.
 
-    Parameters
-    ----------
-    part : str
-        Name of their part of the design.
-    samples : mapping of int to dict
-        Configs by the number of the sample, from `bladerub.extensions.robustness.design.batch`.
-    claims : collection of str
-        Claims of the part, ``C2`` or ``C12``.
-    blades : iterable of (path, path)
-        Reduced model of each sample's blade and the table of its accuracy.
-
-    Returns
-    -------
-    verdicts, cost : DataFrame
-        With `COLUMNS` and `COST`.
-
-    Raises
-    ------
-    ConfigError
-        If the values of a sample make no study together.
+    `samples` are configs by the number of the sample, from `bladerub.extensions.robustness.design.batch`;
+    `blades` are the files of each sample's reduced blade and of the accuracy of that. Returns verdicts and
+    cost, with `COLUMNS` and `COST`. Raises `ConfigError` if the values of a sample make no study together.
     """
     verdicts, cost = [], []
     for (number, config), (model, rom_accuracy) in zip(samples.items(), blades, strict=True):

@@ -26,19 +26,11 @@ SPARSITY = 0.5
 
 
 class Indices(NamedTuple):
-    """Sobol indices of one output.
+    """Sobol indices of one output for d factors: shares of its variance, as far as it is predicted."""
 
-    Parameters
-    ----------
-    first, total : (d,) ndarray
-        Share of the variance by each factor alone, and with all its interactions, as far as it is predicted.
-    predicted : float
-        Share of the variance that is predicted for samples left out; 0 if that is worse than their mean.
-    """
-
-    first: np.ndarray
-    total: np.ndarray
-    predicted: float
+    first: np.ndarray  # (d,), by each factor alone
+    total: np.ndarray  # (d,), by each factor with all its interactions
+    predicted: float  # share predicted for samples left out; 0 if that is worse than their mean
 
 
 def indices(positions: np.ndarray, output: np.ndarray) -> Indices:

@@ -72,19 +72,9 @@ def summary(
 ) -> pd.DataFrame:
     """Sum up each claim: the share of the design in which it holds, what decides that, and the cost.
 
-    Parameters
-    ----------
-    plan : Plan
-        The design.
-    verdicts, sensitivity : DataFrame
-        From `collect` and `sensitivities`.
-    cost : DataFrame
-        A row per part and sample, with `bladerub.extensions.robustness.sample.COST`.
-
-    Returns
-    -------
-    DataFrame
-        A row for each part of each claim of the plan; shares are of the samples that have a verdict.
+    `verdicts` is from `collect`, `sensitivity` from `sensitivities`; `cost` has a row per part and sample,
+    with `bladerub.extensions.robustness.sample.COST`. A row for each part of each claim of the plan; shares
+    are of the samples that have a verdict.
     """
     part_of = {claim: part.name for part in plan.parts.values() for claim in part.claims}
     own_values, drawn = (verdicts["sample"] == REFERENCE), cost[cost["sample"] != REFERENCE]

@@ -40,12 +40,8 @@ def claim(id_: str, statement: str, *arguments: Any) -> Callable[[Callable], Cal
     """Register a function ``measure(evidence, *arguments)`` as the measurement of a claim.
 
     The `id_` is letters, a number and, for one of several parts, a letter: ``C4a``; the `statement` is what
-    the paper says, and where. One function may measure several claims, with other `arguments` each.
-
-    Raises
-    ------
-    ValueError
-        If the id has another form or is taken.
+    the paper says, and where. One function may measure several claims, with other `arguments` each. Raises
+    `ValueError` if the id has another form or is taken.
     """
     _place(id_)
     if id_ in REGISTERED:
