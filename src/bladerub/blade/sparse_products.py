@@ -6,7 +6,8 @@ import numpy as np
 from numba import njit
 from scipy import sparse
 
-from bladerub.numerics.vectors import LANES, broadcast, load, store
+from bladerub.numerics.memory import load, store
+from bladerub.numerics.vectors import LANES, broadcast
 
 _THREADS = 2  # each computes rows of its own, so their number changes no bit
 

@@ -6,7 +6,8 @@ circumference (tangential). The casing is curved, so a node approaches it by tan
 
 from numba import njit
 
-from bladerub.numerics.vectors import absolute, all_lanes, elementwise, load, sqrt
+from bladerub.numerics.memory import load
+from bladerub.numerics.vectors import absolute, all_lanes, elementwise, sqrt
 
 
 @njit(inline="always")

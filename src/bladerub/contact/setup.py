@@ -14,7 +14,7 @@ from bladerub.contact.kernel.modal import pack
 from bladerub.contact.modes import Modes, modes_at
 from bladerub.contact.schemes import SCHEMES, Contact, Recurrence, normal_compliance
 from bladerub.contact.spec import Coating, RunSpec
-from bladerub.numerics.vectors import aligned
+from bladerub.numerics.memory import aligned
 
 SEARCH_RANGE = 4
 """Elements a node may move along the casing before the search for contact looks at it alone."""

@@ -1,4 +1,4 @@
-"""Vectors in compiled code against NumPy, lane by lane."""
+"""Vectors in compiled code, and in memory, against NumPy, lane by lane."""
 
 from typing import NamedTuple
 
@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 from numba import njit
 
-from bladerub.numerics import vectors
-from bladerub.numerics.vectors import LANES, addresses, aligned
+from bladerub.numerics import memory, vectors
+from bladerub.numerics.memory import addresses, aligned
+from bladerub.numerics.vectors import LANES
 
 
 class Data(NamedTuple):
@@ -29,8 +30,8 @@ def vector_of(function):
 
     @njit
     def call(data):
-        a, b = vectors.load(data.a, 0), vectors.load(data.b, 0)
-        vectors.store(data.out, 0, compiled(a, b, data.number))
+        a, b = memory.load(data.a, 0), memory.load(data.b, 0)
+        memory.store(data.out, 0, compiled(a, b, data.number))
 
     def result(data):
         call(addresses(data))
@@ -62,7 +63,7 @@ def test_lane_by_lane(data, function, expected):
 def test_sums_and_extremes_over_the_lanes(data):
     @njit
     def over(data):
-        a = vectors.load(data.a, 0)
+        a = memory.load(data.a, 0)
         return vectors.lane_sum(a), vectors.smallest_lane(a), vectors.largest_lane(a)
 
     a = data.a[0]
@@ -72,11 +73,11 @@ def test_sums_and_extremes_over_the_lanes(data):
 def test_totals_of_eight_vectors(data):
     @njit
     def over(data):
-        a, b = vectors.load(data.a, 0), vectors.load(data.a, 8)
-        c, d = vectors.load(data.a, 16), vectors.load(data.a, 24)
-        e, f = vectors.load(data.a, 32), vectors.load(data.a, 40)
-        g, h = vectors.load(data.a, 48), vectors.load(data.a, 56)
-        vectors.store(data.out, 0, vectors.lane_sums(a, b, c, d, e, f, g, h))
+        a, b = memory.load(data.a, 0), memory.load(data.a, 8)
+        c, d = memory.load(data.a, 16), memory.load(data.a, 24)
+        e, f = memory.load(data.a, 32), memory.load(data.a, 40)
+        g, h = memory.load(data.a, 48), memory.load(data.a, 56)
+        memory.store(data.out, 0, vectors.lane_sums(a, b, c, d, e, f, g, h))
 
     over(addresses(data))
     np.testing.assert_allclose(data.out, data.a.sum(axis=1), rtol=1e-14)
@@ -87,7 +88,7 @@ def test_totals_of_eight_vectors(data):
 def test_a_condition_holds_everywhere_or_not(data, lane, value):
     @njit
     def over(data):
-        return vectors.all_lanes(vectors.load(data.a, 0) <= 0.5)
+        return vectors.all_lanes(memory.load(data.a, 0) <= 0.5)
 
     lanes = np.zeros((1, LANES))
     assert over(addresses(aligned(data._replace(a=lanes))))
@@ -98,7 +99,7 @@ def test_a_condition_holds_everywhere_or_not(data, lane, value):
 def test_single_numbers(data):
     @njit
     def move(data):
-        vectors.write(vectors.address_of(data.out, 2), 1, vectors.read(data.a, 5))
+        memory.write(memory.address_of(data.out, 2), 1, memory.read(data.a, 5))
 
     data.out[:] = 0.0
     move(addresses(data))

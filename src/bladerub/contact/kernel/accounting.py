@@ -21,19 +21,8 @@ from bladerub.contact.energy import (
 )
 from bladerub.contact.gap import closest_position, normal, normal_approach, rotation_distance
 from bladerub.contact.kernel import elements, rigid
-from bladerub.numerics.vectors import (
-    LANES,
-    absolute,
-    add_to,
-    add_to_number,
-    address_of,
-    all_lanes,
-    broadcast,
-    load,
-    maximum,
-    store,
-    where,
-)
+from bladerub.numerics.memory import add_to, add_to_number, address_of, load, store
+from bladerub.numerics.vectors import LANES, absolute, all_lanes, broadcast, maximum, where
 
 
 @njit(forceinline=True)

@@ -5,7 +5,8 @@ from numba import njit
 from bladerub.contact.friction import mobilisation
 from bladerub.contact.gap import rotation_distance
 from bladerub.contact.kernel.modal import add_tip_displacement, displaced, tip_displacement
-from bladerub.numerics.vectors import LANES, address_of, broadcast, load, no_sums, store
+from bladerub.numerics.memory import address_of, load, no_sums, store
+from bladerub.numerics.vectors import LANES, broadcast
 
 
 @njit(forceinline=True)

@@ -7,17 +7,15 @@ from numba import njit
 from bladerub.contact import law
 from bladerub.contact.gap import penetration
 from bladerub.contact.tip import coverage, relief
+from bladerub.numerics.memory import load, load_fields, store
 from bladerub.numerics.vectors import (
     LANES,
     absolute,
     broadcast,
     largest_lane,
-    load,
-    load_fields,
     maximum,
     minimum,
     smallest_lane,
-    store,
     where,
 )
 

@@ -11,7 +11,8 @@ from numba import njit
 
 from bladerub.contact.kernel.modal import add_tip_displacement, in_vectors, tip_displacement
 from bladerub.contact.schemes import Recurrence
-from bladerub.numerics.vectors import LANES, absolute, aligned, broadcast, lane_sum, load, no_sums, store
+from bladerub.numerics.memory import aligned, load, no_sums, store
+from bladerub.numerics.vectors import LANES, absolute, broadcast, lane_sum
 
 MOST_STEPS = 24
 """Most time steps at once: more reach further, and so fit between two contacts less often."""

@@ -16,7 +16,8 @@ from bladerub.contact.kernel import rigid
 from bladerub.contact.kernel.coulomb import mobilise
 from bladerub.contact.kernel.elements import wrap
 from bladerub.contact.tip import coverage, relief
-from bladerub.numerics.vectors import LANES, address_of, load, read, read_fields, store, write
+from bladerub.numerics.memory import address_of, load, read, read_fields, store, write
+from bladerub.numerics.vectors import LANES
 
 NODE_TOLERANCE = 1e-12
 """Error of a node's approach at which its own force has converged, m."""

@@ -21,23 +21,8 @@ from bladerub.contact.kernel.modal import Modal, advance_forced, advance_free, c
 from bladerub.contact.kernel.newton import find_forces
 from bladerub.contact.kernel.records import State, Stator, Tip
 from bladerub.numerics.machine_code import njit_on_disk
-from bladerub.numerics.vectors import (
-    LANES,
-    absolute,
-    add_to,
-    address_of,
-    addresses,
-    all_lanes,
-    broadcast,
-    clear,
-    copy,
-    largest_lane,
-    load,
-    read,
-    store,
-    where,
-    write,
-)
+from bladerub.numerics.memory import add_to, address_of, addresses, clear, copy, load, read, store, write
+from bladerub.numerics.vectors import LANES, absolute, all_lanes, broadcast, largest_lane, where
 
 NEGLIGIBLE = 1e-100
 """Modal coordinates below this are zero, m kg^1/2: numbers too small to be normal would slow the loop."""

@@ -6,20 +6,18 @@ import numpy as np
 from numba import njit
 
 from bladerub.contact.schemes import Recurrence
-from bladerub.numerics.vectors import (
-    LANES,
+from bladerub.numerics.memory import (
     add_products,
     address_of,
     aligned,
-    broadcast,
     broadcast_each,
-    lane_sums,
     load,
     no_sums,
     read,
     store,
     sum_of_products,
 )
+from bladerub.numerics.vectors import LANES, broadcast, lane_sums
 
 ROWS = 2 * LANES
 """Coordinates of the tip: radial displacement of each node, then tangential."""

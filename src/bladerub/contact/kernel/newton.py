@@ -19,16 +19,8 @@ from bladerub.contact.kernel import elements
 from bladerub.contact.kernel.coulomb import mobilise
 from bladerub.contact.kernel.gauss_seidel import gauss_seidel
 from bladerub.contact.kernel.modal import displaced
-from bladerub.numerics.vectors import (
-    LANES,
-    absolute,
-    add_to_number,
-    all_lanes,
-    broadcast,
-    clear,
-    load,
-    store,
-)
+from bladerub.numerics.memory import add_to_number, clear, load, store
+from bladerub.numerics.vectors import LANES, absolute, all_lanes, broadcast
 
 TOLERANCE = 1e-11
 """Residual of any node's approach at which the contact forces have converged, m."""

@@ -9,7 +9,8 @@ from typing import NamedTuple
 import numpy as np
 
 from bladerub.contact.energy import N_ENTRIES
-from bladerub.numerics.vectors import LANES, aligned
+from bladerub.numerics.memory import aligned
+from bladerub.numerics.vectors import LANES
 
 
 class Stator(NamedTuple):

@@ -5,7 +5,8 @@ import math
 from numba import njit
 
 from bladerub.contact.kernel.elements import wrap
-from bladerub.numerics.vectors import LANES, absolute, broadcast, largest_lane, load, maximum, smallest_lane
+from bladerub.numerics.memory import load
+from bladerub.numerics.vectors import LANES, absolute, broadcast, largest_lane, maximum, smallest_lane
 
 
 @njit

@@ -13,7 +13,8 @@ from bladerub.contact.kernel.loop import Simulation
 from bladerub.contact.modes import modes_at
 from bladerub.contact.schemes import SCHEMES, Contact
 from bladerub.contact.setup import set_up
-from bladerub.numerics.vectors import address_of, addresses, aligned, lane_sum, store
+from bladerub.numerics.memory import address_of, addresses, aligned, store
+from bladerub.numerics.vectors import lane_sum
 
 STEPS = 7
 SLOPE = 0.02

@@ -11,7 +11,8 @@ from bladerub.contact.kernel.modal import pack
 from bladerub.contact.modes import modes_at
 from bladerub.contact.schemes import SCHEMES, Contact
 from bladerub.contact.setup import stator_record, tip_record
-from bladerub.numerics.vectors import LANES, addresses
+from bladerub.numerics.memory import addresses
+from bladerub.numerics.vectors import LANES
 
 STEP = 2e-5
 

@@ -1,0 +1,164 @@
+"""Vectors and numbers in the memory of arrays, read and written by address in compiled code.
+
+Compiled code that takes, slices or passes on arrays counts their references each time, which costs more than
+what it does with them. It therefore gets records of their `addresses`.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+from llvmlite import ir
+from numba import njit, types
+from numba.core import cgutils
+from numba.extending import intrinsic
+
+from bladerub.numerics.vectors import DOUBLE, FUSED, LANES, VECTOR, broadcast, instruction, spread, vector
+
+
+def aligned(record: NamedTuple) -> NamedTuple:
+    """Copy each array of a record so that it starts where a vector may: one that straddles lines is slow."""
+    return type(record)(*(_aligned(part) if isinstance(part, np.ndarray) else part for part in record))
+
+
+def _aligned(array):
+    buffer = np.empty(array.size + LANES)
+    start = -(buffer.ctypes.data // buffer.itemsize) % LANES
+    copy = buffer[start : start + array.size].reshape(array.shape)
+    copy[...] = array
+    return copy
+
+
+def addresses(record: NamedTuple) -> NamedTuple:
+    """Put the address of its first number in the place of each array of a record made by `aligned`.
+
+    The arrays must stay alive as long as their addresses are in use.
+    """
+    return type(record)(*(part.ctypes.data if isinstance(part, np.ndarray) else part for part in record))
+
+
+def _place(builder, address, index, kind):
+    start = builder.inttoptr(address, DOUBLE.as_pointer())
+    return builder.bitcast(builder.gep(start, [index]), kind.as_pointer())
+
+
+def _place_at(builder, address, number, kind):
+    return _place(builder, address, ir.Constant(address.type, number), kind)
+
+
+@njit(inline="always")
+def address_of(address, index):
+    """Address of the number `index` of the array at `address`."""
+    return address + 8 * index
+
+
+@instruction(vector, types.intp, types.intp)
+def load(builder, address, index):
+    """Load eight numbers of the array at `address`, from flat position `index` on."""
+    return builder.load(_place(builder, address, index, VECTOR), align=8)
+
+
+@instruction(types.void, types.intp, types.intp, vector)
+def store(builder, address, index, a):
+    """Put a vector into the array at `address`, from flat position `index` on."""
+    builder.store(a, _place(builder, address, index, VECTOR), align=8)
+
+
+@instruction(types.float64, types.intp, types.intp)
+def read(builder, address, index):
+    """Read one number of the array at `address`."""
+    return builder.load(_place(builder, address, index, DOUBLE))
+
+
+@instruction(types.void, types.intp, types.intp, types.float64)
+def write(builder, address, index, number):
+    """Write one number into the array at `address`."""
+    builder.store(number, _place(builder, address, index, DOUBLE))
+
+
+@njit(inline="always")
+def add_to(address, index, a):
+    """Add a vector to the eight numbers of the array at `address`, from flat position `index` on."""
+    store(address, index, load(address, index) + a)
+
+
+@njit(inline="always")
+def add_to_number(address, index, number):
+    """Add to one number of the array at `address`."""
+    write(address, index, read(address, index) + number)
+
+
+@njit(inline="always")
+def copy(source, target, n):
+    """Copy `n` numbers, a multiple of 8."""
+    for k in range(0, n, LANES):
+        store(target, k, load(source, k))
+
+
+@njit(inline="always")
+def clear(target, n):
+    """Set `n` numbers, a multiple of 8, to zero."""
+    for k in range(0, n, LANES):
+        store(target, k, broadcast(0.0))
+
+
+@intrinsic
+def load_fields(context, record, address):
+    """Load a vector for each field of the named tuple `record` from consecutive rows of eight numbers."""
+    return _fields(record, vector, VECTOR)
+
+
+@intrinsic
+def read_fields(context, record, address):
+    """Read a number for each field of the named tuple `record`, eight numbers apart: those of one lane."""
+    return _fields(record, types.float64, DOUBLE)
+
+
+def _fields(record, kind, llvm_type):
+    n = len(record.instance_class._fields)
+    result = types.NamedUniTuple(kind, n, record.instance_class)
+
+    def generate(context, builder, signature, arguments):
+        places = (_place_at(builder, arguments[1], LANES * row, llvm_type) for row in range(n))
+        return context.make_tuple(builder, result, [builder.load(place, align=8) for place in places])
+
+    return result(record, types.intp), generate
+
+
+_SIXTEEN = types.UniTuple(vector, 16)
+
+
+@instruction(_SIXTEEN)
+def no_sums(builder):
+    """Sixteen vectors of zeros, for `add_products`."""
+    return cgutils.pack_array(builder, [ir.Constant(VECTOR, [0.0] * LANES)] * 16)
+
+
+@instruction(_SIXTEEN, _SIXTEEN, types.intp, vector)
+def add_products(builder, sums, rows, a):
+    """Add to each of sixteen sums the product of `a` and the vector in its row of the array at `rows`."""
+    products = (builder.fmul(row, a, flags=FUSED) for row in _rows(builder, rows))
+    pairs = zip(cgutils.unpack_tuple(builder, sums), products, strict=True)
+    return cgutils.pack_array(builder, [builder.fadd(*pair, flags=FUSED) for pair in pairs])
+
+
+@instruction(_SIXTEEN, types.intp)
+def broadcast_each(builder, address):
+    """Read sixteen numbers and put each in every lane of a vector."""
+    numbers = (builder.load(_place_at(builder, address, i, DOUBLE)) for i in range(16))
+    return cgutils.pack_array(builder, [spread(builder, number) for number in numbers])
+
+
+@instruction(vector, types.intp, _SIXTEEN)
+def sum_of_products(builder, rows, factors):
+    """Sum up the products of sixteen rows of vectors and sixteen vectors, in two halves at the same time."""
+    products = list(zip(_rows(builder, rows), cgutils.unpack_tuple(builder, factors), strict=True))
+    halves = [builder.fmul(*product, flags=FUSED) for product in products[:2]]
+    for i, product in enumerate(products[2:]):
+        halves[i % 2] = builder.fadd(halves[i % 2], builder.fmul(*product, flags=FUSED), flags=FUSED)
+    return builder.fadd(*halves, flags=FUSED)
+
+
+def _rows(builder, address):
+    """Load sixteen consecutive vectors."""
+    places = (_place_at(builder, address, LANES * i, VECTOR) for i in range(16))
+    return [builder.load(place, align=8) for place in places]
