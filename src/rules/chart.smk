@@ -1,4 +1,4 @@
-# A dense chart of coatings at speeds that the search for its peaks chooses (docs/chart.md). Not part of `all`.
+# A dense chart of coatings at speeds that the search for its peaks chooses (docs/explanation/chart.md). Not part of `all`.
 from functools import cache
 
 from bladerub.extensions.chart.column import plan_column

@@ -1,4 +1,4 @@
-# How far the claims depend on what the paper leaves open (docs/robustness.md). Not part of `all`.
+# How far the claims depend on what the paper leaves open (docs/explanation/robustness.md). Not part of `all`.
 from functools import cache
 
 ROBUSTNESS = "config/robustness.yaml"

@@ -1,4 +1,4 @@
-# Speed sweeps and long runs, compared with the study (docs/sweeps.md). Not part of `all`.
+# Speed sweeps and long runs, compared with the study (docs/explanation/sweeps.md). Not part of `all`.
 from bladerub.extensions.sweep_grid import DIRECTIONS, swept_cases, sweep_spec
 
 SWEPT = [case.name for case in swept_cases(config)]

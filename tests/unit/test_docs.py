@@ -9,8 +9,14 @@ import yaml
 
 ROOT = Path(__file__).parents[2]
 SOURCES = ROOT / "src"
-PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs").rglob("*.md"))]
-GLOSSARY = ROOT / "docs" / "reference" / "glossary.md"
+DOCS = ROOT / "docs"
+BUILT = {"_build", "auto_gallery"}
+PAGES = [
+    ROOT / "README.md",
+    ROOT / "CONTRIBUTING.md",
+    *sorted(path for path in DOCS.rglob("*.md") if BUILT.isdisjoint(path.relative_to(DOCS).parts)),
+]
+GLOSSARY = DOCS / "reference" / "glossary.md"
 LINK = re.compile(r"\]\(([^)#]+)(?:#[^)]*)?\)|<img[^>]* src=\"([^\"]+)\"")
 PATH = re.compile(r"(?<![\w/.])(?:src|tests|config|profiles)/[\w./-]*\w")
 NAME = re.compile(r"(?<![\w/.])bladerub(?:\.\w+)+")
@@ -31,7 +37,7 @@ def test_every_link_leads_to_a_file(page):
 
 
 def test_the_pictures_are_small_and_all_are_shown():
-    pictures = set((ROOT / "docs" / "images").glob("*"))
+    pictures = set((DOCS / "images").glob("*"))
     assert sum(picture.stat().st_size for picture in pictures) < 2e6
     shown = " ".join(text_of(page) for page in PAGES)
     assert [picture.name for picture in sorted(pictures) if picture.name not in shown] == []

@@ -1,5 +1,6 @@
 """The command ``bladerub``: each of its commands is a module with `add_to`, which names its options."""
 
+import argparse
 import sys
 
 from bladerub import __version__
@@ -11,14 +12,19 @@ from bladerub.io.errors import BadInput, message_for
 _COMMANDS = (run, status, verify, benchmark, export, import_blade)
 
 
-def main(arguments: list[str] | None = None) -> int:
-    """Run the command line; return 0 on success, 2 on bad input, 130 when interrupted."""
-    parser = Parser("bladerub", description="Contact of a compressor blade with its abradable coating.")
-    parser.add_argument("--version", action="version", version=f"bladerub {__version__}")
-    commands = parser.add_subparsers(title="commands", dest="name", required=True, metavar="COMMAND")
+def parser() -> argparse.ArgumentParser:
+    """Make the parser of all commands, from which the site's reference is made as well."""
+    root = Parser("bladerub", description="Contact of a compressor blade with its abradable coating.")
+    root.add_argument("--version", action="version", version=f"bladerub {__version__}")
+    commands = root.add_subparsers(title="commands", dest="name", required=True, metavar="COMMAND")
     for command in _COMMANDS:
         command.add_to(commands)
-    options = parser.parse_args(import_blade.joined(sys.argv[1:] if arguments is None else arguments))
+    return root
+
+
+def main(arguments: list[str] | None = None) -> int:
+    """Run the command line; return 0 on success, 2 on bad input, 130 when interrupted."""
+    options = parser().parse_args(import_blade.joined(sys.argv[1:] if arguments is None else arguments))
     code, message = 2, None
     try:
         options.command(options)

@@ -1,0 +1,48 @@
+"""Configuration of the site; from the repository's root: `sphinx-build -W -b html docs docs/_build/html`."""
+
+import bladerub
+
+project = "bladerub"
+author = "The bladerub authors"
+copyright = author
+release = bladerub.__version__
+
+extensions = [
+    "myst_parser",  # pages in Markdown
+    "sphinx.ext.autosummary",  # API
+    "numpydoc",  # its docstrings
+    "sphinxarg.ext",  # commands, from their parsers
+    "sphinx_gallery.gen_gallery",  # examples, executed
+]
+exclude_patterns = ["_build", "gallery"]
+nitpicky = True
+
+myst_enable_extensions = ["colon_fence", "deflist"]
+myst_heading_anchors = 3  # links to headings, as GitHub makes them
+
+numpydoc_show_class_members = False
+
+sphinx_gallery_conf = {
+    "examples_dirs": "gallery",
+    "gallery_dirs": "auto_gallery",
+    "filename_pattern": r".*\.py",
+    "copyfile_regex": r".*\.rst",
+    "download_all_examples": False,
+    "show_signature": False,
+    "write_computation_times": False,
+    "abort_on_example_error": True,
+}
+
+html_theme = "pydata_sphinx_theme"
+html_title = "bladerub"
+html_static_path = ["_static"]
+html_css_files = ["bladerub.css"]
+html_theme_options = {
+    "navigation_with_keys": False,
+    "show_toc_level": 2,
+    "secondary_sidebar_items": ["page-toc"],
+    "footer_start": ["copyright"],
+    "footer_end": [],
+}
+html_show_sourcelink = False
+html_copy_source = False
