@@ -1,9 +1,9 @@
 """Figs. 17 and 18, and the same at our own speeds: radial displacement of node 1 (m), both angles."""
 
-from bladerub.plots.history import history_of_runs
+from bladerub.plots.history import history
 from bladerub.workflow import job, outputs
 
 job.log_to(snakemake.log[0])
 
-data, figure = history_of_runs(snakemake.params.runs)
+data, figure = history(snakemake.params.runs)
 outputs.save(snakemake, figure, data=data)

@@ -17,6 +17,7 @@ from bladerub.io import hdf5
 from bladerub.io.errors import DamagedFile
 from bladerub.io.hdf5 import Variable
 from bladerub.io.provenance import provenance
+from bladerub.study.divergence import verdicts
 from bladerub.study.grid import CoatingCase, run_spec
 from bladerub.study.growth import Verdict, growth, judge
 from bladerub.study.maps import CoatingMap
@@ -50,16 +51,9 @@ def chosen(config: Mapping[str, Any], coating: CoatingMap) -> dict[float, str]:
 
     These are its peaks, and the completed runs that still grow at the end of the longest that the study has.
     """
-    peaks, divergence = config["analysis"]["peaks"], config["analysis"]["divergence"]
+    peaks = config["analysis"]["peaks"]
     reasons = {peak(coating, order, peaks).f_omega: f"f{order:g}" for order in peaks["orders"]}
-    for f_omega, amplitude, status, longer in zip(
-        coating.f_omega,
-        coating.revolution_amplitude,
-        coating.status,
-        coating.confirmation_amplitude,
-        strict=True,
-    ):
-        verdict = judge(amplitude, status, divergence, longer)
+    for f_omega, verdict in zip(coating.f_omega, verdicts(config, coating), strict=True):
         if verdict.divergent and verdict.status == "completed":
             reasons.setdefault(float(f_omega), "grows")
     return dict(sorted(reasons.items()))

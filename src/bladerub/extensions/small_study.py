@@ -53,7 +53,7 @@ def conduct(
         build_map(config, case, blade, runs, path)
         maps.append(read_map(path))
         n_runs += len(rows) + sum(bool(row.confirmation_key) for row in rows)
-    made = {"peaks": _peaks(config, maps), "divergence": divergence.of_maps(config, maps)}
+    made = {"peaks": _peaks(config, maps), "divergence": divergence.table(config, maps)}
     evidence = Evidence(config, made | {"rom_accuracy": read_rom_accuracy(rom_accuracy)}, maps)
     wanted = findings.CLAIMS if claims is None else findings.of_claims(claims)
     return SmallStudy(**made, findings=findings.judge(evidence, wanted), n_runs=n_runs)
@@ -65,7 +65,7 @@ def _peaks(config: Mapping[str, Any], maps: Iterable[CoatingMap]) -> pd.DataFram
     for coating, order in itertools.product(maps, config["analysis"]["peaks"]["orders"]):
         analysis = {**config["analysis"], "peaks": {**config["analysis"]["peaks"], "orders": [order]}}
         try:
-            found.append(peaks.of_maps({**config, "analysis": analysis}, [coating]))
+            found.append(peaks.table({**config, "analysis": analysis}, [coating]))
         except ValueError as error:
             _log.warning("%s: no peak of engine order %g (%s)", coating.case.name, order, error)
     return pd.concat(found[1:] or found, ignore_index=True)

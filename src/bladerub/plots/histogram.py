@@ -16,48 +16,35 @@ _BAR = 0.62  # width of a bar, in steps of the moduli
 _ROOM = 0.01  # from the floor to the lowest speed, normalised: it is seen, and the differences too
 
 
+@styled
 def peak_histogram(peaks: pd.DataFrame, quantity: str, order: int) -> tuple[pd.DataFrame, Figure]:
-    """Draw Figs. 11 to 14: the column ``amplitude`` or ``f_peak`` of ``peaks.csv`` over (E, K).
+    """Draw Figs. 11 to 14 over (E, K), as 3D bars (a) and as an annotated map (b).
 
-    `peaks` are the rows of one casing and one theta. Returns those of the `order`, which are drawn, and the
-    figure, with amplitudes in mm.
+    The `quantity` is ``amplitude``, drawn in mm, or ``f_peak`` of `peaks`, rows of ``peaks.csv`` of one
+    casing and one theta; the table is those of the engine `order`. The moduli are drawn as equal steps, NaN
+    as no bar and a grey field with a dash; NaN alone is a ValueError.
     """
     rows = peaks.loc[peaks.order == order, ["casing", "E", "K", "theta", "order", quantity]]
-    values = rows.pivot(index="E", columns="K", values=quantity)
-    if quantity == "amplitude":
-        return rows, histogram(1e3 * values, f"$Y_{order}$ (mm)", digits=2)
-    label, floor = f"rotational frequency $f_{order}$ (normalised)", values.min(axis=None) - _ROOM
-    return rows, histogram(values, label, digits=3, floor=floor, frame_maximum=False)
-
-
-@styled
-def histogram(
-    table: pd.DataFrame, label: str, digits: int, floor: float = 0.0, frame_maximum: bool = True
-) -> Figure:
-    """Draw a quantity over E (rows) and K (columns) as 3D bars (a) and as an annotated map (b).
-
-    The moduli are drawn as equal steps, NaN as no bar and a grey field with a dash; a `table` of NaN alone
-    is a ValueError. Bars and colours begin at the `floor`.
-    """
-    values = table.to_numpy(dtype=float)
+    table, is_amplitude = rows.pivot(index="E", columns="K", values=quantity), quantity == "amplitude"
+    label = f"$Y_{order}$ (mm)" if is_amplitude else f"rotational frequency $f_{order}$ (normalised)"
+    values = (1e3 if is_amplitude else 1) * table.to_numpy(dtype=float)
     if np.isnan(values).all():
         raise ValueError(f"{label}: nothing to draw, every (E, K) is missing")
-    norm = Normalize(floor, np.nanmax(values))
+    norm = Normalize(0.0 if is_amplitude else np.nanmin(values) - _ROOM, np.nanmax(values))
     figure = new_figure(PAGE, 0.52 * PAGE)
     left, right = figure.add_gridspec(1, 2, width_ratios=[1.1, 1])
     bars, colours = figure.add_subplot(left, projection="3d"), figure.add_subplot(right)
     _draw_bars(bars, values, norm)
-    _draw_map(colours, values, label, digits, norm)
+    _draw_map(colours, values, label, 2 if is_amplitude else 3, norm)
     for axes in (bars, colours):
         axes.set_xticks(range(len(table.index)), [f"{E:g}" for E in table.index])
         axes.set_yticks(range(len(table.columns)), [f"{K:g}" for K in table.columns])
     bars.set_title(f"(a) {label}", loc="left")
-    colours.set_title("(b) maximum framed" if frame_maximum else "(b)")
-    if frame_maximum:
-        for i, j in np.argwhere(values == np.nanmax(values)):
-            frame = {"fill": False, "edgecolor": RED, "linewidth": 2, "clip_on": False}
-            colours.add_patch(Rectangle((i - 0.5, j - 0.5), 1, 1, **frame))
-    return figure
+    colours.set_title("(b) maximum framed" if is_amplitude else "(b)")
+    for i, j in np.argwhere((values == np.nanmax(values)) & is_amplitude):
+        frame = {"fill": False, "edgecolor": RED, "linewidth": 2, "clip_on": False}
+        colours.add_patch(Rectangle((i - 0.5, j - 0.5), 1, 1, **frame))
+    return rows, figure
 
 
 def _draw_bars(axes: Axes3D, values: np.ndarray, norm: Normalize) -> None:

@@ -1,6 +1,7 @@
 """Polar views of the casing: the casing angle runs with the rotation, from the stacking line at the top."""
 
-from collections.abc import Iterable, Mapping
+import itertools
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 import pandas as pd
@@ -47,35 +48,27 @@ def casing_polar(
     return figure
 
 
-def wear_profiles(maps: Iterable[CoatingMap], speeds: Iterable[float]) -> tuple[pd.DataFrame, Figure]:
-    """Draw Fig. 19 from the maps of two coatings that differ in theta.
-
-    Returns the table of what is drawn (``f_omega``, ``theta``, ``angle``, rad, and ``wear``, m) and
-    `wear_polar`.
-    """
-    maps, panels, profiles = list(maps), {}, []
-    for index, f_omega in enumerate(speeds):
-        panel = panels[titles.panel(index % 26, titles.speed(f_omega))] = {}
-        for coating in maps:
-            theta = coating.case.theta
-            wear = coating.wear[np.flatnonzero(np.isclose(coating.f_omega, f_omega))[0]]
-            panel[titles.angle(theta)] = wear
-            columns = {"f_omega": f_omega, "theta": theta, "angle": coating.angle, "wear": wear}
-            profiles.append(pd.DataFrame(columns))
-    return pd.concat(profiles), wear_polar(maps[0].angle, panels)
-
-
 @styled
-def wear_polar(angle: np.ndarray, wear: Mapping[str, Mapping[str, np.ndarray]]) -> Figure:
-    """Draw the worn depth, m, by panel title and name of the case: two cases in a panel, all on one scale."""
-    figure = new_figure(PAGE, (0.2 + 0.8 / len(wear)) * PAGE)
-    deepest = 1e3 * max(np.nanmax(depth) for panel in wear.values() for depth in panel.values())
-    for index, (title, cases) in enumerate(wear.items()):
-        axes = _open(figure, 1, len(wear), index + 1)
-        for (name, depth), look in zip(cases.items(), (FIRST, SECOND), strict=True):
-            axes.plot(*_closed(angle, 1e3 * np.asarray(depth)), label=name, **look)
-        axes.set(rorigin=-0.6 * deepest, rlim=(0, 1.06 * deepest), title=title)
-        axes.yaxis.set_major_locator(MaxNLocator(nbins=max(2, 6 // len(wear))))
+def wear_profiles(maps: Sequence[CoatingMap], speeds: Sequence[float]) -> tuple[pd.DataFrame, Figure]:
+    """Draw Fig. 19 from the maps of two coatings that differ in theta: a panel for each speed, on one scale.
+
+    The table is what is drawn: ``f_omega``, ``theta``, ``angle``, rad, and ``wear``, m.
+    """
+    profiles = []
+    for f_omega, coating in itertools.product(speeds, maps):
+        wear = coating.wear[np.flatnonzero(np.isclose(coating.f_omega, f_omega))[0]]
+        columns = {"f_omega": f_omega, "theta": coating.case.theta, "angle": coating.angle, "wear": wear}
+        profiles.append(pd.DataFrame(columns))
+    table = pd.concat(profiles)
+    figure = new_figure(PAGE, (0.2 + 0.8 / len(speeds)) * PAGE)
+    deepest = 1e3 * table.wear.max()
+    for index, (f_omega, of_speed) in enumerate(table.groupby("f_omega", sort=False)):
+        axes = _open(figure, 1, len(speeds), index + 1)
+        for (theta, rows), look in zip(of_speed.groupby("theta", sort=False), (FIRST, SECOND), strict=True):
+            axes.plot(*_closed(rows.angle, 1e3 * rows.wear), label=titles.angle(theta), **look)
+        axes.set(rorigin=-0.6 * deepest, rlim=(0, 1.06 * deepest))
+        axes.set_title(titles.panel(index % 26, titles.speed(f_omega)))
+        axes.yaxis.set_major_locator(MaxNLocator(nbins=max(2, 6 // len(speeds))))
     figure.legend(
         *axes.get_legend_handles_labels(),
         loc="outside lower center",
@@ -83,7 +76,7 @@ def wear_polar(angle: np.ndarray, wear: Mapping[str, Mapping[str, np.ndarray]]) 
         title="worn depth (mm) outward from the inner circle, the unworn surface",
         title_fontsize=8,
     )
-    return figure
+    return table, figure
 
 
 def _open(figure: Figure, *position: int) -> PolarAxes:

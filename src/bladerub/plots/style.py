@@ -3,6 +3,7 @@
 from collections.abc import Callable
 from functools import wraps
 from pathlib import Path
+from typing import TypeVar
 
 import matplotlib
 from matplotlib.colors import LinearSegmentedColormap
@@ -68,12 +69,14 @@ _RC = {
 }
 _PDF_RASTER_DPI = 300
 
+Drawn = TypeVar("Drawn")
 
-def styled(draw: Callable[..., Figure]) -> Callable[..., Figure]:
+
+def styled(draw: Callable[..., Drawn]) -> Callable[..., Drawn]:
     """Run the drawing function `draw` in the style, and leave matplotlib's settings as they were."""
 
     @wraps(draw)
-    def in_style(*args, **kwargs) -> Figure:
+    def in_style(*args, **kwargs) -> Drawn:
         with matplotlib.rc_context(_RC):
             return draw(*args, **kwargs)
 

@@ -2,13 +2,12 @@
 
 from collections.abc import Iterable, Mapping
 from dataclasses import asdict
-from pathlib import Path
 from typing import Any
 
 import pandas as pd
 
-from bladerub.study.growth import judge
-from bladerub.study.maps import CoatingMap, read_map
+from bladerub.study.growth import Verdict, judge
+from bladerub.study.maps import CoatingMap
 
 COLUMNS = [
     *("casing", "E", "K", "theta", "f_omega"),
@@ -22,37 +21,19 @@ is one; ``lobes`` are of the study's own run.
 """
 
 
-def table(config: Mapping[str, Any], map_paths: Iterable[str | Path]) -> pd.DataFrame:
-    """Judge every run of the study: `of_maps` on the files of `bladerub.study.maps.build_map`."""
-    return of_maps(config, map(read_map, map_paths))
-
-
-def of_maps(config: Mapping[str, Any], maps: Iterable[CoatingMap]) -> pd.DataFrame:
+def table(config: Mapping[str, Any], maps: Iterable[CoatingMap]) -> pd.DataFrame:
     """Judge every run of the maps by ``analysis.divergence``: a row each, with `COLUMNS`."""
-    settings = config["analysis"]["divergence"]
-    rows = []
+    tables = []
     for coating in maps:
-        for f_omega, amplitude, longer, lobes, status in zip(
-            coating.f_omega,
-            coating.revolution_amplitude,
-            coating.confirmation_amplitude,
-            coating.lobes,
-            coating.status,
-            strict=True,
-        ):
-            verdict = judge(amplitude, status, settings, longer)
-            rows.append(
-                asdict(coating.case)
-                | {
-                    "f_omega": f_omega,
-                    "growth_per_revolution": verdict.growth.per_revolution,
-                    "growth_low": verdict.growth.low,
-                    "growth_high": verdict.growth.high,
-                    "saturating": verdict.saturating,
-                    "divergent": verdict.divergent,
-                    "lobes": lobes,
-                    "revolutions": verdict.revolutions,
-                    "status": verdict.status,
-                }
-            )
-    return pd.DataFrame(rows, columns=COLUMNS)
+        judged = verdicts(config, coating)
+        growth = pd.DataFrame([verdict.growth for verdict in judged]).add_prefix("growth_")
+        runs = pd.DataFrame(judged).drop(columns="growth").join(growth)
+        tables.append(runs.assign(f_omega=coating.f_omega, lobes=coating.lobes, **asdict(coating.case)))
+    return pd.concat(tables, ignore_index=True)[COLUMNS]
+
+
+def verdicts(config: Mapping[str, Any], coating: CoatingMap) -> list[Verdict]:
+    """Judge every run of a coating, by its longer run if it has one."""
+    runs = zip(coating.revolution_amplitude, coating.status, coating.confirmation_amplitude, strict=True)
+    settings = config["analysis"]["divergence"]
+    return [judge(amplitude, status, settings, longer) for amplitude, status, longer in runs]

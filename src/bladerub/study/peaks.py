@@ -1,14 +1,15 @@
 """Resonant peaks: Y_k and f_k, where the engine order k crosses the first frequency C1 (Fig. 10)."""
 
+import itertools
 from collections.abc import Iterable, Mapping
-from pathlib import Path
+from dataclasses import asdict
 from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 import pandas as pd
 
 from bladerub.study.grid import CoatingCase
-from bladerub.study.maps import CoatingMap, read_map
+from bladerub.study.maps import CoatingMap
 
 COLUMNS = ["casing", "E", "K", "theta", "order", "f_peak", "amplitude", "law"]
 """Columns of ``peaks.csv``; f_peak is normalised, amplitude in m."""
@@ -120,21 +121,14 @@ def maximum(coating: Response, amplitude: np.ndarray) -> Peak:
     return Peak(float(coating.f_omega[best]), float(amplitude[best]))
 
 
-def table(config: Mapping[str, Any], map_paths: Iterable[str | Path]) -> pd.DataFrame:
-    """Find the peaks of every coating: `of_maps` on the files of `bladerub.study.maps.build_map`."""
-    return of_maps(config, map(read_map, map_paths))
-
-
-def of_maps(config: Mapping[str, Any], maps: Iterable[CoatingMap]) -> pd.DataFrame:
+def table(config: Mapping[str, Any], maps: Iterable[CoatingMap]) -> pd.DataFrame:
     """Find the peaks of every coating at ``analysis.peaks.orders``: a row each, with `COLUMNS`.
 
     Raises `ValueError` as `peak`.
     """
     settings = config["analysis"]["peaks"]
     rows = []
-    for coating in maps:
-        case = coating.case
-        for order in settings["orders"]:
-            found = peak(coating, order, settings)
-            rows.append((case.casing, case.E, case.K, case.theta, order, *found, case.law))
+    for coating, order in itertools.product(maps, settings["orders"]):
+        f_peak, amplitude = peak(coating, order, settings)
+        rows.append(asdict(coating.case) | {"order": order, "f_peak": f_peak, "amplitude": amplitude})
     return pd.DataFrame(rows, columns=COLUMNS)

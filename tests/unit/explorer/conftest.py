@@ -47,7 +47,7 @@ def coating() -> CoatingMap:
 @pytest.fixture
 def verdicts(coating):
     """``divergence.csv`` of the coating."""
-    return divergence.of_maps({"analysis": {"divergence": SETTINGS}}, [coating])
+    return divergence.table({"analysis": {"divergence": SETTINGS}}, [coating])
 
 
 @pytest.fixture

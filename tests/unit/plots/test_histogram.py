@@ -5,16 +5,23 @@ from matplotlib.colors import to_rgba
 from matplotlib.patches import Rectangle
 from mpl_toolkits.mplot3d import Axes3D
 
-from bladerub.plots.histogram import histogram, peak_histogram
+from bladerub.plots.histogram import peak_histogram
 from bladerub.plots.style import MISSING, RED
 
 VALUES = np.array([[0.1, np.nan], [0.4, 0.3], [np.nan, 0.2]])
-TABLE = pd.DataFrame(VALUES, index=[0.11, 1.1, 20], columns=[0.5, 5])
+MM = pd.DataFrame(VALUES, index=[0.11, 1.1, 20], columns=[0.5, 5])
+
+
+def draw(mm, quantity="amplitude"):
+    """Draw the values over E (rows) and K (columns), as amplitudes in mm or as speeds."""
+    rows = mm.rename_axis(index="E", columns="K").stack(future_stack=True).rename(quantity).reset_index()
+    rows[quantity] *= 1e-3 if quantity == "amplitude" else 1
+    return peak_histogram(rows.assign(casing="2nd", theta=0.0, order=4), quantity, order=4)[1]
 
 
 @pytest.fixture
 def figure():
-    return histogram(TABLE, "$Y_4$ (mm)", digits=2)
+    return draw(MM)
 
 
 def test_both_views_save(figure, draws):
@@ -29,7 +36,7 @@ def test_both_views_save(figure, draws):
 def test_a_bar_for_each_value_and_none_for_a_hole(monkeypatch):
     bars = []
     monkeypatch.setattr(Axes3D, "bar3d", lambda self, *bar, **look: bars.append(bar))
-    histogram(TABLE, "$Y_4$ (mm)", digits=2, floor=0.05)
+    draw(MM, "f_peak")
     ((x, y, floor, width, depth, height),) = bars
     places = np.rint(np.transpose([x + width / 2, y + depth / 2])).astype(int)
     np.testing.assert_array_equal(places, [[0, 0], [1, 0], [1, 1], [2, 1]])
@@ -51,15 +58,16 @@ def test_the_maximum_is_framed(figure):
     assert frame.get_edgecolor() == to_rgba(RED)
 
 
-def test_bars_stand_on_the_floor(draws):
-    figure = draws(histogram(0.3 + TABLE[1:] / 100, "$f_4$", digits=3, floor=0.29))
-    assert figure.axes[0].get_zlim()[0] == pytest.approx(0.29)
-    assert figure.axes[1].collections[0].norm.vmin == pytest.approx(0.29)
+@pytest.mark.parametrize(("quantity", "floor"), [("f_peak", 0.292), ("amplitude", 0.0)])
+def test_bars_and_colours_begin_at_the_floor(draws, quantity, floor):
+    figure = draws(draw(0.3 + MM[1:] / 100, quantity))
+    assert figure.axes[0].get_zlim()[0] == pytest.approx(floor)
+    assert figure.axes[1].collections[0].norm.vmin == pytest.approx(floor)
 
 
 def test_nothing_to_draw_is_said():
     with pytest.raises(ValueError, match="is missing"):
-        histogram(np.nan * TABLE, "$Y_4$ (mm)", digits=2)
+        draw(np.nan * MM)
 
 
 PEAKS = pd.DataFrame(

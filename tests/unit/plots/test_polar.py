@@ -3,7 +3,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from bladerub.plots.polar import casing_polar, wear_polar, wear_profiles
+from bladerub.plots.polar import casing_polar, wear_profiles
 from bladerub.study.grid import CoatingCase
 
 ANGLE = np.linspace(0, 2 * np.pi, 60, endpoint=False)
@@ -27,19 +27,14 @@ def test_casing_is_magnified_inward(draws):
     assert len({str(line.get_linestyle()) + str(line.get_color()) for line in axes.lines}) == 3
 
 
-def test_worn_depth_in_mm_on_one_scale_around_the_unworn_circle(draws):
-    shallow, deep = 1e-4 * (1 + np.cos(2 * ANGLE)), 5e-4 * (1 + np.cos(6 * ANGLE))
-    figure = draws(
-        wear_polar(
-            ANGLE,
-            {"(a)": {"θ = 0": shallow, "θ = 0.15": deep}, "(b)": {"θ = 0": shallow, "θ = 0.15": shallow}},
-        )
-    )
-    first, second = figure.axes
-    np.testing.assert_allclose(first.lines[1].get_ydata()[:-1], 1e3 * deep)
-    assert first.get_ylim() == second.get_ylim() == pytest.approx((0, 1.06))
+def test_worn_depth_in_mm_on_one_scale_around_the_unworn_circle(coating_map, draws):
+    shallow = replace(coating_map, case=CoatingCase("2nd", 2.0, 0.5, 0.0), wear=coating_map.wear / 5)
+    _, figure = wear_profiles([shallow, coating_map], [0.3, 0.15])
+    first, second = draws(figure).axes
+    np.testing.assert_allclose(first.lines[1].get_ydata()[:-1], 1e3 * coating_map.wear[4])
+    deepest = 1e3 * coating_map.wear[4].max()
+    assert first.get_ylim() == second.get_ylim() == pytest.approx((0, 1.06 * deepest))
     assert first.get_rorigin() < 0
-    assert first.get_title(loc="left") == "(a)"
     assert "(mm)" in figure.legends[0].get_title().get_text()
 
 

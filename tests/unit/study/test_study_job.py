@@ -151,7 +151,7 @@ def test_real_runs_go_from_the_solver_to_the_table(study, case, blade, tmp_path)
     rows = compute_missing(study, coating_plan(study, case), blade, folder, "digest", reports.append)
     write_manifest(folder / "manifest.tsv", rows)
     maps.build_map(study, case, blade, folder, tmp_path / "map.h5")
-    table = divergence.table(study, [tmp_path / "map.h5"])
+    table = divergence.table(study, [maps.read_map(tmp_path / "map.h5")])
     assert [done.file for done in reports] == ["0.1000.h5", "0.3000.h5"]
     assert list(table.f_omega) == [0.1, 0.3]
     assert set(table.status) == {"completed"}
@@ -176,7 +176,7 @@ def test_runs_on_the_rigid_casing_go_to_the_tables_as_those_of_infinite_moduli(
     assert not coating.max_wear.any()
     assert not coating.lobes.any()
     for table, name in ((peaks.table, "peaks"), (divergence.table, "divergence")):
-        table(study, [tmp_path / "map.h5"]).to_csv(tmp_path / f"{name}.csv", index=False)
+        table(study, [coating]).to_csv(tmp_path / f"{name}.csv", index=False)
         read = pd.read_csv(tmp_path / f"{name}.csv")
         assert (np.isinf(read.E) & np.isinf(read.K)).all()
         assert read.theta.to_numpy() == pytest.approx(math.atan(0.15))
