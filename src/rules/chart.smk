@@ -110,7 +110,7 @@ rule chart_maps:
     # one job, because to start it takes longer than to draw one
     input:
         table=rules.chart_table.output[0],
-        drawing=files_behind("extensions.plots.chart_map", "plots.style"),
+        drawing=files_behind("extensions.plots.chart_moduli", "plots.style"),
     output:
         png=[
             shown(f"{PLOTS}/chart_{name}.png", f"chart_{name}", "Choice of a coating")
@@ -132,7 +132,7 @@ rule chart_safe:
     input:
         table=rules.chart_table.output[0],
         analysing=files_behind("extensions.chart.choice"),
-        drawing=files_behind("extensions.plots.chart_safe", "plots.style"),
+        drawing=files_behind("extensions.plots.chart_moduli", "plots.style"),
     output:
         **drawn("chart_safe", "Choice of a coating"),
     log:
@@ -171,7 +171,7 @@ rule chart_explanation:
         analysing=files_behind(
             "extensions.chart.table", "extensions.chart.explanation", "study.peaks"
         ),
-        drawing=files_behind("extensions.plots.chart_explanation", "plots.style"),
+        drawing=files_behind("extensions.plots.chart_peaks", "plots.style"),
     output:
         **drawn("chart_explanation", "Choice of a coating"),
         **described(table=f"{TABLES}/chart_explanation.csv"),
@@ -191,7 +191,7 @@ rule chart_stiffening:
         peaks=rules.chart_explanation.output.table,
         blade=rules.blade.output.reduced_model,
         analysing=files_behind("extensions.chart.stiffening"),
-        drawing=files_behind("extensions.plots.chart_stiffening", "plots.titles"),
+        drawing=files_behind("extensions.plots.chart_peaks", "plots.titles"),
     output:
         **drawn("chart_stiffening", "Choice of a coating"),
         **described(table=f"{TABLES}/chart_stiffening.csv"),

@@ -2,7 +2,7 @@
 
 from bladerub.extensions.chart.explanation import table
 from bladerub.extensions.chart.table import read_points
-from bladerub.extensions.plots.chart_explanation import chart_explanation
+from bladerub.extensions.plots.chart_peaks import chart_explanation
 from bladerub.workflow import job, outputs
 
 job.log_to(snakemake.log[0])

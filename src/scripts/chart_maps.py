@@ -1,6 +1,6 @@
 """Draw each quantity of the chart over E and K, for each theta."""
 
-from bladerub.extensions.plots.chart_map import chart_map
+from bladerub.extensions.plots.chart_moduli import chart_map
 from bladerub.io import tables
 from bladerub.plots import style
 from bladerub.workflow import job

@@ -1,7 +1,7 @@
 """Draw where the coatings of the chart keep the limits, and which of them they break elsewhere."""
 
 from bladerub.extensions.chart.choice import broken_limits
-from bladerub.extensions.plots.chart_safe import chart_safe
+from bladerub.extensions.plots.chart_moduli import chart_safe
 from bladerub.io import tables
 from bladerub.workflow import job, outputs
 

@@ -2,7 +2,7 @@
 
 from bladerub.blade.model import read_reduced_blade
 from bladerub.extensions.chart.stiffening import table
-from bladerub.extensions.plots.chart_stiffening import chart_stiffening
+from bladerub.extensions.plots.chart_peaks import chart_stiffening
 from bladerub.io import tables
 from bladerub.workflow import job, outputs
 

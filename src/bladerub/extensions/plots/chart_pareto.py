@@ -4,7 +4,7 @@ import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
-from bladerub.extensions.plots.chart_panel import label_1_2_5
+from bladerub.extensions.plots.chart_peaks import label_1_2_5
 from bladerub.plots import titles
 from bladerub.plots.style import DARK, GREY, ORANGE, PAGE, new_figure, styled
 

@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from bladerub.extensions.chart.grid import chart_speeds, check, columns
-from bladerub.extensions.plots.chart_panel import PAPER_E, PAPER_K
+from bladerub.extensions.plots.chart_moduli import PAPER_E, PAPER_K
 from bladerub.io.errors import BadInput
 
 

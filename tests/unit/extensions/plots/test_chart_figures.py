@@ -6,11 +6,9 @@ import pytest
 
 from bladerub.extensions.chart import stiffening
 from bladerub.extensions.chart.choice import broken_limits, pareto
-from bladerub.extensions.plots.chart_explanation import chart_explanation
-from bladerub.extensions.plots.chart_map import QUANTITIES, chart_map
+from bladerub.extensions.plots.chart_moduli import QUANTITIES, chart_map, chart_safe
 from bladerub.extensions.plots.chart_pareto import chart_pareto
-from bladerub.extensions.plots.chart_safe import chart_safe
-from bladerub.extensions.plots.chart_stiffening import chart_stiffening
+from bladerub.extensions.plots.chart_peaks import chart_explanation, chart_stiffening
 
 LIMITS = {"amplitude": 2.5e-3, "wear": 1e-3, "divergent_share": 0.0}
 
