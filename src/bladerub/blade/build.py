@@ -17,14 +17,12 @@ from bladerub.blade.elasticity import Material
 from bladerub.blade.mesh import BladeMesh, MeshedBlade
 from bladerub.blade.reduction import fit_speeds
 from bladerub.blade.refinement import MOST_FIT_SPEEDS, reduce_to_tolerance
-from bladerub.blade.sources import matrix_folder
+from bladerub.blade.sources import matrix_folder, origin
 from bladerub.blade.sources.importing import import_blade
 from bladerub.blade.sources.matrices import import_matrices
-from bladerub.blade.sources.origin import MatrixSource, Source
 from bladerub.io.errors import BadInput
 
-LENGTH_TOLERANCE = 0.05
-"""How far ``blade.length`` may be from what an imported blade measures: its root need not be a cylinder."""
+LENGTH_TOLERANCE = 0.05  # of ``blade.length`` to what an import measures: its root need not be a cylinder
 
 
 def made_from(config: Mapping[str, Any]) -> str:
@@ -35,11 +33,11 @@ def made_from(config: Mapping[str, Any]) -> str:
     blade = config["blade"]
     given = blade.get("source", {})
     if "matrices" in given:
-        found = matrix_folder.files(MatrixSource.from_config(given).folder)
+        found = matrix_folder.files(origin.read(given).folder)
         content = {name: _digest(path) for name, path in found.items()}
         blade = {"length": blade["length"], "source": {**given, "matrices": content}}
     elif given:
-        source = Source.from_config(given)
+        source = origin.read(given)
         parts = ("material", "length", *(("mesh",) if source.is_table else ()))
         blade = {name: blade[name] for name in parts}
         blade["source"] = {**given, "file": _digest(source.file)}
@@ -54,15 +52,8 @@ def _digest(path: Path) -> str:
 def build(config: Mapping[str, Any]) -> BuiltBlade:
     """Build the blade of the ``blade`` and ``reduction`` blocks of `config`.
 
-    Raises
-    ------
-    ValueError
-        If the blade cannot be meshed (see `bladerub.blade.geometry.check`).
-    BadInput
-        If it cannot be imported (see `bladerub.blade.sources`), is not of its length, or
-        ``reduction.tolerance`` is not reached.
-    EquilibriumError
-        If the blade has no static equilibrium at one of the speeds.
+    Raises ValueError if the blade cannot be meshed, its subclass BadInput if it cannot be imported, is not of
+    its length or ``reduction.tolerance`` is not reached, EquilibriumError if it has no static equilibrium.
     """
     if "matrices" in config["blade"].get("source", {}):
         return reduce_given(_of_matrices(config), config)
@@ -87,7 +78,7 @@ def reduce_given(blade: DiscreteBlade, config: Mapping[str, Any]) -> BuiltBlade:
 def _of_matrices(config: Mapping[str, Any]) -> DiscreteBlade:
     """Read the matrices that `config` names, of a blade of its length."""
     length, reduction = config["blade"]["length"], config["reduction"]
-    source = MatrixSource.from_config(config["blade"]["source"])
+    source = origin.read(config["blade"]["source"])
     given = import_matrices(
         source, reduction["f_omega_max"], reduction["accuracy_modes"], reduction["modes_per_speed"]
     )
@@ -109,15 +100,15 @@ def meshed_blade(blade: Mapping[str, Any]) -> MeshedBlade:
         geometry.check(blade)
         shape = geometry.BladeShape.from_config(blade)
         return MeshedBlade(BladeMesh.from_shape(shape, blade["mesh"]), shape.tip_cone, blade["length"])
-    given = import_blade(Source.from_config(blade["source"]), blade["mesh"]).blade
+    given = import_blade(origin.read(blade["source"]), blade["mesh"]).blade
     _check_length(blade["length"], given.length, blade["source"]["file"])
     return given
 
 
-def _check_length(length: float, measured: float, origin: str | Path) -> None:
+def _check_length(length: float, measured: float, path: str | Path) -> None:
     if abs(measured / length - 1) > LENGTH_TOLERANCE:
         raise BadInput(
-            f"blade.length = {length:g}: must be that of the blade in {origin}, {measured:.4g} m to within "
+            f"blade.length = {length:g}: must be that of the blade in {path}, {measured:.4g} m to within "
             f"{LENGTH_TOLERANCE:.0%}; clearances are in this unit"
         )
 

@@ -50,15 +50,15 @@ def write(
 def _write_mesh(path: str | Path, built: BuiltBlade, origin: Mapping[str, str]) -> None:
     """Write what a picture of the blade and of its motion needs, with node numbers from 0."""
     mesh = built.mesh
+    numbering = (
+        "nodes of each hexahedron (20) or tetrahedron (10): corners, then edges, as in CalculiX and VTK"
+    )
+    recovery = built.recovery.astype(np.float32)  # enough for pictures: 1e-7 of the displacement
+    recovered = "displacement of the nodes per unit of each coordinate of the reduced model, eq. (5)"
     variables = {
         "axis": AXIS,
         "points": Variable(("node", "axis"), mesh.mesh.points, "m", "nodes at rest in the rotating frame"),
-        "cells": Variable(
-            ("element", "element_node"),
-            mesh.mesh.cells,
-            "1",
-            "nodes of each hexahedron (20) or tetrahedron (10): corners, then edges, as in CalculiX and VTK",
-        ),
+        "cells": Variable(("element", "element_node"), mesh.mesh.cells, "1", numbering),
         "root_nodes": Variable(("root_node",), mesh.root, "1", "clamped nodes"),
         "tip_nodes": Variable(("tip_node",), mesh.tip, "1", "nodes of the tip face"),
         "interface_nodes": Variable(
@@ -70,12 +70,7 @@ def _write_mesh(path: str | Path, built: BuiltBlade, origin: Mapping[str, str]) 
         "mode_shape": Variable(
             ("mode", "node", "axis"), built.mode_shape, "1", "modes at rest, largest displacement component 1"
         ),
-        "recovery": Variable(
-            ("coordinate", "node", "axis"),
-            built.recovery.astype(np.float32),  # enough for pictures: 1e-7 of the displacement
-            "1",
-            "displacement of the nodes per unit of each coordinate of the reduced model, eq. (5)",
-        ),
+        "recovery": Variable(("coordinate", "node", "axis"), recovery, "1", recovered),
         "f_omega": Variable(("f_omega",), built.static_speed, "1", "normalised rotational frequency"),
         "static_displacement": Variable(
             ("f_omega", "node", "axis"), built.static_displacement, "m", "displacement under centrifugal load"

@@ -8,10 +8,9 @@ import numpy as np
 from scipy import sparse
 from threadpoolctl import threadpool_limits
 
-from bladerub.blade.coordinates import FreeCoordinates
 from bladerub.blade.elasticity import Material, Solid
 from bladerub.blade.linear import MOST_BY_DEGREE, Solve, factorise, lowest_modes
-from bladerub.blade.mesh import MeshedBlade
+from bladerub.blade.mesh import FreeCoordinates, MeshedBlade
 from bladerub.blade.preconditioned_cg import PreconditionedCG
 from bladerub.blade.rotation import equilibrium
 
@@ -65,13 +64,9 @@ def by_finite_elements(
     for f_omega in sorted({0.0, *speeds, *table_speeds}):
         if f_omega > 0:
             state = equilibrium(solid, f_omega * unit, state, at_rest)
-            log.info(
-                "f_omega = %.4f: equilibrium in %d load steps, %d iterations, largest displacement %.4g mm",
-                f_omega,
-                state.n_steps,
-                state.n_iterations,
-                1e3 * np.linalg.norm(solid.full(state.displacement), axis=1).max(),
-            )
+            moved = 1e3 * np.linalg.norm(solid.full(state.displacement), axis=1).max()
+            found = f"equilibrium in {state.n_steps} load steps, {state.n_iterations} iterations"
+            log.info("f_omega = %.4f: %s, largest displacement %.4g mm", f_omega, found, moved)
         displacement[f_omega] = state.displacement
         if f_omega in speeds:
             stiffness[f_omega] = state.stiffness
@@ -85,15 +80,7 @@ def by_finite_elements(
                 solver = PreconditionedCG(state.stiffness, at_rest)
                 frequencies[f_omega], shapes[f_omega] = solver.lowest_modes(solid.mass, nearest)
             log.info("f_omega = %.4f: first frequency %.4f Hz", f_omega, frequencies[f_omega][0])
+    free = FreeCoordinates(solid.n_nodes, blade.mesh.root)
     return DiscreteBlade(
-        blade,
-        FreeCoordinates(solid.n_nodes, blade.mesh.root),
-        solid.mass,
-        stiffness,
-        displacement,
-        frequencies,
-        frequency,
-        modes,
-        at_rest,
-        shapes,
+        blade, free, solid.mass, stiffness, displacement, frequencies, frequency, modes, at_rest, shapes
     )

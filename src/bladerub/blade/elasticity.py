@@ -11,7 +11,6 @@ numbering; the integrals of `k` are formed for all shape functions of an element
 tangent is needed dozens of times and a form evaluated pair by pair costs ten times as much.
 """
 
-from collections import deque
 from collections.abc import Mapping
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
@@ -19,10 +18,10 @@ from functools import cached_property
 
 import numpy as np
 from scipy import sparse
-from skfem import Basis, BilinearForm, ElementVector
+from skfem import Basis, ElementVector
+from skfem.models.poisson import mass
 
-from bladerub.blade.coordinates import FreeCoordinates
-from bladerub.blade.mesh import SolidMesh
+from bladerub.blade.mesh import FreeCoordinates, SolidMesh
 
 _CHUNK = 512  # elements integrated at once: bounds the memory on fine meshes
 _THREADS = 2  # each integrates chunks of its own, so their number changes no bit
@@ -30,11 +29,11 @@ _THREADS = 2  # each integrates chunks of its own, so their number changes no bi
 
 @dataclass(frozen=True)
 class Material:
-    """Isotropic material: Young modulus (Pa), Poisson ratio, density (kg/m³)."""
+    """Isotropic material."""
 
-    young_modulus: float
+    young_modulus: float  # Pa
     poisson_ratio: float
-    density: float
+    density: float  # kg/m³
 
     @classmethod
     def from_config(cls, material: Mapping[str, float]) -> "Material":
@@ -46,11 +45,6 @@ class Material:
         """Lamé parameters λ and μ, Pa."""
         young, poisson = self.young_modulus, self.poisson_ratio
         return young * poisson / ((1 + poisson) * (1 - 2 * poisson)), young / (2 * (1 + poisson))
-
-
-@BilinearForm
-def _product(u, v, _):
-    return u * v
 
 
 class Solid(FreeCoordinates):
@@ -70,10 +64,10 @@ class Solid(FreeCoordinates):
         self._gradients = np.stack([np.moveaxis(np.asarray(b[0].grad), 0, -1) for b in scalar.basis], axis=-2)
         self._dofs = dofs.element_dofs.T  # (element, 3 n_nodes), node by node as in `_gradients`
         self._pattern = _Pattern(self._dofs[:, ::3] // 3, self.free[::3] // 3, self.n_nodes)
-        product = _product.assemble(Basis(mesh, mesh.elem(), quadrature=mesh.mass_quadrature()))
-        mass = sparse.kron(product, sparse.eye_array(3), format="csc") * material.density
-        self.mass = sparse.csc_array(mass[self.free][:, self.free])
-        self.first_moment = (mass @ mesh.points.ravel())[self.free]
+        products = mass.assemble(Basis(mesh, mesh.elem(), quadrature=mesh.mass_quadrature()))
+        of_all = sparse.kron(products, sparse.eye_array(3), format="csc") * material.density
+        self.mass = sparse.csc_array(of_all[self.free][:, self.free])
+        self.first_moment = (of_all @ mesh.points.ravel())[self.free]
 
     def internal_force(self, u: np.ndarray) -> np.ndarray:
         """Evaluate r(u; v) for every v: the internal force (n,) at the displacement `u`, N."""
@@ -91,12 +85,10 @@ class Solid(FreeCoordinates):
 
         def integrate(start: int) -> None:
             part = slice(start, start + _CHUNK)
-            elements[part] = self._element_tangents(
-                self._gradients[part], displacement[part], self._weights[part]
-            )
+            elements[part] = self._element_tangents(part, displacement[part])
 
         with ThreadPoolExecutor(_THREADS) as pool:
-            deque(pool.map(integrate, range(0, len(elements), _CHUNK)), maxlen=0)  # raises their errors
+            list(pool.map(integrate, range(0, len(elements), _CHUNK)))  # raises their errors
         return self._pattern.assemble(elements)
 
     @cached_property
@@ -117,8 +109,9 @@ class Solid(FreeCoordinates):
         E = 0.5 * (np.swapaxes(F, -1, -2) @ F - np.eye(3))
         return lam * np.trace(E, axis1=-2, axis2=-1)[..., None, None] * np.eye(3) + 2 * mu * E
 
-    def _element_tangents(self, gradients, displacement, weights) -> np.ndarray:
+    def _element_tangents(self, part: slice, displacement: np.ndarray) -> np.ndarray:
         lam, mu = self.material.lame
+        gradients, weights = self._gradients[part], self._weights[part]
         F = _deformation_gradient(gradients, displacement)
         S = self._stress(F)
         n_elements, n_points, n_nodes, _ = gradients.shape

@@ -18,6 +18,7 @@ positive with the rotation, and then wrapped: ``phi = t / r``.
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -25,9 +26,7 @@ from scipy.interpolate import CubicSpline
 
 from bladerub.blade.model import N_INTERFACE
 
-EDGE_THICKNESS = 0.4
-"""Edge thickness over the largest thickness of a section: blunt, so that hexahedra keep their shape."""
-
+EDGE_THICKNESS = 0.4  # over the largest of a section: blunt, so that hexahedra keep their shape
 _COLUMNS = ("chord", "thickness", "camber", "stagger", "sweep", "lean")
 
 
@@ -47,9 +46,8 @@ class BladeShape:
     @classmethod
     def from_config(cls, blade: Mapping[str, Any]) -> "BladeShape":
         """Read the shape from the ``blade`` block of the config (angles there in degrees)."""
-        sections = np.array(
-            [[section[name] for name in _COLUMNS] for section in blade["sections"]], dtype=float
-        )
+        rows = [[section[name] for name in _COLUMNS] for section in blade["sections"]]
+        sections = np.array(rows, dtype=float)
         angles = [_COLUMNS.index("camber"), _COLUMNS.index("stagger")]
         sections[:, angles] = np.deg2rad(sections[:, angles])
         span = np.array([section["span"] for section in blade["sections"]], dtype=float)
@@ -90,11 +88,8 @@ def lattice(mesh: Mapping[str, int]) -> tuple[np.ndarray, np.ndarray, np.ndarray
 def check(blade: Mapping[str, Any]) -> None:
     """Check that the ``blade`` block of the config describes a blade that can be meshed.
 
-    Raises
-    ------
-    ValueError
-        If the sections do not ascend from span 0 to 1, an element would be turned inside out, or the tip has
-        too few nodes for the interface; the message names the key, the value and what would be right.
+    A ValueError names the key, the value and what would be right, if the sections do not ascend from span 0
+    to 1, an element would be turned inside out, or the tip has too few nodes for the interface.
     """
     spans = [float(section["span"]) for section in blade["sections"]]
     if len(spans) < 2:
@@ -104,11 +99,10 @@ def check(blade: Mapping[str, Any]) -> None:
             raise ValueError(
                 f"blade.sections[{at}].span = {spans[at]:g}: the sections must run from span 0 to 1"
             )
-    for at in range(1, len(spans)):
-        if spans[at] <= spans[at - 1]:
+    for at, (before, span) in enumerate(pairwise(spans), 1):
+        if span <= before:
             raise ValueError(
-                f"blade.sections[{at}].span = {spans[at]:g}: "
-                f"must be above that of the section before ({spans[at - 1]:g})"
+                f"blade.sections[{at}].span = {span:g}: must be above that of the section before ({before:g})"
             )
     check_interface(blade["mesh"])
     xi, eta, zeta = lattice(blade["mesh"])

@@ -13,12 +13,9 @@ from bladerub.blade.frequencies import in_hertz
 
 Solve = Callable[[np.ndarray], np.ndarray]
 
-MOST_BY_DEGREE = 30_000
-"""Unknowns up to which minimum degree orders them; the default blade is well below."""
-MOST_UNKNOWNS = 400_000
-"""Beyond which the factors of the matrices of a blade fill the memory."""
-THREADS = 2
-"""Threads of RSLAB; its own choice may be more than there are cores."""
+MOST_BY_DEGREE = 30_000  # unknowns that minimum degree orders; the default blade is well below
+MOST_UNKNOWNS = 400_000  # beyond, the factors of the matrices of a blade fill the memory
+THREADS = 2  # of RSLAB, whose own choice may be more than there are cores
 
 
 def factorise(matrix: sparse.csc_array) -> Solve:
@@ -28,26 +25,13 @@ def factorise(matrix: sparse.csc_array) -> Solve:
     beyond them RSLAB: the factors of LDLᵀ take half the memory and a fraction of the time, and are the same
     to the last bit with any number of threads. Raises numpy.linalg.LinAlgError if the matrix is singular.
     """
-    if importlib.util.find_spec("pypardiso"):
-        return _Pardiso(matrix)
-    return _super_lu(matrix) if matrix.shape[0] <= MOST_BY_DEGREE else _ldlt(matrix)
-
-
-def _super_lu(matrix: sparse.csc_array) -> Solve:
     try:
-        return splu(
-            sparse.csc_matrix(matrix),
+        if importlib.util.find_spec("pypardiso"):
+            return _Pardiso(matrix)
+        if matrix.shape[0] <= MOST_BY_DEGREE:
             # Minimum degree on A + Aᵀ without pivoting keeps the symmetry: far less fill than COLAMD.
-            permc_spec="MMD_AT_PLUS_A",
-            diag_pivot_thresh=0.0,
-            options={"SymmetricMode": True},
-        ).solve
-    except RuntimeError as error:
-        raise np.linalg.LinAlgError(f"sparse factorisation: {error}") from error
-
-
-def _ldlt(matrix: sparse.csc_array) -> Solve:
-    try:
+            order = {"permc_spec": "MMD_AT_PLUS_A", "diag_pivot_thresh": 0.0}
+            return splu(sparse.csc_matrix(matrix), options={"SymmetricMode": True}, **order).solve
         factors = rslab.ldlt(matrix, threads=THREADS)
     except RuntimeError as error:
         raise np.linalg.LinAlgError(f"sparse factorisation: {error}") from error
@@ -67,7 +51,7 @@ class _Pardiso:
         try:
             self._solver.factorize(self._matrix)
         except (ValueError, PyPardisoError) as error:
-            raise np.linalg.LinAlgError(f"sparse factorisation: {error}") from error
+            raise RuntimeError(str(error)) from error
 
     def __call__(self, rhs: np.ndarray) -> np.ndarray:
         return self._solver.solve(self._matrix, rhs)

@@ -1,8 +1,8 @@
-"""Meshes of quadratic elements, with true curved geometry at the mid-side nodes, and the blade's own mesh."""
+"""Meshes of quadratic elements, curved at their mid-side nodes; the blade's mesh and its free coordinates."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import ClassVar, Protocol
+from typing import ClassVar
 
 import numpy as np
 from skfem import MeshHex1, MeshTet2
@@ -14,13 +14,34 @@ from bladerub.blade.geometry import check_interface, lattice
 from bladerub.blade.model import N_INTERFACE
 
 
+class FreeCoordinates:
+    """The coordinates of `n_nodes` nodes that are not `clamped`; full vectors have all, node by node."""
+
+    def __init__(self, n_nodes: int, clamped=()):
+        self.n_nodes = n_nodes
+        is_free = np.ones((n_nodes, 3), dtype=bool)
+        is_free[np.asarray(clamped, dtype=int)] = False
+        self.free = np.flatnonzero(is_free)  # (n,), place of each free coordinate in the full vector
+        self.axis = self.free % 3  # (n,), 0, 1, 2 for x, y, z
+
+    def full(self, u: np.ndarray) -> np.ndarray:
+        """Displacement (n_nodes, 3) of all nodes for the free coordinates `u`, m."""
+        vector = np.zeros(3 * self.n_nodes)
+        vector[self.free] = u
+        return vector.reshape(-1, 3)
+
+    def coordinates(self, nodes: np.ndarray) -> np.ndarray:
+        """Places in the free vector of the x, y, z of `nodes`, node by node."""
+        return np.searchsorted(self.free, (3 * np.asarray(nodes)[:, None] + np.arange(3)).ravel())
+
+
 class _Solid:
     """What the meshes of both kinds of element have in common; corners first in ``doflocs``, then edges.
 
     ``quadrature`` gives the integration points of the stiffness, ``mass_quadrature`` of mass and volume.
     """
 
-    order: ClassVar[np.ndarray]  # in scikit-fem's element, of the nodes of C3D20 or C3D10 (CalculiX, VTK)
+    order: ClassVar[list[int]]  # in scikit-fem's element, of the nodes of C3D20 or C3D10 (CalculiX, VTK)
 
     @property
     def points(self) -> np.ndarray:
@@ -33,27 +54,6 @@ class _Solid:
         return self.dofs.element_dofs[self.order].T
 
 
-def _order(element: type[Element], wanted: list[tuple[float, ...]]) -> np.ndarray:
-    places = {tuple(place): index for index, place in enumerate(element.doflocs.tolist())}
-    return np.array([places[node] for node in wanted])
-
-
-def _c3d20() -> list[tuple[float, ...]]:
-    """Nodes of C3D20 on the unit cube: corners, edges at the bottom, at the top, then upright."""
-    ring = [(0, 0), (1, 0), (1, 1), (0, 1)]
-    ring_middle = [(0.5, 0), (1, 0.5), (0.5, 1), (0, 0.5)]
-    return [
-        (x, y, z)
-        for corners, heights in ((ring, (0, 1)), (ring_middle, (0, 1)), (ring, (0.5,)))
-        for z in heights
-        for x, y in corners
-    ]
-
-
-_C3D10 = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)]
-_C3D10 += [(0.5, 0, 0), (0.5, 0.5, 0), (0, 0.5, 0), (0, 0, 0.5), (0.5, 0, 0.5), (0, 0.5, 0.5)]
-
-
 @dataclass(repr=False)
 class MeshHexS2(_Solid, MeshHex1):
     """Hexahedra mapped by the 20-node serendipity element.
@@ -63,7 +63,7 @@ class MeshHexS2(_Solid, MeshHex1):
     """
 
     elem: type[Element] = ElementHexS2
-    order: ClassVar[np.ndarray] = _order(ElementHexS2, _c3d20())
+    order: ClassVar[list[int]] = [7, 4, 1, 5, 6, 2, 0, 3, 17, 11, 12, 18, 14, 9, 10, 16, 19, 13, 8, 15]
 
     @staticmethod
     def quadrature() -> tuple[np.ndarray, np.ndarray]:
@@ -81,29 +81,20 @@ class MeshTetP2(_Solid, MeshTet2):
     """Tetrahedra mapped by the 10-node element."""
 
     elem: type[Element] = ElementTetP2
-    order: ClassVar[np.ndarray] = _order(ElementTetP2, _C3D10)
+    order: ClassVar[list[int]] = list(range(10))
 
     @staticmethod
     def quadrature() -> tuple[np.ndarray, np.ndarray]:
-        """Give the points (3, 4) and weights (4,) of the second degree on the unit tetrahedron.
-
-        They are those of C3D10 in CalculiX and Abaqus, exact for the stiffness of straight elements and just
-        enough to strain every shape of the element.
-        """
+        """Give the four points of C3D10: exact for straight elements, and they strain every shape of it."""
         return get_quadrature(RefTet, 2)
 
     @staticmethod
     def mass_quadrature() -> tuple[np.ndarray, np.ndarray]:
-        """Give points (3, 14) and weights (14,) of the fifth degree, as the mass needs the fourth.
-
-        CalculiX has the four points of the stiffness for the mass as well, and so is 3e-4 off in the eighth
-        frequency of a coarse mesh.
-        """
+        """Give 14 points, exact to the fifth degree: the mass needs the fourth (CalculiX has only four)."""
         return get_quadrature(RefTet, 5)
 
 
 SolidMesh = MeshHexS2 | MeshTetP2
-"""A mesh that `bladerub.blade.elasticity.Solid` takes."""
 
 
 @dataclass(frozen=True)
@@ -140,12 +131,7 @@ def solid_mesh(points: np.ndarray, cells: np.ndarray) -> tuple[SolidMesh, np.nda
 
     `points` (n_points, 3) are in m; `cells` (n_elements, 20 or 10) are in the order of CalculiX and VTK. Also
     returns the row of `points` (n_nodes,) of each node of the mesh; rows that no element uses are left out.
-
-    Raises
-    ------
-    ValueError
-        If two elements that share an edge do not share its middle, or edges share a mid-side node; names an
-        element by its row in `cells`, counted from 1.
+    A ValueError names an element, or node, from 1 whose mid-side nodes are not shared as its edges are.
     """
     kind = MeshHexS2 if cells.shape[1] == 20 else MeshTetP2
     n_corners = kind.elem.refdom.nnodes
@@ -164,13 +150,6 @@ def solid_mesh(points: np.ndarray, cells: np.ndarray) -> tuple[SolidMesh, np.nda
     return kind(np.ascontiguousarray(points[origin].T), t), origin
 
 
-class Shape(Protocol):
-    """A blade as a map from the unit cube, such as `bladerub.blade.geometry.BladeShape`."""
-
-    def points(self, xi: np.ndarray, eta: np.ndarray, zeta: np.ndarray) -> np.ndarray:
-        """Map chordwise ξ, η through the thickness and spanwise ζ to space: points (3, ...), m."""
-
-
 @dataclass(frozen=True)
 class BladeMesh:
     """The blade's mesh and the node sets on it."""
@@ -181,10 +160,10 @@ class BladeMesh:
     interface: np.ndarray  # (8,) nodes of the tip's camber line that may touch, leading to trailing edge
 
     @classmethod
-    def from_shape(cls, shape: Shape, mesh: Mapping[str, int]) -> "BladeMesh":
-        """Mesh `shape` with the element counts of the config's ``blade.mesh``.
+    def from_shape(cls, shape, mesh: Mapping[str, int]) -> "BladeMesh":
+        """Mesh `shape`, whose ``points`` map the unit cube as those of `bladerub.blade.geometry.BladeShape`.
 
-        Raises ValueError if the tip's camber line has fewer than 8 nodes.
+        `mesh` are the element counts of the config. A ValueError says if the tip has too few for 8 nodes.
         """
         check_interface(mesh)
         hexahedra, (xi, eta, zeta) = hexahedral_mesh(*lattice(mesh), shape.points)

@@ -11,8 +11,7 @@ from bladerub.io import hdf5
 from bladerub.io.errors import DamagedFile
 from bladerub.io.hdf5 import Variable
 
-N_INTERFACE = 8
-"""Number of interface nodes on the blade tip, leading to trailing edge."""
+N_INTERFACE = 8  # nodes on the blade tip, leading to trailing edge
 INTERFACE_NODE = Variable(
     ("node",), np.arange(1, N_INTERFACE + 1), "1", "interface node, counted from 1 at the leading edge"
 )
@@ -104,15 +103,15 @@ def write_reduced_blade(path: str | Path, blade: ReducedBlade, origin: Mapping[s
     """Write `blade` to the HDF5 file `path`, whole or not at all; `origin` is its provenance."""
     variables = {"node": INTERFACE_NODE, "axis": AXIS}
     for name, data in blade.arrays.items():
-        units, long_name = _UNITS.get(name) or _higher(name)
+        if name in _UNITS:
+            units, long_name = _UNITS[name]
+        else:
+            power = 2 * int(name.removeprefix("stiffness_"))
+            units, long_name = "N/m", f"coefficient of f_omega^{power} in the stiffness"
         is_matrix = data.shape == blade.mass.shape
         dims = ("coordinate", "coordinate_column") if is_matrix else ("node", "axis")
         variables[name] = Variable(dims, data, units, long_name)
     hdf5.write(path, variables, {name: getattr(blade, name) for name in _ATTRIBUTES}, origin)
-
-
-def _higher(name: str) -> tuple[str, str]:
-    return "N/m", f"coefficient of f_omega^{2 * int(name.removeprefix('stiffness_'))} in the stiffness"
 
 
 def read_reduced_blade(path: str | Path) -> ReducedBlade:

@@ -10,10 +10,8 @@ from bladerub.blade import linear
 from bladerub.blade.frequencies import in_hertz
 from bladerub.blade.linear import Solve
 
-MOST_ITERATIONS = 40
-"""Iterations after which the preconditioner is too far, and the matrix gets factors of its own."""
-CLOSE = 1e-12
-"""Relative error of the squared frequencies after which one more correction ends the search for the modes."""
+MOST_ITERATIONS = 40  # after which the preconditioner is too far, and the matrix gets factors of its own
+CLOSE = 1e-12  # relative error of the squared frequencies after which one more correction ends the search
 
 
 @dataclass

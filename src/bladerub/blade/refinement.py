@@ -16,19 +16,12 @@ from bladerub.blade.frequencies import reduced_frequencies
 from bladerub.blade.linear import lowest_modes
 from bladerub.blade.model import ReducedBlade, stiffness_at
 from bladerub.blade.preconditioned_cg import PreconditionedCG
-from bladerub.blade.reduction import (
-    Partition,
-    fit_speeds,
-    project,
-    speed_law,
-    transformation,
-)
+from bladerub.blade.reduction import Partition, fit_speeds, project, speed_law, transformation
 from bladerub.io.errors import BadInput
 
 log = logging.getLogger(__name__)
 
-MODES = 6
-"""Modes that the reduced model must follow, as the paper's does with its η."""
+MODES = 6  # that the reduced model must follow, as the paper's does with its η
 MOST_FIT_SPEEDS = 7
 MOST_MODES_PER_SPEED = 30
 
@@ -40,12 +33,8 @@ def reduce_to_tolerance(
 
     Where the config has a ``reduction.tolerance``, the largest relative error of the first `MODES`
     frequencies at the accuracy speeds must be below it. While eq. (2) alone has more than half of what is
-    allowed, one fit speed is added, else two modes at each speed.
-
-    Raises
-    ------
-    BadInput
-        If the tolerance is not reached; the message states the error that is.
+    allowed, one fit speed is added, else two modes at each speed. If that is not enough, a BadInput states
+    the error that is reached.
     """
     reduction, length = dict(config["reduction"]), config["blade"]["length"]
     tolerance = reduction.get("tolerance")
@@ -85,7 +74,9 @@ def _reduce(blade: DiscreteBlade, reduction: Mapping[str, Any], length: float, m
     k0, k1, k2, *higher = speed_law([project(stiffness, phi) for stiffness in fits], f_max)  # eqs. (3), (6)
     reduced = ReducedBlade(
         project(blade.mass, phi),  # eq. (6)
-        *(k0, k1, k2),
+        k0,
+        k1,
+        k2,
         node_position=mesh.mesh.points[mesh.interface],
         radial_direction=radial,
         tangential_direction=tangential,

@@ -10,18 +10,12 @@ from bladerub.blade.linear import Solve, factorise
 from bladerub.blade.preconditioned_cg import PreconditionedCG
 from bladerub.io.errors import BadInput
 
-TOLERANCE = 1e-9
-"""Largest residual force accepted, over the norm of the centrifugal load."""
-NEGLIGIBLE = 1e-8
-"""Correction, over the norm of the displacement, after which the next one would be rounding."""
-MAX_ITERATIONS = 12
-"""Newton iterations granted to one load step."""
-KEEPING = 0.2
-"""Largest ratio of two successive residuals at which a large model keeps its tangent."""
-CORRECTION = 1e-4
-"""Relative error of a correction of a large model; the next correction removes it."""
-MAX_HALVINGS = 8
-"""How often a load step that failed is halved before giving up."""
+TOLERANCE = 1e-9  # largest residual force accepted, over the norm of the centrifugal load
+NEGLIGIBLE = 1e-8  # correction, over the norm of the displacement, after which the next would be rounding
+MAX_ITERATIONS = 12  # of Newton's method in one load step
+KEEPING = 0.2  # largest ratio of two successive residuals at which a large model keeps its tangent
+CORRECTION = 1e-4  # relative error of a correction of a large model; the next correction removes it
+MAX_HALVINGS = 8  # of a load step that failed before giving up
 
 
 class EquilibriumError(BadInput):
@@ -30,15 +24,13 @@ class EquilibriumError(BadInput):
 
 @dataclass(frozen=True)
 class Equilibrium:
-    """Static equilibrium of a solid that rotates about the x axis.
-
-    The stiffness K(Ω) of small motions about it is material tangent + stress stiffness − spin softening,
-    without Coriolis forces.
-    """
+    """Static equilibrium of a solid that rotates about the x axis."""
 
     omega: float  # angular speed, rad/s
     displacement: np.ndarray  # (n,), free coordinates, from rest, m
-    stiffness: sparse.csc_array  # (n, n), N/m
+    stiffness: (
+        sparse.csc_array
+    )  # (n, n), N/m: material + stress stiffness − spin softening, no Coriolis forces
     n_iterations: int  # of Newton's method
     n_steps: int  # of the load
 
@@ -99,18 +91,14 @@ def residual(solid: Solid, u: np.ndarray, omega_squared: float) -> np.ndarray:
 
 
 def _newton(
-    solid: Solid,
-    omega_squared: float,
-    start: np.ndarray,
-    at_rest: Solve | None,
-    tangent: sparse.csc_array | None,
+    solid: Solid, omega_squared: float, u: np.ndarray, at_rest: Solve | None, tangent: sparse.csc_array | None
 ) -> tuple[np.ndarray | None, int]:
     """Displacement in equilibrium, or None, and the iterations made.
 
     A large model, one with factors `at_rest`, keeps its tangent, the first of which may be given, as long as
     the residual decreases fast.
     """
-    u, solve, before = start, None, np.inf
+    solve, before = None, np.inf
     for iteration in range(MAX_ITERATIONS + 1):
         volume_ratio = np.linalg.det(solid.deformation_gradient(u))
         if not np.all(volume_ratio > 0):  # matter turned inside out, or not finite

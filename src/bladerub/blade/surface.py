@@ -2,33 +2,24 @@
 
 import numpy as np
 
-NAMES = {20: "hexahedron20", 10: "tetra10"}
-"""By the nodes of the element: its name in meshio."""
+NAMES = {20: "hexahedron20", 10: "tetra10"}  # in meshio, by the number of nodes
 
-EDGES = {
+EDGES = {  # by the number of nodes: the corners at the ends of each edge, in the order of its mid-side nodes
     20: np.array(
         [(0, 1), (1, 2), (2, 3), (3, 0), (4, 5), (5, 6), (6, 7), (7, 4), (0, 4), (1, 5), (2, 6), (3, 7)]
     ),
     10: np.array([(0, 1), (1, 2), (2, 0), (0, 3), (1, 3), (2, 3)]),
 }
-"""By the nodes of the element: the corners at the ends of each edge, in the order of its mid-side nodes."""
 
-_CORNERS_OF_FACES = {
-    20: [(0, 3, 2, 1), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7)],
-    10: [(0, 2, 1), (0, 1, 3), (1, 2, 3), (2, 0, 3)],
+_FACES = {  # corners and mid-side nodes in turn around each face of an element, seen from outside
+    20: np.array(
+        [
+            *[(0, 11, 3, 10, 2, 9, 1, 8), (4, 12, 5, 13, 6, 14, 7, 15), (0, 8, 1, 17, 5, 12, 4, 16)],
+            *[(1, 9, 2, 18, 6, 13, 5, 17), (2, 10, 3, 19, 7, 14, 6, 18), (3, 11, 0, 16, 4, 15, 7, 19)],
+        ]
+    ),
+    10: np.array([(0, 6, 2, 5, 1, 4), (0, 4, 1, 8, 3, 7), (1, 5, 2, 9, 3, 8), (2, 6, 0, 7, 3, 9)]),
 }
-
-
-def _faces(n_nodes: int) -> np.ndarray:
-    """Corners and mid-side nodes in turn around each face of an element, seen from outside."""
-    corners = _CORNERS_OF_FACES[n_nodes]
-    first = n_nodes - len(EDGES[n_nodes])
-    middle = {frozenset(edge): first + at for at, edge in enumerate(EDGES[n_nodes].tolist())}
-    around = [zip(face, face[1:] + face[:1], strict=True) for face in corners]
-    return np.array([[node for a, b in face for node in (a, middle[frozenset((a, b))])] for face in around])
-
-
-_FACES = {n_nodes: _faces(n_nodes) for n_nodes in EDGES}
 
 
 def boundary_faces(cells: np.ndarray) -> np.ndarray:

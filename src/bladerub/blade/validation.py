@@ -10,8 +10,7 @@ import numpy as np
 from bladerub.blade.model import N_INTERFACE, ReducedBlade, read_reduced_blade
 from bladerub.io.errors import DamagedFile
 
-LARGEST_MATRIX = 10_000
-"""Coordinates of a reduced blade; more would fill the memory."""
+LARGEST_MATRIX = 10_000  # coordinates of a reduced blade; more would fill the memory
 
 _AT_NODES = ("node_position", "radial_direction", "tangential_direction")
 _POSITIVE = ("f1_hz", "f_omega_max", "length")

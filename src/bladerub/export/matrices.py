@@ -43,20 +43,17 @@ def write_fe_matrices(folder: str | Path, blade: DiscreteBlade, f_max: float, su
     matrices = {MASS: blade.mass} | {
         names.get(f_omega, f"{AT_SPEED}{f_omega:.10g}"): matrix for f_omega, matrix in blade.stiffness.items()
     }
-    paths = [_write_matrix(Path(folder) / f"{name}{suffix}", matrix) for name, matrix in matrices.items()]
+    paths = {Path(folder) / f"{name}{suffix}": matrix for name, matrix in matrices.items()}
+    for path, matrix in paths.items():
+        with atomic.writing(path, "wb") as stream:
+            if suffix == ".mtx":
+                mmwrite(stream, matrix, precision=_DIGITS, symmetry="symmetric")
+            else:
+                sparse.save_npz(stream, matrix)
     nodes = Path(folder) / NODES
     with atomic.writing(nodes) as stream:
         _node_list(blade.layout.mesh).to_csv(stream, index=False, float_format="%.17g")
     return [*paths, nodes]
-
-
-def _write_matrix(path: Path, matrix: sparse.csc_array) -> Path:
-    with atomic.writing(path, "wb") as stream:
-        if path.suffix == ".mtx":
-            mmwrite(stream, matrix, precision=_DIGITS, symmetry="symmetric")
-        else:
-            sparse.save_npz(stream, matrix)
-    return path
 
 
 def _node_list(mesh: BladeMesh) -> pd.DataFrame:

@@ -13,41 +13,32 @@ from bladerub.io import atomic
 N_SECTIONS, N_STATIONS = 21, 61
 _FINE = 4000  # points along a side: angles interpolated between them are accurate to 1e-8
 _SAME = 1e-9  # of the axial chord
+_STATIONS = (1 - np.cos(np.linspace(0, np.pi, N_STATIONS))) / 2  # along the chord, closer at its ends
 
 
 def write_sections(path: str | Path, shape: BladeShape, coordinates: str) -> tuple[int, int]:
     """Write `shape` as a table of sections, hub to tip; return the number of sections and of all stations.
 
     Units and axes are the defaults of an import: m, rad, the blade's frame. Coordinates are ``cartesian``,
-    points of the surface, or ``cylindrical``, axial position, radius and angles
-    (`bladerub.blade.sources.section_table`).
-
-    Raises
-    ------
-    ValueError
-        If a side goes back along the axis, which cylindrical coordinates cannot describe.
+    points of the surface, or ``cylindrical``, axial position, radius and angles, which raises ValueError for
+    a side that goes back along the axis (`bladerub.blade.sources.section_table`).
     """
-    write_section = _cartesian if coordinates == "cartesian" else _cylindrical
-    columns = POINTS if coordinates == "cartesian" else CYLINDRICAL
-    parts = []
-    for number, zeta in enumerate(np.linspace(0, 1, N_SECTIONS), 1):
-        part = pd.DataFrame(write_section(shape, float(zeta)), columns=list(columns))
-        part.insert(0, "section", number)
-        parts.append(part)
-    frame, table = Frame(), pd.concat(parts)
+    section, columns = (_cartesian, POINTS) if coordinates == "cartesian" else (_cylindrical, CYLINDRICAL)
+    heights = enumerate(np.linspace(0, 1, N_SECTIONS).tolist(), 1)
+    parts = {number: pd.DataFrame(section(shape, zeta), columns=list(columns)) for number, zeta in heights}
+    frame, table = Frame(), pd.concat(parts, names=["section"])
     with atomic.writing(path) as stream:
         stream.write(
             f"# sections of the blade, hub to tip; m, rad; it turns about {frame.rotation}, the air flows "
             f"along {frame.downstream}\n"
         )
-        table.to_csv(stream, index=False, float_format="%.12g")
+        table.droplevel(1).to_csv(stream, float_format="%.12g")
     return len(parts), len(table)
 
 
 def _cartesian(shape: BladeShape, zeta: float) -> np.ndarray:
-    """Points (61, 6) of both sides at the same places along the chord, closer at its ends."""
-    xi = _denser_at_the_ends(N_STATIONS)
-    return np.hstack([shape.points(xi, side, zeta).T for side in (0.0, 1.0)])
+    """Points (61, 6) of both sides at the same places along the chord."""
+    return np.hstack([shape.points(_STATIONS, side, zeta).T for side in (0.0, 1.0)])
 
 
 def _cylindrical(shape: BladeShape, zeta: float) -> np.ndarray:
@@ -60,7 +51,7 @@ def _cylindrical(shape: BladeShape, zeta: float) -> np.ndarray:
         last = np.argmax(edges[1]) if is_askew[1] else side
         outlines.append(_outline(shape, zeta, side, first, last))
     foremost, rearmost = edges[0].max(), edges[1].min()
-    axial = foremost + (rearmost - foremost) * _denser_at_the_ends(N_STATIONS)
+    axial = foremost + (rearmost - foremost) * _STATIONS
     if is_askew[0]:
         axial = np.insert(axial, 0, edges[0].min())
     if is_askew[1]:
@@ -81,7 +72,3 @@ def _outline(shape: BladeShape, zeta: float, side: int, first: int, last: int) -
     if (np.diff(x) <= 0).any():
         raise ValueError(f"the section at {zeta:.0%} of the span goes back along the axis; choose cartesian")
     return np.stack([x, np.hypot(y, z), -np.arctan2(y, z)])
-
-
-def _denser_at_the_ends(n: int) -> np.ndarray:
-    return (1 - np.cos(np.linspace(0, np.pi, n))) / 2

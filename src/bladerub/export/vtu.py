@@ -18,8 +18,7 @@ from bladerub.contact.recording import Recording
 from bladerub.export.mesh_file import block
 from bladerub.io import hdf5
 
-COLLECTION = "blade.pvd"
-"""The file to open: it names the others with their time in revolutions."""
+COLLECTION = "blade.pvd"  # the file to open: it names the others with their time in revolutions
 
 _MESH = {"points", "cells", "root_nodes", "tip_nodes", "interface_nodes", "recovery"}
 _FRAME = (
@@ -31,10 +30,7 @@ _FRAME = (
 def read_mesh(path: str | Path, blade: ReducedBlade) -> dict[str, np.ndarray]:
     """Read the mesh of a blade and how it follows the reduced coordinates from its ``mesh.h5``.
 
-    Raises
-    ------
-    OSError
-        If the file is missing, damaged, or not the mesh of this blade; the message names it.
+    Raises an OSError that names the file if it is missing, damaged, or not the mesh of this blade.
     """
     mesh, _ = hdf5.read(path, _MESH)
     missing = _MESH - mesh.keys()

@@ -13,7 +13,7 @@ _MOST_OFF = 0.35  # of the edge; the middle of a quarter of a circle is 0.21 off
 def check_nodes(points: np.ndarray, cells: np.ndarray) -> None:
     """Check that no two nodes of `cells` are in one place and that mid-side nodes are in the middle.
 
-    Raises a ValueError that names the node or element, counted from 1. Nodes of no element are not checked.
+    A ValueError names the node or element, counted from 1. Nodes of no element are not checked.
     """
     used = np.unique(cells)
     lost = used[~np.isfinite(points[used]).all(axis=1)]
@@ -23,19 +23,17 @@ def check_nodes(points: np.ndarray, cells: np.ndarray) -> None:
     twins = cKDTree(points[used]).query_pairs(_SAME_PLACE * extent, output_type="ndarray")
     if len(twins):
         first, second = np.sort(used[twins[0]]) + 1
-        raise ValueError(
-            f"nodes {first} and {second}: are in one place; merge them ({len(twins)} such pairs)"
-        )
+        raise ValueError(f"nodes {first} and {second}: are in one place; merge them ({len(twins)} pairs)")
     ends = points[cells[:, EDGES[cells.shape[1]]]]
     sides = points[cells[:, -ends.shape[1] :]]
     off = np.linalg.norm(sides - ends.mean(axis=2), axis=-1)
     misplaced = np.argwhere(off > _MOST_OFF * np.linalg.norm(ends[:, :, 1] - ends[:, :, 0], axis=-1))
     if len(misplaced):
         element, edge = misplaced[0]
-        node = cells.shape[1] - ends.shape[1] + edge
+        number = cells.shape[1] - ends.shape[1] + edge + 1
         raise ValueError(
-            f"element {element + 1}: its {node + 1}th node is not in the middle of its edge; the nodes "
-            "must be in the order of CalculiX and VTK"
+            f"element {element + 1}: its {number}th node is not in the middle of its edge; nodes must be in "
+            "the order of CalculiX and VTK"
         )
 
 
@@ -48,12 +46,8 @@ def jacobians(mesh: SolidMesh) -> tuple[np.ndarray, float]:
     determinant = mesh.mapping().detDF(points)
     bad = np.flatnonzero((determinant <= 0).any(axis=1))
     if bad.size == len(determinant):
-        raise ValueError(
-            "all elements are left-handed; the mesh must not be mirrored, nor its nodes be counted backwards"
-        )
+        raise ValueError("all elements are left-handed: the mesh is mirrored, or its nodes count backwards")
     if bad.size:
-        raise ValueError(
-            f"element {bad[0] + 1}: its Jacobian is negative, it is turned inside out "
-            f"({bad.size} such of {len(determinant)})"
-        )
+        share = f"{bad.size} such of {len(determinant)}"
+        raise ValueError(f"element {bad[0] + 1}: its Jacobian is negative, it is turned inside out ({share})")
     return determinant.min(axis=1) / determinant.max(axis=1), float(np.sum(determinant @ weights))

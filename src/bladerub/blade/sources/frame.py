@@ -10,12 +10,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-UNITS = {"m": 1.0, "mm": 1e-3, "cm": 1e-2, "inch": 0.0254, "feet": 0.3048}
-"""Metres of each unit of length."""
-ANGLE_UNITS = {"rad": 1.0, "deg": np.pi / 180}
-"""Radians of each unit of angle."""
-LENGTHS = (0.01, 3.0)
-"""Limits of the length of a blade, m, as those of ``blade.length`` of the config."""
+UNITS = {"m": 1.0, "mm": 1e-3, "cm": 1e-2, "inch": 0.0254, "feet": 0.3048}  # m
+ANGLE_UNITS = {"rad": 1.0, "deg": np.pi / 180}  # rad
+LENGTHS = (0.01, 3.0)  # limits of the length of a blade, m, as those of ``blade.length`` of the config
 AXES = ("x", "y", "z", "-x", "-y", "-z")
 
 
@@ -23,10 +20,7 @@ AXES = ("x", "y", "z", "-x", "-y", "-z")
 class Frame:
     """Unit (of `UNITS`) and axes (of `AXES`) of a file; its engine axis passes through its origin.
 
-    Raises
-    ------
-    ValueError
-        If `downstream` is not along the engine axis or `radial` is not across it.
+    Raises ValueError if `downstream` is not along the engine axis or `radial` is not across it.
     """
 
     unit: str = "m"
@@ -35,12 +29,12 @@ class Frame:
     radial: str = "z"  # from root to tip
 
     def __post_init__(self):
-        if self.downstream[-1] != self.rotation[-1]:
+        axis = self.rotation[-1]
+        if self.downstream[-1] != axis:
             raise ValueError(
-                f"downstream = {self.downstream}: must be along the axis of rotation, {self.rotation[-1]} or "
-                f"-{self.rotation[-1]}"
+                f"downstream = {self.downstream}: must be along the axis of rotation, {axis} or -{axis}"
             )
-        if self.radial[-1] == self.rotation[-1]:
+        if self.radial[-1] == axis:
             raise ValueError(f"radial = {self.radial}: must not be the axis of rotation")
 
     @property
@@ -76,9 +70,8 @@ class Frame:
         """
         axis, radial = _vector(self.rotation[-1]), _vector(self.radial)
         around = np.cross(axis, radial)
-        r = r[:, None]
-        theta = theta[:, None]
-        return z[:, None] * axis + r * (np.cos(theta) * radial + np.sin(theta) * around)
+        z, r, theta = z[:, None], r[:, None], theta[:, None]
+        return z * axis + r * (np.cos(theta) * radial + np.sin(theta) * around)
 
 
 def _vector(axis: str) -> np.ndarray:

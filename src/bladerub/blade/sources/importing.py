@@ -20,24 +20,21 @@ class Imported:
     """A blade from a mesh file or a table of sections."""
 
     blade: MeshedBlade
-    is_raised: bool  # whether its elements were linear (see `bladerub.blade.sources.mesh_file.read`)
-    n_unused: int  # nodes of the file that no element uses, which were left out
-    node_sets: dict[str, int]  # number of nodes of each node set of the file
     jacobian_ratio: np.ndarray = field(repr=False)  # (n_elements,), smallest over largest determinant
     volume: float  # m³
     chord: float  # length of the tip's camber line, m
     interface_offset: float  # largest distance of an interface node from its place on that line, m
     lean: float  # angle about the engine axis from the radial axis that was named to the blade's middle, rad
-    sections: tuple[Profile, ...] = field(default=(), repr=False)  # of a table, hub to tip
+    is_raised: bool = False  # whether its elements were linear (see `bladerub.blade.sources.mesh_file.read`)
+    n_unused: int = 0  # nodes of the file that no element uses, which were left out
+    node_sets: dict[str, int] = field(default_factory=dict)  # number of nodes of each set of the file
+    sections: list[Profile] = field(default_factory=list, repr=False)  # of a table, hub to tip
 
 
 def import_blade(source: Source, counts: Mapping[str, int]) -> Imported:
     """Read the mesh of `source`, or mesh its sections with the numbers of elements `counts`.
 
-    Raises
-    ------
-    BadInput
-        If the file cannot be used as a blade; the message names the file and what is wrong in it.
+    Raises a BadInput that names the file and what is wrong in it if it cannot be used as a blade.
     """
     try:
         return _import_sections(source, counts) if source.is_table else _import_mesh(source)
@@ -116,14 +113,11 @@ def _import_sections(source: Source, counts: Mapping[str, int]) -> Imported:
     return _measured(
         mesh,
         source,
-        is_raised=False,
-        n_unused=0,
-        node_sets={},
         jacobian_ratio=ratio,
         volume=volume,
         chord=profiles[-1].chord,
         interface_offset=float(offset),
-        sections=tuple(profiles),
+        sections=profiles,
     )
 
 
@@ -136,6 +130,5 @@ def _measured(mesh: BladeMesh, source: Source, **known: Any) -> Imported:
     if length <= 0:
         raise ValueError(f"the tip is no farther from the engine axis than the root ({length:.3g} m)")
     source.frame.check_length(length)
-    middle = points.mean(axis=0)
-    lean = float(np.arctan2(middle[1], middle[2]))
+    lean = float(np.arctan2(*points.mean(axis=0)[1:]))
     return Imported(MeshedBlade(mesh, tip_cone, length), lean=lean, **known)

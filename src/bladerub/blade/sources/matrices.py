@@ -1,9 +1,9 @@
 """From mass and stiffness of another program to a blade that can be reduced."""
 
-from collections.abc import Callable
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, TypeVar
 
 import numpy as np
 from scipy import sparse
@@ -11,10 +11,9 @@ from scipy.sparse.linalg import ArpackError
 from scipy.spatial.distance import cdist
 from threadpoolctl import threadpool_limits
 
-from bladerub.blade.coordinates import FreeCoordinates
 from bladerub.blade.discrete import DiscreteBlade
 from bladerub.blade.linear import lowest_modes
-from bladerub.blade.mesh import BladeMesh, MeshedBlade, NodeCloud
+from bladerub.blade.mesh import BladeMesh, FreeCoordinates, MeshedBlade, NodeCloud
 from bladerub.blade.reduction import fit_speeds
 from bladerub.blade.sources import matrix_folder, tip
 from bladerub.blade.sources.definite import check_definite, check_held
@@ -22,10 +21,7 @@ from bladerub.blade.sources.matrix_folder import FIT, MASS, NODES
 from bladerub.blade.sources.origin import MATRIX_UNITS, MatrixSource
 from bladerub.io.errors import BadInput
 
-T = TypeVar("T")
-
-OMEGA_TOLERANCE = 1e-3
-"""How far the speed of the files may be from that of the config, relative."""
+OMEGA_TOLERANCE = 1e-3  # relative, of the speed of the files to that of the config
 
 
 @dataclass(frozen=True)
@@ -52,58 +48,47 @@ def import_matrices(source: MatrixSource, f_max: float, n_modes: int, eta: int) 
     """Read the matrices of `source` and check that they are of a blade.
 
     `f_max` is the normalised speed of ``stiffness_max``. There must be coordinates enough for `n_modes` modes
-    at rest and for `eta` modes with a clamped interface.
-
-    Raises
-    ------
-    BadInput
-        If the folder cannot be used as a blade; the message names the file and what is wrong in it.
+    at rest and for `eta` modes with a clamped interface. A BadInput names the file and what is wrong in it.
     """
-    names = _naming(source.folder, matrix_folder.files, source.folder)
-    at_speeds = _naming(source.folder, matrix_folder.speeds, names, fit_speeds(f_max))
-    path = names["nodes"]
-    nodes = _naming(path, matrix_folder.read_nodes, path)
-    layout = _naming(path, _layout, nodes, source)
-    free = FreeCoordinates(len(nodes.points), nodes.clamped)
-    n_internal = free.free.size - 3 * nodes.interface.size
-    if n_internal <= max(n_modes, eta):
-        raise BadInput(
-            f"{path}: has {n_internal} free coordinates off the interface; must have more than "
-            f"{max(n_modes, eta)}, the modes that are wanted"
-        )
-    paths = {f_omega: names[name] for f_omega, name in at_speeds.items()}
-
-    def read_free(path: Path) -> sparse.csc_array:
-        return _of_free(matrix_folder.read_matrix(path), free, source)
-
-    mass_of_all = _naming(names[MASS], matrix_folder.read_matrix, names[MASS])
-    mass = _naming(names[MASS], _of_free, mass_of_all, free, source)
-    stiffness = {f_omega: _naming(path, read_free, path) for f_omega, path in paths.items()}
+    with _naming(source.folder):
+        names = matrix_folder.files(source.folder)
+        at_speeds = matrix_folder.speeds(names, fit_speeds(f_max))
+    with _naming(names["nodes"]):
+        nodes = matrix_folder.read_nodes(names["nodes"])
+        layout = _layout(nodes, source)
+        free = FreeCoordinates(len(nodes.points), nodes.clamped)
+        n_internal, wanted = free.free.size - 3 * nodes.interface.size, max(n_modes, eta)
+        if n_internal <= wanted:
+            raise ValueError(
+                f"has {n_internal} free coordinates off the interface; must have more than {wanted}, the "
+                "modes that are wanted"
+            )
+    with _naming(names[MASS]):
+        mass_of_all = matrix_folder.read_matrix(names[MASS])
+        mass = _of_free(mass_of_all, free, source)
+    stiffness = {}
+    for f_omega, name in at_speeds.items():
+        with _naming(names[name]):
+            stiffness[f_omega] = _of_free(matrix_folder.read_matrix(names[name]), free, source)
     rest, half, highest = (stiffness[f_omega] for f_omega in fit_speeds(f_max))
-    _naming(names[MASS], check_definite, mass)
-    _naming(names[FIT[0]], check_definite, rest)
-    try:
-        frequency, modes = lowest_modes(rest, mass, n_modes)
-    except (np.linalg.LinAlgError, ArpackError) as error:
-        raise BadInput(f"{names[FIT[0]]}: is singular ({error}); are the clamped nodes marked?") from error
-    _naming(names[FIT[0]], check_held, rest, modes[:, 0])
+    with _naming(names[MASS]):
+        check_definite(mass)
+    with _naming(names[FIT[0]]):
+        check_definite(rest)
+        try:
+            frequency, modes = lowest_modes(rest, mass, n_modes)
+        except (np.linalg.LinAlgError, ArpackError) as error:
+            raise ValueError(f"is singular ({error}); are the clamped nodes marked?") from error
+        check_held(rest, modes[:, 0])
     _check_speed(source, f_max, frequency[0])
     change = sparse.linalg.norm(highest - rest)
     middle = layout.mesh.mesh.points.mean(axis=0)
+    frequencies = {
+        f_omega: lowest_modes(matrix, mass, n_modes)[0] if f_omega > 0 else frequency
+        for f_omega, matrix in stiffness.items()
+    }
     return ImportedMatrices(
-        DiscreteBlade(
-            layout,
-            free,
-            mass,
-            stiffness,
-            {},
-            {
-                f_omega: lowest_modes(matrix, mass, n_modes)[0] if f_omega > 0 else frequency
-                for f_omega, matrix in stiffness.items()
-            },
-            frequency,
-            modes,
-        ),
+        DiscreteBlade(layout, free, mass, stiffness, {}, frequencies, frequency, modes),
         MATRIX_UNITS[source.matrix_units] * _rigid_mass(mass_of_all),
         nodes.clamped.size > 0 and mass_of_all.shape[0] == 3 * len(nodes.points),
         float(sparse.linalg.norm(half - rest) / change) if change else 0.0,
@@ -111,10 +96,11 @@ def import_matrices(source: MatrixSource, f_max: float, n_modes: int, eta: int) 
     )
 
 
-def _naming(path: Path, function: Callable[..., T], *arguments: Any) -> T:
-    """Call `function`; add `path` to the message of its ValueError."""
+@contextmanager
+def _naming(path: Path) -> Iterator[None]:
+    """Add `path` to the message of a ValueError."""
     try:
-        return function(*arguments)
+        yield
     except ValueError as error:
         raise BadInput(f"{path}: {error}") from error
 
@@ -138,16 +124,13 @@ def _layout(nodes: matrix_folder.Nodes, source: MatrixSource) -> MeshedBlade:
     tip_nodes = nodes.tip if nodes.tip.size else nodes.interface
     lowest = radius[nodes.clamped].mean() if nodes.clamped.size else radius.min()
     length = float(radius[tip_nodes].mean() - lowest)
-    if nodes.clamped.size and length <= 0:
-        raise ValueError(
-            f"the tip is no farther from the engine axis than the clamped nodes ({length:.3g} m)"
-        )
     if nodes.clamped.size:
+        if length <= 0:
+            raise ValueError(f"the tip is no farther from the engine axis than the root ({length:.3g} m)")
         source.frame.check_length(length)
     tip_cone = tip.cone(points[tip_nodes], source.tip_cone, source.frame.downstream_x)
-    return MeshedBlade(
-        BladeMesh(NodeCloud(points), nodes.clamped, tip_nodes, nodes.interface), tip_cone, length
-    )
+    mesh = BladeMesh(NodeCloud(points), nodes.clamped, tip_nodes, nodes.interface)
+    return MeshedBlade(mesh, tip_cone, length)
 
 
 def _of_free(matrix: sparse.csc_array, free: FreeCoordinates, source: MatrixSource) -> sparse.csc_array:

@@ -16,12 +16,9 @@ from bladerub.blade.model import N_INTERFACE
 SUFFIXES = (".mtx", ".npz")
 NODES = "nodes.csv"
 MASS = "mass"
-FIT = ("stiffness_rest", "stiffness_half", "stiffness_max")
-"""Stiffness at the speeds of the fit, ascending."""
-AT_SPEED = "stiffness_at_"
-"""Prefix of the name of a stiffness at another speed; the normalised speed follows."""
-SYMMETRY = 1e-8
-"""Largest difference of two entries that must be equal, over the largest entry."""
+FIT = ("stiffness_rest", "stiffness_half", "stiffness_max")  # at the speeds of the fit
+AT_SPEED = "stiffness_at_"  # another normalised speed follows
+SYMMETRY = 1e-8  # largest difference of two entries that must be equal, over the largest entry
 
 _POSITION = ("x", "y", "z")
 _MARKS = {"interface": N_INTERFACE, "clamped": 1, "tip": 1}  # largest value of each
@@ -93,18 +90,16 @@ def read_nodes(path: Path) -> Nodes:
     lost = np.flatnonzero(~np.isfinite(points).all(axis=1))
     if lost.size:
         raise ValueError(f"row {lost[0] + 1}: its coordinates are not finite numbers")
-    marks = {name: _marks(table, name) for name in _MARKS}
-    order = [np.flatnonzero(marks["interface"] == number) for number in range(1, N_INTERFACE + 1)]
-    for number, rows in enumerate(order, 1):
-        if rows.size != 1:
-            counted = f"{rows.size} nodes have" if rows.size else "no node has"
-            raise ValueError(f"{counted} interface = {number}; each of 1 to {N_INTERFACE} must be there once")
-    interface = np.concatenate(order)
-    clamped = np.flatnonzero(marks["clamped"])
-    held = np.intersect1d(interface, clamped)
+    number, clamped, tip = (_marks(table, name) for name in _MARKS)
+    for wanted in range(1, N_INTERFACE + 1):
+        if (count := np.count_nonzero(number == wanted)) != 1:
+            counted = f"{count} nodes have" if count else "no node has"
+            raise ValueError(f"{counted} interface = {wanted}; each of 1 to {N_INTERFACE} must be there once")
+    interface = np.argsort(number)[-N_INTERFACE:]  # all others are 0
+    held = np.flatnonzero((number > 0) & (clamped > 0))
     if held.size:
         raise ValueError(f"row {held[0] + 1}: an interface node must not be clamped")
-    return Nodes(points, interface, clamped, np.flatnonzero(marks["tip"]))
+    return Nodes(points, interface, np.flatnonzero(clamped), np.flatnonzero(tip))
 
 
 def _numbers(table: pd.DataFrame, name: str) -> np.ndarray:
@@ -135,10 +130,11 @@ def read_matrix(path: Path) -> sparse.csc_array:
     """
     if path.stat().st_size == 0:
         raise ValueError("is empty")
+    is_text = path.suffix == ".mtx"
     try:
-        rows, columns = mminfo(path)[:2] if path.suffix == ".mtx" else (0, 0)
+        rows, columns = mminfo(path)[:2] if is_text else (0, 0)
         if max(rows, columns) <= MOST_UNKNOWNS:
-            raw = mmread(path, spmatrix=False) if path.suffix == ".mtx" else sparse.load_npz(path)
+            raw = mmread(path, spmatrix=False) if is_text else sparse.load_npz(path)
             rows, columns = raw.shape
     except Exception as error:  # readers of foreign files raise all kinds of errors
         reason = str(error) or type(error).__name__
@@ -151,7 +147,7 @@ def read_matrix(path: Path) -> sparse.csc_array:
         raise ValueError(f"holds numbers of the type {raw.dtype}; must be real")
     entries = sparse.coo_array(raw)
     matrix = sparse.csc_array(entries, dtype=float)  # adds up entries that are there twice
-    if path.suffix == ".mtx" and matrix.nnz < entries.nnz:
+    if is_text and matrix.nnz < entries.nnz:
         raise ValueError("has entries twice; with the word symmetric it must hold one triangle only")
     _check_symmetry(matrix)
     return (matrix + matrix.T) / 2
@@ -168,10 +164,8 @@ def _check_symmetry(matrix: sparse.csc_array) -> None:
         if len({*np.sign(entries.col - entries.row)}) < 3:
             raise ValueError("holds one triangle only; must hold both, or say symmetric in a .mtx file")
         worst = int(np.argmax(np.abs(apart.data)))
-        raise ValueError(
-            f"is not symmetric: its entry {_entry(apart, worst)} is {abs(apart.data[worst]):.3g} off its "
-            "mirror image"
-        )
+        off = f"{abs(apart.data[worst]):.3g} off its mirror image"
+        raise ValueError(f"is not symmetric: its entry {_entry(apart, worst)} is {off}")
 
 
 def _entry(matrix: sparse.coo_array, at: int) -> str:

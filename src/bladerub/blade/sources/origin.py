@@ -14,24 +14,15 @@ MATRIX_UNITS = {"SI": 1.0, "mm-tonne": 1e3, "inch-lbf": 4.4482216152605 / 0.0254
 
 As the two are equal, frequencies do not show when the wrong system is named.
 """
-TABLE_SUFFIXES = (".csv", ".txt", ".dat")
-"""Suffixes of tables of sections; all other files are meshes."""
-
-_OF_A_MESH = ("root_set", "tip_set")
+TABLE_SUFFIXES = (".csv", ".txt", ".dat")  # of tables of sections; all other files are meshes
 
 
 @dataclass(frozen=True)
 class Source:
-    """A file that a blade comes from, as ``blade.source`` of the config describes it.
+    """A mesh (`bladerub.blade.sources.mesh_file`) or table of sections that a blade comes from.
 
-    It is a mesh (`bladerub.blade.sources.mesh_file`) or a table of sections
-    (`bladerub.blade.sources.section_table`). What is not given is found: the node sets by the direction of
-    the surface, the cone by a fit to the tip.
-
-    Raises
-    ------
-    ValueError
-        If something is given that does not apply to this kind of file.
+    What is not given is found: the node sets by the direction of the surface, the cone by a fit to the tip.
+    Raises ValueError if something is given that does not apply to this kind of file.
     """
 
     file: Path
@@ -42,26 +33,15 @@ class Source:
     angle_unit: str | None = None  # of a table, one of `bladerub.blade.sources.frame.ANGLE_UNITS`; else rad
 
     def __post_init__(self):
-        for name in _OF_A_MESH if self.is_table else ("angle_unit",):
-            if getattr(self, name) is not None:
-                kind = "mesh" if self.is_table else "table of sections"
-                raise ValueError(
-                    f"{name} = {getattr(self, name)}: goes with a {kind}, not with {self.file.name}"
-                )
+        kind = "mesh" if self.is_table else "table of sections"
+        for name in ("root_set", "tip_set") if self.is_table else ("angle_unit",):
+            if (given := getattr(self, name)) is not None:
+                raise ValueError(f"{name} = {given}: goes with a {kind}, not with {self.file.name}")
 
     @property
     def is_table(self) -> bool:
         """Whether the file is a table of sections, which is meshed here, by ``blade.mesh`` of the config."""
         return self.file.suffix.lower() in TABLE_SUFFIXES
-
-    @classmethod
-    def from_config(cls, source: Mapping[str, Any]) -> "Source":
-        """Read the ``blade.source`` block of the config; its file is relative to the repository."""
-        return cls(
-            ROOT / source["file"],
-            _frame(source),
-            *(source.get(name) for name in ("root_set", "tip_set", "tip_cone", "angle_unit")),
-        )
 
 
 @dataclass(frozen=True)
@@ -74,33 +54,24 @@ class MatrixSource:
     omega_max: float | None = None  # speed of ``stiffness_max``, rad/s, to check ``reduction.f_omega_max``
     tip_cone: float | None = None  # as in `Source`
 
-    @classmethod
-    def from_config(cls, source: Mapping[str, Any]) -> "MatrixSource":
-        """Read the ``blade.source`` block of the config; its folder is relative to the repository."""
-        given = {name: source[name] for name in ("matrix_units", "omega_max", "tip_cone") if name in source}
-        return cls(ROOT / source["matrices"], _frame(source), **given)
-
-
-_OF_MATRICES_ONLY = ("matrix_units", "omega_max")
-_OF_FILES_ONLY = ("file", "angle_unit", *_OF_A_MESH)
-
 
 def read(source: Mapping[str, Any]) -> Source | MatrixSource:
-    """Read the ``blade.source`` block of the config.
+    """Read the ``blade.source`` block of the config, whose file or folder is relative to the repository.
 
     Raises a ValueError that begins with the key if neither ``file`` nor ``matrices`` is there, or keys do not
     go together.
     """
-    if "matrices" in source:
-        given, kind, others = "matrices", MatrixSource, _OF_FILES_ONLY
-    elif "file" in source:
-        given, kind, others = "file", Source, _OF_MATRICES_ONLY
-    else:
+    given = next((name for name in ("matrices", "file") if name in source), None)
+    if given is None:
         raise ValueError("file: missing; must be given, or matrices in its place")
+    kind = MatrixSource if given == "matrices" else Source
+    others = {name: source[name] for name in source if name != given}
+    frame = {entry.name: others.pop(entry.name) for entry in fields(Frame) if entry.name in others}
+    known = [entry.name for entry in fields(kind)]
     for key in others:
-        if key in source:
+        if key not in known:
             raise ValueError(f"{key} = {source[key]}: must not be given beside {given}")
-    return kind.from_config(source)
+    return kind(ROOT / source[given], Frame(**frame), **others)
 
 
 def files(source: Mapping[str, Any]) -> list[str]:
@@ -112,9 +83,5 @@ def files(source: Mapping[str, Any]) -> list[str]:
         return [source["file"]]
     from bladerub.blade.sources import matrix_folder  # imports pandas, which takes time
 
-    found = matrix_folder.files(MatrixSource.from_config(source).folder)
+    found = matrix_folder.files(read(source).folder)
     return [os.path.join(source["matrices"], path.name) for path in found.values()]
-
-
-def _frame(source: Mapping[str, Any]) -> Frame:
-    return Frame(**{entry.name: source[entry.name] for entry in fields(Frame) if entry.name in source})

@@ -10,14 +10,13 @@ from scipy.sparse.csgraph import dijkstra
 from bladerub.blade.accuracy import errors_by_mode
 from bladerub.blade.built import BuiltBlade
 from bladerub.blade.elasticity import Material
-from bladerub.blade.mesh import BladeMesh
+from bladerub.blade.mesh import BladeMesh, MeshedBlade
 from bladerub.blade.model import ReducedBlade
 from bladerub.blade.refinement import MODES
-from bladerub.blade.sources.frame import Frame
 from bladerub.blade.sources.importing import Imported
 from bladerub.blade.sources.matrices import ImportedMatrices
 from bladerub.blade.sources.origin import MatrixSource, Source
-from bladerub.blade.sources.section_profile import EDGE_SHARE, Profile
+from bladerub.blade.sources.section_profile import EDGE_SHARE
 from bladerub.blade.surface import EDGES, NAMES
 
 FREQUENCIES = (5.0, 20e3)  # Hz, of the first mode
@@ -39,27 +38,20 @@ def mesh_report(source: Source, imported: Imported, built: BuiltBlade, material:
     over the speeds of the accuracy table: that of eq. (2) alone, and with the reduction.
     """
     mesh = imported.blade.mesh
-    moved = np.linalg.norm(built.static_displacement[-1], axis=1).max()
     figures = {
         "file": str(source.file),
         "element": NAMES[mesh.mesh.cells.shape[1]],
         "elements": len(mesh.mesh.cells),
-        "nodes": len(mesh.mesh.points),
-        "unknowns": 3 * (len(mesh.mesh.points) - mesh.root.size),
+        **_of_blade(source, imported.blade, built),
         "elements_root_to_tip": spanwise_elements(mesh),
         "node_sets": imported.node_sets,
         "root_nodes": int(mesh.root.size),
-        "tip_nodes": int(mesh.tip.size),
-        "extents": _extents(mesh.mesh.points),
-        "length": imported.blade.length,
         "tip_chord": imported.chord,
-        "tip_cone_degrees": source.frame.downstream_x * float(np.rad2deg(imported.blade.tip_cone)),
         "interface_offset": imported.interface_offset,
         "volume": imported.volume,
         "mass": imported.volume * material.density,
         "worst_jacobian": float(imported.jacobian_ratio.min()),
-        "centrifugal_displacement": float(moved),
-        **_of_reduction(built),
+        "centrifugal_displacement": float(np.linalg.norm(built.static_displacement[-1], axis=1).max()),
     }
     if imported.sections:
         figures["sections"] = [
@@ -73,7 +65,8 @@ def mesh_report(source: Source, imported: Imported, built: BuiltBlade, material:
             }
             for section in imported.sections
         ]
-    return figures | {"warnings": list(_warn_of_mesh(figures, imported, source))}
+    warnings = [*_warn_of_frame(figures, source, imported.lean), *_warn_of_mesh(figures, imported)]
+    return figures | {"warnings": [*warnings, *_warn_of_errors(figures)]}
 
 
 def matrix_report(source: MatrixSource, imported: ImportedMatrices, built: BuiltBlade) -> dict[str, Any]:
@@ -86,34 +79,38 @@ def matrix_report(source: MatrixSource, imported: ImportedMatrices, built: Built
     speeds = list(imported.blade.stiffness)
     figures = {
         "folder": str(source.folder),
-        "nodes": len(points),
-        "unknowns": imported.blade.mass.shape[0],
+        **_of_blade(source, layout, built),
         "clamped_nodes": int(layout.mesh.root.size),
-        "tip_nodes": int(layout.mesh.tip.size),
         "interface": points[layout.mesh.interface].tolist(),
-        "extents": _extents(points),
-        "length": layout.length,
         "length_is_measured": imported.is_rooted,
-        "tip_cone_degrees": source.frame.downstream_x * float(np.rad2deg(layout.tip_cone)),
         "mass": imported.mass,
         "mass_is_whole": imported.mass_is_complete,
         "speeds": speeds,
         "omega_max": 2 * np.pi * float(built.frequency[0]) * speeds[-1],
         "stiffness_half_way": imported.half_speed_change,
-        **_of_reduction(built),
     }
-    warnings = list(_warn_of_matrices(figures, imported, source))
+    warnings = [
+        *_warn_of_frame(figures, source, imported.lean),
+        *_warn_of_matrices(figures, imported, source),
+    ]
+    warnings += _warn_of_errors(figures)
     if len(speeds) == 3:
         figures["error_eq2"] = None
     return figures | {"warnings": warnings}
 
 
-def _of_reduction(built: BuiltBlade) -> dict[str, Any]:
-    """Figures of the frequencies and of the reduced model."""
-    table = built.accuracy
+def _of_blade(source: Source | MatrixSource, layout: MeshedBlade, built: BuiltBlade) -> dict[str, Any]:
+    """Figures of the nodes, of the frequencies and of the reduced model."""
+    points, table = layout.mesh.mesh.points, built.accuracy
     errors = errors_by_mode(table)
     first = table[table["mode"] == 1].sort_values("f_omega").f_fe.to_numpy()
     return {
+        "nodes": len(points),
+        "unknowns": 3 * (len(points) - layout.mesh.root.size),
+        "tip_nodes": int(layout.mesh.tip.size),
+        "extents": _extents(points),
+        "length": layout.length,
+        "tip_cone_degrees": source.frame.downstream_x * float(np.rad2deg(layout.tip_cone)),
         "f1_hz": float(built.frequency[0]),
         "tip_stagger_degrees": _stagger(built.reduced),
         "campbell_ratio": float(first[-1] / first[0]),
@@ -148,86 +145,9 @@ def _extents(points: np.ndarray) -> dict[str, list[float]]:
     return {name: [float(value.min()), float(value.max())] for name, value in values.items()}
 
 
-def _warn_of_mesh(figures: dict[str, Any], imported: Imported, source: Source) -> Iterator[str]:
-    yield from _warn_of_frame(figures, source.frame, imported.lean)
-    if imported.is_raised:
-        yield "its elements were linear: straight edges got mid-side nodes, and curved faces stay faceted"
-    if imported.n_unused:
-        yield f"{imported.n_unused} nodes of the file belong to no element and were left out"
-    if figures["elements_root_to_tip"] < FEWEST_ELEMENTS:
-        yield (
-            f"its mesh is coarse, with {figures['elements_root_to_tip']} elements from root to tip: compare "
-            "the frequencies with those of a finer mesh"
-        )
-    if figures["worst_jacobian"] < LEAST_JACOBIAN_RATIO:
-        yield (
-            f"element {np.argmin(imported.jacobian_ratio) + 1} is badly shaped: its Jacobian varies by a "
-            f"factor of {1 / figures['worst_jacobian']:.3g}"
-        )
-    yield from _warn_of_edges(imported.sections)
-    if figures["interface_offset"] > LARGEST_OFFSET * figures["tip_chord"]:
-        yield (
-            f"an interface node is {1e3 * figures['interface_offset']:.3g} mm from its place on the camber "
-            "line of the tip: the mesh is coarse there"
-        )
-    eq2 = max(figures["error_eq2"][:MODES])
-    if eq2 > EQ2_ERROR:
-        yield (
-            f"the frequencies of eq. (2) are up to {100 * eq2:.2g} % off in the first {MODES} modes, as "
-            f"rotation moves the blade by {1e3 * figures['centrifugal_displacement']:.3g} mm: set "
-            "reduction.tolerance, or lower reduction.f_omega_max"
-        )
-    yield from _warn_of_errors(figures)
-
-
-def _warn_of_edges(sections: tuple[Profile, ...]) -> Iterator[str]:
-    cut = [section for section in sections if max(section.cut) > 0]
-    if cut:
-        worst = max(cut, key=lambda section: max(section.cut) / section.chord)
-        most = max(worst.cut)
-        yield (
-            f"edges of {len(cut)} of {len(sections)} sections were cut off where they are thinner than "
-            f"{EDGE_SHARE:.0%} of the section: up to {1e3 * most:.3g} mm, {most / worst.chord:.2%} of the "
-            f"chord (section {worst.name})"
-        )
-
-
-def _warn_of_matrices(
-    figures: dict[str, Any], imported: ImportedMatrices, source: MatrixSource
-) -> Iterator[str]:
-    yield from _warn_of_frame(figures, source.frame, imported.lean)
-    box = np.prod(np.ptp(imported.blade.layout.mesh.mesh.points, axis=0))
-    if not DENSITIES[0] * box <= figures["mass"] <= DENSITIES[1] * box:
-        yield (
-            f"its mass is {figures['mass']:.3g} kg in a box of {1e6 * box:.3g} cm³: are the matrices in "
-            f"{source.matrix_units}, and the nodes in {source.frame.unit}?"
-        )
-    if not imported.is_rooted:
-        yield (
-            f"no node is clamped in nodes.csv, so its length is not known; its nodes reach over "
-            f"{figures['length']:.4g} m: set blade.length"
-        )
-    if not HALF_SPEED_CHANGE[0] <= imported.half_speed_change <= HALF_SPEED_CHANGE[1]:
-        yield (
-            f"stiffness_half shows {imported.half_speed_change:.2g} of the change from stiffness_rest to "
-            "stiffness_max, not about a quarter: do the names of the files state their speeds?"
-        )
-    if len(figures["speeds"]) == 3:
-        yield (
-            "the error of eq. (2) is not known, as it is exact at the three speeds of the fit, and there are "
-            "no files of others: add stiffness_at_<f_omega>"
-        )
-    eq2 = max(figures["error_eq2"][:MODES])
-    if eq2 > EQ2_ERROR:
-        yield (
-            f"the frequencies of eq. (2) are up to {100 * eq2:.2g} % off in the first {MODES} modes: lower "
-            "reduction.f_omega_max"
-        )
-    yield from _warn_of_errors(figures)
-
-
-def _warn_of_frame(figures: dict[str, Any], frame: Frame, lean: float) -> Iterator[str]:
+def _warn_of_frame(figures: dict[str, Any], source: Source | MatrixSource, lean: float) -> Iterator[str]:
     """Warn of a wrong unit or wrong axes; the middle of the blade is `lean` (rad) off its radial axis."""
+    frame, stagger = source.frame, figures["tip_stagger_degrees"]
     if not FREQUENCIES[0] <= figures["f1_hz"] <= FREQUENCIES[1]:
         yield f"its first frequency is {figures['f1_hz']:.4g} Hz: are length and material in their units?"
     if abs(lean) > np.deg2rad(LARGEST_LEAN):
@@ -235,21 +155,65 @@ def _warn_of_frame(figures: dict[str, Any], frame: Frame, lean: float) -> Iterat
             f"its middle is {np.rad2deg(lean):.3g} degrees about the engine axis from the radial axis "
             f"{frame.radial}: is that the right axis, and is the origin on the engine axis?"
         )
-    if figures["tip_stagger_degrees"] < LEAST_STAGGER:
+    if stagger < LEAST_STAGGER:
         yield (
-            f"the leading edge of the tip is behind its trailing edge in rotation, by a stagger of "
-            f"{-figures['tip_stagger_degrees']:.3g} degrees; that of a compressor blade is ahead: has "
-            f"rotation = {frame.rotation} or downstream = {frame.downstream} the wrong sign?"
+            f"the leading edge of the tip is {-stagger:.3g} degrees behind its trailing edge in rotation: "
+            f"has rotation = {frame.rotation} or downstream = {frame.downstream} the wrong sign?"
         )
+
+
+def _warn_of_mesh(figures: dict[str, Any], imported: Imported) -> Iterator[str]:
+    n_elements, offset = figures["elements_root_to_tip"], figures["interface_offset"]
+    if imported.is_raised:
+        yield "its elements were linear: they got mid-side nodes, but curved faces stay faceted"
+    if imported.n_unused:
+        yield f"{imported.n_unused} nodes of the file belong to no element and were left out"
+    if n_elements < FEWEST_ELEMENTS:
+        yield f"its mesh is coarse, with {n_elements} elements from root to tip: compare with a finer mesh"
+    if figures["worst_jacobian"] < LEAST_JACOBIAN_RATIO:
+        factor = 1 / figures["worst_jacobian"]
+        worst = np.argmin(imported.jacobian_ratio) + 1
+        yield f"element {worst} is badly shaped: its Jacobian varies by a factor of {factor:.3g}"
+    cut = [section for section in imported.sections if max(section.cut) > 0]
+    if cut:
+        share, name = max((max(section.cut) / section.chord, section.name) for section in cut)
+        yield (
+            f"edges of {len(cut)} of {len(imported.sections)} sections were cut off where they are thinner "
+            f"than {EDGE_SHARE:.0%} of the section: up to {share:.2%} of the chord (section {name})"
+        )
+    if offset > LARGEST_OFFSET * figures["tip_chord"]:
+        yield f"an interface node is {1e3 * offset:.3g} mm from its place on the camber line of the tip"
+
+
+def _warn_of_matrices(
+    figures: dict[str, Any], imported: ImportedMatrices, source: MatrixSource
+) -> Iterator[str]:
+    box = np.prod(np.ptp(imported.blade.layout.mesh.mesh.points, axis=0))
+    if not DENSITIES[0] * box <= figures["mass"] <= DENSITIES[1] * box:
+        yield (
+            f"its mass is {figures['mass']:.3g} kg in a box of {1e6 * box:.3g} cm³: are the matrices in "
+            f"{source.matrix_units}, and the nodes in {source.frame.unit}?"
+        )
+    if not imported.is_rooted:
+        yield f"no node is clamped in nodes.csv: set blade.length (all reach over {figures['length']:.4g} m)"
+    if not HALF_SPEED_CHANGE[0] <= imported.half_speed_change <= HALF_SPEED_CHANGE[1]:
+        yield (
+            f"stiffness_half shows {imported.half_speed_change:.2g} of the change from stiffness_rest to "
+            "stiffness_max, not about a quarter: do the names of the files state their speeds?"
+        )
+    if len(figures["speeds"]) == 3:
+        yield "the error of eq. (2) is not known at the three speeds of its fit: add stiffness_at_<f_omega>"
 
 
 def _warn_of_errors(figures: dict[str, Any]) -> Iterator[str]:
     """Warn of an inaccurate reduced model and of an unstable blade."""
     eq2, reduced = (max(figures[name][:MODES]) for name in ("error_eq2", "error_reduced_model"))
+    off = f"% off in the first {MODES} modes"
+    if eq2 > EQ2_ERROR:
+        more = "" if "folder" in figures else " or set reduction.tolerance"
+        yield f"eq. (2) is up to {100 * eq2:.2g} {off}: lower reduction.f_omega_max{more}"
     if reduced > max(REDUCED_ERROR, 1.5 * eq2):
-        yield (
-            f"the frequencies of the reduced model are up to {100 * reduced:.2g} % off in the first {MODES} "
-            "modes: set reduction.tolerance, or raise reduction.modes_per_speed"
-        )
+        remedy = "set reduction.tolerance, or raise reduction.modes_per_speed"
+        yield f"the reduced model is up to {100 * reduced:.2g} {off}: {remedy}"
     if figures["lowest_frequency"] <= 0:
         yield "a mode is unstable within the range of speeds"

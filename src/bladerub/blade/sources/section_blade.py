@@ -12,8 +12,7 @@ from bladerub.blade.sources.origin import Source
 from bladerub.blade.sources.section_profile import SAMPLES, Profile, profile
 from bladerub.blade.sources.section_table import Section
 
-WIDEST = 50.0
-"""Largest chord over length: beyond, they are not in the same unit."""
+WIDEST = 50.0  # largest chord over length: beyond, they are not in the same unit
 
 
 @dataclass(frozen=True)

@@ -1,6 +1,7 @@
 """The profile of a section: two sides as curves, paired along the chord, without too thin edges."""
 
 from dataclasses import dataclass, field
+from itertools import pairwise
 
 import numpy as np
 from scipy.interpolate import CubicSpline
@@ -9,11 +10,8 @@ from scipy.spatial import cKDTree
 from bladerub.blade.sources.profile import arc_length, camber_line, crossings
 from bladerub.blade.sources.section_table import Section
 
-EDGE_SHARE = 0.1
-"""Thickness over the largest of a section below which an edge is cut off, to leave room for hexahedra."""
-
-SAMPLES = np.linspace(0, 1, 201)
-"""Chordwise parameter of the samples of a profile: relative arc length of the camber line."""
+EDGE_SHARE = 0.1  # of the largest thickness, below which an edge is cut off, to leave room for hexahedra
+SAMPLES = np.linspace(0, 1, 201)  # of a profile, by relative arc length of the camber line
 
 _CORNER = np.deg2rad(60)  # a side that turns more at a station has a corner there, else it is smooth
 _FINE = 400  # points of a curve, or some more
@@ -39,27 +37,26 @@ class Profile:
 
 
 def profile(section: Section, downstream_x: int) -> Profile:
-    """Make the profile of `section`; `downstream_x` is 1 where x points downstream, else -1.
+    """Make the profile of `section`; a ValueError names it and a line of its table.
 
-    Raises a ValueError that names the section and a line of its table if no profile can be made of it.
+    `downstream_x` is 1 where x points downstream, else -1.
     """
     place = _cylindrical(section)
     flat = _unrolled(place)
-    is_swapped = _check(section, flat, downstream_x)
-    if is_swapped:
+    if _must_be_swapped(section, flat, downstream_x):
         place, flat = place[::-1], flat[::-1]
     sides = [_Curve(*side) for side in zip(place, flat, strict=True)]
     thickness = cKDTree(sides[1].fine).query(sides[0].fine)[0].max()
-    leading = _edge(sides, thickness, section.name)
+    starts, cut_leading = _edge(sides, thickness, section.name)
     backwards = [_Curve(*side) for side in zip(place[:, ::-1], flat[:, ::-1], strict=True)]
-    trailing = _edge(backwards, thickness, section.name)
-    ends = [
-        (start, side.knots[-1] - stop)
-        for side, start, stop in zip(sides, leading.starts, trailing.starts, strict=True)
+    stops, cut_trailing = _edge(backwards, thickness, section.name)
+    parameters = [
+        _even(side, start, side.knots[-1] - stop)
+        for side, start, stop in zip(sides, starts, stops, strict=True)
     ]
-    samples, chord = _paired(sides, ends)
+    samples, chord = _paired(sides, parameters)
     radius = float(samples[:, :, 1].mean())
-    return Profile(section.name, samples, radius, chord, float(thickness), (leading.cut, trailing.cut))
+    return Profile(section.name, samples, radius, chord, float(thickness), (cut_leading, cut_trailing))
 
 
 def _cylindrical(section: Section) -> np.ndarray:
@@ -86,7 +83,7 @@ def _cross(a: np.ndarray, b: np.ndarray) -> np.ndarray:
     return a[..., 0] * b[..., 1] - a[..., 1] * b[..., 0]
 
 
-def _check(section: Section, flat: np.ndarray, downstream_x: int) -> bool:
+def _must_be_swapped(section: Section, flat: np.ndarray, downstream_x: int) -> bool:
     """Check that stations follow the chord and sides are apart; return whether the sides must be swapped."""
     middle = flat.mean(axis=0)
     chord = middle[-1] - middle[0]
@@ -123,23 +120,19 @@ class _Curve:
     """
 
     def __init__(self, place: np.ndarray, flat: np.ndarray):
-        steps = np.linalg.norm(np.diff(flat, axis=0), axis=1)
-        apart = np.concatenate([[True], steps > 0])
+        apart = np.append(True, np.linalg.norm(np.diff(flat, axis=0), axis=1) > 0)
         place, flat = place[apart], flat[apart]
-        self.knots = np.concatenate([[0.0], np.cumsum(steps[steps > 0])])
+        self.knots = arc_length(flat)
         chords = np.diff(flat, axis=0)
         turn = np.arctan2(np.abs(_cross(chords[:-1], chords[1:])), np.sum(chords[:-1] * chords[1:], axis=1))
         self.corners = 1 + np.flatnonzero(turn > _CORNER)
         self._stops = [0, *self.corners, len(flat) - 1]
         both = np.hstack([place, flat])
-        self._pieces = [
-            CubicSpline(self.knots[a : b + 1], both[a : b + 1])
-            for a, b in zip(self._stops[:-1], self._stops[1:], strict=True)
-        ]
-        number, finer = np.arange(len(flat)), -(-_FINE // (len(flat) - 1))
-        self.fine_parameter = np.interp(
-            np.linspace(0, number[-1], finer * number[-1] + 1), number, self.knots
-        )
+        pieces = [slice(start, stop + 1) for start, stop in pairwise(self._stops)]
+        self._pieces = [CubicSpline(self.knots[piece], both[piece]) for piece in pieces]
+        last = len(flat) - 1
+        fine = np.linspace(0, last, -(-_FINE // last) * last + 1)
+        self.fine_parameter = np.interp(fine, np.arange(last + 1), self.knots)
         self.fine = self(self.fine_parameter)[:, 3:]
 
     def __call__(self, parameter: np.ndarray) -> np.ndarray:
@@ -151,22 +144,17 @@ class _Curve:
         return values
 
 
-@dataclass(frozen=True)
-class _Edge:
-    """Parameters of both sides behind the leading edge, and the chord before, which is cut off."""
+def _edge(sides: list[_Curve], thickness: float, name: str) -> tuple[list[float], float]:
+    """Find a leading edge that is wide enough: as it is, between two corners, or after a cut.
 
-    starts: tuple[float, float]
-    cut: float = 0.0
-
-
-def _edge(sides: list[_Curve], thickness: float, name: str) -> _Edge:
-    """Find a leading edge that is wide enough: as it is, between two corners, or after a cut."""
+    Returns the parameters of both sides behind it, and the chord before, which is cut off.
+    """
     least = EDGE_SHARE * thickness
     first, second = (side.fine[0] for side in sides)
     chord = sides[0].fine[-1] + sides[1].fine[-1] - first - second
     chord /= np.linalg.norm(chord)
     if abs(_cross(second - first, chord)) >= least:
-        return _Edge((0.0, 0.0))
+        return [0.0, 0.0], 0.0
     for at, side in enumerate(sides):
         corners = side.knots[side.corners]
         corners = corners[corners < _LAST_OF_EDGE * side.knots[-1]]
@@ -175,14 +163,14 @@ def _edge(sides: list[_Curve], thickness: float, name: str) -> _Edge:
             if np.linalg.norm(corner - sides[1 - at].fine[0]) >= least:
                 starts = [0.0, 0.0]
                 starts[at] = corners[-1]
-                return _Edge(tuple(starts))
+                return starts, 0.0
     starts = _cut(sides, least, name)
     ends = [side(np.array([start]))[0, 3:] for side, start in zip(sides, starts, strict=True)]
     foremost = min((side.fine @ chord).min() for side in sides)
-    return _Edge(starts, float(chord @ np.mean(ends, axis=0) - foremost))
+    return starts, float(chord @ np.mean(ends, axis=0) - foremost)
 
 
-def _cut(sides: list[_Curve], least: float, name: str) -> tuple[float, float]:
+def _cut(sides: list[_Curve], least: float, name: str) -> list[float]:
     """Parameters of both sides where the thickness across the camber line reaches `least`."""
     outline = np.vstack([sides[0].fine, sides[1].fine[::-1]])
     try:
@@ -207,7 +195,7 @@ def _cut(sides: list[_Curve], least: float, name: str) -> tuple[float, float]:
         inner = [parameter for _, parameter in met]
     if inner is None:
         raise ValueError(f"section {name}: is too thin in the middle of its chord to be cut at its edges")
-    return tuple(inner)
+    return inner
 
 
 def _nearest(side: _Curve, point: np.ndarray, normal: np.ndarray) -> tuple[float, float] | None:
@@ -220,20 +208,13 @@ def _nearest(side: _Curve, point: np.ndarray, normal: np.ndarray) -> tuple[float
     return distance[at], float(np.interp(place[at], numbers, side.fine_parameter))
 
 
-def _paired(sides: list[_Curve], ends: list[tuple[float, float]]) -> tuple[np.ndarray, float]:
-    """Places (201, 2, 3) on both sides at `SAMPLES` of the camber line, and its length.
-
-    Points at the same relative arc length of the two sides belong together, the camber line is midway.
-    """
-    parameters = [_even(side, *end) for side, end in zip(sides, ends, strict=True)]
-    flat = [side(parameter)[:, 3:] for side, parameter in zip(sides, parameters, strict=True)]
-    arc = arc_length((flat[0] + flat[1]) / 2)
-    at = np.interp(SAMPLES, arc / arc[-1], np.linspace(0, 1, arc.size))
-    share = np.linspace(0, 1, arc.size)
-    places = [
-        side(np.interp(at, share, parameter))[:, :3]
-        for side, parameter in zip(sides, parameters, strict=True)
-    ]
+def _paired(sides: list[_Curve], parameters: list[np.ndarray]) -> tuple[np.ndarray, float]:
+    """Places (201, 2, 3) on both sides at `SAMPLES` of the camber line between them, and its length."""
+    pairs = list(zip(sides, parameters, strict=True))
+    first, second = (side(parameter)[:, 3:] for side, parameter in pairs)
+    arc, share = arc_length((first + second) / 2), np.linspace(0, 1, len(first))
+    at = np.interp(SAMPLES, arc / arc[-1], share)
+    places = [side(np.interp(at, share, parameter))[:, :3] for side, parameter in pairs]
     return np.stack(places, axis=1), float(arc[-1])
 
 

@@ -9,7 +9,6 @@ separated by commas, if the header has one, or else by white space.
   `theta2` of the two sides (`bladerub.blade.sources.frame.Frame.cartesian` defines their origin and sign).
 """
 
-import io
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -20,8 +19,7 @@ from bladerub.blade.sources.frame import ANGLE_UNITS, Frame
 
 POINTS = ("x1", "y1", "z1", "x2", "y2", "z2")
 CYLINDRICAL = ("z", "r", "theta1", "theta2")
-STATIONS = (5, 2000)
-"""Fewest and most of a section."""
+STATIONS = (5, 2000)  # fewest and most of a section
 
 
 @dataclass(frozen=True)
@@ -34,10 +32,7 @@ class Section:
 
 
 def read(path: str | Path, frame: Frame, angle_unit: str = "rad") -> list[Section]:
-    """Read the sections of the table at `path`, in the order of the file.
-
-    Raises a ValueError that names the line or the section if the file is no such table.
-    """
+    """Read the sections of a table in the order of the file; a ValueError names a line or section."""
     table = _table(Path(path))
     wanted = table.columns.drop("section")
     numbers = table[wanted].apply(pd.to_numeric, errors="coerce").astype(float)
@@ -46,14 +41,11 @@ def read(path: str | Path, frame: Frame, angle_unit: str = "rad") -> list[Sectio
         if bad.any():
             line = bad.idxmax()
             raise ValueError(f"line {line}: {column} = {table[column][line] or 'nothing'}, must be a number")
-    names = table["section"].str.strip()
+    names = table["section"]
     if (names == "").any():
         raise ValueError(f"line {(names == '').idxmax()}: has no section")
-    part = (names != names.shift()).cumsum()
-    sections = [
-        _section(names[rows.index[0]], rows, frame, angle_unit)
-        for _, rows in numbers.groupby(part.to_numpy())
-    ]
+    parts = numbers.groupby((names != names.shift()).cumsum())
+    sections = [_section(names[rows.index[0]], rows, frame, angle_unit) for _, rows in parts]
     _check_names(sections)
     return sections
 
@@ -73,28 +65,19 @@ def _table(path: Path) -> pd.DataFrame:
     if not content:
         raise ValueError("is empty")
     header, *lines = content
-    separator = "," if "," in content[header] else r"\s+"
-    cells = content[header].split("," if separator == "," else None)
-    names = [name.strip(' "').lower() or f"column {number}" for number, name in enumerate(cells, 1)]
+    separator = "," if "," in content[header] else None
+    cells = {line: [cell.strip(' "') for cell in content[line].split(separator)] for line in content}
+    names = [name.lower() or f"column {number}" for number, name in enumerate(cells.pop(header), 1)]
     wanted = ["section", *_form(set(names))]
     twice = {name for name in names if names.count(name) > 1}
     if twice:
         raise ValueError(f"line {header}: has the column {', '.join(sorted(twice))} twice")
     if not lines:
         raise ValueError("has no rows below the names of its columns")
-    for line in lines:
-        n_cells = content[line].count(",") + 1 if separator == "," else len(content[line].split())
-        if n_cells != len(names):
-            raise ValueError(f"line {line}: has {n_cells} cells, must have {len(names)} as the header has")
-    table = pd.read_csv(
-        io.StringIO("\n".join(content[line] for line in lines)),
-        sep=separator,
-        names=names,
-        dtype=str,
-        keep_default_na=False,
-        skipinitialspace=True,
-    )
-    return table.set_index(pd.Index(lines))[wanted]
+    for line, row in cells.items():
+        if len(row) != len(names):
+            raise ValueError(f"line {line}: has {len(row)} cells, must have {len(names)} as the header has")
+    return pd.DataFrame.from_dict(cells, orient="index", columns=names)[wanted]
 
 
 def _form(columns: set[str]) -> tuple[str, ...]:
@@ -112,10 +95,11 @@ def _form(columns: set[str]) -> tuple[str, ...]:
 
 def _section(name: str, rows: pd.DataFrame, frame: Frame, angle_unit: str) -> Section:
     lines = rows.index.to_numpy()
-    if not STATIONS[0] <= len(rows) <= STATIONS[1]:
+    where = f"section {name} (line {lines[0]})"
+    fewest, most = STATIONS
+    if not fewest <= len(rows) <= most:
         raise ValueError(
-            f"section {name} (line {lines[0]}): has {len(rows)} stations; must have {STATIONS[0]} to "
-            f"{STATIONS[1]}, in rows that follow one another"
+            f"{where}: has {len(rows)} stations; must have {fewest} to {most} in successive rows"
         )
     if "r" in rows:
         if (rows.r <= 0).any():
@@ -124,8 +108,8 @@ def _section(name: str, rows: pd.DataFrame, frame: Frame, angle_unit: str) -> Se
         angles = ANGLE_UNITS[angle_unit] * rows[["theta1", "theta2"]].to_numpy().T
         if np.ptp(angles) > np.pi:
             raise ValueError(
-                f"section {name} (line {lines[0]}): its angles go over {np.ptp(angles):.3g} rad, more than "
-                f"half around the engine axis; are they in {angle_unit}?"
+                f"{where}: its angles go over {np.ptp(angles):.3g} rad, more than half around the axis; are "
+                f"they in {angle_unit}?"
             )
         sides = [frame.cartesian(rows.z.to_numpy(), rows.r.to_numpy(), theta) for theta in angles]
     else:

@@ -1,6 +1,6 @@
 """The tip of an imported blade: the cone it lies on, its camber line, and the interface nodes there."""
 
-from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from scipy.optimize import linear_sum_assignment
@@ -10,8 +10,7 @@ from bladerub.blade.model import N_INTERFACE
 from bladerub.blade.sources.profile import arc_length, camber_line
 
 
-@dataclass(frozen=True)
-class Interface:
+class Interface(NamedTuple):
     """Interface nodes of a tip."""
 
     nodes: np.ndarray  # (8,), leading to trailing edge
@@ -35,10 +34,9 @@ def cone(points: np.ndarray, degrees: float | None, downstream_x: int) -> float:
 def interface(points: np.ndarray, faces: np.ndarray, downstream_x: int) -> Interface:
     """Choose the interface nodes, evenly by arc length along the camber line of the tip.
 
-    The tip, the `faces` of the mesh there, is unrolled about the engine axis (see
-    `bladerub.blade.sources.profile.camber_line`). The leading edge has the smaller x where `downstream_x` is
-    1, else the larger. Raises a ValueError if the tip has fewer than 8 nodes, is no profile with two sides,
-    or its nodes are too coarse.
+    The tip, the `faces` of the mesh there, is unrolled about the engine axis. The leading edge has the
+    smaller x where `downstream_x` is 1, else the larger. A ValueError says if the tip is no profile with two
+    sides and 8 nodes, or too coarse.
     """
     nodes = np.unique(faces)
     if nodes.size < N_INTERFACE:
