@@ -19,7 +19,7 @@ from bladerub.io.hdf5 import Variable
 from bladerub.io.provenance import provenance
 from bladerub.study.grid import CoatingCase
 from bladerub.study.maps import CoatingMap
-from bladerub.study.peaks import amplitude_within, maximum, peak, speed_window
+from bladerub.study.peaks import amplitude_in_window, maximum, peak, speed_window
 from bladerub.study.spectra import order_spectrum
 
 COLUMNS = [
@@ -152,7 +152,7 @@ def table(
     for sweep, order in itertools.product(sweeps, settings["orders"]):
         constant = maps[sweep.case]
         at_constant, window = peak(constant, order, settings), speed_window(constant, order, settings)
-        found = maximum(sweep, amplitude_within(sweep, order, window, settings))
+        found = maximum(sweep, amplitude_in_window(sweep, order, settings, window))
         rows.append(
             asdict(sweep.case)
             | {

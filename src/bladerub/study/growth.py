@@ -65,12 +65,8 @@ class Verdict(NamedTuple):
 def growth(amplitude: np.ndarray, settings: Mapping[str, Any]) -> Growth:
     """Measure the growth at the end of one run.
 
-    Parameters
-    ----------
-    amplitude : (n,) ndarray
-        Amplitude in each revolution, m; NaN after an early end.
-    settings : mapping
-        ``config["analysis"]["divergence"]``.
+    `amplitude` (n,) is that in each revolution, m; NaN after an early end. `settings` are
+    ``config["analysis"]["divergence"]``.
     """
     begun = amplitude[np.isfinite(amplitude)]
     window = begun[-settings["revolutions"] :]
@@ -133,17 +129,9 @@ def judge(
 ) -> Verdict:
     """Judge one run.
 
-    Parameters
-    ----------
-    amplitude : (n,) ndarray
-        Amplitude in each revolution, m; NaN after an unbounded end.
-    status : str
-        ``completed`` or ``unbounded``.
-    settings : mapping
-        ``config["analysis"]["divergence"]``.
-    confirmation : (m,) ndarray, optional
-        Amplitude in each revolution of the longer run, NaN after an unbounded end; none, or NaN throughout,
-        if there is no such run.
+    `amplitude` (n,) is that in each revolution, m; NaN after an early end. `status` is ``completed`` or
+    ``unbounded``, `settings` are ``config["analysis"]["divergence"]``. `confirmation` (m,) is the amplitude
+    of the longer run: none, or NaN throughout, if there is no such run.
     """
     confirmed = confirmation is not None and bool(np.isfinite(confirmation).any())
     longest = confirmation if confirmed else amplitude

@@ -3,6 +3,7 @@
 import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -26,18 +27,14 @@ LOCK = ".lock"
 
 @dataclass(frozen=True)
 class RunDone:
-    """Report of one computed run, whose string is a line for a log.
+    """Report of one computed run, whose string is a line for a log."""
 
-    It is the run `number` of the `total` that had to be computed, longer ones counted separately. It took so
-    many `seconds` of wall time, and the others will take about `seconds_left`.
-    """
-
-    number: int
+    number: int  # of the `total` that had to be computed, longer ones counted separately
     total: int
     file: str
     status: str
-    seconds: float
-    seconds_left: float
+    seconds: float  # of wall time
+    seconds_left: float  # that the others will take, about
 
     def __str__(self) -> str:
         return (
@@ -74,10 +71,7 @@ def compute_missing(
     `RunDone` after each computed run, or a text before waiting.
     """
     folder, settings = Path(folder), config["analysis"]["divergence"]
-
-    def compute(runs: Sequence[PlannedRun]) -> dict[str, _Done]:
-        return _compute(config, plan.case, runs, blade, folder, blade_digest, report)
-
+    compute = partial(_compute, config, plan.case, blade, folder, blade_digest, report)
     with lock.held(folder / LOCK, lambda: report(f"another job is at work in {folder}: waiting for its end")):
         done = compute(plan.runs)
         growing = [
@@ -99,11 +93,11 @@ def _row(run: PlannedRun, done: _Done, longer: _Done | None) -> ManifestRow:
 def _compute(
     config: Mapping[str, Any],
     case: CoatingCase,
-    runs: Sequence[PlannedRun],
     blade: ReducedBlade,
     folder: Path,
     blade_digest: str,
     report: Callable[[object], None],
+    runs: Sequence[PlannedRun],
 ) -> dict[str, _Done]:
     """Compute what is missing or stale of `runs`, which are of equal length; return all by file."""
     entries = {run.file: Entry(folder / run.file, run.key(blade_digest), MAPPED) for run in runs}

@@ -86,9 +86,8 @@ def _at(maps: Iterable[CoatingMap], f_omega: np.ndarray) -> list[CoatingMap]:
     selected = []
     for coating in maps:
         chosen = np.abs(coating.f_omega[:, None] - f_omega).min(axis=1) < SAME_SPEED
-        all_values = {name: getattr(coating, name) for name in over_speed}
-        values = {name: each[chosen] for name, each in all_values.items() if each is not None}
-        selected.append(replace(coating, **values))
+        values = {name: getattr(coating, name) for name in over_speed if getattr(coating, name) is not None}
+        selected.append(replace(coating, **{name: each[chosen] for name, each in values.items()}))
     return selected
 
 

@@ -71,37 +71,30 @@ def order_amplitude(coating: Response, order: float, halfwidth: float) -> np.nda
     return coating.spectrum_amplitude[:, on_order].max(axis=1)
 
 
-def amplitude_within(
-    coating: Response, order: float, window: tuple[float, float], settings: Mapping[str, Any]
+def amplitude_in_window(
+    coating: Response,
+    order: float,
+    settings: Mapping[str, Any],
+    window: tuple[float, float] | None = None,
 ) -> np.ndarray:
-    """Amplitude on an engine order, m (n,); NaN outside the `window` of speeds."""
-    low, high = window
+    """Amplitude among which the peak of an engine order is sought, m (n,); NaN outside the speed `window`.
+
+    That is the coating's `speed_window` by default. Other parameters and errors are those of `peak`.
+    """
+    low, high = window or speed_window(coating, order, settings)
     inside = (coating.f_omega >= low) & (coating.f_omega <= high)
     return np.where(inside, order_amplitude(coating, order, settings["order_halfwidth"]), np.nan)
-
-
-def amplitude_in_window(coating: Response, order: float, settings: Mapping[str, Any]) -> np.ndarray:
-    """Amplitude among which the peak of an engine order is sought, m (n,); NaN outside its speed window.
-
-    Parameters and errors are those of `peak`.
-    """
-    return amplitude_within(coating, order, speed_window(coating, order, settings), settings)
 
 
 def peak(coating: Response, order: float, settings: Mapping[str, Any]) -> Peak:
     """Find the maximum (f_k, Y_k) of one engine order near its crossing with C1.
 
     Y_k is the largest amplitude within ``order_halfwidth`` of the order, over the speeds within
-    ``speed_window`` times the crossing speed; f_k is the speed where it occurs. The speed is one of the
-    grid: f_k is known to a speed step. Runs that ended early count with what their spectrum holds.
-
-    `settings` is ``config["analysis"]["peaks"]``; amplitudes of `coating` are NaN at speeds without a run.
-
-    Raises
-    ------
-    ValueError
-        If the order does not cross C1 within the map, or no run with a spectrum lies in the window: a table
-        with a hole would pass for a soft coating in the histograms. The message names key and window.
+    ``speed_window`` times the crossing speed; f_k is the speed of the grid where it occurs. Runs that ended
+    early count with what their spectrum holds; amplitudes are NaN at speeds without a run. `settings` is
+    ``config["analysis"]["peaks"]``. Raises `ValueError`, with key and window, if the order does not cross C1
+    within the map, or no run with a spectrum lies in the window: a table with a hole would pass for a soft
+    coating in the histograms.
     """
     found = maximum(coating, amplitude_in_window(coating, order, settings))
     if np.isnan(found.amplitude):

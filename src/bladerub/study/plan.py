@@ -18,16 +18,12 @@ SHAPING_SETTINGS = ("spectrum_revolutions", "max_order")
 
 @dataclass(frozen=True)
 class PlannedRun:
-    """One run of the study, to be in `file` in the folder of its coating.
-
-    `keep_history` is whether the whole radial displacement of node 1 is stored, `determinants` a digest of
-    everything that determines the file but the blade; other coatings or speeds have no part in it.
-    """
+    """One run of the study."""
 
     spec: RunSpec
-    file: str
-    keep_history: bool
-    determinants: str
+    file: str  # in the folder of its coating
+    keep_history: bool  # whether the whole radial displacement of node 1 is stored
+    determinants: str  # digest of all that determines the file but the blade; other runs have no part in it
 
     def key(self, blade_digest: str) -> str:
         """Key of this run of the blade with that digest (`bladerub.study.cache.blade_digest`)."""

@@ -49,7 +49,7 @@ def test_a_line_at_the_halfwidth_belongs_to_the_order(make_map, halfwidth, count
 
 def test_both_ends_of_a_window_belong_to_it(make_map, settings):
     coating = make_map(CASE, {}, [0.09, 0.1, 0.2, 0.3, 0.31])
-    inside = np.isfinite(peaks.amplitude_within(coating, 6, (0.1, 0.3), settings))
+    inside = np.isfinite(peaks.amplitude_in_window(coating, 6, settings, (0.1, 0.3)))
     assert list(inside) == [False, True, True, True, False]
 
 

@@ -44,15 +44,14 @@ def table(config: Mapping[str, Any], maps: Iterable[CoatingMap]) -> pd.DataFrame
 def summary(compared: pd.DataFrame) -> pd.DataFrame:
     """Count, for each quantity, the coatings found exactly, to 1 % and to 5 %, and the worst miss."""
     missed = compared.groupby("quantity").missed
-    return pd.DataFrame(
-        {
-            "coatings": missed.size(),
-            "exact": missed.apply(lambda each: int((each == 0).sum())),
-            "within_1_percent": missed.apply(lambda each: int((each <= 0.01).sum())),
-            "within_5_percent": missed.apply(lambda each: int((each <= 0.05).sum())),
-            "worst_missed": missed.max(),
-        }
-    ).reset_index()
+    counted = missed.agg(
+        coatings="size",
+        exact=lambda each: (each == 0).sum(),
+        within_1_percent=lambda each: (each <= 0.01).sum(),
+        within_5_percent=lambda each: (each <= 0.05).sum(),
+        worst_missed="max",
+    )
+    return counted.reset_index()
 
 
 def agreement(chart: pd.DataFrame, compared: pd.DataFrame) -> pd.DataFrame:

@@ -60,21 +60,15 @@ class PointRow:
 
 @dataclass(frozen=True)
 class ChartPoint:
-    """What the chart keeps of one coating, over all n speeds of the study.
-
-    `f_omega`, `C1` (the first eigenfrequency of the blade), `uniform` (the speeds of which the shares are)
-    and each of `MEASURES` are (n,). `spectrum_order` has the k engine orders of the chart, and
-    `spectrum_amplitude` (n, k) the largest amplitude on each of them, to within
-    ``analysis.peaks.order_halfwidth``, m; NaN where not run. Frequencies are normalised.
-    """
+    """What the chart keeps of one coating, over all n speeds of the study; NaN where not run."""
 
     case: CoatingCase
-    f_omega: np.ndarray
-    C1: np.ndarray
-    spectrum_order: np.ndarray
-    spectrum_amplitude: np.ndarray
-    uniform: np.ndarray
-    measures: dict[str, np.ndarray]
+    f_omega: np.ndarray  # (n,), normalised
+    C1: np.ndarray  # (n,), first eigenfrequency of the blade, normalised
+    spectrum_order: np.ndarray  # (k,), engine orders of the chart
+    spectrum_amplitude: np.ndarray  # (n, k), largest within ``analysis.peaks.order_halfwidth`` of each, m
+    uniform: np.ndarray  # (n,) of bool, the speeds of which the shares are
+    measures: dict[str, np.ndarray]  # (n,), by `MEASURES`
 
     @property
     def known(self) -> np.ndarray:

@@ -17,6 +17,12 @@ from bladerub.study.peaks import peak
 COATING = ["casing", "E", "K", "theta"]
 """Columns that identify the coating of a row."""
 
+COLUMNS = [
+    *(*COATING, *(f"{name}{order}" for order in ORDERS for name in "Yf")),
+    *("peak", "f_at_peak", "worn_volume", "deepest_wear", "divergent_share", "unbounded_share", "runs"),
+]
+"""Columns of ``chart.csv``."""
+
 
 def read_points(manifests: Iterable[str | Path]) -> Iterator[ChartPoint]:
     """Read the points that the manifests of the columns list.
@@ -38,21 +44,15 @@ def table(config: Mapping[str, Any], points: Iterable[ChartPoint]) -> pd.DataFra
     speeds that diverge and that exceed the displacement limit, and the number of runs. Raises `ValueError` as
     `bladerub.study.peaks.peak`.
     """
-    return pd.DataFrame([_row(config["analysis"]["peaks"], point) for point in points])
-
-
-def _row(settings: Mapping[str, Any], point: ChartPoint) -> dict[str, Any]:
-    measures, row = point.measures, {name: getattr(point.case, name) for name in COATING}
-    for order in ORDERS:
-        found = peak(point, order, settings)
-        row |= {f"Y{order}": found.amplitude, f"f{order}": found.f_omega}
-    highest = int(np.nanargmax(measures["peak"]))
-    return row | {
-        "peak": measures["peak"][highest],
-        "f_at_peak": point.f_omega[highest],
-        "worn_volume": np.nanmax(measures["worn_volume"]),
-        "deepest_wear": np.nanmax(measures["deepest_wear"]),
-        "divergent_share": np.mean(measures["divergent"][point.uniform]),
-        "unbounded_share": np.mean(measures["unbounded"][point.uniform]),
-        "runs": int(point.known.sum()),
-    }
+    rows = []
+    for point in points:
+        measures, row = point.measures, {name: getattr(point.case, name) for name in COATING}
+        for order in ORDERS:
+            row[f"f{order}"], row[f"Y{order}"] = peak(point, order, config["analysis"]["peaks"])
+        highest = int(np.nanargmax(measures["peak"]))
+        row |= {"peak": measures["peak"][highest], "f_at_peak": point.f_omega[highest]}
+        row |= {name: np.nanmax(measures[name]) for name in ("worn_volume", "deepest_wear")}
+        for name in ("divergent", "unbounded"):
+            row[f"{name}_share"] = np.mean(measures[name][point.uniform])
+        rows.append(row | {"runs": int(point.known.sum())})
+    return pd.DataFrame(rows, columns=COLUMNS)
