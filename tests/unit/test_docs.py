@@ -133,3 +133,7 @@ def _is_key(group, key):
             return False
         group = group[part]
     return True
+
+
+def test_the_readme_is_short():
+    assert len((ROOT / "README.md").read_bytes()) <= 9216
