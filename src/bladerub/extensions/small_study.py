@@ -61,11 +61,10 @@ def conduct(
 
 def _peaks(config: Mapping[str, Any], maps: Iterable[CoatingMap]) -> pd.DataFrame:
     """Find the peaks; an order without a bounded run near its crossing has no row, and the log says so."""
-    found = [pd.DataFrame(columns=peaks.COLUMNS)]
-    for coating, order in itertools.product(maps, config["analysis"]["peaks"]["orders"]):
-        analysis = {**config["analysis"], "peaks": {**config["analysis"]["peaks"], "orders": [order]}}
+    settings, rows = config["analysis"]["peaks"], []
+    for coating, order in itertools.product(maps, settings["orders"]):
         try:
-            found.append(peaks.table({**config, "analysis": analysis}, [coating]))
+            rows.append(peaks.row(coating, order, settings))
         except ValueError as error:
             _log.warning("%s: no peak of engine order %g (%s)", coating.case.name, order, error)
-    return pd.concat(found[1:] or found, ignore_index=True)
+    return pd.DataFrame(rows, columns=peaks.COLUMNS)

@@ -29,6 +29,7 @@ COLUMNS = [
 ]
 """Columns of ``sweeps.csv``."""
 
+_RADIAL = "the radial displacement of node 1"
 _DATASETS = {
     "angle": (("angle",), "rad", "casing angle of the element centres"),
     "wear": (("node", "angle"), "m", "worn depth under each node at the end"),
@@ -39,10 +40,7 @@ _DATASETS = {
     "f_omega": (("window",), "1", "mean rotational frequency of {window} revolutions, normalised"),
     "C1": (("window",), "1", "first eigenfrequency at speed over that at rest"),
     "spectrum_order": (("spectrum_order",), "1", "engine order"),
-    "spectrum_amplitude": (
-        *(("window", "spectrum_order"), "m"),
-        "amplitude of the radial displacement of node 1",
-    ),
+    "spectrum_amplitude": (("window", "spectrum_order"), "m", f"amplitude of {_RADIAL}"),
 }
 
 

@@ -46,22 +46,11 @@ _METAL = np.array(colors.to_rgb("#c3ccd6"))
 _LIGHT = np.array([-0.35, 0.85, 0.40])
 _VIEW = View(elevation=24, azimuth=102)  # the pressure side, with the tip face and the twist in sight
 _EDGES = {"edgecolors": DARK, "linewidths": 0.35}
-_INTERFACE = {
-    "marker": "o",
-    "markersize": 6,
-    "color": RED,
-    "linestyle": "none",
-    "markeredgecolor": "white",
-    "markeredgewidth": 0.5,
-}
-_ROOT = {"marker": CARETUP, "color": DARK, "linestyle": "none", "markersize": 5, "markeredgewidth": 0.3}
+_INTERFACE = {"marker": "o", "ms": 6, "color": RED, "ls": "none", "mec": "white", "mew": 0.5}
+_ROOT = {"marker": CARETUP, "ms": 5, "color": DARK, "ls": "none", "mew": 0.3}
 _NODE = {"marker": ".", "linestyle": "none", "markeredgewidth": 0}
 _KINDS = {20: "hexahedra", 10: "tetrahedra"}
-_AXES = (
-    ("x, axial ", "right", "center"),
-    ("y, rotation", "center", "top"),
-    ("z, radial", "center", "bottom"),
-)
+_AXES = ("x, axial ", "right", "center"), ("y, rotation", "center", "top"), ("z, radial", "center", "bottom")
 _AXIS = 35  # length of the drawn axes, mm
 
 

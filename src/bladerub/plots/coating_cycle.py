@@ -10,19 +10,9 @@ from bladerub.contact.illustration import LoadingCycle
 from bladerub.plots.style import BLUE, DARK, GREY, ORANGE, PAGE, new_figure, styled
 
 _PLASTIC = {"color": DARK, "linewidth": 2.4, "solid_capstyle": "butt", "label": "plastic loading"}
-_ELASTIC = {
-    "color": ORANGE,
-    "linewidth": 1.4,
-    "linestyle": (0, (4, 1.5)),
-    "label": "elastic: unloading, reloading",
-}
-_REMAINING = {
-    "marker": "v",
-    "markersize": 6,
-    "linestyle": "none",
-    "color": BLUE,
-    "label": r"plastic strain $\varepsilon^p$ that remains (wear)",
-}
+_ELASTIC = {"color": ORANGE, "lw": 1.4, "ls": (0, (4, 1.5)), "label": "elastic: unloading, reloading"}
+_REMAINING = {"color": BLUE, "marker": "v", "ms": 6, "ls": "none"}
+_REMAINING |= {"label": r"plastic strain $\varepsilon^p$ that remains (wear)"}
 
 
 @styled

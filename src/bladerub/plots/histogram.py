@@ -50,17 +50,8 @@ def peak_histogram(peaks: pd.DataFrame, quantity: str, order: int) -> tuple[pd.D
 def _draw_bars(axes: Axes3D, values: np.ndarray, norm: Normalize) -> None:
     i, j = np.nonzero(~np.isnan(values))
     top = values[i, j]
-    axes.bar3d(
-        i - _BAR / 2,
-        j - _BAR / 2,
-        norm.vmin,
-        _BAR,
-        _BAR,
-        top - norm.vmin,
-        color=colormaps[HEIGHT_MAP](norm(top)),
-        edgecolor="#202020",
-        linewidth=0.25,
-    )
+    look = {"color": colormaps[HEIGHT_MAP](norm(top)), "edgecolor": "#202020", "linewidth": 0.25}
+    axes.bar3d(i - _BAR / 2, j - _BAR / 2, norm.vmin, _BAR, _BAR, top - norm.vmin, **look)
     n_E, n_K = values.shape
     axes.set(xlim=(-0.6, n_E - 0.4), ylim=(-0.6, n_K - 0.4), zlim=(norm.vmin, norm.vmax))
     axes.set(xlabel="E", ylabel="K")
@@ -72,15 +63,9 @@ def _draw_bars(axes: Axes3D, values: np.ndarray, norm: Normalize) -> None:
 
 def _draw_map(axes: Axes, values: np.ndarray, label: str, digits: int, norm: Normalize) -> None:
     n_E, n_K = values.shape
-    mesh = axes.pcolormesh(
-        np.arange(n_E + 1) - 0.5,
-        np.arange(n_K + 1) - 0.5,
-        np.ma.masked_invalid(values.T),
-        cmap=HEIGHT_MAP,
-        norm=norm,
-        edgecolors="white",
-        linewidth=0.8,
-    )
+    E_edges, K_edges = np.arange(n_E + 1) - 0.5, np.arange(n_K + 1) - 0.5
+    look = {"cmap": HEIGHT_MAP, "norm": norm, "edgecolors": "white", "linewidth": 0.8}
+    mesh = axes.pcolormesh(E_edges, K_edges, np.ma.masked_invalid(values.T), **look)
     size = min(7.0, 60 / n_E)
     for (i, j), value in np.ndenumerate(values):
         text = "–" if np.isnan(value) else f"{value:.{digits}f}"

@@ -22,14 +22,8 @@ def wear_map(coating: CoatingMap) -> Figure:
     speed_edges, rows = bins.with_gaps(coating.f_omega, 1e3 * coating.wear)
     figure = new_figure(PAGE, 0.68 * PAGE)
     upper, lower = figure.subplots(2, 1, sharex=True, height_ratios=[4, 1])
-    mesh = upper.pcolormesh(
-        speed_edges,
-        np.degrees(bins.edges(coating.angle)),
-        np.ma.masked_invalid(rows.T),
-        cmap=WEAR_MAP,
-        vmin=0,
-        rasterized=True,
-    )
+    angle_edges, look = np.degrees(bins.edges(coating.angle)), {"cmap": WEAR_MAP, "vmin": 0}
+    mesh = upper.pcolormesh(speed_edges, angle_edges, np.ma.masked_invalid(rows.T), **look, rasterized=True)
     figure.colorbar(mesh, ax=upper, label="worn depth, mean of the 8 nodes (mm)", pad=0.015)
     upper.set(facecolor=MISSING, ylim=(0, 360), yticks=range(0, 361, 60), ylabel="casing angle (°)")
     upper.set_title(titles.coating(coating.case))

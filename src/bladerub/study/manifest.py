@@ -2,7 +2,6 @@
 
 import csv
 from collections.abc import Iterable
-from dataclasses import astuple, dataclass, fields
 from pathlib import Path
 from typing import NamedTuple, Protocol, TypeVar
 
@@ -31,7 +30,9 @@ class ListedFile(NamedTuple):
 
 
 class Row(Protocol):
-    """A row of a manifest: a dataclass of strings and numbers."""
+    """A row of a manifest: a named tuple of strings and numbers."""
+
+    _fields: tuple[str, ...]
 
     def files(self, folder: Path) -> list[ListedFile]:
         """Files that the row lists; `folder` is that of the manifest."""
@@ -40,8 +41,7 @@ class Row(Protocol):
 AnyRow = TypeVar("AnyRow", bound=Row)
 
 
-@dataclass(frozen=True)
-class ManifestRow:
+class ManifestRow(NamedTuple):
     """One run in the manifest of a coating: its file next to the manifest, normalised speed, key and status.
 
     ``confirmation_...`` is of the longer run that shows whether its growth lasts, empty if it needs none. The
@@ -78,8 +78,8 @@ def write_manifest(path: str | Path, rows: Iterable[Row], kind: type[Row] = Mani
     """Write rows of that `kind` (tab-separated, with a header) to `path`, whole or not at all."""
     with atomic.writing(path) as stream:
         writer = csv.writer(stream, delimiter="\t", lineterminator="\n")
-        writer.writerow(field.name for field in fields(kind))
-        writer.writerows(astuple(row) for row in rows)
+        writer.writerow(kind._fields)
+        writer.writerows(rows)
 
 
 def read_manifest(path: str | Path, kind: type[AnyRow] = ManifestRow) -> list[AnyRow]:
@@ -87,13 +87,12 @@ def read_manifest(path: str | Path, kind: type[AnyRow] = ManifestRow) -> list[An
 
     Raises `OSError`, naming the file, if it is missing or not such a manifest.
     """
-    columns = [field.name for field in fields(kind)]
-    convert = [field.type for field in fields(kind)]
+    convert = [kind.__annotations__[name] for name in kind._fields]
     lines = Path(path).read_text(encoding="utf-8", errors="replace").splitlines(keepends=True)
     reader = csv.reader(lines, delimiter="\t")
     try:
-        if next(reader, None) != columns:
-            raise DamagedFile(f"{path}: not a manifest, its header is not {' '.join(columns)}")
+        if next(reader, None) != list(kind._fields):
+            raise DamagedFile(f"{path}: not a manifest, its header is not {' '.join(kind._fields)}")
         if not lines[-1].endswith("\n"):
             raise ValueError("breaks off")
         return [kind(*(read(text) for read, text in zip(convert, row, strict=True))) for row in reader]

@@ -30,11 +30,7 @@ DATASETS = {
     "wear": (("f_omega", "angle"), "m", "worn depth, mean over the interface nodes"),
     "wear_node": (("f_omega", "node", "angle"), "m", "worn depth under each interface node"),
     "spectrum_order": (("spectrum_order",), "1", "engine order"),
-    "spectrum_amplitude": (
-        ("f_omega", "spectrum_order"),
-        "m",
-        "amplitude of the radial displacement of node 1",
-    ),
+    "spectrum_amplitude": (("f_omega", "spectrum_order"), "m", f"amplitude of {_RADIAL}"),
     "revolution_peak": (("f_omega", "revolution_number"), "m", _LARGEST),
     "revolution_amplitude": (("f_omega", "revolution_number"), "m", _HALF_RANGE),
     "confirmation_amplitude": (("f_omega", _LONGER), "m", f"{_HALF_RANGE} of the longer run"),

@@ -1,6 +1,5 @@
 """Resonant peaks: Y_k and f_k, where the engine order k crosses the first frequency C1 (Fig. 10)."""
 
-import itertools
 from collections.abc import Iterable, Mapping
 from dataclasses import asdict
 from typing import Any, NamedTuple, Protocol
@@ -120,8 +119,11 @@ def table(config: Mapping[str, Any], maps: Iterable[CoatingMap]) -> pd.DataFrame
     Raises `ValueError` as `peak`.
     """
     settings = config["analysis"]["peaks"]
-    rows = []
-    for coating, order in itertools.product(maps, settings["orders"]):
-        f_peak, amplitude = peak(coating, order, settings)
-        rows.append(asdict(coating.case) | {"order": order, "f_peak": f_peak, "amplitude": amplitude})
+    rows = [row(coating, order, settings) for coating in maps for order in settings["orders"]]
     return pd.DataFrame(rows, columns=COLUMNS)
+
+
+def row(coating: Response, order: float, settings: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the row of one coating and order of the table; parameters and errors are those of `peak`."""
+    f_peak, amplitude = peak(coating, order, settings)
+    return asdict(coating.case) | {"order": order, "f_peak": f_peak, "amplitude": amplitude}

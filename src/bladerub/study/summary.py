@@ -52,11 +52,7 @@ def summarise(spec: RunSpec, result: RunResult, config: Mapping[str, Any]) -> di
     )
     engine_order, height = spectral_peak(order, amplitude)
     verdict = judge(result.revolution_amplitude, result.status, analysis["divergence"])
-    growth = {
-        "growth_per_revolution": verdict.growth.per_revolution,
-        "growth_low": verdict.growth.low,
-        "growth_high": verdict.growth.high,
-    }
+    growth = {f"growth_{name}": getattr(verdict.growth, name) for name in ("per_revolution", "low", "high")}
     return {
         "peak_amplitude": displacement_peak(result.revolution_peak, analysis["spectrum_revolutions"]),
         "engine_order": engine_order if height > 0 else None,

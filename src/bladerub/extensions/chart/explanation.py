@@ -1,5 +1,6 @@
 """What goes with the height of a peak: stiffness of the contact, energy dissipated in a cycle, worn lobes."""
 
+import itertools
 from collections.abc import Iterable, Mapping
 from typing import Any
 
@@ -9,10 +10,16 @@ import pandas as pd
 from bladerub.extensions.chart.grid import ORDERS
 from bladerub.extensions.chart.point import ChartPoint
 from bladerub.extensions.chart.table import COATING
-from bladerub.study.peaks import crossing_speed, peak
+from bladerub.study.peaks import crossing_speed, row
 
 LOSSES = ("wear", "sliding", "damping")
 """Where the energy goes: wear of the coating, its tangential resistance, damping of the blade."""
+
+COLUMNS = [
+    *(*COATING, "order", "E_T", "f_crossing", "f_peak", "amplitude", "lobes"),
+    *(f"{loss}_per_cycle" for loss in LOSSES),
+]
+"""Columns of ``chart_explanation.csv``."""
 
 
 def contact_stiffness(E: float, K: float) -> float:
@@ -28,21 +35,15 @@ def table(config: Mapping[str, Any], points: Iterable[ChartPoint]) -> pd.DataFra
     the order k has k cycles per revolution. Raises `ValueError` as `bladerub.study.peaks.peak`.
     """
     rows = []
-    for point in points:
-        for order in ORDERS:
-            found = peak(point, order, config["analysis"]["peaks"])
-            at = int(np.flatnonzero(point.f_omega == found.f_omega)[0])
-            cycles = order * point.measures["revolutions"][at]
-            rows.append(
-                {name: getattr(point.case, name) for name in COATING}
-                | {
-                    "order": order,
-                    "E_T": contact_stiffness(point.case.E, point.case.K),
-                    "f_crossing": crossing_speed(point, order),
-                    "f_peak": found.f_omega,
-                    "amplitude": found.amplitude,
-                    "lobes": int(point.measures["lobes"][at]),
-                }
-                | {f"{loss}_per_cycle": point.measures[f"energy_{loss}"][at] / cycles for loss in LOSSES}
-            )
-    return pd.DataFrame(rows)
+    for point, order in itertools.product(points, ORDERS):
+        about = row(point, order, config["analysis"]["peaks"])
+        at = int(np.flatnonzero(point.f_omega == about["f_peak"])[0])
+        cycles = order * point.measures["revolutions"][at]
+        about |= {
+            "E_T": contact_stiffness(point.case.E, point.case.K),
+            "f_crossing": crossing_speed(point, order),
+            "lobes": int(point.measures["lobes"][at]),
+        }
+        losses = {f"{loss}_per_cycle": point.measures[f"energy_{loss}"][at] / cycles for loss in LOSSES}
+        rows.append(about | losses)
+    return pd.DataFrame(rows, columns=COLUMNS)

@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -44,8 +44,7 @@ POINTS = "cells"
 """Folder of the points, next to that of the manifests."""
 
 
-@dataclass(frozen=True)
-class PointRow:
+class PointRow(NamedTuple):
     """One point in the manifest of its column: its file in the folder `POINTS`, key, size and SHA-256."""
 
     file: str

@@ -20,12 +20,8 @@ def friction(table: pd.DataFrame) -> Figure:
     figure = style.new_figure(style.PAGE, 0.85 * style.PAGE)
     difference, sliding = figure.subplots(2, 1, sharex=True)
     for number, ((casing, E, K, theta), rows) in enumerate(table.groupby(["casing", "E", "K", "theta"])):
-        look = {
-            "color": COLOURS[number % len(COLOURS)],
-            "marker": "os^vDP"[number % 6],
-            "markersize": 2.5,
-            "linewidth": 0.6,
-        }
+        colour, marker = COLOURS[number % len(COLOURS)], "os^vDP"[number % 6]
+        look = {"color": colour, "marker": marker, "ms": 2.5, "lw": 0.6}
         name = f"{casing}, E = {E:g}, K = {K:g}, θ = {theta:g}"
         difference.semilogy(rows.f_omega, np.maximum(rows.difference.abs(), NONE), label=name, **look)
         sliding.plot(rows.f_omega, rows.slowest_sliding, **look)

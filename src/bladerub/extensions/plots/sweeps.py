@@ -44,10 +44,9 @@ def sweeps(swept: Sequence[SpeedSweep], maps: Mapping[CoatingCase, CoatingMap]) 
         row[0].set_title(titles.coating(case))
         row[0].set_ylabel("amplitude (mm)")
         _limit(row[0], case, swept, constant)
+    place = {"xy": (0.02, 0.97), "xycoords": "axes fraction", "va": "top"}
     for axes, direction in zip(panels[0], DIRECTIONS, strict=True):
-        axes.annotate(
-            _ARROWS[direction], (0.02, 0.97), xycoords="axes fraction", va="top", color=GREY, fontsize=9.5
-        )
+        axes.annotate(_ARROWS[direction], **place, color=GREY, fontsize=9.5)
     speeds = np.concatenate([sweep.speed for sweep in swept])
     panels[0, 0].set_xlim(speeds.min(), speeds.max())
     for axes in panels[-1]:
