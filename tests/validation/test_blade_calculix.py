@@ -38,9 +38,8 @@ def largest_differences(config, folder):
     """Of the first eight frequencies from those of CalculiX, at each speed."""
     built = build(config)
     mesh, material = built.mesh.mesh, Material.from_config(config["blade"]["material"])
-    decks = write_decks(
-        folder, mesh.points, mesh.cells, built.mesh.root, material, built.reduced.f1_hz, SPEEDS
-    )
+    body = (mesh.points, mesh.cells, built.mesh.root, material)
+    decks = write_decks(folder, SPEEDS, built.reduced.f1_hz, *body)
     differences = []
     for f_omega, deck in zip(SPEEDS, decks, strict=True):
         subprocess.run([CCX, "-i", deck.stem], cwd=folder, check=True, capture_output=True, timeout=300)

@@ -83,12 +83,13 @@ def _of_matrices(config: Mapping[str, Any]) -> DiscreteBlade:
         source, reduction["f_omega_max"], reduction["accuracy_modes"], reduction["modes_per_speed"]
     )
     layout = given.blade.layout
+    tip_radius = np.hypot(*layout.mesh.mesh.points[layout.mesh.tip, 1:].T).mean()
     if given.is_rooted:
         _check_length(length, layout.length, source.folder)
-    elif not (1 - LENGTH_TOLERANCE) * layout.length <= length < layout.tip_radius:
+    elif not (1 - LENGTH_TOLERANCE) * layout.length <= length < tip_radius:
         raise BadInput(
             f"blade.length = {length:g}: must be that of the blade in {source.folder}, whose nodes reach "
-            f"over {layout.length:.4g} m up to a tip at a radius of {layout.tip_radius:.4g} m"
+            f"over {layout.length:.4g} m up to a tip at a radius of {tip_radius:.4g} m"
         )
     return given.blade
 

@@ -102,11 +102,7 @@ class NodeCloud:
     """The nodes of a body whose elements are not known: a mesh without elements."""
 
     points: np.ndarray = field(repr=False)  # (n_nodes, 3), m
-
-    @property
-    def cells(self) -> np.ndarray:
-        """Nodes of no elements (0, 20)."""
-        return np.empty((0, 20), dtype=int)
+    cells: np.ndarray = field(repr=False, default_factory=lambda: np.empty((0, 20), dtype=int))
 
 
 _ALONG_THE_CUBE = [7, 4, 6, 5, 2, 1, 3, 0]  # scikit-fem numbers its tensor meshes left-handed
@@ -183,7 +179,6 @@ class MeshedBlade:
     length: float  # from root to tip, m
 
     @property
-    def tip_radius(self) -> float:
-        """Mean distance of the tip's nodes from the engine axis, m."""
-        y, z = self.mesh.mesh.points[self.mesh.tip, 1:].T
-        return float(np.hypot(y, z).mean())
+    def lean(self) -> float:
+        """Angle about the engine axis from the radial axis to the middle of the blade, rad."""
+        return float(np.arctan2(*self.mesh.mesh.points.mean(axis=0)[1:]))

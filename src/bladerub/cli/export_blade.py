@@ -40,7 +40,7 @@ def write(options: argparse.Namespace, config: dict[str, Any]) -> dict[str, Any]
     from bladerub.export import calculix, matrices, mesh_file
     from bladerub.export.vtu import read_mesh
 
-    for option, suffixes in (("mesh", mesh_file.WRITERS), ("matrices", matrices.SUFFIXES)):
+    for option, suffixes in (("mesh", mesh_file.FORMATS), ("matrices", matrices.SUFFIXES)):
         file = getattr(options, option)
         if file and file.suffix.lower() not in suffixes:
             raise InputError(f"--{option} {file}: must end in {', '.join(suffixes)}")
@@ -61,15 +61,10 @@ def write(options: argparse.Namespace, config: dict[str, Any]) -> dict[str, Any]
             mesh_file.write_mesh_file(options.mesh, mesh["points"], mesh["cells"], sets, fields)
             files = [options.mesh]
         else:
-            files = calculix.write_decks(
-                options.calculix,
-                mesh["points"],
-                mesh["cells"],
-                mesh["root_nodes"],
-                Material.from_config(config["blade"]["material"]),
-                blade.f1_hz,
-                _speeds(options, blade.f_omega_max),
-            )
+            material = Material.from_config(config["blade"]["material"])
+            body = (mesh["points"], mesh["cells"], mesh["root_nodes"], material)
+            speeds = _speeds(options, blade.f_omega_max)
+            files = calculix.write_decks(options.calculix, speeds, blade.f1_hz, *body)
     return _figures(files, mesh["points"], mesh["cells"], len(blade.mass))
 
 

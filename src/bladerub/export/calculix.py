@@ -53,22 +53,13 @@ def _in_lines(numbers: list[int]) -> list[str]:
     return [", ".join(map(str, row)) + ("," if row is not rows[-1] else "") for row in rows]
 
 
-def write_decks(
-    folder: str | Path,
-    points: np.ndarray,
-    cells: np.ndarray,
-    root: np.ndarray,
-    material: Material,
-    f1_hz: float,
-    f_omegas: Iterable[float],
-) -> list[Path]:
-    """Write a deck for each normalised speed into `folder`, named ``blade_<f_omega>.inp`` (see `deck`)."""
-    paths = []
-    for f_omega in f_omegas:
-        paths.append(Path(folder) / f"blade_{f_omega:.4f}.inp")
-        with atomic.writing(paths[-1]) as stream:
-            stream.write(deck(points, cells, root, material, 2 * np.pi * f_omega * f1_hz))
-    return paths
+def write_decks(folder: str | Path, f_omegas: Iterable[float], f1_hz: float, *body) -> list[Path]:
+    """Write a deck of `body`, the first arguments of `deck`, at each normalised speed into `folder`."""
+    paths = {Path(folder) / f"blade_{f_omega:.4f}.inp": f_omega for f_omega in f_omegas}
+    for path, f_omega in paths.items():
+        with atomic.writing(path) as stream:
+            stream.write(deck(*body, 2 * np.pi * f_omega * f1_hz))
+    return list(paths)
 
 
 def frequencies(dat: str | Path) -> np.ndarray:

@@ -52,7 +52,7 @@ def write_fe_matrices(folder: str | Path, blade: DiscreteBlade, f_max: float, su
                 sparse.save_npz(stream, matrix)
     nodes = Path(folder) / NODES
     with atomic.writing(nodes) as stream:
-        _node_list(blade.layout.mesh).to_csv(stream, index=False, float_format="%.17g")
+        _node_list(blade.layout.mesh).to_csv(stream, index=False, float_format=f"%.{_DIGITS}g")
     return [*paths, nodes]
 
 

@@ -1,6 +1,6 @@
 """The blade's mesh for other programs: Abaqus and CalculiX, Gmsh, VTK."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
@@ -10,6 +10,7 @@ import numpy as np
 from bladerub.blade.surface import NAMES, boundary_faces
 from bladerub.io import atomic
 
+FORMATS = {".inp": "abaqus", ".msh": "gmsh22", ".vtu": "vtu"}  # names in meshio by suffix
 _FACES = {20: "quad8", 10: "triangle6"}
 
 
@@ -28,11 +29,20 @@ def write_mesh_file(
     displacements (`fields`) are point data in ``.vtu``; the other formats have no place for them.
     """
     suffix = Path(path).suffix.lower()
-    if suffix not in WRITERS:
-        raise ValueError(f"{path}: must end in {', '.join(WRITERS)}")
+    if suffix not in FORMATS:
+        raise ValueError(f"{path}: must end in {', '.join(FORMATS)}")
+    if suffix == ".inp":
+        mesh = meshio.Mesh(points, [block(points, cells)], point_sets=dict(node_sets))
+    elif suffix == ".msh":
+        mesh = _with_physical_groups(points, cells, node_sets)
+    else:
+        marks = {name: np.zeros(len(points), dtype=np.int8) for name in node_sets}
+        for name, nodes in node_sets.items():
+            marks[name][nodes] = 1
+        mesh = meshio.Mesh(points, [block(points, cells)], point_data=marks | dict(fields or {}))
     with TemporaryDirectory() as scratch, atomic.writing(path, "wb") as stream:
         file = Path(scratch) / f"mesh{suffix}"  # meshio wants a path
-        WRITERS[suffix](str(file), points, cells, node_sets, fields or {})
+        mesh.write(file, FORMATS[suffix])
         stream.write(file.read_bytes())
 
 
@@ -43,21 +53,7 @@ def block(points: np.ndarray, cells: np.ndarray) -> tuple[str, np.ndarray]:
     return NAMES[cells.shape[1]], cells
 
 
-def _write_inp(path: str, points, cells, node_sets, _) -> None:
-    meshio.abaqus.write(
-        path, meshio.Mesh(points, [(NAMES[cells.shape[1]], cells)], point_sets=dict(node_sets))
-    )
-
-
-def _write_vtu(path: str, points, cells, node_sets, fields) -> None:
-    marks = {
-        name: np.isin(np.arange(len(points)), nodes).astype(np.int8) for name, nodes in node_sets.items()
-    }
-    data = marks | dict(fields)
-    meshio.vtu.write(path, meshio.Mesh(points, [block(points, cells)], point_data=data))
-
-
-def _write_msh(path: str, points, cells, node_sets, _) -> None:
+def _with_physical_groups(points: np.ndarray, cells: np.ndarray, node_sets) -> meshio.Mesh:
     surface = boundary_faces(cells)
     blocks, groups = [(NAMES[cells.shape[1]], cells)], {"blade": (1, 3)}
     for tag, (name, nodes) in enumerate(node_sets.items(), 2):
@@ -69,14 +65,9 @@ def _write_msh(path: str, points, cells, node_sets, _) -> None:
             blocks.append(("vertex", np.asarray(nodes)[:, None]))
             groups[name] = (tag, 0)
     tags = [np.full(len(rows), tag) for (_, rows), (tag, _) in zip(blocks, groups.values(), strict=True)]
-    mesh = meshio.Mesh(
+    return meshio.Mesh(
         points,
         blocks,
         cell_data={"gmsh:physical": tags, "gmsh:geometrical": tags},
         field_data={name: np.array(group) for name, group in groups.items()},
     )
-    meshio.gmsh.write(path, mesh, fmt_version="2.2")
-
-
-WRITERS: dict[str, Callable] = {".inp": _write_inp, ".msh": _write_msh, ".vtu": _write_vtu}
-"""Formats by the suffix of the file."""

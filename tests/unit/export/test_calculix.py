@@ -27,7 +27,7 @@ def test_a_deck_of_a_rotating_blade_has_its_load_first():
 
 
 def test_there_is_a_deck_for_each_speed(tmp_path):
-    paths = write_decks(tmp_path / "decks", POINTS, np.arange(20)[None], [0], MATERIAL, 100.0, [0.0, 0.25])
+    paths = write_decks(tmp_path / "decks", [0.0, 0.25], 100.0, POINTS, np.arange(20)[None], [0], MATERIAL)
     assert [path.name for path in paths] == ["blade_0.0000.inp", "blade_0.2500.inp"]
     omega_squared = (2 * np.pi * 25.0) ** 2
     assert f"CENTRIF, {omega_squared:.12e}" in paths[1].read_text()

@@ -11,10 +11,7 @@ _MOST_OFF = 0.35  # of the edge; the middle of a quarter of a circle is 0.21 off
 
 
 def check_nodes(points: np.ndarray, cells: np.ndarray) -> None:
-    """Check that no two nodes of `cells` are in one place and that mid-side nodes are in the middle.
-
-    A ValueError names the node or element, counted from 1. Nodes of no element are not checked.
-    """
+    """Check that the nodes of `cells` are apart, and mid-side ones in the middle; a ValueError names one."""
     used = np.unique(cells)
     lost = used[~np.isfinite(points[used]).all(axis=1)]
     if lost.size:
@@ -38,10 +35,7 @@ def check_nodes(points: np.ndarray, cells: np.ndarray) -> None:
 
 
 def jacobians(mesh: SolidMesh) -> tuple[np.ndarray, float]:
-    """Smallest over largest Jacobian determinant of each element (n_elements,), and the volume, m³.
-
-    Raises a ValueError that names the element if one is not positive at an integration point.
-    """
+    """Smallest over largest Jacobian of each element (n_elements,), or a ValueError, and the volume, m³."""
     points, weights = mesh.mass_quadrature()
     determinant = mesh.mapping().detDF(points)
     bad = np.flatnonzero((determinant <= 0).any(axis=1))

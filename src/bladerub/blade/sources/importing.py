@@ -2,17 +2,21 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Any
+from difflib import get_close_matches
 
 import numpy as np
+from scipy import sparse
+from scipy.sparse.csgraph import connected_components
 
 from bladerub.blade.linear import MOST_UNKNOWNS
 from bladerub.blade.mesh import BladeMesh, MeshedBlade, solid_mesh
-from bladerub.blade.sources import element_quality, mesh_file, node_sets, section_blade, tip
-from bladerub.blade.sources.origin import Source
+from bladerub.blade.sources import element_quality, mesh_file, section_blade, tip
+from bladerub.blade.sources.origin import MatrixSource, Source
 from bladerub.blade.sources.section_profile import Profile
-from bladerub.blade.surface import EDGES, boundary_faces
+from bladerub.blade.surface import EDGES, boundary_faces, normals
 from bladerub.io.errors import BadInput
+
+_FACING = np.cos(np.pi / 4)
 
 
 @dataclass(frozen=True)
@@ -24,7 +28,6 @@ class Imported:
     volume: float  # m³
     chord: float  # length of the tip's camber line, m
     interface_offset: float  # largest distance of an interface node from its place on that line, m
-    lean: float  # angle about the engine axis from the radial axis that was named to the blade's middle, rad
     is_raised: bool = False  # whether its elements were linear (see `bladerub.blade.sources.mesh_file.read`)
     n_unused: int = 0  # nodes of the file that no element uses, which were left out
     node_sets: dict[str, int] = field(default_factory=dict)  # number of nodes of each set of the file
@@ -32,10 +35,7 @@ class Imported:
 
 
 def import_blade(source: Source, counts: Mapping[str, int]) -> Imported:
-    """Read the mesh of `source`, or mesh its sections with the numbers of elements `counts`.
-
-    Raises a BadInput that names the file and what is wrong in it if it cannot be used as a blade.
-    """
+    """Read a mesh, or mesh sections by the numbers of elements `counts`; a BadInput says what is wrong."""
     try:
         return _import_sections(source, counts) if source.is_table else _import_mesh(source)
     except ValueError as error:
@@ -63,9 +63,8 @@ def _import_mesh(source: Source) -> Imported:
     if not len(tip_faces):
         raise ValueError(f'tip not found: no face of the surface has all its nodes in "{source.tip_set}"')
     chosen = tip.interface(mesh.points, tip_faces, source.frame.downstream_x)
-    return _measured(
-        BladeMesh(mesh, root, tip_nodes, chosen.nodes),
-        source,
+    return Imported(
+        measured(BladeMesh(mesh, root, tip_nodes, chosen.nodes), source),
         is_raised=content.is_raised,
         n_unused=len(content.points) - origin.size,
         node_sets={name: nodes.size for name, nodes in content.node_sets.items()},
@@ -81,14 +80,48 @@ def _nodes(content, points, faces, origin, name: str | None, is_tip: bool) -> np
     part = "tip" if is_tip else "root"
     try:
         if name is None:
-            return node_sets.facing(points, faces, outwards=is_tip)
-        named = _with_middles(content, node_sets.named(content.node_sets, name))
+            return facing(points, faces, outwards=is_tip)
+        named = _with_middles(content, _named(content.node_sets, name))
     except ValueError as error:
         raise ValueError(f"{part} not found: {error}") from error
     found = np.flatnonzero(np.isin(origin, named))
     if not found.size:
         raise ValueError(f'{part} not found: no node of the set "{name}" is in an element')
     return found
+
+
+def _named(node_sets: Mapping[str, np.ndarray], name: str) -> np.ndarray:
+    """Nodes of the set `name`, in capital or small letters unless another set differs in them only."""
+    alike = [known for known in node_sets if known.lower() == name.lower()]
+    found = name if name in node_sets else alike[0] if len(alike) == 1 else None
+    if found is None:
+        close = get_close_matches(name, node_sets, n=1)
+        known = f"did you mean {close[0]}?" if close else f"there are {', '.join(node_sets) or 'none'}"
+        raise ValueError(f'there is no node set "{name}"; {known}')
+    if not node_sets[found].size:
+        raise ValueError(f'the node set "{name}" has no nodes; a set of other sets is not read')
+    return node_sets[found]
+
+
+def facing(points: np.ndarray, faces: np.ndarray, outwards: bool) -> np.ndarray:
+    """Nodes of the part of the surface that is farthest from the engine axis and faces `outwards`: the tip.
+
+    If not `outwards`, the part nearest to the axis that faces inwards: the root. Its normals are within 45
+    degrees of the radial direction, and its `faces` are connected: it may be a cylinder, a cone or a plane,
+    but ends at its edges. Raises a ValueError if there is none.
+    """
+    sign = 1 if outwards else -1
+    middle = points[faces].mean(axis=1)
+    radius = np.hypot(middle[:, 1], middle[:, 2])
+    radial = normals(points[faces])[:, 1:] * middle[:, 1:]
+    facing_so = faces[sign * radial.sum(axis=1) > _FACING * radius]
+    if not len(facing_so):
+        raise ValueError("no part of the surface faces along the radius; name a node set")
+    rows = np.repeat(np.arange(len(facing_so)), facing_so.shape[1])
+    touching = sparse.coo_array((np.ones(rows.size), (rows, facing_so.ravel())))
+    _, part = connected_components(touching @ touching.T, directed=False)
+    height = (sign * np.hypot(points[:, 1], points[:, 2]))[facing_so].max(axis=1)
+    return np.unique(facing_so[part == part[np.argmax(height)]])
 
 
 def _with_middles(content: mesh_file.MeshFile, nodes: np.ndarray) -> np.ndarray:
@@ -102,7 +135,7 @@ def _with_middles(content: mesh_file.MeshFile, nodes: np.ndarray) -> np.ndarray:
 
 def _import_sections(source: Source, counts: Mapping[str, int]) -> Imported:
     profiles = section_blade.read_profiles(source)
-    shape = section_blade.SectionShape.through(profiles)
+    shape = section_blade.SectionShape(profiles)
     mesh = BladeMesh.from_shape(shape, counts)
     try:
         ratio, volume = element_quality.jacobians(mesh.mesh)
@@ -110,25 +143,22 @@ def _import_sections(source: Source, counts: Mapping[str, int]) -> Imported:
         raise ValueError("between its sections the blade crosses itself; give more sections") from error
     evenly = shape.points(np.linspace(0, 1, mesh.interface.size), 0.5, 1.0).T
     offset = np.linalg.norm(mesh.mesh.points[mesh.interface] - evenly, axis=1).max()
-    return _measured(
-        mesh,
-        source,
-        jacobian_ratio=ratio,
-        volume=volume,
-        chord=profiles[-1].chord,
-        interface_offset=float(offset),
-        sections=profiles,
-    )
+    chord = profiles[-1].chord
+    return Imported(measured(mesh, source), ratio, volume, chord, float(offset), sections=profiles)
 
 
-def _measured(mesh: BladeMesh, source: Source, **known: Any) -> Imported:
-    """Add to what is `known` of an `Imported` what both kinds of file have in common."""
+def measured(mesh: BladeMesh, source: Source | MatrixSource) -> MeshedBlade:
+    """Measure the cone of the tip and the length of the blade, and check that the latter is that of a blade.
+
+    The length is that from the clamped nodes to the tip or, where no node is clamped, the range of the radii.
+    """
     points = mesh.mesh.points
     radius = np.hypot(points[:, 1], points[:, 2])
     tip_cone = tip.cone(points[mesh.tip], source.tip_cone, source.frame.downstream_x)
-    length = float(radius[mesh.tip].mean() - radius[mesh.root].mean())
-    if length <= 0:
-        raise ValueError(f"the tip is no farther from the engine axis than the root ({length:.3g} m)")
-    source.frame.check_length(length)
-    lean = float(np.arctan2(*points.mean(axis=0)[1:]))
-    return Imported(MeshedBlade(mesh, tip_cone, length), lean=lean, **known)
+    lowest = radius[mesh.root].mean() if mesh.root.size else radius.min()
+    length = float(radius[mesh.tip].mean() - lowest)
+    if mesh.root.size:
+        if length <= 0:
+            raise ValueError(f"the tip is no farther from the engine axis than the root ({length:.3g} m)")
+        source.frame.check_length(length)
+    return MeshedBlade(mesh, tip_cone, length)

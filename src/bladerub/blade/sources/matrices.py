@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 from scipy import sparse
+from scipy.linalg import eigvalsh_tridiagonal
 from scipy.sparse.linalg import ArpackError
 from scipy.spatial.distance import cdist
 from threadpoolctl import threadpool_limits
@@ -15,27 +16,26 @@ from bladerub.blade.discrete import DiscreteBlade
 from bladerub.blade.linear import lowest_modes
 from bladerub.blade.mesh import BladeMesh, FreeCoordinates, MeshedBlade, NodeCloud
 from bladerub.blade.reduction import fit_speeds
-from bladerub.blade.sources import matrix_folder, tip
-from bladerub.blade.sources.definite import check_definite, check_held
+from bladerub.blade.sources import matrix_folder
+from bladerub.blade.sources.importing import measured
 from bladerub.blade.sources.matrix_folder import FIT, MASS, NODES
 from bladerub.blade.sources.origin import MATRIX_UNITS, MatrixSource
 from bladerub.io.errors import BadInput
 
+_STEPS = 60  # of Lanczos's method
+_ROUNDING = 1e-10  # of the largest eigenvalue
+_ENERGY = 1e-13  # of what would be there if nothing cancelled; 1e-8 in the first mode of a thin blade
 OMEGA_TOLERANCE = 1e-3  # relative, of the speed of the files to that of the config
 
 
 @dataclass(frozen=True)
 class ImportedMatrices:
-    """A blade from the matrices of another program.
-
-    Its length is that from the clamped nodes to the tip or, where no node is clamped, the range of the radii.
-    """
+    """A blade from the matrices of another program."""
 
     blade: DiscreteBlade
     mass: float  # of the rigid blade, kg
     mass_is_complete: bool  # whether the files have rows of the clamped nodes, whose mass is missing else
     half_speed_change: float  # of the stiffness to half the highest speed, over that to the highest; ~ 1/4
-    lean: float  # as in `bladerub.blade.sources.importing.Imported`, rad
 
     @property
     def is_rooted(self) -> bool:
@@ -82,7 +82,6 @@ def import_matrices(source: MatrixSource, f_max: float, n_modes: int, eta: int) 
         check_held(rest, modes[:, 0])
     _check_speed(source, f_max, frequency[0])
     change = sparse.linalg.norm(highest - rest)
-    middle = layout.mesh.mesh.points.mean(axis=0)
     frequencies = {
         f_omega: lowest_modes(matrix, mass, n_modes)[0] if f_omega > 0 else frequency
         for f_omega, matrix in stiffness.items()
@@ -92,7 +91,6 @@ def import_matrices(source: MatrixSource, f_max: float, n_modes: int, eta: int) 
         MATRIX_UNITS[source.matrix_units] * _rigid_mass(mass_of_all),
         nodes.clamped.size > 0 and mass_of_all.shape[0] == 3 * len(nodes.points),
         float(sparse.linalg.norm(half - rest) / change) if change else 0.0,
-        float(np.arctan2(middle[1], middle[2])),
     )
 
 
@@ -122,15 +120,7 @@ def _layout(nodes: matrix_folder.Nodes, source: MatrixSource) -> MeshedBlade:
             f"= {source.frame.downstream} the direction of the flow?"
         )
     tip_nodes = nodes.tip if nodes.tip.size else nodes.interface
-    lowest = radius[nodes.clamped].mean() if nodes.clamped.size else radius.min()
-    length = float(radius[tip_nodes].mean() - lowest)
-    if nodes.clamped.size:
-        if length <= 0:
-            raise ValueError(f"the tip is no farther from the engine axis than the root ({length:.3g} m)")
-        source.frame.check_length(length)
-    tip_cone = tip.cone(points[tip_nodes], source.tip_cone, source.frame.downstream_x)
-    mesh = BladeMesh(NodeCloud(points), nodes.clamped, tip_nodes, nodes.interface)
-    return MeshedBlade(mesh, tip_cone, length)
+    return measured(BladeMesh(NodeCloud(points), nodes.clamped, tip_nodes, nodes.interface), source)
 
 
 def _of_free(matrix: sparse.csc_array, free: FreeCoordinates, source: MatrixSource) -> sparse.csc_array:
@@ -160,4 +150,50 @@ def _check_speed(source: MatrixSource, f_max: float, f1_hz: float) -> None:
         raise BadInput(
             f"{source.folder}: omega_max = {source.omega_max:g} rad/s is {right:.6g} of the blade's first "
             f"frequency, {f1_hz:.6g} Hz; reduction.f_omega_max = {f_max:g} must be that"
+        )
+
+
+def check_definite(matrix: sparse.csc_array) -> None:
+    """Raise ValueError if a symmetric matrix has an entry on its diagonal or an eigenvalue below zero.
+
+    Ritz values of Lanczos's method lie between the eigenvalues, so a negative one is proof. Eigenvalues near
+    zero may stay unnoticed (see `check_held` for these).
+    """
+    diagonal = matrix.diagonal()
+    low = np.flatnonzero(diagonal <= 0)
+    if low.size:
+        raise ValueError(
+            f"is not positive definite: its entry ({low[0] + 1}, {low[0] + 1}) is {diagonal[low[0]]:.3g}; "
+            "must be above 0"
+        )
+    scale = 1 / np.sqrt(diagonal)
+    ritz = _ritz_values(lambda vector: scale * (matrix @ (scale * vector)), diagonal.size)
+    if ritz.min() < -_ROUNDING * np.abs(ritz).max():
+        raise ValueError("is not positive definite: it has negative eigenvalues")
+
+
+def _ritz_values(product, n: int) -> np.ndarray:
+    vector = np.random.default_rng(0).standard_normal(n)
+    vector /= np.linalg.norm(vector)
+    before, beta = np.zeros(n), 0.0
+    alphas, betas = [], []
+    for _ in range(min(_STEPS, n)):
+        after = product(vector) - beta * before
+        alphas.append(after @ vector)
+        after -= alphas[-1] * vector
+        beta = np.linalg.norm(after)
+        betas.append(beta)
+        if beta <= _ROUNDING * abs(alphas[0]):
+            break
+        before, vector = vector, after / beta
+    return eigvalsh_tridiagonal(np.array(alphas), np.array(betas[:-1]))
+
+
+def check_held(stiffness: sparse.csc_array, mode: np.ndarray) -> None:
+    """Raise ValueError if the energy of the lowest `mode` of a stiffness is negative or only rounding."""
+    size = np.abs(mode)
+    if mode @ (stiffness @ mode) <= _ENERGY * (size @ (abs(stiffness) @ size)):
+        raise ValueError(
+            "is singular or indefinite: its lowest mode moves the blade without resistance; mark the clamped "
+            "nodes, or leave their rows out"
         )

@@ -35,10 +35,7 @@ class Nodes:
 
 
 def files(folder: Path) -> dict[str, Path]:
-    """Find the matrices and the list of nodes in `folder`, by their names without suffix.
-
-    Raises a ValueError if one is missing, or there in both formats.
-    """
+    """Find matrices and list of nodes, by name without suffix; a ValueError says which is missing."""
     if not folder.is_dir():
         raise ValueError("there is no such folder")
     more = {path.stem for path in folder.glob(f"{AT_SPEED}*") if path.suffix in SUFFIXES}
@@ -55,10 +52,7 @@ def files(folder: Path) -> dict[str, Path]:
 
 
 def speeds(names: Mapping[str, Path], fit: Sequence[float]) -> dict[float, str]:
-    """Find the normalised speed of each stiffness among `names`, in ascending order.
-
-    Raises a ValueError for a name without a speed between those of `fit`.
-    """
+    """Find the stiffness at each normalised speed, ascending; a ValueError names one without such a speed."""
     found = dict(zip(fit, FIT, strict=True))
     for name in names:
         if name.startswith(AT_SPEED):
@@ -124,10 +118,7 @@ def _marks(table: pd.DataFrame, name: str) -> np.ndarray:
 
 
 def read_matrix(path: Path) -> sparse.csc_array:
-    """Read a symmetric matrix: Matrix Market, or what `scipy.sparse.save_npz` writes.
-
-    Raises a ValueError if it is not a square matrix of finite real numbers, symmetric to `SYMMETRY`.
-    """
+    """Read a real symmetric matrix of Matrix Market or of `scipy.sparse`, or raise ValueError."""
     if path.stat().st_size == 0:
         raise ValueError("is empty")
     is_text = path.suffix == ".mtx"

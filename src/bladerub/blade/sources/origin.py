@@ -75,10 +75,7 @@ def read(source: Mapping[str, Any]) -> Source | MatrixSource:
 
 
 def files(source: Mapping[str, Any]) -> list[str]:
-    """List the files that the ``blade.source`` block of the config names, relative to the repository.
-
-    Raises ValueError if a file of a folder of matrices is missing.
-    """
+    """List the files of ``blade.source``, relative to the repository; ValueError if one is missing."""
     if "matrices" not in source:
         return [source["file"]]
     from bladerub.blade.sources import matrix_folder  # imports pandas, which takes time

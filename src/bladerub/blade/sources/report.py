@@ -65,7 +65,7 @@ def mesh_report(source: Source, imported: Imported, built: BuiltBlade, material:
             }
             for section in imported.sections
         ]
-    warnings = [*_warn_of_frame(figures, source, imported.lean), *_warn_of_mesh(figures, imported)]
+    warnings = [*_warn_of_frame(figures, source, imported.blade.lean), *_warn_of_mesh(figures, imported)]
     return figures | {"warnings": [*warnings, *_warn_of_errors(figures)]}
 
 
@@ -90,7 +90,7 @@ def matrix_report(source: MatrixSource, imported: ImportedMatrices, built: Built
         "stiffness_half_way": imported.half_speed_change,
     }
     warnings = [
-        *_warn_of_frame(figures, source, imported.lean),
+        *_warn_of_frame(figures, source, layout.lean),
         *_warn_of_matrices(figures, imported, source),
     ]
     warnings += _warn_of_errors(figures)

@@ -1,6 +1,5 @@
 """The shape of a blade through sections: smooth along the span, straight through the thickness."""
 
-from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
@@ -15,7 +14,6 @@ from bladerub.blade.sources.section_table import Section
 WIDEST = 50.0  # largest chord over length: beyond, they are not in the same unit
 
 
-@dataclass(frozen=True)
 class SectionShape:
     """A blade as a map from the unit cube: chordwise ξ, through the thickness η, spanwise ζ.
 
@@ -24,15 +22,10 @@ class SectionShape:
     between two sections or sides is on the surface of revolution between theirs.
     """
 
-    span: np.ndarray  # (n,), relative mean radius of the sections, ascending from 0 to 1
-    samples: np.ndarray  # (n, 201, 2, 3), their `Profile.samples`
-
-    @classmethod
-    def through(cls, profiles: list[Profile]) -> "SectionShape":
-        """Lay the shape through `profiles`, hub to tip."""
+    def __init__(self, profiles: list[Profile]):
         radius = np.array([profile.radius for profile in profiles])
-        span = (radius - radius[0]) / (radius[-1] - radius[0])
-        return cls(span, np.stack([profile.samples for profile in profiles]))
+        self.span = (radius - radius[0]) / (radius[-1] - radius[0])  # (n,), ascending from 0 to 1
+        self.samples = np.stack([profile.samples for profile in profiles])  # (n, 201, 2, 3)
 
     def points(self, xi: np.ndarray, eta: np.ndarray, zeta: np.ndarray) -> np.ndarray:
         """Map the unit cube to space, as `bladerub.blade.geometry.BladeShape.points` does."""

@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 from scipy import sparse
 
-from bladerub.blade.sources.definite import check_definite, check_held
+from bladerub.blade.sources.matrices import check_definite, check_held
 
 
 def chain(n, held=True):

@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from bladerub.blade.mesh import hexahedral_mesh
-from bladerub.blade.sources.node_sets import facing
+from bladerub.blade.sources.importing import facing
 from bladerub.blade.surface import boundary_faces
 
 
