@@ -117,6 +117,7 @@ def test_a_study_that_shows_the_paper_fulfils_every_claim(paper, judge):
     assert set(table.index) == PAPER_IDS
     assert table.index.is_unique
     assert list(table[table.holds != "yes"].index) == []
+    assert {type(text) for text in table.claim} == {str}
     assert (table.margin[table.unit == "1"].dropna() >= 0).all()
 
 
