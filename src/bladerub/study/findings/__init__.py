@@ -15,12 +15,12 @@ import pandas as pd
 
 from bladerub.io.tables import read as read_table
 from bladerub.study import divergence, peaks
-from bladerub.study.findings import limits, moduli, reduction, spectra, tangential, wear_patterns
+from bladerub.study.findings import limits, moduli, reduction, tangential, wear_and_spectra
 from bladerub.study.findings.claim import Claim, Finding, NotMeasurable, claim_of, in_order
 from bladerub.study.findings.evidence import Evidence, read_rom_accuracy
 from bladerub.study.maps import read_map
 
-_REGISTERING = (limits, moduli, reduction, spectra, tangential, wear_patterns)  # by their import
+_REGISTERING = (limits, moduli, reduction, tangential, wear_and_spectra)  # by their import
 
 CLAIMS: tuple[Claim, ...] = in_order()
 """Every measurable part of every claim, in the order of the table."""
