@@ -17,7 +17,8 @@ PAGES = [
     *sorted(path for path in DOCS.rglob("*.md") if BUILT.isdisjoint(path.relative_to(DOCS).parts)),
 ]
 GLOSSARY = DOCS / "reference" / "glossary.md"
-LINK = re.compile(r"\]\(([^)#]+)(?:#[^)]*)?\)|<img[^>]* src=\"([^\"]+)\"")
+LINK = re.compile(r"\]\(([^)#]*)(?:#([^)]*))?\)")
+HEADING = re.compile(r"^#+ (.+)$", re.M)
 PATH = re.compile(r"(?<![\w/.])(?:src|tests|config|profiles)/[\w./-]*\w")
 NAME = re.compile(r"(?<![\w/.])bladerub(?:\.\w+)+")
 TEST_FILE = re.compile(r"(?<![\w/])test_\w+\.py")
@@ -29,11 +30,28 @@ def text_of(page):
     return page.read_text(encoding="utf-8")
 
 
+def local_links(page):
+    """Path and heading of each link of a page into the repository; no path is the page itself."""
+    links = [(path, heading) for path, heading in LINK.findall(text_of(page)) if "://" not in path]
+    return [(page.parent / path if path else page, heading) for path, heading in links]
+
+
+def anchors(page):
+    """Names of the headings of a page, as GitHub and the site make them."""
+    return {
+        re.sub(r"[^\w\- ]", "", title.lower()).replace(" ", "-") for title in HEADING.findall(text_of(page))
+    }
+
+
 @pytest.mark.parametrize("page", PAGES, ids=lambda path: path.name)
 def test_every_link_leads_to_a_file(page):
-    links = [first or second for first, second in LINK.findall(text_of(page))]
-    local = [link for link in links if not link.startswith(("http://", "https://", "mailto:"))]
-    assert [link for link in local if not (page.parent / link).exists()] == []
+    assert [str(target) for target, _ in local_links(page) if not target.exists()] == []
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda path: path.name)
+def test_every_link_to_a_heading_finds_it(page):
+    named = [(target, heading) for target, heading in local_links(page) if heading]
+    assert [(str(target), heading) for target, heading in named if heading not in anchors(target)] == []
 
 
 def test_the_pictures_are_small_and_all_are_shown():

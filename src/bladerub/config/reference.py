@@ -6,12 +6,14 @@ from typing import Any
 from bladerub.config.schema import allowed
 
 HEAD = """\
-# What a config may hold
+# Configuration
 
-Made from `config/schema.yaml` and `config/config.yaml` by `snakemake -j1 docs/config.md`. A file of your own
-needs only the keys that it changes: `snakemake -j2 --configfile my.yaml` lays it over the study.
-Mappings merge, a list is replaced as a whole. A file can begin from others with `extend`; what is said on the
-command line, `--config`, goes over all files. `[]` stands for each entry of a list, `<name>` for any name.
+The values of the study are in `config/config.yaml`. A file of your own needs only the keys that it changes:
+`snakemake -j2 --configfile my.yaml` lays it over the study. Mappings merge, a list is replaced as a whole. A
+file can extend others (`extend`). Values given on the command line (`--config`) are laid over all files. `[]`
+stands for each entry of a list, `<name>` for any name.
+
+This page is made from `config/schema.yaml` and `config/config.yaml` by `snakemake -j1 docs/config.md`.
 """
 
 Rule = Mapping[str, Any]

@@ -1,0 +1,62 @@
+"""The commands that pages show are those that the parser knows."""
+
+import re
+import shlex
+from pathlib import Path
+
+import pytest
+
+from bladerub.cli import import_blade, parser
+
+ROOT = Path(__file__).parents[3]
+PAGES = [
+    ROOT / "README.md",
+    ROOT / "CONTRIBUTING.md",
+    *(ROOT / "docs").glob("*.md"),
+    *(ROOT / "docs").glob("[!_a]*/*.md"),
+]
+BLOCK = re.compile(r"^```sh\n(.*?)^```$", re.M | re.S)
+IN_A_LINE = re.compile(r"`(bladerub [a-z]+ [^`]*--[^`]*)`")
+
+
+def commands():
+    """Each ``bladerub`` command with the name of its page."""
+    for page in PAGES:
+        text = page.read_text(encoding="utf-8")
+        for block in BLOCK.findall(text):
+            for line in block.replace("\\\n", " ").splitlines():
+                if line.startswith(".venv/bin/bladerub "):
+                    yield page.name, line.split("|")[0].removeprefix(".venv/bin/")
+        yield from ((page.name, command) for command in IN_A_LINE.findall(text))
+
+
+def parses(command):
+    """Whether the parser accepts a command line."""
+    words = shlex.split(command, comments=True)[1:]
+    try:
+        parser().parse_args(import_blade.joined(words))
+    except SystemExit as end:
+        return end.code == 0  # --help
+    return True
+
+
+def test_commands_are_found():
+    names = {command.split()[1] for _, command in commands()}
+    assert names == {"run", "status", "verify", "benchmark", "import", "export"}
+
+
+@pytest.mark.parametrize(("page", "command"), sorted(set(commands())))
+def test_a_command_of_a_page_is_accepted(page, command):
+    assert parses(command)
+
+
+@pytest.mark.parametrize(
+    "command",
+    [
+        "bladerub run --casing 2nd --E 2",
+        "bladerub status --deep",
+        "bladerub export --mesh a.inp --sections b.csv",
+    ],
+)
+def test_a_wrong_command_is_refused(command):
+    assert not parses(command)
