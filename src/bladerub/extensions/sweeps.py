@@ -35,7 +35,7 @@ _DATASETS = {
     "wear": (("node", "angle"), "m", "worn depth under each node at the end"),
     "speed": (("revolution",), "1", "mean rotational frequency, normalised"),
     "time": (("revolution",), "s", "middle of each revolution"),
-    "revolution_peak": (("revolution",), "m", "largest absolute radial displacement of node 1"),
+    "revolution_peak": (("revolution",), "m", f"largest absolute {_RADIAL}"),
     "revolution_amplitude": (("revolution",), "m", "half the range of that displacement"),
     "f_omega": (("window",), "1", "mean rotational frequency of {window} revolutions, normalised"),
     "C1": (("window",), "1", "first eigenfrequency at speed over that at rest"),
