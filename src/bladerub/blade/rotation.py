@@ -24,13 +24,11 @@ class EquilibriumError(BadInput):
 
 @dataclass(frozen=True)
 class Equilibrium:
-    """Static equilibrium of a solid that rotates about the x axis."""
+    """Static equilibrium of a solid that rotates about the x axis, without Coriolis forces."""
 
     omega: float  # angular speed, rad/s
     displacement: np.ndarray  # (n,), free coordinates, from rest, m
-    stiffness: (
-        sparse.csc_array
-    )  # (n, n), N/m: material + stress stiffness − spin softening, no Coriolis forces
+    stiffness: sparse.csc_array  # (n, n), N/m: material tangent + stress stiffness − spin softening
     n_iterations: int  # of Newton's method
     n_steps: int  # of the load
 

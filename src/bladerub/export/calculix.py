@@ -13,17 +13,11 @@ import numpy as np
 from bladerub.blade.elasticity import Material
 from bladerub.io import atomic
 
+N_MODES = 10
 _KINDS = {20: "C3D20", 10: "C3D10"}
 
 
-def deck(
-    points: np.ndarray,
-    cells: np.ndarray,
-    root: np.ndarray,
-    material: Material,
-    omega: float,
-    n_modes: int = 10,
-) -> str:
+def deck(points: np.ndarray, cells: np.ndarray, root: np.ndarray, material: Material, omega: float) -> str:
     """Input of CalculiX for the blade at the angular speed `omega` (rad/s) about the x axis.
 
     `points` (n_nodes, 3) are in m, `cells` (n_elements, 20 or 10) in CalculiX's order but from 0, `root` the
@@ -44,7 +38,7 @@ def deck(
         lines += ["*STEP, NLGEOM", "*STATIC", "1., 1.", "*DLOAD"]
         lines += [f"BLADE, CENTRIF, {omega**2:.12e}, 0., 0., 0., 1., 0., 0.", "*END STEP"]
     lines.append("*STEP, PERTURBATION" if omega > 0 else "*STEP")
-    return "\n".join([*lines, "*FREQUENCY", str(n_modes), "*END STEP", ""])
+    return "\n".join([*lines, "*FREQUENCY", str(N_MODES), "*END STEP", ""])
 
 
 def _in_lines(numbers: list[int]) -> list[str]:

@@ -125,9 +125,7 @@ def _call(builder, name, result, flags, *arguments):
     return builder.call(function, arguments, fastmath=flags)
 
 
-def elementwise(function):
-    """Mark a formula that compiled code inlines and that Python calls with arrays."""
-    return register_jitable(forceinline=True)(function)
+elementwise = register_jitable(forceinline=True)  # for formulas that compiled code inlines
 
 
 def _unary(function, numpy_function, name):

@@ -50,10 +50,7 @@ def _import_mesh(source: Source) -> Imported:
     mesh, origin = solid_mesh(source.frame.metres(content.points), content.cells)
     ratio, volume = element_quality.jacobians(mesh)
     if np.hypot(mesh.points[:, 1], mesh.points[:, 2]).min() <= 0:
-        raise ValueError(
-            f"a node lies on the engine axis, through the origin of the file and along rotation = "
-            f"{source.frame.rotation}: is that the engine axis?"
-        )
+        raise ValueError(f"a node lies on the engine axis: is it rotation = {source.frame.rotation}?")
     faces = boundary_faces(mesh.cells)
     root = _nodes(content, mesh.points, faces, origin, source.root_set, is_tip=False)
     tip_nodes = _nodes(content, mesh.points, faces, origin, source.tip_set, is_tip=True)

@@ -65,8 +65,7 @@ def mesh_report(source: Source, imported: Imported, built: BuiltBlade, material:
             }
             for section in imported.sections
         ]
-    warnings = [*_warn_of_frame(figures, source, imported.blade.lean), *_warn_of_mesh(figures, imported)]
-    return figures | {"warnings": [*warnings, *_warn_of_errors(figures)]}
+    return figures | {"warnings": list(_warn_of_mesh(figures, imported, source))}
 
 
 def matrix_report(source: MatrixSource, imported: ImportedMatrices, built: BuiltBlade) -> dict[str, Any]:
@@ -89,11 +88,7 @@ def matrix_report(source: MatrixSource, imported: ImportedMatrices, built: Built
         "omega_max": 2 * np.pi * float(built.frequency[0]) * speeds[-1],
         "stiffness_half_way": imported.half_speed_change,
     }
-    warnings = [
-        *_warn_of_frame(figures, source, layout.lean),
-        *_warn_of_matrices(figures, imported, source),
-    ]
-    warnings += _warn_of_errors(figures)
+    warnings = list(_warn_of_matrices(figures, imported, source))
     if len(speeds) == 3:
         figures["error_eq2"] = None
     return figures | {"warnings": warnings}
@@ -162,7 +157,8 @@ def _warn_of_frame(figures: dict[str, Any], source: Source | MatrixSource, lean:
         )
 
 
-def _warn_of_mesh(figures: dict[str, Any], imported: Imported) -> Iterator[str]:
+def _warn_of_mesh(figures: dict[str, Any], imported: Imported, source: Source) -> Iterator[str]:
+    yield from _warn_of_frame(figures, source, imported.blade.lean)
     n_elements, offset = figures["elements_root_to_tip"], figures["interface_offset"]
     if imported.is_raised:
         yield "its elements were linear: they got mid-side nodes, but curved faces stay faceted"
@@ -183,11 +179,13 @@ def _warn_of_mesh(figures: dict[str, Any], imported: Imported) -> Iterator[str]:
         )
     if offset > LARGEST_OFFSET * figures["tip_chord"]:
         yield f"an interface node is {1e3 * offset:.3g} mm from its place on the camber line of the tip"
+    yield from _warn_of_errors(figures)
 
 
 def _warn_of_matrices(
     figures: dict[str, Any], imported: ImportedMatrices, source: MatrixSource
 ) -> Iterator[str]:
+    yield from _warn_of_frame(figures, source, imported.blade.layout.lean)
     box = np.prod(np.ptp(imported.blade.layout.mesh.mesh.points, axis=0))
     if not DENSITIES[0] * box <= figures["mass"] <= DENSITIES[1] * box:
         yield (
@@ -203,6 +201,7 @@ def _warn_of_matrices(
         )
     if len(figures["speeds"]) == 3:
         yield "the error of eq. (2) is not known at the three speeds of its fit: add stiffness_at_<f_omega>"
+    yield from _warn_of_errors(figures)
 
 
 def _warn_of_errors(figures: dict[str, Any]) -> Iterator[str]:

@@ -67,9 +67,8 @@ def _cylindrical(section: Section) -> np.ndarray:
         line = section.lines[np.argmin(radius.min(axis=0))]
         raise ValueError(f"line {line}: lies on the engine axis, which must pass through the origin")
     middle = np.arctan2(y.mean(), z.mean())
-    phi = middle + np.arctan2(
-        y * np.cos(middle) - z * np.sin(middle), z * np.cos(middle) + y * np.sin(middle)
-    )
+    cos, sin = np.cos(middle), np.sin(middle)
+    phi = middle + np.arctan2(y * cos - z * sin, z * cos + y * sin)
     return np.stack([x, radius, phi], axis=-1)
 
 

@@ -122,9 +122,8 @@ def _check_names(sections: list[Section]) -> None:
         raise ValueError(f"has {len(sections)} section; must have two or more, from hub to tip")
     seen = {}
     for section in sections:
-        if section.name in seen:
+        if (first := seen.setdefault(section.name, section)) is not section:
             raise ValueError(
                 f"line {section.lines[0]}: section {section.name} comes back; all its stations must follow "
-                f"line {seen[section.name]}"
+                f"line {first.lines[0]}"
             )
-        seen[section.name] = section.lines[0]

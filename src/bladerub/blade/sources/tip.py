@@ -42,9 +42,8 @@ def interface(points: np.ndarray, faces: np.ndarray, downstream_x: int) -> Inter
     if nodes.size < N_INTERFACE:
         raise ValueError(f"the tip has {nodes.size} nodes; must have {N_INTERFACE} or more")
     flat = _unrolled(points, *points[nodes, 1:].mean(axis=0))
-    outline = flat[_outline(faces)]
     try:
-        line = camber_line(outline)
+        line = camber_line(flat[_outline(faces)])
     except ValueError as error:
         raise ValueError(f"the tip is {error}; name its node set") from error
     if downstream_x * (line[-1, 0] - line[0, 0]) < 0:
