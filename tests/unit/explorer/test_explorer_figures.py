@@ -1,4 +1,3 @@
-import dataclasses
 import math
 
 import pytest
@@ -40,7 +39,7 @@ def test_rows_of_the_rigid_casing_are_found(coating, verdicts):
 def test_other_speeds_than_those_of_the_map_are_named(coating, verdicts, runs):
     with pytest.raises(ValueError, match=r"divergence\.csv: not the speeds of the map of 2nd_E2_K0\.5"):
         figures.of_runs(coating, verdicts[1:], runs, 10)
-    moved = [dataclasses.replace(run, f_omega=run.f_omega + 0.01) for run in runs]
+    moved = [run._replace(f_omega=run.f_omega + 0.01) for run in runs]
     with pytest.raises(ValueError, match="manifest: not the speeds"):
         figures.of_runs(coating, verdicts, moved, 10)
 

@@ -155,6 +155,12 @@ def test_prominence_of_a_maximum_over_speed(evidence, make_map, height, found):
     assert measure("C3a", evidence([coating])).measured == (0.26 if found else 0.05)
 
 
+def test_wear_that_grows_to_the_last_speed_has_its_maximum_there(evidence, make_map):
+    coating = make_map(WORN, {}, [0.02, 0.2, 0.3, 0.37])
+    coating.max_wear[:] = [1e-6, 2e-5, 5e-5, 1e-4]
+    check("C3b", evidence([coating]), 0.37, "yes")
+
+
 @pytest.mark.parametrize("sign", [1, -1])
 @pytest.mark.parametrize(("id_", "offset", "holds"), each("C4a", "C4b", borders=NEAR))
 def test_speed_of_the_soft_peaks(evidence, id_, offset, holds, sign):
