@@ -3,18 +3,21 @@
 from snakemake.utils import min_version
 
 import bladerub.config.read
+import bladerub.config.record
 import bladerub.io.errors
 import bladerub.workflow.invocation
 from bladerub.study.grid import coating_cases
 
 min_version("9.0")
 
+GIVEN = workflow.config_settings.config  # of the command line
+
 # Snakemake knows neither the lines of a file nor the key `extend`: the config is read here, before it reads it
 with bladerub.io.errors.exit_on_error():
     study = bladerub.config.read.read(
         "config/config.yaml",
         *workflow.configfiles,
-        command_line=workflow.config_settings.config,
+        command_line=GIVEN,
     )
 
 
@@ -36,6 +39,7 @@ if workflow.is_main_process:
 onstart:
     with bladerub.io.errors.exit_on_error():
         bladerub.workflow.invocation.prepare(RESULTS)
+        bladerub.config.record.write(RESULTS, workflow.configfiles, GIVEN)
 
 
 wildcard_constraints:

@@ -1,6 +1,61 @@
-"""Rub of a compressor blade on the abradable coating of its casing.
+"""Contact of a compressor blade with the abradable coating of its casing.
+
+The Python interface: `load_study` or `default_study`, `build_blade`, `simulate` and `simulate_speeds`, and
+`read_run`, `read_map` and `read_blade` for what a study has computed.
 
 Data flows one way: ``blade → contact → study → plots``.
 """
 
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from bladerub.api.blade import Blade, build_blade, read_blade
+    from bladerub.api.errors import InputError
+    from bladerub.api.map import Map, read_map, simulate_speeds
+    from bladerub.api.run import Run, read_run, simulate
+    from bladerub.api.study import Study, StudyCoating, StudyRun, default_study, load_study
+    from bladerub.config.errors import ConfigError
+
 __version__ = "0.1.0"
+
+_MODULES = {
+    "api.blade": ("Blade", "build_blade", "read_blade"),
+    "api.errors": ("InputError",),
+    "api.map": ("Map", "read_map", "simulate_speeds"),
+    "api.run": ("Run", "read_run", "simulate"),
+    "api.study": ("Study", "StudyCoating", "StudyRun", "default_study", "load_study"),
+    "config.errors": ("ConfigError",),
+}
+_HOME = {name: f"bladerub.{module}" for module, names in _MODULES.items() for name in names}
+
+__all__ = [
+    "Blade",
+    "ConfigError",
+    "InputError",
+    "Map",
+    "Run",
+    "Study",
+    "StudyCoating",
+    "StudyRun",
+    "__version__",
+    "build_blade",
+    "default_study",
+    "load_study",
+    "read_blade",
+    "read_map",
+    "read_run",
+    "simulate",
+    "simulate_speeds",
+]
+
+
+def __getattr__(name: str) -> Any:
+    """Import a public name when it is first used: the command line does without most of them."""
+    if name not in _HOME:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    return getattr(import_module(_HOME[name]), name)
+
+
+def __dir__() -> list[str]:
+    return sorted(__all__)

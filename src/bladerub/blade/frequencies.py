@@ -2,10 +2,12 @@
 
 import numpy as np
 from scipy.linalg import eigh
+from threadpoolctl import threadpool_limits
 
 from bladerub.blade.model import ReducedBlade
 
 
+@threadpool_limits.wrap(limits=1, user_api="blas")  # sums depend on the number of threads
 def reduced_frequencies(blade: ReducedBlade, f_omega: float, n_modes: int | None = None) -> np.ndarray:
     """Lowest `n_modes` frequencies (all if not given) of the reduced model at `f_omega`, Hz."""
     last = len(blade.mass) if n_modes is None else n_modes

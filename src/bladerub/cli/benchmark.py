@@ -42,7 +42,7 @@ def benchmark(options: argparse.Namespace) -> None:
     inputs.require(options, rounds=(1, 1000), cores=(1, 1_000_000))
     if all(entry.get("coating") == "rigid" for entry in config["coatings"]):
         raise InputError("coatings: must have an abradable one, as contact with it is what is measured")
-    _, blade = inputs.read_blade(options, config)
+    blade = inputs.read_blade(options, config).reduced
 
     from bladerub.benchmark.measure import benchmark as measure
 

@@ -95,7 +95,8 @@ def _motion(options: argparse.Namespace, config: dict[str, Any]) -> dict[str, An
     path = inputs.blade_path(options, config)
     if not path.exists():
         raise InputError(f"{path}: is missing; name the blade of the run with --blade, or its --config")
-    path, blade = inputs.read_blade(options, config)
+    found = inputs.read_blade(options, config)
+    path, blade = found.path, found.reduced
     with refused(OSError):
         mesh = read_mesh(inputs.mesh_path(path), blade)
     plan = _plan(options, config, run, path)

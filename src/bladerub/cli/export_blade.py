@@ -44,7 +44,8 @@ def write(options: argparse.Namespace, config: dict[str, Any]) -> dict[str, Any]
         file = getattr(options, option)
         if file and file.suffix.lower() not in suffixes:
             raise InputError(f"--{option} {file}: must end in {', '.join(suffixes)}")
-    path, blade = inputs.read_blade(options, config)
+    found = inputs.read_blade(options, config)
+    path, blade = found.path, found.reduced
     with refused(OSError):
         mesh = read_mesh(inputs.mesh_path(path), blade)
         needs_elements = options.calculix or (options.mesh and options.mesh.suffix.lower() != ".vtu")

@@ -12,7 +12,7 @@ from bladerub.blade.sources import origin
 from bladerub.blade.sources.frame import ANGLE_UNITS, AXES, UNITS, Frame
 from bladerub.blade.sources.origin import MATRIX_UNITS, MatrixSource, Source
 from bladerub.cli import inputs
-from bladerub.io.sources import ROOT
+from bladerub.io.folders import study_folder
 
 _AXIS_OPTIONS = ("--rotation", "--downstream", "--radial")
 _FEWEST_SPEEDS = 5
@@ -74,7 +74,8 @@ def import_blade(options: argparse.Namespace) -> None:
     given = {name: getattr(options, name) for name in _NAMES if getattr(options, name) is not None}
     kind = "matrices" if options.file.is_dir() else "file"
     path = options.file.resolve()
-    named = path.relative_to(ROOT) if path.is_relative_to(ROOT) else path  # as configs name it
+    study = study_folder()
+    named = path.relative_to(study) if path.is_relative_to(study) else path  # as configs name it
     known = config["blade"].get("source", {})
     known = {name: value for name, value in known.items() if name not in ("file", "matrices")}
     entry = {kind: str(named)} | asdict(Frame()) | known | given

@@ -13,14 +13,13 @@ from typing import TYPE_CHECKING, Any, NoReturn
 from tqdm import tqdm
 
 from bladerub.config import read as configuration
+from bladerub.config import record
 from bladerub.config.errors import format_value
 from bladerub.io.errors import BadInput, message_for
-from bladerub.io.sources import ROOT
+from bladerub.io.folders import base_config, study_folder
 
 if TYPE_CHECKING:  # imports that load numba are made where they are needed, so that --help answers at once
-    from bladerub.blade.model import ReducedBlade
-
-BASE_CONFIG = ROOT / "config" / "config.yaml"
+    from bladerub.api.blade import Blade
 
 
 class InputError(BadInput):
@@ -37,6 +36,18 @@ class Parser(argparse.ArgumentParser):
     def option(self, name: str, text: str, kind: Callable | None = None, **more: Any) -> None:
         """Add an option of this kind (default text) with its help text."""
         self.add_argument(name, type=kind, help=text, **more)
+
+
+@contextmanager
+def as_options(**names: str) -> Iterator[None]:
+    """Turn the error of an argument of the Python interface into that of the option of this or its name."""
+    from bladerub.api import errors
+
+    try:
+        yield
+    except errors.InputError as error:
+        option = names.get(error.name, error.name)
+        raise InputError(f"--{option} = {error.value}: {error.right}") from None
 
 
 @contextmanager
@@ -108,13 +119,22 @@ def aligned(rows: Iterable[tuple[str, str]]) -> list[str]:
 
 
 def read_config(options: argparse.Namespace) -> dict[str, Any]:
-    """Read and check the config of the repository with the files of ``--config`` laid over it."""
-    return configuration.read(BASE_CONFIG, *options.config)
+    """Read and check the study's config with the files of ``--config`` laid over it.
+
+    Without ``--config``, those are laid over it that made the results (`bladerub.config.record`).
+    """
+    base = base_config()
+    config = configuration.read(base, *options.config)
+    made_with = None if options.config else record.read(study_folder() / config["results"])
+    if made_with is None:
+        return config
+    print(f"bladerub {options.name}: with {made_with}, as the results were made", file=sys.stderr)
+    return configuration.read(base, *made_with.files, command_line=made_with.command_line)
 
 
 def blade_path(options: argparse.Namespace, config: dict[str, Any]) -> Path:
     """Return the file of ``--blade``, or where the blade of the results folder is or will be."""
-    return options.blade or ROOT / config["results"] / "blade" / "reduced_model.h5"
+    return options.blade or study_folder() / config["results"] / "blade" / "reduced_model.h5"
 
 
 def mesh_path(blade: Path) -> Path:
@@ -122,51 +142,32 @@ def mesh_path(blade: Path) -> Path:
     return blade.with_name("mesh.h5")
 
 
-def read_blade(options: argparse.Namespace, config: dict[str, Any]) -> "tuple[Path, ReducedBlade]":
+def read_blade(options: argparse.Namespace, config: dict[str, Any]) -> "Blade":
     """Read the reduced blade, and build it first if the results folder has none.
 
     ``blade.length`` of `config` becomes that of a blade given with ``--blade``: clearances are in this unit.
     A damaged file is an `OSError` if the command can make it again, an `InputError` if not.
     """
-    from bladerub.blade.validation import read_valid_blade
+    from bladerub.api import blade as blades
     from bladerub.workflow import invocation
 
     path = blade_path(options, config)
     if not options.blade and not (path.exists() and mesh_path(path).exists()):
         invocation.prepare(path.parents[1])
         print(f"bladerub {options.name}: building the blade first, into {path.parent}", file=sys.stderr)
-        _build_blade(config, path)
-    elif not options.blade and not is_of(config, path):
+        blades.write_blade(config, path, path.parents[1] / "tables" / "rom_accuracy.csv")
+    elif not options.blade and not blades.is_built(config, path):
         raise InputError(
-            f"{path}: was built from another config; build it again with snakemake, delete it, or name it "
-            "with --blade"
+            f"{path}: was built from another config; name that with --config, build it again with "
+            "snakemake, delete it, or name another blade with --blade"
         )
     try:
         with refused(ValueError):
-            blade = read_valid_blade(path)
+            blade = blades.read_blade(path)
     except OSError as error:
         if options.blade and error.errno is None:  # damaged, and it cannot be made again
             raise InputError(str(error)) from error
         raise
     if options.blade:
         config["blade"]["length"] = blade.length
-    return path, blade
-
-
-def is_of(config: dict[str, Any], path: Path) -> bool:
-    """Return whether the reduced blade at `path` was built from `config`, as its mesh states."""
-    from bladerub.blade.build import made_from
-    from bladerub.io import hdf5
-
-    return hdf5.read_attributes(mesh_path(path)).get("made_from") == made_from(config)
-
-
-def _build_blade(config: dict[str, Any], path: Path) -> None:
-    from bladerub.blade.build import build
-    from bladerub.blade.built import write
-    from bladerub.io.provenance import provenance
-
-    built = build(config)
-    tables = path.parents[1] / "tables"
-    campbell, accuracy = tables / "campbell.csv", tables / "rom_accuracy.csv"
-    write(built, provenance(config), path, mesh_path(path), campbell, accuracy)
+    return blade

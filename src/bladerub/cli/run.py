@@ -3,18 +3,20 @@
 import argparse
 import os
 import time
-from collections.abc import Collection
-from difflib import get_close_matches
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from bladerub.cli import inputs
 from bladerub.cli.inputs import InputError, refused
-from bladerub.config.errors import format_value
-from bladerub.config.schema import check_quantity
 
-_KINDS = {"abradable": ("E", "K", "theta", "friction"), "rigid": ("friction",)}
-"""Options of each kind of coating; an abradable one has either theta or friction."""
+if TYPE_CHECKING:  # as in `inputs`
+    from bladerub.api.run import Run
+    from bladerub.api.study import Study, StudyCoating, StudyRun
+
+_UNITS = {"E": "contact.modulus_unit", "K": "contact.modulus_unit", "theta": "rad", "f_omega": "f1 at rest"}
+_UNITS |= {"peak_amplitude": "m", "max_wear": "m", "growth_per_revolution": "1"}
 
 
 def add_to(commands: Any) -> None:
@@ -25,11 +27,12 @@ def add_to(commands: Any) -> None:
         run,
         help="run one simulation",
         description="Simulate contact at one speed with one coating, or with the rigid casing. Coating and "
-        "speed need not be in the config. The blade is built first if the results folder has none.",
+        "speed need not be in the config. A run that grows is followed further, as in the study. The "
+        "blade is built first if the results folder has none.",
     )
     parser.option("--casing", "name of a casing of the config, such as 2nd", required=True)
     text = "abradable, with E, K and theta or friction (default), or rigid, with friction"
-    parser.option("--coating", text, choices=list(_KINDS), default="abradable")
+    parser.option("--coating", text, choices=["abradable", "rigid"], default="abradable")
     parser.option("--E", "Young modulus of the abradable coating (normalised)", float)
     parser.option("--K", "plastic modulus of the abradable coating (normalised)", float)
     parser.option("--theta", "angle of its elements, rad (default 0): direction of the contact force", float)
@@ -42,71 +45,15 @@ def add_to(commands: Any) -> None:
 
 def run(options: argparse.Namespace) -> None:
     """Run the simulation that the command line asks for, and print its summary."""
-    config = _config(options)
-    _check_options(options, config)
-    blade_path, blade = inputs.read_blade(options, config)
-
-    from bladerub.contact.run import simulate
-    from bladerub.contact.setup import compile_kernel
-    from bladerub.io.provenance import provenance
-    from bladerub.study.cache import blade_digest
-    from bladerub.study.grid import CoatingCase, run_spec
-    from bladerub.study.plan import planned_run
-    from bladerub.study.store import stored_run, write_run
-    from bladerub.study.summary import summarise
-
-    if options.f > blade.f_omega_max:
-        raise InputError(
-            f"--f = {options.f:g}: must be at most {blade.f_omega_max:g} (normalised), the highest speed of "
-            f"{blade_path}"
-        )
-    if options.coating == "rigid":
-        case = CoatingCase.rigid(options.casing, options.friction)
-    elif options.theta is None:
-        case = CoatingCase.coulomb(options.casing, options.E, options.K, options.friction)
-    else:
-        case = CoatingCase(options.casing, options.E, options.K, options.theta)
-    spec = run_spec(config, case, options.f)
-    compile_kernel()
-    with inputs.progress_bar(spec.revolutions, "rev") as bar, refused(ValueError):
-        start = time.perf_counter()
-        result = simulate(blade, spec, progress=lambda done: bar.update(done - bar.n))
-        seconds = time.perf_counter() - start
-    figures = summarise(spec, result, config) | {"steps_per_second": result.n_steps / seconds}
-    if options.output:
-        plan = planned_run(config, spec, options.output.name, keep_history=True)
-        key = plan.key(blade_digest(blade_path))
-        stored = stored_run(case, spec, result, key, config["analysis"], keep_history=True)
-        with refused(OSError, because=f"--output {options.output}: cannot be written: "):
-            write_run(options.output, stored, provenance(config))
-    inputs.show(options, figures, _in_words)
-
-
-def _config(options: argparse.Namespace) -> dict[str, Any]:
     config = inputs.read_config(options)
+    _check_coating(options)
 
-    from bladerub.config.checks import most_revolutions
+    from bladerub.api.run import simulate
+    from bladerub.api.study import Study
 
-    if options.revolutions is not None:
-        inputs.require(options, revolutions=(2, min(10_000, most_revolutions(config))))
-        config["solver"]["revolutions"] = options.revolutions
-        analysis, divergence = config["analysis"], config["analysis"]["divergence"]
-        analysis["spectrum_revolutions"] = min(analysis["spectrum_revolutions"], options.revolutions)
-        divergence["revolutions"] = min(divergence["revolutions"], options.revolutions)
-    return config
-
-
-def _check_options(options: argparse.Namespace, config: dict[str, Any]) -> None:
-    if options.casing not in config["casings"]:
-        raise InputError(
-            f"--casing = {format_value(options.casing)}: {_one_of(options.casing, config['casings'])}"
-        )
-    _complete_coating(options)
-    for option in (*_KINDS[options.coating], "f"):
-        value = getattr(options, option)
-        if value is not None:  # of theta and friction only one is given
-            with refused(ValueError, because=f"--{option} = {value:g}: "):
-                check_quantity("f_omega" if option == "f" else option, value)
+    study = Study(config, inputs.study_folder())
+    with inputs.as_options(f_omega="f"):
+        planned = _coating(options, study).at(options.f, options.revolutions)
     fastest = config["reduction"]["f_omega_max"]
     if not options.blade and options.f > fastest:  # of a blade that may not be built yet
         raise InputError(
@@ -114,29 +61,72 @@ def _check_options(options: argparse.Namespace, config: dict[str, Any]) -> None:
         )
     if options.output:
         _check_output(options.output)
+    blade = inputs.read_blade(options, config)
+    if options.blade:
+        planned = planned.of_length(blade.length)
+    with _revolutions_shown(planned) as each, refused(ValueError), inputs.as_options(f_omega="f"):
+        start = time.perf_counter()
+        result = simulate(blade, planned, each=each)
+        seconds = time.perf_counter() - start
+    if options.output:
+        with refused(OSError, because=f"--output {options.output}: cannot be written: "):
+            result.write(options.output, config)
+    inputs.show(options, _figures(planned, result, seconds), _in_words)
 
 
-def _one_of(name: str, known: Collection[str]) -> str:
-    close = get_close_matches(name, known, n=1)
-    return f"must be one of {', '.join(known)}" + (f"; did you mean {close[0]}?" if close else "")
-
-
-def _complete_coating(options: argparse.Namespace) -> None:
-    """Fill in the defaults of the coating; an option of the other kind is an error."""
+def _check_coating(options: argparse.Namespace) -> None:
+    """Check that the options of a coating are there, and none of another kind."""
     if options.coating == "rigid":
         for option in ("E", "K", "theta"):
             given = getattr(options, option)
             if given is not None:
                 raise InputError(f"--{option} = {given:g}: goes with --coating abradable only")
-        options.friction = options.friction or 0.0
         return
     for option in ("E", "K"):
         if getattr(options, option) is None:
             raise InputError(f"--{option}: missing, an abradable coating needs it")
-    if options.friction is None:
-        options.theta = options.theta or 0.0
-    elif options.theta is not None:
-        raise InputError(f"--friction = {options.friction:g}: goes without --theta, which says the same")
+
+
+def _coating(options: argparse.Namespace, study: "Study") -> "StudyCoating":
+    if options.coating == "rigid":
+        return study.rigid(options.casing, friction=options.friction or 0.0)
+    tangential = {"theta": options.theta, "friction": options.friction}
+    return study.coating(options.casing, E=options.E, K=options.K, **tangential)
+
+
+@contextmanager
+def _revolutions_shown(planned: "StudyRun") -> Iterator[Callable[[int], None]]:
+    """Show the revolutions done of the run, then those of its longer run."""
+    longest = planned.config["analysis"]["divergence"]["confirmation_revolutions"]
+    with inputs.progress_bar(planned.spec.revolutions, "rev") as bar:
+
+        def done(number: int) -> None:
+            if number < bar.n:
+                bar.reset(longest)
+            bar.update(number - bar.n)
+
+        yield done
+
+
+def _figures(planned: "StudyRun", result: "Run", seconds: float) -> dict[str, Any]:
+    case, runs = planned.case, (result, result.longer) if result.longer else (result,)
+    given = {
+        "casing": case.casing,
+        "E": None if case.is_rigid else case.E,
+        "K": None if case.is_rigid else case.K,
+        "theta": case.theta if case.law == "theta" else None,
+        "friction": case.friction if case.law == "coulomb" else None,
+        "f_omega": planned.f_omega,
+        "revolutions": planned.spec.revolutions,
+    }
+    steps = sum(run.attributes["n_steps"] for run in runs)
+    return {
+        **given,
+        **result.summary(planned.config),
+        "steps_per_second": steps / seconds,
+        "run_key": result.attributes["run_key"],
+        "units": _UNITS,
+    }
 
 
 def _check_output(path: Path) -> None:
@@ -166,15 +156,16 @@ def _is_run(path: Path) -> bool:
 
 def _in_words(figures: dict[str, Any]) -> str:
     order = figures["engine_order"]
+    after = f", after {figures['growth_revolutions']} revolutions"
     rows = {
-        "peak amplitude": f"{figures['peak_amplitude'] * 1e3:.4g} mm",
+        "peak displacement": f"{figures['peak_amplitude'] * 1e3:.4g} mm (radial, node 1, last revolutions)",
         "engine order": "none" if order is None else f"{order:.4g}",
         "maximum wear": f"{figures['max_wear'] * 1e3:.4g} mm",
         "lobes": figures["lobes"],
         "growth": _growth_in_words(figures),
-        "saturating": "yes" if figures["saturating"] else "no",
-        "divergent": "yes" if figures["divergent"] else "no",
-        "status": figures["status"],
+        "saturating": ("yes" if figures["saturating"] else "no") + after,
+        "divergent": ("yes" if figures["divergent"] else "no") + after,
+        "status": f"{figures['status']}, {figures['revolutions']} revolutions",
         "steps": figures["n_steps"],
         "steps per second": f"{figures['steps_per_second']:.3g}",
     }

@@ -51,7 +51,7 @@ def status(options: argparse.Namespace) -> None:
     from bladerub.study.manifest import damaged_files
     from bladerub.study.plan import coating_plan
 
-    results = inputs.ROOT / config["results"]
+    results = inputs.study_folder() / config["results"]
     digest, note = _blade_digest(config, results / "blade" / "reduced_model.h5")
     counts, damaged = {}, []
     quiet = True if options.json else None
@@ -88,12 +88,13 @@ def status(options: argparse.Namespace) -> None:
 
 def _blade_digest(config: Mapping[str, Any], model: Path) -> tuple[str | None, str | None]:
     """Return the digest of the blade, or None and why there is none."""
+    from bladerub.api.blade import is_built
     from bladerub.study.cache import blade_digest
 
     try:
         if not model.exists():
             return None, f"there is no blade yet, so every run counts as stale: {model}"
-        if not inputs.is_of(config, model):
+        if not is_built(config, model):
             return None, f"the blade is of another config, so every run counts as stale: {model}"
         return blade_digest(model), None
     except OSError as error:

@@ -44,15 +44,15 @@ def verify(options: argparse.Namespace) -> None:
 
     with refused(ValueError, because=f"--sample = {options.sample}: "):
         runs = draw(study_runs(config), options.sample, options.seed)
-    blade_path, blade = inputs.read_blade(options, config)
+    blade = inputs.read_blade(options, config)
     fastest = max(run.f_omega for run in runs)
-    if fastest > blade.f_omega_max:
+    if fastest > blade.reduced.f_omega_max:
         raise InputError(
-            f"f_omega = {fastest:g}: the speeds of the study must be at most {blade.f_omega_max:g} "
-            f"(normalised), the highest of {blade_path}"
+            f"f_omega = {fastest:g}: the speeds of the study must be at most "
+            f"{blade.reduced.f_omega_max:g} (normalised), the highest of {blade.path}"
         )
     with refused(ValueError):
-        runs_done = verify_runs(blade, config, runs, options.jobs)
+        runs_done = verify_runs(blade.reduced, config, runs, options.jobs)
         verified = list(inputs.progress_bar(len(runs), "run", runs_done, quiet=options.json))
     inputs.show(options, {"seed": options.seed, "jobs": options.jobs} | report(verified), _in_words)
 

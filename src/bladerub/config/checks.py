@@ -13,7 +13,7 @@ from bladerub.blade.sources import matrix_folder, origin
 from bladerub.config.errors import format_value, top_key
 from bladerub.contact.casing import shape
 from bladerub.contact.spec import Casing
-from bladerub.io.sources import ROOT
+from bladerub.io.folders import study_folder
 from bladerub.study.grid import SPEED_DECIMALS, UNSCALED, coating_cases, listed_case, speeds
 
 Config = dict[str, Any]
@@ -62,7 +62,7 @@ def _results(config: Config) -> Iterator[str]:
     if folders[0].casefold() in SOURCE_FOLDERS:
         yield f"{where}: must not be in {folders[0]}, which is the repository's own"
     for path in accumulate(folders, os.path.join):
-        if os.path.isfile(ROOT / path):
+        if os.path.isfile(study_folder() / path):
             yield f"{where}: must be a folder, {path} is a file"
 
 

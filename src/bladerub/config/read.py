@@ -25,6 +25,11 @@ def load(*paths: str | Path) -> dict[str, Any]:
     return files.compose(*paths).plain()
 
 
+def is_whole(path: str | Path) -> bool:
+    """Return whether the file at `path` has every block of a config; raises as `load`."""
+    return set(schema.schema()["required"]) <= load(path).keys()
+
+
 def read(*paths: str | Path, command_line: Mapping[str, Any] | None = None) -> dict[str, Any]:
     """Read a config and check it; parameters as for `bladerub.config.files.compose`.
 

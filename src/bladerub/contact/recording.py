@@ -5,6 +5,7 @@ from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
+from threadpoolctl import threadpool_limits
 
 from bladerub.blade.model import ReducedBlade
 from bladerub.contact.modes import at_tip, mode_shapes_at
@@ -26,6 +27,7 @@ class Recording(NamedTuple):
     revolution_peak: np.ndarray
 
 
+@threadpool_limits.wrap(limits=1, user_api="blas")  # sums depend on the number of threads
 def record(
     blade: ReducedBlade,
     spec: RunSpec,

@@ -2,6 +2,8 @@
 
 from collections.abc import Callable
 
+from threadpoolctl import threadpool_limits
+
 from bladerub.blade.model import ReducedBlade
 from bladerub.contact import energy
 from bladerub.contact.integration import Segment, integrate
@@ -10,6 +12,7 @@ from bladerub.contact.setup import by_angle, element_angle, set_up
 from bladerub.contact.spec import RunSpec
 
 
+@threadpool_limits.wrap(limits=1, user_api="blas")  # sums depend on the number of threads
 def simulate(blade: ReducedBlade, spec: RunSpec, progress: Callable[[int], None] | None = None) -> RunResult:
     """Simulate the contact of a blade with the coating at one constant speed.
 

@@ -16,6 +16,7 @@ from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
+from threadpoolctl import threadpool_limits
 
 from bladerub.blade.model import ReducedBlade
 from bladerub.contact import energy
@@ -97,6 +98,7 @@ def speed_steps(spec: SweepSpec, f1_hz: float) -> list[SpeedStep]:
     return [step for step in planned if step.last > step.first]
 
 
+@threadpool_limits.wrap(limits=1, user_api="blas")  # sums depend on the number of threads
 def simulate_sweep(
     blade: ReducedBlade, spec: SweepSpec, progress: Callable[[int], None] | None = None
 ) -> SweepResult:

@@ -16,7 +16,7 @@ from importlib.metadata import PackageNotFoundError, version
 from typing import Any
 
 from bladerub import __version__
-from bladerub.io.sources import ROOT
+from bladerub.io.folders import ROOT
 
 PREFIX = "provenance_"  # of the name of each of these attributes, and of no other
 UNKNOWN = "unknown"

@@ -7,19 +7,15 @@ from collections.abc import Iterable
 from functools import cache
 from pathlib import Path
 
-import bladerub
-
-_PACKAGE = Path(bladerub.__file__).parent
-ROOT = _PACKAGE.parents[1]
-"""The repository: the package is installed from it in place (``pip install -e .``)."""
+from bladerub.io.folders import PACKAGE
 
 
 def files_behind(*modules: str) -> list[str]:
     """List the source files of modules and of what they import, directly or not, from their own subpackages.
 
     Snakemake does not follow imports. What is computed in other subpackages reaches a rule by the files that
-    it reads. Modules are named below ``bladerub``, such as ``"study.maps"``; the paths are relative to the
-    root of the repository, sorted.
+    it reads. Modules are named below ``bladerub``, such as ``"study.maps"``. The paths are sorted, and
+    relative to the working directory if they are in it.
     """
     subpackages = {module.partition(".")[0] for module in modules}
     found, waiting = set(), list(modules)
@@ -28,11 +24,14 @@ def files_behind(*modules: str) -> list[str]:
         if path not in found:
             found.add(path)
             waiting += [name for name in _imports(path) if name.partition(".")[0] in subpackages]
-    return sorted(path.relative_to(ROOT).as_posix() for path in found)
+    here = Path.cwd()
+    return sorted(
+        (path.relative_to(here) if path.is_relative_to(here) else path).as_posix() for path in found
+    )
 
 
 def _path_of(module: str) -> Path:
-    path = _PACKAGE.joinpath(*module.split("."))
+    path = PACKAGE.joinpath(*module.split("."))
     package = path / "__init__.py"
     return package if package.is_file() else path.with_suffix(".py")
 
@@ -51,21 +50,21 @@ def _imports(path: Path) -> tuple[str, ...]:
 @cache
 def solver_digest() -> str:
     """Digest the source of what computes a run: contact, numerics and the reduced blade's own class."""
-    folders = (_PACKAGE / "contact", _PACKAGE / "numerics")
+    folders = (PACKAGE / "contact", PACKAGE / "numerics")
     sources = [path for folder in folders for path in folder.rglob("*.py")]
-    return _source_digest([*sources, _PACKAGE / "blade" / "model.py"])
+    return _source_digest([*sources, PACKAGE / "blade" / "model.py"])
 
 
 @cache
 def storage_digest() -> str:
     """Digest the source of what turns a result into its file."""
-    return _source_digest([_PACKAGE / "study" / name for name in ("store.py", "spectra.py")])
+    return _source_digest([PACKAGE / "study" / name for name in ("store.py", "spectra.py")])
 
 
 @cache
 def growth_digest() -> str:
     """Digest the source of what decides whether a run grows."""
-    return _source_digest([_PACKAGE / "study" / "growth.py"])
+    return _source_digest([PACKAGE / "study" / "growth.py"])
 
 
 @cache
@@ -74,13 +73,19 @@ def chart_digest() -> str:
     measuring = ["blade/frequencies.py"]
     measuring += [f"study/{name}.py" for name in ("spectra", "peaks", "growth", "wear")]
     searching = [f"extensions/chart/{name}.py" for name in ("grid", "search", "point")]
-    return _source_digest(_PACKAGE / name for name in measuring + searching)
+    return _source_digest(PACKAGE / name for name in measuring + searching)
 
 
 def _source_digest(paths: Iterable[Path]) -> str:
     digest = hashlib.sha256()
     for path in sorted(paths):
         # universal newlines: a checkout with other line ends is the same source
-        entry = [path.relative_to(_PACKAGE).as_posix(), path.read_text(encoding="utf-8")]
+        entry = [path.relative_to(PACKAGE).as_posix(), path.read_text(encoding="utf-8")]
         digest.update(json.dumps(entry).encode())
     return digest.hexdigest()
+
+
+@cache
+def builder_digest() -> str:
+    """Digest the source of what builds a blade."""
+    return _source_digest((PACKAGE / "blade").rglob("*.py"))

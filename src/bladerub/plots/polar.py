@@ -31,12 +31,12 @@ def casing_polar(
     """
     figure = new_figure(COLUMN, 1.25 * COLUMN)
     largest = max(np.abs(u).max() for u in inward.values())
-    axes = _open(figure, 1, 1, 1)
+    axes = open_polar(figure, 1, 1, 1)
     axes.plot(
-        *_closed(angle, np.full(np.size(angle), radius)), color=GREY, linewidth=1.0, label="round casing"
+        *closed(angle, np.full(np.size(angle), radius)), color=GREY, linewidth=1.0, label="round casing"
     )
     for (name, displacement), line in zip(inward.items(), _SHAPES, strict=False):
-        axes.plot(*_closed(angle, radius - magnification * np.asarray(displacement)), label=name, **line)
+        axes.plot(*closed(angle, radius - magnification * np.asarray(displacement)), label=name, **line)
     axes.set_rgrids(radius + magnification * largest * np.array([-1, 0, 1]), [])
     axes.set_rlim(0, radius + 1.1 * magnification * largest)
     figure.legend(
@@ -63,9 +63,9 @@ def wear_profiles(maps: Sequence[CoatingMap], speeds: Sequence[float]) -> tuple[
     figure = new_figure(PAGE, (0.2 + 0.8 / len(speeds)) * PAGE)
     deepest = 1e3 * table.wear.max()
     for index, (f_omega, of_speed) in enumerate(table.groupby("f_omega", sort=False)):
-        axes = _open(figure, 1, len(speeds), index + 1)
+        axes = open_polar(figure, 1, len(speeds), index + 1)
         for (theta, rows), look in zip(of_speed.groupby("theta", sort=False), (FIRST, SECOND), strict=True):
-            axes.plot(*_closed(rows.angle, 1e3 * rows.wear), label=titles.angle(theta), **look)
+            axes.plot(*closed(rows.angle, 1e3 * rows.wear), label=titles.angle(theta), **look)
         axes.set(rorigin=-0.6 * deepest, rlim=(0, 1.06 * deepest))
         axes.set_title(titles.panel(index % 26, titles.speed(f_omega)))
         axes.yaxis.set_major_locator(MaxNLocator(nbins=max(2, 6 // len(speeds))))
@@ -79,7 +79,7 @@ def wear_profiles(maps: Sequence[CoatingMap], speeds: Sequence[float]) -> tuple[
     return table, figure
 
 
-def _open(figure: Figure, *position: int) -> PolarAxes:
+def open_polar(figure: Figure, *position: int) -> PolarAxes:
     """Add polar axes to `figure` at the subplot `position`; labels of the radius stay readable over lines."""
     axes = figure.add_subplot(*position, projection="polar")
     axes.set_theta_zero_location("N")
@@ -91,7 +91,7 @@ def _open(figure: Figure, *position: int) -> PolarAxes:
     return axes
 
 
-def _closed(angle: np.ndarray, radius: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def closed(angle: np.ndarray, radius: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Angles and radii (n + 1,) with the first point repeated at the end, so that the line closes."""
     angle, radius = np.asarray(angle), np.asarray(radius)
     return np.append(angle, angle[0] + 2 * np.pi), np.append(radius, radius[0])

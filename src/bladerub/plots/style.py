@@ -1,7 +1,9 @@
 """One style for every figure: sizes for print, colours that the colour-blind and grey print keep apart."""
 
+from base64 import b64encode
 from collections.abc import Callable
 from functools import wraps
+from io import BytesIO
 from pathlib import Path
 from typing import TypeVar
 
@@ -68,6 +70,25 @@ _RC = {
     "pdf.fonttype": 42,
 }
 _PDF_RASTER_DPI = 300
+_NOTEBOOK_DPI, _FILE_DPI = 110, 200
+
+
+class Picture(Figure):
+    """A figure that shows itself in a notebook, whatever backend is used."""
+
+    def _repr_html_(self) -> str:
+        stream = BytesIO()
+        self.savefig(stream, format="png", dpi=_NOTEBOOK_DPI)
+        return f'<img src="data:image/png;base64,{b64encode(stream.getvalue()).decode()}">'
+
+
+def saved(figure: Figure, path: str | Path | None) -> Figure:
+    """Write `figure` to `path`, if that is given, in the format of its ending; return the figure."""
+    if path is not None:
+        with matplotlib.rc_context(_RC):
+            figure.savefig(path, dpi=_FILE_DPI)
+    return figure
+
 
 Drawn = TypeVar("Drawn")
 
@@ -85,7 +106,7 @@ def styled(draw: Callable[..., Drawn]) -> Callable[..., Drawn]:
 
 def new_figure(width: float = PAGE, height: float = 0.6 * PAGE) -> Figure:
     """Empty figure of `width` × `height` inches; its axes are placed so that nothing overlaps."""
-    return Figure(figsize=(width, height), layout="constrained")
+    return Picture(figsize=(width, height), layout="constrained")
 
 
 def save(figure: Figure, png: str | Path, pdf: str | Path, dpi: float) -> None:

@@ -86,34 +86,55 @@ def build_map(
             f"{folder / 'manifest.tsv'}: lists {len(rows)} speeds, not the {len(planned)} planned"
         )
     runs = [_listed_run(folder, folder / row.file, row.run_key, MAPPED) for row in rows]
-    scales = _listed_run(folder, folder / rows[0].file, rows[0].run_key, {"angle", "spectrum_order"}).data
+    scales = _listed_run(folder, folder / rows[0].file, rows[0].run_key, {"angle", "spectrum_order"})
+    runs[0].data.update(scales.data)
+    longer = [_longer_run(folder, row) for row in rows]
+    prominence = config["analysis"]["lobe_prominence"]
+    write_map(path, collect(case, planned, blade, runs, longer, prominence), provenance(config))
+
+
+def _longer_run(folder: Path, row: ManifestRow) -> StoredRun | None:
+    if not row.confirmation_key:
+        return None
+    path = confirmation_path(folder / row.file)
+    return _listed_run(folder, path, row.confirmation_key, {"revolution_amplitude"})
+
+
+def collect(
+    case: CoatingCase,
+    speeds: Sequence[float],
+    blade: ReducedBlade,
+    runs: Sequence[StoredRun],
+    longer: Sequence[StoredRun | None],
+    prominence: float,
+) -> CoatingMap:
+    """Collect runs of one coating at ascending speeds (normalised), and their longer runs or None.
+
+    Of the first run all datasets are needed, of the others `MAPPED`, of the longer ones the amplitude.
+    `blade` is for its first frequency, `prominence` decides what counts as a lobe.
+    """
+    scales = {name: runs[0].data[name] for name in ("angle", "spectrum_order")}
     collected = {name: np.stack([run.data[name] for run in runs]) for name in MAPPED}
-    wear, prominence = collected.pop("wear"), config["analysis"]["lobe_prominence"]
-    coating = CoatingMap(
+    wear = collected.pop("wear")
+    return CoatingMap(
         case=case,
-        f_omega=np.array(planned),
-        C1=np.array([reduced_frequencies(blade, f, n_modes=1)[0] for f in planned]) / blade.f1_hz,
+        f_omega=np.array(speeds),
+        C1=np.array([reduced_frequencies(blade, f, n_modes=1)[0] for f in speeds]) / blade.f1_hz,
         wear=np.stack([each.mean(axis=0) for each in wear]),
         wear_node=wear,
-        confirmation_amplitude=_confirmation_amplitude(folder, rows),
+        confirmation_amplitude=_confirmation_amplitude(longer),
         max_wear=wear.max(axis=(1, 2)),
         lobes=np.array([lobes(scales["angle"], each, prominence) for each in wear]),
         status=np.array([run.attributes["status"] for run in runs]),
         **scales,
         **collected,
     )
-    write_map(path, coating, provenance(config))
 
 
-def _confirmation_amplitude(folder: Path, rows: Sequence[ManifestRow]) -> np.ndarray:
-    amplitudes = {}
-    for index, row in enumerate(rows):
-        if row.confirmation_key:
-            path = confirmation_path(folder / row.file)
-            run = _listed_run(folder, path, row.confirmation_key, {"revolution_amplitude"})
-            amplitudes[index] = run.data["revolution_amplitude"]
+def _confirmation_amplitude(longer: Sequence[StoredRun | None]) -> np.ndarray:
+    amplitudes = {i: run.data["revolution_amplitude"] for i, run in enumerate(longer) if run is not None}
     revolutions = max((amplitude.size for amplitude in amplitudes.values()), default=0)
-    collected = np.full((len(rows), revolutions), np.nan)
+    collected = np.full((len(longer), revolutions), np.nan)
     for index, amplitude in amplitudes.items():
         collected[index] = amplitude
     return collected
@@ -128,16 +149,22 @@ def _listed_run(folder: Path, path: Path, key: str, datasets: Set[str]) -> Store
 
 def write_map(path: str | Path, coating: CoatingMap, origin: Mapping[str, str]) -> None:
     """Write `coating` to the HDF5 file `path`, whole or not at all; `origin` is its provenance."""
-    variables = {
+    hdf5.write(path, variables(coating), asdict(coating.case), origin)
+
+
+def variables(coating: CoatingMap) -> dict[str, Variable]:
+    """Give the arrays of a map their dimensions, units and meaning."""
+    described = {
         name: Variable(dims, getattr(coating, name), units, long_name)
         for name, (dims, units, long_name) in DATASETS.items()
+        if getattr(coating, name) is not None
     }
-    variables["node"] = INTERFACE_NODE
+    described["node"] = INTERFACE_NODE
     for amplitude in ("revolution_amplitude", "confirmation_amplitude"):
-        dim, n_revolutions = variables[amplitude].dims[-1], variables[amplitude].data.shape[1]
+        dim, n_revolutions = described[amplitude].dims[-1], described[amplitude].data.shape[1]
         number = np.arange(1, n_revolutions + 1)
-        variables[dim] = Variable((dim,), number, "1", "revolution, counted from 1")
-    hdf5.write(path, variables, asdict(coating.case), origin)
+        described[dim] = Variable((dim,), number, "1", "revolution, counted from 1")
+    return described
 
 
 def read_map(path: str | Path, with_nodes: bool = False) -> CoatingMap:

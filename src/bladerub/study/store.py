@@ -130,11 +130,15 @@ def write_run(path: str | Path, run: StoredRun, origin: Mapping[str, str]) -> st
 
     `origin` is its provenance (`bladerub.io.provenance.provenance`).
     """
-    variables = {"node": INTERFACE_NODE}
-    for name, values in run.data.items():
-        dims, units, long_name = _DATASETS[name]
-        variables[name] = Variable(dims, values, units, long_name)
-    return hdf5.write(path, variables, run.attributes, origin)
+    return hdf5.write(path, variables(run), run.attributes, origin)
+
+
+def variables(run: StoredRun) -> dict[str, Variable]:
+    """Give the datasets of a run their dimensions, units and meaning."""
+    described = {
+        name: Variable(_DATASETS[name][0], values, *_DATASETS[name][1:]) for name, values in run.data.items()
+    }
+    return {"node": INTERFACE_NODE} | described
 
 
 def read_run(path: str | Path, only: Set[str] = ALL) -> StoredRun:

@@ -19,6 +19,16 @@ KEYS = {
     "growth_per_revolution",
     "growth_low",
     "growth_high",
+    "growth_revolutions",
+    "casing",
+    "E",
+    "K",
+    "theta",
+    "friction",
+    "f_omega",
+    "revolutions",
+    "run_key",
+    "units",
     "saturating",
     "divergent",
     "n_steps",
@@ -36,7 +46,7 @@ def folder(tmp_path_factory):
 @pytest.fixture
 def small(folder, monkeypatch):
     """Options for a coarse blade and a short run."""
-    monkeypatch.setattr(inputs, "ROOT", folder)
+    monkeypatch.setattr(inputs, "study_folder", lambda: folder)
     overlay = folder / "small.yaml"
     overlay.write_text(
         "blade: {mesh: {chordwise: 7, thickness: 1, spanwise: 6}}\nreduction: {accuracy_speeds: 3}\n"
@@ -111,7 +121,7 @@ def test_run_in_words(small, blade_file, capsys):
     assert main([*RUN, *small]) == 0
     lines = capsys.readouterr().out.splitlines()
     assert [line.split("  ")[0] for line in lines] == [
-        "peak amplitude",
+        "peak displacement",
         "engine order",
         "maximum wear",
         "lobes",
@@ -161,10 +171,7 @@ def test_blade_of_another_config_is_refused(small, blade_file, folder, capsys):
     config.write_text("blade: {length: 0.4}\n")
     code, line = told(capsys, [*RUN, *small, "--config", str(config)])
     assert code == 2
-    assert line == (
-        f"bladerub run: {blade_file}: was built from another config; "
-        "build it again with snakemake, delete it, or name it with --blade\n"
-    )
+    assert line.startswith(f"bladerub run: {blade_file}: was built from another config; ")
 
 
 def test_progress_bar_on_a_terminal(small, blade_file, monkeypatch, capsys):
@@ -203,7 +210,7 @@ def without(option):
         ([*RUN, "--config", "no.yaml"], "no.yaml: cannot be read"),
         (without("--E"), "--E: missing, an abradable coating needs it"),
         (without("--K"), "--K: missing, an abradable coating needs it"),
-        ([*RUN, "--friction", "0.1"], "--friction = 0.1: goes without --theta"),
+        ([*RUN, "--friction", "0.1"], "--friction = 0.1: goes without theta"),
         ([*RUN, "--coating", "rigid"], "--E = 2: goes with --coating abradable only"),
         ([*RIGID, "--theta", "0"], "--theta = 0: goes with --coating abradable only"),
         (

@@ -42,7 +42,7 @@ def folder(tmp_path_factory):
 
 @pytest.fixture
 def benchmark(folder, monkeypatch):
-    monkeypatch.setattr(inputs, "ROOT", folder)
+    monkeypatch.setattr(inputs, "study_folder", lambda: folder)
     config = folder / "small.yaml"
     config.write_text(SMALL)
     return lambda *arguments: main(["benchmark", "--config", str(config), *arguments])

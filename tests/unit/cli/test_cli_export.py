@@ -22,7 +22,7 @@ def folder(tmp_path_factory):
         "blade: {mesh: {chordwise: 7, thickness: 1, spanwise: 6}}\nreduction: {accuracy_speeds: 3}\n"
     )
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(inputs, "ROOT", folder)
+        patch.setattr(inputs, "study_folder", lambda: folder)
         config = ["--config", str(folder / "small.yaml")]
         assert main(["run", *RUN, *config, "--output", str(folder / "run.h5")]) == 0
     return folder
@@ -31,7 +31,7 @@ def folder(tmp_path_factory):
 @pytest.fixture
 def export(folder, monkeypatch, capsys):
     """Run the command on `folder`: exit code, what it printed and its errors."""
-    monkeypatch.setattr(inputs, "ROOT", folder)
+    monkeypatch.setattr(inputs, "study_folder", lambda: folder)
 
     def run(vtu, *more, run=folder / "run.h5", config=folder / "small.yaml"):
         capsys.readouterr()
@@ -49,7 +49,7 @@ def export(folder, monkeypatch, capsys):
 def motion(folder):
     """Export of 40 instants: the folder, and the figures printed."""
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(inputs, "ROOT", folder)
+        patch.setattr(inputs, "study_folder", lambda: folder)
         command = ["export", "--run", str(folder / "run.h5"), "--vtu", str(folder / "new" / "motion")]
         assert main([*command, "--config", str(folder / "small.yaml"), "--samples", "40"]) == 0
     return folder / "new" / "motion"

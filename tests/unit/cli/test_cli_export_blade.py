@@ -23,7 +23,7 @@ def folder(tmp_path_factory):
 @pytest.fixture
 def export(folder, monkeypatch, capsys):
     """Run the command on `folder`: exit code, what it printed and its errors."""
-    monkeypatch.setattr(inputs, "ROOT", folder)
+    monkeypatch.setattr(inputs, "study_folder", lambda: folder)
 
     def run(*more):
         capsys.readouterr()

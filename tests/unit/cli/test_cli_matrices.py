@@ -109,7 +109,7 @@ def test_nothing_is_written_over_or_at_speeds_that_are_not_there(written, comman
 @pytest.fixture
 def study(written, tmp_path, monkeypatch):
     """Stands for the repository, with a config of a blade of matrices."""
-    monkeypatch.setattr(inputs, "ROOT", tmp_path)
+    monkeypatch.setattr(inputs, "study_folder", lambda: tmp_path)
     shutil.copytree(written / "m", tmp_path / "m")
     source = {"source": {"matrices": str(tmp_path / "m")}}
     (tmp_path / "mine.yaml").write_text(yaml.safe_dump({"blade": source}))

@@ -30,7 +30,7 @@ analysis: {histories: []}
 
 @pytest.fixture
 def small(tmp_path, monkeypatch):
-    monkeypatch.setattr(inputs, "ROOT", tmp_path)
+    monkeypatch.setattr(inputs, "study_folder", lambda: tmp_path)
     overlay = tmp_path / "small.yaml"
     overlay.write_text(SMALL)
     return ["--config", str(overlay)]

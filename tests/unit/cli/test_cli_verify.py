@@ -39,7 +39,7 @@ def folder(tmp_path_factory):
 @pytest.fixture
 def verify(folder, monkeypatch):
     """Run the command on a study of six short runs of a coarse blade."""
-    monkeypatch.setattr(inputs, "ROOT", folder)
+    monkeypatch.setattr(inputs, "study_folder", lambda: folder)
     config = folder / "small.yaml"
     config.write_text(SMALL)
 

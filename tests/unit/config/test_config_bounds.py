@@ -10,7 +10,7 @@ import pytest
 from bladerub.config import schema as config_schema
 from bladerub.config.errors import ConfigError, key_path
 from bladerub.config.read import load, validate
-from bladerub.io.sources import ROOT
+from bladerub.io.folders import ROOT
 
 NUMBERS = """
     blade.source.omega_max            (0, 1e5]

@@ -7,7 +7,7 @@ from bladerub.config import schema as schema_module
 from bladerub.config.errors import ConfigError
 from bladerub.config.read import load, validate
 from bladerub.config.schema import check_quantity, schema
-from bladerub.io.sources import ROOT
+from bladerub.io.folders import ROOT
 
 CONFIGS = [
     [ROOT / "config" / "config.yaml"],
@@ -131,16 +131,6 @@ def test_malformed_file_is_named(tmp_path, content, words):
 def test_missing_file_is_named(tmp_path):
     with pytest.raises(ConfigError, match=r"no\.yaml: cannot be read \(No such file or directory\)"):
         load(tmp_path / "no.yaml")
-
-
-def test_missing_schema_is_named(monkeypatch, tmp_path):
-    monkeypatch.setattr(schema_module, "SCHEMA", tmp_path / "schema.yaml")
-    schema_module.schema.cache_clear()
-    try:
-        with pytest.raises(ConfigError, match=r"schema\.yaml is missing: install bladerub in place"):
-            schema_module.schema()
-    finally:
-        schema_module.schema.cache_clear()
 
 
 @pytest.mark.parametrize(

@@ -12,7 +12,7 @@ from bladerub.blade.sources.importing import import_blade
 from bladerub.blade.sources.origin import Source
 from bladerub.config.read import load
 from bladerub.export.sections import write_sections
-from bladerub.io.sources import ROOT
+from bladerub.io.folders import ROOT
 
 COUNTS = {"chordwise": 7, "thickness": 1, "spanwise": 6}
 

@@ -4,7 +4,7 @@ import pytest
 from bladerub.config.errors import ConfigError
 from bladerub.config.read import load, validate
 from bladerub.extensions.calibration import COLUMNS, collect, plan
-from bladerub.io.sources import ROOT
+from bladerub.io.folders import ROOT
 from bladerub.study.findings import verdicts
 
 

@@ -8,7 +8,7 @@ from bladerub.config.errors import ConfigError
 from bladerub.config.read import load, validate
 from bladerub.extensions.robustness.design import batch, blade_name, check, sample_digest
 from bladerub.extensions.robustness.plan import BATCH, REFERENCE, REFERENCE_BATCH, read_plan
-from bladerub.io.sources import ROOT
+from bladerub.io.folders import ROOT
 
 PLAN = {
     "seed": 3,

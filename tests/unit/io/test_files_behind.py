@@ -1,6 +1,9 @@
+from pathlib import Path
+
 import pytest
 
 from bladerub.io import sources
+from bladerub.io.folders import ROOT
 
 FILES = {
     "study/__init__.py": "",
@@ -21,8 +24,8 @@ def package(tmp_path, monkeypatch):
     for name, text in FILES.items():
         (package / name).parent.mkdir(parents=True, exist_ok=True)
         (package / name).write_text(text)
-    monkeypatch.setattr(sources, "_PACKAGE", package)
-    monkeypatch.setattr(sources, "ROOT", tmp_path)
+    monkeypatch.setattr(sources, "PACKAGE", package)
+    monkeypatch.chdir(tmp_path)
 
 
 STUDY = ["study/__init__.py", "study/findings/claim.py", "study/grid.py", "study/maps.py"]
@@ -40,6 +43,12 @@ def test_imports_are_followed_within_the_subpackages_of_the_modules(package, mod
     assert sources.files_behind(*modules) == [f"src/bladerub/{name}" for name in behind]
 
 
-def test_the_root_is_where_the_workflow_is():
-    assert (sources.ROOT / "Snakefile").is_file()
-    assert (sources.ROOT / sources.files_behind("study.maps")[0]).is_file()
+def test_outside_the_repository_paths_are_absolute(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    assert Path(sources.files_behind("study.maps")[0]).is_absolute()
+
+
+def test_the_root_is_where_the_workflow_is(monkeypatch):
+    assert (ROOT / "Snakefile").is_file()
+    monkeypatch.chdir(ROOT)
+    assert (ROOT / sources.files_behind("study.maps")[0]).is_file()

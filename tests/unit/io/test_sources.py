@@ -26,7 +26,7 @@ def package(tmp_path, monkeypatch):
         *CHARTING,
     ):
         (tmp_path / name).write_text("a = 1\n")
-    monkeypatch.setattr(sources, "_PACKAGE", tmp_path)
+    monkeypatch.setattr(sources, "PACKAGE", tmp_path)
     return tmp_path
 
 
@@ -89,7 +89,7 @@ class TestCoverage:
                 if path not in found:
                     found.add(path)
                     waiting += sources._imports(path)
-            names = {path.relative_to(sources._PACKAGE).as_posix() for path in found - covered}
+            names = {path.relative_to(sources.PACKAGE).as_posix() for path in found - covered}
             return {name for name in names if not name.startswith("io/")}  # moves numbers, computes none
 
         return of

@@ -1,11 +1,25 @@
 import numpy as np
 import pytest
 
+from bladerub.study.grid import CoatingCase
+from bladerub.study.store import stored_run
 from bladerub.study.summary import spectral_peak, summarise
 
 
-def test_a_steady_run(spec, config, make_result):
-    assert summarise(spec, make_result(order=6, amplitude=1e-3, depth=2e-4), config) == {
+@pytest.fixture
+def summed_up(spec, config):
+    """The summary of a result, as of the study's config."""
+
+    def of(result, longer=None):
+        case, analysis = CoatingCase("2nd", 2.0, 0.5, 0.0), config["analysis"]
+        stored = [each and stored_run(case, spec, each, "key", analysis, False) for each in (result, longer)]
+        return summarise(stored[0], analysis, stored[1])
+
+    return of
+
+
+def test_a_steady_run(summed_up, make_result):
+    assert summed_up(make_result(order=6, amplitude=1e-3, depth=2e-4)) == {
         "peak_amplitude": pytest.approx(1e-3, rel=1e-4),
         "engine_order": 6.0,
         "max_wear": pytest.approx(2e-4, rel=1e-3),
@@ -15,13 +29,14 @@ def test_a_steady_run(spec, config, make_result):
         "growth_high": pytest.approx(3e-4, rel=0.2),
         "saturating": False,
         "divergent": False,
+        "growth_revolutions": 20,
         "n_steps": 1000,
         "status": "completed",
     }
 
 
-def test_a_growing_run(spec, config, make_result):
-    summary = summarise(spec, make_result(order=4, growth=0.03), config)
+def test_a_growing_run(summed_up, make_result):
+    summary = summed_up(make_result(order=4, growth=0.03))
     assert (summary["divergent"], summary["saturating"], summary["status"]) == (True, False, "completed")
     assert summary["growth_per_revolution"] == pytest.approx(0.03)
     assert summary["growth_low"] < 0.03 < summary["growth_high"]
@@ -35,32 +50,32 @@ def test_slow_drift_is_no_vibration(order, found):
     assert spectral_peak(orders, amplitude) == (found, 1.0 if order < 0.5 else 2.0)
 
 
-def test_the_peak_is_of_the_last_revolutions(spec, config, make_result):
+def test_the_peak_is_of_the_last_revolutions(summed_up, make_result):
     decaying = make_result(growth=-0.2)
-    summary = summarise(spec, decaying, config)
+    summary = summed_up(decaying)
     assert summary["peak_amplitude"] == pytest.approx(1e-3 * 0.8**10, rel=1e-4)
     assert not summary["divergent"]
 
 
-def test_an_unbounded_run_is_summed_up_over_what_was_run(spec, config, make_result):
-    summary = summarise(spec, make_result(complete=3.5), config)
+def test_an_unbounded_run_is_summed_up_over_what_was_run(summed_up, make_result):
+    summary = summed_up(make_result(complete=3.5))
     assert (summary["divergent"], summary["status"], summary["engine_order"]) == (True, "unbounded", 6.0)
     assert summary["peak_amplitude"] == pytest.approx(1e-3, rel=1e-4)
 
 
-def test_a_run_without_a_complete_revolution_has_no_engine_order(spec, config, make_result):
-    summary = summarise(spec, make_result(complete=0.5), config)
+def test_a_run_without_a_complete_revolution_has_no_engine_order(summed_up, make_result):
+    summary = summed_up(make_result(complete=0.5))
     assert summary["engine_order"] is None
     assert summary["growth_per_revolution"] is summary["growth_low"] is summary["growth_high"] is None
 
 
-def test_a_blade_that_never_touched(spec, config, make_result):
-    summary = summarise(spec, make_result(amplitude=0.0, depth=0.0), config)
+def test_a_blade_that_never_touched(summed_up, make_result):
+    summary = summed_up(make_result(amplitude=0.0, depth=0.0))
     assert summary["engine_order"] is None
     assert (summary["peak_amplitude"], summary["max_wear"], summary["lobes"]) == (0.0, 0.0, 0)
     assert not summary["divergent"]
 
 
-def test_values_are_plain_python(spec, config, make_result):
-    for value in summarise(spec, make_result(), config).values():
+def test_values_are_plain_python(summed_up, make_result):
+    for value in summed_up(make_result()).values():
         assert not isinstance(value, np.generic)

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from bladerub.blade.sources.frame import Frame
-from bladerub.io.sources import ROOT
+from bladerub.io.folders import study_folder
 
 MATRIX_UNITS = {"SI": 1.0, "mm-tonne": 1e3, "inch-lbf": 4.4482216152605 / 0.0254}
 """N/m of the stiffness, and equally kg of the mass, by the name of a system of units with the second in it.
@@ -56,7 +56,7 @@ class MatrixSource:
 
 
 def read(source: Mapping[str, Any]) -> Source | MatrixSource:
-    """Read the ``blade.source`` block of the config, whose file or folder is relative to the repository.
+    """Read the ``blade.source`` block of the config, whose file or folder is relative to the study.
 
     Raises a ValueError that begins with the key if neither ``file`` nor ``matrices`` is there, or keys do not
     go together.
@@ -71,7 +71,7 @@ def read(source: Mapping[str, Any]) -> Source | MatrixSource:
     for key in others:
         if key not in known:
             raise ValueError(f"{key} = {source[key]}: must not be given beside {given}")
-    return kind(ROOT / source[given], Frame(**frame), **others)
+    return kind(study_folder() / source[given], Frame(**frame), **others)
 
 
 def files(source: Mapping[str, Any]) -> list[str]:

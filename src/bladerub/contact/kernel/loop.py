@@ -196,7 +196,7 @@ def _clear_negligible(q, n):
         store(q, k, where(absolute(x) > NEGLIGIBLE, x, 0.0))
 
 
-@njit_on_disk()
+@njit_on_disk(nogil=True)  # threads of one process integrate at the same time
 def _integrate(modal, flight, stator, tip, state, steps_per_element, first, last, displacement):
     turns = n_flights = n_contact = 0
     bottom, top = np.inf, -np.inf

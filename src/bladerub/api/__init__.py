@@ -1,0 +1,1 @@
+"""The Python interface: studies, blades, runs and maps as objects. `bladerub` exports its names."""

@@ -1,0 +1,170 @@
+"""A blade: its reduced model, its mesh, and how well the one follows the other."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+import xarray as xr
+from matplotlib.figure import Figure
+
+from bladerub.api.notebook import html_table
+from bladerub.api.study import Study
+from bladerub.blade.accuracy import ACCURACY_COLUMNS
+from bladerub.blade.build import build, made_from
+from bladerub.blade.built import write
+from bladerub.blade.frequencies import reduced_frequencies
+from bladerub.blade.model import ReducedBlade
+from bladerub.blade.validation import read_valid_blade
+from bladerub.io import hdf5, tables
+from bladerub.io.folders import cache_folder
+from bladerub.io.provenance import provenance
+from bladerub.io.sources import builder_digest
+from bladerub.plots.blade_mesh import blade_mesh
+from bladerub.plots.campbell import campbell
+from bladerub.plots.style import saved
+from bladerub.study.cache import blade_digest, digest
+
+_ORDERS = range(1, 13)
+
+
+@dataclass(frozen=True)
+class Blade:
+    """A blade, from `build_blade` or `read_blade`.
+
+    Parameters
+    ----------
+    reduced : ReducedBlade
+        The reduced model, eqs. (2) to (6): matrices, interface nodes, speed law. SI units.
+    path : Path
+        Its file. ``mesh.h5`` next to it has the mesh.
+    accuracy_path : Path
+        Table of the frequencies of finite elements and reduced model.
+    """
+
+    reduced: ReducedBlade = field(repr=False)
+    path: Path
+    accuracy_path: Path = field(repr=False)
+
+    @property
+    def f1_hz(self) -> float:
+        """First eigenfrequency at rest, Hz; the unit of all normalised frequencies."""
+        return self.reduced.f1_hz
+
+    @property
+    def length(self) -> float:
+        """Blade length, m; the unit of clearances in a config."""
+        return self.reduced.length
+
+    @property
+    def digest(self) -> str:
+        """Digest of the reduced model: what it has in the keys of runs."""
+        return blade_digest(self.path)
+
+    def frequencies(self, f_omega: float = 0.0, n_modes: int = 3) -> np.ndarray:
+        """Lowest eigenfrequencies (n_modes,) of the reduced model at the normalised speed `f_omega`, Hz.
+
+        Raises
+        ------
+        ValueError
+            If the speed is outside the range of the blade.
+        """
+        return reduced_frequencies(self.reduced, f_omega, n_modes)
+
+    def accuracy(self) -> pd.DataFrame:
+        """Frequencies (Hz) of finite elements, eq. (2) and reduced model, as in ``rom_accuracy.csv``.
+
+        Raises
+        ------
+        OSError
+            If the table is missing, as for a blade read from elsewhere; the message names it.
+        """
+        return tables.read(self.accuracy_path, ACCURACY_COLUMNS)
+
+    def plot_mesh(self, path: str | Path | None = None) -> Figure:
+        """Draw Fig. 1: mesh, clamped root and interface nodes; `path` to write it there as well."""
+        mesh, _ = hdf5.read(self.path.with_name("mesh.h5"))
+        nodes = (mesh[f"{name}_nodes"] for name in ("interface", "root", "tip"))
+        return saved(blade_mesh(mesh["points"], mesh["cells"], *nodes), path)
+
+    def plot_campbell(self, path: str | Path | None = None) -> Figure:
+        """Draw Fig. 2: the Campbell diagram; `path` to write it there as well. Raises as `accuracy`."""
+        modes = self.accuracy().pivot(index="f_omega", columns="mode") / self.f1_hz
+        return saved(campbell(modes.index, modes["f_fe"], modes["f_rom"], _ORDERS), path)
+
+    def to_xarray(self) -> xr.Dataset:
+        """Return matrices, interface nodes and directions with units and names."""
+        return xr.load_dataset(self.path, engine="h5netcdf", phony_dims="sort")
+
+    def _repr_html_(self) -> str:
+        rows = {
+            "first eigenfrequency at rest": f"{self.f1_hz:.5g} Hz",
+            "length": f"{1e3 * self.length:.4g} mm",
+            "coordinates": f"{len(self.reduced.mass)}",
+            "highest speed": f"{self.reduced.f_omega_max:g} of the first frequency",
+            "file": f"{self.path}",
+        }
+        return html_table("Blade", rows)
+
+
+def read_blade(path: str | Path) -> Blade:
+    """Read a reduced blade, such as ``results/blade/reduced_model.h5``.
+
+    Raises
+    ------
+    OSError
+        If the file is missing or damaged; the message names it.
+    ValueError
+        If it holds no valid reduced blade.
+    """
+    path = Path(path)
+    beside = path.with_name("rom_accuracy.csv")
+    table = beside if beside.exists() else path.parent.parent / "tables" / "rom_accuracy.csv"
+    return Blade(read_valid_blade(path), path, table)
+
+
+def build_blade(study: Study) -> Blade:
+    """Build the blade of a study, or read it where it is built already.
+
+    A blade of the same config is looked for in the results of the study, then in the cache
+    (`bladerub.io.folders.cache_folder`), where a new one is kept.
+
+    Raises
+    ------
+    BadInput
+        If the config's blade cannot be built or imported; the message says what would be right.
+    ValueError
+        If it cannot be meshed.
+
+    Examples
+    --------
+    >>> import bladerub as br
+    >>> blade = br.build_blade(br.default_study())  # doctest: +SKIP
+    >>> round(blade.f1_hz)  # doctest: +SKIP
+    250
+    """
+    of_study = study.results / "blade" / "reduced_model.h5"
+    if is_built(study.config, of_study):
+        return read_blade(of_study)
+    recipe = made_from(study.config)
+    cached = cache_folder() / "blades" / digest([recipe, builder_digest()])[:16] / "reduced_model.h5"
+    if not is_built(study.config, cached):
+        write_blade(study.config, cached, cached.with_name("rom_accuracy.csv"))
+    return read_blade(cached)
+
+
+def is_built(config: Mapping[str, Any], path: Path) -> bool:
+    """Return whether the reduced blade at `path` was built from `config`, as its mesh states."""
+    mesh = path.with_name("mesh.h5")
+    if not (path.exists() and mesh.exists()):
+        return False
+    return hdf5.read_attributes(mesh).get("made_from") == made_from(config)
+
+
+def write_blade(config: Mapping[str, Any], path: Path, accuracy: Path) -> None:
+    """Build the blade of `config` and write it to `path`, its mesh and its two tables next to `accuracy`."""
+    built = build(config)
+    campbell_table = accuracy.with_name("campbell.csv")
+    write(built, provenance(config), path, path.with_name("mesh.h5"), campbell_table, accuracy)

@@ -1,0 +1,18 @@
+"""From the variables of our files to xarray."""
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from bladerub.io.hdf5 import Variable
+
+
+def to_dataset(variables: Mapping[str, Variable], attributes: Mapping[str, Any]) -> xr.Dataset:
+    """Return variables with their units as xarray opens them from a file that holds them."""
+    arrays = {
+        name: (each.dims, np.asarray(each.data), {"units": each.units, "long_name": each.long_name})
+        for name, each in variables.items()
+    }
+    return xr.Dataset(arrays, attrs=dict(attributes))

@@ -1,0 +1,172 @@
+"""A map: all runs of one coating over the speed."""
+
+from collections.abc import Callable, Iterable
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import asdict, dataclass, field
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+import xarray as xr
+from matplotlib.figure import Figure
+from threadpoolctl import threadpool_limits
+from tqdm.auto import tqdm
+
+from bladerub.api.blade import Blade
+from bladerub.api.dataset import to_dataset
+from bladerub.api.errors import InputError
+from bladerub.api.notebook import html_table
+from bladerub.api.run import Run, solve
+from bladerub.api.study import StudyCoating, StudyRun
+from bladerub.contact.setup import compile_kernel
+from bladerub.plots.spectrum import spectrum_map
+from bladerub.plots.style import saved
+from bladerub.plots.wear_map import wear_map
+from bladerub.study import maps
+from bladerub.study.grid import CoatingCase
+from bladerub.study.maps import CoatingMap
+
+_PER_REVOLUTION = ("revolution_peak", "revolution_amplitude")
+
+
+@dataclass(frozen=True)
+class Map:
+    """Wear and spectra of one coating over the speed, from `simulate_speeds` or `read_map`.
+
+    Parameters
+    ----------
+    coating : CoatingMap
+        The arrays: `bladerub.study.maps.DATASETS` has dimensions, unit and meaning of each. SI units,
+        speeds normalised.
+    """
+
+    coating: CoatingMap = field(repr=False)
+
+    @property
+    def case(self) -> CoatingCase:
+        """Casing, coating and law of friction, normalised."""
+        return self.coating.case
+
+    @property
+    def f_omega(self) -> np.ndarray:
+        """Speeds (n,), ascending, normalised."""
+        return self.coating.f_omega
+
+    @property
+    def wear(self) -> np.ndarray:
+        """Worn depth (n, elements), mean over the interface nodes, m."""
+        return self.coating.wear
+
+    @property
+    def status(self) -> np.ndarray:
+        """``"completed"`` or ``"unbounded"`` of each run (n,)."""
+        return self.coating.status
+
+    def plot_wear(self, path: str | Path | None = None) -> Figure:
+        """Draw the wear around the casing over the speed (Fig. 6); `path` to write it there as well."""
+        return saved(wear_map(self.coating), path)
+
+    def plot_spectrum(
+        self,
+        path: str | Path | None = None,
+        amplitude_range: tuple[float, float] | None = None,
+        max_frequency: float = 2.0,
+    ) -> Figure:
+        """Draw the spectra over the speed (Figs. 7 to 9); `path` as `plot_wear`.
+
+        `amplitude_range` are the ends of the colour scale, m (default: three decades up to the largest
+        amplitude); `max_frequency` is the right end of the axis, normalised.
+        """
+        largest = float(np.nanmax(self.coating.spectrum_amplitude))
+        ends = amplitude_range or (1e-3 * largest, largest)
+        return saved(spectrum_map(self.coating, ends, max_frequency), path)
+
+    def to_xarray(self) -> xr.Dataset:
+        """Return all arrays with coordinates, units and names."""
+        return to_dataset(maps.variables(self.coating), asdict(self.case))
+
+    def to_pandas(self) -> pd.DataFrame:
+        """Return a row for each speed.
+
+        Columns: ``C1`` (first eigenfrequency, normalised), ``max_wear`` (m), ``lobes``, ``status``,
+        ``revolution_peak`` and ``revolution_amplitude`` of the last revolution (m).
+        """
+        columns = {name: getattr(self.coating, name) for name in ("C1", "max_wear", "lobes", "status")}
+        last = {name: getattr(self.coating, name)[:, -1] for name in _PER_REVOLUTION}
+        return pd.DataFrame(columns | last, index=pd.Index(self.f_omega, name="f_omega"))
+
+    def _repr_html_(self) -> str:
+        rows = {
+            "coating": self.case.name,
+            "speeds": f"{self.f_omega.size}, from {self.f_omega[0]:g} to {self.f_omega[-1]:g}",
+            "greatest wear": f"{1e3 * self.coating.max_wear.max():.4g} mm",
+            "unbounded": f"{np.count_nonzero(self.status != 'completed')}",
+        }
+        return html_table("Map", rows)
+
+
+def read_map(path: str | Path) -> Map:
+    """Read the map of one coating, such as ``results/maps/2nd_E2_K0.5_theta0.h5``.
+
+    Raises
+    ------
+    OSError
+        If the file is missing, damaged or not a map; the message names it.
+    """
+    return Map(maps.read_map(path, with_nodes=True))
+
+
+def simulate_speeds(
+    blade: Blade,
+    coating: StudyCoating,
+    speeds: Iterable[float],
+    *,
+    jobs: int = 1,
+    follow: bool = True,
+    progress: bool = True,
+) -> Map:
+    """Simulate one coating at many speeds.
+
+    Parameters
+    ----------
+    blade : Blade
+        The blade.
+    coating : StudyCoating
+        The coating, from `Study.coating` or `Study.rigid`.
+    speeds : iterable of float
+        Speeds, normalised: at least two, ascending in the map.
+    jobs : int
+        Runs at once.
+    follow, progress : bool
+        As of `simulate`.
+
+    Raises
+    ------
+    InputError
+        If a speed is outside the range of the blade, or there are fewer than two.
+    """
+    runs = [coating.at(f_omega) for f_omega in sorted({float(f) for f in speeds})]
+    if len(runs) < 2:
+        raise InputError("speeds", [run.f_omega for run in runs], "must be at least two")
+    if runs[-1].f_omega > blade.reduced.f_omega_max:
+        right = f"must be at most {blade.reduced.f_omega_max:g} (normalised), the highest of {blade.path}"
+        raise InputError("speeds", runs[-1].f_omega, right)
+    with tqdm(total=len(runs), unit="run", disable=not progress, leave=False) as bar:
+        found = _solve_all(blade, runs, jobs, follow, bar.update)
+    stored, longer = [run.stored for run in found], [run.longer and run.longer.stored for run in found]
+    at = [run.f_omega for run in runs]
+    prominence = coating.config["analysis"]["lobe_prominence"]
+    return Map(maps.collect(coating.case, at, blade.reduced, stored, longer, prominence))
+
+
+@threadpool_limits.wrap(limits=1, user_api="blas")  # threads that come and go would change each other's limit
+def _solve_all(blade: Blade, runs: list[StudyRun], jobs: int, follow: bool, done: Callable) -> list[Run]:
+    compile_kernel()
+
+    def compute(run: StudyRun) -> Run:
+        found = solve(blade, run, follow, keep_history=False)
+        done()
+        return found
+
+    with ThreadPoolExecutor(jobs) as pool:  # the time loop holds no lock of the interpreter
+        return list(pool.map(compute, runs))

@@ -1,0 +1,296 @@
+"""One run: simulated here, or read from its file."""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, fields
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+import xarray as xr
+from matplotlib.figure import Figure
+from tqdm.auto import tqdm
+
+from bladerub.api.blade import Blade
+from bladerub.api.dataset import to_dataset
+from bladerub.api.errors import InputError
+from bladerub.api.notebook import html_table
+from bladerub.api.study import StudyRun
+from bladerub.contact import run as solver
+from bladerub.contact.result import Energy
+from bladerub.contact.setup import compile_kernel
+from bladerub.contact.spec import RunSpec
+from bladerub.io.provenance import provenance
+from bladerub.plots import single_run, titles
+from bladerub.plots.style import saved
+from bladerub.study import store
+from bladerub.study.grid import CoatingCase, speed_name
+from bladerub.study.growth import Verdict, confirmation_spec, judge, needs_confirmation
+from bladerub.study.manifest import confirmation_path
+from bladerub.study.plan import planned_run
+from bladerub.study.store import StoredRun
+from bladerub.study.summary import summarise
+
+
+@dataclass(frozen=True)
+class Run:
+    """Outcome of one run, from `simulate` or `read_run`.
+
+    Parameters
+    ----------
+    stored : StoredRun
+        Attributes and datasets, as they are or would be in the file of the run. SI units.
+    longer : Run, optional
+        The same for more revolutions, where the amplitude grows: it shows whether the growth lasts.
+    """
+
+    stored: StoredRun = field(repr=False)
+    longer: "Run | None" = None
+
+    @property
+    def attributes(self) -> dict[str, Any]:
+        """What the run is, and its counters: the attributes of its file."""
+        return self.stored.attributes
+
+    @property
+    def case(self) -> CoatingCase:
+        """Casing, coating and law of friction, normalised."""
+        return CoatingCase.described(self.attributes)
+
+    @property
+    def f_omega(self) -> float:
+        """Rotational frequency over the first eigenfrequency at rest."""
+        return self.attributes["f_omega"]
+
+    @property
+    def revolutions(self) -> int:
+        """Length of the run."""
+        return self.attributes["revolutions"]
+
+    @property
+    def status(self) -> str:
+        """``"completed"``, or ``"unbounded"`` when a displacement exceeded the limit."""
+        return self.attributes["status"]
+
+    @property
+    def angle(self) -> np.ndarray:
+        """Casing angle (n,) of the element centres, rad."""
+        return self.stored.data["angle"]
+
+    @property
+    def wear(self) -> np.ndarray:
+        """Permanent shortening (8, n) of the coating under each interface node, m."""
+        return self.stored.data["wear"]
+
+    @property
+    def energy(self) -> Energy:
+        """Energy ledger, J; ``energy.residual`` is what it misses, relative."""
+        names = (each.name for each in fields(Energy))
+        return Energy(**{name: float(self.stored.data[f"energy_{name}"]) for name in names})
+
+    @property
+    def radial_displacement(self) -> np.ndarray:
+        """Radial displacement of node 1 over the run, m: mean over the passage of each element.
+
+        Raises
+        ------
+        InputError
+            If the file of the run does not hold it.
+        """
+        if "radial_displacement" not in self.stored.data:
+            right = "the study keeps the displacement of runs under analysis.histories alone; simulate it"
+            raise InputError("radial_displacement", None, right)
+        return self.stored.data["radial_displacement"]
+
+    @property
+    def revolution_peak(self) -> np.ndarray:
+        """Largest absolute radial displacement of node 1 in each revolution, m; NaN after an early end."""
+        return self.stored.data["revolution_peak"]
+
+    @property
+    def revolution_amplitude(self) -> np.ndarray:
+        """Half the range of the radial displacement of node 1 in each revolution, m; NaN likewise."""
+        return self.stored.data["revolution_amplitude"]
+
+    @property
+    def spectrum(self) -> pd.Series:
+        """Amplitude of the radial displacement of node 1 (m) by engine order, over the last revolutions."""
+        data = self.stored.data
+        order = pd.Index(data["spectrum_order"], name="engine_order")
+        return pd.Series(data["spectrum_amplitude"], order, name="amplitude")
+
+    def verdict(self, settings: Mapping[str, Any]) -> Verdict:
+        """Judge the growth of the run, and of its longer run if there is one.
+
+        `settings` are ``config["analysis"]["divergence"]`` of the study; see `bladerub.study.growth`.
+        """
+        longer = self.longer.revolution_amplitude if self.longer else None
+        return judge(self.revolution_amplitude, self.status, settings, longer)
+
+    def summary(self, config: Mapping[str, Any]) -> dict[str, Any]:
+        """Summarise the run by the settings of the study `config`; keys as of `bladerub run --json`.
+
+        They are those of `bladerub.study.summary.summarise`: peak amplitude and its engine order, wear,
+        lobes, growth and verdict, steps, status.
+        """
+        return summarise(self.stored, config["analysis"], self.longer and self.longer.stored)
+
+    def plot_wear(self, path: str | Path | None = None) -> Figure:
+        """Draw the worn depth around the casing (mean of the nodes); `path` to write it there as well."""
+        return saved(single_run.wear(self.angle, self.wear.mean(axis=0), self._title), path)
+
+    def plot_history(self, path: str | Path | None = None) -> Figure:
+        """Draw the radial displacement of node 1 over the run and its amplitude; `path` as `plot_wear`.
+
+        Raises
+        ------
+        InputError
+            As `radial_displacement`.
+        """
+        displacement = self.radial_displacement
+        figure = single_run.history(
+            self.stored.data["revolution"], displacement, self.revolution_amplitude, self._title
+        )
+        return saved(figure, path)
+
+    def plot_spectrum(self, path: str | Path | None = None) -> Figure:
+        """Draw the amplitude over the engine order; `path` as `plot_wear`."""
+        spectrum = self.spectrum
+        return saved(single_run.spectrum(spectrum.index, spectrum.to_numpy(), self._title), path)
+
+    def to_xarray(self) -> xr.Dataset:
+        """Return all datasets with units and names, and the attributes."""
+        return to_dataset(store.variables(self.stored), self.attributes)
+
+    def to_pandas(self) -> pd.DataFrame:
+        """Return a row for each revolution: ``revolution_peak`` and ``revolution_amplitude``, m."""
+        columns = ("revolution_peak", "revolution_amplitude")
+        number = pd.Index(self.stored.data["revolution_number"], name="revolution")
+        return pd.DataFrame({name: self.stored.data[name] for name in columns}, number)
+
+    def write(self, path: str | Path, config: Mapping[str, Any]) -> None:
+        """Write the run of the study `config` to the HDF5 file `path`, whole or not at all.
+
+        Raises
+        ------
+        OSError
+            If it cannot be written; the message names the file.
+        """
+        store.write_run(path, self.stored, provenance(config))
+
+    @property
+    def _title(self) -> str:
+        return f"{titles.coating(self.case)}, {titles.speed(self.f_omega)}"
+
+    def _repr_html_(self) -> str:
+        rows = {
+            "coating": self.case.name,
+            "speed": f"{self.f_omega:g} of the first frequency at rest",
+            "revolutions": f"{self.revolutions}",
+            "status": self.status,
+            "largest radial displacement": f"{1e3 * np.nanmax(self.revolution_peak):.4g} mm",
+            "greatest wear": f"{1e3 * self.wear.max():.4g} mm",
+            "energy residual": f"{self.energy.residual:.2g}",
+        }
+        return html_table("Run", rows)
+
+
+def simulate(
+    blade: Blade, run: StudyRun, *, follow: bool = True, progress: bool = False, each: Callable | None = None
+) -> Run:
+    """Simulate one run.
+
+    Parameters
+    ----------
+    blade : Blade
+        The blade, from `build_blade` or `read_blade`.
+    run : StudyRun
+        The run, from `Study.run` or `StudyCoating.at`.
+    follow : bool
+        Whether a run that grows is repeated for more revolutions, as the study does: its `Run.longer`.
+    progress : bool
+        Whether a bar shows the revolutions done.
+    each : callable, optional
+        Called with the number of revolutions done after each of them.
+
+    Returns
+    -------
+    Run
+        With the whole displacement of node 1.
+
+    Raises
+    ------
+    ValueError
+        If the speed is outside the range of the blade, or the time step of the study too long.
+
+    Examples
+    --------
+    >>> import bladerub as br
+    >>> study = br.default_study()
+    >>> run = br.simulate(br.build_blade(study), study.run("2nd", E=2, K=0.5, f_omega=0.19))  # doctest: +SKIP
+    >>> run.status  # doctest: +SKIP
+    'completed'
+    """
+    if run.f_omega > blade.reduced.f_omega_max:
+        right = (
+            f"must be at most {blade.reduced.f_omega_max:g} (normalised), the highest speed of {blade.path}"
+        )
+        raise InputError("f_omega", run.f_omega, right)
+    compile_kernel()
+    with tqdm(total=run.spec.revolutions, unit="rev", disable=not progress, leave=False) as bar:
+
+        def done(revolutions: int) -> None:
+            bar.update(revolutions - bar.n)
+            if each:
+                each(revolutions)
+
+        return solve(blade, run, follow, done)
+
+
+def solve(
+    blade: Blade,
+    run: StudyRun,
+    follow: bool,
+    done: Callable[[int], None] | None = None,
+    keep_history: bool = True,
+) -> Run:
+    """Simulate `run`, and its longer run if it is to `follow` growth; parameters as of `simulate`."""
+    digest, settings = blade.digest, run.config["analysis"]["divergence"]
+    if blade.length != run.config["blade"]["length"]:  # of another study: clearances are in this unit
+        run = run.of_length(blade.length)
+    stored = _solve(blade, run, run.spec, digest, done, keep_history)
+    longer = None
+    amplitude, status = stored.data["revolution_amplitude"], stored.attributes["status"]
+    longest = settings["confirmation_revolutions"]
+    if follow and longest > run.spec.revolutions and needs_confirmation(amplitude, status, settings):
+        spec = confirmation_spec(run.spec, settings)
+        longer = Run(_solve(blade, run, spec, digest, done, keep_history=False))
+    return Run(stored, longer)
+
+
+def _solve(
+    blade: Blade,
+    run: StudyRun,
+    spec: RunSpec,
+    digest: str,
+    done: Callable[[int], None] | None,
+    keep_history: bool,
+) -> StoredRun:
+    result = solver.simulate(blade.reduced, spec, progress=done)
+    plan = planned_run(run.config, spec, f"{speed_name(spec.f_omega)}.h5", keep_history)
+    key, analysis = plan.key(digest), run.config["analysis"]
+    return store.stored_run(run.case, spec, result, key, analysis, keep_history)
+
+
+def read_run(path: str | Path) -> Run:
+    """Read one run of a study, such as ``results/runs/2nd_E2_K0.5_theta0/0.1900.h5``.
+
+    The longer run of the study is read with it, where there is one.
+
+    Raises
+    ------
+    OSError
+        If the file is missing, damaged or not a run; the message names it.
+    """
+    longer = confirmation_path(path)
+    return Run(store.read_run(path), Run(store.read_run(longer)) if longer.exists() else None)

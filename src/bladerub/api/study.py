@@ -1,0 +1,298 @@
+"""A study: its config, and the coatings and runs that can be asked of it."""
+
+from collections.abc import Collection, Mapping
+from dataclasses import dataclass, field
+from difflib import get_close_matches
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from bladerub.api.errors import InputError
+from bladerub.api.notebook import html_table
+from bladerub.config import read as configuration
+from bladerub.config.checks import most_revolutions
+from bladerub.config.schema import check_quantity
+from bladerub.contact.spec import RunSpec
+from bladerub.io.folders import CONFIG, ROOT, base_config, study_folder
+from bladerub.study import grid
+from bladerub.study.grid import CoatingCase
+
+_MOST_REVOLUTIONS = 10_000
+
+
+@dataclass(frozen=True)
+class StudyRun:
+    """One run of a study: a coating at one speed, from `Study.run` or `StudyCoating.at`.
+
+    Parameters
+    ----------
+    config : mapping
+        The config of the study, for a run of this length.
+    case : CoatingCase
+        Casing, coating and law of friction, normalised.
+    spec : RunSpec
+        The same in SI units, with everything else that the run is.
+    """
+
+    config: Mapping[str, Any] = field(repr=False)
+    case: CoatingCase
+    spec: RunSpec = field(repr=False)
+
+    @property
+    def f_omega(self) -> float:
+        """Rotational frequency over the first eigenfrequency at rest."""
+        return self.spec.f_omega
+
+    def of_length(self, length: float) -> "StudyRun":
+        """Describe the same run of a blade of this `length` (m): clearances and limits are in this unit."""
+        config = {**self.config, "blade": {**self.config["blade"], "length": length}}
+        return StudyRun(config, self.case, grid.run_spec(config, self.case, self.f_omega))
+
+    @property
+    def name(self) -> str:
+        """Coating and speed as in paths, for instance ``2nd_E2_K0.5_theta0.15/0.1900``."""
+        return f"{self.case.name}/{grid.speed_name(self.f_omega)}"
+
+
+@dataclass(frozen=True)
+class StudyCoating:
+    """One coating of a study, or the rigid casing, from `Study.coating` or `Study.rigid`.
+
+    Parameters
+    ----------
+    config : mapping
+        The config of the study.
+    case : CoatingCase
+        Casing, coating and law of friction, normalised.
+    """
+
+    config: Mapping[str, Any] = field(repr=False)
+    case: CoatingCase
+
+    @property
+    def name(self) -> str:
+        """Name in paths, for instance ``2nd_E2_K0.5_theta0.15``."""
+        return self.case.name
+
+    def at(self, f_omega: float, revolutions: int | None = None) -> StudyRun:
+        """Describe the run at the speed `f_omega` (normalised), of so many revolutions.
+
+        Raises
+        ------
+        InputError
+            If `f_omega` or `revolutions` is not possible.
+
+        Examples
+        --------
+        >>> import bladerub as br
+        >>> br.default_study().coating("2nd", E=2, K=0.5).at(0.19).name
+        '2nd_E2_K0.5_theta0/0.1900'
+        """
+        _check("f_omega", f_omega)
+        config = self.config if revolutions is None else _of_length(self.config, revolutions)
+        return StudyRun(config, self.case, grid.run_spec(config, self.case, f_omega))
+
+
+@dataclass(frozen=True)
+class Study:
+    """A study: everything that its config says.
+
+    Parameters
+    ----------
+    config : mapping
+        The values of the config, checked, as in ``config/config.yaml``: SI units, or as said there.
+    folder : Path
+        Folder of the study. Paths of the config are relative to it.
+
+    Examples
+    --------
+    >>> import bladerub as br
+    >>> study = br.default_study()
+    >>> len(study.coatings), study.speeds[[0, -1]].tolist()
+    (62, [0.05, 0.5])
+    """
+
+    config: Mapping[str, Any] = field(repr=False)
+    folder: Path
+
+    @property
+    def results(self) -> Path:
+        """Folder of the results of the workflow."""
+        return self.folder / self.config["results"]
+
+    @property
+    def coatings(self) -> list[StudyCoating]:
+        """Coatings that the study lists."""
+        return [StudyCoating(self.config, case) for case in grid.coating_cases(self.config)]
+
+    @property
+    def speeds(self) -> np.ndarray:
+        """Speeds (n,) of the study, ascending, normalised."""
+        return np.array(grid.speeds(self.config))
+
+    def coating(
+        self, casing: str, *, E: float, K: float, theta: float | None = None, friction: float | None = None
+    ) -> StudyCoating:
+        """Describe an abradable coating, which need not be one that the study lists.
+
+        Parameters
+        ----------
+        casing : str
+            Name of a casing of the config, for instance ``"2nd"``.
+        E, K : float
+            Young modulus and plastic modulus, normalised.
+        theta : float, optional
+            Angle of the abradable elements, rad: the contact force has this constant direction. Default 0.
+        friction : float, optional
+            Instead of `theta`: coefficient of Coulomb friction, opposed to the sliding of each node.
+
+        Raises
+        ------
+        InputError
+            If a value is not possible; the message says which and what would be right.
+
+        Examples
+        --------
+        >>> import bladerub as br
+        >>> br.default_study().coating("2nd", E=1.1, K=0.5).name
+        '2nd_E1.1_K0.5_theta0'
+        """
+        if friction is not None and theta is not None:
+            raise InputError("friction", friction, "goes without theta, which says the same")
+        _check("E", E)
+        _check("K", K)
+        if friction is None:
+            return self._checked(CoatingCase, casing, E, K, theta=theta or 0.0)
+        return self._checked(CoatingCase.coulomb, casing, E, K, friction=friction)
+
+    def rigid(self, casing: str, *, friction: float = 0.0) -> StudyCoating:
+        """Describe direct contact with the rigid casing under Coulomb's coefficient `friction`.
+
+        Raises
+        ------
+        InputError
+            As `coating`.
+
+        Examples
+        --------
+        >>> import bladerub as br
+        >>> br.default_study().rigid("2nd", friction=0.1).name
+        '2nd_rigid_mu0.1'
+        """
+        return self._checked(CoatingCase.rigid, casing, friction=friction)
+
+    def run(
+        self,
+        casing: str,
+        *,
+        E: float,
+        K: float,
+        f_omega: float,
+        theta: float | None = None,
+        friction: float | None = None,
+        revolutions: int | None = None,
+    ) -> StudyRun:
+        """Describe the run of an abradable coating at one speed; see `coating` and `StudyCoating.at`.
+
+        Examples
+        --------
+        >>> import bladerub as br
+        >>> br.default_study().run("2nd", E=2, K=0.5, theta=0.15, f_omega=0.19).spec.revolutions
+        20
+        """
+        return self.coating(casing, E=E, K=K, theta=theta, friction=friction).at(f_omega, revolutions)
+
+    def _checked(self, make: Any, casing: str, *moduli: float, **tangential: float) -> StudyCoating:
+        casings = self.config["casings"]
+        if casing not in casings:
+            raise InputError("casing", casing, _one_of(casing, casings))
+        for name, value in tangential.items():
+            _check(name, value)
+        values = (*map(float, moduli), *map(float, tangential.values()))
+        return StudyCoating(self.config, make(casing, *values))
+
+    def _repr_html_(self) -> str:
+        speeds, config = self.speeds, self.config
+        rows = {
+            "casings": ", ".join(config["casings"]),
+            "coatings": f"{len(self.coatings)}",
+            "speeds": f"{speeds.size}, from {speeds[0]:g} to {speeds[-1]:g} of the first frequency at rest",
+            "revolutions": f"{config['solver']['revolutions']}",
+            "results": f"{self.results}",
+        }
+        return html_table("Study", rows)
+
+
+def load_study(*paths: str | Path) -> Study:
+    """Read the config of a study and check it.
+
+    Parameters
+    ----------
+    *paths : path-like
+        A whole config, such as ``config/config.yaml``, and files laid over it in order. Files that change
+        only some keys, such as ``config/quick.yaml``, are laid over the config of the study at work, or of
+        the paper if there is none.
+
+    Returns
+    -------
+    Study
+        With the folder of the study at work (`bladerub.io.folders.study_folder`).
+
+    Raises
+    ------
+    ConfigError
+        With a line for each problem: file, line, key, value and what would be right.
+
+    Examples
+    --------
+    >>> import bladerub as br
+    >>> br.load_study().config["solver"]["revolutions"]
+    20
+    """
+    base = base_config()
+    laid_over = [path for path in map(Path, paths) if path.resolve() != base.resolve()]
+    if laid_over and configuration.is_whole(laid_over[0]):
+        base = laid_over.pop(0)
+    return Study(configuration.read(base, *laid_over), study_folder())
+
+
+def default_study() -> Study:
+    """Return the study of the paper, which comes with the package.
+
+    Examples
+    --------
+    >>> import bladerub as br
+    >>> sorted(br.default_study().config["casings"])
+    ['2nd', '2nd5nd', '5nd']
+    """
+    return Study(configuration.read(ROOT / CONFIG), study_folder())
+
+
+def _check(name: str, value: float) -> None:
+    try:
+        check_quantity(name, value)
+    except ValueError as error:
+        raise InputError(name, value, str(error)) from None
+
+
+def _one_of(name: str, known: Collection[str]) -> str:
+    close = get_close_matches(str(name), known, n=1)
+    return f"must be one of {', '.join(known)}" + (f"; did you mean {close[0]}?" if close else "")
+
+
+def _of_length(config: Mapping[str, Any], revolutions: int) -> dict[str, Any]:
+    """Change a config to runs of so many revolutions: its analysis looks at no more."""
+    most = min(_MOST_REVOLUTIONS, most_revolutions(config))
+    if not isinstance(revolutions, int) or not 2 <= revolutions <= most:
+        raise InputError("revolutions", revolutions, f"must be from 2 to {most}")
+    analysis, divergence = config["analysis"], config["analysis"]["divergence"]
+    shorter = {
+        "spectrum_revolutions": min(analysis["spectrum_revolutions"], revolutions),
+        "divergence": {**divergence, "revolutions": min(divergence["revolutions"], revolutions)},
+    }
+    return {
+        **config,
+        "solver": {**config["solver"], "revolutions": revolutions},
+        "analysis": {**analysis, **shorter},
+    }

@@ -1,0 +1,40 @@
+"""Which config made the results: the files laid over the study's own, and the values of the command line."""
+
+import json
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict, dataclass, field
+from pathlib import Path
+from typing import Any
+
+from bladerub.io import atomic
+
+FILE = "config.json"
+"""Name of the record in the results folder."""
+
+
+@dataclass(frozen=True)
+class Record:
+    """What was laid over the config of the study."""
+
+    files: Sequence[str]  # in order, relative to the folder of the study
+    command_line: Mapping[str, Any] = field(default_factory=dict)  # what ``snakemake --config`` was given
+
+    def __str__(self) -> str:
+        given = [f"{key}={value}" for key, value in self.command_line.items()]
+        return f"--config {' '.join([*self.files, *given])}"
+
+
+def write(results: str | Path, files: Sequence[str | Path], command_line: Mapping[str, Any]) -> None:
+    """Record in the folder `results` what its results are made with."""
+    text = json.dumps(asdict(Record([str(path) for path in files], dict(command_line))), indent=2)
+    with atomic.writing(Path(results) / FILE) as stream:
+        stream.write(text + "\n")
+
+
+def read(results: Path) -> Record | None:
+    """Read the record of the folder `results`: None if it has none, or nothing was laid over the config."""
+    try:
+        record = Record(**json.loads((results / FILE).read_text(encoding="utf-8")))
+    except (OSError, ValueError, TypeError):
+        return None
+    return record if record.files or record.command_line else None
