@@ -15,7 +15,7 @@ def files_behind(*modules: str) -> list[str]:
 
     Snakemake does not follow imports. What is computed in other subpackages reaches a rule by the files that
     it reads. Modules are named below ``bladerub``, such as ``"study.maps"``. The paths are sorted, and
-    relative to the working directory if they are in it.
+    those of the repository if it is the working directory.
     """
     subpackages = {module.partition(".")[0] for module in modules}
     found, waiting = set(), list(modules)
@@ -24,10 +24,12 @@ def files_behind(*modules: str) -> list[str]:
         if path not in found:
             found.add(path)
             waiting += [name for name in _imports(path) if name.partition(".")[0] in subpackages]
-    here = Path.cwd()
-    return sorted(
-        (path.relative_to(here) if path.is_relative_to(here) else path).as_posix() for path in found
-    )
+    return sorted(_as_input(path).as_posix() for path in found)
+
+
+def _as_input(path: Path) -> Path:
+    in_repository = path.relative_to(PACKAGE.parents[1])
+    return in_repository if in_repository.is_file() else path
 
 
 def _path_of(module: str) -> Path:
