@@ -35,7 +35,7 @@ from bladerub.blade.rotation import equilibrium
 from bladerub.blade.sources import mesh_file
 from bladerub.blade.surface import boundary_faces
 from bladerub.config import read as configuration
-from bladerub.io.sources import ROOT
+from bladerub.io.folders import ROOT
 
 BLADE = ROOT / "config" / "blades" / "twisted_plate.inp"  # of config/twisted_plate.yaml
 
