@@ -40,7 +40,7 @@ def jacobians(mesh: SolidMesh) -> tuple[np.ndarray, float]:
     determinant = mesh.mapping().detDF(points)
     bad = np.flatnonzero((determinant <= 0).any(axis=1))
     if bad.size == len(determinant):
-        raise ValueError("all elements are left-handed: the mesh is mirrored, or its nodes count backwards")
+        raise ValueError("all elements are left-handed; the mesh must not be mirrored, nor count backwards")
     if bad.size:
         share = f"{bad.size} such of {len(determinant)}"
         raise ValueError(f"element {bad[0] + 1}: its Jacobian is negative, it is turned inside out ({share})")
