@@ -4,12 +4,12 @@ import argparse
 import sys
 
 from bladerub import __version__
-from bladerub.cli import benchmark, export, import_blade, run, status, verify
+from bladerub.cli import benchmark, export, import_blade, new, run, status, verify
 from bladerub.cli.inputs import Parser
 from bladerub.config.errors import ConfigError
 from bladerub.io.errors import BadInput, message_for
 
-_COMMANDS = (run, status, verify, benchmark, export, import_blade)
+_COMMANDS = (new, run, status, verify, benchmark, export, import_blade)
 
 
 def parser() -> argparse.ArgumentParser:

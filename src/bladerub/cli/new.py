@@ -1,0 +1,40 @@
+"""``bladerub new``: a study of one's own, in a folder."""
+
+import argparse
+import shutil
+from pathlib import Path
+from typing import Any
+
+from bladerub.cli import inputs
+from bladerub.cli.inputs import InputError, refused
+from bladerub.io.folders import ROOT
+
+_TEMPLATE = Path(__file__).with_name("template")
+_COPIED = ("config", "profiles")
+_OF_THE_PACKAGE = ("schema.yaml", "__pycache__")
+
+
+def add_to(commands: Any) -> None:
+    """Add this command to the subparsers `commands`."""
+    parser = commands.add_parser(
+        "new",
+        help="lay out a study of one's own",
+        description="Make a folder with a Snakefile, the config of the paper's study and its variations, and "
+        "a README. `snakemake -j2` there computes what its config says.",
+    )
+    parser.add_argument("folder", type=Path, help="new or empty folder", metavar="FOLDER")
+    parser.set_defaults(command=new)
+
+
+def new(options: argparse.Namespace) -> None:
+    """Lay out a study in the folder that the command line names."""
+    folder = options.folder
+    if folder.is_file() or (folder.is_dir() and any(folder.iterdir())):
+        raise InputError(f"{folder}: is there already, must be a new or an empty folder")
+    inputs.require_writable("folder", folder / "Snakefile")
+    with refused(OSError):
+        for name in _COPIED:
+            shutil.copytree(ROOT / name, folder / name, ignore=shutil.ignore_patterns(*_OF_THE_PACKAGE))
+        shutil.copytree(_TEMPLATE, folder, dirs_exist_ok=True)
+        (folder / ".gitignore").write_text("results/\n.snakemake/\n", encoding="utf-8")
+    print(f"{folder}: edit config/config.yaml, then: cd {folder} && snakemake -j2")
