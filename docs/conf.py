@@ -20,6 +20,7 @@ nitpicky = True
 myst_enable_extensions = ["colon_fence", "deflist"]
 myst_heading_anchors = 3  # links to headings, as GitHub makes them
 
+autodoc_typehints = "none"  # docstrings have shapes and units as well
 numpydoc_show_class_members = False
 
 sphinx_gallery_conf = {

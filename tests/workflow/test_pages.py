@@ -1,0 +1,127 @@
+"""The commands of the README and of the tutorials do what these say; those of the guides plan jobs.
+
+They are run as they are written, in a copy of the repository whose studies are tiny. Its environment is the
+one that runs this test: `.ci/run` makes it by the README's own command.
+"""
+
+import copy
+import re
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+import pytest
+import yaml
+from conftest import TINY
+from workspace import ROOT, Workspace
+
+INSTALL = "python3 -m venv .venv && .venv/bin/pip install -r environment.txt"
+BLOCK = re.compile(r"^```sh\n(.*?)^```$", re.M | re.S)
+GUIDES = sorted((ROOT / "docs" / "how-to").glob("*.md"))
+
+
+def blocks(page: str | Path) -> list[str]:
+    """Return the blocks of commands of a page, without installation and tests."""
+    found = BLOCK.findall((ROOT / page).read_text(encoding="utf-8"))
+    return [block for block in map(_without_installation, found) if block.strip()]
+
+
+def _without_installation(block: str) -> str:
+    lines = [line.removeprefix(INSTALL).removeprefix(" && ") for line in block.splitlines()]
+    return "\n".join(line for line in lines if line != ".venv/bin/pytest")
+
+
+def merge(below: dict[str, Any], above: dict[str, Any]) -> dict[str, Any]:
+    """Lay a config over another one, as the workflow does."""
+    both = copy.deepcopy(below)
+    for key, value in above.items():
+        nested = isinstance(value, dict) and isinstance(both.get(key), dict)
+        both[key] = merge(both[key], value) if nested else value
+    return both
+
+
+def run(page: str | Path, workspace: Workspace) -> str:
+    """Run all commands of a page in one shell; return what they print."""
+    done = subprocess.run(
+        ["bash", "-euo", "pipefail", "-c", "\n".join(blocks(page))],
+        cwd=workspace.folder,
+        env=workspace.environment,
+        stdin=subprocess.DEVNULL,
+        capture_output=True,
+        text=True,
+        timeout=600,
+    )
+    assert done.returncode == 0, done.stdout[-3000:] + done.stderr[-3000:]
+    return done.stdout
+
+
+@pytest.fixture(scope="module")
+def clone(study: Workspace, tmp_path_factory: pytest.TempPathFactory) -> Workspace:
+    """A copy of the complete tiny study, in which the full and the quick study are both the tiny one."""
+    clone = study.copy(tmp_path_factory.mktemp("clone") / "bladerub")
+    config = clone.folder / "config" / "config.yaml"
+    config.write_text(yaml.safe_dump(merge(yaml.safe_load(config.read_text()), TINY), sort_keys=False))
+    (clone.folder / "config" / "quick.yaml").write_text(yaml.safe_dump(TINY, sort_keys=False))
+    (clone.folder / ".venv").symlink_to(sys.prefix)
+    return clone
+
+
+@pytest.fixture(scope="module")
+def full_study(tmp_path_factory: pytest.TempPathFactory) -> Workspace:
+    """The full study, of which nothing has been computed; for plans only."""
+    return Workspace.at(tmp_path_factory.mktemp("full"))
+
+
+def test_the_installation_is_the_one_of_the_readme():
+    assert (ROOT / "README.md").read_text().count(INSTALL) == 2
+    assert blocks("README.md") == [
+        ".venv/bin/snakemake -j2",
+        ".venv/bin/snakemake -j2 --configfile config/quick.yaml",
+    ]
+
+
+def test_the_commands_of_the_readme(clone: Workspace):
+    run("README.md", clone)
+    assert (clone.results / "explorer.html").exists()
+
+
+def test_the_first_study(clone: Workspace):
+    printed = run("docs/tutorials/first_study.md", clone)
+    assert printed.count("maximum wear") == 2
+    assert "C1a" in printed
+    assert "xarray.Dataset" in printed
+
+
+def test_a_study_of_ones_own(clone: Workspace):
+    run("docs/tutorials/own_study.md", clone)
+    results = clone.folder / "results_my_study"
+    assert sorted(path.stem for path in (results / "maps").glob("*.h5")) == [
+        "2nd_E1.1_K0.5_theta0",
+        "2nd_E1.1_K1_theta0",
+        "2nd_E2_K0.5_theta0",
+        "2nd_E2_K1_theta0",
+    ]
+    assert (results / "figures" / "wear_map" / "2nd_E2_K1_theta0.png").exists()
+
+
+def test_a_blade_of_ones_own(clone: Workspace):
+    run("docs/tutorials/own_blade.md", clone)
+    figures = clone.folder / "results_my_blade" / "figures"
+    made = sorted(path.relative_to(figures).as_posix() for path in figures.glob("**/*.png"))
+    assert made == ["fig01_blade.png", "fig02_campbell.png", "wear_map/2nd_E2_K0.5_theta0.png"]
+
+
+@pytest.mark.parametrize(
+    ("page", "command"),
+    [
+        pytest.param(page, line, id=f"{page.stem}: {line.removeprefix('.venv/bin/snakemake ')}")
+        for page in GUIDES
+        for block in blocks(page)
+        for line in block.splitlines()
+        if line.startswith(".venv/bin/snakemake ") and "slurm" not in line and "--report" not in line
+    ],
+)
+def test_a_guide_names_targets_that_exist(page: Path, command: str, full_study: Workspace):
+    done = full_study.snakemake(*command.split()[1:], "--dry-run", "--quiet")
+    assert done.returncode == 0, done.stderr
