@@ -11,12 +11,15 @@ from bladerub.study.grid import coating_cases
 min_version("9.0")
 
 GIVEN = workflow.config_settings.config  # of the command line
+FILES = list(
+    workflow.configfiles
+)  # of the command line as well, until `configfile` appends to them
 
 # Snakemake knows neither the lines of a file nor the key `extend`: the config is read here, before it reads it
 with bladerub.io.errors.exit_on_error():
     study = bladerub.config.read.read(
         "config/config.yaml",
-        *workflow.configfiles,
+        *FILES,
         command_line=GIVEN,
     )
 
@@ -39,7 +42,7 @@ if workflow.is_main_process:
 onstart:
     with bladerub.io.errors.exit_on_error():
         bladerub.workflow.invocation.prepare(RESULTS)
-        bladerub.config.record.write(RESULTS, workflow.configfiles, GIVEN)
+        bladerub.config.record.write(RESULTS, FILES, GIVEN)
 
 
 wildcard_constraints:

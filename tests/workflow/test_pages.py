@@ -16,6 +16,8 @@ import yaml
 from conftest import TINY
 from workspace import ROOT, Workspace
 
+from bladerub.config import record
+
 INSTALL = "python3 -m venv .venv && .venv/bin/pip install -r environment.txt"
 BLOCK = re.compile(r"^```sh\n(.*?)^```$", re.M | re.S)
 GUIDES = sorted((ROOT / "docs" / "how-to").glob("*.md"))
@@ -86,6 +88,21 @@ def test_the_commands_of_the_readme(clone: Workspace):
     assert (clone.results / "explorer.html").exists()
 
 
+def test_the_python_example_of_the_readme(clone: Workspace):
+    (example,) = re.findall(r"^```python\n(.*?)^```$", (ROOT / "README.md").read_text(), re.M | re.S)
+    done = subprocess.run(
+        [sys.executable, "-W", "error", "-c", example],
+        cwd=clone.folder,
+        env=clone.environment | {"MPLBACKEND": "agg"},
+        capture_output=True,
+        text=True,
+        timeout=300,
+    )
+    assert done.returncode == 0, done.stderr
+    assert done.stdout.startswith("completed ")
+    assert "xarray.Dataset" in done.stdout
+
+
 def test_the_first_study(clone: Workspace):
     printed = run("docs/tutorials/first_study.md", clone)
     assert printed.count("maximum wear") == 2
@@ -103,6 +120,8 @@ def test_a_study_of_ones_own(clone: Workspace):
         "2nd_E2_K1_theta0",
     ]
     assert (results / "figures" / "wear_map" / "2nd_E2_K1_theta0.png").exists()
+    made_with = record.read(results)
+    assert [Path(file).name for file in made_with.files] == ["my_study.yaml"]
 
 
 def test_a_blade_of_ones_own(clone: Workspace):
