@@ -11,9 +11,7 @@ from bladerub.study.grid import coating_cases
 min_version("9.0")
 
 GIVEN = workflow.config_settings.config  # of the command line
-FILES = list(
-    workflow.configfiles
-)  # of the command line as well, until `configfile` appends to them
+FILES = list(workflow.configfiles)  # likewise: `configfile` appends to these
 
 # Snakemake knows neither the lines of a file nor the key `extend`: the config is read here, before it reads it
 with bladerub.io.errors.exit_on_error():

@@ -5,22 +5,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from workspace import Workspace
-
-# every figure can be drawn, but for one coating where the paper has many
-TINY = {
-    "blade": {"mesh": {"chordwise": 7, "thickness": 1, "spanwise": 6}},
-    "reduction": {"accuracy_speeds": 3},
-    "coatings": [
-        {"casing": "2nd5nd", "E": [11], "K": [0.5], "theta": [0.0]},
-        {"casing": "2nd", "E": [0.11, 1.1], "K": [0.5], "theta": [0.0]},
-        {"casing": "2nd", "E": [2], "K": [0.5], "theta": [0.0, 0.15]},
-        {"casing": "2nd", "coating": "rigid", "friction": [0.0]},
-    ],
-    "speeds": {"start": 0.15, "stop": 0.35, "step": 0.04, "extra": [0.197, 0.206]},
-    "solver": {"revolutions": 3},
-    "analysis": {"spectrum_revolutions": 2, "divergence": {"revolutions": 3, "confirmation_revolutions": 6}},
-}
+from workspace import TINY, Workspace
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:

@@ -13,8 +13,7 @@ from typing import Any
 
 import pytest
 import yaml
-from conftest import TINY
-from workspace import ROOT, Workspace
+from workspace import ROOT, TINY, Workspace
 
 from bladerub.config import record
 
