@@ -3,7 +3,6 @@
 from snakemake.utils import min_version
 
 import bladerub.config.read
-import bladerub.config.record
 import bladerub.io.errors
 import bladerub.workflow.invocation
 from bladerub.study.grid import coating_cases
@@ -35,12 +34,12 @@ COATINGS = [case.name for case in coating_cases(config)]
 if workflow.is_main_process:
     with bladerub.io.errors.exit_on_error():
         LIVING = bladerub.workflow.invocation.begin(".snakemake", RESULTS)
+    bladerub.workflow.invocation.plan(RESULTS, FILES, GIVEN)
 
 
 onstart:
     with bladerub.io.errors.exit_on_error():
-        bladerub.workflow.invocation.prepare(RESULTS)
-        bladerub.config.record.write(RESULTS, FILES, GIVEN)
+        bladerub.workflow.invocation.start()
 
 
 wildcard_constraints:

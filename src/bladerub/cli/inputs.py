@@ -129,7 +129,8 @@ def read_config(options: argparse.Namespace) -> dict[str, Any]:
     if made_with is None:
         return config
     print(f"bladerub {options.name}: with {made_with}, as the results were made", file=sys.stderr)
-    return configuration.read(base, *made_with.files, command_line=made_with.command_line)
+    files = [study_folder() / file for file in made_with.files]
+    return configuration.read(base, *files, command_line=made_with.command_line)
 
 
 def blade_path(options: argparse.Namespace, config: dict[str, Any]) -> Path:

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from bladerub.io import atomic
+from bladerub.io.folders import CONFIG
 
 FILE = "config.json"
 """Name of the record in the results folder."""
@@ -25,8 +26,11 @@ class Record:
 
 
 def write(results: str | Path, files: Sequence[str | Path], command_line: Mapping[str, Any]) -> None:
-    """Record in the folder `results` what its results are made with."""
-    text = json.dumps(asdict(Record([str(path) for path in files], dict(command_line))), indent=2)
+    """Record in the folder `results` what its results are made with, in the folder of the study."""
+    here = Path.cwd()
+    paths = [path.relative_to(here) if path.is_relative_to(here) else path for path in map(Path, files)]
+    laid_over = [path.as_posix() for path in paths if path != CONFIG]
+    text = json.dumps(asdict(Record(laid_over, dict(command_line))), indent=2)
     with atomic.writing(Path(results) / FILE) as stream:
         stream.write(text + "\n")
 

@@ -3,9 +3,11 @@
 import shutil
 import sys
 import tempfile
+from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import IO
+from typing import IO, Any
 
+from bladerub.config import record
 from bladerub.extensions.chart.point import PointRow
 from bladerub.io import atomic, lock
 from bladerub.io.errors import DamagedFile
@@ -55,6 +57,25 @@ def _delete_if_wrong(manifest: Path, kind: type[Row]) -> None:
 
 def _print(line: str) -> None:
     print(f"bladerub: {line}", file=sys.stderr)
+
+
+_planned: list[tuple[str, Sequence[str], Mapping[str, Any]]] = []
+
+
+def plan(results: str, files: Sequence[str], given: Mapping[str, Any]) -> None:
+    """Note what this invocation will `start`: its results folder, config files and values of ``--config``."""
+    _planned[:] = [(results, files, given)]
+
+
+def start() -> None:
+    """Begin to compute what was planned: `prepare` its results folder, and record its config there.
+
+    A Snakefile that takes in this workflow as a module calls it from its own ``onstart``, since Snakemake
+    ignores that of a module.
+    """
+    for results, files, given in _planned:
+        prepare(results)
+        record.write(results, files, given)
 
 
 def prepare(results: str | Path) -> None:

@@ -1,0 +1,55 @@
+"""A study of one's own, as `bladerub new` lays it out: the real workflow, taken in as a module."""
+
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+import yaml
+
+MAP = "results/maps/2nd_E1.1_K0.5_theta0.h5"
+OWN_RULE = """
+
+rule own:
+    input:
+        rules.map.output[0].format(coating="2nd_E1.1_K0.5_theta0"),
+    output:
+        "results/own.txt",
+    shell:
+        "du -b {input} > {output}"
+"""
+
+
+@pytest.fixture
+def call(tmp_path, study):
+    """Run a command of the environment in a folder, with the sources of the tests."""
+
+    def call(folder: Path, program: str, *arguments: str) -> str:
+        done = subprocess.run(
+            [Path(sys.executable).with_name(program), *arguments],
+            cwd=folder,
+            env=os.environ | {"PYTHONPATH": str(study.folder / "src")},
+            capture_output=True,
+            text=True,
+        )
+        assert done.returncode == 0, done.stderr
+        return done.stdout
+
+    return call
+
+
+def test_it_computes_its_own_config_and_takes_rules_of_ones_own(tmp_path, call, tiny):
+    call(tmp_path, "bladerub", "new", "own")
+    folder = tmp_path / "own"
+    (folder / "small.yaml").write_text(yaml.safe_dump(tiny))
+    with (folder / "Snakefile").open("a") as snakefile:
+        snakefile.write(OWN_RULE)
+    call(folder, "snakemake", "own", "-j2", "--configfile", "small.yaml")
+    assert (folder / MAP).is_file()
+    assert (folder / "results" / "own.txt").is_file()
+    counts = json.loads(call(folder / "config", "bladerub", "status", "--json"))
+    assert counts["coatings"]["2nd_E1.1_K0.5_theta0"]["missing"] == 0
+    plan = call(folder, "snakemake", "-n", "--quiet", "rules", "--configfile", "small.yaml")
+    assert "fig11_Y4" in plan
