@@ -9,7 +9,7 @@ def open_with_xarray(path):
     return xarray.open_dataset(path, engine="h5netcdf", phony_dims="sort")
 
 
-def test_a_run_file_is_as_the_readme_says(write_run, make_result):
+def test_a_run_file_is_as_the_reference_says(write_run, make_result):
     result = make_result(depth=3e-4)
     with open_with_xarray(write_run(result=result)) as run:
         assert {name: run.attrs[name] for name in ("casing", "E", "K", "theta", "f_omega")} == {
