@@ -14,40 +14,16 @@ def _largest_sum(nodal_diameters: tuple[int, ...], weights: tuple[float, ...]) -
 
 
 def shape(casing: Casing, angle: np.ndarray) -> np.ndarray:
-    """Inward displacement of the casing over its amplitude, at most 1.
-
-    Parameters
-    ----------
-    casing : Casing
-        Nodal diameters and their weights.
-    angle : (...) array_like
-        Casing angle φ, rad.
-
-    Returns
-    -------
-    (...) ndarray
-        ``Σ w_n cos(n φ)`` divided by its maximum.
-    """
+    """Inward displacement at `angle` (rad) over the amplitude: ``Σ w_n cos(n φ)`` divided by its maximum."""
     terms = np.cos(np.multiply.outer(np.asarray(angle), casing.nodal_diameters))
     return terms @ np.asarray(casing.weights) / _largest_sum(casing.nodal_diameters, casing.weights)
 
 
 def gap(casing: Casing, clearance: float | np.ndarray, angle: np.ndarray) -> np.ndarray:
-    """Radial distance from the running blade tip to the unworn coating, m; negative where they overlap.
+    """Gap g₀ of eq. (8) at `angle` (rad), ``c_j + (a − δ) − a s(φ)``, m.
 
-    Parameters
-    ----------
-    casing : Casing
-        The stator.
-    clearance : array_like
-        Clearance c_j of the node, m; broadcast against `angle`.
-    angle : array_like
-        Casing angle φ, rad.
-
-    Returns
-    -------
-    ndarray
-        g₀ of eq. (8): ``c_j + (a − δ) − a s(φ)``.
+    It is negative where tip and coating overlap. `clearance` is that of the node, c_j (m), broadcast against
+    `angle`.
     """
     offset = casing.amplitude - casing.interference
     return clearance + offset - casing.amplitude * shape(casing, angle)

@@ -1,8 +1,8 @@
 """The law of the coating and the profile of the tip without a blade, as Figs. 3 and 4 show them."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from itertools import pairwise
+from typing import NamedTuple
 
 import numpy as np
 
@@ -10,21 +10,12 @@ from bladerub.contact import law, tip
 from bladerub.contact.spec import Coating, TipProfile
 
 
-@dataclass(frozen=True)
-class LoadingCycle:
-    """One abradable element through a loading cycle (Fig. 4).
-
-    Parameters
-    ----------
-    coating : Coating
-        The law's moduli and yield stress.
-    strain, stress, plastic_strain : (n,) ndarray
-        Compressive, along the path; stress normalised.
-    """
+class LoadingCycle(NamedTuple):
+    """One abradable element through a loading cycle (Fig. 4); all compressive, (n,) along the path."""
 
     coating: Coating
     strain: np.ndarray
-    stress: np.ndarray
+    stress: np.ndarray  # Normalised
     plastic_strain: np.ndarray
 
 
@@ -38,34 +29,17 @@ def loading_cycle(coating: Coating, turning_points: Sequence[float], steps: int)
     return LoadingCycle(coating, strain, stress, wear / coating.thickness)
 
 
-@dataclass(frozen=True)
-class PressedElements:
-    """Abradable elements under an interface node at one instant (Fig. 3).
-
-    Parameters
-    ----------
-    coating : Coating
-        Thickness and angle of the elements.
-    width : float
-        Of an element, m.
-    element : (n,) ndarray of int
-        Number of each element, from the one under the node.
-    shortening, wear : (n,) ndarray
-        Of the element, and the permanent part of it, m; what is above it is elastic.
-    stress : (n,) ndarray
-        Compressive, normalised.
-    tip_offset, tip_depth : (m,) ndarray
-        Profile of the tip: offset from the node in element widths, depth below the original surface, m.
-    """
+class PressedElements(NamedTuple):
+    """Abradable elements under an interface node at one instant (Fig. 3)."""
 
     coating: Coating
-    width: float
-    element: np.ndarray
-    shortening: np.ndarray
-    wear: np.ndarray
-    stress: np.ndarray
-    tip_offset: np.ndarray
-    tip_depth: np.ndarray
+    width: float  # Of an element, m
+    element: np.ndarray  # (n,): Number of each element, from the one under the node
+    shortening: np.ndarray  # (n,): Of each element, m
+    wear: np.ndarray  # (n,): The permanent part of it, m; the rest is elastic
+    stress: np.ndarray  # (n,): Compressive, normalised
+    tip_offset: np.ndarray  # (m,): Points of the profile of the tip, from the node, element widths
+    tip_depth: np.ndarray  # (m,): Their depth below the original surface, m
 
 
 def pressed_elements(

@@ -1,57 +1,62 @@
 """Integration of a run segment by segment, and what is kept of it."""
 
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass, field
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
+from bladerub.blade.model import ReducedBlade
+from bladerub.contact import energy
 from bladerub.contact.kernel.loop import Simulation
+from bladerub.contact.schemes import Recurrence
+from bladerub.contact.setup import by_angle, element_angle
+from bladerub.contact.spec import RunSpec
 
 
 class Segment(NamedTuple):
     """A whole revolution or a part of one, at one speed."""
 
-    simulation: Simulation  # What is integrated
+    simulation: Simulation
     revolution: int  # Counted from 0
-    # Elements passed since the start of the revolution, at the start and at the end of the segment
-    first: int
-    last: int
+    first: int  # Elements passed since the start of the revolution, at the start of the segment
+    last: int  # The same at its end
 
 
-@dataclass
 class History:
-    """What is kept of an integration."""
+    """What is kept of an integration; NaN after an early end."""
 
-    # (revolutions, N): Radial displacement of node 1, mean over the passage of each element, m; NaN after
-    # an early end
-    displacement: np.ndarray
-    # (revolutions,): Range of that displacement in each revolution, m; NaN likewise
-    lowest: np.ndarray = field(init=False)
-    highest: np.ndarray = field(init=False)
-    n_steps: int = 0  # Steps made, and those of them with contact
-    n_contact_steps: int = 0
-    revolutions_made: float = 0.0  # Revolutions made
+    def __init__(self, revolutions: int, n_elements: int):
+        # Radial displacement of node 1, mean over the passage of each element, m
+        self.displacement = np.full((revolutions, n_elements), np.nan)
+        # Range of that displacement in each revolution, m
+        self.lowest, self.highest = np.full((2, revolutions), np.nan)
+        self.n_steps = self.n_contact_steps = 0
+        self.revolutions_made = 0.0
 
-    def __post_init__(self):
-        self.lowest, self.highest = np.full((2, len(self.displacement)), np.nan)
-
-    @property
-    def peak(self) -> np.ndarray:
-        """Largest absolute displacement in each revolution, m."""
-        return np.maximum(np.abs(self.lowest), np.abs(self.highest))
-
-    @property
-    def amplitude(self) -> np.ndarray:
-        """Half the range of the displacement in each revolution, m."""
-        return 0.5 * (self.highest - self.lowest)
-
-    def outcome(self, limit: float) -> tuple[str, str]:
-        """Status and message of the run, whose tip must not move by more than `limit` (m)."""
-        if self.revolutions_made == len(self.displacement):
-            return "completed", f"{len(self.displacement)} revolutions completed"
-        made = self.revolutions_made
-        return "unbounded", f"the tip moved by more than {limit:g} m after {made:.2f} revolutions"
+    def outcome(
+        self, blade: ReducedBlade, spec: RunSpec, rule: Recurrence, simulation: Simulation, initial: float
+    ) -> dict[str, Any]:
+        """Fields of `bladerub.contact.result.Outcome`; the blade had `initial` energy (J) at the start."""
+        revolutions, n_elements = self.displacement.shape
+        status, message = "completed", f"{revolutions} revolutions completed"
+        if self.revolutions_made != revolutions:
+            limit, made = spec.displacement_limit, self.revolutions_made
+            status, message = (
+                "unbounded",
+                f"the tip moved by more than {limit:g} m after {made:.2f} revolutions",
+            )
+        return {
+            "status": status,
+            "message": message,
+            "angle": element_angle(n_elements),
+            "wear": by_angle(blade, spec, simulation.state.wear),
+            "radial_displacement": self.displacement.ravel(),
+            "revolution_peak": np.maximum(np.abs(self.lowest), np.abs(self.highest)),
+            "revolution_amplitude": 0.5 * (self.highest - self.lowest),
+            "n_steps": self.n_steps,
+            "n_contact_steps": self.n_contact_steps,
+            "energy": energy.balance(rule, simulation.state, initial, simulation.angle_per_step),
+        }
 
 
 def integrate(
@@ -65,7 +70,7 @@ def integrate(
     Each segment is asked for when those before are done; `progress` is called with the number of revolutions
     done after each of them.
     """
-    history = History(np.full((revolutions, n_elements), np.nan))
+    history = History(revolutions, n_elements)
     for simulation, revolution, first, last in segments:
         made = simulation.advance(history.displacement[revolution, first:last], first)
         history.n_steps += made.n_steps

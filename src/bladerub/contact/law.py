@@ -13,23 +13,13 @@ from bladerub.numerics.vectors import absolute, elementwise, maximum, minimum, w
 
 
 class Element(NamedTuple):
-    """Parameters of the law, each a float, an array or a vector.
+    """Parameters of the law, each a float, an array or a vector."""
 
-    Parameters
-    ----------
-    elastic, hardening : N/m
-        Stiffness that belongs to E and to K.
-    yield_force : N
-        Elastic limit of the unworn element, σ_Y times its area.
-    elastic_compliance, plastic_compliance : m/N
-        1 / elastic and 1 / (elastic + hardening).
-    """
-
-    elastic: np.ndarray
-    hardening: np.ndarray
-    yield_force: np.ndarray
-    elastic_compliance: np.ndarray
-    plastic_compliance: np.ndarray
+    elastic: np.ndarray  # Stiffness that belongs to E, N/m
+    hardening: np.ndarray  # Stiffness that belongs to K, N/m
+    yield_force: np.ndarray  # Elastic limit of the unworn element, σ_Y times its area, N
+    elastic_compliance: np.ndarray  # 1 / elastic, m/N
+    plastic_compliance: np.ndarray  # 1 / (elastic + hardening), m/N
 
 
 def element(coating: Coating, area: float | np.ndarray) -> Element:
@@ -42,28 +32,12 @@ def element(coating: Coating, area: float | np.ndarray) -> Element:
 
 @elementwise
 def return_mapping(element, depth, wear):
-    """Find the force of an element and how much it wears (Fig. 4).
+    """Find the compressive force of an element (N) and how much it wears (m), Fig. 4.
 
-    Parameters
-    ----------
-    element : Element
-        Parameters of the law.
-    depth : float
-        Depth of the tip below the worn surface, m; negative above it.
-    wear : float
-        Permanent shortening before, m.
-
-    Returns
-    -------
-    force : float
-        Compressive force, 0 above the worn surface, N.
-    increment : float
-        Permanent shortening that is added, m.
-
-    Notes
-    -----
-    An element only pushes, so the accumulated plastic strain is wear over thickness. The plastic multiplier
-    is ``Δγ = f / (E + K)``; loading follows ``E_T = E K / (E + K)`` (Simo and Hughes 1998, box 1.4).
+    `depth` is that of the tip below the worn surface (m, negative above it), `wear` the permanent shortening
+    before (m). An element only pushes, so the accumulated plastic strain is wear over thickness. The plastic
+    multiplier is ``Δγ = f / (E + K)``; loading follows ``E_T = E K / (E + K)`` (Simo and Hughes 1998, box
+    1.4).
     """
     trial = element.elastic * depth
     increment = element.plastic_compliance * maximum(trial - elastic_limit(element, wear), 0.0)
@@ -105,21 +79,9 @@ def dissipated_energy(element, wear, increment):
 
 
 def load(coating: Coating, penetration: np.ndarray, wear: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Compress elements of the coating to `penetration`.
+    """Compress worn elements to `penetration`, the depth of the tip below the original surface (m).
 
-    Parameters
-    ----------
-    coating : Coating
-        Moduli, elastic limit and thickness.
-    penetration, wear : array_like
-        Depth of the tip below the original surface and permanent shortening, m; broadcast together.
-
-    Returns
-    -------
-    stress : ndarray
-        Compressive stress, normalised by the coating's modulus unit.
-    wear : ndarray
-        Permanent shortening after it, m.
+    Returns the compressive stress, normalised, and the permanent shortening after it (m).
     """
     penetration, wear = np.asarray(penetration, dtype=float), np.asarray(wear, dtype=float)
     of_unit_force = element(coating, 1 / coating.modulus_unit)

@@ -26,17 +26,9 @@ def modes_at(blade: ReducedBlade, f_omega: float) -> Modes:
 def mode_shapes_at(blade: ReducedBlade, f_omega: float) -> tuple[np.ndarray, np.ndarray]:
     """Diagonalise mass and stiffness, eq. (2), of the blade at the normalised speed `f_omega`.
 
-    Returns
-    -------
-    omega : (n,) ndarray
-        Natural angular frequencies, ascending, rad/s.
-    shapes : (n, n) ndarray
-        Reduced coordinates per unit of each mode, mass-normalised, kg^-1/2.
-
-    Raises
-    ------
-    ValueError
-        If `f_omega` is outside the fitted range or the stiffness is not positive definite there.
+    Returns the natural angular frequencies (n,), ascending, rad/s, and the reduced coordinates per unit of
+    each mode (n, n), mass-normalised, kg^-1/2. Raises `ValueError` if `f_omega` is outside the fitted range
+    or the stiffness is not positive definite there.
     """
     squares, vectors = scipy.linalg.eigh(blade.stiffness(f_omega), blade.mass)
     if squares[0] <= 0:

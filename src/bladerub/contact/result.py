@@ -61,8 +61,8 @@ class Energy:
 
 
 @dataclass(frozen=True)
-class RunResult:
-    """Outcome of one run.
+class Outcome:
+    """What a run and a speed sweep have in common.
 
     Parameters
     ----------
@@ -83,10 +83,32 @@ class RunResult:
     revolution_amplitude : (revolutions,) ndarray
         Half the range of the radial displacement of node 1 in each revolution, m: its vibration without
         the mean deflection; NaN likewise.
-    time_step : float
-        Step used, s.
     n_steps, n_contact_steps : int
         Steps made, and those of them with contact.
+    energy : Energy
+        The ledger.
+    """
+
+    status: str
+    message: str
+    angle: np.ndarray
+    wear: np.ndarray
+    radial_displacement: np.ndarray
+    revolution_peak: np.ndarray
+    revolution_amplitude: np.ndarray
+    n_steps: int
+    n_contact_steps: int
+    energy: Energy
+
+
+@dataclass(frozen=True)
+class RunResult(Outcome):
+    """Outcome of one run, with the fields of `Outcome`.
+
+    Parameters
+    ----------
+    time_step : float
+        Step used, s.
     n_reversed_steps : int
         Steps with contact in which a node that touches did not slide over the casing with the rotation: it
         slid back or, by Coulomb's law, stuck. Without any, both laws of friction give the same run.
@@ -100,23 +122,11 @@ class RunResult:
         Steps whose contact forces did not converge: what they leave of imbalance goes into the run.
     n_modes : int
         Modes that the scheme resolved; the others were condensed.
-    energy : Energy
-        The ledger.
     """
 
-    status: str
-    message: str
-    angle: np.ndarray
-    wear: np.ndarray
-    radial_displacement: np.ndarray
-    revolution_peak: np.ndarray
-    revolution_amplitude: np.ndarray
     time_step: float
-    n_steps: int
-    n_contact_steps: int
     n_reversed_steps: int
     slowest_sliding: float
     n_fallback_steps: int
     n_unconverged_steps: int
     n_modes: int
-    energy: Energy

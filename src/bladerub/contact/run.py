@@ -8,7 +8,7 @@ from bladerub.blade.model import ReducedBlade
 from bladerub.contact import energy
 from bladerub.contact.integration import Segment, integrate
 from bladerub.contact.result import RunResult
-from bladerub.contact.setup import by_angle, element_angle, set_up
+from bladerub.contact.setup import set_up
 from bladerub.contact.spec import RunSpec
 
 
@@ -53,23 +53,13 @@ def simulate(blade: ReducedBlade, spec: RunSpec, progress: Callable[[int], None]
     initial = sum(energy.blade_energy(rule, simulation.state))
     whole = (Segment(simulation, revolution, 0, n_elements) for revolution in range(revolutions))
     history = integrate(whole, revolutions, n_elements, progress)
-    status, message = history.outcome(spec.displacement_limit)
     ledger = simulation.state.ledger
     return RunResult(
-        status=status,
-        message=message,
-        angle=element_angle(n_elements),
-        wear=by_angle(blade, spec, simulation.state.wear),
-        radial_displacement=history.displacement.ravel(),
-        revolution_peak=history.peak,
-        revolution_amplitude=history.amplitude,
+        **history.outcome(blade, spec, rule, simulation, initial),
         time_step=rule.time_step,
-        n_steps=history.n_steps,
-        n_contact_steps=history.n_contact_steps,
         n_reversed_steps=int(ledger[energy.REVERSED, 0]),
         slowest_sliding=1.0 - float(ledger[energy.RETREAT].max()) * simulation.steps_per_element,
         n_fallback_steps=int(ledger[energy.FALLBACK, 0]),
         n_unconverged_steps=int(ledger[energy.UNCONVERGED, 0]),
         n_modes=rule.omega.size,
-        energy=energy.balance(rule, simulation.state, initial, simulation.angle_per_step),
     )

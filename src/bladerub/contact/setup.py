@@ -21,20 +21,14 @@ SEARCH_RANGE = 4
 
 
 def set_up(blade: ReducedBlade, spec: RunSpec) -> tuple[Recurrence, Simulation]:
-    """Prepare a run from rest.
-
-    Raises
-    ------
-    ValueError
-        If the speed is outside the range of the blade, or the step too long for the scheme.
-    """
+    """Prepare a run from rest; raises `ValueError` as `bladerub.contact.run.simulate`."""
     return set_up_modes(modes_at(blade, spec.f_omega), blade, spec)
 
 
 def set_up_modes(modes: Modes, blade: ReducedBlade, spec: RunSpec) -> tuple[Recurrence, Simulation]:
     """Prepare a run as `set_up`, with the modes at its speed."""
     steps_per_element, time_step = _time_step(blade, spec)
-    stiffness = spec.coating.E * _stiffness_unit(blade, spec)  # infinite for the rigid casing
+    stiffness = law.element(spec.coating, element_area(blade, spec)).elastic  # infinite for the rigid casing
     contact = Contact(
         stiffness * 2 * spec.tip.half_width,  # the shares under the tip add up to its width
         *_force_direction(spec.coating),
@@ -97,7 +91,7 @@ def stator_record(blade: ReducedBlade, spec: RunSpec, tip: records.Tip, rule: Re
     stator = records.Stator(
         initial_gap=rows.T,
         minimum_gap=minimum_gap(rows, spec.tip.half_width),
-        law=_law_parameters(blade, spec),
+        law=np.array(law.element(coating, element_area(blade, spec))),  # unused for the rigid casing
         n_elements=coating.n_elements,
         is_rigid=coating.is_rigid,
         normal_factor=normal_factor,
@@ -165,17 +159,6 @@ def _initial_state(modes: Modes, rule: Recurrence, spec: RunSpec, tip: records.T
         approach = np.hypot(tip.radius + radial, tangential) - tip.radius
         state.u[:] = np.concatenate([radial, tangential, approach], axis=1)
     return state
-
-
-def _stiffness_unit(blade: ReducedBlade, spec: RunSpec) -> np.ndarray:
-    """Elastic stiffness (8,) of one element under each node at E = 1, N/m."""
-    return spec.coating.modulus_unit * element_area(blade, spec) / spec.coating.thickness
-
-
-def _law_parameters(blade: ReducedBlade, spec: RunSpec) -> np.ndarray:
-    if spec.coating.is_rigid:
-        return np.zeros((len(law.Element._fields), N_INTERFACE))
-    return np.array(law.element(spec.coating, element_area(blade, spec)))
 
 
 def _self_compliance(rule: Recurrence, coating: Coating) -> np.ndarray:

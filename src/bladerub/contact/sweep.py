@@ -23,44 +23,29 @@ from bladerub.contact import energy
 from bladerub.contact.integration import Segment, integrate
 from bladerub.contact.kernel.loop import Simulation
 from bladerub.contact.modes import Modes, at_tip, mode_shapes_at
-from bladerub.contact.result import Energy
+from bladerub.contact.result import Outcome
 from bladerub.contact.schemes import Recurrence
-from bladerub.contact.setup import by_angle, element_angle, set_up_modes
+from bladerub.contact.setup import set_up_modes
 from bladerub.contact.spec import RunSpec, SweepSpec
 from bladerub.numerics.vectors import LANES
 
 
 @dataclass(frozen=True)
-class SweepResult:
-    """Outcome of one sweep.
+class SweepResult(Outcome):
+    """Outcome of one sweep, with the fields of `Outcome`; its ledger lacks what the change of stiffness does.
 
     Parameters
     ----------
-    status, message, angle, wear, radial_displacement, revolution_peak, revolution_amplitude, n_steps, \
-n_contact_steps
-        As of `bladerub.contact.result.RunResult`.
     f_omega : (revolutions,) ndarray
         Mean speed of each revolution, normalised.
     time : (revolutions,) ndarray
         Middle of each revolution, s from the start.
-    energy : Energy
-        The ledger of a run, without what the change of the stiffness does.
     work_stiffness : float
         Work of the rotation on the blade through the change of its stiffness, J.
     """
 
-    status: str
-    message: str
-    angle: np.ndarray
-    wear: np.ndarray
-    radial_displacement: np.ndarray
-    revolution_peak: np.ndarray
-    revolution_amplitude: np.ndarray
-    n_steps: int
-    n_contact_steps: int
     f_omega: np.ndarray
     time: np.ndarray
-    energy: Energy
     work_stiffness: float
 
     @property
@@ -124,22 +109,11 @@ def simulate_sweep(
     initial = sum(energy.blade_energy(sweep.stage.rule, sweep.stage.simulation.state))
     revolutions = plan[-1].last // n_elements
     history = integrate(sweep.segments(), revolutions, n_elements, progress)
-    status, message = history.outcome(spec.run.displacement_limit)
-    rule, simulation = sweep.stage.rule, sweep.stage.simulation
     f_omega, time = _speed_by_revolution(plan, n_elements, blade.f1_hz)
     return SweepResult(
-        status=status,
-        message=message,
-        angle=element_angle(n_elements),
-        wear=by_angle(blade, spec.run, simulation.state.wear),
-        radial_displacement=history.displacement.ravel(),
-        revolution_peak=history.peak,
-        revolution_amplitude=history.amplitude,
-        n_steps=history.n_steps,
-        n_contact_steps=history.n_contact_steps,
+        **history.outcome(blade, spec.run, sweep.stage.rule, sweep.stage.simulation, initial),
         f_omega=f_omega,
         time=time,
-        energy=energy.balance(rule, simulation.state, initial, simulation.angle_per_step),
         work_stiffness=sweep.work,
     )
 

@@ -11,27 +11,14 @@ from bladerub.numerics.vectors import absolute, elementwise, maximum, minimum
 
 @elementwise
 def relief(tip, offset):
-    """Depth of the profile below its highest point (Fig. 3), m.
+    """Depth of the profile below its highest point (Fig. 3), m, at `offset` element widths from the node.
 
-    Parameters
-    ----------
-    tip : bladerub.contact.spec.TipProfile
-        Or the time loop's record of the tip.
-    offset : float
-        Tangential distance from the node, in element widths.
+    `tip` is a `bladerub.contact.spec.TipProfile`, or the time loop's record of the tip.
     """
     return tip.curvature * (offset * offset)
 
 
 @elementwise
 def coverage(tip, offset):
-    """Share (0 to 1) of an element that the profile covers (Fig. 3).
-
-    Parameters
-    ----------
-    tip : bladerub.contact.spec.TipProfile
-        Or the time loop's record of the tip.
-    offset : float
-        Tangential distance of the element's centre from the node, in element widths.
-    """
+    """Share (0 to 1) of an element that the profile covers (Fig. 3); its centre is `offset` from the node."""
     return maximum(minimum(tip.half_width + 0.5 - absolute(offset), 1.0), 0.0)

@@ -1,26 +1,10 @@
 """Wear and energy of a step: the coating is updated once its forces are found, and the ledger kept."""
 
-import math
-
 from numba import njit
 
-from bladerub.contact.energy import (
-    EXCHANGED,
-    LAST_SHAPE,
-    LAST_WEAR,
-    RADIAL,
-    RETREAT,
-    REVERSED,
-    SHAPE,
-    SLIDING,
-    STORED,
-    STORED_BEFORE,
-    TANGENTIAL,
-    TORQUE,
-    WEAR,
-)
+from bladerub.contact import energy
 from bladerub.contact.gap import closest_position, normal, normal_approach, rotation_distance
-from bladerub.contact.kernel import elements, rigid
+from bladerub.contact.kernel import elements
 from bladerub.numerics.memory import add_to, add_to_number, address_of, load, store
 from bladerub.numerics.vectors import LANES, absolute, all_lanes, broadcast, maximum, where
 
@@ -35,7 +19,7 @@ def update_coating(stator, tip, passed, per_step, state, u, u_before):
     _note_sliding(stator, state, normal_force, factor, position - position_before, per_step)
     if stator.is_rigid:
         stored, loss = broadcast(0.0), broadcast(0.0)
-        shape = rigid.surface(stator, position_before) - rigid.surface(stator, position)
+        shape = elements.rigid_surface(stator, position_before) - elements.rigid_surface(stator, position)
         supplied = 0.5 * (normal_force + load(state.normal_force, LANES)) * shape
     else:
         stored, loss, supplied = elements.update_wear(
@@ -43,41 +27,43 @@ def update_coating(stator, tip, passed, per_step, state, u, u_before):
         )
     store(state.moment, 0, (0.0 - factor) * normal_force * (load(tip.lever, 0) + approach))
     entry = state.ledger
-    store(entry, STORED_BEFORE * LANES, load(entry, STORED * LANES))
-    store(entry, STORED * LANES, stored)
-    store(entry, LAST_WEAR * LANES, loss)
-    store(entry, LAST_SHAPE * LANES, supplied)
-    add_to(entry, WEAR * LANES, loss)
-    add_to(entry, SHAPE * LANES, supplied)
-    add_to(entry, EXCHANGED * LANES, absolute(supplied))
+    store(entry, energy.STORED_BEFORE * LANES, load(entry, energy.STORED * LANES))
+    store(entry, energy.STORED * LANES, stored)
+    store(entry, energy.LAST_WEAR * LANES, loss)
+    store(entry, energy.LAST_SHAPE * LANES, supplied)
+    add_to(entry, energy.WEAR * LANES, loss)
+    add_to(entry, energy.SHAPE * LANES, supplied)
+    add_to(entry, energy.EXCHANGED * LANES, absolute(supplied))
 
 
 @njit(forceinline=True)
 def _note_sliding(stator, state, normal_force, factor, advance, per_step):
     """Note how far nodes in contact lag behind the rotation, and whether one stuck or slid back."""
     slid = where(normal_force > 0.0, advance, per_step)
-    retreat = address_of(state.ledger, RETREAT * LANES)
+    retreat = address_of(state.ledger, energy.RETREAT * LANES)
     store(retreat, 0, maximum(load(retreat, 0), per_step - slid))
     withheld = where(normal_force > 0.0, factor - stator.tangential_factor, 0.0)
     if not all_lanes((slid > 0.0) & (withheld <= 0.0)):
-        add_to_number(state.ledger, REVERSED * LANES, 1.0)
+        add_to_number(state.ledger, energy.REVERSED * LANES, 1.0)
 
 
 @njit(forceinline=True)
-def add_work(stator, tip, per_step, state, u_after, u, u_before):
-    """Add the work of the forces at `u`, over half of the path from the step before to the step after."""
+def add_work(stator, tip, angle, state, u_after, u, u_before):
+    """Add the work of the forces at `u`, over half of the path from the step before to the step after.
+
+    The blade rotates by `angle` (rad) in a step.
+    """
     entry = state.ledger
     more_radial = 0.5 * (load(u_after, 0) - load(u_before, 0))
     more_tangential = 0.5 * (load(u_after, LANES) - load(u_before, LANES))
     by_radial = load(state.force, 2 * LANES) * more_radial
     by_tangential = load(state.force, 3 * LANES) * more_tangential
-    add_to(entry, RADIAL * LANES, by_radial)
-    add_to(entry, TANGENTIAL * LANES, by_tangential)
-    add_to(entry, EXCHANGED * LANES, absolute(by_radial) + absolute(by_tangential))
-    add_to(entry, TORQUE * LANES, load(state.moment, LANES))
+    add_to(entry, energy.RADIAL * LANES, by_radial)
+    add_to(entry, energy.TANGENTIAL * LANES, by_tangential)
+    add_to(entry, energy.EXCHANGED * LANES, absolute(by_radial) + absolute(by_tangential))
+    add_to(entry, energy.TORQUE * LANES, load(state.moment, LANES))
 
     if stator.tangential_factor != 0.0:
-        angle = per_step * (2.0 * math.pi / stator.n_elements)
         _add_sliding(stator, tip, angle, state, load(u, 0), load(u, LANES), more_radial, more_tangential)
 
 
@@ -94,4 +80,4 @@ def _add_sliding(stator, tip, angle, state, radial, tangential, more_radial, mor
     sliding = rotation + normal_radial * more_tangential - normal_tangential * more_radial
     closer = normal_radial * more_radial + normal_tangential * more_tangential
     taken = friction_force * sliding - (1.0 + stator.normal_factor) * normal_force * closer
-    add_to(state.ledger, SLIDING * LANES, taken)
+    add_to(state.ledger, energy.SLIDING * LANES, taken)

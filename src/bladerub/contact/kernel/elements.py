@@ -1,4 +1,4 @@
-"""The abradable elements under the tip's nodes (Fig. 3), a lane a node."""
+"""The abradable elements under the tip's nodes (Fig. 3), or the rigid casing, a lane a node."""
 
 import math
 
@@ -40,6 +40,19 @@ def rows_under(tip, behind, ahead):
     return first, math.floor(largest_lane(ahead) + tip.half_width)
 
 
+@njit
+def rigid_surface(stator, position):
+    """Return the initial gap to the rigid casing, which no node may pass, eq. (9), m.
+
+    The surface is smooth through the centres of the elements.
+    """
+    found = broadcast(0.0)
+    for row in range(math.floor(smallest_lane(position)) - 1, math.floor(largest_lane(position)) + 2):
+        weight = maximum(1.0 - absolute((row + 0.5) - position), 0.0)
+        found = found + weight * load(stator.initial_gap, wrap(row, stator.n_elements) * LANES)
+    return found
+
+
 @njit(forceinline=True)
 def linearise(stator, tip, wear, position, rows, approach):
     """Press the elements under each node by its `approach`, but leave them as they are.
@@ -73,21 +86,8 @@ def update_wear(stator, tip, wear, position, approach, position_before, approach
     rotation. Between the ends of the step, approach and profile change linearly, and the law is integrated
     exactly along that path.
 
-    Parameters
-    ----------
-    position, approach : vector
-        Of the nodes at the end of the step: rows, less than N from those before, and m.
-    position_before, approach_before : vector
-        The same at its start.
-
-    Returns
-    -------
-    stored : vector
-        Elastic energy in the elements, J.
-    dissipated : vector
-        Energy taken by wear in this step, J.
-    supplied : vector
-        Work of the rotation on the elements in this step, J.
+    Positions are in rows, less than N from those before. Returns the elastic energy in the elements, the
+    energy taken by wear in this step, and the work of the rotation on the elements in this step, J.
     """
     element = load_fields(law.Element, stator.law)
     stored, dissipated, supplied = broadcast(0.0), broadcast(0.0), broadcast(0.0)

@@ -12,9 +12,8 @@ from numba import njit
 from bladerub.contact import law
 from bladerub.contact.friction import contact_force
 from bladerub.contact.gap import closest_position, is_within_limit, normal, normal_approach, penetration
-from bladerub.contact.kernel import rigid
 from bladerub.contact.kernel.coulomb import mobilise
-from bladerub.contact.kernel.elements import wrap
+from bladerub.contact.kernel.elements import rigid_surface, wrap
 from bladerub.contact.tip import coverage, relief
 from bladerub.numerics.memory import address_of, load, read, read_fields, store, write
 from bladerub.numerics.vectors import LANES
@@ -43,7 +42,7 @@ def gauss_seidel(modal, stator, tip, state, passed, u, tolerance):
         here = closest_position(tip, load(u, LANES), passed)
         store(position, 0, here)
         if stator.is_rigid:
-            store(surface, 0, rigid.surface(stator, here))
+            store(surface, 0, rigid_surface(stator, here))
         if stator.coulomb:
             towards = normal_approach(tip, load(u, 0), load(u, LANES))
             normal_radial, normal_tangential = normal(tip, load(u, 0), load(u, LANES), towards)

@@ -33,11 +33,9 @@ CLEANING_INTERVAL = 32
 class Progress(NamedTuple):
     """What was integrated in a revolution or a part of it."""
 
-    # Steps, free flights that many of them were made in, and steps with contact; fewer steps than asked
-    # for when a displacement exceeds the limit
-    n_steps: int
-    n_flights: int
-    n_contact_steps: int
+    n_steps: int  # Fewer than asked for when a displacement exceeds the limit
+    n_flights: int  # Free flights, which many of the steps were made in
+    n_contact_steps: int  # Steps with contact
     lowest: float  # Range of the radial displacement of node 1, m
     highest: float
 
@@ -45,18 +43,8 @@ class Progress(NamedTuple):
 class Simulation:
     """A blade and a stator, ready to be integrated.
 
-    Parameters
-    ----------
-    modal : bladerub.contact.kernel.modal.Modal
-        Coefficients of the scheme.
-    flight : bladerub.contact.kernel.free_flight.FreeFlight
-        The same for many steps of free flight.
-    stator, tip : bladerub.contact.kernel.records.Stator, bladerub.contact.kernel.records.Tip
-        Coating and casing, and the tip of the blade.
-    state : bladerub.contact.kernel.records.State
-        Where the run is; `advance` moves it on.
-    steps_per_element : int
-        Time steps in the passage of one element.
+    `modal` are the coefficients of the scheme for one step, `flight` those for many steps of free flight.
+    `advance` changes `state`. The passage of one element takes `steps_per_element` time steps.
     """
 
     def __init__(
@@ -79,15 +67,10 @@ class Simulation:
         return 2 * np.pi / (self.steps_per_element * self.stator.n_elements)
 
     def advance(self, displacement: np.ndarray, first: int = 0) -> Progress:
-        """Integrate one revolution of constant speed, or a part of it.
+        """Integrate a revolution, or the part of it from element `first` on, at constant speed.
 
-        Parameters
-        ----------
-        displacement : (n,) ndarray
-            Filled with the radial displacement of node 1, mean over the passage of each element, m; n = N
-            makes one revolution.
-        first : int, optional
-            Elements that have been passed since the start of the revolution.
+        `displacement` (n,) is filled with the radial displacement of node 1, mean over the passage of each
+        element, m; n = N makes one revolution.
         """
         last = first + displacement.size
         turns, *made = _integrate(
@@ -99,11 +82,12 @@ class Simulation:
 
 
 class Step(NamedTuple):
-    """One step: whether there was contact before it, elements passed at its end, and elements a step."""
+    """One step of the rotation."""
 
-    touched: bool
-    passed: float
-    per_step: float
+    touched: bool  # Whether there was contact before it
+    passed: float  # Elements passed at its end
+    per_step: float  # Elements passed in it
+    angle: float  # Angle passed in it, rad
 
 
 class Rows(NamedTuple):
@@ -169,8 +153,7 @@ def _contact(modal, stator, tip, state, step, rows, clear_of_casing):
         clear(state.response, 2 * LANES)
     else:
         if stator.coulomb:
-            angle = step.per_step * (2.0 * np.pi / stator.n_elements)
-            predict_sliding(modal, state, rows.q_next, rows.q, angle)
+            predict_sliding(modal, state, rows.q_next, rows.q, step.angle)
             within = find_forces(modal, stator, tip, step.passed, state, rows.u_next, True)
         else:
             within = find_forces(modal, stator, tip, step.passed, state, rows.u_next, False)
@@ -184,7 +167,7 @@ def _contact(modal, stator, tip, state, step, rows, clear_of_casing):
         radial, tangential = correct(modal, state.force, rows.q_next)
         _store_displacement(tip, radial, tangential, rows.u_next)
     if step.touched:
-        add_work(stator, tip, step.per_step, state, rows.u_next, rows.u, rows.u_before)
+        add_work(stator, tip, step.angle, state, rows.u_next, rows.u, rows.u_before)
         clear(address_of(state.normal_force, LANES), LANES)
     return True, touching
 
@@ -201,6 +184,7 @@ def _integrate(modal, flight, stator, tip, state, steps_per_element, first, last
     turns = n_flights = n_contact = 0
     bottom, top = np.inf, -np.inf
     per_step = 1.0 / steps_per_element
+    angle = per_step * (2.0 * np.pi / stator.n_elements)
     touched = touching = largest_lane(load(state.normal_force, 0)) > 0.0
     flew, far = False, 0.0
     damping = broadcast(0.0)
@@ -239,7 +223,7 @@ def _integrate(modal, flight, stator, tip, state, steps_per_element, first, last
                 step += 1
                 is_clear = _is_clear(tip, radial, tangential, approach, minimum_gap)
                 if touched or not is_clear:
-                    now = Step(touched, element + step * per_step, per_step)
+                    now = Step(touched, element + step * per_step, per_step, angle)
                     rows = Rows(q, q_next, u_before, u, u_next)
                     within, touching = _contact(modal, stator, tip, state, now, rows, is_clear)
                     if not within:
