@@ -49,25 +49,11 @@ def benchmark(
     cores: int | None = None,
     progress: Callable[[str], None] = lambda stage: None,
 ) -> dict[str, Any]:
-    """Measure the time loop beside plain loops and beside the arithmetic of the processor.
+    """Measure the time loop beside plain loops and beside the arithmetic of the processor, `rounds` times.
 
-    Parameters
-    ----------
-    blade : ReducedBlade
-        The blade.
-    config : mapping
-        The study; its abradable coating and speed in the middle of their lists are measured.
-    rounds : int
-        How often everything is measured.
-    cores : int, optional
-        On which the study would run, all there are by default.
-    progress : callable, optional
-        Called with the name of each stage.
-
-    Returns
-    -------
-    dict
-        The figures, as ``bladerub benchmark --json`` prints them.
+    The coating and speed are those in the middle of the lists of the study `config`, which would run on
+    `cores` (all by default). `progress` is called with the name of each stage. Returns the figures that
+    ``bladerub benchmark --json`` prints.
     """
     progress("finding a run with contact in a third of the steps")
     touching, share = in_contact(blade, _middle_run(config))
@@ -97,6 +83,10 @@ def benchmark(
     cores = cores or os.cpu_count() or 1
     median = statistics.median
     flops = {name: useful_flops(blade, spec) for name, spec in specs.items()}
+
+    def ratio(loop: str, name: str) -> float:
+        return median(row[loop] / row["production"] for row in seconds[name])
+
     return {
         "rounds": rounds,
         "modes": set_up(blade, touching)[0].omega.size,
@@ -105,10 +95,10 @@ def benchmark(
             loop: {name: 1 / median(row[loop] for row in rows) for name, rows in seconds.items()}
             for loop in ("numpy", "numba", "production")
         },
-        "ratio_to_numpy": median(row["numpy"] / row["production"] for row in seconds["contact"]),
-        "ratio_to_numba": median(row["numba"] / row["production"] for row in seconds["contact"]),
-        "ratio_to_numpy_free": median(row["numpy"] / row["production"] for row in seconds["free"]),
-        "ratio_to_numba_free": median(row["numba"] / row["production"] for row in seconds["free"]),
+        "ratio_to_numpy": ratio("numpy", "contact"),
+        "ratio_to_numba": ratio("numba", "contact"),
+        "ratio_to_numpy_free": ratio("numpy", "free"),
+        "ratio_to_numba_free": ratio("numba", "free"),
         "peak_flops": median(operations),
         **{
             f"fraction_of_peak_{name}": median(
@@ -124,15 +114,7 @@ def benchmark(
 
 
 def in_contact(blade: ReducedBlade, spec: RunSpec) -> tuple[RunSpec, float]:
-    """Bring the casing nearer or further until the tip touches it in about a third of the steps.
-
-    Returns
-    -------
-    spec : RunSpec
-        With the interference of the casing that was found.
-    share : float
-        Of steps in contact.
-    """
+    """Find the interference of the casing that gives contact in about `SHARE` of the steps; return both."""
     near, far = 2 * spec.casing.amplitude, 0.0
     for _ in range(12):
         interference = 0.5 * (near + far)
@@ -178,11 +160,10 @@ def _plain(integrate: Callable, blade: ReducedBlade, spec: RunSpec, steps: int) 
 
 
 def _production(blade: ReducedBlade, spec: RunSpec) -> float:
-    seconds = []
-    for _ in range(REPEATS):
-        _, simulation = set_up(blade, spec)
-        seconds.append(sum(_timed(_revolve, simulation) for _ in range(spec.revolutions)))
-    return statistics.median(seconds)
+    repeated = (set_up(blade, spec)[1] for _ in range(REPEATS))
+    return statistics.median(
+        sum(_timed(_revolve, simulation) for _ in range(spec.revolutions)) for simulation in repeated
+    )
 
 
 def _revolve(simulation: Simulation) -> Progress:

@@ -5,8 +5,6 @@ node, which no run of the study needs: modes, tip and contact forces a step at a
 modes, nodes and elements. It runs in Python, and compiled by numba.
 """
 
-from typing import NamedTuple
-
 import numpy as np
 
 from bladerub.contact import law
@@ -16,71 +14,39 @@ from bladerub.contact.schemes import Recurrence
 from bladerub.contact.tip import coverage, relief
 
 
-class Profile(NamedTuple):
-    """Profile of the tip, for `bladerub.contact.tip`."""
-
-    half_width: float
-    curvature: float
-
-
 def arguments(rule: Recurrence, simulation: Simulation) -> tuple:
     """Take from a run what `integrate` needs, copying what it changes."""
-    stator, tip = simulation.stator, simulation.tip
-    n = rule.omega.size
-    return (
-        (rule.now, rule.before, rule.tip * rule.gain, np.ascontiguousarray(rule.tip), rule.compliance),
-        law.Element(*stator.law),
-        stator.self_compliance,
-        (tip.start, tip.per_metre, tip.radius),
-        Profile(tip.half_width, tip.curvature),
-        (tip.limit, stator.normal_factor, stator.tangential_factor),
-        stator.initial_gap,
-        stator.minimum_gap,
-        simulation.state.wear.copy(),
-        simulation.state.q[:, :n].copy(),
-        simulation.steps_per_element,
-    )
+    modes = rule.now, rule.before, rule.tip * rule.gain, np.ascontiguousarray(rule.tip), rule.compliance
+    wear, q = simulation.state.wear.copy(), simulation.state.q[:, : rule.omega.size].copy()
+    stator = simulation.stator
+    return modes, law.Element(*stator.law), stator, simulation.tip, wear, q, simulation.steps_per_element
 
 
-def integrate(
-    modes,
-    element,
-    self_compliance,
-    nodes,
-    profile,
-    numbers,
-    gap,
-    minimum_gap,
-    wear,
-    q,
-    steps_per_element,
-    displacement,
-):
+def integrate(modes, element, stator, tip, wear, q, steps_per_element, displacement):
     """Make as many steps as `displacement` (n,) takes, that of node 1, m; `wear` is changed in place."""
-    now, before, by_force, tip, compliance = modes
-    start, per_metre, radius = nodes
-    limit, normal_factor, tangential_factor = numbers
+    now, before, by_force, to_tip, compliance = modes
+    normal_factor, tangential_factor = stator.normal_factor, stator.tangential_factor
+    gap, n_elements, radius = stator.initial_gap, stator.n_elements, tip.radius
     force = np.zeros(16)
-    n_elements = len(gap)
     for step in range(displacement.size):
         q_next = now * q[0] - before * q[1] + force @ by_force
         q[2], q[1] = q[1], q[0]
         q[0] = q_next
-        u = tip @ q_next
+        u = to_tip @ q_next
         passed = (step + 1) / steps_per_element % n_elements
         approach = np.sqrt((radius + u[:8]) ** 2 + u[8:] ** 2) - radius
-        if force.any() or approach.max() > minimum_gap[step // steps_per_element % n_elements]:
+        if force.any() or approach.max() > stator.minimum_gap[step // steps_per_element % n_elements]:
             free = u
             u = free + force @ compliance
             approach = np.sqrt((radius + u[:8]) ** 2 + u[8:] ** 2) - radius
             for _ in range(MAX_ITERATIONS):
-                position = start + passed + u[8:] * per_metre
-                first = int(np.floor(position.min() - profile.half_width))
-                rows = np.arange(first, int(np.floor(position.max() + profile.half_width)) + 1)
+                position = tip.start + passed + u[8:] * tip.per_metre
+                first = int(np.floor(position.min() - tip.half_width))
+                rows = np.arange(first, int(np.floor(position.max() + tip.half_width)) + 1)
                 offset = (rows + 0.5).reshape(-1, 1) - position
-                share = coverage(profile, offset)
+                share = coverage(tip, offset)
                 worn = wear[rows % n_elements]
-                depth = approach - relief(profile, offset) - gap[rows % n_elements] - worn
+                depth = approach - relief(tip, offset) - gap[rows % n_elements] - worn
                 element_force, increment = law.return_mapping(element, depth, worn)
                 slope, _ = law.tangent(element, depth, worn)
                 normal_force = np.sum(share * element_force, axis=0)
@@ -97,8 +63,8 @@ def integrate(
                 residual = approach - np.sqrt((radius + u[:8]) ** 2 + u[8:] ** 2) + radius
                 if np.abs(residual).max() <= TOLERANCE:
                     break
-                approach = approach - residual / (1.0 + self_compliance * stiffness)
+                approach = approach - residual / (1.0 + stator.self_compliance * stiffness)
             wear[rows % n_elements] = worn + np.where(share > 0, increment, 0.0)
-            if np.abs(u).max() > limit:
+            if np.abs(u).max() > tip.limit:
                 break
         displacement[step] = u[0]

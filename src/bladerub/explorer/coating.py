@@ -46,20 +46,16 @@ def parts(
     spectrum_revolutions: int,
     max_frequency: float,
 ) -> dict[str, str]:
-    """Pack one coating; parameters as of `figures.of_runs` and `kept_orders`.
+    """Pack one coating, each part as `encoding.packed`; parameters as of `figures.of_runs` and `kept_orders`.
 
-    Returns
-    -------
-    dict of str to str
-        Each value as `encoding.packed`. ``wear``: bytes, n speeds × m arcs, differences along each row of
-        `linear_steps`. ``spectrum``: bytes, `logarithmic_steps`, the kept orders of each speed one after the
-        other. ``growth``: the same in two bytes (little-endian), for each speed the revolutions of
-        the study's run and of the longer run. ``figures``: JSON, `figures.of_runs` and the scales, in mm.
+    ``wear``: bytes, n speeds × m arcs, differences along each row of `linear_steps`. ``spectrum``: bytes,
+    `logarithmic_steps`, the kept orders of each speed one after the other. ``growth``: the same in two bytes
+    (little-endian), for each speed the revolutions of the study's run and of the longer run. ``figures``:
+    JSON, `figures.of_runs` and the scales, in mm.
     """
     wear, deepest = encoding.linear_steps(arc_means(coating.wear, arcs(coating.angle.size)))
     kept = kept_orders(coating.f_omega, coating.spectrum_order, max_frequency)
-    spectra = [row[:n] for row, n in zip(coating.spectrum_amplitude, kept, strict=True)]
-    spectrum = np.concatenate(spectra)
+    spectrum = np.concatenate([row[:n] for row, n in zip(coating.spectrum_amplitude, kept, strict=True)])
     spectrum_range = AMPLITUDE_FLOOR, encoding.log_range(spectrum, AMPLITUDE_FLOOR)[1]
     growth = np.hstack([coating.revolution_amplitude, coating.confirmation_amplitude])
     growth_range = encoding.log_range(growth, _SMALLEST)

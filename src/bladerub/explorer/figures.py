@@ -28,22 +28,12 @@ def of_case(table: pd.DataFrame, case: CoatingCase) -> pd.DataFrame:
 def of_runs(
     coating: CoatingMap, divergence: pd.DataFrame, runs: list[ManifestRow], spectrum_revolutions: int
 ) -> dict[str, list]:
-    """Figures of every run of one coating, each a list over its speeds.
+    """Figures of every run of one coating, each a list over its speeds, from its map, table and manifest.
 
-    They come from its map, from ``divergence.csv`` and from its manifest; the peak is that of the last
-    `spectrum_revolutions`.
-
-    Returns
-    -------
-    dict
-        `VERDICTS` and ``verdict_status`` of the run that the verdict rests on. Of the run of the study:
-        ``status``, ``run_key``, ``lobes``, ``max_wear`` and ``peak`` (mm), and ``order`` and
-        ``order_amplitude`` (mm) of the largest spectral amplitude; NaN without a spectrum.
-
-    Raises
-    ------
-    ValueError
-        If table, manifest and map are not of the same speeds.
+    `VERDICTS` and ``verdict_status`` are of the run that the verdict rests on, all others of the run of the
+    study: lengths in mm, the peak of the last `spectrum_revolutions`, ``order`` and ``order_amplitude`` of
+    the largest spectral amplitude, NaN without a spectrum. Raises `ValueError` if table, manifest and map are
+    not of the same speeds.
     """
     verdicts = of_case(divergence, coating.case).sort_values("f_omega")
     listed = sorted(runs, key=lambda run: run.f_omega)
@@ -53,6 +43,7 @@ def of_runs(
     ):
         if not np.array_equal(speeds, coating.f_omega):
             raise ValueError(f"{source}: not the speeds of the map of {coating.case.name}; make it again")
+    peak = [displacement_peak(row, spectrum_revolutions) for row in coating.revolution_peak]
     strongest = [spectral_peak(coating.spectrum_order, row) for row in coating.spectrum_amplitude]
     return {
         **{name: verdicts[name].tolist() for name in VERDICTS},
@@ -61,9 +52,7 @@ def of_runs(
         "run_key": [run.run_key for run in listed],
         "lobes": coating.lobes.tolist(),
         "max_wear": mm(coating.max_wear).tolist(),
-        "peak": mm(
-            [displacement_peak(row, spectrum_revolutions) for row in coating.revolution_peak]
-        ).tolist(),
+        "peak": mm(peak).tolist(),
         "order": [order for order, _ in strongest],
         "order_amplitude": mm([amplitude for _, amplitude in strongest]).tolist(),
     }

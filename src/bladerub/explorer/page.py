@@ -27,35 +27,17 @@ def build(
     settings: dict[str, Any],
     configs: list[str],
 ) -> str:
-    """Make the page.
+    """Make the page, as HTML; equal data give equal text.
 
-    Parameters
-    ----------
-    map_paths, manifest_paths : list of path-like
-        Map and manifest of each coating, in the same order.
-    peaks, divergence : DataFrame
-        ``peaks.csv`` and ``divergence.csv``.
-    settings : dict
-        See `bladerub.explorer.study.about`.
-    configs : list of str
-        Files that were laid over config/config.yaml.
-
-    Returns
-    -------
-    str
-        HTML; equal data give equal text.
-
-    Raises
-    ------
-    OSError
-        If a map or a manifest cannot be read.
-    ValueError
-        If the coatings were not computed at the same speeds, or the tables are of other ones.
+    `map_paths` and `manifest_paths` have each coating in the same order, `peaks` and `divergence` are
+    ``peaks.csv`` and ``divergence.csv``, `settings` as of `bladerub.explorer.study.about`, `configs` the
+    files that were laid over config/config.yaml. Raises `OSError` if a map or manifest cannot be read, and
+    `ValueError` if the coatings were not computed at the same speeds, or the tables are of other ones.
     """
     coatings, data, scales = [], [], None
-    max_frequency = settings["max_frequency"]
+    revolutions, max_frequency = settings["spectrum_revolutions"], settings["max_frequency"]
     for index, (map_path, manifest_path) in enumerate(zip(map_paths, manifest_paths, strict=True)):
-        each = read_map(map_path)
+        each, runs = read_map(map_path), read_manifest(manifest_path)
         own = study.scales(each, max_frequency)
         scales = scales or own
         if json_text(own) != json_text(scales):
@@ -63,13 +45,8 @@ def build(
                 f"{map_path}: not of the same blade, speeds and angles as {map_paths[0]}; make the maps again"
             )
         coatings.append(study.coating(each.case, peaks, configs))
-        parts = coating.parts(
-            each, divergence, read_manifest(manifest_path), settings["spectrum_revolutions"], max_frequency
-        )
-        data += [
-            f'<script type="application/gzip" id="{name}-{index}">{text}</script>'
-            for name, text in parts.items()
-        ]
+        for name, text in coating.parts(each, divergence, runs, revolutions, max_frequency).items():
+            data.append(f'<script type="application/gzip" id="{name}-{index}">{text}</script>')
     library, program = get_plotlyjs(), "\n".join(map(_text, _PROGRAM))
     return Template(_text("index.html")).substitute(
         policy=_policy(library, program),

@@ -1,5 +1,6 @@
 """What the page holds of the study besides its coatings: axes, names, peaks and colours."""
 
+from dataclasses import asdict
 from typing import Any
 
 import numpy as np
@@ -18,12 +19,8 @@ from bladerub.study.maps import CoatingMap
 def scales(coating: CoatingMap, max_frequency: float) -> dict[str, Any]:
     """Axes that all coatings share, from any of them.
 
-    Returns
-    -------
-    dict
-        ``f_omega`` and ``C1`` (n,); ``speed_edges`` and ``speed_of_bin``, the bins of the maps as
-        `bladerub.plots.bins.with_gaps` makes them, with NaN in the gaps; ``angle_edges``, in degrees;
-        ``order`` (m,) and how many of them are ``kept`` at each speed.
+    ``speed_edges`` and ``speed_of_bin`` are the bins of the maps as of `bladerub.plots.bins.with_gaps`, with
+    NaN in the gaps; ``angle_edges`` are in degrees; ``kept`` is how many entries of ``order`` each speed has.
     """
     speed_edges, speed_of_bin = bins.with_gaps(coating.f_omega, np.arange(coating.f_omega.size))
     return {
@@ -42,11 +39,7 @@ def coating(case: CoatingCase, peaks: pd.DataFrame, configs: list[str]) -> dict[
     return {
         "name": case.name,
         "title": titles.coating(case),
-        "casing": case.casing,
-        "E": case.E,
-        "K": case.K,
-        "theta": case.theta,
-        "law": case.law,
+        **asdict(case),
         "rigid": case.is_rigid,
         "friction": case.friction,
         "command": figures.command(case, configs),
@@ -60,11 +53,8 @@ def coating(case: CoatingCase, peaks: pd.DataFrame, configs: list[str]) -> dict[
 def about(settings: dict[str, Any]) -> dict[str, Any]:
     """Collect what the page says and draws besides the data.
 
-    Parameters
-    ----------
-    settings : dict
-        ``max_frequency`` (normalised), ``amplitude_range`` (m), ``growth_revolutions`` and
-        ``spectrum_revolutions``, from the config.
+    `settings` from the config: ``max_frequency`` (normalised), ``amplitude_range`` (m),
+    ``growth_revolutions`` and ``spectrum_revolutions``.
     """
     return {
         **settings,
@@ -81,8 +71,6 @@ def look() -> dict[str, Any]:
     """Colours and lines of the figures of the paper, for the page to draw in the same."""
     maps = {"wear": style.WEAR_MAP, "amplitude": style.AMPLITUDE_MAP, "height": colormaps[style.HEIGHT_MAP]}
     lines = {"A": style.FIRST["color"], "B": style.SECOND["color"], "dark": style.DARK, "blue": style.BLUE}
-    others = {"red": style.RED, "orange": style.ORANGE, "missing": style.MISSING}
+    lines |= {"red": style.RED, "orange": style.ORANGE, "missing": style.MISSING}
     steps = np.linspace(0, 1, 64)
-    return (
-        {name: [to_hex(each) for each in colours(steps)] for name, colours in maps.items()} | lines | others
-    )
+    return {name: [to_hex(each) for each in colours(steps)] for name, colours in maps.items()} | lines

@@ -22,17 +22,8 @@ def writing(path: str | Path, mode: str = "w") -> Iterator[IO]:
     disk before the file gets its name. (A power failure right after may lose the name: the file is then
     missing, never damaged. To flush the folder as well would double the cost.)
 
-    Parameters
-    ----------
-    path : path-like
-        The file; its folder is made if need be.
-    mode : {"w", "wb"}
-        For text in UTF-8, or for bytes.
-
-    Raises
-    ------
-    OSError
-        If it cannot be written; ``filename`` is `path`.
+    The folder is made if need be. `mode` is ``"w"`` for text in UTF-8, ``"wb"`` for bytes. Raises an
+    `OSError` whose ``filename`` is `path` if it cannot be written.
     """
     path = Path(path)
     temporary = path.with_name(f".{path.name}.{_HOST}.{os.getpid()}.tmp")

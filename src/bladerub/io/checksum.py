@@ -4,18 +4,7 @@ import hashlib
 from pathlib import Path
 
 
-def checksum(content: bytes) -> str:
-    """Return the SHA-256 of `content`, as 64 hexadecimal digits."""
-    return hashlib.sha256(content).hexdigest()
-
-
 def file_checksum(path: str | Path) -> str:
-    """Return the SHA-256 of the bytes of the file at `path`, as 64 hexadecimal digits.
-
-    Raises
-    ------
-    OSError
-        If the file cannot be read.
-    """
+    """Return the SHA-256 of the bytes of the file at `path`, as 64 hexadecimal digits."""
     with open(path, "rb") as stream:
         return hashlib.file_digest(stream, "sha256").hexdigest()

@@ -1,5 +1,6 @@
 """HDF5 files with names, units and dimension scales, written whole or not at all."""
 
+import hashlib
 import io
 import math
 import os
@@ -15,7 +16,6 @@ import h5py
 import numpy as np
 
 from bladerub.io import atomic
-from bladerub.io.checksum import checksum
 from bladerub.io.errors import DamagedFile
 
 _READ_AND_WRITE = 1  # H5LT_FILE_IMAGE_OPEN_RW
@@ -24,22 +24,12 @@ _COMPRESSED_FROM = 1024  # entries; below, the chunk index costs more than it sa
 
 @dataclass(frozen=True)
 class Variable:
-    """One dataset with what a reader must know of it.
+    """One dataset with what a reader must know of it."""
 
-    Parameters
-    ----------
-    dims : tuple of str
-        Name of each dimension; a variable named like its only dimension becomes the scale of that.
-    data : array_like
-        The values, with ``len(dims)`` dimensions; numbers or strings.
-    units, long_name : str
-        SI unit, ``"1"`` for a pure number, and what it is, in words.
-    """
-
-    dims: tuple[str, ...]
-    data: Any
-    units: str
-    long_name: str
+    dims: tuple[str, ...]  # a variable named like its only dimension becomes the scale of that
+    data: Any  # array_like with ``len(dims)`` dimensions: numbers or strings
+    units: str  # SI unit, ``"1"`` for a pure number
+    long_name: str  # what it is, in words
 
 
 def write(
@@ -51,17 +41,8 @@ def write(
     """Write datasets and attributes (numbers and strings) by name to `path`, whole or not at all.
 
     `origin` are more attributes, from `bladerub.io.provenance.provenance`: the same in many files, and not
-    written one by one.
-
-    Returns
-    -------
-    str
-        Checksum of the file, as of `bladerub.io.checksum.file_checksum`.
-
-    Raises
-    ------
-    ValueError
-        If two variables disagree on the length of a dimension.
+    written one by one. Returns the checksum of the file, as of `bladerub.io.checksum.file_checksum`. Raises
+    `ValueError` if two variables disagree on the length of a dimension.
     """
     data = {name: np.asarray(variable.data) for name, variable in variables.items()}
     layout = tuple(
@@ -83,7 +64,7 @@ def write(
         image = file.id.get_file_image()
     with atomic.writing(path, "wb") as stream:
         stream.write(image)
-    return checksum(image)
+    return hashlib.sha256(image).hexdigest()
 
 
 @lru_cache(maxsize=8)
@@ -134,10 +115,7 @@ def _dataset(
 def read(path: str | Path, only: Set[str] | None = None) -> tuple[dict[str, np.ndarray], dict[str, Any]]:
     """Read the datasets, all or `only` these, and attributes of the file at `path`.
 
-    Raises
-    ------
-    OSError
-        If the file is missing or, as `DamagedFile`, not a whole HDF5 file; the message names it.
+    Raises an `OSError` that names the file if it is missing or, as `DamagedFile`, not a whole HDF5 file.
     """
     with _opened(path) as file:
         wanted = file.keys() if only is None else only & file.keys()

@@ -15,12 +15,8 @@ from typing import IO
 def held(path: str | Path, on_wait: Callable[[], object]) -> Iterator[None]:
     """Hold the lock file `path`, which nobody else may hold meanwhile.
 
-    Parameters
-    ----------
-    path : path-like
-        The lock file; it and its folder are made if need be, and stay.
-    on_wait : callable
-        Called once before waiting, if somebody else holds the lock.
+    It and its folder are made if need be, and stay. `on_wait` is called once before waiting, if somebody else
+    holds the lock.
     """
     with _opened(path) as stream:
         with suppress(OSError):  # no such locks here

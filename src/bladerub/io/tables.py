@@ -26,21 +26,8 @@ def write(
 ) -> None:
     """Write `table` to `path`, without its index, and its description next to it.
 
-    Parameters
-    ----------
-    path : path-like
-        The CSV file; its folder is made if need be.
-    table : DataFrame
-        One observation a row; its columns are in `COLUMNS_FILE`.
-    origin : mapping of str to str
-        From `bladerub.io.provenance.provenance`.
-    float_format : str, optional
-        As of pandas.
-
-    Raises
-    ------
-    ValueError
-        If a column has no description, before anything is written.
+    It has one observation a row; `origin` is from `bladerub.io.provenance.provenance`, `float_format` as of
+    pandas. Raises `ValueError`, before anything is written, if a column is not described in `COLUMNS_FILE`.
     """
     path = Path(path)
     text = json.dumps(_description(path.name, table, origin), indent=2, ensure_ascii=False)
@@ -53,10 +40,7 @@ def write(
 def read(path: str | Path, columns: Collection[str] = (), separator: str = ",") -> pd.DataFrame:
     """Read a table that has the columns `columns` and of which every row must be whole.
 
-    Raises
-    ------
-    OSError
-        If the file is missing, breaks off, is not a table or lacks a column; the message names it.
+    Raises an `OSError` that names the file if it is missing, breaks off, is not a table or lacks a column.
     """
     try:
         text = Path(path).read_text(encoding="utf-8")

@@ -11,16 +11,10 @@ from bladerub.plots import style
 
 
 def save(snakemake: Any, figure: Figure | None = None, **named: pd.DataFrame) -> None:
-    """Write the outputs of a job of the workflow.
+    """Write the outputs of a job, whose `snakemake` is what Snakemake hands to a script.
 
-    Parameters
-    ----------
-    snakemake : object
-        What Snakemake hands to a script: ``output``, ``config`` and ``params``, the last with ``dpi``.
-    figure : Figure, optional
-        Goes to the outputs ``png`` and ``pdf``.
-    **named : DataFrame
-        Tables by the name of their output. That of a figure, ``data``, is written to six digits.
+    The figure goes to the outputs ``png`` and ``pdf`` with the parameter ``dpi``, each table to the output of
+    its name; that of a figure, ``data``, is written to six digits.
     """
     for name, table in named.items():
         digits = "%.6g" if name == "data" else None

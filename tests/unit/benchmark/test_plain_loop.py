@@ -23,5 +23,5 @@ def test_the_same_run(blade, spec, change, integrate, E, K, theta):
     per_element = middle.reshape(-1, simulation.steps_per_element).mean(axis=1)
     scale = np.abs(per_element).max()
     np.testing.assert_allclose(result.radial_displacement, per_element, rtol=0, atol=1e-7 * scale)
-    wear = arguments[8]
+    wear = arguments[4]
     np.testing.assert_allclose(np.sort(result.wear), np.sort(wear.T), rtol=0, atol=1e-6 * wear.max())
