@@ -80,3 +80,6 @@ rule all:
         rules.margins.output,
         rules.explorer.output,
         rules.cost.output,
+
+
+include: "src/rules/crate.smk"

@@ -1,0 +1,30 @@
+"""Pack the study as a Workflow RO-Crate: Snakefile, rules, config, and all results but the single runs."""
+
+from pathlib import Path
+
+from rocrate.rocrate import ROCrate
+
+from bladerub.io.folders import ROOT
+from bladerub.io.provenance import provenance
+from bladerub.workflow import job
+
+job.log_to(snakemake.log[0])
+
+WORKFLOW = {
+    "name": "bladerub: contact of a compressor blade with its abradable coating",
+    "description": "Builds a reduced blade, simulates its contact with coatings, collects maps and tables.",
+}
+crate = ROCrate()
+crate.name = "A study with bladerub"
+crate.description = "Wear maps, spectra, peaks and verdicts on divergence, and the workflow that made them."
+crate.license = "https://spdx.org/licenses/BSD-3-Clause"
+for name, value in provenance(snakemake.config).items():
+    entry = {"@id": f"#{name}", "@type": "PropertyValue", "name": name, "value": value}
+    crate.root_dataset.append_to("additionalProperty", crate.add_jsonld(entry))
+crate.add_workflow("Snakefile", main=True, lang="snakemake", properties=WORKFLOW)
+crate.add_directory(ROOT / "src" / "rules", "src/rules", properties={"description": "Rules of the workflow"})
+crate.add_directory("config", "config", properties={"description": "Config of the study and its schema"})
+results = Path(snakemake.params.results)
+for name, description in snakemake.params.folders.items():
+    crate.add_directory(results / name, f"results/{name}", properties={"description": description})
+crate.write_zip(snakemake.output[0])
