@@ -1,6 +1,14 @@
 """Configuration of the site; from the repository's root: `sphinx-build -W -b html docs docs/_build/html`."""
 
+import os
+import sys
+from pathlib import Path
+
 import bladerub
+
+HERE = Path(__file__).parent
+sys.path.insert(0, str(HERE))  # for gallery_pictures
+os.environ.setdefault("BLADERUB_CACHE", str(HERE / "_build" / "cache"))  # examples share a blade
 
 project = "bladerub"
 author = "The bladerub authors"
@@ -32,6 +40,9 @@ sphinx_gallery_conf = {
     "show_signature": False,
     "write_computation_times": False,
     "abort_on_example_error": True,
+    "within_subsection_order": "FileNameSortKey",
+    "image_scrapers": ("matplotlib", "gallery_pictures.scrape"),
+    "ignore_repr_types": r"Figure|Picture|matplotlib|list|int",  # what is shown as a picture already
 }
 
 html_theme = "pydata_sphinx_theme"

@@ -1,9 +1,10 @@
 """A map: all runs of one coating over the speed."""
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -19,6 +20,7 @@ from bladerub.api.notebook import html_table
 from bladerub.api.run import Run, solve
 from bladerub.api.study import StudyCoating, StudyRun
 from bladerub.contact.setup import compile_kernel
+from bladerub.io.provenance import provenance
 from bladerub.plots.spectrum import spectrum_map
 from bladerub.plots.style import saved
 from bladerub.plots.wear_map import wear_map
@@ -94,6 +96,16 @@ class Map:
         columns = {name: getattr(self.coating, name) for name in ("C1", "max_wear", "lobes", "status")}
         last = {name: getattr(self.coating, name)[:, -1] for name in _PER_REVOLUTION}
         return pd.DataFrame(columns | last, index=pd.Index(self.f_omega, name="f_omega"))
+
+    def write(self, path: str | Path, config: Mapping[str, Any]) -> None:
+        """Write the map of the study `config` to the HDF5 file `path`, whole or not at all.
+
+        Raises
+        ------
+        OSError
+            If it cannot be written; the message names the file.
+        """
+        maps.write_map(path, self.coating, provenance(config))
 
     def _repr_html_(self) -> str:
         rows = {

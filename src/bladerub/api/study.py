@@ -232,7 +232,8 @@ def load_study(*paths: str | Path) -> Study:
     *paths : path-like
         A whole config, such as ``config/config.yaml``, and files laid over it in order. Files that change
         only some keys, such as ``config/quick.yaml``, are laid over the config of the study at work, or of
-        the paper if there is none.
+        the paper if there is none. A path is looked for in the working directory, then in the folder of the
+        study, then among the configs that come with the package.
 
     Returns
     -------
@@ -251,7 +252,7 @@ def load_study(*paths: str | Path) -> Study:
     20
     """
     base = base_config()
-    laid_over = [path for path in map(Path, paths) if path.resolve() != base.resolve()]
+    laid_over = [path for path in map(_found, paths) if path.resolve() != base.resolve()]
     if laid_over and configuration.is_whole(laid_over[0]):
         base = laid_over.pop(0)
     return Study(configuration.read(base, *laid_over), study_folder())
@@ -267,6 +268,11 @@ def default_study() -> Study:
     ['2nd', '2nd5nd', '5nd']
     """
     return Study(configuration.read(ROOT / CONFIG), study_folder())
+
+
+def _found(path: str | Path) -> Path:
+    places = (folder / path for folder in (Path(), study_folder(), ROOT))
+    return next((place for place in places if place.is_file()), Path(path))
 
 
 def _check(name: str, value: float) -> None:

@@ -7,6 +7,8 @@ package it uses the law of an element (Fig. 4), the profile of the tip (Fig. 3) 
     history, wear = simulate(blade, spec, n_steps=20_000)
 """
 
+from typing import Any
+
 import numpy as np
 import scipy.linalg
 import scipy.optimize
@@ -19,7 +21,7 @@ from bladerub.contact.tip import coverage, relief
 
 
 def simulate(
-    blade: ReducedBlade, spec: RunSpec, n_steps: int, n_modes: int | None = None
+    blade: ReducedBlade, spec: RunSpec, n_steps: int, n_modes: int | None = None, law: Any = law
 ) -> tuple[np.ndarray, np.ndarray]:
     """Simulate a run by the scheme that `spec` names.
 
@@ -33,6 +35,8 @@ def simulate(
         Time steps.
     n_modes : int, optional
         Modes that the exponential scheme resolves, all by default.
+    law : module or object
+        The law of an element: `bladerub.contact.law` or another with its ``element`` and ``return_mapping``.
 
     Returns
     -------
@@ -42,11 +46,11 @@ def simulate(
         Permanent shortening of the elements, m.
     """
     if spec.scheme == "central_differences":
-        return _central_differences(blade, spec, n_steps)
-    return _exponential(blade, spec, n_steps, n_modes or len(blade.mass))
+        return _central_differences(blade, spec, n_steps, _Coating(blade, spec, law))
+    return _exponential(blade, spec, n_steps, n_modes or len(blade.mass), _Coating(blade, spec, law))
 
 
-def _central_differences(blade, spec, n_steps):
+def _central_differences(blade, spec, n_steps, coating):
     """Integrate eq. (1), M u'' + D u' + K u + F = 0, by the paper's scheme."""
     h = time_step(blade, spec)
     M, K = blade.mass, blade.stiffness(spec.f_omega)  # in the coordinates of eq. (6); K by eq. (2)
@@ -55,7 +59,7 @@ def _central_differences(blade, spec, n_steps):
         M @ modes @ np.diag(2 * spec.damping_ratio * np.sqrt(squares)) @ modes.T @ M
     )  # the same ξ in all modes
     inverse = np.linalg.inv(M / h**2 + D / (2 * h))
-    tip, coating = tip_rows(blade), _Coating(blade, spec)
+    tip = tip_rows(blade)
     u, u_before = np.zeros(len(M)), np.zeros(len(M))
     history = []
     for step in range(1, n_steps + 1):
@@ -67,9 +71,9 @@ def _central_differences(blade, spec, n_steps):
     return np.array(history), coating.wear
 
 
-def _exponential(blade, spec, n_steps, n_modes):
+def _exponential(blade, spec, n_steps, n_modes, coating):
     """Integrate eq. (1) mode by mode, exactly for a force held over two steps; condense the fast modes."""
-    h, coating = time_step(blade, spec), _Coating(blade, spec)
+    h = time_step(blade, spec)
     squares, modes = scipy.linalg.eigh(blade.stiffness(spec.f_omega), blade.mass)
     tip = tip_rows(blade) @ modes
     compliance = (tip[:, n_modes:] / squares[n_modes:]) @ tip[:, n_modes:].T
@@ -106,8 +110,8 @@ def _implicit_forces(coating, time, u, compliance, guess):
 class _Coating:
     """The abradable elements around the casing, a ring for each interface node, and their wear so far."""
 
-    def __init__(self, blade: ReducedBlade, spec: RunSpec):
-        self.spec, n = spec, spec.coating.n_elements
+    def __init__(self, blade: ReducedBlade, spec: RunSpec, law: Any):
+        self.spec, self.law, n = spec, law, spec.coating.n_elements
         x, y, z = blade.node_position.T[:, :, None]  # a row for each interface node
         self.radius, self.node_angle = np.hypot(y, z), spec.casing.start_angle + np.arctan2(y, z)
         outward = np.sum(blade.radial_direction[:, 1:] * blade.node_position[:, 1:], axis=1)[:, None]
@@ -137,7 +141,7 @@ class _Coating:
         gap = self.initial_gap - approach + self.wear
         # Fig. 4, and eq. (9): no force where the gap is open, and never a pulling one
         share = coverage(self.spec.tip, offset)
-        element_force, increment = law.return_mapping(self.element, -gap, self.wear)
+        element_force, increment = self.law.return_mapping(self.element, -gap, self.wear)
         magnitude = np.sum(share * element_force, axis=1, keepdims=True)
         # F_r = −cos θ |F| e_r and F_θ = −sin θ |F| e_θ, at the displaced node
         direction = np.arctan2(u_t, R + u_r) + self.spec.coating.theta
