@@ -99,3 +99,10 @@ def test_the_step_is_the_longest_that_is_allowed(uneven, spec, change, max_time_
     assert simulation.steps_per_element == steps
     assert rule.time_step == pytest.approx(passage / steps)
     assert rule.time_step <= max_time_step
+
+
+def test_no_node_may_move_farther_than_the_search_looks(blade, spec):
+    radius = np.linspace(0.5, 0.7, 8)  # elements are narrowest under the innermost node
+    position = np.column_stack([UNEVEN, np.zeros(8), radius])
+    tip = setup.tip_record(dataclasses.replace(blade, node_position=position), spec)
+    assert np.max(tip.search_range * tip.per_metre) == pytest.approx(SEARCH_RANGE)
