@@ -42,6 +42,14 @@ class Blade:
         Its file. ``mesh.h5`` next to it has the mesh.
     accuracy_path : Path
         Table of the frequencies of finite elements and reduced model.
+
+    Examples
+    --------
+    >>> round(blade.length, 3)
+    0.2
+    >>> blade.frequencies(f_omega=0.3).shape
+    (3,)
+    >>> figure = blade.plot_campbell("campbell.png")
     """
 
     reduced: ReducedBlade = field(repr=False)
@@ -118,6 +126,12 @@ def read_blade(path: str | Path) -> Blade:
         If the file is missing or damaged; the message names it.
     ValueError
         If it holds no valid reduced blade.
+
+    Examples
+    --------
+    >>> import bladerub as br
+    >>> br.read_blade(blade.path).f1_hz == blade.f1_hz
+    True
     """
     path = Path(path)
     beside = path.with_name("rom_accuracy.csv")
@@ -141,9 +155,9 @@ def build_blade(study: Study) -> Blade:
     Examples
     --------
     >>> import bladerub as br
-    >>> blade = br.build_blade(br.default_study())  # doctest: +SKIP
-    >>> round(blade.f1_hz)  # doctest: +SKIP
-    250
+    >>> blade = br.build_blade(study)
+    >>> round(blade.length, 3)
+    0.2
     """
     of_study = study.results / "blade" / "reduced_model.h5"
     if is_built(study.config, of_study):

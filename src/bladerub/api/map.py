@@ -40,6 +40,14 @@ class Map:
     coating : CoatingMap
         The arrays: `bladerub.study.maps.DATASETS` has dimensions, unit and meaning of each. SI units,
         speeds normalised.
+
+    Examples
+    --------
+    >>> sweep.wear.shape
+    (2, 2000)
+    >>> list(sweep.to_pandas().index)
+    [0.19, 0.2]
+    >>> figure = sweep.plot_wear("map.png")
     """
 
     coating: CoatingMap = field(repr=False)
@@ -124,6 +132,13 @@ def read_map(path: str | Path) -> Map:
     ------
     OSError
         If the file is missing, damaged or not a map; the message names it.
+
+    Examples
+    --------
+    >>> import bladerub as br
+    >>> sweep.write("2nd_E2_K0.5_theta0.h5", study.config)
+    >>> br.read_map("2nd_E2_K0.5_theta0.h5").case.name
+    '2nd_E2_K0.5_theta0'
     """
     return Map(maps.read_map(path, with_nodes=True))
 
@@ -156,6 +171,19 @@ def simulate_speeds(
     ------
     InputError
         If a speed is outside the range of the blade, or there are fewer than two.
+
+    Returns
+    -------
+    Map
+        Speeds ascending, each once.
+
+    Examples
+    --------
+    >>> import bladerub as br
+    >>> coating = study.coating("2nd", E=2, K=0.5)
+    >>> sweep = br.simulate_speeds(blade, coating, [0.19, 0.2], jobs=2, progress=False)
+    >>> sweep.status.tolist()
+    ['completed', 'completed']
     """
     runs = [coating.at(f_omega) for f_omega in sorted({float(f) for f in speeds})]
     if len(runs) < 2:
@@ -172,7 +200,9 @@ def simulate_speeds(
 
 
 @threadpool_limits.wrap(limits=1, user_api="blas")  # threads that come and go would change each other's limit
-def _solve_all(blade: Blade, runs: list[StudyRun], jobs: int, follow: bool, done: Callable) -> list[Run]:
+def _solve_all(
+    blade: Blade, runs: list[StudyRun], jobs: int, follow: bool, done: Callable[[], Any]
+) -> list[Run]:
     compile_kernel()
 
     def compute(run: StudyRun) -> Run:

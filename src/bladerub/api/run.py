@@ -42,6 +42,18 @@ class Run:
         Attributes and datasets, as they are or would be in the file of the run. SI units.
     longer : Run, optional
         The same for more revolutions, where the amplitude grows: it shows whether the growth lasts.
+
+    Examples
+    --------
+    >>> run.status
+    'completed'
+    >>> run.wear.shape
+    (8, 2000)
+    >>> run.energy.residual < 1e-3
+    True
+    >>> run.to_xarray()["wear"].units
+    'm'
+    >>> figure = run.plot_wear("wear.png")
     """
 
     stored: StoredRun = field(repr=False)
@@ -133,7 +145,7 @@ class Run:
         They are those of `bladerub.study.summary.summarise`: peak amplitude and its engine order, wear,
         lobes, growth and verdict, steps, status.
         """
-        return summarise(self.stored, config["analysis"], self.longer and self.longer.stored)
+        return summarise(self.stored, config["analysis"], self.longer.stored if self.longer else None)
 
     def plot_wear(self, path: str | Path | None = None) -> Figure:
         """Draw the worn depth around the casing (mean of the nodes); `path` to write it there as well."""
@@ -196,7 +208,12 @@ class Run:
 
 
 def simulate(
-    blade: Blade, run: StudyRun, *, follow: bool = True, progress: bool = False, each: Callable | None = None
+    blade: Blade,
+    run: StudyRun,
+    *,
+    follow: bool = True,
+    progress: bool = False,
+    each: Callable[[int], None] | None = None,
 ) -> Run:
     """Simulate one run.
 
@@ -220,16 +237,17 @@ def simulate(
 
     Raises
     ------
+    InputError
+        If the speed is outside the range of the blade.
     ValueError
-        If the speed is outside the range of the blade, or the time step of the study too long.
+        If the time step of the study is too long for the scheme.
 
     Examples
     --------
     >>> import bladerub as br
-    >>> study = br.default_study()
-    >>> run = br.simulate(br.build_blade(study), study.run("2nd", E=2, K=0.5, f_omega=0.19))  # doctest: +SKIP
-    >>> run.status  # doctest: +SKIP
-    'completed'
+    >>> run = br.simulate(blade, study.run("2nd", E=2, K=0.5, f_omega=0.19))
+    >>> run.revolutions, run.status
+    (20, 'completed')
     """
     if run.f_omega > blade.reduced.f_omega_max:
         right = (
@@ -291,6 +309,19 @@ def read_run(path: str | Path) -> Run:
     ------
     OSError
         If the file is missing, damaged or not a run; the message names it.
+
+    Examples
+    --------
+    >>> import bladerub as br
+    >>> run.write("0.1900.h5", study.config)
+    >>> br.read_run("0.1900.h5").f_omega
+    0.19
     """
     longer = confirmation_path(path)
-    return Run(store.read_run(path), Run(store.read_run(longer)) if longer.exists() else None)
+    return Run(_stored(path), Run(_stored(longer)) if longer.exists() else None)
+
+
+def _stored(path: str | Path) -> StoredRun:
+    """Read a run without the numbers of its nodes, which `to_xarray` and `write` add."""
+    found = store.read_run(path)
+    return StoredRun(found.attributes, {name: data for name, data in found.data.items() if name != "node"})

@@ -33,6 +33,11 @@ class StudyRun:
         Casing, coating and law of friction, normalised.
     spec : RunSpec
         The same in SI units, with everything else that the run is.
+
+    Examples
+    --------
+    >>> study.run("2nd", E=2, K=0.5, theta=0.15, f_omega=0.19).name
+    '2nd_E2_K0.5_theta0.15/0.1900'
     """
 
     config: Mapping[str, Any] = field(repr=False)
@@ -65,6 +70,11 @@ class StudyCoating:
         The config of the study.
     case : CoatingCase
         Casing, coating and law of friction, normalised.
+
+    Examples
+    --------
+    >>> study.coating("2nd", E=2, K=0.5).at(0.19, revolutions=5).spec.revolutions
+    5
     """
 
     config: Mapping[str, Any] = field(repr=False)
@@ -110,7 +120,7 @@ class Study:
     >>> import bladerub as br
     >>> study = br.default_study()
     >>> len(study.coatings), study.speeds[[0, -1]].tolist()
-    (62, [0.05, 0.5])
+    (63, [0.02, 0.4])
     """
 
     config: Mapping[str, Any] = field(repr=False)
@@ -265,7 +275,7 @@ def default_study() -> Study:
     --------
     >>> import bladerub as br
     >>> sorted(br.default_study().config["casings"])
-    ['2nd', '2nd5nd', '5nd']
+    ['2nd', '2nd5nd']
     """
     return Study(configuration.read(ROOT / CONFIG), study_folder())
 

@@ -1,7 +1,7 @@
 """What the schema cannot say of a config: that its parts agree with each other."""
 
 import os
-from collections.abc import Callable, Collection, Iterator
+from collections.abc import Callable, Collection, Iterator, Mapping
 from itertools import accumulate
 from typing import Any
 
@@ -42,7 +42,7 @@ def check(config: Config, broken: Collection[str]) -> list[str]:
     return problems
 
 
-def most_revolutions(config: Config) -> int:
+def most_revolutions(config: Mapping[str, Any]) -> int:
     """Return the revolutions that the samples of a run allow (`MOST_SAMPLES`)."""
     return MOST_SAMPLES // config["contact"]["elements"]
 

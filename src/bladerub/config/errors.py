@@ -33,7 +33,17 @@ class Problem(NamedTuple):
 
 
 class ConfigError(BadInput):
-    """One or more problems of a configuration, one line each."""
+    """One or more problems of a configuration, one line each; ``problems`` has location and text of each.
+
+    Examples
+    --------
+    >>> import bladerub as br
+    >>> try:
+    ...     br.load_study("missing.yaml")
+    ... except br.ConfigError as error:
+    ...     print(len(error.problems))
+    1
+    """
 
     def __init__(self, problems: Iterable[Problem]):
         self.problems = list(problems)

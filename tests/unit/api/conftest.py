@@ -1,0 +1,35 @@
+import pytest
+
+import bladerub as br
+
+SMALL = "blade: {mesh: {chordwise: 7, thickness: 1, spanwise: 6}}\nreduction: {accuracy_speeds: 3}\n"
+
+
+@pytest.fixture(scope="session")
+def small(tmp_path_factory):
+    """A folder with a config whose blade is coarse, and a cache for this blade."""
+    folder = tmp_path_factory.mktemp("api")
+    (folder / "small.yaml").write_text(SMALL + "results: results_of_no_workflow\n")
+    return folder
+
+
+@pytest.fixture(scope="session")
+def study(small):
+    return br.load_study(small / "small.yaml")
+
+
+@pytest.fixture(scope="session")
+def blade(study, small):
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("BLADERUB_CACHE", str(small / "cache"))
+        return br.build_blade(study)
+
+
+@pytest.fixture(scope="session")
+def run(study, blade):
+    return br.simulate(blade, study.run("2nd", E=2, K=0.5, f_omega=0.19, revolutions=3), follow=False)
+
+
+@pytest.fixture(scope="session")
+def sweep(study, blade):
+    return br.simulate_speeds(blade, study.coating("2nd", E=2, K=0.5), [0.2, 0.19], progress=False)

@@ -1,0 +1,21 @@
+import xarray as xr
+
+import bladerub as br
+
+
+def test_blade_is_built_once(study, blade, small, monkeypatch):
+    monkeypatch.setenv("BLADERUB_CACHE", str(small / "cache"))
+    written = blade.path.stat().st_mtime_ns
+    assert br.build_blade(study).path == blade.path
+    assert blade.path.stat().st_mtime_ns == written
+
+
+def test_blade_goes_to_xarray_and_pandas(blade):
+    with xr.open_dataset(blade.path, engine="h5netcdf", phony_dims="sort") as opened:
+        xr.testing.assert_identical(blade.to_xarray(), opened.load())
+    assert {"f_omega", "mode", "f_fe", "f_rom"} <= set(blade.accuracy().columns)
+
+
+def test_blade_shows_itself(blade):
+    assert "<caption>Blade</caption>" in blade._repr_html_()
+    assert blade.plot_mesh()._repr_html_().startswith("<img")

@@ -1,0 +1,44 @@
+"""Every public name is documented, and its examples do what they say."""
+
+import doctest
+import inspect
+
+import pytest
+
+import bladerub as br
+
+NAMES = [name for name in br.__all__ if name != "__version__"]
+
+
+def members(cls):
+    return [
+        (name, value)
+        for name, value in vars(cls).items()
+        if not name.startswith("_")
+        and (inspect.isfunction(value) or isinstance(value, (property, classmethod)))
+    ]
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_public_name_has_a_docstring_an_example_and_documented_members(name):
+    public = getattr(br, name)
+    text = inspect.getdoc(public)
+    assert "Examples\n--------\n" in text
+    if inspect.isclass(public):
+        assert [member for member, value in members(public) if not inspect.getdoc(value)] == []
+    elif inspect.signature(public).parameters:
+        assert "Raises\n------\n" in text
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_examples_of_a_public_name_run(name, study, blade, run, sweep, small, tmp_path, monkeypatch):
+    monkeypatch.setenv("BLADERUB_CACHE", str(small / "cache"))
+    monkeypatch.chdir(tmp_path)
+    names = {"br": br, "study": study, "blade": blade, "run": run, "sweep": sweep}
+    examples = doctest.DocTestFinder().find(getattr(br, name), name, globs=names)
+    runner = doctest.DocTestRunner()
+    for example in examples:
+        runner.run(example)
+    tried, failed = runner.summarize(verbose=False).attempted, runner.failures
+    assert tried > 0
+    assert failed == 0

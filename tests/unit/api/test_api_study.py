@@ -1,0 +1,54 @@
+import pytest
+
+import bladerub as br
+
+
+@pytest.mark.parametrize(
+    ("arguments", "name"),
+    [
+        ({"casing": "2dn"}, "casing"),
+        ({"E": -1}, "E"),
+        ({"K": -1}, "K"),
+        ({"theta": 2.0}, "theta"),
+        ({"friction": -0.1}, "friction"),
+        ({"friction": 0.1, "theta": 0.1}, "friction"),
+        ({"f_omega": 0}, "f_omega"),
+        ({"revolutions": 1}, "revolutions"),
+        ({"revolutions": 2.5}, "revolutions"),
+    ],
+)
+def test_bad_argument_is_named_with_value_and_what_is_right(study, arguments, name):
+    given = {"casing": "2nd", "E": 2, "K": 0.5, "f_omega": 0.19} | arguments
+    with pytest.raises(br.InputError) as caught:
+        study.run(given.pop("casing"), **given)
+    assert caught.value.name == name
+    assert str(caught.value) == f"{name} = {caught.value.value}: {caught.value.right}"
+
+
+def test_misspelt_casing_gets_the_close_one(study):
+    with pytest.raises(br.InputError, match="did you mean 2nd"):
+        study.rigid("2n")
+
+
+def test_config_error_names_file_line_and_key(tmp_path):
+    path = tmp_path / "bad.yaml"
+    path.write_text("\nblade:\n  length: -1\n")
+    with pytest.raises(br.ConfigError) as caught:
+        br.load_study(path)
+    assert str(caught.value).startswith(f"{path}:3: blade.length = -1")
+
+
+def test_config_of_the_package_is_found_from_any_folder(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    assert br.load_study("config/quick.yaml").config["blade"]["mesh"]["thickness"] == 1
+
+
+def test_config_in_the_working_directory_comes_before_that_of_the_package(tmp_path, monkeypatch):
+    (tmp_path / "config").mkdir()
+    (tmp_path / "config" / "quick.yaml").write_text("solver: {revolutions: 30}\n")
+    monkeypatch.chdir(tmp_path)
+    assert br.load_study("config/quick.yaml").config["solver"]["revolutions"] == 30
+
+
+def test_study_shows_itself(study):
+    assert "<caption>Study</caption>" in study._repr_html_()
