@@ -66,3 +66,20 @@ rule config_reference:
         f"{RESULTS}/logs/config_reference.log",
     script:
         "../scripts/config_reference.py"
+
+
+# Without an output: both render README.md and the pages of docs/explanation in place, whenever they are asked for.
+rule docs_data:
+    input:
+        [f"{TABLES}/{name}.csv" for name in ["findings", "peaks", "rom_accuracy"]],
+    log:
+        f"{RESULTS}/logs/docs_data.log",
+    script:
+        "../scripts/docs_data.py"
+
+
+rule docs_pages:
+    log:
+        f"{RESULTS}/logs/docs_pages.log",
+    script:
+        "../scripts/docs_data.py"

@@ -1,0 +1,128 @@
+"""Numbers and verdicts that Markdown pages quote from tables.
+
+A number stands between two comments, the first of which holds its source:
+``<!-- = findings('C1a').measured | fixed(2) -->0.39<!-- / -->``. A sentence that rests on verdicts carries
+them: ``<!-- C6a C6c: partly -->``. Both are invisible on the rendered page. An expression is of Jinja. A
+table is called with the values of its first columns and answers with the one row that has them.
+"""
+
+import re
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import pandas as pd
+from jinja2 import Environment, StrictUndefined, TemplateError
+
+from bladerub.io import tables
+
+TABLES = ("findings", "peaks", "rom_accuracy")
+MARK = re.compile(r"<!-- (?:= (?P<source>.+?)|(?P<end>/)) -->")
+VERDICT = re.compile(r"<!-- (?P<claims>C\d+[a-z]?(?: C\d+[a-z]?)*): (?P<verdict>yes|partly|no) -->")
+
+
+class PageError(ValueError):
+    """A page cannot be rendered; the message names page and line."""
+
+
+class Table:
+    """A table as expressions of pages see it."""
+
+    def __init__(self, name: str, rows: pd.DataFrame) -> None:
+        self.name, self.rows = name, rows
+
+    def __call__(self, *key: Any) -> dict[str, Any]:
+        """Return the one row whose first columns are `key`, with its numbers as numbers."""
+        rows = self._select(dict(zip(self.rows.columns, key, strict=False)))
+        if len(rows) != 1:
+            raise LookupError(f"{self.name}{key}: {len(rows)} rows")
+        return {column: _number(value) for column, value in rows.iloc[0].items()}
+
+    def count(self, **values: Any) -> int:
+        """Count the rows that have `values` in the columns of these names."""
+        return len(self._select(values))
+
+    def _select(self, values: Mapping[str, Any]) -> pd.DataFrame:
+        rows = self.rows
+        for column, value in values.items():
+            rows = rows[rows[column] == value]
+        return rows
+
+
+def read_tables(folder: Path) -> dict[str, Table]:
+    """Read the snapshots that pages quote."""
+    return {name: Table(name, tables.read(folder / f"{name}.csv")) for name in TABLES}
+
+
+def pages_of(root: Path) -> list[Path]:
+    """Return the pages of the repository at `root` that may quote numbers."""
+    return [root / "README.md", *sorted((root / "docs" / "explanation").glob("*.md"))]
+
+
+def render(text: str, page: str, data: Mapping[str, Table]) -> str:
+    """Return `text` with each number replaced by the value of its source.
+
+    Raises `PageError`, which names page and line, for a bad expression or a missing comment.
+    """
+    environment = Environment(undefined=StrictUndefined, autoescape=False)
+    environment.filters |= {"fixed": _fixed, "percent": _percent}
+    done, position, opened = [], 0, None
+    for mark in MARK.finditer(text):
+        where = f"{page}:{_line(text, mark.start())}"
+        if bool(mark["end"]) != bool(opened):
+            raise PageError(
+                f"{where}: {'no number begins' if mark['end'] else 'the number before has no end'}"
+            )
+        if mark["end"]:
+            done.append(_value(environment, opened["source"], data, where))
+        else:
+            done.append(text[position : mark.end()])
+        position, opened = (mark.start(), None) if mark["end"] else (mark.end(), mark)
+    if opened:
+        raise PageError(f"{page}:{_line(text, opened.start())}: the number has no end <!-- / -->")
+    return "".join([*done, text[position:]])
+
+
+def differences(text: str, page: str, data: Mapping[str, Table]) -> list[str]:
+    """Name page, line and text of each stale number and each changed verdict; raise as `render`."""
+    lines = zip(text.split("\n"), render(text, page, data).split("\n"), strict=True)
+    found = []
+    for number, (old, new) in enumerate(lines, 1):
+        if old != new:
+            found.append(f"{page}:{number}: stale number, now: {new}")
+        for mark in VERDICT.finditer(old):
+            try:
+                verdicts = {claim: data["findings"](claim)["holds"] for claim in mark["claims"].split()}
+            except LookupError as error:
+                raise PageError(f"{page}:{number}: {error}") from error
+            changed = [f"{claim} is {now}" for claim, now in verdicts.items() if now != mark["verdict"]]
+            if changed:
+                found.append(f"{page}:{number}: written for {mark['verdict']}, {', '.join(changed)}: {old}")
+    return found
+
+
+def _value(environment: Environment, source: str, data: Mapping[str, Table], where: str) -> str:
+    try:
+        evaluate = environment.compile_expression(source, undefined_to_none=False)
+        return str(evaluate(**data))
+    except (TemplateError, LookupError, TypeError, ValueError) as error:
+        raise PageError(f"{where}: {source}: {error}") from error
+
+
+def _line(text: str, position: int) -> int:
+    return text.count("\n", 0, position) + 1
+
+
+def _number(value: Any) -> Any:
+    try:
+        return float(value)
+    except (TypeError, ValueError):
+        return value
+
+
+def _fixed(value: float, digits: int = 0) -> str:
+    return f"{value:.{digits}f}"
+
+
+def _percent(value: float, digits: int = 0) -> str:
+    return f"{100 * value:.{digits}f}"

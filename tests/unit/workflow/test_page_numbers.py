@@ -1,0 +1,99 @@
+"""Pages quote the values and verdicts of the tables in docs/data."""
+
+import shutil
+from pathlib import Path
+
+import pytest
+
+from bladerub.workflow import pages
+
+ROOT = Path(__file__).parents[3]
+SNAPSHOTS = ROOT / "docs" / "data"
+
+
+def stale_places(folder):
+    data = pages.read_tables(folder)
+    return [
+        difference
+        for page in pages.pages_of(ROOT)
+        for difference in pages.differences(
+            page.read_text(encoding="utf-8"), str(page.relative_to(ROOT)), data
+        )
+    ]
+
+
+def changed_snapshots(folder, old, new):
+    shutil.copytree(SNAPSHOTS, folder)
+    table = folder / "findings.csv"
+    text = table.read_text(encoding="utf-8")
+    assert text.count(old) == 1
+    table.write_text(text.replace(old, new), encoding="utf-8")
+    return folder
+
+
+def places_with(mark):
+    return [
+        f"{page.relative_to(ROOT)}:{number}"
+        for page in pages.pages_of(ROOT)
+        for number, line in enumerate(page.read_text(encoding="utf-8").split("\n"), 1)
+        if mark in line
+    ]
+
+
+def place(difference):
+    return ":".join(difference.split(":")[:2])
+
+
+def test_pages_are_as_their_tables():
+    assert stale_places(SNAPSHOTS) == []
+
+
+def test_a_changed_value_names_the_lines_that_quote_it(tmp_path):
+    folder = changed_snapshots(tmp_path / "data", "0.3856962183", "0.4156962183")
+    stale = stale_places(folder)
+    assert [place(one) for one in stale] == places_with("findings('C1a')")
+    assert {page.split(":")[0] for page in map(place, stale)} == {
+        "README.md",
+        "docs/explanation/paper_vs_ours.md",
+    }
+    assert all("0.42" in one for one in stale)
+
+
+def test_a_changed_verdict_names_the_sentences_written_for_the_old_one(tmp_path):
+    folder = changed_snapshots(
+        tmp_path / "data", "1,partly,-0.029820502301695917", "1,no,-0.029820502301695917"
+    )
+    written = [one for one in stale_places(folder) if "written for" in one]
+    assert [place(one) for one in written] == places_with("<!-- C4c: partly -->")
+    assert len(written) == 2
+    assert all("C4c is no" in one for one in written)
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        "<!-- = nowhere('C1a').measured -->1<!-- / -->",
+        "<!-- = findings('C1a').nothing -->1<!-- / -->",
+        "<!-- = findings('C99').measured -->1<!-- / -->",
+        "<!-- = findings( -->1<!-- / -->",
+        "<!-- = findings('C1a').measured | unheard -->1<!-- / -->",
+        "<!-- = findings('C1a').measured -->1",
+        "<!-- = findings('C1a').measured -->1 <!-- = 2 -->2<!-- / -->",
+        "1<!-- / -->",
+    ],
+)
+def test_an_error_names_page_and_line(line):
+    with pytest.raises(pages.PageError, match=r"^page\.md:2: "):
+        pages.render(f"first\n{line}\n", "page.md", pages.read_tables(SNAPSHOTS))
+
+
+def test_a_verdict_of_an_unknown_claim_is_an_error():
+    with pytest.raises(pages.PageError, match=r"^page\.md:1: "):
+        pages.differences("<!-- C99: yes -->so", "page.md", pages.read_tables(SNAPSHOTS))
+
+
+def test_rendering_twice_changes_nothing():
+    data = pages.read_tables(SNAPSHOTS)
+    once = pages.render("a <!-- = findings.count(holds='yes') --><!-- / --> b", "page.md", data)
+    assert once == "a <!-- = findings.count(holds='yes') -->32<!-- / --> b"
+    assert pages.render(once, "page.md", data) == once
