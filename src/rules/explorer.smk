@@ -3,6 +3,8 @@
 from glob import glob
 from os.path import relpath
 
+from bladerub.study.grid import modulus_unit
+
 
 rule explorer:
     input:
@@ -26,6 +28,7 @@ rule explorer:
             "amplitude_range": config["figures"]["amplitude_range"],
             "growth_revolutions": config["analysis"]["divergence"]["revolutions"],
             "spectrum_revolutions": config["analysis"]["spectrum_revolutions"],
+            "modulus_unit": modulus_unit(config),
         },
         configs=[
             relpath(path)

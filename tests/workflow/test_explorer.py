@@ -205,8 +205,8 @@ def test_the_numbers_are_those_of_the_tables(explorer, study, map_of, table):
     at = int(np.flatnonzero(coating.f_omega == 0.206)[0])
     growth = f"{100 * verdict['growth_per_revolution']:.3g} % (".replace("-", "−")
     assert shown["Growth per revolution"][0].startswith(growth)
-    assert shown["Worn lobes"] == [str(verdict["lobes"])]
-    assert shown["Greatest wear, any node"] == [f"{1e3 * coating.max_wear[at]:.4g} mm"]
+    assert shown["Worn lobes after 3 revolutions"] == [str(verdict["lobes"])]
+    assert shown["Greatest wear after 3 revolutions, any node"] == [f"{1e3 * coating.max_wear[at]:.4g} mm"]
     manifest = read_manifest(study.folder / "results" / "runs" / STRAIGHT / "manifest.tsv")
     assert shown["Key of the run"] == [run.run_key for run in manifest if run.f_omega == 0.206]
     command = "bladerub run --config overlay.yaml --casing 2nd --E 2 --K 0.5 --theta 0 --f 0.206"
@@ -226,7 +226,7 @@ def test_another_coating_changes_the_pictures(explorer):
     explorer.choose("#coating-A [name=E]", "rigid")
     assert f"A={RIGID}" in explorer.link
     assert explorer.find("#coating-A .angle").text == "friction μ"
-    assert explorer.run["Greatest wear, any node"] == ["0 mm"]
+    assert explorer.run["Greatest wear after 3 revolutions, any node"] == ["0 mm"]
     explorer.choose("#coating-A [name=casing]", "2nd5nd")
     assert "A=2nd5nd_E11_K0.5_theta0" in explorer.link
     assert explorer.complaints == []

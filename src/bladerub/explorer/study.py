@@ -54,7 +54,7 @@ def about(settings: dict[str, Any]) -> dict[str, Any]:
     """Collect what the page says and draws besides the data.
 
     `settings` from the config: ``max_frequency`` (normalised), ``amplitude_range`` (m),
-    ``growth_revolutions`` and ``spectrum_revolutions``.
+    ``growth_revolutions``, ``spectrum_revolutions`` and ``modulus_unit`` (Pa).
     """
     return {
         **settings,

@@ -131,6 +131,12 @@ def speed_name(f_omega: float) -> str:
     return f"{f_omega:.4f}"
 
 
+def modulus_unit(config: Mapping[str, Any]) -> float:
+    """Return what E = 1 and K = 1 are in this study, Pa."""
+    scale = config["contact"].get("scale", UNSCALED)
+    return float(config["contact"]["modulus_unit"] * scale["modulus"])
+
+
 def run_spec(config: Mapping[str, Any], case: CoatingCase, f_omega: float) -> RunSpec:
     """Describe the run of coating `case` at the speed `f_omega` in SI units.
 
@@ -154,7 +160,7 @@ def run_spec(config: Mapping[str, Any], case: CoatingCase, f_omega: float) -> Ru
             K=case.K,
             theta=case.theta,
             yield_stress=float(contact["yield_stress"]),
-            modulus_unit=float(contact["modulus_unit"] * scale["modulus"]),
+            modulus_unit=modulus_unit(config),
             thickness=float(contact["layer_thickness"] * scale["length"]),
             n_elements=int(contact["elements"]),
             law=case.law,

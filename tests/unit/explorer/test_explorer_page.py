@@ -25,6 +25,7 @@ SETTINGS = {
     "amplitude_range": [2e-6, 3e-3],
     "growth_revolutions": 10,
     "spectrum_revolutions": 10,
+    "modulus_unit": 6e8,
 }
 
 

@@ -192,5 +192,6 @@ page("#order").append(
   ...PEAK_ORDERS.map((order) => element("label", {}, element("input", { type: "radio", name: "order", value: order }), ` ${order}`)),
 );
 showThinned();
+showUnits();
 listen();
 begin();

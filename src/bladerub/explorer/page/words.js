@@ -31,8 +31,9 @@ const VERDICT_SIGNS = { steady: "●", saturating: "○", divergent: "▲", unbo
 function verdictInWords(coating, speed) {
   const kind = verdict(coating.runs, speed);
   const words = element("span", { class: `verdict ${kind}` }, `${VERDICT_SIGNS[kind]} ${VERDICTS[kind].words}`);
-  if (kind === "unbounded") return [words, ` in revolution ${coating.runs.revolutions[speed]}`];
-  return [words, wasRepeated(coating, speed) ? " in the longer run" : ""];
+  const longer = wasRepeated(coating, speed) ? " of the longer run" : "";
+  if (kind === "unbounded") return [words, ` in revolution ${coating.runs.revolutions[speed]}${longer}`];
+  return [words, wasRepeated(coating, speed) ? ` within ${coating.runs.revolutions[speed]} revolutions (longer run)` : ""];
 }
 
 function growthInWords({ runs }, speed) {
@@ -61,19 +62,21 @@ function peakRow(at, order, goTo) {
 
 function showRun(shown, choice, goTo) {
   const { speed } = choice;
+  const own = shown[0].coating.growth[speed].own.length;
+  const last = `revolutions ${own - study.spectrum_revolutions + 1} to ${own}`;
   const rows = [
     ["Vibration", (at) => verdictInWords(at, speed)],
     ["Growth per revolution", (at) => [growthInWords(at, speed)]],
-    [`Largest displacement, last ${study.spectrum_revolutions} rev.`, (at) => [millimetres(at.runs.peak[speed])]],
+    [`Peak displacement of node 1, radial, ${last}`, (at) => [millimetres(at.runs.peak[speed])]],
     [
-      "Largest spectral amplitude",
+      "Largest spectral amplitude, same revolutions",
       ({ runs }) => {
         if (runs.order_amplitude[speed] === null) return ["none: the run ended too early"];
         return [`${millimetres(runs.order_amplitude[speed])} at engine order ${digits(runs.order[speed])}`];
       },
     ],
-    ["Worn lobes", (at) => [String(at.runs.lobes[speed])]],
-    ["Greatest wear, any node", (at) => [millimetres(at.runs.max_wear[speed])]],
+    [`Worn lobes after ${own} revolutions`, (at) => [String(at.runs.lobes[speed])]],
+    [`Greatest wear after ${own} revolutions, any node`, (at) => [millimetres(at.runs.max_wear[speed])]],
     ...study.coatings[0].peaks.map(({ order }) => [`Peak Y${order} of the coating`, (at) => peakRow(at, order, goTo)]),
     ["Key of the run", (at) => [element("code", {}, at.runs.run_key[speed])]],
     ["Repeat it by", (at) => repeat(at, speed)],
@@ -217,6 +220,10 @@ function describe(shown, choice) {
   page("#growth-seen").textContent =
     "Half the range of the radial displacement of node 1 in each revolution of the run (markers) and of its longer " +
     `repetition (line), if it grew. Red: the growth found over the last ${study.growth_revolutions}.`;
+}
+
+function showUnits() {
+  for (const place of document.querySelectorAll(".unit")) place.textContent = ` E, K in ${digits(study.modulus_unit / 1e6)} MPa`;
 }
 
 function showThinned() {
