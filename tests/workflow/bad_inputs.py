@@ -310,7 +310,7 @@ COMMANDS: dict[str, str] = {
     f"{_RUN} --f 1e400": f"--f = inf: {_SPEED}",
     f"{_RUN} --f 0.41": "--f = 0.41: must be at most reduction.f_omega_max = 0.4 (normalised)",
     f"{_RUN} --f 0.19 --f": "argument --f: expected one argument",
-    f"{_RUN} --theta 0.1 --friction 0.1": "--friction = 0.1: goes without --theta, which says the same",
+    f"{_RUN} --theta 0.1 --friction 0.1": "--friction = 0.1: goes without theta, which says the same",
     f"{_RUN} --coating stiff": "argument --coating: invalid choice: 'stiff'",
     f"{_RIGID} --friction 1e400": "--friction = inf: coefficient of friction must be a number from 0 to 1",
     f"{_RIGID} --theta 0": "--theta = 0: goes with --coating abradable only",
@@ -392,7 +392,7 @@ def make_files(folder: Path) -> None:
 
 def _blade() -> ReducedBlade:
     """Make a blade of 24 coordinates without any physics."""
-    kinds = {"float": 1.0, "int": 6, "np.ndarray": np.eye(24)}
+    kinds = {float: 1.0, int: 6, np.ndarray: np.eye(24)}
     values = {field.name: kinds[field.type] for field in fields(ReducedBlade) if field.default is MISSING}
     axes = np.eye(8, 3)
     nodes = {"node_position": axes, "radial_direction": axes, "tangential_direction": axes}

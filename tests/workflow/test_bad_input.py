@@ -25,7 +25,7 @@ def write_overlay(folder: Path, content: dict | str | bytes) -> None:
 @pytest.fixture
 def command(tmp_path, monkeypatch, capsys):
     """Run a command line in an empty folder that stands for the repository: exit code and standard error."""
-    monkeypatch.setattr(inputs, "ROOT", tmp_path)
+    monkeypatch.setattr(inputs, "study_folder", lambda: tmp_path)
     monkeypatch.chdir(tmp_path)
 
     def run(arguments):

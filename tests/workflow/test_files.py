@@ -279,7 +279,7 @@ def test_log_of_a_coating_has_a_line_a_run_with_the_time_left(results):
 
 
 def test_status_counts_every_run_done(study, tiny, tmp_path, monkeypatch, capsys):
-    monkeypatch.setattr(inputs, "ROOT", study.folder)
+    monkeypatch.setattr(inputs, "study_folder", lambda: study.folder)
     overlay = tmp_path / "tiny.yaml"
     overlay.write_text(yaml.safe_dump(tiny))
     assert main(["status", "--json", "--thorough", "--config", str(overlay)]) == 0

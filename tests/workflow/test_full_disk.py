@@ -59,7 +59,7 @@ def test_a_folder_that_cannot_be_written_is_named_before_any_work(
     assert "results: Read-only file system; make it writable, or choose another folder" in "\n".join(lines)
     assert "Traceback" not in failed.stderr
     assert "localrule" not in failed.stderr
-    monkeypatch.setattr(inputs, "ROOT", workspace.folder)
+    monkeypatch.setattr(inputs, "study_folder", lambda: workspace.folder)
     overlay = ["--config", str(workspace.folder / "overlay.yaml")]
     assert main(["run", "--casing", "2nd", "--E", "2", "--K", "0.5", "--f", "0.2", *overlay]) == 2
     output = capsys.readouterr()
