@@ -1,6 +1,7 @@
 """The command ``bladerub``: each of its commands is a module with `add_to`, which names its options."""
 
 import argparse
+import os
 import sys
 
 from bladerub import __version__
@@ -28,12 +29,16 @@ def main(arguments: list[str] | None = None) -> int:
     code, message = 2, None
     try:
         options.command(options)
+        sys.stdout.flush()
         return 0
     except ConfigError as error:
         print(error, file=sys.stderr)
         return 2
     except BadInput as error:
         message = " ".join(str(error).split())
+    except BrokenPipeError:  # the reader, such as head, has seen enough
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return 0
     except OSError as error:
         message = message_for(error)
     except KeyboardInterrupt:

@@ -1,7 +1,9 @@
 """``bladerub run``: one simulation and a summary of it."""
 
 import argparse
+import math
 import os
+import sys
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -15,6 +17,7 @@ if TYPE_CHECKING:  # as in `inputs`
     from bladerub.api.run import Run
     from bladerub.api.study import Study, StudyCoating, StudyRun
 
+_STEEP = math.pi / 4  # beyond this angle the force is more tangential than normal
 _UNITS = {"E": "contact.modulus_unit", "K": "contact.modulus_unit", "theta": "rad", "f_omega": "f1 at rest"}
 _UNITS |= {"peak_amplitude": "m", "max_wear": "m", "growth_per_revolution": "1"}
 
@@ -61,6 +64,7 @@ def run(options: argparse.Namespace) -> None:
         )
     if options.output:
         _check_output(options.output)
+    _point_out(options)
     blade = inputs.read_blade(options, config)
     if options.blade:
         planned = planned.of_length(blade.length)
@@ -85,6 +89,18 @@ def _check_coating(options: argparse.Namespace) -> None:
     for option in ("E", "K"):
         if getattr(options, option) is None:
             raise InputError(f"--{option}: missing, an abradable coating needs it")
+
+
+def _point_out(options: argparse.Namespace) -> None:
+    """Say on standard error what is allowed, but may not be meant."""
+    if options.theta and options.theta > _STEEP:
+        ratio = f"the tangential part is {math.tan(options.theta):.2g} times the normal one"
+        print(
+            f"bladerub run: --theta = {options.theta:g}: in rad, of the contact force {ratio}",
+            file=sys.stderr,
+        )
+    if options.output and not options.output.parent.exists():
+        print(f"bladerub run: making the folder {options.output.parent}", file=sys.stderr)
 
 
 def _coating(options: argparse.Namespace, study: "Study") -> "StudyCoating":

@@ -2,6 +2,8 @@ import io
 import json
 import math
 import re
+import subprocess
+import sys
 
 import pytest
 
@@ -273,3 +275,23 @@ def test_a_truncated_file_of_the_blade_is_named_and_made_anew_when_deleted(small
     path.unlink()
     assert main([*RUN, *small]) == 0
     assert path.read_bytes() == whole
+
+
+def test_a_steep_angle_and_a_new_folder_are_pointed_out(small, blade_file, folder, capsys):
+    path = folder / "new" / "run.h5"
+    steep = ["run", "--casing", "2nd", "--E", "2", "--K", "0.5", "--theta", "1.2", "--f", "0.19"]
+    assert main([*steep, *small, "--output", str(path)]) == 0
+    angle, made = capsys.readouterr().err.splitlines()
+    assert "--theta = 1.2" in angle
+    assert made.endswith(str(path.parent))
+
+
+def test_a_reader_that_ends_early_is_no_error(tmp_path):
+    overlay = tmp_path / "nowhere.yaml"
+    overlay.write_text("results: nowhere\n")
+    program = "import sys; from bladerub.cli import main; sys.exit(main(sys.argv[1:]))"
+    command = [sys.executable, "-c", program, "status", "--config", str(overlay)]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
+        process.stdout.close()
+        assert process.stderr.read() == b""
+        assert process.wait() == 0
