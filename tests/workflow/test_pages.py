@@ -44,15 +44,7 @@ def merge(below: dict[str, Any], above: dict[str, Any]) -> dict[str, Any]:
 
 def run(page: str | Path, workspace: Workspace) -> str:
     """Run all commands of a page in one shell; return what they print."""
-    done = subprocess.run(
-        ["bash", "-euo", "pipefail", "-c", "\n".join(blocks(page))],
-        cwd=workspace.folder,
-        env=workspace.environment,
-        stdin=subprocess.DEVNULL,
-        capture_output=True,
-        text=True,
-        timeout=600,
-    )
+    done = workspace.call("bash", "-euo", "pipefail", "-c", "\n".join(blocks(page)))
     assert done.returncode == 0, done.stdout[-3000:] + done.stderr[-3000:]
     return done.stdout
 

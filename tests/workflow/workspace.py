@@ -99,8 +99,12 @@ class Workspace:
             text = config if isinstance(config, str) else yaml.safe_dump(config)
             (self.folder / "overlay.yaml").write_text(text)
             arguments = (*arguments, "--configfile", "overlay.yaml")
+        return self.call(Path(sys.executable).with_name("snakemake"), *arguments)
+
+    def call(self, *command: str | Path) -> subprocess.CompletedProcess:
+        """Run a command in this copy."""
         return subprocess.run(
-            [Path(sys.executable).with_name("snakemake"), *arguments],
+            command,
             cwd=self.folder,
             env=self.environment,
             stdin=subprocess.DEVNULL,

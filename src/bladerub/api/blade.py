@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from functools import cached_property
 from pathlib import Path
 from typing import Any
 
@@ -10,11 +11,12 @@ import pandas as pd
 import xarray as xr
 from matplotlib.figure import Figure
 
+from bladerub.api.errors import InputError
 from bladerub.api.notebook import html_table
 from bladerub.api.study import Study
 from bladerub.blade.accuracy import ACCURACY_COLUMNS
 from bladerub.blade.build import build, made_from
-from bladerub.blade.built import write
+from bladerub.blade.built import mesh_path, write
 from bladerub.blade.frequencies import reduced_frequencies
 from bladerub.blade.model import ReducedBlade
 from bladerub.blade.validation import read_valid_blade
@@ -22,12 +24,11 @@ from bladerub.io import hdf5, tables
 from bladerub.io.folders import cache_folder
 from bladerub.io.provenance import provenance
 from bladerub.io.sources import builder_digest
-from bladerub.plots.blade_mesh import blade_mesh
+from bladerub.plots import blade_mesh
 from bladerub.plots.campbell import campbell
+from bladerub.plots.spectrum import ORDERS
 from bladerub.plots.style import saved
 from bladerub.study.cache import blade_digest, digest
-
-_ORDERS = range(1, 13)
 
 
 @dataclass(frozen=True)
@@ -66,10 +67,28 @@ class Blade:
         """Blade length, m; the unit of clearances in a config."""
         return self.reduced.length
 
-    @property
+    @cached_property
     def digest(self) -> str:
         """Digest of the reduced model: what it has in the keys of runs."""
         return blade_digest(self.path)
+
+    @property
+    def mesh_path(self) -> Path:
+        """File of the mesh that belongs to the reduced model."""
+        return mesh_path(self.path)
+
+    def check_speed(self, name: str, f_omega: float) -> None:
+        """Check that the reduced model holds at the normalised speed `f_omega`, the argument `name`.
+
+        Raises
+        ------
+        InputError
+            If it does not; the message says up to which speed it does.
+        """
+        fastest = self.reduced.f_omega_max
+        if f_omega > fastest:
+            right = f"must be at most {fastest:g} (normalised), the highest speed of {self.path}"
+            raise InputError(name, f_omega, right)
 
     def frequencies(self, f_omega: float = 0.0, n_modes: int = 3) -> np.ndarray:
         """Lowest eigenfrequencies (n_modes,) of the reduced model at the normalised speed `f_omega`, Hz.
@@ -93,14 +112,12 @@ class Blade:
 
     def plot_mesh(self, path: str | Path | None = None) -> Figure:
         """Draw Fig. 1: mesh, clamped root and interface nodes; `path` to write it there as well."""
-        mesh, _ = hdf5.read(self.path.with_name("mesh.h5"))
-        nodes = (mesh[f"{name}_nodes"] for name in ("interface", "root", "tip"))
-        return saved(blade_mesh(mesh["points"], mesh["cells"], *nodes), path)
+        return saved(blade_mesh.from_file(self.mesh_path), path)
 
     def plot_campbell(self, path: str | Path | None = None) -> Figure:
         """Draw Fig. 2: the Campbell diagram; `path` to write it there as well. Raises as `accuracy`."""
         modes = self.accuracy().pivot(index="f_omega", columns="mode") / self.f1_hz
-        return saved(campbell(modes.index, modes["f_fe"], modes["f_rom"], _ORDERS), path)
+        return saved(campbell(modes.index, modes["f_fe"], modes["f_rom"], ORDERS), path)
 
     def to_xarray(self) -> xr.Dataset:
         """Return matrices, interface nodes and directions with units and names."""
@@ -134,8 +151,8 @@ def read_blade(path: str | Path) -> Blade:
     True
     """
     path = Path(path)
-    beside = path.with_name("rom_accuracy.csv")
-    table = beside if beside.exists() else path.parent.parent / "tables" / "rom_accuracy.csv"
+    cached = path.with_name("rom_accuracy.csv")
+    table = cached if cached.exists() else path.parent.parent / "tables" / "rom_accuracy.csv"
     return Blade(read_valid_blade(path), path, table)
 
 
@@ -171,7 +188,7 @@ def build_blade(study: Study) -> Blade:
 
 def is_built(config: Mapping[str, Any], path: Path) -> bool:
     """Return whether the reduced blade at `path` was built from `config`, as its mesh states."""
-    mesh = path.with_name("mesh.h5")
+    mesh = mesh_path(path)
     if not (path.exists() and mesh.exists()):
         return False
     return hdf5.read_attributes(mesh).get("made_from") == made_from(config)
@@ -181,4 +198,4 @@ def write_blade(config: Mapping[str, Any], path: Path, accuracy: Path) -> None:
     """Build the blade of `config` and write it to `path`, its mesh and its two tables next to `accuracy`."""
     built = build(config)
     campbell_table = accuracy.with_name("campbell.csv")
-    write(built, provenance(config), path, path.with_name("mesh.h5"), campbell_table, accuracy)
+    write(built, provenance(config), path, mesh_path(path), campbell_table, accuracy)

@@ -188,9 +188,7 @@ def simulate_speeds(
     runs = [coating.at(f_omega) for f_omega in sorted({float(f) for f in speeds})]
     if len(runs) < 2:
         raise InputError("speeds", [run.f_omega for run in runs], "must be at least two")
-    if runs[-1].f_omega > blade.reduced.f_omega_max:
-        right = f"must be at most {blade.reduced.f_omega_max:g} (normalised), the highest of {blade.path}"
-        raise InputError("speeds", runs[-1].f_omega, right)
+    blade.check_speed("speeds", runs[-1].f_omega)
     with tqdm(total=len(runs), unit="run", disable=not progress, leave=False) as bar:
         found = _solve_all(blade, runs, jobs, follow, bar.update)
     stored, longer = [run.stored for run in found], [run.longer and run.longer.stored for run in found]

@@ -249,20 +249,28 @@ def simulate(
     >>> run.revolutions, run.status
     (20, 'completed')
     """
-    if run.f_omega > blade.reduced.f_omega_max:
-        right = (
-            f"must be at most {blade.reduced.f_omega_max:g} (normalised), the highest speed of {blade.path}"
-        )
-        raise InputError("f_omega", run.f_omega, right)
+    blade.check_speed("f_omega", run.f_omega)
     compile_kernel()
     with tqdm(total=run.spec.revolutions, unit="rev", disable=not progress, leave=False) as bar:
+        shown = counted(bar, run)
 
         def done(revolutions: int) -> None:
-            bar.update(revolutions - bar.n)
+            shown(revolutions)
             if each:
                 each(revolutions)
 
         return solve(blade, run, follow, done)
+
+
+def counted(bar: tqdm, run: StudyRun) -> Callable[[int], None]:
+    """Let a `bar` count the revolutions done of `run`, then those of its longer run."""
+
+    def done(revolutions: int) -> None:
+        if revolutions < bar.n:
+            bar.reset(run.config["analysis"]["divergence"]["confirmation_revolutions"])
+        bar.update(revolutions - bar.n)
+
+    return done
 
 
 def solve(
@@ -274,8 +282,7 @@ def solve(
 ) -> Run:
     """Simulate `run`, and its longer run if it is to `follow` growth; parameters as of `simulate`."""
     digest, settings = blade.digest, run.config["analysis"]["divergence"]
-    if blade.length != run.config["blade"]["length"]:  # of another study: clearances are in this unit
-        run = run.of_length(blade.length)
+    run = run.of_length(blade.length)  # perhaps not the study's own blade
     stored = _solve(blade, run, run.spec, digest, done, keep_history)
     longer = None
     amplitude, status = stored.data["revolution_amplitude"], stored.attributes["status"]
@@ -318,10 +325,4 @@ def read_run(path: str | Path) -> Run:
     0.19
     """
     longer = confirmation_path(path)
-    return Run(_stored(path), Run(_stored(longer)) if longer.exists() else None)
-
-
-def _stored(path: str | Path) -> StoredRun:
-    """Read a run without the numbers of its nodes, which `to_xarray` and `write` add."""
-    found = store.read_run(path)
-    return StoredRun(found.attributes, {name: data for name, data in found.data.items() if name != "node"})
+    return Run(store.read_run(path), Run(store.read_run(longer)) if longer.exists() else None)

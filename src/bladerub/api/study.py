@@ -100,7 +100,7 @@ class StudyCoating:
         '2nd_E2_K0.5_theta0/0.1900'
         """
         _check("f_omega", f_omega)
-        config = self.config if revolutions is None else _of_length(self.config, revolutions)
+        config = self.config if revolutions is None else _of_revolutions(self.config, revolutions)
         return StudyRun(config, self.case, grid.run_spec(config, self.case, f_omega))
 
 
@@ -297,7 +297,7 @@ def _one_of(name: str, known: Collection[str]) -> str:
     return f"must be one of {', '.join(known)}" + (f"; did you mean {close[0]}?" if close else "")
 
 
-def _of_length(config: Mapping[str, Any], revolutions: int) -> dict[str, Any]:
+def _of_revolutions(config: Mapping[str, Any], revolutions: int) -> dict[str, Any]:
     """Change a config to runs of so many revolutions: its analysis looks at no more."""
     most = min(_MOST_REVOLUTIONS, most_revolutions(config))
     if not isinstance(revolutions, int) or not 2 <= revolutions <= most:

@@ -29,6 +29,11 @@ class BuiltBlade:
     made_from: str  # from `bladerub.blade.build.made_from`
 
 
+def mesh_path(reduced_model: Path) -> Path:
+    """Return the file of the mesh that belongs to the reduced model in the file `reduced_model`."""
+    return reduced_model.with_name("mesh.h5")
+
+
 def write(
     built: BuiltBlade,
     origin: Mapping[str, str],

@@ -98,7 +98,7 @@ def _motion(options: argparse.Namespace, config: dict[str, Any]) -> dict[str, An
     found = inputs.read_blade(options, config)
     path, blade = found.path, found.reduced
     with refused(OSError):
-        mesh = read_mesh(inputs.mesh_path(path), blade)
+        mesh = read_mesh(found.mesh_path, blade)
     plan = _plan(options, config, run, path)
     recording = _record(options, run, plan, blade)
     names = ("casing", "E", "K", "theta", "law", "f_omega", "run_key")

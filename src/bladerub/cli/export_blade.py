@@ -47,7 +47,7 @@ def write(options: argparse.Namespace, config: dict[str, Any]) -> dict[str, Any]
     found = inputs.read_blade(options, config)
     path, blade = found.path, found.reduced
     with refused(OSError):
-        mesh = read_mesh(inputs.mesh_path(path), blade)
+        mesh = read_mesh(found.mesh_path, blade)
         needs_elements = options.calculix or (options.mesh and options.mesh.suffix.lower() != ".vtu")
         if needs_elements and not len(mesh["cells"]):
             raise InputError(
@@ -58,7 +58,7 @@ def write(options: argparse.Namespace, config: dict[str, Any]) -> dict[str, Any]
             files = [options.matrices]
         elif options.mesh:
             sets = {name: mesh[f"{name}_nodes"] for name in ("root", "tip", "interface")}
-            fields = _fields(inputs.mesh_path(path))
+            fields = _fields(found.mesh_path)
             mesh_file.write_mesh_file(options.mesh, mesh["points"], mesh["cells"], sets, fields)
             files = [options.mesh]
         else:

@@ -138,11 +138,6 @@ def blade_path(options: argparse.Namespace, config: dict[str, Any]) -> Path:
     return options.blade or study_folder() / config["results"] / "blade" / "reduced_model.h5"
 
 
-def mesh_path(blade: Path) -> Path:
-    """Return the file of the mesh that belongs to the reduced blade in the file `blade`."""
-    return blade.with_name("mesh.h5")
-
-
 def read_blade(options: argparse.Namespace, config: dict[str, Any]) -> "Blade":
     """Read the reduced blade, and build it first if the results folder has none.
 
@@ -150,6 +145,7 @@ def read_blade(options: argparse.Namespace, config: dict[str, Any]) -> "Blade":
     A damaged file is an `OSError` if the command can make it again, an `InputError` if not.
     """
     from bladerub.api import blade as blades
+    from bladerub.blade.built import mesh_path
     from bladerub.workflow import invocation
 
     path = blade_path(options, config)

@@ -5,8 +5,6 @@ import math
 import os
 import sys
 import time
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -51,7 +49,7 @@ def run(options: argparse.Namespace) -> None:
     config = inputs.read_config(options)
     _check_coating(options)
 
-    from bladerub.api.run import simulate
+    from bladerub.api.run import counted, simulate
     from bladerub.api.study import Study
 
     study = Study(config, inputs.study_folder())
@@ -66,11 +64,10 @@ def run(options: argparse.Namespace) -> None:
         _check_output(options.output)
     _point_out(options)
     blade = inputs.read_blade(options, config)
-    if options.blade:
-        planned = planned.of_length(blade.length)
-    with _revolutions_shown(planned) as each, refused(ValueError), inputs.as_options(f_omega="f"):
+    bar = inputs.progress_bar(planned.spec.revolutions, "rev")
+    with bar, refused(ValueError), inputs.as_options(f_omega="f"):
         start = time.perf_counter()
-        result = simulate(blade, planned, each=each)
+        result = simulate(blade, planned, each=counted(bar, planned))
         seconds = time.perf_counter() - start
     if options.output:
         with refused(OSError, because=f"--output {options.output}: cannot be written: "):
@@ -108,20 +105,6 @@ def _coating(options: argparse.Namespace, study: "Study") -> "StudyCoating":
         return study.rigid(options.casing, friction=options.friction or 0.0)
     tangential = {"theta": options.theta, "friction": options.friction}
     return study.coating(options.casing, E=options.E, K=options.K, **tangential)
-
-
-@contextmanager
-def _revolutions_shown(planned: "StudyRun") -> Iterator[Callable[[int], None]]:
-    """Show the revolutions done of the run, then those of its longer run."""
-    longest = planned.config["analysis"]["divergence"]["confirmation_revolutions"]
-    with inputs.progress_bar(planned.spec.revolutions, "rev") as bar:
-
-        def done(number: int) -> None:
-            if number < bar.n:
-                bar.reset(longest)
-            bar.update(number - bar.n)
-
-        yield done
 
 
 def _figures(planned: "StudyRun", result: "Run", seconds: float) -> dict[str, Any]:

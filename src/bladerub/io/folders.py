@@ -5,9 +5,7 @@ from pathlib import Path
 
 import platformdirs
 
-import bladerub
-
-PACKAGE = Path(bladerub.__file__).parent
+PACKAGE = Path(__file__).parents[1]
 _CHECKOUT = PACKAGE.parents[1]
 
 ROOT = _CHECKOUT if (_CHECKOUT / "Snakefile").is_file() else PACKAGE / "repository"

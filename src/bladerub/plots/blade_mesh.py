@@ -1,6 +1,7 @@
 """The blade's mesh, or its nodes alone, with its clamped root and the interface nodes."""
 
 from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
 from matplotlib import colors
@@ -10,6 +11,7 @@ from matplotlib.figure import Figure
 from matplotlib.markers import CARETUP
 
 from bladerub.blade.surface import boundary_faces, normals
+from bladerub.io import hdf5
 from bladerub.plots.style import DARK, PAGE, RED, new_figure, styled
 
 
@@ -52,6 +54,13 @@ _NODE = {"marker": ".", "linestyle": "none", "markeredgewidth": 0}
 _KINDS = {20: "hexahedra", 10: "tetrahedra"}
 _AXES = ("x, axial ", "right", "center"), ("y, rotation", "center", "top"), ("z, radial", "center", "bottom")
 _AXIS = 35  # length of the drawn axes, mm
+
+
+def from_file(path: str | Path) -> Figure:
+    """Draw Fig. 1 as `blade_mesh` from the file of a mesh; raises `OSError` if it cannot be read."""
+    mesh, _ = hdf5.read(path)
+    nodes = (mesh[f"{name}_nodes"] for name in ("interface", "root", "tip"))
+    return blade_mesh(mesh["points"], mesh["cells"], *nodes)
 
 
 @styled

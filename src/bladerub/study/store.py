@@ -150,4 +150,5 @@ def read_run(path: str | Path, only: Set[str] = ALL) -> StoredRun:
     missing = (only or MAPPED) - data.keys() | {"run_key"} - attributes.keys()
     if missing:
         raise DamagedFile(f"{path}: not a run, {', '.join(sorted(missing))} missing")
+    data.pop("node", None)  # the numbers of the nodes, which `variables` adds
     return StoredRun(attributes, data)
