@@ -14,7 +14,7 @@ FILES = list(workflow.configfiles)  # likewise: `configfile` appends to these
 
 # Snakemake knows neither the lines of a file nor the key `extend`: the config is read here, before it reads it
 with bladerub.io.errors.exit_on_error():
-    study = bladerub.config.read.read(
+    study, NOTES = bladerub.config.read.read_with_notes(
         "config/config.yaml",
         *FILES,
         command_line=GIVEN,
@@ -34,7 +34,7 @@ COATINGS = [case.name for case in coating_cases(config)]
 if workflow.is_main_process:
     with bladerub.io.errors.exit_on_error():
         LIVING = bladerub.workflow.invocation.begin(".snakemake", RESULTS)
-    bladerub.workflow.invocation.plan(RESULTS, FILES, GIVEN)
+    bladerub.workflow.invocation.plan(RESULTS, FILES, GIVEN, NOTES)
 
 
 onstart:

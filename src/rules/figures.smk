@@ -3,6 +3,7 @@
 from dataclasses import asdict
 
 from bladerub.study.grid import CoatingCase, keeps_history, run_spec, speed_name, speeds
+from bladerub.study.orders import peak_orders, peak_settings
 
 LOBED = CoatingCase("2nd5nd", 11.0, 0.5, 0.0)
 SOFT = CoatingCase("2nd", 0.11, 0.5, 0.0)
@@ -248,7 +249,7 @@ rule fig10_peaks:
         f"{RESULTS}/benchmarks/fig10_peaks.tsv"
     params:
         **SPECTRA,
-        peaks=config["analysis"]["peaks"],
+        peaks=lambda wildcards: peak_settings(config, SOFT.casing),
     script:
         "../scripts/fig10_peaks.py"
 
@@ -371,10 +372,17 @@ def in_study(*cases):
     return {case.name for case in cases} <= set(COATINGS)
 
 
-HISTOGRAMS = set(config["analysis"]["peaks"]["orders"]) >= {4, 6} and any(
+HISTOGRAMS = any(
     case.casing == "2nd" and case.theta == 0 and case.law == "theta"
     for case in coating_cases(config)
-)
+) and {4, 6} <= set(peak_orders(config, "2nd"))
+# Casings of which no figure of the paper shows a spectrum: that of each of their coatings is drawn
+SHOWN = {
+    case.casing
+    for case in (LOBED, SOFT, CRITICAL, STRAIGHT, INCLINED)
+    if in_study(case)
+}
+OTHER = [case.name for case in coating_cases(config) if case.casing not in SHOWN]
 PLANNED = {
     "fig01_blade": True,
     "fig02_campbell": True,
@@ -400,3 +408,4 @@ PLANNED = {
 # What `rule all` asks for
 FIGURES = [getattr(rules, name).output for name, needed in PLANNED.items() if needed]
 FIGURES += [expand(rules.history.output, speed=[speed_name(f) for f in OWN])]
+FIGURES += [expand(rules.spectrum.output, coating=OTHER)]

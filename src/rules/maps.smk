@@ -2,6 +2,15 @@
 import csv
 import os
 
+from bladerub.study.orders import used_casings
+
+# What decides the table of the peaks: the orders of a casing of its own, if it has any, besides those of all
+PEAKS = config["analysis"]["peaks"] | {
+    name: config["casings"][name]["peak_orders"]
+    for name in used_casings(config)
+    if "peak_orders" in config["casings"][name]
+}
+
 
 rule map:
     input:
@@ -23,7 +32,7 @@ rule map:
 rule peaks:
     input:
         maps=expand(rules.map.output, coating=COATINGS),
-        analysing=files_behind("study.peaks"),
+        analysing=files_behind("study.peak_table"),
     output:
         **described(table=f"{TABLES}/peaks.csv"),
     log:
@@ -31,7 +40,7 @@ rule peaks:
     benchmark:
         f"{RESULTS}/benchmarks/peaks.tsv"
     params:
-        peaks=config["analysis"]["peaks"],
+        peaks=PEAKS,
     script:
         "../scripts/peaks.py"
 

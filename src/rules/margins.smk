@@ -15,7 +15,7 @@ rule margins:
     benchmark:
         f"{RESULTS}/benchmarks/margins.tsv"
     params:
-        analysis=config["analysis"],
+        analysis=config["analysis"] | {"peaks": PEAKS},
         speeds=config["speeds"],
         dpi=DPI,
     script:

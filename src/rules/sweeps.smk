@@ -35,7 +35,7 @@ rule sweeps:
     log:
         f"{RESULTS}/logs/sweeps.log",
     params:
-        peaks=config["analysis"]["peaks"],
+        peaks=PEAKS,
         survival=config["sweeps"]["survival"],
         dpi=DPI,
     script:
@@ -108,6 +108,6 @@ rule long_coating:
         runtime=minutes(10),
     params:
         revolutions=config["long_runs"]["revolutions"],
-        analysis=config["analysis"],
+        analysis=config["analysis"] | {"peaks": PEAKS},
     script:
         "../scripts/long_coating.py"

@@ -123,14 +123,19 @@ def read_config(options: argparse.Namespace) -> dict[str, Any]:
 
     Without ``--config``, those are laid over it that made the results (`bladerub.config.record`).
     """
+    return read_config_with_notes(options)[0]
+
+
+def read_config_with_notes(options: argparse.Namespace) -> tuple[dict[str, Any], list[str]]:
+    """Read the config as `read_config`; return it and a line for each doubt (`bladerub.config.inherited`)."""
     base = base_config()
-    config = configuration.read(base, *options.config)
+    config, notes = configuration.read_with_notes(base, *options.config)
     made_with = None if options.config else record.read(study_folder() / config["results"])
     if made_with is None:
-        return config
+        return config, notes
     print(f"bladerub {options.name}: with {made_with}, as the results were made", file=sys.stderr)
     files = [study_folder() / file for file in made_with.files]
-    return configuration.read(base, *files, command_line=made_with.command_line)
+    return configuration.read_with_notes(base, *files, command_line=made_with.command_line)
 
 
 def blade_path(options: argparse.Namespace, config: dict[str, Any]) -> Path:

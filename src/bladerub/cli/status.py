@@ -43,7 +43,7 @@ def add_to(commands: Any) -> None:
 
 def status(options: argparse.Namespace) -> None:
     """Count the runs of the study and print the counts; raises `ConfigError`."""
-    config = inputs.read_config(options)
+    config, notes = inputs.read_config_with_notes(options)
 
     from bladerub.extensions.chart.point import PointRow
     from bladerub.study import inventory
@@ -82,8 +82,9 @@ def status(options: argparse.Namespace) -> None:
         state = "damaged and deleted" if options.discard else "damaged; delete them, as status --discard does"
         print(f"{state}; then run snakemake again, which computes them alone:")
         print("\n".join(f"  {path}" for path in damaged))
-    if note:
-        print(note)
+    for line in (note, *notes):
+        if line:
+            print(line)
 
 
 def _blade_digest(config: Mapping[str, Any], model: Path) -> tuple[str | None, str | None]:

@@ -15,6 +15,7 @@ from bladerub.contact.casing import shape
 from bladerub.contact.spec import Casing
 from bladerub.io.folders import study_folder
 from bladerub.study.grid import SPEED_DECIMALS, UNSCALED, coating_cases, listed_case, speeds
+from bladerub.study.orders import peak_orders, used_casings
 
 Config = dict[str, Any]
 Check = Callable[[Config], Iterator[str]]
@@ -186,10 +187,13 @@ def _histories(config: Config) -> Iterator[str]:
             yield f"{where}.f_omega = {entry['f_omega']:g}: must be {right}"
 
 
-@_reads("analysis", "speeds")
+@_reads("analysis", "casings", "coatings", "speeds")
 def _crossings(config: Config) -> Iterator[str]:
-    fastest = speeds(config)[-1]
-    for index, order in enumerate(config["analysis"]["peaks"]["orders"]):
+    fastest, orders = speeds(config)[-1], {}
+    for name in used_casings(config):
+        own = "peak_orders" in config["casings"][name]
+        orders[f"casings.{name}.peak_orders" if own else "analysis.peaks.orders"] = peak_orders(config, name)
+    for where, index, order in ((key, *each) for key, listed in orders.items() for each in enumerate(listed)):
         if order * fastest < 1:  # rotation stiffens the blade: C1 is nowhere below its value at rest, 1
             right = f"at least {1 / fastest:.3g} to cross the first frequency below the highest speed"
-            yield f"analysis.peaks.orders[{index}] = {order}: must be {right}"
+            yield f"{where}[{index}] = {order}: must be {right}"

@@ -107,7 +107,7 @@ def read(path: str | Path, key: str | None = None) -> Located:
         As for `compose`.
     """
     path = Path(path)
-    asked, prefix = Location(_name(path)), ""
+    asked, prefix = Location(source_name(path)), ""
     if key:
         asked, prefix = UNKNOWN, f"{key} = {format_value(str(path))}: "
     return _extended(_read(path, asked, prefix), [], (os.path.realpath(path),))
@@ -153,8 +153,8 @@ def _names(entry: Located) -> list[Located]:
     return names
 
 
-def _name(path: Path) -> str:
-    """Write `path` relative to the working directory, if it is below that."""
+def source_name(path: str | Path) -> str:
+    """Name the file `path` as the source of its values: relative to the working directory, if it is below."""
     path = Path(os.path.abspath(path))
     return str(path.relative_to(Path.cwd()) if path.is_relative_to(Path.cwd()) else path)
 
@@ -173,7 +173,7 @@ def _read(path: Path, asked: Location, prefix: str) -> Located:
         raise ConfigError.at(asked, f"{prefix}cannot be read ({error.strerror})") from error
     except UnicodeDecodeError as error:
         raise ConfigError.at(asked, f"{prefix}is not text in UTF-8") from error
-    source = _name(path)
+    source = source_name(path)
     try:
         located = _Loader(text).read(source)
     except yaml.YAMLError as error:

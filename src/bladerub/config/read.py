@@ -6,6 +6,7 @@ one line that names the location, the key, the value and what would be right.
 
 import re
 from collections.abc import Mapping
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -38,7 +39,15 @@ def read(*paths: str | Path, command_line: Mapping[str, Any] | None = None) -> d
     ConfigError
         As for `bladerub.config.files.compose` and `validate`.
     """
-    return validate(files.compose(*paths, command_line=command_line))
+    return read_with_notes(*paths, command_line=command_line)[0]
+
+
+def read_with_notes(
+    *paths: str | Path, command_line: Mapping[str, Any] | None = None
+) -> tuple[dict[str, Any], list[str]]:
+    """Read a config as `read`; return it, and a line for each change or doubt of `inherited.fit`."""
+    located = files.compose(*paths, command_line=command_line)
+    return _validated(located, "", files.source_name(paths[0]))
 
 
 def read_plan(path: str | Path, definition: str, key: str | None = None) -> Located:
@@ -90,19 +99,33 @@ def validate(config: Located | Mapping[str, Any], variation: str = "") -> dict[s
         Every problem found, one line each: location, key, value and what would be right. What a schema cannot
         say is checked for those parts of the config that agree with the schema.
     """
-    from bladerub.config.checks import check  # takes half a second to import, `bladerub --help` does without
+    return _validated(config, variation, UNKNOWN.source)[0]
+
+
+def _validated(
+    config: Located | Mapping[str, Any], variation: str, base: str
+) -> tuple[dict[str, Any], list[str]]:
+    """Check a config as `validate`, whose study's own values are of the source `base`."""
+    # these take half a second to import, `bladerub --help` does without
+    from bladerub.config import inherited
+    from bladerub.config.checks import check
 
     located = config if isinstance(config, Located) else Located.of(config, UNKNOWN)
     values, locations = located.plain(), located.locations()
     problems = list(schema.problems(values))
     missing = set(schema.schema()["required"]) - set(values)
-    problems += check(values, missing | set(map(top_key, problems)))
+    broken = missing | set(map(top_key, problems))
+    notes: list[str] = []
+    if not broken & inherited.READS:
+        with suppress(ValueError):  # of values that `check` reports
+            values, notes = inherited.fit(values, lambda key: locations[key].source == base)
+    problems += check(values, broken)
     if problems:
         raise ConfigError(
             Problem(_location(text, locations), f"{variation}: {text}" if variation else text)
             for text in dict.fromkeys(problems)
         )
-    return values
+    return values, notes
 
 
 def _location(problem: str, locations: Mapping[str, Location], whole: Location = UNKNOWN) -> Location:

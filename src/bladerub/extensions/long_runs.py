@@ -21,6 +21,7 @@ from bladerub.study.divergence import verdicts
 from bladerub.study.grid import CoatingCase, run_spec
 from bladerub.study.growth import Verdict, growth, judge
 from bladerub.study.maps import CoatingMap
+from bladerub.study.orders import peak_settings
 from bladerub.study.peaks import peak
 
 COLUMNS = [
@@ -51,7 +52,7 @@ def chosen(config: Mapping[str, Any], coating: CoatingMap) -> dict[float, str]:
 
     These are its peaks, and the completed runs that still grow at the end of the longest that the study has.
     """
-    peaks = config["analysis"]["peaks"]
+    peaks = peak_settings(config, coating.case.casing)
     reasons = {peak(coating, order, peaks).f_omega: f"f{order:g}" for order in peaks["orders"]}
     for f_omega, verdict in zip(coating.f_omega, verdicts(config, coating), strict=True):
         if verdict.divergent and verdict.status == "completed":

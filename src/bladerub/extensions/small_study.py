@@ -1,6 +1,5 @@
 """A small study beside the main one, from the runs to the findings, by the same functions."""
 
-import itertools
 import logging
 from collections.abc import Callable, Collection, Iterable, Mapping
 from pathlib import Path
@@ -16,6 +15,7 @@ from bladerub.study.grid import coating_cases
 from bladerub.study.job import compute_missing
 from bladerub.study.manifest import write_manifest
 from bladerub.study.maps import CoatingMap, build_map, read_map
+from bladerub.study.orders import peak_settings
 from bladerub.study.plan import coating_plan
 
 _log = logging.getLogger(__name__)
@@ -61,10 +61,12 @@ def conduct(
 
 def _peaks(config: Mapping[str, Any], maps: Iterable[CoatingMap]) -> pd.DataFrame:
     """Find the peaks; an order without a bounded run near its crossing has no row, and the log says so."""
-    settings, rows = config["analysis"]["peaks"], []
-    for coating, order in itertools.product(maps, settings["orders"]):
-        try:
-            rows.append(peaks.row(coating, order, settings))
-        except ValueError as error:
-            _log.warning("%s: no peak of engine order %g (%s)", coating.case.name, order, error)
+    rows = []
+    for coating in maps:
+        settings = peak_settings(config, coating.case.casing)
+        for order in settings["orders"]:
+            try:
+                rows.append(peaks.row(coating, order, settings))
+            except ValueError as error:
+                _log.warning("%s: no peak of engine order %g (%s)", coating.case.name, order, error)
     return pd.DataFrame(rows, columns=peaks.COLUMNS)

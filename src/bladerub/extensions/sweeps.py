@@ -1,6 +1,5 @@
 """Speed sweeps: run-up and run-down at a constant rate, compared with the runs at constant speed."""
 
-import itertools
 from collections.abc import Iterable, Mapping
 from dataclasses import asdict, dataclass
 from pathlib import Path
@@ -19,6 +18,7 @@ from bladerub.io.hdf5 import Variable
 from bladerub.io.provenance import provenance
 from bladerub.study.grid import CoatingCase
 from bladerub.study.maps import CoatingMap
+from bladerub.study.orders import peak_orders
 from bladerub.study.peaks import amplitude_in_window, maximum, peak, speed_window
 from bladerub.study.spectra import order_spectrum
 
@@ -147,7 +147,8 @@ def table(
     """
     settings = config["analysis"]["peaks"]
     rows = []
-    for sweep, order in itertools.product(sweeps, settings["orders"]):
+    pairs = ((sweep, order) for sweep in sweeps for order in peak_orders(config, sweep.case.casing))
+    for sweep, order in pairs:
         constant = maps[sweep.case]
         at_constant, window = peak(constant, order, settings), speed_window(constant, order, settings)
         found = maximum(sweep, amplitude_in_window(sweep, order, settings, window))

@@ -14,7 +14,7 @@ from typing import Any, NamedTuple
 import numpy as np
 import pandas as pd
 
-from bladerub.study import divergence, findings, peaks
+from bladerub.study import divergence, findings, peak_table
 from bladerub.study.findings.evidence import SAME_SPEED, Evidence, read_rom_accuracy
 from bladerub.study.grid import SPEED_DECIMALS, speeds
 from bladerub.study.maps import DATASETS, CoatingMap, read_map
@@ -104,7 +104,7 @@ def table(
     for name, (settings, maps) in variations(config, map(read_map, map_paths)).items():
         _log.warning("%s:", name)  # a heading for what `findings` leaves out
         try:
-            found = peaks.table(settings, maps)
+            found = peak_table.table(settings, maps)
         except ValueError as error:
             if name == STUDY:
                 raise

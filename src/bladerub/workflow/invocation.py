@@ -62,9 +62,14 @@ def _print(line: str) -> None:
 _planned: list[tuple[str, Sequence[str], Mapping[str, Any]]] = []
 
 
-def plan(results: str, files: Sequence[str], given: Mapping[str, Any]) -> None:
-    """Note what this invocation will `start`: its results folder, config files and values of ``--config``."""
+def plan(results: str, files: Sequence[str], given: Mapping[str, Any], notes: Sequence[str] = ()) -> None:
+    """Note what this invocation will `start`: its results folder, config files and values of ``--config``.
+
+    `notes` on the config are printed, a line each.
+    """
     _planned[:] = [(results, files, given)]
+    for note in notes:
+        _print(note)
 
 
 def start() -> None:

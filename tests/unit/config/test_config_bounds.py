@@ -60,6 +60,7 @@ NUMBERS = """
     theta                             [0, 1.5]
     friction                          [0, 1]
     f_omega                           [0.001, 2]
+    order                             [1, 1000]
     speeds.start                      [0.001, 2]
     speeds.stop                       [0.001, 2]
     speeds.step                       [1e-4, 2]
@@ -69,7 +70,6 @@ NUMBERS = """
     solver.displacement_limit         [0.001, 1]
     analysis.spectrum_revolutions     [1, 10000]
     analysis.max_order                [1, 10000]
-    analysis.peaks.orders             [1, 1000]
     analysis.peaks.order_halfwidth    (0, 0.5]
     analysis.peaks.speed_window       (0, 5]
     analysis.divergence.revolutions   [3, 10000]
@@ -103,6 +103,7 @@ COUNTS = {
     "casings": (1, 100),
     "casings.nodal_diameters": (1, 20),
     "casings.weights": (1, 20),
+    "casings.peak_orders": (1, 1000),
     "coatings": (1, 1000),
     "coatings.E": (1, 1000),
     "coatings.K": (1, 1000),
@@ -141,6 +142,7 @@ def complete(config):
     listed = [{key: [v] if isinstance(v, float) else v for key, v in kind.items()} for kind in KINDS]
     config["blade"]["source"] = {}
     config["contact"]["scale"] = {"length": 1, "modulus": 1, "time": 1}
+    config["casings"]["2nd"]["peak_orders"] = [4]
     config["coatings"], config["friction"] = listed, listed[:1]
     config["analysis"]["histories"] = [kind | {"f_omega": 0.19} for kind in KINDS]
     return config
@@ -288,6 +290,7 @@ BORDERS = [
     ({}, "speeds.extra", [0.19, 0.197, 0.4], [0.19, 0.197, just_above(0.4)]),
     (MANY, "speeds.extra", [], [0.0015]),
     (SLOW, "analysis.peaks.orders", [4], [3]),
+    (SLOW, "casings.2nd.peak_orders", [4], [3]),
     ({}, "analysis.peaks.orders", [4, 60], [4, 61]),
     ({}, "analysis.peaks.speed_window", [1, 1.0001], [1, 1]),
     ({}, "analysis.max_order", 1000, just_above(1000)),

@@ -1,7 +1,8 @@
 // What is shown: two coatings, a speed and the displays; kept in the address, so that a link restores it.
 
 const SIDES = ["A", "B"];
-const PEAK_ORDERS = study.coatings[0].peaks.map(({ order }) => order);
+// Those of all coatings: a casing may have its own.
+const PEAK_ORDERS = [...new Set(study.coatings.flatMap(({ peaks }) => peaks.map(({ order }) => order)))].sort((a, b) => a - b);
 
 function nearest(values, wanted) {
   return values.reduce((best, value, i) => (Math.abs(value - wanted) < Math.abs(values[best] - wanted) ? i : best), 0);
@@ -19,7 +20,7 @@ function firstChoice() {
     side: "A", // that a cell of the tables over the moduli chooses, and whose relatives they show
     speed: speedOfPeak(A),
     axis: "frequency",
-    order: PEAK_ORDERS[0],
+    order: study.coatings[A].peaks[0].order,
     sameScale: true,
   };
 }

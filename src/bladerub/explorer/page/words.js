@@ -77,7 +77,7 @@ function showRun(shown, choice, goTo) {
     ],
     [`Worn lobes after ${own} revolutions`, (at) => [String(at.runs.lobes[speed])]],
     [`Greatest wear after ${own} revolutions, any node`, (at) => [millimetres(at.runs.max_wear[speed])]],
-    ...study.coatings[0].peaks.map(({ order }) => [`Peak Y${order} of the coating`, (at) => peakRow(at, order, goTo)]),
+    ...PEAK_ORDERS.map((order) => [`Peak Y${order} of the coating`, (at) => peakRow(at, order, goTo)]),
     ["Key of the run", (at) => [element("code", {}, at.runs.run_key[speed])]],
     ["Repeat it by", (at) => repeat(at, speed)],
   ];
@@ -117,11 +117,12 @@ const QUANTITIES = {
 
 function showModuli(choice, choose) {
   const kin = family(choice[choice.side]);
+  kin.members = kin.members.filter(({ peaks }) => peaks.some(({ order }) => order === choice.order));
   const { casing, name } = study.coatings[choice[choice.side]];
   page("#moduli-seen").textContent = kin.members.length
     ? `Height Y${choice.order} (mm) and speed f${choice.order} (normalised) of the peak where engine order ${choice.order} meets C₁, ` +
       `casing ${casing}, θ = ${kin.angle}. Darker is lower; a cell chooses its coating.`
-    : `The study has casing ${casing} without an abradable coating.`;
+    : `The study has no abradable coating on casing ${casing} with a peak on engine order ${choice.order}.`;
   const held = document.activeElement.dataset?.coating;
   const heldIn = held && document.activeElement.closest("table").id;
   const tables = Object.entries(QUANTITIES).map(([letter, quantity]) => moduliTable(letter, quantity, kin, choice, choose));

@@ -1,0 +1,71 @@
+"""What the study's own config says by default, fitted to the files that are laid over it.
+
+A file that replaces coatings, casings or speeds need not repeat what the study's own config says of those
+that were there: histories of runs that are no longer planned are left out, and a casing that does not excite
+``analysis.peaks.orders`` gets orders of its own. What a file says itself is never changed.
+"""
+
+from collections.abc import Callable
+from typing import Any
+
+from bladerub.study.grid import SPEED_DECIMALS, coating_cases, listed_case, speed_name, speeds
+from bladerub.study.orders import excited_orders, excites, peak_orders, used_casings
+
+Config = dict[str, Any]
+
+READS = {"coatings", "casings", "speeds", "analysis"}
+"""Keys at the top that `fit` reads."""
+
+
+def fit(config: Config, is_inherited: Callable[[str], bool]) -> tuple[Config, list[str]]:
+    """Return `config` with what is inherited fitted to the rest, and a line for each change or doubt.
+
+    The config agrees with the schema; `is_inherited` tells whether the value of a key is the study's own.
+    Raises `ValueError` as `coating_cases` and `speeds`.
+    """
+    notes: list[str] = []
+    if not all(map(is_inherited, ("coatings", "casings", "speeds"))):
+        if is_inherited("analysis.histories"):
+            config = _without_lost_histories(config, notes)
+        if is_inherited("analysis.peaks.orders"):
+            config = _with_orders_of_casings(config, notes)
+    return config, notes + _doubts(config)
+
+
+def _without_lost_histories(config: Config, notes: list[str]) -> Config:
+    cases, grid, kept, lost = set(coating_cases(config)), set(speeds(config)), [], []
+    for entry in config["analysis"]["histories"]:
+        case, f_omega = listed_case(entry), entry["f_omega"]
+        if case in cases and round(f_omega, SPEED_DECIMALS) in grid:
+            kept.append(entry)
+        else:
+            lost.append(f"{case.name}/{speed_name(f_omega)}")
+    if lost:
+        more = ", ..." if len(lost) > 1 else ""
+        notes.append(f"analysis.histories: {len(lost)} left out, not in this study ({lost[0]}{more})")
+    return {**config, "analysis": {**config["analysis"], "histories": kept}}
+
+
+def _with_orders_of_casings(config: Config, notes: list[str]) -> Config:
+    orders, casings = config["analysis"]["peaks"]["orders"], dict(config["casings"])
+    for name in used_casings(config):
+        casing, fastest = casings[name], speeds(config)[-1]
+        suits = all(excites(casing, order) and order * fastest >= 1 for order in orders)
+        own = [] if suits or "peak_orders" in casing else excited_orders(config, name)
+        if own:
+            casings[name] = {**casing, "peak_orders": own}
+            notes.append(f"casings.{name}.peak_orders: {own}, instead of {orders} of analysis.peaks.orders")
+    return {**config, "casings": casings}
+
+
+def _doubts(config: Config) -> list[str]:
+    """Name the casings that do not excite the orders that somebody asks for."""
+    notes = []
+    for name in used_casings(config):
+        orders, diameters = peak_orders(config, name), config["casings"][name]["nodal_diameters"]
+        idle = [order for order in orders if not excites(config["casings"][name], order)]
+        if idle:
+            why = f"nodal diameters {diameters} of casing {name} do not excite {idle}"
+            right = f"{excited_orders(config, name)} as casings.{name}.peak_orders"
+            notes.append(f"analysis.peaks.orders = {orders}: {why}; try {right}")
+    return notes

@@ -1,0 +1,44 @@
+"""Engine orders at which the peaks of a coating are sought: those that its casing excites."""
+
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+from bladerub.study.grid import coating_cases, speeds
+
+_DERIVED = 2  # orders of a casing that does not excite those of the config, as many as the paper has
+
+
+def peak_orders(config: Mapping[str, Any], casing: str) -> list[int]:
+    """Return the orders of the coatings of one casing: its ``peak_orders``, or ``analysis.peaks.orders``."""
+    return config["casings"][casing].get("peak_orders", config["analysis"]["peaks"]["orders"])
+
+
+def peak_settings(config: Mapping[str, Any], casing: str) -> dict[str, Any]:
+    """Return ``config["analysis"]["peaks"]`` with the `peak_orders` of this casing."""
+    return {**config["analysis"]["peaks"], "orders": peak_orders(config, casing)}
+
+
+def excites(casing: Mapping[str, Any], order: int) -> bool:
+    """Whether a nodal diameter of `casing` (of the config) divides the order: its harmonics are excited."""
+    return any(order % diameter == 0 for diameter in _diameters(casing))
+
+
+def excited_orders(config: Mapping[str, Any], casing: str) -> list[int]:
+    """Return the two lowest orders that the casing excites and whose peak the speeds of the study reach.
+
+    The ``speed_window`` of such an order, with C1 at rest, ends below the highest speed. There may be fewer.
+    """
+    reached = config["analysis"]["peaks"]["speed_window"][1] / speeds(config)[-1]
+    orders = range(1, int(config["analysis"]["max_order"]) + 1)
+    excited = [k for k in orders if k >= reached and excites(config["casings"][casing], k)]
+    return excited[:_DERIVED]
+
+
+def used_casings(config: Mapping[str, Any]) -> list[str]:
+    """List the casings that have a coating."""
+    return list(dict.fromkeys(case.casing for case in coating_cases(config)))
+
+
+def _diameters(casing: Mapping[str, Any]) -> Iterator[int]:
+    pairs = zip(casing["nodal_diameters"], casing["weights"], strict=False)
+    return (diameter for diameter, weight in pairs if weight)

@@ -1,0 +1,22 @@
+"""The table of the peaks: every coating at the engine orders of its casing."""
+
+from collections.abc import Iterable, Mapping
+from typing import Any
+
+import pandas as pd
+
+from bladerub.study import peaks
+from bladerub.study.maps import CoatingMap
+from bladerub.study.orders import peak_settings
+
+
+def table(config: Mapping[str, Any], maps: Iterable[CoatingMap]) -> pd.DataFrame:
+    """Find the peaks of every coating: a row each, with `bladerub.study.peaks.COLUMNS`.
+
+    Raises `ValueError` as `bladerub.study.peaks.peak`.
+    """
+    tables = []
+    for coating in maps:
+        settings = peak_settings(config, coating.case.casing)
+        tables.append(peaks.table({"analysis": {"peaks": settings}}, [coating]))
+    return pd.concat(tables, ignore_index=True)

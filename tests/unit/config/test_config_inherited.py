@@ -1,0 +1,114 @@
+import pytest
+import yaml
+
+from bladerub.config.errors import ConfigError
+from bladerub.config.read import read, read_with_notes
+from bladerub.io.folders import ROOT
+from bladerub.study.orders import excited_orders, excites, peak_orders, peak_settings
+
+STUDY = ROOT / "config" / "config.yaml"
+OTHER_COATING = {"coatings": [{"casing": "2nd", "E": [3], "K": [0.5], "theta": [0.0]}]}
+ROUND = {"weights": [1.0], "amplitude": 1e-3, "interference": 5e-4, "start_angle": 0.0}
+
+
+def on_casing(**casing):
+    entry = {"casing": "own", "E": [2], "K": [0.5], "theta": [0.0]}
+    return {"casings": {"own": ROUND | casing}, "coatings": [entry]}
+
+
+@pytest.fixture
+def laid_over(tmp_path):
+    """Read the study with a file of this content, and the values of a command line, laid over it."""
+
+    def read_over(content, **command_line):
+        path = tmp_path / "my.yaml"
+        path.write_text(yaml.safe_dump(content))
+        return read_with_notes(STUDY, path, command_line=command_line)
+
+    return read_over
+
+
+def test_the_study_alone_is_read_as_it_is_without_a_note():
+    config, notes = read_with_notes(STUDY)
+    assert notes == []
+    assert config == yaml.safe_load(STUDY.read_text(encoding="utf-8"))
+
+
+def test_histories_of_replaced_coatings_are_left_out_with_one_note(laid_over):
+    config, (note,) = laid_over(OTHER_COATING)
+    assert config["analysis"]["histories"] == []
+    assert note.startswith("analysis.histories: 6 left out")
+
+
+def test_histories_of_the_coatings_and_speeds_that_stay_are_kept(laid_over):
+    config, notes = laid_over({"speeds": {"extra": []}})  # without 0.197, where four of them are
+    assert len(notes) == 1
+    assert [entry["f_omega"] for entry in config["analysis"]["histories"]] == [0.19, 0.19, 0.206, 0.206]
+
+
+def test_a_history_that_the_file_itself_lists_is_still_an_error(laid_over):
+    lost = {"casing": "2nd", "E": 7, "K": 0.5, "theta": 0.0, "f_omega": 0.19}
+    with pytest.raises(ConfigError) as error:
+        laid_over(OTHER_COATING | {"analysis": {"histories": [lost]}}, results="elsewhere")
+    (problem,) = error.value.problems
+    assert problem.location.source.endswith("my.yaml")
+    assert problem.text.startswith("analysis.histories[0] = 2nd_E7_K0.5_theta0")
+
+
+def test_a_history_of_the_study_itself_that_it_cannot_have_is_still_an_error(tmp_path):
+    whole = tmp_path / "config.yaml"
+    whole.write_text(yaml.safe_dump(yaml.safe_load(STUDY.read_text(encoding="utf-8")) | OTHER_COATING))
+    with pytest.raises(ConfigError) as error:
+        read(whole)
+    assert len(error.value.problems) == 6
+
+
+@pytest.mark.parametrize(
+    ("diameters", "weights", "orders"),
+    [
+        ([3], [1], [6, 9]),
+        ([5], [1], [5, 10]),
+        ([6], [1], [6, 12]),
+        ([3, 5], [1, 1], [5, 6]),
+        ([2, 5], [0, 1], [5, 10]),
+    ],
+)
+def test_a_casing_that_does_not_excite_4_and_6_has_orders_of_its_own(laid_over, diameters, weights, orders):
+    config, notes = laid_over(on_casing(nodal_diameters=diameters, weights=weights))
+    assert peak_orders(config, "own") == peak_settings(config, "own")["orders"] == orders
+    assert peak_orders(config, "2nd") == [4, 6]
+    assert f"casings.own.peak_orders: {orders}" in notes[1]
+
+
+@pytest.mark.parametrize("diameters", [[1], [2], [2, 5]])
+def test_a_casing_that_excites_4_and_6_keeps_them(laid_over, diameters):
+    config, notes = laid_over(on_casing(nodal_diameters=diameters, weights=[1.0] * len(diameters)))
+    assert "peak_orders" not in config["casings"]["own"]
+    assert len(notes) == 1  # of the histories
+
+
+def test_orders_that_lower_speeds_do_not_reach_are_replaced(laid_over):
+    config, notes = laid_over(on_casing(nodal_diameters=[2]) | {"speeds": {"stop": 0.2, "extra": []}})
+    assert peak_orders(config, "own") == [8, 10]
+    assert len(notes) == 2
+
+
+def test_orders_that_a_file_gives_are_kept_and_doubted(laid_over):
+    content = on_casing(nodal_diameters=[3])
+    config, notes = laid_over(content | {"analysis": {"peaks": {"orders": [4, 6]}}})
+    assert peak_orders(config, "own") == [4, 6]
+    assert "casing own" in notes[1]
+    assert "[6, 9] as casings.own.peak_orders" in notes[1]
+    content["casings"]["own"]["peak_orders"] = [3, 6, 12]
+    content["speeds"] = {"stop": 0.35}
+    config, notes = laid_over(content)
+    assert peak_orders(config, "own") == [3, 6, 12]
+    assert len(notes) == 1
+
+
+def test_orders_above_the_spectra_are_none(laid_over):
+    config, _ = laid_over(on_casing(nodal_diameters=[50]))
+    assert excited_orders(config, "own") == [50]
+    config["casings"]["own"]["nodal_diameters"] = [61]
+    assert excited_orders(config, "own") == []
+    assert not excites(config["casings"]["own"], 60)
