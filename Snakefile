@@ -43,7 +43,7 @@ onstart:
 
 
 wildcard_constraints:
-    coating="[A-Za-z0-9]+_(E[^_/]+_K[^_/]+_(theta|mu)|rigid_mu)[^_/]+",
+    coating="[A-Za-z0-9]+_(E[^_/]+_K[^_/]+_(theta|mu)|rigid_mu)[^_/]+(_xi[^_/]+)?(_h[^_/]+)?(_d[^_/]+)?",
 
 
 include: "src/rules/outputs.smk"

@@ -38,7 +38,7 @@ def charted_maps(wildcards):
     return [
         map_of(case)
         for case in coating_cases(config)
-        if not case.is_rigid
+        if not (case.is_rigid or case.variant)
         and case.casing == chart["casing"]
         and case.theta in chart["theta"]
     ]

@@ -373,7 +373,10 @@ def in_study(*cases):
 
 
 HISTOGRAMS = any(
-    case.casing == "2nd" and case.theta == 0 and case.law == "theta"
+    case.casing == "2nd"
+    and case.theta == 0
+    and case.law == "theta"
+    and not case.variant
     for case in coating_cases(config)
 ) and {4, 6} <= set(peak_orders(config, "2nd"))
 # Casings of which no figure of the paper shows a spectrum: that of each of their coatings is drawn

@@ -3,10 +3,11 @@
 from bladerub.io import tables
 from bladerub.plots.histogram import peak_histogram
 from bladerub.study.peaks import COLUMNS
+from bladerub.study.variants import plain
 from bladerub.workflow import job, outputs
 
 job.log_to(snakemake.log[0])
 
-peaks = tables.read(snakemake.input.peaks, COLUMNS).query(snakemake.params.coatings)
+peaks = plain(tables.read(snakemake.input.peaks, COLUMNS)).query(snakemake.params.coatings)
 data, figure = peak_histogram(peaks, snakemake.params.quantity, snakemake.params.order)
 outputs.save(snakemake, figure, data=data)

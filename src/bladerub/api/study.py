@@ -11,7 +11,7 @@ import numpy as np
 from bladerub.api.errors import InputError
 from bladerub.api.notebook import html_table
 from bladerub.config import read as configuration
-from bladerub.config.checks import most_revolutions
+from bladerub.config.checks import most_revolutions, own_problem
 from bladerub.config.schema import check_quantity
 from bladerub.contact.spec import RunSpec
 from bladerub.io.folders import CONFIG, ROOT, base_config, study_folder
@@ -142,7 +142,16 @@ class Study:
         return np.array(grid.speeds(self.config))
 
     def coating(
-        self, casing: str, *, E: float, K: float, theta: float | None = None, friction: float | None = None
+        self,
+        casing: str,
+        *,
+        E: float,
+        K: float,
+        theta: float | None = None,
+        friction: float | None = None,
+        damping_ratio: float | None = None,
+        layer_thickness: float | None = None,
+        interference: float | None = None,
     ) -> StudyCoating:
         """Describe an abradable coating, which need not be one that the study lists.
 
@@ -156,6 +165,10 @@ class Study:
             Angle of the abradable elements, rad: the contact force has this constant direction. Default 0.
         friction : float, optional
             Instead of `theta`: coefficient of Coulomb friction, opposed to the sliding of each node.
+        damping_ratio : float, optional
+            Of every mode, instead of that of the config.
+        layer_thickness, interference : float, optional
+            Of the coating and of casing and blade, m, as and instead of those of the config.
 
         Raises
         ------
@@ -167,16 +180,30 @@ class Study:
         >>> import bladerub as br
         >>> br.default_study().coating("2nd", E=1.1, K=0.5).name
         '2nd_E1.1_K0.5_theta0'
+        >>> br.default_study().coating("2nd", E=1.1, K=0.5, damping_ratio=1e-3).name
+        '2nd_E1.1_K0.5_theta0_xi0.001'
         """
+        own = {
+            "damping_ratio": damping_ratio,
+            "layer_thickness": layer_thickness,
+            "interference": interference,
+        }
         if friction is not None and theta is not None:
             raise InputError("friction", friction, "goes without theta, which says the same")
         _check("E", E)
         _check("K", K)
         if friction is None:
-            return self._checked(CoatingCase, casing, E, K, theta=theta or 0.0)
-        return self._checked(CoatingCase.coulomb, casing, E, K, friction=friction)
+            return self._checked(CoatingCase, own, casing, E, K, theta=theta or 0.0)
+        return self._checked(CoatingCase.coulomb, own, casing, E, K, friction=friction)
 
-    def rigid(self, casing: str, *, friction: float = 0.0) -> StudyCoating:
+    def rigid(
+        self,
+        casing: str,
+        *,
+        friction: float = 0.0,
+        damping_ratio: float | None = None,
+        interference: float | None = None,
+    ) -> StudyCoating:
         """Describe direct contact with the rigid casing under Coulomb's coefficient `friction`.
 
         Raises
@@ -190,7 +217,8 @@ class Study:
         >>> br.default_study().rigid("2nd", friction=0.1).name
         '2nd_rigid_mu0.1'
         """
-        return self._checked(CoatingCase.rigid, casing, friction=friction)
+        own = {"damping_ratio": damping_ratio, "interference": interference}
+        return self._checked(CoatingCase.rigid, own, casing, friction=friction)
 
     def run(
         self,
@@ -202,6 +230,9 @@ class Study:
         theta: float | None = None,
         friction: float | None = None,
         revolutions: int | None = None,
+        damping_ratio: float | None = None,
+        layer_thickness: float | None = None,
+        interference: float | None = None,
     ) -> StudyRun:
         """Describe the run of an abradable coating at one speed; see `coating` and `StudyCoating.at`.
 
@@ -211,16 +242,32 @@ class Study:
         >>> br.default_study().run("2nd", E=2, K=0.5, theta=0.15, f_omega=0.19).spec.revolutions
         20
         """
-        return self.coating(casing, E=E, K=K, theta=theta, friction=friction).at(f_omega, revolutions)
+        coating = self.coating(
+            casing,
+            E=E,
+            K=K,
+            theta=theta,
+            friction=friction,
+            damping_ratio=damping_ratio,
+            layer_thickness=layer_thickness,
+            interference=interference,
+        )
+        return coating.at(f_omega, revolutions)
 
-    def _checked(self, make: Any, casing: str, *moduli: float, **tangential: float) -> StudyCoating:
+    def _checked(
+        self, make: Any, own: Mapping[str, float | None], casing: str, *moduli: float, **tangential: float
+    ) -> StudyCoating:
         casings = self.config["casings"]
         if casing not in casings:
             raise InputError("casing", casing, _one_of(casing, casings))
-        for name, value in tangential.items():
-            _check(name, value)
+        for name, value in {**tangential, **own}.items():
+            if value is not None:
+                _check(name, value)
         values = (*map(float, moduli), *map(float, tangential.values()))
-        return StudyCoating(self.config, make(casing, *values))
+        case = make(casing, *values).with_own(**own)
+        if case.variant and (problem := own_problem(dict(self.config), case)):
+            raise InputError(problem[0], case.own[problem[0]], f"must be {problem[1]}")
+        return StudyCoating(self.config, case)
 
     def _repr_html_(self) -> str:
         speeds, config = self.speeds, self.config

@@ -18,6 +18,7 @@ if TYPE_CHECKING:  # as in `inputs`
 _STEEP = math.pi / 4  # beyond this angle the force is more tangential than normal
 _UNITS = {"E": "contact.modulus_unit", "K": "contact.modulus_unit", "theta": "rad", "f_omega": "f1 at rest"}
 _UNITS |= {"peak_amplitude": "m", "max_wear": "m", "growth_per_revolution": "1"}
+_UNITS |= {"damping_ratio": "1", "layer_thickness": "m", "interference": "m"}
 
 
 def add_to(commands: Any) -> None:
@@ -39,6 +40,11 @@ def add_to(commands: Any) -> None:
     parser.option("--theta", "angle of its elements, rad (default 0): direction of the contact force", float)
     text = "coefficient of Coulomb friction, instead of --theta, or on the rigid casing (default 0)"
     parser.option("--friction", text, float, metavar="MU")
+    text = "of every mode, instead of contact.damping_ratio"
+    parser.option("--damping-ratio", text, float, metavar="XI")
+    text = "of the abradable coating, m, instead of contact.layer_thickness"
+    parser.option("--layer-thickness", text, float, metavar="H")
+    parser.option("--interference", "instead of that of the casing, m", float, metavar="D")
     parser.option("--f", "speed (normalised)", float, required=True, metavar="F_OMEGA")
     parser.option("--revolutions", "instead of solver.revolutions, at least 2", int, metavar="N")
     parser.option("--output", "write the run with its whole history (HDF5)", Path, metavar="FILE")
@@ -53,7 +59,7 @@ def run(options: argparse.Namespace) -> None:
     from bladerub.api.study import Study
 
     study = Study(config, inputs.study_folder())
-    with inputs.as_options(f_omega="f"):
+    with inputs.as_options(f_omega="f", damping_ratio="damping-ratio", layer_thickness="layer-thickness"):
         planned = _coating(options, study).at(options.f, options.revolutions)
     fastest = config["reduction"]["f_omega_max"]
     if not options.blade and options.f > fastest:  # of a blade that may not be built yet
@@ -78,8 +84,8 @@ def run(options: argparse.Namespace) -> None:
 def _check_coating(options: argparse.Namespace) -> None:
     """Check that the options of a coating are there, and none of another kind."""
     if options.coating == "rigid":
-        for option in ("E", "K", "theta"):
-            given = getattr(options, option)
+        for option in ("E", "K", "theta", "layer-thickness"):
+            given = getattr(options, option.replace("-", "_"))
             if given is not None:
                 raise InputError(f"--{option} = {given:g}: goes with --coating abradable only")
         return
@@ -101,10 +107,11 @@ def _point_out(options: argparse.Namespace) -> None:
 
 
 def _coating(options: argparse.Namespace, study: "Study") -> "StudyCoating":
+    own = {"damping_ratio": options.damping_ratio, "interference": options.interference}
     if options.coating == "rigid":
-        return study.rigid(options.casing, friction=options.friction or 0.0)
-    tangential = {"theta": options.theta, "friction": options.friction}
-    return study.coating(options.casing, E=options.E, K=options.K, **tangential)
+        return study.rigid(options.casing, friction=options.friction or 0.0, **own)
+    own |= {"theta": options.theta, "friction": options.friction, "layer_thickness": options.layer_thickness}
+    return study.coating(options.casing, E=options.E, K=options.K, **own)
 
 
 def _figures(planned: "StudyRun", result: "Run", seconds: float) -> dict[str, Any]:
@@ -115,6 +122,9 @@ def _figures(planned: "StudyRun", result: "Run", seconds: float) -> dict[str, An
         "K": None if case.is_rigid else case.K,
         "theta": case.theta if case.law == "theta" else None,
         "friction": case.friction if case.law == "coulomb" else None,
+        "damping_ratio": planned.spec.damping_ratio,
+        "layer_thickness": None if case.is_rigid else planned.spec.coating.thickness,
+        "interference": planned.spec.casing.interference,
         "f_omega": planned.f_omega,
         "revolutions": planned.spec.revolutions,
     }

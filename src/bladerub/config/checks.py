@@ -14,7 +14,16 @@ from bladerub.config.errors import format_value, top_key
 from bladerub.contact.casing import shape
 from bladerub.contact.spec import Casing
 from bladerub.io.folders import study_folder
-from bladerub.study.grid import SPEED_DECIMALS, UNSCALED, coating_cases, listed_case, speeds
+from bladerub.study.grid import (
+    OWN,
+    SPEED_DECIMALS,
+    UNSCALED,
+    CoatingCase,
+    cases_of,
+    coating_cases,
+    listed_case,
+    speeds,
+)
 from bladerub.study.orders import peak_orders, used_casings
 
 Config = dict[str, Any]
@@ -128,26 +137,55 @@ def _casings(config: Config) -> Iterator[str]:
         elif not any(weights):
             yield f"{where}.weights = {weights}: at least one must not be 0"
         else:
-            depth, amplitude = casing["interference"], casing["amplitude"]
-            deepest = amplitude * (1 - _lowest(tuple(diameters), tuple(weights)))
-            if depth > deepest:
-                right = f"at most {deepest:g} m, or the blade touches all around"
+            depth = casing["interference"]
+            if right := _too_deep(casing, depth):
                 yield f"{where}.interference = {depth:g}: must be {right}"
 
 
-def _lowest(nodal_diameters: tuple[int, ...], weights: tuple[float, ...]) -> float:
-    casing = Casing("", nodal_diameters, weights, amplitude=1.0, interference=0.0, start_angle=0.0)
-    return float(np.min(shape(casing, np.linspace(0, 2 * np.pi, 7201))))
+def _too_deep(casing: Config, depth: float) -> str | None:
+    diameters, weights = tuple(casing["nodal_diameters"]), tuple(casing["weights"])
+    unit = Casing("", diameters, weights, amplitude=1.0, interference=0.0, start_angle=0.0)
+    lowest = float(np.min(shape(unit, np.linspace(0, 2 * np.pi, 7201))))
+    deepest = casing["amplitude"] * (1 - lowest)
+    return f"at most {deepest:g} m, or the blade touches all around" if depth > deepest else None
 
 
 @_reads("casings", "contact", "blade")
 def _contact_at_all(config: Config) -> Iterator[str]:
+    for name, casing in config["casings"].items():
+        if right := _too_shallow(config, casing["interference"]):
+            yield f"casings.{name}.interference = {casing['interference']:g}: must be {right}"
+
+
+def _too_shallow(config: Config, depth: float) -> str | None:
     smallest = min(config["contact"]["clearance"].values()) * config["blade"]["length"]
     scale = config["contact"].get("scale", UNSCALED)["length"]
-    right = f"above the smaller contact.clearance, {smallest / scale:g} m, or the blade never touches"
-    for name, casing in config["casings"].items():
-        if casing["interference"] * scale <= smallest:
-            yield f"casings.{name}.interference = {casing['interference']:g}: must be {right}"
+    if depth * scale > smallest:
+        return None
+    return f"above the smaller contact.clearance, {smallest / scale:g} m, or the blade never touches"
+
+
+def own_problem(config: Config, case: CoatingCase) -> tuple[str, str] | None:
+    """Say what is wrong with the values of its own that a coating has: the key, and what would be right."""
+    casing, own = config["casings"][case.casing], case.own
+    thickness = own.get("layer_thickness", config["contact"]["layer_thickness"])
+    depth = own.get("interference", casing["interference"])
+    if "interference" not in own:
+        right = f"above the interference of the casing, {depth:g} m, or the blade reaches through the coating"
+        return ("layer_thickness", right) if depth >= thickness else None
+    right = _too_deep(casing, depth) or _too_shallow(config, depth)
+    if depth >= thickness:
+        right = f"below the layer thickness, {thickness:g} m, or the blade reaches through the coating"
+    return ("interference", right) if right else None
+
+
+@_reads("casings", "contact", "blade", "coatings")
+def _own_values(config: Config) -> Iterator[str]:
+    for index, entry in enumerate(config["coatings"]):
+        for case in cases_of(entry) if OWN.keys() & entry.keys() else ():
+            if problem := own_problem(config, case):
+                key, right = problem
+                yield f"coatings[{index}].{key} = {case.own[key]:g}: must be {right}"
 
 
 @_reads("coatings", "speeds")

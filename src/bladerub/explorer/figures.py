@@ -9,6 +9,7 @@ from bladerub.study.grid import CoatingCase
 from bladerub.study.manifest import ManifestRow
 from bladerub.study.maps import CoatingMap
 from bladerub.study.summary import displacement_peak, spectral_peak
+from bladerub.study.variants import of_case
 
 VERDICTS = ["growth_per_revolution", "growth_low", "growth_high", "saturating", "divergent", "revolutions"]
 """Columns of ``divergence.csv`` that the page shows, with the status of the run they rest on."""
@@ -17,12 +18,6 @@ VERDICTS = ["growth_per_revolution", "growth_low", "growth_high", "saturating", 
 def mm(metres: np.ndarray) -> np.ndarray:
     """Convert lengths; the page itself converts nothing."""
     return 1e3 * np.asarray(metres, dtype=float)
-
-
-def of_case(table: pd.DataFrame, case: CoatingCase) -> pd.DataFrame:
-    """Rows of `table` (``peaks.csv``, ``divergence.csv``) that are of `case`."""
-    same = table[["E", "K", "theta"]] == [case.E, case.K, case.theta]
-    return table[(table["casing"] == case.casing) & same.all(axis=1) & (table["law"] == case.law)]
 
 
 def of_runs(
@@ -69,4 +64,5 @@ def command(case: CoatingCase, configs: list[str]) -> str:
         angle = f"--theta {case.theta:.12g}" if case.law == "theta" else f"--friction {case.friction:.12g}"
         coating = f"--E {case.E:.12g} --K {case.K:.12g} {angle}"
     overlays = f" --config {' '.join(map(shlex.quote, configs))}" if configs else ""
-    return f"bladerub run{overlays} --casing {shlex.quote(case.casing)} {coating}"
+    own = "".join(f" --{key.replace('_', '-')} {value:.12g}" for key, value in case.own.items())
+    return f"bladerub run{overlays} --casing {shlex.quote(case.casing)} {coating}{own}"

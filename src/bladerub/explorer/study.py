@@ -14,6 +14,7 @@ from bladerub.io.provenance import software
 from bladerub.plots import bins, spectrum, style, titles
 from bladerub.study.grid import CoatingCase
 from bladerub.study.maps import CoatingMap
+from bladerub.study.variants import of_case
 
 
 def scales(coating: CoatingMap, max_frequency: float) -> dict[str, Any]:
@@ -45,7 +46,7 @@ def coating(case: CoatingCase, peaks: pd.DataFrame, configs: list[str]) -> dict[
         "command": figures.command(case, configs),
         "peaks": [
             {"order": row.order, "f": row.f_peak, "Y": figures.mm(row.amplitude)}
-            for row in figures.of_case(peaks, case).itertuples()
+            for row in of_case(peaks, case).itertuples()
         ],
     }
 

@@ -23,6 +23,7 @@ from bladerub.study.growth import Verdict, growth, judge
 from bladerub.study.maps import CoatingMap
 from bladerub.study.orders import peak_settings
 from bladerub.study.peaks import peak
+from bladerub.study.variants import with_variant
 
 COLUMNS = [
     *("casing", "E", "K", "theta", "f_omega", "why", "revolutions", "verdict", "growth_per_revolution"),
@@ -169,4 +170,4 @@ def table(config: Mapping[str, Any], coatings: Iterable[LongRuns]) -> pd.DataFra
                     "ms_per_revolution": 1e3 * seconds[made[-1]] / made.size if made.size else np.nan,
                 }
             )
-    return pd.DataFrame(rows, columns=COLUMNS)
+    return with_variant(pd.DataFrame(rows), COLUMNS)

@@ -17,6 +17,7 @@ from bladerub.study.manifest import write_manifest
 from bladerub.study.maps import CoatingMap, build_map, read_map
 from bladerub.study.orders import peak_settings
 from bladerub.study.plan import coating_plan
+from bladerub.study.variants import with_variant
 
 _log = logging.getLogger(__name__)
 
@@ -69,4 +70,4 @@ def _peaks(config: Mapping[str, Any], maps: Iterable[CoatingMap]) -> pd.DataFram
                 rows.append(peaks.row(coating, order, settings))
             except ValueError as error:
                 _log.warning("%s: no peak of engine order %g (%s)", coating.case.name, order, error)
-    return pd.DataFrame(rows, columns=peaks.COLUMNS)
+    return with_variant(pd.DataFrame(rows, columns=[*peaks.COLUMNS, "variant"]), peaks.COLUMNS)

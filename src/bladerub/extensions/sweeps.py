@@ -21,6 +21,7 @@ from bladerub.study.maps import CoatingMap
 from bladerub.study.orders import peak_orders
 from bladerub.study.peaks import amplitude_in_window, maximum, peak, speed_window
 from bladerub.study.spectra import order_spectrum
+from bladerub.study.variants import with_variant
 
 COLUMNS = [
     *("casing", "E", "K", "theta", "direction", "rate", "order", "f_peak", "amplitude"),
@@ -171,4 +172,4 @@ def table(
     table = pd.DataFrame(rows)
     table["ratio"] = table.amplitude / table.amplitude_constant
     table["survives"] = table.ratio >= config["sweeps"]["survival"]
-    return table[COLUMNS]
+    return with_variant(table, COLUMNS)

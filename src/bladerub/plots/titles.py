@@ -4,6 +4,8 @@ from string import ascii_lowercase
 
 from bladerub.study.grid import CoatingCase
 
+_OWN = {"damping_ratio": "ξ = {:g}", "layer_thickness": "layer {:g} m", "interference": "interference {:g} m"}
+
 
 def moduli(casing: str, E: float, K: float) -> str:
     """Casing and moduli, for instance ``casing 2nd, E = 2, K = 0.5``."""
@@ -17,10 +19,11 @@ def angle(theta: float) -> str:
 
 def coating(case: CoatingCase) -> str:
     """Full name: ``casing 2nd, E = 2, K = 0.5, θ = 0.15 rad``, or ``rigid casing 2nd, μ = 0.15``."""
+    own = "".join(f", {_OWN[key].format(value)}" for key, value in case.own.items())
     if case.is_rigid:
-        return f"rigid casing {case.casing}, μ = {case.friction:g}"
+        return f"rigid casing {case.casing}, μ = {case.friction:g}{own}"
     tangential = angle(case.theta) if case.law == "theta" else f"μ = {case.friction:g}"
-    return f"{moduli(case.casing, case.E, case.K)}, {tangential}"
+    return f"{moduli(case.casing, case.E, case.K)}, {tangential}{own}"
 
 
 def speed(f_omega: float) -> str:

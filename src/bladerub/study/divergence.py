@@ -8,6 +8,7 @@ import pandas as pd
 
 from bladerub.study.growth import Verdict, judge
 from bladerub.study.maps import CoatingMap
+from bladerub.study.variants import with_variant
 
 COLUMNS = [
     *("casing", "E", "K", "theta", "f_omega"),
@@ -22,14 +23,14 @@ is one; ``lobes`` are of the study's own run.
 
 
 def table(config: Mapping[str, Any], maps: Iterable[CoatingMap]) -> pd.DataFrame:
-    """Judge every run of the maps by ``analysis.divergence``: a row each, with `COLUMNS`."""
+    """Judge every run by ``analysis.divergence``: a row each, with `COLUMNS`, see `with_variant`."""
     tables = []
     for coating in maps:
         judged = verdicts(config, coating)
         growth = pd.DataFrame([verdict.growth for verdict in judged]).add_prefix("growth_")
         runs = pd.DataFrame(judged).drop(columns="growth").join(growth)
         tables.append(runs.assign(f_omega=coating.f_omega, lobes=coating.lobes, **asdict(coating.case)))
-    return pd.concat(tables, ignore_index=True)[COLUMNS]
+    return with_variant(pd.concat(tables, ignore_index=True), COLUMNS)
 
 
 def verdicts(config: Mapping[str, Any], coating: CoatingMap) -> list[Verdict]:

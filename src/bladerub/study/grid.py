@@ -2,8 +2,9 @@
 
 import itertools
 import math
+import re
 from collections.abc import Mapping
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 from typing import Any
 
 from bladerub.contact.spec import Casing, Coating, RunSpec, TipProfile
@@ -17,7 +18,11 @@ UNSCALED = {"length": 1.0, "modulus": 1.0, "time": 1.0}
 MAX_COATINGS = 5000
 """Coatings of a study; each is a job, and Snakemake plans no more than some ten thousand."""
 
-_VARIED = ("E", "K", "theta", "friction")  # lists in an entry of coatings, of which every combination is run
+OWN = {"damping_ratio": "xi", "layer_thickness": "h", "interference": "d"}
+"""Keys that a coating may have instead of those of ``contact`` and ``casings``: their signs in its name."""
+
+_LAYER = ("E", "K", "theta", "friction")
+_VARIED = (*_LAYER, *OWN)  # lists in an entry of coatings, of which every combination is run
 
 
 @dataclass(frozen=True)
@@ -29,6 +34,7 @@ class CoatingCase:
     K: float
     theta: float  # rotation of the abradable elements, or angle of friction by Coulomb's law, rad
     law: str = "theta"  # or "coulomb", see `bladerub.contact.spec.Coating`
+    variant: str = ""  # values of its own (`OWN`) as in its name: ``xi0.001_h0.004_d0.0004``
 
     @classmethod
     def coulomb(cls, casing: str, E: float, K: float, friction: float) -> "CoatingCase":
@@ -43,7 +49,20 @@ class CoatingCase:
     @classmethod
     def described(cls, attributes: Mapping[str, Any]) -> "CoatingCase":
         """Read the coating from the attributes of a run or a map; raise `KeyError` if one is missing."""
-        return cls(**{field.name: attributes[field.name] for field in fields(cls)})
+        known = {"variant": "", **attributes}  # files of earlier versions have no variants
+        return cls(**{field.name: known[field.name] for field in fields(cls)})
+
+    def with_own(self, **values: float | None) -> "CoatingCase":
+        """Return this coating with values of its own for keys of `OWN`; None leaves that of the config."""
+        given = (f"{sign}{values[key]:.12g}" for key, sign in OWN.items() if values.get(key) is not None)
+        return replace(self, variant="_".join(given))
+
+    @property
+    def own(self) -> dict[str, float]:
+        """Its values for keys of `OWN`, as in the config."""
+        keys = {sign: key for key, sign in OWN.items()}
+        parts = (re.fullmatch(r"([a-z]+)(.+)", part) for part in self.variant.split("_") if part)
+        return {keys[part[1]]: float(part[2]) for part in parts}
 
     @property
     def is_rigid(self) -> bool:
@@ -57,10 +76,13 @@ class CoatingCase:
 
     @property
     def name(self) -> str:
-        """Name in paths, for instance ``2nd_E0.11_K0.5_theta0``, ``..._mu0.15`` or ``2nd_rigid_mu0.15``."""
+        """Name in paths, for instance ``2nd_E0.11_K0.5_theta0``, ``..._mu0.15`` or ``2nd_rigid_mu0.15``.
+
+        The variant is appended if there is one.
+        """
         layer = "rigid" if self.is_rigid else f"E{self.E:g}_K{self.K:g}"
         angle = f"theta{self.theta:g}" if self.law == "theta" else f"mu{self.friction:g}"
-        return f"{self.casing}_{layer}_{angle}"
+        return f"{self.casing}_{layer}_{angle}" + (f"_{self.variant}" if self.variant else "")
 
 
 def coating_cases(config: Mapping[str, Any]) -> list[CoatingCase]:
@@ -71,27 +93,35 @@ def coating_cases(config: Mapping[str, Any]) -> list[CoatingCase]:
     """
     cases: dict[str, CoatingCase] = {}
     for index, entry in enumerate(config["coatings"]):
-        varied = [key for key in _VARIED if key in entry]
-        n_cases = len(cases) + math.prod(len(entry[key]) for key in varied)
+        n_cases = len(cases) + math.prod(len(entry[key]) for key in _VARIED if key in entry)
         if n_cases > MAX_COATINGS:
             raise ValueError(
                 f"coatings[{index}]: brings the coatings to {n_cases}, all combinations counted; must be "
                 f"{MAX_COATINGS} or fewer"
             )
-        for values in itertools.product(*(entry[key] for key in varied)):
-            case = listed_case({**entry, **dict(zip(varied, values, strict=True))})
+        for case in cases_of(entry):
             if case.name in cases:
                 raise ValueError(f"coatings[{index}]: {case.name} is listed twice; list each coating once")
             cases[case.name] = case
     return list(cases.values())
 
 
+def cases_of(entry: Mapping[str, Any]) -> list[CoatingCase]:
+    """List the combinations that one entry of ``coatings`` stands for."""
+    varied = [key for key in _VARIED if key in entry]
+    combinations = itertools.product(*(entry[key] for key in varied))
+    return [listed_case({**entry, **dict(zip(varied, values, strict=True))}) for values in combinations]
+
+
 def listed_case(entry: Mapping[str, Any]) -> CoatingCase:
-    """Read one coating: ``casing, E, K`` with ``theta`` or ``friction``, or ``casing, coating, friction``."""
-    casing, values = entry["casing"], {key: float(entry[key]) for key in _VARIED if key in entry}
-    if "coating" in entry:
-        return CoatingCase.rigid(casing, **values)
-    return CoatingCase.coulomb(casing, **values) if "friction" in values else CoatingCase(casing, **values)
+    """Read one coating: ``casing, E, K`` with ``theta`` or ``friction``, or ``casing, coating, friction``.
+
+    Each may have keys of `OWN` as well.
+    """
+    casing, values = entry["casing"], {key: float(entry[key]) for key in _LAYER if key in entry}
+    make = CoatingCase.coulomb if "friction" in values else CoatingCase
+    case = (CoatingCase.rigid if "coating" in entry else make)(casing, **values)
+    return case.with_own(**{key: entry[key] for key in OWN if key in entry})
 
 
 def compared_cases(config: Mapping[str, Any]) -> list[tuple[CoatingCase, CoatingCase]]:
@@ -143,7 +173,8 @@ def run_spec(config: Mapping[str, Any], case: CoatingCase, f_omega: float) -> Ru
     The one place where values that the config gives in blade lengths, degrees or for the stand-in of the
     paper's blade (``contact.scale``) become SI of this blade. Raises `KeyError` if it has no such casing.
     """
-    contact, solver, casing = config["contact"], config["solver"], config["casings"][case.casing]
+    contact, solver = {**config["contact"], **case.own}, config["solver"]
+    casing = {**config["casings"][case.casing], **case.own}
     length = float(config["blade"]["length"])
     scale = contact.get("scale", UNSCALED)
     return RunSpec(

@@ -48,7 +48,7 @@ class Variation(NamedTuple):
 
 def variations(config: Mapping[str, Any], maps: Iterable[CoatingMap]) -> dict[str, Variation]:
     """List the variations of the study of these `maps` by name, `STUDY` first."""
-    maps, config = list(maps), dict(config)
+    maps, config = [coating for coating in maps if not coating.case.variant], dict(config)
     varied = {STUDY: Variation(config, maps)}
     if _even_speeds(config, 1).size < len(speeds(config)):
         varied["even speeds only"] = Variation(config, _at(maps, _even_speeds(config, 1)))

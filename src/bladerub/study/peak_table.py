@@ -8,15 +8,17 @@ import pandas as pd
 from bladerub.study import peaks
 from bladerub.study.maps import CoatingMap
 from bladerub.study.orders import peak_settings
+from bladerub.study.variants import with_variant
 
 
 def table(config: Mapping[str, Any], maps: Iterable[CoatingMap]) -> pd.DataFrame:
-    """Find the peaks of every coating: a row each, with `bladerub.study.peaks.COLUMNS`.
+    """Find the peaks of every coating: a row each, with `bladerub.study.peaks.COLUMNS`, see `with_variant`.
 
     Raises `ValueError` as `bladerub.study.peaks.peak`.
     """
     tables = []
     for coating in maps:
         settings = peak_settings(config, coating.case.casing)
-        tables.append(peaks.table({"analysis": {"peaks": settings}}, [coating]))
-    return pd.concat(tables, ignore_index=True)
+        found = peaks.table({"analysis": {"peaks": settings}}, [coating])
+        tables.append(found.assign(variant=coating.case.variant))
+    return with_variant(pd.concat(tables, ignore_index=True), peaks.COLUMNS)

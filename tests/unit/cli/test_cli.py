@@ -23,6 +23,9 @@ KEYS = {
     "growth_high",
     "growth_revolutions",
     "casing",
+    "damping_ratio",
+    "layer_thickness",
+    "interference",
     "E",
     "K",
     "theta",
@@ -146,6 +149,25 @@ def test_run_on_the_rigid_casing_wears_nothing(small, blade_file, folder, capsys
     assert figures["peak_amplitude"] > 0
     about = read_run(path).attributes
     assert (about["E"], about["K"], about["theta"]) == (math.inf, math.inf, math.atan(friction))
+
+
+def test_run_takes_damping_layer_and_interference_of_its_own(small, blade_file, folder, capsys):
+    path = folder / "own.h5"
+    own = ["--damping-ratio", "0.001", "--layer-thickness", "0.004", "--interference", "0.0004"]
+    assert main([*RUN, *own, *small, "--json", "--output", str(path)]) == 0
+    figures, about = json.loads(capsys.readouterr().out), read_run(path).attributes
+    assert about["variant"] == "xi0.001_h0.004_d0.0004"
+    assert (figures["damping_ratio"], figures["layer_thickness"]) == (0.001, 0.004)
+    assert (figures["interference"], about["damping_ratio"], about["layer_thickness"]) == (4e-4, 0.001, 0.004)
+
+
+@pytest.mark.parametrize(
+    ("option", "value"),
+    [("--damping-ratio", "1"), ("--layer-thickness", "0.0003"), ("--interference", "0.01")],
+)
+def test_run_refuses_values_of_its_own_that_cannot_be(small, capsys, option, value):
+    assert main([*RUN, option, value, *small]) == 2
+    assert f"{option} = " in capsys.readouterr().err
 
 
 def test_run_by_coulombs_law_is_kept_as_such(small, blade_file, folder, capsys):

@@ -40,7 +40,7 @@ NUMBERS = """
     reduction.accuracy_modes          [1, 50]
     contact.modulus_unit              [1e3, 1e12]
     contact.yield_stress              [0, 100]
-    contact.layer_thickness           [1e-4, 0.1]
+    layer_thickness                   [1e-4, 0.1]
     contact.elements                  [100, 100000]
     contact.tip_profile.half_width    (0, 20]
     contact.tip_profile.edge_drop     [0, 0.01]
@@ -49,7 +49,7 @@ NUMBERS = """
     contact.scale.length              [0.001, 1000]
     contact.scale.modulus             [1e-6, 1e6]
     contact.scale.time                [0.001, 1000]
-    contact.damping_ratio             [0, 1)
+    damping_ratio                     [0, 1)
     casings.nodal_diameters           [1, 100]
     casings.weights                   [-100, 100]
     casings.amplitude                 (0, 0.05]
@@ -61,6 +61,7 @@ NUMBERS = """
     friction                          [0, 1]
     f_omega                           [0.001, 2]
     order                             [1, 1000]
+    interference                      (0, 0.05]
     speeds.start                      [0.001, 2]
     speeds.stop                       [0.001, 2]
     speeds.step                       [1e-4, 2]
@@ -109,6 +110,9 @@ COUNTS = {
     "coatings.K": (1, 1000),
     "coatings.theta": (1, 1000),
     "coatings.friction": (1, 1000),
+    "damping_ratios": (1, 1000),
+    "layer_thicknesses": (1, 1000),
+    "interferences": (1, 1000),
     "friction": (0, 100),
     "friction.E": (1, 20),
     "friction.K": (1, 20),
@@ -139,12 +143,18 @@ def config():
 @pytest.fixture
 def complete(config):
     """The study with every group and every kind of entry that a config may have."""
-    listed = [{key: [v] if isinstance(v, float) else v for key, v in kind.items()} for kind in KINDS]
+    own = {"damping_ratio": 0.001, "interference": 4e-4, "layer_thickness": 4e-3}
+    rigid = {"damping_ratio": 0.001, "interference": 4e-4}
+    kinds = [kind | (rigid if "coating" in kind else own) for kind in KINDS]
+    listed = [{key: [v] if isinstance(v, float) else v for key, v in kind.items()} for kind in kinds]
     config["blade"]["source"] = {}
     config["contact"]["scale"] = {"length": 1, "modulus": 1, "time": 1}
     config["casings"]["2nd"]["peak_orders"] = [4]
-    config["coatings"], config["friction"] = listed, listed[:1]
-    config["analysis"]["histories"] = [kind | {"f_omega": 0.19} for kind in KINDS]
+    config["coatings"], config["friction"] = (
+        listed,
+        [{key: listed[0][key] for key in ("casing", "E", "K", "theta")}],
+    )
+    config["analysis"]["histories"] = [kind | {"f_omega": 0.19} for kind in kinds]
     return config
 
 
@@ -277,6 +287,10 @@ BORDERS = [
         just_above(CLEARANCE / 2),
         CLEARANCE / 2,
     ),
+    ({}, "coatings[0].interference", [CLEARANCE * (1 + 1e-9)], [CLEARANCE * (1 - 1e-9)]),
+    ({}, "coatings[0].interference", [DEEPEST * (1 - 1e-5)], [4e-4, DEEPEST * (1 + 1e-5)]),
+    ({}, "coatings[0].layer_thickness", [5.00001e-4], [4e-3, 5e-4]),
+    ({"coatings.0.layer_thickness": [6e-4]}, "coatings[0].interference", [5.99999e-4], [6e-4]),
     (COARSE, "contact.tip_profile.half_width", 12.5, just_above(12.5)),
     ({}, "contact.tip_profile.half_width", 20, just_above(20)),
     (COARSE, "casings.2nd.nodal_diameters[0]", 50, 51),
@@ -314,7 +328,7 @@ BORDERS = [
 def test_parts_of_a_config_agree_up_to_the_border_and_not_beyond(config, others, key, inside, outside):
     keys = [name or int(index) for name, index in re.findall(r"([^.\[\]]+)|\[(\d+)\]", key)]
     for path, value in others.items():
-        change(config, path.split("."), value)
+        change(config, [int(key) if key.isdigit() else key for key in path.split(".")], value)
     change(config, keys, inside)
     assert problems(config) == []
     change(config, keys, outside)

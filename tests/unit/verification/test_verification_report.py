@@ -61,6 +61,7 @@ def test_runs_beyond_tolerance_the_worst_first():
         "K": 0.5,
         "theta": 0.0,
         "law": "theta",
+        "variant": "",
         "f_omega": 0.2,
         "status": "completed",
         "wear_l2": 0.02,

@@ -75,13 +75,14 @@ function fromHash(hash) {
 }
 
 // Properties in the order in which they are chosen; each offers what the study has with those before it.
-const PROPERTIES = ["casing", "E", "K", "angle"];
+const PROPERTIES = ["casing", "E", "K", "angle", "variant"];
 
 function property(coating, name) {
   if (name === "angle") {
     if (coating.rigid) return coating.friction;
     return coating.law === "coulomb" ? `μ = ${Number(coating.friction.toPrecision(6))}` : coating.theta;
   }
+  if (name === "variant") return coating.variant || "none";
   return coating[name] === null ? "rigid" : coating[name];
 }
 

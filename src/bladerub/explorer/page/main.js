@@ -113,6 +113,7 @@ function showControls() {
       fill(select, distinct, property(now, name));
       select.disabled = each === "B" && !choice.compare;
     });
+    group.querySelector(".variant").hidden = study.coatings.every(({ variant }) => !variant);
     group.querySelector(".angle").textContent = now.rigid ? "friction μ" : "θ (rad)";
   }
   page("#compare").checked = choice.compare;

@@ -97,8 +97,8 @@ const ascending = (values) => [...new Set(values)].sort((a, b) => a - b);
 
 // The abradable coatings to be compared over E and K with the one at `index`: same casing and angle.
 function family(index) {
-  const { casing, rigid, theta, law } = study.coatings[index];
-  const abradable = study.coatings.filter((each) => each.casing === casing && !each.rigid);
+  const { casing, rigid, theta, law, variant } = study.coatings[index];
+  const abradable = study.coatings.filter((each) => each.casing === casing && each.variant === variant && !each.rigid);
   const angle = rigid ? Math.min(...abradable.map((each) => each.theta)) : theta;
   const alike = abradable.filter((each) => each.theta === angle);
   const wanted = rigid ? alike[0]?.law : law;

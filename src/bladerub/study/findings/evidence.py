@@ -1,7 +1,6 @@
 """What the claims are measured on: the tables and maps of a study, and nothing else."""
 
 from collections.abc import Iterable, Mapping
-from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
@@ -12,6 +11,7 @@ from bladerub.io import tables
 from bladerub.study.findings.claim import NotMeasurable
 from bladerub.study.grid import CoatingCase
 from bladerub.study.maps import CoatingMap
+from bladerub.study.variants import of_case, plain
 
 SAME_SPEED = 1e-6
 """Speeds closer than this are the same point of the grid."""
@@ -25,8 +25,8 @@ class Evidence:
     ):
         self.config = config
         self.rom_accuracy = tables["rom_accuracy"]
-        self.peaks = tables["peaks"]
-        self.divergence = tables["divergence"]
+        self.peaks = plain(tables["peaks"])  # the paper has no variants
+        self.divergence = plain(tables["divergence"])
         self._maps = {coating.case: coating for coating in maps}
 
     # Each of these raises `NotMeasurable` where the study has nothing to return.
@@ -39,7 +39,8 @@ class Evidence:
 
     def peak(self, case: CoatingCase, order: int, column: str) -> float:
         """Return ``f_peak`` or ``amplitude`` (m) of one coating and engine order from the table of peaks."""
-        rows = self.peaks[_of_case(self.peaks, case) & (self.peaks.order == order)]
+        rows = of_case(self.peaks, case)
+        rows = rows[rows.order == order]
         if rows.empty:
             raise NotMeasurable(f"no peak of engine order {order} for coating {case.name}")
         return float(rows[column].iloc[0])
@@ -56,8 +57,8 @@ class Evidence:
 
     def run(self, case: CoatingCase, f_omega: float) -> pd.Series:
         """Return the row of one run from the table of divergence."""
-        table = self.divergence
-        rows = table[_of_case(table, case) & (np.abs(table.f_omega - f_omega) < SAME_SPEED)]
+        rows = of_case(self.divergence, case)
+        rows = rows[np.abs(rows.f_omega - f_omega) < SAME_SPEED]
         if rows.empty:
             raise NotMeasurable(f"coating {case.name} has no run at f_omega = {f_omega:g}")
         return rows.iloc[0]
@@ -66,7 +67,3 @@ class Evidence:
 def read_rom_accuracy(path: str | Path) -> pd.DataFrame:
     """Read the table of the reduced model's accuracy; raises as `bladerub.io.tables.read`."""
     return tables.read(path, ["mode", "relative_error"])
-
-
-def _of_case(table: pd.DataFrame, case: CoatingCase) -> pd.Series:
-    return np.logical_and.reduce([table[name] == value for name, value in asdict(case).items()])

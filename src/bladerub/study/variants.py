@@ -1,0 +1,34 @@
+"""Coatings with values of their own (`bladerub.study.grid.OWN`) in tables: the column ``variant``.
+
+A table has the column only if one of its coatings is a variant.
+"""
+
+from collections.abc import Sequence
+from dataclasses import asdict
+
+import numpy as np
+import pandas as pd
+
+from bladerub.study.grid import CoatingCase
+
+
+def with_variant(table: pd.DataFrame, columns: Sequence[str]) -> pd.DataFrame:
+    """Return these columns of `table`, and ``variant`` if one of its rows is of a variant."""
+    return table[[*columns, *(["variant"] if table["variant"].any() else [])]]
+
+
+def plain(table: pd.DataFrame) -> pd.DataFrame:
+    """Return the rows that are of no variant, without the column."""
+    return _filled(table).query("variant == ''").drop(columns="variant")
+
+
+def of_case(table: pd.DataFrame, case: CoatingCase) -> pd.DataFrame:
+    """Return the rows of one coating."""
+    filled = _filled(table)
+    same = [filled[name] == value for name, value in asdict(case).items()]
+    return table[np.logical_and.reduce(same)]
+
+
+def _filled(table: pd.DataFrame) -> pd.DataFrame:
+    """Return `table` with the column, as text: an empty cell of a file is read as NaN."""
+    return table.assign(variant=table["variant"].fillna("") if "variant" in table else "")
