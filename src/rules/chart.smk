@@ -3,6 +3,7 @@ from functools import cache
 
 from bladerub.extensions.chart.column import plan_column
 from bladerub.extensions.chart.grid import check, columns
+from bladerub.study.grid import modulus_unit
 
 CHARTED = [
     "Y4",
@@ -110,7 +111,7 @@ rule chart_maps:
     # one job, because to start it takes longer than to draw one
     input:
         table=rules.chart_table.output[0],
-        drawing=files_behind("extensions.plots.chart_moduli", "plots.style"),
+        drawing=files_behind("extensions.plots.chart_moduli", "plots.titles"),
     output:
         png=[
             shown(f"{PLOTS}/chart_{name}.png", f"chart_{name}", "Choice of a coating")
@@ -124,6 +125,7 @@ rule chart_maps:
     params:
         dpi=DPI,
         quantities=CHARTED,
+        modulus_unit=modulus_unit(config),
     script:
         "../scripts/chart_maps.py"
 
@@ -132,7 +134,7 @@ rule chart_safe:
     input:
         table=rules.chart_table.output[0],
         analysing=files_behind("extensions.chart.choice"),
-        drawing=files_behind("extensions.plots.chart_moduli", "plots.style"),
+        drawing=files_behind("extensions.plots.chart_moduli", "plots.titles"),
     output:
         **drawn("chart_safe", "Choice of a coating"),
     log:
@@ -141,6 +143,7 @@ rule chart_safe:
         f"{RESULTS}/benchmarks/chart_safe.tsv"
     params:
         dpi=DPI,
+        modulus_unit=modulus_unit(config),
         limits=config["chart"]["limits"],
     script:
         "../scripts/chart_safe.py"

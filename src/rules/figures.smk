@@ -2,7 +2,14 @@
 # figure is planned only if the study has its coatings.
 from dataclasses import asdict
 
-from bladerub.study.grid import CoatingCase, keeps_history, run_spec, speed_name, speeds
+from bladerub.study.grid import (
+    CoatingCase,
+    keeps_history,
+    modulus_unit,
+    run_spec,
+    speed_name,
+    speeds,
+)
 from bladerub.study.orders import peak_orders, peak_settings
 
 LOBED = CoatingCase("2nd5nd", 11.0, 0.5, 0.0)
@@ -269,6 +276,7 @@ rule fig11_Y4:
         coatings=MODULI,
         quantity="amplitude",
         order=4,
+        modulus_unit=modulus_unit(config),
     script:
         "../scripts/histogram.py"
 

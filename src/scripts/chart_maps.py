@@ -11,4 +11,5 @@ chart = tables.read(snakemake.input.table)
 for quantity, png, pdf in zip(
     snakemake.params.quantities, snakemake.output.png, snakemake.output.pdf, strict=True
 ):
-    style.save(chart_map(chart, quantity), png, pdf, snakemake.params.dpi)
+    figure = chart_map(chart, quantity, snakemake.params.modulus_unit)
+    style.save(figure, png, pdf, snakemake.params.dpi)

@@ -8,5 +8,6 @@ from bladerub.workflow import job, outputs
 job.log_to(snakemake.log[0])
 
 chart = tables.read(snakemake.input.table)
-figure = chart_safe(chart, broken_limits(chart, snakemake.params.limits), snakemake.params.limits)
+settings = snakemake.params
+figure = chart_safe(chart, broken_limits(chart, settings.limits), settings.limits, settings.modulus_unit)
 outputs.save(snakemake, figure)

@@ -9,5 +9,6 @@ from bladerub.workflow import job, outputs
 job.log_to(snakemake.log[0])
 
 peaks = plain(tables.read(snakemake.input.peaks, COLUMNS)).query(snakemake.params.coatings)
-data, figure = peak_histogram(peaks, snakemake.params.quantity, snakemake.params.order)
+settings = snakemake.params
+data, figure = peak_histogram(peaks, settings.quantity, settings.order, settings.modulus_unit)
 outputs.save(snakemake, figure, data=data)

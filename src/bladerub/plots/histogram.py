@@ -10,6 +10,7 @@ from matplotlib.patches import Rectangle
 from matplotlib.ticker import MaxNLocator
 from mpl_toolkits.mplot3d import Axes3D
 
+from bladerub.plots import titles
 from bladerub.plots.style import HEIGHT_MAP, MISSING, PAGE, RED, new_figure, styled
 
 _BAR = 0.62  # width of a bar, in steps of the moduli
@@ -17,12 +18,14 @@ _ROOM = 0.01  # from the floor to the lowest speed, normalised: it is seen, and 
 
 
 @styled
-def peak_histogram(peaks: pd.DataFrame, quantity: str, order: int) -> tuple[pd.DataFrame, Figure]:
+def peak_histogram(
+    peaks: pd.DataFrame, quantity: str, order: int, unit: float
+) -> tuple[pd.DataFrame, Figure]:
     """Draw Figs. 11 to 14 over (E, K), as 3D bars (a) and as an annotated map (b).
 
     The `quantity` is ``amplitude``, drawn in mm, or ``f_peak`` of `peaks`, rows of ``peaks.csv`` of one
     casing and one theta; the table is those of the engine `order`. The moduli are drawn as equal steps, NaN
-    as no bar and a grey field with a dash; NaN alone is a ValueError.
+    as no bar and a grey field with a dash; NaN alone is a ValueError. E = 1 and K = 1 are `unit`, Pa.
     """
     rows = peaks.loc[peaks.order == order, ["casing", "E", "K", "theta", "order", quantity]]
     table, is_amplitude = rows.pivot(index="E", columns="K", values=quantity), quantity == "amplitude"
@@ -39,6 +42,7 @@ def peak_histogram(peaks: pd.DataFrame, quantity: str, order: int) -> tuple[pd.D
     for axes in (bars, colours):
         axes.set_xticks(range(len(table.index)), [f"{E:g}" for E in table.index])
         axes.set_yticks(range(len(table.columns)), [f"{K:g}" for K in table.columns])
+    colours.set(**titles.moduli_axes(unit))
     bars.set_title(f"(a) {label}", loc="left")
     colours.set_title("(b) maximum framed" if is_amplitude else "(b)")
     for i, j in np.argwhere((values == np.nanmax(values)) & is_amplitude):
@@ -71,8 +75,6 @@ def _draw_map(axes: Axes, values: np.ndarray, label: str, digits: int, norm: Nor
         text = "–" if np.isnan(value) else f"{value:.{digits}f}"
         on_dark = not np.isnan(value) and norm(value) < 0.6
         axes.text(i, j, text, ha="center", va="center", fontsize=size, color="white" if on_dark else "black")
-    axes.set(
-        facecolor=MISSING, xlabel="Young modulus E (normalised)", ylabel="plastic modulus K (normalised)"
-    )
+    axes.set_facecolor(MISSING)
     bar = axes.figure.colorbar(mesh, ax=axes, label=label, location="bottom", aspect=30)
     bar.locator = MaxNLocator(nbins=5)

@@ -12,6 +12,12 @@ def moduli(casing: str, E: float, K: float) -> str:
     return f"casing {casing}, E = {E:g}, K = {K:g}"
 
 
+def moduli_axes(unit: float) -> dict[str, str]:
+    """Label horizontal E and vertical K, of which 1 is `unit`, Pa."""
+    of = f"in units of {unit / 1e6:g} MPa"
+    return {"xlabel": f"Young modulus E ({of})", "ylabel": f"plastic modulus K ({of})"}
+
+
 def angle(theta: float) -> str:
     """Angle of the abradable elements, for instance ``θ = 0.15 rad``."""
     return f"θ = {theta:g} rad" if theta else "θ = 0"

@@ -16,7 +16,7 @@ def draw(mm, quantity="amplitude"):
     """Draw the values over E (rows) and K (columns), as amplitudes in mm or as speeds."""
     rows = mm.rename_axis(index="E", columns="K").stack(future_stack=True).rename(quantity).reset_index()
     rows[quantity] *= 1e-3 if quantity == "amplitude" else 1
-    return peak_histogram(rows.assign(casing="2nd", theta=0.0, order=4), quantity, order=4)[1]
+    return peak_histogram(rows.assign(casing="2nd", theta=0.0, order=4), quantity, order=4, unit=600e6)[1]
 
 
 @pytest.fixture
@@ -28,7 +28,7 @@ def test_both_views_save(figure, draws):
     bars, cells, colour_bar = draws(figure).axes
     assert bars.get_title(loc="left") == "(a) $Y_4$ (mm)"
     assert colour_bar.get_xlabel() == "$Y_4$ (mm)"
-    assert cells.get_xlabel() == "Young modulus E (normalised)"
+    assert cells.get_xlabel() == "Young modulus E (in units of 600 MPa)"
     assert [tick.get_text() for tick in cells.get_xticklabels()] == ["0.11", "1.1", "20"]
     assert [tick.get_text() for tick in bars.get_yticklabels()] == ["0.5", "5"]
 
@@ -82,7 +82,7 @@ PEAKS = pd.DataFrame(
 
 
 def test_amplitudes_of_one_order_are_drawn_in_mm(draws):
-    table, figure = peak_histogram(PEAKS, "amplitude", order=4)
+    table, figure = peak_histogram(PEAKS, "amplitude", order=4, unit=600e6)
     assert list(table.columns) == ["casing", "E", "K", "theta", "order", "amplitude"]
     pd.testing.assert_frame_equal(table, PEAKS[PEAKS.order == 4].drop(columns="f_peak"))
     bars, cells, _ = draws(figure).axes
@@ -91,7 +91,7 @@ def test_amplitudes_of_one_order_are_drawn_in_mm(draws):
 
 
 def test_speeds_of_one_order_stand_on_a_floor_below_the_lowest(draws):
-    table, figure = peak_histogram(PEAKS, "f_peak", order=4)
+    table, figure = peak_histogram(PEAKS, "f_peak", order=4, unit=600e6)
     pd.testing.assert_frame_equal(table, PEAKS[PEAKS.order == 4].drop(columns="amplitude"))
     bars, cells, _ = draws(figure).axes
     assert bars.get_zlim()[0] == pytest.approx(0.29)

@@ -52,12 +52,12 @@ QUANTITIES = {
 
 
 @styled
-def chart_map(chart: pd.DataFrame, quantity: str) -> Figure:
-    """Draw one of `QUANTITIES`, a column of ``chart.csv``, for each θ."""
+def chart_map(chart: pd.DataFrame, quantity: str, unit: float) -> Figure:
+    """Draw one of `QUANTITIES`, a column of ``chart.csv``, for each θ; E = 1 and K = 1 are `unit`, Pa."""
     about = QUANTITIES[quantity]
     norm = _norm(chart[quantity] * about.factor, about.logarithmic)
     figure = new_figure(PAGE, 0.58 * PAGE)
-    drawn = _panels(figure, chart)
+    drawn = _panels(figure, chart, unit)
     for axes, rows in drawn:
         grid = _over_moduli(rows.assign(drawn=rows[quantity] * about.factor), "drawn")
         mesh = _colour(axes, grid, cmap=HEIGHT_MAP, norm=norm)
@@ -107,17 +107,17 @@ def _keys(about: Quantity) -> list[Line2D]:
 
 
 @styled
-def chart_safe(chart: pd.DataFrame, broken: pd.DataFrame, limits: Mapping[str, float]) -> Figure:
+def chart_safe(chart: pd.DataFrame, broken: pd.DataFrame, limits: Mapping[str, float], unit: float) -> Figure:
     """Draw for each θ which coatings of ``chart.csv`` exceed which of the `limits`.
 
-    `broken` is for the same rows, from `bladerub.extensions.chart.choice.broken_limits`.
+    `broken` is for the same rows, from `bladerub.extensions.chart.choice.broken_limits`; E = 1 is `unit`, Pa.
     """
     judged = chart.assign(
         broken=broken.sum(axis=1),
         letters=["".join(LETTERS[name] for name in LETTERS if row[name]) for _, row in broken.iterrows()],
     )
     figure = new_figure(PAGE, 0.55 * PAGE)
-    for axes, rows in _panels(figure, judged):
+    for axes, rows in _panels(figure, judged, unit):
         grid, colours = _over_moduli(rows, "broken"), ListedColormap(_SHADES)
         _colour(axes, grid, cmap=colours, vmin=-0.5, vmax=len(_SHADES) - 0.5, edgecolors="white", lw=0.2)
         size = min(7.0, 75 / max(grid.shape))
@@ -139,14 +139,14 @@ def _limit_keys(limits: Mapping[str, float]) -> list[Patch]:
     return [safe, *(Patch(facecolor="none", label=text) for text in words.values())]
 
 
-def _panels(figure: Figure, chart: pd.DataFrame) -> list[tuple[Axes, pd.DataFrame]]:
+def _panels(figure: Figure, chart: pd.DataFrame, unit: float) -> list[tuple[Axes, pd.DataFrame]]:
     """Make a panel for each θ of the chart, side by side; return each with the rows of its θ."""
     of_angle = list(chart.groupby("theta"))
-    row = figure.subplots(1, len(of_angle), sharey=True, squeeze=False)[0]
+    row, labels = figure.subplots(1, len(of_angle), sharey=True, squeeze=False)[0], titles.moduli_axes(unit)
     for index, (axes, (theta, _)) in enumerate(zip(row, of_angle, strict=True)):
         axes.set_title(titles.panel(index, rf"$\theta$ = {theta:g} rad"))
-        axes.set(xscale="log", yscale="log", xlabel="Young modulus E (normalised)", facecolor=MISSING)
-    row[0].set_ylabel("plastic modulus K (normalised)")
+        axes.set(xscale="log", yscale="log", xlabel=labels["xlabel"], facecolor=MISSING)
+    row[0].set_ylabel(labels["ylabel"])
     return [(axes, rows) for axes, (_, rows) in zip(row, of_angle, strict=True)]
 
 

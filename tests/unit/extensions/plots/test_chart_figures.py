@@ -35,7 +35,7 @@ def chart():
 
 @pytest.mark.parametrize("quantity", QUANTITIES)
 def test_every_quantity_is_drawn_with_the_paper_s_coatings_and_the_ridge(chart, draws, quantity):
-    panel, other, bar = draws(chart_map(chart, quantity)).axes
+    panel, other, bar = draws(chart_map(chart, quantity, 2e8)).axes
     assert bar.get_xlabel() == QUANTITIES[quantity].label
     assert other.get_title(loc="left") == r"(b) $\theta$ = 0.15 rad"
     dots, _, ridge = panel.lines
@@ -45,7 +45,7 @@ def test_every_quantity_is_drawn_with_the_paper_s_coatings_and_the_ridge(chart, 
 
 def test_cells_say_which_limits_they_break(chart, draws):
     chart.loc[0, "divergent_share"] = 0.1
-    figure = draws(chart_safe(chart, broken_limits(chart, LIMITS), LIMITS))
+    figure = draws(chart_safe(chart, broken_limits(chart, LIMITS), LIMITS, 2e8))
     said = {text.get_position(): text.get_text() for text in figure.axes[0].texts}
     assert said[0.11, 0.3] == "D"
     assert said[0.5, 0.5] == "W"
