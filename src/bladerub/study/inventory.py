@@ -1,13 +1,14 @@
 """What of the plan is on disk: runs done, missing, stale and corrupt, by coating."""
 
+import os
 from collections.abc import Iterable, Mapping
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 from bladerub.study.growth import needs_confirmation
-from bladerub.study.manifest import damaged_files
-from bladerub.study.plan import CoatingPlan, PlannedRun, longer_run
-from bladerub.study.store import ALL, StoredRun, read_run
+from bladerub.study.manifest import damaged_files, read_manifest
+from bladerub.study.plan import CoatingPlan, PlannedRun, growth_key, longer_run
+from bladerub.study.store import ALL, read_run
 
 COUNTS = {
     "planned": "runs of the study: done, missing, stale and corrupt",
@@ -30,6 +31,15 @@ def total(inventories: Iterable[Mapping[str, int]]) -> dict[str, int]:
     return {name: sum(part[name] for part in parts) for name in COUNTS}
 
 
+class _Found(NamedTuple):
+    """A whole run on disk, as its manifest or its file says."""
+
+    key: str
+    status: str
+    unconverged: bool
+    grows: bool  # so that it needs a longer run
+
+
 def take(
     config: Mapping[str, Any],
     plan: CoatingPlan,
@@ -39,38 +49,71 @@ def take(
 ) -> tuple[dict[str, int], list[Path]]:
     """Compare the runs of one coating in `folder` with its `plan`: `COUNTS`, and the damaged files.
 
-    Without a blade, whose digest is `bladerub.study.cache.blade_digest`, every run that is there is stale. If
-    `thorough`, every number is read, and every byte compared with the checksum in the manifest if the job is
-    done; otherwise only what shows a truncated file.
+    Without a blade, whose digest is `bladerub.study.cache.blade_digest`, every run that is there is stale. A
+    file of the size in the manifest is taken to be what that says; any other is opened, which shows a
+    truncated one. If `thorough`, every number is read, and every byte compared with the checksum in the
+    manifest if the job is done.
     """
     folder, settings = Path(folder), config["analysis"]["divergence"]
-    damaged = damaged_files(folder / "manifest.tsv", thorough=thorough)
+    manifest = folder / "manifest.tsv"
+    damaged = damaged_files(manifest, thorough=thorough)
+    sizes = _sizes(folder)
+    listed = {} if thorough or damaged else _listed(manifest, sizes, growth_key(config))
 
-    def look(run: PlannedRun) -> tuple[str, StoredRun | None]:
+    def look(run: PlannedRun) -> tuple[str, _Found | None]:
         path = folder / run.file
-        if not path.exists():
-            return "missing", None
-        if path in damaged:
-            return "corrupt", None
-        try:
-            stored = read_run(path, ALL if thorough else {"revolution_amplitude"})
-        except Exception:  # h5py raises anything on a damaged file
-            damaged.append(path)
-            return "corrupt", None
-        current = blade_digest is not None and stored.attributes["run_key"] == run.key(blade_digest)
-        return ("done" if current else "stale"), stored
+        found = listed.get(path)
+        if found is None:
+            if path not in sizes:
+                return "missing", None
+            if path in damaged:
+                return "corrupt", None
+            try:
+                found = _read(path, settings, thorough)
+            except Exception:  # h5py raises anything on a damaged file
+                damaged.append(path)
+                return "corrupt", None
+        current = blade_digest is not None and found.key == run.key(blade_digest)
+        return ("done" if current else "stale"), found
 
     counts = dict.fromkeys(COUNTS, 0) | {"planned": len(plan.runs)}
     for run in plan.runs:
-        state, stored = look(run)
+        state, found = look(run)
         counts[state] += 1
-        if state != "done":
+        if found is None or state != "done":
             continue
-        status = stored.attributes["status"]
-        counts["unbounded"] += status == "unbounded"
-        counts["unconverged"] += stored.attributes["n_unconverged_steps"] > 0
-        if needs_confirmation(stored.data["revolution_amplitude"], status, settings):
+        counts["unbounded"] += found.status == "unbounded"
+        counts["unconverged"] += found.unconverged
+        if found.grows:
             counts["longer_planned"] += 1
             counts["longer_done"] += look(longer_run(config, run))[0] == "done"
-    counts["bytes"] = sum(file.stat().st_size for file in folder.rglob("*") if file.is_file())
+    counts["bytes"] = sum(sizes.values())
     return counts, damaged
+
+
+def _sizes(folder: Path) -> dict[Path, int]:
+    """Size of each file in the folder and those below it."""
+    paths = (Path(place, name) for place, _, names in os.walk(folder) for name in names)
+    return {path: path.stat().st_size for path in paths if path.is_file()}
+
+
+def _listed(manifest: Path, sizes: Mapping[Path, int], growth_key: str) -> dict[Path, _Found]:
+    """Take from the manifest, if there is one, what it says of whole files; the key is that of its job."""
+    found = {}
+    for row in read_manifest(manifest) if manifest in sizes else ():
+        if row.growth_key != growth_key:
+            continue
+        files = row.files(manifest.parent)
+        keys = (row.run_key, row.confirmation_key)
+        for file, key in zip(files, keys, strict=False):
+            if sizes.get(file.path) == file.bytes:
+                found[file.path] = _Found(key, row.status, row.unconverged_steps > 0, len(files) > 1)
+    return found
+
+
+def _read(path: Path, settings: Mapping[str, Any], thorough: bool) -> _Found:
+    """Read the run at `path`, wholly if `thorough`."""
+    stored = read_run(path, ALL if thorough else {"revolution_amplitude"})
+    told = stored.attributes
+    grows = needs_confirmation(stored.data["revolution_amplitude"], told["status"], settings)
+    return _Found(told["run_key"], told["status"], told["n_unconverged_steps"] > 0, grows)

@@ -18,7 +18,7 @@ from bladerub.study.cache import Entry
 from bladerub.study.grid import CoatingCase
 from bladerub.study.growth import needs_confirmation
 from bladerub.study.manifest import CONFIRMATION, ManifestRow
-from bladerub.study.plan import CoatingPlan, PlannedRun, longer_run
+from bladerub.study.plan import CoatingPlan, PlannedRun, growth_key, longer_run
 from bladerub.study.store import MAPPED, read_run, stored_run, write_run
 
 LOCK = ".lock"
@@ -50,6 +50,7 @@ class _Done(NamedTuple):
     bytes: int
     checksum: str
     status: str
+    unconverged_steps: int
     amplitude: np.ndarray
 
 
@@ -80,13 +81,23 @@ def compute_missing(
             if needs_confirmation(done[run.file].amplitude, done[run.file].status, settings)
         ]
         longer = compute([longer_run(config, run) for run in growing])
-        return [_row(run, done[run.file], longer.get(f"{CONFIRMATION}/{run.file}")) for run in plan.runs]
+        key = growth_key(config)
+        return [_row(run, done[run.file], longer.get(f"{CONFIRMATION}/{run.file}"), key) for run in plan.runs]
 
 
-def _row(run: PlannedRun, done: _Done, longer: _Done | None) -> ManifestRow:
-    key, size, checksum = longer[:3] if longer else ("", 0, "")
+def _row(run: PlannedRun, done: _Done, longer: _Done | None, growth_key: str) -> ManifestRow:
     return ManifestRow(
-        run.file, run.spec.f_omega, done.key, done.status, done.bytes, key, size, done.checksum, checksum
+        file=run.file,
+        f_omega=run.spec.f_omega,
+        run_key=done.key,
+        status=done.status,
+        bytes=done.bytes,
+        confirmation_key=longer.key if longer else "",
+        confirmation_bytes=longer.bytes if longer else 0,
+        checksum=done.checksum,
+        confirmation_checksum=longer.checksum if longer else "",
+        unconverged_steps=done.unconverged_steps,
+        growth_key=growth_key,
     )
 
 
@@ -123,4 +134,6 @@ def _compute(
 def _done(entry: Entry, checksum: str | None) -> _Done:
     run, size = read_run(entry.path, {"revolution_amplitude"}), entry.path.stat().st_size
     checksum = checksum or file_checksum(entry.path)
-    return _Done(entry.key, size, checksum, run.attributes["status"], run.data["revolution_amplitude"])
+    told = run.attributes
+    unconverged = int(told["n_unconverged_steps"])
+    return _Done(entry.key, size, checksum, told["status"], unconverged, run.data["revolution_amplitude"])

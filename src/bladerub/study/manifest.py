@@ -3,7 +3,7 @@
 import csv
 from collections.abc import Iterable
 from pathlib import Path
-from typing import NamedTuple, Protocol, TypeVar
+from typing import Any, NamedTuple, Protocol, TypeVar
 
 from bladerub.io import atomic
 from bladerub.io.checksum import file_checksum
@@ -33,6 +33,7 @@ class Row(Protocol):
     """A row of a manifest: a named tuple of strings and numbers."""
 
     _fields: tuple[str, ...]
+    _field_defaults: dict[str, Any]
 
     def files(self, folder: Path) -> list[ListedFile]:
         """Files that the row lists; `folder` is that of the manifest."""
@@ -45,7 +46,8 @@ class ManifestRow(NamedTuple):
     """One run in the manifest of a coating: its file next to the manifest, normalised speed, key and status.
 
     ``confirmation_...`` is of the longer run that shows whether its growth lasts, empty if it needs none. The
-    checksums are the SHA-256 of both files.
+    checksums are the SHA-256 of both files. ``unconverged_steps`` are those whose contact forces did not
+    converge. ``growth_key`` is `bladerub.study.plan.growth_key` of the job; older manifests lack it.
     """
 
     file: str
@@ -57,6 +59,8 @@ class ManifestRow(NamedTuple):
     confirmation_bytes: int = 0
     checksum: str = ""
     confirmation_checksum: str = ""
+    unconverged_steps: int = 0
+    growth_key: str = ""
 
     def files(self, folder: Path) -> list[ListedFile]:
         """List the run and, if it has one, its longer run."""
@@ -83,18 +87,20 @@ def write_manifest(path: str | Path, rows: Iterable[Row], kind: type[Row] = Mani
 
 
 def read_manifest(path: str | Path, kind: type[AnyRow] = ManifestRow) -> list[AnyRow]:
-    """Read the rows of that `kind` written by `write_manifest`.
+    """Read the rows of that `kind` written by `write_manifest`; an older one may lack the last columns.
 
     Raises `OSError`, naming the file, if it is missing or not such a manifest.
     """
-    convert = [kind.__annotations__[name] for name in kind._fields]
     lines = Path(path).read_text(encoding="utf-8", errors="replace").splitlines(keepends=True)
     reader = csv.reader(lines, delimiter="\t")
     try:
-        if next(reader, None) != list(kind._fields):
+        header = next(reader, [])
+        absent = kind._fields[len(header) :]
+        if [*header, *absent] != list(kind._fields) or not kind._field_defaults.keys() >= set(absent):
             raise DamagedFile(f"{path}: not a manifest, its header is not {' '.join(kind._fields)}")
         if not lines[-1].endswith("\n"):
             raise ValueError("breaks off")
+        convert = [kind.__annotations__[name] for name in header]
         return [kind(*(read(text) for read, text in zip(convert, row, strict=True))) for row in reader]
     except (ValueError, csv.Error) as error:
         raise DamagedFile(f"{path}: not a manifest, line {reader.line_num}: {error}") from error

@@ -8,7 +8,7 @@ from bladerub.contact.spec import RunSpec
 from bladerub.io.sources import solver_digest, storage_digest
 from bladerub.study import cache
 from bladerub.study.grid import CoatingCase, keeps_history, run_spec, speed_name, speeds
-from bladerub.study.growth import confirmation_spec
+from bladerub.study.growth import confirmation_determinants, confirmation_spec
 from bladerub.study.manifest import CONFIRMATION
 from bladerub.study.store import StoredRun
 
@@ -58,6 +58,11 @@ def coating_plan(config: Mapping[str, Any], case: CoatingCase) -> CoatingPlan:
         at_speed = replace(spec, f_omega=f_omega)  # what is the same at all speeds is one object
         runs.append(planned_run(config, at_speed, f"{speed_name(f_omega)}.h5", history))
     return CoatingPlan(case, tuple(runs))
+
+
+def growth_key(config: Mapping[str, Any]) -> str:
+    """Digest what decides which runs need a longer one, besides the runs themselves."""
+    return cache.digest(confirmation_determinants(config["analysis"]["divergence"]))
 
 
 def longer_run(config: Mapping[str, Any], run: PlannedRun) -> PlannedRun:

@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import pytest
 
+from bladerub.study import inventory as module
 from bladerub.study import job
 from bladerub.study.inventory import COUNTS, take, total
 from bladerub.study.manifest import write_manifest
@@ -59,6 +60,26 @@ def test_longer_runs_are_those_of_the_plan_not_of_the_manifest(done, inventory, 
     assert (inventory()["longer_planned"], inventory()["longer_done"]) == (1, 0)
     study["analysis"]["divergence"]["confirmation_revolutions"] = 0
     assert (inventory()["longer_planned"], inventory()["longer_done"]) == (0, 0)
+
+
+def test_only_runs_that_no_manifest_of_these_settings_describes_are_opened(
+    done, inventory, study, monkeypatch, tmp_path
+):
+    expected, opened = inventory(), []
+
+    def read(path, only):
+        opened.append(path.relative_to(tmp_path).as_posix())
+        return read_run(path, only)
+
+    monkeypatch.setattr(module, "read_run", read)
+    assert inventory() == expected
+    assert opened == []
+    os.truncate(tmp_path / "0.1000.h5", 2000)
+    assert counts(inventory()) == {**NONE, "done": 3, "corrupt": 1, "unbounded": 1}
+    assert opened == ["0.1000.h5"]
+    study["analysis"]["divergence"]["confidence"] = 0.9
+    assert inventory()["longer_done"] == 1
+    assert len(opened) == 6
 
 
 def test_another_blade_makes_every_run_stale(done, inventory):
@@ -124,7 +145,9 @@ def test_runs_whose_contact_forces_did_not_converge_are_counted(
         return replace(simulate(blade, spec), n_unconverged_steps=steps, n_fallback_steps=9)
 
     monkeypatch.setattr(job, "simulate", unconverged)
-    compute()
+    rows = compute()
+    assert (inventory()["done"], inventory()["unconverged"]) == (4, 2)
+    write_manifest(tmp_path / "manifest.tsv", rows)
     assert (inventory()["done"], inventory()["unconverged"]) == (4, 2)
     attributes = read_run(tmp_path / "0.1000.h5").attributes
     assert (attributes["n_unconverged_steps"], attributes["n_fallback_steps"]) == (3, 9)
@@ -139,7 +162,7 @@ def test_a_total_adds_up(done, inventory):
 def test_each_damaged_file_is_named(done, look, tmp_path):
     hurt = [tmp_path / name for name in ("0.1000.h5", "confirmation/0.2000.h5", "manifest.tsv")]
     for path in hurt:
-        os.truncate(path, path.stat().st_size // 2)
+        os.truncate(path, path.stat().st_size // 2 - 1)  # half a manifest may end with a line
     assert sorted(look()[1]) == sorted(hurt)
 
 

@@ -10,14 +10,15 @@ from bladerub.study.manifest import (
     write_manifest,
 )
 
-HEADER = (
+OLDER = (
     "file\tf_omega\trun_key\tstatus\tbytes\tconfirmation_key\tconfirmation_bytes\tchecksum\t"
     "confirmation_checksum"
 )
+HEADER = f"{OLDER}\tunconverged_steps\tgrowth_key"
 ROWS = [
     ManifestRow("0.1900.h5", 0.19, "a" * 64, "completed", 70_000, checksum="e" * 64),
     ManifestRow("0.1970.h5", 0.197, "b", "unbounded", 1, checksum="f"),
-    ManifestRow("0.2000.h5", 0.2, "c", "completed", 2, "d" * 64, 3, "g", "h"),
+    ManifestRow("0.2000.h5", 0.2, "c", "completed", 2, "d" * 64, 3, "g", "h", 7, "i"),
 ]
 
 
@@ -31,6 +32,11 @@ def test_a_manifest_comes_back_as_written(path):
     assert path.read_text().splitlines()[0] == HEADER
     assert read_manifest(path) == ROWS
     assert [entry.name for entry in path.parent.iterdir()] == ["manifest.tsv"]
+
+
+def test_a_manifest_without_the_last_columns_is_read(path):
+    path.write_text(f"{OLDER}\n0.1900.h5\t0.19\tk\tcompleted\t1\t\t0\tsum\t\n")
+    assert read_manifest(path) == [ManifestRow("0.1900.h5", 0.19, "k", "completed", 1, checksum="sum")]
 
 
 def test_it_lists_runs_and_longer_runs(path):
@@ -49,11 +55,13 @@ def test_it_lists_runs_and_longer_runs(path):
     [
         "",
         "a\tb\n",
-        f"{HEADER}\n0.1900.h5\tfast\tk\tcompleted\t1\t\t0\t\t\n",
-        f"{HEADER}\n0.1900.h5\t0.1",
-        f"{HEADER}\n0.1900.h5\t0.1\tk\tcompleted\t1\t\t0\t\t\tmore\n",
-        f"{HEADER}\n0.1900.h5\t0.1\tk\tcompleted\t1\t\t0\t1234\tbreaks off",
-        f"{HEADER}\n0.1900.h5\t0.1\tk\tcompleted\t1\t\t0\xff\t\t\n".encode("latin-1"),
+        "file\tf_omega\trun_key\tstatus\n",
+        f"{HEADER}\tmore\n",
+        f"{OLDER}\n0.1900.h5\tfast\tk\tcompleted\t1\t\t0\t\t\n",
+        f"{OLDER}\n0.1900.h5\t0.1",
+        f"{OLDER}\n0.1900.h5\t0.1\tk\tcompleted\t1\t\t0\t\t\tmore\n",
+        f"{OLDER}\n0.1900.h5\t0.1\tk\tcompleted\t1\t\t0\t1234\tbreaks off",
+        f"{OLDER}\n0.1900.h5\t0.1\tk\tcompleted\t1\t\t0\xff\t\t\n".encode("latin-1"),
     ],
 )
 def test_what_is_not_a_manifest_is_an_error_with_its_name(path, content):
