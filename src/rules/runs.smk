@@ -37,6 +37,7 @@ rule compile_kernel:
         runtime=minutes(5),
     params:
         solver=solver_digest(),
+        tip_turns=config["contact"].get("tip_turns", False),
     script:
         "../scripts/compile_kernel.py"
 

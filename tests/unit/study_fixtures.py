@@ -94,7 +94,7 @@ def make_result(angle):
             n_unconverged_steps=0,
             n_contact_steps=300,
             n_modes=24,
-            energy=Energy(*(float(i) for i in range(1, 13))),
+            energy=Energy(*(float(i) for i in range(1, 14))),
         )
 
     return make

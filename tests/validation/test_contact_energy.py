@@ -9,12 +9,18 @@ import pytest
 
 
 @pytest.mark.parametrize(
-    ("E", "K", "theta", "f_omega"), [(1.1, 0.5, 0.0, 0.12), (20.0, 10.0, 0.0, 0.31), (1.1, 0.5, 0.15, 0.31)]
+    ("E", "K", "theta", "f_omega", "turns"),
+    [
+        (1.1, 0.5, 0.0, 0.12, False),
+        (20.0, 10.0, 0.0, 0.31, False),
+        (1.1, 0.5, 0.15, 0.31, False),
+        (1.1, 0.5, 0.15, 0.31, True),
+    ],
 )
-def test_residual_is_of_second_order(run, E, K, theta, f_omega):
+def test_residual_is_of_second_order(run, E, K, theta, f_omega, turns):
     steps = np.array([20, 40, 80, 160])
     residual = [
-        abs(run(E, K, f_omega, theta=theta, revolutions=4, steps_per_element=n).energy.residual)
+        abs(run(E, K, f_omega, theta, turns=turns, revolutions=4, steps_per_element=n).energy.residual)
         for n in steps
     ]
     order = -np.polyfit(np.log(steps), np.log(residual), 1)[0]

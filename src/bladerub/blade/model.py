@@ -47,6 +47,9 @@ class ReducedBlade:
     stiffness_higher : tuple of (n, n) ndarray
         Coefficients of the 6th, 8th ... power of the normalised rotational frequency, N/m, where the fit has
         more speeds than the three of eq. (3).
+    tip_slope : (8, n) ndarray, optional
+        Circumferential slope of the tip at each interface node per unit of each coordinate, 1/m, positive
+        where the side ahead in the rotation rises; None where the blade does not tell.
     """
 
     mass: np.ndarray
@@ -62,6 +65,7 @@ class ReducedBlade:
     rank_tolerance: float
     length: float
     stiffness_higher: tuple[np.ndarray, ...] = ()
+    tip_slope: np.ndarray | None = None
 
     def stiffness(self, f_omega: float) -> np.ndarray:
         """Stiffness matrix (n, n) in N/m at the normalised rotational frequency `f_omega`, eq. (2).
@@ -77,7 +81,8 @@ class ReducedBlade:
     def arrays(self) -> dict[str, np.ndarray]:
         """Matrices and vectors by name; `stiffness_higher` are ``stiffness_3``, ``stiffness_4`` ..."""
         higher = {f"stiffness_{power}": matrix for power, matrix in enumerate(self.stiffness_higher, 3)}
-        return {name: getattr(self, name) for name in _UNITS} | higher
+        slope = {} if self.tip_slope is None else {"tip_slope": self.tip_slope}
+        return {name: getattr(self, name) for name in _REQUIRED} | higher | slope
 
 
 def stiffness_at(coefficients: Sequence, f_omega: float):
@@ -95,7 +100,12 @@ _UNITS = {
     "node_position": ("m", "interface nodes at rest in the rotating frame"),
     "radial_direction": ("1", "radial direction at each interface node, normal to the casing"),
     "tangential_direction": ("1", "tangential direction at each interface node, positive with the rotation"),
+    "tip_slope": (
+        "1/m",
+        "circumferential slope of the tip per unit of each coordinate, up with the rotation",
+    ),
 }
+_REQUIRED = tuple(name for name in _UNITS if name != "tip_slope")
 _ATTRIBUTES = ("f1_hz", "f_omega_max", "eta", "rank_tolerance", "length")
 
 
@@ -108,8 +118,10 @@ def write_reduced_blade(path: str | Path, blade: ReducedBlade, origin: Mapping[s
         else:
             power = 2 * int(name.removeprefix("stiffness_"))
             units, long_name = "N/m", f"coefficient of f_omega^{power} in the stiffness"
-        is_matrix = data.shape == blade.mass.shape
-        dims = ("coordinate", "coordinate_column") if is_matrix else ("node", "axis")
+        if data.shape == blade.mass.shape:
+            dims = ("coordinate", "coordinate_column")
+        else:
+            dims = ("node", "coordinate" if name == "tip_slope" else "axis")
         variables[name] = Variable(dims, data, units, long_name)
     hdf5.write(path, variables, {name: getattr(blade, name) for name in _ATTRIBUTES}, origin)
 
@@ -121,9 +133,10 @@ def read_reduced_blade(path: str | Path) -> ReducedBlade:
     higher = itertools.takewhile(data.__contains__, names)
     try:
         return ReducedBlade(
-            **{name: data[name] for name in _UNITS},
+            **{name: data[name] for name in _REQUIRED},
             **{name: attributes[name] for name in _ATTRIBUTES},
             stiffness_higher=tuple(data[name] for name in higher),
+            tip_slope=data.get("tip_slope"),
         )
     except KeyError as error:
         raise DamagedFile(f"{path}: not a reduced blade, {error} is missing") from error

@@ -17,6 +17,7 @@ from bladerub.blade.linear import lowest_modes
 from bladerub.blade.model import ReducedBlade, stiffness_at
 from bladerub.blade.preconditioned_cg import PreconditionedCG
 from bladerub.blade.reduction import Partition, fit_speeds, project, speed_law, transformation
+from bladerub.blade.tip_slope import tip_slope
 from bladerub.io.errors import BadInput
 
 log = logging.getLogger(__name__)
@@ -70,6 +71,7 @@ def _reduce(blade: DiscreteBlade, reduction: Mapping[str, Any], length: float, m
     fits = [blade.stiffness[f_omega] for f_omega in fit_speeds(f_max, reduction.get("fit_speeds", 3))]
     eta, rank_tolerance = reduction["modes_per_speed"], reduction["rank_tolerance"]
     phi = transformation(fits, blade.mass, partition, eta, rank_tolerance, blade.at_rest)
+    recovery = np.stack([full(column) for column in phi.T])  # eq. (6)
     radial, tangential = directions(mesh.mesh.points[mesh.interface], blade.layout.tip_cone)
     k0, k1, k2, *higher = speed_law([project(stiffness, phi) for stiffness in fits], f_max)  # eqs. (3), (6)
     reduced = ReducedBlade(
@@ -86,6 +88,7 @@ def _reduce(blade: DiscreteBlade, reduction: Mapping[str, Any], length: float, m
         rank_tolerance=rank_tolerance,
         length=length,
         stiffness_higher=tuple(higher),
+        tip_slope=tip_slope(mesh, recovery, radial, tangential),
     )
     highest = reduced_frequencies(reduced, f_max)[-1]
     log.info("%d reduced coordinates, highest %.4g Hz", len(reduced.mass), highest)
@@ -97,7 +100,7 @@ def _reduce(blade: DiscreteBlade, reduction: Mapping[str, Any], length: float, m
         mesh,
         blade.frequency,
         shapes / np.abs(shapes).max(axis=(1, 2), keepdims=True),
-        np.stack([full(column) for column in phi.T]),  # eq. (6)
+        recovery,
         np.array([full(blade.displacement[f_omega]) for f_omega in moved]).reshape(-1, *shapes.shape[1:]),
         np.array(moved, dtype=float),
         accuracy_table(reduced, blade.frequencies, _frequencies_by_law(blade, fits, f_max)),

@@ -12,7 +12,7 @@ from bladerub.io.errors import DamagedFile
 
 LARGEST_MATRIX = 10_000  # coordinates of a reduced blade; more would fill the memory
 
-_AT_NODES = ("node_position", "radial_direction", "tangential_direction")
+_OF_NODES = ("node_position", "radial_direction", "tangential_direction", "tip_slope")
 _POSITIVE = ("f1_hz", "f_omega_max", "length")
 
 
@@ -54,7 +54,8 @@ def _check(blade: ReducedBlade) -> None:
             raise ValueError(f"{name} = {value!r}: must be a number above 0")
     n = len(blade.mass) if np.ndim(blade.mass) else 0
     for name, values in blade.arrays.items():
-        shape = (N_INTERFACE, 3) if name in _AT_NODES else (max(n, 3 * N_INTERFACE),) * 2
+        is_matrix, size = name not in _OF_NODES, max(n, 3 * N_INTERFACE)
+        shape = (size, size) if is_matrix else (N_INTERFACE, size if name == "tip_slope" else 3)
         if values.shape != shape or values.dtype.kind != "f":
             raise ValueError(
                 f"{name}: must be numbers of the shape {shape}, is {values.dtype} {values.shape}"
@@ -62,7 +63,7 @@ def _check(blade: ReducedBlade) -> None:
         if not np.all(np.isfinite(values)):
             raise ValueError(f"{name}: must be finite, has NaN or infinite entries")
         tolerance = 1e-6 * np.abs(values).max()
-        if name not in _AT_NODES and not np.allclose(values, values.T, rtol=0, atol=tolerance):
+        if is_matrix and not np.allclose(values, values.T, rtol=0, atol=tolerance):
             raise ValueError(f"{name}: must be symmetric")
     try:
         np.linalg.cholesky(blade.mass)

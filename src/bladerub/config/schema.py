@@ -26,7 +26,7 @@ _COMPARING = {"limits", "keyOf"}
 _LIMIT = re.compile(r"(at most|below|at least|above) ([\w.]+)(?: / (\d+))?(?:, .+)?")
 _RELATIONS = {"at most": operator.le, "below": operator.lt, "at least": operator.ge, "above": operator.gt}
 _KINDS = {"number": "a number", "integer": "a whole number", "string": "text"}
-_KINDS |= {"array": "a list", "object": "a group of keys"}
+_KINDS |= {"array": "a list", "object": "a group of keys", "boolean": "true or false"}
 
 
 @cache

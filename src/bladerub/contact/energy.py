@@ -27,7 +27,10 @@ REVERSED, FALLBACK, UNCONVERGED, RETREAT = range(12, 16)
 forces were found node by node, steps whose forces did not converge. Of each node: how much less than the
 rotation it slid at most in a step, in elements."""
 
-N_ENTRIES = 16
+COUPLE = 16
+"""Work of the couples on the blade, where the profile of the tip turns."""
+
+N_ENTRIES = 17
 
 
 def blade_energy(rule: Recurrence, state) -> tuple[float, float]:
@@ -35,7 +38,8 @@ def blade_energy(rule: Recurrence, state) -> tuple[float, float]:
     (q, before, _), n = state.q, rule.omega.size
     q, before = q[:n], before[:n]
     kinetic = np.sum(rule.kinetic * (q - before) ** 2)
-    condensed = state.force[0] @ rule.static_compliance @ state.force[1]
+    force, force_before = state.force[:, : len(rule.tip)]
+    condensed = force @ rule.static_compliance @ force_before
     return float(kinetic), float(0.5 * (np.sum(rule.omega**2 * q * before) + condensed))
 
 
@@ -56,6 +60,7 @@ def balance(rule: Recurrence, state, initial: float, angle_per_step: float) -> E
         damping=float(damping),
         work_radial=float(entry[RADIAL]),
         work_tangential=float(entry[TANGENTIAL]),
+        work_couple=float(entry[COUPLE]),
         stored=float(0.5 * (entry[STORED] + entry[STORED_BEFORE])),
         wear=float(entry[WEAR] - 0.5 * entry[LAST_WEAR]),
         work_shape=float(entry[SHAPE] - 0.5 * entry[LAST_SHAPE]),

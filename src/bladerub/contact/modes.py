@@ -6,6 +6,7 @@ import numpy as np
 import scipy.linalg
 
 from bladerub.blade.model import N_INTERFACE, ReducedBlade
+from bladerub.contact.spec import RunSpec
 
 
 class Modes(NamedTuple):
@@ -13,14 +14,17 @@ class Modes(NamedTuple):
 
     omega: np.ndarray  # (n,): Natural angular frequencies, ascending, rad/s
     # (16, n): Displacement of the tip per unit of each mode: radial at the 8 nodes, then tangential,
-    # kg^-1/2
+    # kg^-1/2; (24, n) with the tilt of a profile that turns (`tilt_at`)
     tip: np.ndarray
 
 
-def modes_at(blade: ReducedBlade, f_omega: float) -> Modes:
-    """Find the modes of the blade at the normalised speed `f_omega`, as `mode_shapes_at`."""
+def modes_at(blade: ReducedBlade, f_omega: float, spec: RunSpec | None = None) -> Modes:
+    """Find the modes of the blade at the normalised speed `f_omega`, as `mode_shapes_at`.
+
+    The tip moves as `at_tip` says, in contact as `spec` describes it.
+    """
     omega, shapes = mode_shapes_at(blade, f_omega)
-    return Modes(omega, at_tip(blade, shapes))
+    return Modes(omega, at_tip(blade, shapes, spec))
 
 
 def mode_shapes_at(blade: ReducedBlade, f_omega: float) -> tuple[np.ndarray, np.ndarray]:
@@ -36,9 +40,41 @@ def mode_shapes_at(blade: ReducedBlade, f_omega: float) -> tuple[np.ndarray, np.
     return np.sqrt(squares), vectors
 
 
-def at_tip(blade: ReducedBlade, coordinates: np.ndarray) -> np.ndarray:
-    """Project reduced coordinates (n, k) on the tip (16, k): radial at the 8 nodes, then tangential."""
+def at_tip(blade: ReducedBlade, coordinates: np.ndarray, spec: RunSpec | None = None) -> np.ndarray:
+    """Project reduced coordinates (n, k) on the tip (16, k): radial at the 8 nodes, then tangential.
+
+    Where the profile turns in the contact that `spec` describes, the tilt follows (24, k), see `tilt_at`.
+    """
     interface = coordinates[: 3 * N_INTERFACE].reshape(N_INTERFACE, 3, -1)
     radial = np.einsum("ja,jan->jn", blade.radial_direction, interface)
     tangential = np.einsum("ja,jan->jn", blade.tangential_direction, interface)
-    return np.ascontiguousarray(np.vstack([radial, tangential]))
+    tilt = tilt_at(blade, coordinates, spec) if spec and spec.turns else np.empty((0, radial.shape[1]))
+    return np.ascontiguousarray(np.vstack([radial, tangential, tilt]))
+
+
+def tilt_at(blade: ReducedBlade, coordinates: np.ndarray, spec: RunSpec) -> np.ndarray:
+    """Tilt (8, k) of the tip's profile against the casing for reduced coordinates (n, k), m per element.
+
+    It is the slope of the blade's tip, and the angle by which the node has moved along the curved casing.
+    Raises `ValueError` if the blade does not say how its tip turns.
+    """
+    if blade.tip_slope is None:
+        raise ValueError(
+            "contact.tip_turns = true: this blade has no tip_slope; build it again, or, if it is given by "
+            "matrices, list more nodes of its tip, or set it to false"
+        )
+    _, tangential = np.split(at_tip(blade, coordinates), 2)
+    radius, curvature_radius = tip_radii(blade)
+    width = 2 * np.pi * radius / spec.coating.n_elements  # of an element
+    return width[:, None] * (blade.tip_slope @ coordinates + tangential / curvature_radius[:, None])
+
+
+def tip_radii(blade: ReducedBlade) -> tuple[np.ndarray, np.ndarray]:
+    """Distance (8,) of each interface node from the axis of rotation, and radius of curvature of its path, m.
+
+    Where the flow path is a cone, its normal section curves less than its circle (Meusnier).
+    """
+    _, y, z = blade.node_position.T
+    radius = np.hypot(y, z)
+    outward = (blade.radial_direction[:, 1] * y + blade.radial_direction[:, 2] * z) / radius
+    return radius, radius / outward

@@ -82,6 +82,7 @@ def _reduced_coordinates(
     """Sum up (s, n) what the resolved modes displace and how the others answer to the contact forces."""
     omega, shapes = mode_shapes_at(blade, spec.f_omega)
     n = rule.omega.size
-    static = forces @ at_tip(blade, shapes) * (1.0 - rule.share) / omega**2
+    tip = at_tip(blade, shapes, spec)
+    static = forces[:, : len(tip)] @ tip * (1.0 - rule.share) / omega**2
     static[:, :n] += amplitudes * np.sqrt(rule.share[:n])
     return static @ shapes.T

@@ -59,7 +59,7 @@ def _central_differences(blade, spec, n_steps, coating):
         M @ modes @ np.diag(2 * spec.damping_ratio * np.sqrt(squares)) @ modes.T @ M
     )  # the same ξ in all modes
     inverse = np.linalg.inv(M / h**2 + D / (2 * h))
-    tip = tip_rows(blade)
+    tip = tip_rows(blade, spec)
     u, u_before = np.zeros(len(M)), np.zeros(len(M))
     history = []
     for step in range(1, n_steps + 1):
@@ -68,20 +68,20 @@ def _central_differences(blade, spec, n_steps, coating):
         force, coating.wear = coating.contact(step * h, tip @ predicted)
         u, u_before = predicted + inverse @ (tip.T @ force), u  # correction
         history.append(tip @ u)
-    return np.array(history), coating.wear
+    return np.array(history)[:, : 2 * N_INTERFACE], coating.wear
 
 
 def _exponential(blade, spec, n_steps, n_modes, coating):
     """Integrate eq. (1) mode by mode, exactly for a force held over two steps; condense the fast modes."""
     h = time_step(blade, spec)
     squares, modes = scipy.linalg.eigh(blade.stiffness(spec.f_omega), blade.mass)
-    tip = tip_rows(blade) @ modes
+    tip = tip_rows(blade, spec) @ modes
     compliance = (tip[:, n_modes:] / squares[n_modes:]) @ tip[:, n_modes:].T
     tip, squares = tip[:, :n_modes], squares[:n_modes]
     # free motion over ±h of z'' + 2 ξ ω z' + ω² z = 0, from the roots of its characteristic equation
     root = np.sqrt(squares) * h * (-spec.damping_ratio + 1j * np.sqrt(1 - spec.damping_ratio**2))
     now, before = 2 * np.exp(root).real, np.abs(np.exp(root)) ** 2
-    q, q_before, force = np.zeros(n_modes), np.zeros(n_modes), np.zeros(2 * N_INTERFACE)
+    q, q_before, force = np.zeros(n_modes), np.zeros(n_modes), np.zeros(len(tip))
     history = []
     for step in range(1, n_steps + 1):
         rest = tip.T @ force / squares  # equilibrium under the force; the motion about it is free
@@ -89,13 +89,13 @@ def _exponential(blade, spec, n_steps, n_modes, coating):
         force = _implicit_forces(coating, step * h, tip @ q, compliance, force)
         history.append(tip @ q + compliance @ force)
         _, coating.wear = coating.contact(step * h, history[-1])
-    return np.array(history), coating.wear
+    return np.array(history)[:, : 2 * N_INTERFACE], coating.wear
 
 
 def _implicit_forces(coating, time, u, compliance, guess):
     """Find the forces that the coating answers to the displacement they cause."""
     if not coating.contact(time, u)[0].any():
-        return np.zeros(2 * N_INTERFACE)
+        return np.zeros(len(u))
 
     def imbalance(force):
         return coating.contact(time, u + compliance @ force)[0] - force
@@ -129,24 +129,26 @@ class _Coating:
         self.wear = np.zeros((N_INTERFACE, n))
 
     def contact(self, time: float, u: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Contact forces (16,) on the tip at the displacement `u` (16,), and the wear (8, N) under them."""
-        u_r, u_t = u.reshape(2, N_INTERFACE, 1)
+        """Contact forces on the tip at the displacement `u`, both as `tip_rows`, and the wear (8, N) then."""
+        u_r, u_t, *tilt = u.reshape(-1, N_INTERFACE, 1)
         # eq. (7): the closest point of the casing turns with the blade and moves with its vibration
         position = self.node_angle + self.speed * time + u_t / self.radius
         offset = (self.angle - position + np.pi) % (2 * np.pi) - np.pi
         offset *= self.spec.coating.n_elements / (2 * np.pi)
         # eq. (8): g = g₀ + (u^m − u^s) · n, under the profile of Fig. 3; u^s is the wear
         R = self.curvature_radius
-        approach = np.hypot(R + u_r, u_t) - R - relief(self.spec.tip, offset)
+        approach = np.hypot(R + u_r, u_t) - R - relief(self.spec.tip, offset) + offset * sum(tilt)
         gap = self.initial_gap - approach + self.wear
         # Fig. 4, and eq. (9): no force where the gap is open, and never a pulling one
         share = coverage(self.spec.tip, offset)
         element_force, increment = self.law.return_mapping(self.element, -gap, self.wear)
         magnitude = np.sum(share * element_force, axis=1, keepdims=True)
+        couple = np.sum(share * element_force * offset, axis=1, keepdims=True)
         # F_r = −cos θ |F| e_r and F_θ = −sin θ |F| e_θ, at the displaced node
         direction = np.arctan2(u_t, R + u_r) + self.spec.coating.theta
-        force = np.concatenate([-magnitude * np.cos(direction), -magnitude * np.sin(direction)])
-        return force.ravel(), self.wear + np.where(share > 0, increment, 0.0)
+        force = [-magnitude * np.cos(direction), -magnitude * np.sin(direction)]
+        force += [-couple * np.cos(self.spec.coating.theta) for _ in tilt]
+        return np.ravel(force), self.wear + np.where(share > 0, increment, 0.0)
 
 
 def time_step(blade: ReducedBlade, spec: RunSpec) -> float:
@@ -155,10 +157,20 @@ def time_step(blade: ReducedBlade, spec: RunSpec) -> float:
     return passage / max(spec.steps_per_element, np.ceil(passage / spec.max_time_step))
 
 
-def tip_rows(blade: ReducedBlade) -> np.ndarray:
-    """Rows (16, n) that take radial and tangential displacements of the tip from the reduced coordinates."""
+def tip_rows(blade: ReducedBlade, spec: RunSpec) -> np.ndarray:
+    """Rows (16, n) that take radial and tangential displacements of the tip from the reduced coordinates.
+
+    Where the profile turns, eight more give its tilt in m per element: the slope of the blade's tip plus the
+    angle by which the node moves along the curved casing.
+    """
     rows = np.zeros((2 * N_INTERFACE, len(blade.mass)))
     for j in range(N_INTERFACE):
         rows[j, 3 * j : 3 * j + 3] = blade.radial_direction[j]
         rows[N_INTERFACE + j, 3 * j : 3 * j + 3] = blade.tangential_direction[j]
-    return rows
+    if not spec.tip.turns:
+        return rows
+    _, y, z = blade.node_position.T
+    width = np.hypot(y, z) * 2 * np.pi / spec.coating.n_elements
+    curvature = np.sum(blade.radial_direction[:, 1:] * blade.node_position[:, 1:], axis=1) / (y**2 + z**2)
+    tilt = blade.tip_slope + curvature[:, None] * rows[N_INTERFACE:]
+    return np.vstack([rows, width[:, None] * tilt])

@@ -9,7 +9,8 @@ import numpy as np
 class Energy:
     """Energy ledger of the run, J.
 
-    The blade: ``kinetic + elastic − initial + damping = work_radial + work_tangential``. Blade and casing:
+    The blade: ``kinetic + elastic − initial + damping = work_radial + work_tangential + work_couple``.
+    Blade and casing:
     ``kinetic + elastic − initial + damping + stored + wear + sliding = work_shape + work_rotation``.
 
     Parameters
@@ -22,6 +23,8 @@ class Energy:
         Dissipated by modal damping.
     work_radial, work_tangential : float
         Done on the blade by the radial and by the tangential contact forces.
+    work_couple : float
+        Done on the blade by the couples of the contact forces under the tip, where its profile turns.
     stored : float
         Elastic energy in the coating at the end of the run.
     wear : float
@@ -43,6 +46,7 @@ class Energy:
     damping: float
     work_radial: float
     work_tangential: float
+    work_couple: float
     stored: float
     wear: float
     work_shape: float

@@ -50,7 +50,9 @@ class Recurrence(NamedTuple):
     # (n,): Kinetic energy per ``(q⁺ − q)²`` and energy lost to damping per ``(q⁺ − q⁻)²``, 1/s²
     kinetic: np.ndarray
     loss: np.ndarray
-    tip: np.ndarray  # (16, n): Displacement of the tip per unit of each resolved mode, kg^-1/2
+    # (16, n): Displacement of the tip per unit of each resolved mode, kg^-1/2. Where its profile turns, this
+    # and the matrices below have 24 rows: tilt and couple follow
+    tip: np.ndarray
     omega: np.ndarray  # (n,): Natural angular frequencies of the resolved modes, rad/s
     # (all modes,): Part of each mode of the blade that is resolved; the rest responds by its static
     # displacement
@@ -65,7 +67,9 @@ class Recurrence(NamedTuple):
 class Contact(NamedTuple):
     """What a scheme needs to know of the contact."""
 
-    stiffness: np.ndarray  # (8,): Largest stiffness under each node, N/m; infinite for the rigid casing
+    # (8,): Largest stiffness under each node, N/m; infinite for the rigid casing. Where the profile turns
+    # that against its tilt follows (16,)
+    stiffness: np.ndarray
     radial: float  # Direction of the force on the blade
     tangential: float
 
@@ -152,10 +156,14 @@ SCHEMES: dict[str, Callable[[Modes, float, float, Contact], Recurrence]] = {
 
 
 def normal_compliance(compliance: np.ndarray, radial: float, tangential: float) -> np.ndarray:
-    """Retreat (8, 8) of each node from the casing per unit of contact force at each, m/N."""
-    return -(
-        compliance[:N_INTERFACE, :N_INTERFACE] * radial + compliance[:N_INTERFACE, N_INTERFACE:] * tangential
-    )
+    """Retreat (8, 8) of each node from the casing per unit of contact force at each, m/N.
+
+    Where the profile turns, that of its tilt and by its couples follows (16, 16).
+    """
+    r, t, tilt = slice(N_INTERFACE), slice(N_INTERFACE, 2 * N_INTERFACE), slice(2 * N_INTERFACE, None)
+    by_force = compliance[:, r] * radial + compliance[:, t] * tangential
+    retreat = -np.hstack([by_force, compliance[:, tilt] * radial])
+    return np.vstack([retreat[r], retreat[tilt]])
 
 
 def _resolve(modes: Modes, x: np.ndarray, n: int, contact: Contact) -> tuple[Modes, np.ndarray, np.ndarray]:

@@ -11,7 +11,7 @@ from bladerub.contact.kernel import records
 from bladerub.contact.kernel.free_flight import MOST_STEPS, FreeFlight, free_flight
 from bladerub.contact.kernel.loop import Simulation
 from bladerub.contact.kernel.modal import pack
-from bladerub.contact.modes import Modes, modes_at
+from bladerub.contact.modes import Modes, modes_at, tip_radii
 from bladerub.contact.schemes import SCHEMES, Contact, Recurrence, normal_compliance
 from bladerub.contact.spec import Coating, RunSpec
 from bladerub.numerics.memory import aligned
@@ -22,17 +22,17 @@ SEARCH_RANGE = 4
 
 def set_up(blade: ReducedBlade, spec: RunSpec) -> tuple[Recurrence, Simulation]:
     """Prepare a run from rest; raises `ValueError` as `bladerub.contact.run.simulate`."""
-    return set_up_modes(modes_at(blade, spec.f_omega), blade, spec)
+    return set_up_modes(modes_at(blade, spec.f_omega, spec), blade, spec)
 
 
 def set_up_modes(modes: Modes, blade: ReducedBlade, spec: RunSpec) -> tuple[Recurrence, Simulation]:
     """Prepare a run as `set_up`, with the modes at its speed."""
     steps_per_element, time_step = _time_step(blade, spec)
-    stiffness = law.element(spec.coating, element_area(blade, spec)).elastic  # infinite for the rigid casing
-    contact = Contact(
-        stiffness * 2 * spec.tip.half_width,  # the shares under the tip add up to its width
-        *_force_direction(spec.coating),
-    )
+    element = law.element(spec.coating, element_area(blade, spec)).elastic  # infinite for the rigid casing
+    stiffness = element * 2 * spec.tip.half_width  # the shares under the tip add up to its width
+    if spec.turns:
+        stiffness = np.concatenate([stiffness, element * (2 / 3) * (spec.tip.half_width + 0.5) ** 3])
+    contact = Contact(stiffness, *_force_direction(spec.coating))
     rule = SCHEMES[spec.scheme](modes, spec.damping_ratio, time_step, contact)
     tip = tip_record(blade, spec)
     stator = stator_record(blade, spec, tip, rule)
@@ -41,16 +41,19 @@ def set_up_modes(modes: Modes, blade: ReducedBlade, spec: RunSpec) -> tuple[Recu
     return rule, Simulation(pack(rule), flight, stator, tip, state, steps_per_element)
 
 
-def compile_kernel() -> None:
-    """Compile the time loop, so that its machine code is on disk before runs start."""
-    modes = Modes(np.ones(1), np.zeros((2 * N_INTERFACE, 1)))
+def compile_kernel(tip_turns: bool = False) -> None:
+    """Compile the time loop, so that its machine code is on disk before runs start.
+
+    That for profiles that turn is another one.
+    """
+    modes = Modes(np.ones(1), np.zeros(((3 if tip_turns else 2) * N_INTERFACE, 1)))
     zeros = np.zeros(N_INTERFACE)
-    rule = SCHEMES["exponential"](modes, 0.0, 1e-6, Contact(zeros + 1.0, -1.0, 0.0))
+    rule = SCHEMES["exponential"](modes, 0.0, 1e-6, Contact(np.ones(len(modes.tip) - N_INTERFACE), -1.0, 0.0))
     gap, elements = np.ones((8, N_INTERFACE)), np.ones((len(law.Element._fields), N_INTERFACE))
-    stator = records.Stator(gap, gap[:, 0].copy(), elements, 8, False, -1.0, 0.0, zeros)
+    stator = records.Stator(gap, gap[:, 0].copy(), elements, 8, False, -1.0, 0.0, zeros, False, zeros)
     tip = records.Tip(zeros, zeros, zeros + 1.0, zeros + 1.0, 2.0, 0.0, 0.0, 1.0)
     state = records.at_rest(1, 8)
-    Simulation(pack(rule), free_flight(rule, 1, 0.0), aligned(stator), aligned(tip), state, 1).advance(
+    Simulation(pack(rule), free_flight(rule, 1, 0.0, 0.0), aligned(stator), aligned(tip), state, 1).advance(
         np.zeros(8)
     )
 
@@ -62,7 +65,8 @@ def element_angle(n_elements: int) -> np.ndarray:
 
 def element_area(blade: ReducedBlade, spec: RunSpec) -> np.ndarray:
     """Area (8,) of one element under each node, m²."""
-    return strip_width(blade) * 2 * np.pi * _radius(blade) / spec.coating.n_elements
+    radius, _ = tip_radii(blade)
+    return strip_width(blade) * 2 * np.pi * radius / spec.coating.n_elements
 
 
 def strip_width(blade: ReducedBlade) -> np.ndarray:
@@ -85,6 +89,7 @@ def stator_record(blade: ReducedBlade, spec: RunSpec, tip: records.Tip, rule: Re
     x = blade.node_position[:, 0]
     chord_fraction = (x - x[0]) / (x[-1] - x[0])
     clearance = spec.clearance[0] + (spec.clearance[1] - spec.clearance[0]) * chord_fraction
+    own = _self_compliance(rule, coating)
     gap = casing.gap(spec.casing, clearance[:, None], element_angle(coating.n_elements))
     first = _first_element(blade, spec)
     rows = np.array([np.roll(of_node, -at) for of_node, at in zip(gap, first, strict=True)])
@@ -96,8 +101,9 @@ def stator_record(blade: ReducedBlade, spec: RunSpec, tip: records.Tip, rule: Re
         is_rigid=coating.is_rigid,
         normal_factor=normal_factor,
         tangential_factor=tangential_factor,
-        self_compliance=_self_compliance(rule, coating),
+        self_compliance=own[:N_INTERFACE],
         coulomb=coating.coulomb,
+        tilt_compliance=own[N_INTERFACE:],
     )
     return aligned(stator)
 
@@ -111,15 +117,12 @@ def minimum_gap(rows: np.ndarray, half_width: float) -> np.ndarray:
 def tip_record(blade: ReducedBlade, spec: RunSpec) -> records.Tip:
     """Describe the blade tip for the time loop."""
     n_elements = spec.coating.n_elements
-    y, z = blade.node_position[:, 1], blade.node_position[:, 2]
-    radius = _radius(blade)
-    # Where the flow path is a cone, its normal section curves less than its circle (Meusnier)
-    outward = (blade.radial_direction[:, 1] * y + blade.radial_direction[:, 2] * z) / radius
+    radius, curvature_radius = tip_radii(blade)
     per_metre = n_elements / (2 * np.pi * radius)
     tip = records.Tip(
         start=_start_position(blade, spec) % 1.0,
         per_metre=per_metre,
-        radius=radius / outward,
+        radius=curvature_radius,
         lever=radius,
         half_width=spec.tip.half_width,
         curvature=spec.tip.curvature,
@@ -143,7 +146,7 @@ def _force_direction(coating: Coating) -> tuple[float, float]:
 def _free_flight(rule: Recurrence, tip: records.Tip, steps_per_element: int) -> FreeFlight:
     parts = math.ceil(steps_per_element / MOST_STEPS)
     slope = tip.search_range / float(np.min(tip.radius - tip.limit))
-    return free_flight(rule, steps_per_element // parts, slope)
+    return free_flight(rule, steps_per_element // parts, slope, tip.half_width + 0.5)
 
 
 def _initial_state(modes: Modes, rule: Recurrence, spec: RunSpec, tip: records.Tip) -> records.State:
@@ -155,9 +158,11 @@ def _initial_state(modes: Modes, rule: Recurrence, spec: RunSpec, tip: records.T
         back = math.exp(damping * x) * (math.cos(damped * x) - damping / damped * math.sin(damped * x))
         n = rule.omega.size
         state.q[:, 0] = np.array([1.0, back, back]) * spec.initial_displacement / modes.tip[0, 0]
-        radial, tangential = np.split(state.q[:, :n] @ rule.tip.T, 2, axis=1)
+        displacement = state.q[:, :n] @ rule.tip.T
+        radial, tangential, tilt = np.split(displacement, [N_INTERFACE, 2 * N_INTERFACE], axis=1)
         approach = np.hypot(tip.radius + radial, tangential) - tip.radius
-        state.u[:] = np.concatenate([radial, tangential, approach], axis=1)
+        state.u[:, : 3 * N_INTERFACE] = np.concatenate([radial, tangential, approach], axis=1)
+        state.u[:, 3 * N_INTERFACE : 3 * N_INTERFACE + tilt.shape[1]] = tilt
     return state
 
 
@@ -183,7 +188,3 @@ def _start_position(blade: ReducedBlade, spec: RunSpec) -> np.ndarray:
 def _first_element(blade: ReducedBlade, spec: RunSpec) -> np.ndarray:
     """Element (8,) that each node stands over at the start of a revolution: the first row."""
     return _start_position(blade, spec).astype(int)
-
-
-def _radius(blade: ReducedBlade) -> np.ndarray:
-    return np.hypot(blade.node_position[:, 1], blade.node_position[:, 2])

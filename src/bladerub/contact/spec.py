@@ -91,10 +91,13 @@ class TipProfile:
         Tangential half width, in element widths.
     edge_drop : float
         How much lower the edge is than the middle, m.
+    turns : bool
+        Whether the profile turns with the blade tip; direct contact with the rigid casing has no profile.
     """
 
     half_width: float
     edge_drop: float
+    turns: bool = False
 
     @property
     def curvature(self) -> float:
@@ -142,6 +145,11 @@ class RunSpec:
     max_time_step: float
     displacement_limit: float
     initial_displacement: float = 0.0
+
+    @property
+    def turns(self) -> bool:
+        """Whether a profile turns with the tip."""
+        return self.tip.turns and not self.coating.is_rigid
 
 
 @dataclass(frozen=True)

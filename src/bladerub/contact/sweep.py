@@ -162,7 +162,7 @@ class _Sweep:
 
     def _stage(self, f_omega: float) -> _Stage:
         omega, shapes = mode_shapes_at(self.blade, f_omega)
-        tip = at_tip(self.blade, shapes)
+        tip = at_tip(self.blade, shapes, self.run)
         run = replace(self.run, f_omega=f_omega)
         return _Stage(omega, shapes, tip, *set_up_modes(Modes(omega, tip), self.blade, run))
 
@@ -175,7 +175,7 @@ def _transfer(blade: ReducedBlade, old: _Stage, new: _Stage) -> float:
     state.ledger[energy.TORQUE] *= old.simulation.angle_per_step / new.simulation.angle_per_step
 
     into = new.shapes.T @ blade.mass @ old.shapes  # from modal coordinates to modal coordinates
-    force = here.force[0]
+    force = here.force[0, : len(old.tip)]
     static, static_new = old.tip.T @ force / old.omega**2, new.tip.T @ force / new.omega**2
     n, n_new = old.rule.omega.size, new.rule.omega.size
     share, share_new = np.sqrt(old.rule.share[:n]), np.sqrt(new.rule.share[:n_new])
@@ -192,9 +192,9 @@ def _transfer(blade: ReducedBlade, old: _Stage, new: _Stage) -> float:
     state.u[0] = here.u[0]
     state.u[1] = here.u[0] + back * (here.u[1] - here.u[0])
     state.u[2] = here.u[0] + 2 * back * (here.u[1] - here.u[0])
-    radius, limit = new.simulation.tip.radius, slice(0, LANES)
+    radius = new.simulation.tip.radius
     for row in state.u:
-        row[2 * LANES :] = np.hypot(radius + row[limit], row[LANES : 2 * LANES]) - radius
+        row[2 * LANES : 3 * LANES] = np.hypot(radius + row[:LANES], row[LANES : 2 * LANES]) - radius
     return float(work)
 
 

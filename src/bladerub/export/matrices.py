@@ -25,7 +25,7 @@ def write_matrices(path: str | Path, blade: ReducedBlade) -> None:
     if path.suffix.lower() not in SUFFIXES:
         raise ValueError(f"{path}: must end in {' or '.join(SUFFIXES)}")
     content = asdict(blade) | blade.arrays
-    del content["stiffness_higher"]
+    content = {name: content[name] for name in content if name in blade.arrays or np.isscalar(content[name])}
     with atomic.writing(path, "wb") as file:
         if path.suffix.lower() == ".npz":
             np.savez_compressed(file, **content)

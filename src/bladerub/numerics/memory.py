@@ -124,41 +124,46 @@ def _fields(record, kind, llvm_type):
     return result(record, types.intp), generate
 
 
-_SIXTEEN = types.UniTuple(vector, 16)
+def _sums(n):
+    """Build four instructions on `n` vectors at once, which stay in registers.
+
+    They give vectors of zeros; add to each of `n` sums the product of a vector and that in its row of an
+    array; read `n` numbers and put each in every lane of a vector; and sum up the products of `n` rows of an
+    array and `n` vectors, in two halves at the same time.
+    """
+    several = types.UniTuple(vector, n)
+
+    @instruction(several)
+    def no_sums(builder):
+        return cgutils.pack_array(builder, [ir.Constant(VECTOR, [0.0] * LANES)] * n)
+
+    @instruction(several, several, types.intp, vector)
+    def add_products(builder, sums, rows, a):
+        products = (builder.fmul(row, a, flags=FUSED) for row in _rows(builder, rows, n))
+        pairs = zip(cgutils.unpack_tuple(builder, sums), products, strict=True)
+        return cgutils.pack_array(builder, [builder.fadd(*pair, flags=FUSED) for pair in pairs])
+
+    @instruction(several, types.intp)
+    def broadcast_each(builder, address):
+        numbers = (builder.load(_place_at(builder, address, i, DOUBLE)) for i in range(n))
+        return cgutils.pack_array(builder, [spread(builder, number) for number in numbers])
+
+    @instruction(vector, types.intp, several)
+    def sum_of_products(builder, rows, factors):
+        products = list(zip(_rows(builder, rows, n), cgutils.unpack_tuple(builder, factors), strict=True))
+        halves = [builder.fmul(*product, flags=FUSED) for product in products[:2]]
+        for i, product in enumerate(products[2:]):
+            halves[i % 2] = builder.fadd(halves[i % 2], builder.fmul(*product, flags=FUSED), flags=FUSED)
+        return builder.fadd(*halves, flags=FUSED)
+
+    return no_sums, add_products, broadcast_each, sum_of_products
 
 
-@instruction(_SIXTEEN)
-def no_sums(builder):
-    """Sixteen vectors of zeros, for `add_products`."""
-    return cgutils.pack_array(builder, [ir.Constant(VECTOR, [0.0] * LANES)] * 16)
-
-
-@instruction(_SIXTEEN, _SIXTEEN, types.intp, vector)
-def add_products(builder, sums, rows, a):
-    """Add to each of sixteen sums the product of `a` and the vector in its row of the array at `rows`."""
-    products = (builder.fmul(row, a, flags=FUSED) for row in _rows(builder, rows))
-    pairs = zip(cgutils.unpack_tuple(builder, sums), products, strict=True)
-    return cgutils.pack_array(builder, [builder.fadd(*pair, flags=FUSED) for pair in pairs])
-
-
-@instruction(_SIXTEEN, types.intp)
-def broadcast_each(builder, address):
-    """Read sixteen numbers and put each in every lane of a vector."""
-    numbers = (builder.load(_place_at(builder, address, i, DOUBLE)) for i in range(16))
-    return cgutils.pack_array(builder, [spread(builder, number) for number in numbers])
-
-
-@instruction(vector, types.intp, _SIXTEEN)
-def sum_of_products(builder, rows, factors):
-    """Sum up the products of sixteen rows of vectors and sixteen vectors, in two halves at the same time."""
-    products = list(zip(_rows(builder, rows), cgutils.unpack_tuple(builder, factors), strict=True))
-    halves = [builder.fmul(*product, flags=FUSED) for product in products[:2]]
-    for i, product in enumerate(products[2:]):
-        halves[i % 2] = builder.fadd(halves[i % 2], builder.fmul(*product, flags=FUSED), flags=FUSED)
-    return builder.fadd(*halves, flags=FUSED)
-
-
-def _rows(builder, address):
-    """Load sixteen consecutive vectors."""
-    places = (_place_at(builder, address, LANES * i, VECTOR) for i in range(16))
+def _rows(builder, address, n):
+    """Load consecutive vectors."""
+    places = (_place_at(builder, address, LANES * i, VECTOR) for i in range(n))
     return [builder.load(place, align=8) for place in places]
+
+
+no_sums, add_products, broadcast_each, sum_of_products = _sums(16)
+no_eight_sums, add_eight_products, broadcast_eight, sum_of_eight_products = _sums(8)

@@ -199,6 +199,7 @@ def run_spec(config: Mapping[str, Any], case: CoatingCase, f_omega: float) -> Ru
         tip=TipProfile(
             half_width=float(contact["tip_profile"]["half_width"]),
             edge_drop=float(contact["tip_profile"]["edge_drop"] * scale["length"]),
+            turns=bool(contact.get("tip_turns", False)),
         ),
         clearance=(
             contact["clearance"]["leading_edge"] * length,

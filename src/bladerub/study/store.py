@@ -23,6 +23,7 @@ _ENERGIES = {
     "damping": "energy dissipated by modal damping",
     "work_radial": "work done on the blade by the radial contact forces",
     "work_tangential": "work done on the blade by the tangential contact forces",
+    "work_couple": "work done on the blade by the couples of the contact forces, where the tip turns",
     "stored": "elastic energy in the coating at the end",
     "wear": "energy dissipated by plastic shortening of the coating",
     "work_shape": "work of the rotation in moving the tip over the casing shape and onto new elements",

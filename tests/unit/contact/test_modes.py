@@ -1,7 +1,9 @@
+import dataclasses
+
 import numpy as np
 import pytest
 
-from bladerub.contact.modes import modes_at
+from bladerub.contact.modes import modes_at, tilt_at
 
 
 def test_modes_diagonalise_the_blade_and_give_its_static_tip_compliance(blade):
@@ -20,8 +22,17 @@ def test_frequencies_rise_with_the_speed(blade):
 
 
 def test_indefinite_stiffness_is_refused(blade):
-    import dataclasses
-
     broken = dataclasses.replace(blade, stiffness_0=-blade.stiffness_0)
     with pytest.raises(ValueError, match="not positive definite"):
         modes_at(broken, 0.0)
+
+
+def test_turn_of_the_whole_blade_about_the_axis_tilts_no_profile(blade, spec):
+    """The tip's slope is minus the angle then, and the normal of the casing turns with the nodes."""
+    _, y, z = blade.node_position.T
+    turn = np.concatenate([np.column_stack([0 * y, z, -y]).ravel(), np.zeros(6)])
+    turning = dataclasses.replace(blade, tip_slope=-np.outer(np.ones(8), turn) / (turn @ turn))
+    np.testing.assert_allclose(tilt_at(turning, turn[:, None], spec), 0.0, rtol=0, atol=1e-12)
+    along = dataclasses.replace(blade, tip_slope=np.zeros((8, turn.size)))  # it moves and does not turn
+    width = 2 * np.pi * 0.65 / spec.coating.n_elements
+    np.testing.assert_allclose(tilt_at(along, turn[:, None], spec), width)

@@ -40,7 +40,7 @@ def test_contact_forces_move_what_the_scheme_does_not_resolve(blade, spec, chang
         simulation.advance(np.empty(1), element)
         tip = at_tip(blade, recording.coordinates[element : element + 1].T)[:, 0]
         np.testing.assert_allclose(tip, simulation.state.u[0, :16], rtol=0, atol=1e-12)
-        static = rule.static_compliance @ simulation.state.force[0]
+        static = rule.static_compliance @ simulation.state.force[0, :16]
         moved += np.abs(static).max() > 1e-9
     assert moved > 5
 

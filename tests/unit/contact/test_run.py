@@ -40,6 +40,46 @@ def test_loop_agrees_with_numpy_reference_to_rounding(blade, spec, change, schem
     assert result.revolution_amplitude[0] == pytest.approx(np.ptp(node_1) / 2, rel=3e-4)
 
 
+@pytest.fixture(scope="module")
+def turning_blade(blade):
+    """The blade with a tip that turns by some degrees for a millimetre along the casing."""
+    slope = np.zeros((8, len(blade.mass)))
+    for node in range(8):
+        slope[node, 3 * node : 3 * node + 3] = -(20.0 + 3 * node) * blade.tangential_direction[node]
+        slope[node, 24 + node % 6] = 5.0
+    return dataclasses.replace(blade, tip_slope=slope)
+
+
+@pytest.mark.parametrize(("E", "K", "theta"), [(1.1, 0.5, 0.0), (0.11, 10.0, 0.15), (3.0, 0.05, 0.1)])
+@pytest.mark.parametrize("scheme", ["central_differences", "exponential"])
+def test_loop_agrees_with_numpy_reference_where_the_profile_turns(
+    turning_blade, spec, change, scheme, E, K, theta
+):
+    spec = change(spec, E=E, K=K, theta=theta, revolutions=1, turns=True, scheme=scheme, max_time_step=1e-3)
+    result = simulate(turning_blade, spec)
+    history, wear = reference.simulate(turning_blade, spec, result.n_steps, result.n_modes)
+    fixed = simulate(turning_blade, change(spec, turns=False))
+    assert np.abs(result.wear - fixed.wear).max() > 0.02 * wear.max()
+    node_1 = history[:, 0]
+    middle = 0.5 * (node_1 + np.concatenate([[0.0], node_1[:-1]]))
+    per_element = middle.reshape(spec.coating.n_elements, -1).mean(axis=1)
+    atol = 1e-9 if scheme == "central_differences" else 1e-6
+    scale = np.abs(node_1).max()
+    np.testing.assert_allclose(result.radial_displacement, per_element, rtol=0, atol=atol * scale)
+    np.testing.assert_allclose(result.wear, wear, rtol=0, atol=atol * wear.max())
+
+
+def test_profile_without_a_slope_of_the_blade_cannot_turn(blade, spec, change):
+    with pytest.raises(ValueError, match=r"contact\.tip_turns = true: .* tip_slope"):
+        simulate(blade, change(spec, turns=True))
+
+
+def test_rigid_casing_is_met_without_a_profile(turning_blade, spec, change):
+    spec = change(spec, E=np.inf, K=np.inf, theta=0.0, revolutions=1, max_time_step=1e-3)
+    fixed, turning = (simulate(turning_blade, change(spec, turns=turns)) for turns in (False, True))
+    np.testing.assert_array_equal(turning.radial_displacement, fixed.radial_displacement)
+
+
 def test_large_tangential_motion_agrees_with_reference(blade, spec, change):
     """Nodes wander over several elements and the curvature counts: the search leaves its shortcut."""
     spec = change(spec, n_elements=4000, interference=0.35e-3, E=2.0, K=10.0, theta=0.8, revolutions=1)
@@ -62,7 +102,8 @@ def test_no_contact_leaves_everything_at_rest(blade, spec, change):
 def blade_imbalance(energy):
     """Of the ledger of the blade alone, over the work exchanged."""
     gained = energy.kinetic + energy.elastic - energy.initial + energy.damping
-    return abs(gained - energy.work_radial - energy.work_tangential) / energy.exchanged
+    work = energy.work_radial + energy.work_tangential + energy.work_couple
+    return abs(gained - work) / energy.exchanged
 
 
 @pytest.mark.parametrize("theta", [0.0, 0.2])
@@ -85,6 +126,14 @@ def test_energy_ledger_of_blade_and_coating_closes_with_the_square_of_the_step(b
     ]
     assert residuals[0] < 1e-3
     assert residuals[2] < residuals[0] / 8
+
+
+def test_energy_ledger_closes_where_the_profile_turns(turning_blade, spec, change):
+    spec = change(spec, E=2.0, theta=0.1, turns=True, max_time_step=1e-3)
+    energy = simulate(turning_blade, change(spec, steps_per_element=48)).energy
+    assert blade_imbalance(energy) < 1e-9
+    assert energy.residual < 5e-5
+    assert abs(energy.work_couple) > 100 * 5e-5 * energy.exchanged
 
 
 def test_sliding_takes_what_the_rotation_gives_to_it_and_to_the_blade(blade, spec, change):

@@ -40,7 +40,7 @@ def passed(monkeypatch, angle):
             n_contact_steps=300,
             f_omega=f_omega,
             time=np.arange(REVOLUTIONS) + 0.5,
-            energy=Energy(*(float(i) for i in range(1, 13))),
+            energy=Energy(*(float(i) for i in range(1, 14))),
             work_stiffness=0.5,
         )
 
@@ -142,7 +142,7 @@ def test_another_file_is_named(tmp_path, make_map):
 
 
 def test_the_residual_has_the_work_of_the_stiffness(angle):
-    energy = Energy(0.0, 1.0, 1.0, 1.0, 0.0, 0.0, 0.0, 0.0, 2.0, 0.0, 0.0, 10.0)
+    energy = Energy(0.0, 1.0, 1.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 2.0, 0.0, 0.0, 10.0)
     fields = {field.name: None for field in dataclasses.fields(SweepResult)}
     result = SweepResult(**(fields | {"energy": energy, "work_stiffness": 0.75}))
     assert energy.residual == pytest.approx(0.1)

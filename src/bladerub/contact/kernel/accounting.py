@@ -4,13 +4,13 @@ from numba import njit
 
 from bladerub.contact import energy
 from bladerub.contact.gap import closest_position, normal, normal_approach, rotation_distance
-from bladerub.contact.kernel import elements
+from bladerub.contact.kernel import elements, tilt
 from bladerub.numerics.memory import add_to, add_to_number, address_of, load, store
 from bladerub.numerics.vectors import LANES, absolute, all_lanes, broadcast, maximum, where
 
 
 @njit(forceinline=True)
-def update_coating(stator, tip, passed, per_step, state, u, u_before):
+def update_coating(modal, stator, tip, passed, per_step, state, u, u_before):
     """Wear the coating by the forces of this step, and enter energies and sliding in the ledger."""
     approach, normal_force = load(u, 2 * LANES), load(state.normal_force, 0)
     factor = load(state.tangential_factor, 0)
@@ -22,9 +22,9 @@ def update_coating(stator, tip, passed, per_step, state, u, u_before):
         shape = elements.rigid_surface(stator, position_before) - elements.rigid_surface(stator, position)
         supplied = 0.5 * (normal_force + load(state.normal_force, LANES)) * shape
     else:
-        stored, loss, supplied = elements.update_wear(
-            stator, tip, state.wear, position, approach, position_before, load(u_before, 2 * LANES)
-        )
+        there = elements.Contact(position, approach, tilt.kept(modal.tilt, u))
+        before = elements.Contact(position_before, load(u_before, 2 * LANES), tilt.kept(modal.tilt, u_before))
+        stored, loss, supplied = elements.update_wear(modal.tilt, stator, tip, state.wear, there, before)
     store(state.moment, 0, (0.0 - factor) * normal_force * (load(tip.lever, 0) + approach))
     entry = state.ledger
     store(entry, energy.STORED_BEFORE * LANES, load(entry, energy.STORED * LANES))
@@ -48,7 +48,7 @@ def _note_sliding(stator, state, normal_force, factor, advance, per_step):
 
 
 @njit(forceinline=True)
-def add_work(stator, tip, angle, state, u_after, u, u_before):
+def add_work(modal, stator, tip, angle, state, u_after, u, u_before):
     """Add the work of the forces at `u`, over half of the path from the step before to the step after.
 
     The blade rotates by `angle` (rad) in a step.
@@ -56,12 +56,19 @@ def add_work(stator, tip, angle, state, u_after, u, u_before):
     entry = state.ledger
     more_radial = 0.5 * (load(u_after, 0) - load(u_before, 0))
     more_tangential = 0.5 * (load(u_after, LANES) - load(u_before, LANES))
-    by_radial = load(state.force, 2 * LANES) * more_radial
-    by_tangential = load(state.force, 3 * LANES) * more_tangential
+    by_radial = load(state.force, 3 * LANES) * more_radial
+    by_tangential = load(state.force, 4 * LANES) * more_tangential
     add_to(entry, energy.RADIAL * LANES, by_radial)
     add_to(entry, energy.TANGENTIAL * LANES, by_tangential)
     add_to(entry, energy.EXCHANGED * LANES, absolute(by_radial) + absolute(by_tangential))
     add_to(entry, energy.TORQUE * LANES, load(state.moment, LANES))
+    if modal.tilt is not None:
+        more_tilt = 0.5 * (tilt.kept(modal.tilt, u_after) - tilt.kept(modal.tilt, u_before))
+        by_couple = load(state.force, 3 * LANES + tilt.COUPLE) * more_tilt
+        add_to(entry, energy.COUPLE * LANES, by_couple)
+        if stator.tangential_factor != 0.0:  # as `_add_sliding`: the rest of what a turn takes from the tip
+            rest = (1.0 + stator.normal_factor) / stator.normal_factor
+            add_to(entry, energy.SLIDING * LANES, 0.0 - rest * by_couple)
 
     if stator.tangential_factor != 0.0:
         _add_sliding(stator, tip, angle, state, load(u, 0), load(u, LANES), more_radial, more_tangential)

@@ -5,6 +5,7 @@ from numba import njit
 from bladerub.contact.friction import mobilisation
 from bladerub.contact.gap import rotation_distance
 from bladerub.contact.kernel.modal import add_tip_displacement, displaced, tip_displacement
+from bladerub.contact.kernel.tilt import COUPLE
 from bladerub.numerics.memory import address_of, load, no_sums, store
 from bladerub.numerics.vectors import LANES, broadcast
 
@@ -35,10 +36,13 @@ def predict_sliding(modal, state, q, q_before, angle):
 def mobilise(modal, stator, tip, state, normal_radial, normal_tangential, approach):
     """Find the tangential factor of each node by Coulomb's law, under the forces in `state.normal_force`."""
     normal_force, frictionless = load(state.normal_force, 0), address_of(state.scratch, 4 * 2 * LANES)
+    if modal.tilt is not None:
+        store(frictionless, COUPLE, load(state.force, COUPLE))
     store(frictionless, 0, stator.normal_factor * normal_radial * normal_force)
     store(frictionless, LANES, stator.normal_factor * normal_tangential * normal_force)
-    radial, tangential = displaced(
-        modal.mobility, frictionless, load(state.free_sliding, 0), load(state.free_sliding, LANES)
+    free_radial, free_tangential = load(state.free_sliding, 0), load(state.free_sliding, LANES)
+    radial, tangential, _ = displaced(
+        modal.tilt, modal.mobility, frictionless, free_radial, free_tangential, broadcast(0.0)
     )
     rotation = rotation_distance(tip, load(state.free_sliding, 2 * LANES), approach)
     sliding = rotation + normal_radial * tangential - normal_tangential * radial

@@ -1,11 +1,14 @@
 """The abradable elements under the tip's nodes (Fig. 3), or the rigid casing, a lane a node."""
 
 import math
+from typing import NamedTuple
 
+import numpy as np
 from numba import njit
 
 from bladerub.contact import law
 from bladerub.contact.gap import penetration
+from bladerub.contact.kernel import tilt
 from bladerub.contact.tip import coverage, relief
 from bladerub.numerics.memory import load, load_fields, store
 from bladerub.numerics.vectors import (
@@ -21,6 +24,14 @@ from bladerub.numerics.vectors import (
 
 NO_CHANGE = 1e-12
 """Change of depth below which the force of an element is taken as constant over a step, m."""
+
+
+class Contact(NamedTuple):
+    """Where the profiles are on the casing; a vector each."""
+
+    position: np.ndarray  # Of the nodes, in rows
+    approach: np.ndarray  # m
+    tilted: np.ndarray  # m per element
 
 
 @njit(inline="always")
@@ -54,41 +65,53 @@ def rigid_surface(stator, position):
 
 
 @njit(forceinline=True)
-def linearise(stator, tip, wear, position, rows, approach):
-    """Press the elements under each node by its `approach`, but leave them as they are.
+def linearise(tilts, stator, tip, wear, position, rows, approach, tilted):
+    """Press the elements under each node by its `approach` and tilt, but leave them as they are.
 
-    Returns force (N) and stiffness (N/m) of all elements under each node, and the change of the approach over
-    which the force is linear (m): no element comes into contact, begins to flow or to unload.
+    Returns force (N), stiffness (N/m), and the change of depth over which the force is linear (m): no element
+    comes into contact, begins to flow or to unload. And where the profile turns, where `tilts` is
+    ``modal.tilt`` and not None, the first moment of the force about the node (N elements), the first and the
+    second moment of the stiffness.
     """
     element = load_fields(law.Element, stator.law)
     force, stiffness, valid = broadcast(0.0), broadcast(0.0), broadcast(math.inf)
+    couple, first_moment, second_moment = broadcast(0.0), broadcast(0.0), broadcast(0.0)
     first, last = rows
     for row in range(first, last + 1):
         entry = wrap(row, stator.n_elements) * LANES
         offset = (row + 0.5) - position
         share = coverage(tip, offset)
         worn = load(wear, entry)
-        depth = penetration(approach, relief(tip, offset), load(stator.initial_gap, entry), worn)
+        here = tilt.raised(tilts, approach, tilted, offset)
+        depth = penetration(here, relief(tip, offset), load(stator.initial_gap, entry), worn)
         force_here, _ = law.return_mapping(element, depth, worn)
         slope, linear = law.tangent(element, depth, worn)
         force = force + share * force_here
         stiffness = stiffness + share * slope
         valid = minimum(valid, linear)
-    return force, stiffness, valid
+        if tilts is not None:
+            couple = couple + share * offset * force_here
+            first_moment = first_moment + share * offset * slope
+            second_moment = second_moment + share * offset * offset * slope
+    return force, stiffness, valid, couple, first_moment, second_moment
 
 
 @njit(forceinline=True)
-def update_wear(stator, tip, wear, position, approach, position_before, approach_before):
+def update_wear(tilts, stator, tip, wear, there, before):
     """Leave the elements as the tip presses them at the end of a step, and account for it.
 
     An element partly under the tip counts as elements of which a share is under it: as the edge of the
     profile moves on, whole elements are pressed down or released, at the cost or to the profit of the
     rotation. Between the ends of the step, approach and profile change linearly, and the law is integrated
-    exactly along that path.
+    exactly along that path. What the depth changes by a change of tilt is work of the blade, the rest of what
+    it changes by the profile is work of the rotation.
 
-    Positions are in rows, less than N from those before. Returns the elastic energy in the elements, the
-    energy taken by wear in this step, and the work of the rotation on the elements in this step, J.
+    `there` and `before` are `Contact`, less than N rows from each other. Returns the elastic energy in the
+    elements, the energy taken by wear in this step, and the work of the rotation on the elements in this
+    step, J.
     """
+    position, approach, tilted = there
+    position_before, approach_before, tilted_before = before
     element = load_fields(law.Element, stator.law)
     stored, dissipated, supplied = broadcast(0.0), broadcast(0.0), broadcast(0.0)
     first, last = rows_under(tip, minimum(position, position_before), maximum(position, position_before))
@@ -100,8 +123,13 @@ def update_wear(stator, tip, wear, position, approach, position_before, approach
         share, share_before = coverage(tip, offset), coverage(tip, offset + advance)
         lowering = slope * offset + constant  # of the profile over this element, in the step
         worn = load(wear, entry)
-        depth = penetration(approach, relief(tip, offset), load(stator.initial_gap, entry), worn)
-        deeper = closer + lowering
+        here, turning = tilt.raised(tilts, approach, tilted, offset), closer
+        if tilts is not None:
+            middle = offset + 0.5 * advance
+            turning = closer + (tilted - tilted_before) * middle
+            lowering = lowering - 0.5 * (tilted + tilted_before) * advance
+        depth = penetration(here, relief(tip, offset), load(stator.initial_gap, entry), worn)
+        deeper = turning + lowering
         force, increment = law.return_mapping(element, depth, worn)
         force_before = law.elastic_force(element, depth - deeper)
         under = share > 0.0

@@ -9,7 +9,8 @@ from typing import NamedTuple
 import numpy as np
 from numba import njit
 
-from bladerub.contact.kernel.modal import add_tip_displacement, in_vectors, tip_displacement
+from bladerub.contact.kernel import tilt
+from bladerub.contact.kernel.modal import ROWS, add_tip_displacement, in_vectors, tip_displacement
 from bladerub.contact.schemes import Recurrence
 from bladerub.numerics.memory import aligned, load, no_sums, store
 from bladerub.numerics.vectors import LANES, absolute, broadcast, lane_sum
@@ -47,10 +48,11 @@ class FreeFlight(NamedTuple):
     sideways: float  # Most that any node moves along the casing while the bound of its approach is 1
 
 
-def free_flight(rule: Recurrence, n_steps: int, slope: float) -> FreeFlight:
+def free_flight(rule: Recurrence, n_steps: int, slope: float, edge: float = 0.0) -> FreeFlight:
     """Find what `n_steps` free steps of a scheme add up to.
 
-    `slope` is the most that a node approaches the casing per unit of its displacement along it.
+    `slope` is the most that a node approaches the casing per unit of its displacement along it, `edge` the
+    end of the profile, in elements: the most that it does per unit of tilt.
     """
     # Per unit of q (row 0) and of d (row 1), after each step: the increment so far, and the step itself
     steps, increments = np.zeros((2, n_steps + 1, 2, rule.now.size))
@@ -61,8 +63,8 @@ def free_flight(rule: Recurrence, n_steps: int, slope: float) -> FreeFlight:
         increments[i + 1] = increments[i] + steps[i + 1]
     by_q, by_d = (steps[1:] + steps[:-1]).swapaxes(0, 1)
     mean = (increments[1:-1].sum(axis=0) + 0.5 * increments[-1]) / n_steps
-    radial, tangential = np.abs(rule.tip[:LANES]).max(axis=0), np.abs(rule.tip[LANES:]).max(axis=0)
-    approach = radial + slope * tangential
+    radial, tangential = np.abs(rule.tip[:LANES]).max(axis=0), np.abs(rule.tip[LANES:ROWS]).max(axis=0)
+    approach = radial + slope * tangential + edge * np.abs(rule.tip[ROWS:]).max(axis=0, initial=0.0)
     bound = np.abs(increments).max(axis=0) * approach
     forms = [
         *increments[-1],
@@ -100,12 +102,13 @@ def bound(flight, n, q, q_before):
 def fly(flight, modal, q, q1, q2):
     """Move the modes freely by all steps at once, in place, and project them on the tip.
 
-    Returns the displacement of the tip (radial, tangential, m); the damping loss up to the end of the flight,
-    spread over the lanes (J), where the oldest coordinates `q2` become such that `modal.advance_free` enters
-    none of it again; the mean increment of node 1 (m); and the `bound` of the next flight (m).
+    Returns the displacement of the tip (radial, tangential, m, and tilt, m per element); the damping loss up
+    to the end of the flight, spread over the lanes (J), where the oldest coordinates `q2` become such that
+    `modal.advance_free` enters none of it again; the mean increment of node 1 (m); and the `bound` of the
+    next flight (m).
     """
     loss = mean = far = broadcast(0.0)
-    sums = no_sums()
+    sums, tilts = no_sums(), tilt.no_sums(modal.tilt)
     for k in range(0, modal.n, LANES):
         present = load(q, k)
         last, change = present - load(q1, k), present - load(q2, k)
@@ -120,9 +123,9 @@ def fly(flight, modal, q, q1, q2):
         store(q1, k, x - last_step)
         store(q2, k, x)
         far = far + _form(flight, k, BOUND_Q) * absolute(x) + _form(flight, k, BOUND_D) * absolute(last_step)
-        sums = add_tip_displacement(modal, k, x, sums)
-    radial, tangential = tip_displacement(sums)
-    return radial, tangential, loss, lane_sum(mean), lane_sum(far)
+        sums, tilts = add_tip_displacement(modal, k, x, sums), tilt.add(modal.tilt, k, x, tilts)
+    there = *tip_displacement(sums), tilt.total(modal.tilt, tilts)
+    return there, loss, lane_sum(mean), lane_sum(far)
 
 
 @njit(forceinline=True)

@@ -12,11 +12,12 @@ from numba import njit
 from bladerub.contact import law
 from bladerub.contact.friction import contact_force
 from bladerub.contact.gap import closest_position, is_within_limit, normal, normal_approach, penetration
+from bladerub.contact.kernel import tilt
 from bladerub.contact.kernel.coulomb import mobilise
 from bladerub.contact.kernel.elements import rigid_surface, wrap
 from bladerub.contact.tip import coverage, relief
 from bladerub.numerics.memory import address_of, load, read, read_fields, store, write
-from bladerub.numerics.vectors import LANES
+from bladerub.numerics.vectors import LANES, broadcast
 
 NODE_TOLERANCE = 1e-12
 """Error of a node's approach at which its own force has converged, m."""
@@ -28,13 +29,14 @@ MAX_SWEEPS = 200
 def gauss_seidel(modal, stator, tip, state, passed, u, tolerance):
     """Find the contact forces that agree with the displacement they cause, eq. (9).
 
-    `u` comes as the displacement (16,) under ``state.force`` and leaves under the forces found. They have
-    converged where no approach changes by more than `tolerance` (m) in a sweep. Returns whether they did,
-    or a displacement exceeds the limit.
+    `u` comes as the displacement (32,) under ``state.force`` and leaves under the forces found. They have
+    converged where no approach, that of the profile's edge included, changes by more than `tolerance` (m) in
+    a sweep. Returns whether they did, or a displacement exceeds the limit.
     """
     force, normal_force = state.force, state.normal_force
     position, surface = state.scratch, address_of(state.scratch, 16)
     approaches, turned = address_of(state.scratch, 32), address_of(state.scratch, 48)
+    edge, rows = tip.half_width + 0.5, 16 if modal.tilt is None else 24
     for _ in range(MAX_SWEEPS):
         if not is_within_limit(tip, load(u, 0), load(u, LANES)):
             return True
@@ -48,14 +50,17 @@ def gauss_seidel(modal, stator, tip, state, passed, u, tolerance):
             normal_radial, normal_tangential = normal(tip, load(u, 0), load(u, LANES), towards)
             mobilise(modal, stator, tip, state, normal_radial, normal_tangential, towards)
         for j in range(LANES):
-            own, guess = _self_compliance(modal, stator, state, j), read(normal_force, j)
+            own, guess = _self_compliance(modal, stator, state, rows, j), read(normal_force, j)
+            tilted, couple = 0.0, 0.0
+            if modal.tilt is not None:
+                tilted = read(u, tilt.PLACE + j)
             store(approaches, 0, normal_approach(tip, load(u, 0), load(u, LANES)))
             free_approach = read(approaches, j) + own * guess
             if stator.is_rigid:
                 found = max(0.0, free_approach - read(surface, j)) / own  # eq. (9)
             else:
-                found, node_converged = _force_on(
-                    stator, tip, state.wear, j, read(position, j), free_approach, own, guess
+                found, couple, node_converged = _force_on(
+                    stator, tip, state.wear, j, read(position, j), free_approach, tilted, own, guess
                 )
                 converged = converged and node_converged
             if found == 0.0 and guess == 0.0:
@@ -70,37 +75,43 @@ def gauss_seidel(modal, stator, tip, state, passed, u, tolerance):
             )
             store(turned, 0, radial)
             store(turned, LANES, tangential)
-            for k in (j, LANES + j):
+            store(turned, tilt.COUPLE, stator.normal_factor * broadcast(couple))
+            for k in range(j, rows, LANES):
                 by = read(turned, k) - read(force, k)
                 write(force, k, read(turned, k))
                 for i in range(0, 2 * LANES, LANES):
-                    store(u, i, load(u, i) + load(modal.compliance, 16 * k + i) * by)
+                    store(u, i, load(u, i) + load(modal.compliance, rows * k + i) * by)
+                if modal.tilt is not None:
+                    more = load(modal.compliance, rows * k + tilt.COUPLE) * by
+                    store(u, tilt.PLACE, load(u, tilt.PLACE) + more)
+            if modal.tilt is not None:
+                change = max(change, edge * abs(read(u, tilt.PLACE + j) - tilted))
         if change <= tolerance:
             return converged
     return False
 
 
 @njit
-def _self_compliance(modal, stator, state, j):
+def _self_compliance(modal, stator, state, rows, j):
     """Retreat of node `j` per unit of its own force in the direction that friction gives to that, m/N."""
     turned = stator.tangential_factor - read(state.tangential_factor, j)
-    return max(0.0, read(stator.self_compliance, j) + turned * read(modal.compliance, 16 * j + LANES + j))
+    return max(0.0, read(stator.self_compliance, j) + turned * read(modal.compliance, rows * j + LANES + j))
 
 
 @njit
-def _force_on(stator, tip, wear, j, position, free_approach, own, guess):
-    """Find the force N of the coating on node `j`, which retreats by `own` per unit of it.
+def _force_on(stator, tip, wear, j, position, free_approach, tilted, own, guess):
+    """Find the force N of the coating on node `j`, which retreats by `own` per unit of it, at a given tilt.
 
     Solves ``a + own N(a) = free_approach`` for the approach a by Newton's method within a bracket: N is
-    piecewise linear, so it ends in a few steps. Returns N and whether it converged.
+    piecewise linear, so it ends in a few steps. Returns N, its couple and whether it converged.
     """
     low, high = -np.inf, np.inf
     approach = free_approach - own * guess
     for _ in range(MAX_NODE_ITERATIONS):
-        force, stiffness = _resistance(stator, tip, wear, j, position, approach)
+        force, stiffness, couple = _resistance(stator, tip, wear, j, position, approach, tilted)
         residual = approach + own * force - free_approach
         if abs(residual) <= NODE_TOLERANCE:
-            return force, True
+            return force, couple, True
         if residual > 0.0:
             high = approach
         else:
@@ -108,13 +119,13 @@ def _force_on(stator, tip, wear, j, position, free_approach, own, guess):
         approach -= residual / (1.0 + own * stiffness)
         if not low < approach < high:  # or it would alternate between two pieces
             approach = 0.5 * (low + high)
-    return force, False
+    return force, couple, False
 
 
 @njit
-def _resistance(stator, tip, wear, j, position, approach):
-    """Force (N) and stiffness (N/m) of the elements under node `j`, as `elements.linearise`."""
-    force = 0.0
+def _resistance(stator, tip, wear, j, position, approach, tilted):
+    """Force (N), stiffness (N/m) and couple of the elements under node `j`, as `elements.linearise`."""
+    force = couple = 0.0
     stiffness = 0.0
     element = read_fields(law.Element, address_of(stator.law, j))
     first = math.floor(position - tip.half_width)
@@ -123,10 +134,12 @@ def _resistance(stator, tip, wear, j, position, approach):
         offset = i + 0.5 - position
         entry = wrap(i, stator.n_elements) * LANES + j
         worn = read(wear, entry)
-        depth = penetration(approach, relief(tip, offset), read(stator.initial_gap, entry), worn)
+        here = approach + tilted * offset
+        depth = penetration(here, relief(tip, offset), read(stator.initial_gap, entry), worn)
         force_here, _ = law.return_mapping(element, depth, worn)
         slope, _ = law.tangent(element, depth, worn)
         share = coverage(tip, offset)
         force += share * force_here
         stiffness += share * slope
-    return force, stiffness
+        couple += share * offset * force_here
+    return force, stiffness, couple

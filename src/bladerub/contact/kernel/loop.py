@@ -13,7 +13,7 @@ from numba import njit
 
 from bladerub.contact.energy import DAMPING, STORED
 from bladerub.contact.gap import normal_approach
-from bladerub.contact.kernel import free_flight
+from bladerub.contact.kernel import free_flight, tilt
 from bladerub.contact.kernel.accounting import add_work, update_coating
 from bladerub.contact.kernel.coulomb import predict_sliding
 from bladerub.contact.kernel.free_flight import FreeFlight
@@ -101,13 +101,14 @@ class Rows(NamedTuple):
 
 
 @njit(forceinline=True)
-def _store_displacement(tip, radial, tangential, u):
-    """Store a displacement of the tip and the approach of its nodes; return that approach."""
+def _store_displacement(modal, tip, radial, tangential, tilted, u):
+    """Store a displacement of the tip and the approach of its nodes; return the largest of the profiles."""
     approach = normal_approach(tip, radial, tangential)
     store(u, 0, radial)
     store(u, LANES, tangential)
     store(u, 2 * LANES, approach)
-    return approach
+    tilt.keep(modal.tilt, u, tilted)
+    return tilt.furthest(modal.tilt, tip, approach, tilted)
 
 
 @njit(forceinline=True)
@@ -119,9 +120,10 @@ def _is_clear(tip, radial, tangential, approach, minimum_gap):
 
 
 @njit(forceinline=True)
-def _stays_clear(flight, tip, u, far, minimum_gap):
+def _stays_clear(modal, flight, tip, u, far, minimum_gap):
     """Whether a free flight in which no node approaches by more than `far` surely touches nothing."""
-    radial, tangential, approach = load(u, 0), load(u, LANES), load(u, 2 * LANES)
+    radial, tangential = load(u, 0), load(u, LANES)
+    approach = tilt.furthest(modal.tilt, tip, load(u, 2 * LANES), tilt.kept(modal.tilt, u))
     return _is_clear(
         tip, radial - far, absolute(tangential) + flight.sideways * far, approach + far, minimum_gap
     )
@@ -131,7 +133,7 @@ def _stays_clear(flight, tip, u, far, minimum_gap):
 def _advance(modal, state, touched, q, q_before, q_next):
     """Move the modes by one step under the forces there are, and keep these as those of the step before."""
     if touched:
-        copy(state.force, address_of(state.force, 2 * LANES), 2 * LANES)
+        copy(state.force, address_of(state.force, 3 * LANES), 3 * LANES)
         copy(state.normal_force, address_of(state.normal_force, LANES), LANES)
         copy(state.moment, address_of(state.moment, LANES), LANES)
         copy(state.tangential_factor, address_of(state.tangential_factor, LANES), LANES)
@@ -148,9 +150,9 @@ def _contact(modal, stator, tip, state, step, rows, clear_of_casing):
     """
     touching = False
     if clear_of_casing:
-        clear(state.force, 2 * LANES)
+        clear(state.force, 3 * LANES)
         clear(state.normal_force, LANES)
-        clear(state.response, 2 * LANES)
+        clear(state.response, 3 * LANES)
     else:
         if stator.coulomb:
             predict_sliding(modal, state, rows.q_next, rows.q, step.angle)
@@ -158,16 +160,16 @@ def _contact(modal, stator, tip, state, step, rows, clear_of_casing):
         else:
             within = find_forces(modal, stator, tip, step.passed, state, rows.u_next, False)
         if not within:
-            copy(address_of(state.force, 2 * LANES), state.force, 2 * LANES)
+            copy(address_of(state.force, 3 * LANES), state.force, 3 * LANES)
             return False, False
         touching = largest_lane(load(state.normal_force, 0)) > 0.0
     if touching or step.touched:
-        update_coating(stator, tip, step.passed, step.per_step, state, rows.u_next, rows.u)
+        update_coating(modal, stator, tip, step.passed, step.per_step, state, rows.u_next, rows.u)
     if touching and modal.corrects:
-        radial, tangential = correct(modal, state.force, rows.q_next)
-        _store_displacement(tip, radial, tangential, rows.u_next)
+        radial, tangential, tilted = correct(modal, state.force, rows.q_next)
+        _store_displacement(modal, tip, radial, tangential, tilted, rows.u_next)
     if step.touched:
-        add_work(stator, tip, step.angle, state, rows.u_next, rows.u, rows.u_before)
+        add_work(modal, stator, tip, step.angle, state, rows.u_next, rows.u, rows.u_before)
         clear(address_of(state.normal_force, LANES), LANES)
     return True, touching
 
@@ -189,7 +191,7 @@ def _integrate(modal, flight, stator, tip, state, steps_per_element, first, last
     flew, far = False, 0.0
     damping = broadcast(0.0)
     q, q_before, q_next = state.q, address_of(state.q, modal.n), address_of(state.q, 2 * modal.n)
-    u, u_before, u_next = state.u, address_of(state.u, 3 * LANES), address_of(state.u, 6 * LANES)
+    u, u_before, u_next = state.u, address_of(state.u, 4 * LANES), address_of(state.u, 8 * LANES)
     for element in range(first, last):
         if element % CLEANING_INTERVAL == 0:
             _clear_negligible(state.q, 3 * modal.n)
@@ -202,12 +204,13 @@ def _integrate(modal, flight, stator, tip, state, steps_per_element, first, last
             else:
                 if not flew:
                     far = free_flight.bound(flight, modal.n, q, q_before)
-                flew = _stays_clear(flight, tip, u, far, minimum_gap)
+                flew = _stays_clear(modal, flight, tip, u, far, minimum_gap)
             if flew:
                 touched = False
                 node_1 = read(u, 0)
-                radial, tangential, loss, increment, far = free_flight.fly(flight, modal, q, q_before, q_next)
-                _store_displacement(tip, radial, tangential, u)
+                displacement_there, loss, increment, far = free_flight.fly(flight, modal, q, q_before, q_next)
+                radial, tangential, tilted = displacement_there
+                _store_displacement(modal, tip, radial, tangential, tilted, u)
                 damping = damping + loss
                 mean += flight.n_steps * (node_1 + increment)
                 low, high = free_flight.extremes(node_1, read(u, 0), node_1 + increment)
@@ -217,8 +220,8 @@ def _integrate(modal, flight, stator, tip, state, steps_per_element, first, last
                 continue
             for _ in range(min(flight.n_steps, steps_per_element - step)):
                 touched = touching
-                radial, tangential, loss = _advance(modal, state, touched, q, q_before, q_next)
-                approach = _store_displacement(tip, radial, tangential, u_next)
+                radial, tangential, tilted, loss = _advance(modal, state, touched, q, q_before, q_next)
+                approach = _store_displacement(modal, tip, radial, tangential, tilted, u_next)
                 damping = damping + loss
                 step += 1
                 is_clear = _is_clear(tip, radial, tangential, approach, minimum_gap)

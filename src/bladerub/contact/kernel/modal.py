@@ -5,6 +5,7 @@ from typing import NamedTuple
 import numpy as np
 from numba import njit
 
+from bladerub.contact.kernel import tilt
 from bladerub.contact.schemes import Recurrence
 from bladerub.numerics.memory import (
     add_products,
@@ -33,13 +34,15 @@ class Modal(NamedTuple):
     # (n / 8, 16, 8): Displacement of the tip per unit of each mode, a block for each vector of modes
     tip: np.ndarray
     gain: np.ndarray  # (n,): Modal coordinates per unit of modal force
-    compliance: np.ndarray  # (16, 16): Displacement of the tip in the step of each force itself, m/N
+    # (16, 16): Displacement of the tip in the step of each force itself, m/N; (24, 24) with the tilt
+    compliance: np.ndarray
     corrects: bool  # Whether forces act in the step they are evaluated in
-    # (16, 16): Displacement of the tip in a step, as `bladerub.contact.friction` counts it, per unit of
-    # each force of the step, by the modes that the scheme resolves, m/N
+    # (16, 16) or (24, 24): Displacement of the tip in a step, as `bladerub.contact.friction` counts it, per
+    # unit of each force of the step, by the modes that the scheme resolves, m/N
     mobility: np.ndarray
     # (8,): The most that tangential forces of 1 N on all nodes take from the sliding distance of each, m
     stopping: np.ndarray
+    tilt: np.ndarray | None  # (n / 8, 8, 8): Tilt of the profile per unit of each mode, where it turns
 
 
 def pack(rule: Recurrence) -> Modal:
@@ -50,12 +53,13 @@ def pack(rule: Recurrence) -> Modal:
         now=_padded(rule.now),
         before=_padded(rule.before),
         loss=_padded(rule.loss),
-        tip=in_vectors(rule.tip),
+        tip=in_vectors(rule.tip[:ROWS]),
         gain=_padded(rule.gain),
         compliance=rule.compliance,
         corrects=rule.corrects,
         mobility=mobility,
-        stopping=np.abs(mobility[LANES:, LANES:]).sum(axis=1),
+        stopping=np.abs(mobility[LANES:ROWS, LANES:ROWS]).sum(axis=1),
+        tilt=in_vectors(rule.tip[ROWS:]) if len(rule.tip) > ROWS else None,
     )
     return aligned(modal)
 
@@ -75,39 +79,38 @@ def in_vectors(rows: np.ndarray) -> np.ndarray:
 def advance_free(modal, q, q1, q2):
     """Move the modes freely by one step, in place of the oldest coordinates `q2`; project them on the tip.
 
-    Returns the displacement of the tip (radial, tangential, m), the interface rows of eq. (6), and the
-    damping loss of the step before, spread over the lanes (J): its end is known only now.
+    Returns the displacement of the tip (radial, tangential, m), the interface rows of eq. (6), its tilt (m
+    per element), and the damping loss of the step before, spread over the lanes (J): its end is known only
+    now.
     """
     loss = broadcast(0.0)
-    sums = no_sums()
+    sums, tilts = no_sums(), tilt.no_sums(modal.tilt)
     for k in range(0, modal.n, LANES):
         x, more = _recur(modal, k, q, q1, q2)
         loss = loss + more
         store(q2, k, x)
-        sums = add_tip_displacement(modal, k, x, sums)
-    radial, tangential = tip_displacement(sums)
-    return radial, tangential, loss
+        sums, tilts = add_tip_displacement(modal, k, x, sums), tilt.add(modal.tilt, k, x, tilts)
+    return *tip_displacement(sums), tilt.total(modal.tilt, tilts), loss
 
 
 @njit(forceinline=True)
 def advance_forced(modal, force, q, q1, q2):
-    """Move the modes as `advance_free`, under the contact forces (16,) of the step before."""
+    """Move the modes as `advance_free`, under the contact forces (24,) of the step before."""
     loss = broadcast(0.0)
-    forces = broadcast_each(force)
+    forces, couples = broadcast_each(force), tilt.couples(modal.tilt, force)
     for k in range(0, modal.n, LANES):
         x, more = _recur(modal, k, q, q1, q2)
         loss = loss + more
-        store(q2, k, x + _by_forces(modal, k, forces))
-    radial, tangential = _project(modal, q2)
-    return radial, tangential, loss
+        store(q2, k, x + _by_forces(modal, k, forces, couples))
+    return *_project(modal, q2), loss
 
 
 @njit(forceinline=True)
 def correct(modal, force, q):
-    """Add the effect of contact forces (16,) to the modal coordinates; project these on the tip."""
-    forces = broadcast_each(force)
+    """Add the effect of contact forces (24,) to the modal coordinates; project these on the tip."""
+    forces, couples = broadcast_each(force), tilt.couples(modal.tilt, force)
     for k in range(0, modal.n, LANES):
-        store(q, k, load(q, k) + _by_forces(modal, k, forces))
+        store(q, k, load(q, k) + _by_forces(modal, k, forces, couples))
     return _project(modal, q)
 
 
@@ -120,16 +123,18 @@ def _recur(modal, k, q, q1, q2):
 
 
 @njit(inline="always")
-def _by_forces(modal, k, forces):
-    return load(modal.gain, k) * sum_of_products(address_of(modal.tip, ROWS * k), forces)
+def _by_forces(modal, k, forces, couples):
+    by_forces = sum_of_products(address_of(modal.tip, ROWS * k), forces)
+    return load(modal.gain, k) * (by_forces + tilt.by_couples(modal.tilt, k, couples))
 
 
 @njit(forceinline=True)
 def _project(modal, q):
-    sums = no_sums()
+    sums, tilts = no_sums(), tilt.no_sums(modal.tilt)
     for k in range(0, modal.n, LANES):
-        sums = add_tip_displacement(modal, k, load(q, k), sums)
-    return tip_displacement(sums)
+        x = load(q, k)
+        sums, tilts = add_tip_displacement(modal, k, x, sums), tilt.add(modal.tilt, k, x, tilts)
+    return *tip_displacement(sums), tilt.total(modal.tilt, tilts)
 
 
 @njit(inline="always")
@@ -146,13 +151,20 @@ def tip_displacement(sums):
 
 
 @njit(forceinline=True)
-def displaced(response, force, radial, tangential):
-    """Add to the displacement of the tip what contact forces (16,) cause, a row of `response` for each."""
+def displaced(rows, response, force, radial, tangential, tilted):
+    """Add to the displacement of the tip what contact forces (24,) cause, a row of `response` for each.
+
+    Couples have a part in it where the profile turns, where `rows` is ``modal.tilt`` and not None.
+    """
+    width = ROWS if rows is None else ROWS + LANES
     more_radial, more_tangential = broadcast(0.0), broadcast(0.0)  # two sums at the same time
-    for i in range(0, ROWS, 2):
+    for i in range(0, width, 2):
         by, by_next = read(force, i), read(force, i + 1)
-        radial = radial + load(response, ROWS * i) * by
-        tangential = tangential + load(response, ROWS * i + LANES) * by
-        more_radial = more_radial + load(response, ROWS * (i + 1)) * by_next
-        more_tangential = more_tangential + load(response, ROWS * (i + 1) + LANES) * by_next
-    return radial + more_radial, tangential + more_tangential
+        radial = radial + load(response, width * i) * by
+        tangential = tangential + load(response, width * i + LANES) * by
+        more_radial = more_radial + load(response, width * (i + 1)) * by_next
+        more_tangential = more_tangential + load(response, width * (i + 1) + LANES) * by_next
+        if rows is not None:
+            tilted = tilted + load(response, width * i + ROWS) * by
+            tilted = tilted + load(response, width * (i + 1) + ROWS) * by_next
+    return radial + more_radial, tangential + more_tangential, tilted

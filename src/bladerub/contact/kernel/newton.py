@@ -4,7 +4,8 @@ The unknown is the approach a of each node to the casing. The forces N(a) of the
 linear, displace the tip from u₀ to ``u₀ + C F(N)``, C the compliance of the scheme. Forces and displacement
 agree, eqs. (8) and (9), where the residual ``r(a) = a − n · (u₀ + C F(N(a)))`` vanishes. Normal n, position
 and rows of elements are those of a nearby displacement, and are found again when the nodes move along the
-casing.
+casing. Where the profile turns, its tilt is a second unknown of each node, and the couple of the elements a
+second force.
 """
 
 from typing import NamedTuple
@@ -15,7 +16,7 @@ from numba import njit
 from bladerub.contact.energy import FALLBACK, UNCONVERGED
 from bladerub.contact.friction import contact_force
 from bladerub.contact.gap import closest_position, is_within_limit, normal, normal_approach
-from bladerub.contact.kernel import elements
+from bladerub.contact.kernel import elements, tilt
 from bladerub.contact.kernel.coulomb import mobilise
 from bladerub.contact.kernel.gauss_seidel import gauss_seidel
 from bladerub.contact.kernel.modal import displaced
@@ -43,12 +44,16 @@ class Geometry(NamedTuple):
 
 
 class Linearisation(NamedTuple):
-    """Force and stiffness of the elements at an approach, and the change of it over which they hold."""
+    """Forces and stiffness of the elements at an approach and tilt, and the change over which they hold."""
 
     approach: np.ndarray
+    tilted: np.ndarray
     force: np.ndarray
     stiffness: np.ndarray
     valid: np.ndarray
+    couple: np.ndarray
+    first_moment: np.ndarray  # Of the stiffness about the node: force per tilt, and couple per approach
+    second_moment: np.ndarray  # Couple per tilt
 
 
 @njit(forceinline=True)
@@ -61,47 +66,66 @@ def find_forces(modal, stator, tip, passed, state, u, coulomb):
     """
     free_radial, free_tangential = load(u, 0), load(u, LANES)
     radial, tangential = free_radial + load(state.response, 0), free_tangential + load(state.response, LANES)
+    free_tilt = tilted = tilt.kept(modal.tilt, u)
+    if modal.tilt is not None:
+        tilted = free_tilt + load(state.response, 2 * LANES)
+    free = free_radial, free_tangential, free_tilt
     here = _geometry(tip, radial, tangential, passed)
     approach = reached = here.approach
-    linear = Linearisation(approach, approach, approach, broadcast(-1.0))
-    converged = False
+    linear = _invalid(approach, tilted)
+    converged, edge = False, tip.half_width + 0.5
+    reached_tilt = tilted
     tried = not stator.is_rigid and is_within_limit(tip, radial, tangential)
     if tried:
         for _ in range(MAX_ITERATIONS):
-            if not all_lanes(absolute(approach - linear.approach) <= linear.valid):
-                linear = _linearise(stator, tip, state, here, approach)
-            radial, tangential = _displace(
-                modal, stator, tip, state, here, linear, approach, free_radial, free_tangential, coulomb
+            change = absolute(approach - linear.approach)
+            if modal.tilt is not None:
+                change = change + edge * absolute(tilted - linear.tilted)
+            if not all_lanes(change <= linear.valid):
+                linear = _linearise(modal, stator, tip, state, here, approach, tilted)
+            radial, tangential, reached_tilt = _displace(
+                modal, stator, tip, state, here, linear, approach, tilted, free, coulomb
             )
             more_radial, more_tangential = radial - here.radial, tangential - here.tangential
             reached = (
                 here.approach + here.normal_radial * more_radial + here.normal_tangential * more_tangential
             )
             residual = approach - reached
+            tilt_residual = tilted - reached_tilt
             is_straight = all_lanes(absolute(more_tangential) <= STRAIGHT)
-            if is_straight and all_lanes(absolute(residual) <= TOLERANCE):
+            error = absolute(residual)
+            if modal.tilt is not None:
+                error = error + edge * absolute(tilt_residual)
+            if is_straight and all_lanes(error <= TOLERANCE):
                 converged = True
                 break
             approach = approach - residual / (1.0 + load(stator.self_compliance, 0) * linear.stiffness)
+            if modal.tilt is not None:
+                own = load(stator.tilt_compliance, 0)
+                tilted = tilted - tilt_residual / (1.0 + own * linear.second_moment)
             if not is_straight:
                 if not is_within_limit(tip, radial, tangential):
                     break
                 here = _geometry(tip, radial, tangential, passed)
-                linear = Linearisation(linear.approach, linear.force, linear.stiffness, broadcast(-1.0))
+                linear = _invalid(approach, tilted)
     if converged:
         store(u, 0, radial)
         store(u, LANES, tangential)
         store(u, 2 * LANES, reached)
+        tilt.keep(modal.tilt, u, reached_tilt)
     else:
         if tried:  # the iteration may have gone anywhere: begin again without forces
-            clear(state.force, 2 * LANES)
+            clear(state.force, 3 * LANES)
             clear(state.normal_force, LANES)
         else:
             store(u, 0, radial)
             store(u, LANES, tangential)
+            tilt.keep(modal.tilt, u, tilted)
         radial, tangential = _by_sweeps(modal, stator, tip, passed, state, u)
     store(state.response, 0, radial - free_radial)
     store(state.response, LANES, tangential - free_tangential)
+    if modal.tilt is not None:
+        store(state.response, 2 * LANES, tilt.kept(modal.tilt, u) - free_tilt)
     return is_within_limit(tip, radial, tangential)
 
 
@@ -115,15 +139,28 @@ def _geometry(tip, radial, tangential, passed):
 
 
 @njit(forceinline=True)
-def _linearise(stator, tip, state, here, approach):
-    force, stiffness, valid = elements.linearise(stator, tip, state.wear, here.position, here.rows, approach)
-    return Linearisation(approach, force, stiffness, valid)
+def _invalid(approach, tilted):
+    zero = broadcast(0.0)
+    return Linearisation(approach, tilted, zero, zero, broadcast(-1.0), zero, zero, zero)
 
 
 @njit(forceinline=True)
-def _displace(modal, stator, tip, state, here, linear, approach, free_radial, free_tangential, coulomb):
+def _linearise(modal, stator, tip, state, here, approach, tilted):
+    found = elements.linearise(
+        modal.tilt, stator, tip, state.wear, here.position, here.rows, approach, tilted
+    )
+    return Linearisation(approach, tilted, *found)
+
+
+@njit(forceinline=True)
+def _displace(modal, stator, tip, state, here, linear, approach, tilted, free, coulomb):
     """Put the forces of the elements at `approach` on the blade; return the displacement under them."""
-    normal_force = linear.force + linear.stiffness * (approach - linear.approach)
+    closer, turned = approach - linear.approach, tilted - linear.tilted
+    normal_force = linear.force + linear.stiffness * closer
+    if modal.tilt is not None:
+        normal_force = normal_force + linear.first_moment * turned
+        couple = linear.couple + linear.first_moment * closer + linear.second_moment * turned
+        store(state.force, tilt.COUPLE, stator.normal_factor * couple)
     store(state.normal_force, 0, normal_force)
     if coulomb:
         mobilise(modal, stator, tip, state, here.normal_radial, here.normal_tangential, approach)
@@ -135,7 +172,7 @@ def _displace(modal, stator, tip, state, here, linear, approach, free_radial, fr
     )
     store(state.force, 0, by_radial)
     store(state.force, LANES, by_tangential)
-    return displaced(modal.compliance, state.force, free_radial, free_tangential)
+    return displaced(modal.tilt, modal.compliance, state.force, *free)
 
 
 @njit(forceinline=True)

@@ -32,6 +32,8 @@ class Stator(NamedTuple):
     self_compliance: np.ndarray
     # Whether the tangential part of the force follows the sliding of the node by Coulomb's law
     coulomb: bool = False
+    # (8,): The same of its tilt per unit of its own couple, where the profile turns, m/N per element squared
+    tilt_compliance: np.ndarray = np.empty(0)
 
 
 class Tip(NamedTuple):
@@ -52,39 +54,41 @@ class State(NamedTuple):
 
     # (3, n): Modal coordinates now, one and two steps before, padded with zeros to whole vectors
     q: np.ndarray
-    # (3, 24): Radial and tangential displacement of the tip at the same times, and the approach of its
-    # nodes, m
+    # (3, 32): Radial and tangential displacement of the tip at the same times, the approach of its
+    # nodes (m), and its tilt (m per element)
     u: np.ndarray
-    force: np.ndarray  # (2, 16): Contact forces on the blade now and one step before, N
+    # (2, 24): Contact forces on the blade now and one step before, radial and tangential (N), and couples
+    # (N elements)
+    force: np.ndarray
     # (2, 8): Of each node at the same times: size of the contact force (N), its moment about the axis (N
     # m), and its tangential factor, that of the stator or what friction mobilises of it
     normal_force: np.ndarray
     moment: np.ndarray
     tangential_factor: np.ndarray
-    # (16,): Displacement of the tip by the forces of the last step in that step: where the search for
-    # forces begins, m
+    # (24,): Displacement and tilt of the tip by the forces of the last step in that step: where the search
+    # for forces begins, m and m per element
     response: np.ndarray
     # (24,): Sliding of the tip without the forces of this step: radial and tangential, m, and angle of
     # rotation
     free_sliding: np.ndarray
     wear: np.ndarray  # (N, 8): Permanent shortening of the elements, in the rows of `Stator`, m
-    ledger: np.ndarray  # (16, 8): Entries of `bladerub.contact.energy`, to be summed over the nodes
-    scratch: np.ndarray  # (5, 16): Of no meaning between steps
+    ledger: np.ndarray  # (17, 8): Entries of `bladerub.contact.energy`, to be summed over the nodes
+    scratch: np.ndarray  # (6, 16): Of no meaning between steps
 
 
 def at_rest(n_modes: int, n_elements: int) -> State:
     """State of a blade at rest before an unworn coating."""
     state = State(
         q=np.zeros((3, n_modes + -n_modes % LANES)),
-        u=np.zeros((3, 3 * LANES)),
-        force=np.zeros((2, 2 * LANES)),
+        u=np.zeros((3, 4 * LANES)),
+        force=np.zeros((2, 3 * LANES)),
         normal_force=np.zeros((2, LANES)),
         moment=np.zeros((2, LANES)),
         tangential_factor=np.zeros((2, LANES)),
-        response=np.zeros(2 * LANES),
+        response=np.zeros(3 * LANES),
         free_sliding=np.zeros(3 * LANES),
         wear=np.zeros((n_elements, LANES)),
         ledger=np.zeros((N_ENTRIES, LANES)),
-        scratch=np.zeros((5, 2 * LANES)),
+        scratch=np.zeros((6, 2 * LANES)),
     )
     return aligned(state)

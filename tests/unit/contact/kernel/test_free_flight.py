@@ -18,23 +18,25 @@ from bladerub.numerics.vectors import lane_sum
 
 STEPS = 7
 SLOPE = 0.02
+EDGE = 2.5
 
 
 class Flight(NamedTuple):
     q: np.ndarray
     radial: np.ndarray
     tangential: np.ndarray
+    tilt: np.ndarray
 
 
 @njit
 def flown(rule, flight, record):
     q, n = record.q, rule.n
     here = free_flight.bound(flight, n, q, address_of(q, n))
-    radial, tangential, loss, mean, far = free_flight.fly(
-        flight, rule, q, address_of(q, n), address_of(q, 2 * n)
-    )
+    there, loss, mean, far = free_flight.fly(flight, rule, q, address_of(q, n), address_of(q, 2 * n))
+    radial, tangential, tilted = there
     store(record.radial, 0, radial)
     store(record.tangential, 0, tangential)
+    store(record.tilt, 0, tilted)
     return lane_sum(loss), mean, far, here
 
 
@@ -42,15 +44,18 @@ def flown(rule, flight, record):
 def next_loss(rule, record):
     """Loss that the next step enters."""
     q, n = record.q, rule.n
-    _, _, loss = modal.advance_free(rule, q, address_of(q, n), address_of(q, 2 * n))
+    _, _, _, loss = modal.advance_free(rule, q, address_of(q, n), address_of(q, 2 * n))
     return lane_sum(loss)
 
 
-@pytest.fixture(params=["exponential", "central_differences"])
+@pytest.fixture(params=["exponential", "central_differences", "turning profile"])
 def scheme(request, blade):
     step = 2.4e-6
-    contact = Contact(np.full(8, 1e5), -1.0, 0.0)
-    return SCHEMES[request.param](modes_at(blade, 0.3), 2e-3, step, contact)
+    modes = modes_at(blade, 0.3)
+    if request.param == "turning profile":
+        modes = modes._replace(tip=np.vstack([modes.tip, 0.4 * modes.tip[8:, ::-1]]))
+    contact = Contact(np.full(len(modes.tip) - 8, 1e5), -1.0, 0.0)
+    return SCHEMES.get(request.param, SCHEMES["exponential"])(modes, 2e-3, step, contact)
 
 
 @pytest.fixture
@@ -74,10 +79,10 @@ def in_steps(scheme, q, n_steps):
 def after_flight(scheme, q):
     """The record after a free flight, and what it returned."""
     rule, n = modal.pack(scheme), scheme.omega.size
-    flight = free_flight.free_flight(scheme, STEPS, SLOPE)
+    flight = free_flight.free_flight(scheme, STEPS, SLOPE, EDGE)
     padded = np.zeros((3, rule.n))
     padded[:, :n] = q
-    record = aligned(Flight(padded, np.zeros(8), np.zeros(8)))
+    record = aligned(Flight(padded, np.zeros(8), np.zeros(8), np.zeros(8)))
     given = flown(addresses(rule), addresses(flight), addresses(record))
     return rule, record, given
 
@@ -91,7 +96,8 @@ def test_free_flight_equals_its_single_steps(scheme, vibration):
     tip = after @ scheme.tip.T
     scale = 1e-12 * np.abs(tip).max()
     np.testing.assert_allclose(record.radial, tip[-1, :8], rtol=0, atol=scale)
-    np.testing.assert_allclose(record.tangential, tip[-1, 8:], rtol=0, atol=scale)
+    np.testing.assert_allclose(record.tangential, tip[-1, 8:16], rtol=0, atol=scale)
+    np.testing.assert_allclose(record.tilt[: tip.shape[1] - 16], tip[-1, 16:], rtol=0, atol=scale)
     node_1 = tip[2:, 0]
     assert mean == pytest.approx(np.trapezoid(node_1) / STEPS - node_1[0], rel=1e-9)
     # a step enters the loss of the step before: the next one must find nothing left of the flight
@@ -105,23 +111,26 @@ def test_no_node_approaches_by_more_than_the_bound(scheme, vibration):
     tip = in_steps(scheme, vibration, 2 * STEPS)[2:] @ scheme.tip.T
     for start, limit in ((0, bound), (STEPS, next_bound)):
         moved = np.abs(tip[start : start + STEPS + 1] - tip[start])
-        approach = (moved[:, :8] + SLOPE * moved[:, 8:]).max()
+        approach = (moved[:, :8] + SLOPE * moved[:, 8:16]).max()
+        if tip.shape[1] > 16:
+            approach = max(approach, (moved[:, :8] + SLOPE * moved[:, 8:16] + EDGE * moved[:, 16:]).max())
         assert approach <= limit < 30 * approach
-        assert moved[:, 8:].max() <= free_flight.free_flight(scheme, STEPS, SLOPE).sideways * limit
+        assert moved[:, 8:16].max() <= free_flight.free_flight(scheme, STEPS, SLOPE, EDGE).sideways * limit
 
 
 @pytest.mark.parametrize("moves", [False, True], ids=["deflected", "moving"])
 def test_the_bound_of_a_single_mode_is_what_it_reaches(scheme, moves):
     """Only the sum over modes makes it a bound: a single mode that starts so reaches all of it."""
     n = scheme.omega.size
-    radial, tangential = np.abs(scheme.tip[:8]).max(axis=0), np.abs(scheme.tip[8:]).max(axis=0)
+    radial, tangential = np.abs(scheme.tip[:8]).max(axis=0), np.abs(scheme.tip[8:16]).max(axis=0)
+    tilt = np.abs(scheme.tip[16:]).max(axis=0, initial=0.0)
     for mode in (0, 1, n // 2, n - 1):
         q = np.zeros((3, n))
         q[1:, mode] = -1.0 if moves else 1.0
         q[0, mode] = 0.0 if moves else 1.0
         *_, bound = after_flight(scheme, q)[2]
         reached = np.abs(in_steps(scheme, q, STEPS)[2:, mode] - q[0, mode]).max()
-        assert bound == pytest.approx(reached * (radial + SLOPE * tangential)[mode], rel=1e-9)
+        assert bound == pytest.approx(reached * (radial + SLOPE * tangential + EDGE * tilt)[mode], rel=1e-9)
 
 
 def test_the_bound_of_the_next_flight_is_that_from_where_the_first_ends(scheme, vibration):
