@@ -35,6 +35,10 @@ if workflow.is_main_process:
     with bladerub.io.errors.exit_on_error():
         LIVING = bladerub.workflow.invocation.begin(".snakemake", RESULTS)
     bladerub.workflow.invocation.plan(RESULTS, FILES, GIVEN, NOTES)
+    if workflow.output_settings.dryrun:
+        from bladerub.workflow import forecast  # takes seconds to import
+
+        forecast.print_at_exit(config)
 
 
 onstart:

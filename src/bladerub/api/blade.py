@@ -15,12 +15,12 @@ from bladerub.api.errors import InputError
 from bladerub.api.notebook import html_table
 from bladerub.api.study import Study
 from bladerub.blade.accuracy import ACCURACY_COLUMNS
-from bladerub.blade.build import build, made_from
+from bladerub.blade.build import build, is_built, made_from
 from bladerub.blade.built import mesh_path, write
 from bladerub.blade.frequencies import reduced_frequencies
 from bladerub.blade.model import ReducedBlade
 from bladerub.blade.validation import read_valid_blade
-from bladerub.io import hdf5, tables
+from bladerub.io import tables
 from bladerub.io.folders import cache_folder
 from bladerub.io.provenance import provenance
 from bladerub.io.sources import builder_digest
@@ -184,14 +184,6 @@ def build_blade(study: Study) -> Blade:
     if not is_built(study.config, cached):
         write_blade(study.config, cached, cached.with_name("rom_accuracy.csv"))
     return read_blade(cached)
-
-
-def is_built(config: Mapping[str, Any], path: Path) -> bool:
-    """Return whether the reduced blade at `path` was built from `config`, as its mesh states."""
-    mesh = mesh_path(path)
-    if not (path.exists() and mesh.exists()):
-        return False
-    return hdf5.read_attributes(mesh).get("made_from") == made_from(config)
 
 
 def write_blade(config: Mapping[str, Any], path: Path, accuracy: Path) -> None:

@@ -11,7 +11,7 @@ import numpy as np
 from threadpoolctl import threadpool_limits
 
 from bladerub.blade import geometry
-from bladerub.blade.built import BuiltBlade
+from bladerub.blade.built import BuiltBlade, mesh_path
 from bladerub.blade.discrete import DiscreteBlade, by_finite_elements
 from bladerub.blade.elasticity import Material
 from bladerub.blade.mesh import BladeMesh, MeshedBlade
@@ -20,6 +20,7 @@ from bladerub.blade.refinement import MOST_FIT_SPEEDS, reduce_to_tolerance
 from bladerub.blade.sources import matrix_folder, origin
 from bladerub.blade.sources.importing import import_blade
 from bladerub.blade.sources.matrices import import_matrices
+from bladerub.io import hdf5
 from bladerub.io.errors import BadInput
 
 LENGTH_TOLERANCE = 0.05  # of ``blade.length`` to what an import measures: its root need not be a cylinder
@@ -42,6 +43,14 @@ def made_from(config: Mapping[str, Any]) -> str:
         blade = {name: blade[name] for name in parts}
         blade["source"] = {**given, "file": _digest(source.file)}
     return json.dumps({"blade": blade, "reduction": config["reduction"]}, sort_keys=True)
+
+
+def is_built(config: Mapping[str, Any], path: Path) -> bool:
+    """Return whether the reduced blade at `path` was built from `config`, as its mesh states."""
+    mesh = mesh_path(path)
+    if not (path.exists() and mesh.exists()):
+        return False
+    return hdf5.read_attributes(mesh).get("made_from") == made_from(config)
 
 
 def _digest(path: Path) -> str:

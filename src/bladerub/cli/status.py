@@ -3,14 +3,12 @@
 import argparse
 import json
 from collections.abc import Mapping
-from pathlib import Path
 from shutil import get_terminal_size
 from typing import Any
 
 from tqdm import tqdm
 
 from bladerub.cli import inputs
-from bladerub.io.errors import message_for
 
 _COLUMNS = ("planned", "done", "missing", "stale", "corrupt", "unbounded")
 
@@ -52,7 +50,7 @@ def status(options: argparse.Namespace) -> None:
     from bladerub.study.plan import coating_plan
 
     results = inputs.study_folder() / config["results"]
-    digest, note = _blade_digest(config, results / "blade" / "reduced_model.h5")
+    digest, note = inventory.current_blade(config, results / "blade" / "reduced_model.h5")
     counts, damaged = {}, []
     quiet = True if options.json else None
     width = get_terminal_size().columns
@@ -85,21 +83,6 @@ def status(options: argparse.Namespace) -> None:
     for line in (note, *notes):
         if line:
             print(line)
-
-
-def _blade_digest(config: Mapping[str, Any], model: Path) -> tuple[str | None, str | None]:
-    """Return the digest of the blade, or None and why there is none."""
-    from bladerub.api.blade import is_built
-    from bladerub.study.cache import blade_digest
-
-    try:
-        if not model.exists():
-            return None, f"there is no blade yet, so every run counts as stale: {model}"
-        if not is_built(config, model):
-            return None, f"the blade is of another config, so every run counts as stale: {model}"
-        return blade_digest(model), None
-    except OSError as error:
-        return None, f"every run counts as stale without its blade: {message_for(error)}"
 
 
 def _print_table(counts: Mapping[str, Mapping[str, int]]) -> None:

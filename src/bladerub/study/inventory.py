@@ -5,6 +5,9 @@ from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any, NamedTuple
 
+from bladerub.blade.build import is_built
+from bladerub.io.errors import message_for
+from bladerub.study.cache import blade_digest
 from bladerub.study.growth import needs_confirmation
 from bladerub.study.manifest import damaged_files, read_manifest
 from bladerub.study.plan import CoatingPlan, PlannedRun, growth_key, longer_run
@@ -31,6 +34,18 @@ def total(inventories: Iterable[Mapping[str, int]]) -> dict[str, int]:
     return {name: sum(part[name] for part in parts) for name in COUNTS}
 
 
+def current_blade(config: Mapping[str, Any], model: Path) -> tuple[str | None, str | None]:
+    """Return the digest of the reduced blade at `model`, or None and why there is none of this config."""
+    try:
+        if not model.exists():
+            return None, f"there is no blade yet, so every run counts as stale: {model}"
+        if not is_built(config, model):
+            return None, f"the blade is of another config, so every run counts as stale: {model}"
+        return blade_digest(model), None
+    except OSError as error:
+        return None, f"every run counts as stale without its blade: {message_for(error)}"
+
+
 class _Found(NamedTuple):
     """A whole run on disk, as its manifest or its file says."""
 
@@ -44,12 +59,12 @@ def take(
     config: Mapping[str, Any],
     plan: CoatingPlan,
     folder: str | Path,
-    blade_digest: str | None,
+    digest: str | None,
     thorough: bool = False,
 ) -> tuple[dict[str, int], list[Path]]:
     """Compare the runs of one coating in `folder` with its `plan`: `COUNTS`, and the damaged files.
 
-    Without a blade, whose digest is `bladerub.study.cache.blade_digest`, every run that is there is stale. A
+    Without a blade, whose `digest` is of `current_blade`, every run that is there is stale. A
     file of the size in the manifest is taken to be what that says; any other is opened, which shows a
     truncated one. If `thorough`, every number is read, and every byte compared with the checksum in the
     manifest if the job is done.
@@ -73,7 +88,7 @@ def take(
             except Exception:  # h5py raises anything on a damaged file
                 damaged.append(path)
                 return "corrupt", None
-        current = blade_digest is not None and found.key == run.key(blade_digest)
+        current = digest is not None and found.key == run.key(digest)
         return ("done" if current else "stale"), found
 
     counts = dict.fromkeys(COUNTS, 0) | {"planned": len(plan.runs)}
