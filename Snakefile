@@ -5,6 +5,7 @@ from snakemake.utils import min_version
 import bladerub.config.read
 import bladerub.io.errors
 import bladerub.workflow.invocation
+import bladerub.workflow.pages
 from bladerub.study.grid import coating_cases
 
 min_version("9.0")

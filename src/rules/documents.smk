@@ -71,7 +71,7 @@ rule config_reference:
 # Without an output: both render README.md and the pages of docs/explanation in place, whenever they are asked for.
 rule docs_data:
     input:
-        [f"{TABLES}/{name}.csv" for name in ["findings", "peaks", "rom_accuracy"]],
+        [f"{TABLES}/{name}.csv" for name in bladerub.workflow.pages.TABLES],
     log:
         f"{RESULTS}/logs/docs_data.log",
     script:

@@ -1,18 +1,27 @@
 """Take snapshots of the tables that pages quote, if any are given, and render the pages from them."""
 
+import json
 import shutil
 from pathlib import Path
 
 from bladerub.io import atomic, tables
 from bladerub.workflow import job, pages
 
+# The runs of a coating are counted by these columns: one row a run would be 1.4 MB
+OUTCOME = ["casing", "E", "K", "theta", "law", "revolutions", "status", "divergent", "saturating"]
+
 job.log_to(snakemake.log[0])
 
 folder = Path("docs/data")
 folder.mkdir(exist_ok=True)
-for table in snakemake.input:
-    for source in (Path(table), tables.description_path(table)):
+for path in map(Path, snakemake.input):
+    for source in (path, tables.description_path(path)):
         shutil.copyfile(source, folder / source.name)
+    if path.stem == "divergence":
+        counted = tables.read(path).groupby(OUTCOME, as_index=False).size().rename(columns={"size": "runs"})
+        description = json.loads(tables.description_path(path).read_text(encoding="utf-8"))
+        origin = {one["schema:name"]: one["schema:value"] for one in description["dc:provenance"]}
+        tables.write(folder / path.name, counted, origin)
 data = pages.read_tables(folder)
 for page in pages.pages_of(Path()):
     text = page.read_text(encoding="utf-8")

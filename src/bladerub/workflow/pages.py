@@ -3,7 +3,8 @@
 A number stands between two comments, the first of which holds its source:
 ``<!-- = findings('C1a').measured | fixed(2) -->0.39<!-- / -->``. A sentence that rests on verdicts carries
 them: ``<!-- C6a C6c: partly -->``. Both are invisible on the rendered page. An expression is of Jinja. A
-table is called with the values of its first columns and answers with the one row that has them.
+table is called with the values of its first columns and answers with the one row that has them; its `column`
+lists a column for the filters ``sum``, ``max`` and ``min``, over the rows that have the values it is given.
 """
 
 import re
@@ -16,7 +17,7 @@ from jinja2 import Environment, StrictUndefined, TemplateError
 
 from bladerub.io import tables
 
-TABLES = ("findings", "peaks", "rom_accuracy")
+TABLES = ("findings", "margins", "peaks", "divergence", "rom_accuracy", "campbell")
 MARK = re.compile(r"<!-- (?:= (?P<source>.+?)|(?P<end>/)) -->")
 VERDICT = re.compile(r"<!-- (?P<claims>C\d+[a-z]?(?: C\d+[a-z]?)*): (?P<verdict>yes|partly|no) -->")
 
@@ -39,13 +40,17 @@ class Table:
         return {column: _number(value) for column, value in rows.iloc[0].items()}
 
     def count(self, **values: Any) -> int:
-        """Count the rows that have `values` in the columns of these names."""
+        """Count the rows that have `values` in the columns of these names; a list holds alternatives."""
         return len(self._select(values))
+
+    def column(self, column: str, **values: Any) -> list[Any]:
+        """Return `column` of the rows that `count` counts."""
+        return list(self._select(values)[column])
 
     def _select(self, values: Mapping[str, Any]) -> pd.DataFrame:
         rows = self.rows
         for column, value in values.items():
-            rows = rows[rows[column] == value]
+            rows = rows[rows[column].isin(value if isinstance(value, list) else [value])]
         return rows
 
 
@@ -65,7 +70,7 @@ def render(text: str, page: str, data: Mapping[str, Table]) -> str:
     Raises `PageError`, which names page and line, for a bad expression or a missing comment.
     """
     environment = Environment(undefined=StrictUndefined, autoescape=False)
-    environment.filters |= {"fixed": _fixed, "percent": _percent}
+    environment.filters |= {"fixed": _fixed, "percent": _percent, "mm": _mm}
     done, position, opened = [], 0, None
     for mark in MARK.finditer(text):
         where = f"{page}:{_line(text, mark.start())}"
@@ -126,3 +131,7 @@ def _fixed(value: float, digits: int = 0) -> str:
 
 def _percent(value: float, digits: int = 0) -> str:
     return f"{100 * value:.{digits}f}"
+
+
+def _mm(value: float, digits: int = 1) -> str:
+    return f"{1000 * value:.{digits}f}"

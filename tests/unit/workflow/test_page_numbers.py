@@ -65,7 +65,7 @@ def test_a_changed_verdict_names_the_sentences_written_for_the_old_one(tmp_path)
     )
     written = [one for one in stale_places(folder) if "written for" in one]
     assert [place(one) for one in written] == places_with("<!-- C4c: partly -->")
-    assert len(written) == 2
+    assert len(written) == 3
     assert all("C4c is no" in one for one in written)
 
 
@@ -97,3 +97,17 @@ def test_rendering_twice_changes_nothing():
     once = pages.render("a <!-- = findings.count(holds='yes') --><!-- / --> b", "page.md", data)
     assert once == "a <!-- = findings.count(holds='yes') -->32<!-- / --> b"
     assert pages.render(once, "page.md", data) == once
+
+
+def test_a_column_of_chosen_rows_is_summed():
+    data = pages.read_tables(SNAPSHOTS)
+    source = "divergence.column('runs', E=[0.05, 0.11], divergent=true) | sum"
+    table = data["divergence"].rows
+    expected = table[(table.E <= 0.11) & table.divergent].runs.sum()
+    assert expected > 0
+    assert pages.render(f"<!-- = {source} --><!-- / -->", "page.md", data).count(f">{expected}<") == 1
+
+
+def test_metres_are_shown_in_millimetres():
+    rendered = pages.render("<!-- = 0.00234 | mm(2) --><!-- / -->", "page.md", {})
+    assert rendered == "<!-- = 0.00234 | mm(2) -->2.34<!-- / -->"
