@@ -47,6 +47,10 @@ onstart:
         bladerub.workflow.invocation.start()
 
 
+onerror:
+    bladerub.workflow.invocation.stopped()
+
+
 wildcard_constraints:
     coating="[A-Za-z0-9]+_(E[^_/]+_K[^_/]+_(theta|mu)|rigid_mu)[^_/]+(_xi[^_/]+)?(_h[^_/]+)?(_d[^_/]+)?",
 

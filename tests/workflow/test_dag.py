@@ -1,5 +1,6 @@
 """What the real workflow plans and computes, on a tiny study."""
 
+import re
 import shutil
 import subprocess
 
@@ -146,6 +147,7 @@ def test_a_failed_job_says_why_and_loses_no_run(copied_study, tiny):
     assert done.returncode != 0
     log = copied_study.folder / "results/logs/coating/2nd_E1.1_K0.5_theta0.log"
     assert "ValueError" in log.read_text()
+    assert "the same command goes on" in done.stderr
     assert copied_study.runs() == before
     copied_study.build(tiny, manifest)
     assert copied_study.runs() == before
@@ -155,6 +157,7 @@ def test_quick_study_can_draw_every_figure(workspace):
     shutil.copy(workspace.folder / "config" / "quick.yaml", workspace.folder / "overlay.yaml")
     done = workspace.snakemake("--dry-run", "--configfile", "overlay.yaml")
     assert done.returncode == 0, done.stderr
+    assert re.search(r"^bladerub: ([\d,]+) of \1 runs of the study", done.stderr, re.MULTILINE)
     assert {f"fig{n:02}" for n in range(1, 20)} <= {
         word[:5] for word in (done.stdout + done.stderr).split() if word.startswith("fig")
     }

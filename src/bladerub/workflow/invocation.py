@@ -83,6 +83,11 @@ def start() -> None:
         record.write(results, files, given)
 
 
+def stopped() -> None:
+    """Say, after an error or Ctrl-C, what becomes of what was done; called as `start` is."""
+    _print("what is finished is kept; the same command goes on from there")
+
+
 def prepare(results: str | Path) -> None:
     """Delete what killed jobs were writing; raise an `OSError` if the results folder cannot be written."""
     results = Path(results)
