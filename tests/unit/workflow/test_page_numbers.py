@@ -1,5 +1,6 @@
 """Pages quote the values and verdicts of the tables in docs/data."""
 
+import re
 import shutil
 from pathlib import Path
 
@@ -97,6 +98,13 @@ def test_rendering_twice_changes_nothing():
     once = pages.render("a <!-- = findings.count(holds='yes') --><!-- / --> b", "page.md", data)
     assert once == "a <!-- = findings.count(holds='yes') -->32<!-- / --> b"
     assert pages.render(once, "page.md", data) == once
+
+
+def test_no_mark_begins_a_line_which_would_make_it_plain_html():
+    begins = re.compile(r"\s*(?:[*-] )?<!-- (?:=|C\d)")
+    lines = [line for page in pages.pages_of(ROOT) for line in page.read_text(encoding="utf-8").split("\n")]
+    assert begins.match("* <!-- C1a: yes -->so")
+    assert [line for line in lines if begins.match(line)] == []
 
 
 def test_a_column_of_chosen_rows_is_summed():
