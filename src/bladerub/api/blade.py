@@ -46,11 +46,19 @@ class Blade:
 
     Examples
     --------
-    >>> round(blade.length, 3)
-    0.2
+    >>> round(blade.length, 3), 190 < blade.f1_hz < 200  # m, Hz
+    (0.2, True)
     >>> blade.frequencies(f_omega=0.3).shape
     (3,)
+    >>> blade.check_speed("f_omega", 0.39)
+    >>> float(blade.accuracy()["f_omega"].max())
+    0.4
+    >>> blade.to_xarray()["mass"].units
+    'kg'
+    >>> blade.mesh_path.name, len(blade.digest)
+    ('mesh.h5', 64)
     >>> figure = blade.plot_campbell("campbell.png")
+    >>> figure = blade.plot_mesh("blade.png")
     """
 
     reduced: ReducedBlade = field(repr=False)

@@ -43,11 +43,17 @@ class Map:
 
     Examples
     --------
+    >>> sweep.case.name, sweep.f_omega.tolist(), sweep.status.tolist()
+    ('2nd_E2_K0.5_theta0', [0.19, 0.2], ['completed', 'completed'])
     >>> sweep.wear.shape
     (2, 2000)
     >>> list(sweep.to_pandas().index)
     [0.19, 0.2]
+    >>> sweep.to_xarray()["wear"].units
+    'm'
+    >>> sweep.write("map.h5", study.config)
     >>> figure = sweep.plot_wear("map.png")
+    >>> figure = sweep.plot_spectrum("spectrum.png")
     """
 
     coating: CoatingMap = field(repr=False)

@@ -45,15 +45,30 @@ class Run:
 
     Examples
     --------
-    >>> run.status
-    'completed'
-    >>> run.wear.shape
-    (8, 2000)
+    >>> run.status, run.revolutions, run.f_omega, run.case.name
+    ('completed', 3, 0.19, '2nd_E2_K0.5_theta0')
+    >>> run.wear.shape, run.angle.shape
+    ((8, 2000), (2000,))
+    >>> run.revolution_peak.size, run.revolution_amplitude.size, run.radial_displacement.size
+    (3, 3, 6000)
+    >>> bool(run.spectrum.max() < run.revolution_peak.max())
+    True
     >>> run.energy.residual < 1e-3
     True
+    >>> run.attributes["n_unconverged_steps"]
+    0
+    >>> run.verdict(study.config["analysis"]["divergence"]).divergent
+    False
+    >>> run.summary(study.config)["status"]
+    'completed'
     >>> run.to_xarray()["wear"].units
     'm'
+    >>> list(run.to_pandas().index)
+    [1, 2, 3]
+    >>> run.write("run.h5", study.config)
     >>> figure = run.plot_wear("wear.png")
+    >>> figure = run.plot_history("history.png")
+    >>> figure = run.plot_spectrum("spectrum.png")
     """
 
     stored: StoredRun = field(repr=False)

@@ -36,8 +36,11 @@ class StudyRun:
 
     Examples
     --------
-    >>> study.run("2nd", E=2, K=0.5, theta=0.15, f_omega=0.19).name
-    '2nd_E2_K0.5_theta0.15/0.1900'
+    >>> planned = study.run("2nd", E=2, K=0.5, theta=0.15, f_omega=0.19)
+    >>> planned.name, planned.f_omega
+    ('2nd_E2_K0.5_theta0.15/0.1900', 0.19)
+    >>> round(planned.of_length(0.1).spec.displacement_limit, 6)  # m: a tenth of the blade
+    0.01
     """
 
     config: Mapping[str, Any] = field(repr=False)
@@ -73,7 +76,10 @@ class StudyCoating:
 
     Examples
     --------
-    >>> study.coating("2nd", E=2, K=0.5).at(0.19, revolutions=5).spec.revolutions
+    >>> coating = study.coating("2nd", E=2, K=0.5)
+    >>> coating.name
+    '2nd_E2_K0.5_theta0'
+    >>> coating.at(0.19, revolutions=5).spec.revolutions
     5
     """
 
@@ -121,6 +127,12 @@ class Study:
     >>> study = br.default_study()
     >>> len(study.coatings), study.speeds[[0, -1]].tolist()
     (63, [0.02, 0.4])
+    >>> study.results.name
+    'results'
+    >>> study.coating("2nd", E=2, K=0.5).name
+    '2nd_E2_K0.5_theta0'
+    >>> study.run("2nd", E=2, K=0.5, f_omega=0.19).f_omega
+    0.19
     """
 
     config: Mapping[str, Any] = field(repr=False)

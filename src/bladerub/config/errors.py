@@ -54,7 +54,14 @@ class ConfigError(BadInput):
 
     @classmethod
     def at(cls, location: Location, text: str) -> "ConfigError":
-        """Make the error of a single problem."""
+        """Make the error of a single problem.
+
+        Examples
+        --------
+        >>> from bladerub.config.errors import Location
+        >>> print(br.ConfigError.at(Location("my.yaml", 3), "speeds.step = 0: must be above 0"))
+        my.yaml:3: speeds.step = 0: must be above 0
+        """
         return cls([Problem(location, text)])
 
 

@@ -26,6 +26,10 @@ def test_public_name_has_a_docstring_an_example_and_documented_members(name):
     assert "Examples\n--------\n" in text
     if inspect.isclass(public):
         assert [member for member, value in members(public) if not inspect.getdoc(value)] == []
+        examples = text.partition("Examples\n--------\n")[2] + "".join(
+            inspect.getdoc(value).partition("Examples\n--------\n")[2] for _, value in members(public)
+        )
+        assert [member for member, _ in members(public) if f".{member}" not in examples] == []
     elif inspect.signature(public).parameters:
         assert "Raises\n------\n" in text
 
