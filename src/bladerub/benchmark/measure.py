@@ -11,7 +11,6 @@ from collections.abc import Callable, Mapping
 from dataclasses import replace
 from typing import Any
 
-import numba
 import numpy as np
 
 from bladerub.benchmark import peak, plain
@@ -59,9 +58,8 @@ def benchmark(
     touching, share = in_contact(blade, _middle_run(config))
     free = replace(touching, clearance=(blade.length, blade.length), initial_displacement=1e-6 * blade.length)
     progress("compiling the plain loop")
-    compiled = numba.njit(plain.integrate)
     specs = {"contact": touching, "free": free}
-    _plain(compiled, blade, touching, 1)
+    _plain(plain.integrate_compiled, blade, touching, 1)
     peak.turns(1)
 
     seconds: dict[str, list[dict[str, float]]] = {name: [] for name in specs}
@@ -74,7 +72,7 @@ def benchmark(
             seconds[name].append(
                 {
                     "numpy": _plain(plain.integrate, blade, spec, steps) / steps,
-                    "numba": _plain(compiled, blade, spec, steps) / steps,
+                    "numba": _plain(plain.integrate_compiled, blade, spec, steps) / steps,
                     "production": _production(blade, spec) / steps,
                 }
             )

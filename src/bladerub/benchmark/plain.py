@@ -5,6 +5,7 @@ node, which no run of the study needs: modes, tip and contact forces a step at a
 modes, nodes and elements. It runs in Python, and compiled by numba.
 """
 
+import numba
 import numpy as np
 
 from bladerub.contact import law
@@ -68,3 +69,7 @@ def integrate(modes, element, stator, tip, wear, q, steps_per_element, displacem
             if np.abs(u).max() > tip.limit:
                 break
         displacement[step] = u[0]
+
+
+integrate_compiled = numba.njit(integrate)
+"""By numba, which does so at the first call in a process."""

@@ -1,6 +1,5 @@
 """The plain loop against the loop of the study."""
 
-import numba
 import numpy as np
 import pytest
 
@@ -11,7 +10,7 @@ from bladerub.contact.setup import set_up
 pytestmark = pytest.mark.slow
 
 
-@pytest.mark.parametrize("integrate", [plain.integrate, numba.njit(plain.integrate)], ids=["numpy", "numba"])
+@pytest.mark.parametrize("integrate", [plain.integrate, plain.integrate_compiled], ids=["numpy", "numba"])
 @pytest.mark.parametrize(("E", "K", "theta"), [(1.1, 0.5, 0.0), (2.0, 0.1, 0.15)])
 def test_the_same_run(blade, spec, change, integrate, E, K, theta):
     spec = change(spec, E=E, K=K, theta=theta, revolutions=2)
