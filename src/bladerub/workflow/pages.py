@@ -1,10 +1,11 @@
-"""Numbers and verdicts that Markdown pages quote from tables.
+r"""Numbers and verdicts that Markdown pages quote from tables.
 
 A number stands between two comments, the first of which holds its source:
 ``<!-- = findings('C1a').measured | fixed(2) -->0.39<!-- / -->``. A sentence that rests on verdicts carries
 them: ``<!-- C6a C6c: partly -->``. Both are invisible on the rendered page. An expression is of Jinja. A
 table is called with the values of its first columns and answers with the one row that has them; its `column`
 lists a column for the filters ``sum``, ``max`` and ``min``, over the rows that have the values it is given.
+A pipe in a row of a Markdown table is written ``\|``, since it would end the cell.
 """
 
 import re
@@ -79,7 +80,7 @@ def render(text: str, page: str, data: Mapping[str, Table]) -> str:
                 f"{where}: {'no number begins' if mark['end'] else 'the number before has no end'}"
             )
         if mark["end"]:
-            done.append(_value(environment, opened["source"], data, where))
+            done.append(_value(environment, opened["source"].replace("\\|", "|"), data, where))
         else:
             done.append(text[position : mark.end()])
         position, opened = (mark.start(), None) if mark["end"] else (mark.end(), mark)

@@ -107,6 +107,13 @@ def test_no_mark_begins_a_line_which_would_make_it_plain_html():
     assert [line for line in lines if begins.match(line)] == []
 
 
+def test_no_mark_in_a_table_has_a_pipe_that_would_end_its_cell():
+    ends = re.compile(r"^\|.*<!-- = (?:(?! -->).)*(?<!\\)\|(?:(?! -->).)* -->")
+    lines = [line for page in pages.pages_of(ROOT) for line in page.read_text(encoding="utf-8").split("\n")]
+    assert ends.match("| <!-- = 1|fixed -->1<!-- / --> |")
+    assert [line for line in lines if ends.match(line)] == []
+
+
 def test_a_column_of_chosen_rows_is_summed():
     data = pages.read_tables(SNAPSHOTS)
     source = "divergence.column('runs', E=[0.05, 0.11], divergent=true) | sum"
