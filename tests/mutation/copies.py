@@ -14,7 +14,7 @@ from mutants import Mutant
 
 SOURCES = "src/bladerub"
 FAILED = re.compile(r"^(?:FAILED|ERROR) (\S+)", re.MULTILINE)
-PYTEST = ("-m", "pytest", "-x", "-q", "-m", "not slow", "-p", "no:cacheprovider", "--tb=no", "-rfE")
+PYTEST = ("-m", "pytest", "-n0", "-x", "-q", "-m", "not slow", "-p", "no:cacheprovider", "--tb=no", "-rfE")
 DIGEST = "from bladerub.io.sources import solver_digest; print(solver_digest()[:16])"
 COMPILED = {"energy", "friction", "gap", "law", "tip"}
 """Modules of `bladerub.contact`, outside its kernel, that machine code is made of."""

@@ -7,6 +7,8 @@ from typing import Any
 import pytest
 from workspace import TINY, Workspace
 
+from bladerub.io import lock
+
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     """Mark every test of this folder as slow: each runs the real workflow."""
@@ -28,11 +30,19 @@ def workspace(tmp_path: Path) -> Workspace:
 
 
 @pytest.fixture(scope="session")
-def study(tmp_path_factory: pytest.TempPathFactory) -> Workspace:
-    """Here the tiny study is complete; tests leave it as it is."""
-    workspace = Workspace.at(tmp_path_factory.mktemp("study"))
-    workspace.build(TINY)
-    return workspace
+def study(tmp_path_factory: pytest.TempPathFactory, worker_id: str) -> Workspace:
+    """Here the tiny study is complete; tests leave it as it is.
+
+    The first of pytest's processes makes it, each takes a copy: a dry-run writes to its folder.
+    """
+    base = tmp_path_factory.getbasetemp()
+    shared = (base if worker_id == "master" else base.parent) / "complete_study"
+    with lock.held(shared.with_suffix(".lock"), lambda: None):
+        if not shared.exists():
+            workspace = Workspace.at(tmp_path_factory.mktemp("study"))
+            workspace.build(TINY)
+            workspace.folder.rename(shared)
+    return Workspace(shared, shared / "src").copy(tmp_path_factory.mktemp("study") / "copy")
 
 
 @pytest.fixture
