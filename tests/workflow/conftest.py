@@ -33,16 +33,17 @@ def workspace(tmp_path: Path) -> Workspace:
 def study(tmp_path_factory: pytest.TempPathFactory, worker_id: str) -> Workspace:
     """Here the tiny study is complete; tests leave it as it is.
 
-    The first of pytest's processes makes it, each takes a copy: a dry-run writes to its folder.
+    The first of pytest's processes makes it, and each takes a copy, since a dry-run writes to its folder.
+    Machine code belongs to the path of its sources, so all use those of the original.
     """
     base = tmp_path_factory.getbasetemp()
-    shared = (base if worker_id == "master" else base.parent) / "complete_study"
-    with lock.held(shared.with_suffix(".lock"), lambda: None):
-        if not shared.exists():
-            workspace = Workspace.at(tmp_path_factory.mktemp("study"))
-            workspace.build(TINY)
-            workspace.folder.rename(shared)
-    return Workspace(shared, shared / "src").copy(tmp_path_factory.mktemp("study") / "copy")
+    original = (base if worker_id == "master" else base.parent) / "study"
+    complete = original.with_suffix(".complete")
+    with lock.held(original.with_suffix(".lock"), lambda: None):
+        if not complete.exists():
+            Workspace.at(original).build(TINY)
+            complete.touch()
+    return Workspace(original, original / "src").copy(tmp_path_factory.mktemp("study") / "copy")
 
 
 @pytest.fixture

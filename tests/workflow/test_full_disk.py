@@ -34,6 +34,7 @@ def test_a_full_disk_loses_nothing(workspace, study, tiny, mount):
     before = size(study, "blade/*", "tables/[cr]*.csv")
     runs = size(study, f"runs/{COATING}/*.h5")
     mount(f"size={(before + runs // 2) // 1024}k")
+    workspace.sources = study.sources  # which have their machine code
     failed = workspace.snakemake(TARGET, "--cores", "1", config=tiny)
     assert failed.returncode != 0
     output = failed.stdout + failed.stderr

@@ -1,7 +1,6 @@
 """A study of one's own, as `bladerub new` lays it out: the real workflow, taken in as a module."""
 
 import json
-import os
 import subprocess
 import sys
 from pathlib import Path
@@ -30,7 +29,7 @@ def call(tmp_path, study):
         done = subprocess.run(
             [Path(sys.executable).with_name(program), *arguments],
             cwd=folder,
-            env=os.environ | {"PYTHONPATH": str(study.folder / "src")},
+            env=study.environment,
             capture_output=True,
             text=True,
         )
