@@ -2,6 +2,7 @@
 
 import json
 import shutil
+import tempfile
 from pathlib import Path
 
 from bladerub.io import atomic, tables
@@ -12,16 +13,27 @@ OUTCOME = ["casing", "E", "K", "theta", "law", "revolutions", "status", "diverge
 
 job.log_to(snakemake.log[0])
 
+
+def count_outcomes(path: Path, counted: Path) -> None:
+    """Write the table at `path`, a row a run, as counts of runs with their description."""
+    runs = tables.read(path).groupby(OUTCOME, as_index=False).size().rename(columns={"size": "runs"})
+    description = json.loads(tables.description_path(path).read_text(encoding="utf-8"))
+    origin = {one["schema:name"]: one["schema:value"] for one in description["dc:provenance"]}
+    tables.write(counted, runs, origin)
+
+
 folder = Path("docs/data")
 folder.mkdir(exist_ok=True)
-for path in map(Path, snakemake.input):
-    for source in (path, tables.description_path(path)):
-        shutil.copyfile(source, folder / source.name)
-    if path.stem == "divergence":
-        counted = tables.read(path).groupby(OUTCOME, as_index=False).size().rename(columns={"size": "runs"})
-        description = json.loads(tables.description_path(path).read_text(encoding="utf-8"))
-        origin = {one["schema:name"]: one["schema:value"] for one in description["dc:provenance"]}
-        tables.write(folder / path.name, counted, origin)
+with tempfile.TemporaryDirectory() as scratch:
+    for table in map(Path, snakemake.input):
+        if table.stem == "divergence":
+            count_outcomes(table, Path(scratch) / table.name)
+            table = Path(scratch) / table.name
+        snapshot = folder / table.name
+        # An equal table keeps the description of the study that it was first taken from
+        if not snapshot.exists() or snapshot.read_bytes() != table.read_bytes():
+            for source in (table, tables.description_path(table)):
+                shutil.copyfile(source, folder / source.name)
 data = pages.read_tables(folder)
 for page in pages.pages_of(Path()):
     text = page.read_text(encoding="utf-8")

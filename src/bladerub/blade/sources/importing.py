@@ -113,7 +113,10 @@ def facing(points: np.ndarray, faces: np.ndarray, outwards: bool) -> np.ndarray:
     radial = normals(points[faces])[:, 1:] * middle[:, 1:]
     facing_so = faces[sign * radial.sum(axis=1) > _FACING * radius]
     if not len(facing_so):
-        raise ValueError("no part of the surface faces along the radius; name a node set")
+        raise ValueError(
+            "no part of the surface faces along the radius; do the axes of the blade agree "
+            "with rotation, downstream and radial? Or name a node set"
+        )
     rows = np.repeat(np.arange(len(facing_so)), facing_so.shape[1])
     touching = sparse.coo_array((np.ones(rows.size), (rows, facing_so.ravel())))
     _, part = connected_components(touching @ touching.T, directed=False)
