@@ -79,6 +79,7 @@ rule all:
     default_target: True
     input:
         rules.blade.output,
+        rules.blade_tables.output,
         # the maps need them, but Snakemake replaces no lost one for a map that is there
         expand(rules.coating.output, coating=COATINGS),
         expand(rules.map.output, coating=COATINGS),

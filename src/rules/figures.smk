@@ -68,7 +68,7 @@ rule fig01_blade:
 rule fig02_campbell:
     input:
         blade=rules.blade.output.reduced_model,
-        campbell=rules.blade.output.campbell,
+        campbell=rules.blade_tables.output.campbell,
         drawing=files_behind("plots.campbell"),
     output:
         **drawn("fig02_campbell", "Model", with_data=True),

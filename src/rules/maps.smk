@@ -78,7 +78,7 @@ rule findings:
         maps=expand(rules.map.output, coating=COATINGS),
         peaks=rules.peaks.output[0],
         divergence=rules.divergence.output[0],
-        rom_accuracy=rules.blade.output.rom_accuracy,
+        rom_accuracy=rules.blade_tables.output.rom_accuracy,
         analysing=files_behind("study.findings"),
     output:
         **described(table=shown(f"{TABLES}/findings.csv", "findings", "Claims")),

@@ -4,7 +4,7 @@
 rule margins:
     input:
         maps=expand(rules.map.output, coating=COATINGS),
-        rom_accuracy=rules.blade.output.rom_accuracy,
+        rom_accuracy=rules.blade_tables.output.rom_accuracy,
         analysing=files_behind("study.margins"),
         drawing=files_behind("plots.verdicts"),
     output:

@@ -98,10 +98,7 @@ def robustness_minutes(wildcards, attempt):
 
 use rule blade as robustness_blade with:
     output:
-        **described(
-            campbell=f"{OF_SAMPLES}/blades/{{blade}}/campbell.csv",
-            rom_accuracy=f"{OF_SAMPLES}/blades/{{blade}}/rom_accuracy.csv",
-        ),
+        **described(rom_accuracy=f"{OF_SAMPLES}/blades/{{blade}}/rom_accuracy.csv"),
         reduced_model=f"{OF_SAMPLES}/blades/{{blade}}/reduced_model.h5",
         mesh=f"{OF_SAMPLES}/blades/{{blade}}/mesh.h5",
     log:

@@ -1,4 +1,4 @@
-"""Rule `blade`: build the blade, write the reduced model, the mesh and the tables of its accuracy."""
+"""Rule `blade`: build the blade, write the reduced model, the mesh and the table of its accuracy."""
 
 import logging
 
@@ -13,5 +13,5 @@ logging.getLogger("bladerub").setLevel(logging.INFO)
 
 # of the study, or of a sample of the robustness
 config = {**snakemake.config, "blade": snakemake.params.blade, "reduction": snakemake.params.reduction}
-files = {name: snakemake.output[name] for name in ("reduced_model", "mesh", "campbell", "rom_accuracy")}
+files = {name: snakemake.output[name] for name in ("reduced_model", "mesh", "rom_accuracy")}
 write(build(config), provenance(config), **files)

@@ -1,6 +1,5 @@
 """Take snapshots of the tables that pages quote, if any are given, and render the pages from them."""
 
-import json
 import shutil
 import tempfile
 from pathlib import Path
@@ -17,9 +16,7 @@ job.log_to(snakemake.log[0])
 def count_outcomes(path: Path, counted: Path) -> None:
     """Write the table at `path`, a row a run, as counts of runs with their description."""
     runs = tables.read(path).groupby(OUTCOME, as_index=False).size().rename(columns={"size": "runs"})
-    description = json.loads(tables.description_path(path).read_text(encoding="utf-8"))
-    origin = {one["schema:name"]: one["schema:value"] for one in description["dc:provenance"]}
-    tables.write(counted, runs, origin)
+    tables.write(counted, runs, tables.read_origin(path))
 
 
 folder = Path("docs/data")

@@ -139,6 +139,13 @@ def test_thresholds_of_growth_plan_no_coating_without_confirmation(copied_study,
     assert copied_study.plan(tiny, manifest) == {}
 
 
+def test_deleted_tables_are_made_again_without_a_new_blade(copied_study, tiny):
+    shutil.rmtree(copied_study.folder / "results" / "tables")
+    plan = copied_study.plan(tiny)
+    assert plan.keys() >= {"blade_tables", "peaks"}
+    assert plan.keys().isdisjoint({"blade", "compile_kernel", "coating", "map"})
+
+
 def test_a_failed_job_says_why_and_loses_no_run(copied_study, tiny):
     before = copied_study.runs()
     manifest = "results/runs/2nd_E1.1_K0.5_theta0/manifest.tsv"

@@ -97,6 +97,7 @@ COLUMNS = {
 
 COATING_KEYS = ["casing", "E", "K", "theta"]
 KEYS = {
+    "blade/rom_accuracy": ["f_omega", "mode"],
     "tables/campbell": ["f_omega", "mode"],
     "tables/rom_accuracy": ["f_omega", "mode"],
     "tables/peaks": [*COATING_KEYS, "order"],
@@ -123,7 +124,8 @@ PROVENANCE = {"software", "git_commit", "git_state", "config_sha256", "packages"
 def test_every_kind_of_file_is_looked_at(results):
     kinds = {path.relative_to(results).parts[0] for path in results.rglob("*.h5")}
     assert kinds == {name.split("/")[0] for name in DATASETS}
-    assert {path.name for path in (results / "blade").iterdir()} == {"reduced_model.h5", "mesh.h5"}
+    table = {"rom_accuracy.csv", "rom_accuracy.csv-metadata.json"}
+    assert {path.name for path in (results / "blade").iterdir()} == {"reduced_model.h5", "mesh.h5"} | table
 
 
 def test_a_longer_run_opens_as_the_others_do(results):

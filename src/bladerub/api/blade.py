@@ -16,7 +16,7 @@ from bladerub.api.notebook import html_table
 from bladerub.api.study import Study
 from bladerub.blade.accuracy import ACCURACY_COLUMNS
 from bladerub.blade.build import build, is_built, made_from
-from bladerub.blade.built import mesh_path, write
+from bladerub.blade.built import accuracy_path, mesh_path, write
 from bladerub.blade.frequencies import reduced_frequencies
 from bladerub.blade.model import ReducedBlade
 from bladerub.blade.validation import read_valid_blade
@@ -40,9 +40,7 @@ class Blade:
     reduced : ReducedBlade
         The reduced model, eqs. (2) to (6): matrices, interface nodes, speed law. SI units.
     path : Path
-        Its file. ``mesh.h5`` next to it has the mesh.
-    accuracy_path : Path
-        Table of the frequencies of finite elements and reduced model.
+        Its file. Next to it are ``mesh.h5`` and ``rom_accuracy.csv``.
 
     Examples
     --------
@@ -63,7 +61,6 @@ class Blade:
 
     reduced: ReducedBlade = field(repr=False)
     path: Path
-    accuracy_path: Path = field(repr=False)
 
     @property
     def f1_hz(self) -> float:
@@ -116,7 +113,7 @@ class Blade:
         OSError
             If the table is missing, as for a blade read from elsewhere; the message names it.
         """
-        return tables.read(self.accuracy_path, ACCURACY_COLUMNS)
+        return tables.read(accuracy_path(self.path), ACCURACY_COLUMNS)
 
     def plot_mesh(self, path: str | Path | None = None) -> Figure:
         """Draw Fig. 1: mesh, clamped root and interface nodes; `path` to write it there as well."""
@@ -159,9 +156,7 @@ def read_blade(path: str | Path) -> Blade:
     True
     """
     path = Path(path)
-    cached = path.with_name("rom_accuracy.csv")
-    table = cached if cached.exists() else path.parent.parent / "tables" / "rom_accuracy.csv"
-    return Blade(read_valid_blade(path), path, table)
+    return Blade(read_valid_blade(path), path)
 
 
 def build_blade(study: Study) -> Blade:
@@ -190,12 +185,10 @@ def build_blade(study: Study) -> Blade:
     recipe = made_from(study.config)
     cached = cache_folder() / "blades" / digest([recipe, builder_digest()])[:16] / "reduced_model.h5"
     if not is_built(study.config, cached):
-        write_blade(study.config, cached, cached.with_name("rom_accuracy.csv"))
+        write_blade(study.config, cached)
     return read_blade(cached)
 
 
-def write_blade(config: Mapping[str, Any], path: Path, accuracy: Path) -> None:
-    """Build the blade of `config` and write it to `path`, its mesh and its two tables next to `accuracy`."""
-    built = build(config)
-    campbell_table = accuracy.with_name("campbell.csv")
-    write(built, provenance(config), path, mesh_path(path), campbell_table, accuracy)
+def write_blade(config: Mapping[str, Any], path: Path) -> None:
+    """Build the blade of `config` and write it to `path`, its mesh and table of accuracy next to it."""
+    write(build(config), provenance(config), path, mesh_path(path), accuracy_path(path))

@@ -7,7 +7,6 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
-from bladerub.blade.accuracy import CAMPBELL_COLUMNS
 from bladerub.blade.mesh import BladeMesh
 from bladerub.blade.model import AXIS, INTERFACE_NODE, ReducedBlade, write_reduced_blade
 from bladerub.io import hdf5, tables
@@ -34,21 +33,24 @@ def mesh_path(reduced_model: Path) -> Path:
     return reduced_model.with_name("mesh.h5")
 
 
+def accuracy_path(reduced_model: Path) -> Path:
+    """Return the table of the accuracy of the reduced model in the file `reduced_model`."""
+    return reduced_model.with_name("rom_accuracy.csv")
+
+
 def write(
     built: BuiltBlade,
     origin: Mapping[str, str],
     reduced_model: str | Path,
     mesh: str | Path,
-    campbell: str | Path,
     rom_accuracy: str | Path,
 ) -> None:
-    """Write the two HDF5 files and the two tables of a blade; `origin` is their provenance.
+    """Write the two HDF5 files of a blade and the table of its accuracy; `origin` is their provenance.
 
     The reduced model is written last: if it exists, the other files do too.
     """
     _write_mesh(mesh, built, origin)
-    for path, table in ((campbell, built.accuracy[CAMPBELL_COLUMNS]), (rom_accuracy, built.accuracy)):
-        tables.write(path, table, origin, float_format="%.10g")
+    tables.write(rom_accuracy, built.accuracy, origin, float_format="%.10g")
     write_reduced_blade(reduced_model, built.reduced, origin)
 
 

@@ -157,7 +157,7 @@ def read_blade(options: argparse.Namespace, config: dict[str, Any]) -> "Blade":
     if not options.blade and not (path.exists() and mesh_path(path).exists()):
         invocation.prepare(path.parents[1])
         print(f"bladerub {options.name}: building the blade first, into {path.parent}", file=sys.stderr)
-        blades.write_blade(config, path, path.parents[1] / "tables" / "rom_accuracy.csv")
+        blades.write_blade(config, path)
     elif not options.blade and not blades.is_built(config, path):
         raise InputError(
             f"{path}: was built from another config; name that with --config, build it again with "

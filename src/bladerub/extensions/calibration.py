@@ -11,7 +11,7 @@ from typing import Any
 import pandas as pd
 
 from bladerub.blade.build import build
-from bladerub.blade.built import write
+from bladerub.blade.built import accuracy_path, mesh_path, write
 from bladerub.config import read as configuration
 from bladerub.config.errors import ConfigError
 from bladerub.extensions.small_study import conduct
@@ -50,10 +50,9 @@ def judge(config: Mapping[str, Any], folder: str | Path, report: Callable[[objec
     called with a `bladerub.study.job.RunDone` after each run.
     """
     folder, origin = Path(folder), provenance(config)
-    model, mesh = (folder / "blade" / name for name in ("reduced_model.h5", "mesh.h5"))
-    made = folder / "tables"
-    write(build(config), origin, model, mesh, made / "campbell.csv", made / "rom_accuracy.csv")
-    study = conduct(config, model, made / "rom_accuracy.csv", folder, report=report)
+    model, made = folder / "blade" / "reduced_model.h5", folder / "tables"
+    write(build(config), origin, model, mesh_path(model), accuracy_path(model))
+    study = conduct(config, model, accuracy_path(model), folder, report=report)
     tables.write(made / "peaks.csv", study.peaks, origin)
     tables.write(made / "divergence.csv", study.divergence, origin)
     return study.findings

@@ -62,6 +62,12 @@ def description_path(path: str | Path) -> Path:
 
 
 @cache
+def read_origin(path: str | Path) -> dict[str, str]:
+    """Read the provenance of the table at `path` from its description."""
+    description = json.loads(description_path(path).read_text(encoding="utf-8"))
+    return {entry["schema:name"]: entry["schema:value"] for entry in description["dc:provenance"]}
+
+
 def described_columns() -> dict[str, dict[str, Any]]:
     """Return the description of every column by its name, as "CSV on the Web" has it."""
     described, (_, *rows) = {}, csv.reader(COLUMNS_FILE.read_text(encoding="utf-8").splitlines())

@@ -93,7 +93,7 @@ def test_run_builds_the_blade_if_there_is_none(small, folder, capsys):
     assert output.err == f"bladerub run: building the blade first, into {folder / 'results' / 'blade'}\n"
     assert json.loads(output.out).keys() == KEYS
     assert (folder / "results" / "blade" / "mesh.h5").is_file()
-    assert (folder / "results" / "tables" / "rom_accuracy.csv").is_file()
+    assert (folder / "results" / "blade" / "rom_accuracy.csv").is_file()
 
 
 def test_run_reports_what_it_did(small, blade_file, folder, capsys):
