@@ -1,15 +1,12 @@
 """Rule `blade_tables`: the tables of the blade's accuracy, next to those of the study."""
 
-import shutil
-
 from bladerub.blade.accuracy import ACCURACY_COLUMNS, CAMPBELL_COLUMNS
 from bladerub.io import tables
 from bladerub.workflow import job
 
 job.log_to(snakemake.log[0])
 
-accuracy, whole = snakemake.input[0], snakemake.output.rom_accuracy
+accuracy = snakemake.input[0]
 campbell = tables.read(accuracy, ACCURACY_COLUMNS)[CAMPBELL_COLUMNS]
 tables.write(snakemake.output.campbell, campbell, tables.read_origin(accuracy), float_format="%.10g")
-for path in (accuracy, tables.description_path(accuracy)):
-    shutil.copyfile(path, whole if path == accuracy else tables.description_path(whole))
+tables.copy(accuracy, snakemake.output.rom_accuracy)

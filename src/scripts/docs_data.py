@@ -1,6 +1,5 @@
 """Take snapshots of the tables that pages quote, if any are given, and render the pages from them."""
 
-import shutil
 import tempfile
 from pathlib import Path
 
@@ -29,8 +28,7 @@ with tempfile.TemporaryDirectory() as scratch:
         snapshot = folder / table.name
         # An equal table keeps the description of the study that it was first taken from
         if not snapshot.exists() or snapshot.read_bytes() != table.read_bytes():
-            for source in (table, tables.description_path(table)):
-                shutil.copyfile(source, folder / source.name)
+            tables.copy(table, snapshot)
 data = pages.read_tables(folder)
 for page in pages.pages_of(Path()):
     text = page.read_text(encoding="utf-8")

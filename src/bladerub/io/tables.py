@@ -8,6 +8,7 @@ lists them all, with unit ``1`` for a pure or normalised number, none for text.
 import csv
 import io
 import json
+import shutil
 from collections.abc import Collection, Mapping
 from functools import cache
 from pathlib import Path
@@ -61,13 +62,19 @@ def description_path(path: str | Path) -> Path:
     return path.with_name(f"{path.name}-metadata.json")
 
 
-@cache
+def copy(source: str | Path, target: str | Path) -> None:
+    """Copy the table at `source` and its description to `target` and next to it."""
+    shutil.copyfile(source, target)
+    shutil.copyfile(description_path(source), description_path(target))
+
+
 def read_origin(path: str | Path) -> dict[str, str]:
     """Read the provenance of the table at `path` from its description."""
     description = json.loads(description_path(path).read_text(encoding="utf-8"))
     return {entry["schema:name"]: entry["schema:value"] for entry in description["dc:provenance"]}
 
 
+@cache
 def described_columns() -> dict[str, dict[str, Any]]:
     """Return the description of every column by its name, as "CSV on the Web" has it."""
     described, (_, *rows) = {}, csv.reader(COLUMNS_FILE.read_text(encoding="utf-8").splitlines())

@@ -40,6 +40,15 @@ def test_the_description_has_units_datatypes_and_origin(table, tmp_path):
     assert amplitude["dc:description"] == "amplitude of the radial displacement of node 1 on the engine order"
 
 
+def test_a_copy_brings_its_description_and_the_origin_is_that_of_the_file_now(table, tmp_path):
+    source, target = tmp_path / "a" / "peaks.csv", tmp_path / "peaks.csv"
+    for origin in (ORIGIN, ORIGIN | {"provenance_git_commit": "def"}):
+        tables.write(source, table, origin)
+        tables.copy(source, target)
+        assert target.read_bytes() == source.read_bytes()
+        assert tables.read_origin(source) == tables.read_origin(target) == origin
+
+
 def test_every_column_is_described_once_with_datatype_and_unit():
     (header, *rows) = csv.reader(tables.COLUMNS_FILE.read_text(encoding="utf-8").splitlines())
     assert header == ["column", "datatype", "unit", "description"]
