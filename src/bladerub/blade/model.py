@@ -84,6 +84,11 @@ class ReducedBlade:
         slope = {} if self.tip_slope is None else {"tip_slope": self.tip_slope}
         return {name: getattr(self, name) for name in _REQUIRED} | higher | slope
 
+    @property
+    def attributes(self) -> dict[str, float]:
+        """Numbers by name."""
+        return {name: getattr(self, name) for name in _ATTRIBUTES}
+
 
 def stiffness_at(coefficients: Sequence, f_omega: float):
     """K(f_Ω) of eq. (2) from K⁰, K¹, K² and, where the fit has more speeds, those of the next even powers."""
@@ -92,20 +97,30 @@ def stiffness_at(coefficients: Sequence, f_omega: float):
     return sum((f_omega ** (2 * power) * term for power, term in enumerate(higher, 3)), start=total)
 
 
-_UNITS = {
-    "mass": ("kg", "reduced mass matrix"),
-    "stiffness_0": ("N/m", "constant term of the stiffness, eq. (2)"),
-    "stiffness_1": ("N/m", "coefficient of f_omega^2 in the stiffness, eq. (2)"),
-    "stiffness_2": ("N/m", "coefficient of f_omega^4 in the stiffness, eq. (2)"),
-    "node_position": ("m", "interface nodes at rest in the rotating frame"),
-    "radial_direction": ("1", "radial direction at each interface node, normal to the casing"),
-    "tangential_direction": ("1", "tangential direction at each interface node, positive with the rotation"),
+_MATRIX, _AT_NODES = ("coordinate", "coordinate_column"), ("node", "axis")
+_ARRAYS = {
+    "mass": (_MATRIX, "kg", "reduced mass matrix"),
+    "stiffness_0": (_MATRIX, "N/m", "constant term of the stiffness, eq. (2)"),
+    "stiffness_1": (_MATRIX, "N/m", "coefficient of f_omega^2 in the stiffness, eq. (2)"),
+    "stiffness_2": (_MATRIX, "N/m", "coefficient of f_omega^4 in the stiffness, eq. (2)"),
+    "node_position": (_AT_NODES, "m", "interface nodes at rest in the rotating frame"),
+    "radial_direction": (
+        _AT_NODES,
+        "1",
+        "radial direction at each interface node, normal to the casing",
+    ),
+    "tangential_direction": (
+        _AT_NODES,
+        "1",
+        "tangential direction at each interface node, positive with the rotation",
+    ),
     "tip_slope": (
+        ("node", "coordinate"),
         "1/m",
         "circumferential slope of the tip per unit of each coordinate, up with the rotation",
     ),
 }
-_REQUIRED = tuple(name for name in _UNITS if name != "tip_slope")
+_REQUIRED = tuple(name for name in _ARRAYS if name != "tip_slope")
 _ATTRIBUTES = ("f1_hz", "f_omega_max", "eta", "rank_tolerance", "length")
 
 
@@ -113,17 +128,13 @@ def write_reduced_blade(path: str | Path, blade: ReducedBlade, origin: Mapping[s
     """Write `blade` to the HDF5 file `path`, whole or not at all; `origin` is its provenance."""
     variables = {"node": INTERFACE_NODE, "axis": AXIS}
     for name, data in blade.arrays.items():
-        if name in _UNITS:
-            units, long_name = _UNITS[name]
+        if name in _ARRAYS:
+            dims, units, long_name = _ARRAYS[name]
         else:
             power = 2 * int(name.removeprefix("stiffness_"))
-            units, long_name = "N/m", f"coefficient of f_omega^{power} in the stiffness"
-        if data.shape == blade.mass.shape:
-            dims = ("coordinate", "coordinate_column")
-        else:
-            dims = ("node", "coordinate" if name == "tip_slope" else "axis")
+            dims, units, long_name = _MATRIX, "N/m", f"coefficient of f_omega^{power} in the stiffness"
         variables[name] = Variable(dims, data, units, long_name)
-    hdf5.write(path, variables, {name: getattr(blade, name) for name in _ATTRIBUTES}, origin)
+    hdf5.write(path, variables, blade.attributes, origin)
 
 
 def read_reduced_blade(path: str | Path) -> ReducedBlade:

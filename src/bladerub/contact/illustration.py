@@ -56,7 +56,7 @@ def pressed_elements(
         penetration = np.maximum(depth - tip.relief(profile, offset), 0)
         penetration[tip.coverage(profile, offset) == 0] = 0
         stress, wear = law.load(coating, penetration, wear)
-    tip_offset = np.linspace(-1, 1, 81) * (profile.half_width + 0.5)
+    tip_offset = np.linspace(-1, 1, 81) * tip.edge(profile)
     tip_depth = depth - tip.relief(profile, tip_offset)
     width = 2 * np.pi * casing_radius / coating.n_elements
     shortening = np.maximum(penetration, wear)

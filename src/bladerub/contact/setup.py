@@ -14,6 +14,7 @@ from bladerub.contact.kernel.modal import pack
 from bladerub.contact.modes import Modes, modes_at, tip_radii
 from bladerub.contact.schemes import SCHEMES, Contact, Recurrence, normal_compliance
 from bladerub.contact.spec import Coating, RunSpec
+from bladerub.contact.tip import edge
 from bladerub.numerics.memory import aligned
 
 SEARCH_RANGE = 4
@@ -31,7 +32,7 @@ def set_up_modes(modes: Modes, blade: ReducedBlade, spec: RunSpec) -> tuple[Recu
     element = law.element(spec.coating, element_area(blade, spec)).elastic  # infinite for the rigid casing
     stiffness = element * 2 * spec.tip.half_width  # the shares under the tip add up to its width
     if spec.turns:
-        stiffness = np.concatenate([stiffness, element * (2 / 3) * (spec.tip.half_width + 0.5) ** 3])
+        stiffness = np.concatenate([stiffness, element * (2 / 3) * edge(spec.tip) ** 3])
     contact = Contact(stiffness, *_force_direction(spec.coating))
     rule = SCHEMES[spec.scheme](modes, spec.damping_ratio, time_step, contact)
     tip = tip_record(blade, spec)
@@ -146,7 +147,7 @@ def _force_direction(coating: Coating) -> tuple[float, float]:
 def _free_flight(rule: Recurrence, tip: records.Tip, steps_per_element: int) -> FreeFlight:
     parts = math.ceil(steps_per_element / MOST_STEPS)
     slope = tip.search_range / float(np.min(tip.radius - tip.limit))
-    return free_flight(rule, steps_per_element // parts, slope, tip.half_width + 0.5)
+    return free_flight(rule, steps_per_element // parts, slope, edge(tip))
 
 
 def _initial_state(modes: Modes, rule: Recurrence, spec: RunSpec, tip: records.Tip) -> records.State:

@@ -25,13 +25,19 @@ def relief(tip, offset):
 
 
 @elementwise
+def edge(tip):
+    """Distance from the node to where the profile ends, in element widths."""
+    return tip.half_width + 0.5
+
+
+@elementwise
 def coverage(tip, offset):
     """Share (0 to 1) of an element that the profile covers (Fig. 3); its centre is `offset` from the node."""
-    return maximum(minimum(tip.half_width + 0.5 - absolute(offset), 1.0), 0.0)
+    return maximum(minimum(edge(tip) - absolute(offset), 1.0), 0.0)
 
 
 @elementwise
 def highest(tip, tilt):
     """Height of the highest point of a profile above the node, m, under a `tilt` of 0 or more (m/element)."""
-    offset = minimum(tilt / (2.0 * tip.curvature), tip.half_width + 0.5)
+    offset = minimum(tilt / (2.0 * tip.curvature), edge(tip))
     return offset * (tilt - tip.curvature * offset)

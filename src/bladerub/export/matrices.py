@@ -1,6 +1,5 @@
 """Matrices for other programs: of the reduced blade, and of its finite elements."""
 
-from dataclasses import asdict
 from pathlib import Path
 
 import numpy as np
@@ -24,8 +23,7 @@ def write_matrices(path: str | Path, blade: ReducedBlade) -> None:
     path = Path(path)
     if path.suffix.lower() not in SUFFIXES:
         raise ValueError(f"{path}: must end in {' or '.join(SUFFIXES)}")
-    content = asdict(blade) | blade.arrays
-    content = {name: content[name] for name in content if name in blade.arrays or np.isscalar(content[name])}
+    content = blade.arrays | blade.attributes
     with atomic.writing(path, "wb") as file:
         if path.suffix.lower() == ".npz":
             np.savez_compressed(file, **content)

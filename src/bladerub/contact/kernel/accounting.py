@@ -22,8 +22,10 @@ def update_coating(modal, stator, tip, passed, per_step, state, u, u_before):
         shape = elements.rigid_surface(stator, position_before) - elements.rigid_surface(stator, position)
         supplied = 0.5 * (normal_force + load(state.normal_force, LANES)) * shape
     else:
-        there = elements.Contact(position, approach, tilt.kept(modal.tilt, u))
-        before = elements.Contact(position_before, load(u_before, 2 * LANES), tilt.kept(modal.tilt, u_before))
+        there = elements.Placement(position, approach, tilt.kept(modal.tilt, u))
+        before = elements.Placement(
+            position_before, load(u_before, 2 * LANES), tilt.kept(modal.tilt, u_before)
+        )
         stored, loss, supplied = elements.update_wear(modal.tilt, stator, tip, state.wear, there, before)
     store(state.moment, 0, (0.0 - factor) * normal_force * (load(tip.lever, 0) + approach))
     entry = state.ledger

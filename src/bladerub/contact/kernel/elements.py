@@ -26,7 +26,7 @@ NO_CHANGE = 1e-12
 """Change of depth below which the force of an element is taken as constant over a step, m."""
 
 
-class Contact(NamedTuple):
+class Placement(NamedTuple):
     """Where the profiles are on the casing; a vector each."""
 
     position: np.ndarray  # Of the nodes, in rows
@@ -106,7 +106,7 @@ def update_wear(tilts, stator, tip, wear, there, before):
     exactly along that path. What the depth changes by a change of tilt is work of the blade, the rest of what
     it changes by the profile is work of the rotation.
 
-    `there` and `before` are `Contact`, less than N rows from each other. Returns the elastic energy in the
+    `there` and `before` are `Placement`, less than N rows from each other. Returns the elastic energy in the
     elements, the energy taken by wear in this step, and the work of the rotation on the elements in this
     step, J.
     """

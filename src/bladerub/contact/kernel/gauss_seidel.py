@@ -15,7 +15,7 @@ from bladerub.contact.gap import closest_position, is_within_limit, normal, norm
 from bladerub.contact.kernel import tilt
 from bladerub.contact.kernel.coulomb import mobilise
 from bladerub.contact.kernel.elements import rigid_surface, wrap
-from bladerub.contact.tip import coverage, relief
+from bladerub.contact.tip import coverage, edge, relief
 from bladerub.numerics.memory import address_of, load, read, read_fields, store, write
 from bladerub.numerics.vectors import LANES, broadcast
 
@@ -36,7 +36,7 @@ def gauss_seidel(modal, stator, tip, state, passed, u, tolerance):
     force, normal_force = state.force, state.normal_force
     position, surface = state.scratch, address_of(state.scratch, 16)
     approaches, turned = address_of(state.scratch, 32), address_of(state.scratch, 48)
-    edge, rows = tip.half_width + 0.5, 16 if modal.tilt is None else 24
+    rows = 16 if modal.tilt is None else 24
     for _ in range(MAX_SWEEPS):
         if not is_within_limit(tip, load(u, 0), load(u, LANES)):
             return True
@@ -85,7 +85,7 @@ def gauss_seidel(modal, stator, tip, state, passed, u, tolerance):
                     more = load(modal.compliance, rows * k + tilt.COUPLE) * by
                     store(u, tilt.PLACE, load(u, tilt.PLACE) + more)
             if modal.tilt is not None:
-                change = max(change, edge * abs(read(u, tilt.PLACE + j) - tilted))
+                change = max(change, edge(tip) * abs(read(u, tilt.PLACE + j) - tilted))
         if change <= tolerance:
             return converged
     return False

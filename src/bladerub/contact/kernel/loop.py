@@ -208,9 +208,8 @@ def _integrate(modal, flight, stator, tip, state, steps_per_element, first, last
             if flew:
                 touched = False
                 node_1 = read(u, 0)
-                displacement_there, loss, increment, far = free_flight.fly(flight, modal, q, q_before, q_next)
-                radial, tangential, tilted = displacement_there
-                _store_displacement(modal, tip, radial, tangential, tilted, u)
+                there, loss, increment, far = free_flight.fly(flight, modal, q, q_before, q_next)
+                _store_displacement(modal, tip, *there, u)
                 damping = damping + loss
                 mean += flight.n_steps * (node_1 + increment)
                 low, high = free_flight.extremes(node_1, read(u, 0), node_1 + increment)

@@ -20,6 +20,7 @@ from bladerub.contact.kernel import elements, tilt
 from bladerub.contact.kernel.coulomb import mobilise
 from bladerub.contact.kernel.gauss_seidel import gauss_seidel
 from bladerub.contact.kernel.modal import displaced
+from bladerub.contact.tip import edge
 from bladerub.numerics.memory import add_to_number, clear, load, store
 from bladerub.numerics.vectors import LANES, absolute, all_lanes, broadcast
 
@@ -73,14 +74,14 @@ def find_forces(modal, stator, tip, passed, state, u, coulomb):
     here = _geometry(tip, radial, tangential, passed)
     approach = reached = here.approach
     linear = _invalid(approach, tilted)
-    converged, edge = False, tip.half_width + 0.5
+    converged = False
     reached_tilt = tilted
     tried = not stator.is_rigid and is_within_limit(tip, radial, tangential)
     if tried:
         for _ in range(MAX_ITERATIONS):
             change = absolute(approach - linear.approach)
             if modal.tilt is not None:
-                change = change + edge * absolute(tilted - linear.tilted)
+                change = change + edge(tip) * absolute(tilted - linear.tilted)
             if not all_lanes(change <= linear.valid):
                 linear = _linearise(modal, stator, tip, state, here, approach, tilted)
             radial, tangential, reached_tilt = _displace(
@@ -95,7 +96,7 @@ def find_forces(modal, stator, tip, passed, state, u, coulomb):
             is_straight = all_lanes(absolute(more_tangential) <= STRAIGHT)
             error = absolute(residual)
             if modal.tilt is not None:
-                error = error + edge * absolute(tilt_residual)
+                error = error + edge(tip) * absolute(tilt_residual)
             if is_straight and all_lanes(error <= TOLERANCE):
                 converged = True
                 break
