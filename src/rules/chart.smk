@@ -2,14 +2,12 @@
 from functools import cache
 
 from bladerub.extensions.chart.column import plan_column
-from bladerub.extensions.chart.grid import check, columns
+from bladerub.extensions.chart.grid import chart_orders, check, columns
 from bladerub.study.grid import modulus_unit
 
+CHART_ORDERS = chart_orders(config)
 CHARTED = [
-    "Y4",
-    "f4",
-    "Y6",
-    "f6",
+    *(f"{name}{order}" for order in CHART_ORDERS for name in "Yf"),
     "peak",
     "worn_volume",
     "divergent_share",
@@ -78,7 +76,7 @@ rule chart_table:
     benchmark:
         f"{RESULTS}/benchmarks/chart_table.tsv"
     params:
-        peaks=config["analysis"]["peaks"],
+        peaks=config["analysis"]["peaks"] | {"orders": CHART_ORDERS},
     script:
         "../scripts/chart_table.py"
 
@@ -102,7 +100,7 @@ rule chart_ridge:
     benchmark:
         f"{RESULTS}/benchmarks/chart_ridge.tsv"
     params:
-        peaks=config["analysis"]["peaks"],
+        peaks=config["analysis"]["peaks"] | {"orders": CHART_ORDERS},
     script:
         "../scripts/chart_ridge.py"
 
@@ -174,7 +172,7 @@ rule chart_explanation:
         analysing=files_behind(
             "extensions.chart.table", "extensions.chart.explanation", "study.peaks"
         ),
-        drawing=files_behind("extensions.plots.chart_peaks", "plots.style"),
+        drawing=files_behind("extensions.plots.chart_peaks", "plots.titles"),
     output:
         **drawn("chart_explanation", "Choice of a coating"),
         **described(table=f"{TABLES}/chart_explanation.csv"),
@@ -184,7 +182,8 @@ rule chart_explanation:
         f"{RESULTS}/benchmarks/chart_explanation.tsv"
     params:
         dpi=DPI,
-        peaks=config["analysis"]["peaks"],
+        peaks=config["analysis"]["peaks"] | {"orders": CHART_ORDERS},
+        modulus_unit=modulus_unit(config),
     script:
         "../scripts/chart_explanation.py"
 
@@ -204,6 +203,7 @@ rule chart_stiffening:
         f"{RESULTS}/benchmarks/chart_stiffening.tsv"
     params:
         dpi=DPI,
+        modulus_unit=modulus_unit(config),
     script:
         "../scripts/chart_stiffening.py"
 
@@ -227,7 +227,7 @@ rule chart_placement:
     benchmark:
         f"{RESULTS}/benchmarks/chart_placement.tsv"
     params:
-        peaks=config["analysis"]["peaks"],
+        peaks=config["analysis"]["peaks"] | {"orders": CHART_ORDERS},
         speeds=config["chart"]["speeds"],
     script:
         "../scripts/chart_placement.py"

@@ -8,4 +8,4 @@ from bladerub.workflow import job, outputs
 job.log_to(snakemake.log[0])
 
 peaks = table(snakemake.config, read_points(snakemake.input.manifests))
-outputs.save(snakemake, chart_explanation(peaks), table=peaks)
+outputs.save(snakemake, chart_explanation(peaks, snakemake.params.modulus_unit), table=peaks)

@@ -10,4 +10,4 @@ job.log_to(snakemake.log[0])
 
 peaks = tables.read(snakemake.input.peaks)
 summary = table(peaks, read_reduced_blade(snakemake.input.blade))
-outputs.save(snakemake, chart_stiffening(peaks, summary), table=summary)
+outputs.save(snakemake, chart_stiffening(peaks, summary, snakemake.params.modulus_unit), table=summary)

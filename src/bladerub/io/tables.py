@@ -2,12 +2,14 @@
 
 ``X.csv`` is for every program that reads CSV; ``X.csv-metadata.json`` says what its columns hold, in which
 units, and where the table comes from. A column means the same in every table: ``columns.csv`` in this folder
-lists them all, with unit ``1`` for a pure or normalised number, none for text.
+lists them all, with unit ``1`` for a pure or normalised number, none for text. Its entry ``Yk`` is that of
+``Y4`` and of every other engine order.
 """
 
 import csv
 import io
 import json
+import re
 import shutil
 from collections.abc import Collection, Mapping
 from functools import cache
@@ -76,23 +78,29 @@ def read_origin(path: str | Path) -> dict[str, str]:
 
 @cache
 def described_columns() -> dict[str, dict[str, Any]]:
-    """Return the description of every column by its name, as "CSV on the Web" has it."""
+    """Return the description of every column by its `entry`, as "CSV on the Web" has it."""
     described, (_, *rows) = {}, csv.reader(COLUMNS_FILE.read_text(encoding="utf-8").splitlines())
     for name, datatype, unit, description in rows:
         kind = {"base": "boolean", "format": "True|False"} if datatype == "boolean" else datatype
-        about = {"name": name, "titles": name, "datatype": kind, "dc:description": description}
+        about = {"datatype": kind, "dc:description": description}
         described[name] = about | ({"schema:unitText": unit} if unit else {})
     return described
 
 
+def entry(column: str) -> str:
+    """Return the name under which `COLUMNS_FILE` has a column: ``Yk`` for ``Y4``, most others their own."""
+    return re.sub(r"(?<=^[Yf])\d+$", "k", column)
+
+
 def _description(name: str, table: pd.DataFrame, origin: Mapping[str, str]) -> dict[str, Any]:
-    columns = described_columns()
-    unknown = [column for column in table.columns if column not in columns]
+    described = described_columns()
+    unknown = [column for column in table.columns if entry(column) not in described]
     if unknown:
         raise ValueError(f"{name}: columns not described in {COLUMNS_FILE.name}: {', '.join(unknown)}")
+    columns = [{"name": column, "titles": column} for column in table.columns]
     return {
         "@context": ["http://www.w3.org/ns/csvw", {"@language": "en"}],
         "url": name,
         "dc:provenance": [{"schema:name": key, "schema:value": value} for key, value in origin.items()],
-        "tableSchema": {"columns": [columns[column] for column in table.columns]},
+        "tableSchema": {"columns": [named | described[entry(named["name"])] for named in columns]},
     }

@@ -14,8 +14,17 @@ def moduli(casing: str, E: float, K: float) -> str:
 
 def moduli_axes(unit: float) -> dict[str, str]:
     """Label horizontal E and vertical K, of which 1 is `unit`, Pa."""
-    of = f"in units of {unit / 1e6:g} MPa"
+    of = _in_units(unit)
     return {"xlabel": f"Young modulus E ({of})", "ylabel": f"plastic modulus K ({of})"}
+
+
+def tangent_modulus(unit: float) -> str:
+    """Label the modulus of a wearing coating, of which 1 is `unit`, Pa."""
+    return f"$E_T = EK/(E+K)$ ({_in_units(unit)})"
+
+
+def _in_units(unit: float) -> str:
+    return f"in units of {unit / 1e6:g} MPa"
 
 
 def angle(theta: float) -> str:

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from bladerub.extensions.chart.grid import ORDERS, chart_speeds
+from bladerub.extensions.chart.grid import chart_speeds
 from bladerub.extensions.chart.search import next_speeds, sought
 from bladerub.extensions.chart.table import COATING
 from bladerub.study.maps import CoatingMap
@@ -15,8 +15,8 @@ from bladerub.study.maps import CoatingMap
 def table(config: Mapping[str, Any], maps: Iterable[CoatingMap]) -> pd.DataFrame:
     """Compare what the search finds on each coating of the study with what is there.
 
-    A row per coating and ``quantity`` (Y4, Y6 or peak): ``found`` at ``f_found`` by the search, ``greatest``
-    at ``f_greatest`` among all speeds, both in m, and ``missed = 1 - found / greatest``.
+    A row per coating and ``quantity`` (each Y_k, and peak): ``found`` at ``f_found`` by the search,
+    ``greatest`` at ``f_greatest`` among all speeds, both in m, and ``missed = 1 - found / greatest``.
     """
     speeds, share = chart_speeds(config), config["chart"]["speeds"]["refine_above"]
     rows = []
@@ -60,6 +60,7 @@ def agreement(chart: pd.DataFrame, compared: pd.DataFrame) -> pd.DataFrame:
     The rows of `compared` that are points, with ``in_chart`` (m) and its relative ``disagreement`` with
     ``found``: 0 where the runs are the same.
     """
-    values = chart.melt(COATING, [*(f"Y{order}" for order in ORDERS), "peak"], "quantity", "in_chart")
+    quantities = [name for name in chart.columns if name in set(compared.quantity)]
+    values = chart.melt(COATING, quantities, "quantity", "in_chart")
     both = compared.merge(values, on=[*COATING, "quantity"])
     return both.assign(disagreement=both.in_chart / both.found - 1)

@@ -11,7 +11,7 @@ import numpy as np
 from bladerub.blade.frequencies import reduced_frequencies
 from bladerub.blade.model import ReducedBlade
 from bladerub.extensions.chart import point as points
-from bladerub.extensions.chart.grid import ORDERS, ChartSpeeds, chart_speeds
+from bladerub.extensions.chart.grid import ChartSpeeds, chart_orders, chart_speeds
 from bladerub.extensions.chart.point import PointRow
 from bladerub.extensions.chart.search import compute
 from bladerub.io import lock
@@ -34,7 +34,7 @@ def determinants(config: Mapping[str, Any], case: CoatingCase, speeds: ChartSpee
             "uniform": np.flatnonzero(speeds.uniform).tolist(),
             "coarse": np.flatnonzero(speeds.coarse).tolist(),
             "refine_above": float(config["chart"]["speeds"]["refine_above"]),
-            "orders": ORDERS,
+            "orders": chart_orders(config),
             "window": [float(end) for end in analysis["peaks"]["speed_window"]],
             "order_halfwidth": float(analysis["peaks"]["order_halfwidth"]),
             "spectrum_revolutions": float(analysis["spectrum_revolutions"]),

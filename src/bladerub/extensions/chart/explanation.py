@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from bladerub.extensions.chart.grid import ORDERS
+from bladerub.extensions.chart.grid import chart_orders
 from bladerub.extensions.chart.point import ChartPoint
 from bladerub.extensions.chart.table import COATING
 from bladerub.study.peaks import crossing_speed, row
@@ -35,7 +35,7 @@ def table(config: Mapping[str, Any], points: Iterable[ChartPoint]) -> pd.DataFra
     the order k has k cycles per revolution. Raises `ValueError` as `bladerub.study.peaks.peak`.
     """
     rows = []
-    for point, order in itertools.product(points, ORDERS):
+    for point, order in itertools.product(points, chart_orders(config)):
         about = row(point, order, config["analysis"]["peaks"])
         at = int(np.flatnonzero(point.f_omega == about["f_peak"])[0])
         cycles = order * point.measures["revolutions"][at]

@@ -7,9 +7,12 @@ import numpy as np
 
 from bladerub.io.errors import BadInput
 from bladerub.study.grid import CoatingCase, speeds
+from bladerub.study.orders import peak_orders
 
-ORDERS = (4, 6)
-"""Engine orders of the chart: Y4, f4 and Y6, f6, as in the paper's Figs. 11 to 14."""
+
+def chart_orders(config: Mapping[str, Any]) -> list[int]:
+    """Return the engine orders of the chart, those of its casing: 4 and 6 in the paper's Figs. 11 to 14."""
+    return peak_orders(config, config["chart"]["casing"])
 
 
 def columns(config: Mapping[str, Any]) -> dict[str, list[CoatingCase]]:
@@ -49,9 +52,9 @@ def _nearest(f_omega: np.ndarray, start: float, stop: float, step: float) -> np.
 
 def check(config: Mapping[str, Any]) -> None:
     """Raise `BadInput`, naming the key, if an engine order of the chart has no crossing with C1."""
-    highest = config["speeds"]["stop"]
-    if min(ORDERS) * highest < 1:  # rotation stiffens the blade: C1 is nowhere below its value at rest, 1
+    highest, lowest = config["speeds"]["stop"], min(chart_orders(config))
+    if lowest * highest < 1:  # rotation stiffens the blade: C1 is nowhere below its value at rest, 1
         raise BadInput(
-            f"speeds.stop = {highest:g}: must be at least {1 / min(ORDERS):g} for the chart, or engine order "
-            f"{min(ORDERS)} does not cross the first frequency"
+            f"speeds.stop = {highest:g}: must be at least {1 / lowest:g} for the chart, or engine order "
+            f"{lowest} does not cross the first frequency"
         )

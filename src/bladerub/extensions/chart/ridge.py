@@ -14,7 +14,7 @@ import numpy as np
 import pandas as pd
 
 from bladerub.extensions.chart.explanation import contact_stiffness
-from bladerub.extensions.chart.grid import ORDERS
+from bladerub.extensions.chart.grid import chart_orders
 from bladerub.extensions.chart.point import ChartPoint
 from bladerub.study.peaks import amplitude_in_window, maximum
 
@@ -46,7 +46,7 @@ def _peaks(config: Mapping[str, Any], points: list[ChartPoint], multiple: int) -
         even = (np.abs(steps - np.rint(steps)) < 1e-6) | (multiple == 1)
         seen = replace(point, spectrum_amplitude=np.where(even[:, None], point.spectrum_amplitude, np.nan))
         case = point.case
-        for order in ORDERS:
+        for order in chart_orders(config):
             found = maximum(seen, amplitude_in_window(seen, order, config["analysis"]["peaks"]))
             rows.append((case.casing, case.theta, order, case.E, case.K, found.f_omega, found.amplitude))
     return pd.DataFrame(rows, columns=[*_SURFACE, "E", "K", "f_peak", "amplitude"])

@@ -1,6 +1,6 @@
 """The runs of one point of the chart: at which speeds, and what is kept of each.
 
-1. The point is run at the coarse speeds, then around the maxima of `sought`: Y4 and Y6 within the windows of
+1. The point is run at the coarse speeds, then around the maxima of `sought`: each Y_k within the windows of
    `bladerub.study.peaks`, and the greatest displacement over all speeds.
 2. The intervals on both sides of each local maximum are halved until the neighbours on the grid are run.
    Local maxima below a set share of the greatest are left as they are. The peaks are ragged, so that a low
@@ -20,7 +20,7 @@ from bladerub.contact.result import RunResult
 from bladerub.contact.run import simulate
 from bladerub.contact.setup import element_area
 from bladerub.contact.spec import RunSpec
-from bladerub.extensions.chart.grid import ORDERS, ChartSpeeds
+from bladerub.extensions.chart.grid import ChartSpeeds, chart_orders
 from bladerub.extensions.chart.point import MEASURES, ChartPoint
 from bladerub.study.grid import CoatingCase, run_spec
 from bladerub.study.growth import confirmation_spec, judge, needs_confirmation
@@ -33,13 +33,13 @@ def compute(
     config: Mapping[str, Any], case: CoatingCase, blade: ReducedBlade, speeds: ChartSpeeds, C1: np.ndarray
 ) -> ChartPoint:
     """Run the coating `case` at the speeds that the search chooses; `C1` (n,) is normalised."""
-    n = speeds.f_omega.size
+    n, orders = speeds.f_omega.size, chart_orders(config)
     point = ChartPoint(
         case=case,
         f_omega=speeds.f_omega,
         C1=C1,
-        spectrum_order=np.array(ORDERS, dtype=float),
-        spectrum_amplitude=np.full((n, len(ORDERS)), np.nan),
+        spectrum_order=np.array(orders, dtype=float),
+        spectrum_amplitude=np.full((n, len(orders)), np.nan),
         uniform=speeds.uniform,
         measures={name: np.full(n, np.nan) for name in MEASURES},
     )
@@ -57,7 +57,8 @@ def sought(config: Mapping[str, Any], response: Response, peak: np.ndarray) -> d
     `peak` (n,) is the greatest displacement at each speed, m.
     """
     settings = config["analysis"]["peaks"]
-    amplitudes = {f"Y{order}": amplitude_in_window(response, order, settings) for order in ORDERS}
+    orders = chart_orders(config)
+    amplitudes = {f"Y{order}": amplitude_in_window(response, order, settings) for order in orders}
     return amplitudes | {"peak": peak}
 
 
@@ -85,20 +86,22 @@ def _run(config: Mapping[str, Any], blade: ReducedBlade, point: ChartPoint, inde
     """Run `point` at one speed and put what is measured into it."""
     spec = run_spec(config, point.case, point.f_omega[index])
     result = simulate(blade, spec)
-    point.spectrum_amplitude[index] = _amplitudes(config["analysis"], spec, result)
+    point.spectrum_amplitude[index] = _amplitudes(config["analysis"], point.spectrum_order, spec, result)
     for name, value in _measured(config["analysis"], blade, spec, result).items():
         point.measures[name][index] = value
     if point.uniform[index]:
         point.measures["divergent"][index] = _diverges(config["analysis"], blade, spec, result)
 
 
-def _amplitudes(analysis: Mapping[str, Any], spec: RunSpec, result: RunResult) -> list[float]:
-    """Largest amplitude on each of `ORDERS`, m."""
+def _amplitudes(
+    analysis: Mapping[str, Any], orders: np.ndarray, spec: RunSpec, result: RunResult
+) -> list[float]:
+    """Largest amplitude on each of the engine orders, m."""
     halfwidth = analysis["peaks"]["order_halfwidth"]
     order, amplitude = order_spectrum(
-        result.radial_displacement, spec.revolutions, analysis["spectrum_revolutions"], max(ORDERS) + 1
+        result.radial_displacement, spec.revolutions, analysis["spectrum_revolutions"], orders.max() + 1
     )
-    return [float(amplitude[np.abs(order - wanted) <= halfwidth + 1e-9].max()) for wanted in ORDERS]
+    return [float(amplitude[np.abs(order - wanted) <= halfwidth + 1e-9].max()) for wanted in orders]
 
 
 def _measured(

@@ -8,7 +8,7 @@ import numpy as np
 import pandas as pd
 
 from bladerub.extensions.chart import point as files
-from bladerub.extensions.chart.grid import ORDERS
+from bladerub.extensions.chart.grid import chart_orders
 from bladerub.extensions.chart.point import ChartPoint, PointRow
 from bladerub.io.errors import DamagedFile
 from bladerub.study.manifest import listed_files
@@ -17,11 +17,13 @@ from bladerub.study.peaks import peak
 COATING = ["casing", "E", "K", "theta"]
 """Columns that identify the coating of a row."""
 
-COLUMNS = [
-    *(*COATING, *(f"{name}{order}" for order in ORDERS for name in "Yf")),
-    *("peak", "f_at_peak", "worn_volume", "deepest_wear", "divergent_share", "unbounded_share", "runs"),
-]
-"""Columns of ``chart.csv``."""
+
+def columns(orders: Iterable[int]) -> list[str]:
+    """Return the columns of ``chart.csv`` for the engine orders of its casing."""
+    return [
+        *(*COATING, *(f"{name}{order}" for order in orders for name in "Yf")),
+        *("peak", "f_at_peak", "worn_volume", "deepest_wear", "divergent_share", "unbounded_share", "runs"),
+    ]
 
 
 def read_points(manifests: Iterable[str | Path]) -> Iterator[ChartPoint]:
@@ -44,10 +46,10 @@ def table(config: Mapping[str, Any], points: Iterable[ChartPoint]) -> pd.DataFra
     speeds that diverge and that exceed the displacement limit, and the number of runs. Raises `ValueError` as
     `bladerub.study.peaks.peak`.
     """
-    rows = []
+    rows, orders = [], chart_orders(config)
     for point in points:
         measures, row = point.measures, {name: getattr(point.case, name) for name in COATING}
-        for order in ORDERS:
+        for order in orders:
             row[f"f{order}"], row[f"Y{order}"] = peak(point, order, config["analysis"]["peaks"])
         highest = int(np.nanargmax(measures["peak"]))
         row |= {"peak": measures["peak"][highest], "f_at_peak": point.f_omega[highest]}
@@ -55,4 +57,4 @@ def table(config: Mapping[str, Any], points: Iterable[ChartPoint]) -> pd.DataFra
         for name in ("divergent", "unbounded"):
             row[f"{name}_share"] = np.mean(measures[name][point.uniform])
         rows.append(row | {"runs": int(point.known.sum())})
-    return pd.DataFrame(rows, columns=COLUMNS)
+    return pd.DataFrame(rows, columns=columns(orders))

@@ -27,7 +27,7 @@ _SHADES = ["#ffffff", "#f3d9a4", "#e08e0b", "#8f4b08"]
 """From none to all limits exceeded."""
 
 _RIDGE = {"color": DARK, "linewidth": 1.3, "marker": "s", "markersize": 2.2}
-_RIDGE_OF = {"Y4": "$Y_4$", "Y6": "$Y_6$", "peak": "displacement", "worn_volume": "worn volume"}
+_RIDGE_OF = {"peak": "displacement", "worn_volume": "worn volume"}
 
 
 class Quantity(NamedTuple):
@@ -40,21 +40,27 @@ class Quantity(NamedTuple):
 
 
 QUANTITIES = {
-    "Y4": Quantity("$Y_4$ (mm)", 1e3, "Y4", True),
-    "f4": Quantity("rotational frequency $f_4$ (normalised)", 1.0, "Y4", False),
-    "Y6": Quantity("$Y_6$ (mm)", 1e3, "Y6", True),
-    "f6": Quantity("rotational frequency $f_6$ (normalised)", 1.0, "Y6", False),
     "peak": Quantity("greatest radial displacement of node 1 (mm)", 1e3, "peak", True),
     "worn_volume": Quantity("greatest worn volume (cm³)", 1e6, "worn_volume", True),
     "divergent_share": Quantity("share of divergent speeds (%)", 100.0, "peak", False),
 }
-"""What is drawn, by column of ``chart.csv``."""
+"""What is drawn besides Y_k and f_k of each engine order, by column of ``chart.csv``."""
+
+
+def drawn_quantity(column: str) -> Quantity:
+    """Say how a column of ``chart.csv`` is drawn: one of `QUANTITIES`, or ``Y4``, ``f4`` and so on."""
+    if column in QUANTITIES:
+        return QUANTITIES[column]
+    name, order = column[0], column[1:]
+    if name == "Y":
+        return Quantity(f"$Y_{{{order}}}$ (mm)", 1e3, column, True)
+    return Quantity(f"rotational frequency $f_{{{order}}}$ (normalised)", 1.0, f"Y{order}", False)
 
 
 @styled
 def chart_map(chart: pd.DataFrame, quantity: str, unit: float) -> Figure:
-    """Draw one of `QUANTITIES`, a column of ``chart.csv``, for each θ; E = 1 and K = 1 are `unit`, Pa."""
-    about = QUANTITIES[quantity]
+    """Draw a column of ``chart.csv``, see `drawn_quantity`, for each θ; E = 1 and K = 1 are `unit`, Pa."""
+    about = drawn_quantity(quantity)
     norm = _norm(chart[quantity] * about.factor, about.logarithmic)
     figure = new_figure(PAGE, 0.58 * PAGE)
     drawn = _panels(figure, chart, unit)
@@ -101,7 +107,8 @@ def _ridge(axes: Axes, grid: pd.DataFrame) -> None:
 
 
 def _keys(about: Quantity) -> list[Line2D]:
-    ridge = f"ridge: for each E the K of the greatest {_RIDGE_OF[about.ridge]}"
+    highest = _RIDGE_OF.get(about.ridge, f"$Y_{{{about.ridge[1:]}}}$")
+    ridge = f"ridge: for each E the K of the greatest {highest}"
     paper = {"marker": "o", "ms": 3.5, "mfc": "white", "mec": DARK, "mew": 0.5, "ls": "none"}
     return [Line2D([], [], **_RIDGE, label=ridge), Line2D([], [], **paper, label="the paper's coatings")]
 

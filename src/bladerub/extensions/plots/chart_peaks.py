@@ -12,11 +12,6 @@ from bladerub.extensions.chart.stiffening import is_stiffened
 from bladerub.plots import titles
 from bladerub.plots.style import DARK, FIRST, GREY, ORANGE, PAGE, SECOND, new_figure, styled
 
-_AGAINST = {
-    "E_T": "contact stiffness $E_T = EK/(E+K)$",
-    "wear_per_cycle": "wear energy per cycle (J)",
-    "lobes": "worn lobes",
-}
 _POINTS = {"color": GREY, "markersize": 2.5, "markeredgecolor": "none", "label": "all coatings"}
 _LOOK = {"linewidth": 0.9, "markersize": 3}
 _RIDGE = {**FIRST, **_LOOK, "marker": "s", "label": "on the ridge, by E"}
@@ -24,21 +19,26 @@ _ACROSS = {**SECOND, **_LOOK, "marker": "^", "label": "across its highest cell, 
 
 
 @styled
-def chart_explanation(peaks: pd.DataFrame) -> Figure:
+def chart_explanation(peaks: pd.DataFrame, unit: float) -> Figure:
     """Draw Y_k of ``chart_explanation.csv`` against three quantities, a row for each order and θ.
 
     The ridge is the points of the greatest Y_k for each E; the column of the E at which it is highest runs
-    across it.
+    across it. E = 1 is `unit`, Pa.
     """
     groups = list(peaks.groupby(["order", "theta"]))
+    labels = {
+        "E_T": titles.tangent_modulus(unit),
+        "wear_per_cycle": "wear energy per cycle (J)",
+        "lobes": "worn lobes",
+    }
     figure = new_figure(PAGE, 0.27 * PAGE * len(groups) + 0.4)
-    rows = figure.subplots(len(groups), len(_AGAINST), sharey="row", sharex="col", squeeze=False)
+    rows = figure.subplots(len(groups), len(labels), sharey="row", sharex="col", squeeze=False)
     for row, ((order, theta), points) in zip(rows, groups, strict=True):
-        for axes, column in zip(row, _AGAINST, strict=True):
+        for axes, column in zip(row, labels, strict=True):
             _draw(axes, points, column)
-        row[0].set_ylabel(f"$Y_{order}$ (mm)")
+        row[0].set_ylabel(f"$Y_{{{order}}}$ (mm)")
         row[0].set_title(rf"$\theta$ = {theta:g} rad", fontsize=8)
-    for axes, label in zip(rows[-1], _AGAINST.values(), strict=True):
+    for axes, label in zip(rows[-1], labels.values(), strict=True):
         axes.set_xlabel(label)
     figure.legend(*rows[0][0].get_legend_handles_labels(), loc="outside upper center", ncols=3)
     return figure
@@ -63,10 +63,10 @@ _LOOKS = ({"marker": "o", "color": DARK, "ms": 2.4}, {"marker": "^", "color": OR
 
 
 @styled
-def chart_stiffening(peaks: pd.DataFrame, summary: pd.DataFrame) -> Figure:
+def chart_stiffening(peaks: pd.DataFrame, summary: pd.DataFrame, unit: float) -> Figure:
     """Draw f_k of all points of ``chart_explanation.csv`` over E_T, a panel for each order.
 
-    `summary` is from `bladerub.extensions.chart.stiffening.table`.
+    `summary` is from `bladerub.extensions.chart.stiffening.table`; E = 1 is `unit`, Pa.
     """
     orders = sorted(peaks.order.unique())
     figure = new_figure(PAGE, 0.52 * PAGE)
@@ -81,7 +81,7 @@ def chart_stiffening(peaks: pd.DataFrame, summary: pd.DataFrame) -> Figure:
             axes.plot(kept.E_T, kept.f_peak, **marks, mec="none", label=label)
             axes.plot(others.E_T, others.f_peak, **marks | {"mfc": "none", "color": GREY})
         axes.axhline(of_order.f_crossing.mean(), color=GREY, lw=0.9, ls="--", label="crossing with $C_1$")
-        axes.set(xscale="log", xlabel="contact modulus $E_T = EK/(E+K)$", ylabel=f"$f_{order}$")
+        axes.set(xscale="log", xlabel=titles.tangent_modulus(unit), ylabel=f"$f_{{{order}}}$")
         axes.set_title(titles.panel(index, f"eo({order})"), pad=38)
         axes.legend(loc="lower center", bbox_to_anchor=(0.5, 1), fontsize=7, borderaxespad=0.1)
         axes.grid(True)

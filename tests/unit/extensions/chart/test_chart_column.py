@@ -174,5 +174,11 @@ class TestDeterminants:
         few_speeds["results"] = "elsewhere"
         few_speeds["figures"] = {"dpi": 50}
         few_speeds["analysis"] |= {"max_order": 9, "histories": []}
-        few_speeds["analysis"]["peaks"]["orders"] = [2]
         assert digest() == before
+
+    def test_the_orders_of_its_casing_change_them_and_those_of_others_do_not(self, few_speeds, digest):
+        before = digest()
+        few_speeds["casings"]["2nd5nd"]["peak_orders"] = [5]
+        assert digest() == before
+        few_speeds["casings"]["2nd"]["peak_orders"] = [2]
+        assert digest() != before

@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from bladerub.extensions.chart.grid import chart_speeds, check, columns
+from bladerub.extensions.chart.grid import chart_orders, chart_speeds, check, columns
 from bladerub.extensions.plots.chart_moduli import PAPER_E, PAPER_K
 from bladerub.io.errors import BadInput
 
@@ -35,6 +35,12 @@ def test_speeds_are_the_study_s(config):
     np.testing.assert_allclose(dense, np.arange(0.152, 0.2401, 0.004))
     config["speeds"] = {"start": 0.1, "stop": 0.3, "step": 0.1, "extra": [0.197]}
     np.testing.assert_allclose(chart_speeds(config).f_omega[chart_speeds(config).uniform], [0.197, 0.2, 0.3])
+
+
+def test_orders_are_those_of_the_chart_s_casing(config):
+    assert chart_orders(config) == [4, 6]
+    config["casings"]["2nd"]["peak_orders"] = [3, 9]
+    assert chart_orders(config) == [3, 9]
 
 
 def test_an_order_without_a_crossing_is_refused(config):
