@@ -1,6 +1,7 @@
 """Compute the runs of one coating that are missing or stale, then write its manifest."""
 
 import sys
+from pathlib import Path
 
 from bladerub.blade.model import read_reduced_blade
 from bladerub.study.cache import blade_digest
@@ -12,12 +13,15 @@ from bladerub.workflow.progress import JobProgress
 job.log_to(snakemake.log[0])
 
 plan = snakemake.params.plan
-progress = JobProgress(plan.case.name, log=sys.stderr, terminal=sys.__stderr__)
+folder = Path(snakemake.params.folder)
+progress = JobProgress(
+    plan.case.name, log=sys.stderr, terminal=sys.__stderr__, turn=folder.with_name(".terminal.lock")
+)
 rows = compute_missing(
     snakemake.config,
     plan,
     read_reduced_blade(snakemake.input.blade),
-    snakemake.params.folder,
+    folder,
     blade_digest(snakemake.input.blade),
     report=progress,
 )

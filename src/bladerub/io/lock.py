@@ -26,6 +26,16 @@ def held(path: str | Path, on_wait: Callable[[], object]) -> Iterator[None]:
         yield
 
 
+def attempt(path: str | Path) -> IO | None:
+    """Hold the lock file `path` until the returned stream is closed; None if somebody else holds it."""
+    stream = _opened(path)
+    with suppress(OSError):  # no such locks here
+        if not _try_alone(stream):
+            stream.close()
+            return None
+    return stream
+
+
 def share(path: str | Path) -> tuple[IO, bool]:
     """Share the lock file `path` until the returned stream is closed; also return whether nobody else did."""
     stream, alone = _opened(path), False

@@ -14,19 +14,19 @@ def done(number, total, file="0.1000.h5"):
     return RunDone(number, total, file, "completed", 0.1, 0.2)
 
 
-def test_each_run_is_a_line_of_the_log_with_the_time_left():
+def test_each_run_is_a_line_of_the_log_with_the_time_left(tmp_path):
     log = io.StringIO()
-    progress = JobProgress("2nd_E2_K0.5_theta0", log, io.StringIO())
+    progress = JobProgress("2nd_E2_K0.5_theta0", log, io.StringIO(), tmp_path / "turn")
     progress(done(1, 2))
     progress(done(2, 2))
     assert log.getvalue().splitlines() == [str(done(1, 2)), str(done(2, 2))]
     assert "s left" in log.getvalue()
 
 
-def test_the_bar_is_on_a_terminal_only():
+def test_the_bar_is_on_a_terminal_only(tmp_path):
     terminal, file = Terminal(), io.StringIO()
     for stream in (terminal, file):
-        progress = JobProgress("2nd_E2_K0.5_theta0", io.StringIO(), stream)
+        progress = JobProgress("2nd_E2_K0.5_theta0", io.StringIO(), stream, tmp_path / "turn")
         progress(done(1, 1))
         progress.summary([])
     assert "2nd_E2_K0.5_theta0" in terminal.getvalue()
@@ -34,9 +34,9 @@ def test_the_bar_is_on_a_terminal_only():
     assert file.getvalue() == ""
 
 
-def test_the_bar_starts_again_with_the_longer_runs():
+def test_the_bar_starts_again_with_the_longer_runs(tmp_path):
     terminal = Terminal()
-    progress = JobProgress("2nd_E2_K0.5_theta0", io.StringIO(), terminal)
+    progress = JobProgress("2nd_E2_K0.5_theta0", io.StringIO(), terminal, tmp_path / "turn")
     progress(done(1, 1))
     terminal.truncate(0)
     progress(done(1, 1, "longer/0.1000.h5"))
@@ -44,8 +44,8 @@ def test_the_bar_starts_again_with_the_longer_runs():
     progress.summary([])
 
 
-def test_the_last_line_counts_what_was_computed_and_what_is_there():
-    progress = JobProgress("2nd_E2_K0.5_theta0", io.StringIO(), io.StringIO())
+def test_the_last_line_counts_what_was_computed_and_what_is_there(tmp_path):
+    progress = JobProgress("2nd_E2_K0.5_theta0", io.StringIO(), io.StringIO(), tmp_path / "turn")
     progress(done(1, 1))
     rows = [
         ManifestRow("0.1000.h5", 0.1, "a", "completed", 9),
@@ -56,3 +56,17 @@ def test_the_last_line_counts_what_was_computed_and_what_is_there():
     counts, cost = line.split("; ")
     assert counts == "2nd_E2_K0.5_theta0: 3 runs, 1 of them longer as well, 1 unbounded"
     assert cost.startswith("1 computed in ")
+
+
+def test_jobs_at_the_same_time_show_one_bar_and_the_next_takes_over(tmp_path):
+    first, second = Terminal(), Terminal()
+    shown = JobProgress("first", io.StringIO(), first, tmp_path / "turn")
+    waiting = JobProgress("second", io.StringIO(), second, tmp_path / "turn")
+    shown(done(1, 2))
+    waiting(done(1, 3))
+    assert "first" in first.getvalue()
+    assert second.getvalue() == ""
+    shown.summary([])
+    waiting(done(2, 3))
+    assert "second" in second.getvalue()
+    waiting.summary([])
