@@ -105,7 +105,8 @@ class TestCoverage:
         assert left_out("study.growth", SOLVER, GROWTH) == set()
 
     def test_of_the_points_of_the_chart(self, left_out):
-        # peaks are read from maps elsewhere, here from the runs themselves
+        # peaks are read from maps elsewhere, here from the runs themselves; values and orders of the config
+        # are in the key
         reading = {"study/maps.py", "study/store.py", "study/manifest.py"}
         found = left_out("extensions.chart.search", SOLVER, CHART)
-        assert found == {"study/grid.py", *reading}
+        assert found == {"study/grid.py", "study/orders.py", *reading}
