@@ -70,6 +70,15 @@ def test_the_chart_is_drawn_once_and_a_lost_cell_is_made_anew_alone(copied_study
 def test_a_chart_without_its_crossing_is_refused_before_any_work(workspace, charted):
     charted["speeds"] |= {"stop": 0.22, "step": 0.02}
     charted["analysis"]["peaks"] = {"orders": [6]}
+    ellipse = {
+        "nodal_diameters": [2],
+        "weights": [1.0],
+        "amplitude": 1e-3,
+        "interference": 5e-4,
+        "start_angle": 0.0,
+    }
+    charted["casings"] = {"other": {**ellipse, "peak_orders": [4, 6]}}
+    charted["chart"]["casing"] = "other"  # of no coating: the study is right without it
     done = workspace.snakemake("chart", "--dry-run", config=charted)
     assert done.returncode == 2
     assert "speeds.stop = 0.22: must be at least 0.25 for the chart" in done.stderr
