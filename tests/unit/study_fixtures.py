@@ -116,20 +116,22 @@ def make_map(angle):
             amplitude[:, round(10 * k)] = np.maximum(background, hat)
         response = amplitude.max(axis=1)
         envelope = response[:, None] * (1 + np.broadcast_to(growth, n)[:, None]) ** np.arange(20)
+        lobes = np.broadcast_to(lobes, n).copy()
+        wear = 1e-4 * (1 + np.cos(lobes[:, None] * angle)).astype(np.float32)
         return CoatingMap(
             case=case,
             f_omega=f_omega,
             C1=np.sqrt(1 + 3 * f_omega**2),
             angle=angle,
-            wear=np.zeros((n, N_ELEMENTS), dtype=np.float32),
-            wear_node=np.zeros((n, 8, N_ELEMENTS), dtype=np.float32),
+            wear=wear,
+            wear_node=np.repeat(wear[:, None], 8, axis=1),
             spectrum_order=order,
             spectrum_amplitude=amplitude,
             revolution_peak=envelope + 1e-3,
             revolution_amplitude=envelope,
             confirmation_amplitude=np.empty((n, 0)) if longer is None else longer,
             max_wear=0.5 * response,
-            lobes=np.broadcast_to(lobes, n).copy(),
+            lobes=lobes,
             status=np.broadcast_to(status, n).astype(str),
         )
 

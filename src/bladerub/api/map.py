@@ -28,6 +28,7 @@ from bladerub.study import maps
 from bladerub.study.grid import CoatingCase
 from bladerub.study.maps import CoatingMap
 
+_PER_SPEED = ("C1", "max_wear", "lobes", "status", "wear_harmonic", "wear_harmonic_share")
 _PER_REVOLUTION = ("revolution_peak", "revolution_amplitude")
 
 
@@ -105,9 +106,10 @@ class Map:
         """Return a row for each speed.
 
         Columns: ``C1`` (first eigenfrequency, normalised), ``max_wear`` (m), ``lobes``, ``status``,
+        ``wear_harmonic`` and ``wear_harmonic_share`` (`bladerub.study.wear.dominant_harmonic`),
         ``revolution_peak`` and ``revolution_amplitude`` of the last revolution (m).
         """
-        columns = {name: getattr(self.coating, name) for name in ("C1", "max_wear", "lobes", "status")}
+        columns = {name: getattr(self.coating, name) for name in _PER_SPEED}
         last = {name: getattr(self.coating, name)[:, -1] for name in _PER_REVOLUTION}
         return pd.DataFrame(columns | last, index=pd.Index(self.f_omega, name="f_omega"))
 

@@ -171,6 +171,7 @@ def _in_words(figures: dict[str, Any]) -> str:
         "engine order": "none" if order is None else f"{order:.4g}",
         "maximum wear": f"{figures['max_wear'] * 1e3:.4g} mm",
         "lobes": figures["lobes"],
+        "strongest harmonic of the wear": _harmonic_in_words(figures),
         "growth": _growth_in_words(figures),
         "saturating": ("yes" if figures["saturating"] else "no") + after,
         "divergent": ("yes" if figures["divergent"] else "no") + after,
@@ -179,6 +180,11 @@ def _in_words(figures: dict[str, Any]) -> str:
         "steps per second": f"{figures['steps_per_second']:.3g}",
     }
     return "\n".join(inputs.aligned(rows.items()))
+
+
+def _harmonic_in_words(figures: dict[str, Any]) -> str:
+    harmonic, share = figures["wear_harmonic"], figures["wear_harmonic_share"]
+    return f"{harmonic} ({100 * share:.0f} % of the variance)" if harmonic else "none"
 
 
 def _growth_in_words(figures: dict[str, Any]) -> str:

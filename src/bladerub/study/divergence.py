@@ -14,11 +14,12 @@ COLUMNS = [
     *("casing", "E", "K", "theta", "f_omega"),
     *("growth_per_revolution", "saturating", "divergent", "lobes"),
     *("growth_low", "growth_high", "revolutions", "status", "law"),
+    *("wear_harmonic", "wear_harmonic_share"),
 ]
 """Columns of ``divergence.csv``: f_omega is normalised, growth relative (0.03 is 3 % a revolution).
 
 ``growth_*``, ``revolutions`` and ``status`` are of the run that the verdict rests on, the longer one if there
-is one; ``lobes`` are of the study's own run.
+is one; ``lobes`` and the harmonic of the wear are of the study's own run.
 """
 
 
@@ -29,7 +30,9 @@ def table(config: Mapping[str, Any], maps: Iterable[CoatingMap]) -> pd.DataFrame
         judged = verdicts(config, coating)
         growth = pd.DataFrame([verdict.growth for verdict in judged]).add_prefix("growth_")
         runs = pd.DataFrame(judged).drop(columns="growth").join(growth)
-        tables.append(runs.assign(f_omega=coating.f_omega, lobes=coating.lobes, **asdict(coating.case)))
+        of_map = ("f_omega", "lobes", "wear_harmonic", "wear_harmonic_share")
+        runs = runs.assign(**{name: getattr(coating, name) for name in of_map})
+        tables.append(runs.assign(**asdict(coating.case)))
     return with_variant(pd.concat(tables, ignore_index=True), COLUMNS)
 
 

@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping, Sequence, Set
 from dataclasses import asdict, dataclass
+from functools import cached_property
 from pathlib import Path
 from typing import Any
 
@@ -16,7 +17,7 @@ from bladerub.io.provenance import provenance
 from bladerub.study.grid import CoatingCase, speeds
 from bladerub.study.manifest import ManifestRow, confirmation_path, read_manifest
 from bladerub.study.store import MAPPED, StoredRun, read_run
-from bladerub.study.wear import lobes
+from bladerub.study.wear import dominant_harmonic, lobes
 
 _RADIAL = "the radial displacement of node 1"
 _LARGEST = "largest absolute radial displacement of node 1 in each revolution"
@@ -39,6 +40,13 @@ DATASETS = {
     "status": (("f_omega",), "1", "completed, or unbounded: the tip exceeded the displacement limit"),
 }
 """Dimensions, unit and meaning of each dataset of a map."""
+
+_STRONGEST = "harmonic of the casing angle strongest in the worn depth"
+DERIVED = {
+    "wear_harmonic": (("f_omega",), "1", f"{_STRONGEST}; 0: no wear"),
+    "wear_harmonic_share": (("f_omega",), "1", f"share of the {_STRONGEST} in its variance"),
+}
+"""The same of what a map holds for its readers, and computes from the others."""
 
 
 @dataclass(frozen=True)
@@ -63,6 +71,20 @@ class CoatingMap:
     max_wear: np.ndarray
     lobes: np.ndarray
     status: np.ndarray
+
+    @cached_property
+    def wear_harmonic(self) -> np.ndarray:
+        """Harmonic (n,) that is strongest in the wear, see `bladerub.study.wear.dominant_harmonic`."""
+        return np.array([harmonic for harmonic, _ in self._harmonics], dtype=int)
+
+    @cached_property
+    def wear_harmonic_share(self) -> np.ndarray:
+        """Share (n,) of that harmonic in the variance of the worn depth."""
+        return np.array([share for _, share in self._harmonics])
+
+    @cached_property
+    def _harmonics(self) -> list[tuple[int, float]]:
+        return [dominant_harmonic(wear) for wear in self.wear]
 
 
 def build_map(
@@ -156,7 +178,7 @@ def variables(coating: CoatingMap) -> dict[str, Variable]:
     """Give the arrays of a map their dimensions, units and meaning."""
     described = {
         name: Variable(dims, getattr(coating, name), units, long_name)
-        for name, (dims, units, long_name) in DATASETS.items()
+        for name, (dims, units, long_name) in (DATASETS | DERIVED).items()
         if getattr(coating, name) is not None
     }
     described["node"] = INTERFACE_NODE

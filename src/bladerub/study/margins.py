@@ -18,6 +18,7 @@ from bladerub.study import divergence, findings, peak_table
 from bladerub.study.findings.evidence import SAME_SPEED, Evidence, read_rom_accuracy
 from bladerub.study.grid import SPEED_DECIMALS, speeds
 from bladerub.study.maps import DATASETS, CoatingMap, read_map
+from bladerub.study.wear import lobes
 
 COLUMNS = ["variation", *findings.COLUMNS]
 """Columns of ``margins.csv``: those of ``findings.csv`` for each variation."""
@@ -34,6 +35,9 @@ SETTINGS = {
     "growth above 2 %": ("divergence", "growth", 0.02),
 }
 """Other values in ``config["analysis"]``: where a peak is looked for, how wide an order is, what grows."""
+
+PROMINENCES = (0.05, 0.2)
+"""Other values of ``analysis.lobe_prominence``: what counts as a lobe."""
 
 _IN_FIGURES = {"E": {0.11, 1.1, 2.0, 11.0, 20.0, np.inf}, "K": {0.5, np.inf}}  # moduli that are never dropped
 _log = logging.getLogger(__name__)
@@ -62,6 +66,10 @@ def variations(config: Mapping[str, Any], maps: Iterable[CoatingMap]) -> dict[st
             changed = copy.deepcopy(config)
             changed["analysis"][part][key] = value
             varied[name] = Variation(changed, maps)
+    for prominence in PROMINENCES:
+        if prominence != config["analysis"]["lobe_prominence"]:
+            counted = [_with_lobes(coating, prominence) for coating in maps]
+            varied[f"lobes above {100 * prominence:g} %"] = Variation(config, counted)
     for modulus in ("E", "K"):
         values = {getattr(coating.case, modulus) for coating in maps}
         dropped = sorted(values - _IN_FIGURES[modulus])[::2]
@@ -89,6 +97,12 @@ def _at(maps: Iterable[CoatingMap], f_omega: np.ndarray) -> list[CoatingMap]:
         values = {name: getattr(coating, name) for name in over_speed if getattr(coating, name) is not None}
         selected.append(replace(coating, **{name: each[chosen] for name, each in values.items()}))
     return selected
+
+
+def _with_lobes(coating: CoatingMap, prominence: float) -> CoatingMap:
+    """Return `coating` with its lobes counted again."""
+    counted = np.array([lobes(coating.angle, wear, prominence) for wear in coating.wear])
+    return replace(coating, lobes=counted)
 
 
 def table(

@@ -7,7 +7,7 @@ import numpy as np
 
 from bladerub.study.growth import judge
 from bladerub.study.store import StoredRun
-from bladerub.study.wear import lobes
+from bladerub.study.wear import dominant_harmonic, lobes
 
 _LOWEST_ORDER = 0.5
 """Below it a spectrum shows the slow drift of the mean, not vibration."""
@@ -40,7 +40,8 @@ def summarise(run: StoredRun, analysis: Mapping[str, Any], longer: StoredRun | N
         ``peak_amplitude`` (m): largest absolute radial displacement of node 1 over the last
         ``spectrum_revolutions``, or over as many before an early end. ``engine_order``: of the largest
         spectral amplitude from order 0.5 up; None when the run ended within its first revolution or the
-        blade never moved. ``max_wear`` (m), ``lobes``. ``growth_per_revolution`` with its confidence
+        blade never moved. ``max_wear`` (m), ``lobes``, ``wear_harmonic`` and its share, see
+        `bladerub.study.wear`. ``growth_per_revolution`` with its confidence
         interval ``growth_low``, ``growth_high`` (0.03 is 3 %; None of a run too short), ``saturating``,
         ``divergent``, and ``growth_revolutions``: how many these were found in, those of the `longer` run if
         there is one (`bladerub.study.growth`). ``n_steps``, ``status``.
@@ -49,12 +50,15 @@ def summarise(run: StoredRun, analysis: Mapping[str, Any], longer: StoredRun | N
     engine_order, height = spectral_peak(data["spectrum_order"], data["spectrum_amplitude"])
     longest = longer.data["revolution_amplitude"] if longer else None
     verdict = judge(data["revolution_amplitude"], run.attributes["status"], analysis["divergence"], longest)
+    harmonic, share = dominant_harmonic(data["wear"])
     growth = {f"growth_{name}": getattr(verdict.growth, name) for name in ("per_revolution", "low", "high")}
     return {
         "peak_amplitude": displacement_peak(data["revolution_peak"], analysis["spectrum_revolutions"]),
         "engine_order": engine_order if height > 0 else None,
         "max_wear": float(data["wear"].max()),
         "lobes": lobes(data["angle"], data["wear"], analysis["lobe_prominence"]),
+        "wear_harmonic": harmonic,
+        "wear_harmonic_share": share,
         **{name: value if np.isfinite(value) else None for name, value in growth.items()},  # JSON has no NaN
         "saturating": verdict.saturating,
         "divergent": verdict.divergent,

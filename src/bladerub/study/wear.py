@@ -1,4 +1,4 @@
-"""Worn patterns: how many lobes the blade has cut around the casing."""
+"""Worn patterns: how many lobes the blade has cut around the casing, and which harmonic is strongest."""
 
 import numpy as np
 from scipy import ndimage
@@ -25,6 +25,30 @@ def lobes(angle: np.ndarray, wear: np.ndarray, prominence: float) -> int:
     # cut the circle at its lowest point, so that no lobe is split and every valley is seen from both sides
     opened = np.roll(depth, -int(np.argmin(depth)))
     return _count_peaks(opened, prominence * depth.max())
+
+
+def dominant_harmonic(wear: np.ndarray) -> tuple[int, float]:
+    """Find the harmonic of the casing angle that is strongest in the worn depth: `lobes` without a threshold.
+
+    Parameters
+    ----------
+    wear : ndarray
+        Worn depth (8, n) or (n,) at even angles around the casing, m; averaged over the nodes.
+
+    Returns
+    -------
+    tuple
+        The harmonic, 1 or more, and its share of the variance of the depth; (0, 0.0) where the casing is not
+        worn, or evenly.
+    """
+    depth = np.atleast_2d(wear).mean(axis=0)
+    power = np.abs(np.fft.rfft(depth)[1:]) ** 2
+    if depth.size % 2 == 0:
+        power[-1] /= 2  # at the highest harmonic cosine and sine are one line of the spectrum, not two
+    if power.sum() <= 1e-24 * np.sum(depth**2) * depth.size:
+        return 0, 0.0
+    strongest = int(power.argmax())
+    return strongest + 1, float(power[strongest] / power.sum())
 
 
 def _count_peaks(curve: np.ndarray, prominence: float) -> int:

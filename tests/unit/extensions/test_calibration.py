@@ -137,6 +137,8 @@ def test_findings_of_all_sets_make_one_table(tmp_path):
                 "unit": "1",
                 "holds": each,
                 "margin": 0.5,
+                "measured_by_harmonic": "",
+                "holds_by_harmonic": "",
             }
             for i, each in enumerate(holds)
         ]

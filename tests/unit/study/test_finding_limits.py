@@ -101,6 +101,10 @@ def test_share_of_runs_with_five_lobes(evidence, make_map, id_, n_five, holds):
     order = np.argsort(f_omega)
     coating = make_map(WORN, {}, f_omega[order], lobes=lobes[order])
     check(id_, evidence([coating]), n_five / 2, holds)
+    coating.lobes[:] = 1
+    finding = measure(id_, evidence([coating]))
+    assert (finding.holds, finding.holds_by_harmonic) == ("no", holds)
+    assert finding.measured_by_harmonic == pytest.approx(n_five / 2)
 
 
 NEAR = [(0.0249, "yes"), (0.0251, "partly"), (0.0499, "partly"), (0.0501, "no")]
@@ -116,6 +120,11 @@ def test_distance_from_the_papers_speed(evidence, make_map, id_, offset, holds, 
     coating = make_map(WORN, {}, f_omega, lobes=np.where(at, count, 7))
     coating.max_wear[:] = np.where(at, 1e-4, 1e-6)
     check(id_, evidence([coating]), found, holds)
+    if id_ in {"C2c", "C2d"}:
+        coating.lobes[:] = 1
+        finding = measure(id_, evidence([coating]))
+        assert (finding.holds, finding.holds_by_harmonic) == ("no", holds)
+        assert finding.measured_by_harmonic == pytest.approx(found)
 
 
 @pytest.mark.parametrize("sign", [1, -1])
@@ -347,10 +356,11 @@ RUNS = {  # coating and speed of each claim; our f6 is 0.18 and 0.2
 def judged_run(evidence, id_, other=None, **run):
     """Measure a claim on `run` where it looks for one, and on runs that say otherwise everywhere else."""
     own = {"growth_per_revolution": 0.0, "growth_low": 0.0, "saturating": False, "divergent": False}
-    own |= {"lobes": 1, "status": "completed"} | run
+    own |= {"lobes": 1, "wear_harmonic": 1, "status": "completed"} | run
     rows = []
     for case, f_omega in itertools.product((STRAIGHT, TILTED), (0.18, 0.19, 0.197, 0.2)):
-        other = own | {"divergent": not own["divergent"], "lobes": own["lobes"] + 1, "growth_low": 9.0}
+        other = own | {"divergent": not own["divergent"], "growth_low": 9.0}
+        other |= {"lobes": own["lobes"] + 1, "wear_harmonic": own["wear_harmonic"] + 1}
         row = own if (case, f_omega) == RUNS[id_] else other
         rows.append({"f_omega": f_omega, **vars(case), **row})
     table = pd.DataFrame(rows)
@@ -395,13 +405,16 @@ def test_steadiness_at_a_speed(evidence, id_, run, holds, margin):
 @pytest.mark.parametrize(("lobes", "holds"), [(4, "no"), (5, "partly"), (6, "yes"), (7, "partly"), (8, "no")])
 @pytest.mark.parametrize("id_", ["C11e", "C11f", "C11k", "C11l"])
 def test_six_lobes_at_a_speed(evidence, id_, lobes, holds):
-    finding = judged_run(evidence, id_, lobes=lobes)
+    finding = judged_run(evidence, id_, lobes=lobes, wear_harmonic=2)
     assert (finding.measured, finding.holds, finding.margin) == (lobes, holds, -abs(lobes - 6))
+    assert (finding.measured_by_harmonic, finding.holds_by_harmonic) == (2, "no")
+    finding = judged_run(evidence, id_, lobes=2, wear_harmonic=lobes)
+    assert (finding.holds, finding.measured_by_harmonic, finding.holds_by_harmonic) == ("no", lobes, holds)
 
 
 @pytest.mark.parametrize("offset", [1e-7, 1e-5])
 def test_a_run_at_the_speed_but_for_rounding(evidence, offset):
-    row = {"f_omega": 0.19 + offset, "divergent": False, "saturating": False, "lobes": 6}
+    row = {"f_omega": 0.19 + offset, "divergent": False, "saturating": False, "lobes": 6, "wear_harmonic": 6}
     study = evidence(divergence=pd.DataFrame([vars(TILTED) | row]))
     assert is_measured("C11e", study) == (offset < 1e-6)
 

@@ -72,6 +72,8 @@ def paper_divergence():
                 "revolutions": 60 if growth else 20,
                 "status": "completed",
                 "law": "theta",
+                "wear_harmonic": 2,
+                "wear_harmonic_share": 0.6,
             }
         )
     return pd.DataFrame(rows, columns=divergence.COLUMNS)
@@ -382,6 +384,7 @@ def test_the_table_is_read_from_the_files_of_a_study(paper, tmp_path):
         divergence_path=tmp_path / "divergence.csv",
         rom_accuracy_path=tmp_path / "rom_accuracy.csv",
     )
-    assert list(table.columns) == ["id", "claim", "paper", "measured", "unit", "holds", "margin"]
+    columns = ["id", "claim", "paper", "measured", "unit", "holds", "margin"]
+    assert list(table.columns) == [*columns, "measured_by_harmonic", "holds_by_harmonic"]
     assert set(table.id) == PAPER_IDS
     assert set(table.holds) == {"yes"}

@@ -24,6 +24,8 @@ def test_a_steady_run(summed_up, make_result):
         "engine_order": 6.0,
         "max_wear": pytest.approx(2e-4, rel=1e-3),
         "lobes": 6,
+        "wear_harmonic": 6,
+        "wear_harmonic_share": pytest.approx(0.84, abs=0.01),
         "growth_per_revolution": pytest.approx(0, abs=1e-9),
         "growth_low": pytest.approx(-3e-4, rel=0.2),
         "growth_high": pytest.approx(3e-4, rel=0.2),

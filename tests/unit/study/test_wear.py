@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 from scipy import ndimage, signal
 
-from bladerub.study.wear import lobes
+from bladerub.study.wear import dominant_harmonic, lobes
 
 PROMINENCE = 0.2
 
@@ -78,3 +78,31 @@ def test_a_rough_pattern_has_as_many_peaks_as_the_library_finds(angle, seed):
     for prominence in (0.02, 0.1, 0.3):
         expected, _ = signal.find_peaks(np.append(opened, opened[0]), prominence=prominence * smooth.max())
         assert lobes(angle, wear, prominence) == len(expected) > 0
+
+
+class TestDominantHarmonic:
+    @pytest.mark.parametrize("count", [1, 4, 10, 999, 1000])
+    def test_one_harmonic_has_all_of_the_variance(self, count):
+        angle = 2 * np.pi * (np.arange(2000) + 0.5) / 2000
+        wave = np.sin(count * angle + 0.3)
+        assert dominant_harmonic(1e-3 * (1.5 + wave)) == (count, pytest.approx(1.0))
+
+    def test_the_share_is_that_of_the_variance_of_the_mean_over_the_nodes(self, angle):
+        wear = 1e-3 * (3 + 2 * np.cos(4 * angle) + np.cos(6 * angle))
+        nodes = np.stack([wear, wear]) + 1e-3 * np.array([[1], [-1]]) * np.cos(9 * angle)
+        assert dominant_harmonic(nodes) == (4, pytest.approx(4 / 5))
+
+    def test_a_turn_of_the_casing_and_a_factor_change_nothing(self, angle):
+        wear = pattern(angle, 5, 0.4, 0.2)
+        harmonic, share = dominant_harmonic(wear)
+        assert harmonic == 5
+        assert dominant_harmonic(7e-3 * np.roll(wear, 333)) == (5, pytest.approx(share))
+
+    def test_shallow_valleys_change_the_lobes_but_not_the_harmonic(self, angle):
+        wear = 1e-3 * (10 + 0.3 * np.cos(4 * angle))
+        assert lobes(angle, wear, PROMINENCE) == 0
+        assert dominant_harmonic(wear)[0] == 4
+
+    @pytest.mark.parametrize("depth", [0.0, 1e-3])
+    def test_no_wear_and_an_even_ring_have_none(self, angle, depth):
+        assert dominant_harmonic(np.full((8, angle.size), depth)) == (0, 0.0)

@@ -2,7 +2,7 @@
 
 import re
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
 YES, PARTLY, NO = "yes", "partly", "no"
@@ -18,6 +18,12 @@ class Finding:
     unit: str  # "1" for pure numbers and normalised speeds
     holds: str  # yes, partly or no
     margin: float  # of `measured` to the border between yes and not yes, positive if yes; NaN if it has none
+    measured_by_harmonic: float | str = ""  # of a claim on lobes: `measured` by the strongest harmonic
+    holds_by_harmonic: str = ""  # its verdict; no threshold decides which harmonic is the strongest
+
+    def beside(self, by_harmonic: "Finding") -> "Finding":
+        """Add what the strongest harmonic of the wear shows to what the lobes show."""
+        return replace(self, measured_by_harmonic=by_harmonic.measured, holds_by_harmonic=by_harmonic.holds)
 
 
 class NotMeasurable(Exception):

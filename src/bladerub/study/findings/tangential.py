@@ -97,11 +97,15 @@ def is_steady(evidence: Evidence, case: CoatingCase, speed: float | CoatingCase,
 @claim("C11k", f"as C11e, {_AT_TILTED_PEAK}", TILTED, None, "our f6")
 @claim("C11l", f"as C11f, {_AT_STRAIGHT_PEAK}", STRAIGHT, None, "our f6")
 def six_lobes(evidence: Evidence, case: CoatingCase, speed: float | None, where: str) -> Finding:
-    """Lobes worn by the run at `speed`, at this model's f6 if there is none."""
+    """Lobes worn by the run at `speed`, at this model's f6 if there is none; and the strongest harmonic."""
     f_omega = evidence.peak(case, _LOBES, "f_peak") if speed is None else speed
-    count = int(evidence.run(case, f_omega).lobes)
+    run = evidence.run(case, f_omega)
     text = f"six worn lobes with theta = {case.theta:g} at f_omega = {f_omega:g} ({where})"
-    return Finding(text, _LOBES, count, "1", *below(abs(count - _LOBES), 0, 1))
+    by_lobes, by_harmonic = (
+        Finding(text, _LOBES, int(count), "1", *below(abs(int(count) - _LOBES), 0, 1))
+        for count in (run.lobes, run.wear_harmonic)
+    )
+    return by_lobes.beside(by_harmonic)
 
 
 def _distinct_peak(evidence: Evidence, case: CoatingCase) -> float:
