@@ -10,6 +10,11 @@ HERE = Path(__file__).parent
 sys.path.insert(0, str(HERE))  # for gallery_pictures
 os.environ.setdefault("BLADERUB_CACHE", str(HERE / "_build" / "cache"))  # examples share a blade
 
+EXPLORER = HERE.parent / "results" / "explorer.html"  # of `snakemake`, if it was run before
+if EXPLORER.exists():
+    tags.add("explorer")  # noqa: F821
+    html_extra_path = [str(EXPLORER)]
+
 project = "bladerub"
 author = "The bladerub authors"
 copyright = author

@@ -17,7 +17,8 @@ blade.plot_mesh()
 # model (dashed) and for the reduced model that the simulations use (solid). On the right is the first mode alone, with
 # the engine orders.
 
-blade.plot_campbell()  # sphinx_gallery_thumbnail_number = 2
+# sphinx_gallery_thumbnail_number = 2
+blade.plot_campbell()
 
 # %%
 # The reduced model answers at any speed of its range. The first mode meets the engine order :math:`k` where

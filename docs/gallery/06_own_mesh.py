@@ -11,27 +11,24 @@ from pathlib import Path
 import bladerub as br
 
 # %%
-# The file may have any format that meshio reads. It has solid elements, a set of nodes for the clamped root and one for
-# the tip. The x axis is the engine axis and z points along the blade.
+# The file is of Abaqus or CalculiX (``.inp``), Gmsh (``.msh``) or VTK (``.vtu``) and has solid elements. Here the x axis
+# is the engine axis and z points along the blade. The nodes of the clamped root and of the tip are sets of the file; they
+# are found by the shape of the blade if no set is named.
 
 mesh = br.default_study().folder / "config" / "blades" / "twisted_plate.inp"
 
 # %%
-# A config of a few lines names the file. What it does not say stays as in the study of the paper. This plate is softer
-# than the default blade, so that the coating (``modulus_unit``) and the shape of the casing are scaled to it.
+# A config of a few lines names the file. What it does not say stays as in the study of the paper. This plate is shorter
+# and softer than the default blade: ``scale`` gives coating and casing the same proportions to it. Its factors are
+# those that ``bladerub import`` prints for the file.
 
 config = f"""
 blade:
-  hub_radius: 0.35  # m
   length: 0.15  # m
-  tip_cone: 12.5  # degrees: how much the flow path widens
   source: {{file: {mesh}, root_set: ROOT, tip_set: TIP, tip_cone: 12.5}}
+contact:
+  scale: {{length: 0.75, modulus: 0.0673559, time: 2.08901}}
 reduction: {{accuracy_speeds: 3}}
-contact: {{modulus_unit: 55.0e+6, layer_thickness: 4.5e-3}}
-casings:
-  2nd: {{amplitude: 0.75e-3, interference: 0.375e-3}}
-  2nd5nd: {{amplitude: 0.375e-3, interference: 0.375e-3}}
-solver: {{max_time_step: 2.4e-6}}
 """
 file = Path(tempfile.mkdtemp(), "plate.yaml")
 file.write_text(config)

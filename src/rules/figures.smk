@@ -136,7 +136,7 @@ rule fig05_casing:
         "../scripts/fig05_casing.py"
 
 
-# Of any coating, for the asking: not part of `all`
+# Of any coating, for the asking; of another blade or casing also part of `all`
 rule wear_map:
     input:
         map=rules.map.output[0],
@@ -387,7 +387,7 @@ HISTOGRAMS = any(
     and not case.variant
     for case in coating_cases(config)
 ) and {4, 6} <= set(peak_orders(config, "2nd"))
-# Casings of which no figure of the paper shows a spectrum: that of each of their coatings is drawn
+# Casings of which no figure of the paper shows a spectrum: that of each of their coatings is drawn, and its wear map
 SHOWN = {
     case.casing
     for case in (LOBED, SOFT, CRITICAL, STRAIGHT, INCLINED)
@@ -420,3 +420,6 @@ PLANNED = {
 FIGURES = [getattr(rules, name).output for name, needed in PLANNED.items() if needed]
 FIGURES += [expand(rules.history.output, speed=[speed_name(f) for f in OWN])]
 FIGURES += [expand(rules.spectrum.output, coating=OTHER)]
+# On a blade from another program, the wear map of every coating
+WORN = COATINGS if "source" in config["blade"] else OTHER
+FIGURES += [expand(rules.wear_map.output, coating=WORN)]

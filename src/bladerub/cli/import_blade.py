@@ -12,7 +12,8 @@ from bladerub.blade.sources import origin
 from bladerub.blade.sources.frame import ANGLE_UNITS, AXES, UNITS, Frame
 from bladerub.blade.sources.origin import MATRIX_UNITS, MatrixSource, Source
 from bladerub.cli import inputs
-from bladerub.io.folders import study_folder
+from bladerub.config import read as configuration
+from bladerub.io.folders import base_config, study_folder
 
 _AXIS_OPTIONS = ("--rotation", "--downstream", "--radial")
 _FEWEST_SPEEDS = 5
@@ -71,11 +72,12 @@ def joined(arguments: list[str]) -> list[str]:
 def import_blade(options: argparse.Namespace) -> None:
     """Read and reduce the blade that the command line names, and print its properties."""
     config = inputs.read_config(options)
+    reduction = dict(config["reduction"])
     given = {name: getattr(options, name) for name in _NAMES if getattr(options, name) is not None}
     kind = "matrices" if options.file.is_dir() else "file"
     path = options.file.resolve()
-    study = study_folder()
-    named = path.relative_to(study) if path.is_relative_to(study) else path  # as configs name it
+    folder = study_folder()
+    named = path.relative_to(folder) if path.is_relative_to(folder) else path  # as configs name it
     known = config["blade"].get("source", {})
     known = {name: value for name, value in known.items() if name not in ("file", "matrices")}
     entry = {kind: str(named)} | asdict(Frame()) | known | given
@@ -91,11 +93,21 @@ def import_blade(options: argparse.Namespace) -> None:
     length = round(figures["length"], 6)
     scale = contact_scale(replace(reduced, length=length))
     figures["tip_stiffness"] = tip_stiffness(reduced)
+    study = configuration.read(base_config())
+    shaping = ("material", "mesh") if "sections" in figures else ("material",)
+    own = {name: _changed(config["blade"][name], study["blade"][name]) for name in shaping}
+    own = {name: values for name, values in own.items() if values}
+    reduction = _changed(reduction, study["reduction"])
     figures["config"] = {
-        "blade": {"length": length, "source": entry},
+        "blade": {"length": length, "source": entry} | own,
         "contact": {"scale": {name: float(f"{factor:.6g}") for name, factor in scale.items()}},
-    }
+    } | ({"reduction": reduction} if reduction else {})
     inputs.show(options, figures, lambda figures: _in_words(rows(figures), figures))
+
+
+def _changed(values: dict[str, Any], known: dict[str, Any]) -> dict[str, Any]:
+    """Values that are not those of the study, which the printed config has to give as well."""
+    return {name: value for name, value in values.items() if value != known.get(name)}
 
 
 def _read_mesh(source: Source, config: dict[str, Any]) -> tuple[dict[str, Any], ReducedBlade]:
@@ -116,6 +128,8 @@ def _read_mesh(source: Source, config: dict[str, Any]) -> tuple[dict[str, Any], 
 
 def _mesh_rows(figures: dict[str, Any]) -> dict[str, str]:
     """Describe the figures of a mesh or of sections, by the name of each."""
+    from bladerub.blade.sources.report import percent
+
     eq2, rom = (max(figures[name][:6]) for name in ("error_eq2", "error_reduced_model"))
     rows = {
         "mesh": f"{figures['elements']} {figures['element']}, {figures['nodes']} nodes, "
@@ -130,7 +144,7 @@ def _mesh_rows(figures: dict[str, Any]) -> dict[str, str]:
         "first frequency": f"{_first_frequency(figures)}, where rotation moves the blade by "
         f"{1e3 * figures['centrifugal_displacement']:.3g} mm",
         "reduced model": f"{figures['reduced_coordinates']} coordinates; in six modes eq. (2) is up to "
-        f"{100 * eq2:.2g} % off, with the reduction {100 * rom:.2g} %",
+        f"{percent(eq2)} % off, with the reduction {percent(rom)} %",
     }
     if "sections" in figures:
         hub, *_, tip = figures["sections"]
@@ -160,6 +174,8 @@ def _read_matrices(source: MatrixSource, config: dict[str, Any]) -> tuple[dict[s
 
 def _matrix_rows(figures: dict[str, Any]) -> dict[str, str]:
     """Describe the figures, by the name of each."""
+    from bladerub.blade.sources.report import percent
+
     measured = "" if figures["length_is_measured"] else " that its nodes reach over"
     whole = "" if figures["mass_is_whole"] else " without that of the clamped nodes, whose rows are not there"
     first, last = (figures["interface"][at] for at in (0, -1))
@@ -167,7 +183,7 @@ def _matrix_rows(figures: dict[str, Any]) -> dict[str, str]:
     if figures["error_eq2"] is None:
         eq2 = "eq. (2) is exact at the speeds of the files"
     else:
-        eq2 = f"eq. (2) is up to {100 * max(figures['error_eq2'][:6]):.2g} % off"
+        eq2 = f"eq. (2) is up to {percent(max(figures['error_eq2'][:6]))} % off"
     return {
         "matrices": f"{figures['nodes']} nodes, {figures['unknowns']} unknowns",
         **_extents(figures),
@@ -180,7 +196,7 @@ def _matrix_rows(figures: dict[str, Any]) -> dict[str, str]:
         f"{figures['omega_max']:.6g} rad/s",
         "first frequency": _first_frequency(figures),
         "reduced model": f"{figures['reduced_coordinates']} coordinates; in six modes {eq2}, with the "
-        f"reduction {100 * rom:.2g} %",
+        f"reduction {percent(rom)} %",
     }
 
 

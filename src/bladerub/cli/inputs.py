@@ -47,7 +47,8 @@ def as_options(**names: str) -> Iterator[None]:
         yield
     except errors.InputError as error:
         option = names.get(error.name, error.name)
-        raise InputError(f"--{option} = {error.value}: {error.right}") from None
+        more = " (for a casing of another config: --config FILE)" if option == "casing" else ""
+        raise InputError(f"--{option} = {error.value}: {error.right}{more}") from None
 
 
 @contextmanager

@@ -2,18 +2,19 @@
 
 A file that replaces coatings, casings or speeds need not repeat what the study's own config says of those
 that were there: histories of runs that are no longer planned are left out, and a casing that does not excite
-``analysis.peaks.orders`` gets orders of its own. What a file says itself is never changed.
+``analysis.peaks.orders`` gets orders of its own. What a file says itself is never changed, but
+``contact.scale`` multiplies it: a note gives the sizes of its casings.
 """
 
 from collections.abc import Callable
 from typing import Any
 
-from bladerub.study.grid import SPEED_DECIMALS, coating_cases, listed_case, speed_name, speeds
+from bladerub.study.grid import SPEED_DECIMALS, UNSCALED, coating_cases, listed_case, speed_name, speeds
 from bladerub.study.orders import excited_orders, excites, peak_orders, used_casings
 
 Config = dict[str, Any]
 
-READS = {"coatings", "casings", "speeds", "analysis"}
+READS = {"coatings", "casings", "contact", "speeds", "analysis"}
 """Keys at the top that `fit` reads."""
 
 
@@ -29,7 +30,18 @@ def fit(config: Config, is_inherited: Callable[[str], bool]) -> tuple[Config, li
             config = _without_lost_histories(config, notes)
         if is_inherited("analysis.peaks.orders"):
             config = _with_orders_of_casings(config, notes)
-    return config, notes + _doubts(config)
+    return config, notes + _scaled_casings(config, is_inherited) + _doubts(config)
+
+
+def _scaled_casings(config: Config, is_inherited: Callable[[str], bool]) -> list[str]:
+    """Give the sizes that ``contact.scale`` makes of casings that are not the study's own."""
+    factor, notes = config["contact"].get("scale", UNSCALED)["length"], []
+    for name in used_casings(config):
+        casing = config["casings"][name]
+        sizes = (f"{key} {factor * casing[key]:.4g} m" for key in ("amplitude", "interference"))
+        if factor != 1 and not is_inherited(f"casings.{name}.amplitude"):
+            notes.append(f"contact.scale.length = {factor:g}: casing {name} has {' and '.join(sizes)}")
+    return notes
 
 
 def _without_lost_histories(config: Config, notes: list[str]) -> Config:

@@ -122,13 +122,16 @@ def _draw_tip(axes: Axes, points: np.ndarray, faces: np.ndarray, interface: np.n
     nodes = points[interface, :2]
     axes.plot(*nodes.T, **_INTERFACE)
     near = {"textcoords": "offset points"}
+    side = 1 if nodes[0, 0] <= nodes[-1, 0] else -1  # where the corner above the tip is free
+    beside = "left" if side > 0 else "right"
     for number, node in enumerate(nodes, start=1):
-        axes.annotate(str(number), node, xytext=(6, 4), color=RED, **near)
+        axes.annotate(str(number), node, xytext=(6 * side, 4), ha=beside, color=RED, **near)
     axes.annotate("leading edge", nodes[0], xytext=(0, 14), ha="center", va="bottom", **near)
     axes.annotate("trailing edge", nodes[-1], xytext=(0, -14), ha="center", va="top", **near)
     arrow = {"arrowstyle": "-|>", "color": DARK}
+    across = 0.5 + 0.35 * side
     axes.annotate(
-        "rotation", (0.85, 0.95), (0.85, 0.75), xycoords="axes fraction", ha="center", arrowprops=arrow
+        "rotation", (across, 0.95), (across, 0.75), xycoords="axes fraction", ha="center", arrowprops=arrow
     )
     axes.set(aspect="equal", xlabel="axial x (mm)", ylabel="tangential y (mm)")
     axes.set_title("(b) the tip from outside")

@@ -38,12 +38,12 @@ def current_blade(config: Mapping[str, Any], model: Path) -> tuple[str | None, s
     """Return the digest of the reduced blade at `model`, or None and why there is none of this config."""
     try:
         if not model.exists():
-            return None, f"there is no blade yet, so every run counts as stale: {model}"
+            return None, f"there is no blade yet, so any run that is there counts as stale: {model}"
         if not is_built(config, model):
-            return None, f"the blade is of another config, so every run counts as stale: {model}"
+            return None, f"the blade is of another config, so any run that is there counts as stale: {model}"
         return blade_digest(model), None
     except OSError as error:
-        return None, f"every run counts as stale without its blade: {message_for(error)}"
+        return None, f"any run that is there counts as stale without its blade: {message_for(error)}"
 
 
 class _Found(NamedTuple):

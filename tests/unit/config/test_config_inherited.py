@@ -46,6 +46,16 @@ def test_histories_of_the_coatings_and_speeds_that_stay_are_kept(laid_over):
     assert [entry["f_omega"] for entry in config["analysis"]["histories"]] == [0.19, 0.19, 0.206, 0.206]
 
 
+def test_a_note_gives_the_scaled_size_of_a_casing_of_the_file(laid_over):
+    scale = {"contact": {"scale": {"length": 0.5, "modulus": 1.0, "time": 1.0}}}
+    _, notes = laid_over(on_casing(nodal_diameters=[2]) | scale)
+    (note,) = (note for note in notes if "contact.scale" in note)
+    assert "own" in note
+    assert "0.0005 m" in note  # half of its amplitude
+    assert "0.00025 m" in note
+    assert not [note for note in laid_over(scale)[1] if "contact.scale" in note]
+
+
 def test_a_history_that_the_file_itself_lists_is_still_an_error(laid_over):
     lost = {"casing": "2nd", "E": 7, "K": 0.5, "theta": 0.0, "f_omega": 0.19}
     with pytest.raises(ConfigError) as error:

@@ -204,15 +204,20 @@ def _warn_of_matrices(
     yield from _warn_of_errors(figures)
 
 
+def percent(error: float) -> str:
+    """Write a relative error in percent, in two figures."""
+    return f"{float(f'{100 * error:.2g}'):g}"
+
+
 def _warn_of_errors(figures: dict[str, Any]) -> Iterator[str]:
     """Warn of an inaccurate reduced model and of an unstable blade."""
     eq2, reduced = (max(figures[name][:MODES]) for name in ("error_eq2", "error_reduced_model"))
     off = f"% off in the first {MODES} modes"
     if eq2 > EQ2_ERROR:
         more = "" if "folder" in figures else " or set reduction.tolerance"
-        yield f"eq. (2) is up to {100 * eq2:.2g} {off}: lower reduction.f_omega_max{more}"
+        yield f"eq. (2) is up to {percent(eq2)} {off}: lower reduction.f_omega_max{more}"
     if reduced > max(REDUCED_ERROR, 1.5 * eq2):
         remedy = "set reduction.tolerance, or raise reduction.modes_per_speed"
-        yield f"the reduced model is up to {100 * reduced:.2g} {off}: {remedy}"
+        yield f"the reduced model is up to {percent(reduced)} {off}: {remedy}"
     if figures["lowest_frequency"] <= 0:
         yield "a mode is unstable within the range of speeds"
