@@ -5,7 +5,7 @@ IMAGES = [
     Path(path).name
     for output in [*FIGURES, rules.margins.output]
     for path in output
-    if path.endswith(".png")
+    if path.endswith(".png") and Path(path).parent == Path(PLOTS)
 ]
 CHART_FIGURES = ["Y4", "safe", "pareto", "explanation", "stiffening"]
 PASSAGE_FIGURES = ["sweeps", "long_runs"]

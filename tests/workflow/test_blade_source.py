@@ -38,6 +38,15 @@ def test_a_blade_from_a_file_is_made_and_drawn_and_made_anew_with_the_file(works
     assert workspace.plan(foreign, PICTURE) == {"blade": 1, "fig01_blade": 1}
 
 
+def test_a_study_of_it_draws_wear_maps_and_on_casings_of_its_own_spectra(workspace, foreign):
+    casing = load(workspace.folder / "config" / "config.yaml")["casings"]["2nd"]
+    foreign["casings"] = {"own": casing | {"nodal_diameters": [3]}}
+    entry = {"E": [2, 5], "K": [0.5], "theta": [0.0]}
+    foreign["coatings"] = [{"casing": name} | entry for name in ("2nd", "own")]
+    plan = workspace.plan(foreign)
+    assert (plan["coating"], plan["wear_map"], plan["spectrum"]) == (4, 4, 2)
+
+
 def test_a_broken_file_ends_the_study_with_one_line(workspace, foreign):
     (workspace.folder / "meshes" / "blade.msh").write_text("$MeshFormat\n")
     done = workspace.snakemake(PICTURE, "--cores", "1", config=foreign)
