@@ -29,10 +29,43 @@ rule map:
         "../scripts/map.py"
 
 
+rule ensemble:
+    input:
+        map=rules.map.output[0],
+        blade=rules.blade.output.reduced_model,
+        kernel=rules.compile_kernel.output[0],
+        analysing=files_behind("study.ensemble"),
+    output:
+        f"{RESULTS}/ensembles/{{coating}}.h5",
+    log:
+        f"{RESULTS}/logs/ensemble/{{coating}}.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/ensemble/{{coating}}.tsv"
+    resources:
+        mem_mb=memory_mb,
+        runtime=coating_minutes,
+    params:
+        folder=f"{RESULTS}/runs/{{coating}}",
+        ensemble=config["ensemble"],
+        peaks=PEAKS,
+        divergence=config["analysis"]["divergence"],
+    script:
+        "../scripts/ensemble.py"
+
+
+# None where the config wants none
+ENSEMBLES = (
+    expand(rules.ensemble.output, coating=COATINGS)
+    if config["ensemble"]["members"]
+    else []
+)
+
+
 rule peaks:
     input:
         maps=expand(rules.map.output, coating=COATINGS),
-        analysing=files_behind("study.peak_table"),
+        ensembles=ENSEMBLES,
+        analysing=files_behind("study.bands"),
     output:
         **described(table=f"{TABLES}/peaks.csv"),
     log:
@@ -48,7 +81,8 @@ rule peaks:
 rule divergence:
     input:
         maps=expand(rules.map.output, coating=COATINGS),
-        analysing=files_behind("study.divergence"),
+        ensembles=ENSEMBLES,
+        analysing=files_behind("study.bands"),
     output:
         **described(table=f"{TABLES}/divergence.csv"),
     log:
@@ -76,10 +110,11 @@ def reported_robustness(wildcards):
 rule findings:
     input:
         maps=expand(rules.map.output, coating=COATINGS),
+        ensembles=ENSEMBLES,
         peaks=rules.peaks.output[0],
         divergence=rules.divergence.output[0],
         rom_accuracy=rules.blade_tables.output.rom_accuracy,
-        analysing=files_behind("study.findings"),
+        analysing=files_behind("study.bands"),
     output:
         **described(table=shown(f"{TABLES}/findings.csv", "findings", "Claims")),
     log:

@@ -1,10 +1,10 @@
-"""Judge for every run whether it diverges."""
+"""Judge for every run whether it diverges, with the bands of those that have an ensemble."""
 
-from bladerub.study import divergence
+from bladerub.study import bands, ensemble
 from bladerub.study.maps import read_map
 from bladerub.workflow import job, outputs
 
 job.log_to(snakemake.log[0])
 
-maps = map(read_map, snakemake.input.maps)
-outputs.save(snakemake, table=divergence.table(snakemake.config, maps))
+maps, ensembles = map(read_map, snakemake.input.maps), map(ensemble.read, snakemake.input.ensembles)
+outputs.save(snakemake, table=bands.of_runs(snakemake.config, list(maps), list(ensembles)))

@@ -2,7 +2,9 @@
 
 import math
 
-from bladerub.study import findings
+from bladerub.study import bands, ensemble, findings
+from bladerub.study.findings.evidence import read_rom_accuracy
+from bladerub.study.maps import read_map
 from bladerub.workflow import job, outputs
 
 job.log_to(snakemake.log[0])
@@ -16,6 +18,13 @@ table = findings.table(
 )
 # the robustness counts only where its own reference has the verdict of this study
 known = [snakemake.params.robustness.get(id_, ("", math.nan)) for id_ in table["id"]]
+table = bands.of_findings(
+    snakemake.config,
+    table,
+    read_rom_accuracy(snakemake.input.rom_accuracy),
+    list(map(read_map, snakemake.input.maps)),
+    list(map(ensemble.read, snakemake.input.ensembles)),
+)
 table["robustness"] = [
     share if reference == holds else math.nan
     for (reference, share), holds in zip(known, table["holds"], strict=True)

@@ -107,12 +107,26 @@ def build_map(
         raise DamagedFile(
             f"{folder / 'manifest.tsv'}: lists {len(rows)} speeds, not the {len(planned)} planned"
         )
+    write_map(path, collect_listed(config, case, blade, folder, rows), provenance(config))
+
+
+def collect_listed(
+    config: Mapping[str, Any],
+    case: CoatingCase,
+    blade: ReducedBlade,
+    folder: Path,
+    rows: Sequence[ManifestRow],
+) -> CoatingMap:
+    """Collect the runs in `folder` that these rows of its manifest list, at ascending speeds.
+
+    Other parameters are those of `build_map`, which raises the same.
+    """
     runs = [_listed_run(folder, folder / row.file, row.run_key, MAPPED) for row in rows]
     scales = _listed_run(folder, folder / rows[0].file, rows[0].run_key, {"angle", "spectrum_order"})
     runs[0].data.update(scales.data)
     longer = [_longer_run(folder, row) for row in rows]
     prominence = config["analysis"]["lobe_prominence"]
-    write_map(path, collect(case, planned, blade, runs, longer, prominence), provenance(config))
+    return collect(case, [row.f_omega for row in rows], blade, runs, longer, prominence)
 
 
 def _longer_run(folder: Path, row: ManifestRow) -> StoredRun | None:

@@ -7,7 +7,16 @@ from scipy import signal
 
 from bladerub.study.findings.claim import NO, Finding, NotMeasurable, above, below, claim
 from bladerub.study.findings.evidence import SAME_SPEED, Evidence
-from bladerub.study.findings.paper import CRITICAL, NEAR, SIGNIFICANT, SOFT, WORN
+from bladerub.study.findings.paper import (
+    CRITICAL,
+    FIVE_LOBES,
+    FOUR_LOBES,
+    NEAR,
+    SIGNIFICANT,
+    SOFT,
+    TEN_LOBES,
+    WORN,
+)
 from bladerub.study.maps import CoatingMap
 from bladerub.study.peaks import order_amplitude, peak
 
@@ -16,8 +25,8 @@ _YOUNG = 'section "Young modulus sensitivity"'
 _HIGHEST_ORDER = 12  # where eo(k) leaves the paper's spectra
 
 
-@claim("C2a", f"five worn lobes for f_Ω in [0, 0.08] ({_SECTION}, Fig. 6)", 0.0, 0.08)
-@claim("C2b", f"five worn lobes for f_Ω in [0.24, 0.34] ({_SECTION}, Fig. 6)", 0.24, 0.34)
+@claim("C2a", f"five worn lobes for f_Ω in [0, 0.08] ({_SECTION}, Fig. 6)", *FIVE_LOBES[0])
+@claim("C2b", f"five worn lobes for f_Ω in [0.24, 0.34] ({_SECTION}, Fig. 6)", *FIVE_LOBES[1])
 def five_lobes(evidence: Evidence, low: float, high: float) -> Finding:
     """Share of the runs from speed `low` to `high` with five lobes, or with the fifth harmonic."""
     coating = evidence.map(WORN)
@@ -33,8 +42,8 @@ def five_lobes(evidence: Evidence, low: float, high: float) -> Finding:
     return finding(coating.lobes).beside(finding(coating.wear_harmonic))
 
 
-@claim("C2c", f"ten lobes at f_Ω ≃ 0.1 ({_SECTION}, Fig. 6)", 10, 0.1)
-@claim("C2d", f"four lobes at f_Ω ≃ 0.38 ({_SECTION}, Figs. 6 and 7)", 4, 0.38)
+@claim("C2c", f"ten lobes at f_Ω ≃ 0.1 ({_SECTION}, Fig. 6)", 10, TEN_LOBES)
+@claim("C2d", f"four lobes at f_Ω ≃ 0.38 ({_SECTION}, Figs. 6 and 7)", 4, FOUR_LOBES)
 def lobes_near(evidence: Evidence, count: int, paper: float) -> Finding:
     """Speed nearest to the paper's with so many lobes, or with that harmonic."""
     coating = _map_near(evidence, paper)

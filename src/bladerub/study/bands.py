@@ -1,0 +1,142 @@
+"""Bands: median and spread of what a study shows, over the draws that its ensembles make.
+
+A *draw of the study* is the study with the runs of one member of each ensemble (`bladerub.study.ensemble`)
+in place of its own; the study itself is the first draw. What a table says of a run or a peak is evaluated on
+each of them.
+
+The band of n draws is the interval in which a further draw falls with probability `PROBABILITY`, if draws are
+distributed normally: ``mean ± t s √(1 + 1/n)``. Here s is their standard deviation, and t the quantile of
+Student's distribution with n − 1 degrees of freedom. The band shrinks to a point for a run that is not
+chaotic. With few draws it is wider than their range: nine of them span but 80 % of their distribution.
+"""
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from itertools import islice
+from typing import Any, NamedTuple
+
+import numpy as np
+import pandas as pd
+from scipy.special import stdtrit
+
+from bladerub.study import divergence, findings, peak_table
+from bladerub.study.ensemble import Ensemble
+from bladerub.study.findings.evidence import Evidence
+from bladerub.study.grid import CoatingCase
+from bladerub.study.maps import CoatingMap
+
+PROBABILITY = 0.9
+"""Probability of a draw to fall into the band: 5 % lie below and 5 % above it."""
+
+_ENDS = ("median", "low", "high")
+
+PEAK_COLUMNS = ["draws", *(f"{name}_{end}" for name in ("f_peak", "amplitude") for end in _ENDS)]
+"""Columns that the bands add to ``peaks.csv``."""
+
+RUN_COLUMNS = [
+    *("draws", "divergent_draws", "saturating_draws"),
+    *(f"{name}_{end}" for name in ("growth_rate", "max_wear") for end in _ENDS),
+    *("lobes_lowest", "lobes_highest"),
+]
+"""Columns that the bands add to ``divergence.csv``, empty for runs without an ensemble."""
+
+FINDING_COLUMNS = ["draws", "share_of_draws"]
+"""Columns that the bands add to ``findings.csv``: the share of the draws that have the study's verdict."""
+
+
+class Band(NamedTuple):
+    """Median of draws, and the interval in which a further one falls with `PROBABILITY`."""
+
+    median: float
+    low: float
+    high: float
+
+
+def band(values: Sequence[float] | np.ndarray) -> Band:
+    """Find the band of draws (n,), NaN being none; NaN throughout from no draw, without ends from one."""
+    draws = np.asarray(values, dtype=float)
+    draws = draws[np.isfinite(draws)]
+    if draws.size < 2:
+        return Band(float(draws[0]) if draws.size else math.nan, math.nan, math.nan)
+    t = float(stdtrit(draws.size - 1, (1 + PROBABILITY) / 2))
+    half = t * float(draws.std(ddof=1)) * math.sqrt(1 + 1 / draws.size)
+    return Band(float(np.median(draws)), float(draws.mean() - half), float(draws.mean() + half))
+
+
+def draws(maps: Sequence[CoatingMap], ensembles: Sequence[Ensemble]) -> Iterator[list[CoatingMap]]:
+    """Yield each draw of the study of these `maps`, the study itself first; `ensembles` are of the same."""
+    yield list(maps)
+    drawn = {ensemble.members[0].case: ensemble for ensemble in ensembles}
+    for member in range(min((len(ensemble.members) for ensemble in ensembles), default=0)):
+        yield [drawn[each.case].draw(each, member) if each.case in drawn else each for each in maps]
+
+
+def of_peaks(
+    config: Mapping[str, Any], maps: Sequence[CoatingMap], ensembles: Sequence[Ensemble]
+) -> pd.DataFrame:
+    """Find the peaks of every coating, as `bladerub.study.peak_table.table`, with `PEAK_COLUMNS`."""
+    drawn = [peak_table.table(config, each) for each in draws(maps, ensembles)]
+    table = drawn[0].assign(draws=len(drawn))
+    for name in ("f_peak", "amplitude"):
+        bands = [band(values) for values in np.transpose([each[name] for each in drawn])]
+        table = table.join(pd.DataFrame(bands, index=table.index).add_prefix(f"{name}_"))
+    return table
+
+
+def of_runs(
+    config: Mapping[str, Any], maps: Sequence[CoatingMap], ensembles: Sequence[Ensemble]
+) -> pd.DataFrame:
+    """Judge every run, as `bladerub.study.divergence.table`, with `RUN_COLUMNS`."""
+    table = divergence.table(config, maps)
+    own = {coating.case: coating for coating in maps}
+    found = [row for each in ensembles for row in _run_bands(config, own, each)]
+    if not found:
+        return table.reindex(columns=[*table, *RUN_COLUMNS])
+    bands = pd.DataFrame(found)
+    keys = [name for name in (*vars(maps[0].case), "f_omega") if name in table]
+    return table.merge(bands[[*keys, *RUN_COLUMNS]], "left", on=keys)
+
+
+def _run_bands(
+    config: Mapping[str, Any], maps: Mapping[CoatingCase, CoatingMap], ensemble: Ensemble
+) -> Iterator[dict[str, Any]]:
+    """Yield a row for each speed of the ensembles of one coating."""
+    coating = maps[ensemble.members[0].case]
+    at = np.flatnonzero(np.isin(coating.f_omega, ensemble.members[0].f_omega))
+    verdicts = [[divergence.verdicts(config, coating)[i] for i in at]]
+    verdicts += [divergence.verdicts(config, member) for member in ensemble.members]
+    max_wear = np.stack([coating.max_wear[at], *(member.max_wear for member in ensemble.members)])
+    lobes = np.stack([coating.lobes[at], *(member.lobes for member in ensemble.members)])
+    for index, drawn in enumerate(zip(*verdicts, strict=True)):
+        growth = band([verdict.growth.per_revolution for verdict in drawn])
+        yield {
+            **vars(coating.case),
+            "f_omega": coating.f_omega[at[index]],
+            "draws": len(drawn),
+            "divergent_draws": np.mean([verdict.divergent for verdict in drawn]),
+            "saturating_draws": np.mean([verdict.saturating for verdict in drawn]),
+            **{f"growth_rate_{end}": value for end, value in growth._asdict().items()},
+            **{f"max_wear_{end}": value for end, value in band(max_wear[:, index])._asdict().items()},
+            "lobes_lowest": int(lobes[:, index].min()),
+            "lobes_highest": int(lobes[:, index].max()),
+        }
+
+
+def of_findings(
+    config: Mapping[str, Any],
+    table: pd.DataFrame,
+    rom_accuracy: pd.DataFrame,
+    maps: Sequence[CoatingMap],
+    ensembles: Sequence[Ensemble],
+) -> pd.DataFrame:
+    """Add `FINDING_COLUMNS` to the `table` of findings: every claim is judged on each draw but the first.
+
+    The first is the study itself, whose verdict would agree with itself.
+    """
+    same = []
+    for drawn in islice(draws(maps, ensembles), 1, None):
+        tables = {"peaks": peak_table.table(config, drawn), "divergence": divergence.table(config, drawn)}
+        judged = findings.judge(Evidence(config, tables | {"rom_accuracy": rom_accuracy}, drawn))
+        holds = judged.set_index("id").holds.reindex(table["id"])
+        same.append(holds.to_numpy() == table.holds.to_numpy())
+    return table.assign(draws=len(same), share_of_draws=np.mean(same, axis=0) if same else math.nan)

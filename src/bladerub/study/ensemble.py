@@ -1,0 +1,178 @@
+"""Ensembles: runs of the study repeated from starts that differ by a fraction of a micrometre.
+
+1. A chaotic run amplifies the difference of its start until nothing but the statistics is left of it: such a
+   run is one draw. The members of an ensemble are further draws. A run that is not chaotic gives members that
+   agree.
+2. A member starts at rest with a radial displacement of node 1, in the first mode, that is drawn evenly from
+   ± ``ensemble.displacement``. The draws of a run depend on ``ensemble.seed``, the coating and the speed, and
+   on nothing else: more members leave those that are there as they are.
+3. The runs with an ensemble are those that tables and claims rest on (`chosen`): the peaks of each coating
+   with their neighbours in speed, the runs whose displacement is kept, and those of the claims on lobes.
+4. Members are stored, found again and followed further when they grow as the runs of the study are
+   (`bladerub.study.job`), in the folder ``ensemble`` next to them.
+"""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+from zlib import crc32
+
+import numpy as np
+
+from bladerub.blade.model import ReducedBlade
+from bladerub.io import hdf5
+from bladerub.io.errors import DamagedFile
+from bladerub.io.hdf5 import Variable
+from bladerub.io.provenance import provenance
+from bladerub.study import maps
+from bladerub.study.findings.evidence import SAME_SPEED
+from bladerub.study.findings.paper import LOBES, WORN
+from bladerub.study.grid import CoatingCase, keeps_history, run_spec, speed_name
+from bladerub.study.job import RunDone, compute_missing
+from bladerub.study.manifest import ManifestRow, write_manifest
+from bladerub.study.maps import CoatingMap
+from bladerub.study.orders import peak_settings
+from bladerub.study.peaks import peak
+from bladerub.study.plan import CoatingPlan, planned_run
+
+FOLDER = "ensemble"
+"""Folder of the members in that of the coating's runs, with a manifest of its own."""
+
+
+@dataclass(frozen=True)
+class Ensemble:
+    """The ensembles of one coating."""
+
+    start: np.ndarray  # (m, n), radial displacement of node 1 at the start of m members at n speeds, m
+    members: tuple[CoatingMap, ...]  # m maps of the n speeds, ascending; without ``wear_node``
+
+    def draw(self, coating: CoatingMap, member: int) -> CoatingMap:
+        """Return `coating` with the runs of one member in place of its own."""
+        drawn = self.members[member]
+        at = np.searchsorted(coating.f_omega, drawn.f_omega - SAME_SPEED)
+        values = {}
+        for name in OVER_SPEED:
+            own, other = _equally_long(getattr(coating, name), getattr(drawn, name))
+            values[name] = own.copy()
+            values[name][at] = other
+        return replace(coating, wear_node=None, **values)
+
+
+OVER_SPEED = tuple(
+    name
+    for name, (dims, *_) in maps.DATASETS.items()
+    if dims[0] == "f_omega" and name not in {"f_omega", "C1", "wear_node"}
+)
+"""Datasets of a map that differ between members."""
+
+
+def starts(settings: Mapping[str, Any], case: CoatingCase, f_omega: float, members: int) -> np.ndarray:
+    """Draw the starts (members,) of one run, m; `settings` are ``config["ensemble"]``."""
+    entropy = [settings["seed"], crc32(f"{case.name}/{speed_name(f_omega)}".encode())]
+    limit = settings["displacement"]
+    return np.random.default_rng(entropy).uniform(-limit, limit, members)
+
+
+def chosen(config: Mapping[str, Any], coating: CoatingMap) -> np.ndarray:
+    """Choose the speeds (n,) of a coating that have an ensemble, ascending, normalised."""
+    f_omega = coating.f_omega
+    wanted = np.array([keeps_history(config, coating.case, float(f)) for f in f_omega])
+    settings = peak_settings(config, coating.case.casing)
+    for order in settings["orders"]:
+        at = int(np.argmin(np.abs(f_omega - peak(coating, order, settings).f_omega)))
+        wanted[max(at - 1, 0) : at + 2] = True
+    if coating.case == WORN:
+        for low, high in LOBES:
+            wanted |= (f_omega >= low - SAME_SPEED) & (f_omega <= high + SAME_SPEED)
+    return f_omega[wanted]
+
+
+def plan(config: Mapping[str, Any], case: CoatingCase, f_omega: np.ndarray) -> list[CoatingPlan]:
+    """Plan the members of one coating at the speeds `f_omega`: the runs of each."""
+    settings = config["ensemble"]
+    at = {float(f): starts(settings, case, float(f), settings["members"]) for f in f_omega}
+
+    def member(number: int) -> CoatingPlan:
+        runs = []
+        for f, drawn in at.items():
+            spec = replace(run_spec(config, case, f), initial_displacement=float(drawn[number]))
+            file = f"{speed_name(f)}_{number + 1}.h5"
+            runs.append(planned_run(config, spec, file, keep_history=False))
+        return CoatingPlan(case, tuple(runs))
+
+    return [member(number) for number in range(settings["members"])]
+
+
+def make(
+    config: Mapping[str, Any],
+    coating: CoatingMap,
+    blade: ReducedBlade,
+    blade_digest: str,
+    runs_folder: str | Path,
+    path: str | Path,
+    report: Callable[[RunDone | str], None],
+) -> list[ManifestRow]:
+    """Compute the members of a coating that are missing or stale, and collect all in the file `path`.
+
+    Returns the rows of their manifest. `coating` is its map, `runs_folder` that of its runs; other parameters
+    are those of `bladerub.study.job.compute_missing`.
+    """
+    folder, f_omega = Path(runs_folder) / FOLDER, chosen(config, coating)
+    planned = plan(config, coating.case, f_omega)
+    together = CoatingPlan(coating.case, tuple(run for member in planned for run in member.runs))
+    rows = compute_missing(config, together, blade, folder, blade_digest, report)
+    write_manifest(folder / "manifest.tsv", rows)
+    listed = iter(rows)
+    members = [
+        maps.collect_listed(config, coating.case, blade, folder, [next(listed) for _ in member.runs])
+        for member in planned
+    ]
+    start = [[run.spec.initial_displacement for run in member.runs] for member in planned]
+    write(path, Ensemble(np.array(start), tuple(members)), provenance(config))
+    return rows
+
+
+def write(path: str | Path, ensemble: Ensemble, origin: Mapping[str, str]) -> None:
+    """Write the ensembles of a coating to the file `path`; `origin` is its provenance."""
+    first = ensemble.members[0]
+    variables = {
+        name: Variable(dims, getattr(first, name), unit, long_name)
+        for name, (dims, unit, long_name) in maps.DATASETS.items()
+        if name not in (*OVER_SPEED, "wear_node")
+    }
+    start = "radial displacement of node 1 at the start"
+    variables["start"] = Variable(("member", "f_omega"), ensemble.start, "m", start)
+    for name in OVER_SPEED:
+        dims, unit, long_name = maps.DATASETS[name]
+        values = _equally_long(*(getattr(member, name) for member in ensemble.members))
+        variables[name] = Variable(("member", *dims), np.stack(values), unit, long_name)
+    hdf5.write(path, variables, {**vars(first.case)}, origin)
+
+
+def read(path: str | Path) -> Ensemble:
+    """Read what `write` has written; raises `OSError`, naming the file, if it is missing or damaged."""
+    data, attributes = hdf5.read(path)
+    try:
+        shared = {name: data[name] for name in maps.DATASETS if name not in (*OVER_SPEED, "wear_node")}
+        case, start = CoatingCase.described(attributes), data["start"]
+        members = tuple(
+            CoatingMap(case=case, wear_node=None, **shared, **{name: data[name][i] for name in OVER_SPEED})
+            for i in range(len(start))
+        )
+    except KeyError as error:
+        raise DamagedFile(f"{path}: no ensembles, {error} is missing") from error
+    return Ensemble(start, members)
+
+
+def _equally_long(*arrays: np.ndarray) -> list[np.ndarray]:
+    """Fill arrays (n, r) with NaN up to the largest r, for members of which none needed a longer run."""
+    if arrays[0].ndim == 1:
+        return list(arrays)
+    width = max(array.shape[1] for array in arrays)
+    return [
+        np.pad(array, ((0, 0), (0, width - array.shape[1])), constant_values=np.nan)
+        if array.shape[1] < width
+        else array
+        for array in arrays
+    ]
