@@ -246,6 +246,7 @@ use rule spectrum as fig16_spectrum_theta015 with:
 rule fig10_peaks:
     input:
         map=map_of(SOFT),
+        peaks=rules.peaks.output[0],
         analysing=files_behind("study.peaks"),
         drawing=rules.spectrum.input.drawing,
     output:

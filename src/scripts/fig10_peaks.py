@@ -1,21 +1,26 @@
-"""Fig. 10: maxima Y_k, f_k on the spectrum, and the amplitude along their engine orders (m)."""
+"""Fig. 10: maxima Y_k, f_k with their bands on the spectrum, and the amplitude along their orders (m)."""
 
 import pandas as pd
 
+from bladerub.io import tables
 from bladerub.plots.spectrum import PeakSection, peak_sections
 from bladerub.study.maps import read_map
 from bladerub.study.peaks import order_amplitude, peak, speed_window
+from bladerub.study.variants import of_case
 from bladerub.workflow import job, outputs
 
 job.log_to(snakemake.log[0])
 
 coating, settings = read_map(snakemake.input.map), snakemake.params.peaks
+peaks = of_case(tables.read(snakemake.input.peaks), coating.case).set_index("order")
 sections = [
     PeakSection(
         order,
         order_amplitude(coating, order, settings["order_halfwidth"]),
         speed_window(coating, order, settings),
         peak(coating, order, settings),
+        tuple(peaks.loc[order, ["f_peak_low", "f_peak_high"]]),
+        tuple(peaks.loc[order, ["amplitude_low", "amplitude_high"]]),
     )
     for order in settings["orders"][:2]
 ]

@@ -28,6 +28,7 @@ TINY = {
     ],
     "speeds": {"start": 0.15, "stop": 0.35, "step": 0.04, "extra": [0.197, 0.206]},
     "solver": {"revolutions": 3},
+    "ensemble": {"members": 0},
     "analysis": {"spectrum_revolutions": 2, "divergence": {"revolutions": 3, "confirmation_revolutions": 6}},
 }
 

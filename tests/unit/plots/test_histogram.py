@@ -12,10 +12,12 @@ VALUES = np.array([[0.1, np.nan], [0.4, 0.3], [np.nan, 0.2]])
 MM = pd.DataFrame(VALUES, index=[0.11, 1.1, 20], columns=[0.5, 5])
 
 
-def draw(mm, quantity="amplitude"):
-    """Draw the values over E (rows) and K (columns), as amplitudes in mm or as speeds."""
+def draw(mm, quantity="amplitude", half=np.nan):
+    """Draw the values over E (rows) and K (columns), as amplitudes in mm or as speeds, `half` a band."""
     rows = mm.rename_axis(index="E", columns="K").stack(future_stack=True).rename(quantity).reset_index()
     rows[quantity] *= 1e-3 if quantity == "amplitude" else 1
+    ends = {f"{quantity}_low": rows[quantity] - half, f"{quantity}_high": rows[quantity] + half}
+    rows = rows.assign(**ends)
     return peak_histogram(rows.assign(casing="2nd", theta=0.0, order=4), quantity, order=4, unit=600e6)[1]
 
 
@@ -52,6 +54,23 @@ def test_cells_carry_the_values_and_a_dash_where_one_is_missing(figure):
     assert cells.get_facecolor() == to_rgba(MISSING)
 
 
+@pytest.mark.parametrize(
+    ("quantity", "half", "texts", "hatched"),
+    [
+        ("amplitude", 1e-6, {"0.10", "0.40", "0.30", "0.20"}, set()),
+        ("amplitude", 3.1e-5, {"0.10\n±0.03", "0.40\n±0.03", "0.30\n±0.03", "0.20\n±0.03"}, {0, 1, 2}),
+        ("f_peak", 0.009, {"0.100\n±0.009", "0.400\n±0.009", "0.300\n±0.009", "0.200\n±0.009"}, set()),
+        ("f_peak", 0.011, {"0.100\n±0.011", "0.400\n±0.011", "0.300\n±0.011", "0.200\n±0.011"}, {0, 1, 2}),
+    ],
+)
+def test_bands_stand_below_the_values_and_wide_ones_are_hatched(quantity, half, texts, hatched):
+    cells = draw(MM, quantity, half).axes[1]
+    assert {text.get_text() for text in cells.texts} == texts | {"–"}
+    places = {patch.get_x() + 0.5 for patch in cells.patches if patch.get_hatch()}
+    assert places == hatched
+    assert ("hatched" in cells.get_title(loc="left")) == bool(hatched)
+
+
 def test_the_maximum_is_framed(figure):
     (frame,) = [patch for patch in figure.axes[1].patches if isinstance(patch, Rectangle)]
     assert frame.get_xy() == (0.5, -0.5)
@@ -78,13 +97,14 @@ PEAKS = pd.DataFrame(
         ("2nd", 1.1, 0.5, 0.0, 6, 0.2, 9e-3),
     ],
     columns=["casing", "E", "K", "theta", "order", "f_peak", "amplitude"],
-)
+).assign(**{f"{name}_{end}": np.nan for name in ("f_peak", "amplitude") for end in ("low", "high")})
 
 
 def test_amplitudes_of_one_order_are_drawn_in_mm(draws):
     table, figure = peak_histogram(PEAKS, "amplitude", order=4, unit=600e6)
-    assert list(table.columns) == ["casing", "E", "K", "theta", "order", "amplitude"]
-    pd.testing.assert_frame_equal(table, PEAKS[PEAKS.order == 4].drop(columns="f_peak"))
+    ends = ["amplitude_low", "amplitude_high"]
+    assert list(table.columns) == ["casing", "E", "K", "theta", "order", "amplitude", *ends]
+    pd.testing.assert_frame_equal(table, PEAKS.loc[PEAKS.order == 4, table.columns])
     bars, cells, _ = draws(figure).axes
     assert bars.get_title(loc="left") == "(a) $Y_4$ (mm)"
     assert [text.get_text() for text in cells.texts] == ["1.00", "3.00", "2.00", "–"]
@@ -92,7 +112,7 @@ def test_amplitudes_of_one_order_are_drawn_in_mm(draws):
 
 def test_speeds_of_one_order_stand_on_a_floor_below_the_lowest(draws):
     table, figure = peak_histogram(PEAKS, "f_peak", order=4, unit=600e6)
-    pd.testing.assert_frame_equal(table, PEAKS[PEAKS.order == 4].drop(columns="amplitude"))
+    pd.testing.assert_frame_equal(table, PEAKS.loc[PEAKS.order == 4, table.columns])
     bars, cells, _ = draws(figure).axes
     assert bars.get_zlim()[0] == pytest.approx(0.29)
     assert not [patch for patch in cells.patches if isinstance(patch, Rectangle)]

@@ -5,6 +5,7 @@ from bladerub.plots.spectrum import ORDERS, PeakSection, peak_sections, spectrum
 from bladerub.study.peaks import Peak
 
 RANGE = (5e-7, 5e-4)
+NO_BAND = (np.nan, np.nan)
 
 
 @pytest.fixture
@@ -52,14 +53,27 @@ def test_c1_is_the_frequency_of_the_blade(axes, coating_map):
 def sections(coating_map):
     on_order = coating_map.spectrum_amplitude[:, 8]
     return [
-        PeakSection(4, on_order, (0.25, 0.36), Peak(0.3, on_order[4])),
-        PeakSection(6, coating_map.spectrum_amplitude[:, 12], (0.16, 0.24), Peak(0.2, 1e-6)),
+        PeakSection(4, on_order, (0.25, 0.36), Peak(0.3, on_order[4]), (0.29, 0.31), (1e-5, 2e-5)),
+        PeakSection(
+            6, coating_map.spectrum_amplitude[:, 12], (0.16, 0.24), Peak(0.2, 1e-6), NO_BAND, NO_BAND
+        ),
     ]
 
 
 @pytest.fixture
 def peak_axes(coating_map, sections, draws):
     return draws(peak_sections(coating_map, sections, RANGE, f_max=2.5)).axes
+
+
+def test_a_peak_with_an_ensemble_has_error_bars(peak_axes):
+    bars = {line.get_label(): [] for line in peak_axes[1].lines if line.get_label().startswith("_band")}
+    for line in peak_axes[1].lines:
+        if line.get_label() in bars:
+            bars[line.get_label()].append(np.transpose(line.get_data()).tolist())
+    (across, along) = bars.pop("_band4")
+    assert not bars
+    np.testing.assert_allclose(across, [[0.01, 0.3], [0.02, 0.3]])
+    assert [f for _, f in along] == [0.29, 0.31]
 
 
 def test_curves_are_the_amplitudes_in_mm(peak_axes, sections):

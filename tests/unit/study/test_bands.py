@@ -1,0 +1,129 @@
+from dataclasses import replace
+
+import numpy as np
+import pandas as pd
+import pytest
+from scipy import stats
+
+from bladerub.io.tables import described_columns
+from bladerub.study import bands, divergence, findings, peak_table
+from bladerub.study.bands import band
+from bladerub.study.ensemble import Ensemble
+from bladerub.study.grid import CoatingCase
+
+CASE, OTHER = CoatingCase("2nd", 1.1, 0.5, 0.0), CoatingCase("2nd", 2.0, 0.5, 0.0)
+SPEEDS = [0.1, 0.15, 0.2, 0.22, 0.3, 0.35, 0.4]
+HEIGHTS = (4.5e-4, 6.5e-4, 5.5e-4)
+
+
+class TestBand:
+    @pytest.mark.parametrize("n", [3, 9])
+    def test_a_further_draw_falls_into_it_with_its_probability(self, n):
+        drawn = np.random.default_rng(7).normal(5.0, 2.0, (4000, n + 1))
+        found = [band(each[:n]) for each in drawn]
+        inside = [low <= further <= high for (_, low, high), further in zip(found, drawn[:, n], strict=True)]
+        assert np.mean(inside) == pytest.approx(bands.PROBABILITY, abs=0.015)
+
+    def test_the_closed_form(self):
+        t = stats.t(2).ppf(0.95)
+        assert band([1.0, 2.0, 6.0]) == pytest.approx(
+            (2.0, 3 - t * np.sqrt(7 * 4 / 3), 3 + t * np.sqrt(7 * 4 / 3))
+        )
+
+    def test_equal_draws_make_a_point(self):
+        assert tuple(band([0.2] * 9)) == pytest.approx((0.2, 0.2, 0.2), rel=1e-12)
+
+    def test_missing_draws_do_not_count(self):
+        assert band([1.0, np.nan, 2.0, np.inf, 6.0]) == band([1.0, 2.0, 6.0])
+        assert band([np.nan, 3.0])[0] == 3.0
+        assert np.isnan(band([np.nan, 3.0])[1:]).all()
+        assert np.isnan(band([])).all()
+
+
+@pytest.fixture
+def maps(make_map):
+    """Two coatings, the second without an ensemble."""
+    return [make_map(case, {4: (0.3, 2e-4), 6: (0.2, 5e-4)}, SPEEDS) for case in (CASE, OTHER)]
+
+
+@pytest.fixture
+def ensembles(make_map):
+    """Members of which f6 and Y6 vary; the second one grows at 0.2."""
+    members = []
+    for number, height in enumerate(HEIGHTS):
+        f_peak = 0.22 if number == 2 else 0.2
+        whole = make_map(CASE, {4: (0.3, 2e-4), 6: (f_peak, height)}, [0.15, 0.2, 0.22])
+        if number == 1:
+            whole.revolution_amplitude[1] *= 1.05 ** np.arange(20)
+            whole.lobes[1] = 4
+        members.append(replace(whole, wear_node=None))
+    return [Ensemble(np.zeros((3, 3)), tuple(members))]
+
+
+def test_the_study_is_the_first_draw(maps, ensembles):
+    first, *others = bands.draws(maps, ensembles)
+    assert first == maps
+    assert len(others) == 3
+    assert all(drawn[1] is maps[1] for drawn in others)
+
+
+def test_peaks_have_the_band_of_all_draws(config, maps, ensembles):
+    table = bands.of_peaks(config, maps, ensembles)
+    assert list(table.columns) == [*peak_table.table(config, maps).columns, *bands.PEAK_COLUMNS]
+    pd.testing.assert_frame_equal(table.iloc[:, :8], peak_table.table(config, maps))
+    of_six = table[(table.E == 1.1) & (table.order == 6)].iloc[0]
+    assert of_six.draws == 4
+    assert tuple(of_six[["amplitude_median", "amplitude_low", "amplitude_high"]]) == pytest.approx(
+        tuple(band([5e-4, *HEIGHTS]))
+    )
+    assert of_six.f_peak_median == 0.2
+    assert of_six.f_peak_high > 0.22
+    of_four = table[(table.E == 1.1) & (table.order == 4)].iloc[0]
+    assert of_four.amplitude_low == pytest.approx(of_four.amplitude_high) == pytest.approx(2e-4)
+    assert set(table.columns) <= described_columns().keys()
+
+
+def test_runs_with_an_ensemble_have_bands_and_others_none(config, maps, ensembles):
+    config["analysis"]["divergence"]["confirmation_revolutions"] = 0
+    table = bands.of_runs(config, maps, ensembles)
+    assert len(table) == 14
+    pd.testing.assert_frame_equal(table[divergence.COLUMNS], divergence.table(config, maps))
+    found = table.dropna(subset=["draws"]).set_index("f_omega")
+    assert list(found.index) == [0.15, 0.2, 0.22]
+    assert list(found.E.unique()) == [1.1]
+    assert list(found.divergent_draws) == [0, 0.25, 0]
+    assert (found.lobes_lowest[0.2], found.lobes_highest[0.2]) == (4, 6)
+    assert found.growth_rate_high[0.2] > 0.05 > 0.01 > found.growth_rate_median[0.2]
+    assert found.max_wear_median[0.2] == pytest.approx(
+        0.5 * np.median([5e-4, 4.5e-4, 6.5e-4, 1.1e-4]), rel=0.1
+    )
+    assert set(table.columns) <= described_columns().keys()
+
+
+def test_without_ensembles_the_columns_are_empty(config, maps):
+    for table, columns in (
+        (bands.of_peaks(config, maps, []), bands.PEAK_COLUMNS),
+        (bands.of_runs(config, maps, []), bands.RUN_COLUMNS),
+    ):
+        assert list(table.columns[-len(columns) :]) == columns
+    assert table[bands.RUN_COLUMNS].isna().all(axis=None)
+    judged = pd.DataFrame({"id": ["C4a"], "holds": ["yes"]})
+    found = bands.of_findings(config, judged, None, maps, [])
+    assert (found.draws[0], np.isnan(found.share_of_draws[0])) == (0, True)
+
+
+def test_a_verdict_has_the_share_of_draws_that_agree(config, maps, ensembles, monkeypatch):
+    heights = []
+
+    def judge(evidence):
+        heights.append(evidence.peak(CASE, 6, "amplitude"))
+        assert len(evidence.divergence) == 14
+        assert evidence.rom_accuracy == "accuracy"
+        return pd.DataFrame({"id": ["C9", "C1"], "holds": ["yes" if heights[-1] > 6e-4 else "no", "yes"]})
+
+    monkeypatch.setattr(findings, "judge", judge)
+    table = pd.DataFrame({"id": ["C1", "C9", "C10"], "holds": ["yes", "no", "yes"]})
+    found = bands.of_findings(config, table, "accuracy", maps, ensembles)
+    assert heights == pytest.approx(list(HEIGHTS))
+    assert list(found.share_of_draws) == pytest.approx([1, 2 / 3, 0])
+    assert list(found.draws) == [3, 3, 3]

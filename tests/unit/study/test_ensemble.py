@@ -1,0 +1,164 @@
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from bladerub.io.errors import DamagedFile
+from bladerub.study import ensemble, job
+from bladerub.study.findings.paper import WORN
+from bladerub.study.grid import CoatingCase, run_spec, speeds
+from bladerub.study.maps import write_map
+from bladerub.study.plan import coating_plan
+from bladerub.study.store import read_run
+
+CASE = CoatingCase("2nd", 1.1, 0.5, 0.0)
+SETTINGS = {"members": 8, "displacement": 1e-7, "seed": 1}
+
+
+@pytest.fixture
+def study(config):
+    """Seven speeds, peaks at 0.2 and 0.3, two members."""
+    config["speeds"] = {"start": 0.1, "stop": 0.4, "step": 0.05, "extra": []}
+    config["ensemble"] = SETTINGS | {"members": 2}
+    config["analysis"]["max_order"] = 24.0  # as `make_map`
+    return config
+
+
+@pytest.fixture
+def coating(study, make_map):
+    return make_map(CASE, {4: (0.3, 2e-4), 6: (0.2, 5e-4)}, speeds(study))
+
+
+@pytest.fixture
+def blade(blade):
+    return replace(blade, f_omega_max=0.5)
+
+
+@pytest.fixture
+def made(study, coating, blade, make_result, monkeypatch, tmp_path):
+    """Make the ensembles of the coating by a stand-in for the solver, whose runs are listed as specs."""
+    specs = []
+
+    def simulate(_, spec):
+        specs.append(spec)
+        grows = spec.f_omega == 0.2 and spec.initial_displacement > 0 and spec.revolutions == 20
+        height = 1e-3 + 1e3 * spec.initial_displacement
+        return make_result(spec.revolutions, amplitude=height, growth=0.04 if grows else 0.0)
+
+    monkeypatch.setattr(job, "simulate", simulate)
+
+    def make(report=lambda line: None):
+        return ensemble.make(study, coating, blade, "blade", tmp_path / "runs", tmp_path / "e.h5", report)
+
+    make.specs, make.path, make.runs = specs, tmp_path / "e.h5", tmp_path / "runs" / ensemble.FOLDER
+    return make
+
+
+class TestStarts:
+    def test_they_lie_within_the_displacement_on_both_sides(self):
+        drawn = np.concatenate([ensemble.starts(SETTINGS, CASE, f, 50) for f in (0.1, 0.2, 0.3)])
+        assert np.abs(drawn).max() <= 1e-7
+        assert np.quantile(drawn, 0.1) < -5e-8
+        assert np.quantile(drawn, 0.9) > 5e-8
+
+    def test_more_members_leave_the_others(self):
+        more = ensemble.starts(SETTINGS, CASE, 0.2, 64)
+        np.testing.assert_array_equal(ensemble.starts(SETTINGS, CASE, 0.2, 8), more[:8])
+
+    def test_every_run_and_seed_has_its_own(self):
+        drawn = {
+            tuple(ensemble.starts(SETTINGS | {"seed": seed}, case, f, 4))
+            for seed in (1, 2)
+            for case in (CASE, replace(CASE, theta=0.15))
+            for f in (0.2, 0.21)
+        }
+        assert len(drawn) == 8
+
+
+class TestChosen:
+    def test_peaks_and_their_neighbours_in_speed(self, study, coating):
+        np.testing.assert_array_equal(ensemble.chosen(study, coating), [0.15, 0.2, 0.25, 0.3, 0.35])
+
+    def test_the_lowest_and_the_highest_speed_have_one_neighbour(self, study, make_map):
+        study["analysis"]["peaks"] |= {"orders": [4], "speed_window": [0.1, 3.0]}
+        for peak, expected in ((0.1, [0.1, 0.15]), (0.4, [0.35, 0.4])):
+            at_end = make_map(CASE, {4: (peak, 2e-4)}, speeds(study))
+            np.testing.assert_array_equal(ensemble.chosen(study, at_end), expected)
+
+    def test_runs_whose_displacement_is_kept(self, study, coating):
+        study["analysis"]["histories"] = [{"casing": "2nd", "E": 1.1, "K": 0.5, "theta": 0.0, "f_omega": 0.1}]
+        assert 0.1 in ensemble.chosen(study, coating)
+        study["analysis"]["histories"][0]["theta"] = 0.15
+        assert 0.1 not in ensemble.chosen(study, coating)
+
+    def test_runs_of_the_claims_on_lobes(self, study, make_map):
+        f_omega = np.round(np.arange(0.02, 0.4001, 0.01), 6)
+        worn = make_map(WORN, {4: (0.3, 2e-4), 6: (0.2, 5e-4)}, f_omega)
+        away = sorted(set(np.round(f_omega, 2)) - set(np.round(ensemble.chosen(study, worn), 2)))
+        assert away == [0.13, 0.14, 0.15, 0.16, 0.17, 0.18, 0.22, 0.23, 0.35]
+
+
+class TestMake:
+    def test_a_member_is_the_study_s_run_from_another_start(self, made, study):
+        made()
+        spec = made.specs[0]
+        assert spec == replace(run_spec(study, CASE, 0.15), initial_displacement=spec.initial_displacement)
+        drawn = [spec.initial_displacement for spec in made.specs if spec.revolutions == 20]
+        assert np.abs(drawn).min() > 0
+        assert len(set(drawn)) == 10
+
+    def test_files_are_next_to_the_runs_with_their_keys(self, made, study):
+        rows = made()
+        assert [row.file for row in rows[:2]] == ["0.1500_1.h5", "0.2000_1.h5"]
+        keys = {read_run(made.runs / row.file).attributes["run_key"] for row in rows}
+        assert keys == {row.run_key for row in rows}
+        own = {run.key("blade") for run in coating_plan(study, CASE).runs}
+        assert not keys & own
+
+    def test_nothing_is_computed_twice_and_more_members_are_added(self, made, study):
+        made()
+        before = len(made.specs)
+        made()
+        assert len(made.specs) == before
+        study["ensemble"]["members"] = 3
+        (made.runs / "0.2500_2.h5").unlink()
+        made()
+        assert [spec.f_omega for spec in made.specs[before:] if spec.revolutions == 20] == [
+            *[0.25],
+            *[0.15, 0.2, 0.25, 0.3, 0.35],
+        ]
+
+    def test_a_member_that_grows_is_followed_further(self, made):
+        made()
+        longer = [spec.f_omega for spec in made.specs if spec.revolutions == 60]
+        growing = [s for s in made.specs if s.f_omega == 0.2 and s.initial_displacement > 0]
+        assert longer == [0.2] * (len(growing) // 2)
+
+    def test_what_is_written_is_read_again(self, made, study):
+        made()
+        read = ensemble.read(made.path)
+        starts = [ensemble.starts(study["ensemble"], CASE, f, 2) for f in (0.15, 0.2, 0.25, 0.3, 0.35)]
+        np.testing.assert_array_equal(read.start, np.transpose(starts))
+        assert [member.case for member in read.members] == [CASE, CASE]
+        np.testing.assert_allclose(read.members[1].f_omega, [0.15, 0.2, 0.25, 0.3, 0.35])
+        steady = [0, 2, 3, 4]
+        heights = read.members[1].spectrum_amplitude[steady, 60]
+        np.testing.assert_allclose(heights, 1e-3 + 1e3 * read.start[1, steady], rtol=1e-3)
+
+    def test_a_file_of_something_else_is_named(self, coating, tmp_path):
+        write_map(tmp_path / "map.h5", coating, {})
+        with pytest.raises(DamagedFile, match=r"map\.h5: no ensembles, 'start' is missing"):
+            ensemble.read(tmp_path / "map.h5")
+
+
+def test_a_draw_has_the_runs_of_one_member_and_the_study_s_elsewhere(made, coating):
+    made()
+    read = ensemble.read(made.path)
+    drawn = read.draw(coating, 1)
+    at = np.isin(coating.f_omega, read.members[1].f_omega)
+    for name in ("spectrum_amplitude", "wear", "lobes", "status", "max_wear", "revolution_amplitude"):
+        np.testing.assert_array_equal(getattr(drawn, name)[at], getattr(read.members[1], name))
+        np.testing.assert_array_equal(getattr(drawn, name)[~at], getattr(coating, name)[~at])
+    assert drawn.confirmation_amplitude.shape[0] == coating.f_omega.size
+    assert np.isnan(drawn.confirmation_amplitude[~at]).all()
+    np.testing.assert_array_equal(drawn.f_omega, coating.f_omega)
