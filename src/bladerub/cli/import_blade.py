@@ -1,6 +1,7 @@
 """``bladerub import``: check a blade from another program before its study."""
 
 import argparse
+import sys
 from dataclasses import asdict, replace
 from pathlib import Path
 from typing import Any
@@ -121,6 +122,9 @@ def _read_mesh(source: Source, config: dict[str, Any]) -> tuple[dict[str, Any], 
     from bladerub.blade.sources.report import mesh_report
 
     imported = importing.import_blade(source, config["blade"]["mesh"])
+    if sys.stderr.isatty():  # a fine mesh takes minutes
+        nodes, speeds = len(imported.blade.mesh.mesh.points), config["reduction"]["accuracy_speeds"]
+        print(f"bladerub import: reducing a mesh of {nodes} nodes at {speeds} speeds", file=sys.stderr)
     built = reduce_meshed(imported.blade, config)
     figures = mesh_report(source, imported, built, Material.from_config(config["blade"]["material"]))
     return figures, built.reduced

@@ -64,7 +64,7 @@ def test_figures_of_the_default_blade(look, folder):
     }
 
 
-def test_what_it_prints_is_a_config_of_the_blade(look, folder):
+def test_what_it_prints_is_a_config_of_the_blade(look, folder, monkeypatch):
     (folder / "steel.yaml").write_text("blade: {material: {density: 7800, poisson_ratio: 0.32}}\n")
     code, out, _ = look("--unit", "mm", "--config", str(folder / "steel.yaml"))
     assert code == 0
@@ -73,9 +73,11 @@ def test_what_it_prints_is_a_config_of_the_blade(look, folder):
     assert printed["blade"]["material"] == {"density": 7800}  # not the rest, which is the study's
     assert printed["reduction"] == {"accuracy_speeds": 3}
     (folder / "printed.yaml").write_text(out.split("are absolute\n")[1])
-    code, again, _ = look("--config", str(folder / "printed.yaml"))
+    monkeypatch.setattr("sys.stderr.isatty", lambda: True)
+    code, again, waiting = look("--config", str(folder / "printed.yaml"))
     assert code == 0
     assert again == out
+    assert "nodes at 5 speeds" in waiting
 
 
 def test_an_axis_may_begin_with_a_minus(look):
