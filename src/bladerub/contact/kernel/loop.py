@@ -102,31 +102,32 @@ class Rows(NamedTuple):
 
 @njit(forceinline=True)
 def _store_displacement(modal, tip, radial, tangential, tilted, u):
-    """Store a displacement of the tip and the approach of its nodes; return the largest of the profiles."""
+    """Store a displacement of the tip and the approach of its nodes; return this."""
     approach = normal_approach(tip, radial, tangential)
     store(u, 0, radial)
     store(u, LANES, tangential)
     store(u, 2 * LANES, approach)
     tilt.keep(modal.tilt, u, tilted)
-    return tilt.furthest(modal.tilt, tip, approach, tilted)
+    return approach
 
 
 @njit(forceinline=True)
-def _is_clear(tip, radial, tangential, approach, minimum_gap):
-    """Whether the tip surely touches nothing: its closest node is above the lowest surface in reach."""
-    return all_lanes(
+def _is_clear(modal, tip, radial, tangential, approach, tilted, minimum_gap):
+    """Whether the tip surely touches nothing: its closest profile is above the lowest surface in reach."""
+    clear = all_lanes(
         (approach <= minimum_gap) & (absolute(tangential) <= tip.search_range) & (radial > -tip.limit)
     )
+    if modal.tilt is not None and clear:  # most steps near the casing end before
+        clear = all_lanes(tilt.furthest(modal.tilt, tip, approach, tilted) <= minimum_gap)
+    return clear
 
 
 @njit(forceinline=True)
 def _stays_clear(modal, flight, tip, u, far, minimum_gap):
     """Whether a free flight in which no node approaches by more than `far` surely touches nothing."""
-    radial, tangential = load(u, 0), load(u, LANES)
-    approach = tilt.furthest(modal.tilt, tip, load(u, 2 * LANES), tilt.kept(modal.tilt, u))
-    return _is_clear(
-        tip, radial - far, absolute(tangential) + flight.sideways * far, approach + far, minimum_gap
-    )
+    radial, tangential, approach = load(u, 0) - far, load(u, LANES), load(u, 2 * LANES) + far
+    sideways = absolute(tangential) + flight.sideways * far
+    return _is_clear(modal, tip, radial, sideways, approach, tilt.kept(modal.tilt, u), minimum_gap)
 
 
 @njit(forceinline=True)
@@ -223,7 +224,7 @@ def _integrate(modal, flight, stator, tip, state, steps_per_element, first, last
                 approach = _store_displacement(modal, tip, radial, tangential, tilted, u_next)
                 damping = damping + loss
                 step += 1
-                is_clear = _is_clear(tip, radial, tangential, approach, minimum_gap)
+                is_clear = _is_clear(modal, tip, radial, tangential, approach, tilted, minimum_gap)
                 if touched or not is_clear:
                     now = Step(touched, element + step * per_step, per_step, angle)
                     rows = Rows(q, q_next, u_before, u, u_next)

@@ -157,7 +157,7 @@ def displaced(rows, response, force, radial, tangential, tilted):
     Couples have a part in it where the profile turns, where `rows` is ``modal.tilt`` and not None.
     """
     width = ROWS if rows is None else ROWS + LANES
-    more_radial, more_tangential = broadcast(0.0), broadcast(0.0)  # two sums at the same time
+    more_radial = more_tangential = more_tilted = broadcast(0.0)  # two sums at the same time
     for i in range(0, width, 2):
         by, by_next = read(force, i), read(force, i + 1)
         radial = radial + load(response, width * i) * by
@@ -166,5 +166,5 @@ def displaced(rows, response, force, radial, tangential, tilted):
         more_tangential = more_tangential + load(response, width * (i + 1) + LANES) * by_next
         if rows is not None:
             tilted = tilted + load(response, width * i + ROWS) * by
-            tilted = tilted + load(response, width * (i + 1) + ROWS) * by_next
-    return radial + more_radial, tangential + more_tangential, tilted
+            more_tilted = more_tilted + load(response, width * (i + 1) + ROWS) * by_next
+    return radial + more_radial, tangential + more_tangential, tilted + more_tilted
