@@ -68,7 +68,7 @@ rule config_reference:
         "../scripts/config_reference.py"
 
 
-# Without an output: both render README.md and the pages of docs/explanation in place, whenever they are asked for.
+# Without an output: they render the pages in place, whenever they are asked for.
 rule docs_data:
     input:
         [f"{TABLES}/{name}.csv" for name in bladerub.workflow.pages.TABLES],
@@ -76,6 +76,53 @@ rule docs_data:
         f"{RESULTS}/logs/docs_data.log",
     script:
         "../scripts/docs_data.py"
+
+
+use rule docs_data as docs_cost with:
+    input:
+        rules.cost.output.table,
+    log:
+        f"{RESULTS}/logs/docs_cost.log",
+
+
+use rule docs_data as docs_friction with:
+    input:
+        rules.friction.output.table,
+    log:
+        f"{RESULTS}/logs/docs_friction.log",
+
+
+use rule docs_data as docs_sweeps with:
+    input:
+        rules.sweeps.output.table,
+        rules.long_runs.output.table,
+    log:
+        f"{RESULTS}/logs/docs_sweeps.log",
+
+
+use rule docs_data as docs_calibration with:
+    input:
+        rules.calibration.output.table,
+    log:
+        f"{RESULTS}/logs/docs_calibration.log",
+
+
+use rule docs_data as docs_chart with:
+    input:
+        rules.chart_table.output.table,
+        rules.chart_ridge.output.summary,
+        rules.chart_stiffening.output.table,
+        rules.chart_placement.output.summary,
+    log:
+        f"{RESULTS}/logs/docs_chart.log",
+
+
+use rule docs_data as docs_robustness with:
+    input:
+        rules.robustness.output.table,
+        rules.robustness.output.indices,
+    log:
+        f"{RESULTS}/logs/docs_robustness.log",
 
 
 rule docs_pages:

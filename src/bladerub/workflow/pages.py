@@ -14,11 +14,12 @@ from pathlib import Path
 from typing import Any
 
 import pandas as pd
-from jinja2 import Environment, StrictUndefined, TemplateError
+from jinja2 import Environment, StrictUndefined, TemplateError, meta
 
 from bladerub.io import tables
 
 TABLES = ("findings", "margins", "peaks", "divergence", "rom_accuracy", "campbell")
+"""Tables of the study that pages quote; other targets have more."""
 MARK = re.compile(r"<!-- (?:= (?P<source>.+?)|(?P<end>/)) -->")
 VERDICT = re.compile(r"<!-- (?P<claims>C\d+[a-z]?(?: C\d+[a-z]?)*): (?P<verdict>yes|partly|no) -->")
 
@@ -56,13 +57,17 @@ class Table:
 
 
 def read_tables(folder: Path) -> dict[str, Table]:
-    """Read the snapshots that pages quote."""
-    return {name: Table(name, tables.read(folder / f"{name}.csv")) for name in TABLES}
+    """Read the snapshots in `folder`."""
+    return {path.stem: Table(path.stem, tables.read(path)) for path in folder.glob("*.csv")}
 
 
 def pages_of(root: Path) -> list[Path]:
-    """Return the pages of the repository at `root` that may quote numbers."""
-    return [root / "README.md", *sorted((root / "docs" / "explanation").glob("*.md"))]
+    """Return the pages of the repository at `root` that may quote numbers: those written by hand."""
+    folders = ("explanation", "how-to", "reference", "tutorials")
+    return [
+        root / "README.md",
+        *(page for name in folders for page in sorted((root / "docs" / name).glob("*.md"))),
+    ]
 
 
 def render(text: str, page: str, data: Mapping[str, Table]) -> str:
@@ -109,6 +114,9 @@ def differences(text: str, page: str, data: Mapping[str, Table]) -> list[str]:
 
 def _value(environment: Environment, source: str, data: Mapping[str, Table], where: str) -> str:
     try:
+        names = meta.find_undeclared_variables(environment.parse(f"{{{{ {source} }}}}"))
+        if missing := names - {*data, *environment.globals}:
+            raise LookupError(f"docs/data has no {', '.join(sorted(missing))}.csv")
         evaluate = environment.compile_expression(source, undefined_to_none=False)
         return str(evaluate(**data))
     except (TemplateError, LookupError, TypeError, ValueError) as error:

@@ -4,6 +4,7 @@ import re
 import shutil
 from pathlib import Path
 
+import pandas as pd
 import pytest
 
 from bladerub.workflow import pages
@@ -13,7 +14,10 @@ SNAPSHOTS = ROOT / "docs" / "data"
 
 
 def stale_places(folder):
-    data = pages.read_tables(folder)
+    return differences(pages.read_tables(folder))
+
+
+def differences(data):
     return [
         difference
         for page in pages.pages_of(ROOT)
@@ -21,6 +25,15 @@ def stale_places(folder):
             page.read_text(encoding="utf-8"), str(page.relative_to(ROOT)), data
         )
     ]
+
+
+def places_after_change(table, key, column, value):
+    data = pages.read_tables(SNAPSHOTS)
+    rows = data[table].rows
+    chosen = (rows[list(key)] == pd.Series(key)).all(axis="columns")
+    assert chosen.sum() == 1
+    rows.loc[chosen, column] = value
+    return sorted(set(map(place, differences(data))))
 
 
 def changed_snapshots(folder, old, new):
@@ -55,9 +68,26 @@ def test_a_changed_value_names_the_lines_that_quote_it(tmp_path):
     assert [place(one) for one in stale] == places_with("findings('C1a')")
     assert {page.split(":")[0] for page in map(place, stale)} == {
         "README.md",
+        "docs/explanation/blade.md",
         "docs/explanation/paper_vs_ours.md",
+        "docs/explanation/validation.md",
     }
     assert all("0.42" in one for one in stale)
+
+
+@pytest.mark.parametrize(
+    ("table", "key", "column", "value", "mark"),
+    [
+        ("rom_accuracy", {"f_omega": 0.35, "mode": 2}, "f_fe_eq2", 1.0, "rom_accuracy(0.35,2)"),
+        ("campbell", {"f_omega": 0.4, "mode": 1}, "f_fe", 1.0, "campbell(0.4"),
+        ("margins", {"variation": "speed step 0.004", "id": "C6a"}, "holds", "?", "0.004','C6a'"),
+        ("peaks", {"E": 0.11, "K": 0.05, "order": 4}, "amplitude", 0.1, "peaks('2nd',0.11,0.05,0,4)"),
+    ],
+)
+def test_a_changed_value_of_any_snapshot_names_the_lines_that_quote_it(table, key, column, value, mark):
+    places = places_after_change(table, key, column, value)
+    assert places
+    assert set(places_with(mark)) <= set(places) <= set(places_with(table))
 
 
 def test_a_changed_verdict_names_the_sentences_written_for_the_old_one(tmp_path):

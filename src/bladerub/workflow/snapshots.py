@@ -1,0 +1,39 @@
+"""Snapshots of tables for the pages, small enough for the repository."""
+
+from pathlib import Path
+
+from bladerub.io import tables
+
+COUNTED = {
+    "divergence": ["casing", "E", "K", "theta", "law", "revolutions", "status", "divergent", "saturating"],
+    "long_runs": ["law", "why", "revolutions", "verdict"],
+}
+"""Tables of a row a run, which become counts (``runs``) of the runs with equal values in these columns."""
+_RUN = ("casing", "E", "K", "theta")
+KEPT = {
+    "calibration": ("set", "id", "measured", "holds"),
+    "chart": (*_RUN, "Y4", "f4", "Y6", "f6", "runs"),
+    "friction": (
+        *(*_RUN, "f_omega", "difference", "reversed_theta", "reversed_coulomb", "slowest_sliding"),
+        *("status_theta", "status_coulomb"),
+    ),
+    "sweeps": (
+        *(*_RUN, "law", "direction", "rate", "order", "f_peak", "amplitude", "f_peak_constant"),
+        *("amplitude_constant", "ratio", "survives", "status", "f_end"),
+    ),
+}
+"""Tables of which pages need these columns only, to four digits."""
+
+
+def take(source: Path, target: Path) -> None:
+    """Take the table at `source` as the snapshot `target`: as `COUNTED` or `KEPT` say, others whole."""
+    name = source.stem
+    if name not in COUNTED | KEPT:
+        tables.copy(source, target)
+        return
+    table, origin = tables.read(source), tables.read_origin(source)
+    if name in COUNTED:
+        counted = table.groupby(COUNTED[name], as_index=False).size()
+        tables.write(target, counted.rename(columns={"size": "runs"}), origin)
+    else:
+        tables.write(target, table[[*KEPT[name]]], origin, float_format="%.4g")
