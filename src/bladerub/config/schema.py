@@ -134,7 +134,10 @@ def _describe(error: jsonschema.ValidationError) -> list[str]:
         ]
     if error.validator == "required":
         missing = [key for key in rule["required"] if key not in error.instance]
-        return [f"{key_path([*parts, key])}: missing, {_right(rule['properties'][key])}" for key in missing]
+        new = "" if parts else " (a config of an older version? `bladerub new` writes one that has it)"
+        return [
+            f"{key_path([*parts, key])}: missing, {_right(rule['properties'][key])}{new}" for key in missing
+        ]
     if "propertyNames" in error.absolute_schema_path:
         return [f"{key_path([*parts, error.instance])}: {_right(rule)}"]
     if error.validator == "uniqueItems":

@@ -186,6 +186,12 @@ def test_results_stay_below_the_repository(config, name):
             [],
             "analysis.peaks.orders = []: list of engine orders must be a list of 1 to 1000 entries",
         ),
+        (
+            "chart",
+            None,
+            "chart: missing, chart of coatings must be a group of keys "
+            "(a config of an older version? `bladerub new` writes one that has it)",
+        ),
         ("casings", {}, "casings = {}: casings must be a group of keys with 1 to 100 of them"),
         (
             "analysis.peaks.orders",
