@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from bladerub.api.blade import Blade, build_blade, read_blade
+    from bladerub.api.ensemble import Ensemble, simulate_ensemble
     from bladerub.api.errors import InputError
     from bladerub.api.map import Map, read_map, simulate_speeds
     from bladerub.api.run import Run, read_run, simulate
@@ -21,6 +22,7 @@ __version__ = "0.1.0"
 
 _MODULES = {
     "api.blade": ("Blade", "build_blade", "read_blade"),
+    "api.ensemble": ("Ensemble", "simulate_ensemble"),
     "api.errors": ("InputError",),
     "api.map": ("Map", "read_map", "simulate_speeds"),
     "api.run": ("Run", "read_run", "simulate"),
@@ -32,6 +34,7 @@ _HOME = {name: f"bladerub.{module}" for module, names in _MODULES.items() for na
 __all__ = [
     "Blade",
     "ConfigError",
+    "Ensemble",
     "InputError",
     "Map",
     "Run",
@@ -46,6 +49,7 @@ __all__ = [
     "read_map",
     "read_run",
     "simulate",
+    "simulate_ensemble",
     "simulate_speeds",
 ]
 

@@ -246,8 +246,8 @@ use rule spectrum as fig16_spectrum_theta015 with:
 rule fig10_peaks:
     input:
         map=map_of(SOFT),
-        peaks=rules.peaks.output[0],
-        analysing=files_behind("study.peaks"),
+        ensembles=expand(rules.ensemble.output, coating=SOFT.name) if ENSEMBLES else [],
+        analysing=files_behind("study.bands"),
         drawing=rules.spectrum.input.drawing,
     output:
         **drawn("fig10_peaks", "Wear and spectra", with_data=True),

@@ -2,17 +2,17 @@
 
 import pandas as pd
 
-from bladerub.io import tables
 from bladerub.plots.spectrum import PeakSection, peak_sections
+from bladerub.study import bands, ensemble
 from bladerub.study.maps import read_map
 from bladerub.study.peaks import order_amplitude, peak, speed_window
-from bladerub.study.variants import of_case
 from bladerub.workflow import job, outputs
 
 job.log_to(snakemake.log[0])
 
 coating, settings = read_map(snakemake.input.map), snakemake.params.peaks
-peaks = of_case(tables.read(snakemake.input.peaks), coating.case).set_index("order")
+ensembles = [ensemble.read(path) for path in snakemake.input.ensembles]
+peaks = bands.of_peaks(snakemake.config, [coating], ensembles).set_index("order")
 sections = [
     PeakSection(
         order,

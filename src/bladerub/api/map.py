@@ -198,7 +198,7 @@ def simulate_speeds(
         raise InputError("speeds", [run.f_omega for run in runs], "must be at least two")
     blade.check_speed("speeds", runs[-1].f_omega)
     with tqdm(total=len(runs), unit="run", disable=not progress, leave=False) as bar:
-        found = _solve_all(blade, runs, jobs, follow, bar.update)
+        found = solve_all(blade, runs, jobs, follow, bar.update)
     stored, longer = [run.stored for run in found], [run.longer and run.longer.stored for run in found]
     at = [run.f_omega for run in runs]
     prominence = coating.config["analysis"]["lobe_prominence"]
@@ -206,9 +206,10 @@ def simulate_speeds(
 
 
 @threadpool_limits.wrap(limits=1, user_api="blas")  # threads that come and go would change each other's limit
-def _solve_all(
+def solve_all(
     blade: Blade, runs: list[StudyRun], jobs: int, follow: bool, done: Callable[[], Any]
 ) -> list[Run]:
+    """Simulate `runs`, `jobs` at once, without their histories; `done` is called after each."""
     compile_kernel()
 
     def compute(run: StudyRun) -> Run:

@@ -1,7 +1,7 @@
 """A study: its config, and the coatings and runs that can be asked of it."""
 
 from collections.abc import Collection, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from difflib import get_close_matches
 from pathlib import Path
 from typing import Any
@@ -55,7 +55,9 @@ class StudyRun:
     def of_length(self, length: float) -> "StudyRun":
         """Describe the same run of a blade of this `length` (m): clearances and limits are in this unit."""
         config = {**self.config, "blade": {**self.config["blade"], "length": length}}
-        return StudyRun(config, self.case, grid.run_spec(config, self.case, self.f_omega))
+        spec = grid.run_spec(config, self.case, self.f_omega)
+        start = self.spec.initial_displacement
+        return StudyRun(config, self.case, replace(spec, initial_displacement=start))
 
     @property
     def name(self) -> str:

@@ -12,6 +12,7 @@ from bladerub.cli import inputs
 from bladerub.cli.inputs import InputError, refused
 
 if TYPE_CHECKING:  # as in `inputs`
+    from bladerub.api.blade import Blade
     from bladerub.api.run import Run
     from bladerub.api.study import Study, StudyCoating, StudyRun
 
@@ -47,6 +48,8 @@ def add_to(commands: Any) -> None:
     parser.option("--interference", "instead of that of the casing, m", float, metavar="D")
     parser.option("--f", "speed (normalised)", float, required=True, metavar="F_OMEGA")
     parser.option("--revolutions", "instead of solver.revolutions, at least 2", int, metavar="N")
+    text = "run it again from so many other starts, as the study does, and show the bands"
+    parser.option("--ensemble", text, int, metavar="N")
     parser.option("--output", "write the run with its whole history (HDF5)", Path, metavar="FILE")
 
 
@@ -54,6 +57,8 @@ def run(options: argparse.Namespace) -> None:
     """Run the simulation that the command line asks for, and print its summary."""
     config = inputs.read_config(options)
     _check_coating(options)
+    if options.ensemble is not None and options.ensemble < 1:
+        raise InputError(f"--ensemble = {options.ensemble}: must be at least 1")
 
     from bladerub.api.run import counted, simulate
     from bladerub.api.study import Study
@@ -78,7 +83,22 @@ def run(options: argparse.Namespace) -> None:
     if options.output:
         with refused(OSError, because=f"--output {options.output}: cannot be written: "):
             result.write(options.output, config)
-    inputs.show(options, _figures(planned, result, seconds), _in_words)
+    figures = _figures(planned, result, seconds)
+    if options.ensemble is not None:
+        figures["ensemble"] = _ensemble(options, planned, blade)
+    inputs.show(options, figures, _in_words)
+
+
+def _ensemble(options: argparse.Namespace, planned: "StudyRun", blade: "Blade") -> dict[str, Any]:
+    from bladerub.api.ensemble import simulate_ensemble
+
+    ensemble = simulate_ensemble(blade, planned, options.ensemble, progress=sys.stderr.isatty())
+    bands = ensemble.bands()
+    return {
+        "runs": len(ensemble.runs),
+        "divergent_draws": float(ensemble.to_pandas().divergent.mean()),
+        **bands.astype(object).where(bands.notna(), None).to_dict("index"),
+    }
 
 
 def _check_coating(options: argparse.Namespace) -> None:
@@ -179,7 +199,29 @@ def _in_words(figures: dict[str, Any]) -> str:
         "steps": figures["n_steps"],
         "steps per second": f"{figures['steps_per_second']:.3g}",
     }
-    return "\n".join(inputs.aligned(rows.items()))
+    lines = inputs.aligned(rows.items())
+    if "ensemble" in figures:
+        lines += ["", *_bands_in_words(figures["ensemble"])]
+    return "\n".join(lines)
+
+
+def _bands_in_words(ensemble: dict[str, Any]) -> list[str]:
+    def between(band: dict[str, float | None], factor: float, unit: str) -> str:
+        if band["low"] is None:
+            return "not measurable"
+        median, low, high = (f"{factor * band[end]:.4g}" for end in ("median", "low", "high"))
+        return f"{median} {unit}({low} to {high})".replace("  ", " ")
+
+    rows = {
+        "ensemble": f"{ensemble['runs']} runs: median, and the interval of 90 % of further starts",
+        "peak displacement": between(ensemble["peak_amplitude"], 1e3, "mm "),
+        "spectral peak": between(ensemble["spectral_peak"], 1e3, "mm "),
+        "maximum wear": between(ensemble["max_wear"], 1e3, "mm "),
+        "lobes": between(ensemble["lobes"], 1, ""),
+        "growth": between(ensemble["growth_per_revolution"], 100, "% a revolution "),
+        "divergent": f"{100 * ensemble['divergent_draws']:.0f} % of the runs",
+    }
+    return inputs.aligned(rows.items())
 
 
 def _harmonic_in_words(figures: dict[str, Any]) -> str:

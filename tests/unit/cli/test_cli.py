@@ -142,6 +142,22 @@ def test_run_in_words(small, blade_file, capsys):
     ]
 
 
+def test_an_ensemble_shows_its_bands(small, blade_file, capsys):
+    assert main([*RUN, *small, "--revolutions", "2", "--ensemble", "2", "--json"]) == 0
+    figures = json.loads(capsys.readouterr().out)
+    bands = figures["ensemble"]
+    assert bands["runs"] == 3
+    assert bands["max_wear"]["low"] <= bands["max_wear"]["median"] <= bands["max_wear"]["high"]
+    assert bands["peak_amplitude"]["median"] == pytest.approx(figures["peak_amplitude"], rel=0.1)
+    assert main([*RUN, *small, "--revolutions", "2", "--ensemble", "2"]) == 0
+    assert "3 runs" in capsys.readouterr().out
+
+
+def test_an_ensemble_without_members_is_refused(small, blade_file, capsys):
+    assert main([*RUN, *small, "--ensemble", "0"]) == 2
+    assert "--ensemble = 0: must be at least 1" in capsys.readouterr().err
+
+
 @pytest.mark.parametrize(("friction", "options"), [(0.0, []), (0.15, ["--friction", "0.15"])])
 def test_run_on_the_rigid_casing_wears_nothing(small, blade_file, folder, capsys, friction, options):
     path = folder / "rigid.h5"

@@ -1,0 +1,133 @@
+"""An ensemble: one run from many starts."""
+
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+import pandas as pd
+from tqdm.auto import tqdm
+
+from bladerub.api.blade import Blade
+from bladerub.api.errors import InputError
+from bladerub.api.map import solve_all
+from bladerub.api.notebook import html_table
+from bladerub.api.run import Run
+from bladerub.api.study import StudyRun
+from bladerub.study.bands import band
+from bladerub.study.ensemble import starts
+
+_BANDED = ("peak_amplitude", "spectral_peak", "max_wear", "lobes", "wear_harmonic", "growth_per_revolution")
+
+
+@dataclass(frozen=True)
+class Ensemble:
+    """One run and its repetitions from other starts, from `simulate_ensemble`.
+
+    Parameters
+    ----------
+    planned : StudyRun
+        The run.
+    start : ndarray
+        Radial displacement of node 1 at the start of each run (n,), m: 0 of the first.
+    runs : tuple of Run
+        The runs (n,), the study's own first.
+
+    Examples
+    --------
+    >>> planned = study.run("2nd", E=2, K=0.5, f_omega=0.19)
+    >>> ensemble = br.simulate_ensemble(blade, planned, members=2, progress=False)
+    >>> len(ensemble.runs), float(ensemble.start[0])
+    (3, 0.0)
+    >>> list(ensemble.to_pandas().status)
+    ['completed', 'completed', 'completed']
+    >>> list(ensemble.bands().columns)
+    ['median', 'low', 'high']
+    """
+
+    planned: StudyRun = field(repr=False)
+    start: np.ndarray = field(repr=False)
+    runs: tuple[Run, ...] = field(repr=False)
+
+    def to_pandas(self) -> pd.DataFrame:
+        """Return a row for each run: ``start`` (m), and the keys of `Run.summary`.
+
+        ``spectral_peak`` (m) is the largest amplitude of the spectrum above order 0.5.
+        """
+        rows = [
+            {
+                "start": start,
+                "spectral_peak": run.spectrum.loc[0.5:].max(),
+                **run.summary(self.planned.config),
+            }
+            for start, run in zip(self.start, self.runs, strict=True)
+        ]
+        return pd.DataFrame(rows)
+
+    def bands(self) -> pd.DataFrame:
+        """Return a row for each quantity: median, and ``low`` to ``high``, the 90 % band.
+
+        A further start falls between these with that probability (`bladerub.study.bands`). The quantities are
+        ``peak_amplitude``, ``spectral_peak``, ``max_wear`` (m), ``lobes``, ``wear_harmonic`` and
+        ``growth_per_revolution``.
+        """
+        table = self.to_pandas()
+        return pd.DataFrame({name: band(table[name])._asdict() for name in _BANDED}).T
+
+    def _repr_html_(self) -> str:
+        rows = {name: f"{low:.4g} to {high:.4g}" for name, (_, low, high) in self.bands().iterrows()}
+        return html_table(f"Ensemble of {len(self.runs)} runs", rows)
+
+
+def simulate_ensemble(
+    blade: Blade,
+    run: StudyRun,
+    members: int = 8,
+    *,
+    jobs: int = 1,
+    follow: bool = True,
+    progress: bool = True,
+) -> Ensemble:
+    """Simulate one run, and again from `members` other starts within ``ensemble.displacement``.
+
+    A chaotic run amplifies so small a difference until it is one draw of many; other runs stay as they are.
+
+    Parameters
+    ----------
+    blade : Blade
+        The blade.
+    run : StudyRun
+        The run, from `Study.run` or `StudyCoating.at`.
+    members : int
+        Further starts, at least one: the first of them are those of the study.
+    jobs : int
+        Runs at once.
+    follow, progress : bool
+        As of `simulate`.
+
+    Returns
+    -------
+    Ensemble
+        The run itself and its members.
+
+    Raises
+    ------
+    InputError
+        If the speed is outside the range of the blade, or there are no members.
+
+    Examples
+    --------
+    >>> import bladerub as br
+    >>> planned = study.run("2nd", E=2, K=0.5, f_omega=0.19)
+    >>> ensemble = br.simulate_ensemble(blade, planned, members=2, jobs=2, progress=False)
+    >>> ensemble.runs[1].attributes["run_key"] == ensemble.runs[0].attributes["run_key"]
+    False
+    """
+    if members < 1:
+        raise InputError("members", members, "must be at least 1")
+    blade.check_speed("f_omega", run.f_omega)
+    start = np.append(0.0, starts(run.config["ensemble"], run.case, run.f_omega, members))
+    runs = [
+        replace(run, spec=replace(run.spec, initial_displacement=displacement))
+        for displacement in start.tolist()
+    ]
+    with tqdm(total=len(runs), unit="run", disable=not progress, leave=False) as bar:
+        return Ensemble(run, start, tuple(solve_all(blade, runs, jobs, follow, bar.update)))
