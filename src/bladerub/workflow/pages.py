@@ -5,6 +5,7 @@ A number stands between two comments, the first of which holds its source:
 them: ``<!-- C6a C6c: partly -->``. Both are invisible on the rendered page. An expression is of Jinja. A
 table is called with the values of its first columns and answers with the one row that has them; its `column`
 lists a column for the filters ``sum``, ``max`` and ``min``, over the rows that have the values it is given.
+Its `rows` are the table as pandas has it, for what these cannot say.
 A pipe in a row of a Markdown table is written ``\|``, since it would end the cell.
 """
 
