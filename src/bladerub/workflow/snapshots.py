@@ -17,10 +17,6 @@ KEPT = {
         *(*_RUN, "f_omega", "difference", "reversed_theta", "reversed_coulomb", "slowest_sliding"),
         *("status_theta", "status_coulomb"),
     ),
-    "sweeps": (
-        *(*_RUN, "law", "direction", "rate", "order", "f_peak", "amplitude", "f_peak_constant"),
-        *("amplitude_constant", "ratio", "survives", "status", "f_end"),
-    ),
 }
 """Tables of which pages need these columns only, to four digits."""
 

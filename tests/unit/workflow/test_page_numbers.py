@@ -81,6 +81,13 @@ def test_a_changed_value_names_the_lines_that_quote_it(tmp_path):
         ("rom_accuracy", {"f_omega": 0.35, "mode": 2}, "f_fe_eq2", 1.0, "rom_accuracy(0.35,2)"),
         ("campbell", {"f_omega": 0.4, "mode": 1}, "f_fe", 1.0, "campbell(0.4"),
         ("margins", {"variation": "speed step 0.004", "id": "C6a"}, "holds", "?", "0.004','C6a'"),
+        (
+            "sweeps",
+            {"E": 0.11, "direction": "up", "rate": 0.01, "order": 4},
+            "ratio",
+            9.0,
+            "sweeps('2nd',0.11,0.5,0,'up',0.01,4).ratio",
+        ),
         ("peaks", {"E": 0.11, "K": 0.05, "order": 4}, "amplitude", 0.1, "peaks('2nd',0.11,0.05,0,4)"),
     ],
 )
