@@ -351,7 +351,7 @@ COMMANDS: dict[str, str] = {
     f"{_RUN} --blade endless.h5": "endless.h5: not a reduced blade, mass has the shape (200000, 200000)",
     f"{_RUN} --blade group.h5": "group.h5: not a reduced blade, mass has the shape None",
     f"{_RUN} --f 0.45 --blade sound.h5": "--f = 0.45: must be at most 0.4 (normalised), the highest speed of",
-    f"{_VERIFY} --sample 0": "--sample = 0: must be from 1 to 12096, the number of runs of this study",
+    f"{_VERIFY} --sample 0": "--sample = 0: must be from 1 to 12096, the number of runs to draw from",
     f"{_VERIFY} --sample {10**30}": f"--sample = {10**30}: must be from 1 to 12096",
     f"{_VERIFY} --sample 1.5": "argument --sample: invalid int value: '1.5'",
     f"{_VERIFY} --seed -1": "--seed = -1: must be from 0 to ",

@@ -30,6 +30,8 @@ def add_to(commands: Any) -> None:
     )
     parser.option("--sample", "how many runs", int, required=True, metavar="N")
     parser.option("--seed", "decides which; 0 or more", int, required=True, metavar="S")
+    text = "draw from the runs that tables and claims rest on, such as the peaks, by the maps"
+    parser.add_argument("--peaks", action="store_true", help=text)
     text = "runs at once (default 1); they slow each other down, so that costs are less exact with more"
     parser.option("--jobs", text, int, default=1, metavar="J")
 
@@ -40,10 +42,12 @@ def verify(options: argparse.Namespace) -> None:
     inputs.require(options, seed=(0, 2**63), jobs=(1, 1000))
 
     from bladerub.verification.report import report
-    from bladerub.verification.verify import draw, study_runs, verify_runs
+    from bladerub.verification.verify import draw, important_runs, study_runs, verify_runs
 
+    maps = inputs.study_folder() / config["results"] / "maps"
+    runs = important_runs(config, maps) if options.peaks else study_runs(config)
     with refused(ValueError, because=f"--sample = {options.sample}: "):
-        runs = draw(study_runs(config), options.sample, options.seed)
+        runs = draw(runs, options.sample, options.seed)
     blade = inputs.read_blade(options, config)
     fastest = max(run.f_omega for run in runs)
     if fastest > blade.reduced.f_omega_max:

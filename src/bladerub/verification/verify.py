@@ -18,6 +18,7 @@ import time
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
+from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -28,7 +29,9 @@ from bladerub.contact.result import RunResult
 from bladerub.contact.run import simulate
 from bladerub.contact.setup import compile_kernel
 from bladerub.contact.spec import RunSpec
+from bladerub.study.ensemble import chosen
 from bladerub.study.grid import CoatingCase, coating_cases, run_spec, speed_name, speeds
+from bladerub.study.maps import read_map
 from bladerub.verification.differences import Differences, differences, largest
 
 TOLERANCE = 0.01
@@ -99,10 +102,22 @@ def study_runs(config: Mapping[str, Any]) -> list[StudyRun]:
     return [StudyRun(case, f_omega) for case in coating_cases(config) for f_omega in speeds(config)]
 
 
+def important_runs(config: Mapping[str, Any], maps: Path) -> list[StudyRun]:
+    """List the runs that tables and claims rest on (`bladerub.study.ensemble.chosen`), by the folder of maps.
+
+    Raises as `bladerub.study.maps.read_map`.
+    """
+    return [
+        StudyRun(case, float(f_omega))
+        for case in coating_cases(config)
+        for f_omega in chosen(config, read_map(maps / f"{case.name}.h5"))
+    ]
+
+
 def draw(runs: Sequence[StudyRun], sample: int, seed: int) -> list[StudyRun]:
     """Draw `sample` distinct runs, all equally likely; raises `ValueError` if there are fewer."""
     if not 1 <= sample <= len(runs):
-        raise ValueError(f"must be from 1 to {len(runs)}, the number of runs of this study")
+        raise ValueError(f"must be from 1 to {len(runs)}, the number of runs to draw from")
     drawn = np.random.default_rng(seed).choice(len(runs), size=sample, replace=False)
     return [runs[index] for index in drawn]
 

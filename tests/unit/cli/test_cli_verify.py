@@ -114,11 +114,12 @@ def test_progress_bar_on_a_terminal(verify, monkeypatch):
     [
         (
             ["--sample", "7", "--seed", "1"],
-            "--sample = 7: must be from 1 to 6, the number of runs of this study",
+            "--sample = 7: must be from 1 to 6, the number of runs to draw from",
         ),
         (["--sample", "0", "--seed", "1"], "--sample = 0: must be from 1 to 6"),
         (["--sample", "1", "--seed", "-1"], "--seed = -1: must be from 0 to "),
         (["--sample", "1", "--seed", "1", "--jobs", "0"], "--jobs = 0: must be from 1 to 1000"),
+        (["--sample", "1", "--seed", "1", "--peaks"], "2nd_E2_K0.5_theta0.15.h5: No such file or directory"),
         (["--sample", "1"], "the following arguments are required: --seed"),
         (["--sample", "1", "--seed", "1", "--blade", "no.h5"], "no.h5: No such file or directory"),
         (["--sample", "1", "--seed", "1", "--config", "no.yaml"], "no.yaml: cannot be read"),

@@ -5,6 +5,8 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from bladerub.study.grid import CoatingCase, speeds
+from bladerub.study.maps import write_map
 from bladerub.verification import verify
 from bladerub.verification.differences import Differences
 from bladerub.verification.verify import (
@@ -12,6 +14,7 @@ from bladerub.verification.verify import (
     StudyRun,
     VerifiedRun,
     draw,
+    important_runs,
     speedup_at_equal_error,
     study_runs,
     verify_run,
@@ -87,6 +90,17 @@ def test_every_run_of_the_study_is_listed_once(config):
     assert StudyRun(runs[0].case, 0.02).name == "2nd5nd_E11_K0.5_theta0/0.0200"
 
 
+def test_the_important_runs_are_the_peaks_with_their_neighbours_in_speed(config, make_map, tmp_path):
+    case = CoatingCase("2nd", 1.1, 0.5, 0.0)
+    config["coatings"] = [{"casing": "2nd", "E": [1.1], "K": [0.5], "theta": [0.0]}]
+    config["speeds"] = {"start": 0.1, "stop": 0.4, "step": 0.05, "extra": []}
+    coating = make_map(case, {4: (0.3, 2e-4), 6: (0.2, 5e-4)}, speeds(config))
+    write_map(tmp_path / f"{case.name}.h5", coating, {})
+    runs = important_runs(config, tmp_path)
+    assert {run.case for run in runs} == {case}
+    np.testing.assert_allclose([run.f_omega for run in runs], [0.15, 0.2, 0.25, 0.3, 0.35])
+
+
 def test_a_seed_draws_the_same_distinct_runs_again(config):
     runs = study_runs(config)
     drawn = draw(runs, 100, seed=1)
@@ -98,7 +112,7 @@ def test_a_seed_draws_the_same_distinct_runs_again(config):
 
 @pytest.mark.parametrize("sample", [0, -1, 63 * 192 + 1])
 def test_more_runs_than_there_are_cannot_be_drawn(config, sample):
-    with pytest.raises(ValueError, match="must be from 1 to 12096, the number of runs of this study"):
+    with pytest.raises(ValueError, match="must be from 1 to 12096, the number of runs to draw from"):
         draw(study_runs(config), sample, seed=1)
 
 
