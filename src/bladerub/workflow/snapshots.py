@@ -14,7 +14,7 @@ KEPT = {
     "calibration": ("set", "id", "measured", "holds"),
     "chart": (*_RUN, "Y4", "f4", "Y6", "f6", "runs"),
     "friction": (
-        *(*_RUN, "f_omega", "difference", "reversed_theta", "reversed_coulomb", "slowest_sliding"),
+        *(*_RUN, "f_omega", "difference", "reversed_coulomb", "slowest_sliding"),
         *("status_theta", "status_coulomb"),
     ),
 }

@@ -82,6 +82,13 @@ def test_a_changed_value_names_the_lines_that_quote_it(tmp_path):
         ("campbell", {"f_omega": 0.4, "mode": 1}, "f_fe", 1.0, "campbell(0.4"),
         ("margins", {"variation": "speed step 0.004", "id": "C6a"}, "holds", "?", "0.004','C6a'"),
         (
+            "friction",
+            {"E": 20, "theta": 0.15, "f_omega": 0.3},
+            "slowest_sliding",
+            0.1,
+            "column('slowest_sliding',theta=0.15)",
+        ),
+        (
             "sweeps",
             {"E": 0.11, "direction": "up", "rate": 0.01, "order": 4},
             "ratio",
