@@ -132,6 +132,20 @@ def test_an_error_names_page_and_line(line):
         pages.render(f"first\n{line}\n", "page.md", pages.read_tables(SNAPSHOTS))
 
 
+def test_a_page_that_quotes_a_snapshot_that_was_not_taken_names_it():
+    with pytest.raises(pages.PageError, match=r"^page\.md:1: .*untaken\.csv"):
+        pages.render("<!-- = untaken.count() -->1<!-- / -->", "page.md", pages.read_tables(SNAPSHOTS))
+
+
+def test_no_mark_stands_in_a_block_of_code_which_would_show_it():
+    block = re.compile(r"^ *```.*?^ *```", re.DOTALL | re.MULTILINE)
+    blocks = [
+        code for page in pages.pages_of(ROOT) for code in block.findall(page.read_text(encoding="utf-8"))
+    ]
+    assert len(blocks) > 20
+    assert [code for code in blocks if pages.MARK.search(code)] == []
+
+
 def test_a_verdict_of_an_unknown_claim_is_an_error():
     with pytest.raises(pages.PageError, match=r"^page\.md:1: "):
         pages.differences("<!-- C99: yes -->so", "page.md", pages.read_tables(SNAPSHOTS))
