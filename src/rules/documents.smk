@@ -9,6 +9,17 @@ IMAGES = [
 ]
 CHART_FIGURES = ["Y4", "safe", "pareto", "explanation", "stiffening"]
 PASSAGE_FIGURES = ["sweeps", "long_runs"]
+TIP_TURNS = "results/tip_turns"  # of config/tip_turns.yaml, whose rules make it
+TIP_TURNS_FIGURES = [
+    "fig08_spectrum_soft",
+    "fig09_spectrum_critical",
+    "fig11_Y4",
+    "fig12_f4",
+    "fig13_Y6",
+    "fig14_f6",
+    "fig15_spectrum_theta0",
+    "fig16_spectrum_theta015",
+]
 
 
 rule images:
@@ -19,7 +30,7 @@ rule images:
     log:
         f"{RESULTS}/logs/images.log",
     params:
-        colours=256,
+        colours=64,
     script:
         "../scripts/images.py"
 
@@ -53,6 +64,18 @@ use rule images as robustness_image with:
         f"{RESULTS}/logs/robustness_image.log",
     params:
         colours=64,
+
+
+use rule images as tip_turns_images with:
+    input:
+        [f"{TIP_TURNS}/figures/{name}.png" for name in TIP_TURNS_FIGURES],
+    output:
+        [f"docs/images/tip_turns_{name}.png" for name in TIP_TURNS_FIGURES],
+    log:
+        f"{RESULTS}/logs/tip_turns_images.log",
+    params:
+        colours=64,
+        shrink=2,  # shown in pairs
 
 
 rule config_reference:
@@ -123,6 +146,16 @@ use rule docs_data as docs_robustness with:
         rules.robustness.output.indices,
     log:
         f"{RESULTS}/logs/docs_robustness.log",
+
+
+use rule docs_data as docs_tip_turns with:
+    input:
+        f"{TIP_TURNS}/tables/findings.csv",
+        f"{TIP_TURNS}/tables/peaks.csv",
+    log:
+        f"{RESULTS}/logs/docs_tip_turns.log",
+    params:
+        prefix="tip_turns_",
 
 
 rule docs_pages:

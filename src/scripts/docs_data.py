@@ -12,7 +12,8 @@ folder = Path("docs/data")
 folder.mkdir(exist_ok=True)
 with tempfile.TemporaryDirectory() as scratch:
     for table in map(Path, snakemake.input):
-        taken, snapshot = Path(scratch) / table.name, folder / table.name
+        taken = Path(scratch) / table.name
+        snapshot = folder / (snakemake.params.get("prefix", "") + table.name)
         snapshots.take(table, taken)
         # An equal table keeps the description of the study that it was first taken from
         if not snapshot.exists() or snapshot.read_bytes() != taken.read_bytes():
