@@ -1,6 +1,5 @@
 """Compute the runs of one coating that are missing or stale, then write its manifest."""
 
-import sys
 from pathlib import Path
 
 from bladerub.blade.model import read_reduced_blade
@@ -8,15 +7,13 @@ from bladerub.study.cache import blade_digest
 from bladerub.study.job import compute_missing
 from bladerub.study.manifest import write_manifest
 from bladerub.workflow import job
-from bladerub.workflow.progress import JobProgress
+from bladerub.workflow.progress import of_job
 
 job.log_to(snakemake.log[0])
 
 plan = snakemake.params.plan
 folder = Path(snakemake.params.folder)
-progress = JobProgress(
-    plan.case.name, log=sys.stderr, terminal=sys.__stderr__, turn=folder.with_name(".terminal.lock")
-)
+progress = of_job(plan.case.name, folder)
 rows = compute_missing(
     snakemake.config,
     plan,
@@ -26,6 +23,4 @@ rows = compute_missing(
     report=progress,
 )
 write_manifest(snakemake.output[0], rows)
-summary = progress.summary(rows)
-print(summary, file=sys.stderr)
-print(summary)
+progress.finish(rows)

@@ -9,22 +9,15 @@ from bladerub.workflow import job, outputs
 
 job.log_to(snakemake.log[0])
 
+maps = [read_map(path) for path in snakemake.input.maps]
+rom_accuracy = read_rom_accuracy(snakemake.input.rom_accuracy)
 table = findings.table(
-    snakemake.config,
-    map_paths=snakemake.input.maps,
-    peaks_path=snakemake.input.peaks,
-    divergence_path=snakemake.input.divergence,
-    rom_accuracy_path=snakemake.input.rom_accuracy,
+    snakemake.config, maps, snakemake.input.peaks, snakemake.input.divergence, rom_accuracy
 )
+ensembles = [ensemble.read(path) for path in snakemake.input.ensembles]
+table = bands.of_findings(snakemake.config, table, rom_accuracy, maps, ensembles)
 # the robustness counts only where its own reference has the verdict of this study
 known = [snakemake.params.robustness.get(id_, ("", math.nan)) for id_ in table["id"]]
-table = bands.of_findings(
-    snakemake.config,
-    table,
-    read_rom_accuracy(snakemake.input.rom_accuracy),
-    list(map(read_map, snakemake.input.maps)),
-    list(map(ensemble.read, snakemake.input.ensembles)),
-)
 table["robustness"] = [
     share if reference == holds else math.nan
     for (reference, share), holds in zip(known, table["holds"], strict=True)

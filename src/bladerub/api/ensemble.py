@@ -14,6 +14,7 @@ from bladerub.api.run import Run
 from bladerub.api.study import StudyRun
 from bladerub.study.bands import band
 from bladerub.study.ensemble import starts
+from bladerub.study.summary import spectral_peak
 
 _BANDED = ("peak_amplitude", "spectral_peak", "max_wear", "lobes", "wear_harmonic", "growth_per_revolution")
 
@@ -55,7 +56,7 @@ class Ensemble:
         rows = [
             {
                 "start": start,
-                "spectral_peak": run.spectrum.loc[0.5:].max(),
+                "spectral_peak": spectral_peak(run.spectrum.index.to_numpy(), run.spectrum.to_numpy())[1],
                 **run.summary(self.planned.config),
             }
             for start, run in zip(self.start, self.runs, strict=True)

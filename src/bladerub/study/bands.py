@@ -40,9 +40,6 @@ RUN_COLUMNS = [
 ]
 """Columns that the bands add to ``divergence.csv``, empty for runs without an ensemble."""
 
-FINDING_COLUMNS = ["draws", "share_of_draws"]
-"""Columns that the bands add to ``findings.csv``: the share of the draws that have the study's verdict."""
-
 
 class Band(NamedTuple):
     """Median of draws, and the interval in which a further one falls with `PROBABILITY`."""
@@ -102,9 +99,8 @@ def _run_bands(
 ) -> Iterator[dict[str, Any]]:
     """Yield a row for each speed of the ensembles of one coating."""
     coating = maps[ensemble.members[0].case]
-    at = np.flatnonzero(np.isin(coating.f_omega, ensemble.members[0].f_omega))
-    verdicts = [[divergence.verdicts(config, coating)[i] for i in at]]
-    verdicts += [divergence.verdicts(config, member) for member in ensemble.members]
+    at, own = ensemble.places(coating), divergence.verdicts(config, coating)
+    verdicts = [[own[i] for i in at], *(divergence.verdicts(config, each) for each in ensemble.members)]
     max_wear = np.stack([coating.max_wear[at], *(member.max_wear for member in ensemble.members)])
     lobes = np.stack([coating.lobes[at], *(member.lobes for member in ensemble.members)])
     for index, drawn in enumerate(zip(*verdicts, strict=True)):
@@ -129,9 +125,9 @@ def of_findings(
     maps: Sequence[CoatingMap],
     ensembles: Sequence[Ensemble],
 ) -> pd.DataFrame:
-    """Add `FINDING_COLUMNS` to the `table` of findings: every claim is judged on each draw but the first.
+    """Add ``draws`` and ``share_of_draws`` to the `table` of findings: the draws that have its verdict.
 
-    The first is the study itself, whose verdict would agree with itself.
+    Every claim is judged on each draw but the first, the study itself, which would agree with itself.
     """
     same = []
     for drawn in islice(draws(maps, ensembles), 1, None):

@@ -26,7 +26,7 @@ from bladerub.io.errors import DamagedFile
 from bladerub.io.hdf5 import Variable
 from bladerub.io.provenance import provenance
 from bladerub.study import maps
-from bladerub.study.findings.evidence import SAME_SPEED
+from bladerub.study.findings.evidence import SAME_SPEED, between
 from bladerub.study.findings.paper import LOBES, WORN
 from bladerub.study.grid import CoatingCase, keeps_history, run_spec, speed_name
 from bladerub.study.job import RunDone, compute_missing
@@ -47,11 +47,13 @@ class Ensemble:
     start: np.ndarray  # (m, n), radial displacement of node 1 at the start of m members at n speeds, m
     members: tuple[CoatingMap, ...]  # m maps of the n speeds, ascending; without ``wear_node``
 
+    def places(self, coating: CoatingMap) -> np.ndarray:
+        """Return the places (n,) of the ensembles among the speeds of `coating`, the map of the study."""
+        return np.searchsorted(coating.f_omega, self.members[0].f_omega - SAME_SPEED)
+
     def draw(self, coating: CoatingMap, member: int) -> CoatingMap:
         """Return `coating` with the runs of one member in place of its own."""
-        drawn = self.members[member]
-        at = np.searchsorted(coating.f_omega, drawn.f_omega - SAME_SPEED)
-        values = {}
+        drawn, at, values = self.members[member], self.places(coating), {}
         for name in OVER_SPEED:
             own, other = _equally_long(getattr(coating, name), getattr(drawn, name))
             values[name] = own.copy()
@@ -84,24 +86,19 @@ def chosen(config: Mapping[str, Any], coating: CoatingMap) -> np.ndarray:
         wanted[max(at - 1, 0) : at + 2] = True
     if coating.case == WORN:
         for low, high in LOBES:
-            wanted |= (f_omega >= low - SAME_SPEED) & (f_omega <= high + SAME_SPEED)
+            wanted |= between(f_omega, low, high)
     return f_omega[wanted]
 
 
 def plan(config: Mapping[str, Any], case: CoatingCase, f_omega: np.ndarray) -> list[CoatingPlan]:
     """Plan the members of one coating at the speeds `f_omega`: the runs of each."""
-    settings = config["ensemble"]
-    at = {float(f): starts(settings, case, float(f), settings["members"]) for f in f_omega}
-
-    def member(number: int) -> CoatingPlan:
-        runs = []
-        for f, drawn in at.items():
-            spec = replace(run_spec(config, case, f), initial_displacement=float(drawn[number]))
-            file = f"{speed_name(f)}_{number + 1}.h5"
-            runs.append(planned_run(config, spec, file, keep_history=False))
-        return CoatingPlan(case, tuple(runs))
-
-    return [member(number) for number in range(settings["members"])]
+    settings, runs = config["ensemble"], []
+    for f in map(float, f_omega):
+        spec, drawn = run_spec(config, case, f), starts(settings, case, f, settings["members"])
+        members = [replace(spec, initial_displacement=start) for start in drawn.tolist()]
+        files = [f"{speed_name(f)}_{number}.h5" for number in range(1, len(members) + 1)]
+        runs.append([planned_run(config, *each, False) for each in zip(members, files, strict=True)])
+    return [CoatingPlan(case, member) for member in zip(*runs, strict=True)]
 
 
 def make(

@@ -1,5 +1,6 @@
 """What a coating's job reports while it runs: its log, a bar on a terminal, and one line at the end."""
 
+import sys
 import time
 from collections.abc import Sequence
 from pathlib import Path
@@ -50,6 +51,12 @@ class JobProgress:
                 dynamic_ncols=True,
             )
 
+    def finish(self, rows: Sequence[ManifestRow]) -> None:
+        """Write the `summary` to the log and to standard output."""
+        summary = self.summary(rows)
+        print(summary, file=self._log)
+        print(summary)
+
     def summary(self, rows: Sequence[ManifestRow]) -> str:
         """Close the bar and sum up in one line what `compute_missing` returned."""
         self._bar.close()
@@ -61,3 +68,9 @@ class JobProgress:
             f"{self._name}: {len(rows)} runs, {longer} of them longer as well, {unbounded} unbounded; "
             f"{self._computed} computed in {time.monotonic() - self._start:.0f} s"
         )
+
+
+def of_job(name: str, folder: Path) -> JobProgress:
+    """Report on the job of a coating, whose runs are in `folder`, to its log and to the terminal."""
+    turn = folder.with_name(".terminal.lock")  # one for all coatings
+    return JobProgress(name, log=sys.stderr, terminal=sys.__stderr__, turn=turn)

@@ -7,9 +7,9 @@ import pandas as pd
 import pytest
 
 from bladerub.study import divergence, findings, peaks
-from bladerub.study.findings.evidence import Evidence
+from bladerub.study.findings.evidence import Evidence, read_rom_accuracy
 from bladerub.study.grid import CoatingCase
-from bladerub.study.maps import write_map
+from bladerub.study.maps import read_map, write_map
 
 YOUNG = [0.11, 0.2, 0.5, 1.1, 1.5, 2.0, 5.0, 11.0, 20.0]
 HARDENING = [0.05, 0.1, 0.5, 1.0, 5.0, 10.0]
@@ -379,10 +379,10 @@ def test_the_table_is_read_from_the_files_of_a_study(paper, tmp_path):
         table.to_csv(tmp_path / f"{name}.csv", index=False)
     table = findings.table(
         config,
-        map_paths=tmp_path.glob("*.h5"),
+        maps=map(read_map, tmp_path.glob("*.h5")),
         peaks_path=tmp_path / "peaks.csv",
         divergence_path=tmp_path / "divergence.csv",
-        rom_accuracy_path=tmp_path / "rom_accuracy.csv",
+        rom_accuracy=read_rom_accuracy(tmp_path / "rom_accuracy.csv"),
     )
     columns = ["id", "claim", "paper", "measured", "unit", "holds", "margin"]
     assert list(table.columns) == [*columns, "measured_by_harmonic", "holds_by_harmonic"]

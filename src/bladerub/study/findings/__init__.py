@@ -17,8 +17,8 @@ from bladerub.io.tables import read as read_table
 from bladerub.study import divergence, peaks
 from bladerub.study.findings import limits, moduli, reduction, tangential, wear_and_spectra
 from bladerub.study.findings.claim import Claim, Finding, NotMeasurable, claim_of, in_order
-from bladerub.study.findings.evidence import Evidence, read_rom_accuracy
-from bladerub.study.maps import read_map
+from bladerub.study.findings.evidence import Evidence
+from bladerub.study.maps import CoatingMap
 
 _REGISTERING = (limits, moduli, reduction, tangential, wear_and_spectra)  # by their import
 
@@ -36,10 +36,10 @@ _log = logging.getLogger(__name__)
 
 def table(
     config: Mapping[str, Any],
-    map_paths: Iterable[str | Path],
+    maps: Iterable[CoatingMap],
     peaks_path: str | Path,
     divergence_path: str | Path,
-    rom_accuracy_path: str | Path,
+    rom_accuracy: pd.DataFrame,
 ) -> pd.DataFrame:
     """Measure every claim that the maps and tables of a study allow: a row each, with `COLUMNS`.
 
@@ -48,9 +48,9 @@ def table(
     tables = {
         "peaks": read_table(peaks_path, peaks.COLUMNS),
         "divergence": read_table(divergence_path, divergence.COLUMNS),
-        "rom_accuracy": read_rom_accuracy(rom_accuracy_path),
+        "rom_accuracy": rom_accuracy,
     }
-    return judge(Evidence(config, tables, map(read_map, map_paths)))
+    return judge(Evidence(config, tables, maps))
 
 
 def of_claims(claims: Collection[str]) -> list[Claim]:

@@ -17,6 +17,11 @@ SAME_SPEED = 1e-6
 """Speeds closer than this are the same point of the grid."""
 
 
+def between(f_omega: np.ndarray, low: float, high: float) -> np.ndarray:
+    """Select the speeds (n,) from `low` to `high`, both included."""
+    return (f_omega >= low - SAME_SPEED) & (f_omega <= high + SAME_SPEED)
+
+
 class Evidence:
     """Maps of the coatings of one study, and its tables ``rom_accuracy``, ``peaks`` and ``divergence``."""
 

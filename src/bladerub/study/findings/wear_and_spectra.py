@@ -6,7 +6,7 @@ import numpy as np
 from scipy import signal
 
 from bladerub.study.findings.claim import NO, Finding, NotMeasurable, above, below, claim
-from bladerub.study.findings.evidence import SAME_SPEED, Evidence
+from bladerub.study.findings.evidence import Evidence, between
 from bladerub.study.findings.paper import (
     CRITICAL,
     FIVE_LOBES,
@@ -30,7 +30,7 @@ _HIGHEST_ORDER = 12  # where eo(k) leaves the paper's spectra
 def five_lobes(evidence: Evidence, low: float, high: float) -> Finding:
     """Share of the runs from speed `low` to `high` with five lobes, or with the fifth harmonic."""
     coating = evidence.map(WORN)
-    inside = (coating.f_omega >= low - SAME_SPEED) & (coating.f_omega <= high + SAME_SPEED)
+    inside = between(coating.f_omega, low, high)
     if not inside.any():
         raise NotMeasurable(f"{WORN.name} has no run between {low:g} and {high:g}")
     text = f"five worn lobes for f_omega in [{low:g}, {high:g}]: share of the runs (Fig. 6)"
