@@ -115,6 +115,13 @@ use rule docs_data as docs_friction with:
         f"{RESULTS}/logs/docs_friction.log",
 
 
+use rule docs_data as docs_finer_bars with:
+    input:
+        rules.finer_bars.output.table,
+    log:
+        f"{RESULTS}/logs/docs_finer_bars.log",
+
+
 use rule docs_data as docs_sweeps with:
     input:
         rules.sweeps.output.table,

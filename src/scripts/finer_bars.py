@@ -1,0 +1,12 @@
+"""Find the peaks of some coatings again with finer bars."""
+
+from bladerub.blade.model import read_reduced_blade
+from bladerub.io import tables
+from bladerub.study.peaks import COLUMNS
+from bladerub.verification.finer_bars import table
+from bladerub.workflow import job, outputs
+
+job.log_to(snakemake.log[0])
+
+blade, peaks = read_reduced_blade(snakemake.input.blade), tables.read(snakemake.input.peaks, COLUMNS)
+outputs.save(snakemake, table=table(blade, snakemake.config, peaks))
