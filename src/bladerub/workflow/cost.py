@@ -10,7 +10,8 @@ from bladerub.io.errors import DamagedFile
 
 _log = logging.getLogger(__name__)
 
-STAGES = {"blade": "blade", "compile_kernel": "compilation", "coating": "rubs", "map": "maps"}
+STAGES = {"blade": "blade", "compile_kernel": "compilation", "coating": "rubs"}
+STAGES |= {"ensemble": "ensembles", "map": "maps"}
 STAGES |= dict.fromkeys(("peaks", "divergence", "findings", "margins"), "tables")
 STAGES |= {"history": "figures", "explorer": "explorer"}
 """Stage of each rule, in the order of the workflow; rules named after a figure of the paper: ``figures``."""
