@@ -69,6 +69,7 @@ include: "src/rules/calibration.smk"
 include: "src/rules/chart.smk"
 include: "src/rules/sweeps.smk"
 include: "src/rules/robustness.smk"
+include: "src/rules/identification.smk"
 include: "src/rules/documents.smk"
 
 

@@ -29,6 +29,7 @@ class SmallStudy(NamedTuple):
     divergence: pd.DataFrame  # as ``divergence.csv``
     findings: pd.DataFrame  # as of `bladerub.study.findings.judge`
     n_runs: int  # longer ones for confirmation included
+    evidence: Evidence  # what the findings were measured on
 
 
 def conduct(
@@ -57,7 +58,7 @@ def conduct(
     made = {"peaks": _peaks(config, maps), "divergence": divergence.table(config, maps)}
     evidence = Evidence(config, made | {"rom_accuracy": read_rom_accuracy(rom_accuracy)}, maps)
     wanted = findings.CLAIMS if claims is None else findings.of_claims(claims)
-    return SmallStudy(**made, findings=findings.judge(evidence, wanted), n_runs=n_runs)
+    return SmallStudy(**made, findings=findings.judge(evidence, wanted), n_runs=n_runs, evidence=evidence)
 
 
 def _peaks(config: Mapping[str, Any], maps: Iterable[CoatingMap]) -> pd.DataFrame:

@@ -49,7 +49,7 @@ def test_each_sample_of_a_job_has_its_verdicts_and_cost(monkeypatch, study):
     def conduct(config, model, rom_accuracy, folder, claims):
         assert (model, rom_accuracy) == (f"model {config['seed']}", "accuracy")
         table = pd.DataFrame({"id": list(claims), "holds": "yes", "margin": float(config["seed"])})
-        return small_study.SmallStudy(pd.DataFrame(), pd.DataFrame(), table, 10 + config["seed"])
+        return small_study.SmallStudy(pd.DataFrame(), pd.DataFrame(), table, 10 + config["seed"], None)
 
     monkeypatch.setattr(sample, "conduct", conduct)
     monkeypatch.setattr(sample.configuration, "validate", lambda config: config)

@@ -1,16 +1,13 @@
 """The config of each sample of a design, and the blade that it needs."""
 
-import copy
-import re
 from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
 
 from bladerub.config import read as configuration
-from bladerub.config.errors import ConfigError, format_value
 from bladerub.config.files import Located
-from bladerub.config.schema import is_number
+from bladerub.extensions.factors import lay_over
 from bladerub.extensions.robustness.plan import REFERENCE, REFERENCE_BATCH, Part, Plan
 from bladerub.io.provenance import config_digest
 from bladerub.study.grid import coating_cases
@@ -53,30 +50,4 @@ def blade_name(config: Mapping[str, Any]) -> str:
 
 def _varied(study: Mapping[str, Any], plan: Plan, part: Part, positions: np.ndarray) -> Located:
     """Lay the part and the values of the sample at `positions` (d,) over the study."""
-    varied = configuration.vary(study, part.study)
-    for factor, position in zip(plan.factors, positions, strict=True):
-        for path, value in factor.values(float(position)).items():
-            setting = f"factors.{factor.name}.sets.{path}"
-            varied = _replaced(varied, _keys(path), Located(value, factor.location), setting)
-    return varied
-
-
-def _keys(path: str) -> list[str | int]:
-    """Split a path such as ``casings.2nd5nd.weights[0]``."""
-    return [name or int(index) for name, index in re.findall(r"([^.\[\]]+)|\[(\d+)\]", path)]
-
-
-def _replaced(config: Located, keys: list[str | int], value: Located, setting: str) -> Located:
-    """Set the number that `keys` lead to, in a copy."""
-    content = config.content
-    if not keys:
-        if not is_number(content):
-            text = f"{setting} = {format_value(config.plain())}: must be a number"
-            raise ConfigError.at(value.location, text)
-        return value
-    known = content if isinstance(content, dict) else range(len(content)) if isinstance(content, list) else ()
-    if keys[0] not in known:
-        raise ConfigError.at(value.location, f"{setting}: must be a number of the study, it has none there")
-    changed = copy.copy(content)
-    changed[keys[0]] = _replaced(content[keys[0]], keys[1:], value, setting)
-    return Located(changed, config.location)
+    return lay_over(configuration.vary(study, part.study), plan.factors, positions)

@@ -5,7 +5,6 @@ factors in each.
 """
 
 import itertools
-import math
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -13,40 +12,15 @@ import numpy as np
 from scipy.stats import qmc
 
 from bladerub.config import read as configuration
-from bladerub.config.errors import UNKNOWN, ConfigError, Location, format_value
+from bladerub.config.errors import UNKNOWN, ConfigError, Location
 from bladerub.config.files import Located
+from bladerub.extensions.factors import Factor, read_factors
 
 BATCH = 8
 """Samples of one job."""
 
 REFERENCE, REFERENCE_BATCH = -1, "reference"
 """Number of the sample that has the study's own values, and name of its job."""
-
-
-@dataclass(frozen=True)
-class Factor:
-    """One choice that the paper leaves open."""
-
-    name: str
-    unit: str
-    ranges: dict[str, tuple[float, float]]  # lowest and highest of each number of the config that it sets
-    logarithmic: bool = False  # whether the values are spread evenly on a logarithmic scale
-    multiple_of: float | None = None  # values are rounded to a multiple of it
-    location: Location = UNKNOWN  # in the plan
-
-    def values(self, position: float) -> dict[str, float]:
-        """Return each number that the factor sets, at a `position` from 0 to 1 of its range."""
-        return {path: self._between(*ends, position) for path, ends in self.ranges.items()}
-
-    def _between(self, low: float, high: float, position: float) -> float:
-        if self.logarithmic:
-            value = math.exp(math.log(low) + position * math.log(high / low))
-        else:
-            value = low + position * (high - low)
-        if self.multiple_of is None:
-            return value
-        rounded = round(round(value / self.multiple_of) * self.multiple_of, 9)
-        return int(rounded) if float(self.multiple_of).is_integer() else rounded
 
 
 @dataclass(frozen=True)
@@ -84,30 +58,13 @@ def read_plan(path: str | Path) -> Plan:
     Raises `ConfigError` if it is none: the message has file, line, key, value and what would be right.
     """
     plan = configuration.read_plan(path, "robustness_plan")
-    factors = tuple(_factor(name, entry) for name, entry in plan.content["factors"].content.items())
+    factors = read_factors(plan.content["factors"])
     parts = {name: _part(name, entry) for name, entry in plan.content["parts"].content.items()}
-    for one, other in itertools.combinations(factors, 2):
-        if both := one.ranges.keys() & other.ranges.keys():
-            text = f"factors.{other.name}.sets.{min(both)}: is set by another factor, must be by one alone"
-            raise ConfigError.at(other.location, text)
     for one, other in itertools.combinations(parts.values(), 2):
         if both := set(one.claims) & set(other.claims):
             text = f"parts.{other.name}.claims: {min(both)} is judged by another part, must be by one alone"
             raise ConfigError.at(other.location, text)
     return Plan(plan.content["seed"].content, factors, parts)
-
-
-def _factor(name: str, located: Located) -> Factor:
-    entry, location = located.plain(), located.location
-    logarithmic, step = entry.get("scale") == "log", entry.get("multiple_of")
-    for key, ends in entry["sets"].items():
-        where = f"factors.{name}.sets.{key} = {format_value(ends)}: must be"
-        if logarithmic and ends[0] <= 0:
-            raise ConfigError.at(location, f"{where} above 0 on a logarithmic scale")
-        if step and any(abs(end / step - round(end / step)) > 1e-6 for end in ends):
-            raise ConfigError.at(location, f"{where} multiples of {step:g}, as the values between them are")
-    ranges = {key: (float(low), float(high)) for key, (low, high) in entry["sets"].items()}
-    return Factor(name, entry["unit"], ranges, logarithmic, step, location)
 
 
 def _part(name: str, located: Located) -> Part:

@@ -5,11 +5,19 @@ import pandas as pd
 
 from bladerub.study.findings.claim import NO, PARTLY, YES, Finding, NotMeasurable, above, below, claim
 from bladerub.study.findings.evidence import Evidence
-from bladerub.study.findings.paper import CASING, CRITICAL_E, CRITICAL_K, HARDLY, SOFTEST, STIFFEST, THETA
+from bladerub.study.findings.paper import (
+    CASING,
+    CRITICAL_E,
+    CRITICAL_K,
+    HARDLY,
+    SOFT_HARDENING,
+    SOFTEST,
+    STIFFENING_FROM,
+    STIFFEST,
+    THETA,
+)
 
 _HIGH = ((1.1, 5.0), (0.5, 0.5), (1.5, 1.0))  # other (E, K) with "very high amplitudes" (footnote 8)
-_STIFFENING_FROM = 0.5  # f4 increases with K for E above this
-_SOFT_HARDENING = 0.1  # up to this K the Young modulus hardly matters
 _SECTION = 'section "Local maxima evolution"'
 
 
@@ -123,18 +131,18 @@ def _height(table: pd.DataFrame, young: float, hardening: float) -> float:
 def _stiffened(evidence: Evidence, order: int) -> list[pd.Series]:
     """Return f_k over ascending K, for each E above 0.5 that the study has with two K or more."""
     table = _moduli(evidence, order, "f_peak")
-    columns = [table[young].dropna() for young in table.columns if young > _STIFFENING_FROM]
+    columns = [table[young].dropna() for young in table.columns if young > STIFFENING_FROM]
     columns = [f_peak for f_peak in columns if f_peak.size >= 2]
     if not columns:
-        raise NotMeasurable(f"no E above {_STIFFENING_FROM:g} with two K or more in the study")
+        raise NotMeasurable(f"no E above {STIFFENING_FROM:g} with two K or more in the study")
     return columns
 
 
 def _soft_hardening(evidence: Evidence, order: int, column: str) -> pd.DataFrame:
     """Return Y_k or f_k for the lowest K, where the study has two E or more."""
     table = _moduli(evidence, order, column)
-    table = table.loc[table.index <= _SOFT_HARDENING]
+    table = table.loc[table.index <= SOFT_HARDENING]
     table = table[table.count(axis=1) >= 2]
     if table.empty:
-        raise NotMeasurable(f"no K up to {_SOFT_HARDENING:g} with two E or more in the study")
+        raise NotMeasurable(f"no K up to {SOFT_HARDENING:g} with two E or more in the study")
     return table

@@ -5,6 +5,8 @@ from bladerub.study.grid import CoatingCase
 CASING, THETA = "2nd", 0.0  # section "Mechanical properties of the abradable coating"
 SOFTEST, STIFFEST = 0.11, 20.0  # E_min and E_max of that section; below E_min nothing dangerous happens
 CRITICAL_E, CRITICAL_K = 1.1, 0.5  # of the greatest Y4 and Y6
+STIFFENING_FROM = 0.5  # f4 increases with K for E above this
+SOFT_HARDENING = 0.1  # up to this K the Young modulus hardly matters
 TILTED_SPEED, STRAIGHT_SPEED = 0.190, 0.197  # divergence with θ = 0.15 and with θ = 0 (Figs. 17 and 18)
 
 WORN = CoatingCase("2nd5nd", 11.0, 0.5, 0.0)  # Figs. 6 and 7

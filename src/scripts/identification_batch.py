@@ -1,0 +1,23 @@
+"""Simulate some sets of a wave: their targets and verdicts."""
+
+from bladerub.config import read as configuration
+from bladerub.extensions.identification import summary
+from bladerub.extensions.identification.plan import read_plan
+from bladerub.extensions.identification.sample import simulate
+from bladerub.io import tables
+from bladerub.io.provenance import provenance
+from bladerub.workflow import job
+
+job.log_to(snakemake.log[0])
+
+plan = read_plan(snakemake.params.plan)
+batch = plan.batches(int(snakemake.wildcards.wave))[int(snakemake.wildcards.batch)]
+positions = summary.positions([snakemake.input.sets])
+made = simulate(
+    snakemake.config,
+    plan,
+    {number: positions.loc[number].to_numpy() for number in batch if number in positions.index},
+)
+origin = provenance({**snakemake.config, "identification": configuration.load(snakemake.params.plan)})
+for name, table in made._asdict().items():
+    tables.write(snakemake.output[name], table, origin)

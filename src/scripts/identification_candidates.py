@@ -1,0 +1,15 @@
+"""Choose the best sets of all waves, and draw their neighbours."""
+
+from bladerub.extensions.identification import candidates, summary
+from bladerub.extensions.identification.plan import read_plan
+from bladerub.io import tables
+from bladerub.io.provenance import provenance
+from bladerub.workflow import job
+
+job.log_to(snakemake.log[0])
+
+plan = read_plan(snakemake.params.plan)
+measured = summary.measured(snakemake.input.quantities)
+chosen = candidates.choose(plan, summary.positions(snakemake.input.sets), measured)
+table = candidates.as_table(plan, chosen)
+tables.write(snakemake.output.candidates, table, provenance(snakemake.config))

@@ -1,0 +1,37 @@
+"""Tabulate and draw what the waves leave of the ranges, and how the best sets do."""
+
+import pandas as pd
+
+from bladerub.extensions.identification import candidates, summary
+from bladerub.extensions.identification.plan import read_plan
+from bladerub.extensions.plots.identification import identification as draw
+from bladerub.io import tables
+from bladerub.workflow import job, outputs
+
+job.log_to(snakemake.log[0])
+
+
+def joined(paths, columns=()):
+    """Put tables below one another."""
+    return pd.concat([tables.read(path, columns) for path in paths], ignore_index=True)
+
+
+plan, given = read_plan(snakemake.input.plan), snakemake.input
+measured = summary.measured(given.quantities)
+verdicts = summary.verdicts(given.verdicts)
+of_candidates = joined(given.judged, candidates.COLUMNS)
+chosen = tables.read(given.candidates)
+made = {
+    "sets": summary.sets(plan, summary.positions(given.sets), candidates.misfit(measured)),
+    "waves": joined(given.left, summary.LEFT),
+    "emulators": joined(given.emulators, summary.EMULATORS),
+    "targets": summary.targets(measured, joined(given.predictions, summary.PREDICTIONS)),
+    "ranges": tables.read(given.ranges[-1]),
+    "exclusions": summary.exclusions(verdicts),
+    "candidates": chosen,
+    "counts": candidates.counts(chosen, of_candidates),
+    "verdicts": of_candidates,
+}
+left = summary.positions([given.next_sets[-1]])
+figure = draw(plan, measured, left, candidates.read(given.candidates))
+outputs.save(snakemake, figure, **made)
