@@ -66,6 +66,17 @@ use rule images as robustness_image with:
         colours=64,
 
 
+use rule images as identification_image with:
+    input:
+        f"{PLOTS}/identification.png",
+    output:
+        "docs/images/identification.png",
+    log:
+        f"{RESULTS}/logs/identification_image.log",
+    params:
+        colours=48,
+
+
 use rule images as tip_turns_images with:
     input:
         [f"{TIP_TURNS}/figures/{name}.png" for name in TIP_TURNS_FIGURES],
@@ -153,6 +164,19 @@ use rule docs_data as docs_robustness with:
         rules.robustness.output.indices,
     log:
         f"{RESULTS}/logs/docs_robustness.log",
+
+
+use rule docs_data as docs_identification with:
+    input:
+        rules.identify.output.waves,
+        rules.identify.output.targets,
+        rules.identify.output.ranges,
+        rules.identify.output.exclusions,
+        rules.identify.output.candidates,
+        rules.identify.output.counts,
+        rules.identify.output.verdicts,
+    log:
+        f"{RESULTS}/logs/docs_identification.log",
 
 
 use rule docs_data as docs_tip_turns with:

@@ -148,6 +148,7 @@ rule identification_candidates:
     input:
         sets=lambda wildcards: drawn_sets(),
         quantities=lambda wildcards: of_sets("quantities.csv"),
+        verdicts=lambda wildcards: of_sets("verdicts.csv"),
         choosing=files_behind("extensions.identification.candidates"),
     output:
         **described(candidates=f"{OF_SETS}/candidates/candidates.csv"),

@@ -10,6 +10,7 @@ job.log_to(snakemake.log[0])
 
 plan = read_plan(snakemake.params.plan)
 measured = summary.measured(snakemake.input.quantities)
-chosen = candidates.choose(plan, summary.positions(snakemake.input.sets), measured)
+verdicts = summary.verdicts(snakemake.input.verdicts)
+chosen = candidates.choose(plan, summary.positions(snakemake.input.sets), measured, verdicts)
 table = candidates.as_table(plan, chosen)
 tables.write(snakemake.output.candidates, table, provenance(snakemake.config))

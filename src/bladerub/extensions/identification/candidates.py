@@ -36,14 +36,19 @@ def misfit(measured: pd.DataFrame) -> pd.Series:
     return (bounded**2).mean(axis=1)
 
 
-def choose(plan: Plan, positions: pd.DataFrame, measured: pd.DataFrame) -> pd.DataFrame:
-    """Choose the sets of least misfit, the study's own first, and draw the neighbours of each.
+def choose(
+    plan: Plan, positions: pd.DataFrame, measured: pd.DataFrame, verdicts: pd.DataFrame
+) -> pd.DataFrame:
+    """Choose the sets in which most parts hold, and draw neighbours; the misfit decides among equals.
 
-    `positions` and `measured` have a row for each simulated set. A row for each candidate (from 0) and
-    neighbour (0: the set itself), with ``set``, ``misfit`` of the set, and the position of each factor.
+    `positions` and `measured` have a row for each simulated set, `verdicts` one for each part as well. A row
+    for each candidate (from 0, which has the study's own values) and neighbour (0: the set itself), with
+    ``set``, ``misfit`` of the set, and the position of each factor.
     """
     misfits = misfit(measured)
-    best = [OWN, *misfits.drop(OWN).nsmallest(plan.candidates.number).index]
+    yes = (verdicts.holds == YES).groupby(verdicts["set"]).sum()
+    ranked = pd.DataFrame({"yes": -yes, "misfit": misfits}).drop(OWN).sort_values(["yes", "misfit"])
+    best = [OWN, *ranked.index[: plan.candidates.number]]
     rng, rows = np.random.default_rng([plan.seed, len(plan.waves) + 1]), []
     for candidate, number in enumerate(best):
         for neighbour in range(plan.candidates.neighbours + 1):
