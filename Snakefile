@@ -87,9 +87,8 @@ rule all:
         expand(rules.map.output, coating=COATINGS),
         rules.peaks.output,
         rules.divergence.output,
-        rules.findings.output,
         FIGURES,
-        rules.margins.output,
+        JUDGED,
         rules.explorer.output,
         rules.cost.output,
 

@@ -6,9 +6,8 @@ rule cost:
         # not for what is in them: any job that was repeated may have another cost
         rules.peaks.output,
         rules.divergence.output,
-        rules.findings.output,
         FIGURES,
-        rules.margins.output,
+        JUDGED,
         rules.explorer.output,
         maps=expand(rules.map.output, coating=COATINGS),
         collecting=files_behind("workflow.cost"),

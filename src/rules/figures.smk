@@ -21,7 +21,6 @@ MODULI = "casing == '2nd' and theta == 0 and law == 'theta'"  # the coatings of 
 SPECTRA = {
     key: config["figures"][key] for key in ("dpi", "max_frequency", "amplitude_range")
 }
-RADII = {key: config["blade"][key] for key in ("hub_radius", "length")}
 
 # Speeds at which the displacement of both is kept: the paper's two, and those where this blade has its peaks
 BOTH = [
@@ -84,6 +83,7 @@ rule fig02_campbell:
 
 rule fig03_tip_profile:
     input:
+        blade=rules.blade.output.reduced_model,
         model=files_behind("contact.illustration"),
         drawing=files_behind("plots.tip_profile"),
     output:
@@ -93,7 +93,6 @@ rule fig03_tip_profile:
     benchmark:
         f"{RESULTS}/benchmarks/fig03_tip_profile.tsv"
     params:
-        **RADII,
         dpi=DPI,
         coating=part_of_run(INCLINED, "coating"),
         tip=part_of_run(INCLINED, "tip"),
@@ -120,6 +119,7 @@ rule fig04_coating_cycle:
 
 rule fig05_casing:
     input:
+        blade=rules.blade.output.reduced_model,
         model=files_behind("contact.casing"),
         drawing=files_behind("plots.polar"),
     output:
@@ -129,7 +129,6 @@ rule fig05_casing:
     benchmark:
         f"{RESULTS}/benchmarks/fig05_casing.tsv"
     params:
-        **RADII,
         dpi=DPI,
         casing=part_of_run(LOBED, "casing"),
     script:

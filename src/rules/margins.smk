@@ -20,3 +20,9 @@ rule margins:
         dpi=DPI,
     script:
         "../scripts/margins.py"
+
+
+# The paper speaks of its own blade: one from another program is not judged by its claims
+JUDGED = (
+    [] if "source" in config["blade"] else [rules.findings.output, rules.margins.output]
+)

@@ -5,6 +5,8 @@ The data are in m, stress normalised.
 
 import pandas as pd
 
+from bladerub.blade.model import read_reduced_blade
+from bladerub.blade.tip import tip_radius
 from bladerub.contact.illustration import pressed_elements
 from bladerub.contact.spec import Coating, TipProfile
 from bladerub.plots.tip_profile import tip_profile
@@ -18,7 +20,7 @@ job.log_to(snakemake.log[0])
 scene = pressed_elements(
     Coating(**snakemake.params.coating),
     TipProfile(**snakemake.params.tip),
-    snakemake.params.hub_radius + snakemake.params.length,
+    tip_radius(read_reduced_blade(snakemake.input.blade)),
     DEPTH,
     REACH,
 )

@@ -5,6 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pandas as pd
 
+from bladerub.blade.model import read_reduced_blade
+from bladerub.blade.tip import tip_radius
 from bladerub.contact.casing import shape
 from bladerub.contact.spec import Casing
 from bladerub.plots.polar import casing_polar
@@ -21,7 +23,7 @@ casings[" + ".join(map(str, diameters))] = combined
 angle = np.linspace(0, 2 * np.pi, 720, endpoint=False)
 inward = {name: casing.amplitude * shape(casing, angle) for name, casing in casings.items()}
 
-radius = snakemake.params.hub_radius + snakemake.params.length
+radius = tip_radius(read_reduced_blade(snakemake.input.blade))
 named = {f"{name} nodal diameters": u for name, u in inward.items()}
 table = pd.concat(
     pd.DataFrame({"nodal_diameters": name, "angle": angle, "inward": u}) for name, u in inward.items()

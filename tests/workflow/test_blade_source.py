@@ -45,6 +45,7 @@ def test_a_study_of_it_draws_wear_maps_and_on_casings_of_its_own_spectra(workspa
     foreign["coatings"] = [{"casing": name} | entry for name in ("2nd", "own")]
     plan = workspace.plan(foreign)
     assert (plan["coating"], plan["wear_map"], plan["spectrum"]) == (4, 4, 2)
+    assert not {"findings", "margins"} & plan.keys()  # the paper speaks of another blade
 
 
 def test_a_broken_file_ends_the_study_with_one_line(workspace, foreign):
