@@ -7,6 +7,7 @@ import pytest
 import yaml
 
 from bladerub.blade.build import build
+from bladerub.blade.frequencies import tip_lean
 from bladerub.study.similarity import contact_scale
 
 pytestmark = pytest.mark.slow
@@ -34,6 +35,10 @@ def test_bending_with_the_rotation_moves_the_tip_inward(built):
     radial = np.sum(shape * built.reduced.radial_direction, axis=1)
     tangential = np.sum(shape * built.reduced.tangential_direction, axis=1)
     assert radial @ tangential / (tangential @ tangential) == pytest.approx(-0.21, abs=0.02)
+    lean = tip_lean(built.reduced)
+    print("u_r/u_t from leading to trailing edge:", lean)
+    assert np.all(np.diff(lean) > 0)
+    assert (lean[0], lean[-1]) == pytest.approx((-0.286, -0.153), abs=0.005)
 
 
 def test_reduced_size(built):

@@ -17,7 +17,7 @@ from bladerub.api.study import Study
 from bladerub.blade.accuracy import ACCURACY_COLUMNS
 from bladerub.blade.build import build, is_built, made_from
 from bladerub.blade.built import accuracy_path, mesh_path, write
-from bladerub.blade.frequencies import reduced_frequencies
+from bladerub.blade.frequencies import reduced_frequencies, tip_lean
 from bladerub.blade.model import ReducedBlade
 from bladerub.blade.validation import read_valid_blade
 from bladerub.io import tables
@@ -46,6 +46,8 @@ class Blade:
     --------
     >>> round(blade.length, 3), 190 < blade.f1_hz < 200  # m, Hz
     (0.2, True)
+    >>> blade.tip_lean.shape, bool(blade.tip_lean.max() < 0)
+    ((8,), True)
     >>> blade.frequencies(f_omega=0.3).shape
     (3,)
     >>> blade.check_speed("f_omega", 0.39)
@@ -71,6 +73,14 @@ class Blade:
     def length(self) -> float:
         """Blade length, m; the unit of clearances in a config."""
         return self.reduced.length
+
+    @cached_property
+    def tip_lean(self) -> np.ndarray:
+        """Radial over tangential displacement (8,) of the tip in mode 1, leading to trailing edge.
+
+        Negative where bending with the rotation moves the tip away from the casing.
+        """
+        return tip_lean(self.reduced)
 
     @cached_property
     def digest(self) -> str:
@@ -131,6 +141,7 @@ class Blade:
     def _repr_html_(self) -> str:
         rows = {
             "first eigenfrequency at rest": f"{self.f1_hz:.5g} Hz",
+            "u_r/u_t of mode 1 at the tip": f"{self.tip_lean[0]:.3f} to {self.tip_lean[-1]:.3f}",
             "length": f"{1e3 * self.length:.4g} mm",
             "coordinates": f"{len(self.reduced.mass)}",
             "highest speed": f"{self.reduced.f_omega_max:g} of the first frequency",

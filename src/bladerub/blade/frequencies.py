@@ -1,10 +1,10 @@
-"""Natural frequencies of the reduced blade at speed."""
+"""Natural frequencies of the reduced blade at speed, and the motion of its tip in the first mode."""
 
 import numpy as np
 from scipy.linalg import eigh
 from threadpoolctl import threadpool_limits
 
-from bladerub.blade.model import ReducedBlade
+from bladerub.blade.model import N_INTERFACE, ReducedBlade
 
 
 @threadpool_limits.wrap(limits=1, user_api="blas")  # sums depend on the number of threads
@@ -18,3 +18,11 @@ def reduced_frequencies(blade: ReducedBlade, f_omega: float, n_modes: int | None
 def in_hertz(squares: np.ndarray) -> np.ndarray:
     """Frequencies (Hz) of the eigenvalues `squares` (rad²/s²), those of unstable modes negative."""
     return np.sign(squares) * np.sqrt(np.abs(squares)) / (2 * np.pi)
+
+
+@threadpool_limits.wrap(limits=1, user_api="blas")
+def tip_lean(blade: ReducedBlade) -> np.ndarray:
+    """Radial over tangential displacement (8,) of the tip in mode 1 at rest, leading to trailing edge."""
+    _, mode = eigh(blade.stiffness_0, blade.mass, subset_by_index=[0, 0])
+    nodes = mode[: 3 * N_INTERFACE].reshape(N_INTERFACE, 3)
+    return np.sum(nodes * blade.radial_direction, axis=1) / np.sum(nodes * blade.tangential_direction, axis=1)

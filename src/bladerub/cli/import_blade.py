@@ -228,6 +228,9 @@ def _in_words(rows: dict[str, str], figures: dict[str, Any]) -> str:
     rows |= {
         "stagger at the tip": f"{abs(stagger):.4g} degrees, the leading edge "
         f"{'ahead' if stagger >= 0 else 'behind'} in rotation",
+        "first mode": "u_r/u_t at the tip {:.3f} at the leading edge, {:.3f} at the trailing edge".format(
+            *(figures["tip_lean"][at] for at in (0, -1))
+        ),
         "tip stiffness": f"{figures['tip_stiffness']:.4g} N/m, static",
     }
     return "\n".join(

@@ -1,6 +1,7 @@
 import json
 from pathlib import Path
 
+import numpy as np
 import pytest
 import yaml
 
@@ -89,6 +90,7 @@ def test_an_axis_may_begin_with_a_minus(look):
 
 def test_a_sense_of_rotation_that_no_compressor_has_is_told(look):
     right, wrong = (json.loads(look("--unit", "mm", "--rotation", axis, "--json")[1]) for axis in ("-x", "x"))
+    np.testing.assert_allclose(right["tip_lean"], np.negative(wrong["tip_lean"]), rtol=1e-4)
     assert right["tip_stagger_degrees"] == pytest.approx(62, abs=0.5)
     assert wrong["tip_stagger_degrees"] == pytest.approx(-62, abs=0.5)
     told = [line for line in wrong["warnings"] if line not in right["warnings"]]

@@ -10,6 +10,7 @@ from scipy.sparse.csgraph import dijkstra
 from bladerub.blade.accuracy import errors_by_mode
 from bladerub.blade.built import BuiltBlade
 from bladerub.blade.elasticity import Material
+from bladerub.blade.frequencies import tip_lean
 from bladerub.blade.mesh import BladeMesh, MeshedBlade
 from bladerub.blade.model import ReducedBlade
 from bladerub.blade.refinement import MODES
@@ -108,6 +109,7 @@ def _of_blade(source: Source | MatrixSource, layout: MeshedBlade, built: BuiltBl
         "tip_cone_degrees": source.frame.downstream_x * float(np.rad2deg(layout.tip_cone)),
         "f1_hz": float(built.frequency[0]),
         "tip_stagger_degrees": _stagger(built.reduced),
+        "tip_lean": tip_lean(built.reduced).tolist(),
         "campbell_ratio": float(first[-1] / first[0]),
         "f_omega_max": built.reduced.f_omega_max,
         "lowest_frequency": float(table.f_fe.min()),
