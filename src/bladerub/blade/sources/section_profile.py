@@ -89,10 +89,11 @@ def _must_be_swapped(section: Section, flat: np.ndarray, downstream_x: int) -> b
     length = np.linalg.norm(chord)
     steps = np.diff(middle, axis=0) @ chord
     if length == 0 or (steps <= 0).any():
-        at = np.argmin(steps)
+        at = int(np.argmin(steps))
         raise ValueError(
             f"line {section.lines[at + 1]}: this station of section {section.name} is no further along the "
             f"chord than that of line {section.lines[at]}; they must go from the leading to the trailing edge"
+            f"{_cause(section, middle, at)}"
         )
     if downstream_x * chord[0] < -1e-3 * length:
         raise ValueError(
@@ -109,6 +110,17 @@ def _must_be_swapped(section: Section, flat: np.ndarray, downstream_x: int) -> b
             "they may meet at its first and last station only"
         )
     return sign < 0
+
+
+def _cause(section: Section, middle: np.ndarray, at: int) -> str:
+    """Say why station `at + 1` may lie before `at` on the camber line `middle` (n, 2), or nothing."""
+    if np.allclose(section.points[:, at + 1], section.points[:, 0]):
+        return ": it is the first station again, so the section stands twice or two sections have one name"
+    for station in (at, at + 1):
+        others = np.delete(middle, station, axis=0)
+        if (np.diff(others, axis=0) @ (others[-1] - others[0]) > 0).all():
+            return f": without line {section.lines[station]} all do, so check its numbers"
+    return ""
 
 
 class _Curve:

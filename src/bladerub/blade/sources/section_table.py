@@ -1,8 +1,9 @@
 """Tables of blade sections, as text: a row for each station of a section, from the leading edge on.
 
 The names of the columns, in capital or small letters, show which of two forms a table has. In both, `section`
-names the section, hub to tip; other columns are ignored; what follows a ``#`` is a comment; cells are
-separated by commas, if the header has one, or else by white space.
+names the section, hub to tip; other columns are ignored; what follows a ``#`` is a comment. The first of
+these that the header has separates the cells: semicolons, with which numbers may have decimal commas; commas;
+white space.
 
 - Points of the surface: x, y and z of one side (`x1`, `y1`, `z1`) and of the other (`x2`, `y2`, `z2`).
 - As compressor rotors are published: axial position `z` and radius `r`, and at both the angles `theta1` and
@@ -19,6 +20,7 @@ from bladerub.blade.sources.frame import ANGLE_UNITS, Frame
 
 POINTS = ("x1", "y1", "z1", "x2", "y2", "z2")
 CYLINDRICAL = ("z", "r", "theta1", "theta2")
+_SEPARATORS = {";": "semicolons", ",": "commas", None: "white space"}
 STATIONS = (5, 2000)  # fewest and most of a section
 
 
@@ -65,10 +67,16 @@ def _table(path: Path) -> pd.DataFrame:
     if not content:
         raise ValueError("is empty")
     header, *lines = content
-    separator = "," if "," in content[header] else None
+    separator = next((mark for mark in _SEPARATORS if mark and mark in content[header]), None)
     cells = {line: [cell.strip(' "') for cell in content[line].split(separator)] for line in content}
     names = [name.lower() or f"column {number}" for number, name in enumerate(cells.pop(header), 1)]
-    wanted = ["section", *_form(set(names))]
+    try:
+        wanted = ["section", *_form(set(names))]
+    except ValueError as error:
+        read = f"line {header} must name the columns; cells separated by {_SEPARATORS[separator]}"
+        raise ValueError(f'{error} ({read}: "{content[header][:60]}")') from error
+    if separator == ";":
+        cells = {line: [cell.replace(",", ".") for cell in row] for line, row in cells.items()}
     twice = {name for name in names if names.count(name) > 1}
     if twice:
         raise ValueError(f"line {header}: has the column {', '.join(sorted(twice))} twice")
@@ -89,8 +97,10 @@ def _form(columns: set[str]) -> tuple[str, ...]:
     if len(known) == 2:
         raise ValueError(f"has the columns of both forms; must have either {both}")
     near = max((POINTS, CYLINDRICAL), key=lambda form: len(columns.intersection(form)))
-    missing = [name for name in ("section", *(known[0] if known else near)) if name not in columns]
-    raise ValueError(f"has no column {', '.join(missing)}; must have {both}")
+    form = ("section", *(known[0] if known else near))
+    missing = [name for name in form if name not in columns]
+    wanted = ", ".join(form) if len(missing) < len(form) else both
+    raise ValueError(f"has no column {', '.join(missing)}; must have {wanted}")
 
 
 def _section(name: str, rows: pd.DataFrame, frame: Frame, angle_unit: str) -> Section:

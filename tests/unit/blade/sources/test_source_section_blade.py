@@ -148,6 +148,11 @@ def thin_above_the_hub(table):
     [
         (lambda t: t[::-1], "section s8 .line 2.: its first station lies downstream of its last"),
         (lambda t: moved(t, "s2", x=2e-2 * (t.index % 3)), "must go from the leading to the trailing edge"),
+        (
+            lambda t: t.assign(x1=t.x1 - 0.02 * (t.index == 30), x2=t.x2 - 0.02 * (t.index == 30)),
+            "without line 32 all do, so check its numbers",
+        ),
+        (lambda t: pd.concat([t[t.section == "s0"], t]), "line .*it is the first station again"),
         (tip_first, "section s7: its mean radius .* is not above that of section s8 before it"),
         (lambda t: t.assign(x2=t.x1, y2=t.y1, z2=t.z1), "the sides of section s0 touch or cross here"),
         (lambda t: t.assign(y1=t.y1 + 0.01 * (t.index == 30)), "line 32: the sides of section s1 touch"),

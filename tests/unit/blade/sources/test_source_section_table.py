@@ -72,10 +72,11 @@ def test_degrees_are_radians_by_another_name(table):
         ("section, z, r, theta1, theta2\n", "has no rows below the names of its columns"),
         (
             COMMAS.replace("Theta1", "theta"),
-            "has no column theta1; must have section, x1, y1, z1, x2",
+            "has no column theta1; must have section, z, r, theta1, theta2 .line 2 must name.* by commas",
         ),
         (COMMAS.replace("Section", "part"), "has no column section; must have"),
-        (COMMAS[COMMAS.index("hub") :], "has no column section, x1, y1, z1, x2, y2, z2; must have"),
+        (COMMAS[COMMAS.index("hub") :], 'has no column section, .* or section, z.*: "hub end, 0, 40'),
+        (COMMAS.replace(",", ";").replace("; r;", ";"), "has no column r; .* separated by semicolons"),
         (COMMAS.replace("remark", "R"), "line 2: has the column r twice"),
         (COMMAS.replace("2, 40.5,", "2, ,"), "line 5: r = nothing, must be a number"),
         (COMMAS.replace("-0.02", "nan"), "line 5: theta1 = nan, must be a number"),
@@ -98,6 +99,12 @@ def test_degrees_are_radians_by_another_name(table):
 def test_what_is_no_table_is_refused_with_line_or_section(table, text, said):
     with pytest.raises(ValueError, match=said):
         table(text)
+
+
+def test_semicolons_and_decimal_commas_do(table):
+    text = COMMAS.replace(",", ";").replace(".", ",")
+    for ours, theirs in zip(table(COMMAS), table(text), strict=True):
+        np.testing.assert_array_equal(ours.points, theirs.points)
 
 
 def test_columns_of_both_forms_are_refused(table):
