@@ -14,6 +14,12 @@ from bladerub.study.variants import of_case
 VERDICTS = ["growth_per_revolution", "growth_low", "growth_high", "saturating", "divergent", "revolutions"]
 """Columns of ``divergence.csv`` that the page shows, with the status of the run they rest on."""
 
+BANDS = [
+    *("draws", "divergent_draws", "growth_rate_low", "growth_rate_high", "max_wear_low", "max_wear_high"),
+    *("lobes_lowest", "lobes_highest"),
+]
+"""Columns of ``divergence.csv`` that runs with an ensemble have, and tables of studies with ensembles."""
+
 
 def mm(metres: np.ndarray) -> np.ndarray:
     """Convert lengths; the page itself converts nothing."""
@@ -25,10 +31,10 @@ def of_runs(
 ) -> dict[str, list]:
     """Figures of every run of one coating, each a list over its speeds, from its map, table and manifest.
 
-    `VERDICTS` and ``verdict_status`` are of the run that the verdict rests on, all others of the run of the
-    study: lengths in mm, the peak of the last `spectrum_revolutions`, ``order`` and ``order_amplitude`` of
-    the largest spectral amplitude, NaN without a spectrum. Raises `ValueError` if table, manifest and map are
-    not of the same speeds.
+    `VERDICTS`, `BANDS` (NaN without an ensemble) and ``verdict_status`` are of the run that the verdict rests
+    on, all others of the run of the study: lengths in mm, the peak of the last `spectrum_revolutions`,
+    ``order`` and ``order_amplitude`` of the largest spectral amplitude, NaN without a spectrum. Raises
+    `ValueError` if table, manifest and map are not of the same speeds.
     """
     verdicts = of_case(divergence, coating.case).sort_values("f_omega")
     listed = sorted(runs, key=lambda run: run.f_omega)
@@ -39,9 +45,12 @@ def of_runs(
         if not np.array_equal(speeds, coating.f_omega):
             raise ValueError(f"{source}: not the speeds of the map of {coating.case.name}; make it again")
     peak = [displacement_peak(row, spectrum_revolutions) for row in coating.revolution_peak]
+    bands = verdicts.reindex(columns=BANDS)
+    bands[["max_wear_low", "max_wear_high"]] *= 1e3
     strongest = [spectral_peak(coating.spectrum_order, row) for row in coating.spectrum_amplitude]
     return {
         **{name: verdicts[name].tolist() for name in VERDICTS},
+        **{name: bands[name].tolist() for name in BANDS},
         "verdict_status": verdicts["status"].tolist(),
         "status": coating.status.tolist(),
         "run_key": [run.run_key for run in listed],

@@ -12,6 +12,7 @@ from bladerub.explorer import figures
 from bladerub.explorer.coating import AMPLITUDE_FLOOR, LAST_ORDER, arcs, kept_orders
 from bladerub.io.provenance import software
 from bladerub.plots import bins, spectrum, style, titles
+from bladerub.study.bands import PEAK_COLUMNS
 from bladerub.study.grid import CoatingCase
 from bladerub.study.maps import CoatingMap
 from bladerub.study.variants import of_case
@@ -46,7 +47,12 @@ def coating(case: CoatingCase, peaks: pd.DataFrame, configs: list[str]) -> dict[
         "command": figures.command(case, configs),
         "peaks": [
             {"order": row.order, "f": row.f_peak, "Y": figures.mm(row.amplitude)}
-            for row in of_case(peaks, case).itertuples()
+            | {
+                "draws": row.draws,
+                "low": figures.mm(row.amplitude_low),
+                "high": figures.mm(row.amplitude_high),
+            }
+            for row in of_case(peaks, case).reindex(columns=[*peaks, *PEAK_COLUMNS]).itertuples()
         ],
     }
 

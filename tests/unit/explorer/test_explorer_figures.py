@@ -20,6 +20,14 @@ def test_figures_are_those_of_the_tables(coating, verdicts, runs):
     assert math.isnan(found["order_amplitude"][2])
 
 
+def test_bands_are_of_the_runs_with_an_ensemble(coating, verdicts, runs):
+    assert all(math.isnan(each) for each in figures.of_runs(coating, verdicts, runs, 10)["max_wear_low"])
+    with_bands = verdicts.assign(draws=[math.nan, 9, math.nan], max_wear_low=[math.nan, 2e-4, math.nan])
+    found = figures.of_runs(coating, with_bands, runs, 10)
+    assert (found["draws"][1], found["max_wear_low"][1]) == (9, pytest.approx(0.2))  # mm
+    assert math.isnan(found["max_wear_low"][0])
+
+
 def test_rows_are_of_the_case_alone(coating, verdicts):
     others = [
         CoatingCase("2nd", 2.0, 0.5, 0.0),

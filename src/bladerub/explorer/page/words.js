@@ -26,21 +26,30 @@ function percent(value) {
   return digits(100 * value, 3).replace("-", "−");
 }
 
+// The band over the starts of an ensemble, in which a further start falls with 90 %; nothing without an ensemble.
+function band(low, high, draws, write) {
+  if (low === null) return "";
+  return write(low) === write(high) ? `; the same from ${draws} starts` : `; 5–95 % band of ${draws} starts: ${write(low)} to ${write(high)}`;
+}
+
 const VERDICT_SIGNS = { steady: "●", saturating: "○", divergent: "▲", unbounded: "✕" };
 
 function verdictInWords(coating, speed) {
   const kind = verdict(coating.runs, speed);
   const words = element("span", { class: `verdict ${kind}` }, `${VERDICT_SIGNS[kind]} ${VERDICTS[kind].words}`);
   const longer = wasRepeated(coating, speed) ? " of the longer run" : "";
-  if (kind === "unbounded") return [words, ` in revolution ${coating.runs.revolutions[speed]}${longer}`];
-  return [words, wasRepeated(coating, speed) ? ` within ${coating.runs.revolutions[speed]} revolutions (longer run)` : ""];
+  const { draws, divergent_draws } = coating.runs;
+  const starts = draws[speed] === null ? "" : `; ${digits(draws[speed] * divergent_draws[speed])} of ${draws[speed]} starts diverge`;
+  if (kind === "unbounded") return [words, ` in revolution ${coating.runs.revolutions[speed]}${longer}${starts}`];
+  return [words, `${wasRepeated(coating, speed) ? ` within ${coating.runs.revolutions[speed]} revolutions (longer run)` : ""}${starts}`];
 }
 
 function growthInWords({ runs }, speed) {
   const [rate, low, high] = ["growth_per_revolution", "growth_low", "growth_high"].map((name) => runs[name][speed]);
   if (rate === null) return "not measurable";
   const interval = low === null ? "" : ` (${percent(low)} to ${percent(high)} %)`;
-  return `${percent(rate)} %${interval}, at the end of ${runs.revolutions[speed]} revolutions`;
+  const over = band(runs.growth_rate_low[speed], runs.growth_rate_high[speed], runs.draws[speed], (value) => `${percent(value)} %`);
+  return `${percent(rate)} %${interval}, at the end of ${runs.revolutions[speed]} revolutions${over}`;
 }
 
 function repeat(coating, speed) {
@@ -57,7 +66,12 @@ function peakRow(at, order, goTo) {
   return [
     `${millimetres(found.Y)} at `,
     element("button", { type: "button", "aria-label": label, onclick: () => goTo(nearest(study.f_omega, found.f)) }, `f${order} = ${found.f}`),
+    band(found.low, found.high, found.draws, millimetres),
   ];
+}
+
+function lobesOfStarts({ lobes_lowest: low, lobes_highest: high, draws }, speed) {
+  return low[speed] === null ? "" : `; ${low[speed] === high[speed] ? "the same" : `${low[speed]} to ${high[speed]}`} from ${draws[speed]} starts`;
 }
 
 function showRun(shown, choice, goTo) {
@@ -75,8 +89,8 @@ function showRun(shown, choice, goTo) {
         return [`${millimetres(runs.order_amplitude[speed])} at engine order ${digits(runs.order[speed])}`];
       },
     ],
-    [`Worn lobes after ${own} revolutions`, (at) => [String(at.runs.lobes[speed])]],
-    [`Greatest wear after ${own} revolutions, any node`, (at) => [millimetres(at.runs.max_wear[speed])]],
+    [`Worn lobes after ${own} revolutions`, ({ runs }) => [`${runs.lobes[speed]}${lobesOfStarts(runs, speed)}`]],
+    [`Greatest wear after ${own} revolutions, any node`, ({ runs }) => [millimetres(runs.max_wear[speed]), band(runs.max_wear_low[speed], runs.max_wear_high[speed], runs.draws[speed], millimetres)]],
     ...PEAK_ORDERS.map((order) => [`Peak Y${order} of the coating`, (at) => peakRow(at, order, goTo)]),
     ["Key of the run", (at) => [element("code", {}, at.runs.run_key[speed])]],
     ["Repeat it by", (at) => repeat(at, speed)],
