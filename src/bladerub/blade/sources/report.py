@@ -29,6 +29,10 @@ LARGEST_OFFSET = 0.03  # of an interface node, over the chord
 EQ2_ERROR = 0.01
 REDUCED_ERROR = 0.02
 DENSITIES = (10.0, 25e3)  # kg/m³ of the box around a blade, of which it fills some hundredths or all
+LEAST_THICKNESS = 0.005  # largest of a section, over its chord
+ASPECTS = (1 / 3, 15.0)  # length over the chord of the tip
+HUB_RATIOS = (0.1, 0.98)  # radius of the root over that of the tip
+LARGEST_TIP_SPEED = 800.0  # m/s; wheels burst
 HALF_SPEED_CHANGE = (0.15, 0.35)  # a quarter, as centrifugal forces grow with the square of the speed
 
 
@@ -159,8 +163,30 @@ def _warn_of_frame(figures: dict[str, Any], source: Source | MatrixSource, lean:
         )
 
 
+def _warn_of_proportions(figures: dict[str, Any]) -> Iterator[str]:
+    """Warn of what no blade is like: a length or an angle is in another unit than the rest."""
+    length, chord = figures["length"], figures["tip_chord"]
+    root, tip = figures["extents"]["radius"]
+    speed = 2 * np.pi * figures["f1_hz"] * figures["f_omega_max"] * tip
+    sections = figures.get("sections", ())
+    thin = next((each for each in sections if each["thickness"] < LEAST_THICKNESS * each["chord"]), None)
+    if thin:
+        size = f"{1e3 * thin['thickness']:.2g} mm thick over a chord of {1e3 * thin['chord']:.3g} mm"
+        yield f"section {thin['name']} is {size}: are its angles in their unit, rad or deg?"
+    if not ASPECTS[0] <= length / chord <= ASPECTS[1]:
+        size = f"{1e3 * length:.3g} mm long with a chord of {1e3 * chord:.3g} mm at the tip"
+        yield f"it is {size}: are all lengths in one unit?"
+    if not HUB_RATIOS[0] <= root / tip <= HUB_RATIOS[1]:
+        radii = f"from {1e3 * root:.3g} to {1e3 * tip:.3g} mm from the engine axis"
+        yield f"it reaches {radii}: are all lengths in one unit, and is the origin on the engine axis?"
+    if speed > LARGEST_TIP_SPEED:
+        where = f"reduction.f_omega_max = {figures['f_omega_max']:g}"
+        yield f"its tip moves at {speed:.0f} m/s at {where}, more than a wheel bears: is its radius right?"
+
+
 def _warn_of_mesh(figures: dict[str, Any], imported: Imported, source: Source) -> Iterator[str]:
     yield from _warn_of_frame(figures, source, imported.blade.lean)
+    yield from _warn_of_proportions(figures)
     n_elements, offset = figures["elements_root_to_tip"], figures["interface_offset"]
     if imported.is_raised:
         yield "its elements were linear: they got mid-side nodes, but curved faces stay faceted"

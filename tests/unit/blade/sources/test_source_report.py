@@ -1,6 +1,7 @@
 import dataclasses
 import json
 import re
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -25,13 +26,17 @@ REDUCTION = {
 }
 
 
+STIFF = {"young_modulus": 2e12, "poisson_ratio": 0.3, "density": 4430.0}
+THIN = SimpleNamespace(name="s3", radius=0.5, chord=0.08, thickness=1e-4, cut=(0.0, 0.0))
+
+
 @pytest.fixture
 def reported(twisted_config, tmp_path):
     """Report on the twisted blade in a file, with changes to its sections, frame or what was imported."""
 
-    def make(frame=None, sections=None, counts=None, **changes):
-        if sections:
-            twisted_config["sections"] = sections
+    def make(frame=None, of_shape=None, counts=None, **changes):
+        if of_shape:
+            twisted_config["sections"] = of_shape
         shape = BladeShape.from_config(twisted_config)
         blade = BladeMesh.from_shape(shape, counts or twisted_config["mesh"])
         path = tmp_path / "blade.vtu"
@@ -84,11 +89,34 @@ def test_a_frequency_that_no_blade_has_gets_a_warning(reported, twisted_config):
         ({"is_raised": True}, "its elements were linear"),
         ({"n_unused": 4}, "4 nodes of the file belong to no element"),
         ({"interface_offset": 0.004}, "an interface node is 4 mm from its place on the camber line"),
+        ({"chord": 0.9}, "it is 200 mm long with a chord of 900 mm at the tip: are all lengths in one unit"),
+        ({"sections": [THIN]}, "section s3 is 0.1 mm thick over a chord of 80 mm: are its angles in"),
         ({"jacobian_ratio": np.array([0.5, 0.05, 0.4])}, "element 2 is badly shaped: .* factor of 20"),
     ],
 )
 def test_what_is_odd_about_a_mesh_gets_a_warning(reported, change, warning):
     figures, _ = reported(**change)
+    assert any(re.match(warning, line) for line in figures["warnings"])
+
+
+@pytest.mark.parametrize(
+    ("key", "value", "warning"),
+    [
+        (
+            "hub_radius",
+            0.01,
+            "it reaches from 10 to 210 mm from the engine axis",
+        ),
+        (
+            "material",
+            {"young_modulus": 2e12, "poisson_ratio": 0.3, "density": 4430.0},
+            "its tip moves at .* m/s",
+        ),
+    ],
+)
+def test_a_wheel_that_could_not_exist_gets_a_warning(reported, twisted_config, key, value, warning):
+    twisted_config[key] = value
+    figures, _ = reported()
     assert any(re.match(warning, line) for line in figures["warnings"])
 
 
