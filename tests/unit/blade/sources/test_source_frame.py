@@ -39,7 +39,8 @@ def test_the_parametric_blade_has_the_frame_that_is_not_named():
 
 def test_units_are_those_of_the_law():
     lengths = {unit: Frame(unit).metres(np.array([[0.0, 0.0, 1.0]]))[0, 2] for unit in UNITS}
-    assert lengths == {"m": 1.0, "mm": 0.001, "cm": 0.01, "inch": 0.0254, "feet": 0.3048}
+    inch, foot = 0.0254, 0.3048
+    assert lengths == {"m": 1.0, "mm": 0.001, "cm": 0.01, "inch": inch, "feet": foot, "in": inch, "ft": foot}
 
 
 @pytest.mark.parametrize(
