@@ -19,7 +19,7 @@ if TYPE_CHECKING:  # as in `inputs`
 _STEEP = math.pi / 4  # beyond this angle the force is more tangential than normal
 _UNITS = {"E": "contact.modulus_unit", "K": "contact.modulus_unit", "theta": "rad", "f_omega": "f1 at rest"}
 _UNITS |= {"peak_amplitude": "m", "max_wear": "m", "growth_per_revolution": "1"}
-_UNITS |= {"damping_ratio": "1", "layer_thickness": "m", "interference": "m"}
+_UNITS |= {"rpm": "1/min", "damping_ratio": "1", "layer_thickness": "m", "interference": "m"}
 
 
 def add_to(commands: Any) -> None:
@@ -46,7 +46,9 @@ def add_to(commands: Any) -> None:
     text = "of the abradable coating, m, instead of contact.layer_thickness"
     parser.option("--layer-thickness", text, float, metavar="H")
     parser.option("--interference", "instead of that of the casing, m", float, metavar="D")
-    parser.option("--f", "speed (normalised)", float, required=True, metavar="F_OMEGA")
+    speed = parser.add_mutually_exclusive_group(required=True)
+    speed.add_argument("--f", type=float, metavar="F_OMEGA", help="speed (normalised)")
+    speed.add_argument("--rpm", type=float, metavar="N", help="speed in revolutions a minute")
     parser.option("--revolutions", "instead of solver.revolutions, at least 2", int, metavar="N")
     text = "run it again from so many other starts, as the study does, and show the bands"
     parser.option("--ensemble", text, int, metavar="N")
@@ -64,6 +66,12 @@ def run(options: argparse.Namespace) -> None:
     from bladerub.api.study import Study
 
     study = Study(config, inputs.study_folder())
+    if options.output:
+        _check_output(options.output)
+    blade = None
+    if options.rpm is not None:
+        blade = inputs.read_blade(options, config)
+        options.f = options.rpm / 60 / blade.f1_hz
     with inputs.as_options(f_omega="f", damping_ratio="damping-ratio", layer_thickness="layer-thickness"):
         planned = _coating(options, study).at(options.f, options.revolutions)
     fastest = config["reduction"]["f_omega_max"]
@@ -71,10 +79,8 @@ def run(options: argparse.Namespace) -> None:
         raise InputError(
             f"--f = {options.f:g}: must be at most reduction.f_omega_max = {fastest:g} (normalised)"
         )
-    if options.output:
-        _check_output(options.output)
     _point_out(options)
-    blade = inputs.read_blade(options, config)
+    blade = blade or inputs.read_blade(options, config)
     bar = inputs.progress_bar(planned.spec.revolutions, "rev")
     with bar, refused(ValueError), inputs.as_options(f_omega="f"):
         start = time.perf_counter()
@@ -83,7 +89,7 @@ def run(options: argparse.Namespace) -> None:
     if options.output:
         with refused(OSError, because=f"--output {options.output}: cannot be written: "):
             result.write(options.output, config)
-    figures = _figures(planned, result, seconds)
+    figures = _figures(planned, result, seconds) | {"rpm": 60 * planned.f_omega * blade.f1_hz}
     if options.ensemble is not None:
         figures["ensemble"] = _ensemble(options, planned, blade)
     inputs.show(options, figures, _in_words)
@@ -187,6 +193,7 @@ def _in_words(figures: dict[str, Any]) -> str:
     order = figures["engine_order"]
     after = f", after {figures['growth_revolutions']} revolutions"
     rows = {
+        "speed": f"{figures['f_omega']:.4g} (normalised), {figures['rpm']:,.0f} rpm",
         "peak displacement": f"{figures['peak_amplitude'] * 1e3:.4g} mm (radial, node 1, last revolutions)",
         "engine order": "none" if order is None else f"{order:.4g}",
         "maximum wear": f"{figures['max_wear'] * 1e3:.4g} mm",

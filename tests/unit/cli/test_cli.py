@@ -8,6 +8,7 @@ import sys
 import pytest
 
 from bladerub import __version__
+from bladerub.blade.model import read_reduced_blade
 from bladerub.cli import inputs, main
 from bladerub.study.store import read_run
 
@@ -33,6 +34,7 @@ KEYS = {
     "theta",
     "friction",
     "f_omega",
+    "rpm",
     "revolutions",
     "run_key",
     "units",
@@ -128,6 +130,7 @@ def test_run_in_words(small, blade_file, capsys):
     assert main([*RUN, *small]) == 0
     lines = capsys.readouterr().out.splitlines()
     assert [line.split("  ")[0] for line in lines] == [
+        "speed",
         "peak displacement",
         "engine order",
         "maximum wear",
@@ -140,6 +143,18 @@ def test_run_in_words(small, blade_file, capsys):
         "steps",
         "steps per second",
     ]
+
+
+def test_a_speed_in_revolutions_a_minute_is_the_same_run(small, blade_file, capsys):
+    by_speed = {}
+    main([*RUN, *small, "--json"])
+    by_speed["f"] = json.loads(capsys.readouterr().out)
+    rpm = 60 * 0.19 * read_reduced_blade(blade_file).f1_hz
+    assert by_speed["f"]["rpm"] == pytest.approx(rpm)
+    main([*RUN[:-2], "--rpm", repr(rpm), *small, "--json"])
+    by_speed["rpm"] = json.loads(capsys.readouterr().out)
+    assert by_speed["rpm"]["f_omega"] == pytest.approx(0.19, rel=1e-12)
+    assert by_speed["rpm"]["max_wear"] == pytest.approx(by_speed["f"]["max_wear"], rel=1e-6)
 
 
 def test_an_ensemble_shows_its_bands(small, blade_file, capsys):
@@ -261,7 +276,7 @@ def without(option):
             "--friction = -1: coefficient of friction must be a number from 0 to 1",
         ),
         ([*RUN, "--coating", "stiff"], "argument --coating: invalid choice: 'stiff'"),
-        (RUN[:-2], "the following arguments are required: --f"),
+        (RUN[:-2], "one of the arguments --f --rpm is required"),
         ([], "the following arguments are required: COMMAND"),
         ([*RUN, "--depth", "3"], "unrecognized arguments: --depth 3"),
     ],
