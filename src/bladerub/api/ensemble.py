@@ -83,6 +83,7 @@ def simulate_ensemble(
     run: StudyRun,
     members: int = 8,
     *,
+    own: Run | None = None,
     jobs: int = 1,
     follow: bool = True,
     progress: bool = True,
@@ -99,6 +100,8 @@ def simulate_ensemble(
         The run, from `Study.run` or `StudyCoating.at`.
     members : int
         Further starts, at least one: the first of them are those of the study.
+    own : Run, optional
+        What `simulate` gave for the run, if it did; otherwise it is simulated as well.
     jobs : int
         Runs at once.
     follow, progress : bool
@@ -126,9 +129,10 @@ def simulate_ensemble(
         raise InputError("members", members, "must be at least 1")
     blade.check_speed("f_omega", run.f_omega)
     start = np.append(0.0, starts(run.config["ensemble"], run.case, run.f_omega, members))
-    runs = [
+    drawn = [
         replace(run, spec=replace(run.spec, initial_displacement=displacement))
-        for displacement in start.tolist()
+        for displacement in start.tolist()[own is not None :]
     ]
-    with tqdm(total=len(runs), unit="run", disable=not progress, leave=False) as bar:
-        return Ensemble(run, start, tuple(solve_all(blade, runs, jobs, follow, bar.update)))
+    with tqdm(total=len(drawn), unit="run", disable=not progress, leave=False) as bar:
+        runs = solve_all(blade, drawn, jobs, follow, bar.update)
+    return Ensemble(run, start, tuple(runs if own is None else [own, *runs]))

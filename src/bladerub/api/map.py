@@ -202,7 +202,9 @@ def simulate_speeds(
     stored, longer = [run.stored for run in found], [run.longer and run.longer.stored for run in found]
     at = [run.f_omega for run in runs]
     prominence = coating.config["analysis"]["lobe_prominence"]
-    return Map(maps.collect(coating.case, at, blade.reduced, stored, longer, prominence))
+    return Map(
+        maps.collect(coating.case, at, maps.first_frequency(blade.reduced, at), stored, longer, prominence)
+    )
 
 
 @threadpool_limits.wrap(limits=1, user_api="blas")  # threads that come and go would change each other's limit

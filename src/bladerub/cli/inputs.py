@@ -130,13 +130,18 @@ def read_config(options: argparse.Namespace) -> dict[str, Any]:
 def read_config_with_notes(options: argparse.Namespace) -> tuple[dict[str, Any], list[str]]:
     """Read the config as `read_config`; return it and a line for each doubt (`bladerub.config.inherited`)."""
     base = base_config()
-    config, notes = configuration.read_with_notes(base, *options.config)
-    made_with = None if options.config else record.read(study_folder() / config["results"])
+    made_with = None if options.config else _made_with(base)
     if made_with is None:
-        return config, notes
+        return configuration.read_with_notes(base, *options.config)
     print(f"bladerub {options.name}: with {made_with}, as the results were made", file=sys.stderr)
     files = [study_folder() / file for file in made_with.files]
     return configuration.read_with_notes(base, *files, command_line=made_with.command_line)
+
+
+def _made_with(base: Path) -> record.Record | None:
+    """Read what was laid over the config in the file `base` for its results; None if nothing was."""
+    results = configuration.load(base).get("results")
+    return record.read(study_folder() / results) if isinstance(results, str) else None
 
 
 def blade_path(options: argparse.Namespace, config: dict[str, Any]) -> Path:

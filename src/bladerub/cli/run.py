@@ -91,14 +91,14 @@ def run(options: argparse.Namespace) -> None:
             result.write(options.output, config)
     figures = _figures(planned, result, seconds) | {"rpm": 60 * planned.f_omega * blade.f1_hz}
     if options.ensemble is not None:
-        figures["ensemble"] = _ensemble(options, planned, blade)
+        figures["ensemble"] = _ensemble(options, planned, blade, result)
     inputs.show(options, figures, _in_words)
 
 
-def _ensemble(options: argparse.Namespace, planned: "StudyRun", blade: "Blade") -> dict[str, Any]:
+def _ensemble(options: argparse.Namespace, planned: "StudyRun", blade: "Blade", own: "Run") -> dict[str, Any]:
     from bladerub.api.ensemble import simulate_ensemble
 
-    ensemble = simulate_ensemble(blade, planned, options.ensemble, progress=sys.stderr.isatty())
+    ensemble = simulate_ensemble(blade, planned, options.ensemble, own=own, progress=sys.stderr.isatty())
     bands = ensemble.bands()
     return {
         "runs": len(ensemble.runs),

@@ -5,7 +5,7 @@ from collections.abc import Mapping
 from matplotlib.axes import Axes
 
 _LINE = {"color": "#8f8f8f", "linewidth": 0.6, "zorder": 1.5}
-_NEAREST = (0.1, 0.035)  # shares of the axes; a name closer than that to the one before is left out
+_NEAREST = (0.13, 0.035)  # shares of the axes; a name closer than that to the one before is left out
 
 
 def draw(axes: Axes, slopes: Mapping[int, float], x_max: float, y_max: float) -> None:

@@ -33,7 +33,7 @@ SECOND = {"color": ORANGE, "linestyle": "--"}
 """The two lines of a comparison; dark solid and light dashed, so that grey print keeps them apart."""
 
 AMPLITUDE_MAP = LinearSegmentedColormap.from_list(
-    "amplitude", ["#ffffff", "#fde2b3", "#f6a55c", "#dc5a33", "#952052", "#2b0a3a"]
+    "amplitude", ["#ffffff", "#f9bf73", "#ee8a48", "#cf4d38", "#8c1d52", "#2b0a3a"]
 )
 """White to dark over warm colours of falling lightness: amplitudes, under cool lines."""
 WEAR_MAP = LinearSegmentedColormap.from_list(

@@ -27,6 +27,7 @@ def wear_map(coating: CoatingMap) -> Figure:
     figure.colorbar(mesh, ax=upper, label="worn depth, mean of the 8 nodes (mm)", pad=0.015)
     upper.set(facecolor=MISSING, ylim=(0, 360), yticks=range(0, 361, 60), ylabel="casing angle (°)")
     upper.set_title(titles.coating(coating.case))
+    upper.set_title("grey: not computed", loc="right", fontsize=7)
     _draw_lobes(lower, coating)
     lower.set(xlim=(0, speed_edges[-1]), xlabel=r"rotational frequency $f_\Omega\,/\,f_1(0)$")
     return figure

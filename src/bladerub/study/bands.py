@@ -127,12 +127,13 @@ def of_findings(
 ) -> pd.DataFrame:
     """Add ``draws`` and ``share_of_draws`` to the `table` of findings: the draws that have its verdict.
 
-    Every claim is judged on each draw but the first, the study itself, which would agree with itself.
+    Every claim of the table is judged on each draw but the first, the study itself, which would agree with
+    itself.
     """
-    same = []
+    same, claims = [], [claim for claim in findings.CLAIMS if claim.id in set(table["id"])]
     for drawn in islice(draws(maps, ensembles), 1, None):
         tables = {"peaks": peak_table.table(config, drawn), "divergence": divergence.table(config, drawn)}
-        judged = findings.judge(Evidence(config, tables | {"rom_accuracy": rom_accuracy}, drawn))
+        judged = findings.judge(Evidence(config, tables | {"rom_accuracy": rom_accuracy}, drawn), claims)
         holds = judged.set_index("id").holds.reindex(table["id"])
         same.append(holds.to_numpy() == table.holds.to_numpy())
     return table.assign(draws=len(same), share_of_draws=np.mean(same, axis=0) if same else math.nan)

@@ -121,8 +121,9 @@ def make(
     rows = compute_missing(config, together, blade, folder, blade_digest, report)
     write_manifest(folder / "manifest.tsv", rows)
     listed = iter(rows)
+    C1 = coating.C1[np.isin(coating.f_omega, f_omega)]
     members = [
-        maps.collect_listed(config, coating.case, blade, folder, [next(listed) for _ in member.runs])
+        maps.collect_listed(config, coating.case, C1, folder, [next(listed) for _ in member.runs])
         for member in planned
     ]
     start = [[run.spec.initial_displacement for run in member.runs] for member in planned]

@@ -107,26 +107,32 @@ def build_map(
         raise DamagedFile(
             f"{folder / 'manifest.tsv'}: lists {len(rows)} speeds, not the {len(planned)} planned"
         )
-    write_map(path, collect_listed(config, case, blade, folder, rows), provenance(config))
+    C1 = first_frequency(blade, planned)
+    write_map(path, collect_listed(config, case, C1, folder, rows), provenance(config))
+
+
+def first_frequency(blade: ReducedBlade, speeds: Sequence[float]) -> np.ndarray:
+    """Return the first eigenfrequency C1 of the blade at each of the speeds (n,), both normalised."""
+    return np.array([reduced_frequencies(blade, f, n_modes=1)[0] for f in speeds]) / blade.f1_hz
 
 
 def collect_listed(
     config: Mapping[str, Any],
     case: CoatingCase,
-    blade: ReducedBlade,
+    C1: np.ndarray,
     folder: Path,
     rows: Sequence[ManifestRow],
 ) -> CoatingMap:
     """Collect the runs in `folder` that these rows of its manifest list, at ascending speeds.
 
-    Other parameters are those of `build_map`, which raises the same.
+    `C1` is from `first_frequency`; other parameters are those of `build_map`, which raises the same.
     """
     runs = [_listed_run(folder, folder / row.file, row.run_key, MAPPED) for row in rows]
     scales = _listed_run(folder, folder / rows[0].file, rows[0].run_key, {"angle", "spectrum_order"})
     runs[0].data.update(scales.data)
     longer = [_longer_run(folder, row) for row in rows]
     prominence = config["analysis"]["lobe_prominence"]
-    return collect(case, [row.f_omega for row in rows], blade, runs, longer, prominence)
+    return collect(case, [row.f_omega for row in rows], C1, runs, longer, prominence)
 
 
 def _longer_run(folder: Path, row: ManifestRow) -> StoredRun | None:
@@ -139,7 +145,7 @@ def _longer_run(folder: Path, row: ManifestRow) -> StoredRun | None:
 def collect(
     case: CoatingCase,
     speeds: Sequence[float],
-    blade: ReducedBlade,
+    C1: np.ndarray,
     runs: Sequence[StoredRun],
     longer: Sequence[StoredRun | None],
     prominence: float,
@@ -147,7 +153,7 @@ def collect(
     """Collect runs of one coating at ascending speeds (normalised), and their longer runs or None.
 
     Of the first run all datasets are needed, of the others `MAPPED`, of the longer ones the amplitude.
-    `blade` is for its first frequency, `prominence` decides what counts as a lobe.
+    `C1` is from `first_frequency`, `prominence` decides what counts as a lobe.
     """
     scales = {name: runs[0].data[name] for name in ("angle", "spectrum_order")}
     collected = {name: np.stack([run.data[name] for run in runs]) for name in MAPPED}
@@ -155,7 +161,7 @@ def collect(
     return CoatingMap(
         case=case,
         f_omega=np.array(speeds),
-        C1=np.array([reduced_frequencies(blade, f, n_modes=1)[0] for f in speeds]) / blade.f1_hz,
+        C1=C1,
         wear=np.stack([each.mean(axis=0) for each in wear]),
         wear_node=wear,
         confirmation_amplitude=_confirmation_amplitude(longer),

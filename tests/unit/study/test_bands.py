@@ -115,14 +115,15 @@ def test_without_ensembles_the_columns_are_empty(config, maps):
 def test_a_verdict_has_the_share_of_draws_that_agree(config, maps, ensembles, monkeypatch):
     heights = []
 
-    def judge(evidence):
+    def judge(evidence, claims):
+        assert [claim.id for claim in claims] == ["C1a", "C9a", "C10a"]  # not those that the study left out
         heights.append(evidence.peak(CASE, 6, "amplitude"))
         assert len(evidence.divergence) == 14
         assert evidence.rom_accuracy == "accuracy"
-        return pd.DataFrame({"id": ["C9", "C1"], "holds": ["yes" if heights[-1] > 6e-4 else "no", "yes"]})
+        return pd.DataFrame({"id": ["C9a", "C1a"], "holds": ["yes" if heights[-1] > 6e-4 else "no", "yes"]})
 
     monkeypatch.setattr(findings, "judge", judge)
-    table = pd.DataFrame({"id": ["C1", "C9", "C10"], "holds": ["yes", "no", "yes"]})
+    table = pd.DataFrame({"id": ["C1a", "C9a", "C10a"], "holds": ["yes", "no", "yes"]})
     found = bands.of_findings(config, table, "accuracy", maps, ensembles)
     assert heights == pytest.approx(list(HEIGHTS))
     assert list(found.share_of_draws) == pytest.approx([1, 2 / 3, 0])
