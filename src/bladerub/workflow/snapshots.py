@@ -13,6 +13,10 @@ _RUN = ("casing", "E", "K", "theta")
 KEPT = {
     "calibration": ("set", "id", "measured", "holds"),
     "chart": (*_RUN, "Y4", "f4", "Y6", "f6", "runs"),
+    "finer_bars": (
+        *(*_RUN, "order", "elements", "f_peak", "amplitude"),
+        *("amplitude_change", "volume_change", "wear_difference", "status"),
+    ),
     "friction": (
         *(*_RUN, "f_omega", "difference", "reversed_coulomb", "slowest_sliding"),
         *("status_theta", "status_coulomb"),
