@@ -86,7 +86,7 @@ def _motion(options: argparse.Namespace, config: dict[str, Any]) -> dict[str, An
         raise InputError(f"--vtu {options.vtu}: is there already, must be a new folder")
     inputs.require_writable("vtu", options.vtu)
 
-    from bladerub.export.vtu import COLLECTION, read_mesh, write_motion
+    from bladerub.export.vtu import COLLECTION, read_mesh, stress_of, write_motion
     from bladerub.io.provenance import provenance
     from bladerub.study.store import read_run
 
@@ -99,19 +99,20 @@ def _motion(options: argparse.Namespace, config: dict[str, Any]) -> dict[str, An
     path, blade = found.path, found.reduced
     with refused(OSError):
         mesh = read_mesh(found.mesh_path, blade)
+        stress = stress_of(found.mesh_path, run.attributes["f_omega"])
     plan = _plan(options, config, run, path)
     recording = _record(options, run, plan, blade)
     names = ("casing", "E", "K", "theta", "law", "f_omega", "run_key")
     about = {name: run.attributes[name] for name in names} | provenance(config)
     with refused(OSError, because=f"--vtu {options.vtu}: cannot be written: "):
-        largest = write_motion(options.vtu, mesh, recording, about)
+        largest = write_motion(options.vtu, mesh, recording, about, stress)
     return {
         "collection": str(options.vtu / COLLECTION),
         "samples": options.samples,
         "revolution": recording.revolution_peak.size,
         "nodes": len(mesh["points"]),
         "elements": len(mesh["cells"]),
-        "largest_displacement": largest,
+        **largest,
         "bytes": sum(file.stat().st_size for file in options.vtu.iterdir()),
     }
 
@@ -166,11 +167,20 @@ def _record(
 
 
 def _in_words(figures: dict[str, Any]) -> str:
+    stress = "stress not known: a blade of matrices has no elements"
+    if "largest_von_mises" in figures:
+        place = ", ".join(f"{1e3 * x:.1f}" for x in figures["largest_von_mises_at"])
+        stress = (
+            f"largest von Mises stress {figures['largest_von_mises'] / 1e6:.4g} MPa at ({place}) mm "
+            f"after {figures['largest_von_mises_time']:.3f} revolutions, "
+            f"largest principal stress {figures['largest_principal'] / 1e6:.4g} MPa"
+        )
     return "\n".join(
         [
             f"{figures['samples']} instants of revolution {figures['revolution']}, "
             f"{figures['nodes']} nodes, {figures['elements']} elements, {figures['bytes'] / 1e6:.3g} MB",
             f"largest displacement {figures['largest_displacement'] * 1e3:.4g} mm",
+            stress,
             f"open {figures['collection']} in ParaView",
         ]
     )

@@ -1,19 +1,24 @@
 """The motion of the blade for ParaView: a mesh file for each instant, and the collection of all.
 
 The mesh is that at rest in the rotating frame; ``displacement`` is the increment of each node about its
-running position, as in the run, so without the centrifugal displacement and without the rotation.
+running position, as in the run, so without the centrifugal displacement and without the rotation. The stress
+is the whole stress, that of the rotation included.
 """
 
+import json
 import os
 import shutil
 import xml.etree.ElementTree as ET
 from collections.abc import Mapping
 from pathlib import Path
+from typing import Any
 
 import meshio
 import numpy as np
 
+from bladerub.blade.elasticity import Material
 from bladerub.blade.model import ReducedBlade
+from bladerub.blade.stress import NodalStress, running_displacement, von_mises
 from bladerub.contact.recording import Recording
 from bladerub.export.mesh_file import block
 from bladerub.io import hdf5
@@ -23,7 +28,8 @@ COLLECTION = "blade.pvd"  # the file to open: it names the others with their tim
 _MESH = {"points", "cells", "root_nodes", "tip_nodes", "interface_nodes", "recovery"}
 _FRAME = (
     "Mesh: blade at rest in the rotating frame, x along the axis of rotation, m. displacement: of each node "
-    "about its running position (in equilibrium at speed), m. Time: revolutions from the start of the run."
+    "about its running position (in equilibrium at speed), m. von_mises, principal (the largest): "
+    "stress of rotation and vibration, Pa. Time: revolutions from the start of the run."
 )
 
 
@@ -42,34 +48,76 @@ def read_mesh(path: str | Path, blade: ReducedBlade) -> dict[str, np.ndarray]:
     return mesh
 
 
-def write_motion(
-    folder: str | Path, mesh: Mapping[str, np.ndarray], recording: Recording, about: Mapping[str, str]
-) -> float:
-    """Write a recorded motion to a new folder, whole or not at all; return the largest displacement, m.
+def stress_of(path: str | Path, f_omega: float) -> NodalStress | None:
+    """Return how to find the stress at the speed `f_omega` of the blade in `path`, its ``mesh.h5``.
 
-    `mesh` is from `read_mesh`; `about` is what the motion is and where it comes from, for a comment in the
-    collection.
+    None where the blade is of matrices alone: they tell of no stress.
+    """
+    mesh, attributes = hdf5.read(path)
+    if not len(mesh["cells"]):
+        return None
+    material = Material.from_config(json.loads(attributes["made_from"])["blade"]["material"])
+    running = running_displacement(mesh["f_omega"], mesh["static_displacement"], f_omega)
+    return NodalStress(mesh["points"], mesh["cells"], material, running)
+
+
+def write_motion(
+    folder: str | Path,
+    mesh: Mapping[str, np.ndarray],
+    recording: Recording,
+    about: Mapping[str, str],
+    stress: NodalStress | None,
+) -> dict[str, Any]:
+    """Write a recorded motion to a new folder, whole or not at all.
+
+    `mesh` is from `read_mesh`, `stress` from `stress_of`; `about` is what the motion is and where it comes
+    from, for a comment in the collection. Returns ``largest_displacement`` (m) and, with `stress`,
+    ``largest_von_mises`` and ``largest_principal`` (Pa), each with its place (m, at rest) and time
+    (revolutions).
     """
     folder = Path(folder)
     folder.parent.mkdir(parents=True, exist_ok=True)
     temporary = folder.with_name(f".{folder.name}.{os.getpid()}.tmp")
     temporary.mkdir()
     try:
-        names, largest = [], 0.0
-        for number, coordinates in enumerate(recording.coordinates, 1):
+        names: list[str] = []
+        largest: dict[str, Any] = {"largest_displacement": 0.0}
+        for number, (coordinates, time) in enumerate(
+            zip(recording.coordinates, recording.time, strict=True), 1
+        ):
             displacement = np.tensordot(coordinates, mesh["recovery"], axes=1).astype(np.float32)
-            largest = max(largest, float(np.linalg.norm(displacement, axis=1).max()))
+            norm = float(np.linalg.norm(displacement, axis=1).max())
+            largest["largest_displacement"] = max(largest["largest_displacement"], norm)
+            fields = _stress_fields(stress, displacement)
+            for name, values in fields.items():
+                _note(largest, f"largest_{name}", values, mesh["points"], time)
             names.append(f"blade_{number:04}.vtu")
             meshio.Mesh(
                 mesh["points"],
                 [block(mesh["points"], mesh["cells"])],  # nodes in the order of VTK already
-                point_data={"displacement": displacement},
+                point_data={"displacement": displacement} | fields,
             ).write(temporary / names[-1])
         _write_collection(temporary / COLLECTION, names, recording.time, about)
         os.rename(temporary, folder)
     finally:
         shutil.rmtree(temporary, ignore_errors=True)
     return largest
+
+
+def _stress_fields(stress: NodalStress | None, displacement: np.ndarray) -> dict[str, np.ndarray]:
+    if stress is None:
+        return {}
+    tensor = stress(displacement)
+    fields = {"von_mises": von_mises(tensor), "principal": np.linalg.eigvalsh(tensor)[:, -1]}
+    return {name: values.astype(np.float32) for name, values in fields.items()}
+
+
+def _note(largest: dict[str, Any], name: str, values: np.ndarray, points: np.ndarray, time: float) -> None:
+    """Keep the largest of `values`, with place and time, if it exceeds that of the instants before."""
+    node = np.nanargmax(values)
+    if values[node] > largest.get(name, -np.inf):
+        place = {f"{name}_at": points[node].tolist(), f"{name}_time": float(time)}
+        largest.update({name: float(values[node])} | place)
 
 
 def _write_collection(path: Path, names: list[str], time: np.ndarray, about: Mapping[str, str]) -> None:

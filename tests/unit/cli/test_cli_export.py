@@ -120,6 +120,12 @@ def test_figures_as_json(export, tmp_path, folder):
         if file.suffix == ".vtu"
     )
     assert figures["largest_displacement"] == pytest.approx(largest)
+    data = [meshio.read(file) for file in files if file.suffix == ".vtu"]
+    for name in ("von_mises", "principal"):
+        at = np.array([mesh.point_data[name] for mesh in data])
+        assert figures[f"largest_{name}"] == pytest.approx(at.max())
+        node = np.unravel_index(at.argmax(), at.shape)[1]
+        np.testing.assert_allclose(figures[f"largest_{name}_at"], data[0].points[node])
 
 
 def test_equal_exports_are_equal_files(export, tmp_path):
