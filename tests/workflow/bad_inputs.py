@@ -292,7 +292,8 @@ _YOUNG = "Young modulus must be a number above 0 and at most 1e+06 (normalised)"
 COMMANDS: dict[str, str] = {
     "": "bladerub: the following arguments are required: COMMAND",
     "rnu": "bladerub: argument COMMAND: invalid choice: 'rnu'",
-    "run": "bladerub run: the following arguments are required: --casing, --f",
+    "run": "bladerub run: the following arguments are required: --casing",
+    "run --casing 2nd": "bladerub run: one of the arguments --f --rpm is required",
     "run --casing 2nd --f 0.19": "bladerub run: --E: missing, an abradable coating needs it",
     "run --casing 2nd --E 2 --f 0.19": "--K: missing, an abradable coating needs it",
     "run --casing 2dn --E 2 --K 1 --f 0.19": '"2dn": must be one of 2nd, 2nd5nd; did you mean 2nd?',
