@@ -19,12 +19,12 @@ job.log_to(snakemake.log[0])
 combined = Casing(**snakemake.params.casing)
 diameters = combined.nodal_diameters
 casings = {f"{n}": replace(combined, nodal_diameters=(n,), weights=(1.0,)) for n in diameters}
-casings[" + ".join(map(str, diameters))] = combined
+casings[" + ".join(map(str, diameters)) or "measured"] = combined
 angle = np.linspace(0, 2 * np.pi, 720, endpoint=False)
 inward = {name: casing.amplitude * shape(casing, angle) for name, casing in casings.items()}
 
 radius = tip_radius(read_reduced_blade(snakemake.input.blade))
-named = {f"{name} nodal diameters": u for name, u in inward.items()}
+named = {f"{name} nodal diameters" if diameters else name: u for name, u in inward.items()}
 table = pd.concat(
     pd.DataFrame({"nodal_diameters": name, "angle": angle, "inward": u}) for name, u in inward.items()
 )

@@ -2,6 +2,7 @@
 
 import os
 from collections.abc import Callable, Collection, Iterator, Mapping
+from contextlib import suppress
 from itertools import accumulate
 from typing import Any
 
@@ -12,8 +13,8 @@ from bladerub.blade.model import N_INTERFACE
 from bladerub.blade.sources import matrix_folder, origin
 from bladerub.config.errors import format_value, top_key
 from bladerub.contact.casing import shape
-from bladerub.contact.spec import Casing
 from bladerub.io.folders import study_folder
+from bladerub.study.casings import casing_spec
 from bladerub.study.grid import (
     OWN,
     SPEED_DECIMALS,
@@ -130,31 +131,50 @@ def _fit_speeds(config: Config) -> Iterator[str]:
 
 @_reads("casings")
 def _casings(config: Config) -> Iterator[str]:
-    for name, casing in config["casings"].items():
-        diameters, weights, where = casing["nodal_diameters"], casing["weights"], f"casings.{name}"
-        if len(weights) != len(diameters):
-            yield f"{where}.weights = {weights}: must be {len(diameters)}, one for each of nodal_diameters"
-        elif not any(weights):
-            yield f"{where}.weights = {weights}: at least one must not be 0"
+    for name, entry in config["casings"].items():
+        where = f"casings.{name}"
+        if "table" in entry:
+            try:
+                casing_spec(name, entry)
+            except ValueError as error:
+                yield f"{where}.{error}"
+                continue
         else:
-            depth = casing["interference"]
-            if right := _too_deep(casing, depth):
-                yield f"{where}.interference = {depth:g}: must be {right}"
+            diameters, weights = entry["nodal_diameters"], entry["weights"]
+            if len(weights) != len(diameters):
+                right = f"must be {len(diameters)}, one for each of nodal_diameters"
+                yield f"{where}.weights = {weights}: {right}"
+                continue
+            if not any(weights):
+                yield f"{where}.weights = {weights}: at least one must not be 0"
+                continue
+        depth = casing_spec(name, entry).interference
+        if right := _too_deep(entry, depth):
+            yield f"{_interference_key(where, entry)} = {depth:g}: must be {right}"
 
 
-def _too_deep(casing: Config, depth: float) -> str | None:
-    diameters, weights = tuple(casing["nodal_diameters"]), tuple(casing["weights"])
-    unit = Casing("", diameters, weights, amplitude=1.0, interference=0.0, start_angle=0.0)
-    lowest = float(np.min(shape(unit, np.linspace(0, 2 * np.pi, 7201))))
-    deepest = casing["amplitude"] * (1 - lowest)
+def _interference_key(where: str, entry: Config) -> str:
+    return f"interference of {where}.table" if "table" in entry else f"{where}.interference"
+
+
+def _too_deep(entry: Config, depth: float) -> str | None:
+    casing = casing_spec("", entry)
+    lowest = float(np.min(shape(casing, np.linspace(0, 2 * np.pi, 7201))))
+    deepest = casing.amplitude * (1 - lowest)
     return f"at most {deepest:g} m, or the blade touches all around" if depth > deepest else None
 
 
 @_reads("casings", "contact", "blade")
 def _contact_at_all(config: Config) -> Iterator[str]:
-    for name, casing in config["casings"].items():
-        if right := _too_shallow(config, casing["interference"]):
-            yield f"casings.{name}.interference = {casing['interference']:g}: must be {right}"
+    for name, entry in config["casings"].items():
+        with suppress(ValueError):  # of a table, which `_casings` reports
+            depth, where = casing_spec(name, entry).interference, f"casings.{name}"
+            if right := _too_shallow(config, depth):
+                yield f"{_interference_key(where, entry)} = {depth:g}: must be {right}"
+            thickness = config["contact"]["layer_thickness"]
+            if "table" in entry and depth >= thickness:
+                right = f"below contact.layer_thickness, {thickness:g} m"
+                yield f"{_interference_key(where, entry)} = {depth:g}: must be {right}"
 
 
 def _too_shallow(config: Config, depth: float) -> str | None:
@@ -169,7 +189,7 @@ def own_problem(config: Config, case: CoatingCase) -> tuple[str, str] | None:
     """Say what is wrong with the values of its own that a coating has: the key, and what would be right."""
     casing, own = config["casings"][case.casing], case.own
     thickness = own.get("layer_thickness", config["contact"]["layer_thickness"])
-    depth = own.get("interference", casing["interference"])
+    depth = own.get("interference", casing_spec("", casing).interference)
     if "interference" not in own:
         right = f"above the interference of the casing, {depth:g} m, or the blade reaches through the coating"
         return ("layer_thickness", right) if depth >= thickness else None

@@ -9,6 +9,7 @@ that were there: histories of runs that are no longer planned are left out, and 
 from collections.abc import Callable
 from typing import Any
 
+from bladerub.study.casings import nodal_diameters
 from bladerub.study.grid import SPEED_DECIMALS, UNSCALED, coating_cases, listed_case, speed_name, speeds
 from bladerub.study.orders import excited_orders, excites, peak_orders, used_casings
 
@@ -38,8 +39,9 @@ def _scaled_casings(config: Config, is_inherited: Callable[[str], bool]) -> list
     factor, notes = config["contact"].get("scale", UNSCALED)["length"], []
     for name in used_casings(config):
         casing = config["casings"][name]
-        sizes = (f"{key} {factor * casing[key]:.4g} m" for key in ("amplitude", "interference"))
-        if factor != 1 and not is_inherited(f"casings.{name}.amplitude"):
+        given = (key for key in ("amplitude", "interference") if key in casing)
+        sizes = [f"{key} {factor * casing[key]:.4g} m" for key in given]
+        if factor != 1 and sizes and not is_inherited(f"casings.{name}.amplitude"):
             notes.append(f"contact.scale.length = {factor:g}: casing {name} has {' and '.join(sizes)}")
     return notes
 
@@ -74,7 +76,7 @@ def _doubts(config: Config) -> list[str]:
     """Name the casings that do not excite the orders that somebody asks for."""
     notes = []
     for name in used_casings(config):
-        orders, diameters = peak_orders(config, name), config["casings"][name]["nodal_diameters"]
+        orders, diameters = peak_orders(config, name), nodal_diameters(config["casings"][name])
         idle = [order for order in orders if not excites(config["casings"][name], order)]
         if idle:
             why = f"nodal diameters {diameters} of casing {name} do not excite {idle}"

@@ -42,14 +42,15 @@ def _keys(schema: Rule, path: str, rule: Rule, value: Any) -> Iterator[tuple[str
     for name, inner in rule.get("properties", {}).items():
         inside = value.get(name) if isinstance(value, dict) else None
         yield from _keys(schema, f"{path}.{name}", inner, inside)
-    if isinstance(rule.get("additionalProperties"), Mapping):
-        yield from _keys(schema, f"{path}.<name>", rule["additionalProperties"], None)
+    named = rule.get("additionalProperties")
+    for kind in _kinds(named) if isinstance(named, Mapping) else ():
+        yield from _keys(schema, f"{path}.<name>", kind, None)
     for kind in _kinds(rule["items"]) if "items" in rule else ():
         yield from _keys(schema, f"{path}[]", kind, None)
 
 
 def _kinds(items: Rule) -> list[Rule]:
-    """Return the kinds of entry that a list may have: those of its conditions, or the one it has."""
+    """Return the kinds of entry that a list or group may have: those of its conditions, or the one it has."""
     return [branch["then"] for branch in items.get("allOf", []) if "then" in branch] or [items]
 
 

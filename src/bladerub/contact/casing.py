@@ -3,20 +3,24 @@
 from functools import lru_cache
 
 import numpy as np
+from scipy.interpolate import PchipInterpolator
 
 from bladerub.contact.spec import Casing
 
-
-@lru_cache
-def _largest_sum(nodal_diameters: tuple[int, ...], weights: tuple[float, ...]) -> float:
-    angle = np.linspace(0, 2 * np.pi, 72_001)
-    return float(np.max(np.cos(np.outer(angle, nodal_diameters)) @ weights))
+_TURN = 2 * np.pi
 
 
 def shape(casing: Casing, angle: np.ndarray) -> np.ndarray:
-    """Inward displacement at `angle` (rad) over the amplitude: ``Σ w_n cos(n φ)`` divided by its maximum."""
-    terms = np.cos(np.multiply.outer(np.asarray(angle), casing.nodal_diameters))
-    return terms @ np.asarray(casing.weights) / _largest_sum(casing.nodal_diameters, casing.weights)
+    """Inward displacement at `angle` (rad) over the amplitude.
+
+    It is ``Σ w_n f_n(φ)`` divided by its maximum, where ``f_n`` is ``cos(n φ)``. With a `bump_width` w it is
+    ``exp(−(d / (w L))²)``, d being the angle to the nearest of n even bumps, the first at 0, and L = 2π/n:
+    for two bumps eqs. (3) and (4) of Piollet, Nyssen and Batailly (J. Sound Vib. 460, 2019, 114878). A
+    measured shape passes through its points without overshoot (Fritsch and Carlson 1980).
+    """
+    if casing.measured:
+        return _through(casing.measured)(np.asarray(angle) % _TURN)
+    return _sum_of_terms(casing, np.asarray(angle)) / _largest_sum(casing)
 
 
 def gap(casing: Casing, clearance: float | np.ndarray, angle: np.ndarray) -> np.ndarray:
@@ -27,3 +31,24 @@ def gap(casing: Casing, clearance: float | np.ndarray, angle: np.ndarray) -> np.
     """
     offset = casing.amplitude - casing.interference
     return clearance + offset - casing.amplitude * shape(casing, angle)
+
+
+def _sum_of_terms(casing: Casing, angle: np.ndarray) -> np.ndarray:
+    phase = np.multiply.outer(angle, casing.nodal_diameters)
+    if not casing.bump_width:
+        return np.cos(phase) @ np.asarray(casing.weights)
+    distance = phase / _TURN  # from a bump, over that between two
+    distance -= np.round(distance)
+    return np.exp(-((distance / casing.bump_width) ** 2)) @ np.asarray(casing.weights)
+
+
+@lru_cache
+def _largest_sum(casing: Casing) -> float:
+    return float(np.max(_sum_of_terms(casing, np.linspace(0, _TURN, 72_001))))
+
+
+@lru_cache
+def _through(points: tuple[tuple[float, float], ...]) -> PchipInterpolator:
+    angle, inward = np.array(points).T
+    turns = np.concatenate([angle + turn for turn in (-_TURN, 0.0, _TURN)])
+    return PchipInterpolator(turns, np.tile(inward, 3))

@@ -6,17 +6,17 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Casing:
-    """Inner shape of the rigid casing: nodal diameters of given weight.
+    """Inner shape of the rigid casing: waves or bumps of given weight, or as measured.
 
-    The gap of node j at casing angle φ is ``c_j + (a − δ) − a s(φ)`` with ``s`` the weighted sum of
-    ``cos(n φ)`` scaled to a maximum of 1, a the `amplitude` and δ the `interference`.
+    The gap of node j at casing angle φ is ``c_j + (a − δ) − a s(φ)`` with the shape ``s`` (maximum 1, see
+    `bladerub.contact.casing.shape`), a the `amplitude` and δ the `interference`.
 
     Parameters
     ----------
     name : str
         As in the config, for instance ``"2nd"``.
     nodal_diameters : tuple of int
-        The n of each term.
+        The n of each term: so many waves, or bumps, around the circumference.
     weights : tuple of float
         Weight of each term.
     amplitude : float
@@ -25,6 +25,11 @@ class Casing:
         Depth δ by which the shape reaches over the blade tip, before the clearance, m.
     start_angle : float
         Casing angle under the stacking line at the start of the run, rad.
+    bump_width : float
+        Where it is not 0, each term is a row of Gaussian bumps of this width, over their distance, instead of
+        a wave.
+    measured : tuple of (float, float)
+        Angles (rad, ascending within a turn) and the shape there, instead of terms; none by default.
     """
 
     name: str
@@ -33,6 +38,8 @@ class Casing:
     amplitude: float
     interference: float
     start_angle: float
+    bump_width: float = 0.0
+    measured: tuple[tuple[float, float], ...] = ()
 
 
 @dataclass(frozen=True)

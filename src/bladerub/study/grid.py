@@ -7,7 +7,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass, fields, replace
 from typing import Any
 
-from bladerub.contact.spec import Casing, Coating, RunSpec, TipProfile
+from bladerub.contact.spec import Coating, RunSpec, TipProfile
+from bladerub.study.casings import casing_spec
 
 SPEED_DECIMALS = 6
 """Speeds are rounded to this many decimals, so that start + i step and a written value agree."""
@@ -171,21 +172,15 @@ def run_spec(config: Mapping[str, Any], case: CoatingCase, f_omega: float) -> Ru
     """Describe the run of coating `case` at the speed `f_omega` in SI units.
 
     The one place where values that the config gives in blade lengths, degrees or for the stand-in of the
-    paper's blade (``contact.scale``) become SI of this blade. Raises `KeyError` if it has no such casing.
+    paper's blade (``contact.scale``) become SI of this blade. Raises `KeyError` if it has no such casing,
+    `ValueError` as `casing_spec`.
     """
     contact, solver = {**config["contact"], **case.own}, config["solver"]
     casing = {**config["casings"][case.casing], **case.own}
     length = float(config["blade"]["length"])
     scale = contact.get("scale", UNSCALED)
     return RunSpec(
-        casing=Casing(
-            name=case.casing,
-            nodal_diameters=tuple(int(n) for n in casing["nodal_diameters"]),
-            weights=tuple(float(weight) for weight in casing["weights"]),
-            amplitude=float(casing["amplitude"] * scale["length"]),
-            interference=float(casing["interference"] * scale["length"]),
-            start_angle=math.radians(casing["start_angle"]),
-        ),
+        casing=casing_spec(case.casing, casing, scale["length"]),
         coating=Coating(
             E=case.E,
             K=case.K,

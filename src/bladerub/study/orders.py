@@ -1,8 +1,9 @@
 """Engine orders at which the peaks of a coating are sought: those that its casing excites."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from typing import Any
 
+from bladerub.study.casings import nodal_diameters
 from bladerub.study.grid import coating_cases, speeds
 
 _DERIVED = 2  # orders of a casing that does not excite those of the config, as many as the paper has
@@ -20,7 +21,7 @@ def peak_settings(config: Mapping[str, Any], casing: str) -> dict[str, Any]:
 
 def excites(casing: Mapping[str, Any], order: int) -> bool:
     """Whether a nodal diameter of `casing` (of the config) divides the order: its harmonics are excited."""
-    return any(order % diameter == 0 for diameter in _diameters(casing))
+    return any(order % diameter == 0 for diameter in nodal_diameters(casing))
 
 
 def excited_orders(config: Mapping[str, Any], casing: str) -> list[int]:
@@ -37,8 +38,3 @@ def excited_orders(config: Mapping[str, Any], casing: str) -> list[int]:
 def used_casings(config: Mapping[str, Any]) -> list[str]:
     """List the casings that have a coating."""
     return list(dict.fromkeys(case.casing for case in coating_cases(config)))
-
-
-def _diameters(casing: Mapping[str, Any]) -> Iterator[int]:
-    pairs = zip(casing["nodal_diameters"], casing["weights"], strict=False)
-    return (diameter for diameter, weight in pairs if weight)

@@ -54,7 +54,8 @@ NUMBERS = """
     casings.weights                   [-100, 100]
     casings.amplitude                 (0, 0.05]
     casings.interference              (0, 0.05]
-    casings.start_angle               [-360, 360]
+    casings.bump_width                (0, 1]
+    start_angle                       [-360, 360]
     E                                 (0, 1e6]
     K                                 [0, 1e6]
     theta                             [0, 1.5]
@@ -107,7 +108,7 @@ COUNTS = {
     "casings": (1, 100),
     "casings.nodal_diameters": (1, 20),
     "casings.weights": (1, 20),
-    "casings.peak_orders": (1, 1000),
+    "peak_orders": (1, 1000),
     "coatings": (1, 1000),
     "coatings.E": (1, 1000),
     "coatings.K": (1, 1000),
@@ -152,7 +153,8 @@ def complete(config):
     listed = [{key: [v] if isinstance(v, float) else v for key, v in kind.items()} for kind in kinds]
     config["blade"]["source"] = {}
     config["contact"]["scale"] = {"length": 1, "modulus": 1, "time": 1}
-    config["casings"]["2nd"]["peak_orders"] = [4]
+    config["casings"]["2nd"] |= {"peak_orders": [4], "bump_width": 0.5}
+    config["casings"]["table"] = {"table": {"file": "gap.csv"}, "start_angle": 0.0, "peak_orders": [4]}
     config["coatings"], config["friction"] = (
         listed,
         [{key: listed[0][key] for key in ("casing", "E", "K", "theta")}],
@@ -163,7 +165,7 @@ def complete(config):
 
 def entries(rule, keys=()):
     """Yield each entry of the schema: its keys in `complete`, its name in the tables, itself."""
-    name = ".".join(key for key in keys if isinstance(key, str) and key != "2nd")
+    name = ".".join(key for key in keys if isinstance(key, str) and key not in ("2nd", "table"))
     if "$ref" in rule:
         name = rule["$ref"].rsplit("/", 1)[1]
         rule = config_schema.schema()["$defs"][name]
@@ -171,11 +173,16 @@ def entries(rule, keys=()):
     for key, inner in rule.get("properties", {}).items():
         yield from entries(inner, (*keys, key))
     if isinstance(rule.get("additionalProperties"), dict):
-        yield from entries(rule["additionalProperties"], (*keys, "2nd"))
-    items = rule.get("items", {})
-    kinds = [kind["then"] for kind in items.get("allOf", []) if "then" in kind] or [items]
-    for index, kind in enumerate(kinds if items else []):
+        for casing, kind in zip(("2nd", "table"), kinds(rule["additionalProperties"]), strict=False):
+            yield from entries(kind, (*keys, casing))
+    for index, kind in enumerate(kinds(rule.get("items", {}))):
         yield from entries(kind, (*keys, index))
+
+
+def kinds(rule):
+    """The kinds of entry that a list or group may have."""
+    conditional = [kind["then"] for kind in rule.get("allOf", []) if "then" in kind]
+    return conditional or ([rule] if rule else [])
 
 
 ENTRIES = list(entries(config_schema.schema()))

@@ -40,6 +40,8 @@ def _other(leaf):
     if isinstance(leaf, str):
         return leaf + "x"
     if isinstance(leaf, tuple):
+        if not leaf:
+            return ((0.0, 1.0),)
         return (*leaf[:-1], _other(leaf[-1]))
     return leaf + 1 if isinstance(leaf, int) else math.nextafter(leaf, math.inf)
 
@@ -58,7 +60,7 @@ def test_the_rigid_casing_has_a_key_of_its_own(key, config):
 def test_every_field_of_the_run_changes_the_key(key, spec):
     keys = {key()}
     leaves = list(_leaves(spec))
-    assert len(leaves) == 26
+    assert len(leaves) == 28
     for path, leaf in leaves:
         keys.add(key(_replaced(spec, path, _other(leaf))))
     assert len(keys) == 1 + len(leaves)

@@ -1,0 +1,109 @@
+"""Casings of the config, in SI units: nodal diameters, bumps, or a gap measured around the casing."""
+
+import math
+from collections.abc import Mapping
+from functools import lru_cache
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from bladerub.blade.sources.frame import ANGLE_UNITS, UNITS
+from bladerub.contact.casing import shape
+from bladerub.contact.spec import Casing
+from bladerub.io.folders import study_folder
+
+MEASURED_ANGLES = (8, 10_000)
+"""Fewest and most angles of a measured gap."""
+
+_HIGHEST_HARMONIC = 100
+_MARKED = 0.1  # of the largest harmonic: those of a measured shape from there on count as nodal diameters
+
+
+def casing_spec(name: str, entry: Mapping[str, Any], length_scale: float = 1.0) -> Casing:
+    """Describe an entry of ``casings`` in SI units.
+
+    `length_scale` is ``contact.scale.length``; a measured gap is what it is. With an ``interference`` beside
+    the table, the measured gap is shifted to it.
+
+    Raises
+    ------
+    ValueError
+        If the table of a measured gap cannot be read or is none; begins with the key.
+    """
+    start_angle = math.radians(entry["start_angle"])
+    if "table" in entry:
+        table = entry["table"]
+        path = study_folder() / table["file"]
+        if not path.is_file():
+            raise ValueError(f"table.file = {table['file']}: there is no such file")
+        units = UNITS[table.get("unit", "m")], ANGLE_UNITS[table.get("angle_unit", "deg")]
+        try:
+            angle, gap = _measured(path, path.stat().st_mtime_ns, *units)
+        except ValueError as error:
+            raise ValueError(f"table.file = {table['file']}: {error}") from error
+        amplitude, lowest = float(np.ptp(gap)), float(np.min(gap))
+        inward = (np.max(gap) - gap) / amplitude
+        own = entry.get("interference")
+        return Casing(
+            name=name,
+            nodal_diameters=(),
+            weights=(),
+            amplitude=amplitude,
+            interference=-lowest if own is None else float(own * length_scale),
+            start_angle=start_angle,
+            measured=tuple(zip(angle.tolist(), inward.tolist(), strict=True)),
+        )
+    return Casing(
+        name=name,
+        nodal_diameters=tuple(int(n) for n in entry["nodal_diameters"]),
+        weights=tuple(float(weight) for weight in entry["weights"]),
+        amplitude=float(entry["amplitude"] * length_scale),
+        interference=float(entry["interference"] * length_scale),
+        start_angle=start_angle,
+        bump_width=float(entry.get("bump_width", 0.0)),
+    )
+
+
+def nodal_diameters(entry: Mapping[str, Any]) -> list[int]:
+    """List the nodal diameters of a casing of the config: those with weight.
+
+    Of a measured gap they are its harmonics of at least a tenth of the largest.
+    """
+    if "table" in entry:
+        angle = np.linspace(0, 2 * np.pi, 4 * _HIGHEST_HARMONIC, endpoint=False)
+        size = np.abs(np.fft.rfft(shape(casing_spec("", entry), angle)))[1 : _HIGHEST_HARMONIC + 1]
+        return [n for n, of_n in enumerate(size, 1) if of_n >= _MARKED * np.max(size)]
+    return [n for n, w in zip(entry["nodal_diameters"], entry["weights"], strict=False) if w]
+
+
+@lru_cache
+def _measured(path: Path, _version: int, unit: float, angle_unit: float) -> tuple[np.ndarray, np.ndarray]:
+    """Angles (rad) and gaps (m) of a table; `_version` makes an edited file another one."""
+    try:
+        table = pd.read_csv(path, comment="#", sep=r"\s*[,;\s]\s*", engine="python")
+    except (ValueError, UnicodeDecodeError) as error:
+        raise ValueError(f"is no table: {error}") from error
+    table.columns = table.columns.str.strip().str.lower()
+    if missing := [name for name in ("angle", "gap") if name not in table]:
+        raise ValueError(f"has no column {', '.join(missing)}; must have angle and gap in its first row")
+    numbers = table[["angle", "gap"]].apply(pd.to_numeric, errors="coerce").to_numpy(float)
+    bad = ~np.isfinite(numbers).all(axis=1)
+    if bad.any():
+        raise ValueError(f"row {bad.argmax() + 1}: angle and gap must be numbers")
+    angle, gap = numbers.T * np.array([[angle_unit], [unit]])
+    turn = 2 * np.pi * (1 - 1e-9)
+    if len(angle) > 1 and angle[-1] - angle[0] >= turn and gap[-1] == gap[0]:
+        angle, gap = angle[:-1], gap[:-1]  # the last row is the first again
+    fewest, most = MEASURED_ANGLES
+    if not fewest <= len(angle) <= most:
+        raise ValueError(f"has {len(angle)} angles; must have {fewest} to {most}")
+    if (back := np.diff(angle) <= 0).any():
+        raise ValueError(f"row {back.argmax() + 2}: angle must be above that of the row before")
+    if angle[-1] - angle[0] >= turn:
+        raise ValueError(f"goes over {np.rad2deg(angle[-1] - angle[0]):g} degrees; must stay within a turn")
+    if np.ptp(gap) == 0:
+        raise ValueError(f"has the same gap everywhere, {gap[0]:g} m; must vary")
+    order = np.argsort(angle % (2 * np.pi))
+    return (angle % (2 * np.pi))[order], gap[order]

@@ -1,0 +1,119 @@
+"""Casings of the config: by nodal diameters, bumps, or a table of the gap."""
+
+import numpy as np
+import pytest
+
+from bladerub.config.errors import ConfigError
+from bladerub.config.read import validate
+from bladerub.contact.casing import gap
+from bladerub.study.casings import casing_spec, nodal_diameters
+from bladerub.study.grid import CoatingCase, run_spec
+from bladerub.study.orders import excites
+
+ANGLE = np.arange(0, 360, 5)
+GAP = 0.3 - 0.5 * np.cos(np.deg2rad(3 * ANGLE))  # mm
+
+
+@pytest.fixture
+def table(tmp_path):
+    """Write a table of the gap; return its entry of ``casings``."""
+
+    def written(rows, header="angle,gap", **entry):
+        path = tmp_path / "gap.csv"
+        path.write_text("\n".join(["# measured cold", header, *rows]) + "\n")
+        return {"table": {"file": str(path), "unit": "mm"}, "start_angle": 60.0} | entry
+
+    return written
+
+
+@pytest.fixture
+def rows():
+    return [f"{a},{g!r}" for a, g in zip(ANGLE.tolist(), GAP.tolist(), strict=True)]
+
+
+def test_the_gap_of_a_table_is_that_of_the_casing(table, rows):
+    casing = casing_spec("own", table(rows), length_scale=3.0)
+    np.testing.assert_allclose(gap(casing, 1e-4, np.deg2rad(ANGLE)), 1e-4 + GAP * 1e-3, atol=1e-15)
+    assert casing.interference == pytest.approx(0.2e-3)
+    assert casing.start_angle == pytest.approx(np.pi / 3)
+
+
+def test_an_interference_of_its_own_shifts_the_table(table, rows):
+    casing = casing_spec("own", table(rows, interference=0.35e-3))
+    np.testing.assert_allclose(gap(casing, 0.0, np.deg2rad(ANGLE)), GAP * 1e-3 - 0.15e-3, atol=1e-15)
+
+
+@pytest.mark.parametrize("separator", [";", "\t", " "])
+def test_a_table_may_turn_elsewhere_and_be_closed(table, rows, separator):
+    there = casing_spec("own", table(rows))
+    cells = [row.split(",") for row in rows]
+    turned = [*cells[30:], *([str(360 + int(angle)), of_gap] for angle, of_gap in cells[:31])]
+    entry = table([separator.join(row) for row in turned], f"Angle{separator}GAP")
+    np.testing.assert_allclose(casing_spec("own", entry).measured, there.measured, atol=1e-12)
+
+
+def test_radians_and_metres(table, rows):
+    there = casing_spec("own", table(rows))
+    in_si = zip(np.deg2rad(ANGLE).tolist(), (GAP * 1e-3).tolist(), strict=True)
+    entry = table([f"{angle},{of_gap!r}" for angle, of_gap in in_si])
+    entry["table"] |= {"unit": "m", "angle_unit": "rad"}
+    np.testing.assert_allclose(casing_spec("own", entry).measured, there.measured, atol=1e-12)
+
+
+def test_nodal_diameters_of_a_table_are_its_harmonics(table, rows):
+    assert nodal_diameters(table(rows)) == [3]
+    assert excites(table(rows), 6)
+    assert not excites(table(rows), 4)
+
+
+def test_nodal_diameters_without_weight_do_not_count():
+    assert nodal_diameters({"nodal_diameters": [2, 5], "weights": [0, 1.0]}) == [5]
+
+
+@pytest.mark.parametrize(
+    ("change", "said"),
+    [
+        (lambda rows: rows[:5], "5 angles"),
+        (lambda rows: [*rows, "380,0.3"], "380"),
+        (lambda rows: [*rows[:3], rows[1], *rows[4:]], "row 4"),
+        (lambda rows: [*rows[:3], "15,wide", *rows[4:]], "row 4"),
+        (lambda rows: [row.split(",")[0] + ",0.1" for row in rows], "same gap"),
+    ],
+)
+def test_a_table_that_is_none_is_refused_with_its_key(config, table, rows, change, said):
+    config["casings"]["own"] = table(change(rows))
+    with pytest.raises(ConfigError) as error:
+        validate(config)
+    assert "casings.own.table.file = " in str(error.value)
+    assert said in str(error.value)
+
+
+def test_a_table_without_its_columns_or_file_is_refused(config, table, rows):
+    entry = table(rows, header="phi,h")
+    with pytest.raises(ValueError, match="angle, gap"):
+        casing_spec("own", entry)
+    entry["table"]["file"] = "nowhere.csv"
+    with pytest.raises(ValueError, match="nowhere"):
+        casing_spec("own", entry)
+
+
+@pytest.mark.parametrize(
+    ("shift", "said"), [(0.0, None), (0.4, "never touches"), (-0.9, "all around"), (-7.0, "layer_thickness")]
+)
+def test_a_measured_gap_must_give_contact_but_not_everywhere(config, table, rows, shift, said):
+    shifted = [f"{a},{g + shift!r}" for a, g in zip(ANGLE.tolist(), GAP.tolist(), strict=True)]
+    config["casings"]["own"] = table(shifted)
+    if said is None:
+        validate(config)
+        return
+    with pytest.raises(ConfigError, match=said):
+        validate(config)
+
+
+def test_an_edited_table_is_another_run(config, table, rows):
+    config["casings"]["own"] = table(rows)
+    case = CoatingCase("own", 1.1, 0.5, 0.0)
+    before = run_spec(config, case, 0.2)
+    assert run_spec(config, case, 0.2) == before
+    config["casings"]["own"] = table([*rows[:-1], "355,-0.1999"])
+    assert run_spec(config, case, 0.2) != before
