@@ -169,6 +169,7 @@ use rule docs_data as docs_robustness with:
 use rule docs_data as docs_identification with:
     input:
         rules.identify.output.waves,
+        rules.identify.output.emulators,
         rules.identify.output.targets,
         rules.identify.output.ranges,
         rules.identify.output.exclusions,
