@@ -2,6 +2,7 @@
 import math
 from functools import cache
 
+from bladerub.blade.model import n_interface
 from bladerub.study.grid import case_from_name, speeds
 from bladerub.study.growth import confirmation_determinants
 from bladerub.study.plan import coating_plan
@@ -38,6 +39,7 @@ rule compile_kernel:
     params:
         solver=solver_digest(),
         tip_turns=config["contact"].get("tip_turns", False),
+        n_nodes=n_interface(config),
     script:
         "../scripts/compile_kernel.py"
 

@@ -11,7 +11,7 @@ from bladerub.workflow import job
 job.log_to(snakemake.log[0])
 
 start = time.monotonic()
-compile_kernel(snakemake.params.tip_turns)
+compile_kernel(snakemake.params.tip_turns, snakemake.params.n_nodes)
 seconds = time.monotonic() - start
 print(f"time loop compiled in {seconds:.1f} s", file=sys.stderr)
 with atomic.writing(snakemake.output[0]) as stream:

@@ -53,7 +53,7 @@ def fall(gravity, duration):
     k = np.arange(N_MODES)
     tip_modes = np.zeros((16, N_MODES))
     tip_modes[0] = np.sqrt(np.where(k == 0, 1.0, 2.0) / DOYEN.mass)
-    modes = Modes(k * np.pi * DOYEN.wave_speed / DOYEN.length, tip_modes)
+    modes = Modes(k * np.pi * DOYEN.wave_speed / DOYEN.length, tip_modes, 8)
     step = T / STEPS
     rule = exponential(modes, 0.0, step, Contact(np.full(8, np.inf), -1.0, 0.0))
 
@@ -62,7 +62,7 @@ def fall(gravity, duration):
     gap = np.full((at_centre.size, 8), 1e6)  # out of reach of all nodes but the first
     gap[:, 0] = -SPEED * at_centre - gravity * at_centre**2 / 2
     zeros, ones = np.zeros(8), np.ones(8)
-    own = np.diag(normal_compliance(rule.compliance, -1.0, 0.0))
+    own = np.diag(normal_compliance(rule.compliance, 8, -1.0, 0.0))
     stator = records.Stator(
         initial_gap=gap,
         minimum_gap=np.full(at_centre.size, -np.inf),

@@ -36,7 +36,7 @@ def vibration(s_0, coulomb, n_cycles, scheme):
     tip_modes = np.zeros((16, 1))
     tip_modes[8, 0] = M**-0.5  # only along the casing
     radial, tangential = -np.cos(THETA), -np.sin(THETA)
-    modes, contact = Modes(np.array([OMEGA]), tip_modes), Contact(np.ones(8), radial, tangential)
+    modes, contact = Modes(np.array([OMEGA]), tip_modes, 8), Contact(np.ones(8), radial, tangential)
     rule = SCHEMES[scheme](modes, 0.0, STEP, contact)
     gap = np.ones((N, 8))
     gap[:, 0] = -1.0

@@ -29,7 +29,7 @@ def deviations(kappa, n_revolutions=2, start=1e-8, scheme=central_differences):
     tip_modes = np.zeros((16, 1))
     tip_modes[0, 0] = M**-0.5
     contact = Contact(np.full(8, bar), -1.0, 0.0)
-    rule = scheme(Modes(np.array([np.sqrt(spring / M)]), tip_modes), 0.0, H, contact)
+    rule = scheme(Modes(np.array([np.sqrt(spring / M)]), tip_modes, 8), 0.0, H, contact)
     gap = np.ones((N, 8))
     gap[:, 0] = -DEPTH
     zeros = np.zeros(8)

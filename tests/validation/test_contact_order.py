@@ -42,7 +42,7 @@ def march(blade, scheme, steps_per_element):
         is_rigid=False,
         normal_factor=radial,
         tangential_factor=tangential,
-        self_compliance=np.diag(normal_compliance(rule.compliance, radial, tangential)).copy(),
+        self_compliance=np.diag(normal_compliance(rule.compliance, 8, radial, tangential)).copy(),
     )
     modal, flight, state = pack(rule), free_flight(rule, 1, 0.0), records.at_rest(rule.omega.size, N)
     piece = np.zeros(N // 8)

@@ -212,7 +212,7 @@ def solve_all(
     blade: Blade, runs: list[StudyRun], jobs: int, follow: bool, done: Callable[[], Any]
 ) -> list[Run]:
     """Simulate `runs`, `jobs` at once, without their histories; `done` is called after each."""
-    compile_kernel()
+    compile_kernel(n_nodes=blade.reduced.n_interface)
 
     def compute(run: StudyRun) -> Run:
         found = solve(blade, run, follow, keep_history=False)

@@ -265,7 +265,7 @@ def simulate(
     (20, 'completed')
     """
     blade.check_speed("f_omega", run.f_omega)
-    compile_kernel()
+    compile_kernel(n_nodes=blade.reduced.n_interface)
     with tqdm(total=run.spec.revolutions, unit="rev", disable=not progress, leave=False) as bar:
         shown = counted(bar, run)
 

@@ -15,6 +15,7 @@ from bladerub.blade.built import BuiltBlade, mesh_path
 from bladerub.blade.discrete import DiscreteBlade, by_finite_elements
 from bladerub.blade.elasticity import Material
 from bladerub.blade.mesh import BladeMesh, MeshedBlade
+from bladerub.blade.model import N_INTERFACE, n_interface
 from bladerub.blade.reduction import fit_speeds
 from bladerub.blade.refinement import MOST_FIT_SPEEDS, reduce_to_tolerance
 from bladerub.blade.sources import matrix_folder, origin
@@ -66,7 +67,7 @@ def build(config: Mapping[str, Any]) -> BuiltBlade:
     """
     if "matrices" in config["blade"].get("source", {}):
         return reduce_given(_of_matrices(config), config)
-    return reduce_meshed(meshed_blade(config["blade"]), config)
+    return reduce_meshed(meshed_blade(config["blade"], n_interface(config)), config)
 
 
 def reduce_meshed(blade: MeshedBlade, config: Mapping[str, Any]) -> BuiltBlade:
@@ -104,13 +105,15 @@ def _of_matrices(config: Mapping[str, Any]) -> DiscreteBlade:
 
 
 @threadpool_limits.wrap(limits=1)
-def meshed_blade(blade: Mapping[str, Any]) -> MeshedBlade:
-    """Mesh the blade of the ``blade`` block of the config, or the one of its source."""
+def meshed_blade(blade: Mapping[str, Any], n_nodes: int = N_INTERFACE) -> MeshedBlade:
+    """Mesh the blade of the ``blade`` block, or the one of its source, with `n_nodes` interface nodes."""
     if "source" not in blade:
-        geometry.check(blade)
+        geometry.check(blade, n_nodes)
         shape = geometry.BladeShape.from_config(blade)
-        return MeshedBlade(BladeMesh.from_shape(shape, blade["mesh"]), shape.tip_cone, blade["length"])
-    given = import_blade(origin.read(blade["source"]), blade["mesh"]).blade
+        return MeshedBlade(
+            BladeMesh.from_shape(shape, blade["mesh"], n_nodes), shape.tip_cone, blade["length"]
+        )
+    given = import_blade(origin.read(blade["source"]), blade["mesh"], n_nodes).blade
     _check_length(blade["length"], given.length, blade["source"]["file"])
     return given
 

@@ -8,7 +8,7 @@ import numpy as np
 import pandas as pd
 
 from bladerub.blade.mesh import BladeMesh
-from bladerub.blade.model import AXIS, INTERFACE_NODE, ReducedBlade, write_reduced_blade
+from bladerub.blade.model import AXIS, ReducedBlade, interface_node, write_reduced_blade
 from bladerub.io import hdf5, tables
 from bladerub.io.hdf5 import Variable
 
@@ -71,7 +71,7 @@ def _write_mesh(path: str | Path, built: BuiltBlade, origin: Mapping[str, str]) 
         "interface_nodes": Variable(
             ("interface_node",), mesh.interface, "1", "contact nodes, leading to trailing edge"
         ),
-        "interface_node": replace(INTERFACE_NODE, dims=("interface_node",)),
+        "interface_node": replace(interface_node(mesh.interface.size), dims=("interface_node",)),
         "mode": Variable(("mode",), np.arange(1, built.frequency.size + 1), "1", "mode, counted from 1"),
         "frequency": Variable(("mode",), built.frequency, "Hz", "natural frequencies at rest"),
         "mode_shape": Variable(

@@ -4,7 +4,7 @@ import numpy as np
 from scipy.linalg import eigh
 from threadpoolctl import threadpool_limits
 
-from bladerub.blade.model import N_INTERFACE, ReducedBlade
+from bladerub.blade.model import ReducedBlade
 
 
 @threadpool_limits.wrap(limits=1, user_api="blas")  # sums depend on the number of threads
@@ -22,7 +22,7 @@ def in_hertz(squares: np.ndarray) -> np.ndarray:
 
 @threadpool_limits.wrap(limits=1, user_api="blas")
 def tip_lean(blade: ReducedBlade) -> np.ndarray:
-    """Radial over tangential displacement (8,) of the tip in mode 1 at rest, leading to trailing edge."""
+    """Radial over tangential displacement (j,) of the tip in mode 1 at rest, leading to trailing edge."""
     _, mode = eigh(blade.stiffness_0, blade.mass, subset_by_index=[0, 0])
-    nodes = mode[: 3 * N_INTERFACE].reshape(N_INTERFACE, 3)
+    nodes = mode[: 3 * blade.n_interface].reshape(-1, 3)
     return np.sum(nodes * blade.radial_direction, axis=1) / np.sum(nodes * blade.tangential_direction, axis=1)

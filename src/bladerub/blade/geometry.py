@@ -16,6 +16,7 @@ positive with the rotation, and then wrapped: ``phi = t / r``.
   bends with the rotation also moves downstream, so a widening flow path moves its tip away from the casing.
 """
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from itertools import pairwise
@@ -85,7 +86,7 @@ def lattice(mesh: Mapping[str, int]) -> tuple[np.ndarray, np.ndarray, np.ndarray
     return xi, eta, zeta
 
 
-def check(blade: Mapping[str, Any]) -> None:
+def check(blade: Mapping[str, Any], n_interface: int = N_INTERFACE) -> None:
     """Check that the ``blade`` block of the config describes a blade that can be meshed.
 
     A ValueError names the key, the value and what would be right, if the sections do not ascend from span 0
@@ -104,7 +105,7 @@ def check(blade: Mapping[str, Any]) -> None:
             raise ValueError(
                 f"blade.sections[{at}].span = {span:g}: must be above that of the section before ({before:g})"
             )
-    check_interface(blade["mesh"])
+    check_interface(blade["mesh"], n_interface)
     xi, eta, zeta = lattice(blade["mesh"])
     shape = BladeShape.from_config(blade)
     jacobian = corner_jacobians(shape.points(xi[:, None, None], eta[None, :, None], zeta[None, None, :]))
@@ -119,14 +120,16 @@ def check(blade: Mapping[str, Any]) -> None:
         )
 
 
-def check_interface(mesh: Mapping[str, int]) -> None:
+def check_interface(mesh: Mapping[str, int], n_interface: int = N_INTERFACE) -> None:
     """Check that the tip's camber line has enough nodes for the interface, or raise ValueError."""
     # Through an odd number of elements the line meets nodes only where it crosses their corner edges.
     n_nodes = mesh["chordwise"] * (2 if mesh["thickness"] % 2 == 0 else 1) + 1
-    if n_nodes < N_INTERFACE:
+    if n_nodes < n_interface:
+        fewest = math.ceil((n_interface - 1) / 2)
         raise ValueError(
             f"blade.mesh.chordwise = {mesh['chordwise']}: gives {n_nodes} nodes on the tip's camber line, "
-            f"not {N_INTERFACE}; must be 4 or more with an even blade.mesh.thickness, else 7 or more"
+            f"not {n_interface}; must be {fewest} or more with an even blade.mesh.thickness, else "
+            f"{n_interface - 1} or more"
         )
 
 

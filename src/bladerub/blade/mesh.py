@@ -153,20 +153,20 @@ class BladeMesh:
     mesh: SolidMesh | NodeCloud  # nodes alone where another program has made matrices of the elements
     root: np.ndarray = field(repr=False)  # nodes that are clamped
     tip: np.ndarray = field(repr=False)  # nodes of the tip face
-    interface: np.ndarray  # (8,) nodes of the tip's camber line that may touch, leading to trailing edge
+    interface: np.ndarray  # (j,) nodes of the tip's camber line that may touch, leading to trailing edge
 
     @classmethod
-    def from_shape(cls, shape, mesh: Mapping[str, int]) -> "BladeMesh":
+    def from_shape(cls, shape, mesh: Mapping[str, int], n_interface: int = N_INTERFACE) -> "BladeMesh":
         """Mesh `shape`, whose ``points`` map the unit cube as those of `bladerub.blade.geometry.BladeShape`.
 
-        `mesh` are the element counts of the config. A ValueError says if the tip has too few for 8 nodes.
+        `mesh` are the element counts of the config. A ValueError says if the tip has too few for its nodes.
         """
-        check_interface(mesh)
+        check_interface(mesh, n_interface)
         hexahedra, (xi, eta, zeta) = hexahedral_mesh(*lattice(mesh), shape.points)
         tip = np.flatnonzero(zeta == 1)
         camber_line = tip[np.isclose(eta[tip], 0.5)]
         camber_line = camber_line[np.argsort(xi[camber_line])]
-        evenly = np.rint(np.linspace(0, camber_line.size - 1, N_INTERFACE)).astype(int)
+        evenly = np.rint(np.linspace(0, camber_line.size - 1, n_interface)).astype(int)
         return cls(hexahedra, np.flatnonzero(zeta == 0), tip, camber_line[evenly])
 
 

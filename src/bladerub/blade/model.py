@@ -4,6 +4,7 @@ import itertools
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -11,10 +12,21 @@ from bladerub.io import hdf5
 from bladerub.io.errors import DamagedFile
 from bladerub.io.hdf5 import Variable
 
-N_INTERFACE = 8  # nodes on the blade tip, leading to trailing edge
-INTERFACE_NODE = Variable(
-    ("node",), np.arange(1, N_INTERFACE + 1), "1", "interface node, counted from 1 at the leading edge"
-)
+FEWEST_NODES = 4
+N_INTERFACE = 8  # nodes on the blade tip, leading to trailing edge, if not said otherwise
+
+
+def n_interface(config: Mapping[str, Any]) -> int:
+    """Return the number of interface nodes that `config` asks for; matrices bring their own."""
+    return int(config["reduction"].get("interface_nodes", N_INTERFACE))
+
+
+def interface_node(n_nodes: int) -> Variable:
+    """Return the numbers of `n_nodes` interface nodes, as files have them."""
+    number = np.arange(1, n_nodes + 1)
+    return Variable(("node",), number, "1", "interface node, counted from 1 at the leading edge")
+
+
 AXIS = Variable(("axis",), np.array(["x", "y", "z"]), "1", "x along the axis of rotation, z along the blade")
 
 
@@ -78,6 +90,11 @@ class ReducedBlade:
         return stiffness_at(coefficients, f_omega)
 
     @property
+    def n_interface(self) -> int:
+        """Number of interface nodes."""
+        return len(self.node_position)
+
+    @property
     def arrays(self) -> dict[str, np.ndarray]:
         """Matrices and vectors by name; `stiffness_higher` are ``stiffness_3``, ``stiffness_4`` ..."""
         higher = {f"stiffness_{power}": matrix for power, matrix in enumerate(self.stiffness_higher, 3)}
@@ -126,7 +143,7 @@ _ATTRIBUTES = ("f1_hz", "f_omega_max", "eta", "rank_tolerance", "length")
 
 def write_reduced_blade(path: str | Path, blade: ReducedBlade, origin: Mapping[str, str]) -> None:
     """Write `blade` to the HDF5 file `path`, whole or not at all; `origin` is its provenance."""
-    variables = {"node": INTERFACE_NODE, "axis": AXIS}
+    variables = {"node": interface_node(blade.n_interface), "axis": AXIS}
     for name, data in blade.arrays.items():
         if name in _ARRAYS:
             dims, units, long_name = _ARRAYS[name]

@@ -7,8 +7,9 @@ from pathlib import Path
 import h5py
 import numpy as np
 
-from bladerub.blade.model import N_INTERFACE, ReducedBlade, read_reduced_blade
+from bladerub.blade.model import FEWEST_NODES, ReducedBlade, read_reduced_blade
 from bladerub.io.errors import DamagedFile
+from bladerub.numerics.lanes import MOST_NODES
 
 LARGEST_MATRIX = 10_000  # coordinates of a reduced blade; more would fill the memory
 
@@ -53,9 +54,12 @@ def _check(blade: ReducedBlade) -> None:
         if not (isinstance(value, Real) and 0 < value < np.inf):
             raise ValueError(f"{name} = {value!r}: must be a number above 0")
     n = len(blade.mass) if np.ndim(blade.mass) else 0
+    n_nodes = len(blade.node_position) if np.ndim(blade.node_position) else 0
+    if not FEWEST_NODES <= n_nodes <= MOST_NODES:
+        raise ValueError(f"node_position: has {n_nodes} nodes, must have {FEWEST_NODES} to {MOST_NODES}")
     for name, values in blade.arrays.items():
-        is_matrix, size = name not in _OF_NODES, max(n, 3 * N_INTERFACE)
-        shape = (size, size) if is_matrix else (N_INTERFACE, size if name == "tip_slope" else 3)
+        is_matrix, size = name not in _OF_NODES, max(n, 3 * n_nodes)
+        shape = (size, size) if is_matrix else (n_nodes, size if name == "tip_slope" else 3)
         if values.shape != shape or values.dtype.kind != "f":
             raise ValueError(
                 f"{name}: must be numbers of the shape {shape}, is {values.dtype} {values.shape}"

@@ -152,7 +152,7 @@ def _record(
             f"--run {options.run}: exceeds the displacement limit in its first revolution, so that no "
             "revolution is complete"
         )
-    compile_kernel()
+    compile_kernel(n_nodes=blade.n_interface)
     with inputs.progress_bar(last, "rev") as bar:
         recording = record(
             blade, plan.spec, last, options.samples, progress=lambda done: bar.update(done - bar.n)

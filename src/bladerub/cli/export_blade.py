@@ -83,11 +83,12 @@ def _write_fe_matrices(options: argparse.Namespace, config: dict[str, Any]) -> d
     from bladerub.blade.build import meshed_blade
     from bladerub.blade.discrete import by_finite_elements
     from bladerub.blade.elasticity import Material
+    from bladerub.blade.model import n_interface
     from bladerub.blade.reduction import fit_speeds
     from bladerub.export.matrices import write_fe_matrices
 
     blade = by_finite_elements(
-        meshed_blade(config["blade"]),
+        meshed_blade(config["blade"], n_interface(config)),
         Material.from_config(config["blade"]["material"]),
         [*fit_speeds(f_max), *speeds],
         [],

@@ -118,10 +118,11 @@ def _read_mesh(source: Source, config: dict[str, Any]) -> tuple[dict[str, Any], 
 
     from bladerub.blade.build import reduce_meshed
     from bladerub.blade.elasticity import Material
+    from bladerub.blade.model import n_interface
     from bladerub.blade.sources import importing
     from bladerub.blade.sources.report import mesh_report
 
-    imported = importing.import_blade(source, config["blade"]["mesh"])
+    imported = importing.import_blade(source, config["blade"]["mesh"], n_interface(config))
     if sys.stderr.isatty():  # a fine mesh takes minutes
         nodes, speeds = len(imported.blade.mesh.mesh.points), config["reduction"]["accuracy_speeds"]
         print(f"bladerub import: reducing a mesh of {nodes} nodes at {speeds} speeds", file=sys.stderr)

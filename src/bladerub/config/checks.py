@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from bladerub.blade import geometry
-from bladerub.blade.model import N_INTERFACE
+from bladerub.blade.model import n_interface
 from bladerub.blade.sources import matrix_folder, origin
 from bladerub.config.errors import format_value, top_key
 from bladerub.contact.casing import shape
@@ -77,17 +77,17 @@ def _results(config: Config) -> Iterator[str]:
             yield f"{where}: must be a folder, {path} is a file"
 
 
-@_reads("blade")
+@_reads("blade", "reduction")
 def _blade(config: Config) -> Iterator[str]:
-    blade = config["blade"]
+    blade, n_nodes = config["blade"], n_interface(config)
     if "source" in blade:
-        yield from _blade_source(blade)
+        yield from _blade_source(blade, n_nodes)
     else:
         _check_size(blade["mesh"])
-        geometry.check(blade)
+        geometry.check(blade, n_nodes)
 
 
-def _blade_source(blade: Config) -> Iterator[str]:
+def _blade_source(blade: Config, n_nodes: int) -> Iterator[str]:
     try:
         source = origin.read(blade["source"])
     except ValueError as error:
@@ -105,7 +105,7 @@ def _blade_source(blade: Config) -> Iterator[str]:
         yield f"{where}: there is no such file ({source.file})"
     if source.is_table:
         _check_size(blade["mesh"])
-        geometry.check_interface(blade["mesh"])
+        geometry.check_interface(blade["mesh"], n_nodes)
 
 
 def _check_size(mesh: Config) -> None:
@@ -117,7 +117,7 @@ def _check_size(mesh: Config) -> None:
 @_reads("reduction")
 def _accuracy_modes(config: Config) -> Iterator[str]:
     modes, per_speed = config["reduction"]["accuracy_modes"], config["reduction"]["modes_per_speed"]
-    most = 3 * N_INTERFACE + per_speed  # coordinates that the reduced model has for sure
+    most = 3 * n_interface(config) + per_speed  # coordinates that the reduced model has for sure
     if modes > most:
         yield f"reduction.accuracy_modes = {modes}: must be at most {most}, with {per_speed} modes_per_speed"
 

@@ -38,9 +38,15 @@ def blade_energy(rule: Recurrence, state) -> tuple[float, float]:
     (q, before, _), n = state.q, rule.omega.size
     q, before = q[:n], before[:n]
     kinetic = np.sum(rule.kinetic * (q - before) ** 2)
-    force, force_before = state.force[:, : len(rule.tip)]
+    force, force_before = forces_of_nodes(state, rule)
     condensed = force @ rule.static_compliance @ force_before
     return float(kinetic), float(0.5 * (np.sum(rule.omega**2 * q * before) + condensed))
+
+
+def forces_of_nodes(state, rule: Recurrence) -> np.ndarray:
+    """Contact forces (2, rows of ``rule.tip``) of a state now and one step before, without unused lanes."""
+    groups = state.force.reshape(2, 3, -1)[:, : len(rule.tip) // rule.n_nodes, : rule.n_nodes]
+    return groups.reshape(2, -1)
 
 
 def balance(rule: Recurrence, state, initial: float, angle_per_step: float) -> Energy:

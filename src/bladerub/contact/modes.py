@@ -5,7 +5,7 @@ from typing import NamedTuple
 import numpy as np
 import scipy.linalg
 
-from bladerub.blade.model import N_INTERFACE, ReducedBlade
+from bladerub.blade.model import ReducedBlade
 from bladerub.contact.spec import RunSpec
 
 
@@ -13,9 +13,10 @@ class Modes(NamedTuple):
     """Mass-normalised modes seen from the blade tip."""
 
     omega: np.ndarray  # (n,): Natural angular frequencies, ascending, rad/s
-    # (16, n): Displacement of the tip per unit of each mode: radial at the 8 nodes, then tangential,
-    # kg^-1/2; (24, n) with the tilt of a profile that turns (`tilt_at`)
+    # (2 j, n): Displacement of the tip per unit of each mode: radial at its j nodes, then tangential,
+    # kg^-1/2; (3 j, n) with the tilt of a profile that turns (`tilt_at`)
     tip: np.ndarray
+    n_nodes: int  # j
 
 
 def modes_at(blade: ReducedBlade, f_omega: float, spec: RunSpec | None = None) -> Modes:
@@ -24,7 +25,7 @@ def modes_at(blade: ReducedBlade, f_omega: float, spec: RunSpec | None = None) -
     The tip moves as `at_tip` says, in contact as `spec` describes it.
     """
     omega, shapes = mode_shapes_at(blade, f_omega)
-    return Modes(omega, at_tip(blade, shapes, spec))
+    return Modes(omega, at_tip(blade, shapes, spec), blade.n_interface)
 
 
 def mode_shapes_at(blade: ReducedBlade, f_omega: float) -> tuple[np.ndarray, np.ndarray]:
@@ -41,11 +42,11 @@ def mode_shapes_at(blade: ReducedBlade, f_omega: float) -> tuple[np.ndarray, np.
 
 
 def at_tip(blade: ReducedBlade, coordinates: np.ndarray, spec: RunSpec | None = None) -> np.ndarray:
-    """Project reduced coordinates (n, k) on the tip (16, k): radial at the 8 nodes, then tangential.
+    """Project reduced coordinates (n, k) on the tip (2 j, k): radial at its j nodes, then tangential.
 
-    Where the profile turns in the contact that `spec` describes, the tilt follows (24, k), see `tilt_at`.
+    Where the profile turns in the contact that `spec` describes, the tilt follows (3 j, k), see `tilt_at`.
     """
-    interface = coordinates[: 3 * N_INTERFACE].reshape(N_INTERFACE, 3, -1)
+    interface = coordinates[: 3 * blade.n_interface].reshape(blade.n_interface, 3, -1)
     radial = np.einsum("ja,jan->jn", blade.radial_direction, interface)
     tangential = np.einsum("ja,jan->jn", blade.tangential_direction, interface)
     tilt = tilt_at(blade, coordinates, spec) if spec and spec.turns else np.empty((0, radial.shape[1]))
@@ -53,7 +54,7 @@ def at_tip(blade: ReducedBlade, coordinates: np.ndarray, spec: RunSpec | None = 
 
 
 def tilt_at(blade: ReducedBlade, coordinates: np.ndarray, spec: RunSpec) -> np.ndarray:
-    """Tilt (8, k) of the tip's profile against the casing for reduced coordinates (n, k), m per element.
+    """Tilt (j, k) of the tip's profile against the casing for reduced coordinates (n, k), m per element.
 
     It is the slope of the blade's tip, and the angle by which the node has moved along the curved casing.
     Raises `ValueError` if the blade does not say how its tip turns.
@@ -70,7 +71,7 @@ def tilt_at(blade: ReducedBlade, coordinates: np.ndarray, spec: RunSpec) -> np.n
 
 
 def tip_radii(blade: ReducedBlade) -> tuple[np.ndarray, np.ndarray]:
-    """Distance (8,) of each interface node from the axis of rotation, and radius of curvature of its path, m.
+    """Distance (j,) of each interface node from the axis of rotation, and radius of curvature of its path, m.
 
     Where the flow path is a cone, its normal section curves less than its circle (Meusnier).
     """

@@ -8,6 +8,7 @@ import numpy as np
 from threadpoolctl import threadpool_limits
 
 from bladerub.blade.model import ReducedBlade
+from bladerub.contact.energy import forces_of_nodes
 from bladerub.contact.modes import at_tip, mode_shapes_at
 from bladerub.contact.schemes import Recurrence
 from bladerub.contact.setup import set_up
@@ -69,7 +70,7 @@ def record(
             peak[number] = max(peak[number], abs(made.lowest), abs(made.highest))
             if recorded:
                 amplitudes.append(simulation.state.q[0, : rule.omega.size].copy())
-                forces.append(simulation.state.force[0].copy())
+                forces.append(forces_of_nodes(simulation.state, rule)[0].copy())
         if progress is not None:
             progress(number + 1)
     coordinates = _reduced_coordinates(blade, spec, rule, np.array(amplitudes), np.array(forces))
@@ -83,6 +84,6 @@ def _reduced_coordinates(
     omega, shapes = mode_shapes_at(blade, spec.f_omega)
     n = rule.omega.size
     tip = at_tip(blade, shapes, spec)
-    static = forces[:, : len(tip)] @ tip * (1.0 - rule.share) / omega**2
+    static = forces @ tip * (1.0 - rule.share) / omega**2
     static[:, :n] += amplitudes * np.sqrt(rule.share[:n])
     return static @ shapes.T

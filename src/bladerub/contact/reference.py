@@ -13,7 +13,7 @@ import numpy as np
 import scipy.linalg
 import scipy.optimize
 
-from bladerub.blade.model import N_INTERFACE, ReducedBlade
+from bladerub.blade.model import ReducedBlade
 from bladerub.contact import law
 from bladerub.contact.casing import shape
 from bladerub.contact.spec import RunSpec
@@ -40,9 +40,9 @@ def simulate(
 
     Returns
     -------
-    history : (n_steps, 16) ndarray
-        Radial, then tangential displacement of the interface nodes after each step, m.
-    wear : (8, N) ndarray
+    history : (n_steps, 2 j) ndarray
+        Radial, then tangential displacement of the j interface nodes after each step, m.
+    wear : (j, N) ndarray
         Permanent shortening of the elements, m.
     """
     if spec.scheme == "central_differences":
@@ -68,7 +68,7 @@ def _central_differences(blade, spec, n_steps, coating):
         force, coating.wear = coating.contact(step * h, tip @ predicted)
         u, u_before = predicted + inverse @ (tip.T @ force), u  # correction
         history.append(tip @ u)
-    return np.array(history)[:, : 2 * N_INTERFACE], coating.wear
+    return np.array(history)[:, : 2 * blade.n_interface], coating.wear
 
 
 def _exponential(blade, spec, n_steps, n_modes, coating):
@@ -89,7 +89,7 @@ def _exponential(blade, spec, n_steps, n_modes, coating):
         force = _implicit_forces(coating, step * h, tip @ q, compliance, force)
         history.append(tip @ q + compliance @ force)
         _, coating.wear = coating.contact(step * h, history[-1])
-    return np.array(history)[:, : 2 * N_INTERFACE], coating.wear
+    return np.array(history)[:, : 2 * blade.n_interface], coating.wear
 
 
 def _implicit_forces(coating, time, u, compliance, guess):
@@ -126,11 +126,11 @@ class _Coating:
         casing = spec.casing
         overlap = casing.interference - casing.amplitude + casing.amplitude * shape(casing, self.angle)
         self.initial_gap = clearance - overlap  # g₀ of eq. (8)
-        self.wear = np.zeros((N_INTERFACE, n))
+        self.wear = np.zeros((blade.n_interface, n))
 
     def contact(self, time: float, u: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Contact forces on the tip at the displacement `u`, both as `tip_rows`, and the wear (8, N) then."""
-        u_r, u_t, *tilt = u.reshape(-1, N_INTERFACE, 1)
+        """Contact forces on the tip at the displacement `u`, both as `tip_rows`, and the wear (j, N) then."""
+        u_r, u_t, *tilt = u.reshape(-1, len(self.wear), 1)
         # eq. (7): the closest point of the casing turns with the blade and moves with its vibration
         position = self.node_angle + self.speed * time + u_t / self.radius
         offset = (self.angle - position + np.pi) % (2 * np.pi) - np.pi
@@ -158,19 +158,20 @@ def time_step(blade: ReducedBlade, spec: RunSpec) -> float:
 
 
 def tip_rows(blade: ReducedBlade, spec: RunSpec) -> np.ndarray:
-    """Rows (16, n) that take radial and tangential displacements of the tip from the reduced coordinates.
+    """Rows (2 j, n) that take radial and tangential displacements of the tip from the reduced coordinates.
 
-    Where the profile turns, eight more give its tilt in m per element: the slope of the blade's tip plus the
+    Where the profile turns, j more give its tilt in m per element: the slope of the blade's tip plus the
     angle by which the node moves along the curved casing.
     """
-    rows = np.zeros((2 * N_INTERFACE, len(blade.mass)))
-    for j in range(N_INTERFACE):
+    n = blade.n_interface
+    rows = np.zeros((2 * n, len(blade.mass)))
+    for j in range(n):
         rows[j, 3 * j : 3 * j + 3] = blade.radial_direction[j]
-        rows[N_INTERFACE + j, 3 * j : 3 * j + 3] = blade.tangential_direction[j]
+        rows[n + j, 3 * j : 3 * j + 3] = blade.tangential_direction[j]
     if not spec.tip.turns:
         return rows
     _, y, z = blade.node_position.T
     width = np.hypot(y, z) * 2 * np.pi / spec.coating.n_elements
     curvature = np.sum(blade.radial_direction[:, 1:] * blade.node_position[:, 1:], axis=1) / (y**2 + z**2)
-    tilt = blade.tip_slope + curvature[:, None] * rows[N_INTERFACE:]
+    tilt = blade.tip_slope + curvature[:, None] * rows[n:]
     return np.vstack([rows, width[:, None] * tilt])

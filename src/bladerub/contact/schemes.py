@@ -26,7 +26,6 @@ from typing import NamedTuple
 
 import numpy as np
 
-from bladerub.blade.model import N_INTERFACE
 from bladerub.contact.modes import Modes
 
 FASTEST_PHASE = 2.0
@@ -50,25 +49,26 @@ class Recurrence(NamedTuple):
     # (n,): Kinetic energy per ``(q⁺ − q)²`` and energy lost to damping per ``(q⁺ − q⁻)²``, 1/s²
     kinetic: np.ndarray
     loss: np.ndarray
-    # (16, n): Displacement of the tip per unit of each resolved mode, kg^-1/2. Where its profile turns, this
-    # and the matrices below have 24 rows: tilt and couple follow
+    # (2 j, n): Displacement of the tip per unit of each resolved mode, kg^-1/2. Where its profile turns, this
+    # and the matrices below have 3 j rows: tilt and couple follow
     tip: np.ndarray
     omega: np.ndarray  # (n,): Natural angular frequencies of the resolved modes, rad/s
     # (all modes,): Part of each mode of the blade that is resolved; the rest responds by its static
     # displacement
     share: np.ndarray
-    # (16, 16): Displacement of the tip per unit of force in the same step, as the law of contact sees it
+    # (2 j, 2 j): Displacement of the tip per unit of force in the same step, as the law of contact sees it
     # (contract, 3), and of the modes that are not resolved alone, m/N
     compliance: np.ndarray
     static_compliance: np.ndarray
     time_step: float  # h, s
+    n_nodes: int  # j, interface nodes
 
 
 class Contact(NamedTuple):
     """What a scheme needs to know of the contact."""
 
-    # (8,): Largest stiffness under each node, N/m; infinite for the rigid casing. Where the profile turns
-    # that against its tilt follows (16,)
+    # (j,): Largest stiffness under each node, N/m; infinite for the rigid casing. Where the profile turns
+    # that against its tilt follows (2 j,)
     stiffness: np.ndarray
     radial: float  # Direction of the force on the blade
     tangential: float
@@ -130,7 +130,7 @@ def exponential(modes: Modes, damping_ratio: float, time_step: float, contact: C
     margin = gain[:n] / (1.0 + now[:n] + before[:n])
     while n > 0:
         resolved, share, static = _resolve(modes, x, n, contact)
-        if _kappa(resolved.tip, margin[:n], static, contact) <= STEADY:
+        if _kappa(resolved, margin[:n], static, contact) <= STEADY:
             break
         n -= 1
     if n == 0:
@@ -155,12 +155,12 @@ SCHEMES: dict[str, Callable[[Modes, float, float, Contact], Recurrence]] = {
 """The schemes by the name that a config gives them."""
 
 
-def normal_compliance(compliance: np.ndarray, radial: float, tangential: float) -> np.ndarray:
-    """Retreat (8, 8) of each node from the casing per unit of contact force at each, m/N.
+def normal_compliance(compliance: np.ndarray, n: int, radial: float, tangential: float) -> np.ndarray:
+    """Retreat (n, n) of each of `n` nodes from the casing per unit of contact force at each, m/N.
 
-    Where the profile turns, that of its tilt and by its couples follows (16, 16).
+    Where the profile turns, that of its tilt and by its couples follows (2 n, 2 n).
     """
-    r, t, tilt = slice(N_INTERFACE), slice(N_INTERFACE, 2 * N_INTERFACE), slice(2 * N_INTERFACE, None)
+    r, t, tilt = slice(n), slice(n, 2 * n), slice(2 * n, None)
     by_force = compliance[:, r] * radial + compliance[:, t] * tangential
     retreat = -np.hstack([by_force, compliance[:, tilt] * radial])
     return np.vstack([retreat[r], retreat[tilt]])
@@ -181,11 +181,12 @@ def _resolve(modes: Modes, x: np.ndarray, n: int, contact: Contact) -> tuple[Mod
     condensed = share < 1.0
     tip, omega = modes.tip[:, condensed], modes.omega[condensed]
     static = (tip * (1.0 - share[condensed]) / omega**2) @ tip.T
-    return Modes(modes.omega[:n], modes.tip[:, :n] * np.sqrt(share[:n])), share, static
+    return Modes(modes.omega[:n], modes.tip[:, :n] * np.sqrt(share[:n]), modes.n_nodes), share, static
 
 
-def _kappa(tip: np.ndarray, margin: np.ndarray, static: np.ndarray, contact: Contact) -> float:
-    direction = contact.radial, contact.tangential
+def _kappa(modes: Modes, margin: np.ndarray, static: np.ndarray, contact: Contact) -> float:
+    _, tip, n_nodes = modes
+    direction = n_nodes, contact.radial, contact.tangential
     step = normal_compliance((tip * margin) @ tip.T, *direction)
     series = normal_compliance(static, *direction) + np.diag(1.0 / contact.stiffness)
     moves = np.diag(step) != 0
@@ -206,5 +207,6 @@ def _recurrence(modes: Modes, now, before, gain, **rest) -> Recurrence:
         loss=(1.0 - before) / (4.0 * gain),
         tip=modes.tip,
         omega=modes.omega,
+        n_nodes=modes.n_nodes,
         **rest,
     )

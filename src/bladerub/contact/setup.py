@@ -1,6 +1,8 @@
 """From blade and run to what the time loop works on."""
 
 import math
+from collections.abc import Callable
+from functools import partial
 
 import numpy as np
 from scipy.ndimage import minimum_filter1d
@@ -8,14 +10,16 @@ from scipy.ndimage import minimum_filter1d
 from bladerub.blade.model import N_INTERFACE, ReducedBlade
 from bladerub.contact import casing, law
 from bladerub.contact.kernel import records
-from bladerub.contact.kernel.free_flight import MOST_STEPS, FreeFlight, free_flight
+from bladerub.contact.kernel.free_flight import MOST_STEPS, FreeFlight
 from bladerub.contact.kernel.loop import Simulation
-from bladerub.contact.kernel.modal import pack
 from bladerub.contact.modes import Modes, modes_at, tip_radii
 from bladerub.contact.schemes import SCHEMES, Contact, Recurrence, normal_compliance
 from bladerub.contact.spec import Coating, RunSpec
 from bladerub.contact.tip import edge
+from bladerub.numerics.lanes import lanes_for, module_for
 from bladerub.numerics.memory import aligned
+
+_NEVER = 1.0  # gap of a lane without a node, m: nothing moves so far
 
 SEARCH_RANGE = 4
 """Elements a node may move along the casing before the search for contact looks at it alone."""
@@ -36,27 +40,35 @@ def set_up_modes(modes: Modes, blade: ReducedBlade, spec: RunSpec) -> tuple[Recu
     contact = Contact(stiffness, *_force_direction(spec.coating))
     rule = SCHEMES[spec.scheme](modes, spec.damping_ratio, time_step, contact)
     tip = tip_record(blade, spec)
-    stator = stator_record(blade, spec, tip, rule)
+    stator = stator_record(blade, spec, rule)
     state = _initial_state(modes, rule, spec, tip)
     flight = _free_flight(rule, tip, steps_per_element)
-    return rule, Simulation(pack(rule), flight, stator, tip, state, steps_per_element)
+    kernel = partial(module_for, lanes_for(modes.n_nodes))
+    simulation = kernel("contact.kernel.loop").Simulation
+    return rule, simulation(
+        kernel("contact.kernel.modal").pack(rule), flight, stator, tip, state, steps_per_element
+    )
 
 
-def compile_kernel(tip_turns: bool = False) -> None:
+def compile_kernel(tip_turns: bool = False, n_nodes: int = N_INTERFACE) -> None:
     """Compile the time loop, so that its machine code is on disk before runs start.
 
-    That for profiles that turn is another one.
+    That for profiles that turn is another one, and that for a tip with more than eight nodes.
     """
-    modes = Modes(np.ones(1), np.zeros(((3 if tip_turns else 2) * N_INTERFACE, 1)))
-    zeros = np.zeros(N_INTERFACE)
-    rule = SCHEMES["exponential"](modes, 0.0, 1e-6, Contact(np.ones(len(modes.tip) - N_INTERFACE), -1.0, 0.0))
-    gap, elements = np.ones((8, N_INTERFACE)), np.ones((len(law.Element._fields), N_INTERFACE))
+    modes = Modes(np.ones(1), np.zeros(((3 if tip_turns else 2) * n_nodes, 1)), n_nodes)
+    lanes = lanes_for(n_nodes)
+    zeros = np.zeros(lanes)
+    stiffness = np.ones(len(modes.tip) - n_nodes)
+    rule = SCHEMES["exponential"](modes, 0.0, 1e-6, Contact(stiffness, -1.0, 0.0))
+    gap, elements = np.ones((8, lanes)), np.ones((len(law.Element._fields), lanes))
     stator = records.Stator(gap, gap[:, 0].copy(), elements, 8, False, -1.0, 0.0, zeros, False, zeros)
     tip = records.Tip(zeros, zeros, zeros + 1.0, zeros + 1.0, 2.0, 0.0, 0.0, 1.0)
-    state = records.at_rest(1, 8)
-    Simulation(pack(rule), free_flight(rule, 1, 0.0, 0.0), aligned(stator), aligned(tip), state, 1).advance(
-        np.zeros(8)
-    )
+    kernel = partial(module_for, lanes)
+    flight = kernel("contact.kernel.free_flight").free_flight(rule, 1, 0.0, 0.0)
+    state = kernel("contact.kernel.records").at_rest(1, 8)
+    kernel("contact.kernel.loop").Simulation(
+        kernel("contact.kernel.modal").pack(rule), flight, aligned(stator), aligned(tip), state, 1
+    ).advance(np.zeros(8))
 
 
 def element_angle(n_elements: int) -> np.ndarray:
@@ -78,33 +90,36 @@ def strip_width(blade: ReducedBlade) -> np.ndarray:
 
 
 def by_angle(blade: ReducedBlade, spec: RunSpec, rows: np.ndarray) -> np.ndarray:
-    """Bring (N, 8) rows of elements into the order (8, N) of the angle."""
+    """Bring (N, lanes) rows of elements into the order (j, N) of the angle, for the j nodes."""
     first = _first_element(blade, spec)
-    return np.array([np.roll(of_node, at) for of_node, at in zip(rows.T, first, strict=True)])
+    return np.array([np.roll(of_node, at) for of_node, at in zip(rows.T, first, strict=False)])
 
 
-def stator_record(blade: ReducedBlade, spec: RunSpec, tip: records.Tip, rule: Recurrence) -> records.Stator:
+def stator_record(blade: ReducedBlade, spec: RunSpec, rule: Recurrence) -> records.Stator:
     """Describe coating and casing for the time loop, in rows of elements."""
     coating = spec.coating
     normal_factor, tangential_factor = _force_direction(coating)
     x = blade.node_position[:, 0]
     chord_fraction = (x - x[0]) / (x[-1] - x[0])
     clearance = spec.clearance[0] + (spec.clearance[1] - spec.clearance[0]) * chord_fraction
-    own = _self_compliance(rule, coating)
+    own = np.split(_self_compliance(rule, coating), [blade.n_interface])
     gap = casing.gap(spec.casing, clearance[:, None], element_angle(coating.n_elements))
     first = _first_element(blade, spec)
     rows = np.array([np.roll(of_node, -at) for of_node, at in zip(gap, first, strict=True)])
+    by_lane = _by_lane_of(blade)
+    parameters = law.element(coating, by_lane(element_area(blade, spec)))  # unused for the rigid casing
+    unused = np.full((coating.n_elements, by_lane(x).size - x.size), _NEVER)
     stator = records.Stator(
-        initial_gap=rows.T,
+        initial_gap=np.hstack([rows.T, unused]),
         minimum_gap=minimum_gap(rows, spec.tip.half_width),
-        law=np.array(law.element(coating, element_area(blade, spec))),  # unused for the rigid casing
+        law=np.array(parameters),
         n_elements=coating.n_elements,
         is_rigid=coating.is_rigid,
         normal_factor=normal_factor,
         tangential_factor=tangential_factor,
-        self_compliance=own[:N_INTERFACE],
+        self_compliance=by_lane(own[0]),
         coulomb=coating.coulomb,
-        tilt_compliance=own[N_INTERFACE:],
+        tilt_compliance=by_lane(own[1]) if own[1].size else own[1],
     )
     return aligned(stator)
 
@@ -120,11 +135,12 @@ def tip_record(blade: ReducedBlade, spec: RunSpec) -> records.Tip:
     n_elements = spec.coating.n_elements
     radius, curvature_radius = tip_radii(blade)
     per_metre = n_elements / (2 * np.pi * radius)
+    by_lane = _by_lane_of(blade)
     tip = records.Tip(
-        start=_start_position(blade, spec) % 1.0,
-        per_metre=per_metre,
-        radius=curvature_radius,
-        lever=radius,
+        start=by_lane(_start_position(blade, spec) % 1.0),
+        per_metre=by_lane(per_metre),
+        radius=by_lane(curvature_radius),
+        lever=by_lane(radius),
         half_width=spec.tip.half_width,
         curvature=spec.tip.curvature,
         search_range=SEARCH_RANGE / float(np.max(per_metre)),
@@ -144,33 +160,42 @@ def _force_direction(coating: Coating) -> tuple[float, float]:
     return -math.cos(coating.theta), -math.sin(coating.theta)
 
 
+def _by_lane_of(blade: ReducedBlade) -> Callable[[np.ndarray], np.ndarray]:
+    """Return `records.by_lane` for numbers of the nodes of `blade`."""
+    own = module_for(lanes_for(blade.n_interface), "contact.kernel.records")
+    return partial(own.by_lane, n_nodes=blade.n_interface)
+
+
 def _free_flight(rule: Recurrence, tip: records.Tip, steps_per_element: int) -> FreeFlight:
     parts = math.ceil(steps_per_element / MOST_STEPS)
     slope = tip.search_range / float(np.min(tip.radius - tip.limit))
-    return free_flight(rule, steps_per_element // parts, slope, edge(tip))
+    own = module_for(lanes_for(rule.n_nodes), "contact.kernel.free_flight")
+    return own.free_flight(rule, steps_per_element // parts, slope, edge(tip))
 
 
 def _initial_state(modes: Modes, rule: Recurrence, spec: RunSpec, tip: records.Tip) -> records.State:
     """At rest, deflected in the first mode; the step before is the exact free motion back from there."""
-    state = records.at_rest(rule.omega.size, spec.coating.n_elements)
+    own = module_for(lanes_for(rule.n_nodes), "contact.kernel.records")
+    state = own.at_rest(rule.omega.size, spec.coating.n_elements)
     if spec.initial_displacement:
         x, damping = rule.omega[0] * rule.time_step, spec.damping_ratio
         damped = math.sqrt(1.0 - damping**2)
         back = math.exp(damping * x) * (math.cos(damped * x) - damping / damped * math.sin(damped * x))
         n = rule.omega.size
         state.q[:, 0] = np.array([1.0, back, back]) * spec.initial_displacement / modes.tip[0, 0]
-        displacement = state.q[:, :n] @ rule.tip.T
-        radial, tangential, tilt = np.split(displacement, [N_INTERFACE, 2 * N_INTERFACE], axis=1)
+        displacement = state.q[:, :n] @ own.by_lane(rule.tip, rule.n_nodes).T
+        radial, tangential, *tilt = np.moveaxis(displacement.reshape(3, -1, tip.radius.size), 1, 0)
         approach = np.hypot(tip.radius + radial, tangential) - tip.radius
-        state.u[:, : 3 * N_INTERFACE] = np.concatenate([radial, tangential, approach], axis=1)
-        state.u[:, 3 * N_INTERFACE : 3 * N_INTERFACE + tilt.shape[1]] = tilt
+        moved = np.concatenate([radial, tangential, approach, *tilt], axis=1)
+        state.u[:, : moved.shape[1]] = moved
     return state
 
 
 def _self_compliance(rule: Recurrence, coating: Coating) -> np.ndarray:
     normal_factor, tangential_factor = _force_direction(coating)
-    own = np.diag(normal_compliance(rule.compliance, normal_factor, tangential_factor))
-    backward = np.diag(normal_compliance(rule.compliance, normal_factor, -tangential_factor))
+    matrix, n = rule.compliance, rule.n_nodes
+    own = np.diag(normal_compliance(matrix, n, normal_factor, tangential_factor))
+    backward = np.diag(normal_compliance(matrix, n, normal_factor, -tangential_factor))
     if coating.is_rigid and min(np.min(own), np.min(backward)) <= 0:
         raise ValueError(
             f"friction {math.tan(coating.theta):g} on the rigid casing: must be so low that no node of this "

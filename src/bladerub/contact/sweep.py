@@ -27,7 +27,6 @@ from bladerub.contact.result import Outcome
 from bladerub.contact.schemes import Recurrence
 from bladerub.contact.setup import set_up_modes
 from bladerub.contact.spec import RunSpec, SweepSpec
-from bladerub.numerics.vectors import LANES
 
 
 @dataclass(frozen=True)
@@ -164,7 +163,9 @@ class _Sweep:
         omega, shapes = mode_shapes_at(self.blade, f_omega)
         tip = at_tip(self.blade, shapes, self.run)
         run = replace(self.run, f_omega=f_omega)
-        return _Stage(omega, shapes, tip, *set_up_modes(Modes(omega, tip), self.blade, run))
+        return _Stage(
+            omega, shapes, tip, *set_up_modes(Modes(omega, tip, self.blade.n_interface), self.blade, run)
+        )
 
 
 def _transfer(blade: ReducedBlade, old: _Stage, new: _Stage) -> float:
@@ -175,7 +176,7 @@ def _transfer(blade: ReducedBlade, old: _Stage, new: _Stage) -> float:
     state.ledger[energy.TORQUE] *= old.simulation.angle_per_step / new.simulation.angle_per_step
 
     into = new.shapes.T @ blade.mass @ old.shapes  # from modal coordinates to modal coordinates
-    force = here.force[0, : len(old.tip)]
+    force = energy.forces_of_nodes(here, old.rule)[0]
     static, static_new = old.tip.T @ force / old.omega**2, new.tip.T @ force / new.omega**2
     n, n_new = old.rule.omega.size, new.rule.omega.size
     share, share_new = np.sqrt(old.rule.share[:n]), np.sqrt(new.rule.share[:n_new])
@@ -194,7 +195,8 @@ def _transfer(blade: ReducedBlade, old: _Stage, new: _Stage) -> float:
     state.u[2] = here.u[0] + 2 * back * (here.u[1] - here.u[0])
     radius = new.simulation.tip.radius
     for row in state.u:
-        row[2 * LANES : 3 * LANES] = np.hypot(radius + row[:LANES], row[LANES : 2 * LANES]) - radius
+        radial, tangential, *_ = row.reshape(4, -1)
+        row.reshape(4, -1)[2] = np.hypot(radius + radial, tangential) - radius
     return float(work)
 
 

@@ -72,7 +72,9 @@ def make(
 
     `report` is called with a line after each run.
     """
-    compile_kernel()  # or the time of the first run would include the loading of the machine code
+    compile_kernel(
+        n_nodes=blade.n_interface
+    )  # or the time of the first run would include the loading of the machine code
     case, revolutions = coating.case, config["long_runs"]["revolutions"]
     reasons = chosen(config, coating)
     results, seconds = [], np.full((len(reasons), revolutions), np.nan)

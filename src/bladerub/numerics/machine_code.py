@@ -2,7 +2,7 @@
 
 Numba notices a change of the file that holds a cached function, but not of functions that it calls in
 other files: a run after an edit could use old code. The folder of the cache therefore carries a digest
-of all sources of the solver.
+of all sources of the solver, and the number of lanes.
 """
 
 from collections.abc import Callable
@@ -11,6 +11,7 @@ from pathlib import Path
 import numba
 
 from bladerub.io.sources import solver_digest
+from bladerub.numerics import lanes
 
 
 def njit_on_disk(**options) -> Callable[[Callable], Callable]:
@@ -22,7 +23,7 @@ def njit_on_disk(**options) -> Callable[[Callable], Callable]:
     def decorate(function: Callable) -> Callable:
         user_folder = numba.config.CACHE_DIR
         parent = Path(user_folder or Path(__file__).parent / "__pycache__")
-        numba.config.CACHE_DIR = str(parent / f"machine-code-{solver_digest()[:16]}")
+        numba.config.CACHE_DIR = str(parent / f"machine-code-{solver_digest()[:16]}-{lanes.LANES}")
         try:
             return numba.njit(cache=True, **options)(function)
         finally:

@@ -12,7 +12,8 @@ from numba import njit, types
 from numba.core import cgutils
 from numba.extending import intrinsic
 
-from bladerub.numerics.vectors import DOUBLE, FUSED, LANES, VECTOR, broadcast, instruction, spread, vector
+from bladerub.numerics.lanes import LANES
+from bladerub.numerics.vectors import DOUBLE, FUSED, VECTOR, broadcast, instruction, spread, vector
 
 
 def aligned(record: NamedTuple) -> NamedTuple:
@@ -53,7 +54,7 @@ def address_of(address, index):
 
 @instruction(vector, types.intp, types.intp)
 def load(builder, address, index):
-    """Load eight numbers of the array at `address`, from flat position `index` on."""
+    """Load a vector of numbers of the array at `address`, from flat position `index` on."""
     return builder.load(_place(builder, address, index, VECTOR), align=8)
 
 
@@ -77,7 +78,7 @@ def write(builder, address, index, number):
 
 @njit(inline="always")
 def add_to(address, index, a):
-    """Add a vector to the eight numbers of the array at `address`, from flat position `index` on."""
+    """Add a vector to the numbers of the array at `address`, from flat position `index` on."""
     store(address, index, load(address, index) + a)
 
 
@@ -89,27 +90,27 @@ def add_to_number(address, index, number):
 
 @njit(inline="always")
 def copy(source, target, n):
-    """Copy `n` numbers, a multiple of 8."""
+    """Copy `n` numbers, whole vectors."""
     for k in range(0, n, LANES):
         store(target, k, load(source, k))
 
 
 @njit(inline="always")
 def clear(target, n):
-    """Set `n` numbers, a multiple of 8, to zero."""
+    """Set `n` numbers, whole vectors, to zero."""
     for k in range(0, n, LANES):
         store(target, k, broadcast(0.0))
 
 
 @intrinsic
 def load_fields(context, record, address):
-    """Load a vector for each field of the named tuple `record` from consecutive rows of eight numbers."""
+    """Load a vector for each field of the named tuple `record` from consecutive rows of a vector each."""
     return _fields(record, vector, VECTOR)
 
 
 @intrinsic
 def read_fields(context, record, address):
-    """Read a number for each field of the named tuple `record`, eight numbers apart: those of one lane."""
+    """Read a number for each field of the named tuple `record`, a vector apart: those of one lane."""
     return _fields(record, types.float64, DOUBLE)
 
 
@@ -165,5 +166,5 @@ def _rows(builder, address, n):
     return [builder.load(place, align=8) for place in places]
 
 
-no_sums, add_products, broadcast_each, sum_of_products = _sums(16)
-no_eight_sums, add_eight_products, broadcast_eight, sum_of_eight_products = _sums(8)
+no_sums, add_products, broadcast_each, sum_of_products = _sums(2 * LANES)
+no_lane_sums, add_lane_products, broadcast_lanes, sum_of_lane_products = _sums(LANES)

@@ -1,4 +1,4 @@
-"""Eight doubles as one value in compiled code: a lane for each interface node, or for each of eight modes.
+"""Eight doubles, or more, as one value in compiled code: a lane for each interface node or mode.
 
 LLVM maps such a vector to what the processor has: one register of 512 bits, two of 256 or four of 128. Numba
 alone leaves the choice to LLVM's loop vectoriser, which does not keep sixteen sums in registers. Inside
@@ -13,24 +13,26 @@ import operator
 
 import numpy as np
 from llvmlite import ir
-from numba import njit, types
+from numba import types
 from numba.core import cgutils
 from numba.extending import intrinsic, models, overload, register_jitable, register_model
 
-LANES = 8
+from bladerub.numerics.lanes import LANES
+
 FUSED = ("contract", "nsz")  # a product and a sum may be one instruction; nothing is reordered
 ANY_ORDER = (*FUSED, "reassoc")
 
 DOUBLE, _INDEX = ir.DoubleType(), ir.IntType(32)
 VECTOR, _MASK = ir.VectorType(DOUBLE, LANES), ir.VectorType(ir.IntType(1), LANES)
 _UNDEFINED = ir.Constant(VECTOR, ir.Undefined)
+_HALVES = [LANES >> n for n in range(1, LANES.bit_length())]  # 4, 2, 1
 
 
 class _Lanes(types.Type):
     """Numba's name of a vector type."""
 
 
-vector, mask = _Lanes("float64x8"), _Lanes("boolx8")
+vector, mask = _Lanes(f"float64x{LANES}"), _Lanes(f"boolx{LANES}")
 
 
 class _Primitive(models.PrimitiveModel):
@@ -134,7 +136,7 @@ def _unary(function, numpy_function, name):
     @intrinsic
     def operation(context, a):
         def generate(context, builder, signature, arguments):
-            suffix, result = ("v8f64", VECTOR) if signature.args[0] == vector else ("f64", DOUBLE)
+            suffix, result = (f"v{LANES}f64", VECTOR) if signature.args[0] == vector else ("f64", DOUBLE)
             return _call(builder, f"{name}.{suffix}", result, FUSED, *arguments)
 
         return a(a), generate
@@ -196,7 +198,7 @@ _extreme(maximum, np.maximum, ">")
 
 
 def _extreme_lane(builder, comparison, rest):
-    for width in (4, 2, 1):  # halves against each other
+    for width in _HALVES:  # against each other
         order = _lanes((i + width) % LANES for i in range(LANES))
         other = builder.shuffle_vector(rest, _UNDEFINED, order)
         rest = builder.select(builder.fcmp_ordered(comparison, rest, other), rest, other)
@@ -225,7 +227,7 @@ def broadcast(builder, number):
 def lane_sum(builder, a):
     """Sum of all lanes."""
     zero = ir.Constant(DOUBLE, 0.0)
-    return _call(builder, "llvm.vector.reduce.fadd.v8f64", DOUBLE, ANY_ORDER, zero, a)
+    return _call(builder, f"llvm.vector.reduce.fadd.v{LANES}f64", DOUBLE, ANY_ORDER, zero, a)
 
 
 @intrinsic
@@ -258,31 +260,28 @@ def all_lanes(builder, condition):
     return builder.icmp_unsigned("==", bits, ir.Constant(bits.type, 2**LANES - 1))
 
 
-def _shuffle(lanes):
-    @instruction(vector, vector, vector)
-    def shuffled(builder, a, b):
-        return builder.shuffle_vector(a, b, _lanes(lanes))
-
-    return shuffled
-
-
-_left_1, _right_1 = _shuffle([0, 8, 2, 10, 4, 12, 6, 14]), _shuffle([1, 9, 3, 11, 5, 13, 7, 15])
-_left_2, _right_2 = _shuffle([0, 1, 8, 9, 4, 5, 12, 13]), _shuffle([2, 3, 10, 11, 6, 7, 14, 15])
-_left_4, _right_4 = _shuffle([0, 1, 2, 3, 8, 9, 10, 11]), _shuffle([4, 5, 6, 7, 12, 13, 14, 15])
+def _paired(builder, width, a, b):
+    """Build the sums of neighbouring parts of `a`, and of `b`, each `width` lanes wide, in turns."""
+    starts = range(0, LANES, 2 * width)
+    left = [lane for start in starts for each in (start, LANES + start) for lane in range(each, each + width)]
+    right = [lane + width for lane in left]
+    left_half = builder.shuffle_vector(a, b, _lanes(left))
+    return builder.fadd(left_half, builder.shuffle_vector(a, b, _lanes(right)), flags=FUSED)
 
 
-@njit(inline="always")
-def _pairs(a, b):
-    return _left_1(a, b) + _right_1(a, b)
+@instruction(vector, types.UniTuple(vector, LANES))
+def lane_sums(builder, vectors):
+    """Vector of the sums of all lanes of so many vectors as it has lanes."""
+    rest = cgutils.unpack_tuple(builder, vectors)
+    for width in reversed(_HALVES):
+        rest = [_paired(builder, width, a, b) for a, b in zip(rest[::2], rest[1::2], strict=True)]
+    return rest[0]
 
 
-@njit(inline="always")
-def _fours(a, b):
-    return _left_2(a, b) + _right_2(a, b)
-
-
-@njit(inline="always")
-def lane_sums(a, b, c, d, e, f, g, h):
-    """Vector of the sums of all lanes of eight vectors."""
-    first, second = _fours(_pairs(a, b), _pairs(c, d)), _fours(_pairs(e, f), _pairs(g, h))
-    return _left_4(first, second) + _right_4(first, second)
+@instruction(types.UniTuple(types.UniTuple(vector, LANES), 2), types.UniTuple(vector, 2 * LANES))
+def halves(builder, vectors):
+    """First and second half of twice as many vectors as they have lanes."""
+    each = cgutils.unpack_tuple(builder, vectors)
+    return cgutils.pack_array(
+        builder, [cgutils.pack_array(builder, each[:LANES]), cgutils.pack_array(builder, each[LANES:])]
+    )

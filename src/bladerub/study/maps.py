@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from bladerub.blade.frequencies import reduced_frequencies
-from bladerub.blade.model import INTERFACE_NODE, ReducedBlade
+from bladerub.blade.model import ReducedBlade, interface_node
 from bladerub.io import hdf5
 from bladerub.io.errors import DamagedFile
 from bladerub.io.hdf5 import Variable
@@ -201,7 +201,8 @@ def variables(coating: CoatingMap) -> dict[str, Variable]:
         for name, (dims, units, long_name) in (DATASETS | DERIVED).items()
         if getattr(coating, name) is not None
     }
-    described["node"] = INTERFACE_NODE
+    if coating.wear_node is not None:
+        described["node"] = interface_node(coating.wear_node.shape[1])
     for amplitude in ("revolution_amplitude", "confirmation_amplitude"):
         dim, n_revolutions = described[amplitude].dims[-1], described[amplitude].data.shape[1]
         number = np.arange(1, n_revolutions + 1)

@@ -7,7 +7,7 @@ then behaves the same in these units; for another one, E and K compare coating a
 
 import numpy as np
 
-from bladerub.blade.model import N_INTERFACE, ReducedBlade
+from bladerub.blade.model import ReducedBlade
 from bladerub.contact.setup import strip_width
 
 # The stand-in of config/config.yaml, which the values of the contact there are for
@@ -24,7 +24,8 @@ def tip_stiffness(blade: ReducedBlade) -> float:
     average: that is across the blade, whatever its stagger and flow path.
     """
     spread = np.zeros((len(blade.mass), 3))
-    spread[: 3 * N_INTERFACE] = np.tile(np.eye(3), (N_INTERFACE, 1)) / N_INTERFACE
+    n = blade.n_interface
+    spread[: 3 * n] = np.tile(np.eye(3), (n, 1)) / n
     compliance = spread.T @ np.linalg.solve(blade.stiffness_0, spread)
     return float(1 / np.linalg.eigvalsh(0.5 * (compliance + compliance.T))[-1])
 

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from bladerub.blade.model import INTERFACE_NODE
+from bladerub.blade.model import interface_node
 from bladerub.contact.result import RunResult
 from bladerub.contact.spec import RunSpec
 from bladerub.io import hdf5
@@ -139,7 +139,7 @@ def variables(run: StoredRun) -> dict[str, Variable]:
     described = {
         name: Variable(_DATASETS[name][0], values, *_DATASETS[name][1:]) for name, values in run.data.items()
     }
-    return {"node": INTERFACE_NODE} | described
+    return {"node": interface_node(len(run.data["wear"]))} | described
 
 
 def read_run(path: str | Path, only: Set[str] = ALL) -> StoredRun:

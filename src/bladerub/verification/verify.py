@@ -126,7 +126,7 @@ def verify_runs(
     blade: ReducedBlade, config: Mapping[str, Any], runs: Sequence[StudyRun], jobs: int = 1
 ) -> Iterator[VerifiedRun]:
     """Verify runs in `jobs` processes, and yield them in their order; raises as `verify_run`."""
-    compile_kernel()
+    compile_kernel(n_nodes=blade.n_interface)
     verify = partial(verify_run, blade, config)
     if jobs == 1:
         yield from map(verify, runs)

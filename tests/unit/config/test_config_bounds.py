@@ -35,6 +35,7 @@ NUMBERS = """
     reduction.modes_per_speed         [1, 50]
     reduction.fit_speeds              [3, 7]
     reduction.tolerance               [1e-5, 0.5]
+    reduction.interface_nodes         [4, 32]
     reduction.rank_tolerance          [1e-12, 0.1]
     reduction.accuracy_speeds         [2, 200]
     reduction.accuracy_modes          [1, 50]

@@ -73,9 +73,19 @@ def test_every_entry_of_the_schema_says_what_it_is(path, rule):
 
 
 def test_every_key_of_the_schema_is_needed_but_extend_and_what_another_blade_brings():
-    optional = {"extend", "source", "scale", "fit_speeds", "tolerance", "friction", "common", "multiple_of"}
+    optional = {
+        "extend",
+        "source",
+        "scale",
+        "fit_speeds",
+        "tolerance",
+        "interface_nodes",
+        "friction",
+        "common",
+        "multiple_of",
+    }
     optional |= {"peak_orders", "damping_ratio", "layer_thickness", "interference", "tip_turns"}
-    optional |= {"bump_width", "unit", "angle_unit"}
+    optional |= {"interface_nodes", "bump_width", "unit", "angle_unit"}
     for path, rule in rules(schema()):
         if "properties" in rule and not path.startswith(".blade.source"):
             known, required = set(rule["properties"]), set(rule["required"])

@@ -56,7 +56,7 @@ def test_a_body_without_support_flies_on():
     """ω = 0: q⁺ = 2 q − q⁻ + h² F."""
     tip = np.zeros((16, 2))
     tip[0] = 0.5, 0.7
-    rule = exponential(Modes(np.array([0.0, 100.0]), tip), 0.0, 1e-4, SOFT)
+    rule = exponential(Modes(np.array([0.0, 100.0]), tip, 8), 0.0, 1e-4, SOFT)
     assert (rule.now[0], rule.before[0]) == (2.0, 1.0)
     assert (rule.tip * rule.gain)[0, 0] == pytest.approx(0.5e-8)
 

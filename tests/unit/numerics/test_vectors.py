@@ -77,7 +77,7 @@ def test_totals_of_eight_vectors(data):
         c, d = memory.load(data.a, 16), memory.load(data.a, 24)
         e, f = memory.load(data.a, 32), memory.load(data.a, 40)
         g, h = memory.load(data.a, 48), memory.load(data.a, 56)
-        memory.store(data.out, 0, vectors.lane_sums(a, b, c, d, e, f, g, h))
+        memory.store(data.out, 0, vectors.lane_sums((a, b, c, d, e, f, g, h)))
 
     over(addresses(data))
     np.testing.assert_allclose(data.out, data.a.sum(axis=1), rtol=1e-14)

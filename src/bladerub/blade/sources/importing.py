@@ -10,6 +10,7 @@ from scipy.sparse.csgraph import connected_components
 
 from bladerub.blade.linear import MOST_UNKNOWNS
 from bladerub.blade.mesh import BladeMesh, MeshedBlade, solid_mesh
+from bladerub.blade.model import N_INTERFACE
 from bladerub.blade.sources import element_quality, mesh_file, section_blade, tip
 from bladerub.blade.sources.origin import MatrixSource, Source
 from bladerub.blade.sources.section_profile import Profile
@@ -34,15 +35,20 @@ class Imported:
     sections: list[Profile] = field(default_factory=list, repr=False)  # of a table, hub to tip
 
 
-def import_blade(source: Source, counts: Mapping[str, int]) -> Imported:
-    """Read a mesh, or mesh sections by the numbers of elements `counts`; a BadInput says what is wrong."""
+def import_blade(source: Source, counts: Mapping[str, int], n_interface: int = N_INTERFACE) -> Imported:
+    """Read a mesh, or mesh sections by the numbers of elements `counts`; a BadInput says what is wrong.
+
+    The tip gets `n_interface` interface nodes.
+    """
     try:
-        return _import_sections(source, counts) if source.is_table else _import_mesh(source)
+        if source.is_table:
+            return _import_sections(source, counts, n_interface)
+        return _import_mesh(source, n_interface)
     except ValueError as error:
         raise BadInput(f"{source.file}: {error}") from error
 
 
-def _import_mesh(source: Source) -> Imported:
+def _import_mesh(source: Source, n_interface: int) -> Imported:
     content = mesh_file.read(source.file)
     if 3 * len(content.points) > MOST_UNKNOWNS:
         raise ValueError(f"has {3 * len(content.points)} unknowns; must be {MOST_UNKNOWNS} or fewer")
@@ -59,7 +65,7 @@ def _import_mesh(source: Source) -> Imported:
     tip_faces = faces[np.isin(faces, tip_nodes).all(axis=1)]
     if not len(tip_faces):
         raise ValueError(f'tip not found: no face of the surface has all its nodes in "{source.tip_set}"')
-    chosen = tip.interface(mesh.points, tip_faces, source.frame.downstream_x)
+    chosen = tip.interface(mesh.points, tip_faces, source.frame.downstream_x, n_interface)
     return Imported(
         measured(BladeMesh(mesh, root, tip_nodes, chosen.nodes), source),
         is_raised=content.is_raised,
@@ -133,10 +139,10 @@ def _with_middles(content: mesh_file.MeshFile, nodes: np.ndarray) -> np.ndarray:
     return np.union1d(nodes, middles[np.isin(ends, nodes).all(axis=-1)])
 
 
-def _import_sections(source: Source, counts: Mapping[str, int]) -> Imported:
+def _import_sections(source: Source, counts: Mapping[str, int], n_interface: int) -> Imported:
     profiles = section_blade.read_profiles(source)
     shape = section_blade.SectionShape(profiles)
-    mesh = BladeMesh.from_shape(shape, counts)
+    mesh = BladeMesh.from_shape(shape, counts, n_interface)
     try:
         ratio, volume = element_quality.jacobians(mesh.mesh)
     except ValueError as error:

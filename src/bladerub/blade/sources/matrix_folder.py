@@ -11,7 +11,8 @@ from scipy import sparse
 from scipy.io import mminfo, mmread
 
 from bladerub.blade.linear import MOST_UNKNOWNS
-from bladerub.blade.model import N_INTERFACE
+from bladerub.blade.model import FEWEST_NODES
+from bladerub.numerics.lanes import MOST_NODES
 
 SUFFIXES = (".mtx", ".npz")
 NODES = "nodes.csv"
@@ -21,7 +22,7 @@ AT_SPEED = "stiffness_at_"  # another normalised speed follows
 SYMMETRY = 1e-8  # largest difference of two entries that must be equal, over the largest entry
 
 _POSITION = ("x", "y", "z")
-_MARKS = {"interface": N_INTERFACE, "clamped": 1, "tip": 1}  # largest value of each
+_MARKS = {"interface": MOST_NODES, "clamped": 1, "tip": 1}  # largest value of each
 
 
 @dataclass(frozen=True)
@@ -85,11 +86,12 @@ def read_nodes(path: Path) -> Nodes:
     if lost.size:
         raise ValueError(f"row {lost[0] + 1}: its coordinates are not finite numbers")
     number, clamped, tip = (_marks(table, name) for name in _MARKS)
-    for wanted in range(1, N_INTERFACE + 1):
+    n_nodes = max(int(number.max(initial=0)), FEWEST_NODES)
+    for wanted in range(1, n_nodes + 1):
         if (count := np.count_nonzero(number == wanted)) != 1:
             counted = f"{count} nodes have" if count else "no node has"
-            raise ValueError(f"{counted} interface = {wanted}; each of 1 to {N_INTERFACE} must be there once")
-    interface = np.argsort(number)[-N_INTERFACE:]  # all others are 0
+            raise ValueError(f"{counted} interface = {wanted}; each of 1 to {n_nodes} must be there once")
+    interface = np.argsort(number, kind="stable")[-n_nodes:]  # all others are 0
     held = np.flatnonzero((number > 0) & (clamped > 0))
     if held.size:
         raise ValueError(f"row {held[0] + 1}: an interface node must not be clamped")

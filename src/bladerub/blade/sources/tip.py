@@ -31,16 +31,18 @@ def cone(points: np.ndarray, degrees: float | None, downstream_x: int) -> float:
     return float(np.arctan2(x @ (radius - radius.mean()), x @ x))
 
 
-def interface(points: np.ndarray, faces: np.ndarray, downstream_x: int) -> Interface:
-    """Choose the interface nodes, evenly by arc length along the camber line of the tip.
+def interface(
+    points: np.ndarray, faces: np.ndarray, downstream_x: int, n_nodes: int = N_INTERFACE
+) -> Interface:
+    """Choose `n_nodes` interface nodes, evenly by arc length along the camber line of the tip.
 
     The tip, the `faces` of the mesh there, is unrolled about the engine axis. The leading edge has the
     smaller x where `downstream_x` is 1, else the larger. A ValueError says if the tip is no profile with two
-    sides and 8 nodes, or too coarse.
+    sides and so many nodes, or too coarse.
     """
     nodes = np.unique(faces)
-    if nodes.size < N_INTERFACE:
-        raise ValueError(f"the tip has {nodes.size} nodes; must have {N_INTERFACE} or more")
+    if nodes.size < n_nodes:
+        raise ValueError(f"the tip has {nodes.size} nodes; must have {n_nodes} or more")
     flat = _unrolled(points, *points[nodes, 1:].mean(axis=0))
     try:
         line = camber_line(flat[_outline(faces)])
@@ -49,12 +51,12 @@ def interface(points: np.ndarray, faces: np.ndarray, downstream_x: int) -> Inter
     if downstream_x * (line[-1, 0] - line[0, 0]) < 0:
         line = line[::-1]
     arc = arc_length(line)
-    evenly = np.linspace(0, arc[-1], N_INTERFACE)
+    evenly = np.linspace(0, arc[-1], n_nodes)
     wanted = np.stack([np.interp(evenly, arc, line[:, axis]) for axis in range(2)], axis=1)
     distance = cdist(wanted, flat[nodes])
     chosen = linear_sum_assignment(distance**2)[1]
-    offset = distance[np.arange(N_INTERFACE), chosen].max()
-    if offset > arc[-1] / (2 * (N_INTERFACE - 1)):
+    offset = distance[np.arange(n_nodes), chosen].max()
+    if offset > arc[-1] / (2 * (n_nodes - 1)):
         raise ValueError(
             f"the tip is too coarse: an interface node would be {offset:.3g} m off its place on a camber "
             f"line of {arc[-1]:.3g} m"

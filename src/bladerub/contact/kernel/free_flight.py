@@ -10,7 +10,7 @@ import numpy as np
 from numba import njit
 
 from bladerub.contact.kernel import tilt
-from bladerub.contact.kernel.modal import ROWS, add_tip_displacement, in_vectors, tip_displacement
+from bladerub.contact.kernel.modal import add_tip_displacement, in_vectors, tip_displacement
 from bladerub.contact.schemes import Recurrence
 from bladerub.numerics.memory import aligned, load, no_sums, store
 from bladerub.numerics.vectors import LANES, absolute, broadcast, lane_sum
@@ -63,8 +63,9 @@ def free_flight(rule: Recurrence, n_steps: int, slope: float, edge: float = 0.0)
         increments[i + 1] = increments[i] + steps[i + 1]
     by_q, by_d = (steps[1:] + steps[:-1]).swapaxes(0, 1)
     mean = (increments[1:-1].sum(axis=0) + 0.5 * increments[-1]) / n_steps
-    radial, tangential = np.abs(rule.tip[:LANES]).max(axis=0), np.abs(rule.tip[LANES:ROWS]).max(axis=0)
-    approach = radial + slope * tangential + edge * np.abs(rule.tip[ROWS:]).max(axis=0, initial=0.0)
+    groups = np.abs(rule.tip).reshape(-1, rule.n_nodes, rule.omega.size).max(axis=1)
+    radial, tangential = groups[:2]
+    approach = radial + slope * tangential + edge * groups[2:].max(axis=0, initial=0.0)
     bound = np.abs(increments).max(axis=0) * approach
     forms = [
         *increments[-1],

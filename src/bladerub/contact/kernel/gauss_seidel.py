@@ -34,9 +34,9 @@ def gauss_seidel(modal, stator, tip, state, passed, u, tolerance):
     a sweep. Returns whether they did, or a displacement exceeds the limit.
     """
     force, normal_force = state.force, state.normal_force
-    position, surface = state.scratch, address_of(state.scratch, 16)
-    approaches, turned = address_of(state.scratch, 32), address_of(state.scratch, 48)
-    rows = 16 if modal.tilt is None else 24
+    position, surface = state.scratch, address_of(state.scratch, 2 * LANES)
+    approaches, turned = address_of(state.scratch, 4 * LANES), address_of(state.scratch, 6 * LANES)
+    rows = (2 if modal.tilt is None else 3) * LANES
     for _ in range(MAX_SWEEPS):
         if not is_within_limit(tip, load(u, 0), load(u, LANES)):
             return True

@@ -6,6 +6,7 @@ import numpy as np
 from numba import njit
 
 from bladerub.contact.kernel import tilt
+from bladerub.contact.kernel.records import by_lane
 from bladerub.contact.schemes import Recurrence
 from bladerub.numerics.memory import (
     add_products,
@@ -18,7 +19,7 @@ from bladerub.numerics.memory import (
     store,
     sum_of_products,
 )
-from bladerub.numerics.vectors import LANES, broadcast, lane_sums
+from bladerub.numerics.vectors import LANES, broadcast, halves, lane_sums
 
 ROWS = 2 * LANES
 """Coordinates of the tip: radial displacement of each node, then tangential."""
@@ -47,21 +48,27 @@ class Modal(NamedTuple):
 
 def pack(rule: Recurrence) -> Modal:
     """Arrange the coefficients of a scheme for the time loop."""
+    n = rule.n_nodes
+    tip = by_lane(rule.tip, n)
     mobility = (1.0 if rule.corrects else 0.5) * (rule.tip * rule.gain) @ rule.tip.T
     modal = Modal(
         n=rule.now.size + -rule.now.size % LANES,
         now=_padded(rule.now),
         before=_padded(rule.before),
         loss=_padded(rule.loss),
-        tip=in_vectors(rule.tip[:ROWS]),
+        tip=in_vectors(tip[:ROWS]),
         gain=_padded(rule.gain),
-        compliance=rule.compliance,
+        compliance=_by_lane_both(rule.compliance, n),
         corrects=rule.corrects,
-        mobility=mobility,
-        stopping=np.abs(mobility[LANES:ROWS, LANES:ROWS]).sum(axis=1),
-        tilt=in_vectors(rule.tip[ROWS:]) if len(rule.tip) > ROWS else None,
+        mobility=_by_lane_both(mobility, n),
+        stopping=by_lane(np.abs(mobility[n : 2 * n, n : 2 * n]).sum(axis=1), n),
+        tilt=in_vectors(tip[ROWS:]) if len(tip) > ROWS else None,
     )
     return aligned(modal)
+
+
+def _by_lane_both(matrix: np.ndarray, n_nodes: int) -> np.ndarray:
+    return by_lane(by_lane(matrix, n_nodes).T, n_nodes).T
 
 
 def _padded(rows: np.ndarray) -> np.ndarray:
@@ -139,15 +146,15 @@ def _project(modal, q):
 
 @njit(inline="always")
 def add_tip_displacement(modal, k, x, sums):
-    """Add to sixteen sums what the modes `x`, from mode k on, displace at the tip."""
+    """Add to a sum for each coordinate of the tip what the modes `x`, from mode k on, displace at the tip."""
     return add_products(sums, address_of(modal.tip, ROWS * k), x)
 
 
 @njit(inline="always")
 def tip_displacement(sums):
     """Radial and tangential displacement of the tip from the sums: the interface rows of eq. (6), m."""
-    r0, r1, r2, r3, r4, r5, r6, r7, t0, t1, t2, t3, t4, t5, t6, t7 = sums
-    return lane_sums(r0, r1, r2, r3, r4, r5, r6, r7), lane_sums(t0, t1, t2, t3, t4, t5, t6, t7)
+    radial, tangential = halves(sums)
+    return lane_sums(radial), lane_sums(tangential)
 
 
 @njit(forceinline=True)

@@ -76,6 +76,17 @@ class State(NamedTuple):
     scratch: np.ndarray  # (6, 16): Of no meaning between steps
 
 
+def by_lane(rows: np.ndarray, n_nodes: int) -> np.ndarray:
+    """Give each group of `n_nodes` rows a row for every lane.
+
+    Lanes without a node move as the last node does, and never touch: they hold up nothing.
+    """
+    groups = rows.reshape(-1, n_nodes, *rows.shape[1:])
+    missing = [(0, 0)] * groups.ndim
+    missing[1] = (0, LANES - n_nodes)
+    return np.pad(groups, missing, mode="edge").reshape(-1, *rows.shape[1:])
+
+
 def at_rest(n_modes: int, n_elements: int) -> State:
     """State of a blade at rest before an unworn coating."""
     state = State(

@@ -11,13 +11,13 @@ from numba.extending import overload
 
 from bladerub.contact.tip import highest
 from bladerub.numerics.memory import (
-    add_eight_products,
+    add_lane_products,
     address_of,
-    broadcast_eight,
+    broadcast_lanes,
     load,
-    no_eight_sums,
+    no_lane_sums,
     store,
-    sum_of_eight_products,
+    sum_of_lane_products,
 )
 from bladerub.numerics.vectors import LANES, absolute, broadcast, lane_sums
 
@@ -41,32 +41,31 @@ def _without_tilt(otherwise: Callable) -> Callable:
 @_without_tilt(lambda rows: broadcast(0.0))
 def no_sums(rows):
     """Give the sums to which `add` adds."""
-    return no_eight_sums()
+    return no_lane_sums()
 
 
 @_without_tilt(lambda rows, k, x, sums: sums)
 def add(rows, k, x, sums):
     """Add what the modes `x`, from mode k on, tilt."""
-    return add_eight_products(sums, address_of(rows, LANES * k), x)
+    return add_lane_products(sums, address_of(rows, LANES * k), x)
 
 
 @_without_tilt(lambda rows, sums: sums)
 def total(rows, sums):
     """Tilt of each node, m per element."""
-    a, b, c, d, e, f, g, h = sums
-    return lane_sums(a, b, c, d, e, f, g, h)
+    return lane_sums(sums)
 
 
 @_without_tilt(lambda rows, force: broadcast(0.0))
 def couples(rows, force):
     """Each couple in all lanes of a vector, for `by_couples`."""
-    return broadcast_eight(address_of(force, COUPLE))
+    return broadcast_lanes(address_of(force, COUPLE))
 
 
 @_without_tilt(lambda rows, k, each: each)
 def by_couples(rows, k, each):
     """Modal force of the couples on the modes from mode k on."""
-    return sum_of_eight_products(address_of(rows, LANES * k), each)
+    return sum_of_lane_products(address_of(rows, LANES * k), each)
 
 
 @_without_tilt(lambda rows, u, tilt: None)

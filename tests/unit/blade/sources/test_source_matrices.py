@@ -313,8 +313,8 @@ BROKEN = {
         "nodes.csv: 2 nodes have interface = 2",
     ),
     "no such number": (
-        nodes(cell(7, "interface", 9)),
-        "nodes.csv: row 8: interface = 9: must be a whole number",
+        nodes(cell(7, "interface", 33)),
+        "nodes.csv: row 8: interface = 33: must be a whole number",
     ),
     "clamped by halves": (
         nodes(cell(7, "clamped", 0.5)),

@@ -32,7 +32,7 @@ def parts(blade, spec, change):
         rule = SCHEMES["exponential"](modes_at(blade, 0.3), 0.0, STEP, contact)
         state = records.at_rest(rule.omega.size, 2000)
         tip = tip_record(blade, chosen)
-        stator = stator_record(blade, chosen, tip, rule)
+        stator = stator_record(blade, chosen, rule)
         state.tangential_factor[:] = stator.tangential_factor
         return pack(rule), stator, tip, state
 

@@ -1,0 +1,43 @@
+"""Modules of the time loop for tips with more than eight nodes."""
+
+import sys
+
+import numpy as np
+import pytest
+
+from bladerub.contact.kernel import loop
+from bladerub.numerics import lanes, vectors
+
+
+@pytest.mark.parametrize(("n_nodes", "wanted"), [(4, 8), (8, 8), (9, 16), (16, 16), (17, 32), (32, 32)])
+def test_lanes_are_the_next_power_of_two_from_eight_on(n_nodes, wanted):
+    assert lanes.lanes_for(n_nodes) == wanted
+
+
+def test_modules_of_another_width_leave_those_in_use_alone():
+    wide = lanes.module_for(16, "numerics.vectors")
+    assert (wide.LANES, vectors.LANES, lanes.LANES) == (16, 8, 8)
+    assert sys.modules["bladerub.numerics.vectors"] is vectors
+    assert sys.modules["bladerub.contact.kernel.loop"] is loop
+    assert lanes.module_for(16, "contact.kernel.loop") is not loop
+    assert lanes.module_for(8, "contact.kernel.loop") is loop
+    import bladerub.contact.kernel
+
+    assert bladerub.contact.kernel.loop is loop
+
+
+def test_totals_of_sixteen_vectors():
+    from numba import njit
+
+    wide, memory = (lanes.module_for(16, f"numerics.{name}") for name in ("vectors", "memory"))
+    a, out = np.random.default_rng(1).normal(size=(16, 16)), np.zeros(16)
+
+    @njit
+    def totals(a, out):
+        sums = memory.no_lane_sums()
+        for row in range(16):
+            sums = memory.add_lane_products(sums, a, memory.load(a, 16 * row))
+        memory.store(out, 0, wide.lane_sums(sums))
+
+    totals(a.ctypes.data, out.ctypes.data)
+    np.testing.assert_allclose(out, (a @ a.sum(axis=0)), rtol=1e-12)

@@ -1,0 +1,80 @@
+"""Tips with other than eight interface nodes: the time loop against the whole model in plain NumPy."""
+
+import copy
+import dataclasses
+
+import numpy as np
+import pytest
+
+from bladerub.blade.build import build
+from bladerub.config.read import load
+from bladerub.contact import reference
+from bladerub.contact.run import simulate
+from bladerub.contact.setup import set_up
+from bladerub.contact.spec import Casing, Coating, RunSpec, TipProfile
+from bladerub.study.grid import CoatingCase, run_spec
+
+STEPS = 400
+
+
+@pytest.fixture(scope="module")
+def config(request):
+    return load(request.config.rootpath / "config" / "config.yaml")
+
+
+@pytest.fixture(scope="module", params=[5, 12, 19])
+def wide(request, config):
+    config = copy.deepcopy(config)
+    config["blade"]["mesh"] = {"chordwise": 20, "thickness": 2, "spanwise": 4}
+    config["reduction"] |= {"accuracy_speeds": 2, "accuracy_modes": 4, "interface_nodes": request.param}
+    return build(config).reduced
+
+
+@pytest.fixture
+def spec():
+    return RunSpec(
+        casing=Casing("2nd", (2,), (1.0,), 0.5e-3, 0.45e-3, 0.0),
+        coating=Coating(1.1, 0.5, 0.1, 1e-6, 150e6, 5e-3, 200),
+        tip=TipProfile(2.0, 20e-6),
+        clearance=(30e-6, 86e-6),
+        damping_ratio=2.3e-3,
+        f_omega=0.3,
+        revolutions=1,
+        scheme="exponential",
+        steps_per_element=12,
+        max_time_step=1e-5,
+        displacement_limit=0.02,
+    )
+
+
+def test_the_blade_has_as_many_nodes_as_it_is_asked_for(wide):
+    assert len(wide.mass) >= 3 * wide.n_interface
+    assert wide.tip_slope.shape == (wide.n_interface, len(wide.mass))
+
+
+@pytest.mark.parametrize("turns", [False, True])
+def test_the_loop_agrees_with_the_reference_model(wide, spec, turns):
+    spec = dataclasses.replace(spec, tip=dataclasses.replace(spec.tip, turns=turns))
+    rule, simulation = set_up(wide, spec)
+    n_elements = STEPS // simulation.steps_per_element
+    shown = np.empty(n_elements)
+    made = simulation.advance(shown)
+    assert made.n_contact_steps > 50
+    n_steps = n_elements * simulation.steps_per_element
+    history, wear = reference.simulate(wide, spec, n_steps, rule.omega.size)
+    radial = np.concatenate([[0.0], history[:, 0]])
+    means = 0.5 * (radial[1:] + radial[:-1]).reshape(n_elements, -1)
+    np.testing.assert_allclose(shown, means.mean(axis=1), atol=1e-6 * np.abs(history).max())
+    ours = simulate(wide, spec).wear
+    assert ours.shape == (wide.n_interface, spec.coating.n_elements)
+    worn = simulation.state.wear[:, : wide.n_interface]
+    np.testing.assert_allclose(worn.max(axis=0), wear.max(axis=1), rtol=1e-4, atol=1e-12)
+
+
+def test_energy_is_kept(config, wide):
+    for E, K in ((1.1, 0.5), (np.inf, np.inf)):
+        spec = run_spec(config, CoatingCase("2nd", E, K, 0.0), 0.346)
+        result = simulate(wide, dataclasses.replace(spec, revolutions=2))
+        assert result.n_contact_steps > 1000
+        assert result.n_unconverged_steps == 0
+        assert result.energy.residual < 1e-3
