@@ -133,6 +133,13 @@ use rule docs_data as docs_finer_bars with:
         f"{RESULTS}/logs/docs_finer_bars.log",
 
 
+use rule docs_data as docs_more_nodes with:
+    input:
+        rules.more_nodes.output.table,
+    log:
+        f"{RESULTS}/logs/docs_more_nodes.log",
+
+
 use rule docs_data as docs_sweeps with:
     input:
         rules.sweeps.output.table,

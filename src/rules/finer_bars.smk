@@ -17,3 +17,22 @@ rule finer_bars:
         runtime=minutes(5),
     script:
         "../scripts/finer_bars.py"
+
+
+# How much the number of interface nodes decides at the same peaks
+rule more_nodes:
+    input:
+        kernel=rules.compile_kernel.output[0],
+        peaks=rules.peaks.output[0],
+        analysing=files_behind("verification.more_nodes"),
+    output:
+        **described(table=f"{TABLES}/more_nodes.csv"),
+    log:
+        f"{RESULTS}/logs/more_nodes.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/more_nodes.tsv"
+    resources:
+        mem_mb=memory_mb,
+        runtime=minutes(10),
+    script:
+        "../scripts/more_nodes.py"

@@ -55,7 +55,7 @@ def benchmark(
     ``bladerub benchmark --json`` prints.
     """
     progress("finding a run with contact in a third of the steps")
-    touching, share = in_contact(blade, _middle_run(config))
+    touching, share = in_contact(blade, middle_run(config))
     free = replace(touching, clearance=(blade.length, blade.length), initial_displacement=1e-6 * blade.length)
     progress("compiling the plain loop")
     specs = {"contact": touching, "free": free}
@@ -73,7 +73,7 @@ def benchmark(
                 {
                     "numpy": _plain(plain.integrate, blade, spec, steps) / steps,
                     "numba": _plain(plain.integrate_compiled, blade, spec, steps) / steps,
-                    "production": _production(blade, spec) / steps,
+                    "production": production(blade, spec) / steps,
                 }
             )
     progress(f"timing {FULL_RUNS} runs of the study")
@@ -140,7 +140,8 @@ def useful_flops(blade: ReducedBlade, spec: RunSpec) -> float:
     return (n * (FLOPS_PER_MODE * single + FLOPS_PER_FLIGHT * flights) + contact * touching) / steps
 
 
-def _middle_run(config: Mapping[str, Any]) -> RunSpec:
+def middle_run(config: Mapping[str, Any]) -> RunSpec:
+    """Describe the run of the middle coating and speed of the study."""
     cases = [replace(case, law="theta") for case in coating_cases(config) if np.isfinite(case.E)]
     listed = speeds(config)
     spec = run_spec(config, cases[len(cases) // 2], listed[len(listed) // 2])
@@ -157,7 +158,8 @@ def _plain(integrate: Callable, blade: ReducedBlade, spec: RunSpec, steps: int) 
     return _timed(integrate, *plain.arguments(*set_up(blade, spec)), np.zeros(steps))
 
 
-def _production(blade: ReducedBlade, spec: RunSpec) -> float:
+def production(blade: ReducedBlade, spec: RunSpec) -> float:
+    """Time all revolutions of a run by the loop of the study, s."""
     repeated = (set_up(blade, spec)[1] for _ in range(REPEATS))
     return statistics.median(
         sum(_timed(_revolve, simulation) for _ in range(spec.revolutions)) for simulation in repeated

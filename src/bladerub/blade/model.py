@@ -12,7 +12,6 @@ from bladerub.io import hdf5
 from bladerub.io.errors import DamagedFile
 from bladerub.io.hdf5 import Variable
 
-FEWEST_NODES = 4
 N_INTERFACE = 8  # nodes on the blade tip, leading to trailing edge, if not said otherwise
 
 

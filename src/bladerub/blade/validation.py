@@ -7,9 +7,9 @@ from pathlib import Path
 import h5py
 import numpy as np
 
-from bladerub.blade.model import FEWEST_NODES, ReducedBlade, read_reduced_blade
+from bladerub.blade.model import ReducedBlade, read_reduced_blade
 from bladerub.io.errors import DamagedFile
-from bladerub.numerics.lanes import MOST_NODES
+from bladerub.numerics.lanes import FEWEST_NODES, MOST_NODES
 
 LARGEST_MATRIX = 10_000  # coordinates of a reduced blade; more would fill the memory
 

@@ -6,6 +6,7 @@ from typing import Any
 
 from bladerub.cli import inputs
 from bladerub.cli.inputs import InputError
+from bladerub.numerics.lanes import FEWEST_NODES, MOST_NODES
 
 _LOOPS = {"numpy": "NumPy", "numba": "the same compiled by numba", "production": "loop of the study"}
 
@@ -34,6 +35,8 @@ def add_to(commands: Any) -> None:
     parser.option("--rounds", "how often to measure (default 5)", int, default=5, metavar="N")
     text = "cores for the estimate of the study (default: all there are)"
     parser.option("--cores", text, int, metavar="C")
+    text = "also the cost of so many interface nodes, over that of 8; builds a blade for each"
+    parser.option("--nodes", text, int, nargs="+", default=[], metavar="N")
 
 
 def benchmark(options: argparse.Namespace) -> None:
@@ -42,11 +45,22 @@ def benchmark(options: argparse.Namespace) -> None:
     inputs.require(options, rounds=(1, 1000), cores=(1, 1_000_000))
     if all(entry.get("coating") == "rigid" for entry in config["coatings"]):
         raise InputError("coatings: must have an abradable one, as contact with it is what is measured")
+    for n in options.nodes:
+        if not FEWEST_NODES <= n <= MOST_NODES:
+            raise InputError(f"--nodes {n}: must be from {FEWEST_NODES} to {MOST_NODES}")
+    if options.nodes and "matrices" in config["blade"].get("source", {}):
+        raise InputError("--nodes: a blade of matrices has the interface nodes that its folder marks")
     blade = inputs.read_blade(options, config).reduced
 
     from bladerub.benchmark.measure import benchmark as measure
 
-    inputs.show(options, measure(blade, config, options.rounds, options.cores, _report_stage), _in_words)
+    figures = measure(blade, config, options.rounds, options.cores, _report_stage)
+    if options.nodes:
+        from bladerub.benchmark.nodes import cost_by_nodes
+
+        _report_stage("building blades with more interface nodes")
+        figures["cost_by_nodes"] = cost_by_nodes(config, options.nodes, options.rounds)
+    inputs.show(options, figures, _in_words)
 
 
 def _report_stage(stage: str) -> None:
@@ -72,5 +86,9 @@ def _in_words(figures: dict[str, Any]) -> str:
             f"peak: {figures['peak_flops'] / 1e9:.3g} billion operations a second",
             f"a run of the study: {figures['seconds_per_run']:.3g} s; {figures['runs']} runs on "
             f"{figures['cores']} cores: {figures['study_minutes']:.3g} minutes",
+            *(
+                f"{n} interface nodes: {cost:.3g} times the time of 8"
+                for n, cost in figures.get("cost_by_nodes", {}).items()
+            ),
         ]
     )

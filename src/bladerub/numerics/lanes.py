@@ -14,8 +14,8 @@ from types import ModuleType
 LANES = 8
 """Doubles in a vector of the module that is being imported."""
 
-MOST_NODES = 32
-"""Most interface nodes of a blade."""
+FEWEST_NODES, MOST_NODES = 4, 32
+"""Interface nodes that a blade may have."""
 
 _MODULES = ("numerics.vectors", "numerics.memory", "contact.law", "contact.tip", "contact.gap")
 _MODULES += ("contact.friction", "contact.kernel")  # with all in it

@@ -9,6 +9,7 @@ import itertools
 import math
 from collections.abc import Mapping
 from dataclasses import replace
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -16,22 +17,14 @@ import pandas as pd
 
 from bladerub.blade.model import ReducedBlade
 from bladerub.contact.result import RunResult
-from bladerub.contact.run import simulate
 from bladerub.contact.spec import RunSpec
-from bladerub.study.grid import CoatingCase, run_spec, speeds
-from bladerub.study.spectra import order_spectrum
-
-CASES = [
-    CoatingCase("2nd", *layer)
-    for layer in [(0.11, 0.5, 0.0), (1.1, 0.5, 0.0), (2.0, 0.5, 0.0), (2.0, 0.5, 0.15), (20.0, 10.0, 0.0)]
-]
-"""Coatings whose peaks are compared: those of Figs. 8, 9, 15 and 16, and the stiffest."""
+from bladerub.verification.response import CASE_COLUMNS, Response, listed
 
 REFINEMENTS = (1, 2, 4)
 """How many times finer the bars are; 1 are the study's."""
 
 COLUMNS = [
-    *("casing", "E", "K", "theta", "order", "elements", "f_peak", "amplitude", "amplitude_change"),
+    *(*CASE_COLUMNS, "order", "elements", "f_peak", "amplitude", "amplitude_change"),
     *("volume_change", "wear_difference", "status"),
 ]
 """Columns of ``finer_bars.csv``, described in ``io/columns.csv``."""
@@ -54,15 +47,15 @@ def table(blade: ReducedBlade, config: Mapping[str, Any], peaks: pd.DataFrame) -
     study's speed of the peak, and the wear at that speed.
     """
     rows: list[dict[str, Any]] = []
-    for (case, peak), times in itertools.product(_listed(peaks), REFINEMENTS):
-        found = _Response(blade, config, case, peak.order, times)
+    for (case, peak), times in itertools.product(listed(peaks), REFINEMENTS):
+        found = Response(blade, config, case, peak.order, partial(with_finer_bars, times=times))
         start = float(peak.f_peak)
         at = found.top(start)
-        wear, amplitude = found.wear(start), found.amplitude(at)
+        wear, amplitude = _wear(found.run(start), times), found.amplitude(at)
         if times == 1:
             own_wear, own_amplitude = wear, amplitude
         rows.append(
-            {name: getattr(case, name) for name in ("casing", "E", "K", "theta")}
+            {name: getattr(case, name) for name in CASE_COLUMNS}
             | {
                 "order": peak.order,
                 "elements": config["contact"]["elements"] * times,
@@ -71,58 +64,12 @@ def table(blade: ReducedBlade, config: Mapping[str, Any], peaks: pd.DataFrame) -
                 "amplitude_change": amplitude / own_amplitude - 1,
                 "volume_change": wear.sum() / own_wear.sum() - 1,
                 "wear_difference": np.linalg.norm(wear - own_wear) / np.linalg.norm(own_wear),
-                "status": found.runs[start].status,
+                "status": found.run(start).status,
             }
         )
     return pd.DataFrame(rows, columns=COLUMNS)
 
 
-def _listed(peaks: pd.DataFrame) -> list[tuple[CoatingCase, Any]]:
-    """List coating and row of the peaks of the `CASES`."""
-    own = peaks[peaks.law == "theta"].itertuples()
-    described = [(CoatingCase(row.casing, row.E, row.K, row.theta), row) for row in own]
-    return [each for each in described if each[0] in CASES]
-
-
-class _Response:
-    """Response of one coating on one engine order, by runs made when they are asked for."""
-
-    def __init__(
-        self, blade: ReducedBlade, config: Mapping[str, Any], case: CoatingCase, order: float, times: int
-    ):
-        self.blade, self.config, self.case, self.order, self.times = blade, config, case, order, times
-        self.runs: dict[float, RunResult] = {}
-
-    def _run(self, f_omega: float) -> RunResult:
-        if f_omega not in self.runs:
-            spec = with_finer_bars(run_spec(self.config, self.case, f_omega), self.times)
-            self.runs[f_omega] = simulate(self.blade, spec)
-        return self.runs[f_omega]
-
-    def amplitude(self, f_omega: float) -> float:
-        """Amplitude on the engine order, m, as in `bladerub.study.peaks`."""
-        run, analysis = self._run(f_omega), self.config["analysis"]
-        order, amplitude = order_spectrum(
-            run.radial_displacement,
-            run.revolution_peak.size,
-            analysis["spectrum_revolutions"],
-            analysis["max_order"],
-        )
-        near = np.abs(order - self.order) <= analysis["peaks"]["order_halfwidth"] + 1e-9
-        return float(amplitude[near].max())
-
-    def top(self, f_omega: float) -> float:
-        """Speed of the study at which the amplitude, rising from `f_omega` on, is greatest."""
-        grid = speeds(self.config)
-        at = int(np.argmin(np.abs(np.array(grid) - f_omega)))
-        while True:
-            near = grid[max(at - 1, 0) : at + 2]
-            best = grid.index(max(near, key=self.amplitude))
-            if best == at:
-                return grid[at]
-            at = best
-
-    def wear(self, f_omega: float) -> np.ndarray:
-        """Mean wear (8, N) under each of the study's bars, m."""
-        wear = self._run(f_omega).wear
-        return wear.reshape(len(wear), -1, self.times).mean(axis=2)
+def _wear(run: RunResult, times: int) -> np.ndarray:
+    """Mean wear (8, N) under each of the study's bars, m."""
+    return run.wear.reshape(len(run.wear), -1, times).mean(axis=2)

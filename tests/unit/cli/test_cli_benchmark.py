@@ -72,6 +72,7 @@ def test_in_words(benchmark, capsys):
     [
         (["--rounds", "0"], "--rounds = 0: must be from 1 to 1000"),
         (["--cores", "-1"], "--cores = -1: must be from 1 to 1000000"),
+        (["--nodes", "16", "33"], "--nodes 33: must be from 4 to 32"),
         (["--blade", "no.h5"], "no.h5: No such file or directory"),
     ],
 )

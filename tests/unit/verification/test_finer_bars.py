@@ -9,7 +9,7 @@ from bladerub.contact.reference import time_step
 from bladerub.contact.setup import element_area
 from bladerub.study.grid import CoatingCase, run_spec
 from bladerub.study.peaks import COLUMNS
-from bladerub.verification import finer_bars
+from bladerub.verification import finer_bars, response
 
 CASE = CoatingCase("2nd", 2.0, 0.5, 0.15)
 
@@ -37,7 +37,7 @@ def table(blade, config, make_result, monkeypatch):
         result = make_result(amplitude=1e-3 * (1 - abs(spec.f_omega - peak)) / min(finer, 2), depth=1e-4)
         return replace(result, wear=np.repeat(result.wear, finer, axis=1) * finer)
 
-    monkeypatch.setattr(finer_bars, "simulate", simulate)
+    monkeypatch.setattr(response, "simulate", simulate)
     rows = [
         ["2nd", 2.0, 0.5, 0.15, 6, 0.31, 1e-3, "theta"],
         ["2nd", 2.0, 0.5, 0.15, 6, 0.31, 1e-3, "coulomb"],

@@ -11,8 +11,7 @@ from scipy import sparse
 from scipy.io import mminfo, mmread
 
 from bladerub.blade.linear import MOST_UNKNOWNS
-from bladerub.blade.model import FEWEST_NODES
-from bladerub.numerics.lanes import MOST_NODES
+from bladerub.numerics.lanes import FEWEST_NODES, MOST_NODES
 
 SUFFIXES = (".mtx", ".npz")
 NODES = "nodes.csv"

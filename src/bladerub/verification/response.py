@@ -1,0 +1,74 @@
+"""Response of a coating on one engine order, by runs made when they are asked for."""
+
+from collections.abc import Callable, Mapping
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from bladerub.blade.model import ReducedBlade
+from bladerub.contact.result import RunResult
+from bladerub.contact.run import simulate
+from bladerub.contact.spec import RunSpec
+from bladerub.study.grid import CoatingCase, run_spec, speeds
+from bladerub.study.spectra import order_spectrum
+
+CASES = [
+    CoatingCase("2nd", *layer)
+    for layer in [(0.11, 0.5, 0.0), (1.1, 0.5, 0.0), (2.0, 0.5, 0.0), (2.0, 0.5, 0.15), (20.0, 10.0, 0.0)]
+]
+"""Coatings whose peaks are compared: those of Figs. 8, 9, 15 and 16, and the stiffest."""
+
+CASE_COLUMNS = ("casing", "E", "K", "theta")
+
+
+def listed(peaks: pd.DataFrame) -> list[tuple[CoatingCase, Any]]:
+    """List coating and row of the peaks of the `CASES` in a table ``peaks.csv``."""
+    own = peaks[peaks.law == "theta"].itertuples()
+    described = [(CoatingCase(row.casing, row.E, row.K, row.theta), row) for row in own]
+    return [each for each in described if each[0] in CASES]
+
+
+class Response:
+    """Response of `case` on an engine order; each run of the study is simulated after a `change`."""
+
+    def __init__(
+        self,
+        blade: ReducedBlade,
+        config: Mapping[str, Any],
+        case: CoatingCase,
+        order: float,
+        change: Callable[[RunSpec], RunSpec] = lambda spec: spec,
+    ):
+        self.blade, self.config, self.case, self.order, self.change = blade, config, case, order, change
+        self.runs: dict[float, RunResult] = {}
+
+    def run(self, f_omega: float) -> RunResult:
+        """Return the run at `f_omega`."""
+        if f_omega not in self.runs:
+            spec = self.change(run_spec(self.config, self.case, f_omega))
+            self.runs[f_omega] = simulate(self.blade, spec)
+        return self.runs[f_omega]
+
+    def amplitude(self, f_omega: float) -> float:
+        """Amplitude on the engine order, m, as in `bladerub.study.peaks`."""
+        run, analysis = self.run(f_omega), self.config["analysis"]
+        order, amplitude = order_spectrum(
+            run.radial_displacement,
+            run.revolution_peak.size,
+            analysis["spectrum_revolutions"],
+            analysis["max_order"],
+        )
+        near = np.abs(order - self.order) <= analysis["peaks"]["order_halfwidth"] + 1e-9
+        return float(amplitude[near].max())
+
+    def top(self, f_omega: float) -> float:
+        """Speed of the study at which the amplitude, rising from `f_omega` on, is greatest."""
+        grid = speeds(self.config)
+        at = int(np.argmin(np.abs(np.array(grid) - f_omega)))
+        while True:
+            near = grid[max(at - 1, 0) : at + 2]
+            best = grid.index(max(near, key=self.amplitude))
+            if best == at:
+                return grid[at]
+            at = best
