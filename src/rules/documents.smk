@@ -133,6 +133,13 @@ use rule docs_data as docs_finer_bars with:
         f"{RESULTS}/logs/docs_finer_bars.log",
 
 
+use rule docs_data as docs_rigid_convergence with:
+    input:
+        rules.rigid_convergence.output.table,
+    log:
+        f"{RESULTS}/logs/docs_rigid_convergence.log",
+
+
 use rule docs_data as docs_more_nodes with:
     input:
         rules.more_nodes.output.table,

@@ -36,3 +36,22 @@ rule more_nodes:
         runtime=minutes(10),
     script:
         "../scripts/more_nodes.py"
+
+
+# What the vibration on the rigid casing converges to, whatever the modes, the step and the law of impact
+rule rigid_convergence:
+    input:
+        blade=rules.blade.output.reduced_model,
+        kernel=rules.compile_kernel.output[0],
+        peaks=rules.peaks.output[0],
+        analysing=files_behind("verification.rigid_casing"),
+    output:
+        **described(table=f"{TABLES}/rigid_convergence.csv"),
+    log:
+        f"{RESULTS}/logs/rigid_convergence.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/rigid_convergence.tsv"
+    resources:
+        runtime=minutes(15),
+    script:
+        "../scripts/rigid_convergence.py"
