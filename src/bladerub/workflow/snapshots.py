@@ -21,6 +21,10 @@ KEPT = {
         *(*_RUN, "f_omega", "difference", "reversed_coulomb", "slowest_sliding"),
         *("status_theta", "status_coulomb"),
     ),
+    "rigid_convergence": (
+        *("f_omega", "treatment", "modes", "steps", "order", "complete", "amplitude"),
+        *("amplitude_change", "largest_revolution", "median_revolution", "largest_displacement"),
+    ),
 }
 """Tables of which pages need these columns only, to four digits."""
 
