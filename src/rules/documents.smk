@@ -31,6 +31,7 @@ rule images:
         f"{RESULTS}/logs/images.log",
     params:
         colours=64,
+        few=[f"docs/images/{name}" for name in IMAGES if "history" in name],  # lines
     script:
         "../scripts/images.py"
 
@@ -43,7 +44,7 @@ use rule images as chart_images with:
     log:
         f"{RESULTS}/logs/chart_images.log",
     params:
-        colours=48,
+        colours=20,
 
 
 use rule images as passage_images with:
@@ -53,6 +54,8 @@ use rule images as passage_images with:
         [f"docs/images/{name}.png" for name in PASSAGE_FIGURES],
     log:
         f"{RESULTS}/logs/passage_images.log",
+    params:
+        colours=20,
 
 
 use rule images as robustness_image with:
@@ -63,7 +66,7 @@ use rule images as robustness_image with:
     log:
         f"{RESULTS}/logs/robustness_image.log",
     params:
-        colours=64,
+        colours=20,
 
 
 use rule images as identification_image with:
@@ -74,7 +77,18 @@ use rule images as identification_image with:
     log:
         f"{RESULTS}/logs/identification_image.log",
     params:
-        colours=48,
+        colours=12,
+
+
+use rule images as rotor37_images with:
+    input:
+        [f"{ROTOR37}/figures/{name}.png" for name in ROTOR37_SHOWN],
+    output:
+        [f"docs/images/rotor37_{name}.png" for name in ROTOR37_SHOWN],
+    log:
+        f"{RESULTS}/logs/rotor37_images.log",
+    params:
+        colours=12,
 
 
 use rule images as tip_turns_images with:
@@ -192,6 +206,18 @@ use rule docs_data as docs_identification with:
         rules.identify.output.verdicts,
     log:
         f"{RESULTS}/logs/docs_identification.log",
+
+
+use rule docs_data as docs_rotor37 with:
+    input:
+        [
+            rules.rotor37.output[name]
+            for name in [*REFERENCE_TABLES, "history", "independent"]
+        ],
+    log:
+        f"{RESULTS}/logs/docs_rotor37.log",
+    params:
+        folder="benchmarks/rotor37",
 
 
 use rule docs_data as docs_tip_turns with:

@@ -8,8 +8,8 @@ from bladerub.workflow import job, pages, snapshots
 
 job.log_to(snakemake.log[0])
 
-folder = Path("docs/data")
-folder.mkdir(exist_ok=True)
+folder = Path(snakemake.params.get("folder", "docs/data"))
+folder.mkdir(parents=True, exist_ok=True)
 with tempfile.TemporaryDirectory() as scratch:
     for table in map(Path, snakemake.input):
         taken = Path(scratch) / table.name
@@ -18,7 +18,7 @@ with tempfile.TemporaryDirectory() as scratch:
         # An equal table keeps the description of the study that it was first taken from
         if not snapshot.exists() or snapshot.read_bytes() != taken.read_bytes():
             tables.copy(taken, snapshot)
-data = pages.read_tables(folder)
+data = pages.read_tables(Path("docs/data"))
 for page in pages.pages_of(Path()):
     text = page.read_text(encoding="utf-8")
     rendered = pages.render(text, str(page), data)

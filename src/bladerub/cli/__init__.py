@@ -5,12 +5,12 @@ import os
 import sys
 
 from bladerub import __version__
-from bladerub.cli import benchmark, export, import_blade, new, run, status, verify
+from bladerub.cli import benchmark, compare, export, import_blade, new, run, status, verify
 from bladerub.cli.inputs import Parser
 from bladerub.config.errors import ConfigError
 from bladerub.io.errors import BadInput, message_for
 
-_COMMANDS = (new, run, status, verify, benchmark, export, import_blade)
+_COMMANDS = (new, run, status, verify, benchmark, compare, export, import_blade)
 
 
 def parser() -> argparse.ArgumentParser:
@@ -24,13 +24,13 @@ def parser() -> argparse.ArgumentParser:
 
 
 def main(arguments: list[str] | None = None) -> int:
-    """Run the command line; return 0 on success, 2 on bad input, 130 when interrupted."""
+    """Run the command line; return 0, 1 where numbers differ, 2 on bad input, 130 when interrupted."""
     options = parser().parse_args(import_blade.joined(sys.argv[1:] if arguments is None else arguments))
     code, message = 2, None
     try:
-        options.command(options)
+        found = options.command(options)
         sys.stdout.flush()
-        return 0
+        return found or 0
     except ConfigError as error:
         print(error, file=sys.stderr)
         return 2

@@ -2,7 +2,6 @@
 
 import os
 from collections.abc import Callable, Collection, Iterator, Mapping
-from contextlib import suppress
 from itertools import accumulate
 from typing import Any
 
@@ -132,57 +131,59 @@ def _fit_speeds(config: Config) -> Iterator[str]:
 @_reads("casings")
 def _casings(config: Config) -> Iterator[str]:
     for name, entry in config["casings"].items():
-        where = f"casings.{name}"
-        if "table" in entry:
-            try:
-                casing_spec(name, entry)
-            except ValueError as error:
-                yield f"{where}.{error}"
-                continue
-        else:
-            diameters, weights = entry["nodal_diameters"], entry["weights"]
-            if len(weights) != len(diameters):
-                right = f"must be {len(diameters)}, one for each of nodal_diameters"
-                yield f"{where}.weights = {weights}: {right}"
-                continue
-            if not any(weights):
-                yield f"{where}.weights = {weights}: at least one must not be 0"
-                continue
-        depth = casing_spec(name, entry).interference
-        if right := _too_deep(entry, depth):
-            yield f"{_interference_key(where, entry)} = {depth:g}: must be {right}"
+        if problem := _shape_problem(entry):
+            yield f"casings.{name}.{problem}"
 
 
-def _interference_key(where: str, entry: Config) -> str:
-    return f"interference of {where}.table" if "table" in entry else f"{where}.interference"
+def _shape_problem(entry: Config) -> str | None:
+    """Say what is wrong with the shape of a casing; None if nothing is."""
+    if "table" in entry:
+        try:
+            casing_spec("", entry)
+        except ValueError as error:
+            return str(error)
+        return None
+    diameters, weights = entry["nodal_diameters"], entry["weights"]
+    if len(weights) != len(diameters):
+        return f"weights = {weights}: must be {len(diameters)}, one for each of nodal_diameters"
+    return None if any(weights) else f"weights = {weights}: at least one must not be 0"
 
 
-def _too_deep(entry: Config, depth: float) -> str | None:
+def _too_deep(config: Config, entry: Config, depth: float) -> str | None:
     casing = casing_spec("", entry)
     lowest = float(np.min(shape(casing, np.linspace(0, 2 * np.pi, 7201))))
-    deepest = casing.amplitude * (1 - lowest)
+    deepest = casing.amplitude * (1 - lowest) + _smallest_clearance(config)
     return f"at most {deepest:g} m, or the blade touches all around" if depth > deepest else None
 
 
 @_reads("casings", "contact", "blade")
 def _contact_at_all(config: Config) -> Iterator[str]:
+    thickness = config["contact"]["layer_thickness"]
     for name, entry in config["casings"].items():
-        with suppress(ValueError):  # of a table, which `_casings` reports
-            depth, where = casing_spec(name, entry).interference, f"casings.{name}"
-            if right := _too_shallow(config, depth):
-                yield f"{_interference_key(where, entry)} = {depth:g}: must be {right}"
-            thickness = config["contact"]["layer_thickness"]
-            if "table" in entry and depth >= thickness:
-                right = f"below contact.layer_thickness, {thickness:g} m"
-                yield f"{_interference_key(where, entry)} = {depth:g}: must be {right}"
+        if _shape_problem(entry):
+            continue
+        depth, key = casing_spec(name, entry).interference, f"casings.{name}.interference"
+        right = _too_deep(config, entry, depth) or _too_shallow(config, depth)
+        if "table" in entry:
+            key = f"interference of casings.{name}.table"
+            right = right or (
+                f"below contact.layer_thickness, {thickness:g} m" if depth >= thickness else None
+            )
+        if right:
+            yield f"{key} = {depth:g}: must be {right}"
 
 
 def _too_shallow(config: Config, depth: float) -> str | None:
-    smallest = min(config["contact"]["clearance"].values()) * config["blade"]["length"]
-    scale = config["contact"].get("scale", UNSCALED)["length"]
-    if depth * scale > smallest:
+    smallest = _smallest_clearance(config)
+    if depth > smallest:
         return None
-    return f"above the smaller contact.clearance, {smallest / scale:g} m, or the blade never touches"
+    return f"above the smaller contact.clearance, {smallest:g} m, or the blade never touches"
+
+
+def _smallest_clearance(config: Config) -> float:
+    """Smaller clearance at an edge of the tip, in m before ``contact.scale``, as those of the casings."""
+    smallest = min(config["contact"]["clearance"].values()) * config["blade"]["length"]
+    return float(smallest / config["contact"].get("scale", UNSCALED)["length"])
 
 
 def own_problem(config: Config, case: CoatingCase) -> tuple[str, str] | None:
@@ -193,7 +194,7 @@ def own_problem(config: Config, case: CoatingCase) -> tuple[str, str] | None:
     if "interference" not in own:
         right = f"above the interference of the casing, {depth:g} m, or the blade reaches through the coating"
         return ("layer_thickness", right) if depth >= thickness else None
-    right = _too_deep(casing, depth) or _too_shallow(config, depth)
+    right = _too_deep(config, casing, depth) or _too_shallow(config, depth)
     if depth >= thickness:
         right = f"below the layer thickness, {thickness:g} m, or the blade reaches through the coating"
     return ("interference", right) if right else None

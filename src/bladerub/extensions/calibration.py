@@ -29,7 +29,12 @@ def plan(config: Mapping[str, Any]) -> dict[str, dict[str, Any]]:
     and ``sets``, by name what is laid over that. Each of them can extend other files. Raises `ConfigError` if
     the file is no plan or a set no config, with every problem and the set it is in.
     """
-    content = configuration.read_plan(config["calibration"], "calibration_plan", "calibration").content
+    return sets(config, config["calibration"], "calibration")
+
+
+def sets(config: Mapping[str, Any], path: str | Path, key: str | None = None) -> dict[str, dict[str, Any]]:
+    """Make the config of each set of the plan at `path`, as `plan`; `key` of the config names it, if any."""
+    content = configuration.read_plan(path, "calibration_plan", key).content
     common = [content["common"]] if "common" in content else []
     configs, problems = {}, []
     for name, choices in content["sets"].content.items():

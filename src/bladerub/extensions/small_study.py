@@ -11,7 +11,7 @@ from bladerub.blade.model import read_reduced_blade
 from bladerub.study import divergence, findings, peaks
 from bladerub.study.cache import blade_digest
 from bladerub.study.findings.evidence import Evidence, read_rom_accuracy
-from bladerub.study.grid import coating_cases
+from bladerub.study.grid import CoatingCase, coating_cases
 from bladerub.study.job import compute_missing
 from bladerub.study.manifest import write_manifest
 from bladerub.study.maps import CoatingMap, build_map, read_map
@@ -46,19 +46,34 @@ def conduct(
     its runs and maps; runs that are there and current are kept. `claims` are all by default, ``C2`` standing
     for all its parts; `report` is as of `bladerub.study.job.compute_missing`.
     """
-    folder, blade, digest = Path(folder), read_reduced_blade(model), blade_digest(model)
     maps, n_runs = [], 0
     for case in coating_cases(config):
-        runs, path = folder / "runs" / case.name, folder / "maps" / f"{case.name}.h5"
-        rows = compute_missing(config, coating_plan(config, case), blade, runs, digest, report)
-        write_manifest(runs / "manifest.tsv", rows)
-        build_map(config, case, blade, runs, path)
+        path, n = map_coating(config, case, model, folder, report)
         maps.append(read_map(path))
-        n_runs += len(rows) + sum(bool(row.confirmation_key) for row in rows)
+        n_runs += n
     made = {"peaks": _peaks(config, maps), "divergence": divergence.table(config, maps)}
     evidence = Evidence(config, made | {"rom_accuracy": read_rom_accuracy(rom_accuracy)}, maps)
     wanted = findings.CLAIMS if claims is None else findings.of_claims(claims)
     return SmallStudy(**made, findings=findings.judge(evidence, wanted), n_runs=n_runs, evidence=evidence)
+
+
+def map_coating(
+    config: Mapping[str, Any],
+    case: CoatingCase,
+    model: str | Path,
+    folder: str | Path,
+    report: Callable[[object], None] = lambda line: None,
+) -> tuple[Path, int]:
+    """Run one coating and make its map; return the file of the map and the number of runs.
+
+    Parameters are those of `conduct`.
+    """
+    blade, runs = read_reduced_blade(model), Path(folder) / "runs" / case.name
+    path = Path(folder) / "maps" / f"{case.name}.h5"
+    rows = compute_missing(config, coating_plan(config, case), blade, runs, blade_digest(model), report)
+    write_manifest(runs / "manifest.tsv", rows)
+    build_map(config, case, blade, runs, path)
+    return path, len(rows) + sum(bool(row.confirmation_key) for row in rows)
 
 
 def _peaks(config: Mapping[str, Any], maps: Iterable[CoatingMap]) -> pd.DataFrame:

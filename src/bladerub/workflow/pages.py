@@ -18,6 +18,7 @@ import pandas as pd
 from jinja2 import Environment, StrictUndefined, TemplateError, meta
 
 from bladerub.io import tables
+from bladerub.io.folders import BENCHMARKS
 
 TABLES = ("findings", "margins", "peaks", "divergence", "rom_accuracy", "campbell")
 """Tables of the study that pages quote; other targets have more."""
@@ -58,8 +59,10 @@ class Table:
 
 
 def read_tables(folder: Path) -> dict[str, Table]:
-    """Read the snapshots in `folder`."""
-    return {path.stem: Table(path.stem, tables.read(path)) for path in folder.glob("*.csv")}
+    """Read the snapshots in `folder`, and the reference numbers, as ``rotor37_direct``."""
+    paths = {path.stem: path for path in folder.glob("*.csv")}
+    paths |= {f"{path.parent.name}_{path.stem}": path for path in BENCHMARKS.glob("*/*.csv")}
+    return {name: Table(name, tables.read(path)) for name, path in paths.items()}
 
 
 def pages_of(root: Path) -> list[Path]:
@@ -67,6 +70,7 @@ def pages_of(root: Path) -> list[Path]:
     folders = ("explanation", "how-to", "reference", "tutorials")
     return [
         root / "README.md",
+        root / "docs" / "rotor37.md",
         *(page for name in folders for page in sorted((root / "docs" / name).glob("*.md"))),
     ]
 

@@ -275,7 +275,7 @@ def problems(config):
 
 CLEARANCE = min(STUDY["contact"]["clearance"].values()) * STUDY["blade"]["length"]
 WAVES = np.cos(np.outer(np.linspace(0, 2 * np.pi, 100_000), [2, 5])) @ [0.25, 1.0]
-DEEPEST = STUDY["casings"]["2nd5nd"]["amplitude"] * (1 - WAVES.min() / WAVES.max())
+DEEPEST = STUDY["casings"]["2nd5nd"]["amplitude"] * (1 - WAVES.min() / WAVES.max()) + CLEARANCE
 TWO_SPEEDS = {"analysis.histories": [], "speeds": {"start": 0.29, "stop": 0.3, "step": 0.01, "extra": []}}
 COARSE = {"contact.elements": 100, "analysis.max_order": 50}
 SAMPLES = {"contact.elements": 100_000}
@@ -289,7 +289,12 @@ BORDERS = [
     # what else is changed, the key, a value that is allowed, one that is not
     ({}, "reduction.accuracy_modes", 30, 31),
     ({"reduction.modes_per_speed": 5}, "reduction.accuracy_modes", 29, 30),
-    ({"contact.layer_thickness": 0.01}, "casings.2nd.interference", 0.002, just_above(0.002)),
+    (
+        {"contact.layer_thickness": 0.01},
+        "casings.2nd.interference",
+        0.002 + CLEARANCE,
+        0.00200001 + CLEARANCE,
+    ),
     ({"contact.layer_thickness": 6e-4}, "casings.2nd.interference", math.nextafter(6e-4, 0), 6e-4),
     ({}, "casings.2nd.interference", just_above(CLEARANCE), CLEARANCE),
     (

@@ -1,0 +1,81 @@
+"""Rotor 37: response over the speed, and direct contact over a revolution."""
+
+from collections.abc import Mapping
+
+import numpy as np
+import pandas as pd
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from bladerub.contact import casing
+from bladerub.contact.spec import RunSpec
+from bladerub.plots import style
+from bladerub.study.maps import CoatingMap
+
+_LAST = 5  # revolutions over which the amplitude is taken
+_COLOURS = (style.BLUE, style.ORANGE, style.DARK, style.RED)
+
+
+@style.styled
+def response(panels: Mapping[str, Mapping[str, CoatingMap]], f1_hz: float, nominal: float) -> Figure:
+    """Draw the amplitude of the last revolutions over the rotor speed, a panel each of named coatings.
+
+    Runs that ended as unbounded are crosses at the top. `nominal` is the design speed, 1/min.
+    """
+    figure = style.new_figure(style.PAGE, 0.36 * style.PAGE * len(panels))
+    for axes, (title, coatings) in zip(
+        np.ravel(figure.subplots(len(panels), 1, sharex=True, sharey=True)), panels.items(), strict=True
+    ):
+        for colour, (label, coating) in zip(_COLOURS, coatings.items(), strict=False):
+            _draw_response(axes, coating, 60 * f1_hz, label, colour)
+        axes.axvline(nominal, color=style.GREY, linewidth=0.8, linestyle=":")
+        axes.set(yscale="log", ylabel="amplitude (mm)")
+        axes.set_title(title)
+        axes.legend(ncols=len(coatings), loc="upper left", fontsize=7)
+    axes.set_xlabel("rotor speed (1/min); dotted: design speed; crosses: unbounded")
+    return figure
+
+
+def _draw_response(axes: Axes, coating: CoatingMap, rpm: float, label: str, colour: str) -> None:
+    speed = coating.f_omega * rpm
+    amplitude = 1e3 * coating.revolution_amplitude[:, -_LAST:].max(axis=1)
+    axes.plot(speed, amplitude, color=colour, linewidth=1.1, label=label)
+    ended = coating.status != "completed"
+    axes.plot(
+        speed[ended],
+        np.full(ended.sum(), 0.98),
+        "x",
+        color=colour,
+        markersize=4,
+        transform=axes.get_xaxis_transform(),
+    )
+
+
+@style.styled
+def direct_contact(history: pd.DataFrame, spec: RunSpec, node_angle: float) -> Figure:
+    """Draw the displacement of node 1 in the last revolution and the gap that it meets, m in `history`.
+
+    `node_angle` is that of node 1 from the stacking line, rad, positive with the rotation.
+    """
+    stiffness = history.case.str.partition("_mu")
+    titles = {"rest": "without centrifugal stiffening", "stiffened": "with centrifugal stiffening"}
+    figure = style.new_figure(style.PAGE, 0.62 * style.PAGE)
+    angle = np.linspace(0, 2 * np.pi, 721)
+    gap = casing.gap(spec.casing, spec.clearance[0], angle + spec.casing.start_angle + node_angle)
+    for axes, (name, title) in zip(
+        figure.subplots(2, 1, sharex=True, sharey=True), titles.items(), strict=True
+    ):
+        axes.fill_between(
+            np.rad2deg(angle), 1e3 * gap, 0.45, color=style.MISSING, linewidth=0, label="casing"
+        )
+        own = history[stiffness[0] == name]
+        for look, (friction, rows) in zip(
+            (style.FIRST, style.SECOND), own.groupby(stiffness[2]), strict=True
+        ):
+            moved = 1e3 * rows.radial_displacement
+            axes.plot(np.rad2deg(rows.turned), moved, **look, linewidth=1.1, label=f"μ = {friction}")
+        axes.set(xlim=(0, 360), xticks=range(0, 361, 45), ylim=(-0.62, 0.45), ylabel="radial (mm)")
+        axes.set_title(title)
+    axes.legend(fontsize=7, ncols=3, loc="lower center")
+    axes.set_xlabel("angle turned in the last revolution (degrees)")
+    return figure

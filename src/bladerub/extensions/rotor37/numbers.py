@@ -1,0 +1,115 @@
+"""The numbers that other codes can be compared with: of the blade, of direct contact, of coatings."""
+
+from collections.abc import Iterable, Iterator, Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from bladerub.blade.frequencies import reduced_frequencies, tip_lean
+from bladerub.blade.model import ReducedBlade
+from bladerub.blade.tip import tip_radius
+from bladerub.contact.result import RunResult
+from bladerub.io import tables
+from bladerub.study import divergence, peaks
+from bladerub.study.maps import CoatingMap
+from bladerub.study.orders import peak_settings
+from bladerub.study.similarity import tip_stiffness
+from bladerub.study.spectra import order_spectrum
+
+COLUMNS = ["number", "value", "unit", "resolution"]
+"""Columns of the numbers of one calculation; ``resolution`` is that of the grid they are read from."""
+
+NOMINAL_RPM = 17188.7
+"""Design speed of the rotor (Reid and Moore, NASA TP-1337, 1978), 1/min."""
+
+ORDERS = (4, 6, 8, 10, 12)
+"""Engine orders whose crossing with the first frequency lies within the speeds."""
+
+_N_FREQUENCIES = 6
+_LAST = 5  # revolutions at the end over which a response counts as steady
+
+
+def of_blade(blade: ReducedBlade) -> pd.DataFrame:
+    """Frequencies at rest and at the nominal speed, and what contact meets at the tip."""
+    nominal, lean = nominal_speed(blade), tip_lean(blade)
+    rows: list[tuple[str, float, str]] = []
+    for place, f_omega in (("rest", 0.0), ("nominal", nominal)):
+        frequencies = reduced_frequencies(blade, f_omega, _N_FREQUENCIES)
+        rows += [(f"f{mode}_{place}", f, "Hz") for mode, f in enumerate(frequencies, 1)]
+    rows += [
+        ("tip_radius", tip_radius(blade), "m"),
+        ("tip_stiffness", tip_stiffness(blade), "N/m"),
+        ("lean_leading_edge", lean[0], "1"),
+        ("lean_trailing_edge", lean[-1], "1"),
+    ]
+    return _numbers(rows)
+
+
+def nominal_speed(blade: ReducedBlade) -> float:
+    """Design speed of the rotor, normalised by the first frequency of `blade`."""
+    return NOMINAL_RPM / 60 / blade.f1_hz
+
+
+def of_direct_contact(name: str, result: RunResult, revolutions: int) -> pd.DataFrame:
+    """Measure a run: the displacement of node 1, and how many of the steps have contact."""
+    share = _numbers([(f"{name}.contact_share", result.n_contact_steps / result.n_steps, "1")])
+    return pd.concat([of_displacement(name, result.radial_displacement, revolutions), share])
+
+
+def of_displacement(name: str, radial_displacement: np.ndarray, revolutions: int) -> pd.DataFrame:
+    """Extremes and harmonics of the radial displacement of node 1 in the last revolutions of a run."""
+    displacement = radial_displacement.reshape(revolutions, -1)[-_LAST:]
+    order, amplitude = order_spectrum(radial_displacement, revolutions, _LAST, float(max(ORDERS)))
+    rows = [
+        (f"{name}.highest", displacement.max(), "m"),
+        (f"{name}.lowest", displacement.min(), "m"),
+        (f"{name}.amplitude", np.ptp(displacement) / 2, "m"),
+        *((f"{name}.order_{k}", amplitude[np.argmin(abs(order - k))], "m") for k in (2, *ORDERS)),
+    ]
+    return _numbers(rows)
+
+
+def of_coating(config: Mapping[str, Any], coating: CoatingMap, blade: ReducedBlade) -> pd.DataFrame:
+    """Peaks, wear and divergence of a coating over its speeds; no wear of the rigid casing.
+
+    An order without a bounded run near its crossing has no peak.
+    """
+    name, rpm = coating.case.name, 60 * blade.f1_hz
+    rows = [row for k in ORDERS for row in _peak(config, coating, k, rpm)]
+    divergent = [verdict.divergent for verdict in divergence.verdicts(config, coating)]
+    rows.append((f"{name}.divergent_share", float(np.mean(divergent)), "1", 1 / len(divergent)))
+    if not coating.case.is_rigid:
+        nominal = int(np.argmin(abs(coating.f_omega - nominal_speed(blade))))
+        rows += [
+            (f"{name}.wear_at_nominal", coating.max_wear[nominal], "m", 0.0),
+            (f"{name}.deepest_wear", coating.max_wear.max(), "m", 0.0),
+            (f"{name}.wear_harmonic_at_nominal", float(coating.wear_harmonic[nominal]), "1", 0.0),
+        ]
+    return pd.DataFrame(rows, columns=COLUMNS)
+
+
+def _peak(
+    config: Mapping[str, Any], coating: CoatingMap, order: int, rpm: float
+) -> Iterator[tuple[str, float, str, float]]:
+    try:
+        found = peaks.peak(coating, order, peak_settings(config, coating.case.casing))
+    except ValueError:
+        return
+    name = f"{coating.case.name}.order_{order}"
+    yield f"{name}.speed", found.f_omega * rpm, "1/min", _step(coating) * rpm
+    yield f"{name}.amplitude", found.amplitude, "m", 0.0
+
+
+def _step(coating: CoatingMap) -> float:
+    return float(np.diff(coating.f_omega).max())
+
+
+def _numbers(rows: list[tuple[str, float, str]]) -> pd.DataFrame:
+    return pd.DataFrame([(*row, 0.0) for row in rows], columns=COLUMNS)
+
+
+def collect(paths: Iterable[str | Path]) -> pd.DataFrame:
+    """Read tables with `COLUMNS` into one."""
+    return pd.concat([tables.read(path, COLUMNS) for path in paths], ignore_index=True)

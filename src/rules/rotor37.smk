@@ -1,0 +1,148 @@
+# Reference numbers of NASA Rotor 37, beside the study at work (docs/rotor37.md). Not part of `all`.
+from functools import cache
+
+from bladerub.study.grid import coating_cases
+
+ROTOR37 = f"{RESULTS}/rotor37"
+REFERENCE_TABLES = ["blade", "direct", "interaction", "coatings"]
+ROTOR37_FIGURES = [
+    "response",
+    "direct",
+    "spectrum_rigid",
+    "spectrum_coated",
+    "wear_straight",
+    "wear_inclined",
+]
+
+ROTOR37_SHOWN = [
+    "response",
+    "direct",
+    "spectrum_coated",
+    "wear_straight",
+]  # on its page
+
+
+@cache
+def rotor37_plan():
+    """The config of every set; read only when somebody asks for Rotor 37."""
+    from bladerub.extensions.rotor37.reference import plan
+
+    with bladerub.io.errors.exit_on_error():
+        return plan()
+
+
+def rotor37_numbers(wildcards):
+    return [
+        f"{ROTOR37}/{name}/numbers/{part}.csv"
+        for name, own in rotor37_plan().items()
+        for part in ["blade", *(case.name for case in coating_cases(own))]
+    ]
+
+
+def rotor37_set(wildcards):
+    """The config of one set: a changed one is a reason to run."""
+    return rotor37_plan()[wildcards.set]
+
+
+# By an integrator of its own: also a check of the numbers of direct contact
+rule rotor37_independent:
+    input:
+        blade=f"{ROTOR37}/reference/blade/reduced_model.h5",
+        computing=files_behind("extensions.rotor37.independent"),
+    output:
+        **described(table=f"{ROTOR37}/reference/independent.csv"),
+    log:
+        f"{RESULTS}/logs/rotor37_independent.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/rotor37_independent.tsv"
+    resources:
+        runtime=minutes(10),
+    params:
+        config=lambda wildcards: rotor37_plan()["reference"],
+    script:
+        "../scripts/rotor37_independent.py"
+
+
+rule rotor37:
+    input:
+        numbers=rotor37_numbers,
+        drawing=files_behind("extensions.plots.rotor37", "extensions.rotor37.reference"),
+        independent=f"{ROTOR37}/reference/independent.csv",
+    output:
+        **described(
+            history=f"{ROTOR37}/direct_history.csv",
+            independent=f"{ROTOR37}/independent.csv",
+            **{name: f"{ROTOR37}/{name}.csv" for name in REFERENCE_TABLES},
+        ),
+        png=[f"{ROTOR37}/figures/{name}.png" for name in ROTOR37_FIGURES],
+        pdf=[f"{ROTOR37}/figures/{name}.pdf" for name in ROTOR37_FIGURES],
+    log:
+        f"{RESULTS}/logs/rotor37.log",
+    params:
+        dpi=DPI,
+        folder=ROTOR37,
+        plan=lambda wildcards: rotor37_plan(),
+    script:
+        "../scripts/rotor37.py"
+
+
+use rule blade as rotor37_blade with:
+    input:
+        code=files_behind("blade.build"),
+        given="config/blades/rotor37.csv",
+    output:
+        **described(rom_accuracy=f"{ROTOR37}/{{set}}/blade/rom_accuracy.csv"),
+        reduced_model=f"{ROTOR37}/{{set}}/blade/reduced_model.h5",
+        mesh=f"{ROTOR37}/{{set}}/blade/mesh.h5",
+    log:
+        f"{RESULTS}/logs/rotor37_blade/{{set}}.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/rotor37_blade/{{set}}.tsv"
+    params:
+        blade=lambda wildcards: rotor37_set(wildcards)["blade"],
+        reduction=lambda wildcards: rotor37_set(wildcards)["reduction"],
+
+
+rule rotor37_direct:
+    input:
+        blade=rules.rotor37_blade.output.reduced_model,
+        kernel=rules.compile_kernel.output[0],
+        measuring=files_behind("extensions.rotor37.direct"),
+    output:
+        **described(
+            blade=f"{ROTOR37}/{{set}}/numbers/blade.csv",
+            direct=f"{ROTOR37}/{{set}}/numbers/direct.csv",
+            history=f"{ROTOR37}/{{set}}/history.csv",
+        ),
+    log:
+        f"{RESULTS}/logs/rotor37_direct/{{set}}.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/rotor37_direct/{{set}}.tsv"
+    resources:
+        mem_mb=memory_mb,
+        runtime=minutes(5),
+    params:
+        config=rotor37_set,
+    script:
+        "../scripts/rotor37_direct.py"
+
+
+rule rotor37_coating:
+    input:
+        blade=rules.rotor37_blade.output.reduced_model,
+        kernel=rules.compile_kernel.output[0],
+        measuring=files_behind("extensions.rotor37.numbers", "extensions.small_study"),
+    output:
+        **described(numbers=f"{ROTOR37}/{{set}}/numbers/{{coating}}.csv"),
+    log:
+        f"{RESULTS}/logs/rotor37_coating/{{set}}/{{coating}}.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/rotor37_coating/{{set}}/{{coating}}.tsv"
+    resources:
+        mem_mb=memory_mb,
+        runtime=minutes(10),
+    params:
+        config=rotor37_set,
+        folder=f"{ROTOR37}/{{set}}",
+    script:
+        "../scripts/rotor37_coating.py"

@@ -1,0 +1,66 @@
+"""Reference numbers of Rotor 37 with their uncertainty, and the figures."""
+
+from pathlib import Path
+
+import numpy as np
+
+from bladerub.blade.model import read_reduced_blade
+from bladerub.extensions.plots import rotor37 as plots
+from bladerub.extensions.rotor37 import direct, numbers, reference
+from bladerub.io import tables
+from bladerub.io.provenance import provenance
+from bladerub.plots import style
+from bladerub.plots.spectrum import spectrum_map
+from bladerub.plots.wear_map import wear_map
+from bladerub.study.grid import coating_cases
+from bladerub.study.maps import read_map
+from bladerub.workflow import job
+
+job.log_to(snakemake.log[0])
+
+config, dpi = snakemake.params.plan[reference.REFERENCE], snakemake.params.dpi
+origin, folder = provenance(config), snakemake.params.folder
+sets = (reference.REFERENCE, *reference.VARIATIONS)
+cases = coating_cases(config)
+parts = {
+    "blade": ["blade"],
+    "direct": ["direct"],
+    "interaction": [case.name for case in cases if case.is_rigid],
+    "coatings": [case.name for case in cases if not case.is_rigid],
+}
+for name, files in parts.items():
+    by_set = {one: numbers.collect(f"{folder}/{one}/numbers/{file}.csv" for file in files) for one in sets}
+    tables.write(snakemake.output[name], reference.with_uncertainty(by_set), origin, "%.7g")
+
+history = f"{folder}/{reference.REFERENCE}/history.csv"
+tables.copy(history, snakemake.output.history)
+tables.copy(snakemake.input.independent, snakemake.output.independent)
+
+blade = read_reduced_blade(f"{folder}/{reference.REFERENCE}/blade/reduced_model.h5")
+maps = {case: read_map(f"{folder}/{reference.REFERENCE}/maps/{case.name}.h5") for case in cases}
+rigid = {f"μ = {case.friction:g}": found for case, found in maps.items() if case.is_rigid}
+coated = {
+    angle: {
+        f"E = {case.E:g} GPa": found
+        for case, found in maps.items()
+        if not case.is_rigid and case.theta == angle
+    }
+    for angle in sorted({case.theta for case in cases if not case.is_rigid})
+}
+panels = {"rigid casing": rigid} | {f"coated casing, θ = {angle:g}": found for angle, found in coated.items()}
+look = config["figures"]["amplitude_range"], config["figures"]["max_frequency"]
+straight, inclined = (found["E = 1 GPa"] for found in coated.values())
+figures = {
+    "response": plots.response(panels, blade.f1_hz, numbers.NOMINAL_RPM),
+    "direct": plots.direct_contact(
+        tables.read(history),
+        direct.spec_of(config, blade, 0.0),
+        float(np.arctan2(*blade.node_position[0, 1:])),
+    ),
+    "spectrum_rigid": spectrum_map(rigid["μ = 0.15"], *look),
+    "spectrum_coated": spectrum_map(straight, *look),
+    "wear_straight": wear_map(straight),
+    "wear_inclined": wear_map(inclined),
+}
+for png, pdf in zip(snakemake.output.png, snakemake.output.pdf, strict=True):
+    style.save(figures[Path(png).stem], png, pdf, dpi)

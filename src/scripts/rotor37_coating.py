@@ -1,0 +1,22 @@
+"""Run one coating of one set of Rotor 37 at all speeds, and measure it."""
+
+import sys
+
+from bladerub.blade.model import read_reduced_blade
+from bladerub.extensions.rotor37.numbers import of_coating
+from bladerub.extensions.small_study import map_coating
+from bladerub.io import tables
+from bladerub.io.provenance import provenance
+from bladerub.study.grid import case_from_name
+from bladerub.study.maps import read_map
+from bladerub.workflow import job
+
+job.log_to(snakemake.log[0])
+
+config, model = snakemake.params.config, snakemake.input.blade
+case = case_from_name(config, snakemake.wildcards.coating)
+path, _ = map_coating(
+    config, case, model, snakemake.params.folder, report=lambda run: print(run, file=sys.stderr)
+)
+numbers = of_coating(config, read_map(path), read_reduced_blade(model))
+tables.write(snakemake.output.numbers, numbers, provenance(config))

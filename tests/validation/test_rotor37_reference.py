@@ -1,0 +1,58 @@
+"""The reference numbers of NASA Rotor 37, computed again on a coarser mesh, and with another material.
+
+The published first frequency: 856 to 859 Hz (Piollet, Nyssen and Batailly, J. Sound Vib. 460, 2019, 114878,
+and the works that use their blade).
+"""
+
+import copy
+
+import pandas as pd
+import pytest
+
+from bladerub.blade.build import build
+from bladerub.extensions.rotor37 import direct, numbers, reference
+from bladerub.io.folders import BENCHMARKS
+from bladerub.verification.compare import compare
+
+KNOWN = BENCHMARKS / "rotor37"
+
+
+def computed(config, folder):
+    blade = build(config).reduced
+    folder.mkdir()
+    numbers.of_blade(blade).to_csv(folder / "blade.csv", index=False)
+    direct.numbers(direct.runs(config, blade)).to_csv(folder / "direct.csv", index=False)
+    return folder
+
+
+@pytest.fixture(scope="module")
+def coarse():
+    return reference.plan()["mesh"]
+
+
+def test_a_fresh_calculation_on_a_coarser_mesh_agrees(coarse, tmp_path):
+    table = compare(computed(coarse, tmp_path / "own"), KNOWN)
+    assert table.table.unique().tolist() == ["blade", "direct"]
+    assert len(table) > 40
+    assert table[~table.agrees].empty
+
+
+def test_five_per_cent_of_stiffness_are_noticed(coarse, tmp_path):
+    stiffer = copy.deepcopy(coarse)
+    stiffer["blade"]["material"]["young_modulus"] *= 1.05
+    table = compare(computed(stiffer, tmp_path / "own"), KNOWN)
+    different = set(table[~table.agrees].number)
+    assert {"f1_rest", "f1_nominal", "rest_mu0.order_4"} <= different
+
+
+def test_the_first_frequency_is_the_published_one():
+    blade = pd.read_csv(KNOWN / "blade.csv").set_index("number")
+    assert 0.995 * 856 < blade.value["f1_rest"] < 1.005 * 859
+
+
+def test_there_are_forty_numbers_and_each_has_an_uncertainty():
+    tables = [table for path in KNOWN.glob("*.csv") if "uncertainty" in (table := pd.read_csv(path))]
+    assert sum(map(len, tables)) >= 40
+    for table in tables:
+        assert (table.uncertainty >= 0).all()
+        assert not table.number.duplicated().any()
