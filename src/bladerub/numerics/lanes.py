@@ -11,7 +11,9 @@ import threading
 from functools import cache
 from types import ModuleType
 
-LANES = 8
+USUAL = 8
+"""Doubles in a vector of the modules that are imported by name."""
+LANES = USUAL
 """Doubles in a vector of the module that is being imported."""
 
 FEWEST_NODES, MOST_NODES = 4, 32
@@ -24,7 +26,7 @@ _importing = threading.Lock()
 
 def lanes_for(n_nodes: int) -> int:
     """Doubles in the vectors for a tip with `n_nodes` nodes: a power of two, whose halves can be paired."""
-    lanes = LANES
+    lanes = USUAL
     while lanes < n_nodes:
         lanes *= 2
     return lanes
@@ -33,32 +35,32 @@ def lanes_for(n_nodes: int) -> int:
 @cache
 def module_for(lanes: int, name: str) -> ModuleType:
     """Return the module `name` of the time loop, such as ``contact.kernel.loop``, for vectors of `lanes`."""
-    if lanes == LANES:
+    if lanes == USUAL:
         return importlib.import_module(f"bladerub.{name}")
-    return _instance(lanes)[f"bladerub.{name}"]
+    with _importing:  # threads that begin together
+        return _instance(lanes)[f"bladerub.{name}"]
 
 
 @cache
 def _instance(lanes: int) -> dict[str, ModuleType]:
     """Import the modules of the time loop again for other lanes; those in use stay as they are."""
     global LANES
-    with _importing:
+    importlib.import_module("bladerub.contact.kernel.loop")
+    usual = _loaded()
+    try:
+        LANES = lanes
+        for name in usual:
+            parent, _, child = name.rpartition(".")
+            del sys.modules[name]
+            delattr(sys.modules.get(parent, usual.get(parent)), child)  # else found there
         importlib.import_module("bladerub.contact.kernel.loop")
-        usual, usual_lanes = _loaded(), LANES
-        try:
-            LANES = lanes
-            for name in usual:
-                parent, _, child = name.rpartition(".")
-                del sys.modules[name]
-                delattr(sys.modules.get(parent, usual.get(parent)), child)  # else found there
-            importlib.import_module("bladerub.contact.kernel.loop")
-            return _loaded()
-        finally:
-            LANES = usual_lanes
-            sys.modules.update(usual)
-            for name, module in usual.items():
-                parent, _, child = name.rpartition(".")
-                setattr(sys.modules[parent], child, module)
+        return _loaded()
+    finally:
+        LANES = USUAL
+        sys.modules.update(usual)
+        for name, module in usual.items():
+            parent, _, child = name.rpartition(".")
+            setattr(sys.modules[parent], child, module)
 
 
 def _loaded() -> dict[str, ModuleType]:
