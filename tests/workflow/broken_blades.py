@@ -52,7 +52,7 @@ IMPORTS: dict[str, str] = {
     _FOLDER.format("larger"): "stiffness_max.mtx: is 30 x 30; must have three rows for each",
     _FOLDER.format("not_finite"): "mass.mtx: its entry (3, 3) is inf; must be a finite number",
     _FOLDER.format("massless"): "mass.mtx: is not positive definite: its entry (6, 6) is 0; must be",
-    _FOLDER.format("seven"): "nodes.csv: no node has interface = 8; each of 1 to 8 must be there",
+    _FOLDER.format("seven"): "mass.mtx: is 48 x 48; must have three rows for each of the 15 nodes",
 }
 
 

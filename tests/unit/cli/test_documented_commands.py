@@ -42,7 +42,7 @@ def parses(command):
 
 def test_commands_are_found():
     names = {command.split()[1] for _, command in commands()}
-    assert names == {"new", "run", "status", "verify", "benchmark", "import", "export"}
+    assert names == {"new", "run", "status", "verify", "compare", "benchmark", "import", "export"}
 
 
 @pytest.mark.parametrize(("page", "command"), sorted(set(commands())))

@@ -98,10 +98,11 @@ def test_a_table_without_its_columns_or_file_is_refused(config, table, rows):
 
 
 @pytest.mark.parametrize(
-    ("shift", "said"), [(0.0, None), (0.4, "never touches"), (-0.9, "all around"), (-7.0, "layer_thickness")]
+    ("times", "shift", "said"),
+    [(1, 0.0, None), (1, 0.4, "never touches"), (1, -0.9, "all around"), (40, 0.0, "layer_thickness")],
 )
-def test_a_measured_gap_must_give_contact_but_not_everywhere(config, table, rows, shift, said):
-    shifted = [f"{a},{g + shift!r}" for a, g in zip(ANGLE.tolist(), GAP.tolist(), strict=True)]
+def test_a_measured_gap_must_give_contact_but_not_everywhere(config, table, rows, times, shift, said):
+    shifted = [f"{a},{times * g + shift!r}" for a, g in zip(ANGLE.tolist(), GAP.tolist(), strict=True)]
     config["casings"]["own"] = table(shifted)
     if said is None:
         validate(config)
