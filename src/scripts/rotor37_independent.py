@@ -10,4 +10,4 @@ job.log_to(snakemake.log[0])
 
 config = snakemake.params.config
 found = table(config, read_reduced_blade(snakemake.input.blade))
-tables.write(snakemake.output.table, found, provenance(config))
+tables.write(snakemake.output.table, found, provenance(config), "%.7g")
