@@ -7,7 +7,7 @@ import numpy as np
 
 from bladerub.blade.model import ReducedBlade
 from bladerub.contact import energy
-from bladerub.contact.kernel.loop import Simulation
+from bladerub.contact.kernel.loop import Progress, Simulation
 from bladerub.contact.schemes import Recurrence
 from bladerub.contact.setup import by_angle, element_angle
 from bladerub.contact.spec import RunSpec
@@ -32,6 +32,18 @@ class History:
         self.lowest, self.highest = np.full((2, revolutions), np.nan)
         self.n_steps = self.n_contact_steps = 0
         self.revolutions_made = 0.0
+        self.is_within_limit = True
+
+    def enter(self, made: Progress, segment: Segment) -> None:
+        """Enter what was integrated of a segment."""
+        simulation, revolution, first, last = segment
+        self.n_steps += made.n_steps
+        self.n_contact_steps += made.n_contact_steps
+        self.lowest[revolution] = np.fmin(self.lowest[revolution], made.lowest)
+        self.highest[revolution] = np.fmax(self.highest[revolution], made.highest)
+        passed = first + made.n_steps / simulation.steps_per_element
+        self.revolutions_made = revolution + passed / self.displacement.shape[1]
+        self.is_within_limit = made.n_steps == (last - first) * simulation.steps_per_element
 
     def outcome(
         self, blade: ReducedBlade, spec: RunSpec, rule: Recurrence, simulation: Simulation, initial: float
@@ -39,12 +51,12 @@ class History:
         """Fields of `bladerub.contact.result.Outcome`; the blade had `initial` energy (J) at the start."""
         revolutions, n_elements = self.displacement.shape
         status, message = "completed", f"{revolutions} revolutions completed"
-        if self.revolutions_made != revolutions:
-            limit, made = spec.displacement_limit, self.revolutions_made
-            status, message = (
-                "unbounded",
-                f"the tip moved by more than {limit:g} m after {made:.2f} revolutions",
-            )
+        limit, made = spec.displacement_limit, self.revolutions_made
+        if not self.is_within_limit:
+            status = "unbounded"
+            message = f"the tip moved by more than {limit:g} m after {made:.2f} revolutions"
+        elif made != revolutions:
+            status, message = "stopped", f"another blade left the limit after {made:.2f} revolutions"
         return {
             "status": status,
             "message": message,
@@ -71,15 +83,11 @@ def integrate(
     done after each of them.
     """
     history = History(revolutions, n_elements)
-    for simulation, revolution, first, last in segments:
+    for segment in segments:
+        simulation, revolution, first, last = segment
         made = simulation.advance(history.displacement[revolution, first:last], first)
-        history.n_steps += made.n_steps
-        history.n_contact_steps += made.n_contact_steps
-        history.lowest[revolution] = np.fmin(history.lowest[revolution], made.lowest)
-        history.highest[revolution] = np.fmax(history.highest[revolution], made.highest)
-        passed = first + made.n_steps / simulation.steps_per_element
-        history.revolutions_made = revolution + passed / n_elements
-        if made.n_steps < (last - first) * simulation.steps_per_element:
+        history.enter(made, segment)
+        if not history.is_within_limit:
             break
         if progress is not None and last == n_elements:
             progress(revolution + 1)

@@ -7,6 +7,9 @@ package it uses the law of an element (Fig. 4), the profile of the tip (Fig. 3) 
     history, wear = simulate(blade, spec, n_steps=20_000)
 """
 
+import itertools
+from collections.abc import Sequence
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -16,6 +19,7 @@ import scipy.optimize
 from bladerub.blade.model import ReducedBlade
 from bladerub.contact import law
 from bladerub.contact.casing import shape
+from bladerub.contact.front import RowBlade
 from bladerub.contact.spec import RunSpec
 from bladerub.contact.tip import coverage, relief
 
@@ -45,12 +49,54 @@ def simulate(
     wear : (j, N) ndarray
         Permanent shortening of the elements, m.
     """
+    coating = _Coating(blade, spec, law)
+    steps = _steps(blade, spec, n_modes, coating)
+    history = np.array([next(steps) for _ in range(n_steps)])
+    return history[:, : 2 * blade.n_interface], coating.wear
+
+
+def simulate_row(
+    blade: ReducedBlade, spec: RunSpec, row: Sequence[RowBlade], n_steps: int, n_modes: int | None = None
+) -> tuple[np.ndarray, np.ndarray]:
+    """Simulate blades that pass over one coating, all of them step by step.
+
+    Parameters are those of `simulate`, and the blades of the row; none is held at the start.
+
+    Returns
+    -------
+    histories : (n_blades, n_steps, 2 j) ndarray
+        Displacements of each blade, as of `simulate`.
+    wear : (j, N) ndarray
+        Permanent shortening of the elements by all of them, m.
+    """
+    coatings = [_Coating(blade, spec, law) for _ in row]
+    marches = []
+    for coating, own in zip(coatings, row, strict=True):
+        coating.node_angle = coating.node_angle + own.angle
+        coating.initial_gap = coating.initial_gap - own.length
+        factor = (1 + own.frequency) ** 2
+        names = ("stiffness_0", "stiffness_1", "stiffness_2")
+        stiffer = replace(blade, **{name: factor * getattr(blade, name) for name in names})
+        damped = replace(spec, damping_ratio=spec.damping_ratio * own.damping)
+        marches.append(_steps(stiffer, damped, n_modes, coating))
+    wear, histories = coatings[0].wear, []
+    for _ in range(n_steps):
+        histories.append([])
+        for coating, march in zip(coatings, marches, strict=True):
+            coating.wear = wear  # as the others have left it
+            histories[-1].append(next(march))
+            wear = coating.wear
+    return np.array(histories).swapaxes(0, 1)[:, :, : 2 * blade.n_interface], wear
+
+
+def _steps(blade, spec, n_modes, coating):
+    """Integrate step by step; each gives the displacement of the tip."""
     if spec.scheme == "central_differences":
-        return _central_differences(blade, spec, n_steps, _Coating(blade, spec, law))
-    return _exponential(blade, spec, n_steps, n_modes or len(blade.mass), _Coating(blade, spec, law))
+        return _central_differences(blade, spec, coating)
+    return _exponential(blade, spec, n_modes or len(blade.mass), coating)
 
 
-def _central_differences(blade, spec, n_steps, coating):
+def _central_differences(blade, spec, coating):
     """Integrate eq. (1), M u'' + D u' + K u + F = 0, by the paper's scheme."""
     h = time_step(blade, spec)
     M, K = blade.mass, blade.stiffness(spec.f_omega)  # in the coordinates of eq. (6); K by eq. (2)
@@ -61,17 +107,15 @@ def _central_differences(blade, spec, n_steps, coating):
     inverse = np.linalg.inv(M / h**2 + D / (2 * h))
     tip = tip_rows(blade, spec)
     u, u_before = np.zeros(len(M)), np.zeros(len(M))
-    history = []
-    for step in range(1, n_steps + 1):
+    for step in itertools.count(1):
         # eq. (1) at the present step, without contact: prediction
         predicted = inverse @ ((2 * M / h**2 - K) @ u + (D / (2 * h) - M / h**2) @ u_before)
         force, coating.wear = coating.contact(step * h, tip @ predicted)
         u, u_before = predicted + inverse @ (tip.T @ force), u  # correction
-        history.append(tip @ u)
-    return np.array(history)[:, : 2 * blade.n_interface], coating.wear
+        yield tip @ u
 
 
-def _exponential(blade, spec, n_steps, n_modes, coating):
+def _exponential(blade, spec, n_modes, coating):
     """Integrate eq. (1) mode by mode, exactly for a force held over two steps; condense the fast modes."""
     h = time_step(blade, spec)
     squares, modes = scipy.linalg.eigh(blade.stiffness(spec.f_omega), blade.mass)
@@ -82,14 +126,13 @@ def _exponential(blade, spec, n_steps, n_modes, coating):
     root = np.sqrt(squares) * h * (-spec.damping_ratio + 1j * np.sqrt(1 - spec.damping_ratio**2))
     now, before = 2 * np.exp(root).real, np.abs(np.exp(root)) ** 2
     q, q_before, force = np.zeros(n_modes), np.zeros(n_modes), np.zeros(len(tip))
-    history = []
-    for step in range(1, n_steps + 1):
+    for step in itertools.count(1):
         rest = tip.T @ force / squares  # equilibrium under the force; the motion about it is free
         q, q_before = rest + now * (q - rest) - before * (q_before - rest), q
         force = _implicit_forces(coating, step * h, tip @ q, compliance, force)
-        history.append(tip @ q + compliance @ force)
-        _, coating.wear = coating.contact(step * h, history[-1])
-    return np.array(history)[:, : 2 * blade.n_interface], coating.wear
+        u = tip @ q + compliance @ force
+        _, coating.wear = coating.contact(step * h, u)
+        yield u
 
 
 def _implicit_forces(coating, time, u, compliance, guess):

@@ -6,8 +6,10 @@ from threadpoolctl import threadpool_limits
 
 from bladerub.blade.model import ReducedBlade
 from bladerub.contact import energy
-from bladerub.contact.integration import Segment, integrate
+from bladerub.contact.integration import History, Segment, integrate
+from bladerub.contact.kernel.loop import Simulation
 from bladerub.contact.result import RunResult
+from bladerub.contact.schemes import Recurrence
 from bladerub.contact.setup import set_up
 from bladerub.contact.spec import RunSpec
 
@@ -53,6 +55,18 @@ def simulate(blade: ReducedBlade, spec: RunSpec, progress: Callable[[int], None]
     initial = sum(energy.blade_energy(rule, simulation.state))
     whole = (Segment(simulation, revolution, 0, n_elements) for revolution in range(revolutions))
     history = integrate(whole, revolutions, n_elements, progress)
+    return run_result(blade, spec, rule, simulation, history, initial)
+
+
+def run_result(
+    blade: ReducedBlade,
+    spec: RunSpec,
+    rule: Recurrence,
+    simulation: Simulation,
+    history: History,
+    initial: float,
+) -> RunResult:
+    """Sum up a run that had `initial` energy (J) in the blade at its start."""
     ledger = simulation.state.ledger
     return RunResult(
         **history.outcome(blade, spec, rule, simulation, initial),

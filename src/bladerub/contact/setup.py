@@ -3,6 +3,7 @@
 import math
 from collections.abc import Callable
 from functools import partial
+from typing import NamedTuple
 
 import numpy as np
 from scipy.ndimage import minimum_filter1d
@@ -25,12 +26,25 @@ SEARCH_RANGE = 4
 """Elements a node may move along the casing before the search for contact looks at it alone."""
 
 
+class Seat(NamedTuple):
+    """Where a blade of a row is on the disk, and what it meets there."""
+
+    ahead: float = 0.0  # Angle ahead of the first blade, elements within [0, 1); whole ones are not counted
+    longer: float = 0.0  # Tip radius beyond that of the first blade, m
+    wear: np.ndarray | None = None  # (N, lanes) of `records.State`, shared with the other blades
+
+
+ALONE = Seat()
+
+
 def set_up(blade: ReducedBlade, spec: RunSpec) -> tuple[Recurrence, Simulation]:
     """Prepare a run from rest; raises `ValueError` as `bladerub.contact.run.simulate`."""
     return set_up_modes(modes_at(blade, spec.f_omega, spec), blade, spec)
 
 
-def set_up_modes(modes: Modes, blade: ReducedBlade, spec: RunSpec) -> tuple[Recurrence, Simulation]:
+def set_up_modes(
+    modes: Modes, blade: ReducedBlade, spec: RunSpec, seat: Seat = ALONE
+) -> tuple[Recurrence, Simulation]:
     """Prepare a run as `set_up`, with the modes at its speed."""
     steps_per_element, time_step = _time_step(blade, spec)
     element = law.element(spec.coating, element_area(blade, spec)).elastic  # infinite for the rigid casing
@@ -39,9 +53,11 @@ def set_up_modes(modes: Modes, blade: ReducedBlade, spec: RunSpec) -> tuple[Recu
         stiffness = np.concatenate([stiffness, element * (2 / 3) * edge(spec.tip) ** 3])
     contact = Contact(stiffness, *_force_direction(spec.coating))
     rule = SCHEMES[spec.scheme](modes, spec.damping_ratio, time_step, contact)
-    tip = tip_record(blade, spec)
-    stator = stator_record(blade, spec, rule)
+    tip = tip_record(blade, spec, seat)
+    stator = stator_record(blade, spec, rule, seat)
     state = _initial_state(modes, rule, spec, tip)
+    if seat.wear is not None:
+        state = state._replace(wear=seat.wear)
     flight = _free_flight(rule, tip, steps_per_element)
     kernel = partial(module_for, lanes_for(modes.n_nodes))
     simulation = kernel("contact.kernel.loop").Simulation
@@ -95,7 +111,7 @@ def by_angle(blade: ReducedBlade, spec: RunSpec, rows: np.ndarray) -> np.ndarray
     return np.array([np.roll(of_node, at) for of_node, at in zip(rows.T, first, strict=False)])
 
 
-def stator_record(blade: ReducedBlade, spec: RunSpec, rule: Recurrence) -> records.Stator:
+def stator_record(blade: ReducedBlade, spec: RunSpec, rule: Recurrence, seat: Seat = ALONE) -> records.Stator:
     """Describe coating and casing for the time loop, in rows of elements."""
     coating = spec.coating
     normal_factor, tangential_factor = _force_direction(coating)
@@ -103,7 +119,7 @@ def stator_record(blade: ReducedBlade, spec: RunSpec, rule: Recurrence) -> recor
     chord_fraction = (x - x[0]) / (x[-1] - x[0])
     clearance = spec.clearance[0] + (spec.clearance[1] - spec.clearance[0]) * chord_fraction
     own = np.split(_self_compliance(rule, coating), [blade.n_interface])
-    gap = casing.gap(spec.casing, clearance[:, None], element_angle(coating.n_elements))
+    gap = casing.gap(spec.casing, clearance[:, None], element_angle(coating.n_elements)) - seat.longer
     first = _first_element(blade, spec)
     rows = np.array([np.roll(of_node, -at) for of_node, at in zip(gap, first, strict=True)])
     by_lane = _by_lane_of(blade)
@@ -111,7 +127,7 @@ def stator_record(blade: ReducedBlade, spec: RunSpec, rule: Recurrence) -> recor
     unused = np.full((coating.n_elements, by_lane(x).size - x.size), _NEVER)
     stator = records.Stator(
         initial_gap=np.hstack([rows.T, unused]),
-        minimum_gap=minimum_gap(rows, spec.tip.half_width),
+        minimum_gap=minimum_gap(rows, spec.tip.half_width + seat.ahead),
         law=np.array(parameters),
         n_elements=coating.n_elements,
         is_rigid=coating.is_rigid,
@@ -130,14 +146,14 @@ def minimum_gap(rows: np.ndarray, half_width: float) -> np.ndarray:
     return minimum_filter1d(rows, 2 * math.ceil(reach) + 1, axis=1, mode="wrap").min(axis=0)
 
 
-def tip_record(blade: ReducedBlade, spec: RunSpec) -> records.Tip:
+def tip_record(blade: ReducedBlade, spec: RunSpec, seat: Seat = ALONE) -> records.Tip:
     """Describe the blade tip for the time loop."""
     n_elements = spec.coating.n_elements
     radius, curvature_radius = tip_radii(blade)
     per_metre = n_elements / (2 * np.pi * radius)
     by_lane = _by_lane_of(blade)
     tip = records.Tip(
-        start=by_lane(_start_position(blade, spec) % 1.0),
+        start=by_lane(_start_position(blade, spec) % 1.0 + seat.ahead),
         per_metre=by_lane(per_metre),
         radius=by_lane(curvature_radius),
         lever=by_lane(radius),

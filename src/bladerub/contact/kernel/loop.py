@@ -60,25 +60,28 @@ class Simulation:
         self.steps_per_element = steps_per_element
         state.tangential_factor[:] = stator.tangential_factor  # Coulomb's law finds its own before it is used
         self._records = [addresses(record) for record in (modal, flight, stator, tip, state)]
+        self._flight = False, 0.0
 
     @property
     def angle_per_step(self) -> float:
         """Angle by which the blade turns in a step, rad."""
         return 2 * np.pi / (self.steps_per_element * self.stator.n_elements)
 
-    def advance(self, displacement: np.ndarray, first: int = 0) -> Progress:
+    def advance(self, displacement: np.ndarray, first: int = 0, resumes: bool = False) -> Progress:
         """Integrate a revolution, or the part of it from element `first` on, at constant speed.
 
         `displacement` (n,) is filled with the radial displacement of node 1, mean over the passage of each
-        element, m; n = N makes one revolution.
+        element, m; n = N makes one revolution. A part that `resumes` the last makes the same steps as if
+        both were one.
         """
         last = first + displacement.size
-        turns, *made = _integrate(
-            *self._records, self.steps_per_element, first, last, displacement.ctypes.data
+        flight = self._flight if resumes else (False, 0.0)
+        turns, *self._flight, n_steps, n_flights, n_contact, lowest, highest = _integrate(
+            *self._records, self.steps_per_element, first, last, *flight, displacement.ctypes.data
         )
         for rows in (self.state.q, self.state.u):  # the loop lets the three rows take turns
             rows[:] = rows[(np.arange(3) - turns) % 3]
-        return Progress(*made)
+        return Progress(n_steps, n_flights, n_contact, lowest, highest)
 
 
 class Step(NamedTuple):
@@ -183,13 +186,12 @@ def _clear_negligible(q, n):
 
 
 @njit_on_disk(nogil=True)  # threads of one process integrate at the same time
-def _integrate(modal, flight, stator, tip, state, steps_per_element, first, last, displacement):
+def _integrate(modal, flight, stator, tip, state, steps_per_element, first, last, flew, far, displacement):
     turns = n_flights = n_contact = 0
     bottom, top = np.inf, -np.inf
     per_step = 1.0 / steps_per_element
     angle = per_step * (2.0 * np.pi / stator.n_elements)
     touched = touching = largest_lane(load(state.normal_force, 0)) > 0.0
-    flew, far = False, 0.0
     damping = broadcast(0.0)
     q, q_before, q_next = state.q, address_of(state.q, modal.n), address_of(state.q, 2 * modal.n)
     u, u_before, u_next = state.u, address_of(state.u, 4 * LANES), address_of(state.u, 8 * LANES)
@@ -233,7 +235,7 @@ def _integrate(modal, flight, stator, tip, state, steps_per_element, first, last
                         copy(q, q_next, modal.n)  # the damping loss is complete up to here
                         add_to(state.ledger, DAMPING * LANES, damping)
                         n_steps = turns + n_flights * flight.n_steps
-                        return turns, n_steps, n_flights, n_contact, bottom, top
+                        return turns, flew, far, n_steps, n_flights, n_contact, bottom, top
                     n_contact += touching
                 node_1, node_1_before = read(u_next, 0), read(u, 0)
                 mean += 0.5 * (node_1_before + node_1)
@@ -245,4 +247,5 @@ def _integrate(modal, flight, stator, tip, state, steps_per_element, first, last
     add_to(state.ledger, DAMPING * LANES, damping)
     if not (touched or touching):  # the last step added nothing
         clear(address_of(state.ledger, STORED * LANES), 4 * LANES)
-    return turns, turns + n_flights * flight.n_steps, n_flights, n_contact, bottom, top
+    n_steps = turns + n_flights * flight.n_steps
+    return turns, flew, far, n_steps, n_flights, n_contact, bottom, top

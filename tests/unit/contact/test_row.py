@@ -1,0 +1,199 @@
+"""Rows of blades against single blades and against the plain model of a row."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+
+from bladerub.contact import reference
+from bladerub.contact.row import Row, RowBlade, simulate_row
+from bladerub.contact.run import simulate
+
+SHOWN = ("radial_displacement", "revolution_peak", "revolution_amplitude")
+
+
+@pytest.fixture
+def spec(spec, change):
+    """Two lobes, that the blades of a row of two pass at the same time; neighbours stand far apart."""
+    casing = dataclasses.replace(spec.casing, nodal_diameters=(2,), weights=(1.0,), start_angle=np.pi / 2)
+    return dataclasses.replace(change(spec, n_elements=400), casing=casing)
+
+
+def assert_same(one, other, names=(*SHOWN, "wear")):
+    for name in names:
+        np.testing.assert_array_equal(getattr(one, name), getattr(other, name), err_msg=name)
+
+
+@pytest.mark.parametrize(
+    "changed", [{}, {"turns": True}, {"scheme": "central_differences"}, {"law": "coulomb"}]
+)
+def test_a_row_of_one_is_the_single_run_to_the_last_bit(blade, spec, change, changed):
+    if "turns" in changed:
+        blade = dataclasses.replace(blade, tip_slope=np.full((8, len(blade.mass)), -3.0))
+    if "scheme" in changed:
+        changed = changed | {"max_time_step": 1e-6}
+    spec = change(spec, **changed)
+    alone = simulate(blade, spec)
+    row = simulate_row(blade, spec, Row.even(1))
+    assert alone.n_contact_steps > 100
+    assert_same(alone, row.blades[0])
+    assert alone.energy == row.blades[0].energy == row.energy
+    assert (row.status, row.message, row.unbounded) == (alone.status, alone.message, ())
+
+
+@pytest.mark.parametrize("short", [0, 1])
+def test_a_blade_that_reaches_nothing_leaves_the_other_alone(blade, spec, short):
+    length = [0.0, 0.0]
+    length[short] = -5e-3
+    row = simulate_row(blade, spec, Row.even(2, length=length))
+    reaching, other = row.blades[1 - short], row.blades[short]
+    alone = simulate(blade, spec)
+    assert not np.any(other.radial_displacement)
+    assert row.worn_volume[short] == 0 < row.worn_volume[1 - short]
+    if short:  # the first blade is where that of the single run is
+        assert_same(alone, reaching)
+    else:  # the other passes the same lobes half a turn further on
+        half = spec.coating.n_elements // 2
+        scale = alone.revolution_peak.max()
+        np.testing.assert_allclose(
+            reaching.radial_displacement, alone.radial_displacement, rtol=0, atol=1e-9 * scale
+        )
+        np.testing.assert_allclose(reaching.wear, np.roll(alone.wear, half, axis=1), rtol=0, atol=1e-12)
+
+
+def test_identical_blades_on_a_casing_of_their_symmetry_do_the_same(blade, spec):
+    row = simulate_row(blade, spec, Row.even(2))
+    one, other = row.blades
+    scale = one.revolution_peak.max()
+    np.testing.assert_allclose(one.radial_displacement, other.radial_displacement, rtol=0, atol=1e-8 * scale)
+    np.testing.assert_allclose(row.worn_volume[0], row.worn_volume[1], rtol=1e-8)
+    half = spec.coating.n_elements // 2
+    np.testing.assert_allclose(row.wear[:, :half], row.wear[:, half:], rtol=0, atol=1e-8 * row.wear.max())
+
+
+def test_neither_order_nor_numbering_changes_anything(blade, spec):
+    blades = [
+        RowBlade(0.0, 2e-5, 0.01),
+        RowBlade(1.7, -1e-5, -0.02, 0.5),
+        RowBlade(3.5, 0.0, 0.0, 2.0),
+        RowBlade(5.0, 4e-5, 0.0),
+    ]
+    row = simulate_row(blade, spec, Row(tuple(blades)))
+    for order in ([1, 2, 3, 0], [3, 1, 0, 2]):
+        again = simulate_row(blade, spec, Row(tuple(blades[at] for at in order)))
+        for place, at in enumerate(order):
+            assert_same(again.blades[place], row.blades[at])
+        np.testing.assert_array_equal(again.worn_volume, row.worn_volume[order])
+
+
+@pytest.mark.parametrize(
+    ("scheme", "turns"), [("exponential", False), ("exponential", True), ("central_differences", False)]
+)
+def test_blades_wear_one_coating_as_in_the_plain_model(blade, spec, change, scheme, turns):
+    blades = (RowBlade(0.0, 0.0, 0.01), RowBlade(3.3, 3e-5, -0.02, 2.0))
+    slope = np.full((8, len(blade.mass)), -3.0)
+    blade = dataclasses.replace(blade, tip_slope=slope)
+    spec = change(spec, scheme=scheme, turns=turns, max_time_step=1e-3, revolutions=1)
+    row = simulate_row(blade, spec, Row(blades))
+    one = row.blades[0]
+    assert all(each.n_modes == one.n_modes for each in row.blades)
+    histories, wear = reference.simulate_row(blade, spec, blades, one.n_steps, one.n_modes)
+    for ours, history in zip(row.blades, histories, strict=True):
+        node_1 = np.concatenate([[0.0], history[:, 0]])
+        middle = 0.5 * (node_1[1:] + node_1[:-1])
+        per_element = middle.reshape(spec.coating.n_elements, -1).mean(axis=1)
+        scale = np.abs(node_1).max()
+        np.testing.assert_allclose(ours.radial_displacement, per_element, rtol=0, atol=2e-6 * scale)
+    np.testing.assert_allclose(row.wear, wear, rtol=0, atol=2e-6 * wear.max())
+
+
+def test_the_ledgers_close_and_the_volumes_sum_up(blade, spec):
+    row = simulate_row(blade, spec, Row.even(5, length=np.linspace(-2e-5, 2e-5, 5), angle_error=1e-3))
+    assert all(each.energy.residual < 1e-3 for each in row.blades)
+    assert row.energy.residual < 1e-3
+    assert row.energy.wear == pytest.approx(sum(each.energy.wear for each in row.blades))
+    from bladerub.contact.setup import element_area
+
+    volume = element_area(blade, spec) @ row.wear.sum(axis=1)
+    np.testing.assert_allclose(row.worn_volume.sum(), volume, rtol=1e-9)
+
+
+def test_a_blade_that_would_overlap_is_held_until_the_gap_is_open(blade, spec):
+    """With four blades on two lobes, two stand in the lobes at the start."""
+    row = simulate_row(blade, spec, Row.even(4))
+    quarter = spec.coating.n_elements // 4
+    for number, each in enumerate(row.blades):
+        starts = np.flatnonzero(each.radial_displacement)[0]
+        if number % 2:  # else the gap closes on it within the first passages
+            assert not np.any(each.radial_displacement[: quarter // 4])
+        assert starts > 0
+        assert each.status == "completed"
+
+
+def test_the_run_ends_for_all_when_one_leaves_the_limit(blade, spec, change):
+    alone = simulate(blade, spec)
+    limit = 0.7 * np.abs(alone.radial_displacement).max()
+    tight = dataclasses.replace(spec, displacement_limit=limit)
+    row = simulate_row(blade, tight, Row.even(3, length=[0.0, 0.0, -5e-3]))
+    assert row.status == "unbounded"
+    assert row.unbounded
+    assert row.message.startswith(f"blade {row.unbounded[0]}: the tip moved by more than")
+    made = [np.isfinite(each.radial_displacement).sum() for each in row.blades]
+    assert max(made) - min(made) <= 1
+    assert row.blades[2].status == "stopped"
+    # what was worn until then is what a run of that length leaves
+    again = simulate_row(blade, tight, Row.even(3, length=[0.0, -5e-3, 0.0]))
+    assert again.status == "unbounded"
+
+
+def test_a_run_that_ends_early_knows_nothing_of_what_comes_later(blade, spec):
+    """The blades behind see the coating as it was then, whichever is integrated first."""
+    row = Row.even(3, length=[1e-5, 0.0, 0.0])
+    whole = simulate_row(blade, spec, row)
+    peaks = np.array([np.abs(each.radial_displacement) for each in whole.blades])
+    limit = 0.8 * peaks.max()
+    tight = simulate_row(blade, dataclasses.replace(spec, displacement_limit=limit), row)
+    assert tight.status == "unbounded"
+    for ended, each in zip(tight.blades, whole.blades, strict=True):
+        made = np.isfinite(ended.radial_displacement)
+        np.testing.assert_allclose(
+            ended.radial_displacement[made],
+            each.radial_displacement[made],
+            rtol=0,
+            atol=1e-9 * peaks.max(),
+        )
+
+
+def test_progress_counts_the_revolutions_that_all_have_done(blade, spec):
+    seen = []
+    simulate_row(blade, spec, Row.even(3), progress=seen.append)
+    assert seen[-1] == spec.revolutions
+    assert seen == sorted(set(seen))
+
+
+@pytest.mark.parametrize(
+    ("make", "message"),
+    [
+        (lambda: Row(()), "no blades"),
+        (lambda: Row.even(0), "0 blades"),
+        (lambda: Row.even(3, length=[1e-5, 0.0]), "2 values of length; must be 1 or 3"),
+        (lambda: Row((RowBlade(0.0, np.nan),)), "length = nan; must be a finite number"),
+        (lambda: Row.even(2, frequency=[0.0, -1.0]), "blade 2: frequency = -1"),
+        (lambda: Row.even(2, damping=-0.5), "blade 1: damping = -0.5"),
+    ],
+)
+def test_a_row_that_cannot_be_is_refused(make, message):
+    with pytest.raises(ValueError, match=message):
+        make()
+
+
+def test_neighbours_that_could_meet_are_refused(blade, spec):
+    with pytest.raises(
+        ValueError, match=r"blades \d+ and \d+ are \d+ of 400 coating elements apart; must be"
+    ):
+        simulate_row(blade, spec, Row.even(40))
+
+
+def test_a_blade_that_touches_all_around_is_refused(blade, spec):
+    with pytest.raises(ValueError, match="touches all around the casing"):
+        simulate_row(blade, spec, Row.even(2, length=[0.0, 5e-3]))
