@@ -7,7 +7,7 @@ many elements at once.
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
@@ -17,33 +17,12 @@ from bladerub.contact import energy
 from bladerub.contact.integration import History, Segment
 from bladerub.contact.modes import Modes, modes_at, tip_radii
 from bladerub.contact.result import RunResult
+from bladerub.contact.row_spec import RowBlade
 from bladerub.contact.run import run_result
 from bladerub.contact.setup import Seat, element_area, set_up_modes
 from bladerub.contact.spec import RunSpec
 
 _TURN = 2 * np.pi
-
-
-@dataclass(frozen=True)
-class RowBlade:
-    """One blade of a row, by what distinguishes it.
-
-    Parameters
-    ----------
-    angle : float
-        Angle by which it is ahead of the start of the run in rotation, rad.
-    length : float
-        Tip radius beyond the nominal one, m.
-    frequency : float
-        Relative deviation of its natural frequencies; its mode shapes are those of the others.
-    damping : float
-        Its damping ratio over that of the run.
-    """
-
-    angle: float
-    length: float = 0.0
-    frequency: float = 0.0
-    damping: float = 1.0
 
 
 class _Seated:

@@ -19,7 +19,7 @@ import scipy.optimize
 from bladerub.blade.model import ReducedBlade
 from bladerub.contact import law
 from bladerub.contact.casing import shape
-from bladerub.contact.front import RowBlade
+from bladerub.contact.row_spec import RowBlade
 from bladerub.contact.spec import RunSpec
 from bladerub.contact.tip import coverage, relief
 

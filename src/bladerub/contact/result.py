@@ -71,7 +71,8 @@ class Outcome:
     Parameters
     ----------
     status : str
-        ``"completed"``, or ``"unbounded"`` when a displacement exceeded the limit.
+        ``"completed"``, or ``"unbounded"`` when a displacement exceeded the limit; ``"stopped"`` when that of
+        another blade of the same row did.
     message : str
         The same in words.
     angle : (n_elements,) ndarray

@@ -29,8 +29,8 @@ SEARCH_RANGE = 4
 class Seat(NamedTuple):
     """Where a blade of a row is on the disk, and what it meets there."""
 
-    ahead: float = 0.0  # Angle ahead of the first blade, elements within [0, 1); whole ones are not counted
-    longer: float = 0.0  # Tip radius beyond that of the first blade, m
+    ahead: float = 0.0  # Angle ahead of where a run starts, elements; whole ones are not counted
+    longer: float = 0.0  # Tip radius beyond the nominal one, m
     wear: np.ndarray | None = None  # (N, lanes) of `records.State`, shared with the other blades
 
 

@@ -6,8 +6,10 @@ import numpy as np
 import pytest
 
 from bladerub.contact import reference
-from bladerub.contact.row import Row, RowBlade, simulate_row
+from bladerub.contact.row import simulate_row
+from bladerub.contact.row_spec import Row, RowBlade
 from bladerub.contact.run import simulate
+from bladerub.contact.setup import element_area
 
 SHOWN = ("radial_displacement", "revolution_peak", "revolution_amplitude")
 
@@ -112,8 +114,6 @@ def test_the_ledgers_close_and_the_volumes_sum_up(blade, spec):
     assert all(each.energy.residual < 1e-3 for each in row.blades)
     assert row.energy.residual < 1e-3
     assert row.energy.wear == pytest.approx(sum(each.energy.wear for each in row.blades))
-    from bladerub.contact.setup import element_area
-
     volume = element_area(blade, spec) @ row.wear.sum(axis=1)
     np.testing.assert_allclose(row.worn_volume.sum(), volume, rtol=1e-9)
 
