@@ -30,7 +30,10 @@ rotation it slid at most in a step, in elements."""
 COUPLE = 16
 """Work of the couples on the blade, where the profile of the tip turns."""
 
-N_ENTRIES = 17
+WORN = 17
+"""No energy: sum of what all elements under each node have worn, m."""
+
+N_ENTRIES = 18
 
 
 def blade_energy(rule: Recurrence, state) -> tuple[float, float]:

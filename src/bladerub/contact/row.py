@@ -1,28 +1,43 @@
 """A row of blades that rub on one coating: `RunSpec` and `Row` → `RowResult`.
 
-1. The disk is stiff: each blade vibrates by itself, as in `bladerub.contact.run`. The blades share the
-   coating: what one has worn is missing when the next one comes.
-2. All blades follow the same casing at the same speed, each from its angle on the disk. The casing distorts
-   at the start of the run. A blade that would overlap with it there is held until it first passes a place
-   where it touches nothing at rest.
-3. An element is under one blade at a time, since neighbours stand further apart than the displacement limit
-   lets them reach. So the order in which they pass an element is known beforehand, and each blade can be
-   integrated over many elements at once, as far as the one ahead has left the coating behind it
-   (`bladerub.contact.front`).
-4. The run ends for all blades in the element in which the first of them leaves the displacement limit.
+1. All blades follow the same casing at the same speed, each from its angle on the disk, and pass the elements
+   together. The blades share the coating: what one has worn is missing when the next one comes.
+2. An element is under one blade at a time: neighbours must stand further apart than the displacement limit
+   lets them reach.
+3. The casing distorts at the start of the run. A blade that would overlap with it there is held until it
+   first passes a place where it touches nothing at rest.
+4. On a stiff disk each blade vibrates by itself, as in `bladerub.contact.run`. A disk may couple the first
+   modes of the blades (`bladerub.contact.row_spec.Disk`).
+5. The run ends for all blades in the element in which the first of them leaves the displacement limit.
 """
 
-from collections.abc import Callable
-from dataclasses import dataclass, fields
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, fields, replace
+from functools import partial
 
 import numpy as np
+import scipy.linalg
 from threadpoolctl import threadpool_limits
 
 from bladerub.blade.model import ReducedBlade
-from bladerub.contact.front import Front
+from bladerub.contact import energy
+from bladerub.contact.integration import History, Segment
+from bladerub.contact.kernel.row import Coupling, RowSimulation
+from bladerub.contact.modes import Modes, modes_at, tip_radii
 from bladerub.contact.result import Energy, RunResult
-from bladerub.contact.row_spec import Row
+from bladerub.contact.row_spec import Row, RowBlade
+from bladerub.contact.run import run_result
+from bladerub.contact.schemes import Recurrence
+from bladerub.contact.setup import Seat, element_area, set_up_modes
 from bladerub.contact.spec import RunSpec
+from bladerub.numerics.lanes import lanes_for, module_for
+
+_TURN = 2 * np.pi
+
+LONGEST_IMPULSE = 0.5
+"""Phase of a coupled mode in the passage of an element up to which the impulses of the disk are accepted:
+their relative error is a 24th of its square."""
 
 
 @dataclass(frozen=True)
@@ -39,11 +54,15 @@ class RowResult:
         Permanent shortening of each element under each node by all blades, m.
     blades : tuple of RunResult
         Outcome of each blade, in the order of the row. Revolutions are counted from the start of the row, the
-        wear is that of all.
+        wear is that of all. The energy ledger of a blade lacks the work of the disk.
     worn_volume : (n_blades,) ndarray
         Volume that each blade has worn off, m³.
     unbounded : tuple of int
         Numbers of the blades, counted from 1, that left the displacement limit.
+    disk_work : (n_blades,) ndarray
+        Work of the disk on each blade, J.
+    disk_energy : float
+        Elastic energy that the disk has taken up since the start, J.
     """
 
     status: str
@@ -53,12 +72,20 @@ class RowResult:
     blades: tuple[RunResult, ...]
     worn_volume: np.ndarray
     unbounded: tuple[int, ...]
+    disk_work: np.ndarray
+    disk_energy: float
 
     @property
     def energy(self) -> Energy:
         """The ledgers of all blades together."""
         ledgers = [blade.energy for blade in self.blades]
         return Energy(**{each.name: sum(getattr(of, each.name) for of in ledgers) for each in fields(Energy)})
+
+    @property
+    def residual(self) -> float:
+        """What the ledger of all blades, coating and disk misses, over the work exchanged in the contact."""
+        whole = self.energy
+        return replace(whole, elastic=whole.elastic + self.disk_energy).residual
 
 
 @threadpool_limits.wrap(limits=1, user_api="blas")  # sums depend on the number of threads
@@ -77,25 +104,168 @@ def simulate_row(
     row : Row
         The blades.
     progress : callable, optional
-        Called with the number of revolutions that all blades have done.
+        Called with the number of revolutions done after each of them.
 
     Raises
     ------
     ValueError
-        As `simulate`; and if neighbours are so close that they could meet, or a blade so long that it
-        touches all around the casing.
+        As `simulate`; and if neighbours are so close that they could meet, a blade is so long that it touches
+        all around the casing, or the disk couples modes that the scheme does not resolve, that are too fast
+        for its impulses or that it makes unstable.
     """
-    front = Front(blade, spec, row.blades)
-    left = front.march(spec.revolutions * spec.coating.n_elements, progress)
-    if left is not None and len(row.blades) > 1:
-        # blades ahead of that moment have worn the coating already: again, to the end of that element
-        front = Front(blade, spec, row.blades)
-        front.march(left + 1)
-    results = front.results()
+    modes = modes_at(blade, spec.f_omega, spec)
+    seats: list[_Seat] = []
+    for own in row.blades:
+        seats.append(_Seat(blade, spec, modes, own, seats[0].simulation.state.wear if seats else None))
+    _check_distances(blade, spec, seats)
+    begins = [seat.first_clear() if len(seats) > 1 else 0 for seat in seats]
+    kernel = module_for(lanes_for(blade.n_interface), "contact.kernel.row")
+    coupling = _coupling(spec, modes, row, [seat.rule for seat in seats], seats)
+    simulation = kernel.RowSimulation(
+        [seat.simulation for seat in seats], [seat.row for seat in seats], begins, coupling
+    )
+    stored = partial(_stored, row, modes, seats)
+    initial = stored()
+    _march(spec, seats, simulation, begins, progress)
+    results = tuple(
+        run_result(blade, each.spec, each.rule, each.simulation, each.history, each.initial) for each in seats
+    )
     unbounded = tuple(number for number, each in enumerate(results, 1) if each.status == "unbounded")
     status, message = results[0].status, results[0].message
     if unbounded:
-        status, message = "unbounded", f"blade {unbounded[0]}: {results[unbounded[0] - 1].message}"
+        status = "unbounded"
+        if len(results) > 1:
+            message = f"blade {unbounded[0]}: {results[unbounded[0] - 1].message}"
+    area = element_area(blade, spec)
+    worn = [each.simulation.state.ledger[energy.WORN, : area.size] @ area for each in seats]
     return RowResult(
-        status, message, results[0].angle, results[0].wear, results, front.worn_volume(), unbounded
+        status=status,
+        message=message,
+        angle=results[0].angle,
+        wear=results[0].wear,
+        blades=results,
+        worn_volume=np.array(worn),
+        unbounded=unbounded,
+        disk_work=simulation.work,
+        disk_energy=stored() - initial,
     )
+
+
+def row_frequencies(blade: ReducedBlade, f_omega: float, row: Row) -> np.ndarray:
+    """Find the natural angular frequencies of the coupled modes of a row.
+
+    Returns those of each of the k modes that the disk couples in a row (k, N), ascending, rad/s; of the first
+    mode where there is no disk. Raises `ValueError` as `bladerub.contact.modes.mode_shapes_at`, and if the disk
+    makes a mode unstable.
+    """
+    modes = modes_at(blade, f_omega)
+    matrices = row.disk.stiffness if row.disk else [np.zeros((len(row.blades), len(row.blades)))]
+    return np.array([_coupled_frequencies(modes, row, mode, np.array(of)) for mode, of in enumerate(matrices)])
+
+
+def _coupled_frequencies(modes: Modes, row: Row, mode: int, stiffness: np.ndarray) -> np.ndarray:
+    factors = [own.frequency_factors(modes.omega.size)[mode] for own in row.blades]
+    squares = scipy.linalg.eigvalsh(np.diag(np.square(factors)) + stiffness)
+    if squares[0] <= 0:
+        raise ValueError(f"row, disk, mode {mode + 1}: the stiffness of blades and disk must be positive definite")
+    return modes.omega[mode] * np.sqrt(squares)
+
+
+class _Seat:
+    """One blade of the row, its place and what is kept of its run."""
+
+    def __init__(
+        self, blade: ReducedBlade, spec: RunSpec, modes: Modes, own: RowBlade, wear: np.ndarray | None
+    ):
+        n_elements = spec.coating.n_elements
+        position = own.angle % _TURN / _TURN * n_elements
+        self.spec = replace(spec, damping_ratio=spec.damping_ratio * own.damping)
+        self.row = int(position)  # of the shared coating, which it passes at the start
+        own_modes = modes._replace(omega=modes.omega * own.frequency_factors(modes.omega.size))
+        seat = Seat(position - self.row, own.length, wear)
+        self.rule, self.simulation = set_up_modes(own_modes, blade, self.spec, seat)
+        self.initial = sum(energy.blade_energy(self.rule, self.simulation.state))
+        self.history = History(spec.revolutions, n_elements)
+
+    def first_clear(self) -> int:
+        """Elements up to the first place where it touches nothing at rest; `ValueError` if there is none."""
+        clear = np.flatnonzero(np.roll(self.simulation.stator.minimum_gap, -self.row) > 0)
+        if not clear.size:
+            raise ValueError("row: a blade touches all around the casing at rest; make it shorter")
+        return int(clear[0])
+
+
+def _check_distances(blade: ReducedBlade, spec: RunSpec, seats: Sequence[_Seat]) -> None:
+    """Check that no element is ever under two blades."""
+    if len(seats) == 1:
+        return
+    n_elements, radius = spec.coating.n_elements, tip_radii(blade)[0]
+    at_most = spec.tip.half_width + spec.displacement_limit * n_elements / (_TURN * radius.min())
+    reach = math.ceil(2 * at_most) + 3  # a node stands anywhere within two elements, rows are whole
+    around = sorted(range(len(seats)), key=lambda at: seats[at].row)
+    for at, next_at in zip(around, [*around[1:], around[0]], strict=True):
+        distance = (seats[next_at].row - seats[at].row) % n_elements
+        if distance <= reach:
+            raise ValueError(
+                f"row: blades {at + 1} and {next_at + 1} are {distance} of {n_elements} coating elements "
+                f"apart; must be {reach + 1} or more, so that they cannot meet within the displacement limit"
+            )
+
+
+def _coupling(
+    spec: RunSpec, modes: Modes, row: Row, rules: Sequence[Recurrence], seats: Sequence[_Seat]
+) -> Coupling:
+    """Describe the disk for the time loop."""
+    matrices, n_blades = row.disk.stiffness if row.disk else (), len(rules)
+    n, impulse = len(matrices), np.zeros((len(matrices), n_blades, n_blades))
+    resolved = min(rule.omega.size for rule in rules)
+    if n > resolved:
+        raise ValueError(f"row, disk: couples {n} modes; must be at most the {resolved} that are resolved")
+    passage = rules[0].time_step * seats[0].simulation.steps_per_element
+    for mode, matrix in enumerate(matrices):
+        fastest = _coupled_frequencies(modes, row, mode, np.array(matrix))[-1]
+        if fastest * passage > LONGEST_IMPULSE:
+            raise ValueError(
+                f"row, disk: couples {n} modes, of which mode {mode + 1} moves by {fastest * passage:.2g} rad in "
+                f"the passage of an element; must be {LONGEST_IMPULSE:g} or less: couple fewer modes, or more "
+                "weakly"
+            )
+        impulse[mode] = -0.5 * passage * modes.omega[mode] ** 2 * np.array(matrix)
+    omega, kinetic = (np.array([getattr(rule, of)[:n] for rule in rules]).T for of in ("omega", "kinetic"))
+    damping, h = np.array([seat.spec.damping_ratio for seat in seats]), rules[0].time_step
+    damped = omega * np.sqrt(1.0 - damping**2)
+    backward = -np.exp(damping * omega * h) * np.sin(damped * h) / damped
+    return Coupling(impulse, *(np.ascontiguousarray(of) for of in (backward, kinetic, 0.5 * omega**2)))
+
+
+def _stored(row: Row, modes: Modes, seats: Sequence[_Seat]) -> float:
+    """Elastic energy of the disk, J."""
+    coordinates, energy_sum = np.array([seat.simulation.state.q[0] for seat in seats]), 0.0
+    for mode, matrix in enumerate(row.disk.stiffness if row.disk else ()):
+        of_mode = coordinates[:, mode]
+        energy_sum += 0.5 * modes.omega[mode] ** 2 * float(of_mode @ np.array(matrix) @ of_mode)
+    return energy_sum
+
+
+def _march(
+    spec: RunSpec,
+    seats: Sequence[_Seat],
+    simulation: RowSimulation,
+    begins: Sequence[int],
+    progress: Callable[[int], None] | None,
+) -> None:
+    """Integrate all blades revolution by revolution, to the end or to that of one of them."""
+    n_elements = spec.coating.n_elements
+    for revolution in range(spec.revolutions):
+        displacement = np.full((len(seats), n_elements), np.nan)
+        passed, made = simulation.advance(displacement, revolution * n_elements)
+        for seat, begin, own, of_blade in zip(seats, begins, displacement, made, strict=True):
+            first = max(0, begin - revolution * n_elements)
+            own[: min(first, passed)] = 0.0
+            seat.history.displacement[revolution] = own
+            if first < passed:
+                seat.history.enter(of_blade, Segment(seat.simulation, revolution, first, passed))
+        if not all(seat.history.is_within_limit for seat in seats):
+            return
+        if progress is not None:
+            progress(revolution + 1)

@@ -1,6 +1,6 @@
-"""What distinguishes the blades of a row."""
+"""What a row of blades is: what distinguishes its blades, and the disk between them."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Self
 
@@ -17,65 +17,123 @@ class RowBlade:
         Angle by which it is ahead of the start of the run in rotation, rad.
     length : float
         Tip radius beyond the nominal one, m.
-    frequency : float
-        Relative deviation of its natural frequencies; its mode shapes are those of the others.
+    frequency : float or tuple of float
+        Relative deviation of its natural frequencies: one for all modes, or one for each of the first ones,
+        and none for the others. Its mode shapes are those of the nominal blade.
     damping : float
         Its damping ratio over that of the run.
     """
 
     angle: float
     length: float = 0.0
-    frequency: float = 0.0
+    frequency: float | tuple[float, ...] = 0.0
     damping: float = 1.0
+
+    def frequency_factors(self, n_modes: int) -> np.ndarray:
+        """Natural frequencies (n_modes,) over those of the nominal blade."""
+        factors = np.ones(n_modes)
+        if isinstance(self.frequency, tuple):
+            own = self.frequency[:n_modes]
+            factors[: len(own)] += own
+        else:
+            factors += self.frequency
+        return factors
+
+
+@dataclass(frozen=True)
+class Disk:
+    """Elastic coupling of the N blades of a row by the disk, mode by mode.
+
+    Mode m of all blades has the equations of motion ``q̈_b + 2 ξ ω_b q̇_b + ω_b² q_b + ω_m² Σ_c S_bc q_c = p_b``
+    in modal coordinates, ω_m that of the nominal blade.
+
+    Parameters
+    ----------
+    stiffness : tuple of tuple of tuple of float
+        A symmetric matrix S (N, N) for each of the first modes; the others are not coupled.
+    """
+
+    stiffness: tuple[tuple[tuple[float, ...], ...], ...]
+
+    @classmethod
+    def ring(cls, n_blades: int, coupling: Sequence[float]) -> Self:
+        """Describe equal springs between neighbours, those of mode m ``coupling[m]`` times as stiff as it.
+
+        Identical blades then have the frequencies ``ω_m √(1 + 4 c_m sin²(π n / N))`` for n nodal diameters.
+        """
+        link = np.eye(n_blades) - np.roll(np.eye(n_blades), 1, axis=1)
+        return cls.of([c * (link.T @ link) for c in coupling])
+
+    @classmethod
+    def of(cls, matrices: Iterable[np.ndarray]) -> Self:
+        """Describe the coupling by a matrix (N, N) for each of the first modes."""
+        return cls(tuple(tuple(map(tuple, np.asarray(each, dtype=float).tolist())) for each in matrices))
 
 
 @dataclass(frozen=True)
 class Row:
-    """The blades of a row, in any order.
+    """The blades of a row, in any order, and the disk that couples them, if any does.
 
-    Raises `ValueError` if there is none, or a value is not a finite number in its range.
+    Raises `ValueError` if there is no blade, a value is not a finite number in its range, or the disk has a
+    matrix of another size or one that is not symmetric.
     """
 
     blades: tuple[RowBlade, ...]
+    disk: Disk | None = None
 
     def __post_init__(self) -> None:
         if not self.blades:
             raise ValueError("row: no blades; must have one or more")
         for number, blade in enumerate(self.blades, 1):
             for name, value in vars(blade).items():
-                if not np.isfinite(value):
+                if not np.all(np.isfinite(value)):
                     raise ValueError(f"row, blade {number}: {name} = {value}; must be a finite number")
-            if blade.frequency <= -1:
-                raise ValueError(f"row, blade {number}: frequency = {blade.frequency:g}; must be above -1")
+            if np.any(np.asarray(blade.frequency) <= -1):
+                raise ValueError(f"row, blade {number}: frequency = {blade.frequency}; must be above -1")
             if blade.damping < 0:
                 raise ValueError(f"row, blade {number}: damping = {blade.damping:g}; must not be negative")
+        n_blades = len(self.blades)
+        for mode, matrix in enumerate(self.disk.stiffness if self.disk else (), 1):
+            values = np.array(matrix)
+            if values.shape != (n_blades, n_blades):
+                raise ValueError(
+                    f"row, disk, mode {mode}: a matrix of shape {values.shape}; must be one row and one "
+                    f"column for each of the {n_blades} blades"
+                )
+            if not (np.isfinite(values).all() and np.allclose(values, values.T, rtol=1e-9, atol=0)):
+                raise ValueError(f"row, disk, mode {mode}: must be a symmetric matrix of finite numbers")
 
     @classmethod
     def even(
         cls,
         n_blades: int,
         length: float | Iterable[float] = 0.0,
-        frequency: float | Iterable[float] = 0.0,
+        frequency: float | Iterable[float] | np.ndarray = 0.0,
         damping: float | Iterable[float] = 1.0,
         angle_error: float | Iterable[float] = 0.0,
+        disk: Disk | None = None,
     ) -> Self:
         """Describe blades at even angles, each value one for all of them or one for each.
 
-        Raises `ValueError` if the number of values is not that of the blades.
+        `frequency` may also be (n_blades, n): the deviation of each of the first n modes. Raises `ValueError`
+        if the number of values is not that of the blades.
         """
         if n_blades < 1:
             raise ValueError(f"row: {n_blades} blades; must have one or more")
         given = {"angle_error": angle_error, "length": length, "frequency": frequency, "damping": damping}
         values = {}
         for name, value in given.items():
-            listed = np.ravel(np.asarray(value, dtype=float))
-            if listed.size not in (1, n_blades):
-                raise ValueError(f"row: {listed.size} values of {name}; must be 1 or {n_blades}")
-            values[name] = np.broadcast_to(listed, n_blades).tolist()
+            listed = np.asarray(value, dtype=float)
+            if listed.ndim == 0:
+                listed = np.full(n_blades, listed)
+            if len(listed) not in (1, n_blades) or listed.ndim > (2 if name == "frequency" else 1):
+                shape = " x ".join(map(str, listed.shape))
+                raise ValueError(f"row: {shape} values of {name}; must be 1 or {n_blades}")
+            listed = np.broadcast_to(listed, (n_blades, *listed.shape[1:]))
+            values[name] = [tuple(each) if isinstance(each, list) else each for each in listed.tolist()]
         error = values.pop("angle_error")
-        return cls(
-            tuple(
-                RowBlade(2 * np.pi * at / n_blades + error[at], *(each[at] for each in values.values()))
-                for at in range(n_blades)
-            )
+        blades = (
+            RowBlade(2 * np.pi * at / n_blades + error[at], *(each[at] for each in values.values()))
+            for at in range(n_blades)
         )
+        return cls(tuple(blades), disk)

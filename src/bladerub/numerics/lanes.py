@@ -45,7 +45,7 @@ def module_for(lanes: int, name: str) -> ModuleType:
 def _instance(lanes: int) -> dict[str, ModuleType]:
     """Import the modules of the time loop again for other lanes; those in use stay as they are."""
     global LANES
-    importlib.import_module("bladerub.contact.kernel.loop")
+    importlib.import_module("bladerub.contact.kernel.row")
     usual = _loaded()
     try:
         LANES = lanes
@@ -53,7 +53,7 @@ def _instance(lanes: int) -> dict[str, ModuleType]:
             parent, _, child = name.rpartition(".")
             del sys.modules[name]
             delattr(sys.modules.get(parent, usual.get(parent)), child)  # else found there
-        importlib.import_module("bladerub.contact.kernel.loop")
+        importlib.import_module("bladerub.contact.kernel.row")
         return _loaded()
     finally:
         LANES = USUAL

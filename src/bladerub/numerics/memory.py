@@ -4,6 +4,7 @@ Compiled code that takes, slices or passes on arrays counts their references eac
 what it does with them. It therefore gets records of their `addresses`.
 """
 
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -35,6 +36,18 @@ def addresses(record: NamedTuple) -> NamedTuple:
     The arrays must stay alive as long as their addresses are in use.
     """
     return type(record)(*(part.ctypes.data if isinstance(part, np.ndarray) else part for part in record))
+
+
+def rows_of(records: Sequence[NamedTuple]) -> np.ndarray:
+    """Put records of `addresses`, all of one kind, into rows of 64 bits a field, for `record_at`."""
+    rows = np.zeros((len(records), len(records[0])), dtype=np.int64)
+    for row, record in zip(rows, records, strict=True):
+        for at, part in enumerate(record):
+            if isinstance(part, float):
+                row[at : at + 1].view(float)[0] = part
+            elif part is not None:
+                row[at] = part
+    return rows
 
 
 def _place(builder, address, index, kind):
@@ -112,6 +125,24 @@ def load_fields(context, record, address):
 def read_fields(context, record, address):
     """Read a number for each field of the named tuple `record`, a vector apart: those of one lane."""
     return _fields(record, types.float64, DOUBLE)
+
+
+@intrinsic
+def record_at(context, record, address):
+    """Load a record of the kind of `record` from the row at `address`, see `rows_of`.
+
+    Truth values are those of `record`: all records of a kind have the same.
+    """
+
+    def generate(context, builder, signature, arguments):
+        given, parts = cgutils.unpack_tuple(builder, arguments[0]), []
+        for row, (kind, part) in enumerate(zip(record.types, given, strict=True)):
+            if isinstance(kind, types.Integer | types.Float):
+                part = builder.load(_place_at(builder, arguments[1], row, context.get_value_type(kind)))
+            parts.append(part)
+        return context.make_tuple(builder, record, parts)
+
+    return record(record, types.intp), generate
 
 
 def _fields(record, kind, llvm_type):

@@ -107,13 +107,13 @@ def update_wear(tilts, stator, tip, wear, there, before):
     it changes by the profile is work of the rotation.
 
     `there` and `before` are `Placement`, less than N rows from each other. Returns the elastic energy in the
-    elements, the energy taken by wear in this step, and the work of the rotation on the elements in this
-    step, J.
+    elements, the energy taken by wear and the work of the rotation on the elements in this step, J, and what
+    the elements wear in it, m.
     """
     position, approach, tilted = there
     position_before, approach_before, tilted_before = before
     element = load_fields(law.Element, stator.law)
-    stored, dissipated, supplied = broadcast(0.0), broadcast(0.0), broadcast(0.0)
+    stored, dissipated, supplied, worn_off = broadcast(0.0), broadcast(0.0), broadcast(0.0), broadcast(0.0)
     first, last = rows_under(tip, minimum(position, position_before), maximum(position, position_before))
     advance, closer = position - position_before, approach - approach_before
     constant, slope = relief(tip, advance), 2.0 * tip.curvature * advance
@@ -135,6 +135,7 @@ def update_wear(tilts, stator, tip, wear, there, before):
         under = share > 0.0
         increment, force = where(under, increment, 0.0), where(under, force, 0.0)
         store(wear, entry, worn + increment)
+        worn_off = worn_off + increment
         energy, energy_before = law.stored_energy(element, force), law.stored_energy(element, force_before)
         loss = law.dissipated_energy(element, worn, increment)
         stored = stored + share * energy
@@ -149,4 +150,4 @@ def update_wear(tilts, stator, tip, wear, there, before):
         )
         entering, leaving = share * energy + loss, broadcast(0.0) - share_before * energy_before
         supplied = supplied + where(under, where(share_before > 0.0, staying, entering), leaving)
-    return stored, dissipated, supplied
+    return stored, dissipated, supplied, worn_off

@@ -59,25 +59,22 @@ class Simulation:
         self.modal, self.flight, self.stator, self.tip, self.state = modal, flight, stator, tip, state
         self.steps_per_element = steps_per_element
         state.tangential_factor[:] = stator.tangential_factor  # Coulomb's law finds its own before it is used
-        self._records = [addresses(record) for record in (modal, flight, stator, tip, state)]
-        self._flight = False, 0.0
+        self.records = tuple(addresses(record) for record in (modal, flight, stator, tip, state))
 
     @property
     def angle_per_step(self) -> float:
         """Angle by which the blade turns in a step, rad."""
         return 2 * np.pi / (self.steps_per_element * self.stator.n_elements)
 
-    def advance(self, displacement: np.ndarray, first: int = 0, resumes: bool = False) -> Progress:
+    def advance(self, displacement: np.ndarray, first: int = 0) -> Progress:
         """Integrate a revolution, or the part of it from element `first` on, at constant speed.
 
         `displacement` (n,) is filled with the radial displacement of node 1, mean over the passage of each
-        element, m; n = N makes one revolution. A part that `resumes` the last makes the same steps as if
-        both were one.
+        element, m; n = N makes one revolution.
         """
         last = first + displacement.size
-        flight = self._flight if resumes else (False, 0.0)
-        turns, *self._flight, n_steps, n_flights, n_contact, lowest, highest = _integrate(
-            *self._records, self.steps_per_element, first, last, *flight, displacement.ctypes.data
+        turns, _, _, n_steps, n_flights, n_contact, lowest, highest = integrate(
+            *self.records, self.steps_per_element, first, last, False, 0.0, displacement.ctypes.data
         )
         for rows in (self.state.q, self.state.u):  # the loop lets the three rows take turns
             rows[:] = rows[(np.arange(3) - turns) % 3]
@@ -186,7 +183,8 @@ def _clear_negligible(q, n):
 
 
 @njit_on_disk(nogil=True)  # threads of one process integrate at the same time
-def _integrate(modal, flight, stator, tip, state, steps_per_element, first, last, flew, far, displacement):
+def integrate(modal, flight, stator, tip, state, steps_per_element, first, last, flew, far, displacement):
+    """Integrate elements `first` to `last`; a part that goes on gets `flew` and `far` of the part before."""
     turns = n_flights = n_contact = 0
     bottom, top = np.inf, -np.inf
     per_step = 1.0 / steps_per_element

@@ -74,7 +74,7 @@ class State(NamedTuple):
     # rotation
     free_sliding: np.ndarray
     wear: np.ndarray  # (N, 8): Permanent shortening of the elements, in the rows of `Stator`, m
-    ledger: np.ndarray  # (17, 8): Entries of `bladerub.contact.energy`, to be summed over the nodes
+    ledger: np.ndarray  # (18, 8): Entries of `bladerub.contact.energy`, to be summed over the nodes
     scratch: np.ndarray  # (6, 16): Of no meaning between steps
 
 

@@ -1,0 +1,151 @@
+"""The time loop of a row: its blades pass the elements together, each by `bladerub.contact.kernel.loop`.
+
+A disk that couples the blades acts on them by impulses, half of each before and half after the passage of an
+element: the splitting of Strang (1968), of second order in the time of the passage.
+"""
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+from numba import njit
+
+from bladerub.contact.kernel.loop import Progress, Simulation, integrate
+from bladerub.numerics.machine_code import njit_on_disk
+from bladerub.numerics.memory import read, record_at, rows_of, write
+from bladerub.numerics.vectors import LANES
+
+
+class Coupling(NamedTuple):
+    """How the disk couples N blades by the first k of their mass-normalised modes; k = 0 if it is stiff."""
+
+    # (k, N, N): Change of the modal velocity of one blade in half a passage of an element, per unit of the
+    # modal coordinate of another, 1/s
+    impulse: np.ndarray
+    # (k, N): Modal coordinate one step ago per unit of modal velocity now, in free motion, s
+    backward: np.ndarray
+    # (k, N): Kinetic energy per ``(q⁺ − q)²`` and elastic energy per ``q⁺ q``, 1/s²
+    kinetic: np.ndarray
+    elastic: np.ndarray
+
+
+class RowSimulation:
+    """Blades and the coating that they share, ready to be integrated.
+
+    Blade b is over row ``first[b]`` of the elements at the start, and at rest until ``begins[b]`` elements
+    have passed. `work` (N,) is what the disk has done on each blade, J.
+    """
+
+    def __init__(
+        self, blades: Sequence[Simulation], first: Sequence[int], begins: Sequence[int], coupling: Coupling
+    ):
+        self.blades, self.coupling = blades, coupling  # whose arrays stay alive here
+        self.first, self.begins = np.array(first), np.array(begins)
+        self.work = np.zeros(len(blades))
+        self._kinds = tuple(blades[0].records)
+        self._rows = [rows_of(kind) for kind in zip(*(each.records for each in blades), strict=True)]
+
+    def advance(self, displacement: np.ndarray, first: int) -> tuple[int, list[Progress]]:
+        """Integrate the passage of n elements, from the one that is the `first` since the start.
+
+        `displacement` (N, n) is filled as by `Simulation.advance`, and left as it is for a blade at rest.
+        Returns the number of elements passed and what each blade did: all end with the element in which one
+        leaves the displacement limit.
+        """
+        (n_blades, _), blade = displacement.shape, self.blades[0]
+        counts = np.zeros((n_blades, 3), dtype=np.int64)
+        ranges = np.full((n_blades, 2), (np.inf, -np.inf))
+        over = (self.first + first) % blade.stator.n_elements
+        begins = self.begins - first
+        passed = _integrate_row(
+            *(self._kinds, *self._rows, blade.steps_per_element, over, begins),
+            *(displacement, counts, ranges, self.coupling, self.work),
+        )
+        return passed, [Progress(*map(int, of), *map(float, at)) for of, at in zip(counts, ranges, strict=True)]
+
+
+@njit_on_disk(nogil=True)
+def _integrate_row(
+    kinds,
+    modals,
+    flights,
+    stators,
+    tips,
+    states,
+    steps_per_element,
+    over,
+    begins,
+    displacement,
+    counts,
+    ranges,
+    coupling,
+    work,
+):
+    n_blades, n_elements = displacement.shape
+    is_coupled = coupling.impulse.shape[0] > 0
+    flew, far = np.zeros(n_blades, dtype=np.bool_), np.zeros(n_blades)
+    element, within = 0, True
+    while element < n_elements and within:
+        if is_coupled:
+            _couple(coupling, modals, states, work)
+        together = 1
+        for b in range(n_blades):
+            if element < begins[b]:
+                continue
+            modal, flight = record_at(kinds[0], _row(modals, b)), record_at(kinds[1], _row(flights, b))
+            stator, tip = record_at(kinds[2], _row(stators, b)), record_at(kinds[3], _row(tips, b))
+            state = record_at(kinds[4], _row(states, b))
+            at = (over[b] + element) % stator.n_elements
+            if n_blades == 1 and not is_coupled:  # adds up what is summed as a single run does
+                together = min(n_elements - element, stator.n_elements - at)
+            mean = displacement.ctypes.data + 8 * (n_elements * b + element)
+            turns, flew[b], far[b], n_steps, n_flights, n_contact, lowest, highest = integrate(
+                modal, flight, stator, tip, state, steps_per_element, at, at + together, flew[b], far[b], mean
+            )
+            _take_turns(state.q, modal.n, turns)
+            _take_turns(state.u, 4 * LANES, turns)
+            counts[b, 0] += n_steps
+            counts[b, 1] += n_flights
+            counts[b, 2] += n_contact
+            ranges[b, 0] = min(ranges[b, 0], lowest)
+            ranges[b, 1] = max(ranges[b, 1], highest)
+            within = within and n_steps == together * steps_per_element
+        if is_coupled:
+            _couple(coupling, modals, states, work)
+            flew[:] = False  # what `far` bounds was the motion without the impulse
+        element += together
+    return element
+
+
+@njit(inline="always")
+def _row(rows, b):
+    """Address of row `b`."""
+    return rows.ctypes.data + 8 * rows.shape[1] * b
+
+
+@njit
+def _take_turns(rows, n, turns):
+    """Bring three rows of `n` numbers in order, which the loop has let take `turns`."""
+    for _ in range(turns % 3):
+        for k in range(n):
+            last = read(rows, 2 * n + k)
+            write(rows, 2 * n + k, read(rows, n + k))
+            write(rows, n + k, read(rows, k))
+            write(rows, k, last)
+
+
+@njit
+def _couple(coupling, modals, states, work):
+    """Change the velocities by half an impulse of the disk, and enter its work."""
+    n_modes, n_blades = coupling.backward.shape
+    for b in range(n_blades):
+        n = modals[b, 0]
+        for k in range(n_modes):
+            velocity = 0.0
+            for other in range(n_blades):
+                velocity += coupling.impulse[k, b, other] * read(states[other, 0], k)
+            now, before = read(states[b, 0], k), read(states[b, 0], n + k)
+            changed = before + coupling.backward[k, b] * velocity
+            write(states[b, 0], n + k, changed)
+            work[b] += coupling.kinetic[k, b] * ((now - changed) ** 2 - (now - before) ** 2)
+            work[b] += coupling.elastic[k, b] * now * (changed - before)
