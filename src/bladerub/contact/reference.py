@@ -8,7 +8,6 @@ package it uses the law of an element (Fig. 4), the profile of the tip (Fig. 3) 
 """
 
 import itertools
-from collections.abc import Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -19,7 +18,7 @@ import scipy.optimize
 from bladerub.blade.model import ReducedBlade
 from bladerub.contact import law
 from bladerub.contact.casing import shape
-from bladerub.contact.row_spec import RowBlade
+from bladerub.contact.row_spec import Row
 from bladerub.contact.spec import RunSpec
 from bladerub.contact.tip import coverage, relief
 
@@ -56,11 +55,12 @@ def simulate(
 
 
 def simulate_row(
-    blade: ReducedBlade, spec: RunSpec, row: Sequence[RowBlade], n_steps: int, n_modes: int | None = None
+    blade: ReducedBlade, spec: RunSpec, row: Row, n_steps: int, n_modes: int | None = None
 ) -> tuple[np.ndarray, np.ndarray]:
     """Simulate blades that pass over one coating, all of them step by step.
 
-    Parameters are those of `simulate`, and the blades of the row; none is held at the start.
+    Parameters are those of `simulate`, and the blades of the row; none is held at the start. A disk that
+    couples them acts in each step, on rows that the exponential scheme integrates.
 
     Returns
     -------
@@ -69,18 +69,22 @@ def simulate_row(
     wear : (j, N) ndarray
         Permanent shortening of the elements by all of them, m.
     """
-    coatings = [_Coating(blade, spec, law) for _ in row]
+    coatings = [_Coating(blade, spec, law) for _ in row.blades]
+    squares, modes = scipy.linalg.eigh(blade.stiffness(spec.f_omega), blade.mass)
     marches = []
-    for coating, own in zip(coatings, row, strict=True):
+    for coating, own in zip(coatings, row.blades, strict=True):
         coating.node_angle = coating.node_angle + own.angle
         coating.initial_gap = coating.initial_gap - own.length
-        factor = (1 + own.frequency) ** 2
-        names = ("stiffness_0", "stiffness_1", "stiffness_2")
-        stiffer = replace(blade, **{name: factor * getattr(blade, name) for name in names})
+        factors = own.frequency_factors(len(squares))
+        more = blade.mass @ modes @ np.diag(squares * (factors**2 - 1)) @ modes.T @ blade.mass
         damped = replace(spec, damping_ratio=spec.damping_ratio * own.damping)
-        marches.append(_steps(stiffer, damped, n_modes, coating))
+        marches.append(_steps(replace(blade, stiffness_0=blade.stiffness_0 + more), damped, n_modes, coating))
     wear, histories = coatings[0].wear, []
     for _ in range(n_steps):
+        for mode, matrix in enumerate(row.disk.stiffness if row.disk else ()):
+            pull = -squares[mode] * np.array(matrix) @ [coating.q[mode] for coating in coatings]
+            for coating, own in zip(coatings, pull, strict=True):
+                coating.pull[mode] = own
         histories.append([])
         for coating, march in zip(coatings, marches, strict=True):
             coating.wear = wear  # as the others have left it
@@ -127,8 +131,10 @@ def _exponential(blade, spec, n_modes, coating):
     now, before = 2 * np.exp(root).real, np.abs(np.exp(root)) ** 2
     q, q_before, force = np.zeros(n_modes), np.zeros(n_modes), np.zeros(len(tip))
     for step in itertools.count(1):
-        rest = tip.T @ force / squares  # equilibrium under the force; the motion about it is free
+        pull = coating.pull[:n_modes]  # of the disk
+        rest = (tip.T @ force + pull) / squares  # equilibrium under the forces; the motion about it is free
         q, q_before = rest + now * (q - rest) - before * (q_before - rest), q
+        coating.q = q
         force = _implicit_forces(coating, step * h, tip @ q, compliance, force)
         u = tip @ q + compliance @ force
         _, coating.wear = coating.contact(step * h, u)
@@ -170,6 +176,9 @@ class _Coating:
         overlap = casing.interference - casing.amplitude + casing.amplitude * shape(casing, self.angle)
         self.initial_gap = clearance - overlap  # g₀ of eq. (8)
         self.wear = np.zeros((blade.n_interface, n))
+        self.q, self.pull = np.zeros(
+            (2, len(blade.mass))
+        )  # modal coordinates of the blade, and forces on them
 
     def contact(self, time: float, u: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Contact forces on the tip at the displacement `u`, both as `tip_rows`, and the wear (j, N) then."""

@@ -154,20 +154,24 @@ def simulate_row(
 def row_frequencies(blade: ReducedBlade, f_omega: float, row: Row) -> np.ndarray:
     """Find the natural angular frequencies of the coupled modes of a row.
 
-    Returns those of each of the k modes that the disk couples in a row (k, N), ascending, rad/s; of the first
-    mode where there is no disk. Raises `ValueError` as `bladerub.contact.modes.mode_shapes_at`, and if the disk
-    makes a mode unstable.
+    Returns those of each of the k modes that the disk couples in a row (k, N), ascending, rad/s; of the
+    first mode where there is no disk. Raises `ValueError` as `bladerub.contact.modes.mode_shapes_at`, and if
+    the disk makes a mode unstable.
     """
     modes = modes_at(blade, f_omega)
     matrices = row.disk.stiffness if row.disk else [np.zeros((len(row.blades), len(row.blades)))]
-    return np.array([_coupled_frequencies(modes, row, mode, np.array(of)) for mode, of in enumerate(matrices)])
+    return np.array(
+        [_coupled_frequencies(modes, row, mode, np.array(of)) for mode, of in enumerate(matrices)]
+    )
 
 
 def _coupled_frequencies(modes: Modes, row: Row, mode: int, stiffness: np.ndarray) -> np.ndarray:
     factors = [own.frequency_factors(modes.omega.size)[mode] for own in row.blades]
     squares = scipy.linalg.eigvalsh(np.diag(np.square(factors)) + stiffness)
     if squares[0] <= 0:
-        raise ValueError(f"row, disk, mode {mode + 1}: the stiffness of blades and disk must be positive definite")
+        raise ValueError(
+            f"row, disk, mode {mode + 1}: the stiffness of blades and disk must be positive definite"
+        )
     return modes.omega[mode] * np.sqrt(squares)
 
 
@@ -226,9 +230,9 @@ def _coupling(
         fastest = _coupled_frequencies(modes, row, mode, np.array(matrix))[-1]
         if fastest * passage > LONGEST_IMPULSE:
             raise ValueError(
-                f"row, disk: couples {n} modes, of which mode {mode + 1} moves by {fastest * passage:.2g} rad in "
-                f"the passage of an element; must be {LONGEST_IMPULSE:g} or less: couple fewer modes, or more "
-                "weakly"
+                f"row, disk: mode {mode + 1} of the {n} that it couples moves by {fastest * passage:.2g} rad "
+                f"in the passage of an element; must be {LONGEST_IMPULSE:g} or less: couple fewer modes, or "
+                "more weakly"
             )
         impulse[mode] = -0.5 * passage * modes.omega[mode] ** 2 * np.array(matrix)
     omega, kinetic = (np.array([getattr(rule, of)[:n] for rule in rules]).T for of in ("omega", "kinetic"))

@@ -44,8 +44,8 @@ class RowBlade:
 class Disk:
     """Elastic coupling of the N blades of a row by the disk, mode by mode.
 
-    Mode m of all blades has the equations of motion ``q̈_b + 2 ξ ω_b q̇_b + ω_b² q_b + ω_m² Σ_c S_bc q_c = p_b``
-    in modal coordinates, ω_m that of the nominal blade.
+    The equations of motion in mode m of all blades are
+    ``q̈_b + 2 ξ ω_b q̇_b + ω_b² q_b + ω_m² Σ_c S_bc q_c = p_b``, ω_m that of the nominal blade.
 
     Parameters
     ----------

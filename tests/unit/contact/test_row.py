@@ -4,10 +4,12 @@ import dataclasses
 
 import numpy as np
 import pytest
+import scipy.linalg
 
 from bladerub.contact import reference
-from bladerub.contact.row import simulate_row
-from bladerub.contact.row_spec import Row, RowBlade
+from bladerub.contact.modes import modes_at
+from bladerub.contact.row import row_frequencies, simulate_row
+from bladerub.contact.row_spec import Disk, Row, RowBlade
 from bladerub.contact.run import simulate
 from bladerub.contact.setup import element_area
 
@@ -92,14 +94,14 @@ def test_neither_order_nor_numbering_changes_anything(blade, spec):
     ("scheme", "turns"), [("exponential", False), ("exponential", True), ("central_differences", False)]
 )
 def test_blades_wear_one_coating_as_in_the_plain_model(blade, spec, change, scheme, turns):
-    blades = (RowBlade(0.0, 0.0, 0.01), RowBlade(3.3, 3e-5, -0.02, 2.0))
+    row_of = Row((RowBlade(0.0, 0.0, 0.01), RowBlade(3.3, 3e-5, (-0.02, 0.03), 2.0)))
     slope = np.full((8, len(blade.mass)), -3.0)
     blade = dataclasses.replace(blade, tip_slope=slope)
     spec = change(spec, scheme=scheme, turns=turns, max_time_step=1e-3, revolutions=1)
-    row = simulate_row(blade, spec, Row(blades))
+    row = simulate_row(blade, spec, row_of)
     one = row.blades[0]
     assert all(each.n_modes == one.n_modes for each in row.blades)
-    histories, wear = reference.simulate_row(blade, spec, blades, one.n_steps, one.n_modes)
+    histories, wear = reference.simulate_row(blade, spec, row_of, one.n_steps, one.n_modes)
     for ours, history in zip(row.blades, histories, strict=True):
         node_1 = np.concatenate([[0.0], history[:, 0]])
         middle = 0.5 * (node_1[1:] + node_1[:-1])
@@ -107,6 +109,84 @@ def test_blades_wear_one_coating_as_in_the_plain_model(blade, spec, change, sche
         scale = np.abs(node_1).max()
         np.testing.assert_allclose(ours.radial_displacement, per_element, rtol=0, atol=2e-6 * scale)
     np.testing.assert_allclose(row.wear, wear, rtol=0, atol=2e-6 * wear.max())
+
+
+def test_a_disk_couples_the_blades_as_in_the_plain_model(blade, spec, change):
+    """The disk acts in every step there, in the loop once an element: the error is that of the splitting."""
+    spec = change(spec, max_time_step=1e-3, revolutions=1)
+    row_of = Row.even(2, length=[0.0, 2e-5], frequency=[0.0, 0.01], disk=Disk.ring(2, [0.05, 0.02]))
+    row = simulate_row(blade, spec, row_of)
+    one = row.blades[0]
+    histories, wear = reference.simulate_row(blade, spec, row_of, one.n_steps, one.n_modes)
+    for ours, apart, history in zip(
+        row.blades, simulate_row(blade, spec, Row(row_of.blades)).blades, histories, strict=True
+    ):
+        node_1 = np.concatenate([[0.0], history[:, 0]])
+        per_element = (0.5 * (node_1[1:] + node_1[:-1])).reshape(spec.coating.n_elements, -1).mean(axis=1)
+        error = np.abs(ours.radial_displacement - per_element).max()
+        effect = np.abs(ours.radial_displacement - apart.radial_displacement).max()
+        assert error < 2e-4 * effect  # 9e-5 measured
+    np.testing.assert_allclose(row.wear, wear, rtol=0, atol=1e-3 * wear.max())
+
+
+def test_identical_blades_on_a_ring_have_the_frequencies_of_the_cyclic_closed_form(blade):
+    n_blades, coupling, f_omega = 7, [0.05, 0.003], 0.3
+    found = row_frequencies(blade, f_omega, Row.even(n_blades, disk=Disk.ring(n_blades, coupling)))
+    omega, diameters = modes_at(blade, f_omega).omega, np.arange(n_blades)
+    for mode, c in enumerate(coupling):
+        closed_form = omega[mode] * np.sqrt(1 + 4 * c * np.sin(np.pi * diameters / n_blades) ** 2)
+        np.testing.assert_allclose(found[mode], np.sort(closed_form), rtol=1e-9)
+
+
+def test_mistuned_blades_have_the_frequencies_of_the_whole_row(blade):
+    n_blades, f_omega, rng = 5, 0.3, np.random.default_rng(1)
+    scatter, springs = 0.02 * rng.standard_normal((n_blades, 2)), rng.random((2, n_blades, n_blades))
+    matrices = [0.01 * (of.T @ of) for of in springs]
+    row = Row.even(n_blades, frequency=scatter, disk=Disk.of(matrices))
+    squares, modes = scipy.linalg.eigh(blade.stiffness(f_omega), blade.mass)
+    forces = blade.mass @ modes  # per unit of a modal force
+    stiffness = np.kron(np.eye(n_blades), blade.stiffness(f_omega))
+    for mode, matrix in enumerate(matrices):
+        own = np.diag((1 + scatter[:, mode]) ** 2 - 1)
+        stiffness += squares[mode] * np.kron(own + matrix, np.outer(forces[:, mode], forces[:, mode]))
+    whole = scipy.linalg.eigh(stiffness, np.kron(np.eye(n_blades), blade.mass), eigvals_only=True)
+    found = np.sort(row_frequencies(blade, f_omega, row).ravel())
+    np.testing.assert_allclose(found, np.sqrt(whole[: 2 * n_blades]), rtol=1e-9)
+
+
+def test_a_coupled_row_vibrates_at_the_frequency_of_its_nodal_diameter(blade, spec, change):
+    """Without contact, all blades deflected alike: no nodal diameter, each pushed by itself and the other."""
+    start, coupling = 1e-4, 0.05
+    spec = change(spec, revolutions=1, initial_displacement=start)
+    row = simulate_row(blade, spec, Row.even(2, length=-9e-3, disk=Disk.of([coupling * np.ones((2, 2))])))
+    omega, damping = modes_at(blade, spec.f_omega).omega[0], spec.damping_ratio
+    n_steps, h = row.blades[0].n_steps, row.blades[0].time_step
+    time = h * np.arange(n_steps + 1)
+    decay, damped = damping * omega, omega * np.sqrt(1 + 2 * coupling - damping**2)
+    motion = start * np.exp(-decay * time) * (np.cos(damped * time) + decay / damped * np.sin(damped * time))
+    expected = (0.5 * (motion[1:] + motion[:-1])).reshape(spec.coating.n_elements, -1).mean(axis=1)
+    periods = damped * time[-1] / (2 * np.pi)
+    assert periods > 1
+    for each in row.blades:
+        assert each.n_contact_steps == 0
+        np.testing.assert_allclose(each.radial_displacement, expected, rtol=0, atol=1e-4 * start)
+
+
+@pytest.mark.parametrize("turns", [False, True])
+def test_the_ledger_closes_with_the_disk_in_it(blade, spec, change, turns):
+    blade = dataclasses.replace(blade, tip_slope=np.full((8, len(blade.mass)), -3.0))
+    spec = change(spec, turns=turns)
+    row_of = Row.even(4, length=[0.0, 2e-5, 0.0, -3e-5], disk=Disk.ring(4, [0.1]))
+    row = simulate_row(blade, spec, row_of)
+    assert np.abs(row.disk_work).max() > 5e-4 * row.energy.exchanged
+    assert row.residual < 1e-3
+    exchanged = row.energy.exchanged
+    assert abs(row.disk_work.sum() + row.disk_energy) < 1e-4 * exchanged
+    for each, work in zip(row.blades, row.disk_work, strict=True):
+        own = each.energy
+        taken = own.kinetic + own.elastic - own.initial + own.damping
+        supplied = own.work_radial + own.work_tangential + own.work_couple + work
+        assert abs(supplied - taken) < 1e-9 * exchanged
 
 
 def test_the_ledgers_close_and_the_volumes_sum_up(blade, spec):
@@ -180,6 +260,10 @@ def test_progress_counts_the_revolutions_that_all_have_done(blade, spec):
         (lambda: Row((RowBlade(0.0, np.nan),)), "length = nan; must be a finite number"),
         (lambda: Row.even(2, frequency=[0.0, -1.0]), "blade 2: frequency = -1"),
         (lambda: Row.even(2, damping=-0.5), "blade 1: damping = -0.5"),
+        (lambda: Row.even(2, frequency=[[0.0, np.inf], [0.0, 0.0]]), "blade 1: frequency = "),
+        (lambda: Row.even(2, length=[[0.0], [0.0]]), "2 x 1 values of length; must be 1 or 2"),
+        (lambda: Row.even(3, disk=Disk.ring(2, [0.1])), r"mode 1: a matrix of shape \(2, 2\)"),
+        (lambda: Row.even(2, disk=Disk.of([[[1.0, 0.1], [0.2, 1.0]]])), "mode 1: must be a symmetric matrix"),
     ],
 )
 def test_a_row_that_cannot_be_is_refused(make, message):
@@ -197,3 +281,19 @@ def test_neighbours_that_could_meet_are_refused(blade, spec):
 def test_a_blade_that_touches_all_around_is_refused(blade, spec):
     with pytest.raises(ValueError, match="touches all around the casing"):
         simulate_row(blade, spec, Row.even(2, length=[0.0, 5e-3]))
+
+
+@pytest.mark.parametrize(
+    ("stiffness", "message"),
+    [
+        ([-1.5 * np.eye(2)], "mode 1: the stiffness of blades and disk must be positive definite"),
+        ([np.zeros((2, 2))] * 200, "couples 200 modes; must be at most the"),
+        (
+            [1e6 * np.eye(2)],
+            "mode 1 of the 1 that it couples moves by .* in the passage of an element; must be 0.5 or less",
+        ),
+    ],
+)
+def test_a_disk_that_the_loop_cannot_have_is_refused(blade, spec, stiffness, message):
+    with pytest.raises(ValueError, match=message):
+        simulate_row(blade, spec, Row.even(2, disk=Disk.of(stiffness)))

@@ -10,9 +10,11 @@ from typing import NamedTuple
 import numpy as np
 from numba import njit
 
+from bladerub.contact.kernel import tilt
 from bladerub.contact.kernel.loop import Progress, Simulation, integrate
+from bladerub.contact.kernel.modal import ROWS
 from bladerub.numerics.machine_code import njit_on_disk
-from bladerub.numerics.memory import read, record_at, rows_of, write
+from bladerub.numerics.memory import add_to_number, address_of, read, record_at, rows_of, write
 from bladerub.numerics.vectors import LANES
 
 
@@ -61,7 +63,9 @@ class RowSimulation:
             *(self._kinds, *self._rows, blade.steps_per_element, over, begins),
             *(displacement, counts, ranges, self.coupling, self.work),
         )
-        return passed, [Progress(*map(int, of), *map(float, at)) for of, at in zip(counts, ranges, strict=True)]
+        return passed, [
+            Progress(*map(int, of), *map(float, at)) for of, at in zip(counts, ranges, strict=True)
+        ]
 
 
 @njit_on_disk(nogil=True)
@@ -87,7 +91,7 @@ def _integrate_row(
     element, within = 0, True
     while element < n_elements and within:
         if is_coupled:
-            _couple(coupling, modals, states, work)
+            _couple(coupling, kinds, modals, states, work)
         together = 1
         for b in range(n_blades):
             if element < begins[b]:
@@ -111,7 +115,7 @@ def _integrate_row(
             ranges[b, 1] = max(ranges[b, 1], highest)
             within = within and n_steps == together * steps_per_element
         if is_coupled:
-            _couple(coupling, modals, states, work)
+            _couple(coupling, kinds, modals, states, work)
             flew[:] = False  # what `far` bounds was the motion without the impulse
         element += together
     return element
@@ -135,17 +139,28 @@ def _take_turns(rows, n, turns):
 
 
 @njit
-def _couple(coupling, modals, states, work):
-    """Change the velocities by half an impulse of the disk, and enter its work."""
+def _couple(coupling, kinds, modals, states, work):
+    """Change the velocities by half an impulse of the disk, and enter its work.
+
+    A velocity stands in the coordinates of one step before; so does that of the tip, whose path the work of
+    the contact forces is found from.
+    """
     n_modes, n_blades = coupling.backward.shape
     for b in range(n_blades):
-        n = modals[b, 0]
+        modal, state = record_at(kinds[0], _row(modals, b)), record_at(kinds[4], _row(states, b))
+        tip_before = address_of(state.u, 4 * LANES)
         for k in range(n_modes):
             velocity = 0.0
             for other in range(n_blades):
                 velocity += coupling.impulse[k, b, other] * read(states[other, 0], k)
-            now, before = read(states[b, 0], k), read(states[b, 0], n + k)
-            changed = before + coupling.backward[k, b] * velocity
-            write(states[b, 0], n + k, changed)
-            work[b] += coupling.kinetic[k, b] * ((now - changed) ** 2 - (now - before) ** 2)
-            work[b] += coupling.elastic[k, b] * now * (changed - before)
+            now, before = read(state.q, k), read(state.q, modal.n + k)
+            change = coupling.backward[k, b] * velocity
+            after = before + change
+            write(state.q, modal.n + k, after)
+            work[b] += coupling.kinetic[k, b] * ((now - after) ** 2 - (now - before) ** 2)
+            work[b] += coupling.elastic[k, b] * now * change
+            block, lane = k // LANES, k % LANES
+            for row in range(ROWS):
+                by = read(modal.tip, LANES * (ROWS * block + row) + lane)
+                add_to_number(tip_before, row, by * change)
+            tilt.move(modal.tilt, k, change, tip_before)

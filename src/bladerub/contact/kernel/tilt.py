@@ -12,10 +12,12 @@ from numba.extending import overload
 from bladerub.contact.tip import highest
 from bladerub.numerics.memory import (
     add_lane_products,
+    add_to_number,
     address_of,
     broadcast_lanes,
     load,
     no_lane_sums,
+    read,
     store,
     sum_of_lane_products,
 )
@@ -78,6 +80,14 @@ def keep(rows, u, tilt):
 def kept(rows, u):
     """Load the tilt stored with a displacement of the tip."""
     return load(u, PLACE)
+
+
+@_without_tilt(lambda rows, k, change, u: None)
+def move(rows, k, change, u):
+    """Add to the tilt stored with a displacement what a `change` of mode k alone makes of it."""
+    for row in range(LANES):
+        by = read(rows, LANES * (LANES * (k // LANES) + row) + k % LANES)
+        add_to_number(u, PLACE + row, by * change)
 
 
 @_without_tilt(lambda rows, approach, tilt, offset: approach)
