@@ -155,7 +155,7 @@ def simulated(monkeypatch, make_result, growing, repeated):
     """Stand in for the solver, and list the speeds it was asked for."""
     speeds = []
 
-    def simulate(blade, spec):
+    def simulate(blade, spec, progress=None):
         (speeds if spec.revolutions == 20 else repeated).append(spec.f_omega)
         return make_result(
             revolutions=spec.revolutions,

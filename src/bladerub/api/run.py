@@ -16,8 +16,8 @@ from bladerub.api.dataset import to_dataset
 from bladerub.api.errors import InputError
 from bladerub.api.notebook import html_table
 from bladerub.api.study import StudyRun
-from bladerub.contact import run as solver
 from bladerub.contact.result import Energy
+from bladerub.contact.row_spec import Row
 from bladerub.contact.setup import compile_kernel
 from bladerub.contact.spec import RunSpec
 from bladerub.io.provenance import provenance
@@ -26,6 +26,7 @@ from bladerub.plots.style import saved
 from bladerub.study import store
 from bladerub.study.grid import CoatingCase, speed_name
 from bladerub.study.growth import Verdict, confirmation_spec, judge, needs_confirmation
+from bladerub.study.job import compute
 from bladerub.study.manifest import confirmation_path
 from bladerub.study.plan import planned_run
 from bladerub.study.store import StoredRun
@@ -56,6 +57,8 @@ class Run:
     >>> run.energy.residual < 1e-3
     True
     >>> run.attributes["n_unconverged_steps"]
+    0
+    >>> len(run.blades)  # no row of blades, but a single one
     0
     >>> run.verdict(study.config["analysis"]["divergence"]).divergent
     False
@@ -146,6 +149,17 @@ class Run:
         order = pd.Index(data["spectrum_order"], name="engine_order")
         return pd.Series(data["spectrum_amplitude"], order, name="amplitude")
 
+    @property
+    def blades(self) -> pd.DataFrame:
+        """A row for each blade of a row: what it is and what it did, SI units; none for a single blade.
+
+        The columns are those of `bladerub.study.store.OF_BLADES`. The other results are of the blade
+        ``attributes["blade"]``, which vibrates most, but for the wear and the energy, which are of all.
+        """
+        data, names = self.stored.data, store.OF_BLADES
+        own = {name.removeprefix("blade_"): data[name] for name in names if name in data}
+        return pd.DataFrame(own, pd.Index(data.get("blade", []), name="blade"))
+
     def verdict(self, settings: Mapping[str, Any]) -> Verdict:
         """Judge the growth of the run, and of its longer run if there is one.
 
@@ -226,6 +240,7 @@ def simulate(
     blade: Blade,
     run: StudyRun,
     *,
+    row: Row | None = None,
     follow: bool = True,
     progress: bool = False,
     each: Callable[[int], None] | None = None,
@@ -238,6 +253,8 @@ def simulate(
         The blade, from `build_blade` or `read_blade`.
     run : StudyRun
         The run, from `Study.run` or `StudyCoating.at`.
+    row : Row, optional
+        Blades that rub on one coating together, instead of the one: `Run.blades`.
     follow : bool
         Whether a run that grows is repeated for more revolutions, as the study does: its `Run.longer`.
     progress : bool
@@ -255,7 +272,8 @@ def simulate(
     InputError
         If the speed is outside the range of the blade.
     ValueError
-        If the time step of the study is too long for the scheme.
+        If the time step of the study is too long for the scheme, or the row cannot be: its neighbours are
+        too close, for instance (`bladerub.contact.row.simulate_row`).
 
     Examples
     --------
@@ -263,6 +281,16 @@ def simulate(
     >>> run = br.simulate(blade, study.run("2nd", E=2, K=0.5, f_omega=0.19))
     >>> run.revolutions, run.status
     (20, 'completed')
+
+    Three blades on one coating, the second 50 µm longer than the others:
+
+    >>> row = br.simulate(
+    ...     blade,
+    ...     study.run("2nd", E=2, K=0.5, f_omega=0.19, revolutions=3),
+    ...     row=br.Row.even(3, length=[0.0, 5e-5, 0.0]),
+    ... )
+    >>> len(row.blades), int(row.blades.worn_volume.idxmax())
+    (3, 2)
     """
     blade.check_speed("f_omega", run.f_omega)
     compile_kernel(n_nodes=blade.reduced.n_interface)
@@ -274,7 +302,7 @@ def simulate(
             if each:
                 each(revolutions)
 
-        return solve(blade, run, follow, done)
+        return solve(blade, run, follow, done, row=row)
 
 
 def counted(bar: tqdm, run: StudyRun) -> Callable[[int], None]:
@@ -294,17 +322,18 @@ def solve(
     follow: bool,
     done: Callable[[int], None] | None = None,
     keep_history: bool = True,
+    row: Row | None = None,
 ) -> Run:
     """Simulate `run`, and its longer run if it is to `follow` growth; parameters as of `simulate`."""
     digest, settings = blade.digest, run.config["analysis"]["divergence"]
     run = run.of_length(blade.length)  # perhaps not the study's own blade
-    stored = _solve(blade, run, run.spec, digest, done, keep_history)
+    stored = _solve(blade, run, run.spec, digest, done, keep_history, row)
     longer = None
     amplitude, status = stored.data["revolution_amplitude"], stored.attributes["status"]
     longest = settings["confirmation_revolutions"]
     if follow and longest > run.spec.revolutions and needs_confirmation(amplitude, status, settings):
         spec = confirmation_spec(run.spec, settings)
-        longer = Run(_solve(blade, run, spec, digest, done, keep_history=False))
+        longer = Run(_solve(blade, run, spec, digest, done, False, row))
     return Run(stored, longer)
 
 
@@ -315,11 +344,10 @@ def _solve(
     digest: str,
     done: Callable[[int], None] | None,
     keep_history: bool,
+    row: Row | None,
 ) -> StoredRun:
-    result = solver.simulate(blade.reduced, spec, progress=done)
-    plan = planned_run(run.config, spec, f"{speed_name(spec.f_omega)}.h5", keep_history)
-    key, analysis = plan.key(digest), run.config["analysis"]
-    return store.stored_run(run.case, spec, result, key, analysis, keep_history)
+    plan = planned_run(run.config, spec, f"{speed_name(spec.f_omega)}.h5", keep_history, row)
+    return compute(run.case, plan, blade.reduced, plan.key(digest), run.config["analysis"], done)
 
 
 def read_run(path: str | Path) -> Run:

@@ -15,6 +15,7 @@ if TYPE_CHECKING:  # as in `inputs`
     from bladerub.api.blade import Blade
     from bladerub.api.run import Run
     from bladerub.api.study import Study, StudyCoating, StudyRun
+    from bladerub.contact.row_spec import Row
 
 _STEEP = math.pi / 4  # beyond this angle the force is more tangential than normal
 _UNITS = {"E": "contact.modulus_unit", "K": "contact.modulus_unit", "theta": "rad", "f_omega": "f1 at rest"}
@@ -52,6 +53,15 @@ def add_to(commands: Any) -> None:
     parser.option("--revolutions", "instead of solver.revolutions, at least 2", int, metavar="N")
     text = "run it again from so many other starts, as the study does, and show the bands"
     parser.option("--ensemble", text, int, metavar="N")
+    text = "so many blades, at even angles, that rub on one coating"
+    parser.option("--blades", text, int, metavar="N")
+    text = "standard deviation of their tip radii, m (default 0)"
+    parser.option("--length-scatter", text, float, metavar="S")
+    text = "standard deviation of their natural frequencies, relative (default 0)"
+    parser.option("--frequency-scatter", text, float, metavar="S")
+    text = "springs of the disk between neighbours over the stiffness of the first mode (default 0: none)"
+    parser.option("--coupling", text, float, metavar="C")
+    parser.option("--seed", "of the draws of the blades, 0 or more (default 1)", int, metavar="N")
     parser.option("--output", "write the run with its whole history (HDF5)", Path, metavar="FILE")
 
 
@@ -65,6 +75,7 @@ def run(options: argparse.Namespace) -> None:
     from bladerub.api.run import counted, simulate
     from bladerub.api.study import Study
 
+    row = _row(options)
     study = Study(config, inputs.study_folder())
     if options.output:
         _check_output(options.output)
@@ -84,7 +95,7 @@ def run(options: argparse.Namespace) -> None:
     bar = inputs.progress_bar(planned.spec.revolutions, "rev")
     with bar, refused(ValueError), inputs.as_options(f_omega="f"):
         start = time.perf_counter()
-        result = simulate(blade, planned, each=counted(bar, planned))
+        result = simulate(blade, planned, row=row, each=counted(bar, planned))
         seconds = time.perf_counter() - start
     if options.output:
         with refused(OSError, because=f"--output {options.output}: cannot be written: "):
@@ -92,7 +103,34 @@ def run(options: argparse.Namespace) -> None:
     figures = _figures(planned, result, seconds) | {"rpm": 60 * planned.f_omega * blade.f1_hz}
     if options.ensemble is not None:
         figures["ensemble"] = _ensemble(options, planned, blade, result)
+    if row:
+        figures["blade"] = result.attributes["blade"]
+        figures["blades"] = result.blades.reset_index().to_dict("records")
     inputs.show(options, figures, _in_words)
+
+
+def _row(options: argparse.Namespace) -> "Row | None":
+    """Describe the row of blades that is asked for, if one is."""
+    names = ("length_scatter", "frequency_scatter", "coupling", "seed")
+    given = {name: getattr(options, name) for name in names if getattr(options, name) is not None}
+    if options.blades is None:
+        for name, value in given.items():
+            raise InputError(f"--{name.replace('_', '-')} = {value:g}: goes with --blades only")
+        return None
+    if options.blades < 1:
+        raise InputError(f"--blades = {options.blades}: must be at least 1")
+    if options.ensemble is not None:
+        raise InputError(f"--ensemble = {options.ensemble}: not with --blades; give another --seed instead")
+    for name, value in given.items():
+        if not (math.isfinite(value) and value >= 0):
+            raise InputError(f"--{name.replace('_', '-')} = {value:g}: must be 0 or more")
+
+    from bladerub.contact.row_spec import Disk, Row
+
+    seed, coupling = given.pop("seed", 1), given.pop("coupling", 0.0)
+    disk = Disk.ring(options.blades, [coupling]) if coupling else None
+    with refused(ValueError):
+        return Row.drawn(options.blades, seed, **given, disk=disk)
 
 
 def _ensemble(options: argparse.Namespace, planned: "StudyRun", blade: "Blade", own: "Run") -> dict[str, Any]:
@@ -207,9 +245,36 @@ def _in_words(figures: dict[str, Any]) -> str:
         "steps per second": f"{figures['steps_per_second']:.3g}",
     }
     lines = inputs.aligned(rows.items())
+    if "blades" in figures:
+        lines += [
+            "",
+            f"a row of {len(figures['blades'])}, above blade {figures['blade']}, which vibrates most:",
+        ]
+        lines += _blades_in_words(figures["blades"])
     if "ensemble" in figures:
         lines += ["", *_bands_in_words(figures["ensemble"])]
     return "\n".join(lines)
+
+
+_OF_BLADES = {
+    "blade": ("blade", 1, "d"),
+    "length, µm": ("length", 1e6, ".1f"),
+    "frequency, %": ("frequency", 100, ".2f"),
+    "peak, mm": ("peak", 1e3, ".4f"),
+    "amplitude, mm": ("amplitude", 1e3, ".4f"),
+    "worn, cm³": ("worn_volume", 1e6, ".3f"),
+}
+"""Columns of the table of a row, with the name of the figure, its factor and format."""
+
+
+def _blades_in_words(blades: list[dict[str, float]]) -> list[str]:
+    """Write a line for each blade; a mark at those that left the displacement limit."""
+    rows = [tuple(_OF_BLADES)]
+    for of in blades:
+        cells = [f"{factor * of[name]:{form}}" for name, factor, form in _OF_BLADES.values()]
+        rows.append((*cells[:-1], cells[-1] + (" unbounded" if of["unbounded"] else "")))
+    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
+    return ["  ".join(f"{cell:>{width}}" for cell, width in zip(row, widths, strict=True)) for row in rows]
 
 
 def _bands_in_words(ensemble: dict[str, Any]) -> list[str]:

@@ -244,9 +244,9 @@ def _coupling(
 
 def _stored(row: Row, modes: Modes, seats: Sequence[_Seat]) -> float:
     """Elastic energy of the disk, J."""
-    coordinates, energy_sum = np.array([seat.simulation.state.q[0] for seat in seats]), 0.0
+    energy_sum = 0.0
     for mode, matrix in enumerate(row.disk.stiffness if row.disk else ()):
-        of_mode = coordinates[:, mode]
+        of_mode = np.array([seat.simulation.state.q[0, mode] for seat in seats])
         energy_sum += 0.5 * modes.omega[mode] ** 2 * float(of_mode @ np.array(matrix) @ of_mode)
     return energy_sum
 

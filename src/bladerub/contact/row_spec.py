@@ -22,6 +22,13 @@ class RowBlade:
         and none for the others. Its mode shapes are those of the nominal blade.
     damping : float
         Its damping ratio over that of the run.
+
+    Examples
+    --------
+    >>> import bladerub as br
+    >>> longer = br.RowBlade(angle=3.1416, length=5e-5, frequency=(0.01, -0.01))
+    >>> longer.frequency_factors(3).tolist()
+    [1.01, 0.99, 1.0]
     """
 
     angle: float
@@ -51,6 +58,15 @@ class Disk:
     ----------
     stiffness : tuple of tuple of tuple of float
         A symmetric matrix S (N, N) for each of the first modes; the others are not coupled.
+
+    Examples
+    --------
+    >>> import bladerub as br
+    >>> disk = br.Disk.ring(4, [0.01])
+    >>> disk.stiffness[0][0]
+    (0.02, -0.01, 0.0, -0.01)
+    >>> br.Disk.of([[[0.02, -0.02], [-0.02, 0.02]]]).stiffness[0][0]
+    (0.02, -0.02)
     """
 
     stiffness: tuple[tuple[tuple[float, ...], ...], ...]
@@ -74,8 +90,21 @@ class Disk:
 class Row:
     """The blades of a row, in any order, and the disk that couples them, if any does.
 
-    Raises `ValueError` if there is no blade, a value is not a finite number in its range, or the disk has a
-    matrix of another size or one that is not symmetric.
+    Raises
+    ------
+    ValueError
+        If there is no blade, a value is not a finite number in its range, or the disk has a matrix of another
+        size or one that is not symmetric.
+
+    Examples
+    --------
+    >>> import bladerub as br
+    >>> row = br.Row.even(3, length=[0.0, 5e-5, 0.0], disk=br.Disk.ring(3, [0.01]))
+    >>> row.blades[1].length
+    5e-05
+    >>> drawn = br.Row.drawn(12, seed=1, length_scatter=2e-5, frequency_scatter=0.005)
+    >>> len(drawn.blades), drawn == br.Row.drawn(12, seed=1, length_scatter=2e-5, frequency_scatter=0.005)
+    (12, True)
     """
 
     blades: tuple[RowBlade, ...]
@@ -137,3 +166,25 @@ class Row:
             for at in range(n_blades)
         )
         return cls(tuple(blades), disk)
+
+    @classmethod
+    def drawn(
+        cls,
+        n_blades: int,
+        seed: int,
+        length_scatter: float = 0.0,
+        frequency_scatter: float = 0.0,
+        disk: Disk | None = None,
+    ) -> Self:
+        """Draw blades at even angles, whose tip radii and frequencies are normally distributed.
+
+        The scatters are standard deviations, of the length in m. The draws of a `seed` are those of all
+        scatters: twice the scatter gives twice the deviations. Raises `ValueError` if a value is not in its
+        range.
+        """
+        for name, scatter in (("length_scatter", length_scatter), ("frequency_scatter", frequency_scatter)):
+            if not (np.isfinite(scatter) and scatter >= 0):
+                raise ValueError(f"row: {name} = {scatter:g}; must be a finite number, 0 or more")
+        length, frequency = np.random.default_rng(seed).standard_normal((2, max(n_blades, 0)))
+        lengths, frequencies = length_scatter * length, frequency_scatter * frequency
+        return cls.even(n_blades, lengths + 0.0, frequencies + 0.0, disk=disk)  # no -0

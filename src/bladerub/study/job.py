@@ -10,6 +10,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from bladerub.blade.model import ReducedBlade
+from bladerub.contact.row import simulate_row
 from bladerub.contact.run import simulate
 from bladerub.io import lock
 from bladerub.io.checksum import file_checksum
@@ -19,7 +20,7 @@ from bladerub.study.grid import CoatingCase
 from bladerub.study.growth import needs_confirmation
 from bladerub.study.manifest import CONFIRMATION, ManifestRow
 from bladerub.study.plan import CoatingPlan, PlannedRun, growth_key, longer_run
-from bladerub.study.store import MAPPED, read_run, stored_run, write_run
+from bladerub.study.store import MAPPED, StoredRun, read_run, stored_row, stored_run, write_run
 
 LOCK = ".lock"
 """Empty file in the folder of the runs, locked by the job at work on them."""
@@ -72,17 +73,36 @@ def compute_missing(
     `RunDone` after each computed run, or a text before waiting.
     """
     folder, settings = Path(folder), config["analysis"]["divergence"]
-    compute = partial(_compute, config, plan.case, blade, folder, blade_digest, report)
+    complete = partial(_compute, config, plan.case, blade, folder, blade_digest, report)
     with lock.held(folder / LOCK, lambda: report(f"another job is at work in {folder}: waiting for its end")):
-        done = compute(plan.runs)
+        done = complete(plan.runs)
         growing = [
             run
             for run in plan.runs
             if needs_confirmation(done[run.file].amplitude, done[run.file].status, settings)
         ]
-        longer = compute([longer_run(config, run) for run in growing])
+        longer = complete([longer_run(config, run) for run in growing])
         key = growth_key(config)
         return [_row(run, done[run.file], longer.get(f"{CONFIRMATION}/{run.file}"), key) for run in plan.runs]
+
+
+def compute(
+    case: CoatingCase,
+    run: PlannedRun,
+    blade: ReducedBlade,
+    key: str,
+    analysis: Mapping[str, Any],
+    progress: Callable[[int], None] | None = None,
+) -> StoredRun:
+    """Simulate what was planned, a single blade or a row, and return what is stored of it.
+
+    `key` is that of the run, `analysis` of the config; `progress` is called with the number of revolutions
+    done. Raises `ValueError` as `bladerub.contact.run.simulate` and `bladerub.contact.row.simulate_row`.
+    """
+    if run.row:
+        outcome = simulate_row(blade, run.spec, run.row, progress)
+        return stored_row(case, run.spec, run.row, outcome, key, analysis, run.keep_history)
+    return stored_run(case, run.spec, simulate(blade, run.spec, progress), key, analysis, run.keep_history)
 
 
 def _row(run: PlannedRun, done: _Done, longer: _Done | None, growth_key: str) -> ManifestRow:
@@ -119,15 +139,18 @@ def _compute(
     cost_done, start = 0.0, time.monotonic()
     for number, run in enumerate(missing, 1):
         run_start, entry = time.monotonic(), entries[run.file]
-        result = simulate(blade, run.spec)
-        stored = stored_run(case, run.spec, result, entry.key, config["analysis"], run.keep_history)
+        stored = compute(case, run, blade, entry.key, config["analysis"])
         entry.make_room()
         checksums[run.file] = write_run(entry.path, stored, provenance(config))
         now = time.monotonic()
         cost_done += 1 / run.spec.f_omega
         cost_left -= 1 / run.spec.f_omega
         seconds_left = (now - start) * max(cost_left, 0.0) / cost_done
-        report(RunDone(number, len(missing), run.file, result.status, now - run_start, seconds_left))
+        report(
+            RunDone(
+                number, len(missing), run.file, stored.attributes["status"], now - run_start, seconds_left
+            )
+        )
     return {file: _done(entry, checksums.get(file)) for file, entry in entries.items()}
 
 

@@ -4,6 +4,7 @@ from collections.abc import Mapping
 from dataclasses import asdict, dataclass, replace
 from typing import Any
 
+from bladerub.contact.row_spec import Row
 from bladerub.contact.spec import RunSpec
 from bladerub.io.sources import solver_digest, storage_digest
 from bladerub.study import cache
@@ -24,6 +25,7 @@ class PlannedRun:
     file: str  # in the folder of its coating
     keep_history: bool  # whether the whole radial displacement of node 1 is stored
     determinants: str  # digest of all that determines the file but the blade; other runs have no part in it
+    row: Row | None = None  # the blades, where there is more than the one
 
     def key(self, blade_digest: str) -> str:
         """Key of this run of the blade with that digest (`bladerub.study.cache.blade_digest`)."""
@@ -38,7 +40,9 @@ class CoatingPlan:
     runs: tuple[PlannedRun, ...]
 
 
-def planned_run(config: Mapping[str, Any], spec: RunSpec, file: str, keep_history: bool) -> PlannedRun:
+def planned_run(
+    config: Mapping[str, Any], spec: RunSpec, file: str, keep_history: bool, row: Row | None = None
+) -> PlannedRun:
     """Plan one run (see `PlannedRun`); `config` is the study."""
     determinants = {
         "spec": asdict(spec),
@@ -47,7 +51,9 @@ def planned_run(config: Mapping[str, Any], spec: RunSpec, file: str, keep_histor
         "keep_history": bool(keep_history),
         "analysis": {name: float(config["analysis"][name]) for name in SHAPING_SETTINGS},
     }
-    return PlannedRun(spec, file, keep_history, cache.digest(determinants))
+    if row:
+        determinants["row"] = asdict(row)
+    return PlannedRun(spec, file, keep_history, cache.digest(determinants), row)
 
 
 def coating_plan(config: Mapping[str, Any], case: CoatingCase) -> CoatingPlan:
@@ -68,7 +74,7 @@ def growth_key(config: Mapping[str, Any]) -> str:
 def longer_run(config: Mapping[str, Any], run: PlannedRun) -> PlannedRun:
     """Plan the longer run that shows whether the growth of `run` lasts."""
     spec = confirmation_spec(run.spec, config["analysis"]["divergence"])
-    return planned_run(config, spec, f"{CONFIRMATION}/{run.file}", keep_history=False)
+    return planned_run(config, spec, f"{CONFIRMATION}/{run.file}", keep_history=False, row=run.row)
 
 
 def claimed_run(config: Mapping[str, Any], file: str, run: StoredRun) -> PlannedRun:

@@ -1,7 +1,7 @@
 """Runs on disk: one HDF5 file a run."""
 
-from collections.abc import Mapping, Set
-from dataclasses import asdict, dataclass
+from collections.abc import Iterable, Mapping, Set
+from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -9,6 +9,8 @@ import numpy as np
 
 from bladerub.blade.model import interface_node
 from bladerub.contact.result import RunResult
+from bladerub.contact.row import RowResult
+from bladerub.contact.row_spec import Row
 from bladerub.contact.spec import RunSpec
 from bladerub.io import hdf5
 from bladerub.io.errors import DamagedFile
@@ -52,7 +54,24 @@ _DATASETS = {
     **{f"energy_{name}": ((), "J", long_name) for name, long_name in _ENERGIES.items()},
     "revolution": (("revolution",), "1", "time in revolutions from the start"),
     "radial_displacement": (("revolution",), "m", "radial displacement of node 1"),
+    "blade": (("blade",), "1", "number of the blade in the row, counted from 1"),
+    "blade_angle": (("blade",), "rad", "angle by which the blade is ahead of the start"),
+    "blade_length": (("blade",), "m", "tip radius of the blade beyond the nominal one"),
+    "blade_frequency": (("blade",), "1", "relative deviation of the first frequency of the blade"),
+    "blade_damping": (("blade",), "1", "damping ratio of the blade over that of the run"),
+    "blade_peak": (("blade",), "m", "largest absolute radial displacement of node 1, last revolutions"),
+    "blade_amplitude": (
+        ("blade",),
+        "m",
+        "largest half range of the radial displacement of node 1 in a revolution, last revolutions",
+    ),
+    "blade_worn_volume": (("blade",), "m3", "volume of coating that the blade has worn off"),
+    "blade_unbounded": (("blade",), "1", "1 where the blade left the displacement limit"),
+    "blade_energy_residual": (("blade",), "1", "what the ledger of the blade misses, without the disk"),
 }
+
+OF_BLADES = tuple(name for name in _DATASETS if name.startswith("blade_"))
+"""Datasets of a row of blades, a number for each blade."""
 
 MAPPED = {"wear", "spectrum_amplitude", "revolution_peak", "revolution_amplitude"}
 """What the map of a coating needs of each run."""
@@ -124,6 +143,56 @@ def stored_run(
         "message": result.message,
     }
     return StoredRun(attributes, data)
+
+
+def stored_row(
+    case: CoatingCase,
+    spec: RunSpec,
+    row: Row,
+    result: RowResult,
+    run_key: str,
+    analysis: Mapping[str, Any],
+    keep_history: bool,
+) -> StoredRun:
+    """Take from the outcome of a row what is stored of it.
+
+    It is the run of the blade that vibrates most, whose number is the attribute ``blade``, with the energy of
+    the whole row and `OF_BLADES`. Other parameters are those of `stored_run`.
+    """
+    last = slice(-analysis["spectrum_revolutions"], None)
+    amplitude = _largest(each.revolution_amplitude[last] for each in result.blades)
+    left = np.isin(np.arange(1, len(row.blades) + 1), result.unbounded)
+    most = int(np.argmax(np.where(left == left.any(), np.nan_to_num(amplitude), -1.0)))
+    chosen = result.blades[most]
+    told = replace(chosen, energy=result.energy, status=result.status, message=result.message)
+    stored = stored_run(case, spec, told, run_key, analysis, keep_history)
+    counters = ("n_steps", "n_contact_steps", "n_reversed_steps", "n_fallback_steps", "n_unconverged_steps")
+    stored.attributes.update({name: sum(getattr(of, name) for of in result.blades) for name in counters})
+    stored.attributes.update(
+        slowest_sliding=min(of.slowest_sliding for of in result.blades),
+        energy_residual=float(result.residual),
+        disk_energy=float(result.disk_energy),
+        blade=most + 1,
+    )
+    given = {
+        name: np.array([getattr(of, name) for of in row.blades]) for name in ("angle", "length", "damping")
+    }
+    stored.data.update({f"blade_{name}": values for name, values in given.items()})
+    stored.data.update(
+        blade=np.arange(1, len(row.blades) + 1),
+        blade_frequency=np.array([of.frequency_factors(1)[0] - 1 for of in row.blades]),
+        blade_peak=_largest(each.revolution_peak[last] for each in result.blades),
+        blade_amplitude=amplitude,
+        blade_worn_volume=result.worn_volume,
+        blade_unbounded=left.astype(np.int8),
+        blade_energy_residual=np.array([each.energy.residual for each in result.blades]),
+    )
+    return stored
+
+
+def _largest(of_blades: Iterable[np.ndarray]) -> np.ndarray:
+    """Largest of some numbers of each blade; NaN where it has none."""
+    return np.array([np.fmax.reduce(numbers) for numbers in of_blades])
 
 
 def write_run(path: str | Path, run: StoredRun, origin: Mapping[str, str]) -> str:

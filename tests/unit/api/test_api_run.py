@@ -1,8 +1,11 @@
 import numpy as np
+import pandas as pd
 import pytest
 import xarray as xr
 
 import bladerub as br
+from bladerub.study.job import compute_missing
+from bladerub.study.plan import CoatingPlan, planned_run
 
 
 def test_speed_beyond_the_blade_is_named(study, blade):
@@ -58,3 +61,68 @@ def test_run_shows_itself(run):
     assert "<caption>Run</caption>" in run._repr_html_()
     for draw in (run.plot_wear, run.plot_history, run.plot_spectrum):
         assert draw()._repr_html_().startswith("<img")
+
+
+@pytest.fixture(scope="module")
+def row_run(study, blade):
+    row = br.Row.even(3, length=[0.0, 5e-5, -4e-3], frequency=[0.0, 0.01, 0.0])
+    planned = study.run("2nd", E=2, K=0.5, f_omega=0.19, revolutions=3)
+    return br.simulate(blade, planned, row=row)
+
+
+def test_a_row_tells_of_each_blade(study, row_run, tmp_path):
+    blades = row_run.blades
+    assert list(blades.index) == [1, 2, 3]
+    assert list(blades.length) == [0.0, 5e-5, -4e-3]
+    np.testing.assert_allclose(blades.frequency, [0.0, 0.01, 0.0], atol=1e-15)
+    assert blades.worn_volume[3] == blades.peak[3] == 0
+    assert blades.amplitude.idxmax() == row_run.attributes["blade"]
+    assert row_run.revolution_amplitude.max() == blades.amplitude.max()
+    assert row_run.energy.wear > 0
+    assert row_run.attributes["energy_residual"] < 1e-3
+    row_run.write(tmp_path / "row.h5", study.config)
+    read = br.read_run(tmp_path / "row.h5")
+    pd.testing.assert_frame_equal(read.blades, blades)
+    assert row_run.to_xarray()["blade_worn_volume"].dims == ("blade",)
+
+
+def test_a_run_of_one_blade_is_no_row(run):
+    assert run.blades.empty
+
+
+def test_a_row_of_one_blade_is_its_run(study, blade, run):
+    planned = study.run("2nd", E=2, K=0.5, f_omega=0.19, revolutions=run.revolutions)
+    alone, row = (br.simulate(blade, planned, row=row) for row in (None, br.Row.even(1)))
+    for name, values in alone.stored.data.items():
+        np.testing.assert_array_equal(row.stored.data[name], values, err_msg=name)
+    assert alone.attributes["run_key"] != row.attributes["run_key"]
+
+
+def test_a_row_that_is_too_dense_is_refused(study, blade):
+    with pytest.raises(ValueError, match="blades 1 and 2 are 6 of 2000 coating elements apart"):
+        br.simulate(blade, study.run("2nd", E=2, K=0.5, f_omega=0.19), row=br.Row.even(300))
+
+
+def test_rows_are_computed_once_and_again_when_their_blades_change(study, blade, tmp_path):
+    planned = study.run("2nd", E=2, K=0.5, f_omega=0.19, revolutions=3).of_length(blade.length)
+
+    def made(rows):
+        """Files computed, with these rows planned."""
+        runs = [
+            planned_run(planned.config, planned.spec, f"{number}.h5", False, row)
+            for number, row in enumerate(rows)
+        ]
+        lines = []
+        coating = CoatingPlan(planned.case, tuple(runs))
+        compute_missing(planned.config, coating, blade.reduced, tmp_path, blade.digest, lines.append)
+        return [line.file for line in lines]
+
+    rows = [br.Row.drawn(2, seed, length_scatter=2e-5) for seed in range(3)]
+    assert made(rows) == ["0.h5", "1.h5", "2.h5"]
+    first = br.read_run(tmp_path / "0.h5")
+    assert made(rows) == []
+    (tmp_path / "1.h5").unlink()
+    assert made(rows) == ["1.h5"]
+    assert made([br.Row.drawn(2, 0, length_scatter=4e-5), *rows[1:]]) == ["0.h5"]
+    assert made(rows) == []  # back from the archive
+    pd.testing.assert_frame_equal(br.read_run(tmp_path / "0.h5").blades, first.blades)

@@ -5,6 +5,7 @@ import re
 import subprocess
 import sys
 
+import numpy as np
 import pytest
 
 from bladerub import __version__
@@ -183,6 +184,46 @@ def test_an_ensemble_without_members_is_refused(small, blade_file, capsys):
     assert "--ensemble = 0: must be at least 1" in capsys.readouterr().err
 
 
+def test_a_row_shows_its_blades(small, blade_file, folder, capsys):
+    output = folder / "row.h5"
+    given = ["--blades", "3", "--length-scatter", "2e-5", "--frequency-scatter", "0.01", "--coupling", "0.01"]
+
+    def shown(*more):
+        assert main([*RUN, *small, *given, "--json", *more]) == 0
+        return json.loads(capsys.readouterr().out)
+
+    found = shown("--output", str(output))
+    blades = {
+        name: [of[name] for of in found["blades"]] for name in ("blade", "length", "frequency", "amplitude")
+    }
+    assert blades["blade"] == [1, 2, 3]
+    assert len(set(blades["length"])) == len(set(blades["frequency"])) == 3
+    assert found["blade"] == 1 + blades["amplitude"].index(max(blades["amplitude"]))
+    stored = read_run(output)
+    assert stored.attributes["disk_energy"] != 0
+    np.testing.assert_array_equal(stored.data["blade_length"], blades["length"])
+    assert shown("--seed", "2")["blades"] != found["blades"]
+
+
+def test_a_row_in_words(small, blade_file, capsys):
+    assert main([*RUN, *small, "--blades", "2"]) == 0
+    table = capsys.readouterr().out.partition("a row of 2, above blade ")[2].splitlines()
+    assert table[1].split() == [
+        "blade",
+        "length,",
+        "µm",
+        "frequency,",
+        "%",
+        "peak,",
+        "mm",
+        "amplitude,",
+        "mm",
+        "worn,",
+        "cm³",
+    ]
+    assert [line.split()[:2] for line in table[2:]] == [["1", "0.0"], ["2", "0.0"]]
+
+
 @pytest.mark.parametrize(("friction", "options"), [(0.0, []), (0.15, ["--friction", "0.15"])])
 def test_run_on_the_rigid_casing_wears_nothing(small, blade_file, folder, capsys, friction, options):
     path = folder / "rigid.h5"
@@ -271,6 +312,15 @@ def without(option):
         (changed("--theta", "15"), "--theta = 15: angle of the abradable elements must be a number from 0"),
         (changed("--f", "-0.1"), "--f = -0.1: speed must be a number from 0.001 to 2 (normalised)"),
         (changed("--f", "0.41"), "--f = 0.41: must be at most reduction.f_omega_max = 0.4 (normalised)"),
+        ([*RUN, "--blades", "0"], "--blades = 0: must be at least 1"),
+        ([*RUN, "--blades", "300"], "row: blades 1 and 2 are 6 of 2000 coating elements apart"),
+        (
+            [*RUN, "--blades", "3", "--ensemble", "2"],
+            "--ensemble = 2: not with --blades; give another --seed",
+        ),
+        ([*RUN, "--blades", "3", "--seed", "-1"], "--seed = -1: must be 0 or more"),
+        ([*RUN, "--blades", "3", "--length-scatter", "nan"], "--length-scatter = nan: must be 0 or more"),
+        ([*RUN, "--coupling", "0.1"], "--coupling = 0.1: goes with --blades only"),
         ([*RUN, "--revolutions", "1"], "--revolutions = 1: must be from 2 to 10000"),
         ([*RUN, "--blade", "no.h5"], "no.h5: No such file or directory"),
         ([*RUN, "--blade", __file__], "not a readable HDF5 file"),
@@ -324,7 +374,7 @@ def test_interruption_leaves_no_traceback(small, blade_file, monkeypatch, capsys
     def interrupted(*_, **__):
         raise KeyboardInterrupt
 
-    monkeypatch.setattr("bladerub.contact.run.simulate", interrupted)
+    monkeypatch.setattr("bladerub.study.job.simulate", interrupted)
     assert told(capsys, [*RUN, *small]) == (130, "bladerub run: interrupted\n")
 
 

@@ -172,6 +172,14 @@ def test_a_coupled_row_vibrates_at_the_frequency_of_its_nodal_diameter(blade, sp
         np.testing.assert_allclose(each.radial_displacement, expected, rtol=0, atol=1e-4 * start)
 
 
+def test_blades_of_a_coupled_row_may_resolve_different_numbers_of_modes(blade, spec, change):
+    spec = change(spec, steps_per_element=2, max_time_step=1e-3)
+    row = Row.even(2, frequency=[0.0, 0.5], disk=Disk.ring(2, [0.01]))
+    found = simulate_row(blade, spec, row)
+    assert found.blades[0].n_modes != found.blades[1].n_modes
+    assert found.disk_energy > 0
+
+
 @pytest.mark.parametrize("turns", [False, True])
 def test_the_ledger_closes_with_the_disk_in_it(blade, spec, change, turns):
     blade = dataclasses.replace(blade, tip_slope=np.full((8, len(blade.mass)), -3.0))
@@ -259,6 +267,11 @@ def test_progress_counts_the_revolutions_that_all_have_done(blade, spec):
         (lambda: Row.even(3, length=[1e-5, 0.0]), "2 values of length; must be 1 or 3"),
         (lambda: Row((RowBlade(0.0, np.nan),)), "length = nan; must be a finite number"),
         (lambda: Row.even(2, frequency=[0.0, -1.0]), "blade 2: frequency = -1"),
+        (
+            lambda: Row.drawn(2, 1, length_scatter=-1e-5),
+            "length_scatter = -1e-05; must be a finite number, 0 or",
+        ),
+        (lambda: Row.drawn(0, 1), "0 blades"),
         (lambda: Row.even(2, damping=-0.5), "blade 1: damping = -0.5"),
         (lambda: Row.even(2, frequency=[[0.0, np.inf], [0.0, 0.0]]), "blade 1: frequency = "),
         (lambda: Row.even(2, length=[[0.0], [0.0]]), "2 x 1 values of length; must be 1 or 2"),
@@ -297,3 +310,17 @@ def test_a_blade_that_touches_all_around_is_refused(blade, spec):
 def test_a_disk_that_the_loop_cannot_have_is_refused(blade, spec, stiffness, message):
     with pytest.raises(ValueError, match=message):
         simulate_row(blade, spec, Row.even(2, disk=Disk.of(stiffness)))
+
+
+def test_draws_have_their_scatter_and_grow_with_it():
+    row = Row.drawn(4000, 1, 2e-5, 0.005)
+    length, frequency = (
+        np.array([getattr(of, name) for of in row.blades]) for name in ("length", "frequency")
+    )
+    assert np.std(length) == pytest.approx(2e-5, rel=0.05)
+    assert np.std(frequency) == pytest.approx(0.005, rel=0.05)
+    assert abs(np.corrcoef(length, frequency)[0, 1]) < 0.05
+    twice = Row.drawn(4000, 1, 4e-5, 0.005)
+    np.testing.assert_allclose([of.length for of in twice.blades], 2 * length)
+    assert Row.drawn(4, 2, 2e-5) != Row.drawn(4, 1, 2e-5)
+    assert Row.drawn(3, 5) == Row.even(3)

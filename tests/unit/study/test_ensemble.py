@@ -39,7 +39,7 @@ def made(study, coating, blade, make_result, monkeypatch, tmp_path):
     """Make the ensembles of the coating by a stand-in for the solver, whose runs are listed as specs."""
     specs = []
 
-    def simulate(_, spec):
+    def simulate(_, spec, progress=None):
         specs.append(spec)
         grows = spec.f_omega == 0.2 and spec.initial_displacement > 0 and spec.revolutions == 20
         height = 1e-3 + 1e3 * spec.initial_displacement

@@ -140,7 +140,7 @@ def test_runs_whose_contact_forces_did_not_converge_are_counted(
 ):
     simulate = job.simulate
 
-    def unconverged(blade, spec):
+    def unconverged(blade, spec, progress=None):
         steps = {0.1: 3, 0.2: 1}.get(spec.f_omega, 0)
         return replace(simulate(blade, spec), n_unconverged_steps=steps, n_fallback_steps=9)
 

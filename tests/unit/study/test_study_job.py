@@ -166,7 +166,9 @@ def test_real_runs_go_from_the_solver_to_the_table(study, case, blade, tmp_path)
 def test_runs_on_the_rigid_casing_go_to_the_tables_as_those_of_infinite_moduli(
     study, blade, make_result, monkeypatch, tmp_path
 ):
-    monkeypatch.setattr(job, "simulate", lambda _, spec: make_result(spec.revolutions, order=4.0, depth=0.0))
+    monkeypatch.setattr(
+        job, "simulate", lambda _, spec, __: make_result(spec.revolutions, order=4.0, depth=0.0)
+    )
     case = CoatingCase.rigid("2nd", 0.15)
     rows = compute_missing(study, coating_plan(study, case), blade, tmp_path, "digest")
     write_manifest(tmp_path / "manifest.tsv", rows)
