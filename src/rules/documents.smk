@@ -80,6 +80,18 @@ use rule images as identification_image with:
         colours=12,
 
 
+use rule images as rotor_image with:
+    input:
+        f"{PLOTS}/rotor.png",
+    output:
+        "docs/images/rotor.png",
+    log:
+        f"{RESULTS}/logs/rotor_image.log",
+    params:
+        colours=8,
+        shrink=2,
+
+
 use rule images as rotor37_images with:
     input:
         [f"{ROTOR37}/figures/{name}.png" for name in ROTOR37_SHOWN],
@@ -167,6 +179,13 @@ use rule docs_data as docs_sweeps with:
         rules.long_runs.output.table,
     log:
         f"{RESULTS}/logs/docs_sweeps.log",
+
+
+use rule docs_data as docs_rotor with:
+    input:
+        rules.rotor_tables.output.table,
+    log:
+        f"{RESULTS}/logs/docs_rotor.log",
 
 
 use rule docs_data as docs_calibration with:

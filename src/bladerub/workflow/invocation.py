@@ -23,8 +23,9 @@ def begin(snakemake_folder: str | Path, results: str | Path) -> IO:
     are of a dead one and are deleted. If another does, they stay, and Snakemake decides by them whether the
     two conflict. (Without that lock, Snakemake's ``nolock``, two would delete each other's files.)
 
-    Second, the manifest of a coating that lists a run which is lost or of another size, and that of a column
-    of the chart with such a point: without its manifest the job is planned again, and computes that alone.
+    Second, the manifest of a coating, or of rows of blades, that lists a run which is lost or of another
+    size, and that of a column of the chart with such a point: without its manifest the job is planned again,
+    and computes that alone.
 
     `snakemake_folder` is ``.snakemake`` of the working directory. Raises an `OSError` if a folder cannot be
     written.
@@ -36,7 +37,8 @@ def begin(snakemake_folder: str | Path, results: str | Path) -> IO:
     elif any(locks.glob("*.lock")):
         shutil.rmtree(locks)
         _print("the last snakemake here was killed; what it had finished is kept")
-    for pattern, kind in (("runs/*/manifest.tsv", ManifestRow), ("chart/columns/*.tsv", PointRow)):
+    manifests = (("runs/*/manifest.tsv", ManifestRow), ("rotor/runs/*/manifest.tsv", ManifestRow))
+    for pattern, kind in (*manifests, ("chart/columns/*.tsv", PointRow)):
         for manifest in sorted(Path(results).glob(pattern)):
             _delete_if_wrong(manifest, kind)
     return stream
@@ -52,7 +54,7 @@ def _delete_if_wrong(manifest: Path, kind: type[Row]) -> None:
             return
         problem = f"{lost[0]}: missing, or not as long as it was written"
     manifest.unlink(missing_ok=True)
-    _print(f"{problem}; its coating is planned again and computes only what is not there")
+    _print(f"{problem}; its job is planned again and computes only what is not there")
 
 
 def _print(line: str) -> None:

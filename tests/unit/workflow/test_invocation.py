@@ -82,7 +82,7 @@ def test_a_manifest_goes_when_it_is_cut_short(begin, manifest, end, capsys):
     manifest.write_bytes(manifest.read_bytes()[:end])
     begin()
     assert not manifest.exists()
-    assert "its coating is planned again" in capsys.readouterr().err
+    assert "its job is planned again" in capsys.readouterr().err
 
 
 def test_preparing_makes_the_folder_and_sweeps_it(tmp_path):

@@ -1,0 +1,71 @@
+"""Rows of blades by the real workflow: complete, restartable, and computed again only where they change."""
+
+import pytest
+import yaml
+
+from bladerub.io import tables
+
+GROUP = {
+    "casing": "2nd",
+    "E": 2,
+    "K": 0.5,
+    "theta": 0.0,
+    "f_omega": [0.19],
+    "blades": [3],
+    "length_scatter": [0, 5.0e-5],
+    "frequency_scatter": [0.01],
+    "coupling": [0.01],
+    "draws": 3,
+}
+PLAN = {"seed": 1, "groups": {"small": GROUP}}
+
+
+def write(workspace, **changes):
+    plan = PLAN | {"groups": {"small": GROUP | changes}}
+    (workspace.folder / "config" / "rotor.yaml").write_text(yaml.safe_dump(plan, sort_keys=False))
+
+
+def test_rows_are_made_once_and_lost_or_changed_ones_alone(copied_study, tiny):
+    write(copied_study)
+    assert copied_study.plan(tiny, "rotor") == {"rotor_combination": 3, "rotor_tables": 1, "rotor": 1}
+    copied_study.build(tiny, "rotor")
+    draws = tables.read(copied_study.results / "tables" / "rotor_draws.csv")
+    table = tables.read(copied_study.results / "tables" / "rotor.csv")
+    assert len(table) == 3
+    assert len(draws) == table.rows.sum() == 2 * 3 + 1
+    assert (draws.energy_residual < 1e-3).all()
+    assert (draws.largest_share.between(1 / draws.blades - 1e-9, 1)).all()
+    alone = table[(table.blades == 1) & (table.frequency_scatter == 0)]
+    assert alone.amplification_median.tolist() == [1.0]
+    assert (copied_study.results / "figures" / "rotor.png").stat().st_size > 10_000
+    assert copied_study.plan(tiny, "rotor") == {}
+
+    folder = next((copied_study.results / "rotor" / "runs").glob("*_n3_l5e-05_d0.01_c0.01"))
+    times = {path.name: path.stat().st_mtime_ns for path in folder.glob("*.h5")}
+    (folder / "0001.h5").unlink()
+    copied_study.build(tiny, "rotor")
+    again = {path.name: path.stat().st_mtime_ns for path in folder.glob("*.h5")}
+    assert {name for name in times if times[name] != again[name]} == {"0001.h5"}
+
+    write(copied_study, draws=4)
+    assert copied_study.plan(tiny, "rotor") == {"rotor_combination": 2, "rotor_tables": 1, "rotor": 1}
+    copied_study.build(tiny, "rotor")
+    assert len(tables.read(copied_study.results / "tables" / "rotor_draws.csv")) == 2 * 4 + 1
+    more = {path.name: path.stat().st_mtime_ns for path in folder.glob("*.h5")}
+    assert {name for name in more if more[name] != again.get(name)} == {"0003.h5"}
+
+
+@pytest.mark.parametrize(
+    ("changes", "problem"),
+    [
+        ({"draws": 0}, "draws = 0: number of draws must be a whole number from 1"),
+        ({"casing": "3nd"}, 'groups.small.casing = "3nd": must be one of the casings, 2nd, 2nd5nd'),
+        ({"f_omega": [0.5]}, "groups.small.f_omega: 0.5: must be at most reduction.f_omega_max = "),
+    ],
+)
+def test_a_bad_plan_is_refused_before_any_work(workspace, tiny, changes, problem):
+    write(workspace, **changes)
+    done = workspace.snakemake("rotor", "--dry-run", config=tiny)
+    assert done.returncode == 2
+    assert problem in done.stderr
+    assert not workspace.results.exists()
