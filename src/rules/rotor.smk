@@ -1,8 +1,10 @@
 # Rows of blades on one coating (docs/explanation/rotor.md). Not part of `all`.
 from functools import cache
 
-ROTOR = "config/rotor.yaml"
-OF_ROWS = f"{RESULTS}/rotor/runs"
+from bladerub.extensions.rotor.plan import PLAN, RUNS
+
+ROTOR = PLAN.as_posix()
+OF_ROWS = f"{RESULTS}/{RUNS.as_posix()}"
 
 
 @cache
@@ -18,17 +20,19 @@ def rotor_plan():
 def rotor_runs(combination):
     """The draws of a combination, as planned runs."""
     with bladerub.io.errors.exit_on_error():
-        return rotor_plan().runs(config, combination).runs
+        return rotor_plan().runs(config, combination)
 
 
 def planned_rows(wildcards):
     """All that determines the rows but the blade: a changed one is a reason to run."""
-    return {run.file: run.determinants for run in rotor_runs(wildcards.combination)}
+    return {
+        run.file: run.determinants for run in rotor_runs(wildcards.combination).runs
+    }
 
 
 def rotor_minutes(wildcards, attempt):
     """As `coating_minutes`, over the blades of the rows."""
-    runs = rotor_runs(wildcards.combination)
+    runs = rotor_runs(wildcards.combination).runs
     revolutions = sum(run.spec.revolutions * len(run.row.blades) for run in runs)
     return attempt * math.ceil((60 + 0.03 * revolutions) / 60)
 
@@ -49,10 +53,10 @@ rule rotor_combination:
         runtime=rotor_minutes,
     params:
         folder=subpath(output[0], parent=True),
-        plan=ROTOR,
+        plan=lambda wildcards: rotor_runs(wildcards.combination),
         planned=planned_rows,
     script:
-        "../scripts/rotor_combination.py"
+        "../scripts/coating.py"
 
 
 def rotor_manifests(wildcards):
@@ -64,11 +68,10 @@ rule rotor_tables:
         manifests=rotor_manifests,
         plan=ROTOR,
         analysing=files_behind("extensions.rotor.summary"),
-        drawing=files_behind("extensions.plots.rotor", "plots.titles"),
     output:
-        **drawn("rotor", "Sweeps and long runs"),
         **described(
             table=shown(f"{TABLES}/rotor.csv", "rotor_table", "Sweeps and long runs"),
+            half=f"{TABLES}/rotor_half.csv",
             draws=f"{TABLES}/rotor_draws.csv",
         ),
     log:
@@ -77,9 +80,36 @@ rule rotor_tables:
         f"{RESULTS}/benchmarks/rotor_tables.tsv"
     params:
         folder=OF_ROWS,
-        dpi=DPI,
+        analysis=config["analysis"],
     script:
         "../scripts/rotor_tables.py"
+
+
+# `rotor` of all combinations, `rotor_sweeps` of those that are swept
+rule rotor_figure:
+    input:
+        table=rules.rotor_tables.output.table,
+        plan=ROTOR,
+        drawing=files_behind("extensions.plots.rotor", "plots.titles"),
+    output:
+        **drawn("rotor", "Sweeps and long runs"),
+    log:
+        f"{RESULTS}/logs/rotor_figure.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/rotor_figure.tsv"
+    params:
+        dpi=DPI,
+    script:
+        "../scripts/rotor_figure.py"
+
+
+use rule rotor_figure as rotor_sweeps_figure with:
+    output:
+        **drawn("rotor_sweeps", "Sweeps and long runs"),
+    log:
+        f"{RESULTS}/logs/rotor_sweeps_figure.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/rotor_sweeps_figure.tsv"
 
 
 localrules:
@@ -90,3 +120,5 @@ rule rotor:
     input:
         rotor_manifests,  # Snakemake replaces no lost one for a table that is there
         rules.rotor_tables.output,
+        rules.rotor_figure.output,
+        lambda wildcards: rules.rotor_sweeps_figure.output if rotor_plan().swept else [],

@@ -1,4 +1,4 @@
-"""Compute the runs of one coating that are missing or stale, then write its manifest."""
+"""Compute the runs of one folder that are missing or stale, then write its manifest."""
 
 from pathlib import Path
 
@@ -13,7 +13,7 @@ job.log_to(snakemake.log[0])
 
 plan = snakemake.params.plan
 folder = Path(snakemake.params.folder)
-progress = of_job(plan.case.name, folder)
+progress = of_job(folder.name, folder)
 rows = compute_missing(
     snakemake.config,
     plan,

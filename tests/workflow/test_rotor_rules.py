@@ -17,7 +17,8 @@ GROUP = {
     "coupling": [0.01],
     "draws": 3,
 }
-PLAN = {"seed": 1, "groups": {"small": GROUP}}
+SWEEP = GROUP | {"f_omega": [0.19, 0.25], "length_scatter": [5.0e-5], "draws": 2}
+PLAN = {"seed": 1, "groups": {"small": GROUP}, "sweeps": {"two speeds": SWEEP}}
 
 
 def write(workspace, **changes):
@@ -27,30 +28,53 @@ def write(workspace, **changes):
 
 def test_rows_are_made_once_and_lost_or_changed_ones_alone(copied_study, tiny):
     write(copied_study)
-    assert copied_study.plan(tiny, "rotor") == {"rotor_combination": 3, "rotor_tables": 1, "rotor": 1}
+    assert copied_study.plan(tiny, "rotor") == {
+        "rotor_combination": 5,
+        "rotor_tables": 1,
+        "rotor_figure": 1,
+        "rotor_sweeps_figure": 1,
+        "rotor": 1,
+    }
     copied_study.build(tiny, "rotor")
     draws = tables.read(copied_study.results / "tables" / "rotor_draws.csv")
     table = tables.read(copied_study.results / "tables" / "rotor.csv")
-    assert len(table) == 3
-    assert len(draws) == table.rows.sum() == 2 * 3 + 1
+    assert len(table) == 5
+    assert len(draws) == table.rows.sum() == 2 * 3 + 1 + 2 + 1
+    half = tables.read(copied_study.results / "tables" / "rotor_half.csv")
+    assert sorted(half.rows) == [1, 1, 1]  # of 3, 3 and 2 draws
     assert (draws.energy_residual < 1e-3).all()
     assert (draws.largest_share.between(1 / draws.blades - 1e-9, 1)).all()
     alone = table[(table.blades == 1) & (table.frequency_scatter == 0)]
-    assert alone.amplification_median.tolist() == [1.0]
-    assert (copied_study.results / "figures" / "rotor.png").stat().st_size > 10_000
+    assert alone.amplification_median.tolist() == [1.0, 1.0]
+    for name in ("rotor", "rotor_sweeps"):
+        assert (copied_study.results / "figures" / f"{name}.png").stat().st_size > 10_000
     assert copied_study.plan(tiny, "rotor") == {}
+
+    counted = copied_study.status()["rows_of_blades"]
+    assert (counted["planned"], counted["done"], counted["longer_planned"]) == (10, 10, 0)
 
     folder = next((copied_study.results / "rotor" / "runs").glob("*_n3_l5e-05_d0.01_c0.01"))
     times = {path.name: path.stat().st_mtime_ns for path in folder.glob("*.h5")}
     (folder / "0001.h5").unlink()
+    (folder / "0002.h5").write_bytes(b"broken")
+    counted = copied_study.status()["rows_of_blades"]
+    assert (counted["planned"], counted["done"], counted["missing"], counted["corrupt"]) == (10, 8, 1, 1)
+    copied_study.status("--discard")
+    assert not (folder / "0002.h5").exists()
     copied_study.build(tiny, "rotor")
     again = {path.name: path.stat().st_mtime_ns for path in folder.glob("*.h5")}
-    assert {name for name in times if times[name] != again[name]} == {"0001.h5"}
+    assert {name for name in times if times[name] != again[name]} == {"0001.h5", "0002.h5"}
 
     write(copied_study, draws=4)
-    assert copied_study.plan(tiny, "rotor") == {"rotor_combination": 2, "rotor_tables": 1, "rotor": 1}
+    assert copied_study.plan(tiny, "rotor") == {
+        "rotor_combination": 2,
+        "rotor_tables": 1,
+        "rotor_figure": 1,
+        "rotor_sweeps_figure": 1,
+        "rotor": 1,
+    }
     copied_study.build(tiny, "rotor")
-    assert len(tables.read(copied_study.results / "tables" / "rotor_draws.csv")) == 2 * 4 + 1
+    assert len(tables.read(copied_study.results / "tables" / "rotor_draws.csv")) == 2 * 4 + 1 + 2 + 1
     more = {path.name: path.stat().st_mtime_ns for path in folder.glob("*.h5")}
     assert {name for name in more if more[name] != again.get(name)} == {"0003.h5"}
 

@@ -84,12 +84,13 @@ class Workspace:
         return self.folder / "results"
 
     def runs(self, pattern: str = "**/[0-9]*.h5") -> dict[str, tuple[int, int]]:
-        """Each whole run below ``results/runs``, with what changes when it is written: inode and time."""
-        folder, whole = self.results / "runs", {}
-        for path in sorted(folder.glob(pattern)):
-            read_run(path)  # under its final name a file is whole at any time
-            status = path.stat()
-            whole[path.relative_to(folder).as_posix()] = (status.st_ino, status.st_mtime_ns)
+        """Each whole run, of a blade or a row, with what changes when it is written: inode and time."""
+        whole = {}
+        for folder in (self.results / "runs", self.results / "rotor" / "runs"):
+            for path in sorted(folder.glob(pattern)):
+                read_run(path)  # under its final name a file is whole at any time
+                status = path.stat()
+                whole[path.relative_to(folder).as_posix()] = (status.st_ino, status.st_mtime_ns)
         return whole
 
     def snakemake(

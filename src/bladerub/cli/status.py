@@ -3,6 +3,7 @@
 import argparse
 import json
 from collections.abc import Mapping
+from pathlib import Path
 from shutil import get_terminal_size
 from typing import Any
 
@@ -60,6 +61,8 @@ def status(options: argparse.Namespace) -> None:
             config, coating_plan(config, case), folder, digest, options.thorough
         )
         damaged += found
+    rows, found = _rows(config, results, digest, options.thorough)
+    damaged += found
     if options.thorough:
         for manifest in sorted((results / "chart" / "columns").glob("*.tsv")):
             damaged += damaged_files(manifest, PointRow)
@@ -69,11 +72,15 @@ def status(options: argparse.Namespace) -> None:
     whole = inventory.total(counts.values())
     if options.json:
         about = {"note": note, "damaged": [str(path) for path in damaged], "discarded": options.discard}
-        print(json.dumps(whole | about | {"coatings": counts}, indent=2))
+        of_rows = {"rows_of_blades": rows} if rows else {}
+        print(json.dumps(whole | about | {"coatings": counts} | of_rows, indent=2))
         return
     _print_table(counts | {"all": whole})
     longer = f"{whole['longer_done']} of {whole['longer_planned']} done"
     print(f"\nlonger runs, where growth is to be confirmed: {longer}")
+    if rows:
+        counted = ", ".join(f"{rows[column]} {column}" for column in _COLUMNS)
+        print(f"rows of blades: {counted}, {rows['bytes'] / 1e6:.1f} MB")
     if whole["unconverged"]:
         print(f"runs with steps whose contact forces did not converge: {whole['unconverged']}")
     if damaged:
@@ -83,6 +90,24 @@ def status(options: argparse.Namespace) -> None:
     for line in (note, *notes):
         if line:
             print(line)
+
+
+def _rows(
+    config: dict[str, Any], results: Path, digest: str | None, thorough: bool
+) -> tuple[dict[str, int] | None, list[Path]]:
+    """Take the inventory of the rows of blades, if any were begun."""
+    from bladerub.extensions.rotor.plan import PLAN, RUNS, read_plan
+    from bladerub.study import inventory
+
+    path = inputs.study_folder() / PLAN
+    if not ((results / RUNS).exists() and path.exists()):
+        return None, []
+    plan, counts, damaged = read_plan(path, config), [], []
+    for name in plan.combinations:
+        found = inventory.take(config, plan.runs(config, name), results / RUNS / name, digest, thorough)
+        counts.append(found[0])
+        damaged += found[1]
+    return inventory.total(counts), damaged
 
 
 def _print_table(counts: Mapping[str, Mapping[str, int]]) -> None:

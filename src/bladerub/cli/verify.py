@@ -1,10 +1,14 @@
 """``bladerub verify``: how accurate the study is, by runs drawn from it."""
 
 import argparse
-from typing import Any
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 from bladerub.cli import inputs
 from bladerub.cli.inputs import InputError, refused
+
+if TYPE_CHECKING:
+    from bladerub.verification.verify import StudyRun
 
 _MEASURES = {"wear_l2": "wear (L2)", "peak": "spectral peak", "revolution_peak": "revolution peak"}
 _STATISTICS = {"median": "median", "p95": "95 %", "max": "worst"}
@@ -21,7 +25,8 @@ def add_to(commands: Any) -> None:
         "four times finer. The relative differences in wear profile (L2), largest spectral amplitude and "
         "peaks of the revolutions are the error of the run. Each is also compared with the paper's scheme at "
         "a fine step. Runs with an error above 1 % are listed. One is flagged as sensitive if runs whose "
-        "starts differ by a ten-thousandth of a millimetre or less spread at least half as much.",
+        "starts differ by a ten-thousandth of a millimetre or less spread at least half as much. In a row of "
+        "blades, the largest difference of a peak is related to the largest peak of its blades.",
         epilog="Speed-up at equal error: the paper's scheme has an error proportional to its step, "
         "measured against the study's scheme with finer steps, in wear (in the spectral peak where nothing "
         "wears). The cost of that scheme at the step at which this is the error of the study's run (at most "
@@ -32,6 +37,8 @@ def add_to(commands: Any) -> None:
     parser.option("--seed", "decides which; 0 or more", int, required=True, metavar="S")
     text = "draw from the runs that tables and claims rest on, such as the peaks, by the maps"
     parser.add_argument("--peaks", action="store_true", help=text)
+    text = "draw from the rows of blades of a plan, such as config/rotor.yaml, instead"
+    parser.option("--rows", text, Path, metavar="PLAN")
     text = "runs at once (default 1); they slow each other down, so that costs are less exact with more"
     parser.option("--jobs", text, int, default=1, metavar="J")
 
@@ -40,12 +47,18 @@ def verify(options: argparse.Namespace) -> None:
     """Verify the runs that the command line asks for, and print the distribution of their errors."""
     config = inputs.read_config(options)
     inputs.require(options, seed=(0, 2**63), jobs=(1, 1000))
+    if options.rows and options.peaks:
+        raise InputError(f"--rows = {options.rows}: not with --peaks, which are of single blades")
 
     from bladerub.verification.report import report
     from bladerub.verification.verify import draw, important_runs, study_runs, verify_runs
 
-    maps = inputs.study_folder() / config["results"] / "maps"
-    runs = important_runs(config, maps) if options.peaks else study_runs(config)
+    if options.rows:
+        runs = _rows(config, options.rows)
+    elif options.peaks:
+        runs = important_runs(config, inputs.study_folder() / config["results"] / "maps")
+    else:
+        runs = study_runs(config)
     with refused(ValueError, because=f"--sample = {options.sample}: "):
         runs = draw(runs, options.sample, options.seed)
     blade = inputs.read_blade(options, config)
@@ -59,6 +72,19 @@ def verify(options: argparse.Namespace) -> None:
         runs_done = verify_runs(blade.reduced, config, runs, options.jobs)
         verified = list(inputs.progress_bar(len(runs), "run", runs_done, quiet=options.json))
     inputs.show(options, {"seed": options.seed, "jobs": options.jobs} | report(verified), _in_words)
+
+
+def _rows(config: dict[str, Any], path: Path) -> "list[StudyRun]":
+    """List every row of the plan at `path`."""
+    from bladerub.extensions.rotor.plan import read_plan
+    from bladerub.verification.verify import StudyRun
+
+    plan = read_plan(path, config)
+    return [
+        StudyRun(of.case, of.f_omega, plan.row(name, draw), f"{name}/{draw:04d}")
+        for name, of in plan.combinations.items()
+        for draw in range(plan.draws[name])
+    ]
 
 
 def _in_words(figures: dict[str, Any]) -> str:

@@ -99,7 +99,7 @@ def take(
             continue
         counts["unbounded"] += found.status == "unbounded"
         counts["unconverged"] += found.unconverged
-        if found.grows:
+        if plan.follow and found.grows:
             counts["longer_planned"] += 1
             counts["longer_done"] += look(longer_run(config, run))[0] == "done"
     counts["bytes"] = sum(sizes.values())

@@ -65,12 +65,12 @@ def compute_missing(
 ) -> list[ManifestRow]:
     """Compute those runs of one coating whose file is missing or stale; return the rows of its manifest.
 
-    A run that grows is then repeated for as many revolutions as the config has for its confirmation (see
-    `bladerub.study.growth`). Each run is written as soon as it is done, so an interrupted job continues where
-    it stopped. Runs that are no longer planned stay, stale ones are archived (`bladerub.study.cache`, whose
-    `blade_digest` is that of the blade). One job at a time works on a folder: another, of another invocation,
-    waits for its end and takes over what it has computed. `report` is called with a line for a log: a
-    `RunDone` after each computed run, or a text before waiting.
+    A run that grows is then repeated, if the `plan` follows growth, for as many revolutions as the config has
+    for its confirmation (see `bladerub.study.growth`). Each run is written as soon as it is done, so an
+    interrupted job continues where it stopped. Runs that are no longer planned stay, stale ones are archived
+    (`bladerub.study.cache`, whose `blade_digest` is that of the blade). One job at a time works on a folder:
+    another, of another invocation, waits for its end and takes over what it has computed. `report` is called
+    with a line for a log: a `RunDone` after each computed run, or a text before waiting.
     """
     folder, settings = Path(folder), config["analysis"]["divergence"]
     complete = partial(_compute, config, plan.case, blade, folder, blade_digest, report)
@@ -79,7 +79,7 @@ def compute_missing(
         growing = [
             run
             for run in plan.runs
-            if needs_confirmation(done[run.file].amplitude, done[run.file].status, settings)
+            if plan.follow and needs_confirmation(done[run.file].amplitude, done[run.file].status, settings)
         ]
         longer = complete([longer_run(config, run) for run in growing])
         key = growth_key(config)

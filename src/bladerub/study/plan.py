@@ -38,6 +38,7 @@ class CoatingPlan:
 
     case: CoatingCase
     runs: tuple[PlannedRun, ...]
+    follow: bool = True  # whether runs that grow are repeated for longer
 
 
 def planned_run(

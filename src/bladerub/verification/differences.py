@@ -1,7 +1,7 @@
 """How much two outcomes of the same run differ."""
 
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -29,14 +29,27 @@ def differences(outcome: RunResult, reference: RunResult, analysis: Mapping[str,
     A difference is 0 where both are zero, infinite where only the reference is; all are infinite if either
     run is unbounded.
     """
-    if "unbounded" in (outcome.status, reference.status):
+    return row_differences([outcome], [reference], analysis)
+
+
+def row_differences(
+    outcome: Sequence[RunResult], reference: Sequence[RunResult], analysis: Mapping[str, Any]
+) -> Differences:
+    """Compare two outcomes of the blades of a row, as `differences`.
+
+    The largest of a peak's differences over the blades is related to the largest of their peaks.
+    """
+    if any(result.status == "unbounded" for result in (*outcome, *reference)):
         return UNBOUNDED
-    peak, reference_peak = (_peak(result, analysis) for result in (outcome, reference))
-    revolutions = np.abs(outcome.revolution_peak - reference.revolution_peak)
+    peak, reference_peak = ([_peak(of, analysis) for of in blades] for blades in (outcome, reference))
+    each, reference_each = (
+        np.array([of.revolution_peak for of in blades]) for blades in (outcome, reference)
+    )
+    wear, reference_wear = outcome[0].wear, reference[0].wear  # shared by all blades
     return Differences(
-        wear_l2=_ratio(np.linalg.norm(outcome.wear - reference.wear), np.linalg.norm(reference.wear)),
-        peak=_ratio(abs(peak - reference_peak), reference_peak),
-        revolution_peak=_ratio(revolutions.max(), reference.revolution_peak.max()),
+        wear_l2=_ratio(np.linalg.norm(wear - reference_wear), np.linalg.norm(reference_wear)),
+        peak=_ratio(np.abs(np.subtract(peak, reference_peak)).max(), max(reference_peak)),
+        revolution_peak=_ratio(np.abs(each - reference_each).max(), reference_each.max()),
     )
 
 

@@ -7,7 +7,8 @@
    difference between the two: the uncertainty of a comparison with it.
 4. *Sensitive* is a run beyond `TOLERANCE` that neighbouring starts change by at least half as much as a
    finer step does. Its error comes from the run rather than from the solver.
-5. *Speed-up at equal error* (`speedup_at_equal_error`): what the paper's scheme would cost at the error of
+5. A row of blades (`StudyRun.row`) is one run: `bladerub.verification.differences.row_differences`.
+6. *Speed-up at equal error* (`speedup_at_equal_error`): what the paper's scheme would cost at the error of
    the study's run, over what the study's run costs.
 """
 
@@ -26,13 +27,15 @@ import numpy as np
 from bladerub.blade.model import ReducedBlade
 from bladerub.contact.modes import modes_at
 from bladerub.contact.result import RunResult
+from bladerub.contact.row import simulate_row
+from bladerub.contact.row_spec import Row
 from bladerub.contact.run import simulate
 from bladerub.contact.setup import compile_kernel
 from bladerub.contact.spec import RunSpec
 from bladerub.study.ensemble import chosen
 from bladerub.study.grid import CoatingCase, coating_cases, run_spec, speed_name, speeds
 from bladerub.study.maps import read_map
-from bladerub.verification.differences import Differences, differences, largest
+from bladerub.verification.differences import Differences, largest, row_differences
 
 TOLERANCE = 0.01
 """Differences beyond this are listed by run."""
@@ -49,15 +52,25 @@ tip is made (some 0.01 mm) and far above rounding."""
 
 
 class StudyRun(NamedTuple):
-    """One point of the study's grid: a coating at a normalised speed."""
+    """One point of the study's grid, a coating at a normalised speed; or a row of blades on it."""
 
     case: CoatingCase
     f_omega: float
+    row: Row | None = None
+    row_name: str = ""
 
     @property
     def name(self) -> str:
         """Path of the run's file below ``runs``, without its suffix: ``2nd_E2_K0.5_theta0/0.1900``."""
-        return f"{self.case.name}/{speed_name(self.f_omega)}"
+        return self.row_name or f"{self.case.name}/{speed_name(self.f_omega)}"
+
+
+class Solved(NamedTuple):
+    """Outcome of a run: of its blade, or of each blade of a row."""
+
+    blades: tuple[RunResult, ...]
+    energy_residual: float
+    seconds: float  # of CPU time
 
 
 class Seconds(NamedTuple):
@@ -148,38 +161,43 @@ def verify_run(blade: ReducedBlade, config: Mapping[str, Any], run: StudyRun) ->
     """
     spec, analysis = run_spec(config, run.case, run.f_omega), config["analysis"]
     passage = 1 / (spec.f_omega * blade.f1_hz * spec.coating.n_elements)
-    outcome, seconds = _timed(blade, spec)
-    steps = round(passage / outcome.time_step)
-    finer, finer_seconds = _timed(blade, _with_steps(spec, REFINEMENT * steps))
+    solve = partial(_solve, blade, run.row)
+    outcome = solve(spec)
+    steps = round(passage / outcome.blades[0].time_step)
+    finer = solve(_with_steps(spec, REFINEMENT * steps))
+
+    def differences(one: Solved, other: Solved) -> Differences:
+        return row_differences(one.blades, other.blades, analysis)
 
     paper = replace(spec, scheme="central_differences")
     longest = STABLE_PART * 2 / modes_at(blade, spec.f_omega).omega[-1]
     paper_steps = math.ceil(passage / longest)
-    paper_outcome, paper_seconds = _timed(blade, _with_steps(paper, paper_steps))
-    paper_finer, paper_finer_seconds = _timed(blade, _with_steps(paper, REFINEMENT * paper_steps))
+    paper_outcome = solve(_with_steps(paper, paper_steps))
+    paper_finer = solve(_with_steps(paper, REFINEMENT * paper_steps))
 
-    error = differences(outcome, finer, analysis)
+    error = differences(outcome, finer)
     spread = None
-    if max(error) > TOLERANCE and outcome.status == "completed":
+    if max(error) > TOLERANCE and outcome.blades[0].status == "completed":
         starts = (replace(spec, initial_displacement=start) for start in NEIGHBOURS)
-        spread = largest(differences(simulate(blade, start), outcome, analysis) for start in starts)
-    own = differences(paper_outcome, paper_finer, analysis)
-    measure = Differences._fields.index("wear_l2" if finer.wear.any() else "peak")
+        spread = largest(differences(solve(start), outcome) for start in starts)
+    own = differences(paper_outcome, paper_finer)
+    measure = Differences._fields.index("wear_l2" if finer.blades[0].wear.any() else "peak")
+    unbounded = "unbounded" in (outcome.blades[0].status, finer.blades[0].status)
     return VerifiedRun(
         run=run,
-        status="completed" if outcome.status == finer.status == "completed" else "unbounded",
+        status="unbounded" if unbounded else "completed",
         error=error,
-        against_paper=differences(outcome, paper_finer, analysis),
+        against_paper=differences(outcome, paper_finer),
         paper_uncertainty=Differences(*(difference / (REFINEMENT - 1) for difference in own)),
         spread=spread,
-        energy_residual=outcome.energy.residual,
-        seconds=Seconds(seconds, finer_seconds, paper_seconds, paper_finer_seconds),
+        energy_residual=outcome.energy_residual,
+        seconds=Seconds(outcome.seconds, finer.seconds, paper_outcome.seconds, paper_finer.seconds),
         speedup=speedup_at_equal_error(
             error[measure],
-            seconds,
-            differences(paper_outcome, finer, analysis)[measure],
-            differences(paper_finer, finer, analysis)[measure],
-            paper_finer_seconds,
+            outcome.seconds,
+            differences(paper_outcome, finer)[measure],
+            differences(paper_finer, finer)[measure],
+            paper_finer.seconds,
         ),
     )
 
@@ -206,7 +224,12 @@ def _with_steps(spec: RunSpec, steps_per_element: int) -> RunSpec:
     return replace(spec, steps_per_element=steps_per_element, max_time_step=math.inf)
 
 
-def _timed(blade: ReducedBlade, spec: RunSpec) -> tuple[RunResult, float]:
+def _solve(blade: ReducedBlade, row: Row | None, spec: RunSpec) -> Solved:
     start = time.thread_time()  # other processes and threads do not count
-    result = simulate(blade, spec)
-    return result, time.thread_time() - start
+    if row is None:
+        result = simulate(blade, spec)
+        return Solved((result,), result.energy.residual, time.thread_time() - start)
+    together = simulate_row(blade, spec, row)
+    seconds = time.thread_time() - start
+    blades = tuple(replace(of, status=together.status) for of in together.blades)
+    return Solved(blades, together.residual, seconds)

@@ -92,6 +92,33 @@ def test_runs_beyond_one_percent_are_named(figures, folder):
         assert isinstance(entry["sensitive"], bool)
 
 
+ROWS = """
+seed: 1
+groups:
+  some: {casing: 2nd, E: 2, K: 0.5, theta: 0.15, f_omega: [0.2, 0.3], blades: [2], length_scatter: [5.0e-5],
+         frequency_scatter: [0.01], coupling: [0, 0.01], draws: 4}
+"""
+
+
+def test_rows_of_blades_are_drawn_from_their_plan(figures, verify, folder, capsys):
+    plan = folder / "rotor.yaml"
+    plan.write_text(ROWS)
+    told = figures("--rows", str(plan), "--sample", "3", "--seed", "1")
+    assert told.keys() == KEYS
+    assert told["n"] == 3
+    assert told["energy_residual"]["max"] < 1e-3
+    assert told["worst"]["wear_l2"].startswith("2nd_E2_K0.5_theta0.15_f0.")
+    assert told == figures("--rows", str(plan), "--sample", "3", "--seed", "1") | {
+        key: told[key] for key in ("seconds", "speedup_at_equal_error")
+    }
+    assert verify("--rows", str(plan), "--sample", "19", "--seed", "1") == 2  # 4 x 4 rows, 2 single blades
+    assert "must be from 1 to 18" in capsys.readouterr().err
+    assert verify("--rows", str(plan), "--sample", "1", "--seed", "1", "--peaks") == 2
+    assert "not with --peaks" in capsys.readouterr().err
+    assert verify("--rows", "no.yaml", "--sample", "1", "--seed", "1") == 2
+    assert "no.yaml: cannot be read" in capsys.readouterr().err
+
+
 def test_in_words(verify, capsys):
     assert verify("--sample", "2", "--seed", "1", "--jobs", "2") == 0
     output = capsys.readouterr()

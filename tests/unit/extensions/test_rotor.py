@@ -6,7 +6,7 @@ import yaml
 from bladerub.config.errors import ConfigError
 from bladerub.config.read import load, validate
 from bladerub.extensions.rotor import summary
-from bladerub.extensions.rotor.plan import Combination, read_plan, without_confirmation
+from bladerub.extensions.rotor.plan import Combination, read_plan
 from bladerub.io.folders import ROOT
 from bladerub.io.tables import described_columns
 from bladerub.study.grid import CoatingCase
@@ -30,7 +30,9 @@ def test_the_plan_has_every_combination_once_and_the_single_blade_beside_it(stud
 def test_draws_are_those_of_their_number_whatever_the_others(study):
     plan = read_plan(ROOT / "config" / "rotor.yaml", study)
     name = Combination(CASE, 0.346, 4, 5e-5, 0.005).name
-    runs = plan.runs(without_confirmation(study), name).runs
+    planned = plan.runs(study, name)
+    runs = planned.runs
+    assert not planned.follow
     assert len(runs) == plan.draws[name]
     assert len({run.determinants for run in runs}) == len(runs)
     twice = Combination(CASE, 0.346, 4, 1e-4, 0.005).row(plan.seed + 7)
@@ -55,6 +57,7 @@ def made(n, **values):
     base |= {"length_scatter": 5e-5, "frequency_scatter": 0.0, "coupling": 0.0, "status": "completed"}
     base |= {"n_unbounded": 0, "row_amplitude": 1e-3, "amplification": 1.0, "longest_amplification": 0.5}
     base |= {"longest_share": 0.3, "largest_share": 0.4, "max_wear": 1e-3, "wear_harmonic": 2}
+    base |= {"wear_harmonic_share": 0.5, "lobes": 4, "divergent": 0}
     base |= {"energy_residual": 1e-5}
     return pd.DataFrame({"draw": range(n)} | {name: [value] * n for name, value in base.items()}).assign(
         **values
@@ -91,3 +94,10 @@ def test_few_draws_have_no_interval():
 
 def test_every_column_is_described():
     assert {*summary.COLUMNS, *summary.DRAWS} <= described_columns().keys()
+
+
+def test_half_of_the_draws_are_the_first_ones_of_each_combination():
+    table = pd.concat([made(5, E=1.1), made(4, E=20.0), made(1, E=5.0)], ignore_index=True)
+    half = summary.first_half(table)
+    assert half[["E", "draw"]].values.tolist() == [[1.1, 0], [1.1, 1], [20.0, 0], [20.0, 1]]
+    assert summary.combinations(half).rows.tolist() == [2, 2]

@@ -4,7 +4,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from bladerub.verification.differences import UNBOUNDED, Differences, differences, largest
+from bladerub.verification.differences import (
+    UNBOUNDED,
+    Differences,
+    differences,
+    largest,
+    row_differences,
+)
 
 
 @pytest.fixture
@@ -52,6 +58,23 @@ def test_a_casing_that_does_not_wear(make_result, compare):
 @pytest.mark.parametrize(("first", "second"), [(None, 3), (3, None), (3, 3)])
 def test_nothing_is_said_of_an_unbounded_run(make_result, compare, first, second):
     assert compare(make_result(complete=first), make_result(complete=second)) == UNBOUNDED
+
+
+def test_the_peaks_of_a_row_are_related_to_the_blade_that_vibrates_most(make_result, config):
+    def row(large, small):
+        wear = make_result(depth=2e-4)
+        return [replace(make_result(amplitude=of), wear=wear.wear) for of in (small, large)]
+
+    found = row_differences(row(1e-3, 2e-5), row(1e-3, 1e-5), config["analysis"])
+    assert found == pytest.approx(Differences(0.0, 0.01, 0.01), rel=1e-6)
+    one = row(1e-3, 1e-5)[0]
+    assert row_differences([one], [one], config["analysis"]) == Differences(0.0, 0.0, 0.0)
+
+
+def test_nothing_is_said_of_a_row_of_which_one_blade_is_unbounded(make_result, config):
+    whole, left = make_result(), make_result(complete=3)
+    assert row_differences([whole, left], [whole, whole], config["analysis"]) == UNBOUNDED
+    assert row_differences([whole, whole], [left, whole], config["analysis"]) == UNBOUNDED
 
 
 def test_largest():

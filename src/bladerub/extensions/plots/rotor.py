@@ -1,5 +1,6 @@
-"""Amplification and shares of the wear in rows of blades."""
+"""Amplification and shares of the wear in rows of blades, and their amplitude over the speed."""
 
+import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -8,6 +9,7 @@ from bladerub.extensions.rotor.plan import Combination, Plan
 from bladerub.extensions.rotor.summary import label
 from bladerub.plots import titles
 from bladerub.plots.style import BLUE, DARK, GREY, ORANGE, PAGE, new_figure, styled
+from bladerub.study.grid import CoatingCase
 
 _PANELS = (
     ("amplification", DARK, "amplitude of the row\n(single blade = 1)"),
@@ -24,7 +26,7 @@ def rotor(plan: Plan, table: pd.DataFrame) -> Figure:
     one.
     """
     groups: dict[tuple, list] = {}
-    for combination in plan.combinations.values():
+    for combination in (plan.combinations[name] for name in plan.compared):
         if combination.blades > 1 or combination != combination.alone:
             groups.setdefault((combination.case, combination.f_omega), []).append(combination)
     widths = [max(len(members), 4) for members in groups.values()]
@@ -61,3 +63,68 @@ def _draw(axes: Axes, name: str, colour: str, own: list[pd.Series], scale: list[
     axes.axhline(1.0, color=GREY, linewidth=0.6)
     axes.grid(axis="y")
     axes.set_ylim(bottom=0)
+
+
+@styled
+def rotor_sweeps(plan: Plan, table: pd.DataFrame) -> Figure:
+    """Draw the amplitude of rows over the speed, beside that of the single blade, and how many rows diverge.
+
+    A column of panels for each coating of the sweeps of `plan`; `table` as of `rotor`.
+    """
+    groups: dict[CoatingCase, list[Combination]] = {}
+    for combination in (plan.combinations[name] for name in plan.swept):
+        groups.setdefault(combination.case, []).append(combination)
+    figure = new_figure(max(PAGE, 1.7 * len(groups) + 0.8), 4.6)
+    panels = figure.subplots(2, len(groups), sharex=True, sharey="row", squeeze=False, height_ratios=(3, 2))
+    by_name = table.set_index([*table.columns[:9]])
+    for (upper, lower), (case, members) in zip(panels.T, groups.items(), strict=True):
+        rows = [
+            by_name.loc[(case.casing, case.E, case.K, case.theta, of.f_omega, *_scatters(of))]
+            for of in sorted(members, key=lambda of: of.f_omega)
+        ]
+        together = pd.DataFrame(rows)
+        speeds = together.index.get_level_values("f_omega")
+        single = together.index.get_level_values("blades") == 1
+        _draw_sweep(upper, lower, together.reset_index(drop=True), speeds.to_numpy(), single)
+        upper.set_title(f"E = {case.E:g}, K = {case.K:g}\nθ = {case.theta:g} rad", fontsize=8)
+    panels[0, 0].set_ylabel("amplitude (mm)")
+    panels[1, 0].set_ylabel("share of the rows")
+    panels[1, 0].set_xlabel(r"rotational frequency $f_\Omega$ (normalised)", loc="left")
+    panels[0, 0].set_ylim(bottom=0)
+    panels[1, 0].set_ylim(-0.03, 1.03)
+    handles = [line for axes in panels[:, 0] for line in axes.get_legend_handles_labels()[0]]
+    figure.legend(handles=handles, loc="outside lower center", ncols=2, fontsize=8)
+    return figure
+
+
+def _draw_sweep(upper: Axes, lower: Axes, rows: pd.DataFrame, speeds: np.ndarray, single: np.ndarray) -> None:
+    alone, drawn = rows[single], rows[~single]
+    upper.plot(
+        speeds[single],
+        1e3 * alone["row_amplitude_median"],
+        "o-",
+        color=GREY,
+        markersize=2.5,
+        linewidth=0.8,
+        label="single nominal blade",
+    )
+    low, middle, high = (1e3 * drawn[f"row_amplitude_{of}"] for of in ("p05", "median", "p95"))
+    upper.errorbar(
+        speeds[~single],
+        middle,
+        (middle - low, high - middle),
+        fmt="o-",
+        color=DARK,
+        markersize=3,
+        linewidth=1.0,
+        elinewidth=0.8,
+        label="row: median, 5 to 95 % of the draws",
+    )
+    for name, colour, look, text in (
+        ("divergent_rows", ORANGE, "s--", "diverge"),
+        ("unbounded_rows", BLUE, "o-", "leave the displacement limit"),
+    ):
+        share = drawn[name] / drawn["rows"]
+        lower.plot(speeds[~single], share, look, color=colour, markersize=3, linewidth=1.0, label=text)
+    for axes in (upper, lower):
+        axes.grid(axis="y")

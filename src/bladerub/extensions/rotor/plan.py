@@ -1,7 +1,7 @@
 """The plan of rows: groups of combinations, each with draws of its blades."""
 
 import itertools
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
@@ -62,32 +62,37 @@ class Combination:
 
 @dataclass(frozen=True)
 class Plan:
-    """A plan as read: combinations by name, each with the number of its draws."""
+    """A plan as read: combinations by name, each with the number of its draws.
+
+    `compared` and `swept` are the combinations of its groups and of its sweeps, by name.
+    """
 
     seed: int
     combinations: dict[str, Combination]
     draws: dict[str, int]
+    compared: tuple[str, ...]
+    swept: tuple[str, ...]
+
+    def row(self, name: str, draw: int) -> Row:
+        """Draw the blades of one row of a combination."""
+        return self.combinations[name].row(self.seed + draw)
 
     def runs(self, config: Mapping[str, Any], name: str) -> CoatingPlan:
-        """Plan the draws of one combination as runs; growth is not followed further.
-
-        `config` is the study; its runs are those of `without_confirmation`.
-        """
+        """Plan the draws of one combination as runs of the study `config`; growth is not followed further."""
         combination = self.combinations[name]
         spec = run_spec(config, combination.case, combination.f_omega)
-        rows = [combination.row(self.seed + draw) for draw in range(self.draws[name])]
         runs = [
-            planned_run(config, spec, f"{draw:04d}.h5", keep_history=False, row=row)
-            for draw, row in enumerate(rows)
+            planned_run(config, spec, f"{draw:04d}.h5", keep_history=False, row=self.row(name, draw))
+            for draw in range(self.draws[name])
         ]
-        return CoatingPlan(combination.case, tuple(runs))
+        return CoatingPlan(combination.case, tuple(runs), follow=False)
 
 
-def without_confirmation(config: Mapping[str, Any]) -> dict[str, Any]:
-    """Return the study `config` in which no run that grows is repeated for longer."""
-    analysis = config["analysis"]
-    divergence = {**analysis["divergence"], "confirmation_revolutions": 0}
-    return {**config, "analysis": {**analysis, "divergence": divergence}}
+PLAN = Path("config/rotor.yaml")
+"""The plan of a study, in its folder."""
+
+RUNS = Path("rotor/runs")
+"""Folder of the rows, a subfolder for each combination, in that of the results."""
 
 
 def read_plan(path: str | Path, config: Mapping[str, Any]) -> Plan:
@@ -98,31 +103,40 @@ def read_plan(path: str | Path, config: Mapping[str, Any]) -> Plan:
     key, value and what would be right.
     """
     located = configuration.read_plan(path, "rotor_plan")
-    for name, group in located.content["groups"].content.items():
-        _check(name, group, config)
-    plan = located.plain()
     combinations: dict[str, Combination] = {}
     draws: dict[str, int] = {}
-    for group in plan["groups"].values():
-        case = CoatingCase(group["casing"], *(float(group[name]) for name in ("E", "K", "theta")))
-        for values in itertools.product(*(group[name] for name in _LISTS)):
-            found = Combination(case, *values)
-            scatters = found.length_scatter or found.frequency_scatter
-            for each, n in ((found.alone, 1), (found, group["draws"] if scatters else 1)):
-                combinations[each.name] = each
-                draws[each.name] = max(n, draws.get(each.name, 0))
-    return Plan(plan["seed"], combinations, draws)
+    members: dict[str, dict[str, None]] = {"groups": {}, "sweeps": {}}
+    for section in members.keys() & located.content.keys():
+        for name, group in located.content[section].content.items():
+            _check(f"{section}.{name}", group, config)
+    plan = located.plain()
+    for section, named in members.items():
+        for group in plan.get(section, {}).values():
+            for found, n in _combinations_of(group):
+                combinations[found.name] = found
+                draws[found.name] = max(n, draws.get(found.name, 0))
+                named[found.name] = None
+    return Plan(plan["seed"], combinations, draws, *map(tuple, members.values()))
+
+
+def _combinations_of(group: Mapping[str, Any]) -> Iterator[tuple[Combination, int]]:
+    """Yield the combinations of a group, and of its single nominal blades, with their numbers of draws."""
+    case = CoatingCase(group["casing"], *(float(group[name]) for name in ("E", "K", "theta")))
+    for values in itertools.product(*(group[name] for name in _LISTS)):
+        found = Combination(case, *values)
+        yield found.alone, 1
+        yield found, group["draws"] if found.length_scatter or found.frequency_scatter else 1
 
 
 def _check(name: str, located: Located, config: Mapping[str, Any]) -> None:
     group, fastest = located.plain(), config["reduction"]["f_omega_max"]
     if group["casing"] not in config["casings"]:
         known = ", ".join(config["casings"])
-        text = f'groups.{name}.casing = "{group["casing"]}": must be one of the casings, {known}'
+        text = f'{name}.casing = "{group["casing"]}": must be one of the casings, {known}'
         raise ConfigError.at(located.location, text)
     for f_omega in group["f_omega"]:
         if f_omega > fastest:
-            text = f"groups.{name}.f_omega: {f_omega:g}: must be at most reduction.f_omega_max = {fastest:g}"
+            text = f"{name}.f_omega: {f_omega:g}: must be at most reduction.f_omega_max = {fastest:g}"
             raise ConfigError.at(located.location, text)
 
 

@@ -2,40 +2,45 @@
 
 from collections.abc import Mapping
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pandas as pd
 from scipy.stats import binom
 
 from bladerub.extensions.rotor.plan import Combination, Plan, described
+from bladerub.study.growth import judge
 from bladerub.study.manifest import read_manifest
 from bladerub.study.store import OF_BLADES, read_run
-from bladerub.study.wear import dominant_harmonic
+from bladerub.study.wear import dominant_harmonic, lobes
 
 _WHAT = ["casing", "E", "K", "theta", "f_omega", "blades"]
 _WHAT += ["length_scatter", "frequency_scatter", "coupling"]
 
 DRAWS = [*_WHAT, "draw", "status", "n_unbounded", "row_amplitude", "amplification", "longest_amplification"]
-DRAWS += ["longest_share", "largest_share", "max_wear", "wear_harmonic", "energy_residual"]
+DRAWS += ["longest_share", "largest_share", "max_wear", "wear_harmonic", "wear_harmonic_share", "lobes"]
+DRAWS += ["divergent", "energy_residual"]
 """Columns of the table of draws."""
 
-COLUMNS = [*_WHAT, "rows", "unbounded_rows"]
-_MEASURED = ("amplification", "longest_amplification", "longest_share", "largest_share")
+COLUMNS = [*_WHAT, "rows", "unbounded_rows", "divergent_rows"]
+_MEASURED = ("row_amplitude", "amplification", "longest_amplification", "longest_share", "largest_share")
+_MEASURED += ("wear_harmonic_share",)
 COLUMNS += [f"{name}_{of}" for name in _MEASURED for of in ("median", "low", "high", "p05", "p95")]
-COLUMNS += ["wear_harmonic", "wear_harmonic_rows", "energy_residual"]
+COLUMNS += ["wear_harmonic", "wear_harmonic_rows", "lobes_lowest", "lobes_highest", "energy_residual"]
 """Columns of the table of combinations."""
 
 
-def draws(plan: Plan, folder: str | Path) -> pd.DataFrame:
+def draws(plan: Plan, folder: str | Path, analysis: Mapping[str, Any]) -> pd.DataFrame:
     """List every draw of `plan`, whose runs are in `folder`: a row each, with `DRAWS`.
 
-    Raises `OSError`, naming the file, if a run is missing or damaged.
+    Lobes are counted and growth is judged by ``config["analysis"]``. Raises `OSError`, naming the file, if a
+    run is missing or damaged.
     """
     alone: dict[str, float] = {}
     rows = []
     for name in sorted(plan.combinations, key=lambda name: plan.combinations[name].blades):
         combination = plan.combinations[name]
-        for draw, of_draw in enumerate(_of_combination(Path(folder) / name)):
+        for draw, of_draw in enumerate(_of_combination(Path(folder) / name, analysis)):
             if combination == combination.alone:
                 alone[name] = of_draw["row_amplitude"]
             nominal = alone[combination.alone.name]
@@ -45,16 +50,18 @@ def draws(plan: Plan, folder: str | Path) -> pd.DataFrame:
     return pd.DataFrame(rows)[DRAWS]
 
 
-def _of_combination(folder: Path) -> list[dict[str, float]]:
-    return [_measure(folder / row.file) for row in read_manifest(folder / "manifest.tsv")]
+def _of_combination(folder: Path, analysis: Mapping[str, Any]) -> list[dict[str, float]]:
+    return [_measure(folder / row.file, analysis) for row in read_manifest(folder / "manifest.tsv")]
 
 
-def _measure(path: Path) -> dict[str, float]:
-    run = read_run(path, {"wear", *OF_BLADES})
+def _measure(path: Path, analysis: Mapping[str, Any]) -> dict[str, float]:
+    run = read_run(path, {"angle", "wear", "revolution_amplitude", *OF_BLADES})
     data, share = run.data, run.data["blade_worn_volume"]
     share = share / share.sum() if share.sum() else np.full(share.size, np.nan)
     length, amplitude = data["blade_length"], data["blade_amplitude"]
     longest = int(np.argmax(length))
+    harmonic, harmonic_share = dominant_harmonic(data["wear"])
+    grown = judge(data["revolution_amplitude"], run.attributes["status"], analysis["divergence"])
     some = 1.0 if np.ptp(length) > 0 else np.nan  # blade is longer than others
     return {
         "status": run.attributes["status"],
@@ -64,7 +71,10 @@ def _measure(path: Path) -> dict[str, float]:
         "longest_share": float(some * share[longest]),
         "largest_share": float(share.max()),
         "max_wear": float(data["wear"].max()),
-        "wear_harmonic": dominant_harmonic(data["wear"])[0],
+        "wear_harmonic": harmonic,
+        "wear_harmonic_share": harmonic_share,
+        "lobes": lobes(data["angle"], data["wear"], analysis["lobe_prominence"]),
+        "divergent": int(grown.divergent),
         "energy_residual": float(run.attributes["energy_residual"]),
     }
 
@@ -76,7 +86,7 @@ def combinations(table: pd.DataFrame) -> pd.DataFrame:
     the distribution, and the 5 and 95 % quantiles. The amplitude of a row that ended early is that of its
     last revolutions, as far as they were made.
     """
-    rows = []
+    rows: list[dict[str, Any]] = []
     for what, of_what in table.groupby(_WHAT, sort=False):
         measures = {name: _quantiles(of_what[name].dropna().to_numpy()) for name in _MEASURED}
         counts = of_what["wear_harmonic"].value_counts()
@@ -86,12 +96,21 @@ def combinations(table: pd.DataFrame) -> pd.DataFrame:
             | {
                 "rows": len(of_what),
                 "unbounded_rows": int((of_what["status"] == "unbounded").sum()),
+                "divergent_rows": int(of_what["divergent"].sum()),
+                "lobes_lowest": int(of_what["lobes"].min()),
+                "lobes_highest": int(of_what["lobes"].max()),
                 "wear_harmonic": int(counts.index[0]),
                 "wear_harmonic_rows": int(counts.iloc[0]),
                 "energy_residual": float(of_what["energy_residual"].max()),
             }
         )
     return pd.DataFrame(rows)[COLUMNS]
+
+
+def first_half(table: pd.DataFrame) -> pd.DataFrame:
+    """Take the first half of the draws of each combination that has two or more, for `combinations`."""
+    n = table.groupby(_WHAT)["draw"].transform("size")
+    return table[(n > 1) & (table["draw"] < n // 2)]
 
 
 def _quantiles(values: np.ndarray) -> Mapping[str, float]:
