@@ -18,7 +18,7 @@ GROUP = {
     "draws": 3,
 }
 SWEEP = GROUP | {"f_omega": [0.19, 0.25], "length_scatter": [5.0e-5], "draws": 2}
-PLAN = {"seed": 1, "groups": {"small": GROUP}, "sweeps": {"two speeds": SWEEP}}
+PLAN = {"seed": 1, "groups": {"small": GROUP}, "sweeps": {"two_speeds": SWEEP}}
 
 
 def write(workspace, **changes):

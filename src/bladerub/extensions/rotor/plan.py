@@ -106,7 +106,7 @@ def read_plan(path: str | Path, config: Mapping[str, Any]) -> Plan:
     combinations: dict[str, Combination] = {}
     draws: dict[str, int] = {}
     members: dict[str, dict[str, None]] = {"groups": {}, "sweeps": {}}
-    for section in members.keys() & located.content.keys():
+    for section in (name for name in members if name in located.content):
         for name, group in located.content[section].content.items():
             _check(f"{section}.{name}", group, config)
     plan = located.plain()
