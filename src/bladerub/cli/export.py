@@ -10,8 +10,10 @@ from bladerub.cli import export_blade, inputs
 from bladerub.cli.inputs import InputError, refused
 
 if TYPE_CHECKING:
+    from bladerub.api.blade import Blade
     from bladerub.blade.model import ReducedBlade
-    from bladerub.contact.recording import Recording
+    from bladerub.contact.recording import Recording, RowRecording
+    from bladerub.contact.row_spec import Row
     from bladerub.study.plan import PlannedRun
     from bladerub.study.store import StoredRun
 
@@ -21,7 +23,7 @@ SAME = 1e-6
 _GOES_WITH = {
     "speeds": ("calculix", "fe_matrices"),
     "matrix_format": ("fe_matrices",),
-    "run": ("vtu",),
+    "run": ("vtu", "animation"),
     "coordinates": ("sections",),
 }
 """Options that need one of others."""
@@ -35,10 +37,11 @@ def add_to(commands: Any) -> None:
         export,
         help="write the blade's motion in a run, or the blade itself, for other programs",
         description="With --vtu: compute a run again from its file, its config and its blade, and write the "
-        "motion of the finite element mesh in its last revolution. The run_key and the peaks of all "
-        "revolutions show that it is the same run. With --calculix, --mesh, --matrices or --fe-matrices: "
-        "write the blade, which is built first if the results folder has none. With --sections: write the "
-        "sections of the config, for which no blade is built.",
+        "motion of the finite element mesh in its last revolution; of a row of blades, that of all, and the "
+        "coating. With --animation: draw the blades and the wear at instants of the whole run. The run_key "
+        "and the peaks of all revolutions show that it is the same run. With --calculix, --mesh, --matrices "
+        "or --fe-matrices: write the blade, which is built first if the results folder has none. With "
+        "--sections: write the sections of the config, for which no blade is built.",
         epilog="Open blade.pvd in ParaView and apply Warp By Vector to displacement. The mesh is the blade "
         "at rest in the rotating frame; displacement (m) is that of each node about its running position, "
         "without the centrifugal displacement; time is in revolutions from the start of the run. Of a run "
@@ -48,6 +51,8 @@ def add_to(commands: Any) -> None:
     form = parser.add_mutually_exclusive_group(required=True)
     text = "a new folder for blade.pvd and a .vtu for each instant"
     form.add_argument("--vtu", type=Path, metavar="DIR", help=text)
+    text = "a new GIF: blades, coating and wear over the whole run, seen along the axis"
+    form.add_argument("--animation", type=Path, metavar="FILE", help=text)
     export_blade.add_to(form)
     text = (
         "of the decks, normalised (default: 0, half of and the highest of the reduced blade); with "
@@ -58,7 +63,7 @@ def add_to(commands: Any) -> None:
     parser.option("--matrix-format", text, choices=("mtx", "npz"))
     text = "of the sections: points of the surface (default), or axial position, radius and angles"
     parser.option("--coordinates", text, choices=export_blade.COORDINATES)
-    text = "instants in the revolution, at most one for each element of the coating (default 100)"
+    text = "instants in the revolution or the animation, at most one for each element (default 100)"
     parser.option("--samples", text, int, default=100, metavar="N")
 
 
@@ -69,9 +74,12 @@ def export(options: argparse.Namespace) -> None:
         if getattr(options, option) and not any(getattr(options, form) for form in forms):
             names = " or ".join(f"--{form.replace('_', '-')}" for form in forms)
             raise InputError(f"--{option.replace('_', '-')}: goes with {names} only")
-    if options.vtu and not options.run:
-        raise InputError("--vtu: needs --run, the run whose motion is written")
-    if options.vtu:
+    for form in ("vtu", "animation"):
+        if getattr(options, form) and not options.run:
+            raise InputError(f"--{form}: needs --run, the run whose motion is written")
+    if options.animation:
+        inputs.show(options, _animation(options, config), _animation_in_words)
+    elif options.vtu:
         inputs.show(options, _motion(options, config), _in_words)
     elif options.sections:
         inputs.show(options, export_blade.write_sections(options, config), export_blade.sections_in_words)
@@ -81,13 +89,71 @@ def export(options: argparse.Namespace) -> None:
 
 def _motion(options: argparse.Namespace, config: dict[str, Any]) -> dict[str, Any]:
     """Write the motion of a run; return what was written."""
-    inputs.require(options, samples=(1, config["contact"]["elements"]))
-    if options.vtu.exists():
-        raise InputError(f"--vtu {options.vtu}: is there already, must be a new folder")
-    inputs.require_writable("vtu", options.vtu)
+    _check_new(options, config, "vtu")
 
     from bladerub.export.vtu import COLLECTION, read_mesh, stress_of, write_motion
     from bladerub.io.provenance import provenance
+
+    run, found = _run_and_blade(options, config)
+    with refused(OSError):
+        mesh = read_mesh(found.mesh_path, found.reduced)
+        stress = stress_of(found.mesh_path, run.attributes["f_omega"])
+    plan = _plan(options, config, run, found.path)
+    recording = _record(options, run, plan, found.reduced)
+    names = ("casing", "E", "K", "theta", "law", "f_omega", "run_key")
+    about = {name: run.attributes[name] for name in names} | provenance(config)
+    angles = [of.angle for of in plan.row.blades] if plan.row else [0.0]
+    with refused(OSError, because=f"--vtu {options.vtu}: cannot be written: "):
+        largest = write_motion(options.vtu, mesh, recording, about, stress, angles)
+    return {
+        "collection": str(options.vtu / COLLECTION),
+        "samples": options.samples,
+        "revolution": recording.revolution_peak.shape[-1],
+        "blades": len(angles),
+        "nodes": len(angles) * len(mesh["points"]),
+        "elements": len(angles) * len(mesh["cells"]),
+        **largest,
+        "bytes": sum(file.stat().st_size for file in options.vtu.iterdir()),
+    }
+
+
+def _animation(options: argparse.Namespace, config: dict[str, Any]) -> dict[str, Any]:
+    """Write the animation of a run; return what was written."""
+    if options.animation.suffix.lower() != ".gif":
+        raise InputError(f"--animation {options.animation}: must end in .gif")
+    _check_new(options, config, "animation")
+
+    from bladerub.contact.row_spec import Row
+    from bladerub.plots.animation import animate
+
+    run, found = _run_and_blade(options, config)
+    plan = _plan(options, config, run, found.path)
+    row = plan.row or Row.even(1)
+    last = _last_revolution(options, run, plan)
+    elements = np.linspace(0, last * plan.spec.coating.n_elements, options.samples + 1)[1:]
+    recording = _record_row(options, run, plan, found.reduced, row, np.rint(elements).astype(int))
+    with refused(OSError, because=f"--animation {options.animation}: cannot be written: "):
+        animate(options.animation, recording, found.reduced, row, run.attributes)
+    return {
+        "animation": str(options.animation),
+        "samples": options.samples,
+        "revolutions": last,
+        "blades": len(row.blades),
+        "greatest_wear": float(recording.wear.max()),
+        "bytes": options.animation.stat().st_size,
+    }
+
+
+def _check_new(options: argparse.Namespace, config: dict[str, Any], form: str) -> None:
+    inputs.require(options, samples=(1, config["contact"]["elements"]))
+    path = getattr(options, form)
+    if path.exists():
+        kind = "folder" if form == "vtu" else "file"
+        raise InputError(f"--{form} {path}: is there already, must be a new {kind}")
+    inputs.require_writable(form, path)
+
+
+def _run_and_blade(options: argparse.Namespace, config: dict[str, Any]) -> "tuple[StoredRun, Blade]":
     from bladerub.study.store import read_run
 
     with refused(OSError, because="--run "):
@@ -95,26 +161,7 @@ def _motion(options: argparse.Namespace, config: dict[str, Any]) -> dict[str, An
     path = inputs.blade_path(options, config)
     if not path.exists():
         raise InputError(f"{path}: is missing; name the blade of the run with --blade, or its --config")
-    found = inputs.read_blade(options, config)
-    path, blade = found.path, found.reduced
-    with refused(OSError):
-        mesh = read_mesh(found.mesh_path, blade)
-        stress = stress_of(found.mesh_path, run.attributes["f_omega"])
-    plan = _plan(options, config, run, path)
-    recording = _record(options, run, plan, blade)
-    names = ("casing", "E", "K", "theta", "law", "f_omega", "run_key")
-    about = {name: run.attributes[name] for name in names} | provenance(config)
-    with refused(OSError, because=f"--vtu {options.vtu}: cannot be written: "):
-        largest = write_motion(options.vtu, mesh, recording, about, stress)
-    return {
-        "collection": str(options.vtu / COLLECTION),
-        "samples": options.samples,
-        "revolution": recording.revolution_peak.size,
-        "nodes": len(mesh["points"]),
-        "elements": len(mesh["cells"]),
-        **largest,
-        "bytes": sum(file.stat().st_size for file in options.vtu.iterdir()),
-    }
+    return run, inputs.read_blade(options, config)
 
 
 def _plan(options: argparse.Namespace, config: dict[str, Any], run: "StoredRun", blade: Path) -> "PlannedRun":
@@ -137,33 +184,69 @@ def _plan(options: argparse.Namespace, config: dict[str, Any], run: "StoredRun",
     return plan
 
 
-def _record(
-    options: argparse.Namespace, run: "StoredRun", plan: "PlannedRun", blade: "ReducedBlade"
-) -> "Recording":
-    from bladerub.contact.recording import record
-    from bladerub.contact.setup import compile_kernel
-
-    peak = run.data["revolution_peak"]
+def _last_revolution(options: argparse.Namespace, run: "StoredRun", plan: "PlannedRun") -> int:
+    """Find the last revolution that the run made to its end."""
     last = plan.spec.revolutions
     if run.attributes["status"] == "unbounded":
-        last = np.count_nonzero(np.isfinite(peak)) - 1
+        last = int(np.count_nonzero(np.isfinite(run.data["revolution_peak"]))) - 1
     if last == 0:
         raise InputError(
             f"--run {options.run}: exceeds the displacement limit in its first revolution, so that no "
             "revolution is complete"
         )
+    return last
+
+
+def _record(
+    options: argparse.Namespace, run: "StoredRun", plan: "PlannedRun", blade: "ReducedBlade"
+) -> "Recording | RowRecording":
+    """Record the last revolution."""
+    from bladerub.contact.recording import record
+    from bladerub.contact.setup import compile_kernel
+
+    last = _last_revolution(options, run, plan)
+    if plan.row:
+        n_elements = plan.spec.coating.n_elements
+        instants = np.rint(np.linspace((last - 1) * n_elements, last * n_elements, options.samples + 1))
+        return _record_row(options, run, plan, blade, plan.row, instants[1:].astype(int))
     compile_kernel(n_nodes=blade.n_interface)
     with inputs.progress_bar(last, "rev") as bar:
         recording = record(
             blade, plan.spec, last, options.samples, progress=lambda done: bar.update(done - bar.n)
         )
-    difference = np.max(np.abs(recording.revolution_peak - peak[:last]))
-    if not difference <= SAME * np.max(peak[:last]):
+    _check_same(options, recording.revolution_peak, run.data["revolution_peak"])
+    return recording
+
+
+def _record_row(
+    options: argparse.Namespace,
+    run: "StoredRun",
+    plan: "PlannedRun",
+    blade: "ReducedBlade",
+    row: "Row",
+    instants: np.ndarray,
+) -> "RowRecording":
+    from bladerub.contact.recording import record_row
+    from bladerub.contact.setup import compile_kernel
+
+    compile_kernel(n_nodes=blade.n_interface)
+    with inputs.progress_bar(int(instants[-1]) // plan.spec.coating.n_elements, "rev") as bar:
+        recording = record_row(
+            blade, plan.spec, row, instants.tolist(), progress=lambda done: bar.update(done - bar.n)
+        )
+    most = run.attributes.get("blade", 1) - 1  # whose peaks are stored
+    _check_same(options, recording.revolution_peak[most], run.data["revolution_peak"])
+    return recording
+
+
+def _check_same(options: argparse.Namespace, computed: np.ndarray, stored: np.ndarray) -> None:
+    stored = stored[: computed.size]
+    difference = np.max(np.abs(computed - stored))
+    if not difference <= SAME * np.max(stored):
         raise InputError(
             f"--run {options.run}: computed again, its peaks differ by {difference:.2g} m: it was made on "
             "another kind of machine or with other packages; compute it here with bladerub run --output"
         )
-    return recording
 
 
 def _in_words(figures: dict[str, Any]) -> str:
@@ -175,12 +258,22 @@ def _in_words(figures: dict[str, Any]) -> str:
             f"after {figures['largest_von_mises_time']:.3f} revolutions, "
             f"largest principal stress {figures['largest_principal'] / 1e6:.4g} MPa"
         )
+    several = f" of {figures['blades']} blades" if figures["blades"] > 1 else ""
     return "\n".join(
         [
             f"{figures['samples']} instants of revolution {figures['revolution']}, "
-            f"{figures['nodes']} nodes, {figures['elements']} elements, {figures['bytes'] / 1e6:.3g} MB",
+            f"{figures['nodes']} nodes, {figures['elements']} elements{several}, "
+            f"{figures['bytes'] / 1e6:.3g} MB",
             f"largest displacement {figures['largest_displacement'] * 1e3:.4g} mm",
             stress,
             f"open {figures['collection']} in ParaView",
         ]
+    )
+
+
+def _animation_in_words(figures: dict[str, Any]) -> str:
+    return (
+        f"{figures['samples']} instants of {figures['revolutions']} revolutions, {figures['blades']} blades, "
+        f"greatest wear {1e3 * figures['greatest_wear']:.4g} mm: {figures['animation']}, "
+        f"{figures['bytes'] / 1e6:.3g} MB"
     )

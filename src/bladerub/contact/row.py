@@ -28,7 +28,6 @@ from bladerub.contact.modes import Modes, modes_at, tip_radii
 from bladerub.contact.result import Energy, RunResult
 from bladerub.contact.row_spec import Row, RowBlade
 from bladerub.contact.run import run_result
-from bladerub.contact.schemes import Recurrence
 from bladerub.contact.setup import Seat, element_area, set_up_modes
 from bladerub.contact.spec import RunSpec
 from bladerub.numerics.lanes import lanes_for, module_for
@@ -113,17 +112,8 @@ def simulate_row(
         all around the casing, or the disk couples modes that the scheme does not resolve, that are too fast
         for its impulses or that it makes unstable.
     """
+    seats, simulation, begins = set_up_row(blade, spec, row)
     modes = modes_at(blade, spec.f_omega, spec)
-    seats: list[_Seat] = []
-    for own in row.blades:
-        seats.append(_Seat(blade, spec, modes, own, seats[0].simulation.state.wear if seats else None))
-    _check_distances(blade, spec, seats)
-    begins = [seat.first_clear() if len(seats) > 1 else 0 for seat in seats]
-    kernel = module_for(lanes_for(blade.n_interface), "contact.kernel.row")
-    coupling = _coupling(spec, modes, row, [seat.rule for seat in seats], seats)
-    simulation = kernel.RowSimulation(
-        [seat.simulation for seat in seats], [seat.row for seat in seats], begins, coupling
-    )
     stored = partial(_stored, row, modes, seats)
     initial = stored()
     _march(spec, seats, simulation, begins, progress)
@@ -149,6 +139,27 @@ def simulate_row(
         disk_work=simulation.work,
         disk_energy=stored() - initial,
     )
+
+
+def set_up_row(
+    blade: ReducedBlade, spec: RunSpec, row: Row
+) -> "tuple[list[_Seat], RowSimulation, list[int]]":
+    """Set up the blades of a row and the loop that integrates them together; raises as `simulate_row`.
+
+    With them come the numbers of elements that pass before each blade moves.
+    """
+    modes = modes_at(blade, spec.f_omega, spec)
+    seats: list[_Seat] = []
+    for own in row.blades:
+        seats.append(_Seat(blade, spec, modes, own, seats[0].simulation.state.wear if seats else None))
+    _check_distances(blade, spec, seats)
+    begins = [seat.first_clear() if len(seats) > 1 else 0 for seat in seats]
+    kernel = module_for(lanes_for(blade.n_interface), "contact.kernel.row")
+    coupling = _coupling(spec, modes, row, seats)
+    simulation = kernel.RowSimulation(
+        [seat.simulation for seat in seats], [seat.row for seat in seats], begins, coupling
+    )
+    return seats, simulation, begins
 
 
 def row_frequencies(blade: ReducedBlade, f_omega: float, row: Row) -> np.ndarray:
@@ -185,9 +196,9 @@ class _Seat:
         position = own.angle % _TURN / _TURN * n_elements
         self.spec = replace(spec, damping_ratio=spec.damping_ratio * own.damping)
         self.row = int(position)  # of the shared coating, which it passes at the start
-        own_modes = modes._replace(omega=modes.omega * own.frequency_factors(modes.omega.size))
+        self.modes = modes._replace(omega=modes.omega * own.frequency_factors(modes.omega.size))
         seat = Seat(position - self.row, own.length, wear)
-        self.rule, self.simulation = set_up_modes(own_modes, blade, self.spec, seat)
+        self.rule, self.simulation = set_up_modes(self.modes, blade, self.spec, seat)
         self.initial = sum(energy.blade_energy(self.rule, self.simulation.state))
         self.history = History(spec.revolutions, n_elements)
 
@@ -216,10 +227,9 @@ def _check_distances(blade: ReducedBlade, spec: RunSpec, seats: Sequence[_Seat])
             )
 
 
-def _coupling(
-    spec: RunSpec, modes: Modes, row: Row, rules: Sequence[Recurrence], seats: Sequence[_Seat]
-) -> Coupling:
+def _coupling(spec: RunSpec, modes: Modes, row: Row, seats: Sequence[_Seat]) -> Coupling:
     """Describe the disk for the time loop."""
+    rules = [seat.rule for seat in seats]
     matrices, n_blades = row.disk.stiffness if row.disk else (), len(rules)
     n, impulse = len(matrices), np.zeros((len(matrices), n_blades, n_blades))
     resolved = min(rule.omega.size for rule in rules)

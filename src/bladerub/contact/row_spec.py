@@ -1,7 +1,8 @@
 """What a row of blades is: what distinguishes its blades, and the disk between them."""
 
+import json
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from typing import Self
 
 import numpy as np
@@ -105,6 +106,8 @@ class Row:
     >>> drawn = br.Row.drawn(12, seed=1, length_scatter=2e-5, frequency_scatter=0.005)
     >>> len(drawn.blades), drawn == br.Row.drawn(12, seed=1, length_scatter=2e-5, frequency_scatter=0.005)
     (12, True)
+    >>> br.Row.from_json(row.to_json()) == row
+    True
     """
 
     blades: tuple[RowBlade, ...]
@@ -131,6 +134,21 @@ class Row:
                 )
             if not (np.isfinite(values).all() and np.allclose(values, values.T, rtol=1e-9, atol=0)):
                 raise ValueError(f"row, disk, mode {mode}: must be a symmetric matrix of finite numbers")
+
+    def to_json(self) -> str:
+        """Describe the row by JSON, for `from_json`."""
+        return json.dumps(asdict(self), sort_keys=True)
+
+    @classmethod
+    def from_json(cls, text: str) -> Self:
+        """Read what `to_json` wrote; raises `KeyError`, `TypeError` or `ValueError` on anything else."""
+        given = json.loads(text)
+        blades = []
+        for each in given["blades"]:
+            if isinstance(each["frequency"], list):
+                each["frequency"] = tuple(each["frequency"])
+            blades.append(RowBlade(**each))
+        return cls(tuple(blades), given["disk"] and Disk.of(given["disk"]["stiffness"]))
 
     @classmethod
     def even(

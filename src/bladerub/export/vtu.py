@@ -1,4 +1,4 @@
-"""The motion of the blade for ParaView: a mesh file for each instant, and the collection of all.
+"""The motion of the blade, or of a row, for ParaView: mesh files for each instant, and the collection of all.
 
 The mesh is that at rest in the rotating frame; ``displacement`` is the increment of each node about its
 running position, as in the run, so without the centrifugal displacement and without the rotation. The stress
@@ -9,7 +9,7 @@ import json
 import os
 import shutil
 import xml.etree.ElementTree as ET
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -19,7 +19,7 @@ import numpy as np
 from bladerub.blade.elasticity import Material
 from bladerub.blade.model import ReducedBlade
 from bladerub.blade.stress import NodalStress, running_displacement, von_mises
-from bladerub.contact.recording import Recording
+from bladerub.contact.recording import Recording, RowRecording
 from bladerub.export.mesh_file import block
 from bladerub.io import hdf5
 
@@ -64,14 +64,16 @@ def stress_of(path: str | Path, f_omega: float) -> NodalStress | None:
 def write_motion(
     folder: str | Path,
     mesh: Mapping[str, np.ndarray],
-    recording: Recording,
+    recording: Recording | RowRecording,
     about: Mapping[str, str],
     stress: NodalStress | None,
+    angles: Sequence[float] = (0.0,),
 ) -> dict[str, Any]:
     """Write a recorded motion to a new folder, whole or not at all.
 
     `mesh` is from `read_mesh`, `stress` from `stress_of`; `about` is what the motion is and where it comes
-    from, for a comment in the collection. Returns ``largest_displacement`` (m) and, with `stress`,
+    from, for a comment in the collection. Of a row, `angles` are those of its blades on the disk (rad), and
+    the coating is written with them. Returns ``largest_displacement`` (m) and, with `stress`,
     ``largest_von_mises`` and ``largest_principal`` (Pa), each with its place (m, at rest) and time
     (revolutions).
     """
@@ -79,29 +81,60 @@ def write_motion(
     folder.parent.mkdir(parents=True, exist_ok=True)
     temporary = folder.with_name(f".{folder.name}.{os.getpid()}.tmp")
     temporary.mkdir()
+    turns = [_turn(angle) for angle in angles]
+    points = np.concatenate([mesh["points"] @ turn for turn in turns])
+    n_points, cells = len(mesh["points"]), mesh["cells"]
+    all_cells = np.concatenate([cells + number * n_points for number in range(len(turns))])
     try:
-        names: list[str] = []
+        names: list[list[str]] = []
         largest: dict[str, Any] = {"largest_displacement": 0.0}
-        for number, (coordinates, time) in enumerate(
-            zip(recording.coordinates, recording.time, strict=True), 1
-        ):
-            displacement = np.tensordot(coordinates, mesh["recovery"], axes=1).astype(np.float32)
-            norm = float(np.linalg.norm(displacement, axis=1).max())
-            largest["largest_displacement"] = max(largest["largest_displacement"], norm)
-            fields = _stress_fields(stress, displacement)
-            for name, values in fields.items():
-                _note(largest, f"largest_{name}", values, mesh["points"], time)
-            names.append(f"blade_{number:04}.vtu")
+        instants = zip(recording.coordinates, recording.time, strict=True)
+        for number, (coordinates, time) in enumerate(instants, 1):
+            fields: dict[str, list[np.ndarray]] = {}
+            for own, turn in zip(np.atleast_2d(coordinates), turns, strict=True):
+                displacement = np.tensordot(own, mesh["recovery"], axes=1).astype(np.float32)
+                norm = float(np.linalg.norm(displacement, axis=1).max())
+                largest["largest_displacement"] = max(largest["largest_displacement"], norm)
+                turned = (displacement @ turn).astype(np.float32)
+                for name, values in ({"displacement": turned} | _stress_fields(stress, displacement)).items():
+                    fields.setdefault(name, []).append(values)
+            data = {name: np.concatenate(values) for name, values in fields.items()}
+            for name in data.keys() - {"displacement"}:
+                _note(largest, f"largest_{name}", data[name], points, time)
+            names.append([f"blade_{number:04}.vtu"])
             meshio.Mesh(
-                mesh["points"],
-                [block(mesh["points"], mesh["cells"])],  # nodes in the order of VTK already
-                point_data={"displacement": displacement} | fields,
-            ).write(temporary / names[-1])
+                points,
+                [block(points, all_cells)],  # nodes in the order of VTK already
+                point_data=data,
+            ).write(temporary / names[-1][0])
+            if isinstance(recording, RowRecording):
+                names[-1].append(f"coating_{number:04}.vtu")
+                _ring(mesh, recording.wear[number - 1], time).write(temporary / names[-1][1])
         _write_collection(temporary / COLLECTION, names, recording.time, about)
         os.rename(temporary, folder)
     finally:
         shutil.rmtree(temporary, ignore_errors=True)
     return largest
+
+
+def _turn(angle: float) -> np.ndarray:
+    """Matrix (3, 3) by which points (n, 3) are multiplied to turn them with the rotation."""
+    cosine, sine = np.cos(angle), np.sin(angle)
+    return np.array([[1.0, 0.0, 0.0], [0.0, cosine, -sine], [0.0, sine, cosine]])
+
+
+def _ring(mesh: Mapping[str, np.ndarray], wear: np.ndarray, time: float) -> meshio.Mesh:
+    """Make the surface of the coating, through the nodes of the tip at rest, with its `wear` (8, n)."""
+    tip = mesh["points"][mesh["interface_nodes"]]
+    n_nodes, n_elements = wear.shape
+    angle = 2 * np.pi * ((np.arange(n_elements) + 0.5) / n_elements - time)  # as the rotating frame sees it
+    radius = np.hypot(tip[:, 1], tip[:, 2])[:, None]
+    axial = np.broadcast_to(tip[:, :1], wear.shape)
+    points = np.stack([axial, radius * np.sin(angle), radius * np.cos(angle)], axis=-1).reshape(-1, 3)
+    number = np.arange(n_nodes * n_elements).reshape(wear.shape)
+    ahead = np.roll(number, -1, axis=1)
+    cells = np.stack([number[:-1], number[1:], ahead[1:], ahead[:-1]], axis=-1).reshape(-1, 4)
+    return meshio.Mesh(points, [("quad", cells)], point_data={"wear": wear.ravel().astype(np.float32)})
 
 
 def _stress_fields(stress: NodalStress | None, displacement: np.ndarray) -> dict[str, np.ndarray]:
@@ -120,12 +153,13 @@ def _note(largest: dict[str, Any], name: str, values: np.ndarray, points: np.nda
         largest.update({name: float(values[node])} | place)
 
 
-def _write_collection(path: Path, names: list[str], time: np.ndarray, about: Mapping[str, str]) -> None:
+def _write_collection(path: Path, names: list[list[str]], time: np.ndarray, about: Mapping[str, str]) -> None:
     root = ET.Element("VTKFile", type="Collection", version="0.1")
     lines = [_FRAME, *(f"{key}: {value}" for key, value in about.items())]
     root.append(ET.Comment("\n".join(["", *(line.replace("--", "- -") for line in lines), ""])))
     collection = ET.SubElement(root, "Collection")
-    for name, instant in zip(names, time, strict=True):
-        ET.SubElement(collection, "DataSet", timestep=f"{instant:.10g}", part="0", file=name)
+    for parts, instant in zip(names, time, strict=True):
+        for part, name in enumerate(parts):
+            ET.SubElement(collection, "DataSet", timestep=f"{instant:.10g}", part=str(part), file=name)
     ET.indent(root)
     ET.ElementTree(root).write(path, encoding="utf-8", xml_declaration=True)

@@ -88,4 +88,5 @@ def claimed_run(config: Mapping[str, Any], file: str, run: StoredRun) -> Planned
     spec = replace(run_spec(config, case, attributes["f_omega"]), revolutions=attributes["revolutions"])
     shortest = min(analysis["spectrum_revolutions"], spec.revolutions)  # as of a short run asked for alone
     config = {**config, "analysis": {**analysis, "spectrum_revolutions": shortest}}
-    return planned_run(config, spec, file, keep_history="radial_displacement" in run.data)
+    row = Row.from_json(str(run.data["row"])) if "row" in run.data else None
+    return planned_run(config, spec, file, "radial_displacement" in run.data, row)

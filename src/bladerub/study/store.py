@@ -54,6 +54,7 @@ _DATASETS = {
     **{f"energy_{name}": ((), "J", long_name) for name, long_name in _ENERGIES.items()},
     "revolution": (("revolution",), "1", "time in revolutions from the start"),
     "radial_displacement": (("revolution",), "m", "radial displacement of node 1"),
+    "row": ((), "1", "the row of blades, as bladerub.Row.from_json reads it"),
     "blade": (("blade",), "1", "number of the blade in the row, counted from 1"),
     "blade_angle": (("blade",), "rad", "angle by which the blade is ahead of the start"),
     "blade_length": (("blade",), "m", "tip radius of the blade beyond the nominal one"),
@@ -179,6 +180,7 @@ def stored_row(
     }
     stored.data.update({f"blade_{name}": values for name, values in given.items()})
     stored.data.update(
+        row=np.array(row.to_json()),
         blade=np.arange(1, len(row.blades) + 1),
         blade_frequency=np.array([of.frequency_factors(1)[0] - 1 for of in row.blades]),
         blade_peak=_largest(each.revolution_peak[last] for each in result.blades),

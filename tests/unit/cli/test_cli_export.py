@@ -6,6 +6,7 @@ import h5py
 import meshio
 import numpy as np
 import pytest
+from PIL import Image
 
 from bladerub.blade.model import read_reduced_blade
 from bladerub.cli import inputs, main
@@ -133,6 +134,52 @@ def test_equal_exports_are_equal_files(export, tmp_path):
         assert export(tmp_path / name, "--samples", "2")[0] == 0
     for file in (tmp_path / "a").iterdir():
         assert file.read_bytes() == (tmp_path / "b" / file.name).read_bytes()
+
+
+def test_a_row_of_blades_is_shown_with_its_coating(export, tmp_path, folder):
+    run, blades = tmp_path / "row.h5", ["--blades", "3", "--length-scatter", "5e-5", "--coupling", "0.01"]
+    config = ["--config", str(folder / "small.yaml")]
+    assert main(["run", *RUN, *blades, *config, "--output", str(run)]) == 0
+    code, out, _ = export(tmp_path / "motion", "--samples", "2", "--json", run=run)
+    figures = json.loads(out)
+    assert (code, figures["blades"], figures["revolution"]) == (0, 3, 2)
+    entries = ET.parse(tmp_path / "motion" / "blade.pvd").getroot().find("Collection")
+    assert [(each.get("file"), each.get("part")) for each in entries] == [
+        (f"{name}_000{number}.vtu", part)
+        for number in (1, 2)
+        for name, part in (("blade", "0"), ("coating", "1"))
+    ]
+    mesh = hdf5.read(folder / "results" / "blade" / "mesh.h5")[0]
+    blades, coating = (meshio.read(tmp_path / "motion" / f"{name}_0002.vtu") for name in ("blade", "coating"))
+    points = blades.points.reshape(3, -1, 3)
+    np.testing.assert_allclose(points[0], mesh["points"])
+    tip = points[:, mesh["interface_nodes"][0]]
+    ahead = np.diff(np.unwrap(np.arctan2(tip[:, 1], tip[:, 2])))
+    np.testing.assert_allclose(ahead, 2 * np.pi / 3)  # the blades stand at even angles in the rotation
+    wear = hdf5.read(run, {"wear"})[0]["wear"]
+    np.testing.assert_allclose(coating.point_data["wear"].reshape(8, -1), wear)
+    # after whole revolutions the first element is back where the first blade was
+    first = coating.points.reshape(8, 2000, 3)[0, 0]
+    assert np.arctan2(first[1], first[2]) == pytest.approx(np.pi / 2000)
+
+    animation = tmp_path / "row.gif"
+    arguments = ["export", "--run", str(run), "--animation", str(animation), "--samples", "3", *config]
+    assert main(arguments) == 0
+    with Image.open(animation) as image:
+        assert image.n_frames == 3
+    assert main(arguments) == 2
+    assert main([*arguments[:4], str(tmp_path / "row.mp4"), *config]) == 2
+
+
+def test_a_single_blade_is_animated(folder, tmp_path, monkeypatch, capsys):
+    monkeypatch.setattr(inputs, "study_folder", lambda: folder)
+    arguments = ["export", "--animation", str(tmp_path / "a.gif"), "--config", str(folder / "small.yaml")]
+    assert main([*arguments, "--run", str(folder / "run.h5"), "--samples", "4", "--json"]) == 0
+    figures = json.loads(capsys.readouterr().out)
+    assert (figures["blades"], figures["revolutions"], figures["samples"]) == (1, 2, 4)
+    assert figures["greatest_wear"] == pytest.approx(hdf5.read(folder / "run.h5")[0]["wear"].max(), rel=1e-6)
+    assert main(arguments) == 2
+    assert "--animation: needs --run" in capsys.readouterr().err
 
 
 def changed(run, path, **attributes):

@@ -4,7 +4,9 @@ import numpy as np
 import pytest
 
 from bladerub.contact.modes import at_tip
-from bladerub.contact.recording import record
+from bladerub.contact.recording import record, record_row
+from bladerub.contact.row import simulate_row
+from bladerub.contact.row_spec import Disk, Row
 from bladerub.contact.run import simulate
 from bladerub.contact.setup import set_up
 from bladerub.contact.spec import Coating
@@ -70,3 +72,27 @@ def test_progress_counts_revolutions(blade, spec):
     seen = []
     record(blade, spec, 2, 3, seen.append)
     assert seen == [1, 2]
+
+
+def test_a_row_moves_and_wears_as_in_its_run(blade, spec, change):
+    spec = change(spec, E=2.0, revolutions=3)
+    row = Row.even(2, length=[0.0, 2e-5], frequency=[0.0, 0.01], disk=Disk.ring(2, [1e-3]))
+    recording = record_row(blade, spec, row, range(401, 601))
+    whole = simulate_row(blade, spec, row)
+    assert whole.wear.any()
+    np.testing.assert_array_equal(recording.time, np.arange(401, 601) / 200)
+    np.testing.assert_array_equal(recording.wear[-1], whole.wear)
+    np.testing.assert_array_equal(recording.revolution_peak, [of.revolution_peak for of in whole.blades])
+    for number, of in enumerate(whole.blades):
+        tip = at_tip(blade, recording.coordinates[:, number].T)[0]
+        between = 0.5 * (tip[1:] + tip[:-1])  # of a coarse ring
+        means = of.radial_displacement[401:]
+        np.testing.assert_allclose(between, means, rtol=0, atol=0.06 * np.abs(means).max())
+
+
+def test_a_row_of_one_is_recorded_as_the_blade_alone(blade, in_contact):
+    alone = record(blade, in_contact, in_contact.revolutions, 4)
+    last = 200 * in_contact.revolutions
+    row = record_row(blade, in_contact, Row.even(1), [last - 150, last - 100, last - 50, last])
+    np.testing.assert_array_equal(row.coordinates[:, 0], alone.coordinates)
+    np.testing.assert_array_equal(row.revolution_peak[0], alone.revolution_peak)

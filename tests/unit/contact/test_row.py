@@ -324,3 +324,17 @@ def test_draws_have_their_scatter_and_grow_with_it():
     np.testing.assert_allclose([of.length for of in twice.blades], 2 * length)
     assert Row.drawn(4, 2, 2e-5) != Row.drawn(4, 1, 2e-5)
     assert Row.drawn(3, 5) == Row.even(3)
+
+
+@pytest.mark.parametrize(
+    "row",
+    [
+        Row.even(1),
+        Row.drawn(3, seed=1, length_scatter=5e-5, frequency_scatter=0.01, disk=Disk.ring(3, [0.01, 0.003])),
+        Row.even(2, frequency=[[0.01, -0.01], [0.0, 0.02]], damping=[1.0, 1.3], angle_error=[0.0, 0.01]),
+    ],
+)
+def test_a_row_is_read_back_as_it_was_written(row):
+    again = Row.from_json(row.to_json())
+    assert again == row
+    assert again.to_json() == row.to_json()
