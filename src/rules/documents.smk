@@ -83,8 +83,10 @@ use rule images as identification_image with:
 use rule images as rotor_image with:
     input:
         f"{PLOTS}/rotor.png",
+        f"{PLOTS}/rotor_sweeps.png",
     output:
         "docs/images/rotor.png",
+        "docs/images/rotor_sweeps.png",
     log:
         f"{RESULTS}/logs/rotor_image.log",
     params:
@@ -184,6 +186,7 @@ use rule docs_data as docs_sweeps with:
 use rule docs_data as docs_rotor with:
     input:
         rules.rotor_tables.output.table,
+        rules.rotor_tables.output.half,
     log:
         f"{RESULTS}/logs/docs_rotor.log",
 

@@ -10,6 +10,15 @@ COUNTED = {
 }
 """Tables of a row a run, which become counts (``runs``) of the runs with equal values in these columns."""
 _RUN = ("casing", "E", "K", "theta")
+_ROWS = (
+    *(*_RUN, "f_omega", "blades", "length_scatter", "frequency_scatter", "coupling"),
+    *("rows", "unbounded_rows", "divergent_rows"),
+    *(f"row_amplitude_{of}" for of in ("median", "low", "high", "p05", "p95")),
+    *(f"amplification_{of}" for of in ("median", "low", "high", "p05", "p95")),
+    *(f"{share}_{of}" for share in ("longest_share", "largest_share") for of in ("median", "low", "high")),
+    *("wear_harmonic", "wear_harmonic_rows", "wear_harmonic_share_median", "lobes_lowest", "lobes_highest"),
+    "energy_residual",
+)
 KEPT = {
     "calibration": ("set", "id", "measured", "holds"),
     "chart": (*_RUN, "Y4", "f4", "Y6", "f6", "runs"),
@@ -21,6 +30,8 @@ KEPT = {
         *(*_RUN, "f_omega", "difference", "reversed_coulomb", "slowest_sliding"),
         *("status_theta", "status_coulomb"),
     ),
+    "rotor": _ROWS,
+    "rotor_half": _ROWS,
     "rigid_convergence": (
         *("f_omega", "treatment", "modes", "steps", "order", "complete", "amplitude"),
         *("amplitude_change", "largest_revolution", "median_revolution", "largest_displacement"),
