@@ -113,6 +113,7 @@ def _motion(options: argparse.Namespace, config: dict[str, Any]) -> dict[str, An
         "nodes": len(angles) * len(mesh["points"]),
         "elements": len(angles) * len(mesh["cells"]),
         **largest,
+        "displacement_over_length": largest["largest_displacement"] / found.reduced.length,
         "bytes": sum(file.stat().st_size for file in options.vtu.iterdir()),
     }
 
@@ -264,7 +265,8 @@ def _in_words(figures: dict[str, Any]) -> str:
             f"{figures['samples']} instants of revolution {figures['revolution']}, "
             f"{figures['nodes']} nodes, {figures['elements']} elements{several}, "
             f"{figures['bytes'] / 1e6:.3g} MB",
-            f"largest displacement {figures['largest_displacement'] * 1e3:.4g} mm",
+            f"largest displacement {figures['largest_displacement'] * 1e3:.4g} mm"
+            + inputs.large_in_words(figures["displacement_over_length"]),
             stress,
             f"open {figures['collection']} in ParaView",
         ]

@@ -83,10 +83,12 @@ def import_blade(options: argparse.Namespace) -> None:
     known = {name: value for name, value in known.items() if name not in ("file", "matrices")}
     entry = {kind: str(named)} | asdict(Frame()) | known | given
 
+    with inputs.refused(ValueError):
+        source = origin.read(entry)  # a bad file is refused before imports that take seconds
+
     from bladerub.study.similarity import contact_scale, tip_stiffness
 
     with inputs.refused(ValueError):
-        source = origin.read(entry)
         if isinstance(source, MatrixSource):
             (figures, reduced), rows = _read_matrices(source, config), _matrix_rows
         else:
@@ -95,9 +97,9 @@ def import_blade(options: argparse.Namespace) -> None:
     scale = contact_scale(replace(reduced, length=length))
     figures["tip_stiffness"] = tip_stiffness(reduced)
     study = configuration.read(base_config())
-    shaping = ("material", "mesh") if "sections" in figures else ("material",)
-    own = {name: _changed(config["blade"][name], study["blade"][name]) for name in shaping}
-    own = {name: values for name, values in own.items() if values}
+    own = {} if isinstance(source, MatrixSource) else {"material": config["blade"]["material"]}
+    mesh = _changed(config["blade"]["mesh"], study["blade"]["mesh"]) if "sections" in figures else {}
+    own |= {"mesh": mesh} if mesh else {}
     reduction = _changed(reduction, study["reduction"])
     figures["config"] = {
         "blade": {"length": length, "source": entry} | own,

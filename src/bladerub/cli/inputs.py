@@ -112,6 +112,15 @@ def row(width: int, name: str, *cells: str) -> str:
     return f"{name:<{width}}" + "".join(f"{cell:>12}" for cell in cells)
 
 
+def large_in_words(over_length: float) -> str:
+    """Say so where a displacement over the length of the blade is large; else nothing."""
+    from bladerub.study.summary import LARGE_DISPLACEMENT
+
+    if over_length < LARGE_DISPLACEMENT:
+        return ""
+    return f", {100 * over_length:.2g} % of the length: beyond the small displacements of the model"
+
+
 def aligned(rows: Iterable[tuple[str, str]]) -> list[str]:
     """Write pairs of name and value as lines, the values in one column."""
     rows = list(rows)

@@ -19,7 +19,13 @@ if TYPE_CHECKING:  # as in `inputs`
 
 _STEEP = math.pi / 4  # beyond this angle the force is more tangential than normal
 _UNITS = {"E": "contact.modulus_unit", "K": "contact.modulus_unit", "theta": "rad", "f_omega": "f1 at rest"}
-_UNITS |= {"peak_amplitude": "m", "max_wear": "m", "growth_per_revolution": "1"}
+_UNITS |= {
+    "modulus_unit": "Pa",
+    "displacement_over_length": "1",
+    "peak_amplitude": "m",
+    "max_wear": "m",
+    "growth_per_revolution": "1",
+}
 _UNITS |= {"rpm": "1/min", "damping_ratio": "1", "layer_thickness": "m", "interference": "m"}
 
 
@@ -101,6 +107,7 @@ def run(options: argparse.Namespace) -> None:
         with refused(OSError, because=f"--output {options.output}: cannot be written: "):
             result.write(options.output, config)
     figures = _figures(planned, result, seconds) | {"rpm": 60 * planned.f_omega * blade.f1_hz}
+    figures["displacement_over_length"] = figures["peak_amplitude"] / blade.length
     if options.ensemble is not None:
         figures["ensemble"] = _ensemble(options, planned, blade, result)
     if row:
@@ -187,6 +194,7 @@ def _figures(planned: "StudyRun", result: "Run", seconds: float) -> dict[str, An
         "theta": case.theta if case.law == "theta" else None,
         "friction": case.friction if case.law == "coulomb" else None,
         "damping_ratio": planned.spec.damping_ratio,
+        "modulus_unit": None if case.is_rigid else planned.spec.coating.modulus_unit,
         "layer_thickness": None if case.is_rigid else planned.spec.coating.thickness,
         "interference": planned.spec.casing.interference,
         "f_omega": planned.f_omega,
@@ -231,8 +239,10 @@ def _in_words(figures: dict[str, Any]) -> str:
     order = figures["engine_order"]
     after = f", after {figures['growth_revolutions']} revolutions"
     rows = {
+        "coating": _coating_in_words(figures),
         "speed": f"{figures['f_omega']:.4g} (normalised), {figures['rpm']:,.0f} rpm",
-        "peak displacement": f"{figures['peak_amplitude'] * 1e3:.4g} mm (radial, node 1, last revolutions)",
+        "peak displacement": f"{figures['peak_amplitude'] * 1e3:.4g} mm (radial, node 1, last revolutions)"
+        + inputs.large_in_words(figures["displacement_over_length"]),
         "engine order": "none" if order is None else f"{order:.4g}",
         "maximum wear": f"{figures['max_wear'] * 1e3:.4g} mm",
         "lobes": figures["lobes"],
@@ -254,6 +264,14 @@ def _in_words(figures: dict[str, Any]) -> str:
     if "ensemble" in figures:
         lines += ["", *_bands_in_words(figures["ensemble"])]
     return "\n".join(lines)
+
+
+def _coating_in_words(figures: dict[str, Any]) -> str:
+    """State the moduli in Pa, too."""
+    if figures["modulus_unit"] is None:
+        return "none, the casing is rigid"
+    unit = figures["modulus_unit"] / 1e6
+    return ", ".join(f"{name} = {figures[name]:g} ({figures[name] * unit:.4g} MPa)" for name in ("E", "K"))
 
 
 _OF_BLADES = {

@@ -31,6 +31,8 @@ KEYS = {
     "casing",
     "damping_ratio",
     "layer_thickness",
+    "modulus_unit",
+    "displacement_over_length",
     "interference",
     "E",
     "K",
@@ -132,7 +134,9 @@ def test_a_run_may_be_replaced_but_nothing_else(small, blade_file, folder, capsy
 def test_run_in_words(small, blade_file, capsys):
     assert main([*RUN, *small]) == 0
     lines = capsys.readouterr().out.splitlines()
+    assert lines[0].split("  ")[-1] == "E = 2 (1200 MPa), K = 0.5 (300 MPa)"
     assert [line.split("  ")[0] for line in lines] == [
+        "coating",
         "speed",
         "peak displacement",
         "engine order",
@@ -146,6 +150,13 @@ def test_run_in_words(small, blade_file, capsys):
         "steps",
         "steps per second",
     ]
+
+
+def test_a_large_displacement_is_pointed_out():
+    assert inputs.large_in_words(0.0499) == ""
+    assert (
+        inputs.large_in_words(0.062) == ", 6.2 % of the length: beyond the small displacements of the model"
+    )
 
 
 def test_a_speed_in_revolutions_a_minute_is_the_same_run(small, blade_file, capsys):

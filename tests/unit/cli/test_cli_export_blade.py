@@ -80,7 +80,10 @@ def test_matrices_are_those_of_the_reduced_blade(export, folder, tmp_path):
 @pytest.mark.parametrize(
     ("arguments", "said"),
     [
-        ([], "one of the arguments --vtu --calculix --mesh --matrices --fe-matrices --sections is required"),
+        (
+            [],
+            "one of the arguments --vtu --animation --calculix --mesh --matrices --fe-matrices --sections is required",
+        ),
         (["--mesh", "{}/blade.stl"], "must end in .inp, .msh, .vtu"),
         (["--matrices", "{}/blade.csv"], "must end in .npz, .mat"),
         (["--calculix", "{}", "--speeds", "0.5"], "--speeds 0.5: must be from 0 to 0.4 (normalised)"),
@@ -93,7 +96,7 @@ def test_matrices_are_those_of_the_reduced_blade(export, folder, tmp_path):
             "--matrix-format: goes with --fe-matrices only",
         ),
         (["--vtu", "{}/motion"], "--vtu: needs --run"),
-        (["--mesh", "{}/blade.inp", "--run", "run.h5"], "--run: goes with --vtu only"),
+        (["--mesh", "{}/blade.inp", "--run", "run.h5"], "--run: goes with --vtu or --animation only"),
         (["--mesh", "{}/blade.inp", "--matrices", "{}/blade.npz"], "not allowed with argument"),
     ],
 )

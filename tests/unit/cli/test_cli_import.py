@@ -10,6 +10,7 @@ from bladerub.blade.mesh import BladeMesh
 from bladerub.cli import main
 from bladerub.export.mesh_file import write_mesh_file
 from bladerub.export.sections import write_sections
+from bladerub.io.folders import ROOT
 
 CONFIG = Path(__file__).parents[3] / "config" / "config.yaml"
 
@@ -71,7 +72,9 @@ def test_what_it_prints_is_a_config_of_the_blade(look, folder, monkeypatch):
     assert code == 0
     assert "warning             its mesh is coarse, with 6 elements" in out
     printed = yaml.safe_load(out.split("are absolute\n")[1])
-    assert printed["blade"]["material"] == {"density": 7800}  # not the rest, which is the study's
+    study = yaml.safe_load((ROOT / "config" / "config.yaml").read_text(encoding="utf-8"))
+    material = study["blade"]["material"] | {"density": 7800, "poisson_ratio": 0.32}
+    assert printed["blade"]["material"] == material  # whole, so that no other blade's is taken
     assert printed["reduction"] == {"accuracy_speeds": 3}
     (folder / "printed.yaml").write_text(out.split("are absolute\n")[1])
     monkeypatch.setattr("sys.stderr.isatty", lambda: True)

@@ -85,7 +85,7 @@ def test_every_key_of_the_schema_is_needed_but_extend_and_what_another_blade_bri
         "multiple_of",
     }
     optional |= {"peak_orders", "damping_ratio", "layer_thickness", "interference", "tip_turns"}
-    optional |= {"interface_nodes", "bump_width", "unit", "angle_unit"}
+    optional |= {"interface_nodes", "bump_width", "unit", "angle_unit", "sweeps"}
     for path, rule in rules(schema()):
         if "properties" in rule and not path.startswith(".blade.source"):
             known, required = set(rule["properties"]), set(rule["required"])

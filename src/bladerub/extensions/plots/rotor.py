@@ -78,14 +78,13 @@ def rotor_sweeps(plan: Plan, table: pd.DataFrame) -> Figure:
     panels = figure.subplots(2, len(groups), sharex=True, sharey="row", squeeze=False, height_ratios=(3, 2))
     by_name = table.set_index([*table.columns[:9]])
     for (upper, lower), (case, members) in zip(panels.T, groups.items(), strict=True):
+        members = sorted(members, key=lambda of: of.f_omega)
         rows = [
             by_name.loc[(case.casing, case.E, case.K, case.theta, of.f_omega, *_scatters(of))]
-            for of in sorted(members, key=lambda of: of.f_omega)
+            for of in members
         ]
-        together = pd.DataFrame(rows)
-        speeds = together.index.get_level_values("f_omega")
-        single = together.index.get_level_values("blades") == 1
-        _draw_sweep(upper, lower, together.reset_index(drop=True), speeds.to_numpy(), single)
+        speeds, single = np.array([(of.f_omega, of == of.alone) for of in members]).T
+        _draw_sweep(upper, lower, pd.DataFrame(rows).reset_index(drop=True), speeds, single.astype(bool))
         upper.set_title(f"E = {case.E:g}, K = {case.K:g}\nθ = {case.theta:g} rad", fontsize=8)
     panels[0, 0].set_ylabel("amplitude (mm)")
     panels[1, 0].set_ylabel("share of the rows")
