@@ -134,7 +134,7 @@ def test_a_run_may_be_replaced_but_nothing_else(small, blade_file, folder, capsy
 def test_run_in_words(small, blade_file, capsys):
     assert main([*RUN, *small]) == 0
     lines = capsys.readouterr().out.splitlines()
-    assert lines[0].split("  ")[-1] == "E = 2 (1200 MPa), K = 0.5 (300 MPa)"
+    assert lines[0].split("  ")[-1].strip() == "E = 2 (1200 MPa), K = 0.5 (300 MPa)"
     assert [line.split("  ")[0] for line in lines] == [
         "coating",
         "speed",

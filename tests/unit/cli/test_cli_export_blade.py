@@ -82,7 +82,8 @@ def test_matrices_are_those_of_the_reduced_blade(export, folder, tmp_path):
     [
         (
             [],
-            "one of the arguments --vtu --animation --calculix --mesh --matrices --fe-matrices --sections is required",
+            "one of the arguments --vtu --animation --calculix --mesh --matrices --fe-matrices --sections is "
+            "required",
         ),
         (["--mesh", "{}/blade.stl"], "must end in .inp, .msh, .vtu"),
         (["--matrices", "{}/blade.csv"], "must end in .npz, .mat"),
