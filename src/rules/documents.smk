@@ -90,7 +90,7 @@ use rule images as rotor_image with:
     log:
         f"{RESULTS}/logs/rotor_image.log",
     params:
-        colours=8,
+        colours=16,
         shrink=2,
 
 

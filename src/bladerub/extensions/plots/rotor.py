@@ -17,6 +17,8 @@ _PANELS = (
     ("largest_share", ORANGE, "wear by the blade that\nwears most (even = 1)"),
 )
 
+_GAP = 3.0  # steps of the speed over their median
+
 
 @styled
 def rotor(plan: Plan, table: pd.DataFrame) -> Figure:
@@ -99,8 +101,7 @@ def rotor_sweeps(plan: Plan, table: pd.DataFrame) -> Figure:
 def _draw_sweep(upper: Axes, lower: Axes, rows: pd.DataFrame, speeds: np.ndarray, single: np.ndarray) -> None:
     alone, drawn = rows[single], rows[~single]
     upper.plot(
-        speeds[single],
-        1e3 * alone["row_amplitude_median"],
+        *_broken(speeds[single], 1e3 * alone["row_amplitude_median"]),
         "o-",
         color=GREY,
         markersize=2.5,
@@ -108,15 +109,13 @@ def _draw_sweep(upper: Axes, lower: Axes, rows: pd.DataFrame, speeds: np.ndarray
         label="single nominal blade",
     )
     low, middle, high = (1e3 * drawn[f"row_amplitude_{of}"] for of in ("p05", "median", "p95"))
-    upper.errorbar(
-        speeds[~single],
-        middle,
-        (middle - low, high - middle),
-        fmt="o-",
+    upper.vlines(speeds[~single], low, high, color=DARK, linewidth=0.8)
+    upper.plot(
+        *_broken(speeds[~single], middle),
+        "o-",
         color=DARK,
         markersize=3,
         linewidth=1.0,
-        elinewidth=0.8,
         label="row: median, 5 to 95 % of the draws",
     )
     for name, colour, look, text in (
@@ -124,6 +123,15 @@ def _draw_sweep(upper: Axes, lower: Axes, rows: pd.DataFrame, speeds: np.ndarray
         ("unbounded_rows", BLUE, "o-", "leave the displacement limit"),
     ):
         share = drawn[name] / drawn["rows"]
-        lower.plot(speeds[~single], share, look, color=colour, markersize=3, linewidth=1.0, label=text)
+        lower.plot(
+            *_broken(speeds[~single], share), look, color=colour, markersize=3, linewidth=1.0, label=text
+        )
     for axes in (upper, lower):
         axes.grid(axis="y")
+
+
+def _broken(speeds: np.ndarray, values: pd.Series) -> tuple[np.ndarray, np.ndarray]:
+    """Leave a gap in a line where no speed was run for much longer than usual."""
+    steps = np.diff(speeds)
+    gaps = np.flatnonzero(steps > _GAP * np.median(steps)) + 1 if steps.size else []
+    return np.insert(speeds, gaps, np.nan), np.insert(np.asarray(values, dtype=float), gaps, np.nan)
