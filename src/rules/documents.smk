@@ -90,7 +90,7 @@ use rule images as rotor_image with:
     log:
         f"{RESULTS}/logs/rotor_image.log",
     params:
-        colours=16,
+        colours=64,
         shrink=2,
 
 
