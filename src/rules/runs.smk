@@ -22,6 +22,7 @@ def planned_runs(wildcards):
 def coating_minutes(wildcards, attempt):
     """The time to ask a cluster for: a minute to start, and three times what the revolutions took."""
     revolutions = len(speeds(config)) * config["solver"]["revolutions"]
+    revolutions *= config.get("rotor", {"blades": 1})["blades"]
     return attempt * math.ceil((60 + 0.03 * revolutions) / 60)
 
 

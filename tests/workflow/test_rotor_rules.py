@@ -4,6 +4,7 @@ import pytest
 import yaml
 
 from bladerub.io import tables
+from bladerub.study.store import read_run
 
 GROUP = {
     "casing": "2nd",
@@ -53,7 +54,7 @@ def test_rows_are_made_once_and_lost_or_changed_ones_alone(copied_study, tiny):
     counted = copied_study.status()["rows_of_blades"]
     assert (counted["planned"], counted["done"], counted["longer_planned"]) == (10, 10, 0)
 
-    folder = next((copied_study.results / "rotor" / "runs").glob("*_n3_l5e-05_d0.01_c0.01"))
+    folder = next((copied_study.results / "rotor" / "runs").glob("*_f0.1900_n3_l5e-05_d0.01_c0.01"))
     times = {path.name: path.stat().st_mtime_ns for path in folder.glob("*.h5")}
     (folder / "0001.h5").unlink()
     (folder / "0002.h5").write_bytes(b"broken")
@@ -93,3 +94,17 @@ def test_a_bad_plan_is_refused_before_any_work(workspace, tiny, changes, problem
     assert done.returncode == 2
     assert problem in done.stderr
     assert not workspace.results.exists()
+
+
+def test_a_study_may_be_of_rows_throughout(copied_study, tiny):
+    rotor = {"blades": 2, "length": [0.0, 5.0e-5], "frequency_scatter": 0.01, "coupling": [0.01]}
+    target = "results/maps/2nd_E2_K0.5_theta0.h5"
+    copied_study.build(tiny | {"rotor": rotor}, target)
+    folder = copied_study.results / "runs" / "2nd_E2_K0.5_theta0"
+    run = read_run(folder / "0.1900.h5")
+    assert run.data["blade_length"].tolist() == [0.0, 5.0e-5]
+    assert run.attributes["energy_residual"] < 1e-3
+    assert copied_study.plan(tiny | {"rotor": rotor}, target) == {}
+    wrong = copied_study.snakemake("-n", target, config=tiny | {"rotor": rotor | {"length": [0.0] * 3}})
+    assert wrong.returncode == 2
+    assert "rotor: 3 values of length; must be 1 or 2" in wrong.stderr

@@ -24,7 +24,7 @@ from bladerub.io.provenance import provenance
 from bladerub.plots import single_run, titles
 from bladerub.plots.style import saved
 from bladerub.study import store
-from bladerub.study.grid import CoatingCase, speed_name
+from bladerub.study.grid import CoatingCase, row_of, speed_name
 from bladerub.study.growth import Verdict, confirmation_spec, judge, needs_confirmation
 from bladerub.study.job import compute
 from bladerub.study.manifest import confirmation_path
@@ -254,7 +254,8 @@ def simulate(
     run : StudyRun
         The run, from `Study.run` or `StudyCoating.at`.
     row : Row, optional
-        Blades that rub on one coating together, instead of the one: `Run.blades`.
+        Blades that rub on one coating together, instead of the one: `Run.blades`. Default: those of the
+        ``rotor`` of the study, if it has one.
     follow : bool
         Whether a run that grows is repeated for more revolutions, as the study does: its `Run.longer`.
     progress : bool
@@ -327,6 +328,7 @@ def solve(
     """Simulate `run`, and its longer run if it is to `follow` growth; parameters as of `simulate`."""
     digest, settings = blade.digest, run.config["analysis"]["divergence"]
     run = run.of_length(blade.length)  # perhaps not the study's own blade
+    row = row or row_of(run.config)
     stored = _solve(blade, run, run.spec, digest, done, keep_history, row)
     longer = None
     amplitude, status = stored.data["revolution_amplitude"], stored.attributes["status"]

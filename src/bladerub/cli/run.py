@@ -110,7 +110,7 @@ def run(options: argparse.Namespace) -> None:
     figures["displacement_over_length"] = figures["peak_amplitude"] / blade.length
     if options.ensemble is not None:
         figures["ensemble"] = _ensemble(options, planned, blade, result)
-    if row:
+    if len(result.blades):
         figures["blade"] = result.attributes["blade"]
         figures["blades"] = result.blades.reset_index().to_dict("records")
     inputs.show(options, figures, _in_words)

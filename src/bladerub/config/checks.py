@@ -22,6 +22,7 @@ from bladerub.study.grid import (
     cases_of,
     coating_cases,
     listed_case,
+    row_of,
     speeds,
 )
 from bladerub.study.orders import peak_orders, used_casings
@@ -126,6 +127,14 @@ def _fit_speeds(config: Config) -> Iterator[str]:
     count = config["reduction"].get("fit_speeds", 3)
     if count != 3 and "matrices" in config["blade"].get("source", {}):
         yield f"reduction.fit_speeds = {count}: must be 3 with blade.source.matrices"
+
+
+@_reads("rotor")
+def _rotor(config: Config) -> Iterator[str]:
+    try:
+        row_of(config)
+    except ValueError as error:  # it begins with "row: "
+        yield f"rotor: {str(error).partition(': ')[2]}"
 
 
 @_reads("casings")

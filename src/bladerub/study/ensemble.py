@@ -28,7 +28,7 @@ from bladerub.io.provenance import provenance
 from bladerub.study import maps
 from bladerub.study.findings.evidence import SAME_SPEED, between
 from bladerub.study.findings.paper import LOBES, WORN
-from bladerub.study.grid import CoatingCase, keeps_history, run_spec, speed_name
+from bladerub.study.grid import CoatingCase, keeps_history, row_of, run_spec, speed_name
 from bladerub.study.job import RunDone, compute_missing
 from bladerub.study.manifest import ManifestRow, write_manifest
 from bladerub.study.maps import CoatingMap
@@ -92,12 +92,12 @@ def chosen(config: Mapping[str, Any], coating: CoatingMap) -> np.ndarray:
 
 def plan(config: Mapping[str, Any], case: CoatingCase, f_omega: np.ndarray) -> list[CoatingPlan]:
     """Plan the members of one coating at the speeds `f_omega`: the runs of each."""
-    settings, runs = config["ensemble"], []
+    settings, row, runs = config["ensemble"], row_of(config), []
     for f in map(float, f_omega):
         spec, drawn = run_spec(config, case, f), starts(settings, case, f, settings["members"])
         members = [replace(spec, initial_displacement=start) for start in drawn.tolist()]
         files = [f"{speed_name(f)}_{number}.h5" for number in range(1, len(members) + 1)]
-        runs.append([planned_run(config, *each, False) for each in zip(members, files, strict=True)])
+        runs.append([planned_run(config, *each, False, row) for each in zip(members, files, strict=True)])
     return [CoatingPlan(case, member) for member in zip(*runs, strict=True)]
 
 

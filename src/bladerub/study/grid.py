@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, fields, replace
 from typing import Any
 
+from bladerub.contact.row_spec import Disk, Row
 from bladerub.contact.spec import Coating, RunSpec, TipProfile
 from bladerub.study.casings import casing_spec
 
@@ -208,6 +209,30 @@ def run_spec(config: Mapping[str, Any], case: CoatingCase, f_omega: float) -> Ru
         max_time_step=float(solver["max_time_step"] * scale["time"]),
         displacement_limit=solver["displacement_limit"] * length,
     )
+
+
+def row_of(config: Mapping[str, Any]) -> Row | None:
+    """Describe the row of blades that the runs of the study are of; None for single blades.
+
+    Raises `ValueError` if a list has neither one value nor one for each blade.
+    """
+    if "rotor" not in config:
+        return None
+    rotor = config["rotor"]
+    n_blades = rotor["blades"]
+    scatters = (float(rotor.get(f"{name}_scatter", 0.0)) for name in ("length", "frequency"))
+    drawn = Row.drawn(n_blades, rotor.get("seed", 1), *scatters).blades
+    row = Row.even(
+        n_blades,
+        **{name: rotor.get(name, 0.0) for name in ("length", "frequency", "angle_error")},
+        damping=rotor.get("damping", 1.0),
+        disk=Disk.ring(n_blades, rotor["coupling"]) if "coupling" in rotor else None,
+    )
+    blades = (
+        replace(own, length=own.length + draw.length, frequency=own.frequency + draw.frequency)
+        for own, draw in zip(row.blades, drawn, strict=True)
+    )
+    return replace(row, blades=tuple(blades))
 
 
 def keeps_history(config: Mapping[str, Any], case: CoatingCase, f_omega: float) -> bool:

@@ -8,7 +8,7 @@ from bladerub.contact.row_spec import Row
 from bladerub.contact.spec import RunSpec
 from bladerub.io.sources import solver_digest, storage_digest
 from bladerub.study import cache
-from bladerub.study.grid import CoatingCase, keeps_history, run_spec, speed_name, speeds
+from bladerub.study.grid import CoatingCase, keeps_history, row_of, run_spec, speed_name, speeds
 from bladerub.study.growth import confirmation_determinants, confirmation_spec
 from bladerub.study.manifest import CONFIRMATION
 from bladerub.study.store import StoredRun
@@ -59,11 +59,11 @@ def planned_run(
 
 def coating_plan(config: Mapping[str, Any], case: CoatingCase) -> CoatingPlan:
     """Plan the runs of one coating at all speeds of the study `config`."""
-    spec, runs = run_spec(config, case, f_omega=0.0), []
+    spec, row, runs = run_spec(config, case, f_omega=0.0), row_of(config), []
     for f_omega in speeds(config):
         history = keeps_history(config, case, f_omega)
         at_speed = replace(spec, f_omega=f_omega)  # what is the same at all speeds is one object
-        runs.append(planned_run(config, at_speed, f"{speed_name(f_omega)}.h5", history))
+        runs.append(planned_run(config, at_speed, f"{speed_name(f_omega)}.h5", history, row))
     return CoatingPlan(case, tuple(runs))
 
 

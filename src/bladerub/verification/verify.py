@@ -33,7 +33,7 @@ from bladerub.contact.run import simulate
 from bladerub.contact.setup import compile_kernel
 from bladerub.contact.spec import RunSpec
 from bladerub.study.ensemble import chosen
-from bladerub.study.grid import CoatingCase, coating_cases, run_spec, speed_name, speeds
+from bladerub.study.grid import CoatingCase, coating_cases, row_of, run_spec, speed_name, speeds
 from bladerub.study.maps import read_map
 from bladerub.verification.differences import Differences, largest, row_differences
 
@@ -112,7 +112,8 @@ class VerifiedRun:
 
 def study_runs(config: Mapping[str, Any]) -> list[StudyRun]:
     """List every run of the study."""
-    return [StudyRun(case, f_omega) for case in coating_cases(config) for f_omega in speeds(config)]
+    row = row_of(config)
+    return [StudyRun(case, f_omega, row) for case in coating_cases(config) for f_omega in speeds(config)]
 
 
 def important_runs(config: Mapping[str, Any], maps: Path) -> list[StudyRun]:
@@ -121,7 +122,7 @@ def important_runs(config: Mapping[str, Any], maps: Path) -> list[StudyRun]:
     Raises as `bladerub.study.maps.read_map`.
     """
     return [
-        StudyRun(case, float(f_omega))
+        StudyRun(case, float(f_omega), row_of(config))
         for case in coating_cases(config)
         for f_omega in chosen(config, read_map(maps / f"{case.name}.h5"))
     ]

@@ -32,6 +32,7 @@ def forecast(config: Mapping[str, Any]) -> str:
     left = whole["planned"] - whole["done"]
     if not left:
         return f"all {whole['planned']:,} runs of the study are done"
-    minutes = left * config["solver"]["revolutions"] * SECONDS_PER_REVOLUTION / 60
+    blades = config.get("rotor", {"blades": 1})["blades"]
+    minutes = left * blades * config["solver"]["revolutions"] * SECONDS_PER_REVOLUTION / 60
     about = f"about {max(minutes, 1):.0f} min of one core"  # Snakemake tells a dry run of no more cores
     return f"{left:,} of {whole['planned']:,} runs of the study are to be computed, {about}"

@@ -64,6 +64,15 @@ NUMBERS = """
     f_omega                           [0.001, 2]
     order                             [1, 1000]
     interference                      (0, 0.05]
+    rotor.blades                      [1, 200]
+    rotor.length                      [-0.01, 0.01]
+    rotor.frequency                   [-0.5, 0.5]
+    rotor.damping                     [0, 100]
+    rotor.angle_error                 [-0.5, 0.5]
+    rotor.coupling                    [0, 10]
+    rotor.length_scatter              [0, 0.01]
+    rotor.frequency_scatter           [0, 0.1]
+    rotor.seed                        [0, 4294967295]
     speeds.start                      [0.001, 2]
     speeds.stop                       [0.001, 2]
     speeds.step                       [1e-4, 2]
@@ -122,6 +131,11 @@ COUNTS = {
     "friction.E": (1, 20),
     "friction.K": (1, 20),
     "friction.theta": (1, 20),
+    "rotor.length": (1, 200),
+    "rotor.frequency": (1, 200),
+    "rotor.damping": (1, 200),
+    "rotor.angle_error": (1, 200),
+    "rotor.coupling": (1, 200),
     "speeds.extra": (0, 10000),
     "analysis.peaks.orders": (1, 1000),
     "analysis.peaks.speed_window": (2, 2),
@@ -160,6 +174,9 @@ def complete(config):
         listed,
         [{key: listed[0][key] for key in ("casing", "E", "K", "theta")}],
     )
+    config["rotor"] = {"blades": 1, "seed": 1, "length_scatter": 0.0, "frequency_scatter": 0.0}
+    lists = ("length", "frequency", "damping", "angle_error", "coupling")
+    config["rotor"] |= {key: [0.0] for key in lists}
     config["analysis"]["histories"] = [kind | {"f_omega": 0.19} for kind in kinds]
     return config
 

@@ -86,6 +86,8 @@ def test_every_key_of_the_schema_is_needed_but_extend_and_what_another_blade_bri
     }
     optional |= {"peak_orders", "damping_ratio", "layer_thickness", "interference", "tip_turns"}
     optional |= {"interface_nodes", "bump_width", "unit", "angle_unit", "sweeps"}
+    optional |= {"rotor", "length", "frequency", "damping", "angle_error", "coupling"}
+    optional |= {"length_scatter", "frequency_scatter", "seed"}
     for path, rule in rules(schema()):
         if "properties" in rule and not path.startswith(".blade.source"):
             known, required = set(rule["properties"]), set(rule["required"])
