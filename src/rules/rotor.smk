@@ -1,7 +1,7 @@
 # Rows of blades on one coating (docs/explanation/rotor.md). Not part of `all`.
 from functools import cache
 
-from bladerub.extensions.rotor.plan import PLAN, RUNS
+from bladerub.extensions.rotor.plan import PLAN, RUNS, read_plan
 
 ROTOR = PLAN.as_posix()
 OF_ROWS = f"{RESULTS}/{RUNS.as_posix()}"
@@ -10,8 +10,6 @@ OF_ROWS = f"{RESULTS}/{RUNS.as_posix()}"
 @cache
 def rotor_plan():
     """The plan; read and checked only when somebody asks for the rows."""
-    from bladerub.extensions.rotor.plan import read_plan
-
     with bladerub.io.errors.exit_on_error():
         return read_plan(ROTOR, config)
 
@@ -31,10 +29,7 @@ def planned_rows(wildcards):
 
 
 def rotor_minutes(wildcards, attempt):
-    """As `coating_minutes`, over the blades of the rows."""
-    runs = rotor_runs(wildcards.combination).runs
-    revolutions = sum(run.spec.revolutions * len(run.row.blades) for run in runs)
-    return attempt * math.ceil((60 + 0.03 * revolutions) / 60)
+    return minutes_for(rotor_runs(wildcards.combination).runs, attempt)
 
 
 # As `coating`: the runs are next to the manifest, undeclared

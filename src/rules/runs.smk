@@ -19,11 +19,14 @@ def planned_runs(wildcards):
     return {run.file: run.determinants for run in plan_of(wildcards.coating).runs}
 
 
-def coating_minutes(wildcards, attempt):
+def minutes_for(runs, attempt):
     """The time to ask a cluster for: a minute to start, and three times what the revolutions took."""
-    revolutions = len(speeds(config)) * config["solver"]["revolutions"]
-    revolutions *= config.get("rotor", {"blades": 1})["blades"]
+    revolutions = sum(run.spec.revolutions * run.n_blades for run in runs)
     return attempt * math.ceil((60 + 0.03 * revolutions) / 60)
+
+
+def coating_minutes(wildcards, attempt):
+    return minutes_for(plan_of(wildcards.coating).runs, attempt)
 
 
 rule compile_kernel:

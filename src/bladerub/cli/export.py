@@ -12,7 +12,7 @@ from bladerub.cli.inputs import InputError, refused
 if TYPE_CHECKING:
     from bladerub.api.blade import Blade
     from bladerub.blade.model import ReducedBlade
-    from bladerub.contact.recording import Recording, RowRecording
+    from bladerub.contact.recording import Recording
     from bladerub.contact.row_spec import Row
     from bladerub.study.plan import PlannedRun
     from bladerub.study.store import StoredRun
@@ -91,6 +91,7 @@ def _motion(options: argparse.Namespace, config: dict[str, Any]) -> dict[str, An
     """Write the motion of a run; return what was written."""
     _check_new(options, config, "vtu")
 
+    from bladerub.contact.row_spec import Row
     from bladerub.export.vtu import COLLECTION, read_mesh, stress_of, write_motion
     from bladerub.io.provenance import provenance
 
@@ -99,19 +100,19 @@ def _motion(options: argparse.Namespace, config: dict[str, Any]) -> dict[str, An
         mesh = read_mesh(found.mesh_path, found.reduced)
         stress = stress_of(found.mesh_path, run.attributes["f_omega"])
     plan = _plan(options, config, run, found.path)
-    recording = _record(options, run, plan, found.reduced)
+    row = plan.row or Row.even(1)
+    recording = _record(options, run, plan, found.reduced, row, whole=False)
     names = ("casing", "E", "K", "theta", "law", "f_omega", "run_key")
     about = {name: run.attributes[name] for name in names} | provenance(config)
-    angles = [of.angle for of in plan.row.blades] if plan.row else [0.0]
     with refused(OSError, because=f"--vtu {options.vtu}: cannot be written: "):
-        largest = write_motion(options.vtu, mesh, recording, about, stress, angles)
+        largest = write_motion(options.vtu, mesh, recording, about, stress, plan.row)
     return {
         "collection": str(options.vtu / COLLECTION),
         "samples": options.samples,
-        "revolution": recording.revolution_peak.shape[-1],
-        "blades": len(angles),
-        "nodes": len(angles) * len(mesh["points"]),
-        "elements": len(angles) * len(mesh["cells"]),
+        "revolution": recording.revolution_peak.shape[1],
+        "blades": len(row.blades),
+        "nodes": len(row.blades) * len(mesh["points"]),
+        "elements": len(row.blades) * len(mesh["cells"]),
         **largest,
         "displacement_over_length": largest["largest_displacement"] / found.reduced.length,
         "bytes": sum(file.stat().st_size for file in options.vtu.iterdir()),
@@ -130,15 +131,13 @@ def _animation(options: argparse.Namespace, config: dict[str, Any]) -> dict[str,
     run, found = _run_and_blade(options, config)
     plan = _plan(options, config, run, found.path)
     row = plan.row or Row.even(1)
-    last = _last_revolution(options, run, plan)
-    elements = np.linspace(0, last * plan.spec.coating.n_elements, options.samples + 1)[1:]
-    recording = _record_row(options, run, plan, found.reduced, row, np.rint(elements).astype(int))
+    recording = _record(options, run, plan, found.reduced, row, whole=True)
     with refused(OSError, because=f"--animation {options.animation}: cannot be written: "):
         animate(options.animation, recording, found.reduced, row, run.attributes)
     return {
         "animation": str(options.animation),
         "samples": options.samples,
-        "revolutions": last,
+        "revolutions": recording.revolution_peak.shape[1],
         "blades": len(row.blades),
         "greatest_wear": float(recording.wear.max()),
         "bytes": options.animation.stat().st_size,
@@ -185,9 +184,19 @@ def _plan(options: argparse.Namespace, config: dict[str, Any], run: "StoredRun",
     return plan
 
 
-def _last_revolution(options: argparse.Namespace, run: "StoredRun", plan: "PlannedRun") -> int:
-    """Find the last revolution that the run made to its end."""
-    last = plan.spec.revolutions
+def _record(
+    options: argparse.Namespace,
+    run: "StoredRun",
+    plan: "PlannedRun",
+    blade: "ReducedBlade",
+    row: "Row",
+    whole: bool,
+) -> "Recording":
+    """Record the last complete revolution of a run, or the `whole` of it up to there."""
+    from bladerub.contact.recording import record
+    from bladerub.contact.setup import compile_kernel
+
+    last, n_elements = plan.spec.revolutions, plan.spec.coating.n_elements
     if run.attributes["status"] == "unbounded":
         last = int(np.count_nonzero(np.isfinite(run.data["revolution_peak"]))) - 1
     if last == 0:
@@ -195,59 +204,26 @@ def _last_revolution(options: argparse.Namespace, run: "StoredRun", plan: "Plann
             f"--run {options.run}: exceeds the displacement limit in its first revolution, so that no "
             "revolution is complete"
         )
-    return last
-
-
-def _record(
-    options: argparse.Namespace, run: "StoredRun", plan: "PlannedRun", blade: "ReducedBlade"
-) -> "Recording | RowRecording":
-    """Record the last revolution."""
-    from bladerub.contact.recording import record
-    from bladerub.contact.setup import compile_kernel
-
-    last = _last_revolution(options, run, plan)
-    if plan.row:
-        n_elements = plan.spec.coating.n_elements
-        instants = np.rint(np.linspace((last - 1) * n_elements, last * n_elements, options.samples + 1))
-        return _record_row(options, run, plan, blade, plan.row, instants[1:].astype(int))
+    before = 0 if whole else last - 1
+    instants = np.rint(np.linspace(0, (last - before) * n_elements, options.samples + 1)[1:]).astype(int)
     compile_kernel(n_nodes=blade.n_interface)
     with inputs.progress_bar(last, "rev") as bar:
         recording = record(
-            blade, plan.spec, last, options.samples, progress=lambda done: bar.update(done - bar.n)
-        )
-    _check_same(options, recording.revolution_peak, run.data["revolution_peak"])
-    return recording
-
-
-def _record_row(
-    options: argparse.Namespace,
-    run: "StoredRun",
-    plan: "PlannedRun",
-    blade: "ReducedBlade",
-    row: "Row",
-    instants: np.ndarray,
-) -> "RowRecording":
-    from bladerub.contact.recording import record_row
-    from bladerub.contact.setup import compile_kernel
-
-    compile_kernel(n_nodes=blade.n_interface)
-    with inputs.progress_bar(int(instants[-1]) // plan.spec.coating.n_elements, "rev") as bar:
-        recording = record_row(
-            blade, plan.spec, row, instants.tolist(), progress=lambda done: bar.update(done - bar.n)
+            blade,
+            plan.spec,
+            row,
+            (before * n_elements + instants).tolist(),
+            progress=lambda done: bar.update(done - bar.n),
         )
     most = run.attributes.get("blade", 1) - 1  # whose peaks are stored
-    _check_same(options, recording.revolution_peak[most], run.data["revolution_peak"])
-    return recording
-
-
-def _check_same(options: argparse.Namespace, computed: np.ndarray, stored: np.ndarray) -> None:
-    stored = stored[: computed.size]
-    difference = np.max(np.abs(computed - stored))
+    stored = run.data["revolution_peak"][:last]
+    difference = np.max(np.abs(recording.revolution_peak[most] - stored))
     if not difference <= SAME * np.max(stored):
         raise InputError(
             f"--run {options.run}: computed again, its peaks differ by {difference:.2g} m: it was made on "
             "another kind of machine or with other packages; compute it here with bladerub run --output"
         )
+    return recording
 
 
 def _in_words(figures: dict[str, Any]) -> str:

@@ -15,6 +15,7 @@ import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, fields, replace
 from functools import partial
+from typing import NamedTuple
 
 import numpy as np
 import scipy.linalg
@@ -112,8 +113,7 @@ def simulate_row(
         all around the casing, or the disk couples modes that the scheme does not resolve, that are too fast
         for its impulses or that it makes unstable.
     """
-    seats, simulation, begins = set_up_row(blade, spec, row)
-    modes = modes_at(blade, spec.f_omega, spec)
+    modes, seats, simulation, begins = set_up_row(blade, spec, row)
     stored = partial(_stored, row, modes, seats)
     initial = stored()
     _march(spec, seats, simulation, begins, progress)
@@ -141,13 +141,17 @@ def simulate_row(
     )
 
 
-def set_up_row(
-    blade: ReducedBlade, spec: RunSpec, row: Row
-) -> "tuple[list[_Seat], RowSimulation, list[int]]":
-    """Set up the blades of a row and the loop that integrates them together; raises as `simulate_row`.
+class RowSetUp(NamedTuple):
+    """The blades of a row and the loop that integrates them together."""
 
-    With them come the numbers of elements that pass before each blade moves.
-    """
+    modes: Modes  # of the nominal blade
+    seats: "list[_Seat]"
+    simulation: RowSimulation
+    begins: list[int]  # elements that pass before each blade moves
+
+
+def set_up_row(blade: ReducedBlade, spec: RunSpec, row: Row) -> RowSetUp:
+    """Set up a row; raises as `simulate_row`."""
     modes = modes_at(blade, spec.f_omega, spec)
     seats: list[_Seat] = []
     for own in row.blades:
@@ -159,7 +163,7 @@ def set_up_row(
     simulation = kernel.RowSimulation(
         [seat.simulation for seat in seats], [seat.row for seat in seats], begins, coupling
     )
-    return seats, simulation, begins
+    return RowSetUp(modes, seats, simulation, begins)
 
 
 def row_frequencies(blade: ReducedBlade, f_omega: float, row: Row) -> np.ndarray:

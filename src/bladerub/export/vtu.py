@@ -9,7 +9,7 @@ import json
 import os
 import shutil
 import xml.etree.ElementTree as ET
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -19,7 +19,9 @@ import numpy as np
 from bladerub.blade.elasticity import Material
 from bladerub.blade.model import ReducedBlade
 from bladerub.blade.stress import NodalStress, running_displacement, von_mises
-from bladerub.contact.recording import Recording, RowRecording
+from bladerub.contact.recording import Recording
+from bladerub.contact.row_spec import Row
+from bladerub.contact.setup import element_angle
 from bladerub.export.mesh_file import block
 from bladerub.io import hdf5
 
@@ -64,16 +66,16 @@ def stress_of(path: str | Path, f_omega: float) -> NodalStress | None:
 def write_motion(
     folder: str | Path,
     mesh: Mapping[str, np.ndarray],
-    recording: Recording | RowRecording,
+    recording: Recording,
     about: Mapping[str, str],
     stress: NodalStress | None,
-    angles: Sequence[float] = (0.0,),
+    row: Row | None,
 ) -> dict[str, Any]:
     """Write a recorded motion to a new folder, whole or not at all.
 
     `mesh` is from `read_mesh`, `stress` from `stress_of`; `about` is what the motion is and where it comes
-    from, for a comment in the collection. Of a row, `angles` are those of its blades on the disk (rad), and
-    the coating is written with them. Returns ``largest_displacement`` (m) and, with `stress`,
+    from, for a comment in the collection. With a `row` its blades stand at their angles and the coating is
+    written with them; None is a single blade. Returns ``largest_displacement`` (m) and, with `stress`,
     ``largest_von_mises`` and ``largest_principal`` (Pa), each with its place (m, at rest) and time
     (revolutions).
     """
@@ -81,7 +83,7 @@ def write_motion(
     folder.parent.mkdir(parents=True, exist_ok=True)
     temporary = folder.with_name(f".{folder.name}.{os.getpid()}.tmp")
     temporary.mkdir()
-    turns = [_turn(angle) for angle in angles]
+    turns = [_turn(of.angle) for of in row.blades] if row else [np.eye(3)]
     points = np.concatenate([mesh["points"] @ turn for turn in turns])
     n_points, cells = len(mesh["points"]), mesh["cells"]
     all_cells = np.concatenate([cells + number * n_points for number in range(len(turns))])
@@ -91,7 +93,7 @@ def write_motion(
         instants = zip(recording.coordinates, recording.time, strict=True)
         for number, (coordinates, time) in enumerate(instants, 1):
             fields: dict[str, list[np.ndarray]] = {}
-            for own, turn in zip(np.atleast_2d(coordinates), turns, strict=True):
+            for own, turn in zip(coordinates, turns, strict=True):
                 displacement = np.tensordot(own, mesh["recovery"], axes=1).astype(np.float32)
                 norm = float(np.linalg.norm(displacement, axis=1).max())
                 largest["largest_displacement"] = max(largest["largest_displacement"], norm)
@@ -99,15 +101,16 @@ def write_motion(
                 for name, values in ({"displacement": turned} | _stress_fields(stress, displacement)).items():
                     fields.setdefault(name, []).append(values)
             data = {name: np.concatenate(values) for name, values in fields.items()}
-            for name in data.keys() - {"displacement"}:
-                _note(largest, f"largest_{name}", data[name], points, time)
+            for name, values in data.items():
+                if name != "displacement":
+                    _note(largest, f"largest_{name}", values, points, time)
             names.append([f"blade_{number:04}.vtu"])
             meshio.Mesh(
                 points,
                 [block(points, all_cells)],  # nodes in the order of VTK already
                 point_data=data,
             ).write(temporary / names[-1][0])
-            if isinstance(recording, RowRecording):
+            if row:
                 names[-1].append(f"coating_{number:04}.vtu")
                 _ring(mesh, recording.wear[number - 1], time).write(temporary / names[-1][1])
         _write_collection(temporary / COLLECTION, names, recording.time, about)
@@ -127,7 +130,7 @@ def _ring(mesh: Mapping[str, np.ndarray], wear: np.ndarray, time: float) -> mesh
     """Make the surface of the coating, through the nodes of the tip at rest, with its `wear` (8, n)."""
     tip = mesh["points"][mesh["interface_nodes"]]
     n_nodes, n_elements = wear.shape
-    angle = 2 * np.pi * ((np.arange(n_elements) + 0.5) / n_elements - time)  # as the rotating frame sees it
+    angle = element_angle(n_elements) - 2 * np.pi * time  # as the rotating frame sees it
     radius = np.hypot(tip[:, 1], tip[:, 2])[:, None]
     axial = np.broadcast_to(tip[:, :1], wear.shape)
     points = np.stack([axial, radius * np.sin(angle), radius * np.cos(angle)], axis=-1).reshape(-1, 3)

@@ -10,8 +10,9 @@ from matplotlib.animation import FuncAnimation, PillowWriter
 
 from bladerub.blade.model import ReducedBlade
 from bladerub.contact.modes import tip_radii
-from bladerub.contact.recording import RowRecording
+from bladerub.contact.recording import Recording
 from bladerub.contact.row_spec import Row
+from bladerub.contact.setup import element_angle
 from bladerub.io import atomic
 from bladerub.plots import titles
 from bladerub.plots.polar import closed, open_polar
@@ -25,7 +26,7 @@ _HUB, _TIP, _RING = 0.45, 0.8, 0.85  # radii in the picture; the worn depth is d
 
 @styled
 def animate(
-    path: str | Path, recording: RowRecording, blade: ReducedBlade, row: Row, attributes: Mapping[str, Any]
+    path: str | Path, recording: Recording, blade: ReducedBlade, row: Row, attributes: Mapping[str, Any]
 ) -> None:
     """Write an animated GIF, whole or not at all: a frame for each instant of the `recording`.
 
@@ -38,7 +39,7 @@ def animate(
     case, depth = CoatingCase.described(attributes), recording.wear.mean(axis=1)
     radial = recording.coordinates[:, :, :3] @ blade.radial_direction[0]  # of node 1, whose three come first
     scale = (1 - _RING) / max(depth.max(), np.abs(radial).max(), 1e-9)
-    angle = 2 * np.pi * (np.arange(depth.shape[1]) + 0.5) / depth.shape[1]
+    angle = element_angle(depth.shape[1])
     figure = new_figure(1.2 * COLUMN, 1.35 * COLUMN)
     axes = open_polar(figure, 1, 1, 1)
     axes.set_rlim(0, 1)

@@ -27,6 +27,11 @@ class PlannedRun:
     determinants: str  # digest of all that determines the file but the blade; other runs have no part in it
     row: Row | None = None  # the blades, where there is more than the one
 
+    @property
+    def n_blades(self) -> int:
+        """Number of blades that rub."""
+        return len(self.row.blades) if self.row else 1
+
     def key(self, blade_digest: str) -> str:
         """Key of this run of the blade with that digest (`bladerub.study.cache.blade_digest`)."""
         return cache.digest([self.determinants, blade_digest])

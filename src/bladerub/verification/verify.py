@@ -121,8 +121,9 @@ def important_runs(config: Mapping[str, Any], maps: Path) -> list[StudyRun]:
 
     Raises as `bladerub.study.maps.read_map`.
     """
+    row = row_of(config)
     return [
-        StudyRun(case, float(f_omega), row_of(config))
+        StudyRun(case, float(f_omega), row)
         for case in coating_cases(config)
         for f_omega in chosen(config, read_map(maps / f"{case.name}.h5"))
     ]

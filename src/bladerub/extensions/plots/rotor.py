@@ -5,8 +5,8 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from bladerub.extensions.rotor.plan import Combination, Plan
-from bladerub.extensions.rotor.summary import label
+from bladerub.extensions.rotor.plan import Combination, Plan, described
+from bladerub.extensions.rotor.summary import WHAT, label
 from bladerub.plots import titles
 from bladerub.plots.style import BLUE, DARK, GREY, ORANGE, PAGE, new_figure, styled
 from bladerub.study.grid import CoatingCase
@@ -34,14 +34,9 @@ def rotor(plan: Plan, table: pd.DataFrame) -> Figure:
     widths = [max(len(members), 4) for members in groups.values()]
     figure = new_figure(max(PAGE, 0.35 * sum(widths) + 2.0), 8.0)
     panels = figure.subplots(3, len(groups), sharex="col", squeeze=False, width_ratios=widths)
-    by_name = table.set_index([*table.columns[:9]])
     for column, ((case, f_omega), members) in zip(panels.T, groups.items(), strict=True):
-        members = sorted(
-            members, key=lambda of: (of.blades, of.length_scatter, of.frequency_scatter, of.coupling)
-        )
-        own = [
-            by_name.loc[(case.casing, case.E, case.K, case.theta, f_omega, *_scatters(of))] for of in members
-        ]
+        members = sorted(members, key=_key)
+        own = _rows_of(members, table)
         for axes, (name, colour, _) in zip(column, _PANELS, strict=True):
             scale = [1 if name == "amplification" else of.blades for of in members]
             _draw(axes, name, colour, own, scale)
@@ -53,8 +48,14 @@ def rotor(plan: Plan, table: pd.DataFrame) -> Figure:
     return figure
 
 
-def _scatters(of: Combination) -> tuple:
-    return of.blades, of.length_scatter, of.frequency_scatter, of.coupling
+def _key(combination: Combination) -> tuple:
+    of = described(combination)
+    return tuple(of[name] for name in WHAT)
+
+
+def _rows_of(members: list[Combination], table: pd.DataFrame) -> list[pd.Series]:
+    by_key = table.set_index(WHAT)
+    return [by_key.loc[_key(of)] for of in members]
 
 
 def _draw(axes: Axes, name: str, colour: str, own: list[pd.Series], scale: list[float]) -> None:
@@ -78,13 +79,9 @@ def rotor_sweeps(plan: Plan, table: pd.DataFrame) -> Figure:
         groups.setdefault(combination.case, []).append(combination)
     figure = new_figure(max(PAGE, 1.7 * len(groups) + 0.8), 4.6)
     panels = figure.subplots(2, len(groups), sharex=True, sharey="row", squeeze=False, height_ratios=(3, 2))
-    by_name = table.set_index([*table.columns[:9]])
     for (upper, lower), (case, members) in zip(panels.T, groups.items(), strict=True):
-        members = sorted(members, key=lambda of: of.f_omega)
-        rows = [
-            by_name.loc[(case.casing, case.E, case.K, case.theta, of.f_omega, *_scatters(of))]
-            for of in members
-        ]
+        members = sorted(members, key=_key)
+        rows = _rows_of(members, table)
         speeds, single = np.array([(of.f_omega, of == of.alone) for of in members]).T
         _draw_sweep(upper, lower, pd.DataFrame(rows).reset_index(drop=True), speeds, single.astype(bool))
         upper.set_title(f"E = {case.E:g}, K = {case.K:g}\nθ = {case.theta:g} rad", fontsize=8)

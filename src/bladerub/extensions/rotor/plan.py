@@ -103,20 +103,24 @@ def read_plan(path: str | Path, config: Mapping[str, Any]) -> Plan:
     key, value and what would be right.
     """
     located = configuration.read_plan(path, "rotor_plan")
-    combinations: dict[str, Combination] = {}
-    draws: dict[str, int] = {}
-    members: dict[str, dict[str, None]] = {"groups": {}, "sweeps": {}}
-    for section in (name for name in members if name in located.content):
+    sections = [name for name in ("groups", "sweeps") if name in located.content]
+    for section in sections:
         for name, group in located.content[section].content.items():
             _check(f"{section}.{name}", group, config)
     plan = located.plain()
-    for section, named in members.items():
-        for group in plan.get(section, {}).values():
-            for found, n in _combinations_of(group):
-                combinations[found.name] = found
-                draws[found.name] = max(n, draws.get(found.name, 0))
-                named[found.name] = None
-    return Plan(plan["seed"], combinations, draws, *map(tuple, members.values()))
+    found = {
+        section: [pair for group in plan[section].values() for pair in _combinations_of(group)]
+        for section in sections
+    }
+    draws: dict[str, int] = {}
+    for combination, n in itertools.chain(*found.values()):
+        draws[combination.name] = max(n, draws.get(combination.name, 0))
+    return Plan(
+        plan["seed"],
+        {combination.name: combination for combination, _ in itertools.chain(*found.values())},
+        draws,
+        *(tuple(dict.fromkeys(of.name for of, _ in found.get(each, []))) for each in ("groups", "sweeps")),
+    )
 
 
 def _combinations_of(group: Mapping[str, Any]) -> Iterator[tuple[Combination, int]]:

@@ -14,15 +14,16 @@ from bladerub.study.manifest import read_manifest
 from bladerub.study.store import OF_BLADES, read_run
 from bladerub.study.wear import dominant_harmonic, lobes
 
-_WHAT = ["casing", "E", "K", "theta", "f_omega", "blades"]
-_WHAT += ["length_scatter", "frequency_scatter", "coupling"]
+WHAT = ["casing", "E", "K", "theta", "f_omega", "blades"]
+WHAT += ["length_scatter", "frequency_scatter", "coupling"]
+"""Columns that name a combination, as `bladerub.extensions.rotor.plan.described` does."""
 
-DRAWS = [*_WHAT, "draw", "status", "n_unbounded", "row_amplitude", "amplification", "longest_amplification"]
+DRAWS = [*WHAT, "draw", "status", "n_unbounded", "row_amplitude", "amplification", "longest_amplification"]
 DRAWS += ["longest_share", "largest_share", "max_wear", "wear_harmonic", "wear_harmonic_share", "lobes"]
 DRAWS += ["divergent", "energy_residual"]
 """Columns of the table of draws."""
 
-COLUMNS = [*_WHAT, "rows", "unbounded_rows", "divergent_rows"]
+COLUMNS = [*WHAT, "rows", "unbounded_rows", "divergent_rows"]
 _MEASURED = ("row_amplitude", "amplification", "longest_amplification", "longest_share", "largest_share")
 _MEASURED += ("wear_harmonic_share",)
 COLUMNS += [f"{name}_{of}" for name in _MEASURED for of in ("median", "low", "high", "p05", "p95")]
@@ -87,11 +88,11 @@ def combinations(table: pd.DataFrame) -> pd.DataFrame:
     last revolutions, as far as they were made.
     """
     rows: list[dict[str, Any]] = []
-    for what, of_what in table.groupby(_WHAT, sort=False):
+    for what, of_what in table.groupby(WHAT, sort=False):
         measures = {name: _quantiles(of_what[name].dropna().to_numpy()) for name in _MEASURED}
         counts = of_what["wear_harmonic"].value_counts()
         rows.append(
-            dict(zip(_WHAT, what, strict=True))
+            dict(zip(WHAT, what, strict=True))
             | {f"{name}_{key}": value for name, found in measures.items() for key, value in found.items()}
             | {
                 "rows": len(of_what),
@@ -109,7 +110,7 @@ def combinations(table: pd.DataFrame) -> pd.DataFrame:
 
 def first_half(table: pd.DataFrame) -> pd.DataFrame:
     """Take the first half of the draws of each combination that has two or more, for `combinations`."""
-    n = table.groupby(_WHAT)["draw"].transform("size")
+    n = table.groupby(WHAT)["draw"].transform("size")
     return table[(n > 1) & (table["draw"] < n // 2)]
 
 
