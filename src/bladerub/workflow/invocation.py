@@ -1,8 +1,10 @@
 """What an invocation of the workflow clears away of those killed before it."""
 
 import shutil
+import signal
 import sys
 import tempfile
+import threading
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import IO, Any
@@ -80,9 +82,21 @@ def start() -> None:
     A Snakefile that takes in this workflow as a module calls it from its own ``onstart``, since Snakemake
     ignores that of a module.
     """
+    _handle_termination_beside()
     for results, files, given in _planned:
         prepare(results)
         record.write(results, files, given)
+
+
+def _handle_termination_beside() -> None:
+    """Let a thread of its own execute Snakemake's handler of SIGTERM.
+
+    The handler waits for the lock of the scheduler (``JobScheduler.exit_gracefully`` of Snakemake 9.27).
+    Python executes handlers in the main thread, which would wait for itself where it holds that lock.
+    """
+    handler = signal.getsignal(signal.SIGTERM)
+    if callable(handler):
+        signal.signal(signal.SIGTERM, lambda *at: threading.Thread(target=handler, args=at).start())
 
 
 def stopped() -> None:

@@ -1,3 +1,7 @@
+import os
+import signal
+import threading
+
 import pytest
 
 from bladerub.io import errors
@@ -99,3 +103,20 @@ def test_a_folder_that_cannot_be_made_is_named(tmp_path):
     with pytest.raises(OSError, match="results") as raised:
         invocation.prepare(tmp_path / "results")
     assert "\n" not in errors.message_for(raised.value)
+
+
+def test_a_handler_of_sigterm_may_wait_for_what_the_main_thread_holds():
+    lock, handled = threading.Lock(), threading.Event()
+
+    def handler(*_):
+        if lock.acquire(timeout=2):  # Snakemake's waits for ever
+            handled.set()
+
+    before = signal.signal(signal.SIGTERM, handler)
+    try:
+        invocation.start()
+        with lock:
+            os.kill(os.getpid(), signal.SIGTERM)
+        assert handled.wait(3)
+    finally:
+        signal.signal(signal.SIGTERM, before)
