@@ -187,6 +187,7 @@ use rule docs_data as docs_rotor with:
     input:
         rules.rotor_tables.output.table,
         rules.rotor_tables.output.half,
+        rules.rotor_patterns.output.drift,
     log:
         f"{RESULTS}/logs/docs_rotor.log",
 

@@ -1,4 +1,4 @@
-# Rows of blades on one coating (docs/explanation/rotor.md). Not part of `all`.
+# Rows of blades on one coating (docs/rotor.md). Not part of `all`.
 from functools import cache
 
 from bladerub.extensions.rotor.plan import PLAN, RUNS, read_plan
@@ -80,6 +80,31 @@ rule rotor_tables:
         "../scripts/rotor_tables.py"
 
 
+# Rows whose wear is looked at every few revolutions; first of all, since it is one long job
+rule rotor_patterns:
+    input:
+        blade=rules.blade.output.reduced_model,
+        kernel=rules.compile_kernel.output[0],
+        plan=ROTOR,
+        computing=files_behind("extensions.rotor.pattern"),
+    output:
+        **described(
+            table=f"{TABLES}/rotor_patterns.csv",
+            drift=shown(
+                f"{TABLES}/rotor_drift.csv", "rotor_drift", "Sweeps and long runs"
+            ),
+        ),
+    log:
+        f"{RESULTS}/logs/rotor_patterns.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/rotor_patterns.tsv"
+    priority: 1
+    params:
+        patterns=lambda wildcards: rotor_plan().patterns,
+    script:
+        "../scripts/rotor_patterns.py"
+
+
 # `rotor` of all combinations, `rotor_sweeps` of those that are swept
 rule rotor_figure:
     input:
@@ -117,3 +142,4 @@ rule rotor:
         rules.rotor_tables.output,
         rules.rotor_figure.output,
         lambda wildcards: rules.rotor_sweeps_figure.output if rotor_plan().swept else [],
+        lambda wildcards: rules.rotor_patterns.output if rotor_plan().patterns else [],

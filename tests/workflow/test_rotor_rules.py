@@ -19,7 +19,13 @@ GROUP = {
     "draws": 3,
 }
 SWEEP = GROUP | {"f_omega": [0.19, 0.25], "length_scatter": [5.0e-5], "draws": 2}
-PLAN = {"seed": 1, "groups": {"small": GROUP}, "sweeps": {"two_speeds": SWEEP}}
+PATTERN = GROUP | {"length_scatter": [5.0e-5], "draws": 2}
+PLAN = {
+    "seed": 1,
+    "groups": {"small": GROUP},
+    "sweeps": {"two_speeds": SWEEP},
+    "patterns": {"harmonic": 4, "interval": 1, "groups": {"some": PATTERN}},
+}
 
 
 def write(workspace, **changes):
@@ -34,6 +40,7 @@ def test_rows_are_made_once_and_lost_or_changed_ones_alone(copied_study, tiny):
         "rotor_tables": 1,
         "rotor_figure": 1,
         "rotor_sweeps_figure": 1,
+        "rotor_patterns": 1,
         "rotor": 1,
     }
     copied_study.build(tiny, "rotor")
@@ -47,6 +54,8 @@ def test_rows_are_made_once_and_lost_or_changed_ones_alone(copied_study, tiny):
     assert (draws.largest_share.between(1 / draws.blades - 1e-9, 1)).all()
     alone = table[(table.blades == 1) & (table.frequency_scatter == 0)]
     assert alone.amplification_median.tolist() == [1.0, 1.0]
+    drift = tables.read(copied_study.results / "tables" / "rotor_drift.csv")
+    assert drift[["blades", "rows", "followed_rows"]].values.tolist() == [[1, 1, 1], [3, 2, 2]]
     for name in ("rotor", "rotor_sweeps"):
         assert (copied_study.results / "figures" / f"{name}.png").stat().st_size > 10_000
     assert copied_study.plan(tiny, "rotor") == {}
@@ -72,6 +81,7 @@ def test_rows_are_made_once_and_lost_or_changed_ones_alone(copied_study, tiny):
         "rotor_tables": 1,
         "rotor_figure": 1,
         "rotor_sweeps_figure": 1,
+        "rotor_patterns": 1,
         "rotor": 1,
     }
     copied_study.build(tiny, "rotor")

@@ -70,6 +70,7 @@ def pages_of(root: Path) -> list[Path]:
     folders = ("explanation", "how-to", "reference", "tutorials")
     return [
         root / "README.md",
+        root / "docs" / "rotor.md",
         root / "docs" / "rotor37.md",
         *(page for name in folders for page in sorted((root / "docs" / name).glob("*.md"))),
     ]

@@ -85,7 +85,7 @@ def test_every_key_of_the_schema_is_needed_but_extend_and_what_another_blade_bri
         "multiple_of",
     }
     optional |= {"peak_orders", "damping_ratio", "layer_thickness", "interference", "tip_turns"}
-    optional |= {"interface_nodes", "bump_width", "unit", "angle_unit", "sweeps"}
+    optional |= {"interface_nodes", "bump_width", "unit", "angle_unit", "sweeps", "patterns"}
     optional |= {"rotor", "length", "frequency", "damping", "angle_error", "coupling"}
     optional |= {"length_scatter", "frequency_scatter", "seed"}
     for path, rule in rules(schema()):

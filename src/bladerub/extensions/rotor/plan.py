@@ -61,10 +61,30 @@ class Combination:
 
 
 @dataclass(frozen=True)
+class Patterns:
+    """Rows whose worn pattern is followed.
+
+    Parameters
+    ----------
+    harmonic : int
+        Number of lobes of the pattern.
+    interval : int
+        Revolutions between two looks at the wear.
+    draws : dict
+        Number of draws of each combination.
+    """
+
+    harmonic: int
+    interval: int
+    draws: dict[Combination, int]
+
+
+@dataclass(frozen=True)
 class Plan:
     """A plan as read: combinations by name, each with the number of its draws.
 
-    `compared` and `swept` are the combinations of its groups and of its sweeps, by name.
+    `compared` and `swept` are the combinations of its groups and of its sweeps, by name. `patterns` have
+    combinations of their own.
     """
 
     seed: int
@@ -72,18 +92,19 @@ class Plan:
     draws: dict[str, int]
     compared: tuple[str, ...]
     swept: tuple[str, ...]
+    patterns: Patterns | None = None
 
-    def row(self, name: str, draw: int) -> Row:
-        """Draw the blades of one row of a combination."""
-        return self.combinations[name].row(self.seed + draw)
+    def rows(self, combination: Combination, draws: int) -> list[Row]:
+        """Draw the blades of the rows of a combination."""
+        return [combination.row(self.seed + draw) for draw in range(draws)]
 
     def runs(self, config: Mapping[str, Any], name: str) -> CoatingPlan:
         """Plan the draws of one combination as runs of the study `config`; growth is not followed further."""
         combination = self.combinations[name]
         spec = run_spec(config, combination.case, combination.f_omega)
         runs = [
-            planned_run(config, spec, f"{draw:04d}.h5", keep_history=False, row=self.row(name, draw))
-            for draw in range(self.draws[name])
+            planned_run(config, spec, f"{draw:04d}.h5", keep_history=False, row=row)
+            for draw, row in enumerate(self.rows(combination, self.draws[name]))
         ]
         return CoatingPlan(combination.case, tuple(runs), follow=False)
 
@@ -103,15 +124,19 @@ def read_plan(path: str | Path, config: Mapping[str, Any]) -> Plan:
     key, value and what would be right.
     """
     located = configuration.read_plan(path, "rotor_plan")
-    sections = [name for name in ("groups", "sweeps") if name in located.content]
-    for section in sections:
-        for name, group in located.content[section].content.items():
-            _check(f"{section}.{name}", group, config)
     plan = located.plain()
+    sections = {name: located.content[name] for name in ("groups", "sweeps") if name in plan}
+    if "patterns" in plan:
+        sections["patterns.groups"] = located.content["patterns"].content["groups"]
+    for section, groups in sections.items():
+        for name, group in groups.content.items():
+            _check(f"{section}.{name}", group, config)
     found = {
-        section: [pair for group in plan[section].values() for pair in _combinations_of(group)]
-        for section in sections
+        section: [pair for group in groups.plain().values() for pair in _combinations_of(group)]
+        for section, groups in sections.items()
     }
+    followed = found.pop("patterns.groups", [])
+    patterns = {name: plan["patterns"][name] for name in ("harmonic", "interval")} if followed else {}
     draws: dict[str, int] = {}
     for combination, n in itertools.chain(*found.values()):
         draws[combination.name] = max(n, draws.get(combination.name, 0))
@@ -120,6 +145,7 @@ def read_plan(path: str | Path, config: Mapping[str, Any]) -> Plan:
         {combination.name: combination for combination, _ in itertools.chain(*found.values())},
         draws,
         *(tuple(dict.fromkeys(of.name for of, _ in found.get(each, []))) for each in ("groups", "sweeps")),
+        Patterns(**patterns, draws=dict(followed)) if followed else None,
     )
 
 
