@@ -32,6 +32,7 @@ KEPT = {
     ),
     "rotor": _ROWS,
     "rotor_half": _ROWS,
+    "rotor_drift": (*_ROWS[:10], *(f"pattern_drift_{of}" for of in ("median", "p05", "p95"))),
     "rigid_convergence": (
         *("f_omega", "treatment", "modes", "steps", "order", "complete", "amplitude"),
         *("amplitude_change", "largest_revolution", "median_revolution", "largest_displacement"),
