@@ -44,7 +44,7 @@ if workflow.is_main_process:
 
 onstart:
     with bladerub.io.errors.exit_on_error():
-        bladerub.workflow.invocation.start()
+        bladerub.workflow.invocation.start(workflow)
 
 
 onerror:

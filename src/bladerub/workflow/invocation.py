@@ -76,13 +76,14 @@ def plan(results: str, files: Sequence[str], given: Mapping[str, Any], notes: Se
         _print(note)
 
 
-def start() -> None:
+def start(workflow: Any) -> None:
     """Begin to compute what was planned: `prepare` its results folder, and record its config there.
 
-    A Snakefile that takes in this workflow as a module calls it from its own ``onstart``, since Snakemake
-    ignores that of a module.
+    Called in ``onstart`` with Snakemake's ``workflow``. A Snakefile that takes in this workflow as a module
+    calls it from its own, since Snakemake ignores that of a module.
     """
     _handle_termination_beside()
+    _schedule_by_events(workflow)
     for results, files, given in _planned:
         prepare(results)
         record.write(results, files, given)
@@ -97,6 +98,22 @@ def _handle_termination_beside() -> None:
     handler = signal.getsignal(signal.SIGTERM)
     if callable(handler):
         signal.signal(signal.SIGTERM, lambda *at: threading.Thread(target=handler, args=at).start())
+
+
+def _schedule_by_events(workflow: Any) -> None:
+    """Let Snakemake look for jobs when one ends, and not all the time.
+
+    Its limit of 100 jobs a second (Snakemake 9.27, where none is given) sets a timer of a second in each
+    round of the scheduler, and the timer begins another round. So each job that ends adds a round a second,
+    up to the end of the study.
+    """
+    scheduler = workflow.scheduler
+    limiter = scheduler.job_rate_limiter
+    if workflow.local_exec and limiter and (limiter.max_jobs, limiter.timespan) == _DEFAULT_JOB_RATE:
+        scheduler.job_rate_limiter = None
+
+
+_DEFAULT_JOB_RATE = (100, 1)
 
 
 def stopped() -> None:

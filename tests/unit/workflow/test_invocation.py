@@ -1,8 +1,12 @@
 import os
 import signal
 import threading
+from types import SimpleNamespace
 
 import pytest
+from snakemake.cli import get_argument_parser
+from snakemake.scheduling.job_scheduler import JobRateLimiter
+from snakemake.settings.types import MaxJobsPerTimespan
 
 from bladerub.io import errors
 from bladerub.study.manifest import ManifestRow, write_manifest
@@ -105,6 +109,27 @@ def test_a_folder_that_cannot_be_made_is_named(tmp_path):
     assert "\n" not in errors.message_for(raised.value)
 
 
+def workflow_with(limiter, local_exec=True):
+    """What `start` sees of Snakemake's workflow."""
+    scheduler = SimpleNamespace(job_rate_limiter=limiter)
+    return SimpleNamespace(scheduler=scheduler, local_exec=local_exec)
+
+
+@pytest.mark.parametrize(
+    ("rate", "local_exec", "kept"),
+    [("100/1s", True, False), ("100/1s", False, True), ("1/1m", True, True), ("100/2s", True, True)],
+)
+def test_the_default_limit_of_jobs_alone_is_lifted_on_this_machine(rate, local_exec, kept):
+    workflow = workflow_with(JobRateLimiter(MaxJobsPerTimespan.parse_choice(rate)), local_exec)
+    invocation.start(workflow)
+    assert (workflow.scheduler.job_rate_limiter is not None) == kept
+
+
+def test_snakemake_has_the_limit_by_default():
+    default = get_argument_parser().get_default("max_jobs_per_timespan")
+    assert default == "{}/{}s".format(*invocation._DEFAULT_JOB_RATE)
+
+
 def test_a_handler_of_sigterm_may_wait_for_what_the_main_thread_holds():
     lock, handled = threading.Lock(), threading.Event()
 
@@ -114,7 +139,7 @@ def test_a_handler_of_sigterm_may_wait_for_what_the_main_thread_holds():
 
     before = signal.signal(signal.SIGTERM, handler)
     try:
-        invocation.start()
+        invocation.start(workflow_with(limiter=None))
         with lock:
             os.kill(os.getpid(), signal.SIGTERM)
         assert handled.wait(3)
