@@ -10,7 +10,8 @@ A pipe in a row of a Markdown table is written ``\|``, since it would end the ce
 """
 
 import re
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -81,8 +82,6 @@ def render(text: str, page: str, data: Mapping[str, Table]) -> str:
 
     Raises `PageError`, which names page and line, for a bad expression or a missing comment.
     """
-    environment = Environment(undefined=StrictUndefined, autoescape=False)
-    environment.filters |= {"fixed": _fixed, "percent": _percent, "mm": _mm}
     done, position, opened = [], 0, None
     for mark in MARK.finditer(text):
         where = f"{page}:{_line(text, mark.start())}"
@@ -91,7 +90,7 @@ def render(text: str, page: str, data: Mapping[str, Table]) -> str:
                 f"{where}: {'no number begins' if mark['end'] else 'the number before has no end'}"
             )
         if mark["end"]:
-            done.append(_value(environment, opened["source"].replace("\\|", "|"), data, where))
+            done.append(_value(opened["source"].replace("\\|", "|"), data, where))
         else:
             done.append(text[position : mark.end()])
         position, opened = (mark.start(), None) if mark["end"] else (mark.end(), mark)
@@ -118,15 +117,23 @@ def differences(text: str, page: str, data: Mapping[str, Table]) -> list[str]:
     return found
 
 
-def _value(environment: Environment, source: str, data: Mapping[str, Table], where: str) -> str:
+def _value(source: str, data: Mapping[str, Table], where: str) -> str:
     try:
-        names = meta.find_undeclared_variables(environment.parse(f"{{{{ {source} }}}}"))
-        if missing := names - {*data, *environment.globals}:
+        names, evaluate = _compiled(source)
+        if missing := names - {*data}:
             raise LookupError(f"docs/data has no {', '.join(sorted(missing))}.csv")
-        evaluate = environment.compile_expression(source, undefined_to_none=False)
         return str(evaluate(**data))
     except (TemplateError, LookupError, TypeError, ValueError) as error:
         raise PageError(f"{where}: {source}: {error}") from error
+
+
+@cache
+def _compiled(source: str) -> tuple[set[str], Callable[..., Any]]:
+    """Return the tables that the expression `source` quotes, and the function that evaluates it."""
+    environment = Environment(undefined=StrictUndefined, autoescape=False)
+    environment.filters |= {"fixed": _fixed, "percent": _percent, "mm": _mm}
+    names = meta.find_undeclared_variables(environment.parse(f"{{{{ {source} }}}}"))
+    return names - {*environment.globals}, environment.compile_expression(source, undefined_to_none=False)
 
 
 def _line(text: str, position: int) -> int:
