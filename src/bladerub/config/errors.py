@@ -76,7 +76,7 @@ def key_path(parts: Iterable[Any]) -> str:
 
 def top_key(problem: str) -> str:
     """Return the key at the top of the config that the text of a problem begins with."""
-    return re.match(r"\w*", problem)[0]
+    return re.findall(r"^\w*", problem)[0]
 
 
 def format_value(value: Any) -> str:

@@ -3,7 +3,7 @@
 import json
 from collections.abc import Iterable, Sequence
 from dataclasses import asdict, dataclass
-from typing import Self
+from typing import Any, Self
 
 import numpy as np
 
@@ -168,7 +168,7 @@ class Row:
         if n_blades < 1:
             raise ValueError(f"row: {n_blades} blades; must have one or more")
         given = {"angle_error": angle_error, "length": length, "frequency": frequency, "damping": damping}
-        values = {}
+        values: dict[str, list[Any]] = {}
         for name, value in given.items():
             listed = np.asarray(value, dtype=float)
             if listed.ndim == 0:

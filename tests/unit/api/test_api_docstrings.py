@@ -2,6 +2,8 @@
 
 import doctest
 import inspect
+import re
+from pathlib import Path
 
 import pytest
 
@@ -32,6 +34,12 @@ def test_public_name_has_a_docstring_an_example_and_documented_members(name):
         assert [member for member, _ in members(public) if f".{member}" not in examples] == []
     elif inspect.signature(public).parameters:
         assert "Raises\n------\n" in text
+
+
+def test_every_public_name_is_on_the_page_of_the_interface():
+    page = (Path(__file__).parents[3] / "docs" / "reference" / "api.md").read_text(encoding="utf-8")
+    documented = re.findall(r"^\.\. auto(?:function|class|exception):: (\w+)$", page, re.M)
+    assert sorted(documented) == sorted(NAMES)
 
 
 @pytest.mark.parametrize("name", NAMES)
