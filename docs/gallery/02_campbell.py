@@ -21,8 +21,8 @@ blade.plot_mesh()
 blade.plot_campbell()
 
 # %%
-# The reduced model answers at any speed of its range. The first mode meets the engine order :math:`k` where
-# :math:`f_1(f_\Omega) = k f_\Omega`:
+# The reduced model answers at any speed of its range. The first mode meets the engine order k where
+# its frequency is k times that of the rotation:
 
 speeds = np.linspace(0.05, 0.4, 351)
 first = np.array([blade.frequencies(f, n_modes=1)[0] for f in speeds]) / blade.f1_hz

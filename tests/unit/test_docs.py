@@ -61,6 +61,12 @@ def test_the_pictures_are_small_and_all_are_shown():
     assert [picture.name for picture in sorted(pictures) if picture.name not in shown] == []
 
 
+def test_no_formula_needs_the_network():
+    """The site would load MathJax, and show the source of formulas where there is no network."""
+    pages = [*PAGES, *(DOCS / "gallery").glob("*.py")]
+    assert [page.name for page in pages if re.search(r":math:|\$\$|\{math\}", text_of(page))] == []
+
+
 @pytest.mark.parametrize("page", PAGES, ids=lambda path: path.name)
 def test_every_path_named_is_in_the_repository(page):
     named = set(PATH.findall(text_of(page))) - NOT_IN_GIT

@@ -79,8 +79,9 @@ def test_the_commands_of_the_readme(clone: Workspace):
     assert (clone.results / "explorer.html").exists()
 
 
-def test_the_python_example_of_the_readme(clone: Workspace):
-    (example,) = re.findall(r"^```python\n(.*?)^```$", (ROOT / "README.md").read_text(), re.M | re.S)
+def run_python(page: str, clone: Workspace) -> str:
+    """Run the one example in Python of a page; return what it prints."""
+    (example,) = re.findall(r"^```python\n(.*?)^```$", (ROOT / page).read_text(), re.M | re.S)
     done = subprocess.run(
         [sys.executable, "-W", "error", "-c", example],
         cwd=clone.folder,
@@ -90,13 +91,30 @@ def test_the_python_example_of_the_readme(clone: Workspace):
         timeout=300,
     )
     assert done.returncode == 0, done.stderr
-    assert done.stdout.startswith("completed ")
-    assert "xarray.Dataset" in done.stdout
+    return done.stdout
+
+
+def test_the_python_example_of_the_readme(clone: Workspace):
+    printed = run_python("README.md", clone)
+    assert printed.startswith("completed ")
+    assert "xarray.Dataset" in printed
+
+
+def test_the_python_example_of_the_first_study_writes_its_plots(clone: Workspace):
+    assert run_python("docs/tutorials/first_study.md", clone).startswith("completed ")
+    assert {path.name for path in clone.folder.glob("*.png")} == {"wear.png", "history.png", "spectrum.png"}
 
 
 def test_the_first_study(clone: Workspace):
     printed = run("docs/tutorials/first_study.md", clone)
-    assert printed.count("maximum wear") == 2
+    page = (ROOT / "docs/tutorials/first_study.md").read_text(encoding="utf-8")
+    (shown,) = re.findall(r"^```text\n(coating  .*?)^```$", page, re.M | re.S)
+    labels = [re.split(r" {2,}", line)[0] for line in shown.splitlines()]
+    lines = printed[printed.index("\ncoating  ") + 1 :].splitlines()
+    summaries = [i for i, line in enumerate(lines) if re.match(r"coating +E = 2", line)]
+    assert len(summaries) == 2
+    for i in summaries:
+        assert [re.split(r" {2,}", line)[0] for line in lines[i : i + len(labels)]] == labels
     assert "C1a" in printed
     assert "xarray.Dataset" in printed
 

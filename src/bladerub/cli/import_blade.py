@@ -143,7 +143,7 @@ def _mesh_rows(figures: dict[str, Any]) -> dict[str, str]:
         f"{figures['unknowns']} unknowns, {figures['elements_root_to_tip']} elements from root to tip",
         **_extents(figures),
         "length": f"{1e3 * figures['length']:.4g} mm, chord at the tip {1e3 * figures['tip_chord']:.4g} mm, "
-        f"cone there {round(figures['tip_cone_degrees'], 6):g} degrees",
+        f"cone there {round(figures['tip_cone_degrees'], 3) + 0.0:g} degrees",
         "root and tip": f"{figures['root_nodes']} and {figures['tip_nodes']} nodes; interface nodes up to "
         f"{1e3 * figures['interface_offset']:.3g} mm from their even places on the camber line",
         "volume and mass": f"{1e6 * figures['volume']:.4g} cm³, {figures['mass']:.4g} kg",
