@@ -6,7 +6,7 @@ that were there: histories of runs that are no longer planned are left out, and 
 ``contact.scale`` multiplies it: a note gives the sizes of its casings.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Set
 from typing import Any
 
 from bladerub.study.casings import nodal_diameters
@@ -15,22 +15,28 @@ from bladerub.study.orders import excited_orders, excites, peak_orders, used_cas
 
 Config = dict[str, Any]
 
-READS = {"coatings", "casings", "contact", "speeds", "analysis"}
-"""Keys at the top that `fit` reads."""
+_HISTORIES_READ = {"coatings", "speeds", "analysis"}
+_READS = {*_HISTORIES_READ, "casings", "contact"}
 
 
-def fit(config: Config, is_inherited: Callable[[str], bool]) -> tuple[Config, list[str]]:
+def fit(
+    config: Config, is_inherited: Callable[[str], bool], broken: Set[str] = frozenset()
+) -> tuple[Config, list[str]]:
     """Return `config` with what is inherited fitted to the rest, and a line for each change or doubt.
 
-    The config agrees with the schema; `is_inherited` tells whether the value of a key is the study's own.
+    The config agrees with the schema but for the keys at the top in `broken`, which are not read;
+    `is_inherited` tells whether the value of a key is the study's own.
     Raises `ValueError` as `coating_cases` and `speeds`.
     """
     notes: list[str] = []
-    if not all(map(is_inherited, ("coatings", "casings", "speeds"))):
-        if is_inherited("analysis.histories"):
-            config = _without_lost_histories(config, notes)
-        if is_inherited("analysis.peaks.orders"):
-            config = _with_orders_of_casings(config, notes)
+    parts = ("coatings", "casings", "speeds")
+    replaced = any(part in config and not is_inherited(part) for part in parts)
+    if replaced and broken.isdisjoint(_HISTORIES_READ) and is_inherited("analysis.histories"):
+        config = _without_lost_histories(config, notes)
+    if not broken.isdisjoint(_READS):
+        return config, notes
+    if replaced and is_inherited("analysis.peaks.orders"):
+        config = _with_orders_of_casings(config, notes)
     return config, notes + _scaled_casings(config, is_inherited) + _doubts(config)
 
 

@@ -116,9 +116,8 @@ def _validated(
     missing = set(schema.schema()["required"]) - set(values)
     broken = missing | set(map(top_key, problems))
     notes: list[str] = []
-    if not broken & inherited.READS:
-        with suppress(ValueError):  # of values that `check` reports
-            values, notes = inherited.fit(values, lambda key: locations[key].source == base)
+    with suppress(ValueError):  # of values that `check` reports
+        values, notes = inherited.fit(values, lambda key: locations[key].source == base, broken)
     problems += check(values, broken)
     if problems:
         raise ConfigError(

@@ -56,6 +56,15 @@ def test_a_note_gives_the_scaled_size_of_a_casing_of_the_file(laid_over):
     assert not [note for note in laid_over(scale)[1] if "contact.scale" in note]
 
 
+def test_a_mistake_in_a_casing_is_reported_without_the_histories_of_replaced_coatings(laid_over):
+    content = on_casing(nodal_diameters=[3])
+    del content["casings"]["own"]["start_angle"]
+    with pytest.raises(ConfigError) as error:
+        laid_over(content)
+    (problem,) = error.value.problems
+    assert problem.text.startswith("casings.own.start_angle: missing")
+
+
 def test_a_history_that_the_file_itself_lists_is_still_an_error(laid_over):
     lost = {"casing": "2nd", "E": 7, "K": 0.5, "theta": 0.0, "f_omega": 0.19}
     with pytest.raises(ConfigError) as error:
