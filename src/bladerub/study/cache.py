@@ -24,8 +24,11 @@ _KEYS = ("run_key", "cell_key")  # attribute of a run, of a point of the chart
 
 
 def digest(determinants: Any) -> str:
-    """Digest what JSON can express, as SHA-256 in hexadecimal; the order of keys does not count."""
-    return hashlib.sha256(json.dumps(determinants, sort_keys=True).encode()).hexdigest()
+    """Digest what JSON can express, as SHA-256 in hexadecimal; the order of keys does not count.
+
+    A dataclass counts as the mapping of its fields.
+    """
+    return hashlib.sha256(json.dumps(determinants, sort_keys=True, default=vars).encode()).hexdigest()
 
 
 def blade_digest(path: str | Path) -> str:

@@ -238,7 +238,7 @@ def row_of(config: Mapping[str, Any]) -> Row | None:
 def keeps_history(config: Mapping[str, Any], case: CoatingCase, f_omega: float) -> bool:
     """Return whether the config lists this run among those whose whole displacement is kept."""
     return any(
-        listed_case(entry) == case
-        and round(float(entry["f_omega"]), SPEED_DECIMALS) == round(f_omega, SPEED_DECIMALS)
+        round(float(entry["f_omega"]), SPEED_DECIMALS) == round(f_omega, SPEED_DECIMALS)
+        and listed_case(entry) == case
         for entry in config["analysis"]["histories"]
     )

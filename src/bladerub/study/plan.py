@@ -1,7 +1,7 @@
 """The runs that a study asks for: what each one is, in which file and under which key."""
 
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass, replace
+from dataclasses import dataclass, replace
 from typing import Any
 
 from bladerub.contact.row_spec import Row
@@ -51,14 +51,14 @@ def planned_run(
 ) -> PlannedRun:
     """Plan one run (see `PlannedRun`); `config` is the study."""
     determinants = {
-        "spec": asdict(spec),
+        "spec": spec,
         "solver": solver_digest(),
         "storage": storage_digest(),
         "keep_history": bool(keep_history),
         "analysis": {name: float(config["analysis"][name]) for name in SHAPING_SETTINGS},
     }
     if row:
-        determinants["row"] = asdict(row)
+        determinants["row"] = row
     return PlannedRun(spec, file, keep_history, cache.digest(determinants), row)
 
 
