@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from bladerub.api.blade import Blade, build_blade, read_blade
     from bladerub.api.ensemble import Ensemble, simulate_ensemble
     from bladerub.api.errors import InputError
+    from bladerub.api.fit import fit_coating
     from bladerub.api.map import Map, read_map, simulate_speeds
     from bladerub.api.run import Run, read_run, simulate
     from bladerub.api.study import Study, StudyCoating, StudyRun, default_study, load_study
@@ -25,6 +26,7 @@ _MODULES = {
     "api.blade": ("Blade", "build_blade", "read_blade"),
     "api.ensemble": ("Ensemble", "simulate_ensemble"),
     "api.errors": ("InputError",),
+    "api.fit": ("fit_coating",),
     "api.map": ("Map", "read_map", "simulate_speeds"),
     "api.run": ("Run", "read_run", "simulate"),
     "api.study": ("Study", "StudyCoating", "StudyRun", "default_study", "load_study"),
@@ -49,6 +51,7 @@ __all__ = [
     "__version__",
     "build_blade",
     "default_study",
+    "fit_coating",
     "load_study",
     "read_blade",
     "read_map",

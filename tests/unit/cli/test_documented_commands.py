@@ -16,7 +16,7 @@ PAGES = [
     *(ROOT / "docs").glob("[!_a]*/*.md"),
 ]
 BLOCK = re.compile(r"^```sh\n(.*?)^```$", re.M | re.S)
-IN_A_LINE = re.compile(r"`(bladerub [a-z]+ [^`]*--[^`]*)`")
+IN_A_LINE = re.compile(r"`(bladerub [a-z-]+ [^`]*--[^`]*)`")
 
 
 def commands():
@@ -42,7 +42,10 @@ def parses(command):
 
 def test_commands_are_found():
     names = {command.split()[1] for _, command in commands()}
-    assert names == {"new", "run", "status", "verify", "compare", "benchmark", "import", "export"}
+    assert names == {
+        *("new", "run", "status", "verify", "compare", "benchmark", "import", "export"),
+        "fit-coating",
+    }
 
 
 @pytest.mark.parametrize(("page", "command"), sorted(set(commands())))

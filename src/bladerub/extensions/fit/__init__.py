@@ -1,0 +1,1 @@
+"""The parameters of the coating's law from measured stress-strain curves, with their uncertainty."""
