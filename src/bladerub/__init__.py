@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from bladerub.api.errors import InputError
     from bladerub.api.fit import fit_coating
     from bladerub.api.map import Map, read_map, simulate_speeds
-    from bladerub.api.run import Run, read_run, simulate
+    from bladerub.api.run import Run, find_stress, read_run, simulate
     from bladerub.api.study import Study, StudyCoating, StudyRun, default_study, load_study
     from bladerub.config.errors import ConfigError
     from bladerub.contact.row_spec import Disk, Row, RowBlade
@@ -28,7 +28,7 @@ _MODULES = {
     "api.errors": ("InputError",),
     "api.fit": ("fit_coating",),
     "api.map": ("Map", "read_map", "simulate_speeds"),
-    "api.run": ("Run", "read_run", "simulate"),
+    "api.run": ("Run", "find_stress", "read_run", "simulate"),
     "api.study": ("Study", "StudyCoating", "StudyRun", "default_study", "load_study"),
     "config.errors": ("ConfigError",),
     "contact.row_spec": ("Disk", "Row", "RowBlade"),
@@ -51,6 +51,7 @@ __all__ = [
     "__version__",
     "build_blade",
     "default_study",
+    "find_stress",
     "fit_coating",
     "load_study",
     "read_blade",

@@ -30,6 +30,7 @@ from bladerub.study.job import compute
 from bladerub.study.manifest import confirmation_path
 from bladerub.study.plan import planned_run
 from bladerub.study.store import StoredRun
+from bladerub.study.stress import RunStress, run_stress
 from bladerub.study.summary import summarise
 
 
@@ -337,6 +338,47 @@ def solve(
         spec = confirmation_spec(run.spec, settings)
         longer = Run(_solve(blade, run, spec, digest, done, False, row))
     return Run(stored, longer)
+
+
+def find_stress(
+    blade: Blade, run: StudyRun, result: Run, *, each: Callable[[int], None] | None = None
+) -> RunStress | None:
+    """Find the largest stress of the blade in a run of `simulate`.
+
+    Parameters
+    ----------
+    blade : Blade
+        The blade of the run.
+    run : StudyRun
+        The run.
+    result : Run
+        What `simulate` gave for it; its motion is computed again.
+    each : callable, optional
+        Called with the number of revolutions done after each of them.
+
+    Returns
+    -------
+    RunStress or None
+        At rotation alone, at start-up and in the last ``analysis.spectrum_revolutions``; None where the blade
+        is of matrices, which tell of no stress, or no revolution is complete.
+
+    Raises
+    ------
+    OSError
+        If the mesh of the blade is missing or damaged.
+
+    Examples
+    --------
+    >>> import bladerub as br
+    >>> planned = study.run("2nd", E=2, K=0.5, f_omega=0.19)
+    >>> stress = br.find_stress(blade, planned, run)
+    >>> stress.static["von_mises"] < stress.last["von_mises"]
+    True
+    """
+    spec = run.of_length(blade.length).spec
+    complete = int(np.isfinite(result.revolution_peak).sum()) - (result.status == "unbounded")
+    last = run.config["analysis"]["spectrum_revolutions"]
+    return run_stress(blade.mesh_path, blade.reduced, spec, last, complete, each)
 
 
 def _solve(

@@ -92,8 +92,9 @@ def _motion(options: argparse.Namespace, config: dict[str, Any]) -> dict[str, An
     _check_new(options, config, "vtu")
 
     from bladerub.contact.row_spec import Row
-    from bladerub.export.vtu import COLLECTION, read_mesh, stress_of, write_motion
+    from bladerub.export.vtu import COLLECTION, read_mesh, write_motion
     from bladerub.io.provenance import provenance
+    from bladerub.study.stress import stress_of
 
     run, found = _run_and_blade(options, config)
     with refused(OSError):

@@ -5,6 +5,7 @@ import math
 import os
 import sys
 import time
+from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -26,6 +27,7 @@ _UNITS |= {
     "max_wear": "m",
     "growth_per_revolution": "1",
 }
+_UNITS |= {"von_mises": "Pa", "principal": "Pa", "alternating": "Pa"}
 _UNITS |= {"rpm": "1/min", "damping_ratio": "1", "layer_thickness": "m", "interference": "m"}
 
 
@@ -68,6 +70,8 @@ def add_to(commands: Any) -> None:
     text = "springs of the disk between neighbours over the stiffness of the first mode (default 0: none)"
     parser.option("--coupling", text, float, metavar="C")
     parser.option("--seed", "of the draws of the blades, 0 or more (default 1)", int, metavar="N")
+    text = "find the largest stress of the blade too, at start-up and in the last revolutions"
+    parser.add_argument("--stress", action="store_true", help=text)
     parser.option("--output", "write the run with its whole history (HDF5)", Path, metavar="FILE")
 
 
@@ -82,6 +86,8 @@ def run(options: argparse.Namespace) -> None:
     from bladerub.api.study import Study
 
     row = _row(options)
+    if options.stress and (row or config.get("rotor")):
+        raise InputError("--stress: is of a single blade; not with --blades or the block rotor of the config")
     study = Study(config, inputs.study_folder())
     if options.output:
         _check_output(options.output)
@@ -110,6 +116,8 @@ def run(options: argparse.Namespace) -> None:
     figures["displacement_over_length"] = figures["peak_amplitude"] / blade.length
     if options.ensemble is not None:
         figures["ensemble"] = _ensemble(options, planned, blade, result)
+    if options.stress:
+        figures["stress"] = _stress(blade, planned, result)
     if len(result.blades):
         figures["blade"] = result.attributes["blade"]
         figures["blades"] = result.blades.reset_index().to_dict("records")
@@ -150,6 +158,15 @@ def _ensemble(options: argparse.Namespace, planned: "StudyRun", blade: "Blade", 
         "divergent_draws": float(ensemble.to_pandas().divergent.mean()),
         **bands.astype(object).where(bands.notna(), None).to_dict("index"),
     }
+
+
+def _stress(blade: "Blade", planned: "StudyRun", result: "Run") -> dict[str, Any] | None:
+    """Find the stress of the run; None where it cannot be known."""
+    from bladerub.api.run import find_stress
+
+    with refused(OSError), inputs.progress_bar(planned.spec.revolutions, "rev") as bar:
+        found = find_stress(blade, planned, result, each=lambda done: bar.update(done - bar.n))
+    return asdict(found) if found else None
 
 
 def _check_coating(options: argparse.Namespace) -> None:
@@ -255,6 +272,8 @@ def _in_words(figures: dict[str, Any]) -> str:
         "steps per second": f"{figures['steps_per_second']:.3g}",
     }
     lines = inputs.aligned(rows.items())
+    if "stress" in figures:
+        lines += ["", *_stress_in_words(figures["stress"])]
     if "blades" in figures:
         lines += [
             "",
@@ -264,6 +283,22 @@ def _in_words(figures: dict[str, Any]) -> str:
     if "ensemble" in figures:
         lines += ["", *_bands_in_words(figures["ensemble"])]
     return "\n".join(lines)
+
+
+def _stress_in_words(stress: dict[str, dict[str, float]] | None) -> list[str]:
+    if stress is None:
+        return ["stress: not known, the blade is of matrices alone or no revolution is complete"]
+    names = {"static": "rotation alone", "start_up": "start-up", "last": "last revolutions"}
+    kinds = {"von_mises": "von Mises", "principal": "largest principal", "alternating": "alternating"}
+    lines = []
+    for part, of in names.items():
+        for name, kind in kinds.items():
+            if name in stress[part]:
+                found = stress[part]
+                place = ", ".join(f"{1e3 * found[f'{name}_{axis}']:.1f}" for axis in "xyz")
+                time = f", after {found[f'{name}_time']:.3f} revolutions" if f"{name}_time" in found else ""
+                lines.append((f"{kind}, {of}", f"{found[name] / 1e6:.4g} MPa at ({place}) mm{time}"))
+    return ["largest stress:", *inputs.aligned(lines)]
 
 
 def _coating_in_words(figures: dict[str, Any]) -> str:

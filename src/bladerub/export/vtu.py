@@ -5,7 +5,6 @@ running position, as in the run, so without the centrifugal displacement and wit
 is the whole stress, that of the rotation included.
 """
 
-import json
 import os
 import shutil
 import xml.etree.ElementTree as ET
@@ -16,9 +15,8 @@ from typing import Any
 import meshio
 import numpy as np
 
-from bladerub.blade.elasticity import Material
 from bladerub.blade.model import ReducedBlade
-from bladerub.blade.stress import NodalStress, running_displacement, von_mises
+from bladerub.blade.stress import NodalStress, von_mises
 from bladerub.contact.recording import Recording
 from bladerub.contact.row_spec import Row
 from bladerub.contact.setup import element_angle
@@ -50,19 +48,6 @@ def read_mesh(path: str | Path, blade: ReducedBlade) -> dict[str, np.ndarray]:
     return mesh
 
 
-def stress_of(path: str | Path, f_omega: float) -> NodalStress | None:
-    """Return how to find the stress at the speed `f_omega` of the blade in `path`, its ``mesh.h5``.
-
-    None where the blade is of matrices alone: they tell of no stress.
-    """
-    mesh, attributes = hdf5.read(path)
-    if not len(mesh["cells"]):
-        return None
-    material = Material.from_config(json.loads(attributes["made_from"])["blade"]["material"])
-    running = running_displacement(mesh["f_omega"], mesh["static_displacement"], f_omega)
-    return NodalStress(mesh["points"], mesh["cells"], material, running)
-
-
 def write_motion(
     folder: str | Path,
     mesh: Mapping[str, np.ndarray],
@@ -73,11 +58,11 @@ def write_motion(
 ) -> dict[str, Any]:
     """Write a recorded motion to a new folder, whole or not at all.
 
-    `mesh` is from `read_mesh`, `stress` from `stress_of`; `about` is what the motion is and where it comes
-    from, for a comment in the collection. With a `row` its blades stand at their angles and the coating is
-    written with them; None is a single blade. Returns ``largest_displacement`` (m) and, with `stress`,
-    ``largest_von_mises`` and ``largest_principal`` (Pa), each with its place (m, at rest) and time
-    (revolutions).
+    `mesh` is from `read_mesh`, `stress` from `bladerub.study.stress.stress_of`; `about` is what the motion is
+    and where it comes from, for a comment in the collection. With a `row` its blades stand at their angles
+    and the coating is written with them; None is a single blade. Returns ``largest_displacement`` (m) and,
+    with `stress`, ``largest_von_mises`` and ``largest_principal`` (Pa), each with its place (m, at rest) and
+    time (revolutions).
     """
     folder = Path(folder)
     folder.parent.mkdir(parents=True, exist_ok=True)
