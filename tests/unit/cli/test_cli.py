@@ -152,6 +152,36 @@ def test_run_in_words(small, blade_file, capsys):
     ]
 
 
+def test_the_stress_of_a_run_is_that_of_its_motion(small, blade_file, folder, capsys):
+    path = folder / "stressed.h5"
+    few = {"spectrum_revolutions": 1, "max_order": 20}
+    overlay = folder / "last.yaml"
+    overlay.write_text((folder / "small.yaml").read_text() + f"analysis: {json.dumps(few)}\n")
+    arguments = [*RUN, "--config", str(overlay), "--revolutions", "2", "--stress"]
+    assert main([*arguments, "--json", "--output", str(path)]) == 0
+    stress = json.loads(capsys.readouterr().out)["stress"]
+    for name in ("von_mises", "principal"):
+        assert 0 < stress["static"][name] < min(stress["start_up"][name], stress["last"][name])
+        assert 0 < stress["start_up"][f"{name}_time"] <= 1 < stress["last"][f"{name}_time"] <= 2
+    # the same by the other way to it: all nodes of the mesh at instants of the last revolution
+    motion = ["export", "--run", str(path), "--config", str(overlay), "--vtu", str(folder / "motion")]
+    assert main([*motion, "--samples", "200", "--json"]) == 0
+    exported = json.loads(capsys.readouterr().out)
+    assert stress["last"]["von_mises"] == pytest.approx(exported["largest_von_mises"], rel=0.02)
+    assert stress["last"]["principal"] == pytest.approx(exported["largest_principal"], rel=0.02)
+    assert main(arguments) == 0
+    words = capsys.readouterr().out.partition("largest stress:\n")[2].splitlines()
+    assert len(words) == 2 + 3 + 3
+    assert words[0].startswith("von Mises, rotation alone")
+    assert all(" MPa at (" in line for line in words)
+
+
+def test_the_stress_of_a_row_is_refused(small, capsys):
+    code, line = told(capsys, [*RUN, *small, "--stress", "--blades", "2"])
+    assert code == 2
+    assert "--stress: is of a single blade" in line
+
+
 def test_a_large_displacement_is_pointed_out():
     assert inputs.large_in_words(0.0499) == ""
     assert (

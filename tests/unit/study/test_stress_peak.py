@@ -36,3 +36,22 @@ def test_peak_of_one_vibrating_coordinate_about_tension():
     assert found["alternating"] == pytest.approx(3.0)
     assert (found["von_mises_z"], found["von_mises_time"]) == (1.0, 0.25)
     assert static_peak(stress)["von_mises"] == pytest.approx(5.0)
+
+
+def test_the_nodes_that_are_left_out_do_not_matter():
+    rng = np.random.default_rng(5)
+    slope = rng.normal(size=(400, 3, 3, 3)) * np.geomspace(0.01, 1.0, 400)[:, None, None, None]
+
+    def linear(displacement):
+        stress = np.einsum("nijk,nk->nij", slope, displacement)
+        return 0.3 + stress + np.swapaxes(stress, 1, 2)
+
+    recovery = rng.normal(size=(4, 400, 3))
+    stress = ModalStress(linear, recovery, rng.normal(size=(400, 3)))
+    time = np.linspace(0, 3, 600)
+    coordinates = np.sin(2 * np.pi * time[:, None] * [1, 2.3, 3.1, 5.7] + [0, 1, 2, 3])
+    found = stress_peak(stress, coordinates, time)
+    whole = invariants(stress(coordinates))
+    for name in ("von_mises", "principal"):
+        assert found[name] == whole[name].max()
+        assert found[f"{name}_time"] == time[np.unravel_index(whole[name].argmax(), whole[name].shape)[0]]
