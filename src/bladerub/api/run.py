@@ -30,7 +30,7 @@ from bladerub.study.job import compute
 from bladerub.study.manifest import confirmation_path
 from bladerub.study.plan import planned_run
 from bladerub.study.store import StoredRun
-from bladerub.study.stress import RunStress, run_stress
+from bladerub.study.stress import RunStress, complete_revolutions, run_stress
 from bladerub.study.summary import summarise
 
 
@@ -376,7 +376,7 @@ def find_stress(
     True
     """
     spec = run.of_length(blade.length).spec
-    complete = int(np.isfinite(result.revolution_peak).sum()) - (result.status == "unbounded")
+    complete = complete_revolutions(result.revolution_peak, result.status)
     last = run.config["analysis"]["spectrum_revolutions"]
     return run_stress(blade.mesh_path, blade.reduced, spec, last, complete, each)
 

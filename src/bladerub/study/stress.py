@@ -53,6 +53,11 @@ def stress_of(path: str | Path, f_omega: float) -> NodalStress | None:
     return NodalStress(mesh["points"], mesh["cells"], material, running)
 
 
+def complete_revolutions(revolution_peak: np.ndarray, status: str) -> int:
+    """Count the revolutions that a run of this outcome has completed; `revolution_peak` as of `RunResult`."""
+    return int(np.isfinite(revolution_peak).sum()) - (status == "unbounded")
+
+
 def run_stress(
     mesh: str | Path,
     blade: ReducedBlade,

@@ -1,0 +1,45 @@
+"""Table of the largest stress of the blade at the peaks of the study."""
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import pandas as pd
+
+from bladerub.blade.model import ReducedBlade
+from bladerub.contact.run import simulate
+from bladerub.study.grid import CoatingCase, run_spec
+from bladerub.study.stress import complete_revolutions, run_stress
+
+_CASE = ("casing", "E", "K", "theta", "law")
+_PEAK = ("order", "f_peak", "amplitude")
+_OF_LAST = ("von_mises", "von_mises_x", "von_mises_y", "von_mises_z", "principal", "alternating")
+
+COLUMNS = [*_CASE, *_PEAK, "status", "rotation_von_mises", "start_up_von_mises"]
+COLUMNS += [f"last_{name}" for name in _OF_LAST]
+"""Columns of ``stress.csv``, described in ``io/columns.csv``."""
+
+
+def table(
+    mesh: str | Path, blade: ReducedBlade, config: Mapping[str, Any], peaks: pd.DataFrame
+) -> pd.DataFrame:
+    """Find the stress of the run at each of the `peaks`, a table ``peaks.csv``: a row each, with `COLUMNS`.
+
+    `mesh` is the ``mesh.h5`` of the blade. Raises `ValueError` where it is of matrices alone, which tell of
+    no stress.
+    """
+    rows = []
+    for peak in peaks.dropna(subset=["f_peak"]).to_dict("records"):
+        spec = run_spec(config, CoatingCase.described(peak), peak["f_peak"])
+        run = simulate(blade, spec)
+        complete = complete_revolutions(run.revolution_peak, run.status)
+        found = run_stress(mesh, blade, spec, config["analysis"]["spectrum_revolutions"], complete)
+        if found is None:
+            raise ValueError(f"{mesh}: the blade is of matrices alone, which tell of no stress")
+        rows.append(
+            {name: peak[name] for name in (*_CASE, *_PEAK)}
+            | {"status": run.status, "rotation_von_mises": found.static["von_mises"]}
+            | {"start_up_von_mises": found.start_up.get("von_mises")}
+            | {f"last_{name}": found.last.get(name) for name in _OF_LAST}
+        )
+    return pd.DataFrame(rows, columns=COLUMNS)

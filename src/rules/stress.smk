@@ -1,0 +1,23 @@
+# The largest stress of the blade at the peaks. Not part of `all`.
+
+
+rule stress:
+    input:
+        blade=rules.blade.output.reduced_model,
+        mesh=rules.blade.output.mesh,
+        kernel=rules.compile_kernel.output[0],
+        peaks=rules.peaks.output[0],
+        analysing=files_behind("study.stress_table"),
+    output:
+        **described(
+            table=shown(f"{TABLES}/stress.csv", "stress", "Sweeps and long runs"),
+        ),
+    log:
+        f"{RESULTS}/logs/stress.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/stress.tsv"
+    resources:
+        mem_mb=memory_mb,
+        runtime=minutes(20),
+    script:
+        "../scripts/stress.py"

@@ -1,0 +1,12 @@
+"""Table of the largest stress of the blade at the peaks."""
+
+from bladerub.blade.model import read_reduced_blade
+from bladerub.io import tables
+from bladerub.study.peaks import COLUMNS
+from bladerub.study.stress_table import table
+from bladerub.workflow import job, outputs
+
+job.log_to(snakemake.log[0])
+
+blade, peaks = read_reduced_blade(snakemake.input.blade), tables.read(snakemake.input.peaks, COLUMNS)
+outputs.save(snakemake, table=table(snakemake.input.mesh, blade, snakemake.config, peaks))
