@@ -31,21 +31,52 @@ def rotor(plan: Plan, table: pd.DataFrame) -> Figure:
     for combination in (plan.combinations[name] for name in plan.compared):
         if combination.blades > 1 or combination != combination.alone:
             groups.setdefault((combination.case, combination.f_omega), []).append(combination)
-    widths = [max(len(members), 4) for members in groups.values()]
-    figure = new_figure(max(PAGE, 0.35 * sum(widths) + 2.0), 8.0)
-    panels = figure.subplots(3, len(groups), sharex="col", squeeze=False, width_ratios=widths)
-    for column, ((case, f_omega), members) in zip(panels.T, groups.items(), strict=True):
-        members = sorted(members, key=_key)
-        own = _rows_of(members, table)
-        for axes, (name, colour, _) in zip(column, _PANELS, strict=True):
-            scale = [1 if name == "amplification" else of.blades for of in members]
-            _draw(axes, name, colour, own, scale)
-        column[0].set_title(f"E = {case.E:g}, K = {case.K:g}\n{titles.speed(f_omega)}", fontsize=8)
-        column[-1].set_xticks(range(len(members)), [label(of) for of in members], rotation=90, fontsize=7)
-    for axes, (_, _, text) in zip(panels[:, 0], _PANELS, strict=True):
-        axes.set_ylabel(text)
+    lines = _lines(list(groups.items()))
+    widest = max(map(_line_width, lines))
+    figure = new_figure(max(PAGE, 0.35 * widest + 2.0), 5.8 * len(lines))
+    parts = figure.subfigures(len(lines), 1, squeeze=False)[:, 0]
+    for part, line in zip(parts, lines, strict=True):
+        widths = [_width(members) for _, members in line]
+        if rest := widest - _line_width(line):
+            widths.append(rest)  # stays empty: all combinations are as far from each other
+        panels = part.subplots(3, len(widths), sharex="col", squeeze=False, width_ratios=widths)
+        for axes in panels[:, len(line) :].flat:
+            axes.remove()
+        for column, ((case, f_omega), members) in zip(panels.T, line, strict=False):
+            _draw_group(column, sorted(members, key=_key), table)
+            column[0].set_title(f"E = {case.E:g}, K = {case.K:g}\n{titles.speed(f_omega)}", fontsize=8)
+        for axes, (_, _, text) in zip(panels[:, 0], _PANELS, strict=True):
+            axes.set_ylabel(text, fontsize=8)
     panels[-1, 0].set_xlabel("blades: scatter of length, of frequency", loc="left")
     return figure
+
+
+def _width(members: list[Combination]) -> int:
+    return max(len(members), 3)
+
+
+def _line_width(line: list[tuple]) -> int:
+    return sum(_width(members) for _, members in line)
+
+
+def _lines(groups: list[tuple]) -> list[list[tuple]]:
+    """Break the groups into lines that are no wider than the widest group."""
+    widest = max(_line_width([group]) for group in groups)
+    lines: list[list[tuple]] = [[]]
+    for group in groups:
+        if lines[-1] and _line_width([*lines[-1], group]) > widest:
+            lines.append([])
+        lines[-1].append(group)
+    return lines
+
+
+def _draw_group(column: np.ndarray, members: list[Combination], table: pd.DataFrame) -> None:
+    """Draw the combinations of one coating and speed into a column of panels."""
+    own = _rows_of(members, table)
+    for axes, (name, colour, _) in zip(column, _PANELS, strict=True):
+        scale = [1 if name == "amplification" else of.blades for of in members]
+        _draw(axes, name, colour, own, scale)
+    column[-1].set_xticks(range(len(members)), [label(of) for of in members], rotation=90, fontsize=9)
 
 
 def _key(combination: Combination) -> tuple:
