@@ -81,7 +81,7 @@ def _rows(config: dict[str, Any], path: Path) -> "list[StudyRun]":
 
     plan = read_plan(path, config)
     return [
-        StudyRun(of.case, of.f_omega, plan.row(name, draw), f"{name}/{draw:04d}")
+        StudyRun(of.case, of.f_omega, plan.row(of, draw), f"{name}/{draw:04d}")
         for name, of in plan.combinations.items()
         for draw in range(plan.draws[name])
     ]

@@ -27,8 +27,9 @@ def table(config: Mapping[str, Any], blade: ReducedBlade, plan: Plan) -> pd.Data
     lines = []
     for combination, draws in plan.patterns.draws.items():
         spec = run_spec(config, combination.case, combination.f_omega)
-        for draw, row in enumerate(plan.rows(combination, draws)):
+        for draw in range(draws):
             what = described(combination) | {"draw": draw, "pattern_harmonic": plan.patterns.harmonic}
+            row = plan.row(combination, draw)
             lines += [what | line for line in _of_row(blade, spec, row, plan.patterns)]
     return pd.DataFrame(lines, columns=COLUMNS)
 

@@ -94,17 +94,17 @@ class Plan:
     swept: tuple[str, ...]
     patterns: Patterns | None = None
 
-    def rows(self, combination: Combination, draws: int) -> list[Row]:
-        """Draw the blades of the rows of a combination."""
-        return [combination.row(self.seed + draw) for draw in range(draws)]
+    def row(self, combination: Combination, draw: int) -> Row:
+        """Draw the blades of one row of a combination."""
+        return combination.row(self.seed + draw)
 
     def runs(self, config: Mapping[str, Any], name: str) -> CoatingPlan:
         """Plan the draws of one combination as runs of the study `config`; growth is not followed further."""
         combination = self.combinations[name]
         spec = run_spec(config, combination.case, combination.f_omega)
         runs = [
-            planned_run(config, spec, f"{draw:04d}.h5", keep_history=False, row=row)
-            for draw, row in enumerate(self.rows(combination, self.draws[name]))
+            planned_run(config, spec, f"{draw:04d}.h5", keep_history=False, row=self.row(combination, draw))
+            for draw in range(self.draws[name])
         ]
         return CoatingPlan(combination.case, tuple(runs), follow=False)
 
