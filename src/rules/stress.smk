@@ -7,7 +7,7 @@ rule stress:
         mesh=rules.blade.output.mesh,
         kernel=rules.compile_kernel.output[0],
         peaks=rules.peaks.output[0],
-        analysing=files_behind("study.stress_table"),
+        analysing=files_behind("extensions.stress.table"),
     output:
         **described(
             table=shown(f"{TABLES}/stress.csv", "stress", "Sweeps and long runs"),

@@ -1,9 +1,9 @@
 """Table of the largest stress of the blade at the peaks."""
 
 from bladerub.blade.model import read_reduced_blade
+from bladerub.extensions.stress.table import table
 from bladerub.io import tables
 from bladerub.study.peaks import COLUMNS
-from bladerub.study.stress_table import table
 from bladerub.workflow import job, outputs
 
 job.log_to(snakemake.log[0])

@@ -20,6 +20,7 @@ from bladerub.contact.result import Energy
 from bladerub.contact.row_spec import Row
 from bladerub.contact.setup import compile_kernel
 from bladerub.contact.spec import RunSpec
+from bladerub.extensions.stress.run import RunStress, complete_revolutions, run_stress
 from bladerub.io.provenance import provenance
 from bladerub.plots import single_run, titles
 from bladerub.plots.style import saved
@@ -30,7 +31,6 @@ from bladerub.study.job import compute
 from bladerub.study.manifest import confirmation_path
 from bladerub.study.plan import planned_run
 from bladerub.study.store import StoredRun
-from bladerub.study.stress import RunStress, complete_revolutions, run_stress
 from bladerub.study.summary import summarise
 
 

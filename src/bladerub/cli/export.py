@@ -93,8 +93,8 @@ def _motion(options: argparse.Namespace, config: dict[str, Any]) -> dict[str, An
 
     from bladerub.contact.row_spec import Row
     from bladerub.export.vtu import COLLECTION, read_mesh, write_motion
+    from bladerub.extensions.stress.run import stress_of
     from bladerub.io.provenance import provenance
-    from bladerub.study.stress import stress_of
 
     run, found = _run_and_blade(options, config)
     with refused(OSError):

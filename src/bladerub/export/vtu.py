@@ -58,11 +58,11 @@ def write_motion(
 ) -> dict[str, Any]:
     """Write a recorded motion to a new folder, whole or not at all.
 
-    `mesh` is from `read_mesh`, `stress` from `bladerub.study.stress.stress_of`; `about` is what the motion is
-    and where it comes from, for a comment in the collection. With a `row` its blades stand at their angles
-    and the coating is written with them; None is a single blade. Returns ``largest_displacement`` (m) and,
-    with `stress`, ``largest_von_mises`` and ``largest_principal`` (Pa), each with its place (m, at rest) and
-    time (revolutions).
+    `mesh` is from `read_mesh`, `stress` from `bladerub.extensions.stress.run.stress_of`; `about` is what the
+    motion is and where it comes from, for a comment in the collection. With a `row` its blades stand at their
+    angles and the coating is written with them; None is a single blade. Returns ``largest_displacement`` (m)
+    and, with `stress`, ``largest_von_mises`` and ``largest_principal`` (Pa), each with its place (m, at rest)
+    and time (revolutions).
     """
     folder = Path(folder)
     folder.parent.mkdir(parents=True, exist_ok=True)

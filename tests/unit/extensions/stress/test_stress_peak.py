@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from bladerub.study.stress_peak import ModalStress, invariants, static_peak, stress_peak
+from bladerub.extensions.stress.peak import ModalStress, invariants, static_peak, stress_peak
 
 
 def test_invariants_are_those_of_the_eigenvalues():

@@ -1,5 +1,5 @@
+from bladerub.extensions.stress import table as stress_table
 from bladerub.io.tables import described_columns
-from bladerub.study import stress_table
 
 
 def test_every_column_is_described():

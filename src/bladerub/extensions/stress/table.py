@@ -8,8 +8,8 @@ import pandas as pd
 
 from bladerub.blade.model import ReducedBlade
 from bladerub.contact.run import simulate
+from bladerub.extensions.stress.run import complete_revolutions, run_stress
 from bladerub.study.grid import CoatingCase, run_spec
-from bladerub.study.stress import complete_revolutions, run_stress
 
 _CASE = ("casing", "E", "K", "theta", "law")
 _PEAK = ("order", "f_peak", "amplitude")

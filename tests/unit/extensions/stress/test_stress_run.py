@@ -1,7 +1,7 @@
 import numpy as np
 
+from bladerub.extensions.stress.run import run_stress
 from bladerub.io import hdf5
-from bladerub.study.stress import run_stress
 
 
 def test_a_blade_of_matrices_tells_of_no_stress(tmp_path):

@@ -13,8 +13,8 @@ from bladerub.blade.stress import NodalStress, running_displacement
 from bladerub.contact.recording import record
 from bladerub.contact.row_spec import Row
 from bladerub.contact.spec import RunSpec
+from bladerub.extensions.stress.peak import ModalStress, static_peak, stress_peak
 from bladerub.io import hdf5
-from bladerub.study.stress_peak import ModalStress, static_peak, stress_peak
 
 INSTANTS = 200
 """A revolution; ten times as many raise the largest stress by up to 2 %."""
@@ -27,10 +27,10 @@ class RunStress:
     Parameters
     ----------
     static : dict
-        Of the rotation alone, as of `bladerub.study.stress_peak.static_peak`.
+        Of the rotation alone, as of `bladerub.extensions.stress.peak.static_peak`.
     start_up : dict
-        From the start to where `last` begins, as of `bladerub.study.stress_peak.stress_peak`; empty where the
-        run has no more revolutions than those.
+        From the start to where `last` begins, as of `bladerub.extensions.stress.peak.stress_peak`; empty
+        where the run has no more revolutions than those.
     last : dict
         Over the last revolutions, likewise.
     """
