@@ -1,6 +1,7 @@
 """``bladerub fit-coating``: the parameters of a coating from its stress-strain curves."""
 
 import argparse
+from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
@@ -40,10 +41,7 @@ def fit_coating(options: argparse.Namespace) -> None:
         "residual": found.residual,
         "autocorrelation": found.autocorrelation,
         "independent_residuals": not found.has_correlated_residuals,
-        "parameters": [
-            {key: getattr(parameter, key) for key in parameter.__dataclass_fields__}
-            for parameter in found.parameters
-        ],
+        "parameters": [asdict(parameter) for parameter in found.parameters],
         "covariance": {
             name: {other: float(value) for other, value in zip(names, row, strict=True) if value == value}
             for name, row in zip(names, found.covariance, strict=True)

@@ -10,9 +10,9 @@ COUNTED = {
 }
 """Tables of a row a run, which become counts (``runs``) of the runs with equal values in these columns."""
 _RUN = ("casing", "E", "K", "theta")
+_COMBINATION = (*_RUN, "f_omega", "blades", "length_scatter", "frequency_scatter", "coupling")
 _ROWS = (
-    *(*_RUN, "f_omega", "blades", "length_scatter", "frequency_scatter", "coupling"),
-    *("rows", "unbounded_rows", "divergent_rows"),
+    *(*_COMBINATION, "rows", "unbounded_rows", "divergent_rows"),
     *(f"row_amplitude_{of}" for of in ("median", "low", "high", "p05", "p95")),
     *(f"amplification_{of}" for of in ("median", "low", "high", "p05", "p95")),
     *(f"{share}_{of}" for share in ("longest_share", "largest_share") for of in ("median", "low", "high")),
@@ -32,7 +32,7 @@ KEPT = {
     ),
     "rotor": _ROWS,
     "rotor_half": _ROWS,
-    "rotor_drift": (*_ROWS[:10], *(f"pattern_drift_{of}" for of in ("median", "p05", "p95"))),
+    "rotor_drift": (*_COMBINATION, "rows", *(f"pattern_drift_{of}" for of in ("median", "p05", "p95"))),
     "rigid_convergence": (
         *("f_omega", "treatment", "modes", "steps", "order", "complete", "amplitude"),
         *("amplitude_change", "largest_revolution", "median_revolution", "largest_displacement"),

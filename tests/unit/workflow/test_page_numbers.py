@@ -77,6 +77,8 @@ def test_a_changed_value_names_the_lines_that_quote_it(tmp_path):
     assert all("0.42" in one for one in stale)
 
 
+FOUR_BLADES = {"E": 1.1, "f_omega": 0.346, "blades": 4}
+FOUR_BLADES |= {"length_scatter": 5e-5, "frequency_scatter": 0.005, "coupling": 0}
 CHANGES = [
     ("rom_accuracy", {"f_omega": 0.35, "mode": 2}, "f_fe_eq2", 1.0, "rom_accuracy(0.35,2)"),
     ("campbell", {"f_omega": 0.4, "mode": 1}, "f_fe", 1.0, "campbell(0.4"),
@@ -137,28 +139,14 @@ CHANGES = [
     ),
     (
         "rotor",
-        {
-            "E": 1.1,
-            "f_omega": 0.346,
-            "blades": 4,
-            "length_scatter": 5e-5,
-            "frequency_scatter": 0.005,
-            "coupling": 0,
-        },
+        FOUR_BLADES,
         "unbounded_rows",
         1,
         "rotor('2nd',1.1,0.5,0.0,0.346,4,0.00005,0.005,0.0).unbounded_rows",
     ),
     (
         "rotor_half",
-        {
-            "E": 1.1,
-            "f_omega": 0.346,
-            "blades": 4,
-            "length_scatter": 5e-5,
-            "frequency_scatter": 0.005,
-            "coupling": 0,
-        },
+        FOUR_BLADES,
         "unbounded_rows",
         1,
         "rotor_half('2nd',1.1,0.5,0.0,0.346,4,0.00005,0.005,0.0).unbounded_rows",
