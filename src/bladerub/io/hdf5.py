@@ -52,12 +52,14 @@ def write(
     kinds = tuple((key, np.asarray(value).dtype.str) for key, value in attributes.items())
     image = _blank(layout, kinds, tuple(origin.items()))
     with h5py.File(h5py.h5f.open_file_image(image, flags=_READ_AND_WRITE)) as file:
+        # past h5py's own indexing, which takes longer than the writing
         for key, value in attributes.items():
-            file.attrs.modify(key, value)
+            attribute = h5py.h5a.open(file.id, key.encode())
+            attribute.write(np.asarray(value, attribute.dtype))
         for name, values in data.items():
             if values.dtype.kind == "U":
                 file[name][...] = values
-            else:  # past h5py's indexing, which takes longer than the writing
+            else:
                 whole = h5py.h5s.ALL
                 h5py.h5d.open(file.id, name.encode()).write(whole, whole, np.ascontiguousarray(values))
         file.flush()

@@ -133,7 +133,7 @@ def _compute(
     """Compute what is missing or stale of `runs`, which are of equal length; return all by file."""
     entries = {run.file: Entry(folder / run.file, run.key(blade_digest), MAPPED) for run in runs}
     missing = [run for run in runs if not entries[run.file].fetch()]
-    checksums = {}
+    origin, done = provenance(config), {}
     # a run takes as many steps as its revolutions take time: its cost goes as 1 / speed
     cost_left = sum(1 / run.spec.f_omega for run in missing)
     cost_done, start = 0.0, time.monotonic()
@@ -141,7 +141,7 @@ def _compute(
         run_start, entry = time.monotonic(), entries[run.file]
         stored = compute(case, run, blade, entry.key, config["analysis"])
         entry.make_room()
-        checksums[run.file] = write_run(entry.path, stored, provenance(config))
+        done[run.file] = _done(entry, stored, write_run(entry.path, stored, origin))
         now = time.monotonic()
         cost_done += 1 / run.spec.f_omega
         cost_left -= 1 / run.spec.f_omega
@@ -151,12 +151,13 @@ def _compute(
                 number, len(missing), run.file, stored.attributes["status"], now - run_start, seconds_left
             )
         )
-    return {file: _done(entry, checksums.get(file)) for file, entry in entries.items()}
+    for file in entries.keys() - done.keys():
+        path = entries[file].path
+        done[file] = _done(entries[file], read_run(path, {"revolution_amplitude"}), file_checksum(path))
+    return done
 
 
-def _done(entry: Entry, checksum: str | None) -> _Done:
-    run, size = read_run(entry.path, {"revolution_amplitude"}), entry.path.stat().st_size
-    checksum = checksum or file_checksum(entry.path)
-    told = run.attributes
+def _done(entry: Entry, run: StoredRun, checksum: str) -> _Done:
+    told, size = run.attributes, entry.path.stat().st_size
     unconverged = int(told["n_unconverged_steps"])
     return _Done(entry.key, size, checksum, told["status"], unconverged, run.data["revolution_amplitude"])

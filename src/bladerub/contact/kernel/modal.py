@@ -72,8 +72,10 @@ def _by_lane_both(matrix: np.ndarray, n_nodes: int) -> np.ndarray:
 
 
 def _padded(rows: np.ndarray) -> np.ndarray:
-    missing = -rows.shape[-1] % LANES
-    return np.pad(rows, [(0, 0)] * (rows.ndim - 1) + [(0, missing)])
+    n = rows.shape[-1]
+    padded = np.zeros((*rows.shape[:-1], n + -n % LANES))
+    padded[..., :n] = rows
+    return padded
 
 
 def in_vectors(rows: np.ndarray) -> np.ndarray:

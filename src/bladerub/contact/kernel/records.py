@@ -84,9 +84,8 @@ def by_lane(rows: np.ndarray, n_nodes: int) -> np.ndarray:
     Lanes without a node move as the last node does, and never touch: they hold up nothing.
     """
     groups = rows.reshape(-1, n_nodes, *rows.shape[1:])
-    missing = [(0, 0)] * groups.ndim
-    missing[1] = (0, LANES - n_nodes)
-    return np.pad(groups, missing, mode="edge").reshape(-1, *rows.shape[1:])
+    node = np.minimum(np.arange(LANES), n_nodes - 1)
+    return groups.take(node, axis=1).reshape(-1, *rows.shape[1:])
 
 
 def at_rest(n_modes: int, n_elements: int) -> State:
