@@ -5,12 +5,14 @@ A number stands between two comments, the first of which holds its source:
 them: ``<!-- C6a C6c: partly -->``. Both are invisible on the rendered page. An expression is of Jinja. A
 table is called with the values of its first columns and answers with the one row that has them; its `column`
 lists a column for the filters ``sum``, ``max`` and ``min``, over the rows that have the values it is given.
-Its `rows` are the table as pandas has it, for what these cannot say.
+Its `rows` are the table as pandas has it, for what these cannot say; the filter ``table`` writes such rows
+as a table of Markdown, between lines that hold nothing but the comments.
 A pipe in a row of a Markdown table is written ``\|``, since it would end the cell.
 """
 
+import difflib
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -101,11 +103,12 @@ def render(text: str, page: str, data: Mapping[str, Table]) -> str:
 
 def differences(text: str, page: str, data: Mapping[str, Table]) -> list[str]:
     """Name page, line and text of each stale number and each changed verdict; raise as `render`."""
-    lines = zip(text.split("\n"), render(text, page, data).split("\n"), strict=True)
-    found = []
-    for number, (old, new) in enumerate(lines, 1):
-        if old != new:
-            found.append(f"{page}:{number}: stale number, now: {new}")
+    found, lines = [], text.split("\n")
+    for first, end, now in _changes(lines, render(text, page, data).split("\n")):
+        for number in range(first, max(end, first + 1)):
+            new = now[number - first] if number - first < len(now) else "no such line"
+            found.append(f"{page}:{number + 1}: stale number, now: {new}")
+    for number, old in enumerate(lines, 1):
         for mark in VERDICT.finditer(old):
             try:
                 verdicts = {claim: data["findings"](claim)["holds"] for claim in mark["claims"].split()}
@@ -115,6 +118,17 @@ def differences(text: str, page: str, data: Mapping[str, Table]) -> list[str]:
             if changed:
                 found.append(f"{page}:{number}: written for {mark['verdict']}, {', '.join(changed)}: {old}")
     return found
+
+
+def _changes(old: list[str], new: list[str]) -> Iterator[tuple[int, int, list[str]]]:
+    """List the ranges of lines of `old` that differ, with the lines of `new` in their place."""
+    if len(old) == len(new):
+        yield from ((at, at + 1, [new[at]]) for at, line in enumerate(old) if line != new[at])
+        return
+    matcher = difflib.SequenceMatcher(None, old, new, autojunk=False)
+    for tag, first, end, start, stop in matcher.get_opcodes():
+        if tag != "equal":
+            yield first, end, new[start:stop]
 
 
 def _value(source: str, data: Mapping[str, Table], where: str) -> str:
@@ -131,7 +145,7 @@ def _value(source: str, data: Mapping[str, Table], where: str) -> str:
 def _compiled(source: str) -> tuple[set[str], Callable[..., Any]]:
     """Return the tables that the expression `source` quotes, and the function that evaluates it."""
     environment = Environment(undefined=StrictUndefined, autoescape=False)
-    environment.filters |= {"fixed": _fixed, "percent": _percent, "mm": _mm}
+    environment.filters |= {"fixed": _fixed, "percent": _percent, "mm": _mm, "table": _table}
     names = meta.find_undeclared_variables(environment.parse(f"{{{{ {source} }}}}"))
     return names - {*environment.globals}, environment.compile_expression(source, undefined_to_none=False)
 
@@ -157,3 +171,10 @@ def _percent(value: float, digits: int = 0) -> str:
 
 def _mm(value: float, digits: int = 1) -> str:
     return f"{1000 * value:.{digits}f}"
+
+
+def _table(rows: pd.DataFrame) -> str:
+    """Write `rows` as a table of Markdown; what is missing leaves its cell empty."""
+    lines = [map(str, rows.columns), ["---"] * len(rows.columns)]
+    lines += [["" if pd.isna(cell) else str(cell) for cell in row] for row in rows.itertuples(index=False)]
+    return "\n" + "".join(f"| {' | '.join(line)} |\n" for line in lines)

@@ -115,7 +115,7 @@ CHANGES = [
         100000,
         "divergence.column('runs')",
     ),
-    ("cost", {"stage": "blade"}, "wall_s", 9999.0, "cost.column('wall_s',stage='blade')"),
+    ("cost", {"stage": "blade"}, "memory_mb", 9999.0, "cost.column('memory_mb')|max"),
     (
         "finer_bars",
         {"E": 0.11, "order": 4, "elements": 4000},
@@ -314,8 +314,23 @@ def test_rendering_twice_changes_nothing():
     assert pages.render(once, "page.md", data) == once
 
 
+def test_rows_are_written_as_a_table_and_a_changed_one_is_named(tmp_path):
+    data = pages.read_tables(SNAPSHOTS)
+    source = "cost.rows[['stage','job']].query(\"stage == 'blade'\")|table"
+    rendered = pages.render(f"before\n<!-- = {source} --><!-- / -->\nafter\n", "page.md", data)
+    assert rendered.split("\n")[2:6] == ["| stage | job |", "| --- | --- |", "| blade |  |", "<!-- / -->"]
+    assert pages.differences(rendered, "page.md", data) == []
+    old = rendered.replace("| blade |", "| wheel |")
+    assert pages.differences(old, "page.md", data) == ["page.md:5: stale number, now: | blade |  |"]
+    shorter = rendered.replace("| blade |  |\n", "")
+    assert pages.differences(shorter, "page.md", data) == ["page.md:5: stale number, now: | blade |  |"]
+    longer = rendered.replace("| blade |  |\n", "| wheel |  |\n| blade |  |\n")
+    assert pages.differences(longer, "page.md", data) == ["page.md:5: stale number, now: no such line"]
+
+
 def test_no_mark_begins_a_line_which_would_make_it_plain_html():
-    begins = re.compile(r"\s*(?:[*-] )?<!-- (?:=|C\d)")
+    begins = re.compile(r"\s*(?:[*-] )?<!-- (?:=(?!.*\|table -->$)|C\d)")
+    assert not begins.match("<!-- = cost.rows|table -->")  # the table begins on the next line
     lines = [line for page in pages.pages_of(ROOT) for line in page.read_text(encoding="utf-8").split("\n")]
     assert begins.match("* <!-- C1a: yes -->so")
     assert [line for line in lines if begins.match(line)] == []
