@@ -4,7 +4,6 @@ Every loop integrates the same two revolutions from rest: once on a casing so ne
 a third of the steps, once vibrating freely far from it. Rounds take turns, and the median counts.
 """
 
-import os
 import statistics
 import time
 from collections.abc import Callable, Mapping
@@ -13,7 +12,8 @@ from typing import Any
 
 import numpy as np
 
-from bladerub.benchmark import peak, plain
+from bladerub.benchmark import machine, peak, plain
+from bladerub.benchmark.estimate import estimate
 from bladerub.blade.model import ReducedBlade
 from bladerub.contact.kernel.loop import Progress, Simulation
 from bladerub.contact.run import simulate
@@ -21,7 +21,6 @@ from bladerub.contact.setup import set_up
 from bladerub.contact.spec import RunSpec
 from bladerub.numerics.vectors import LANES
 from bladerub.study.grid import coating_cases, run_spec, speeds
-from bladerub.verification.verify import draw, study_runs
 
 SHARE = 1 / 3
 """Share of the steps in contact."""
@@ -29,7 +28,6 @@ REVOLUTIONS = 2
 REPEATS = 25
 """Marches of the loop of the study in each round: free ones take half a millisecond, so the median counts."""
 PEAK_TURNS = 2_000_000
-FULL_RUNS = 8
 
 FLOPS_PER_MODE = 39
 """Of a step by itself: recurrence 3, damping loss 4, displacement of 16 coordinates of the tip 32."""
@@ -76,9 +74,8 @@ def benchmark(
                     "production": production(blade, spec) / steps,
                 }
             )
-    progress(f"timing {FULL_RUNS} runs of the study")
-    seconds_per_run, n_runs = _mean_run(blade, config)
-    cores = cores or os.cpu_count() or 1
+    progress("timing runs drawn from the study")
+    study = estimate(blade, config, cores or machine.cores())
     median = statistics.median
     flops = {name: useful_flops(blade, spec) for name, spec in specs.items()}
 
@@ -86,6 +83,7 @@ def benchmark(
         return median(row[loop] / row["production"] for row in seconds[name])
 
     return {
+        **machine.describe(),
         "rounds": rounds,
         "modes": set_up(blade, touching)[0].omega.size,
         "contact_share": share,
@@ -104,10 +102,7 @@ def benchmark(
             )
             for name, rows in seconds.items()
         },
-        "seconds_per_run": seconds_per_run,
-        "runs": n_runs,
-        "cores": cores,
-        "study_minutes": n_runs * seconds_per_run / cores / 60,
+        **study,
     }
 
 
@@ -168,17 +163,6 @@ def production(blade: ReducedBlade, spec: RunSpec) -> float:
 
 def _revolve(simulation: Simulation) -> Progress:
     return simulation.advance(np.zeros(simulation.stator.n_elements))
-
-
-def _mean_run(blade: ReducedBlade, config: Mapping[str, Any]) -> tuple[float, int]:
-    """Estimate CPU seconds of the mean run of the study from the cost of a step of some; count the runs."""
-    runs = study_runs(config)
-    case = coating_cases(config)[0]
-    steps = {f: _steps(blade, run_spec(config, case, f)) for f in {run.f_omega for run in runs}}
-    drawn = draw(runs, min(FULL_RUNS, len(runs)), seed=0)
-    seconds = sum(_timed(simulate, blade, run_spec(config, run.case, run.f_omega)) for run in drawn)
-    per_step = seconds / sum(steps[run.f_omega] for run in drawn)
-    return per_step * statistics.mean(steps[run.f_omega] for run in runs), len(runs)
 
 
 def _steps(blade: ReducedBlade, spec: RunSpec) -> int:

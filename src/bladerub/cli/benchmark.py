@@ -2,6 +2,7 @@
 
 import argparse
 import sys
+from pathlib import Path
 from typing import Any
 
 from bladerub.cli import inputs
@@ -29,14 +30,17 @@ def add_to(commands: Any) -> None:
         "contact adds 32 per mode (forces on the modes), one response of the 16 displacements to the 16 "
         "forces, 69 per abradable element under the tip (force once, wear and its energy) and 60 per node. "
         "Not counted are comparisons, repeated iterations for the forces and padding of vectors. "
-        "Seconds a run: runs drawn from the study, at its time step. Minutes of the study: its simulations, "
-        "without those that are repeated for longer.",
+        "Seconds a run: runs drawn from the study, set up, integrated and stored. Minutes of the study: all "
+        "its runs, those that are repeated for longer, and the members of its ensembles, estimated from the "
+        "drawn runs; not the blade, tables and figures.",
     )
     parser.option("--rounds", "how often to measure (default 5)", int, default=5, metavar="N")
     text = "cores for the estimate of the study (default: all there are)"
     parser.option("--cores", text, int, metavar="C")
     text = "also the cost of so many interface nodes, over that of 8; builds a blade for each"
     parser.option("--nodes", text, int, nargs="+", default=[], metavar="N")
+    text = "also put the figures of this machine into the table FILE, in the place of its old ones"
+    parser.option("--table", text, Path, metavar="FILE")
 
 
 def benchmark(options: argparse.Namespace) -> None:
@@ -60,6 +64,11 @@ def benchmark(options: argparse.Namespace) -> None:
 
         _report_stage("building blades with more interface nodes")
         figures["cost_by_nodes"] = cost_by_nodes(config, options.nodes, options.rounds)
+    if options.table:
+        from bladerub.benchmark.record import record
+        from bladerub.io.provenance import provenance
+
+        record(options.table, figures, provenance(config))
     inputs.show(options, figures, _in_words)
 
 
@@ -78,14 +87,16 @@ def _in_words(figures: dict[str, Any]) -> str:
     rows.append(("fraction of peak", *(f"{figures[f'fraction_of_peak_{kind}']:.2f}" for kind in kinds)))
     return "\n".join(
         [
+            f"{figures['processor']}, vectors of {figures['vector_bits']} bits",
             f"{figures['modes']} modes, contact in {figures['contact_share']:.0%} of the steps or none, "
             f"medians of {figures['rounds']} rounds",
             "",
             *(inputs.row(30, *row) for row in rows),
             "",
             f"peak: {figures['peak_flops'] / 1e9:.3g} billion operations a second",
-            f"a run of the study: {figures['seconds_per_run']:.3g} s; {figures['runs']} runs on "
-            f"{figures['cores']} cores: {figures['study_minutes']:.3g} minutes",
+            f"a run of the study: {figures['seconds_per_run']:.3g} s; {figures['runs']} runs and "
+            f"{figures['members']} members of ensembles on {figures['cores']} cores: "
+            f"{figures['study_minutes']:.3g} minutes",
             *(
                 f"{n} interface nodes: {cost:.3g} times the time of 8"
                 for n, cost in figures.get("cost_by_nodes", {}).items()

@@ -79,15 +79,21 @@ def starts(settings: Mapping[str, Any], case: CoatingCase, f_omega: float, membe
 def chosen(config: Mapping[str, Any], coating: CoatingMap) -> np.ndarray:
     """Choose the speeds (n,) of a coating that have an ensemble, ascending, normalised."""
     f_omega = coating.f_omega
-    wanted = np.array([keeps_history(config, coating.case, float(f)) for f in f_omega])
+    wanted = named(config, coating.case, f_omega)
     settings = peak_settings(config, coating.case.casing)
     for order in settings["orders"]:
         at = int(np.argmin(np.abs(f_omega - peak(coating, order, settings).f_omega)))
         wanted[max(at - 1, 0) : at + 2] = True
-    if coating.case == WORN:
+    return f_omega[wanted]
+
+
+def named(config: Mapping[str, Any], case: CoatingCase, f_omega: np.ndarray) -> np.ndarray:
+    """Which (n,) of the speeds `f_omega` have an ensemble wherever the peaks are: by history or claim."""
+    wanted = np.array([keeps_history(config, case, float(f)) for f in f_omega])
+    if case == WORN:
         for low, high in LOBES:
             wanted |= between(f_omega, low, high)
-    return f_omega[wanted]
+    return wanted
 
 
 def plan(config: Mapping[str, Any], case: CoatingCase, f_omega: np.ndarray) -> list[CoatingPlan]:

@@ -1,0 +1,44 @@
+"""A table of the speeds of several machines: a row for each machine and kind of motion."""
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import pandas as pd
+
+from bladerub.io import tables
+
+_MACHINE = ["processor", "vector_bits", "cores"]
+_LOOPS = ("numpy", "numba", "production")
+_WHOLE = ["peak_flops", "seconds_per_run", "study_minutes"]
+COLUMNS = [
+    *(*_MACHINE, "motion"),
+    *(f"steps_per_second_{loop}" for loop in _LOOPS),
+    *("ratio_to_numpy", "ratio_to_numba", "fraction_of_peak", *_WHOLE),
+]
+"""Columns of the table, described in ``io/columns.csv``."""
+
+
+def rows(figures: Mapping[str, Any]) -> pd.DataFrame:
+    """Arrange what `bladerub.benchmark.measure.benchmark` returns in two rows: with contact, and free."""
+    found = []
+    for motion, ending in (("contact", ""), ("free", "_free")):
+        steps = [figures["steps_per_second"][loop][motion] for loop in _LOOPS]
+        ratios = [figures[f"ratio_to_{loop}{ending}"] for loop in ("numpy", "numba")]
+        of_machine, whole = ([figures[name] for name in names] for names in (_MACHINE, _WHOLE))
+        found.append([*of_machine, motion, *steps, *ratios, figures[f"fraction_of_peak_{motion}"], *whole])
+    return pd.DataFrame(found, columns=COLUMNS)
+
+
+def record(path: str | Path, figures: Mapping[str, Any], origin: Mapping[str, str]) -> None:
+    """Put the rows of this machine into the table at `path`, in the place of its old ones, if any.
+
+    `origin` is from `bladerub.io.provenance.provenance`. Raises as `bladerub.io.tables.read` if there is
+    another table.
+    """
+    new = rows(figures)
+    if Path(path).exists():
+        old = tables.read(path, COLUMNS)
+        same = (old[_MACHINE] == new.loc[0, _MACHINE].to_numpy()).all(axis="columns")
+        new = pd.concat([old[~same], new])
+    tables.write(path, new, origin, float_format="%.4g")
