@@ -168,6 +168,13 @@ use rule docs_data as docs_rigid_convergence with:
         f"{RESULTS}/logs/docs_rigid_convergence.log",
 
 
+use rule docs_data as docs_accuracy with:
+    input:
+        rules.accuracy.output.table,
+    log:
+        f"{RESULTS}/logs/docs_accuracy.log",
+
+
 use rule docs_data as docs_more_nodes with:
     input:
         rules.more_nodes.output.table,

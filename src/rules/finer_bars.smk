@@ -55,3 +55,22 @@ rule rigid_convergence:
         runtime=minutes(15),
     script:
         "../scripts/rigid_convergence.py"
+
+
+# How accurate the study's runs are: a table of what `bladerub verify` measures
+rule accuracy:
+    input:
+        blade=rules.blade.output.reduced_model,
+        kernel=rules.compile_kernel.output[0],
+        maps=expand(rules.map.output, coating=COATINGS),
+        analysing=files_behind("verification.accuracy"),
+    output:
+        **described(table=f"{TABLES}/accuracy.csv"),
+    log:
+        f"{RESULTS}/logs/accuracy.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/accuracy.tsv"
+    resources:
+        runtime=minutes(30),
+    script:
+        "../scripts/accuracy.py"

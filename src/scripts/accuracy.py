@@ -1,0 +1,16 @@
+"""Measure the errors of runs drawn from the study."""
+
+import sys
+from pathlib import Path
+
+from bladerub.blade.model import read_reduced_blade
+from bladerub.verification.accuracy import table
+from bladerub.verification.verify import important_runs, study_runs
+from bladerub.workflow import job, outputs
+
+job.log_to(snakemake.log[0])
+
+config, maps = snakemake.config, Path(snakemake.input.maps[0]).parent
+listed = {"all": study_runs(config), "important": important_runs(config, maps)}
+blade = read_reduced_blade(snakemake.input.blade)
+outputs.save(snakemake, table=table(blade, config, listed, report=lambda line: print(line, file=sys.stderr)))
