@@ -56,6 +56,7 @@ rule chart_column:
         f"{RESULTS}/benchmarks/chart_column/{{column}}.tsv"
     wildcard_constraints:
         column="[A-Za-z0-9]+_E[^_/]+_theta[^_/]+",
+    threads: lambda wildcards: threads_for(1, len(chart_columns()), workflow.resource_settings.cores)
     resources:
         mem_mb=memory_mb,
         runtime=lambda wildcards, attempt: attempt * (2 + len(config["chart"]["K"])),  # a tenth of it measured

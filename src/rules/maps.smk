@@ -12,6 +12,11 @@ PEAKS = config["analysis"]["peaks"] | {
 }
 
 
+def ensemble_threads(wildcards):
+    members = expected_members(config, case_from_name(config, wildcards.coating))
+    return threads_for(members, all_runs(), workflow.resource_settings.cores)
+
+
 rule map:
     input:
         manifest=rules.coating.output[0],
@@ -23,6 +28,7 @@ rule map:
         f"{RESULTS}/logs/map/{{coating}}.log",
     benchmark:
         f"{RESULTS}/benchmarks/map/{{coating}}.tsv"
+    priority: 1
     params:
         lobe_prominence=config["analysis"]["lobe_prominence"],
     script:
@@ -41,6 +47,8 @@ rule ensemble:
         f"{RESULTS}/logs/ensemble/{{coating}}.log",
     benchmark:
         f"{RESULTS}/benchmarks/ensemble/{{coating}}.tsv"
+    priority: 1  # over the runs of other coatings, since the longest job of the study is one of these
+    threads: ensemble_threads
     resources:
         mem_mb=memory_mb,
         runtime=coating_minutes,

@@ -5,8 +5,10 @@ from functools import cache
 from bladerub.blade.model import n_interface
 from bladerub.study.grid import case_from_name, speeds
 from bladerub.study.growth import confirmation_determinants
+from bladerub.study.members import expected_members
 from bladerub.study.plan import coating_plan
 from bladerub.io.sources import solver_digest
+from bladerub.workflow.cores import threads_for
 
 
 @cache
@@ -23,6 +25,20 @@ def minutes_for(runs, attempt):
     """The time to ask a cluster for: a minute to start, and three times what the revolutions took."""
     revolutions = sum(run.spec.revolutions * run.n_blades for run in runs)
     return attempt * math.ceil((60 + 0.03 * revolutions) / 60)
+
+
+@cache
+def all_runs():
+    """Runs and members of ensembles of the whole study, as many as there will be."""
+    cases = coating_cases(config)
+    members = sum(expected_members(config, case) for case in cases)
+    return len(cases) * len(speeds(config)) + members
+
+
+def coating_threads(wildcards):
+    return threads_for(
+        len(speeds(config)), all_runs(), workflow.resource_settings.cores
+    )
 
 
 def coating_minutes(wildcards, attempt):
@@ -60,6 +76,7 @@ rule coating:
         f"{RESULTS}/logs/coating/{{coating}}.log",
     benchmark:
         f"{RESULTS}/benchmarks/coating/{{coating}}.tsv"
+    threads: coating_threads
     resources:
         mem_mb=memory_mb,  # 240 measured, and two Pythons of Snakemake
         runtime=coating_minutes,

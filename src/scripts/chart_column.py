@@ -20,5 +20,6 @@ rows = compute_missing(
     path.parents[1] / POINTS,
     blade_digest(snakemake.input.blade),
     report=lambda line: print(line, file=sys.stderr),
+    threads=snakemake.threads,
 )
 write_manifest(path, rows, PointRow)

@@ -21,6 +21,7 @@ rows = compute_missing(
     folder,
     blade_digest(snakemake.input.blade),
     report=progress,
+    threads=snakemake.threads,
 )
 write_manifest(snakemake.output[0], rows)
 progress.finish(rows)

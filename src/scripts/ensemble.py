@@ -21,5 +21,6 @@ rows = ensemble.make(
     folder,
     snakemake.output[0],
     report=progress,
+    threads=snakemake.threads,
 )
 progress.finish(rows)

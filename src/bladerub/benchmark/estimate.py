@@ -24,11 +24,11 @@ from threadpoolctl import threadpool_limits
 from bladerub.benchmark.machine import cores as cores_here
 from bladerub.blade.model import ReducedBlade
 from bladerub.io.provenance import provenance
-from bladerub.study import ensemble
-from bladerub.study.grid import CoatingCase, coating_cases, run_spec, speeds
+from bladerub.study.grid import CoatingCase, coating_cases, run_spec
 from bladerub.study.growth import needs_confirmation
 from bladerub.study.job import compute
 from bladerub.study.maps import first_frequency
+from bladerub.study.members import expected_members
 from bladerub.study.orders import peak_orders
 from bladerub.study.plan import PlannedRun, longer_run, planned_run
 from bladerub.study.store import write_run
@@ -67,7 +67,7 @@ def estimate(
     per_run = float(np.mean([cost.run for cost in costs]))
     whole = np.array([cost.run + cost.longer for cost in costs])
     near = whole[[cost.is_near_a_peak for cost in costs]]
-    members = _members(config)
+    members = sum(expected_members(config, case) for case in coating_cases(config))
     starts = sum(map(_start, _JOBS_OF_A_COATING)) * len(coating_cases(config))
     seconds = len(runs) * whole.mean() + members * (near.mean() if near.size else whole.mean()) + starts
     return {
@@ -105,13 +105,6 @@ def _is_near_a_peak(blade: ReducedBlade, config: Mapping[str, Any], run: StudyRu
     low, high = config["analysis"]["peaks"]["speed_window"]
     over_crossing = run.f_omega / first_frequency(blade, [run.f_omega])[0]
     return any(low <= order * over_crossing <= high for order in peak_orders(config, run.case.casing))
-
-
-def _members(config: Mapping[str, Any]) -> int:
-    listed, count = np.array(speeds(config)), 0
-    for case in coating_cases(config):
-        count += int(ensemble.named(config, case, listed).sum()) + 3 * len(peak_orders(config, case.casing))
-    return count * config["ensemble"]["members"]
 
 
 def _start(module: str) -> float:

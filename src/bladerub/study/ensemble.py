@@ -26,12 +26,11 @@ from bladerub.io.errors import DamagedFile
 from bladerub.io.hdf5 import Variable
 from bladerub.io.provenance import provenance
 from bladerub.study import maps
-from bladerub.study.findings.evidence import SAME_SPEED, between
-from bladerub.study.findings.paper import LOBES, WORN
-from bladerub.study.grid import CoatingCase, keeps_history, row_of, run_spec, speed_name
+from bladerub.study.grid import SAME_SPEED, CoatingCase, row_of, run_spec, speed_name
 from bladerub.study.job import RunDone, compute_missing
 from bladerub.study.manifest import ManifestRow, write_manifest
 from bladerub.study.maps import CoatingMap
+from bladerub.study.members import named
 from bladerub.study.orders import peak_settings
 from bladerub.study.peaks import peak
 from bladerub.study.plan import CoatingPlan, planned_run
@@ -87,15 +86,6 @@ def chosen(config: Mapping[str, Any], coating: CoatingMap) -> np.ndarray:
     return f_omega[wanted]
 
 
-def named(config: Mapping[str, Any], case: CoatingCase, f_omega: np.ndarray) -> np.ndarray:
-    """Which (n,) of the speeds `f_omega` have an ensemble wherever the peaks are: by history or claim."""
-    wanted = np.array([keeps_history(config, case, float(f)) for f in f_omega])
-    if case == WORN:
-        for low, high in LOBES:
-            wanted |= between(f_omega, low, high)
-    return wanted
-
-
 def plan(config: Mapping[str, Any], case: CoatingCase, f_omega: np.ndarray) -> list[CoatingPlan]:
     """Plan the members of one coating at the speeds `f_omega`: the runs of each."""
     settings, row, runs = config["ensemble"], row_of(config), []
@@ -115,6 +105,7 @@ def make(
     runs_folder: str | Path,
     path: str | Path,
     report: Callable[[RunDone | str], None],
+    threads: int = 1,
 ) -> list[ManifestRow]:
     """Compute the members of a coating that are missing or stale, and collect all in the file `path`.
 
@@ -124,7 +115,7 @@ def make(
     folder, f_omega = Path(runs_folder) / FOLDER, chosen(config, coating)
     planned = plan(config, coating.case, f_omega)
     together = CoatingPlan(coating.case, tuple(run for member in planned for run in member.runs))
-    rows = compute_missing(config, together, blade, folder, blade_digest, report)
+    rows = compute_missing(config, together, blade, folder, blade_digest, report, threads)
     write_manifest(folder / "manifest.tsv", rows)
     listed = iter(rows)
     C1 = coating.C1[np.isin(coating.f_omega, f_omega)]

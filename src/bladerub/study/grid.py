@@ -7,12 +7,17 @@ from collections.abc import Mapping
 from dataclasses import dataclass, fields, replace
 from typing import Any
 
+import numpy as np
+
 from bladerub.contact.row_spec import Disk, Row
 from bladerub.contact.spec import Coating, RunSpec, TipProfile
 from bladerub.study.casings import casing_spec
 
 SPEED_DECIMALS = 6
 """Speeds are rounded to this many decimals, so that start + i step and a written value agree."""
+
+SAME_SPEED = 1e-6
+"""Speeds closer than this are the same point of the grid."""
 
 UNSCALED = {"length": 1.0, "modulus": 1.0, "time": 1.0}
 """``contact.scale`` where the config has none: all its values are absolute."""
@@ -141,6 +146,11 @@ def case_from_name(config: Mapping[str, Any], name: str) -> CoatingCase:
         if case.name == name:
             return case
     raise ValueError(f"coating {name} is not in the config; add it to coatings")
+
+
+def between(f_omega: np.ndarray, low: float, high: float) -> np.ndarray:
+    """Select the speeds (n,) from `low` to `high`, both included."""
+    return (f_omega >= low - SAME_SPEED) & (f_omega <= high + SAME_SPEED)
 
 
 def speeds(config: Mapping[str, Any]) -> list[float]:

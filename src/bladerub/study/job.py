@@ -19,6 +19,7 @@ from bladerub.study.cache import Entry
 from bladerub.study.grid import CoatingCase
 from bladerub.study.growth import needs_confirmation
 from bladerub.study.manifest import CONFIRMATION, ManifestRow
+from bladerub.study.parallel import each_done
 from bladerub.study.plan import CoatingPlan, PlannedRun, growth_key, longer_run
 from bladerub.study.store import MAPPED, StoredRun, read_run, stored_row, stored_run, write_run
 
@@ -62,6 +63,7 @@ def compute_missing(
     folder: str | Path,
     blade_digest: str,
     report: Callable[[object], None] = lambda line: None,
+    threads: int = 1,
 ) -> list[ManifestRow]:
     """Compute those runs of one coating whose file is missing or stale; return the rows of its manifest.
 
@@ -70,10 +72,11 @@ def compute_missing(
     interrupted job continues where it stopped. Runs that are no longer planned stay, stale ones are archived
     (`bladerub.study.cache`, whose `blade_digest` is that of the blade). One job at a time works on a folder:
     another, of another invocation, waits for its end and takes over what it has computed. `report` is called
-    with a line for a log: a `RunDone` after each computed run, or a text before waiting.
+    with a line for a log: a `RunDone` after each computed run, or a text before waiting. `threads` runs are
+    computed at once.
     """
     folder, settings = Path(folder), config["analysis"]["divergence"]
-    complete = partial(_compute, config, plan.case, blade, folder, blade_digest, report)
+    complete = partial(_compute, config, plan.case, blade, folder, blade_digest, report, threads)
     with lock.held(folder / LOCK, lambda: report(f"another job is at work in {folder}: waiting for its end")):
         done = complete(plan.runs)
         growing = [
@@ -128,6 +131,7 @@ def _compute(
     folder: Path,
     blade_digest: str,
     report: Callable[[object], None],
+    threads: int,
     runs: Sequence[PlannedRun],
 ) -> dict[str, _Done]:
     """Compute what is missing or stale of `runs`, which are of equal length; return all by file."""
@@ -137,20 +141,20 @@ def _compute(
     # a run takes as many steps as its revolutions take time: its cost goes as 1 / speed
     cost_left = sum(1 / run.spec.f_omega for run in missing)
     cost_done, start = 0.0, time.monotonic()
-    for number, run in enumerate(missing, 1):
-        run_start, entry = time.monotonic(), entries[run.file]
-        stored = compute(case, run, blade, entry.key, config["analysis"])
+
+    def made(run: PlannedRun) -> tuple[StoredRun, float]:
+        run_start = time.monotonic()
+        return compute(case, run, blade, entries[run.file].key, config["analysis"]), run_start
+
+    for number, (run, (stored, run_start)) in enumerate(each_done(made, missing, threads), 1):
+        entry = entries[run.file]
         entry.make_room()
         done[run.file] = _done(entry, stored, write_run(entry.path, stored, origin))
-        now = time.monotonic()
         cost_done += 1 / run.spec.f_omega
         cost_left -= 1 / run.spec.f_omega
+        now, status = time.monotonic(), stored.attributes["status"]
         seconds_left = (now - start) * max(cost_left, 0.0) / cost_done
-        report(
-            RunDone(
-                number, len(missing), run.file, stored.attributes["status"], now - run_start, seconds_left
-            )
-        )
+        report(RunDone(number, len(missing), run.file, status, now - run_start, seconds_left))
     for file in entries.keys() - done.keys():
         path = entries[file].path
         done[file] = _done(entries[file], read_run(path, {"revolution_amplitude"}), file_checksum(path))

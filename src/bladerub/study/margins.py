@@ -15,8 +15,8 @@ import numpy as np
 import pandas as pd
 
 from bladerub.study import divergence, findings, peak_table
-from bladerub.study.findings.evidence import SAME_SPEED, Evidence, read_rom_accuracy
-from bladerub.study.grid import SPEED_DECIMALS, speeds
+from bladerub.study.findings.evidence import Evidence, read_rom_accuracy
+from bladerub.study.grid import SAME_SPEED, SPEED_DECIMALS, speeds
 from bladerub.study.maps import DATASETS, CoatingMap, read_map
 from bladerub.study.wear import lobes
 

@@ -19,8 +19,8 @@ from bladerub.contact import reference, run
 from bladerub.contact.modes import Modes, modes_at
 from bladerub.contact.schemes import SCHEMES
 from bladerub.contact.spec import RunSpec
-from bladerub.study.findings.paper import RIGID
 from bladerub.study.grid import run_spec, speeds
+from bladerub.study.paper import RIGID
 from bladerub.study.spectra import order_spectrum
 from bladerub.verification import impact
 

@@ -5,9 +5,9 @@ import pytest
 
 from bladerub.io.errors import DamagedFile
 from bladerub.study import ensemble, job
-from bladerub.study.findings.paper import WORN
 from bladerub.study.grid import CoatingCase, run_spec, speeds
 from bladerub.study.maps import write_map
+from bladerub.study.paper import WORN
 from bladerub.study.plan import coating_plan
 from bladerub.study.store import read_run
 

@@ -8,8 +8,8 @@ import pytest
 
 from bladerub.study import divergence, findings, peaks
 from bladerub.study.findings.evidence import Evidence
-from bladerub.study.findings.paper import CRITICAL, SOFT, STRAIGHT, TILTED, WORN
 from bladerub.study.grid import CoatingCase
+from bladerub.study.paper import CRITICAL, SOFT, STRAIGHT, TILTED, WORN
 
 RIGID = CoatingCase.rigid("2nd", 0.0)
 CLAIMS = {claim.id: claim for claim in findings.CLAIMS}

@@ -141,6 +141,18 @@ def test_a_damaged_longer_run_is_computed_alone(compute, simulated, growing, rep
     assert (len(simulated), repeated) == (4, [0.1, 0.2, 0.1])
 
 
+def test_runs_computed_at_once_are_the_same_to_the_byte(study, case, blade, tmp_path):
+    study["speeds"] = {"start": 0.1, "stop": 0.3, "step": 0.05, "extra": []}
+    study["contact"]["elements"] = 200
+    study["solver"].update(revolutions=3, max_time_step=2e-5)
+    study["analysis"]["spectrum_revolutions"] = 2
+    study["analysis"]["divergence"].update(revolutions=3, growth=-1.0, confirmation_revolutions=6)
+    plan = coating_plan(study, case)
+    one, three = (compute_missing(study, plan, blade, tmp_path / str(n), "digest", threads=n) for n in (1, 3))
+    assert one == three
+    assert any(row.confirmation_checksum for row in one)
+
+
 def test_real_runs_go_from_the_solver_to_the_table(study, case, blade, tmp_path):
     study["speeds"] = {"start": 0.1, "stop": 0.3, "step": 0.2, "extra": []}
     study["contact"]["elements"] = 200

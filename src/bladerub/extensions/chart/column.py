@@ -19,6 +19,7 @@ from bladerub.io.checksum import file_checksum
 from bladerub.io.sources import chart_digest, solver_digest
 from bladerub.study import cache
 from bladerub.study.grid import CoatingCase, run_spec
+from bladerub.study.parallel import each_done
 
 
 def determinants(config: Mapping[str, Any], case: CoatingCase, speeds: ChartSpeeds) -> str:
@@ -59,12 +60,13 @@ def compute_missing(
     folder: str | Path,
     blade_digest: str,
     report: Callable[[str], None],
+    threads: int = 1,
 ) -> list[PointRow]:
     """Compute those points of a column whose file is missing or stale, as `bladerub.study.job` does runs.
 
     `plan` is of `plan_column`, `blade_digest` of `bladerub.study.cache`, `folder` that of the points of the
-    whole chart; `report` is called with a line for a log after each computed point, and before waiting. The
-    rows are for `bladerub.study.manifest.write_manifest`.
+    whole chart; `report` is called with a line for a log after each computed point, and before waiting.
+    `threads` points are computed at once. The rows are for `bladerub.study.manifest.write_manifest`.
     """
     folder, speeds, first = Path(folder), chart_speeds(config), next(iter(plan))
     column_lock = folder / f".{first.casing}_E{first.E:g}_theta{first.theta:g}.lock"
@@ -79,9 +81,13 @@ def compute_missing(
         missing = [case for case, entry in entries.items() if not entry.fetch()]
         if missing:
             C1 = np.array([reduced_frequencies(blade, f, n_modes=1)[0] for f in speeds.f_omega]) / blade.f1_hz
-        for number, case in enumerate(missing, 1):
-            start, entry = time.monotonic(), entries[case]
-            point = compute(config, case, blade, speeds, C1)
+
+        def made(case: CoatingCase) -> tuple[points.ChartPoint, float]:
+            start = time.monotonic()
+            return compute(config, case, blade, speeds, C1), start
+
+        for number, (case, (point, start)) in enumerate(each_done(made, missing, threads), 1):
+            entry = entries[case]
             entry.make_room()
             checksums[case] = points.write(entry.path, point, entry.key, config)
             seconds = time.monotonic() - start

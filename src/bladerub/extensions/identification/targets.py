@@ -12,8 +12,11 @@ import numpy as np
 import pandas as pd
 
 from bladerub.study.findings.claim import NotMeasurable, claim_of
-from bladerub.study.findings.evidence import SAME_SPEED, Evidence, between
-from bladerub.study.findings.paper import (
+from bladerub.study.findings.evidence import Evidence
+from bladerub.study.grid import SAME_SPEED, CoatingCase, between
+from bladerub.study.growth import growth
+from bladerub.study.maps import CoatingMap
+from bladerub.study.paper import (
     CASING,
     CRITICAL,
     FIVE_LOBES,
@@ -33,9 +36,6 @@ from bladerub.study.findings.paper import (
     TILTED_SPEED,
     WORN,
 )
-from bladerub.study.grid import CoatingCase
-from bladerub.study.growth import growth
-from bladerub.study.maps import CoatingMap
 from bladerub.study.peaks import amplitude_in_window, order_amplitude
 
 EQUAL, AT_LEAST, AT_MOST = "equal", "at least", "at most"

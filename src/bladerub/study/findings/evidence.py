@@ -9,17 +9,9 @@ import pandas as pd
 
 from bladerub.io import tables
 from bladerub.study.findings.claim import NotMeasurable
-from bladerub.study.grid import CoatingCase
+from bladerub.study.grid import SAME_SPEED, CoatingCase
 from bladerub.study.maps import CoatingMap
 from bladerub.study.variants import of_case, plain
-
-SAME_SPEED = 1e-6
-"""Speeds closer than this are the same point of the grid."""
-
-
-def between(f_omega: np.ndarray, low: float, high: float) -> np.ndarray:
-    """Select the speeds (n,) from `low` to `high`, both included."""
-    return (f_omega >= low - SAME_SPEED) & (f_omega <= high + SAME_SPEED)
 
 
 class Evidence:

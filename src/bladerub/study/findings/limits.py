@@ -4,7 +4,7 @@ import pandas as pd
 
 from bladerub.study.findings.claim import NO, PARTLY, YES, Finding, NotMeasurable, below, claim
 from bladerub.study.findings.evidence import Evidence
-from bladerub.study.findings.paper import CASING, HARDLY, RIGID, SOFTEST, STIFFEST, THETA
+from bladerub.study.paper import CASING, HARDLY, RIGID, SOFTEST, STIFFEST, THETA
 
 _STIFF = 5.0  # E from which on a stiffer coating should be nearer to the rigid casing
 _ORDERS = (4, 6)

@@ -5,7 +5,7 @@ import pandas as pd
 
 from bladerub.study.findings.claim import NO, PARTLY, YES, Finding, NotMeasurable, above, below, claim
 from bladerub.study.findings.evidence import Evidence
-from bladerub.study.findings.paper import (
+from bladerub.study.paper import (
     CASING,
     CRITICAL_E,
     CRITICAL_K,

@@ -4,8 +4,8 @@ import pandas as pd
 
 from bladerub.study.findings.claim import NO, PARTLY, YES, Finding, NotMeasurable, below, claim
 from bladerub.study.findings.evidence import Evidence
-from bladerub.study.findings.paper import STRAIGHT, STRAIGHT_SPEED, TILTED, TILTED_SPEED
 from bladerub.study.grid import CoatingCase
+from bladerub.study.paper import STRAIGHT, STRAIGHT_SPEED, TILTED, TILTED_SPEED
 
 _LOBES = 6  # worn lobes of both divergent runs (Fig. 19), so their engine order too
 _SECTION = 'section "Influence of parameter θ"'

@@ -6,8 +6,10 @@ import numpy as np
 from scipy import signal
 
 from bladerub.study.findings.claim import NO, Finding, NotMeasurable, above, below, claim
-from bladerub.study.findings.evidence import Evidence, between
-from bladerub.study.findings.paper import (
+from bladerub.study.findings.evidence import Evidence
+from bladerub.study.grid import between
+from bladerub.study.maps import CoatingMap
+from bladerub.study.paper import (
     CRITICAL,
     FIVE_LOBES,
     FOUR_LOBES,
@@ -17,7 +19,6 @@ from bladerub.study.findings.paper import (
     TEN_LOBES,
     WORN,
 )
-from bladerub.study.maps import CoatingMap
 from bladerub.study.peaks import order_amplitude, peak
 
 _SECTION = 'section "Case study"'

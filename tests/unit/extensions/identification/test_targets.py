@@ -6,8 +6,8 @@ import pytest
 from bladerub.extensions.identification.targets import AT_LEAST, AT_MOST, TARGETS, measure
 from bladerub.study import divergence, peaks
 from bladerub.study.findings.evidence import Evidence
-from bladerub.study.findings.paper import CRITICAL, SOFT, STRAIGHT, TILTED, WORN
 from bladerub.study.grid import CoatingCase
+from bladerub.study.paper import CRITICAL, SOFT, STRAIGHT, TILTED, WORN
 
 SPEEDS = np.unique(np.append(np.round(np.arange(0.02, 0.4001, 0.004), 6), [0.19, 0.197]))
 

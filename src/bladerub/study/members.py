@@ -1,0 +1,25 @@
+"""How many members the ensembles of a coating have, known before its runs are."""
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from bladerub.study.grid import CoatingCase, between, keeps_history, speeds
+from bladerub.study.orders import peak_orders
+from bladerub.study.paper import LOBES, WORN
+
+
+def expected_members(config: Mapping[str, Any], case: CoatingCase) -> int:
+    """Count the members of a coating before its peaks are known, as if no two were next to each other."""
+    by_name = int(named(config, case, np.array(speeds(config))).sum())
+    return config["ensemble"]["members"] * (by_name + 3 * len(peak_orders(config, case.casing)))
+
+
+def named(config: Mapping[str, Any], case: CoatingCase, f_omega: np.ndarray) -> np.ndarray:
+    """Which (n,) of the speeds `f_omega` have an ensemble wherever the peaks are: by history or claim."""
+    wanted = np.array([keeps_history(config, case, float(f)) for f in f_omega])
+    if case == WORN:
+        for low, high in LOBES:
+            wanted |= between(f_omega, low, high)
+    return wanted
