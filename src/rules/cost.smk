@@ -10,10 +10,10 @@ rule cost:
         JUDGED,
         rules.explorer.output,
         maps=expand(rules.map.output, coating=COATINGS),
-        collecting=files_behind("workflow.cost"),
+        collecting=files_behind("workflow.cost", "workflow.schedule"),
         drawing=files_behind("plots.cost"),
     output:
-        **described(table=f"{TABLES}/cost.csv"),
+        **described(table=f"{TABLES}/cost.csv", schedule=f"{TABLES}/schedule.csv"),
         png=shown(f"{RESULTS}/benchmarks/cost.png", "cost", "Cost"),
         pdf=f"{RESULTS}/benchmarks/cost.pdf",
     log:

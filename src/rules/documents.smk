@@ -143,6 +143,7 @@ rule docs_data:
 use rule docs_data as docs_cost with:
     input:
         rules.cost.output.table,
+        rules.cost.output.schedule,
     log:
         f"{RESULTS}/logs/docs_cost.log",
 

@@ -12,11 +12,6 @@ PEAKS = config["analysis"]["peaks"] | {
 }
 
 
-def ensemble_threads(wildcards):
-    members = expected_members(config, case_from_name(config, wildcards.coating))
-    return threads_for(members, all_runs(), workflow.resource_settings.cores)
-
-
 rule map:
     input:
         manifest=rules.coating.output[0],

@@ -5,10 +5,9 @@ from functools import cache
 from bladerub.blade.model import n_interface
 from bladerub.study.grid import case_from_name, speeds
 from bladerub.study.growth import confirmation_determinants
-from bladerub.study.members import expected_members
 from bladerub.study.plan import coating_plan
 from bladerub.io.sources import solver_digest
-from bladerub.workflow.cores import threads_for
+from bladerub.workflow.cores import sizes, threads_for
 
 
 @cache
@@ -28,17 +27,22 @@ def minutes_for(runs, attempt):
 
 
 @cache
-def all_runs():
-    """Runs and members of ensembles of the whole study, as many as there will be."""
-    cases = coating_cases(config)
-    members = sum(expected_members(config, case) for case in cases)
-    return len(cases) * len(speeds(config)) + members
+def job_sizes():
+    return sizes(config)
+
+
+def share_of_cores(size):
+    """Threads of a job by the runs that it computes, of those of the whole study."""
+    whole = sum(map(sum, job_sizes().values()))
+    return threads_for(size, whole, workflow.resource_settings.cores)
 
 
 def coating_threads(wildcards):
-    return threads_for(
-        len(speeds(config)), all_runs(), workflow.resource_settings.cores
-    )
+    return share_of_cores(job_sizes()[wildcards.coating][0])
+
+
+def ensemble_threads(wildcards):
+    return share_of_cores(job_sizes()[wildcards.coating][1])
 
 
 def coating_minutes(wildcards, attempt):

@@ -20,6 +20,11 @@ _ROWS = (
     "energy_residual",
 )
 KEPT = {
+    "accuracy": (
+        *("drawn_from", *_RUN, "f_omega", "status", "sensitive", "speedup_at_equal_error"),
+        *(f"error_{measure}" for measure in ("wear_l2", "peak", "revolution_peak")),
+        *(f"start_{measure}" for measure in ("wear_l2", "peak", "revolution_peak")),
+    ),
     "calibration": ("set", "id", "measured", "holds"),
     "chart": (*_RUN, "Y4", "f4", "Y6", "f6", "runs"),
     "finer_bars": (
@@ -33,6 +38,7 @@ KEPT = {
     "rotor": _ROWS,
     "rotor_half": _ROWS,
     "rotor_drift": (*_COMBINATION, "rows", *(f"pattern_drift_{of}" for of in ("median", "p05", "p95"))),
+    "schedule": ("cores", "minutes", "efficiency"),
     "rigid_convergence": (
         *("f_omega", "treatment", "modes", "steps", "order", "complete", "amplitude"),
         *("amplitude_change", "largest_revolution", "median_revolution", "largest_displacement"),

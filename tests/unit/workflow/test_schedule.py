@@ -1,0 +1,62 @@
+"""The simulated schedule of a study."""
+
+import pandas as pd
+import pytest
+
+from bladerub.config import read as configuration
+from bladerub.study.grid import coating_cases
+from bladerub.workflow import schedule
+
+STUDY = {
+    "coatings": [{"casing": "2nd", "E": [1, 2, 5, 11], "K": [0.5], "theta": [0.15]}],
+    "speeds": {"start": 0.1, "stop": 0.4, "step": 0.1, "extra": []},
+    "analysis": {"histories": []},
+    "ensemble": {"members": 0},
+}
+
+
+@pytest.fixture(scope="module")
+def study():
+    return configuration.read("config/config.yaml", command_line=STUDY)
+
+
+@pytest.fixture
+def costs(study):
+    """A blade in 60 s, four coatings of 300 s each with maps of 60 s, two tables of 30 s."""
+    jobs = [("blade", "", 60.0), ("tables", "a", 30.0), ("tables", "b", 30.0)]
+    for case in coating_cases(study):
+        jobs += [("rubs", case.name, 300.0), ("maps", case.name, 60.0)]
+    return pd.DataFrame(jobs, columns=["stage", "job", "wall_s"])
+
+
+def minutes(costs, study, cores):
+    return schedule.table(costs, study, [cores]).minutes[0]
+
+
+def test_one_core_takes_the_sum_of_all_jobs(costs, study):
+    (row,) = schedule.table(costs, study, [1]).itertuples()
+    assert row.minutes == pytest.approx(costs.wall_s.sum() / 60)
+    assert row.efficiency == pytest.approx(1.0)
+
+
+def test_two_cores_share_the_coatings(costs, study, monkeypatch):
+    monkeypatch.setattr(schedule, "threads_for", lambda cost, total, cores: 1)
+    assert minutes(costs, study, 2) == pytest.approx(1 + 2 * 6 + 0.5)
+
+
+def test_jobs_with_all_threads_come_one_after_the_other(costs, study, monkeypatch):
+    monkeypatch.setattr(schedule, "threads_for", lambda cost, total, cores: cores)
+    assert 1 + 4 * 2.5 + 0.5 <= minutes(costs, study, 2) <= 1 + 4 * (2.5 + 1) + 0.5
+
+
+def test_what_follows_a_coating_comes_before_the_runs_of_others(costs, study, monkeypatch):
+    """Else the map of the first coating, here the longest job, would end last."""
+    monkeypatch.setattr(schedule, "threads_for", lambda cost, total, cores: 1)
+    first = coating_cases(study)[0].name
+    costs.loc[(costs.stage == "maps") & (costs.job == first), "wall_s"] = 900.0
+    assert minutes(costs, study, 2) == pytest.approx(1 + (5 + 15) + 0.5)
+
+
+def test_more_cores_than_jobs_leave_the_longest_chain(costs, study, monkeypatch):
+    monkeypatch.setattr(schedule, "threads_for", lambda cost, total, cores: 1)
+    assert minutes(costs, study, 64) == pytest.approx(1 + 6 + 0.5)
