@@ -11,10 +11,14 @@ from bladerub.io import lock
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Mark every test of this folder as slow: each runs the real workflow."""
+    """Mark every test of this folder as slow, and put them first: each runs the real workflow.
+
+    Files go to pytest's processes in this order; short ones at the end let all processes end together.
+    """
     for item in items:
         if Path(__file__).parent in item.path.parents:
             item.add_marker("slow")
+    items.sort(key=lambda item: Path(__file__).parent not in item.path.parents)
 
 
 @pytest.fixture

@@ -6,7 +6,9 @@ import re
 import shutil
 import subprocess
 import sys
+import tempfile
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -101,7 +103,15 @@ class Workspace:
             text = config if isinstance(config, str) else yaml.safe_dump(config)
             (self.folder / "overlay.yaml").write_text(text)
             arguments = (*arguments, "--configfile", "overlay.yaml")
-        return self.call(Path(sys.executable).with_name("snakemake"), *arguments)
+        command = [str(Path(sys.executable).with_name("snakemake")), *arguments]
+        with tempfile.TemporaryDirectory() as scratch:
+            stdout, stderr = Path(scratch) / "stdout", Path(scratch) / "stderr"
+            call = {"folder": self.folder, "environment": self.environment, "arguments": command}
+            server = _warm_snakemake()
+            print(json.dumps(call | {"stdout": stdout, "stderr": stderr}, default=str), file=server.stdin)
+            server.stdin.flush()
+            code = int(server.stdout.readline())
+            return subprocess.CompletedProcess(command, code, stdout.read_text(), stderr.read_text())
 
     def call(self, *command: str | Path) -> subprocess.CompletedProcess:
         """Run a command in this copy."""
@@ -149,3 +159,17 @@ class Workspace:
             check=True,
         )
         return json.loads(told.stdout)
+
+
+@cache
+def _warm_snakemake() -> subprocess.Popen:
+    """Start the server of this process; it ends when its standard input does."""
+    program = Path(__file__).with_name("warm_snakemake.py")
+    environment = {name: value for name, value in os.environ.items() if name != "PYTHONPATH"}
+    return subprocess.Popen(
+        [sys.executable, "-P", program],  # without this folder among those of modules
+        env=environment | {"OPENBLAS_NUM_THREADS": "1"},  # a fork has no threads but its own
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        text=True,
+    )

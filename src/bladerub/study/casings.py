@@ -1,4 +1,8 @@
-"""Casings of the config, in SI units: nodal diameters, bumps, or a gap measured around the casing."""
+"""Casings of the config, in SI units: nodal diameters, bumps, or a gap measured around the casing.
+
+Each figure and table imports this for the names of coatings; what only a measured gap needs, half a second of
+it, is imported where it is read.
+"""
 
 import math
 from collections.abc import Mapping
@@ -7,10 +11,8 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-import pandas as pd
 
 from bladerub.blade.sources.frame import ANGLE_UNITS, UNITS
-from bladerub.contact.casing import shape
 from bladerub.contact.spec import Casing
 from bladerub.io.folders import study_folder
 
@@ -72,6 +74,8 @@ def nodal_diameters(entry: Mapping[str, Any]) -> list[int]:
     Of a measured gap they are its harmonics of at least a tenth of the largest.
     """
     if "table" in entry:
+        from bladerub.contact.casing import shape
+
         angle = np.linspace(0, 2 * np.pi, 4 * _HIGHEST_HARMONIC, endpoint=False)
         size = np.abs(np.fft.rfft(shape(casing_spec("", entry), angle)))[1 : _HIGHEST_HARMONIC + 1]
         return [n for n, of_n in enumerate(size, 1) if of_n >= _MARKED * np.max(size)]
@@ -81,6 +85,8 @@ def nodal_diameters(entry: Mapping[str, Any]) -> list[int]:
 @lru_cache
 def _measured(path: Path, _version: int, unit: float, angle_unit: float) -> tuple[np.ndarray, np.ndarray]:
     """Angles (rad) and gaps (m) of a table; `_version` makes an edited file another one."""
+    import pandas as pd
+
     try:
         table = pd.read_csv(path, comment="#", sep=r"\s*[,;\s]\s*", engine="python")
     except (ValueError, UnicodeDecodeError) as error:

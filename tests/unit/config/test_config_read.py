@@ -354,5 +354,9 @@ def test_quantities_are_checked_as_in_the_config():
         check_quantity("E", float("nan"))
 
 
+def test_the_schema_is_what_the_reader_of_configs_would_make_of_it():
+    assert load(schema_module.SCHEMA) == schema()
+
+
 def test_schema_is_beside_the_package():
     assert schema_module.SCHEMA.is_file()

@@ -3,7 +3,6 @@
 import contextlib
 
 import numpy as np
-from scipy import signal
 
 from bladerub.study.findings.claim import NO, Finding, NotMeasurable, above, below, claim
 from bladerub.study.findings.evidence import Evidence
@@ -88,6 +87,8 @@ def _map_near(evidence: Evidence, f_omega: float) -> CoatingMap:
 
 
 def _maxima(coating: CoatingMap, values: np.ndarray) -> np.ndarray:
+    from scipy import signal  # takes longer to import than all else here
+
     # the ends of the range count: values that grow up to the last speed have a maximum there
     padded = np.pad(values, 1, constant_values=values.min())
     peaks, _ = signal.find_peaks(padded, prominence=SIGNIFICANT * values.max())

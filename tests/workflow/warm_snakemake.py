@@ -1,0 +1,52 @@
+"""Serves calls of snakemake from a process that has its imports done, most of the time of a call.
+
+Each line of standard input asks for one call, in JSON: ``folder``, ``environment``, ``arguments``, and the
+files for ``stdout`` and ``stderr``. A fork answers it; the line written back is its exit code. The fork does
+what a fresh ``snakemake`` does after these imports. This package it imports itself, from the sources that the
+environment of the call names.
+"""
+
+import gc
+import json
+import os
+import signal
+import sys
+from importlib import import_module
+
+PACKAGES = (
+    *("snakemake.cli", "snakemake_executor_plugin_slurm", "jinja2", "jsonschema", "h5py", "pandas", "numba"),
+    *("scipy.interpolate", "scipy.linalg", "scipy.ndimage", "skfem", "rslab", "meshio"),
+)
+LONGEST = 600
+"""Of a call, s; it ends by SIGALRM."""
+
+
+def main() -> None:
+    """Serve until standard input ends."""
+    for name in PACKAGES:
+        import_module(name)
+    if own := [name for name in sys.modules if name.partition(".")[0] == "bladerub"]:
+        raise RuntimeError(f"{own[0]} is imported; must be left to each call")
+    gc.freeze()  # what is imported is not looked at again and again in each fork
+    for line in sys.stdin:
+        child = os.fork()
+        if child == 0:
+            _answer(**json.loads(line))
+        print(os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]), flush=True)
+
+
+def _answer(folder: str, environment: dict[str, str], arguments: list[str], stdout: str, stderr: str) -> None:
+    signal.alarm(LONGEST)
+    for descriptor, file, mode in ((0, os.devnull, "r"), (1, stdout, "w"), (2, stderr, "w")):
+        with open(file, mode) as stream:
+            os.dup2(stream.fileno(), descriptor)
+    os.chdir(folder)
+    os.environ.clear()
+    os.environ.update(environment)
+    sys.path[:0] = environment["PYTHONPATH"].split(os.pathsep)
+    sys.argv = arguments
+    sys.exit(sys.modules["snakemake.cli"].main())
+
+
+if __name__ == "__main__":
+    main()
