@@ -16,15 +16,15 @@ import scipy.linalg
 import scipy.optimize
 
 from bladerub.blade.model import ReducedBlade
-from bladerub.contact import law
 from bladerub.contact.casing import shape
+from bladerub.contact.laws import module_of
 from bladerub.contact.row_spec import Row
 from bladerub.contact.spec import RunSpec
 from bladerub.contact.tip import coverage, relief
 
 
 def simulate(
-    blade: ReducedBlade, spec: RunSpec, n_steps: int, n_modes: int | None = None, law: Any = law
+    blade: ReducedBlade, spec: RunSpec, n_steps: int, n_modes: int | None = None, law: Any = None
 ) -> tuple[np.ndarray, np.ndarray]:
     """Simulate a run by the scheme that `spec` names.
 
@@ -38,8 +38,8 @@ def simulate(
         Time steps.
     n_modes : int, optional
         Modes that the exponential scheme resolves, all by default.
-    law : module or object
-        The law of an element: `bladerub.contact.law` or another with its ``element`` and ``return_mapping``.
+    law : module or object, optional
+        Another law of an element than that of `spec`, with ``element`` and ``return_mapping``.
 
     Returns
     -------
@@ -48,7 +48,7 @@ def simulate(
     wear : (j, N) ndarray
         Permanent shortening of the elements, m.
     """
-    coating = _Coating(blade, spec, law)
+    coating = _Coating(blade, spec, law or module_of(spec.coating.element_law))
     steps = _steps(blade, spec, n_modes, coating)
     history = np.array([next(steps) for _ in range(n_steps)])
     return history[:, : 2 * blade.n_interface], coating.wear
@@ -69,6 +69,7 @@ def simulate_row(
     wear : (j, N) ndarray
         Permanent shortening of the elements by all of them, m.
     """
+    law = module_of(spec.coating.element_law)
     coatings = [_Coating(blade, spec, law) for _ in row.blades]
     squares, modes = scipy.linalg.eigh(blade.stiffness(spec.f_omega), blade.mass)
     marches = []
@@ -169,7 +170,7 @@ class _Coating:
         self.angle = (np.arange(n) + 0.5) * 2 * np.pi / n
         edges = np.concatenate([x[:1], (x[1:] + x[:-1]) / 2, x[-1:]])
         area = np.abs(np.diff(edges, axis=0)) * 2 * np.pi * self.radius / n  # share of the chord, times width
-        self.element = law.element(spec.coating, area)
+        self.element = law.element(spec.coating, area, time_step(blade, spec))
         leading, trailing = spec.clearance
         clearance = leading + (trailing - leading) * (x - x[0]) / (x[-1] - x[0])
         casing = spec.casing
