@@ -60,6 +60,12 @@ class ElementLaw:
     parameters: tuple[tuple[str, float], ...] = ()
     source: str = ""
 
+    @property
+    def label(self) -> str:
+        """Name and values, for instance ``viscoplastic (viscosity 10000)``."""
+        values = ", ".join(f"{name} {value:g}" for name, value in self.parameters)
+        return f"{self.name} ({values})" if values else self.name
+
 
 PLASTIC = ElementLaw()
 """One-dimensional plasticity with linear hardening (Fig. 4)."""

@@ -20,6 +20,11 @@ from bladerub.numerics.lanes import USUAL, module_for
 _FOLDER = Path(__file__).parent
 NAMES = (PLASTIC.name, *sorted(path.stem for path in _FOLDER.glob("[a-z]*.py")))
 """Laws of this package."""
+CONTRACT = (
+    *("Element", "element", "return_mapping", "tangent", "elastic_force"),
+    *("stored_energy", "dissipated_energy"),
+)
+"""What the module of a law has for the program."""
 
 
 class Parameter(NamedTuple):
@@ -47,27 +52,27 @@ def module_of(law: ElementLaw, lanes: int = USUAL) -> ModuleType:
 def parameters_of(source: str) -> Mapping[str, Parameter]:
     """Read the parameters of a law from the text of its module, which is not run.
 
-    Raises `ValueError` if it is no Python or its ``PARAMETERS`` are not as they must be.
+    Raises `ValueError` if it is no Python, lacks a part of `CONTRACT` or its ``PARAMETERS`` are not as they
+    must be.
     """
-    try:
-        tree = ast.parse(source)
-    except (SyntaxError, ValueError) as error:
-        raise ValueError(f"is no Python ({error})") from error
-    for node in tree.body:
+    listed: Mapping[str, Parameter] = {}
+    for node in _statements(source):
         if isinstance(node, ast.Assign) and getattr(node.targets[0], "id", None) == "PARAMETERS":
             try:
                 listed = {name: Parameter(*map(_plain, entry.elts)) for name, entry in _entries(node.value)}
             except (AttributeError, TypeError, ValueError) as error:
                 right = "must be a dictionary of name: (unit, minimum, maximum, meaning), written out"
                 raise ValueError(f"PARAMETERS on line {node.lineno}: {right}") from error
-            return listed
-    return {}
+    if source and (missing := [each for each in CONTRACT if each not in _names_in(source)]):
+        raise ValueError(f"has no {', '.join(missing)}; a law must have {', '.join(CONTRACT)}")
+    return listed
 
 
 def described_law(name: str, values: Mapping[str, Any], source: str = "") -> ElementLaw:
     """Describe a law by its name, the values of its parameters and, if it is a user's own, its source.
 
-    Raises `ValueError`, which names the parameter, if one is missing, unknown or out of its range.
+    Raises `ValueError`, which names the parameter, if one is missing, unknown or out of its range; and as
+    `parameters_of`.
     """
     if not source and name not in NAMES:
         raise ValueError(f"name = {name}: must be one of {', '.join(NAMES)}")
@@ -92,6 +97,26 @@ def described_law(name: str, values: Mapping[str, Any], source: str = "") -> Ele
 @cache
 def _source_in_package(name: str) -> str:
     return (_FOLDER / f"{name}.py").read_text(encoding="utf-8")
+
+
+def _statements(source: str) -> list[ast.stmt]:
+    try:
+        return ast.parse(source).body
+    except (SyntaxError, ValueError) as error:
+        raise ValueError(f"is no Python ({error})") from error
+
+
+def _names_in(source: str) -> set[str]:
+    """Names that a module defines or imports at its top."""
+    names = set()
+    for node in _statements(source):
+        if isinstance(node, ast.FunctionDef | ast.ClassDef):
+            names.add(node.name)
+        elif isinstance(node, ast.Import | ast.ImportFrom):
+            names |= {alias.asname or alias.name for alias in node.names}
+        elif isinstance(node, ast.Assign):
+            names |= {target.id for target in node.targets if isinstance(target, ast.Name)}
+    return names
 
 
 def _entries(node: Any) -> list[tuple[str, Any]]:
