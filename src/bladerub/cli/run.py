@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from bladerub.cli import inputs
+from bladerub.cli.check_law import add_parameters_to, parameters
 from bladerub.cli.inputs import InputError, refused
 
 if TYPE_CHECKING:  # as in `inputs`
@@ -57,7 +58,7 @@ def add_to(commands: Any) -> None:
     text = "plastic, perfectly_plastic, viscoplastic, brittle or a file of a law, instead of contact.law"
     parser.option("--law", text, metavar="LAW")
     text = "parameter of --law, SI units; once for each of them"
-    parser.option("--law-parameter", text, action="append", default=[], metavar="NAME=VALUE")
+    add_parameters_to(parser, "--law-parameter", text)
     parser.option("--interference", "instead of that of the casing, m", float, metavar="D")
     speed = parser.add_mutually_exclusive_group(required=True)
     speed.add_argument("--f", type=float, metavar="F_OMEGA", help="speed (normalised)")
@@ -130,15 +131,7 @@ def run(options: argparse.Namespace) -> None:
 
 def _with_law(options: argparse.Namespace, study: "Study") -> "Study":
     """Return the study with the law that is asked for, if one is."""
-    values = {}
-    for given in options.law_parameter:
-        name, _, value = given.partition("=")
-        try:
-            values[name.strip()] = float(value)
-        except ValueError:
-            raise InputError(
-                f"--law-parameter = {given}: must be NAME=VALUE, such as viscosity=1e4"
-            ) from None
+    values = parameters("--law-parameter", options.law_parameter)
     if options.law is None:
         if values:
             raise InputError(f"--law-parameter = {options.law_parameter[0]}: goes with --law only")
