@@ -2,7 +2,7 @@
 
 This module is all that the program knows of the law. The time loop calls it with eight interface nodes at a
 time, its fallback with one, the reference model and Fig. 4 with arrays. Another law is another module with
-the same functions (`bladerub.contact.laws`).
+the same functions, which ``docs/laws.md`` lists (`bladerub.contact.laws`).
 """
 
 import math

@@ -1,6 +1,6 @@
 """Laws of an abradable element beside that of the paper (`bladerub.contact.law`), each a module.
 
-A law has the functions of `bladerub.contact.law` (CONTRIBUTING.md has the contract), and a dictionary
+A law has the functions of `bladerub.contact.law` (docs/laws.md has the contract), and a dictionary
 `PARAMETERS` with unit, range and meaning of each parameter of its own. That is a literal: configs are checked
 by it without running the law. The time loop is compiled with the law in it
 (`bladerub.numerics.lanes.module_for`).
