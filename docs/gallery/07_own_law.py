@@ -6,8 +6,6 @@ What if the coating hardens as it is worn, as porous coatings do? A law of the c
 functions, which the time loop is compiled with.
 """
 
-from pathlib import Path
-
 import matplotlib.pyplot as plt
 import numpy as np
 
@@ -18,11 +16,7 @@ from bladerub.contact.laws import module_of
 # The law of this example is in ``docs/laws/densifying.py``: the plastic modulus grows in proportion to the wear, and
 # has doubled at 0.1 mm. ``Law`` reads the file and checks the value of its parameter.
 
-file = (
-    next(folder for folder in Path.cwd().parents if (folder / "docs/laws").is_dir())
-    / "docs/laws/densifying.py"
-)
-densifying = br.Law(str(file), doubling=1e-4)
+densifying = br.Law("docs/laws/densifying.py", doubling=1e-4)
 densifying.parameters
 
 # %%
