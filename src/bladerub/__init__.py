@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from bladerub.api.ensemble import Ensemble, simulate_ensemble
     from bladerub.api.errors import InputError
     from bladerub.api.fit import fit_coating
+    from bladerub.api.law import Law
     from bladerub.api.map import Map, read_map, simulate_speeds
     from bladerub.api.run import Run, find_stress, read_run, simulate
     from bladerub.api.study import Study, StudyCoating, StudyRun, default_study, load_study
@@ -27,6 +28,7 @@ _MODULES = {
     "api.ensemble": ("Ensemble", "simulate_ensemble"),
     "api.errors": ("InputError",),
     "api.fit": ("fit_coating",),
+    "api.law": ("Law",),
     "api.map": ("Map", "read_map", "simulate_speeds"),
     "api.run": ("Run", "find_stress", "read_run", "simulate"),
     "api.study": ("Study", "StudyCoating", "StudyRun", "default_study", "load_study"),
@@ -41,6 +43,7 @@ __all__ = [
     "Disk",
     "Ensemble",
     "InputError",
+    "Law",
     "Map",
     "Row",
     "RowBlade",

@@ -1,9 +1,10 @@
 # Stage 2: the runs. One job is one coating at all its speeds; one run is one file.
 import math
+from dataclasses import asdict
 from functools import cache
 
 from bladerub.blade.model import n_interface
-from bladerub.study.grid import case_from_name, speeds
+from bladerub.study.grid import case_from_name, element_law, speeds
 from bladerub.study.growth import confirmation_determinants
 from bladerub.study.plan import coating_plan
 from bladerub.io.sources import solver_digest
@@ -64,6 +65,7 @@ rule compile_kernel:
         solver=solver_digest(),
         tip_turns=config["contact"].get("tip_turns", False),
         n_nodes=n_interface(config),
+        law=asdict(element_law(config)),
     script:
         "../scripts/compile_kernel.py"
 

@@ -5,13 +5,14 @@ import sys
 import time
 
 from bladerub.contact.setup import compile_kernel
+from bladerub.contact.spec import ElementLaw
 from bladerub.io import atomic
 from bladerub.workflow import job
 
 job.log_to(snakemake.log[0])
 
 start = time.monotonic()
-compile_kernel(snakemake.params.tip_turns, snakemake.params.n_nodes)
+compile_kernel(snakemake.params.tip_turns, snakemake.params.n_nodes, ElementLaw(**snakemake.params.law))
 seconds = time.monotonic() - start
 print(f"time loop compiled in {seconds:.1f} s", file=sys.stderr)
 with atomic.writing(snakemake.output[0]) as stream:

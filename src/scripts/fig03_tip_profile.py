@@ -3,12 +3,14 @@
 The data are in m, stress normalised.
 """
 
+from dataclasses import replace
+
 import pandas as pd
 
 from bladerub.blade.model import read_reduced_blade
 from bladerub.blade.tip import tip_radius
 from bladerub.contact.illustration import pressed_elements
-from bladerub.contact.spec import Coating, TipProfile
+from bladerub.contact.spec import PLASTIC, Coating, TipProfile
 from bladerub.plots.tip_profile import tip_profile
 from bladerub.workflow import job, outputs
 
@@ -18,7 +20,7 @@ REACH = 6  # elements shown on each side of the node
 job.log_to(snakemake.log[0])
 
 scene = pressed_elements(
-    Coating(**snakemake.params.coating),
+    replace(Coating(**snakemake.params.coating), element_law=PLASTIC),
     TipProfile(**snakemake.params.tip),
     tip_radius(read_reduced_blade(snakemake.input.blade)),
     DEPTH,

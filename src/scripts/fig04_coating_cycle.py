@@ -5,7 +5,7 @@ from dataclasses import replace
 import pandas as pd
 
 from bladerub.contact.illustration import loading_cycle
-from bladerub.contact.spec import Coating
+from bladerub.contact.spec import PLASTIC, Coating
 from bladerub.plots.coating_cycle import coating_cycle
 from bladerub.workflow import job, outputs
 
@@ -15,7 +15,7 @@ VISIBLE_YIELD_STRESS = 0.015  # normalised
 
 job.log_to(snakemake.log[0])
 
-of_study = Coating(**snakemake.params.coating)
+of_study = replace(Coating(**snakemake.params.coating), element_law=PLASTIC)
 coatings = {
     "(a) elastic limit of the study": of_study,
     "(b) a larger elastic limit": replace(of_study, yield_stress=VISIBLE_YIELD_STRESS),

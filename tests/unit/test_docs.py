@@ -117,7 +117,7 @@ def _defined_by(node):
         ("bladerub.contact.law.return_mapping", True),
         ("bladerub.contact.spec.RunSpec.f_omega", True),
         ("bladerub.blade.model.N_INTERFACE", True),
-        ("bladerub.contact.laws", False),
+        ("bladerub.contact.rules", False),
         ("bladerub.contact.law.return_map", False),
         ("bladerub.contact.spec.RunSpec.speed", False),
     ],

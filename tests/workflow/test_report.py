@@ -2,7 +2,17 @@
 
 import re
 
-OUTSIDE = ("chart_", "friction", "identification", "long_runs", "robustness", "rotor", "stress", "sweeps")
+OUTSIDE = (
+    "chart_",
+    "friction",
+    "identification",
+    "laws",
+    "long_runs",
+    "robustness",
+    "rotor",
+    "stress",
+    "sweeps",
+)
 """How captions of what `all` does not make begin."""
 
 

@@ -212,7 +212,8 @@ def solve_all(
     blade: Blade, runs: list[StudyRun], jobs: int, follow: bool, done: Callable[[], Any]
 ) -> list[Run]:
     """Simulate `runs`, `jobs` at once, without their histories; `done` is called after each."""
-    compile_kernel(n_nodes=blade.reduced.n_interface)
+    for law in {run.spec.coating.element_law for run in runs}:
+        compile_kernel(n_nodes=blade.reduced.n_interface, law=law)
 
     def compute(run: StudyRun) -> Run:
         found = solve(blade, run, follow, keep_history=False)

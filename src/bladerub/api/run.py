@@ -295,7 +295,7 @@ def simulate(
     (3, 2)
     """
     blade.check_speed("f_omega", run.f_omega)
-    compile_kernel(n_nodes=blade.reduced.n_interface)
+    compile_kernel(n_nodes=blade.reduced.n_interface, law=run.spec.coating.element_law)
     with tqdm(total=run.spec.revolutions, unit="rev", disable=not progress, leave=False) as bar:
         shown = counted(bar, run)
 

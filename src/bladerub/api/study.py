@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from bladerub.api.errors import InputError
+from bladerub.api.law import Law
 from bladerub.api.notebook import html_table
 from bladerub.config import read as configuration
 from bladerub.config.checks import most_revolutions, own_problem
@@ -144,6 +145,19 @@ class Study:
     def results(self) -> Path:
         """Folder of the results of the workflow."""
         return self.folder / self.config["results"]
+
+    def with_law(self, law: Law) -> "Study":
+        """Return this study with another law of the abradable elements, for all its coatings.
+
+        Examples
+        --------
+        >>> import bladerub as br
+        >>> study = br.default_study().with_law(br.Law("viscoplastic", viscosity=1e4))
+        >>> study.coating("2nd", E=2, K=0.5).at(0.19).spec.coating.element_law.name
+        'viscoplastic'
+        """
+        contact = {**self.config["contact"], "law": law.entry}
+        return replace(self, config={**self.config, "contact": contact})
 
     @property
     def coatings(self) -> list[StudyCoating]:

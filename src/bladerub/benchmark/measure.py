@@ -10,6 +10,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import replace
 from typing import Any
 
+import numba
 import numpy as np
 
 from bladerub.benchmark import machine, peak, plain
@@ -57,7 +58,9 @@ def benchmark(
     free = replace(touching, clearance=(blade.length, blade.length), initial_displacement=1e-6 * blade.length)
     progress("compiling the plain loop")
     specs = {"contact": touching, "free": free}
-    _plain(plain.integrate_compiled, blade, touching, 1)
+    in_python = plain.integrator(touching.coating.element_law)
+    compiled = numba.njit(in_python)
+    _plain(compiled, blade, touching, 1)
     peak.turns(1)
 
     seconds: dict[str, list[dict[str, float]]] = {name: [] for name in specs}
@@ -69,8 +72,8 @@ def benchmark(
             steps = _steps(blade, spec)
             seconds[name].append(
                 {
-                    "numpy": _plain(plain.integrate, blade, spec, steps) / steps,
-                    "numba": _plain(plain.integrate_compiled, blade, spec, steps) / steps,
+                    "numpy": _plain(in_python, blade, spec, steps) / steps,
+                    "numba": _plain(compiled, blade, spec, steps) / steps,
                     "production": production(blade, spec) / steps,
                 }
             )
@@ -150,7 +153,8 @@ def _timed(function: Callable, *arguments: Any) -> float:
 
 
 def _plain(integrate: Callable, blade: ReducedBlade, spec: RunSpec, steps: int) -> float:
-    return _timed(integrate, *plain.arguments(*set_up(blade, spec)), np.zeros(steps))
+    arguments = plain.arguments(spec.coating.element_law, *set_up(blade, spec))
+    return _timed(integrate, *arguments, np.zeros(steps))
 
 
 def production(blade: ReducedBlade, spec: RunSpec) -> float:

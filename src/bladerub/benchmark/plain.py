@@ -5,71 +5,76 @@ node, which no run of the study needs: modes, tip and contact forces a step at a
 modes, nodes and elements. It runs in Python, and compiled by numba.
 """
 
-import numba
+from collections.abc import Callable
+
 import numpy as np
 
-from bladerub.contact import law
 from bladerub.contact.kernel.loop import Simulation
 from bladerub.contact.kernel.newton import MAX_ITERATIONS, TOLERANCE
+from bladerub.contact.laws import module_of
 from bladerub.contact.schemes import Recurrence
+from bladerub.contact.spec import ElementLaw
 from bladerub.contact.tip import coverage, relief
 
 
-def arguments(rule: Recurrence, simulation: Simulation) -> tuple:
+def arguments(law: ElementLaw, rule: Recurrence, simulation: Simulation) -> tuple:
     """Take from a run what `integrate` needs, copying what it changes."""
     modes = rule.now, rule.before, rule.tip * rule.gain, np.ascontiguousarray(rule.tip), rule.compliance
     wear, q = simulation.state.wear.copy(), simulation.state.q[:, : rule.omega.size].copy()
     stator = simulation.stator
-    return modes, law.Element(*stator.law), stator, simulation.tip, wear, q, simulation.steps_per_element
+    element = module_of(law).Element(*stator.law)
+    return modes, element, stator, simulation.tip, wear, q, simulation.steps_per_element
 
 
-def integrate(modes, element, stator, tip, wear, q, steps_per_element, displacement):
-    """Make as many steps as `displacement` (n,) takes, that of node 1, m; `wear` is changed in place."""
-    now, before, by_force, to_tip, compliance = modes
-    normal_factor, tangential_factor = stator.normal_factor, stator.tangential_factor
-    gap, n_elements, radius = stator.initial_gap, stator.n_elements, tip.radius
-    force = np.zeros(16)
-    for step in range(displacement.size):
-        q_next = now * q[0] - before * q[1] + force @ by_force
-        q[2], q[1] = q[1], q[0]
-        q[0] = q_next
-        u = to_tip @ q_next
-        passed = (step + 1) / steps_per_element % n_elements
-        approach = np.sqrt((radius + u[:8]) ** 2 + u[8:] ** 2) - radius
-        if force.any() or approach.max() > stator.minimum_gap[step // steps_per_element % n_elements]:
-            free = u
-            u = free + force @ compliance
+def integrator(element_law: ElementLaw) -> Callable:
+    """Return the loop for a law of the elements: a function of `arguments` and ``displacement``."""
+    law = module_of(element_law)
+
+    def integrate(modes, element, stator, tip, wear, q, steps_per_element, displacement):
+        """Make as many steps as `displacement` (n,) takes, that of node 1, m; `wear` is changed in place."""
+        now, before, by_force, to_tip, compliance = modes
+        normal_factor, tangential_factor = stator.normal_factor, stator.tangential_factor
+        gap, n_elements, radius = stator.initial_gap, stator.n_elements, tip.radius
+        force = np.zeros(16)
+        for step in range(displacement.size):
+            q_next = now * q[0] - before * q[1] + force @ by_force
+            q[2], q[1] = q[1], q[0]
+            q[0] = q_next
+            u = to_tip @ q_next
+            passed = (step + 1) / steps_per_element % n_elements
             approach = np.sqrt((radius + u[:8]) ** 2 + u[8:] ** 2) - radius
-            for _ in range(MAX_ITERATIONS):
-                position = tip.start + passed + u[8:] * tip.per_metre
-                first = int(np.floor(position.min() - tip.half_width))
-                rows = np.arange(first, int(np.floor(position.max() + tip.half_width)) + 1)
-                offset = (rows + 0.5).reshape(-1, 1) - position
-                share = coverage(tip, offset)
-                worn = wear[rows % n_elements]
-                depth = approach - relief(tip, offset) - gap[rows % n_elements] - worn
-                element_force, increment = law.return_mapping(element, depth, worn)
-                slope, _ = law.tangent(element, depth, worn)
-                normal_force = np.sum(share * element_force, axis=0)
-                stiffness = np.sum(share * slope, axis=0)
-                outward = radius + u[:8]
-                unit = normal_force / np.sqrt(outward**2 + u[8:] ** 2)
-                force = np.concatenate(
-                    (
-                        unit * (normal_factor * outward - tangential_factor * u[8:]),
-                        unit * (normal_factor * u[8:] + tangential_factor * outward),
-                    )
-                )
+            if force.any() or approach.max() > stator.minimum_gap[step // steps_per_element % n_elements]:
+                free = u
                 u = free + force @ compliance
-                residual = approach - np.sqrt((radius + u[:8]) ** 2 + u[8:] ** 2) + radius
-                if np.abs(residual).max() <= TOLERANCE:
+                approach = np.sqrt((radius + u[:8]) ** 2 + u[8:] ** 2) - radius
+                for _ in range(MAX_ITERATIONS):
+                    position = tip.start + passed + u[8:] * tip.per_metre
+                    first = int(np.floor(position.min() - tip.half_width))
+                    rows = np.arange(first, int(np.floor(position.max() + tip.half_width)) + 1)
+                    offset = (rows + 0.5).reshape(-1, 1) - position
+                    share = coverage(tip, offset)
+                    worn = wear[rows % n_elements]
+                    depth = approach - relief(tip, offset) - gap[rows % n_elements] - worn
+                    element_force, increment = law.return_mapping(element, depth, worn)
+                    slope, _ = law.tangent(element, depth, worn)
+                    normal_force = np.sum(share * element_force, axis=0)
+                    stiffness = np.sum(share * slope, axis=0)
+                    outward = radius + u[:8]
+                    unit = normal_force / np.sqrt(outward**2 + u[8:] ** 2)
+                    force = np.concatenate(
+                        (
+                            unit * (normal_factor * outward - tangential_factor * u[8:]),
+                            unit * (normal_factor * u[8:] + tangential_factor * outward),
+                        )
+                    )
+                    u = free + force @ compliance
+                    residual = approach - np.sqrt((radius + u[:8]) ** 2 + u[8:] ** 2) + radius
+                    if np.abs(residual).max() <= TOLERANCE:
+                        break
+                    approach = approach - residual / (1.0 + stator.self_compliance * stiffness)
+                wear[rows % n_elements] = worn + np.where(share > 0, increment, 0.0)
+                if np.abs(u).max() > tip.limit:
                     break
-                approach = approach - residual / (1.0 + stator.self_compliance * stiffness)
-            wear[rows % n_elements] = worn + np.where(share > 0, increment, 0.0)
-            if np.abs(u).max() > tip.limit:
-                break
-        displacement[step] = u[0]
+            displacement[step] = u[0]
 
-
-integrate_compiled = numba.njit(integrate)
-"""By numba, which does so at the first call in a process."""
+    return integrate

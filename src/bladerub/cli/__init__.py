@@ -5,12 +5,23 @@ import os
 import sys
 
 from bladerub import __version__
-from bladerub.cli import benchmark, compare, export, fit_coating, import_blade, new, run, status, verify
+from bladerub.cli import (
+    benchmark,
+    check_law,
+    compare,
+    export,
+    fit_coating,
+    import_blade,
+    new,
+    run,
+    status,
+    verify,
+)
 from bladerub.cli.inputs import Parser
 from bladerub.config.errors import ConfigError
 from bladerub.io.errors import BadInput, message_for
 
-_COMMANDS = (new, run, status, verify, benchmark, compare, fit_coating, export, import_blade)
+_COMMANDS = (new, run, status, verify, benchmark, compare, fit_coating, check_law, export, import_blade)
 
 
 def parser() -> argparse.ArgumentParser:

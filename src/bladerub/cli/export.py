@@ -207,7 +207,7 @@ def _record(
         )
     before = 0 if whole else last - 1
     instants = np.rint(np.linspace(0, (last - before) * n_elements, options.samples + 1)[1:]).astype(int)
-    compile_kernel(n_nodes=blade.n_interface)
+    compile_kernel(n_nodes=blade.n_interface, law=plan.spec.coating.element_law)
     with inputs.progress_bar(last, "rev") as bar:
         recording = record(
             blade,

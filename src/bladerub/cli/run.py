@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from bladerub.cli import inputs
+from bladerub.cli.check_law import add_parameters_to, parameters
 from bladerub.cli.inputs import InputError, refused
 
 if TYPE_CHECKING:  # as in `inputs`
@@ -54,6 +55,10 @@ def add_to(commands: Any) -> None:
     parser.option("--damping-ratio", text, float, metavar="XI")
     text = "of the abradable coating, m, instead of contact.layer_thickness"
     parser.option("--layer-thickness", text, float, metavar="H")
+    text = "plastic, perfectly_plastic, viscoplastic, brittle or a file of a law, instead of contact.law"
+    parser.option("--law", text, metavar="LAW")
+    text = "parameter of --law, SI units; once for each of them"
+    add_parameters_to(parser, "--law-parameter", text)
     parser.option("--interference", "instead of that of the casing, m", float, metavar="D")
     speed = parser.add_mutually_exclusive_group(required=True)
     speed.add_argument("--f", type=float, metavar="F_OMEGA", help="speed (normalised)")
@@ -88,7 +93,7 @@ def run(options: argparse.Namespace) -> None:
     row = _row(options)
     if options.stress and (row or config.get("rotor")):
         raise InputError("--stress: is of a single blade; not with --blades or the block rotor of the config")
-    study = Study(config, inputs.study_folder())
+    study = _with_law(options, Study(config, inputs.study_folder()))
     if options.output:
         _check_output(options.output)
     blade = None
@@ -122,6 +127,20 @@ def run(options: argparse.Namespace) -> None:
         figures["blade"] = result.attributes["blade"]
         figures["blades"] = result.blades.reset_index().to_dict("records")
     inputs.show(options, figures, _in_words)
+
+
+def _with_law(options: argparse.Namespace, study: "Study") -> "Study":
+    """Return the study with the law that is asked for, if one is."""
+    values = parameters("--law-parameter", options.law_parameter)
+    if options.law is None:
+        if values:
+            raise InputError(f"--law-parameter = {options.law_parameter[0]}: goes with --law only")
+        return study
+
+    from bladerub.api.law import Law
+
+    with inputs.as_options():
+        return study.with_law(Law(options.law, **values))
 
 
 def _row(options: argparse.Namespace) -> "Row | None":
@@ -172,10 +191,11 @@ def _stress(blade: "Blade", planned: "StudyRun", result: "Run") -> dict[str, Any
 def _check_coating(options: argparse.Namespace) -> None:
     """Check that the options of a coating are there, and none of another kind."""
     if options.coating == "rigid":
-        for option in ("E", "K", "theta", "layer-thickness"):
+        for option in ("E", "K", "theta", "layer-thickness", "law"):
             given = getattr(options, option.replace("-", "_"))
             if given is not None:
-                raise InputError(f"--{option} = {given:g}: goes with --coating abradable only")
+                value = given if option == "law" else f"{given:g}"
+                raise InputError(f"--{option} = {value}: goes with --coating abradable only")
         return
     for option in ("E", "K"):
         if getattr(options, option) is None:
@@ -211,6 +231,7 @@ def _figures(planned: "StudyRun", result: "Run", seconds: float) -> dict[str, An
         "theta": case.theta if case.law == "theta" else None,
         "friction": case.friction if case.law == "coulomb" else None,
         "damping_ratio": planned.spec.damping_ratio,
+        "element_law": None if case.is_rigid else planned.spec.coating.element_law.label,
         "modulus_unit": None if case.is_rigid else planned.spec.coating.modulus_unit,
         "layer_thickness": None if case.is_rigid else planned.spec.coating.thickness,
         "interference": planned.spec.casing.interference,
@@ -257,6 +278,7 @@ def _in_words(figures: dict[str, Any]) -> str:
     after = f", after {figures['growth_revolutions']} revolutions"
     rows = {
         "coating": _coating_in_words(figures),
+        **({"law": law} if (law := figures["element_law"]) not in (None, "plastic") else {}),
         "speed": f"{figures['f_omega']:.4g} (normalised), {figures['rpm']:,.0f} rpm",
         "peak displacement": f"{figures['peak_amplitude'] * 1e3:.4g} mm (radial, node 1, last revolutions)"
         + inputs.large_in_words(figures["displacement_over_length"]),

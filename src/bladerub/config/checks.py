@@ -21,6 +21,7 @@ from bladerub.study.grid import (
     CoatingCase,
     cases_of,
     coating_cases,
+    element_law,
     listed_case,
     row_of,
     speeds,
@@ -135,6 +136,18 @@ def _rotor(config: Config) -> Iterator[str]:
         row_of(config)
     except ValueError as error:  # it begins with "row: "
         yield f"rotor: {str(error).partition(': ')[2]}"
+
+
+@_reads("contact")
+def _law(config: Config) -> Iterator[str]:
+    law = config["contact"].get("law", {})
+    if "name" in law and "file" in law:
+        yield f"contact.law.file = {format_value(law['file'])}: must be without contact.law.name"
+        return
+    try:
+        element_law(config)
+    except ValueError as error:
+        yield f"contact.law.{error}"
 
 
 @_reads("casings")

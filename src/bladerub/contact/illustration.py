@@ -1,5 +1,6 @@
 """The law of the coating and the profile of the tip without a blade, as Figs. 3 and 4 show them."""
 
+import math
 from collections.abc import Sequence
 from itertools import pairwise
 from typing import NamedTuple
@@ -7,6 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from bladerub.contact import law, tip
+from bladerub.contact.laws import module_of
 from bladerub.contact.spec import Coating, TipProfile
 
 
@@ -19,13 +21,23 @@ class LoadingCycle(NamedTuple):
     plastic_strain: np.ndarray
 
 
-def loading_cycle(coating: Coating, turning_points: Sequence[float], steps: int) -> LoadingCycle:
-    """Compress an unworn element from one strain of `turning_points` to the next in `steps` each."""
+def loading_cycle(
+    coating: Coating, turning_points: Sequence[float], steps: int, rate: float = 0.0
+) -> LoadingCycle:
+    """Compress an unworn element from one strain of `turning_points` to the next in `steps` each.
+
+    `rate` is that of the strain (1/s), for the laws in which it counts.
+    """
+    law = module_of(coating.element_law)
     branches = [np.linspace(start, end, steps + 1)[1:] for start, end in pairwise(turning_points)]
     strain = np.concatenate([turning_points[:1], *branches])
     stress, wear = np.zeros(strain.size), np.zeros(strain.size)
     for step in range(1, strain.size):
-        stress[step], wear[step] = law.load(coating, strain[step] * coating.thickness, wear[step - 1])
+        time_step = abs(strain[step] - strain[step - 1]) / rate if rate else math.inf
+        element = law.element(coating, 1 / coating.modulus_unit, time_step)
+        depth = strain[step] * coating.thickness - wear[step - 1]
+        stress[step], more = law.return_mapping(element, depth, wear[step - 1])
+        wear[step] = wear[step - 1] + more
     return LoadingCycle(coating, strain, stress, wear / coating.thickness)
 
 

@@ -1,9 +1,11 @@
 """Law of an abradable element: one-dimensional plasticity with linear hardening (Fig. 4).
 
 This module is all that the program knows of the law. The time loop calls it with eight interface nodes at a
-time, its fallback with one, the reference model and Fig. 4 with arrays. Another law changes this file alone.
+time, its fallback with one, the reference model and Fig. 4 with arrays. Another law is another module with
+the same functions, which ``docs/laws.md`` lists (`bladerub.contact.laws`).
 """
 
+import math
 from typing import NamedTuple
 
 import numpy as np
@@ -22,8 +24,8 @@ class Element(NamedTuple):
     plastic_compliance: np.ndarray  # 1 / (elastic + hardening), m/N
 
 
-def element(coating: Coating, area: float | np.ndarray) -> Element:
-    """Return the parameters of elements of the cross-section `area`, m²."""
+def element(coating: Coating, area: float | np.ndarray, time_step: float = math.inf) -> Element:
+    """Return the parameters of elements of the cross-section `area`, m²; this law knows no `time_step`, s."""
     stiffness = coating.modulus_unit * area / coating.thickness
     elastic, hardening = coating.E * stiffness, coating.K * stiffness
     yield_force = coating.yield_stress * coating.modulus_unit * area
@@ -73,8 +75,11 @@ def stored_energy(element, force):
 
 
 @elementwise
-def dissipated_energy(element, wear, increment):
-    """Energy that an element takes up as its wear grows from `wear` by `increment`, J."""
+def dissipated_energy(element, wear, increment, force_before, force):
+    """Energy that an element takes up as its wear grows from `wear` by `increment`, J.
+
+    Its force goes from `force_before` to `force` (N), which this law does without.
+    """
     return (elastic_limit(element, wear) + 0.5 * element.hardening * increment) * increment
 
 

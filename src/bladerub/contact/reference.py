@@ -9,22 +9,21 @@ package it uses the law of an element (Fig. 4), the profile of the tip (Fig. 3) 
 
 import itertools
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
 import scipy.linalg
 import scipy.optimize
 
 from bladerub.blade.model import ReducedBlade
-from bladerub.contact import law
 from bladerub.contact.casing import shape
+from bladerub.contact.laws import module_of
 from bladerub.contact.row_spec import Row
 from bladerub.contact.spec import RunSpec
 from bladerub.contact.tip import coverage, relief
 
 
 def simulate(
-    blade: ReducedBlade, spec: RunSpec, n_steps: int, n_modes: int | None = None, law: Any = law
+    blade: ReducedBlade, spec: RunSpec, n_steps: int, n_modes: int | None = None
 ) -> tuple[np.ndarray, np.ndarray]:
     """Simulate a run by the scheme that `spec` names.
 
@@ -38,8 +37,6 @@ def simulate(
         Time steps.
     n_modes : int, optional
         Modes that the exponential scheme resolves, all by default.
-    law : module or object
-        The law of an element: `bladerub.contact.law` or another with its ``element`` and ``return_mapping``.
 
     Returns
     -------
@@ -48,7 +45,7 @@ def simulate(
     wear : (j, N) ndarray
         Permanent shortening of the elements, m.
     """
-    coating = _Coating(blade, spec, law)
+    coating = _Coating(blade, spec)
     steps = _steps(blade, spec, n_modes, coating)
     history = np.array([next(steps) for _ in range(n_steps)])
     return history[:, : 2 * blade.n_interface], coating.wear
@@ -69,7 +66,7 @@ def simulate_row(
     wear : (j, N) ndarray
         Permanent shortening of the elements by all of them, m.
     """
-    coatings = [_Coating(blade, spec, law) for _ in row.blades]
+    coatings = [_Coating(blade, spec) for _ in row.blades]
     squares, modes = scipy.linalg.eigh(blade.stiffness(spec.f_omega), blade.mass)
     marches = []
     for coating, own in zip(coatings, row.blades, strict=True):
@@ -159,8 +156,9 @@ def _implicit_forces(coating, time, u, compliance, guess):
 class _Coating:
     """The abradable elements around the casing, a ring for each interface node, and their wear so far."""
 
-    def __init__(self, blade: ReducedBlade, spec: RunSpec, law: Any):
-        self.spec, self.law, n = spec, law, spec.coating.n_elements
+    def __init__(self, blade: ReducedBlade, spec: RunSpec):
+        self.spec, self.law = spec, module_of(spec.coating.element_law)
+        n = spec.coating.n_elements
         x, y, z = blade.node_position.T[:, :, None]  # a row for each interface node
         self.radius, self.node_angle = np.hypot(y, z), spec.casing.start_angle + np.arctan2(y, z)
         outward = np.sum(blade.radial_direction[:, 1:] * blade.node_position[:, 1:], axis=1)[:, None]
@@ -169,7 +167,7 @@ class _Coating:
         self.angle = (np.arange(n) + 0.5) * 2 * np.pi / n
         edges = np.concatenate([x[:1], (x[1:] + x[:-1]) / 2, x[-1:]])
         area = np.abs(np.diff(edges, axis=0)) * 2 * np.pi * self.radius / n  # share of the chord, times width
-        self.element = law.element(spec.coating, area)
+        self.element = self.law.element(spec.coating, area, time_step(blade, spec))
         leading, trailing = spec.clearance
         clearance = leading + (trailing - leading) * (x - x[0]) / (x[-1] - x[0])
         casing = spec.casing

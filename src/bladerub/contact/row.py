@@ -25,6 +25,7 @@ from bladerub.blade.model import ReducedBlade
 from bladerub.contact import energy
 from bladerub.contact.integration import History, Segment
 from bladerub.contact.kernel.row import Coupling, RowSimulation
+from bladerub.contact.laws import source_of
 from bladerub.contact.modes import Modes, modes_at, tip_radii
 from bladerub.contact.result import Energy, RunResult
 from bladerub.contact.row_spec import Row, RowBlade
@@ -158,7 +159,8 @@ def set_up_row(blade: ReducedBlade, spec: RunSpec, row: Row) -> RowSetUp:
         seats.append(_Seat(blade, spec, modes, own, seats[0].simulation.state.wear if seats else None))
     _check_distances(blade, spec, seats)
     begins = [seat.first_clear() if len(seats) > 1 else 0 for seat in seats]
-    kernel = module_for(lanes_for(blade.n_interface), "contact.kernel.row")
+    law = source_of(spec.coating.element_law)
+    kernel = module_for(lanes_for(blade.n_interface), "contact.kernel.row", law)
     coupling = _coupling(spec, modes, row, seats)
     simulation = kernel.RowSimulation(
         [seat.simulation for seat in seats], [seat.row for seat in seats], begins, coupling

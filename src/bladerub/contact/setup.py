@@ -9,13 +9,14 @@ import numpy as np
 from scipy.ndimage import minimum_filter1d
 
 from bladerub.blade.model import N_INTERFACE, ReducedBlade
-from bladerub.contact import casing, law
+from bladerub.contact import casing
 from bladerub.contact.kernel import records
 from bladerub.contact.kernel.free_flight import MOST_STEPS, FreeFlight
 from bladerub.contact.kernel.loop import Simulation
+from bladerub.contact.laws import module_of, source_of
 from bladerub.contact.modes import Modes, modes_at, tip_radii
 from bladerub.contact.schemes import SCHEMES, Contact, Recurrence, normal_compliance
-from bladerub.contact.spec import Coating, RunSpec
+from bladerub.contact.spec import PLASTIC, Coating, ElementLaw, RunSpec
 from bladerub.contact.tip import edge
 from bladerub.numerics.lanes import lanes_for, module_for
 from bladerub.numerics.memory import aligned
@@ -47,6 +48,7 @@ def set_up_modes(
 ) -> tuple[Recurrence, Simulation]:
     """Prepare a run as `set_up`, with the modes at its speed."""
     steps_per_element, time_step = _time_step(blade, spec)
+    law = module_of(spec.coating.element_law)
     element = law.element(spec.coating, element_area(blade, spec)).elastic  # infinite for the rigid casing
     stiffness = element * 2 * spec.tip.half_width  # the shares under the tip add up to its width
     if spec.turns:
@@ -59,27 +61,28 @@ def set_up_modes(
     if seat.wear is not None:
         state = state._replace(wear=seat.wear)
     flight = _free_flight(rule, tip, steps_per_element)
-    kernel = partial(module_for, lanes_for(modes.n_nodes))
+    kernel = partial(module_for, lanes_for(modes.n_nodes), law=source_of(spec.coating.element_law))
     simulation = kernel("contact.kernel.loop").Simulation
     return rule, simulation(
         kernel("contact.kernel.modal").pack(rule), flight, stator, tip, state, steps_per_element
     )
 
 
-def compile_kernel(tip_turns: bool = False, n_nodes: int = N_INTERFACE) -> None:
+def compile_kernel(tip_turns: bool = False, n_nodes: int = N_INTERFACE, law: ElementLaw = PLASTIC) -> None:
     """Compile the time loop, so that its machine code is on disk before runs start.
 
-    That for profiles that turn is another one, and that for a tip with more than eight nodes.
+    That for profiles that turn is another one, that for a tip with more than eight nodes, and that for
+    another law of the elements.
     """
     modes = Modes(np.ones(1), np.zeros(((3 if tip_turns else 2) * n_nodes, 1)), n_nodes)
     lanes = lanes_for(n_nodes)
     zeros = np.zeros(lanes)
     stiffness = np.ones(len(modes.tip) - n_nodes)
     rule = SCHEMES["exponential"](modes, 0.0, 1e-6, Contact(stiffness, -1.0, 0.0))
-    gap, elements = np.ones((8, lanes)), np.ones((len(law.Element._fields), lanes))
+    gap, elements = np.ones((8, lanes)), np.ones((len(module_of(law).Element._fields), lanes))
     stator = records.Stator(gap, gap[:, 0].copy(), elements, 8, False, -1.0, 0.0, zeros, False, zeros)
     tip = records.Tip(zeros, zeros, zeros + 1.0, zeros + 1.0, 2.0, 0.0, 0.0, 1.0)
-    kernel = partial(module_for, lanes)
+    kernel = partial(module_for, lanes, law=source_of(law))
     flight = kernel("contact.kernel.free_flight").free_flight(rule, 1, 0.0, 0.0)
     state = kernel("contact.kernel.records").at_rest(1, 8)
     kernel("contact.kernel.loop").Simulation(
@@ -123,7 +126,8 @@ def stator_record(blade: ReducedBlade, spec: RunSpec, rule: Recurrence, seat: Se
     first = _first_element(blade, spec)
     rows = np.array([np.roll(of_node, -at) for of_node, at in zip(gap, first, strict=True)])
     by_lane = _by_lane_of(blade)
-    parameters = law.element(coating, by_lane(element_area(blade, spec)))  # unused for the rigid casing
+    area, law = by_lane(element_area(blade, spec)), module_of(coating.element_law)
+    parameters = law.element(coating, area, rule.time_step)  # unused for the rigid casing
     unused = np.full((coating.n_elements, by_lane(x).size - x.size), _NEVER)
     stator = records.Stator(
         initial_gap=np.hstack([rows.T, unused]),

@@ -43,6 +43,35 @@ class Casing:
 
 
 @dataclass(frozen=True)
+class ElementLaw:
+    """Law of the abradable elements, and the values of its own parameters.
+
+    Parameters
+    ----------
+    name : str
+        ``"plastic"``, the law of the paper, or a module of `bladerub.contact.laws`.
+    parameters : tuple of (str, float)
+        Name and value, SI units, of each parameter that the law has beside E, K and σ_Y.
+    source : str
+        The text of a module that is not of this package; empty for one that is.
+    """
+
+    name: str = "plastic"
+    parameters: tuple[tuple[str, float], ...] = ()
+    source: str = ""
+
+    @property
+    def label(self) -> str:
+        """Name and values, for instance ``viscoplastic (viscosity 10000)``."""
+        values = ", ".join(f"{name} {value:g}" for name, value in self.parameters)
+        return f"{self.name} ({values})" if values else self.name
+
+
+PLASTIC = ElementLaw()
+"""One-dimensional plasticity with linear hardening (Fig. 4)."""
+
+
+@dataclass(frozen=True)
 class Coating:
     """Abradable layer: E, K and σ_Y normalised by `modulus_unit`.
 
@@ -66,6 +95,8 @@ class Coating:
     law : str
         ``"theta"``: the force has a constant direction. ``"coulomb"``: its tangential part opposes the
         sliding of each node over the casing (`bladerub.contact.friction`).
+    element_law : ElementLaw
+        The law of force and wear along the elements.
     """
 
     E: float
@@ -76,6 +107,7 @@ class Coating:
     thickness: float
     n_elements: int
     law: str = "theta"
+    element_law: ElementLaw = PLASTIC
 
     @property
     def is_rigid(self) -> bool:

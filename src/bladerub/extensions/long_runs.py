@@ -18,7 +18,7 @@ from bladerub.io.errors import DamagedFile
 from bladerub.io.hdf5 import Variable
 from bladerub.io.provenance import provenance
 from bladerub.study.divergence import verdicts
-from bladerub.study.grid import CoatingCase, run_spec
+from bladerub.study.grid import CoatingCase, element_law, run_spec
 from bladerub.study.growth import Verdict, growth, judge
 from bladerub.study.maps import CoatingMap
 from bladerub.study.orders import peak_settings
@@ -72,9 +72,8 @@ def make(
 
     `report` is called with a line after each run.
     """
-    compile_kernel(
-        n_nodes=blade.n_interface
-    )  # or the time of the first run would include the loading of the machine code
+    # or the time of the first run would include the loading of the machine code
+    compile_kernel(n_nodes=blade.n_interface, law=element_law(config))
     case, revolutions = coating.case, config["long_runs"]["revolutions"]
     reasons = chosen(config, coating)
     results, seconds = [], np.full((len(reasons), revolutions), np.nan)

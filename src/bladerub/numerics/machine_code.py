@@ -2,7 +2,7 @@
 
 Numba notices a change of the file that holds a cached function, but not of functions that it calls in
 other files: a run after an edit could use old code. The folder of the cache therefore carries a digest
-of all sources of the solver, and the number of lanes.
+of all sources of the solver, the number of lanes, and a digest of the law if it is not the usual one.
 """
 
 from collections.abc import Callable
@@ -23,7 +23,8 @@ def njit_on_disk(**options) -> Callable[[Callable], Callable]:
     def decorate(function: Callable) -> Callable:
         user_folder = numba.config.CACHE_DIR
         parent = Path(user_folder or Path(__file__).parent / "__pycache__")
-        numba.config.CACHE_DIR = str(parent / f"machine-code-{solver_digest()[:16]}-{lanes.LANES}")
+        instance = lanes.instance_name(lanes.LANES, lanes.LAW)
+        numba.config.CACHE_DIR = str(parent / f"machine-code-{solver_digest()[:16]}-{instance}")
         try:
             return numba.njit(cache=True, **options)(function)
         finally:

@@ -9,8 +9,10 @@ from typing import Any
 
 import numpy as np
 
+from bladerub.contact.laws import described_law, parameters_of
 from bladerub.contact.row_spec import Disk, Row
-from bladerub.contact.spec import Coating, RunSpec, TipProfile
+from bladerub.contact.spec import PLASTIC, Coating, ElementLaw, RunSpec, TipProfile
+from bladerub.io.folders import study_folder
 from bladerub.study.casings import casing_spec
 
 SPEED_DECIMALS = 6
@@ -179,6 +181,27 @@ def modulus_unit(config: Mapping[str, Any]) -> float:
     return float(config["contact"]["modulus_unit"] * scale["modulus"])
 
 
+def element_law(config: Mapping[str, Any]) -> ElementLaw:
+    """Describe the law of the elements that the config names, by default plasticity with linear hardening.
+
+    Raises `ValueError`, which begins with the key, if a file cannot be read or is no law, or as
+    `bladerub.contact.laws.described_law`.
+    """
+    values = dict(config["contact"].get("law", {}))
+    name, file = values.pop("name", PLASTIC.name), values.pop("file", None)
+    if file is None:
+        return described_law(name, values)
+    path = study_folder() / file
+    if not path.is_file():
+        raise ValueError(f"file = {file}: there is no such file")
+    try:
+        source = path.read_text(encoding="utf-8")
+        parameters_of(source)
+    except ValueError as error:  # that of a text in another encoding is one
+        raise ValueError(f"file = {file}: {error}") from error
+    return described_law(path.stem, values, source)
+
+
 def run_spec(config: Mapping[str, Any], case: CoatingCase, f_omega: float) -> RunSpec:
     """Describe the run of coating `case` at the speed `f_omega` in SI units.
 
@@ -201,6 +224,7 @@ def run_spec(config: Mapping[str, Any], case: CoatingCase, f_omega: float) -> Ru
             thickness=float(contact["layer_thickness"] * scale["length"]),
             n_elements=int(contact["elements"]),
             law=case.law,
+            element_law=PLASTIC if case.is_rigid else element_law(config),
         ),
         tip=TipProfile(
             half_width=float(contact["tip_profile"]["half_width"]),

@@ -11,7 +11,7 @@ from bladerub.blade.model import interface_node
 from bladerub.contact.result import RunResult
 from bladerub.contact.row import RowResult
 from bladerub.contact.row_spec import Row
-from bladerub.contact.spec import RunSpec
+from bladerub.contact.spec import PLASTIC, RunSpec
 from bladerub.io import hdf5
 from bladerub.io.errors import DamagedFile
 from bladerub.io.hdf5 import Variable
@@ -143,6 +143,8 @@ def stored_run(
         "status": result.status,
         "message": result.message,
     }
+    if spec.coating.element_law != PLASTIC:
+        attributes["element_law"] = spec.coating.element_law.label
     return StoredRun(attributes, data)
 
 

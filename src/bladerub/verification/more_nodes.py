@@ -17,7 +17,7 @@ from bladerub.blade.model import ReducedBlade
 from bladerub.contact.result import RunResult
 from bladerub.contact.run import simulate
 from bladerub.contact.setup import compile_kernel, strip_width
-from bladerub.study.grid import CoatingCase, run_spec
+from bladerub.study.grid import CoatingCase, element_law, run_spec
 from bladerub.verification.response import CASE_COLUMNS, Response, listed
 
 NODES = (8, 16, 24)
@@ -70,7 +70,7 @@ def blade_with(config: Mapping[str, Any], n: int) -> ReducedBlade:
     varied = copy.deepcopy({name: config[name] for name in ("blade", "reduction")})
     varied["blade"]["mesh"] = {**varied["blade"]["mesh"], "chordwise": CHORDWISE, "thickness": 2}
     varied["reduction"]["interface_nodes"] = n
-    compile_kernel(n_nodes=n)
+    compile_kernel(n_nodes=n, law=element_law(config))
     return build(varied).reduced
 
 

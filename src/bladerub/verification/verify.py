@@ -31,9 +31,9 @@ from bladerub.contact.row import simulate_row
 from bladerub.contact.row_spec import Row
 from bladerub.contact.run import simulate
 from bladerub.contact.setup import compile_kernel
-from bladerub.contact.spec import RunSpec
+from bladerub.contact.spec import ElementLaw, RunSpec
 from bladerub.study.ensemble import chosen
-from bladerub.study.grid import CoatingCase, coating_cases, row_of, run_spec, speed_name, speeds
+from bladerub.study.grid import CoatingCase, coating_cases, element_law, row_of, run_spec, speed_name, speeds
 from bladerub.study.maps import read_map
 from bladerub.verification.differences import Differences, largest, row_differences
 
@@ -141,19 +141,20 @@ def verify_runs(
     blade: ReducedBlade, config: Mapping[str, Any], runs: Sequence[StudyRun], jobs: int = 1
 ) -> Iterator[VerifiedRun]:
     """Verify runs in `jobs` processes, and yield them in their order; raises as `verify_run`."""
-    compile_kernel(n_nodes=blade.n_interface)
+    law = element_law(config)
+    compile_kernel(n_nodes=blade.n_interface, law=law)
     verify = partial(verify_run, blade, config)
     if jobs == 1:
         yield from map(verify, runs)
         return
     context = multiprocessing.get_context("spawn")  # a fork of a process with threads may hang
-    with context.Pool(min(jobs, len(runs)), _start_worker) as pool:
+    with context.Pool(min(jobs, len(runs)), _start_worker, (blade.n_interface, law)) as pool:
         yield from pool.imap(verify, runs)
 
 
-def _start_worker() -> None:
+def _start_worker(n_nodes: int, law: ElementLaw) -> None:
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # the parent process ends its workers
-    compile_kernel()
+    compile_kernel(n_nodes=n_nodes, law=law)
 
 
 def verify_run(blade: ReducedBlade, config: Mapping[str, Any], run: StudyRun) -> VerifiedRun:

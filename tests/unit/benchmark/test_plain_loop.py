@@ -1,21 +1,31 @@
 """The plain loop against the loop of the study."""
 
+import numba
 import numpy as np
 import pytest
 
 from bladerub.benchmark import plain
+from bladerub.contact.laws import described_law
 from bladerub.contact.run import simulate
 from bladerub.contact.setup import set_up
+from bladerub.contact.spec import PLASTIC
 
 pytestmark = pytest.mark.slow
 
 
-@pytest.mark.parametrize("integrate", [plain.integrate, plain.integrate_compiled], ids=["numpy", "numba"])
-@pytest.mark.parametrize(("E", "K", "theta"), [(1.1, 0.5, 0.0), (2.0, 0.1, 0.15)])
-def test_the_same_run(blade, spec, change, integrate, E, K, theta):
-    spec = change(spec, E=E, K=K, theta=theta, revolutions=2)
+VISCOPLASTIC = described_law("viscoplastic", {"viscosity": 1e4})
+
+
+@pytest.mark.parametrize("compiled", [lambda loop: loop, numba.njit], ids=["numpy", "numba"])
+@pytest.mark.parametrize(
+    ("E", "K", "theta", "law"),
+    [(1.1, 0.5, 0.0, PLASTIC), (2.0, 0.1, 0.15, PLASTIC), (1.1, 0.5, 0.0, VISCOPLASTIC)],
+)
+def test_the_same_run(blade, spec, change, compiled, E, K, theta, law):
+    spec = change(spec, E=E, K=K, theta=theta, revolutions=2, element_law=law)
+    integrate = compiled(plain.integrator(law))
     result, (rule, simulation) = simulate(blade, spec), set_up(blade, spec)
-    arguments = plain.arguments(rule, simulation)
+    arguments = plain.arguments(law, rule, simulation)
     displacement = np.zeros(result.n_steps)
     integrate(*arguments, displacement)
     middle = 0.5 * (displacement + np.concatenate([[0.0], displacement[:-1]]))

@@ -31,6 +31,7 @@ KEYS = {
     "casing",
     "damping_ratio",
     "layer_thickness",
+    "element_law",
     "modulus_unit",
     "displacement_over_length",
     "interference",
@@ -287,6 +288,21 @@ def test_run_takes_damping_layer_and_interference_of_its_own(small, blade_file, 
     assert (figures["interference"], about["damping_ratio"], about["layer_thickness"]) == (4e-4, 0.001, 0.004)
 
 
+@pytest.mark.slow
+def test_run_with_another_law_says_so(small, blade_file, folder, capsys):
+    path = folder / "viscous.h5"
+    law = ["--law", "viscoplastic", "--law-parameter", "viscosity=1e4", "--output", str(path)]
+    assert main([*RUN, *law, *small]) == 0
+    assert "law                             viscoplastic (viscosity 10000)" in capsys.readouterr().out
+    assert read_run(path).attributes["element_law"] == "viscoplastic (viscosity 10000)"
+    other = folder / "plastic.h5"
+    assert main([*RUN, "--law", "plastic", "--output", str(other), *small, "--json"]) == 0
+    figures, about = json.loads(capsys.readouterr().out), read_run(other).attributes
+    assert figures["element_law"] == "plastic"
+    assert "element_law" not in about
+    assert about["run_key"] != read_run(path).attributes["run_key"]
+
+
 @pytest.mark.parametrize(
     ("option", "value"),
     [("--damping-ratio", "1"), ("--layer-thickness", "0.0003"), ("--interference", "0.01")],
@@ -370,6 +386,12 @@ def without(option):
         (without("--E"), "--E: missing, an abradable coating needs it"),
         (without("--K"), "--K: missing, an abradable coating needs it"),
         ([*RUN, "--friction", "0.1"], "--friction = 0.1: goes without theta"),
+        ([*RUN, "--law", "elastic"], '--law = "elastic": name = elastic: must be one of plastic, brittle'),
+        ([*RUN, "--law", "viscoplastic"], '--law = "viscoplastic": viscosity: missing'),
+        ([*RUN, "--law", "no.py"], '--law = "no.py": file = no.py: there is no such file'),
+        ([*RUN, "--law-parameter", "viscosity=1"], "--law-parameter = viscosity=1: goes with --law only"),
+        ([*RUN, "--law-parameter", "viscosity"], "--law-parameter = viscosity: must be NAME=VALUE"),
+        ([*RIGID, "--law", "plastic"], "--law = plastic: goes with --coating abradable only"),
         ([*RUN, "--coating", "rigid"], "--E = 2: goes with --coating abradable only"),
         ([*RIGID, "--theta", "0"], "--theta = 0: goes with --coating abradable only"),
         (

@@ -44,7 +44,7 @@ def test_commands_are_found():
     names = {command.split()[1] for _, command in commands()}
     assert names == {
         *("new", "run", "status", "verify", "compare", "benchmark", "import", "export"),
-        "fit-coating",
+        *("fit-coating", "check-law"),
     }
 
 

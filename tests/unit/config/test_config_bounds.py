@@ -41,6 +41,7 @@ NUMBERS = """
     reduction.accuracy_modes          [1, 50]
     contact.modulus_unit              [1e3, 1e12]
     contact.yield_stress              [0, 100]
+    contact.law                       [-1e15, 1e15]
     layer_thickness                   [1e-4, 0.1]
     contact.elements                  [100, 100000]
     contact.tip_profile.half_width    (0, 20]
@@ -168,6 +169,7 @@ def complete(config):
     listed = [{key: [v] if isinstance(v, float) else v for key, v in kind.items()} for kind in kinds]
     config["blade"]["source"] = {}
     config["contact"]["scale"] = {"length": 1, "modulus": 1, "time": 1}
+    config["contact"]["law"] = {"name": "plastic"}
     config["casings"]["2nd"] |= {"peak_orders": [4], "bump_width": 0.5}
     config["casings"]["table"] = {"table": {"file": "gap.csv"}, "start_angle": 0.0, "peak_orders": [4]}
     config["coatings"], config["friction"] = (

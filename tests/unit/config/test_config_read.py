@@ -7,6 +7,8 @@ from bladerub.config import schema as schema_module
 from bladerub.config.errors import ConfigError
 from bladerub.config.read import load, validate
 from bladerub.config.schema import check_quantity, schema
+from bladerub.contact import laws
+from bladerub.contact.spec import ElementLaw
 from bladerub.io.folders import ROOT
 
 CONFIGS = [
@@ -87,11 +89,39 @@ def test_every_key_of_the_schema_is_needed_but_extend_and_what_another_blade_bri
     optional |= {"peak_orders", "damping_ratio", "layer_thickness", "interference", "tip_turns"}
     optional |= {"interface_nodes", "bump_width", "unit", "angle_unit", "sweeps", "patterns"}
     optional |= {"rotor", "length", "frequency", "damping", "angle_error", "coupling"}
-    optional |= {"length_scatter", "frequency_scatter", "seed"}
+    optional |= {"length_scatter", "frequency_scatter", "seed", "law", "name", "file"}
     for path, rule in rules(schema()):
         if "properties" in rule and not path.startswith(".blade.source"):
             known, required = set(rule["properties"]), set(rule["required"])
             assert known - optional <= required <= known, path
+
+
+@pytest.mark.parametrize(
+    ("law", "message"),
+    [
+        ({"name": "viscoplastic"}, "contact.law.viscosity: missing, stress beyond the elastic limit"),
+        ({"name": "viscoplastic", "viscosity": -1}, "contact.law.viscosity = -1: stress beyond"),
+        ({"name": "viscoplastic", "viscosity": "high"}, 'contact.law.viscosity = "high": parameter'),
+        ({"name": "elastic"}, "contact.law.name = elastic: must be one of plastic, brittle"),
+        ({"viscosity": 1.0}, "contact.law.viscosity = 1.0: unknown parameter, this law has no parameters"),
+        ({"file": "none.py"}, "contact.law.file = none.py: there is no such file"),
+        ({"name": "plastic", "file": "a.py"}, 'contact.law.file = "a.py": must be without'),
+    ],
+)
+def test_a_wrong_law_is_one_line(config, law, message):
+    config["contact"]["law"] = law
+    (found,) = problems(config)
+    assert found.startswith(message)
+
+
+def test_every_law_and_its_parameters_are_in_the_schema(config):
+    rule = schema()["properties"]["contact"]["properties"]["law"]
+    for name in laws.NAMES:
+        assert name in rule["properties"]["name"]["form"]
+        for parameter, of in laws.parameters_of(laws.source_of(ElementLaw(name))).items():
+            assert (
+                f"{parameter} ({of.unit})".removesuffix(" (1)") in rule["additionalProperties"]["description"]
+            )
 
 
 def test_overlays_merge_mappings_and_replace_lists(tmp_path):

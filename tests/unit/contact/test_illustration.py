@@ -1,7 +1,10 @@
+import dataclasses
+
 import numpy as np
 import pytest
 
 from bladerub.contact.illustration import loading_cycle, pressed_elements
+from bladerub.contact.laws import described_law
 from bladerub.contact.spec import Coating, TipProfile
 
 COATING = Coating(2.0, 0.5, 0.15, yield_stress=0.01, modulus_unit=1e8, thickness=5e-3, n_elements=2000)
@@ -16,6 +19,18 @@ def test_a_loading_cycle_follows_the_moduli():
     np.testing.assert_allclose(cycle.stress[:5], 2 * cycle.strain[:5])  # below the elastic limit
     np.testing.assert_allclose(np.diff(cycle.stress[8:30]), 1e-3 * 2 * 0.5 / 2.5)
     assert cycle.stress[-1] == 0
+
+
+def test_a_loading_cycle_is_by_the_law_of_the_coating_at_a_rate():
+    viscous = dataclasses.replace(COATING, element_law=described_law("viscoplastic", {"viscosity": 1e4}))
+    slow, fast = (loading_cycle(viscous, (0.0, 0.03, 0.0), 300, rate) for rate in (1e-3, 1e7))
+    plastic = loading_cycle(COATING, (0.0, 0.03, 0.0), 300)
+    np.testing.assert_allclose(slow.stress, plastic.stress, atol=1e-6)
+    np.testing.assert_allclose(fast.stress, 2 * fast.strain, atol=1e-4)
+    steady = loading_cycle(viscous, (0.0, 0.03, 0.0), 300, 1000.0).stress[300] - plastic.stress[300]
+    rise = 1 - np.exp(-(2.5e8 / 1e4) * (0.03 - 0.005) / 1000)  # of the overstress since yielding
+    # overstress η r E / (E + K) at the end, less the hardening that it holds back
+    assert steady * 1e8 == pytest.approx(1e4 * 1000 * (2 / 2.5) ** 2 * rise, rel=0.02)
 
 
 @pytest.fixture

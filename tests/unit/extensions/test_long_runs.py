@@ -52,7 +52,7 @@ def test_long_runs_are_the_study_s_runs_made_longer(
         return make_result(revolutions=spec.revolutions, growth=0.001)
 
     monkeypatch.setattr(long_runs, "simulate", simulate)
-    monkeypatch.setattr(long_runs, "compile_kernel", lambda n_nodes: None)
+    monkeypatch.setattr(long_runs, "compile_kernel", lambda n_nodes, law: None)
     long_runs.make(study, coating, blade, tmp_path / "long.h5", lines.append)
     assert [(spec.f_omega, spec.revolutions) for spec in specs] == [(0.05, 200), (0.2, 200), (0.3, 200)]
     assert len(lines) == 3

@@ -5,8 +5,16 @@ import pandas as pd
 import pytest
 
 from bladerub.contact.row_spec import Disk, Row
+from bladerub.contact.spec import PLASTIC
 from bladerub.study import grid
 from bladerub.study.grid import CoatingCase
+
+LAW = """
+from bladerub.contact.law import (
+    Element, dissipated_energy, elastic_force, element, return_mapping, stored_energy, tangent
+)
+PARAMETERS = {"slope": ("Pa", 0.0, 10.0, "a slope")}
+"""
 
 
 def test_the_papers_coatings_a_softer_one_and_the_rigid_casing_have_names_that_lead_back_to_them(config):
@@ -196,3 +204,47 @@ def test_runs_are_of_single_blades_unless_the_study_has_a_rotor(config):
         assert own.frequency == 0.0
     with pytest.raises(ValueError, match=r"row: 2 values of length; must be 1 or 3"):
         grid.row_of(config | {"rotor": rotor | {"length": [0.0, 0.0]}})
+
+
+@pytest.fixture
+def with_law(config, monkeypatch, tmp_path):
+    """Make a config with a law, in a folder of its own."""
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(grid, "study_folder", lambda: tmp_path)
+    return lambda **law: {**config, "contact": {**config["contact"], "law": law}}
+
+
+def test_the_law_of_the_elements_is_plastic_unless_the_config_names_another(config, with_law):
+    case = CoatingCase("2nd", 1.1, 0.5, 0.0)
+    wanted = grid.run_spec(config, case, 0.2)
+    assert wanted == grid.run_spec(with_law(name="plastic"), case, 0.2)
+    assert wanted.coating.element_law == PLASTIC
+    other = with_law(name="viscoplastic", viscosity=1e4)
+    assert grid.run_spec(other, case, 0.2).coating.element_law.parameters == (("viscosity", 1e4),)
+    assert grid.run_spec(other, CoatingCase.rigid("2nd", 0.1), 0.2).coating.element_law == PLASTIC
+
+
+def test_the_content_of_a_law_in_a_file_is_part_of_the_run(with_law, tmp_path):
+    (tmp_path / "mine.py").write_text(LAW, encoding="utf-8")
+    found = grid.element_law(with_law(file="mine.py", slope=2.0))
+    assert (found.name, found.parameters, found.source) == ("mine", (("slope", 2.0),), LAW)
+    (tmp_path / "mine.py").write_text(LAW + "# edited\n", encoding="utf-8")
+    assert grid.element_law(with_law(file="mine.py", slope=2.0)) != found
+
+
+@pytest.mark.parametrize(
+    ("law", "content", "message"),
+    [
+        ({"file": "none.py"}, LAW, "file = none.py: there is no such file"),
+        ({"file": "mine.py"}, "def", "file = mine.py: is no Python"),
+        ({"file": "mine.py"}, b"\xff\xfe", "file = mine.py: "),
+        ({"file": "mine.py"}, "x = 1", "file = mine.py: has no Element, element, return_mapping"),
+        ({"file": "mine.py"}, LAW, "slope: missing, a slope, must be a number from 0 to 10, in Pa"),
+        ({"name": "brittle"}, LAW, "break_strain: missing"),
+    ],
+)
+def test_a_law_that_cannot_be_used_is_named(with_law, tmp_path, law, content, message):
+    path = tmp_path / "mine.py"
+    path.write_bytes(content if isinstance(content, bytes) else content.encode())
+    with pytest.raises(ValueError, match=message):
+        grid.element_law(with_law(**law))

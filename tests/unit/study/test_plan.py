@@ -61,7 +61,7 @@ def test_the_rigid_casing_has_a_key_of_its_own(key, config):
 def test_every_field_of_the_run_changes_the_key(key, spec):
     keys = {key()}
     leaves = list(_leaves(spec))
-    assert len(leaves) == 28
+    assert len(leaves) == 31
     for path, leaf in leaves:
         keys.add(key(_replaced(spec, path, _other(leaf))))
     assert len(keys) == 1 + len(leaves)

@@ -34,7 +34,7 @@ def test_each_number_of_nodes_has_a_row_for_each_listed_peak(table):
 
 
 def test_a_blade_has_the_nodes_and_the_mesh_that_it_is_asked_for(config, monkeypatch):
-    monkeypatch.setattr(more_nodes, "compile_kernel", lambda n_nodes: None)
+    monkeypatch.setattr(more_nodes, "compile_kernel", lambda n_nodes, law: None)
     monkeypatch.setattr(more_nodes, "build", lambda config: type("Built", (), {"reduced": config}))
     made = more_nodes.blade_with(config, 16)
     assert made["reduction"]["interface_nodes"] == 16

@@ -132,12 +132,12 @@ def update_wear(tilts, stator, tip, wear, there, before):
         deeper = turning + lowering
         force, increment = law.return_mapping(element, depth, worn)
         force_before = law.elastic_force(element, depth - deeper)
-        under = share > 0.0
+        under, was_under = share > 0.0, share_before > 0.0
         increment, force = where(under, increment, 0.0), where(under, force, 0.0)
         store(wear, entry, worn + increment)
         worn_off = worn_off + increment
         energy, energy_before = law.stored_energy(element, force), law.stored_energy(element, force_before)
-        loss = law.dissipated_energy(element, worn, increment)
+        loss = law.dissipated_energy(element, worn, increment, where(was_under, force_before, 0.0), force)
         stored = stored + share * energy
         dissipated = dissipated + loss
         mean_share = 0.5 * (share + share_before)
@@ -149,5 +149,5 @@ def update_wear(tilts, stator, tip, wear, there, before):
             + (1.0 - mean_share) * loss
         )
         entering, leaving = share * energy + loss, broadcast(0.0) - share_before * energy_before
-        supplied = supplied + where(under, where(share_before > 0.0, staying, entering), leaving)
+        supplied = supplied + where(under, where(was_under, staying, entering), leaving)
     return stored, dissipated, supplied, worn_off

@@ -1,0 +1,69 @@
+"""The law of the abradable elements, by name or from a file."""
+
+from collections.abc import Mapping
+from types import MappingProxyType
+
+from bladerub.api.errors import InputError
+from bladerub.study import grid
+
+
+class Law:
+    """How the elements of a coating deform and wear, for `Study.with_law`.
+
+    Parameters
+    ----------
+    name : str
+        ``"plastic"`` (the paper's), ``"perfectly_plastic"``, ``"viscoplastic"`` or ``"brittle"``; or the path
+        of a Python file with a law of your own, which ends in ``.py``.
+    **parameters : float
+        A value for each parameter of the law, SI units.
+
+    Raises
+    ------
+    InputError
+        If there is no such law or file, or a parameter is missing, unknown or out of its range.
+
+    Examples
+    --------
+    >>> import bladerub as br
+    >>> law = br.Law("viscoplastic", viscosity=1e4)
+    >>> law
+    Law('viscoplastic', viscosity=10000.0)
+    >>> law.parameters["viscosity"]  # Pa s
+    10000.0
+    >>> law.name, sorted(law.entry)
+    ('viscoplastic', ['name', 'viscosity'])
+    """
+
+    def __init__(self, name: str, **parameters: float):
+        kind = "file" if str(name).endswith(".py") else "name"
+        self._entry: dict[str, str | float] = {kind: str(name), **parameters}
+        try:
+            self._described = grid.element_law({"contact": {"law": self._entry}})
+        except ValueError as error:
+            raise InputError("law", name, str(error)) from None
+
+    @property
+    def name(self) -> str:
+        """Name of the law; of one's own, that of its file without the suffix."""
+        return self._described.name
+
+    @property
+    def parameters(self) -> Mapping[str, float]:
+        """Value of each parameter, SI units."""
+        return MappingProxyType(dict(self._described.parameters))
+
+    @property
+    def entry(self) -> dict[str, str | float]:
+        """The law as ``contact.law`` of a config."""
+        return {**self._entry, **self.parameters}
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Law) and self._described == other._described
+
+    def __hash__(self) -> int:
+        return hash(self._described)
+
+    def __repr__(self) -> str:
+        values = (f", {name}={value!r}" for name, value in self.parameters.items())
+        return f"Law({self._entry.get('file', self.name)!r}{''.join(values)})"

@@ -1,0 +1,127 @@
+"""Laws of an abradable element beside that of the paper (`bladerub.contact.law`), each a module.
+
+A law has the functions of `bladerub.contact.law` (docs/laws.md has the contract), and a dictionary
+`PARAMETERS` with unit, range and meaning of each parameter of its own. That is a literal: configs are checked
+by it without running the law. The time loop is compiled with the law in it
+(`bladerub.numerics.lanes.module_for`).
+"""
+
+import ast
+import math
+from collections.abc import Mapping
+from functools import cache
+from pathlib import Path
+from types import ModuleType
+from typing import Any, NamedTuple
+
+from bladerub.contact.spec import PLASTIC, ElementLaw
+from bladerub.numerics.lanes import USUAL, module_for
+
+_FOLDER = Path(__file__).parent
+NAMES = (PLASTIC.name, *sorted(path.stem for path in _FOLDER.glob("[a-z]*.py")))
+"""Laws of this package."""
+CONTRACT = (
+    *("Element", "element", "return_mapping", "tangent", "elastic_force"),
+    *("stored_energy", "dissipated_energy"),
+)
+"""What the module of a law has for the program."""
+
+
+class Parameter(NamedTuple):
+    """A parameter of a law."""
+
+    unit: str
+    minimum: float
+    maximum: float
+    meaning: str
+
+
+def source_of(law: ElementLaw) -> str:
+    """Return the text of the module of a law; it is empty for that of the paper, which the loop has."""
+    if law.source or law.name == PLASTIC.name:
+        return law.source
+    return _source_in_package(law.name)
+
+
+def module_of(law: ElementLaw, lanes: int = USUAL) -> ModuleType:
+    """Return the module of a law, whose functions are those of `bladerub.contact.law`."""
+    return module_for(lanes, "contact.law", source_of(law))
+
+
+@cache
+def parameters_of(source: str) -> Mapping[str, Parameter]:
+    """Read the parameters of a law from the text of its module, which is not run.
+
+    Raises `ValueError` if it is no Python, lacks a part of `CONTRACT` or its ``PARAMETERS`` are not as they
+    must be.
+    """
+    listed: Mapping[str, Parameter] = {}
+    for node in _statements(source):
+        if isinstance(node, ast.Assign) and getattr(node.targets[0], "id", None) == "PARAMETERS":
+            try:
+                listed = {name: Parameter(*map(_plain, entry.elts)) for name, entry in _entries(node.value)}
+            except (AttributeError, TypeError, ValueError) as error:
+                right = "must be a dictionary of name: (unit, minimum, maximum, meaning), written out"
+                raise ValueError(f"PARAMETERS on line {node.lineno}: {right}") from error
+    if source and (missing := [each for each in CONTRACT if each not in _names_in(source)]):
+        raise ValueError(f"has no {', '.join(missing)}; a law must have {', '.join(CONTRACT)}")
+    return listed
+
+
+def described_law(name: str, values: Mapping[str, Any], source: str = "") -> ElementLaw:
+    """Describe a law by its name, the values of its parameters and, if it is a user's own, its source.
+
+    Raises `ValueError`, which names the parameter, if one is missing, unknown or out of its range; and as
+    `parameters_of`.
+    """
+    if not source and name not in NAMES:
+        raise ValueError(f"name = {name}: must be one of {', '.join(NAMES)}")
+    known = parameters_of(source_of(ElementLaw(name, (), source)))
+    for given, value in values.items():
+        if given not in known:
+            has = f"this law has {', '.join(known)}" if known else "this law has no parameters of its own"
+            raise ValueError(f"{given} = {value}: unknown parameter, {has}")
+    chosen = []
+    for wanted, rule in known.items():
+        right = f"{rule.meaning}, must be a number from {rule.minimum:g} to {rule.maximum:g}, in {rule.unit}"
+        if wanted not in values:
+            raise ValueError(f"{wanted}: missing, {right}")
+        value = values[wanted]
+        is_number = isinstance(value, int | float) and not isinstance(value, bool) and math.isfinite(value)
+        if not is_number or not rule.minimum <= value <= rule.maximum:
+            raise ValueError(f"{wanted} = {value}: {right}")
+        chosen.append((wanted, float(value)))
+    return ElementLaw(name, tuple(chosen), source)
+
+
+@cache
+def _source_in_package(name: str) -> str:
+    return (_FOLDER / f"{name}.py").read_text(encoding="utf-8")
+
+
+def _statements(source: str) -> list[ast.stmt]:
+    try:
+        return ast.parse(source).body
+    except (SyntaxError, ValueError) as error:
+        raise ValueError(f"is no Python ({error})") from error
+
+
+def _names_in(source: str) -> set[str]:
+    """Names that a module defines or imports at its top."""
+    names = set()
+    for node in _statements(source):
+        if isinstance(node, ast.FunctionDef | ast.ClassDef):
+            names.add(node.name)
+        elif isinstance(node, ast.Import | ast.ImportFrom):
+            names |= {alias.asname or alias.name for alias in node.names}
+        elif isinstance(node, ast.Assign):
+            names |= {target.id for target in node.targets if isinstance(target, ast.Name)}
+    return names
+
+
+def _entries(node: Any) -> list[tuple[str, Any]]:
+    return [(ast.literal_eval(key), value) for key, value in zip(node.keys, node.values, strict=True)]
+
+
+def _plain(node: ast.expr) -> Any:
+    return ast.literal_eval(node)

@@ -1,0 +1,196 @@
+"""A law of the elements put to random histories of depth, to see whether it does what a law must.
+
+1. *Numbers*: forces, wear, stiffness and energies are finite.
+2. *Contact*: an element only pushes, and only where it is touched; its wear never shrinks.
+3. *Monotone*: the deeper it is pressed, the greater its force and its wear.
+4. *Agreement*: the stiffness is the derivative of the force, as far as the law says that it is constant; the
+   elastic force at the depth that is left by wear is the force.
+5. *Energy*: what work goes into an element is stored or dissipated, and no cycle gives back more than it
+   takes.
+6. It can be compiled with the time loop.
+"""
+
+import itertools
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from types import ModuleType
+
+import numpy as np
+
+from bladerub.contact.laws import module_of
+from bladerub.contact.setup import compile_kernel
+from bladerub.contact.spec import Coating, ElementLaw
+
+TIME_STEPS = (1e-7, 1e-6, 1e-5)
+"""Of the histories, s: those of runs, and ten times longer and shorter."""
+HISTORIES = 40
+"""For each coating and time step."""
+ENERGY = 1e-3
+"""Part of the work exchanged that may be missing, beside what is unsure in steps within which contact or flow
+begins or ends: the work there is between that of the force before and that of the force after."""
+
+_AREA = 1e-6  # m²
+_CORNERS, _STEPS, _LOOK_EVERY = 8, 500, 31
+_SHALLOW, _DEEP = 1e-4, 0.3  # range of the deepest points, layer thicknesses
+_ROUNDING = 1e-9
+
+
+@dataclass(frozen=True)
+class LawProblem:
+    """What is wrong with a law: in few words, and where it was found."""
+
+    what: str
+    where: str
+
+
+@dataclass(frozen=True)
+class LawReport:
+    """Outcome of a check: histories that the law was put to, and its problems, each once."""
+
+    histories: int
+    problems: tuple[LawProblem, ...]
+
+
+def check_law(law: ElementLaw, coatings: Sequence[Coating], seed: int = 0) -> LawReport:
+    """Press elements of `coatings` by a law along random histories; those that wear off begin unworn.
+
+    Parameters
+    ----------
+    law : ElementLaw
+        The law; that of the coatings does not count.
+    coatings : sequence of Coating
+        The coatings, all with a layer.
+    seed : int
+        Of the histories, which are the same for the same seed.
+
+    Returns
+    -------
+    LawReport
+        A law that is right has no problems. What the law raises is a problem, not an error.
+    """
+    rng, found, histories = np.random.default_rng(seed), _Found(), 0
+    try:
+        module = module_of(law)
+        for coating in coatings:
+            for time_step in TIME_STEPS:
+                own = replace(coating, element_law=law)
+                with np.errstate(all="ignore"):
+                    _follow(module, own, time_step, rng, found)
+                histories += HISTORIES
+        if not found.problems:
+            compile_kernel(law=law)
+    except Exception as error:  # whatever the code of a user may raise
+        first_line = str(error).strip().partition("\n")[0]
+        found.add("it cannot be run", f"{type(error).__name__}: {first_line}")
+    return LawReport(histories, tuple(LawProblem(*each) for each in found.problems.items()))
+
+
+class _Found:
+    """The problems so far: the first place where each was found."""
+
+    def __init__(self):
+        self.problems: dict[str, str] = {}
+
+    def add(self, what: str, where: str) -> None:
+        self.problems.setdefault(what, where)
+
+    def unless(self, right: np.ndarray, what: str, **values: np.ndarray) -> None:
+        """Note the first history in which something is not right, with what it is there in SI units."""
+        wrong = ~np.broadcast_to(right, (HISTORIES,))
+        if wrong.any():
+            at = int(wrong.argmax())
+            each = (f"{name} {np.broadcast_to(value, wrong.shape)[at]:.4g}" for name, value in values.items())
+            self.add(what, ", ".join(name.replace("_", " ") for name in each))
+
+
+def _paths(thickness: float, rng: np.random.Generator) -> np.ndarray:
+    """Draw depths below the unworn surface (m): straight between corners, out of contact at both ends."""
+    deepest = thickness * np.exp(rng.uniform(np.log(_SHALLOW), np.log(_DEEP), HISTORIES))
+    corners = rng.uniform(-0.1, 1.0, (_CORNERS + 1, HISTORIES)) * deepest
+    corners[[0, -1]] = -0.1 * deepest
+    at = np.arange(_CORNERS * _STEPS + 1) / _STEPS
+    return np.stack([np.interp(at, np.arange(_CORNERS + 1), path) for path in corners.T], axis=1)
+
+
+def _follow(
+    law: ModuleType, coating: Coating, time_step: float, rng: np.random.Generator, found: _Found
+) -> None:
+    """Press elements along histories and look at each step."""
+    element = law.element(coating, _AREA, time_step)
+    paths = _paths(coating.thickness, rng)
+    wear, force, stored, dissipated, work, exchanged, unsure, increment = np.zeros((8, HISTORIES))
+    for step, (before, here) in enumerate(itertools.pairwise(paths)):
+        depth, force_before, increment_before = here - wear, force, increment
+        force, increment = law.return_mapping(element, depth, wear)
+        loss = law.dissipated_energy(element, wear, increment, force_before, force)
+        stored = law.stored_energy(element, force)
+        values = {"depth": depth, "worn": wear, "force": force, "wear": increment}
+        finite = np.isfinite(force + increment + loss + stored)
+        found.unless(finite, "it gives what is no number", **values)
+        if not finite.all():
+            return
+        found.unless(increment >= 0, "wear is negative", **values)
+        found.unless(force >= 0, "an element pulls", **values)
+        found.unless((depth > 0) | (force == 0) & (increment == 0), "a force without contact", **values)
+        found.unless(
+            loss >= -_ROUNDING * np.abs(force * coating.thickness), "energy is dissipated below 0", **values
+        )
+        if step % _LOOK_EVERY == 0:
+            _look(law, element, depth, wear, force, increment, rng, found)
+        more = 0.5 * (force + force_before) * (here - before)
+        work, exchanged = work + more, exchanged + np.abs(more)
+        bends = ((force > 0) != (force_before > 0)) | ((increment > 0) != (increment_before > 0))
+        unsure = unsure + np.where(bends, 0.5 * np.abs((force - force_before) * (here - before)), 0.0)
+        dissipated = dissipated + loss
+        wear = wear + increment
+        if (step + 1) % _STEPS == 0:
+            missing, allowed = work - stored - dissipated, ENERGY * exchanged + unsure
+            energies = {"work": work, "stored": stored, "dissipated": dissipated}
+            found.unless(
+                missing <= allowed,
+                "energy is lost: some of the work is neither stored nor dissipated",
+                **energies,
+            )
+            found.unless(
+                missing >= -allowed,
+                "energy is created: more is stored and dissipated than the work",
+                **energies,
+            )
+            found.unless(
+                work >= -allowed, "energy is created: a cycle gives back more than it takes", **energies
+            )
+
+
+def _look(law, element, depth, wear, force, increment, rng, found: _Found) -> None:
+    """Look at force and wear at other depths than those of a step."""
+    scale = np.abs(depth) + wear
+    small = _ROUNDING * element.elastic * scale
+    by = scale * 10 ** rng.uniform(-4, 0, HISTORIES)
+    deeper_force, deeper_increment = law.return_mapping(element, depth + by, wear)
+    values = {"depth": depth, "worn": wear, "force": force}
+    found.unless(
+        (deeper_force >= force - small) & (deeper_increment >= increment - _ROUNDING * scale),
+        "force or wear falls as the depth grows",
+        **values,
+        deeper_by=by,
+        to=deeper_force,
+    )
+    left = law.elastic_force(element, depth - increment)
+    found.unless(
+        np.abs(left - force) <= small, "elastic_force after wear is not the force", **values, elastic=left
+    )
+    slope, linear = law.tangent(element, depth, wear)
+    finite = np.isfinite(slope) & np.isfinite(linear)
+    found.unless(finite, "it gives what is no number", **values, stiffness=slope, constant_over=linear)
+    for part in (0.5, 0.99):
+        step = np.minimum(part * linear, scale)
+        wide = step > 1e-6 * scale  # else rounding would count
+        more, less = (law.return_mapping(element, depth + sign * step, wear)[0] for sign in (1, -1))
+        error = np.abs(more - less - 2 * step * slope)
+        found.unless(
+            ~wide | (error <= 1e-6 * element.elastic * step + small),
+            "tangent is not the derivative of the force, as far as it says",
+            **values,
+            stiffness=slope,
+            over=step,
+        )

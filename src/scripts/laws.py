@@ -1,0 +1,56 @@
+"""Stress–strain cycles of one element by the laws beside the paper's, for some of their parameters."""
+
+from dataclasses import replace
+
+import pandas as pd
+
+from bladerub.contact.illustration import loading_cycle
+from bladerub.contact.laws import described_law
+from bladerub.contact.spec import PLASTIC, Coating
+from bladerub.plots.law_cycles import law_cycles
+from bladerub.workflow import job, outputs
+
+STRAINS = (0.0, 0.03, 0.0, 0.05, 0.0)  # those of Fig. 4
+STEPS = 400  # of each branch
+VISCOSITY = 1e4  # Pa s
+
+job.log_to(snakemake.log[0])
+
+of_study = replace(Coating(**snakemake.params.coating), element_law=PLASTIC)
+
+
+def cycle(name, rate=0.0, **parameters):
+    """Load an element by a law with these parameters at a strain rate, 1/s."""
+    coating = replace(of_study, element_law=described_law(name, parameters))
+    return loading_cycle(coating, STRAINS, STEPS, rate)
+
+
+panels = {
+    "(a) perfectly plastic": {"linear hardening": cycle("plastic")}
+    | {
+        f"yields at {stress / 1e6:g} MPa": cycle("perfectly_plastic", yield_stress=stress)
+        for stress in (4e6, 8e6)
+    },
+    f"(b) viscoplastic, {VISCOSITY:g} Pa s": {
+        f"{rate:g}/s": cycle("viscoplastic", rate, viscosity=VISCOSITY) for rate in (1.0, 300.0, 1500.0)
+    },
+    "(c) brittle": {
+        "never breaks": cycle("brittle", break_strain=1.0),
+        "breaks at 0.7 %": cycle("brittle", break_strain=0.007),
+        "breaks at 0.4 %": cycle("brittle", break_strain=0.004),
+    },
+}
+table = pd.concat(
+    pd.DataFrame(
+        {
+            "element_law": each.coating.element_law.label,
+            "law_case": label,
+            "strain": each.strain,
+            "stress": each.stress,
+            "plastic_strain": each.plastic_strain,
+        }
+    )
+    for cycles in panels.values()
+    for label, each in cycles.items()
+)
+outputs.save(snakemake, law_cycles(panels), data=table)

@@ -1,0 +1,76 @@
+"""``bladerub check-law`` as it is called, with laws from files."""
+
+import json
+from pathlib import Path
+
+import pytest
+
+from bladerub.cli import main
+from bladerub.contact import law
+from bladerub.verification import element_law
+
+PAPER = Path(law.__file__).read_text(encoding="utf-8")
+FORCE = "return maximum(trial - element.elastic * increment, 0.0), increment"
+
+
+@pytest.fixture
+def written(tmp_path):
+    """Write a law to a file: that of the paper, with something else in the place of its force."""
+
+    def write(force=FORCE):
+        path = tmp_path / "mine.py"
+        path.write_text(PAPER.replace(FORCE, force), encoding="utf-8")
+        return str(path)
+
+    return write
+
+
+def test_a_right_law_is_said_to_be_right(written, monkeypatch, capsys):
+    monkeypatch.setattr(element_law, "compile_kernel", lambda law: None)
+    assert main(["check-law", written()]) == 0
+    assert capsys.readouterr().out == "mine: 360 histories, no problem; it compiles with the time loop\n"
+
+
+@pytest.mark.parametrize(
+    ("force", "words"),
+    [
+        (
+            "force = maximum(trial - element.elastic * increment, 0.0)\n"
+            "    return where(increment > 0.0, force, 1.5 * force), increment",
+            "- energy is created: more is stored and dissipated than the work (work ",
+        ),
+        (FORCE.replace(", increment", ", -increment"), "- wear is negative (depth "),
+        (
+            "return maximum(trial, 0.0) / where(wear > 1e-5, 0.0, 1.0), increment",
+            "- it gives what is no number (",
+        ),
+    ],
+    ids=["energy from nothing", "negative wear", "no number"],
+)
+def test_a_wrong_law_is_told_what_is_wrong(written, capsys, force, words):
+    assert main(["check-law", written(force)]) == 1
+    assert words in capsys.readouterr().out
+
+
+def test_figures_as_json(written, capsys):
+    assert main(["check-law", written(FORCE.replace(", increment", ", -increment")), "--json"]) == 1
+    figures = json.loads(capsys.readouterr().out)
+    assert figures["law"] == "mine"
+    assert "wear is negative" in [problem["what"] for problem in figures["problems"]]
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (["none.py"], "file = none.py: there is no such file"),
+        (["elastic"], "name = elastic: must be one of plastic, brittle"),
+        (["viscoplastic"], "viscosity: missing"),
+        (["viscoplastic", "--parameter", "viscosity"], "--parameter = viscosity: must be NAME=VALUE"),
+        (["plastic", "--seed", "-1"], "--seed = -1: must be from 0 to 4294967295"),
+    ],
+)
+def test_bad_input_is_answered_in_one_line(arguments, words, capsys):
+    assert main(["check-law", *arguments]) == 2
+    line = capsys.readouterr().err
+    assert words in line
+    assert line.count("\n") == 1

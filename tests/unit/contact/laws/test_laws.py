@@ -1,0 +1,170 @@
+"""Laws beside that of the paper: how they are found, their parameters, and the loop with them."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from bladerub.contact import law, reference
+from bladerub.contact.laws import NAMES, described_law, module_of, parameters_of, source_of
+from bladerub.contact.run import simulate
+from bladerub.contact.setup import compile_kernel
+from bladerub.contact.spec import PLASTIC, Coating, ElementLaw
+from bladerub.numerics import lanes
+
+AREA, STEP, WORN = 1e-6, 1e-6, 1e-5
+LAWS = [
+    PLASTIC,
+    described_law("perfectly_plastic", {"yield_stress": 2e6}),
+    described_law("viscoplastic", {"viscosity": 1e4}),
+    described_law("brittle", {"break_strain": 2e-3}),
+]
+PLASTIC_LIMITS = [
+    described_law("viscoplastic", {"viscosity": 0.0}),
+    described_law("brittle", {"break_strain": 1e9}),
+]
+OWN = ElementLaw("own", (), Path(law.__file__).read_text(encoding="utf-8"))
+"""The law of the paper as if it were a user's."""
+
+
+def named(law):
+    return law.name
+
+
+def coating(law):
+    return Coating(1.1, 0.5, 0.0, 1e-3, 600e6, 6e-3, 2000, element_law=law)
+
+
+def pressed(law, depth, time_step=STEP):
+    """Module, parameters, force and increment of worn elements at a depth."""
+    module = module_of(law)
+    element = module.element(coating(law), AREA, time_step)
+    return module, element, *module.return_mapping(element, depth, WORN)
+
+
+def test_every_law_of_the_package_is_tested():
+    assert sorted(law.name for law in LAWS) == sorted(NAMES)
+
+
+@pytest.mark.parametrize("law", LAWS, ids=named)
+def test_stiffness_is_the_derivative_of_force_and_constant_as_far_as_it_says(law):
+    depth = np.linspace(-1e-5, 5e-5, 300)
+    module, element, *_ = pressed(law, depth)
+    slope, linear = module.tangent(element, depth, WORN)
+    for by in (1e-4 * linear, 0.999 * linear):
+        more, less = (pressed(law, depth + sign * by)[2] for sign in (1, -1))
+        np.testing.assert_allclose((more - less) / (2 * by), slope, rtol=1e-6, atol=1e-6 * element.elastic)
+
+
+@pytest.mark.parametrize("law", LAWS, ids=named)
+def test_wear_and_force_are_of_one_deformation(law):
+    """What an element is shortened by is elastic or worn off, and it only pushes."""
+    depth = np.linspace(-1e-5, 5e-5, 300)
+    module, element, force, increment = pressed(law, depth)
+    np.testing.assert_allclose(force, module.elastic_force(element, depth - increment), rtol=1e-12)
+    assert force.min() == 0
+    assert increment.min() == 0 < increment.max()
+
+
+@pytest.mark.parametrize("law", LAWS, ids=named)
+def test_no_wear_below_the_elastic_limit(law):
+    module, element, *_ = pressed(law, 0.0)
+    limit = module.elastic_limit(element, WORN)
+    below, above = (pressed(law, part * limit / element.elastic)[3] for part in (0.999, 1.001))
+    assert below == 0 < above
+
+
+@pytest.mark.parametrize("law", PLASTIC_LIMITS, ids=named)
+def test_without_viscosity_or_breaking_a_law_is_plastic(law):
+    depth = np.linspace(-1e-5, 1e-4, 101)
+    module, element, *found = pressed(law, depth)
+    plastic, plastic_element, *wanted = pressed(PLASTIC, depth)
+    np.testing.assert_allclose(found, wanted, rtol=1e-12)
+    force, increment = wanted
+    np.testing.assert_allclose(
+        module.dissipated_energy(element, WORN, increment, 0.0, force),
+        plastic.dissipated_energy(plastic_element, WORN, increment, 0.0, force),
+        rtol=1e-12,
+    )
+
+
+def test_the_own_yield_stress_of_perfect_plasticity_counts_alone():
+    law = described_law("perfectly_plastic", {"yield_stress": 2e6})
+    _, _, force, _ = pressed(law, np.array([1e-3, 2e-3]))
+    np.testing.assert_allclose(force, 2e6 * AREA, rtol=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("name", "values", "message"),
+    [
+        ("viscoplastic", {"viscosity": -1}, "viscosity = -1: .* must be a number from 0 to 1e.09, in Pa s"),
+        ("viscoplastic", {"viscosity": True}, "viscosity = True: .* must be a number"),
+        ("viscoplastic", {}, "viscosity: missing, .* must be a number from 0"),
+        ("viscoplastic", {"viscosity": 1, "rate": 2}, "rate = 2: unknown parameter, this law has viscosity"),
+        ("plastic", {"viscosity": 1}, "viscosity = 1: unknown parameter, this law has no parameters"),
+        ("elastic", {}, "name = elastic: must be one of plastic, brittle, perfectly_plastic, viscoplastic"),
+    ],
+)
+def test_a_wrong_parameter_is_named(name, values, message):
+    with pytest.raises(ValueError, match=message):
+        described_law(name, values)
+
+
+@pytest.mark.parametrize(
+    ("source", "message"),
+    [
+        ("def", "is no Python"),
+        ("PARAMETERS = {'a': ('Pa', 0.0, 1.0)}", "PARAMETERS on line 1: must be a dictionary"),
+        ("PARAMETERS = dict(a=1)", "PARAMETERS on line 1: must be a dictionary"),
+        ("x = 1\nPARAMETERS = {'a': ('Pa', low(), 1.0, 'it')}", "PARAMETERS on line 2: must be a dictionary"),
+    ],
+)
+def test_parameters_are_read_without_running_the_law(source, message):
+    with pytest.raises(ValueError, match=message):
+        parameters_of(source)
+
+
+def test_parameters_state_range_unit_and_meaning():
+    (rule,) = parameters_of(source_of(LAWS[2])).values()
+    assert (rule.unit, rule.minimum) == ("Pa s", 0.0)
+    assert "rate" in rule.meaning
+
+
+def test_another_law_leaves_the_usual_modules_alone():
+    kernel = lanes.module_for(8, "contact.kernel.elements", source_of(LAWS[3]))
+    usual = lanes.module_for(8, "contact.kernel.elements")
+    assert usual.law is law
+    assert kernel.law is module_of(LAWS[3]) is not law
+    assert "crushing_force" in kernel.law.Element._fields
+    assert lanes.LAW == ""
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("law", PLASTIC_LIMITS, ids=named)
+def test_the_loop_with_a_law_in_its_plastic_limit_is_that_of_the_paper(blade, spec, change, law):
+    wanted, found = simulate(blade, spec), simulate(blade, change(spec, element_law=law))
+    np.testing.assert_allclose(found.wear, wanted.wear, atol=1e-9)
+    assert wanted.wear.max() > 1e-6
+
+
+@pytest.mark.slow
+def test_the_law_of_the_paper_from_a_file_gives_the_same_bits(blade, spec, change):
+    compile_kernel(law=OWN)
+    wanted, found = simulate(blade, spec), simulate(blade, change(spec, element_law=OWN))
+    np.testing.assert_array_equal(found.wear, wanted.wear)
+    np.testing.assert_array_equal(found.radial_displacement, wanted.radial_displacement)
+    assert found.energy == wanted.energy
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("law", LAWS[1:], ids=named)
+def test_the_loop_agrees_with_the_reference(blade, spec, change, law):
+    spec = change(spec, revolutions=1, element_law=law)
+    result = simulate(blade, spec)
+    history, wear = reference.simulate(blade, spec, result.n_steps, result.n_modes)
+    per_element = np.concatenate([[0.0], history[:, 0]])
+    middle = 0.5 * (per_element[1:] + per_element[:-1]).reshape(result.radial_displacement.size, -1)
+    scale = np.abs(history).max()
+    np.testing.assert_allclose(result.radial_displacement.ravel(), middle.mean(axis=1), atol=1e-6 * scale)
+    np.testing.assert_allclose(result.wear, wear, atol=1e-6 * wear.max())
+    assert result.n_contact_steps > 10

@@ -1,0 +1,164 @@
+"""Laws of the elements against closed forms, their limits and their energy.
+
+Source: Simo and Hughes, Computational Inelasticity (1998), section 1.7, for linear viscoplasticity: the
+overstress x of ``σ = σ_Y + K ε_p + x`` decays as ``exp(−(E + K) t / η)`` at a constant strain, and goes to
+``η r E / (E + K)`` at a constant rate r. A law that breaks or is perfectly plastic holds its stress.
+Expected: order 1 in the step of the implicit integration, order 2 of the energy that the ledger misses.
+"""
+
+import itertools
+import math
+
+import numpy as np
+import pytest
+
+from bladerub.contact.laws import described_law, module_of
+from bladerub.contact.spec import PLASTIC, Coating
+
+E, K, UNIT, THICKNESS, AREA, VISCOSITY = 1.1, 0.5, 600e6, 6e-3, 1e-6, 1e4
+YIELD = 1e-3  # normalised
+TIME = VISCOSITY / ((E + K) * UNIT)  # in which the overstress falls to 1/e
+VISCOPLASTIC = described_law("viscoplastic", {"viscosity": VISCOSITY})
+BRITTLE = described_law("brittle", {"break_strain": 2e-3})
+PERFECT = described_law("perfectly_plastic", {"yield_stress": 2e6})
+
+
+def press(law, strain, time_step=math.inf):
+    """Compress an element along a path of strains.
+
+    Returns stress (Pa), plastic strain, and the energies stored and dissipated, J, after each step.
+    """
+    coating = Coating(E, K, 0.0, YIELD, UNIT, THICKNESS, 2000, element_law=law)
+    module = module_of(law)
+    element = module.element(coating, AREA, time_step)
+    wear = force = loss = 0.0
+    rows = []
+    for depth in np.asarray(strain) * THICKNESS:
+        before = force
+        force, increment = module.return_mapping(element, depth - wear, wear)
+        loss += module.dissipated_energy(element, wear, increment, before, force)
+        wear += increment
+        rows.append((force / AREA, wear / THICKNESS, module.stored_energy(element, force), loss))
+    return np.array(rows).T
+
+
+def order(steps, errors):
+    return -np.polyfit(np.log(steps), np.log(np.abs(errors)), 1)[0]
+
+
+def test_overstress_relaxes_as_the_exponential():
+    strain, steps, errors = 0.02, np.array([100, 200, 400]), []
+    at_rest = YIELD * UNIT + K * UNIT * (strain - YIELD / E) * E / (E + K)
+    for n in steps:
+        stress, *_ = press(VISCOPLASTIC, np.full(n, strain), 2 * TIME / n)
+        errors.append(stress[-1] - at_rest - (E * UNIT * strain - at_rest) * math.exp(-2))
+    print(f"order {order(steps, errors):.3f}, errors {errors}")
+    assert order(steps, errors) == pytest.approx(1, abs=0.05)
+    assert abs(errors[-1]) < 0.01 * at_rest
+
+
+def test_overstress_at_a_constant_rate_goes_to_that_of_steady_flow():
+    rate, steps, errors = 200.0, np.array([100, 200, 400]), []
+    steady = VISCOSITY * rate * E / (E + K)
+    start = YIELD / E  # strain at which it begins to flow
+    for n in steps:
+        time = np.linspace(0, 1.5 * TIME, n + 1)[1:]
+        stress, plastic, *_ = press(VISCOPLASTIC, start + rate * time, time[0])
+        overstress = stress - YIELD * UNIT - K * UNIT * plastic
+        errors.append(overstress[-1] - steady * (1 - math.exp(-1.5)))
+    print(f"order {order(steps, errors):.3f}, errors {errors}")
+    assert order(steps, errors) == pytest.approx(1, abs=0.05)
+    assert abs(errors[-1]) < 0.01 * steady
+
+
+def cycle(top, n):
+    """Loaded to a strain, half unloaded, loaded further, unloaded."""
+    corners = np.array([0, 1, 0.5, 1.5, 0]) * top
+    return np.concatenate([np.linspace(a, b, n + 1)[1:] for a, b in itertools.pairwise(corners)])
+
+
+@pytest.mark.parametrize(("rate", "limit"), [(1e-4, "plastic"), (1e8, "elastic")])
+def test_viscoplasticity_is_plastic_at_low_rates_and_elastic_at_high_ones(rate, limit):
+    strain = cycle(0.02, 200)
+    step = strain[0] / rate
+    stress, *_ = press(VISCOPLASTIC, strain, step)
+    wanted = press(PLASTIC, strain)[0] if limit == "plastic" else E * UNIT * strain
+    np.testing.assert_allclose(stress, wanted, atol=1e-3 * wanted.max())
+
+
+def test_what_never_breaks_is_plastic():
+    strain = cycle(0.02, 200)
+    found, wanted = press(described_law("brittle", {"break_strain": 1e9}), strain), press(PLASTIC, strain)
+    np.testing.assert_allclose(found, wanted, rtol=1e-9, atol=1e-12)
+
+
+def test_breaking_holds_the_elastic_strain_and_takes_the_depth_removed():
+    """σ = E ε_b from there on, and the energy is that of flow up to there and ``E ε_b`` times the rest."""
+    strain = np.linspace(0, 0.02, 2001)
+    stress, plastic, _, loss = press(BRITTLE, strain)
+    assert stress.max() == pytest.approx(E * UNIT * 2e-3)
+    assert plastic[-1] == pytest.approx(0.02 - 2e-3)
+    hardened = (2e-3 * E - YIELD) / K  # plastic strain at which hardening reaches that stress
+    energy = UNIT * ((YIELD + 0.5 * K * hardened) * hardened + E * 2e-3 * (plastic[-1] - hardened))
+    assert loss[-1] == pytest.approx(energy * AREA * THICKNESS)
+
+
+def test_perfect_plasticity_holds_its_stress():
+    stress, plastic, *_ = press(PERFECT, np.linspace(0, 0.02, 101))
+    assert stress[-1] == pytest.approx(2e6)
+    assert plastic[-1] == pytest.approx(0.02 - 2e6 / (E * UNIT))
+
+
+@pytest.mark.parametrize("law", [PLASTIC, PERFECT, VISCOPLASTIC, BRITTLE], ids=lambda law: law.name)
+def test_work_is_stored_or_dissipated(law):
+    steps, missing = np.array([100, 200, 400, 800]), []
+    for n in steps:
+        strain = cycle(0.02, n)
+        stress, _, stored, loss = press(law, strain, 2 * TIME / n)
+        mean = 0.5 * (stress + np.concatenate([[0.0], stress[:-1]]))
+        work = np.sum(mean * np.diff(strain, prepend=0.0)) * AREA * THICKNESS
+        missing.append((stored[-1] + loss[-1]) / work - 1)
+    print(f"{law.name}: order {order(steps, missing):.2f}, missing {missing}")
+    assert order(steps, missing) > 1.5
+    assert abs(missing[-1]) < 1e-5
+
+
+def drawn(name, rng):
+    """Draw a law whose parameter is spread over the range in which it matters."""
+    low, high, parameter = {
+        "perfectly_plastic": (1e5, 3e6, "yield_stress"),
+        "viscoplastic": (1e2, 1e5, "viscosity"),
+        "brittle": (1e-3, 1e-1, "break_strain"),
+    }[name]
+    return described_law(name, {parameter: float(np.exp(rng.uniform(np.log(low), np.log(high))))})
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ["perfectly_plastic", "viscoplastic", "brittle"])
+def test_the_ledger_of_random_runs_closes(run, name):
+    rng, residuals, worn = np.random.default_rng(8), [], 0
+    for _ in range(100):
+        young, plastic = np.exp(rng.uniform(np.log([0.1, 0.05]), np.log([10, 5])))
+        theta, speed = rng.choice([0.0, 0.15]), rng.uniform(0.1, 0.4)
+        result = run(young, plastic, speed, theta, revolutions=2, element_law=drawn(name, rng))
+        residuals.append(abs(result.energy.residual))
+        worn += result.wear.max() > 1e-5
+    print(f"{name}: largest residual {max(residuals):.2g}, median {np.median(residuals):.2g}, {worn} worn")
+    assert max(residuals) <= 1e-3
+    assert worn > 90
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("law", "least"),
+    [(PERFECT, 1.7), (VISCOPLASTIC, 0.8), (BRITTLE, 1.7)],
+    ids=lambda law: getattr(law, "name", ""),
+)
+def test_wear_converges_with_the_step(run, law, least):
+    """Of second order as with the plastic law, and of first where the flow over a step is implicit."""
+    steps = np.array([20, 40, 80])
+    worn = [run(E, K, 0.12, revolutions=2, steps_per_element=n, element_law=law).wear for n in (*steps, 1280)]
+    errors = [np.linalg.norm(wear - worn[-1]) / np.linalg.norm(worn[-1]) for wear in worn[:-1]]
+    print(f"{law.name}: order {order(steps, errors):.2f}, errors {errors}")
+    assert order(steps, errors) > least
+    assert errors[0] < 0.01
