@@ -20,7 +20,7 @@ from bladerub.contact.result import Energy
 from bladerub.contact.row_spec import Row
 from bladerub.contact.setup import compile_kernel
 from bladerub.contact.spec import RunSpec
-from bladerub.extensions.stress.run import RunStress, complete_revolutions, run_stress
+from bladerub.extensions.stress.run import RunStress, run_stress
 from bladerub.io.provenance import provenance
 from bladerub.plots import single_run, titles
 from bladerub.plots.style import saved
@@ -341,9 +341,9 @@ def solve(
 
 
 def find_stress(
-    blade: Blade, run: StudyRun, result: Run, *, each: Callable[[int], None] | None = None
+    blade: Blade, run: StudyRun, *, each: Callable[[int], None] | None = None
 ) -> RunStress | None:
-    """Find the largest stress of the blade in a run of `simulate`.
+    """Find the largest stress of the blade in the run that `simulate` makes; it is made again for that.
 
     Parameters
     ----------
@@ -351,8 +351,6 @@ def find_stress(
         The blade of the run.
     run : StudyRun
         The run.
-    result : Run
-        What `simulate` gave for it; its motion is computed again.
     each : callable, optional
         Called with the number of revolutions done after each of them.
 
@@ -371,14 +369,13 @@ def find_stress(
     --------
     >>> import bladerub as br
     >>> planned = study.run("2nd", E=2, K=0.5, f_omega=0.19)
-    >>> stress = br.find_stress(blade, planned, run)
+    >>> stress = br.find_stress(blade, planned)
     >>> stress.static["von_mises"] < stress.last["von_mises"]
     True
     """
     spec = run.of_length(blade.length).spec
-    complete = complete_revolutions(result.revolution_peak, result.status)
     last = run.config["analysis"]["spectrum_revolutions"]
-    return run_stress(blade.mesh_path, blade.reduced, spec, last, complete, each)
+    return run_stress(blade.mesh_path, blade.reduced, spec, last, each)
 
 
 def _solve(

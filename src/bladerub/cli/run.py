@@ -117,7 +117,7 @@ def run(options: argparse.Namespace) -> None:
     if options.ensemble is not None:
         figures["ensemble"] = _ensemble(options, planned, blade, result)
     if options.stress:
-        figures["stress"] = _stress(blade, planned, result)
+        figures["stress"] = _stress(blade, planned)
     if len(result.blades):
         figures["blade"] = result.attributes["blade"]
         figures["blades"] = result.blades.reset_index().to_dict("records")
@@ -160,12 +160,12 @@ def _ensemble(options: argparse.Namespace, planned: "StudyRun", blade: "Blade", 
     }
 
 
-def _stress(blade: "Blade", planned: "StudyRun", result: "Run") -> dict[str, Any] | None:
+def _stress(blade: "Blade", planned: "StudyRun") -> dict[str, Any] | None:
     """Find the stress of the run; None where it cannot be known."""
     from bladerub.api.run import find_stress
 
     with refused(OSError), inputs.progress_bar(planned.spec.revolutions, "rev") as bar:
-        found = find_stress(blade, planned, result, each=lambda done: bar.update(done - bar.n))
+        found = find_stress(blade, planned, each=lambda done: bar.update(done - bar.n))
     return asdict(found) if found else None
 
 
