@@ -1,7 +1,7 @@
 """One run: simulated here, or read from its file."""
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field, fields, replace
 from pathlib import Path
 from typing import Any
 
@@ -209,6 +209,19 @@ class Run:
         columns = ("revolution_peak", "revolution_amplitude")
         number = pd.Index(self.stored.data["revolution_number"], name="revolution")
         return pd.DataFrame({name: self.stored.data[name] for name in columns}, number)
+
+    def with_stress(self, stress: RunStress) -> "Run":
+        """Return the run with the figures of `find_stress` among its attributes, Pa, m and revolutions.
+
+        Examples
+        --------
+        >>> import bladerub as br
+        >>> found = br.find_stress(blade, study.run("2nd", E=2, K=0.5, f_omega=0.19))
+        >>> run.with_stress(found).attributes["stress_last_von_mises"] == found.last["von_mises"]
+        True
+        """
+        attributes = self.stored.attributes | stress.attributes()
+        return replace(self, stored=replace(self.stored, attributes=attributes))
 
     def write(self, path: str | Path, config: Mapping[str, Any]) -> None:
         """Write the run of the study `config` to the HDF5 file `path`, whole or not at all.

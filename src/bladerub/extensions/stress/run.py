@@ -42,6 +42,14 @@ class RunStress:
     start_up: dict[str, float]
     last: dict[str, float]
 
+    def attributes(self) -> dict[str, float]:
+        """Name each figure for the file of the run, as ``stress_last_von_mises``."""
+        return {
+            f"stress_{part}_{name}": value
+            for part, figures in vars(self).items()
+            for name, value in figures.items()
+        }
+
 
 def stress_of(path: str | Path, f_omega: float) -> NodalStress | None:
     """Return how to find the stress at the speed `f_omega` of the blade in `path`, its ``mesh.h5``.
