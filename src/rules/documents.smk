@@ -155,6 +155,13 @@ use rule docs_data as docs_friction with:
         f"{RESULTS}/logs/docs_friction.log",
 
 
+use rule docs_data as docs_stress with:
+    input:
+        rules.stress.output.table,
+    log:
+        f"{RESULTS}/logs/docs_stress.log",
+
+
 use rule docs_data as docs_finer_bars with:
     input:
         rules.finer_bars.output.table,

@@ -8,7 +8,9 @@ rule stress:
         kernel=rules.compile_kernel.output[0],
         peaks=rules.peaks.output[0],
         analysing=files_behind("extensions.stress.table"),
+        drawing=files_behind("extensions.plots.stress"),
     output:
+        **drawn("stress_peaks", "Sweeps and long runs"),
         **described(
             table=shown(f"{TABLES}/stress.csv", "stress", "Sweeps and long runs"),
         ),
@@ -19,5 +21,7 @@ rule stress:
     resources:
         mem_mb=memory_mb,
         runtime=minutes(20),
+    params:
+        dpi=DPI,
     script:
         "../scripts/stress.py"

@@ -1,6 +1,7 @@
-"""Table of the largest stress of the blade at the peaks."""
+"""Table and figure of the largest stress of the blade at the peaks."""
 
 from bladerub.blade.model import read_reduced_blade
+from bladerub.extensions.plots.stress import stress as draw
 from bladerub.extensions.stress.table import table
 from bladerub.io import tables
 from bladerub.study.peaks import COLUMNS
@@ -9,4 +10,5 @@ from bladerub.workflow import job, outputs
 job.log_to(snakemake.log[0])
 
 blade, peaks = read_reduced_blade(snakemake.input.blade), tables.read(snakemake.input.peaks, COLUMNS)
-outputs.save(snakemake, table=table(snakemake.input.mesh, blade, snakemake.config, peaks))
+found = table(snakemake.input.mesh, blade, snakemake.config, peaks)
+outputs.save(snakemake, draw(found), table=found)

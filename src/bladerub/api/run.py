@@ -1,7 +1,7 @@
 """One run: simulated here, or read from its file."""
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field, fields, replace
 from pathlib import Path
 from typing import Any
 
@@ -20,7 +20,7 @@ from bladerub.contact.result import Energy
 from bladerub.contact.row_spec import Row
 from bladerub.contact.setup import compile_kernel
 from bladerub.contact.spec import RunSpec
-from bladerub.extensions.stress.run import RunStress, complete_revolutions, run_stress
+from bladerub.extensions.stress.run import RunStress, run_stress
 from bladerub.io.provenance import provenance
 from bladerub.plots import single_run, titles
 from bladerub.plots.style import saved
@@ -210,6 +210,19 @@ class Run:
         number = pd.Index(self.stored.data["revolution_number"], name="revolution")
         return pd.DataFrame({name: self.stored.data[name] for name in columns}, number)
 
+    def with_stress(self, stress: RunStress) -> "Run":
+        """Return the run with the figures of `find_stress` among its attributes, Pa, m and revolutions.
+
+        Examples
+        --------
+        >>> import bladerub as br
+        >>> found = br.find_stress(blade, study.run("2nd", E=2, K=0.5, f_omega=0.19))
+        >>> run.with_stress(found).attributes["stress_last_von_mises"] == found.last["von_mises"]
+        True
+        """
+        attributes = self.stored.attributes | stress.attributes()
+        return replace(self, stored=replace(self.stored, attributes=attributes))
+
     def write(self, path: str | Path, config: Mapping[str, Any]) -> None:
         """Write the run of the study `config` to the HDF5 file `path`, whole or not at all.
 
@@ -341,9 +354,9 @@ def solve(
 
 
 def find_stress(
-    blade: Blade, run: StudyRun, result: Run, *, each: Callable[[int], None] | None = None
+    blade: Blade, run: StudyRun, *, each: Callable[[int], None] | None = None
 ) -> RunStress | None:
-    """Find the largest stress of the blade in a run of `simulate`.
+    """Find the largest stress of the blade in the run that `simulate` makes; it is made again for that.
 
     Parameters
     ----------
@@ -351,8 +364,6 @@ def find_stress(
         The blade of the run.
     run : StudyRun
         The run.
-    result : Run
-        What `simulate` gave for it; its motion is computed again.
     each : callable, optional
         Called with the number of revolutions done after each of them.
 
@@ -371,14 +382,13 @@ def find_stress(
     --------
     >>> import bladerub as br
     >>> planned = study.run("2nd", E=2, K=0.5, f_omega=0.19)
-    >>> stress = br.find_stress(blade, planned, run)
+    >>> stress = br.find_stress(blade, planned)
     >>> stress.static["von_mises"] < stress.last["von_mises"]
     True
     """
     spec = run.of_length(blade.length).spec
-    complete = complete_revolutions(result.revolution_peak, result.status)
     last = run.config["analysis"]["spectrum_revolutions"]
-    return run_stress(blade.mesh_path, blade.reduced, spec, last, complete, each)
+    return run_stress(blade.mesh_path, blade.reduced, spec, last, each)
 
 
 def _solve(

@@ -18,6 +18,7 @@ if TYPE_CHECKING:  # as in `inputs`
     from bladerub.api.run import Run
     from bladerub.api.study import Study, StudyCoating, StudyRun
     from bladerub.contact.row_spec import Row
+    from bladerub.extensions.stress.run import RunStress
 
 _STEEP = math.pi / 4  # beyond this angle the force is more tangential than normal
 _UNITS = {"E": "contact.modulus_unit", "K": "contact.modulus_unit", "theta": "rad", "f_omega": "f1 at rest"}
@@ -114,6 +115,9 @@ def run(options: argparse.Namespace) -> None:
         start = time.perf_counter()
         result = simulate(blade, planned, row=row, each=counted(bar, planned))
         seconds = time.perf_counter() - start
+    stress = _stress(blade, planned) if options.stress else None
+    if stress:
+        result = result.with_stress(stress)
     if options.output:
         with refused(OSError, because=f"--output {options.output}: cannot be written: "):
             result.write(options.output, config)
@@ -122,7 +126,7 @@ def run(options: argparse.Namespace) -> None:
     if options.ensemble is not None:
         figures["ensemble"] = _ensemble(options, planned, blade, result)
     if options.stress:
-        figures["stress"] = _stress(blade, planned, result)
+        figures["stress"] = asdict(stress) if stress else None
     if len(result.blades):
         figures["blade"] = result.attributes["blade"]
         figures["blades"] = result.blades.reset_index().to_dict("records")
@@ -179,13 +183,12 @@ def _ensemble(options: argparse.Namespace, planned: "StudyRun", blade: "Blade", 
     }
 
 
-def _stress(blade: "Blade", planned: "StudyRun", result: "Run") -> dict[str, Any] | None:
+def _stress(blade: "Blade", planned: "StudyRun") -> "RunStress | None":
     """Find the stress of the run; None where it cannot be known."""
     from bladerub.api.run import find_stress
 
     with refused(OSError), inputs.progress_bar(planned.spec.revolutions, "rev") as bar:
-        found = find_stress(blade, planned, result, each=lambda done: bar.update(done - bar.n))
-    return asdict(found) if found else None
+        return find_stress(blade, planned, each=lambda done: bar.update(done - bar.n))
 
 
 def _check_coating(options: argparse.Namespace) -> None:

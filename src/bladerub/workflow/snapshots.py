@@ -43,6 +43,10 @@ KEPT = {
         *("f_omega", "treatment", "modes", "steps", "order", "complete", "amplitude"),
         *("amplitude_change", "largest_revolution", "median_revolution", "largest_displacement"),
     ),
+    "stress": (
+        *(*_RUN, "order", "f_peak", "amplitude", "status", "rotation_von_mises", "start_up_von_mises"),
+        *("last_von_mises", "last_von_mises_z", "last_principal", "last_alternating"),
+    ),
 }
 """Tables of which pages need these columns only, to four digits."""
 

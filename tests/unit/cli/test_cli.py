@@ -13,6 +13,7 @@ from bladerub.api import ensemble
 from bladerub.api.map import solve_all
 from bladerub.blade.model import read_reduced_blade
 from bladerub.cli import inputs, main
+from bladerub.io.hdf5 import read_attributes
 from bladerub.study.store import read_run
 
 RUN = ["run", "--casing", "2nd", "--E", "2", "--K", "0.5", "--theta", "0.15", "--f", "0.19"]
@@ -164,6 +165,9 @@ def test_the_stress_of_a_run_is_that_of_its_motion(small, blade_file, folder, ca
     for name in ("von_mises", "principal"):
         assert 0 < stress["static"][name] < min(stress["start_up"][name], stress["last"][name])
         assert 0 < stress["start_up"][f"{name}_time"] <= 1 < stress["last"][f"{name}_time"] <= 2
+    kept = read_attributes(path)
+    assert kept["stress_last_alternating"] == stress["last"]["alternating"]
+    assert kept["stress_start_up_von_mises_time"] == stress["start_up"]["von_mises_time"]
     # the same by the other way to it: all nodes of the mesh at instants of the last revolution
     motion = ["export", "--run", str(path), "--config", str(overlay), "--vtu", str(folder / "motion")]
     assert main([*motion, "--samples", "200", "--json"]) == 0

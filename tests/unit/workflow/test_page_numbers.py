@@ -259,6 +259,20 @@ CHANGES = [
         1.0,
         "rotor37_independent('massless',10,20,'rest_mu0.amplitude')",
     ),
+    (
+        "rotor37_nlstep",
+        {"modes": 20, "steps_per_revolution": 3000, "number": "rest_mu0.15.order_6"},
+        "value",
+        1.0,
+        "rotor37_nlstep(20,3000,'rest_mu0.15.order_6')",
+    ),
+    (
+        "stress",
+        {"casing": "2nd", "E": 11, "K": 1, "theta": 0, "order": 4},
+        "last_von_mises",
+        1e10,
+        "stress.rows.last_von_mises.max()",
+    ),
 ]
 """A snapshot, one of its rows, a value of that row, another value, and what quotes it."""
 

@@ -1,4 +1,4 @@
-"""The stress of a run: it is computed again with its motion recorded, and the run itself stays as it is."""
+"""The stress of a run, from its sampled motion and the stress of the blade as a function of it."""
 
 import json
 from collections.abc import Callable
@@ -10,14 +10,17 @@ import numpy as np
 from bladerub.blade.elasticity import Material
 from bladerub.blade.model import ReducedBlade
 from bladerub.blade.stress import NodalStress, running_displacement
-from bladerub.contact.recording import record
-from bladerub.contact.row_spec import Row
+from bladerub.contact.modes import mode_shapes_at
 from bladerub.contact.spec import RunSpec
-from bladerub.extensions.stress.peak import ModalStress, static_peak, stress_peak
+from bladerub.extensions.stress.peak import ModalStress, static_peak, stress_peak, stressed_nodes
+from bladerub.extensions.stress.sampling import SampledRun, simulate_sampled
 from bladerub.io import hdf5
+from bladerub.io.errors import BadInput
 
 INSTANTS = 200
-"""A revolution; ten times as many raise the largest stress by up to 2 %."""
+"""A revolution; ten times as many raise the largest von Mises stress by up to 2 %."""
+_MODES, _SHARE = 3, 0.7
+"""For many runs, stress is kept where the rotation or one of so many modes causes this share of its most."""
 
 
 @dataclass(frozen=True)
@@ -39,6 +42,14 @@ class RunStress:
     start_up: dict[str, float]
     last: dict[str, float]
 
+    def attributes(self) -> dict[str, float]:
+        """Name each figure for the file of the run, as ``stress_last_von_mises``."""
+        return {
+            f"stress_{part}_{name}": value
+            for part, figures in vars(self).items()
+            for name, value in figures.items()
+        }
+
 
 def stress_of(path: str | Path, f_omega: float) -> NodalStress | None:
     """Return how to find the stress at the speed `f_omega` of the blade in `path`, its ``mesh.h5``.
@@ -53,6 +64,71 @@ def stress_of(path: str | Path, f_omega: float) -> NodalStress | None:
     return NodalStress(mesh["points"], mesh["cells"], material, running)
 
 
+def modal_stress(path: str | Path, f_omega: float, patterns: np.ndarray | None = None) -> ModalStress | None:
+    """Return the stress as a function of the reduced coordinates, or of others; None as `stress_of`.
+
+    Each of the others has reduced coordinates `patterns` (k, n). Nodes of elements with an interface node are
+    left out: that a contact force acts in a point is of the model, and the stress there of the mesh.
+    """
+    at_speed = stress_of(path, f_omega)
+    if at_speed is None:
+        return None
+    mesh, _ = hdf5.read(path, {"recovery", "points", "cells", "interface_nodes"})
+    displaced = mesh["recovery"] if patterns is None else np.tensordot(patterns, mesh["recovery"], axes=1)
+    touching = np.isin(mesh["cells"], mesh["interface_nodes"]).any(axis=1)
+    nodes = np.setdiff1d(mesh["cells"], mesh["cells"][touching])
+    return ModalStress.of_mesh(at_speed, displaced, mesh["points"], nodes)
+
+
+class BladeStress:
+    """Stress of a blade at any speed, for many runs of it.
+
+    It is found for each reduced coordinate at three speeds, and between them as a parabola over the square of
+    the speed. It is kept at those nodes only that one of the first modes or the rotation stresses most.
+
+    Parameters
+    ----------
+    path : path
+        The ``mesh.h5`` of the blade.
+    blade : ReducedBlade
+        The blade.
+
+    Raises
+    ------
+    BadInput
+        If the blade is of matrices alone, which tell of no stress.
+    """
+
+    def __init__(self, path: str | Path, blade: ReducedBlade):
+        fastest = float(hdf5.read(path, {"f_omega"})[0]["f_omega"].max())
+        self._squares = np.array([0.0, 0.5, 1.0]) * fastest**2
+        found: list[ModalStress] = []
+        for speed in np.sqrt(self._squares)[::-1]:
+            whole = modal_stress(path, speed)
+            if whole is None:
+                raise BadInput(f"{path}: the blade is of matrices alone, which tell of no stress")
+            if not found:
+                modes = mode_shapes_at(blade, fastest)[1][:, :_MODES]
+                nodes = stressed_nodes(whole.of(modes.T), _SHARE)
+            found.insert(0, whole.at(nodes))
+        self._at = found
+
+    def at(self, f_omega: float) -> ModalStress:
+        """Return the stress at the speed `f_omega` as a function of the reduced coordinates."""
+        a, b, c = self._squares
+        x = f_omega**2
+        parts = [
+            (x - b) * (x - c) / (a - b) / (a - c),
+            (x - a) * (x - c) / (b - a) / (b - c),
+            (x - a) * (x - b) / (c - a) / (c - b),
+        ]
+        static, slope = (
+            sum(weight * getattr(of, name) for weight, of in zip(parts, self._at, strict=True))
+            for name in ("static", "slope")
+        )
+        return ModalStress(self._at[0].points, static, slope)
+
+
 def complete_revolutions(revolution_peak: np.ndarray, status: str) -> int:
     """Count the revolutions that a run of this outcome has completed; `revolution_peak` as of `RunResult`."""
     return int(np.isfinite(revolution_peak).sum()) - (status == "unbounded")
@@ -63,11 +139,9 @@ def run_stress(
     blade: ReducedBlade,
     spec: RunSpec,
     last: int,
-    revolutions: int | None = None,
     progress: Callable[[int], None] | None = None,
-    instants: int = INSTANTS,
 ) -> RunStress | None:
-    """Find the stress of a run of a single blade.
+    """Find the stress of a run of a single blade, which is computed for it.
 
     Parameters
     ----------
@@ -79,32 +153,28 @@ def run_stress(
         The run.
     last : int
         How many revolutions are the last ones.
-    revolutions : int, optional
-        Those that the run completes; default: all of `spec`. A run that ends as unbounded has fewer.
     progress : callable, optional
         Called with the number of revolutions done after each of them.
-    instants : int
-        Instants per revolution that are looked at.
 
     Returns
     -------
     RunStress or None
         None where the blade is of matrices alone, which tell of no stress, or no revolution is complete.
     """
-    at_speed = stress_of(mesh, spec.f_omega)
-    revolutions = spec.revolutions if revolutions is None else revolutions
-    if at_speed is None or not revolutions:
+    if stress_of(mesh, spec.f_omega) is None:
         return None
-    data, _ = hdf5.read(mesh, {"recovery", "points"})
-    stress = ModalStress(at_speed, data["recovery"], data["points"])
-    n_elements = spec.coating.n_elements
-    count = revolutions * min(instants, n_elements)
-    elements = np.rint(np.linspace(0, revolutions * n_elements, count + 1)[1:]).astype(int)
-    motion = record(blade, spec, Row.even(1), elements.tolist(), progress)
-    coordinates = motion.coordinates[:, 0]
-    is_last = motion.time > revolutions - last
+    run = simulate_sampled(blade, spec, INSTANTS, progress)
+    return sampled_stress(modal_stress(mesh, spec.f_omega, run.patterns), run, last)
+
+
+def sampled_stress(stress: ModalStress, run: SampledRun, last: int) -> RunStress | None:
+    """Find the stress of a sampled run, as `run_stress`; `stress` is a function of its amplitudes."""
+    revolutions = complete_revolutions(run.result.revolution_peak, run.result.status)
+    if not revolutions:
+        return None
+    is_last = (run.time > revolutions - last) & (run.time <= revolutions)
 
     def peak(chosen: np.ndarray) -> dict[str, float]:
-        return stress_peak(stress, coordinates[chosen], motion.time[chosen]) if chosen.any() else {}
+        return stress_peak(stress, run.amplitudes[chosen], run.time[chosen]) if chosen.any() else {}
 
-    return RunStress(static_peak(stress), peak(~is_last), peak(is_last))
+    return RunStress(static_peak(stress), peak(run.time <= revolutions - last), peak(is_last))

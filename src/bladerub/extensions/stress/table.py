@@ -5,10 +5,11 @@ from pathlib import Path
 from typing import Any
 
 import pandas as pd
+from threadpoolctl import threadpool_limits
 
 from bladerub.blade.model import ReducedBlade
-from bladerub.contact.run import simulate
-from bladerub.extensions.stress.run import complete_revolutions, run_stress
+from bladerub.extensions.stress.run import INSTANTS, BladeStress, RunStress, sampled_stress
+from bladerub.extensions.stress.sampling import simulate_sampled
 from bladerub.study.grid import CoatingCase, run_spec
 
 _CASE = ("casing", "E", "K", "theta", "law")
@@ -20,26 +21,32 @@ COLUMNS += [f"last_{name}" for name in _OF_LAST]
 """Columns of ``stress.csv``, described in ``io/columns.csv``."""
 
 
+@threadpool_limits.wrap(limits=1, user_api="blas")  # the products are small
 def table(
     mesh: str | Path, blade: ReducedBlade, config: Mapping[str, Any], peaks: pd.DataFrame
 ) -> pd.DataFrame:
     """Find the stress of the run at each of the `peaks`, a table ``peaks.csv``: a row each, with `COLUMNS`.
 
-    `mesh` is the ``mesh.h5`` of the blade. Raises `ValueError` where it is of matrices alone, which tell of
-    no stress.
+    `mesh` is the ``mesh.h5`` of the blade. Raises `BadInput` where it is of matrices alone, which tell of no
+    stress.
     """
-    rows = []
+    stress, rows = BladeStress(mesh, blade), []
     for peak in peaks.dropna(subset=["f_peak"]).to_dict("records"):
         spec = run_spec(config, CoatingCase.described(peak), peak["f_peak"])
-        run = simulate(blade, spec)
-        complete = complete_revolutions(run.revolution_peak, run.status)
-        found = run_stress(mesh, blade, spec, config["analysis"]["spectrum_revolutions"], complete)
-        if found is None:
-            raise ValueError(f"{mesh}: the blade is of matrices alone, which tell of no stress")
+        run = simulate_sampled(blade, spec, INSTANTS)
+        at_speed = stress.at(spec.f_omega).of(run.patterns)
+        found = sampled_stress(at_speed, run, config["analysis"]["spectrum_revolutions"])
         rows.append(
             {name: peak[name] for name in (*_CASE, *_PEAK)}
-            | {"status": run.status, "rotation_von_mises": found.static["von_mises"]}
-            | {"start_up_von_mises": found.start_up.get("von_mises")}
-            | {f"last_{name}": found.last.get(name) for name in _OF_LAST}
+            | {"status": run.result.status}
+            | (_of_run(found) if found else {})
         )
     return pd.DataFrame(rows, columns=COLUMNS)
+
+
+def _of_run(found: RunStress) -> dict[str, float | None]:
+    return {
+        "rotation_von_mises": found.static["von_mises"],
+        "start_up_von_mises": found.start_up.get("von_mises"),
+        **{f"last_{name}": found.last.get(name) for name in _OF_LAST},
+    }

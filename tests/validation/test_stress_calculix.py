@@ -1,0 +1,95 @@
+"""Stress of the blade against CalculiX, an independent finite element program.
+
+The decks are those of `bladerub.export.calculix`, with a static step that states the stress. CalculiX finds
+the displacement of the blade with C3D20 elements, of 27 integration points each, and the stress at the nodes.
+The test needs the solver `ccx` on the path.
+Expected: the largest stress to 1 % outside of the tenths of the span at root and tip; at each node within 1 %
+of it from 15 to 80 % of the span. At the edges of the root, where it depends on the mesh, the largest stress
+is 5 % above that of CalculiX.
+"""
+
+import shutil
+import subprocess
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+import pytest
+import yaml
+
+from bladerub.blade.build import build
+from bladerub.blade.built import BuiltBlade
+from bladerub.blade.elasticity import Material
+from bladerub.blade.stress import NodalStress, running_displacement, von_mises
+from bladerub.export.calculix import deck
+
+CCX = shutil.which("ccx")
+CONFIG = Path(__file__).parents[2] / "config" / "config.yaml"
+SPEED = 0.4
+
+pytestmark = pytest.mark.skipif(CCX is None, reason="CalculiX (ccx) is not installed")
+
+
+class Case(NamedTuple):
+    built: BuiltBlade
+    material: Material
+
+    def deck(self, omega: float) -> str:
+        """Input of CalculiX up to its last step, that of the frequencies."""
+        mesh = self.built.mesh
+        text = deck(mesh.mesh.points, mesh.mesh.cells, mesh.root, self.material, omega)
+        return text[: text.rindex("*STEP")]
+
+    def stress(self, running: np.ndarray, displacement: np.ndarray) -> np.ndarray:
+        mesh = self.built.mesh.mesh
+        return NodalStress(mesh.points, mesh.cells, self.material, running)(displacement)
+
+
+@pytest.fixture(scope="module")
+def case():
+    config = yaml.safe_load(CONFIG.read_text(encoding="utf-8"))
+    return Case(build(config), Material.from_config(config["blade"]["material"]))
+
+
+def stress_of_calculix(folder, text):
+    """Stress (n_nodes, 3, 3) at the nodes in the last step of a deck, Pa."""
+    (folder / "blade.inp").write_text(text)
+    subprocess.run([CCX, "-i", "blade"], cwd=folder, check=True, capture_output=True, timeout=300)
+    blocks = (folder / "blade.frd").read_text().split("-4  STRESS")
+    rows = [line for line in blocks[-1].split("\n -3")[0].splitlines() if line.startswith(" -1")]
+    # columns of twelve characters after the number of the node: xx, yy, zz, xy, yz, zx
+    six = np.array([[float(row[at : at + 12]) for at in range(13, 85, 12)] for row in rows])
+    return six[:, [[0, 3, 5], [3, 1, 4], [5, 4, 2]]]
+
+
+def assert_agreement(case, found, expected):
+    z = case.built.mesh.mesh.points[:, 2]
+    span = (z - z.min()) / np.ptp(z)
+    ours, theirs = von_mises(found), von_mises(expected)
+    between = (span > 0.1) & (span < 0.9)
+    assert ours[between].max() == pytest.approx(theirs[between].max(), rel=0.01)
+    inside = (span > 0.15) & (span < 0.8)
+    difference = np.abs(ours - theirs)[inside].max() / theirs[inside].max()
+    print(f"largest difference from CalculiX: {difference:.1e} of the largest stress")
+    assert difference < 0.01
+
+
+def test_stress_of_the_rotation(case, tmp_path):
+    built = case.built
+    rotating = case.deck(2 * np.pi * SPEED * built.reduced.f1_hz)
+    expected = stress_of_calculix(tmp_path, rotating.replace("*END STEP", "*EL FILE\nS\n*END STEP"))
+    running = running_displacement(built.static_speed, built.static_displacement, SPEED)
+    assert_agreement(case, case.stress(running, np.zeros_like(running)), expected)
+
+
+def test_stress_of_a_displaced_tip(case, tmp_path):
+    """The interface nodes are displaced as in the first mode, which ours knows from the reduced model."""
+    built, interface = case.built, case.built.mesh.interface
+    displacement = 1e-3 * built.mode_shape[0, interface]
+    step = ["*STEP", "*STATIC", "*BOUNDARY"]
+    for node, of_node in zip(interface, displacement, strict=True):
+        step += [f"{node + 1}, {axis}, {axis}, {by:.12e}" for axis, by in enumerate(of_node, 1)]
+    text = case.deck(0.0) + "\n".join([*step, "*EL FILE", "S", "*END STEP", ""])
+    expected = stress_of_calculix(tmp_path, text)
+    recovered = np.einsum("k,kna->na", displacement.ravel(), built.recovery[: displacement.size])
+    assert_agreement(case, case.stress(np.zeros_like(recovered), recovered), expected)
