@@ -1,16 +1,23 @@
 import json
+import re
+import subprocess
+import sys
 from pathlib import Path
 
 import numpy as np
 import pytest
 import yaml
 
+from bladerub.blade import build, built, cache
+from bladerub.blade.frequencies import reduced_frequencies
 from bladerub.blade.geometry import BladeShape
 from bladerub.blade.mesh import BladeMesh
 from bladerub.cli import main
+from bladerub.config import read as configuration
 from bladerub.export.mesh_file import write_mesh_file
 from bladerub.export.sections import write_sections
 from bladerub.io.folders import ROOT
+from bladerub.io.provenance import provenance
 
 CONFIG = Path(__file__).parents[3] / "config" / "config.yaml"
 
@@ -55,6 +62,7 @@ def test_figures_of_the_default_blade(look, folder):
         {"length": 1, "modulus": 1, "time": 1}, abs=0.03
     )
     assert figures["node_sets"] == {"FOOT": 38, "TOP": 38}
+    assert (figures["nominal_speed"], "figures" in figures["config"]) == (None, False)
     assert figures["config"]["blade"]["source"] == {
         "file": str(folder / "blade.inp"),
         "unit": "mm",
@@ -160,3 +168,114 @@ def test_sharp_edges_are_reported_as_cut(look, folder):
     assert code == 0
     (cut,) = [line for line in json.loads(out)["warnings"] if "cut" in line]
     assert cut.startswith("edges of 2 of 2 sections were cut off where they are thinner than 10% of the")
+
+
+HEAVY = ("numba", "pandas", "scipy", "skfem", "meshio")
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "said"),
+    [
+        ("none.csv", None, "none.csv: there is no such file"),
+        ("none.inp", None, "none.inp: there is no such file"),
+        ("no.csv", "section,z,r,theta1\n1,0,1,0\n", "no.csv: has no column theta2; must have section, z, r"),
+        ("short.csv", "section,z,r,theta1,theta2\n1,0,1,0\n", "short.csv: line 2: has 4 cells, must have 5"),
+    ],
+)
+def test_what_is_no_blade_is_refused_before_anything_takes_time(tmp_path, name, text, said):
+    if text:
+        (tmp_path / name).write_text(text)
+    program = (
+        "import sys; from bladerub.cli import main; code = main(sys.argv[1:]); "
+        f"print(code, [name for name in {HEAVY} if name in sys.modules])"
+    )
+    command = [sys.executable, "-c", program, "import", str(tmp_path / name)]
+    done = subprocess.run(command, capture_output=True, text=True, check=True)
+    assert done.stdout == "2 []\n"
+    assert said in done.stderr
+
+
+def test_the_study_takes_the_blade_that_was_imported(look, folder, tmp_path, monkeypatch):
+    monkeypatch.setenv("BLADERUB_CACHE", str(tmp_path / "cache"))
+    (folder / "five.yaml").write_text("reduction: {accuracy_speeds: 5}\n")
+    code, out, _ = look("--unit", "mm", "--rpm", "9000", "--config", str(folder / "five.yaml"))
+    assert code == 0
+    assert "nominal speed       9000 1/min, f_omega = 0.76" in out
+    (tmp_path / "printed.yaml").write_text(out.split("are absolute\n")[1])
+    config = configuration.read(CONFIG, tmp_path / "printed.yaml")
+    assert config["figures"]["nominal_speed"] == 9000
+    source = dict(config["blade"]["source"])
+    del config["blade"]["source"]["radial"]  # its default, as in a config by hand
+    built_now, folders = build.build(config), [tmp_path / name for name in ("now", "kept")]
+    monkeypatch.setattr(cache, "build", lambda config: pytest.fail("built again"))
+    for blade, into in zip((built_now, cache.kept_or_built(config)), folders, strict=True):
+        into.mkdir()
+        built.write(blade, provenance(config), *built.paths(into / "reduced_model.h5"))
+    files = sorted(path.name for path in folders[0].iterdir())
+    assert len(files) == 4
+    assert all((folders[0] / name).read_bytes() == (folders[1] / name).read_bytes() for name in files)
+    cache.kept_at(config).write_bytes(b"damaged")
+    monkeypatch.setattr(cache, "build", lambda config: "built again")
+    assert cache.kept_or_built(config) == "built again"
+    config["blade"]["source"] = source | {"unit": "m"}
+    assert cache.kept_or_built(config) == "built again"
+
+
+def test_speeds_of_the_crossings_are_told(look, folder, tmp_path, monkeypatch):
+    monkeypatch.setenv("BLADERUB_CACHE", str(tmp_path / "cache"))
+    code, out, _ = look("--unit", "mm", "--json")
+    figures = json.loads(out)
+    assert code == 0
+    (path,) = (tmp_path / "cache").rglob("reduced_model.h5")
+    blade = built.read(path).reduced
+    assert [each["order"] for each in figures["crossings"]] == list(range(4, 13))
+    for each in figures["crossings"]:
+        first = reduced_frequencies(blade, each["f_omega"], 1)[0]
+        assert each["order"] * each["rpm"] / 60 == pytest.approx(first, rel=1e-6)
+
+
+def test_a_nominal_speed_that_no_wheel_bears_is_told(look):
+    right, wrong = (look("--unit", "mm", "--rpm", rpm)[1] for rpm in ("7000", "17000"))
+    assert "its tip moves at" not in right
+    assert re.search(r"its tip moves at 1[12]\d\d m/s at 17000 1/min with a radius of 6[5-9]\d mm", wrong)
+    assert "1/min is 1.451 of f_omega, beyond reduction.f_omega_max = 0.4: raise that" in wrong
+
+
+def _published(folder):
+    """A rotor on cones as Rotor 67 is published, in cm, and its sides as points of space."""
+    x = np.linspace(-1, 5, 49)  # the blade is from 0 to 4
+    published, points = ["surface,x,r_theta,thickness,r"], ["section,x1,y1,z1,x2,y2,z2"]
+    for number in range(5):
+        r = 10 + 2 * number + 0.1 * (x - 2)
+        r_theta = (x - 2) * np.tan(np.deg2rad(30 + 6 * number))
+        thickness = np.maximum(0, (0.4 - 0.05 * number) * (1 - ((x - 2) / 2) ** 2))
+        rows = np.transpose([x, r_theta, thickness, r])
+        published += [f"{number}," + ",".join(f"{value:.9g}" for value in row) for row in rows]
+        for at in np.flatnonzero(thickness > 0):
+            sides = []
+            for side in (-0.5, 0.5):
+                angle = (r_theta[at] + side * thickness[at]) / r[at]  # about x, from z: towards -y
+                sides += [x[at], -r[at] * np.sin(angle), r[at] * np.cos(angle)]
+            points.append(f"{number}," + ",".join(f"{value:.9g}" for value in sides))
+    (folder / "published.csv").write_text("\n".join(published))
+    (folder / "points.csv").write_text("\n".join(points))
+
+
+def test_a_table_of_mean_line_and_thickness_becomes_a_blade_as_its_page_says(look, folder, monkeypatch):
+    _published(folder)
+    page = (ROOT / "docs" / "how-to" / "bring_sections.md").read_text(encoding="utf-8")
+    (code,) = re.findall(r"```python\n(.*?)```", page, re.DOTALL)
+    monkeypatch.chdir(folder)
+    exec(code, {})
+    (folder / "coarse.yaml").write_text("blade: {mesh: {chordwise: 7, thickness: 1, spanwise: 6}}\n")
+    figures = {}
+    for file in ("sections.csv", "points.csv"):
+        code, out, err = look("--unit", "cm", "--json", "--config", str(folder / "coarse.yaml"), file=file)
+        assert code == 0, err
+        figures[file] = json.loads(out)
+    converted, directly = figures.values()
+    assert converted["f1_hz"] == pytest.approx(directly["f1_hz"], rel=1e-6)
+    assert converted["length"] == pytest.approx(0.08, rel=1e-6)
+    assert converted["sections"][0]["thickness"] == pytest.approx(0.004 * np.cos(np.deg2rad(30)), rel=0.02)
+    assert 100 < converted["f1_hz"] < 1000
+    assert converted["tip_stagger_degrees"] == pytest.approx(54, abs=1)
