@@ -12,6 +12,7 @@ from bladerub.blade import build, built, cache
 from bladerub.blade.frequencies import reduced_frequencies
 from bladerub.blade.geometry import BladeShape
 from bladerub.blade.mesh import BladeMesh
+from bladerub.blade.sources import section_text
 from bladerub.cli import main
 from bladerub.config import read as configuration
 from bladerub.export.mesh_file import write_mesh_file
@@ -242,26 +243,27 @@ def test_a_nominal_speed_that_no_wheel_bears_is_told(look):
 
 
 def _published(folder):
-    """A rotor on cones as Rotor 67 is published, in cm, and its sides as points of space."""
-    x = np.linspace(-1, 5, 49)  # the blade is from 0 to 4
-    published, points = ["surface,x,r_theta,thickness,r"], ["section,x1,y1,z1,x2,y2,z2"]
+    """A rotor on cones in the layout of Rotor 67, in feet, and its sides as points of space."""
+    x = np.linspace(-0.03, 0.16, 39)  # the blade is from 0 to 0.13, and edges are stations
+    blocks, points = ["A ROTOR OF OUR OWN\n"], ["section,x1,y1,z1,x2,y2,z2"]
     for number in range(5):
-        r = 10 + 2 * number + 0.1 * (x - 2)
-        r_theta = (x - 2) * np.tan(np.deg2rad(30 + 6 * number))
-        thickness = np.maximum(0, (0.4 - 0.05 * number) * (1 - ((x - 2) / 2) ** 2))
-        rows = np.transpose([x, r_theta, thickness, r])
-        published += [f"{number}," + ",".join(f"{value:.9g}" for value in row) for row in rows]
-        for at in np.flatnonzero(thickness > 0):
-            sides = []
-            for side in (-0.5, 0.5):
-                angle = (r_theta[at] + side * thickness[at]) / r[at]  # about x, from z: towards -y
-                sides += [x[at], -r[at] * np.sin(angle), r[at] * np.cos(angle)]
-            points.append(f"{number}," + ",".join(f"{value:.9g}" for value in sides))
-    (folder / "published.csv").write_text("\n".join(published))
+        r = 0.3 + 0.06 * number + 0.1 * (x - 0.065)
+        thickness = (0.013 - 0.0016 * number) * np.maximum(0, 1 - ((x - 0.065) / 0.065) ** 2).round(12)
+        upper = (x - 0.065) * np.tan(np.deg2rad(30 + 6 * number)) + thickness / 2
+        names = ("Axial Distance", "Radius*Theta Distance", "Delta (Radius*Theta) = thickness", "Radius")
+        blocks.append(f" Surface number  {number + 1} from hub (surface 1 is the hub)\n")
+        for name, values in zip(names, (x, upper, thickness, r), strict=True):
+            lines = [" ".join(f"{value:.9f}" for value in row) for row in np.split(values, [8, 16, 24, 32])]
+            blocks.append("\n ".join([f" {name}", " 1.000000", *lines]) + "\n")
+        for at in range(6, 33):  # of which the first and the last have no thickness
+            angles = np.array([upper[at], upper[at] - thickness[at]]) / r[at]  # about x, from z: towards -y
+            sides = np.ravel([[x[at], -r[at] * np.sin(angle), r[at] * np.cos(angle)] for angle in angles])
+            points.append(f"{number}," + ",".join(f"{value:.12g}" for value in sides))
+    (folder / "rotor67geometry.dat").write_text("".join(blocks))
     (folder / "points.csv").write_text("\n".join(points))
 
 
-def test_a_table_of_mean_line_and_thickness_becomes_a_blade_as_its_page_says(look, folder, monkeypatch):
+def test_a_file_in_the_layout_of_rotor_67_becomes_a_blade_as_its_page_says(look, folder, monkeypatch):
     _published(folder)
     page = (ROOT / "docs" / "how-to" / "bring_sections.md").read_text(encoding="utf-8")
     (code,) = re.findall(r"```python\n(.*?)```", page, re.DOTALL)
@@ -269,13 +271,39 @@ def test_a_table_of_mean_line_and_thickness_becomes_a_blade_as_its_page_says(loo
     exec(code, {})
     (folder / "coarse.yaml").write_text("blade: {mesh: {chordwise: 7, thickness: 1, spanwise: 6}}\n")
     figures = {}
-    for file in ("sections.csv", "points.csv"):
-        code, out, err = look("--unit", "cm", "--json", "--config", str(folder / "coarse.yaml"), file=file)
+    for file in ("rotor67.csv", "points.csv"):
+        code, out, err = look("--unit", "ft", "--json", "--config", str(folder / "coarse.yaml"), file=file)
         assert code == 0, err
         figures[file] = json.loads(out)
     converted, directly = figures.values()
-    assert converted["f1_hz"] == pytest.approx(directly["f1_hz"], rel=1e-6)
-    assert converted["length"] == pytest.approx(0.08, rel=1e-6)
-    assert converted["sections"][0]["thickness"] == pytest.approx(0.004 * np.cos(np.deg2rad(30)), rel=0.02)
+    assert converted["f1_hz"] == pytest.approx(directly["f1_hz"], rel=1e-5)
+    assert converted["length"] == pytest.approx(0.24 * 0.3048, rel=1e-3)
+    hub = converted["sections"][0]
+    assert hub["thickness"] == pytest.approx(0.013 * 0.3048 * np.cos(np.deg2rad(30)), rel=0.02)
+    assert hub["chord"] + hub["cut_leading_edge"] + hub["cut_trailing_edge"] == pytest.approx(
+        0.13 * 0.3048 * np.hypot(np.hypot(1, 0.1), np.tan(np.deg2rad(30))), rel=0.005
+    )
     assert 100 < converted["f1_hz"] < 1000
     assert converted["tip_stagger_degrees"] == pytest.approx(54, abs=1)
+
+
+def test_a_file_in_the_layout_of_rotor_37_becomes_a_table_as_its_page_says(folder):
+    published = [
+        " Table IV A Rotor of Our Own",
+        " SURFACE NUMBER     1 FROM THE HUB - hub/blade intersection.",
+        "    J      Z           R         THETA 1     THETA 2",
+        *(f"  {j:3}   {j}.0281091  17.7903728  -0.116{j}276  -0.1165276" for j in range(1, 7)),
+        " SURFACE NUMBER     2 FROM THE HUB.",
+        "    J      Z           R         THETA 1     THETA 2",
+        *(f"  {j:3}   {j}.0515031  18.4658165  -0.112{j}646  -0.1128646" for j in range(1, 7)),
+    ]
+    (folder / "rotor37geometry.dat").write_text("\n".join(published))
+    page = (ROOT / "docs" / "how-to" / "bring_sections.md").read_text(encoding="utf-8")
+    (code,) = re.findall(r"(\(echo section .*?> rotor37.txt\n)", page, re.DOTALL)
+    subprocess.run(["sh", "-c", code], cwd=folder, check=True)
+    cells = section_text.read(folder / "rotor37.txt")
+    assert cells.names == ["section", "z", "r", "theta1", "theta2"]
+    rows = list(cells.rows.values())
+    assert len(rows) == 12
+    assert rows[0] == ["1", "1.0281091", "17.7903728", "-0.1161276", "-0.1165276"]
+    assert rows[-1] == ["2", "6.0515031", "18.4658165", "-0.1126646", "-0.1128646"]

@@ -3,6 +3,7 @@
 Nothing here takes time to import, so that a wrong table is refused at once.
 """
 
+import re
 from pathlib import Path
 from typing import NamedTuple
 
@@ -10,6 +11,7 @@ from bladerub.blade.sources import origin
 
 POINTS = ("x1", "y1", "z1", "x2", "y2", "z2")
 CYLINDRICAL = ("z", "r", "theta1", "theta2")
+_LOOKED_THROUGH = 50  # lines, for names below a title
 _SEPARATORS = {";": "semicolons", ",": "commas", None: "white space"}
 
 
@@ -42,8 +44,8 @@ def read(path: Path) -> Cells:
         wanted = ["section", *_form(set(names))]
     except ValueError as error:
         what = f"line {header} must name the columns; cells separated by {_SEPARATORS[separator]}"
-        raise ValueError(f'{error} ({what}: "{content[header][:60]}")') from error
-    if separator == ";":
+        raise ValueError(f'{error} ({what}: "{content[header][:60]}"{_likely_names(content)})') from error
+    if separator != ",":
         cells = {line: [cell.replace(",", ".") for cell in row] for line, row in cells.items()}
     twice = {name for name in names if names.count(name) > 1}
     if twice:
@@ -54,6 +56,15 @@ def read(path: Path) -> Cells:
         if len(row) != len(names):
             raise ValueError(f"line {line}: has {len(row)} cells, must have {len(names)} as the header has")
     return Cells(names, cells, wanted)
+
+
+def _likely_names(content: dict[int, str]) -> str:
+    """Point out a line below the first that seems to name the columns, as in files with a title."""
+    for line, text in list(content.items())[1:_LOOKED_THROUGH]:
+        words = re.sub(r"(?<=[a-z]) (?=[12]\b)", "", text.lower().replace(",", " ").replace(";", " ")).split()
+        if any(len(set(form).intersection(words)) >= len(form) - 1 for form in (POINTS, CYLINDRICAL)):
+            return f', and not line {line}: "{text[:60]}"'
+    return ""
 
 
 def _form(columns: set[str]) -> tuple[str, ...]:
