@@ -30,7 +30,7 @@ def stress(unit: float) -> str:
 
 def in_units(unit: float) -> str:
     """Say of moduli that 1 is `unit`, Pa."""
-    return f"in units of {unit / 1e6:g} MPa"
+    return f"in units of {unit / 1e6:.4g} MPa"
 
 
 def angle(theta: float) -> str:
