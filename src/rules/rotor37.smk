@@ -66,7 +66,12 @@ rule rotor37_independent:
 rule rotor37:
     input:
         numbers=rotor37_numbers,
-        drawing=files_behind("extensions.plots.rotor37", "extensions.rotor37.reference"),
+        drawing=files_behind(
+            "extensions.plots.rotor37",
+            "extensions.rotor37.reference",
+            "plots.spectrum",
+            "plots.wear_map",
+        ),
         independent=f"{ROTOR37}/reference/independent.csv",
     output:
         **described(

@@ -27,8 +27,8 @@ def excites(casing: Mapping[str, Any], order: int) -> bool:
 def excited_orders(config: Mapping[str, Any], casing: str) -> list[int]:
     """Return the two lowest orders that the casing excites and whose peak the speeds of the study reach.
 
-    The ``speed_window`` of such an order, with C1 at rest, ends below the highest speed, and its crossing with
-    C1 at rest is not below the lowest. There may be fewer.
+    The ``speed_window`` of such an order, with C1 at rest, ends below the highest speed, and its crossing
+    with C1 at rest is not below the lowest. There may be fewer.
     """
     slowest, *_, fastest = speeds(config)
     reached = config["analysis"]["peaks"]["speed_window"][1] / fastest

@@ -2,8 +2,8 @@
 
 The names of the columns, in capital or small letters, show which of two forms a table has. In both, `section`
 names the section, hub to tip; other columns are ignored; what follows a ``#`` is a comment. The first of
-these that the header has separates the cells: semicolons; commas; white space. Numbers may have decimal commas
-unless commas separate the cells.
+these that the header has separates the cells: semicolons; commas; white space. Numbers may have decimal
+commas unless commas separate the cells.
 
 - Points of the surface: x, y and z of one side (`x1`, `y1`, `z1`) and of the other (`x2`, `y2`, `z2`).
 - As compressor rotors are published: axial position `z` and radius `r`, and at both the angles `theta1` and
