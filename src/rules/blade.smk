@@ -5,7 +5,7 @@ from bladerub.blade.sources.origin import files
 
 rule blade:
     input:
-        code=files_behind("blade.build"),
+        code=files_behind("blade.cache"),
         given=files(config["blade"]["source"]) if "source" in config["blade"] else [],
     output:
         **described(rom_accuracy=f"{RESULTS}/blade/rom_accuracy.csv"),

@@ -10,7 +10,7 @@ from bladerub.study.grid import (
     speed_name,
     speeds,
 )
-from bladerub.study.orders import peak_orders, peak_settings
+from bladerub.study.orders import peak_orders, peak_settings, used_casings
 
 LOBED = CoatingCase("2nd5nd", 11.0, 0.5, 0.0)
 SOFT = CoatingCase("2nd", 0.11, 0.5, 0.0)
@@ -21,6 +21,11 @@ MODULI = "casing == '2nd' and theta == 0 and law == 'theta'"  # the coatings of 
 SPECTRA = {
     key: config["figures"][key] for key in ("dpi", "max_frequency", "amplitude_range")
 }
+
+# What E = 1 is, and a displacement that is large; of a blade from another program also the speeds of its rotor
+SCALES = {"modulus_unit": modulus_unit(config), "length": config["blade"]["length"]}
+if "source" in config["blade"]:
+    SCALES["engine"] = {"nominal_speed": config["figures"].get("nominal_speed")}
 
 # Speeds at which the displacement of both is kept: the paper's two, and those where this blade has its peaks
 BOTH = [
@@ -77,6 +82,7 @@ rule fig02_campbell:
         f"{RESULTS}/benchmarks/fig02_campbell.tsv"
     params:
         dpi=DPI,
+        scales=SCALES,
     script:
         "../scripts/fig02_campbell.py"
 
@@ -117,11 +123,32 @@ rule fig04_coating_cycle:
         "../scripts/fig04_coating_cycle.py"
 
 
-rule fig05_casing:
+# Of any casing, for the asking; of another blade also part of `all`
+rule casing:
     input:
         blade=rules.blade.output.reduced_model,
         model=files_behind("contact.casing"),
         drawing=files_behind("plots.polar"),
+    output:
+        **described(data=f"{PLOTS}/casing/{{casing}}.csv"),
+        png=f"{PLOTS}/casing/{{casing}}.png",
+        pdf=f"{PLOTS}/casing/{{casing}}.pdf",
+    log:
+        f"{RESULTS}/logs/casing/{{casing}}.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/casing/{{casing}}.tsv"
+    wildcard_constraints:
+        casing="|".join(config["casings"]),
+    params:
+        dpi=DPI,
+        casing=lambda wildcards: part_of_run(
+            CoatingCase.rigid(wildcards.casing, 0.0), "casing"
+        )(wildcards),
+    script:
+        "../scripts/casing.py"
+
+
+use rule casing as fig05_casing with:
     output:
         **drawn("fig05_casing", "Model", with_data=True),
     log:
@@ -129,16 +156,14 @@ rule fig05_casing:
     benchmark:
         f"{RESULTS}/benchmarks/fig05_casing.tsv"
     params:
-        dpi=DPI,
         casing=part_of_run(LOBED, "casing"),
-    script:
-        "../scripts/fig05_casing.py"
 
 
 # Of any coating, for the asking; of another blade or casing also part of `all`
 rule wear_map:
     input:
         map=rules.map.output[0],
+        blade=rules.blade.output.reduced_model,
         drawing=files_behind("plots.wear_map"),
     output:
         png=f"{PLOTS}/wear_map/{{coating}}.png",
@@ -149,6 +174,7 @@ rule wear_map:
         f"{RESULTS}/benchmarks/wear_map/{{coating}}.tsv"
     params:
         dpi=DPI,
+        scales=SCALES,
     script:
         "../scripts/wear_map.py"
 
@@ -156,6 +182,7 @@ rule wear_map:
 use rule wear_map as fig06_wear_map with:
     input:
         map=map_of(LOBED),
+        blade=rules.blade.output.reduced_model,
         drawing=rules.wear_map.input.drawing,
     output:
         **drawn("fig06_wear_map", "Wear and spectra"),
@@ -168,6 +195,7 @@ use rule wear_map as fig06_wear_map with:
 rule spectrum:
     input:
         map=rules.map.output[0],
+        blade=rules.blade.output.reduced_model,
         drawing=files_behind("plots.spectrum"),
     output:
         png=f"{PLOTS}/spectrum/{{coating}}.png",
@@ -178,6 +206,7 @@ rule spectrum:
         f"{RESULTS}/benchmarks/spectrum/{{coating}}.tsv"
     params:
         **SPECTRA,
+        scales=SCALES,
     script:
         "../scripts/spectrum.py"
 
@@ -185,6 +214,7 @@ rule spectrum:
 use rule spectrum as fig07_spectrum_2nd5nd with:
     input:
         map=map_of(LOBED),
+        blade=rules.blade.output.reduced_model,
         drawing=rules.spectrum.input.drawing,
     output:
         **drawn("fig07_spectrum_2nd5nd", "Wear and spectra"),
@@ -197,6 +227,7 @@ use rule spectrum as fig07_spectrum_2nd5nd with:
 use rule spectrum as fig08_spectrum_soft with:
     input:
         map=map_of(SOFT),
+        blade=rules.blade.output.reduced_model,
         drawing=rules.spectrum.input.drawing,
     output:
         **drawn("fig08_spectrum_soft", "Wear and spectra"),
@@ -209,6 +240,7 @@ use rule spectrum as fig08_spectrum_soft with:
 use rule spectrum as fig09_spectrum_critical with:
     input:
         map=map_of(CRITICAL),
+        blade=rules.blade.output.reduced_model,
         drawing=rules.spectrum.input.drawing,
     output:
         **drawn("fig09_spectrum_critical", "Wear and spectra"),
@@ -221,6 +253,7 @@ use rule spectrum as fig09_spectrum_critical with:
 use rule spectrum as fig15_spectrum_theta0 with:
     input:
         map=map_of(STRAIGHT),
+        blade=rules.blade.output.reduced_model,
         drawing=rules.spectrum.input.drawing,
     output:
         **drawn("fig15_spectrum_theta0", "Angle of the elements"),
@@ -233,6 +266,7 @@ use rule spectrum as fig15_spectrum_theta0 with:
 use rule spectrum as fig16_spectrum_theta015 with:
     input:
         map=map_of(INCLINED),
+        blade=rules.blade.output.reduced_model,
         drawing=rules.spectrum.input.drawing,
     output:
         **drawn("fig16_spectrum_theta015", "Angle of the elements"),
@@ -245,6 +279,7 @@ use rule spectrum as fig16_spectrum_theta015 with:
 rule fig10_peaks:
     input:
         map=map_of(SOFT),
+        blade=rules.blade.output.reduced_model,
         ensembles=expand(rules.ensemble.output, coating=SOFT.name) if ENSEMBLES else [],
         analysing=files_behind("study.bands"),
         drawing=rules.spectrum.input.drawing,
@@ -256,6 +291,7 @@ rule fig10_peaks:
         f"{RESULTS}/benchmarks/fig10_peaks.tsv"
     params:
         **SPECTRA,
+        scales=SCALES,
         peaks=lambda wildcards: peak_settings(config, SOFT.casing),
     script:
         "../scripts/fig10_peaks.py"
@@ -332,6 +368,7 @@ rule history:
         speed=r"\d\.\d{4}",
     params:
         dpi=DPI,
+        scales=SCALES,
         runs=lambda wildcards: runs_at(float(wildcards.speed)),
     script:
         "../scripts/history.py"
@@ -420,6 +457,13 @@ PLANNED = {
 FIGURES = [getattr(rules, name).output for name, needed in PLANNED.items() if needed]
 FIGURES += [expand(rules.history.output, speed=[speed_name(f) for f in OWN])]
 FIGURES += [expand(rules.spectrum.output, coating=OTHER)]
-# On a blade from another program, the wear map of every coating
-WORN = COATINGS if "source" in config["blade"] else OTHER
+# On a blade from another program, the wear map of every coating that can wear, and every casing
+ON_OTHER_BLADE = "source" in config["blade"]
+WORN = [
+    case.name
+    for case in coating_cases(config)
+    if not case.is_rigid and (ON_OTHER_BLADE or case.name in OTHER)
+]
 FIGURES += [expand(rules.wear_map.output, coating=WORN)]
+CASINGS = used_casings(config) if ON_OTHER_BLADE else []
+FIGURES += [expand(rules.casing.output, casing=CASINGS)]

@@ -66,7 +66,12 @@ rule rotor37_independent:
 rule rotor37:
     input:
         numbers=rotor37_numbers,
-        drawing=files_behind("extensions.plots.rotor37", "extensions.rotor37.reference"),
+        drawing=files_behind(
+            "extensions.plots.rotor37",
+            "extensions.rotor37.reference",
+            "plots.spectrum",
+            "plots.wear_map",
+        ),
         independent=f"{ROTOR37}/reference/independent.csv",
     output:
         **described(
@@ -88,7 +93,7 @@ rule rotor37:
 
 use rule blade as rotor37_blade with:
     input:
-        code=files_behind("blade.build"),
+        code=files_behind("blade.cache"),
         given="config/blades/rotor37.csv",
     output:
         **described(rom_accuracy=f"{ROTOR37}/{{set}}/blade/rom_accuracy.csv"),

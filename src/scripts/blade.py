@@ -2,8 +2,8 @@
 
 import logging
 
-from bladerub.blade.build import build
 from bladerub.blade.built import write
+from bladerub.blade.cache import kept_or_built
 from bladerub.io.provenance import provenance
 from bladerub.workflow import job
 
@@ -14,4 +14,4 @@ logging.getLogger("bladerub").setLevel(logging.INFO)
 # of the study, or of a sample of the robustness
 config = {**snakemake.config, "blade": snakemake.params.blade, "reduction": snakemake.params.reduction}
 files = {name: snakemake.output[name] for name in ("reduced_model", "mesh", "rom_accuracy")}
-write(build(config), provenance(config), **files)
+write(kept_or_built(config), provenance(config), **files)

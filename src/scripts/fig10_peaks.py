@@ -28,5 +28,6 @@ table = pd.concat(
     pd.DataFrame({"order": section.order, "f_omega": coating.f_omega, "amplitude": section.amplitude})
     for section in sections
 )
-figure = peak_sections(coating, sections, snakemake.params.amplitude_range, snakemake.params.max_frequency)
+look = snakemake.params.amplitude_range, snakemake.params.max_frequency
+figure = peak_sections(coating, sections, *look, outputs.scales(snakemake))
 outputs.save(snakemake, figure, data=table)

@@ -5,5 +5,5 @@ from bladerub.workflow import job, outputs
 
 job.log_to(snakemake.log[0])
 
-data, figure = history(snakemake.params.runs)
+data, figure = history(snakemake.params.runs, snakemake.params.scales["modulus_unit"])
 outputs.save(snakemake, figure, data=data)

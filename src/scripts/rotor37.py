@@ -1,5 +1,6 @@
 """Reference numbers of Rotor 37 with their uncertainty, and the figures."""
 
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -10,9 +11,10 @@ from bladerub.extensions.rotor37 import direct, numbers, reference
 from bladerub.io import tables
 from bladerub.io.provenance import provenance
 from bladerub.plots import style
+from bladerub.plots.scales import Engine, Scales
 from bladerub.plots.spectrum import spectrum_map
 from bladerub.plots.wear_map import wear_map
-from bladerub.study.grid import coating_cases
+from bladerub.study.grid import coating_cases, modulus_unit
 from bladerub.study.maps import read_map
 from bladerub.workflow import job
 
@@ -48,19 +50,24 @@ coated = {
     for angle in sorted({case.theta for case in cases if not case.is_rigid})
 }
 panels = {"rigid casing": rigid} | {f"coated casing, θ = {angle:g}": found for angle, found in coated.items()}
-look = config["figures"]["amplitude_range"], config["figures"]["max_frequency"]
+look = config["figures"]
+engine = Engine(blade.f1_hz, look["nominal_speed"])
+scales = Scales(modulus_unit(config), config["blade"]["length"], engine)
+spectrum = partial(
+    spectrum_map, amplitude_range=look["amplitude_range"], f_max=look["max_frequency"], scales=scales
+)
 straight, inclined = (found["E = 1 GPa"] for found in coated.values())
 figures = {
-    "response": plots.response(panels, blade.f1_hz, numbers.NOMINAL_RPM),
+    "response": plots.response(panels, blade.f1_hz, engine.nominal_speed),
     "direct": plots.direct_contact(
         tables.read(history),
         direct.spec_of(config, blade, 0.0),
         float(np.arctan2(*blade.node_position[0, 1:])),
     ),
-    "spectrum_rigid": spectrum_map(rigid["μ = 0.15"], *look),
-    "spectrum_coated": spectrum_map(straight, *look),
-    "wear_straight": wear_map(straight),
-    "wear_inclined": wear_map(inclined),
+    "spectrum_rigid": spectrum(rigid["μ = 0.15"]),
+    "spectrum_coated": spectrum(straight),
+    "wear_straight": wear_map(straight, scales),
+    "wear_inclined": wear_map(inclined, scales),
 }
 for png, pdf in zip(snakemake.output.png, snakemake.output.pdf, strict=True):
     style.save(figures[Path(png).stem], png, pdf, dpi)

@@ -11,6 +11,6 @@ job.log_to(snakemake.log[0])
 
 config, blade = snakemake.params.config, read_reduced_blade(snakemake.input.blade)
 results, origin = direct.runs(config, blade), provenance(snakemake.params.config)
-tables.write(snakemake.output.blade, of_blade(blade), origin)
+tables.write(snakemake.output.blade, of_blade(config, blade), origin)
 tables.write(snakemake.output.direct, direct.numbers(results), origin)
 tables.write(snakemake.output.history, direct.last_revolution(results), origin)

@@ -10,5 +10,6 @@ from bladerub.workflow import job, outputs
 job.log_to(snakemake.log[0])
 
 settings = snakemake.params
-figure = spectrum_map(read_map(snakemake.input.map), settings.amplitude_range, settings.max_frequency)
+look = settings.amplitude_range, settings.max_frequency
+figure = spectrum_map(read_map(snakemake.input.map), *look, outputs.scales(snakemake))
 outputs.save(snakemake, figure)

@@ -9,4 +9,4 @@ from bladerub.workflow import job, outputs
 
 job.log_to(snakemake.log[0])
 
-outputs.save(snakemake, wear_map(read_map(snakemake.input.map)))
+outputs.save(snakemake, wear_map(read_map(snakemake.input.map), outputs.scales(snakemake)))

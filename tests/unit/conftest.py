@@ -5,6 +5,14 @@ import pytest
 from stand_in import blade, change, spec  # noqa: F401 (fixtures)
 
 
+@pytest.fixture(autouse=True, scope="session")
+def own_cache(tmp_path_factory):
+    """Keep blades that tests import out of the cache of this user."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("BLADERUB_CACHE", str(tmp_path_factory.mktemp("cache")))
+        yield
+
+
 @pytest.fixture
 def python_at_work():
     """Start a Python program in a process of its own, wait for its first line, kill it after the test."""

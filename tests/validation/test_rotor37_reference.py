@@ -20,7 +20,7 @@ KNOWN = BENCHMARKS / "rotor37"
 def computed(config, folder):
     blade = build(config).reduced
     folder.mkdir()
-    numbers.of_blade(blade).to_csv(folder / "blade.csv", index=False)
+    numbers.of_blade(config, blade).to_csv(folder / "blade.csv", index=False)
     direct.numbers(direct.runs(config, blade)).to_csv(folder / "direct.csv", index=False)
     return folder
 

@@ -15,20 +15,19 @@ from bladerub.api.errors import InputError
 from bladerub.api.notebook import html_table
 from bladerub.api.study import Study
 from bladerub.blade.accuracy import ACCURACY_COLUMNS
-from bladerub.blade.build import build, is_built, made_from
-from bladerub.blade.built import accuracy_path, mesh_path, write
+from bladerub.blade.build import is_built
+from bladerub.blade.built import accuracy_path, mesh_path, paths, write
+from bladerub.blade.cache import kept_at, kept_or_built
 from bladerub.blade.frequencies import reduced_frequencies, tip_lean
 from bladerub.blade.model import ReducedBlade
 from bladerub.blade.validation import read_valid_blade
 from bladerub.io import tables
-from bladerub.io.folders import cache_folder
 from bladerub.io.provenance import provenance
-from bladerub.io.sources import builder_digest
 from bladerub.plots import blade_mesh
 from bladerub.plots.campbell import campbell
 from bladerub.plots.spectrum import ORDERS
 from bladerub.plots.style import saved
-from bladerub.study.cache import blade_digest, digest
+from bladerub.study.cache import blade_digest
 
 
 @dataclass(frozen=True)
@@ -193,8 +192,7 @@ def build_blade(study: Study) -> Blade:
     of_study = study.results / "blade" / "reduced_model.h5"
     if is_built(study.config, of_study):
         return read_blade(of_study)
-    recipe = made_from(study.config)
-    cached = cache_folder() / "blades" / digest([recipe, builder_digest()])[:16] / "reduced_model.h5"
+    cached = kept_at(study.config)
     if not is_built(study.config, cached):
         write_blade(study.config, cached)
     return read_blade(cached)
@@ -202,4 +200,4 @@ def build_blade(study: Study) -> Blade:
 
 def write_blade(config: Mapping[str, Any], path: Path) -> None:
     """Build the blade of `config` and write it to `path`, its mesh and table of accuracy next to it."""
-    write(build(config), provenance(config), path, mesh_path(path), accuracy_path(path))
+    write(kept_or_built(config), provenance(config), *paths(path))

@@ -3,6 +3,7 @@
 import hashlib
 import json
 from collections.abc import Mapping
+from dataclasses import asdict
 from functools import lru_cache
 from pathlib import Path
 from typing import Any
@@ -19,6 +20,7 @@ from bladerub.blade.model import N_INTERFACE, n_interface
 from bladerub.blade.reduction import fit_speeds
 from bladerub.blade.refinement import MOST_FIT_SPEEDS, reduce_to_tolerance
 from bladerub.blade.sources import matrix_folder, origin
+from bladerub.blade.sources.frame import Frame
 from bladerub.blade.sources.importing import import_blade
 from bladerub.blade.sources.matrices import import_matrices
 from bladerub.io import hdf5
@@ -34,6 +36,8 @@ def made_from(config: Mapping[str, Any]) -> str:
     """
     blade = config["blade"]
     given = blade.get("source", {})
+    if given:
+        given = asdict(Frame()) | given  # what a config leaves out is not another blade
     if "matrices" in given:
         found = matrix_folder.files(origin.read(given).folder)
         content = {name: _digest(path) for name, path in found.items()}

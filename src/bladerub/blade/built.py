@@ -7,9 +7,17 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
-from bladerub.blade.mesh import BladeMesh
-from bladerub.blade.model import AXIS, ReducedBlade, interface_node, write_reduced_blade
+from bladerub.blade.accuracy import ACCURACY_COLUMNS
+from bladerub.blade.mesh import BladeMesh, NodeCloud, solid_mesh
+from bladerub.blade.model import (
+    AXIS,
+    ReducedBlade,
+    interface_node,
+    read_reduced_blade,
+    write_reduced_blade,
+)
 from bladerub.io import hdf5, tables
+from bladerub.io.errors import DamagedFile
 from bladerub.io.hdf5 import Variable
 
 
@@ -38,6 +46,11 @@ def accuracy_path(reduced_model: Path) -> Path:
     return reduced_model.with_name("rom_accuracy.csv")
 
 
+def paths(reduced_model: Path) -> tuple[Path, Path, Path]:
+    """Return the files of a blade whose reduced model is the file `reduced_model`, as `write` takes them."""
+    return reduced_model, mesh_path(reduced_model), accuracy_path(reduced_model)
+
+
 def write(
     built: BuiltBlade,
     origin: Mapping[str, str],
@@ -52,6 +65,30 @@ def write(
     _write_mesh(mesh, built, origin)
     tables.write(rom_accuracy, built.accuracy, origin, float_format="%.10g")
     write_reduced_blade(reduced_model, built.reduced, origin)
+
+
+def read(reduced_model: Path) -> BuiltBlade:
+    """Read the blade that `write` wrote to `paths`: written again, it gives the same bytes.
+
+    Raises an OSError that names the file if one is missing or damaged.
+    """
+    path = mesh_path(reduced_model)
+    data, attributes = hdf5.read(path)
+    try:
+        points, cells = data["points"], data["cells"]
+        mesh, _ = solid_mesh(points, cells) if len(cells) else (NodeCloud(points), None)
+        return BuiltBlade(
+            read_reduced_blade(reduced_model),
+            BladeMesh(mesh, *(data[f"{name}_nodes"] for name in ("root", "tip", "interface"))),
+            *(
+                data[name]
+                for name in ("frequency", "mode_shape", "recovery", "static_displacement", "f_omega")
+            ),
+            tables.read(accuracy_path(reduced_model), ACCURACY_COLUMNS),
+            attributes["made_from"],
+        )
+    except (KeyError, ValueError) as error:
+        raise DamagedFile(f"{path}: not the mesh of a blade ({error})") from error
 
 
 def _write_mesh(path: str | Path, built: BuiltBlade, origin: Mapping[str, str]) -> None:

@@ -1,7 +1,10 @@
 """Natural frequencies of the reduced blade at speed, and the motion of its tip in the first mode."""
 
+from collections.abc import Iterable
+
 import numpy as np
 from scipy.linalg import eigh
+from scipy.optimize import brentq
 from threadpoolctl import threadpool_limits
 
 from bladerub.blade.model import ReducedBlade
@@ -13,6 +16,23 @@ def reduced_frequencies(blade: ReducedBlade, f_omega: float, n_modes: int | None
     last = len(blade.mass) if n_modes is None else n_modes
     squares = eigh(blade.stiffness(f_omega), blade.mass, eigvals_only=True, subset_by_index=[0, last - 1])
     return in_hertz(squares)
+
+
+def crossing_speeds(blade: ReducedBlade, orders: Iterable[int]) -> dict[int, float]:
+    """Find the speeds (normalised) at which engine orders cross the first frequency, by order.
+
+    Orders that do not cross it up to ``f_omega_max`` are left out.
+    """
+
+    def above(f_omega: float, order: int) -> float:
+        return order * f_omega - float(reduced_frequencies(blade, f_omega, 1)[0]) / blade.f1_hz
+
+    fastest = blade.f_omega_max
+    return {
+        order: float(brentq(above, 0.0, fastest, args=(order,), xtol=1e-9))
+        for order in orders
+        if above(fastest, order) >= 0
+    }
 
 
 def in_hertz(squares: np.ndarray) -> np.ndarray:

@@ -2,19 +2,23 @@
 
 import argparse
 import sys
-from dataclasses import asdict, replace
+from contextlib import suppress
+from dataclasses import asdict
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import yaml
 
 from bladerub.blade.model import ReducedBlade
-from bladerub.blade.sources import origin
+from bladerub.blade.sources import origin, section_text
 from bladerub.blade.sources.frame import ANGLE_UNITS, AXES, UNITS, Frame
 from bladerub.blade.sources.origin import MATRIX_UNITS, MatrixSource, Source
 from bladerub.cli import inputs
 from bladerub.config import read as configuration
 from bladerub.io.folders import base_config, study_folder
+
+if TYPE_CHECKING:  # loads numba
+    from bladerub.blade.built import BuiltBlade
 
 _AXIS_OPTIONS = ("--rotation", "--downstream", "--radial")
 _FEWEST_SPEEDS = 5
@@ -34,7 +38,8 @@ def add_to(commands: Any) -> None:
         help="check a blade from another program before its study",
         description="Read a mesh and find its root, tip and interface nodes, or mesh the sections of a table "
         "with the numbers of elements of the config, or read a folder with matrices and a list of nodes. "
-        "Reduce the blade as the config says, and report its properties and warnings. Nothing is written. "
+        "Reduce the blade as the config says, and report its properties and warnings. Nothing is written but "
+        "the reduced blade, into the cache of this user, from which its study takes it. "
         "The last lines printed go into a config, whose study is then of that blade. Material (not for "
         "matrices) and reduction are those of the config. The other options default to blade.source of the "
         "config, and if that has none to the values given here.",
@@ -55,6 +60,8 @@ def add_to(commands: Any) -> None:
     text = "half angle of the casing, positive where it widens downstream (default: fitted to the tip)"
     parser.option("--tip-cone", text, float, metavar="DEGREES")
     parser.option("--matrix-units", "of the matrices (default SI)", choices=tuple(MATRIX_UNITS))
+    text = "nominal speed of the rotor, revolutions a minute (default: figures.nominal_speed of the config)"
+    parser.option("--rpm", text, float, metavar="N")
     text = "speed of stiffness_max, to be checked against reduction.f_omega_max"
     parser.option("--omega-max", text, float, metavar="RAD_PER_S")
 
@@ -72,6 +79,8 @@ def joined(arguments: list[str]) -> list[str]:
 
 def import_blade(options: argparse.Namespace) -> None:
     """Read and reduce the blade that the command line names, and print its properties."""
+    if not options.file.is_dir():
+        _refuse_at_once(options.file.resolve())
     config = inputs.read_config(options)
     reduction = dict(config["reduction"])
     given = {name: getattr(options, name) for name in _NAMES if getattr(options, name) is not None}
@@ -83,29 +92,52 @@ def import_blade(options: argparse.Namespace) -> None:
     known = {name: value for name, value in known.items() if name not in ("file", "matrices")}
     entry = {kind: str(named)} | asdict(Frame()) | known | given
 
+    nominal = config["figures"].get("nominal_speed") if options.rpm is None else options.rpm
+
     with inputs.refused(ValueError):
-        source = origin.read(entry)  # a bad file is refused before imports that take seconds
+        source = origin.read(entry)
 
     from bladerub.study.similarity import contact_scale, tip_stiffness
 
     with inputs.refused(ValueError):
         if isinstance(source, MatrixSource):
-            (figures, reduced), rows = _read_matrices(source, config), _matrix_rows
+            (figures, reduced), rows = _read_matrices(source, config, entry, nominal), _matrix_rows
         else:
-            (figures, reduced), rows = _read_mesh(source, config), _mesh_rows
-    length = round(figures["length"], 6)
-    scale = contact_scale(replace(reduced, length=length))
+            (figures, reduced), rows = _read_mesh(source, config, entry, nominal), _mesh_rows
+    scale = contact_scale(reduced)
     figures["tip_stiffness"] = tip_stiffness(reduced)
     study = configuration.read(base_config())
     own = {} if isinstance(source, MatrixSource) else {"material": config["blade"]["material"]}
     mesh = _changed(config["blade"]["mesh"], study["blade"]["mesh"]) if "sections" in figures else {}
     own |= {"mesh": mesh} if mesh else {}
     reduction = _changed(reduction, study["reduction"])
+    drawn = {} if nominal is None else {"nominal_speed": nominal}
     figures["config"] = {
-        "blade": {"length": length, "source": entry} | own,
+        "blade": {"length": reduced.length, "source": entry} | own,
         "contact": {"scale": {name: float(f"{factor:.6g}") for name, factor in scale.items()}},
-    } | ({"reduction": reduction} if reduction else {})
+    } | {name: own for name, own in (("reduction", reduction), ("figures", drawn)) if own}
     inputs.show(options, figures, lambda figures: _in_words(rows(figures), figures))
+
+
+def _refuse_at_once(path: Path) -> None:
+    """Refuse a file that is plainly no blade before anything that takes seconds to import."""
+    with inputs.refused(ValueError, because=f"{path}: "):
+        origin.check_file(path)
+        if path.suffix.lower() in origin.TABLE_SUFFIXES:
+            section_text.read(path)
+
+
+def _of_study(config: dict[str, Any], entry: dict[str, Any], length: float) -> dict[str, Any]:
+    """Lay what is printed for the config of the blade's study over `config`."""
+    return config | {"blade": config["blade"] | {"length": round(length, 6), "source": entry}}
+
+
+def _keep(built: "BuiltBlade", config: dict[str, Any]) -> None:
+    """Keep the blade for its study, which else builds it itself."""
+    from bladerub.blade.cache import keep
+
+    with suppress(OSError):
+        keep(built, config)
 
 
 def _changed(values: dict[str, Any], known: dict[str, Any]) -> dict[str, Any]:
@@ -113,7 +145,9 @@ def _changed(values: dict[str, Any], known: dict[str, Any]) -> dict[str, Any]:
     return {name: value for name, value in values.items() if value != known.get(name)}
 
 
-def _read_mesh(source: Source, config: dict[str, Any]) -> tuple[dict[str, Any], ReducedBlade]:
+def _read_mesh(
+    source: Source, config: dict[str, Any], entry: dict[str, Any], nominal: float | None
+) -> tuple[dict[str, Any], ReducedBlade]:
     """Import and reduce the mesh of `source`; return the figures and the reduced blade."""
     # with fewer, all speeds of the table are those of the fit, where eq. (2) is exact
     config["reduction"]["accuracy_speeds"] = max(_FEWEST_SPEEDS, config["reduction"]["accuracy_speeds"])
@@ -128,8 +162,11 @@ def _read_mesh(source: Source, config: dict[str, Any]) -> tuple[dict[str, Any], 
     if sys.stderr.isatty():  # a fine mesh takes minutes
         nodes, speeds = len(imported.blade.mesh.mesh.points), config["reduction"]["accuracy_speeds"]
         print(f"bladerub import: reducing a mesh of {nodes} nodes at {speeds} speeds", file=sys.stderr)
+    config = _of_study(config, entry, imported.blade.length)
     built = reduce_meshed(imported.blade, config)
-    figures = mesh_report(source, imported, built, Material.from_config(config["blade"]["material"]))
+    _keep(built, config)
+    material = Material.from_config(config["blade"]["material"])
+    figures = mesh_report(source, imported, built, material, nominal)
     return figures, built.reduced
 
 
@@ -165,7 +202,9 @@ def _mesh_rows(figures: dict[str, Any]) -> dict[str, str]:
     return rows
 
 
-def _read_matrices(source: MatrixSource, config: dict[str, Any]) -> tuple[dict[str, Any], ReducedBlade]:
+def _read_matrices(
+    source: MatrixSource, config: dict[str, Any], entry: dict[str, Any], nominal: float | None
+) -> tuple[dict[str, Any], ReducedBlade]:
     """Import and reduce the matrices of `source`; return the figures and the reduced blade."""
     from bladerub.blade.build import reduce_given
     from bladerub.blade.sources.matrices import import_matrices
@@ -175,8 +214,10 @@ def _read_matrices(source: MatrixSource, config: dict[str, Any]) -> tuple[dict[s
     imported = import_matrices(
         source, reduction["f_omega_max"], reduction["accuracy_modes"], reduction["modes_per_speed"]
     )
+    config = _of_study(config, entry, imported.blade.layout.length)
     built = reduce_given(imported.blade, config)
-    return matrix_report(source, imported, built), built.reduced
+    _keep(built, config)
+    return matrix_report(source, imported, built, nominal), built.reduced
 
 
 def _matrix_rows(figures: dict[str, Any]) -> dict[str, str]:
@@ -226,6 +267,13 @@ def _place(point: list[float]) -> str:
     return "(" + ", ".join(f"{1e3 * x:.4g}" for x in point) + ")"
 
 
+def _crossings(crossings: list[dict[str, Any]]) -> str:
+    """List the speeds at which engine orders cross the first mode, from the fastest."""
+    if not crossings:
+        return "of mode 1: none within reduction.f_omega_max"
+    return "of mode 1, 1/min: " + ", ".join(f"eo({each['order']}) {each['rpm']:.0f}" for each in crossings)
+
+
 def _in_words(rows: dict[str, str], figures: dict[str, Any]) -> str:
     stagger = figures["tip_stagger_degrees"]
     rows |= {
@@ -234,8 +282,13 @@ def _in_words(rows: dict[str, str], figures: dict[str, Any]) -> str:
         "first mode": "u_r/u_t at the tip {:.3f} at the leading edge, {:.3f} at the trailing edge".format(
             *(figures["tip_lean"][at] for at in (0, -1))
         ),
+        "crossings": _crossings(figures["crossings"]),
         "tip stiffness": f"{figures['tip_stiffness']:.4g} N/m, static",
     }
+    if figures["nominal_speed"]:
+        rows["nominal speed"] = (
+            f"{figures['nominal_speed']:g} 1/min, f_omega = {figures['nominal_f_omega']:.4g}"
+        )
     return "\n".join(
         [
             *inputs.aligned([*rows.items(), *(("warning", line) for line in figures["warnings"])]),

@@ -68,9 +68,10 @@ def _without_lost_histories(config: Config, notes: list[str]) -> Config:
 
 def _with_orders_of_casings(config: Config, notes: list[str]) -> Config:
     orders, casings = config["analysis"]["peaks"]["orders"], dict(config["casings"])
+    ends = speeds(config)[0], speeds(config)[-1]
     for name in used_casings(config):
-        casing, fastest = casings[name], speeds(config)[-1]
-        suits = all(excites(casing, order) and order * fastest >= 1 for order in orders)
+        casing, slowest, fastest = casings[name], *ends
+        suits = all(excites(casing, order) and order * slowest <= 1 <= order * fastest for order in orders)
         own = [] if suits or "peak_orders" in casing else excited_orders(config, name)
         if own:
             casings[name] = {**casing, "peak_orders": own}

@@ -7,7 +7,7 @@ import pandas as pd
 
 from bladerub.blade.geometry import BladeShape
 from bladerub.blade.sources.frame import Frame
-from bladerub.blade.sources.section_table import CYLINDRICAL, POINTS
+from bladerub.blade.sources.section_text import CYLINDRICAL, POINTS
 from bladerub.io import atomic
 
 N_SECTIONS, N_STATIONS = 21, 61

@@ -40,7 +40,7 @@ def provenance(config: Mapping[str, Any]) -> dict[str, str]:
         f"{PREFIX}git_commit": commit,
         f"{PREFIX}git_state": state,
         f"{PREFIX}config_sha256": config_digest(config),
-        f"{PREFIX}packages": _packages(),
+        f"{PREFIX}packages": packages(),
     }
 
 
@@ -97,7 +97,7 @@ def git_state() -> tuple[str, str]:
 
 
 @cache
-def _packages() -> str:
+def packages() -> str:
     """Versions of what shapes the numbers; PARDISO takes part in the blade where it is installed."""
     found = [f"python=={platform.python_version()}"]
     for name in _PACKAGES:

@@ -5,15 +5,21 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from bladerub.plots import engine_orders
+from bladerub.plots.scales import Engine
 from bladerub.plots.style import DARK, ORANGE, PAGE, new_figure, styled
+
+_NUMBER = 0.045  # height of a number and what is above it, over that of the axes
 
 
 @styled
-def campbell(f_omega: np.ndarray, f_fe: np.ndarray, f_rom: np.ndarray, orders: range) -> Figure:
+def campbell(
+    f_omega: np.ndarray, f_fe: np.ndarray, f_rom: np.ndarray, orders: range, engine: Engine | None = None
+) -> Figure:
     """Draw Fig. 2: all modes (a) and the first of them, which the engine `orders` cross (b).
 
     Finite elements `f_fe` dashed on top of the reduced model `f_rom`, solid: eigenfrequencies (n, n_modes),
-    ascending, NaN where unknown, at the speeds `f_omega` (n,); all normalised.
+    ascending, NaN where unknown, at the speeds `f_omega` (n,); all normalised. With an `engine` there are its
+    speeds and frequencies besides, and its nominal speed.
     """
     f_omega, f_fe, f_rom = np.asarray(f_omega), np.asarray(f_fe), np.asarray(f_rom)
     figure = new_figure(PAGE, 0.62 * PAGE)
@@ -25,11 +31,17 @@ def campbell(f_omega: np.ndarray, f_fe: np.ndarray, f_rom: np.ndarray, orders: r
     for axes in (whole, first):
         _modes(axes, f_omega, f_fe, f_rom)
         axes.set(xlim=(0, speed_max), xlabel=r"rotational frequency $f_\Omega\,/\,f_1(0)$")
+        if engine:
+            engine.add_speeds(axes, "x")
+            engine.add_frequencies(axes, "y")
+            engine.draw_nominal_speed(axes.axvline)
     whole.set(ylim=(0, whole_max), ylabel=r"eigenfrequency $f\,/\,f_1(0)$")
     whole.set_title(f"(a) first {f_rom.shape[1]} modes", pad=16)
     first.set(ylim=(0, first_max))
     first.set_title("(b) first mode, $C_1$", pad=16)
-    figure.legend(*whole.get_legend_handles_labels(), loc="outside lower center", ncols=3)
+    _number(whole, f_rom[0] / whole_max)
+    _number(first, f_rom[0] / first_max)
+    figure.legend(*whole.get_legend_handles_labels(), loc="outside lower center", ncols=4)
     return figure
 
 
@@ -38,6 +50,19 @@ def _modes(axes: Axes, f_omega: np.ndarray, f_fe: np.ndarray, f_rom: np.ndarray)
         rom, fe = ("reduced model", "finite elements") if mode == 0 else ("_rom", "_fe")
         axes.plot(f_omega, f_rom[:, mode], color=ORANGE, linewidth=2.6, label=rom)
         axes.plot(f_omega, f_fe[:, mode], color=DARK, linestyle=(0, (4, 2)), linewidth=1.0, label=fe)
-        at, place = (f_omega[0], f_rom[0, mode]), (3 + 10 * (mode % 2), 2.5)
-        look = {"fontsize": 7, "color": DARK, "clip_on": True, "annotation_clip": True}
-        axes.annotate(f"{mode + 1}", at, xytext=place, textcoords="offset points", **look)
+
+
+def _number(axes: Axes, height: np.ndarray) -> None:
+    """Write the numbers of the modes, whose `height` (n_modes,) at rest is over that of the axes.
+
+    None lies on another: each stands over its line, in the first column with room above the one below.
+    """
+    tops: list[float] = []  # of the highest number in each column
+    look = {"fontsize": 7, "color": DARK, "ha": "left", "va": "bottom", "textcoords": "offset points"}
+    look["bbox"] = {"facecolor": "white", "edgecolor": "none", "alpha": 0.8, "pad": 0.3}
+    for mode in np.flatnonzero(height < 1):
+        free = [column for column, top in enumerate(tops) if height[mode] >= top]
+        column = free[0] if free else len(tops)
+        tops[column : column + 1] = [height[mode] + _NUMBER]
+        at = (0.0, height[mode])
+        axes.annotate(f"{mode + 1}", at, (3 + 12 * column, 1.5), xycoords="axes fraction", **look)

@@ -7,6 +7,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from bladerub.contact.illustration import LoadingCycle
+from bladerub.plots import titles
 from bladerub.plots.style import BLUE, DARK, GREY, ORANGE, PAGE, new_figure, styled
 
 _PLASTIC = {"color": DARK, "linewidth": 2.4, "solid_capstyle": "butt", "label": "plastic loading"}
@@ -30,7 +31,8 @@ def coating_cycle(cycles: Mapping[str, LoadingCycle]) -> Figure:
             ylim=(0, 1.12 * cycle.stress.max()),
             xlabel=r"compressive strain $\varepsilon$",
         )
-    panels[0].set_ylabel(r"compressive stress $\sigma$ (normalised)")
+    unit = next(iter(cycles.values())).coating.modulus_unit
+    panels[0].set_ylabel(titles.stress(unit))
     figure.legend(*panels[0].get_legend_handles_labels(), loc="outside lower center", ncols=3)
     return figure
 

@@ -16,8 +16,8 @@ _DRAWN = ("revolution", "radial_displacement")
 
 
 @styled
-def history(paths: Iterable[str | Path]) -> tuple[pd.DataFrame, Figure]:
-    """Draw Figs. 17 and 18 from the files of two runs that differ in theta.
+def history(paths: Iterable[str | Path], unit: float | None = None) -> tuple[pd.DataFrame, Figure]:
+    """Draw Figs. 17 and 18 from the files of two runs that differ in theta; E = 1 is `unit`, Pa.
 
     The table is what is drawn: ``theta``, ``revolution`` and ``radial_displacement`` of node 1, m, which is
     NaN after an early end.
@@ -37,7 +37,8 @@ def history(paths: Iterable[str | Path]) -> tuple[pd.DataFrame, Figure]:
         axes.set(ylim=(-limit, limit), ylabel="$u_r$ (mm)", title=f"({letter}) {name}")
         envelope = 1e3 * run.data["revolution_amplitude"]
         below.plot(np.arange(envelope.size) + 0.5, envelope, marker="o", markersize=3, label=name, **look)
-    title = f"{titles.moduli(about['casing'], about['E'], about['K'])}, {titles.speed(about['f_omega'])}"
+    coating = titles.moduli(about["casing"], about["E"], about["K"], unit)
+    title = f"{coating}, {titles.speed(about['f_omega'])}"
     figure.suptitle(title, fontsize=9.5, x=0.01, ha="left")
     below.set_title("(c) half the range of $u_r$ in each revolution")
     below.set(xlim=(0, envelope.size), ylim=(0, limit), xlabel="revolution", ylabel="amplitude (mm)")

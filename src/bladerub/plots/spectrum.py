@@ -9,6 +9,7 @@ from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
 
 from bladerub.plots import bins, engine_orders, titles
+from bladerub.plots.scales import LARGE, Scales
 from bladerub.plots.style import AMPLITUDE_MAP, BLUE, DARK, MISSING, ORANGE, PAGE, RED, new_figure, styled
 from bladerub.study.maps import CoatingMap
 from bladerub.study.peaks import Peak
@@ -20,6 +21,7 @@ _LOOKS = (
     {"color": DARK, "linestyle": "-", "marker": "o"},
     {"color": ORANGE, "linestyle": "--", "marker": "s"},
 )
+_LARGE = {"marker": ">", "color": RED, "markersize": 4, "linestyle": "none", "clip_on": False, "label": LARGE}
 _RING = {"marker": "o", "fillstyle": "none", "zorder": 4, "linestyle": "none"}
 
 
@@ -36,32 +38,43 @@ class PeakSection:
 
 
 @styled
-def spectrum_map(coating: CoatingMap, amplitude_range: tuple[float, float], f_max: float) -> Figure:
+def spectrum_map(
+    coating: CoatingMap,
+    amplitude_range: tuple[float, float],
+    f_max: float,
+    scales: Scales | None = None,
+) -> Figure:
     """Draw Figs. 7, 8, 9, 15 and 16: f horizontally, f_Ω vertically, amplitude in colour.
 
     `amplitude_range` are the ends of the logarithmic colour scale, m, `f_max` is that of the frequency axis,
     normalised.
     """
+    scales = scales or Scales()
     figure = new_figure(PAGE, 0.62 * PAGE)
     axes = figure.add_subplot()
-    mesh = _draw_spectrum(axes, coating, amplitude_range, f_max)
-    axes.set_title(titles.coating(coating.case), pad=16)
+    mesh = _draw_spectrum(axes, coating, amplitude_range, f_max, scales)
+    axes.set_title(titles.coating(coating.case, scales.modulus_unit), pad=16)
     _add_colour_bar(figure, axes, mesh)
     return figure
 
 
 @styled
 def peak_sections(
-    coating: CoatingMap, sections: list[PeakSection], amplitude_range: tuple[float, float], f_max: float
+    coating: CoatingMap,
+    sections: list[PeakSection],
+    amplitude_range: tuple[float, float],
+    f_max: float,
+    scales: Scales | None = None,
 ) -> Figure:
     """Draw Fig. 10: the spectrum with Y_k marked (a), the amplitude along eo(k) with its window (b).
 
     There are one or two `sections`; the other arguments are as of `spectrum_map`.
     """
+    scales = scales or Scales()
     figure = new_figure(PAGE, 0.66 * PAGE)
     spectrum, curves = figure.subplots(1, 2, sharey=True, width_ratios=[1.5, 1])
-    mesh = _draw_spectrum(spectrum, coating, amplitude_range, f_max)
-    spectrum.set_title("(a) " + titles.coating(coating.case), pad=16)
+    mesh = _draw_spectrum(spectrum, coating, amplitude_range, f_max, scales)
+    spectrum.set_title("(a) " + titles.coating(coating.case, scales.modulus_unit), pad=16)
     _add_colour_bar(figure, spectrum, mesh, location="bottom", aspect=40)
     ray = coating.f_omega[-1] * np.array([0, 1])
     for section, look in zip(sections, _LOOKS, strict=False):
@@ -80,7 +93,7 @@ def peak_sections(
 
 
 def _draw_spectrum(
-    axes: Axes, coating: CoatingMap, amplitude_range: tuple[float, float], f_max: float
+    axes: Axes, coating: CoatingMap, amplitude_range: tuple[float, float], f_max: float, scales: Scales
 ) -> QuadMesh:
     speed_edges, rows = bins.with_gaps(coating.f_omega, 1e3 * coating.spectrum_amplitude)
     order_edges = np.maximum(bins.edges(coating.spectrum_order), 0)
@@ -98,14 +111,27 @@ def _draw_spectrum(
     engine_orders.draw(axes, {k: 1 / k for k in ORDERS}, f_max, speed_max)
     dashed = {"color": BLUE, "linestyle": (0, (5, 2)), "linewidth": 1.4}
     axes.plot(coating.C1, coating.f_omega, label="$C_1$", zorder=3, **dashed)
+    large = coating.f_omega[scales.is_large(coating)]
+    if large.size:
+        axes.plot(np.zeros(large.size), large, **_LARGE)
+    start = 0.0
+    if scales.engine:
+        start = speed_edges[0]
+        scales.engine.draw_nominal_speed(axes.axhline)
+        scales.engine.add_speeds(axes, "y")
+        scales.engine.add_frequencies(axes, "x")
     axes.set(
         facecolor=MISSING,
         xlim=(0, f_max),
-        ylim=(0, speed_max),
+        ylim=(start, speed_max),
         xlabel=r"frequency $f\,/\,f_1(0)$",
         ylabel=r"rotational frequency $f_\Omega\,/\,f_1(0)$",
     )
-    axes.legend(loc="lower right", title="grey: not computed", title_fontsize=7)
+    if scales.engine:  # without the empty room below the first speed
+        handles = axes.get_legend_handles_labels()
+        axes.figure.legend(*handles, loc="outside lower center", ncols=4)
+    else:
+        axes.legend(loc="lower right", title="grey: not computed", title_fontsize=7)
     return mesh
 
 

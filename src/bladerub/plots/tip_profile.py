@@ -6,6 +6,7 @@ from matplotlib.collections import PolyCollection
 from matplotlib.figure import Figure
 
 from bladerub.contact.illustration import PressedElements
+from bladerub.plots import titles
 from bladerub.plots.style import BLUE, DARK, GREY, ORANGE, PAGE, RED, new_figure, styled
 
 _DRAWN_WIDTH = 0.86  # of an element, in widths
@@ -20,7 +21,8 @@ def tip_profile(scene: PressedElements) -> Figure:
     whole, ends = figure.subplots(2, 1, sharex=True, height_ratios=[1.05, 1])
     _draw_whole(whole, scene)
     _draw_ends(ends, scene)
-    whole.set_title(f"(a) to scale: E = {scene.coating.E:g}, K = {scene.coating.K:g}")
+    unit = titles.in_units(scene.coating.modulus_unit)
+    whole.set_title(f"(a) to scale: E = {scene.coating.E:g}, K = {scene.coating.K:g} ({unit})")
     ends.set_title("(b) the ends of the elements, depth magnified")
     return figure
 

@@ -7,24 +7,30 @@ from bladerub.study.grid import CoatingCase
 _OWN = {"damping_ratio": "ξ = {:g}", "layer_thickness": "layer {:g} m", "interference": "interference {:g} m"}
 
 
-def moduli(casing: str, E: float, K: float) -> str:
-    """Casing and moduli, for instance ``casing 2nd, E = 2, K = 0.5``."""
-    return f"casing {casing}, E = {E:g}, K = {K:g}"
+def moduli(casing: str, E: float, K: float, unit: float | None = None) -> str:
+    """Casing and moduli, as ``casing 2nd, E = 2, K = 0.5 (in units of 600 MPa)`` where 1 is `unit`, Pa."""
+    return f"casing {casing}, E = {E:g}, K = {K:g}" + (f" ({in_units(unit)})" if unit else "")
 
 
 def moduli_axes(unit: float) -> dict[str, str]:
     """Label horizontal E and vertical K, of which 1 is `unit`, Pa."""
-    of = _in_units(unit)
+    of = in_units(unit)
     return {"xlabel": f"Young modulus E ({of})", "ylabel": f"plastic modulus K ({of})"}
 
 
 def tangent_modulus(unit: float) -> str:
     """Label the modulus of a wearing coating, of which 1 is `unit`, Pa."""
-    return f"$E_T = EK/(E+K)$ ({_in_units(unit)})"
+    return f"$E_T = EK/(E+K)$ ({in_units(unit)})"
 
 
-def _in_units(unit: float) -> str:
-    return f"in units of {unit / 1e6:g} MPa"
+def stress(unit: float) -> str:
+    """Label a stress of which 1 is `unit`, Pa."""
+    return rf"compressive stress $\sigma$ ({in_units(unit)})"
+
+
+def in_units(unit: float) -> str:
+    """Say of moduli that 1 is `unit`, Pa."""
+    return f"in units of {unit / 1e6:.4g} MPa"
 
 
 def angle(theta: float) -> str:
@@ -32,13 +38,16 @@ def angle(theta: float) -> str:
     return f"θ = {theta:g} rad" if theta else "θ = 0"
 
 
-def coating(case: CoatingCase) -> str:
-    """Full name: ``casing 2nd, E = 2, K = 0.5, θ = 0.15 rad``, or ``rigid casing 2nd, μ = 0.15``."""
+def coating(case: CoatingCase, unit: float | None = None) -> str:
+    """Full name: ``casing 2nd, E = 2, K = 0.5, θ = 0.15 rad``, or ``rigid casing 2nd, μ = 0.15``.
+
+    If `unit`, Pa, is given, it says that E = 1 and K = 1 are that.
+    """
     own = "".join(f", {_OWN[key].format(value)}" for key, value in case.own.items())
     if case.is_rigid:
         return f"rigid casing {case.casing}, μ = {case.friction:g}{own}"
     tangential = angle(case.theta) if case.law == "theta" else f"μ = {case.friction:g}"
-    return f"{moduli(case.casing, case.E, case.K)}, {tangential}{own}"
+    return f"{moduli(case.casing, case.E, case.K, unit)}, {tangential}{own}"
 
 
 def speed(f_omega: float) -> str:

@@ -6,19 +6,23 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
 from bladerub.plots import bins, titles
+from bladerub.plots.scales import LARGE, Scales
 from bladerub.plots.style import DARK, MISSING, PAGE, RED, WEAR_MAP, new_figure, styled
 from bladerub.study.maps import CoatingMap
 
 _COMPLETED = {"marker": "o", "markersize": 2.5, "color": DARK, "label": "completed"}
+_LARGE = {"marker": "o", "markersize": 6, "fillstyle": "none", "color": RED, "label": LARGE}
 _ENDED_EARLY = {"marker": "x", "markersize": 4, "color": RED, "label": "ended early"}
 
 
 @styled
-def wear_map(coating: CoatingMap) -> Figure:
+def wear_map(coating: CoatingMap, scales: Scales | None = None) -> Figure:
     """Draw Fig. 6: worn depth over speed and casing angle, below it the number of worn lobes.
 
-    Runs that exceeded the displacement limit are crossed below: their wear is that of their early end.
+    Runs that exceeded the displacement limit are crossed below: their wear is that of their early end. Those
+    with a displacement beyond small ones are ringed.
     """
+    scales = scales or Scales()
     speed_edges, rows = bins.with_gaps(coating.f_omega, 1e3 * coating.wear)
     figure = new_figure(PAGE, 0.68 * PAGE)
     upper, lower = figure.subplots(2, 1, sharex=True, height_ratios=[4, 1])
@@ -26,22 +30,31 @@ def wear_map(coating: CoatingMap) -> Figure:
     mesh = upper.pcolormesh(speed_edges, angle_edges, np.ma.masked_invalid(rows.T), **look, rasterized=True)
     figure.colorbar(mesh, ax=upper, label="worn depth, mean of the 8 nodes (mm)", pad=0.015)
     upper.set(facecolor=MISSING, ylim=(0, 360), yticks=range(0, 361, 60), ylabel="casing angle (°)")
-    upper.set_title(titles.coating(coating.case))
+    upper.set_title(titles.coating(coating.case, scales.modulus_unit))
     upper.set_title("grey: not computed", loc="right", fontsize=7)
-    _draw_lobes(lower, coating)
-    lower.set(xlim=(0, speed_edges[-1]), xlabel=r"rotational frequency $f_\Omega\,/\,f_1(0)$")
+    _draw_lobes(lower, coating, scales)
+    start = 0.0
+    if scales.engine:
+        start = speed_edges[0]
+        scales.engine.add_speeds(lower, "x")
+        scales.engine.draw_nominal_speed(upper.axvline)
+        scales.engine.draw_nominal_speed(lower.axvline, named=False)
+        if scales.engine.nominal_speed is not None:
+            upper.legend(loc="upper left")
+    lower.set(xlim=(start, speed_edges[-1]), xlabel=r"rotational frequency $f_\Omega\,/\,f_1(0)$")
     return figure
 
 
-def _draw_lobes(axes: Axes, coating: CoatingMap) -> None:
+def _draw_lobes(axes: Axes, coating: CoatingMap, scales: Scales) -> None:
     completed = coating.status == "completed"
-    for runs, look in ((completed, _COMPLETED), (~completed, _ENDED_EARLY)):
+    large = completed & scales.is_large(coating)
+    for runs, look in ((completed, _COMPLETED), (~completed, _ENDED_EARLY), (large, _LARGE)):
         if runs.any():
             axes.plot(coating.f_omega[runs], coating.lobes[runs], linestyle="none", **look)
     height = 1.2
-    if not completed.all():
+    if large.any() or not completed.all():
         height = 1.7  # for the legend above the markers
-        axes.legend(loc="upper left", ncols=2)
+        axes.legend(loc="upper left", ncols=3, handletextpad=0.2, columnspacing=1.0)
     axes.yaxis.set_major_locator(MaxNLocator(integer=True, nbins=5))
     axes.grid(axis="y")
     axes.set(ylim=(0, height * max(1, coating.lobes.max())), ylabel="worn lobes")

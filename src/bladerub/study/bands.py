@@ -22,7 +22,7 @@ from scipy.special import stdtrit
 from bladerub.study import divergence, findings, peak_table
 from bladerub.study.ensemble import Ensemble
 from bladerub.study.findings.evidence import Evidence
-from bladerub.study.grid import CoatingCase
+from bladerub.study.grid import CoatingCase, modulus_unit
 from bladerub.study.maps import CoatingMap
 
 PROBABILITY = 0.9
@@ -71,19 +71,28 @@ def draws(maps: Sequence[CoatingMap], ensembles: Sequence[Ensemble]) -> Iterator
 def of_peaks(
     config: Mapping[str, Any], maps: Sequence[CoatingMap], ensembles: Sequence[Ensemble]
 ) -> pd.DataFrame:
-    """Find the peaks of every coating, as `bladerub.study.peak_table.table`, with `PEAK_COLUMNS`."""
+    """Find the peaks of every coating, as `bladerub.study.peak_table.table`, with `PEAK_COLUMNS`.
+
+    The last column, ``modulus_unit``, is what E = 1 and K = 1 are, Pa.
+    """
     drawn = [peak_table.table(config, each) for each in draws(maps, ensembles)]
     table = drawn[0].assign(draws=len(drawn))
     for name in ("f_peak", "amplitude"):
         bands = [band(values) for values in np.transpose([each[name] for each in drawn])]
         table = table.join(pd.DataFrame(bands, index=table.index).add_prefix(f"{name}_"))
-    return table
+    return table.assign(modulus_unit=modulus_unit(config))
 
 
 def of_runs(
     config: Mapping[str, Any], maps: Sequence[CoatingMap], ensembles: Sequence[Ensemble]
 ) -> pd.DataFrame:
-    """Judge every run, as `bladerub.study.divergence.table`, with `RUN_COLUMNS`."""
+    """Judge every run, as `bladerub.study.divergence.table`, with `RUN_COLUMNS` and ``modulus_unit``."""
+    return _run_rows(config, maps, ensembles).assign(modulus_unit=modulus_unit(config))
+
+
+def _run_rows(
+    config: Mapping[str, Any], maps: Sequence[CoatingMap], ensembles: Sequence[Ensemble]
+) -> pd.DataFrame:
     table = divergence.table(config, maps)
     own = {coating.case: coating for coating in maps}
     found = [row for each in ensembles for row in _run_bands(config, own, each)]

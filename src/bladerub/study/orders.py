@@ -27,11 +27,15 @@ def excites(casing: Mapping[str, Any], order: int) -> bool:
 def excited_orders(config: Mapping[str, Any], casing: str) -> list[int]:
     """Return the two lowest orders that the casing excites and whose peak the speeds of the study reach.
 
-    The ``speed_window`` of such an order, with C1 at rest, ends below the highest speed. There may be fewer.
+    The ``speed_window`` of such an order, with C1 at rest, ends below the highest speed, and its crossing
+    with C1 at rest is not below the lowest. There may be fewer.
     """
-    reached = config["analysis"]["peaks"]["speed_window"][1] / speeds(config)[-1]
+    slowest, *_, fastest = speeds(config)
+    reached = config["analysis"]["peaks"]["speed_window"][1] / fastest
     orders = range(1, int(config["analysis"]["max_order"]) + 1)
-    excited = [k for k in orders if k >= reached and excites(config["casings"][casing], k)]
+    excited = [
+        k for k in orders if k >= reached and k * slowest <= 1 and excites(config["casings"][casing], k)
+    ]
     return excited[:_DERIVED]
 
 

@@ -5,9 +5,10 @@ from typing import Any
 import pandas as pd
 from matplotlib.figure import Figure
 
-from bladerub.io import tables
+from bladerub.io import hdf5, tables
 from bladerub.io.provenance import provenance
 from bladerub.plots import style
+from bladerub.plots.scales import Engine, Scales
 
 
 def save(snakemake: Any, figure: Figure | None = None, **named: pd.DataFrame) -> None:
@@ -21,3 +22,16 @@ def save(snakemake: Any, figure: Figure | None = None, **named: pd.DataFrame) ->
         tables.write(snakemake.output[name], table, provenance(snakemake.config), digits)
     if figure is not None:
         style.save(figure, snakemake.output["png"], snakemake.output["pdf"], snakemake.params["dpi"])
+
+
+def scales(snakemake: Any) -> Scales:
+    """Tell a figure what its numbers are, from the parameter ``scales`` of a job and its input ``blade``.
+
+    The parameter has ``modulus_unit`` (Pa) and ``length`` (m) and, for a blade from another program,
+    ``engine``: what is known of it but the first frequency.
+    """
+    known = dict(snakemake.params.scales)
+    if "engine" in known:
+        f1_hz = hdf5.read_attributes(snakemake.input.blade)["f1_hz"]
+        known["engine"] = Engine(f1_hz, **known["engine"])
+    return Scales(**known)

@@ -1,16 +1,24 @@
 import json
+import re
+import subprocess
+import sys
 from pathlib import Path
 
 import numpy as np
 import pytest
 import yaml
 
+from bladerub.blade import build, built, cache
+from bladerub.blade.frequencies import reduced_frequencies
 from bladerub.blade.geometry import BladeShape
 from bladerub.blade.mesh import BladeMesh
+from bladerub.blade.sources import section_text
 from bladerub.cli import main
+from bladerub.config import read as configuration
 from bladerub.export.mesh_file import write_mesh_file
 from bladerub.export.sections import write_sections
 from bladerub.io.folders import ROOT
+from bladerub.io.provenance import provenance
 
 CONFIG = Path(__file__).parents[3] / "config" / "config.yaml"
 
@@ -55,6 +63,7 @@ def test_figures_of_the_default_blade(look, folder):
         {"length": 1, "modulus": 1, "time": 1}, abs=0.03
     )
     assert figures["node_sets"] == {"FOOT": 38, "TOP": 38}
+    assert (figures["nominal_speed"], "figures" in figures["config"]) == (None, False)
     assert figures["config"]["blade"]["source"] == {
         "file": str(folder / "blade.inp"),
         "unit": "mm",
@@ -160,3 +169,141 @@ def test_sharp_edges_are_reported_as_cut(look, folder):
     assert code == 0
     (cut,) = [line for line in json.loads(out)["warnings"] if "cut" in line]
     assert cut.startswith("edges of 2 of 2 sections were cut off where they are thinner than 10% of the")
+
+
+HEAVY = ("numba", "pandas", "scipy", "skfem", "meshio")
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "said"),
+    [
+        ("none.csv", None, "none.csv: there is no such file"),
+        ("none.inp", None, "none.inp: there is no such file"),
+        ("no.csv", "section,z,r,theta1\n1,0,1,0\n", "no.csv: has no column theta2; must have section, z, r"),
+        ("short.csv", "section,z,r,theta1,theta2\n1,0,1,0\n", "short.csv: line 2: has 4 cells, must have 5"),
+    ],
+)
+def test_what_is_no_blade_is_refused_before_anything_takes_time(tmp_path, name, text, said):
+    if text:
+        (tmp_path / name).write_text(text)
+    program = (
+        "import sys; from bladerub.cli import main; code = main(sys.argv[1:]); "
+        f"print(code, [name for name in {HEAVY} if name in sys.modules])"
+    )
+    command = [sys.executable, "-c", program, "import", str(tmp_path / name)]
+    done = subprocess.run(command, capture_output=True, text=True, check=True)
+    assert done.stdout == "2 []\n"
+    assert said in done.stderr
+
+
+def test_the_study_takes_the_blade_that_was_imported(look, folder, tmp_path, monkeypatch):
+    monkeypatch.setenv("BLADERUB_CACHE", str(tmp_path / "cache"))
+    (folder / "five.yaml").write_text("reduction: {accuracy_speeds: 5}\n")
+    code, out, _ = look("--unit", "mm", "--rpm", "9000", "--config", str(folder / "five.yaml"))
+    assert code == 0
+    assert "nominal speed       9000 1/min, f_omega = 0.76" in out
+    (tmp_path / "printed.yaml").write_text(out.split("are absolute\n")[1])
+    config = configuration.read(CONFIG, tmp_path / "printed.yaml")
+    assert config["figures"]["nominal_speed"] == 9000
+    source = dict(config["blade"]["source"])
+    del config["blade"]["source"]["radial"]  # its default, as in a config by hand
+    built_now, folders = build.build(config), [tmp_path / name for name in ("now", "kept")]
+    monkeypatch.setattr(cache, "build", lambda config: pytest.fail("built again"))
+    for blade, into in zip((built_now, cache.kept_or_built(config)), folders, strict=True):
+        into.mkdir()
+        built.write(blade, provenance(config), *built.paths(into / "reduced_model.h5"))
+    files = sorted(path.name for path in folders[0].iterdir())
+    assert len(files) == 4
+    assert all((folders[0] / name).read_bytes() == (folders[1] / name).read_bytes() for name in files)
+    cache.kept_at(config).write_bytes(b"damaged")
+    monkeypatch.setattr(cache, "build", lambda config: "built again")
+    assert cache.kept_or_built(config) == "built again"
+    config["blade"]["source"] = source | {"unit": "m"}
+    assert cache.kept_or_built(config) == "built again"
+
+
+def test_speeds_of_the_crossings_are_told(look, folder, tmp_path, monkeypatch):
+    monkeypatch.setenv("BLADERUB_CACHE", str(tmp_path / "cache"))
+    code, out, _ = look("--unit", "mm", "--json")
+    figures = json.loads(out)
+    assert code == 0
+    (path,) = (tmp_path / "cache").rglob("reduced_model.h5")
+    blade = built.read(path).reduced
+    assert [each["order"] for each in figures["crossings"]] == list(range(4, 13))
+    for each in figures["crossings"]:
+        first = reduced_frequencies(blade, each["f_omega"], 1)[0]
+        assert each["order"] * each["rpm"] / 60 == pytest.approx(first, rel=1e-6)
+
+
+def test_a_nominal_speed_that_no_wheel_bears_is_told(look):
+    right, wrong = (look("--unit", "mm", "--rpm", rpm)[1] for rpm in ("7000", "17000"))
+    assert "its tip moves at" not in right
+    assert re.search(r"its tip moves at 1[12]\d\d m/s at 17000 1/min with a radius of 6[5-9]\d mm", wrong)
+    assert "1/min is 1.451 of f_omega, beyond reduction.f_omega_max = 0.4: raise that" in wrong
+
+
+def _published(folder):
+    """A rotor on cones in the layout of Rotor 67, in feet, and its sides as points of space."""
+    x = np.linspace(-0.03, 0.16, 39)  # the blade is from 0 to 0.13, and edges are stations
+    blocks, points = ["A ROTOR OF OUR OWN\n"], ["section,x1,y1,z1,x2,y2,z2"]
+    for number in range(5):
+        r = 0.3 + 0.06 * number + 0.1 * (x - 0.065)
+        thickness = (0.013 - 0.0016 * number) * np.maximum(0, 1 - ((x - 0.065) / 0.065) ** 2).round(12)
+        upper = (x - 0.065) * np.tan(np.deg2rad(30 + 6 * number)) + thickness / 2
+        names = ("Axial Distance", "Radius*Theta Distance", "Delta (Radius*Theta) = thickness", "Radius")
+        blocks.append(f" Surface number  {number + 1} from hub (surface 1 is the hub)\n")
+        for name, values in zip(names, (x, upper, thickness, r), strict=True):
+            lines = [" ".join(f"{value:.9f}" for value in row) for row in np.split(values, [8, 16, 24, 32])]
+            blocks.append("\n ".join([f" {name}", " 1.000000", *lines]) + "\n")
+        for at in range(6, 33):  # of which the first and the last have no thickness
+            angles = np.array([upper[at], upper[at] - thickness[at]]) / r[at]  # about x, from z: towards -y
+            sides = np.ravel([[x[at], -r[at] * np.sin(angle), r[at] * np.cos(angle)] for angle in angles])
+            points.append(f"{number}," + ",".join(f"{value:.12g}" for value in sides))
+    (folder / "rotor67geometry.dat").write_text("".join(blocks))
+    (folder / "points.csv").write_text("\n".join(points))
+
+
+def test_a_file_in_the_layout_of_rotor_67_becomes_a_blade_as_its_page_says(look, folder, monkeypatch):
+    _published(folder)
+    page = (ROOT / "docs" / "how-to" / "bring_sections.md").read_text(encoding="utf-8")
+    (code,) = re.findall(r"```python\n(.*?)```", page, re.DOTALL)
+    monkeypatch.chdir(folder)
+    exec(code, {})
+    (folder / "coarse.yaml").write_text("blade: {mesh: {chordwise: 7, thickness: 1, spanwise: 6}}\n")
+    figures = {}
+    for file in ("rotor67.csv", "points.csv"):
+        code, out, err = look("--unit", "ft", "--json", "--config", str(folder / "coarse.yaml"), file=file)
+        assert code == 0, err
+        figures[file] = json.loads(out)
+    converted, directly = figures.values()
+    assert converted["f1_hz"] == pytest.approx(directly["f1_hz"], rel=1e-5)
+    assert converted["length"] == pytest.approx(0.24 * 0.3048, rel=1e-3)
+    hub = converted["sections"][0]
+    assert hub["thickness"] == pytest.approx(0.013 * 0.3048 * np.cos(np.deg2rad(30)), rel=0.02)
+    assert hub["chord"] + hub["cut_leading_edge"] + hub["cut_trailing_edge"] == pytest.approx(
+        0.13 * 0.3048 * np.hypot(np.hypot(1, 0.1), np.tan(np.deg2rad(30))), rel=0.005
+    )
+    assert 100 < converted["f1_hz"] < 1000
+    assert converted["tip_stagger_degrees"] == pytest.approx(54, abs=1)
+
+
+def test_a_file_in_the_layout_of_rotor_37_becomes_a_table_as_its_page_says(folder):
+    published = [
+        " Table IV A Rotor of Our Own",
+        " SURFACE NUMBER     1 FROM THE HUB - hub/blade intersection.",
+        "    J      Z           R         THETA 1     THETA 2",
+        *(f"  {j:3}   {j}.0281091  17.7903728  -0.116{j}276  -0.1165276" for j in range(1, 7)),
+        " SURFACE NUMBER     2 FROM THE HUB.",
+        "    J      Z           R         THETA 1     THETA 2",
+        *(f"  {j:3}   {j}.0515031  18.4658165  -0.112{j}646  -0.1128646" for j in range(1, 7)),
+    ]
+    (folder / "rotor37geometry.dat").write_text("\n".join(published))
+    page = (ROOT / "docs" / "how-to" / "bring_sections.md").read_text(encoding="utf-8")
+    (code,) = re.findall(r"(\(echo section .*?> rotor37.txt\n)", page, re.DOTALL)
+    subprocess.run(["sh", "-c", code], cwd=folder, check=True)
+    cells = section_text.read(folder / "rotor37.txt")
+    assert cells.names == ["section", "z", "r", "theta1", "theta2"]
+    rows = list(cells.rows.values())
+    assert len(rows) == 12
+    assert rows[0] == ["1", "1.0281091", "17.7903728", "-0.1161276", "-0.1165276"]
+    assert rows[-1] == ["2", "6.0515031", "18.4658165", "-0.1126646", "-0.1128646"]

@@ -111,6 +111,7 @@ NUMBERS = """
     figures.dpi                       [30, 1200]
     figures.max_frequency             (0, 100]
     figures.amplitude_range           (0, 1]
+    figures.nominal_speed             (0, 1e6]
 """
 NUMBERS = dict(line.split(maxsplit=1) for line in NUMBERS.strip().splitlines())
 

@@ -112,6 +112,13 @@ def test_orders_that_lower_speeds_do_not_reach_are_replaced(laid_over):
     assert len(notes) == 2
 
 
+def test_orders_whose_crossing_is_below_the_lowest_speed_are_replaced(laid_over):
+    speeds = {"start": 0.2, "stop": 0.4, "step": 0.01, "extra": []}
+    config, notes = laid_over(on_casing(nodal_diameters=[2]) | {"speeds": speeds})
+    assert peak_orders(config, "own") == [4]  # 6 times 0.2 is above C1
+    assert "casings.own.peak_orders: [4]" in notes[1]
+
+
 def test_orders_that_a_file_gives_are_kept_and_doubted(laid_over):
     content = on_casing(nodal_diameters=[3])
     config, notes = laid_over(content | {"analysis": {"peaks": {"orders": [4, 6]}}})

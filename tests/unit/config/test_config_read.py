@@ -89,7 +89,7 @@ def test_every_key_of_the_schema_is_needed_but_extend_and_what_another_blade_bri
     optional |= {"peak_orders", "damping_ratio", "layer_thickness", "interference", "tip_turns"}
     optional |= {"interface_nodes", "bump_width", "unit", "angle_unit", "sweeps", "patterns"}
     optional |= {"rotor", "length", "frequency", "damping", "angle_error", "coupling"}
-    optional |= {"length_scatter", "frequency_scatter", "seed", "law", "name", "file"}
+    optional |= {"length_scatter", "frequency_scatter", "seed", "law", "name", "file", "nominal_speed"}
     for path, rule in rules(schema()):
         if "properties" in rule and not path.startswith(".blade.source"):
             known, required = set(rule["properties"]), set(rule["required"])
@@ -200,7 +200,7 @@ def test_results_stay_below_the_repository(config, name):
         (
             "figures.xyz",
             1,
-            "figures.xyz = 1: unknown key, known here: dpi, max_frequency, amplitude_range",
+            "figures.xyz = 1: unknown key, known here: dpi, max_frequency, amplitude_range, nominal_speed",
         ),
         ("figures.dpj", 1, "figures.dpj = 1: unknown key, did you mean figures.dpi?"),
         (

@@ -69,7 +69,9 @@ def test_the_study_is_the_first_draw(maps, ensembles):
 
 def test_peaks_have_the_band_of_all_draws(config, maps, ensembles):
     table = bands.of_peaks(config, maps, ensembles)
-    assert list(table.columns) == [*peak_table.table(config, maps).columns, *bands.PEAK_COLUMNS]
+    own = peak_table.table(config, maps).columns
+    assert list(table.columns) == [*own, *bands.PEAK_COLUMNS, "modulus_unit"]
+    assert set(table.modulus_unit) == {config["contact"]["modulus_unit"]}
     pd.testing.assert_frame_equal(table.iloc[:, :8], peak_table.table(config, maps))
     of_six = table[(table.E == 1.1) & (table.order == 6)].iloc[0]
     assert of_six.draws == 4
@@ -105,7 +107,7 @@ def test_without_ensembles_the_columns_are_empty(config, maps):
         (bands.of_peaks(config, maps, []), bands.PEAK_COLUMNS),
         (bands.of_runs(config, maps, []), bands.RUN_COLUMNS),
     ):
-        assert list(table.columns[-len(columns) :]) == columns
+        assert list(table.columns[-len(columns) - 1 :]) == [*columns, "modulus_unit"]
     assert table[bands.RUN_COLUMNS].isna().all(axis=None)
     judged = pd.DataFrame({"id": ["C4a"], "holds": ["yes"]})
     found = bands.of_findings(config, judged, None, maps, [])

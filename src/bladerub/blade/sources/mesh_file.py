@@ -8,7 +8,7 @@ from pathlib import Path
 import meshio
 import numpy as np
 
-from bladerub.blade.sources.origin import TABLE_SUFFIXES
+from bladerub.blade.sources import origin
 from bladerub.blade.surface import EDGES
 
 _NAMES_IN_MESHIO = {
@@ -41,16 +41,8 @@ def read(path: str | Path) -> MeshFile:
     Elements of 8 and 4 nodes, far too stiff in bending, become such of 20 and 10 with straight edges.
     """
     path = Path(path)
+    origin.check_file(path)
     suffix = path.suffix.lower()
-    if suffix not in READERS:
-        raise ValueError(
-            f"must be a mesh file that ends in {', '.join(READERS)}, or a table of sections in "
-            f"{', '.join(TABLE_SUFFIXES)}"
-        )
-    if not path.is_file():
-        raise ValueError("there is no such file")
-    if path.stat().st_size == 0:
-        raise ValueError("is empty")
     try:
         mesh = READERS[suffix](str(path))
     except Exception as error:  # readers of foreign files raise all kinds of errors
@@ -137,4 +129,4 @@ def _type_in_meshio(match: re.Match) -> str:
     return match[1] + _NAMES_IN_MESHIO.get(kind, kind)
 
 
-READERS = {".inp": _read_abaqus, ".msh": meshio.gmsh.read, ".vtu": meshio.vtu.read}  # by suffix
+READERS = dict(zip(origin.MESH_SUFFIXES, (_read_abaqus, meshio.gmsh.read, meshio.vtu.read), strict=True))

@@ -14,6 +14,7 @@ MATRIX_UNITS = {"SI": 1.0, "mm-tonne": 1e3, "inch-lbf": 4.4482216152605 / 0.0254
 
 As the two are equal, frequencies do not show when the wrong system is named.
 """
+MESH_SUFFIXES = (".inp", ".msh", ".vtu")
 TABLE_SUFFIXES = (".csv", ".txt", ".dat")  # of tables of sections; all other files are meshes
 
 
@@ -72,6 +73,19 @@ def read(source: Mapping[str, Any]) -> Source | MatrixSource:
         if key not in known:
             raise ValueError(f"{key} = {source[key]}: must not be given beside {given}")
     return kind(study_folder() / source[given], Frame(**frame), **others)
+
+
+def check_file(path: Path) -> None:
+    """Check the name of a mesh or table, and that it is there; a ValueError says what is wrong."""
+    if path.suffix.lower() not in (*MESH_SUFFIXES, *TABLE_SUFFIXES):
+        raise ValueError(
+            f"must be a mesh file that ends in {', '.join(MESH_SUFFIXES)}, or a table of sections in "
+            f"{', '.join(TABLE_SUFFIXES)}"
+        )
+    if not path.is_file():
+        raise ValueError("there is no such file")
+    if path.stat().st_size == 0:
+        raise ValueError("is empty")
 
 
 def files(source: Mapping[str, Any]) -> list[str]:

@@ -10,7 +10,7 @@ from scipy.sparse.csgraph import dijkstra
 from bladerub.blade.accuracy import errors_by_mode
 from bladerub.blade.built import BuiltBlade
 from bladerub.blade.elasticity import Material
-from bladerub.blade.frequencies import tip_lean
+from bladerub.blade.frequencies import crossing_speeds, tip_lean
 from bladerub.blade.mesh import BladeMesh, MeshedBlade
 from bladerub.blade.model import ReducedBlade
 from bladerub.blade.refinement import MODES
@@ -20,6 +20,7 @@ from bladerub.blade.sources.origin import MatrixSource, Source
 from bladerub.blade.sources.section_profile import EDGE_SHARE
 from bladerub.blade.surface import EDGES, NAMES
 
+ORDERS = range(1, 13)  # engine orders whose crossings with the first frequency are stated
 FREQUENCIES = (5.0, 20e3)  # Hz, of the first mode
 LARGEST_LEAN = 20.0  # degrees
 LEAST_STAGGER = -5.0  # degrees; above, the blade is nearly straight
@@ -27,6 +28,7 @@ FEWEST_ELEMENTS = 10  # from root to tip
 LEAST_JACOBIAN_RATIO = 0.1
 LARGEST_OFFSET = 0.03  # of an interface node, over the chord
 EQ2_ERROR = 0.01
+EQ2_FAR_OFF = 0.1  # no blade of metal bends so much by its rotation
 REDUCED_ERROR = 0.02
 DENSITIES = (10.0, 25e3)  # kg/m³ of the box around a blade, of which it fills some hundredths or all
 LEAST_THICKNESS = 0.005  # largest of a section, over its chord
@@ -36,9 +38,16 @@ LARGEST_TIP_SPEED = 800.0  # m/s; wheels burst
 HALF_SPEED_CHANGE = (0.15, 0.35)  # a quarter, as centrifugal forces grow with the square of the speed
 
 
-def mesh_report(source: Source, imported: Imported, built: BuiltBlade, material: Material) -> dict[str, Any]:
+def mesh_report(
+    source: Source,
+    imported: Imported,
+    built: BuiltBlade,
+    material: Material,
+    nominal_speed: float | None = None,
+) -> dict[str, Any]:
     """Figures of a blade from a mesh or sections, and warnings, ready for JSON; SI units.
 
+    `nominal_speed` is that of its rotor, 1/min, if it is known: a wheel bears it.
     ``error_eq2`` and ``error_reduced_model`` hold for each mode the largest relative error of the frequency
     over the speeds of the accuracy table: that of eq. (2) alone, and with the reduction.
     """
@@ -47,7 +56,7 @@ def mesh_report(source: Source, imported: Imported, built: BuiltBlade, material:
         "file": str(source.file),
         "element": NAMES[mesh.mesh.cells.shape[1]],
         "elements": len(mesh.mesh.cells),
-        **_of_blade(source, imported.blade, built),
+        **_of_blade(source, imported.blade, built, nominal_speed),
         "elements_root_to_tip": spanwise_elements(mesh),
         "node_sets": imported.node_sets,
         "root_nodes": int(mesh.root.size),
@@ -73,7 +82,9 @@ def mesh_report(source: Source, imported: Imported, built: BuiltBlade, material:
     return figures | {"warnings": list(_warn_of_mesh(figures, imported, source))}
 
 
-def matrix_report(source: MatrixSource, imported: ImportedMatrices, built: BuiltBlade) -> dict[str, Any]:
+def matrix_report(
+    source: MatrixSource, imported: ImportedMatrices, built: BuiltBlade, nominal_speed: float | None = None
+) -> dict[str, Any]:
     """Figures of a blade from matrices, and warnings, as `mesh_report`.
 
     ``error_eq2`` is none where all files are of the speeds of the fit, where eq. (2) is exact.
@@ -83,7 +94,7 @@ def matrix_report(source: MatrixSource, imported: ImportedMatrices, built: Built
     speeds = list(imported.blade.stiffness)
     figures = {
         "folder": str(source.folder),
-        **_of_blade(source, layout, built),
+        **_of_blade(source, layout, built, nominal_speed),
         "clamped_nodes": int(layout.mesh.root.size),
         "interface": points[layout.mesh.interface].tolist(),
         "length_is_measured": imported.is_rooted,
@@ -99,11 +110,15 @@ def matrix_report(source: MatrixSource, imported: ImportedMatrices, built: Built
     return figures | {"warnings": warnings}
 
 
-def _of_blade(source: Source | MatrixSource, layout: MeshedBlade, built: BuiltBlade) -> dict[str, Any]:
+def _of_blade(
+    source: Source | MatrixSource, layout: MeshedBlade, built: BuiltBlade, nominal_speed: float | None
+) -> dict[str, Any]:
     """Figures of the nodes, of the frequencies and of the reduced model."""
     points, table = layout.mesh.mesh.points, built.accuracy
     errors = errors_by_mode(table)
     first = table[table["mode"] == 1].sort_values("f_omega").f_fe.to_numpy()
+    rpm = 60 * built.reduced.f1_hz
+    crossings = crossing_speeds(built.reduced, ORDERS)
     return {
         "nodes": len(points),
         "unknowns": 3 * (len(points) - layout.mesh.root.size),
@@ -114,6 +129,11 @@ def _of_blade(source: Source | MatrixSource, layout: MeshedBlade, built: BuiltBl
         "f1_hz": float(built.frequency[0]),
         "tip_stagger_degrees": _stagger(built.reduced),
         "tip_lean": tip_lean(built.reduced).tolist(),
+        "crossings": [
+            {"order": order, "f_omega": f_omega, "rpm": f_omega * rpm} for order, f_omega in crossings.items()
+        ],
+        "nominal_speed": nominal_speed,
+        "nominal_f_omega": nominal_speed and nominal_speed / rpm,
         "campbell_ratio": float(first[-1] / first[0]),
         "f_omega_max": built.reduced.f_omega_max,
         "lowest_frequency": float(table.f_fe.min()),
@@ -182,6 +202,11 @@ def _warn_of_proportions(figures: dict[str, Any]) -> Iterator[str]:
     if speed > LARGEST_TIP_SPEED:
         where = f"reduction.f_omega_max = {figures['f_omega_max']:g}"
         yield f"its tip moves at {speed:.0f} m/s at {where}, more than a wheel bears: is its radius right?"
+    nominal = figures["nominal_speed"]
+    speed = 2 * np.pi * (nominal or 0.0) / 60 * tip
+    if speed > LARGEST_TIP_SPEED:
+        where = f"{nominal:g} 1/min with a radius of {1e3 * tip:.3g} mm"
+        yield f"its tip moves at {speed:.0f} m/s at {where}, more than a wheel bears: is its unit right?"
 
 
 def _warn_of_mesh(figures: dict[str, Any], imported: Imported, source: Source) -> Iterator[str]:
@@ -241,11 +266,20 @@ def _warn_of_errors(figures: dict[str, Any]) -> Iterator[str]:
     """Warn of an inaccurate reduced model and of an unstable blade."""
     eq2, reduced = (max(figures[name][:MODES]) for name in ("error_eq2", "error_reduced_model"))
     off = f"% off in the first {MODES} modes"
-    if eq2 > EQ2_ERROR:
+    if eq2 > EQ2_FAR_OFF:
+        doubts = (
+            "radius, length and thickness in one unit, the angles in theirs, and the material in Pa and kg/m³"
+        )
+        yield f"eq. (2) is up to {percent(eq2)} {off}, as of no blade of metal: are {doubts}?"
+    elif eq2 > EQ2_ERROR:
         more = "" if "folder" in figures else " or set reduction.tolerance"
         yield f"eq. (2) is up to {percent(eq2)} {off}: lower reduction.f_omega_max{more}"
-    if reduced > max(REDUCED_ERROR, 1.5 * eq2):
+    if eq2 <= EQ2_FAR_OFF and reduced > max(REDUCED_ERROR, 1.5 * eq2):
         remedy = "set reduction.tolerance, or raise reduction.modes_per_speed"
         yield f"the reduced model is up to {percent(reduced)} {off}: {remedy}"
+    nominal = figures["nominal_f_omega"]
+    if nominal and nominal > figures["f_omega_max"]:
+        need = f"{nominal:.4g} of f_omega, beyond reduction.f_omega_max = {figures['f_omega_max']:g}"
+        yield f"its nominal speed of {figures['nominal_speed']:g} 1/min is {need}: raise that"
     if figures["lowest_frequency"] <= 0:
         yield "a mode is unstable within the range of speeds"

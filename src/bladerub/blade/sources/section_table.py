@@ -2,8 +2,8 @@
 
 The names of the columns, in capital or small letters, show which of two forms a table has. In both, `section`
 names the section, hub to tip; other columns are ignored; what follows a ``#`` is a comment. The first of
-these that the header has separates the cells: semicolons, with which numbers may have decimal commas; commas;
-white space.
+these that the header has separates the cells: semicolons; commas; white space. Numbers may have decimal
+commas unless commas separate the cells.
 
 - Points of the surface: x, y and z of one side (`x1`, `y1`, `z1`) and of the other (`x2`, `y2`, `z2`).
 - As compressor rotors are published: axial position `z` and radius `r`, and at both the angles `theta1` and
@@ -16,11 +16,10 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
+from bladerub.blade.sources import section_text
 from bladerub.blade.sources.frame import ANGLE_UNITS, Frame
+from bladerub.blade.sources.section_text import POINTS
 
-POINTS = ("x1", "y1", "z1", "x2", "y2", "z2")
-CYLINDRICAL = ("z", "r", "theta1", "theta2")
-_SEPARATORS = {";": "semicolons", ",": "commas", None: "white space"}
 STATIONS = (5, 2000)  # fewest and most of a section
 
 
@@ -35,7 +34,8 @@ class Section:
 
 def read(path: str | Path, frame: Frame, angle_unit: str = "rad") -> list[Section]:
     """Read the sections of a table in the order of the file; a ValueError names a line or section."""
-    table = _table(Path(path))
+    cells = section_text.read(Path(path))
+    table = pd.DataFrame.from_dict(cells.rows, orient="index", columns=cells.names)[cells.form]
     wanted = table.columns.drop("section")
     numbers = table[wanted].apply(pd.to_numeric, errors="coerce").astype(float)
     for column in wanted:
@@ -50,57 +50,6 @@ def read(path: str | Path, frame: Frame, angle_unit: str = "rad") -> list[Sectio
     sections = [_section(names[rows.index[0]], rows, frame, angle_unit) for _, rows in parts]
     _check_names(sections)
     return sections
-
-
-def _table(path: Path) -> pd.DataFrame:
-    """Read the cells of all rows as text, by the line of the file; only the columns of the form."""
-    if not path.is_file():
-        raise ValueError("there is no such file")
-    try:
-        text = path.read_text(encoding="utf-8-sig")
-    except UnicodeDecodeError:
-        text = "\0"
-    if "\0" in text:
-        raise ValueError("is not text in UTF-8")
-    bare = {number: line.split("#")[0].strip() for number, line in enumerate(text.splitlines(), 1)}
-    content = {number: line for number, line in bare.items() if line}
-    if not content:
-        raise ValueError("is empty")
-    header, *lines = content
-    separator = next((mark for mark in _SEPARATORS if mark and mark in content[header]), None)
-    cells = {line: [cell.strip(' "') for cell in content[line].split(separator)] for line in content}
-    names = [name.lower() or f"column {number}" for number, name in enumerate(cells.pop(header), 1)]
-    try:
-        wanted = ["section", *_form(set(names))]
-    except ValueError as error:
-        read = f"line {header} must name the columns; cells separated by {_SEPARATORS[separator]}"
-        raise ValueError(f'{error} ({read}: "{content[header][:60]}")') from error
-    if separator == ";":
-        cells = {line: [cell.replace(",", ".") for cell in row] for line, row in cells.items()}
-    twice = {name for name in names if names.count(name) > 1}
-    if twice:
-        raise ValueError(f"line {header}: has the column {', '.join(sorted(twice))} twice")
-    if not lines:
-        raise ValueError("has no rows below the names of its columns")
-    for line, row in cells.items():
-        if len(row) != len(names):
-            raise ValueError(f"line {line}: has {len(row)} cells, must have {len(names)} as the header has")
-    return pd.DataFrame.from_dict(cells, orient="index", columns=names)[wanted]
-
-
-def _form(columns: set[str]) -> tuple[str, ...]:
-    """Choose the form that `columns` belong to."""
-    known = [form for form in (POINTS, CYLINDRICAL) if columns.issuperset(form)]
-    if len(known) == 1 and "section" in columns:
-        return known[0]
-    both = f"section, {', '.join(POINTS)} or section, {', '.join(CYLINDRICAL)}"
-    if len(known) == 2:
-        raise ValueError(f"has the columns of both forms; must have either {both}")
-    near = max((POINTS, CYLINDRICAL), key=lambda form: len(columns.intersection(form)))
-    form = ("section", *(known[0] if known else near))
-    missing = [name for name in form if name not in columns]
-    wanted = ", ".join(form) if len(missing) < len(form) else both
-    raise ValueError(f"has no column {', '.join(missing)}; must have {wanted}")
 
 
 def _section(name: str, rows: pd.DataFrame, frame: Frame, angle_unit: str) -> Section:

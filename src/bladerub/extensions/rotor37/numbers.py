@@ -21,9 +21,6 @@ from bladerub.study.spectra import order_spectrum
 COLUMNS = ["number", "value", "unit", "resolution"]
 """Columns of the numbers of one calculation; ``resolution`` is that of the grid they are read from."""
 
-NOMINAL_RPM = 17188.7
-"""Design speed of the rotor (Reid and Moore, NASA TP-1337, 1978), 1/min."""
-
 ORDERS = (4, 6, 8, 10, 12)
 """Engine orders whose crossing with the first frequency lies within the speeds."""
 
@@ -31,9 +28,9 @@ _N_FREQUENCIES = 6
 _LAST = 5  # revolutions at the end over which a response counts as steady
 
 
-def of_blade(blade: ReducedBlade) -> pd.DataFrame:
+def of_blade(config: Mapping[str, Any], blade: ReducedBlade) -> pd.DataFrame:
     """Frequencies at rest and at the nominal speed, and what contact meets at the tip."""
-    nominal, lean = nominal_speed(blade), tip_lean(blade)
+    nominal, lean = nominal_speed(config, blade), tip_lean(blade)
     rows: list[tuple[str, float, str]] = []
     for place, f_omega in (("rest", 0.0), ("nominal", nominal)):
         frequencies = reduced_frequencies(blade, f_omega, _N_FREQUENCIES)
@@ -47,9 +44,9 @@ def of_blade(blade: ReducedBlade) -> pd.DataFrame:
     return _numbers(rows)
 
 
-def nominal_speed(blade: ReducedBlade) -> float:
-    """Design speed of the rotor, normalised by the first frequency of `blade`."""
-    return NOMINAL_RPM / 60 / blade.f1_hz
+def nominal_speed(config: Mapping[str, Any], blade: ReducedBlade) -> float:
+    """``figures.nominal_speed``, the design speed, normalised by the first frequency of `blade`."""
+    return config["figures"]["nominal_speed"] / 60 / blade.f1_hz
 
 
 def of_direct_contact(name: str, result: RunResult, revolutions: int) -> pd.DataFrame:
@@ -81,7 +78,7 @@ def of_coating(config: Mapping[str, Any], coating: CoatingMap, blade: ReducedBla
     divergent = [verdict.divergent for verdict in divergence.verdicts(config, coating)]
     rows.append((f"{name}.divergent_share", float(np.mean(divergent)), "1", 1 / len(divergent)))
     if not coating.case.is_rigid:
-        nominal = int(np.argmin(abs(coating.f_omega - nominal_speed(blade))))
+        nominal = int(np.argmin(abs(coating.f_omega - nominal_speed(config, blade))))
         rows += [
             (f"{name}.wear_at_nominal", coating.max_wear[nominal], "m", 0.0),
             (f"{name}.deepest_wear", coating.max_wear.max(), "m", 0.0),

@@ -76,6 +76,10 @@ def test_degrees_are_radians_by_another_name(table):
         ),
         (COMMAS.replace("Section", "part"), "has no column section; must have"),
         (COMMAS[COMMAS.index("hub") :], 'has no column section, .* or section, z.*: "hub end, 0, 40'),
+        (
+            " Table IV A Rotor\n SURFACE NUMBER 1\n   J   Z   R  THETA 1  THETA 2\n 1 0.1 20 -0.1 -0.1\n",
+            'no column section, .* "Table IV A Rotor", and not line 3: "J   Z   R  THETA 1  THETA 2".$',
+        ),
         (COMMAS.replace(",", ";").replace("; r;", ";"), "has no column r; .* separated by semicolons"),
         (COMMAS.replace("remark", "R"), "line 2: has the column r twice"),
         (COMMAS.replace("2, 40.5,", "2, ,"), "line 5: r = nothing, must be a number"),
@@ -101,9 +105,9 @@ def test_what_is_no_table_is_refused_with_line_or_section(table, text, said):
         table(text)
 
 
-def test_semicolons_and_decimal_commas_do(table):
-    text = COMMAS.replace(",", ";").replace(".", ",")
-    for ours, theirs in zip(table(COMMAS), table(text), strict=True):
+@pytest.mark.parametrize("text", [COMMAS.replace(",", ";"), SPACES])
+def test_decimal_commas_do_unless_commas_separate(table, text):
+    for ours, theirs in zip(table(COMMAS), table(text.replace(".", ",")), strict=True):
         np.testing.assert_array_equal(ours.points, theirs.points)
 
 

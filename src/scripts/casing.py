@@ -1,4 +1,4 @@
-"""Fig. 5: initial inner shape of the casing, along each nodal diameter alone and combined (inward, m)."""
+"""Fig. 5, initial inner shape of a casing, along each nodal diameter alone and combined (inward, m)."""
 
 from dataclasses import replace
 
@@ -12,7 +12,7 @@ from bladerub.contact.spec import Casing
 from bladerub.plots.polar import casing_polar
 from bladerub.workflow import job, outputs
 
-MAGNIFICATION = 150
+MOST_MAGNIFIED, LARGEST = 150, 0.4  # times, and over the radius what is drawn of a larger distortion
 
 job.log_to(snakemake.log[0])
 
@@ -24,8 +24,10 @@ angle = np.linspace(0, 2 * np.pi, 720, endpoint=False)
 inward = {name: casing.amplitude * shape(casing, angle) for name, casing in casings.items()}
 
 radius = tip_radius(read_reduced_blade(snakemake.input.blade))
-named = {f"{name} nodal diameters" if diameters else name: u for name, u in inward.items()}
+kind = " bumps" if combined.bump_width else " nodal diameters" if diameters else ""
+named = {f"{name}{kind}": u for name, u in inward.items()}
+magnification = min(MOST_MAGNIFIED, float(f"{LARGEST * radius / combined.amplitude:.1g}"))
 table = pd.concat(
     pd.DataFrame({"nodal_diameters": name, "angle": angle, "inward": u}) for name, u in inward.items()
 )
-outputs.save(snakemake, casing_polar(angle, named, radius, MAGNIFICATION), data=table)
+outputs.save(snakemake, casing_polar(angle, named, radius, magnification), data=table)

@@ -1,0 +1,68 @@
+"""What the normalised numbers of a figure are on its blade: E and K in Pa, speeds, large displacements."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from matplotlib.axes import Axes
+
+from bladerub.plots.style import DARK, GREY
+from bladerub.study.maps import CoatingMap
+from bladerub.study.summary import LARGE_DISPLACEMENT
+
+LARGE = f"displacement above {LARGE_DISPLACEMENT:.0%} of the blade's length"
+"""What is said of the speeds that `Scales.is_large` finds."""
+
+_OUTWARD = 36  # points from the axis whose numbers and name stand between
+_LINE = {"color": DARK, "linestyle": (0, (1, 1.5)), "linewidth": 1.1}
+
+
+@dataclass(frozen=True)
+class Engine:
+    """The rotor of a blade from another program."""
+
+    f1_hz: float  # first frequency of the blade at rest
+    nominal_speed: float | None = None  # 1/min
+
+    def add_speeds(self, axes: Axes, along: str) -> None:
+        """Add a second scale, 1/min and Hz, to the speeds that run `along` "x" or "y"."""
+        second = self._second(axes, along, 60 * self.f1_hz)
+        axis = second.xaxis if along == "x" else second.yaxis
+        axis.set_major_formatter(lambda rpm, _: f"{rpm:.0f}\n{rpm / 60:.0f} Hz")
+        axis.set_label_text("rotor speed (1/min, Hz)")
+
+    def add_frequencies(self, axes: Axes, along: str) -> None:
+        """Add a second scale, Hz, to the frequencies that run `along` "x" or "y"."""
+        second = self._second(axes, along, self.f1_hz)
+        (second.xaxis if along == "x" else second.yaxis).set_label_text("frequency (Hz)")
+
+    def draw_nominal_speed(self, draw: Callable, named: bool = True) -> None:
+        """Draw the nominal speed, if it is known, by `draw`: ``axvline`` or ``axhline`` of the axes."""
+        if self.nominal_speed is not None:
+            label = f"nominal speed, {self.nominal_speed:g} 1/min" if named else "_nominal"
+            draw(self.nominal_speed / 60 / self.f1_hz, label=label, zorder=3, **_LINE)
+
+    def _second(self, axes: Axes, along: str, factor: float) -> Axes:
+        """Add an axis, `factor` times the first one, outside of the numbers and the name of that."""
+        side = "bottom" if along == "x" else "left"
+        add = axes.secondary_xaxis if along == "x" else axes.secondary_yaxis
+        second = add(side, functions=(lambda value: value * factor, lambda value: value / factor))
+        second.spines[side].set_position(("outward", _OUTWARD if along == "x" else 1.3 * _OUTWARD))
+        second.spines[side].set_color(GREY)
+        second.tick_params(labelsize=7, color=GREY)
+        return second
+
+
+@dataclass(frozen=True)
+class Scales:
+    """What turns the numbers of a figure into those of its blade; what is None is not known or not said."""
+
+    modulus_unit: float | None = None  # of E and K, Pa
+    length: float | None = None  # of the blade, m
+    engine: Engine | None = None
+
+    def is_large(self, coating: CoatingMap) -> np.ndarray:
+        """Find the speeds (n,) at which node 1 moves further than small displacements are."""
+        if self.length is None:
+            return np.zeros(coating.f_omega.size, dtype=bool)
+        return np.nan_to_num(coating.revolution_peak).max(axis=1) >= LARGE_DISPLACEMENT * self.length

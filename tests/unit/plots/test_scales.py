@@ -1,0 +1,91 @@
+"""What figures of a blade from another program say besides the normalised numbers."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from bladerub.plots.campbell import campbell
+from bladerub.plots.scales import LARGE, Engine, Scales
+from bladerub.plots.spectrum import spectrum_map
+from bladerub.plots.wear_map import wear_map
+
+ENGINE = Engine(f1_hz=850.0, nominal_speed=15300.0)  # f_omega = 0.3
+SCALES = Scales(modulus_unit=0.6e9, length=0.066, engine=ENGINE)
+RANGE = (5e-7, 5e-4)
+
+
+def second(axes, along):
+    """Limits, name and numbers of the second scale along "x" or "y"."""
+    axes.figure.canvas.draw()
+    (found,) = [child for child in axes.child_axes if getattr(child, f"get_{along}label")()]
+    ends = getattr(found, f"get_{along}lim")()
+    ticks = [text.get_text() for text in getattr(found, f"get_{along}ticklabels")()]
+    return ends, getattr(found, f"get_{along}label")(), ticks
+
+
+def nominal(axes):
+    """Where the lines of the nominal speed are, by their label."""
+    return {line.get_label(): line.get_xydata()[0] for line in axes.lines if "nominal" in line.get_label()}
+
+
+def test_a_wear_map_has_the_speed_of_the_rotor_from_the_first_of_the_study_on(coating_map, draws):
+    upper, lower, _ = draws(wear_map(coating_map, SCALES)).axes
+    assert lower.get_xlim() == pytest.approx((0.075, 0.375))
+    ends, name, ticks = second(lower, "x")
+    assert ends == pytest.approx(60 * 850 * np.array([0.075, 0.375]))
+    assert name == "rotor speed (1/min, Hz)"
+    assert "12000\n200 Hz" in ticks
+    assert nominal(upper)["nominal speed, 15300 1/min"][0] == pytest.approx(0.3)
+    assert nominal(lower)["_nominal"][0] == pytest.approx(0.3)
+    assert upper.get_title(loc="left") == "casing 2nd, E = 0.11, K = 0.5 (in units of 600 MPa), θ = 0.15 rad"
+
+
+def test_a_spectrum_has_the_speed_of_the_rotor_and_hertz(coating_map, draws):
+    figure = draws(spectrum_map(coating_map, RANGE, 2.5, SCALES))
+    axes = figure.axes[0]
+    assert axes.get_ylim() == pytest.approx((0.075, 0.375))
+    assert second(axes, "x")[:2] == (pytest.approx((0, 2125)), "frequency (Hz)")
+    ends, _, ticks = second(axes, "y")
+    assert ends == pytest.approx((3825, 19125))
+    assert "12000\n200 Hz" in ticks
+    assert nominal(axes)["nominal speed, 15300 1/min"][1] == pytest.approx(0.3)
+    assert axes.get_legend() is None  # it would lie on the spectrum
+    assert len(figure.legends) == 1
+
+
+def test_a_campbell_diagram_has_both(draws):
+    speed = np.linspace(0, 0.4, 5)
+    modes = np.sqrt(np.array([1, 9, 25])[None] + 4 * speed[:, None] ** 2)
+    for axes in draws(campbell(speed, modes, modes, range(1, 13), ENGINE)).axes:
+        assert second(axes, "x")[0] == pytest.approx((0, 20400))
+        assert second(axes, "y")[0] == pytest.approx(850 * np.array(axes.get_ylim()))
+        assert nominal(axes)["nominal speed, 15300 1/min"][0] == pytest.approx(0.3)
+
+
+def test_without_an_engine_there_is_one_scale_from_zero(coating_map, draws):
+    known = Scales(modulus_unit=0.6e9, length=0.2)
+    for figure in (wear_map(coating_map, known), spectrum_map(coating_map, RANGE, 2.5, known)):
+        for axes in draws(figure).axes:
+            assert not axes.child_axes
+            assert not nominal(axes)
+
+
+def test_a_nominal_speed_need_not_be_known(coating_map, draws):
+    upper, lower, _ = draws(wear_map(coating_map, Scales(engine=Engine(850.0)))).axes
+    assert not nominal(upper) | nominal(lower)
+    assert upper.get_legend() is None
+
+
+def test_displacements_beyond_small_ones_are_marked(coating_map, draws):
+    peak = np.full((6, 20), 1e-4)
+    peak[1, 3], peak[4] = 0.0034, 0.0032  # 5.2 and 4.8 %
+    peak[5, 10:] = np.nan  # after an early end
+    moved = replace(coating_map, revolution_peak=peak)
+    lower = draws(wear_map(moved, SCALES)).axes[1]
+    (rings,) = [line for line in lower.lines if line.get_label() == LARGE]
+    np.testing.assert_array_equal(rings.get_xydata(), [[0.15, 5]])
+    axes = draws(spectrum_map(moved, RANGE, 2.5, SCALES)).axes[0]
+    (marks,) = [line for line in axes.lines if line.get_label() == LARGE]
+    np.testing.assert_array_equal(marks.get_xydata(), [[0, 0.15]])
+    assert LARGE == "displacement above 5% of the blade's length"
