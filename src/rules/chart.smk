@@ -31,6 +31,15 @@ def planned_points(wildcards):
     return plan_column(config, chart_columns()[wildcards.column])
 
 
+def chart_with_stress(wildcards):
+    """The chart and, where its stress is limited, that of each coating."""
+    limited = "fatigue" in config["chart"]["limits"]
+    return [
+        rules.chart_table.output.table,
+        *(rules.chart_stress.output[:1] if limited else []),
+    ]
+
+
 def charted_maps(wildcards):
     """Maps of those coatings of the study that are on the casing and have an angle of the chart."""
     chart = config["chart"]
@@ -82,6 +91,27 @@ rule chart_table:
         "../scripts/chart_table.py"
 
 
+rule chart_stress:
+    # only where the config has a fatigue limit
+    input:
+        table=rules.chart_table.output.table,
+        blade=rules.blade.output.reduced_model,
+        mesh=rules.blade.output.mesh,
+        kernel=rules.compile_kernel.output[0],
+        analysing=files_behind("extensions.chart.stress"),
+    output:
+        **described(table=f"{TABLES}/chart_stress.csv"),
+    log:
+        f"{RESULTS}/logs/chart_stress.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/chart_stress.tsv"
+    resources:
+        mem_mb=memory_mb,
+        runtime=minutes(60),
+    script:
+        "../scripts/chart_stress.py"
+
+
 rule chart_ridge:
     input:
         manifests=chart_manifests,
@@ -131,8 +161,8 @@ rule chart_maps:
 
 rule chart_safe:
     input:
-        table=rules.chart_table.output[0],
-        analysing=files_behind("extensions.chart.choice"),
+        tables=chart_with_stress,
+        analysing=files_behind("extensions.chart.choice", "extensions.chart.stress"),
         drawing=files_behind("extensions.plots.chart_moduli", "plots.titles"),
     output:
         **drawn("chart_safe", "Choice of a coating"),
@@ -150,8 +180,8 @@ rule chart_safe:
 
 rule chart_pareto:
     input:
-        table=rules.chart_table.output[0],
-        analysing=files_behind("extensions.chart.choice"),
+        tables=chart_with_stress,
+        analysing=files_behind("extensions.chart.choice", "extensions.chart.stress"),
         drawing=files_behind("extensions.plots.chart_pareto", "plots.titles"),
     output:
         **drawn("chart_pareto", "Choice of a coating"),

@@ -1,13 +1,13 @@
 """Draw where the coatings of the chart keep the limits, and which of them they break elsewhere."""
 
 from bladerub.extensions.chart.choice import broken_limits
+from bladerub.extensions.chart.stress import read_chart
 from bladerub.extensions.plots.chart_moduli import chart_safe
-from bladerub.io import tables
 from bladerub.workflow import job, outputs
 
 job.log_to(snakemake.log[0])
 
-chart = tables.read(snakemake.input.table)
+chart = read_chart(*snakemake.input.tables)
 settings = snakemake.params
 figure = chart_safe(chart, broken_limits(chart, settings.limits), settings.limits, settings.modulus_unit)
 outputs.save(snakemake, figure)

@@ -99,6 +99,7 @@ NUMBERS = """
     chart.limits.amplitude            (0, 10]
     chart.limits.wear                 (0, 1]
     chart.limits.divergent_share      [0, 1]
+    chart.limits.fatigue              (0, 1e11]
     sweeps.start                      (0, 10]
     sweeps.stop                       (0, 10]
     sweeps.rates                      [1e-4, 10]

@@ -5,13 +5,18 @@ from collections.abc import Mapping
 import numpy as np
 import pandas as pd
 
-LIMITED = {"amplitude": "peak", "wear": "deepest_wear", "divergent_share": "divergent_share"}
-"""Column of the chart that each of ``chart.limits`` is for."""
+LIMITED = {
+    "amplitude": "peak",
+    "wear": "deepest_wear",
+    "divergent_share": "divergent_share",
+    "fatigue": "alternating",
+}
+"""Column of the chart that each of ``chart.limits`` is for; the last is of its stress."""
 
 
 def broken_limits(chart: pd.DataFrame, limits: Mapping[str, float]) -> pd.DataFrame:
     """Return for each row of the chart which of the limits it breaks, a column of bool for each."""
-    return pd.DataFrame({name: chart[column] > limits[name] for name, column in LIMITED.items()})
+    return pd.DataFrame({name: chart[LIMITED[name]] > limit for name, limit in limits.items()})
 
 
 def pareto(chart: pd.DataFrame, limits: Mapping[str, float]) -> pd.DataFrame:

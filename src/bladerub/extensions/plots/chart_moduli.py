@@ -21,10 +21,10 @@ PAPER_E = (0.11, 0.2, 0.5, 1.1, 1.5, 2.0, 5.0, 11.0, 20.0)
 PAPER_K = (0.05, 0.1, 0.5, 1.0, 5.0, 10.0)
 """Moduli of the paper's Figs. 11 to 14, which make 54 coatings."""
 
-LETTERS = {"amplitude": "A", "wear": "W", "divergent_share": "D"}
+LETTERS = {"amplitude": "A", "wear": "W", "divergent_share": "D", "fatigue": "F"}
 """Letter of each limit, written where it is exceeded."""
-_SHADES = ["#ffffff", "#f3d9a4", "#e08e0b", "#8f4b08"]
-"""From none to all limits exceeded."""
+_SHADES = ["#ffffff", "#f3d9a4", "#e08e0b", "#8f4b08", "#4d2604"]
+"""From none to all limits exceeded, the last where the stress is limited too."""
 
 _RIDGE = {"color": DARK, "linewidth": 1.3, "marker": "s", "markersize": 2.2}
 _RIDGE_OF = {"peak": "displacement", "worn_volume": "worn volume"}
@@ -121,15 +121,19 @@ def chart_safe(chart: pd.DataFrame, broken: pd.DataFrame, limits: Mapping[str, f
     """
     judged = chart.assign(
         broken=broken.sum(axis=1),
-        letters=["".join(LETTERS[name] for name in LETTERS if row[name]) for _, row in broken.iterrows()],
+        letters=[
+            "".join(letter for name, letter in LETTERS.items() if row.get(name))
+            for _, row in broken.iterrows()
+        ],
     )
     figure = new_figure(PAGE, 0.55 * PAGE)
     for axes, rows in _panels(figure, judged, unit):
-        grid, colours = _over_moduli(rows, "broken"), ListedColormap(_SHADES)
-        _colour(axes, grid, cmap=colours, vmin=-0.5, vmax=len(_SHADES) - 0.5, edgecolors="white", lw=0.2)
+        shades = _SHADES[: len(limits) + 1]
+        grid, colours = _over_moduli(rows, "broken"), ListedColormap(shades)
+        _colour(axes, grid, cmap=colours, vmin=-0.5, vmax=len(shades) - 0.5, edgecolors="white", lw=0.2)
         size = min(7.0, 75 / max(grid.shape))
         for row in rows.itertuples():
-            shade = "white" if row.broken == len(LETTERS) else DARK
+            shade = "white" if row.broken >= len(LETTERS) - 1 else DARK
             axes.text(row.E, row.K, row.letters, ha="center", va="center", fontsize=size, color=shade)
         _mark_paper(axes, rows[rows.broken == 0])
     figure.legend(handles=_limit_keys(limits), loc="outside lower center", ncols=2)
@@ -142,6 +146,8 @@ def _limit_keys(limits: Mapping[str, float]) -> list[Patch]:
         "wear": f"W: wear deeper than {1e3 * limits['wear']:g} mm",
         "divergent_share": f"D: more than {100 * limits['divergent_share']:g} % of the speeds diverge",
     }
+    if "fatigue" in limits:
+        words["fatigue"] = f"F: alternating stress above {limits['fatigue'] / 1e6:g} MPa"
     safe = Patch(facecolor=_SHADES[0], edgecolor=DARK, linewidth=0.5, label="all limits kept")
     return [safe, *(Patch(facecolor="none", label=text) for text in words.values())]
 

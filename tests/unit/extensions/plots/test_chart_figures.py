@@ -52,6 +52,17 @@ def test_cells_say_which_limits_they_break(chart, draws):
     assert said[0.5, 0.3] == ""
 
 
+def test_stress_beyond_the_fatigue_limit_is_said_where_there_is_one(chart, draws):
+    limits = LIMITS | {"fatigue": 300e6}
+    chart["alternating"] = np.where(chart.E == 0.5, 400e6, 200e6)
+    figure = draws(chart_safe(chart, broken_limits(chart, limits), limits, 2e8))
+    said = {text.get_position(): text.get_text() for text in figure.axes[0].texts}
+    assert said[0.5, 0.5] == "WF"
+    assert said[0.5, 0.3] == "F"
+    assert said[0.11, 0.3] == ""
+    assert "F: alternating stress above 300 MPa" in [text.get_text() for text in figure.legends[0].texts]
+
+
 def test_the_front_is_drawn_and_named(chart, draws):
     axes = draws(chart_pareto(chart, pareto(chart, LIMITS))).axes[0]
     (front,) = [line for line in axes.lines if line.get_label() == "bettered by none in both"]
