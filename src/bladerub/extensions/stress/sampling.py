@@ -78,8 +78,8 @@ class _Sampled:
         self.q: list[np.ndarray] = []  # (s, n) of each revolution
         self.force: list[np.ndarray] = []
         self._simulation, self._ends = simulation, ends
-        # the compiled loop is for the usual number of lanes; others are rare, and go by parts in Python
-        self._is_usual = simulation.state.force.shape[1] == 3 * LANES
+        # what is compiled here has the usual lanes and law; other loops are rare, and go by parts in Python
+        self._is_usual = isinstance(simulation, Simulation)
 
     def advance(self, displacement: np.ndarray, first: int) -> Progress:
         state, n = self.state, self._ends.size - 1

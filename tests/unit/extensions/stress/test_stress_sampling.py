@@ -8,6 +8,7 @@ import pytest
 from bladerub.contact.recording import record
 from bladerub.contact.row_spec import Row
 from bladerub.contact.run import simulate
+from bladerub.contact.spec import ElementLaw
 from bladerub.extensions.stress import sampling
 
 INSTANTS = 40
@@ -22,6 +23,14 @@ def test_it_is_the_same_run(blade, spec, by_parts, monkeypatch):
     for name in ("wear", "radial_displacement", "revolution_peak", "revolution_amplitude"):
         np.testing.assert_array_equal(getattr(sampled.result, name), getattr(run, name))
     assert sampled.result.energy.residual == pytest.approx(run.energy.residual, abs=1e-9)
+
+
+def test_a_run_of_another_law_is_of_that_law(blade, spec):
+    law = ElementLaw("perfectly_plastic", (("yield_stress", 1e6),))
+    other = replace(spec, coating=replace(spec.coating, element_law=law))
+    sampled = sampling.simulate_sampled(blade, other, INSTANTS).result.wear
+    np.testing.assert_array_equal(sampled, simulate(blade, other).wear)
+    assert not np.array_equal(sampled, simulate(blade, spec).wear)
 
 
 def test_its_motion_is_that_of_a_recording(blade, spec):
