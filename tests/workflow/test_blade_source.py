@@ -38,13 +38,15 @@ def test_a_blade_from_a_file_is_made_and_drawn_and_made_anew_with_the_file(works
     assert workspace.plan(foreign, PICTURE) == {"blade": 1, "fig01_blade": 1}
 
 
-def test_a_study_of_it_draws_wear_maps_and_on_casings_of_its_own_spectra(workspace, foreign):
+def test_a_study_of_it_draws_wear_maps_casings_and_on_those_of_its_own_spectra(workspace, foreign):
     casing = load(workspace.folder / "config" / "config.yaml")["casings"]["2nd"]
     foreign["casings"] = {"own": casing | {"nodal_diameters": [3]}}
     entry = {"E": [2, 5], "K": [0.5], "theta": [0.0]}
     foreign["coatings"] = [{"casing": name} | entry for name in ("2nd", "own")]
+    foreign["coatings"] += [{"casing": "own", "coating": "rigid", "friction": [0.0]}]
     plan = workspace.plan(foreign)
-    assert (plan["coating"], plan["wear_map"], plan["spectrum"]) == (4, 4, 2)
+    assert (plan["coating"], plan["spectrum"], plan["casing"]) == (5, 3, 2)
+    assert plan["wear_map"] == 4  # the rigid casing does not wear
     assert not {"findings", "margins"} & plan.keys()  # the paper speaks of another blade
 
 
