@@ -39,7 +39,7 @@ def share_of_cores(size):
 
 
 def coating_threads(wildcards):
-    return share_of_cores(job_sizes()[wildcards.coating][0])
+    return share_of_cores(len(speeds(config)))  # also those that only `friction` asks for
 
 
 def ensemble_threads(wildcards):

@@ -1,5 +1,6 @@
 """A copy of the repository in which the real workflow runs."""
 
+import atexit
 import json
 import os
 import re
@@ -166,10 +167,12 @@ def _warm_snakemake() -> subprocess.Popen:
     """Start the server of this process; it ends when its standard input does."""
     program = Path(__file__).with_name("warm_snakemake.py")
     environment = {name: value for name, value in os.environ.items() if name != "PYTHONPATH"}
-    return subprocess.Popen(
+    server = subprocess.Popen(
         [sys.executable, "-P", program],  # without this folder among those of modules
         env=environment | {"OPENBLAS_NUM_THREADS": "1"},  # a fork has no threads but its own
         stdin=subprocess.PIPE,
         stdout=subprocess.PIPE,
         text=True,
     )
+    atexit.register(server.communicate)
+    return server
