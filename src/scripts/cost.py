@@ -1,7 +1,5 @@
-"""Collect what the jobs of the study cost."""
+"""Collect what the jobs of the study cost, and what they would on more cores."""
 
-from bladerub.io import tables
-from bladerub.io.provenance import provenance
 from bladerub.plots.cost import cost
 from bladerub.workflow import job, outputs, schedule
 from bladerub.workflow.cost import by_stage, table
@@ -9,6 +7,4 @@ from bladerub.workflow.cost import by_stage, table
 job.log_to(snakemake.log[0])
 
 costs = table(snakemake.params.benchmarks)
-on_cores = schedule.table(costs, snakemake.config)
-tables.write(snakemake.output.schedule, on_cores, provenance(snakemake.config))
-outputs.save(snakemake, cost(by_stage(costs)), table=costs)
+outputs.save(snakemake, cost(by_stage(costs)), table=costs, schedule=schedule.table(costs, snakemake.config))

@@ -36,8 +36,7 @@ class Law:
     """
 
     def __init__(self, name: str, **parameters: float):
-        kind = "file" if str(name).endswith(".py") else "name"
-        self._entry: dict[str, str | float] = {kind: str(name), **parameters}
+        self._entry = grid.law_entry(str(name), parameters)
         try:
             self._described = grid.element_law({"contact": {"law": self._entry}})
         except ValueError as error:

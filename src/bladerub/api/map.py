@@ -1,7 +1,6 @@
 """A map: all runs of one coating over the speed."""
 
 from collections.abc import Callable, Iterable, Mapping
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import Any
@@ -10,7 +9,6 @@ import numpy as np
 import pandas as pd
 import xarray as xr
 from matplotlib.figure import Figure
-from threadpoolctl import threadpool_limits
 from tqdm.auto import tqdm
 
 from bladerub.api.blade import Blade
@@ -27,6 +25,7 @@ from bladerub.plots.wear_map import wear_map
 from bladerub.study import maps
 from bladerub.study.grid import CoatingCase
 from bladerub.study.maps import CoatingMap
+from bladerub.study.parallel import each_done
 
 _PER_SPEED = ("C1", "max_wear", "lobes", "status", "wear_harmonic", "wear_harmonic_share")
 _PER_REVOLUTION = ("revolution_peak", "revolution_amplitude")
@@ -199,7 +198,8 @@ def simulate_speeds(
     blade.check_speed("speeds", runs[-1].f_omega)
     with tqdm(total=len(runs), unit="run", disable=not progress, leave=False) as bar:
         found = solve_all(blade, runs, jobs, follow, bar.update)
-    stored, longer = [run.stored for run in found], [run.longer and run.longer.stored for run in found]
+    stored = [run.stored for run in found]
+    longer = [run.longer.stored if run.longer else None for run in found]
     at = [run.f_omega for run in runs]
     prominence = coating.config["analysis"]["lobe_prominence"]
     return Map(
@@ -207,7 +207,6 @@ def simulate_speeds(
     )
 
 
-@threadpool_limits.wrap(limits=1, user_api="blas")  # threads that come and go would change each other's limit
 def solve_all(
     blade: Blade, runs: list[StudyRun], jobs: int, follow: bool, done: Callable[[], Any]
 ) -> list[Run]:
@@ -215,10 +214,11 @@ def solve_all(
     for law in {run.spec.coating.element_law for run in runs}:
         compile_kernel(n_nodes=blade.reduced.n_interface, law=law)
 
-    def compute(run: StudyRun) -> Run:
-        found = solve(blade, run, follow, keep_history=False)
-        done()
-        return found
+    def compute(number: int) -> Run:
+        return solve(blade, runs[number], follow, keep_history=False)
 
-    with ThreadPoolExecutor(jobs) as pool:  # the time loop holds no lock of the interpreter
-        return list(pool.map(compute, runs))
+    found = {}
+    for number, run in each_done(compute, range(len(runs)), jobs):
+        found[number] = run
+        done()
+    return [found[number] for number in range(len(runs))]

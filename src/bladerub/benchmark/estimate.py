@@ -14,12 +14,11 @@ import sys
 import tempfile
 import time
 from collections.abc import Mapping
-from concurrent.futures import ThreadPoolExecutor
+from functools import partial
 from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
-from threadpoolctl import threadpool_limits
 
 from bladerub.benchmark.machine import cores as cores_here
 from bladerub.blade.model import ReducedBlade
@@ -30,6 +29,7 @@ from bladerub.study.job import compute
 from bladerub.study.maps import first_frequency
 from bladerub.study.members import expected_members
 from bladerub.study.orders import peak_orders
+from bladerub.study.parallel import each_done
 from bladerub.study.plan import PlannedRun, longer_run, planned_run
 from bladerub.study.store import write_run
 from bladerub.verification.verify import StudyRun, study_runs
@@ -58,12 +58,9 @@ def estimate(
     runs = study_runs(config)
     step = max(1, len(runs) // drawn)
     n_threads = min(cores, cores_here())  # at once, so that the cores share caches as in the study
-    with (
-        tempfile.TemporaryDirectory() as folder,
-        threadpool_limits(1, "blas"),
-        ThreadPoolExecutor(n_threads) as pool,
-    ):
-        costs = list(pool.map(lambda run: _cost(blade, config, run, Path(folder)), runs[step // 2 :: step]))
+    with tempfile.TemporaryDirectory() as folder:
+        made = partial(_cost, blade, config, Path(folder))
+        costs = [cost for _, cost in each_done(made, runs[step // 2 :: step], n_threads)]
     per_run = float(np.mean([cost.run for cost in costs]))
     whole = np.array([cost.run + cost.longer for cost in costs])
     near = whole[[cost.is_near_a_peak for cost in costs]]
@@ -79,7 +76,7 @@ def estimate(
     }
 
 
-def _cost(blade: ReducedBlade, config: Mapping[str, Any], run: StudyRun, folder: Path) -> _Cost:
+def _cost(blade: ReducedBlade, config: Mapping[str, Any], folder: Path, run: StudyRun) -> _Cost:
     file, spec = f"{run.name.replace('/', '_')}.h5", run_spec(config, run.case, run.f_omega)
     planned = planned_run(config, spec, file, False, run.row)
     start = time.thread_time()  # other processes and threads do not count

@@ -50,12 +50,11 @@ def check_law(options: argparse.Namespace) -> int:
     inputs.require(options, seed=(0, 2**32 - 1))
     values = parameters("--parameter", options.parameter)
 
-    from bladerub.study.grid import coating_cases, element_law, run_spec
+    from bladerub.study.grid import coating_cases, element_law, law_entry, run_spec
     from bladerub.verification.element_law import check_law as check
 
-    entry = {"file" if options.law.endswith(".py") else "name": options.law, **values}
     with refused(ValueError):
-        law = element_law({"contact": {"law": entry}})
+        law = element_law({"contact": {"law": law_entry(options.law, values)}})
     cases = [case for case in coating_cases(config) if not case.is_rigid]
     if not cases:
         raise InputError("coatings: have no abradable layer; a law needs one")

@@ -18,14 +18,14 @@ def each_done(
     With one thread the items are computed in this one, in their order, and each only when it is asked for.
     After an error, which is raised, or when no more are asked for, none is begun.
     """
-    if threads == 1:
-        yield from ((item, compute(item)) for item in items)
-        return
-    # One limit for all: threads that come and go would change each other's
-    with threadpool_limits(1, "blas"), ThreadPoolExecutor(threads) as pool:
-        futures = {pool.submit(compute, item): item for item in items}
-        try:
-            for future in as_completed(futures):
-                yield futures[future], future.result()
-        finally:
-            pool.shutdown(wait=False, cancel_futures=True)
+    with threadpool_limits(1, "blas"):  # one for all: threads that come and go change each other's
+        if threads == 1:
+            yield from ((item, compute(item)) for item in items)
+            return
+        with ThreadPoolExecutor(threads) as pool:
+            futures = {pool.submit(compute, item): item for item in items}
+            try:
+                for future in as_completed(futures):
+                    yield futures[future], future.result()
+            finally:
+                pool.shutdown(wait=False, cancel_futures=True)

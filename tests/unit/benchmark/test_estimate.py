@@ -28,7 +28,7 @@ def study():
 def test_runs_and_members_cost_what_the_drawn_ones_do(study, blade, monkeypatch):
     """Runs at 0.16 grow and are near a peak, others take twice as long."""
 
-    def cost(blade, config, run, folder):
+    def cost(blade, config, folder, run):
         near = run.f_omega == 0.16
         return _Cost(1.0, 3.0, True) if near else _Cost(2.0, 0.0, False)
 

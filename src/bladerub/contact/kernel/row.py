@@ -106,8 +106,8 @@ def _integrate_row(
             turns, flew[b], far[b], n_steps, n_flights, n_contact, lowest, highest = integrate(
                 modal, flight, stator, tip, state, steps_per_element, at, at + together, flew[b], far[b], mean
             )
-            _take_turns(state.q, modal.n, turns)
-            _take_turns(state.u, 4 * LANES, turns)
+            take_turns(state.q, modal.n, turns)
+            take_turns(state.u, 4 * LANES, turns)
             counts[b, 0] += n_steps
             counts[b, 1] += n_flights
             counts[b, 2] += n_contact
@@ -128,7 +128,7 @@ def _row(rows, b):
 
 
 @njit
-def _take_turns(rows, n, turns):
+def take_turns(rows, n, turns):
     """Bring three rows of `n` numbers in order, which the loop has let take `turns`."""
     for _ in range(turns % 3):
         for k in range(n):

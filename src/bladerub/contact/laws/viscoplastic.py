@@ -11,6 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from bladerub.contact import law
 from bladerub.contact.law import elastic_force, elastic_limit, stored_energy
 from bladerub.contact.spec import Coating
 from bladerub.numerics.vectors import absolute, elementwise, maximum, minimum, where
@@ -35,12 +36,16 @@ class Element(NamedTuple):
 
 def element(coating: Coating, area: float | np.ndarray, time_step: float = math.inf) -> Element:
     """Return the parameters of elements of the cross-section `area` (m²) in steps of `time_step` (s)."""
-    per_thickness = area / coating.thickness
-    stiffness = coating.modulus_unit * per_thickness
-    elastic, hardening = coating.E * stiffness, coating.K * stiffness
-    yield_force = coating.yield_stress * coating.modulus_unit * area
-    viscous = dict(coating.element_law.parameters)["viscosity"] / time_step * per_thickness
-    return Element(elastic, hardening, yield_force, viscous, 1 / elastic, 1 / (elastic + hardening + viscous))
+    plastic = law.element(coating, area)
+    viscous = dict(coating.element_law.parameters)["viscosity"] / time_step * area / coating.thickness
+    return Element(
+        plastic.elastic,
+        plastic.hardening,
+        plastic.yield_force,
+        viscous,
+        plastic.elastic_compliance,
+        1 / (plastic.elastic + plastic.hardening + viscous),
+    )
 
 
 @elementwise

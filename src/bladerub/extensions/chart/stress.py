@@ -14,8 +14,7 @@ from threadpoolctl import threadpool_limits
 from bladerub.blade.model import ReducedBlade
 from bladerub.extensions.chart.grid import chart_orders
 from bladerub.extensions.chart.table import COATING
-from bladerub.extensions.stress.run import INSTANTS, BladeStress, sampled_stress
-from bladerub.extensions.stress.sampling import simulate_sampled
+from bladerub.extensions.stress.run import BladeStress
 from bladerub.io import tables
 from bladerub.study.grid import CoatingCase, run_spec
 
@@ -39,8 +38,7 @@ def table(
         case = CoatingCase(*(point[name] for name in COATING))
         found = {}
         for f_omega in sorted({point[name] for name in at} - {None}):
-            run = simulate_sampled(blade, run_spec(config, case, f_omega), INSTANTS)
-            of_run = sampled_stress(stress.at(f_omega).of(run.patterns), run, last)
+            _, of_run = stress.of_run(run_spec(config, case, f_omega), last)
             if of_run is not None:
                 found[f_omega] = of_run.last["alternating"]
         speed = max(found, key=lambda f_omega: found[f_omega], default=None)

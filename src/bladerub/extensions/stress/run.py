@@ -11,6 +11,7 @@ from bladerub.blade.elasticity import Material
 from bladerub.blade.model import ReducedBlade
 from bladerub.blade.stress import NodalStress, running_displacement
 from bladerub.contact.modes import mode_shapes_at
+from bladerub.contact.result import RunResult
 from bladerub.contact.spec import RunSpec
 from bladerub.extensions.stress.peak import ModalStress, static_peak, stress_peak, stressed_nodes
 from bladerub.extensions.stress.sampling import SampledRun, simulate_sampled
@@ -111,7 +112,7 @@ class BladeStress:
                 modes = mode_shapes_at(blade, fastest)[1][:, :_MODES]
                 nodes = stressed_nodes(whole.of(modes.T), _SHARE)
             found.insert(0, whole.at(nodes))
-        self._at = found
+        self._at, self._blade = found, blade
 
     def at(self, f_omega: float) -> ModalStress:
         """Return the stress at the speed `f_omega` as a function of the reduced coordinates."""
@@ -127,6 +128,11 @@ class BladeStress:
             for name in ("static", "slope")
         )
         return ModalStress(self._at[0].points, static, slope)
+
+    def of_run(self, spec: RunSpec, last: int) -> tuple[RunResult, RunStress | None]:
+        """Simulate a run and find its stress, with parameters and outcome as of `run_stress`."""
+        run = simulate_sampled(self._blade, spec, INSTANTS)
+        return run.result, sampled_stress(self.at(spec.f_omega).of(run.patterns), run, last)
 
 
 def complete_revolutions(revolution_peak: np.ndarray, status: str) -> int:

@@ -17,7 +17,7 @@ from bladerub.contact import energy
 from bladerub.contact.integration import Segment, integrate
 from bladerub.contact.kernel import loop
 from bladerub.contact.kernel.loop import Progress, Simulation
-from bladerub.contact.kernel.row import _take_turns  # another name there would make all runs stale
+from bladerub.contact.kernel.row import take_turns
 from bladerub.contact.modes import Modes, at_tip, mode_shapes_at
 from bladerub.contact.result import RunResult
 from bladerub.contact.run import run_result
@@ -131,8 +131,8 @@ def _integrate(modal, flight, stator, tip, state, steps_per_element, ends, displ
             far,
             displacement + 8 * first,
         )
-        _take_turns(state.q, modal.n, turns)
-        _take_turns(state.u, 4 * LANES, turns)
+        take_turns(state.q, modal.n, turns)
+        take_turns(state.u, 4 * LANES, turns)
         n_steps, n_flights, n_contact = n_steps + steps, n_flights + flights, n_contact + contacts
         low, high = min(low, lowest), max(high, highest)
         if steps < (last - first) * steps_per_element:

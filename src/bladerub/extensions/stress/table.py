@@ -8,8 +8,7 @@ import pandas as pd
 from threadpoolctl import threadpool_limits
 
 from bladerub.blade.model import ReducedBlade
-from bladerub.extensions.stress.run import INSTANTS, BladeStress, RunStress, sampled_stress
-from bladerub.extensions.stress.sampling import simulate_sampled
+from bladerub.extensions.stress.run import BladeStress, RunStress
 from bladerub.study.grid import CoatingCase, run_spec
 
 _CASE = ("casing", "E", "K", "theta", "law")
@@ -33,12 +32,10 @@ def table(
     stress, rows = BladeStress(mesh, blade), []
     for peak in peaks.dropna(subset=["f_peak"]).to_dict("records"):
         spec = run_spec(config, CoatingCase.described(peak), peak["f_peak"])
-        run = simulate_sampled(blade, spec, INSTANTS)
-        at_speed = stress.at(spec.f_omega).of(run.patterns)
-        found = sampled_stress(at_speed, run, config["analysis"]["spectrum_revolutions"])
+        result, found = stress.of_run(spec, config["analysis"]["spectrum_revolutions"])
         rows.append(
             {name: peak[name] for name in (*_CASE, *_PEAK)}
-            | {"status": run.result.status}
+            | {"status": result.status}
             | (_of_run(found) if found else {})
         )
     return pd.DataFrame(rows, columns=COLUMNS)
