@@ -39,7 +39,8 @@ def share_of_cores(size):
 
 
 def coating_threads(wildcards):
-    return share_of_cores(len(speeds(config)))  # also those that only `friction` asks for
+    # also a coating that only `friction` asks for
+    return share_of_cores(len(speeds(config)))
 
 
 def ensemble_threads(wildcards):
