@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from bladerub.api.fit import fit_coating
     from bladerub.api.law import Law
     from bladerub.api.map import Map, read_map, simulate_speeds
-    from bladerub.api.run import Run, find_stress, read_run, simulate
+    from bladerub.api.run import Run, read_run, simulate
     from bladerub.api.study import Study, StudyCoating, StudyRun, default_study, load_study
     from bladerub.config.errors import ConfigError
     from bladerub.contact.row_spec import Disk, Row, RowBlade
@@ -30,7 +30,7 @@ _MODULES = {
     "api.fit": ("fit_coating",),
     "api.law": ("Law",),
     "api.map": ("Map", "read_map", "simulate_speeds"),
-    "api.run": ("Run", "find_stress", "read_run", "simulate"),
+    "api.run": ("Run", "read_run", "simulate"),
     "api.study": ("Study", "StudyCoating", "StudyRun", "default_study", "load_study"),
     "config.errors": ("ConfigError",),
     "contact.row_spec": ("Disk", "Row", "RowBlade"),
@@ -54,7 +54,6 @@ __all__ = [
     "__version__",
     "build_blade",
     "default_study",
-    "find_stress",
     "fit_coating",
     "load_study",
     "read_blade",

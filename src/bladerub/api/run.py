@@ -16,11 +16,13 @@ from bladerub.api.dataset import to_dataset
 from bladerub.api.errors import InputError
 from bladerub.api.notebook import html_table
 from bladerub.api.study import StudyRun
-from bladerub.contact.result import Energy
+from bladerub.blade.model import ReducedBlade
+from bladerub.contact.result import Energy, RunResult
 from bladerub.contact.row_spec import Row
+from bladerub.contact.run import simulate as simulate_single
 from bladerub.contact.setup import compile_kernel
 from bladerub.contact.spec import RunSpec
-from bladerub.extensions.stress.run import RunStress, run_stress
+from bladerub.extensions.stress.run import RunStress, simulate_with_stress
 from bladerub.io.provenance import provenance
 from bladerub.plots import single_run, titles
 from bladerub.plots.style import saved
@@ -44,6 +46,8 @@ class Run:
         Attributes and datasets, as they are or would be in the file of the run. SI units.
     longer : Run, optional
         The same for more revolutions, where the amplitude grows: it shows whether the growth lasts.
+    stress : RunStress, optional
+        The largest stress of the blade, where `simulate` was asked for it.
 
     Examples
     --------
@@ -77,6 +81,7 @@ class Run:
 
     stored: StoredRun = field(repr=False)
     longer: "Run | None" = None
+    stress: RunStress | None = None
 
     @property
     def attributes(self) -> dict[str, Any]:
@@ -210,19 +215,6 @@ class Run:
         number = pd.Index(self.stored.data["revolution_number"], name="revolution")
         return pd.DataFrame({name: self.stored.data[name] for name in columns}, number)
 
-    def with_stress(self, stress: RunStress) -> "Run":
-        """Return the run with the figures of `find_stress` among its attributes, Pa, m and revolutions.
-
-        Examples
-        --------
-        >>> import bladerub as br
-        >>> found = br.find_stress(blade, study.run("2nd", E=2, K=0.5, f_omega=0.19))
-        >>> run.with_stress(found).attributes["stress_last_von_mises"] == found.last["von_mises"]
-        True
-        """
-        attributes = self.stored.attributes | stress.attributes()
-        return replace(self, stored=replace(self.stored, attributes=attributes))
-
     def write(self, path: str | Path, config: Mapping[str, Any]) -> None:
         """Write the run of the study `config` to the HDF5 file `path`, whole or not at all.
 
@@ -256,6 +248,7 @@ def simulate(
     *,
     row: Row | None = None,
     follow: bool = True,
+    stress: bool = False,
     progress: bool = False,
     each: Callable[[int], None] | None = None,
 ) -> Run:
@@ -272,6 +265,10 @@ def simulate(
         ``rotor`` of the study, if it has one.
     follow : bool
         Whether a run that grows is repeated for more revolutions, as the study does: its `Run.longer`.
+    stress : bool
+        Whether the largest stress of the blade is found at rotation alone, at start-up and in the last
+        ``analysis.spectrum_revolutions``: `Run.stress`, and attributes of the file. It is None where the
+        blade is of matrices alone, which tell of no stress, or no revolution is complete.
     progress : bool
         Whether a bar shows the revolutions done.
     each : callable, optional
@@ -288,7 +285,9 @@ def simulate(
         If the speed is outside the range of the blade.
     ValueError
         If the time step of the study is too long for the scheme, or the row cannot be: its neighbours are
-        too close, for instance (`bladerub.contact.row.simulate_row`).
+        too close, for instance (`bladerub.contact.row.simulate_row`), or its stress is asked for.
+    OSError
+        If the mesh of the blade, which the stress needs, is missing or damaged.
 
     Examples
     --------
@@ -296,6 +295,12 @@ def simulate(
     >>> run = br.simulate(blade, study.run("2nd", E=2, K=0.5, f_omega=0.19))
     >>> run.revolutions, run.status
     (20, 'completed')
+
+    The largest stress of the blade:
+
+    >>> found = br.simulate(blade, study.run("2nd", E=2, K=0.5, f_omega=0.19), stress=True).stress
+    >>> found.static["von_mises"] < found.last["von_mises"]
+    True
 
     Three blades on one coating, the second 50 µm longer than the others:
 
@@ -317,7 +322,7 @@ def simulate(
             if each:
                 each(revolutions)
 
-        return solve(blade, run, follow, done, row=row)
+        return solve(blade, run, follow, done, row=row, stress=stress)
 
 
 def counted(bar: tqdm, run: StudyRun) -> Callable[[int], None]:
@@ -338,57 +343,40 @@ def solve(
     done: Callable[[int], None] | None = None,
     keep_history: bool = True,
     row: Row | None = None,
+    stress: bool = False,
 ) -> Run:
     """Simulate `run`, and its longer run if it is to `follow` growth; parameters as of `simulate`."""
     digest, settings = blade.digest, run.config["analysis"]["divergence"]
     run = run.of_length(blade.length)  # perhaps not the study's own blade
     row = row or row_of(run.config)
-    stored = _solve(blade, run, run.spec, digest, done, keep_history, row)
+    solver = _StressSolver(blade, run) if stress else simulate_single
+    if stress and row:
+        raise ValueError("stress = True: is found for a single blade only, must be False with a row")
+    stored = _solve(blade, run, run.spec, digest, done, keep_history, row, solver)
+    found = solver.stress if stress else None
+    if found:
+        stored = replace(stored, attributes=stored.attributes | found.attributes())
     longer = None
     amplitude, status = stored.data["revolution_amplitude"], stored.attributes["status"]
     longest = settings["confirmation_revolutions"]
     if follow and longest > run.spec.revolutions and needs_confirmation(amplitude, status, settings):
         spec = confirmation_spec(run.spec, settings)
         longer = Run(_solve(blade, run, spec, digest, done, False, row))
-    return Run(stored, longer)
+    return Run(stored, longer, found)
 
 
-def find_stress(
-    blade: Blade, run: StudyRun, *, each: Callable[[int], None] | None = None
-) -> RunStress | None:
-    """Find the largest stress of the blade in the run that `simulate` makes; it is made again for that.
+class _StressSolver:
+    """Simulates a run and keeps its stress."""
 
-    Parameters
-    ----------
-    blade : Blade
-        The blade of the run.
-    run : StudyRun
-        The run.
-    each : callable, optional
-        Called with the number of revolutions done after each of them.
+    def __init__(self, blade: Blade, run: StudyRun):
+        self._mesh, self._last = blade.mesh_path, run.config["analysis"]["spectrum_revolutions"]
+        self.stress: RunStress | None = None
 
-    Returns
-    -------
-    RunStress or None
-        At rotation alone, at start-up and in the last ``analysis.spectrum_revolutions``; None where the blade
-        is of matrices, which tell of no stress, or no revolution is complete.
-
-    Raises
-    ------
-    OSError
-        If the mesh of the blade is missing or damaged.
-
-    Examples
-    --------
-    >>> import bladerub as br
-    >>> planned = study.run("2nd", E=2, K=0.5, f_omega=0.19)
-    >>> stress = br.find_stress(blade, planned)
-    >>> stress.static["von_mises"] < stress.last["von_mises"]
-    True
-    """
-    spec = run.of_length(blade.length).spec
-    last = run.config["analysis"]["spectrum_revolutions"]
-    return run_stress(blade.mesh_path, blade.reduced, spec, last, each)
+    def __call__(
+        self, blade: ReducedBlade, spec: RunSpec, progress: Callable[[int], None] | None
+    ) -> RunResult:
+        result, self.stress = simulate_with_stress(self._mesh, blade, spec, self._last, progress)
+        return result
 
 
 def _solve(
@@ -399,9 +387,10 @@ def _solve(
     done: Callable[[int], None] | None,
     keep_history: bool,
     row: Row | None,
+    solver: Callable[..., RunResult] = simulate_single,
 ) -> StoredRun:
     plan = planned_run(run.config, spec, f"{speed_name(spec.f_omega)}.h5", keep_history, row)
-    return compute(run.case, plan, blade.reduced, plan.key(digest), run.config["analysis"], done)
+    return compute(run.case, plan, blade.reduced, plan.key(digest), run.config["analysis"], done, solver)
 
 
 def read_run(path: str | Path) -> Run:

@@ -18,7 +18,6 @@ if TYPE_CHECKING:  # as in `inputs`
     from bladerub.api.run import Run
     from bladerub.api.study import Study, StudyCoating, StudyRun
     from bladerub.contact.row_spec import Row
-    from bladerub.extensions.stress.run import RunStress
 
 _STEEP = math.pi / 4  # beyond this angle the force is more tangential than normal
 _UNITS = {"E": "contact.modulus_unit", "K": "contact.modulus_unit", "theta": "rad", "f_omega": "f1 at rest"}
@@ -111,13 +110,10 @@ def run(options: argparse.Namespace) -> None:
     _point_out(options)
     blade = blade or inputs.read_blade(options, config)
     bar = inputs.progress_bar(planned.spec.revolutions, "rev")
-    with bar, refused(ValueError), inputs.as_options(f_omega="f"):
+    with bar, refused(ValueError, OSError), inputs.as_options(f_omega="f"):
         start = time.perf_counter()
-        result = simulate(blade, planned, row=row, each=counted(bar, planned))
+        result = simulate(blade, planned, row=row, stress=options.stress, each=counted(bar, planned))
         seconds = time.perf_counter() - start
-    stress = _stress(blade, planned) if options.stress else None
-    if stress:
-        result = result.with_stress(stress)
     if options.output:
         with refused(OSError, because=f"--output {options.output}: cannot be written: "):
             result.write(options.output, config)
@@ -126,7 +122,7 @@ def run(options: argparse.Namespace) -> None:
     if options.ensemble is not None:
         figures["ensemble"] = _ensemble(options, planned, blade, result)
     if options.stress:
-        figures["stress"] = asdict(stress) if stress else None
+        figures["stress"] = asdict(result.stress) if result.stress else None
     if len(result.blades):
         figures["blade"] = result.attributes["blade"]
         figures["blades"] = result.blades.reset_index().to_dict("records")
@@ -181,14 +177,6 @@ def _ensemble(options: argparse.Namespace, planned: "StudyRun", blade: "Blade", 
         "divergent_draws": float(ensemble.to_pandas().divergent.mean()),
         **bands.astype(object).where(bands.notna(), None).to_dict("index"),
     }
-
-
-def _stress(blade: "Blade", planned: "StudyRun") -> "RunStress | None":
-    """Find the stress of the run; None where it cannot be known."""
-    from bladerub.api.run import find_stress
-
-    with refused(OSError), inputs.progress_bar(planned.spec.revolutions, "rev") as bar:
-        return find_stress(blade, planned, each=lambda done: bar.update(done - bar.n))
 
 
 def _check_coating(options: argparse.Namespace) -> None:

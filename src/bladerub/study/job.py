@@ -10,6 +10,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from bladerub.blade.model import ReducedBlade
+from bladerub.contact.result import RunResult
 from bladerub.contact.row import simulate_row
 from bladerub.contact.run import simulate
 from bladerub.io import lock
@@ -96,16 +97,18 @@ def compute(
     key: str,
     analysis: Mapping[str, Any],
     progress: Callable[[int], None] | None = None,
+    solve: Callable[..., RunResult] = simulate,
 ) -> StoredRun:
     """Simulate what was planned, a single blade or a row, and return what is stored of it.
 
     `key` is that of the run, `analysis` of the config; `progress` is called with the number of revolutions
-    done. Raises `ValueError` as `bladerub.contact.run.simulate` and `bladerub.contact.row.simulate_row`.
+    done. A single blade is simulated by `solve`. Raises `ValueError` as `bladerub.contact.run.simulate` and
+    `bladerub.contact.row.simulate_row`.
     """
     if run.row:
         outcome = simulate_row(blade, run.spec, run.row, progress)
         return stored_row(case, run.spec, run.row, outcome, key, analysis, run.keep_history)
-    return stored_run(case, run.spec, simulate(blade, run.spec, progress), key, analysis, run.keep_history)
+    return stored_run(case, run.spec, solve(blade, run.spec, progress), key, analysis, run.keep_history)
 
 
 def _row(run: PlannedRun, done: _Done, longer: _Done | None, growth_key: str) -> ManifestRow:

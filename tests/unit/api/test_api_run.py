@@ -126,3 +126,17 @@ def test_rows_are_computed_once_and_again_when_their_blades_change(study, blade,
     assert made([br.Row.drawn(2, 0, length_scatter=4e-5), *rows[1:]]) == ["0.h5"]
     assert made(rows) == []  # back from the archive
     pd.testing.assert_frame_equal(br.read_run(tmp_path / "0.h5").blades, first.blades)
+
+
+def test_the_run_with_its_stress_is_the_run(study, blade):
+    asked = study.run("2nd", E=2, K=0.5, f_omega=0.19)
+    run, stressed = br.simulate(blade, asked), br.simulate(blade, asked, stress=True)
+    assert run.stress is None
+    assert stressed.attributes["stress_last_von_mises"] == stressed.stress.last["von_mises"]
+    for name in ("wear", "radial_displacement", "revolution_peak", "spectrum_amplitude"):
+        np.testing.assert_array_equal(stressed.stored.data[name], run.stored.data[name])
+
+
+def test_the_stress_of_a_row_is_refused(study, blade):
+    with pytest.raises(ValueError, match="stress = True: is found for a single blade only"):
+        br.simulate(blade, study.run("2nd", E=2, K=0.5, f_omega=0.19), row=br.Row.even(2), stress=True)

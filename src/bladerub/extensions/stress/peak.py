@@ -6,19 +6,21 @@ All nodes are looked at in few instants, all instants at few nodes, in turns unt
 stress.
 """
 
+from collections.abc import Sequence
 from itertools import product
 from typing import NamedTuple
 
 import numpy as np
+from numba.extending import register_jitable
 
 from bladerub.blade.stress import NodalStress
+from bladerub.numerics.machine_code import njit_on_disk
 
 _ROWS, _COLUMNS = (0, 1, 2, 0, 1, 2), (0, 1, 2, 1, 2, 0)
-_LEADING = 4
+_KINDS = ("von_mises", "principal", "alternating")
+_LEADING = 3
 """Coordinates that cause most stress: all nodes are looked at first in extremes of them and their sums."""
-_NEGLIGIBLE = 1e-3
-"""Share of all stress up to which coordinates together are left out."""
-_FEW = 4
+_FEW = 2
 """Nodes that are then looked at in all instants for each kind of stress."""
 _INSTANTS = 8
 """Instants of largest stress there at which all nodes are looked at again."""
@@ -44,7 +46,9 @@ class ModalStress(NamedTuple):
         of the mesh at this speed.
         """
         static = _six(stress(np.zeros(points.shape)), nodes)
-        return cls(points[nodes], static, np.array([_six(stress(of), nodes) - static for of in recovery]))
+        slope = np.array([_six(stress(of), nodes) - static for of in recovery])
+        single = np.float32  # as the displacement per coordinate is stored
+        return cls(points[nodes], static.astype(single), slope.astype(single))
 
     def at(self, nodes: np.ndarray) -> "ModalStress":
         """Restrict the stress to these of its nodes."""
@@ -56,8 +60,9 @@ class ModalStress(NamedTuple):
 
     def __call__(self, coordinates: np.ndarray) -> np.ndarray:
         """Stress (6, m, s) at coordinates (s, k), Pa."""
-        flat = self.slope.reshape(len(self.slope), -1).T @ coordinates.T
-        return flat.reshape(*self.static.shape, len(coordinates)) + self.static[..., None]
+        stress = self.slope.reshape(len(self.slope), -1).T @ coordinates.T
+        stress += self.static.reshape(-1, 1)
+        return stress.reshape(*self.static.shape, len(coordinates))
 
 
 def _six(tensor: np.ndarray, nodes: np.ndarray) -> np.ndarray:
@@ -66,9 +71,7 @@ def _six(tensor: np.ndarray, nodes: np.ndarray) -> np.ndarray:
 
 def von_mises(stress: np.ndarray) -> np.ndarray:
     """Von Mises stress (...) of six components (6, ...), in their unit."""
-    x, y, z, xy, yz, zx = stress
-    normal = (x - y) ** 2 + (y - z) ** 2 + (z - x) ** 2
-    return np.sqrt(0.5 * normal + 3 * (xy**2 + yz**2 + zx**2))
+    return _von_mises(*stress)
 
 
 def principal(stress: np.ndarray) -> np.ndarray:
@@ -76,18 +79,28 @@ def principal(stress: np.ndarray) -> np.ndarray:
 
     It is the largest root of the characteristic polynomial in trigonometric form.
     """
-    mean = stress[:3].mean(axis=0)
-    x, y, z = stress[:3] - mean
-    xy, yz, zx = stress[3:]
-    radius = von_mises(stress) / 3
+    return _principal(*stress)
+
+
+@register_jitable
+def _von_mises(x, y, z, xy, yz, zx):
+    return np.sqrt(0.5 * ((x - y) ** 2 + (y - z) ** 2 + (z - x) ** 2) + 3 * (xy * xy + yz * yz + zx * zx))
+
+
+@register_jitable
+def _principal(x, y, z, xy, yz, zx):
+    radius = _von_mises(x, y, z, xy, yz, zx) / 3
+    mean = (x + y + z) / 3
+    x, y, z = x - mean, y - mean, z - mean
     j3 = x * y * z + 2 * xy * yz * zx - x * yz * yz - y * zx * zx - z * xy * xy
-    with np.errstate(invalid="ignore", divide="ignore"):  # no deviator, no angle
-        cosine = np.nan_to_num(j3 / (2 * radius**3), posinf=1.0, neginf=-1.0)
-    return mean + 2 * radius * np.cos(np.arccos(np.clip(cosine, -1.0, 1.0)) / 3)
+    cosine = j3 / (2 * radius**3 + 1e-30)  # no deviator, no angle
+    return mean + 2 * radius * np.cos(np.arccos(np.minimum(np.maximum(cosine, -1.0), 1.0)) / 3)
 
 
-def stress_peak(stress: ModalStress, coordinates: np.ndarray, time: np.ndarray) -> dict[str, float]:
-    """Find the largest stress of a motion.
+def stress_peaks(
+    stress: ModalStress, coordinates: np.ndarray, time: np.ndarray, parts: Sequence[slice]
+) -> list[dict[str, float]]:
+    """Find the largest stress in each part of a motion.
 
     Parameters
     ----------
@@ -97,73 +110,85 @@ def stress_peak(stress: ModalStress, coordinates: np.ndarray, time: np.ndarray) 
         Its coordinates about the running position at each instant.
     time : (s,) ndarray
         The instants, revolutions.
+    parts : sequence of slice
+        The instants of each part, none of them empty.
 
     Returns
     -------
-    dict
-        ``von_mises`` and ``principal`` (largest principal), Pa, each with its place at rest ``…_x``, ``…_y``,
-        ``…_z``, m, and ``…_time``, revolutions. ``alternating``, Pa, with its place: the largest von Mises
-        stress of half the range of each component. It is exact where one mode vibrates, and else on the safe
-        side.
+    list of dict
+        For each part ``von_mises`` and ``principal`` (largest principal), Pa, each with its place at rest
+        ``…_x``, ``…_y``, ``…_z``, m, and ``…_time``, revolutions. ``alternating``, Pa, with its place: the
+        largest von Mises stress of half the range of each component. It is exact where one mode vibrates, and
+        else on the safe side.
     """
-    most = np.abs(stress.slope).max(axis=(1, 2)) * np.ptp(coordinates, axis=0)  # that each coordinate causes
-    order = np.argsort(most)
-    order = order[np.cumsum(most[order]) > _NEGLIGIBLE * most.sum()][::-1]
-    single = np.float32  # as the displacement per coordinate is stored
-    stress = ModalStress(stress.points, stress.static.astype(single), stress.slope[order].astype(single))
-    coordinates = coordinates[:, order].astype(single)
-    nodes = _most_stressed(stress(coordinates[_extremes(stress, coordinates)]))
-    while True:
-        few = stress.at(nodes)
-        values = few(coordinates)
-        at = {"von_mises": _largest(von_mises(values)), "principal": _largest_principal(values)}
-        highest = np.argsort(von_mises(values).max(axis=0))[-_INSTANTS:]
-        elsewhere = stress(coordinates[[*highest, at["principal"][1]]])
-        most = {int(of(elsewhere).max(axis=1).argmax()) for of in (von_mises, principal)}
-        if most <= {*nodes.tolist()}:
-            break
-        nodes = np.union1d(nodes, sorted(most))
-    alternating = _alternating(values)
-    found = _at(few, "alternating", alternating, int(alternating.argmax()))
-    for (name, (node, instant)), of in zip(at.items(), (von_mises, principal), strict=True):
-        found |= _at(few, name, of(values[:, :, instant]), node) | {f"{name}_time": float(time[instant])}
-    return found
+    starts = [_largest(stress(of))[0] for of in _extremes(stress, coordinates, parts)]
+    nodes = np.unique([np.argpartition(of, -_FEW)[:, -_FEW:] for of in starts])
+    found: list[dict[str, tuple[float, int, int]]] = [{} for _ in parts]  # stress, node, instant of each kind
+    seen = {*nodes.tolist()}
+    while nodes.size:
+        values, most = stress.at(nodes)(coordinates), set()
+        for part, largest in zip(parts, found, strict=True):
+            of, instant, over_nodes = _largest(values[..., part])
+            for kind, node in enumerate(of.argmax(axis=1)):
+                if (name := _KINDS[kind]) not in largest or of[kind, node] > largest[name][0]:
+                    largest[name] = of[kind, node], int(nodes[node]), instant[kind, node]
+            highest = np.argpartition(over_nodes, -_INSTANTS)[-_INSTANTS:]
+            elsewhere = stress(coordinates[part][[*highest, largest["principal"][2]]])
+            most |= {*_largest(elsewhere)[0][:2].argmax(axis=1).tolist()}
+        nodes = np.array(sorted(most - seen), int)
+        seen |= most
+    return [_named(stress, largest, time[part]) for part, largest in zip(parts, found, strict=True)]
 
 
-def _extremes(stress: ModalStress, coordinates: np.ndarray) -> np.ndarray:
-    """Instants at which the first of the coordinates are largest, each alone and added up."""
-    sizes = coordinates[:, :_LEADING].T * np.abs(stress.slope[:_LEADING]).max(axis=(1, 2))[:, None]
-    signs = np.array([*product((-1.0, 0.0, 1.0), repeat=len(sizes))])
-    return np.unique((signs @ sizes).argmax(axis=1))
+def _named(
+    stress: ModalStress, largest: dict[str, tuple[float, int, int]], time: np.ndarray
+) -> dict[str, float]:
+    named = {}
+    for name, (of, node, instant) in largest.items():
+        named |= _at(stress, name, of, node)
+        if name != "alternating":
+            named[f"{name}_time"] = float(time[instant])
+    return named
 
 
-def _most_stressed(values: np.ndarray) -> np.ndarray:
-    """Numbers of the nodes with the largest stress of each kind, of values (6, m, s) at some instants."""
-    kinds = von_mises(values).max(axis=1), principal(values).max(axis=1), _alternating(values)
-    return np.unique([np.argsort(of)[::-1][:_FEW] for of in kinds])
+def _extremes(stress: ModalStress, coordinates: np.ndarray, parts: Sequence[slice]) -> list[np.ndarray]:
+    """Coordinates, in each part, where those that cause most stress are largest, each alone and added up."""
+    slope = np.abs(stress.slope).max(axis=(1, 2))
+    leading = np.argsort(slope * np.ptp(coordinates[::_LEADING], axis=0))[-_LEADING:]
+    signs = np.array([*product((-1.0, 0.0, 1.0), repeat=leading.size)], stress.slope.dtype)
+    sums = (signs * slope[leading]) @ coordinates[:, leading].T
+    return [coordinates[part][np.unique(sums[:, part].argmax(axis=1))] for part in parts]
 
 
-def _largest(values: np.ndarray) -> tuple[int, int]:
-    """Node and instant of the largest of values (m, s)."""
-    node, instant = np.unravel_index(values.argmax(), values.shape)
-    return int(node), int(instant)
+@njit_on_disk(nogil=True)
+def _largest(values):
+    """Find the largest of values (6, m, s) for each node: stress of each of `_KINDS` and instant, (3, m).
 
-
-def _largest_principal(values: np.ndarray) -> tuple[int, int]:
-    """Node and instant of the largest principal stress of values (6, m, s).
-
-    It is the mean stress and two thirds of the von Mises stress at most: where that is less than one of those
-    found, it need not be.
+    Also the largest von Mises stress of all nodes at each instant (s,). The principal stress is the mean
+    stress and two thirds of the von Mises stress at most: only where that exceeds the largest is it found.
     """
-    bound = values[:3].mean(axis=0) + von_mises(values) * (2 / 3)
-    node, instant = _largest(bound)
-    nodes, instants = np.nonzero(bound >= principal(values[:, node, instant]))
-    best = principal(values[:, nodes, instants]).argmax()
-    return int(nodes[best]), int(instants[best])
-
-
-def _alternating(values: np.ndarray) -> np.ndarray:
-    return von_mises(np.ptp(values, axis=-1) / 2)
+    _, n_nodes, n_instants = values.shape
+    largest, instants = np.full((3, n_nodes), -np.inf), np.zeros((3, n_nodes), np.int64)
+    over_nodes = np.zeros(n_instants)
+    low, high = np.empty(6), np.empty(6)
+    for node in range(n_nodes):
+        low[:], high[:] = np.inf, -np.inf
+        for instant in range(n_instants):
+            x, y, z = values[0, node, instant], values[1, node, instant], values[2, node, instant]
+            xy, yz, zx = values[3, node, instant], values[4, node, instant], values[5, node, instant]
+            mises = _von_mises(x, y, z, xy, yz, zx)
+            over_nodes[instant] = max(over_nodes[instant], mises)
+            if mises > largest[0, node]:
+                largest[0, node], instants[0, node] = mises, instant
+            if (x + y + z + 2 * mises) / 3 > largest[1, node]:
+                first = _principal(x, y, z, xy, yz, zx)
+                if first > largest[1, node]:
+                    largest[1, node], instants[1, node] = first, instant
+            for component, of in enumerate((x, y, z, xy, yz, zx)):
+                low[component], high[component] = min(low[component], of), max(high[component], of)
+        half = (high - low) / 2
+        largest[2, node] = _von_mises(half[0], half[1], half[2], half[3], half[4], half[5])
+    return largest, instants, over_nodes
 
 
 def stressed_nodes(stress: ModalStress, share: float) -> np.ndarray:
@@ -176,12 +201,12 @@ def stressed_nodes(stress: ModalStress, share: float) -> np.ndarray:
 
 
 def static_peak(stress: ModalStress) -> dict[str, float]:
-    """Find the largest stress at the running position: ``von_mises`` and ``principal``, as `stress_peak`."""
-    found = {"von_mises": von_mises(stress.static), "principal": principal(stress.static)}
-    at = [_at(stress, name, of, int(of.argmax())) for name, of in found.items()]
-    return at[0] | at[1]
+    """Find the largest stress at the running position: ``von_mises`` and ``principal``, as `stress_peaks`."""
+    largest = {"von_mises": von_mises(stress.static), "principal": principal(stress.static)}
+    mises, first = (_at(stress, name, of.max(), int(of.argmax())) for name, of in largest.items())
+    return mises | first
 
 
-def _at(stress: ModalStress, name: str, values: np.ndarray, node: int) -> dict[str, float]:
+def _at(stress: ModalStress, name: str, value: float, node: int) -> dict[str, float]:
     x, y, z = map(float, stress.points[node])
-    return {name: float(values[node]), f"{name}_x": x, f"{name}_y": y, f"{name}_z": z}
+    return {name: float(value), f"{name}_x": x, f"{name}_y": y, f"{name}_z": z}

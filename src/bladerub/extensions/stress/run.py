@@ -12,8 +12,9 @@ from bladerub.blade.model import ReducedBlade
 from bladerub.blade.stress import NodalStress, running_displacement
 from bladerub.contact.modes import mode_shapes_at
 from bladerub.contact.result import RunResult
+from bladerub.contact.run import simulate
 from bladerub.contact.spec import RunSpec
-from bladerub.extensions.stress.peak import ModalStress, static_peak, stress_peak, stressed_nodes
+from bladerub.extensions.stress.peak import ModalStress, static_peak, stress_peaks, stressed_nodes
 from bladerub.extensions.stress.sampling import SampledRun, simulate_sampled
 from bladerub.io import hdf5
 from bladerub.io.errors import BadInput
@@ -33,7 +34,7 @@ class RunStress:
     static : dict
         Of the rotation alone, as of `bladerub.extensions.stress.peak.static_peak`.
     start_up : dict
-        From the start to where `last` begins, as of `bladerub.extensions.stress.peak.stress_peak`; empty
+        From the start to where `last` begins, as of `bladerub.extensions.stress.peak.stress_peaks`; empty
         where the run has no more revolutions than those.
     last : dict
         Over the last revolutions, likewise.
@@ -124,13 +125,13 @@ class BladeStress:
             (x - a) * (x - b) / (c - a) / (c - b),
         ]
         static, slope = (
-            sum(weight * getattr(of, name) for weight, of in zip(parts, self._at, strict=True))
+            sum(float(weight) * getattr(of, name) for weight, of in zip(parts, self._at, strict=True))
             for name in ("static", "slope")
         )
         return ModalStress(self._at[0].points, static, slope)
 
     def of_run(self, spec: RunSpec, last: int) -> tuple[RunResult, RunStress | None]:
-        """Simulate a run and find its stress, with parameters and outcome as of `run_stress`."""
+        """Simulate a run and find its stress, with outcome as of `simulate_with_stress`."""
         run = simulate_sampled(self._blade, spec, INSTANTS)
         return run.result, sampled_stress(self.at(spec.f_omega).of(run.patterns), run, last)
 
@@ -140,14 +141,14 @@ def complete_revolutions(revolution_peak: np.ndarray, status: str) -> int:
     return int(np.isfinite(revolution_peak).sum()) - (status == "unbounded")
 
 
-def run_stress(
+def simulate_with_stress(
     mesh: str | Path,
     blade: ReducedBlade,
     spec: RunSpec,
     last: int,
     progress: Callable[[int], None] | None = None,
-) -> RunStress | None:
-    """Find the stress of a run of a single blade, which is computed for it.
+) -> tuple[RunResult, RunStress | None]:
+    """Simulate a run of a single blade and find its stress.
 
     Parameters
     ----------
@@ -164,23 +165,23 @@ def run_stress(
 
     Returns
     -------
-    RunStress or None
-        None where the blade is of matrices alone, which tell of no stress, or no revolution is complete.
+    RunResult, RunStress or None
+        The run as of `bladerub.contact.run.simulate`, but for rounding in the sums of its energies. Its
+        stress is None where the blade is of matrices alone, which tell of no stress, or no revolution is
+        complete.
     """
     if stress_of(mesh, spec.f_omega) is None:
-        return None
+        return simulate(blade, spec, progress), None
     run = simulate_sampled(blade, spec, INSTANTS, progress)
-    return sampled_stress(modal_stress(mesh, spec.f_omega, run.patterns), run, last)
+    return run.result, sampled_stress(modal_stress(mesh, spec.f_omega, run.patterns), run, last)
 
 
 def sampled_stress(stress: ModalStress, run: SampledRun, last: int) -> RunStress | None:
-    """Find the stress of a sampled run, as `run_stress`; `stress` is a function of its amplitudes."""
+    """Find the stress of a sampled run, as `simulate_with_stress`; `stress` is that of its amplitudes."""
     revolutions = complete_revolutions(run.result.revolution_peak, run.result.status)
     if not revolutions:
         return None
-    is_last = (run.time > revolutions - last) & (run.time <= revolutions)
-
-    def peak(chosen: np.ndarray) -> dict[str, float]:
-        return stress_peak(stress, run.amplitudes[chosen], run.time[chosen]) if chosen.any() else {}
-
-    return RunStress(static_peak(stress), peak(run.time <= revolutions - last), peak(is_last))
+    begin, end = np.searchsorted(run.time, (max(revolutions - last, 0), revolutions), side="right")
+    parts = {"start_up": slice(0, begin), "last": slice(begin, end)} if begin else {"last": slice(0, end)}
+    found = stress_peaks(stress, run.amplitudes, run.time, [*parts.values()])
+    return RunStress(static_peak(stress), **{"start_up": {}, **dict(zip(parts, found, strict=True))})

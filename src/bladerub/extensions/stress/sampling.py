@@ -29,7 +29,7 @@ from bladerub.numerics.vectors import LANES
 
 
 class SampledRun(NamedTuple):
-    """A run and its motion: the reduced coordinates are ``amplitudes @ patterns``."""
+    """A run and its motion in single precision: the reduced coordinates are ``amplitudes @ patterns``."""
 
     result: RunResult
     time: np.ndarray  # (s,), the instants until the end of the run, revolutions
@@ -51,53 +51,53 @@ def simulate_sampled(
     modes = Modes(omega, at_tip(blade, shapes, spec), blade.n_interface)
     rule, simulation = set_up_modes(modes, blade, spec)
     ends = np.rint(np.linspace(0, n_elements, min(instants, n_elements) + 1)).astype(np.int64)
-    sampled = _Sampled(simulation, ends)
+    n, groups, lanes = rule.omega.size, len(rule.tip) // rule.n_nodes, len(simulation.state.force[0]) // 3
+    forces = np.add.outer(lanes * np.arange(groups), np.arange(rule.n_nodes)).ravel()
+    sampled = _Sampled(simulation, ends, n, forces, revolutions)
     initial = sum(energy.blade_energy(rule, simulation.state))
     whole = (Segment(sampled, revolution, 0, n_elements) for revolution in range(revolutions))
     history = integrate(whole, revolutions, n_elements, progress)
-    q, force = np.concatenate(sampled.q), np.concatenate(sampled.force)
-    n, groups, lanes = rule.omega.size, len(rule.tip) // rule.n_nodes, len(simulation.state.force[0]) // 3
-    forces = force.reshape(len(force), 3, lanes)[:, :groups, : rule.n_nodes].reshape(len(force), -1)
     # what the resolved modes displace, and how the others answer to the contact forces
     moving = np.sqrt(rule.share[:n])[:, None] * shapes[:, :n].T
     answer = modes.tip * ((1.0 - rule.share) / omega**2) @ shapes.T
     times = np.add.outer(np.arange(revolutions), ends[1:] / n_elements).ravel()
     return SampledRun(
         run_result(blade, spec, rule, simulation, history, initial),
-        times[: len(q)],
-        np.hstack([q[:, :n], forces]),
-        np.vstack([moving, answer]),
+        times[: sampled.passed],
+        sampled.amplitudes[: sampled.passed],
+        np.vstack([moving, answer]).astype(np.float32),
     )
 
 
 class _Sampled:
     """For `integrate`, in the place of a simulation: sampled after elements `ends` of each revolution."""
 
-    def __init__(self, simulation: Simulation, ends: np.ndarray):
+    def __init__(
+        self, simulation: Simulation, ends: np.ndarray, n: int, forces: np.ndarray, revolutions: int
+    ):
         self.state, self.steps_per_element = simulation.state, simulation.steps_per_element
-        self.q: list[np.ndarray] = []  # (s, n) of each revolution
-        self.force: list[np.ndarray] = []
-        self._simulation, self._ends = simulation, ends
+        # of the first n modes, and the contact forces of these numbers
+        self.amplitudes = np.empty((revolutions * (ends.size - 1), n + forces.size), np.float32)
+        self.passed = 0  # instants
+        self._simulation, self._ends, self._forces = simulation, ends, forces
         # what is compiled here has the usual lanes and law; other loops are rare, and go by parts in Python
         self._is_usual = isinstance(simulation, Simulation)
 
     def advance(self, displacement: np.ndarray, first: int) -> Progress:
-        state, n = self.state, self._ends.size - 1
-        q, force = np.empty((n, state.q.shape[1])), np.empty((n, state.force.shape[1]))
         run = _advance if self._is_usual else _advance_by_parts
-        passed, made = run(self._simulation, self._ends, displacement, q, force)
-        self.q.append(q[:passed])
-        self.force.append(force[:passed])
+        rows = self.amplitudes[self.passed : self.passed + self._ends.size - 1]
+        passed, made = run(self._simulation, self._ends, displacement, rows, self._forces)
+        self.passed += passed
         return made
 
 
-def _advance(simulation, ends, displacement, q, force):
+def _advance(simulation, ends, displacement, rows, forces):
     address, per_element = displacement.ctypes.data, simulation.steps_per_element
-    passed, *made = _integrate(*simulation.records, per_element, ends, address, q, force)
+    passed, *made = _integrate(*simulation.records, per_element, ends, address, rows, forces)
     return passed, Progress(*made)
 
 
-def _advance_by_parts(simulation, ends, displacement, q, force):
+def _advance_by_parts(simulation, ends, displacement, rows, forces):
     n_steps = n_flights = n_contact = 0
     low, high = np.inf, -np.inf
     for part, (first, last) in enumerate(pairwise(ends)):
@@ -107,16 +107,18 @@ def _advance_by_parts(simulation, ends, displacement, q, force):
         low, high = min(low, made.lowest), max(high, made.highest)
         if made.n_steps < (last - first) * simulation.steps_per_element:
             return part, Progress(n_steps, n_flights, n_contact, low, high)
-        q[part], force[part] = simulation.state.q[0], simulation.state.force[0]
-    return len(q), Progress(n_steps, n_flights, n_contact, low, high)
+        state, n = simulation.state, rows.shape[1] - forces.size
+        rows[part] = np.concatenate([state.q[0, :n], state.force[0, forces]])
+    return len(rows), Progress(n_steps, n_flights, n_contact, low, high)
 
 
 @njit_on_disk(nogil=True)
-def _integrate(modal, flight, stator, tip, state, steps_per_element, ends, displacement, q, force):
+def _integrate(modal, flight, stator, tip, state, steps_per_element, ends, displacement, rows, forces):
     n_steps = n_flights = n_contact = 0
     low, high = np.inf, -np.inf
     flew, far = False, 0.0
-    for part in range(len(q)):
+    n = rows.shape[1] - forces.size
+    for part in range(len(rows)):
         first, last = ends[part], ends[part + 1]
         turns, flew, far, steps, flights, contacts, lowest, highest = loop.integrate(
             modal,
@@ -137,8 +139,14 @@ def _integrate(modal, flight, stator, tip, state, steps_per_element, ends, displ
         low, high = min(low, lowest), max(high, highest)
         if steps < (last - first) * steps_per_element:
             return part, n_steps, n_flights, n_contact, low, high
-        for k in range(q.shape[1]):
-            q[part, k] = read(state.q, k)
-        for k in range(force.shape[1]):
-            force[part, k] = read(state.force, k)
-    return len(q), n_steps, n_flights, n_contact, low, high
+        for k in range(n):
+            rows[part, k] = _normal(read(state.q, k))
+        for k, of in enumerate(forces):
+            rows[part, n + k] = _normal(read(state.force, of))
+    return len(rows), n_steps, n_flights, n_contact, low, high
+
+
+@njit_on_disk()
+def _normal(value):
+    """Return the number, or 0 for one that is subnormal in single precision, since those are slow."""
+    return value if abs(value) > 1e-37 else 0.0
