@@ -10,7 +10,7 @@ from bladerub.io import tables
 
 _MACHINE = ["processor", "vector_bits", "cores"]
 _LOOPS = ("numpy", "numba", "production")
-_WHOLE = ["peak_flops", "seconds_per_run", "study_minutes"]
+_WHOLE = ["peak_flops", "seconds_per_run", "study_minutes", "cost_of_stress"]
 COLUMNS = [
     *(*_MACHINE, "motion"),
     *(f"steps_per_second_{loop}" for loop in _LOOPS),
@@ -20,12 +20,15 @@ COLUMNS = [
 
 
 def rows(figures: Mapping[str, Any]) -> pd.DataFrame:
-    """Arrange what `bladerub.benchmark.measure.benchmark` returns in two rows: with contact, and free."""
+    """Arrange what `bladerub.benchmark.measure.benchmark` returns in two rows: with contact, and free.
+
+    With the ``cost_of_stress``, if it was measured.
+    """
     found = []
     for motion, ending in (("contact", ""), ("free", "_free")):
         steps = [figures["steps_per_second"][loop][motion] for loop in _LOOPS]
         ratios = [figures[f"ratio_to_{loop}{ending}"] for loop in ("numpy", "numba")]
-        of_machine, whole = ([figures[name] for name in names] for names in (_MACHINE, _WHOLE))
+        of_machine, whole = ([figures.get(name) for name in names] for names in (_MACHINE, _WHOLE))
         found.append([*of_machine, motion, *steps, *ratios, figures[f"fraction_of_peak_{motion}"], *whole])
     return pd.DataFrame(found, columns=COLUMNS)
 

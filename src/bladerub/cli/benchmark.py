@@ -7,6 +7,7 @@ from typing import Any
 
 from bladerub.cli import inputs
 from bladerub.cli.inputs import InputError
+from bladerub.io.errors import BadInput
 from bladerub.numerics.lanes import FEWEST_NODES, MOST_NODES
 
 _LOOPS = {"numpy": "NumPy", "numba": "the same compiled by numba", "production": "loop of the study"}
@@ -39,6 +40,8 @@ def add_to(commands: Any) -> None:
     parser.option("--cores", text, int, metavar="C")
     text = "also the cost of so many interface nodes, over that of 8; builds a blade for each"
     parser.option("--nodes", text, int, nargs="+", default=[], metavar="N")
+    text = "also the cost of a run with the stress of the blade, over that of the run alone"
+    parser.add_argument("--stress", action="store_true", help=text)
     text = "also put the figures of this machine into the table FILE, in the place of its old ones"
     parser.option("--table", text, Path, metavar="FILE")
 
@@ -54,7 +57,8 @@ def benchmark(options: argparse.Namespace) -> None:
             raise InputError(f"--nodes {n}: must be from {FEWEST_NODES} to {MOST_NODES}")
     if options.nodes and "matrices" in config["blade"].get("source", {}):
         raise InputError("--nodes: a blade of matrices has the interface nodes that its folder marks")
-    blade = inputs.read_blade(options, config).reduced
+    whole = inputs.read_blade(options, config)
+    blade = whole.reduced
 
     from bladerub.benchmark.measure import benchmark as measure
 
@@ -64,6 +68,12 @@ def benchmark(options: argparse.Namespace) -> None:
 
         _report_stage("building blades with more interface nodes")
         figures["cost_by_nodes"] = cost_by_nodes(config, options.nodes, options.rounds)
+    if options.stress:
+        from bladerub.extensions.stress.cost import cost_of_stress
+
+        _report_stage("timing runs with the stress of the blade")
+        with inputs.refused(OSError, BadInput, because="--stress: "):
+            figures["cost_of_stress"] = cost_of_stress(whole.mesh_path, blade, config, options.rounds)
     if options.table:
         from bladerub.benchmark.record import record
         from bladerub.io.provenance import provenance
@@ -85,21 +95,20 @@ def _in_words(figures: dict[str, Any]) -> str:
         ratios = (figures[f"ratio_to_{loop}{end}"] for end in ("", "_free"))
         rows.append((f"times {'NumPy' if loop == 'numpy' else loop}", *(f"{ratio:.3g}" for ratio in ratios)))
     rows.append(("fraction of peak", *(f"{figures[f'fraction_of_peak_{kind}']:.2f}" for kind in kinds)))
-    return "\n".join(
-        [
-            f"{figures['processor']}, vectors of {figures['vector_bits']} bits",
-            f"{figures['modes']} modes, contact in {figures['contact_share']:.0%} of the steps or none, "
-            f"medians of {figures['rounds']} rounds",
-            "",
-            *(inputs.row(30, *row) for row in rows),
-            "",
-            f"peak: {figures['peak_flops'] / 1e9:.3g} billion operations a second",
-            f"a run of the study: {figures['seconds_per_run']:.3g} s; {figures['runs']} runs and "
-            f"{figures['members']} members of ensembles on {figures['cores']} cores: "
-            f"{figures['study_minutes']:.3g} minutes",
-            *(
-                f"{n} interface nodes: {cost:.3g} times the time of 8"
-                for n, cost in figures.get("cost_by_nodes", {}).items()
-            ),
-        ]
-    )
+    lines = [
+        f"{figures['processor']}, vectors of {figures['vector_bits']} bits",
+        f"{figures['modes']} modes, contact in {figures['contact_share']:.0%} of the steps or none, "
+        f"medians of {figures['rounds']} rounds",
+        "",
+        *(inputs.row(30, *row) for row in rows),
+        "",
+        f"peak: {figures['peak_flops'] / 1e9:.3g} billion operations a second",
+        f"a run of the study: {figures['seconds_per_run']:.3g} s; {figures['runs']} runs and "
+        f"{figures['members']} members of ensembles on {figures['cores']} cores: "
+        f"{figures['study_minutes']:.3g} minutes",
+    ]
+    for n, cost in figures.get("cost_by_nodes", {}).items():
+        lines.append(f"{n} interface nodes: {cost:.3g} times the time of 8")
+    if "cost_of_stress" in figures:
+        lines.append(f"a run with the stress of the blade: {figures['cost_of_stress']:.3g} times a run alone")
+    return "\n".join(lines)

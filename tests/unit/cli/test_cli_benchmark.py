@@ -68,8 +68,10 @@ def test_json_holds_every_figure(benchmark, capsys):
 
 
 def test_in_words(benchmark, capsys):
-    assert benchmark("--rounds", "1") == 0
-    assert "fraction of peak" in capsys.readouterr().out
+    assert benchmark("--rounds", "1", "--stress") == 0
+    words = capsys.readouterr().out
+    assert "fraction of peak" in words
+    assert "a run with the stress of the blade" in words
 
 
 @pytest.mark.parametrize(
