@@ -28,19 +28,24 @@ def wear_map(coating: CoatingMap, scales: Scales | None = None) -> Figure:
     upper, lower = figure.subplots(2, 1, sharex=True, height_ratios=[4, 1])
     angle_edges, look = np.degrees(bins.edges(coating.angle)), {"cmap": WEAR_MAP, "vmin": 0}
     mesh = upper.pcolormesh(speed_edges, angle_edges, np.ma.masked_invalid(rows.T), **look, rasterized=True)
-    figure.colorbar(mesh, ax=upper, label="worn depth, mean of the 8 nodes (mm)", pad=0.015)
+    figure.colorbar(mesh, ax=upper, label="worn depth, mean of the nodes (mm)", pad=0.015)
     upper.set(facecolor=MISSING, ylim=(0, 360), yticks=range(0, 361, 60), ylabel="casing angle (°)")
     upper.set_title(titles.coating(coating.case, scales.modulus_unit))
-    upper.set_title("grey: not computed", loc="right", fontsize=7)
     _draw_lobes(lower, coating, scales)
-    start = 0.0
+    start = speed_edges[0] if scales.engine else 0.0
+    if start < speed_edges[0] or not np.isfinite(rows).all():
+        upper.set_title("grey: not computed", loc="right", fontsize=7)
     if scales.engine:
-        start = speed_edges[0]
         scales.engine.add_speeds(lower, "x")
         scales.engine.draw_nominal_speed(upper.axvline)
         scales.engine.draw_nominal_speed(lower.axvline, named=False)
-        if scales.engine.nominal_speed is not None:
-            upper.legend(loc="upper left")
+    legend = {}
+    for axes in (lower, upper):
+        handles, labels = axes.get_legend_handles_labels()
+        legend |= dict(zip(labels, handles, strict=True))
+    if len(legend) > 1:
+        names = {"handles": legend.values(), "labels": legend.keys()}
+        figure.legend(**names, loc="outside lower center", ncols=4, handletextpad=0.4)
     lower.set(xlim=(start, speed_edges[-1]), xlabel=r"rotational frequency $f_\Omega\,/\,f_1(0)$")
     return figure
 
@@ -51,10 +56,6 @@ def _draw_lobes(axes: Axes, coating: CoatingMap, scales: Scales) -> None:
     for runs, look in ((completed, _COMPLETED), (~completed, _ENDED_EARLY), (large, _LARGE)):
         if runs.any():
             axes.plot(coating.f_omega[runs], coating.lobes[runs], linestyle="none", **look)
-    height = 1.2
-    if large.any() or not completed.all():
-        height = 1.7  # for the legend above the markers
-        axes.legend(loc="upper left", ncols=3, handletextpad=0.2, columnspacing=1.0)
     axes.yaxis.set_major_locator(MaxNLocator(integer=True, nbins=5))
     axes.grid(axis="y")
-    axes.set(ylim=(0, height * max(1, coating.lobes.max())), ylabel="worn lobes")
+    axes.set(ylim=(0, 1.2 * max(1, coating.lobes.max())), ylabel="worn lobes")
