@@ -19,7 +19,6 @@ from bladerub.api.study import StudyRun
 from bladerub.blade.model import ReducedBlade
 from bladerub.contact.result import Energy, RunResult
 from bladerub.contact.row_spec import Row
-from bladerub.contact.run import simulate as simulate_single
 from bladerub.contact.setup import compile_kernel
 from bladerub.contact.spec import RunSpec
 from bladerub.extensions.stress.run import RunStress, simulate_with_stress
@@ -349,11 +348,11 @@ def solve(
     digest, settings = blade.digest, run.config["analysis"]["divergence"]
     run = run.of_length(blade.length)  # perhaps not the study's own blade
     row = row or row_of(run.config)
-    solver = _StressSolver(blade, run) if stress else simulate_single
+    solver = _StressSolver(blade, run) if stress else None
     if stress and row:
         raise ValueError("stress = True: is found for a single blade only, must be False with a row")
     stored = _solve(blade, run, run.spec, digest, done, keep_history, row, solver)
-    found = solver.stress if stress else None
+    found = solver.stress if solver else None
     if found:
         stored = replace(stored, attributes=stored.attributes | found.attributes())
     longer = None
@@ -387,7 +386,7 @@ def _solve(
     done: Callable[[int], None] | None,
     keep_history: bool,
     row: Row | None,
-    solver: Callable[..., RunResult] = simulate_single,
+    solver: _StressSolver | None = None,
 ) -> StoredRun:
     plan = planned_run(run.config, spec, f"{speed_name(spec.f_omega)}.h5", keep_history, row)
     return compute(run.case, plan, blade.reduced, plan.key(digest), run.config["analysis"], done, solver)

@@ -97,18 +97,19 @@ def compute(
     key: str,
     analysis: Mapping[str, Any],
     progress: Callable[[int], None] | None = None,
-    solve: Callable[..., RunResult] = simulate,
+    solve: Callable[..., RunResult] | None = None,
 ) -> StoredRun:
     """Simulate what was planned, a single blade or a row, and return what is stored of it.
 
     `key` is that of the run, `analysis` of the config; `progress` is called with the number of revolutions
-    done. A single blade is simulated by `solve`. Raises `ValueError` as `bladerub.contact.run.simulate` and
-    `bladerub.contact.row.simulate_row`.
+    done. A single blade is simulated by `solve`, by default `bladerub.contact.run.simulate`. Raises
+    `ValueError` as `bladerub.contact.run.simulate` and `bladerub.contact.row.simulate_row`.
     """
     if run.row:
         outcome = simulate_row(blade, run.spec, run.row, progress)
         return stored_row(case, run.spec, run.row, outcome, key, analysis, run.keep_history)
-    return stored_run(case, run.spec, solve(blade, run.spec, progress), key, analysis, run.keep_history)
+    result = (solve or simulate)(blade, run.spec, progress)
+    return stored_run(case, run.spec, result, key, analysis, run.keep_history)
 
 
 def _row(run: PlannedRun, done: _Done, longer: _Done | None, growth_key: str) -> ManifestRow:
