@@ -258,6 +258,15 @@ use rule docs_data as docs_rotor37 with:
         folder="benchmarks/rotor37",
 
 
+use rule docs_data as docs_rotor37_nodes with:
+    input:
+        "results_rotor37/tables/more_nodes.csv",
+    log:
+        f"{RESULTS}/logs/docs_rotor37_nodes.log",
+    params:
+        prefix="rotor37_",
+
+
 use rule docs_data as docs_tip_turns with:
     input:
         f"{TIP_TURNS}/tables/findings.csv",

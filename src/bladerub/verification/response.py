@@ -17,16 +17,16 @@ CASES = [
     CoatingCase("2nd", *layer)
     for layer in [(0.11, 0.5, 0.0), (1.1, 0.5, 0.0), (2.0, 0.5, 0.0), (2.0, 0.5, 0.15), (20.0, 10.0, 0.0)]
 ]
-"""Coatings whose peaks are compared: those of Figs. 8, 9, 15 and 16, and the stiffest."""
+"""Coatings of the paper whose peaks are compared: those of Figs. 8, 9, 15 and 16, and the stiffest."""
 
 CASE_COLUMNS = ("casing", "E", "K", "theta")
 
 
 def listed(peaks: pd.DataFrame) -> list[tuple[CoatingCase, Any]]:
-    """List coating and row of the peaks of the `CASES` in a table ``peaks.csv``."""
+    """List coating and row of the peaks of the `CASES` in a table ``peaks.csv``, or of all if it has none."""
     own = peaks[peaks.law == "theta"].itertuples()
     described = [(CoatingCase(row.casing, row.E, row.K, row.theta), row) for row in own]
-    return [each for each in described if each[0] in CASES]
+    return [each for each in described if each[0] in CASES] or described
 
 
 class Response:
