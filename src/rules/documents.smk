@@ -227,7 +227,6 @@ use rule docs_data as docs_chart with:
 use rule docs_data as docs_robustness with:
     input:
         rules.robustness.output.table,
-        rules.robustness.output.indices,
     log:
         f"{RESULTS}/logs/docs_robustness.log",
 

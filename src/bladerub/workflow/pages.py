@@ -5,15 +5,17 @@ A number stands between two comments, the first of which holds its source:
 them: ``<!-- C6a C6c: partly -->``. Both are invisible on the rendered page. An expression is of Jinja. A
 table is called with the values of its first columns and answers with the one row that has them; its `column`
 lists a column for the filters ``sum``, ``max`` and ``min``, over the rows that have the values it is given.
-Its `rows` are the table as pandas has it, for what these cannot say; the filter ``table`` writes such rows
-as a table of Markdown, between lines that hold nothing but the comments.
+Its `commit` is that of the program that computed it. Its `rows` are the table as pandas has it, for what
+these cannot say; the filter ``table`` writes such rows as a table of Markdown, between lines that hold
+nothing but the comments. It may be told which columns, how each is written, and under which heading:
+``table('E', 'error:percent(2) = error, %')``.
 A pipe in a row of a Markdown table is written ``\|``, since it would end the cell.
 """
 
 import difflib
 import re
 from collections.abc import Callable, Iterator, Mapping
-from functools import cache
+from functools import cache, partial
 from pathlib import Path
 from typing import Any
 
@@ -36,8 +38,9 @@ class PageError(ValueError):
 class Table:
     """A table as expressions of pages see it."""
 
-    def __init__(self, name: str, rows: pd.DataFrame) -> None:
+    def __init__(self, name: str, rows: pd.DataFrame, origin: Mapping[str, str]) -> None:
         self.name, self.rows = name, rows
+        self.commit = origin.get("provenance_git_commit", "")[:7]
 
     def __call__(self, *key: Any) -> dict[str, Any]:
         """Return the one row whose first columns are `key`, with its numbers as numbers."""
@@ -65,7 +68,7 @@ def read_tables(folder: Path) -> dict[str, Table]:
     """Read the snapshots in `folder`, and the reference numbers, as ``rotor37_direct``."""
     paths = {path.stem: path for path in folder.glob("*.csv")}
     paths |= {f"{path.parent.name}_{path.stem}": path for path in BENCHMARKS.glob("*/*.csv")}
-    return {name: Table(name, tables.read(path)) for name, path in paths.items()}
+    return {name: Table(name, tables.read(path), tables.read_origin(path)) for name, path in paths.items()}
 
 
 def pages_of(root: Path) -> list[Path]:
@@ -145,7 +148,7 @@ def _value(source: str, data: Mapping[str, Table], where: str) -> str:
 def _compiled(source: str) -> tuple[set[str], Callable[..., Any]]:
     """Return the tables that the expression `source` quotes, and the function that evaluates it."""
     environment = Environment(undefined=StrictUndefined, autoescape=False)
-    environment.filters |= {"fixed": _fixed, "percent": _percent, "mm": _mm, "table": _table}
+    environment.filters |= {**_FORMS, "table": _table}
     names = meta.find_undeclared_variables(environment.parse(f"{{{{ {source} }}}}"))
     return names - {*environment.globals}, environment.compile_expression(source, undefined_to_none=False)
 
@@ -173,8 +176,29 @@ def _mm(value: float, digits: int = 1) -> str:
     return f"{1000 * value:.{digits}f}"
 
 
-def _table(rows: pd.DataFrame) -> str:
-    """Write `rows` as a table of Markdown; what is missing leaves its cell empty."""
-    lines = [map(str, rows.columns), ["---"] * len(rows.columns)]
-    lines += [["" if pd.isna(cell) else str(cell) for cell in row] for row in rows.itertuples(index=False)]
+_FORMS = {"fixed": _fixed, "percent": _percent, "mm": _mm}
+"""Filters that write a number with so many digits."""
+_COLUMN = re.compile(
+    rf"(?P<name>\w+)(?::(?P<form>{'|'.join(_FORMS)})\((?P<digits>\d)\))?(?: = (?P<heading>.+))?"
+)
+
+
+def _table(rows: pd.DataFrame, *columns: str) -> str:
+    """Write `rows` as a table of Markdown; what is missing leaves its cell empty.
+
+    Each of `columns` is a name, perhaps with a filter and a heading: ``wear:mm(2) = wear, mm``. Without them
+    all are written as they are.
+    """
+    told = [_column(column) for column in columns] or [(name, str, name) for name in rows.columns]
+    cells = [["" if pd.isna(value) else write(value) for value in rows[name]] for name, write, _ in told]
+    lines = [[heading for *_, heading in told], ["---"] * len(told), *zip(*cells, strict=True)]
     return "\n" + "".join(f"| {' | '.join(line)} |\n" for line in lines)
+
+
+def _column(text: str) -> tuple[str, Callable[[Any], str], str]:
+    """Return name of the column, what writes a value of it, and its heading."""
+    told = _COLUMN.fullmatch(text)
+    if not told:
+        raise ValueError(f"{text}: must be a column, with filter and heading as in 'wear:mm(2) = wear, mm'")
+    form = partial(_FORMS[told["form"]], digits=int(told["digits"])) if told["form"] else str
+    return told["name"], form, told["heading"] or told["name"]

@@ -7,6 +7,7 @@ from pathlib import Path
 import pandas as pd
 import pytest
 
+from bladerub.io import tables
 from bladerub.workflow import pages
 
 ROOT = Path(__file__).parents[3]
@@ -266,6 +267,7 @@ CHANGES = [
         1.0,
         "rotor37_nlstep(20,3000,'rest_mu0.15.order_6')",
     ),
+    ("robustness", {"id": "C11k"}, "yes_share", 0.9, "robustness('C11k').yes_share"),
     (
         "stress",
         {"casing": "2nd", "E": 11, "K": 1, "theta": 0, "order": 4},
@@ -365,7 +367,7 @@ def test_rows_are_written_as_a_table_and_a_changed_one_is_named(tmp_path):
 
 
 def test_no_mark_begins_a_line_which_would_make_it_plain_html():
-    begins = re.compile(r"\s*(?:[*-] )?<!-- (?:=(?!.*\|table -->$)|C\d)")
+    begins = re.compile(r"\s*(?:[*-] )?<!-- (?:=(?!.*\|table(?:\(.*\))? -->$)|C\d)")
     assert not begins.match("<!-- = cost.rows|table -->")  # the table begins on the next line
     lines = [line for page in pages.pages_of(ROOT) for line in page.read_text(encoding="utf-8").split("\n")]
     assert begins.match("* <!-- C1a: yes -->so")
@@ -391,3 +393,23 @@ def test_a_column_of_chosen_rows_is_summed():
 def test_metres_are_shown_in_millimetres():
     rendered = pages.render("<!-- = 0.00234 | mm(2) --><!-- / -->", "page.md", {})
     assert rendered == "<!-- = 0.00234 | mm(2) -->2.34<!-- / -->"
+
+
+def test_a_table_has_the_columns_that_it_is_asked_for():
+    rows = pd.DataFrame({"E": [1.0, 2.0], "wear": [1.234e-3, None], "left_out": [0, 0]})
+    written = pages._table(rows, "E:fixed(0)", "wear:mm(2) = wear, mm")
+    assert written == "\n| E | wear, mm |\n| --- | --- |\n| 1 | 1.23 |\n| 2 |  |\n"
+
+
+@pytest.mark.parametrize("column", ["wear:mm", "wear:cm(2)", "wear, mm"])
+def test_a_column_that_cannot_be_read_is_an_error(column):
+    with pytest.raises(pages.PageError, match=re.escape(f"{column}: must be a column")):
+        pages.render(
+            f"<!-- = findings.rows|table('{column}') --><!-- / -->", "page.md", pages.read_tables(SNAPSHOTS)
+        )
+
+
+def test_a_page_names_the_commit_of_a_table():
+    data = pages.read_tables(SNAPSHOTS)
+    commit = tables.read_origin(SNAPSHOTS / "robustness.csv")["provenance_git_commit"]
+    assert data["robustness"].commit == commit[:7]
