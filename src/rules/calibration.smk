@@ -26,9 +26,12 @@ def calibration_set(wildcards):
 rule calibration:
     input:
         findings=calibration_findings,
-        drawing=files_behind("plots.verdicts"),
+        drawing=files_behind("extensions.calibration", "plots.verdicts"),
     output:
-        **described(table=f"{TABLES}/calibration.csv"),
+        **described(
+            table=f"{TABLES}/calibration.csv",
+            counts=f"{TABLES}/calibration_counts.csv",
+        ),
         png=f"{PLOTS}/calibration.png",
         pdf=f"{PLOTS}/calibration.pdf",
     log:

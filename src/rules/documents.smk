@@ -210,8 +210,20 @@ use rule docs_data as docs_rotor with:
 use rule docs_data as docs_calibration with:
     input:
         rules.calibration.output.table,
+        rules.calibration.output.counts,
     log:
         f"{RESULTS}/logs/docs_calibration.log",
+
+
+# With `--config calibration=config/laws.yaml results=results/laws`, whose rules make these tables
+use rule docs_data as docs_laws with:
+    input:
+        "results/laws/tables/calibration.csv",
+        "results/laws/tables/calibration_counts.csv",
+    log:
+        f"{RESULTS}/logs/docs_laws.log",
+    params:
+        prefix="laws_",
 
 
 use rule docs_data as docs_chart with:

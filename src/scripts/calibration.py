@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from bladerub.extensions.calibration import collect
+from bladerub.extensions.calibration import collect, counts
 from bladerub.plots.verdicts import verdicts as draw
 from bladerub.study.findings import verdicts
 from bladerub.workflow import job, outputs
@@ -10,4 +10,4 @@ from bladerub.workflow import job, outputs
 job.log_to(snakemake.log[0])
 
 table = collect({Path(path).parts[-3]: path for path in snakemake.input.findings})
-outputs.save(snakemake, draw(verdicts(table, by="set")), table=table)
+outputs.save(snakemake, draw(verdicts(table, by="set")), table=table, counts=counts(table))

@@ -18,8 +18,13 @@ from bladerub.extensions.small_study import conduct
 from bladerub.io import tables
 from bladerub.io.provenance import provenance
 from bladerub.study import findings
+from bladerub.study.findings.claim import SCORE
 
 COLUMNS = ["set", "id", "claim", "paper", "measured", "unit", "holds", "margin"]
+"""Columns of ``calibration.csv``."""
+
+COUNTS = ["set", "yes", "partly", "no", "better", "worse"]
+"""Columns of ``calibration_counts.csv``."""
 
 
 def plan(config: Mapping[str, Any]) -> dict[str, dict[str, Any]]:
@@ -67,3 +72,22 @@ def collect(paths: Mapping[str, str | Path]) -> pd.DataFrame:
     """Put the findings of all sets, in a file by the name of each, into one table of `COLUMNS`."""
     found = [tables.read(path, findings.COLUMNS).assign(set=name) for name, path in paths.items()]
     return pd.concat(found, ignore_index=True)[COLUMNS]
+
+
+def counts(table: pd.DataFrame) -> pd.DataFrame:
+    """Count the verdicts of each set in a `table` of `collect`, and name those that differ from the first.
+
+    A row a set with `COUNTS`. A verdict that the one set has and the other does not is left out.
+    """
+    holds = findings.verdicts(table, by="set")
+    score = holds.apply(lambda verdicts: verdicts.map(SCORE))
+    rows = []
+    for name in holds:
+        change = score[name] - score.iloc[:, 0]
+        number = holds[name].value_counts()
+        rows.append(
+            {"set": name}
+            | {word: number.get(word, 0) for word in SCORE}
+            | {"better": " ".join(change[change > 0].index), "worse": " ".join(change[change < 0].index)}
+        )
+    return pd.DataFrame(rows, columns=COUNTS)

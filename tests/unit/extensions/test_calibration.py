@@ -3,7 +3,7 @@ import pytest
 
 from bladerub.config.errors import ConfigError
 from bladerub.config.read import load, validate
-from bladerub.extensions.calibration import COLUMNS, collect, plan
+from bladerub.extensions.calibration import COLUMNS, collect, counts, plan
 from bladerub.io.folders import ROOT
 from bladerub.study.findings import verdicts
 
@@ -151,3 +151,18 @@ def test_findings_of_all_sets_make_one_table(tmp_path):
     assert list(wide.loc["C0"]) == ["yes", "partly"]
     assert wide.loc["C1", "b"] == "no"
     assert pd.isna(wide.loc["C1", "a"])
+
+
+def test_verdicts_are_counted_and_compared_with_the_first_set():
+    verdicts = {
+        "study": {"C1a": "yes", "C2a": "partly", "C4a": "no"},
+        "soft": {"C1a": "no", "C2a": "yes", "C4a": "no", "C5a": "yes"},
+        "stiff": {"C1a": "partly", "C2a": "no"},
+    }
+    rows = [(name, id_, holds) for name, own in verdicts.items() for id_, holds in own.items()]
+    table = counts(pd.DataFrame(rows, columns=["set", "id", "holds"]))
+    assert table.values.tolist() == [
+        ["study", 1, 1, 1, "", ""],
+        ["soft", 2, 0, 2, "C2a", "C1a"],
+        ["stiff", 0, 1, 1, "", "C1a C2a"],
+    ]

@@ -267,6 +267,13 @@ CHANGES = [
         1.0,
         "rotor37_nlstep(20,3000,'rest_mu0.15.order_6')",
     ),
+    (
+        "rotor37_more_nodes",
+        {"E": 1, "theta": 0, "order": 4, "interface_nodes": 16},
+        "amplitude",
+        1.0,
+        "rotor37_more_nodes.rows",
+    ),
     ("robustness", {"id": "C11k"}, "yes_share", 0.9, "robustness('C11k').yes_share"),
     (
         "stress",

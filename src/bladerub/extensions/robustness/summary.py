@@ -11,10 +11,7 @@ from bladerub.extensions.robustness.plan import REFERENCE, Plan
 from bladerub.extensions.robustness.sensitivity import indices
 from bladerub.io.tables import read as read_table
 from bladerub.study.findings import TITLES, claim_of
-from bladerub.study.findings.claim import NO, PARTLY, YES
-
-SCORE = {YES: 1.0, PARTLY: 0.5, NO: 0.0}
-"""A verdict as a number, for what decides it."""
+from bladerub.study.findings.claim import NO, SCORE
 
 DECIDES = 0.1
 """Total index from which a factor is named among those that decide."""

@@ -6,6 +6,8 @@ from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
 YES, PARTLY, NO = "yes", "partly", "no"
+SCORE = {YES: 1.0, PARTLY: 0.5, NO: 0.0}
+"""A verdict as a number."""
 
 
 @dataclass(frozen=True)
