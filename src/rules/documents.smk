@@ -193,9 +193,15 @@ use rule docs_data as docs_more_nodes with:
 use rule docs_data as docs_sweeps with:
     input:
         rules.sweeps.output.table,
-        rules.long_runs.output.table,
     log:
         f"{RESULTS}/logs/docs_sweeps.log",
+
+
+use rule docs_data as docs_long_runs with:
+    input:
+        rules.long_runs.output.table,
+    log:
+        f"{RESULTS}/logs/docs_long_runs.log",
 
 
 use rule docs_data as docs_rotor with:

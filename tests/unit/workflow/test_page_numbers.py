@@ -272,7 +272,14 @@ CHANGES = [
         {"E": 1, "theta": 0, "order": 4, "interface_nodes": 16},
         "amplitude",
         1.0,
-        "rotor37_more_nodes.rows",
+        "rotor37_more_nodes.rows.query('interface_nodes > 8')|table",
+    ),
+    (
+        "long_runs",
+        {"law": "theta", "why": "grows", "revolutions": 500, "verdict": "unbounded"},
+        "runs",
+        1000,
+        "why='grows',revolutions=500,verdict='unbounded'",
     ),
     ("robustness", {"id": "C11k"}, "yes_share", 0.9, "robustness('C11k').yes_share"),
     (
