@@ -76,8 +76,7 @@ def pages_of(root: Path) -> list[Path]:
     folders = ("explanation", "how-to", "reference", "tutorials")
     return [
         root / "README.md",
-        root / "docs" / "rotor.md",
-        root / "docs" / "rotor37.md",
+        *(root / "docs" / f"{name}.md" for name in ("laws", "rotor", "rotor37")),
         *(page for name in folders for page in sorted((root / "docs" / name).glob("*.md"))),
     ]
 
