@@ -26,8 +26,8 @@ def stress(table: pd.DataFrame) -> Figure:
             "mfc": "none",
         }
         name = f"eo({order:g})"
-        over_speed.plot(rows.f_peak, rows.last_von_mises / 1e6, label=f"{name}, von Mises", **look)
-        over_displacement.plot(1e3 * rows.amplitude, rows.last_alternating / 1e6, label=name, **look)
+        over_speed.plot(rows.f_peak, rows.last_von_mises / 1e6, label=name, **look)
+        over_displacement.plot(1e3 * rows.amplitude, rows.last_alternating / 1e6, **look)
     rotation = table.sort_values("f_peak")
     over_speed.plot(
         rotation.f_peak, rotation.rotation_von_mises / 1e6, color=style.GREY, label="rotation alone"
@@ -39,5 +39,6 @@ def stress(table: pd.DataFrame) -> Figure:
     over_displacement.set_xlim(left=0)
     for axes in (over_speed, over_displacement):
         axes.set_ylim(bottom=0)
-        axes.legend(loc="upper left")
+    handles, labels = over_speed.get_legend_handles_labels()
+    figure.legend(handles, labels, loc="outside lower center", ncols=len(labels))  # hides no peak
     return figure
