@@ -3,8 +3,7 @@
 from collections.abc import Iterable
 
 import numpy as np
-from scipy.linalg import eigh
-from scipy.optimize import brentq
+import scipy  # its parts when they are used: every job of a figure imports this module
 from threadpoolctl import threadpool_limits
 
 from bladerub.blade.model import ReducedBlade
@@ -14,7 +13,9 @@ from bladerub.blade.model import ReducedBlade
 def reduced_frequencies(blade: ReducedBlade, f_omega: float, n_modes: int | None = None) -> np.ndarray:
     """Lowest `n_modes` frequencies (all if not given) of the reduced model at `f_omega`, Hz."""
     last = len(blade.mass) if n_modes is None else n_modes
-    squares = eigh(blade.stiffness(f_omega), blade.mass, eigvals_only=True, subset_by_index=[0, last - 1])
+    squares = scipy.linalg.eigh(
+        blade.stiffness(f_omega), blade.mass, eigvals_only=True, subset_by_index=[0, last - 1]
+    )
     return in_hertz(squares)
 
 
@@ -29,7 +30,7 @@ def crossing_speeds(blade: ReducedBlade, orders: Iterable[int]) -> dict[int, flo
 
     fastest = blade.f_omega_max
     return {
-        order: float(brentq(above, 0.0, fastest, args=(order,), xtol=1e-9))
+        order: float(scipy.optimize.brentq(above, 0.0, fastest, args=(order,), xtol=1e-9))
         for order in orders
         if above(fastest, order) >= 0
     }
@@ -43,6 +44,6 @@ def in_hertz(squares: np.ndarray) -> np.ndarray:
 @threadpool_limits.wrap(limits=1, user_api="blas")
 def tip_lean(blade: ReducedBlade) -> np.ndarray:
     """Radial over tangential displacement (j,) of the tip in mode 1 at rest, leading to trailing edge."""
-    _, mode = eigh(blade.stiffness_0, blade.mass, subset_by_index=[0, 0])
+    _, mode = scipy.linalg.eigh(blade.stiffness_0, blade.mass, subset_by_index=[0, 0])
     nodes = mode[: 3 * blade.n_interface].reshape(-1, 3)
     return np.sum(nodes * blade.radial_direction, axis=1) / np.sum(nodes * blade.tangential_direction, axis=1)

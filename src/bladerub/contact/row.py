@@ -13,7 +13,7 @@
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, fields, replace
+from dataclasses import replace
 from functools import partial
 from typing import NamedTuple
 
@@ -27,7 +27,7 @@ from bladerub.contact.integration import History, Segment
 from bladerub.contact.kernel.row import Coupling, RowSimulation
 from bladerub.contact.laws import source_of
 from bladerub.contact.modes import Modes, modes_at, tip_radii
-from bladerub.contact.result import Energy, RunResult
+from bladerub.contact.result import RowResult
 from bladerub.contact.row_spec import Row, RowBlade
 from bladerub.contact.run import run_result
 from bladerub.contact.setup import Seat, element_area, set_up_modes
@@ -39,54 +39,6 @@ _TURN = 2 * np.pi
 LONGEST_IMPULSE = 0.5
 """Phase of a coupled mode in the passage of an element up to which the impulses of the disk are accepted:
 their relative error is a 24th of its square."""
-
-
-@dataclass(frozen=True)
-class RowResult:
-    """Outcome of a run of a row.
-
-    Parameters
-    ----------
-    status, message : str
-        As of `bladerub.contact.result.Outcome`, for the whole row.
-    angle : (n_elements,) ndarray
-        Casing angle of the element centres, rad.
-    wear : (8, n_elements) ndarray
-        Permanent shortening of each element under each node by all blades, m.
-    blades : tuple of RunResult
-        Outcome of each blade, in the order of the row. Revolutions are counted from the start of the row, the
-        wear is that of all. The energy ledger of a blade lacks the work of the disk.
-    worn_volume : (n_blades,) ndarray
-        Volume that each blade has worn off, m³.
-    unbounded : tuple of int
-        Numbers of the blades, counted from 1, that left the displacement limit.
-    disk_work : (n_blades,) ndarray
-        Work of the disk on each blade, J.
-    disk_energy : float
-        Elastic energy that the disk has taken up since the start, J.
-    """
-
-    status: str
-    message: str
-    angle: np.ndarray
-    wear: np.ndarray
-    blades: tuple[RunResult, ...]
-    worn_volume: np.ndarray
-    unbounded: tuple[int, ...]
-    disk_work: np.ndarray
-    disk_energy: float
-
-    @property
-    def energy(self) -> Energy:
-        """The ledgers of all blades together."""
-        ledgers = [blade.energy for blade in self.blades]
-        return Energy(**{each.name: sum(getattr(of, each.name) for of in ledgers) for each in fields(Energy)})
-
-    @property
-    def residual(self) -> float:
-        """What the ledger of all blades, coating and disk misses, over the work exchanged in the contact."""
-        whole = self.energy
-        return replace(whole, elastic=whole.elastic + self.disk_energy).residual
 
 
 @threadpool_limits.wrap(limits=1, user_api="blas")  # sums depend on the number of threads

@@ -17,7 +17,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 import pandas as pd
-from scipy.special import stdtrit
+import scipy
 
 from bladerub.study import divergence, findings, peak_table
 from bladerub.study.ensemble import Ensemble
@@ -55,7 +55,7 @@ def band(values: Sequence[float] | np.ndarray) -> Band:
     draws = draws[np.isfinite(draws)]
     if draws.size < 2:
         return Band(float(draws[0]) if draws.size else math.nan, math.nan, math.nan)
-    t = float(stdtrit(draws.size - 1, (1 + PROBABILITY) / 2))
+    t = float(scipy.special.stdtrit(draws.size - 1, (1 + PROBABILITY) / 2))
     half = t * float(draws.std(ddof=1)) * math.sqrt(1 + 1 / draws.size)
     return Band(float(np.median(draws)), float(draws.mean() - half), float(draws.mean() + half))
 

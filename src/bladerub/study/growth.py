@@ -30,7 +30,7 @@ from dataclasses import replace
 from typing import Any, NamedTuple
 
 import numpy as np
-from scipy.special import stdtrit
+import scipy
 
 from bladerub.contact.spec import RunSpec
 from bladerub.io.sources import growth_digest
@@ -112,7 +112,7 @@ def _parameters(
     residual = log_amplitude - design @ coefficients
     scatter = max(float(np.sqrt(residual @ residual / freedom)), RESOLUTION)
     error = scatter * np.linalg.norm(inverse, axis=1)
-    return coefficients, stdtrit(freedom, (1 + confidence) / 2) * error
+    return coefficients, scipy.special.stdtrit(freedom, (1 + confidence) / 2) * error
 
 
 def needs_confirmation(amplitude: np.ndarray, status: str, settings: Mapping[str, Any]) -> bool:

@@ -1,7 +1,7 @@
 """Spectra of the blade's response over engine orders."""
 
 import numpy as np
-from scipy import fft
+import scipy
 
 
 def order_spectrum(
@@ -60,7 +60,7 @@ def order_spectrum(
         return order, np.full(n_bins, np.nan)
     record = radial_displacement[(complete - used) * samples : complete * samples]
     window = np.hanning(record.size + 1)[:-1]  # periodic; scipy.signal takes half a second to import
-    transform = fft.rfft((record - record.mean()) * window, n=spectrum_revolutions * samples)[:n_bins]
+    transform = scipy.fft.rfft((record - record.mean()) * window, n=spectrum_revolutions * samples)[:n_bins]
     amplitude = 2 * np.abs(transform) / window.sum()
     amplitude[0] /= 2  # order 0 has no mirror image at negative orders
     return order, amplitude

@@ -8,8 +8,7 @@ from typing import Any
 import numpy as np
 
 from bladerub.blade.model import interface_node
-from bladerub.contact.result import RunResult
-from bladerub.contact.row import RowResult
+from bladerub.contact.result import RowResult, RunResult
 from bladerub.contact.row_spec import Row
 from bladerub.contact.spec import PLASTIC, RunSpec
 from bladerub.io import hdf5

@@ -1,7 +1,7 @@
 """Worn patterns: how many lobes the blade has cut around the casing, and which harmonic is strongest."""
 
 import numpy as np
-from scipy import ndimage
+import scipy
 
 SMOOTHING_ANGLE = np.radians(6.0)
 """Width of the Hann window that smooths a pattern, rad: the single hits within a lobe are closer than that
@@ -19,7 +19,7 @@ def lobes(angle: np.ndarray, wear: np.ndarray, prominence: float) -> int:
     width = max(1, round(SMOOTHING_ANGLE / (2 * np.pi / angle.size)))
     kernel = np.hanning(width + 2)[1:-1]  # without its two zeros
     mean = np.atleast_2d(wear).mean(axis=0)
-    depth = ndimage.convolve1d(mean, kernel / kernel.sum(), mode="wrap")
+    depth = scipy.ndimage.convolve1d(mean, kernel / kernel.sum(), mode="wrap")
     if depth.max() <= 0:
         return 0
     # cut the circle at its lowest point, so that no lobe is split and every valley is seen from both sides

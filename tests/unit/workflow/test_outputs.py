@@ -1,3 +1,5 @@
+import subprocess
+import sys
 from types import SimpleNamespace
 
 import pandas as pd
@@ -30,3 +32,13 @@ def test_tables_and_figure_go_to_their_outputs(job):
 def test_a_table_alone_needs_no_figure(job, tmp_path):
     outputs.save(job, table=TABLE)
     assert {path.name for path in tmp_path.iterdir()} == {"table.csv", "table.csv-metadata.json"}
+
+
+def test_a_figure_imports_neither_the_solver_nor_parts_of_scipy_it_may_not_need():
+    """A study draws a hundred, each by a job that imports anew."""
+    program = (
+        "import sys; import bladerub.plots.wear_map, bladerub.study.peaks, bladerub.workflow.outputs; "
+        "print([name for name in ('numba', 'scipy.linalg', 'scipy.ndimage', 'skfem') if name in sys.modules])"
+    )
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
+    assert done.stdout == "[]\n"
