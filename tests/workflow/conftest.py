@@ -5,7 +5,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from workspace import TINY, Workspace
+from workspace import ROOT, TINY, Workspace
 
 from bladerub.io import lock
 
@@ -38,16 +38,16 @@ def study(tmp_path_factory: pytest.TempPathFactory, worker_id: str) -> Workspace
     """Here the tiny study is complete; tests leave it as it is.
 
     The first of pytest's processes makes it, and each takes a copy, since a dry-run writes to its folder.
-    Machine code belongs to the path of its sources, so all use those of the original.
+    Machine code belongs to the path of its sources, so all use those of the repository, as other tests do.
     """
     base = tmp_path_factory.getbasetemp()
     original = (base if worker_id == "master" else base.parent) / "study"
     complete = original.with_suffix(".complete")
     with lock.held(original.with_suffix(".lock"), lambda: None):
         if not complete.exists():
-            Workspace.at(original).build(TINY)
+            Workspace.at(original, ROOT / "src").build(TINY)
             complete.touch()
-    return Workspace(original, original / "src").copy(tmp_path_factory.mktemp("study") / "copy")
+    return Workspace(original, ROOT / "src").copy(tmp_path_factory.mktemp("study") / "copy")
 
 
 @pytest.fixture

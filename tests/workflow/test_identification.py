@@ -13,7 +13,7 @@ PLAN = {
     "seed": 1,
     "factors": {
         "unit": {"unit": "Pa", "scale": "log", "sets": {"contact.modulus_unit": [2.0e8, 9.0e8]}},
-        "tip_turns": {"unit": "1", "multiple_of": 1, "sets": {"contact.tip_turns": [0, 1]}},
+        "elements": {"unit": "1", "multiple_of": 100, "sets": {"contact.elements": [1900, 2000]}},
     },
     "parts": {"angle": {"claims": ["C10"], "study": ANGLE}},
     "sets": {"soft": {"unit": 3.0e8}},
@@ -48,7 +48,7 @@ def test_waves_follow_one_another_and_a_lost_job_is_made_anew_alone(copied_study
     assert len(sets) == 22
     assert sets.unit[0] == pytest.approx(6.0e8)  # the study's own
     assert sets.unit[1] == pytest.approx(3.0e8)
-    assert set(sets.tip_turns) == {0, 1}
+    assert set(sets.elements) == {1900, 2000}
     assert list(made["waves"].sets) == [18, 22]
     assert (made["waves"].remaining >= PLAN["remaining"]).all()
     targets = made["targets"].set_index("target")
@@ -75,7 +75,7 @@ def test_waves_follow_one_another_and_a_lost_job_is_made_anew_alone(copied_study
     ("change", "problem"),
     [
         ({"waves": []}, "waves = []:"),
-        ({"sets": {"soft": {"unt": 1.0}}}, "sets.soft.unt = 1.0: must be of a factor: unit, tip_turns"),
+        ({"sets": {"soft": {"unt": 1.0}}}, "sets.soft.unt = 1.0: must be of a factor: unit, elements"),
         ({"sets": {"soft": {"unit": 1.0}}}, "sets.soft.unit = 1.0: must be from 2e+08 to 9e+08"),
     ],
 )

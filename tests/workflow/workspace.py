@@ -45,19 +45,20 @@ class Workspace:
     folder : Path
         With the Snakefile.
     sources : Path
-        Those that the package is imported from: of this copy, or the same of another, where the machine code
-        is that takes a quarter of a minute to make.
+        Those that the package is imported from: of this copy, or the same of the repository, where the
+        machine code is that takes a quarter of a minute to make.
     """
 
     folder: Path
     sources: Path
 
     @classmethod
-    def at(cls, folder: Path) -> "Workspace":
+    def at(cls, folder: Path, sources: Path | None = None) -> "Workspace":
+        """Lay it out in `folder`; `sources` are its own if not given."""
         for part in ("config", "profiles", "src"):
-            shutil.copytree(ROOT / part, folder / part)
+            shutil.copytree(ROOT / part, folder / part, ignore=shutil.ignore_patterns("__pycache__"))
         shutil.copy2(ROOT / "Snakefile", folder)
-        return cls(folder, folder / "src")
+        return cls(folder, sources or folder / "src")
 
     def copy(self, folder: Path, *without: str) -> "Workspace":
         """Copy it with all that was made here but what is named `without`, to work with the same sources."""
