@@ -300,6 +300,8 @@ CHANGES = [
         "0.5",
         "'viscoplastic_2e4','C10b'",
     ),
+    ("calibration", {"set": "start", "id": "C7b"}, "holds", "no", "calibration.count(id='C7b'"),
+    ("calibration_counts", {"set": "cone_14"}, "yes", 40, "= calibration_counts.rows|table"),
     ("laws_calibration_counts", {"set": "brittle_0.03"}, "yes", 40, "laws_calibration_counts.rows"),
     (
         "stress",
