@@ -76,7 +76,7 @@ def _instance(lanes: int, law: str) -> dict[str, ModuleType]:
         for name, module in usual.items():
             parent, _, child = name.rpartition(".")
             setattr(sys.modules[parent], child, module)
-    _name_functions(made, instance_name(lanes, law))
+    _name(made, instance_name(lanes, law))
     return made
 
 
@@ -91,17 +91,24 @@ def _exchange_law(source: str) -> None:
     setattr(sys.modules[parent], child, module)
 
 
-def _name_functions(modules: dict[str, ModuleType], instance: str) -> None:
-    """Tell the functions of an instance from those of others by name.
+def _name(modules: dict[str, ModuleType], instance: str) -> None:
+    """Tell functions and classes of an instance from those of others by name.
 
-    Machine code that comes from the disk is linked by names, and two instances that were compiled in
-    different processes would have the same.
+    Machine code that comes from the disk is linked by the names of functions, and two instances that were
+    compiled in different processes would have the same. It is found there by its types, some of which are
+    classes of an instance: they are read as what is in the module of their name.
     """
     for name, module in modules.items():
+        own_name = f"{name} {instance}".replace(".", "_")  # a dot would ask for a package
+        sys.modules[own_name] = module
         for value in vars(module).values():
             function = getattr(value, "py_func", value)
-            if isinstance(function, FunctionType) and function.__module__ == name:
+            if getattr(function, "__module__", None) != name:
+                continue
+            if isinstance(function, FunctionType):
                 function.__qualname__ = f"{function.__name__}_{instance.replace('-', '_')}"
+            elif isinstance(value, type):
+                value.__module__ = own_name
 
 
 def _loaded() -> dict[str, ModuleType]:

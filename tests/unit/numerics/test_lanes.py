@@ -1,5 +1,6 @@
 """Modules of the time loop for tips with more than eight nodes."""
 
+import subprocess
 import sys
 
 import numpy as np
@@ -41,3 +42,21 @@ def test_totals_of_sixteen_vectors():
 
     totals(a.ctypes.data, out.ctypes.data)
     np.testing.assert_allclose(out, (a @ a.sum(axis=0)), rtol=1e-12)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("n_nodes", "law"), [(12, "plastic"), (8, "viscoplastic")])
+def test_machine_code_of_another_process_is_used(n_nodes, law):
+    """Each job of a study is a process of its own, and compiling takes longer than most of them."""
+    program = (
+        "from bladerub.contact.laws import described_law, source_of\n"
+        "from bladerub.contact.setup import compile_kernel\n"
+        "from bladerub.numerics import lanes\n"
+        f"law = described_law({law!r}, {{'viscosity': 1e4}} if {law!r} == 'viscoplastic' else {{}})\n"
+        f"compile_kernel(n_nodes={n_nodes}, law=law)\n"
+        f"loop = lanes.module_for(lanes.lanes_for({n_nodes}), 'contact.kernel.loop', source_of(law))\n"
+        "print(sum(loop.integrate.stats.cache_misses.values()))"
+    )
+    command = [sys.executable, "-c", program]
+    subprocess.run(command, capture_output=True, check=True)
+    assert subprocess.run(command, capture_output=True, text=True, check=True).stdout == "0\n"
