@@ -36,12 +36,18 @@ def rows(figures: Mapping[str, Any]) -> pd.DataFrame:
 def record(path: str | Path, figures: Mapping[str, Any], origin: Mapping[str, str]) -> None:
     """Put the rows of this machine into the table at `path`, in the place of its old ones, if any.
 
-    `origin` is from `bladerub.io.provenance.provenance`. Raises as `bladerub.io.tables.read` if there is
-    another table.
+    `origin` is from `bladerub.io.provenance.provenance`. Raises as `recorded`.
     """
-    new = rows(figures)
-    if Path(path).exists():
-        old = tables.read(path, COLUMNS)
+    old, new = recorded(path), rows(figures)
+    if len(old):
         same = (old[_MACHINE] == new.loc[0, _MACHINE].to_numpy()).all(axis="columns")
         new = pd.concat([old[~same], new])
     tables.write(path, new, origin, float_format="%.4g")
+
+
+def recorded(path: str | Path) -> pd.DataFrame:
+    """Read the table at `path`; it has no rows if there is none.
+
+    Raises as `bladerub.io.tables.read` if there is another table.
+    """
+    return tables.read(path, COLUMNS) if Path(path).exists() else pd.DataFrame(columns=COLUMNS)

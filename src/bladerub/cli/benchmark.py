@@ -57,6 +57,10 @@ def benchmark(options: argparse.Namespace) -> None:
             raise InputError(f"--nodes {n}: must be from {FEWEST_NODES} to {MOST_NODES}")
     if options.nodes and "matrices" in config["blade"].get("source", {}):
         raise InputError("--nodes: a blade of matrices has the interface nodes that its folder marks")
+    if options.table:
+        from bladerub.benchmark.record import recorded
+
+        recorded(options.table)  # another table is refused before anything takes time
     whole = inputs.read_blade(options, config)
     blade = whole.reduced
 
