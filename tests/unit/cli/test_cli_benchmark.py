@@ -1,10 +1,13 @@
 import json
+from pathlib import Path
 
 import pytest
 
 from bladerub.cli import inputs, main
 
 pytestmark = pytest.mark.slow
+
+PEAKS = Path(__file__).parents[3] / "docs" / "data" / "peaks.csv"
 
 SMALL = """
 blade: {mesh: {chordwise: 7, thickness: 1, spanwise: 6}}
@@ -81,7 +84,7 @@ def test_in_words(benchmark, capsys):
         (["--cores", "-1"], "--cores = -1: must be from 1 to 1000000"),
         (["--nodes", "16", "33"], "--nodes 33: must be from 4 to 32"),
         (["--blade", "no.h5"], "no.h5: No such file or directory"),
-        (["--table", __file__], "not the right table, processor"),
+        (["--table", str(PEAKS)], "peaks.csv: not the right table, processor"),
     ],
 )
 def test_bad_input_is_answered_in_one_line(benchmark, capsys, arguments, message):
