@@ -1,7 +1,10 @@
 """The chart of coatings on the real workflow: complete, restartable, and equal to the study."""
 
+import copy
+
 import pandas as pd
 import pytest
+from workspace import TINY
 
 from bladerub.io import tables
 
@@ -19,11 +22,26 @@ FIGURES = [
     "stiffening",
 ]
 AGREEMENT = "results/tables/chart_agreement.csv"
+CHART = {"chart": {"E": [0.11, 2], "K": [0.5, 5], "theta": [0.0]}}
 
 
 @pytest.fixture
 def charted(tiny):
-    return tiny | {"chart": {"E": [0.11, 2], "K": [0.5, 5], "theta": [0.0]}}
+    return tiny | copy.deepcopy(CHART)
+
+
+@pytest.fixture(scope="module")
+def complete(study, tmp_path_factory):
+    """The tiny study with its chart; tests leave it as it is."""
+    complete = study.copy(tmp_path_factory.mktemp("chart") / "complete")
+    complete.build(TINY | CHART, "chart", AGREEMENT)
+    return complete
+
+
+@pytest.fixture
+def copied_chart(complete, tmp_path):
+    """A copy of it that a test may change."""
+    return complete.copy(tmp_path / "copy")
 
 
 def files(workspace):
@@ -32,19 +50,18 @@ def files(workspace):
     }
 
 
-def test_the_chart_is_drawn_once_and_a_lost_cell_is_made_anew_alone(copied_study, charted):
-    copied_study.build(charted, "chart", AGREEMENT)
+def test_the_chart_is_drawn_once_and_a_lost_cell_is_made_anew_alone(copied_chart, charted):
     for name in FIGURES:
-        assert (copied_study.results / "figures" / f"chart_{name}.png").stat().st_size > 10_000
-    chart = tables.read(copied_study.results / "tables" / "chart.csv")
+        assert (copied_chart.results / "figures" / f"chart_{name}.png").stat().st_size > 10_000
+    chart = tables.read(copied_chart.results / "tables" / "chart.csv")
     assert len(chart) == 4
     assert (chart.runs == 8).all()
 
     # E = 0.11 and 2 with K = 0.5 are coatings of the study as well, at the same speeds
-    agreement = tables.read(copied_study.folder / AGREEMENT)
+    agreement = tables.read(copied_chart.folder / AGREEMENT)
     assert len(agreement) == 2 * 3
     assert (agreement.in_chart == agreement.greatest).all()
-    in_study = tables.read(copied_study.results / "tables" / "peaks.csv")
+    in_study = tables.read(copied_chart.results / "tables" / "peaks.csv")
     both = pd.merge(chart, in_study, on=["casing", "E", "K", "theta"])
     for order in (4, 6):
         of_order = both[both.order == order]
@@ -52,19 +69,19 @@ def test_the_chart_is_drawn_once_and_a_lost_cell_is_made_anew_alone(copied_study
         assert (of_order[f"Y{order}"] == of_order.amplitude).all()
         assert (of_order[f"f{order}"] == of_order.f_peak).all()
 
-    assert copied_study.plan(charted, "chart") == {}
-    before = files(copied_study)
+    assert copied_chart.plan(charted, "chart") == {}
+    before = files(copied_chart)
     lost = "2nd_E2_K5_theta0.h5"
-    (copied_study.results / "chart" / "cells" / lost).unlink()
-    copied_study.build(charted, "results/chart/columns/2nd_E2_theta0.tsv")
-    after = files(copied_study)
+    (copied_chart.results / "chart" / "cells" / lost).unlink()
+    copied_chart.build(charted, "results/chart/columns/2nd_E2_theta0.tsv")
+    after = files(copied_chart)
     assert after.keys() == before.keys()
     assert {name for name in after if after[name] != before[name]} == {lost}
 
     charted["chart"]["K"].insert(1, 1)
-    assert copied_study.plan(charted, "results/chart/columns/2nd_E2_theta0.tsv") == {"chart_column": 1}
-    copied_study.build(charted, "results/chart/columns/2nd_E2_theta0.tsv")
-    assert files(copied_study).items() > after.items()
+    assert copied_chart.plan(charted, "results/chart/columns/2nd_E2_theta0.tsv") == {"chart_column": 1}
+    copied_chart.build(charted, "results/chart/columns/2nd_E2_theta0.tsv")
+    assert files(copied_chart).items() > after.items()
 
 
 def test_a_chart_without_its_crossing_is_refused_before_any_work(workspace, charted):
@@ -85,19 +102,18 @@ def test_a_chart_without_its_crossing_is_refused_before_any_work(workspace, char
     assert not workspace.results.exists()
 
 
-def test_a_fatigue_limit_asks_for_the_stress_of_the_chart_alone(copied_study, charted):
-    copied_study.build(charted, "chart")
-    cells = files(copied_study)
+def test_a_fatigue_limit_asks_for_the_stress_of_the_chart_alone(copied_chart, charted):
+    cells = files(copied_chart)
     limited = charted | {"chart": charted["chart"] | {"limits": {"fatigue": 1.0}}}
-    assert copied_study.plan(limited, "chart") == {
+    assert copied_chart.plan(limited, "chart") == {
         "chart": 1,
         "chart_stress": 1,
         "chart_safe": 1,
         "chart_pareto": 1,
     }
-    copied_study.build(limited, "chart")
-    stress = tables.read(copied_study.results / "tables" / "chart_stress.csv")
+    copied_chart.build(limited, "chart")
+    stress = tables.read(copied_chart.results / "tables" / "chart_stress.csv")
     assert len(stress) == 4
     assert (stress.alternating > 1.0).all()
-    assert not tables.read(copied_study.results / "tables" / "chart_pareto.csv").safe.any()
-    assert files(copied_study) == cells
+    assert not tables.read(copied_chart.results / "tables" / "chart_pareto.csv").safe.any()
+    assert files(copied_chart) == cells
