@@ -17,7 +17,7 @@ PLAN = {
     },
     "parts": {"angle": {"claims": ["C10"], "study": ANGLE}},
     "sets": {"soft": {"unit": 3.0e8}},
-    "waves": [16, 4],
+    "waves": [14, 4],  # with the study's own and the given set as few as there may be
     "remaining": 0.01,
     "candidates": {"number": 1, "neighbours": 1, "shift": 0.02, "study": ANGLE},
 }
@@ -33,7 +33,7 @@ def planned(copied_study, tiny):
 def test_waves_follow_one_another_and_a_lost_job_is_made_anew_alone(copied_study, planned):
     assert copied_study.plan(planned, "identify") == {
         "identification_wave": 2,
-        "identification_batch": 6,
+        "identification_batch": 5,
         "identification_left": 2,
         "identification_candidates": 1,
         "identification_candidate": 4,
@@ -45,11 +45,11 @@ def test_waves_follow_one_another_and_a_lost_job_is_made_anew_alone(copied_study
         for path in (copied_study.results / "tables").glob("identification_*.csv")
     }
     sets = made["sets"].pivot(index="set", columns="factor", values="value")
-    assert len(sets) == 22
+    assert len(sets) == 20
     assert sets.unit[0] == pytest.approx(6.0e8)  # the study's own
     assert sets.unit[1] == pytest.approx(3.0e8)
     assert set(sets.elements) == {1900, 2000}
-    assert list(made["waves"].sets) == [18, 22]
+    assert list(made["waves"].sets) == [16, 20]
     assert (made["waves"].remaining >= PLAN["remaining"]).all()
     targets = made["targets"].set_index("target")
     assert set(targets["id"]) == {"C10a", "C10b", "C10c", "C10d"}
@@ -75,6 +75,7 @@ def test_waves_follow_one_another_and_a_lost_job_is_made_anew_alone(copied_study
     ("change", "problem"),
     [
         ({"waves": []}, "waves = []:"),
+        ({"waves": [8, 4]}, "waves = [8, 4]: the first must be at least 14, or no target has an emulator"),
         ({"sets": {"soft": {"unt": 1.0}}}, "sets.soft.unt = 1.0: must be of a factor: unit, elements"),
         ({"sets": {"soft": {"unit": 1.0}}}, "sets.soft.unit = 1.0: must be from 2e+08 to 9e+08"),
     ],

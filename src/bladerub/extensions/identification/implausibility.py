@@ -11,13 +11,11 @@ import numpy as np
 import pandas as pd
 
 from bladerub.extensions.identification.emulator import Emulator
+from bladerub.extensions.identification.plan import FEWEST
 from bladerub.extensions.identification.targets import TARGETS, Target
 
 CUTOFF = 3.0
 """Implausibility above which a set is ruled out: at most 5 % of any unimodal distribution lies beyond."""
-
-FEWEST = 16
-"""Simulated sets below which a target has no emulator."""
 
 
 def wide(quantities: pd.DataFrame) -> pd.DataFrame:

@@ -13,6 +13,8 @@ from bladerub.extensions.factors import Factor, lay_over, read_factors
 
 BATCH = 4
 """Sets of one job."""
+FEWEST = 16
+"""Simulated sets below which a target has no emulator."""
 
 
 @dataclass(frozen=True)
@@ -86,7 +88,7 @@ def read_plan(path: str | Path) -> Plan:
     }
     chosen = content["candidates"].content
     numbers = {key: chosen[key].plain() for key in ("number", "neighbours", "shift")}
-    return Plan(
+    plan = Plan(
         seed=content["seed"].content,
         factors=factors,
         parts=parts,
@@ -95,6 +97,14 @@ def read_plan(path: str | Path) -> Plan:
         remaining=content["remaining"].plain(),
         candidates=Candidates(**numbers, study=chosen["study"]),
     )
+    if plan.size(1) < FEWEST:
+        least = FEWEST - (plan.size(1) - plan.waves[0])
+        raise ConfigError.at(
+            content["waves"].location,
+            f"waves = {format_value(list(plan.waves))}: the first must be at least {least}, or no target has "
+            "an emulator after it",
+        )
+    return plan
 
 
 def _given(name: str, entry: Located, factors: tuple[Factor, ...]) -> dict[str, float]:
