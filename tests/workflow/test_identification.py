@@ -13,7 +13,7 @@ PLAN = {
     "seed": 1,
     "factors": {
         "unit": {"unit": "Pa", "scale": "log", "sets": {"contact.modulus_unit": [2.0e8, 9.0e8]}},
-        "elements": {"unit": "1", "multiple_of": 100, "sets": {"contact.elements": [1900, 2000]}},
+        "tip_turns": {"unit": "1", "multiple_of": 1, "sets": {"contact.tip_turns": [0, 1]}},
     },
     "parts": {"angle": {"claims": ["C10"], "study": ANGLE}},
     "sets": {"soft": {"unit": 3.0e8}},
@@ -48,7 +48,7 @@ def test_waves_follow_one_another_and_a_lost_job_is_made_anew_alone(copied_study
     assert len(sets) == 20
     assert sets.unit[0] == pytest.approx(6.0e8)  # the study's own
     assert sets.unit[1] == pytest.approx(3.0e8)
-    assert set(sets.elements) == {1900, 2000}
+    assert set(sets.tip_turns) == {0, 1}
     assert list(made["waves"].sets) == [16, 20]
     assert (made["waves"].remaining >= PLAN["remaining"]).all()
     targets = made["targets"].set_index("target")
@@ -76,7 +76,7 @@ def test_waves_follow_one_another_and_a_lost_job_is_made_anew_alone(copied_study
     [
         ({"waves": []}, "waves = []:"),
         ({"waves": [8, 4]}, "waves = [8, 4]: the first must be at least 14, or no target has an emulator"),
-        ({"sets": {"soft": {"unt": 1.0}}}, "sets.soft.unt = 1.0: must be of a factor: unit, elements"),
+        ({"sets": {"soft": {"unt": 1.0}}}, "sets.soft.unt = 1.0: must be of a factor: unit, tip_turns"),
         ({"sets": {"soft": {"unit": 1.0}}}, "sets.soft.unit = 1.0: must be from 2e+08 to 9e+08"),
     ],
 )
