@@ -97,12 +97,11 @@ def read_plan(path: str | Path) -> Plan:
         remaining=content["remaining"].plain(),
         candidates=Candidates(**numbers, study=chosen["study"]),
     )
-    if plan.size(1) < FEWEST:
-        least = FEWEST - (plan.size(1) - plan.waves[0])
+    if (missing := FEWEST - plan.size(1)) > 0:
         raise ConfigError.at(
             content["waves"].location,
-            f"waves = {format_value(list(plan.waves))}: the first must be at least {least}, or no target has "
-            "an emulator after it",
+            f"waves = {format_value(list(plan.waves))}: the first must be at least "
+            f"{plan.waves[0] + missing}, or no target has an emulator after it",
         )
     return plan
 
