@@ -275,6 +275,15 @@ use rule docs_data as docs_rotor37 with:
         folder="benchmarks/rotor37",
 
 
+use rule docs_data as docs_rotor37_nlstep with:
+    input:
+        rules.rotor37_nlstep.output.table,
+    log:
+        f"{RESULTS}/logs/docs_rotor37_nlstep.log",
+    params:
+        folder="benchmarks/rotor37",
+
+
 use rule docs_data as docs_rotor37_nodes with:
     input:
         "results_rotor37/tables/more_nodes.csv",

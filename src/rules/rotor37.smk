@@ -63,6 +63,62 @@ rule rotor37_independent:
         "../scripts/rotor37_independent.py"
 
 
+def nlstep_program(wildcards):
+    from bladerub.extensions.rotor37.nlstep import program
+
+    with bladerub.io.errors.exit_on_error():
+        return str(program())
+
+
+def nlstep_numbers(wildcards):
+    from bladerub.extensions.rotor37.nlstep import CASES
+
+    return [
+        f"{ROTOR37}/reference/nlstep/mu{friction:g}_{modes}_{steps}.csv"
+        for friction, modes, steps in CASES
+    ]
+
+
+# Only where NLstep is: BLADERUB_NLSTEP=FOLDER snakemake -j2 rotor37_nlstep
+rule rotor37_nlstep_case:
+    input:
+        blade=f"{ROTOR37}/reference/blade/reduced_model.h5",
+        computing=files_behind("extensions.rotor37.nlstep"),
+        octave=[
+            f"src/bladerub/extensions/rotor37/octave/{name}.m"
+            for name in ("CMS_ROM", "direct_contact")
+        ],
+        program=nlstep_program,
+    output:
+        **described(
+            table=f"{ROTOR37}/reference/nlstep/mu{{friction}}_{{modes}}_{{steps}}.csv"
+        ),
+    log:
+        f"{RESULTS}/logs/rotor37_nlstep/mu{{friction}}_{{modes}}_{{steps}}.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/rotor37_nlstep/mu{{friction}}_{{modes}}_{{steps}}.tsv"
+    resources:
+        runtime=minutes(30),
+    params:
+        config=lambda wildcards: rotor37_plan()["reference"],
+    script:
+        "../scripts/rotor37_nlstep_case.py"
+
+
+rule rotor37_nlstep:
+    input:
+        numbers=nlstep_numbers,
+        program=nlstep_program,
+    output:
+        **described(table=f"{ROTOR37}/nlstep.csv"),
+    log:
+        f"{RESULTS}/logs/rotor37_nlstep.log",
+    params:
+        config=lambda wildcards: rotor37_plan()["reference"],
+    script:
+        "../scripts/rotor37_nlstep.py"
+
+
 rule rotor37:
     input:
         numbers=rotor37_numbers,

@@ -1,0 +1,1 @@
+from stand_in import blade  # noqa: F401 (fixture)
