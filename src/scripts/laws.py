@@ -13,16 +13,25 @@ from bladerub.workflow import job, outputs
 STRAINS = (0.0, 0.03, 0.0, 0.05, 0.0)  # those of Fig. 4
 STEPS = 400  # of each branch
 VISCOSITY = 1e4  # Pa s
+THERMAL = {
+    "heat_capacity": 2e6,
+    "conductivity": 5.0,
+    "heated_depth": 1e-4,
+    "friction_share": 0.5,
+    "softening_rise": 500.0,
+    "softening_exponent": 1.0,
+}
+"""All in SI units; only the last two count here, where the whole element is as warm."""
 
 job.log_to(snakemake.log[0])
 
 of_study = replace(Coating(**snakemake.params.coating), element_law=PLASTIC)
 
 
-def cycle(name, rate=0.0, **parameters):
-    """Load an element by a law with these parameters at a strain rate, 1/s."""
+def cycle(name, rate=0.0, rise=0.0, **parameters):
+    """Load an element by a law with these parameters at a strain rate (1/s), warmer by `rise` (K)."""
     coating = replace(of_study, element_law=described_law(name, parameters))
-    return loading_cycle(coating, STRAINS, STEPS, rate)
+    return loading_cycle(coating, STRAINS, STEPS, rate, rise)
 
 
 panels = {
@@ -38,6 +47,9 @@ panels = {
         "never breaks": cycle("brittle", break_strain=1.0),
         "breaks at 0.7 %": cycle("brittle", break_strain=0.007),
         "breaks at 0.4 %": cycle("brittle", break_strain=0.004),
+    },
+    f"(d) thermal, soft at {THERMAL['softening_rise']:g} K": {
+        f"warmer by {rise:g} K": cycle("thermal", 0.0, rise, **THERMAL) for rise in (0.0, 150.0, 300.0)
     },
 }
 table = pd.concat(

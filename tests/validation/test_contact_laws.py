@@ -21,6 +21,14 @@ TIME = VISCOSITY / ((E + K) * UNIT)  # in which the overstress falls to 1/e
 VISCOPLASTIC = described_law("viscoplastic", {"viscosity": VISCOSITY})
 BRITTLE = described_law("brittle", {"break_strain": 2e-3})
 PERFECT = described_law("perfectly_plastic", {"yield_stress": 2e6})
+HEAT = {
+    "heat_capacity": 2e6,
+    "conductivity": 5.0,
+    "heated_depth": 1e-4,
+    "friction_share": 0.5,
+    "softening_exponent": 1.0,
+}
+THERMAL = described_law("thermal", HEAT | {"softening_rise": 50.0})
 
 
 def press(law, strain, time_step=math.inf):
@@ -129,12 +137,14 @@ def drawn(name, rng):
         "perfectly_plastic": (1e5, 3e6, "yield_stress"),
         "viscoplastic": (1e2, 1e5, "viscosity"),
         "brittle": (1e-3, 1e-1, "break_strain"),
+        "thermal": (20.0, 2000.0, "softening_rise"),
     }[name]
-    return described_law(name, {parameter: float(np.exp(rng.uniform(np.log(low), np.log(high))))})
+    drawn = {parameter: float(np.exp(rng.uniform(np.log(low), np.log(high))))}
+    return described_law(name, (HEAT if name == "thermal" else {}) | drawn)
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", ["perfectly_plastic", "viscoplastic", "brittle"])
+@pytest.mark.parametrize("name", ["perfectly_plastic", "viscoplastic", "brittle", "thermal"])
 def test_the_ledger_of_random_runs_closes(run, name):
     rng, residuals, worn = np.random.default_rng(8), [], 0
     for _ in range(100):
@@ -150,14 +160,17 @@ def test_the_ledger_of_random_runs_closes(run, name):
 
 @pytest.mark.slow
 @pytest.mark.parametrize(
-    ("law", "least"),
-    [(PERFECT, 1.7), (VISCOPLASTIC, 0.8), (BRITTLE, 1.7)],
+    ("law", "theta", "least"),
+    [(PERFECT, 0.0, 1.7), (VISCOPLASTIC, 0.0, 0.8), (BRITTLE, 0.0, 1.7), (THERMAL, 0.15, 1.7)],
     ids=lambda law: getattr(law, "name", ""),
 )
-def test_wear_converges_with_the_step(run, law, least):
+def test_wear_converges_with_the_step(run, law, theta, least):
     """Of second order as with the plastic law, and of first where the flow over a step is implicit."""
     steps = np.array([20, 40, 80])
-    worn = [run(E, K, 0.12, revolutions=2, steps_per_element=n, element_law=law).wear for n in (*steps, 1280)]
+    worn = [
+        run(E, K, 0.12, theta, revolutions=2, steps_per_element=n, element_law=law).wear
+        for n in (*steps, 1280)
+    ]
     errors = [np.linalg.norm(wear - worn[-1]) / np.linalg.norm(worn[-1]) for wear in worn[:-1]]
     print(f"{law.name}: order {order(steps, errors):.2f}, errors {errors}")
     assert order(steps, errors) > least

@@ -13,8 +13,8 @@ class Law:
     Parameters
     ----------
     name : str
-        ``"plastic"`` (the paper's), ``"perfectly_plastic"``, ``"viscoplastic"`` or ``"brittle"``; or the path
-        of a Python file with a law of your own, which ends in ``.py``.
+        ``"plastic"`` (the paper's), ``"perfectly_plastic"``, ``"viscoplastic"``, ``"brittle"`` or
+        ``"thermal"``; or the path of a Python file with a law of your own, which ends in ``.py``.
     **parameters : float
         A value for each parameter of the law, SI units.
 

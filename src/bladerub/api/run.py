@@ -54,6 +54,8 @@ class Run:
     ('completed', 3, 0.19, '2nd_E2_K0.5_theta0')
     >>> run.wear.shape, run.angle.shape
     ((8, 2000), (2000,))
+    >>> run.temperature_rise is None  # the law of the paper knows no heat
+    True
     >>> run.revolution_peak.size, run.revolution_amplitude.size, run.radial_displacement.size
     (3, 3, 6000)
     >>> bool(run.spectrum.max() < run.revolution_peak.max())
@@ -116,6 +118,14 @@ class Run:
     def wear(self) -> np.ndarray:
         """Permanent shortening (8, n) of the coating under each interface node, m."""
         return self.stored.data["wear"]
+
+    @property
+    def temperature_rise(self) -> np.ndarray | None:
+        """By which the surface of the coating is warmer at the end (8, n), K; None if the law has no heat.
+
+        It is the mean over the heated depth, when the tip would come next (`bladerub.contact.heating`).
+        """
+        return self.stored.data.get("temperature_rise")
 
     @property
     def energy(self) -> Energy:

@@ -10,7 +10,6 @@ from collections.abc import Callable, Mapping
 from dataclasses import replace
 from typing import Any
 
-import numba
 import numpy as np
 
 from bladerub.benchmark import machine, peak, plain
@@ -58,8 +57,8 @@ def benchmark(
     free = replace(touching, clearance=(blade.length, blade.length), initial_displacement=1e-6 * blade.length)
     progress("compiling the plain loop")
     specs = {"contact": touching, "free": free}
-    in_python = plain.integrator(touching.coating.element_law)
-    compiled = numba.njit(in_python)
+    law = touching.coating.element_law
+    in_python, compiled = plain.integrator(law), plain.compiled(law)
     _plain(compiled, blade, touching, 1)
     peak.turns(1)
 

@@ -6,7 +6,9 @@ modes, nodes and elements. It runs in Python, and compiled by numba.
 """
 
 from collections.abc import Callable
+from functools import cache
 
+import numba
 import numpy as np
 
 from bladerub.contact.kernel.loop import Simulation
@@ -26,6 +28,7 @@ def arguments(law: ElementLaw, rule: Recurrence, simulation: Simulation) -> tupl
     return modes, element, stator, simulation.tip, wear, q, simulation.steps_per_element
 
 
+@cache
 def integrator(element_law: ElementLaw) -> Callable:
     """Return the loop for a law of the elements: a function of `arguments` and ``displacement``."""
     law = module_of(element_law)
@@ -78,3 +81,9 @@ def integrator(element_law: ElementLaw) -> Callable:
             displacement[step] = u[0]
 
     return integrate
+
+
+@cache
+def compiled(element_law: ElementLaw) -> Callable:
+    """Return the same, compiled by numba."""
+    return numba.njit(integrator(element_law))

@@ -26,6 +26,7 @@ _UNITS |= {
     "displacement_over_length": "1",
     "peak_amplitude": "m",
     "max_wear": "m",
+    "max_temperature_rise": "K",
     "growth_per_revolution": "1",
 }
 _UNITS |= {"von_mises": "Pa", "principal": "Pa", "alternating": "Pa"}
@@ -55,7 +56,7 @@ def add_to(commands: Any) -> None:
     parser.option("--damping-ratio", text, float, metavar="XI")
     text = "of the abradable coating, m, instead of contact.layer_thickness"
     parser.option("--layer-thickness", text, float, metavar="H")
-    text = "plastic, perfectly_plastic, viscoplastic, brittle or a file of a law, instead of contact.law"
+    text = "law of the elements by its name (docs/laws.md) or its file, instead of contact.law"
     parser.option("--law", text, metavar="LAW")
     text = "parameter of --law, SI units; once for each of them"
     add_parameters_to(parser, "--law-parameter", text)
@@ -275,6 +276,7 @@ def _in_words(figures: dict[str, Any]) -> str:
         + inputs.large_in_words(figures["displacement_over_length"]),
         "engine order": "none" if order is None else f"{order:.4g}",
         "maximum wear": f"{figures['max_wear'] * 1e3:.4g} mm",
+        **_heat_in_words(figures),
         "lobes": figures["lobes"],
         "strongest harmonic of the wear": _harmonic_in_words(figures),
         "growth": _growth_in_words(figures),
@@ -312,6 +314,11 @@ def _stress_in_words(stress: dict[str, dict[str, float]] | None) -> list[str]:
                 time = f", after {found[f'{name}_time']:.3f} revolutions" if f"{name}_time" in found else ""
                 lines.append((f"{kind}, {of}", f"{found[name] / 1e6:.4g} MPa at ({place}) mm{time}"))
     return ["largest stress:", *inputs.aligned(lines)]
+
+
+def _heat_in_words(figures: dict[str, Any]) -> dict[str, str]:
+    rise = figures.get("max_temperature_rise")
+    return {} if rise is None else {"warmest surface": f"{rise:.3g} K above the casing, at the end"}
 
 
 def _coating_in_words(figures: dict[str, Any]) -> str:

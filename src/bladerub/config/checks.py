@@ -12,6 +12,7 @@ from bladerub.blade.model import n_interface
 from bladerub.blade.sources import matrix_folder, origin
 from bladerub.config.errors import format_value, top_key
 from bladerub.contact.casing import shape
+from bladerub.contact.heating import cell_heights
 from bladerub.io.folders import study_folder
 from bladerub.study.casings import casing_spec
 from bladerub.study.grid import (
@@ -145,7 +146,10 @@ def _law(config: Config) -> Iterator[str]:
         yield f"contact.law.file = {format_value(law['file'])}: must be without contact.law.name"
         return
     try:
-        element_law(config)
+        own = dict(element_law(config).parameters)
+        if "heated_depth" in own:
+            scale = config["contact"].get("scale", UNSCALED)
+            cell_heights(config["contact"]["layer_thickness"] * scale["length"], own["heated_depth"])
     except ValueError as error:
         yield f"contact.law.{error}"
 

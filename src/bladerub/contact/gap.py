@@ -10,7 +10,7 @@ from bladerub.numerics.memory import load
 from bladerub.numerics.vectors import absolute, all_lanes, elementwise, sqrt
 
 
-@njit(inline="always")
+@njit(forceinline=True)
 def closest_position(tip, tangential, passed):
     """Position of the point of the casing closest to each node, eq. (7), in elements.
 
@@ -20,21 +20,21 @@ def closest_position(tip, tangential, passed):
     return load(tip.start, 0) + passed + tangential * load(tip.per_metre, 0)
 
 
-@njit(inline="always")
+@njit(forceinline=True)
 def normal_approach(tip, radial, tangential):
     """Displacement of each node towards the casing, the product (u · n) of eq. (8), m."""
     outward = load(tip.radius, 0) + radial
     return sqrt(outward * outward + tangential * tangential) - load(tip.radius, 0)
 
 
-@njit(inline="always")
+@njit(forceinline=True)
 def normal(tip, radial, tangential, approach):
     """Outward normal n of the casing at each node, by its own radial and tangential direction."""
     share = 1.0 / (load(tip.radius, 0) + approach)
     return share * (load(tip.radius, 0) + radial), share * tangential
 
 
-@njit(inline="always")
+@njit(forceinline=True)
 def rotation_distance(tip, angle, approach):
     """Distance by which a rotation by `angle` (rad) moves each displaced node along the casing, m."""
     return angle * (load(tip.lever, 0) + approach)
@@ -46,7 +46,7 @@ def penetration(approach, relief, initial_gap, wear):
     return approach - relief - initial_gap - wear
 
 
-@njit(inline="always")
+@njit(forceinline=True)
 def is_within_limit(tip, radial, tangential):
     """Whether every displacement is a number below the limit."""
     return all_lanes((absolute(radial) <= tip.limit) & (absolute(tangential) <= tip.limit))

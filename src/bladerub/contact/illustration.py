@@ -22,11 +22,12 @@ class LoadingCycle(NamedTuple):
 
 
 def loading_cycle(
-    coating: Coating, turning_points: Sequence[float], steps: int, rate: float = 0.0
+    coating: Coating, turning_points: Sequence[float], steps: int, rate: float = 0.0, rise: float = 0.0
 ) -> LoadingCycle:
     """Compress an unworn element from one strain of `turning_points` to the next in `steps` each.
 
-    `rate` is that of the strain (1/s), for the laws in which it counts.
+    `rate` is that of the strain (1/s) and `rise` that of the temperature of the whole element (K), for the
+    laws in which they count.
     """
     law = module_of(coating.element_law)
     branches = [np.linspace(start, end, steps + 1)[1:] for start, end in pairwise(turning_points)]
@@ -38,6 +39,8 @@ def loading_cycle(
         depth = strain[step] * coating.thickness - wear[step - 1]
         stress[step], more = law.return_mapping(element, depth, wear[step - 1])
         wear[step] = wear[step - 1] + more
+    if rise:
+        stress *= law.strength(coating, rise)
     return LoadingCycle(coating, strain, stress, wear / coating.thickness)
 
 

@@ -57,17 +57,20 @@ class History:
             message = f"the tip moved by more than {limit:g} m after {made:.2f} revolutions"
         elif made != revolutions:
             status, message = "stopped", f"another blade left the limit after {made:.2f} revolutions"
+        state, layer = simulation.state, simulation.layer
+        rise = by_angle(blade, spec, layer.rise(state)) if layer else None
         return {
             "status": status,
             "message": message,
             "angle": element_angle(n_elements),
-            "wear": by_angle(blade, spec, simulation.state.wear),
+            "wear": by_angle(blade, spec, state.wear),
             "radial_displacement": self.displacement.ravel(),
             "revolution_peak": np.maximum(np.abs(self.lowest), np.abs(self.highest)),
             "revolution_amplitude": 0.5 * (self.highest - self.lowest),
             "n_steps": self.n_steps,
             "n_contact_steps": self.n_contact_steps,
-            "energy": energy.balance(rule, simulation.state, initial, simulation.angle_per_step),
+            "energy": energy.balance(rule, state, initial, simulation.angle_per_step),
+            "temperature_rise": rise,
         }
 
 

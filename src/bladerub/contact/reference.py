@@ -16,6 +16,7 @@ import scipy.optimize
 
 from bladerub.blade.model import ReducedBlade
 from bladerub.contact.casing import shape
+from bladerub.contact.heating import HEATED, cell_heights
 from bladerub.contact.laws import module_of
 from bladerub.contact.row_spec import Row
 from bladerub.contact.spec import RunSpec
@@ -111,7 +112,7 @@ def _central_differences(blade, spec, coating):
     for step in itertools.count(1):
         # eq. (1) at the present step, without contact: prediction
         predicted = inverse @ ((2 * M / h**2 - K) @ u + (D / (2 * h) - M / h**2) @ u_before)
-        force, coating.wear = coating.contact(step * h, tip @ predicted)
+        force = coating.settle(step, h, tip @ predicted)
         u, u_before = predicted + inverse @ (tip.T @ force), u  # correction
         yield tip @ u
 
@@ -134,7 +135,7 @@ def _exponential(blade, spec, n_modes, coating):
         coating.q = q
         force = _implicit_forces(coating, step * h, tip @ q, compliance, force)
         u = tip @ q + compliance @ force
-        _, coating.wear = coating.contact(step * h, u)
+        coating.settle(step, h, u)
         yield u
 
 
@@ -174,6 +175,8 @@ class _Coating:
         overlap = casing.interference - casing.amplitude + casing.amplitude * shape(casing, self.angle)
         self.initial_gap = clearance - overlap  # g₀ of eq. (8)
         self.wear = np.zeros((blade.n_interface, n))
+        self.strength = np.ones_like(self.wear)
+        self.heat = _Heat(spec, self, area, time_step(blade, spec)) if hasattr(self.law, "strength") else None
         self.q, self.pull = np.zeros(
             (2, len(blade.mass))
         )  # modal coordinates of the blade, and forces on them
@@ -192,13 +195,74 @@ class _Coating:
         # Fig. 4, and eq. (9): no force where the gap is open, and never a pulling one
         share = coverage(self.spec.tip, offset)
         element_force, increment = self.law.return_mapping(self.element, -gap, self.wear)
+        element_force = self.strength * element_force
+        self.position, self.pressed, self.increment = position, share * element_force, increment * (share > 0)
         magnitude = np.sum(share * element_force, axis=1, keepdims=True)
         couple = np.sum(share * element_force * offset, axis=1, keepdims=True)
         # F_r = −cos θ |F| e_r and F_θ = −sin θ |F| e_θ, at the displaced node
         direction = np.arctan2(u_t, R + u_r) + self.spec.coating.theta
         force = [-magnitude * np.cos(direction), -magnitude * np.sin(direction)]
         force += [-couple * np.cos(self.spec.coating.theta) for _ in tilt]
-        return np.ravel(force), self.wear + np.where(share > 0, increment, 0.0)
+        return np.ravel(force), self.wear + self.increment
+
+    def settle(self, step: int, h: float, u: np.ndarray) -> np.ndarray:
+        """Leave the elements as they are at the end of a step; return the forces."""
+        force, wear = self.contact(step * h, u)
+        if self.heat is not None:
+            self.heat.enter(self)
+            self.strength = self.heat.strength(step, self.strength)
+        self.wear = wear
+        return force
+
+
+class _Heat:
+    """Temperature of the elements, in cells from the surface on, by what `bladerub.contact.heating` says."""
+
+    def __init__(self, spec: RunSpec, coating: _Coating, area: np.ndarray, h: float):
+        own, n = dict(spec.coating.element_law.parameters), spec.coating.n_elements
+        self.law, self.coating, self.area, self.radius = coating.law, spec.coating, area, coating.radius
+        self.resistance, self.share = np.sin(spec.coating.theta), own["friction_share"]
+        self.height = cell_heights(spec.coating.thickness, own["heated_depth"])
+        self.capacity = own["heat_capacity"] * self.height
+        period = 2 * np.pi / coating.speed
+        self.half = round(period / 2 / h)  # steps
+        flow = np.zeros((len(self.height),) * 2)  # of heat into each cell per temperature of each, W/(m² K)
+        for cell, height in enumerate(self.height):
+            last = cell + 1 == len(self.height)
+            through = own["conductivity"] / (0.5 * (height + (0 if last else self.height[cell + 1])))
+            flow[cell, cell] -= through
+            if not last:
+                flow[cell, cell + 1] += through
+                flow[cell + 1, cell] += through
+                flow[cell + 1, cell + 1] -= through
+        self.turn = scipy.linalg.expm(flow / self.capacity[:, None] * period)
+        self.first = np.floor(coating.node_angle * n / (2 * np.pi)).astype(int)  # element under each node
+        self.rise = np.zeros((*coating.wear.shape, len(self.height)))
+        self.energy = np.zeros_like(coating.wear)
+        self.before, self.pressed = coating.node_angle, np.zeros_like(coating.wear)
+
+    def enter(self, coating: _Coating) -> None:
+        """Enter what flow and friction made in a step."""
+        slid = self.radius * (coating.position - self.before)
+        self.energy += self.share * self.resistance * slid * 0.5 * (coating.pressed + self.pressed)
+        flow = self.law.dissipated_energy(coating.element, coating.wear, coating.increment, 0.0, 0.0)
+        self.energy += coating.strength * flow
+        self.before, self.pressed = coating.position, coating.pressed
+
+    def strength(self, step: int, before: np.ndarray) -> np.ndarray:
+        """Strength after a step; twice a turn that of the half of the casing on the other side changes."""
+        if step % self.half:
+            return before
+        n = before.shape[1]
+        passed = step // self.half * (n // 2)
+        ring = (np.arange(n) - self.first - passed + n // 2 + n // 4) % n  # (j, N)
+        other = ring < n // 2
+        area = np.broadcast_to(self.area, before.shape)[other]
+        self.rise[other, :HEATED] += (self.energy[other] / area / self.capacity[:HEATED].sum())[:, None]
+        self.rise[other] = self.rise[other] @ self.turn.T
+        self.energy[other] = 0.0
+        parts = self.height / self.law.strength(self.coating, self.rise)
+        return np.where(other, self.coating.thickness / np.sum(parts, axis=-1), before)
 
 
 def time_step(blade: ReducedBlade, spec: RunSpec) -> float:

@@ -1,6 +1,6 @@
 """What a run of a blade or of a row of blades gives, in SI units."""
 
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, field, fields, replace
 
 import numpy as np
 
@@ -92,6 +92,9 @@ class Outcome:
         Steps made, and those of them with contact.
     energy : Energy
         The ledger.
+    temperature_rise : (8, n_elements) ndarray, optional
+        By which each element is warmer at its surface when the tip would come next, mean over the heated
+        depth, K; None where the law knows no heat.
     """
 
     status: str
@@ -104,6 +107,7 @@ class Outcome:
     n_steps: int
     n_contact_steps: int
     energy: Energy
+    temperature_rise: np.ndarray | None = field(default=None, kw_only=True)
 
 
 @dataclass(frozen=True)

@@ -12,7 +12,7 @@
 """
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 from typing import NamedTuple
@@ -24,7 +24,8 @@ from threadpoolctl import threadpool_limits
 from bladerub.blade.model import ReducedBlade
 from bladerub.contact import energy
 from bladerub.contact.integration import History, Segment
-from bladerub.contact.kernel.row import Coupling, RowSimulation
+from bladerub.contact.kernel.records import COATING
+from bladerub.contact.kernel.row import Coupling, Rests, RowSimulation
 from bladerub.contact.laws import source_of
 from bladerub.contact.modes import Modes, modes_at, tip_radii
 from bladerub.contact.result import RowResult
@@ -108,14 +109,16 @@ def set_up_row(blade: ReducedBlade, spec: RunSpec, row: Row) -> RowSetUp:
     modes = modes_at(blade, spec.f_omega, spec)
     seats: list[_Seat] = []
     for own in row.blades:
-        seats.append(_Seat(blade, spec, modes, own, seats[0].simulation.state.wear if seats else None))
-    _check_distances(blade, spec, seats)
+        coating = {name: getattr(seats[0].simulation.state, name) for name in COATING} if seats else {}
+        seats.append(_Seat(blade, spec, modes, own, coating))
+    apart, reach = _distances(blade, spec, seats)
     begins = [seat.first_clear() if len(seats) > 1 else 0 for seat in seats]
     law = source_of(spec.coating.element_law)
     kernel = module_for(lanes_for(blade.n_interface), "contact.kernel.row", law)
     coupling = _coupling(spec, modes, row, seats)
+    rests = Rests(apart, min(spec.coating.n_elements // 2, min(apart) - reach))
     simulation = kernel.RowSimulation(
-        [seat.simulation for seat in seats], [seat.row for seat in seats], begins, coupling
+        [seat.simulation for seat in seats], [seat.row for seat in seats], begins, coupling, rests
     )
     return RowSetUp(modes, seats, simulation, begins)
 
@@ -148,14 +151,19 @@ class _Seat:
     """One blade of the row, its place and what is kept of its run."""
 
     def __init__(
-        self, blade: ReducedBlade, spec: RunSpec, modes: Modes, own: RowBlade, wear: np.ndarray | None
+        self,
+        blade: ReducedBlade,
+        spec: RunSpec,
+        modes: Modes,
+        own: RowBlade,
+        coating: Mapping[str, np.ndarray],
     ):
         n_elements = spec.coating.n_elements
         position = own.angle % _TURN / _TURN * n_elements
         self.spec = replace(spec, damping_ratio=spec.damping_ratio * own.damping)
         self.row = int(position)  # of the shared coating, which it passes at the start
         self.modes = modes._replace(omega=modes.omega * own.frequency_factors(modes.omega.size))
-        seat = Seat(position - self.row, own.length, wear)
+        seat = Seat(position - self.row, own.length, coating)
         self.rule, self.simulation = set_up_modes(self.modes, blade, self.spec, seat)
         self.initial = sum(energy.blade_energy(self.rule, self.simulation.state))
         self.history = History(spec.revolutions, n_elements)
@@ -168,21 +176,26 @@ class _Seat:
         return int(clear[0])
 
 
-def _check_distances(blade: ReducedBlade, spec: RunSpec, seats: Sequence[_Seat]) -> None:
-    """Check that no element is ever under two blades."""
-    if len(seats) == 1:
-        return
+def _distances(blade: ReducedBlade, spec: RunSpec, seats: Sequence[_Seat]) -> tuple[list[int], int]:
+    """Count the elements from each blade to the one behind it, and those that two reach over together.
+
+    Raises `ValueError` if an element can be under two blades.
+    """
     n_elements, radius = spec.coating.n_elements, tip_radii(blade)[0]
     at_most = spec.tip.half_width + spec.displacement_limit * n_elements / (_TURN * radius.min())
     reach = math.ceil(2 * at_most) + 3  # a node stands anywhere within two elements, rows are whole
     around = sorted(range(len(seats)), key=lambda at: seats[at].row)
+    apart = [n_elements] * len(seats)
     for at, next_at in zip(around, [*around[1:], around[0]], strict=True):
-        distance = (seats[next_at].row - seats[at].row) % n_elements
+        if at == next_at:
+            break
+        distance = apart[next_at] = (seats[next_at].row - seats[at].row) % n_elements
         if distance <= reach:
             raise ValueError(
                 f"row: blades {at + 1} and {next_at + 1} are {distance} of {n_elements} coating elements "
                 f"apart; must be {reach + 1} or more, so that they cannot meet within the displacement limit"
             )
+    return apart, reach
 
 
 def _coupling(spec: RunSpec, modes: Modes, row: Row, seats: Sequence[_Seat]) -> Coupling:

@@ -1,7 +1,7 @@
 """From blade and run to what the time loop works on."""
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from functools import partial
 from typing import NamedTuple
 
@@ -10,6 +10,7 @@ from scipy.ndimage import minimum_filter1d
 
 from bladerub.blade.model import N_INTERFACE, ReducedBlade
 from bladerub.contact import casing
+from bladerub.contact.heating import Layer
 from bladerub.contact.kernel import records
 from bladerub.contact.kernel.free_flight import MOST_STEPS, FreeFlight
 from bladerub.contact.kernel.loop import Simulation
@@ -32,7 +33,7 @@ class Seat(NamedTuple):
 
     ahead: float = 0.0  # Angle ahead of where a run starts, elements; whole ones are not counted
     longer: float = 0.0  # Tip radius beyond the nominal one, m
-    wear: np.ndarray | None = None  # (N, lanes) of `records.State`, shared with the other blades
+    coating: Mapping[str, np.ndarray] = {}  # `records.COATING` of the state that the blades share
 
 
 ALONE = Seat()
@@ -57,14 +58,19 @@ def set_up_modes(
     rule = SCHEMES[spec.scheme](modes, spec.damping_ratio, time_step, contact)
     tip = tip_record(blade, spec, seat)
     stator = stator_record(blade, spec, rule, seat)
-    state = _initial_state(modes, rule, spec, tip)
-    if seat.wear is not None:
-        state = state._replace(wear=seat.wear)
+    heats = hasattr(law, "strength")
+    state = _initial_state(modes, rule, spec, tip, heats)
+    state = state._replace(**seat.coating)
     flight = _free_flight(rule, tip, steps_per_element)
     kernel = partial(module_for, lanes_for(modes.n_nodes), law=source_of(spec.coating.element_law))
     simulation = kernel("contact.kernel.loop").Simulation
+    layer = None
+    if heats:
+        period = steps_per_element * time_step * spec.coating.n_elements
+        area = _by_lane_of(blade)(element_area(blade, spec))
+        layer = Layer(law, spec.coating, area, period)
     return rule, simulation(
-        kernel("contact.kernel.modal").pack(rule), flight, stator, tip, state, steps_per_element
+        kernel("contact.kernel.modal").pack(rule), flight, stator, tip, state, steps_per_element, layer
     )
 
 
@@ -193,10 +199,12 @@ def _free_flight(rule: Recurrence, tip: records.Tip, steps_per_element: int) -> 
     return own.free_flight(rule, steps_per_element // parts, slope, edge(tip))
 
 
-def _initial_state(modes: Modes, rule: Recurrence, spec: RunSpec, tip: records.Tip) -> records.State:
+def _initial_state(
+    modes: Modes, rule: Recurrence, spec: RunSpec, tip: records.Tip, heats: bool
+) -> records.State:
     """At rest, deflected in the first mode; the step before is the exact free motion back from there."""
     own = module_for(lanes_for(rule.n_nodes), "contact.kernel.records")
-    state = own.at_rest(rule.omega.size, spec.coating.n_elements)
+    state = own.at_rest(rule.omega.size, spec.coating.n_elements, heats)
     if spec.initial_displacement:
         x, damping = rule.omega[0] * rule.time_step, spec.damping_ratio
         damped = math.sqrt(1.0 - damping**2)

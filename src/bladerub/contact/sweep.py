@@ -22,6 +22,7 @@ from bladerub.blade.model import ReducedBlade
 from bladerub.contact import energy
 from bladerub.contact.integration import Segment, integrate
 from bladerub.contact.kernel.loop import Simulation
+from bladerub.contact.kernel.records import COATING
 from bladerub.contact.modes import Modes, at_tip, mode_shapes_at
 from bladerub.contact.result import Outcome
 from bladerub.contact.schemes import Recurrence
@@ -171,7 +172,7 @@ class _Sweep:
 def _transfer(blade: ReducedBlade, old: _Stage, new: _Stage) -> float:
     """Transfer the state of `old` to `new`; return the work of the change of stiffness, J."""
     state, here = new.simulation.state, old.simulation.state
-    for name in ("force", "normal_force", "moment", "tangential_factor", "response", "wear", "ledger"):
+    for name in ("force", "normal_force", "moment", "tangential_factor", "response", "ledger", *COATING):
         getattr(state, name)[:] = getattr(here, name)
     state.ledger[energy.TORQUE] *= old.simulation.angle_per_step / new.simulation.angle_per_step
 

@@ -59,7 +59,7 @@ def _place_at(builder, address, number, kind):
     return _place(builder, address, ir.Constant(address.type, number), kind)
 
 
-@njit(inline="always")
+@njit(forceinline=True)
 def address_of(address, index):
     """Address of the number `index` of the array at `address`."""
     return address + 8 * index
@@ -89,26 +89,26 @@ def write(builder, address, index, number):
     builder.store(number, _place(builder, address, index, DOUBLE))
 
 
-@njit(inline="always")
+@njit(forceinline=True)
 def add_to(address, index, a):
     """Add a vector to the numbers of the array at `address`, from flat position `index` on."""
     store(address, index, load(address, index) + a)
 
 
-@njit(inline="always")
+@njit(forceinline=True)
 def add_to_number(address, index, number):
     """Add to one number of the array at `address`."""
     write(address, index, read(address, index) + number)
 
 
-@njit(inline="always")
+@njit(forceinline=True)
 def copy(source, target, n):
     """Copy `n` numbers, whole vectors."""
     for k in range(0, n, LANES):
         store(target, k, load(source, k))
 
 
-@njit(inline="always")
+@njit(forceinline=True)
 def clear(target, n):
     """Set `n` numbers, whole vectors, to zero."""
     for k in range(0, n, LANES):

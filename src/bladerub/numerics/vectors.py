@@ -94,7 +94,7 @@ def _binary(python_operator, result, build):
 
         return result(*_typed(a, b)), generate
 
-    @overload(python_operator, inline="always")
+    @overload(python_operator, jit_options={"forceinline": True})
     def overloaded(a, b):
         if vector in (a, b):
             return lambda a, b: operation(a, b)
@@ -114,7 +114,7 @@ def _both(builder, a, b):
     return builder.and_(a, b)
 
 
-@overload(operator.and_, inline="always")
+@overload(operator.and_, jit_options={"forceinline": True})
 def _and(a, b):
     if a == b == mask:
         return lambda a, b: _both(a, b)
@@ -141,7 +141,7 @@ def _unary(function, numpy_function, name):
 
         return a(a), generate
 
-    @overload(function, inline="always")
+    @overload(function, jit_options={"forceinline": True})
     def overloaded(a):
         if isinstance(a, types.Array):
             return lambda a: numpy_function(a)
@@ -176,7 +176,7 @@ def _extreme(function, numpy_function, comparison):
         a, b = _typed(a, b)
         return (vector if vector in (a, b) else types.float64)(a, b), generate
 
-    @overload(function, inline="always")
+    @overload(function, jit_options={"forceinline": True})
     def overloaded(a, b):
         if isinstance(a, types.Array) or isinstance(b, types.Array):
             return lambda a, b: numpy_function(a, b)
@@ -246,7 +246,7 @@ def where(condition, a, b):
     return np.where(condition, a, b)
 
 
-@overload(where, inline="always")
+@overload(where, jit_options={"forceinline": True})
 def _where(condition, a, b):
     if isinstance(condition, types.Array):
         return lambda condition, a, b: np.where(condition, a, b)

@@ -17,13 +17,16 @@ _LINES = [
 @styled
 def law_cycles(panels: Mapping[str, Mapping[str, LoadingCycle]]) -> Figure:
     """Draw a panel for each title, with at most three cycles by their labels; stress in MPa."""
-    figure = new_figure(PAGE, 0.52 * PAGE)
-    row = figure.subplots(1, len(panels), sharex=True, sharey=True, squeeze=False)[0]
-    for axes, (title, cycles) in zip(row, panels.items(), strict=True):
+    figure = new_figure(PAGE, 0.95 * PAGE)
+    grid = figure.subplots(-(-len(panels) // 2), 2, sharex=True, sharey=True, squeeze=False)
+    for axes in grid.flat[len(panels) :]:
+        axes.remove()
+    for axes, (title, cycles) in zip(grid.flat, panels.items(), strict=False):
         for (label, cycle), line in zip(cycles.items(), _LINES, strict=False):
             megapascal = cycle.stress * cycle.coating.modulus_unit / 1e6
             axes.plot(100 * cycle.strain, megapascal, label=label, **line)
         axes.set(title=title, xlabel=r"compressive strain $\varepsilon$, %")
         axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.24), frameon=False)
-    row[0].set(ylabel=r"compressive stress $\sigma$, MPa", xlim=(0, None), ylim=(0, None))
+    for axes in grid[:, 0]:
+        axes.set(ylabel=r"compressive stress $\sigma$, MPa", xlim=(0, None), ylim=(0, None))
     return figure

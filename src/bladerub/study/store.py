@@ -37,6 +37,7 @@ _ENERGIES = {
 _DATASETS = {
     "angle": (("angle",), "rad", "casing angle of the element centres"),
     "wear": (("node", "angle"), "m", "permanent shortening of the coating under each interface node"),
+    "temperature_rise": (("node", "angle"), "K", "by which the surface of the coating is warmer at the end"),
     "spectrum_order": (("spectrum_order",), "1", "engine order"),
     "spectrum_amplitude": (("spectrum_order",), "m", "amplitude of the radial displacement of node 1"),
     "revolution_number": (("revolution_number",), "1", "revolution, counted from 1"),
@@ -87,7 +88,8 @@ class StoredRun:
 
     The datasets are ``wear`` (8, n), ``angle`` (n,), ``spectrum_order`` and ``spectrum_amplitude`` (m,),
     ``revolution_peak``, ``revolution_amplitude`` and ``revolution_number`` (r,), ``energy_*`` (scalars), and
-    for runs with history ``radial_displacement`` over ``revolution`` (r n,).
+    for runs with history ``radial_displacement`` over ``revolution`` (r n,). Where the coating heats,
+    ``temperature_rise`` (8, n).
     """
 
     attributes: dict[str, Any]
@@ -119,6 +121,8 @@ def stored_run(
         "revolution_amplitude": result.revolution_amplitude,
         **{f"energy_{name}": np.asarray(getattr(result.energy, name)) for name in _ENERGIES},
     }
+    if result.temperature_rise is not None:
+        data["temperature_rise"] = result.temperature_rise.astype(np.float32)
     if keep_history:
         n_samples = result.radial_displacement.size
         data["revolution"] = (np.arange(n_samples) + 0.5) * spec.revolutions / n_samples

@@ -7,7 +7,9 @@
    elastic force at the depth that is left by wear is the force.
 5. *Energy*: what work goes into an element is stored or dissipated, and no cycle gives back more than it
    takes.
-6. It can be compiled with the time loop.
+6. Where the law has a strength that heat lowers, it is 1 in the cold, never rises with the temperature and
+   stays above 0.
+7. It can be compiled with the time loop.
 """
 
 import itertools
@@ -77,6 +79,8 @@ def check_law(law: ElementLaw, coatings: Sequence[Coating], seed: int = 0) -> La
                 with np.errstate(all="ignore"):
                     _follow(module, own, time_step, rng, found)
                 histories += HISTORIES
+            if hasattr(module, "strength"):
+                _heat(module, replace(coating, element_law=law), found)
         if not found.problems:
             compile_kernel(law=law)
     except Exception as error:  # whatever the code of a user may raise
@@ -159,6 +163,17 @@ def _follow(
             found.unless(
                 work >= -allowed, "energy is created: a cycle gives back more than it takes", **energies
             )
+
+
+def _heat(law: ModuleType, coating: Coating, found: _Found) -> None:
+    """Look at the strength over the temperature."""
+    rise = np.concatenate([[0.0], np.geomspace(1e-2, 1e4, 600)])
+    strength = np.broadcast_to(law.strength(coating, rise), rise.shape)
+    falls = np.concatenate([[strength[0] == 1.0], np.diff(strength) <= 0]) & (strength > 0)
+    if not falls.all():  # also what is no number
+        at = int(falls.argmin())
+        what = "strength is not 1 without heat, rises with the temperature or is not above 0"
+        found.add(what, f"temperature rise {rise[at]:.4g}, strength {strength[at]:.4g}")
 
 
 def _look(law, element, depth, wear, force, increment, rng, found: _Found) -> None:

@@ -1,6 +1,5 @@
 """The plain loop against the loop of the study."""
 
-import numba
 import numpy as np
 import pytest
 
@@ -16,14 +15,14 @@ pytestmark = pytest.mark.slow
 VISCOPLASTIC = described_law("viscoplastic", {"viscosity": 1e4})
 
 
-@pytest.mark.parametrize("compiled", [lambda loop: loop, numba.njit], ids=["numpy", "numba"])
+@pytest.mark.parametrize("loop", [plain.integrator, plain.compiled], ids=["numpy", "numba"])
 @pytest.mark.parametrize(
     ("E", "K", "theta", "law"),
     [(1.1, 0.5, 0.0, PLASTIC), (2.0, 0.1, 0.15, PLASTIC), (1.1, 0.5, 0.0, VISCOPLASTIC)],
 )
-def test_the_same_run(blade, spec, change, compiled, E, K, theta, law):
+def test_the_same_run(blade, spec, change, loop, E, K, theta, law):
     spec = change(spec, E=E, K=K, theta=theta, revolutions=2, element_law=law)
-    integrate = compiled(plain.integrator(law))
+    integrate = loop(law)
     result, (rule, simulation) = simulate(blade, spec), set_up(blade, spec)
     arguments = plain.arguments(law, rule, simulation)
     displacement = np.zeros(result.n_steps)

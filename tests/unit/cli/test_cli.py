@@ -294,15 +294,23 @@ def test_run_takes_damping_layer_and_interference_of_its_own(small, blade_file, 
 
 @pytest.mark.slow
 def test_run_with_another_law_says_so(small, blade_file, folder, capsys):
-    path = folder / "viscous.h5"
-    law = ["--law", "viscoplastic", "--law-parameter", "viscosity=1e4", "--output", str(path)]
-    assert main([*RUN, *law, *small]) == 0
-    assert "law                             viscoplastic (viscosity 10000)" in capsys.readouterr().out
-    assert read_run(path).attributes["element_law"] == "viscoplastic (viscosity 10000)"
+    path = folder / "thermal.h5"
+    values = {"heat_capacity": "2e6", "conductivity": "5", "heated_depth": "1e-4", "friction_share": "0.5"}
+    values |= {"softening_rise": "500", "softening_exponent": "1"}
+    law = [word for name, value in values.items() for word in ("--law-parameter", f"{name}={value}")]
+    assert main([*RUN, "--law", "thermal", *law, "--output", str(path), *small]) == 0
+    words = capsys.readouterr().out
+    assert re.search("law  +thermal .heat_capacity 2e.06, conductivity 5, ", words)
+    warmest = float(re.search(r"warmest surface  +([\d.]+) K above the casing", words)[1])
+    stored = read_run(path)
+    assert stored.data["temperature_rise"].max() == pytest.approx(warmest, rel=1e-2)
+    assert stored.data["temperature_rise"].shape == stored.data["wear"].shape
+    assert stored.attributes["element_law"].startswith("thermal (heat_capacity 2e+06, conductivity 5, ")
     other = folder / "plastic.h5"
     assert main([*RUN, "--law", "plastic", "--output", str(other), *small, "--json"]) == 0
     figures, about = json.loads(capsys.readouterr().out), read_run(other).attributes
     assert figures["element_law"] == "plastic"
+    assert "max_temperature_rise" not in figures
     assert "element_law" not in about
     assert about["run_key"] != read_run(path).attributes["run_key"]
 

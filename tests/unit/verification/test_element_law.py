@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from bladerub.contact import law
-from bladerub.contact.laws import described_law
+from bladerub.contact.laws import described_law, source_of
 from bladerub.contact.spec import PLASTIC, Coating, ElementLaw
 from bladerub.verification import element_law
 from bladerub.verification.element_law import HISTORIES, TIME_STEPS, check_law
@@ -15,11 +15,23 @@ DENSIFYING = Path(__file__).parents[3] / "docs" / "laws" / "densifying.py"
 COATINGS = [
     Coating(E, K, 0.0, 1.5e-8, 600e6, 6e-3, 2000) for E, K in ((0.05, 10.0), (20.0, 0.05), (1.1, 0.5))
 ]
+THERMAL = described_law(
+    "thermal",
+    {
+        "heat_capacity": 2e6,
+        "conductivity": 5.0,
+        "heated_depth": 1e-4,
+        "friction_share": 0.5,
+        "softening_rise": 500.0,
+        "softening_exponent": 1.0,
+    },
+)
 RIGHT = [
     PLASTIC,
     described_law("perfectly_plastic", {"yield_stress": 1e6}),
     described_law("viscoplastic", {"viscosity": 1e4}),
     described_law("brittle", {"break_strain": 5e-3}),
+    THERMAL,
     described_law("densifying", {"doubling": 1e-4}, DENSIFYING.read_text(encoding="utf-8")),
 ]
 FORCE = "return maximum(trial - element.elastic * increment, 0.0), increment"
@@ -84,6 +96,24 @@ def test_what_is_wrong_with_a_law_is_told(name, compiled):
     right, wrong, wanted = WRONG[name]
     assert PAPER.count(right) == 1
     assert wanted <= told(ElementLaw("own", (), PAPER.replace(right, wrong)))
+    assert compiled == []
+
+
+@pytest.mark.parametrize(
+    ("right", "wrong"),
+    [
+        ("return np.maximum(1.0 - lost, _LEAST)", "return 1.0 + lost"),
+        ("return np.maximum(1.0 - lost, _LEAST)", "return 1.0 - lost"),
+        ("return np.maximum(1.0 - lost, _LEAST)", "return 0.9 * np.maximum(1.0 - lost, _LEAST)"),
+        ("return np.maximum(1.0 - lost, _LEAST)", "return np.nan * lost"),
+    ],
+    ids=["rises", "below 0", "not 1 in the cold", "no number"],
+)
+def test_what_is_wrong_with_a_strength_is_told(right, wrong, compiled):
+    source = source_of(THERMAL)
+    assert source.count(right) == 1
+    own = ElementLaw("own", THERMAL.parameters, source.replace(right, wrong))
+    assert told(own) == {"strength is not 1 without heat, rises with the temperature or is not above 0"}
     assert compiled == []
 
 

@@ -26,9 +26,7 @@ def update_coating(modal, stator, tip, passed, per_step, state, u, u_before):
         before = elements.Placement(
             position_before, load(u_before, 2 * LANES), tilt.kept(modal.tilt, u_before)
         )
-        stored, loss, supplied, worn = elements.update_wear(
-            modal.tilt, stator, tip, state.wear, there, before
-        )
+        stored, loss, supplied, worn = elements.update_wear(modal.tilt, stator, tip, state, there, before)
         add_to(state.ledger, energy.WORN * LANES, worn)
     store(state.moment, 0, (0.0 - factor) * normal_force * (load(tip.lever, 0) + approach))
     entry = state.ledger

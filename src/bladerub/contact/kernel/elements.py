@@ -10,7 +10,7 @@ from bladerub.contact import law
 from bladerub.contact.gap import penetration
 from bladerub.contact.kernel import tilt
 from bladerub.contact.tip import coverage, relief
-from bladerub.numerics.memory import load, load_fields, store
+from bladerub.numerics.memory import add_to, load, load_fields, store
 from bladerub.numerics.vectors import (
     LANES,
     absolute,
@@ -22,6 +22,8 @@ from bladerub.numerics.vectors import (
     where,
 )
 
+HEATS = hasattr(law, "strength")
+"""Whether the forces of an element depend on its temperature (`bladerub.contact.heating`)."""
 NO_CHANGE = 1e-12
 """Change of depth below which the force of an element is taken as constant over a step, m."""
 
@@ -34,7 +36,7 @@ class Placement(NamedTuple):
     tilted: np.ndarray  # m per element
 
 
-@njit(inline="always")
+@njit(forceinline=True)
 def wrap(index, n_elements):
     """Bring an index less than one turn outside into [0, N)."""
     if index >= n_elements:
@@ -44,7 +46,7 @@ def wrap(index, n_elements):
     return index
 
 
-@njit(inline="always")
+@njit(forceinline=True)
 def rows_under(tip, behind, ahead):
     """First and last row that the profile covers of any node between positions `behind` and `ahead`."""
     first = math.floor(smallest_lane(behind) - tip.half_width)
@@ -65,7 +67,7 @@ def rigid_surface(stator, position):
 
 
 @njit(forceinline=True)
-def linearise(tilts, stator, tip, wear, position, rows, approach, tilted):
+def linearise(tilts, stator, tip, state, position, rows, approach, tilted):
     """Press the elements under each node by its `approach` and tilt, but leave them as they are.
 
     Returns force (N), stiffness (N/m), and the change of depth over which the force is linear (m): no element
@@ -81,11 +83,14 @@ def linearise(tilts, stator, tip, wear, position, rows, approach, tilted):
         entry = wrap(row, stator.n_elements) * LANES
         offset = (row + 0.5) - position
         share = coverage(tip, offset)
-        worn = load(wear, entry)
+        worn = load(state.wear, entry)
         here = tilt.raised(tilts, approach, tilted, offset)
         depth = penetration(here, relief(tip, offset), load(stator.initial_gap, entry), worn)
         force_here, _ = law.return_mapping(element, depth, worn)
         slope, linear = law.tangent(element, depth, worn)
+        if HEATS:
+            strength = load(state.strength, entry)
+            force_here, slope = strength * force_here, strength * slope
         force = force + share * force_here
         stiffness = stiffness + share * slope
         valid = minimum(valid, linear)
@@ -97,7 +102,7 @@ def linearise(tilts, stator, tip, wear, position, rows, approach, tilted):
 
 
 @njit(forceinline=True)
-def update_wear(tilts, stator, tip, wear, there, before):
+def update_wear(tilts, stator, tip, state, there, before):
     """Leave the elements as the tip presses them at the end of a step, and account for it.
 
     An element partly under the tip counts as elements of which a share is under it: as the edge of the
@@ -117,12 +122,14 @@ def update_wear(tilts, stator, tip, wear, there, before):
     first, last = rows_under(tip, minimum(position, position_before), maximum(position, position_before))
     advance, closer = position - position_before, approach - approach_before
     constant, slope = relief(tip, advance), 2.0 * tip.curvature * advance
+    # Of friction, J per N of the force of an element; the tip slides over the casing by `advance`
+    by_friction = (0.0 - load(state.tangential_factor, 0)) * advance / load(tip.per_metre, 0)
     for row in range(first, last + 1):
         entry = wrap(row, stator.n_elements) * LANES
         offset = (row + 0.5) - position
         share, share_before = coverage(tip, offset), coverage(tip, offset + advance)
         lowering = slope * offset + constant  # of the profile over this element, in the step
-        worn = load(wear, entry)
+        worn = load(state.wear, entry)
         here, turning = tilt.raised(tilts, approach, tilted, offset), closer
         if tilts is not None:
             middle = offset + 0.5 * advance
@@ -134,10 +141,17 @@ def update_wear(tilts, stator, tip, wear, there, before):
         force_before = law.elastic_force(element, depth - deeper)
         under, was_under = share > 0.0, share_before > 0.0
         increment, force = where(under, increment, 0.0), where(under, force, 0.0)
-        store(wear, entry, worn + increment)
+        store(state.wear, entry, worn + increment)
         worn_off = worn_off + increment
         energy, energy_before = law.stored_energy(element, force), law.stored_energy(element, force_before)
         loss = law.dissipated_energy(element, worn, increment, where(was_under, force_before, 0.0), force)
+        if HEATS:
+            strength = load(state.strength, entry)
+            force, force_before = strength * force, strength * force_before
+            energy, energy_before, loss = strength * energy, strength * energy_before, strength * loss
+            add_to(state.heat, 2 * entry, loss)
+            mean = 0.5 * (share * force + share_before * force_before)
+            add_to(state.heat, 2 * entry + LANES, mean * by_friction)
         stored = stored + share * energy
         dissipated = dissipated + loss
         mean_share = 0.5 * (share + share_before)

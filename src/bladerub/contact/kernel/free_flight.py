@@ -83,7 +83,7 @@ def free_flight(rule: Recurrence, n_steps: int, slope: float, edge: float = 0.0)
     return aligned(FreeFlight(n_steps, in_vectors(np.array(forms)), float(sideways)))
 
 
-@njit(inline="always")
+@njit(forceinline=True)
 def _form(flight, k, row):
     return load(flight.forms, N_FORMS * k + row)
 

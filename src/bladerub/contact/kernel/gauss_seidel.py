@@ -14,7 +14,7 @@ from bladerub.contact.friction import contact_force
 from bladerub.contact.gap import closest_position, is_within_limit, normal, normal_approach, penetration
 from bladerub.contact.kernel import tilt
 from bladerub.contact.kernel.coulomb import mobilise
-from bladerub.contact.kernel.elements import rigid_surface, wrap
+from bladerub.contact.kernel.elements import HEATS, rigid_surface, wrap
 from bladerub.contact.tip import coverage, edge, relief
 from bladerub.numerics.memory import address_of, load, read, read_fields, store, write
 from bladerub.numerics.vectors import LANES, broadcast
@@ -60,7 +60,7 @@ def gauss_seidel(modal, stator, tip, state, passed, u, tolerance):
                 found = max(0.0, free_approach - read(surface, j)) / own  # eq. (9)
             else:
                 found, couple, node_converged = _force_on(
-                    stator, tip, state.wear, j, read(position, j), free_approach, tilted, own, guess
+                    stator, tip, state, j, read(position, j), free_approach, tilted, own, guess
                 )
                 converged = converged and node_converged
             if found == 0.0 and guess == 0.0:
@@ -99,7 +99,7 @@ def _self_compliance(modal, stator, state, rows, j):
 
 
 @njit
-def _force_on(stator, tip, wear, j, position, free_approach, tilted, own, guess):
+def _force_on(stator, tip, state, j, position, free_approach, tilted, own, guess):
     """Find the force N of the coating on node `j`, which retreats by `own` per unit of it, at a given tilt.
 
     Solves ``a + own N(a) = free_approach`` for the approach a by Newton's method within a bracket: N is
@@ -108,7 +108,7 @@ def _force_on(stator, tip, wear, j, position, free_approach, tilted, own, guess)
     low, high = -np.inf, np.inf
     approach = free_approach - own * guess
     for _ in range(MAX_NODE_ITERATIONS):
-        force, stiffness, couple = _resistance(stator, tip, wear, j, position, approach, tilted)
+        force, stiffness, couple = _resistance(stator, tip, state, j, position, approach, tilted)
         residual = approach + own * force - free_approach
         if abs(residual) <= NODE_TOLERANCE:
             return force, couple, True
@@ -123,7 +123,7 @@ def _force_on(stator, tip, wear, j, position, free_approach, tilted, own, guess)
 
 
 @njit
-def _resistance(stator, tip, wear, j, position, approach, tilted):
+def _resistance(stator, tip, state, j, position, approach, tilted):
     """Force (N), stiffness (N/m) and couple of the elements under node `j`, as `elements.linearise`."""
     force = couple = 0.0
     stiffness = 0.0
@@ -133,11 +133,14 @@ def _resistance(stator, tip, wear, j, position, approach, tilted):
     for i in range(first, last + 1):
         offset = i + 0.5 - position
         entry = wrap(i, stator.n_elements) * LANES + j
-        worn = read(wear, entry)
+        worn = read(state.wear, entry)
         here = approach + tilted * offset
         depth = penetration(here, relief(tip, offset), read(stator.initial_gap, entry), worn)
         force_here, _ = law.return_mapping(element, depth, worn)
         slope, _ = law.tangent(element, depth, worn)
+        if HEATS:
+            strength = read(state.strength, entry)
+            force_here, slope = strength * force_here, strength * slope
         share = coverage(tip, offset)
         force += share * force_here
         stiffness += share * slope

@@ -6,7 +6,7 @@ Compiled functions on the addresses of the arrays of five records, which `Simula
 output. Where the tip surely touches nothing, many steps are made at once (`free_flight`).
 """
 
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from numba import njit
@@ -23,6 +23,9 @@ from bladerub.contact.kernel.records import State, Stator, Tip
 from bladerub.numerics.machine_code import njit_on_disk
 from bladerub.numerics.memory import add_to, address_of, addresses, clear, copy, load, read, store, write
 from bladerub.numerics.vectors import LANES, absolute, all_lanes, broadcast, largest_lane, where
+
+if TYPE_CHECKING:
+    from bladerub.contact.heating import Layer
 
 NEGLIGIBLE = 1e-100
 """Modal coordinates below this are zero, m kg^1/2: numbers too small to be normal would slow the loop."""
@@ -44,7 +47,8 @@ class Simulation:
     """A blade and a stator, ready to be integrated.
 
     `modal` are the coefficients of the scheme for one step, `flight` those for many steps of free flight.
-    `advance` changes `state`. The passage of one element takes `steps_per_element` time steps.
+    `advance` changes `state`. The passage of one element takes `steps_per_element` time steps. Where heat
+    changes the strength of the coating, `layer` is where it flows.
     """
 
     def __init__(
@@ -55,9 +59,10 @@ class Simulation:
         tip: Tip,
         state: State,
         steps_per_element: int,
+        layer: "Layer | None" = None,
     ):
         self.modal, self.flight, self.stator, self.tip, self.state = modal, flight, stator, tip, state
-        self.steps_per_element = steps_per_element
+        self.steps_per_element, self.layer = steps_per_element, layer
         state.tangential_factor[:] = stator.tangential_factor  # Coulomb's law finds its own before it is used
         self.records = tuple(addresses(record) for record in (modal, flight, stator, tip, state))
 
@@ -72,6 +77,25 @@ class Simulation:
         `displacement` (n,) is filled with the radial displacement of node 1, mean over the passage of each
         element, m; n = N makes one revolution.
         """
+        if self.layer is None:
+            return self._integrate(displacement, first)
+        made = Progress(0, 0, 0, np.inf, -np.inf)
+        half = self.stator.n_elements // 2
+        for start in range(0, displacement.size, half):
+            part = displacement[start : start + half]
+            more = self._integrate(part, first + start)
+            made = Progress(
+                *(a + b for a, b in zip(made[:3], more[:3], strict=True)),
+                min(made.lowest, more.lowest),
+                max(made.highest, more.highest),
+            )
+            if more.n_steps < part.size * self.steps_per_element:
+                break
+            behind = first + start - half // 2  # far from where the tip is, at both ends
+            self.layer.rest(self.state, behind, behind + part.size)
+        return made
+
+    def _integrate(self, displacement: np.ndarray, first: int) -> Progress:
         last = first + displacement.size
         turns, _, _, n_steps, n_flights, n_contact, lowest, highest = integrate(
             *self.records, self.steps_per_element, first, last, False, 0.0, displacement.ctypes.data

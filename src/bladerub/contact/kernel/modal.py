@@ -123,7 +123,7 @@ def correct(modal, force, q):
     return _project(modal, q)
 
 
-@njit(inline="always")
+@njit(forceinline=True)
 def _recur(modal, k, q, q1, q2):
     present = load(q, k)
     change = present - load(q2, k)
@@ -131,7 +131,7 @@ def _recur(modal, k, q, q1, q2):
     return x, load(modal.loss, k) * change * change
 
 
-@njit(inline="always")
+@njit(forceinline=True)
 def _by_forces(modal, k, forces, couples):
     by_forces = sum_of_products(address_of(modal.tip, ROWS * k), forces)
     return load(modal.gain, k) * (by_forces + tilt.by_couples(modal.tilt, k, couples))
@@ -146,13 +146,13 @@ def _project(modal, q):
     return *tip_displacement(sums), tilt.total(modal.tilt, tilts)
 
 
-@njit(inline="always")
+@njit(forceinline=True)
 def add_tip_displacement(modal, k, x, sums):
     """Add to a sum for each coordinate of the tip what the modes `x`, from mode k on, displace at the tip."""
     return add_products(sums, address_of(modal.tip, ROWS * k), x)
 
 
-@njit(inline="always")
+@njit(forceinline=True)
 def tip_displacement(sums):
     """Radial and tangential displacement of the tip from the sums: the interface rows of eq. (6), m."""
     radial, tangential = halves(sums)

@@ -147,9 +147,7 @@ def _invalid(approach, tilted):
 
 @njit(forceinline=True)
 def _linearise(modal, stator, tip, state, here, approach, tilted):
-    found = elements.linearise(
-        modal.tilt, stator, tip, state.wear, here.position, here.rows, approach, tilted
-    )
+    found = elements.linearise(modal.tilt, stator, tip, state, here.position, here.rows, approach, tilted)
     return Linearisation(approach, tilted, *found)
 
 

@@ -31,6 +31,13 @@ class Coupling(NamedTuple):
     elastic: np.ndarray
 
 
+class Rests(NamedTuple):
+    """When elements that conduct heat are left alone."""
+
+    apart: Sequence[int]  # Elements from each blade to the one behind it
+    at_once: int  # Elements that may pass before those half-way between two blades are seen to
+
+
 class RowSimulation:
     """Blades and the coating that they share, ready to be integrated.
 
@@ -39,10 +46,15 @@ class RowSimulation:
     """
 
     def __init__(
-        self, blades: Sequence[Simulation], first: Sequence[int], begins: Sequence[int], coupling: Coupling
+        self,
+        blades: Sequence[Simulation],
+        first: Sequence[int],
+        begins: Sequence[int],
+        coupling: Coupling,
+        rests: Rests,
     ):
         self.blades, self.coupling = blades, coupling  # whose arrays stay alive here
-        self.first, self.begins = np.array(first), np.array(begins)
+        self.first, self.begins, self.rests = np.array(first), np.array(begins), rests
         self.work = np.zeros(len(blades))
         self._kinds = tuple(blades[0].records)
         self._rows = [rows_of(kind) for kind in zip(*(each.records for each in blades), strict=True)]
@@ -54,18 +66,36 @@ class RowSimulation:
         Returns the number of elements passed and what each blade did: all end with the element in which one
         leaves the displacement limit.
         """
-        (n_blades, _), blade = displacement.shape, self.blades[0]
+        (n_blades, n), blade = displacement.shape, self.blades[0]
         counts = np.zeros((n_blades, 3), dtype=np.int64)
         ranges = np.full((n_blades, 2), (np.inf, -np.inf))
-        over = (self.first + first) % blade.stator.n_elements
-        begins = self.begins - first
-        passed = _integrate_row(
-            *(self._kinds, *self._rows, blade.steps_per_element, over, begins),
-            *(displacement, counts, ranges, self.coupling, self.work),
-        )
+        passed, at_once = 0, self.rests.at_once if blade.layer else n
+        while passed < n:
+            part = np.ascontiguousarray(displacement[:, passed : passed + at_once])
+            over = (self.first + first + passed) % blade.stator.n_elements
+            more = _integrate_row(
+                *(self._kinds, *self._rows, blade.steps_per_element, over, self.begins - first - passed),
+                *(part, counts, ranges, self.coupling, self.work),
+            )
+            displacement[:, passed : passed + at_once] = part
+            self._rest(first + passed, more)
+            passed += more
+            if more < part.shape[1]:
+                break
         return passed, [
             Progress(*map(int, of), *map(float, at)) for of, at in zip(counts, ranges, strict=True)
         ]
+
+    def _rest(self, first: int, passed: int) -> None:
+        """Let the elements half-way to the blades behind be, after `passed` more elements."""
+        layer = self.blades[0].layer
+        if layer is None:
+            return
+        for row, apart in zip(self.first + first, self.rests.apart, strict=True):
+            behind = row - (apart - self.rests.at_once) // 2
+            layer.rest(
+                self.blades[0].state, behind, behind + passed, apart / self.blades[0].stator.n_elements
+            )
 
 
 @njit_on_disk(nogil=True)
@@ -121,7 +151,7 @@ def _integrate_row(
     return element
 
 
-@njit(inline="always")
+@njit(forceinline=True)
 def _row(rows, b):
     """Address of row `b`."""
     return rows.ctypes.data + 8 * rows.shape[1] * b

@@ -25,6 +25,8 @@ CONTRACT = (
     *("stored_energy", "dissipated_energy"),
 )
 """What the module of a law has for the program."""
+HEAT = ("heat_capacity", "conductivity", "heated_depth", "friction_share")
+"""Parameters of a law with ``strength``, for `bladerub.contact.heating`."""
 
 
 class Parameter(NamedTuple):
@@ -63,8 +65,11 @@ def parameters_of(source: str) -> Mapping[str, Parameter]:
             except (AttributeError, TypeError, ValueError) as error:
                 right = "must be a dictionary of name: (unit, minimum, maximum, meaning), written out"
                 raise ValueError(f"PARAMETERS on line {node.lineno}: {right}") from error
-    if source and (missing := [each for each in CONTRACT if each not in _names_in(source)]):
+    names = _names_in(source)
+    if source and (missing := [each for each in CONTRACT if each not in names]):
         raise ValueError(f"has no {', '.join(missing)}; a law must have {', '.join(CONTRACT)}")
+    if "strength" in names and (missing := [each for each in HEAT if each not in listed]):
+        raise ValueError(f"has strength, but no {', '.join(missing)} in PARAMETERS")
     return listed
 
 

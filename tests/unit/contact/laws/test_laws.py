@@ -13,11 +13,23 @@ from bladerub.contact.spec import PLASTIC, Coating, ElementLaw
 from bladerub.numerics import lanes
 
 AREA, STEP, WORN = 1e-6, 1e-6, 1e-5
+THERMAL = described_law(
+    "thermal",
+    {
+        "heat_capacity": 2e6,
+        "conductivity": 5.0,
+        "heated_depth": 5e-4,
+        "friction_share": 0.5,
+        "softening_rise": 20.0,
+        "softening_exponent": 1.0,
+    },
+)
 LAWS = [
     PLASTIC,
     described_law("perfectly_plastic", {"yield_stress": 2e6}),
     described_law("viscoplastic", {"viscosity": 1e4}),
     described_law("brittle", {"break_strain": 2e-3}),
+    THERMAL,
 ]
 PLASTIC_LIMITS = [
     described_law("viscoplastic", {"viscosity": 0.0}),
@@ -102,7 +114,7 @@ def test_the_own_yield_stress_of_perfect_plasticity_counts_alone():
         ("viscoplastic", {}, "viscosity: missing, .* must be a number from 0"),
         ("viscoplastic", {"viscosity": 1, "rate": 2}, "rate = 2: unknown parameter, this law has viscosity"),
         ("plastic", {"viscosity": 1}, "viscosity = 1: unknown parameter, this law has no parameters"),
-        ("elastic", {}, "name = elastic: must be one of plastic, brittle, perfectly_plastic, viscoplastic"),
+        ("elastic", {}, "name = elastic: must be one of plastic, brittle, perfectly_plastic, thermal, visco"),
     ],
 )
 def test_a_wrong_parameter_is_named(name, values, message):
@@ -168,3 +180,20 @@ def test_the_loop_agrees_with_the_reference(blade, spec, change, law):
     np.testing.assert_allclose(result.radial_displacement.ravel(), middle.mean(axis=1), atol=1e-6 * scale)
     np.testing.assert_allclose(result.wear, wear, atol=1e-6 * wear.max())
     assert result.n_contact_steps > 10
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("scheme", "step", "within"),
+    # the loop takes the force at the start of a step from the corrected displacement, the reference as it was
+    [("exponential", 1e-5, 1e-6), ("central_differences", 2e-6, 3e-4)],
+    ids=["exponential", "central_differences"],
+)
+def test_the_loop_heats_the_layer_as_the_reference_does(blade, spec, change, scheme, step, within):
+    spec = change(spec, scheme=scheme, max_time_step=step, revolutions=3, element_law=THERMAL)
+    result, cold = simulate(blade, spec), simulate(blade, change(spec, element_law=PLASTIC))
+    _, wear = reference.simulate(blade, spec, result.n_steps, result.n_modes)
+    np.testing.assert_allclose(result.wear, wear, atol=within * wear.max())
+    assert np.abs(result.wear - cold.wear).max() > 1e-3 * wear.max()
+    assert cold.temperature_rise is None
+    assert result.temperature_rise.max() > 1

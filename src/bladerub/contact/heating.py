@@ -1,0 +1,113 @@
+"""Heat in the coating, for laws whose strength depends on the temperature.
+
+1. What friction and flow take from the contact in one passage of the tip warms the element to its
+   ``heated_depth``. It is a column of the layer, and exchanges no heat with its neighbours.
+2. Until the next passage the heat flows towards the casing, which stays as it is: conduction in one dimension
+   by finite volumes, integrated exactly in their eigenvectors. The surface loses no heat to the air.
+3. In a passage the strength is that before it. It lasts some steps, in which heat goes no further than some
+   micrometres.
+4. The parts of the column bear the same force, so that their compliances add up (a bar in series); elastic
+   and plastic strain alike, as the elastic limit is small.
+"""
+
+from types import ModuleType
+from typing import TYPE_CHECKING
+
+import numpy as np
+import scipy.optimize
+
+from bladerub.contact.spec import Coating
+
+if TYPE_CHECKING:
+    from bladerub.contact.kernel.records import State
+
+HEATED, CELLS = 3, 12
+"""Finite volumes of the heated depth, all alike, and of a column, where they grow towards the casing."""
+
+
+class Layer:
+    """The layer as the columns of all elements under j nodes.
+
+    Parameters
+    ----------
+    law : module
+        With ``strength``.
+    coating : Coating
+        With the parameters of the law.
+    area : (lanes,) ndarray
+        Cross-section of an element under each node, m².
+    period : float
+        Of a revolution, s.
+    """
+
+    def __init__(self, law: ModuleType, coating: Coating, area: np.ndarray, period: float):
+        own = dict(coating.element_law.parameters)
+        self.law, self.coating, self.area = law, coating, area
+        self.height = cell_heights(coating.thickness, own["heated_depth"])
+        self.friction_share = own["friction_share"]
+        self.capacity = own["heat_capacity"] * self.height  # J/(m² K)
+        rate, self.shapes = decay(self.height, own["heat_capacity"], own["conductivity"])
+        root = np.sqrt(self.capacity)
+        self.decay, self.pulse = (
+            rate * period,
+            root[:HEATED] @ self.shapes[:HEATED] / sum(self.capacity[:HEATED]),
+        )
+
+    def rest(self, state: "State", first: int, last: int, turn: float = 1.0) -> None:
+        """Let the rows `first` to `last`, which a tip has passed, be until the next one comes.
+
+        That is after a part `turn` of a revolution.
+        """
+        rows = np.arange(first, last) % len(state.heat)
+        rows = rows[state.heat[rows].any(axis=1) | state.temperature[rows].any(axis=1)]
+        amplitude = self._after(state, rows, turn)
+        state.temperature[rows] = amplitude.reshape(len(rows), state.temperature.shape[1])
+        state.heat[rows] = 0.0
+        strength = self.law.strength(self.coating, self._temperature(amplitude))
+        state.strength[rows] = self.coating.thickness / np.sum(self.height / strength, axis=-1)
+
+    def temperature(self, state: "State") -> np.ndarray:
+        """Rise of temperature (N, lanes, n) in the cells of the columns when the tip would come next, K."""
+        amplitude = state.temperature.reshape(*state.strength.shape, CELLS).copy()
+        waiting = np.flatnonzero(state.heat.any(axis=1))
+        amplitude[waiting] = self._after(state, waiting, 1.0)
+        return self._temperature(amplitude)
+
+    def rise(self, state: "State") -> np.ndarray:
+        """Return the mean of these temperatures over the heated depth (N, lanes)."""
+        return self.temperature(state)[..., :HEATED].mean(axis=-1)
+
+    def _after(self, state: "State", rows: np.ndarray, turn: float) -> np.ndarray:
+        """Return the temperature of rows after a part of a revolution, in the modes of conduction."""
+        flow, friction = np.split(state.heat[rows], 2, axis=1)
+        pulse = (flow + self.friction_share * friction) / self.area  # J/m²
+        more = pulse[..., None] * self.pulse
+        return (state.temperature[rows].reshape(more.shape) + more) * np.exp(-self.decay * turn)
+
+    def _temperature(self, amplitude: np.ndarray) -> np.ndarray:
+        return amplitude @ (self.shapes / np.sqrt(self.capacity)[:, None]).T
+
+
+def cell_heights(thickness: float, heated_depth: float) -> np.ndarray:
+    """Divide the layer into the `HEATED` cells and others in a geometric series, heights (n,), m."""
+    if heated_depth >= (most := thickness * HEATED / CELLS):
+        raise ValueError(f"heated_depth = {heated_depth:g}: must be below {most:g} m, a quarter of the layer")
+    first, below = heated_depth / HEATED, np.arange(1, CELLS - HEATED + 1)
+    rest = thickness - heated_depth
+    steepest = (rest / first) ** (1 / len(below))  # the last cell alone would fill the rest
+    ratio = scipy.optimize.brentq(lambda r: first * np.sum(r**below) - rest, 1.0, steepest)
+    return first * np.concatenate([np.ones(HEATED), ratio**below])
+
+
+def decay(height: np.ndarray, heat_capacity: float, conductivity: float) -> tuple[np.ndarray, np.ndarray]:
+    """Find how heat leaves a column whose lower end does not warm.
+
+    Returns the rates (n,) at which its modes decay, 1/s, and these (n, n), orthonormal: temperatures times
+    the roots of the capacities of the cells, a column each.
+    """
+    apart = np.append(0.5 * (height[1:] + height[:-1]), 0.5 * height[-1])
+    conductance = conductivity / apart  # below each cell, W/(m² K)
+    above = np.concatenate([[0.0], conductance[:-1]])
+    matrix = np.diag(conductance + above) - np.diag(conductance[:-1], 1) - np.diag(conductance[:-1], -1)
+    root = np.sqrt(heat_capacity * height)
+    return np.linalg.eigh(matrix / np.outer(root, root))

@@ -1,0 +1,125 @@
+"""Heat in the coating: the columns, what a passage leaves in them, and the strength that is left."""
+
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from bladerub.contact.heating import CELLS, HEATED, Layer, cell_heights, decay
+from bladerub.contact.kernel.records import at_rest
+from bladerub.contact.laws import described_law, module_of
+from bladerub.contact.spec import Coating
+
+THICKNESS, AREA, PERIOD = 5e-3, np.linspace(1e-6, 2e-6, 8), 0.02
+N = 12
+VALUES = {
+    "heat_capacity": 2e6,
+    "conductivity": 5.0,
+    "heated_depth": 1e-4,
+    "friction_share": 0.5,
+    "softening_rise": 500.0,
+    "softening_exponent": 2.0,
+}
+
+
+def layer(**values):
+    law = described_law("thermal", VALUES | values)
+    coating = Coating(1.1, 0.5, 0.1, 1e-6, 600e6, THICKNESS, N, element_law=law)
+    return Layer(module_of(law), coating, AREA, PERIOD)
+
+
+def heated(flow=0.0, friction=0.0):
+    """State after a passage that made so much heat in rows 3 to 5, J."""
+    state = at_rest(1, N, heats=True)
+    state.heat[3:6] = np.repeat([flow, friction], 8)
+    return state
+
+
+def test_cells_fill_the_layer_from_the_heated_depth_on():
+    height = cell_heights(THICKNESS, 1e-4)
+    assert height.size == CELLS
+    assert height[:HEATED].sum() == pytest.approx(1e-4)
+    assert height.sum() == pytest.approx(THICKNESS)
+    ratio = height[1:] / height[:-1]
+    np.testing.assert_allclose(ratio[: HEATED - 1], 1)
+    np.testing.assert_allclose(ratio[HEATED - 1 :], ratio[-1])
+    assert ratio[-1] > 1
+
+
+def test_a_heated_depth_that_is_much_of_the_layer_is_refused():
+    with pytest.raises(ValueError, match=r"heated_depth = 0.002: must be below 0.00125 m, a quarter"):
+        cell_heights(THICKNESS, 2e-3)
+
+
+def test_without_conduction_all_heat_stays_in_the_heated_depth():
+    own, state = layer(conductivity=0.0), heated(flow=0.01, friction=0.03)
+    own.rest(state, 0, N)
+    rise = own.temperature(state)
+    wanted = (0.01 + 0.5 * 0.03) / AREA / (2e6 * 1e-4)
+    np.testing.assert_allclose(own.rise(state)[3:6], np.broadcast_to(wanted, (3, 8)), rtol=1e-10)
+    np.testing.assert_allclose(np.ptp(rise[..., :HEATED], axis=-1), 0, atol=1e-9)
+    np.testing.assert_allclose(rise[..., HEATED:], 0, atol=1e-9)
+    assert not rise[:3].any()
+    assert not state.heat.any()
+
+
+def test_conduction_takes_heat_to_the_casing_and_makes_none():
+    own, state = layer(), heated(flow=0.01)
+    kept = []
+    for _ in range(4000):
+        own.rest(state, 0, N)
+        rise = own.temperature(state)
+        assert (np.diff(rise[4], axis=-1) < 1e-9).all()  # the surface stays warmest
+        kept.append(np.sum(rise * own.capacity, axis=-1)[4] * AREA)
+    np.testing.assert_allclose(kept[0], 0.01, rtol=1e-6)
+    assert (np.diff(kept, axis=0) < 0).all()
+    assert kept[-1].max() < 1e-3 * 0.01
+
+
+def test_strength_is_that_of_the_cells_in_series():
+    own, state = layer(conductivity=0.0), heated(flow=0.02)
+    own.rest(state, 0, N)
+    rise = 0.02 / AREA / (2e6 * 1e-4)
+    left = np.maximum(1 - (rise / 500) ** 2, 0.01)
+    wanted = 1 / ((1 - 1e-4 / THICKNESS) + 1e-4 / THICKNESS / left)
+    np.testing.assert_allclose(state.strength[4], wanted, rtol=1e-9)
+    np.testing.assert_array_equal(state.strength[8], 1.0)
+
+
+def test_rows_wrap_around_and_others_wait():
+    own, state = layer(), heated(flow=0.01)
+    own.rest(state, -8, -7)  # row 4
+    assert not state.heat[4].any()
+    assert state.heat[[3, 5], :8].all()
+    assert (state.strength[4] < 1).all()
+    assert (state.strength[[3, 5]] == 1).all()
+
+
+def test_two_shorter_rests_are_one():
+    once, twice = heated(flow=0.01), heated(flow=0.01)
+    own = layer()
+    own.rest(once, 0, N, 0.7)
+    own.rest(twice, 0, N, 0.3)
+    own.rest(twice, 0, N, 0.4)
+    np.testing.assert_allclose(own.temperature(twice), own.temperature(once), atol=1e-9)
+
+
+def test_modes_of_conduction_are_orthonormal_and_decay():
+    rate, shapes = decay(cell_heights(THICKNESS, 1e-4), 2e6, 5.0)
+    np.testing.assert_allclose(shapes.T @ shapes, np.eye(CELLS), atol=1e-12)
+    assert rate.min() > 0
+
+
+@pytest.mark.parametrize("rise", [0.0, 250.0, 1e4])
+def test_strength_falls_with_the_temperature_and_stays_above_0(rise):
+    own = layer()
+    wanted = {0.0: 1.0, 250.0: 0.75, 1e4: 0.01}[rise]
+    assert own.law.strength(own.coating, np.array([rise]))[0] == pytest.approx(wanted)
+
+
+def test_a_law_with_strength_must_list_what_heats():
+    from bladerub.contact.laws import parameters_of, source_of
+
+    source = source_of(SimpleNamespace(source="", name="thermal")).replace('"conductivity"', '"k"')
+    with pytest.raises(ValueError, match="has strength, but no conductivity in PARAMETERS"):
+        parameters_of(source)

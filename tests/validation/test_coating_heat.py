@@ -1,0 +1,125 @@
+"""Heat in the coating against closed forms, and what runs make of it against their ledger.
+
+Source: Carslaw and Jaeger, Conduction of Heat in Solids (1959), section 2.4: a slab of depth d at the surface
+of a half-space that is warmer by T₀ at the start keeps of it the mean
+``erf(x) − (1 − exp(−x²)) / (x √π)`` with ``x = d / √(α t)``; section 3.3 for a layer of finite depth, whose
+slowest mode decays at the rate ``α π² / (4 H²)``.
+"""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from scipy.special import erf
+
+from bladerub.contact import heating
+from bladerub.contact.kernel.records import at_rest
+from bladerub.contact.laws import described_law, module_of
+from bladerub.contact.row import simulate_row
+from bladerub.contact.row_spec import Row
+from bladerub.contact.run import simulate
+from bladerub.contact.setup import element_area
+from bladerub.contact.spec import Coating, SweepSpec
+from bladerub.contact.sweep import simulate_sweep
+from bladerub.study.grid import CoatingCase, run_spec
+
+DEPTH, THICKNESS, CAPACITY, CONDUCTIVITY = 1e-4, 5e-3, 2e6, 5.0
+DIFFUSIVITY = CONDUCTIVITY / CAPACITY
+VALUES = {
+    "heat_capacity": CAPACITY,
+    "conductivity": CONDUCTIVITY,
+    "heated_depth": DEPTH,
+    "friction_share": 0.5,
+    "softening_rise": 500.0,
+    "softening_exponent": 1.0,
+}
+
+
+def thermal(**values):
+    return described_law("thermal", VALUES | values)
+
+
+def mean_left(time):
+    """Mean rise of the heated depth, 1 K at the start, after `time` (s)."""
+    law = thermal()
+    coating = Coating(1.1, 0.5, 0.1, 1e-6, 600e6, THICKNESS, 4, element_law=law)
+    layer = heating.Layer(module_of(law), coating, np.ones(8), time)
+    state = at_rest(1, 4, heats=True)
+    state.heat[:, :8] = CAPACITY * DEPTH
+    layer.rest(state, 0, 4)
+    return layer.rise(state)[0, 0]
+
+
+@pytest.mark.parametrize("periods", [0.5, 2.0, 8.0, 30.0])
+def test_a_heated_slab_cools_as_on_a_half_space(periods):
+    """In units of d²/α, 4 ms; a revolution of the study takes 13 to 50 ms."""
+    x = 1 / np.sqrt(periods)
+    wanted = erf(x) - (1 - np.exp(-(x**2))) / (x * np.sqrt(np.pi))
+    found = mean_left(periods * DEPTH**2 / DIFFUSIVITY)
+    print(f"{periods:g} d²/α: {found:.4f} for {wanted:.4f}")
+    assert found == pytest.approx(wanted, rel=0.03)
+
+
+def test_the_slowest_mode_is_that_of_the_layer():
+    rate, _ = heating.decay(heating.cell_heights(THICKNESS, DEPTH), CAPACITY, CONDUCTIVITY)
+    assert rate.min() == pytest.approx(DIFFUSIVITY * np.pi**2 / (4 * THICKNESS**2), rel=0.02)
+
+
+def kept(result, blade, spec):
+    """Heat in the layer, all of which is in the heated depth, J."""
+    return float(np.sum(result.temperature_rise * element_area(blade, spec)[:, None]) * CAPACITY * DEPTH)
+
+
+def made(result):
+    """Heat that the ledger has as made, J: by flow, and half of that by friction."""
+    return result.energy.wear + 0.5 * result.energy.sliding
+
+
+def without_conduction(config, f_omega):
+    spec = run_spec(config, CoatingCase("2nd", 1.1, 0.5, 0.15), f_omega)
+    coating = replace(spec.coating, element_law=thermal(conductivity=0.0))
+    return replace(spec, coating=coating, revolutions=4)
+
+
+def test_what_the_ledger_has_as_heat_is_in_the_layer(coarse_config, coarse_blade):
+    spec = without_conduction(coarse_config, 0.19)
+    result = simulate(coarse_blade, spec)
+    print(f"run: {kept(result, coarse_blade, spec) / made(result):.6f} of the heat")
+    assert result.temperature_rise.max() > 10
+    assert kept(result, coarse_blade, spec) == pytest.approx(made(result), rel=1e-3)
+
+
+def test_blades_of_a_row_heat_one_layer(coarse_config, coarse_blade):
+    spec = without_conduction(coarse_config, 0.19)
+    result = simulate_row(coarse_blade, spec, Row.even(3, length=[0.0, 2e-5, 0.0]))
+    heat = sum(map(made, result.blades))
+    print(f"row: {kept(result.blades[0], coarse_blade, spec) / heat:.6f} of the heat")
+    rise, *others = (each.temperature_rise for each in result.blades)
+    for other in others:
+        np.testing.assert_array_equal(other, rise)
+    assert kept(result.blades[0], coarse_blade, spec) == pytest.approx(heat, rel=1e-3)
+
+
+def test_a_row_of_one_is_the_run(coarse_config, coarse_blade):
+    spec = without_conduction(coarse_config, 0.19)
+    run, row = simulate(coarse_blade, spec), simulate_row(coarse_blade, spec, Row.even(1))
+    np.testing.assert_array_equal(row.blades[0].temperature_rise, run.temperature_rise)
+    np.testing.assert_array_equal(row.wear, run.wear)
+
+
+def test_heat_stays_in_the_layer_as_the_speed_changes(coarse_config, coarse_blade):
+    spec = without_conduction(coarse_config, 0.18)
+    result = simulate_sweep(coarse_blade, SweepSpec(spec, 0.19, 0.2, 0.002))
+    print(f"sweep: {kept(result, coarse_blade, spec) / made(result):.6f} of the heat")
+    assert kept(result, coarse_blade, spec) == pytest.approx(made(result), rel=1e-3)
+
+
+@pytest.mark.parametrize(
+    "values", [{"conductivity": 1e9}, {"softening_rise": 1e12}], ids=["isothermal", "never soft"]
+)
+def test_a_layer_that_stays_cold_or_strong_is_plastic(run, values):
+    found = run(1.1, 0.5, 0.19, 0.15, revolutions=4, element_law=thermal(**values))
+    plastic = run(1.1, 0.5, 0.19, 0.15, revolutions=4)
+    soft = run(1.1, 0.5, 0.19, 0.15, revolutions=4, element_law=thermal(softening_rise=100.0))
+    np.testing.assert_allclose(found.wear, plastic.wear, atol=1e-9 * plastic.wear.max())
+    assert np.abs(soft.wear - plastic.wear).max() > 1e-3 * plastic.wear.max()
