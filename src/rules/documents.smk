@@ -221,7 +221,7 @@ use rule docs_data as docs_calibration with:
         f"{RESULTS}/logs/docs_calibration.log",
 
 
-# With `--config calibration=config/laws.yaml results=results/laws`, whose rules make these tables
+# With `--config calibration=config/laws.yaml results=results/laws`, whose rules make these tables; heat likewise
 use rule docs_data as docs_laws with:
     input:
         "results/laws/tables/calibration.csv",
@@ -230,6 +230,16 @@ use rule docs_data as docs_laws with:
         f"{RESULTS}/logs/docs_laws.log",
     params:
         prefix="laws_",
+
+
+use rule docs_data as docs_heat with:
+    input:
+        "results/heat/tables/calibration.csv",
+        "results/heat/tables/calibration_counts.csv",
+    log:
+        f"{RESULTS}/logs/docs_heat.log",
+    params:
+        prefix="heat_",
 
 
 use rule docs_data as docs_chart with:

@@ -17,7 +17,7 @@ _LINES = [
 @styled
 def law_cycles(panels: Mapping[str, Mapping[str, LoadingCycle]]) -> Figure:
     """Draw a panel for each title, with at most three cycles by their labels; stress in MPa."""
-    figure = new_figure(PAGE, 0.95 * PAGE)
+    figure = new_figure(PAGE, 0.8 * PAGE)
     grid = figure.subplots(-(-len(panels) // 2), 2, sharex=True, sharey=True, squeeze=False)
     for axes in grid.flat[len(panels) :]:
         axes.remove()
@@ -25,8 +25,9 @@ def law_cycles(panels: Mapping[str, Mapping[str, LoadingCycle]]) -> Figure:
         for (label, cycle), line in zip(cycles.items(), _LINES, strict=False):
             megapascal = cycle.stress * cycle.coating.modulus_unit / 1e6
             axes.plot(100 * cycle.strain, megapascal, label=label, **line)
-        axes.set(title=title, xlabel=r"compressive strain $\varepsilon$, %")
-        axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.24), frameon=False)
-    for axes in grid[:, 0]:
-        axes.set(ylabel=r"compressive stress $\sigma$, MPa", xlim=(0, None), ylim=(0, None))
+        axes.set(title=title)
+        axes.legend(loc="upper left", frameon=False)
+    grid[0, 0].set(xlim=(0, None), ylim=(0, None))  # of all, which share their axes
+    figure.supxlabel(r"compressive strain $\varepsilon$, %", fontsize="medium")
+    figure.supylabel(r"compressive stress $\sigma$, MPa", fontsize="medium")
     return figure
