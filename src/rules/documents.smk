@@ -234,10 +234,17 @@ use rule docs_data as docs_laws with:
 
 use rule docs_data as docs_heat with:
     input:
+        rules.heat.output.table,
+    log:
+        f"{RESULTS}/logs/docs_heat.log",
+
+
+use rule docs_data as docs_heat_calibration with:
+    input:
         "results/heat/tables/calibration.csv",
         "results/heat/tables/calibration_counts.csv",
     log:
-        f"{RESULTS}/logs/docs_heat.log",
+        f"{RESULTS}/logs/docs_heat_calibration.log",
     params:
         prefix="heat_",
 

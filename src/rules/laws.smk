@@ -20,3 +20,21 @@ rule laws:
         coating=part_of_run(STRAIGHT, "coating"),
     script:
         "../scripts/laws.py"
+
+
+# How much the heat of the rub changes one run
+rule heat:
+    input:
+        blade=rules.blade.output.reduced_model,
+        kernel=rules.compile_kernel.output[0],
+        computing=files_behind("extensions.heat", "contact.laws.thermal"),
+    output:
+        **described(table=f"{TABLES}/heat.csv"),
+    log:
+        f"{RESULTS}/logs/heat.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/heat.tsv"
+    resources:
+        runtime=minutes(5),
+    script:
+        "../scripts/heat.py"

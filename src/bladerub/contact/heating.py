@@ -47,11 +47,9 @@ class Layer:
         self.friction_share = own["friction_share"]
         self.capacity = own["heat_capacity"] * self.height  # J/(m² K)
         rate, self.shapes = decay(self.height, own["heat_capacity"], own["conductivity"])
-        root = np.sqrt(self.capacity)
-        self.decay, self.pulse = (
-            rate * period,
-            root[:HEATED] @ self.shapes[:HEATED] / sum(self.capacity[:HEATED]),
-        )
+        self.decay = rate * period
+        per_heat = np.sqrt(self.capacity[:HEATED]) / np.sum(self.capacity[:HEATED])
+        self.pulse = per_heat @ self.shapes[:HEATED]  # what 1 J/m² adds to the modes
 
     def rest(self, state: "State", first: int, last: int, turn: float = 1.0) -> None:
         """Let the rows `first` to `last`, which a tip has passed, be until the next one comes.

@@ -1,0 +1,76 @@
+"""What heat changes in one run: vibration, temperature, and how soon it diverges."""
+
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from bladerub.blade.model import ReducedBlade
+from bladerub.contact.laws import described_law
+from bladerub.contact.run import simulate
+from bladerub.contact.setup import compile_kernel
+from bladerub.contact.spec import PLASTIC, ElementLaw, RunSpec
+from bladerub.study.grid import CoatingCase, run_spec
+from bladerub.study.growth import confirmation_spec, judge, needs_confirmation
+
+CASING, E, K, F_OMEGA = "2nd", 2.0, 0.5, 0.19
+"""The run: a coating at the speed of its peak on order 6."""
+
+OF_LAYER = {"heat_capacity": 2e6, "heated_depth": 1e-4, "softening_exponent": 1.0}
+VARIED = ("conductivity", "friction_share", "softening_rise")
+CASES = (
+    (0.0, None),
+    (0.0, (1.0, 0.5, 500.0)),
+    (0.15, None),
+    (0.15, (20.0, 0.5, 500.0)),
+    (0.15, (5.0, 0.5, 500.0)),
+    (0.15, (1.0, 0.5, 500.0)),
+    (0.15, (5.0, 1.0, 500.0)),
+    (0.15, (1.0, 1.0, 500.0)),
+    (0.15, (5.0, 1.0, 300.0)),
+)
+"""θ and the values of `VARIED` (W/(m K), 1, K); None for the law of the paper."""
+
+COLUMNS = [
+    *("theta", *VARIED, "largest_amplitude", "max_wear", "max_temperature_rise"),
+    *("divergent", "growth_per_revolution", "revolutions"),
+]
+
+
+def table(config: Mapping[str, Any], blade: ReducedBlade) -> pd.DataFrame:
+    """Simulate the run of each of `CASES`, and a longer one where it grows; columns `COLUMNS`.
+
+    Amplitude, wear and temperature are those of the run itself, the verdict is that of the longer one.
+    """
+    compile_kernel(law=_law((1.0, 0.5, 500.0)), n_nodes=blade.n_interface)
+    rows = []
+    for theta, values in CASES:
+        spec = run_spec(config, CoatingCase(CASING, E, K, theta), F_OMEGA)
+        spec = replace(spec, coating=replace(spec.coating, element_law=_law(values)))
+        rows.append((theta, *(values or [np.nan] * len(VARIED)), *_measured(config, blade, spec)))
+    return pd.DataFrame(rows, columns=COLUMNS)
+
+
+def _law(values: tuple[float, float, float] | None) -> ElementLaw:
+    if values is None:
+        return PLASTIC
+    return described_law("thermal", OF_LAYER | dict(zip(VARIED, values, strict=True)))
+
+
+def _measured(config: Mapping[str, Any], blade: ReducedBlade, spec: RunSpec) -> tuple[Any, ...]:
+    settings = config["analysis"]["divergence"]
+    result, longer = simulate(blade, spec), None
+    if needs_confirmation(result.revolution_amplitude, result.status, settings):
+        longer = simulate(blade, confirmation_spec(spec, settings)).revolution_amplitude
+    verdict = judge(result.revolution_amplitude, result.status, settings, longer)
+    rise = result.temperature_rise
+    return (
+        float(np.nanmax(result.revolution_amplitude)),
+        float(result.wear.max()),
+        np.nan if rise is None else float(rise.max()),
+        verdict.divergent,
+        verdict.growth.per_revolution,
+        verdict.revolutions,
+    )
