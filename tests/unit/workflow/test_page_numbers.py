@@ -303,6 +303,9 @@ CHANGES = [
     ("calibration", {"set": "start", "id": "C7b"}, "holds", "no", "calibration.count(id='C7b'"),
     ("calibration_counts", {"set": "cone_14"}, "yes", 40, "= calibration_counts.rows|table"),
     ("laws_calibration_counts", {"set": "brittle_0.03"}, "yes", 40, "laws_calibration_counts.rows"),
+    ("heat", {"theta": 0.15, "softening_rise": 300}, "max_wear", 0.01, "heat.rows|table"),
+    ("heat_calibration", {"set": "thermal_1", "id": "C10a"}, "measured", "0.5", "'thermal_1','C10a'"),
+    ("heat_calibration_counts", {"set": "thermal_1"}, "yes", 40, "heat_calibration_counts('thermal_1')"),
     (
         "stress",
         {"casing": "2nd", "E": 11, "K": 1, "theta": 0, "order": 4},
