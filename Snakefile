@@ -5,7 +5,6 @@ from snakemake.utils import min_version
 import bladerub.config.read
 import bladerub.io.errors
 import bladerub.workflow.invocation
-import bladerub.workflow.pages
 from bladerub.study.grid import coating_cases
 
 min_version("9.0")
@@ -19,6 +18,7 @@ with bladerub.io.errors.exit_on_error():
         "config/config.yaml",
         *FILES,
         command_line=GIVEN,
+        is_checked=not workflow.is_main_process,
     )
 
 

@@ -1,7 +1,6 @@
 # A dense chart of coatings at speeds that the search for its peaks chooses (docs/explanation/chart.md). Not part of `all`.
 from functools import cache
 
-from bladerub.extensions.chart.column import plan_column
 from bladerub.extensions.chart.grid import chart_orders, check, columns
 from bladerub.study.grid import modulus_unit
 
@@ -28,6 +27,8 @@ def chart_manifests(wildcards):
 
 def planned_points(wildcards):
     """All that determines the points of a column but the blade: a changed one is a reason to run."""
+    from bladerub.extensions.chart.column import plan_column  # imports the solver
+
     return plan_column(config, chart_columns()[wildcards.column])
 
 

@@ -23,7 +23,7 @@ from itertools import pairwise
 from typing import Any
 
 import numpy as np
-from scipy.interpolate import CubicSpline
+import scipy  # its parts when they are used: every job of the workflow imports this module
 
 from bladerub.blade.model import N_INTERFACE
 
@@ -57,7 +57,7 @@ class BladeShape:
 
     def section(self, zeta: np.ndarray) -> np.ndarray:
         """Interpolate the columns of `sections` at the relative heights `zeta`: (6, ...)."""
-        return np.moveaxis(CubicSpline(self.span, self.sections)(zeta), -1, 0)
+        return np.moveaxis(scipy.interpolate.CubicSpline(self.span, self.sections)(zeta), -1, 0)
 
     def points(self, xi: np.ndarray, eta: np.ndarray, zeta: np.ndarray) -> np.ndarray:
         """Map the unit cube to space: points (3, ...), m.

@@ -9,7 +9,7 @@ import numpy as np
 
 from bladerub.blade import geometry
 from bladerub.blade.model import n_interface
-from bladerub.blade.sources import matrix_folder, origin
+from bladerub.blade.sources import origin
 from bladerub.config.errors import format_value, top_key
 from bladerub.contact.casing import shape
 from bladerub.contact.heating import cell_heights
@@ -96,6 +96,8 @@ def _blade_source(blade: Config, n_nodes: int) -> Iterator[str]:
         yield f"blade.source.{error}"
         return
     if isinstance(source, origin.MatrixSource):
+        from bladerub.blade.sources import matrix_folder  # imports the solver, in every job of the workflow
+
         try:
             matrix_folder.files(source.folder)
         except ValueError as error:

@@ -43,11 +43,16 @@ def read(*paths: str | Path, command_line: Mapping[str, Any] | None = None) -> d
 
 
 def read_with_notes(
-    *paths: str | Path, command_line: Mapping[str, Any] | None = None
+    *paths: str | Path, command_line: Mapping[str, Any] | None = None, is_checked: bool = False
 ) -> tuple[dict[str, Any], list[str]]:
-    """Read a config as `read`; return it, and a line for each change or doubt of `inherited.fit`."""
-    located = files.compose(*paths, command_line=command_line)
-    return _validated(located, "", files.source_name(paths[0]))
+    """Read a config as `read`; return it, and a line for each change or doubt of `inherited.fit`.
+
+    One that `is_checked`, as by the process that started this one, is not checked again.
+    """
+    located, base = files.compose(*paths, command_line=command_line), files.source_name(paths[0])
+    if is_checked:
+        return _fitted(located, base, set())
+    return _validated(located, "", base)
 
 
 def read_plan(path: str | Path, definition: str, key: str | None = None) -> Located:
@@ -106,8 +111,7 @@ def _validated(
     config: Located | Mapping[str, Any], variation: str, base: str
 ) -> tuple[dict[str, Any], list[str]]:
     """Check a config as `validate`, whose study's own values are of the source `base`."""
-    # these take half a second to import, `bladerub --help` does without
-    from bladerub.config import inherited
+    # it takes half a second to import, `bladerub --help` and the jobs of the workflow do without
     from bladerub.config.checks import check
 
     located = config if isinstance(config, Located) else Located.of(config, UNKNOWN)
@@ -117,7 +121,7 @@ def _validated(
     broken = missing | set(map(top_key, problems))
     notes: list[str] = []
     with suppress(ValueError):  # of values that `check` reports
-        values, notes = inherited.fit(values, lambda key: locations[key].source == base, broken)
+        values, notes = _fitted(located, base, broken)
     problems += check(values, broken)
     if problems:
         raise ConfigError(
@@ -125,6 +129,14 @@ def _validated(
             for text in dict.fromkeys(problems)
         )
     return values, notes
+
+
+def _fitted(located: Located, base: str, broken: set[str]) -> tuple[dict[str, Any], list[str]]:
+    """Fit what a config inherits from the study of the source `base`, see `inherited.fit`."""
+    from bladerub.config import inherited
+
+    locations = located.locations()
+    return inherited.fit(located.plain(), lambda key: locations[key].source == base, broken)
 
 
 def _location(problem: str, locations: Mapping[str, Location], whole: Location = UNKNOWN) -> Location:

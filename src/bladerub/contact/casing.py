@@ -3,7 +3,7 @@
 from functools import lru_cache
 
 import numpy as np
-from scipy.interpolate import PchipInterpolator
+import scipy  # its parts when they are used: every job of the workflow imports this module
 
 from bladerub.contact.spec import Casing
 
@@ -48,7 +48,7 @@ def _largest_sum(casing: Casing) -> float:
 
 
 @lru_cache
-def _through(points: tuple[tuple[float, float], ...]) -> PchipInterpolator:
+def _through(points: tuple[tuple[float, float], ...]) -> "scipy.interpolate.PchipInterpolator":
     angle, inward = np.array(points).T
     turns = np.concatenate([angle + turn for turn in (-_TURN, 0.0, _TURN)])
-    return PchipInterpolator(turns, np.tile(inward, 3))
+    return scipy.interpolate.PchipInterpolator(turns, np.tile(inward, 3))

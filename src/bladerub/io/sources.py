@@ -3,6 +3,7 @@
 import ast
 import hashlib
 import json
+import re
 from collections.abc import Iterable
 from functools import cache
 from pathlib import Path
@@ -38,21 +39,18 @@ def _path_of(module: str) -> Path:
     return package if package.is_file() else path.with_suffix(".py")
 
 
-_HOLDING_STATEMENTS = ast.stmt | ast.excepthandler | ast.match_case
+# Whole files are not parsed: every job of the workflow reads some two hundred of them
+_IMPORT = re.compile(r"^[ \t]*(from bladerub\.[\w.]+ import (?:\([^)]*\)|.*))$", re.M)
 
 
 @cache
 def _imports(path: Path) -> tuple[str, ...]:
     """Modules of this package that the file at `path` imports, wherever in it."""
     names: list[str] = []
-    waiting: list[ast.AST] = [ast.parse(path.read_text(encoding="utf-8"))]
-    while waiting:
-        node = waiting.pop()
-        if isinstance(node, ast.ImportFrom) and (node.module or "").startswith("bladerub."):
-            base = node.module.removeprefix("bladerub.")
-            names += [base, *(f"{base}.{alias.name}" for alias in node.names)]
-        # expressions, most of a file, hold no imports
-        waiting += [inner for inner in ast.iter_child_nodes(node) if isinstance(inner, _HOLDING_STATEMENTS)]
+    for statement in _IMPORT.findall(path.read_text(encoding="utf-8")):
+        (node,) = ast.parse(statement).body
+        base = node.module.removeprefix("bladerub.")
+        names += [base, *(f"{base}.{alias.name}" for alias in node.names)]
     return tuple(name for name in names if _path_of(name).is_file())
 
 

@@ -1,17 +1,19 @@
 """What the scripts of the rules write: tables that say what made them, and figures."""
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import pandas as pd
-from matplotlib.figure import Figure
 
 from bladerub.io import hdf5, tables
 from bladerub.io.provenance import provenance
-from bladerub.plots import style
-from bladerub.plots.scales import Engine, Scales
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from bladerub.plots.scales import Scales
 
 
-def save(snakemake: Any, figure: Figure | None = None, **named: pd.DataFrame) -> None:
+def save(snakemake: Any, figure: "Figure | None" = None, **named: pd.DataFrame) -> None:
     """Write the outputs of a job, whose `snakemake` is what Snakemake hands to a script.
 
     The figure goes to the outputs ``png`` and ``pdf`` with the parameter ``dpi``, each table to the output of
@@ -21,15 +23,19 @@ def save(snakemake: Any, figure: Figure | None = None, **named: pd.DataFrame) ->
         digits = "%.6g" if name == "data" else None
         tables.write(snakemake.output[name], table, provenance(snakemake.config), digits)
     if figure is not None:
+        from bladerub.plots import style  # imports Matplotlib, which jobs of tables do without
+
         style.save(figure, snakemake.output["png"], snakemake.output["pdf"], snakemake.params["dpi"])
 
 
-def scales(snakemake: Any) -> Scales:
+def scales(snakemake: Any) -> "Scales":
     """Tell a figure what its numbers are, from the parameter ``scales`` of a job and its input ``blade``.
 
     The parameter has ``modulus_unit`` (Pa) and ``length`` (m) and, for a blade from another program,
     ``engine``: what is known of it but the first frequency.
     """
+    from bladerub.plots.scales import Engine, Scales
+
     known = dict(snakemake.params.scales)
     if "engine" in known:
         f1_hz = hdf5.read_attributes(snakemake.input.blade)["f1_hz"]

@@ -25,8 +25,6 @@ from jinja2 import Environment, StrictUndefined, TemplateError, meta
 from bladerub.io import tables
 from bladerub.io.folders import BENCHMARKS
 
-TABLES = ("findings", "margins", "peaks", "divergence", "rom_accuracy", "campbell")
-"""Tables of the study that pages quote; other targets have more."""
 MARK = re.compile(r"<!-- (?:= (?P<source>.+?)|(?P<end>/)) -->")
 VERDICT = re.compile(r"<!-- (?P<claims>C\d+[a-z]?(?: C\d+[a-z]?)*): (?P<verdict>yes|partly|no) -->")
 
