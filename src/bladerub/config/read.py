@@ -51,7 +51,7 @@ def read_with_notes(
     """
     located, base = files.compose(*paths, command_line=command_line), files.source_name(paths[0])
     if is_checked:
-        return _fitted(located, base, set())
+        return _fitted(located.plain(), located.locations(), base, set())
     return _validated(located, "", base)
 
 
@@ -121,7 +121,7 @@ def _validated(
     broken = missing | set(map(top_key, problems))
     notes: list[str] = []
     with suppress(ValueError):  # of values that `check` reports
-        values, notes = _fitted(located, base, broken)
+        values, notes = _fitted(values, locations, base, broken)
     problems += check(values, broken)
     if problems:
         raise ConfigError(
@@ -131,12 +131,13 @@ def _validated(
     return values, notes
 
 
-def _fitted(located: Located, base: str, broken: set[str]) -> tuple[dict[str, Any], list[str]]:
+def _fitted(
+    values: dict[str, Any], locations: Mapping[str, Location], base: str, broken: set[str]
+) -> tuple[dict[str, Any], list[str]]:
     """Fit what a config inherits from the study of the source `base`, see `inherited.fit`."""
     from bladerub.config import inherited
 
-    locations = located.locations()
-    return inherited.fit(located.plain(), lambda key: locations[key].source == base, broken)
+    return inherited.fit(values, lambda key: locations[key].source == base, broken)
 
 
 def _location(problem: str, locations: Mapping[str, Location], whole: Location = UNKNOWN) -> Location:
