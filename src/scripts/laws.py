@@ -7,21 +7,13 @@ import pandas as pd
 from bladerub.contact.illustration import loading_cycle
 from bladerub.contact.laws import described_law
 from bladerub.contact.spec import PLASTIC, Coating
+from bladerub.extensions.heat import LAYER
 from bladerub.plots.law_cycles import law_cycles
 from bladerub.workflow import job, outputs
 
 STRAINS = (0.0, 0.03, 0.0, 0.05, 0.0)  # those of Fig. 4
 STEPS = 400  # of each branch
 VISCOSITY = 1e4  # Pa s
-THERMAL = {
-    "heat_capacity": 2e6,
-    "conductivity": 5.0,
-    "heated_depth": 1e-4,
-    "friction_share": 0.5,
-    "softening_rise": 500.0,
-    "softening_exponent": 1.0,
-}
-"""All in SI units; only the last two count here, where the whole element is as warm."""
 
 job.log_to(snakemake.log[0])
 
@@ -48,8 +40,8 @@ panels = {
         "breaks at 0.7 %": cycle("brittle", break_strain=0.007),
         "breaks at 0.4 %": cycle("brittle", break_strain=0.004),
     },
-    f"(d) thermal, soft at {THERMAL['softening_rise']:g} K": {
-        f"warmer by {rise:g} K": cycle("thermal", 0.0, rise, **THERMAL) for rise in (0.0, 150.0, 300.0)
+    f"(d) thermal, soft at {LAYER['softening_rise']:g} K": {
+        f"warmer by {rise:g} K": cycle("thermal", 0.0, rise, **LAYER) for rise in (0.0, 150.0, 300.0)
     },
 }
 table = pd.concat(

@@ -21,18 +21,12 @@ from bladerub.contact.run import simulate
 from bladerub.contact.setup import element_area
 from bladerub.contact.spec import Coating, SweepSpec
 from bladerub.contact.sweep import simulate_sweep
+from bladerub.extensions.heat import LAYER
 from bladerub.study.grid import CoatingCase, run_spec
 
 DEPTH, THICKNESS, CAPACITY, CONDUCTIVITY = 1e-4, 5e-3, 2e6, 5.0
 DIFFUSIVITY = CONDUCTIVITY / CAPACITY
-VALUES = {
-    "heat_capacity": CAPACITY,
-    "conductivity": CONDUCTIVITY,
-    "heated_depth": DEPTH,
-    "friction_share": 0.5,
-    "softening_rise": 500.0,
-    "softening_exponent": 1.0,
-}
+VALUES = LAYER | {"heat_capacity": CAPACITY, "conductivity": CONDUCTIVITY, "heated_depth": DEPTH}
 
 
 def thermal(**values):
@@ -44,7 +38,7 @@ def mean_left(time):
     law = thermal()
     coating = Coating(1.1, 0.5, 0.1, 1e-6, 600e6, THICKNESS, 4, element_law=law)
     layer = heating.Layer(module_of(law), coating, np.ones(8), time)
-    state = at_rest(1, 4, heats=True)
+    state = at_rest(1, 4, cells=heating.CELLS)
     state.heat[:, :8] = CAPACITY * DEPTH
     layer.rest(state, 0, 4)
     return layer.rise(state)[0, 0]

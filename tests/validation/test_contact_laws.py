@@ -14,6 +14,7 @@ import pytest
 
 from bladerub.contact.laws import described_law, module_of
 from bladerub.contact.spec import PLASTIC, Coating
+from bladerub.extensions.heat import LAYER
 
 E, K, UNIT, THICKNESS, AREA, VISCOSITY = 1.1, 0.5, 600e6, 6e-3, 1e-6, 1e4
 YIELD = 1e-3  # normalised
@@ -21,14 +22,7 @@ TIME = VISCOSITY / ((E + K) * UNIT)  # in which the overstress falls to 1/e
 VISCOPLASTIC = described_law("viscoplastic", {"viscosity": VISCOSITY})
 BRITTLE = described_law("brittle", {"break_strain": 2e-3})
 PERFECT = described_law("perfectly_plastic", {"yield_stress": 2e6})
-HEAT = {
-    "heat_capacity": 2e6,
-    "conductivity": 5.0,
-    "heated_depth": 1e-4,
-    "friction_share": 0.5,
-    "softening_exponent": 1.0,
-}
-THERMAL = described_law("thermal", HEAT | {"softening_rise": 50.0})
+THERMAL = described_law("thermal", LAYER | {"softening_rise": 50.0})
 
 
 def press(law, strain, time_step=math.inf):
@@ -140,7 +134,7 @@ def drawn(name, rng):
         "thermal": (20.0, 2000.0, "softening_rise"),
     }[name]
     drawn = {parameter: float(np.exp(rng.uniform(np.log(low), np.log(high))))}
-    return described_law(name, (HEAT if name == "thermal" else {}) | drawn)
+    return described_law(name, (LAYER if name == "thermal" else {}) | drawn)
 
 
 @pytest.mark.slow

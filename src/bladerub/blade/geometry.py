@@ -23,7 +23,7 @@ from itertools import pairwise
 from typing import Any
 
 import numpy as np
-import scipy  # its parts when they are used: every job of the workflow imports this module
+import scipy  # its parts when they are used: every call of snakemake imports this module
 
 from bladerub.blade.model import N_INTERFACE
 

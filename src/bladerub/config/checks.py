@@ -96,7 +96,7 @@ def _blade_source(blade: Config, n_nodes: int) -> Iterator[str]:
         yield f"blade.source.{error}"
         return
     if isinstance(source, origin.MatrixSource):
-        from bladerub.blade.sources import matrix_folder  # imports the solver, in every job of the workflow
+        from bladerub.blade.sources import matrix_folder  # imports the solver, which a plan does without
 
         try:
             matrix_folder.files(source.folder)

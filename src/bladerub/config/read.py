@@ -111,7 +111,7 @@ def _validated(
     config: Located | Mapping[str, Any], variation: str, base: str
 ) -> tuple[dict[str, Any], list[str]]:
     """Check a config as `validate`, whose study's own values are of the source `base`."""
-    # it takes half a second to import, `bladerub --help` and the jobs of the workflow do without
+    # it takes half a second to import, `bladerub --help` and jobs on a cluster do without
     from bladerub.config.checks import check
 
     located = config if isinstance(config, Located) else Located.of(config, UNKNOWN)

@@ -3,7 +3,7 @@
 from functools import lru_cache
 
 import numpy as np
-import scipy  # its parts when they are used: every job of the workflow imports this module
+import scipy  # its parts when they are used: every call of snakemake imports this module
 
 from bladerub.contact.spec import Casing
 

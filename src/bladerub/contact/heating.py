@@ -14,7 +14,7 @@ from types import ModuleType
 from typing import TYPE_CHECKING
 
 import numpy as np
-import scipy  # its parts when they are used: every job of the workflow imports this module
+import scipy  # its parts when they are used: every call of snakemake imports this module
 
 from bladerub.contact.spec import Coating
 

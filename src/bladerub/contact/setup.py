@@ -10,7 +10,7 @@ from scipy.ndimage import minimum_filter1d
 
 from bladerub.blade.model import N_INTERFACE, ReducedBlade
 from bladerub.contact import casing
-from bladerub.contact.heating import Layer
+from bladerub.contact.heating import CELLS, Layer
 from bladerub.contact.kernel import records
 from bladerub.contact.kernel.free_flight import MOST_STEPS, FreeFlight
 from bladerub.contact.kernel.loop import Simulation
@@ -59,7 +59,7 @@ def set_up_modes(
     tip = tip_record(blade, spec, seat)
     stator = stator_record(blade, spec, rule, seat)
     heats = hasattr(law, "strength")
-    state = _initial_state(modes, rule, spec, tip, heats)
+    state = _initial_state(modes, rule, spec, tip, CELLS if heats else 0)
     state = state._replace(**seat.coating)
     flight = _free_flight(rule, tip, steps_per_element)
     kernel = partial(module_for, lanes_for(modes.n_nodes), law=source_of(spec.coating.element_law))
@@ -107,6 +107,12 @@ def element_area(blade: ReducedBlade, spec: RunSpec) -> np.ndarray:
     return strip_width(blade) * 2 * np.pi * radius / spec.coating.n_elements
 
 
+def running_clearance(blade: ReducedBlade, spec: RunSpec) -> np.ndarray:
+    """Clearance (8,) of each interface node, linear along the chord, m."""
+    x, (leading, trailing) = blade.node_position[:, 0], spec.clearance
+    return leading + (trailing - leading) * ((x - x[0]) / (x[-1] - x[0]))
+
+
 def strip_width(blade: ReducedBlade) -> np.ndarray:
     """Axial width (8,) of the coating strip under each interface node, m: its share of the axial chord."""
     x = blade.node_position[:, 0]
@@ -124,17 +130,15 @@ def stator_record(blade: ReducedBlade, spec: RunSpec, rule: Recurrence, seat: Se
     """Describe coating and casing for the time loop, in rows of elements."""
     coating = spec.coating
     normal_factor, tangential_factor = _force_direction(coating)
-    x = blade.node_position[:, 0]
-    chord_fraction = (x - x[0]) / (x[-1] - x[0])
-    clearance = spec.clearance[0] + (spec.clearance[1] - spec.clearance[0]) * chord_fraction
     own = np.split(_self_compliance(rule, coating), [blade.n_interface])
-    gap = casing.gap(spec.casing, clearance[:, None], element_angle(coating.n_elements)) - seat.longer
+    clearance = running_clearance(blade, spec)[:, None]
+    gap = casing.gap(spec.casing, clearance, element_angle(coating.n_elements)) - seat.longer
     first = _first_element(blade, spec)
     rows = np.array([np.roll(of_node, -at) for of_node, at in zip(gap, first, strict=True)])
     by_lane = _by_lane_of(blade)
     area, law = by_lane(element_area(blade, spec)), module_of(coating.element_law)
     parameters = law.element(coating, area, rule.time_step)  # unused for the rigid casing
-    unused = np.full((coating.n_elements, by_lane(x).size - x.size), _NEVER)
+    unused = np.full((coating.n_elements, area.size - blade.n_interface), _NEVER)
     stator = records.Stator(
         initial_gap=np.hstack([rows.T, unused]),
         minimum_gap=minimum_gap(rows, spec.tip.half_width + seat.ahead),
@@ -200,11 +204,11 @@ def _free_flight(rule: Recurrence, tip: records.Tip, steps_per_element: int) -> 
 
 
 def _initial_state(
-    modes: Modes, rule: Recurrence, spec: RunSpec, tip: records.Tip, heats: bool
+    modes: Modes, rule: Recurrence, spec: RunSpec, tip: records.Tip, cells: int
 ) -> records.State:
     """At rest, deflected in the first mode; the step before is the exact free motion back from there."""
     own = module_for(lanes_for(rule.n_nodes), "contact.kernel.records")
-    state = own.at_rest(rule.omega.size, spec.coating.n_elements, heats)
+    state = own.at_rest(rule.omega.size, spec.coating.n_elements, cells)
     if spec.initial_displacement:
         x, damping = rule.omega[0] * rule.time_step, spec.damping_ratio
         damped = math.sqrt(1.0 - damping**2)

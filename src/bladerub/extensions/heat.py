@@ -18,7 +18,15 @@ from bladerub.study.growth import confirmation_spec, judge, needs_confirmation
 CASING, E, K, F_OMEGA = "2nd", 2.0, 0.5, 0.19
 """The run: a coating at the speed of its peak on order 6."""
 
-OF_LAYER = {"heat_capacity": 2e6, "heated_depth": 1e-4, "softening_exponent": 1.0}
+LAYER = {
+    "heat_capacity": 2e6,
+    "conductivity": 5.0,
+    "heated_depth": 1e-4,
+    "friction_share": 0.5,
+    "softening_rise": 500.0,
+    "softening_exponent": 1.0,
+}
+"""Of the thermal law, SI units: assumed for sprayed aluminium with polyester (config/heat.yaml)."""
 VARIED = ("conductivity", "friction_share", "softening_rise")
 CASES = (
     (0.0, None),
@@ -56,7 +64,7 @@ def table(config: Mapping[str, Any], blade: ReducedBlade) -> pd.DataFrame:
 def _law(values: tuple[float, float, float] | None) -> ElementLaw:
     if values is None:
         return PLASTIC
-    return described_law("thermal", OF_LAYER | dict(zip(VARIED, values, strict=True)))
+    return described_law("thermal", LAYER | dict(zip(VARIED, values, strict=True)))
 
 
 def _measured(config: Mapping[str, Any], blade: ReducedBlade, spec: RunSpec) -> tuple[Any, ...]:

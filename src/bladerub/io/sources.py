@@ -39,7 +39,7 @@ def _path_of(module: str) -> Path:
     return package if package.is_file() else path.with_suffix(".py")
 
 
-# Whole files are not parsed: every job of the workflow reads some two hundred of them
+# Whole files are not parsed: every call of snakemake reads some two hundred of them
 _IMPORT = re.compile(r"^[ \t]*(from bladerub\.[\w.]+ import (?:\([^)]*\)|.*))$", re.M)
 
 

@@ -9,17 +9,11 @@ from bladerub.contact.heating import CELLS, HEATED, Layer, cell_heights, decay
 from bladerub.contact.kernel.records import at_rest
 from bladerub.contact.laws import described_law, module_of
 from bladerub.contact.spec import Coating
+from bladerub.extensions.heat import LAYER
 
 THICKNESS, AREA, PERIOD = 5e-3, np.linspace(1e-6, 2e-6, 8), 0.02
 N = 12
-VALUES = {
-    "heat_capacity": 2e6,
-    "conductivity": 5.0,
-    "heated_depth": 1e-4,
-    "friction_share": 0.5,
-    "softening_rise": 500.0,
-    "softening_exponent": 2.0,
-}
+VALUES = LAYER | {"softening_exponent": 2.0}
 
 
 def layer(**values):
@@ -30,7 +24,7 @@ def layer(**values):
 
 def heated(flow=0.0, friction=0.0):
     """State after a passage that made so much heat in rows 3 to 5, J."""
-    state = at_rest(1, N, heats=True)
+    state = at_rest(1, N, cells=CELLS)
     state.heat[3:6] = np.repeat([flow, friction], 8)
     return state
 

@@ -7,6 +7,7 @@ import pytest
 from bladerub.contact import law
 from bladerub.contact.laws import described_law, source_of
 from bladerub.contact.spec import PLASTIC, Coating, ElementLaw
+from bladerub.extensions.heat import LAYER
 from bladerub.verification import element_law
 from bladerub.verification.element_law import HISTORIES, TIME_STEPS, check_law
 
@@ -15,17 +16,7 @@ DENSIFYING = Path(__file__).parents[3] / "docs" / "laws" / "densifying.py"
 COATINGS = [
     Coating(E, K, 0.0, 1.5e-8, 600e6, 6e-3, 2000) for E, K in ((0.05, 10.0), (20.0, 0.05), (1.1, 0.5))
 ]
-THERMAL = described_law(
-    "thermal",
-    {
-        "heat_capacity": 2e6,
-        "conductivity": 5.0,
-        "heated_depth": 1e-4,
-        "friction_share": 0.5,
-        "softening_rise": 500.0,
-        "softening_exponent": 1.0,
-    },
-)
+THERMAL = described_law("thermal", LAYER)
 RIGHT = [
     PLASTIC,
     described_law("perfectly_plastic", {"yield_stress": 1e6}),

@@ -9,7 +9,6 @@ from typing import NamedTuple
 import numpy as np
 
 from bladerub.contact.energy import N_ENTRIES
-from bladerub.contact.heating import CELLS
 from bladerub.numerics.memory import aligned
 from bladerub.numerics.vectors import LANES
 
@@ -78,7 +77,7 @@ class State(NamedTuple):
     # Where the law has a strength that heat lowers (`bladerub.contact.heating`), else without rows:
     strength: np.ndarray  # (N, 8): Forces of the elements over those without heat
     heat: np.ndarray  # (N, 16): What flow, then friction made in them since the last passage, J
-    temperature: np.ndarray  # (N, 80): Of their columns, in the modes of conduction
+    temperature: np.ndarray  # (N, 8 n): Of the n cells of their columns, in the modes of conduction
     ledger: np.ndarray  # (18, 8): Entries of `bladerub.contact.energy`, to be summed over the nodes
     scratch: np.ndarray  # (6, 16): Of no meaning between steps
 
@@ -97,9 +96,9 @@ def by_lane(rows: np.ndarray, n_nodes: int) -> np.ndarray:
     return groups.take(node, axis=1).reshape(-1, *rows.shape[1:])
 
 
-def at_rest(n_modes: int, n_elements: int, heats: bool = False) -> State:
-    """State of a blade at rest before an unworn coating, which may conduct heat."""
-    heated = n_elements if heats else 0
+def at_rest(n_modes: int, n_elements: int, cells: int = 0) -> State:
+    """State of a blade at rest before an unworn coating, whose columns have `cells` if they conduct heat."""
+    heated = n_elements if cells else 0
     state = State(
         q=np.zeros((3, n_modes + -n_modes % LANES)),
         u=np.zeros((3, 4 * LANES)),
@@ -112,7 +111,7 @@ def at_rest(n_modes: int, n_elements: int, heats: bool = False) -> State:
         wear=np.zeros((n_elements, LANES)),
         strength=np.ones((heated, LANES)),
         heat=np.zeros((heated, 2 * LANES)),
-        temperature=np.zeros((heated, CELLS * LANES)),
+        temperature=np.zeros((heated, cells * LANES)),
         ledger=np.zeros((N_ENTRIES, LANES)),
         scratch=np.zeros((6, 2 * LANES)),
     )

@@ -21,6 +21,7 @@ import scipy.io
 from bladerub.blade.model import ReducedBlade
 from bladerub.contact import casing
 from bladerub.contact.modes import mode_shapes_at, tip_radii
+from bladerub.contact.setup import running_clearance
 from bladerub.contact.spec import RunSpec
 from bladerub.extensions.rotor37 import direct
 from bladerub.extensions.rotor37.numbers import of_displacement
@@ -107,9 +108,8 @@ def case(blade: ReducedBlade, spec: RunSpec, n_modes: int, steps: int) -> dict[s
     mass, damping, stiffness = massless_boundary(blade, spec.f_omega, spec.damping_ratio, n_modes)
     speed = 2 * np.pi * spec.f_omega * blade.f1_hz
     time = np.arange(spec.revolutions * steps + 1) * (2 * np.pi / speed / steps)
-    x, y, z = blade.node_position.T
-    leading, trailing = spec.clearance
-    clearance = (leading + (trailing - leading) * (x - x[0]) / (x[-1] - x[0]))[:, None]
+    _, y, z = blade.node_position.T
+    clearance = running_clearance(blade, spec)[:, None]
     angle = (spec.casing.start_angle + np.arctan2(y, z))[:, None] + speed * time
     before, after = (casing.gap(spec.casing, clearance, angle + sign * _DIFFERENCE) for sign in (-1, 1))
     return {

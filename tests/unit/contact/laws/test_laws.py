@@ -10,20 +10,11 @@ from bladerub.contact.laws import NAMES, described_law, module_of, parameters_of
 from bladerub.contact.run import simulate
 from bladerub.contact.setup import compile_kernel
 from bladerub.contact.spec import PLASTIC, Coating, ElementLaw
+from bladerub.extensions.heat import LAYER
 from bladerub.numerics import lanes
 
 AREA, STEP, WORN = 1e-6, 1e-6, 1e-5
-THERMAL = described_law(
-    "thermal",
-    {
-        "heat_capacity": 2e6,
-        "conductivity": 5.0,
-        "heated_depth": 5e-4,
-        "friction_share": 0.5,
-        "softening_rise": 20.0,
-        "softening_exponent": 1.0,
-    },
-)
+THERMAL = described_law("thermal", LAYER | {"heated_depth": 5e-4, "softening_rise": 20.0})
 LAWS = [
     PLASTIC,
     described_law("perfectly_plastic", {"yield_stress": 2e6}),
