@@ -6,6 +6,7 @@ import bladerub.config.read
 import bladerub.io.errors
 import bladerub.workflow.invocation
 from bladerub.study.grid import coating_cases
+from bladerub.study.plan import on_gpu
 
 min_version("9.0")
 
@@ -35,7 +36,7 @@ COATINGS = [case.name for case in coating_cases(config)]
 if workflow.is_main_process:
     with bladerub.io.errors.exit_on_error():
         LIVING = bladerub.workflow.invocation.begin(".snakemake", RESULTS)
-    bladerub.workflow.invocation.plan(RESULTS, FILES, GIVEN, NOTES)
+    bladerub.workflow.invocation.plan(RESULTS, FILES, GIVEN, NOTES, on_gpu(config))
     if workflow.output_settings.dryrun:
         from bladerub.workflow import forecast  # takes seconds to import
 

@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Callable, Mapping
-from functools import partial
+from functools import lru_cache, partial
 from typing import NamedTuple
 
 import numpy as np
@@ -17,7 +17,7 @@ from bladerub.contact.kernel.loop import Simulation
 from bladerub.contact.laws import module_of, source_of
 from bladerub.contact.modes import Modes, modes_at, tip_radii
 from bladerub.contact.schemes import SCHEMES, Contact, Recurrence, normal_compliance
-from bladerub.contact.spec import PLASTIC, Coating, ElementLaw, RunSpec
+from bladerub.contact.spec import PLASTIC, Casing, Coating, ElementLaw, RunSpec
 from bladerub.contact.tip import edge
 from bladerub.numerics.lanes import lanes_for, module_for
 from bladerub.numerics.memory import aligned
@@ -131,17 +131,14 @@ def stator_record(blade: ReducedBlade, spec: RunSpec, rule: Recurrence, seat: Se
     coating = spec.coating
     normal_factor, tangential_factor = _force_direction(coating)
     own = np.split(_self_compliance(rule, coating), [blade.n_interface])
-    clearance = running_clearance(blade, spec)[:, None]
-    gap = casing.gap(spec.casing, clearance, element_angle(coating.n_elements)) - seat.longer
-    first = _first_element(blade, spec)
-    rows = np.array([np.roll(of_node, -at) for of_node, at in zip(gap, first, strict=True)])
     by_lane = _by_lane_of(blade)
     area, law = by_lane(element_area(blade, spec)), module_of(coating.element_law)
     parameters = law.element(coating, area, rule.time_step)  # unused for the rigid casing
-    unused = np.full((coating.n_elements, area.size - blade.n_interface), _NEVER)
+    clearance = tuple(running_clearance(blade, spec).tolist())
+    first, width = tuple(_first_element(blade, spec).tolist()), spec.tip.half_width + seat.ahead
+    gaps = _gaps(spec.casing, clearance, seat.longer, first, coating.n_elements, width, area.size)
     stator = records.Stator(
-        initial_gap=np.hstack([rows.T, unused]),
-        minimum_gap=minimum_gap(rows, spec.tip.half_width + seat.ahead),
+        **gaps._asdict(),
         law=np.array(parameters),
         n_elements=coating.n_elements,
         is_rigid=coating.is_rigid,
@@ -152,6 +149,29 @@ def stator_record(blade: ReducedBlade, spec: RunSpec, rule: Recurrence, seat: Se
         tilt_compliance=by_lane(own[1]) if own[1].size else own[1],
     )
     return aligned(stator)
+
+
+class _Gaps(NamedTuple):
+    """Of `records.Stator`."""
+
+    initial_gap: np.ndarray
+    minimum_gap: np.ndarray
+
+
+@lru_cache(maxsize=32)  # the runs of a coating, and of most studies, have the same
+def _gaps(
+    shape: Casing,
+    clearance: tuple[float, ...],
+    longer: float,
+    first: tuple[int, ...],
+    n_elements: int,
+    half_width: float,
+    lanes: int,
+) -> _Gaps:
+    gap = casing.gap(shape, np.array(clearance)[:, None], element_angle(n_elements)) - longer
+    rows = np.array([np.roll(of_node, -at) for of_node, at in zip(gap, first, strict=True)])
+    unused = np.full((n_elements, lanes - len(rows)), _NEVER)
+    return aligned(_Gaps(np.hstack([rows.T, unused]), minimum_gap(rows, half_width)))
 
 
 def minimum_gap(rows: np.ndarray, half_width: float) -> np.ndarray:

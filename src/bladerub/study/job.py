@@ -1,7 +1,7 @@
 """The job of one coating: every run that is missing or stale, and the rows of its manifest."""
 
 import time
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
@@ -10,6 +10,8 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from bladerub.blade.model import ReducedBlade
+from bladerub.contact.gpu.many import simulate_many
+from bladerub.contact.gpu.server import find
 from bladerub.contact.result import RunResult
 from bladerub.contact.row import simulate_row
 from bladerub.contact.run import simulate
@@ -21,8 +23,11 @@ from bladerub.study.grid import CoatingCase
 from bladerub.study.growth import needs_confirmation
 from bladerub.study.manifest import CONFIRMATION, ManifestRow
 from bladerub.study.parallel import each_done
-from bladerub.study.plan import CoatingPlan, PlannedRun, growth_key, longer_run
+from bladerub.study.plan import CoatingPlan, PlannedRun, growth_key, longer_run, on_gpu
 from bladerub.study.store import MAPPED, StoredRun, read_run, stored_row, stored_run, write_run
+
+Solve = Callable[..., RunResult]
+Made = tuple[StoredRun, float]
 
 LOCK = ".lock"
 """Empty file in the folder of the runs, locked by the job at work on them."""
@@ -74,7 +79,7 @@ def compute_missing(
     (`bladerub.study.cache`, whose `blade_digest` is that of the blade). One job at a time works on a folder:
     another, of another invocation, waits for its end and takes over what it has computed. `report` is called
     with a line for a log: a `RunDone` after each computed run, or a text before waiting. `threads` runs are
-    computed at once.
+    computed at once, or all on a GPU where ``solver.device`` says so.
     """
     folder, settings = Path(folder), config["analysis"]["divergence"]
     complete = partial(_compute, config, plan.case, blade, folder, blade_digest, report, threads)
@@ -97,7 +102,7 @@ def compute(
     key: str,
     analysis: Mapping[str, Any],
     progress: Callable[[int], None] | None = None,
-    solve: Callable[..., RunResult] | None = None,
+    solve: Solve | None = None,
 ) -> StoredRun:
     """Simulate what was planned, a single blade or a row, and return what is stored of it.
 
@@ -146,11 +151,12 @@ def _compute(
     cost_left = sum(1 / run.spec.f_omega for run in missing)
     cost_done, start = 0.0, time.monotonic()
 
-    def made(run: PlannedRun) -> tuple[StoredRun, float]:
+    def made(run: PlannedRun, solve: Solve | None = None) -> tuple[StoredRun, float]:
         run_start = time.monotonic()
-        return compute(case, run, blade, entries[run.file].key, config["analysis"]), run_start
+        return compute(case, run, blade, entries[run.file].key, config["analysis"], solve=solve), run_start
 
-    for number, (run, (stored, run_start)) in enumerate(each_done(made, missing, threads), 1):
+    computed = _on_gpu(made, missing, blade, report) if on_gpu(config) else each_done(made, missing, threads)
+    for number, (run, (stored, run_start)) in enumerate(computed, 1):
         entry = entries[run.file]
         entry.make_room()
         done[run.file] = _done(entry, stored, write_run(entry.path, stored, origin))
@@ -163,6 +169,19 @@ def _compute(
         path = entries[file].path
         done[file] = _done(entries[file], read_run(path, {"revolution_amplitude"}), file_checksum(path))
     return done
+
+
+def _on_gpu(
+    made: Callable[[PlannedRun, Solve], Made],
+    runs: Sequence[PlannedRun],
+    blade: ReducedBlade,
+    report: Callable[[object], None],
+) -> Iterator[tuple[PlannedRun, Made]]:
+    """Yield each run with ``made(run, solve)`` as it is done, rows of blades last."""
+    single = [run for run in runs if not run.row]
+    for number, result in simulate_many(blade, [run.spec for run in single], find(), report):
+        yield single[number], made(single[number], lambda *_, found=result: found)
+    yield from ((run, made(run, simulate)) for run in runs if run.row)
 
 
 def _done(entry: Entry, run: StoredRun, checksum: str) -> _Done:

@@ -6,7 +6,7 @@ from typing import Any
 
 from bladerub.contact.row_spec import Row
 from bladerub.contact.spec import RunSpec
-from bladerub.io.sources import solver_digest, storage_digest
+from bladerub.io.sources import gpu_digest, solver_digest, storage_digest
 from bladerub.study import cache
 from bladerub.study.grid import CoatingCase, keeps_history, row_of, run_spec, speed_name, speeds
 from bladerub.study.growth import confirmation_determinants, confirmation_spec
@@ -15,6 +15,11 @@ from bladerub.study.store import StoredRun
 
 SHAPING_SETTINGS = ("spectrum_revolutions", "max_order")
 """Keys of ``config["analysis"]`` that decide what a run file holds; the others act on maps and tables."""
+
+
+def on_gpu(config: Mapping[str, Any]) -> bool:
+    """Whether the runs of the study `config` are computed on a GPU."""
+    return config["solver"]["device"] == "gpu"
 
 
 @dataclass(frozen=True)
@@ -59,6 +64,8 @@ def planned_run(
     }
     if row:
         determinants["row"] = row
+    elif on_gpu(config):  # the last bits differ, and with them a chaotic run
+        determinants["gpu"] = gpu_digest()
     return PlannedRun(spec, file, keep_history, cache.digest(determinants), row)
 
 

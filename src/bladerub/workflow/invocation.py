@@ -14,6 +14,7 @@ from bladerub.extensions.chart.point import PointRow
 from bladerub.io import atomic, lock
 from bladerub.io.errors import DamagedFile
 from bladerub.study.manifest import ManifestRow, Row, listed_files
+from bladerub.workflow import gpu
 
 
 def begin(snakemake_folder: str | Path, results: str | Path) -> IO:
@@ -63,15 +64,21 @@ def _print(line: str) -> None:
     print(f"bladerub: {line}", file=sys.stderr)
 
 
-_planned: list[tuple[str, Sequence[str], Mapping[str, Any]]] = []
+_planned: list[tuple[str, Sequence[str], Mapping[str, Any], bool]] = []
 
 
-def plan(results: str, files: Sequence[str], given: Mapping[str, Any], notes: Sequence[str] = ()) -> None:
+def plan(
+    results: str,
+    files: Sequence[str],
+    given: Mapping[str, Any],
+    notes: Sequence[str] = (),
+    on_gpu: bool = False,
+) -> None:
     """Note what this invocation will `start`: its results folder, config files and values of ``--config``.
 
-    `notes` on the config are printed, a line each.
+    `notes` on the config are printed, a line each. `on_gpu` is whether runs are computed on a GPU.
     """
-    _planned[:] = [(results, files, given)]
+    _planned[:] = [(results, files, given, on_gpu)]
     for note in notes:
         _print(note)
 
@@ -84,9 +91,11 @@ def start(workflow: Any) -> None:
     """
     _handle_termination_beside()
     _schedule_by_events(workflow)
-    for results, files, given in _planned:
+    for results, files, given, on_gpu in _planned:
         prepare(results)
         record.write(results, files, given)
+        if on_gpu and workflow.local_exec:  # a job on another machine has the GPU there
+            gpu.start_server()
 
 
 def _handle_termination_beside() -> None:

@@ -1,8 +1,9 @@
 """The job of one column of the chart: every point that is missing or stale, and the rows of its manifest."""
 
 import time
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import asdict
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -10,16 +11,19 @@ import numpy as np
 
 from bladerub.blade.frequencies import reduced_frequencies
 from bladerub.blade.model import ReducedBlade
+from bladerub.contact.gpu.many import simulate_many
+from bladerub.contact.gpu.server import find
 from bladerub.extensions.chart import point as points
 from bladerub.extensions.chart.grid import ChartSpeeds, chart_orders, chart_speeds
 from bladerub.extensions.chart.point import PointRow
-from bladerub.extensions.chart.search import compute
+from bladerub.extensions.chart.search import compute, compute_together, search
 from bladerub.io import lock
 from bladerub.io.checksum import file_checksum
-from bladerub.io.sources import chart_digest, solver_digest
+from bladerub.io.sources import chart_digest, gpu_digest, solver_digest
 from bladerub.study import cache
 from bladerub.study.grid import CoatingCase, run_spec
 from bladerub.study.parallel import each_done
+from bladerub.study.plan import on_gpu
 
 
 def determinants(config: Mapping[str, Any], case: CoatingCase, speeds: ChartSpeeds) -> str:
@@ -28,8 +32,10 @@ def determinants(config: Mapping[str, Any], case: CoatingCase, speeds: ChartSpee
     Other points, and the coatings of the study, have no part in it.
     """
     analysis = config["analysis"]
+    gpu = {"gpu": gpu_digest()} if on_gpu(config) else {}
     return cache.digest(
-        {
+        gpu
+        | {
             "spec": asdict(run_spec(config, case, f_omega=0.0)),
             "f_omega": speeds.f_omega.tolist(),
             "uniform": np.flatnonzero(speeds.uniform).tolist(),
@@ -66,7 +72,7 @@ def compute_missing(
 
     `plan` is of `plan_column`, `blade_digest` of `bladerub.study.cache`, `folder` that of the points of the
     whole chart; `report` is called with a line for a log after each computed point, and before waiting.
-    `threads` points are computed at once. The rows are for `bladerub.study.manifest.write_manifest`.
+    `threads` points are computed at once, or all together on a GPU where ``solver.device`` says so. The rows are for `bladerub.study.manifest.write_manifest`.
     """
     folder, speeds, first = Path(folder), chart_speeds(config), next(iter(plan))
     column_lock = folder / f".{first.casing}_E{first.E:g}_theta{first.theta:g}.lock"
@@ -86,7 +92,14 @@ def compute_missing(
             start = time.monotonic()
             return compute(config, case, blade, speeds, C1), start
 
-        for number, (case, (point, start)) in enumerate(each_done(made, missing, threads), 1):
+        def made_together() -> Iterator[tuple[CoatingCase, tuple[points.ChartPoint, float]]]:
+            start = time.monotonic()
+            searches = {case: search(config, case, blade, speeds, C1) for case in missing}
+            solve = partial(simulate_many, blade, device=find(), report=report)
+            return ((case, (point, start)) for case, point in compute_together(searches, solve))
+
+        done = made_together() if on_gpu(config) else each_done(made, missing, threads)
+        for number, (case, (point, start)) in enumerate(done, 1):
             entry = entries[case]
             entry.make_room()
             checksums[case] = points.write(entry.path, point, entry.key, config)

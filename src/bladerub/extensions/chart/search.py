@@ -10,7 +10,8 @@
    the amplitude grows: the search must not weigh in the share of divergent speeds.
 """
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Generator, Iterable, Iterator, Mapping, Sequence
+from itertools import islice
 from typing import Any
 
 import numpy as np
@@ -28,11 +29,46 @@ from bladerub.study.peaks import Response, amplitude_in_window
 from bladerub.study.spectra import order_spectrum
 from bladerub.study.wear import lobes
 
+Search = Generator[list[RunSpec], list[RunResult], ChartPoint]
+"""Yields runs, is sent their results, and returns the point in the end."""
+
 
 def compute(
     config: Mapping[str, Any], case: CoatingCase, blade: ReducedBlade, speeds: ChartSpeeds, C1: np.ndarray
 ) -> ChartPoint:
     """Run the coating `case` at the speeds that the search chooses; `C1` (n,) is normalised."""
+
+    def solve(specs: Sequence[RunSpec]) -> Iterator[tuple[int, RunResult]]:
+        return ((number, simulate(blade, spec)) for number, spec in enumerate(specs))
+
+    ((_, point),) = compute_together({case: search(config, case, blade, speeds, C1)}, solve)
+    return point
+
+
+def compute_together(
+    searches: Mapping[CoatingCase, Search],
+    solve: Callable[[Sequence[RunSpec]], Iterable[tuple[int, RunResult]]],
+) -> Iterator[tuple[CoatingCase, ChartPoint]]:
+    """Carry out searches together; yield each point, with its coating, as it is complete.
+
+    `solve` yields the number of each run that it is given, with its result.
+    """
+    wanted = {case: next(each) for case, each in searches.items()}
+    while wanted:
+        found = dict(solve([spec for specs in wanted.values() for spec in specs]))
+        results, more = iter([found[number] for number in range(len(found))]), {}
+        for case, specs in wanted.items():
+            try:
+                more[case] = searches[case].send(list(islice(results, len(specs))))
+            except StopIteration as end:
+                yield case, end.value
+        wanted = more
+
+
+def search(
+    config: Mapping[str, Any], case: CoatingCase, blade: ReducedBlade, speeds: ChartSpeeds, C1: np.ndarray
+) -> Search:
+    """Search for the maxima of a coating, as `compute` does."""
     n, orders = speeds.f_omega.size, chart_orders(config)
     point = ChartPoint(
         case=case,
@@ -45,8 +81,13 @@ def compute(
     )
     share, pending = config["chart"]["speeds"]["refine_above"], np.flatnonzero(speeds.coarse).tolist()
     while pending:
-        for index in pending:
-            _run(config, blade, point, index)
+        specs = [run_spec(config, case, point.f_omega[index]) for index in pending]
+        judged = []
+        for index, spec, result in zip(pending, specs, (yield specs), strict=True):
+            _enter(config["analysis"], blade, point, index, spec, result)
+            if point.uniform[index]:
+                judged.append((index, spec, result))
+        yield from _judge(config["analysis"], point, judged)
         pending = next_speeds(point.known, sought(config, point, point.measures["peak"]).values(), share)
     return point
 
@@ -82,15 +123,18 @@ def next_speeds(known: np.ndarray, curves: Iterable[np.ndarray], share: float) -
     return sorted(wanted)
 
 
-def _run(config: Mapping[str, Any], blade: ReducedBlade, point: ChartPoint, index: int) -> None:
-    """Run `point` at one speed and put what is measured into it."""
-    spec = run_spec(config, point.case, point.f_omega[index])
-    result = simulate(blade, spec)
-    point.spectrum_amplitude[index] = _amplitudes(config["analysis"], point.spectrum_order, spec, result)
-    for name, value in _measured(config["analysis"], blade, spec, result).items():
+def _enter(
+    analysis: Mapping[str, Any],
+    blade: ReducedBlade,
+    point: ChartPoint,
+    index: int,
+    spec: RunSpec,
+    result: RunResult,
+) -> None:
+    """Put what is measured of a run at one speed into `point`."""
+    point.spectrum_amplitude[index] = _amplitudes(analysis, point.spectrum_order, spec, result)
+    for name, value in _measured(analysis, blade, spec, result).items():
         point.measures[name][index] = value
-    if point.uniform[index]:
-        point.measures["divergent"][index] = _diverges(config["analysis"], blade, spec, result)
 
 
 def _amplitudes(
@@ -118,8 +162,18 @@ def _measured(
     }
 
 
-def _diverges(analysis: Mapping[str, Any], blade: ReducedBlade, spec: RunSpec, result: RunResult) -> float:
-    settings, longer = analysis["divergence"], None
-    if needs_confirmation(result.revolution_amplitude, result.status, settings):
-        longer = simulate(blade, confirmation_spec(spec, settings)).revolution_amplitude
-    return float(judge(result.revolution_amplitude, result.status, settings, longer).divergent)
+def _judge(
+    analysis: Mapping[str, Any], point: ChartPoint, runs: Sequence[tuple[int, RunSpec, RunResult]]
+) -> Generator[list[RunSpec], list[RunResult], None]:
+    """Judge whether runs diverge, and put it into `point`; ask for the longer runs of those that grow."""
+    settings = analysis["divergence"]
+    growing = [
+        (index, spec)
+        for index, spec, result in runs
+        if needs_confirmation(result.revolution_amplitude, result.status, settings)
+    ]
+    found = yield [confirmation_spec(spec, settings) for _, spec in growing]
+    longer = {index: result.revolution_amplitude for (index, _), result in zip(growing, found, strict=True)}
+    for index, _, result in runs:
+        verdict = judge(result.revolution_amplitude, result.status, settings, longer.get(index))
+        point.measures["divergent"][index] = float(verdict.divergent)

@@ -1,0 +1,1 @@
+"""Many runs at once on one GPU, by the same steps as the time loop of `bladerub.contact.kernel`."""

@@ -1,0 +1,285 @@
+"""Runs as the loop on a GPU reads them, and what it leaves as the states of these runs.
+
+Runs of one blade at one speed, or of one coating, share what is equal: it is packed once.
+"""
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+from functools import cache
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+
+from bladerub.contact import energy
+from bladerub.contact.gpu import formulas
+from bladerub.contact.integration import History
+from bladerub.contact.kernel import elements, free_flight, newton
+from bladerub.contact.kernel.free_flight import FreeFlight
+from bladerub.contact.kernel.loop import Simulation
+from bladerub.contact.kernel.modal import Modal
+from bladerub.contact.laws import module_of, source_of
+from bladerub.contact.spec import ElementLaw, RunSpec
+from bladerub.numerics.vectors import LANES
+
+WARP = 32
+"""Lanes of a warp: four groups of the `LANES` nodes."""
+COMPLETED, UNBOUNDED, HANDED_OVER = range(3)
+"""How a run ended: at its end, beyond the displacement limit, or where the loop can't go on."""
+COUNTS = ("status", "revolutions", "steps", "last_steps", "contact_steps", "reversed_steps")
+
+_OF_NODES = (
+    *(energy.RADIAL, energy.TANGENTIAL, energy.SLIDING, energy.TORQUE),
+    *(energy.EXCHANGED, energy.RETREAT, energy.COUPLE),
+)
+_OF_ELEMENTS = (
+    *(energy.SHAPE, energy.WEAR, energy.STORED, energy.STORED_BEFORE, energy.LAST_SHAPE, energy.LAST_WEAR),
+    energy.DAMPING,
+)
+"""Entries of the ledger in the order of ``loop.cu``: a group of lanes each, and the sum of the groups."""
+_LEDGER_ROWS = 2 + len(_OF_ELEMENTS) - 1
+_FOLDER = Path(__file__).parent
+_FORMS = ("INCREMENT_Q", "INCREMENT_D", "LAST_STEP_Q", "LAST_STEP_D", "LOSS_QQ", "LOSS_QD", "LOSS_DD")
+_FORMS += ("MEAN_Q", "MEAN_D", "BOUND_Q", "BOUND_D")
+
+
+class Variant(NamedTuple):
+    """What is compiled in: runs of one variant can be in one batch."""
+
+    vectors: int  # Vectors of 32 modes
+    turns: bool  # Whether the profile turns with the tip
+    half_width: float  # Of the profile, elements
+    law: tuple[str, str]  # Name and source of the law of the elements, without its parameters
+    n_elements: int
+    revolutions: int
+
+
+def refusal(spec: RunSpec, simulation: Simulation) -> str:
+    """Say why a run is not one for the GPU; empty if it is."""
+    if spec.coating.is_rigid:
+        return "contact with the rigid casing is solved node by node"
+    if spec.coating.coulomb:
+        return "Coulomb's law needs the sliding of each node"
+    if simulation.layer is not None:
+        return f"the law {spec.coating.element_law.name} conducts heat between revolutions"
+    if simulation.modal.corrects:
+        return f"the scheme {spec.scheme} corrects its steps"
+    if simulation.tip.start.size > LANES:
+        return f"the tip has more than {LANES} nodes"
+    try:
+        formulas.of_law(module_of(spec.coating.element_law), source_of(spec.coating.element_law))
+    except ValueError as error:
+        return str(error)
+    return ""
+
+
+def variant_of(spec: RunSpec, simulation: Simulation) -> Variant:
+    """Return the variant of the loop that a run needs."""
+    law = spec.coating.element_law
+    return Variant(
+        vectors=math.ceil(simulation.modal.n / WARP),
+        turns=simulation.modal.tilt is not None,
+        half_width=spec.tip.half_width,
+        law=(law.name, source_of(law)),
+        n_elements=spec.coating.n_elements,
+        revolutions=spec.revolutions,
+    )
+
+
+@cache
+def source(variant: Variant, law: ElementLaw) -> str:
+    """Put together the source of the loop for runs of a variant, whose elements have this law."""
+    rows = math.ceil((2 * variant.half_width + 3) / 4)  # of elements under a node, for each group of lanes
+    constants = {
+        "MODES": variant.vectors,
+        "TURNS": int(variant.turns),
+        "ROWS": rows,
+        "SHARED": _shared(variant),
+        "MAX_ITERATIONS": newton.MAX_ITERATIONS,
+        "N_FORMS": free_flight.N_FORMS,
+    } | {name: getattr(free_flight, name) // LANES * WARP for name in _FORMS}
+    numbers = {
+        "FARTHEST": 4 * rows - 2 * variant.half_width - 1.5,  # elements that a window leaves for a step
+        "TOLERANCE": newton.TOLERANCE,
+        "STRAIGHT": newton.STRAIGHT,
+        "NO_CHANGE": elements.NO_CHANGE,
+    }
+    return "\n".join(
+        [
+            (_FOLDER / "lanes.h").read_text(encoding="utf-8"),
+            *(f"constexpr int {name} = {value};" for name, value in constants.items()),
+            *(f"constexpr double {name} = {value!r};" for name, value in numbers.items()),
+            formulas.of_contact(),
+            formulas.of_law(module_of(law), source_of(law)),
+            (_FOLDER / "loop.cu").read_text(encoding="utf-8"),
+        ]
+    )
+
+
+@dataclass
+class _Records:
+    """Records of equal size, each kept once."""
+
+    kept: list[np.ndarray] = field(default_factory=list)
+    numbers: dict[bytes, int] = field(default_factory=dict)
+
+    def number(self, record: np.ndarray) -> int:
+        """Return the number of a record, which is kept if there is none like it."""
+        content = record.tobytes()
+        if content not in self.numbers:
+            self.numbers[content] = len(self.kept)
+            self.kept.append(record)
+        return self.numbers[content]
+
+
+class Work(NamedTuple):
+    """What a device is given: a program, and the arrays that it reads."""
+
+    source: str
+    shared: int  # Doubles that a warp keeps in shared memory
+    n_elements: int
+    revolutions: int
+    order: np.ndarray  # (n,): Numbers of the runs, longest first
+    modal: np.ndarray  # Records, one in a row
+    stator: np.ndarray
+    casing: np.ndarray
+    tip: np.ndarray
+    runs: np.ndarray  # (n, 5): Numbers of the records of each run, and its steps in an element
+    modes: np.ndarray  # (n, 2, modes): Modal coordinates at the start, and their last increment
+
+
+class Left(NamedTuple):
+    """What a device leaves of n runs."""
+
+    modes: np.ndarray  # (n, 2, modes): As in `Work`, at the end
+    wear: np.ndarray  # (n, N, 8), m
+    displacement: np.ndarray  # (n, revolutions, N): Of node 1, mean over each element, m
+    range: np.ndarray  # (n, revolutions, 2): Of that displacement, m
+    forces: np.ndarray  # (n, 2, 24): On the blade now and one step before
+    ledger: np.ndarray  # (n, rows, 32)
+    counts: np.ndarray  # (n, 6): See `COUNTS`
+
+
+Device = Callable[[Work], Left]
+"""What carries out the loop: a GPU, or an emulation of one."""
+
+
+def described(work: Work) -> dict[str, tuple[tuple[int, ...], type, float]]:
+    """Shape, type and initial value of what a device leaves, but for the modes, by its name in `Left`."""
+    n, elements_, revolutions = len(work.runs), work.n_elements, work.revolutions
+    return {
+        "wear": ((n, elements_, LANES), np.float64, 0.0),
+        "displacement": ((n, revolutions, elements_), np.float64, np.nan),
+        "range": ((n, revolutions, 2), np.float64, np.nan),
+        "forces": ((n, 2, 3 * LANES), np.float64, 0.0),
+        "ledger": ((n, _LEDGER_ROWS + 1, WARP), np.float64, 0.0),
+        "counts": ((n, len(COUNTS)), np.int64, 0),
+    }
+
+
+def pack(variant: Variant, law: ElementLaw, simulations: Sequence[Simulation]) -> Work:
+    """Pack runs of one variant, which are about to begin, for a device."""
+    turns = variant.turns
+    runs = np.empty((len(simulations), 5), dtype=np.int32)
+    modes = np.zeros((len(simulations), 2, WARP * variant.vectors))
+    modal, stator, casing, tip = (_Records() for _ in range(4))
+    for i, each in enumerate(simulations):
+        runs[i] = (
+            modal.number(_modal_record(each.modal, each.flight, variant.vectors, turns)),
+            stator.number(_stator_record(each, turns)),
+            casing.number(np.concatenate([each.stator.initial_gap.ravel(), each.stator.minimum_gap])),
+            tip.number(_tip_record(each)),
+            each.steps_per_element,
+        )
+        q, before, _ = each.state.q
+        modes[i, :, : q.size] = q, q - before
+    order = np.argsort(-runs[:, 4], kind="stable").astype(np.int32)  # an element takes so many steps
+    records = (np.array(each.kept) for each in (modal, stator, casing, tip))
+    size = (variant.n_elements, variant.revolutions)
+    return Work(source(variant, law), _shared(variant), *size, order, *records, runs, modes)
+
+
+def finish(simulation: Simulation, left: Left, i: int) -> History | None:
+    """Bring a simulation to its end by what was left of run `i`; None where it was handed over."""
+    counts = dict(zip(COUNTS, left.counts[i].tolist(), strict=True))
+    if counts["status"] == HANDED_OVER:
+        return None
+    state, (q, increment) = simulation.state, left.modes[i]
+    n = state.q.shape[1]
+    state.q[:] = q[:n], (q - increment)[:n], q[:n]  # all damping is in the ledger
+    state.force[:] = left.forces[i].reshape(state.force.shape)
+    state.wear[:] = left.wear[i]
+    groups = left.ledger[i].reshape(-1, WARP // LANES, LANES)
+    state.ledger[list(_OF_NODES)] = groups[:2].reshape(-1, LANES)[: len(_OF_NODES)]
+    state.ledger[list(_OF_ELEMENTS)] = groups[2:].sum(axis=1)
+    state.ledger[energy.WORN] = state.wear.sum(axis=0)
+    state.ledger[energy.REVERSED, 0] = counts["reversed_steps"]
+    history = History(*left.displacement[i].shape)
+    history.displacement[:] = left.displacement[i]
+    history.lowest[:], history.highest[:] = left.range[i].T
+    history.n_steps, history.n_contact_steps = counts["steps"], counts["contact_steps"]
+    history.is_within_limit = counts["status"] == COMPLETED
+    history.revolutions_made = float(counts["revolutions"])
+    if not history.is_within_limit:
+        passed = counts["last_steps"] / simulation.steps_per_element
+        history.revolutions_made += passed / left.displacement.shape[2]
+    return history
+
+
+def _shared(variant: Variant) -> int:
+    sums = 3 * LANES if variant.turns else 2 * LANES
+    return 3 * LANES + WARP * _LEDGER_ROWS + (4 + sums) * WARP * variant.vectors
+
+
+def _lanes() -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Node, row of the tip and group of each lane of a warp."""
+    lane = np.arange(WARP)
+    return lane % LANES, lane % LANES + LANES * (lane >= WARP // 2), lane // LANES
+
+
+def _modal_record(modal: Modal, flight: FreeFlight, vectors: int, turns: bool) -> np.ndarray:
+    node, row, group = _lanes()
+    padding = WARP * vectors - modal.n
+
+    def padded(rows: np.ndarray) -> np.ndarray:
+        return np.pad(rows, [(0, 0)] * (rows.ndim - 1) + [(0, padding)])
+
+    def flat(blocks: np.ndarray) -> np.ndarray:
+        return padded(blocks.swapaxes(0, 1).reshape(blocks.shape[1], -1))
+
+    coefficients = padded(np.array([modal.now - modal.before - 1.0, modal.before, modal.loss, modal.gain]))
+    tip, lane = flat(modal.tip).reshape(2 * LANES, vectors, WARP), np.arange(WARP)
+    slots = [tip[row ^ s, :, lane].T for s in range(2 * LANES)]  # slot s of a lane, see `project`
+    width, half = 2 * LANES, (np.arange(WARP) >> 3) & 1
+    share = width // 2
+    if turns:
+        tilt = flat(modal.tilt).reshape(LANES, vectors, WARP)
+        slots += [tilt[node ^ s, :, lane].T for s in range(LANES)]
+        width, share = 3 * LANES, 3 * LANES // 2
+    compliance = modal.compliance.reshape(width, width)
+    response = [compliance[share * half + k, row] for k in range(share)]
+    if turns:
+        response += [compliance[width // 4 * group + k, 2 * LANES + node] for k in range(width // 4)]
+    return np.concatenate(
+        [
+            coefficients.ravel(),
+            np.stack(slots, axis=1).ravel(),  # (vectors, slots, 32)
+            flat(flight.forms).ravel(),
+            np.array(response).ravel(),
+            [float(flight.n_steps), flight.sideways],
+        ]
+    )
+
+
+def _stator_record(simulation: Simulation, turns: bool) -> np.ndarray:
+    stator = simulation.stator
+    tilt = stator.tilt_compliance if turns else np.zeros(LANES)
+    factors = [stator.normal_factor, stator.tangential_factor]
+    return np.concatenate([stator.law.ravel(), stator.self_compliance, tilt, factors])
+
+
+def _tip_record(simulation: Simulation) -> np.ndarray:
+    tip = simulation.tip
+    scalars = [tip.half_width, tip.curvature, tip.search_range, tip.limit]
+    return np.concatenate([tip.start, tip.per_metre, tip.radius, tip.lever, scalars])

@@ -1,0 +1,49 @@
+"""The loop of the GPU on this processor, its 32 lanes as arrays: for tests, and to change it without a GPU.
+
+A C++ compiler, ``c++``, compiles the source that a GPU is given. It is some ten times slower than the time
+loop of `bladerub.contact.kernel`.
+"""
+
+import ctypes
+import shutil
+import subprocess
+import tempfile
+from functools import cache
+from pathlib import Path
+
+import numpy as np
+
+from bladerub.contact.gpu.batch import Left, Work, described
+
+COMPILER = "c++"
+_OPTIONS = ("-O3", "-march=native", "-std=c++17", "-shared", "-fPIC", "-Wno-psabi")
+
+
+def is_possible() -> bool:
+    """Whether there is a compiler."""
+    return shutil.which(COMPILER) is not None
+
+
+def run(work: Work) -> Left:
+    """Carry out the loop for the runs of `work`; raises `OSError` if there is no compiler."""
+    made = {name: np.full(shape, value, kind) for name, (shape, kind, value) in described(work).items()}
+    modes, next_run = work.modes.copy(), np.zeros(1, dtype=np.int32)
+    order, *records, _ = work[4:]
+    _compiled(work.source)(
+        len(work.runs), *map(_address, (order, next_run)), work.n_elements, work.revolutions,
+        *map(_address, (*records, modes, *made.values())),
+    )  # fmt: skip
+    return Left(modes, **made)
+
+
+def _address(array: np.ndarray) -> ctypes.c_void_p:
+    return ctypes.c_void_p(array.ctypes.data)
+
+
+@cache
+def _compiled(source: str) -> "ctypes._FuncPointer":
+    with tempfile.TemporaryDirectory(prefix="bladerub-") as folder:
+        text, library = Path(folder, "loop.cpp"), Path(folder, "loop.so")
+        text.write_text(source, encoding="utf-8")
+        subprocess.run([COMPILER, *_OPTIONS, "-o", library, text], check=True)
+        return ctypes.CDLL(str(library)).simulate_batch

@@ -1,0 +1,151 @@
+"""Formulas of the contact in C++, translated from the Python functions that the time loop is compiled from.
+
+So a law of the elements, the profile of the tip and the direction of the contact force are written once.
+"""
+
+import ast
+import inspect
+import textwrap
+from collections.abc import Callable, Sequence
+from types import ModuleType
+
+from bladerub.contact import friction, gap, tip
+
+LAW = ("return_mapping", "tangent", "elastic_force", "stored_energy", "dissipated_energy")
+"""Functions of a law that the time loop calls."""
+OF_CONTACT = (tip.relief, tip.edge, tip.coverage, tip.highest, gap.penetration, friction.contact_force)
+
+_RECORDS = {"element": "Element", "tip": "Profile"}  # by the name of an argument; others are numbers
+_VECTOR_FUNCTIONS = {"absolute", "maximum", "minimum", "where", "sqrt"}
+_NAMES = {"sqrt": "sqrt_of"}
+_OPERATORS = {ast.Add: "+", ast.Sub: "-", ast.Mult: "*", ast.Div: "/", ast.BitAnd: "&", ast.BitOr: "|"}
+_COMPARISONS = {ast.Gt: ">", ast.LtE: "<=", ast.Lt: "<", ast.GtE: ">="}
+
+
+def of_contact() -> str:
+    """Translate the formulas of profile, gap and contact force."""
+    return "struct Profile { real half_width, curvature; };\n" + _with_callees(OF_CONTACT)
+
+
+def of_law(law: ModuleType, source: str = "") -> str:
+    """Translate the functions of a law, and what they call, and describe its elements.
+
+    `source` is the text of its module, if that is not a file. Raises `ValueError`, which names function and
+    expression, if one has what is not known here.
+    """
+    fields = law.Element._fields
+    loaded = ", ".join(f"load(from, j + 8 * {row})" for row in range(len(fields)))
+    return (
+        f"struct Element {{ real {', '.join(fields)}; }};\n"
+        f"constexpr int LAW_FIELDS = {len(fields)};\n"
+        "HERE Element load_element(const double* from, const integer& j) "
+        f"{{ return Element{{{loaded}}}; }}\n"
+    ) + _with_callees([getattr(law, name) for name in LAW], source)
+
+
+def _with_callees(functions: Sequence[Callable], source: str = "") -> str:
+    """Translate functions, each after those that it calls."""
+    done: dict[str, tuple[Callable, str]] = {}
+    no_file = {each.name: each for each in ast.parse(source).body if isinstance(each, ast.FunctionDef)}
+
+    def add(function: Callable) -> None:
+        name = function.__name__
+        if name in done:
+            if done[name][0] is not function:
+                raise ValueError(f"{name}: two functions of this name, which a GPU can't be given")
+            return
+        own = function.__code__.co_filename.startswith("<")
+        translation = _Translation(function, no_file[name] if own else _definition(function))
+        for callee in translation.callees():
+            add(callee)
+        done[name] = function, translation.text()
+
+    for function in functions:
+        add(function)
+    return "\n".join(text for _, text in done.values())
+
+
+def _definition(function: Callable) -> ast.stmt:
+    return ast.parse(textwrap.dedent(inspect.getsource(function))).body[0]
+
+
+class _Translation:
+    """A function of assignments and one return at its end."""
+
+    def __init__(self, function: Callable, definition: ast.stmt):
+        self.function, self.body = function, definition
+        self.assigned: set[str] = set()
+
+    def callees(self) -> list[Callable]:
+        """Functions that this one calls, but for those of vectors."""
+        calls = [node.func for node in ast.walk(self.body) if isinstance(node, ast.Call)]
+        names = dict.fromkeys(call.id for call in calls if isinstance(call, ast.Name))
+        scope = self.function.__globals__
+        called = [name for name in names if name not in _VECTOR_FUNCTIONS and name != "elementwise"]
+        if missing := [name for name in called if not inspect.isfunction(scope.get(name))]:
+            raise ValueError(f"{self.function.__name__}: {missing[0]}: no function that a GPU is given")
+        return [scope[name] for name in called]
+
+    def text(self) -> str:
+        """Translate the function."""
+        arguments = ", ".join(
+            f"const {_RECORDS.get(each.arg, 'real')}& {each.arg}" for each in self.body.args.args
+        )
+        statements = [each for each in self.body.body if not self._is_docstring(each)]
+        lines = "".join(f"  {self._statement(each)}\n" for each in statements)
+        kind = "Pair" if isinstance(statements[-1].value, ast.Tuple) else "real"
+        return f"HERE {kind} {self.body.name}({arguments}) {{\n{lines}}}"
+
+    @staticmethod
+    def _is_docstring(statement: ast.stmt) -> bool:
+        return isinstance(statement, ast.Expr) and isinstance(statement.value, ast.Constant)
+
+    def _statement(self, statement: ast.stmt) -> str:
+        if isinstance(statement, ast.Return) and isinstance(statement.value, ast.Tuple):
+            return f"return Pair{{{', '.join(map(self._expression, statement.value.elts))}}};"
+        if isinstance(statement, ast.Return):
+            return f"return {self._expression(statement.value)};"
+        if isinstance(statement, ast.Assign) and len(statement.targets) == 1:
+            target, value = statement.targets[0], self._expression(statement.value)
+            if isinstance(target, ast.Name):
+                return f"{self._declared(target.id)} = {value};"
+            if isinstance(target, ast.Tuple) and len(target.elts) == 2:
+                pair = "_and_".join(each.id for each in target.elts)
+                each = zip(target.elts, ("first", "second"), strict=True)
+                parts = [f"{self._declared(name.id)} = {pair}.{part};" for name, part in each]
+                return " ".join([f"const Pair {pair} = {value};", *parts])
+        raise self._unknown(statement)
+
+    def _declared(self, name: str) -> str:
+        known = name in self.assigned
+        self.assigned.add(name)
+        return name if known else f"auto {name}"
+
+    def _expression(self, node: ast.expr) -> str:
+        match node:
+            case ast.Name(name) if name in self.assigned or self._is_argument(name):
+                return "_".join(("", name)) if name in _VECTOR_FUNCTIONS else name
+            case ast.Name(name) if isinstance(self.function.__globals__.get(name), int | float):
+                return repr(float(self.function.__globals__[name]))
+            case ast.Constant(value) if isinstance(value, int | float) and not isinstance(value, bool):
+                return repr(float(value))
+            case ast.Attribute(ast.Name(record), field) if record in _RECORDS:
+                return f"{record}.{field}"
+            case ast.BinOp(left, operator, right) if type(operator) in _OPERATORS:
+                left, right = self._expression(left), self._expression(right)
+                return f"({left} {_OPERATORS[type(operator)]} {right})"
+            case ast.UnaryOp(ast.USub(), operand):
+                return f"(0.0 - {self._expression(operand)})"
+            case ast.Compare(left, [comparison], [right]) if type(comparison) in _COMPARISONS:
+                left, right = self._expression(left), self._expression(right)
+                return f"({left} {_COMPARISONS[type(comparison)]} {right})"
+            case ast.Call(ast.Name(name), arguments, []):
+                return f"{_NAMES.get(name, name)}({', '.join(map(self._expression, arguments))})"
+        raise self._unknown(node)
+
+    def _is_argument(self, name: str) -> bool:
+        return name in {each.arg for each in self.body.args.args}
+
+    def _unknown(self, node: ast.AST) -> ValueError:
+        text = ast.unparse(node)
+        return ValueError(f"{self.function.__name__}: {text}: no part of a formula that a GPU is given")

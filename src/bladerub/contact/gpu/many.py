@@ -1,0 +1,62 @@
+"""Many runs of one blade on a device: `RunSpec`s → `RunResult`s."""
+
+from collections import defaultdict
+from collections.abc import Callable, Iterator, Sequence
+
+from threadpoolctl import threadpool_limits
+
+from bladerub.blade.model import ReducedBlade
+from bladerub.contact import energy
+from bladerub.contact.gpu import batch
+from bladerub.contact.gpu.batch import Device, Variant
+from bladerub.contact.kernel.loop import Simulation
+from bladerub.contact.result import RunResult
+from bladerub.contact.run import run_result, simulate
+from bladerub.contact.schemes import Recurrence
+from bladerub.contact.setup import set_up
+from bladerub.contact.spec import RunSpec
+
+MOST_RUNS = 4096
+"""Runs of a batch at most: what a device leaves of each takes half a megabyte."""
+
+_Prepared = tuple[int, Recurrence, Simulation]
+
+
+@threadpool_limits.wrap(limits=1, user_api="blas")  # sums depend on the number of threads
+def simulate_many(
+    blade: ReducedBlade,
+    specs: Sequence[RunSpec],
+    device: Device,
+    report: Callable[[str], None] = lambda line: None,
+) -> Iterator[tuple[int, RunResult]]:
+    """Simulate runs on a device; yield the number of each with its result, in any order.
+
+    A run that the loop of the device does not know, or can't finish since Newton's method does not converge
+    in one of its steps, is simulated as `bladerub.contact.run.simulate` does; `report` is told how many there
+    are of these, and why. Raises as `simulate`.
+    """
+    variants: dict[Variant, list[_Prepared]] = defaultdict(list)
+    left_out: dict[str, list[int]] = defaultdict(list)
+    for number, spec in enumerate(specs):
+        rule, simulation = set_up(blade, spec)
+        reason = batch.refusal(spec, simulation)
+        if reason:
+            left_out[reason].append(number)
+        else:
+            variants[batch.variant_of(spec, simulation)].append((number, rule, simulation))
+    for variant, prepared in variants.items():
+        for first in range(0, len(prepared), MOST_RUNS):
+            part = prepared[first : first + MOST_RUNS]
+            law = specs[part[0][0]].coating.element_law
+            initial = [sum(energy.blade_energy(rule, simulation.state)) for _, rule, simulation in part]
+            left = device(batch.pack(variant, law, [simulation for _, _, simulation in part]))
+            for i, (number, rule, simulation) in enumerate(part):
+                history = batch.finish(simulation, left, i)
+                if history is None:
+                    left_out["Newton's method did not converge in a step"].append(number)
+                    continue
+                yield number, run_result(blade, specs[number], rule, simulation, history, initial[i])
+    for reason, numbers in left_out.items():
+        report(f"{len(numbers)} of {len(specs)} runs on the CPU: {reason}")
+        for number in numbers:
+            yield number, simulate(blade, specs[number])
