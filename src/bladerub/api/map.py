@@ -17,15 +17,20 @@ from bladerub.api.errors import InputError
 from bladerub.api.notebook import html_table
 from bladerub.api.run import Run, solve
 from bladerub.api.study import StudyCoating, StudyRun
+from bladerub.contact.gpu.many import simulate_many
+from bladerub.contact.gpu.server import find
 from bladerub.contact.setup import compile_kernel
 from bladerub.io.provenance import provenance
 from bladerub.plots.spectrum import spectrum_map
 from bladerub.plots.style import saved
 from bladerub.plots.wear_map import wear_map
 from bladerub.study import maps
-from bladerub.study.grid import CoatingCase
+from bladerub.study.grid import CoatingCase, row_of
+from bladerub.study.growth import confirmation_spec, needs_confirmation
+from bladerub.study.job import Solve
 from bladerub.study.maps import CoatingMap
 from bladerub.study.parallel import each_done
+from bladerub.study.plan import on_gpu
 
 _PER_SPEED = ("C1", "max_wear", "lobes", "status", "wear_harmonic", "wear_harmonic_share")
 _PER_REVOLUTION = ("revolution_peak", "revolution_amplitude")
@@ -213,12 +218,30 @@ def solve_all(
     """Simulate `runs`, `jobs` at once, without their histories; `done` is called after each."""
     for law in {run.spec.coating.element_law for run in runs}:
         compile_kernel(n_nodes=blade.reduced.n_interface, law=law)
+    solver = _solved_together(blade, runs, follow) if on_gpu(runs[0].config) else None
 
     def compute(number: int) -> Run:
-        return solve(blade, runs[number], follow, keep_history=False)
+        return solve(blade, runs[number], follow, keep_history=False, solver=solver)
 
     found = {}
     for number, run in each_done(compute, range(len(runs)), jobs):
         found[number] = run
         done()
     return [found[number] for number in range(len(runs))]
+
+
+def _solved_together(blade: Blade, runs: list[StudyRun], follow: bool) -> Solve | None:
+    """Simulate single blades on the GPU, longer where they grow; return what looks the results up."""
+    if row_of(runs[0].config):
+        return None
+    specs = [run.of_length(blade.length).spec for run in runs]
+    settings = runs[0].config["analysis"]["divergence"]
+    found = {specs[number]: result for number, result in simulate_many(blade.reduced, specs, find())}
+    growing = [
+        confirmation_spec(spec, settings)
+        for spec, result in found.items()
+        if follow and needs_confirmation(result.revolution_amplitude, result.status, settings)
+    ]
+    more = simulate_many(blade.reduced, growing, find())
+    found |= {growing[number]: result for number, result in more}
+    return lambda blade, spec, progress: found[spec]

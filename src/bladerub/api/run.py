@@ -17,6 +17,8 @@ from bladerub.api.errors import InputError
 from bladerub.api.notebook import html_table
 from bladerub.api.study import StudyRun
 from bladerub.blade.model import ReducedBlade
+from bladerub.contact.gpu.many import simulate_many
+from bladerub.contact.gpu.server import find
 from bladerub.contact.result import Energy, RunResult
 from bladerub.contact.row_spec import Row
 from bladerub.contact.setup import compile_kernel
@@ -28,9 +30,9 @@ from bladerub.plots.style import saved
 from bladerub.study import store
 from bladerub.study.grid import CoatingCase, row_of, speed_name
 from bladerub.study.growth import Verdict, confirmation_spec, judge, needs_confirmation
-from bladerub.study.job import compute
+from bladerub.study.job import Solve, compute
 from bladerub.study.manifest import confirmation_path
-from bladerub.study.plan import planned_run
+from bladerub.study.plan import on_gpu, planned_run
 from bladerub.study.store import StoredRun
 from bladerub.study.summary import summarise
 
@@ -353,16 +355,22 @@ def solve(
     keep_history: bool = True,
     row: Row | None = None,
     stress: bool = False,
+    solver: Solve | None = None,
 ) -> Run:
-    """Simulate `run`, and its longer run if it is to `follow` growth; parameters as of `simulate`."""
+    """Simulate `run`, and its longer run if it is to `follow` growth; parameters as of `simulate`.
+
+    A single blade is simulated by `solver`, by default on what ``solver.device`` says.
+    """
     digest, settings = blade.digest, run.config["analysis"]["divergence"]
     run = run.of_length(blade.length)  # perhaps not the study's own blade
     row = row or row_of(run.config)
-    solver = _StressSolver(blade, run) if stress else None
+    if solver is None and on_gpu(run.config):
+        solver = _on_gpu
     if stress and row:
         raise ValueError("stress = True: is found for a single blade only, must be False with a row")
-    stored = _solve(blade, run, run.spec, digest, done, keep_history, row, solver)
-    found = solver.stress if solver else None
+    stressed = _StressSolver(blade, run) if stress else None
+    stored = _solve(blade, run, run.spec, digest, done, keep_history, row, stressed or solver)
+    found = stressed.stress if stressed else None
     if found:
         stored = replace(stored, attributes=stored.attributes | found.attributes())
     longer = None
@@ -370,8 +378,13 @@ def solve(
     longest = settings["confirmation_revolutions"]
     if follow and longest > run.spec.revolutions and needs_confirmation(amplitude, status, settings):
         spec = confirmation_spec(run.spec, settings)
-        longer = Run(_solve(blade, run, spec, digest, done, False, row))
+        longer = Run(_solve(blade, run, spec, digest, done, False, row, solver))
     return Run(stored, longer, found)
+
+
+def _on_gpu(blade: ReducedBlade, spec: RunSpec, progress: Callable[[int], None] | None) -> RunResult:
+    ((_, result),) = simulate_many(blade, [spec], find())
+    return result
 
 
 class _StressSolver:
@@ -396,7 +409,7 @@ def _solve(
     done: Callable[[int], None] | None,
     keep_history: bool,
     row: Row | None,
-    solver: _StressSolver | None = None,
+    solver: Solve | None,
 ) -> StoredRun:
     plan = planned_run(run.config, spec, f"{speed_name(spec.f_omega)}.h5", keep_history, row)
     return compute(run.case, plan, blade.reduced, plan.key(digest), run.config["analysis"], done, solver)

@@ -78,6 +78,8 @@ def add_to(commands: Any) -> None:
     parser.option("--seed", "of the draws of the blades, 0 or more (default 1)", int, metavar="N")
     text = "find the largest stress of the blade too, at start-up and in the last revolutions"
     parser.add_argument("--stress", action="store_true", help=text)
+    text = "what the run is computed on, instead of solver.device; a GPU is for many at once"
+    parser.option("--device", text, choices=["cpu", "gpu"])
     parser.option("--output", "write the run with its whole history (HDF5)", Path, metavar="FILE")
 
 
@@ -85,6 +87,8 @@ def run(options: argparse.Namespace) -> None:
     """Run the simulation that the command line asks for, and print its summary."""
     config = inputs.read_config(options)
     _check_coating(options)
+    if options.device:
+        config["solver"]["device"] = options.device
     if options.ensemble is not None and options.ensemble < 1:
         raise InputError(f"--ensemble = {options.ensemble}: must be at least 1")
 

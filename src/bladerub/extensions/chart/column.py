@@ -72,7 +72,8 @@ def compute_missing(
 
     `plan` is of `plan_column`, `blade_digest` of `bladerub.study.cache`, `folder` that of the points of the
     whole chart; `report` is called with a line for a log after each computed point, and before waiting.
-    `threads` points are computed at once, or all together on a GPU where ``solver.device`` says so. The rows are for `bladerub.study.manifest.write_manifest`.
+    `threads` points are computed at once, or all together on a GPU where ``solver.device`` says so. The rows
+    are for `bladerub.study.manifest.write_manifest`.
     """
     folder, speeds, first = Path(folder), chart_speeds(config), next(iter(plan))
     column_lock = folder / f".{first.casing}_E{first.E:g}_theta{first.theta:g}.lock"
