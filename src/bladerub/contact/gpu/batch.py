@@ -4,7 +4,7 @@ Runs of one blade at one speed, or of one coating, share what is equal: it is pa
 """
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import cache
 from pathlib import Path
@@ -25,6 +25,8 @@ from bladerub.numerics.vectors import LANES
 
 WARP = 32
 """Lanes of a warp: four groups of the `LANES` nodes."""
+MOST_RUNS = 4096
+"""Runs of a piece of work at most: what a device leaves of each takes half a megabyte."""
 COMPLETED, UNBOUNDED, HANDED_OVER = range(3)
 """How a run ended: at its end, beyond the displacement limit, or where the loop can't go on."""
 COUNTS = ("status", "revolutions", "steps", "last_steps", "contact_steps", "reversed_steps")
@@ -39,7 +41,7 @@ _OF_ELEMENTS = (
 )
 """Entries of the ledger in the order of ``loop.cu``: a group of lanes each, and the sum of the groups."""
 _LEDGER_ROWS = 2 + len(_OF_ELEMENTS) - 1
-_FOLDER = Path(__file__).parent
+FOLDER = Path(__file__).parent
 _FORMS = ("INCREMENT_Q", "INCREMENT_D", "LAST_STEP_Q", "LAST_STEP_D", "LOSS_QQ", "LOSS_QD", "LOSS_DD")
 _FORMS += ("MEAN_Q", "MEAN_D", "BOUND_Q", "BOUND_D")
 
@@ -107,12 +109,12 @@ def source(variant: Variant, law: ElementLaw) -> str:
     }
     return "\n".join(
         [
-            (_FOLDER / "lanes.h").read_text(encoding="utf-8"),
+            (FOLDER / "lanes.h").read_text(encoding="utf-8"),
             *(f"constexpr int {name} = {value};" for name, value in constants.items()),
             *(f"constexpr double {name} = {value!r};" for name, value in numbers.items()),
             formulas.of_contact(),
             formulas.of_law(module_of(law), source_of(law)),
-            (_FOLDER / "loop.cu").read_text(encoding="utf-8"),
+            (FOLDER / "loop.cu").read_text(encoding="utf-8"),
         ]
     )
 
@@ -161,8 +163,8 @@ class Left(NamedTuple):
     counts: np.ndarray  # (n, 6): See `COUNTS`
 
 
-Device = Callable[[Work], Left]
-"""What carries out the loop: a GPU, or an emulation of one."""
+Device = Callable[[Iterable[Work]], Iterator[Left]]
+"""What carries out the loop for pieces of work: a GPU, or an emulation of one."""
 
 
 def described(work: Work) -> dict[str, tuple[tuple[int, ...], type, float]]:
@@ -194,10 +196,33 @@ def pack(variant: Variant, law: ElementLaw, simulations: Sequence[Simulation]) -
         )
         q, before, _ = each.state.q
         modes[i, :, : q.size] = q, q - before
-    order = np.argsort(-runs[:, 4], kind="stable").astype(np.int32)  # an element takes so many steps
     records = (np.array(each.kept) for each in (modal, stator, casing, tip))
     size = (variant.n_elements, variant.revolutions)
-    return Work(source(variant, law), _shared(variant), *size, order, *records, runs, modes)
+    return Work(source(variant, law), _shared(variant), *size, _longest_first(runs), *records, runs, modes)
+
+
+def merge(works: Sequence[Work]) -> Work:
+    """Make one piece of work of several of the same program and size of runs."""
+    offset, runs = np.zeros(5, dtype=np.int32), []
+    for work in works:
+        runs.append(work.runs + offset)
+        offset[:4] += [len(records) for records in (work.modal, work.stator, work.casing, work.tip)]
+    joined = {
+        name: np.concatenate([getattr(work, name) for work in works])
+        for name in ("modal", "stator", "casing", "tip", "modes")
+    }
+    together = np.concatenate(runs)
+    return works[0]._replace(order=_longest_first(together), runs=together, **joined)
+
+
+def split(left: Left, sizes: Sequence[int]) -> list[Left]:
+    """Divide what was left of pieces of work that were one; `sizes` are their numbers of runs."""
+    ends = np.cumsum(sizes)[:-1]
+    return [Left(*parts) for parts in zip(*(np.split(each, ends) for each in left), strict=True)]
+
+
+def _longest_first(runs: np.ndarray) -> np.ndarray:
+    return np.argsort(-runs[:, 4], kind="stable").astype(np.int32)  # an element takes so many steps
 
 
 def finish(simulation: Simulation, left: Left, i: int) -> History | None:

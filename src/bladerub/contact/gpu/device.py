@@ -1,11 +1,9 @@
 """One GPU of NVIDIA, by CuPy, which compiles the loop when it is first used (NVRTC) and keeps it on disk."""
 
 import math
-import threading
-from collections.abc import Iterator
-from contextlib import contextmanager
-from functools import cache
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable, Iterable, Iterator
+from functools import cache, partial
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -18,8 +16,10 @@ if TYPE_CHECKING:
 WARPS = 8
 """Warps that a multiprocessor holds at once: more would leave each too few registers."""
 OPTIONS = ("--std=c++17", f"-DWARPS_PER_PROCESSOR={WARPS}")
-SHARE = 0.8
+SHARE = 0.6
 """Of the memory of the GPU, for what is under way."""
+TOGETHER = 4
+"""Pieces of work that are under way at once: at its end one leaves most of the GPU to others."""
 
 
 class NoGpuError(BadInput):
@@ -41,26 +41,20 @@ def connect() -> Any:
     return cupy
 
 
-def run(work: Work) -> Left:
-    """Carry out the loop for the runs of `work`. Threads may do so at the same time.
+def run(works: Iterable[Work]) -> Iterator[Left]:
+    """Carry out the loop for pieces of work, some of them together; yield what each leaves.
 
     Raises `NoGpuError`.
     """
-    cupy = connect()
-    outputs = described(work)
-    with _memory.held(_size(work)), cupy.cuda.Stream(non_blocking=True) as stream:
-        kernel = _kernel(work.source, work.shared)
-        order, *records, modes = (cupy.asarray(each) for each in work[4:])  # in the order of the arguments
-        made = [cupy.full(shape, value, kind) for shape, kind, value in outputs.values()]
-        n_runs, next_run = len(work.runs), cupy.zeros(1, dtype=np.int32)
-        numbers = (np.int32(work.n_elements), np.int32(work.revolutions))
-        kernel(
-            (min(n_runs, WARPS * cupy.cuda.Device().attributes["MultiProcessorCount"]),),
-            (WARP,),
-            (np.int32(n_runs), order, next_run, *numbers, *records, modes, *made),
-            shared_mem=8 * work.shared,
-        )
-        return Left(*(cupy.asnumpy(each, stream=stream) for each in (modes, *made)))
+    most = SHARE * connect().cuda.Device().mem_info[1]
+    together: list[_Prepared] = []
+    for work in works:
+        size = _size(work)
+        if together and (len(together) == TOGETHER or sum(each.size for each in together) + size > most):
+            yield from _carry_out(together)
+            together = []
+        together.append(_prepare(work, size, _streams()[len(together)]))
+    yield from _carry_out(together)
 
 
 def describe() -> str:
@@ -69,43 +63,56 @@ def describe() -> str:
     return f"{properties['name'].decode()}, {properties['multiProcessorCount']} multiprocessors"
 
 
-class _Memory:
-    """The memory of the GPU, for what fits in at once; the rest waits."""
+class _Prepared(NamedTuple):
+    """A piece of work whose arrays are on the GPU."""
 
-    def __init__(self) -> None:
-        self._free: float | None = None
-        self._changed = threading.Condition()
-
-    @contextmanager
-    def held(self, size: int) -> Iterator[None]:
-        """Hold `size` bytes, or all if there are fewer."""
-        with self._changed:
-            if self._free is None:
-                self._free = self._all = SHARE * connect().cuda.Device().mem_info[1]
-            size = min(size, self._all)
-            self._changed.wait_for(lambda: self._free >= size)
-            self._free -= size
-        try:
-            yield
-        finally:
-            with self._changed:
-                self._free += size
-                self._changed.notify_all()
+    stream: "cupy.cuda.Stream"
+    launch: Callable[[], None]
+    left: list  # Arrays
+    size: int  # Bytes
 
 
-_memory = _Memory()
-_compiling = threading.Lock()
+def _prepare(work: Work, size: int, stream: "cupy.cuda.Stream") -> _Prepared:
+    import cupy
+
+    with stream:
+        kernel = _compiled(work.source, work.shared)
+        order, *records, modes = (cupy.asarray(each) for each in work[4:])  # in the order of the arguments
+        made = [cupy.full(shape, value, kind) for shape, kind, value in described(work).values()]
+        n_runs, next_run = len(work.runs), cupy.zeros(1, dtype=np.int32)
+    numbers = (np.int32(work.n_elements), np.int32(work.revolutions))
+    warps = min(n_runs, WARPS * cupy.cuda.Device().attributes["MultiProcessorCount"])
+    arguments = (np.int32(n_runs), order, next_run, *numbers, *records, modes, *made)
+    launch = partial(kernel, (warps,), (WARP,), arguments, shared_mem=8 * work.shared)
+    return _Prepared(stream, launch, [modes, *made], size)
+
+
+def _carry_out(together: Iterable[_Prepared]) -> Iterator[Left]:
+    """Let pieces of work run side by side: none of them waits for memory that another gives back."""
+    import cupy
+
+    for each in together:
+        with each.stream:
+            each.launch()
+    for each in together:
+        each.stream.synchronize()
+        with each.stream:
+            left = Left(*(cupy.asnumpy(array) for array in each.left))
+        yield left
+
+
+@cache
+def _streams() -> "list[cupy.cuda.Stream]":
+    """Keep the streams: memory that CuPy has reserved for one is for it alone."""
+    import cupy
+
+    return [cupy.cuda.Stream(non_blocking=True) for _ in range(TOGETHER)]
 
 
 def _size(work: Work) -> int:
     """Bytes on the GPU."""
     left = sum(math.prod(shape) * np.dtype(kind).itemsize for shape, kind, _ in described(work).values())
     return left + sum(each.nbytes for each in work[4:])
-
-
-def _kernel(source: str, shared: int) -> "cupy.RawKernel":
-    with _compiling:
-        return _compiled(source, shared)
 
 
 @cache

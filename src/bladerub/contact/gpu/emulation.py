@@ -8,6 +8,7 @@ import ctypes
 import shutil
 import subprocess
 import tempfile
+from collections.abc import Iterable, Iterator
 from functools import cache
 from pathlib import Path
 
@@ -16,7 +17,7 @@ import numpy as np
 from bladerub.contact.gpu.batch import Left, Work, described
 
 COMPILER = "c++"
-_OPTIONS = ("-O3", "-march=native", "-std=c++17", "-shared", "-fPIC", "-Wno-psabi")
+_OPTIONS = ("-O2", "-march=native", "-std=c++17", "-shared", "-fPIC", "-Wno-psabi")
 
 
 def is_possible() -> bool:
@@ -24,8 +25,12 @@ def is_possible() -> bool:
     return shutil.which(COMPILER) is not None
 
 
-def run(work: Work) -> Left:
-    """Carry out the loop for the runs of `work`; raises `OSError` if there is no compiler."""
+def run(works: Iterable[Work]) -> Iterator[Left]:
+    """Carry out the loop for pieces of work; raises `OSError` if there is no compiler."""
+    return map(_run, works)
+
+
+def _run(work: Work) -> Left:
     made = {name: np.full(shape, value, kind) for name, (shape, kind, value) in described(work).items()}
     modes, next_run = work.modes.copy(), np.zeros(1, dtype=np.int32)
     order, *records, _ = work[4:]

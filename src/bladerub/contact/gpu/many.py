@@ -16,9 +16,6 @@ from bladerub.contact.schemes import Recurrence
 from bladerub.contact.setup import set_up
 from bladerub.contact.spec import RunSpec
 
-MOST_RUNS = 4096
-"""Runs of a batch at most: what a device leaves of each takes half a megabyte."""
-
 _Prepared = tuple[int, Recurrence, Simulation]
 
 
@@ -44,18 +41,23 @@ def simulate_many(
             left_out[reason].append(number)
         else:
             variants[batch.variant_of(spec, simulation)].append((number, rule, simulation))
-    for variant, prepared in variants.items():
-        for first in range(0, len(prepared), MOST_RUNS):
-            part = prepared[first : first + MOST_RUNS]
-            law = specs[part[0][0]].coating.element_law
-            initial = [sum(energy.blade_energy(rule, simulation.state)) for _, rule, simulation in part]
-            left = device(batch.pack(variant, law, [simulation for _, _, simulation in part]))
-            for i, (number, rule, simulation) in enumerate(part):
-                history = batch.finish(simulation, left, i)
-                if history is None:
-                    left_out["Newton's method did not converge in a step"].append(number)
-                    continue
-                yield number, run_result(blade, specs[number], rule, simulation, history, initial[i])
+    parts = [
+        (variant, prepared[first : first + batch.MOST_RUNS])
+        for variant, prepared in variants.items()
+        for first in range(0, len(prepared), batch.MOST_RUNS)
+    ]
+    works = (
+        batch.pack(variant, specs[part[0][0]].coating.element_law, [simulation for *_, simulation in part])
+        for variant, part in parts
+    )
+    for (_, part), left in zip(parts, device(works), strict=True):
+        for i, (number, rule, simulation) in enumerate(part):
+            initial = sum(energy.blade_energy(rule, simulation.state))
+            history = batch.finish(simulation, left, i)
+            if history is None:
+                left_out["Newton's method did not converge in a step"].append(number)
+            else:
+                yield number, run_result(blade, specs[number], rule, simulation, history, initial)
     for reason, numbers in left_out.items():
         report(f"{len(numbers)} of {len(specs)} runs on the CPU: {reason}")
         for number in numbers:

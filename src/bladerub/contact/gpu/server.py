@@ -1,18 +1,23 @@
-"""One process that has the GPU, for the jobs of a workflow: what they ask for runs side by side there.
+"""One process that has the GPU, for the jobs of a workflow: what they ask for is computed together there.
 
-Kernels of different processes take turns on a GPU, those of one process share it. So Snakemake's main process
-starts this one, and each job sends its runs to it (`bladerub.workflow.gpu`).
+Kernels of different processes take turns on a GPU, and few runs take as long as many. So Snakemake's main
+process starts this one, and each job sends its runs to it (`bladerub.workflow.gpu`).
 """
 
 import contextlib
 import os
+import queue
 import shutil
 import sys
 import threading
+from collections import defaultdict
+from collections.abc import Iterable, Iterator
+from concurrent.futures import Future
 from multiprocessing.connection import Client, Connection, Listener
 from pathlib import Path
+from typing import NamedTuple
 
-from bladerub.contact.gpu import device, emulation
+from bladerub.contact.gpu import batch, device, emulation
 from bladerub.contact.gpu.batch import Device, Left, Work
 from bladerub.io.errors import exit_on_error
 
@@ -25,39 +30,81 @@ def find() -> Device:
     return ask if os.environ.get(ADDRESS) else device.run
 
 
-def ask(work: Work) -> Left:
-    """Let the server carry out the loop for the runs of `work`.
+def ask(works: Iterable[Work]) -> Iterator[Left]:
+    """Let the server carry out the loop for pieces of work.
 
     Raises `bladerub.contact.gpu.device.NoGpuError` if it does not answer, and what it raises.
     """
     address = os.environ[ADDRESS]
-    try:
-        with Client(address, "AF_UNIX") as connection:
-            connection.send(work)
-            answer = connection.recv()
-    except (OSError, EOFError) as error:
-        problem = f"the process that has the GPU does not answer at {address} ({error!r})"
-        raise device.NoGpuError(f"{problem}; the same command goes on from what is finished") from error
-    if isinstance(answer, Exception):
-        raise answer
-    return answer
-
-
-def serve(address: str, run: Device) -> None:
-    """Carry out what is asked for at a socket, each connection in a thread of its own, for ever."""
-    with Listener(address, "AF_UNIX", backlog=128) as listener:
-        while True:
-            threading.Thread(target=_answer, args=(listener.accept(), run), daemon=True).start()
-
-
-def _answer(connection: Connection, run: Device) -> None:
-    with connection, contextlib.suppress(OSError, EOFError):  # who asked is gone
-        work = connection.recv()
+    with contextlib.ExitStack() as open_ones:
         try:
-            answer: Left | Exception = run(work)
-        except Exception as error:  # it is the caller's
-            answer = error
-        connection.send(answer)
+            asked = []
+            for work in works:
+                asked.append(open_ones.enter_context(Client(address, "AF_UNIX")))
+                asked[-1].send(work)
+            for each in asked:
+                answer = each.recv()
+                if isinstance(answer, Exception):
+                    raise answer
+                yield answer
+        except (OSError, EOFError) as error:
+            problem = f"the process that has the GPU does not answer at {address} ({error!r})"
+            raise device.NoGpuError(f"{problem}; the same command goes on from what is finished") from error
+
+
+class _Request(NamedTuple):
+    work: Work
+    answer: Future
+
+
+def serve(listener: Listener, run: Device) -> None:
+    """Carry out what is asked for until `listener` is closed; `run` is called in one thread only."""
+    requests: queue.SimpleQueue[_Request] = queue.SimpleQueue()
+    threading.Thread(target=_compute, args=(requests, run), daemon=True).start()
+    with contextlib.suppress(OSError):
+        while True:
+            threading.Thread(target=_answer, args=(listener.accept(), requests), daemon=True).start()
+
+
+def _answer(connection: Connection, requests: "queue.SimpleQueue[_Request]") -> None:
+    with connection, contextlib.suppress(OSError, EOFError):  # who asked is gone
+        request = _Request(connection.recv(), Future())
+        requests.put(request)
+        error = request.answer.exception()
+        connection.send(error or request.answer.result())
+
+
+def _compute(requests: "queue.SimpleQueue[_Request]", run: Device) -> None:
+    while True:
+        waiting = [requests.get()]
+        while not requests.empty():
+            waiting.append(requests.get())
+        groups = list(_alike(waiting))
+        try:
+            done = run(batch.merge([each.work for each in group]) for group in groups)
+            for group, left in zip(groups, done, strict=True):
+                parts = batch.split(left, [len(each.work.runs) for each in group])
+                for request, part in zip(group, parts, strict=True):
+                    request.answer.set_result(part)
+        except Exception as error:  # it is the callers'
+            for request in waiting:
+                if not request.answer.done():
+                    request.answer.set_exception(error)
+
+
+def _alike(waiting: Iterable[_Request]) -> Iterator[list[_Request]]:
+    """Put together requests of the same program and size of runs, so many as one piece of work may have."""
+    by_program: dict[tuple, list[_Request]] = defaultdict(list)
+    for request in waiting:
+        by_program[request.work[:4]].append(request)
+    for alike in by_program.values():
+        group: list[_Request] = []
+        for request in alike:
+            if group and sum(len(each.work.runs) for each in (*group, request)) > batch.MOST_RUNS:
+                yield group
+                group = []
+            group.append(request)
+        yield group
 
 
 def main() -> None:
@@ -70,9 +117,10 @@ def main() -> None:
         with exit_on_error():
             if not emulated:
                 device.connect()
-        run = emulation.run if emulated else device.run
-        threading.Thread(target=serve, args=(str(address), run), daemon=True).start()
-        sys.stdin.read()
+        with Listener(str(address), "AF_UNIX", backlog=128) as listener:
+            run = emulation.run if emulated else device.run
+            threading.Thread(target=serve, args=(listener, run), daemon=True).start()
+            sys.stdin.read()
     finally:
         shutil.rmtree(address.parent)
 

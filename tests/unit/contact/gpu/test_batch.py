@@ -1,0 +1,88 @@
+"""Runs are packed for a device: what they share once, what it can't do not at all."""
+
+import math
+
+import numpy as np
+import pytest
+
+from bladerub.contact.gpu import batch
+from bladerub.contact.gpu.batch import Left, merge, pack, refusal, split, variant_of
+from bladerub.contact.setup import set_up
+from bladerub.contact.spec import PLASTIC, ElementLaw
+
+HEATED = {
+    "heat_capacity": 1e6,
+    "conductivity": 1.0,
+    "heated_depth": 1e-4,
+    "friction_share": 0.5,
+    "softening_rise": 500.0,
+    "softening_exponent": 1.0,
+}
+
+
+def packed(blade, specs):
+    simulations = [set_up(blade, spec)[1] for spec in specs]
+    return pack(variant_of(specs[0], simulations[0]), PLASTIC, simulations)
+
+
+def test_runs_share_what_is_equal(blade, spec, change):
+    specs = [change(spec, f_omega=f_omega, theta=theta) for f_omega in (0.2, 0.3) for theta in (0.0, 0.1)]
+    work = packed(blade, specs)
+    assert len(work.casing) == len(work.tip) == 1
+    assert len(work.modal) == 2  # one a speed
+    assert len(work.stator) == 4  # direction of the force, and the self-compliance by it
+    assert len(work.runs) == 4
+    assert work.runs[work.order[0], 4] == work.runs[:, 4].max()
+
+
+@pytest.mark.parametrize(
+    ("values", "reason"),
+    [
+        ({"E": math.inf, "K": math.inf}, "rigid casing"),
+        ({"law": "coulomb"}, "Coulomb"),
+        ({"scheme": "central_differences", "max_time_step": 2e-6}, "central_differences corrects"),
+        ({"element_law": ElementLaw("thermal", tuple(HEATED.items()))}, "thermal conducts heat"),
+        ({}, ""),
+    ],
+)
+def test_what_the_loop_can_not_do_is_said(values, reason, blade, spec, change):
+    changed = change(spec, **values)
+    told = refusal(changed, set_up(blade, changed)[1])
+    assert reason in told
+    assert bool(told) == bool(values)
+
+
+def test_work_that_is_merged_is_all_of_it(blade, spec, change):
+    specs = [change(spec, f_omega=f_omega) for f_omega in (0.2, 0.25, 0.3)]
+    works = [packed(blade, specs[:1]), packed(blade, specs[1:])]
+    together = merge(works)
+    assert sorted(together.order) == [0, 1, 2]
+    singles = [packed(blade, [each]) for each in specs]
+    for i, single in enumerate(singles):
+        for column, name in enumerate(("modal", "stator", "casing", "tip")):
+            found = getattr(together, name)[together.runs[i, column]]
+            np.testing.assert_array_equal(found, getattr(single, name)[0])
+        np.testing.assert_array_equal(together.modes[i], single.modes[0])
+
+
+def test_what_is_left_is_split_as_it_was_merged():
+    left = Left(*(np.arange(5 * size).reshape(5, size) for size in range(1, 8)))
+    parts = split(left, [2, 3])
+    assert [len(part.wear) for part in parts] == [2, 3]
+    for name in Left._fields:
+        joined = np.concatenate([getattr(part, name) for part in parts])
+        np.testing.assert_array_equal(joined, getattr(left, name))
+
+
+def test_the_window_of_elements_is_wide_enough(blade, spec, change):
+    for half_width in (1.0, 2.0, 2.5, 3.0, 6.0):
+        changed = change(spec, half_width=half_width)
+        text = batch.source(variant_of(changed, set_up(blade, changed)[1]), PLASTIC)
+        values = {
+            line.split()[2]: float(line.split()[4].rstrip(";"))
+            for line in text.splitlines()
+            if line.startswith(("constexpr int ROWS", "constexpr double FARTHEST"))
+        }
+        covered = math.floor(2 * half_width + values["FARTHEST"]) + 2  # rows, at the worst place
+        assert covered <= 4 * values["ROWS"]
+        assert values["FARTHEST"] >= 0.5

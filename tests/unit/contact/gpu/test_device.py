@@ -1,0 +1,101 @@
+"""The calls of CuPy, on one that works on arrays of NumPy; and what is said where there is none."""
+
+import sys
+from collections import defaultdict
+from contextlib import nullcontext
+from types import ModuleType, SimpleNamespace
+
+import numpy as np
+import pytest
+
+from bladerub.contact.gpu import device, emulation
+from bladerub.contact.gpu.many import simulate_many
+from bladerub.contact.run import simulate
+
+
+class Stream(nullcontext):
+    def __init__(self, non_blocking):
+        super().__init__()
+        assert non_blocking
+
+    def synchronize(self):
+        pass
+
+
+@pytest.fixture
+def cupy(monkeypatch):
+    """Stand in for CuPy; the kernel is the emulation. Lists the launches."""
+    device._compiled.cache_clear()
+    device._streams.cache_clear()
+    launches = defaultdict(list)
+
+    class Kernel:
+        def __init__(self, source):
+            self.source = source
+
+        def __call__(self, grid, block, arguments, shared_mem):
+            launches["grid"].append(grid)
+            assert block == (32,)
+            assert shared_mem == self.max_dynamic_shared_size_bytes > 0
+            n_runs, order, next_run, *numbers = arguments[:5]
+            addresses = [emulation._address(each) for each in (order, next_run)]
+            rest = [emulation._address(each) for each in arguments[5:]]
+            emulation._compiled(self.source)(int(n_runs), *addresses, *map(int, numbers), *rest)
+
+    module = ModuleType("cupy")
+    module.asarray, module.full, module.zeros = np.array, np.full, np.zeros
+    module.asnumpy = np.array
+    module.RawModule = lambda code, options: SimpleNamespace(get_function=lambda name: Kernel(code))
+    chip = SimpleNamespace(mem_info=(0, 10**9), attributes={"MultiProcessorCount": 2})
+    runtime = SimpleNamespace(getDeviceCount=lambda: 1, CUDARuntimeError=RuntimeError)
+    module.cuda = SimpleNamespace(Stream=Stream, Device=lambda: chip, runtime=runtime)
+    monkeypatch.setitem(sys.modules, "cupy", module)
+    yield SimpleNamespace(launches=launches, chip=chip)
+    device._compiled.cache_clear()
+    device._streams.cache_clear()
+
+
+@pytest.mark.skipif(not emulation.is_possible(), reason="no C++ compiler")
+def test_the_arguments_of_the_kernel_are_those_that_it_has(cupy, blade, spec, change):
+    specs = [change(spec, f_omega=f_omega) for f_omega in (0.25, 0.3)]
+    found = dict(simulate_many(blade, specs, device.run))
+    for number, each in enumerate(specs):
+        expected = simulate(blade, each)
+        np.testing.assert_allclose(found[number].wear, expected.wear, rtol=0, atol=1e-9)
+        assert found[number].n_steps == expected.n_steps
+    assert cupy.launches["grid"] == [(2,)]
+
+
+@pytest.mark.skipif(not emulation.is_possible(), reason="no C++ compiler")
+def test_pieces_that_do_not_fit_into_the_memory_follow_each_other(cupy, blade, spec, monkeypatch):
+    carried_out, original = [], device._carry_out
+
+    def note(together):
+        carried_out.append(len(together))
+        return original(together)
+
+    monkeypatch.setattr(device, "_carry_out", note)
+    monkeypatch.setattr("bladerub.contact.gpu.batch.MOST_RUNS", 1)
+    expected = [result.energy for _, result in simulate_many(blade, [spec] * 6, device.run)]
+    assert carried_out == [4, 2]
+    carried_out.clear()
+    cupy.chip.mem_info = (0, 1)
+    assert [result.energy for _, result in simulate_many(blade, [spec] * 3, device.run)] == expected[:3]
+    assert carried_out == [1, 1, 1]
+
+
+def test_without_cupy_it_is_said_what_to_install(monkeypatch):
+    monkeypatch.setitem(sys.modules, "cupy", None)
+    with pytest.raises(device.NoGpuError, match=r"needs CuPy .*pip install 'bladerub\[gpu\]'"):
+        device.connect()
+
+
+def test_without_a_gpu_it_is_said_what_to_take(cupy, monkeypatch):
+    def none():
+        raise RuntimeError("no driver")
+
+    monkeypatch.setattr(sys.modules["cupy"].cuda.runtime, "getDeviceCount", none)
+    with pytest.raises(
+        device.NoGpuError, match=r"no GPU of NVIDIA was found \(no driver\): take solver.device"
+    ):
+        device.connect()

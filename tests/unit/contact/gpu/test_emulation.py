@@ -1,0 +1,103 @@
+"""The loop of the GPU against that of the processor: in an emulation, with the source that a GPU is given."""
+
+from dataclasses import fields, replace
+
+import numpy as np
+import pytest
+
+from bladerub.blade.model import ReducedBlade
+from bladerub.contact.gpu import emulation
+from bladerub.contact.gpu.many import simulate_many
+from bladerub.contact.run import simulate
+from bladerub.contact.spec import ElementLaw
+
+pytestmark = pytest.mark.skipif(
+    not emulation.is_possible(), reason=f"no {emulation.COMPILER}, which compiles the emulation"
+)
+TOLERANCE = 1e-7  # over the largest number: forces converge to 1e-11 m, some 1e-7 of a displacement
+
+
+def leading(blade: ReducedBlade, n_nodes: int) -> ReducedBlade:
+    """Keep the first interface nodes of a blade; coordinates of the others are inner ones."""
+    names = ("node_position", "radial_direction", "tangential_direction")
+    return replace(blade, **{name: getattr(blade, name)[:n_nodes] for name in names})
+
+
+@pytest.fixture(scope="session")
+def turning(blade):
+    rng = np.random.default_rng(3)
+    return replace(blade, tip_slope=rng.normal(scale=3.0, size=(8, len(blade.mass))))
+
+
+CASES = {
+    "theta": {},
+    "no_theta": {"theta": 0.0},
+    "soft": {"E": 0.11, "K": 0.05},
+    "stiff": {"E": 5.0, "K": 5.0, "max_time_step": 1e-6},
+    "no_multiple_of_four_elements": {"n_elements": 201},
+    "from_a_start": {"initial_displacement": 1e-4},
+    "more_revolutions": {"revolutions": 5},
+    "beyond_the_limit": {"displacement_limit": 4e-4, "revolutions": 6},
+    "wide_profile": {"half_width": 3.0},
+    "viscoplastic": {"element_law": ElementLaw("viscoplastic", (("viscosity", 1e4),))},
+}
+
+
+def pairs(blade, specs):
+    """Results of the emulation, each with that of the processor; none may be left to the latter."""
+    told = []
+    found = dict(simulate_many(blade, specs, emulation.run, told.append))
+    assert not told
+    return [(found[number], simulate(blade, spec)) for number, spec in enumerate(specs)]
+
+
+def assert_equal(found, expected):
+    for name in ("status", "message", "n_steps", "n_contact_steps", "n_reversed_steps", "n_modes"):
+        assert getattr(found, name) == getattr(expected, name), name
+    for name in ("wear", "radial_displacement", "revolution_peak", "revolution_amplitude", "slowest_sliding"):
+        given = np.asarray(getattr(expected, name))
+        scale = np.nanmax(np.abs(given))
+        np.testing.assert_allclose(
+            getattr(found, name), given, rtol=0, atol=TOLERANCE * max(scale, 1e-9), err_msg=name
+        )
+    scale = max(abs(getattr(expected.energy, each.name)) for each in fields(expected.energy))
+    for each in fields(expected.energy):
+        given = getattr(expected.energy, each.name)
+        assert getattr(found.energy, each.name) == pytest.approx(given, abs=TOLERANCE * scale), each.name
+
+
+@pytest.mark.parametrize("case", CASES)
+def test_the_loop_of_the_gpu_makes_the_steps_of_the_processors(case, blade, spec, change):
+    ((found, expected),) = pairs(blade, [change(spec, **CASES[case])])
+    assert expected.n_contact_steps > 100
+    assert_equal(found, expected)
+
+
+def test_a_profile_that_turns(turning, spec, change):
+    specs = [change(spec, turns=True, theta=theta) for theta in (0.0, 0.1)]
+    for found, expected in pairs(turning, specs):
+        assert expected.energy.work_couple != 0
+        assert_equal(found, expected)
+
+
+def test_a_tip_of_fewer_nodes_than_lanes(blade, spec):
+    ((found, expected),) = pairs(leading(blade, 5), [spec])
+    assert expected.wear.shape == (5, spec.coating.n_elements)
+    assert_equal(found, expected)
+
+
+def test_runs_beside_each_other_are_those_alone(blade, spec, change):
+    specs = [change(spec, f_omega=f_omega, E=E) for f_omega in (0.2, 0.3) for E in (0.5, 2.0)]
+    specs += [change(each, revolutions=3) for each in specs]
+    together = dict(simulate_many(blade, specs, emulation.run))
+    for number, each in enumerate(specs):
+        ((_, alone),) = simulate_many(blade, [each], emulation.run)
+        np.testing.assert_array_equal(together[number].wear, alone.wear)
+        np.testing.assert_array_equal(together[number].radial_displacement, alone.radial_displacement)
+        assert together[number].energy == alone.energy
+
+
+def test_the_ledger_is_closed(blade, spec, change):
+    for found, _ in pairs(blade, [change(spec, theta=theta, revolutions=3) for theta in (0.0, 0.1)]):
+        assert found.energy.exchanged > 0
+        assert found.energy.residual < 1e-3
