@@ -38,16 +38,24 @@ def record(path: str | Path, figures: Mapping[str, Any], origin: Mapping[str, st
 
     `origin` is from `bladerub.io.provenance.provenance`. Raises as `recorded`.
     """
-    old, new = recorded(path), rows(figures)
+    replace(path, rows(figures), _MACHINE, origin)
+
+
+def replace(path: str | Path, new: pd.DataFrame, by: list[str], origin: Mapping[str, str]) -> None:
+    """Put rows into the table at `path`, in the place of its old ones with the same values `by` columns.
+
+    Raises as `recorded`.
+    """
+    old = recorded(path, list(new.columns))
     if len(old):
-        same = (old[_MACHINE] == new.loc[0, _MACHINE].to_numpy()).all(axis="columns")
+        same = (old[by] == new.loc[0, by].to_numpy()).all(axis="columns")
         new = pd.concat([old[~same], new])
     tables.write(path, new, origin, float_format="%.4g")
 
 
-def recorded(path: str | Path) -> pd.DataFrame:
-    """Read the table at `path`; it has no rows if there is none.
+def recorded(path: str | Path, columns: list[str] = COLUMNS) -> pd.DataFrame:
+    """Read the table at `path`, which has these columns; it has no rows if there is none.
 
     Raises as `bladerub.io.tables.read` if there is another table.
     """
-    return tables.read(path, COLUMNS) if Path(path).exists() else pd.DataFrame(columns=COLUMNS)
+    return tables.read(path, columns) if Path(path).exists() else pd.DataFrame(columns=columns)

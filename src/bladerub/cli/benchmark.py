@@ -42,6 +42,8 @@ def add_to(commands: Any) -> None:
     parser.option("--nodes", text, int, nargs="+", default=[], metavar="N")
     text = "also the cost of a run with the stress of the blade, over that of the run alone"
     parser.add_argument("--stress", action="store_true", help=text)
+    text = "instead: the study's runs on the GPU and so many of them here, how fast and how different"
+    parser.option("--gpu", text, int, metavar="N")
     text = "also put the figures of this machine into the table FILE, in the place of its old ones"
     parser.option("--table", text, Path, metavar="FILE")
 
@@ -57,6 +59,9 @@ def benchmark(options: argparse.Namespace) -> None:
             raise InputError(f"--nodes {n}: must be from {FEWEST_NODES} to {MOST_NODES}")
     if options.nodes and "matrices" in config["blade"].get("source", {}):
         raise InputError("--nodes: a blade of matrices has the interface nodes that its folder marks")
+    if options.gpu is not None:
+        _on_gpu(options, config)
+        return
     if options.table:
         from bladerub.benchmark.record import recorded
 
@@ -84,6 +89,44 @@ def benchmark(options: argparse.Namespace) -> None:
 
         record(options.table, figures, provenance(config))
     inputs.show(options, figures, _in_words)
+
+
+def _on_gpu(options: argparse.Namespace, config: dict[str, Any]) -> None:
+    inputs.require(options, gpu=(1, 1_000_000))
+    if options.nodes or options.stress:
+        raise InputError("--gpu: goes with neither --nodes nor --stress")
+
+    from bladerub.benchmark import gpu, record
+    from bladerub.contact.gpu import device
+    from bladerub.io.provenance import provenance
+
+    if options.table:
+        record.recorded(options.table, gpu.COLUMNS)  # another table is refused before anything takes time
+    with inputs.refused(BadInput):
+        name = device.describe()
+    blade = inputs.read_blade(options, config).reduced
+    figures = gpu.compare(blade, config, device.run, options.gpu, _report_stage)
+    if options.table:
+        record.replace(options.table, gpu.row(name, figures), ["gpu"], provenance(config))
+    inputs.show(options, {"gpu": name, **figures}, _of_gpu_in_words)
+
+
+def _of_gpu_in_words(figures: dict[str, Any]) -> str:
+    compared, ratio = figures["compared_runs"], figures["seconds_per_run"] * figures["gpu_runs"]
+    return "\n".join(
+        [
+            f"{figures['gpu']}: {figures['gpu_runs']} runs in {figures['kernel_s']:.3g} s, "
+            f"{figures['gpu_steps_per_second'] / 1e9:.3g} billion steps a second; "
+            f"{figures['gpu_s']:.3g} s with what the host does",
+            f"{figures['processor']}: {figures['seconds_per_run']:.3g} s a run and core, "
+            f"{ratio / figures['kernel_s']:.3g} times as long",
+            f"of {compared} runs on both {figures['same_status']} have the same status, "
+            f"{figures['same_steps']} the same steps, {figures['same_contact_steps']} as many with contact",
+            "largest difference of the displacement in a revolution, relative: "
+            f"median {figures['peak_error_median']:.1e}, 95 % of runs {figures['peak_error_p95']:.1e}, "
+            f"99 % {figures['peak_error_p99']:.1e}, all {figures['peak_error_largest']:.1e}",
+        ]
+    )
 
 
 def _report_stage(stage: str) -> None:

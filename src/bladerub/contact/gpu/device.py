@@ -1,6 +1,7 @@
 """One GPU of NVIDIA, by CuPy, which compiles the loop when it is first used (NVRTC) and keeps it on disk."""
 
 import math
+import time
 from collections.abc import Callable, Iterable, Iterator
 from functools import cache, partial
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -41,20 +42,20 @@ def connect() -> Any:
     return cupy
 
 
-def run(works: Iterable[Work]) -> Iterator[Left]:
+def run(works: Iterable[Work], watch: Callable[[float], None] = lambda seconds: None) -> Iterator[Left]:
     """Carry out the loop for pieces of work, some of them together; yield what each leaves.
 
-    Raises `NoGpuError`.
+    `watch` is told the seconds that those took which ran together, without transfers. Raises `NoGpuError`.
     """
     most = SHARE * connect().cuda.Device().mem_info[1]
     together: list[_Prepared] = []
     for work in works:
         size = _size(work)
         if together and (len(together) == TOGETHER or sum(each.size for each in together) + size > most):
-            yield from _carry_out(together)
+            yield from _carry_out(together, watch)
             together = []
         together.append(_prepare(work, size, _streams()[len(together)]))
-    yield from _carry_out(together)
+    yield from _carry_out(together, watch)
 
 
 def describe() -> str:
@@ -78,8 +79,8 @@ def _prepare(work: Work, size: int, stream: "cupy.cuda.Stream") -> _Prepared:
     with stream:
         kernel = _compiled(work.source, work.shared)
         order, *records, modes = (cupy.asarray(each) for each in work[4:])  # in the order of the arguments
-        made = [cupy.full(shape, value, kind) for shape, kind, value in described(work).values()]
-        n_runs, next_run = len(work.runs), cupy.zeros(1, dtype=np.int32)
+        made = [_filled(*each) for each in described(work).values()]
+        n_runs, next_run = len(work.runs), _filled((1,), np.int32, 0)
     numbers = (np.int32(work.n_elements), np.int32(work.revolutions))
     warps = min(n_runs, WARPS * cupy.cuda.Device().attributes["MultiProcessorCount"])
     arguments = (np.int32(n_runs), order, next_run, *numbers, *records, modes, *made)
@@ -87,15 +88,29 @@ def _prepare(work: Work, size: int, stream: "cupy.cuda.Stream") -> _Prepared:
     return _Prepared(stream, launch, [modes, *made], size)
 
 
-def _carry_out(together: Iterable[_Prepared]) -> Iterator[Left]:
+def _filled(shape: tuple[int, ...], kind: type, value: float) -> "cupy.ndarray":
+    """Make an array of zeros or of NaN, whose bits are all 1: without a kernel, which CuPy would compile."""
+    import cupy
+
+    array = cupy.empty(shape, dtype=kind)
+    array.data.memset_async(0 if value == 0 else 0xFF, array.nbytes)
+    return array
+
+
+def _carry_out(together: Iterable[_Prepared], watch: Callable[[float], None]) -> Iterator[Left]:
     """Let pieces of work run side by side: none of them waits for memory that another gives back."""
     import cupy
 
+    for each in together:
+        each.stream.synchronize()  # its arrays have arrived
+    start = time.perf_counter()
     for each in together:
         with each.stream:
             each.launch()
     for each in together:
         each.stream.synchronize()
+    watch(time.perf_counter() - start)
+    for each in together:
         with each.stream:
             left = Left(*(cupy.asnumpy(array) for array in each.left))
         yield left
