@@ -16,10 +16,12 @@ if TYPE_CHECKING:
     from bladerub.api.fit import fit_coating
     from bladerub.api.law import Law
     from bladerub.api.map import Map, read_map, simulate_speeds
+    from bladerub.api.rig import simulate_rig
     from bladerub.api.run import Run, read_run, simulate
     from bladerub.api.study import Study, StudyCoating, StudyRun, default_study, load_study
     from bladerub.config.errors import ConfigError
     from bladerub.contact.row_spec import Disk, Row, RowBlade
+    from bladerub.extensions.rig.spec import Rig
 
 __version__ = "0.1.0"
 
@@ -30,10 +32,12 @@ _MODULES = {
     "api.fit": ("fit_coating",),
     "api.law": ("Law",),
     "api.map": ("Map", "read_map", "simulate_speeds"),
+    "api.rig": ("simulate_rig",),
     "api.run": ("Run", "read_run", "simulate"),
     "api.study": ("Study", "StudyCoating", "StudyRun", "default_study", "load_study"),
     "config.errors": ("ConfigError",),
     "contact.row_spec": ("Disk", "Row", "RowBlade"),
+    "extensions.rig.spec": ("Rig",),
 }
 _HOME = {name: f"bladerub.{module}" for module, names in _MODULES.items() for name in names}
 
@@ -45,6 +49,7 @@ __all__ = [
     "InputError",
     "Law",
     "Map",
+    "Rig",
     "Row",
     "RowBlade",
     "Run",
@@ -61,6 +66,7 @@ __all__ = [
     "read_run",
     "simulate",
     "simulate_ensemble",
+    "simulate_rig",
     "simulate_speeds",
 ]
 

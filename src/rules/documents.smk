@@ -77,7 +77,7 @@ use rule images as identification_image with:
     log:
         f"{RESULTS}/logs/identification_image.log",
     params:
-        colours=12,
+        colours=8,
 
 
 use rule images as rotor_image with:
@@ -103,6 +103,18 @@ use rule images as rotor37_images with:
         f"{RESULTS}/logs/rotor37_images.log",
     params:
         colours=12,
+
+
+use rule images as rigs_image with:
+    input:
+        rules.rigs.output.png,
+    output:
+        "docs/images/rigs.png",
+    log:
+        f"{RESULTS}/logs/rigs_image.log",
+    params:
+        colours=12,
+        shrink=2,
 
 
 use rule images as tip_turns_images with:

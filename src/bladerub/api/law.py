@@ -4,6 +4,7 @@ from collections.abc import Mapping
 from types import MappingProxyType
 
 from bladerub.api.errors import InputError
+from bladerub.contact.spec import ElementLaw
 from bladerub.study import grid
 
 
@@ -33,6 +34,8 @@ class Law:
     10000.0
     >>> law.name, sorted(law.entry)
     ('viscoplastic', ['name', 'viscosity'])
+    >>> law.element_law.label
+    'viscoplastic (viscosity 10000)'
     """
 
     def __init__(self, name: str, **parameters: float):
@@ -51,6 +54,11 @@ class Law:
     def parameters(self) -> Mapping[str, float]:
         """Value of each parameter, SI units."""
         return MappingProxyType(dict(self._described.parameters))
+
+    @property
+    def element_law(self) -> ElementLaw:
+        """The law as a `bladerub.Rig` takes it."""
+        return self._described
 
     @property
     def entry(self) -> dict[str, str | float]:

@@ -1,0 +1,23 @@
+# A rigid tip on a coated disk, pass by pass (config/rigs.yaml). Not part of `all`.
+from bladerub.extensions.rig.plan import PLAN as RIGS
+
+
+rule rigs:
+    input:
+        rigs=RIGS.as_posix(),
+        laws=files_behind(
+            *(f"contact.laws.{name}" for name in NAMES if name != "plastic")
+        ),
+        computing=files_behind("extensions.rig.table"),
+        drawing=files_behind("plots.rigs"),
+    output:
+        **drawn("rigs", "Model", with_data=True),
+        **described(table=f"{TABLES}/rigs.csv"),
+    log:
+        f"{RESULTS}/logs/rigs.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/rigs.tsv"
+    params:
+        dpi=DPI,
+    script:
+        "../scripts/rigs.py"
