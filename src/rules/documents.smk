@@ -326,6 +326,17 @@ use rule docs_data as docs_rotor37_nodes with:
         prefix="rotor37_",
 
 
+# With `--configfile config/fine.yaml`, whose margins have the answers with the finer speeds
+use rule docs_data as docs_fine with:
+    input:
+        f"{TABLES}/margins.csv",
+    log:
+        f"{RESULTS}/logs/docs_fine.log",
+    params:
+        prefix="fine_",
+        only={"variation": "study"},
+
+
 use rule docs_data as docs_tip_turns with:
     input:
         f"{TIP_TURNS}/tables/findings.csv",

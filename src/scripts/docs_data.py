@@ -14,7 +14,7 @@ with tempfile.TemporaryDirectory() as scratch:
     for table in map(Path, snakemake.input):
         taken = Path(scratch) / table.name
         snapshot = folder / (snakemake.params.get("prefix", "") + table.name)
-        snapshots.take(table, taken)
+        snapshots.take(table, taken, snakemake.params.get("only", {}))
         # An equal table keeps the description of the study that it was first taken from
         if not snapshot.exists() or snapshot.read_bytes() != taken.read_bytes():
             tables.copy(taken, snapshot)

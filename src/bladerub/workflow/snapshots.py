@@ -1,6 +1,9 @@
 """Snapshots of tables for the pages, small enough for the repository."""
 
+from collections.abc import Mapping
 from pathlib import Path
+from types import MappingProxyType
+from typing import Any
 
 from bladerub.io import tables
 
@@ -51,13 +54,21 @@ KEPT = {
 """Tables of which pages need these columns only, to four digits."""
 
 
-def take(source: Path, target: Path) -> None:
-    """Take the table at `source` as the snapshot `target`: as `COUNTED` or `KEPT` say, others whole."""
+def take(source: Path, target: Path, only: Mapping[str, Any] = MappingProxyType({})) -> None:
+    """Take the table at `source` as the snapshot `target`: as `COUNTED` or `KEPT` say, others whole.
+
+    Of the rows those are taken that have the values of `only` in its columns.
+    """
     name = source.stem
-    if name not in COUNTED | KEPT:
+    if name not in COUNTED | KEPT and not only:
         tables.copy(source, target)
         return
     table, origin = tables.read(source), tables.read_origin(source)
+    for column, value in only.items():
+        table = table[table[column] == value]
+    if name not in COUNTED | KEPT:
+        tables.write(target, table, origin)
+        return
     if name in COUNTED:
         counted = table.groupby(COUNTED[name], as_index=False).size()
         tables.write(target, counted.rename(columns={"size": "runs"}), origin)

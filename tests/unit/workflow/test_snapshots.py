@@ -40,3 +40,12 @@ def test_another_table_is_taken_whole(tmp_path):
     table = pd.DataFrame([("C1a", 0.123456)], columns=["id", "measured"])
     source, target = taken(tmp_path, "findings", table)
     assert target.read_bytes() == source.read_bytes()
+
+
+def test_only_rows_that_are_asked_for_are_taken(tmp_path):
+    table = pd.DataFrame([("study", "C1a"), ("other", "C1a")], columns=["variation", "id"])
+    source, target = tmp_path / "margins.csv", tmp_path / "fine_margins.csv"
+    tables.write(source, table, ORIGIN)
+    snapshots.take(source, target, {"variation": "study"})
+    assert tables.read(target).to_dict("records") == [{"variation": "study", "id": "C1a"}]
+    assert tables.read_origin(target) == ORIGIN
