@@ -61,17 +61,18 @@ def solver_digest() -> str:
     What computes it on a GPU counts apart (`gpu_digest`).
     """
     folders = (PACKAGE / "contact", PACKAGE / "numerics")
-    sources = [path for folder in folders for path in folder.rglob("*.py") if _GPU not in path.parents]
+    sources = [path for folder in folders for path in folder.rglob("*.py") if _gpu() not in path.parents]
     return _source_digest([*sources, PACKAGE / "blade" / "model.py"])
 
 
-_GPU = PACKAGE / "contact" / "gpu"
+def _gpu() -> Path:
+    return PACKAGE / "contact" / "gpu"
 
 
 @cache
 def gpu_digest() -> str:
     """Digest the source of what computes a run on a GPU, besides `solver_digest`."""
-    return _source_digest(path for path in _GPU.iterdir() if path.suffix in (".py", ".h", ".cu"))
+    return _source_digest(path for path in _gpu().iterdir() if path.suffix in (".py", ".h", ".cu"))
 
 
 @cache

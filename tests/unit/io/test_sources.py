@@ -14,11 +14,12 @@ CHARTING = [
 
 @pytest.fixture
 def package(tmp_path, monkeypatch):
-    for folder in ("contact/kernel", "blade", "study", "extensions/chart"):
+    for folder in ("contact/kernel", "contact/gpu", "blade", "study", "extensions/chart"):
         (tmp_path / folder).mkdir(parents=True)
     for name in (
         "contact/run.py",
         "contact/kernel/run.py",
+        "contact/gpu/loop.cu",
         "blade/model.py",
         "study/store.py",
         "study/spectra.py",
@@ -33,6 +34,7 @@ def package(tmp_path, monkeypatch):
 SOLVER, STORAGE = sources.solver_digest.__wrapped__, sources.storage_digest.__wrapped__
 GROWTH = sources.growth_digest.__wrapped__
 CHART = sources.chart_digest.__wrapped__
+GPU = sources.gpu_digest.__wrapped__
 
 
 @pytest.mark.parametrize(
@@ -42,6 +44,9 @@ CHART = sources.chart_digest.__wrapped__
         ("contact/kernel/run.py", SOLVER, STORAGE),
         ("contact/new.py", SOLVER, STORAGE),
         ("blade/model.py", SOLVER, STORAGE),
+        ("blade/model.py", SOLVER, GPU),
+        ("contact/gpu/loop.cu", GPU, SOLVER),
+        ("contact/gpu/new.py", GPU, SOLVER),
         ("study/store.py", STORAGE, SOLVER),
         ("study/spectra.py", STORAGE, SOLVER),
         ("study/growth.py", GROWTH, STORAGE),

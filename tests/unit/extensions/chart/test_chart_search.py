@@ -41,6 +41,27 @@ def test_the_search_encloses_the_peaks_and_judges_even_speeds_alone(few_speeds, 
     assert np.isnan(judged[0.28])
 
 
+def test_searches_together_are_those_alone(few_speeds, blade, simulated):
+    speeds = chart_speeds(few_speeds)
+    C1 = np.sqrt(1 + 3 * speeds.f_omega**2)
+    cases = [CASE, replace(CASE, E=5.0)]
+    asked = []
+
+    def solve(specs):
+        asked.append(len(specs))
+        return ((i, search.simulate(blade, specs[i])) for i in reversed(range(len(specs))))  # in any order
+
+    searches = {case: search.search(few_speeds, case, blade, speeds, C1) for case in cases}
+    together = dict(search.compute_together(searches, solve))
+    for case in cases:
+        alone = search.compute(few_speeds, case, blade, speeds, C1)
+        np.testing.assert_array_equal(together[case].spectrum_amplitude, alone.spectrum_amplitude)
+        for name, values in alone.measures.items():
+            np.testing.assert_array_equal(together[case].measures[name], values)
+    assert asked[0] == 2 * speeds.coarse.sum()  # both at once
+    assert asked[1] == 2  # the longer runs of those that grow
+
+
 def test_worn_volume_is_depth_times_area(few_speeds, blade, simulated):
     speeds = chart_speeds(few_speeds)
     point = search.compute(few_speeds, CASE, blade, speeds, np.sqrt(1 + 3 * speeds.f_omega**2))

@@ -1,0 +1,72 @@
+"""The Python interface and the command with the runs on a GPU, which is emulated."""
+
+import json
+
+import numpy as np
+import pytest
+
+import bladerub as br
+from bladerub.api import map as maps
+from bladerub.api import run as runs
+from bladerub.cli import main
+from bladerub.contact.gpu import emulation
+from bladerub.contact.gpu.server import ADDRESS
+
+pytestmark = pytest.mark.skipif(not emulation.is_possible(), reason="no C++ compiler")
+
+
+@pytest.fixture
+def gpu(monkeypatch):
+    """Stand in for the GPU; lists how many runs it was given at once."""
+    given = []
+
+    def device(works):
+        for work in works:
+            given.append(len(work.runs))
+            yield from emulation.run([work])
+
+    for module in (runs, maps):
+        monkeypatch.setattr(module, "find", lambda: device)
+    return given
+
+
+@pytest.fixture
+def on_gpu(small):
+    path = small / "gpu.yaml"
+    path.write_text((small / "small.yaml").read_text() + "solver: {device: gpu}\n")
+    return br.load_study(path)
+
+
+def test_one_run(gpu, on_gpu, blade, run):
+    found = br.simulate(blade, on_gpu.run("2nd", E=2, K=0.5, f_omega=0.19, revolutions=3), follow=False)
+    assert gpu == [1]
+    assert found.status == run.status
+    np.testing.assert_allclose(found.wear, run.wear, rtol=0, atol=1e-9)
+    assert found.attributes["run_key"] != run.attributes["run_key"]
+
+
+def test_speeds_are_computed_together(gpu, on_gpu, blade):
+    coating = on_gpu.coating("2nd", E=2, K=0.5)
+    runs_ = [coating.at(f, revolutions=3) for f in (0.19, 0.2)]
+    found = maps.solve_all(blade, runs_, jobs=2, follow=False, done=lambda: None)
+    assert gpu == [2]
+    assert [each.f_omega for each in found] == [0.19, 0.2]
+    alone = br.simulate(blade, runs_[1], follow=False)
+    np.testing.assert_array_equal(found[1].wear, alone.wear)
+
+
+def test_the_command_says_what_is_missing(small, monkeypatch, capsys):
+    monkeypatch.delenv(ADDRESS, raising=False)
+    monkeypatch.setitem(__import__("sys").modules, "cupy", None)
+    monkeypatch.setenv("BLADERUB_CACHE", str(small / "cache"))
+    arguments = ["run", "--config", str(small / "small.yaml"), "--casing", "2nd", "--E", "2", "--K", "0.5"]
+    assert main([*arguments, "--f", "0.19", "--revolutions", "3", "--device", "gpu", "--json"]) == 2
+    assert "solver.device = gpu: needs CuPy" in capsys.readouterr().err
+
+
+def test_the_command_follows_its_option(gpu, small, monkeypatch, capsys):
+    monkeypatch.setenv("BLADERUB_CACHE", str(small / "cache"))
+    arguments = ["run", "--config", str(small / "small.yaml"), "--casing", "2nd", "--E", "2", "--K", "0.5"]
+    assert main([*arguments, "--f", "0.19", "--revolutions", "3", "--device", "gpu", "--json"]) == 0
+    assert json.loads(capsys.readouterr().out)["status"] == "completed"
+    assert len(gpu) >= 1
