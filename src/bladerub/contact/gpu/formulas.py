@@ -124,7 +124,7 @@ class _Translation:
     def _expression(self, node: ast.expr) -> str:
         match node:
             case ast.Name(name) if name in self.assigned or self._is_argument(name):
-                return "_".join(("", name)) if name in _VECTOR_FUNCTIONS else name
+                return name
             case ast.Name(name) if isinstance(self.function.__globals__.get(name), int | float):
                 return repr(float(self.function.__globals__[name]))
             case ast.Constant(value) if isinstance(value, int | float) and not isinstance(value, bool):

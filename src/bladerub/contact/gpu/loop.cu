@@ -41,9 +41,32 @@ struct Batch {
 };
 struct Node { real start, per_metre, radius, lever; };
 struct Place { real radial, tangential, approach, tilt; };
+struct Forces { real radial, tangential, couple, normal, moment; };  // on the blade; size, and about the axis
 // Of the elements under a node, those of the group: rows `row`, `row` + 4, ...
 struct Window { integer row; real gap[ROWS], worn[ROWS]; };
 struct Linearisation { real force, stiffness, valid, couple, first_moment, second_moment; };
+
+// What a run is: its records, as the lanes hold them
+struct Model {
+  const double *coefficients, *tips, *forms;  // in shared memory, but for the forms of a free flight
+  double *forces, *ledger, *wear;
+  const double* gap;
+  Node node;
+  Profile tip;
+  Element element;
+  real self_compliance, tilt_compliance, response[OF_NODE + OF_TILT];
+  double search_range, limit, normal_factor, tangential_factor, sideways, per_step, angle;
+  int n_elements, flight_steps;
+};
+// What changes in it
+struct State {
+  real q[MODES], d[MODES], damping;  // modal coordinates, their last increment
+  Place now, before, response;       // of the tip; by the forces of the last step in that step
+  Forces force, force_before;
+  Window window;
+  bool touching;
+  int reversed;
+};
 
 HERE real in_node(real a) { a += exchange(a, 8); return a + exchange(a, 16); }  // sum of the groups
 HERE real least_in_node(real a) { a = minimum(a, exchange(a, 8)); return minimum(a, exchange(a, 16)); }
@@ -88,29 +111,117 @@ HERE real closest_position(const Node& node, real tangential, double passed) {  
   return node.start + passed + tangential * node.per_metre;
 }
 
-HERE void look(Window& window, real position, const Profile& tip, const double* wear, const double* gap, int n) {
-  integer first = floor_of(position - tip.half_width);
-  integer row = first + (((lane() >> 3) - first) & 3);
+HERE integer group_of() { return lane() >> 3; }
+HERE flag in_upper() { return lane() >= 16; }
+HERE flag in_odd() { return (lane() & 8) != 0; }
+HERE flag everywhere() { return lane() >= 0; }
+
+HERE real entry(const Model& model, int row) { return load(model.ledger + LANES * row, lane()); }
+HERE void set_entry(const Model& model, int row, real value) { store(model.ledger + LANES * row, lane(), value, everywhere()); }
+HERE void add_entry(const Model& model, int row, real value) { set_entry(model, row, entry(model, row) + value); }
+HERE real by_group(real a, real b, real c, real d) { return where(in_upper(), where(in_odd(), d, c), where(in_odd(), b, a)); }
+
+HERE bool is_within_limit(const Model& model, real radial, real tangential) {
+  return all((absolute(radial) <= model.limit) & (absolute(tangential) <= model.limit));
+}
+
+// Whether the tip surely touches nothing where it is, or within `far` of there
+HERE bool is_clear(const Model& model, const Place& place, real far, double minimum_gap) {
+  real closest = place.approach + far, sideways = absolute(place.tangential) + model.sideways * far;
+  bool clear = all((closest <= minimum_gap) & (sideways <= model.search_range) & (place.radial - far > -model.limit));
+  if (TURNS && clear) clear = all(closest + highest(model.tip, absolute(place.tilt)) <= minimum_gap);
+  return clear;
+}
+
+// Bound of what any node can approach the casing in the next free flight
+HERE real bound(const Model& model, const State& state) {
+  real far = 0.0;
+#pragma unroll
+  for (int m = 0; m < MODES; m++) {
+    far += load(model.forms + BOUND_Q * MODES, lane() + LANES * m) * absolute(state.q[m]);
+    far += load(model.forms + BOUND_D * MODES, lane() + LANES * m) * absolute(state.d[m]);
+  }
+  return total(far);
+}
+
+// Make many steps at once, as `bladerub.contact.kernel.free_flight`; `far` becomes the bound of the next flight
+HERE void fly(const Model& model, State& state, real& far, real& mean, real& bottom, real& top) {
+#define FORM(i) load(model.forms + (i) * MODES, lane() + LANES * m)
+  real start = state.now.radial, increment = 0.0;
+  far = 0.0;
+#pragma unroll
+  for (int m = 0; m < MODES; m++) {
+    real present = state.q[m], last = state.d[m];
+    state.damping += (FORM(LOSS_QQ) * present + FORM(LOSS_QD) * last) * present + FORM(LOSS_DD) * last * last;
+    increment += FORM(MEAN_Q) * present + FORM(MEAN_D) * last;
+    state.q[m] = present + (FORM(INCREMENT_Q) * present + FORM(INCREMENT_D) * last);
+    state.d[m] = FORM(LAST_STEP_Q) * present + FORM(LAST_STEP_D) * last;
+    far += FORM(BOUND_Q) * absolute(state.q[m]) + FORM(BOUND_D) * absolute(state.d[m]);
+  }
+#undef FORM
+  // Two sums over all lanes: one in each half of them
+  real mine = where(in_upper(), far, increment) + exchange(where(in_upper(), increment, far), 16);
+#pragma unroll
+  for (int bit = 8; bit; bit >>= 1) mine += exchange(mine, bit);
+  real other = exchange(mine, 16);
+  far = where(in_upper(), mine, other);
+  increment = where(in_upper(), other, mine);
+  state.now = project(model.tips, state.q, model.node);
+  mean += model.flight_steps * (start + increment);
+  // The range of the parabola that has this mean
+  real end = state.now.radial, middle = 0.5 * (start + end), bulge = start + increment - middle;
+  flag turns = absolute(end - start) < 6.0 * absolute(bulge);
+  real vertex = middle + 1.5 * bulge + (end - start) * (end - start) / (24.0 * where(turns, bulge, 1.0));
+  vertex = where(turns, vertex, end);
+  bottom = minimum(bottom, minimum(minimum(start, end), vertex));
+  top = maximum(top, maximum(maximum(start, end), vertex));
+}
+
+// Increment of the modes in one step, under the forces of the step before where there was contact
+HERE void advance(const Model& model, const State& state, bool touched, real (&x)[MODES]) {
+#pragma unroll
+  for (int m = 0; m < MODES; m++) {
+    x[m] = load(model.coefficients, lane() + LANES * m) * state.q[m] + load(model.coefficients + STRIDE, lane() + LANES * m) * state.d[m];
+  }
+  if (!touched) return;
+  const integer j = lane() & 7, mask = j + (group_of() >> 1) * NODES;
+  real by_forces[MODES];
+#pragma unroll
+  for (int m = 0; m < MODES; m++) by_forces[m] = 0.0;
+#pragma unroll
+  for (int s = 0; s < SUMS; s++) {
+    real force = load(model.forces, s < 16 ? mask ^ s : (j ^ (s - 16)) + 16);
+#pragma unroll
+    for (int m = 0; m < MODES; m++) by_forces[m] += load(model.tips, lane() + LANES * (SUMS * m + s)) * force;
+  }
+#pragma unroll
+  for (int m = 0; m < MODES; m++) x[m] += load(model.coefficients + 3 * STRIDE, lane() + LANES * m) * by_forces[m];
+}
+
+// Find the elements under the nodes: the window begins where the first one under `position` is
+HERE void look(const Model& model, Window& window, real position) {
+  integer first = floor_of(position - model.tip.half_width);
+  integer row = first + ((group_of() - first) & 3);
   if (any(row != window.row)) {
     window.row = row;
 #pragma unroll
     for (int k = 0; k < ROWS; k++) {
-      integer at = wrap(row + GROUPS * k, n) * NODES + (lane() & 7);
-      window.gap[k] = load(gap, at);
-      window.worn[k] = load(wear, at);
+      integer at = wrap(row + GROUPS * k, model.n_elements) * NODES + (lane() & 7);
+      window.gap[k] = load(model.gap, at);
+      window.worn[k] = load(model.wear, at);
     }
   }
 }
 
-HERE Linearisation linearise(const Element& element, const Profile& tip, const Window& window, real position, real approach, real tilt) {
+HERE Linearisation linearise(const Model& model, const Window& window, real position, real approach, real tilt) {
   Linearisation all{0.0, 0.0, INFINITY, 0.0, 0.0, 0.0};
 #pragma unroll
   for (int k = 0; k < ROWS; k++) {
-    real offset = real_of(window.row + GROUPS * k) + 0.5 - position, share = coverage(tip, offset);
+    real offset = real_of(window.row + GROUPS * k) + 0.5 - position, share = coverage(model.tip, offset);
     real here = TURNS ? approach + tilt * offset : approach;
-    real depth = penetration(here, relief(tip, offset), window.gap[k], window.worn[k]);
-    real force = return_mapping(element, depth, window.worn[k]).first;
-    Pair slope = tangent(element, depth, window.worn[k]);
+    real depth = penetration(here, relief(model.tip, offset), window.gap[k], window.worn[k]);
+    real force = return_mapping(model.element, depth, window.worn[k]).first;
+    Pair slope = tangent(model.element, depth, window.worn[k]);
     all.force += share * force;
     all.stiffness += share * slope.first;
     all.valid = minimum(all.valid, where(share > 0.0, slope.second, INFINITY));
@@ -131,369 +242,336 @@ HERE Linearisation linearise(const Element& element, const Profile& tip, const W
   return all;
 }
 
-// Forces of the nodes to where all lanes read them
-HERE void publish(double* forces, real radial, real tangential, real couple) {
+// Displacement of the tip under forces, by their compliance: each lane sums for one coordinate of its node
+HERE Place displaced(const Model& model, const Place& free, const Forces& by) {
   synchronise();
-  flag upper = lane() >= 16;
-  store(forces, (lane() & 7) + ((lane() >> 4) & 1) * NODES, where(upper, tangential, radial), (lane() & 8) == 0);
-  if (TURNS) store(forces, lane() + 16, couple, lane() < NODES);
+  store(model.forces, (lane() & 7) + (group_of() >> 1) * NODES, where(in_upper(), by.tangential, by.radial), (lane() & 8) == 0);
+  if (TURNS) store(model.forces, lane() + 16, by.couple, lane() < NODES);
   synchronise();
+  real more = 0.0, more_too = 0.0;  // two sums at the same time
+#pragma unroll
+  for (int k = 0; k < OF_NODE; k += 2) {
+    integer at = (group_of() & 1) * OF_NODE + k;
+    more += model.response[k] * load(model.forces, at);
+    more_too += model.response[k + 1] * load(model.forces, at + 1);
+  }
+  more += more_too;
+  more += exchange(more, 8);
+  real other = exchange(more, 16);
+  Place place{free.radial + where(in_upper(), other, more), free.tangential + where(in_upper(), more, other), 0.0, free.tilt};
+  if (TURNS) {
+    real turning = 0.0;
+#pragma unroll
+    for (int k = 0; k < OF_TILT; k++) turning += model.response[OF_NODE + k] * load(model.forces, group_of() * OF_TILT + k);
+    place.tilt = free.tilt + in_node(turning);
+  }
+  return place;
 }
 
-HERE void simulate(const Batch& batch, int run, double* shared) {
-  double* forces = shared;
-  double* ledger = forces + 24;
-  double* coefficients = ledger + LANES * KEPT;
-  double* tips = coefficients + 4 * STRIDE;
-  const int n = batch.n_elements;
+// Find the contact forces that agree with the displacement they cause, as `bladerub.contact.kernel.newton`.
+// `place` comes as the displacement without forces and leaves under them. Returns how the run goes on.
+HERE int find_forces(const Model& model, State& state, double passed, real position_before, Place& place) {
+  const Place free = place;
+  Place there{free.radial + state.response.radial, free.tangential + state.response.tangential, 0.0, free.tilt + state.response.tilt};
+  Place here;
+  real approach = 0.0, tilt = there.tilt, reached = 0.0, normal_radial = 0.0, normal_tangential = 0.0, position = 0.0;
+  real linear_approach = 0.0, linear_tilt = 0.0;
+  Linearisation linear{0.0, 0.0, -1.0, 0.0, 0.0, 0.0};
+  bool found = false, moved = true, first = true;
+  for (int iteration = 0; iteration < MAX_ITERATIONS; iteration++) {
+    if (moved) {  // where the nodes are on the casing
+      if (!is_within_limit(model, there.radial, there.tangential)) return first ? UNBOUNDED : HANDED_OVER;
+      here = there;
+      real outward = model.node.radius + here.radial;
+      here.approach = sqrt_of(outward * outward + here.tangential * here.tangential) - model.node.radius;
+      real share = reciprocal(model.node.radius + here.approach);
+      normal_radial = share * outward, normal_tangential = share * here.tangential;
+      position = closest_position(model.node, here.tangential, passed);
+      real behind = minimum(position, position_before);
+      if (any(maximum(position, position_before) - behind > FARTHEST)) return HANDED_OVER;
+      look(model, state.window, behind);
+      if (first) approach = here.approach;
+      first = moved = false;
+      linear.valid = -1.0;
+    }
+    real change = absolute(approach - linear_approach);
+    if (TURNS) change += edge(model.tip) * absolute(tilt - linear_tilt);
+    if (!all(change <= linear.valid)) {
+      linear = linearise(model, state.window, position, approach, tilt);
+      linear_approach = approach, linear_tilt = tilt;
+    }
+    real closer = approach - linear_approach, turned = tilt - linear_tilt;
+    Forces& force = state.force;
+    force.normal = linear.force + linear.stiffness * closer;
+    if (TURNS) {
+      force.normal += linear.first_moment * turned;
+      force.couple = model.normal_factor * (linear.couple + linear.first_moment * closer + linear.second_moment * turned);
+    }
+    Pair split = contact_force(model.normal_factor, model.tangential_factor, normal_radial, normal_tangential, force.normal);
+    force.radial = split.first, force.tangential = split.second;
+    there = displaced(model, free, force);
+    real more_tangential = there.tangential - here.tangential;
+    reached = here.approach + normal_radial * (there.radial - here.radial) + normal_tangential * more_tangential;
+    real residual = approach - reached, tilt_residual = tilt - there.tilt, error = absolute(residual);
+    if (TURNS) error += edge(model.tip) * absolute(tilt_residual);
+    bool straight = all(absolute(more_tangential) <= STRAIGHT);
+    if (straight && all(error <= TOLERANCE)) {
+      found = true;
+      break;
+    }
+    approach = approach - residual * reciprocal(1.0 + model.self_compliance * linear.stiffness);
+    if (TURNS) tilt = tilt - tilt_residual * reciprocal(1.0 + model.tilt_compliance * linear.second_moment);
+    moved = !straight;
+  }
+  if (!found) return HANDED_OVER;
+  place = Place{there.radial, there.tangential, reached, there.tilt};
+  state.response = Place{there.radial - free.radial, there.tangential - free.tangential, 0.0, there.tilt - free.tilt};
+  return is_within_limit(model, there.radial, there.tangential) ? COMPLETED : UNBOUNDED;
+}
+
+// Wear the coating by the forces of a step, and enter energies and sliding, as `elements.update_wear` and
+// `accounting.update_coating`. Returns how the run goes on.
+HERE int update_coating(const Model& model, State& state, double passed, real position_before, const Place& next) {
+  const Place& now = state.now;
+  const Profile& tip = model.tip;
+  real position = closest_position(model.node, next.tangential, passed), advance = position - position_before;
+  if (any(absolute(advance) > FARTHEST)) return HANDED_OVER;
+  real slid = where(state.force.normal > 0.0, advance, model.per_step), retreat = model.per_step - slid;
+  if (!all(slid > 0.0)) state.reversed++;
+  look(model, state.window, minimum(position, position_before));
+  real closer = next.approach - now.approach, constant = relief(tip, advance), slope = 2.0 * tip.curvature * advance;
+  real stored = 0.0, dissipated = 0.0, supplied = 0.0;
+#pragma unroll
+  for (int k = 0; k < ROWS; k++) {
+    integer row = state.window.row + GROUPS * k;
+    real offset = real_of(row) + 0.5 - position, worn = state.window.worn[k];
+    real share = coverage(tip, offset), share_before = coverage(tip, offset + advance);
+    real lowering = slope * offset + constant, here = next.approach, turning = closer;
+    if (TURNS) {
+      here += next.tilt * offset;
+      turning += (next.tilt - now.tilt) * (offset + 0.5 * advance);
+      lowering = lowering - 0.5 * (next.tilt + now.tilt) * advance;
+    }
+    real depth = penetration(here, relief(tip, offset), state.window.gap[k], worn), deeper = turning + lowering;
+    Pair mapped = return_mapping(model.element, depth, worn);
+    real force_before = elastic_force(model.element, depth - deeper);
+    flag under = share > 0.0, was_under = share_before > 0.0;
+    real force = where(under, mapped.first, 0.0), increment = where(under, mapped.second, 0.0);
+    state.window.worn[k] = worn + increment;
+    store(model.wear, wrap(row, model.n_elements) * NODES + (lane() & 7), state.window.worn[k], increment > 0.0);
+    real energy = stored_energy(model.element, force), energy_before = stored_energy(model.element, force_before);
+    real loss = dissipated_energy(model.element, worn, increment, where(was_under, force_before, 0.0), force);
+    stored += share * energy;
+    dissipated += loss;
+    real mean_share = 0.5 * (share + share_before);
+    flag changes = absolute(deeper) > NO_CHANGE;
+    real mean_force = where(changes, (energy - energy_before + loss) * reciprocal(where(changes, deeper, 1.0)), force);
+    real staying = mean_share * mean_force * lowering + 0.5 * (energy + energy_before) * (share - share_before) + (1.0 - mean_share) * loss;
+    real entering = share * energy + loss, leaving = 0.0 - share_before * energy_before;
+    supplied += where(under, where(was_under, staying, entering), leaving);
+  }
+  synchronise();
+  state.force.moment = (0.0 - model.tangential_factor) * state.force.normal * (model.node.lever + next.approach);
+  set_entry(model, STORED_BEFORE, entry(model, STORED));
+  set_entry(model, STORED, stored);
+  set_entry(model, LAST_WEAR, dissipated);
+  set_entry(model, LAST_SHAPE, supplied);
+  add_entry(model, WEAR, dissipated);
+  add_entry(model, SHAPE, supplied);
+  real rest = entry(model, OF_REST);
+  set_entry(model, OF_REST, by_group(rest + absolute(in_node(supplied)), maximum(rest, retreat), rest, rest));
+  return COMPLETED;
+}
+
+// Add the work of the forces of the step before, over half of the path around it, as `accounting.add_work`
+HERE void add_work(const Model& model, const State& state, const Place& next) {
+  const Place &now = state.now, &before = state.before;
+  const Forces& force = state.force_before;
+  real more_radial = 0.5 * (next.radial - before.radial), more_tangential = 0.5 * (next.tangential - before.tangential);
+  real by_radial = force.radial * more_radial, by_tangential = force.tangential * more_tangential;
+  real sliding = 0.0, by_couple = 0.0;
+  if (TURNS) {
+    by_couple = force.couple * (0.5 * (next.tilt - before.tilt));
+    if (model.tangential_factor != 0.0) sliding = 0.0 - (1.0 + model.normal_factor) / model.normal_factor * by_couple;
+  }
+  if (model.tangential_factor != 0.0) {
+    real share = reciprocal(model.node.radius + now.approach);
+    real normal_radial = share * (model.node.radius + now.radial), normal_tangential = share * now.tangential;
+    real distance = model.angle * (model.node.lever + now.approach) + normal_radial * more_tangential - normal_tangential * more_radial;
+    real closer = normal_radial * more_radial + normal_tangential * more_tangential;
+    real friction_force = (0.0 - model.tangential_factor) * force.normal;
+    sliding += friction_force * distance - (1.0 + model.normal_factor) * force.normal * closer;
+  }
+  add_entry(model, OF_WORK, by_group(by_radial, by_tangential, sliding, force.moment));
+  add_entry(model, OF_REST, by_group(absolute(by_radial) + absolute(by_tangential), 0.0, by_couple, 0.0));
+}
+
+// Contact at the end of a step, where the tip was in contact or is not clear. Returns how the run goes on.
+HERE int contact(const Model& model, State& state, bool touched, bool clear, double passed, Place& next) {
+  const real position_before = closest_position(model.node, state.now.tangential, passed - model.per_step);
+  state.touching = false;
+  if (clear) {
+    state.force = Forces{0.0, 0.0, 0.0, 0.0, 0.0};
+    state.response = Place{0.0, 0.0, 0.0, 0.0};
+  } else {
+    int status = find_forces(model, state, passed, position_before, next);
+    if (status != COMPLETED) {
+      state.force = touched ? state.force_before : Forces{0.0, 0.0, 0.0, 0.0, 0.0};
+      return status;
+    }
+    state.touching = any(state.force.normal > 0.0);
+  }
+  if (state.touching || touched) {
+    int status = update_coating(model, state, passed, position_before, next);
+    if (status != COMPLETED) return status;
+  }
+  if (touched) add_work(model, state, next);
+  return COMPLETED;
+}
+
+// Prepare what a run is, and what it is at the start
+HERE void set_up(const Batch& batch, int run, double* shared, Model& model, State& state) {
   const int* of = batch.runs + RECORDS * run;
   const double* modal = batch.modal + (size_t)MODAL_SIZE * of[OF_MODAL];
   const double* stator = batch.stator + (size_t)STATOR_SIZE * of[OF_STATOR];
-  const double* gap = batch.casing + (size_t)(NODES + 1) * n * of[OF_CASING];
-  const double* minimum_gaps = gap + NODES * n;
-  const double* at_tip = batch.tip + (size_t)TIP_SIZE * of[OF_TIP];
-  const int steps_per_element = of[STEPS_PER_ELEMENT];
-  double* wear = batch.wear + (size_t)NODES * n * run;
-  const integer j = lane() & 7, mask = j + ((lane() >> 4) & 1) * NODES;
-  const flag upper = lane() >= 16, odd = (lane() & 8) != 0, first_group = lane() < NODES, every = lane() >= 0, first_lane = lane() == 0;
-
-  for (int i = 0; i < TIP_ROWS + SUMS * STRIDE; i += LANES) store(coefficients, lane() + i, load(modal, lane() + i), every);
-  for (int i = 0; i < LANES * KEPT; i += LANES) store(ledger, lane() + i, 0.0, every);
-  const Node node{load(at_tip, j), load(at_tip, j + 8), load(at_tip, j + 16), load(at_tip, j + 24)};
-  const Profile tip{at_tip[32], at_tip[33]};
-  const double search_range = at_tip[34], limit = at_tip[35];
-  const Element element = load_element(stator, j);
-  const real own = load(stator, j + SELF), own_tilt = load(stator, j + SELF + NODES);
-  const double normal_factor = stator[FACTORS], tangential_factor = stator[FACTORS + 1];
-  const double* forms = modal + FORMS;
-  const int flight_steps = (int)modal[FLIGHT];
-  const double sideways = modal[FLIGHT + 1], per_step = 1.0 / steps_per_element;
-  const double angle = per_step * (2.0 * 3.14159265358979323846 / n);
-  real response[OF_NODE + OF_TILT];
+  const double* tip = batch.tip + (size_t)TIP_SIZE * of[OF_TIP];
+  const integer j = lane() & 7;
+  model.forces = shared;
+  model.ledger = model.forces + 24;
+  double* kept = model.ledger + LANES * KEPT;
+  for (int i = 0; i < TIP_ROWS + SUMS * STRIDE; i += LANES) store(kept, lane() + i, load(modal, lane() + i), everywhere());
+  for (int i = 0; i < KEPT; i++) set_entry(model, i, 0.0);
+  model.coefficients = kept;
+  model.tips = kept + TIP_ROWS;
+  model.forms = modal + FORMS;
+  model.n_elements = batch.n_elements;
+  model.wear = batch.wear + (size_t)NODES * batch.n_elements * run;
+  model.gap = batch.casing + (size_t)(NODES + 1) * batch.n_elements * of[OF_CASING];
+  model.node = Node{load(tip, j), load(tip, j + 8), load(tip, j + 16), load(tip, j + 24)};
+  model.tip = Profile{tip[32], tip[33]};
+  model.search_range = tip[34], model.limit = tip[35];
+  model.element = load_element(stator, j);
+  model.self_compliance = load(stator, j + SELF), model.tilt_compliance = load(stator, j + SELF + NODES);
+  model.normal_factor = stator[FACTORS], model.tangential_factor = stator[FACTORS + 1];
+  model.flight_steps = (int)modal[FLIGHT];
+  model.sideways = modal[FLIGHT + 1], model.per_step = 1.0 / of[STEPS_PER_ELEMENT];
+  model.angle = model.per_step * (2.0 * 3.14159265358979323846 / batch.n_elements);
 #pragma unroll
-  for (int k = 0; k < OF_NODE + OF_TILT; k++) response[k] = load(modal + RESPONSE, lane() + LANES * k);
-  real q[MODES], d[MODES];
+  for (int k = 0; k < OF_NODE + OF_TILT; k++) model.response[k] = load(modal + RESPONSE, lane() + LANES * k);
 #pragma unroll
   for (int m = 0; m < MODES; m++) {
-    q[m] = load(batch.modes + 2 * STRIDE * (size_t)run, lane() + LANES * m);
-    d[m] = load(batch.modes + 2 * STRIDE * (size_t)run + STRIDE, lane() + LANES * m);
+    state.q[m] = load(batch.modes + 2 * STRIDE * (size_t)run, lane() + LANES * m);
+    state.d[m] = load(batch.modes + 2 * STRIDE * (size_t)run + STRIDE, lane() + LANES * m);
   }
   synchronise();
-#define ENTRY(i) (ledger + LANES * (i))
-#define GET(i) load(ENTRY(i), lane())
-#define SET(i, value) store(ENTRY(i), lane(), value, every)
-#define ADD(i, value) SET(i, GET(i) + (value))
-#define BY_GROUP(a, b, c, d) where(upper, where(odd, d, c), where(odd, b, a))
+  state.damping = 0.0;
+  state.now = state.before = project(model.tips, state.q, model.node);
+  state.response = Place{0.0, 0.0, 0.0, 0.0};
+  state.force = state.force_before = Forces{0.0, 0.0, 0.0, 0.0, 0.0};
+  state.touching = false;
+  state.reversed = 0;
+}
 
-  Place now = project(tips, q, node), before = now;
-  real by_radial = 0.0, by_tangential = 0.0, by_couple = 0.0, normal_force = 0.0, moment = 0.0;
-  real radial_before = 0.0, tangential_before = 0.0, couple_before = 0.0, normal_before = 0.0, moment_before = 0.0;
-  Place answer{0.0, 0.0, 0.0, 0.0};  // displacement by the forces of the last step in that step
-  real damping = 0.0, far = 0.0;
-  Window window;
-  bool touching = false;
-  int status = COMPLETED, revolution = 0, reversed = 0, contact = 0;
+// Leave the state of a run at its end
+HERE void leave(const Batch& batch, int run, const Model& model, const State& state) {
+#pragma unroll
+  for (int m = 0; m < MODES; m++) {
+    store(batch.modes + 2 * STRIDE * (size_t)run, lane() + LANES * m, state.q[m], everywhere());
+    store(batch.modes + 2 * STRIDE * (size_t)run + STRIDE, lane() + LANES * m, state.d[m], everywhere());
+  }
+  double* forces = batch.forces + 48 * (size_t)run;
+  const flag first_group = lane() < NODES;
+  store(forces, lane(), state.force.radial, first_group);
+  store(forces, lane() + 8, state.force.tangential, first_group);
+  store(forces, lane() + 16, state.force.couple, first_group);
+  store(forces, lane() + 24, state.force_before.radial, first_group);
+  store(forces, lane() + 32, state.force_before.tangential, first_group);
+  store(forces, lane() + 40, state.force_before.couple, first_group);
+  double* entries = batch.ledger + LANES * (KEPT + 1) * (size_t)run;
+  for (int i = 0; i < KEPT; i++) store(entries, lane() + LANES * i, entry(model, i), everywhere());
+  store(entries, lane() + LANES * KEPT, state.damping, everywhere());
+}
+
+HERE void simulate(const Batch& batch, int run, double* shared) {
+  const int n = batch.n_elements, steps_per_element = batch.runs[RECORDS * run + STEPS_PER_ELEMENT];
+  Model model;
+  State state;
+  set_up(batch, run, shared, model, state);
+  const double* minimum_gaps = model.gap + NODES * n;
+  const flag first_lane = lane() == 0;
+  real far = 0.0;
+  int status = COMPLETED, revolution = 0, n_contact = 0;
   long long steps = 0, steps_before = 0;
 
   for (; revolution < batch.revolutions && status == COMPLETED; revolution++) {
-    bool touched = touching, flew = false;
+    bool touched = state.touching, flew = false;
     real bottom = INFINITY, top = -INFINITY;
-    window.row = NO_ROW;
+    state.window.row = NO_ROW;
     steps_before = steps;
-    for (int passing = 0; passing < n && status == COMPLETED; passing++) {
-      const double minimum_gap = minimum_gaps[passing];
+    for (int element = 0; element < n && status == COMPLETED; element++) {
+      const double minimum_gap = minimum_gaps[element];
       real mean = 0.0;
       int step = 0;
       while (step < steps_per_element && status == COMPLETED) {
-        if (touching || step + flight_steps > steps_per_element) flew = false;
+        if (state.touching || step + model.flight_steps > steps_per_element) flew = false;
         else {
-          if (!flew) {
-            far = 0.0;
-#pragma unroll
-            for (int m = 0; m < MODES; m++) {
-              far += load(forms + BOUND_Q * MODES, lane() + LANES * m) * absolute(q[m]);
-              far += load(forms + BOUND_D * MODES, lane() + LANES * m) * absolute(d[m]);
-            }
-            far = total(far);
-          }
-          real closest = now.approach + far;
-          if (TURNS) closest = closest + highest(tip, absolute(now.tilt));
-          flew = all((closest <= minimum_gap) & (absolute(now.tangential) + sideways * far <= search_range) & (now.radial - far > -limit));
+          if (!flew) far = bound(model, state);
+          flew = is_clear(model, state.now, far, minimum_gap);
         }
-        if (flew) {  // many steps at once
+        if (flew) {
           touched = false;
-          real start = now.radial, increment_1 = 0.0;
-          far = 0.0;
-#pragma unroll
-          for (int m = 0; m < MODES; m++) {
-#define FORM(i) load(forms + (i) * MODES, lane() + LANES * m)
-            real present = q[m], last = d[m];
-            damping += (FORM(LOSS_QQ) * present + FORM(LOSS_QD) * last) * present + FORM(LOSS_DD) * last * last;
-            increment_1 += FORM(MEAN_Q) * present + FORM(MEAN_D) * last;
-            q[m] = present + (FORM(INCREMENT_Q) * present + FORM(INCREMENT_D) * last);
-            d[m] = FORM(LAST_STEP_Q) * present + FORM(LAST_STEP_D) * last;
-            far += FORM(BOUND_Q) * absolute(q[m]) + FORM(BOUND_D) * absolute(d[m]);
-#undef FORM
-          }
-          real mine = where(upper, far, increment_1) + exchange(where(upper, increment_1, far), 16);  // two sums
-          for (int bit = 8; bit; bit >>= 1) mine += exchange(mine, bit);
-          real other = exchange(mine, 16);
-          far = where(upper, mine, other);
-          increment_1 = where(upper, other, mine);
-          now = project(tips, q, node);
-          mean += flight_steps * (start + increment_1);
-          real end = now.radial, middle = 0.5 * (start + end), bulge = start + increment_1 - middle;
-          flag turns = absolute(end - start) < 6.0 * absolute(bulge);
-          real vertex = middle + 1.5 * bulge + (end - start) * (end - start) / (24.0 * where(turns, bulge, 1.0));
-          vertex = where(turns, vertex, end);
-          bottom = minimum(bottom, minimum(minimum(start, end), vertex));
-          top = maximum(top, maximum(maximum(start, end), vertex));
-          step += flight_steps;
-          steps += flight_steps;
+          fly(model, state, far, mean, bottom, top);
+          step += model.flight_steps;
+          steps += model.flight_steps;
           continue;
         }
-        int together = flight_steps < steps_per_element - step ? flight_steps : steps_per_element - step;
+        int together = model.flight_steps < steps_per_element - step ? model.flight_steps : steps_per_element - step;
         for (int i = 0; i < together && status == COMPLETED; i++) {
-          touched = touching;
+          touched = state.touching;
+          if (touched) state.force_before = state.force;
           real x[MODES], there[MODES];
+          advance(model, state, touched, x);
 #pragma unroll
-          for (int m = 0; m < MODES; m++) {
-            x[m] = load(coefficients, lane() + LANES * m) * q[m] + load(coefficients + STRIDE, lane() + LANES * m) * d[m];
-          }
-          if (touched) {  // under the forces of the step before
-            radial_before = by_radial, tangential_before = by_tangential, couple_before = by_couple;
-            normal_before = normal_force, moment_before = moment;
-            real g[MODES];
-#pragma unroll
-            for (int m = 0; m < MODES; m++) g[m] = 0.0;
-#pragma unroll
-            for (int s = 0; s < SUMS; s++) {
-              real by = load(forces, s < 16 ? mask ^ s : (j ^ (s - 16)) + 16);
-#pragma unroll
-              for (int m = 0; m < MODES; m++) g[m] += load(tips, lane() + LANES * (SUMS * m + s)) * by;
-            }
-#pragma unroll
-            for (int m = 0; m < MODES; m++) x[m] += load(coefficients + 3 * STRIDE, lane() + LANES * m) * g[m];
-          }
-#pragma unroll
-          for (int m = 0; m < MODES; m++) there[m] = q[m] + x[m];
-          Place next = project(tips, there, node);
+          for (int m = 0; m < MODES; m++) there[m] = state.q[m] + x[m];
+          Place next = project(model.tips, there, model.node);
           step++;
-          real closest = next.approach;
-          bool clear = all((closest <= minimum_gap) & (absolute(next.tangential) <= search_range) & (next.radial > -limit));
-          if (TURNS && clear) clear = all(closest + highest(tip, absolute(next.tilt)) <= minimum_gap);
+          bool clear = is_clear(model, next, 0.0, minimum_gap);
           if (touched || !clear) {
-            const double passed = passing + step * per_step;
-            const real position_before = closest_position(node, now.tangential, passed - per_step);
-            touching = false;
-            if (clear) {
-              by_radial = by_tangential = by_couple = normal_force = 0.0;
-              answer = Place{0.0, 0.0, 0.0, 0.0};
-            } else {  // Newton's method, as `bladerub.contact.kernel.newton`
-              const Place free = next;
-              real radial = free.radial + answer.radial, tangential = free.tangential + answer.tangential;
-              real tilt = free.tilt + answer.tilt, reached_tilt = tilt;
-              Place here;
-              real approach = 0.0, reached = 0.0, normal_radial = 0.0, normal_tangential = 0.0, position = 0.0;
-              real linear_approach = 0.0, linear_tilt = 0.0;
-              Linearisation linear{0.0, 0.0, -1.0, 0.0, 0.0, 0.0};
-              bool found = false, moved = true, first = true;
-              for (int iteration = 0; iteration < MAX_ITERATIONS; iteration++) {
-                if (moved) {  // where the nodes are on the casing
-                  if (!all((absolute(radial) <= limit) & (absolute(tangential) <= limit))) break;
-                  real outward = node.radius + radial;
-                  here = Place{radial, tangential, sqrt_of(outward * outward + tangential * tangential) - node.radius, 0.0};
-                  real share = reciprocal(node.radius + here.approach);
-                  normal_radial = share * outward, normal_tangential = share * tangential;
-                  position = closest_position(node, tangential, passed);
-                  if (any(maximum(position, position_before) - minimum(position, position_before) > FARTHEST)) break;
-                  look(window, minimum(position, position_before), tip, wear, gap, n);
-                  if (first) approach = reached = here.approach;
-                  first = moved = false;
-                  linear.valid = -1.0;
-                }
-                real change = absolute(approach - linear_approach);
-                if (TURNS) change += edge(tip) * absolute(tilt - linear_tilt);
-                if (!all(change <= linear.valid)) {
-                  linear = linearise(element, tip, window, position, approach, tilt);
-                  linear_approach = approach, linear_tilt = tilt;
-                }
-                real closer = approach - linear_approach, turned = tilt - linear_tilt;
-                normal_force = linear.force + linear.stiffness * closer;
-                if (TURNS) {
-                  normal_force += linear.first_moment * turned;
-                  by_couple = normal_factor * (linear.couple + linear.first_moment * closer + linear.second_moment * turned);
-                }
-                Pair force = contact_force(normal_factor, tangential_factor, normal_radial, normal_tangential, normal_force);
-                by_radial = force.first, by_tangential = force.second;
-                publish(forces, by_radial, by_tangential, by_couple);
-                real more = 0.0, more_too = 0.0;
-#pragma unroll
-                for (int k = 0; k < OF_NODE; k += 2) {
-                  integer at = ((lane() >> 3) & 1) * OF_NODE + k;
-                  more += response[k] * load(forces, at);
-                  more_too += response[k + 1] * load(forces, at + 1);
-                }
-                more += more_too;
-                more += exchange(more, 8);
-                real other = exchange(more, 16);
-                radial = free.radial + where(upper, other, more);
-                tangential = free.tangential + where(upper, more, other);
-                if (TURNS) {
-                  real turning = 0.0;
-#pragma unroll
-                  for (int k = 0; k < OF_TILT; k++) turning += response[OF_NODE + k] * load(forces, (lane() >> 3) * OF_TILT + k);
-                  reached_tilt = free.tilt + in_node(turning);
-                }
-                real more_tangential = tangential - here.tangential;
-                reached = here.approach + normal_radial * (radial - here.radial) + normal_tangential * more_tangential;
-                real residual = approach - reached, tilt_residual = tilt - reached_tilt, error = absolute(residual);
-                if (TURNS) error += edge(tip) * absolute(tilt_residual);
-                bool straight = all(absolute(more_tangential) <= STRAIGHT);
-                if (straight && all(error <= TOLERANCE)) {
-                  found = true;
-                  break;
-                }
-                approach = approach - residual * reciprocal(1.0 + own * linear.stiffness);
-                if (TURNS) tilt = tilt - tilt_residual * reciprocal(1.0 + own_tilt * linear.second_moment);
-                moved = !straight;
-              }
-              if (!found) {
-                bool outside = !all((absolute(radial) <= limit) & (absolute(tangential) <= limit));
-                status = outside && first ? UNBOUNDED : HANDED_OVER;
-              } else if (!all((absolute(radial) <= limit) & (absolute(tangential) <= limit))) {
-                status = UNBOUNDED;
-              }
-              if (status != COMPLETED) {
-                by_radial = touched ? radial_before : 0.0, by_tangential = touched ? tangential_before : 0.0;
-                by_couple = touched ? couple_before : 0.0;
-                break;
-              }
-              next = Place{radial, tangential, reached, reached_tilt};
-              answer = Place{radial - free.radial, tangential - free.tangential, 0.0, reached_tilt - free.tilt};
-              touching = any(normal_force > 0.0);
-            }
-            if (touching || touched) {  // wear the coating, as `elements.update_wear`
-              real position = closest_position(node, next.tangential, passed), advance = position - position_before;
-              real slid = where(normal_force > 0.0, advance, per_step);
-              real retreat = per_step - slid;
-              if (!all(slid > 0.0)) reversed++;
-              if (any(absolute(advance) > FARTHEST)) {
-                status = HANDED_OVER;
-                break;
-              }
-              look(window, minimum(position, position_before), tip, wear, gap, n);
-              real closer = next.approach - now.approach, constant = relief(tip, advance), slope = 2.0 * tip.curvature * advance;
-              real stored = 0.0, dissipated = 0.0, supplied = 0.0;
-#pragma unroll
-              for (int k = 0; k < ROWS; k++) {
-                integer row = window.row + GROUPS * k;
-                real offset = real_of(row) + 0.5 - position, worn = window.worn[k];
-                real share = coverage(tip, offset), share_before = coverage(tip, offset + advance);
-                real lowering = slope * offset + constant, here = next.approach, turning = closer;
-                if (TURNS) {
-                  here += next.tilt * offset;
-                  turning += (next.tilt - now.tilt) * (offset + 0.5 * advance);
-                  lowering = lowering - 0.5 * (next.tilt + now.tilt) * advance;
-                }
-                real depth = penetration(here, relief(tip, offset), window.gap[k], worn), deeper = turning + lowering;
-                Pair mapped = return_mapping(element, depth, worn);
-                real force_before = elastic_force(element, depth - deeper);
-                flag under = share > 0.0, was_under = share_before > 0.0;
-                real force = where(under, mapped.first, 0.0), increment = where(under, mapped.second, 0.0);
-                window.worn[k] = worn + increment;
-                store(wear, wrap(row, n) * NODES + j, window.worn[k], increment > 0.0);
-                real energy = stored_energy(element, force), energy_before = stored_energy(element, force_before);
-                real loss = dissipated_energy(element, worn, increment, where(was_under, force_before, 0.0), force);
-                stored += share * energy;
-                dissipated += loss;
-                real mean_share = 0.5 * (share + share_before);
-                flag changes = absolute(deeper) > NO_CHANGE;
-                real mean_force = where(changes, (energy - energy_before + loss) * reciprocal(where(changes, deeper, 1.0)), force);
-                real staying = mean_share * mean_force * lowering + 0.5 * (energy + energy_before) * (share - share_before) + (1.0 - mean_share) * loss;
-                real entering = share * energy + loss, leaving = 0.0 - share_before * energy_before;
-                supplied += where(under, where(was_under, staying, entering), leaving);
-              }
-              synchronise();
-              moment = (0.0 - tangential_factor) * normal_force * (node.lever + next.approach);
-              SET(STORED_BEFORE, GET(STORED));
-              SET(STORED, stored);
-              SET(LAST_WEAR, dissipated);
-              SET(LAST_SHAPE, supplied);
-              ADD(WEAR, dissipated);
-              ADD(SHAPE, supplied);
-              real rest = GET(OF_REST);
-              SET(OF_REST, BY_GROUP(rest + absolute(in_node(supplied)), maximum(rest, retreat), rest, rest));
-            }
-            if (touched) {  // work of the forces of the step before, as `accounting.add_work`
-              real more_radial = 0.5 * (next.radial - before.radial), more_tangential = 0.5 * (next.tangential - before.tangential);
-              real work_radial = radial_before * more_radial, work_tangential = tangential_before * more_tangential;
-              real sliding = 0.0, work_couple = 0.0;
-              if (TURNS) {
-                work_couple = couple_before * (0.5 * (next.tilt - before.tilt));
-                if (tangential_factor != 0.0) sliding = 0.0 - (1.0 + normal_factor) / normal_factor * work_couple;
-              }
-              if (tangential_factor != 0.0) {
-                real share = reciprocal(node.radius + now.approach);
-                real normal_radial = share * (node.radius + now.radial), normal_tangential = share * now.tangential;
-                real distance = angle * (node.lever + now.approach) + normal_radial * more_tangential - normal_tangential * more_radial;
-                real closer = normal_radial * more_radial + normal_tangential * more_tangential;
-                real friction_force = (0.0 - tangential_factor) * normal_before;
-                sliding += friction_force * distance - (1.0 + normal_factor) * normal_before * closer;
-              }
-              ADD(OF_WORK, BY_GROUP(work_radial, work_tangential, sliding, moment_before));
-              ADD(OF_REST, BY_GROUP(absolute(work_radial) + absolute(work_tangential), real(0.0), work_couple, real(0.0)));
-            }
-            contact += touching;
+            status = contact(model, state, touched, clear, element + step * model.per_step, next);
+            if (status != COMPLETED) break;
+            n_contact += state.touching;
           }
 #pragma unroll
           for (int m = 0; m < MODES; m++) {
-            real both = x[m] + d[m];
-            damping += load(coefficients + 2 * STRIDE, lane() + LANES * m) * both * both;
-            d[m] = x[m];
-            q[m] = there[m];
+            real both = x[m] + state.d[m];
+            state.damping += load(model.coefficients + 2 * STRIDE, lane() + LANES * m) * both * both;
+            state.d[m] = x[m];
+            state.q[m] = there[m];
           }
-          mean += 0.5 * (now.radial + next.radial);
+          mean += 0.5 * (state.now.radial + next.radial);
           bottom = minimum(bottom, next.radial);
           top = maximum(top, next.radial);
           steps++;
-          before = now;
-          now = next;
+          state.before = state.now;
+          state.now = next;
         }
       }
-      if (status == COMPLETED) store(batch.displacement + (size_t)run * batch.revolutions * n, lane() + (revolution * n + passing), mean * per_step, first_lane);
+      if (status == COMPLETED) store(batch.displacement + (size_t)run * batch.revolutions * n, lane() + (revolution * n + element), mean * model.per_step, first_lane);
     }
     store(batch.range + (size_t)run * batch.revolutions * 2, lane() + 2 * revolution, bottom, first_lane);
     store(batch.range + (size_t)run * batch.revolutions * 2, lane() + (2 * revolution + 1), top, first_lane);
-    if (status == COMPLETED && !(touched || touching)) {  // the last step added nothing
-      SET(STORED, 0.0);
-      SET(STORED_BEFORE, 0.0);
-      SET(LAST_SHAPE, 0.0);
-      SET(LAST_WEAR, 0.0);
+    if (status == COMPLETED && !(touched || state.touching)) {  // the last step added nothing
+      for (int i = STORED; i < KEPT; i++) set_entry(model, i, 0.0);
     }
   }
-#pragma unroll
-  for (int m = 0; m < MODES; m++) {
-    store(batch.modes + 2 * STRIDE * (size_t)run, lane() + LANES * m, q[m], every);
-    store(batch.modes + 2 * STRIDE * (size_t)run + STRIDE, lane() + LANES * m, d[m], every);
-  }
-  double* left = batch.forces + 48 * (size_t)run;
-  store(left, lane(), by_radial, first_group);
-  store(left, lane() + 8, by_tangential, first_group);
-  store(left, lane() + 16, by_couple, first_group);
-  store(left, lane() + 24, radial_before, first_group);
-  store(left, lane() + 32, tangential_before, first_group);
-  store(left, lane() + 40, couple_before, first_group);
-  double* entries = batch.ledger + LANES * (KEPT + 1) * (size_t)run;
-  for (int i = 0; i < KEPT; i++) store(entries, lane() + LANES * i, GET(i), every);
-  store(entries, lane() + LANES * KEPT, damping, every);
+  leave(batch, run, model, state);
   long long* counts = batch.counts + COUNTS * (size_t)run;
   counts[STATUS] = status;
   counts[REVOLUTIONS] = status == COMPLETED ? revolution : revolution - 1;
   counts[STEPS] = steps;
   counts[LAST_STEPS] = steps - steps_before;
-  counts[CONTACT_STEPS] = contact;
-  counts[REVERSED_STEPS] = reversed;
+  counts[CONTACT_STEPS] = n_contact;
+  counts[REVERSED_STEPS] = state.reversed;
 }
 
 #define ARGUMENTS \
