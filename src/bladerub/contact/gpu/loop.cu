@@ -1,12 +1,12 @@
 // The time loop of single runs, a warp a run, by the contract of `bladerub.contact.schemes`.
 //
-// It makes the steps of `bladerub.contact.kernel` for a scheme that does not correct, deformable elements and a
-// force of constant direction; a run that it can't go on with is HANDED_OVER. Its functions are named as
+// It makes the steps of `bladerub.contact.kernel` for a scheme that does not correct, deformable elements and
+// a force of constant direction; a run that it can't go on with is HANDED_OVER. Its functions are named as
 // those there. The formulas of law, profile and contact force are not written here: they are translated from
 // Python (`bladerub.contact.gpu.formulas`) and stand before this text, with the constants in capitals.
 //
-// A lane is node j = lane % 8 in group = lane / 8 and holds the modes lane, lane + 32, ... The groups share the
-// rows of elements under a node: of its window, a group has each fourth row.
+// A lane is node j = lane % 8 in group = lane / 8 and holds the modes lane, lane + 32, ... The groups share
+// the rows of elements under a node: of its window, a group has each fourth row.
 
 constexpr int NODES = 8, GROUPS = 4;
 constexpr int STRIDE = LANES * MODES;  // of rows of modes
@@ -30,21 +30,32 @@ enum { OF_MODAL, OF_STATOR, OF_CASING, OF_TIP, STEPS_PER_ELEMENT, RECORDS };
 struct Batch {
   int n_elements, revolutions;
   const double *modal, *stator, *casing, *tip;  // records, one after the other
-  const int* runs;       // (n, RECORDS): numbers of the records of each run, and its steps in an element
-  double* modes;         // (n, 2, STRIDE): modal coordinates and their last increment, at the start and the end
-  double* wear;          // (n, N, 8), m; 0 at the start
+  const int* runs;  // (n, RECORDS): numbers of the records of each run, and its steps in an element
+  double* modes;    // (n, 2, STRIDE): modal coordinates and their last increment, at the start and the end
+  double* wear;     // (n, N, 8), m; 0 at the start
   double* displacement;  // (n, revolutions N): of node 1, mean over each element, m
   double* range;         // (n, revolutions, 2): of that displacement, m
   double* forces;        // (n, 2, 24): on the blade now and one step before
   double* ledger;        // (n, KEPT + 1, 32): its rows, and the damping loss
   long long* counts;     // (n, COUNTS)
 };
-struct Node { real start, per_metre, radius, lever; };
-struct Place { real radial, tangential, approach, tilt; };
-struct Forces { real radial, tangential, couple, normal, moment; };  // on the blade; size, and about the axis
+struct Node {
+  real start, per_metre, radius, lever;
+};
+struct Place {
+  real radial, tangential, approach, tilt;
+};
+struct Forces {
+  real radial, tangential, couple, normal, moment;
+};  // on the blade; size, and about the axis
 // Of the elements under a node, those of the group: rows `row`, `row` + 4, ...
-struct Window { integer row; real gap[ROWS], worn[ROWS]; };
-struct Linearisation { real force, stiffness, valid, couple, first_moment, second_moment; };
+struct Window {
+  integer row;
+  real gap[ROWS], worn[ROWS];
+};
+struct Linearisation {
+  real force, stiffness, valid, couple, first_moment, second_moment;
+};
 
 // What a run is: its records, as the lanes hold them
 struct Model {
@@ -68,8 +79,15 @@ struct State {
   int reversed;
 };
 
-HERE real in_node(real a) { a += exchange(a, 8); return a + exchange(a, 16); }  // sum of the groups
-HERE real least_in_node(real a) { a = minimum(a, exchange(a, 8)); return minimum(a, exchange(a, 16)); }
+// Sum, and least, over the groups of each node
+HERE real in_node(real a) {
+  a += exchange(a, 8);
+  return a + exchange(a, 16);
+}
+HERE real least_in_node(real a) {
+  a = minimum(a, exchange(a, 8));
+  return minimum(a, exchange(a, 16));
+}
 HERE integer wrap(integer row, int n) { return choose(row >= n, row - n, choose(row < 0, row + n, row)); }
 
 // Displacement of the tip, the interface rows of eq. (6), by modal coordinates. Slot s has the row s ^ mask,
@@ -117,9 +135,15 @@ HERE flag in_odd() { return (lane() & 8) != 0; }
 HERE flag everywhere() { return lane() >= 0; }
 
 HERE real entry(const Model& model, int row) { return load(model.ledger + LANES * row, lane()); }
-HERE void set_entry(const Model& model, int row, real value) { store(model.ledger + LANES * row, lane(), value, everywhere()); }
-HERE void add_entry(const Model& model, int row, real value) { set_entry(model, row, entry(model, row) + value); }
-HERE real by_group(real a, real b, real c, real d) { return where(in_upper(), where(in_odd(), d, c), where(in_odd(), b, a)); }
+HERE void set_entry(const Model& model, int row, real value) {
+  store(model.ledger + LANES * row, lane(), value, everywhere());
+}
+HERE void add_entry(const Model& model, int row, real value) {
+  set_entry(model, row, entry(model, row) + value);
+}
+HERE real by_group(real a, real b, real c, real d) {
+  return where(in_upper(), where(in_odd(), d, c), where(in_odd(), b, a));
+}
 
 HERE bool is_within_limit(const Model& model, real radial, real tangential) {
   return all((absolute(radial) <= model.limit) & (absolute(tangential) <= model.limit));
@@ -128,7 +152,8 @@ HERE bool is_within_limit(const Model& model, real radial, real tangential) {
 // Whether the tip surely touches nothing where it is, or within `far` of there
 HERE bool is_clear(const Model& model, const Place& place, real far, double minimum_gap) {
   real closest = place.approach + far, sideways = absolute(place.tangential) + model.sideways * far;
-  bool clear = all((closest <= minimum_gap) & (sideways <= model.search_range) & (place.radial - far > -model.limit));
+  bool clear =
+      all((closest <= minimum_gap) & (sideways <= model.search_range) & (place.radial - far > -model.limit));
   if (TURNS && clear) clear = all(closest + highest(model.tip, absolute(place.tilt)) <= minimum_gap);
   return clear;
 }
@@ -144,9 +169,10 @@ HERE real bound(const Model& model, const State& state) {
   return total(far);
 }
 
-// Make many steps at once, as `bladerub.contact.kernel.free_flight`; `far` becomes the bound of the next flight
+// Make many steps at once, as `bladerub.contact.kernel.free_flight`; `far` becomes the bound of the next
+// flight
 HERE void fly(const Model& model, State& state, real& far, real& mean, real& bottom, real& top) {
-#define FORM(i) load(model.forms + (i) * MODES, lane() + LANES * m)
+#define FORM(i) load(model.forms + (i)*MODES, lane() + LANES * m)
   real start = state.now.radial, increment = 0.0;
   far = 0.0;
 #pragma unroll
@@ -181,7 +207,8 @@ HERE void fly(const Model& model, State& state, real& far, real& mean, real& bot
 HERE void advance(const Model& model, const State& state, bool touched, real (&x)[MODES]) {
 #pragma unroll
   for (int m = 0; m < MODES; m++) {
-    x[m] = load(model.coefficients, lane() + LANES * m) * state.q[m] + load(model.coefficients + STRIDE, lane() + LANES * m) * state.d[m];
+    x[m] = load(model.coefficients, lane() + LANES * m) * state.q[m] +
+           load(model.coefficients + STRIDE, lane() + LANES * m) * state.d[m];
   }
   if (!touched) return;
   const integer j = lane() & 7, mask = j + (group_of() >> 1) * NODES;
@@ -195,7 +222,8 @@ HERE void advance(const Model& model, const State& state, bool touched, real (&x
     for (int m = 0; m < MODES; m++) by_forces[m] += load(model.tips, lane() + LANES * (SUMS * m + s)) * force;
   }
 #pragma unroll
-  for (int m = 0; m < MODES; m++) x[m] += load(model.coefficients + 3 * STRIDE, lane() + LANES * m) * by_forces[m];
+  for (int m = 0; m < MODES; m++)
+    x[m] += load(model.coefficients + 3 * STRIDE, lane() + LANES * m) * by_forces[m];
 }
 
 // Find the elements under the nodes: the window begins where the first one under `position` is
@@ -213,7 +241,8 @@ HERE void look(const Model& model, Window& window, real position) {
   }
 }
 
-HERE Linearisation linearise(const Model& model, const Window& window, real position, real approach, real tilt) {
+HERE Linearisation linearise(const Model& model, const Window& window, real position, real approach,
+                             real tilt) {
   Linearisation all{0.0, 0.0, INFINITY, 0.0, 0.0, 0.0};
 #pragma unroll
   for (int k = 0; k < ROWS; k++) {
@@ -245,7 +274,8 @@ HERE Linearisation linearise(const Model& model, const Window& window, real posi
 // Displacement of the tip under forces, by their compliance: each lane sums for one coordinate of its node
 HERE Place displaced(const Model& model, const Place& free, const Forces& by) {
   synchronise();
-  store(model.forces, (lane() & 7) + (group_of() >> 1) * NODES, where(in_upper(), by.tangential, by.radial), (lane() & 8) == 0);
+  store(model.forces, (lane() & 7) + (group_of() >> 1) * NODES, where(in_upper(), by.tangential, by.radial),
+        (lane() & 8) == 0);
   if (TURNS) store(model.forces, lane() + 16, by.couple, lane() < NODES);
   synchronise();
   real more = 0.0, more_too = 0.0;  // two sums at the same time
@@ -258,11 +288,13 @@ HERE Place displaced(const Model& model, const Place& free, const Forces& by) {
   more += more_too;
   more += exchange(more, 8);
   real other = exchange(more, 16);
-  Place place{free.radial + where(in_upper(), other, more), free.tangential + where(in_upper(), more, other), 0.0, free.tilt};
+  Place place{free.radial + where(in_upper(), other, more), free.tangential + where(in_upper(), more, other),
+              0.0, free.tilt};
   if (TURNS) {
     real turning = 0.0;
 #pragma unroll
-    for (int k = 0; k < OF_TILT; k++) turning += model.response[OF_NODE + k] * load(model.forces, group_of() * OF_TILT + k);
+    for (int k = 0; k < OF_TILT; k++)
+      turning += model.response[OF_NODE + k] * load(model.forces, group_of() * OF_TILT + k);
     place.tilt = free.tilt + in_node(turning);
   }
   return place;
@@ -272,9 +304,11 @@ HERE Place displaced(const Model& model, const Place& free, const Forces& by) {
 // `place` comes as the displacement without forces and leaves under them. Returns how the run goes on.
 HERE int find_forces(const Model& model, State& state, double passed, real position_before, Place& place) {
   const Place free = place;
-  Place there{free.radial + state.response.radial, free.tangential + state.response.tangential, 0.0, free.tilt + state.response.tilt};
+  Place there{free.radial + state.response.radial, free.tangential + state.response.tangential, 0.0,
+              free.tilt + state.response.tilt};
   Place here;
-  real approach = 0.0, tilt = there.tilt, reached = 0.0, normal_radial = 0.0, normal_tangential = 0.0, position = 0.0;
+  real approach = 0.0, tilt = there.tilt, reached = 0.0, normal_radial = 0.0, normal_tangential = 0.0,
+       position = 0.0;
   real linear_approach = 0.0, linear_tilt = 0.0;
   Linearisation linear{0.0, 0.0, -1.0, 0.0, 0.0, 0.0};
   bool found = false, moved = true, first = true;
@@ -305,13 +339,16 @@ HERE int find_forces(const Model& model, State& state, double passed, real posit
     force.normal = linear.force + linear.stiffness * closer;
     if (TURNS) {
       force.normal += linear.first_moment * turned;
-      force.couple = model.normal_factor * (linear.couple + linear.first_moment * closer + linear.second_moment * turned);
+      force.couple = model.normal_factor *
+                     (linear.couple + linear.first_moment * closer + linear.second_moment * turned);
     }
-    Pair split = contact_force(model.normal_factor, model.tangential_factor, normal_radial, normal_tangential, force.normal);
+    Pair split = contact_force(model.normal_factor, model.tangential_factor, normal_radial, normal_tangential,
+                               force.normal);
     force.radial = split.first, force.tangential = split.second;
     there = displaced(model, free, force);
     real more_tangential = there.tangential - here.tangential;
-    reached = here.approach + normal_radial * (there.radial - here.radial) + normal_tangential * more_tangential;
+    reached =
+        here.approach + normal_radial * (there.radial - here.radial) + normal_tangential * more_tangential;
     real residual = approach - reached, tilt_residual = tilt - there.tilt, error = absolute(residual);
     if (TURNS) error += edge(model.tip) * absolute(tilt_residual);
     bool straight = all(absolute(more_tangential) <= STRAIGHT);
@@ -325,13 +362,15 @@ HERE int find_forces(const Model& model, State& state, double passed, real posit
   }
   if (!found) return HANDED_OVER;
   place = Place{there.radial, there.tangential, reached, there.tilt};
-  state.response = Place{there.radial - free.radial, there.tangential - free.tangential, 0.0, there.tilt - free.tilt};
+  state.response =
+      Place{there.radial - free.radial, there.tangential - free.tangential, 0.0, there.tilt - free.tilt};
   return is_within_limit(model, there.radial, there.tangential) ? COMPLETED : UNBOUNDED;
 }
 
 // Wear the coating by the forces of a step, and enter energies and sliding, as `elements.update_wear` and
 // `accounting.update_coating`. Returns how the run goes on.
-HERE int update_coating(const Model& model, State& state, double passed, real position_before, const Place& next) {
+HERE int update_coating(const Model& model, State& state, double passed, real position_before,
+                        const Place& next) {
   const Place& now = state.now;
   const Profile& tip = model.tip;
   real position = closest_position(model.node, next.tangential, passed), advance = position - position_before;
@@ -339,7 +378,8 @@ HERE int update_coating(const Model& model, State& state, double passed, real po
   real slid = where(state.force.normal > 0.0, advance, model.per_step), retreat = model.per_step - slid;
   if (!all(slid > 0.0)) state.reversed++;
   look(model, state.window, minimum(position, position_before));
-  real closer = next.approach - now.approach, constant = relief(tip, advance), slope = 2.0 * tip.curvature * advance;
+  real closer = next.approach - now.approach, constant = relief(tip, advance),
+       slope = 2.0 * tip.curvature * advance;
   real stored = 0.0, dissipated = 0.0, supplied = 0.0;
 #pragma unroll
   for (int k = 0; k < ROWS; k++) {
@@ -352,26 +392,32 @@ HERE int update_coating(const Model& model, State& state, double passed, real po
       turning += (next.tilt - now.tilt) * (offset + 0.5 * advance);
       lowering = lowering - 0.5 * (next.tilt + now.tilt) * advance;
     }
-    real depth = penetration(here, relief(tip, offset), state.window.gap[k], worn), deeper = turning + lowering;
+    real depth = penetration(here, relief(tip, offset), state.window.gap[k], worn),
+         deeper = turning + lowering;
     Pair mapped = return_mapping(model.element, depth, worn);
     real force_before = elastic_force(model.element, depth - deeper);
     flag under = share > 0.0, was_under = share_before > 0.0;
     real force = where(under, mapped.first, 0.0), increment = where(under, mapped.second, 0.0);
     state.window.worn[k] = worn + increment;
-    store(model.wear, wrap(row, model.n_elements) * NODES + (lane() & 7), state.window.worn[k], increment > 0.0);
-    real energy = stored_energy(model.element, force), energy_before = stored_energy(model.element, force_before);
+    store(model.wear, wrap(row, model.n_elements) * NODES + (lane() & 7), state.window.worn[k],
+          increment > 0.0);
+    real energy = stored_energy(model.element, force),
+         energy_before = stored_energy(model.element, force_before);
     real loss = dissipated_energy(model.element, worn, increment, where(was_under, force_before, 0.0), force);
     stored += share * energy;
     dissipated += loss;
     real mean_share = 0.5 * (share + share_before);
     flag changes = absolute(deeper) > NO_CHANGE;
-    real mean_force = where(changes, (energy - energy_before + loss) * reciprocal(where(changes, deeper, 1.0)), force);
-    real staying = mean_share * mean_force * lowering + 0.5 * (energy + energy_before) * (share - share_before) + (1.0 - mean_share) * loss;
+    real mean_force =
+        where(changes, (energy - energy_before + loss) * reciprocal(where(changes, deeper, 1.0)), force);
+    real staying = mean_share * mean_force * lowering +
+                   0.5 * (energy + energy_before) * (share - share_before) + (1.0 - mean_share) * loss;
     real entering = share * energy + loss, leaving = 0.0 - share_before * energy_before;
     supplied += where(under, where(was_under, staying, entering), leaving);
   }
   synchronise();
-  state.force.moment = (0.0 - model.tangential_factor) * state.force.normal * (model.node.lever + next.approach);
+  state.force.moment =
+      (0.0 - model.tangential_factor) * state.force.normal * (model.node.lever + next.approach);
   set_entry(model, STORED_BEFORE, entry(model, STORED));
   set_entry(model, STORED, stored);
   set_entry(model, LAST_WEAR, dissipated);
@@ -387,17 +433,20 @@ HERE int update_coating(const Model& model, State& state, double passed, real po
 HERE void add_work(const Model& model, const State& state, const Place& next) {
   const Place &now = state.now, &before = state.before;
   const Forces& force = state.force_before;
-  real more_radial = 0.5 * (next.radial - before.radial), more_tangential = 0.5 * (next.tangential - before.tangential);
+  real more_radial = 0.5 * (next.radial - before.radial),
+       more_tangential = 0.5 * (next.tangential - before.tangential);
   real by_radial = force.radial * more_radial, by_tangential = force.tangential * more_tangential;
   real sliding = 0.0, by_couple = 0.0;
   if (TURNS) {
     by_couple = force.couple * (0.5 * (next.tilt - before.tilt));
-    if (model.tangential_factor != 0.0) sliding = 0.0 - (1.0 + model.normal_factor) / model.normal_factor * by_couple;
+    if (model.tangential_factor != 0.0)
+      sliding = 0.0 - (1.0 + model.normal_factor) / model.normal_factor * by_couple;
   }
   if (model.tangential_factor != 0.0) {
     real share = reciprocal(model.node.radius + now.approach);
     real normal_radial = share * (model.node.radius + now.radial), normal_tangential = share * now.tangential;
-    real distance = model.angle * (model.node.lever + now.approach) + normal_radial * more_tangential - normal_tangential * more_radial;
+    real distance = model.angle * (model.node.lever + now.approach) + normal_radial * more_tangential -
+                    normal_tangential * more_radial;
     real closer = normal_radial * more_radial + normal_tangential * more_tangential;
     real friction_force = (0.0 - model.tangential_factor) * force.normal;
     sliding += friction_force * distance - (1.0 + model.normal_factor) * force.normal * closer;
@@ -439,7 +488,8 @@ HERE void set_up(const Batch& batch, int run, double* shared, Model& model, Stat
   model.forces = shared;
   model.ledger = model.forces + 24;
   double* kept = model.ledger + LANES * KEPT;
-  for (int i = 0; i < TIP_ROWS + SUMS * STRIDE; i += LANES) store(kept, lane() + i, load(modal, lane() + i), everywhere());
+  for (int i = 0; i < TIP_ROWS + SUMS * STRIDE; i += LANES)
+    store(kept, lane() + i, load(modal, lane() + i), everywhere());
   for (int i = 0; i < KEPT; i++) set_entry(model, i, 0.0);
   model.coefficients = kept;
   model.tips = kept + TIP_ROWS;
@@ -513,7 +563,8 @@ HERE void simulate(const Batch& batch, int run, double* shared) {
       real mean = 0.0;
       int step = 0;
       while (step < steps_per_element && status == COMPLETED) {
-        if (state.touching || step + model.flight_steps > steps_per_element) flew = false;
+        if (state.touching || step + model.flight_steps > steps_per_element)
+          flew = false;
         else {
           if (!flew) far = bound(model, state);
           flew = is_clear(model, state.now, far, minimum_gap);
@@ -525,7 +576,8 @@ HERE void simulate(const Batch& batch, int run, double* shared) {
           steps += model.flight_steps;
           continue;
         }
-        int together = model.flight_steps < steps_per_element - step ? model.flight_steps : steps_per_element - step;
+        int together =
+            model.flight_steps < steps_per_element - step ? model.flight_steps : steps_per_element - step;
         for (int i = 0; i < together && status == COMPLETED; i++) {
           touched = state.touching;
           if (touched) state.force_before = state.force;
@@ -556,7 +608,9 @@ HERE void simulate(const Batch& batch, int run, double* shared) {
           state.now = next;
         }
       }
-      if (status == COMPLETED) store(batch.displacement + (size_t)run * batch.revolutions * n, lane() + (revolution * n + element), mean * model.per_step, first_lane);
+      if (status == COMPLETED)
+        store(batch.displacement + (size_t)run * batch.revolutions * n, lane() + (revolution * n + element),
+              mean * model.per_step, first_lane);
     }
     store(batch.range + (size_t)run * batch.revolutions * 2, lane() + 2 * revolution, bottom, first_lane);
     store(batch.range + (size_t)run * batch.revolutions * 2, lane() + (2 * revolution + 1), top, first_lane);
@@ -574,11 +628,15 @@ HERE void simulate(const Batch& batch, int run, double* shared) {
   counts[REVERSED_STEPS] = state.reversed;
 }
 
-#define ARGUMENTS \
-  int n_runs, const int *order, int *next, int n_elements, int revolutions, const double *modal, const double *stator, \
-  const double *casing, const double *tip, const int *runs, double *modes, double *wear, double *displacement, \
-  double *range, double *forces, double *ledger, long long *counts
-#define BATCH {n_elements, revolutions, modal, stator, casing, tip, runs, modes, wear, displacement, range, forces, ledger, counts}
+#define ARGUMENTS                                                                                    \
+  int n_runs, const int *order, int *next, int n_elements, int revolutions, const double *modal,     \
+      const double *stator, const double *casing, const double *tip, const int *runs, double *modes, \
+      double *wear, double *displacement, double *range, double *forces, double *ledger, long long *counts
+#define BATCH                                                                                            \
+  {                                                                                                      \
+    n_elements, revolutions, modal, stator, casing, tip, runs, modes, wear, displacement, range, forces, \
+        ledger, counts                                                                                   \
+  }
 
 #ifdef __CUDACC__
 extern "C" __global__ void __launch_bounds__(LANES, WARPS_PER_PROCESSOR) simulate_batch(ARGUMENTS) {
