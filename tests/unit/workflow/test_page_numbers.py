@@ -147,6 +147,7 @@ CHANGES = [
         "accuracy.count(drawn_from='all')",
     ),
     ("benchmark", {"motion": "free"}, "ratio_to_numpy", 1.0, "benchmark.rows.assign"),
+    ("fine_margins", {"id": "C8a"}, "holds", "?", "fine_margins('study','C8a').holds"),
     ("gpu", {"gpu_runs": 11904}, "kernel_s", 1.0, "gpu.rows.assign"),
     ("schedule", {"cores": 16}, "efficiency", 0.1, "schedule.rows"),
     ("cost", {"stage": "blade"}, "memory_mb", 9999.0, "cost.column('memory_mb')|max"),
