@@ -8,6 +8,7 @@ OUTSIDE = (
     "identification",
     "laws",
     "long_runs",
+    "rigs",
     "robustness",
     "rotor",
     "stress",
