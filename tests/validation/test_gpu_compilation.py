@@ -6,17 +6,17 @@ import pytest
 
 from bladerub.contact.gpu import batch, device
 from bladerub.contact.gpu.batch import Variant
-from bladerub.contact.laws import NAMES, module_of, source_of
-from bladerub.contact.spec import ElementLaw
+from bladerub.contact.laws import NAMES, module_of
+from bladerub.contact.spec import PLASTIC, ElementLaw
 
 REGISTERS = 255  # of a thread
 nvrtc = pytest.importorskip("cupy_backends.cuda.libs.nvrtc", reason="no CuPy; pip install -e .[gpu]")
 
 
-def compile_for(architecture: str, variant: Variant, law: ElementLaw) -> tuple[int, int]:
+def compile_for(architecture: str, variant: Variant) -> tuple[int, int]:
     """Compile the loop; return registers of a thread and bytes that it spills."""
     try:
-        program = nvrtc.createProgram(batch.source(variant, law), "loop.cu", (), ())
+        program = nvrtc.createProgram(batch.source(variant), "loop.cu", (), ())
     except RuntimeError as error:
         pytest.skip(f"no NVRTC: {error}")
     options = (*device.OPTIONS, f"--gpu-architecture={architecture}", "--ptxas-options=-v")
@@ -35,8 +35,8 @@ def compile_for(architecture: str, variant: Variant, law: ElementLaw) -> tuple[i
 @pytest.mark.parametrize("vectors", [1, 2, 3, 4])
 @pytest.mark.parametrize("turns", [False, True])
 def test_the_loop_needs_no_memory_for_its_registers(vectors, turns):
-    variant = Variant(vectors, turns, 2.0, ("plastic", ""), 2000, 20)
-    used, spilled = compile_for("sm_90", variant, ElementLaw())
+    variant = Variant(vectors, turns, 2.0, PLASTIC, 2000, 20)
+    used, spilled = compile_for("sm_90", variant)
     print(f"{32 * vectors} modes, profile turns {turns}: {used} registers, {spilled} bytes spilled")
     assert used <= REGISTERS
     if vectors <= 3 and not turns:  # the study
@@ -45,7 +45,7 @@ def test_the_loop_needs_no_memory_for_its_registers(vectors, turns):
 
 @pytest.mark.parametrize("architecture", ["sm_80", "sm_89", "sm_100"])
 def test_other_processors(architecture):
-    used, _ = compile_for(architecture, Variant(3, False, 2.0, ("plastic", ""), 2000, 20), ElementLaw())
+    used, _ = compile_for(architecture, Variant(3, False, 2.0, PLASTIC, 2000, 20))
     assert used <= REGISTERS
 
 
@@ -53,5 +53,5 @@ def test_other_processors(architecture):
 def test_every_law(name):
     law = ElementLaw(name)
     assert module_of(law)
-    used, _ = compile_for("sm_90", Variant(2, False, 2.0, (name, source_of(law)), 2000, 20), law)
+    used, _ = compile_for("sm_90", Variant(2, False, 2.0, law, 2000, 20))
     assert used <= REGISTERS

@@ -11,7 +11,7 @@ import pandas as pd
 from bladerub.benchmark import machine
 from bladerub.blade.model import ReducedBlade
 from bladerub.contact.gpu.batch import Device
-from bladerub.contact.gpu.many import simulate_many
+from bladerub.contact.gpu.many import LeftOut, simulate_many
 from bladerub.contact.result import RunResult
 from bladerub.contact.run import simulate
 from bladerub.contact.spec import RunSpec
@@ -61,15 +61,15 @@ def compare(
     single = [run_spec(config, run.case, run.f_omega) for run in study_runs(config) if not run.row]
     described = [spec for spec in single if not (spec.coating.is_rigid or spec.coating.coulomb)]
     kernel: list[float] = []
-    told: list[str] = []
+    told: list[LeftOut] = []
     watched: Device = partial(device, watch=kernel.append)
     start = time.perf_counter()
     found = {
         number: measures(result) for number, result in simulate_many(blade, described, watched, told.append)
     }
     seconds = time.perf_counter() - start
-    for line in told:
-        report(line)
+    for left_out in told:
+        report(str(left_out))
     numbers = np.linspace(0, len(described) - 1, min(n_compared, len(described))).astype(int).tolist()
     report(f"{len(numbers)} runs on this processor")
 
@@ -81,7 +81,7 @@ def compare(
     return {
         **{name: machine.describe()[name] for name in ("processor", "cores")},
         "gpu_runs": len(described),
-        "handed_over": sum(int(line.split()[0]) for line in told),
+        "handed_over": sum(left_out.runs for left_out in told),
         "kernel_s": sum(kernel),
         "gpu_s": seconds,
         "gpu_steps_per_second": steps / sum(kernel),

@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from bladerub.blade.model import ReducedBlade
-from bladerub.contact.gpu.many import simulate_many
+from bladerub.contact.gpu.many import LeftOut, simulate_many
 from bladerub.contact.gpu.server import find
 from bladerub.contact.result import RunResult
 from bladerub.contact.row import simulate_row
@@ -178,8 +178,12 @@ def _on_gpu(
     report: Callable[[object], None],
 ) -> Iterator[tuple[PlannedRun, Made]]:
     """Yield each run with ``made(run, solve)`` as it is done, rows of blades last."""
+
+    def left_out(told: LeftOut) -> None:
+        report(str(told))
+
     single = [run for run in runs if not run.row]
-    for number, result in simulate_many(blade, [run.spec for run in single], find(), report):
+    for number, result in simulate_many(blade, [run.spec for run in single], find(), left_out):
         yield single[number], made(single[number], lambda *_, found=result: found)
     yield from ((run, made(run, simulate)) for run in runs if run.row)
 

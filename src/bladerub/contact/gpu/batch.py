@@ -5,7 +5,7 @@ Runs of one blade at one speed, or of one coating, share what is equal: it is pa
 
 import math
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cache
 from pathlib import Path
 from typing import NamedTuple
@@ -52,7 +52,7 @@ class Variant(NamedTuple):
     vectors: int  # Vectors of 32 modes
     turns: bool  # Whether the profile turns with the tip
     half_width: float  # Of the profile, elements
-    law: tuple[str, str]  # Name and source of the law of the elements, without its parameters
+    law: ElementLaw  # Of the elements, without its parameters
     n_elements: int
     revolutions: int
 
@@ -69,8 +69,18 @@ def refusal(spec: RunSpec, simulation: Simulation) -> str:
         return f"the scheme {spec.scheme} corrects its steps"
     if simulation.tip.start.size > LANES:
         return f"the tip has more than {LANES} nodes"
+    return _refusal_of(replace(spec.coating.element_law, parameters=()))
+
+
+@cache
+def _formulas_of(law: ElementLaw) -> str:
+    return formulas.of_law(module_of(law), source_of(law))
+
+
+@cache  # a translation takes as long as setting up a run
+def _refusal_of(law: ElementLaw) -> str:
     try:
-        formulas.of_law(module_of(spec.coating.element_law), source_of(spec.coating.element_law))
+        _formulas_of(law)
     except ValueError as error:
         return str(error)
     return ""
@@ -78,20 +88,19 @@ def refusal(spec: RunSpec, simulation: Simulation) -> str:
 
 def variant_of(spec: RunSpec, simulation: Simulation) -> Variant:
     """Return the variant of the loop that a run needs."""
-    law = spec.coating.element_law
     return Variant(
         vectors=math.ceil(simulation.modal.n / WARP),
         turns=simulation.modal.tilt is not None,
         half_width=spec.tip.half_width,
-        law=(law.name, source_of(law)),
+        law=replace(spec.coating.element_law, parameters=()),
         n_elements=spec.coating.n_elements,
         revolutions=spec.revolutions,
     )
 
 
 @cache
-def source(variant: Variant, law: ElementLaw) -> str:
-    """Put together the source of the loop for runs of a variant, whose elements have this law."""
+def source(variant: Variant) -> str:
+    """Put together the source of the loop for runs of a variant."""
     rows = math.ceil((2 * variant.half_width + 3) / 4)  # of elements under a node, for each group of lanes
     constants = {
         "MODES": variant.vectors,
@@ -113,7 +122,7 @@ def source(variant: Variant, law: ElementLaw) -> str:
             *(f"constexpr int {name} = {value};" for name, value in constants.items()),
             *(f"constexpr double {name} = {value!r};" for name, value in numbers.items()),
             formulas.of_contact(),
-            formulas.of_law(module_of(law), source_of(law)),
+            _formulas_of(variant.law),
             (FOLDER / "loop.cu").read_text(encoding="utf-8"),
         ]
     )
@@ -180,7 +189,7 @@ def described(work: Work) -> dict[str, tuple[tuple[int, ...], type, float]]:
     }
 
 
-def pack(variant: Variant, law: ElementLaw, simulations: Sequence[Simulation]) -> Work:
+def pack(variant: Variant, simulations: Sequence[Simulation]) -> Work:
     """Pack runs of one variant, which are about to begin, for a device."""
     turns = variant.turns
     runs = np.empty((len(simulations), 5), dtype=np.int32)
@@ -198,7 +207,7 @@ def pack(variant: Variant, law: ElementLaw, simulations: Sequence[Simulation]) -
         modes[i, :, : q.size] = q, q - before
     records = (np.array(each.kept) for each in (modal, stator, casing, tip))
     size = (variant.n_elements, variant.revolutions)
-    return Work(source(variant, law), _shared(variant), *size, _longest_first(runs), *records, runs, modes)
+    return Work(source(variant), _shared(variant), *size, _longest_first(runs), *records, runs, modes)
 
 
 def merge(works: Sequence[Work]) -> Work:

@@ -45,9 +45,10 @@ struct Node {
 struct Place {
   real radial, tangential, approach, tilt;
 };
+// On the blade; `normal` is their size, `moment` that about the axis
 struct Forces {
   real radial, tangential, couple, normal, moment;
-};  // on the blade; size, and about the axis
+};
 // Of the elements under a node, those of the group: rows `row`, `row` + 4, ...
 struct Window {
   integer row;

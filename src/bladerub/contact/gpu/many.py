@@ -2,6 +2,7 @@
 
 from collections import defaultdict
 from collections.abc import Callable, Iterator, Sequence
+from typing import NamedTuple
 
 from threadpoolctl import threadpool_limits
 
@@ -16,6 +17,18 @@ from bladerub.contact.schemes import Recurrence
 from bladerub.contact.setup import set_up
 from bladerub.contact.spec import RunSpec
 
+
+class LeftOut(NamedTuple):
+    """Runs that the processor computes instead of the device; the string is a line for a log."""
+
+    runs: int
+    total: int
+    reason: str
+
+    def __str__(self) -> str:
+        return f"{self.runs} of {self.total} runs on the CPU: {self.reason}"
+
+
 _Prepared = tuple[int, Recurrence, Simulation]
 
 
@@ -24,13 +37,13 @@ def simulate_many(
     blade: ReducedBlade,
     specs: Sequence[RunSpec],
     device: Device,
-    report: Callable[[str], None] = lambda line: None,
+    report: Callable[[LeftOut], None] = lambda left_out: None,
 ) -> Iterator[tuple[int, RunResult]]:
     """Simulate runs on a device; yield the number of each with its result, in any order.
 
     A run that the loop of the device does not know, or can't finish since Newton's method does not converge
-    in one of its steps, is simulated as `bladerub.contact.run.simulate` does; `report` is told how many there
-    are of these, and why. Raises as `simulate`.
+    in one of its steps, is simulated as `bladerub.contact.run.simulate` does; `report` is told of these.
+    Raises as `simulate`.
     """
     variants: dict[Variant, list[_Prepared]] = defaultdict(list)
     left_out: dict[str, list[int]] = defaultdict(list)
@@ -46,10 +59,7 @@ def simulate_many(
         for variant, prepared in variants.items()
         for first in range(0, len(prepared), batch.MOST_RUNS)
     ]
-    works = (
-        batch.pack(variant, specs[part[0][0]].coating.element_law, [simulation for *_, simulation in part])
-        for variant, part in parts
-    )
+    works = (batch.pack(variant, [simulation for *_, simulation in part]) for variant, part in parts)
     for (_, part), left in zip(parts, device(works), strict=True):
         for i, (number, rule, simulation) in enumerate(part):
             initial = sum(energy.blade_energy(rule, simulation.state))
@@ -59,6 +69,6 @@ def simulate_many(
             else:
                 yield number, run_result(blade, specs[number], rule, simulation, history, initial)
     for reason, numbers in left_out.items():
-        report(f"{len(numbers)} of {len(specs)} runs on the CPU: {reason}")
+        report(LeftOut(len(numbers), len(specs), reason))
         for number in numbers:
             yield number, simulate(blade, specs[number])

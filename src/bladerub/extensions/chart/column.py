@@ -96,7 +96,7 @@ def compute_missing(
         def made_together() -> Iterator[tuple[CoatingCase, tuple[points.ChartPoint, float]]]:
             start = time.monotonic()
             searches = {case: search(config, case, blade, speeds, C1) for case in missing}
-            solve = partial(simulate_many, blade, device=find(), report=report)
+            solve = partial(simulate_many, blade, device=find(), report=lambda told: report(str(told)))
             return ((case, (point, start)) for case, point in compute_together(searches, solve))
 
         done = made_together() if on_gpu(config) else each_done(made, missing, threads)

@@ -8,7 +8,7 @@ import pytest
 from bladerub.contact.gpu import batch
 from bladerub.contact.gpu.batch import Left, merge, pack, refusal, split, variant_of
 from bladerub.contact.setup import set_up
-from bladerub.contact.spec import PLASTIC, ElementLaw
+from bladerub.contact.spec import ElementLaw
 
 HEATED = {
     "heat_capacity": 1e6,
@@ -22,7 +22,7 @@ HEATED = {
 
 def packed(blade, specs):
     simulations = [set_up(blade, spec)[1] for spec in specs]
-    return pack(variant_of(specs[0], simulations[0]), PLASTIC, simulations)
+    return pack(variant_of(specs[0], simulations[0]), simulations)
 
 
 def test_runs_share_what_is_equal(blade, spec, change):
@@ -77,7 +77,7 @@ def test_what_is_left_is_split_as_it_was_merged():
 def test_the_window_of_elements_is_wide_enough(blade, spec, change):
     for half_width in (1.0, 2.0, 2.5, 3.0, 6.0):
         changed = change(spec, half_width=half_width)
-        text = batch.source(variant_of(changed, set_up(blade, changed)[1]), PLASTIC)
+        text = batch.source(variant_of(changed, set_up(blade, changed)[1]))
         values = {
             line.split()[2]: float(line.split()[4].rstrip(";"))
             for line in text.splitlines()
