@@ -44,7 +44,8 @@ def predicted(emulated: Mapping[str, Emulator], positions: np.ndarray) -> pd.Dat
     """Predict the implausibility of each emulated target (columns) at `positions` (m, d)."""
     known = {target.name: target for target in TARGETS}
     return pd.DataFrame(
-        {name: _of_prediction(known[name], emulator, positions) for name, emulator in emulated.items()}
+        {name: _of_prediction(known[name], emulator, positions) for name, emulator in emulated.items()},
+        index=range(len(positions)),  # also where nothing is emulated
     )
 
 

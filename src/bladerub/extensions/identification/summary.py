@@ -98,7 +98,7 @@ def predictions(emulators: Mapping[str, Emulator], first: int, drawn: np.ndarray
         mean, deviation = emulator.predict(drawn)
         numbers = np.arange(first, first + len(drawn))
         tables.append(pd.DataFrame(dict(zip(PREDICTIONS, (numbers, name, mean, deviation), strict=True))))
-    return pd.concat(tables, ignore_index=True)
+    return pd.concat(tables or [pd.DataFrame(columns=PREDICTIONS)], ignore_index=True)
 
 
 def targets(measured: pd.DataFrame, predictions: pd.DataFrame) -> pd.DataFrame:

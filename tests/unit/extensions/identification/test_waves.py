@@ -76,6 +76,21 @@ def test_what_is_left_lies_where_the_targets_are_met(plan, emulated):
     assert left.plausible["f4_soft"] == pytest.approx(0.15, rel=0.1)
 
 
+def test_without_an_emulator_all_is_left_and_the_next_sets_are_spread(plan, positions):
+    left = waves.remaining(plan, {})
+    assert (left.share, left.given_up, len(left.points)) == (1.0, 0, waves.POINTS)
+    assert left.plausible.empty
+    assert len(waves.draw(plan, 1, left, {}, positions)) == waves.DRAWN
+
+
+def test_without_an_emulator_the_targets_are_still_compared_with_the_paper(plan, positions, measured):
+    predictions = summary.predictions({}, 34, positions[:3])
+    assert list(predictions.columns) == summary.PREDICTIONS
+    table = summary.targets(measured, predictions)
+    assert set(table.target) == set(measured.columns)
+    assert table.explained.isna().all()
+
+
 def test_as_few_targets_are_given_up_as_leave_enough(plan, positions, measured):
     nowhere = measured.assign(f4_straight=1.0)  # no target of that name: not asked for
     nowhere = nowhere.drop(columns="f4_straight").assign(f6_straight=TARGET["f6_straight"].value + 1.0)
