@@ -76,6 +76,7 @@ include: "src/rules/rotor.smk"
 include: "src/rules/rotor37.smk"
 include: "src/rules/robustness.smk"
 include: "src/rules/identification.smk"
+include: "src/rules/blade_comparison.smk"
 include: "src/rules/documents.smk"
 
 

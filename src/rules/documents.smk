@@ -271,6 +271,8 @@ use rule docs_data as docs_chart with:
         rules.chart_ridge.output.summary,
         rules.chart_stiffening.output.table,
         rules.chart_placement.output.summary,
+        rules.chart_explanation.output.table,
+        rules.chart_agreement.output.table,
     log:
         f"{RESULTS}/logs/docs_chart.log",
 
@@ -345,6 +347,31 @@ use rule docs_data as docs_tip_turns with:
         f"{RESULTS}/logs/docs_tip_turns.log",
     params:
         prefix="tip_turns_",
+
+
+# With `--configfile config/twisted_plate.yaml`
+use rule docs_data as docs_twisted_plate with:
+    input:
+        rules.blade_comparison.output.blades,
+        rules.blade_comparison.output.runs,
+        f"{TABLES}/peaks.csv",
+        f"{TABLES}/divergence.csv",
+    log:
+        f"{RESULTS}/logs/docs_twisted_plate.log",
+    params:
+        prefix="twisted_plate_",
+
+
+# With `--configfile config/longer.yaml`
+use rule docs_data as docs_longer with:
+    input:
+        f"{TABLES}/findings.csv",
+        f"{TABLES}/peaks.csv",
+        f"{TABLES}/divergence.csv",
+    log:
+        f"{RESULTS}/logs/docs_longer.log",
+    params:
+        prefix="longer_",
 
 
 rule docs_pages:

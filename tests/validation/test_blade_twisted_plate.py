@@ -37,6 +37,7 @@ from bladerub.blade.surface import boundary_faces
 from bladerub.config import read as configuration
 from bladerub.io.folders import ROOT
 
+PAGE = ROOT / "docs" / "explanation" / "twisted_plate.md"
 BLADE = ROOT / "config" / "blades" / "twisted_plate.inp"  # of config/twisted_plate.yaml
 
 STEEL = Material(2e11, 0.3, 8000.0)
@@ -58,6 +59,14 @@ def solid(points, counts, material=STEEL):
 def frequencies(points, counts, n_modes, material=STEEL):
     body = solid(points, counts, material)
     return lowest_modes(equilibrium(body, 0.0).stiffness, body.mass, n_modes)[0]
+
+
+def row_of_page(heading):
+    """Numbers of the one row of the page's tables that begins with `heading`, shares of percentages."""
+    begin = f"| {heading} |"
+    (row,) = (line for line in PAGE.read_text(encoding="utf-8").split("\n") if line.startswith(begin))
+    cells = row.removeprefix(begin).strip(" |").replace("−", "-").split(" | ")
+    return np.array([float(cell.removesuffix(" %")) / (100 if "%" in cell else 1) for cell in cells])
 
 
 def compare(what, found, expected, **tolerance):
@@ -83,6 +92,9 @@ def test_thin_plate_has_the_published_frequencies(thin):
     found = to_lambda * frequencies(points, (20, 20), 6)
     compare("FV16, converged", found, CONVERGED, rtol=5e-3)
     compare("FV16, Young, Barton and Leissa", found, YOUNG_BARTON_LEISSA, rtol=1.1e-2)
+    assert row_of_page("ours over converged, less 1") == pytest.approx(found / CONVERGED - 1, abs=6e-5)
+    assert list(row_of_page("converged")) == list(CONVERGED)
+    assert list(row_of_page("Young, Barton, Leissa")) == list(YOUNG_BARTON_LEISSA)
 
 
 @pytest.mark.parametrize(
@@ -97,6 +109,8 @@ def test_twisted_plates_vibrate_as_by_ritz(aspect, slenderness, degrees):
     to_lambda = 2 * np.pi / plate_unit(STEEL, 0.1 / slenderness, 0.1 * aspect)
     print(f"a/b = {aspect}, b/h = {slenderness}, {degrees}°: λ = {np.round(to_lambda * found, 3)}")
     compare(f"a/b = {aspect}, b/h = {slenderness}, {degrees}°", found, expected, rtol=4e-3)
+    row = row_of_page(f"{aspect} | {slenderness} | {degrees}°")
+    assert row == pytest.approx(to_lambda * found, abs=6e-4)
 
 
 @pytest.mark.parametrize(
@@ -121,6 +135,8 @@ def test_curved_fan_blade_vibrates_as_measured():
     found = frequencies(points, (20, 20), 7, steel)
     compare("fan blade, Ritz", found, ritz(points, steel, 7), rtol=5e-3)
     compare("fan blade, measured", found, FAN_BLADE, rtol=4e-2)
+    assert row_of_page("ours over measured, less 1") == pytest.approx(found / FAN_BLADE - 1, abs=6e-4)
+    assert list(row_of_page("measured")) == list(FAN_BLADE)
 
 
 def test_rotating_plate_vibrates_as_published():

@@ -1,0 +1,23 @@
+"""Compare the blade of a config with that of the study, and the coatings that both have."""
+
+from pathlib import Path
+
+from bladerub.blade.built import read
+from bladerub.extensions.blade_comparison import blades, runs
+from bladerub.study.maps import read_map
+from bladerub.workflow import job, outputs
+
+job.log_to(snakemake.log[0])
+
+built, reference = (read(Path(snakemake.input[name])) for name in ("blade", "reference"))
+maps = [*map(read_map, snakemake.input.maps)]
+half = len(maps) // 2
+outputs.save(
+    snakemake,
+    blades=blades({"this": built, "reference": reference}),
+    runs=runs(
+        snakemake.config,
+        zip(maps[:half], maps[half:], strict=True),
+        (built.reduced.length, reference.reduced.length),
+    ),
+)
