@@ -29,7 +29,14 @@ KEPT = {
         *(f"start_{measure}" for measure in ("wear_l2", "peak", "revolution_peak")),
     ),
     "calibration": ("set", "id", "measured", "holds"),
-    "chart": (*_RUN, "Y4", "f4", "Y6", "f6", "runs"),
+    "chart": (
+        *(*_RUN, "Y4", "f4", "Y6", "f6", "peak", "worn_volume", "deepest_wear", "divergent_share", "runs"),
+    ),
+    "chart_explanation": (
+        *(*_RUN, "order", "E_T", "f_crossing", "f_peak", "amplitude", "lobes"),
+        *("wear_per_cycle", "damping_per_cycle"),
+    ),
+    "chart_agreement": (*_RUN, "quantity", "disagreement"),
     "finer_bars": (
         *(*_RUN, "order", "elements", "f_peak", "amplitude"),
         *("amplitude_change", "volume_change", "wear_difference", "status"),
