@@ -4,6 +4,7 @@ from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
+from threadpoolctl import threadpool_limits
 
 from bladerub.config import read as configuration
 from bladerub.config.files import Located
@@ -15,6 +16,8 @@ from bladerub.study.grid import coating_cases
 _DETERMINING = ("blade", "reduction", "contact", "coatings", "speeds", "solver", "analysis")  # and casings
 
 
+# Threads take longer than the splines of a blade's sections
+@threadpool_limits.wrap(limits=1, user_api="blas")
 def check(study: Mapping[str, Any], plan: Plan) -> None:
     """Check every sample of every part; raises `ConfigError`, naming part and sample."""
     for part in plan.parts.values():
