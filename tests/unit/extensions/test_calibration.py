@@ -105,7 +105,7 @@ def test_a_set_without_choices_is_the_study(study, asked):
     assert plan(config) == {"as_it_is": config}
 
 
-@pytest.mark.parametrize(("file", "of_the_study"), [("calibration", "study"), ("laws", "study")])
+@pytest.mark.parametrize(("file", "of_the_study"), [("calibration", "study"), ("laws", "plastic")])
 def test_the_plans_of_the_repository_have_the_study_in_them(study, file, of_the_study, monkeypatch):
     monkeypatch.chdir(ROOT)
     sets = plan(study | {"calibration": f"config/{file}.yaml"})
