@@ -13,28 +13,27 @@ from bladerub.contact.run import simulate
 LIMITED = """
 import pickle, sys
 from bladerub.contact.kernel import gauss_seidel, newton
-newton.MAX_ITERATIONS, gauss_seidel.MAX_SWEEPS = 0, 4  # before compilation
+newton.MAX_ITERATIONS, gauss_seidel.MAX_SWEEPS = int(sys.argv[3]), int(sys.argv[4])  # before compilation
 from bladerub.contact.run import simulate
 with open(sys.argv[1], "rb") as file:
-    blade, specs = pickle.load(file)
+    blade, spec = pickle.load(file)
 with open(sys.argv[2], "wb") as file:
-    pickle.dump([simulate(blade, spec) for spec in specs], file)
+    pickle.dump(simulate(blade, spec), file)
 """
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture
 def stiff(spec, change):
     """A coating so stiff, in steps so long, that condensed modes decide on the forces."""
     return change(spec, E=20.0, K=10.0, theta=0.1, revolutions=1, steps_per_element=6, max_time_step=2e-5)
 
 
-@pytest.fixture(scope="module")
-def by_four_sweeps(blade, spec, stiff, tmp_path_factory):
-    """Results of both runs without Newton steps, by a process that compiles anew for these limits."""
-    folder = tmp_path_factory.mktemp("limited")
+def limited(blade, spec, folder, iterations, sweeps):
+    """Simulate with other limits of the iterations, in a process that compiles anew for them."""
     with open(folder / "input", "wb") as file:
-        pickle.dump((blade, (spec, stiff)), file)
-    command = [sys.executable, "-c", LIMITED, folder / "input", folder / "output"]
+        pickle.dump((blade, spec), file)
+    arguments = [folder / "input", folder / "output", iterations, sweeps]
+    command = [sys.executable, "-c", LIMITED, *map(str, arguments)]
     subprocess.run(command, env=os.environ | {"NUMBA_CACHE_DIR": str(folder)}, check=True)
     with open(folder / "output", "rb") as file:
         return pickle.load(file)
@@ -49,18 +48,16 @@ def test_a_run_that_converges_counts_no_unconverged_step(blade, spec, stiff):
 
 
 @pytest.mark.slow
-def test_without_newton_steps_every_step_near_the_casing_falls_back_and_converges(
-    blade, spec, by_four_sweeps
-):
-    whole, (result, _) = simulate(blade, spec), by_four_sweeps
+def test_without_newton_steps_every_step_near_the_casing_falls_back_and_converges(blade, stiff, tmp_path):
+    whole, result = simulate(blade, stiff), limited(blade, stiff, tmp_path, 0, 200)
     assert result.n_fallback_steps >= result.n_contact_steps > 100
     assert result.n_unconverged_steps == 0
     np.testing.assert_allclose(result.wear, whole.wear, rtol=0, atol=1e-5 * whole.wear.max())
 
 
 @pytest.mark.slow
-def test_a_run_whose_iterations_fail_counts_its_unconverged_steps(by_four_sweeps):
-    _, result = by_four_sweeps  # four sweeps are too few where condensed modes decide
+def test_a_run_whose_iterations_fail_counts_its_unconverged_steps(blade, stiff, tmp_path):
+    result = limited(blade, stiff, tmp_path, 0, 1)
     assert 100 < result.n_unconverged_steps <= result.n_fallback_steps
 
 
