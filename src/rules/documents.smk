@@ -362,18 +362,6 @@ use rule docs_data as docs_twisted_plate with:
         prefix="twisted_plate_",
 
 
-# With `--configfile config/longer.yaml`
-use rule docs_data as docs_longer with:
-    input:
-        f"{TABLES}/findings.csv",
-        f"{TABLES}/peaks.csv",
-        f"{TABLES}/divergence.csv",
-    log:
-        f"{RESULTS}/logs/docs_longer.log",
-    params:
-        prefix="longer_",
-
-
 rule docs_pages:
     log:
         f"{RESULTS}/logs/docs_pages.log",
