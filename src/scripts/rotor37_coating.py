@@ -7,6 +7,7 @@ from bladerub.extensions.rotor37.numbers import of_coating
 from bladerub.extensions.small_study import map_coating
 from bladerub.io import tables
 from bladerub.io.provenance import provenance
+from bladerub.study.cache import blade_digest
 from bladerub.study.grid import case_from_name
 from bladerub.study.maps import read_map
 from bladerub.workflow import job
@@ -14,9 +15,14 @@ from bladerub.workflow import job
 job.log_to(snakemake.log[0])
 
 config, model = snakemake.params.config, snakemake.input.blade
-case = case_from_name(config, snakemake.wildcards.coating)
+case, blade = case_from_name(config, snakemake.wildcards.coating), read_reduced_blade(model)
 path, _ = map_coating(
-    config, case, model, snakemake.params.folder, report=lambda run: print(run, file=sys.stderr)
+    config,
+    case,
+    blade,
+    blade_digest(model),
+    snakemake.params.folder,
+    report=lambda run: print(run, file=sys.stderr),
 )
-numbers = of_coating(config, read_map(path), read_reduced_blade(model))
+numbers = of_coating(config, read_map(path), blade)
 tables.write(snakemake.output.numbers, numbers, provenance(config))

@@ -7,16 +7,20 @@ import scipy  # its parts when they are used: every job of a figure imports this
 from threadpoolctl import threadpool_limits
 
 from bladerub.blade.model import ReducedBlade
+from bladerub.numerics.once import once
 
 
+@once(maxsize=256)  # the maps of a small study share its speeds
 @threadpool_limits.wrap(limits=1, user_api="blas")  # sums depend on the number of threads
 def reduced_frequencies(blade: ReducedBlade, f_omega: float, n_modes: int | None = None) -> np.ndarray:
-    """Lowest `n_modes` frequencies (all if not given) of the reduced model at `f_omega`, Hz."""
+    """Lowest `n_modes` frequencies (all if not given) of the reduced model at `f_omega`, Hz; read-only."""
     last = len(blade.mass) if n_modes is None else n_modes
     squares = scipy.linalg.eigh(
         blade.stiffness(f_omega), blade.mass, eigvals_only=True, subset_by_index=[0, last - 1]
     )
-    return in_hertz(squares)
+    frequencies = in_hertz(squares)
+    frequencies.flags.writeable = False
+    return frequencies
 
 
 def crossing_speeds(blade: ReducedBlade, orders: Iterable[int]) -> dict[int, float]:

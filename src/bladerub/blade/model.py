@@ -29,7 +29,7 @@ def interface_node(n_nodes: int) -> Variable:
 AXIS = Variable(("axis",), np.array(["x", "y", "z"]), "1", "x along the axis of rotation, z along the blade")
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)  # one is equal to itself alone: what is found of it can be cached
 class ReducedBlade:
     """Craig-Bampton model of a rotating blade with centrifugal stiffening, eqs. (2) to (6).
 

@@ -7,6 +7,7 @@ import scipy.linalg
 
 from bladerub.blade.model import ReducedBlade
 from bladerub.contact.spec import RunSpec
+from bladerub.numerics.once import once
 
 
 class Modes(NamedTuple):
@@ -28,17 +29,21 @@ def modes_at(blade: ReducedBlade, f_omega: float, spec: RunSpec | None = None) -
     return Modes(omega, at_tip(blade, shapes, spec), blade.n_interface)
 
 
+@once(maxsize=256)  # coatings and starts share the speeds of a study
 def mode_shapes_at(blade: ReducedBlade, f_omega: float) -> tuple[np.ndarray, np.ndarray]:
     """Diagonalise mass and stiffness, eq. (2), of the blade at the normalised speed `f_omega`.
 
     Returns the natural angular frequencies (n,), ascending, rad/s, and the reduced coordinates per unit of
-    each mode (n, n), mass-normalised, kg^-1/2. Raises `ValueError` if `f_omega` is outside the fitted range
-    or the stiffness is not positive definite there.
+    each mode (n, n), mass-normalised, kg^-1/2, both read-only. Raises `ValueError` if `f_omega` is outside
+    the fitted range or the stiffness is not positive definite there.
     """
     squares, vectors = scipy.linalg.eigh(blade.stiffness(f_omega), blade.mass)
     if squares[0] <= 0:
         raise ValueError(f"f_omega = {f_omega:g}: the stiffness of the blade is not positive definite")
-    return np.sqrt(squares), vectors
+    omega = np.sqrt(squares)
+    for each in (omega, vectors):
+        each.flags.writeable = False
+    return omega, vectors
 
 
 def at_tip(blade: ReducedBlade, coordinates: np.ndarray, spec: RunSpec | None = None) -> np.ndarray:

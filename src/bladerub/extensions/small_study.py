@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 
 import pandas as pd
 
-from bladerub.blade.model import read_reduced_blade
+from bladerub.blade.model import ReducedBlade, read_reduced_blade
 from bladerub.study import divergence, findings, peaks
 from bladerub.study.cache import blade_digest
 from bladerub.study.findings.evidence import Evidence, read_rom_accuracy
@@ -16,7 +16,8 @@ from bladerub.study.job import compute_missing
 from bladerub.study.manifest import write_manifest
 from bladerub.study.maps import CoatingMap, build_map, read_map
 from bladerub.study.orders import peak_settings
-from bladerub.study.plan import coating_plan
+from bladerub.study.parallel import each_done
+from bladerub.study.plan import coating_plan, on_gpu
 from bladerub.study.variants import with_variant
 
 _log = logging.getLogger(__name__)
@@ -46,11 +47,15 @@ def conduct(
     its runs and maps; runs that are there and current are kept. `claims` are all by default, ``C2`` standing
     for all its parts; `report` is as of `bladerub.study.job.compute_missing`.
     """
-    maps, n_runs = [], 0
-    for case in coating_cases(config):
-        path, n = map_coating(config, case, model, folder, report)
-        maps.append(read_map(path))
-        n_runs += n
+    blade, digest, cases = read_reduced_blade(model), blade_digest(model), coating_cases(config)
+
+    def mapped(case: CoatingCase) -> tuple[CoatingMap, int]:
+        path, n = map_coating(config, case, blade, digest, folder, report)
+        return read_map(path), n
+
+    # a GPU wants all runs at once: each coating of a small study has too few
+    found = dict(each_done(mapped, cases, len(cases) if on_gpu(config) else 1))
+    maps, n_runs = [found[case][0] for case in cases], sum(n for _, n in found.values())
     made = {"peaks": _peaks(config, maps), "divergence": divergence.table(config, maps)}
     evidence = Evidence(config, made | {"rom_accuracy": read_rom_accuracy(rom_accuracy)}, maps)
     wanted = findings.CLAIMS if claims is None else findings.of_claims(claims)
@@ -60,17 +65,17 @@ def conduct(
 def map_coating(
     config: Mapping[str, Any],
     case: CoatingCase,
-    model: str | Path,
+    blade: ReducedBlade,
+    digest: str,
     folder: str | Path,
     report: Callable[[object], None] = lambda line: None,
 ) -> tuple[Path, int]:
     """Run one coating and make its map; return the file of the map and the number of runs.
 
-    Parameters are those of `conduct`.
+    `digest` is that of the blade (`bladerub.study.cache`); other parameters are those of `conduct`.
     """
-    blade, runs = read_reduced_blade(model), Path(folder) / "runs" / case.name
-    path = Path(folder) / "maps" / f"{case.name}.h5"
-    rows = compute_missing(config, coating_plan(config, case), blade, runs, blade_digest(model), report)
+    runs, path = Path(folder) / "runs" / case.name, Path(folder) / "maps" / f"{case.name}.h5"
+    rows = compute_missing(config, coating_plan(config, case), blade, runs, digest, report)
     write_manifest(runs / "manifest.tsv", rows)
     build_map(config, case, blade, runs, path)
     return path, len(rows) + sum(bool(row.confirmation_key) for row in rows)

@@ -51,7 +51,7 @@ class Variant(NamedTuple):
 
     vectors: int  # Vectors of 32 modes
     turns: bool  # Whether the profile turns with the tip
-    half_width: float  # Of the profile, elements
+    rows: int  # Of elements under a node, for each group of lanes
     law: ElementLaw  # Of the elements, without its parameters
     n_elements: int
     revolutions: int
@@ -91,7 +91,7 @@ def variant_of(spec: RunSpec, simulation: Simulation) -> Variant:
     return Variant(
         vectors=math.ceil(simulation.modal.n / WARP),
         turns=simulation.modal.tilt is not None,
-        half_width=spec.tip.half_width,
+        rows=math.ceil((2 * spec.tip.half_width + 3) / 4),
         law=replace(spec.coating.element_law, parameters=()),
         n_elements=spec.coating.n_elements,
         revolutions=spec.revolutions,
@@ -101,17 +101,15 @@ def variant_of(spec: RunSpec, simulation: Simulation) -> Variant:
 @cache
 def source(variant: Variant) -> str:
     """Put together the source of the loop for runs of a variant."""
-    rows = math.ceil((2 * variant.half_width + 3) / 4)  # of elements under a node, for each group of lanes
     constants = {
         "MODES": variant.vectors,
         "TURNS": int(variant.turns),
-        "ROWS": rows,
+        "ROWS": variant.rows,
         "SHARED": _shared(variant),
         "MAX_ITERATIONS": newton.MAX_ITERATIONS,
         "N_FORMS": free_flight.N_FORMS,
     } | {name: getattr(free_flight, name) // LANES * WARP for name in _FORMS}
     numbers = {
-        "FARTHEST": 4 * rows - 2 * variant.half_width - 1.5,  # elements that a window leaves for a step
         "TOLERANCE": newton.TOLERANCE,
         "STRAIGHT": newton.STRAIGHT,
         "NO_CHANGE": elements.NO_CHANGE,

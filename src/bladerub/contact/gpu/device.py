@@ -19,7 +19,7 @@ WARPS = 8
 OPTIONS = ("--std=c++17", f"-DWARPS_PER_PROCESSOR={WARPS}")
 SHARE = 0.6
 """Of the memory of the GPU, for what is under way."""
-TOGETHER = 4
+TOGETHER = 32
 """Pieces of work that are under way at once: at its end one leaves most of the GPU to others."""
 
 

@@ -227,6 +227,9 @@ HERE void advance(const Model& model, const State& state, bool touched, real (&x
     x[m] += load(model.coefficients + 3 * STRIDE, lane() + LANES * m) * by_forces[m];
 }
 
+// Elements that a node may move in a step and leave the window over all elements under its profile
+HERE real farthest(const Profile& tip) { return 4.0 * ROWS - 2.0 * tip.half_width - 1.5; }
+
 // Find the elements under the nodes: the window begins where the first one under `position` is
 HERE void look(const Model& model, Window& window, real position) {
   integer first = floor_of(position - model.tip.half_width);
@@ -323,7 +326,7 @@ HERE int find_forces(const Model& model, State& state, double passed, real posit
       normal_radial = share * outward, normal_tangential = share * here.tangential;
       position = closest_position(model.node, here.tangential, passed);
       real behind = minimum(position, position_before);
-      if (any(maximum(position, position_before) - behind > FARTHEST)) return HANDED_OVER;
+      if (any(maximum(position, position_before) - behind > farthest(model.tip))) return HANDED_OVER;
       look(model, state.window, behind);
       if (first) approach = here.approach;
       first = moved = false;
@@ -375,7 +378,7 @@ HERE int update_coating(const Model& model, State& state, double passed, real po
   const Place& now = state.now;
   const Profile& tip = model.tip;
   real position = closest_position(model.node, next.tangential, passed), advance = position - position_before;
-  if (any(absolute(advance) > FARTHEST)) return HANDED_OVER;
+  if (any(absolute(advance) > farthest(tip))) return HANDED_OVER;
   real slid = where(state.force.normal > 0.0, advance, model.per_step), retreat = model.per_step - slid;
   if (!all(slid > 0.0)) state.reversed++;
   look(model, state.window, minimum(position, position_before));

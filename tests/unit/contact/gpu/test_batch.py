@@ -77,12 +77,20 @@ def test_what_is_left_is_split_as_it_was_merged():
 def test_the_window_of_elements_is_wide_enough(blade, spec, change):
     for half_width in (1.0, 2.0, 2.5, 3.0, 6.0):
         changed = change(spec, half_width=half_width)
-        text = batch.source(variant_of(changed, set_up(blade, changed)[1]))
-        values = {
-            line.split()[2]: float(line.split()[4].rstrip(";"))
-            for line in text.splitlines()
-            if line.startswith(("constexpr int ROWS", "constexpr double FARTHEST"))
-        }
-        covered = math.floor(2 * half_width + values["FARTHEST"]) + 2  # rows, at the worst place
-        assert covered <= 4 * values["ROWS"]
-        assert values["FARTHEST"] >= 0.5
+        rows = 4 * variant_of(changed, set_up(blade, changed)[1]).rows
+        farthest = rows - 2 * half_width - 1.5  # as in ``loop.cu``
+        assert math.floor(2 * half_width + farthest) + 2 <= rows  # at the worst place
+        assert farthest >= 0.5
+
+
+def test_runs_of_other_profiles_and_sizes_have_the_same_program(blade, spec, change):
+    """It is compiled for each: the robustness draws both for each of its samples."""
+
+    def source_for(**changes):
+        changed = change(spec, **changes)
+        return batch.source(variant_of(changed, set_up(blade, changed)[1]))
+
+    same = source_for(half_width=1.2)
+    assert source_for(half_width=1.3) == same
+    assert source_for(half_width=1.2, n_elements=1500, revolutions=3) == same
+    assert source_for(half_width=2.6) != same

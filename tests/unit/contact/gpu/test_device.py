@@ -89,6 +89,7 @@ def test_pieces_that_do_not_fit_into_the_memory_follow_each_other(cupy, blade, s
         return original(together, watch)
 
     monkeypatch.setattr(device, "_carry_out", note)
+    monkeypatch.setattr(device, "TOGETHER", 4)
     monkeypatch.setattr("bladerub.contact.gpu.batch.MOST_RUNS", 1)
     expected = [result.energy for _, result in simulate_many(blade, [spec] * 6, device.run)]
     assert carried_out == [4, 2]

@@ -1,0 +1,28 @@
+"""A cache for threads that ask for the same at the same time."""
+
+import threading
+from collections.abc import Callable
+from functools import lru_cache, wraps
+from typing import ParamSpec, TypeVar
+
+Arguments = ParamSpec("Arguments")
+Value = TypeVar("Value")
+
+
+def once(maxsize: int) -> Callable[[Callable[Arguments, Value]], Callable[Arguments, Value]]:
+    """Keep the last `maxsize` values of a function; one thread computes, the others wait for its value.
+
+    With `functools.lru_cache` alone each of them would compute it.
+    """
+
+    def decorate(function: Callable[Arguments, Value]) -> Callable[Arguments, Value]:
+        cached, lock = lru_cache(maxsize)(function), threading.Lock()
+
+        @wraps(function)
+        def locked(*args: Arguments.args, **kwargs: Arguments.kwargs) -> Value:
+            with lock:
+                return cached(*args, **kwargs)
+
+        return locked
+
+    return decorate
