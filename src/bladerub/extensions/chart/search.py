@@ -7,12 +7,13 @@
    local maximum may hide a higher peak; `bladerub.extensions.chart.check` measures how often it does.
 3. Each run is the study's run of that coating and speed, and is measured as there.
 4. Divergence is judged at the uniform speeds alone, as in `bladerub.study.growth`, with the longer run where
-   the amplitude grows: the search must not weigh in the share of divergent speeds.
+   the amplitude grows: the search must not weigh in the share of divergent speeds. The longer runs are made
+   together after the search, which does not depend on them.
 """
 
 from collections.abc import Callable, Generator, Iterable, Iterator, Mapping, Sequence
 from itertools import islice
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -80,15 +81,15 @@ def search(
         measures={name: np.full(n, np.nan) for name in MEASURES},
     )
     share, pending = config["chart"]["speeds"]["refine_above"], np.flatnonzero(speeds.coarse).tolist()
+    ends: list[_End] = []
     while pending:
         specs = [run_spec(config, case, point.f_omega[index]) for index in pending]
-        judged = []
         for index, spec, result in zip(pending, specs, (yield specs), strict=True):
             _enter(config["analysis"], blade, point, index, spec, result)
             if point.uniform[index]:
-                judged.append((index, spec, result))
-        yield from _judge(config["analysis"], point, judged)
+                ends.append(_End(index, spec, result.revolution_amplitude, result.status))
         pending = next_speeds(point.known, sought(config, point, point.measures["peak"]).values(), share)
+    yield from _judge(config["analysis"], point, ends)
     return point
 
 
@@ -162,18 +163,23 @@ def _measured(
     }
 
 
+class _End(NamedTuple):
+    """What tells whether a run diverges."""
+
+    index: int  # of its speed
+    spec: RunSpec
+    amplitude: np.ndarray  # of each revolution, m
+    status: str
+
+
 def _judge(
-    analysis: Mapping[str, Any], point: ChartPoint, runs: Sequence[tuple[int, RunSpec, RunResult]]
+    analysis: Mapping[str, Any], point: ChartPoint, ends: Sequence[_End]
 ) -> Generator[list[RunSpec], list[RunResult], None]:
     """Judge whether runs diverge, and put it into `point`; ask for the longer runs of those that grow."""
     settings = analysis["divergence"]
-    growing = [
-        (index, spec)
-        for index, spec, result in runs
-        if needs_confirmation(result.revolution_amplitude, result.status, settings)
-    ]
-    found = yield [confirmation_spec(spec, settings) for _, spec in growing]
-    longer = {index: result.revolution_amplitude for (index, _), result in zip(growing, found, strict=True)}
-    for index, _, result in runs:
-        verdict = judge(result.revolution_amplitude, result.status, settings, longer.get(index))
-        point.measures["divergent"][index] = float(verdict.divergent)
+    growing = [end for end in ends if needs_confirmation(end.amplitude, end.status, settings)]
+    found = yield [confirmation_spec(end.spec, settings) for end in growing]
+    longer = {end.index: result.revolution_amplitude for end, result in zip(growing, found, strict=True)}
+    for end in ends:
+        verdict = judge(end.amplitude, end.status, settings, longer.get(end.index))
+        point.measures["divergent"][end.index] = float(verdict.divergent)
