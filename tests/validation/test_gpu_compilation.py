@@ -35,7 +35,7 @@ def compile_for(architecture: str, variant: Variant) -> tuple[int, int]:
 @pytest.mark.parametrize("vectors", [1, 2, 3, 4])
 @pytest.mark.parametrize("turns", [False, True])
 def test_the_loop_needs_no_memory_for_its_registers(vectors, turns):
-    variant = Variant(vectors, turns, 2.0, PLASTIC, 2000, 20)
+    variant = Variant(vectors, turns, 2, PLASTIC, 2000, 20)
     used, spilled = compile_for("sm_90", variant)
     print(f"{32 * vectors} modes, profile turns {turns}: {used} registers, {spilled} bytes spilled")
     assert used <= REGISTERS
@@ -45,7 +45,7 @@ def test_the_loop_needs_no_memory_for_its_registers(vectors, turns):
 
 @pytest.mark.parametrize("architecture", ["sm_80", "sm_89", "sm_100"])
 def test_other_processors(architecture):
-    used, _ = compile_for(architecture, Variant(3, False, 2.0, PLASTIC, 2000, 20))
+    used, _ = compile_for(architecture, Variant(3, False, 2, PLASTIC, 2000, 20))
     assert used <= REGISTERS
 
 
@@ -53,5 +53,5 @@ def test_other_processors(architecture):
 def test_every_law(name):
     law = ElementLaw(name)
     assert module_of(law)
-    used, _ = compile_for("sm_90", Variant(2, False, 2.0, law, 2000, 20))
+    used, _ = compile_for("sm_90", Variant(2, False, 2, law, 2000, 20))
     assert used <= REGISTERS

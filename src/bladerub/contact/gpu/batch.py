@@ -149,7 +149,6 @@ class Work(NamedTuple):
     shared: int  # Doubles that a warp keeps in shared memory
     n_elements: int
     revolutions: int
-    order: np.ndarray  # (n,): Numbers of the runs, longest first
     modal: np.ndarray  # Records, one in a row
     stator: np.ndarray
     casing: np.ndarray
@@ -172,6 +171,22 @@ class Left(NamedTuple):
 
 Device = Callable[[Iterable[Work]], Iterator[Left]]
 """What carries out the loop for pieces of work: a GPU, or an emulation of one."""
+
+
+def longest_first(works: Sequence[Work]) -> np.ndarray:
+    """Return the piece and the number (n, 2) of every run of some pieces, the longest ones first."""
+    steps = [work.runs[:, 4] * work.n_elements * work.revolutions for work in works]
+    each = [(piece, run) for piece, of_piece in enumerate(steps) for run in range(len(of_piece))]
+    return np.array(each, dtype=np.int32)[np.argsort(-np.concatenate(steps), kind="stable")]
+
+
+def described_to_loop(work: Work, addresses: Iterable[int]) -> np.ndarray:
+    """Describe a piece of work as ``Batch`` of ``loop.cu``.
+
+    `addresses` are those of its records, runs and modes, in their order in `Work`, and of what is left, in
+    their order in `described`.
+    """
+    return np.array([work.n_elements, work.revolutions, *addresses], dtype=np.int64)
 
 
 def described(work: Work) -> dict[str, tuple[tuple[int, ...], type, float]]:
@@ -205,31 +220,7 @@ def pack(variant: Variant, simulations: Sequence[Simulation]) -> Work:
         modes[i, :, : q.size] = q, q - before
     records = (np.array(each.kept) for each in (modal, stator, casing, tip))
     size = (variant.n_elements, variant.revolutions)
-    return Work(source(variant), _shared(variant), *size, _longest_first(runs), *records, runs, modes)
-
-
-def merge(works: Sequence[Work]) -> Work:
-    """Make one piece of work of several of the same program and size of runs."""
-    offset, runs = np.zeros(5, dtype=np.int32), []
-    for work in works:
-        runs.append(work.runs + offset)
-        offset[:4] += [len(records) for records in (work.modal, work.stator, work.casing, work.tip)]
-    joined = {
-        name: np.concatenate([getattr(work, name) for work in works])
-        for name in ("modal", "stator", "casing", "tip", "modes")
-    }
-    together = np.concatenate(runs)
-    return works[0]._replace(order=_longest_first(together), runs=together, **joined)
-
-
-def split(left: Left, sizes: Sequence[int]) -> list[Left]:
-    """Divide what was left of pieces of work that were one; `sizes` are their numbers of runs."""
-    ends = np.cumsum(sizes)[:-1]
-    return [Left(*parts) for parts in zip(*(np.split(each, ends) for each in left), strict=True)]
-
-
-def _longest_first(runs: np.ndarray) -> np.ndarray:
-    return np.argsort(-runs[:, 4], kind="stable").astype(np.int32)  # an element takes so many steps
+    return Work(source(variant), _shared(variant), *size, *records, runs, modes)
 
 
 def finish(simulation: Simulation, left: Left, i: int) -> History | None:

@@ -2,13 +2,14 @@
 
 import math
 import time
-from collections.abc import Callable, Iterable, Iterator
-from functools import cache, partial
-from typing import TYPE_CHECKING, Any, NamedTuple
+from collections import defaultdict
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from functools import cache
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from bladerub.contact.gpu.batch import WARP, Left, Work, described
+from bladerub.contact.gpu.batch import WARP, Left, Work, described, described_to_loop, longest_first
 from bladerub.io.errors import BadInput
 
 if TYPE_CHECKING:
@@ -18,9 +19,7 @@ WARPS = 8
 """Warps that a multiprocessor holds at once: more would leave each too few registers."""
 OPTIONS = ("--std=c++17", f"-DWARPS_PER_PROCESSOR={WARPS}")
 SHARE = 0.6
-"""Of the memory of the GPU, for what is under way."""
-TOGETHER = 32
-"""Pieces of work that are under way at once: at its end one leaves most of the GPU to others."""
+"""Of the memory of the GPU, for what is computed together."""
 
 
 class NoGpuError(BadInput):
@@ -43,19 +42,19 @@ def connect() -> Any:
 
 
 def run(works: Iterable[Work], watch: Callable[[float], None] = lambda seconds: None) -> Iterator[Left]:
-    """Carry out the loop for pieces of work, some of them together; yield what each leaves.
+    """Carry out the loop for pieces of work, as many together as fit; yield what each leaves.
 
     `watch` is told the seconds that those took which ran together, without transfers. Raises `NoGpuError`.
     """
     most = SHARE * connect().cuda.Device().mem_info[1]
-    together: list[_Prepared] = []
+    together: list[Work] = []
     for work in works:
-        size = _size(work)
-        if together and (len(together) == TOGETHER or sum(each.size for each in together) + size > most):
+        if together and sum(map(_size, (*together, work))) > most:
             yield from _carry_out(together, watch)
             together = []
-        together.append(_prepare(work, size, _streams()[len(together)]))
-    yield from _carry_out(together, watch)
+        together.append(work)
+    if together:
+        yield from _carry_out(together, watch)
 
 
 def describe() -> str:
@@ -64,28 +63,54 @@ def describe() -> str:
     return f"{properties['name'].decode()}, {properties['multiProcessorCount']} multiprocessors"
 
 
-class _Prepared(NamedTuple):
-    """A piece of work whose arrays are on the GPU."""
-
-    stream: "cupy.cuda.Stream"
-    launch: Callable[[], None]
-    left: list  # Arrays
-    size: int  # Bytes
-
-
-def _prepare(work: Work, size: int, stream: "cupy.cuda.Stream") -> _Prepared:
+def _carry_out(together: Sequence[Work], watch: Callable[[float], None]) -> Iterator[Left]:
+    """Let all runs of one program share one kernel: kernels may take turns on a GPU."""
     import cupy
 
-    with stream:
-        kernel = _compiled(work.source, work.shared)
-        order, *records, modes = (cupy.asarray(each) for each in work[4:])  # in the order of the arguments
+    by_program: dict[tuple[str, int], list[int]] = defaultdict(list)
+    for number, work in enumerate(together):
+        by_program[work.source, work.shared].append(number)
+    left: dict[int, list[cupy.ndarray]] = {}
+    launches = [
+        _prepare({number: together[number] for number in numbers}, left) for numbers in by_program.values()
+    ]
+    streams = [cupy.cuda.Stream(non_blocking=True) for _ in launches]
+    cupy.cuda.get_current_stream().synchronize()  # all arrays have arrived
+    start = time.perf_counter()
+    for launch, stream in zip(launches, streams, strict=True):
+        with stream:
+            launch()
+    for stream in streams:
+        stream.synchronize()
+    watch(time.perf_counter() - start)
+    for number in range(len(together)):
+        yield Left(*map(cupy.asnumpy, left.pop(number)))
+
+
+def _prepare(works: Mapping[int, Work], left: dict[int, list["cupy.ndarray"]]) -> Callable[[], None]:
+    """Bring pieces of work of one program to the GPU, and return their launch.
+
+    The arrays that it leaves are entered into `left`, by the number of the piece.
+    """
+    import cupy
+
+    pieces = []
+    for number, work in works.items():
+        given = [cupy.asarray(array) for array in work[4:]]  # in the order of ``Batch``
         made = [_filled(*each) for each in described(work).values()]
-        n_runs, next_run = len(work.runs), _filled((1,), np.int32, 0)
-    numbers = (np.int32(work.n_elements), np.int32(work.revolutions))
-    warps = min(n_runs, WARPS * cupy.cuda.Device().attributes["MultiProcessorCount"])
-    arguments = (np.int32(n_runs), order, next_run, *numbers, *records, modes, *made)
-    launch = partial(kernel, (warps,), (WARP,), arguments, shared_mem=8 * work.shared)
-    return _Prepared(stream, launch, [modes, *made], size)
+        pieces.append((given, described_to_loop(work, (array.data.ptr for array in (*given, *made)))))
+        left[number] = [given[-1], *made]
+    order, batches = longest_first([*works.values()]), np.array([described for _, described in pieces])
+    arguments = (np.int32(len(order)), cupy.asarray(order), _filled((1,), np.int32, 0), cupy.asarray(batches))
+    work = next(iter(works.values()))
+    kernel = _compiled(work.source, work.shared)
+    warps = min(len(order), WARPS * cupy.cuda.Device().attributes["MultiProcessorCount"])
+
+    def launch() -> None:
+        assert pieces  # its arrays are kept until then
+        kernel((warps,), (WARP,), arguments, shared_mem=8 * work.shared)
+
+    return launch
 
 
 def _filled(shape: tuple[int, ...], kind: type, value: float) -> "cupy.ndarray":
@@ -95,33 +120,6 @@ def _filled(shape: tuple[int, ...], kind: type, value: float) -> "cupy.ndarray":
     array = cupy.empty(shape, dtype=kind)
     array.data.memset_async(0 if value == 0 else 0xFF, array.nbytes)
     return array
-
-
-def _carry_out(together: Iterable[_Prepared], watch: Callable[[float], None]) -> Iterator[Left]:
-    """Let pieces of work run side by side: none of them waits for memory that another gives back."""
-    import cupy
-
-    for each in together:
-        each.stream.synchronize()  # its arrays have arrived
-    start = time.perf_counter()
-    for each in together:
-        with each.stream:
-            each.launch()
-    for each in together:
-        each.stream.synchronize()
-    watch(time.perf_counter() - start)
-    for each in together:
-        with each.stream:
-            left = Left(*(cupy.asnumpy(array) for array in each.left))
-        yield left
-
-
-@cache
-def _streams() -> "list[cupy.cuda.Stream]":
-    """Keep the streams: memory that CuPy has reserved for one is for it alone."""
-    import cupy
-
-    return [cupy.cuda.Stream(non_blocking=True) for _ in range(TOGETHER)]
 
 
 def _size(work: Work) -> int:
@@ -134,6 +132,6 @@ def _size(work: Work) -> int:
 def _compiled(source: str, shared: int) -> "cupy.RawKernel":
     import cupy
 
-    kernel = cupy.RawModule(code=source, options=OPTIONS).get_function("simulate_batch")
+    kernel = cupy.RawModule(code=source, options=OPTIONS).get_function("simulate_batches")
     kernel.max_dynamic_shared_size_bytes = 8 * shared
     return kernel

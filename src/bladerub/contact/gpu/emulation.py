@@ -14,7 +14,7 @@ from pathlib import Path
 
 import numpy as np
 
-from bladerub.contact.gpu.batch import Left, Work, described
+from bladerub.contact.gpu.batch import Left, Work, described, described_to_loop, longest_first
 
 COMPILER = "c++"
 _OPTIONS = ("-O2", "-march=native", "-std=c++17", "-shared", "-fPIC", "-Wno-psabi")
@@ -33,16 +33,15 @@ def run(works: Iterable[Work]) -> Iterator[Left]:
 def _run(work: Work) -> Left:
     made = {name: np.full(shape, value, kind) for name, (shape, kind, value) in described(work).items()}
     modes, next_run = work.modes.copy(), np.zeros(1, dtype=np.int32)
-    order, *records, _ = work[4:]
-    _compiled(work.source)(
-        len(work.runs), *map(_address, (order, next_run)), work.n_elements, work.revolutions,
-        *map(_address, (*records, modes, *made.values())),
-    )  # fmt: skip
+    arrays = (*work[4:-1], modes, *made.values())  # in the order of ``Batch``
+    batch = described_to_loop(work, (array.ctypes.data for array in arrays))
+    call(_compiled(work.source), len(work.runs), longest_first([work]), next_run, batch)
     return Left(modes, **made)
 
 
-def _address(array: np.ndarray) -> ctypes.c_void_p:
-    return ctypes.c_void_p(array.ctypes.data)
+def call(loop: "ctypes._FuncPointer", n_runs: int, *arrays: np.ndarray) -> None:
+    """Call the loop with its arguments."""
+    loop(n_runs, *(ctypes.c_void_p(array.ctypes.data) for array in arrays))
 
 
 @cache
@@ -51,4 +50,4 @@ def _compiled(source: str) -> "ctypes._FuncPointer":
         text, library = Path(folder, "loop.cpp"), Path(folder, "loop.so")
         text.write_text(source, encoding="utf-8")
         subprocess.run([COMPILER, *_OPTIONS, "-o", library, text], check=True)
-        return ctypes.CDLL(str(library)).simulate_batch
+        return ctypes.CDLL(str(library)).simulate_batches

@@ -27,8 +27,9 @@ enum { COMPLETED, UNBOUNDED, HANDED_OVER };
 enum { STATUS, REVOLUTIONS, STEPS, LAST_STEPS, CONTACT_STEPS, REVERSED_STEPS, COUNTS };
 enum { OF_MODAL, OF_STATOR, OF_CASING, OF_TIP, STEPS_PER_ELEMENT, RECORDS };
 
+// A piece of work: runs of one size
 struct Batch {
-  int n_elements, revolutions;
+  long long n_elements, revolutions;
   const double *modal, *stator, *casing, *tip;  // records, one after the other
   const int* runs;  // (n, RECORDS): numbers of the records of each run, and its steps in an element
   double* modes;    // (n, 2, STRIDE): modal coordinates and their last increment, at the start and the end
@@ -498,7 +499,7 @@ HERE void set_up(const Batch& batch, int run, double* shared, Model& model, Stat
   model.coefficients = kept;
   model.tips = kept + TIP_ROWS;
   model.forms = modal + FORMS;
-  model.n_elements = batch.n_elements;
+  model.n_elements = (int)batch.n_elements;
   model.wear = batch.wear + (size_t)NODES * batch.n_elements * run;
   model.gap = batch.casing + (size_t)(NODES + 1) * batch.n_elements * of[OF_CASING];
   model.node = Node{load(tip, j), load(tip, j + 8), load(tip, j + 16), load(tip, j + 24)};
@@ -509,7 +510,7 @@ HERE void set_up(const Batch& batch, int run, double* shared, Model& model, Stat
   model.normal_factor = stator[FACTORS], model.tangential_factor = stator[FACTORS + 1];
   model.flight_steps = (int)modal[FLIGHT];
   model.sideways = modal[FLIGHT + 1], model.per_step = 1.0 / of[STEPS_PER_ELEMENT];
-  model.angle = model.per_step * (2.0 * 3.14159265358979323846 / batch.n_elements);
+  model.angle = model.per_step * (2.0 * 3.14159265358979323846 / model.n_elements);
 #pragma unroll
   for (int k = 0; k < OF_NODE + OF_TILT; k++) model.response[k] = load(modal + RESPONSE, lane() + LANES * k);
 #pragma unroll
@@ -547,7 +548,8 @@ HERE void leave(const Batch& batch, int run, const Model& model, const State& st
 }
 
 HERE void simulate(const Batch& batch, int run, double* shared) {
-  const int n = batch.n_elements, steps_per_element = batch.runs[RECORDS * run + STEPS_PER_ELEMENT];
+  const int n = (int)batch.n_elements, n_revolutions = (int)batch.revolutions;
+  const int steps_per_element = batch.runs[RECORDS * run + STEPS_PER_ELEMENT];
   Model model;
   State state;
   set_up(batch, run, shared, model, state);
@@ -555,9 +557,9 @@ HERE void simulate(const Batch& batch, int run, double* shared) {
   const flag first_lane = lane() == 0;
   real far = 0.0;
   int status = COMPLETED, revolution = 0, n_contact = 0;
-  long long steps = 0, steps_before = 0;
+  int steps = 0, steps_before = 0;
 
-  for (; revolution < batch.revolutions && status == COMPLETED; revolution++) {
+  for (; revolution < n_revolutions && status == COMPLETED; revolution++) {
     bool touched = state.touching, flew = false;
     real bottom = INFINITY, top = -INFINITY;
     state.window.row = NO_ROW;
@@ -613,11 +615,11 @@ HERE void simulate(const Batch& batch, int run, double* shared) {
         }
       }
       if (status == COMPLETED)
-        store(batch.displacement + (size_t)run * batch.revolutions * n, lane() + (revolution * n + element),
+        store(batch.displacement + (size_t)run * n_revolutions * n, lane() + (revolution * n + element),
               mean * model.per_step, first_lane);
     }
-    store(batch.range + (size_t)run * batch.revolutions * 2, lane() + 2 * revolution, bottom, first_lane);
-    store(batch.range + (size_t)run * batch.revolutions * 2, lane() + (2 * revolution + 1), top, first_lane);
+    store(batch.range + (size_t)run * n_revolutions * 2, lane() + 2 * revolution, bottom, first_lane);
+    store(batch.range + (size_t)run * n_revolutions * 2, lane() + (2 * revolution + 1), top, first_lane);
     if (status == COMPLETED && !(touched || state.touching)) {  // the last step added nothing
       for (int i = STORED; i < KEPT; i++) set_entry(model, i, 0.0);
     }
@@ -632,33 +634,24 @@ HERE void simulate(const Batch& batch, int run, double* shared) {
   counts[REVERSED_STEPS] = state.reversed;
 }
 
-#define ARGUMENTS                                                                                    \
-  int n_runs, const int *order, int *next, int n_elements, int revolutions, const double *modal,     \
-      const double *stator, const double *casing, const double *tip, const int *runs, double *modes, \
-      double *wear, double *displacement, double *range, double *forces, double *ledger, long long *counts
-#define BATCH                                                                                            \
-  {                                                                                                      \
-    n_elements, revolutions, modal, stator, casing, tip, runs, modes, wear, displacement, range, forces, \
-        ledger, counts                                                                                   \
-  }
+// `order` (n_runs, 2) has piece and number of each run
+#define ARGUMENTS int n_runs, const int *order, int *next, const Batch *batches
 
 #ifdef __CUDACC__
-extern "C" __global__ void __launch_bounds__(LANES, WARPS_PER_PROCESSOR) simulate_batch(ARGUMENTS) {
+extern "C" __global__ void __launch_bounds__(LANES, WARPS_PER_PROCESSOR) simulate_batches(ARGUMENTS) {
   extern __shared__ double shared[];
-  const Batch batch BATCH;
   for (;;) {  // each warp takes the next run until none is left
     int place = 0;
     if (threadIdx.x == 0) place = atomicAdd(next, 1);
     place = __shfl_sync(ALL_THREADS, place, 0);
     if (place >= n_runs) return;
-    simulate(batch, order[place], shared);
+    simulate(batches[order[2 * place]], order[2 * place + 1], shared);
     __syncwarp();
   }
 }
 #else
-extern "C" void simulate_batch(ARGUMENTS) {
-  const Batch batch BATCH;
+extern "C" void simulate_batches(ARGUMENTS) {
   double shared[SHARED];
-  for (; *next < n_runs; ++*next) simulate(batch, order[*next], shared);
+  for (; *next < n_runs; ++*next) simulate(batches[order[2 * *next]], order[2 * *next + 1], shared);
 }
 #endif

@@ -10,14 +10,13 @@ import queue
 import shutil
 import sys
 import threading
-from collections import defaultdict
 from collections.abc import Iterable, Iterator
 from concurrent.futures import Future
 from multiprocessing.connection import Client, Connection, Listener
 from pathlib import Path
 from typing import NamedTuple
 
-from bladerub.contact.gpu import batch, device, emulation
+from bladerub.contact.gpu import device, emulation
 from bladerub.contact.gpu.batch import Device, Left, Work
 from bladerub.io.errors import exit_on_error
 
@@ -79,32 +78,13 @@ def _compute(requests: "queue.SimpleQueue[_Request]", run: Device) -> None:
         waiting = [requests.get()]
         while not requests.empty():
             waiting.append(requests.get())
-        groups = list(_alike(waiting))
         try:
-            done = run(batch.merge([each.work for each in group]) for group in groups)
-            for group, left in zip(groups, done, strict=True):
-                parts = batch.split(left, [len(each.work.runs) for each in group])
-                for request, part in zip(group, parts, strict=True):
-                    request.answer.set_result(part)
+            for request, left in zip(waiting, run(each.work for each in waiting), strict=True):
+                request.answer.set_result(left)
         except Exception as error:  # it is the callers'
             for request in waiting:
                 if not request.answer.done():
                     request.answer.set_exception(error)
-
-
-def _alike(waiting: Iterable[_Request]) -> Iterator[list[_Request]]:
-    """Put together requests of the same program and size of runs, so many as one piece of work may have."""
-    by_program: dict[tuple, list[_Request]] = defaultdict(list)
-    for request in waiting:
-        by_program[request.work[:4]].append(request)
-    for alike in by_program.values():
-        group: list[_Request] = []
-        for request in alike:
-            if group and sum(len(each.work.runs) for each in (*group, request)) > batch.MOST_RUNS:
-                yield group
-                group = []
-            group.append(request)
-        yield group
 
 
 def main() -> None:

@@ -2,11 +2,10 @@
 
 import math
 
-import numpy as np
 import pytest
 
 from bladerub.contact.gpu import batch
-from bladerub.contact.gpu.batch import Left, merge, pack, refusal, split, variant_of
+from bladerub.contact.gpu.batch import longest_first, pack, refusal, variant_of
 from bladerub.contact.setup import set_up
 from bladerub.contact.spec import ElementLaw
 
@@ -32,7 +31,6 @@ def test_runs_share_what_is_equal(blade, spec, change):
     assert len(work.modal) == 2  # one a speed
     assert len(work.stator) == 2  # one a direction of the force
     assert len(work.runs) == 4
-    assert work.runs[work.order[0], 4] == work.runs[:, 4].max()
 
 
 @pytest.mark.parametrize(
@@ -52,26 +50,18 @@ def test_what_the_loop_can_not_do_is_said(values, reason, blade, spec, change):
     assert bool(told) == bool(values)
 
 
-def test_work_that_is_merged_is_all_of_it(blade, spec, change):
-    specs = [change(spec, f_omega=f_omega) for f_omega in (0.2, 0.25, 0.3)]
-    works = [packed(blade, specs[:1]), packed(blade, specs[1:])]
-    together = merge(works)
-    assert sorted(together.order) == [0, 1, 2]
-    singles = [packed(blade, [each]) for each in specs]
-    for i, single in enumerate(singles):
-        for column, name in enumerate(("modal", "stator", "casing", "tip")):
-            found = getattr(together, name)[together.runs[i, column]]
-            np.testing.assert_array_equal(found, getattr(single, name)[0])
-        np.testing.assert_array_equal(together.modes[i], single.modes[0])
-
-
-def test_what_is_left_is_split_as_it_was_merged():
-    left = Left(*(np.arange(5 * size).reshape(5, size) for size in range(1, 8)))
-    parts = split(left, [2, 3])
-    assert [len(part.wear) for part in parts] == [2, 3]
-    for name in Left._fields:
-        joined = np.concatenate([getattr(part, name) for part in parts])
-        np.testing.assert_array_equal(joined, getattr(left, name))
+def test_the_longest_runs_of_all_pieces_come_first(blade, spec, change):
+    sizes = [{"f_omega": 0.3}, {"f_omega": 0.3, "revolutions": 7}, {"f_omega": 0.1, "n_elements": 150}]
+    specs = [[change(spec, **size), change(spec, f_omega=0.2)] for size in sizes[:1]]
+    specs += [[change(spec, **size)] for size in sizes[1:]]
+    works = [packed(blade, each) for each in specs]
+    order = longest_first(works)
+    assert sorted(map(tuple, order.tolist())) == [(0, 0), (0, 1), (1, 0), (2, 0)]
+    steps = [
+        works[piece].runs[run, 4] * works[piece].n_elements * works[piece].revolutions for piece, run in order
+    ]
+    assert steps == sorted(steps, reverse=True)
+    assert len(set(steps)) > 2
 
 
 def test_the_window_of_elements_is_wide_enough(blade, spec, change):

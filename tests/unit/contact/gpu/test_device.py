@@ -28,7 +28,15 @@ class Array(np.ndarray):
     def __new__(cls, shape, dtype):
         array = np.empty(shape, dtype).view(cls)
         memory = np.asarray(array).reshape(-1).view(np.uint8)
-        array.memory = SimpleNamespace(memset_async=lambda value, size: memory[:size].fill(value))
+        array.memory = SimpleNamespace(
+            ptr=array.ctypes.data, memset_async=lambda value, size: memory[:size].fill(value)
+        )
+        return array
+
+    @classmethod
+    def of(cls, given):
+        array = cls(given.shape, given.dtype)
+        array[...] = given
         return array
 
     @property
@@ -40,7 +48,6 @@ class Array(np.ndarray):
 def cupy(monkeypatch):
     """Stand in for CuPy; the kernel is the emulation. Lists the launches."""
     device._compiled.cache_clear()
-    device._streams.cache_clear()
     launches = defaultdict(list)
 
     class Kernel:
@@ -51,22 +58,21 @@ def cupy(monkeypatch):
             launches["grid"].append(grid)
             assert block == (32,)
             assert shared_mem == self.max_dynamic_shared_size_bytes > 0
-            n_runs, order, next_run, *numbers = arguments[:5]
-            addresses = [emulation._address(each) for each in (order, next_run)]
-            rest = [emulation._address(each) for each in arguments[5:]]
-            emulation._compiled(self.source)(int(n_runs), *addresses, *map(int, numbers), *rest)
+            n_runs, *arrays = arguments
+            emulation.call(emulation._compiled(self.source), int(n_runs), *arrays)
 
     module = ModuleType("cupy")
-    module.asarray, module.empty = np.array, Array
+    module.asarray, module.empty = Array.of, Array
     module.asnumpy = np.array
     module.RawModule = lambda code, options: SimpleNamespace(get_function=lambda name: Kernel(code))
     chip = SimpleNamespace(mem_info=(0, 10**9), attributes={"MultiProcessorCount": 2})
     runtime = SimpleNamespace(getDeviceCount=lambda: 1, CUDARuntimeError=RuntimeError)
-    module.cuda = SimpleNamespace(Stream=Stream, Device=lambda: chip, runtime=runtime)
+    module.cuda = SimpleNamespace(
+        Stream=Stream, Device=lambda: chip, runtime=runtime, get_current_stream=lambda: Stream(True)
+    )
     monkeypatch.setitem(sys.modules, "cupy", module)
     yield SimpleNamespace(launches=launches, chip=chip)
     device._compiled.cache_clear()
-    device._streams.cache_clear()
 
 
 @pytest.mark.skipif(not emulation.is_possible(), reason="no C++ compiler")
@@ -81,6 +87,20 @@ def test_the_arguments_of_the_kernel_are_those_that_it_has(cupy, blade, spec, ch
 
 
 @pytest.mark.skipif(not emulation.is_possible(), reason="no C++ compiler")
+def test_runs_of_several_sizes_share_a_kernel(cupy, blade, spec, change):
+    """Those of a wider profile have one of their own."""
+    sizes = [{"revolutions": 2}, {"n_elements": 150}, {}, {"half_width": 2.6}]
+    specs = [change(spec, **size) for size in sizes]
+    found = dict(simulate_many(blade, specs, device.run))
+    for number, each in enumerate(specs):
+        expected = simulate(blade, each)
+        np.testing.assert_allclose(found[number].wear, expected.wear, rtol=0, atol=1e-9)
+        assert found[number].radial_displacement.shape == expected.radial_displacement.shape
+        assert found[number].n_steps == expected.n_steps
+    assert cupy.launches["grid"] == [(3,), (1,)]
+
+
+@pytest.mark.skipif(not emulation.is_possible(), reason="no C++ compiler")
 def test_pieces_that_do_not_fit_into_the_memory_follow_each_other(cupy, blade, spec, monkeypatch):
     carried_out, original = [], device._carry_out
 
@@ -89,10 +109,9 @@ def test_pieces_that_do_not_fit_into_the_memory_follow_each_other(cupy, blade, s
         return original(together, watch)
 
     monkeypatch.setattr(device, "_carry_out", note)
-    monkeypatch.setattr(device, "TOGETHER", 4)
     monkeypatch.setattr("bladerub.contact.gpu.batch.MOST_RUNS", 1)
     expected = [result.energy for _, result in simulate_many(blade, [spec] * 6, device.run)]
-    assert carried_out == [4, 2]
+    assert carried_out == [6]
     carried_out.clear()
     cupy.chip.mem_info = (0, 1)
     assert [result.energy for _, result in simulate_many(blade, [spec] * 3, device.run)] == expected[:3]
