@@ -339,6 +339,16 @@ use rule docs_data as docs_fine with:
         only={"variation": "study"},
 
 
+# With `--configfile config/longer.yaml`
+use rule docs_data as docs_longer with:
+    input:
+        [f"{TABLES}/{name}.csv" for name in ("findings", "peaks", "divergence")],
+    log:
+        f"{RESULTS}/logs/docs_longer.log",
+    params:
+        prefix="longer_",
+
+
 use rule docs_data as docs_tip_turns with:
     input:
         f"{TIP_TURNS}/tables/findings.csv",
