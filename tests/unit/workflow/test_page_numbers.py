@@ -154,6 +154,21 @@ CHANGES = [
         "benchmark.rows.assign",
     ),
     ("fine_margins", {"id": "C8a"}, "holds", "?", "fine_margins('study','C8a').holds"),
+    ("longer_findings", {"id": "C10a"}, "measured", "0.5", "longer_findings('C10a').measured"),
+    (
+        "longer_peaks",
+        {"E": 2, "K": 0.5, "theta": 0.15, "order": 4},
+        "amplitude",
+        0.1,
+        "longer_peaks('2nd',2,0.5,0.15,4).amplitude",
+    ),
+    (
+        "longer_divergence",
+        {"casing": "2nd5nd", "status": "unbounded", "revolutions": 18},
+        "runs",
+        99,
+        "longer_divergence.column('runs',status='unbounded'",
+    ),
     (
         "twisted_plate_blade_comparison",
         {"blade": "this", "number": "f1"},
