@@ -67,6 +67,28 @@ def set_minutes(n_sets):
     return lambda wildcards, attempt: attempt * math.ceil(4 * n_sets)
 
 
+def identification_kernels(wildcards):
+    """The machine code that the sets need: jobs that start together would all compile it."""
+    factors = identification_plan().factors
+    turns = any("contact.tip_turns" in factor.ranges for factor in factors)
+    both = [rules.compile_kernel.output[0], rules.identification_kernel.output[0]]
+    return both if turns else both[:1]
+
+
+use rule compile_kernel as identification_kernel with:
+    output:
+        f"{OF_SETS}/kernel.json",
+    log:
+        f"{RESULTS}/logs/identification_kernel.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/identification_kernel.tsv"
+    params:
+        solver=solver_digest(),
+        tip_turns=True,
+        n_nodes=n_interface(config),
+        law=asdict(element_law(config)),
+
+
 rule identification_wave:
     input:
         next_sets=lambda wildcards: (
@@ -94,7 +116,7 @@ rule identification_wave:
 rule identification_batch:
     input:
         sets=f"{OF_SETS}/wave{{wave}}/sets.csv",
-        kernel=rules.compile_kernel.output[0],
+        kernel=identification_kernels,
         simulating=SIMULATING_SETS,
     output:
         **described(
@@ -168,7 +190,7 @@ rule identification_candidates:
 rule identification_candidate:
     input:
         candidates=rules.identification_candidates.output.candidates,
-        kernel=rules.compile_kernel.output[0],
+        kernel=identification_kernels,
         simulating=SIMULATING_SETS,
     output:
         **described(

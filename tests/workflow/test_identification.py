@@ -32,6 +32,7 @@ def planned(copied_study, tiny):
 
 def test_waves_follow_one_another_and_a_lost_job_is_made_anew_alone(copied_study, planned):
     assert copied_study.plan(planned, "identify") == {
+        "identification_kernel": 1,
         "identification_wave": 2,
         "identification_batch": 5,
         "identification_left": 2,
