@@ -3,15 +3,14 @@
 import pandas as pd
 
 from bladerub.api.blade import Blade
+from bladerub.api.study import default_study
 from bladerub.extensions.rig.blade import simulate_blade_passes
 from bladerub.extensions.rig.passes import simulate_passes
 from bladerub.extensions.rig.spec import Rig
 
-_DAMPING = 2.3e-3  # of the default study
-
 
 def simulate_rig(
-    rig: Rig, blade: Blade | None = None, damping_ratio: float = _DAMPING, disk_turns: bool = False
+    rig: Rig, blade: Blade | None = None, damping_ratio: float | None = None, disk_turns: bool = False
 ) -> pd.DataFrame:
     """Simulate the passes of a rub rig.
 
@@ -22,8 +21,8 @@ def simulate_rig(
     blade : Blade, optional
         An elastic blade in the place of the rigid tip. Width of the tip and length of the track are then its
         own, and the coated part of the track must leave room to feed it.
-    damping_ratio : float
-        Damping of its modes.
+    damping_ratio : float, optional
+        Damping of its modes; that of the default study if not given.
     disk_turns : bool
         Whether the disk turns instead of the blade, which then has its stiffness at rest.
 
@@ -59,4 +58,6 @@ def simulate_rig(
     """
     if blade is None:
         return simulate_passes(rig)
+    if damping_ratio is None:
+        damping_ratio = default_study().config["contact"]["damping_ratio"]
     return simulate_blade_passes(rig, blade.reduced, damping_ratio, disk_turns)
