@@ -116,7 +116,7 @@ def _advance_by_parts(simulation, ends, displacement, rows, forces):
 def _integrate(modal, flight, stator, tip, state, steps_per_element, ends, displacement, rows, forces):
     n_steps = n_flights = n_contact = 0
     low, high = np.inf, -np.inf
-    flew, far = False, 0.0
+    flew, far = n_steps > 0, 0.0  # no constant: the loop would be compiled once more, for that one
     n = rows.shape[1] - forces.size
     for part in range(len(rows)):
         first, last = ends[part], ends[part + 1]

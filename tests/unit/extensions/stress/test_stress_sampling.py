@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from bladerub.contact.kernel import loop
 from bladerub.contact.recording import record
 from bladerub.contact.row_spec import Row
 from bladerub.contact.run import simulate
@@ -23,6 +24,7 @@ def test_it_is_the_same_run(blade, spec, by_parts, monkeypatch):
     for name in ("wear", "radial_displacement", "revolution_peak", "revolution_amplitude"):
         np.testing.assert_array_equal(getattr(sampled.result, name), getattr(run, name))
     assert sampled.result.energy.residual == pytest.approx(run.energy.residual, abs=1e-9)
+    assert not any("Literal" in str(kinds) for kinds in loop.integrate.signatures)  # compiled for both
 
 
 def test_a_run_of_another_law_is_of_that_law(blade, spec):
