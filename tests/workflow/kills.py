@@ -194,17 +194,21 @@ def _unchanged(known: dict[str, tuple[int, int]], now: dict[str, tuple[int, int]
 
 
 def jobs_of(process: subprocess.Popen) -> dict[int, str]:
-    """Rule of each job at work, by the process that executes its script."""
-    jobs = {}
+    """Rule of each job at work, by the process that executes its script.
+
+    A child of it, which is about to become another program, is not one: the job would survive it.
+    """
+    jobs, parents = {}, {}
     for folder in Path("/proc").glob("[0-9]*"):
         try:
             if os.getpgid(int(folder.name)) == process.pid:
                 command = (folder / "cmdline").read_text().split("\0")
                 script = re.search(r"\.snakemake/scripts/tmp\w+\.(\w+)\.py$", "".join(command[1:2]))
                 jobs |= {int(folder.name): script[1]} if script else {}
+                parents[int(folder.name)] = int((folder / "stat").read_text().rpartition(")")[2].split()[1])
         except (FileNotFoundError, ProcessLookupError):
             continue
-    return jobs
+    return {job: rule for job, rule in jobs.items() if parents.get(job) not in jobs}
 
 
 def _kill(way: str, process: subprocess.Popen, draw: random.Random) -> None:

@@ -4,6 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 import scipy.linalg
+from threadpoolctl import threadpool_limits
 
 from bladerub.blade.model import ReducedBlade
 from bladerub.contact.spec import RunSpec
@@ -30,6 +31,7 @@ def modes_at(blade: ReducedBlade, f_omega: float, spec: RunSpec | None = None) -
 
 
 @once(maxsize=256)  # coatings and starts share the speeds of a study
+@threadpool_limits.wrap(limits=1, user_api="blas")  # whoever asks first: bits depend on the threads
 def mode_shapes_at(blade: ReducedBlade, f_omega: float) -> tuple[np.ndarray, np.ndarray]:
     """Diagonalise mass and stiffness, eq. (2), of the blade at the normalised speed `f_omega`.
 

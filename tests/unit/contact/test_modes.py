@@ -2,8 +2,9 @@ import dataclasses
 
 import numpy as np
 import pytest
+from threadpoolctl import threadpool_limits
 
-from bladerub.contact.modes import modes_at, tilt_at
+from bladerub.contact.modes import mode_shapes_at, modes_at, tilt_at
 
 
 def test_modes_diagonalise_the_blade_and_give_its_static_tip_compliance(blade):
@@ -36,3 +37,20 @@ def test_turn_of_the_whole_blade_about_the_axis_tilts_no_profile(blade, spec):
     along = dataclasses.replace(blade, tip_slope=np.zeros((8, turn.size)))  # it moves and does not turn
     width = 2 * np.pi * 0.65 / spec.coating.n_elements
     np.testing.assert_allclose(tilt_at(along, turn[:, None], spec), width)
+
+
+def test_the_shapes_do_not_depend_on_the_threads_of_who_asks_first(blade):
+    found = []
+    for threads in (1, 2):
+        with threadpool_limits(threads, "blas"):
+            unknown = dataclasses.replace(blade)  # another one, whose modes were not asked for
+            found.append(mode_shapes_at(unknown, 0.3))
+    for one, other in zip(*found, strict=True):
+        np.testing.assert_array_equal(one, other)
+
+
+def test_the_shapes_at_a_speed_are_found_once(blade):
+    first, again = mode_shapes_at(blade, 0.3), mode_shapes_at(blade, 0.3)
+    assert first is again
+    with pytest.raises(ValueError, match="read-only"):
+        again[0][0] = 0.0

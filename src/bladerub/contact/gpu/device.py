@@ -4,8 +4,8 @@ import math
 import time
 from collections import defaultdict
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from functools import cache
-from typing import TYPE_CHECKING, Any
+from functools import cache, partial
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -63,6 +63,13 @@ def describe() -> str:
     return f"{properties['name'].decode()}, {properties['multiProcessorCount']} multiprocessors"
 
 
+class _Arrays(NamedTuple):
+    """Of a piece of work, on the GPU."""
+
+    given: "list[cupy.ndarray]"
+    made: "list[cupy.ndarray]"
+
+
 def _carry_out(together: Sequence[Work], watch: Callable[[float], None]) -> Iterator[Left]:
     """Let all runs of one program share one kernel: kernels may take turns on a GPU."""
     import cupy
@@ -70,9 +77,9 @@ def _carry_out(together: Sequence[Work], watch: Callable[[float], None]) -> Iter
     by_program: dict[tuple[str, int], list[int]] = defaultdict(list)
     for number, work in enumerate(together):
         by_program[work.source, work.shared].append(number)
-    left: dict[int, list[cupy.ndarray]] = {}
+    arrays: dict[int, _Arrays] = {}
     launches = [
-        _prepare({number: together[number] for number in numbers}, left) for numbers in by_program.values()
+        _prepare({number: together[number] for number in numbers}, arrays) for numbers in by_program.values()
     ]
     streams = [cupy.cuda.Stream(non_blocking=True) for _ in launches]
     cupy.cuda.get_current_stream().synchronize()  # all arrays have arrived
@@ -84,33 +91,28 @@ def _carry_out(together: Sequence[Work], watch: Callable[[float], None]) -> Iter
         stream.synchronize()
     watch(time.perf_counter() - start)
     for number in range(len(together)):
-        yield Left(*map(cupy.asnumpy, left.pop(number)))
+        given, made = arrays.pop(number)
+        yield Left(*map(cupy.asnumpy, (given[-1], *made)))
 
 
-def _prepare(works: Mapping[int, Work], left: dict[int, list["cupy.ndarray"]]) -> Callable[[], None]:
+def _prepare(works: Mapping[int, Work], arrays: dict[int, _Arrays]) -> Callable[[], None]:
     """Bring pieces of work of one program to the GPU, and return their launch.
 
-    The arrays that it leaves are entered into `left`, by the number of the piece.
+    The arrays of each are entered into `arrays`, by the number of the piece.
     """
     import cupy
 
-    pieces = []
+    batches = []
     for number, work in works.items():
         given = [cupy.asarray(array) for array in work[4:]]  # in the order of ``Batch``
         made = [_filled(*each) for each in described(work).values()]
-        pieces.append((given, described_to_loop(work, (array.data.ptr for array in (*given, *made)))))
-        left[number] = [given[-1], *made]
-    order, batches = longest_first([*works.values()]), np.array([described for _, described in pieces])
-    arguments = (np.int32(len(order)), cupy.asarray(order), _filled((1,), np.int32, 0), cupy.asarray(batches))
-    work = next(iter(works.values()))
+        batches.append(described_to_loop(work, (array.data.ptr for array in (*given, *made))))
+        arrays[number] = _Arrays(given, made)
+    order, work = longest_first([*works.values()]), next(iter(works.values()))
+    numbers = cupy.asarray(order), _filled((1,), np.int32, 0), cupy.asarray(np.array(batches))
     kernel = _compiled(work.source, work.shared)
     warps = min(len(order), WARPS * cupy.cuda.Device().attributes["MultiProcessorCount"])
-
-    def launch() -> None:
-        assert pieces  # its arrays are kept until then
-        kernel((warps,), (WARP,), arguments, shared_mem=8 * work.shared)
-
-    return launch
+    return partial(kernel, (warps,), (WARP,), (np.int32(len(order)), *numbers), shared_mem=8 * work.shared)
 
 
 def _filled(shape: tuple[int, ...], kind: type, value: float) -> "cupy.ndarray":
