@@ -83,10 +83,7 @@ use rule compile_kernel as identification_kernel with:
     benchmark:
         f"{RESULTS}/benchmarks/identification_kernel.tsv"
     params:
-        solver=solver_digest(),
         tip_turns=True,
-        n_nodes=n_interface(config),
-        law=asdict(element_law(config)),
 
 
 rule identification_wave:

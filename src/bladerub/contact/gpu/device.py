@@ -48,11 +48,14 @@ def run(works: Iterable[Work], watch: Callable[[float], None] = lambda seconds: 
     """
     most = SHARE * connect().cuda.Device().mem_info[1]
     together: list[Work] = []
+    taken = 0
     for work in works:
-        if together and sum(map(_size, (*together, work))) > most:
+        size = _size(work)
+        if together and taken + size > most:
             yield from _carry_out(together, watch)
-            together = []
+            together, taken = [], 0
         together.append(work)
+        taken += size
     if together:
         yield from _carry_out(together, watch)
 
