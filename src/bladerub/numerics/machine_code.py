@@ -9,9 +9,19 @@ from collections.abc import Callable
 from pathlib import Path
 
 import numba
+from numba.extending import register_jitable
 
 from bladerub.io.sources import solver_digest
 from bladerub.numerics import lanes
+
+WITHIN = {"no_cpython_wrapper": True, "no_cfunc_wrapper": True}
+"""Options of what only compiled code calls: entries for Python would be half of the time of the compiler."""
+INLINED = WITHIN | {"forceinline": True}
+
+within = register_jitable(**WITHIN)
+"""Decorate a function that compiled code calls; for Python it stays as it is."""
+inlined = register_jitable(**INLINED)
+"""Decorate a function that compiled code inlines; for Python it stays as it is."""
 
 
 def njit_on_disk(**options) -> Callable[[Callable], Callable]:
