@@ -132,7 +132,7 @@ def _call(builder, name, result, flags, *arguments):
     return builder.call(function, arguments, fastmath=flags)
 
 
-elementwise = inlined  # formulas, that is
+elementwise = inlined  # a formula of arrays, floats or vectors
 
 
 def _of_arrays(function):
