@@ -1,7 +1,7 @@
 """Simulate some sets of a wave: their targets and verdicts."""
 
 from bladerub.config import read as configuration
-from bladerub.extensions.identification import summary
+from bladerub.extensions.identification import sets
 from bladerub.extensions.identification.plan import read_plan
 from bladerub.extensions.identification.sample import simulate
 from bladerub.io import tables
@@ -12,7 +12,7 @@ job.log_to(snakemake.log[0])
 
 plan = read_plan(snakemake.params.plan)
 batch = plan.batches(int(snakemake.wildcards.wave))[int(snakemake.wildcards.batch)]
-positions = summary.positions([snakemake.input.sets])
+positions = sets.positions([snakemake.input.sets])
 made = simulate(
     snakemake.config,
     plan,

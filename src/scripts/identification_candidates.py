@@ -1,6 +1,6 @@
 """Choose the best sets of all waves, and draw their neighbours."""
 
-from bladerub.extensions.identification import candidates, summary
+from bladerub.extensions.identification import candidates, sets, summary
 from bladerub.extensions.identification.plan import read_plan
 from bladerub.io import tables
 from bladerub.io.provenance import provenance
@@ -11,6 +11,6 @@ job.log_to(snakemake.log[0])
 plan = read_plan(snakemake.params.plan)
 measured = summary.measured(snakemake.input.quantities)
 verdicts = summary.verdicts(snakemake.input.verdicts)
-chosen = candidates.choose(plan, summary.positions(snakemake.input.sets), measured, verdicts)
+chosen = candidates.choose(plan, sets.positions(snakemake.input.sets), measured, verdicts)
 table = candidates.as_table(plan, chosen)
 tables.write(snakemake.output.candidates, table, provenance(snakemake.config))

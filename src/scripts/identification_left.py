@@ -1,7 +1,7 @@
 """Find what the waves up to one have left of the ranges, and draw sets from it."""
 
-from bladerub.extensions.identification import summary, waves
-from bladerub.extensions.identification.implausibility import emulators
+from bladerub.extensions.identification import sets, summary, waves
+from bladerub.extensions.identification.emulator import emulators
 from bladerub.extensions.identification.plan import read_plan
 from bladerub.io import tables
 from bladerub.io.provenance import provenance
@@ -11,7 +11,7 @@ job.log_to(snakemake.log[0])
 
 plan, wave = read_plan(snakemake.params.plan), int(snakemake.wildcards.wave)
 measured = summary.measured(snakemake.input.quantities)
-positions = summary.positions(snakemake.input.sets).loc[measured.index].to_numpy()
+positions = sets.positions(snakemake.input.sets).loc[measured.index].to_numpy()
 emulated = emulators(positions, measured)
 left = waves.remaining(plan, emulated)
 drawn = waves.draw(plan, wave, left, emulated, positions)
@@ -20,7 +20,7 @@ made = {
     "left": summary.left_after(wave, len(measured), left),
     "emulators": summary.emulated(wave, emulated, left, positions, measured),
     "ranges": summary.ranges(plan, left),
-    "next_sets": summary.as_table(plan, first, drawn),
+    "next_sets": sets.as_table(plan, first, drawn),
     "predictions": summary.predictions(emulated, first, drawn),
 }
 origin = provenance(snakemake.config)

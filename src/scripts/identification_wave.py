@@ -1,6 +1,6 @@
 """List the sets of one wave: the first are spread over all ranges, others drawn from what was left."""
 
-from bladerub.extensions.identification import summary, waves
+from bladerub.extensions.identification import sets, waves
 from bladerub.extensions.identification.plan import read_plan
 from bladerub.io import tables
 from bladerub.io.provenance import provenance
@@ -12,6 +12,6 @@ plan, wave = read_plan(snakemake.params.plan), int(snakemake.wildcards.wave)
 if wave == 1:
     drawn = waves.first(plan, snakemake.config)
 else:
-    drawn = summary.positions([snakemake.input.next_sets]).to_numpy()[: plan.size(wave)]
-table = summary.as_table(plan, plan.first(wave), drawn)
+    drawn = sets.positions([snakemake.input.next_sets]).to_numpy()[: plan.size(wave)]
+table = sets.as_table(plan, plan.first(wave), drawn)
 tables.write(snakemake.output.sets, table, provenance(snakemake.config))

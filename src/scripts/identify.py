@@ -2,7 +2,7 @@
 
 import pandas as pd
 
-from bladerub.extensions.identification import candidates, summary
+from bladerub.extensions.identification import candidates, sets, summary
 from bladerub.extensions.identification.plan import read_plan
 from bladerub.extensions.plots.identification import identification as draw
 from bladerub.io import tables
@@ -22,7 +22,7 @@ verdicts = summary.verdicts(given.verdicts)
 of_candidates = joined(given.judged, candidates.COLUMNS)
 chosen = tables.read(given.candidates)
 made = {
-    "sets": summary.sets(plan, summary.positions(given.sets), candidates.misfit(measured)),
+    "sets": summary.sets(plan, sets.positions(given.sets), candidates.misfit(measured)),
     "waves": joined(given.left, summary.LEFT),
     "emulators": joined(given.emulators, summary.EMULATORS),
     "targets": summary.targets(measured, joined(given.predictions, summary.PREDICTIONS)),
@@ -32,6 +32,6 @@ made = {
     "counts": candidates.counts(chosen, of_candidates),
     "verdicts": of_candidates,
 }
-left = summary.positions([given.next_sets[-1]])
+left = sets.positions([given.next_sets[-1]])
 figure = draw(plan, measured, left, candidates.read(given.candidates))
 outputs.save(snakemake, figure, **made)

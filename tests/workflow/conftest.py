@@ -1,6 +1,7 @@
 """The tiny study, and copies of the repository to run it in."""
 
 import copy
+import os
 from pathlib import Path
 from typing import Any
 
@@ -8,6 +9,9 @@ import pytest
 from workspace import ROOT, TINY, Workspace
 
 from bladerub.io import lock
+
+# the tests start hundreds of processes, and translating the package would be a fifth of the time of each
+os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:

@@ -15,7 +15,9 @@ from importlib import import_module
 
 PACKAGES = (
     *("snakemake.cli", "snakemake_executor_plugin_slurm", "jinja2", "jsonschema", "h5py", "pandas", "numba"),
-    *("scipy.interpolate", "scipy.linalg", "scipy.ndimage", "skfem", "rslab", "meshio"),
+    *("scipy.interpolate", "scipy.io", "scipy.linalg", "scipy.ndimage", "skfem.models", "rslab", "meshio"),
+    *("snakemake.profiles", "snakemake.report.html_reporter", "snakemake.storage", "argparse_dataclass"),
+    *("docutils.core", "dpath", "nbformat.v4", "PIL.Image", "platformdirs", "requests", "smart_open", "yte"),
 )
 LONGEST = 600
 """Of a call, s; it ends by SIGALRM."""

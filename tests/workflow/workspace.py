@@ -46,7 +46,7 @@ class Workspace:
         With the Snakefile.
     sources : Path
         Those that the package is imported from: of this copy, or the same of the repository, where the
-        machine code is that takes a quarter of a minute to make.
+        machine code is that takes some seconds to make.
     """
 
     folder: Path

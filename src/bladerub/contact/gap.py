@@ -4,13 +4,12 @@ Node and casing meet on the cone of the flow path: displacements are those norma
 circumference (tangential). The casing is curved, so a node approaches it by tangential motion too.
 """
 
-from numba import njit
-
+from bladerub.numerics.machine_code import inlined
 from bladerub.numerics.memory import load
 from bladerub.numerics.vectors import absolute, all_lanes, elementwise, sqrt
 
 
-@njit(forceinline=True)
+@inlined
 def closest_position(tip, tangential, passed):
     """Position of the point of the casing closest to each node, eq. (7), in elements.
 
@@ -20,21 +19,21 @@ def closest_position(tip, tangential, passed):
     return load(tip.start, 0) + passed + tangential * load(tip.per_metre, 0)
 
 
-@njit(forceinline=True)
+@inlined
 def normal_approach(tip, radial, tangential):
     """Displacement of each node towards the casing, the product (u · n) of eq. (8), m."""
     outward = load(tip.radius, 0) + radial
     return sqrt(outward * outward + tangential * tangential) - load(tip.radius, 0)
 
 
-@njit(forceinline=True)
+@inlined
 def normal(tip, radial, tangential, approach):
     """Outward normal n of the casing at each node, by its own radial and tangential direction."""
     share = 1.0 / (load(tip.radius, 0) + approach)
     return share * (load(tip.radius, 0) + radial), share * tangential
 
 
-@njit(forceinline=True)
+@inlined
 def rotation_distance(tip, angle, approach):
     """Distance by which a rotation by `angle` (rad) moves each displaced node along the casing, m."""
     return angle * (load(tip.lever, 0) + approach)
@@ -46,7 +45,7 @@ def penetration(approach, relief, initial_gap, wear):
     return approach - relief - initial_gap - wear
 
 
-@njit(forceinline=True)
+@inlined
 def is_within_limit(tip, radial, tangential):
     """Whether every displacement is a number below the limit."""
     return all_lanes((absolute(radial) <= tip.limit) & (absolute(tangential) <= tip.limit))

@@ -2,6 +2,8 @@
 
 import logging
 from collections.abc import Callable, Collection, Iterable, Mapping
+from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -11,10 +13,10 @@ from bladerub.blade.model import ReducedBlade, read_reduced_blade
 from bladerub.study import divergence, findings, peaks
 from bladerub.study.cache import blade_digest
 from bladerub.study.findings.evidence import Evidence, read_rom_accuracy
-from bladerub.study.grid import CoatingCase, coating_cases
-from bladerub.study.job import compute_missing
+from bladerub.study.grid import CoatingCase, coating_cases, speeds
+from bladerub.study.job import compute_all, compute_missing
 from bladerub.study.manifest import write_manifest
-from bladerub.study.maps import CoatingMap, build_map, read_map
+from bladerub.study.maps import CoatingMap, build_map, collect, first_frequency, read_map
 from bladerub.study.orders import peak_settings
 from bladerub.study.parallel import each_done
 from bladerub.study.plan import coating_plan, on_gpu
@@ -37,22 +39,22 @@ def conduct(
     config: Mapping[str, Any],
     model: str | Path,
     rom_accuracy: str | Path,
-    folder: str | Path,
+    folder: str | Path | None = None,
     claims: Collection[str] | None = None,
     report: Callable[[object], None] = lambda line: None,
 ) -> SmallStudy:
     """Run every coating of `config`, and judge the claims of the paper.
 
     `model` and `rom_accuracy` are the files of its reduced blade and of the accuracy of that, `folder` is for
-    its runs and maps; runs that are there and current are kept. `claims` are all by default, ``C2`` standing
-    for all its parts; `report` is as of `bladerub.study.job.compute_missing`.
+    its runs and maps; runs that are there and current are kept. Without it runs and maps are in memory alone.
+    `claims` are all by default, ``C2`` standing for all its parts; `report` is as of
+    `bladerub.study.job.compute_missing`.
     """
-    blade, digest, cases = read_reduced_blade(model), blade_digest(model), coating_cases(config)
-
-    def mapped(case: CoatingCase) -> tuple[CoatingMap, int]:
-        path, n = map_coating(config, case, blade, digest, folder, report)
-        return read_map(path), n
-
+    blade, cases = read_reduced_blade(model), coating_cases(config)
+    if folder is None:
+        mapped = partial(_in_memory, config, blade, report)
+    else:
+        mapped = partial(_in_files, config, blade, blade_digest(model), folder, report)
     # a GPU wants all runs at once: each coating of a small study has too few
     found = dict(each_done(mapped, cases, len(cases) if on_gpu(config) else 1))
     maps, n_runs = [found[case][0] for case in cases], sum(n for _, n in found.values())
@@ -79,6 +81,30 @@ def map_coating(
     write_manifest(runs / "manifest.tsv", rows)
     build_map(config, case, blade, runs, path)
     return path, len(rows) + sum(bool(row.confirmation_key) for row in rows)
+
+
+def _in_files(
+    config: Mapping[str, Any],
+    blade: ReducedBlade,
+    digest: str,
+    folder: str | Path,
+    report: Callable[[object], None],
+    case: CoatingCase,
+) -> tuple[CoatingMap, int]:
+    path, n_runs = map_coating(config, case, blade, digest, folder, report)
+    return read_map(path), n_runs
+
+
+def _in_memory(
+    config: Mapping[str, Any],
+    blade: ReducedBlade,
+    report: Callable[[object], None],
+    case: CoatingCase,
+) -> tuple[CoatingMap, int]:
+    runs, longer = compute_all(config, coating_plan(config, case), blade, report)
+    planned, prominence = speeds(config), config["analysis"]["lobe_prominence"]
+    made = collect(case, planned, first_frequency(blade, planned), runs, longer, prominence)
+    return replace(made, wear_node=None), len(runs) + sum(run is not None for run in longer)
 
 
 def _peaks(config: Mapping[str, Any], maps: Iterable[CoatingMap]) -> pd.DataFrame:

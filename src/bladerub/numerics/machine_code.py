@@ -9,9 +9,19 @@ from collections.abc import Callable
 from pathlib import Path
 
 import numba
+from numba.extending import register_jitable
 
 from bladerub.io.sources import solver_digest
 from bladerub.numerics import lanes
+
+_WITHIN = {"no_cfunc_wrapper": True}  # an entry for C; `numba.extending` makes none for Python
+INLINED = _WITHIN | {"forceinline": True}
+"""Options of an overload that compiled code inlines; an entry that nobody calls would be compiled, too."""
+
+within = register_jitable(**_WITHIN)
+"""Decorate a function that compiled code calls; for Python it stays as it is."""
+inlined = register_jitable(**INLINED)
+"""Decorate a function that compiled code inlines; for Python it stays as it is."""
 
 
 def njit_on_disk(**options) -> Callable[[Callable], Callable]:

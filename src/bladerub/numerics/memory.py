@@ -9,11 +9,12 @@ from typing import NamedTuple
 
 import numpy as np
 from llvmlite import ir
-from numba import njit, types
+from numba import types
 from numba.core import cgutils
 from numba.extending import intrinsic
 
 from bladerub.numerics.lanes import LANES
+from bladerub.numerics.machine_code import inlined
 from bladerub.numerics.vectors import DOUBLE, FUSED, VECTOR, broadcast, instruction, spread, vector
 
 
@@ -59,7 +60,7 @@ def _place_at(builder, address, number, kind):
     return _place(builder, address, ir.Constant(address.type, number), kind)
 
 
-@njit(forceinline=True)
+@inlined
 def address_of(address, index):
     """Address of the number `index` of the array at `address`."""
     return address + 8 * index
@@ -89,26 +90,26 @@ def write(builder, address, index, number):
     builder.store(number, _place(builder, address, index, DOUBLE))
 
 
-@njit(forceinline=True)
+@inlined
 def add_to(address, index, a):
     """Add a vector to the numbers of the array at `address`, from flat position `index` on."""
     store(address, index, load(address, index) + a)
 
 
-@njit(forceinline=True)
+@inlined
 def add_to_number(address, index, number):
     """Add to one number of the array at `address`."""
     write(address, index, read(address, index) + number)
 
 
-@njit(forceinline=True)
+@inlined
 def copy(source, target, n):
     """Copy `n` numbers, whole vectors."""
     for k in range(0, n, LANES):
         store(target, k, load(source, k))
 
 
-@njit(forceinline=True)
+@inlined
 def clear(target, n):
     """Set `n` numbers, whole vectors, to zero."""
     for k in range(0, n, LANES):

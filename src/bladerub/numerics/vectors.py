@@ -10,14 +10,16 @@ written with them, marked by `elementwise`, so serves arrays, and in compiled co
 
 import functools
 import operator
+from itertools import product
 
 import numpy as np
 from llvmlite import ir
 from numba import types
 from numba.core import cgutils
-from numba.extending import intrinsic, models, overload, register_jitable, register_model
+from numba.extending import intrinsic, lower_builtin, models, overload, register_model, type_callable
 
 from bladerub.numerics.lanes import LANES
+from bladerub.numerics.machine_code import INLINED, inlined
 
 FUSED = ("contract", "nsz")  # a product and a sum may be one instruction; nothing is reordered
 ANY_ORDER = (*FUSED, "reassoc")
@@ -33,6 +35,7 @@ class _Lanes(types.Type):
 
 
 vector, mask = _Lanes(f"float64x{LANES}"), _Lanes(f"boolx{LANES}")
+_EITHER = (vector, types.float64)
 
 
 class _Primitive(models.PrimitiveModel):
@@ -84,21 +87,30 @@ def _typed(*kinds):
     return [kind if kind == vector else types.float64 for kind in kinds]
 
 
+def _built_in(function, typed, *cases):
+    """Decorate what builds the LLVM code of `function`, for arguments of the kinds of each case.
+
+    `typed` gives the signature, or None for other arguments. A function to be inlined would take the compiler
+    longer, for every kind of its arguments.
+    """
+
+    def decorate(generate):
+        type_callable(function)(lambda context: typed)
+        for kinds in cases:
+            lower_builtin(function, *kinds)(generate)
+
+    return decorate
+
+
 def _binary(python_operator, result, build):
     """Let `python_operator` work on vectors, or a vector and a number."""
 
-    @intrinsic
-    def operation(context, a, b):
-        def generate(context, builder, signature, arguments):
-            return build(builder, *_operands(builder, signature.args, arguments))
+    def typed(a, b):
+        return result(*_typed(a, b)) if vector in (a, b) else None
 
-        return result(*_typed(a, b)), generate
-
-    @overload(python_operator, jit_options={"forceinline": True})
-    def overloaded(a, b):
-        if vector in (a, b):
-            return lambda a, b: operation(a, b)
-        return None
+    @_built_in(python_operator, typed, (vector, vector), (vector, types.float64), (types.float64, vector))
+    def _(context, builder, signature, arguments):
+        return build(builder, *_operands(builder, signature.args, arguments))
 
 
 _binary(operator.add, vector, lambda builder, a, b: builder.fadd(a, b, flags=FUSED))
@@ -109,16 +121,9 @@ _binary(operator.gt, mask, lambda builder, a, b: builder.fcmp_ordered(">", a, b)
 _binary(operator.le, mask, lambda builder, a, b: builder.fcmp_ordered("<=", a, b))
 
 
-@instruction(mask, mask, mask)
-def _both(builder, a, b):
-    return builder.and_(a, b)
-
-
-@overload(operator.and_, jit_options={"forceinline": True})
-def _and(a, b):
-    if a == b == mask:
-        return lambda a, b: _both(a, b)
-    return None
+@_built_in(operator.and_, lambda a, b: mask if a == b == mask else None, (mask, mask))
+def _(context, builder, signature, arguments):
+    return builder.and_(*arguments)
 
 
 def _call(builder, name, result, flags, *arguments):
@@ -127,25 +132,28 @@ def _call(builder, name, result, flags, *arguments):
     return builder.call(function, arguments, fastmath=flags)
 
 
-elementwise = register_jitable(forceinline=True)  # for formulas that compiled code inlines
+elementwise = inlined  # a formula of arrays, floats or vectors
 
 
-def _unary(function, numpy_function, name):
-    """Let compiled code compute `function` of arrays by NumPy, of floats and vectors by an LLVM intrinsic."""
+def _of_arrays(function):
+    """Let compiled code compute `function` of arrays as Python does."""
 
-    @intrinsic
-    def operation(context, a):
-        def generate(context, builder, signature, arguments):
-            suffix, result = (f"v{LANES}f64", VECTOR) if signature.args[0] == vector else ("f64", DOUBLE)
-            return _call(builder, f"{name}.{suffix}", result, FUSED, *arguments)
+    @overload(function, jit_options=INLINED, strict=False)
+    def choose(*arguments):
+        return function if any(isinstance(each, types.Array) for each in arguments) else None
 
-        return a(a), generate
 
-    @overload(function, jit_options={"forceinline": True})
-    def overloaded(a):
-        if isinstance(a, types.Array):
-            return lambda a: numpy_function(a)
-        return lambda a: operation(a)
+def _unary(function, name):
+    """Let compiled code compute `function` of floats and vectors by an LLVM intrinsic."""
+    _of_arrays(function)
+
+    def typed(a):
+        return a if a in (vector, types.float64) else None
+
+    @_built_in(function, typed, (vector,), (types.float64,))
+    def _(context, builder, signature, arguments):
+        suffix, result = (f"v{LANES}f64", VECTOR) if signature.args[0] == vector else ("f64", DOUBLE)
+        return _call(builder, f"{name}.{suffix}", result, FUSED, *arguments)
 
 
 def absolute(a):
@@ -158,29 +166,25 @@ def sqrt(a):
     return np.sqrt(a)
 
 
-_unary(absolute, np.absolute, "llvm.fabs")
-_unary(sqrt, np.sqrt, "llvm.sqrt")
+_unary(absolute, "llvm.fabs")
+_unary(sqrt, "llvm.sqrt")
 
 
-def _extreme(function, numpy_function, comparison):
+def _extreme(function, comparison):
     """Do the same for an extreme of two, by one instruction, which LLVM's own is not for its NaN."""
+    _of_arrays(function)
 
-    @intrinsic
-    def operation(context, a, b):
-        def generate(context, builder, signature, arguments):
-            if vector in signature.args:
-                arguments = _operands(builder, signature.args, arguments)
-            a, b = arguments
-            return builder.select(builder.fcmp_ordered(comparison, a, b), a, b)
-
-        a, b = _typed(a, b)
-        return (vector if vector in (a, b) else types.float64)(a, b), generate
-
-    @overload(function, jit_options={"forceinline": True})
-    def overloaded(a, b):
+    def typed(a, b):
         if isinstance(a, types.Array) or isinstance(b, types.Array):
-            return lambda a, b: numpy_function(a, b)
-        return lambda a, b: operation(a, b)
+            return None
+        return (vector if vector in (a, b) else types.float64)(*_typed(a, b))
+
+    @_built_in(function, typed, *product(_EITHER, repeat=2))
+    def _(context, builder, signature, arguments):
+        if vector in signature.args:
+            arguments = _operands(builder, signature.args, arguments)
+        a, b = arguments
+        return builder.select(builder.fcmp_ordered(comparison, a, b), a, b)
 
 
 def minimum(a, b):
@@ -193,8 +197,8 @@ def maximum(a, b):
     return np.maximum(a, b)
 
 
-_extreme(minimum, np.minimum, "<")
-_extreme(maximum, np.maximum, ">")
+_extreme(minimum, "<")
+_extreme(maximum, ">")
 
 
 def _extreme_lane(builder, comparison, rest):
@@ -230,27 +234,31 @@ def lane_sum(builder, a):
     return _call(builder, f"llvm.vector.reduce.fadd.v{LANES}f64", DOUBLE, ANY_ORDER, zero, a)
 
 
-@intrinsic
-def _select(context, condition, a, b):
-    def generate(context, builder, signature, arguments):
-        chosen, *values = arguments
-        if condition == mask:
-            values = _operands(builder, signature.args[1:], values)
-        return builder.select(chosen, *values)
-
-    return (vector if condition == mask else types.float64)(condition, *_typed(a, b)), generate
-
-
 def where(condition, a, b):
     """Take `a` where the condition holds and `b` elsewhere."""
     return np.where(condition, a, b)
 
 
-@overload(where, jit_options={"forceinline": True})
-def _where(condition, a, b):
+def _chosen(condition, a, b):
     if isinstance(condition, types.Array):
-        return lambda condition, a, b: np.where(condition, a, b)
-    return lambda condition, a, b: _select(condition, a, b)
+        return None
+    return (vector if condition == mask else types.float64)(condition, *_typed(a, b))
+
+
+_of_arrays(where)
+
+
+@_built_in(
+    where,
+    _chosen,
+    (types.boolean, types.float64, types.float64),
+    *product([mask], _EITHER, _EITHER),
+)
+def _(context, builder, signature, arguments):
+    condition, *values = arguments
+    if signature.args[0] == mask:
+        values = _operands(builder, signature.args[1:], values)
+    return builder.select(condition, *values)
 
 
 @instruction(types.boolean, mask)

@@ -21,9 +21,9 @@ from bladerub.io.provenance import provenance
 from bladerub.study.cache import Entry
 from bladerub.study.grid import CoatingCase
 from bladerub.study.growth import needs_confirmation
-from bladerub.study.manifest import CONFIRMATION, ManifestRow
+from bladerub.study.manifest import ManifestRow
 from bladerub.study.parallel import each_done
-from bladerub.study.plan import CoatingPlan, PlannedRun, growth_key, longer_run, on_gpu
+from bladerub.study.plan import CoatingPlan, PlannedRun, growth_key, longer_file, longer_run, on_gpu
 from bladerub.study.store import MAPPED, StoredRun, read_run, stored_row, stored_run, write_run
 
 Solve = Callable[..., RunResult]
@@ -51,15 +51,21 @@ class RunDone:
         )
 
 
+class _End(NamedTuple):
+    """What tells whether a run needs a longer one."""
+
+    amplitude: np.ndarray  # of each revolution, m
+    status: str
+
+
 class _Done(NamedTuple):
     """A run that is in its file."""
 
     key: str
     bytes: int
     checksum: str
-    status: str
     unconverged_steps: int
-    amplitude: np.ndarray
+    end: _End
 
 
 def compute_missing(
@@ -81,18 +87,35 @@ def compute_missing(
     with a line for a log: a `RunDone` after each computed run, or a text before waiting. `threads` runs are
     computed at once, or all on a GPU where ``solver.device`` says so.
     """
-    folder, settings = Path(folder), config["analysis"]["divergence"]
-    complete = partial(_compute, config, plan.case, blade, folder, blade_digest, report, threads)
+    folder = Path(folder)
+    complete = partial(_complete, config, plan.case, blade, folder, blade_digest, report, threads)
     with lock.held(folder / LOCK, lambda: report(f"another job is at work in {folder}: waiting for its end")):
         done = complete(plan.runs)
-        growing = [
-            run
-            for run in plan.runs
-            if plan.follow and needs_confirmation(done[run.file].amplitude, done[run.file].status, settings)
-        ]
-        longer = complete([longer_run(config, run) for run in growing])
+        longer = complete(_longer(config, plan, {file: each.end for file, each in done.items()}))
         key = growth_key(config)
-        return [_row(run, done[run.file], longer.get(f"{CONFIRMATION}/{run.file}"), key) for run in plan.runs]
+        return [_row(run, done[run.file], longer.get(longer_file(run)), key) for run in plan.runs]
+
+
+def compute_all(
+    config: Mapping[str, Any],
+    plan: CoatingPlan,
+    blade: ReducedBlade,
+    report: Callable[[object], None] = lambda line: None,
+) -> tuple[list[StoredRun], list[StoredRun | None]]:
+    """Compute the runs that `compute_missing` would, all of them, and keep them in memory.
+
+    Returns the runs of the `plan` in its order, and the longer run of each or None. They have no keys.
+    `report` is called with what a GPU hands over to the processor.
+    """
+
+    def complete(runs: Sequence[PlannedRun]) -> dict[str, StoredRun]:
+        keys = dict.fromkeys((run.file for run in runs), "")
+        computed = _each_computed(config, plan.case, blade, runs, keys, report)
+        return {run.file: stored for run, (stored, _) in computed}
+
+    done = complete(plan.runs)
+    longer = complete(_longer(config, plan, {file: _end(stored) for file, stored in done.items()}))
+    return [done[run.file] for run in plan.runs], [longer.get(longer_file(run)) for run in plan.runs]
 
 
 def compute(
@@ -122,7 +145,7 @@ def _row(run: PlannedRun, done: _Done, longer: _Done | None, growth_key: str) ->
         file=run.file,
         f_omega=run.spec.f_omega,
         run_key=done.key,
-        status=done.status,
+        status=done.end.status,
         bytes=done.bytes,
         confirmation_key=longer.key if longer else "",
         confirmation_bytes=longer.bytes if longer else 0,
@@ -133,7 +156,14 @@ def _row(run: PlannedRun, done: _Done, longer: _Done | None, growth_key: str) ->
     )
 
 
-def _compute(
+def _longer(config: Mapping[str, Any], plan: CoatingPlan, ends: Mapping[str, _End]) -> list[PlannedRun]:
+    """Plan the longer runs of those that grow, if the plan follows growth; `ends` are by file."""
+    settings = config["analysis"]["divergence"]
+    growing = [run for run in plan.runs if plan.follow and needs_confirmation(*ends[run.file], settings)]
+    return [longer_run(config, run) for run in growing]
+
+
+def _complete(
     config: Mapping[str, Any],
     case: CoatingCase,
     blade: ReducedBlade,
@@ -150,12 +180,8 @@ def _compute(
     # a run takes as many steps as its revolutions take time: its cost goes as 1 / speed
     cost_left = sum(1 / run.spec.f_omega for run in missing)
     cost_done, start = 0.0, time.monotonic()
-
-    def made(run: PlannedRun, solve: Solve | None = None) -> tuple[StoredRun, float]:
-        run_start = time.monotonic()
-        return compute(case, run, blade, entries[run.file].key, config["analysis"], solve=solve), run_start
-
-    computed = _on_gpu(made, missing, blade, report) if on_gpu(config) else each_done(made, missing, threads)
+    keys = {file: entry.key for file, entry in entries.items()}
+    computed = _each_computed(config, case, blade, missing, keys, report, threads)
     for number, (run, (stored, run_start)) in enumerate(computed, 1):
         entry = entries[run.file]
         entry.make_room()
@@ -169,6 +195,24 @@ def _compute(
         path = entries[file].path
         done[file] = _done(entries[file], read_run(path, {"revolution_amplitude"}), file_checksum(path))
     return done
+
+
+def _each_computed(
+    config: Mapping[str, Any],
+    case: CoatingCase,
+    blade: ReducedBlade,
+    runs: Sequence[PlannedRun],
+    keys: Mapping[str, str],
+    report: Callable[[object], None],
+    threads: int = 1,
+) -> Iterator[tuple[PlannedRun, Made]]:
+    """Yield each run as it is done, with its `keys` by file, and with when it was begun."""
+
+    def made(run: PlannedRun, solve: Solve | None = None) -> Made:
+        start = time.monotonic()
+        return compute(case, run, blade, keys[run.file], config["analysis"], solve=solve), start
+
+    return _on_gpu(made, runs, blade, report) if on_gpu(config) else each_done(made, runs, threads)
 
 
 def _on_gpu(
@@ -189,6 +233,9 @@ def _on_gpu(
 
 
 def _done(entry: Entry, run: StoredRun, checksum: str) -> _Done:
-    told, size = run.attributes, entry.path.stat().st_size
-    unconverged = int(told["n_unconverged_steps"])
-    return _Done(entry.key, size, checksum, told["status"], unconverged, run.data["revolution_amplitude"])
+    unconverged = int(run.attributes["n_unconverged_steps"])
+    return _Done(entry.key, entry.path.stat().st_size, checksum, unconverged, _end(run))
+
+
+def _end(run: StoredRun) -> _End:
+    return _End(run.data["revolution_amplitude"], run.attributes["status"])

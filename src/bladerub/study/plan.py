@@ -87,7 +87,12 @@ def growth_key(config: Mapping[str, Any]) -> str:
 def longer_run(config: Mapping[str, Any], run: PlannedRun) -> PlannedRun:
     """Plan the longer run that shows whether the growth of `run` lasts."""
     spec = confirmation_spec(run.spec, config["analysis"]["divergence"])
-    return planned_run(config, spec, f"{CONFIRMATION}/{run.file}", keep_history=False, row=run.row)
+    return planned_run(config, spec, longer_file(run), keep_history=False, row=run.row)
+
+
+def longer_file(run: PlannedRun) -> str:
+    """Return in which file, in the folder of its coating, the longer run of `run` is."""
+    return f"{CONFIRMATION}/{run.file}"
 
 
 def claimed_run(config: Mapping[str, Any], file: str, run: StoredRun) -> PlannedRun:

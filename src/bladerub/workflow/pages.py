@@ -173,7 +173,11 @@ def _mm(value: float, digits: int = 1) -> str:
     return f"{1000 * value:.{digits}f}"
 
 
-_FORMS = {"fixed": _fixed, "percent": _percent, "mm": _mm}
+def _significant(value: float, digits: int = 3) -> str:
+    return f"{value:.{digits}g}"
+
+
+_FORMS = {"fixed": _fixed, "percent": _percent, "mm": _mm, "significant": _significant}
 """Filters that write a number with so many digits."""
 _COLUMN = re.compile(
     rf"(?P<name>\w+)(?::(?P<form>{'|'.join(_FORMS)})\((?P<digits>\d)\))?(?: = (?P<heading>.+))?"

@@ -4,6 +4,8 @@ import pytest
 
 from bladerub.extensions import small_study
 from bladerub.extensions.robustness import sample
+from bladerub.study.grid import coating_cases
+from bladerub.study.maps import DATASETS
 
 
 @pytest.fixture
@@ -16,8 +18,8 @@ def made(study, blade, simulated, monkeypatch, tmp_path):
     accuracy = pd.DataFrame({"f_omega": 0.1, "mode": range(1, 8), "relative_error": 1e-3})
     monkeypatch.setattr(small_study, "read_rom_accuracy", lambda _: accuracy)
 
-    def make(claims=None):
-        return small_study.conduct(study, "model.h5", "rom_accuracy.csv", tmp_path / "study", claims)
+    def make(claims=None, folder=tmp_path / "study"):
+        return small_study.conduct(study, "model.h5", "rom_accuracy.csv", folder, claims)
 
     return make
 
@@ -38,6 +40,24 @@ def test_a_small_study_has_all_runs_and_judges_the_claims_asked_for(made, simula
     assert again.n_runs == 5
 
 
+def test_without_a_folder_it_is_the_same_and_nothing_is_written(made, study, growing, simulated, tmp_path):
+    growing[0.19] = 0.05
+    kept = made()
+    n_simulated = len(simulated)
+    files = sorted(tmp_path.rglob("*"))
+    passing = made(folder=None)
+    assert sorted(tmp_path.rglob("*")) == files
+    assert len(simulated) == 2 * n_simulated
+    assert passing.n_runs == kept.n_runs == 5
+    for table in ("peaks", "divergence", "findings"):
+        pd.testing.assert_frame_equal(getattr(passing, table), getattr(kept, table), check_exact=True)
+    (case,) = coating_cases(study)
+    in_memory, of_files = passing.evidence.map(case), kept.evidence.map(case)
+    for name in DATASETS.keys() - {"wear_node"}:
+        assert getattr(in_memory, name).dtype == getattr(of_files, name).dtype
+        np.testing.assert_array_equal(getattr(in_memory, name), getattr(of_files, name))
+
+
 def test_an_order_without_a_run_near_its_crossing_has_no_peak(made, study, caplog):
     study["speeds"] = {"start": 0.1, "stop": 0.2, "step": 0.05, "extra": []}
     found = made({"C1"})
@@ -46,7 +66,7 @@ def test_an_order_without_a_run_near_its_crossing_has_no_peak(made, study, caplo
 
 
 def test_each_sample_of_a_job_has_its_verdicts_and_cost(monkeypatch, study):
-    def conduct(config, model, rom_accuracy, folder, claims):
+    def conduct(config, model, rom_accuracy, claims):
         assert (model, rom_accuracy) == (f"model {config['seed']}", "accuracy")
         table = pd.DataFrame({"id": list(claims), "holds": "yes", "margin": float(config["seed"])})
         return small_study.SmallStudy(pd.DataFrame(), pd.DataFrame(), table, 10 + config["seed"], None)

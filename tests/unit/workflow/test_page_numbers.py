@@ -264,7 +264,7 @@ CHANGES = [
         {"E": 1.1, "f_omega": 0.346, "blades": 4, "length_scatter": 5e-5, "coupling": 0},
         "pattern_drift_median",
         1.0,
-        "rotor_drift('2nd',1.1,0.5,0.0,0.346,4,5e-05,0.005,0.0).pattern_drift_median",
+        "rotor_drift.rows.query",
     ),
     ("tip_turns_findings", {"id": "C2d"}, "holds", "yes", "tip_turns_findings('C2d').holds"),
     (
@@ -287,14 +287,14 @@ CHANGES = [
         {"candidate": 1, "neighbour": 0, "factor": "unit"},
         "value",
         1.0,
-        "candidate==1 and neighbour==0').set_index('factor').value['unit']",
+        "identification_candidates.rows.query",
     ),
     (
         "identification_counts",
         {"candidate": 0, "neighbour": 0},
         "yes",
         1,
-        "candidate==0 and neighbour==0').iloc[0]).yes",
+        "identification_counts.rows.replace",
     ),
     (
         "identification_emulators",
@@ -315,7 +315,7 @@ CHANGES = [
         {"factor": "unit"},
         "lowest",
         1.0,
-        "identification_ranges.rows.set_index('factor').lowest['unit']",
+        "identification_ranges.rows.merge",
     ),
     ("rotor37_blade", {"number": "f1_rest"}, "value", 1.0, "rotor37_blade('f1_rest').value"),
     (
@@ -514,6 +514,12 @@ def test_a_table_has_the_columns_that_it_is_asked_for():
     rows = pd.DataFrame({"E": [1.0, 2.0], "wear": [1.234e-3, None], "left_out": [0, 0]})
     written = pages._table(rows, "E:fixed(0)", "wear:mm(2) = wear, mm")
     assert written == "\n| E | wear, mm |\n| --- | --- |\n| 1 | 1.23 |\n| 2 |  |\n"
+
+
+def test_numbers_of_all_sizes_are_written_with_significant_digits():
+    rows = pd.DataFrame({"value": [6.8632e8, 0.0007391, 12.25, 0.0]})
+    written = pages._table(rows, "value:significant(3)").split("\n")[3:-1]
+    assert written == ["| 6.86e+08 |", "| 0.000739 |", "| 12.2 |", "| 0 |"]
 
 
 @pytest.mark.parametrize("column", ["wear:mm", "wear:cm(2)", "wear, mm"])

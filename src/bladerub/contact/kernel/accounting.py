@@ -1,15 +1,14 @@
 """Wear and energy of a step: the coating is updated once its forces are found, and the ledger kept."""
 
-from numba import njit
-
 from bladerub.contact import energy
 from bladerub.contact.gap import closest_position, normal, normal_approach, rotation_distance
 from bladerub.contact.kernel import elements, tilt
+from bladerub.numerics.machine_code import inlined
 from bladerub.numerics.memory import add_to, add_to_number, address_of, load, store
 from bladerub.numerics.vectors import LANES, absolute, all_lanes, broadcast, maximum, where
 
 
-@njit(forceinline=True)
+@inlined
 def update_coating(modal, stator, tip, passed, per_step, state, u, u_before):
     """Wear the coating by the forces of this step, and enter energies and sliding in the ledger."""
     approach, normal_force = load(u, 2 * LANES), load(state.normal_force, 0)
@@ -39,7 +38,7 @@ def update_coating(modal, stator, tip, passed, per_step, state, u, u_before):
     add_to(entry, energy.EXCHANGED * LANES, absolute(supplied))
 
 
-@njit(forceinline=True)
+@inlined
 def _note_sliding(stator, state, normal_force, factor, advance, per_step):
     """Note how far nodes in contact lag behind the rotation, and whether one stuck or slid back."""
     slid = where(normal_force > 0.0, advance, per_step)
@@ -50,7 +49,7 @@ def _note_sliding(stator, state, normal_force, factor, advance, per_step):
         add_to_number(state.ledger, energy.REVERSED * LANES, 1.0)
 
 
-@njit(forceinline=True)
+@inlined
 def add_work(modal, stator, tip, angle, state, u_after, u, u_before):
     """Add the work of the forces at `u`, over half of the path from the step before to the step after.
 
@@ -77,7 +76,7 @@ def add_work(modal, stator, tip, angle, state, u_after, u, u_before):
         _add_sliding(stator, tip, angle, state, load(u, 0), load(u, LANES), more_radial, more_tangential)
 
 
-@njit(forceinline=True)
+@inlined
 def _add_sliding(stator, tip, angle, state, radial, tangential, more_radial, more_tangential):
     """Add the energy that sliding takes: the tangential force times the distance over the casing.
 

@@ -1,16 +1,15 @@
 """Coulomb's law of friction in the time loop (`bladerub.contact.friction`), a lane a node."""
 
-from numba import njit
-
 from bladerub.contact.friction import mobilisation
 from bladerub.contact.gap import rotation_distance
 from bladerub.contact.kernel.modal import add_tip_displacement, displaced, tip_displacement
 from bladerub.contact.kernel.tilt import COUPLE
+from bladerub.numerics.machine_code import inlined, within
 from bladerub.numerics.memory import address_of, load, no_sums, store
 from bladerub.numerics.vectors import LANES, broadcast
 
 
-@njit(forceinline=True)
+@inlined
 def predict_sliding(modal, state, q, q_before, angle):
     """Find how far the tip would slide over the casing in this step without contact forces.
 
@@ -32,7 +31,7 @@ def predict_sliding(modal, state, q, q_before, angle):
     store(state.free_sliding, 2 * LANES, broadcast(angle))
 
 
-@njit
+@within
 def mobilise(modal, stator, tip, state, normal_radial, normal_tangential, approach):
     """Find the tangential factor of each node by Coulomb's law, under the forces in `state.normal_force`."""
     normal_force, frictionless = load(state.normal_force, 0), address_of(state.scratch, 4 * 2 * LANES)

@@ -4,12 +4,12 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 
 from bladerub.contact import law
 from bladerub.contact.gap import penetration
 from bladerub.contact.kernel import tilt
 from bladerub.contact.tip import coverage, relief
+from bladerub.numerics.machine_code import inlined, within
 from bladerub.numerics.memory import add_to, load, load_fields, store
 from bladerub.numerics.vectors import (
     LANES,
@@ -36,7 +36,7 @@ class Placement(NamedTuple):
     tilted: np.ndarray  # m per element
 
 
-@njit(forceinline=True)
+@inlined
 def wrap(index, n_elements):
     """Bring an index less than one turn outside into [0, N)."""
     if index >= n_elements:
@@ -46,14 +46,14 @@ def wrap(index, n_elements):
     return index
 
 
-@njit(forceinline=True)
+@inlined
 def rows_under(tip, behind, ahead):
     """First and last row that the profile covers of any node between positions `behind` and `ahead`."""
     first = math.floor(smallest_lane(behind) - tip.half_width)
     return first, math.floor(largest_lane(ahead) + tip.half_width)
 
 
-@njit
+@within
 def rigid_surface(stator, position):
     """Return the initial gap to the rigid casing, which no node may pass, eq. (9), m.
 
@@ -66,7 +66,7 @@ def rigid_surface(stator, position):
     return found
 
 
-@njit(forceinline=True)
+@inlined
 def linearise(tilts, stator, tip, state, position, rows, approach, tilted):
     """Press the elements under each node by its `approach` and tilt, but leave them as they are.
 
@@ -101,7 +101,7 @@ def linearise(tilts, stator, tip, state, position, rows, approach, tilted):
     return force, stiffness, valid, couple, first_moment, second_moment
 
 
-@njit(forceinline=True)
+@inlined
 def update_wear(tilts, stator, tip, state, there, before):
     """Leave the elements as the tip presses them at the end of a step, and account for it.
 

@@ -7,11 +7,11 @@ the state that its single steps would leave, but for rounding.
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 
 from bladerub.contact.kernel import tilt
 from bladerub.contact.kernel.modal import add_tip_displacement, in_vectors, tip_displacement
 from bladerub.contact.schemes import Recurrence
+from bladerub.numerics.machine_code import inlined
 from bladerub.numerics.memory import aligned, load, no_sums, store
 from bladerub.numerics.vectors import LANES, absolute, broadcast, lane_sum
 
@@ -83,12 +83,12 @@ def free_flight(rule: Recurrence, n_steps: int, slope: float, edge: float = 0.0)
     return aligned(FreeFlight(n_steps, in_vectors(np.array(forms)), float(sideways)))
 
 
-@njit(forceinline=True)
+@inlined
 def _form(flight, k, row):
     return load(flight.forms, N_FORMS * k + row)
 
 
-@njit(forceinline=True)
+@inlined
 def bound(flight, n, q, q_before):
     """Bound of what any node can approach the casing in the next free flight, m."""
     far = broadcast(0.0)
@@ -99,7 +99,7 @@ def bound(flight, n, q, q_before):
     return lane_sum(far)
 
 
-@njit(forceinline=True)
+@inlined
 def fly(flight, modal, q, q1, q2):
     """Move the modes freely by all steps at once, in place, and project them on the tip.
 
@@ -129,7 +129,7 @@ def fly(flight, modal, q, q1, q2):
     return there, loss, lane_sum(mean), lane_sum(far)
 
 
-@njit(forceinline=True)
+@inlined
 def extremes(start, end, mean):
     """Lowest and highest value between start and end, of the parabola that has this mean."""
     bottom, top = min(start, end), max(start, end)

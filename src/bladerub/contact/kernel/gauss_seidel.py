@@ -7,7 +7,6 @@ For the rigid casing, and for the few steps of stiff coatings in which the Newto
 import math
 
 import numpy as np
-from numba import njit
 
 from bladerub.contact import law
 from bladerub.contact.friction import contact_force
@@ -16,6 +15,7 @@ from bladerub.contact.kernel import tilt
 from bladerub.contact.kernel.coulomb import mobilise
 from bladerub.contact.kernel.elements import HEATS, rigid_surface, wrap
 from bladerub.contact.tip import coverage, edge, relief
+from bladerub.numerics.machine_code import within
 from bladerub.numerics.memory import address_of, load, read, read_fields, store, write
 from bladerub.numerics.vectors import LANES, broadcast
 
@@ -25,7 +25,7 @@ MAX_NODE_ITERATIONS = 40
 MAX_SWEEPS = 200
 
 
-@njit
+@within
 def gauss_seidel(modal, stator, tip, state, passed, u, tolerance):
     """Find the contact forces that agree with the displacement they cause, eq. (9).
 
@@ -91,14 +91,14 @@ def gauss_seidel(modal, stator, tip, state, passed, u, tolerance):
     return False
 
 
-@njit
+@within
 def _self_compliance(modal, stator, state, rows, j):
     """Retreat of node `j` per unit of its own force in the direction that friction gives to that, m/N."""
     turned = stator.tangential_factor - read(state.tangential_factor, j)
     return max(0.0, read(stator.self_compliance, j) + turned * read(modal.compliance, rows * j + LANES + j))
 
 
-@njit
+@within
 def _force_on(stator, tip, state, j, position, free_approach, tilted, own, guess):
     """Find the force N of the coating on node `j`, which retreats by `own` per unit of it, at a given tilt.
 
@@ -122,7 +122,7 @@ def _force_on(stator, tip, state, j, position, free_approach, tilted, own, guess
     return force, couple, False
 
 
-@njit
+@within
 def _resistance(stator, tip, state, j, position, approach, tilted):
     """Force (N), stiffness (N/m) and couple of the elements under node `j`, as `elements.linearise`."""
     force = couple = 0.0

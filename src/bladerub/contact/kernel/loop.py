@@ -9,7 +9,6 @@ output. Where the tip surely touches nothing, many steps are made at once (`free
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
-from numba import njit
 
 from bladerub.contact.energy import DAMPING, STORED
 from bladerub.contact.gap import normal_approach
@@ -20,7 +19,7 @@ from bladerub.contact.kernel.free_flight import FreeFlight
 from bladerub.contact.kernel.modal import Modal, advance_forced, advance_free, correct
 from bladerub.contact.kernel.newton import find_forces
 from bladerub.contact.kernel.records import State, Stator, Tip
-from bladerub.numerics.machine_code import njit_on_disk
+from bladerub.numerics.machine_code import inlined, njit_on_disk
 from bladerub.numerics.memory import add_to, address_of, addresses, clear, copy, load, read, store, write
 from bladerub.numerics.vectors import LANES, absolute, all_lanes, broadcast, largest_lane, where
 
@@ -124,7 +123,7 @@ class Rows(NamedTuple):
     u_next: int
 
 
-@njit(forceinline=True)
+@inlined
 def _store_displacement(modal, tip, radial, tangential, tilted, u):
     """Store a displacement of the tip and the approach of its nodes; return this."""
     approach = normal_approach(tip, radial, tangential)
@@ -135,7 +134,7 @@ def _store_displacement(modal, tip, radial, tangential, tilted, u):
     return approach
 
 
-@njit(forceinline=True)
+@inlined
 def _is_clear(modal, tip, radial, tangential, approach, tilted, minimum_gap):
     """Whether the tip surely touches nothing: its closest profile is above the lowest surface in reach."""
     clear = all_lanes(
@@ -146,7 +145,7 @@ def _is_clear(modal, tip, radial, tangential, approach, tilted, minimum_gap):
     return clear
 
 
-@njit(forceinline=True)
+@inlined
 def _stays_clear(modal, flight, tip, u, far, minimum_gap):
     """Whether a free flight in which no node approaches by more than `far` surely touches nothing."""
     radial, tangential, approach = load(u, 0) - far, load(u, LANES), load(u, 2 * LANES) + far
@@ -154,7 +153,7 @@ def _stays_clear(modal, flight, tip, u, far, minimum_gap):
     return _is_clear(modal, tip, radial, sideways, approach, tilt.kept(modal.tilt, u), minimum_gap)
 
 
-@njit(forceinline=True)
+@inlined
 def _advance(modal, state, touched, q, q_before, q_next):
     """Move the modes by one step under the forces there are, and keep these as those of the step before."""
     if touched:
@@ -167,7 +166,7 @@ def _advance(modal, state, touched, q, q_before, q_next):
     return advance_free(modal, q, q_before, q_next)
 
 
-@njit(forceinline=True)
+@inlined
 def _contact(modal, stator, tip, state, step, rows, clear_of_casing):
     """Find the contact forces at the end of a step, and what they do to coating, modes and ledger.
 
@@ -199,7 +198,7 @@ def _contact(modal, stator, tip, state, step, rows, clear_of_casing):
     return True, touching
 
 
-@njit(forceinline=True)
+@inlined
 def _clear_negligible(q, n):
     for k in range(0, n, LANES):
         x = load(q, k)

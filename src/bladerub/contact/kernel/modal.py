@@ -3,11 +3,11 @@
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 
 from bladerub.contact.kernel import tilt
 from bladerub.contact.kernel.records import by_lane
 from bladerub.contact.schemes import Recurrence
+from bladerub.numerics.machine_code import inlined
 from bladerub.numerics.memory import (
     add_products,
     address_of,
@@ -84,7 +84,7 @@ def in_vectors(rows: np.ndarray) -> np.ndarray:
     return padded.reshape(len(rows), -1, LANES).swapaxes(0, 1)
 
 
-@njit(forceinline=True)
+@inlined
 def advance_free(modal, q, q1, q2):
     """Move the modes freely by one step, in place of the oldest coordinates `q2`; project them on the tip.
 
@@ -102,7 +102,7 @@ def advance_free(modal, q, q1, q2):
     return *tip_displacement(sums), tilt.total(modal.tilt, tilts), loss
 
 
-@njit(forceinline=True)
+@inlined
 def advance_forced(modal, force, q, q1, q2):
     """Move the modes as `advance_free`, under the contact forces (24,) of the step before."""
     loss = broadcast(0.0)
@@ -114,7 +114,7 @@ def advance_forced(modal, force, q, q1, q2):
     return *_project(modal, q2), loss
 
 
-@njit(forceinline=True)
+@inlined
 def correct(modal, force, q):
     """Add the effect of contact forces (24,) to the modal coordinates; project these on the tip."""
     forces, couples = broadcast_each(force), tilt.couples(modal.tilt, force)
@@ -123,7 +123,7 @@ def correct(modal, force, q):
     return _project(modal, q)
 
 
-@njit(forceinline=True)
+@inlined
 def _recur(modal, k, q, q1, q2):
     present = load(q, k)
     change = present - load(q2, k)
@@ -131,13 +131,13 @@ def _recur(modal, k, q, q1, q2):
     return x, load(modal.loss, k) * change * change
 
 
-@njit(forceinline=True)
+@inlined
 def _by_forces(modal, k, forces, couples):
     by_forces = sum_of_products(address_of(modal.tip, ROWS * k), forces)
     return load(modal.gain, k) * (by_forces + tilt.by_couples(modal.tilt, k, couples))
 
 
-@njit(forceinline=True)
+@inlined
 def _project(modal, q):
     sums, tilts = no_sums(), tilt.no_sums(modal.tilt)
     for k in range(0, modal.n, LANES):
@@ -146,20 +146,20 @@ def _project(modal, q):
     return *tip_displacement(sums), tilt.total(modal.tilt, tilts)
 
 
-@njit(forceinline=True)
+@inlined
 def add_tip_displacement(modal, k, x, sums):
     """Add to a sum for each coordinate of the tip what the modes `x`, from mode k on, displace at the tip."""
     return add_products(sums, address_of(modal.tip, ROWS * k), x)
 
 
-@njit(forceinline=True)
+@inlined
 def tip_displacement(sums):
     """Radial and tangential displacement of the tip from the sums: the interface rows of eq. (6), m."""
     radial, tangential = halves(sums)
     return lane_sums(radial), lane_sums(tangential)
 
 
-@njit(forceinline=True)
+@inlined
 def displaced(rows, response, force, radial, tangential, tilted):
     """Add to the displacement of the tip what contact forces (24,) cause, a row of `response` for each.
 

@@ -11,7 +11,6 @@ second force.
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 
 from bladerub.contact.energy import FALLBACK, UNCONVERGED
 from bladerub.contact.friction import contact_force
@@ -21,6 +20,7 @@ from bladerub.contact.kernel.coulomb import mobilise
 from bladerub.contact.kernel.gauss_seidel import gauss_seidel
 from bladerub.contact.kernel.modal import displaced
 from bladerub.contact.tip import edge
+from bladerub.numerics.machine_code import inlined
 from bladerub.numerics.memory import add_to_number, clear, load, store
 from bladerub.numerics.vectors import LANES, absolute, all_lanes, broadcast
 
@@ -57,7 +57,7 @@ class Linearisation(NamedTuple):
     second_moment: np.ndarray  # Couple per tilt
 
 
-@njit(forceinline=True)
+@inlined
 def find_forces(modal, stator, tip, passed, state, u, coulomb):
     """Find the contact forces that agree with the displacement they cause.
 
@@ -130,7 +130,7 @@ def find_forces(modal, stator, tip, passed, state, u, coulomb):
     return is_within_limit(tip, radial, tangential)
 
 
-@njit(forceinline=True)
+@inlined
 def _geometry(tip, radial, tangential, passed):
     approach = normal_approach(tip, radial, tangential)
     normal_radial, normal_tangential = normal(tip, radial, tangential, approach)
@@ -139,19 +139,19 @@ def _geometry(tip, radial, tangential, passed):
     return Geometry(radial, tangential, approach, normal_radial, normal_tangential, position, rows)
 
 
-@njit(forceinline=True)
+@inlined
 def _invalid(approach, tilted):
     zero = broadcast(0.0)
     return Linearisation(approach, tilted, zero, zero, broadcast(-1.0), zero, zero, zero)
 
 
-@njit(forceinline=True)
+@inlined
 def _linearise(modal, stator, tip, state, here, approach, tilted):
     found = elements.linearise(modal.tilt, stator, tip, state, here.position, here.rows, approach, tilted)
     return Linearisation(approach, tilted, *found)
 
 
-@njit(forceinline=True)
+@inlined
 def _displace(modal, stator, tip, state, here, linear, approach, tilted, free, coulomb):
     """Put the forces of the elements at `approach` on the blade; return the displacement under them."""
     closer, turned = approach - linear.approach, tilted - linear.tilted
@@ -174,7 +174,7 @@ def _displace(modal, stator, tip, state, here, linear, approach, tilted, free, c
     return displaced(modal.tilt, modal.compliance, state.force, *free)
 
 
-@njit(forceinline=True)
+@inlined
 def _by_sweeps(modal, stator, tip, passed, state, u):
     """Find the forces node by node, from those in `state`; count how often, and how that ends."""
     converged = gauss_seidel(modal, stator, tip, state, passed, u, TOLERANCE)

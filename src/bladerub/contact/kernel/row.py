@@ -8,12 +8,11 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 
 from bladerub.contact.kernel import tilt
 from bladerub.contact.kernel.loop import Progress, Simulation, integrate
 from bladerub.contact.kernel.modal import ROWS
-from bladerub.numerics.machine_code import njit_on_disk
+from bladerub.numerics.machine_code import inlined, njit_on_disk, within
 from bladerub.numerics.memory import add_to_number, address_of, read, record_at, rows_of, write
 from bladerub.numerics.vectors import LANES
 
@@ -151,13 +150,13 @@ def _integrate_row(
     return element
 
 
-@njit(forceinline=True)
+@inlined
 def _row(rows, b):
     """Address of row `b`."""
     return rows.ctypes.data + 8 * rows.shape[1] * b
 
 
-@njit
+@within
 def take_turns(rows, n, turns):
     """Bring three rows of `n` numbers in order, which the loop has let take `turns`."""
     for _ in range(turns % 3):
@@ -168,7 +167,7 @@ def take_turns(rows, n, turns):
             write(rows, k, last)
 
 
-@njit
+@within
 def _couple(coupling, kinds, modals, states, work):
     """Change the velocities by half an impulse of the disk, and enter its work.
 

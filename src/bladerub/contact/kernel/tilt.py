@@ -10,6 +10,7 @@ from numba import types
 from numba.extending import overload
 
 from bladerub.contact.tip import highest
+from bladerub.numerics.machine_code import INLINED
 from bladerub.numerics.memory import (
     add_lane_products,
     add_to_number,
@@ -31,7 +32,7 @@ COUPLE = 2 * LANES
 
 def _without_tilt(otherwise: Callable) -> Callable:
     def decorate(function):
-        @overload(function, strict=False, jit_options={"forceinline": True})
+        @overload(function, strict=False, jit_options=INLINED)
         def choose(rows, *_):
             return otherwise if isinstance(rows, types.NoneType) else function
 

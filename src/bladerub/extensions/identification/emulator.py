@@ -8,6 +8,9 @@ from typing import NamedTuple
 
 import numpy as np
 import openturns
+import pandas as pd
+
+from bladerub.extensions.identification.plan import FEWEST
 
 FOLDS = 5
 """Number of parts that the sets are split into, each predicted from the others."""
@@ -66,6 +69,16 @@ class Emulator:
         scatter = self.covariance.getNuggetFactor() * self.covariance.getAmplitude()[0] ** 2
         deviation = np.sqrt(np.maximum(variance, 0.0) + scatter)
         return Predicted(self._mean + self._scale * mean, self._scale * deviation)
+
+
+def emulators(positions: np.ndarray, measured: pd.DataFrame) -> dict[str, Emulator]:
+    """Fit an emulator to each target that enough sets have, at the `positions` (n, d) of these sets."""
+    found = {}
+    for name, values in measured.items():
+        known = values.notna().to_numpy()
+        if known.sum() >= FEWEST:
+            found[name] = Emulator(positions[known], values[known].to_numpy())
+    return found
 
 
 def held_out(emulator: Emulator, positions: np.ndarray, values: np.ndarray) -> HeldOut:

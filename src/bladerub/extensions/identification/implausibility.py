@@ -6,13 +6,15 @@ A set is left as long as the implausibility of no target exceeds `CUTOFF`, save 
 """
 
 from collections.abc import Mapping
+from typing import TYPE_CHECKING
 
 import numpy as np
 import pandas as pd
 
-from bladerub.extensions.identification.emulator import Emulator
-from bladerub.extensions.identification.plan import FEWEST
 from bladerub.extensions.identification.targets import TARGETS, Target
+
+if TYPE_CHECKING:
+    from bladerub.extensions.identification.emulator import Emulator
 
 CUTOFF = 3.0
 """Implausibility above which a set is ruled out: at most 5 % of any unimodal distribution lies beyond."""
@@ -30,17 +32,7 @@ def of_simulated(measured: pd.DataFrame) -> pd.DataFrame:
     return measured.apply(lambda values: known[values.name].excess(values) / known[values.name].error)
 
 
-def emulators(positions: np.ndarray, measured: pd.DataFrame) -> dict[str, Emulator]:
-    """Fit an emulator to each target that enough sets have, at the `positions` (n, d) of these sets."""
-    found = {}
-    for name, values in measured.items():
-        known = values.notna().to_numpy()
-        if known.sum() >= FEWEST:
-            found[name] = Emulator(positions[known], values[known].to_numpy())
-    return found
-
-
-def predicted(emulated: Mapping[str, Emulator], positions: np.ndarray) -> pd.DataFrame:
+def predicted(emulated: Mapping[str, "Emulator"], positions: np.ndarray) -> pd.DataFrame:
     """Predict the implausibility of each emulated target (columns) at `positions` (m, d)."""
     known = {target.name: target for target in TARGETS}
     return pd.DataFrame(
@@ -55,6 +47,6 @@ def without(implausibility: pd.DataFrame, given_up: int) -> np.ndarray:
     return values[:, -1 - given_up] if given_up < values.shape[1] else np.zeros(len(values))
 
 
-def _of_prediction(target: Target, emulator: Emulator, positions: np.ndarray) -> np.ndarray:
+def _of_prediction(target: Target, emulator: "Emulator", positions: np.ndarray) -> np.ndarray:
     mean, deviation = emulator.predict(positions)
     return target.excess(mean) / np.hypot(target.error, deviation)

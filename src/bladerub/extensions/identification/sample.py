@@ -36,7 +36,7 @@ class Simulated(NamedTuple):
 
 
 def simulate(study: Mapping[str, Any], plan: Plan, positions: Mapping[int, np.ndarray]) -> Simulated:
-    """Simulate sets, given by number and position (d,) in the ranges of the factors, in a temporary folder.
+    """Simulate sets, given by number and position (d,) in the ranges of the factors.
 
     Raises `ConfigError` if the values of a set make no study together.
     """
@@ -85,9 +85,9 @@ def conduct_set(
     position: np.ndarray,
     claims: tuple[str, ...] | None = None,
 ) -> SmallStudy:
-    """Build the blade of one set and make one small study of it, whose files are not kept."""
+    """Build the blade of one set, whose files are not kept, and make one small study of it."""
     config = config_of(study, plan, variation, position)
     with tempfile.TemporaryDirectory() as folder:
         model = Path(folder) / "blade" / "reduced_model.h5"
         write(build(config), provenance(config), model, mesh_path(model), accuracy_path(model))
-        return conduct(config, model, accuracy_path(model), folder, claims)
+        return conduct(config, model, accuracy_path(model), claims=claims)

@@ -11,13 +11,11 @@ from bladerub.extensions.identification.emulator import Emulator, Predicted, com
 from bladerub.extensions.identification.implausibility import CUTOFF, of_simulated, wide
 from bladerub.extensions.identification.plan import Plan
 from bladerub.extensions.identification.sample import QUANTITIES, VERDICTS
+from bladerub.extensions.identification.sets import as_table as sets_table
 from bladerub.extensions.identification.targets import TARGETS
 from bladerub.extensions.identification.waves import Remaining
 from bladerub.io.tables import read as read_table
 from bladerub.study.findings.claim import YES
-
-POSITIONS = ["set", "factor", "range_fraction"]
-"""Columns of the sets of a wave: each factor as a fraction of its range."""
 
 PREDICTIONS = ["set", "target", "predicted_value", "deviation"]
 """Columns of the targets as predicted before a set is simulated."""
@@ -33,21 +31,6 @@ _RARE = 0.05  # a claim that holds in fewer sets says nothing about which others
 _SELDOM = 0.5  # of the sets that chance would give: fewer are called an exclusion
 
 
-def as_table(plan: Plan, first: int, drawn: np.ndarray) -> pd.DataFrame:
-    """Make the table of the sets `drawn` (n, d), numbered from `first`, with `POSITIONS`."""
-    names = [factor.name for factor in plan.factors]
-    numbers = np.repeat(np.arange(first, first + len(drawn)), len(names))
-    return pd.DataFrame({"set": numbers, "factor": names * len(drawn), "range_fraction": np.ravel(drawn)})
-
-
-def positions(paths: Iterable[str | Path]) -> pd.DataFrame:
-    """Read tables of `as_table`: a row for each set, a column for each factor, in their order."""
-    long = pd.concat([read_table(path, POSITIONS) for path in paths])
-    return long.pivot(index="set", columns="factor", values="range_fraction")[
-        list(dict.fromkeys(long.factor))
-    ]
-
-
 def measured(paths: Iterable[str | Path]) -> pd.DataFrame:
     """Read the targets of all jobs: a row for each set, a column for each target, in their order."""
     return wide(_collected(paths, QUANTITIES))
@@ -60,7 +43,7 @@ def verdicts(paths: Iterable[str | Path]) -> pd.DataFrame:
 
 def sets(plan: Plan, positions: pd.DataFrame, misfit: pd.Series) -> pd.DataFrame:
     """List every simulated set: a row for each factor, with its position and value, and the set's misfit."""
-    table = as_table(plan, 0, positions.to_numpy())
+    table = sets_table(plan, 0, positions.to_numpy())
     factors = {factor.name: factor for factor in plan.factors}
     table["value"] = [
         factors[name].first_value(position)

@@ -1,16 +1,18 @@
 """The sets of a wave: those of the first are spread over all ranges, those of others over what is left."""
 
 from collections.abc import Mapping
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 import pandas as pd
 from scipy.spatial.distance import cdist
 from scipy.stats import qmc
 
-from bladerub.extensions.identification.emulator import Emulator
 from bladerub.extensions.identification.implausibility import CUTOFF, predicted, without
 from bladerub.extensions.identification.plan import Plan
+
+if TYPE_CHECKING:
+    from bladerub.extensions.identification.emulator import Emulator
 
 POINTS = 2**14
 """Points at which it is asked what is left of the ranges; a power of two."""
@@ -38,7 +40,7 @@ def first(plan: Plan, study: Mapping[str, Any]) -> np.ndarray:
     return np.vstack([plan.given(study), drawn])
 
 
-def remaining(plan: Plan, emulated: Mapping[str, Emulator]) -> Remaining:
+def remaining(plan: Plan, emulated: Mapping[str, "Emulator"]) -> Remaining:
     """Find what is left of the ranges; as few targets are given up as leave the share of the plan."""
     points = _spread(plan, np.random.default_rng([plan.seed, 0]), POINTS)
     implausible = predicted(emulated, points)
@@ -50,7 +52,7 @@ def remaining(plan: Plan, emulated: Mapping[str, Emulator]) -> Remaining:
 
 
 def draw(
-    plan: Plan, wave: int, left: Remaining, emulated: Mapping[str, Emulator], simulated: np.ndarray
+    plan: Plan, wave: int, left: Remaining, emulated: Mapping[str, "Emulator"], simulated: np.ndarray
 ) -> np.ndarray:
     """Draw plausible points (n, d) for the wave after `wave`, far from each other and from the `simulated`.
 

@@ -1,6 +1,5 @@
 """The samples of one job: a small study with the values of each, and its findings."""
 
-import tempfile
 import time
 from collections.abc import Collection, Iterable, Mapping
 from pathlib import Path
@@ -24,7 +23,7 @@ def judge(
     claims: Collection[str],
     blades: Iterable[tuple[str | Path, str | Path]],
 ) -> tuple[pd.DataFrame, pd.DataFrame]:
-    """Make the study of each sample in a temporary folder, and judge the `claims` of their `part`.
+    """Make the study of each sample, and judge the `claims` of their `part`.
 
     `samples` are configs by the number of the sample, from `bladerub.extensions.robustness.design.batch`;
     `blades` are the files of each sample's reduced blade and of the accuracy of that. Returns verdicts and
@@ -33,8 +32,7 @@ def judge(
     verdicts, cost = [], []
     for (number, config), (model, rom_accuracy) in zip(samples.items(), blades, strict=True):
         start = time.process_time()
-        with tempfile.TemporaryDirectory() as folder:
-            study = conduct(configuration.validate(config), model, rom_accuracy, folder, claims)
+        study = conduct(configuration.validate(config), model, rom_accuracy, claims=claims)
         verdicts.append(study.findings.assign(sample=number)[COLUMNS])
         cost.append((part, number, study.n_runs, time.process_time() - start))
     return pd.concat(verdicts, ignore_index=True), pd.DataFrame(cost, columns=COST)

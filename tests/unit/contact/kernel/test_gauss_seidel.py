@@ -4,9 +4,9 @@ import math
 
 import numpy as np
 import pytest
+from numba import njit
 
-from bladerub.contact.kernel import newton, records
-from bladerub.contact.kernel.gauss_seidel import gauss_seidel
+from bladerub.contact.kernel import gauss_seidel, newton, records
 from bladerub.contact.kernel.modal import pack
 from bladerub.contact.modes import modes_at
 from bladerub.contact.schemes import SCHEMES, Contact
@@ -15,6 +15,8 @@ from bladerub.numerics.memory import addresses
 from bladerub.numerics.vectors import LANES
 
 STEP = 2e-5
+
+find_forces, sweep = njit(newton.find_forces), njit(gauss_seidel.gauss_seidel)
 
 
 @pytest.fixture
@@ -53,11 +55,11 @@ def test_the_same_forces_as_newton(parts, depth, theta):
     records = [addresses(record) for record in (modal, stator, tip, state)]
     free = pressed_in(stator, tip, depth)
     u = free.copy()
-    assert newton.find_forces(*records[:3], 0.0, records[3], u.ctypes.data, False)
+    assert find_forces(*records[:3], 0.0, records[3], u.ctypes.data, False)
     by_newton = state.force[0].copy(), state.normal_force[0].copy(), u[: 2 * LANES].copy()
     state.force[:], state.normal_force[:] = 0.0, 0.0
     u[:] = free
-    gauss_seidel(*records[:3], records[3], 0.0, u.ctypes.data, 1e-13)
+    sweep(*records[:3], records[3], 0.0, u.ctypes.data, 1e-13)
     for found, expected in zip(
         (state.force[0], state.normal_force[0], u[: 2 * LANES]), by_newton, strict=True
     ):
@@ -70,7 +72,7 @@ def test_rigid_casing_stops_the_tip(parts):
     modal, stator, tip, state = parts(E=np.inf, K=np.inf, theta=0.0)
     records = [addresses(record) for record in (modal, stator, tip, state)]
     u = pressed_in(stator, tip, 1e-5)
-    gauss_seidel(*records[:3], records[3], 0.0, u.ctypes.data, 1e-13)
+    sweep(*records[:3], records[3], 0.0, u.ctypes.data, 1e-13)
     height = np.hypot(tip.radius + u[:LANES], u[LANES : 2 * LANES]) - tip.radius
     touching = state.normal_force[0] > 0
     assert touching.any()

@@ -3,7 +3,7 @@ import pandas as pd
 import pytest
 
 from bladerub.extensions.identification import implausibility
-from bladerub.extensions.identification.emulator import Emulator
+from bladerub.extensions.identification.emulator import Emulator, emulators
 from bladerub.extensions.identification.targets import AT_LEAST, AT_MOST, EQUAL, TARGETS, Target
 
 KNOWN = {target.name: target for target in TARGETS}
@@ -47,7 +47,7 @@ def test_the_deviation_of_a_prediction_makes_a_set_more_plausible():
 def test_a_target_needs_enough_sets_for_an_emulator():
     positions = np.random.default_rng(0).random((20, 2))
     measured = pd.DataFrame({"f4_soft": positions[:, 0], "f6_soft": np.where(np.arange(20) < 9, 0.2, np.nan)})
-    assert list(implausibility.emulators(positions, measured)) == ["f4_soft"]
+    assert list(emulators(positions, measured)) == ["f4_soft"]
 
 
 def test_the_worst_targets_are_left_out_when_given_up():

@@ -5,7 +5,7 @@ import pytest
 from bladerub.config.errors import UNKNOWN
 from bladerub.config.files import Located
 from bladerub.extensions.factors import Factor
-from bladerub.extensions.identification import candidates, summary, waves
+from bladerub.extensions.identification import candidates, sets, summary, waves
 from bladerub.extensions.identification.emulator import Emulator
 from bladerub.extensions.identification.implausibility import predicted, without
 from bladerub.extensions.identification.plan import BATCH, Candidates, Part, Plan
@@ -177,8 +177,8 @@ def test_parts_that_hold_are_counted_by_whether_they_were_matched(plan, chosen):
 
 
 def test_sets_keep_their_numbers_and_values_in_a_file(plan, positions, measured, tmp_path):
-    summary.as_table(plan, 3, positions[:2]).to_csv(tmp_path / "sets.csv", index=False)
-    read = summary.positions([tmp_path / "sets.csv"])
+    sets.as_table(plan, 3, positions[:2]).to_csv(tmp_path / "sets.csv", index=False)
+    read = sets.positions([tmp_path / "sets.csv"])
     assert list(read.index) == [3, 4]
     assert read.to_numpy() == pytest.approx(positions[:2])
     listed = summary.sets(plan, pd.DataFrame(positions), candidates.misfit(measured))
