@@ -9,14 +9,13 @@ from bladerub.io import tables
 from bladerub.io.provenance import provenance
 from bladerub.study.cache import blade_digest
 from bladerub.study.grid import case_from_name
-from bladerub.study.maps import read_map
 from bladerub.workflow import job
 
 job.log_to(snakemake.log[0])
 
 config, model = snakemake.params.config, snakemake.input.blade
 case, blade = case_from_name(config, snakemake.wildcards.coating), read_reduced_blade(model)
-path, _ = map_coating(
+coating, _ = map_coating(
     config,
     case,
     blade,
@@ -24,5 +23,5 @@ path, _ = map_coating(
     snakemake.params.folder,
     report=lambda run: print(run, file=sys.stderr),
 )
-numbers = of_coating(config, read_map(path), blade)
+numbers = of_coating(config, coating, blade)
 tables.write(snakemake.output.numbers, numbers, provenance(config))

@@ -52,9 +52,10 @@ def conduct(
     """
     blade, cases = read_reduced_blade(model), coating_cases(config)
     if folder is None:
-        mapped = partial(_in_memory, config, blade, report)
+        mapped = partial(_in_memory, config, blade=blade, report=report)
     else:
-        mapped = partial(_in_files, config, blade, blade_digest(model), folder, report)
+        digest = blade_digest(model)
+        mapped = partial(map_coating, config, blade=blade, digest=digest, folder=folder, report=report)
     # a GPU wants all runs at once: each coating of a small study has too few
     found = dict(each_done(mapped, cases, len(cases) if on_gpu(config) else 1))
     maps, n_runs = [found[case][0] for case in cases], sum(n for _, n in found.values())
@@ -71,8 +72,8 @@ def map_coating(
     digest: str,
     folder: str | Path,
     report: Callable[[object], None] = lambda line: None,
-) -> tuple[Path, int]:
-    """Run one coating and make its map; return the file of the map and the number of runs.
+) -> tuple[CoatingMap, int]:
+    """Run one coating and make its map, in files of `folder`; return the map and the number of runs.
 
     `digest` is that of the blade (`bladerub.study.cache`); other parameters are those of `conduct`.
     """
@@ -80,27 +81,13 @@ def map_coating(
     rows = compute_missing(config, coating_plan(config, case), blade, runs, digest, report)
     write_manifest(runs / "manifest.tsv", rows)
     build_map(config, case, blade, runs, path)
-    return path, len(rows) + sum(bool(row.confirmation_key) for row in rows)
-
-
-def _in_files(
-    config: Mapping[str, Any],
-    blade: ReducedBlade,
-    digest: str,
-    folder: str | Path,
-    report: Callable[[object], None],
-    case: CoatingCase,
-) -> tuple[CoatingMap, int]:
-    path, n_runs = map_coating(config, case, blade, digest, folder, report)
-    return read_map(path), n_runs
+    return read_map(path), len(rows) + sum(bool(row.confirmation_key) for row in rows)
 
 
 def _in_memory(
-    config: Mapping[str, Any],
-    blade: ReducedBlade,
-    report: Callable[[object], None],
-    case: CoatingCase,
+    config: Mapping[str, Any], case: CoatingCase, blade: ReducedBlade, report: Callable[[object], None]
 ) -> tuple[CoatingMap, int]:
+    """Do as `map_coating` without files."""
     runs, longer = compute_all(config, coating_plan(config, case), blade, report)
     planned, prominence = speeds(config), config["analysis"]["lobe_prominence"]
     made = collect(case, planned, first_frequency(blade, planned), runs, longer, prominence)
