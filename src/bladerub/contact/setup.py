@@ -6,7 +6,6 @@ from functools import lru_cache, partial
 from typing import NamedTuple
 
 import numpy as np
-from scipy.ndimage import minimum_filter1d
 
 from bladerub.blade.model import N_INTERFACE, ReducedBlade
 from bladerub.contact import casing
@@ -177,7 +176,9 @@ def _gaps(
 def minimum_gap(rows: np.ndarray, half_width: float) -> np.ndarray:
     """Smallest gap (N,) that any node may meet in the passage of an element, from the gaps (8, N) in rows."""
     reach = half_width + 1 + SEARCH_RANGE + 1  # + 1 each: a node stands anywhere within an element
-    return minimum_filter1d(rows, 2 * math.ceil(reach) + 1, axis=1, mode="wrap").min(axis=0)
+    half = math.ceil(reach)
+    around = np.pad(rows.min(axis=0), half, mode="wrap")
+    return np.lib.stride_tricks.sliding_window_view(around, 2 * half + 1).min(axis=1)
 
 
 def tip_record(blade: ReducedBlade, spec: RunSpec, seat: Seat = ALONE) -> records.Tip:

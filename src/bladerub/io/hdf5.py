@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
 from types import MappingProxyType
-from typing import Any
+from typing import Any, NamedTuple
 
 import h5py
 import numpy as np
@@ -37,26 +37,38 @@ def write(
     variables: Mapping[str, Variable],
     attributes: Mapping[str, Any],
     origin: Mapping[str, str] = MappingProxyType({}),
+    repeated: Set[str] = frozenset(),
 ) -> str:
     """Write datasets and attributes (numbers and strings) by name to `path`, whole or not at all.
 
-    `origin` are more attributes, from `bladerub.io.provenance.provenance`: the same in many files, and not
-    written one by one. Returns the checksum of the file, as of `bladerub.io.checksum.file_checksum`. Raises
-    `ValueError` if two variables disagree on the length of a dimension.
+    `origin` are more attributes, from `bladerub.io.provenance.provenance`. They and what is named in
+    `repeated` are the same in many files, and not written one by one. Returns the checksum of the file, as
+    of `bladerub.io.checksum.file_checksum`. Raises `ValueError` if two variables disagree on the length of a
+    dimension.
     """
     data = {name: np.asarray(variable.data) for name, variable in variables.items()}
-    layout = tuple(
-        (name, variable.dims, data[name].shape, data[name].dtype.str, variable.units, variable.long_name)
-        for name, variable in variables.items()
+    blank = _blank(
+        tuple(
+            _Layout(name, of.dims, data[name].shape, data[name].dtype.str, of.units, of.long_name)
+            for name, of in variables.items()
+        ),
+        tuple((key, np.asarray(value).dtype.str) for key, value in attributes.items()),
+        tuple((name, values.tobytes()) for name, values in data.items() if name in repeated),
+        tuple((key, value) for key, value in attributes.items() if key in repeated),
+        tuple(origin.items()),
     )
-    kinds = tuple((key, np.asarray(value).dtype.str) for key, value in attributes.items())
-    image = _blank(layout, kinds, tuple(origin.items()))
+    image = bytearray(blank.image)
+    for name, start in blank.start.items():
+        image[start : start + data[name].nbytes] = data[name].tobytes()
     with h5py.File(h5py.h5f.open_file_image(image, flags=_READ_AND_WRITE)) as file:
         # past h5py's own indexing, which takes longer than the writing
         for key, value in attributes.items():
-            attribute = h5py.h5a.open(file.id, key.encode())
-            attribute.write(np.asarray(value, attribute.dtype))
+            if key not in repeated:
+                attribute = h5py.h5a.open(file.id, key.encode())
+                attribute.write(np.asarray(value, attribute.dtype))
         for name, values in data.items():
+            if name in repeated or name in blank.start:
+                continue
             if values.dtype.kind == "U":
                 file[name][...] = values
             else:
@@ -69,13 +81,32 @@ def write(
     return hashlib.sha256(image).hexdigest()
 
 
+class _Layout(NamedTuple):
+    """A dataset without its values."""
+
+    name: str
+    dims: tuple[str, ...]
+    shape: tuple[int, ...]
+    kind: str
+    units: str
+    long_name: str
+
+
+class _Blank(NamedTuple):
+    """A file with names, units, scales and what is the same in many files."""
+
+    image: bytes
+    start: dict[str, int]  # where in it the values of a dataset go that is neither compressed nor text
+
+
 @lru_cache(maxsize=8)
-def _blank(layout: tuple, attributes: tuple, origin: tuple) -> bytes:
-    """Make a file without values: its names, units and scales take four times as long as filling it."""
+def _blank(layout: tuple, attributes: tuple, values: tuple, told: tuple, origin: tuple) -> _Blank:
+    """Make a file without values but those given: the rest takes several times as long as filling it."""
+    given = dict(values)
     with h5py.File(io.BytesIO(), "w") as file:
         for key, kind in attributes:
             file.attrs[key] = "" if "U" in kind else np.zeros((), kind)
-        for key, value in origin:
+        for key, value in (*told, *origin):
             file.attrs[key] = value
         lengths: dict[str, int] = {}
         coordinates_first = sorted(layout, key=lambda entry: entry[1] != (entry[0],))
@@ -96,8 +127,15 @@ def _blank(layout: tuple, attributes: tuple, origin: tuple) -> bytes:
                     scale[...] = index
                     scale.make_scale(dim)
                 dataset.dims[axis].attach_scale(file[dim])
+        start = {}
+        for name, _, shape, kind, *_ in layout:
+            if name in given:
+                file[name][...] = np.frombuffer(given[name], kind).reshape(shape)
+            elif file[name].chunks is None and "U" not in kind and math.prod(shape):
+                file[name][...] = np.zeros(shape, kind)  # or it has no place yet
+                start[name] = file[name].id.get_offset()
         file.flush()
-        return file.id.get_file_image()
+        return _Blank(file.id.get_file_image(), start)
 
 
 def _dataset(
@@ -114,14 +152,17 @@ def _dataset(
     return dataset
 
 
-def read(path: str | Path, only: Set[str] | None = None) -> tuple[dict[str, np.ndarray], dict[str, Any]]:
-    """Read the datasets, all or `only` these, and attributes of the file at `path`.
+def read(
+    path: str | Path, only: Set[str] | None = None, told: Set[str] | None = None
+) -> tuple[dict[str, np.ndarray], dict[str, Any]]:
+    """Read the datasets, all or `only` these, and attributes, all or those `told`, of the file at `path`.
 
-    Raises an `OSError` that names the file if it is missing or, as `DamagedFile`, not a whole HDF5 file.
+    What the file does not have is left out. Raises an `OSError` that names the file if it is missing or, as
+    `DamagedFile`, not a whole HDF5 file.
     """
     with _opened(path) as file:
         wanted = file.keys() if only is None else only & file.keys()
-        return {name: _values(file[name]) for name in wanted}, _attributes(file)
+        return {name: _values(file[name]) for name in wanted}, _attributes(file, told)
 
 
 def read_attributes(path: str | Path) -> dict[str, Any]:
@@ -148,6 +189,7 @@ def _values(dataset: h5py.Dataset) -> np.ndarray:
     return dataset[...]
 
 
-def _attributes(file: h5py.File) -> dict[str, Any]:
-    values = file.attrs.items()
+def _attributes(file: h5py.File, only: Set[str] | None = None) -> dict[str, Any]:
+    keys = file.attrs.keys()
+    values = ((key, file.attrs[key]) for key in (keys if only is None else only & keys))
     return {key: value.item() if isinstance(value, np.generic) else value for key, value in values}

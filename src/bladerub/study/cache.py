@@ -84,6 +84,8 @@ class Entry:
     def _key_in(self, path: Path) -> str | None:
         """Read the whole file and return its key, or None if anything is wrong with it."""
         try:
+            if not path.exists():  # asked three times of every new run, and faster than h5py
+                return None
             data, attributes = hdf5.read(path)
         except Exception:  # h5py raises anything on a damaged file, which is to be computed again
             return None

@@ -193,7 +193,8 @@ def _complete(
         report(RunDone(number, len(missing), run.file, status, now - run_start, seconds_left))
     for file in entries.keys() - done.keys():
         path = entries[file].path
-        done[file] = _done(entries[file], read_run(path, {"revolution_amplitude"}), file_checksum(path))
+        run = read_run(path, {"revolution_amplitude"}, {"status", "n_unconverged_steps"})
+        done[file] = _done(entries[file], run, file_checksum(path))
     return done
 
 

@@ -191,7 +191,7 @@ def _confirmation_amplitude(longer: "Sequence[StoredRun | None]") -> np.ndarray:
 def _listed_run(folder: Path, path: Path, key: str, datasets: Set[str]) -> "StoredRun":
     from bladerub.study.store import read_run
 
-    run = read_run(path, datasets)
+    run = read_run(path, datasets, {"status"})
     if run.attributes["run_key"] != key:
         raise DamagedFile(f"{path}: not the run that {folder / 'manifest.tsv'} lists, its key differs")
     return run

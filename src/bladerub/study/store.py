@@ -1,7 +1,7 @@
 """Runs on disk: one HDF5 file a run."""
 
 from collections.abc import Iterable, Mapping, Set
-from dataclasses import asdict, dataclass, replace
+from dataclasses import asdict, dataclass, fields, replace
 from pathlib import Path
 from typing import Any
 
@@ -79,7 +79,13 @@ MAPPED = {"wear", "spectrum_amplitude", "revolution_peak", "revolution_amplitude
 
 
 ALL: Set[str] = frozenset()
-"""For `read_run`: every dataset that there is."""
+"""For `read_run`: every dataset, or every attribute, that there is."""
+
+_REPEATED = {"node", "angle", "spectrum_order", "revolution_number", "revolution"} | {
+    *(field.name for field in fields(CoatingCase)),
+    *("revolutions", "scheme", "damping_ratio", "layer_thickness", "element_law"),
+}
+"""Datasets and attributes that are the same in most runs of a coating."""
 
 
 @dataclass(frozen=True)
@@ -207,7 +213,7 @@ def write_run(path: str | Path, run: StoredRun, origin: Mapping[str, str]) -> st
 
     `origin` is its provenance (`bladerub.io.provenance.provenance`).
     """
-    return hdf5.write(path, variables(run), run.attributes, origin)
+    return hdf5.write(path, variables(run), run.attributes, origin, _REPEATED)
 
 
 def variables(run: StoredRun) -> dict[str, Variable]:
@@ -218,12 +224,12 @@ def variables(run: StoredRun) -> dict[str, Variable]:
     return {"node": interface_node(len(run.data["wear"]))} | described
 
 
-def read_run(path: str | Path, only: Set[str] = ALL) -> StoredRun:
-    """Read one run, or `only` the named datasets of it.
+def read_run(path: str | Path, only: Set[str] = ALL, told: Set[str] = ALL) -> StoredRun:
+    """Read one run, or `only` the named datasets of it, and of its attributes only those `told` and the key.
 
     Raises `OSError` if the file is missing, damaged or not a run; the message names it.
     """
-    data, attributes = hdf5.read(path, only or None)
+    data, attributes = hdf5.read(path, only or None, told | {"run_key"} if told else None)
     missing = (only or MAPPED) - data.keys() | {"run_key"} - attributes.keys()
     if missing:
         raise DamagedFile(f"{path}: not a run, {', '.join(sorted(missing))} missing")

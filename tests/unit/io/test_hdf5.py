@@ -1,9 +1,12 @@
+from dataclasses import replace
+
 import h5py
 import numpy as np
 import pytest
 import xarray as xr
 
 from bladerub.io import hdf5
+from bladerub.io.checksum import file_checksum
 from bladerub.io.errors import DamagedFile
 from bladerub.io.hdf5 import Variable
 
@@ -50,6 +53,13 @@ def test_datasets_that_are_not_asked_for_are_not_read(tmp_path):
     assert attributes == {"n": 3}
 
 
+def test_attributes_that_are_not_asked_for_are_not_read(tmp_path):
+    hdf5.write(tmp_path / "file.h5", VARIABLES, {"n": 3, "status": "completed"})
+    data, attributes = hdf5.read(tmp_path / "file.h5", told={"status", "unknown"})
+    assert data.keys() == {*VARIABLES, "node"}
+    assert attributes == {"status": "completed"}
+
+
 def test_what_is_written_is_read(tmp_path):
     hdf5.write(tmp_path / "file.h5", VARIABLES, {"n": 3, "status": "completed"})
     data, attributes = hdf5.read(tmp_path / "file.h5")
@@ -64,6 +74,37 @@ def test_each_file_has_its_origin_as_attributes(tmp_path):
         hdf5.write(tmp_path / "file.h5", VARIABLES, {"n": 3}, {"provenance_git_commit": commit})
         attributes = hdf5.read_attributes(tmp_path / "file.h5")
         assert attributes == {"n": 3, "provenance_git_commit": commit}
+
+
+def test_files_with_repeated_values_hold_their_own(tmp_path):
+    text = Variable(("node",), np.array(["tip", "Bürste"]), "1", "name of a node")
+    long = Variable(("step",), np.arange(2000.0), "m", "peak")  # compressed
+    variables = VARIABLES | {"name": text, "peak": long}
+    for n in (1, 2, 2):  # the third from the image of the second
+        changed = {
+            "wear": replace(VARIABLES["wear"], data=VARIABLES["wear"].data * n),
+            "angle": replace(VARIABLES["angle"], data=VARIABLES["angle"].data * n),
+            "peak": replace(long, data=long.data * n),
+            "energy": replace(VARIABLES["energy"], data=n),
+        }
+        attributes = {"casing": f"casing {n}", "status": f"status {n}", "n": n, "E": 2.0 * n}
+        repeated = {"angle", "peak", "name", "casing", "n", "unknown"}
+        hdf5.write(tmp_path / "file.h5", variables | changed, attributes, repeated=repeated)
+        data, told = hdf5.read(tmp_path / "file.h5")
+        for name in variables:
+            np.testing.assert_array_equal(data[name], (variables | changed)[name].data)
+        assert told == attributes
+
+
+def test_a_file_does_not_depend_on_those_before(tmp_path):
+    def write(name, n):
+        variables = VARIABLES | {"energy": replace(VARIABLES["energy"], data=float(n))}
+        attributes = {"status": "x" * n, "n": n, "casing": "2nd"}
+        return hdf5.write(tmp_path / name, variables, attributes, repeated={"angle", "casing"})
+
+    first = write("first.h5", 3)
+    write("between.h5", 50)
+    assert write("again.h5", 3) == first == file_checksum(tmp_path / "again.h5")
 
 
 def test_disagreeing_lengths_are_refused_and_leave_the_old_file(tmp_path):
