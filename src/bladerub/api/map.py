@@ -15,7 +15,7 @@ from bladerub.api.blade import Blade
 from bladerub.api.dataset import to_dataset
 from bladerub.api.errors import InputError
 from bladerub.api.notebook import html_table
-from bladerub.api.run import Run, is_followed, solve
+from bladerub.api.run import Run, solve
 from bladerub.api.study import StudyCoating, StudyRun
 from bladerub.contact.gpu.many import simulate_many
 from bladerub.contact.gpu.server import find
@@ -26,7 +26,7 @@ from bladerub.plots.style import saved
 from bladerub.plots.wear_map import wear_map
 from bladerub.study import maps
 from bladerub.study.grid import CoatingCase, row_of
-from bladerub.study.growth import confirmation_spec
+from bladerub.study.growth import confirmation_spec, needs_confirmation
 from bladerub.study.job import Solve
 from bladerub.study.maps import CoatingMap
 from bladerub.study.parallel import each_done
@@ -240,7 +240,7 @@ def _solved_together(blade: Blade, runs: list[StudyRun], follow: bool) -> Solve 
     growing = [
         confirmation_spec(spec, settings)
         for spec, result in found.items()
-        if follow and is_followed(spec, result.revolution_amplitude, result.status, settings)
+        if follow and needs_confirmation(result.revolution_amplitude, result.status, settings)
     ]
     more = simulate_many(blade.reduced, growing, find())
     found |= {growing[number]: result for number, result in more}

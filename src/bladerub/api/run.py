@@ -375,16 +375,10 @@ def solve(
         stored = replace(stored, attributes=stored.attributes | found.attributes())
     longer = None
     amplitude, status = stored.data["revolution_amplitude"], stored.attributes["status"]
-    if follow and is_followed(run.spec, amplitude, status, settings):
+    if follow and needs_confirmation(amplitude, status, settings):
         spec = confirmation_spec(run.spec, settings)
         longer = Run(_solve(blade, run, spec, digest, done, False, row, solver))
     return Run(stored, longer, found)
-
-
-def is_followed(spec: RunSpec, amplitude: np.ndarray, status: str, settings: Mapping[str, Any]) -> bool:
-    """Whether a run grows and has a longer one; `settings` are ``analysis.divergence``."""
-    longest = settings["confirmation_revolutions"]
-    return longest > spec.revolutions and needs_confirmation(amplitude, status, settings)
 
 
 def _on_gpu(blade: ReducedBlade, spec: RunSpec, progress: Callable[[int], None] | None) -> RunResult:

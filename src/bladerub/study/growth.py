@@ -117,8 +117,8 @@ def _parameters(
 
 def needs_confirmation(amplitude: np.ndarray, status: str, settings: Mapping[str, Any]) -> bool:
     """Return whether a run of this amplitude and status is to be repeated for more revolutions."""
-    wanted = settings["confirmation_revolutions"] > 0
-    return wanted and status == "completed" and growth(amplitude, settings).grows
+    is_shorter = amplitude.size < settings["confirmation_revolutions"]  # which is 0 where none is repeated
+    return is_shorter and status == "completed" and growth(amplitude, settings).grows
 
 
 def judge(

@@ -13,6 +13,7 @@ A pipe in a row of a Markdown table is written ``\|``, since it would end the ce
 """
 
 import difflib
+import math
 import re
 from collections.abc import Callable, Iterator, Mapping
 from functools import cache, partial
@@ -177,7 +178,11 @@ def _significant(value: float, digits: int = 3) -> str:
     return f"{value:.{digits}g}"
 
 
-_FORMS = {"fixed": _fixed, "percent": _percent, "mm": _mm, "significant": _significant}
+def _degrees(value: float, digits: int = 1) -> str:
+    return f"{math.degrees(value):.{digits}f}"
+
+
+_FORMS = {"fixed": _fixed, "percent": _percent, "mm": _mm, "degrees": _degrees, "significant": _significant}
 """Filters that write a number with so many digits."""
 _COLUMN = re.compile(
     rf"(?P<name>\w+)(?::(?P<form>{'|'.join(_FORMS)})\((?P<digits>\d)\))?(?: = (?P<heading>.+))?"

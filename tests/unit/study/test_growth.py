@@ -200,3 +200,4 @@ def test_completed_runs_that_grow_need_confirmation_if_wanted():
     assert not needs_confirmation(np.ones(20), "completed", SETTINGS)
     assert not needs_confirmation(1.03**NUMBER, "unbounded", SETTINGS)
     assert not needs_confirmation(1.03**NUMBER, "completed", SETTINGS | {"confirmation_revolutions": 0})
+    assert not needs_confirmation(1.03 ** np.arange(60), "completed", SETTINGS)  # as long as a longer run

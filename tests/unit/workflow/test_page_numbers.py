@@ -510,6 +510,11 @@ def test_metres_are_shown_in_millimetres():
     assert rendered == "<!-- = 0.00234 | mm(2) -->2.34<!-- / -->"
 
 
+def test_radians_are_shown_in_degrees():
+    rendered = pages.render("<!-- = 0.5236 | degrees(2) --><!-- / -->", "page.md", {})
+    assert rendered == "<!-- = 0.5236 | degrees(2) -->30.00<!-- / -->"
+
+
 def test_a_table_has_the_columns_that_it_is_asked_for():
     rows = pd.DataFrame({"E": [1.0, 2.0], "wear": [1.234e-3, None], "left_out": [0, 0]})
     written = pages._table(rows, "E:fixed(0)", "wear:mm(2) = wear, mm")
