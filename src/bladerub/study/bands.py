@@ -24,6 +24,7 @@ from bladerub.study.ensemble import Ensemble
 from bladerub.study.findings.evidence import Evidence
 from bladerub.study.grid import CoatingCase, modulus_unit
 from bladerub.study.maps import CoatingMap
+from bladerub.study.variants import plain
 
 PROBABILITY = 0.9
 """Probability of a draw to fall into the band: 5 % lie below and 5 % above it."""
@@ -140,9 +141,19 @@ def of_findings(
     itself.
     """
     same, claims = [], [claim for claim in findings.CLAIMS if claim.id in set(table["id"])]
-    for drawn in islice(draws(maps, ensembles), 1, None):
-        tables = {"peaks": peak_table.table(config, drawn), "divergence": divergence.table(config, drawn)}
+    runs = plain(divergence.table(config, maps))
+    for member, drawn in enumerate(islice(draws(maps, ensembles), 1, None)):
+        members = plain(divergence.table(config, [ensemble.members[member] for ensemble in ensembles]))
+        tables = {"peaks": peak_table.table(config, drawn), "divergence": _drawn_runs(runs, members)}
         judged = findings.judge(Evidence(config, tables | {"rom_accuracy": rom_accuracy}, drawn), claims)
         holds = judged.set_index("id").holds.reindex(table["id"])
         same.append(holds.to_numpy() == table.holds.to_numpy())
     return table.assign(draws=len(same), share_of_draws=np.mean(same, axis=0) if same else math.nan)
+
+
+def _drawn_runs(table: pd.DataFrame, members: pd.DataFrame) -> pd.DataFrame:
+    """Return the `table` of divergence with the rows of `members` in place of those of the same runs."""
+    run = ["casing", "E", "K", "theta", "law", "f_omega"]
+    drawn, rows = table.set_index(run), members.set_index(run)
+    drawn.loc[rows.index] = rows
+    return drawn.reset_index()

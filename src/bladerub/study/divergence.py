@@ -2,8 +2,10 @@
 
 from collections.abc import Iterable, Mapping
 from dataclasses import asdict
+from functools import lru_cache
 from typing import Any
 
+import numpy as np
 import pandas as pd
 
 from bladerub.study.growth import Verdict, judge
@@ -39,5 +41,13 @@ def table(config: Mapping[str, Any], maps: Iterable[CoatingMap]) -> pd.DataFrame
 def verdicts(config: Mapping[str, Any], coating: CoatingMap) -> list[Verdict]:
     """Judge every run of a coating, by its longer run if it has one."""
     runs = zip(coating.revolution_amplitude, coating.status, coating.confirmation_amplitude, strict=True)
-    settings = config["analysis"]["divergence"]
-    return [judge(amplitude, status, settings, longer) for amplitude, status, longer in runs]
+    settings = tuple(config["analysis"]["divergence"].items())
+    return [
+        _judged(amplitude.tobytes(), str(status), settings, longer.tobytes())
+        for amplitude, status, longer in runs
+    ]
+
+
+@lru_cache(maxsize=1 << 15)  # parts of a study and its draws have most runs in common
+def _judged(amplitude: bytes, status: str, settings: tuple[tuple[str, float], ...], longer: bytes) -> Verdict:
+    return judge(np.frombuffer(amplitude), status, dict(settings), np.frombuffer(longer))

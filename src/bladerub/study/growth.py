@@ -27,6 +27,7 @@ The paper calls a run divergent when its amplitude "continuously grows with time
 
 from collections.abc import Mapping
 from dataclasses import replace
+from functools import lru_cache
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -101,10 +102,9 @@ def _parameters(
     Time is 0 at the last revolution, so the second coefficient is the slope there. The half widths are NaN
     where no revolution is left to show the scatter.
     """
-    design = np.vander(time, degree + 1, increasing=True)
     if time.size <= degree:
         return np.full(degree + 1, np.nan), np.full(degree + 1, np.nan)
-    inverse = np.linalg.pinv(design)
+    design, inverse = _least_squares(tuple(time.tolist()), degree)
     coefficients = inverse @ log_amplitude
     freedom = time.size - degree - 1
     if freedom == 0:
@@ -113,6 +113,13 @@ def _parameters(
     scatter = max(float(np.sqrt(residual @ residual / freedom)), RESOLUTION)
     error = scatter * np.linalg.norm(inverse, axis=1)
     return coefficients, scipy.special.stdtrit(freedom, (1 + confidence) / 2) * error
+
+
+@lru_cache(maxsize=64)  # most runs have amplitudes at the same times
+def _least_squares(time: tuple[float, ...], degree: int) -> tuple[np.ndarray, np.ndarray]:
+    """Return the matrix from the coefficients of a polynomial to its values at `time`, and back."""
+    design = np.vander(time, degree + 1, increasing=True)
+    return design, np.linalg.pinv(design)
 
 
 def needs_confirmation(amplitude: np.ndarray, status: str, settings: Mapping[str, Any]) -> bool:

@@ -130,3 +130,20 @@ def test_a_verdict_has_the_share_of_draws_that_agree(config, maps, ensembles, mo
     assert heights == pytest.approx(list(HEIGHTS))
     assert list(found.share_of_draws) == pytest.approx([1, 2 / 3, 0])
     assert list(found.draws) == [3, 3, 3]
+
+
+def test_claims_are_judged_on_the_runs_of_the_draw(config, maps, ensembles, monkeypatch):
+    given = []
+
+    def judge(evidence, claims):
+        given.append(evidence.divergence)
+        return pd.DataFrame({"id": ["C1a"], "holds": ["yes"]})
+
+    monkeypatch.setattr(findings, "judge", judge)
+    bands.of_findings(config, pd.DataFrame({"id": ["C1a"], "holds": ["yes"]}), None, maps, ensembles)
+    drawn = list(bands.draws(maps, ensembles))[1:]
+    assert len(given) == len(drawn) == 3
+    for found, each in zip(given, drawn, strict=True):
+        expected = divergence.table(config, each)  # of all runs, not only of those that the draw changes
+        pd.testing.assert_frame_equal(found[expected.columns], expected)
+    assert given[1].divergent.sum() == given[0].divergent.sum() + 1
