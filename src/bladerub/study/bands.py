@@ -12,6 +12,7 @@ chaotic. With few draws it is wider than their range: nine of them span but 80 %
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import fields
 from itertools import islice
 from typing import Any, NamedTuple
 
@@ -100,7 +101,7 @@ def _run_rows(
     if not found:
         return table.reindex(columns=[*table, *RUN_COLUMNS])
     bands = pd.DataFrame(found)
-    keys = [name for name in (*vars(maps[0].case), "f_omega") if name in table]
+    keys = _keys(table)
     return table.merge(bands[[*keys, *RUN_COLUMNS]], "left", on=keys)
 
 
@@ -153,7 +154,12 @@ def of_findings(
 
 def _drawn_runs(table: pd.DataFrame, members: pd.DataFrame) -> pd.DataFrame:
     """Return the `table` of divergence with the rows of `members` in place of those of the same runs."""
-    run = ["casing", "E", "K", "theta", "law", "f_omega"]
-    drawn, rows = table.set_index(run), members.set_index(run)
+    keys = _keys(table)
+    drawn, rows = table.set_index(keys), members.set_index(keys)
     drawn.loc[rows.index] = rows
     return drawn.reset_index()
+
+
+def _keys(table: pd.DataFrame) -> list[str]:
+    """Return the columns of the table of divergence that tell its runs apart."""
+    return [name for name in (*(field.name for field in fields(CoatingCase)), "f_omega") if name in table]
