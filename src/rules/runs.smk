@@ -8,7 +8,7 @@ from bladerub.study.grid import case_from_name, element_law, speeds
 from bladerub.study.growth import confirmation_determinants
 from bladerub.study.plan import coating_plan
 from bladerub.io.sources import solver_digest
-from bladerub.workflow.cores import sizes, threads_for
+from bladerub.workflow.cores import costs_of, priority_of, threads_for
 
 
 @cache
@@ -28,23 +28,28 @@ def minutes_for(runs, attempt):
 
 
 @cache
-def job_sizes():
-    return sizes(config)
+def job_costs():
+    return costs_of(config)
 
 
-def share_of_cores(size):
-    """Threads of a job by the runs that it computes, of those of the whole study."""
-    whole = sum(map(sum, job_sizes().values()))
-    return threads_for(size, whole, workflow.resource_settings.cores)
+def share_of_cores(cost):
+    """Threads of a job by its part of what the whole study costs."""
+    whole = sum(map(sum, job_costs().values()))
+    return threads_for(cost, whole, workflow.resource_settings.cores)
 
 
 def coating_threads(wildcards):
     # also a coating that only `friction` asks for
-    return share_of_cores(len(speeds(config)))
+    of_runs, _ = job_costs().get(wildcards.coating, (len(speeds(config)), 0))
+    return share_of_cores(of_runs)
+
+
+def coating_priority(wildcards):
+    return priority_of(wildcards.coating, job_costs())
 
 
 def ensemble_threads(wildcards):
-    return share_of_cores(job_sizes()[wildcards.coating][1])
+    return share_of_cores(job_costs()[wildcards.coating][1])
 
 
 def coating_minutes(wildcards, attempt):
@@ -83,6 +88,7 @@ rule coating:
         f"{RESULTS}/logs/coating/{{coating}}.log",
     benchmark:
         f"{RESULTS}/benchmarks/coating/{{coating}}.tsv"
+    priority: coating_priority
     threads: coating_threads
     resources:
         mem_mb=memory_mb,  # 240 measured, and two Pythons of Snakemake

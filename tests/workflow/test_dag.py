@@ -99,6 +99,13 @@ def test_an_edit_of_the_page_plans_the_page(copied_study, tiny):
     assert copied_study.plan(tiny) == {"explorer": 1, "cost": 1, "all": 1}
 
 
+def test_runs_that_take_longest_come_first(workspace, tiny):
+    done = workspace.snakemake("all", "--dry-run", config=tiny)
+    found = re.findall(r"rule coating:.*?coating=(\S+)\s+priority: (\S+)", done.stdout, re.DOTALL)
+    priority = {coating: float(number) for coating, number in found}
+    assert max(priority, key=priority.get) == "2nd_rigid_mu0", priority
+
+
 def test_a_new_coating_computes_itself_alone(copied_study, with_E3):
     before = copied_study.runs()
     copied_study.build(with_E3, "results/tables/peaks.csv")

@@ -6,7 +6,7 @@ from typing import Any
 
 import pandas as pd
 
-from bladerub.workflow.cores import sizes, threads_for
+from bladerub.workflow.cores import costs_of, priority_of, threads_for
 
 CORES = (1, 2, 4, 8, 16, 32, 64)
 COLUMNS = ["cores", "minutes", "efficiency"]
@@ -19,30 +19,34 @@ def table(costs: pd.DataFrame, config: Mapping[str, Any], cores: Sequence[int] =
 
     Every core works as fast as that which the jobs were measured on, and so does each thread of a job. Blade
     and kernel come first; then each coating has its runs, its map and its ensembles, those begun before the
-    runs of others; all else comes last. Returns a row for each number of cores, with `COLUMNS`: the minutes,
-    and the time of all jobs over that of all cores.
+    runs of others, and of these the longest; all else comes last. Returns a row for each number of cores,
+    with `COLUMNS`: the minutes, and the time of all jobs over that of all cores.
     """
     chained = costs.stage.isin(_CHAIN)
     jobs = {(job.stage, job.job): job.wall_s for job in costs[chained].itertuples()}
     first = costs[costs.stage.isin(_FIRST)].wall_s.max()
     last = costs[~chained & ~costs.stage.isin(_FIRST)].wall_s.sort_values(ascending=False)
-    size = sizes(config)
-    total, whole, rows = sum(map(sum, size.values())), costs.wall_s.sum(), []
+    expected = costs_of(config)
+    priority = {coating: priority_of(coating, expected) for coating in expected}
+    total, whole, rows = sum(map(sum, expected.values())), costs.wall_s.sum(), []
     for n in cores:
         threads = dict.fromkeys(jobs, 1)
         for stage, which in (("rubs", 0), ("ensembles", 1)):
-            of_stage = {coating: of[which] for coating, of in size.items()}
+            of_stage = {coating: of[which] for coating, of in expected.items()}
             threads |= {(stage, coating): threads_for(of, total, n) for coating, of in of_stage.items()}
-        took = first + _chains(jobs, threads, n) + _in_turn(last, n)
+        took = first + _chains(jobs, threads, priority, n) + _in_turn(last, n)
         rows.append((n, took / 60, whole / n / took))
     return pd.DataFrame(rows, columns=COLUMNS)
 
 
 def _chains(
-    jobs: Mapping[tuple[str, str], float], threads: Mapping[tuple[str, str], int], cores: int
+    jobs: Mapping[tuple[str, str], float],
+    threads: Mapping[tuple[str, str], int],
+    priority: Mapping[str, float],
+    cores: int,
 ) -> float:
     """Time of the jobs of all coatings, s; those of a coating that has begun come first."""
-    waiting = [(True, coating, stage) for stage, coating in jobs if stage == _CHAIN[0]]
+    waiting = [(-priority[coating], coating, stage) for stage, coating in jobs if stage == _CHAIN[0]]
     at_work: list[tuple[float, str, str]] = []
     now, free = 0.0, cores
     while waiting or at_work:
@@ -56,7 +60,7 @@ def _chains(
         now, coating, stage = heapq.heappop(at_work)
         free += threads[stage, coating]
         following = [after for after in _CHAIN[_CHAIN.index(stage) + 1 :] if (after, coating) in jobs]
-        waiting += [(False, coating, after) for after in following[:1]]
+        waiting += [(-1.0, coating, after) for after in following[:1]]
     return now
 
 

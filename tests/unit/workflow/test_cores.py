@@ -2,7 +2,8 @@
 
 import pytest
 
-from bladerub.workflow.cores import threads_for
+from bladerub.config import read as configuration
+from bladerub.workflow.cores import costs_of, priority_of, threads_for
 
 
 @pytest.mark.parametrize(
@@ -21,3 +22,24 @@ from bladerub.workflow.cores import threads_for
 )
 def test_a_job_larger_than_the_share_of_a_core_has_more_threads(cost, cores, threads):
     assert threads_for(cost, 100, cores) == threads
+
+
+def test_the_runs_of_the_longest_chain_come_first():
+    costs = {"short": (10, 2), "many members": (10, 50), "costly runs": (40, 8)}
+    assert sorted(costs, key=lambda coating: priority_of(coating, costs)) == [
+        "short",
+        "costly runs",
+        "many members",
+    ]
+    assert priority_of("of no study", costs) == 0.0
+
+
+def test_what_follows_runs_comes_before_other_runs():
+    assert priority_of("only", {"only": (10, 10)}) < 1  # the priority of maps and ensembles
+
+
+def test_the_study_begins_with_the_coating_of_fig_6_and_the_rigid_casing():
+    """The largest ensembles and the slowest runs: either would otherwise end long after all else."""
+    costs = costs_of(configuration.read("config/config.yaml", command_line={}))
+    first, second, *_ = sorted(costs, key=lambda coating: -priority_of(coating, costs))
+    assert (first, second) == ("2nd5nd_E11_K0.5_theta0", "2nd_rigid_mu0")

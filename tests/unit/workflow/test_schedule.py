@@ -57,6 +57,15 @@ def test_what_follows_a_coating_comes_before_the_runs_of_others(costs, study, mo
     assert minutes(costs, study, 2) == pytest.approx(1 + (5 + 15) + 0.5)
 
 
+def test_the_runs_of_the_longest_chain_come_first(costs, study, monkeypatch):
+    """Else the last coating, here of the longest runs, would end long after the other core."""
+    monkeypatch.setattr(schedule, "threads_for", lambda cost, total, cores: 1)
+    last = coating_cases(study)[-1].name
+    monkeypatch.setattr(schedule, "priority_of", lambda coating, expected: 0.5 * (coating == last))
+    costs.loc[(costs.stage == "rubs") & (costs.job == last), "wall_s"] = 1020.0
+    assert minutes(costs, study, 2) == pytest.approx(1 + (17 + 1) + 0.5)
+
+
 def test_more_cores_than_jobs_leave_the_longest_chain(costs, study, monkeypatch):
     monkeypatch.setattr(schedule, "threads_for", lambda cost, total, cores: 1)
     assert minutes(costs, study, 64) == pytest.approx(1 + 6 + 0.5)
