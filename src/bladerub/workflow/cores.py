@@ -10,7 +10,6 @@ from bladerub.study.members import expected_members
 FEWEST = 8
 """Jobs that a core should have to do, at least: the last ones then end at nearly the same time."""
 
-
 ON_RIGID_CASING = 4
 """Time of a run on the rigid casing over that of one on a coating, about (`docs/data/cost.csv`)."""
 
@@ -31,7 +30,7 @@ def priority_of(coating: str, costs: Mapping[str, tuple[int, int]]) -> float:
     Those that take longest so come first and none of them is left at the end, with the other cores idle.
     Zero for a coating that `costs`, those of `costs_of`, do not have.
     """
-    return round(sum(costs.get(coating, ())) / (1 + sum(map(sum, costs.values()))), 4)
+    return sum(costs.get(coating, ())) / (1 + sum(map(sum, costs.values())))
 
 
 def costs_of(config: Mapping[str, Any]) -> dict[str, tuple[int, int]]:

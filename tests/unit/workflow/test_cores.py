@@ -36,6 +36,7 @@ def test_the_runs_of_the_longest_chain_come_first():
 
 def test_what_follows_runs_comes_before_other_runs():
     assert priority_of("only", {"only": (10, 10)}) < 1  # the priority of maps and ensembles
+    assert priority_of("only", {"only": (192, 100_000)}) < 1
 
 
 def test_the_study_begins_with_the_coating_of_fig_6_and_the_rigid_casing():
