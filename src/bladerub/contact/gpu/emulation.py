@@ -9,7 +9,7 @@ import shutil
 import subprocess
 import tempfile
 from collections.abc import Iterable, Iterator
-from functools import cache
+from functools import cache, partial
 from pathlib import Path
 
 import numpy as np
@@ -25,17 +25,21 @@ def is_possible() -> bool:
     return shutil.which(COMPILER) is not None
 
 
-def run(works: Iterable[Work]) -> Iterator[Left]:
-    """Carry out the loop for pieces of work; raises `OSError` if there is no compiler."""
-    return map(_run, works)
+def run(works: Iterable[Work], real: str = "double") -> Iterator[Left]:
+    """Carry out the loop for pieces of work; raises `OSError` if there is no compiler.
+
+    It computes with numbers of the C++ type `real`. What it reads, and what it keeps from step to step in
+    arrays, are doubles: forces, wear and ledger.
+    """
+    return map(partial(_run, real=real), works)
 
 
-def _run(work: Work) -> Left:
+def _run(work: Work, real: str) -> Left:
     made = {name: np.full(shape, value, kind) for name, (shape, kind, value) in described(work).items()}
     modes, next_run = work.modes.copy(), np.zeros(1, dtype=np.int32)
     arrays = (*work[4:-1], modes, *made.values())  # in the order of ``Batch``
     batch = described_to_loop(work, (array.ctypes.data for array in arrays))
-    call(_compiled(work.source), len(work.runs), longest_first([work]), next_run, batch)
+    call(_compiled(work.source, real), len(work.runs), longest_first([work]), next_run, batch)
     return Left(modes, **made)
 
 
@@ -45,9 +49,9 @@ def call(loop: "ctypes._FuncPointer", n_runs: int, *arrays: np.ndarray) -> None:
 
 
 @cache
-def _compiled(source: str) -> "ctypes._FuncPointer":
+def _compiled(source: str, real: str) -> "ctypes._FuncPointer":
     with tempfile.TemporaryDirectory(prefix="bladerub-") as folder:
         text, library = Path(folder, "loop.cpp"), Path(folder, "loop.so")
         text.write_text(source, encoding="utf-8")
-        subprocess.run([COMPILER, *_OPTIONS, "-o", library, text], check=True)
+        subprocess.run([COMPILER, *_OPTIONS, f"-DREAL={real}", "-o", library, text], check=True)
         return ctypes.CDLL(str(library)).simulate_batches

@@ -69,7 +69,10 @@ struct Lanes {
     for (int i = 0; i < LANES; i++) of[i] = a;
   }
 };
-using real = Lanes<double>;
+#ifndef REAL
+#define REAL double
+#endif
+using real = Lanes<REAL>;
 using flag = Lanes<bool>;
 using integer = Lanes<int>;
 

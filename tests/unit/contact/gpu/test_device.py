@@ -59,7 +59,7 @@ def cupy(monkeypatch):
             assert block == (32,)
             assert shared_mem == self.max_dynamic_shared_size_bytes > 0
             n_runs, *arrays = arguments
-            emulation.call(emulation._compiled(self.source), int(n_runs), *arrays)
+            emulation.call(emulation._compiled(self.source, "double"), int(n_runs), *arrays)
 
     module = ModuleType("cupy")
     module.asarray, module.empty = Array.of, Array

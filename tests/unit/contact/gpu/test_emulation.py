@@ -14,7 +14,8 @@ from bladerub.contact.spec import ElementLaw
 pytestmark = pytest.mark.skipif(
     not emulation.is_possible(), reason=f"no {emulation.COMPILER}, which compiles the emulation"
 )
-TOLERANCE = 1e-7  # over the largest number: forces converge to 1e-11 m, some 1e-7 of a displacement
+TOLERANCE = 1e-9  # over the largest number: what both round off (`test_gpu_rounding`)
+TOLERANCE_WHERE_IT_GROWS = {"stiff": 1e-7, "more_revolutions": 1e-7}
 
 
 def leading(blade: ReducedBlade, n_nodes: int) -> ReducedBlade:
@@ -51,26 +52,26 @@ def pairs(blade, specs):
     return [(found[number], simulate(blade, spec)) for number, spec in enumerate(specs)]
 
 
-def assert_equal(found, expected):
+def assert_equal(found, expected, tolerance=TOLERANCE):
     for name in ("status", "message", "n_steps", "n_contact_steps", "n_reversed_steps", "n_modes"):
         assert getattr(found, name) == getattr(expected, name), name
     for name in ("wear", "radial_displacement", "revolution_peak", "revolution_amplitude", "slowest_sliding"):
         given = np.asarray(getattr(expected, name))
         scale = np.nanmax(np.abs(given))
         np.testing.assert_allclose(
-            getattr(found, name), given, rtol=0, atol=TOLERANCE * max(scale, 1e-9), err_msg=name
+            getattr(found, name), given, rtol=0, atol=tolerance * max(scale, 1e-9), err_msg=name
         )
     scale = max(abs(getattr(expected.energy, each.name)) for each in fields(expected.energy))
     for each in fields(expected.energy):
         given = getattr(expected.energy, each.name)
-        assert getattr(found.energy, each.name) == pytest.approx(given, abs=TOLERANCE * scale), each.name
+        assert getattr(found.energy, each.name) == pytest.approx(given, abs=tolerance * scale), each.name
 
 
 @pytest.mark.parametrize("case", CASES)
 def test_the_loop_of_the_gpu_makes_the_steps_of_the_processors(case, blade, spec, change):
     ((found, expected),) = pairs(blade, [change(spec, **CASES[case])])
     assert expected.n_contact_steps > 100
-    assert_equal(found, expected)
+    assert_equal(found, expected, TOLERANCE_WHERE_IT_GROWS.get(case, TOLERANCE))
 
 
 def test_a_profile_that_turns(turning, spec, change):

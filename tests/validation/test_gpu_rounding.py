@@ -1,0 +1,81 @@
+"""What the loops round off: that of the GPU, in its emulation, and that of the processor.
+
+The emulation computes once more with a mantissa of 64 bits, eleven more than a double has. What a loop
+differs by from that is its rounding. One revolution leaves it little time to grow.
+"""
+
+import dataclasses
+from functools import partial
+
+import numpy as np
+import pytest
+
+from bladerub.contact.gpu import emulation
+from bladerub.contact.gpu.many import simulate_many
+from bladerub.contact.run import simulate
+from bladerub.study.grid import coating_cases, run_spec, speeds
+
+pytestmark = [
+    pytest.mark.skipif(
+        not emulation.is_possible(), reason=f"no {emulation.COMPILER}, which compiles the emulation"
+    ),
+    pytest.mark.skipif(
+        np.finfo(np.longdouble).nmant < 63, reason="long double is no wider than double on this processor"
+    ),
+]
+N_RUNS = 20
+
+
+@pytest.fixture(scope="module")
+def specs(coarse_config):
+    rng = np.random.default_rng(1)
+    coatings = [case for case in coating_cases(coarse_config) if not case.is_rigid]
+    drawn = zip(
+        rng.choice(len(coatings), N_RUNS, replace=False),
+        rng.choice(speeds(coarse_config), N_RUNS, replace=False),
+        strict=True,
+    )
+    specs = [run_spec(coarse_config, coatings[number], float(speed)) for number, speed in drawn]
+    return [dataclasses.replace(spec, revolutions=1) for spec in specs]
+
+
+@pytest.fixture(scope="module")
+def more_exact(coarse_blade, specs):
+    return emulated(coarse_blade, specs, "long double")
+
+
+def emulated(blade, specs, real):
+    left_out = []
+    results = dict(simulate_many(blade, specs, partial(emulation.run, real=real), left_out.append))
+    assert not left_out
+    return [results[number] for number in range(len(specs))]
+
+
+def differences(results, expected, name):
+    """Largest difference of each run over the largest number in it; the steps are the same."""
+    found = []
+    for result, exact in zip(results, expected, strict=True):
+        for same in ("status", "n_steps", "n_contact_steps", "n_reversed_steps"):
+            assert getattr(result, same) == getattr(exact, same), same
+        assert exact.n_contact_steps > 1000
+        numbers = getattr(exact, name)
+        found.append(np.abs(getattr(result, name) - numbers).max() / np.abs(numbers).max())
+    return np.array(found)
+
+
+def test_the_loop_of_the_gpu_rounds_off_1e_12(coarse_blade, specs, more_exact):
+    results = emulated(coarse_blade, specs, "double")
+    peaks = differences(results, more_exact, "revolution_peak")
+    assert np.sum(peaks < 1e-12) >= 0.9 * N_RUNS
+    assert peaks.max() < 1e-11  # it grows where contact lasts
+    for name in ("radial_displacement", "wear"):
+        found = differences(results, more_exact, name)
+        assert np.median(found) < 1e-12, name
+        assert found.max() < 1e-10, name
+
+
+def test_the_loop_of_the_processor_rounds_off_1e_10(coarse_blade, specs, more_exact):
+    # Its modes are positions, and their steps differences of these
+    results = [simulate(coarse_blade, spec) for spec in specs]
+    for name in ("revolution_peak", "radial_displacement", "wear"):
+        assert differences(results, more_exact, name).max() < 1e-10, name
