@@ -111,7 +111,7 @@ def table(
     """Judge every claim in every variation of the study with these files: a row each, with `COLUMNS`.
 
     A claim that cannot be judged has no row. A variation that leaves no speed to look for a peak at is left
-    out; the log says so. Raises `ValueError` as `bladerub.study.peaks.table`, of the study itself.
+    out; the log says so. Raises `ValueError` as `bladerub.study.peak_table.table`, of the study itself.
     """
     rom_accuracy = read_rom_accuracy(rom_accuracy_path)
     judged = []

@@ -16,9 +16,8 @@ def table(config: Mapping[str, Any], maps: Iterable[CoatingMap]) -> pd.DataFrame
 
     Raises `ValueError` as `bladerub.study.peaks.peak`.
     """
-    tables = []
+    rows = []
     for coating in maps:
         settings = peak_settings(config, coating.case.casing)
-        found = peaks.table({"analysis": {"peaks": settings}}, [coating])
-        tables.append(found.assign(variant=coating.case.variant))
-    return with_variant(pd.concat(tables, ignore_index=True), peaks.COLUMNS)
+        rows += [peaks.row(coating, order, settings) for order in settings["orders"]]
+    return with_variant(pd.DataFrame(rows), peaks.COLUMNS)

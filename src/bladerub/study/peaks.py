@@ -1,14 +1,12 @@
 """Resonant peaks: Y_k and f_k, where the engine order k crosses the first frequency C1 (Fig. 10)."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import asdict
 from typing import Any, NamedTuple, Protocol
 
 import numpy as np
-import pandas as pd
 
 from bladerub.study.grid import CoatingCase
-from bladerub.study.maps import CoatingMap
 
 COLUMNS = ["casing", "E", "K", "theta", "order", "f_peak", "amplitude", "law"]
 """Columns of ``peaks.csv``; f_peak is normalised, amplitude in m."""
@@ -111,16 +109,6 @@ def maximum(coating: Response, amplitude: np.ndarray) -> Peak:
         return Peak(np.nan, np.nan)
     best = int(np.nanargmax(amplitude))
     return Peak(float(coating.f_omega[best]), float(amplitude[best]))
-
-
-def table(config: Mapping[str, Any], maps: Iterable[CoatingMap]) -> pd.DataFrame:
-    """Find the peaks of every coating at ``analysis.peaks.orders``: a row each, with `COLUMNS`.
-
-    Raises `ValueError` as `peak`.
-    """
-    settings = config["analysis"]["peaks"]
-    rows = [row(coating, order, settings) for coating in maps for order in settings["orders"]]
-    return pd.DataFrame(rows, columns=COLUMNS)
 
 
 def row(coating: Response, order: float, settings: Mapping[str, Any]) -> dict[str, Any]:

@@ -88,16 +88,3 @@ def test_a_crossing_outside_the_speeds_is_an_error_that_names_the_key(make_map, 
 def test_an_order_above_the_spectra_is_an_error_that_names_the_key(make_map):
     with pytest.raises(ValueError, match=r"analysis\.max_order: .* do not reach order 30"):
         peaks.order_amplitude(make_map(CASE, {}), 30, 0.25)
-
-
-def test_the_table_has_a_row_per_coating_and_order(config, make_map):
-    maps = []
-    for E, f_peak in ((0.11, 0.19), (1.1, 0.21)):
-        case = CoatingCase("2nd", E, 0.5, 0.0)
-        maps.append(make_map(case, {4: (0.31, E * 1e-4), 6: (f_peak, E * 2e-4)}))
-    table = peaks.table(config, maps)
-    assert list(table.columns) == ["casing", "E", "K", "theta", "order", "f_peak", "amplitude", "law"]
-    assert list(table.E) == [0.11, 0.11, 1.1, 1.1]
-    assert list(table.order) == [4, 6, 4, 6]
-    np.testing.assert_allclose(table.f_peak, [0.31, 0.19, 0.31, 0.21])
-    np.testing.assert_allclose(table.amplitude, [1.1e-5, 2.2e-5, 1.1e-4, 2.2e-4])

@@ -4,7 +4,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from bladerub.study import divergence, job, maps, peaks
+from bladerub.study import divergence, job, maps, peak_table
 from bladerub.study.grid import CoatingCase
 from bladerub.study.job import compute_missing
 from bladerub.study.manifest import write_manifest
@@ -189,7 +189,7 @@ def test_runs_on_the_rigid_casing_go_to_the_tables_as_those_of_infinite_moduli(
     assert coating.case == case
     assert not coating.max_wear.any()
     assert not coating.lobes.any()
-    for table, name in ((peaks.table, "peaks"), (divergence.table, "divergence")):
+    for table, name in ((peak_table.table, "peaks"), (divergence.table, "divergence")):
         table(study, [coating]).to_csv(tmp_path / f"{name}.csv", index=False)
         read = pd.read_csv(tmp_path / f"{name}.csv")
         assert (np.isinf(read.E) & np.isinf(read.K)).all()

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from bladerub.extensions.identification.targets import AT_LEAST, AT_MOST, TARGETS, measure
-from bladerub.study import divergence, peaks
+from bladerub.study import divergence, peak_table
 from bladerub.study.findings.evidence import Evidence
 from bladerub.study.grid import CoatingCase
 from bladerub.study.paper import CRITICAL, SOFT, STRAIGHT, TILTED, WORN
@@ -19,7 +19,7 @@ def measured(config, make_map):
     def of(*maps, diameters=None):
         if diameters is not None:
             config["casings"]["2nd5nd"]["nodal_diameters"] = diameters
-        tables = {"peaks": peaks.table(config, maps), "divergence": divergence.table(config, maps)}
+        tables = {"peaks": peak_table.table(config, maps), "divergence": divergence.table(config, maps)}
         evidence = Evidence(config, tables | {"rom_accuracy": None}, maps)
         return measure(evidence, [f"C{number}" for number in range(1, 13)])
 
