@@ -3,6 +3,7 @@ import csv
 import os
 
 from bladerub.study.orders import used_casings
+from bladerub.workflow.cores import BEGUN
 
 # What decides the table of the peaks: the orders of a casing of its own, if it has any, besides those of all
 PEAKS = config["analysis"]["peaks"] | {
@@ -23,7 +24,7 @@ rule map:
         f"{RESULTS}/logs/map/{{coating}}.log",
     benchmark:
         f"{RESULTS}/benchmarks/map/{{coating}}.tsv"
-    priority: 1
+    priority: BEGUN
     params:
         lobe_prominence=config["analysis"]["lobe_prominence"],
     script:
@@ -42,7 +43,7 @@ rule ensemble:
         f"{RESULTS}/logs/ensemble/{{coating}}.log",
     benchmark:
         f"{RESULTS}/benchmarks/ensemble/{{coating}}.tsv"
-    priority: 1  # over the runs of other coatings, since the longest job of the study is one of these
+    priority: BEGUN  # the longest job of the study is one of these
     threads: ensemble_threads
     resources:
         mem_mb=memory_mb,

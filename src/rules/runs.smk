@@ -34,14 +34,12 @@ def job_costs():
 
 def share_of_cores(cost):
     """Threads of a job by its part of what the whole study costs."""
-    whole = sum(map(sum, job_costs().values()))
-    return threads_for(cost, whole, workflow.resource_settings.cores)
+    return threads_for(cost, job_costs().total, workflow.resource_settings.cores)
 
 
 def coating_threads(wildcards):
     # also a coating that only `friction` asks for
-    of_runs, _ = job_costs().get(wildcards.coating, (len(speeds(config)), 0))
-    return share_of_cores(of_runs)
+    return share_of_cores(job_costs().runs.get(wildcards.coating, len(speeds(config))))
 
 
 def coating_priority(wildcards):
@@ -49,7 +47,7 @@ def coating_priority(wildcards):
 
 
 def ensemble_threads(wildcards):
-    return share_of_cores(job_costs()[wildcards.coating][1])
+    return share_of_cores(job_costs().ensembles[wildcards.coating])
 
 
 def coating_minutes(wildcards, attempt):

@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Mapping
-from typing import Any
+from typing import Any, NamedTuple
 
 from bladerub.study.grid import coating_cases, speeds
 from bladerub.study.members import expected_members
@@ -12,6 +12,21 @@ FEWEST = 8
 
 ON_RIGID_CASING = 4
 """Time of a run on the rigid casing over that of one on a coating, about (`docs/data/cost.csv`)."""
+
+BEGUN = 1
+"""Priority of the map and the ensembles of a coating: they come before the runs of any other."""
+
+
+class Costs(NamedTuple):
+    """What the runs and the ensembles of each coating of a study cost, by its name, in runs on a coating."""
+
+    runs: Mapping[str, int]
+    ensembles: Mapping[str, int]
+
+    @property
+    def total(self) -> int:
+        """Of the whole study."""
+        return sum(self.runs.values()) + sum(self.ensembles.values())
 
 
 def threads_for(cost: float, total: float, cores: int | None) -> int:
@@ -24,20 +39,21 @@ def threads_for(cost: float, total: float, cores: int | None) -> int:
     return max(1, min(cores, math.ceil(FEWEST * cost / total * cores - 1)))
 
 
-def priority_of(coating: str, costs: Mapping[str, tuple[int, int]]) -> float:
-    """Priority, below 1, of the runs of a `coating`: the more it and what follows cost, the higher.
+def priority_of(coating: str, costs: Costs) -> float:
+    """Priority, below `BEGUN`, of the runs of a `coating`: the more it and what follows cost, the higher.
 
     Those that take longest so come first and none of them is left at the end, with the other cores idle.
-    Zero for a coating that `costs`, those of `costs_of`, do not have.
+    Zero for a coating that `costs` do not have.
     """
-    return sum(costs.get(coating, ())) / (1 + sum(map(sum, costs.values())))
+    of_coating = costs.runs.get(coating, 0) + costs.ensembles.get(coating, 0)
+    return BEGUN * of_coating / (1 + costs.total)
 
 
-def costs_of(config: Mapping[str, Any]) -> dict[str, tuple[int, int]]:
-    """Estimate what runs and ensembles of each coating of a study cost, in runs on a coating, by its name."""
+def costs_of(config: Mapping[str, Any]) -> Costs:
+    """Estimate what the jobs of a study cost."""
+    weights = {case: ON_RIGID_CASING if case.is_rigid else 1 for case in coating_cases(config)}
     n_speeds = len(speeds(config))
-    return {
-        case.name: (weight * n_speeds, weight * expected_members(config, case))
-        for case in coating_cases(config)
-        for weight in [ON_RIGID_CASING if case.is_rigid else 1]
-    }
+    return Costs(
+        runs={case.name: weight * n_speeds for case, weight in weights.items()},
+        ensembles={case.name: weight * expected_members(config, case) for case, weight in weights.items()},
+    )

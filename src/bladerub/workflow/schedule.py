@@ -6,7 +6,7 @@ from typing import Any
 
 import pandas as pd
 
-from bladerub.workflow.cores import costs_of, priority_of, threads_for
+from bladerub.workflow.cores import BEGUN, costs_of, priority_of, threads_for
 
 CORES = (1, 2, 4, 8, 16, 32, 64)
 COLUMNS = ["cores", "minutes", "efficiency"]
@@ -27,12 +27,11 @@ def table(costs: pd.DataFrame, config: Mapping[str, Any], cores: Sequence[int] =
     first = costs[costs.stage.isin(_FIRST)].wall_s.max()
     last = costs[~chained & ~costs.stage.isin(_FIRST)].wall_s.sort_values(ascending=False)
     expected = costs_of(config)
-    priority = {coating: priority_of(coating, expected) for coating in expected}
-    total, whole, rows = sum(map(sum, expected.values())), costs.wall_s.sum(), []
+    priority = {coating: priority_of(coating, expected) for coating in expected.runs}
+    total, whole, rows = expected.total, costs.wall_s.sum(), []
     for n in cores:
         threads = dict.fromkeys(jobs, 1)
-        for stage, which in (("rubs", 0), ("ensembles", 1)):
-            of_stage = {coating: of[which] for coating, of in expected.items()}
+        for stage, of_stage in (("rubs", expected.runs), ("ensembles", expected.ensembles)):
             threads |= {(stage, coating): threads_for(of, total, n) for coating, of in of_stage.items()}
         took = first + _chains(jobs, threads, priority, n) + _in_turn(last, n)
         rows.append((n, took / 60, whole / n / took))
@@ -60,7 +59,7 @@ def _chains(
         now, coating, stage = heapq.heappop(at_work)
         free += threads[stage, coating]
         following = [after for after in _CHAIN[_CHAIN.index(stage) + 1 :] if (after, coating) in jobs]
-        waiting += [(-1.0, coating, after) for after in following[:1]]
+        waiting += [(-BEGUN, coating, after) for after in following[:1]]
     return now
 
 

@@ -3,7 +3,7 @@
 import pytest
 
 from bladerub.config import read as configuration
-from bladerub.workflow.cores import costs_of, priority_of, threads_for
+from bladerub.workflow.cores import BEGUN, Costs, costs_of, priority_of, threads_for
 
 
 @pytest.mark.parametrize(
@@ -25,8 +25,11 @@ def test_a_job_larger_than_the_share_of_a_core_has_more_threads(cost, cores, thr
 
 
 def test_the_runs_of_the_longest_chain_come_first():
-    costs = {"short": (10, 2), "many members": (10, 50), "costly runs": (40, 8)}
-    assert sorted(costs, key=lambda coating: priority_of(coating, costs)) == [
+    costs = Costs(
+        runs={"short": 10, "many members": 10, "costly runs": 40},
+        ensembles={"short": 2, "many members": 50, "costly runs": 8},
+    )
+    assert sorted(costs.runs, key=lambda coating: priority_of(coating, costs)) == [
         "short",
         "costly runs",
         "many members",
@@ -35,12 +38,12 @@ def test_the_runs_of_the_longest_chain_come_first():
 
 
 def test_what_follows_runs_comes_before_other_runs():
-    assert priority_of("only", {"only": (10, 10)}) < 1  # the priority of maps and ensembles
-    assert priority_of("only", {"only": (192, 100_000)}) < 1
+    for members in (10, 100_000):
+        assert priority_of("only", Costs({"only": 10}, {"only": members})) < BEGUN
 
 
 def test_the_study_begins_with_the_coating_of_fig_6_and_the_rigid_casing():
     """The largest ensembles and the slowest runs: either would otherwise end long after all else."""
     costs = costs_of(configuration.read("config/config.yaml", command_line={}))
-    first, second, *_ = sorted(costs, key=lambda coating: -priority_of(coating, costs))
+    first, second, *_ = sorted(costs.runs, key=lambda coating: -priority_of(coating, costs))
     assert (first, second) == ("2nd5nd_E11_K0.5_theta0", "2nd_rigid_mu0")
