@@ -30,9 +30,10 @@ N_RUNS = 20
 def specs(coarse_config):
     rng = np.random.default_rng(1)
     coatings = [case for case in coating_cases(coarse_config) if not case.is_rigid]
+    fast = [speed for speed in speeds(coarse_config) if speed > 0.15]  # of few steps a revolution
     drawn = zip(
         rng.choice(len(coatings), N_RUNS, replace=False),
-        rng.choice(speeds(coarse_config), N_RUNS, replace=False),
+        rng.choice(fast, N_RUNS, replace=False),
         strict=True,
     )
     specs = [run_spec(coarse_config, coatings[number], float(speed)) for number, speed in drawn]
