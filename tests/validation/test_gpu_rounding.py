@@ -20,7 +20,7 @@ pytestmark = [
         not emulation.is_possible(), reason=f"no {emulation.COMPILER}, which compiles the emulation"
     ),
     pytest.mark.skipif(
-        np.finfo(np.longdouble).nmant < 63, reason="long double is no wider than double on this processor"
+        np.finfo(np.longdouble).nmant != 63, reason="this processor has no numbers with a mantissa of 64 bits"
     ),
 ]
 N_RUNS = 20
