@@ -7,8 +7,7 @@ from importlib.util import find_spec
 import numpy as np
 import pytest
 
-from bladerub.contact.gpu import emulation
-from bladerub.contact.gpu.server import ADDRESS
+from bladerub.contact.gpu import ADDRESS, emulation
 from bladerub.study.manifest import read_manifest
 from bladerub.study.store import read_run
 

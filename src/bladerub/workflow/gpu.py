@@ -7,7 +7,7 @@ import tempfile
 import time
 from pathlib import Path
 
-from bladerub.contact.gpu.server import ADDRESS
+from bladerub.contact.gpu import ADDRESS  # without the solver: every call of snakemake comes here
 
 
 def start_server() -> None:

@@ -9,8 +9,7 @@ import bladerub as br
 from bladerub.api import map as maps
 from bladerub.api import run as runs
 from bladerub.cli import main
-from bladerub.contact.gpu import emulation
-from bladerub.contact.gpu.server import ADDRESS
+from bladerub.contact.gpu import ADDRESS, emulation
 
 pytestmark = pytest.mark.skipif(not emulation.is_possible(), reason="no C++ compiler")
 

@@ -1,6 +1,10 @@
 import os
+import re
 import signal
+import subprocess
+import sys
 import threading
+from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
@@ -145,3 +149,14 @@ def test_a_handler_of_sigterm_may_wait_for_what_the_main_thread_holds():
         assert handled.wait(3)
     finally:
         signal.signal(signal.SIGTERM, before)
+
+
+def test_the_rules_do_not_import_the_compiler():
+    """Each call of snakemake would wait for it, and each of its jobs on a cluster."""
+    imports = re.compile(r"^(?:import bladerub.*|from bladerub\S* import (?:\([^)]*\)|.*))$", re.M)
+    texts = [path.read_text(encoding="utf-8") for path in (Path("Snakefile"), *Path("src/rules").iterdir())]
+    statements = [statement for text in texts for statement in imports.findall(text)]
+    assert "import bladerub.workflow.invocation" in statements
+    program = "\n".join([*statements, "import sys", "print('numba' in sys.modules)"])
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
+    assert done.stdout == "False\n"

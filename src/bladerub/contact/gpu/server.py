@@ -16,12 +16,9 @@ from multiprocessing.connection import Client, Connection, Listener
 from pathlib import Path
 from typing import NamedTuple
 
-from bladerub.contact.gpu import device, emulation
+from bladerub.contact.gpu import ADDRESS, device, emulation
 from bladerub.contact.gpu.batch import Device, Left, Work
 from bladerub.io.errors import exit_on_error
-
-ADDRESS = "BLADERUB_GPU"
-"""Environment variable with the socket of the server."""
 
 
 def find() -> Device:
