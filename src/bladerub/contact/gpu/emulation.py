@@ -9,7 +9,7 @@ import shutil
 import subprocess
 import tempfile
 from collections.abc import Iterable, Iterator
-from functools import cache, partial
+from functools import cache
 from pathlib import Path
 
 import numpy as np
@@ -31,7 +31,7 @@ def run(works: Iterable[Work], real: str = "double") -> Iterator[Left]:
     It computes with numbers of the C++ type `real`. What it reads, and what it keeps from step to step in
     arrays, are doubles: forces, wear and ledger.
     """
-    return map(partial(_run, real=real), works)
+    return (_run(work, real) for work in works)
 
 
 def _run(work: Work, real: str) -> Left:
