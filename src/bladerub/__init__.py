@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from bladerub.api.blade import Blade, build_blade, read_blade
-    from bladerub.api.ensemble import Ensemble, simulate_ensemble
+    from bladerub.api.ensemble import Ensemble, read_ensemble, simulate_ensemble
     from bladerub.api.errors import InputError
     from bladerub.api.fit import fit_coating
     from bladerub.api.law import Law
@@ -27,7 +27,7 @@ __version__ = "0.1.0"
 
 _MODULES = {
     "api.blade": ("Blade", "build_blade", "read_blade"),
-    "api.ensemble": ("Ensemble", "simulate_ensemble"),
+    "api.ensemble": ("Ensemble", "read_ensemble", "simulate_ensemble"),
     "api.errors": ("InputError",),
     "api.fit": ("fit_coating",),
     "api.law": ("Law",),
@@ -62,6 +62,7 @@ __all__ = [
     "fit_coating",
     "load_study",
     "read_blade",
+    "read_ensemble",
     "read_map",
     "read_run",
     "simulate",

@@ -22,6 +22,7 @@ from bladerub.blade.frequencies import reduced_frequencies, tip_lean
 from bladerub.blade.model import ReducedBlade
 from bladerub.blade.validation import read_valid_blade
 from bladerub.io import tables
+from bladerub.io.equality import equal
 from bladerub.io.provenance import provenance
 from bladerub.plots import blade_mesh
 from bladerub.plots.campbell import campbell
@@ -60,8 +61,15 @@ class Blade:
     >>> figure = blade.plot_mesh("blade.png")
     """
 
-    reduced: ReducedBlade = field(repr=False)
+    reduced: ReducedBlade = field(repr=False, hash=False)
     path: Path
+
+    def __eq__(self, other: object) -> bool:
+        # a reduced model equals itself alone, so that what follows from it can be cached
+        if not isinstance(other, Blade):
+            return NotImplemented
+        a, b = self.reduced, other.reduced
+        return self.path == other.path and equal(a.arrays, b.arrays) and a.attributes == b.attributes
 
     @property
     def f1_hz(self) -> float:
@@ -162,7 +170,7 @@ def read_blade(path: str | Path) -> Blade:
     Examples
     --------
     >>> import bladerub as br
-    >>> br.read_blade(blade.path).f1_hz == blade.f1_hz
+    >>> br.read_blade(blade.path) == blade
     True
     """
     path = Path(path)

@@ -1,6 +1,7 @@
 """An ensemble: one run from many starts."""
 
 from dataclasses import dataclass, field, replace
+from pathlib import Path
 
 import numpy as np
 import pandas as pd
@@ -10,17 +11,24 @@ from bladerub.api.blade import Blade
 from bladerub.api.errors import InputError
 from bladerub.api.map import solve_all
 from bladerub.api.notebook import html_table
-from bladerub.api.run import Run
+from bladerub.api.run import Run, run_of, runs_of
 from bladerub.api.study import StudyRun
+from bladerub.io.equality import Comparable
+from bladerub.io.errors import DamagedFile
+from bladerub.io.provenance import provenance
+from bladerub.study import run_set
 from bladerub.study.bands import band
 from bladerub.study.ensemble import starts
+from bladerub.study.grid import speed_name
+from bladerub.study.store import StoredRun
 from bladerub.study.summary import spectral_peak
 
+_START = "initial_displacement"  # attribute of each run in the file of an ensemble, m
 _BANDED = ("peak_amplitude", "spectral_peak", "max_wear", "lobes", "wear_harmonic", "growth_per_revolution")
 
 
-@dataclass(frozen=True)
-class Ensemble:
+@dataclass(frozen=True, eq=False)
+class Ensemble(Comparable):
     """One run and its repetitions from other starts, from `simulate_ensemble`.
 
     Parameters
@@ -42,6 +50,9 @@ class Ensemble:
     ['completed', 'completed', 'completed']
     >>> list(ensemble.bands().columns)
     ['median', 'low', 'high']
+    >>> ensemble.write("ensemble.h5")
+    >>> br.read_ensemble("ensemble.h5", planned) == ensemble
+    True
     """
 
     planned: StudyRun = field(repr=False)
@@ -72,6 +83,25 @@ class Ensemble:
         """
         table = self.to_pandas()
         return pd.DataFrame({name: band(table[name])._asdict() for name in _BANDED}).T
+
+    def write(self, path: str | Path) -> None:
+        """Write all runs, with their longer ones, to the HDF5 file `path`, whole or not at all.
+
+        The names of the members begin with ``member_1_``, ``member_2_`` and so on; those of the run itself
+        are those of `Run.write`.
+
+        Raises
+        ------
+        OSError
+            If it cannot be written; the message names the file.
+        """
+        together: dict[str, StoredRun] = {}
+        for number, (start, run) in enumerate(zip(self.start.tolist(), self.runs, strict=True)):
+            prefix = _prefix(number)
+            together |= runs_of(run, prefix)
+            attributes = run.attributes | {_START: start}
+            together[prefix] = replace(run.stored, attributes=attributes)
+        run_set.write(path, together, provenance(self.planned.config))
 
     def _repr_html_(self) -> str:
         rows = {name: f"{low:.4g} to {high:.4g}" for name, (_, low, high) in self.bands().iterrows()}
@@ -136,3 +166,47 @@ def simulate_ensemble(
     with tqdm(total=len(drawn), unit="run", disable=not progress, leave=False) as bar:
         runs = solve_all(blade, drawn, jobs, follow, bar.update)
     return Ensemble(run, start, tuple(runs if own is None else [own, *runs]))
+
+
+def read_ensemble(path: str | Path, run: StudyRun) -> Ensemble:
+    """Read the ensemble of a run that `Ensemble.write` wrote.
+
+    Parameters
+    ----------
+    path : path
+        The file.
+    run : StudyRun
+        The run, as `simulate_ensemble` was given it: files do not hold the config of their study.
+
+    Raises
+    ------
+    OSError
+        If the file is missing, damaged or no ensemble; the message names it.
+    InputError
+        If it is of another study, coating or speed.
+
+    Examples
+    --------
+    >>> import bladerub as br
+    >>> planned = study.run("2nd", E=2, K=0.5, f_omega=0.19)
+    >>> ensemble = br.simulate_ensemble(blade, planned, members=1, progress=False)
+    >>> ensemble.write("ensemble.h5")
+    >>> br.read_ensemble("ensemble.h5", planned) == ensemble
+    True
+    """
+    stored = run_set.read(path)
+    numbers = range(sum(_START in each.attributes for each in stored.values()))
+    if not numbers or any(_prefix(number) not in stored for number in numbers):
+        raise DamagedFile(f"{path}: no ensemble, {_START} of its runs is missing")
+    start = np.array([stored[_prefix(number)].attributes.pop(_START) for number in numbers])
+    ensemble = Ensemble(run, start, tuple(run_of(stored, _prefix(number)) for number in numbers))
+    own = ensemble.runs[0]
+    if (own.case, own.f_omega, own.revolutions) != (run.case, run.f_omega, run.spec.revolutions):
+        there = f"{own.case.name}/{speed_name(own.f_omega)} of {own.revolutions} revolutions"
+        asked = f"{run.name} of {run.spec.revolutions} revolutions"
+        raise InputError("run", asked, f"must be that of {path}, {there}")
+    return ensemble
+
+
+def _prefix(number: int) -> str:
+    return f"member_{number}_" if number else ""

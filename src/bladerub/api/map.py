@@ -57,6 +57,8 @@ class Map:
     >>> sweep.to_xarray()["wear"].units
     'm'
     >>> sweep.write("map.h5", study.config)
+    >>> br.read_map("map.h5") == sweep
+    True
     >>> figure = sweep.plot_wear("map.png")
     >>> figure = sweep.plot_spectrum("spectrum.png")
     """

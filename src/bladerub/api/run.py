@@ -24,20 +24,23 @@ from bladerub.contact.row_spec import Row
 from bladerub.contact.setup import compile_kernel
 from bladerub.contact.spec import RunSpec
 from bladerub.extensions.stress.run import RunStress, simulate_with_stress
-from bladerub.io.provenance import provenance
+from bladerub.io.equality import equal
+from bladerub.io.provenance import PREFIX, provenance
 from bladerub.plots import single_run, titles
 from bladerub.plots.style import saved
-from bladerub.study import store
+from bladerub.study import run_set, store
 from bladerub.study.grid import CoatingCase, row_of, speed_name
 from bladerub.study.growth import Verdict, confirmation_spec, judge, needs_confirmation
 from bladerub.study.job import Solve, compute
-from bladerub.study.manifest import confirmation_path
+from bladerub.study.manifest import listed_longer
 from bladerub.study.plan import on_gpu, planned_run
 from bladerub.study.store import StoredRun
 from bladerub.study.summary import summarise
 
+_LONGER = "longer_"
 
-@dataclass(frozen=True)
+
+@dataclass(frozen=True, eq=False)
 class Run:
     """Outcome of one run, from `simulate` or `read_run`.
 
@@ -77,6 +80,8 @@ class Run:
     >>> list(run.to_pandas().index)
     [1, 2, 3]
     >>> run.write("run.h5", study.config)
+    >>> br.read_run("run.h5") == run
+    True
     >>> figure = run.plot_wear("wear.png")
     >>> figure = run.plot_history("history.png")
     >>> figure = run.plot_spectrum("spectrum.png")
@@ -85,6 +90,9 @@ class Run:
     stored: StoredRun = field(repr=False)
     longer: "Run | None" = None
     stress: RunStress | None = None
+
+    def __eq__(self, other: object) -> bool:
+        return equal(_content(self), _content(other)) if isinstance(other, Run) else NotImplemented
 
     @property
     def attributes(self) -> dict[str, Any]:
@@ -217,8 +225,8 @@ class Run:
         return saved(single_run.spectrum(spectrum.index, spectrum.to_numpy(), self._title), path)
 
     def to_xarray(self) -> xr.Dataset:
-        """Return all datasets with units and names, and the attributes."""
-        return to_dataset(store.variables(self.stored), self.attributes)
+        """Return all datasets with units and names, and the attributes: those of the file of `write`."""
+        return to_dataset(*run_set.joined(runs_of(self)))
 
     def to_pandas(self) -> pd.DataFrame:
         """Return a row for each revolution: ``revolution_peak`` and ``revolution_amplitude``, m."""
@@ -229,12 +237,14 @@ class Run:
     def write(self, path: str | Path, config: Mapping[str, Any]) -> None:
         """Write the run of the study `config` to the HDF5 file `path`, whole or not at all.
 
+        The names of its longer run, if it has one, begin with ``longer_``. `read_run` returns an equal run.
+
         Raises
         ------
         OSError
             If it cannot be written; the message names the file.
         """
-        store.write_run(path, self.stored, provenance(config))
+        run_set.write(path, runs_of(self), provenance(config))
 
     @property
     def _title(self) -> str:
@@ -415,9 +425,10 @@ def _solve(
 
 
 def read_run(path: str | Path) -> Run:
-    """Read one run of a study, such as ``results/runs/2nd_E2_K0.5_theta0/0.1900.h5``.
+    """Read one run of a study, such as ``results/runs/2nd_E2_K0.5_theta0/0.1900.h5``, or of `Run.write`.
 
-    The longer run of the study is read with it, where there is one.
+    The longer run is read with it, where there is one. That of a run of a study is the one that the manifest
+    of the coating lists.
 
     Raises
     ------
@@ -428,8 +439,31 @@ def read_run(path: str | Path) -> Run:
     --------
     >>> import bladerub as br
     >>> run.write("0.1900.h5", study.config)
-    >>> br.read_run("0.1900.h5").f_omega
-    0.19
+    >>> br.read_run("0.1900.h5") == run
+    True
     """
-    longer = confirmation_path(path)
-    return Run(store.read_run(path), Run(store.read_run(longer)) if longer.exists() else None)
+    runs = run_set.read(path)
+    if _LONGER not in runs and (longer := listed_longer(path, runs[""].attributes["run_key"])):
+        runs[_LONGER] = store.read_run(longer)
+    return run_of(runs)
+
+
+def runs_of(run: Run, prefix: str = "") -> dict[str, StoredRun]:
+    """Return what is stored of a run and of its longer one, by what their names in a file begin with."""
+    longer = {f"{prefix}{_LONGER}": run.longer.stored} if run.longer else {}
+    return {prefix: run.stored} | longer
+
+
+def run_of(runs: Mapping[str, StoredRun], prefix: str = "") -> Run:
+    """Return the run whose parts, as of `runs_of`, are among `runs`."""
+    stored, longer = runs[prefix], runs.get(f"{prefix}{_LONGER}")
+    return Run(stored, Run(longer) if longer else None, RunStress.described(stored.attributes))
+
+
+def _content(run: Run) -> list[Any]:
+    """Return what makes two runs equal: all but the provenance of their files."""
+    parts = [
+        [prefix, stored.data, {k: v for k, v in stored.attributes.items() if not k.startswith(PREFIX)}]
+        for prefix, stored in runs_of(run).items()
+    ]
+    return [*parts, run.stress]

@@ -155,10 +155,10 @@ def _check_new(options: argparse.Namespace, config: dict[str, Any], form: str) -
 
 
 def _run_and_blade(options: argparse.Namespace, config: dict[str, Any]) -> "tuple[StoredRun, Blade]":
-    from bladerub.study.store import read_run
+    from bladerub.study import run_set
 
     with refused(OSError, because="--run "):
-        run = read_run(options.run)
+        run = run_set.read(options.run)[""]
     path = inputs.blade_path(options, config)
     if not path.exists():
         raise InputError(f"{path}: is missing; name the blade of the run with --blade, or its --config")

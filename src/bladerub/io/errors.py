@@ -1,5 +1,6 @@
 """What can be wrong with a file or an input, and the message that names it and says what to do."""
 
+import copyreg
 import errno
 import sys
 from collections.abc import Iterator
@@ -15,6 +16,10 @@ class DamagedFile(OSError):
 
 class BadInput(ValueError):
     """An input that cannot be used; the message says what would be right, one line for each problem."""
+
+    def __reduce__(self) -> tuple:
+        """Pickle the message as it is: a subclass may be made of other arguments."""
+        return copyreg.__newobj__, (type(self), *self.args), vars(self)
 
 
 def message_for(error: OSError | BadInput) -> str:

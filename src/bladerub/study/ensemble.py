@@ -22,6 +22,7 @@ import numpy as np
 
 from bladerub.blade.model import ReducedBlade
 from bladerub.io import hdf5
+from bladerub.io.equality import Comparable
 from bladerub.io.errors import DamagedFile
 from bladerub.io.hdf5 import Variable
 from bladerub.io.provenance import provenance
@@ -41,8 +42,8 @@ FOLDER = "ensemble"
 """Folder of the members in that of the coating's runs, with a manifest of its own."""
 
 
-@dataclass(frozen=True)
-class Ensemble:
+@dataclass(frozen=True, eq=False)
+class Ensemble(Comparable):
     """The ensembles of one coating."""
 
     start: np.ndarray  # (m, n), radial displacement of node 1 at the start of m members at n speeds, m

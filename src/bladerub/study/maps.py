@@ -11,6 +11,7 @@ import numpy as np
 from bladerub.blade.frequencies import reduced_frequencies
 from bladerub.blade.model import ReducedBlade, interface_node
 from bladerub.io import hdf5
+from bladerub.io.equality import Comparable
 from bladerub.io.errors import DamagedFile
 from bladerub.io.hdf5 import Variable
 from bladerub.io.provenance import provenance
@@ -51,8 +52,8 @@ DERIVED = {
 """The same of what a map holds for its readers, and computes from the others."""
 
 
-@dataclass(frozen=True)
-class CoatingMap:
+@dataclass(frozen=True, eq=False)
+class CoatingMap(Comparable):
     """All runs of one coating in the order of speed: the arrays are the `DATASETS`.
 
     Displacements are NaN after an unbounded end. ``confirmation_amplitude`` is NaN for runs without a longer

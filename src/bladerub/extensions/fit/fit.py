@@ -19,6 +19,7 @@ from scipy.stats import t as student
 from bladerub.contact import law
 from bladerub.contact.spec import Coating
 from bladerub.extensions.fit.curves import Curve
+from bladerub.io.equality import Comparable
 from bladerub.io.errors import BadInput
 
 UNITS = {"E": "Pa", "K": "Pa", "yield_stress": "Pa", "overstress": "Pa", "exponent": "1"}
@@ -50,8 +51,8 @@ class Parameter:
     determined: bool
 
 
-@dataclass(frozen=True)
-class Fit:
+@dataclass(frozen=True, eq=False)
+class Fit(Comparable):
     """The law fitted to curves.
 
     Parameters

@@ -1,9 +1,10 @@
 """The stress of a run, from its sampled motion and the stress of the blade as a function of it."""
 
 import json
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, fields
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -51,6 +52,19 @@ class RunStress:
             for part, figures in vars(self).items()
             for name, value in figures.items()
         }
+
+    @classmethod
+    def described(cls, attributes: Mapping[str, Any]) -> "RunStress | None":
+        """Read the stress from the `attributes` of the file of a run; None where they have none."""
+        found = {
+            part: {
+                name.removeprefix(f"stress_{part}_"): value
+                for name, value in attributes.items()
+                if name.startswith(f"stress_{part}_")
+            }
+            for part in (field.name for field in fields(cls))
+        }
+        return cls(**found) if found["last"] else None
 
 
 def stress_of(path: str | Path, f_omega: float) -> NodalStress | None:

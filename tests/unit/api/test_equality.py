@@ -1,0 +1,120 @@
+"""Every public object equals itself after it is written and read, pickled, or made again of what it says."""
+
+import json
+import pickle
+from dataclasses import asdict, replace
+
+import numpy as np
+import pytest
+
+import bladerub as br
+from bladerub.io.equality import equal
+from bladerub.study import ensemble as study_ensemble
+from bladerub.study.manifest import ManifestRow, confirmation_path, write_manifest
+
+
+@pytest.fixture(scope="module")
+def planned(study):
+    return study.run("2nd", E=2, K=0.5, f_omega=0.2)
+
+
+@pytest.fixture(scope="module")
+def followed(blade, planned):
+    """A run that grows, is followed further, and whose stress is asked for."""
+    return br.simulate(blade, planned, stress=True)
+
+
+@pytest.fixture(scope="module")
+def unbounded(study, blade):
+    """A run that ends within its first revolution: without a spectrum."""
+    return br.simulate(blade, study.rigid("2nd", friction=1.0).at(0.19, revolutions=3))
+
+
+@pytest.fixture(scope="module")
+def ensemble(blade, planned, followed):
+    return br.simulate_ensemble(blade, planned, 2, own=followed, jobs=2, progress=False)
+
+
+def rig():
+    law = br.Law("viscoplastic", viscosity=1e4).element_law
+    sizes = {"thickness": 3e-3, "tip_width": 1e-2, "tip_length": 2e-3, "track": 1.0}
+    return br.Rig("mine", E=6e8, K=3e8, yield_stress=0, speed=125.0, incursion=1e-5, law=law, **sizes)
+
+
+def row():
+    return br.Row.even(
+        3, length=[0, 5e-5, 0], frequency=[[0.01, -0.02], [0, 0], [0, 0]], disk=br.Disk.ring(3, [1e-3])
+    )
+
+
+def row_run(study, blade):
+    planned = study.run("2nd", E=2, K=0.5, f_omega=0.19, revolutions=3)
+    return br.simulate(blade, planned, row=br.Row.even(3, length=[0.0, 5e-5, -4e-3]))
+
+
+def test_a_run_is_written_whole(study, run, followed, unbounded, blade, tmp_path):
+    settings = study.config["analysis"]["divergence"]
+    assert followed.longer
+    assert followed.stress
+    assert np.isnan(unbounded.spectrum).all()
+    for number, each in enumerate((run, followed, unbounded, row_run(study, blade))):
+        path = tmp_path / f"{number}.h5"
+        each.write(path, study.config)
+        read = br.read_run(path)
+        assert read == each
+        assert equal(read.verdict(settings), each.verdict(settings))
+        assert read.summary(study.config) == each.summary(study.config)
+        assert read.to_xarray().drop_attrs().identical(each.to_xarray().drop_attrs())
+    assert followed != replace(followed, longer=None)
+    assert followed != replace(followed, stress=None)
+
+
+def test_the_longer_run_of_a_study_is_the_one_that_its_manifest_lists(study, followed, tmp_path):
+    path, key, longer_key = tmp_path / "0.2000.h5", followed.attributes["run_key"], "of another blade"
+    replace(followed, longer=None).write(path, study.config)
+    confirmation_path(path).parent.mkdir()
+    followed.longer.write(confirmation_path(path), study.config)
+    assert br.read_run(path) == followed  # the job is not done, or this is no study
+    listed = ManifestRow(path.name, 0.2, key, "completed", path.stat().st_size)
+    write_manifest(path.with_name("manifest.tsv"), [listed])
+    assert br.read_run(path).longer is None
+    longer_key = followed.longer.attributes["run_key"]
+    write_manifest(path.with_name("manifest.tsv"), [listed._replace(confirmation_key=longer_key)])
+    assert br.read_run(path) == followed
+
+
+def test_maps_and_ensembles_are_written_whole(study, blade, sweep, planned, ensemble, tmp_path):
+    sweep.write(tmp_path / "map.h5", study.config)
+    assert br.read_map(tmp_path / "map.h5") == sweep
+    ensemble.write(tmp_path / "ensemble.h5")
+    read = br.read_ensemble(tmp_path / "ensemble.h5", planned)
+    assert read == ensemble
+    assert read.bands().equals(ensemble.bands())
+    assert br.read_run(tmp_path / "ensemble.h5").wear.tolist() == ensemble.runs[0].wear.tolist()
+    with pytest.raises(br.InputError, match="must be that of"):
+        br.read_ensemble(tmp_path / "ensemble.h5", study.run("2nd", E=2, K=0.5, f_omega=0.19))
+    members = tuple(replace(sweep.coating, wear_node=None, lobes=sweep.coating.lobes + n) for n in (0, 1))
+    of_study = study_ensemble.Ensemble(np.array([[1e-9, 2e-9], [3e-9, 4e-9]]), members)
+    study_ensemble.write(tmp_path / "of_study.h5", of_study, {})
+    assert study_ensemble.read(tmp_path / "of_study.h5") == of_study
+
+
+def test_what_is_written_as_text_is_read_as_it_was():
+    law = br.Law("viscoplastic", viscosity=1e4)
+    assert br.Law(**json.loads(json.dumps(law.entry))) == law
+    assert br.Row.from_json(row().to_json()) == row()
+    assert br.Rig(**{**asdict(rig()), "law": rig().law}) == rig()
+
+
+def test_every_public_object_survives_a_pickle(study, blade, run, sweep, planned, ensemble):
+    objects = [study, study.coatings[0], planned, blade, run, sweep, ensemble, rig(), row(), row().blades[0]]
+    objects += [row().disk, br.Law("viscoplastic", viscosity=1e4)]
+    for each in objects:
+        again = pickle.loads(pickle.dumps(each))
+        assert again == each, type(each)
+    errors = [br.InputError("K", -1.0, "must be above 0"), br.ConfigError([])]
+    for error in errors:
+        again = pickle.loads(pickle.dumps(error))
+        assert (type(again), str(again), vars(again)) == (type(error), str(error), vars(error))
+    classes = {name for name in br.__all__ if isinstance(getattr(br, name), type)}
+    assert classes == {type(each).__name__ for each in (*objects, *errors)}
