@@ -16,7 +16,7 @@ from bladerub.blade.discrete import DiscreteBlade
 from bladerub.blade.linear import lowest_modes
 from bladerub.blade.mesh import BladeMesh, FreeCoordinates, MeshedBlade, NodeCloud
 from bladerub.blade.reduction import fit_speeds
-from bladerub.blade.sources import matrix_folder
+from bladerub.blade.sources import matrix_folder, rigid_body
 from bladerub.blade.sources.importing import measured
 from bladerub.blade.sources.matrix_folder import FIT, MASS, NODES
 from bladerub.blade.sources.origin import MATRIX_UNITS, MatrixSource
@@ -71,6 +71,8 @@ def import_matrices(source: MatrixSource, f_max: float, n_modes: int, eta: int) 
         with _naming(names[name]):
             stiffness[f_omega] = _of_free(matrix_folder.read_matrix(names[name]), free, source)
     rest, half, highest = (stiffness[f_omega] for f_omega in fit_speeds(f_max))
+    with _naming(names[MASS], names[FIT[0]]):
+        rigid_body.check_joined(mass, rest)
     with _naming(names[MASS]):
         check_definite(mass)
     with _naming(names[FIT[0]]):
@@ -80,6 +82,11 @@ def import_matrices(source: MatrixSource, f_max: float, n_modes: int, eta: int) 
         except (np.linalg.LinAlgError, ArpackError) as error:
             raise ValueError(f"is singular ({error}); are the clamped nodes marked?") from error
         check_held(rest, modes[:, 0])
+    _check_order(names, layout, free, mass, rest, source.frame.turn)
+    for f_omega, name in at_speeds.items():
+        with _naming(names[name]):
+            rigid_body.check_change(stiffness[f_omega], rest)
+            check_definite(stiffness[f_omega])
     _check_speed(source, f_max, frequency[0])
     change = sparse.linalg.norm(highest - rest)
     frequencies = {
@@ -95,12 +102,33 @@ def import_matrices(source: MatrixSource, f_max: float, n_modes: int, eta: int) 
 
 
 @contextmanager
-def _naming(path: Path) -> Iterator[None]:
-    """Add `path` to the message of a ValueError."""
+def _naming(*paths: Path) -> Iterator[None]:
+    """Add `paths` to the message of a ValueError."""
     try:
         yield
     except ValueError as error:
-        raise BadInput(f"{path}: {error}") from error
+        raise BadInput(f"{' and '.join(map(str, paths))}: {error}") from error
+
+
+def _check_order(
+    names: dict[str, Path],
+    layout: MeshedBlade,
+    free: FreeCoordinates,
+    mass: sparse.csc_array,
+    rest: sparse.csc_array,
+    turn: np.ndarray,
+) -> None:
+    """Check that mass and stiffness at rest have the order of the nodes."""
+    points, nodes = layout.mesh.mesh.points, free.free[::3] // 3
+    with _naming(names[MASS]):
+        rigid_body.check_mass(mass, nodes + 1)
+    with _naming(names["nodes"]):
+        rigid_body.check_places(rest, points[nodes], nodes + 1, turn)
+    with _naming(names[FIT[0]]):
+        interface = np.searchsorted(nodes, layout.mesh.interface)
+        rigid_body.check_stiffness(rest, points[nodes], nodes + 1, points[layout.mesh.root], interface)
+    with _naming(names[MASS]):
+        rigid_body.check_same_nodes(mass, rest, nodes + 1)
 
 
 def _layout(nodes: matrix_folder.Nodes, source: MatrixSource) -> MeshedBlade:

@@ -4,6 +4,7 @@ import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
+from zipfile import ZipFile
 
 import numpy as np
 import pandas as pd
@@ -14,10 +15,17 @@ from bladerub.blade.linear import MOST_UNKNOWNS
 from bladerub.numerics.lanes import FEWEST_NODES, MOST_NODES
 
 SUFFIXES = (".mtx", ".npz")
+_SUFFIXES_OF_CALCULIX = (".mas", ".sti", ".dof")
 NODES = "nodes.csv"
 MASS = "mass"
 FIT = ("stiffness_rest", "stiffness_half", "stiffness_max")  # at the speeds of the fit
 AT_SPEED = "stiffness_at_"  # another normalised speed follows
+_BYTES = 16  # of an entry: its value and its place
+_ENTRIES_IN_A_ROW = 400  # on average; quadratic hexahedra have 180
+_ENTRIES_OF_DENSE = 5 * 10**7  # as many may be there in any matrix
+_SMALL = 1000  # bytes, of the head of an array
+_SHOWN = 40  # characters of a line
+_CONVERTED = "docs/how-to/bring_matrices.md has the script that converts"
 SYMMETRY = 1e-8  # largest difference of two entries that must be equal, over the largest entry
 
 _POSITION = ("x", "y", "z")
@@ -44,7 +52,11 @@ def files(folder: Path) -> dict[str, Path]:
         there = [path for suffix in SUFFIXES if (path := folder / f"{name}{suffix}").is_file()]
         if len(there) != 1:
             either = f"{name}.mtx or {name}.npz"
-            raise ValueError(f"holds both {either.replace('or', 'and')}" if there else f"holds no {either}")
+            ccx = [path.name for path in sorted(folder.iterdir()) if path.suffix in _SUFFIXES_OF_CALCULIX]
+            hint = f"; {_CONVERTED} {', '.join(ccx)} of CalculiX" if ccx else ""
+            raise ValueError(
+                f"holds both {either.replace('or', 'and')}" if there else f"holds no {either}{hint}"
+            )
         (found[name],) = there
     if not (folder / NODES).is_file():
         raise ValueError(f"holds no {NODES}")
@@ -124,17 +136,25 @@ def read_matrix(path: Path) -> sparse.csc_array:
         raise ValueError("is empty")
     is_text = path.suffix == ".mtx"
     try:
-        rows, columns = mminfo(path)[:2] if is_text else (0, 0)
-        if max(rows, columns) <= MOST_UNKNOWNS:
+        rows, columns, size = _size_of_text(path) if is_text else _size_of_archive(path)
+        most = max(_ENTRIES_IN_A_ROW * rows, _ENTRIES_OF_DENSE) * _BYTES
+        if rows == columns and rows <= MOST_UNKNOWNS and size <= most:
             raw = mmread(path, spmatrix=False) if is_text else sparse.load_npz(path)
-            rows, columns = raw.shape
+            if hasattr(raw, "check_format"):
+                raw.check_format(full_check=True)  # scipy reads past the arrays of what does not pass
     except Exception as error:  # readers of foreign files raise all kinds of errors
+        if isinstance(error, OSError) and error.errno:
+            raise
         reason = str(error) or type(error).__name__
         raise ValueError(f"is not a {path.suffix} file that can be read ({reason})") from error
     if rows != columns:
         raise ValueError(f"is {rows} x {columns}; must be square")
     if rows > MOST_UNKNOWNS:
         raise ValueError(f"is {rows} x {rows}; must have {MOST_UNKNOWNS} rows or fewer")
+    if size > most:
+        raise ValueError(
+            f"takes {size / 1e9:.2g} GB of memory for {rows} rows; must take {most / 1e9:.2g} GB or less"
+        )
     if raw.dtype.kind not in "iuf":
         raise ValueError(f"holds numbers of the type {raw.dtype}; must be real")
     entries = sparse.coo_array(raw)
@@ -143,6 +163,31 @@ def read_matrix(path: Path) -> sparse.csc_array:
         raise ValueError("has entries twice; with the word symmetric it must hold one triangle only")
     _check_symmetry(matrix)
     return (matrix + matrix.T) / 2
+
+
+def _size_of_text(path: Path) -> tuple[int, int, int]:
+    """Rows, columns and size in memory (bytes) by the head of a Matrix Market file."""
+    with path.open(encoding="utf-8", errors="replace") as stream:
+        first = stream.readline().strip()
+    if not first.startswith("%%MatrixMarket"):
+        numbers = re.fullmatch(r"(\d+,\s*\d+,\s*\d+,\s*\d+,|\d+\s+\d+\s)\s*[-+.\w]+", first)
+        if first.startswith("**") or numbers:
+            kind = "COORDINATE" if numbers and "," not in first else "MATRIX INPUT"
+            raise ValueError(f"it is of Abaqus, FORMAT={kind}; {_CONVERTED} it")
+        raise ValueError(f"it begins with {first[:_SHOWN]!r}; must begin with %%MatrixMarket")
+    rows, columns, entries = mminfo(path)[:3]
+    return rows, columns, _BYTES * entries
+
+
+def _size_of_archive(path: Path) -> tuple[int, int, int]:
+    """Rows, columns and size in memory (bytes) by the heads in an archive, which may be packed densely."""
+    with ZipFile(path) as archive:
+        unpacked = {entry.filename: entry.file_size for entry in archive.infolist()}
+    if unpacked.get("shape.npy", 0) > _SMALL:
+        raise ValueError("its shape has more than two numbers")
+    with np.load(path) as content:
+        rows, columns = (int(number) for number in content["shape"])
+    return rows, columns, sum(unpacked.values()) - len(unpacked) * _SMALL
 
 
 def _check_symmetry(matrix: sparse.csc_array) -> None:

@@ -1,6 +1,7 @@
 import copy
 import shutil
 from pathlib import Path
+from zipfile import ZIP_DEFLATED, ZipFile
 
 import numpy as np
 import pandas as pd
@@ -240,6 +241,24 @@ def renamed(before, after):
     return lambda folder: (folder / before).rename(folder / after)
 
 
+def archive(**changes):
+    """Replace arrays of mass.npz, which scipy reads without a look at them."""
+
+    def apply(folder):
+        with np.load(folder / "mass.npz") as content:
+            arrays = {name: changes.get(name, lambda array: array)(array) for name, array in content.items()}
+        np.savez_compressed(folder / "mass.npz", **arrays)
+
+    return apply
+
+
+def bomb(folder):
+    """An archive of a few hundred kB that unpacks to 1.2 GB."""
+    with ZipFile(folder / "mass.npz", "a", ZIP_DEFLATED) as file, file.open("padding.npy", "w") as stream:
+        for _ in range(1200):
+            stream.write(bytes(10**6))
+
+
 HEADER = "%%MatrixMarket matrix coordinate real"
 INTERFACE = "interface node 1 is downstream of node 8; must be at the leading edge"
 
@@ -256,6 +275,32 @@ BROKEN = {
     "a cut file": (
         text("mass.mtx", f"{HEADER} general\n9 9 5\n1 1 2.0\n"),
         "mass.mtx: is not a .mtx file that",
+    ),
+    "offsets past the end": (
+        archive(indptr=lambda array: array + 10**9 * (array > 0)),
+        "mass.npz: is not a .npz file that can be read",
+    ),
+    "offsets that go back": (
+        archive(indptr=lambda array: np.where(np.arange(array.size) == 5, 10**6, array)),
+        "mass.npz: is not a .npz file that can be read",
+    ),
+    "places outside": (
+        archive(indices=lambda array: array - 10**7),
+        "mass.npz: is not a .npz file that can be read",
+    ),
+    "a bomb": (bomb, "mass.npz: takes 1.2 GB of memory for 486 rows; must take 0.8 GB or less"),
+    "more entries than fit": (
+        text("mass.mtx", f"{HEADER} general\n9 9 99999999999\n1 1 2.0\n"),
+        r"mass.mtx: takes 1.6e\+03 GB of memory for 9 rows",
+    ),
+    "of Abaqus, by labels": (
+        text("mass.mtx", "**\n1,1, 1,1,  2.0e-03\n"),
+        "mass.mtx: .* of Abaqus, FORMAT=MATRIX INPUT",
+    ),
+    "of Abaqus, by rows": (text("mass.mtx", "1 1  2.0e-03\n"), "mass.mtx: .* of Abaqus, FORMAT=COORDINATE"),
+    "of CalculiX": (
+        text("blade.mas", "1 1 2.0e-03\n"),
+        "holds no mass.mtx or mass.npz; .*blade.mas of Calcul",
     ),
     "not square": (
         matrix("stiffness_max", lambda m: m[:-3]),

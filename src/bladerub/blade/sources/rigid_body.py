@@ -1,0 +1,238 @@
+"""What ties matrices to the places of their nodes: the motions of a rigid body.
+
+A permutation of coordinates changes no frequency. But the mass of a node is alike in all directions, and a
+translation or a rotation of the rigid body leaves no force at rest, except at nodes next to clamped ones.
+Translations show whether the coordinates are x, y, z node by node, rotations whether the nodes are where
+``nodes.csv`` has them.
+"""
+
+from itertools import permutations, product
+
+import numpy as np
+from scipy import sparse
+from scipy.sparse.linalg import spsolve
+from scipy.spatial import cKDTree
+
+_UNEQUAL = 1e-3  # mass of a node in two directions, over the sum of its entries
+_HELD = 1e-4  # force after a translation, over the sum of the entries; clamped neighbours leave 3e-3 and more
+_TURNED = 1e-2  # force after a rotation; two neighbours exchanged leave 0.03, coordinates in 1e-5 m 3e-4
+_NEAR = 4.0  # distance from a held to a clamped node, over that to the farthest node that it is joined to
+_APART = 0.02  # of that distance, a node from its place
+_CHANGED = 0.5  # stiffness by rotation; a blade changes by hundredths
+_MOST_BAD = 0.75  # of the nodes with forces; beyond, too few are right to say which are wrong
+_MOST_SOLVED = 10_000  # nodes
+_NAMED = 4  # rows in a message
+
+
+def check_joined(mass: sparse.csc_array, stiffness: sparse.csc_array) -> None:
+    """Raise ValueError if coordinates are joined to no other, unless a penalty makes them stiffest of all."""
+    joined = sparse.csc_array(abs(stiffness) - sparse.diags_array(abs(stiffness).diagonal())).sum(axis=0) > 0
+    with np.errstate(divide="ignore", invalid="ignore"):
+        square = stiffness.diagonal() / mass.diagonal()  # of the frequency of each coordinate alone
+    is_penalty = (mass.diagonal() > 0) & (square > square[joined].max(initial=0.0))
+    alone = np.flatnonzero(~joined & ~is_penalty)
+    if alone.size:
+        raise ValueError(
+            f"{alone.size} coordinates are joined to no other (row {alone[0] + 1} is the first, without "
+            "those of clamped nodes): clamped ones with a number on the diagonal? Mark their nodes in the "
+            "column clamped of nodes.csv, or leave their rows out"
+        )
+
+
+def check_mass(mass: sparse.csc_array, rows: np.ndarray) -> None:
+    """Raise ValueError if the mass of nodes differs by direction, or acts between directions.
+
+    `rows` (n,) of ``nodes.csv``, from 1, are those of the nodes of the matrix (3n, 3n).
+    """
+    bad = _unequal(mass)
+    if bad.any():
+        hint = _direction_hint(not _unequal(_node_by_node(mass)).any())
+        raise ValueError(f"differs by direction, or acts between directions, at {_named(rows[bad])}; {hint}")
+
+
+def check_same_nodes(mass: sparse.csc_array, stiffness: sparse.csc_array, rows: np.ndarray) -> None:
+    """Raise ValueError if the mass joins nodes that the stiffness does not: it has another order."""
+    pairs, joined = _pairs(mass), _pairs(stiffness)
+    outside = (pairs - pairs * joined.astype(bool)).tocoo()
+    if sparse.linalg.norm(outside) > _UNEQUAL * sparse.linalg.norm(pairs):
+        worst = int(np.argmax(outside.data))
+        both = sorted((rows[outside.row[worst]], rows[outside.col[worst]]))
+        raise ValueError(
+            f"joins the nodes in rows {both[0]} and {both[1]} of nodes.csv, which stiffness_rest does not; "
+            "both must have the order of nodes.csv"
+        )
+
+
+def check_change(stiffness: sparse.csc_array, rest: sparse.csc_array) -> None:
+    """Raise ValueError if a stiffness at speed is far from that at rest: it has another order or unit."""
+    change = sparse.linalg.norm(stiffness - rest) / sparse.linalg.norm(rest)
+    if change > _CHANGED:
+        raise ValueError(
+            f"differs from stiffness_rest by {change:.0%} of its entries; rotation changes hundredths: its "
+            "rows must have the same order and unit"
+        )
+
+
+def check_stiffness(
+    stiffness: sparse.csc_array,
+    points: np.ndarray,
+    rows: np.ndarray,
+    clamped: np.ndarray,
+    interface: np.ndarray,
+) -> None:
+    """Raise ValueError if a translation leaves forces at nodes away from the clamped ones.
+
+    `points` (n, 3) and `rows` (n,) are of the nodes of the matrix (3n, 3n), `clamped` (m, 3) the places of
+    clamped nodes; the nodes `interface` are away from any, at the tip. Nodes that are joined to all others,
+    as in a condensed matrix, tell nothing.
+    """
+
+    def away(matrix: sparse.csc_array) -> np.ndarray:
+        pairs = _pairs(matrix)
+        held = _held(matrix, pairs) & (np.diff(pairs.indptr) < len(points))
+        is_away = np.isin(np.arange(len(points)), interface)
+        if len(clamped):
+            is_away |= cKDTree(clamped).query(points)[0] > _NEAR * _reach(pairs, points)
+        return held & is_away
+
+    bad = away(stiffness)
+    if bad.any():
+        hint = _direction_hint(not away(_node_by_node(stiffness)).any())
+        raise ValueError(
+            "a translation of the rigid blade leaves forces away from clamped nodes, at "
+            f"{_named(rows[bad])}; {hint}"
+        )
+
+
+def check_places(stiffness: sparse.csc_array, points: np.ndarray, rows: np.ndarray, turn: np.ndarray) -> None:
+    """Raise ValueError if a rotation leaves forces where a translation leaves none: nodes are elsewhere.
+
+    `turn` (3, 3) leads from the axes of the file to those of `points`.
+    """
+    pairs = _pairs(stiffness)
+    free = ~_held(stiffness, pairs)
+    bad = free & (_turned(stiffness, pairs, points) > _TURNED)
+    if not bad.any():
+        return
+    cause = (
+        _other_axes(stiffness, pairs, points, free, turn)
+        or _misplaced(stiffness, pairs, points, free, bad, rows)
+        or "must have the order of the matrices: has the solver renumbered the nodes?"
+    )
+    raise ValueError(
+        f"{cause} (a rotation of the rigid blade leaves forces in stiffness_rest at {_named(rows[bad])}, of "
+        f"{np.count_nonzero(free)} that touch no clamped node)"
+    )
+
+
+def _other_axes(stiffness, pairs, points, free, turn) -> str | None:
+    """Say which axes of the file the nodes would have to have, if other ones leave no force."""
+    for order, signs in product(permutations(range(3)), product((1, -1), repeat=2)):
+        axes = np.diag([1, *signs])[:, order]  # an inversion of all three changes no rotation
+        moved = points @ (turn @ axes @ turn.T).T
+        if not (free & (_turned(stiffness, pairs, moved) > _TURNED)).any():
+            names = [f"{'-' if row.min() < 0 else ''}{'xyz'[np.argmax(abs(row))]}" for row in axes]
+            return f"x, y, z are {', '.join(names)} of the matrices"
+    return None
+
+
+def _misplaced(stiffness, pairs, points, free, bad, rows) -> str | None:
+    """Name the rows that the rigid motion of all others puts elsewhere."""
+    inner = np.flatnonzero(bad)
+    if inner.size > min(_MOST_BAD * np.count_nonzero(free), _MOST_SOLVED):
+        return None
+    coordinates = (3 * inner[:, None] + np.arange(3)).ravel()
+    motion = _rotations(points)
+    motion[coordinates] = 0
+    block = sparse.csc_array(stiffness[coordinates][:, coordinates])
+    x_turn, y_turn, z_turn = -spsolve(block, (stiffness @ motion)[coordinates]).T.reshape(3, -1, 3)
+    middle = points.mean(axis=0)
+    place = middle + np.stack([-y_turn[:, 2], -z_turn[:, 0], -x_turn[:, 1]], axis=1)
+    moved = points.copy()
+    moved[inner] = place
+    if (free & (_turned(stiffness, pairs, moved) > _TURNED)).any():
+        return None
+    near = _APART * _reach(pairs, points)[inner]
+    wrong = np.linalg.norm(place - points[inner], axis=1) > near
+    to_listed = cKDTree(points[inner[wrong]]).query(place[wrong])[0]
+    cure = "exchanged" if wrong.sum() == 2 else "in another order"
+    if (to_listed > near[wrong]).any():
+        cure = "in another place"
+    return f"{_listed(rows[inner[wrong]])}: must be {cure}"
+
+
+def _pairs(matrix: sparse.csc_array) -> sparse.csr_array:
+    """Norms (n, n) of the 3 x 3 blocks of pairs of nodes."""
+    entries = matrix.tocoo()
+    n = matrix.shape[0] // 3
+    squares = sparse.csr_array((entries.data**2, (entries.row // 3, entries.col // 3)), shape=(n, n))
+    squares.eliminate_zeros()
+    return squares.sqrt()
+
+
+def _reach(pairs: sparse.csr_array, points: np.ndarray) -> np.ndarray:
+    """Distance (n,) from each node to the farthest that it is joined to."""
+    return _lengths(pairs, points).max(axis=1).toarray().ravel()
+
+
+def _lengths(pairs: sparse.csr_array, points: np.ndarray) -> sparse.csr_array:
+    here = np.repeat(np.arange(len(points)), np.diff(pairs.indptr))
+    lengths = np.linalg.norm(points[here] - points[pairs.indices], axis=1)
+    return sparse.csr_array((lengths, pairs.indices, pairs.indptr), shape=pairs.shape)
+
+
+def _translations(n: int) -> np.ndarray:
+    return np.tile(np.eye(3), (n, 1))
+
+
+def _rotations(points: np.ndarray) -> np.ndarray:
+    """Displacements (3n, 3) by unit rotations about three axes through the middle of `points`."""
+    arms = points - points.mean(axis=0)
+    return np.stack([np.cross(axis, arms).ravel() for axis in np.eye(3)], axis=1)
+
+
+def _forces(matrix: sparse.csc_array, motion: np.ndarray) -> np.ndarray:
+    """Norm (n,) of the forces at each node after the motions (3n, 3)."""
+    return np.linalg.norm((matrix @ motion).reshape(-1, 9), axis=1)
+
+
+def _held(stiffness: sparse.csc_array, pairs: sparse.csr_array) -> np.ndarray:
+    """Whether a translation leaves forces at each node (n,)."""
+    return _forces(stiffness, _translations(pairs.shape[0])) > _HELD * pairs.sum(axis=1)
+
+
+def _turned(stiffness: sparse.csc_array, pairs: sparse.csr_array, points: np.ndarray) -> np.ndarray:
+    """Find the forces (n,) after a rotation, over what they would be if nothing cancelled."""
+    scale = (pairs * _lengths(pairs, points)).sum(axis=1)
+    forces = _forces(stiffness, _rotations(points))
+    return np.divide(forces, scale, out=np.zeros_like(forces), where=scale > 0)  # 0: joined to no other
+
+
+def _unequal(mass: sparse.csc_array) -> np.ndarray:
+    """Whether the mass of each node (n,) is not that of a body; of nodes joined to all others it may be."""
+    pairs = _pairs(mass)
+    sums = (mass @ _translations(pairs.shape[0])).reshape(-1, 3, 3)
+    mean = np.trace(sums, axis1=1, axis2=2)[:, None, None] / 3
+    off = np.linalg.norm((sums - mean * np.eye(3)).reshape(-1, 9), axis=1)
+    return (off > _UNEQUAL * pairs.sum(axis=1)) & (np.diff(pairs.indptr) < max(len(off), 2))
+
+
+def _node_by_node(matrix: sparse.csc_array) -> sparse.csc_array:
+    """Reorder a matrix that has all x, then all y, then all z."""
+    order = np.arange(matrix.shape[0]).reshape(3, -1).T.ravel()
+    return matrix[order][:, order]
+
+
+def _direction_hint(is_by_direction: bool) -> str:
+    has = "it has all x, then all y, then all z" if is_by_direction else "are coordinates exchanged?"
+    return f"must have x, y, z node by node, in the axes of nodes.csv: {has}"
+
+
+def _named(rows: np.ndarray) -> str:
+    """Write how many nodes there are, and the first `rows` of them."""
+    return f"{rows.size} node{'s' if rows.size > 1 else ''} ({_listed(rows)})"
+
+
+def _listed(rows: np.ndarray) -> str:
+    more = ", …" if rows.size > _NAMED else ""
+    return f"row{'s' if rows.size > 1 else ''} {', '.join(map(str, rows[:_NAMED]))}{more}"
