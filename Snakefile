@@ -34,8 +34,6 @@ COATINGS = [case.name for case in coating_cases(config)]
 
 # Not in the jobs, which are processes that read this file as well
 if workflow.is_main_process:
-    with bladerub.io.errors.exit_on_error():
-        LIVING = bladerub.workflow.invocation.begin(".snakemake", RESULTS)
     bladerub.workflow.invocation.plan(RESULTS, FILES, GIVEN, NOTES, on_gpu(config))
     if workflow.output_settings.dryrun:
         from bladerub.workflow import forecast  # takes seconds to import

@@ -2,6 +2,7 @@
 from functools import cache
 
 from bladerub.extensions.chart.grid import chart_orders, check, columns
+from bladerub.extensions.chart.point import PointRow
 from bladerub.study.grid import modulus_unit
 
 CHART_ORDERS = chart_orders(config)
@@ -53,13 +54,17 @@ def charted_maps(wildcards):
     ]
 
 
+COLUMN_MANIFEST = f"{RESULTS}/chart/columns/{{column}}.tsv"
+
+
 rule chart_column:
     # The points have a folder next to that of the manifests, undeclared as the runs of a coating are.
     input:
+        replaces_lost(workflow, COLUMN_MANIFEST, PointRow),
         blade=rules.blade.output.reduced_model,
         kernel=rules.compile_kernel.output[0],
     output:
-        f"{RESULTS}/chart/columns/{{column}}.tsv",
+        COLUMN_MANIFEST,
     log:
         f"{RESULTS}/logs/chart_column/{{column}}.log",
     benchmark:

@@ -32,13 +32,17 @@ def rotor_minutes(wildcards, attempt):
     return minutes_for(rotor_runs(wildcards.combination).runs, attempt)
 
 
+ROW_MANIFEST = f"{OF_ROWS}/{{combination}}/manifest.tsv"
+
+
 # As `coating`: the runs are next to the manifest, undeclared
 rule rotor_combination:
     input:
+        replaces_lost(workflow, ROW_MANIFEST),
         blade=rules.blade.output.reduced_model,
         kernel=rules.compile_kernel.output[0],
     output:
-        f"{OF_ROWS}/{{combination}}/manifest.tsv",
+        ROW_MANIFEST,
     log:
         f"{RESULTS}/logs/rotor_combination/{{combination}}.log",
     benchmark:

@@ -9,6 +9,7 @@ from bladerub.study.growth import confirmation_determinants
 from bladerub.study.plan import coating_plan
 from bladerub.io.sources import solver_digest
 from bladerub.workflow.cores import costs_of, priority_of, threads_for
+from bladerub.workflow.invocation import replaces_lost
 
 
 @cache
@@ -74,14 +75,18 @@ rule compile_kernel:
         "../scripts/compile_kernel.py"
 
 
+MANIFEST = f"{RESULTS}/runs/{{coating}}/manifest.tsv"
+
+
 rule coating:
     # The runs are next to the manifest, undeclared: Snakemake deletes what a failed job declares, and
     # finished runs must survive. The key inside the file of a run shows whether it is current.
     input:
+        replaces_lost(workflow, MANIFEST),
         blade=rules.blade.output.reduced_model,
         kernel=rules.compile_kernel.output[0],
     output:
-        f"{RESULTS}/runs/{{coating}}/manifest.tsv",
+        MANIFEST,
     log:
         f"{RESULTS}/logs/coating/{{coating}}.log",
     benchmark:

@@ -5,6 +5,7 @@ import shutil
 import subprocess
 
 import pytest
+import yaml
 
 from bladerub.io.hdf5 import read_attributes
 
@@ -115,18 +116,44 @@ def test_a_new_coating_computes_itself_alone(copied_study, with_E3):
     assert new == {"2nd_E3_K0.5_theta0", "2nd_E3_K0.5_theta0.15"}
 
 
+def test_a_dry_run_changes_nothing(copied_study, tiny):
+    copied_study.plan(tiny)  # Snakemake lays out its folder
+    runs = copied_study.results / "runs"
+    (runs / "2nd_E1.1_K0.5_theta0" / "0.1970.h5").unlink()
+    damaged = runs / "2nd_E2_K0.5_theta0" / "manifest.tsv"
+    damaged.write_bytes(damaged.read_bytes()[:-9])
+    for note in ("locks/0.output.lock", "claims/0.json"):  # of a Snakemake, and of ours, that was killed
+        path = copied_study.folder / ".snakemake" / note
+        path.parent.mkdir(exist_ok=True)
+        path.write_text("results/tables/peaks.csv\n")
+
+    def tree():
+        paths = set(copied_study.folder.rglob("*")) - {*copied_study.folder.glob(".snakemake/iocache/*")}
+        status = {path: path.lstat() for path in paths}
+        return {
+            path: (about.st_ino, about.st_mtime_ns, path.read_bytes() if path.is_file() else None)
+            for path, about in status.items()
+        }
+
+    (copied_study.folder / "overlay.yaml").write_text(yaml.safe_dump(tiny))
+    before = tree()
+    done = copied_study.snakemake("results/tables/peaks.csv", "--dry-run", "--configfile", "overlay.yaml")
+    assert done.returncode == 0, done.stderr
+    assert tree() == before
+    assert re.search(r"^coating +2$", done.stdout + done.stderr, re.MULTILINE)
+
+
 def test_a_lost_run_is_computed_alone(copied_study, tiny):
     before = copied_study.runs()
     lost = "2nd_E1.1_K0.5_theta0/0.1970.h5"
     path = copied_study.results / "runs" / lost
     key = read_attributes(path)["run_key"]
     path.unlink()
-    manifest = "results/runs/2nd_E1.1_K0.5_theta0/manifest.tsv"
-    (copied_study.folder / manifest).unlink()
-    copied_study.build(tiny, manifest)
+    copied_study.build(tiny, "results/tables/peaks.csv")
     after = copied_study.runs()
     assert {name for name in before if after[name] != before[name]} == {lost}
     assert read_attributes(path)["run_key"] == key
+    assert copied_study.plan(tiny, "results/tables/peaks.csv") == {}
 
 
 def test_another_confirmation_computes_no_run_of_the_study(copied_study, tiny):

@@ -1,63 +1,57 @@
-"""What an invocation of the workflow clears away of those killed before it."""
+"""What an invocation of the workflow plans again and clears away of those killed before it."""
 
-import shutil
 import signal
 import sys
 import tempfile
 import threading
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from functools import cache
 from pathlib import Path
-from typing import IO, Any
+from typing import Any
 
 from bladerub.config import record
-from bladerub.extensions.chart.point import PointRow
-from bladerub.io import atomic, lock
-from bladerub.io.errors import DamagedFile
+from bladerub.io import atomic
+from bladerub.io.errors import DamagedFile, exit_on_error
 from bladerub.study.manifest import ManifestRow, Row, listed_files
-from bladerub.workflow import gpu
+from bladerub.workflow import claims, gpu
 
 
-def begin(snakemake_folder: str | Path, results: str | Path) -> IO:
-    """Clear away what keeps Snakemake from continuing, before it plans; keep the returned stream open.
+def loss(manifest: str | Path, kind: type[Row] = ManifestRow) -> str | None:
+    """Say in a line which file of a manifest is lost or cut short, or that the manifest itself is damaged.
 
-    First, the lock of a killed Snakemake: Snakemake notes in files which files it makes, and takes any such
-    note for that of a living process, until somebody calls it with ``--unlock``. So each invocation also
-    shares a lock that the kernel drops when its process dies. If no other process holds that one, the notes
-    are of a dead one and are deleted. If another does, they stay, and Snakemake decides by them whether the
-    two conflict. (Without that lock, Snakemake's ``nolock``, two would delete each other's files.)
-
-    Second, the manifest of a coating, or of rows of blades, that lists a run which is lost or of another
-    size, and that of a column of the chart with such a point: without its manifest the job is planned again,
-    and computes that alone.
-
-    `snakemake_folder` is ``.snakemake`` of the working directory. Raises an `OSError` if a folder cannot be
-    written.
+    None if nothing is, or if there is no manifest. `kind` is that of its rows. Raises an `OSError` if the
+    manifest cannot be read.
     """
-    locks = Path(snakemake_folder) / "locks"
-    stream, alone = lock.share(Path(snakemake_folder) / "bladerub.lock")
-    if not alone:
-        _print("another snakemake is at work in this folder; if it keeps this one out, wait for its end")
-    elif any(locks.glob("*.lock")):
-        shutil.rmtree(locks)
-        _print("the last snakemake here was killed; what it had finished is kept")
-    manifests = (("runs/*/manifest.tsv", ManifestRow), ("rotor/runs/*/manifest.tsv", ManifestRow))
-    for pattern, kind in (*manifests, ("chart/columns/*.tsv", PointRow)):
-        for manifest in sorted(Path(results).glob(pattern)):
-            _delete_if_wrong(manifest, kind)
-    return stream
-
-
-def _delete_if_wrong(manifest: Path, kind: type[Row]) -> None:
     try:
         lost = [file.path for file in listed_files(manifest, kind) if file.is_lost()]
+    except FileNotFoundError:
+        return None
     except DamagedFile as error:
-        problem = str(error)
-    else:
-        if not lost:
-            return
-        problem = f"{lost[0]}: missing, or not as long as it was written"
-    manifest.unlink(missing_ok=True)
-    _print(f"{problem}; its job is planned again and computes only what is not there")
+        return str(error)
+    return f"{lost[0]}: missing, or not as long as it was written" if lost else None
+
+
+def replaces_lost(workflow: Any, pattern: str, kind: type[Row] = ManifestRow) -> Callable[[Any], list[str]]:
+    """Return an input function without a file, which has a job done again if its manifest shows a `loss`.
+
+    `pattern` is the output of the rule, a manifest of that `kind` of rows. The job is planned as with
+    ``--forcerun``, whether this is a dry run or not, and computes only what is not there.
+    """
+
+    @cache
+    def plan_again(manifest: str) -> None:
+        with exit_on_error():
+            problem = loss(manifest, kind)
+        if problem:
+            workflow.dag.forcefiles.add(manifest)
+            _print(f"{problem}; its job is planned again and computes only what is not there")
+
+    def no_files(wildcards: Any) -> list[str]:
+        if workflow.is_main_process:
+            plan_again(pattern.format(**wildcards))
+        return []
+
+    return no_files
 
 
 def _print(line: str) -> None:
@@ -84,11 +78,14 @@ def plan(
 
 
 def start(workflow: Any) -> None:
-    """Begin to compute what was planned: `prepare` its results folder, and record its config there.
+    """Begin to compute what was planned: claim its files, `prepare` its results folder, record its config.
 
     Called in ``onstart`` with Snakemake's ``workflow``. A Snakefile that takes in this workflow as a module
     calls it from its own, since Snakemake ignores that of a module.
     """
+    persistence = workflow.persistence
+    if claims.claim(persistence.path / "claims", persistence.all_outputfiles(), persistence.all_inputfiles()):
+        _print("the last snakemake here was killed; what it had finished is kept")
     _handle_termination_beside()
     _schedule_by_events(workflow)
     for results, files, given, on_gpu in _planned:

@@ -32,69 +32,30 @@ def manifest(tmp_path):
     return folder / "manifest.tsv"
 
 
-@pytest.fixture
-def begin(tmp_path):
-    streams = []
-
-    def begun():
-        streams.append(invocation.begin(tmp_path / ".snakemake", tmp_path / "results"))
-        return streams[-1]
-
-    yield begun
-    for stream in streams:
-        stream.close()
-
-
-@pytest.fixture
-def note(tmp_path):
-    """What Snakemake leaves of the files that it makes."""
-    path = tmp_path / ".snakemake" / "locks" / "0.output.lock"
-    path.parent.mkdir(parents=True)
-    path.write_text("results/tables/peaks.csv\n")
-    return path
-
-
-def test_the_lock_of_the_dead_is_deleted(begin, note, capsys):
-    begin()
-    assert not note.exists()
-    assert "the last snakemake here was killed" in capsys.readouterr().err
-
-
-def test_the_lock_of_the_living_stays(begin, note, tmp_path, capsys):
-    living = begin()
-    note.parent.mkdir()
-    note.touch()
-    begin().close()
-    assert note.exists()
-    assert "another snakemake is at work" in capsys.readouterr().err
-    living.close()
-    begin()
-    assert not note.exists()
-
-
-def test_a_whole_coating_keeps_its_manifest(begin, manifest, capsys):
-    begin()
-    assert manifest.exists()
-    assert capsys.readouterr().err == ""
+def test_a_whole_coating_has_no_loss(manifest):
+    assert invocation.loss(manifest) is None
+    assert invocation.loss(manifest.with_name("none.tsv")) is None
 
 
 @pytest.mark.parametrize("name", ["0.1.h5", "confirmation/0.2.h5"])
 @pytest.mark.parametrize("size", [None, 0, 9])
-def test_a_manifest_goes_when_a_run_is_lost_or_cut_short(begin, manifest, name, size, capsys):
+def test_a_run_that_is_missing_or_cut_short_is_a_loss(manifest, name, size):
     run = manifest.parent / name
     run.unlink() if size is None else run.write_bytes(bytes(size))
-    begin()
-    assert not manifest.exists()
-    assert f"{run}: missing, or not as long as it was written" in capsys.readouterr().err
-    assert (manifest.parent / "0.2.h5").exists()
+    assert str(run) in invocation.loss(manifest)
 
 
 @pytest.mark.parametrize("end", [0, 50, -2, -9])
-def test_a_manifest_goes_when_it_is_cut_short(begin, manifest, end, capsys):
+def test_a_manifest_that_is_cut_short_is_a_loss(manifest, end):
     manifest.write_bytes(manifest.read_bytes()[:end])
-    begin()
-    assert not manifest.exists()
-    assert "its job is planned again" in capsys.readouterr().err
+    assert str(manifest) in invocation.loss(manifest)
+
+
+def test_a_manifest_that_cannot_be_read_is_no_loss(manifest):
+    manifest.unlink()
+    manifest.mkdir()
+    with pytest.raises(OSError, match=r"manifest\.tsv"):
+        invocation.loss(manifest)
 
 
 def test_preparing_makes_the_folder_and_sweeps_it(tmp_path):
@@ -113,17 +74,23 @@ def test_a_folder_that_cannot_be_made_is_named(tmp_path):
     assert "\n" not in errors.message_for(raised.value)
 
 
-def workflow_with(limiter, local_exec=True):
+@pytest.fixture
+def workflow_with(tmp_path):
     """What `start` sees of Snakemake's workflow."""
-    scheduler = SimpleNamespace(job_rate_limiter=limiter)
-    return SimpleNamespace(scheduler=scheduler, local_exec=local_exec)
+    persistence = SimpleNamespace(path=tmp_path, all_outputfiles=list, all_inputfiles=list)
+
+    def workflow(limiter, local_exec=True):
+        scheduler = SimpleNamespace(job_rate_limiter=limiter)
+        return SimpleNamespace(scheduler=scheduler, local_exec=local_exec, persistence=persistence)
+
+    return workflow
 
 
 @pytest.mark.parametrize(
     ("rate", "local_exec", "kept"),
     [("100/1s", True, False), ("100/1s", False, True), ("1/1m", True, True), ("100/2s", True, True)],
 )
-def test_the_default_limit_of_jobs_alone_is_lifted_on_this_machine(rate, local_exec, kept):
+def test_the_default_limit_of_jobs_alone_is_lifted_on_this_machine(workflow_with, rate, local_exec, kept):
     workflow = workflow_with(JobRateLimiter(MaxJobsPerTimespan.parse_choice(rate)), local_exec)
     invocation.start(workflow)
     assert (workflow.scheduler.job_rate_limiter is not None) == kept
@@ -134,7 +101,7 @@ def test_snakemake_has_the_limit_by_default():
     assert default == "{}/{}s".format(*invocation._DEFAULT_JOB_RATE)
 
 
-def test_a_handler_of_sigterm_may_wait_for_what_the_main_thread_holds():
+def test_a_handler_of_sigterm_may_wait_for_what_the_main_thread_holds(workflow_with):
     lock, handled = threading.Lock(), threading.Event()
 
     def handler(*_):
