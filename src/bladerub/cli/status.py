@@ -2,16 +2,20 @@
 
 import argparse
 import json
+import sys
 from collections.abc import Mapping
 from pathlib import Path
 from shutil import get_terminal_size
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from tqdm import tqdm
 
 from bladerub.cli import inputs
 
-_COLUMNS = ("planned", "done", "missing", "stale", "corrupt", "unbounded")
+if TYPE_CHECKING:
+    from bladerub.study.inventory import Inventory
+
+_COLUMNS = ("planned", "done", "missing", "stale", "corrupt", "unreadable", "unbounded")
 
 
 def add_to(commands: Any) -> None:
@@ -41,7 +45,10 @@ def add_to(commands: Any) -> None:
 
 
 def status(options: argparse.Namespace) -> None:
-    """Count the runs of the study and print the counts; raises `ConfigError`."""
+    """Count the runs of the study and print the counts; raises `ConfigError`.
+
+    Exits with 2 if the system refuses to read any of them.
+    """
     config, notes = inputs.read_config_with_notes(options)
 
     from bladerub.extensions.chart.point import PointRow
@@ -52,17 +59,19 @@ def status(options: argparse.Namespace) -> None:
 
     results = inputs.study_folder() / config["results"]
     digest, note = inventory.current_blade(config, results / "blade" / "reduced_model.h5")
-    counts, damaged = {}, []
+    counts, damaged, unreadable = {}, [], []
     quiet = True if options.json else None
     width = get_terminal_size().columns
     for case in tqdm(coating_cases(config), unit="coating", ncols=width, disable=quiet, leave=False):
         folder = results / "runs" / case.name
-        counts[case.name], found = inventory.take(
-            config, coating_plan(config, case), folder, digest, options.thorough
-        )
-        damaged += found
-    rows, found = _rows(config, results, digest, options.thorough)
-    damaged += found
+        of_coating = inventory.take(config, coating_plan(config, case), folder, digest, options.thorough)
+        counts[case.name] = of_coating.counts
+        damaged += of_coating.damaged
+        unreadable += of_coating.unreadable
+    of_rows = _rows(config, results, digest, options.thorough)
+    rows = inventory.total(part.counts for part in of_rows) if of_rows else None
+    damaged += [path for part in of_rows for path in part.damaged]
+    unreadable += [line for part in of_rows for line in part.unreadable]
     if options.thorough:
         for manifest in sorted((results / "chart" / "columns").glob("*.tsv")):
             damaged += damaged_files(manifest, PointRow)
@@ -71,9 +80,16 @@ def status(options: argparse.Namespace) -> None:
             path.unlink(missing_ok=True)
     whole = inventory.total(counts.values())
     if options.json:
-        about = {"note": note, "damaged": [str(path) for path in damaged], "discarded": options.discard}
-        of_rows = {"rows_of_blades": rows} if rows else {}
-        print(json.dumps(whole | about | {"coatings": counts} | of_rows, indent=2))
+        about = {
+            "note": note,
+            "damaged": [str(path) for path in damaged],
+            "discarded": options.discard,
+            "cannot_be_read": unreadable,
+        }
+        total_of_rows = {"rows_of_blades": rows} if rows else {}
+        print(json.dumps(whole | about | {"coatings": counts} | total_of_rows, indent=2))
+        if unreadable:
+            sys.exit(2)
         return
     _print_table(counts | {"all": whole})
     longer = f"{whole['longer_done']} of {whole['longer_planned']} done"
@@ -90,29 +106,33 @@ def status(options: argparse.Namespace) -> None:
     for line in (note, *notes):
         if line:
             print(line)
+    if unreadable:
+        print(
+            f"runs that cannot be read: {len(unreadable)}, kept as they are, the first of them",
+            file=sys.stderr,
+        )
+        print(f"  {unreadable[0]}", file=sys.stderr)
+        sys.exit(2)
 
 
-def _rows(
-    config: dict[str, Any], results: Path, digest: str | None, thorough: bool
-) -> tuple[dict[str, int] | None, list[Path]]:
-    """Take the inventory of the rows of blades, if any were begun."""
+def _rows(config: dict[str, Any], results: Path, digest: str | None, thorough: bool) -> list["Inventory"]:
+    """Take the inventories of the rows of blades, if any were begun."""
     from bladerub.extensions.rotor.plan import PLAN, RUNS, read_plan
     from bladerub.study import inventory
 
     path = inputs.study_folder() / PLAN
     if not ((results / RUNS).exists() and path.exists()):
-        return None, []
-    plan, counts, damaged = read_plan(path, config), [], []
-    for name in plan.combinations:
-        found = inventory.take(config, plan.runs(config, name), results / RUNS / name, digest, thorough)
-        counts.append(found[0])
-        damaged += found[1]
-    return inventory.total(counts), damaged
+        return []
+    plan = read_plan(path, config)
+    return [
+        inventory.take(config, plan.runs(config, name), results / RUNS / name, digest, thorough)
+        for name in plan.combinations
+    ]
 
 
 def _print_table(counts: Mapping[str, Mapping[str, int]]) -> None:
     width = max(len(name) for name in ["coating", *counts])
-    print(f"{'coating':<{width}}" + "".join(f"{column:>10}" for column in _COLUMNS) + f"{'MB':>10}")
+    print(f"{'coating':<{width}}" + "".join(f"{column:>11}" for column in _COLUMNS) + f"{'MB':>10}")
     for name, inventory in counts.items():
-        numbers = "".join(f"{inventory[column]:>10}" for column in _COLUMNS)
+        numbers = "".join(f"{inventory[column]:>11}" for column in _COLUMNS)
         print(f"{name:<{width}}{numbers}{inventory['bytes'] / 1e6:>10.1f}")

@@ -8,10 +8,21 @@ from contextlib import contextmanager
 
 _FULL = {errno.ENOSPC: "the disk is full", errno.EDQUOT: "the disk quota is used up"}
 _FORBIDDEN = {errno.EROFS, errno.EACCES, errno.EPERM}
+_LOCKED = {errno.EAGAIN, errno.ENOLCK, errno.EDEADLK}
 
 
 class DamagedFile(OSError):
     """A file that is not, or no longer, what it should be; the message names it."""
+
+
+def is_refused(error: Exception) -> bool:
+    """Return whether the system refused to open or read a file, of whose content nothing is known then.
+
+    A lock, a permission, a stale handle, too many open files or a failing disk: all but that there is no such
+    file.
+    """
+    absent = isinstance(error, FileNotFoundError | IsADirectoryError | NotADirectoryError)
+    return isinstance(error, OSError) and bool(error.errno) and not absent
 
 
 class BadInput(ValueError):
@@ -33,6 +44,9 @@ def message_for(error: OSError | BadInput) -> str:
     if error.errno in _FULL:
         problem = _FULL[error.errno]
         remedy = "; make room and run the same command again: what is finished is kept and not computed again"
+    elif error.errno in _LOCKED:
+        problem = f"locked by another program, or its disk has no locks ({problem})"
+        remedy = "; close that program, or set HDF5_USE_FILE_LOCKING=FALSE"
     elif error.errno in _FORBIDDEN:
         remedy = "; make it writable, or choose another folder with the key results of the config"
     return f"{where}{problem}{remedy}"

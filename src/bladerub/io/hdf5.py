@@ -4,6 +4,7 @@ import hashlib
 import io
 import math
 import os
+import re
 from collections.abc import Iterator, Mapping, Set
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -177,10 +178,16 @@ def _opened(path: str | Path) -> Iterator[h5py.File]:
         with h5py.File(path, "r") as file:
             yield file
     except (OSError, RuntimeError, KeyError, ValueError) as error:  # h5py raises any of them
-        code = getattr(error, "errno", None)
+        code = getattr(error, "errno", None) or _system_error(error)
         if code:  # of the system: missing, or not ours to read
             raise OSError(code, os.strerror(code), str(path)) from error
         raise DamagedFile(f"{path}: not a readable HDF5 file ({error})") from error
+
+
+def _system_error(error: Exception) -> int:
+    """Return the number of the system's error that HDF5 reports of a read, 0 if it reports none."""
+    number = re.search(r"errno = (\d+)", str(error))
+    return int(number[1]) if number else 0
 
 
 def _values(dataset: h5py.Dataset) -> np.ndarray:

@@ -15,6 +15,7 @@ from pathlib import Path
 from typing import Any
 
 from bladerub.io import hdf5
+from bladerub.io.errors import is_refused
 from bladerub.io.provenance import PREFIX
 
 ARCHIVE = ".archive"
@@ -59,7 +60,8 @@ class Entry:
     def fetch(self) -> bool:
         """Take the file back from the archive unless it is current; return whether it is now.
 
-        A file is current if it can be read to its end and has the key and the datasets.
+        A file is current if it can be read to its end and has the key and the datasets. Raises `OSError` if
+        the system refuses to read it: what it holds may be current.
         """
         if self._key_in(self.path) == self.key:
             return True
@@ -82,12 +84,14 @@ class Entry:
         return self.path.parent / ARCHIVE / f"{key}{self.path.suffix}"
 
     def _key_in(self, path: Path) -> str | None:
-        """Read the whole file and return its key, or None if anything is wrong with it."""
+        """Read the whole file and return its key, or None if it is missing or anything is wrong with it."""
         try:
             if not path.exists():  # asked three times of every new run, and faster than h5py
                 return None
             data, attributes = hdf5.read(path)
-        except Exception:  # h5py raises anything on a damaged file, which is to be computed again
+        except Exception as error:  # h5py raises anything on a damaged file, which is to be computed again
+            if is_refused(error):
+                raise
             return None
         keys = [attributes[name] for name in _KEYS if name in attributes]
         return keys[0] if keys and self.datasets <= data.keys() else None

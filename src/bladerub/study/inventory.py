@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from bladerub.blade.build import is_built
-from bladerub.io.errors import message_for
+from bladerub.io.errors import is_refused, message_for
 from bladerub.study.cache import blade_digest
 from bladerub.study.growth import needs_confirmation
 from bladerub.study.manifest import damaged_files, read_manifest
@@ -14,11 +14,12 @@ from bladerub.study.plan import CoatingPlan, PlannedRun, growth_key, longer_run
 from bladerub.study.store import ALL, read_run
 
 COUNTS = {
-    "planned": "runs of the study: done, missing, stale and corrupt",
+    "planned": "runs of the study: done, missing, stale, corrupt and unreadable",
     "done": "whole, and what the config asks for",
     "missing": "without a file",
     "stale": "whole, but of another blade, solver or setting",
     "corrupt": "not readable to their end, or not as their manifest says that they were written",
+    "unreadable": "that the system refuses to read: locked, forbidden, or on a failing disk",
     "unbounded": "of those done, the ones that exceeded the displacement limit",
     "unconverged": "of those done, the ones in which the contact forces of some step did not converge",
     "longer_planned": "longer runs that show whether the growth of those done lasts",
@@ -46,6 +47,14 @@ def current_blade(config: Mapping[str, Any], model: Path) -> tuple[str | None, s
         return None, f"any run that is there counts as stale without its blade: {message_for(error)}"
 
 
+class Inventory(NamedTuple):
+    """What there is of the runs of a coating."""
+
+    counts: dict[str, int]  # `COUNTS`
+    damaged: list[Path]  # read, and not what they should be
+    unreadable: list[str]  # for each file that the system refuses to read, its name, the reason and the cure
+
+
 class _Found(NamedTuple):
     """A whole run on disk, as its manifest or its file says."""
 
@@ -61,8 +70,8 @@ def take(
     folder: str | Path,
     digest: str | None,
     thorough: bool = False,
-) -> tuple[dict[str, int], list[Path]]:
-    """Compare the runs of one coating in `folder` with its `plan`: `COUNTS`, and the damaged files.
+) -> Inventory:
+    """Compare the runs of one coating in `folder` with its `plan`.
 
     Without a blade, whose `digest` is of `current_blade`, every run that is there is stale. A
     file of the size in the manifest is taken to be what that says; any other is opened, which shows a
@@ -73,6 +82,7 @@ def take(
     manifest = folder / "manifest.tsv"
     damaged = damaged_files(manifest, thorough=thorough)
     sizes = _sizes(folder)
+    unreadable = []
     listed = {} if thorough or damaged else _listed(manifest, sizes, growth_key(config))
 
     def look(run: PlannedRun) -> tuple[str, _Found | None]:
@@ -85,7 +95,10 @@ def take(
                 return "corrupt", None
             try:
                 found = _read(path, settings, thorough)
-            except Exception:  # h5py raises anything on a damaged file
+            except Exception as error:  # h5py raises anything on a damaged file
+                if is_refused(error):
+                    unreadable.append(message_for(error))
+                    return "unreadable", None
                 damaged.append(path)
                 return "corrupt", None
         current = digest is not None and found.key == run.key(digest)
@@ -103,7 +116,7 @@ def take(
             counts["longer_planned"] += 1
             counts["longer_done"] += look(longer_run(config, run))[0] == "done"
     counts["bytes"] = sum(sizes.values())
-    return counts, damaged
+    return Inventory(counts, damaged, unreadable)
 
 
 def _sizes(folder: Path) -> dict[Path, int]:

@@ -32,6 +32,7 @@ class ListedFile(NamedTuple):
 class Row(Protocol):
     """A row of a manifest: a named tuple of strings and numbers."""
 
+    file: str  # a name without folders
     _fields: tuple[str, ...]
     _field_defaults: dict[str, Any]
 
@@ -116,7 +117,13 @@ def read_manifest(path: str | Path, kind: type[AnyRow] = ManifestRow) -> list[An
         if not lines[-1].endswith("\n"):
             raise ValueError("breaks off")
         convert = [kind.__annotations__[name] for name in header]
-        return [kind(*(read(text) for read, text in zip(convert, row, strict=True))) for row in reader]
+        rows = []
+        for texts in reader:
+            row = kind(*(read(text) for read, text in zip(convert, texts, strict=True)))
+            if Path(row.file).name != row.file:  # nothing outside its folder is opened or deleted by it
+                raise ValueError(f"{row.file}: not the name of a file")
+            rows.append(row)
+        return rows
     except (ValueError, csv.Error) as error:
         raise DamagedFile(f"{path}: not a manifest, line {reader.line_num}: {error}") from error
 

@@ -13,6 +13,7 @@ COUNTS = {
     "missing",
     "stale",
     "corrupt",
+    "unreadable",
     "unbounded",
     "unconverged",
     "longer_planned",
@@ -41,7 +42,11 @@ def test_counts_as_json(small, capsys):
     output = capsys.readouterr()
     printed = json.loads(output.out)
     coatings, note = printed.pop("coatings"), printed.pop("note")
-    assert (printed.pop("damaged"), printed.pop("discarded")) == ([], False)
+    assert (printed.pop("damaged"), printed.pop("discarded"), printed.pop("cannot_be_read")) == (
+        [],
+        False,
+        [],
+    )
     assert printed.keys() == COUNTS
     assert (printed["planned"], printed["missing"], printed["done"]) == (6, 6, 0)
     assert coatings.keys() == {"2nd_E2_K0.5_theta0", "2nd_E20_K0.5_theta0"}
@@ -60,10 +65,11 @@ def test_counts_in_words(small, capsys):
         "missing",
         "stale",
         "corrupt",
+        "unreadable",
         "unbounded",
         "MB",
     ]
-    assert lines[1].split() == ["2nd_E2_K0.5_theta0", "3", "0", "3", "0", "0", "0", "0.0"]
+    assert lines[1].split() == ["2nd_E2_K0.5_theta0", "3", "0", "3", "0", "0", "0", "0", "0.0"]
     assert lines[3].split()[:2] == ["all", "6"]
     assert "0 of 0 done" in lines[5]
 

@@ -1,9 +1,14 @@
+import errno
 import os
 import random
+import re
 from dataclasses import replace
+from types import SimpleNamespace
 
+import h5py
 import pytest
 
+from bladerub.io import hdf5
 from bladerub.study import inventory as module
 from bladerub.study import job
 from bladerub.study.inventory import COUNTS, take, total
@@ -183,11 +188,50 @@ def test_one_random_bit_in_each_of_40_files_is_found_40_times(
     write_manifest(tmp_path / "manifest.tsv", compute())
     files = sorted(tmp_path.rglob("*.h5"))
     assert len(files) == 26 + 16
-    counts, damaged = look(thorough=True)
+    counts, damaged, _ = look(thorough=True)
     assert (counts["done"], counts["longer_done"], damaged) == (26, 16, [])
     draw = random.Random(23)
     hit = sorted(draw.sample(files, 40))
     for path in hit:
         flip_a_bit(path, draw)
-    counts, damaged = look(thorough=True)
+    counts, damaged, _ = look(thorough=True)
     assert sorted(damaged) == hit
+
+
+REFUSALS = [errno.EAGAIN, errno.ENOLCK, errno.EACCES, errno.ESTALE, errno.EMFILE, errno.EIO]
+
+
+@pytest.mark.parametrize("code", REFUSALS)
+@pytest.mark.parametrize("thorough", [False, True])
+def test_what_the_system_refuses_to_read_is_not_damaged(done, look, monkeypatch, tmp_path, code, thorough):
+    refuse(monkeypatch, "0.1000.h5", code)
+    (tmp_path / "manifest.tsv").unlink()  # or it is not opened
+    taken = look(thorough=thorough)
+    assert (taken.counts["unreadable"], taken.counts["corrupt"], taken.damaged) == (1, 0, [])
+    (line,) = taken.unreadable
+    assert "0.1000.h5" in line
+
+
+@pytest.mark.parametrize("code", REFUSALS)
+def test_what_the_system_refuses_to_read_is_not_computed_again(
+    done, compute, simulated, monkeypatch, tmp_path, code
+):
+    content = {path: path.read_bytes() for path in tmp_path.rglob("*.h5")}
+    simulated.clear()
+    refuse(monkeypatch, "0.1000.h5", code)
+    with pytest.raises(OSError, match=re.escape("0.1000.h5")):
+        compute()
+    assert simulated == []
+    assert {path: path.read_bytes() for path in tmp_path.rglob("*.h5")} == content
+
+
+def refuse(monkeypatch, name, code):
+    """Let the system refuse to open the file `name`."""
+
+    def opened(path, *arguments, **options):
+        if os.path.basename(str(path)) == name:
+            raise OSError(code, os.strerror(code))
+        return whole(path, *arguments, **options)
+
+    whole = h5py.File
+    monkeypatch.setattr(hdf5, "h5py", SimpleNamespace(**vars(h5py) | {"File": opened}))

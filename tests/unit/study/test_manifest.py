@@ -59,6 +59,8 @@ def test_it_lists_runs_and_longer_runs(path):
         f"{HEADER}\tmore\n",
         f"{OLDER}\n0.1900.h5\tfast\tk\tcompleted\t1\t\t0\t\t\n",
         f"{OLDER}\n0.1900.h5\t0.1",
+        f"{OLDER}\n../0.1900.h5\t0.1\tk\tcompleted\t1\t\t0\t\t\n",
+        f"{OLDER}\n/tmp/0.1900.h5\t0.1\tk\tcompleted\t1\t\t0\t\t\n",
         f"{OLDER}\n0.1900.h5\t0.1\tk\tcompleted\t1\t\t0\t\t\tmore\n",
         f"{OLDER}\n0.1900.h5\t0.1\tk\tcompleted\t1\t\t0\t1234\tbreaks off",
         f"{OLDER}\n0.1900.h5\t0.1\tk\tcompleted\t1\t\t0\xff\t\t\n".encode("latin-1"),
