@@ -41,7 +41,8 @@ def add_to(commands: Any) -> None:
         "Reduce the blade as the config says, and report its properties and warnings. Nothing is written but "
         "the reduced blade, into the cache of this user, from which its study takes it. "
         "The last lines printed go into a config, whose study is then of that blade. Material (not for "
-        "matrices) and reduction are those of the config. The other options default to blade.source of the "
+        "matrices) and reduction are those of the config; the material in a deck (.inp) "
+        "replaces that of the study. The other options default to blade.source of the "
         "config, and if that has none to the values given here.",
     )
     text = "mesh (.inp, .msh or .vtu), sections (.csv, .txt or .dat) or folder of matrices"
@@ -158,6 +159,7 @@ def _read_mesh(
     from bladerub.blade.sources import importing
     from bladerub.blade.sources.report import mesh_report
 
+    doubt = _take_material(source, config)
     imported = importing.import_blade(source, config["blade"]["mesh"], n_interface(config))
     if sys.stderr.isatty():  # a fine mesh takes minutes
         nodes, speeds = len(imported.blade.mesh.mesh.points), config["reduction"]["accuracy_speeds"]
@@ -166,8 +168,32 @@ def _read_mesh(
     built = reduce_meshed(imported.blade, config)
     _keep(built, config)
     material = Material.from_config(config["blade"]["material"])
-    figures = mesh_report(source, imported, built, material, nominal)
+    figures = mesh_report(source, imported, built, material, nominal) | {"material": asdict(material)}
+    figures["warnings"] = [*filter(None, [doubt]), *figures["warnings"]]
     return figures, built.reduced
+
+
+def _take_material(source: Source, config: dict[str, Any]) -> str | None:
+    """Put the material of a deck into `config` in place of the study's; return what else is to be said."""
+    from bladerub.blade.sources import deck_material
+
+    in_config = config["blade"]["material"]
+    try:
+        in_file = None if source.is_table else deck_material.read(source.file, source.frame.unit)
+    except ValueError as error:
+        return f"the material of the config is used, {_of_material(in_config)}; not that of the file: {error}"
+    if in_file is not None and in_config == configuration.read(base_config())["blade"]["material"]:
+        config["blade"] = config["blade"] | {"material": in_file}
+    elif in_file not in (None, in_config):
+        return (
+            f"the material of the config is used, {_of_material(in_config)}; the file has another, "
+            f"{_of_material(in_file)}"
+        )
+    return None
+
+
+def _of_material(material: dict[str, float]) -> str:
+    return "{young_modulus:g} Pa, {poisson_ratio:g}, {density:g} kg/m³".format(**material)
 
 
 def _mesh_rows(figures: dict[str, Any]) -> dict[str, str]:
@@ -184,6 +210,7 @@ def _mesh_rows(figures: dict[str, Any]) -> dict[str, str]:
         "root and tip": f"{figures['root_nodes']} and {figures['tip_nodes']} nodes; interface nodes up to "
         f"{1e3 * figures['interface_offset']:.3g} mm from their even places on the camber line",
         "volume and mass": f"{1e6 * figures['volume']:.4g} cm³, {figures['mass']:.4g} kg",
+        "material": _of_material(figures["material"]),
         "worst Jacobian": f"{figures['worst_jacobian']:.3g} (smallest over largest in an element)",
         "first frequency": f"{_first_frequency(figures)}, where rotation moves the blade by "
         f"{1e3 * figures['centrifugal_displacement']:.3g} mm",

@@ -12,6 +12,7 @@ import numpy as np
 
 UNITS = {"m": 1.0, "mm": 1e-3, "cm": 1e-2, "inch": 0.0254, "feet": 0.3048}
 UNITS |= {"in": UNITS["inch"], "ft": UNITS["feet"]}  # m
+FORCES = dict.fromkeys(("inch", "in", "feet", "ft"), 4.4482216152605)  # N, where a unit is not of N
 ANGLE_UNITS = {"rad": 1.0, "deg": np.pi / 180}  # rad
 LENGTHS = (0.01, 3.0)  # limits of the length of a blade, m, as those of ``blade.length`` of the config
 AXES = ("x", "y", "z", "-x", "-y", "-z")

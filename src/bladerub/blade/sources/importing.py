@@ -84,7 +84,7 @@ def _nodes(content, points, faces, origin, name: str | None, is_tip: bool) -> np
     try:
         if name is None:
             return facing(points, faces, outwards=is_tip)
-        named = _with_middles(content, _named(content.node_sets, name))
+        named = _with_middles(content, _named(content, name))
     except ValueError as error:
         raise ValueError(f"{part} not found: {error}") from error
     found = np.flatnonzero(np.isin(origin, named))
@@ -93,10 +93,13 @@ def _nodes(content, points, faces, origin, name: str | None, is_tip: bool) -> np
     return found
 
 
-def _named(node_sets: Mapping[str, np.ndarray], name: str) -> np.ndarray:
+def _named(content: mesh_file.MeshFile, name: str) -> np.ndarray:
     """Nodes of the set `name`, in capital or small letters unless another set differs in them only."""
+    node_sets = content.node_sets
     alike = [known for known in node_sets if known.lower() == name.lower()]
     found = name if name in node_sets else alike[0] if len(alike) == 1 else None
+    if found is None and name in content.volume_sets:
+        raise ValueError(f'"{name}" is a set of volume elements; must be of nodes, points, lines or surfaces')
     if found is None:
         close = get_close_matches(name, node_sets, n=1)
         known = f"did you mean {close[0]}?" if close else f"there are {', '.join(node_sets) or 'none'}"

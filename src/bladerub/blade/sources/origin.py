@@ -75,12 +75,24 @@ def read(source: Mapping[str, Any]) -> Source | MatrixSource:
     return kind(study_folder() / source[given], Frame(**frame), **others)
 
 
+def conversion(path: Path, suffix: str) -> str:
+    """Say how a mesh that ends in `suffix`, or should, becomes one that is read."""
+    name = f"{path.stem}{suffix}"
+    rename = "" if path.suffix.lower() == suffix else f"rename it to {name}"
+    convert = "" if suffix in MESH_SUFFIXES else f"meshio convert {name} {path.stem}.vtu converts it"
+    return ", then ".join(filter(None, (rename, convert)))
+
+
 def check_file(path: Path) -> None:
     """Check the name of a mesh or table, and that it is there; a ValueError says what is wrong."""
     if path.suffix.lower() not in (*MESH_SUFFIXES, *TABLE_SUFFIXES):
+        from meshio import extension_to_filetypes  # takes time
+
+        suffix = path.suffix.lower()
+        cure = f": {conversion(path, suffix)}" if suffix in extension_to_filetypes else ""
         raise ValueError(
             f"must be a mesh file that ends in {', '.join(MESH_SUFFIXES)}, or a table of sections in "
-            f"{', '.join(TABLE_SUFFIXES)}"
+            f"{', '.join(TABLE_SUFFIXES)}{cure}"
         )
     if not path.is_file():
         raise ValueError("there is no such file")

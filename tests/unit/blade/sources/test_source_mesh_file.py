@@ -81,19 +81,76 @@ def test_faces_of_gmsh_in_abaqus_files_are_node_sets(tmp_path):
     }
 
 
+WEDGE = f"1, {', '.join(str(1 + node % 6) for node in range(15))}\n"
+GROUPS = """$MeshFormat
+2.2 0 8
+$EndMeshFormat
+$PhysicalNames
+3
+1 1 "{line}"
+2 1 "TIP"
+3 1 "BLADE"
+$EndPhysicalNames
+$Nodes
+5
+1 0 0 0
+2 1 0 0
+3 0 1 0
+4 0 0 1
+5 1 1 1
+$EndNodes
+$Elements
+4
+1 1 2 1 1 3 4
+2 2 2 1 1 1 2 3
+3 4 2 1 1 1 2 3 4
+4 4 2 1 1 2 3 4 5
+$EndElements
+"""
+
+
+def test_physical_groups_of_gmsh_are_kept_apart_by_dimension(tmp_path):
+    (tmp_path / "m.msh").write_text(GROUPS.format(line="EDGE"))
+    content = read(tmp_path / "m.msh")
+    assert {name: nodes.tolist() for name, nodes in content.node_sets.items()} == {
+        "EDGE": [2, 3],
+        "TIP": [0, 1, 2],
+    }
+    assert content.volume_sets == ["BLADE"]
+
+
+def test_blocks_of_a_node_set_add_up(tmp_path):
+    (tmp_path / "m.inp").write_text(
+        TETRAHEDRON + "*ELEMENT, TYPE=C3D4, ELSET=EALL\n1, 1, 2, 3, 4\n"
+        "*NSET, NSET=Tip\n1, 2\n*NSET, NSET=Root\n4\n*NSET, nset=TIP, GENERATE\n2, 3, 1\n"
+    )
+    content = read(tmp_path / "m.inp")
+    assert {name: nodes.tolist() for name, nodes in content.node_sets.items()} == {
+        "Tip": [0, 1, 2],
+        "Root": [3],
+    }
+    assert content.volume_sets == ["EALL"]
+
+
 TETRAHEDRON = "*NODE\n1, 0, 0, 0\n2, 1, 0, 0\n3, 0, 1, 0\n4, 0, 0, 1\n5, 1, 1, 1\n6, 0, 1, 1\n"
 
 
 @pytest.mark.parametrize(
     ("name", "text", "said"),
     [
-        ("m.stl", "solid", "must be a mesh file that ends in .inp, .msh, .vtu"),
+        ("m.step", "solid", "must be a mesh file that ends in .inp, .msh, .vtu"),
+        ("m.bdf", "BEGIN BULK", "meshio convert m.bdf m.vtu converts it"),
+        ("m.msh", "** cgx\n*NODE, NSET=Nall\n", r"begins with \*NODE, .*: rename it to m.inp"),
+        ("m.inp", "$MeshFormat\n4.1 0 8\n", "begins with .*: rename it to m.msh"),
+        ("m.inp", "$ Nastran\nBEGIN BULK\n", "rename it to m.bdf, then meshio convert m.bdf m.vtu"),
+        ("m.vtu", "# vtk DataFile Version 3.0\n", "rename it to m.vtk, then meshio convert m.vtk m.vtu"),
         ("m.inp", "", "is empty"),
         ("m.msh", "nonsense\n", "is not a .msh file that can be read"),
         ("m.vtu", "<VTKFile", "is not a .vtu file that can be read"),
         ("m.inp", TETRAHEDRON, "has no volume elements"),
         ("m.inp", TETRAHEDRON + "*ELEMENT, TYPE=S3\n1, 1, 2, 3\n", "has no volume elements"),
-        ("m.inp", TETRAHEDRON + "*ELEMENT, TYPE=C3D6\n1, 1, 2, 3, 4, 5, 6\n", "is made of wedge"),
+        ("m.inp", TETRAHEDRON + "*ELEMENT, TYPE=C3D6\n1, 1, 2, 3, 4, 5, 6\n", "has wedge"),
+        ("m.inp", TETRAHEDRON + "*ELEMENT, TYPE=C3D15\n" + WEDGE, "has wedge15.* into tetrahedra"),
         (
             "m.inp",
             TETRAHEDRON + "*ELEMENT, TYPE=C3D4\n1, 1, 2, 3, 4\n*ELEMENT, TYPE=C3D6\n2, 1, 2, 3, 4, 5, 6\n",
@@ -102,7 +159,8 @@ TETRAHEDRON = "*NODE\n1, 0, 0, 0\n2, 1, 0, 0\n3, 0, 1, 0\n4, 0, 0, 1\n5, 1, 1, 1
         ("m.inp", TETRAHEDRON + "*ELEMENT, TYPE=C3D4\n1, 1, 2, 3, 9\n", "can be read"),
         ("m.inp", TETRAHEDRON + TETRAHEDRON, "has 2 blocks"),
         ("m.inp", "*Instance, name=a\n" + TETRAHEDRON, r"has \*INSTANCE; must be the mesh of one part"),
-        ("m.inp", TETRAHEDRON + "*INCLUDE, INPUT=b.inp\n", r"has \*INCLUDE; must be in one file"),
+        ("m.inp", TETRAHEDRON + "*INCLUDE, INPUT=b.inp\n", r"has \*INCLUDE; .*\(cat b.inp; "),
+        ("m.msh", GROUPS.format(line="TIP"), "has several physical groups TIP"),
     ],
 )
 def test_what_is_no_usable_mesh_is_told(name, text, said, tmp_path):
