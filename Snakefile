@@ -10,15 +10,12 @@ from bladerub.study.plan import on_gpu
 
 min_version("9.0")
 
-GIVEN = workflow.config_settings.config  # of the command line
-FILES = list(workflow.configfiles)  # likewise: `configfile` appends to these
-
 # Snakemake knows neither the lines of a file nor the key `extend`: the config is read here, before it reads it
 with bladerub.io.errors.exit_on_error():
     study, NOTES = bladerub.config.read.read_with_notes(
         "config/config.yaml",
-        *FILES,
-        command_line=GIVEN,
+        *workflow.config_settings.configfiles,
+        command_line=workflow.config_settings.config,
         is_checked=not workflow.is_main_process,
     )
 
@@ -34,7 +31,7 @@ COATINGS = [case.name for case in coating_cases(config)]
 
 # Not in the jobs, which are processes that read this file as well
 if workflow.is_main_process:
-    bladerub.workflow.invocation.plan(RESULTS, FILES, GIVEN, NOTES, on_gpu(config))
+    bladerub.workflow.invocation.plan(workflow, RESULTS, NOTES, on_gpu(config))
     if workflow.output_settings.dryrun:
         from bladerub.workflow import forecast  # takes seconds to import
 

@@ -1,6 +1,7 @@
 """Which config made the results: the files laid over the study's own, and the values of the command line."""
 
 import json
+import shlex
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
@@ -23,6 +24,12 @@ class Record:
     def __str__(self) -> str:
         given = [f"{key}={value}" for key, value in self.command_line.items()]
         return f"--config {' '.join([*self.files, *given])}"
+
+    def as_arguments(self) -> str:
+        """Write it as options of snakemake."""
+        files = ["--configfile", *self.files] if self.files else []
+        values = ["--config", *(f"{key}={json.dumps(value)}" for key, value in self.command_line.items())]
+        return shlex.join([*files, *(values if self.command_line else [])])
 
 
 def write(results: str | Path, files: Sequence[str | Path], command_line: Mapping[str, Any]) -> None:

@@ -4,14 +4,15 @@ import signal
 import sys
 import tempfile
 import threading
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from functools import cache
 from pathlib import Path
 from typing import Any
 
 from bladerub.config import record
 from bladerub.io import atomic
-from bladerub.io.errors import DamagedFile, exit_on_error
+from bladerub.io.errors import BadInput, DamagedFile, exit_on_error
+from bladerub.io.folders import CONFIG
 from bladerub.study.manifest import ManifestRow, Row, listed_files
 from bladerub.workflow import claims, gpu
 
@@ -58,21 +59,24 @@ def _print(line: str) -> None:
     print(f"bladerub: {line}", file=sys.stderr)
 
 
-_planned: list[tuple[str, Sequence[str], Mapping[str, Any], bool]] = []
+def _made_with(results: str, workflow: Any) -> record.Record | None:
+    """Read which config `results` were made with, where the command line names none."""
+    settings = workflow.config_settings
+    return None if settings.configfiles or settings.config else record.read(Path(results))
 
 
-def plan(
-    results: str,
-    files: Sequence[str],
-    given: Mapping[str, Any],
-    notes: Sequence[str] = (),
-    on_gpu: bool = False,
-) -> None:
-    """Note what this invocation will `start`: its results folder, config files and values of ``--config``.
+_planned: list[tuple[str, bool]] = []
 
-    `notes` on the config are printed, a line each. `on_gpu` is whether runs are computed on a GPU.
+
+def plan(workflow: Any, results: str, notes: Sequence[str] = (), on_gpu: bool = False) -> None:
+    """Note what this invocation of Snakemake's `workflow` will `start`, with the results in this folder.
+
+    Prints which config the results were made with, if the command line names none, and the `notes` on the
+    config, a line each. `on_gpu` is whether runs are computed on a GPU.
     """
-    _planned[:] = [(results, files, given, on_gpu)]
+    _planned[:] = [(results, on_gpu)]
+    if made_with := _made_with(results, workflow):
+        notes = [f"{results} was made with {made_with.as_arguments()}; this is the study without it", *notes]
     for note in notes:
         _print(note)
 
@@ -81,16 +85,25 @@ def start(workflow: Any) -> None:
     """Begin to compute what was planned: claim its files, `prepare` its results folder, record its config.
 
     Called in ``onstart`` with Snakemake's ``workflow``. A Snakefile that takes in this workflow as a module
-    calls it from its own, since Snakemake ignores that of a module.
+    calls it from its own, since Snakemake ignores that of a module. Raises `BadInput` for targets beside the
+    study, if the results are of another config and the command line names none: they would follow on all of
+    that study.
     """
+    targets = workflow.dag_settings.targets - {"all"}
+    for results, _ in _planned:
+        if targets and (made_with := _made_with(results, workflow)):
+            raise BadInput(
+                f"{' '.join(sorted(targets))}: add {made_with.as_arguments()}, as {results} was made, "
+                f"or --configfile {CONFIG} to compute that study first"
+            )
     persistence = workflow.persistence
     if claims.claim(persistence.path / "claims", persistence.all_outputfiles(), persistence.all_inputfiles()):
         _print("the last snakemake here was killed; what it had finished is kept")
     _handle_termination_beside()
     _schedule_by_events(workflow)
-    for results, files, given, on_gpu in _planned:
+    for results, on_gpu in _planned:
         prepare(results)
-        record.write(results, files, given)
+        record.write(results, workflow.config_settings.configfiles, workflow.config_settings.config)
         if on_gpu and workflow.local_exec:  # a job on another machine has the GPU there
             gpu.start_server()
 

@@ -12,7 +12,9 @@ from snakemake.cli import get_argument_parser
 from snakemake.scheduling.job_scheduler import JobRateLimiter
 from snakemake.settings.types import MaxJobsPerTimespan
 
+from bladerub.config import record
 from bladerub.io import errors
+from bladerub.io.errors import BadInput
 from bladerub.study.manifest import ManifestRow, write_manifest
 from bladerub.workflow import invocation
 
@@ -58,6 +60,59 @@ def test_a_manifest_that_cannot_be_read_is_no_loss(manifest):
         invocation.loss(manifest)
 
 
+@pytest.fixture
+def workflow_with(tmp_path, monkeypatch):
+    """What `plan` and `start` see of Snakemake's workflow."""
+    persistence = SimpleNamespace(path=tmp_path, all_outputfiles=list, all_inputfiles=list)
+    monkeypatch.setattr(invocation, "_planned", [])
+
+    def workflow(limiter=None, local_exec=True, targets=(), configfiles=(), config=()):
+        return SimpleNamespace(
+            scheduler=SimpleNamespace(job_rate_limiter=limiter),
+            local_exec=local_exec,
+            persistence=persistence,
+            dag_settings=SimpleNamespace(targets=set(targets)),
+            config_settings=SimpleNamespace(configfiles=configfiles, config=dict(config)),
+        )
+
+    return workflow
+
+
+@pytest.fixture
+def of_quick(tmp_path):
+    """Results that were made with the quick config and a value."""
+    record.write(tmp_path, ["config/quick.yaml"], {"solver": {"revolutions": 3}})
+    return str(tmp_path)
+
+
+NAMED = """--configfile config/quick.yaml --config 'solver={"revolutions": 3}'"""
+
+
+def test_targets_of_results_of_another_config_are_refused(workflow_with, of_quick):
+    workflow = workflow_with(targets={"stress"})
+    invocation.plan(workflow, of_quick)
+    with pytest.raises(BadInput) as refused:
+        invocation.start(workflow)
+    assert NAMED in str(refused.value)
+
+
+def test_the_study_beside_results_of_another_config_begins_with_a_line(workflow_with, of_quick, capsys):
+    workflow = workflow_with(targets={"all"})
+    invocation.plan(workflow, of_quick)
+    (line,) = capsys.readouterr().err.splitlines()
+    assert NAMED in line
+    invocation.start(workflow)
+    assert record.read(Path(of_quick)) is None
+
+
+@pytest.mark.parametrize("options", [{"configfiles": ["config/config.yaml"]}, {"config": {"results": "r"}}])
+def test_a_config_that_is_named_is_that_of_the_call(workflow_with, of_quick, options, capsys):
+    workflow = workflow_with(targets={"stress"}, **options)
+    invocation.plan(workflow, of_quick)
+    assert capsys.readouterr().err == ""
+    invocation.start(workflow)
+
+
 def test_preparing_makes_the_folder_and_sweeps_it(tmp_path):
     results = tmp_path / "results"
     invocation.prepare(results)
@@ -72,18 +127,6 @@ def test_a_folder_that_cannot_be_made_is_named(tmp_path):
     with pytest.raises(OSError, match="results") as raised:
         invocation.prepare(tmp_path / "results")
     assert "\n" not in errors.message_for(raised.value)
-
-
-@pytest.fixture
-def workflow_with(tmp_path):
-    """What `start` sees of Snakemake's workflow."""
-    persistence = SimpleNamespace(path=tmp_path, all_outputfiles=list, all_inputfiles=list)
-
-    def workflow(limiter, local_exec=True):
-        scheduler = SimpleNamespace(job_rate_limiter=limiter)
-        return SimpleNamespace(scheduler=scheduler, local_exec=local_exec, persistence=persistence)
-
-    return workflow
 
 
 @pytest.mark.parametrize(
