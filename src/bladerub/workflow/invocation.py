@@ -89,7 +89,7 @@ def start(workflow: Any) -> None:
     study, if the results are of another config and the command line names none: they would follow on all of
     that study.
     """
-    targets = workflow.dag_settings.targets - {"all"}
+    targets = set(workflow.dag_settings.targets) - {"all"}
     for results, _ in _planned:
         if targets and (made_with := _made_with(results, workflow)):
             raise BadInput(

@@ -71,7 +71,7 @@ def workflow_with(tmp_path, monkeypatch):
             scheduler=SimpleNamespace(job_rate_limiter=limiter),
             local_exec=local_exec,
             persistence=persistence,
-            dag_settings=SimpleNamespace(targets=set(targets)),
+            dag_settings=SimpleNamespace(targets=list(targets)),
             config_settings=SimpleNamespace(configfiles=configfiles, config=dict(config)),
         )
 
