@@ -8,6 +8,7 @@ from bladerub.study.grid import modulus_unit
 
 rule explorer:
     input:
+        accuracy=rules.blade.output.rom_accuracy,
         manifests=expand(rules.coating.output[0], coating=COATINGS),
         maps=expand(rules.map.output, coating=COATINGS),
         peaks=rules.peaks.output[0],
@@ -30,6 +31,7 @@ rule explorer:
             "spectrum_revolutions": config["analysis"]["spectrum_revolutions"],
             "modulus_unit": modulus_unit(config),
         },
+        nominal_speed=config["figures"].get("nominal_speed"),
         configs=[
             relpath(path)
             for path in workflow.configfiles

@@ -2,6 +2,7 @@
 
 import logging
 
+from bladerub.blade.accuracy import doubts
 from bladerub.blade.built import write
 from bladerub.blade.cache import kept_or_built
 from bladerub.io.provenance import provenance
@@ -14,4 +15,7 @@ logging.getLogger("bladerub").setLevel(logging.INFO)
 # of the study, or of a sample of the robustness
 config = {**snakemake.config, "blade": snakemake.params.blade, "reduction": snakemake.params.reduction}
 files = {name: snakemake.output[name] for name in ("reduced_model", "mesh", "rom_accuracy")}
-write(kept_or_built(config), provenance(config), **files)
+built = kept_or_built(config)
+write(built, provenance(config), **files)
+for doubt in doubts(built.accuracy, config["figures"].get("nominal_speed")):
+    job.print_doubt(f"{files['reduced_model']}: {doubt}")

@@ -1,5 +1,6 @@
 """Write the whole study to one page."""
 
+from bladerub.blade.accuracy import ACCURACY_COLUMNS, doubts
 from bladerub.explorer.page import build
 from bladerub.io import atomic, tables
 from bladerub.study import divergence, peaks
@@ -7,12 +8,13 @@ from bladerub.workflow import job
 
 job.log_to(snakemake.log[0])
 
+accuracy = tables.read(snakemake.input.accuracy, ACCURACY_COLUMNS)
 page = build(
     snakemake.input.maps,
     snakemake.input.manifests,
     tables.read(snakemake.input.peaks, peaks.COLUMNS),
     tables.read(snakemake.input.divergence, divergence.COLUMNS),
-    snakemake.params.settings,
+    snakemake.params.settings | {"doubts": doubts(accuracy, snakemake.params.nominal_speed)},
     snakemake.params.configs,
 )
 with atomic.writing(snakemake.output[0]) as stream:

@@ -387,6 +387,7 @@ def test_hostile_names_run_nothing(study, driver, tmp_path):
         "amplitude_range": [2e-6, 3e-3],
         "growth_revolutions": 3,
         "spectrum_revolutions": 2,
+        "doubts": [],
     }
     page = tmp_path / "explorer.html"
     page.write_text(

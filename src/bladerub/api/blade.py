@@ -1,5 +1,6 @@
 """A blade: its reduced model, its mesh, and how well the one follows the other."""
 
+import warnings
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -14,7 +15,7 @@ from matplotlib.figure import Figure
 from bladerub.api.errors import InputError
 from bladerub.api.notebook import html_table
 from bladerub.api.study import Study
-from bladerub.blade.accuracy import ACCURACY_COLUMNS
+from bladerub.blade.accuracy import ACCURACY_COLUMNS, doubts
 from bladerub.blade.build import is_built
 from bladerub.blade.built import accuracy_path, mesh_path, paths, write
 from bladerub.blade.cache import kept_at, kept_or_built
@@ -53,6 +54,8 @@ class Blade:
     >>> blade.check_speed("f_omega", 0.39)
     >>> float(blade.accuracy()["f_omega"].max())
     0.4
+    >>> blade.doubts()
+    []
     >>> blade.to_xarray()["mass"].units
     'kg'
     >>> blade.mesh_path.name, len(blade.digest)
@@ -132,6 +135,13 @@ class Blade:
         """
         return tables.read(accuracy_path(self.path), ACCURACY_COLUMNS)
 
+    def doubts(self, nominal_speed: float | None = None) -> list[str]:
+        """Name what makes its frequencies doubtful, with the cure: a line each, none for a sound blade.
+
+        `nominal_speed` is that of its rotor, 1/min, if it is known. Raises as `accuracy`.
+        """
+        return doubts(self.accuracy(), nominal_speed)
+
     def plot_mesh(self, path: str | Path | None = None) -> Figure:
         """Draw Fig. 1: mesh, clamped root and interface nodes; `path` to write it there as well."""
         return saved(blade_mesh.from_file(self.mesh_path), path)
@@ -183,6 +193,11 @@ def build_blade(study: Study) -> Blade:
     A blade of the same config is looked for in the results of the study, then in the cache
     (`bladerub.io.folders.cache_folder`), where a new one is kept.
 
+    Warns
+    -----
+    UserWarning
+        For each of the blade's `Blade.doubts`: eq. (2) or the reduction is not accurate, for instance.
+
     Raises
     ------
     BadInput
@@ -198,12 +213,13 @@ def build_blade(study: Study) -> Blade:
     0.2
     """
     of_study = study.results / "blade" / "reduced_model.h5"
-    if is_built(study.config, of_study):
-        return read_blade(of_study)
-    cached = kept_at(study.config)
-    if not is_built(study.config, cached):
-        write_blade(study.config, cached)
-    return read_blade(cached)
+    path = of_study if is_built(study.config, of_study) else kept_at(study.config)
+    if not is_built(study.config, path):
+        write_blade(study.config, path)
+    blade = read_blade(path)
+    for line in blade.doubts(study.config["figures"].get("nominal_speed")):
+        warnings.warn(line, stacklevel=2)
+    return blade
 
 
 def write_blade(config: Mapping[str, Any], path: Path) -> None:

@@ -9,7 +9,7 @@ from scipy import sparse
 from scipy.linalg import blas
 from threadpoolctl import threadpool_limits
 
-from bladerub.blade.accuracy import accuracy_table, errors_by_mode
+from bladerub.blade.accuracy import MODES, accuracy_table, errors_by_mode
 from bladerub.blade.built import BuiltBlade
 from bladerub.blade.discrete import DiscreteBlade
 from bladerub.blade.frequencies import reduced_frequencies
@@ -22,7 +22,6 @@ from bladerub.io.errors import BadInput
 
 log = logging.getLogger(__name__)
 
-MODES = 6  # that the reduced model must follow, as the paper's does with its η
 MOST_FIT_SPEEDS = 7
 MOST_MODES_PER_SPEED = 30
 

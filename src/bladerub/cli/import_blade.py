@@ -198,7 +198,7 @@ def _of_material(material: dict[str, float]) -> str:
 
 def _mesh_rows(figures: dict[str, Any]) -> dict[str, str]:
     """Describe the figures of a mesh or of sections, by the name of each."""
-    from bladerub.blade.sources.report import percent
+    from bladerub.blade.accuracy import percent
 
     eq2, rom = (max(figures[name][:6]) for name in ("error_eq2", "error_reduced_model"))
     rows = {
@@ -249,7 +249,7 @@ def _read_matrices(
 
 def _matrix_rows(figures: dict[str, Any]) -> dict[str, str]:
     """Describe the figures, by the name of each."""
-    from bladerub.blade.sources.report import percent
+    from bladerub.blade.accuracy import percent
 
     measured = "" if figures["length_is_measured"] else " that its nodes reach over"
     whole = "" if figures["mass_is_whole"] else " without that of the clamped nodes, whose rows are not there"

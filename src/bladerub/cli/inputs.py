@@ -5,7 +5,7 @@ import json
 import os
 import sys
 from collections.abc import Callable, Iterable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from shutil import get_terminal_size
 from typing import TYPE_CHECKING, Any, NoReturn
@@ -187,4 +187,7 @@ def read_blade(options: argparse.Namespace, config: dict[str, Any]) -> "Blade":
         raise
     if options.blade:
         config["blade"]["length"] = blade.length
+    with suppress(OSError):  # a blade from elsewhere may be without its table
+        for doubt in blade.doubts(config["figures"].get("nominal_speed")):
+            print(f"bladerub {options.name}: {path}: {doubt}", file=sys.stderr)
     return blade

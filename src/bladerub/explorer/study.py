@@ -61,7 +61,7 @@ def about(settings: dict[str, Any]) -> dict[str, Any]:
     """Collect what the page says and draws besides the data.
 
     `settings` from the config: ``max_frequency`` (normalised), ``amplitude_range`` (m),
-    ``growth_revolutions``, ``spectrum_revolutions`` and ``modulus_unit`` (Pa).
+    ``growth_revolutions``, ``spectrum_revolutions`` and ``modulus_unit`` (Pa); ``doubts`` of the blade.
     """
     return {
         **settings,

@@ -18,6 +18,13 @@ def log_to(path: str | Path) -> None:
     sys.excepthook = _report
 
 
+def print_doubt(line: str) -> None:
+    """Print a doubt about what this job made to its log and, to be seen, to the former standard error."""
+    for stream in (sys.stderr, sys.__stderr__):
+        with suppress(OSError):
+            print(f"bladerub: {line}", file=stream)
+
+
 def _report(kind: type[BaseException], error: BaseException, trace: TracebackType | None) -> None:
     if not isinstance(error, OSError | errors.BadInput):
         sys.__excepthook__(kind, error, trace)

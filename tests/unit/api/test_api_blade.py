@@ -1,3 +1,4 @@
+import pytest
 import xarray as xr
 
 import bladerub as br
@@ -19,3 +20,10 @@ def test_blade_goes_to_xarray_and_pandas(blade):
 def test_blade_shows_itself(blade):
     assert "<caption>Blade</caption>" in blade._repr_html_()
     assert blade.plot_mesh()._repr_html_().startswith("<img")
+
+
+def test_a_doubtful_blade_gets_a_warning(study, blade, small, monkeypatch):
+    monkeypatch.setenv("BLADERUB_CACHE", str(small / "cache"))
+    figures = {**study.config["figures"], "nominal_speed": 6e4}
+    with pytest.warns(UserWarning, match="beyond reduction.f_omega_max = 0.4"):
+        br.build_blade(br.Study({**study.config, "figures": figures}, study.folder))

@@ -239,7 +239,7 @@ def test_a_nominal_speed_that_no_wheel_bears_is_told(look):
     right, wrong = (look("--unit", "mm", "--rpm", rpm)[1] for rpm in ("7000", "17000"))
     assert "its tip moves at" not in right
     assert re.search(r"its tip moves at 1[12]\d\d m/s at 17000 1/min with a radius of 6[5-9]\d mm", wrong)
-    assert "1/min is 1.451 of f_omega, beyond reduction.f_omega_max = 0.4: raise that" in wrong
+    assert "1/min is f_omega = 1.451, beyond reduction.f_omega_max = 0.4: raise that" in wrong
 
 
 def _published(folder):

@@ -26,6 +26,7 @@ SETTINGS = {
     "growth_revolutions": 10,
     "spectrum_revolutions": 10,
     "modulus_unit": 6e8,
+    "doubts": ["eq. (2) is up to 3.9 % off"],
 }
 
 

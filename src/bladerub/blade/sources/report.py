@@ -7,13 +7,12 @@ import numpy as np
 from scipy import sparse
 from scipy.sparse.csgraph import dijkstra
 
-from bladerub.blade.accuracy import errors_by_mode
+from bladerub.blade.accuracy import doubts, errors_by_mode
 from bladerub.blade.built import BuiltBlade
 from bladerub.blade.elasticity import Material
 from bladerub.blade.frequencies import crossing_speeds, tip_lean
 from bladerub.blade.mesh import BladeMesh, MeshedBlade
 from bladerub.blade.model import ReducedBlade
-from bladerub.blade.refinement import MODES
 from bladerub.blade.sources.importing import Imported
 from bladerub.blade.sources.matrices import ImportedMatrices
 from bladerub.blade.sources.origin import MatrixSource, Source
@@ -27,9 +26,6 @@ LEAST_STAGGER = -5.0  # degrees; above, the blade is nearly straight
 FEWEST_ELEMENTS = 10  # from root to tip
 LEAST_JACOBIAN_RATIO = 0.1
 LARGEST_OFFSET = 0.03  # of an interface node, over the chord
-EQ2_ERROR = 0.01
-EQ2_FAR_OFF = 0.1  # no blade of metal bends so much by its rotation
-REDUCED_ERROR = 0.02
 DENSITIES = (10.0, 25e3)  # kg/m³ of the box around a blade, of which it fills some hundredths or all
 LEAST_THICKNESS = 0.005  # largest of a section, over its chord
 ASPECTS = (1 / 3, 15.0)  # length over the chord of the tip
@@ -79,7 +75,8 @@ def mesh_report(
             }
             for section in imported.sections
         ]
-    return figures | {"warnings": list(_warn_of_mesh(figures, imported, source))}
+    warnings = [*_warn_of_mesh(figures, imported, source), *doubts(built.accuracy, nominal_speed)]
+    return figures | {"warnings": warnings}
 
 
 def matrix_report(
@@ -104,7 +101,7 @@ def matrix_report(
         "omega_max": 2 * np.pi * float(built.frequency[0]) * speeds[-1],
         "stiffness_half_way": imported.half_speed_change,
     }
-    warnings = list(_warn_of_matrices(figures, imported, source))
+    warnings = [*_warn_of_matrices(figures, imported, source), *doubts(built.accuracy, nominal_speed)]
     if len(speeds) == 3:
         figures["error_eq2"] = None
     return figures | {"warnings": warnings}
@@ -232,7 +229,6 @@ def _warn_of_mesh(figures: dict[str, Any], imported: Imported, source: Source) -
         )
     if offset > LARGEST_OFFSET * figures["tip_chord"]:
         yield f"an interface node is {1e3 * offset:.3g} mm from its place on the camber line of the tip"
-    yield from _warn_of_errors(figures)
 
 
 def _warn_of_matrices(
@@ -254,32 +250,3 @@ def _warn_of_matrices(
         )
     if len(figures["speeds"]) == 3:
         yield "the error of eq. (2) is not known at the three speeds of its fit: add stiffness_at_<f_omega>"
-    yield from _warn_of_errors(figures)
-
-
-def percent(error: float) -> str:
-    """Write a relative error in percent, in two figures."""
-    return f"{float(f'{100 * error:.2g}'):g}"
-
-
-def _warn_of_errors(figures: dict[str, Any]) -> Iterator[str]:
-    """Warn of an inaccurate reduced model and of an unstable blade."""
-    eq2, reduced = (max(figures[name][:MODES]) for name in ("error_eq2", "error_reduced_model"))
-    off = f"% off in the first {MODES} modes"
-    if eq2 > EQ2_FAR_OFF:
-        doubts = (
-            "radius, length and thickness in one unit, the angles in theirs, and the material in Pa and kg/m³"
-        )
-        yield f"eq. (2) is up to {percent(eq2)} {off}, as of no blade of metal: are {doubts}?"
-    elif eq2 > EQ2_ERROR:
-        more = "" if "folder" in figures else " or set reduction.tolerance"
-        yield f"eq. (2) is up to {percent(eq2)} {off}: lower reduction.f_omega_max{more}"
-    if eq2 <= EQ2_FAR_OFF and reduced > max(REDUCED_ERROR, 1.5 * eq2):
-        remedy = "set reduction.tolerance, or raise reduction.modes_per_speed"
-        yield f"the reduced model is up to {percent(reduced)} {off}: {remedy}"
-    nominal = figures["nominal_f_omega"]
-    if nominal and nominal > figures["f_omega_max"]:
-        need = f"{nominal:.4g} of f_omega, beyond reduction.f_omega_max = {figures['f_omega_max']:g}"
-        yield f"its nominal speed of {figures['nominal_speed']:g} 1/min is {need}: raise that"
-    if figures["lowest_frequency"] <= 0:
-        yield "a mode is unstable within the range of speeds"

@@ -243,6 +243,7 @@ function showUnits() {
 
 function showThinned() {
   const stretches = study.angle_edges.length - 1;
+  page("#doubts").textContent = study.doubts.map((doubt) => `Blade: ${doubt}.`).join(" ");
   page("#thinned").textContent =
     `Pictures of wear show the mean of the 8 nodes, averaged over ${stretches} stretches of the circumference, in steps of ` +
     "1/255 of the deepest of each run. Spectra are kept up to the frequency " +
