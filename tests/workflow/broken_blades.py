@@ -39,6 +39,9 @@ IMPORTS: dict[str, str] = {
     "import blades/mirrored.vtu": "all elements are left-handed; the mesh must not be mirrored",
     "import blades/inside_out.vtu": "element 5: its Jacobian is negative, it is turned inside out",
     "import blades/nan.vtu": "node 8: its coordinates are not finite numbers",
+    "import blades/far.vtu": "node 8: a coordinate is 1e+160; must be 1e+09 or less",
+    "import blades/flat.vtu": "element 1: its Jacobian is zero, it is flat",
+    "import blades/circle.vtu": "blades/circle.vtu: there is no such file",
     "import blades/twins.vtu": "are in one place; merge them",
     "import blades/loose.vtu": "node is not in the middle of its edge",
     "import blades/two_parts.inp": "has 2 blocks *NODE; must have all nodes in one",
@@ -88,6 +91,9 @@ def _make_meshes(folder: Path) -> None:
         return copy
 
     write("mirrored.vtu", points * [1, 1, -1])
+    write("flat.vtu", points * [1, 0, 1] + [0, 1, 0])
+    write("far.vtu", changed(points, (7, 1), 1e160))
+    (folder / "circle.vtu").symlink_to("circle.vtu")
     write("nan.vtu", changed(points, (7, 1), np.nan))
     ends = points[corners[4, [1, 2]]]
     write("loose.vtu", changed(points, (cells[4, 9],), 0.9 * ends[0] + 0.1 * ends[1]))

@@ -1,6 +1,7 @@
 """``bladerub import``: check a blade from another program before its study."""
 
 import argparse
+import os
 import sys
 from contextlib import suppress
 from dataclasses import asdict
@@ -80,13 +81,13 @@ def joined(arguments: list[str]) -> list[str]:
 
 def import_blade(options: argparse.Namespace) -> None:
     """Read and reduce the blade that the command line names, and print its properties."""
-    if not options.file.is_dir():
-        _refuse_at_once(options.file.resolve())
+    path = Path(os.path.realpath(options.file))  # Path.resolve fails where links form a circle
+    if not path.is_dir():
+        _refuse_at_once(path)
     config = inputs.read_config(options)
     reduction = dict(config["reduction"])
     given = {name: getattr(options, name) for name in _NAMES if getattr(options, name) is not None}
-    kind = "matrices" if options.file.is_dir() else "file"
-    path = options.file.resolve()
+    kind = "matrices" if path.is_dir() else "file"
     folder = study_folder()
     named = path.relative_to(folder) if path.is_relative_to(folder) else path  # as configs name it
     known = config["blade"].get("source", {})

@@ -2,6 +2,7 @@
 
 import copyreg
 import errno
+import os
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -47,9 +48,19 @@ def message_for(error: OSError | BadInput) -> str:
     elif error.errno in _LOCKED:
         problem = f"locked by another program, or its disk has no locks ({problem})"
         remedy = "; close that program, or set HDF5_USE_FILE_LOCKING=FALSE"
+    elif error.errno in _FORBIDDEN and error.filename is not None and not _is_readable(error.filename):
+        remedy = "; make it readable"
     elif error.errno in _FORBIDDEN:
         remedy = "; make it writable, or choose another folder with the key results of the config"
     return f"{where}{problem}{remedy}"
+
+
+def _is_readable(path: str) -> bool:
+    """Return whether a file or folder may be read, or is not there, in a folder that may be entered."""
+    entry = os.R_OK | os.X_OK if os.path.isdir(path) else os.R_OK
+    return os.access(os.path.dirname(path) or ".", os.X_OK) and (
+        not os.path.lexists(path) or os.access(path, entry)
+    )
 
 
 @contextmanager

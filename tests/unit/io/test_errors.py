@@ -1,5 +1,6 @@
 import errno
 import os
+from pathlib import Path
 
 import pytest
 
@@ -44,3 +45,12 @@ def test_the_program_ends_without_a_traceback(error, words, capsys):
         raise error
     assert ended.value.code == 2
     assert capsys.readouterr().err.startswith(words)
+
+
+def test_what_may_not_be_read_is_to_be_made_readable(tmp_path, monkeypatch):
+    file = tmp_path / "mass.mtx"
+    file.touch()
+    error = OSError(errno.EACCES, "Permission denied", str(file))
+    assert "; make it writable" in errors.message_for(error)
+    monkeypatch.setattr(errors.os, "access", lambda path, mode: Path(path) != file)
+    assert errors.message_for(error) == f"{file}: Permission denied; make it readable"

@@ -6,7 +6,9 @@ from scipy.spatial import cKDTree
 from bladerub.blade.mesh import SolidMesh
 from bladerub.blade.surface import EDGES
 
+FARTHEST = 1e9  # coordinate in any unit; beyond 1e154 squares overflow
 _SAME_PLACE = 1e-7  # of the extent of the mesh
+_FLAT = 1e-12  # Jacobian, over the cube of the size of the element
 _MOST_OFF = 0.35  # of the edge; the middle of a quarter of a circle is 0.21 off its chord
 
 
@@ -16,6 +18,10 @@ def check_nodes(points: np.ndarray, cells: np.ndarray) -> None:
     lost = used[~np.isfinite(points[used]).all(axis=1)]
     if lost.size:
         raise ValueError(f"node {lost[0] + 1}: its coordinates are not finite numbers")
+    far = used[(abs(points[used]) > FARTHEST).any(axis=1)]
+    if far.size:
+        largest = abs(points[far[0]]).max()
+        raise ValueError(f"node {far[0] + 1}: a coordinate is {largest:.3g}; must be {FARTHEST:g} or less")
     extent = np.ptp(points[used], axis=0).max()
     twins = cKDTree(points[used]).query_pairs(_SAME_PLACE * extent, output_type="ndarray")
     if len(twins):
@@ -37,7 +43,12 @@ def check_nodes(points: np.ndarray, cells: np.ndarray) -> None:
 def jacobians(mesh: SolidMesh) -> tuple[np.ndarray, float]:
     """Smallest over largest Jacobian of each element (n_elements,), or a ValueError, and the volume, m³."""
     points, weights = mesh.mass_quadrature()
-    determinant = mesh.mapping().detDF(points)
+    determinant = np.linalg.det(np.moveaxis(mesh.mapping().DF(points), (0, 1), (-2, -1)))
+    flat = np.abs(determinant).max(axis=1)
+    flat = np.flatnonzero(flat <= _FLAT * np.ptp(mesh.points[mesh.cells], axis=1).max(axis=1) ** 3)
+    if flat.size:
+        share = f"{flat.size} such of {len(determinant)}"
+        raise ValueError(f"element {flat[0] + 1}: its Jacobian is zero, it is flat ({share})")
     bad = np.flatnonzero((determinant <= 0).any(axis=1))
     if bad.size == len(determinant):
         raise ValueError("all elements are left-handed; the mesh must not be mirrored, nor count backwards")

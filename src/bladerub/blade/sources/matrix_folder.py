@@ -12,6 +12,8 @@ from scipy import sparse
 from scipy.io import mminfo, mmread
 
 from bladerub.blade.linear import MOST_UNKNOWNS
+from bladerub.blade.sources.element_quality import FARTHEST
+from bladerub.io.errors import is_refused
 from bladerub.numerics.lanes import FEWEST_NODES, MOST_NODES
 
 SUFFIXES = (".mtx", ".npz")
@@ -23,6 +25,7 @@ AT_SPEED = "stiffness_at_"  # another normalised speed follows
 _BYTES = 16  # of an entry: its value and its place
 _ENTRIES_IN_A_ROW = 400  # on average; quadratic hexahedra have 180
 _ENTRIES_OF_DENSE = 5 * 10**7  # as many may be there in any matrix
+LARGEST = 1e100  # entry; penalties have 1e20 or so, and beyond 1e154 squares overflow
 _SMALL = 1000  # bytes, of the head of an array
 _SHOWN = 40  # characters of a line
 _CONVERTED = "docs/how-to/bring_matrices.md has the script that converts"
@@ -96,6 +99,10 @@ def read_nodes(path: Path) -> Nodes:
     lost = np.flatnonzero(~np.isfinite(points).all(axis=1))
     if lost.size:
         raise ValueError(f"row {lost[0] + 1}: its coordinates are not finite numbers")
+    far = np.flatnonzero((abs(points) > FARTHEST).any(axis=1))
+    if far.size:
+        largest = abs(points[far[0]]).max()
+        raise ValueError(f"row {far[0] + 1}: a coordinate is {largest:.3g}; must be {FARTHEST:g} or less")
     number, clamped, tip = (_marks(table, name) for name in _MARKS)
     n_nodes = max(int(number.max(initial=0)), FEWEST_NODES)
     for wanted in range(1, n_nodes + 1):
@@ -143,7 +150,7 @@ def read_matrix(path: Path) -> sparse.csc_array:
             if hasattr(raw, "check_format"):
                 raw.check_format(full_check=True)  # scipy reads past the arrays of what does not pass
     except Exception as error:  # readers of foreign files raise all kinds of errors
-        if isinstance(error, OSError) and error.errno:
+        if is_refused(error):
             raise
         reason = str(error) or type(error).__name__
         raise ValueError(f"is not a {path.suffix} file that can be read ({reason})") from error
@@ -192,10 +199,12 @@ def _size_of_archive(path: Path) -> tuple[int, int, int]:
 
 def _check_symmetry(matrix: sparse.csc_array) -> None:
     entries = matrix.tocoo()
-    lost = np.flatnonzero(~np.isfinite(entries.data))
+    lost = np.flatnonzero(~(np.abs(entries.data) < LARGEST))
     if lost.size:
         at = _entry(entries, lost[0])
-        raise ValueError(f"its entry {at} is {entries.data[lost[0]]:g}; must be a finite number")
+        raise ValueError(
+            f"its entry {at} is {entries.data[lost[0]]:g}; must be a finite number below {LARGEST:g}"
+        )
     apart = (matrix - matrix.T).tocoo()
     if apart.nnz and np.abs(apart.data).max() > SYMMETRY * np.abs(entries.data).max():
         if len({*np.sign(entries.col - entries.row)}) < 3:

@@ -12,6 +12,7 @@ import numpy as np
 
 from bladerub.blade.sources import origin
 from bladerub.blade.surface import EDGES
+from bladerub.io.errors import is_refused
 
 _LOOKED_THROUGH = 4000  # characters, for the first line
 _NAMES_IN_MESHIO = {
@@ -59,7 +60,7 @@ def read(path: str | Path) -> MeshFile:
     try:
         mesh = READERS[suffix](str(path))
     except Exception as error:  # readers of foreign files raise all kinds of errors
-        if isinstance(error, OSError) and error.errno:
+        if is_refused(error):
             raise
         if isinstance(error, KeyError) and str(error.args[0]).startswith(("wedge", "pyramid", "hexahedron")):
             raise ValueError(_unusable(error.args[0])) from error  # meshio knows the kind by name only
