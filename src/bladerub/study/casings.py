@@ -1,7 +1,7 @@
 """Casings of the config, in SI units: nodal diameters, bumps, or a gap measured around the casing.
 
-Each figure and table imports this for the names of coatings; what only a measured gap needs, half a second of
-it, is imported where it is read.
+Each figure and table imports this for the names of coatings; what only a measured gap needs is imported where
+it is read.
 """
 
 import math
@@ -14,11 +14,13 @@ import numpy as np
 
 from bladerub.blade.sources.frame import ANGLE_UNITS, UNITS
 from bladerub.contact.spec import Casing
+from bladerub.io import cells
 from bladerub.io.folders import study_folder
 
 MEASURED_ANGLES = (8, 10_000)
 """Fewest and most angles of a measured gap."""
 
+_WIDEST_STEP = np.pi / 2  # rad, between angles of a measured gap: from there on an oval is not resolved
 _HIGHEST_HARMONIC = 100
 _MARKED = 0.1  # of the largest harmonic: those of a measured shape from there on count as nodal diameters
 
@@ -38,11 +40,10 @@ def casing_spec(name: str, entry: Mapping[str, Any], length_scale: float = 1.0) 
     if "table" in entry:
         table = entry["table"]
         path = study_folder() / table["file"]
-        if not path.is_file():
-            raise ValueError(f"table.file = {table['file']}: there is no such file")
         units = UNITS[table.get("unit", "m")], ANGLE_UNITS[table.get("angle_unit", "deg")]
         try:
-            angle, gap = _measured(path, path.stat().st_mtime_ns, *units)
+            version = path.stat().st_mtime_ns if path.is_file() else 0
+            angle, gap = _measured(path, version, *units)
         except ValueError as error:
             raise ValueError(f"table.file = {table['file']}: {error}") from error
         amplitude, lowest = float(np.ptp(gap)), float(np.min(gap))
@@ -85,20 +86,16 @@ def nodal_diameters(entry: Mapping[str, Any]) -> list[int]:
 @lru_cache
 def _measured(path: Path, _version: int, unit: float, angle_unit: float) -> tuple[np.ndarray, np.ndarray]:
     """Angles (rad) and gaps (m) of a table; `_version` makes an edited file another one."""
-    import pandas as pd
-
-    try:
-        table = pd.read_csv(path, comment="#", sep=r"\s*[,;\s]\s*", engine="python")
-    except (ValueError, UnicodeDecodeError) as error:
-        raise ValueError(f"is no table: {error}") from error
-    table.columns = table.columns.str.strip().str.lower()
-    if missing := [name for name in ("angle", "gap") if name not in table]:
-        raise ValueError(f"has no column {', '.join(missing)}; must have angle and gap in its first row")
-    numbers = table[["angle", "gap"]].apply(pd.to_numeric, errors="coerce").to_numpy(float)
-    bad = ~np.isfinite(numbers).all(axis=1)
-    if bad.any():
-        raise ValueError(f"row {bad.argmax() + 1}: angle and gap must be numbers")
-    angle, gap = numbers.T * np.array([[angle_unit], [unit]])
+    table = cells.read(path)
+    names = {name.lower() for name in table.names}
+    if missing := [name for name in ("angle", "gap") if name not in names]:
+        raise ValueError(
+            f"has no column {', '.join(missing)}; line {table.header} must name angle and gap, separated as "
+            f"the cells below ({table.separator} here)"
+        )
+    angle = angle_unit * table.numbers("angle")
+    gap = unit * table.numbers("gap")
+    lines = list(table.rows)
     turn = 2 * np.pi * (1 - 1e-9)
     if len(angle) > 1 and angle[-1] - angle[0] >= turn and gap[-1] == gap[0]:
         angle, gap = angle[:-1], gap[:-1]  # the last row is the first again
@@ -106,10 +103,18 @@ def _measured(path: Path, _version: int, unit: float, angle_unit: float) -> tupl
     if not fewest <= len(angle) <= most:
         raise ValueError(f"has {len(angle)} angles; must have {fewest} to {most}")
     if (back := np.diff(angle) <= 0).any():
-        raise ValueError(f"row {back.argmax() + 2}: angle must be above that of the row before")
+        raise ValueError(f"line {lines[back.argmax() + 1]}: angle must be above that of the row before")
     if angle[-1] - angle[0] >= turn:
         raise ValueError(f"goes over {np.rad2deg(angle[-1] - angle[0]):g} degrees; must stay within a turn")
     if np.ptp(gap) == 0:
         raise ValueError(f"has the same gap everywhere, {gap[0]:g} m; must vary")
+    steps = np.diff(angle, append=angle[0] + 2 * np.pi)
+    widest = np.argmax(steps)
+    if steps[widest] >= _WIDEST_STEP:
+        step, start = np.rad2deg(steps[widest]), np.rad2deg(angle[widest])
+        raise ValueError(
+            f"line {lines[widest]}: no angle for {step:g} degrees after {start:g}; must go around the casing "
+            f"in steps below {np.rad2deg(_WIDEST_STEP):g} degrees"
+        )
     order = np.argsort(angle % (2 * np.pi))
     return (angle % (2 * np.pi))[order], gap[order]

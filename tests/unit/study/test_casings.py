@@ -74,9 +74,10 @@ def test_nodal_diameters_without_weight_do_not_count():
     ("change", "said"),
     [
         (lambda rows: rows[:5], "5 angles"),
+        (lambda rows: rows[:19], "no angle for 270 degrees"),
         (lambda rows: [*rows, "380,0.3"], "380"),
-        (lambda rows: [*rows[:3], rows[1], *rows[4:]], "row 4"),
-        (lambda rows: [*rows[:3], "15,wide", *rows[4:]], "row 4"),
+        (lambda rows: [*rows[:3], rows[1], *rows[4:]], "line 6"),
+        (lambda rows: [*rows[:3], "15,wide", *rows[4:]], "line 6"),
         (lambda rows: [row.split(",")[0] + ",0.1" for row in rows], "same gap"),
     ],
 )

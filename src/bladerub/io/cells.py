@@ -1,0 +1,131 @@
+"""Tables as other programs and people write them: their cells as text, by the line of the file.
+
+The first line that is neither empty nor a comment names the columns; what follows a ``#`` is a comment. Of
+semicolons, tabs, commas and white space, the first that this line has separates the cells, in all lines.
+Numbers may have decimal commas unless commas separate the cells, and exponents as Fortran writes them
+(``1.0D+02``). Every row has as many cells as there are columns, so that no cell gets into the column beside
+its own. Tables of our own are those of `bladerub.io.tables`.
+"""
+
+import csv
+import re
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+
+LARGEST_FILE = 100_000_000
+"""Largest table that is read, in bytes."""
+
+_SEPARATORS = {";": "semicolons", "\t": "tabs", ",": "commas", None: "white space"}
+_NUMBER = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)([eEdD][-+]?\d+)?", re.ASCII)
+_STATED_SEPARATOR = re.compile(r"sep=(.)")  # the first line of a CSV, in some spreadsheets
+
+
+class Cells(NamedTuple):
+    """A table as text."""
+
+    names: list[str]  # of the columns, as the file has them
+    rows: dict[int, list[str]]  # cells by the line of the file, counted from 1
+    header: int  # the line that names the columns
+    separator: str  # of the cells, in words
+
+    def column(self, name: str) -> list[str]:
+        """Return the cells of a column; capital and small letters are alike."""
+        at = [known.lower() for known in self.names].index(name.lower())
+        return [row[at] for row in self.rows.values()]
+
+    def numbers(self, name: str) -> np.ndarray:
+        """Return the numbers (n_rows,) of a column.
+
+        Raises
+        ------
+        ValueError
+            If a cell is no finite number; names its line.
+        """
+        numbers = np.empty(len(self.rows))
+        for at, (line, cell) in enumerate(zip(self.rows, self.column(name), strict=True)):
+            text = cell if self.separator == "commas" else cell.replace(",", ".")
+            number = float(re.sub("[dD]", "e", text)) if _NUMBER.fullmatch(text) else np.nan
+            if not np.isfinite(number):
+                found = cell[:40] or "nothing"
+                raise ValueError(f"line {line}: {name} = {found}, must be a finite number")
+            numbers[at] = number
+        return numbers
+
+
+def read(path: Path) -> Cells:
+    """Read a table.
+
+    Raises
+    ------
+    ValueError
+        If the file cannot be read, is no text in UTF-8, has no rows, a column twice, or a row with more or
+        fewer cells than columns; says what is wrong, with the line.
+    """
+    content = _lines(path)
+    if not content:
+        raise ValueError("is empty")
+    header, *lines = content
+    stated = _STATED_SEPARATOR.fullmatch(content[header])
+    if stated and lines:
+        header, *lines = lines
+    marks = [stated[1]] if stated else [mark for mark in _SEPARATORS if mark and mark in content[header]]
+    separator = next((mark for mark in marks if mark in _SEPARATORS), None)
+    names = _split(content[header], separator)
+    while not names[-1]:  # a spreadsheet writes its empty columns, and rows, too
+        names.pop()
+    names = [name or f"column {number}" for number, name in enumerate(names, 1)]
+    lower = [name.lower() for name in names]
+    if twice := sorted({name for name in lower if lower.count(name) > 1}):
+        raise ValueError(f"line {header}: has the column {', '.join(twice)} twice")
+    rows = {}
+    for line in lines:
+        row = _split(content[line], separator)
+        while len(row) > len(names) and not row[-1]:
+            row.pop()
+        if len(row) != len(names):
+            raise ValueError(
+                f"line {line}: has {len(row)} cells, must have {len(names)} as the header has (separated by "
+                f"{_SEPARATORS[separator]}{_cure(separator, len(row), len(names))})"
+            )
+        rows[line] = row
+    if not rows:
+        raise ValueError("has no rows below the names of its columns")
+    return Cells(names, rows, header, _SEPARATORS[separator])
+
+
+def _lines(path: Path) -> dict[int, str]:
+    """Lines with content, without comments, by number; none whose cells are all empty, as ``;;;``."""
+    try:
+        if not path.is_file():
+            raise ValueError("there is no such file")
+        if path.stat().st_size > LARGEST_FILE:
+            raise ValueError(f"is larger than {LARGEST_FILE / 1e6:g} MB, no table is")
+        text = path.read_text(encoding="utf-8-sig")
+    except UnicodeDecodeError:
+        text = "\0"
+    except OSError as error:
+        raise ValueError(f"cannot be read ({error.strerror})") from error
+    if "\0" in text:
+        raise ValueError("is not text in UTF-8; save it as such (in a spreadsheet: CSV UTF-8)")
+    bare = {number: line.split("#")[0].strip(" ") for number, line in enumerate(text.split("\n"), 1)}
+    return {number: line for number, line in bare.items() if line.strip(' \t;,"')}
+
+
+def _split(line: str, separator: str | None) -> list[str]:
+    """Cells of a line; a cell in quotes may hold the separator."""
+    if separator is None:
+        return [cell.strip('"') for cell in line.split()]
+    try:
+        return [cell.strip() for cell in next(csv.reader([line], delimiter=separator, skipinitialspace=True))]
+    except csv.Error as error:
+        raise ValueError(f'"{line[:40]}": {error}') from error
+
+
+def _cure(separator: str | None, n_cells: int, n_columns: int) -> str:
+    if separator == "," and n_cells > n_columns:
+        return "; with decimal commas, separate the cells by semicolons"
+    if separator is None and n_cells < n_columns:
+        return "; columns of fixed width may have run together"
+    return ""

@@ -1,0 +1,90 @@
+"""Tables as spreadsheets, editors and Fortran write them: the numbers that are there, or none."""
+
+import numpy as np
+import pytest
+
+from bladerub.io import cells
+
+ANGLE = np.array([0.0, 0.5, 10.0, 20.5])
+GAP = np.array([12.0, -13.73, 0.0042, 1500.0])
+
+
+def _texts(decimal):
+    return [[f"{value:.4f}".replace(".", decimal) for value in row] for row in zip(ANGLE, GAP, strict=True)]
+
+
+@pytest.mark.parametrize("first", ["", "# cold\n", "\n", "# cold; 3,5 mm\n\n"])
+@pytest.mark.parametrize("end", ["\n", "\r\n", "\r"])
+@pytest.mark.parametrize("mark", ["", "\ufeff"])
+@pytest.mark.parametrize(
+    ("separator", "decimal"),
+    [(",", "."), (";", "."), (";", ","), ("\t", ","), (" ", ","), ("  ", "."), (", ", ".")],
+)
+def test_the_numbers_are_those_of_the_file(tmp_path, separator, decimal, mark, end, first):
+    lines = [separator.join(row) for row in [["Angle", "gap"], *_texts(decimal)]]
+    path = tmp_path / "table.csv"
+    path.write_bytes((mark + (first + "\n".join(lines)).replace("\n", end)).encode())
+    table = cells.read(path)
+    np.testing.assert_array_equal(table.numbers("angle"), ANGLE)
+    np.testing.assert_array_equal(table.numbers("gap"), np.round(GAP, 4))
+    assert next(iter(table.rows)) == table.header + 1 == first.count("\n") + 2
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        'angle,gap\n"0","12.5"\n',
+        "angle;gap;;\n0;12,5;;\n;;;\n",
+        "sep=;\nangle;gap\n0;12,5\n",
+        "angle\tgap\n0\t1.25D+01\n",
+        'angle\tgap\n0\t"12,5"\n',
+        ",angle,gap\n0,0,12.5\n",
+        "angle,gap # mm\n0,12.5 # by hand\n",
+    ],
+)
+def test_what_spreadsheets_add_is_taken(tmp_path, text):
+    path = tmp_path / "table.csv"
+    path.write_text(text)
+    assert cells.read(path).numbers("gap").tolist() == [12.5]
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("angle,gap\n0,5,12,00\n", "line 2: has 4 cells.*semicolons"),
+        ("angle,gap\n0;12\n", "line 2: has 1 cells"),
+        ("angle gap\n0,12\n", "line 2: has 1 cells"),
+        ("angle gap\n0 1\n1 12 # two\n2\n", "line 4: has 1 cells"),
+        ("angle,gap,\n0,5,12\n", "line 2: has 3 cells"),
+        ('angle,gap\n0,"1,234.5"\n', "line 2: gap = 1,234.5"),
+        ("angle;gap\n0;1.234,5\n", "line 2: gap = 1.234,5"),
+        ("angle;gap\n0;nan\n", "line 2: gap = nan"),
+        ("angle;gap\n0;1_0\n", "line 2: gap = 1_0"),
+        ("angle;gap\n0;1e999\n", "line 2: gap = 1e999"),
+        ("angle;gap\n0;\u0663\n", "line 2: gap"),
+        ("angle;gap\n0;\n", "line 2: gap = nothing"),
+        ("gap;Gap\n0;1\n", "line 1: has the column gap twice"),
+        ("angle;gap\n", "no rows"),
+        ("# only\n", "is empty"),
+        ("", "is empty"),
+    ],
+)
+def test_what_cannot_be_meant_is_refused_with_its_line(tmp_path, text, said):
+    path = tmp_path / "table.csv"
+    path.write_text(text, encoding="utf-8")
+    with pytest.raises(ValueError, match=said):
+        cells.read(path).numbers("gap")
+
+
+@pytest.mark.parametrize("encoding", ["latin-1", "utf-16"])
+def test_text_in_another_encoding_is_refused(tmp_path, encoding):
+    path = tmp_path / "table.csv"
+    path.write_bytes("# gemessen für Öl\nangle;gap\n0;1\n".encode(encoding))
+    with pytest.raises(ValueError, match="UTF-8"):
+        cells.read(path)
+
+
+def test_a_file_that_is_none_is_refused(tmp_path):
+    for path in (tmp_path, tmp_path / "nowhere.csv", tmp_path / ("a" * 300)):
+        with pytest.raises(ValueError, match=r"no such file|cannot be read"):
+            cells.read(path)
