@@ -77,28 +77,34 @@ def import_matrices(source: MatrixSource, f_max: float, n_modes: int, eta: int) 
         check_definite(mass)
     with _naming(names[FIT[0]]):
         check_definite(rest)
-        try:
-            frequency, modes = lowest_modes(rest, mass, n_modes)
-        except (np.linalg.LinAlgError, ArpackError) as error:
-            raise ValueError(f"is singular ({error}); are the clamped nodes marked?") from error
+        frequency, modes = _modes(rest, mass, n_modes)
         check_held(rest, modes[:, 0])
     _check_order(names, layout, free, mass, rest, source.frame.turn)
-    for f_omega, name in at_speeds.items():
+    frequencies = {0.0: frequency}
+    for f_omega, name in list(at_speeds.items())[1:]:
         with _naming(names[name]):
-            rigid_body.check_change(stiffness[f_omega], rest)
+            rigid_body.check_change(stiffness[f_omega], rest, free.free[::3] // 3 + 1)
             check_definite(stiffness[f_omega])
+            frequencies[f_omega], _ = _modes(stiffness[f_omega], mass, n_modes)
+            if frequencies[f_omega][0] <= 0:  # so near to zero that few of Lanczos's steps do not show it
+                raise ValueError("is not positive definite: a mode of the blade is unstable at this speed")
     _check_speed(source, f_max, frequency[0])
     change = sparse.linalg.norm(highest - rest)
-    frequencies = {
-        f_omega: lowest_modes(matrix, mass, n_modes)[0] if f_omega > 0 else frequency
-        for f_omega, matrix in stiffness.items()
-    }
     return ImportedMatrices(
         DiscreteBlade(layout, free, mass, stiffness, {}, frequencies, frequency, modes),
         MATRIX_UNITS[source.matrix_units] * _rigid_mass(mass_of_all),
         nodes.clamped.size > 0 and mass_of_all.shape[0] == 3 * len(nodes.points),
         float(sparse.linalg.norm(half - rest) / change) if change else 0.0,
     )
+
+
+def _modes(
+    stiffness: sparse.csc_array, mass: sparse.csc_array, n_modes: int
+) -> tuple[np.ndarray, np.ndarray]:
+    try:
+        return lowest_modes(stiffness, mass, n_modes)
+    except (np.linalg.LinAlgError, ArpackError) as error:
+        raise ValueError(f"is singular ({error}); are the clamped nodes marked?") from error
 
 
 @contextmanager
