@@ -6,12 +6,8 @@ from bladerub.extensions.chart.point import PointRow
 from bladerub.study.grid import modulus_unit
 
 CHART_ORDERS = chart_orders(config)
-CHARTED = [
-    *(f"{name}{order}" for order in CHART_ORDERS for name in "Yf"),
-    "peak",
-    "worn_volume",
-    "divergent_share",
-]
+PEAKS = {f"{name}{order}": f"chart_{name}k" for order in CHART_ORDERS for name in "Yf"}
+CHARTED = [*PEAKS, "peak", "worn_volume", "divergent_share"]
 
 
 @cache
@@ -149,7 +145,12 @@ rule chart_maps:
         drawing=files_behind("extensions.plots.chart_moduli", "plots.titles"),
     output:
         png=[
-            shown(f"{PLOTS}/chart_{name}.png", f"chart_{name}", "Choice of a coating")
+            shown(
+                f"{PLOTS}/chart_{name}.png",
+                PEAKS.get(name, f"chart_{name}"),
+                "Choice of a coating",
+                title=f"Chart: {name}" if name in PEAKS else None,
+            )
             for name in CHARTED
         ],
         pdf=[f"{PLOTS}/chart_{name}.pdf" for name in CHARTED],

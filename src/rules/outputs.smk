@@ -27,11 +27,11 @@ CATEGORIES = {
 }
 
 
-def shown(path, name, category):
-    """A file that the report shows; the first line of its caption is its name there."""
+def shown(path, name, category, title=None):
+    """A file that the report shows; its name there is `title`, or the first line of its caption."""
     caption = f"../report/{name}.rst"
     with open(workflow.source_path(caption), encoding="utf-8") as lines:
-        title = next(lines).strip()
+        title = title or next(lines).strip()
     return report(
         path,
         caption=caption,

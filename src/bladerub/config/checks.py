@@ -1,8 +1,8 @@
 """What the schema cannot say of a config: that its parts agree with each other."""
 
+import itertools
 import os
 from collections.abc import Callable, Collection, Iterator, Mapping
-from itertools import accumulate
 from typing import Any
 
 import numpy as np
@@ -22,6 +22,7 @@ from bladerub.study.grid import (
     CoatingCase,
     cases_of,
     coating_cases,
+    compared_cases,
     element_law,
     listed_case,
     row_of,
@@ -32,7 +33,9 @@ from bladerub.study.orders import peak_orders, used_casings
 Config = dict[str, Any]
 Check = Callable[[Config], Iterator[str]]
 
-SOURCE_FOLDERS = ("config", "docs", "src", "tests")  # of the repository, not for results
+SOURCE_FOLDERS = ("benchmarks", "build", "config", "docs", "profiles", "src", "studies", "tests")
+"""Folders of the repository, not for results."""
+
 MOST_ELEMENTS = 20_000  # of a blade's mesh, some 300,000 unknowns: beyond, its factors fill the memory
 MOST_RUNS = 2_000_000  # of a study
 MOST_SAMPLES = 20_000_000  # that a run keeps in memory, one an element and revolution
@@ -74,7 +77,7 @@ def _results(config: Config) -> Iterator[str]:
     where = f"results = {format_value(config['results'])}"
     if folders[0].casefold() in SOURCE_FOLDERS:
         yield f"{where}: must not be in {folders[0]}, which is the repository's own"
-    for path in accumulate(folders, os.path.join):
+    for path in itertools.accumulate(folders, os.path.join):
         if os.path.isfile(study_folder() / path):
             yield f"{where}: must be a folder, {path} is a file"
 
@@ -184,19 +187,24 @@ def _too_deep(config: Config, entry: Config, depth: float) -> str | None:
     return f"at most {deepest:g} m, or the blade touches all around" if depth > deepest else None
 
 
-@_reads("casings", "contact", "blade")
+@_reads("casings", "contact", "blade", "coatings", "friction", "chart")
 def _contact_at_all(config: Config) -> Iterator[str]:
     thickness = config["contact"]["layer_thickness"]
+    cases = [*coating_cases(config), *itertools.chain(*compared_cases(config))]
     for name, entry in config["casings"].items():
-        if _shape_problem(entry):
+        depths = [case.own.get("interference") for case in cases if case.casing == name]
+        is_shifted = depths and None not in depths and name != config.get("chart", {}).get("casing")
+        if is_shifted or _shape_problem(entry):  # each coating says how deep, see `own_problem`
             continue
         depth, key = casing_spec(name, entry).interference, f"casings.{name}.interference"
         right = _too_deep(config, entry, depth) or _too_shallow(config, depth)
         if "table" in entry:
-            key = f"interference of casings.{name}.table"
-            right = right or (
-                f"below contact.layer_thickness, {thickness:g} m" if depth >= thickness else None
-            )
+            if "interference" not in entry:
+                key = f"casings.{name}.table: interference"
+            if right and depth <= _smallest_clearance(config):
+                right += "; give an interference here or in the entry of coatings, or lower the table"
+            if depth >= thickness:
+                right = right or f"below contact.layer_thickness, {thickness:g} m"
         if right:
             yield f"{key} = {depth:g}: must be {right}"
 

@@ -22,6 +22,8 @@ DEEPEST = 32  # levels of mappings and lists
 MOST_EXTENDED = 20  # files read because one extends the other
 
 _NUMBER = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)[eE][-+]?\d+")
+_OCTAL = re.compile(r"[-+]?0[0-7_]+")
+_SEXAGESIMAL = re.compile(r"[-+]?[0-9][0-9_]*(:[0-5]?[0-9])+(\.[0-9_]*)?")
 _TAGS = {yaml.MappingNode: "tag:yaml.org,2002:map", yaml.SequenceNode: "tag:yaml.org,2002:seq"}
 
 
@@ -239,6 +241,8 @@ class _Loader(yaml.SafeLoader):
     def scalar(self, node: yaml.ScalarNode) -> Any:
         if len(node.value) > LONGEST_VALUE:
             raise _error(f"a value of more than {LONGEST_VALUE} characters", node)
+        if yaml_reading(node.value) is not None:
+            return node.value  # as text, which is no number: nobody means what YAML makes of it
         try:
             value = self.construct_object(node)
         except yaml.YAMLError:
@@ -247,6 +251,13 @@ class _Loader(yaml.SafeLoader):
             raise _error(f"{format_value(node.value)} is no {node.tag.rsplit(':', 1)[-1]}", node) from error
         # YAML 1.1 leaves numbers such as 1e-3 as text
         return float(value) if isinstance(value, str) and _NUMBER.fullmatch(value) else value
+
+
+def yaml_reading(text: str) -> str | None:
+    """Say what YAML 1.1 makes of a number with a leading zero or colons, ``16, as octal``; None of others."""
+    kinds = {"octal": _OCTAL, "of base 60": _SEXAGESIMAL}
+    kind = next((name for name, form in kinds.items() if form.fullmatch(text)), None)
+    return kind and f"{yaml.safe_load(text)}, as {kind}"
 
 
 def _limit(depth: int, number: int, node: yaml.Node | yaml.Event) -> None:

@@ -1,17 +1,19 @@
-"""What the study's own config says by default, fitted to the files that are laid over it.
+"""What the config of the paper's study says, fitted to coatings, casings and speeds of one's own.
 
-A file that replaces coatings, casings or speeds need not repeat what the study's own config says of those
-that were there: histories of runs that are no longer planned are left out, and a casing that does not excite
-``analysis.peaks.orders`` gets orders of its own. What a file says itself is never changed, but
-``contact.scale`` multiplies it: a note gives the sizes of its casings.
+Who replaces coatings, casings or speeds need not change what the paper's study says of those that were there:
+its histories of runs that are no longer planned are left out, and a casing that does not excite its engine
+orders gets orders of its own. It is the values that tell what is the paper's (`bladerub.study.paper`), not
+the file that has them: a text means the same in ``config/config.yaml`` and in a file laid over it. Other
+values are never changed, but ``contact.scale`` multiplies them: a note gives the sizes of casings.
 """
 
-from collections.abc import Callable, Set
+from collections.abc import Set
 from typing import Any
 
 from bladerub.study.casings import nodal_diameters
 from bladerub.study.grid import SPEED_DECIMALS, UNSCALED, coating_cases, listed_case, speed_name, speeds
 from bladerub.study.orders import excited_orders, excites, peak_orders, used_casings
+from bladerub.study.paper import HISTORIES, ORDERS
 
 Config = dict[str, Any]
 
@@ -19,35 +21,30 @@ _HISTORIES_READ = {"coatings", "speeds", "analysis"}
 _READS = {*_HISTORIES_READ, "casings", "contact"}
 
 
-def fit(
-    config: Config, is_inherited: Callable[[str], bool], broken: Set[str] = frozenset()
-) -> tuple[Config, list[str]]:
-    """Return `config` with what is inherited fitted to the rest, and a line for each change or doubt.
+def fit(config: Config, broken: Set[str] = frozenset()) -> tuple[Config, list[str]]:
+    """Return `config`, what the paper's study says fitted to the rest, and a line for each change or doubt.
 
-    The config agrees with the schema but for the keys at the top in `broken`, which are not read;
-    `is_inherited` tells whether the value of a key is the study's own.
-    Raises `ValueError` as `coating_cases` and `speeds`.
+    The config agrees with the schema but for the keys at the top in `broken`, which are not read.
+    Raises `ValueError` as `coating_cases`, `speeds` and `casing_spec`.
     """
     notes: list[str] = []
-    parts = ("coatings", "casings", "speeds")
-    replaced = any(part in config and not is_inherited(part) for part in parts)
-    if replaced and broken.isdisjoint(_HISTORIES_READ) and is_inherited("analysis.histories"):
+    if broken.isdisjoint(_HISTORIES_READ):
         config = _without_lost_histories(config, notes)
     if not broken.isdisjoint(_READS):
         return config, notes
-    if replaced and is_inherited("analysis.peaks.orders"):
+    if config["analysis"]["peaks"]["orders"] == list(ORDERS):
         config = _with_orders_of_casings(config, notes)
-    return config, notes + _scaled_casings(config, is_inherited) + _doubts(config)
+    return config, notes + _scaled_casings(config) + _doubts(config)
 
 
-def _scaled_casings(config: Config, is_inherited: Callable[[str], bool]) -> list[str]:
-    """Give the sizes that ``contact.scale`` makes of casings that are not the study's own."""
+def _scaled_casings(config: Config) -> list[str]:
+    """Give the sizes that ``contact.scale`` makes of casings."""
     factor, notes = config["contact"].get("scale", UNSCALED)["length"], []
     for name in used_casings(config):
         casing = config["casings"][name]
         given = (key for key in ("amplitude", "interference") if key in casing)
         sizes = [f"{key} {factor * casing[key]:.4g} m" for key in given]
-        if factor != 1 and sizes and not is_inherited(f"casings.{name}.amplitude"):
+        if factor != 1 and sizes:
             notes.append(f"contact.scale.length = {factor:g}: casing {name} has {' and '.join(sizes)}")
     return notes
 
@@ -55,11 +52,11 @@ def _scaled_casings(config: Config, is_inherited: Callable[[str], bool]) -> list
 def _without_lost_histories(config: Config, notes: list[str]) -> Config:
     cases, grid, kept, lost = set(coating_cases(config)), set(speeds(config)), [], []
     for entry in config["analysis"]["histories"]:
-        case, f_omega = listed_case(entry), entry["f_omega"]
-        if case in cases and round(f_omega, SPEED_DECIMALS) in grid:
-            kept.append(entry)
-        else:
+        case, f_omega = listed_case(entry), round(entry["f_omega"], SPEED_DECIMALS)
+        if (case, f_omega) in HISTORIES and not (case in cases and f_omega in grid):
             lost.append(f"{case.name}/{speed_name(f_omega)}")
+        else:
+            kept.append(entry)
     if lost:
         more = ", ..." if len(lost) > 1 else ""
         notes.append(f"analysis.histories: {len(lost)} left out, not in this study ({lost[0]}{more})")

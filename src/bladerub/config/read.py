@@ -49,10 +49,12 @@ def read_with_notes(
 
     One that `is_checked`, as by the process that started this one, is not checked again.
     """
-    located, base = files.compose(*paths, command_line=command_line), files.source_name(paths[0])
+    located = files.compose(*paths, command_line=command_line)
     if is_checked:
-        return _fitted(located.plain(), located.locations(), base, set())
-    return _validated(located, "", base)
+        from bladerub.config import inherited
+
+        return inherited.fit(located.plain())
+    return _validated(located, "")
 
 
 def read_plan(path: str | Path, definition: str, key: str | None = None) -> Located:
@@ -104,14 +106,13 @@ def validate(config: Located | Mapping[str, Any], variation: str = "") -> dict[s
         Every problem found, one line each: location, key, value and what would be right. What a schema cannot
         say is checked for those parts of the config that agree with the schema.
     """
-    return _validated(config, variation, UNKNOWN.source)[0]
+    return _validated(config, variation)[0]
 
 
-def _validated(
-    config: Located | Mapping[str, Any], variation: str, base: str
-) -> tuple[dict[str, Any], list[str]]:
-    """Check a config as `validate`, whose study's own values are of the source `base`."""
+def _validated(config: Located | Mapping[str, Any], variation: str) -> tuple[dict[str, Any], list[str]]:
+    """Check a config as `validate`; return its values and the notes of `inherited.fit`."""
     # it takes half a second to import, `bladerub --help` and jobs on a cluster do without
+    from bladerub.config import inherited
     from bladerub.config.checks import check
 
     located = config if isinstance(config, Located) else Located.of(config, UNKNOWN)
@@ -121,7 +122,7 @@ def _validated(
     broken = missing | set(map(top_key, problems))
     notes: list[str] = []
     with suppress(ValueError):  # of values that `check` reports
-        values, notes = _fitted(values, locations, base, broken)
+        values, notes = inherited.fit(values, broken)
     problems += check(values, broken)
     if problems:
         raise ConfigError(
@@ -129,15 +130,6 @@ def _validated(
             for text in dict.fromkeys(problems)
         )
     return values, notes
-
-
-def _fitted(
-    values: dict[str, Any], locations: Mapping[str, Location], base: str, broken: set[str]
-) -> tuple[dict[str, Any], list[str]]:
-    """Fit what a config inherits from the study of the source `base`, see `inherited.fit`."""
-    from bladerub.config import inherited
-
-    return inherited.fit(values, lambda key: locations[key].source == base, broken)
 
 
 def _location(problem: str, locations: Mapping[str, Location], whole: Location = UNKNOWN) -> Location:

@@ -18,6 +18,7 @@ import jsonschema
 import yaml
 
 from bladerub.config.errors import format_value, key_path
+from bladerub.config.files import yaml_reading
 from bladerub.io.folders import ROOT
 
 SCHEMA = ROOT / "config" / "schema.yaml"
@@ -148,7 +149,10 @@ def _describe(error: jsonschema.ValidationError) -> list[str]:
         return [f"{where}: must be {error.message}"]
     has_digits = isinstance(error.instance, str) and re.match(r"\s*[-+.\d]", error.instance)
     with_unit = has_digits and rule["type"] in ("number", "integer")
-    return [f"{where}: {_right(rule)}{', the number alone' if with_unit else ''}"]
+    right = f"{_right(rule)}{', the number alone' if with_unit else ''}"
+    if with_unit and (reading := yaml_reading(error.instance)):
+        right += f" (YAML reads this as {reading})"
+    return [f"{where}: {right}"]
 
 
 def _nearest(parts: list[Any], key: Any, known: dict[str, Any]) -> str:

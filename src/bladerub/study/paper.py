@@ -16,6 +16,14 @@ STRAIGHT = CoatingCase(CASING, 2.0, 0.5, THETA)  # Fig. 15
 TILTED = CoatingCase(CASING, 2.0, 0.5, 0.15)  # Fig. 16
 RIGID = CoatingCase.rigid(CASING, friction=0.0)  # direct contact with the casing
 
+ORDERS = (4, 6)
+"""Engine orders of the paper's peaks: Y4, f4, Y6 and f6."""
+
+HISTORIES = {
+    (case, f_omega) for case in (STRAIGHT, TILTED) for f_omega in (TILTED_SPEED, STRAIGHT_SPEED, 0.206)
+}
+"""Coatings and speeds whose histories the paper shows (Figs. 17 and 18), and the f6 of this blade."""
+
 NEAR = 0.025
 """How far a speed may lie from the paper's, normalised: about a line's width in its maps, and the C1 of
 another blade."""

@@ -11,14 +11,25 @@ from bladerub.study import inventory
 from bladerub.study.grid import coating_cases
 from bladerub.study.plan import coating_plan
 
+_MOST_NAMED = 8
+
 SECONDS_PER_REVOLUTION = 0.01
 """Of one core, for a run of the paper's blade with its longer run, if it needs one; rounded up."""
 
 
 def print_at_exit(config: Mapping[str, Any]) -> None:
-    """Print the `forecast` after the jobs that Snakemake lists."""
+    """Print coatings and `forecast` after the jobs that Snakemake lists."""
     study = copy.deepcopy(dict(config))
-    atexit.register(lambda: print(f"bladerub: {forecast(study)}", file=sys.stderr))
+    atexit.register(
+        lambda: print(f"bladerub: {coatings(study)}\nbladerub: {forecast(study)}", file=sys.stderr)
+    )
+
+
+def coatings(config: Mapping[str, Any]) -> str:
+    """Name the coatings of the study in a line, so that a list such as ``[0,5]`` shows as two values."""
+    names = [case.name for case in coating_cases(config)]
+    more = len(names) - _MOST_NAMED
+    return f"coatings: {', '.join(names[:_MOST_NAMED])}{f' and {more} more' if more > 0 else ''}"
 
 
 def forecast(config: Mapping[str, Any]) -> str:

@@ -55,7 +55,7 @@ NUMBERS = """
     casings.nodal_diameters           [1, 100]
     casings.weights                   [-100, 100]
     casings.amplitude                 (0, 0.05]
-    casings.interference              (0, 0.05]
+    casing_interference               (0, 0.05]
     casings.bump_width                (0, 1]
     start_angle                       [-360, 360]
     E                                 (0, 1e6]

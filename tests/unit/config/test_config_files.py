@@ -1,6 +1,7 @@
 import os
 
 import pytest
+import yaml
 
 from bladerub.config import files
 from bladerub.config.errors import ConfigError, format_value, key_path
@@ -11,6 +12,10 @@ from bladerub.config.files import (
     MOST_VALUES,
     compose,
 )
+from bladerub.config.read import read
+from bladerub.io.folders import ROOT
+
+STUDY = ROOT / "config" / "config.yaml"
 
 
 @pytest.fixture
@@ -256,3 +261,38 @@ def test_keys_and_values_are_written_on_one_short_line():
     assert key_path(("casings", "../2nd")) == 'casings["../2nd"]'
     assert format_value(list(range(100))) == "[0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16..."
     assert format_value("a\nb\x1b[31m") == '"a b [31m"'
+
+
+@pytest.mark.parametrize(
+    ("text", "reading"),
+    [("020", "16"), ("0777", "511"), ("-010", "-8"), ("1:30", "90"), ("01:00", "60"), ("1:30.5", "90.5")],
+)
+@pytest.mark.parametrize(
+    "key", ["solver.revolutions", "casings.2nd.start_angle", "coatings[0].E[0]", "contact.law.viscosity"]
+)
+def test_a_number_that_yaml_reads_otherwise_is_refused(tmp_path, text, reading, key):
+    """As in files, so after ``--config``, where Snakemake leaves numbers as text."""
+    group, *path = key.replace("[0]", ".0").split(".")
+    value = text
+    for part in reversed(path):
+        value = f"[{value}]" if part == "0" else f"{{{part}: {value}}}"
+    value = value.replace("{E:", "{casing: 2nd, K: [1], theta: [0], E:").replace(
+        "{visc", "{name: viscoplastic, visc"
+    )
+    over = tmp_path / "over.yaml"
+    over.write_text(f"{group}: {value}\n")
+    given = {group: yaml.load(value, Loader=yaml.BaseLoader)}
+    for arguments, where in (((STUDY, over), f"{over}:1"), ((STUDY,), "--config")):
+        with pytest.raises(ConfigError) as error:
+            read(*arguments, command_line=given if len(arguments) == 1 else None)
+        (problem,) = error.value.problems
+        assert str(problem).startswith(f"{where}: {key} = ")
+        assert text in problem.text
+        assert reading in problem.text
+
+
+@pytest.mark.parametrize("text", ["20", "2_0", "0x14", "0b10100", "2.0e1", "020.0", "2e1"])
+def test_a_number_that_can_mean_but_one_is_read(tmp_path, text):
+    over = tmp_path / "over.yaml"
+    over.write_text(f"a: {text}\n")
+    assert files.read(over).plain() == {"a": 20}

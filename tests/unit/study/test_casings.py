@@ -7,7 +7,7 @@ from bladerub.config.errors import ConfigError
 from bladerub.config.read import validate
 from bladerub.contact.casing import gap
 from bladerub.study.casings import casing_spec, nodal_diameters
-from bladerub.study.grid import CoatingCase, run_spec
+from bladerub.study.grid import CoatingCase, coating_cases, run_spec
 from bladerub.study.orders import excites
 
 ANGLE = np.arange(0, 360, 5)
@@ -109,6 +109,37 @@ def test_a_measured_gap_must_give_contact_but_not_everywhere(config, table, rows
         validate(config)
         return
     with pytest.raises(ConfigError, match=said):
+        validate(config)
+
+
+@pytest.mark.parametrize("clearance", [0.0, 1.5e-4])
+@pytest.mark.parametrize("beside", [False, True])
+def test_a_gap_above_zero_touches_by_an_interference(config, table, beside, clearance):
+    """As gaps are measured: cold, and open everywhere."""
+    rows = [f"{a},{0.4 - 0.02 * np.cos(np.deg2rad(2 * a)):.4f}" for a in ANGLE]
+    depth = clearance * config["blade"]["length"] + 2e-5
+    config["contact"]["clearance"] = {"leading_edge": clearance, "trailing_edge": clearance}
+    coating = {"casing": "measured", "E": [2], "K": [0.5], "theta": [0.0]}
+    entry = table(rows)
+    config["casings"]["measured"], config["coatings"] = entry, [coating]
+    with pytest.raises(ConfigError, match=r"never touches; give an interference"):
+        validate(config)
+    if beside:
+        entry["interference"] = depth
+    else:
+        coating["interference"] = [depth]
+    (case,) = coating_cases(validate(config))
+    assert run_spec(config, case, 0.2).casing.interference == pytest.approx(depth)
+    (entry if beside else coating)["interference"] = 1e-3 if beside else [1e-3]
+    with pytest.raises(ConfigError, match="touches all around"):
+        validate(config)
+
+
+def test_a_gap_that_a_coating_does_not_shift_must_touch_by_itself(config, table):
+    config["casings"]["measured"] = table([f"{a},{0.4 + 1e-4 * a}" for a in ANGLE])
+    coating = {"casing": "measured", "E": [2], "K": [0.5], "theta": [0.0]}
+    config["coatings"] = [coating | {"interference": [5e-5]}, coating]
+    with pytest.raises(ConfigError, match="never touches"):
         validate(config)
 
 
