@@ -13,7 +13,7 @@ from bladerub.contact.heating import CELLS, Layer
 from bladerub.contact.kernel import records
 from bladerub.contact.kernel.free_flight import MOST_STEPS, FreeFlight
 from bladerub.contact.kernel.loop import Simulation
-from bladerub.contact.laws import module_of, source_of
+from bladerub.contact.laws import element_parameters, module_of, source_of
 from bladerub.contact.modes import Modes, modes_at, tip_radii
 from bladerub.contact.schemes import SCHEMES, Contact, Recurrence, normal_compliance
 from bladerub.contact.spec import PLASTIC, Casing, Coating, ElementLaw, RunSpec
@@ -49,7 +49,10 @@ def set_up_modes(
     """Prepare a run as `set_up`, with the modes at its speed."""
     steps_per_element, time_step = _time_step(blade, spec)
     law = module_of(spec.coating.element_law)
-    element = law.element(spec.coating, element_area(blade, spec)).elastic  # infinite for the rigid casing
+    element = np.full(blade.n_interface, np.inf)
+    if not spec.coating.is_rigid:
+        at = law.Element._fields.index("elastic")
+        element = element_parameters(spec.coating, element_area(blade, spec))[at]
     stiffness = element * 2 * spec.tip.half_width  # the shares under the tip add up to its width
     if spec.turns:
         stiffness = np.concatenate([stiffness, element * (2 / 3) * edge(spec.tip) ** 3])
@@ -85,11 +88,13 @@ def compile_kernel(tip_turns: bool = False, n_nodes: int = N_INTERFACE, law: Ele
     stiffness = np.ones(len(modes.tip) - n_nodes)
     rule = SCHEMES["exponential"](modes, 0.0, 1e-6, Contact(stiffness, -1.0, 0.0))
     gap, elements = np.ones((8, lanes)), np.ones((len(module_of(law).Element._fields), lanes))
-    stator = records.Stator(gap, gap[:, 0].copy(), elements, 8, False, -1.0, 0.0, zeros, False, zeros)
+    turning = zeros if tip_turns else np.empty(0)
+    stator = records.Stator(gap, gap[:, 0].copy(), elements, 8, False, -1.0, 0.0, zeros, False, turning)
     tip = records.Tip(zeros, zeros, zeros + 1.0, zeros + 1.0, 2.0, 0.0, 0.0, 1.0)
     kernel = partial(module_for, lanes, law=source_of(law))
     flight = kernel("contact.kernel.free_flight").free_flight(rule, 1, 0.0, 0.0)
-    state = kernel("contact.kernel.records").at_rest(1, 8)
+    cells = CELLS if hasattr(module_of(law), "strength") else 0
+    state = kernel("contact.kernel.records").at_rest(1, 8, cells)
     kernel("contact.kernel.loop").Simulation(
         kernel("contact.kernel.modal").pack(rule), flight, aligned(stator), aligned(tip), state, 1
     ).advance(np.zeros(8))
@@ -131,14 +136,17 @@ def stator_record(blade: ReducedBlade, spec: RunSpec, rule: Recurrence, seat: Se
     normal_factor, tangential_factor = _force_direction(coating)
     own = np.split(_self_compliance(rule, coating), [blade.n_interface])
     by_lane = _by_lane_of(blade)
-    area, law = by_lane(element_area(blade, spec)), module_of(coating.element_law)
-    parameters = law.element(coating, area, rule.time_step)  # unused for the rigid casing
+    area = by_lane(element_area(blade, spec))
+    if coating.is_rigid:
+        parameters = np.zeros((len(module_of(coating.element_law).Element._fields), area.size))
+    else:
+        parameters = element_parameters(coating, area, rule.time_step)
     clearance = tuple(running_clearance(blade, spec).tolist())
     first, width = tuple(_first_element(blade, spec).tolist()), spec.tip.half_width + seat.ahead
     gaps = _gaps(spec.casing, clearance, seat.longer, first, coating.n_elements, width, area.size)
     stator = records.Stator(
         **gaps._asdict(),
-        law=np.array(parameters),
+        law=parameters,
         n_elements=coating.n_elements,
         is_rigid=coating.is_rigid,
         normal_factor=normal_factor,
@@ -186,6 +194,7 @@ def tip_record(blade: ReducedBlade, spec: RunSpec, seat: Seat = ALONE) -> record
     n_elements = spec.coating.n_elements
     radius, curvature_radius = tip_radii(blade)
     per_metre = n_elements / (2 * np.pi * radius)
+    _check_reach(curvature_radius, per_metre, spec)
     by_lane = _by_lane_of(blade)
     tip = records.Tip(
         start=by_lane(_start_position(blade, spec) % 1.0 + seat.ahead),
@@ -198,6 +207,28 @@ def tip_record(blade: ReducedBlade, spec: RunSpec, seat: Seat = ALONE) -> record
         limit=spec.displacement_limit,
     )
     return aligned(tip)
+
+
+def _check_reach(radius: np.ndarray, per_metre: np.ndarray, spec: RunSpec) -> None:
+    """Check that no node leaves the displacement limit and the turn of elements that the loop wraps.
+
+    Two ends of a step may be at both limits, so that the rows between them, each under a profile that stands
+    anywhere within two elements, must be different ones: then indices are within (−N, 2 N).
+    """
+    limit, n_elements = spec.displacement_limit, spec.coating.n_elements
+    width = max(spec.tip.half_width, 1.0)  # the rigid casing is read one row around a node
+    with np.errstate(invalid="ignore"):
+        reach = np.maximum(limit * per_metre, SEARCH_RANGE)
+        wrong = ~((2 * (reach + width) + 4 <= n_elements) & (limit < radius))
+    if wrong.any():
+        node = int(wrong.argmax())
+        around = n_elements / per_metre[node]
+        raise ValueError(
+            f"the displacement limit is {limit:.4g} m, and the circle of interface node {node + 1} of the "
+            f"blade {around:.3g} m ({n_elements} coating elements): limit and half width of the tip profile "
+            f"({spec.tip.half_width:g} elements) must be within half of it, and the limit below its radius; "
+            "check the unit and the axis of the blade, or lower solver.displacement_limit"
+        )
 
 
 def _time_step(blade: ReducedBlade, spec: RunSpec) -> tuple[int, float]:
@@ -239,6 +270,11 @@ def _initial_state(
         displacement = state.q[:, :n] @ own.by_lane(rule.tip, rule.n_nodes).T
         radial, tangential, *tilt = np.moveaxis(displacement.reshape(3, -1, tip.radius.size), 1, 0)
         approach = np.hypot(tip.radius + radial, tangential) - tip.radius
+        if not max(np.abs(radial).max(), np.abs(tangential).max()) <= tip.limit:
+            raise ValueError(
+                f"initial_displacement = {spec.initial_displacement:g} m: moves a node of the tip beyond the "
+                f"displacement limit, {tip.limit:g} m"
+            )
         moved = np.concatenate([radial, tangential, approach, *tilt], axis=1)
         state.u[:, : moved.shape[1]] = moved
     return state

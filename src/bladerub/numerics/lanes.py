@@ -13,6 +13,8 @@ import threading
 from functools import cache
 from types import FunctionType, ModuleType
 
+from bladerub.numerics.user_code import bounded
+
 USUAL = 8
 """Doubles in a vector of the modules that are imported by name."""
 LANES = USUAL
@@ -41,7 +43,8 @@ def lanes_for(n_nodes: int) -> int:
 def module_for(lanes: int, name: str, law: str = "") -> ModuleType:
     """Return the module `name` of the time loop, such as ``contact.kernel.loop``, for vectors of `lanes`.
 
-    `law` is the source of a module that takes the place of ``contact.law``. Raises what the source raises.
+    `law` is the source of a module that takes the place of ``contact.law``. Raises `ValueError` if it cannot
+    be run.
     """
     if lanes == USUAL and not law:
         return importlib.import_module(f"bladerub.{name}")
@@ -85,7 +88,8 @@ def _exchange_law(source: str) -> None:
     name = f"bladerub.{_LAW_MODULE}"
     importlib.import_module(name)
     module = ModuleType(name)
-    exec(compile(source, "<law of the coating>", "exec"), module.__dict__)
+    with bounded("law of the coating: its module"):
+        exec(compile(source, "<law of the coating>", "exec"), module.__dict__)
     sys.modules[name] = module
     parent, _, child = name.rpartition(".")
     setattr(sys.modules[parent], child, module)

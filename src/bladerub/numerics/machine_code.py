@@ -6,9 +6,11 @@ of all sources of the solver, the number of lanes, and a digest of the law if it
 """
 
 from collections.abc import Callable
+from contextlib import suppress
 from pathlib import Path
 
 import numba
+from numba.core.caching import FunctionCache
 from numba.extending import register_jitable
 
 from bladerub.io.sources import solver_digest
@@ -24,6 +26,18 @@ inlined = register_jitable(**INLINED)
 """Decorate a function that compiled code inlines; for Python it stays as it is."""
 
 
+class _Cache(FunctionCache):
+    """Machine code on disk, made anew where it cannot be read: cut short, or written with other modules."""
+
+    def load_overload(self, sig, target_context):
+        try:
+            return super().load_overload(sig, target_context)
+        except Exception:  # whatever a damaged pickle raises
+            with suppress(OSError):
+                self.flush()
+            return None
+
+
 def njit_on_disk(**options) -> Callable[[Callable], Callable]:
     """As `numba.njit` with ``cache=True``, in a folder that belongs to the present sources.
 
@@ -36,7 +50,9 @@ def njit_on_disk(**options) -> Callable[[Callable], Callable]:
         instance = lanes.instance_name(lanes.LANES, lanes.LAW)
         numba.config.CACHE_DIR = str(parent / f"machine-code-{solver_digest()[:16]}-{instance}")
         try:
-            return numba.njit(cache=True, **options)(function)
+            compiled = numba.njit(**options)(function)
+            compiled._cache = _Cache(function)  # as `cache=True` does with that of Numba
+            return compiled
         finally:
             numba.config.CACHE_DIR = user_folder
 

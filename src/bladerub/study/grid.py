@@ -201,6 +201,8 @@ def element_law(config: Mapping[str, Any]) -> ElementLaw:
         raise ValueError(f"file = {file}: there is no such file")
     try:
         source = path.read_text(encoding="utf-8")
+        if not source:  # which would stand for a law of the package
+            raise ValueError("is empty")
         parameters_of(source)
     except ValueError as error:  # that of a text in another encoding is one
         raise ValueError(f"file = {file}: {error}") from error

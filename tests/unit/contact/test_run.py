@@ -8,7 +8,7 @@ import pytest
 from bladerub.contact import casing, reference
 from bladerub.contact.modes import modes_at
 from bladerub.contact.run import simulate
-from bladerub.contact.setup import SEARCH_RANGE, strip_width
+from bladerub.contact.setup import SEARCH_RANGE, set_up, strip_width
 
 
 @pytest.mark.parametrize(
@@ -223,6 +223,17 @@ def test_unbounded_run_stops_and_keeps_its_data(blade, spec, change):
     np.testing.assert_array_equal(result.radial_displacement[done], whole.radial_displacement[done])
     assert result.wear.max() > 0
     assert blade_imbalance(result.energy) < 1e-9
+
+
+def test_a_run_that_ends_in_the_first_step_of_a_contact_has_no_force_of_an_older_one(blade, spec):
+    """The force that the condensed modes still bear would count in the elastic energy."""
+    _, simulation = set_up(blade, spec)
+    state = simulation.state
+    state.force[1] = 1e6  # left by a contact before
+    state.q[:, 0] = 1.0  # far beyond the limit in the first step
+    made = simulation.advance(np.empty(spec.coating.n_elements))
+    assert made.n_steps == 0
+    assert not state.force[0].any()
 
 
 def test_numerical_blow_up_ends_as_unbounded(blade, spec, change):

@@ -106,3 +106,81 @@ def test_no_node_may_move_farther_than_the_search_looks(blade, spec):
     position = np.column_stack([UNEVEN, np.zeros(8), radius])
     tip = setup.tip_record(dataclasses.replace(blade, node_position=position), spec)
     assert np.max(tip.search_range * tip.per_metre) == pytest.approx(SEARCH_RANGE)
+
+
+def at_radius(blade, radius):
+    """The blade with its interface nodes on a circle of `radius`, m."""
+    position = blade.node_position.copy()
+    position[:, 1:] *= radius / np.hypot(*position[:, 1:].T)[:, None]
+    return dataclasses.replace(blade, node_position=position)
+
+
+@pytest.mark.parametrize("seed", range(40))
+def test_accepted_limits_keep_every_index_within_a_turn(blade, spec, change, seed):
+    """What the loop wraps is in (-N, 2 N), and no step has a row twice, at the largest limit accepted."""
+    rng = np.random.default_rng(seed)
+    n, half_width, radius = int(rng.integers(20, 400)), rng.uniform(0.1, 5.0), 10 ** rng.uniform(-3, 1)
+    blade = at_radius(blade, radius)
+    ahead = rng.random() * (seed % 2)
+    accepted = 0.0
+    for limit in radius * np.geomspace(1e-4, 10.0, 60):
+        run = change(spec, n_elements=n, half_width=half_width, displacement_limit=limit)
+        try:
+            tip = setup.tip_record(blade, run, setup.Seat(ahead))
+        except ValueError:
+            continue
+        accepted = limit
+        reach = np.maximum(limit * tip.per_metre, SEARCH_RANGE)
+        lowest, highest = (tip.start - reach).min(), (tip.start + n + reach).max()
+        rows = [np.floor(lowest - half_width), np.floor(highest + half_width)]
+        rigid = [np.floor(lowest) - 1, np.floor(highest) + 1]
+        assert min(rows[0], rigid[0]) >= -n
+        assert max(rows[1], rigid[1]) < 2 * n
+        # of one step, which passes at most an element, with a node at both limits
+        assert (np.floor(2 * reach + 2 * half_width + 1) + 1).max() <= n
+        assert limit < tip.radius.min()
+    assert accepted or n < 2 * (SEARCH_RANGE + max(half_width, 1.0)) + 6
+
+
+@pytest.mark.parametrize(
+    "broken",
+    [
+        lambda blade: at_radius(blade, 1e-6),
+        lambda blade: dataclasses.replace(blade, radial_direction=-blade.radial_direction),
+        lambda blade: dataclasses.replace(blade, node_position=blade.node_position * np.nan),
+    ],
+    ids=["near the axis", "path curved outwards", "no numbers"],
+)
+def test_a_blade_whose_tip_may_leave_the_turn_is_refused(blade, spec, broken):
+    with np.errstate(all="ignore"), pytest.raises(ValueError, match="displacement limit"):
+        setup.tip_record(broken(blade), spec)
+
+
+RECORDS = ("modal", "flight", "stator", "tip", "state")
+
+
+def broken_parts(part):
+    """What may not be read by address in the place of an array."""
+    yield part[..., :-1].copy() if part.size else np.zeros((3, 3))
+    yield part.astype(np.float32)
+    if part.size:
+        yield np.repeat(part, 2, axis=-1)[..., ::2]
+        yield np.full(part.shape, np.nan)
+
+
+@pytest.mark.parametrize("kind", RECORDS)
+def test_each_field_that_is_read_by_address_is_checked(blade, spec, kind):
+    _, simulation = setup.set_up(blade, spec)
+    records = {name: getattr(simulation, name) for name in RECORDS}
+    arrays = {name: part for name, part in records[kind]._asdict().items() if isinstance(part, np.ndarray)}
+    assert arrays
+    for name, part in arrays.items():
+        for wrong in broken_parts(part):
+            bad = records | {kind: records[kind]._replace(**{name: wrong})}
+            with pytest.raises(ValueError, match=rf"\.{name}: "):
+                type(simulation)(*bad.values(), simulation.steps_per_element)
+
+
+def test_a_displacement_at_the_start_beyond_the_limit_is_refused(blade, spec):
+    with pytest.raises(ValueError, match="initial_displacement"):
+        setup.set_up(blade, dataclasses.replace(spec, initial_displacement=1.0))

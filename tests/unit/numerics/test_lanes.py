@@ -1,5 +1,6 @@
 """Modules of the time loop for tips with more than eight nodes."""
 
+import os
 import subprocess
 import sys
 
@@ -60,3 +61,39 @@ def test_machine_code_of_another_process_is_used(n_nodes, law):
     command = [sys.executable, "-c", program]
     subprocess.run(command, capture_output=True, check=True)
     assert subprocess.run(command, capture_output=True, text=True, check=True).stdout == "0\n"
+
+
+ROWS = """
+import dataclasses, sys
+sys.path.insert(0, "tests/unit")
+import stand_in
+from bladerub.contact.kernel import row as kernel
+from bladerub.contact.laws import described_law
+from bladerub.contact.row import simulate_row
+from bladerub.contact.row_spec import Row
+from bladerub.contact.spec import PLASTIC
+blade, spec = (getattr(stand_in, name).__wrapped__() for name in ("blade", "spec"))
+laws = [described_law("viscoplastic", {"viscosity": 1e4}), PLASTIC]
+for law in laws[int(sys.argv[1]):]:
+    coating = dataclasses.replace(spec.coating, element_law=law)
+    simulate_row(blade, dataclasses.replace(spec, coating=coating, revolutions=1), Row.even(2))
+print(sum(kernel._integrate_row.stats.cache_misses.values()))
+"""
+
+
+@pytest.mark.slow
+def test_rows_by_two_laws_leave_machine_code_that_later_processes_use(tmp_path):
+    """A later process has but one of the laws; where the code on disk is damaged, it is made anew."""
+    environment = os.environ | {"NUMBA_CACHE_DIR": str(tmp_path)}
+
+    def misses(first):
+        command = [sys.executable, "-c", ROWS, str(first)]
+        done = subprocess.run(command, capture_output=True, text=True, env=environment, check=True)
+        return int(done.stdout)
+
+    misses(0)
+    assert misses(1) == 0
+    for index in tmp_path.rglob("row._integrate_row*.nbi"):
+        index.write_bytes(index.read_bytes()[:-100])
+    assert misses(1) == 1
+    assert misses(1) == 0

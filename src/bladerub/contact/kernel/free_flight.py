@@ -10,6 +10,7 @@ import numpy as np
 
 from bladerub.contact.kernel import tilt
 from bladerub.contact.kernel.modal import add_tip_displacement, in_vectors, tip_displacement
+from bladerub.contact.kernel.records import N_FORMS
 from bladerub.contact.schemes import Recurrence
 from bladerub.numerics.machine_code import inlined
 from bladerub.numerics.memory import aligned, load, no_sums, store
@@ -18,7 +19,6 @@ from bladerub.numerics.vectors import LANES, absolute, broadcast, lane_sum
 MOST_STEPS = 24
 """Most time steps at once: more reach further, and so fit between two contacts less often."""
 
-N_FORMS = 12
 (
     INCREMENT_Q,
     INCREMENT_D,

@@ -11,14 +11,15 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from bladerub.contact.energy import DAMPING, STORED
-from bladerub.contact.gap import normal_approach
+from bladerub.contact.gap import is_within_limit, normal_approach
 from bladerub.contact.kernel import free_flight, tilt
 from bladerub.contact.kernel.accounting import add_work, update_coating
 from bladerub.contact.kernel.coulomb import predict_sliding
+from bladerub.contact.kernel.elements import HEATS
 from bladerub.contact.kernel.free_flight import FreeFlight
 from bladerub.contact.kernel.modal import Modal, advance_forced, advance_free, correct
 from bladerub.contact.kernel.newton import find_forces
-from bladerub.contact.kernel.records import State, Stator, Tip
+from bladerub.contact.kernel.records import State, Stator, Tip, check, shapes
 from bladerub.numerics.machine_code import inlined, njit_on_disk
 from bladerub.numerics.memory import add_to, address_of, addresses, clear, copy, load, read, store, write
 from bladerub.numerics.vectors import LANES, absolute, all_lanes, broadcast, largest_lane, where
@@ -62,8 +63,14 @@ class Simulation:
     ):
         self.modal, self.flight, self.stator, self.tip, self.state = modal, flight, stator, tip, state
         self.steps_per_element, self.layer = steps_per_element, layer
+        cells, turns = state.temperature.shape[1] // LANES, modal.tilt is not None
+        heated = stator.n_elements if HEATS else 0
+        shape = shapes(modal.n, stator.n_elements, heated, cells, turns)
+        records = modal, flight, stator, tip, state
+        for record in records:
+            check(record, shape)
         state.tangential_factor[:] = stator.tangential_factor  # Coulomb's law finds its own before it is used
-        self.records = tuple(addresses(record) for record in (modal, flight, stator, tip, state))
+        self.records = Records(*(addresses(record) for record in records))
 
     @property
     def angle_per_step(self) -> float:
@@ -102,6 +109,20 @@ class Simulation:
         for rows in (self.state.q, self.state.u):  # the loop lets the three rows take turns
             rows[:] = rows[(np.arange(3) - turns) % 3]
         return Progress(n_steps, n_flights, n_contact, lowest, highest)
+
+
+class Records(NamedTuple):
+    """Addresses of all that the loop works on.
+
+    A named tuple: the type that Numba gives a plain one of records is shared by name with those of other
+    laws and numbers of nodes, whose modules a later process lacks when it reads machine code from the disk.
+    """
+
+    modal: Modal
+    flight: FreeFlight
+    stator: Stator
+    tip: Tip
+    state: State
 
 
 class Step(NamedTuple):
@@ -173,20 +194,26 @@ def _contact(modal, stator, tip, state, step, rows, clear_of_casing):
     Returns whether the displacement is within the limit, and whether there is contact now.
     """
     touching = False
-    if clear_of_casing:
+    within = True
+    if modal.corrects and step.touched:  # the last correction moved the tip after its limit was checked
+        within = is_within_limit(tip, load(rows.u, 0), load(rows.u, LANES))
+    if within and clear_of_casing:
         clear(state.force, 3 * LANES)
         clear(state.normal_force, LANES)
         clear(state.response, 3 * LANES)
-    else:
+    elif within:
         if stator.coulomb:
             predict_sliding(modal, state, rows.q_next, rows.q, step.angle)
             within = find_forces(modal, stator, tip, step.passed, state, rows.u_next, True)
         else:
             within = find_forces(modal, stator, tip, step.passed, state, rows.u_next, False)
-        if not within:
+        touching = within and largest_lane(load(state.normal_force, 0)) > 0.0
+    if not within:
+        if step.touched:
             copy(address_of(state.force, 3 * LANES), state.force, 3 * LANES)
-            return False, False
-        touching = largest_lane(load(state.normal_force, 0)) > 0.0
+        else:  # those before are of an older contact
+            clear(state.force, 3 * LANES)
+        return False, False
     if touching or step.touched:
         update_coating(modal, stator, tip, step.passed, step.per_step, state, rows.u_next, rows.u)
     if touching and modal.corrects:

@@ -8,9 +8,13 @@ from typing import NamedTuple
 
 import numpy as np
 
+from bladerub.contact import law
 from bladerub.contact.energy import N_ENTRIES
 from bladerub.numerics.memory import aligned
 from bladerub.numerics.vectors import LANES
+
+N_FORMS = 12
+"""Coefficients of a free flight for each mode (`bladerub.contact.kernel.free_flight`)."""
 
 
 class Stator(NamedTuple):
@@ -99,20 +103,57 @@ def by_lane(rows: np.ndarray, n_nodes: int) -> np.ndarray:
 def at_rest(n_modes: int, n_elements: int, cells: int = 0) -> State:
     """State of a blade at rest before an unworn coating, whose columns have `cells` if they conduct heat."""
     heated = n_elements if cells else 0
-    state = State(
-        q=np.zeros((3, n_modes + -n_modes % LANES)),
-        u=np.zeros((3, 4 * LANES)),
-        force=np.zeros((2, 3 * LANES)),
-        normal_force=np.zeros((2, LANES)),
-        moment=np.zeros((2, LANES)),
-        tangential_factor=np.zeros((2, LANES)),
-        response=np.zeros(3 * LANES),
-        free_sliding=np.zeros(3 * LANES),
-        wear=np.zeros((n_elements, LANES)),
-        strength=np.ones((heated, LANES)),
-        heat=np.zeros((heated, 2 * LANES)),
-        temperature=np.zeros((heated, cells * LANES)),
-        ledger=np.zeros((N_ENTRIES, LANES)),
-        scratch=np.zeros((6, 2 * LANES)),
-    )
+    shape = shapes(n_modes + -n_modes % LANES, n_elements, heated, cells)
+    state = State(*(np.zeros(shape[name]) for name in State._fields))
+    state.strength[:] = 1.0
     return aligned(state)
+
+
+def shapes(n: int, n_elements: int, heated: int = 0, cells: int = 0, turns: bool = False) -> dict:
+    """Shape of each array that the loop reads by address, by its field.
+
+    `n` is the number of modes, whole vectors, `heated` that of the rows that heat changes, `cells` that of
+    the cells of their columns, `turns` says whether the profile turns.
+    """
+    lanes, tip = (LANES,), (3 if turns else 2) * LANES
+    of_modes, of_elements = (n,), (n_elements, LANES)
+    return {
+        **dict.fromkeys(("now", "before", "loss", "gain"), of_modes),
+        **dict.fromkeys(("compliance", "mobility"), (tip, tip)),
+        **dict.fromkeys(("stopping", "start", "per_metre", "radius", "lever", "self_compliance"), lanes),
+        "tip": (n // LANES, 2 * LANES, LANES),
+        "tilt": (n // LANES, LANES, LANES),
+        "forms": (n // LANES, N_FORMS, LANES),
+        "initial_gap": of_elements,
+        "minimum_gap": (n_elements,),
+        "law": (len(law.Element._fields), LANES),
+        "tilt_compliance": lanes if turns else (0,),
+        "q": (3, n),
+        "u": (3, 4 * LANES),
+        "force": (2, 3 * LANES),
+        **dict.fromkeys(("normal_force", "moment", "tangential_factor"), (2, LANES)),
+        **dict.fromkeys(("response", "free_sliding"), (3 * LANES,)),
+        "wear": of_elements,
+        "strength": (heated, LANES),
+        "heat": (heated, 2 * LANES),
+        "temperature": (heated, cells * LANES),
+        "ledger": (N_ENTRIES, LANES),
+        "scratch": (6, 2 * LANES),
+    }
+
+
+def check(record: NamedTuple, shapes: dict) -> None:
+    """Check a record before compiled code reads it by address, where nothing is checked any more.
+
+    Raises `ValueError`, which names the field, unless each array is a contiguous one of finite doubles, in
+    the shape that it must have, and each number is finite.
+    """
+    for name, part in record._asdict().items():
+        where = f"{type(record).__name__}.{name}"
+        if isinstance(part, np.ndarray):
+            shape = shapes[name]
+            if part.dtype != float or part.shape != shape or not part.flags.c_contiguous:
+                right = f"must be contiguous doubles {shape}"
+                raise ValueError(f"{where}: {part.dtype} {part.shape}, strides {part.strides}; {right}")
+        if part is not None and not np.isfinite(part).all():
+            raise ValueError(f"{where}: is no finite number everywhere; check blade, law and config")

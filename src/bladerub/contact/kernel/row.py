@@ -55,7 +55,7 @@ class RowSimulation:
         self.blades, self.coupling = blades, coupling  # whose arrays stay alive here
         self.first, self.begins, self.rests = np.array(first), np.array(begins), rests
         self.work = np.zeros(len(blades))
-        self._kinds = tuple(blades[0].records)
+        self._kinds = blades[0].records
         self._rows = [rows_of(kind) for kind in zip(*(each.records for each in blades), strict=True)]
 
     def advance(self, displacement: np.ndarray, first: int) -> tuple[int, list[Progress]]:
@@ -125,9 +125,9 @@ def _integrate_row(
         for b in range(n_blades):
             if element < begins[b]:
                 continue
-            modal, flight = record_at(kinds[0], _row(modals, b)), record_at(kinds[1], _row(flights, b))
-            stator, tip = record_at(kinds[2], _row(stators, b)), record_at(kinds[3], _row(tips, b))
-            state = record_at(kinds[4], _row(states, b))
+            modal, flight = record_at(kinds.modal, _row(modals, b)), record_at(kinds.flight, _row(flights, b))
+            stator, tip = record_at(kinds.stator, _row(stators, b)), record_at(kinds.tip, _row(tips, b))
+            state = record_at(kinds.state, _row(states, b))
             at = (over[b] + element) % stator.n_elements
             if n_blades == 1 and not is_coupled:  # adds up what is summed as a single run does
                 together = min(n_elements - element, stator.n_elements - at)
@@ -176,7 +176,7 @@ def _couple(coupling, kinds, modals, states, work):
     """
     n_modes, n_blades = coupling.backward.shape
     for b in range(n_blades):
-        modal, state = record_at(kinds[0], _row(modals, b)), record_at(kinds[4], _row(states, b))
+        modal, state = record_at(kinds.modal, _row(modals, b)), record_at(kinds.state, _row(states, b))
         tip_before = address_of(state.u, 4 * LANES)
         for k in range(n_modes):
             velocity = 0.0

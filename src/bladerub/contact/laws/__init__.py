@@ -9,13 +9,17 @@ by it without running the law. The time loop is compiled with the law in it
 import ast
 import math
 from collections.abc import Mapping
+from contextlib import nullcontext
 from functools import cache
 from pathlib import Path
 from types import ModuleType
 from typing import Any, NamedTuple
 
-from bladerub.contact.spec import PLASTIC, ElementLaw
+import numpy as np
+
+from bladerub.contact.spec import PLASTIC, Coating, ElementLaw
 from bladerub.numerics.lanes import USUAL, module_for
+from bladerub.numerics.user_code import bounded
 
 _FOLDER = Path(__file__).parent
 NAMES = (PLASTIC.name, *sorted(path.stem for path in _FOLDER.glob("[a-z]*.py")))
@@ -50,6 +54,32 @@ def module_of(law: ElementLaw, lanes: int = USUAL) -> ModuleType:
     return module_for(lanes, "contact.law", source_of(law))
 
 
+def element_parameters(coating: Coating, area: np.ndarray, time_step: float = math.inf) -> np.ndarray:
+    """Return the parameters (p, n) of elements of the cross-sections `area` (n,), m², by the coating's law.
+
+    A parameter that is one number for all is repeated. Raises `ValueError` on anything but finite numbers in
+    the fields of the law's ``Element``, and on what the law itself raises.
+    """
+    law, name = module_of(coating.element_law), coating.element_law.name
+    with bounded(f"law {name}: element") if coating.element_law.source else nullcontext():
+        fields, parameters = law.Element._fields, tuple(law.element(coating, area, time_step))
+    if "elastic" not in fields:
+        raise ValueError(f"law {name}: Element has no elastic, which gives the stiffness of an element")
+    if len(parameters) != len(fields):
+        raise ValueError(f"law {name}: element returns {len(parameters)} parameters, must be {len(fields)}")
+    rows = np.empty((len(fields), area.size))
+    for row, field, value in zip(rows, fields, parameters, strict=True):
+        try:
+            row[:] = np.squeeze(value) if np.isrealobj(value) else np.nan
+            wrong = "" if np.isfinite(row).all() else "no finite number"
+        except (TypeError, ValueError):
+            wrong = f"an array of shape {np.shape(value)}"
+        if wrong:
+            right = f"must be a finite number, or one for each of {area.size} areas"
+            raise ValueError(f"law {name}: element gives {wrong} as {field}; {right}")
+    return rows
+
+
 @cache
 def parameters_of(source: str) -> Mapping[str, Parameter]:
     """Read the parameters of a law from the text of its module, which is not run.
@@ -62,7 +92,7 @@ def parameters_of(source: str) -> Mapping[str, Parameter]:
         if isinstance(node, ast.Assign) and getattr(node.targets[0], "id", None) == "PARAMETERS":
             try:
                 listed = {name: Parameter(*map(_plain, entry.elts)) for name, entry in _entries(node.value)}
-            except (AttributeError, TypeError, ValueError) as error:
+            except (AttributeError, TypeError, ValueError, RecursionError, MemoryError) as error:
                 right = "must be a dictionary of name: (unit, minimum, maximum, meaning), written out"
                 raise ValueError(f"PARAMETERS on line {node.lineno}: {right}") from error
     names = _names_in(source)
@@ -107,8 +137,8 @@ def _source_in_package(name: str) -> str:
 def _statements(source: str) -> list[ast.stmt]:
     try:
         return ast.parse(source).body
-    except (SyntaxError, ValueError) as error:
-        raise ValueError(f"is no Python ({error})") from error
+    except (SyntaxError, ValueError, RecursionError, MemoryError) as error:
+        raise ValueError(f"is no Python ({error or 'nested too deeply'})") from error
 
 
 def _names_in(source: str) -> set[str]:

@@ -1,12 +1,20 @@
 """Laws beside that of the paper: how they are found, their parameters, and the loop with them."""
 
+import dataclasses
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 from bladerub.contact import law, reference
-from bladerub.contact.laws import NAMES, described_law, module_of, parameters_of, source_of
+from bladerub.contact.laws import (
+    NAMES,
+    described_law,
+    element_parameters,
+    module_of,
+    parameters_of,
+    source_of,
+)
 from bladerub.contact.run import simulate
 from bladerub.contact.setup import compile_kernel
 from bladerub.contact.spec import PLASTIC, Coating, ElementLaw
@@ -188,3 +196,69 @@ def test_the_loop_heats_the_layer_as_the_reference_does(blade, spec, change, sch
     assert np.abs(result.wear - cold.wear).max() > 1e-3 * wear.max()
     assert cold.temperature_rise is None
     assert result.temperature_rise.max() > 1
+
+
+def user_law(element):
+    """A law of a file that is that of the paper with another `element`, in Python."""
+    text = (
+        "import sys, math\nimport numpy as np\nfrom bladerub.contact import law as paper\n"
+        "from bladerub.contact.law import *\n"
+        "from bladerub.contact.law import Element, return_mapping, tangent, elastic_force\n"
+        "from bladerub.contact.law import stored_energy, dissipated_energy\nPARAMETERS = {}\n"
+        "def element(coating, area, time_step=math.inf):\n    own = paper.element(coating, area)\n"
+    )
+    return ElementLaw("own", (), f"{text}    {element}\n")
+
+
+AREAS = np.linspace(1e-6, 2e-6, 8)
+
+
+@pytest.mark.parametrize(
+    "one", ["np.mean(x) * np.ones(1)", "float(np.mean(x))", "np.mean(x) * np.ones((1, 1))"]
+)
+def test_one_number_for_all_elements_is_repeated(one):
+    own = dataclasses.replace(
+        coating(PLASTIC), element_law=user_law(f"return Element(*({one} for x in own))")
+    )
+    expected = element_parameters(coating(PLASTIC), np.full(8, AREAS.mean()))
+    rows = element_parameters(own, AREAS)
+    assert rows.shape == expected.shape
+    np.testing.assert_allclose(rows[:3], expected[:3], rtol=1e-12)
+
+
+@pytest.mark.parametrize(
+    "element",
+    [
+        "return Element(*(np.ones(3) for x in own))",
+        "return Element(*(np.ones((2, x.size)) for x in own))",
+        "return tuple(own)[:-1]",
+        "return Element(*(x * np.nan for x in own))",
+        "return Element(*(x * 1j for x in own))",
+        "return Element(*('a' for x in own))",
+        "return 3",
+        "return None",
+        "sys.exit(0)",
+        "raise KeyError('x')",
+        "while True: pass",
+        "return element(coating, area)",
+    ],
+)
+def test_what_is_no_parameters_is_refused(element, monkeypatch):
+    monkeypatch.setattr("bladerub.numerics.user_code.LONGEST_CALL", 0.5)
+    with pytest.raises(ValueError, match=r"^law own: "):
+        element_parameters(dataclasses.replace(coating(PLASTIC), element_law=user_law(element)), AREAS)
+
+
+@pytest.mark.parametrize("text", ["import sys; sys.exit(0)", "while True: pass", "1 / 0"])
+def test_a_module_that_does_not_end_well_is_refused(text, monkeypatch):
+    monkeypatch.setattr("bladerub.numerics.user_code.LONGEST_CALL", 0.5)
+    with pytest.raises(ValueError, match="its module"):
+        module_of(ElementLaw("own", (), text))
+
+
+@pytest.mark.parametrize(
+    "text", ["(" * 100_000, "x = " + "-" * 100_000 + "1", "x = " + "[" * 5000 + "]" * 5000]
+)
+def test_a_nested_text_is_refused(text):
+    with pytest.raises(ValueError, match=r"Python|a law must have"):
+        parameters_of(text)
