@@ -13,7 +13,7 @@ from scipy.io import mminfo, mmread
 
 from bladerub.blade.linear import MOST_UNKNOWNS
 from bladerub.blade.sources.element_quality import FARTHEST
-from bladerub.io.errors import is_refused
+from bladerub.io.errors import refuse_content
 from bladerub.numerics.lanes import FEWEST_NODES, MOST_NODES
 
 SUFFIXES = (".mtx", ".npz")
@@ -150,10 +150,7 @@ def read_matrix(path: Path) -> sparse.csc_array:
             if hasattr(raw, "check_format"):
                 raw.check_format(full_check=True)  # scipy reads past the arrays of what does not pass
     except Exception as error:  # readers of foreign files raise all kinds of errors
-        if is_refused(error):
-            raise
-        reason = str(error) or type(error).__name__
-        raise ValueError(f"is not a {path.suffix} file that can be read ({reason})") from error
+        refuse_content(path, error)
     if rows != columns:
         raise ValueError(f"is {rows} x {columns}; must be square")
     if rows > MOST_UNKNOWNS:

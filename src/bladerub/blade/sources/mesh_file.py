@@ -2,8 +2,10 @@
 
 import io
 import itertools
+import logging
 import re
 from collections import Counter
+from contextlib import redirect_stderr
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -12,7 +14,9 @@ import numpy as np
 
 from bladerub.blade.sources import origin
 from bladerub.blade.surface import EDGES
-from bladerub.io.errors import is_refused
+from bladerub.io.errors import refuse_content
+
+log = logging.getLogger(__name__)
 
 _LOOKED_THROUGH = 4000  # characters, for the first line
 _NAMES_IN_MESHIO = {
@@ -57,15 +61,14 @@ def read(path: str | Path) -> MeshFile:
     origin.check_file(path)
     suffix = path.suffix.lower()
     _check_start(path)
+    warnings = io.StringIO()
     try:
-        mesh = READERS[suffix](str(path))
+        with redirect_stderr(warnings):  # where meshio prints them
+            mesh = READERS[suffix](str(path))
     except Exception as error:  # readers of foreign files raise all kinds of errors
-        if is_refused(error):
-            raise
         if isinstance(error, KeyError) and str(error.args[0]).startswith(("wedge", "pyramid", "hexahedron")):
             raise ValueError(_unusable(error.args[0])) from error  # meshio knows the kind by name only
-        reason = str(error) or type(error).__name__
-        raise ValueError(f"is not a {suffix} file that can be read ({reason})") from error
+        refuse_content(path, error)
     cells = _volume(mesh)
     points = np.asarray(mesh.points, dtype=float)
     if points.shape[1:] != (3,):
@@ -73,6 +76,8 @@ def read(path: str | Path) -> MeshFile:
     is_linear = cells.shape[1] < 10
     if is_linear:
         points, cells = raised(points, cells)
+    if warnings.getvalue():
+        log.warning("%s: %s", path, " ".join(warnings.getvalue().split()))
     return MeshFile(points, cells, _node_sets(mesh), _volume_sets(mesh), is_linear)
 
 
