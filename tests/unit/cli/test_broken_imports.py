@@ -8,6 +8,7 @@ import os
 import re
 import resource
 import shutil
+import sys
 import traceback
 from collections import Counter
 from pathlib import Path
@@ -116,6 +117,7 @@ def look(path: Path, said: Path) -> None:
     with said.open("w") as stream:
         os.dup2(stream.fileno(), 1)
         os.dup2(stream.fileno(), 2)
+        sys.stdout = sys.stderr = stream  # in place of those of pytest
         try:
             code = main(["import", str(path), "--config", str(path.parent / "small.yaml")])
         except SystemExit as error:
