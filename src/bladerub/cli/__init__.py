@@ -9,6 +9,7 @@ from bladerub.cli import (
     benchmark,
     check_law,
     compare,
+    config,
     export,
     fit_coating,
     import_blade,
@@ -21,7 +22,19 @@ from bladerub.cli.inputs import Parser
 from bladerub.config.errors import ConfigError
 from bladerub.io.errors import BadInput, message_for
 
-_COMMANDS = (new, run, status, verify, benchmark, compare, fit_coating, check_law, export, import_blade)
+_COMMANDS = (
+    new,
+    config,
+    run,
+    status,
+    verify,
+    benchmark,
+    compare,
+    fit_coating,
+    check_law,
+    export,
+    import_blade,
+)
 
 
 def parser() -> argparse.ArgumentParser:

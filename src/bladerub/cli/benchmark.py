@@ -35,6 +35,7 @@ def add_to(commands: Any) -> None:
         "its runs, those that are repeated for longer, and the members of its ensembles, estimated from the "
         "drawn runs; not the blade, tables and figures.",
     )
+    inputs.add_trust_to(parser)
     parser.option("--rounds", "how often to measure (default 5)", int, default=5, metavar="N")
     text = "cores for the estimate of the study (default: all there are)"
     parser.option("--cores", text, int, metavar="C")

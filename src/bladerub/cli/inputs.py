@@ -144,7 +144,26 @@ def read_config_with_notes(options: argparse.Namespace) -> tuple[dict[str, Any],
         return configuration.read_with_notes(base, *options.config)
     print(f"bladerub {options.name}: with {made_with}, as the results were made", file=sys.stderr)
     files = [study_folder() / file for file in made_with.files]
-    return configuration.read_with_notes(base, *files, command_line=made_with.command_line)
+    config, notes = configuration.read_with_notes(base, *files, command_line=made_with.command_line)
+    law = config["contact"].get("law", {}).get("file")
+    if law and not getattr(options, "trust", True) and law not in _named_laws(base):
+        raise InputError(
+            f"{config['results']}/{record.FILE} names the law {law}, a program that this would execute: "
+            "read it, then add --trust, or name the config yourself with --config FILE"
+        )
+    return config, notes
+
+
+def add_trust_to(parser: Parser) -> None:
+    """Add ``--trust`` to the options of a command that simulates."""
+    text = "execute the law that the record of the results folder names, which may be from somebody else"
+    parser.add_argument("--trust", action="store_true", help=text)
+
+
+def _named_laws(base: Path) -> list[str]:
+    """List the file of the law that the study's own config names."""
+    law = configuration.load(base)["contact"].get("law", {})
+    return [law["file"]] if "file" in law else []
 
 
 def _made_with(base: Path) -> record.Record | None:

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 from bladerub.cli import inputs
 from bladerub.cli.check_law import add_parameters_to, parameters
 from bladerub.cli.inputs import InputError, refused
+from bladerub.config.schema import schema
 
 if TYPE_CHECKING:  # as in `inputs`
     from bladerub.api.blade import Blade
@@ -44,6 +45,7 @@ def add_to(commands: Any) -> None:
         "speed need not be in the config. A run that grows is followed further, as in the study. The "
         "blade is built first if the results folder has none.",
     )
+    inputs.add_trust_to(parser)
     parser.option("--casing", "name of a casing of the config, such as 2nd", required=True)
     text = "abradable, with E, K and theta or friction (default), or rigid, with friction"
     parser.option("--coating", text, choices=["abradable", "rigid"], default="abradable")
@@ -156,8 +158,7 @@ def _row(options: argparse.Namespace) -> "Row | None":
         for name, value in given.items():
             raise InputError(f"--{name.replace('_', '-')} = {value:g}: goes with --blades only")
         return None
-    if options.blades < 1:
-        raise InputError(f"--blades = {options.blades}: must be at least 1")
+    inputs.require(options, blades=(1, schema()["properties"]["rotor"]["properties"]["blades"]["maximum"]))
     if options.ensemble is not None:
         raise InputError(f"--ensemble = {options.ensemble}: not with --blades; give another --seed instead")
     for name, value in given.items():

@@ -33,6 +33,7 @@ def add_to(commands: Any) -> None:
         "0.7 of its largest stable step) is divided by the cost of the study's run. The figure is the median "
         "over runs that are not sensitive and where the error of the paper's scheme shrinks with its step.",
     )
+    inputs.add_trust_to(parser)
     parser.option("--sample", "how many runs", int, required=True, metavar="N")
     parser.option("--seed", "decides which; 0 or more", int, required=True, metavar="S")
     text = "draw from the runs that tables and claims rest on, such as the peaks, by the maps"

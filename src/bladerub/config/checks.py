@@ -1,6 +1,7 @@
 """What the schema cannot say of a config: that its parts agree with each other."""
 
 import itertools
+import math
 import os
 from collections.abc import Callable, Collection, Iterator, Mapping
 from typing import Any
@@ -13,6 +14,7 @@ from bladerub.blade.sources import origin
 from bladerub.config.errors import format_value, top_key
 from bladerub.contact.casing import shape
 from bladerub.contact.heating import cell_heights
+from bladerub.contact.row_spec import Row
 from bladerub.io.folders import study_folder
 from bladerub.study.casings import casing_spec
 from bladerub.study.grid import (
@@ -136,12 +138,37 @@ def _fit_speeds(config: Config) -> Iterator[str]:
         yield f"reduction.fit_speeds = {count}: must be 3 with blade.source.matrices"
 
 
-@_reads("rotor")
+@_reads("rotor", "contact", "coatings", "solver", "blade")
 def _rotor(config: Config) -> Iterator[str]:
     try:
-        row_of(config)
+        row = row_of(config)
     except ValueError as error:  # it begins with "row: "
         yield f"rotor: {str(error).partition(': ')[2]}"
+        return
+    if row is None:
+        return
+    contact = config["contact"]
+    ratios = (case.own.get("damping_ratio", contact["damping_ratio"]) for case in coating_cases(config))
+    if (ratio := max(ratios) * max(blade.damping for blade in row.blades)) >= 1:
+        damping = format_value(config["rotor"]["damping"])
+        yield f"rotor.damping = {damping}: must be below 1 times the damping ratio, it comes to {ratio:g}"
+    if "source" not in config["blade"]:
+        yield from _neighbours(config, row)
+
+
+def _neighbours(config: Config, row: Row) -> Iterator[str]:
+    """Check what `bladerub.contact.row` asks of the distance of blades, at the largest radius of the tip."""
+    contact, blade, n_elements = config["contact"], config["blade"], config["contact"]["elements"]
+    turn = 2 * np.pi * (blade["hub_radius"] + blade["length"])
+    moved = config["solver"]["displacement_limit"] * blade["length"] / turn * n_elements
+    fewest = math.ceil(2 * (contact["tip_profile"]["half_width"] + moved)) + 4
+    starts = sorted(int(each.angle / (2 * np.pi) % 1 * n_elements) for each in row.blades)
+    nearest = min(np.diff([*starts, starts[0] + n_elements]))
+    if len(starts) > 1 and nearest < fewest:
+        yield (
+            f"rotor.blades = {len(starts)}: two are {nearest} of {n_elements} contact.elements apart; "
+            f"must be {fewest} or more, so that they cannot meet within solver.displacement_limit"
+        )
 
 
 @_reads("contact")

@@ -24,6 +24,7 @@ MOST_EXTENDED = 20  # files read because one extends the other
 _NUMBER = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)[eE][-+]?\d+")
 _OCTAL = re.compile(r"[-+]?0[0-7_]+")
 _SEXAGESIMAL = re.compile(r"[-+]?[0-9][0-9_]*(:[0-5]?[0-9])+(\.[0-9_]*)?")
+_TEMPLATES = "__use_yte__"
 _TAGS = {yaml.MappingNode: "tag:yaml.org,2002:map", yaml.SequenceNode: "tag:yaml.org,2002:seq"}
 
 
@@ -186,6 +187,12 @@ def _read(path: Path, asked: Location, prefix: str) -> Located:
             Location(source, line), f"not valid YAML ({' '.join(problem.split())})"
         ) from error
     if isinstance(located.content, dict):
+        if _TEMPLATES in located.content:
+            where, right = (
+                located.content[_TEMPLATES].location,
+                "is not for configs: Snakemake runs its templates",
+            )
+            raise ConfigError.at(where, f"{_TEMPLATES}: {right}")
         return located
     raise ConfigError.at(Location(source), "must hold keys at its top level, as config/config.yaml does")
 

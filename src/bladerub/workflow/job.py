@@ -12,7 +12,8 @@ def log_to(path: str | Path) -> None:
     """Send standard error to the log at `path`, each line as it comes.
 
     The error of a file or input is then reported in one line, in the log and on the former standard error, so
-    that it is seen even if the log is on a full disk. The traceback of any other goes to the log.
+    that it is seen even if the log is on a full disk. The traceback of any other goes to the log, its last
+    line to both.
     """
     sys.stderr = open(path, "w", buffering=1)  # noqa: SIM115 (open to the end: a traceback must reach it)
     sys.excepthook = _report
@@ -28,6 +29,11 @@ def print_doubt(line: str) -> None:
 def _report(kind: type[BaseException], error: BaseException, trace: TracebackType | None) -> None:
     if not isinstance(error, OSError | errors.BadInput):
         sys.__excepthook__(kind, error, trace)
+        if not isinstance(error, Exception):  # of who stops the job
+            return
+        with suppress(OSError):
+            reason = " ".join(str(error).split()) or kind.__name__
+            print(f"bladerub: {reason} ({kind.__name__}; more in {sys.stderr.name})", file=sys.__stderr__)
         return
     for stream in (sys.stderr, sys.__stderr__):
         with suppress(OSError):

@@ -391,3 +391,23 @@ def test_the_schema_is_what_the_reader_of_configs_would_make_of_it():
 
 def test_schema_is_beside_the_package():
     assert schema_module.SCHEMA.is_file()
+
+
+@pytest.mark.parametrize(
+    ("rotor", "said"),
+    [
+        ({"blades": 200}, "rotor.blades = 200: "),
+        ({"blades": 2, "damping": [1, 100]}, "rotor.damping = "),
+        ({"blades": 36, "angle_error": [0.0] * 35 + [-0.17]}, "rotor.blades = 36: "),
+    ],
+)
+def test_rows_that_no_run_can_compute_are_refused(config, rotor, said):
+    config["rotor"], config["contact"]["damping_ratio"] = rotor, 0.01
+    with pytest.raises(ConfigError) as error:
+        validate(config)
+    assert error.value.problems[0].text.startswith(said)
+
+
+def test_a_row_as_dense_as_the_runs_allow_is_accepted(config):
+    config["rotor"] = {"blades": 36, "damping": [1.0]}
+    validate(config)

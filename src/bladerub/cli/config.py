@@ -1,0 +1,39 @@
+"""``bladerub config``: whether a config is valid, without running anything that it names."""
+
+import argparse
+import sys
+from typing import Any
+
+from bladerub.config.read import read_with_notes
+from bladerub.io.folders import base_config
+
+
+def add_to(commands: Any) -> None:
+    """Add this command to the subparsers `commands`."""
+    parser = commands.add_parser(
+        "config",
+        help="check a config file and run nothing of it",
+        description="Read YAML files, check them as snakemake does, and say what they plan and what it would "
+        "execute. Nothing of them is run: neither templates, which Snakemake runs in a file of --configfile, "
+        "nor the law of a coating.",
+    )
+    text = "YAML files laid over config/config.yaml, in order"
+    parser.add_argument("files", nargs="*", metavar="FILE", help=text)
+    parser.set_defaults(command=check)
+
+
+def check(options: argparse.Namespace) -> None:
+    """Check the config that the command line names; raises `ConfigError`."""
+    config, notes = read_with_notes(base_config(), *options.files)
+
+    from bladerub.study.grid import coating_cases, speeds
+
+    for note in notes:
+        print(f"bladerub config: {note}", file=sys.stderr)
+    n_coatings, n_speeds = len(coating_cases(config)), len(speeds(config))
+    print(
+        f"valid: {n_coatings} coatings at {n_speeds} speeds are {n_coatings * n_speeds:,} runs, "
+        f"in {config['results']}"
+    )
+    law = config["contact"].get("law", {}).get("file")
+    print(f"executes {law}, the law of the coatings: read it as any program" if law else "executes no file")

@@ -1,0 +1,86 @@
+"""Configs and results of other people: checked without running anything that they name."""
+
+import json
+import shutil
+from argparse import Namespace
+
+import pytest
+
+from bladerub.cli import inputs, main
+from bladerub.io.folders import ROOT
+
+LAW = ROOT / "src" / "bladerub" / "contact" / "laws" / "brittle.py"
+
+
+@pytest.fixture
+def study(tmp_path, monkeypatch):
+    """A folder of a study, with a law that leaves a mark where it is executed."""
+    (tmp_path / "config").mkdir()
+    shutil.copy(ROOT / "config" / "config.yaml", tmp_path / "config")
+    (tmp_path / "Snakefile").write_text("# of bladerub\n")
+    (tmp_path / "results").mkdir()
+    mark = f"open({str(tmp_path / 'executed')!r}, 'w')\nPARAMETERS = {{}}\n"
+    (tmp_path / "evil.py").write_text(LAW.read_text().replace("PARAMETERS", "_UNUSED") + mark)
+    monkeypatch.chdir(tmp_path)
+    yield tmp_path
+    assert not (tmp_path / "executed").exists()
+
+
+def test_a_valid_config_is_summed_up_and_its_law_named_but_not_executed(study, capsys):
+    (study / "theirs.yaml").write_text("contact: {law: {file: evil.py}}\n")
+    assert main(["config", "theirs.yaml"]) == 0
+    output = capsys.readouterr().out
+    assert "12,096 runs" in output
+    assert "executes evil.py" in output
+    assert main(["config"]) == 0
+    assert "executes no file" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("text", "line", "word"),
+    [
+        ("a: 1\n__use_yte__: true\nb: ?open('executed', 'w')\n", 2, "__use_yte__"),
+        ("contact:\n\tdamping_ratio: 0.004\n", 2, "YAML"),
+        ("a: [1\nb: {\n", 2, "YAML"),
+        ("a: 1\na: 2\n", 2, "twice"),
+        ("a: !!python/object/apply:os.system [touch executed]\n", 1, "tag"),
+        ("- 1\n", 0, "keys"),
+    ],
+)
+def test_what_is_no_config_is_one_line_with_file_and_line(study, capsys, text, line, word):
+    (study / "theirs.yaml").write_text(text)
+    assert main(["config", "theirs.yaml"]) == 2
+    error = capsys.readouterr().err
+    assert error.startswith(f"theirs.yaml:{line}: " if line else "theirs.yaml: ")
+    assert word in error
+    assert error.count("\n") == 1
+
+
+def _record(study, **law):
+    made_with = {"files": [], "command_line": {"contact": {"law": law}}}
+    (study / "results" / "config.json").write_text(json.dumps(made_with))
+
+
+@pytest.mark.parametrize(
+    "command", ["run --casing 2nd --E 2 --K 0.5 --f 0.19", "verify --sample 1 --seed 1", "benchmark"]
+)
+def test_results_from_elsewhere_execute_no_law(study, capsys, command):
+    _record(study, file="evil.py")
+    assert main(command.split()) == 2
+    assert "evil.py" in (error := capsys.readouterr().err)
+    assert "--trust" in error
+
+
+def test_a_law_is_taken_from_the_results_if_trusted_of_the_package_or_of_the_study(study):
+    options = Namespace(name="run", config=[], trust=True)
+    _record(study, file="evil.py")
+    assert inputs.read_config(options)["contact"]["law"] == {"file": "evil.py"}
+    options.trust = False
+    _record(study, name="viscoplastic", viscosity=1e4)
+    assert inputs.read_config(options)["contact"]["law"]["name"] == "viscoplastic"
+    text = (study / "config" / "config.yaml").read_text()
+    (study / "config" / "config.yaml").write_text(
+        text.replace("contact:\n", "contact:\n  law: {file: evil.py}\n")
+    )
+    _record(study, file="evil.py")
+    assert inputs.read_config(options)["contact"]["law"] == {"file": "evil.py"}
