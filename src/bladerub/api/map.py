@@ -21,6 +21,7 @@ from bladerub.contact.gpu.many import simulate_many
 from bladerub.contact.gpu.server import find
 from bladerub.contact.setup import compile_kernel
 from bladerub.io.provenance import provenance
+from bladerub.plots.scales import greatest
 from bladerub.plots.spectrum import spectrum_map
 from bladerub.plots.style import saved
 from bladerub.plots.wear_map import wear_map
@@ -100,7 +101,7 @@ class Map:
         `amplitude_range` are the ends of the colour scale, m (default: three decades up to the largest
         amplitude); `max_frequency` is the right end of the axis, normalised.
         """
-        largest = float(np.nanmax(self.coating.spectrum_amplitude))
+        largest = greatest(self.coating.spectrum_amplitude)
         ends = amplitude_range or (1e-3 * largest, largest)
         return saved(spectrum_map(self.coating, ends, max_frequency), path)
 

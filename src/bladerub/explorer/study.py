@@ -37,7 +37,11 @@ def scales(coating: CoatingMap, max_frequency: float) -> dict[str, Any]:
 
 
 def coating(case: CoatingCase, peaks: pd.DataFrame, configs: list[str]) -> dict[str, Any]:
-    """Name, properties and resonant peaks (``peaks.csv``; amplitude Y in mm) of one coating."""
+    """Name, properties and resonant peaks (``peaks.csv``; amplitude Y in mm) of one coating.
+
+    What is missing is NaN: a peak, with its ``reason``, and the band of one without an ensemble.
+    """
+    columns = list(dict.fromkeys([*peaks, *PEAK_COLUMNS, "reason"]))
     return {
         "name": case.name,
         "title": titles.coating(case),
@@ -48,11 +52,12 @@ def coating(case: CoatingCase, peaks: pd.DataFrame, configs: list[str]) -> dict[
         "peaks": [
             {"order": row.order, "f": row.f_peak, "Y": figures.mm(row.amplitude)}
             | {
+                "reason": row.reason,
                 "draws": row.draws,
                 "low": figures.mm(row.amplitude_low),
                 "high": figures.mm(row.amplitude_high),
             }
-            for row in of_case(peaks, case).reindex(columns=[*peaks, *PEAK_COLUMNS]).itertuples()
+            for row in of_case(peaks, case).reindex(columns=columns).itertuples()
         ],
     }
 

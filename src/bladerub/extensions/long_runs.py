@@ -22,7 +22,7 @@ from bladerub.study.grid import CoatingCase, element_law, run_spec
 from bladerub.study.growth import Verdict, growth, judge
 from bladerub.study.maps import CoatingMap
 from bladerub.study.orders import peak_settings
-from bladerub.study.peaks import peak
+from bladerub.study.peaks import nearest_speed
 from bladerub.study.variants import with_variant
 
 COLUMNS = [
@@ -51,10 +51,14 @@ class LongRuns:
 def chosen(config: Mapping[str, Any], coating: CoatingMap) -> dict[float, str]:
     """Choose the runs of a coating that are repeated for longer: the reason for each, by speed.
 
-    These are its peaks, and the completed runs that still grow at the end of the longest that the study has.
+    These are its peaks, or where its orders meet C1 if it has none, and the completed runs that still grow at
+    the end of the longest that the study has.
     """
     peaks = peak_settings(config, coating.case.casing)
-    reasons = {peak(coating, order, peaks).f_omega: f"f{order:g}" for order in peaks["orders"]}
+    reasons = {
+        float(coating.f_omega[nearest_speed(coating, order, peaks)]): f"f{order:g}"
+        for order in peaks["orders"]
+    }
     for f_omega, verdict in zip(coating.f_omega, verdicts(config, coating), strict=True):
         if verdict.divergent and verdict.status == "completed":
             reasons.setdefault(float(f_omega), "grows")

@@ -1,7 +1,6 @@
 """A small study beside the main one, from the runs to the findings, by the same functions."""
 
-import logging
-from collections.abc import Callable, Collection, Iterable, Mapping
+from collections.abc import Callable, Collection, Mapping
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
@@ -10,19 +9,15 @@ from typing import Any, NamedTuple
 import pandas as pd
 
 from bladerub.blade.model import ReducedBlade, read_reduced_blade
-from bladerub.study import divergence, findings, peaks
+from bladerub.study import divergence, findings, peak_table
 from bladerub.study.cache import blade_digest
 from bladerub.study.findings.evidence import Evidence, read_rom_accuracy
 from bladerub.study.grid import CoatingCase, coating_cases, speeds
 from bladerub.study.job import compute_all, compute_missing
 from bladerub.study.manifest import write_manifest
 from bladerub.study.maps import CoatingMap, build_map, collect, first_frequency, read_map
-from bladerub.study.orders import peak_settings
 from bladerub.study.parallel import each_done
 from bladerub.study.plan import coating_plan, on_gpu
-from bladerub.study.variants import with_variant
-
-_log = logging.getLogger(__name__)
 
 
 class SmallStudy(NamedTuple):
@@ -59,7 +54,7 @@ def conduct(
     # a GPU wants all runs at once: each coating of a small study has too few
     found = dict(each_done(mapped, cases, len(cases) if on_gpu(config) else 1))
     maps, n_runs = [found[case][0] for case in cases], sum(n for _, n in found.values())
-    made = {"peaks": _peaks(config, maps), "divergence": divergence.table(config, maps)}
+    made = {"peaks": peak_table.table(config, maps), "divergence": divergence.table(config, maps)}
     evidence = Evidence(config, made | {"rom_accuracy": read_rom_accuracy(rom_accuracy)}, maps)
     wanted = findings.CLAIMS if claims is None else findings.of_claims(claims)
     return SmallStudy(**made, findings=findings.judge(evidence, wanted), n_runs=n_runs, evidence=evidence)
@@ -92,16 +87,3 @@ def _in_memory(
     planned, prominence = speeds(config), config["analysis"]["lobe_prominence"]
     made = collect(case, planned, first_frequency(blade, planned), runs, longer, prominence)
     return replace(made, wear_node=None), len(runs) + sum(run is not None for run in longer)
-
-
-def _peaks(config: Mapping[str, Any], maps: Iterable[CoatingMap]) -> pd.DataFrame:
-    """Find the peaks; an order without a bounded run near its crossing has no row, and the log says so."""
-    rows = []
-    for coating in maps:
-        settings = peak_settings(config, coating.case.casing)
-        for order in settings["orders"]:
-            try:
-                rows.append(peaks.row(coating, order, settings))
-            except ValueError as error:
-                _log.warning("%s: no peak of engine order %g (%s)", coating.case.name, order, error)
-    return with_variant(pd.DataFrame(rows, columns=[*peaks.COLUMNS, "variant"]), peaks.COLUMNS)

@@ -144,7 +144,7 @@ def table(
 
     Both are sought in the same window of speeds (`bladerub.study.peaks`); that of a sweep is NaN if it
     exceeds the displacement limit before. A peak ``survives`` from the ratio ``sweeps.survival`` of
-    amplitudes on. Raises `ValueError` as `bladerub.study.peaks.peak`.
+    amplitudes on; whether it does is missing where there is none at constant speed.
     """
     settings = config["analysis"]["peaks"]
     rows = []
@@ -171,5 +171,6 @@ def table(
         )
     table = pd.DataFrame(rows)
     table["ratio"] = table.amplitude / table.amplitude_constant
-    table["survives"] = table.ratio >= config["sweeps"]["survival"]
+    survives = (table.ratio >= config["sweeps"]["survival"]).astype("boolean")
+    table["survives"] = survives.mask(~(table.amplitude_constant > 0))
     return with_variant(table, COLUMNS)

@@ -11,6 +11,7 @@ from matplotlib.ticker import MaxNLocator
 from mpl_toolkits.mplot3d import Axes3D
 
 from bladerub.plots import titles
+from bladerub.plots.scales import greatest
 from bladerub.plots.style import HEIGHT_MAP, MISSING, PAGE, RED, new_figure, styled
 
 _BAR = 0.62  # width of a bar, in steps of the moduli
@@ -26,7 +27,7 @@ def peak_histogram(
 
     The `quantity` is ``amplitude``, drawn in mm, or ``f_peak`` of `peaks`, rows of ``peaks.csv`` of one
     casing and one theta; the table is those of the engine `order`. The moduli are drawn as equal steps, NaN
-    as no bar and a grey field with a dash; NaN alone is a ValueError. Half the band of the ensemble, if there
+    as no bar and a grey field with a dash. Half the band of the ensemble, if there
     is one, stands below the value where it shows at its digits; a wide one is hatched. E = 1 and K = 1 are
     `unit`, Pa.
     """
@@ -37,9 +38,9 @@ def peak_histogram(
     half = (1e3 if is_amplitude else 1) * (high - low) / 2
     label = f"$Y_{order}$ (mm)" if is_amplitude else f"rotational frequency $f_{order}$ (normalised)"
     values = (1e3 if is_amplitude else 1) * table.to_numpy(dtype=float)
-    if np.isnan(values).all():
-        raise ValueError(f"{label}: nothing to draw, every (E, K) is missing")
-    norm = Normalize(0.0 if is_amplitude else np.nanmin(values) - _ROOM, np.nanmax(values))
+    top = greatest(values)
+    lowest = np.min(values, where=values == values, initial=top)
+    norm = Normalize(0.0 if is_amplitude else lowest - _ROOM, top)
     figure = new_figure(PAGE, 0.52 * PAGE)
     left, right = figure.add_gridspec(1, 2, width_ratios=[1.1, 1])
     bars, colours = figure.add_subplot(left, projection="3d"), figure.add_subplot(right)
@@ -58,7 +59,7 @@ def peak_histogram(
     notes += ["± 90 % band"] if np.isfinite(half).any() else []
     notes += [f"hatched above {'10 %' if is_amplitude else '0.01'}"] if wide.any() else []
     colours.set_title(f"(b) {', '.join(notes)}".strip())
-    for i, j in np.argwhere((values == np.nanmax(values)) & is_amplitude):
+    for i, j in np.argwhere((values == top) & is_amplitude):
         frame = {"fill": False, "edgecolor": RED, "linewidth": 2, "clip_on": False}
         colours.add_patch(Rectangle((i - 0.5, j - 0.5), 1, 1, **frame))
     return rows, figure
@@ -68,7 +69,8 @@ def _draw_bars(axes: Axes3D, values: np.ndarray, norm: Normalize) -> None:
     i, j = np.nonzero(~np.isnan(values))
     top = values[i, j]
     look = {"color": colormaps[HEIGHT_MAP](norm(top)), "edgecolor": "#202020", "linewidth": 0.25}
-    axes.bar3d(i - _BAR / 2, j - _BAR / 2, norm.vmin, _BAR, _BAR, top - norm.vmin, **look)
+    if top.size:  # matplotlib cannot draw none
+        axes.bar3d(i - _BAR / 2, j - _BAR / 2, norm.vmin, _BAR, _BAR, top - norm.vmin, **look)
     n_E, n_K = values.shape
     axes.set(xlim=(-0.6, n_E - 0.4), ylim=(-0.6, n_K - 0.4), zlim=(norm.vmin, norm.vmax))
     axes.set(xlabel="E", ylabel="K")

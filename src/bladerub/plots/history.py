@@ -9,6 +9,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
 from bladerub.plots import titles
+from bladerub.plots.scales import greatest
 from bladerub.plots.style import FIRST, PAGE, SECOND, new_figure, styled
 from bladerub.study.store import read_run
 
@@ -29,7 +30,7 @@ def history(paths: Iterable[str | Path], unit: float | None = None) -> tuple[pd.
     )
     figure = new_figure(PAGE, 0.76 * PAGE)
     *above, below = figure.subplots(3, 1, sharex=True, height_ratios=[1.3, 1.3, 1])
-    limit = 1.08e3 * table.radial_displacement.abs().max()
+    limit = 1.08e3 * greatest(table.radial_displacement.abs())
     panels = zip("ab", above, runs.items(), (FIRST, SECOND), strict=True)
     for letter, axes, (theta, run), look in panels:
         name, about, u = titles.angle(theta), run.attributes, 1e3 * run.data["radial_displacement"]

@@ -10,6 +10,7 @@ from matplotlib.projections.polar import PolarAxes
 from matplotlib.ticker import MaxNLocator
 
 from bladerub.plots import titles
+from bladerub.plots.scales import greatest
 from bladerub.plots.style import BLUE, COLUMN, DARK, FIRST, GREY, ORANGE, PAGE, SECOND, new_figure, styled
 from bladerub.study.maps import CoatingMap
 
@@ -61,7 +62,7 @@ def wear_profiles(maps: Sequence[CoatingMap], speeds: Sequence[float]) -> tuple[
         profiles.append(pd.DataFrame(columns))
     table = pd.concat(profiles)
     figure = new_figure(PAGE, (0.2 + 0.8 / len(speeds)) * PAGE)
-    deepest = 1e3 * table.wear.max()
+    deepest = 1e3 * greatest(table.wear)
     for index, (f_omega, of_speed) in enumerate(table.groupby("f_omega", sort=False)):
         axes = open_polar(figure, 1, len(speeds), index + 1)
         for (theta, rows), look in zip(of_speed.groupby("theta", sort=False), (FIRST, SECOND), strict=True):

@@ -17,6 +17,12 @@ _OUTWARD = 36  # points from the axis whose numbers and name stand between
 _LINE = {"color": DARK, "linestyle": (0, (1, 1.5)), "linewidth": 1.1}
 
 
+def greatest(*values: np.ndarray | float) -> float:
+    """Return the greatest of `values`, where an axis or a scale can end: 1 where none is above 0."""
+    each = np.concatenate([np.ravel(value) for value in values] or [[]]).astype(float)
+    return float(np.max(each, where=each > 0, initial=0.0)) or 1.0
+
+
 @dataclass(frozen=True)
 class Engine:
     """The rotor of a blade from another program."""

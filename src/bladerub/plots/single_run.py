@@ -5,6 +5,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
 from bladerub.plots.polar import closed, open_polar
+from bladerub.plots.scales import greatest
 from bladerub.plots.style import COLUMN, FIRST, PAGE, SECOND, new_figure, styled
 
 
@@ -29,7 +30,7 @@ def spectrum(order: np.ndarray, amplitude: np.ndarray, title: str) -> Figure:
     figure = new_figure(PAGE, 0.42 * PAGE)
     axes = figure.add_subplot()
     axes.plot(order, 1e3 * np.asarray(amplitude), color=FIRST["color"], linewidth=1.2)
-    axes.set(xlim=(0, np.max(order)), ylim=(0, None), title=title)
+    axes.set(xlim=(0, np.max(order)), ylim=(0, 1.05e3 * greatest(amplitude)), title=title)
     axes.set(xlabel="engine order", ylabel="amplitude of $u_r$ (mm)")
     axes.xaxis.set_major_locator(MaxNLocator(integer=True, nbins=14))
     axes.grid()
@@ -40,7 +41,7 @@ def spectrum(order: np.ndarray, amplitude: np.ndarray, title: str) -> Figure:
 def wear(angle: np.ndarray, depth: np.ndarray, title: str) -> Figure:
     """Draw the worn depth (n,), m, over the casing angle (n,), rad, outward from the unworn surface."""
     figure = new_figure(COLUMN, 1.15 * COLUMN)
-    deepest = 1e3 * float(np.max(depth)) or 1.0
+    deepest = 1e3 * greatest(depth)
     axes = open_polar(figure, 1, 1, 1)
     axes.plot(*closed(angle, 1e3 * np.asarray(depth)), **FIRST)
     axes.set(rorigin=-0.6 * deepest, rlim=(0, 1.06 * deepest))

@@ -9,7 +9,7 @@ from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
 
 from bladerub.plots import bins, engine_orders, titles
-from bladerub.plots.scales import LARGE, Scales
+from bladerub.plots.scales import LARGE, Scales, greatest
 from bladerub.plots.style import AMPLITUDE_MAP, BLUE, DARK, MISSING, ORANGE, PAGE, RED, new_figure, styled
 from bladerub.study.maps import CoatingMap
 from bladerub.study.peaks import Peak
@@ -82,7 +82,7 @@ def peak_sections(
         _draw_ring(spectrum, section.order * section.peak.f_omega, section.peak.f_omega)
         _draw_section(curves, coating.f_omega, section, look)
     curves.set_title("(b) along the engine orders", pad=16)
-    end = 1e3 * max(np.nanmax(section.amplitude) for section in sections)
+    end = 1e3 * greatest(*(section.amplitude for section in sections))
     curves.set(xlim=(0, 1.1 * end), xlabel="amplitude (mm)")
     curves.tick_params(labelleft=True)
     legend = curves.legend(
@@ -143,7 +143,10 @@ def _add_colour_bar(figure: Figure, axes: Axes, mesh: QuadMesh, **place) -> None
 def _draw_section(axes: Axes, f_omega: np.ndarray, section: PeakSection, look: dict) -> None:
     k, f_peak, height = section.order, section.peak.f_omega, 1e3 * section.peak.amplitude
     label = f"eo({k}): $Y_{{{k}}}$ = {height:.3g} mm at $f_{{{k}}}$ = {f_peak:.3f}"
-    axes.axhspan(*section.window, color=look["color"], alpha=0.13, linewidth=0, label=f"_window{k}")
+    if section.peak.reason:
+        label = f"eo({k}): no peak"
+    if np.isfinite(section.window).all():
+        axes.axhspan(*section.window, color=look["color"], alpha=0.13, linewidth=0, label=f"_window{k}")
     axes.plot(1e3 * section.amplitude, f_omega, markersize=2.2, linewidth=1.0, label=label, **look)
     _draw_ring(axes, height, f_peak)
     if np.isfinite(section.amplitude_band).all():

@@ -6,8 +6,9 @@
 2. A member starts at rest with a radial displacement of node 1, in the first mode, that is drawn evenly from
    ± ``ensemble.displacement``. The draws of a run depend on ``ensemble.seed``, the coating and the speed, and
    on nothing else: more members leave those that are there as they are.
-3. The runs with an ensemble are those that tables and claims rest on (`chosen`): the peaks of each coating
-   with their neighbours in speed, the runs whose displacement is kept, and those of the claims on lobes.
+3. The runs with an ensemble are those that tables and claims rest on (`chosen`): the peaks of each coating,
+   or where its orders meet C1 if it has none, with their neighbours in speed, the runs whose displacement is
+   kept, and those of the claims on lobes.
 4. Members are stored, found again and followed further when they grow as the runs of the study are
    (`bladerub.study.job`), in the folder ``ensemble`` next to them.
 """
@@ -32,7 +33,7 @@ from bladerub.study.manifest import ManifestRow, write_manifest
 from bladerub.study.maps import CoatingMap
 from bladerub.study.members import named
 from bladerub.study.orders import peak_settings
-from bladerub.study.peaks import peak
+from bladerub.study.peaks import nearest_speed
 
 if TYPE_CHECKING:  # import the time loop, which readers of ensembles do without
     from bladerub.study.job import RunDone
@@ -84,7 +85,7 @@ def chosen(config: Mapping[str, Any], coating: CoatingMap) -> np.ndarray:
     wanted = named(config, coating.case, f_omega)
     settings = peak_settings(config, coating.case.casing)
     for order in settings["orders"]:
-        at = int(np.argmin(np.abs(f_omega - peak(coating, order, settings).f_omega)))
+        at = nearest_speed(coating, order, settings)
         wanted[max(at - 1, 0) : at + 2] = True
     return f_omega[wanted]
 

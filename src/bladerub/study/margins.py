@@ -110,20 +110,13 @@ def table(
 ) -> pd.DataFrame:
     """Judge every claim in every variation of the study with these files: a row each, with `COLUMNS`.
 
-    A claim that cannot be judged has no row. A variation that leaves no speed to look for a peak at is left
-    out; the log says so. Raises `ValueError` as `bladerub.study.peak_table.table`, of the study itself.
+    A claim that cannot be judged has no row; the log says so.
     """
     rom_accuracy = read_rom_accuracy(rom_accuracy_path)
     judged = []
     for name, (settings, maps) in variations(config, map(read_map, map_paths)).items():
         _log.warning("%s:", name)  # a heading for what `findings` leaves out
-        try:
-            found = peak_table.table(settings, maps)
-        except ValueError as error:
-            if name == STUDY:
-                raise
-            _log.warning("left out: all of it (%s)", error)
-            continue
+        found = peak_table.table(settings, maps)
         growing = divergence.table(settings, maps)
         tables = {"peaks": found, "divergence": growing, "rom_accuracy": rom_accuracy}
         judged.append(findings.judge(Evidence(settings, tables, maps)).assign(variation=name))

@@ -14,10 +14,12 @@ from bladerub.study.variants import with_variant
 def table(config: Mapping[str, Any], maps: Iterable[CoatingMap]) -> pd.DataFrame:
     """Find the peaks of every coating: a row each, with `bladerub.study.peaks.COLUMNS`, see `with_variant`.
 
-    Raises `ValueError` as `bladerub.study.peaks.peak`.
+    Where a peak is missing, f_peak and amplitude are NaN and the table has the column ``reason``. Raises
+    `ValueError` as `bladerub.study.peaks.peak`.
     """
     rows = []
     for coating in maps:
         settings = peak_settings(config, coating.case.casing)
         rows += [peaks.row(coating, order, settings) for order in settings["orders"]]
-    return with_variant(pd.DataFrame(rows), peaks.COLUMNS)
+    found = pd.DataFrame(rows)
+    return with_variant(found, [*peaks.COLUMNS, *(["reason"] if found["reason"].any() else [])])

@@ -23,36 +23,40 @@ class Response(Protocol):
 
 
 class Peak(NamedTuple):
-    """Maximum of the response: speed f_k, normalised, and amplitude Y_k, m."""
+    """Maximum of the response: speed f_k, normalised, and amplitude Y_k, m; NaN, with a reason, for none."""
 
     f_omega: float
     amplitude: float
+    reason: str = ""
 
 
 def crossing_speed(coating: Response, order: float) -> float:
     """Speed at which the engine order crosses C1, ``order * f_omega = C1(f_omega)``, normalised.
 
-    C1 is taken as linear between the speeds of the map; `ValueError` if the crossing lies outside them.
+    C1 is taken as linear between the speeds of the map; NaN if the crossing lies outside them.
     """
     f_omega = coating.f_omega
     distance = order * f_omega - coating.C1
     if not distance[0] <= 0 <= distance[-1]:
-        raise ValueError(
-            f"engine order {order:g} does not cross C1 between the lowest and highest speed of "
-            f"{coating.case.name} ({f_omega[0]:g} to {f_omega[-1]:g}): widen speeds or drop the order from "
-            "analysis.peaks.orders"
-        )
+        return np.nan
     return float(np.interp(0.0, distance, f_omega))  # distance increases with speed, since C1 grows slowly
 
 
 def speed_window(coating: Response, order: float, settings: Mapping[str, Any]) -> tuple[float, float]:
     """Lowest and highest speed between which the peak of an engine order is sought, normalised.
 
-    Raises `ValueError` as `crossing_speed`.
+    NaN as `crossing_speed`.
     """
     low, high = settings["speed_window"]
     crossing = crossing_speed(coating, order)
     return low * crossing, high * crossing
+
+
+def nearest_speed(coating: Response, order: float, settings: Mapping[str, Any]) -> int:
+    """Return the place among the speeds of the peak or, where there is none, of where the order meets C1."""
+    f_peak = peak(coating, order, settings).f_omega
+    distance = order * coating.f_omega - coating.C1 if np.isnan(f_peak) else coating.f_omega - f_peak
+    return int(np.argmin(np.abs(distance)))
 
 
 def order_amplitude(coating: Response, order: float, halfwidth: float) -> np.ndarray:
@@ -88,19 +92,30 @@ def peak(coating: Response, order: float, settings: Mapping[str, Any]) -> Peak:
 
     Y_k is the largest amplitude within ``order_halfwidth`` of the order, over the speeds within
     ``speed_window`` times the crossing speed; f_k is the speed of the grid where it occurs. Runs that ended
-    early count with what their spectrum holds; amplitudes are NaN at speeds without a run. `settings` is
-    ``config["analysis"]["peaks"]``. Raises `ValueError`, with key and window, if the order does not cross C1
-    within the map, or no run with a spectrum lies in the window: a table with a hole would pass for a soft
-    coating in the histograms.
+    early count with what their spectrum holds; amplitudes are NaN at speeds without a run. A blade that stays
+    at rest has the amplitude 0, at no speed. `settings` is
+    ``config["analysis"]["peaks"]``. The peak is NaN, with the reason, if the order does not cross C1 within
+    the map, or no run with a spectrum lies in the window. Raises `ValueError` as `order_amplitude`.
     """
     found = maximum(coating, amplitude_in_window(coating, order, settings))
-    if np.isnan(found.amplitude):
-        low, high = speed_window(coating, order, settings)
-        raise ValueError(
-            f"analysis.peaks.speed_window: no run of {coating.case.name} between f_omega = {low:.4f} and "
-            f"{high:.4f} has a spectrum for engine order {order:g}; add speeds there or widen the window"
-        )
-    return found
+    if found.amplitude > 0:
+        return found
+    return Peak(np.nan, found.amplitude, _reason(coating, order, settings, found.amplitude))
+
+
+def _reason(coating: Response, order: float, settings: Mapping[str, Any], amplitude: float) -> str:
+    """Say why an engine order has no peak; the `amplitude` is 0 or NaN."""
+    if amplitude == 0:
+        return f"no vibration on order {order:g} at any speed"
+    low, high = speed_window(coating, order, settings)
+    if np.isnan(low):
+        first, last = coating.f_omega[[0, -1]]
+        return f"order {order:g} does not cross C1 from f_omega = {first:g} to {last:g}: widen speeds"
+    between = f"between f_omega = {low:.4f} and {high:.4f}"
+    runs = np.count_nonzero((coating.f_omega >= low) & (coating.f_omega <= high))
+    if runs:
+        return f"none of the {runs} runs {between} has a spectrum: unbounded in their first revolution"
+    return f"no run {between}: add speeds there or widen analysis.peaks.speed_window"
 
 
 def maximum(coating: Response, amplitude: np.ndarray) -> Peak:
@@ -113,5 +128,5 @@ def maximum(coating: Response, amplitude: np.ndarray) -> Peak:
 
 def row(coating: Response, order: float, settings: Mapping[str, Any]) -> dict[str, Any]:
     """Return the row of one coating and order of the table; parameters and errors are those of `peak`."""
-    f_peak, amplitude = peak(coating, order, settings)
-    return asdict(coating.case) | {"order": order, "f_peak": f_peak, "amplitude": amplitude}
+    f_peak, amplitude, reason = peak(coating, order, settings)
+    return asdict(coating.case) | {"order": order, "f_peak": f_peak, "amplitude": amplitude, "reason": reason}

@@ -19,19 +19,23 @@ _LOWEST_ORDER = 0.5
 def spectral_peak(order: np.ndarray, amplitude: np.ndarray) -> tuple[float, float]:
     """Return order and height (m) of the largest amplitude of a spectrum (m,) from order 0.5 up.
 
-    The height is NaN when the spectrum is.
+    Both are NaN when the spectrum is.
     """
     vibration = np.where(order >= _LOWEST_ORDER, amplitude, 0.0)
     at = np.argmax(vibration)
+    if np.isnan(vibration[at]):
+        return np.nan, np.nan
     return float(order[at]), float(vibration[at])
 
 
 def displacement_peak(revolution_peak: np.ndarray, revolutions: int) -> float:
     """Find the largest displacement (m) over the last `revolutions`, or over as many before an early end.
 
-    `revolution_peak` (r,) is the largest in each revolution, m; NaN after an unbounded end.
+    `revolution_peak` (r,) is the largest in each revolution, m; NaN after an unbounded end. The largest of
+    none is NaN.
     """
-    return float(revolution_peak[np.isfinite(revolution_peak)][-revolutions:].max())
+    begun = revolution_peak[np.isfinite(revolution_peak)]
+    return float(np.fmax.reduce(begun[-revolutions:], initial=np.nan))
 
 
 def summarise(run: StoredRun, analysis: Mapping[str, Any], longer: StoredRun | None = None) -> dict[str, Any]:

@@ -24,7 +24,7 @@ CASE_COLUMNS = ("casing", "E", "K", "theta")
 
 def listed(peaks: pd.DataFrame) -> list[tuple[CoatingCase, Any]]:
     """List coating and row of the peaks of the `CASES` in a table ``peaks.csv``, or of all if it has none."""
-    own = peaks[peaks.law == "theta"].itertuples()
+    own = peaks[peaks.law == "theta"].dropna(subset=["f_peak"]).itertuples()
     described = [(CoatingCase(row.casing, row.E, row.K, row.theta), row) for row in own]
     return [each for each in described if each[0] in CASES] or described
 

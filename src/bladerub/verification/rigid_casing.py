@@ -96,7 +96,7 @@ def _listed(
     yield *PLAIN_SPEED, ALTERNATIVES
     grid = np.array(speeds(config))
     rigid = peaks[(peaks.casing == RIGID.casing) & np.isinf(peaks.E) & (peaks.theta == RIGID.theta)]
-    for peak in rigid.itertuples():
+    for peak in rigid.dropna(subset=["f_peak"]).itertuples():
         at = int(np.argmin(np.abs(grid - peak.f_peak)))
         for place in range(max(at - NEIGHBOURS, 0), min(at + NEIGHBOURS + 1, grid.size)):
             yield float(grid[place]), peak.order, ALTERNATIVES if place == at else NEARBY

@@ -97,7 +97,7 @@ def test_the_page_holds_every_coating_and_needs_nothing_else(page, coating):
     first, second = json.loads(study)["coatings"]
     assert (first["name"], first["title"]) == (coating.case.name, "casing 2nd, E = 2, K = 0.5, θ = 0.15 rad")
     assert (second["E"], second["rigid"], second["friction"]) == (None, True, 0.0)
-    without = {"draws": None, "low": None, "high": None}
+    without = {"reason": None, "draws": None, "low": None, "high": None}
     assert first["peaks"] == [{"order": 4, "f": 0.2, "Y": 1.25} | without]
     assert len(scripts(text, "application/gzip")) == 8
     assert re.findall(r"<(?:script|link|img|iframe)[^>]*\b(?:src|href)=", text) == []

@@ -84,9 +84,9 @@ def test_bars_and_colours_begin_at_the_floor(draws, quantity, floor):
     assert figure.axes[1].collections[0].norm.vmin == pytest.approx(floor)
 
 
-def test_nothing_to_draw_is_said():
-    with pytest.raises(ValueError, match="is missing"):
-        draw(np.nan * MM)
+def test_values_that_are_all_missing_are_dashes(draws):
+    cells = draws(draw(np.nan * MM)).axes[1]
+    assert {text.get_text() for text in cells.texts} == {"–"}
 
 
 PEAKS = pd.DataFrame(

@@ -67,22 +67,18 @@ def test_runs_without_a_spectrum_are_passed_over(make_map, settings):
     assert peaks.peak(coating, 6, settings).f_omega in (0.19, 0.21)
 
 
-def test_no_run_in_the_window_is_an_error_that_names_key_and_window(make_map, settings):
-    coating = make_map(CASE, {}, [0.05, 0.1, 0.3])
-    with pytest.raises(ValueError, match=r"analysis\.peaks\.speed_window: no run of 2nd_E1\.1_K0\.5_theta0"):
-        peaks.peak(coating, 6, settings)
-
-
-def test_no_spectrum_in_the_window_is_an_error_as_well(make_map, settings):
-    coating = make_map(CASE, {})
-    coating.spectrum_amplitude[(coating.f_omega > 0.1) & (coating.f_omega < 0.25)] = np.nan
-    with pytest.raises(ValueError, match="has a spectrum for engine order 6"):
-        peaks.peak(coating, 6, settings)
-
-
-def test_a_crossing_outside_the_speeds_is_an_error_that_names_the_key(make_map, settings):
-    with pytest.raises(ValueError, match=r"engine order 2 does not cross C1 .*analysis\.peaks\.orders"):
-        peaks.peak(make_map(CASE, {}), 2, settings)
+def test_a_missing_peak_has_a_reason(make_map, settings):
+    unbounded = make_map(CASE, {})
+    unbounded.spectrum_amplitude[(unbounded.f_omega > 0.1) & (unbounded.f_omega < 0.25)] = np.nan
+    for coating, order, reason, nearest in (
+        (make_map(CASE, {}, [0.05, 0.1, 0.3]), 6, "no run between", 0.1),
+        (unbounded, 6, "none of the 7 runs between", 0.17),
+        (make_map(CASE, {}), 2, "order 2 does not cross C1", 0.4),
+    ):
+        f_omega, amplitude, why = peaks.peak(coating, order, settings)
+        assert np.isnan([f_omega, amplitude]).all()
+        assert why.startswith(reason)
+        assert coating.f_omega[peaks.nearest_speed(coating, order, settings)] == nearest
 
 
 def test_an_order_above_the_spectra_is_an_error_that_names_the_key(make_map):

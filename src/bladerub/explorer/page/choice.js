@@ -10,7 +10,7 @@ function nearest(values, wanted) {
 
 // The coating that vibrates most, at the speed of its first peak; the next one to compare it with.
 function firstChoice() {
-  const height = ({ rigid, peaks }) => (rigid ? 0 : peaks[0].Y);
+  const height = ({ rigid, peaks }) => (rigid ? 0 : (peaks[0].Y ?? 0));
   const heights = study.coatings.map(height);
   const A = heights.indexOf(Math.max(...heights));
   return {

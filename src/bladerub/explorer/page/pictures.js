@@ -211,13 +211,14 @@ function spectrumMap(coating, choice) {
     hoverinfo: "skip",
     line: { color: LOOK.blue, width: 2, dash: "7px,4px" },
   };
+  const found = coating.peaks.filter(({ f }) => f !== null);
   const peaks = {
     type: "scatter",
     mode: "markers",
-    name: `${coating.peaks.map(({ order }) => `Y${order}`).join(", ")}`,
-    x: coating.peaks.map(({ order, f }) => (byOrder ? order : order * f)),
-    y: coating.peaks.map(({ f }) => f),
-    text: coating.peaks.map(({ order, f, Y }) => `Y${order} = ${digits(Y)} mm<br>f${order} = ${f}`),
+    name: `${found.map(({ order }) => `Y${order}`).join(", ")}`,
+    x: found.map(({ order, f }) => (byOrder ? order : order * f)),
+    y: found.map(({ f }) => f),
+    text: found.map(({ order, f, Y }) => `Y${order} = ${digits(Y)} mm<br>f${order} = ${f}`),
     hovertemplate: "%{text}<extra></extra>",
     marker: { symbol: "diamond", size: 9, color: "white", line: { color: LOOK.blue, width: 2 } },
   };

@@ -62,6 +62,7 @@ function repeat(coating, speed) {
 function peakRow(at, order, goTo) {
   const found = at.peaks.find((peak) => peak.order === order);
   if (!found) return ["none"];
+  if (found.f === null) return [`none: ${found.reason}`];
   const label = `Show the speed ${found.f}, where order ${order} peaks`;
   return [
     `${millimetres(found.Y)} at `,
@@ -153,12 +154,14 @@ function showModuli(choice, choose) {
 function moduliTable(letter, { of, unit, decimals, floor }, kin, choice, choose) {
   const name = `${letter}${choice.order}`;
   const value = (coating) => of(coating.peaks.find(({ order }) => order === choice.order));
-  const values = kin.members.map(value);
+  const values = kin.members.map(value).filter((each) => each !== null);
+  const words = (coating) => (value(coating) === null ? "no peak" : `${digits(value(coating))} ${unit}`);
   const [low, high] = [floor(values), Math.max(...values)];
   const cell = (E, K) => {
     const coating = kin.members.find((each) => each.E === E && each.K === K);
     if (!coating) return element("td", {}, element("button", { type: "button", disabled: true, "aria-label": `E ${E}, K ${K}: not in the study` }, "–"));
     const index = study.coatings.indexOf(coating);
+    const missing = value(coating) === null;
     const share = high > low ? (value(coating) - low) / (high - low) : 1;
     const marks = (choice.compare ? SIDES : ["A"]).filter((each) => choice[each] === index);
     const button = element(
@@ -167,13 +170,15 @@ function moduliTable(letter, { of, unit, decimals, floor }, kin, choice, choose)
         type: "button",
         tabindex: "-1",
         "data-coating": coating.name,
-        "aria-label": `E ${E}, K ${K}: ${name} ${digits(value(coating))} ${unit}${marks.map((mark) => `, coating ${mark}`).join("")}`,
-        title: `${coating.title}: ${name} = ${digits(value(coating))} ${unit}`,
-        style: `background: ${LOOK.height[Math.round(share * (LOOK.height.length - 1))]}; color: ${share < 0.6 ? "white" : "black"}`,
+        "aria-label": `E ${E}, K ${K}: ${name} ${words(coating)}${marks.map((mark) => `, coating ${mark}`).join("")}`,
+        title: `${coating.title}: ${name} = ${words(coating)}`,
+        style: missing
+          ? `background: ${LOOK.missing}; color: black`
+          : `background: ${LOOK.height[Math.round(share * (LOOK.height.length - 1))]}; color: ${share < 0.6 ? "white" : "black"}`,
         onclick: () => choose(index),
       },
       ...marks.map((mark) => element("span", { class: `badge ${mark}` }, mark)),
-      value(coating).toFixed(decimals),
+      missing ? "–" : value(coating).toFixed(decimals),
     );
     return element("td", { class: marks.join(" ") }, button);
   };

@@ -26,6 +26,8 @@ def table(config: Mapping[str, Any], maps: Iterable[CoatingMap]) -> pd.DataFrame
         while pending := next_speeds(known, curves.values(), share):
             known[pending] = True
         for quantity, curve in curves.items():
+            if not np.isfinite(np.where(known, curve, np.nan)).any():
+                continue  # no run with a spectrum, so nothing to find
             at, best = int(np.nanargmax(np.where(known, curve, np.nan))), int(np.nanargmax(curve))
             rows.append(
                 {name: getattr(coating.case, name) for name in COATING}

@@ -32,18 +32,19 @@ def table(config: Mapping[str, Any], points: Iterable[ChartPoint]) -> pd.DataFra
 
     A row per point and order: `COATING`, ``order``, ``E_T``, ``f_crossing``, ``f_peak``, ``amplitude`` (m),
     ``lobes`` and each of `LOSSES` as ``<loss>_per_cycle`` (J), the mean over the run, in which a vibration on
-    the order k has k cycles per revolution. Raises `ValueError` as `bladerub.study.peaks.peak`.
+    the order k has k cycles per revolution. Without a peak all but ``E_T`` and ``f_crossing`` is NaN.
     """
     rows = []
     for point, order in itertools.product(points, chart_orders(config)):
-        about = row(point, order, config["analysis"]["peaks"])
-        at = int(np.flatnonzero(point.f_omega == about["f_peak"])[0])
-        cycles = order * point.measures["revolutions"][at]
-        about |= {
+        about = row(point, order, config["analysis"]["peaks"]) | {
             "E_T": contact_stiffness(point.case.E, point.case.K),
             "f_crossing": crossing_speed(point, order),
-            "lobes": int(point.measures["lobes"][at]),
         }
-        losses = {f"{loss}_per_cycle": point.measures[f"energy_{loss}"][at] / cycles for loss in LOSSES}
-        rows.append(about | losses)
+        rows.append(about)
+        if about["reason"]:
+            continue  # no peak to look at
+        at = int(np.flatnonzero(point.f_omega == about["f_peak"])[0])
+        cycles = order * point.measures["revolutions"][at]
+        about["lobes"] = int(point.measures["lobes"][at])
+        about |= {f"{loss}_per_cycle": point.measures[f"energy_{loss}"][at] / cycles for loss in LOSSES}
     return pd.DataFrame(rows, columns=COLUMNS)

@@ -37,7 +37,7 @@ def table(
     for point in chart.to_dict("records"):
         case = CoatingCase(*(point[name] for name in COATING))
         found = {}
-        for f_omega in sorted({point[name] for name in at} - {None}):
+        for f_omega in sorted({point[name] for name in at if pd.notna(point[name])}):
             _, of_run = stress.of_run(run_spec(config, case, f_omega), last)
             if of_run is not None:
                 found[f_omega] = of_run.last["alternating"]

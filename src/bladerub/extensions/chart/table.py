@@ -43,14 +43,14 @@ def table(config: Mapping[str, Any], points: Iterable[ChartPoint]) -> pd.DataFra
 
     A row per point: `COATING`, Y_k in m and f_k for each engine order of the chart, the greatest displacement
     ``peak`` and its speed, the greatest worn volume and depth over the speeds, the shares of the uniform
-    speeds that diverge and that exceed the displacement limit, and the number of runs. Raises `ValueError` as
-    `bladerub.study.peaks.peak`.
+    speeds that diverge and that exceed the displacement limit, and the number of runs. A missing peak is NaN.
     """
     rows, orders = [], chart_orders(config)
     for point in points:
         measures, row = point.measures, {name: getattr(point.case, name) for name in COATING}
         for order in orders:
-            row[f"f{order}"], row[f"Y{order}"] = peak(point, order, config["analysis"]["peaks"])
+            found = peak(point, order, config["analysis"]["peaks"])
+            row |= {f"f{order}": found.f_omega, f"Y{order}": found.amplitude}
         highest = int(np.nanargmax(measures["peak"]))
         row |= {"peak": measures["peak"][highest], "f_at_peak": point.f_omega[highest]}
         row |= {name: np.nanmax(measures[name]) for name in ("worn_volume", "deepest_wear")}

@@ -85,7 +85,7 @@ def _norm(values: pd.Series, logarithmic: bool) -> Normalize:
     positive = values[values > 0]
     if logarithmic and not positive.empty:
         return LogNorm(positive.min(), positive.max())
-    return Normalize(values.min(), values.max())
+    return Normalize(*((values.min(), values.max()) if values.notna().any() else (0.0, 1.0)))
 
 
 def _contours(axes: Axes, grid: pd.DataFrame, norm: Normalize) -> None:

@@ -25,6 +25,7 @@ def chart_explanation(peaks: pd.DataFrame, unit: float) -> Figure:
     The ridge is the points of the greatest Y_k for each E; the column of the E at which it is highest runs
     across it. E = 1 is `unit`, Pa.
     """
+    peaks = peaks.dropna(subset=["amplitude"])
     groups = list(peaks.groupby(["order", "theta"]))
     labels = {
         "E_T": titles.tangent_modulus(unit),

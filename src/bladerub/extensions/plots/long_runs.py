@@ -8,6 +8,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from bladerub.extensions.long_runs import LongRuns
+from bladerub.plots.scales import greatest
 from bladerub.plots.style import BLUE, DARK, GREY, ORANGE, PAGE, RED, new_figure, styled
 
 _VERDICTS = {
@@ -46,7 +47,7 @@ def _draw_growth(axes: Axes, coatings: Sequence[LongRuns]) -> None:
         xscale="log",
         yscale="log",
         xlim=(1, number[-1]),
-        ylim=(_FLOOR, 3e3 * np.max(np.concatenate(bounded))),
+        ylim=(_FLOOR, 3e3 * greatest(*bounded)),
         xlabel="revolution",
         ylabel="amplitude (mm)",
         title="(a) half the range of $u_r$ in each revolution",
@@ -75,13 +76,14 @@ def _draw_cost(axes: Axes, coatings: Sequence[LongRuns]) -> None:
     seconds = np.concatenate([long.seconds for long in coatings])
     number = np.arange(1, seconds.shape[1] + 1)
     made = np.isfinite(seconds).all(axis=1)
-    low, middle, high = np.quantile(1e3 * seconds[made] / number, [0.1, 0.5, 0.9], axis=0)
+    cost = 1e3 * seconds[made] / number if made.any() else np.full((1, number.size), np.nan)
+    low, middle, high = np.quantile(cost, [0.1, 0.5, 0.9], axis=0)
     axes.fill_between(number, low, high, color="#dfe7ee", label="eight runs of ten")
     axes.plot(number, middle, color=DARK, label="median of the runs that stay in bounds")
     axes.set(
         xscale="log",
         xlim=(1, number[-1]),
-        ylim=(0, 1.4 * high.max()),
+        ylim=(0, 1.4 * greatest(high)),
         xlabel="revolution",
         ylabel="ms per revolution until there",
         title="(c) cost",

@@ -9,6 +9,7 @@ from matplotlib.figure import Figure
 from bladerub.extensions.sweep_grid import DIRECTIONS
 from bladerub.extensions.sweeps import SpeedSweep
 from bladerub.plots import titles
+from bladerub.plots.scales import greatest
 from bladerub.plots.style import BLUE, DARK, GREY, ORANGE, PAGE, RED, new_figure, styled
 from bladerub.study.grid import CoatingCase
 from bladerub.study.maps import CoatingMap
@@ -70,4 +71,4 @@ def _limit(axes: Axes, case: CoatingCase, swept: Sequence[SpeedSweep], constant:
         if sweep.case == case:
             begun = sweep.revolution_amplitude[np.isfinite(sweep.revolution_amplitude)]
             bounded.append(begun[:-2] if sweep.status == "unbounded" else begun)
-    axes.set_ylim(0, 1.08e3 * np.nanmax(np.concatenate(bounded)))
+    axes.set_ylim(0, 1.08e3 * greatest(*bounded))

@@ -80,6 +80,13 @@ def _place(id_: str) -> tuple[str, int, str]:
     return parts[1], int(parts[2]), parts[3]
 
 
+def ratio(value: float, to: float, of: str) -> float:
+    """Divide amplitudes `of` coatings; raises `NotMeasurable` where the second is none."""
+    if not to > 0:
+        raise NotMeasurable(f"{of}: an amplitude of {to:g} m is nothing to compare with")
+    return value / to
+
+
 def below(value: float, yes: float, partly: float) -> tuple[str, float]:
     """Judge a value that should be small, yes up to `yes`, partly up to `partly`: verdict and margin."""
     return (YES if value <= yes else PARTLY if value <= partly else NO), yes - value

@@ -40,7 +40,11 @@ class Evidence:
         rows = rows[rows.order == order]
         if rows.empty:
             raise NotMeasurable(f"no peak of engine order {order} for coating {case.name}")
-        return float(rows[column].iloc[0])
+        value = float(rows[column].iloc[0])
+        if np.isnan(value):
+            why = rows["reason"].iloc[0] if "reason" in rows else "it is empty in peaks.csv"
+            raise NotMeasurable(f"no peak of engine order {order} for coating {case.name}: {why}")
+        return value
 
     def moduli(self, casing: str, theta: float, order: int, column: str) -> pd.DataFrame:
         """Return ``f_peak`` or ``amplitude`` (m) over K (rows) and E (columns), both ascending and finite."""

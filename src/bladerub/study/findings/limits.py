@@ -2,7 +2,7 @@
 
 import pandas as pd
 
-from bladerub.study.findings.claim import NO, PARTLY, YES, Finding, NotMeasurable, below, claim
+from bladerub.study.findings.claim import NO, PARTLY, YES, Finding, NotMeasurable, below, claim, ratio
 from bladerub.study.findings.evidence import Evidence
 from bladerub.study.paper import CASING, HARDLY, RIGID, SOFTEST, STIFFEST, THETA
 
@@ -49,7 +49,9 @@ def _offset(evidence: Evidence, order: int, column: str) -> pd.Series:
     stiff = stiff[stiff.index >= _STIFF]
     if stiff.size < 2 or stiff.index[-1] < STIFFEST:
         raise NotMeasurable(f"at the highest K no E from {STIFFEST:g} on and another from {_STIFF:g} on")
-    return stiff / rigid - 1 if column == "amplitude" else stiff - rigid
+    if column == "amplitude":
+        return stiff.map(lambda height: ratio(height, rigid, RIGID.name) - 1)
+    return stiff - rigid
 
 
 @claim("C12b", 'below E = 0.11 nothing dangerous happens (section "Local maxima evolution")')

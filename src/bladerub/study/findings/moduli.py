@@ -3,7 +3,7 @@
 import numpy as np
 import pandas as pd
 
-from bladerub.study.findings.claim import NO, PARTLY, YES, Finding, NotMeasurable, above, below, claim
+from bladerub.study.findings.claim import NO, PARTLY, YES, Finding, NotMeasurable, above, below, claim, ratio
 from bladerub.study.findings.evidence import Evidence
 from bladerub.study.paper import (
     CASING,
@@ -26,7 +26,7 @@ _SECTION = 'section "Local maxima evolution"'
 def greatest(evidence: Evidence, order: int, figure: str) -> Finding:
     """Rank the coatings by height."""
     ranked = _with_critical(evidence, order).stack().dropna().sort_values(ascending=False)
-    relative = ranked / ranked.iloc[0]
+    relative = ranked.map(lambda height: ratio(height, ranked.iloc[0], f"Y{order}"))
     own = relative[CRITICAL_K, CRITICAL_E]
     first = [f"({e:g}, {k:g}) at {height:.2f}" for (k, e), height in relative.iloc[:3].items()]
     return Finding(
@@ -55,7 +55,7 @@ def ridge(evidence: Evidence) -> Finding:
 def other_heights(evidence: Evidence) -> Finding:
     """Lowest of the three over the greatest of all."""
     table = _with_critical(evidence, 4)
-    lowest = min(_height(table, *other) for other in _HIGH) / float(table.max(axis=None))
+    lowest = ratio(min(_height(table, *other) for other in _HIGH), float(table.max(axis=None)), "Y4")
     text = "Y4 is very high at (1.1, 5), (0.5, 0.5), (1.5, 1): lowest of them over the greatest (footnote 8)"
     return Finding(text, "near 1", lowest, "1", *above(lowest, 0.75, 0.5))
 
@@ -91,7 +91,8 @@ def monotonic(evidence: Evidence, order: int, figure: str) -> Finding:
 def height_varies(evidence: Evidence, order: int, figure: str) -> Finding:
     """Largest range over E, relative to the mean over E."""
     table = _soft_hardening(evidence, order, "amplitude")
-    spread = float(((table.max(axis=1) - table.min(axis=1)) / table.mean(axis=1)).max())
+    widths, heights = table.max(axis=1) - table.min(axis=1), table.mean(axis=1)
+    spread = max(ratio(*each, f"Y{order}") for each in zip(widths, heights, strict=True))
     text = f"Y{order} hardly varies with E for K <= 0.1: largest range over its mean ({figure})"
     return Finding(text, "near 0", spread, "1", *below(spread, HARDLY["amplitude"], 0.5))
 
@@ -124,7 +125,7 @@ def _with_critical(evidence: Evidence, order: int) -> pd.DataFrame:
 def _height(table: pd.DataFrame, young: float, hardening: float) -> float:
     height = table.reindex(index=[hardening], columns=[young]).iloc[0, 0]
     if np.isnan(height):
-        raise NotMeasurable(f"(E, K) = ({young:g}, {hardening:g}) is not in the study")
+        raise NotMeasurable(f"(E, K) = ({young:g}, {hardening:g}) is not in the study, or has no peak")
     return float(height)
 
 

@@ -2,7 +2,7 @@
 
 import pandas as pd
 
-from bladerub.study.findings.claim import NO, PARTLY, YES, Finding, NotMeasurable, below, claim
+from bladerub.study.findings.claim import NO, PARTLY, YES, Finding, NotMeasurable, below, claim, ratio
 from bladerub.study.findings.evidence import Evidence
 from bladerub.study.grid import CoatingCase
 from bladerub.study.paper import STRAIGHT, STRAIGHT_SPEED, TILTED, TILTED_SPEED
@@ -17,9 +17,10 @@ _AT_STRAIGHT_PEAK = "at the speed where this model has f6 with θ = 0"
 @claim("C10b", f"θ = 0.15 lowers Y6 ({_SECTION}, Figs. 15 and 16)", 6)
 def lower_amplitude(evidence: Evidence, order: int) -> Finding:
     """Ratio of the heights of the peaks."""
-    ratio = evidence.peak(TILTED, order, "amplitude") / evidence.peak(STRAIGHT, order, "amplitude")
+    tilted, straight = (evidence.peak(case, order, "amplitude") for case in (TILTED, STRAIGHT))
+    lowered = ratio(tilted, straight, STRAIGHT.name)
     text = f"theta = 0.15 lowers Y{order}: ratio to theta = 0 (Figs. 15 and 16)"
-    return Finding(text, "below 1", ratio, "1", *below(ratio, 1.0, 1.05))
+    return Finding(text, "below 1", lowered, "1", *below(lowered, 1.0, 1.05))
 
 
 @claim("C10c", f"θ = 0.15 lowers f4 ({_SECTION}, Figs. 15 and 16)", 4, "below 0")

@@ -1,10 +1,8 @@
 """Claims C2 to C5: worn lobes, wear maxima and response spectra over the speed, as in Figs. 6 to 9."""
 
-import contextlib
-
 import numpy as np
 
-from bladerub.study.findings.claim import NO, Finding, NotMeasurable, above, below, claim
+from bladerub.study.findings.claim import NO, Finding, NotMeasurable, above, below, claim, ratio
 from bladerub.study.findings.evidence import Evidence
 from bladerub.study.grid import between
 from bladerub.study.maps import CoatingMap
@@ -119,35 +117,37 @@ def soft_peak(evidence: Evidence, order: int, paper: float) -> Finding:
 def soft_even_orders(evidence: Evidence) -> Finding:
     """Strongest odd over strongest even order, on the lines themselves, one bin wide, over all speeds."""
     coating = evidence.map(SOFT)
-    strongest = [float(np.nanmax(order_amplitude(coating, order, 0.0))) for order in _orders(coating)]
-    ratio = max(strongest[1::2]) / max(strongest[0::2])  # orders 2, 3, 4 … : the odd ones are at odd places
+    strongest = [np.fmax.reduce(order_amplitude(coating, order, 0.0)) for order in _orders(coating)]
+    # orders 2, 3, 4 … : the odd ones are at odd places
+    odd, even = (float(np.fmax.reduce(strongest[first::2], initial=np.nan)) for first in (1, 0))
+    share = ratio(odd, even, SOFT.name)
     text = "E = 0.11: even engine orders only: strongest odd over strongest even order (Fig. 8)"
-    return Finding(text, 0, ratio, "1", *below(ratio, SIGNIFICANT, 3 * SIGNIFICANT))
+    return Finding(text, 0, share, "1", *below(share, SIGNIFICANT, 3 * SIGNIFICANT))
 
 
 @claim("C5a", f"Y4 is higher at E = 1.1 than at E = 0.11 ({_YOUNG}, Fig. 9)", 4)
 @claim("C5b", f"Y6 is higher at E = 1.1 than at E = 0.11 ({_YOUNG}, Fig. 9)", 6)
 def critical_is_higher(evidence: Evidence, order: int) -> Finding:
     """Ratio of the heights of the peaks."""
-    ratio = evidence.peak(CRITICAL, order, "amplitude") / evidence.peak(SOFT, order, "amplitude")
+    critical, soft = (evidence.peak(case, order, "amplitude") for case in (CRITICAL, SOFT))
+    raised = ratio(critical, soft, SOFT.name)
     text = f"Y{order} at E = 1.1 is higher than at E = 0.11: ratio (Figs. 8 and 9)"
-    return Finding(text, "above 1", ratio, "1", *above(ratio, 1.0, 0.95))
+    return Finding(text, "above 1", raised, "1", *above(raised, 1.0, 0.95))
 
 
 @claim("C5c", "at E = 1.1, significant amplitudes where each eo(k) crosses C1 (same section, Fig. 9)")
 def critical_all_orders(evidence: Evidence) -> Finding:
     """Share of the orders crossing C1 within the study whose peak there is a tenth of the highest."""
     coating, settings = evidence.map(CRITICAL), evidence.config["analysis"]["peaks"]
-    amplitudes = []
-    for order in _orders(coating):
-        with contextlib.suppress(ValueError):  # the order crosses C1 outside the speeds of the study
-            amplitudes.append(peak(coating, order, settings).amplitude)
-    if len(amplitudes) < 2:
-        raise NotMeasurable(f"{CRITICAL.name}: fewer than two engine orders cross C1 within its speeds")
-    share = 100 * float(np.mean(np.array(amplitudes) >= SIGNIFICANT * max(amplitudes)))
+    found = np.array([peak(coating, order, settings).amplitude for order in _orders(coating)])
+    amplitudes = found[np.isfinite(found)]
+    if amplitudes.size < 2:
+        raise NotMeasurable(f"{CRITICAL.name}: fewer than two engine orders have a peak within its speeds")
+    relative = np.array([ratio(each, amplitudes.max(), CRITICAL.name) for each in amplitudes])
+    share = 100 * float(np.mean(relative >= SIGNIFICANT))
     text = (
         "E = 1.1: significant amplitude where each engine order crosses C1: "
-        f"share of {len(amplitudes)} orders (Fig. 9)"
+        f"share of {amplitudes.size} orders (Fig. 9)"
     )
     return Finding(text, 100, share, "%", *above(share, 90, 60))
 

@@ -1,0 +1,245 @@
+"""A run that ends in its first revolution, or a blade that never touches, leaves all other numbers there.
+
+Each coating of a study in turn, and all of them, is unbounded at every speed, or about one of its peaks, or
+has no contact at all. Every table and figure is made of it, without a warning.
+"""
+
+from dataclasses import replace
+
+import numpy as np
+import pandas as pd
+import pytest
+from study_fixtures import *  # noqa: F403 (fixtures)
+
+from bladerub.api.map import Map
+from bladerub.explorer.page import build
+from bladerub.extensions import long_runs, sweeps
+from bladerub.extensions.plots.long_runs import long_runs as draw_long_runs
+from bladerub.extensions.plots.sweeps import sweeps as draw_sweeps
+from bladerub.extensions.sweeps import SpeedSweep
+from bladerub.io import tables
+from bladerub.plots.histogram import peak_histogram
+from bladerub.plots.polar import wear_profiles
+from bladerub.plots.spectrum import PeakSection, peak_sections, spectrum_map
+from bladerub.plots.verdicts import verdicts as draw_verdicts
+from bladerub.plots.wear_map import wear_map
+from bladerub.study import bands, ensemble, findings, margins
+from bladerub.study.findings import verdicts
+from bladerub.study.findings.evidence import Evidence
+from bladerub.study.grid import coating_cases, speeds
+from bladerub.study.manifest import ManifestRow, write_manifest
+from bladerub.study.maps import write_map
+from bladerub.study.orders import peak_settings
+from bladerub.study.peaks import order_amplitude, peak, speed_window
+
+pytestmark = pytest.mark.slow
+
+QUICK = [
+    {"casing": "2nd5nd", "E": [11], "K": [0.5], "theta": [0.0]},
+    {"casing": "2nd", "E": [0.11, 1.1, 20], "K": [0.5, 5], "theta": [0.0]},
+    {"casing": "2nd", "E": [2], "K": [0.5], "theta": [0.0, 0.15]},
+    {"casing": "2nd", "coating": "rigid", "friction": [0.0]},
+]
+LAST = -1  # the rigid casing
+RANGE = (1e-6, 1e-3)
+PAGE = {"max_frequency": 2.0, "amplitude_range": RANGE, "growth_revolutions": 10, "modulus_unit": 6e8}
+
+
+def unbounded(coating, where):
+    """Let the runs at some speeds end in their first revolution."""
+    spectrum, half_range, largest = (
+        getattr(coating, name).copy()
+        for name in ("spectrum_amplitude", "revolution_amplitude", "revolution_peak")
+    )
+    spectrum[where], half_range[where], largest[where, 1:] = np.nan, np.nan, np.nan
+    status = np.where(where, "unbounded", coating.status)
+    return replace(
+        coating,
+        spectrum_amplitude=spectrum,
+        revolution_amplitude=half_range,
+        revolution_peak=largest,
+        status=status,
+    )
+
+
+def untouched(coating):
+    """Let the blade stay at rest."""
+    names = ("wear", "wear_node", "spectrum_amplitude", "revolution_amplitude", "revolution_peak", "max_wear")
+    still = {name: np.zeros_like(getattr(coating, name)) for name in (*names, "lobes")}
+    return replace(coating, **still)
+
+
+HOSTILE = {
+    "unbounded at all speeds": lambda coating: unbounded(coating, np.full(coating.f_omega.size, True)),
+    "unbounded about a peak": lambda coating: unbounded(coating, np.abs(coating.f_omega - 0.32) < 0.09),
+    "without contact": untouched,
+}
+
+
+@pytest.fixture
+def angle():
+    """Few elements, since nothing here depends on their number."""
+    return (np.arange(200) + 0.5) * (2 * np.pi / 200)
+
+
+@pytest.fixture
+def draws():
+    """Draw a figure without a file."""
+    return lambda figure: figure.draw_without_rendering()
+
+
+@pytest.fixture
+def study(config):
+    config |= {
+        "coatings": QUICK,
+        "speeds": {"start": 0.05, "stop": 0.4, "step": 0.05, "extra": [0.19, 0.197]},
+    }
+    config["analysis"]["histories"] = []
+    config["ensemble"]["members"] = 1
+    return config
+
+
+@pytest.fixture
+def sound(study, make_map):
+    cases, f_omega = coating_cases(study), speeds(study)
+    return [
+        make_map(case, {4: (0.3, 1e-4 + n * 1e-6), 6: (0.2, 1e-4)}, f_omega) for n, case in enumerate(cases)
+    ]
+
+
+@pytest.fixture(params=HOSTILE)
+def hostile(request):
+    return HOSTILE[request.param]
+
+
+@pytest.fixture
+def accuracy(tmp_path):
+    pd.DataFrame({"f_omega": 0.0, "mode": range(1, 8), "relative_error": 1e-4}).to_csv(tmp_path / "a.csv")
+    return tmp_path / "a.csv"
+
+
+def judged(study, maps, accuracy):
+    """Make all tables of the study; return the findings by claim."""
+    drawn = [_ensemble(study, coating) for coating in maps]
+    made = {"peaks": bands.of_peaks(study, maps, drawn), "divergence": bands.of_runs(study, maps, drawn)}
+    rom_accuracy = pd.read_csv(accuracy)
+    found = findings.judge(Evidence(study, made | {"rom_accuracy": rom_accuracy}, maps))
+    found = bands.of_findings(study, found, rom_accuracy, maps, drawn)
+    return made, found.set_index("id")
+
+
+def _ensemble(study, coating):
+    chosen = ensemble.chosen(study, coating)
+    at = np.isin(coating.f_omega, chosen)
+    values = {name: getattr(coating, name)[at] for name in (*ensemble.OVER_SPEED, "C1", "f_omega")}
+    return ensemble.Ensemble(np.zeros((1, chosen.size)), (replace(coating, wear_node=None, **values),))
+
+
+def test_one_bad_coating_takes_no_number_from_the_others(study, sound, hostile, accuracy, tmp_path):
+    whole, verdicts_of_all = judged(study, sound, accuracy)
+    assert "reason" not in whole["peaks"]
+    for place, coating in enumerate(sound):
+        maps = [*sound[:place], hostile(coating), *sound[place + 1 :]]
+        made, found = judged(study, maps, accuracy)
+        for name, table in made.items():
+            tables.write(tmp_path / f"{name}.csv", table, {})
+            own = table.casing == coating.case.casing
+            for key in ("E", "K", "theta"):
+                own &= table[key] == getattr(coating.case, key)
+            expected = whole[name][~own]
+            pd.testing.assert_frame_equal(table[~own][expected.columns], expected, check_dtype=False)
+        missing = made["peaks"].f_peak.isna()
+        assert missing.any() == ("reason" in made["peaks"])
+        if missing.any():
+            assert made["peaks"].reason[missing].str.contains("unbounded in|no vibration").all()
+        assert set(found.index) <= set(verdicts_of_all.index)
+        measured = pd.to_numeric(found.measured, errors="coerce")
+        assert measured[found.measured.map(lambda each: isinstance(each, float))].notna().all()
+        assert len(found) > len(verdicts_of_all) / 2
+
+
+@pytest.mark.parametrize("how_many", [1, None], ids=["one", "all"])
+def test_every_figure_and_page_is_made(study, sound, hostile, how_many, accuracy, draws, tmp_path):
+    maps = [*sound[: LAST if how_many else 0], *map(hostile, sound[LAST if how_many else 0 :])]
+    made, _ = judged(study, maps, accuracy)
+    settings = peak_settings(study, "2nd")
+    for coating in maps[LAST - 1 :]:
+        draws(wear_map(coating))
+        draws(spectrum_map(coating, RANGE, 2.0))
+        draws(Map(coating).plot_spectrum())
+        sections = [
+            PeakSection(
+                order,
+                order_amplitude(coating, order, settings["order_halfwidth"]),
+                speed_window(coating, order, settings),
+                peak(coating, order, settings),
+                (np.nan, np.nan),
+                (np.nan, np.nan),
+            )
+            for order in settings["orders"]
+        ]
+        draws(peak_sections(coating, sections, RANGE, 2.0))
+    straight, tilted = (each for each in maps if each.case.E == 2)
+    draws(wear_profiles([straight, tilted], [0.19, 0.197])[1])
+    for quantity in ("amplitude", "f_peak"):
+        layer = made["peaks"].query("casing == '2nd' and theta == 0 and E < 1e9")
+        draws(peak_histogram(layer, quantity, 4, 6e8)[1])
+    paths = [tmp_path / f"{coating.case.name}.h5" for coating in maps]
+    for path, coating in zip(paths, maps, strict=True):
+        write_map(path, coating, {})
+        rows = [ManifestRow(f"{f}.h5", f, "key", "completed", 1) for f in coating.f_omega]
+        write_manifest(path.with_suffix(".tsv"), rows)
+    draws(draw_verdicts(verdicts(margins.table(study, paths, accuracy), by="variation")))
+    page_settings = PAGE | {"spectrum_revolutions": 10}
+    manifests = [path.with_suffix(".tsv") for path in paths]
+    assert (
+        "NaN"
+        not in build(paths, manifests, made["peaks"], made["divergence"], page_settings, []).partition(
+            "<script"
+        )[0]
+    )
+
+
+def test_sweeps_and_long_runs_go_on(study, sound, hostile, draws):
+    maps = {each.case: each for each in (hostile(sound[0]), sound[1])}
+    swept = [
+        SpeedSweep(
+            case=case,
+            direction="up",
+            rate=0.05,
+            status=coating.status[0],
+            energy_residual=0.0,
+            max_wear=1e-4,
+            speed=coating.f_omega,
+            revolution_amplitude=coating.revolution_peak[:, 0],
+            f_omega=coating.f_omega,
+            C1=coating.C1,
+            spectrum_order=coating.spectrum_order,
+            spectrum_amplitude=coating.spectrum_amplitude,
+        )
+        for case, coating in maps.items()
+    ]
+    table = sweeps.table(study, swept, maps)
+    assert table.survives.isna().tolist() == (~(table.amplitude_constant > 0)).tolist()
+    assert table.survives[table.E == sound[1].case.E].all()
+    draws(draw_sweeps(swept, maps))
+    longer = []
+    for coating in maps.values():
+        reasons = long_runs.chosen(study, coating)
+        assert {"f4", "f6"} <= set(reasons.values())
+        at = np.isin(coating.f_omega, list(reasons))
+        seconds = np.where(np.isfinite(coating.revolution_peak), np.arange(1.0, 21.0), np.nan)[at]
+        values = (coating.revolution_amplitude, coating.max_wear, coating.status)
+        amplitude, wear, status = (each[at] for each in values)
+        longer.append(
+            long_runs.LongRuns(
+                coating.case,
+                np.array(list(reasons)),
+                np.array(list(reasons.values())),
+                amplitude,
+                wear,
+                status,
+                seconds,
+            )
+        )
+    draws(draw_long_runs(longer, long_runs.table(study, longer)))
