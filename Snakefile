@@ -35,7 +35,7 @@ if workflow.is_main_process:
     if workflow.output_settings.dryrun:
         from bladerub.workflow import forecast  # takes seconds to import
 
-        forecast.print_at_exit(config)
+        forecast.print_at_exit(config, workflow)
 
 
 onstart:

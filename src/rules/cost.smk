@@ -1,5 +1,7 @@
 # What the study cost: made last, from the records that Snakemake keeps of the other jobs.
 
+MEASURED = f"{RESULTS}/benchmarks"  # all that differs from one execution to the next
+
 
 rule cost:
     input:
@@ -13,13 +15,13 @@ rule cost:
         collecting=files_behind("workflow.cost", "workflow.schedule"),
         drawing=files_behind("plots.cost"),
     output:
-        **described(table=f"{TABLES}/cost.csv", schedule=f"{TABLES}/schedule.csv"),
-        png=shown(f"{RESULTS}/benchmarks/cost.png", "cost", "Cost"),
-        pdf=f"{RESULTS}/benchmarks/cost.pdf",
+        **described(table=f"{MEASURED}/cost.csv", schedule=f"{MEASURED}/schedule.csv"),
+        png=shown(f"{MEASURED}/cost.png", "cost", "Cost"),
+        pdf=f"{MEASURED}/cost.pdf",
     log:
         f"{RESULTS}/logs/cost.log",
     params:
-        benchmarks=f"{RESULTS}/benchmarks",
+        benchmarks=MEASURED,
         dpi=DPI,
     script:
         "../scripts/cost.py"

@@ -28,7 +28,7 @@ from pathlib import Path
 from workspace import Workspace
 
 WAYS = ("SIGTERM to snakemake", "SIGKILL to all processes", "SIGKILL to one job")
-UNEQUAL = re.compile(r"logs/|benchmarks/|tables/cost\.csv|.*\.lock")
+UNEQUAL = re.compile(r"logs/|benchmarks/|.*\.lock")
 """Files that tell of the machine, not of the study."""
 LAST = 600
 """Longest that a study may take, s."""

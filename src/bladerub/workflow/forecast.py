@@ -1,28 +1,46 @@
-"""What a dry run says of the study: how many runs are still to be computed, and about how long that takes."""
+"""What a dry run says: how many runs of the study are to be computed, and about how long its jobs take."""
 
 import atexit
 import copy
 import sys
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
+from bladerub.io.errors import message_for
 from bladerub.study import inventory
 from bladerub.study.grid import coating_cases
 from bladerub.study.plan import coating_plan
+from bladerub.workflow.cores import costs_of
+
+SECONDS_PER_REVOLUTION = 0.006
+"""Of one core, for a run of the paper's blade with its longer run, if it needs one (`docs/data/cost.csv`)."""
+
+SECONDS_PER_JOB = 4
+"""Of one core, to start Snakemake and the job and to draw, collect or analyse; rounded up."""
+
+SECONDS_AT_FIRST = {"blade": 15, "compile_kernel": 15}
+"""Of one core, for the jobs that are made once, by their rule."""
+
+
+def print_at_exit(config: Mapping[str, Any], workflow: Any) -> None:
+    """Print the `forecast` after the jobs that Snakemake lists for its `workflow`, unless that failed."""
+    study = copy.deepcopy(dict(config))
+
+    def print_forecast() -> None:
+        if workflow.dag is None:  # there was an error
+            return
+        jobs = [(job.rule.name, job.wildcards.get("coating")) for job in workflow.dag.needrun_jobs()]
+        try:
+            line = forecast(study, jobs)
+        except OSError as error:
+            line = message_for(error)
+        print(f"bladerub: {coatings(study)}\nbladerub: {line}", file=sys.stderr)
+
+    atexit.register(print_forecast)
+
 
 _MOST_NAMED = 8
-
-SECONDS_PER_REVOLUTION = 0.01
-"""Of one core, for a run of the paper's blade with its longer run, if it needs one; rounded up."""
-
-
-def print_at_exit(config: Mapping[str, Any]) -> None:
-    """Print coatings and `forecast` after the jobs that Snakemake lists."""
-    study = copy.deepcopy(dict(config))
-    atexit.register(
-        lambda: print(f"bladerub: {coatings(study)}\nbladerub: {forecast(study)}", file=sys.stderr)
-    )
 
 
 def coatings(config: Mapping[str, Any]) -> str:
@@ -32,18 +50,38 @@ def coatings(config: Mapping[str, Any]) -> str:
     return f"coatings: {', '.join(names[:_MOST_NAMED])}{f' and {more} more' if more > 0 else ''}"
 
 
-def forecast(config: Mapping[str, Any]) -> str:
-    """Say in a line how many runs of the study are missing, stale or corrupt, and what they cost."""
-    results = Path(config["results"])
+def forecast(config: Mapping[str, Any], jobs: Iterable[tuple[str, str | None]]) -> str:
+    """Say in a line how many runs of the study are missing, stale or corrupt, and what the `jobs` cost.
+
+    These are all that are planned, as pairs of their rule and the coating of its wildcards.
+    """
+    results, jobs = Path(config["results"]), list(jobs)
     digest, _ = inventory.current_blade(config, results / "blade" / "reduced_model.h5")
-    whole = inventory.total(
-        inventory.take(config, coating_plan(config, case), results / "runs" / case.name, digest)[0]
+    counts = {
+        case.name: inventory.take(config, coating_plan(config, case), results / "runs" / case.name, digest)[0]
         for case in coating_cases(config)
-    )
+    }
+    whole = inventory.total(counts.values())
     left = whole["planned"] - whole["done"]
+    runs = f"{left:,} of {whole['planned']:,} runs of the study are to be computed"
     if not left:
-        return f"all {whole['planned']:,} runs of the study are done"
-    blades = config.get("rotor", {"blades": 1})["blades"]
-    minutes = left * blades * config["solver"]["revolutions"] * SECONDS_PER_REVOLUTION / 60
-    about = f"about {max(minutes, 1):.0f} min of one core"  # Snakemake tells a dry run of no more cores
-    return f"{left:,} of {whole['planned']:,} runs of the study are to be computed, {about}"
+        runs = f"all {whole['planned']:,} runs of the study are done"
+    if not jobs:
+        return runs
+    costs, n_blades, simulated, seconds = (
+        costs_of(config),
+        config.get("rotor", {"blades": 1})["blades"],
+        0.0,
+        0.0,
+    )
+    for rule, coating in jobs:
+        seconds += SECONDS_PER_JOB + SECONDS_AT_FIRST.get(rule, 0)
+        if rule == "coating" and coating in counts:
+            of_coating = counts[coating]
+            share = 1 - of_coating["done"] / of_coating["planned"]
+            simulated += share * n_blades * costs.runs[coating]
+        elif rule == "ensemble" and coating in counts:
+            simulated += costs.ensembles[coating]
+    seconds += simulated * config["solver"]["revolutions"] * SECONDS_PER_REVOLUTION
+    # Snakemake tells a dry run of no more cores
+    return f"{runs}; {len(jobs):,} jobs, about {max(seconds / 60, 1):.0f} min of one core"

@@ -3,7 +3,8 @@ import re
 import pytest
 
 from bladerub.study import inventory
-from bladerub.workflow.forecast import SECONDS_PER_REVOLUTION, forecast
+from bladerub.workflow.cores import costs_of
+from bladerub.workflow.forecast import SECONDS_AT_FIRST, SECONDS_PER_JOB, SECONDS_PER_REVOLUTION, forecast
 
 
 @pytest.fixture
@@ -21,13 +22,21 @@ def study(config, monkeypatch):
     return of
 
 
-def test_a_dry_run_counts_what_is_left_and_what_it_costs(study):
+JOBS = [(rule, f"2nd_E{E}_K0.5_theta0") for E in (1, 2) for rule in ("coating", "map", "ensemble")]
+
+
+def test_a_dry_run_counts_what_is_left_and_what_its_jobs_cost(study):
     config = study(done=40)
     config["solver"]["revolutions"] = 3600
-    minutes = 120 * 3600 * SECONDS_PER_REVOLUTION / 60
-    assert re.findall(r"\d+", forecast(config)) == ["120", "200", f"{minutes:.0f}"]
+    jobs = [("blade", None), *JOBS, ("fig11_Y4", None)]
+    costs = costs_of(config)
+    runs = 0.6 * sum(costs.runs.values()) + sum(costs.ensembles.values())
+    seconds = runs * 3600 * SECONDS_PER_REVOLUTION + 8 * SECONDS_PER_JOB + SECONDS_AT_FIRST["blade"]
+    numbers = re.findall(r"\d+", forecast(config, jobs).replace(",", ""))
+    assert numbers == ["120", "200", "8", f"{seconds / 60:.0f}"]
+    assert costs.ensembles[JOBS[0][1]] > 0
 
 
 def test_a_dry_run_of_a_finished_study_says_so(study):
-    assert "200" in forecast(study(done=100))
-    assert "min" not in forecast(study(done=100))
+    assert re.findall(r"\d+", forecast(study(done=100), [])) == ["200"]
+    assert re.findall(r"\d+", forecast(study(done=100), [("fig11_Y4", None)])) == ["200", "1", "1"]
