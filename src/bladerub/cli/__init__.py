@@ -3,6 +3,8 @@
 import argparse
 import os
 import sys
+from io import TextIOWrapper
+from typing import Any
 
 from bladerub import __version__
 from bladerub.cli import (
@@ -47,8 +49,19 @@ def parser() -> argparse.ArgumentParser:
     return root
 
 
+def _write_any_text(stream: Any) -> None:
+    """Let a stream take any text: a terminal shows ``?`` for what it lacks, a file is UTF-8 in any locale."""
+    if isinstance(stream, TextIOWrapper):
+        if stream.isatty():
+            stream.reconfigure(errors="replace")
+        else:
+            stream.reconfigure(encoding="utf-8", errors="surrogateescape")
+
+
 def main(arguments: list[str] | None = None) -> int:
     """Run the command line; return 0, 1 where numbers differ, 2 on bad input, 130 when interrupted."""
+    for stream in (sys.stdout, sys.stderr):
+        _write_any_text(stream)
     options = parser().parse_args(import_blade.joined(sys.argv[1:] if arguments is None else arguments))
     code, message = 2, None
     try:

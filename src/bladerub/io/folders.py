@@ -1,6 +1,8 @@
 """Folders: the workflow that comes with the package, the study at work, and the cache of this user."""
 
+import errno
 import os
+import tempfile
 from pathlib import Path
 
 import platformdirs
@@ -45,6 +47,30 @@ def base_config() -> Path:
     return own if own.is_file() else ROOT / CONFIG
 
 
+def has_home() -> bool:
+    """Return whether this user has a home to write to; the user of a container may have none."""
+    return os.access(os.path.expanduser("~"), os.W_OK)
+
+
 def cache_folder() -> Path:
-    """Return the folder of blades built outside a study: ``BLADERUB_CACHE``, or where the system wants it."""
-    return Path(os.environ.get("BLADERUB_CACHE") or platformdirs.user_cache_path("bladerub"))
+    """Return the folder of what is kept for this user beside studies, such as blades and machine code.
+
+    It is ``BLADERUB_CACHE``, or where the system wants it (``XDG_CACHE_HOME``), or, for a user without a
+    home, of this user alone among the temporary files (``TMPDIR``). Raises an `OSError` if others can write
+    that one.
+    """
+    if folder := os.environ.get("BLADERUB_CACHE"):
+        return Path(folder)
+    if has_home() or "XDG_CACHE_HOME" in os.environ:
+        return platformdirs.user_cache_path("bladerub")
+    return _temporary_cache()
+
+
+def _temporary_cache() -> Path:
+    folder = Path(tempfile.gettempdir(), f"bladerub-{os.getuid()}")
+    folder.mkdir(mode=0o700, exist_ok=True)
+    about = folder.lstat()
+    if about.st_uid != os.getuid() or about.st_mode & 0o022:  # who can write machine code can run programs
+        problem = "can be written by others; name a folder of your own with BLADERUB_CACHE"
+        raise OSError(errno.EEXIST, problem, str(folder))
+    return folder

@@ -5,6 +5,7 @@ other files: a run after an edit could use old code. The folder of the cache the
 of all sources of the solver, the number of lanes, and a digest of the law if it is not the usual one.
 """
 
+import os
 from collections.abc import Callable
 from contextlib import suppress
 from pathlib import Path
@@ -13,6 +14,7 @@ import numba
 from numba.core.caching import FunctionCache
 from numba.extending import register_jitable
 
+from bladerub.io.folders import cache_folder
 from bladerub.io.sources import solver_digest
 from bladerub.numerics import lanes
 
@@ -24,6 +26,8 @@ within = register_jitable(**_WITHIN)
 """Decorate a function that compiled code calls; for Python it stays as it is."""
 inlined = register_jitable(**INLINED)
 """Decorate a function that compiled code inlines; for Python it stays as it is."""
+
+_BESIDE = Path(__file__).parent / "__pycache__"
 
 
 class _Cache(FunctionCache):
@@ -41,12 +45,13 @@ class _Cache(FunctionCache):
 def njit_on_disk(**options) -> Callable[[Callable], Callable]:
     """As `numba.njit` with ``cache=True``, in a folder that belongs to the present sources.
 
-    The folder is beside the sources, or in ``NUMBA_CACHE_DIR`` where that is set.
+    The folder is ``NUMBA_CACHE_DIR``, or beside the sources, or with what is kept for this user
+    (`bladerub.io.folders.cache_folder`) where these cannot be written.
     """
 
     def decorate(function: Callable) -> Callable:
         user_folder = numba.config.CACHE_DIR
-        parent = Path(user_folder or Path(__file__).parent / "__pycache__")
+        parent = Path(user_folder or (_BESIDE if os.access(_BESIDE.parent, os.W_OK) else cache_folder()))
         instance = lanes.instance_name(lanes.LANES, lanes.LAW)
         numba.config.CACHE_DIR = str(parent / f"machine-code-{solver_digest()[:16]}-{instance}")
         try:

@@ -1,9 +1,13 @@
 """What an invocation of the workflow plans again and clears away of those killed before it."""
 
+import getpass
+import math
+import os
 import signal
 import sys
 import tempfile
 import threading
+import time
 from collections.abc import Callable, Sequence
 from functools import cache
 from pathlib import Path
@@ -12,9 +16,42 @@ from typing import Any
 from bladerub.config import record
 from bladerub.io import atomic
 from bladerub.io.errors import BadInput, DamagedFile, exit_on_error
-from bladerub.io.folders import CONFIG
+from bladerub.io.folders import CONFIG, cache_folder, has_home
 from bladerub.study.manifest import ManifestRow, Row, listed_files
 from bladerub.workflow import claims, gpu
+
+
+def _take_two_interrupts_for_one() -> None:
+    """Ignore a second Ctrl-C that comes while Snakemake ends after the first, for a few seconds.
+
+    It would break off what ends the jobs, in a traceback of Snakemake's event loop.
+    """
+    last = -math.inf
+
+    def interrupt(number: int, frame: Any) -> None:
+        nonlocal last
+        previous, last = last, time.monotonic()
+        if last - previous > _SECOND_INTERRUPT:
+            signal.default_int_handler(number, frame)
+
+    if signal.getsignal(signal.SIGINT) is signal.default_int_handler:
+        signal.signal(signal.SIGINT, interrupt)
+
+
+_SECOND_INTERRUPT = 5.0  # s
+
+
+def _provide_for_unknown_user() -> None:
+    """Name the user for Snakemake, and a folder for Matplotlib, where the system knows neither.
+
+    So it is in a container under the number of another machine's user. Jobs inherit both.
+    """
+    try:
+        getpass.getuser()
+    except (KeyError, OSError):
+        os.environ["USER"] = str(os.getuid())
+    if not has_home():
+        os.environ.setdefault("MPLCONFIGDIR", str(cache_folder() / "matplotlib"))
 
 
 def loss(manifest: str | Path, kind: type[Row] = ManifestRow) -> str | None:
@@ -74,6 +111,8 @@ def plan(workflow: Any, results: str, notes: Sequence[str] = (), on_gpu: bool = 
     Prints which config the results were made with, if the command line names none, and the `notes` on the
     config, a line each. `on_gpu` is whether runs are computed on a GPU.
     """
+    _provide_for_unknown_user()
+    _take_two_interrupts_for_one()
     _planned[:] = [(results, on_gpu)]
     if made_with := _made_with(results, workflow):
         notes = [f"{results} was made with {made_with.as_arguments()}; this is the study without it", *notes]

@@ -15,7 +15,7 @@ def log_to(path: str | Path) -> None:
     that it is seen even if the log is on a full disk. The traceback of any other goes to the log, its last
     line to both.
     """
-    sys.stderr = open(path, "w", buffering=1)  # noqa: SIM115 (open to the end: a traceback must reach it)
+    sys.stderr = open(path, "w", buffering=1, encoding="utf-8")  # noqa: SIM115 (a traceback must reach it)
     sys.excepthook = _report
 
 

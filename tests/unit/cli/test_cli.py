@@ -486,3 +486,13 @@ def test_a_reader_that_ends_early_is_no_error(tmp_path):
         process.stdout.close()
         assert process.stderr.read() == b""
         assert process.wait() == 0
+
+
+@pytest.mark.parametrize("encoding", ["ascii", "latin-1"])
+@pytest.mark.parametrize("text", ["θ = 0.15, 10 µm", "M\udcfcller.inp"])  # and a name of other bytes
+def test_every_text_can_be_printed_in_any_locale(monkeypatch, encoding, text):
+    stream = io.TextIOWrapper(io.BytesIO(), encoding)
+    monkeypatch.setattr(sys, "stdout", stream)
+    monkeypatch.setattr("bladerub.cli.status.status", lambda options: print(text))
+    assert main(["status"]) == 0
+    assert stream.buffer.getvalue() == f"{text}\n".encode("utf-8", "surrogateescape")

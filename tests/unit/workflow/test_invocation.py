@@ -1,3 +1,4 @@
+import getpass
 import os
 import re
 import signal
@@ -170,3 +171,27 @@ def test_the_rules_do_not_import_the_compiler():
     program = "\n".join([*statements, "import sys", "print('numba' in sys.modules)"])
     done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
     assert done.stdout == "False\n"
+
+
+def test_two_interrupts_in_a_row_are_one(workflow_with, tmp_path, monkeypatch):
+    clock = iter([100.0, 100.3, 200.0])
+    monkeypatch.setattr(invocation.time, "monotonic", lambda: next(clock))
+    before = signal.getsignal(signal.SIGINT)
+    signal.signal(signal.SIGINT, signal.default_int_handler)
+    try:
+        invocation.plan(workflow_with(), str(tmp_path))
+        with pytest.raises(KeyboardInterrupt):
+            signal.raise_signal(signal.SIGINT)
+        signal.raise_signal(signal.SIGINT)
+        with pytest.raises(KeyboardInterrupt):
+            signal.raise_signal(signal.SIGINT)
+    finally:
+        signal.signal(signal.SIGINT, before)
+
+
+def test_a_user_without_a_name_gets_one(workflow_with, tmp_path, monkeypatch):
+    for name in ("LOGNAME", "USER", "LNAME", "USERNAME"):
+        monkeypatch.setenv(name, "")
+    monkeypatch.setattr("os.getuid", lambda: 12345)
+    invocation.plan(workflow_with(), str(tmp_path))
+    assert getpass.getuser() == "12345"
