@@ -1,14 +1,16 @@
 """Measure the errors of runs drawn from the study."""
 
+from bladerub.workflow import job
+
+job.log_to(snakemake.log[0])
+
 import sys
 from pathlib import Path
 
 from bladerub.blade.model import read_reduced_blade
 from bladerub.verification.accuracy import table
 from bladerub.verification.verify import important_runs, study_runs
-from bladerub.workflow import job, outputs
-
-job.log_to(snakemake.log[0])
+from bladerub.workflow import outputs
 
 config, maps = snakemake.config, Path(snakemake.input.maps[0]).parent
 listed = {"all": study_runs(config), "important": important_runs(config, maps)}

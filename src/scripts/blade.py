@@ -1,14 +1,16 @@
 """Rule `blade`: build the blade, write the reduced model, the mesh and the table of its accuracy."""
 
+from bladerub.workflow import job
+
+job.log_to(snakemake.log[0])
+
 import logging
 
 from bladerub.blade.accuracy import doubts
 from bladerub.blade.built import write
 from bladerub.blade.cache import kept_or_built
 from bladerub.io.provenance import provenance
-from bladerub.workflow import job
 
-job.log_to(snakemake.log[0])
 logging.basicConfig(level=logging.WARNING, format="%(asctime)s %(message)s")
 logging.getLogger("bladerub").setLevel(logging.INFO)
 

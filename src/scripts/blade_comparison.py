@@ -1,13 +1,15 @@
 """Compare the blade of a config with that of the study, and the coatings that both have."""
 
+from bladerub.workflow import job
+
+job.log_to(snakemake.log[0])
+
 from pathlib import Path
 
 from bladerub.blade.built import read
 from bladerub.extensions.blade_comparison import blades, runs
 from bladerub.study.maps import read_map
-from bladerub.workflow import job, outputs
-
-job.log_to(snakemake.log[0])
+from bladerub.workflow import outputs
 
 built, reference = (read(Path(snakemake.input[name])) for name in ("blade", "reference"))
 maps = [*map(read_map, snakemake.input.maps)]

@@ -1,10 +1,11 @@
 """Rule `blade_tables`: the tables of the blade's accuracy, next to those of the study."""
 
-from bladerub.blade.accuracy import ACCURACY_COLUMNS, CAMPBELL_COLUMNS
-from bladerub.io import tables
 from bladerub.workflow import job
 
 job.log_to(snakemake.log[0])
+
+from bladerub.blade.accuracy import ACCURACY_COLUMNS, CAMPBELL_COLUMNS
+from bladerub.io import tables
 
 accuracy = snakemake.input[0]
 campbell = tables.read(accuracy, ACCURACY_COLUMNS)[CAMPBELL_COLUMNS]

@@ -1,13 +1,15 @@
 """Tabulate and draw the findings of all sets of choices."""
 
+from bladerub.workflow import job
+
+job.log_to(snakemake.log[0])
+
 from pathlib import Path
 
 from bladerub.extensions.calibration import collect, counts
 from bladerub.plots.verdicts import verdicts as draw
 from bladerub.study.findings import verdicts
-from bladerub.workflow import job, outputs
-
-job.log_to(snakemake.log[0])
+from bladerub.workflow import outputs
 
 table = collect({Path(path).parts[-3]: path for path in snakemake.input.findings})
 outputs.save(snakemake, draw(verdicts(table, by="set")), table=table, counts=counts(table))

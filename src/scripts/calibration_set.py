@@ -1,13 +1,14 @@
 """Make the small study of one set of choices, and judge the claims."""
 
+from bladerub.workflow import job
+
+job.log_to(snakemake.log[0])
+
 import sys
 
 from bladerub.extensions.calibration import judge
 from bladerub.io import tables
 from bladerub.io.provenance import provenance
-from bladerub.workflow import job
-
-job.log_to(snakemake.log[0])
 
 found = judge(
     snakemake.params.choices, snakemake.params.folder, report=lambda run: print(run, file=sys.stderr)

@@ -1,5 +1,9 @@
 """Fig. 5, initial inner shape of a casing, along each nodal diameter alone and combined (inward, m)."""
 
+from bladerub.workflow import job
+
+job.log_to(snakemake.log[0])
+
 from dataclasses import replace
 
 import numpy as np
@@ -10,11 +14,9 @@ from bladerub.blade.tip import tip_radius
 from bladerub.contact.casing import shape
 from bladerub.contact.spec import Casing
 from bladerub.plots.polar import casing_polar
-from bladerub.workflow import job, outputs
+from bladerub.workflow import outputs
 
 MOST_MAGNIFIED, LARGEST = 150, 0.4  # times, and over the radius what is drawn of a larger distortion
-
-job.log_to(snakemake.log[0])
 
 combined = Casing(**snakemake.params.casing)
 diameters = combined.nodal_diameters

@@ -1,10 +1,12 @@
 """Compare points of the chart with the same coatings of the study."""
 
-from bladerub.extensions.chart.check import agreement
-from bladerub.io import tables
-from bladerub.workflow import job, outputs
+from bladerub.workflow import job
 
 job.log_to(snakemake.log[0])
+
+from bladerub.extensions.chart.check import agreement
+from bladerub.io import tables
+from bladerub.workflow import outputs
 
 compared = agreement(tables.read(snakemake.input.chart), tables.read(snakemake.input.placement))
 outputs.save(snakemake, table=compared)

@@ -1,5 +1,9 @@
 """Compute the points of one column of the chart that are missing or stale, then write its manifest."""
 
+from bladerub.workflow import job
+
+job.log_to(snakemake.log[0])
+
 import sys
 from pathlib import Path
 
@@ -8,9 +12,6 @@ from bladerub.extensions.chart.column import compute_missing
 from bladerub.extensions.chart.point import POINTS, PointRow
 from bladerub.study.cache import blade_digest
 from bladerub.study.manifest import write_manifest
-from bladerub.workflow import job
-
-job.log_to(snakemake.log[0])
 
 path = Path(snakemake.output[0])
 rows = compute_missing(

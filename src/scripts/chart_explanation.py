@@ -1,11 +1,13 @@
 """Relate the height of the peaks to the stiffness of the contact, the energy that is lost and the lobes."""
 
+from bladerub.workflow import job
+
+job.log_to(snakemake.log[0])
+
 from bladerub.extensions.chart.explanation import table
 from bladerub.extensions.chart.table import read_points
 from bladerub.extensions.plots.chart_peaks import chart_explanation
-from bladerub.workflow import job, outputs
-
-job.log_to(snakemake.log[0])
+from bladerub.workflow import outputs
 
 peaks = table(snakemake.config, read_points(snakemake.input.manifests))
 outputs.save(snakemake, chart_explanation(peaks, snakemake.params.modulus_unit), table=peaks)

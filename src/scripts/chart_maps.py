@@ -1,11 +1,12 @@
 """Draw each quantity of the chart over E and K, for each theta."""
 
-from bladerub.extensions.plots.chart_moduli import chart_map
-from bladerub.io import tables
-from bladerub.plots import style
 from bladerub.workflow import job
 
 job.log_to(snakemake.log[0])
+
+from bladerub.extensions.plots.chart_moduli import chart_map
+from bladerub.io import tables
+from bladerub.plots import style
 
 chart = tables.read(snakemake.input.table)
 for quantity, png, pdf in zip(

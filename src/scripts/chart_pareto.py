@@ -1,11 +1,13 @@
 """List and draw the coatings that no other improves on in both displacement and worn volume."""
 
+from bladerub.workflow import job
+
+job.log_to(snakemake.log[0])
+
 from bladerub.extensions.chart.choice import pareto
 from bladerub.extensions.chart.stress import read_chart
 from bladerub.extensions.plots.chart_pareto import chart_pareto
-from bladerub.workflow import job, outputs
-
-job.log_to(snakemake.log[0])
+from bladerub.workflow import outputs
 
 chart = read_chart(*snakemake.input.tables)
 front = pareto(chart, snakemake.params.limits)

@@ -1,10 +1,12 @@
 """Try the search of the chart on the maps of the study, which has every speed."""
 
-from bladerub.extensions.chart.check import summary, table
-from bladerub.study.maps import read_map
-from bladerub.workflow import job, outputs
+from bladerub.workflow import job
 
 job.log_to(snakemake.log[0])
+
+from bladerub.extensions.chart.check import summary, table
+from bladerub.study.maps import read_map
+from bladerub.workflow import outputs
 
 compared = table(snakemake.config, map(read_map, snakemake.input.maps))
 outputs.save(snakemake, table=compared, summary=summary(compared))

@@ -1,10 +1,12 @@
 """Find the ridges of the chart, and how surely they are known."""
 
-from bladerub.extensions.chart.ridge import summary, table
-from bladerub.extensions.chart.table import read_points
-from bladerub.workflow import job, outputs
+from bladerub.workflow import job
 
 job.log_to(snakemake.log[0])
+
+from bladerub.extensions.chart.ridge import summary, table
+from bladerub.extensions.chart.table import read_points
+from bladerub.workflow import outputs
 
 ridges = table(snakemake.config, read_points(snakemake.input.manifests))
 outputs.save(snakemake, table=ridges, summary=summary(ridges))

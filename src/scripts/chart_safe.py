@@ -1,11 +1,13 @@
 """Draw where the coatings of the chart keep the limits, and which of them they break elsewhere."""
 
+from bladerub.workflow import job
+
+job.log_to(snakemake.log[0])
+
 from bladerub.extensions.chart.choice import broken_limits
 from bladerub.extensions.chart.stress import read_chart
 from bladerub.extensions.plots.chart_moduli import chart_safe
-from bladerub.workflow import job, outputs
-
-job.log_to(snakemake.log[0])
+from bladerub.workflow import outputs
 
 chart = read_chart(*snakemake.input.tables)
 settings = snakemake.params

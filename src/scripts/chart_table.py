@@ -1,8 +1,10 @@
 """Sum up every point of the chart."""
 
-from bladerub.extensions.chart.table import read_points, table
-from bladerub.workflow import job, outputs
+from bladerub.workflow import job
 
 job.log_to(snakemake.log[0])
+
+from bladerub.extensions.chart.table import read_points, table
+from bladerub.workflow import outputs
 
 outputs.save(snakemake, table=table(snakemake.config, read_points(snakemake.input.manifests)))

@@ -1,15 +1,16 @@
 """Compute the runs of one folder that are missing or stale, then write its manifest."""
 
+from bladerub.workflow import job
+
+job.log_to(snakemake.log[0])
+
 from pathlib import Path
 
 from bladerub.blade.model import read_reduced_blade
 from bladerub.study.cache import blade_digest
 from bladerub.study.job import compute_missing
 from bladerub.study.manifest import write_manifest
-from bladerub.workflow import job
 from bladerub.workflow.progress import of_job
-
-job.log_to(snakemake.log[0])
 
 plan = snakemake.params.plan
 folder = Path(snakemake.params.folder)

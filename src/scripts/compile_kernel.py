@@ -1,5 +1,9 @@
 """Compile the time loop once, into numba's cache on disk."""
 
+from bladerub.workflow import job
+
+job.log_to(snakemake.log[0])
+
 import json
 import sys
 import time
@@ -7,9 +11,6 @@ import time
 from bladerub.contact.setup import compile_kernel
 from bladerub.contact.spec import ElementLaw
 from bladerub.io import atomic
-from bladerub.workflow import job
-
-job.log_to(snakemake.log[0])
 
 start = time.monotonic()
 compile_kernel(snakemake.params.tip_turns, snakemake.params.n_nodes, ElementLaw(**snakemake.params.law))

@@ -1,14 +1,15 @@
 """Pack the study as a Workflow RO-Crate: Snakefile, rules, config, and all results but the single runs."""
 
+from bladerub.workflow import job
+
+job.log_to(snakemake.log[0])
+
 from pathlib import Path
 
 from rocrate.rocrate import ROCrate
 
 from bladerub.io.folders import ROOT
 from bladerub.io.provenance import provenance
-from bladerub.workflow import job
-
-job.log_to(snakemake.log[0])
 
 WORKFLOW = {
     "name": "bladerub: contact of a compressor blade with its abradable coating",

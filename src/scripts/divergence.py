@@ -1,10 +1,12 @@
 """Judge for every run whether it diverges, with the bands of those that have an ensemble."""
 
-from bladerub.study import bands, ensemble
-from bladerub.study.maps import read_map
-from bladerub.workflow import job, outputs
+from bladerub.workflow import job
 
 job.log_to(snakemake.log[0])
+
+from bladerub.study import bands, ensemble
+from bladerub.study.maps import read_map
+from bladerub.workflow import outputs
 
 maps, ensembles = map(read_map, snakemake.input.maps), map(ensemble.read, snakemake.input.ensembles)
 outputs.save(snakemake, table=bands.of_runs(snakemake.config, list(maps), list(ensembles)))

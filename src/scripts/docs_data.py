@@ -1,12 +1,14 @@
 """Take snapshots of the tables that pages quote, if any are given, and render the pages from them."""
 
+from bladerub.workflow import job
+
+job.log_to(snakemake.log[0])
+
 import tempfile
 from pathlib import Path
 
 from bladerub.io import atomic, tables
-from bladerub.workflow import job, pages, snapshots
-
-job.log_to(snakemake.log[0])
+from bladerub.workflow import pages, snapshots
 
 folder = Path(snakemake.params.get("folder", "docs/data"))
 folder.mkdir(parents=True, exist_ok=True)

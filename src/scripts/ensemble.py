@@ -1,15 +1,16 @@
 """Compute the ensembles of one coating: the members that are missing or stale, then the file of all."""
 
+from bladerub.workflow import job
+
+job.log_to(snakemake.log[0])
+
 from pathlib import Path
 
 from bladerub.blade.model import read_reduced_blade
 from bladerub.study import ensemble
 from bladerub.study.cache import blade_digest
 from bladerub.study.maps import read_map
-from bladerub.workflow import job
 from bladerub.workflow.progress import of_job
-
-job.log_to(snakemake.log[0])
 
 folder, coating = Path(snakemake.params.folder), read_map(snakemake.input.map)
 progress = of_job(f"{coating.case.name}, ensemble", folder)

@@ -1,12 +1,13 @@
 """Write the whole study to one page."""
 
+from bladerub.workflow import job
+
+job.log_to(snakemake.log[0])
+
 from bladerub.blade.accuracy import ACCURACY_COLUMNS, doubts
 from bladerub.explorer.page import build
 from bladerub.io import atomic, tables
 from bladerub.study import divergence, peaks
-from bladerub.workflow import job
-
-job.log_to(snakemake.log[0])
 
 accuracy = tables.read(snakemake.input.accuracy, ACCURACY_COLUMNS)
 page = build(

@@ -3,9 +3,11 @@
 The data are ``blade/mesh.h5``.
 """
 
-from bladerub.plots import blade_mesh
-from bladerub.workflow import job, outputs
+from bladerub.workflow import job
 
 job.log_to(snakemake.log[0])
+
+from bladerub.plots import blade_mesh
+from bladerub.workflow import outputs
 
 outputs.save(snakemake, blade_mesh.from_file(snakemake.input.mesh))

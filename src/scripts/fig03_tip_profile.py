@@ -3,6 +3,10 @@
 The data are in m, stress normalised.
 """
 
+from bladerub.workflow import job
+
+job.log_to(snakemake.log[0])
+
 from dataclasses import replace
 
 import pandas as pd
@@ -12,12 +16,10 @@ from bladerub.blade.tip import tip_radius
 from bladerub.contact.illustration import pressed_elements
 from bladerub.contact.spec import PLASTIC, Coating, TipProfile
 from bladerub.plots.tip_profile import tip_profile
-from bladerub.workflow import job, outputs
+from bladerub.workflow import outputs
 
 DEPTH = 0.15e-3  # of the node below the original surface, m: usual in the study
 REACH = 6  # elements shown on each side of the node
-
-job.log_to(snakemake.log[0])
 
 scene = pressed_elements(
     replace(Coating(**snakemake.params.coating), element_law=PLASTIC),

@@ -1,5 +1,9 @@
 """Fig. 4: stress–strain cycle of the coating by its return mapping, for the study's σ_Y and a visible one."""
 
+from bladerub.workflow import job
+
+job.log_to(snakemake.log[0])
+
 from dataclasses import replace
 
 import pandas as pd
@@ -7,13 +11,11 @@ import pandas as pd
 from bladerub.contact.illustration import loading_cycle
 from bladerub.contact.spec import PLASTIC, Coating
 from bladerub.plots.coating_cycle import coating_cycle
-from bladerub.workflow import job, outputs
+from bladerub.workflow import outputs
 
 STRAINS = (0.0, 0.03, 0.0, 0.05, 0.0)  # load, unload, reload further, unload
 STEPS = 400  # of each branch
 VISIBLE_YIELD_STRESS = 0.015  # normalised
-
-job.log_to(snakemake.log[0])
 
 of_study = replace(Coating(**snakemake.params.coating), element_law=PLASTIC)
 coatings = {

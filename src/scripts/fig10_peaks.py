@@ -1,14 +1,16 @@
 """Fig. 10: maxima Y_k, f_k with their bands on the spectrum, and the amplitude along their orders (m)."""
 
+from bladerub.workflow import job
+
+job.log_to(snakemake.log[0])
+
 import pandas as pd
 
 from bladerub.plots.spectrum import PeakSection, peak_sections
 from bladerub.study import bands, ensemble
 from bladerub.study.maps import read_map
 from bladerub.study.peaks import order_amplitude, peak, speed_window
-from bladerub.workflow import job, outputs
-
-job.log_to(snakemake.log[0])
+from bladerub.workflow import outputs
 
 coating, settings = read_map(snakemake.input.map), snakemake.params.peaks
 ensembles = [ensemble.read(path) for path in snakemake.input.ensembles]

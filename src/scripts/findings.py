@@ -1,13 +1,15 @@
 """Judge the claims of the paper."""
 
+from bladerub.workflow import job
+
+job.log_to(snakemake.log[0])
+
 import math
 
 from bladerub.study import bands, ensemble, findings
 from bladerub.study.findings.evidence import read_rom_accuracy
 from bladerub.study.maps import read_map
-from bladerub.workflow import job, outputs
-
-job.log_to(snakemake.log[0])
+from bladerub.workflow import outputs
 
 maps = [read_map(path) for path in snakemake.input.maps]
 rom_accuracy = read_rom_accuracy(snakemake.input.rom_accuracy)

@@ -1,12 +1,14 @@
 """Find the peaks of some coatings again with finer bars."""
 
+from bladerub.workflow import job
+
+job.log_to(snakemake.log[0])
+
 from bladerub.blade.model import read_reduced_blade
 from bladerub.io import tables
 from bladerub.study.peaks import COLUMNS
 from bladerub.verification.finer_bars import table
-from bladerub.workflow import job, outputs
-
-job.log_to(snakemake.log[0])
+from bladerub.workflow import outputs
 
 blade, peaks = read_reduced_blade(snakemake.input.blade), tables.read(snakemake.input.peaks, COLUMNS)
 outputs.save(snakemake, table=table(blade, snakemake.config, peaks))

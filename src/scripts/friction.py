@@ -1,10 +1,12 @@
 """Compare Coulomb friction with a contact force of constant direction over all speeds."""
 
-from bladerub.extensions.friction import table as compare
-from bladerub.extensions.plots.friction import friction as draw
-from bladerub.workflow import job, outputs
+from bladerub.workflow import job
 
 job.log_to(snakemake.log[0])
+
+from bladerub.extensions.friction import table as compare
+from bladerub.extensions.plots.friction import friction as draw
+from bladerub.workflow import outputs
 
 constant, coulomb = snakemake.input.manifests[::2], snakemake.input.manifests[1::2]
 table = compare(zip(constant, coulomb, strict=True), snakemake.params.revolutions)

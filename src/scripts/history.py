@@ -1,9 +1,11 @@
 """Figs. 17 and 18, and the same at our own speeds: radial displacement of node 1 (m), both angles."""
 
-from bladerub.plots.history import history
-from bladerub.workflow import job, outputs
+from bladerub.workflow import job
 
 job.log_to(snakemake.log[0])
+
+from bladerub.plots.history import history
+from bladerub.workflow import outputs
 
 data, figure = history(snakemake.params.runs, snakemake.params.scales["modulus_unit"])
 outputs.save(snakemake, figure, data=data)

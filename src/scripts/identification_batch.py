@@ -1,14 +1,15 @@
 """Simulate some sets of a wave: their targets and verdicts."""
 
+from bladerub.workflow import job
+
+job.log_to(snakemake.log[0])
+
 from bladerub.config import read as configuration
 from bladerub.extensions.identification import sets
 from bladerub.extensions.identification.plan import read_plan
 from bladerub.extensions.identification.sample import simulate
 from bladerub.io import tables
 from bladerub.io.provenance import provenance
-from bladerub.workflow import job
-
-job.log_to(snakemake.log[0])
 
 plan = read_plan(snakemake.params.plan)
 batch = plan.batches(int(snakemake.wildcards.wave))[int(snakemake.wildcards.batch)]

@@ -1,12 +1,13 @@
 """Judge one candidate or neighbour by all claims."""
 
+from bladerub.workflow import job
+
+job.log_to(snakemake.log[0])
+
 from bladerub.extensions.identification import candidates
 from bladerub.extensions.identification.plan import read_plan
 from bladerub.io import tables
 from bladerub.io.provenance import provenance
-from bladerub.workflow import job
-
-job.log_to(snakemake.log[0])
 
 plan = read_plan(snakemake.params.plan)
 chosen = candidates.read(snakemake.input.candidates)

@@ -1,12 +1,13 @@
 """Choose the best sets of all waves, and draw their neighbours."""
 
+from bladerub.workflow import job
+
+job.log_to(snakemake.log[0])
+
 from bladerub.extensions.identification import candidates, sets, summary
 from bladerub.extensions.identification.plan import read_plan
 from bladerub.io import tables
 from bladerub.io.provenance import provenance
-from bladerub.workflow import job
-
-job.log_to(snakemake.log[0])
 
 plan = read_plan(snakemake.params.plan)
 measured = summary.measured(snakemake.input.quantities)

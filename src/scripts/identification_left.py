@@ -1,13 +1,14 @@
 """Find what the waves up to one have left of the ranges, and draw sets from it."""
 
+from bladerub.workflow import job
+
+job.log_to(snakemake.log[0])
+
 from bladerub.extensions.identification import sets, summary, waves
 from bladerub.extensions.identification.emulator import emulators
 from bladerub.extensions.identification.plan import read_plan
 from bladerub.io import tables
 from bladerub.io.provenance import provenance
-from bladerub.workflow import job
-
-job.log_to(snakemake.log[0])
 
 plan, wave = read_plan(snakemake.params.plan), int(snakemake.wildcards.wave)
 measured = summary.measured(snakemake.input.quantities)

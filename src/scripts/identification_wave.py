@@ -1,12 +1,13 @@
 """List the sets of one wave: the first are spread over all ranges, others drawn from what was left."""
 
+from bladerub.workflow import job
+
+job.log_to(snakemake.log[0])
+
 from bladerub.extensions.identification import sets, waves
 from bladerub.extensions.identification.plan import read_plan
 from bladerub.io import tables
 from bladerub.io.provenance import provenance
-from bladerub.workflow import job
-
-job.log_to(snakemake.log[0])
 
 plan, wave = read_plan(snakemake.params.plan), int(snakemake.wildcards.wave)
 if wave == 1:

@@ -1,14 +1,16 @@
 """Tabulate and draw what the waves leave of the ranges, and how the best sets do."""
 
+from bladerub.workflow import job
+
+job.log_to(snakemake.log[0])
+
 import pandas as pd
 
 from bladerub.extensions.identification import candidates, sets, summary
 from bladerub.extensions.identification.plan import read_plan
 from bladerub.extensions.plots.identification import identification as draw
 from bladerub.io import tables
-from bladerub.workflow import job, outputs
-
-job.log_to(snakemake.log[0])
+from bladerub.workflow import outputs
 
 
 def joined(paths, columns=()):

@@ -1,11 +1,12 @@
 """Make the figures small enough to be kept with the documents."""
 
-from PIL import Image
-
-from bladerub.io import atomic
 from bladerub.workflow import job
 
 job.log_to(snakemake.log[0])
+
+from PIL import Image
+
+from bladerub.io import atomic
 
 for figure, small in zip(snakemake.input, snakemake.output, strict=True):
     with Image.open(figure) as image, atomic.writing(small, "wb") as stream:

@@ -1,5 +1,9 @@
 """Stress–strain cycles of one element by the laws beside the paper's, for some of their parameters."""
 
+from bladerub.workflow import job
+
+job.log_to(snakemake.log[0])
+
 from dataclasses import replace
 
 import pandas as pd
@@ -9,13 +13,11 @@ from bladerub.contact.laws import described_law
 from bladerub.contact.spec import PLASTIC, Coating
 from bladerub.extensions.heat import LAYER
 from bladerub.plots.law_cycles import law_cycles
-from bladerub.workflow import job, outputs
+from bladerub.workflow import outputs
 
 STRAINS = (0.0, 0.03, 0.0, 0.05, 0.0)  # those of Fig. 4
 STEPS = 400  # of each branch
 VISCOSITY = 1e4  # Pa s
-
-job.log_to(snakemake.log[0])
 
 of_study = replace(Coating(**snakemake.params.coating), element_law=PLASTIC)
 

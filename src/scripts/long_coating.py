@@ -1,13 +1,14 @@
 """Compute the long runs of one coating."""
 
+from bladerub.workflow import job
+
+job.log_to(snakemake.log[0])
+
 import sys
 
 from bladerub.blade.model import read_reduced_blade
 from bladerub.extensions import long_runs
 from bladerub.study.maps import read_map
-from bladerub.workflow import job
-
-job.log_to(snakemake.log[0])
 
 long_runs.make(
     snakemake.config,

@@ -1,10 +1,12 @@
 """Judge the long runs of all coatings after more and more of their revolutions."""
 
-from bladerub.extensions import long_runs
-from bladerub.extensions.plots.long_runs import long_runs as draw
-from bladerub.workflow import job, outputs
+from bladerub.workflow import job
 
 job.log_to(snakemake.log[0])
+
+from bladerub.extensions import long_runs
+from bladerub.extensions.plots.long_runs import long_runs as draw
+from bladerub.workflow import outputs
 
 coatings = [long_runs.read(path) for path in snakemake.input.long]
 table = long_runs.table(snakemake.config, coatings)

@@ -1,13 +1,14 @@
 """Collect the runs of one coating in a map over angle, engine order and speed."""
 
+from bladerub.workflow import job
+
+job.log_to(snakemake.log[0])
+
 from pathlib import Path
 
 from bladerub.blade.model import read_reduced_blade
 from bladerub.study.grid import case_from_name
 from bladerub.study.maps import build_map
-from bladerub.workflow import job
-
-job.log_to(snakemake.log[0])
 
 build_map(
     snakemake.config,

@@ -1,11 +1,13 @@
 """Simulate the passes of rub rigs, and set their last ones beside what was measured."""
 
+from bladerub.workflow import job
+
+job.log_to(snakemake.log[0])
+
 from bladerub.extensions.rig.plan import read_rigs
 from bladerub.extensions.rig.table import compared, table
 from bladerub.plots.rigs import rigs
-from bladerub.workflow import job, outputs
-
-job.log_to(snakemake.log[0])
+from bladerub.workflow import outputs
 
 described = read_rigs(snakemake.input.rigs)
 passes = table(described)

@@ -1,5 +1,9 @@
 """Tabulate and draw the share of the design in which each claim holds, and what decides it."""
 
+from bladerub.workflow import job
+
+job.log_to(snakemake.log[0])
+
 import pandas as pd
 
 from bladerub.extensions.plots.robustness import robustness as draw
@@ -7,9 +11,7 @@ from bladerub.extensions.robustness import summary
 from bladerub.extensions.robustness.plan import read_plan
 from bladerub.extensions.robustness.sample import COST
 from bladerub.io import tables
-from bladerub.workflow import job, outputs
-
-job.log_to(snakemake.log[0])
+from bladerub.workflow import outputs
 
 plan = read_plan(snakemake.input.plan)
 verdicts = summary.collect(snakemake.input.verdicts)

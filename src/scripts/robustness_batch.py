@@ -1,14 +1,15 @@
 """Make the small studies of some samples of the design, and judge the claims of their part in each."""
 
+from bladerub.workflow import job
+
+job.log_to(snakemake.log[0])
+
 from bladerub.config import read as configuration
 from bladerub.extensions.robustness.design import batch
 from bladerub.extensions.robustness.plan import read_plan
 from bladerub.extensions.robustness.sample import judge
 from bladerub.io import tables
 from bladerub.io.provenance import provenance
-from bladerub.workflow import job
-
-job.log_to(snakemake.log[0])
 
 plan = read_plan(snakemake.params.plan)
 part = plan.parts[snakemake.wildcards.part]

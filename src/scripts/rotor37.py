@@ -1,5 +1,9 @@
 """Reference numbers of Rotor 37 with their uncertainty, and the figures."""
 
+from bladerub.workflow import job
+
+job.log_to(snakemake.log[0])
+
 from functools import partial
 from pathlib import Path
 
@@ -16,9 +20,6 @@ from bladerub.plots.spectrum import spectrum_map
 from bladerub.plots.wear_map import wear_map
 from bladerub.study.grid import coating_cases, modulus_unit
 from bladerub.study.maps import read_map
-from bladerub.workflow import job
-
-job.log_to(snakemake.log[0])
 
 config, dpi = snakemake.params.plan[reference.REFERENCE], snakemake.params.dpi
 origin, folder = provenance(config), snakemake.params.folder

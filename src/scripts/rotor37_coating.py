@@ -1,5 +1,9 @@
 """Run one coating of one set of Rotor 37 at all speeds, and measure it."""
 
+from bladerub.workflow import job
+
+job.log_to(snakemake.log[0])
+
 import sys
 
 from bladerub.blade.model import read_reduced_blade
@@ -9,9 +13,6 @@ from bladerub.io import tables
 from bladerub.io.provenance import provenance
 from bladerub.study.cache import blade_digest
 from bladerub.study.grid import case_from_name
-from bladerub.workflow import job
-
-job.log_to(snakemake.log[0])
 
 config, model = snakemake.params.config, snakemake.input.blade
 case, blade = case_from_name(config, snakemake.wildcards.coating), read_reduced_blade(model)

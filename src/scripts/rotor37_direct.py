@@ -1,13 +1,14 @@
 """Measure blade and direct contact of one set of Rotor 37."""
 
+from bladerub.workflow import job
+
+job.log_to(snakemake.log[0])
+
 from bladerub.blade.model import read_reduced_blade
 from bladerub.extensions.rotor37 import direct
 from bladerub.extensions.rotor37.numbers import of_blade
 from bladerub.io import tables
 from bladerub.io.provenance import provenance
-from bladerub.workflow import job
-
-job.log_to(snakemake.log[0])
 
 config, blade = snakemake.params.config, read_reduced_blade(snakemake.input.blade)
 results, origin = direct.runs(config, blade), provenance(snakemake.params.config)

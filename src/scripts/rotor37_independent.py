@@ -1,12 +1,13 @@
 """Compute the direct contact of Rotor 37 by an integrator of its own."""
 
+from bladerub.workflow import job
+
+job.log_to(snakemake.log[0])
+
 from bladerub.blade.model import read_reduced_blade
 from bladerub.extensions.rotor37.independent import table
 from bladerub.io import tables
 from bladerub.io.provenance import provenance
-from bladerub.workflow import job
-
-job.log_to(snakemake.log[0])
 
 config = snakemake.params.config
 found = table(config, read_reduced_blade(snakemake.input.blade))

@@ -1,5 +1,9 @@
 """Collect the cases that NLstep computed, and say which NLstep it was."""
 
+from bladerub.workflow import job
+
+job.log_to(snakemake.log[0])
+
 from pathlib import Path
 
 import pandas as pd
@@ -7,9 +11,6 @@ import pandas as pd
 from bladerub.extensions.rotor37.nlstep import COLUMNS, describe
 from bladerub.io import tables
 from bladerub.io.provenance import PREFIX, provenance
-from bladerub.workflow import job
-
-job.log_to(snakemake.log[0])
 
 found = pd.concat([tables.read(path, COLUMNS) for path in snakemake.input.numbers], ignore_index=True)
 made_by = {f"{PREFIX}program": describe(Path(snakemake.input.program))}

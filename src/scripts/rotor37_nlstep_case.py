@@ -1,14 +1,15 @@
 """Compute one case of the direct contact of Rotor 37 by NLstep."""
 
+from bladerub.workflow import job
+
+job.log_to(snakemake.log[0])
+
 from pathlib import Path
 
 from bladerub.blade.model import read_reduced_blade
 from bladerub.extensions.rotor37.nlstep import table
 from bladerub.io import tables
 from bladerub.io.provenance import provenance
-from bladerub.workflow import job
-
-job.log_to(snakemake.log[0])
 
 config, given = snakemake.params.config, snakemake.wildcards
 found = table(

@@ -1,13 +1,15 @@
 """A figure of the rows of blades: of all combinations, or of those that are swept."""
 
+from bladerub.workflow import job
+
+job.log_to(snakemake.log[0])
+
 from pathlib import Path
 
 from bladerub.extensions.plots import rotor
 from bladerub.extensions.rotor.plan import read_plan
 from bladerub.io import tables
-from bladerub.workflow import job, outputs
-
-job.log_to(snakemake.log[0])
+from bladerub.workflow import outputs
 
 draw = {"rotor": rotor.rotor, "rotor_sweeps": rotor.rotor_sweeps}[Path(snakemake.output.png).stem]
 plan = read_plan(snakemake.input.plan, snakemake.config)

@@ -1,11 +1,13 @@
 """Tables of rows of blades whose worn pattern is followed."""
 
+from bladerub.workflow import job
+
+job.log_to(snakemake.log[0])
+
 from bladerub.blade.model import read_reduced_blade
 from bladerub.extensions.rotor import pattern
 from bladerub.extensions.rotor.plan import read_plan
-from bladerub.workflow import job, outputs
-
-job.log_to(snakemake.log[0])
+from bladerub.workflow import outputs
 
 plan = read_plan(snakemake.input.plan, snakemake.config)
 followed = pattern.table(snakemake.config, read_reduced_blade(snakemake.input.blade), plan)

@@ -1,10 +1,12 @@
 """Tables of the rows of blades."""
 
-from bladerub.extensions.rotor import summary
-from bladerub.extensions.rotor.plan import read_plan
-from bladerub.workflow import job, outputs
+from bladerub.workflow import job
 
 job.log_to(snakemake.log[0])
+
+from bladerub.extensions.rotor import summary
+from bladerub.extensions.rotor.plan import read_plan
+from bladerub.workflow import outputs
 
 plan = read_plan(snakemake.input.plan, snakemake.config)
 draws = summary.draws(plan, snakemake.params.folder, snakemake.params.analysis)

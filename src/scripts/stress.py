@@ -1,13 +1,15 @@
 """Table and figure of the largest stress of the blade at the peaks."""
 
+from bladerub.workflow import job
+
+job.log_to(snakemake.log[0])
+
 from bladerub.blade.model import read_reduced_blade
 from bladerub.extensions.plots.stress import stress as draw
 from bladerub.extensions.stress.table import table
 from bladerub.io import tables
 from bladerub.study.peaks import COLUMNS
-from bladerub.workflow import job, outputs
-
-job.log_to(snakemake.log[0])
+from bladerub.workflow import outputs
 
 blade, peaks = read_reduced_blade(snakemake.input.blade), tables.read(snakemake.input.peaks, COLUMNS)
 found = table(snakemake.input.mesh, blade, snakemake.config, peaks)

@@ -1,13 +1,14 @@
 """Compute one speed sweep of one coating."""
 
+from bladerub.workflow import job
+
+job.log_to(snakemake.log[0])
+
 import sys
 
 from bladerub.blade.model import read_reduced_blade
 from bladerub.extensions import sweeps
 from bladerub.study.grid import case_from_name
-from bladerub.workflow import job
-
-job.log_to(snakemake.log[0])
 
 wildcards = snakemake.wildcards
 result = sweeps.make(

@@ -1,11 +1,13 @@
 """Compare the peaks of all speed sweeps with those at constant speed."""
 
+from bladerub.workflow import job
+
+job.log_to(snakemake.log[0])
+
 from bladerub.extensions import sweeps
 from bladerub.extensions.plots.sweeps import sweeps as draw
 from bladerub.study.maps import read_map
-from bladerub.workflow import job, outputs
-
-job.log_to(snakemake.log[0])
+from bladerub.workflow import outputs
 
 swept = [sweeps.read(path) for path in snakemake.input.sweeps]
 maps = {coating.case: coating for coating in map(read_map, snakemake.input.maps)}

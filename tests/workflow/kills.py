@@ -3,9 +3,9 @@
     python tests/workflow/kills.py --kills 20 --seed 1 --config config/quick.yaml
 
 An undisturbed study is made first. Then another is killed, in turns by SIGTERM to snakemake, by SIGKILL to
-all of its processes, and by SIGKILL to one job, at a random moment of what is left to do; the same command is
-given again and killed again. A study that has come to its end is compared with the undisturbed one, byte by
-byte, and begun again. No run that was whole before a kill may be written again.
+all of its processes, by SIGKILL to one job, and by Ctrl-C once and twice, at a random moment of what is left
+to do; the same command is given again and killed again. A study that has come to its end is compared with
+the undisturbed one, byte by byte, and begun again. No run that was whole before a kill may be written again.
 """
 
 import argparse
@@ -27,7 +27,10 @@ from pathlib import Path
 
 from workspace import Workspace
 
-WAYS = ("SIGTERM to snakemake", "SIGKILL to all processes", "SIGKILL to one job")
+WAYS = (
+    *("SIGTERM to snakemake", "SIGKILL to all processes", "SIGKILL to one job"),
+    *("Ctrl-C", "Ctrl-C twice"),
+)
 UNEQUAL = re.compile(r"logs/|benchmarks/|.*\.lock")
 """Files that tell of the machine, not of the study."""
 LAST = 600
@@ -155,6 +158,8 @@ def torment(study: Study, compare: Callable[[], None], seconds: float, seed: int
             before = study.workspace.runs()
             _kill(way, process, draw)
             process.wait(LAST)
+            if way in WAYS[3:]:
+                assert jobs_of(process) == {}, "at work after Ctrl-C"
         finally:
             with suppress(ProcessLookupError):
                 os.killpg(process.pid, signal.SIGKILL)
@@ -216,6 +221,12 @@ def _kill(way: str, process: subprocess.Popen, draw: random.Random) -> None:
         process.send_signal(signal.SIGTERM)
     elif way == WAYS[1]:
         os.killpg(process.pid, signal.SIGKILL)
+    elif way in WAYS[3:]:
+        os.killpg(process.pid, signal.SIGINT)
+        if way == WAYS[4]:
+            time.sleep(0.3)
+            with suppress(ProcessLookupError):
+                os.killpg(process.pid, signal.SIGINT)
     elif jobs := jobs_of(process):
         os.kill(draw.choice(sorted(jobs)), signal.SIGKILL)
 

@@ -16,7 +16,7 @@ from bladerub.workflow.cores import costs_of
 SECONDS_PER_REVOLUTION = 0.006
 """Of one core, for a run of the paper's blade with its longer run, if it needs one (`docs/data/cost.csv`)."""
 
-SECONDS_PER_JOB = 4
+SECONDS_PER_JOB = 5
 """Of one core, to start Snakemake and the job and to draw, collect or analyse; rounded up."""
 
 SECONDS_AT_FIRST = {"blade": 15, "compile_kernel": 15}
@@ -68,12 +68,8 @@ def forecast(config: Mapping[str, Any], jobs: Iterable[tuple[str, str | None]]) 
         runs = f"all {whole['planned']:,} runs of the study are done"
     if not jobs:
         return runs
-    costs, n_blades, simulated, seconds = (
-        costs_of(config),
-        config.get("rotor", {"blades": 1})["blades"],
-        0.0,
-        0.0,
-    )
+    costs, n_blades = costs_of(config), config.get("rotor", {"blades": 1})["blades"]
+    simulated = seconds = 0.0
     for rule, coating in jobs:
         seconds += SECONDS_PER_JOB + SECONDS_AT_FIRST.get(rule, 0)
         if rule == "coating" and coating in counts:

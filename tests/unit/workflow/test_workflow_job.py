@@ -1,5 +1,7 @@
+import ast
 import subprocess
 import sys
+from pathlib import Path
 
 import pytest
 
@@ -37,3 +39,11 @@ def test_any_other_error_leaves_its_traceback_in_the_log(fail):
     assert output.count("\n") == 1
     assert log.startswith("at work\nTraceback")
     assert log.endswith("ZeroDivisionError: division by zero\n")
+
+
+@pytest.mark.parametrize("script", sorted(Path("src/scripts").glob("*.py")), ids=lambda path: path.stem)
+def test_the_log_of_a_job_is_open_before_its_imports(script):
+    """So that it has their errors, and the traceback of an interrupt, which takes them where it can."""
+    _, *first = ast.parse(script.read_text(encoding="utf-8")).body[:3]
+    logged = ["from bladerub.workflow import job", "job.log_to(snakemake.log[0])"]
+    assert [ast.unparse(statement) for statement in first] == logged
