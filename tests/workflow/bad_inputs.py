@@ -182,7 +182,7 @@ CONFIGS: dict[str, tuple[dict[str, Any] | str, str]] = {
     "results with code": ({"results": "$(touch x)"}, "overlay.yaml:1: results ="),
     "template with code": (
         "__use_yte__: [touch, x]\n",
-        "overlay.yaml:1: __use_yte__ =",
+        "overlay.yaml:1: __use_yte__",
     ),
     "history of no run": (
         {"analysis": {"histories": [{"casing": "2nd", "E": 2, "K": 0.5, "theta": 0, "f_omega": 0.1911}]}},

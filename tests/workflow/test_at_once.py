@@ -71,7 +71,7 @@ def test_the_second_in_a_folder_is_kept_out_and_loses_nothing(begun, begin, tiny
     with lock.held(coating / ".lock", lambda: None):  # so that the first stays at work
         first = begin(study.folder)
         wait_until(contains(log, "another job is at work in"), first)
-        second = study.snakemake(*COMMAND[1:4])
+        second = study.snakemake(*COMMAND[1:])
         assert second.returncode != 0
         assert "another snakemake is at work in this folder" in second.stderr
         assert "Traceback" not in second.stderr

@@ -91,7 +91,6 @@ COLUMNS = {
     },
     "findings": {"id", "claim", "paper", "measured", "unit", "holds", "margin"},
     "margins": {"variation", "id", "claim", "paper", "measured", "unit", "holds", "margin"},
-    "cost": {"stage", "rule", "job", "wall_s", "cpu_s", "memory_mb"},
 }
 
 
@@ -104,7 +103,7 @@ KEYS = {
     "tables/divergence": [*COATING_KEYS, "f_omega"],
     "tables/findings": ["id"],
     "tables/margins": ["variation", "id"],
-    "tables/cost": ["rule", "job"],
+    "benchmarks/cost": ["rule", "job"],
     "figures/fig05_casing": ["nodal_diameters", "angle"],
     "figures/fig10_peaks": ["order", "f_omega"],
     "figures/fig11_Y4": [*COATING_KEYS, "order"],
