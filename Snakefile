@@ -86,6 +86,7 @@ rule all:
         rules.blade_tables.output,
         # the maps need them, but Snakemake replaces no lost one for a map that is there
         expand(rules.coating.output, coating=COATINGS),
+        LISTED_MEMBERS,
         expand(rules.map.output, coating=COATINGS),
         rules.peaks.output,
         rules.divergence.output,

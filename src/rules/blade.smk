@@ -1,16 +1,22 @@
 # Stage 1: the blade, built once: finite elements, reduction, accuracy of the reduction.
 
 from bladerub.blade.sources.origin import files
+from bladerub.workflow.invocation import damage, loss, replaces
+
+REDUCED_MODEL = f"{RESULTS}/blade/reduced_model.h5"
+MESH = f"{RESULTS}/blade/mesh.h5"
 
 
 rule blade:
     input:
+        replaces(workflow, REDUCED_MODEL, damage),
+        replaces(workflow, MESH, damage),
         code=files_behind("blade.cache"),
         given=files(config["blade"]["source"]) if "source" in config["blade"] else [],
     output:
         **described(rom_accuracy=f"{RESULTS}/blade/rom_accuracy.csv"),
-        reduced_model=f"{RESULTS}/blade/reduced_model.h5",
-        mesh=f"{RESULTS}/blade/mesh.h5",
+        reduced_model=REDUCED_MODEL,
+        mesh=MESH,
     log:
         f"{RESULTS}/logs/blade.log",
     benchmark:

@@ -1,5 +1,5 @@
 # A dense chart of coatings at speeds that the search for its peaks chooses (docs/explanation/chart.md). Not part of `all`.
-from functools import cache
+from functools import cache, partial
 
 from bladerub.extensions.chart.grid import chart_orders, check, columns
 from bladerub.extensions.chart.point import PointRow
@@ -56,7 +56,7 @@ COLUMN_MANIFEST = f"{RESULTS}/chart/columns/{{column}}.tsv"
 rule chart_column:
     # The points have a folder next to that of the manifests, undeclared as the runs of a coating are.
     input:
-        replaces_lost(workflow, COLUMN_MANIFEST, PointRow),
+        replaces(workflow, COLUMN_MANIFEST, partial(loss, kind=PointRow)),
         blade=rules.blade.output.reduced_model,
         kernel=rules.compile_kernel.output[0],
     output:

@@ -280,7 +280,9 @@ rule fig10_peaks:
     input:
         map=map_of(SOFT),
         blade=rules.blade.output.reduced_model,
-        ensembles=expand(rules.ensemble.output, coating=SOFT.name) if ENSEMBLES else [],
+        ensembles=(
+            expand(rules.ensemble.output[0], coating=SOFT.name) if ENSEMBLES else []
+        ),
         analysing=files_behind("study.bands"),
         drawing=rules.spectrum.input.drawing,
     output:

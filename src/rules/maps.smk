@@ -13,13 +13,19 @@ PEAKS = config["analysis"]["peaks"] | {
 }
 
 
+MAP = f"{RESULTS}/maps/{{coating}}.h5"
+ENSEMBLE = f"{RESULTS}/ensembles/{{coating}}.h5"
+MEMBERS = f"{RESULTS}/runs/{{coating}}/ensemble/manifest.tsv"
+
+
 rule map:
     input:
+        replaces(workflow, MAP, damage),
         manifest=rules.coating.output[0],
         blade=rules.blade.output.reduced_model,
         analysing=files_behind("study.maps"),
     output:
-        f"{RESULTS}/maps/{{coating}}.h5",
+        MAP,
     log:
         f"{RESULTS}/logs/map/{{coating}}.log",
     benchmark:
@@ -32,13 +38,17 @@ rule map:
 
 
 rule ensemble:
+    # The members are next to their manifest, undeclared, as the runs of a coating are
     input:
+        replaces(workflow, ENSEMBLE, damage),
+        replaces(workflow, MEMBERS),
         map=rules.map.output[0],
         blade=rules.blade.output.reduced_model,
         kernel=rules.compile_kernel.output[0],
         analysing=files_behind("study.ensemble"),
     output:
-        f"{RESULTS}/ensembles/{{coating}}.h5",
+        ENSEMBLE,
+        members=MEMBERS,
     log:
         f"{RESULTS}/logs/ensemble/{{coating}}.log",
     benchmark:
@@ -58,11 +68,9 @@ rule ensemble:
 
 
 # None where the config wants none
-ENSEMBLES = (
-    expand(rules.ensemble.output, coating=COATINGS)
-    if config["ensemble"]["members"]
-    else []
-)
+WITH_ENSEMBLE = COATINGS if config["ensemble"]["members"] else []
+ENSEMBLES = expand(rules.ensemble.output[0], coating=WITH_ENSEMBLE)
+LISTED_MEMBERS = expand(rules.ensemble.output.members, coating=WITH_ENSEMBLE)
 
 
 rule peaks:

@@ -38,7 +38,7 @@ ROW_MANIFEST = f"{OF_ROWS}/{{combination}}/manifest.tsv"
 # As `coating`: the runs are next to the manifest, undeclared
 rule rotor_combination:
     input:
-        replaces_lost(workflow, ROW_MANIFEST),
+        replaces(workflow, ROW_MANIFEST),
         blade=rules.blade.output.reduced_model,
         kernel=rules.compile_kernel.output[0],
     output:

@@ -9,7 +9,6 @@ from bladerub.study.growth import confirmation_determinants
 from bladerub.study.plan import coating_plan
 from bladerub.io.sources import solver_digest
 from bladerub.workflow.cores import costs_of, priority_of, threads_for
-from bladerub.workflow.invocation import replaces_lost
 
 
 @cache
@@ -82,7 +81,7 @@ rule coating:
     # The runs are next to the manifest, undeclared: Snakemake deletes what a failed job declares, and
     # finished runs must survive. The key inside the file of a run shows whether it is current.
     input:
-        replaces_lost(workflow, MANIFEST),
+        replaces(workflow, MANIFEST),
         blade=rules.blade.output.reduced_model,
         kernel=rules.compile_kernel.output[0],
     output:

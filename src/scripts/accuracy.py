@@ -7,7 +7,7 @@ job.log_to(snakemake.log[0])
 import sys
 from pathlib import Path
 
-from bladerub.blade.model import read_reduced_blade
+from bladerub.blade.validation import read_reduced_blade
 from bladerub.verification.accuracy import table
 from bladerub.verification.verify import important_runs, study_runs
 from bladerub.workflow import outputs

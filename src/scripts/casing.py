@@ -9,8 +9,8 @@ from dataclasses import replace
 import numpy as np
 import pandas as pd
 
-from bladerub.blade.model import read_reduced_blade
 from bladerub.blade.tip import tip_radius
+from bladerub.blade.validation import read_reduced_blade
 from bladerub.contact.casing import shape
 from bladerub.contact.spec import Casing
 from bladerub.plots.polar import casing_polar

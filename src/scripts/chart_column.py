@@ -7,7 +7,7 @@ job.log_to(snakemake.log[0])
 import sys
 from pathlib import Path
 
-from bladerub.blade.model import read_reduced_blade
+from bladerub.blade.validation import read_reduced_blade
 from bladerub.extensions.chart.column import compute_missing
 from bladerub.extensions.chart.point import POINTS, PointRow
 from bladerub.study.cache import blade_digest

@@ -6,7 +6,7 @@ job.log_to(snakemake.log[0])
 
 from pathlib import Path
 
-from bladerub.blade.model import read_reduced_blade
+from bladerub.blade.validation import read_reduced_blade
 from bladerub.study.cache import blade_digest
 from bladerub.study.job import compute_missing
 from bladerub.study.manifest import write_manifest

@@ -11,8 +11,8 @@ from dataclasses import replace
 
 import pandas as pd
 
-from bladerub.blade.model import read_reduced_blade
 from bladerub.blade.tip import tip_radius
+from bladerub.blade.validation import read_reduced_blade
 from bladerub.contact.illustration import pressed_elements
 from bladerub.contact.spec import PLASTIC, Coating, TipProfile
 from bladerub.plots.tip_profile import tip_profile

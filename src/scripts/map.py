@@ -6,7 +6,7 @@ job.log_to(snakemake.log[0])
 
 from pathlib import Path
 
-from bladerub.blade.model import read_reduced_blade
+from bladerub.blade.validation import read_reduced_blade
 from bladerub.study.grid import case_from_name
 from bladerub.study.maps import build_map
 

@@ -4,7 +4,7 @@ from bladerub.workflow import job
 
 job.log_to(snakemake.log[0])
 
-from bladerub.blade.model import read_reduced_blade
+from bladerub.blade.validation import read_reduced_blade
 from bladerub.io import tables
 from bladerub.study.peaks import COLUMNS
 from bladerub.verification.rigid_casing import table

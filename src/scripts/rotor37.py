@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
-from bladerub.blade.model import read_reduced_blade
+from bladerub.blade.validation import read_reduced_blade
 from bladerub.extensions.plots import rotor37 as plots
 from bladerub.extensions.rotor37 import direct, numbers, reference
 from bladerub.io import tables

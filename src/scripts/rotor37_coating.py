@@ -6,7 +6,7 @@ job.log_to(snakemake.log[0])
 
 import sys
 
-from bladerub.blade.model import read_reduced_blade
+from bladerub.blade.validation import read_reduced_blade
 from bladerub.extensions.rotor37.numbers import of_coating
 from bladerub.extensions.small_study import map_coating
 from bladerub.io import tables

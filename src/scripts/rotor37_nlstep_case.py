@@ -6,7 +6,7 @@ job.log_to(snakemake.log[0])
 
 from pathlib import Path
 
-from bladerub.blade.model import read_reduced_blade
+from bladerub.blade.validation import read_reduced_blade
 from bladerub.extensions.rotor37.nlstep import table
 from bladerub.io import tables
 from bladerub.io.provenance import provenance

@@ -9,13 +9,8 @@ import pandas as pd
 
 from bladerub.blade.accuracy import ACCURACY_COLUMNS
 from bladerub.blade.mesh import BladeMesh, NodeCloud, solid_mesh
-from bladerub.blade.model import (
-    AXIS,
-    ReducedBlade,
-    interface_node,
-    read_reduced_blade,
-    write_reduced_blade,
-)
+from bladerub.blade.model import AXIS, ReducedBlade, interface_node, write_reduced_blade
+from bladerub.blade.validation import read_reduced_blade
 from bladerub.io import hdf5, tables
 from bladerub.io.errors import DamagedFile
 from bladerub.io.hdf5 import Variable

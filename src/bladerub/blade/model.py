@@ -9,7 +9,6 @@ from typing import Any
 import numpy as np
 
 from bladerub.io import hdf5
-from bladerub.io.errors import DamagedFile
 from bladerub.io.hdf5 import Variable
 
 N_INTERFACE = 8  # nodes on the blade tip, leading to trailing edge, if not said otherwise
@@ -153,17 +152,13 @@ def write_reduced_blade(path: str | Path, blade: ReducedBlade, origin: Mapping[s
     hdf5.write(path, variables, blade.attributes, origin)
 
 
-def read_reduced_blade(path: str | Path) -> ReducedBlade:
-    """Read a blade written by `write_reduced_blade`, or raise an OSError that names the file."""
-    data, attributes = hdf5.read(path)
+def reduced_blade(data: Mapping[str, np.ndarray], attributes: Mapping[str, Any]) -> ReducedBlade:
+    """Return the blade of which a file holds these; raises a KeyError if one is missing."""
     names = (f"stiffness_{power}" for power in itertools.count(3))
     higher = itertools.takewhile(data.__contains__, names)
-    try:
-        return ReducedBlade(
-            **{name: data[name] for name in _REQUIRED},
-            **{name: attributes[name] for name in _ATTRIBUTES},
-            stiffness_higher=tuple(data[name] for name in higher),
-            tip_slope=data.get("tip_slope"),
-        )
-    except KeyError as error:
-        raise DamagedFile(f"{path}: not a reduced blade, {error} is missing") from error
+    return ReducedBlade(
+        **{name: data[name] for name in _REQUIRED},
+        **{name: attributes[name] for name in _ATTRIBUTES},
+        stiffness_higher=tuple(data[name] for name in higher),
+        tip_slope=data.get("tip_slope"),
+    )

@@ -1,43 +1,69 @@
-"""Validation of a reduced blade from a file of unknown origin."""
+"""Reduced blades from files, and what they must be, that runs can be computed with them."""
 
 import os
+from collections.abc import Mapping
 from numbers import Real
 from pathlib import Path
+from typing import Any
 
 import h5py
 import numpy as np
 
-from bladerub.blade.model import ReducedBlade, read_reduced_blade
+from bladerub.blade.model import ReducedBlade, reduced_blade
+from bladerub.io import hdf5
 from bladerub.io.errors import DamagedFile
 from bladerub.numerics.lanes import FEWEST_NODES, MOST_NODES
 
 LARGEST_MATRIX = 10_000  # coordinates of a reduced blade; more would fill the memory
+FARTHEST = 1000.0  # m, of a node from the axis or along it
 
 _OF_NODES = ("node_position", "radial_direction", "tangential_direction", "tip_slope")
 _POSITIVE = ("f1_hz", "f_omega_max", "length")
 
 
-def read_valid_blade(path: str | Path) -> ReducedBlade:
-    """Read a reduced blade and check that runs can be computed with it.
+def read_reduced_blade(path: str | Path) -> ReducedBlade:
+    """Read the blade that a study built, as `bladerub.blade.model.write_reduced_blade` wrote it.
 
-    Raises an OSError if the file is missing, unreadable or not a reduced blade, a ValueError if a matrix, a
-    node or an attribute is invalid; the messages name the file and the dataset.
+    Raises an OSError that names the file if it is missing, unreadable, not as it was written, or not a blade
+    that can be computed with.
     """
-    if os.path.exists(path) and not os.path.isfile(path):
-        kind = "a folder" if os.path.isdir(path) else "not a regular file"
-        raise OSError(f"{path}: is {kind}, must be a reduced blade (HDF5)")
-    if h5py.is_hdf5(path):
-        _check_sizes(path)
-    blade = read_reduced_blade(path)
     try:
+        return _valid(path, *hdf5.read(path))
+    except ValueError as error:
+        raise DamagedFile(str(error)) from error
+
+
+def read_valid_blade(path: str | Path) -> ReducedBlade:
+    """Read a reduced blade that people may have edited, or other programs written, and check it.
+
+    Raises an OSError if the file is missing, unreadable or not a reduced blade, a ValueError if no runs can
+    be computed with it; the messages name the file and the dataset.
+    """
+    _check_file(path)
+    return _valid(path, *hdf5.read_any(path))
+
+
+def _valid(path: str | Path, data: Mapping[str, np.ndarray], attributes: Mapping[str, Any]) -> ReducedBlade:
+    try:
+        blade = reduced_blade(data, attributes)
         _check(blade)
+    except KeyError as error:
+        raise DamagedFile(f"{path}: not a reduced blade, {error} is missing") from error
     except ValueError as error:
         raise ValueError(f"{path}: not a valid reduced blade, {error}") from error
     return blade
 
 
-def _check_sizes(path: str | Path) -> None:
-    """Check that the datasets fit into memory before they are read."""
+def _check_file(path: str | Path) -> None:
+    """Check, before anything is read, that `path` is a file whose datasets fit into memory, if it is HDF5.
+
+    Raises an OSError or ValueError that names it.
+    """
+    if os.path.exists(path) and not os.path.isfile(path):
+        kind = "a folder" if os.path.isdir(path) else "not a regular file"
+        raise OSError(f"{path}: is {kind}, must be a reduced blade (HDF5)")
+    if not h5py.is_hdf5(path):
+        return
     try:
         with h5py.File(path, "r") as file:
             sizes = {name: getattr(entry, "shape", None) for name, entry in file.items()}
@@ -66,6 +92,8 @@ def _check(blade: ReducedBlade) -> None:
             )
         if not np.all(np.isfinite(values)):
             raise ValueError(f"{name}: must be finite, has NaN or infinite entries")
+        if name == "node_position" and np.abs(values).max() > FARTHEST:
+            raise ValueError(f"{name}: must be within {FARTHEST:g} m of the axis")
         tolerance = 1e-6 * np.abs(values).max()
         if is_matrix and not np.allclose(values, values.T, rtol=0, atol=tolerance):
             raise ValueError(f"{name}: must be symmetric")

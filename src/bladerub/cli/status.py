@@ -32,13 +32,13 @@ def add_to(commands: Any) -> None:
     parser.add_argument(
         "--thorough",
         action="store_true",
-        help="read every run, longer run and point of the chart to its end and compare its checksum with "
-        "that in the manifest, which finds a single changed bit (some minutes)",
+        help="read the blade and every run, map, ensemble, table, manifest and chart point to its end, "
+        "and compare its checksum, which finds a single changed bit (some minutes)",
     )
     parser.add_argument(
         "--discard",
         action="store_true",
-        help="delete the damaged files that are found, so that the next snakemake computes them again, and "
+        help="delete the damaged files that are found, so that the next snakemake makes them again, and "
         "them alone",
     )
     parser.add_argument("--json", action="store_true", help="print the counts as JSON")
@@ -51,15 +51,14 @@ def status(options: argparse.Namespace) -> None:
     """
     config, notes = inputs.read_config_with_notes(options)
 
-    from bladerub.extensions.chart.point import PointRow
     from bladerub.study import inventory
     from bladerub.study.grid import coating_cases
-    from bladerub.study.manifest import damaged_files
     from bladerub.study.plan import coating_plan
+    from bladerub.workflow import integrity
 
     results = inputs.study_folder() / config["results"]
     digest, note = inventory.current_blade(config, results / "blade" / "reduced_model.h5")
-    counts, damaged, unreadable = {}, [], []
+    counts, damaged, unreadable, lost = {}, [], [], []
     quiet = True if options.json else None
     width = get_terminal_size().columns
     for case in tqdm(coating_cases(config), unit="coating", ncols=width, disable=quiet, leave=False):
@@ -73,17 +72,22 @@ def status(options: argparse.Namespace) -> None:
     damaged += [path for part in of_rows for path in part.damaged]
     unreadable += [line for part in of_rows for line in part.unreadable]
     if options.thorough:
-        for manifest in sorted((results / "chart" / "columns").glob("*.tsv")):
-            damaged += damaged_files(manifest, PointRow)
+        faults = integrity.examine(results)
+        damaged += faults.damaged
+        unreadable += faults.unreadable
+        lost = faults.lost
+    damaged, unreadable = list(dict.fromkeys(damaged)), list(dict.fromkeys(unreadable))
     if options.discard:
         for path in damaged:
-            path.unlink(missing_ok=True)
+            if path.parent.resolve().is_relative_to(results.resolve()):  # not beyond a link
+                path.unlink(missing_ok=True)
     whole = inventory.total(counts.values())
     if options.json:
         about = {
             "note": note,
             "damaged": [str(path) for path in damaged],
             "discarded": options.discard,
+            "lost": [str(path) for path in lost],
             "cannot_be_read": unreadable,
         }
         total_of_rows = {"rows_of_blades": rows} if rows else {}
@@ -101,8 +105,11 @@ def status(options: argparse.Namespace) -> None:
         print(f"runs with steps whose contact forces did not converge: {whole['unconverged']}")
     if damaged:
         state = "damaged and deleted" if options.discard else "damaged; delete them, as status --discard does"
-        print(f"{state}; then run snakemake again, which computes them alone:")
+        print(f"{state}; then run snakemake again, which makes them alone:")
         print("\n".join(f"  {path}" for path in damaged))
+    if lost:
+        print("listed by their manifest, but not there; run snakemake again, which computes them alone:")
+        print("\n".join(f"  {path}" for path in lost))
     for line in (note, *notes):
         if line:
             print(line)

@@ -8,7 +8,8 @@ from typing import Any, NamedTuple
 
 import pandas as pd
 
-from bladerub.blade.model import ReducedBlade, read_reduced_blade
+from bladerub.blade.model import ReducedBlade
+from bladerub.blade.validation import read_reduced_blade
 from bladerub.study import divergence, findings, peak_table
 from bladerub.study.cache import blade_digest
 from bladerub.study.findings.evidence import Evidence, read_rom_accuracy

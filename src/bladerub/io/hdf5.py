@@ -1,4 +1,7 @@
-"""HDF5 files with names, units and dimension scales, written whole or not at all."""
+"""HDF5 files with names, units and dimension scales, written whole or not at all.
+
+Each carries its checksum (`bladerub.io.checksum`) as the attribute `CHECKSUM`, which `read` compares.
+"""
 
 import hashlib
 import io
@@ -16,9 +19,10 @@ from typing import Any, NamedTuple
 import h5py
 import numpy as np
 
-from bladerub.io import atomic
+from bladerub.io import atomic, checksum
 from bladerub.io.errors import DamagedFile
 
+CHECKSUM = "checksum"
 _READ_AND_WRITE = 1  # H5LT_FILE_IMAGE_OPEN_RW
 _COMPRESSED_FROM = 1024  # entries; below, the chunk index costs more than it saves
 
@@ -76,7 +80,7 @@ def write(
                 whole = h5py.h5s.ALL
                 h5py.h5d.open(file.id, name.encode()).write(whole, whole, np.ascontiguousarray(values))
         file.flush()
-        image = file.id.get_file_image()
+        image = checksum.seal(file.id.get_file_image())
     with atomic.writing(path, "wb") as stream:
         stream.write(image)
     return hashlib.sha256(image).hexdigest()
@@ -107,6 +111,7 @@ def _blank(layout: tuple, attributes: tuple, values: tuple, told: tuple, origin:
     with h5py.File(io.BytesIO(), "w") as file:
         for key, kind in attributes:
             file.attrs[key] = "" if "U" in kind else np.zeros((), kind)
+        file.attrs[CHECKSUM] = np.bytes_(checksum.BLANK)
         for key, value in (*told, *origin):
             file.attrs[key] = value
         lengths: dict[str, int] = {}
@@ -159,11 +164,19 @@ def read(
     """Read the datasets, all or `only` these, and attributes, all or those `told`, of the file at `path`.
 
     What the file does not have is left out. Raises an `OSError` that names the file if it is missing or, as
-    `DamagedFile`, not a whole HDF5 file.
+    `DamagedFile`, not a whole HDF5 file, or not as it was written.
     """
     with _opened(path) as file:
-        wanted = file.keys() if only is None else only & file.keys()
-        return {name: _values(file[name]) for name in wanted}, _attributes(file, told)
+        checksum.is_sealed(path)
+        return _content(file, only, told)
+
+
+def read_any(
+    path: str | Path, only: Set[str] | None = None, told: Set[str] | None = None
+) -> tuple[dict[str, np.ndarray], dict[str, Any]]:
+    """Read as `read` a file that people may have edited, or other programs written: as it is now."""
+    with _opened(path) as file:
+        return _content(file, only, told)
 
 
 def read_attributes(path: str | Path) -> dict[str, Any]:
@@ -177,6 +190,8 @@ def _opened(path: str | Path) -> Iterator[h5py.File]:
     try:
         with h5py.File(path, "r") as file:
             yield file
+    except DamagedFile:
+        raise
     except (OSError, RuntimeError, KeyError, ValueError) as error:  # h5py raises any of them
         code = getattr(error, "errno", None) or _system_error(error)
         if code:  # of the system: missing, or not ours to read
@@ -190,6 +205,13 @@ def _system_error(error: Exception) -> int:
     return int(number[1]) if number else 0
 
 
+def _content(
+    file: h5py.File, only: Set[str] | None, told: Set[str] | None
+) -> tuple[dict[str, np.ndarray], dict[str, Any]]:
+    wanted = file.keys() if only is None else only & file.keys()
+    return {name: _values(file[name]) for name in wanted}, _attributes(file, told)
+
+
 def _values(dataset: h5py.Dataset) -> np.ndarray:
     if h5py.check_string_dtype(dataset.dtype):
         return np.array(dataset.asstr()[...], dtype=str)
@@ -197,6 +219,6 @@ def _values(dataset: h5py.Dataset) -> np.ndarray:
 
 
 def _attributes(file: h5py.File, only: Set[str] | None = None) -> dict[str, Any]:
-    keys = file.attrs.keys()
-    values = ((key, file.attrs[key]) for key in (keys if only is None else only & keys))
+    names = [name for name in file.attrs if name != CHECKSUM and (only is None or name in only)]
+    values = ((name, file.attrs[name]) for name in names)
     return {key: value.item() if isinstance(value, np.generic) else value for key, value in values}

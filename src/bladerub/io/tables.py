@@ -1,9 +1,9 @@
 """Tables as plain CSV, each with a description next to it in the form of the W3C's "CSV on the Web".
 
 ``X.csv`` is for every program that reads CSV; ``X.csv-metadata.json`` says what its columns hold, in which
-units, and where the table comes from. A column means the same in every table: ``columns.csv`` in this folder
-lists them all, with unit ``1`` for a pure or normalised number, none for text. Its entry ``Yk`` is that of
-``Y4`` and of every other engine order.
+units, where the table comes from, and the checksum of both (`bladerub.io.checksum`). A column means the same
+in every table: ``columns.csv`` in this folder lists them all, with unit ``1`` for a pure or normalised
+number, none for text. Its entry ``Yk`` is that of ``Y4`` and of every other engine order.
 """
 
 import csv
@@ -12,14 +12,18 @@ import json
 import re
 import shutil
 from collections.abc import Collection, Mapping
+from contextlib import suppress
 from functools import cache
 from pathlib import Path
 from typing import Any
 
 import pandas as pd
 
-from bladerub.io import atomic
+from bladerub.io import atomic, checksum
 from bladerub.io.errors import DamagedFile
+
+DESCRIPTION = "-metadata.json"
+"""What follows the name of a table in that of its description, by the location that the W3C names first."""
 
 COLUMNS_FILE = Path(__file__).with_name("columns.csv")
 
@@ -33,18 +37,24 @@ def write(
     pandas. Raises `ValueError`, before anything is written, if a column is not described in `COLUMNS_FILE`.
     """
     path = Path(path)
-    text = json.dumps(_description(path.name, table, origin), indent=2, ensure_ascii=False)
-    with atomic.writing(path) as stream:
-        table.to_csv(stream, index=False, float_format=float_format)
-    with atomic.writing(description_path(path)) as stream:
-        stream.write(f"{text}\n")
+    description = json.dumps(_description(path.name, table, origin), indent=2, ensure_ascii=False)
+    content = table.to_csv(index=False, float_format=float_format, lineterminator="\n").encode()
+    for file, text in (
+        (path, content),
+        (description_path(path), checksum.seal(f"{description}\n".encode(), content)),
+    ):
+        with atomic.writing(file, "wb") as stream:
+            stream.write(text)
 
 
 def read(path: str | Path, columns: Collection[str] = (), separator: str = ",") -> pd.DataFrame:
     """Read a table that has the columns `columns` and of which every row must be whole.
 
-    Raises an `OSError` that names the file if it is missing, breaks off, is not a table or lacks a column.
+    Raises an `OSError` that names the file if it is missing, breaks off, is not a table, lacks a column, or
+    is not as it was written with the description next to it.
     """
+    with suppress(FileNotFoundError):  # a table without a description
+        check(path)
     try:
         text = Path(path).read_text(encoding="utf-8")
         if not text.endswith("\n"):
@@ -58,10 +68,23 @@ def read(path: str | Path, columns: Collection[str] = (), separator: str = ",") 
     return table
 
 
+def check(path: str | Path) -> None:
+    """Check that a table and the description next to it are as they were written.
+
+    Raises an `OSError` that names the table if they are not, or that names what is missing or cannot be read.
+    """
+    described = description_path(path)
+    try:
+        json.loads(described.read_bytes())
+        checksum.is_sealed(described, path)
+    except (ValueError, DamagedFile) as error:
+        raise DamagedFile(f"{path}: not as it was written, by the checksum in {described.name}") from error
+
+
 def description_path(path: str | Path) -> Path:
-    """Return where the description of the table at `path` is: the location that the W3C names first."""
+    """Return where the description of the table at `path` is."""
     path = Path(path)
-    return path.with_name(f"{path.name}-metadata.json")
+    return path.with_name(f"{path.name}{DESCRIPTION}")
 
 
 def copy(source: str | Path, target: str | Path) -> None:
@@ -101,6 +124,7 @@ def _description(name: str, table: pd.DataFrame, origin: Mapping[str, str]) -> d
     return {
         "@context": ["http://www.w3.org/ns/csvw", {"@language": "en"}],
         "url": name,
+        "schema:sha256": checksum.BLANK,
         "dc:provenance": [{"schema:name": key, "schema:value": value} for key, value in origin.items()],
         "tableSchema": {"columns": [named | described[entry(named["name"])] for named in columns]},
     }

@@ -9,12 +9,13 @@ folder `ARCHIVE` next to it, and it is taken back from there when its key is ask
 import hashlib
 import json
 import os
+import re
 from collections.abc import Set
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from bladerub.io import hdf5
+from bladerub.io import checksum, hdf5
 from bladerub.io.errors import is_refused
 from bladerub.io.provenance import PREFIX
 
@@ -38,7 +39,7 @@ def blade_digest(path: str | Path) -> str:
     A rebuild with the same outcome keeps the digest, wherever it comes from and whatever layout the file has.
     Raises `OSError` if the file is missing or unreadable.
     """
-    data, attributes = hdf5.read(path)
+    data, attributes = hdf5.read_any(path)
     content = hashlib.sha256()
     for name in sorted(data):
         values = data[name]
@@ -60,13 +61,14 @@ class Entry:
     def fetch(self) -> bool:
         """Take the file back from the archive unless it is current; return whether it is now.
 
-        A file is current if it can be read to its end and has the key and the datasets. Raises `OSError` if
-        the system refuses to read it: what it holds may be current.
+        A file is current if it has the key and the datasets, and the checksum that it carries; without one,
+        as of older versions, nothing tells that it is still as it was computed. Raises `OSError` if the
+        system refuses to read it: what it holds may be current.
         """
-        if self._key_in(self.path) == self.key:
+        if self._is_current(self.path):
             return True
         archived = self._archived(self.key)
-        if self._key_in(archived) != self.key:
+        if not self._is_current(archived):
             return False
         self.make_room()
         os.replace(archived, self.path)
@@ -83,6 +85,9 @@ class Entry:
     def _archived(self, key: str) -> Path:
         return self.path.parent / ARCHIVE / f"{key}{self.path.suffix}"
 
+    def _is_current(self, path: Path) -> bool:
+        return self._key_in(path) == self.key and checksum.is_sealed(path)
+
     def _key_in(self, path: Path) -> str | None:
         """Read the whole file and return its key, or None if it is missing or anything is wrong with it."""
         try:
@@ -94,4 +99,6 @@ class Entry:
                 raise
             return None
         keys = [attributes[name] for name in _KEYS if name in attributes]
-        return keys[0] if keys and self.datasets <= data.keys() else None
+        # a key is the name of a file in the archive
+        is_whole = keys and self.datasets <= data.keys() and re.fullmatch(r"\w+", str(keys[0]))
+        return keys[0] if is_whole else None

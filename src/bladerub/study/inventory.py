@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from bladerub.blade.build import is_built
+from bladerub.blade.validation import read_reduced_blade
 from bladerub.io.errors import is_refused, message_for
 from bladerub.study.cache import blade_digest
 from bladerub.study.growth import needs_confirmation
@@ -42,6 +43,7 @@ def current_blade(config: Mapping[str, Any], model: Path) -> tuple[str | None, s
             return None, f"there is no blade yet, so any run that is there counts as stale: {model}"
         if not is_built(config, model):
             return None, f"the blade is of another config, so any run that is there counts as stale: {model}"
+        read_reduced_blade(model)  # or it is no blade to compute with
         return blade_digest(model), None
     except OSError as error:
         return None, f"any run that is there counts as stale without its blade: {message_for(error)}"

@@ -1,11 +1,12 @@
 """Manifests: tables of the finished files of a job, written last, by which losses and damage are noticed."""
 
 import csv
+import io
 from collections.abc import Iterable
 from pathlib import Path
 from typing import Any, NamedTuple, Protocol, TypeVar
 
-from bladerub.io import atomic
+from bladerub.io import atomic, checksum
 from bladerub.io.checksum import file_checksum
 from bladerub.io.errors import DamagedFile
 
@@ -95,22 +96,29 @@ def listed_longer(run_path: str | Path, run_key: str) -> Path | None:
 
 
 def write_manifest(path: str | Path, rows: Iterable[Row], kind: type[Row] = ManifestRow) -> None:
-    """Write rows of that `kind` (tab-separated, with a header) to `path`, whole or not at all."""
-    with atomic.writing(path) as stream:
-        writer = csv.writer(stream, delimiter="\t", lineterminator="\n")
-        writer.writerow(kind._fields)
-        writer.writerows(rows)
+    """Write rows of that `kind` (tab-separated, with a header) to `path`, whole or not at all.
+
+    The name of a last column, which is empty, is the checksum of the manifest itself.
+    """
+    table = io.StringIO()
+    writer = csv.writer(table, delimiter="\t", lineterminator="\n")
+    writer.writerow([*kind._fields, checksum.BLANK])
+    writer.writerows([*row, ""] for row in rows)
+    with atomic.writing(path, "wb") as stream:
+        stream.write(checksum.seal(table.getvalue().encode()))
 
 
 def read_manifest(path: str | Path, kind: type[AnyRow] = ManifestRow) -> list[AnyRow]:
     """Read the rows of that `kind` written by `write_manifest`; an older one may lack the last columns.
 
-    Raises `OSError`, naming the file, if it is missing or not such a manifest.
+    Raises `OSError`, naming the file, if it is missing, not such a manifest or not as it was written.
     """
+    last = 1 if checksum.is_sealed(path) else 0
     lines = Path(path).read_text(encoding="utf-8", errors="replace").splitlines(keepends=True)
     reader = csv.reader(lines, delimiter="\t")
     try:
         header = next(reader, [])
+        header = header[: len(header) - last]
         absent = kind._fields[len(header) :]
         if [*header, *absent] != list(kind._fields) or not kind._field_defaults.keys() >= set(absent):
             raise DamagedFile(f"{path}: not a manifest, its header is not {' '.join(kind._fields)}")
@@ -119,7 +127,7 @@ def read_manifest(path: str | Path, kind: type[AnyRow] = ManifestRow) -> list[An
         convert = [kind.__annotations__[name] for name in header]
         rows = []
         for texts in reader:
-            row = kind(*(read(text) for read, text in zip(convert, texts, strict=True)))
+            row = kind(*(read(text) for read, text in zip(convert, texts[: len(texts) - last], strict=True)))
             if Path(row.file).name != row.file:  # nothing outside its folder is opened or deleted by it
                 raise ValueError(f"{row.file}: not the name of a file")
             rows.append(row)

@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from bladerub.config import record
-from bladerub.io import atomic
+from bladerub.io import atomic, checksum
 from bladerub.io.errors import BadInput, DamagedFile, exit_on_error
 from bladerub.io.folders import CONFIG, cache_folder, has_home
 from bladerub.study.manifest import ManifestRow, Row, listed_files
@@ -69,19 +69,35 @@ def loss(manifest: str | Path, kind: type[Row] = ManifestRow) -> str | None:
     return f"{lost[0]}: missing, or not as long as it was written" if lost else None
 
 
-def replaces_lost(workflow: Any, pattern: str, kind: type[Row] = ManifestRow) -> Callable[[Any], list[str]]:
-    """Return an input function without a file, which has a job done again if its manifest shows a `loss`.
+def damage(path: str | Path) -> str | None:
+    """Say in a line that a file is not as it was written; None if it is, or if there is none.
 
-    `pattern` is the output of the rule, a manifest of that `kind` of rows. The job is planned as with
-    ``--forcerun``, whether this is a dry run or not, and computes only what is not there.
+    Raises an `OSError` if it cannot be read.
+    """
+    try:
+        checksum.is_sealed(path)
+    except FileNotFoundError:
+        return None
+    except DamagedFile as error:
+        return str(error)
+    return None
+
+
+def replaces(
+    workflow: Any, pattern: str, problem_of: Callable[[str], str | None] = loss
+) -> Callable[[Any], list[str]]:
+    """Return an input function without a file, which has a job done again if its output has a problem.
+
+    `pattern` is an output of the rule, `problem_of` is `damage`, or `loss` if it is a manifest. The job is
+    planned as with ``--forcerun``, whether this is a dry run or not, and computes only what is not there.
     """
 
     @cache
-    def plan_again(manifest: str) -> None:
+    def plan_again(output: str) -> None:
         with exit_on_error():
-            problem = loss(manifest, kind)
+            problem = problem_of(output)
         if problem:
-            workflow.dag.forcefiles.add(manifest)
+            workflow.dag.forcefiles.add(output)
             _print(f"{problem}; its job is planned again and computes only what is not there")
 
     def no_files(wildcards: Any) -> list[str]:

@@ -12,9 +12,9 @@ from bladerub.blade.discrete import by_finite_elements
 from bladerub.blade.elasticity import Material, Solid
 from bladerub.blade.frequencies import reduced_frequencies
 from bladerub.blade.geometry import BladeShape
-from bladerub.blade.model import read_reduced_blade
 from bladerub.blade.refinement import directions
 from bladerub.blade.rotation import equilibrium
+from bladerub.blade.validation import read_reduced_blade
 from bladerub.io import hdf5
 
 CONFIG = {

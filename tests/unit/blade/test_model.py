@@ -3,7 +3,8 @@ import dataclasses
 import numpy as np
 import pytest
 
-from bladerub.blade.model import read_reduced_blade, write_reduced_blade
+from bladerub.blade.model import write_reduced_blade
+from bladerub.blade.validation import read_reduced_blade
 
 
 @pytest.fixture

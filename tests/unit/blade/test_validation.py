@@ -5,7 +5,8 @@ import numpy as np
 import pytest
 
 from bladerub.blade.model import write_reduced_blade
-from bladerub.blade.validation import LARGEST_MATRIX, read_valid_blade
+from bladerub.blade.validation import LARGEST_MATRIX, read_reduced_blade, read_valid_blade
+from bladerub.io.errors import DamagedFile
 
 
 @pytest.fixture
@@ -38,6 +39,25 @@ def test_what_is_no_blade_is_named(told, blade):
     assert told(f1_hz=np.inf) == "f1_hz = inf: must be a number above 0"
     assert told(length=-0.2) == "length = -0.2: must be a number above 0"
     assert told(radial_direction=np.full((8, 3), np.nan)).startswith("radial_direction: must be finite")
+
+
+@pytest.mark.parametrize("value", [1.2e308, np.nan, np.inf, -2e3])
+def test_no_study_computes_with_a_node_that_is_nowhere(blade, tmp_path, value):
+    position = blade.node_position.copy()
+    position[3, 2] = value
+    write_reduced_blade(tmp_path / "blade.h5", dataclasses.replace(blade, node_position=position), {})
+    with pytest.raises(DamagedFile, match=r"blade\.h5: not a valid reduced blade, node_position: must be"):
+        read_reduced_blade(tmp_path / "blade.h5")
+
+
+def test_an_edited_blade_can_be_tried_and_is_not_that_of_the_study(blade, tmp_path):
+    path = tmp_path / "blade.h5"
+    write_reduced_blade(path, blade, {})
+    with h5py.File(path, "r+") as file:
+        file["node_position"][3, 2] *= 1.001
+    assert read_valid_blade(path).node_position[3, 2] == 1.001 * blade.node_position[3, 2]
+    with pytest.raises(DamagedFile, match=r"blade\.h5: not as it was written"):
+        read_reduced_blade(path)
 
 
 def test_a_blade_with_too_few_nodes_is_named(blade, tmp_path):

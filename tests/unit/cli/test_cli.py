@@ -11,7 +11,7 @@ import pytest
 from bladerub import __version__
 from bladerub.api import ensemble
 from bladerub.api.map import solve_all
-from bladerub.blade.model import read_reduced_blade
+from bladerub.blade.validation import read_reduced_blade
 from bladerub.cli import inputs, main
 from bladerub.io.hdf5 import read_attributes
 from bladerub.study.store import read_run

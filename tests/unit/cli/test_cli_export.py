@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from bladerub.blade.model import read_reduced_blade
+from bladerub.blade.validation import read_reduced_blade
 from bladerub.cli import inputs, main
 from bladerub.io import hdf5
 

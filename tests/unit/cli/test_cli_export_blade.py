@@ -4,8 +4,8 @@ import meshio
 import numpy as np
 import pytest
 
-from bladerub.blade.model import read_reduced_blade
 from bladerub.blade.sources import mesh_file
+from bladerub.blade.validation import read_reduced_blade
 from bladerub.cli import inputs, main
 from bladerub.io import hdf5
 

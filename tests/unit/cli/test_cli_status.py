@@ -4,6 +4,7 @@ import pytest
 
 from bladerub.cli import inputs, main
 from bladerub.extensions.chart.point import PointRow
+from bladerub.io import hdf5
 from bladerub.io.checksum import file_checksum
 from bladerub.study.manifest import ManifestRow, write_manifest
 
@@ -42,11 +43,8 @@ def test_counts_as_json(small, capsys):
     output = capsys.readouterr()
     printed = json.loads(output.out)
     coatings, note = printed.pop("coatings"), printed.pop("note")
-    assert (printed.pop("damaged"), printed.pop("discarded"), printed.pop("cannot_be_read")) == (
-        [],
-        False,
-        [],
-    )
+    assert [printed.pop(name) for name in ("damaged", "lost", "cannot_be_read")] == [[], [], []]
+    assert not printed.pop("discarded")
     assert printed.keys() == COUNTS
     assert (printed["planned"], printed["missing"], printed["done"]) == (6, 6, 0)
     assert coatings.keys() == {"2nd_E2_K0.5_theta0", "2nd_E20_K0.5_theta0"}
@@ -94,15 +92,15 @@ def files(tmp_path):
     names = ["0.2000.h5", "0.3000.h5", "confirmation/0.2000.h5", "confirmation/0.3000.h5"]
     paths = [runs / name for name in names] + [chart / "cells" / name for name in ("a.h5", "b.h5")]
     for path in paths:
-        path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_text(path.name)
+        hdf5.write(path, {}, {"run_key": path.name})
     sums = [file_checksum(path) for path in paths]
+    sizes = [path.stat().st_size for path in paths]
     rows = [
-        ManifestRow(name, 0.2, "a", "completed", 9, "b", 9, sums[index], sums[index + 2])
+        ManifestRow(name, 0.2, "a", "completed", sizes[index], "b", sizes[index + 2], *sums[index:4:2])
         for index, name in enumerate(names[:2])
     ]
     write_manifest(runs / "manifest.tsv", rows)
-    points = [PointRow("a.h5", "c", 4, sums[4]), PointRow("b.h5", "d", 4, sums[5])]
+    points = [PointRow("a.h5", "c", sizes[4], sums[4]), PointRow("b.h5", "d", sizes[5], sums[5])]
     write_manifest(chart / "columns" / "2nd_E2_theta0.tsv", points, PointRow)
     return paths
 

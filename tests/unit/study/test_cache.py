@@ -64,6 +64,13 @@ class TestFetch:
         path.write_text("run_key = a\n")
         assert not is_found(path)
 
+    def test_no_key_moves_a_file_out_of_its_folder(self, write_run, tmp_path):
+        folder = tmp_path / "runs"
+        run = write_run(name="runs/0.1900.h5", key="../../elsewhere")
+        Entry(run, "a", MAPPED).make_room()
+        assert run.exists()
+        assert sorted(tmp_path.iterdir()) == [folder]
+
     @pytest.mark.parametrize("error", [OSError, RuntimeError, KeyError])  # h5py raises any of them
     def test_whatever_is_wrong_with_a_file_it_is_not_current(self, run, monkeypatch, error):
         def broken(path):

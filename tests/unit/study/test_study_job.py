@@ -1,9 +1,12 @@
 import math
 
+import h5py
 import numpy as np
 import pandas as pd
 import pytest
 
+from bladerub.io import hdf5
+from bladerub.io.errors import DamagedFile
 from bladerub.study import divergence, job, maps, peak_table
 from bladerub.study.grid import CoatingCase
 from bladerub.study.job import compute_missing
@@ -39,6 +42,39 @@ def test_missing_damaged_and_new_runs_are_computed_and_no_others(compute, study,
     simulated.clear()
     compute()
     assert simulated == [0.1, 0.2, 0.25]
+
+
+def test_a_damaged_run_is_computed_again_when_another_is_lost_and_gets_no_checksum_as_it_is(
+    compute, simulated, tmp_path
+):
+    rows = compute()
+    write_manifest(tmp_path / "manifest.tsv", rows)
+    damaged = tmp_path / "0.2000.h5"
+    with h5py.File(damaged) as file:
+        start = file["energy_wear"].id.get_offset()  # neither packed nor with a checksum of HDF5
+    content = bytearray(damaged.read_bytes())
+    content[start] ^= 1
+    damaged.write_bytes(content)
+    with pytest.raises(DamagedFile, match=r"0\.2000\.h5: not as it was written"):
+        read_run(damaged)
+    (tmp_path / "0.1000.h5").unlink()
+    (tmp_path / "manifest.tsv").unlink()
+    simulated.clear()
+    assert compute() == rows
+    assert simulated == [0.1, 0.2]
+
+
+def test_a_run_without_a_checksum_is_computed_again_and_archived(compute, simulated, tmp_path):
+    rows, path = compute(), tmp_path / "0.2000.h5"
+    with h5py.File(path, "r+") as file:  # as older versions wrote it
+        del file.attrs[hdf5.CHECKSUM]
+    path.write_bytes(path.read_bytes().replace(b"file checksum, sha256=", bytes(22)))
+    older = path.read_bytes()
+    simulated.clear()
+    assert compute() == rows
+    assert simulated == [0.2]
+    (archived,) = (tmp_path / ".archive").iterdir()
+    assert archived.read_bytes() == older
 
 
 def test_another_blade_makes_every_run_stale(compute, simulated):

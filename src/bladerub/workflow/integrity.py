@@ -1,0 +1,67 @@
+"""Which files of a results folder are lost, or no longer as they were written."""
+
+import os
+from pathlib import Path
+from typing import NamedTuple
+
+from bladerub.extensions.chart.point import PointRow
+from bladerub.io import hdf5, tables
+from bladerub.io.errors import DamagedFile, message_for
+from bladerub.study.manifest import ManifestRow, Row, listed_files
+
+
+class Faults(NamedTuple):
+    """What is wrong with the files of a folder."""
+
+    damaged: list[Path]  # read, and not as they were written
+    lost: list[Path]  # listed by a manifest, but not there
+    unreadable: list[str]  # for each file that the system refuses to read, its name, the reason and the cure
+
+
+def examine(results: str | Path) -> Faults:
+    """Read every file below `results` that carries a checksum, or that a manifest lists, to its end.
+
+    These are all HDF5 files, the tables, and the manifests.
+    """
+    faults = Faults([], [], [])
+
+    def refused(error: OSError) -> None:
+        faults.unreadable.append(message_for(error))
+
+    for folder, _, names in os.walk(results, onerror=refused):
+        for path in (Path(folder, name) for name in sorted(names)):
+            try:
+                _examine(path, faults)
+            except DamagedFile:
+                faults.damaged.append(_table_of(path))
+            except FileNotFoundError:  # a table, which Snakemake makes again
+                pass
+            except OSError as error:
+                refused(error)
+    return faults
+
+
+def _examine(path: Path, faults: Faults) -> None:
+    if path.suffix == ".h5":
+        hdf5.read(path)
+    elif path.name.endswith(tables.DESCRIPTION):
+        tables.check(_table_of(path))
+    elif path.suffix == ".tsv" and path.parent.name == "columns":
+        _examine_listed(path, PointRow, faults)
+    elif path.name == "manifest.tsv":
+        _examine_listed(path, ManifestRow, faults)
+
+
+def _table_of(path: Path) -> Path:
+    return path.with_name(path.name.removesuffix(tables.DESCRIPTION))
+
+
+def _examine_listed(manifest: Path, kind: type[Row], faults: Faults) -> None:
+    for file in listed_files(manifest, kind):
+        try:
+            if not file.path.exists():
+                faults.lost.append(file.path)
+            elif file.is_damaged():
+                faults.damaged.append(file.path)
+        except OSError as error:
+            faults.unreadable.append(message_for(error))

@@ -1,0 +1,109 @@
+"""Whatever a study keeps is checked: by three writers of files, of which each is damaged in many places."""
+
+import errno
+import os
+import random
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from bladerub.extensions.chart.point import PointRow
+from bladerub.io import hdf5, tables
+from bladerub.io.checksum import file_checksum
+from bladerub.io.hdf5 import Variable
+from bladerub.study.manifest import ManifestRow, confirmation_path, write_manifest
+from bladerub.workflow import invocation
+from bladerub.workflow.integrity import examine
+
+RUN = "runs/2nd/0.1000.h5"
+MANIFEST = "runs/2nd/manifest.tsv"
+MEMBER = "runs/2nd/ensemble/0.1000_1.h5"
+POINT = "chart/cells/2nd.h5"
+
+
+def write_table(path: Path) -> None:
+    tables.write(path, pd.DataFrame({"f_omega": np.linspace(0.1, 0.4, 9), "order": 3}), {"a": "b"})
+
+
+@pytest.fixture
+def results(tmp_path):
+    longer = confirmation_path(tmp_path / RUN)
+    names = (RUN, longer.relative_to(tmp_path), MEMBER, POINT, "maps/2nd.h5", "blade/reduced_model.h5")
+    values = {
+        "angle": Variable(("angle",), np.linspace(0, 6, 300), "rad", "casing angle"),
+        "wear": Variable(("node", "angle"), np.arange(2400.0).reshape(8, 300), "m", "worn depth"),
+    }
+    for name in names:
+        hdf5.write(tmp_path / name, values, {"run_key": "k", "casing": "2nd"}, {"provenance_a": "b"})
+    write_table(tmp_path / "tables" / "peaks.csv")
+    for name in (RUN, MEMBER):
+        path = tmp_path / name
+        size, checksum = path.stat().st_size, file_checksum(path)
+        rows = [ManifestRow(path.name, 0.1, "k", "completed", size, checksum=checksum)] * 3
+        write_manifest(path.with_name("manifest.tsv"), rows)
+    point = tmp_path / POINT
+    rows = [PointRow(point.name, "k", point.stat().st_size, file_checksum(point))]
+    write_manifest(tmp_path / "chart" / "columns" / "2.tsv", rows, PointRow)
+    return tmp_path
+
+
+KEPT = [RUN, MEMBER, POINT, MANIFEST, "chart/columns/2.tsv", "maps/2nd.h5", "blade/reduced_model.h5"]
+
+
+def test_what_is_as_it_was_written_has_no_fault(results):
+    assert examine(results) == ([], [], [])
+
+
+@pytest.mark.parametrize("name", [*KEPT, "tables/peaks.csv", "tables/peaks.csv-metadata.json"])
+def test_one_random_bit_is_found_wherever_it_is(results, name):
+    path, draw = results / name, random.Random(name)
+    whole = path.read_bytes()
+    for _ in range(60):
+        content, bit = bytearray(whole), draw.randrange(8 * len(whole))
+        content[bit // 8] ^= 1 << bit % 8
+        path.write_bytes(content)
+        assert results / name.removesuffix("-metadata.json") in examine(results).damaged, bit
+
+
+@pytest.mark.parametrize("name", [*KEPT, "tables/peaks.csv"])
+@pytest.mark.parametrize("share", [0, 0.3, 0.999])
+def test_a_file_that_is_empty_or_cut_short_is_found(results, name, share):
+    path = results / name
+    os.truncate(path, int(share * path.stat().st_size))
+    assert path in examine(results).damaged
+
+
+@pytest.mark.parametrize("name", [RUN, MEMBER, POINT])
+def test_a_lost_file_is_named(results, name):
+    (results / name).unlink()
+    damaged, lost, unreadable = examine(results)
+    assert (damaged, set(lost), unreadable) == ([], {results / name}, [])
+
+
+@pytest.mark.parametrize("code", [errno.EACCES, errno.EMFILE, errno.EIO, errno.ESTALE])
+def test_what_the_system_refuses_is_not_damaged(results, monkeypatch, code):
+    whole = Path.read_bytes
+
+    def refused(path):
+        if path.name in {Path(name).name for name in KEPT}:
+            raise OSError(code, os.strerror(code), str(path))
+        return whole(path)
+
+    monkeypatch.setattr(Path, "read_bytes", refused)
+    damaged, lost, unreadable = examine(results)
+    assert (damaged, lost) == ([], [])
+    assert all(any(str(results / name) in line for line in unreadable) for name in KEPT)
+
+
+@pytest.mark.parametrize("name", ["maps/2nd.h5", "blade/reduced_model.h5"])
+def test_damage_of_an_output_plans_its_job_again(results, name):
+    path = results / name
+    assert invocation.damage(path) is None
+    content = bytearray(path.read_bytes())
+    content[len(content) // 2] ^= 1
+    path.write_bytes(content)
+    assert str(path) in invocation.damage(path)
+    path.unlink()
+    assert invocation.damage(path) is None
