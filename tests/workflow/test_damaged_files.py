@@ -44,17 +44,18 @@ def test_damage_is_found_or_named_and_costs_only_itself(copied_study, tiny, resu
     before, written = contents(results), copied_study.runs()
     cut_short(results / "runs" / COATING / "0.2300.h5")
     cut_short(results / "runs" / "2nd_E2_K0.5_theta0.15" / "manifest.tsv")
-    assert copied_study.plan(tiny)["coating"] == 2  # found without being asked
+    spoil(results / "maps" / "2nd_E2_K0.5_theta0.h5")
+    plan = copied_study.plan(tiny)
+    assert (plan["coating"], plan["map"]) == (2, 3)  # found without being asked
     named = {  # what is damaged, by what is made of it
         f"maps/{OTHER}.h5": f"runs/{OTHER}/0.1970.h5",
-        "figures/fig15_spectrum_theta0.png": "maps/2nd_E2_K0.5_theta0.h5",
-        "figures/fig01_blade.png": "blade/mesh.h5",
         "figures/fig02_campbell.png": "tables/campbell.csv",
     }
     for made, damaged in named.items():
         (results / made).unlink()
         (spoil if damaged.startswith("runs") else cut_short)(results / damaged)
-    targets = [*named, f"maps/{COATING}.h5", "maps/2nd_E2_K0.5_theta0.15.h5"]
+    others = (COATING, "2nd_E2_K0.5_theta0.15", "2nd_E2_K0.5_theta0")
+    targets = [*named, *(f"maps/{coating}.h5" for coating in others)]
     command = (*(f"results/{target}" for target in targets), "--keep-going", "--cores", "2")
     failed = copied_study.snakemake(*command, config=tiny)
     assert failed.returncode != 0
@@ -100,14 +101,57 @@ def test_one_random_bit_in_each_of_40_runs_is_found_and_costs_these_runs(copied_
     assert copied_study.status("--thorough")["damaged"] == []
 
 
-def test_a_damaged_blade_costs_no_run(copied_study, tiny, results):
+@pytest.mark.parametrize("kind", ["reduced_model", "mesh"])
+def test_a_damaged_blade_is_made_again_and_costs_no_run(copied_study, tiny, results, kind):
     before, written = contents(results), copied_study.runs()
-    blade, manifest = results / "blade" / "reduced_model.h5", f"results/runs/{COATING}/manifest.tsv"
-    cut_short(blade)
-    (copied_study.folder / manifest).unlink()
-    failed = copied_study.snakemake(manifest, "--cores", "1", config=tiny)
-    assert failed.returncode != 0
-    assert re.search(r"^results/blade/reduced_model.h5: .*; delete it and run", failed.stderr, re.MULTILINE)
-    blade.unlink()
-    copied_study.build(tiny, manifest)
+    flip_a_bit(results / "blade" / f"{kind}.h5", random.Random(kind))
+    assert copied_study.plan(tiny)["blade"] == 1
+    assert "blade" in copied_study.plan(tiny, f"results/runs/{COATING}/manifest.tsv")
+    copied_study.build(tiny, f"results/runs/{COATING}/manifest.tsv", "results/blade/mesh.h5")
     assert (contents(results), copied_study.runs()) == (before, written)
+
+
+def test_what_is_lost_or_damaged_of_an_ensemble_costs_its_members_alone(copied_study, tiny, results):
+    tiny["ensemble"] = {"members": 2}
+    target = f"results/ensembles/{COATING}.h5"
+    copied_study.build(tiny, target)
+    assert copied_study.plan(tiny, target) == {}
+    members = sorted((results / "runs" / COATING / "ensemble").glob("[0-9]*.h5"))
+    before = {path: path.read_bytes() for path in [*members, copied_study.folder / target]}
+    times = {path: path.stat().st_mtime_ns for path in members}
+    lost, empty, flipped = members[:3]
+    flip_a_bit(flipped, random.Random(1))
+    assert copied_study.plan(tiny, target) == {}  # nothing shows it from outside
+    assert copied_study.status("--thorough")["damaged"] == [str(flipped)]
+    lost.unlink()
+    os.truncate(empty, 0)
+    flip_a_bit(copied_study.folder / target, random.Random(2))
+    found = copied_study.status("--thorough")
+    assert set(found["damaged"]) == {str(empty), str(flipped), str(copied_study.folder / target)}
+    assert found["lost"] == [str(lost)]
+    copied_study.build(tiny, target)
+    assert {path: path.read_bytes() for path in before} == before
+    assert {path for path in members if path.stat().st_mtime_ns != times[path]} == {lost, empty, flipped}
+
+
+def test_one_random_bit_in_a_file_of_any_kind_is_found_and_repaired(copied_study, tiny, results):
+    before, draw = contents(results), random.Random(8)
+    tables = {path: path.read_bytes() for path in (results / "tables").iterdir()}
+    kinds = (
+        "runs/*/[0-9]*.h5",
+        "runs/*/manifest.tsv",
+        "maps/*.h5",
+        "tables/*.csv",
+        "tables/*.json",
+        "blade/*.h5",
+    )
+    hit = {draw.choice(sorted(results.glob(kind))) for kind in kinds}
+    for path in hit:
+        flip_a_bit(path, draw)
+    found = set(copied_study.status("--thorough", "--discard")["damaged"])
+    assert found == {str(path).removesuffix("-metadata.json") for path in hit}
+    copied_study.build(tiny)
+    assert copied_study.status("--thorough")["damaged"] == []
+    assert contents(results) == before
+    same = {path for path, content in tables.items() if path.read_bytes() == content}
+    assert {path.name.split(".")[0] for path in tables.keys() - same} <= {"cost", "schedule"}  # timings
