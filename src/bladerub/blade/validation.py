@@ -64,11 +64,8 @@ def _check_file(path: str | Path) -> None:
         raise OSError(f"{path}: is {kind}, must be a reduced blade (HDF5)")
     if not h5py.is_hdf5(path):
         return
-    try:
-        with h5py.File(path, "r") as file:
-            sizes = {name: getattr(entry, "shape", None) for name, entry in file.items()}
-    except (OSError, RuntimeError, KeyError) as error:
-        raise DamagedFile(f"{path}: not a readable HDF5 file ({error})") from error
+    with hdf5.opened(path) as file:
+        sizes = {name: getattr(entry, "shape", None) for name, entry in file.items()}
     for name, shape in sizes.items():
         if shape is None or max(shape, default=0) > LARGEST_MATRIX:
             raise ValueError(f"{path}: not a reduced blade, {name} has the shape {shape}")

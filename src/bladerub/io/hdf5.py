@@ -166,7 +166,7 @@ def read(
     What the file does not have is left out. Raises an `OSError` that names the file if it is missing or, as
     `DamagedFile`, not a whole HDF5 file, or not as it was written.
     """
-    with _opened(path) as file:
+    with opened(path) as file:
         checksum.is_sealed(path)
         return _content(file, only, told)
 
@@ -175,18 +175,19 @@ def read_any(
     path: str | Path, only: Set[str] | None = None, told: Set[str] | None = None
 ) -> tuple[dict[str, np.ndarray], dict[str, Any]]:
     """Read as `read` a file that people may have edited, or other programs written: as it is now."""
-    with _opened(path) as file:
+    with opened(path) as file:
         return _content(file, only, told)
 
 
 def read_attributes(path: str | Path) -> dict[str, Any]:
     """Read the attributes alone of the file at `path` (see `read`)."""
-    with _opened(path) as file:
+    with opened(path) as file:
         return _attributes(file)
 
 
 @contextmanager
-def _opened(path: str | Path) -> Iterator[h5py.File]:
+def opened(path: str | Path) -> Iterator[h5py.File]:
+    """Open the file at `path` to read; whatever is wrong with it, here or within the block, raises as `read`."""
     try:
         with h5py.File(path, "r") as file:
             yield file
