@@ -187,7 +187,7 @@ def read_attributes(path: str | Path) -> dict[str, Any]:
 
 @contextmanager
 def opened(path: str | Path) -> Iterator[h5py.File]:
-    """Open the file at `path` to read; whatever is wrong with it, here or within the block, raises as `read`."""
+    """Open the file at `path` to read; what is wrong with it, there or within the block, raises as `read`."""
     try:
         with h5py.File(path, "r") as file:
             yield file
