@@ -27,7 +27,7 @@ def fit_coating(path: str | Path, *, strain_unit: str | None = None, stress_unit
     Raises
     ------
     BadInput
-        If the table cannot be used: the message names column, row and value. A `ValueError`.
+        If the table cannot be used: the message names column, line and value. A `ValueError`.
 
     Examples
     --------

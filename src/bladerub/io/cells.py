@@ -3,8 +3,9 @@
 The first line that is neither empty nor a comment names the columns; what follows a ``#`` is a comment. Of
 semicolons, tabs, commas and white space, the first that this line has separates the cells, in all lines.
 Numbers may have decimal commas unless commas separate the cells, and exponents as Fortran writes them
-(``1.0D+02``). Every row has as many cells as there are columns, so that no cell gets into the column beside
-its own. Tables of our own are those of `bladerub.io.tables`.
+(``1.0D+02``). Every row must have as many cells as there are columns, so that no cell gets into the column
+beside its own: that is checked where a column is taken, so that a line that does not name the columns is told
+first. Tables of our own are those of `bladerub.io.tables`.
 """
 
 import csv
@@ -19,6 +20,7 @@ LARGEST_FILE = 100_000_000
 
 _SEPARATORS = {";": "semicolons", "\t": "tabs", ",": "commas", None: "white space"}
 _NUMBER = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)([eEdD][-+]?\d+)?", re.ASCII)
+_TWO_NUMBERS = re.compile(r"[-+]?\d*\.\d{2,}([eEdD][-+]?\d+)?[-+]?\d*\.\d", re.ASCII)
 _STATED_SEPARATOR = re.compile(r"sep=(.)")  # the first line of a CSV, in some spreadsheets
 
 
@@ -31,8 +33,24 @@ class Cells(NamedTuple):
     separator: str  # of the cells, in words
 
     def column(self, name: str) -> list[str]:
-        """Return the cells of a column; capital and small letters are alike."""
-        at = [known.lower() for known in self.names].index(name.lower())
+        """Return the cells of a column; capital and small letters are alike.
+
+        Raises
+        ------
+        ValueError
+            If the column is there twice, or a row has more or fewer cells than there are columns; names the
+            line.
+        """
+        lower = [known.lower() for known in self.names]
+        if lower.count(name.lower()) > 1:
+            raise ValueError(f"line {self.header}: has the column {name.lower()} twice")
+        for line, row in self.rows.items():
+            if len(row) != len(lower):
+                raise ValueError(
+                    f"line {line}: has {len(row)} cells, must have {len(lower)} as the header has (separated "
+                    f"by {self.separator}{self._cure(row)})"
+                )
+        at = lower.index(name.lower())
         return [row[at] for row in self.rows.values()]
 
     def numbers(self, name: str) -> np.ndarray:
@@ -41,17 +59,34 @@ class Cells(NamedTuple):
         Raises
         ------
         ValueError
-            If a cell is no finite number; names its line.
+            As `column`, or if a cell is no finite number; names its line.
         """
         numbers = np.empty(len(self.rows))
         for at, (line, cell) in enumerate(zip(self.rows, self.column(name), strict=True)):
-            text = cell if self.separator == "commas" else cell.replace(",", ".")
+            text = self._with_point(cell)
             number = float(re.sub("[dD]", "e", text)) if _NUMBER.fullmatch(text) else np.nan
             if not np.isfinite(number):
                 found = cell[:40] or "nothing"
-                raise ValueError(f"line {line}: {name} = {found}, must be a finite number")
+                raise ValueError(
+                    f"line {line}: {name} = {found}, must be a finite number{self._run_together([cell])}"
+                )
             numbers[at] = number
         return numbers
+
+    def _with_point(self, cell: str) -> str:
+        return cell if self.separator == "commas" else cell.replace(",", ".")
+
+    def _cure(self, row: list[str]) -> str:
+        if self.separator == "commas" and len(row) > len(self.names):
+            return "; with decimal commas, separate the cells by semicolons"
+        return self._run_together(row) if self.separator == "white space" else ""
+
+    def _run_together(self, row: list[str]) -> str:
+        """Name a cell that holds two numbers, as Fortran fills columns of fixed width without a blank."""
+        for cell in row:
+            if _TWO_NUMBERS.match(self._with_point(cell)):
+                return f'; "{cell[:40]}" holds two numbers: columns of fixed width need a blank between them'
+        return ""
 
 
 def read(path: Path) -> Cells:
@@ -60,8 +95,7 @@ def read(path: Path) -> Cells:
     Raises
     ------
     ValueError
-        If the file cannot be read, is no text in UTF-8, has no rows, a column twice, or a row with more or
-        fewer cells than columns; says what is wrong, with the line.
+        If the file cannot be read, is no text in UTF-8 or has no rows.
     """
     content = _lines(path)
     if not content:
@@ -76,19 +110,11 @@ def read(path: Path) -> Cells:
     while not names[-1]:  # a spreadsheet writes its empty columns, and rows, too
         names.pop()
     names = [name or f"column {number}" for number, name in enumerate(names, 1)]
-    lower = [name.lower() for name in names]
-    if twice := sorted({name for name in lower if lower.count(name) > 1}):
-        raise ValueError(f"line {header}: has the column {', '.join(twice)} twice")
     rows = {}
     for line in lines:
         row = _split(content[line], separator)
         while len(row) > len(names) and not row[-1]:
             row.pop()
-        if len(row) != len(names):
-            raise ValueError(
-                f"line {line}: has {len(row)} cells, must have {len(names)} as the header has (separated by "
-                f"{_SEPARATORS[separator]}{_cure(separator, len(row), len(names))})"
-            )
         rows[line] = row
     if not rows:
         raise ValueError("has no rows below the names of its columns")
@@ -121,11 +147,3 @@ def _split(line: str, separator: str | None) -> list[str]:
         return [cell.strip() for cell in next(csv.reader([line], delimiter=separator, skipinitialspace=True))]
     except csv.Error as error:
         raise ValueError(f'"{line[:40]}": {error}') from error
-
-
-def _cure(separator: str | None, n_cells: int, n_columns: int) -> str:
-    if separator == "," and n_cells > n_columns:
-        return "; with decimal commas, separate the cells by semicolons"
-    if separator is None and n_cells < n_columns:
-        return "; columns of fixed width may have run together"
-    return ""

@@ -1,9 +1,8 @@
 """Tables of blade sections, as text: a row for each station of a section, from the leading edge on.
 
 The names of the columns, in capital or small letters, show which of two forms a table has. In both, `section`
-names the section, hub to tip; other columns are ignored; what follows a ``#`` is a comment. The first of
-these that the header has separates the cells: semicolons; commas; white space. Numbers may have decimal
-commas unless commas separate the cells.
+names the section, hub to tip; other columns are ignored. How cells are separated and numbers written is for
+`bladerub.io.cells`.
 
 - Points of the surface: x, y and z of one side (`x1`, `y1`, `z1`) and of the other (`x2`, `y2`, `z2`).
 - As compressor rotors are published: axial position `z` and radius `r`, and at both the angles `theta1` and
@@ -34,16 +33,9 @@ class Section:
 
 def read(path: str | Path, frame: Frame, angle_unit: str = "rad") -> list[Section]:
     """Read the sections of a table in the order of the file; a ValueError names a line or section."""
-    cells = section_text.read(Path(path))
-    table = pd.DataFrame.from_dict(cells.rows, orient="index", columns=cells.names)[cells.form]
-    wanted = table.columns.drop("section")
-    numbers = table[wanted].apply(pd.to_numeric, errors="coerce").astype(float)
-    for column in wanted:
-        bad = ~np.isfinite(numbers[column])
-        if bad.any():
-            line = bad.idxmax()
-            raise ValueError(f"line {line}: {column} = {table[column][line] or 'nothing'}, must be a number")
-    names = table["section"]
+    table, form = section_text.read(Path(path))
+    numbers = pd.DataFrame({name: table.numbers(name) for name in form}, index=[*table.rows])
+    names = pd.Series(table.column("section"), index=numbers.index)
     if (names == "").any():
         raise ValueError(f"line {(names == '').idxmax()}: has no section")
     parts = numbers.groupby((names != names.shift()).cumsum())

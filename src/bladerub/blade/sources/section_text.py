@@ -1,67 +1,44 @@
-"""Tables of blade sections as text: which file is one, the names of its columns and the cells of its rows.
+"""Tables of blade sections as text: which file is one, and the columns that it must name.
 
 Nothing here takes time to import, so that a wrong table is refused at once.
 """
 
 import re
+from itertools import islice
 from pathlib import Path
-from typing import NamedTuple
 
 from bladerub.blade.sources import origin
+from bladerub.io import cells
+from bladerub.io.cells import Cells
 
 POINTS = ("x1", "y1", "z1", "x2", "y2", "z2")
 CYLINDRICAL = ("z", "r", "theta1", "theta2")
 _LOOKED_THROUGH = 50  # lines, for names below a title
-_SEPARATORS = {";": "semicolons", ",": "commas", None: "white space"}
 
 
-class Cells(NamedTuple):
-    """Cells of a table, as text."""
+def read(path: Path) -> tuple[Cells, tuple[str, ...]]:
+    """Read a table and the columns of numbers of its form.
 
-    names: list[str]  # of the columns, in small letters
-    rows: dict[int, list[str]]  # by the line of the file
-    form: list[str]  # the columns that are read: section and those of the form that the table has
-
-
-def read(path: Path) -> Cells:
-    """Read the cells of all rows; a ValueError names the line or says what is no table of sections."""
+    A ValueError names the line or says what is no table of sections.
+    """
     origin.check_file(path)
+    table = cells.read(path)
     try:
-        text = path.read_text(encoding="utf-8-sig")
-    except UnicodeDecodeError:
-        text = "\0"
-    if "\0" in text:
-        raise ValueError("is not text in UTF-8")
-    bare = {number: line.split("#")[0].strip() for number, line in enumerate(text.splitlines(), 1)}
-    content = {number: line for number, line in bare.items() if line}
-    if not content:
-        raise ValueError("is empty")
-    header, *lines = content
-    separator = next((mark for mark in _SEPARATORS if mark and mark in content[header]), None)
-    cells = {line: [cell.strip(' "') for cell in content[line].split(separator)] for line in content}
-    names = [name.lower() or f"column {number}" for number, name in enumerate(cells.pop(header), 1)]
-    try:
-        wanted = ["section", *_form(set(names))]
+        form = _form({name.lower() for name in table.names})
     except ValueError as error:
-        what = f"line {header} must name the columns; cells separated by {_SEPARATORS[separator]}"
-        raise ValueError(f'{error} ({what}: "{content[header][:60]}"{_likely_names(content)})') from error
-    if separator != ",":
-        cells = {line: [cell.replace(",", ".") for cell in row] for line, row in cells.items()}
-    twice = {name for name in names if names.count(name) > 1}
-    if twice:
-        raise ValueError(f"line {header}: has the column {', '.join(sorted(twice))} twice")
-    if not lines:
-        raise ValueError("has no rows below the names of its columns")
-    for line, row in cells.items():
-        if len(row) != len(names):
-            raise ValueError(f"line {line}: has {len(row)} cells, must have {len(names)} as the header has")
-    return Cells(names, cells, wanted)
+        what = f"line {table.header} must name the columns; cells separated by {table.separator}"
+        first = " ".join(table.names)[:60]
+        raise ValueError(f'{error} ({what}: "{first}"{_likely_names(table)})') from error
+    for name in ("section", *form):
+        table.column(name)
+    return table, form
 
 
-def _likely_names(content: dict[int, str]) -> str:
+def _likely_names(table: Cells) -> str:
     """Point out a line below the first that seems to name the columns, as in files with a title."""
-    for line, text in list(content.items())[1:_LOOKED_THROUGH]:
-        words = re.sub(r"(?<=[a-z]) (?=[12]\b)", "", text.lower().replace(",", " ").replace(";", " ")).split()
+    for line, row in islice(table.rows.items(), _LOOKED_THROUGH):
+        text = " ".join(row)
+        words = re.sub(r"(?<=[a-z]) (?=[12]\b)", "", re.sub("[,;]", " ", text.lower())).split()
         if any(len(set(form).intersection(words)) >= len(form) - 1 for form in (POINTS, CYLINDRICAL)):
             return f', and not line {line}: "{text[:60]}"'
     return ""

@@ -1,7 +1,8 @@
 """Compressive stress-strain curves from a table: columns `strain`, `stress`, `rate`, perhaps `test`.
 
-A unit stands behind the name of its column, in brackets: ``stress (MPa)``. What follows a ``#`` is a comment.
-The rows of a rate, or of a test where that column is there, are one curve, in the order of loading.
+A unit stands behind the name of its column, in brackets: ``stress (MPa)``. The rows of a rate, or of a test
+where that column is there, are one curve, in the order of loading. How cells are separated and numbers
+written is for `bladerub.io.cells`.
 """
 
 import re
@@ -12,6 +13,7 @@ from typing import NamedTuple
 import numpy as np
 import pandas as pd
 
+from bladerub.io import cells
 from bladerub.io.errors import BadInput
 
 UNITS = {
@@ -21,6 +23,8 @@ UNITS = {
 }
 """Units of each column, in SI."""
 _DEFAULT = {"strain": "1", "rate": "1/s"}  # stress has none: Pa and MPa are both usual
+_MOST = {"strain": 1.0, "stress": 1e12, "rate": 1e9}
+"""Largest values that a coating can have, in SI: beyond, the unit is another."""
 FEWEST_ROWS = 5
 _HEADER = re.compile(r"\s*(.*?)\s*(?:[\[(]\s*([^\])]*?)\s*[\])])?\s*", re.DOTALL)
 
@@ -36,37 +40,40 @@ class Curve(NamedTuple):
 def read(path: str | Path, units: Mapping[str, str] | None = None) -> list[Curve]:
     """Read the curves of a table, in the order of their rates.
 
-    `units` states the units of columns whose header has none. Raises `BadInput` that names column, row and
+    `units` states the units of columns whose header has none. Raises `BadInput` that names column, line and
     value of what cannot be used.
     """
-    path = Path(path)
-    table = _table(path)
-    names = [_HEADER.fullmatch(name).groups() for name in table.columns]
-    header = {name.lower(): unit for name, unit in names}
-    table.columns = pd.Index([name.lower() for name, _ in names])
-    if table.columns.has_duplicates:
-        raise BadInput(f"{path}: has the column {table.columns[table.columns.duplicated()][0]} twice")
-    for column in ("strain", "stress"):
-        if column not in header:
-            raise BadInput(
-                f"{path}: has no column {column}; must have strain, stress and, for several rates, rate"
-            )
-    if len(table) < FEWEST_ROWS:
-        raise BadInput(f"{path}: has {len(table)} rows, must have {FEWEST_ROWS} or more")
+    try:
+        return _read(cells.read(Path(path)), units or {})
+    except ValueError as error:
+        raise BadInput(f"{path}: {error}") from error
+
+
+def _read(table: cells.Cells, units: Mapping[str, str]) -> list[Curve]:
+    parts = [_HEADER.fullmatch(name).groups() for name in table.names]
+    table = table._replace(names=[name.lower() for name, _ in parts])
+    header = dict(zip(table.names, (unit for _, unit in parts), strict=True))
+    if missing := [name for name in ("strain", "stress") if name not in header]:
+        raise ValueError(
+            f"has no column {', '.join(missing)}; line {table.header} must name strain, stress and, for "
+            f"several rates, rate, separated as the cells below ({table.separator} here)"
+        )
     values = pd.DataFrame(
-        {
-            column: _numbers(path, table[column], column) * _unit(path, column, header[column], units or {})
-            for column in UNITS
-            if column in header
-        }
+        {name: _values(table, name, header[name], units) for name in UNITS if name in header},
+        index=[*table.rows],
     )
+    if len(values) < FEWEST_ROWS:
+        raise ValueError(f"has {len(values)} rows, must have {FEWEST_ROWS} or more")
+    if values.strain.max() == 0:
+        raise ValueError("column strain: is 0 in every row")
+    if values.stress.sum() <= 0:
+        raise ValueError("column stress: is negative on the whole; compression must be positive")
     values = values.assign(rate=values.get("rate", 0.0))
-    _check(path, values, table)
-    if "test" in table.columns:
-        groups = values.groupby(table["test"].to_numpy(), sort=False)
+    if "test" in header:
+        groups = values.groupby(table.column("test"), sort=False)
         for name, rows in groups:
             if rows.rate.nunique() > 1:
-                raise BadInput(f"{path}: test {name} has {rows.rate.nunique()} rates, must have one")
+                raise ValueError(f"test {name} has {rows.rate.nunique()} rates, must have one")
     else:
         groups = values.groupby("rate")
     curves = [
@@ -75,53 +82,24 @@ def read(path: str | Path, units: Mapping[str, str] | None = None) -> list[Curve
     return sorted(curves, key=lambda curve: curve.rate)
 
 
-def _table(path: Path) -> pd.DataFrame:
-    if not path.is_file():
-        raise BadInput(f"{path}: there is no such file")
-    try:
-        cells = pd.read_csv(
-            path, dtype=str, comment="#", keep_default_na=False, skipinitialspace=True, header=None
-        )
-    except (UnicodeDecodeError, pd.errors.ParserError, pd.errors.EmptyDataError) as error:
-        raise BadInput(f"{path}: is not a table in CSV ({str(error).strip()})") from error
-    # read as a row like the others: pandas would rename a column that is there twice
-    return cells.iloc[1:].set_axis(cells.iloc[0], axis=1).reset_index(drop=True)
-
-
-def _unit(path: Path, column: str, stated: str | None, units: Mapping[str, str]) -> float:
-    """Factor from the unit of a column, of its header before that of `units`, to SI."""
+def _values(table: cells.Cells, column: str, stated: str | None, units: Mapping[str, str]) -> np.ndarray:
+    """Values of a column in SI: strain and stress of compression, counted positive."""
     unit = stated or units.get(column) or _DEFAULT.get(column)
     known = UNITS[column]
     if unit not in known:
         problem = f"unit = {unit}" if unit else "has no unit"
-        raise BadInput(
-            f"{path}: column {column}: {problem}, must be {' or '.join(known)}: {column} ({[*known][-1]})"
+        raise ValueError(
+            f"column {column}: {problem}, must be {' or '.join(known)}: {column} ({[*known][-1]})"
         )
-    return known[unit]
-
-
-def _numbers(path: Path, cells: pd.Series, column: str) -> pd.Series:
-    numbers = pd.to_numeric(cells, errors="coerce").astype(float)
-    bad = ~np.isfinite(numbers.to_numpy())
+    values = known[unit] * table.numbers(column)
+    most = _MOST[column]
+    bad = (np.abs(values) > most) | ((values < 0) & (column != "stress"))
     if bad.any():
         row = int(np.argmax(bad))
-        raise BadInput(
-            f"{path}: row {row + 1}: {column} = {cells.iloc[row] or 'nothing'}, must be a finite number"
+        line, cell = [*table.rows][row], table.column(column)[row]
+        limits = f"from {-most if column == 'stress' else 0:g} to {most / known[unit]:g} {unit}"
+        raise ValueError(
+            f"line {line}: {column} = {cell}, must be {limits}; compression is positive, and the unit stands "
+            f"behind the name: {column} ({[*known][-1]})"
         )
-    return numbers
-
-
-def _check(path: Path, values: pd.DataFrame, table: pd.DataFrame) -> None:
-    """Check that strain and stress are those of compression, counted positive, and that rates are rates."""
-    for column in ("strain", "rate"):
-        bad = values[column].to_numpy() < 0
-        if bad.any():
-            row = int(np.argmax(bad))
-            raise BadInput(
-                f"{path}: row {row + 1}: {column} = {table[column].iloc[row]}, must be 0 or more; "
-                "compression is positive"
-            )
-    if values.strain.max() == 0:
-        raise BadInput(f"{path}: column strain: is 0 in every row")
-    if values.stress.sum() <= 0:
-        raise BadInput(f"{path}: column stress: is negative on the whole; compression must be positive")
+    return values
