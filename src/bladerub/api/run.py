@@ -35,7 +35,7 @@ from bladerub.study.job import Solve, compute
 from bladerub.study.manifest import listed_longer
 from bladerub.study.plan import on_gpu, planned_run
 from bladerub.study.store import StoredRun
-from bladerub.study.summary import summarise
+from bladerub.study.summary import displacement_peak, summarise
 
 _LONGER = "longer_"
 
@@ -251,12 +251,13 @@ class Run:
         return f"{titles.coating(self.case)}, {titles.speed(self.f_omega)}"
 
     def _repr_html_(self) -> str:
+        peaks = self.revolution_peak
         rows = {
             "coating": self.case.name,
             "speed": f"{self.f_omega:g} of the first frequency at rest",
             "revolutions": f"{self.revolutions}",
             "status": self.status,
-            "largest radial displacement": f"{1e3 * np.nanmax(self.revolution_peak):.4g} mm",
+            "largest radial displacement": f"{1e3 * displacement_peak(peaks, peaks.size):.4g} mm",
             "greatest wear": f"{1e3 * self.wear.max():.4g} mm",
             "energy residual": f"{self.energy.residual:.2g}",
         }

@@ -121,6 +121,18 @@ def large_in_words(over_length: float) -> str:
     return f", {100 * over_length:.2g} % of the length: beyond the small displacements of the model"
 
 
+def warn_of_residual(options: argparse.Namespace, residual: float | None) -> None:
+    """Say on standard error where the energy ledger of a run misses too much."""
+    from bladerub.contact.result import UNBALANCED
+
+    if residual is not None and not residual <= UNBALANCED:
+        print(
+            f"bladerub {options.name}: the energy ledger misses {residual:.2g} of the work exchanged in the "
+            f"contact, more than {UNBALANCED:g}: do not trust the run; lower solver.max_time_step",
+            file=sys.stderr,
+        )
+
+
 def aligned(rows: Iterable[tuple[str, str]]) -> list[str]:
     """Write pairs of name and value as lines, the values in one column."""
     rows = list(rows)

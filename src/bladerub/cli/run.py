@@ -125,7 +125,9 @@ def run(options: argparse.Namespace) -> None:
         with refused(OSError, because=f"--output {options.output}: cannot be written: "):
             result.write(options.output, config)
     figures = _figures(planned, result, seconds) | {"rpm": 60 * planned.f_omega * blade.f1_hz}
-    figures["displacement_over_length"] = figures["peak_amplitude"] / blade.length
+    peak = figures["peak_amplitude"]
+    figures["displacement_over_length"] = None if peak is None else peak / blade.length
+    inputs.warn_of_residual(options, figures["energy_residual"])
     if options.ensemble is not None:
         figures["ensemble"] = _ensemble(options, planned, blade, result)
     if options.stress:
@@ -277,7 +279,9 @@ def _in_words(figures: dict[str, Any]) -> str:
         "coating": _coating_in_words(figures),
         **({"law": law} if (law := figures["element_law"]) not in (None, "plastic") else {}),
         "speed": f"{figures['f_omega']:.4g} (normalised), {figures['rpm']:,.0f} rpm",
-        "peak displacement": f"{figures['peak_amplitude'] * 1e3:.4g} mm (radial, node 1, last revolutions)"
+        "peak displacement": "none, the first step left the displacement limit"
+        if figures["peak_amplitude"] is None
+        else f"{figures['peak_amplitude'] * 1e3:.4g} mm (radial, node 1, last revolutions)"
         + inputs.large_in_words(figures["displacement_over_length"]),
         "engine order": "none" if order is None else f"{order:.4g}",
         "maximum wear": f"{figures['max_wear'] * 1e3:.4g} mm",
@@ -288,6 +292,7 @@ def _in_words(figures: dict[str, Any]) -> str:
         "saturating": ("yes" if figures["saturating"] else "no") + after,
         "divergent": ("yes" if figures["divergent"] else "no") + after,
         "status": f"{figures['status']}, {figures['revolutions']} revolutions",
+        "energy residual": f"{figures['energy_residual']:.2g} of the work exchanged",
         "steps": figures["n_steps"],
         "steps per second": f"{figures['steps_per_second']:.3g}",
     }

@@ -51,6 +51,7 @@ def status(options: argparse.Namespace) -> None:
     """
     config, notes = inputs.read_config_with_notes(options)
 
+    from bladerub.contact.result import UNBALANCED
     from bladerub.study import inventory
     from bladerub.study.grid import coating_cases
     from bladerub.study.plan import coating_plan
@@ -103,6 +104,11 @@ def status(options: argparse.Namespace) -> None:
         print(f"rows of blades: {counted}, {rows['bytes'] / 1e6:.1f} MB")
     if whole["unconverged"]:
         print(f"runs with steps whose contact forces did not converge: {whole['unconverged']}")
+    if whole["unbalanced"]:
+        print(
+            f"runs whose energy ledger misses more than {UNBALANCED:g} of the work exchanged: "
+            f"{whole['unbalanced']}; do not trust them, or lower solver.max_time_step"
+        )
     if damaged:
         state = "damaged and deleted" if options.discard else "damaged; delete them, as status --discard does"
         print(f"{state}; then run snakemake again, which makes them alone:")

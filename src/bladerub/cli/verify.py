@@ -72,6 +72,7 @@ def verify(options: argparse.Namespace) -> None:
     with refused(ValueError):
         runs_done = verify_runs(blade.reduced, config, runs, options.jobs)
         verified = list(inputs.progress_bar(len(runs), "run", runs_done, quiet=options.json))
+    inputs.warn_of_residual(options, max(run.energy_residual for run in verified))
     inputs.show(options, {"seed": options.seed, "jobs": options.jobs} | report(verified), _in_words)
 
 

@@ -57,6 +57,9 @@ class History:
             message = f"the tip moved by more than {limit:g} m after {made:.2f} revolutions"
         elif made != revolutions:
             status, message = "stopped", f"another blade left the limit after {made:.2f} revolutions"
+        lowest, highest = (  # no number where the first step of a revolution left the limit
+            np.where(np.isfinite(end), end, np.nan) for end in (self.lowest, self.highest)
+        )
         state, layer = simulation.state, simulation.layer
         rise = by_angle(blade, spec, layer.rise(state)) if layer else None
         return {
@@ -65,8 +68,8 @@ class History:
             "angle": element_angle(n_elements),
             "wear": by_angle(blade, spec, state.wear),
             "radial_displacement": self.displacement.ravel(),
-            "revolution_peak": np.maximum(np.abs(self.lowest), np.abs(self.highest)),
-            "revolution_amplitude": 0.5 * (self.highest - self.lowest),
+            "revolution_peak": np.maximum(np.abs(lowest), np.abs(highest)),
+            "revolution_amplitude": 0.5 * (highest - lowest),
             "n_steps": self.n_steps,
             "n_contact_steps": self.n_contact_steps,
             "energy": energy.balance(rule, state, initial, simulation.angle_per_step),

@@ -4,6 +4,9 @@ from dataclasses import dataclass, field, fields, replace
 
 import numpy as np
 
+UNBALANCED = 1e-3
+"""Residual of the energy ledger, over the work exchanged, above which a run is not to be trusted."""
+
 
 @dataclass(frozen=True)
 class Energy:

@@ -14,9 +14,13 @@ import numba
 from numba.core.caching import FunctionCache
 from numba.extending import register_jitable
 
+from bladerub.io.errors import BadInput
 from bladerub.io.folders import cache_folder
 from bladerub.io.sources import solver_digest
 from bladerub.numerics import lanes
+
+if numba.config.DISABLE_JIT:
+    raise BadInput("NUMBA_DISABLE_JIT is set: the time loop is compiled code alone; unset NUMBA_DISABLE_JIT")
 
 _WITHIN = {"no_cfunc_wrapper": True}  # an entry for C; `numba.extending` makes none for Python
 INLINED = _WITHIN | {"forceinline": True}

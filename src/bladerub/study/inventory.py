@@ -7,6 +7,7 @@ from typing import Any, NamedTuple
 
 from bladerub.blade.build import is_built
 from bladerub.blade.validation import read_reduced_blade
+from bladerub.contact.result import UNBALANCED
 from bladerub.io.errors import is_refused, message_for
 from bladerub.study.cache import blade_digest
 from bladerub.study.growth import needs_confirmation
@@ -23,6 +24,7 @@ COUNTS = {
     "unreadable": "that the system refuses to read: locked, forbidden, or on a failing disk",
     "unbounded": "of those done, the ones that exceeded the displacement limit",
     "unconverged": "of those done, the ones in which the contact forces of some step did not converge",
+    "unbalanced": f"of those done, the ones whose energy ledger misses more than {UNBALANCED:g} of the work",
     "longer_planned": "longer runs that show whether the growth of those done lasts",
     "longer_done": "of these, the ones that are done",
     "bytes": "disk that the folders of the runs take, with what is archived and no longer planned",
@@ -63,6 +65,7 @@ class _Found(NamedTuple):
     key: str
     status: str
     unconverged: bool
+    unbalanced: bool
     grows: bool  # so that it needs a longer run
 
 
@@ -114,6 +117,7 @@ def take(
             continue
         counts["unbounded"] += found.status == "unbounded"
         counts["unconverged"] += found.unconverged
+        counts["unbalanced"] += found.unbalanced
         if plan.follow and found.grows:
             counts["longer_planned"] += 1
             counts["longer_done"] += look(longer_run(config, run))[0] == "done"
@@ -137,7 +141,8 @@ def _listed(manifest: Path, sizes: Mapping[Path, int], growth_key: str) -> dict[
         keys = (row.run_key, row.confirmation_key)
         for file, key in zip(files, keys, strict=False):
             if sizes.get(file.path) == file.bytes:
-                found[file.path] = _Found(key, row.status, row.unconverged_steps > 0, len(files) > 1)
+                unconverged, unbalanced = row.unconverged_steps > 0, not row.energy_residual <= UNBALANCED
+                found[file.path] = _Found(key, row.status, unconverged, unbalanced, len(files) > 1)
     return found
 
 
@@ -146,4 +151,5 @@ def _read(path: Path, settings: Mapping[str, Any], thorough: bool) -> _Found:
     stored = read_run(path, ALL if thorough else {"revolution_amplitude"})
     told = stored.attributes
     grows = needs_confirmation(stored.data["revolution_amplitude"], told["status"], settings)
-    return _Found(told["run_key"], told["status"], told["n_unconverged_steps"] > 0, grows)
+    unconverged, unbalanced = told["n_unconverged_steps"] > 0, not told["energy_residual"] <= UNBALANCED
+    return _Found(told["run_key"], told["status"], unconverged, unbalanced, grows)

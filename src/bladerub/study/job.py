@@ -65,6 +65,7 @@ class _Done(NamedTuple):
     bytes: int
     checksum: str
     unconverged_steps: int
+    energy_residual: float
     end: _End
 
 
@@ -153,6 +154,7 @@ def _row(run: PlannedRun, done: _Done, longer: _Done | None, growth_key: str) ->
         confirmation_checksum=longer.checksum if longer else "",
         unconverged_steps=done.unconverged_steps,
         growth_key=growth_key,
+        energy_residual=done.energy_residual,
     )
 
 
@@ -193,7 +195,7 @@ def _complete(
         report(RunDone(number, len(missing), run.file, status, now - run_start, seconds_left))
     for file in entries.keys() - done.keys():
         path = entries[file].path
-        run = read_run(path, {"revolution_amplitude"}, {"status", "n_unconverged_steps"})
+        run = read_run(path, {"revolution_amplitude"}, {"status", "n_unconverged_steps", "energy_residual"})
         done[file] = _done(entries[file], run, file_checksum(path))
     return done
 
@@ -234,8 +236,15 @@ def _on_gpu(
 
 
 def _done(entry: Entry, run: StoredRun, checksum: str) -> _Done:
-    unconverged = int(run.attributes["n_unconverged_steps"])
-    return _Done(entry.key, entry.path.stat().st_size, checksum, unconverged, _end(run))
+    of_run = run.attributes
+    return _Done(
+        key=entry.key,
+        bytes=entry.path.stat().st_size,
+        checksum=checksum,
+        unconverged_steps=int(of_run["n_unconverged_steps"]),
+        energy_residual=float(of_run["energy_residual"]),
+        end=_end(run),
+    )
 
 
 def _end(run: StoredRun) -> _End:

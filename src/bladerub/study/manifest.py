@@ -49,7 +49,8 @@ class ManifestRow(NamedTuple):
 
     ``confirmation_...`` is of the longer run that shows whether its growth lasts, empty if it needs none. The
     checksums are the SHA-256 of both files. ``unconverged_steps`` are those whose contact forces did not
-    converge. ``growth_key`` is `bladerub.study.plan.growth_key` of the job; older manifests lack it.
+    converge. ``growth_key`` is `bladerub.study.plan.growth_key` of the job; older manifests lack it, and the
+    ``energy_residual`` of the run.
     """
 
     file: str
@@ -63,6 +64,7 @@ class ManifestRow(NamedTuple):
     confirmation_checksum: str = ""
     unconverged_steps: int = 0
     growth_key: str = ""
+    energy_residual: float = 0.0
 
     def files(self, folder: Path) -> list[ListedFile]:
         """List the run and, if it has one, its longer run."""

@@ -45,23 +45,26 @@ def summarise(run: StoredRun, analysis: Mapping[str, Any], longer: StoredRun | N
     -------
     dict
         ``peak_amplitude`` (m): largest absolute radial displacement of node 1 over the last
-        ``spectrum_revolutions``, or over as many before an early end. ``engine_order``: of the largest
+        ``spectrum_revolutions``, or over as many before an early end; None when the first step ended the run.
+        ``engine_order``: of the largest
         spectral amplitude from order 0.5 up; None when the run ended within its first revolution or the
         blade never moved. ``max_wear`` (m), ``max_temperature_rise`` (K) where the coating heats, ``lobes``,
         ``wear_harmonic`` and its share, see
         `bladerub.study.wear`. ``growth_per_revolution`` with its confidence
         interval ``growth_low``, ``growth_high`` (0.03 is 3 %; None of a run too short), ``saturating``,
         ``divergent``, and ``growth_revolutions``: how many these were found in, those of the `longer` run if
-        there is one (`bladerub.study.growth`). ``n_steps``, ``status``.
+        there is one (`bladerub.study.growth`). ``energy_residual`` (`bladerub.contact.result.Energy`),
+        ``n_steps``, ``status``.
     """
     data = run.data
     engine_order, height = spectral_peak(data["spectrum_order"], data["spectrum_amplitude"])
     longest = longer.data["revolution_amplitude"] if longer else None
     verdict = judge(data["revolution_amplitude"], run.attributes["status"], analysis["divergence"], longest)
     harmonic, share = dominant_harmonic(data["wear"])
+    peak = displacement_peak(data["revolution_peak"], analysis["spectrum_revolutions"])
     growth = {f"growth_{name}": getattr(verdict.growth, name) for name in ("per_revolution", "low", "high")}
     return {
-        "peak_amplitude": displacement_peak(data["revolution_peak"], analysis["spectrum_revolutions"]),
+        "peak_amplitude": peak if np.isfinite(peak) else None,
         "engine_order": engine_order if height > 0 else None,
         "max_wear": float(data["wear"].max()),
         **(
@@ -76,6 +79,7 @@ def summarise(run: StoredRun, analysis: Mapping[str, Any], longer: StoredRun | N
         "saturating": verdict.saturating,
         "divergent": verdict.divergent,
         "growth_revolutions": verdict.revolutions,
+        "energy_residual": float(run.attributes["energy_residual"]),
         "n_steps": run.attributes["n_steps"],
         "status": run.attributes["status"],
     }

@@ -19,12 +19,15 @@ from types import ModuleType
 
 import numpy as np
 
-from bladerub.contact.laws import module_of
+from bladerub.contact.laws import element_parameters, module_of
 from bladerub.contact.setup import compile_kernel
 from bladerub.contact.spec import Coating, ElementLaw
+from bladerub.numerics.user_code import bounded
 
 TIME_STEPS = (1e-7, 1e-6, 1e-5)
 """Of the histories, s: those of runs, and ten times longer and shorter."""
+LONGEST_CHECK = 120.0
+"""Time after which a law is taken for endless, s; that of the package takes a second or two."""
 HISTORIES = 40
 """For each coating and time step."""
 ENERGY = 1e-3
@@ -76,14 +79,15 @@ def check_law(law: ElementLaw, coatings: Sequence[Coating], seed: int = 0) -> La
         for coating in coatings:
             for time_step in TIME_STEPS:
                 own = replace(coating, element_law=law)
-                with np.errstate(all="ignore"):
+                with np.errstate(all="ignore"), bounded("its functions", LONGEST_CHECK):
                     _follow(module, own, time_step, rng, found)
                 histories += HISTORIES
             if hasattr(module, "strength"):
-                _heat(module, replace(coating, element_law=law), found)
+                with bounded("strength", LONGEST_CHECK):
+                    _heat(module, replace(coating, element_law=law), found)
         if not found.problems:
             compile_kernel(law=law)
-    except Exception as error:  # whatever the code of a user may raise
+    except Exception as error:  # whatever the law, or the compiler of it, may raise
         first_line = str(error).strip().partition("\n")[0]
         found.add("it cannot be run", f"{type(error).__name__}: {first_line}")
     return LawReport(histories, tuple(LawProblem(*each) for each in found.problems.items()))
@@ -120,7 +124,11 @@ def _follow(
     law: ModuleType, coating: Coating, time_step: float, rng: np.random.Generator, found: _Found
 ) -> None:
     """Press elements along histories and look at each step."""
-    element = law.element(coating, _AREA, time_step)
+    element = law.Element(*element_parameters(coating, np.array([_AREA]), time_step)[:, 0])
+    twice = element_parameters(coating, _AREA * np.array([1.0, 2.0]), time_step)
+    alone = element_parameters(coating, np.array([2 * _AREA]), time_step)
+    if not np.allclose(twice, np.column_stack([element, alone]), rtol=1e-9, atol=0.0):
+        found.add("element gives parameters that depend on the areas of other elements", "areas 1 and 2 mm²")
     paths = _paths(coating.thickness, rng)
     wear, force, stored, dissipated, work, exchanged, unsure, increment = np.zeros((8, HISTORIES))
     for step, (before, here) in enumerate(itertools.pairwise(paths)):

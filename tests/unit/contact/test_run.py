@@ -266,3 +266,13 @@ def test_step_too_long_for_the_highest_mode_is_refused(blade, spec, change):
 def test_speed_outside_the_model_is_refused(blade, spec, change):
     with pytest.raises(ValueError, match=r"f_omega = 0\.5 is outside the fitted range \[0, 0\.4\]"):
         simulate(blade, change(spec, f_omega=0.5))
+
+
+def test_a_run_that_leaves_the_limit_in_its_first_step_has_no_amplitude(blade, spec, change):
+    """The casing overlaps with the tip by so much that no step is made: no number, not infinity."""
+    deep = change(spec, E=np.inf, K=np.inf, amplitude=15e-3, interference=15e-3, start_angle=0.0)
+    result = simulate(blade, deep)
+    assert (result.status, result.n_steps) == ("unbounded", 0)
+    for name in ("revolution_peak", "revolution_amplitude", "radial_displacement"):
+        assert np.isnan(getattr(result, name)).all()
+    assert result.energy.residual == 0.0

@@ -6,8 +6,10 @@ from dataclasses import replace
 from types import SimpleNamespace
 
 import h5py
+import numpy as np
 import pytest
 
+from bladerub.contact.result import Energy
 from bladerub.io import hdf5
 from bladerub.study import inventory as module
 from bladerub.study import job
@@ -156,6 +158,21 @@ def test_runs_whose_contact_forces_did_not_converge_are_counted(
     assert (inventory()["done"], inventory()["unconverged"]) == (4, 2)
     attributes = read_run(tmp_path / "0.1000.h5").attributes
     assert (attributes["n_unconverged_steps"], attributes["n_fallback_steps"]) == (3, 9)
+
+
+def test_runs_out_of_balance_are_counted(simulated, compute, inventory, monkeypatch, tmp_path):
+    simulate = job.simulate
+
+    def unbalanced(blade, spec, progress=None):
+        wear = {0.1: 0.01, 0.2: np.nan}.get(spec.f_omega, 0.0)
+        entries = dict.fromkeys(Energy.__annotations__, 0.0) | {"wear": wear, "exchanged": 1.0}
+        return replace(simulate(blade, spec), energy=Energy(**entries))
+
+    monkeypatch.setattr(job, "simulate", unbalanced)
+    rows = compute()
+    assert inventory()["unbalanced"] == 2
+    write_manifest(tmp_path / "manifest.tsv", rows)
+    assert inventory()["unbalanced"] == 2
 
 
 def test_a_total_adds_up(done, inventory):

@@ -14,7 +14,7 @@ OLDER = (
     "file\tf_omega\trun_key\tstatus\tbytes\tconfirmation_key\tconfirmation_bytes\tchecksum\t"
     "confirmation_checksum"
 )
-HEADER = f"{OLDER}\tunconverged_steps\tgrowth_key"
+HEADER = f"{OLDER}\tunconverged_steps\tgrowth_key\tenergy_residual"
 ROWS = [
     ManifestRow("0.1900.h5", 0.19, "a" * 64, "completed", 70_000, checksum="e" * 64),
     ManifestRow("0.1970.h5", 0.197, "b", "unbounded", 1, checksum="f"),

@@ -32,6 +32,7 @@ def test_a_steady_run(summed_up, make_result):
         "saturating": False,
         "divergent": False,
         "growth_revolutions": 20,
+        "energy_residual": pytest.approx(1.23, abs=0.01),  # of the stand-in
         "n_steps": 1000,
         "status": "completed",
     }

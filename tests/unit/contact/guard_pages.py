@@ -1,0 +1,161 @@
+"""Run drawn simulations whose arrays end, or begin, at a page that may not be touched.
+
+An access outside of an array that the loop addresses ends the process by a signal. Arguments: number of runs,
+seed, most interface nodes, laws by name; or ``provoke``, which touches such a page.
+"""
+
+import contextlib
+import ctypes
+import mmap
+import sys
+from collections import Counter
+from pathlib import Path
+
+import numpy as np
+
+sys.path.insert(0, str(Path(__file__).parents[1]))
+import stand_in
+
+from bladerub.blade.model import ReducedBlade
+from bladerub.contact.kernel import loop, row
+from bladerub.contact.laws import described_law, module_of, source_of
+from bladerub.contact.row import simulate_row
+from bladerub.contact.row_spec import Disk, Row
+from bladerub.contact.run import simulate
+from bladerub.extensions.heat import LAYER
+from bladerub.numerics import lanes, memory
+
+PAGE = mmap.PAGESIZE
+PARAMETERS = {"viscoplastic": {"viscosity": 1e4}, "brittle": {"break_strain": 5e-3}, "thermal": LAYER}
+_protect = ctypes.CDLL(None, use_errno=True).mprotect
+at_end = True
+
+
+def guarded(array):
+    """Copy an array to between two pages without access, to the end of what is there or to its begin."""
+    pages = max(1, -(-array.nbytes // PAGE))
+    whole = mmap.mmap(-1, (pages + 2) * PAGE)
+    start = np.frombuffer(whole, dtype=np.uint8).ctypes.data
+    for guard in (start, start + (pages + 1) * PAGE):
+        assert _protect(ctypes.c_void_p(guard), PAGE, 0) == 0
+    offset = PAGE + (pages * PAGE - array.nbytes if at_end else 0)
+    copy = np.frombuffer(whole, array.dtype, array.size, offset).reshape(array.shape)
+    copy[...] = array
+    return copy
+
+
+def guard(law, n_nodes):
+    """Let the modules of a law and width guard what they align, displacements and rows of addresses."""
+    width, source = lanes.lanes_for(n_nodes), source_of(law)
+    for name in (
+        memory,
+        lanes.module_for(width, "numerics.memory"),
+        _module(width, "numerics.memory", source),
+    ):
+        name._aligned = guarded
+    for kernel in {_module(width, "contact.kernel.loop", source), loop}:
+        plain = kernel.Simulation._integrate
+        if plain.__name__ != "within_guards":
+
+            def within_guards(self, displacement, first, plain=plain):
+                own = guarded(displacement)
+                made = plain(self, own, first)
+                displacement[:] = own
+                return made
+
+            kernel.Simulation._integrate = within_guards
+    for kernel in {_module(width, "contact.kernel.row", source), row}:
+        kernel.rows_of = lambda records: guarded(memory.rows_of(records))
+
+
+def _module(width, name, source):
+    return lanes.module_for(width, name, source)
+
+
+def drawn_blade(rng, n_nodes):
+    """A stand-in with `n_nodes` at a drawn radius."""
+    n = 3 * n_nodes + 6
+    vectors, _ = np.linalg.qr(rng.normal(size=(n, n)))
+    omega = 2 * np.pi * np.geomspace(rng.uniform(50, 400), 3e4, n)
+    root = np.sqrt(np.geomspace(0.05, 2e-3, n))
+    stiffness = root[:, None] * (vectors * omega**2) @ vectors.T * root
+    angle, zero = np.sort(rng.uniform(-0.3, 0.3, n_nodes)), np.zeros(n_nodes)
+    radius, cone = 10 ** rng.uniform(-2, 0.5), rng.uniform(-0.4, 0.4)
+    radial = np.column_stack(
+        [zero + np.sin(cone), np.cos(cone) * np.sin(angle), np.cos(cone) * np.cos(angle)]
+    )
+    return ReducedBlade(
+        mass=np.diag(root**2),
+        stiffness_0=stiffness,
+        stiffness_1=0.6 * stiffness,
+        stiffness_2=0.01 * stiffness,
+        node_position=np.column_stack(
+            [np.linspace(-0.02, 0.02, n_nodes), radius * np.sin(angle), radius * np.cos(angle)]
+        ),
+        radial_direction=radial,
+        tangential_direction=np.column_stack([zero, np.cos(angle), -np.sin(angle)]),
+        f1_hz=192.0,
+        f_omega_max=0.4,
+        eta=6,
+        rank_tolerance=1e-5,
+        length=0.2,
+        tip_slope=rng.normal(size=(n_nodes, n)) * 10,
+    )
+
+
+def drawn_spec(rng, law):
+    """A run of one or two revolutions, from harmless to one that leaves any limit."""
+    change, spec = stand_in.change.__wrapped__(), stand_in.spec.__wrapped__()
+    rigid = law.name == "plastic" and rng.random() < 0.25
+    E = np.inf if rigid else 10 ** rng.uniform(-1, 3)
+    return change(
+        spec,
+        E=E,
+        K=np.inf if rigid else E * rng.uniform(0.1, 1.0),
+        theta=rng.choice([0.0, rng.uniform(0.0, 0.3)]),
+        law=str(rng.choice(["theta", "coulomb"])),
+        element_law=law,
+        n_elements=int(rng.integers(24, 400)),
+        half_width=rng.uniform(0.3, 4.0),
+        turns=bool(rng.random() < 0.3),
+        amplitude=10 ** rng.uniform(-4, -2),
+        interference=10 ** rng.uniform(-5, -2),
+        displacement_limit=10 ** rng.uniform(-4, 0),
+        initial_displacement=float(rng.choice([0.0, 1e-4])),
+        start_angle=rng.uniform(-7, 7),
+        damping_ratio=10 ** rng.uniform(-4, -1),
+        f_omega=rng.uniform(0.05, 0.4),
+        scheme=str(rng.choice(["exponential", "exponential", "central_differences"])),
+        steps_per_element=int(rng.integers(1, 40)),
+        max_time_step=1e-5,
+    )
+
+
+def main(runs, seed, most_nodes, names):
+    global at_end
+    laws = [described_law(name, PARAMETERS.get(name, {})) for name in names]
+    counts = Counter()
+    for number in range(runs):
+        rng = np.random.default_rng([seed, number])
+        law, at_end = laws[number % len(laws)], bool(number // len(laws) % 2)
+        n_nodes = int(rng.integers(4, most_nodes + 1)) if law.name == "plastic" else int(rng.integers(4, 9))
+        module_of(law)
+        guard(law, n_nodes)
+        blade, spec = drawn_blade(rng, n_nodes), drawn_spec(rng, law)
+        with contextlib.suppress(ValueError), np.errstate(all="ignore"):
+            counts["refused"] += 1
+            if rng.random() < 0.3:
+                n_blades = int(rng.integers(1, 4))
+                disk = Disk.ring(n_blades, [0.01]) if n_blades > 1 and rng.random() < 0.5 else None
+                status = simulate_row(blade, spec, Row.drawn(n_blades, number, 1e-5, 1e-3, disk)).status
+            else:
+                status = simulate(blade, spec).status
+            counts[status] += 1
+            counts["refused"] -= 1
+    print(dict(counts))
+
+
+if __name__ == "__main__":
+    if sys.argv[1] == "provoke":
+        ctypes.memset(guarded(np.zeros(8)).ctypes.data + 64, 0, 8)
+    main(*map(int, sys.argv[1:4]), sys.argv[4:])
