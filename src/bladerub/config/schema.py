@@ -5,9 +5,9 @@ Three keywords of the schema are ours. ``limits`` and ``keyOf`` compare a value 
 asks each entry of a list to be above the one before.
 """
 
-import math
 import operator
 import re
+import sys
 from collections.abc import Iterator, Mapping
 from difflib import get_close_matches
 from functools import cache
@@ -72,7 +72,8 @@ def check_quantity(name: str, value: Any) -> None:
 
 def is_number(value: Any) -> bool:
     """Return whether `value` is a finite number; True and False are none in a config, unlike in Python."""
-    return isinstance(value, int | float) and not isinstance(value, bool) and abs(value) < math.inf
+    is_one = isinstance(value, int | float) and not isinstance(value, bool)
+    return is_one and abs(value) <= sys.float_info.max  # a whole number may be above
 
 
 @cache

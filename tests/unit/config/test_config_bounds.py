@@ -22,7 +22,7 @@ NUMBERS = """
     blade.length                      [0.01, 3]
     blade.tip_cone                    [-45, 45]
     blade.sections.span               [0, 1]
-    blade.sections.chord              (0, 2]
+    blade.sections.chord              [0.001, 2]
     blade.sections.thickness          [0.005, 0.4]
     blade.sections.camber             [-120, 120]
     blade.sections.stagger            [-85, 85]

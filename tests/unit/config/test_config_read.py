@@ -1,6 +1,8 @@
 import copy
+from unittest.mock import Mock
 
 import jsonschema
+import numpy as np
 import pytest
 
 from bladerub.config import schema as schema_module
@@ -410,4 +412,20 @@ def test_rows_that_no_run_can_compute_are_refused(config, rotor, said):
 
 def test_a_row_as_dense_as_the_runs_allow_is_accepted(config):
     config["rotor"] = {"blades": 36, "damping": [1.0]}
+    validate(config)
+
+
+def test_central_differences_are_checked_by_the_blade_that_is_built(config, monkeypatch):
+    """Its highest mode in coordinates of 1 kg has 1e6 rad/s."""
+    n, f1 = 30, 2 * np.pi * 480.0
+    stiffness = np.diag(np.linspace(f1, 1e6, n) ** 2)
+    blade = Mock(f1_hz=480.0, mass=np.eye(n), stiffness=lambda f_omega: stiffness)
+    monkeypatch.setattr("bladerub.study.inventory.current_blade", lambda *_: ("digest", None))
+    monkeypatch.setattr("bladerub.blade.validation.read_reduced_blade", lambda _: blade)
+    config["solver"]["max_time_step"] = 3e-6
+    validate(config)
+    config["solver"]["scheme"] = "central_differences"
+    with pytest.raises(ConfigError, match=r"solver.max_time_step = 3e-06: .* below 2e-06"):
+        validate(config)
+    config["solver"]["max_time_step"] = 1.9e-6
     validate(config)
