@@ -3,6 +3,7 @@
 import getpass
 import math
 import os
+import shlex
 import signal
 import sys
 import tempfile
@@ -142,7 +143,7 @@ def start(workflow: Any) -> None:
     Called in ``onstart`` with Snakemake's ``workflow``. A Snakefile that takes in this workflow as a module
     calls it from its own, since Snakemake ignores that of a module. Raises `BadInput` for targets beside the
     study, if the results are of another config and the command line names none: they would follow on all of
-    that study.
+    that study. So it does where the jobs could not start.
     """
     targets = set(workflow.dag_settings.targets) - {"all"}
     for results, _ in _planned:
@@ -151,6 +152,11 @@ def start(workflow: Any) -> None:
                 f"{' '.join(sorted(targets))}: add {made_with.as_arguments()}, as {results} was made, "
                 f"or --configfile {CONFIG} to compute that study first"
             )
+    if shlex.quote(sys.executable) != sys.executable:
+        raise BadInput(
+            f"{sys.executable}: Snakemake does not quote the path of Python for its jobs; make the environment "
+            "in a folder without spaces and special characters (that of the study may have them)"
+        )
     persistence = workflow.persistence
     if claims.claim(persistence.path / "claims", persistence.all_outputfiles(), persistence.all_inputfiles()):
         _print("the last snakemake here was killed; what it had finished is kept")

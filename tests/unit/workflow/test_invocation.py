@@ -195,3 +195,10 @@ def test_a_user_without_a_name_gets_one(workflow_with, tmp_path, monkeypatch):
     monkeypatch.setattr("os.getuid", lambda: 12345)
     invocation.plan(workflow_with(), str(tmp_path))
     assert getpass.getuser() == "12345"
+
+
+@pytest.mark.parametrize("folder", ["two words", "Söhne & Co", "o'brien", "100 #1", "(v2)"])
+def test_an_environment_that_snakemake_cannot_name_to_a_shell_is_refused(workflow_with, monkeypatch, folder):
+    monkeypatch.setattr(sys, "executable", f"/home/{folder}/.venv/bin/python")
+    with pytest.raises(BadInput, match=re.escape(folder)):
+        invocation.start(workflow_with())
