@@ -301,7 +301,7 @@ def test_a_file_in_the_layout_of_rotor_37_becomes_a_table_as_its_page_says(folde
     page = (ROOT / "docs" / "how-to" / "bring_sections.md").read_text(encoding="utf-8")
     (code,) = re.findall(r"(\(echo section .*?> rotor37.txt\n)", page, re.DOTALL)
     subprocess.run(["sh", "-c", code], cwd=folder, check=True)
-    cells = section_text.read(folder / "rotor37.txt")
+    cells, _ = section_text.read(folder / "rotor37.txt")
     assert cells.names == ["section", "z", "r", "theta1", "theta2"]
     rows = list(cells.rows.values())
     assert len(rows) == 12
