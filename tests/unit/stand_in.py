@@ -1,12 +1,17 @@
 """A blade and a run for the tests of all that computes."""
 
 import dataclasses
+import re
+from contextlib import contextmanager
+from pathlib import Path
 
+import h5py
 import numpy as np
 import pytest
 
 from bladerub.blade.model import ReducedBlade
 from bladerub.contact.spec import Casing, Coating, RunSpec, TipProfile
+from bladerub.io import checksum
 
 
 @pytest.fixture(scope="session")
@@ -68,3 +73,12 @@ def change():
         return dataclasses.replace(spec, **values)
 
     return changed
+
+
+@contextmanager
+def edited(path):
+    """Open an HDF5 file for changes, and give it the checksum of what it holds then, as if so written."""
+    with h5py.File(path, "r+") as file:
+        yield file
+    image = re.sub(b"sha256=[0-9a-f]{64}", b"sha256=" + 64 * b"0", Path(path).read_bytes())
+    Path(path).write_bytes(checksum.seal(image))

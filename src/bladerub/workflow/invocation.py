@@ -154,8 +154,8 @@ def start(workflow: Any) -> None:
             )
     if shlex.quote(sys.executable) != sys.executable:
         raise BadInput(
-            f"{sys.executable}: Snakemake does not quote the path of Python for its jobs; make the environment "
-            "in a folder without spaces and special characters (that of the study may have them)"
+            f"{sys.executable}: Snakemake does not quote the path of Python for its jobs; make the "
+            "environment in a folder without spaces and special characters (that of the study may have them)"
         )
     persistence = workflow.persistence
     if claims.claim(persistence.path / "claims", persistence.all_outputfiles(), persistence.all_inputfiles()):

@@ -35,6 +35,7 @@ KEYS = {
     "element_law",
     "modulus_unit",
     "displacement_over_length",
+    "energy_residual",
     "interference",
     "E",
     "K",
@@ -149,6 +150,7 @@ def test_run_in_words(small, blade_file, capsys):
         "saturating",
         "divergent",
         "status",
+        "energy residual",
         "steps",
         "steps per second",
     ]

@@ -2,11 +2,11 @@ import json
 import os
 import xml.etree.ElementTree as ET
 
-import h5py
 import meshio
 import numpy as np
 import pytest
 from PIL import Image
+from stand_in import edited
 
 from bladerub.blade.validation import read_reduced_blade
 from bladerub.cli import inputs, main
@@ -184,7 +184,7 @@ def test_a_single_blade_is_animated(folder, tmp_path, monkeypatch, capsys):
 
 def changed(run, path, **attributes):
     path.write_bytes(run.read_bytes())
-    with h5py.File(path, "a") as file:
+    with edited(path) as file:
         for name, value in attributes.items():
             file.attrs[name] = value
         if "peak" in attributes:
@@ -196,7 +196,7 @@ def test_a_run_that_left_all_bounds_is_shown_until_then(export, tmp_path, folder
     run = changed(folder / "run.h5", tmp_path / "run.h5", status="unbounded")
     code, out, _ = export(tmp_path / "motion", "--samples", "1", "--json", run=run)
     assert (code, json.loads(out)["revolution"]) == (0, 1)
-    with h5py.File(run, "a") as file:
+    with edited(run) as file:
         file["revolution_peak"][1] = np.nan
     code, _, err = export(tmp_path / "other", run=run)
     assert code == 2
@@ -262,7 +262,7 @@ def test_a_blade_without_its_mesh_is_refused(export, tmp_path, folder):
     assert (code, err.count("\n")) == (2, 1)
     assert f"{mesh}: No such file or directory" in err
     changed(folder / "results" / "blade" / "mesh.h5", mesh)
-    with h5py.File(mesh, "a") as file:
+    with edited(mesh) as file:
         file["points"][...] *= 1.01
     assert f"{mesh}: is not the mesh" in export(tmp_path / "motion", "--blade", str(blade))[2]
     mesh.write_bytes(blade.read_bytes())

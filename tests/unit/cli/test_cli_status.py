@@ -17,6 +17,7 @@ COUNTS = {
     "unreadable",
     "unbounded",
     "unconverged",
+    "unbalanced",
     "longer_planned",
     "longer_done",
     "bytes",
