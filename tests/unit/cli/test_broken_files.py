@@ -1,6 +1,7 @@
-"""Files of blades with drawn damage: ``bladerub import`` accepts them or says in a line what is wrong.
+"""Files with drawn damage: the command that reads them accepts them or says in a line what is wrong.
 
-BLADERUB_BROKEN_IMPORTS=250 draws so many; each runs in a process of its own, whose signals are seen.
+BLADERUB_BROKEN_FILES=250 draws so many blades, and as many laws, curves and tables; each is read in a process
+of its own, whose signals are seen.
 """
 
 import multiprocessing
@@ -23,17 +24,25 @@ from bladerub.blade.geometry import BladeShape
 from bladerub.blade.mesh import BladeMesh
 from bladerub.cli import main
 from bladerub.config.read import load
+from bladerub.contact import law
 from bladerub.export.matrices import write_fe_matrices
 from bladerub.export.mesh_file import write_mesh_file
 from bladerub.export.sections import write_sections
 
 CONFIG = Path(__file__).parents[3] / "config" / "config.yaml"
 COUNTS = {"chordwise": 7, "thickness": 1, "spanwise": 3}
-N_DRAWN = int(os.environ.get("BLADERUB_BROKEN_IMPORTS", "12"))
+N_DRAWN = int(os.environ.get("BLADERUB_BROKEN_FILES", "12"))
 LONGEST = 240  # s
 MEMORY = 12 * 2**30
 WORDS = (b"nan", b"inf", b"1e160", b"-1", b"0", b"99999999", b"1e-300", b"x", b"", b"1,5", b"1;5")
-KINDS = ("blade.inp", "blade.msh", "blade.vtu", "blade.csv", "text", "archives")
+BLADES = ("blade.inp", "blade.msh", "blade.vtu", "blade.csv", "text", "archives")
+TEXTS = {"law.py": "check-law", "curves.csv": "fit-coating", "gap.csv": "config"}
+"""Commands that read other files."""
+STUDY = """
+casings: {measured: {table: {file: gap.csv, unit: mm}, interference: 2.0e-4, start_angle: 0.0}}
+coatings: [{casing: measured, E: [2], K: [0.5], theta: [0.0]}]
+analysis: {histories: []}
+"""
 
 pytestmark = pytest.mark.slow
 
@@ -45,7 +54,7 @@ def sound(tmp_path_factory):
     blade = load(CONFIG)["blade"] | {"mesh": COUNTS}
     shape = BladeShape.from_config(blade)
     mesh = BladeMesh.from_shape(shape, COUNTS)
-    for name in KINDS[:3]:
+    for name in BLADES[:3]:
         write_mesh_file(
             folder / name, mesh.mesh.points, mesh.mesh.cells, {"ROOT": mesh.root, "TIP": mesh.tip}
         )
@@ -53,9 +62,17 @@ def sound(tmp_path_factory):
     discrete = by_finite_elements(
         meshed_blade(blade), Material.from_config(blade["material"]), [0, 0.2, 0.4], [], 8
     )
-    for name, suffix in zip(KINDS[4:], (".mtx", ".npz"), strict=True):
+    for name, suffix in zip(BLADES[4:], (".mtx", ".npz"), strict=True):
         (folder / name).mkdir()
         write_fe_matrices(folder / name, discrete, 0.4, suffix)
+    shutil.copy(law.__file__, folder / "law.py")
+    strain = np.linspace(0.1, 3.0, 30)
+    curve = np.column_stack([strain, np.minimum(9.0 * strain, 9.0 + 0.1 * strain), np.full(30, 1e-3)])
+    header = "strain (%);stress (MPa);rate (1/s)"
+    np.savetxt(folder / "curves.csv", curve, "%.4g", ";", header=header, comments="")
+    angle = np.arange(0.0, 360.0, 5.0)
+    gap = np.column_stack([angle, 0.42 + 0.2 * np.cos(2 * np.deg2rad(angle))])
+    np.savetxt(folder / "gap.csv", gap, "%.4f", ",", header="# measured cold\nangle,gap", comments="")
     return folder
 
 
@@ -111,15 +128,15 @@ def damage(path: Path, random: np.random.Generator) -> None:
     path.write_bytes(damaged(path.read_bytes(), random))
 
 
-def look(path: Path, said: Path) -> None:
-    """Import the blade at `path` in this process, which ends."""
+def read(command: list[str], said: Path) -> None:
+    """Give a command in this process, which ends."""
     resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
     with said.open("w") as stream:
         os.dup2(stream.fileno(), 1)
         os.dup2(stream.fileno(), 2)
         sys.stdout = sys.stderr = stream  # in place of those of pytest
         try:
-            code = main(["import", str(path), "--config", str(path.parent / "small.yaml")])
+            code = main(command)
         except SystemExit as error:
             code = error.code
         except BaseException:
@@ -129,30 +146,54 @@ def look(path: Path, said: Path) -> None:
         os._exit(code or 0)
 
 
-def test_damaged_blades_are_accepted_or_refused_in_a_line(sound, tmp_path):
-    counts, bad = Counter(), []
-    for number in range(N_DRAWN):
-        random = np.random.default_rng(number)
-        name = KINDS[number % len(KINDS)]
-        folder = tmp_path / str(number)
-        folder.mkdir()
-        (folder / "small.yaml").write_text("reduction: {accuracy_speeds: 3}\n")
-        copy = shutil.copytree if (sound / name).is_dir() else shutil.copy
-        copy(sound / name, folder / name)
-        damage(folder / name, random)
-        process = multiprocessing.get_context("fork").Process(
-            target=look, args=(folder / name, folder / "said")
-        )
-        process.start()
-        process.join(LONGEST)
-        if process.is_alive():
-            process.kill()
-            process.join()
-        said = (folder / "said").read_text(errors="replace")
-        counts[name, process.exitcode] += 1
-        refused_well = process.exitcode == 2 and len(said.splitlines()) == 1 and name in said
-        if "Traceback" in said or "Warning" in said or not (process.exitcode == 0 or refused_well):
-            bad.append((number, name, process.exitcode, said[-1500:]))
-        shutil.rmtree(folder)
-    print(*(f"{name:10} exit {code}: {n}" for (name, code), n in sorted(counts.items())), sep="\n")
-    assert not bad, "\n".join(map(str, bad))
+def tried(sound: Path, folder: Path, seed: int, name: str, command: str, *options: str) -> str | None:
+    """Damage a copy of a sound file and give the command that reads it; return its answer if it is bad.
+
+    The first of each kind is left sound, and must be accepted.
+    """
+    folder.mkdir()
+    (folder / "study.yaml").write_text(STUDY.replace("gap.csv", str(folder / "gap.csv")))
+    copy = shutil.copytree if (sound / name).is_dir() else shutil.copy
+    copy(sound / name, folder / name)
+    is_sound = seed < len(BLADES if command == "import" else TEXTS)
+    if not is_sound:
+        damage(folder / name, np.random.default_rng(seed))
+    file = folder / ("study.yaml" if command == "config" else name)
+    process = multiprocessing.get_context("fork").Process(
+        target=read, args=([command, str(file), *options], folder / "said")
+    )
+    process.start()
+    process.join(LONGEST)
+    if process.is_alive():
+        process.kill()
+        process.join()
+    said = (folder / "said").read_text(errors="replace")
+    refused_well = not is_sound and process.exitcode == 2 and len(said.splitlines()) == 1
+    wrong_law = process.exitcode == 1 and command == "check-law"
+    shutil.rmtree(folder)
+    print(f"{name:10} exit {process.exitcode}")
+    if "Traceback" in said or "Warning" in said or not (process.exitcode == 0 or refused_well or wrong_law):
+        return f"{seed} {name}: exit {process.exitcode}, {said[-1500:]}"
+    return None
+
+
+def test_damaged_blades_are_accepted_or_refused_in_a_line(sound, tmp_path, capsys):
+    options = ("--config", str(tmp_path / "small.yaml"))
+    (tmp_path / "small.yaml").write_text("reduction: {accuracy_speeds: 3}\n")
+    drawn = ((seed, BLADES[seed % len(BLADES)]) for seed in range(N_DRAWN))
+    bad = [tried(sound, tmp_path / str(seed), seed, name, "import", *options) for seed, name in drawn]
+    assert not any(bad), "\n".join(filter(None, bad))
+    summarise(capsys)
+
+
+def test_damaged_laws_curves_and_tables_are_accepted_or_refused_in_a_line(sound, tmp_path, capsys):
+    drawn = ((seed, [*TEXTS][seed % len(TEXTS)]) for seed in range(N_DRAWN))
+    bad = [tried(sound, tmp_path / str(seed), seed, name, TEXTS[name]) for seed, name in drawn]
+    assert not any(bad), "\n".join(filter(None, bad))
+    summarise(capsys)
+
+
+def summarise(capsys) -> None:
+    """Print how often each file ended in which way."""
+    for line, count in sorted(Counter(capsys.readouterr().out.splitlines()).items()):
+        print(f"{line}: {count}")
