@@ -45,7 +45,8 @@ rule calibration:
 rule calibration_set:
     input:
         kernel=rules.compile_kernel.output[0],
-        building=rules.blade.input,
+        building=rules.blade.input.code,
+        given=rules.blade.input.given,
         analysing=files_behind("extensions.calibration", "study.findings"),
     output:
         **described(table=f"{RESULTS}/calibration/{{set}}/tables/findings.csv"),

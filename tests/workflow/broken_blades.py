@@ -46,7 +46,7 @@ IMPORTS: dict[str, str] = {
     "import blades/loose.vtu": "node is not in the middle of its edge",
     "import blades/two_parts.inp": "has 2 blocks *NODE; must have all nodes in one",
     _CSV.format("columns"): "blades/columns.csv: has no column z2; must have section, x1, y1, z1",
-    _CSV.format("holes"): "blades/holes.csv: line 5: x2 = nothing, must be a number",
+    _CSV.format("holes"): "blades/holes.csv: line 5: x2 = nothing, must be a finite number",
     _CSV.format("one_section"): "blades/one_section.csv: has 1 section; must have two or more",
     _CSV.format("downwards"): "section hub: its mean radius of 0.4 m is not above that of section tip",
     _CSV.format("crossed"): "line 6: the sides of section hub touch or cross here",

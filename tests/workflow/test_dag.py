@@ -3,10 +3,12 @@
 import re
 import shutil
 import subprocess
+from pathlib import Path
 
 import pytest
 import yaml
 
+from bladerub.contact import law
 from bladerub.io.hdf5 import read_attributes
 
 TABLES = {"peaks": 1, "divergence": 1, "findings": 1, "margins": 1}
@@ -183,11 +185,14 @@ def test_deleted_tables_are_made_again_without_a_new_blade(copied_study, tiny):
 def test_a_failed_job_says_why_and_loses_no_run(copied_study, tiny):
     before = copied_study.runs()
     manifest = "results/runs/2nd_E1.1_K0.5_theta0/manifest.tsv"
-    unstable = tiny | {"solver": tiny["solver"] | {"scheme": "central_differences"}}
-    done = copied_study.snakemake(manifest, "--cores", "1", config=unstable)
+    text = Path(law.__file__).read_text(encoding="utf-8")
+    text = text.replace("    elastic, hardening = ", "    raise ValueError('stiffness')\n    ")
+    (copied_study.folder / "mine.py").write_text(text, encoding="utf-8")
+    failing = tiny | {"contact": {"law": {"file": "mine.py"}}}
+    done = copied_study.snakemake(manifest, "--cores", "1", config=failing)
     assert done.returncode != 0
     log = copied_study.folder / "results/logs/coating/2nd_E1.1_K0.5_theta0.log"
-    assert "ValueError" in log.read_text()
+    assert "stiffness" in log.read_text()
     assert "the same command goes on" in done.stderr
     assert copied_study.runs() == before
     copied_study.build(tiny, manifest)

@@ -270,7 +270,8 @@ def test_speed_outside_the_model_is_refused(blade, spec, change):
 
 def test_a_run_that_leaves_the_limit_in_its_first_step_has_no_amplitude(blade, spec, change):
     """The casing overlaps with the tip by so much that no step is made: no number, not infinity."""
-    deep = change(spec, E=np.inf, K=np.inf, amplitude=15e-3, interference=15e-3, start_angle=0.0)
+    casing = {"amplitude": 15e-3, "interference": 15e-3, "start_angle": 0.0}
+    deep = change(spec, E=np.inf, K=np.inf, displacement_limit=1e-3, **casing)
     result = simulate(blade, deep)
     assert (result.status, result.n_steps) == ("unbounded", 0)
     for name in ("revolution_peak", "revolution_amplitude", "radial_displacement"):
