@@ -3,7 +3,7 @@
 import getpass
 import math
 import os
-import shlex
+import re
 import signal
 import sys
 import tempfile
@@ -152,7 +152,7 @@ def start(workflow: Any) -> None:
                 f"{' '.join(sorted(targets))}: add {made_with.as_arguments()}, as {results} was made, "
                 f"or --configfile {CONFIG} to compute that study first"
             )
-    if shlex.quote(sys.executable) != sys.executable:
+    if re.search(r"[\s'\"\\$`&;|<>()*?[\]!]", sys.executable):
         raise BadInput(
             f"{sys.executable}: Snakemake does not quote the path of Python for its jobs; make the "
             "environment in a folder without spaces and special characters (that of the study may have them)"

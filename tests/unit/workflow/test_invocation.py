@@ -202,3 +202,9 @@ def test_an_environment_that_snakemake_cannot_name_to_a_shell_is_refused(workflo
     monkeypatch.setattr(sys, "executable", f"/home/{folder}/.venv/bin/python")
     with pytest.raises(BadInput, match=re.escape(folder)):
         invocation.start(workflow_with())
+
+
+@pytest.mark.parametrize("folder", ["Söhne", "100%", "a+b@c"])
+def test_other_letters_in_the_path_of_the_environment_do(workflow_with, monkeypatch, folder):
+    monkeypatch.setattr(sys, "executable", f"/home/{folder}/.venv/bin/python")
+    invocation.start(workflow_with())
