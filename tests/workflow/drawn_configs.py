@@ -48,7 +48,8 @@ def _put(overlay: dict[str, Any], config: Any, path: tuple, value: Any) -> None:
     for part, following in pairwise([*path, None]):
         if isinstance(at, list) != isinstance(part, int) or (isinstance(at, list) and part >= len(at)):
             return  # something else was drawn there before
-        config = config[part] if isinstance(config, list) or part in (config or ()) else None
+        is_known = part < len(config) if isinstance(config, list) else part in (config or ())
+        config = config[part] if is_known else None
         if following is None:
             at[part] = value
         elif not isinstance(at, list) and part not in at:
