@@ -23,6 +23,7 @@ from bladerub.cli import (
 from bladerub.cli.inputs import Parser
 from bladerub.config.errors import ConfigError
 from bladerub.io.errors import BadInput, message_for
+from bladerub.io.folders import provide_for_unknown_user
 
 _COMMANDS = (
     new,
@@ -65,6 +66,7 @@ def main(arguments: list[str] | None = None) -> int:
     options = parser().parse_args(import_blade.joined(sys.argv[1:] if arguments is None else arguments))
     code, message = 2, None
     try:
+        provide_for_unknown_user()
         found = options.command(options)
         sys.stdout.flush()
         return found or 0

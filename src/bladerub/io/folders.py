@@ -1,6 +1,7 @@
 """Folders: the workflow that comes with the package, the study at work, and the cache of this user."""
 
 import errno
+import getpass
 import os
 import tempfile
 from pathlib import Path
@@ -74,3 +75,17 @@ def _temporary_cache() -> Path:
         problem = "can be written by others; name a folder of your own with BLADERUB_CACHE"
         raise OSError(errno.EEXIST, problem, str(folder))
     return folder
+
+
+def provide_for_unknown_user() -> None:
+    """Name the user for Snakemake, and a folder for Matplotlib, where the system knows neither.
+
+    So it is in a container under the number of another machine's user. Processes that are started inherit
+    both.
+    """
+    try:
+        getpass.getuser()
+    except (KeyError, OSError):
+        os.environ["USER"] = str(os.getuid())
+    if not has_home():
+        os.environ.setdefault("MPLCONFIGDIR", str(cache_folder() / "matplotlib"))

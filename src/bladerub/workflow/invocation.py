@@ -1,8 +1,6 @@
 """What an invocation of the workflow plans again and clears away of those killed before it."""
 
-import getpass
 import math
-import os
 import re
 import signal
 import sys
@@ -17,7 +15,7 @@ from typing import Any
 from bladerub.config import record
 from bladerub.io import atomic, checksum
 from bladerub.io.errors import BadInput, DamagedFile, exit_on_error
-from bladerub.io.folders import CONFIG, cache_folder, has_home
+from bladerub.io.folders import CONFIG, provide_for_unknown_user
 from bladerub.study.manifest import ManifestRow, Row, listed_files
 from bladerub.workflow import claims, gpu
 
@@ -40,19 +38,6 @@ def _take_two_interrupts_for_one() -> None:
 
 
 _SECOND_INTERRUPT = 5.0  # s
-
-
-def _provide_for_unknown_user() -> None:
-    """Name the user for Snakemake, and a folder for Matplotlib, where the system knows neither.
-
-    So it is in a container under the number of another machine's user. Jobs inherit both.
-    """
-    try:
-        getpass.getuser()
-    except (KeyError, OSError):
-        os.environ["USER"] = str(os.getuid())
-    if not has_home():
-        os.environ.setdefault("MPLCONFIGDIR", str(cache_folder() / "matplotlib"))
 
 
 def loss(manifest: str | Path, kind: type[Row] = ManifestRow) -> str | None:
@@ -128,7 +113,7 @@ def plan(workflow: Any, results: str, notes: Sequence[str] = (), on_gpu: bool = 
     Prints which config the results were made with, if the command line names none, and the `notes` on the
     config, a line each. `on_gpu` is whether runs are computed on a GPU.
     """
-    _provide_for_unknown_user()
+    provide_for_unknown_user()
     _take_two_interrupts_for_one()
     _planned[:] = [(results, on_gpu)]
     if made_with := _made_with(results, workflow):
