@@ -3,12 +3,12 @@
 import copy
 import dataclasses
 
+import contact_in_numpy
 import numpy as np
 import pytest
 
 from bladerub.blade.build import build
 from bladerub.config.read import load
-from bladerub.contact import reference
 from bladerub.contact.run import simulate
 from bladerub.contact.setup import set_up
 from bladerub.contact.spec import Casing, Coating, RunSpec, TipProfile
@@ -61,7 +61,7 @@ def test_the_loop_agrees_with_the_reference_model(wide, spec, turns):
     made = simulation.advance(shown)
     assert made.n_contact_steps > 50
     n_steps = n_elements * simulation.steps_per_element
-    history, wear = reference.simulate(wide, spec, n_steps, rule.omega.size)
+    history, wear = contact_in_numpy.simulate(wide, spec, n_steps, rule.omega.size)
     radial = np.concatenate([[0.0], history[:, 0]])
     means = 0.5 * (radial[1:] + radial[:-1]).reshape(n_elements, -1)
     np.testing.assert_allclose(shown, means.mean(axis=1), atol=1e-6 * np.abs(history).max())

@@ -1,268 +1,75 @@
-"""The whole model of one run on a page: the paper's equations in plain NumPy.
+"""The paper's contact model on a page of NumPy: eqs. (1), (7), (8) and (9), Figs. 3 and 4, and θ.
 
-Slow and direct, without tables, shortcuts or compiled code. The time loop is tested against it. Of the
-package it uses the law of an element (Fig. 4), the profile of the tip (Fig. 3) and the shape of the casing
-(Fig. 5); all else is written out here. To see the model at work:
+Slow and direct, in the paper's symbols, without tables, shortcuts or compiled code. The time loop is tested
+against it. To see the model at work:
 
     history, wear = simulate(blade, spec, n_steps=20_000)
 """
 
-import itertools
-from dataclasses import replace
-
 import numpy as np
 import scipy.linalg
-import scipy.optimize
 
 from bladerub.blade.model import ReducedBlade
-from bladerub.contact.casing import shape
-from bladerub.contact.heating import HEATED, cell_heights
-from bladerub.contact.laws import module_of
-from bladerub.contact.row_spec import Row
+from bladerub.contact import casing, law
 from bladerub.contact.spec import RunSpec
 from bladerub.contact.tip import coverage, relief
 
 
-def simulate(
-    blade: ReducedBlade, spec: RunSpec, n_steps: int, n_modes: int | None = None
-) -> tuple[np.ndarray, np.ndarray]:
-    """Simulate a run by the scheme that `spec` names.
+def simulate(blade: ReducedBlade, spec: RunSpec, n_steps: int) -> tuple[np.ndarray, np.ndarray]:
+    """Simulate a blade on an abradable coating by central differences with prediction and correction.
 
     Parameters
     ----------
     blade : ReducedBlade
-        The blade.
+        The blade, with j interface nodes.
     spec : RunSpec
-        The run; it starts at rest. Coulomb friction and the rigid casing are left to the time loop.
+        The run, from rest; `scheme` is taken to be the paper's. Coulomb friction, the rigid casing, other
+        laws of the coating and a tip that turns are left to the time loop.
     n_steps : int
         Time steps.
-    n_modes : int, optional
-        Modes that the exponential scheme resolves, all by default.
 
     Returns
     -------
     history : (n_steps, 2 j) ndarray
-        Radial, then tangential displacement of the j interface nodes after each step, m.
+        Radial, then tangential displacement of the interface nodes after each step, m.
     wear : (j, N) ndarray
         Permanent shortening of the elements, m.
     """
-    coating = _Coating(blade, spec)
-    steps = _steps(blade, spec, n_modes, coating)
-    history = np.array([next(steps) for _ in range(n_steps)])
-    return history[:, : 2 * blade.n_interface], coating.wear
+    h, N, θ, ξ = time_step(blade, spec), spec.coating.n_elements, spec.coating.theta, spec.damping_ratio
+    Ω = 2 * np.pi * spec.f_omega * blade.f1_hz
+    e_r, e_θ = _directions(blade)
+    r, R, φ, β, area, g_0 = _geometry(blade, spec)
+    element = law.element(spec.coating, area)
 
-
-def simulate_row(
-    blade: ReducedBlade, spec: RunSpec, row: Row, n_steps: int, n_modes: int | None = None
-) -> tuple[np.ndarray, np.ndarray]:
-    """Simulate blades that pass over one coating, all of them step by step.
-
-    Parameters are those of `simulate`, and the blades of the row; none is held at the start. A disk that
-    couples them acts in each step, on rows that the exponential scheme integrates.
-
-    Returns
-    -------
-    histories : (n_blades, n_steps, 2 j) ndarray
-        Displacements of each blade, as of `simulate`.
-    wear : (j, N) ndarray
-        Permanent shortening of the elements by all of them, m.
-    """
-    coatings = [_Coating(blade, spec) for _ in row.blades]
-    squares, modes = scipy.linalg.eigh(blade.stiffness(spec.f_omega), blade.mass)
-    marches = []
-    for coating, own in zip(coatings, row.blades, strict=True):
-        coating.node_angle = coating.node_angle + own.angle
-        coating.initial_gap = coating.initial_gap - own.length
-        factors = own.frequency_factors(len(squares))
-        more = blade.mass @ modes @ np.diag(squares * (factors**2 - 1)) @ modes.T @ blade.mass
-        damped = replace(spec, damping_ratio=spec.damping_ratio * own.damping)
-        marches.append(_steps(replace(blade, stiffness_0=blade.stiffness_0 + more), damped, n_modes, coating))
-    wear, histories = coatings[0].wear, []
-    for _ in range(n_steps):
-        for mode, matrix in enumerate(row.disk.stiffness if row.disk else ()):
-            pull = -squares[mode] * np.array(matrix) @ [coating.q[mode] for coating in coatings]
-            for coating, own in zip(coatings, pull, strict=True):
-                coating.pull[mode] = own
-        histories.append([])
-        for coating, march in zip(coatings, marches, strict=True):
-            coating.wear = wear  # as the others have left it
-            histories[-1].append(next(march))
-            wear = coating.wear
-    return np.array(histories).swapaxes(0, 1)[:, :, : 2 * blade.n_interface], wear
-
-
-def _steps(blade, spec, n_modes, coating):
-    """Integrate step by step; each gives the displacement of the tip."""
-    if spec.scheme == "central_differences":
-        return _central_differences(blade, spec, coating)
-    return _exponential(blade, spec, n_modes or len(blade.mass), coating)
-
-
-def _central_differences(blade, spec, coating):
-    """Integrate eq. (1), M u'' + D u' + K u + F = 0, by the paper's scheme."""
-    h = time_step(blade, spec)
-    M, K = blade.mass, blade.stiffness(spec.f_omega)  # in the coordinates of eq. (6); K by eq. (2)
-    squares, modes = scipy.linalg.eigh(K, M)
-    D = (
-        M @ modes @ np.diag(2 * spec.damping_ratio * np.sqrt(squares)) @ modes.T @ M
-    )  # the same ξ in all modes
+    # eq. (1), M u'' + D u' + K u + F = 0, in the coordinates of eq. (6); K by eq. (2), ξ alike in all modes
+    M, K = blade.mass, blade.stiffness(spec.f_omega)
+    squares, Φ = scipy.linalg.eigh(K, M)
+    D = M @ Φ @ np.diag(2 * ξ * np.sqrt(squares)) @ Φ.T @ M
     inverse = np.linalg.inv(M / h**2 + D / (2 * h))
-    tip = tip_rows(blade, spec)
-    u, u_before = np.zeros(len(M)), np.zeros(len(M))
-    for step in itertools.count(1):
-        # eq. (1) at the present step, without contact: prediction
+    u, u_before, history = np.zeros(len(M)), np.zeros(len(M)), np.empty((n_steps, 2 * len(r)))
+    u_s = np.zeros((len(r), N))  # displacement of the surface of the coating: its wear
+
+    for step in range(n_steps):
+        # prediction: eq. (1) at the present time, without contact
         predicted = inverse @ ((2 * M / h**2 - K) @ u + (D / (2 * h) - M / h**2) @ u_before)
-        force = coating.settle(step, h, tip @ predicted)
-        u, u_before = predicted + inverse @ (tip.T @ force), u  # correction
-        yield tip @ u
-
-
-def _exponential(blade, spec, n_modes, coating):
-    """Integrate eq. (1) mode by mode, exactly for a force held over two steps; condense the fast modes."""
-    h = time_step(blade, spec)
-    squares, modes = scipy.linalg.eigh(blade.stiffness(spec.f_omega), blade.mass)
-    tip = tip_rows(blade, spec) @ modes
-    compliance = (tip[:, n_modes:] / squares[n_modes:]) @ tip[:, n_modes:].T
-    tip, squares = tip[:, :n_modes], squares[:n_modes]
-    # free motion over ±h of z'' + 2 ξ ω z' + ω² z = 0, from the roots of its characteristic equation
-    root = np.sqrt(squares) * h * (-spec.damping_ratio + 1j * np.sqrt(1 - spec.damping_ratio**2))
-    now, before = 2 * np.exp(root).real, np.abs(np.exp(root)) ** 2
-    q, q_before, force = np.zeros(n_modes), np.zeros(n_modes), np.zeros(len(tip))
-    for step in itertools.count(1):
-        pull = coating.pull[:n_modes]  # of the disk
-        rest = (tip.T @ force + pull) / squares  # equilibrium under the forces; the motion about it is free
-        q, q_before = rest + now * (q - rest) - before * (q_before - rest), q
-        coating.q = q
-        force = _implicit_forces(coating, step * h, tip @ q, compliance, force)
-        u = tip @ q + compliance @ force
-        coating.settle(step, h, u)
-        yield u
-
-
-def _implicit_forces(coating, time, u, compliance, guess):
-    """Find the forces that the coating answers to the displacement they cause."""
-    if not coating.contact(time, u)[0].any():
-        return np.zeros(len(u))
-
-    def imbalance(force):
-        return coating.contact(time, u + compliance @ force)[0] - force
-
-    found = scipy.optimize.root(imbalance, guess, tol=1e-12)
-    remaining = imbalance(found.x)
-    if np.abs(remaining).max() > 1e-6:
-        raise RuntimeError(f"contact forces at {time:g} s did not converge: {found.message}")
-    return found.x + remaining
-
-
-class _Coating:
-    """The abradable elements around the casing, a ring for each interface node, and their wear so far."""
-
-    def __init__(self, blade: ReducedBlade, spec: RunSpec):
-        self.spec, self.law = spec, module_of(spec.coating.element_law)
-        n = spec.coating.n_elements
-        x, y, z = blade.node_position.T[:, :, None]  # a row for each interface node
-        self.radius, self.node_angle = np.hypot(y, z), spec.casing.start_angle + np.arctan2(y, z)
-        outward = np.sum(blade.radial_direction[:, 1:] * blade.node_position[:, 1:], axis=1)[:, None]
-        self.curvature_radius = self.radius**2 / outward  # of the conical flow path (Meusnier)
-        self.speed = 2 * np.pi * spec.f_omega * blade.f1_hz
-        self.angle = (np.arange(n) + 0.5) * 2 * np.pi / n
-        edges = np.concatenate([x[:1], (x[1:] + x[:-1]) / 2, x[-1:]])
-        area = np.abs(np.diff(edges, axis=0)) * 2 * np.pi * self.radius / n  # share of the chord, times width
-        self.element = self.law.element(spec.coating, area, time_step(blade, spec))
-        leading, trailing = spec.clearance
-        clearance = leading + (trailing - leading) * (x - x[0]) / (x[-1] - x[0])
-        casing = spec.casing
-        overlap = casing.interference - casing.amplitude + casing.amplitude * shape(casing, self.angle)
-        self.initial_gap = clearance - overlap  # g₀ of eq. (8)
-        self.wear = np.zeros((blade.n_interface, n))
-        self.strength = np.ones_like(self.wear)
-        self.heat = _Heat(spec, self, area, time_step(blade, spec)) if hasattr(self.law, "strength") else None
-        self.q, self.pull = np.zeros(
-            (2, len(blade.mass))
-        )  # modal coordinates of the blade, and forces on them
-
-    def contact(self, time: float, u: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Contact forces on the tip at the displacement `u`, both as `tip_rows`, and the wear (j, N) then."""
-        u_r, u_t, *tilt = u.reshape(-1, len(self.wear), 1)
+        u_r, u_θ = (e_r @ predicted)[:, None], (e_θ @ predicted)[:, None]
         # eq. (7): the closest point of the casing turns with the blade and moves with its vibration
-        position = self.node_angle + self.speed * time + u_t / self.radius
-        offset = (self.angle - position + np.pi) % (2 * np.pi) - np.pi
-        offset *= self.spec.coating.n_elements / (2 * np.pi)
-        # eq. (8): g = g₀ + (u^m − u^s) · n, under the profile of Fig. 3; u^s is the wear
-        R = self.curvature_radius
-        approach = np.hypot(R + u_r, u_t) - R - relief(self.spec.tip, offset) + offset * sum(tilt)
-        gap = self.initial_gap - approach + self.wear
-        # Fig. 4, and eq. (9): no force where the gap is open, and never a pulling one
-        share = coverage(self.spec.tip, offset)
-        element_force, increment = self.law.return_mapping(self.element, -gap, self.wear)
-        element_force = self.strength * element_force
-        self.position, self.pressed, self.increment = position, share * element_force, increment * (share > 0)
-        magnitude = np.sum(share * element_force, axis=1, keepdims=True)
-        couple = np.sum(share * element_force * offset, axis=1, keepdims=True)
+        y = φ + Ω * (step + 1) * h + u_θ / r
+        x = ((β - y + np.pi) % (2 * np.pi) - np.pi) * N / (2 * np.pi)  # of each element, in their widths
+        # eq. (8): g = g₀ + (u^m − u^s) · n, under the profile of Fig. 3
+        g = g_0 - (np.hypot(R + u_r, u_θ) - R - relief(spec.tip, x)) + u_s
+        # eq. (9): t_N ≥ 0, g ≥ 0, t_N g = 0, where the coating answers to the penetration by Fig. 4
+        t_N, increment = law.return_mapping(element, -g, u_s)
+        pressed = coverage(spec.tip, x)
+        u_s = u_s + increment * (pressed > 0)
+        F = np.sum(pressed * t_N, axis=1, keepdims=True)
         # F_r = −cos θ |F| e_r and F_θ = −sin θ |F| e_θ, at the displaced node
-        direction = np.arctan2(u_t, R + u_r) + self.spec.coating.theta
-        force = [-magnitude * np.cos(direction), -magnitude * np.sin(direction)]
-        force += [-couple * np.cos(self.spec.coating.theta) for _ in tilt]
-        return np.ravel(force), self.wear + self.increment
-
-    def settle(self, step: int, h: float, u: np.ndarray) -> np.ndarray:
-        """Leave the elements as they are at the end of a step; return the forces."""
-        force, wear = self.contact(step * h, u)
-        if self.heat is not None:
-            self.heat.enter(self)
-            self.strength = self.heat.strength(step, self.strength)
-        self.wear = wear
-        return force
-
-
-class _Heat:
-    """Temperature of the elements, in cells from the surface on, by what `bladerub.contact.heating` says."""
-
-    def __init__(self, spec: RunSpec, coating: _Coating, area: np.ndarray, h: float):
-        own, n = dict(spec.coating.element_law.parameters), spec.coating.n_elements
-        self.law, self.coating, self.area, self.radius = coating.law, spec.coating, area, coating.radius
-        self.resistance, self.share = np.sin(spec.coating.theta), own["friction_share"]
-        self.height = cell_heights(spec.coating.thickness, own["heated_depth"])
-        self.capacity = own["heat_capacity"] * self.height
-        period = 2 * np.pi / coating.speed
-        self.half = round(period / 2 / h)  # steps
-        flow = np.zeros((len(self.height),) * 2)  # of heat into each cell per temperature of each, W/(m² K)
-        for cell, height in enumerate(self.height):
-            last = cell + 1 == len(self.height)
-            through = own["conductivity"] / (0.5 * (height + (0 if last else self.height[cell + 1])))
-            flow[cell, cell] -= through
-            if not last:
-                flow[cell, cell + 1] += through
-                flow[cell + 1, cell] += through
-                flow[cell + 1, cell + 1] -= through
-        self.turn = scipy.linalg.expm(flow / self.capacity[:, None] * period)
-        self.first = np.floor(coating.node_angle * n / (2 * np.pi)).astype(int)  # element under each node
-        self.rise = np.zeros((*coating.wear.shape, len(self.height)))
-        self.energy = np.zeros_like(coating.wear)
-        self.before, self.pressed = coating.node_angle, np.zeros_like(coating.wear)
-
-    def enter(self, coating: _Coating) -> None:
-        """Enter what flow and friction made in a step."""
-        slid = self.radius * (coating.position - self.before)
-        self.energy += self.share * self.resistance * slid * 0.5 * (coating.pressed + self.pressed)
-        flow = self.law.dissipated_energy(coating.element, coating.wear, coating.increment, 0.0, 0.0)
-        self.energy += coating.strength * flow
-        self.before, self.pressed = coating.position, coating.pressed
-
-    def strength(self, step: int, before: np.ndarray) -> np.ndarray:
-        """Strength after a step; twice a turn that of the half of the casing on the other side changes."""
-        if step % self.half:
-            return before
-        n = before.shape[1]
-        passed = step // self.half * (n // 2)
-        ring = (np.arange(n) - self.first - passed + n // 2 + n // 4) % n  # (j, N)
-        other = ring < n // 2
-        area = np.broadcast_to(self.area, before.shape)[other]
-        self.rise[other, :HEATED] += (self.energy[other] / area / self.capacity[:HEATED].sum())[:, None]
-        self.rise[other] = self.rise[other] @ self.turn.T
-        self.energy[other] = 0.0
-        parts = self.height / self.law.strength(self.coating, self.rise)
-        return np.where(other, self.coating.thickness / np.sum(parts, axis=-1), before)
+        direction = np.arctan2(u_θ, R + u_r) + θ
+        force = -(e_r.T @ (F * np.cos(direction)) + e_θ.T @ (F * np.sin(direction)))[:, 0]
+        # correction
+        u, u_before = predicted + inverse @ force, u
+        history[step] = np.concatenate([e_r @ u, e_θ @ u])
+    return history, u_s
 
 
 def time_step(blade: ReducedBlade, spec: RunSpec) -> float:
@@ -271,21 +78,23 @@ def time_step(blade: ReducedBlade, spec: RunSpec) -> float:
     return passage / max(spec.steps_per_element, np.ceil(passage / spec.max_time_step))
 
 
-def tip_rows(blade: ReducedBlade, spec: RunSpec) -> np.ndarray:
-    """Rows (2 j, n) that take radial and tangential displacements of the tip from the reduced coordinates.
+def _directions(blade):
+    """Rows that take radial and tangential displacements of the tip from the coordinates of eq. (6)."""
+    rows = np.zeros((2, blade.n_interface, len(blade.mass)))
+    for j in range(blade.n_interface):
+        rows[:, j, 3 * j : 3 * j + 3] = blade.radial_direction[j], blade.tangential_direction[j]
+    return rows
 
-    Where the profile turns, j more give its tilt in m per element: the slope of the blade's tip plus the
-    angle by which the node moves along the curved casing.
-    """
-    n = blade.n_interface
-    rows = np.zeros((2 * n, len(blade.mass)))
-    for j in range(n):
-        rows[j, 3 * j : 3 * j + 3] = blade.radial_direction[j]
-        rows[n + j, 3 * j : 3 * j + 3] = blade.tangential_direction[j]
-    if not spec.tip.turns:
-        return rows
-    _, y, z = blade.node_position.T
-    width = np.hypot(y, z) * 2 * np.pi / spec.coating.n_elements
-    curvature = np.sum(blade.radial_direction[:, 1:] * blade.node_position[:, 1:], axis=1) / (y**2 + z**2)
-    tilt = blade.tip_slope + curvature[:, None] * rows[n:]
-    return np.vstack([rows, width[:, None] * tilt])
+
+def _geometry(blade, spec):
+    """Radius, radius of curvature and angle of nodes; angle, area and g₀ of eq. (8) of their elements."""
+    x, y, z = blade.node_position.T[:, :, None]
+    r, φ = np.hypot(y, z), spec.casing.start_angle + np.arctan2(y, z)
+    outward = np.sum(blade.radial_direction[:, 1:] * blade.node_position[:, 1:], axis=1)[:, None]
+    edges = np.concatenate([x[:1], (x[1:] + x[:-1]) / 2, x[-1:]])  # shares of the chord
+    n = spec.coating.n_elements
+    β = (np.arange(n) + 0.5) * 2 * np.pi / n
+    area = np.abs(np.diff(edges, axis=0)) * 2 * np.pi * r / n
+    leading, trailing = spec.clearance
+    clearance = leading + (trailing - leading) * (x - x[0]) / (x[-1] - x[0])
+    return r, r**2 / outward, φ, β, area, casing.gap(spec.casing, clearance, β)  # R by Meusnier

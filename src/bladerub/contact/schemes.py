@@ -107,7 +107,7 @@ def central_differences(modes: Modes, damping_ratio: float, time_step: float, co
 
 
 def exponential(modes: Modes, damping_ratio: float, time_step: float, contact: Contact) -> Recurrence:
-    """Set up the exact recurrence of each mode under a force held over two steps, fast modes condensed.
+    """Set up the exact recurrence of eq. (1) by modes, the force held over two steps, fast modes condensed.
 
     A Gautschi-type exponential integrator (Hochbruck and Lubich 1999, eq. 5; Hairer, Lubich and Wanner 2006,
     section XIII.1) for the modes with ``ω h`` up to `FASTEST_PHASE`. The others are condensed to their static

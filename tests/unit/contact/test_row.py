@@ -2,11 +2,11 @@
 
 import dataclasses
 
+import contact_in_numpy
 import numpy as np
 import pytest
 import scipy.linalg
 
-from bladerub.contact import reference
 from bladerub.contact.modes import modes_at
 from bladerub.contact.row import row_frequencies, simulate_row
 from bladerub.contact.row_spec import Disk, Row, RowBlade
@@ -101,7 +101,7 @@ def test_blades_wear_one_coating_as_in_the_plain_model(blade, spec, change, sche
     row = simulate_row(blade, spec, row_of)
     one = row.blades[0]
     assert all(each.n_modes == one.n_modes for each in row.blades)
-    histories, wear = reference.simulate_row(blade, spec, row_of, one.n_steps, one.n_modes)
+    histories, wear = contact_in_numpy.simulate_row(blade, spec, row_of, one.n_steps, one.n_modes)
     for ours, history in zip(row.blades, histories, strict=True):
         node_1 = np.concatenate([[0.0], history[:, 0]])
         middle = 0.5 * (node_1[1:] + node_1[:-1])
@@ -117,7 +117,7 @@ def test_a_disk_couples_the_blades_as_in_the_plain_model(blade, spec, change):
     row_of = Row.even(2, length=[0.0, 2e-5], frequency=[0.0, 0.01], disk=Disk.ring(2, [0.05, 0.02]))
     row = simulate_row(blade, spec, row_of)
     one = row.blades[0]
-    histories, wear = reference.simulate_row(blade, spec, row_of, one.n_steps, one.n_modes)
+    histories, wear = contact_in_numpy.simulate_row(blade, spec, row_of, one.n_steps, one.n_modes)
     for ours, apart, history in zip(
         row.blades, simulate_row(blade, spec, Row(row_of.blades)).blades, histories, strict=True
     ):

@@ -2,6 +2,7 @@
 
 import dataclasses
 
+import contact_in_numpy
 import numpy as np
 import pytest
 
@@ -26,7 +27,12 @@ def test_loop_agrees_with_numpy_reference_to_rounding(blade, spec, change, schem
     blade = dataclasses.replace(blade, node_position=position, radial_direction=outward)
     spec = change(spec, scheme=scheme, steps_per_element=steps, max_time_step=1e-3)
     result = simulate(blade, spec)
-    history, wear = reference.simulate(blade, spec, result.n_steps, result.n_modes)
+    history, wear = contact_in_numpy.simulate(blade, spec, result.n_steps, result.n_modes)
+    if scheme == "central_differences":
+        for ours, papers in zip(
+            (history, wear), reference.simulate(blade, spec, result.n_steps), strict=True
+        ):
+            np.testing.assert_allclose(ours, papers, rtol=0, atol=1e-11 * np.abs(papers).max())
     node_1 = history[:, 0]
     middle = 0.5 * (node_1 + np.concatenate([[0.0], node_1[:-1]]))
     per_element = middle.reshape(spec.coating.n_elements, -1).mean(axis=1)
@@ -57,7 +63,7 @@ def test_loop_agrees_with_numpy_reference_where_the_profile_turns(
 ):
     spec = change(spec, E=E, K=K, theta=theta, revolutions=1, turns=True, scheme=scheme, max_time_step=1e-3)
     result = simulate(turning_blade, spec)
-    history, wear = reference.simulate(turning_blade, spec, result.n_steps, result.n_modes)
+    history, wear = contact_in_numpy.simulate(turning_blade, spec, result.n_steps, result.n_modes)
     fixed = simulate(turning_blade, change(spec, turns=False))
     assert np.abs(result.wear - fixed.wear).max() > 0.02 * wear.max()
     node_1 = history[:, 0]
@@ -85,7 +91,7 @@ def test_large_tangential_motion_agrees_with_reference(blade, spec, change):
     spec = change(spec, n_elements=4000, interference=0.35e-3, E=2.0, K=10.0, theta=0.8, revolutions=1)
     spec = change(spec, scheme="central_differences", steps_per_element=1, max_time_step=5e-6)
     result = simulate(blade, spec)
-    history, wear = reference.simulate(blade, spec, result.n_steps, result.n_modes)
+    history, wear = contact_in_numpy.simulate(blade, spec, result.n_steps, result.n_modes)
     assert result.status == "completed"
     assert np.abs(history[:, 8:]).max() * 4000 / (2 * np.pi * 0.65) > SEARCH_RANGE + 1
     np.testing.assert_allclose(result.wear, wear, rtol=0, atol=1e-8 * wear.max())

@@ -3,10 +3,11 @@
 import dataclasses
 from pathlib import Path
 
+import contact_in_numpy
 import numpy as np
 import pytest
 
-from bladerub.contact import law, reference
+from bladerub.contact import law
 from bladerub.contact.laws import (
     NAMES,
     described_law,
@@ -172,7 +173,7 @@ def test_the_law_of_the_paper_from_a_file_gives_the_same_bits(blade, spec, chang
 def test_the_loop_agrees_with_the_reference(blade, spec, change, law):
     spec = change(spec, revolutions=1, element_law=law)
     result = simulate(blade, spec)
-    history, wear = reference.simulate(blade, spec, result.n_steps, result.n_modes)
+    history, wear = contact_in_numpy.simulate(blade, spec, result.n_steps, result.n_modes)
     per_element = np.concatenate([[0.0], history[:, 0]])
     middle = 0.5 * (per_element[1:] + per_element[:-1]).reshape(result.radial_displacement.size, -1)
     scale = np.abs(history).max()
@@ -191,7 +192,7 @@ def test_the_loop_agrees_with_the_reference(blade, spec, change, law):
 def test_the_loop_heats_the_layer_as_the_reference_does(blade, spec, change, scheme, step, within):
     spec = change(spec, scheme=scheme, max_time_step=step, revolutions=3, element_law=THERMAL)
     result, cold = simulate(blade, spec), simulate(blade, change(spec, element_law=PLASTIC))
-    _, wear = reference.simulate(blade, spec, result.n_steps, result.n_modes)
+    _, wear = contact_in_numpy.simulate(blade, spec, result.n_steps, result.n_modes)
     np.testing.assert_allclose(result.wear, wear, atol=within * wear.max())
     assert np.abs(result.wear - cold.wear).max() > 1e-3 * wear.max()
     assert cold.temperature_rise is None
