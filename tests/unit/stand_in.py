@@ -17,29 +17,32 @@ from bladerub.io import checksum
 @pytest.fixture(scope="session")
 def blade():
     """A dense 30-coordinate stand-in with the tip geometry of a blade; its highest mode is at 30 kHz."""
-    n = 30
-    rng = np.random.default_rng(7)
+    angle = np.linspace(-0.05, 0.05, 8)
+    return made_blade(np.random.default_rng(7), 192.0, np.linspace(-0.023, 0.024, 8), angle, 0.65)
+
+
+def made_blade(rng, lowest, x, angle, radius, cone=0.0, **more):
+    """Make a blade with any modes from `lowest` to 30 kHz, with nodes at these `x` (m), angles and radius."""
+    n = 3 * len(angle) + 6
     vectors, _ = np.linalg.qr(rng.normal(size=(n, n)))
-    omega = 2 * np.pi * np.geomspace(192.0, 30e3, n)
+    omega = 2 * np.pi * np.geomspace(lowest, 30e3, n)
     root_mass = np.sqrt(np.geomspace(0.05, 2e-3, n))
     stiffness = root_mass[:, None] * (vectors * omega**2) @ vectors.T * root_mass
-    angle = np.linspace(-0.05, 0.05, 8)
-    zero = 0 * angle
+    zero, sine, cosine = 0 * angle, np.sin(angle), np.cos(angle)
     return ReducedBlade(
         mass=np.diag(root_mass**2),
         stiffness_0=stiffness,
         stiffness_1=0.6 * stiffness,
         stiffness_2=0.01 * stiffness,
-        node_position=np.column_stack(
-            [np.linspace(-0.023, 0.024, 8), 0.65 * np.sin(angle), 0.65 * np.cos(angle)]
-        ),
-        radial_direction=np.column_stack([zero, np.sin(angle), np.cos(angle)]),
-        tangential_direction=np.column_stack([zero, np.cos(angle), -np.sin(angle)]),
+        node_position=np.column_stack([x, radius * sine, radius * cosine]),
+        radial_direction=np.column_stack([zero + np.sin(cone), np.cos(cone) * sine, np.cos(cone) * cosine]),
+        tangential_direction=np.column_stack([zero, cosine, -sine]),
         f1_hz=192.0,
         f_omega_max=0.4,
         eta=6,
         rank_tolerance=1e-5,
         length=0.2,
+        **more,
     )
 
 

@@ -16,7 +16,6 @@ import numpy as np
 sys.path.insert(0, str(Path(__file__).parents[1]))
 import stand_in
 
-from bladerub.blade.model import ReducedBlade
 from bladerub.contact.kernel import loop, row
 from bladerub.contact.laws import described_law, module_of, source_of
 from bladerub.contact.row import simulate_row
@@ -74,33 +73,10 @@ def _module(width, name, source):
 
 def drawn_blade(rng, n_nodes):
     """A stand-in with `n_nodes` at a drawn radius."""
-    n = 3 * n_nodes + 6
-    vectors, _ = np.linalg.qr(rng.normal(size=(n, n)))
-    omega = 2 * np.pi * np.geomspace(rng.uniform(50, 400), 3e4, n)
-    root = np.sqrt(np.geomspace(0.05, 2e-3, n))
-    stiffness = root[:, None] * (vectors * omega**2) @ vectors.T * root
-    angle, zero = np.sort(rng.uniform(-0.3, 0.3, n_nodes)), np.zeros(n_nodes)
+    angle, x = np.sort(rng.uniform(-0.3, 0.3, n_nodes)), np.linspace(-0.02, 0.02, n_nodes)
     radius, cone = 10 ** rng.uniform(-2, 0.5), rng.uniform(-0.4, 0.4)
-    radial = np.column_stack(
-        [zero + np.sin(cone), np.cos(cone) * np.sin(angle), np.cos(cone) * np.cos(angle)]
-    )
-    return ReducedBlade(
-        mass=np.diag(root**2),
-        stiffness_0=stiffness,
-        stiffness_1=0.6 * stiffness,
-        stiffness_2=0.01 * stiffness,
-        node_position=np.column_stack(
-            [np.linspace(-0.02, 0.02, n_nodes), radius * np.sin(angle), radius * np.cos(angle)]
-        ),
-        radial_direction=radial,
-        tangential_direction=np.column_stack([zero, np.cos(angle), -np.sin(angle)]),
-        f1_hz=192.0,
-        f_omega_max=0.4,
-        eta=6,
-        rank_tolerance=1e-5,
-        length=0.2,
-        tip_slope=rng.normal(size=(n_nodes, n)) * 10,
-    )
+    slope = rng.normal(size=(n_nodes, 3 * n_nodes + 6)) * 10
+    return stand_in.made_blade(rng, rng.uniform(50, 400), x, angle, radius, cone, tip_slope=slope)
 
 
 def drawn_spec(rng, law):
