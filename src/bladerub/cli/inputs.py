@@ -128,7 +128,7 @@ def warn_of_residual(options: argparse.Namespace, residual: float | None) -> Non
     if residual is not None and not residual <= UNBALANCED:
         print(
             f"bladerub {options.name}: the energy ledger misses {residual:.2g} of the work exchanged in the "
-            f"contact, more than {UNBALANCED:g}: do not trust the run; lower solver.max_time_step",
+            f"contact, more than {UNBALANCED:g}: do not trust the run; lower solver.tolerance",
             file=sys.stderr,
         )
 

@@ -107,7 +107,7 @@ def status(options: argparse.Namespace) -> None:
     if whole["unbalanced"]:
         print(
             f"runs whose energy ledger misses more than {UNBALANCED:g} of the work exchanged: "
-            f"{whole['unbalanced']}; do not trust them, or lower solver.max_time_step"
+            f"{whole['unbalanced']}; do not trust them, or lower solver.tolerance"
         )
     if damaged:
         state = "damaged and deleted" if options.discard else "damaged; delete them, as status --discard does"

@@ -174,7 +174,9 @@ def _neighbours(config: Config, row: Row) -> Iterator[str]:
 @_reads("results", "blade", "reduction", "casings", "contact", "coatings", "solver", "speeds")
 def _stable_steps(config: Config) -> Iterator[str]:
     """Check central differences by the highest mode of the blade; its runs do if it is not built yet."""
-    if config["solver"]["scheme"] != "central_differences":
+    solver = config["solver"]
+    by_tolerance = not {"steps_per_element", "max_time_step"} & solver.keys()
+    if solver["scheme"] != "central_differences" or by_tolerance:
         return
     from bladerub.blade.validation import read_reduced_blade  # as the rest, needed for this scheme alone
     from bladerub.contact.modes import mode_shapes_at
@@ -183,16 +185,16 @@ def _stable_steps(config: Config) -> Iterator[str]:
     model = study_folder() / config["results"] / "blade" / "reduced_model.h5"
     if current_blade(config, model)[0] is None:
         return
-    blade, solver, n_elements = read_reduced_blade(model), config["solver"], config["contact"]["elements"]
-    longest = solver["max_time_step"] * config["contact"].get("scale", UNSCALED)["time"]
+    blade, n_elements = read_reduced_blade(model), config["contact"]["elements"]
+    longest = solver.get("max_time_step", math.inf) * config["contact"].get("scale", UNSCALED)["time"]
     for f_omega in speeds(config):
         passage = 1 / (f_omega * blade.f1_hz * n_elements)
-        step = passage / max(solver["steps_per_element"], math.ceil(passage / longest))
+        step = passage / max(solver.get("steps_per_element", 0), math.ceil(passage / longest))
         stable = 2 / mode_shapes_at(blade, f_omega)[0][-1]
         if step >= stable:
             yield (
-                f"solver.max_time_step = {solver['max_time_step']:g}: central_differences needs steps below "
-                f"{stable:.3g} s for the highest mode of this blade"
+                f"solver.max_time_step = {longest:g}: central_differences needs steps below {stable:.3g} s "
+                "for the highest mode of this blade"
             )
             return
 

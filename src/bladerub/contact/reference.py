@@ -11,6 +11,7 @@ import scipy.linalg
 
 from bladerub.blade.model import ReducedBlade
 from bladerub.contact import casing, law
+from bladerub.contact.setup import time_step
 from bladerub.contact.spec import RunSpec
 from bladerub.contact.tip import coverage, relief
 
@@ -70,12 +71,6 @@ def simulate(blade: ReducedBlade, spec: RunSpec, n_steps: int) -> tuple[np.ndarr
         u, u_before = predicted + inverse @ force, u
         history[step] = np.concatenate([e_r @ u, e_θ @ u])
     return history, u_s
-
-
-def time_step(blade: ReducedBlade, spec: RunSpec) -> float:
-    """Largest step that divides the passage of an element and keeps within the limits of `spec`, s."""
-    passage = 1.0 / (spec.f_omega * blade.f1_hz * spec.coating.n_elements)
-    return passage / max(spec.steps_per_element, np.ceil(passage / spec.max_time_step))
 
 
 def _directions(blade):

@@ -31,7 +31,7 @@ from bladerub.contact.modes import Modes, modes_at, tip_radii
 from bladerub.contact.result import RowResult
 from bladerub.contact.row_spec import Row, RowBlade
 from bladerub.contact.run import run_result
-from bladerub.contact.setup import Seat, element_area, set_up_modes
+from bladerub.contact.setup import Seat, element_area, fixed_steps, set_up_modes
 from bladerub.contact.spec import RunSpec
 from bladerub.numerics.lanes import lanes_for, module_for
 
@@ -106,7 +106,7 @@ class RowSetUp(NamedTuple):
 
 def set_up_row(blade: ReducedBlade, spec: RunSpec, row: Row) -> RowSetUp:
     """Set up a row; raises as `simulate_row`."""
-    modes = modes_at(blade, spec.f_omega, spec)
+    modes, spec = modes_at(blade, spec.f_omega, spec), fixed_steps(blade, spec)
     seats: list[_Seat] = []
     for own in row.blades:
         coating = {name: getattr(seats[0].simulation.state, name) for name in COATING} if seats else {}

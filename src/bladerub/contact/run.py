@@ -20,8 +20,8 @@ def simulate(blade: ReducedBlade, spec: RunSpec, progress: Callable[[int], None]
 
     1. Eq. (1) is solved in the modal coordinates of the reduced blade at this speed, with modal
        damping, by the scheme that the spec names (contract: `bladerub.contact.schemes`).
-    2. The step is the largest one not above ``spec.max_time_step`` of which a whole number, and
-       ``spec.steps_per_element`` at least, makes the passage of one coating element.
+    2. A whole number of steps makes the passage of one coating element: as few as the tolerance of the run
+       allows (`bladerub.contact.steps`).
     3. Displacements are increments about the running position of the blade, and so are clearances.
     4. The contact force of a node is along the normal to the casing where the node is, turned by θ
        against the rotation, or by Coulomb's law against the sliding of the node

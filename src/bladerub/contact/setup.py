@@ -17,6 +17,7 @@ from bladerub.contact.laws import element_parameters, module_of, source_of
 from bladerub.contact.modes import Modes, modes_at, tip_radii
 from bladerub.contact.schemes import SCHEMES, Contact, Recurrence, normal_compliance
 from bladerub.contact.spec import PLASTIC, Casing, Coating, ElementLaw, RunSpec
+from bladerub.contact.steps import steps_per_element, with_steps
 from bladerub.contact.tip import edge
 from bladerub.numerics.lanes import lanes_for, module_for
 from bladerub.numerics.memory import aligned
@@ -47,32 +48,26 @@ def set_up_modes(
     modes: Modes, blade: ReducedBlade, spec: RunSpec, seat: Seat = ALONE
 ) -> tuple[Recurrence, Simulation]:
     """Prepare a run as `set_up`, with the modes at its speed."""
-    steps_per_element, time_step = _time_step(blade, spec)
     law = module_of(spec.coating.element_law)
-    element = np.full(blade.n_interface, np.inf)
-    if not spec.coating.is_rigid:
-        at = law.Element._fields.index("elastic")
-        element = element_parameters(spec.coating, element_area(blade, spec))[at]
-    stiffness = element * 2 * spec.tip.half_width  # the shares under the tip add up to its width
-    if spec.turns:
-        stiffness = np.concatenate([stiffness, element * (2 / 3) * edge(spec.tip) ** 3])
-    contact = Contact(stiffness, *_force_direction(spec.coating))
+    contact, passage = _contact(blade, spec), element_passage(blade, spec)
+    n_steps = steps_per_element(spec, modes, contact, passage, _law_order(blade, spec))
+    time_step = passage / n_steps
     rule = SCHEMES[spec.scheme](modes, spec.damping_ratio, time_step, contact)
     tip = tip_record(blade, spec, seat)
     stator = stator_record(blade, spec, rule, seat)
     heats = hasattr(law, "strength")
     state = _initial_state(modes, rule, spec, tip, CELLS if heats else 0)
     state = state._replace(**seat.coating)
-    flight = _free_flight(rule, tip, steps_per_element)
+    flight = _free_flight(rule, tip, n_steps)
     kernel = partial(module_for, lanes_for(modes.n_nodes), law=source_of(spec.coating.element_law))
     simulation = kernel("contact.kernel.loop").Simulation
     layer = None
     if heats:
-        period = steps_per_element * time_step * spec.coating.n_elements
+        period = passage * spec.coating.n_elements
         area = _by_lane_of(blade)(element_area(blade, spec))
         layer = Layer(law, spec.coating, area, period)
     return rule, simulation(
-        kernel("contact.kernel.modal").pack(rule), flight, stator, tip, state, steps_per_element, layer
+        kernel("contact.kernel.modal").pack(rule), flight, stator, tip, state, n_steps, layer
     )
 
 
@@ -103,6 +98,23 @@ def compile_kernel(tip_turns: bool = False, n_nodes: int = N_INTERFACE, law: Ele
 def element_angle(n_elements: int) -> np.ndarray:
     """Casing angle (N,) of the element centres, rad."""
     return (np.arange(n_elements) + 0.5) * (2 * np.pi / n_elements)
+
+
+def element_passage(blade: ReducedBlade, spec: RunSpec) -> float:
+    """Time in which one coating element passes, s."""
+    return 1.0 / (spec.f_omega * blade.f1_hz * spec.coating.n_elements)
+
+
+def time_step(blade: ReducedBlade, spec: RunSpec) -> float:
+    """Time step of the run, s: what a whole number of makes the passage of an element."""
+    return element_passage(blade, spec) / fixed_steps(blade, spec).steps_per_element
+
+
+def fixed_steps(blade: ReducedBlade, spec: RunSpec) -> RunSpec:
+    """Return the run with the steps per element that it takes as its own; raises as `modes_at`."""
+    modes, contact = modes_at(blade, spec.f_omega, spec), _contact(blade, spec)
+    passage, order = element_passage(blade, spec), _law_order(blade, spec)
+    return with_steps(spec, steps_per_element(spec, modes, contact, passage, order))
 
 
 def element_area(blade: ReducedBlade, spec: RunSpec) -> np.ndarray:
@@ -231,10 +243,24 @@ def _check_reach(radius: np.ndarray, per_metre: np.ndarray, spec: RunSpec) -> No
         )
 
 
-def _time_step(blade: ReducedBlade, spec: RunSpec) -> tuple[int, float]:
-    passage = 1.0 / (spec.f_omega * blade.f1_hz * spec.coating.n_elements)
-    steps_per_element = max(spec.steps_per_element, math.ceil(passage / spec.max_time_step))
-    return steps_per_element, passage / steps_per_element
+def _contact(blade: ReducedBlade, spec: RunSpec) -> Contact:
+    element = np.full(blade.n_interface, np.inf)
+    if not spec.coating.is_rigid:
+        at = module_of(spec.coating.element_law).Element._fields.index("elastic")
+        element = element_parameters(spec.coating, element_area(blade, spec))[at]
+    stiffness = element * 2 * spec.tip.half_width  # the shares under the tip add up to its width
+    if spec.turns:
+        stiffness = np.concatenate([stiffness, element * (2 / 3) * edge(spec.tip) ** 3])
+    return Contact(stiffness, *_force_direction(spec.coating))
+
+
+def _law_order(blade: ReducedBlade, spec: RunSpec) -> int:
+    """Order of the law in the time step: 1 where it depends on the rate, by backward Euler."""
+    if spec.coating.is_rigid:
+        return 2
+    area = element_area(blade, spec)
+    at_rest, fast = (element_parameters(spec.coating, area, h) for h in (math.inf, 1e-6))
+    return 2 if np.array_equal(at_rest, fast) else 1
 
 
 def _force_direction(coating: Coating) -> tuple[float, float]:

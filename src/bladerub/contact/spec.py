@@ -162,12 +162,15 @@ class RunSpec:
         Length of the run.
     scheme : str
         Time integration: one of `bladerub.contact.schemes.SCHEMES`.
-    steps_per_element : int
-        At least so many time steps in the passage of one coating element.
-    max_time_step : float
-        The time step is the largest one not above this that divides the passage of one element, s.
     displacement_limit : float
         A tip displacement beyond this ends the run as unbounded, m.
+    tolerance : float
+        Largest relative error of wear and peaks of a run that is not chaotic: the time step follows from it
+        (`bladerub.contact.steps`), unless one of the next two is there.
+    steps_per_element : int
+        At least so many time steps in the passage of one coating element; 0 to leave it to the tolerance.
+    max_time_step : float
+        The time step is the largest one not above this that divides the passage of one element, s.
     initial_displacement : float
         Radial displacement of node 1 at the start, in the first mode and at rest, m.
     """
@@ -180,10 +183,16 @@ class RunSpec:
     f_omega: float
     revolutions: int
     scheme: str
-    steps_per_element: int
-    max_time_step: float
     displacement_limit: float
+    tolerance: float = 0.01
+    steps_per_element: int = 0
+    max_time_step: float = math.inf
     initial_displacement: float = 0.0
+
+    @property
+    def has_own_steps(self) -> bool:
+        """Whether the time step is given, and does not follow from the tolerance."""
+        return self.steps_per_element > 0 or math.isfinite(self.max_time_step)
 
     @property
     def turns(self) -> bool:

@@ -246,9 +246,10 @@ def run_spec(config: Mapping[str, Any], case: CoatingCase, f_omega: float) -> Ru
         f_omega=float(f_omega),
         revolutions=int(solver["revolutions"]),
         scheme=solver["scheme"],
-        steps_per_element=int(solver["steps_per_element"]),
-        max_time_step=float(solver["max_time_step"] * scale["time"]),
         displacement_limit=solver["displacement_limit"] * length,
+        tolerance=float(solver["tolerance"]),
+        steps_per_element=int(solver.get("steps_per_element", 0)),
+        max_time_step=float(solver.get("max_time_step", math.inf) * scale["time"]),
     )
 
 

@@ -17,6 +17,7 @@ import pandas as pd
 
 from bladerub.blade.model import ReducedBlade
 from bladerub.contact.result import RunResult
+from bladerub.contact.setup import fixed_steps
 from bladerub.contact.spec import RunSpec
 from bladerub.verification.response import CASE_COLUMNS, Response, listed
 
@@ -30,8 +31,9 @@ COLUMNS = [
 """Columns of ``finer_bars.csv``, described in ``io/columns.csv``."""
 
 
-def with_finer_bars(spec: RunSpec, times: int) -> RunSpec:
+def with_finer_bars(blade: ReducedBlade, spec: RunSpec, times: int) -> RunSpec:
     """Return the run with bars `times` finer under the same tip, at the same time step."""
+    spec = fixed_steps(blade, spec)
     return replace(
         spec,
         coating=replace(spec.coating, n_elements=spec.coating.n_elements * times),
@@ -48,7 +50,7 @@ def table(blade: ReducedBlade, config: Mapping[str, Any], peaks: pd.DataFrame) -
     """
     rows: list[dict[str, Any]] = []
     for (case, peak), times in itertools.product(listed(peaks), REFINEMENTS):
-        found = Response(blade, config, case, peak.order, partial(with_finer_bars, times=times))
+        found = Response(blade, config, case, peak.order, partial(with_finer_bars, blade, times=times))
         start = float(peak.f_peak)
         at = found.top(start)
         wear, amplitude = _wear(found.run(start), times), found.amplitude(at)

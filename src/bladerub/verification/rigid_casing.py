@@ -15,10 +15,12 @@ import pandas as pd
 from threadpoolctl import threadpool_limits
 
 from bladerub.blade.model import ReducedBlade
-from bladerub.contact import reference, run
+from bladerub.contact import run
 from bladerub.contact.modes import Modes, modes_at
 from bladerub.contact.schemes import SCHEMES
+from bladerub.contact.setup import fixed_steps
 from bladerub.contact.spec import RunSpec
+from bladerub.contact.steps import with_steps
 from bladerub.study.grid import run_spec, speeds
 from bladerub.study.paper import RIGID
 from bladerub.study.spectra import order_spectrum
@@ -106,9 +108,8 @@ def _simulate(
     blade: ReducedBlade, spec: RunSpec, modes: Modes, how: Alternative
 ) -> tuple[impact.Motion | run.RunResult, int]:
     """Make the run; return its outcome and its time steps in the passage of an element."""
-    own = replace(spec, steps_per_element=1)
-    steps = round(impact.time_step(blade, own) / reference.time_step(blade, spec)) * how.finer
-    spec = replace(spec, steps_per_element=steps)
+    steps = fixed_steps(blade, spec).steps_per_element * how.finer
+    spec = with_steps(spec, steps)
     if how.treatment in SCHEMES:
         return run.simulate(blade, replace(spec, scheme=how.treatment)), steps
     step, damping = impact.time_step(blade, spec), spec.damping_ratio

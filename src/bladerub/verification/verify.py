@@ -32,6 +32,7 @@ from bladerub.contact.row_spec import Row
 from bladerub.contact.run import simulate
 from bladerub.contact.setup import compile_kernel
 from bladerub.contact.spec import ElementLaw, RunSpec
+from bladerub.contact.steps import STABLE_PART, with_steps
 from bladerub.study.ensemble import chosen
 from bladerub.study.grid import CoatingCase, coating_cases, element_law, row_of, run_spec, speed_name, speeds
 from bladerub.study.maps import read_map
@@ -42,9 +43,6 @@ TOLERANCE = 0.01
 
 REFINEMENT = 4
 """How many times finer the finer step is: it leaves 1/16 of an error of second order, 1/4 of one of first."""
-
-STABLE_PART = 0.7
-"""Coarser step of the paper's scheme, in largest stable steps ``2 / ω_max``: contact stiffens the blade."""
 
 NEIGHBOURS = (-1e-7, -5e-8, 5e-8, 1e-7)
 """Initial radial displacements of node 1 in neighbouring starts, m: far below the tolerance to which a blade
@@ -167,7 +165,7 @@ def verify_run(blade: ReducedBlade, config: Mapping[str, Any], run: StudyRun) ->
     solve = partial(_solve, blade, run.row)
     outcome = solve(spec)
     steps = round(passage / outcome.blades[0].time_step)
-    finer = solve(_with_steps(spec, REFINEMENT * steps))
+    finer = solve(with_steps(spec, REFINEMENT * steps))
 
     def differences(one: Solved, other: Solved) -> Differences:
         return row_differences(one.blades, other.blades, analysis)
@@ -175,8 +173,8 @@ def verify_run(blade: ReducedBlade, config: Mapping[str, Any], run: StudyRun) ->
     paper = replace(spec, scheme="central_differences")
     longest = STABLE_PART * 2 / modes_at(blade, spec.f_omega).omega[-1]
     paper_steps = math.ceil(passage / longest)
-    paper_outcome = solve(_with_steps(paper, paper_steps))
-    paper_finer = solve(_with_steps(paper, REFINEMENT * paper_steps))
+    paper_outcome = solve(with_steps(paper, paper_steps))
+    paper_finer = solve(with_steps(paper, REFINEMENT * paper_steps))
 
     error = differences(outcome, finer)
     spread = None
@@ -221,10 +219,6 @@ def speedup_at_equal_error(
         return None
     step = min(error / paper_finer_error, REFINEMENT)  # in units of the finer step
     return paper_finer_seconds / step / seconds
-
-
-def _with_steps(spec: RunSpec, steps_per_element: int) -> RunSpec:
-    return replace(spec, steps_per_element=steps_per_element, max_time_step=math.inf)
 
 
 def _solve(blade: ReducedBlade, row: Row | None, spec: RunSpec) -> Solved:

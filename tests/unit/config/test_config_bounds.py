@@ -78,6 +78,7 @@ NUMBERS = """
     speeds.stop                       [0.001, 2]
     speeds.step                       [1e-4, 2]
     solver.revolutions                [1, 10000]
+    solver.tolerance                  [1e-5, 0.1]
     solver.steps_per_element          [1, 1000]
     solver.max_time_step              [1e-9, 1e-4]
     solver.displacement_limit         [0.001, 1]

@@ -92,7 +92,7 @@ def test_every_key_of_the_schema_is_needed_but_extend_and_what_another_blade_bri
     optional |= {"interface_nodes", "bump_width", "unit", "angle_unit", "sweeps", "patterns"}
     optional |= {"rotor", "length", "frequency", "damping", "angle_error", "coupling"}
     optional |= {"length_scatter", "frequency_scatter", "seed", "law", "name", "file", "nominal_speed"}
-    optional |= {"fatigue", "measured"}
+    optional |= {"fatigue", "measured", "steps_per_element", "max_time_step"}
     for path, rule in rules(schema()):
         if "properties" in rule and not path.startswith(".blade.source"):
             known, required = set(rule["properties"]), set(rule["required"])

@@ -5,8 +5,8 @@ import pandas as pd
 import pytest
 
 from bladerub.contact.law import element
-from bladerub.contact.reference import time_step
-from bladerub.contact.setup import element_area
+from bladerub.contact.setup import element_area, time_step
+from bladerub.contact.steps import with_steps
 from bladerub.study.grid import CoatingCase, run_spec
 from bladerub.study.peaks import COLUMNS
 from bladerub.verification import finer_bars, response
@@ -15,8 +15,8 @@ CASE = CoatingCase("2nd", 2.0, 0.5, 0.15)
 
 
 def test_tip_coating_and_step_stay_the_same(blade, config):
-    own = run_spec(config, CASE, 0.3)
-    finer = finer_bars.with_finer_bars(own, 4)
+    own = with_steps(run_spec(config, CASE, 0.3), 20)
+    finer = finer_bars.with_finer_bars(blade, own, 4)
     assert finer.coating.n_elements == 4 * own.coating.n_elements
     assert finer.tip.half_width / finer.coating.n_elements == pytest.approx(
         own.tip.half_width / own.coating.n_elements

@@ -1,0 +1,73 @@
+"""How many time steps the passage of an element takes: from a tolerance, or as the run says.
+
+The error of a run is of second order in its step h. It has two causes, each with its limit:
+
+1. *An element under the tip.* Its worn depth is the deepest that the profile of the tip came at the end of
+   a step, and the work of a step is the mean force times its displacement. Both errors are proportional to
+   1/n² in n steps per element, whatever the coating: ``n ≥ PASSAGE / √tolerance``. A law of the elements
+   that depends on the rate is integrated by backward Euler, to first order: ``n ≥ PASSAGE² / tolerance``.
+2. *The tip that bounces on the coating.* Within a step the tip yields to a force by the compliance of the
+   trapezoidal rule, ``C(h) = Σ φ φᵀ / (ω² + 4/h²)``: statically in modes that are fast, as a free mass in
+   those that are slow. κ is the largest eigenvalue of ``k C(h)``, k the stiffness of the elements under each
+   node. For a mass m on one spring it is ``(h/2)² k/m`` of the bounce, whose period has the relative error
+   κ/6: ``κ ≤ BOUNCE · tolerance``. On the rigid casing the tip does not vibrate on a spring: the modes
+   that a step resolves meet a constraint. There `RIGID` times the first limit is enough.
+
+The two factors are calibrated on runs of the study (docs/explanation/performance.md). Runs that are chaotic
+have no error that a step could bound; the limits are the same for them. Central differences are of first
+order and stable below ``ω h = 2``: they take steps of `STABLE_PART` of that at most, and no tolerance holds.
+"""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+
+from bladerub.contact.modes import Modes
+from bladerub.contact.schemes import Contact, normal_compliance
+from bladerub.contact.spec import RunSpec
+
+PASSAGE = 0.6
+"""Steps per element, times the square root of the tolerance."""
+
+BOUNCE = 12.5
+"""Largest κ, over the tolerance."""
+
+RIGID = 2
+"""Factor of the steps on the rigid casing."""
+
+STABLE_PART = 0.7
+"""Longest step of central differences, in largest stable steps ``2 / ω_max``: contact stiffens the blade."""
+
+
+def steps_per_element(
+    spec: RunSpec, modes: Modes, contact: Contact, passage: float, law_order: int = 2
+) -> int:
+    """Return the fewest steps in the `passage` (s) of an element that the run allows.
+
+    A run with `steps_per_element` or `max_time_step` takes those alone; otherwise its `tolerance` decides.
+    `law_order` is the order in h to which the law of the elements is integrated.
+    """
+    if spec.has_own_steps:
+        return max(spec.steps_per_element, math.ceil(passage / spec.max_time_step))
+    n_steps = math.ceil((PASSAGE / math.sqrt(spec.tolerance)) ** (2 / law_order) - 1e-9)
+    if spec.scheme == "central_differences":
+        n_steps = max(n_steps, math.ceil(passage * modes.omega[-1] / (2 * STABLE_PART)))
+    if np.isinf(contact.stiffness).any():
+        return RIGID * n_steps
+    largest = BOUNCE * spec.tolerance
+    while (kappa := bounce(modes, contact, passage / n_steps)) > largest:
+        n_steps = max(n_steps + 1, math.floor(n_steps * math.sqrt(kappa / largest)))
+    return n_steps
+
+
+def bounce(modes: Modes, contact: Contact, time_step: float) -> float:
+    """Return κ, the compliance of the tip within a step over that of the coating: see above."""
+    compliance = (modes.tip / (modes.omega**2 + (2 / time_step) ** 2)) @ modes.tip.T
+    compliance = normal_compliance(compliance, modes.n_nodes, contact.radial, contact.tangential)
+    return float(np.abs(np.linalg.eigvals(contact.stiffness[:, None] * compliance)).max())
+
+
+def with_steps(spec: RunSpec, n_steps: int) -> RunSpec:
+    """Return the run with so many steps in the passage of an element."""
+    return replace(spec, steps_per_element=n_steps, max_time_step=math.inf)
