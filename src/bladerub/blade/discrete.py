@@ -9,7 +9,7 @@ from scipy import sparse
 from threadpoolctl import threadpool_limits
 
 from bladerub.blade.elasticity import Material, Solid
-from bladerub.blade.linear import MOST_BY_DEGREE, Solve, factorise, lowest_modes
+from bladerub.blade.linear import Solve, factorise, lowest_modes
 from bladerub.blade.mesh import FreeCoordinates, MeshedBlade
 from bladerub.blade.preconditioned_cg import PreconditionedCG
 from bladerub.blade.rotation import equilibrium
@@ -21,8 +21,8 @@ log = logging.getLogger(__name__)
 class DiscreteBlade:
     """Small motions of a blade about its equilibrium at several normalised speeds.
 
-    `at_rest` is there for a large blade only: the factored stiffness at rest preconditions the solutions at
-    speed (`bladerub.blade.preconditioned_cg`), where `stiffness` then has the same pattern.
+    `at_rest` is not there for a blade given by matrices: the factored stiffness at rest preconditions the
+    solutions at speed (`bladerub.blade.preconditioned_cg`), where `stiffness` then has the same pattern.
     """
 
     layout: MeshedBlade
@@ -55,10 +55,8 @@ def by_finite_elements(
     solid = Solid(mesh, material, clamped=blade.mesh.root)
     log.info("%d elements, %d free coordinates", len(mesh.cells), solid.free.size)
     state = equilibrium(solid, 0.0)
-    factors = factorise(state.stiffness)
-    frequency, modes = lowest_modes(state.stiffness, solid.mass, n_modes, factors)
-    at_rest = factors if solid.free.size > MOST_BY_DEGREE else None
-    del factors
+    at_rest = factorise(state.stiffness)
+    frequency, modes = lowest_modes(state.stiffness, solid.mass, n_modes, at_rest)
     unit = 2 * np.pi * frequency[0]  # rad/s
     stiffness, displacement, frequencies, shapes = {}, {}, {}, {0.0: modes}
     for f_omega in sorted({0.0, *speeds, *table_speeds}):
@@ -73,8 +71,6 @@ def by_finite_elements(
         if f_omega in table_speeds:
             if f_omega == 0:
                 frequencies[f_omega] = frequency
-            elif at_rest is None:
-                frequencies[f_omega] = lowest_modes(state.stiffness, solid.mass, n_modes)[0]
             else:
                 nearest = shapes[max(shapes)]
                 solver = PreconditionedCG(state.stiffness, at_rest)

@@ -7,13 +7,12 @@ from collections.abc import Callable
 import numpy as np
 import rslab
 from scipy import sparse
-from scipy.sparse.linalg import LinearOperator, eigsh, splu
+from scipy.sparse.linalg import LinearOperator, eigsh
 
 from bladerub.blade.frequencies import in_hertz
 
 Solve = Callable[[np.ndarray], np.ndarray]
 
-MOST_BY_DEGREE = 30_000  # unknowns that minimum degree orders; the default blade is well below
 MOST_UNKNOWNS = 400_000  # beyond, the factors of the matrices of a blade fill the memory
 THREADS = 2  # of RSLAB, whose own choice may be more than there are cores
 
@@ -21,17 +20,13 @@ THREADS = 2  # of RSLAB, whose own choice may be more than there are cores
 def factorise(matrix: sparse.csc_array) -> Solve:
     """Factor `matrix`, symmetric and regular; return what solves for a right-hand side (n,) or (n, k).
 
-    PARDISO does the work when pypardiso is installed, else SuperLU up to `MOST_BY_DEGREE` unknowns, and
-    beyond them RSLAB: the factors of LDLᵀ take half the memory and a fraction of the time, and are the same
-    to the last bit with any number of threads. Raises numpy.linalg.LinAlgError if the matrix is singular.
+    PARDISO does the work when pypardiso is installed, else RSLAB: the factors of LDLᵀ take half the memory
+    and half the time of SciPy's SuperLU, and are the same to the last bit with any number of threads. Raises
+    numpy.linalg.LinAlgError if the matrix is singular.
     """
     try:
         if importlib.util.find_spec("pypardiso"):
             return _Pardiso(matrix)
-        if matrix.shape[0] <= MOST_BY_DEGREE:
-            # Minimum degree on A + Aᵀ without pivoting keeps the symmetry: far less fill than COLAMD.
-            order = {"permc_spec": "MMD_AT_PLUS_A", "diag_pivot_thresh": 0.0}
-            return splu(sparse.csc_matrix(matrix), options={"SymmetricMode": True}, **order).solve
         factors = rslab.ldlt(matrix, threads=THREADS)
     except RuntimeError as error:
         raise np.linalg.LinAlgError(f"sparse factorisation: {error}") from error

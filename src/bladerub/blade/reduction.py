@@ -89,7 +89,7 @@ def transformation(
     """Φ of eq. (5), (n, n_reduced), from the stiffness at the fit speeds, rest first.
 
     The columns of eq. (4) that belong to the internal coordinates are made orthonormal in the mass (see
-    `mass_orthonormal`). For a large blade `at_rest`, the factored stiffness at rest, is the preconditioner.
+    `mass_orthonormal`). `at_rest`, the factored stiffness at rest, is the preconditioner.
     """
     internal = partition.internal
     mass_ii = mass[internal][:, internal]
@@ -97,11 +97,10 @@ def transformation(
     constraint, fixed = [], []  # Φ_R and Φ_L of eq. (4)
     for stiffness in stiffnesses:
         stiffness_ii = sparse.csc_array(stiffness[internal][:, internal])
+        solve = PreconditionedCG(stiffness_ii, preconditioner) if preconditioner else factorise(stiffness_ii)
         if preconditioner and fixed:
-            solve = PreconditionedCG(stiffness_ii, preconditioner)
             modes = solve.lowest_modes(mass_ii, fixed[-1])[1]
         else:
-            solve = preconditioner or factorise(stiffness_ii)
             modes = lowest_modes(stiffness_ii, mass_ii, eta, solve)[1]
         constraint.append(constraint_modes(stiffness, partition, solve))
         fixed.append(modes)

@@ -13,8 +13,10 @@ from bladerub.io.errors import BadInput
 TOLERANCE = 1e-9  # largest residual force accepted, over the norm of the centrifugal load
 NEGLIGIBLE = 1e-8  # correction, over the norm of the displacement, after which the next would be rounding
 MAX_ITERATIONS = 12  # of Newton's method in one load step
-KEEPING = 0.2  # largest ratio of two successive residuals at which a large model keeps its tangent
-CORRECTION = 1e-4  # relative error of a correction of a large model; the next correction removes it
+KEEPING = (
+    0.2  # largest ratio of two successive residuals at which a model with factors at rest keeps its tangent
+)
+CORRECTION = 1e-4  # relative error of such a correction by conjugate gradients; the next removes it
 MAX_HALVINGS = 8  # of a load step that failed before giving up
 
 
@@ -39,13 +41,13 @@ def equilibrium(
     """Find the equilibrium of `solid` at the angular speed `omega` (rad/s).
 
     The load acts on the displaced position, ``ρ Ω² (0, y + u_y, z + u_z)``. Load steps go in Ω² from `start`
-    (rest if not given) to the target: one step first, halved where Newton's method does not converge. For a
-    large model `at_rest`, its factored stiffness at rest, is the preconditioner. Raises EquilibriumError if a
-    step is still without equilibrium after `MAX_HALVINGS` halvings.
+    (rest if not given) to the target: one step first, halved where Newton's method does not converge. With
+    `at_rest`, its factored stiffness at rest, as the preconditioner nothing else is factored. Raises
+    EquilibriumError if a step is still without equilibrium after `MAX_HALVINGS` halvings.
     """
     target = omega**2
     reached, u = (start.omega**2, start.displacement) if start else (0.0, np.zeros(solid.free.size))
-    # the tangent of a large model is expensive: the first is known, except for the spin softening
+    # a tangent is expensive: the first is known, except for the spin softening
     known = start.stiffness if start and at_rest else None
     step, smallest = target - reached, abs(target - reached) / 2**MAX_HALVINGS
     n_iterations = n_steps = 0
@@ -93,8 +95,8 @@ def _newton(
 ) -> tuple[np.ndarray | None, int]:
     """Displacement in equilibrium, or None, and the iterations made.
 
-    A large model, one with factors `at_rest`, keeps its tangent, the first of which may be given, as long as
-    the residual decreases fast.
+    A model with factors `at_rest` keeps its tangent, the first of which may be given, as long as the residual
+    decreases fast.
     """
     solve, before = None, np.inf
     for iteration in range(MAX_ITERATIONS + 1):

@@ -5,12 +5,11 @@ import pandas as pd
 import pytest
 import scipy.linalg
 
-from bladerub.blade import discrete, linear
+from bladerub.blade import linear
 from bladerub.blade.build import build, meshed_blade, reduce_meshed
 from bladerub.blade.built import write
 from bladerub.blade.discrete import by_finite_elements
 from bladerub.blade.elasticity import Material, Solid
-from bladerub.blade.frequencies import reduced_frequencies
 from bladerub.blade.geometry import BladeShape
 from bladerub.blade.refinement import directions
 from bladerub.blade.rotation import equilibrium
@@ -29,31 +28,6 @@ CONFIG = {
 @pytest.fixture
 def built(twisted_config):
     return build({"blade": twisted_config, "reduction": CONFIG})
-
-
-def test_a_large_blade_is_factored_once_for_the_same_result(twisted_config, monkeypatch):
-    """The short way of a large mesh against the long one, on a mesh small enough for both."""
-    config = {"blade": twisted_config, "reduction": {**CONFIG, "accuracy_speeds": 5}}
-    twisted_config["mesh"] = {"chordwise": 10, "thickness": 1, "spanwise": 10}
-    small = build(config)
-    made, ldlt = [], linear.rslab.ldlt
-
-    def counted(matrix, **settings):
-        made.append(matrix.shape)
-        return ldlt(matrix, **settings)
-
-    monkeypatch.setattr(linear.rslab, "ldlt", counted)
-    for module in (linear, discrete):
-        monkeypatch.setattr(module, "MOST_BY_DEGREE", 1000)
-    large = build(config)
-    assert len(made) == 1
-    for column, tolerance in (("f_fe", 2e-9), ("f_fe_eq2", 2e-9), ("f_rom", 1e-7)):
-        np.testing.assert_allclose(large.accuracy[column], small.accuracy[column], rtol=tolerance)
-    size = np.abs(small.static_displacement).max()
-    np.testing.assert_allclose(large.static_displacement, small.static_displacement, atol=1e-7 * size)
-    for f_omega in (0.0, 0.15, 0.4):
-        found, wanted = (reduced_frequencies(one.reduced, f_omega)[:12] for one in (large, small))
-        np.testing.assert_allclose(found, wanted, rtol=1e-7)
 
 
 def test_directions_follow_the_rotation():

@@ -27,30 +27,15 @@ def test_solves_for_one_and_for_many(pair):
     np.testing.assert_allclose(stiffness @ solve(rhs[:, 0]), rhs[:, 0], atol=1e-12)
 
 
-def test_large_matrices_are_solved_by_another_library(pair, monkeypatch):
-    stiffness, _ = pair
-    rhs = np.random.default_rng(0).standard_normal((60, 3))
-    expected = factorise(stiffness)(rhs)
-    monkeypatch.setattr(linear, "MOST_BY_DEGREE", 59)
-    solve = factorise(stiffness)
-    np.testing.assert_allclose(solve(rhs), expected, rtol=1e-11)
-    np.testing.assert_allclose(solve(rhs[:, 0]), expected[:, 0], rtol=1e-11)
-    with pytest.raises(np.linalg.LinAlgError, match="sparse factorisation"):
-        factorise(sparse.csc_array((60, 60)))
-
-
 def test_threads_leave_large_matrices_their_bits(pair, monkeypatch):
     grid = sparse.csc_array(sparse.kronsum(sparse.kronsum(pair[0][:20, :20], pair[0][:20, :20]), pair[0]))
-    monkeypatch.setattr(linear, "MOST_BY_DEGREE", 0)
     rhs = np.random.default_rng(0).standard_normal((grid.shape[0], 4))
     both = factorise(grid)(rhs)
     monkeypatch.setattr(linear, "THREADS", 1)
     np.testing.assert_array_equal(factorise(grid)(rhs), both)
 
 
-@pytest.mark.parametrize("most_by_degree", [linear.MOST_BY_DEGREE, 0])
-def test_indefinite_matrix_is_solved(pair, most_by_degree, monkeypatch):
-    monkeypatch.setattr(linear, "MOST_BY_DEGREE", most_by_degree)
+def test_indefinite_matrix_is_solved(pair):
     stiffness, mass = pair
     shifted = sparse.csc_array(stiffness - 3.0 * mass)
     rhs = np.ones(60)
