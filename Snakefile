@@ -5,6 +5,7 @@ from snakemake.utils import min_version
 import bladerub.config.read
 import bladerub.io.errors
 import bladerub.workflow.invocation
+from bladerub.io.folders import ROOT
 from bladerub.study.grid import coating_cases
 from bladerub.study.plan import on_gpu
 
@@ -57,22 +58,14 @@ include: "src/rules/runs.smk"
 include: "src/rules/maps.smk"
 include: "src/rules/figures.smk"
 include: "src/rules/margins.smk"
-include: "src/rules/friction.smk"
-include: "src/rules/finer_bars.smk"
-include: "src/rules/stress.smk"
-include: "src/rules/laws.smk"
-include: "src/rules/rigs.smk"
 include: "src/rules/explorer.smk"
 include: "src/rules/cost.smk"
-include: "src/rules/calibration.smk"
-include: "src/rules/chart.smk"
-include: "src/rules/sweeps.smk"
-include: "src/rules/rotor.smk"
-include: "src/rules/rotor37.smk"
-include: "src/rules/robustness.smk"
-include: "src/rules/identification.smk"
-include: "src/rules/blade_comparison.smk"
 include: "src/rules/documents.smk"
+
+
+for rules_of_study in sorted(ROOT.glob("studies/*/rules.smk")):
+
+    include: rules_of_study.as_posix()
 
 
 localrules:

@@ -28,7 +28,7 @@ rule blade:
         blade=config["blade"],
         reduction=config["reduction"],
     script:
-        "../scripts/blade.py"
+        script_of("blade")
 
 
 # of a rule of its own: who deletes the folder of the tables has no blade to build

@@ -29,8 +29,8 @@ CATEGORIES = {
 
 def shown(path, name, category, title=None):
     """A file that the report shows; its name there is `title`, or the first line of its caption."""
-    caption = f"../report/{name}.rst"
-    with open(workflow.source_path(caption), encoding="utf-8") as lines:
+    caption = workflow.source_path(f"../report/{name}.rst")
+    with open(caption, encoding="utf-8") as lines:
         title = title or next(lines).strip()
     return report(
         path,
@@ -38,6 +38,11 @@ def shown(path, name, category, title=None):
         category=CATEGORIES[category],
         labels={"what": title, "as": path.rsplit(".", 1)[-1]},
     )
+
+
+def script_of(name):
+    """The script of a rule that another folder may inherit (`use rule`), whose paths are relative to its own."""
+    return workflow.source_path(f"../scripts/{name}.py")
 
 
 def described(**tables):

@@ -71,7 +71,7 @@ rule compile_kernel:
         n_nodes=n_interface(config),
         law=asdict(element_law(config)),
     script:
-        "../scripts/compile_kernel.py"
+        script_of("compile_kernel")
 
 
 MANIFEST = f"{RESULTS}/runs/{{coating}}/manifest.tsv"

@@ -24,6 +24,7 @@ for name, value in provenance(snakemake.config).items():
     crate.root_dataset.append_to("additionalProperty", crate.add_jsonld(entry))
 crate.add_workflow("Snakefile", main=True, lang="snakemake", properties=WORKFLOW)
 crate.add_directory(ROOT / "src" / "rules", "src/rules", properties={"description": "Rules of the workflow"})
+crate.add_directory(ROOT / "studies", "studies", properties={"description": "Rules of further studies"})
 crate.add_directory("config", "config", properties={"description": "Config of the study and its schema"})
 results = Path(snakemake.params.results)
 for name, description in snakemake.params.folders.items():

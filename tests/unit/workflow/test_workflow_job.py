@@ -41,7 +41,10 @@ def test_any_other_error_leaves_its_traceback_in_the_log(fail):
     assert log.endswith("ZeroDivisionError: division by zero\n")
 
 
-@pytest.mark.parametrize("script", sorted(Path("src/scripts").glob("*.py")), ids=lambda path: path.stem)
+SCRIPTS = sorted([*Path("src/scripts").glob("*.py"), *Path("studies").glob("*/scripts/*.py")])
+
+
+@pytest.mark.parametrize("script", SCRIPTS, ids=lambda path: path.stem)
 def test_the_log_of_a_job_is_open_before_its_imports(script):
     """So that it has their errors, and the traceback of an interrupt, which takes them where it can."""
     _, *first = ast.parse(script.read_text(encoding="utf-8")).body[:3]

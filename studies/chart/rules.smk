@@ -74,7 +74,7 @@ rule chart_column:
     params:
         plan=planned_points,
     script:
-        "../scripts/chart_column.py"
+        "scripts/chart_column.py"
 
 
 rule chart_table:
@@ -90,7 +90,7 @@ rule chart_table:
     params:
         peaks=config["analysis"]["peaks"] | {"orders": CHART_ORDERS},
     script:
-        "../scripts/chart_table.py"
+        "scripts/chart_table.py"
 
 
 rule chart_stress:
@@ -111,7 +111,7 @@ rule chart_stress:
         mem_mb=memory_mb,
         runtime=minutes(60),
     script:
-        "../scripts/chart_stress.py"
+        "scripts/chart_stress.py"
 
 
 rule chart_ridge:
@@ -135,7 +135,7 @@ rule chart_ridge:
     params:
         peaks=config["analysis"]["peaks"] | {"orders": CHART_ORDERS},
     script:
-        "../scripts/chart_ridge.py"
+        "scripts/chart_ridge.py"
 
 
 rule chart_maps:
@@ -163,7 +163,7 @@ rule chart_maps:
         quantities=CHARTED,
         modulus_unit=modulus_unit(config),
     script:
-        "../scripts/chart_maps.py"
+        "scripts/chart_maps.py"
 
 
 rule chart_safe:
@@ -182,7 +182,7 @@ rule chart_safe:
         modulus_unit=modulus_unit(config),
         limits=config["chart"]["limits"],
     script:
-        "../scripts/chart_safe.py"
+        "scripts/chart_safe.py"
 
 
 rule chart_pareto:
@@ -201,7 +201,7 @@ rule chart_pareto:
         dpi=DPI,
         limits=config["chart"]["limits"],
     script:
-        "../scripts/chart_pareto.py"
+        "scripts/chart_pareto.py"
 
 
 rule chart_explanation:
@@ -223,7 +223,7 @@ rule chart_explanation:
         peaks=config["analysis"]["peaks"] | {"orders": CHART_ORDERS},
         modulus_unit=modulus_unit(config),
     script:
-        "../scripts/chart_explanation.py"
+        "scripts/chart_explanation.py"
 
 
 rule chart_stiffening:
@@ -243,7 +243,7 @@ rule chart_stiffening:
         dpi=DPI,
         modulus_unit=modulus_unit(config),
     script:
-        "../scripts/chart_stiffening.py"
+        "scripts/chart_stiffening.py"
 
 
 rule chart_placement:
@@ -268,7 +268,7 @@ rule chart_placement:
         peaks=config["analysis"]["peaks"] | {"orders": CHART_ORDERS},
         speeds=config["chart"]["speeds"],
     script:
-        "../scripts/chart_placement.py"
+        "scripts/chart_placement.py"
 
 
 rule chart_agreement:
@@ -284,7 +284,7 @@ rule chart_agreement:
     benchmark:
         f"{RESULTS}/benchmarks/chart_agreement.tsv"
     script:
-        "../scripts/chart_agreement.py"
+        "scripts/chart_agreement.py"
 
 
 rule chart:
@@ -300,3 +300,29 @@ rule chart:
 
 localrules:
     chart,
+
+
+CHART_FIGURES = ["Y4", "safe", "pareto", "explanation", "stiffening"]
+
+
+use rule images as chart_images with:
+    input:
+        [f"{PLOTS}/chart_{name}.png" for name in CHART_FIGURES],
+    output:
+        [f"docs/images/chart_{name}.png" for name in CHART_FIGURES],
+    log:
+        f"{RESULTS}/logs/chart_images.log",
+    params:
+        colours=20,
+
+
+use rule docs_data as docs_chart with:
+    input:
+        rules.chart_table.output.table,
+        rules.chart_ridge.output.summary,
+        rules.chart_stiffening.output.table,
+        rules.chart_placement.output.summary,
+        rules.chart_explanation.output.table,
+        rules.chart_agreement.output.table,
+    log:
+        f"{RESULTS}/logs/docs_chart.log",

@@ -60,7 +60,7 @@ rule rotor37_independent:
     params:
         config=lambda wildcards: rotor37_plan()["reference"],
     script:
-        "../scripts/rotor37_independent.py"
+        "scripts/rotor37_independent.py"
 
 
 def nlstep_program(wildcards):
@@ -102,7 +102,7 @@ rule rotor37_nlstep_case:
     params:
         config=lambda wildcards: rotor37_plan()["reference"],
     script:
-        "../scripts/rotor37_nlstep_case.py"
+        "scripts/rotor37_nlstep_case.py"
 
 
 rule rotor37_nlstep:
@@ -116,7 +116,7 @@ rule rotor37_nlstep:
     params:
         config=lambda wildcards: rotor37_plan()["reference"],
     script:
-        "../scripts/rotor37_nlstep.py"
+        "scripts/rotor37_nlstep.py"
 
 
 rule rotor37:
@@ -144,7 +144,7 @@ rule rotor37:
         folder=ROTOR37,
         plan=lambda wildcards: rotor37_plan(),
     script:
-        "../scripts/rotor37.py"
+        "scripts/rotor37.py"
 
 
 use rule blade as rotor37_blade with:
@@ -185,7 +185,7 @@ rule rotor37_direct:
     params:
         config=rotor37_set,
     script:
-        "../scripts/rotor37_direct.py"
+        "scripts/rotor37_direct.py"
 
 
 rule rotor37_coating:
@@ -206,4 +206,45 @@ rule rotor37_coating:
         config=rotor37_set,
         folder=f"{ROTOR37}/{{set}}",
     script:
-        "../scripts/rotor37_coating.py"
+        "scripts/rotor37_coating.py"
+
+
+use rule images as rotor37_images with:
+    input:
+        [f"{ROTOR37}/figures/{name}.png" for name in ROTOR37_SHOWN],
+    output:
+        [f"docs/images/rotor37_{name}.png" for name in ROTOR37_SHOWN],
+    log:
+        f"{RESULTS}/logs/rotor37_images.log",
+    params:
+        colours=12,
+
+
+use rule docs_data as docs_rotor37 with:
+    input:
+        [
+            rules.rotor37.output[name]
+            for name in [*REFERENCE_TABLES, "history", "independent"]
+        ],
+    log:
+        f"{RESULTS}/logs/docs_rotor37.log",
+    params:
+        folder="benchmarks/rotor37",
+
+
+use rule docs_data as docs_rotor37_nlstep with:
+    input:
+        rules.rotor37_nlstep.output.table,
+    log:
+        f"{RESULTS}/logs/docs_rotor37_nlstep.log",
+    params:
+        folder="benchmarks/rotor37",
+
+
+use rule docs_data as docs_rotor37_nodes with:
+    input:
+        "results_rotor37/tables/more_nodes.csv",
+    log:
+        f"{RESULTS}/logs/docs_rotor37_nodes.log",
+    params:
+        prefix="rotor37_",

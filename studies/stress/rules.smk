@@ -24,4 +24,11 @@ rule stress:
     params:
         dpi=DPI,
     script:
-        "../scripts/stress.py"
+        "scripts/stress.py"
+
+
+use rule docs_data as docs_stress with:
+    input:
+        rules.stress.output.table,
+    log:
+        f"{RESULTS}/logs/docs_stress.log",

@@ -107,7 +107,7 @@ rule identification_wave:
         determining=determining_sets,
         drawn=lambda wildcards: identification_plan().size(int(wildcards.wave)),
     script:
-        "../scripts/identification_wave.py"
+        "scripts/identification_wave.py"
 
 
 rule identification_batch:
@@ -133,7 +133,7 @@ rule identification_batch:
         plan=IDENTIFICATION,
         determining=determining_sets,
     script:
-        "../scripts/identification_batch.py"
+        "scripts/identification_batch.py"
 
 
 rule identification_left:
@@ -160,7 +160,7 @@ rule identification_left:
         plan=IDENTIFICATION,
         remaining=lambda wildcards: identification_plan().remaining,
     script:
-        "../scripts/identification_left.py"
+        "scripts/identification_left.py"
 
 
 rule identification_candidates:
@@ -181,7 +181,7 @@ rule identification_candidates:
         wanted=lambda wildcards: candidate_numbers(),
         shift=lambda wildcards: identification_plan().candidates.shift,
     script:
-        "../scripts/identification_candidates.py"
+        "scripts/identification_candidates.py"
 
 
 rule identification_candidate:
@@ -206,7 +206,7 @@ rule identification_candidate:
         determining=determining_sets,
         study=lambda wildcards: identification_plan().candidates.study.plain(),
     script:
-        "../scripts/identification_candidate.py"
+        "scripts/identification_candidate.py"
 
 
 rule identify:
@@ -255,4 +255,29 @@ rule identify:
     params:
         dpi=DPI,
     script:
-        "../scripts/identify.py"
+        "scripts/identify.py"
+
+
+use rule images as identification_image with:
+    input:
+        f"{PLOTS}/identification.png",
+    output:
+        "docs/images/identification.png",
+    log:
+        f"{RESULTS}/logs/identification_image.log",
+    params:
+        colours=8,
+
+
+use rule docs_data as docs_identification with:
+    input:
+        rules.identify.output.waves,
+        rules.identify.output.emulators,
+        rules.identify.output.targets,
+        rules.identify.output.ranges,
+        rules.identify.output.exclusions,
+        rules.identify.output.candidates,
+        rules.identify.output.counts,
+        rules.identify.output.verdicts,
+    log:
+        f"{RESULTS}/logs/docs_identification.log",

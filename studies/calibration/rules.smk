@@ -39,7 +39,7 @@ rule calibration:
     params:
         dpi=DPI,
     script:
-        "../scripts/calibration.py"
+        "scripts/calibration.py"
 
 
 rule calibration_set:
@@ -61,4 +61,12 @@ rule calibration_set:
         folder=f"{RESULTS}/calibration/{{set}}",
         choices=calibration_set,
     script:
-        "../scripts/calibration_set.py"
+        "scripts/calibration_set.py"
+
+
+use rule docs_data as docs_calibration with:
+    input:
+        rules.calibration.output.table,
+        rules.calibration.output.counts,
+    log:
+        f"{RESULTS}/logs/docs_calibration.log",

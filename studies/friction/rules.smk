@@ -20,4 +20,11 @@ rule friction:
         revolutions=config["analysis"]["spectrum_revolutions"],
         dpi=DPI,
     script:
-        "../scripts/friction.py"
+        "scripts/friction.py"
+
+
+use rule docs_data as docs_friction with:
+    input:
+        rules.friction.output.table,
+    log:
+        f"{RESULTS}/logs/docs_friction.log",

@@ -136,7 +136,7 @@ rule robustness_batch:
         planned=planned_samples,
         claims=lambda wildcards: robustness_plan().parts[wildcards.part].claims,
     script:
-        "../scripts/robustness_batch.py"
+        "scripts/robustness_batch.py"
 
 
 rule robustness:
@@ -166,4 +166,22 @@ rule robustness:
     params:
         dpi=DPI,
     script:
-        "../scripts/robustness.py"
+        "scripts/robustness.py"
+
+
+use rule images as robustness_image with:
+    input:
+        f"{PLOTS}/robustness.png",
+    output:
+        "docs/images/robustness.png",
+    log:
+        f"{RESULTS}/logs/robustness_image.log",
+    params:
+        colours=20,
+
+
+use rule docs_data as docs_robustness with:
+    input:
+        rules.robustness.output.table,
+    log:
+        f"{RESULTS}/logs/docs_robustness.log",

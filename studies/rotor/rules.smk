@@ -55,7 +55,7 @@ rule rotor_combination:
         plan=lambda wildcards: rotor_runs(wildcards.combination),
         planned=planned_rows,
     script:
-        "../scripts/coating.py"
+        "../../src/scripts/coating.py"
 
 
 def rotor_manifests(wildcards):
@@ -81,7 +81,7 @@ rule rotor_tables:
         folder=OF_ROWS,
         analysis=config["analysis"],
     script:
-        "../scripts/rotor_tables.py"
+        "scripts/rotor_tables.py"
 
 
 # Rows whose wear is looked at every few revolutions; first of all, since it is one long job
@@ -106,7 +106,7 @@ rule rotor_patterns:
     params:
         patterns=lambda wildcards: rotor_plan().patterns,
     script:
-        "../scripts/rotor_patterns.py"
+        "scripts/rotor_patterns.py"
 
 
 # `rotor` of all combinations, `rotor_sweeps` of those that are swept
@@ -124,7 +124,7 @@ rule rotor_figure:
     params:
         dpi=DPI,
     script:
-        "../scripts/rotor_figure.py"
+        "scripts/rotor_figure.py"
 
 
 use rule rotor_figure as rotor_sweeps_figure with:
@@ -147,3 +147,26 @@ rule rotor:
         rules.rotor_figure.output,
         lambda wildcards: rules.rotor_sweeps_figure.output if rotor_plan().swept else [],
         lambda wildcards: rules.rotor_patterns.output if rotor_plan().patterns else [],
+
+
+use rule images as rotor_image with:
+    input:
+        f"{PLOTS}/rotor.png",
+        f"{PLOTS}/rotor_sweeps.png",
+    output:
+        "docs/images/rotor.png",
+        "docs/images/rotor_sweeps.png",
+    log:
+        f"{RESULTS}/logs/rotor_image.log",
+    params:
+        colours=64,
+        shrink=2,
+
+
+use rule docs_data as docs_rotor with:
+    input:
+        rules.rotor_tables.output.table,
+        rules.rotor_tables.output.half,
+        rules.rotor_patterns.output.drift,
+    log:
+        f"{RESULTS}/logs/docs_rotor.log",

@@ -16,7 +16,7 @@ rule finer_bars:
     resources:
         runtime=minutes(5),
     script:
-        "../scripts/finer_bars.py"
+        "scripts/finer_bars.py"
 
 
 # How much the number of interface nodes decides at the same peaks
@@ -35,7 +35,7 @@ rule more_nodes:
         mem_mb=memory_mb,
         runtime=minutes(10),
     script:
-        "../scripts/more_nodes.py"
+        "scripts/more_nodes.py"
 
 
 # What the vibration on the rigid casing converges to, whatever the modes, the step and the law of impact
@@ -54,7 +54,7 @@ rule rigid_convergence:
     resources:
         runtime=minutes(15),
     script:
-        "../scripts/rigid_convergence.py"
+        "scripts/rigid_convergence.py"
 
 
 # How accurate the study's runs are: a table of what `bladerub verify` measures
@@ -73,4 +73,32 @@ rule accuracy:
     resources:
         runtime=minutes(30),
     script:
-        "../scripts/accuracy.py"
+        "scripts/accuracy.py"
+
+
+use rule docs_data as docs_finer_bars with:
+    input:
+        rules.finer_bars.output.table,
+    log:
+        f"{RESULTS}/logs/docs_finer_bars.log",
+
+
+use rule docs_data as docs_rigid_convergence with:
+    input:
+        rules.rigid_convergence.output.table,
+    log:
+        f"{RESULTS}/logs/docs_rigid_convergence.log",
+
+
+use rule docs_data as docs_accuracy with:
+    input:
+        rules.accuracy.output.table,
+    log:
+        f"{RESULTS}/logs/docs_accuracy.log",
+
+
+use rule docs_data as docs_more_nodes with:
+    input:
+        rules.more_nodes.output.table,
+    log:
+        f"{RESULTS}/logs/docs_more_nodes.log",

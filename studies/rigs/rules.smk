@@ -20,4 +20,16 @@ rule rigs:
     params:
         dpi=DPI,
     script:
-        "../scripts/rigs.py"
+        "scripts/rigs.py"
+
+
+use rule images as rigs_image with:
+    input:
+        rules.rigs.output.png,
+    output:
+        "docs/images/rigs.png",
+    log:
+        f"{RESULTS}/logs/rigs_image.log",
+    params:
+        colours=12,
+        shrink=2,

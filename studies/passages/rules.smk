@@ -39,7 +39,7 @@ rule sweeps:
         survival=config["sweeps"]["survival"],
         dpi=DPI,
     script:
-        "../scripts/sweeps.py"
+        "scripts/sweeps.py"
 
 
 rule sweep:
@@ -67,7 +67,7 @@ rule sweep:
             config["analysis"][key] for key in ("spectrum_revolutions", "max_order")
         ],
     script:
-        "../scripts/sweep.py"
+        "scripts/sweep.py"
 
 
 rule long_runs:
@@ -88,7 +88,7 @@ rule long_runs:
         divergence=config["analysis"]["divergence"],
         dpi=DPI,
     script:
-        "../scripts/long_runs.py"
+        "scripts/long_runs.py"
 
 
 rule long_coating:
@@ -110,4 +110,32 @@ rule long_coating:
         revolutions=config["long_runs"]["revolutions"],
         analysis=config["analysis"] | {"peaks": PEAKS},
     script:
-        "../scripts/long_coating.py"
+        "scripts/long_coating.py"
+
+
+PASSAGE_FIGURES = ["sweeps", "long_runs"]
+
+
+use rule images as passage_images with:
+    input:
+        [f"{PLOTS}/{name}.png" for name in PASSAGE_FIGURES],
+    output:
+        [f"docs/images/{name}.png" for name in PASSAGE_FIGURES],
+    log:
+        f"{RESULTS}/logs/passage_images.log",
+    params:
+        colours=20,
+
+
+use rule docs_data as docs_sweeps with:
+    input:
+        rules.sweeps.output.table,
+    log:
+        f"{RESULTS}/logs/docs_sweeps.log",
+
+
+use rule docs_data as docs_long_runs with:
+    input:
+        rules.long_runs.output.table,
+    log:
+        f"{RESULTS}/logs/docs_long_runs.log",
