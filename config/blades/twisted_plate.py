@@ -13,7 +13,7 @@ from pathlib import Path
 import numpy as np
 
 from bladerub.blade.mesh import SolidMesh, hexahedral_mesh
-from bladerub.export.mesh_file import write_mesh_file
+from bladerub.extras.export.mesh_file import write_mesh_file
 
 FILE = Path(__file__).with_name("twisted_plate.inp")
 

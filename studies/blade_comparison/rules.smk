@@ -23,7 +23,7 @@ rule blade_comparison:
         mesh=rules.blade.output.mesh,
         reference=f"{REFERENCE}/blade/reduced_model.h5",
         maps=common_maps,
-        analysing=files_behind("extensions.blade_comparison"),
+        analysing=files_behind("extras.blade_comparison"),
     output:
         **described(
             blades=f"{TABLES}/blade_comparison.csv",

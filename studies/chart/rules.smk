@@ -1,8 +1,8 @@
 # A dense chart of coatings at speeds that the search for its peaks chooses (docs/explanation/chart.md). Not part of `all`.
 from functools import cache, partial
 
-from bladerub.extensions.chart.grid import chart_orders, check, columns
-from bladerub.extensions.chart.point import PointRow
+from bladerub.extras.chart.grid import chart_orders, check, columns
+from bladerub.extras.chart.point import PointRow
 from bladerub.study.grid import modulus_unit
 
 CHART_ORDERS = chart_orders(config)
@@ -24,7 +24,7 @@ def chart_manifests(wildcards):
 
 def planned_points(wildcards):
     """All that determines the points of a column but the blade: a changed one is a reason to run."""
-    from bladerub.extensions.chart.column import plan_column  # imports the solver
+    from bladerub.extras.chart.column import plan_column  # imports the solver
 
     return plan_column(config, chart_columns()[wildcards.column])
 
@@ -80,7 +80,7 @@ rule chart_column:
 rule chart_table:
     input:
         manifests=chart_manifests,
-        analysing=files_behind("extensions.chart.table", "study.peaks"),
+        analysing=files_behind("extras.chart.table", "study.peaks"),
     output:
         **described(table=f"{TABLES}/chart.csv"),
     log:
@@ -100,7 +100,7 @@ rule chart_stress:
         blade=rules.blade.output.reduced_model,
         mesh=rules.blade.output.mesh,
         kernel=rules.compile_kernel.output[0],
-        analysing=files_behind("extensions.chart.stress"),
+        analysing=files_behind("extras.chart.stress"),
     output:
         **described(table=f"{TABLES}/chart_stress.csv"),
     log:
@@ -118,9 +118,9 @@ rule chart_ridge:
     input:
         manifests=chart_manifests,
         analysing=files_behind(
-            "extensions.chart.table",
-            "extensions.chart.ridge",
-            "extensions.chart.explanation",
+            "extras.chart.table",
+            "extras.chart.ridge",
+            "extras.chart.explanation",
             "study.peaks",
         ),
     output:
@@ -142,7 +142,7 @@ rule chart_maps:
     # one job, because to start it takes longer than to draw one
     input:
         table=rules.chart_table.output[0],
-        drawing=files_behind("extensions.plots.chart_moduli", "plots.titles"),
+        drawing=files_behind("extras.plots.chart_moduli", "plots.titles"),
     output:
         png=[
             shown(
@@ -169,8 +169,8 @@ rule chart_maps:
 rule chart_safe:
     input:
         tables=chart_with_stress,
-        analysing=files_behind("extensions.chart.choice", "extensions.chart.stress"),
-        drawing=files_behind("extensions.plots.chart_moduli", "plots.titles"),
+        analysing=files_behind("extras.chart.choice", "extras.chart.stress"),
+        drawing=files_behind("extras.plots.chart_moduli", "plots.titles"),
     output:
         **drawn("chart_safe", "Choice of a coating"),
     log:
@@ -188,8 +188,8 @@ rule chart_safe:
 rule chart_pareto:
     input:
         tables=chart_with_stress,
-        analysing=files_behind("extensions.chart.choice", "extensions.chart.stress"),
-        drawing=files_behind("extensions.plots.chart_pareto", "plots.titles"),
+        analysing=files_behind("extras.chart.choice", "extras.chart.stress"),
+        drawing=files_behind("extras.plots.chart_pareto", "plots.titles"),
     output:
         **drawn("chart_pareto", "Choice of a coating"),
         **described(table=f"{TABLES}/chart_pareto.csv"),
@@ -208,9 +208,9 @@ rule chart_explanation:
     input:
         manifests=chart_manifests,
         analysing=files_behind(
-            "extensions.chart.table", "extensions.chart.explanation", "study.peaks"
+            "extras.chart.table", "extras.chart.explanation", "study.peaks"
         ),
-        drawing=files_behind("extensions.plots.chart_peaks", "plots.titles"),
+        drawing=files_behind("extras.plots.chart_peaks", "plots.titles"),
     output:
         **drawn("chart_explanation", "Choice of a coating"),
         **described(table=f"{TABLES}/chart_explanation.csv"),
@@ -230,8 +230,8 @@ rule chart_stiffening:
     input:
         peaks=rules.chart_explanation.output.table,
         blade=rules.blade.output.reduced_model,
-        analysing=files_behind("extensions.chart.stiffening"),
-        drawing=files_behind("extensions.plots.chart_peaks", "plots.titles"),
+        analysing=files_behind("extras.chart.stiffening"),
+        drawing=files_behind("extras.plots.chart_peaks", "plots.titles"),
     output:
         **drawn("chart_stiffening", "Choice of a coating"),
         **described(table=f"{TABLES}/chart_stiffening.csv"),
@@ -251,8 +251,8 @@ rule chart_placement:
     input:
         maps=charted_maps,
         analysing=files_behind(
-            "extensions.chart.search",
-            "extensions.chart.check",
+            "extras.chart.search",
+            "extras.chart.check",
             "study.peaks",
         ),
     output:
@@ -276,7 +276,7 @@ rule chart_agreement:
     input:
         chart=rules.chart_table.output[0],
         placement=rules.chart_placement.output[0],
-        analysing=files_behind("extensions.chart.check"),
+        analysing=files_behind("extras.chart.check"),
     output:
         **described(table=f"{TABLES}/chart_agreement.csv"),
     log:

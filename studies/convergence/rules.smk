@@ -6,7 +6,7 @@ rule finer_bars:
         blade=rules.blade.output.reduced_model,
         kernel=rules.compile_kernel.output[0],
         peaks=rules.peaks.output[0],
-        analysing=files_behind("verification.finer_bars"),
+        analysing=files_behind("extras.verification.finer_bars"),
     output:
         **described(table=f"{TABLES}/finer_bars.csv"),
     log:
@@ -24,7 +24,7 @@ rule more_nodes:
     input:
         kernel=rules.compile_kernel.output[0],
         peaks=rules.peaks.output[0],
-        analysing=files_behind("verification.more_nodes"),
+        analysing=files_behind("extras.verification.more_nodes"),
     output:
         **described(table=f"{TABLES}/more_nodes.csv"),
     log:
@@ -44,7 +44,7 @@ rule rigid_convergence:
         blade=rules.blade.output.reduced_model,
         kernel=rules.compile_kernel.output[0],
         peaks=rules.peaks.output[0],
-        analysing=files_behind("verification.rigid_casing"),
+        analysing=files_behind("extras.verification.rigid_casing"),
     output:
         **described(table=f"{TABLES}/rigid_convergence.csv"),
     log:
@@ -63,7 +63,7 @@ rule accuracy:
         blade=rules.blade.output.reduced_model,
         kernel=rules.compile_kernel.output[0],
         maps=expand(rules.map.output, coating=COATINGS),
-        analysing=files_behind("verification.accuracy"),
+        analysing=files_behind("extras.verification.accuracy"),
     output:
         **described(table=f"{TABLES}/accuracy.csv"),
     log:

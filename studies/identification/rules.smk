@@ -4,15 +4,15 @@ from functools import cache
 IDENTIFICATION = "config/identification.yaml"
 OF_SETS = f"{RESULTS}/identification"
 SIMULATING_SETS = files_behind(
-    "extensions.identification.sample", "study.findings", "blade.build"
+    "extras.identification.sample", "study.findings", "blade.build"
 )
 
 
 @cache
 def identification_plan():
     """The plan; read and checked only when somebody asks for the identification."""
-    from bladerub.extensions.identification.plan import read_plan
-    from bladerub.extensions.identification.sample import check
+    from bladerub.extras.identification.plan import read_plan
+    from bladerub.extras.identification.sample import check
 
     with bladerub.io.errors.exit_on_error():
         plan = read_plan(IDENTIFICATION)
@@ -57,7 +57,7 @@ def candidate_numbers():
 
 def determining_sets(wildcards):
     """All of the plan and the study that determines what a set shows: a changed one is a reason to run."""
-    from bladerub.extensions.identification.sample import determinants
+    from bladerub.extras.identification.sample import determinants
 
     return determinants(config, identification_plan())
 
@@ -140,7 +140,7 @@ rule identification_left:
     input:
         sets=lambda wildcards: drawn_sets(int(wildcards.wave)),
         quantities=lambda wildcards: of_sets("quantities.csv", int(wildcards.wave)),
-        drawing=files_behind("extensions.identification.waves"),
+        drawing=files_behind("extras.identification.waves"),
     output:
         **described(
             left=f"{OF_SETS}/wave{{wave}}/left.csv",
@@ -168,7 +168,7 @@ rule identification_candidates:
         sets=lambda wildcards: drawn_sets(),
         quantities=lambda wildcards: of_sets("quantities.csv"),
         verdicts=lambda wildcards: of_sets("verdicts.csv"),
-        choosing=files_behind("extensions.identification.candidates"),
+        choosing=files_behind("extras.identification.candidates"),
     output:
         **described(candidates=f"{OF_SETS}/candidates/candidates.csv"),
     log:
@@ -226,9 +226,9 @@ rule identify:
         ],
         plan=IDENTIFICATION,
         summing=files_behind(
-            "extensions.identification.summary", "extensions.identification.candidates"
+            "extras.identification.summary", "extras.identification.candidates"
         ),
-        drawing=files_behind("extensions.plots.identification", "plots.style"),
+        drawing=files_behind("extras.plots.identification", "plots.style"),
     output:
         **drawn("identification", "Claims"),
         **described(

@@ -27,7 +27,7 @@ rule heat:
     input:
         blade=rules.blade.output.reduced_model,
         kernel=rules.compile_kernel.output[0],
-        computing=files_behind("extensions.heat", "contact.laws.thermal"),
+        computing=files_behind("extras.heat", "contact.laws.thermal"),
     output:
         **described(table=f"{TABLES}/heat.csv"),
     log:

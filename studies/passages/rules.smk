@@ -1,5 +1,5 @@
 # Speed sweeps and long runs, compared with the study (docs/explanation/sweeps.md). Not part of `all`.
-from bladerub.extensions.sweep_grid import DIRECTIONS, swept_cases, sweep_spec
+from bladerub.extras.sweep_grid import DIRECTIONS, swept_cases, sweep_spec
 
 SWEPT = [case.name for case in swept_cases(config)]
 SWEEPS = f"{RESULTS}/sweeps/{{coating}}_{{direction}}_{{rate}}.h5"
@@ -25,8 +25,8 @@ rule sweeps:
     input:
         maps=swept_maps,
         sweeps=expand(SWEEPS, coating=SWEPT, direction=DIRECTIONS, rate=RATES),
-        analysing=files_behind("extensions.sweeps", "study.peaks"),
-        drawing=files_behind("extensions.plots.sweeps", "plots.titles"),
+        analysing=files_behind("extras.sweeps", "study.peaks"),
+        drawing=files_behind("extras.plots.sweeps", "plots.titles"),
     output:
         **drawn("sweeps", "Sweeps and long runs"),
         **described(
@@ -47,7 +47,7 @@ rule sweep:
         blade=rules.blade.output.reduced_model,
         kernel=rules.compile_kernel.output[0],
         analysing=files_behind(
-            "extensions.sweeps", "extensions.sweep_grid", "study.spectra"
+            "extras.sweeps", "extras.sweep_grid", "study.spectra"
         ),
     output:
         SWEEPS,
@@ -73,8 +73,8 @@ rule sweep:
 rule long_runs:
     input:
         long=expand(f"{RESULTS}/long_runs/{{coating}}.h5", coating=COATINGS),
-        analysing=files_behind("extensions.long_runs", "study.growth"),
-        drawing=files_behind("extensions.plots.long_runs", "plots.titles"),
+        analysing=files_behind("extras.long_runs", "study.growth"),
+        drawing=files_behind("extras.plots.long_runs", "plots.titles"),
     output:
         **drawn("long_runs", "Sweeps and long runs"),
         **described(
@@ -96,7 +96,7 @@ rule long_coating:
         map=rules.map.output[0],
         blade=rules.blade.output.reduced_model,
         kernel=rules.compile_kernel.output[0],
-        analysing=files_behind("extensions.long_runs", "study.peaks", "study.growth"),
+        analysing=files_behind("extras.long_runs", "study.peaks", "study.growth"),
     output:
         f"{RESULTS}/long_runs/{{coating}}.h5",
     log:

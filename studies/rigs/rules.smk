@@ -1,5 +1,5 @@
 # A rigid tip on a coated disk, pass by pass (config/rigs.yaml). Not part of `all`.
-from bladerub.extensions.rig.plan import PLAN as RIGS
+from bladerub.extras.rig.plan import PLAN as RIGS
 
 
 rule rigs:
@@ -8,7 +8,7 @@ rule rigs:
         laws=files_behind(
             *(f"contact.laws.{name}" for name in NAMES if name != "plastic")
         ),
-        computing=files_behind("extensions.rig.table"),
+        computing=files_behind("extras.rig.table"),
         drawing=files_behind("plots.rigs"),
     output:
         **drawn("rigs", "Model", with_data=True),

@@ -8,8 +8,8 @@ OF_SAMPLES = f"{RESULTS}/robustness"
 @cache
 def robustness_plan():
     """The plan; read and checked only when somebody asks for the robustness."""
-    from bladerub.extensions.robustness.design import check
-    from bladerub.extensions.robustness.plan import read_plan
+    from bladerub.extras.robustness.design import check
+    from bladerub.extras.robustness.plan import read_plan
 
     with bladerub.io.errors.exit_on_error():
         plan = read_plan(ROBUSTNESS)
@@ -21,7 +21,7 @@ def robustness_plan():
 @cache
 def robustness_batch(part, batch):
     """The config of each sample of one job by its number."""
-    from bladerub.extensions.robustness import design
+    from bladerub.extras.robustness import design
 
     plan = robustness_plan()
     with bladerub.io.errors.exit_on_error():
@@ -30,7 +30,7 @@ def robustness_batch(part, batch):
 
 def robustness_batches():
     """Part and name of every job."""
-    from bladerub.extensions.robustness.plan import REFERENCE_BATCH
+    from bladerub.extras.robustness.plan import REFERENCE_BATCH
 
     return [
         (part.name, batch)
@@ -42,7 +42,7 @@ def robustness_batches():
 @cache
 def robustness_blades():
     """The config of a sample that has it, for each of the blades by name."""
-    from bladerub.extensions.robustness.design import blade_name
+    from bladerub.extras.robustness.design import blade_name
 
     return {
         blade_name(sample): sample
@@ -55,7 +55,7 @@ def of_robustness_blades(file):
     """That file of the blade of every sample of a job."""
 
     def paths(wildcards):
-        from bladerub.extensions.robustness.design import blade_name
+        from bladerub.extras.robustness.design import blade_name
 
         samples = robustness_batch(wildcards.part, wildcards.batch).values()
         return [f"{OF_SAMPLES}/blades/{blade_name(each)}/{file}" for each in samples]
@@ -77,7 +77,7 @@ def of_robustness_batches(file):
 
 def planned_samples(wildcards):
     """All that determines the findings of the samples of a job but the blades: a changed one is a reason to run."""
-    from bladerub.extensions.robustness.design import sample_digest
+    from bladerub.extras.robustness.design import sample_digest
 
     samples = robustness_batch(wildcards.part, wildcards.batch)
     return {number: sample_digest(sample) for number, sample in samples.items()}
@@ -115,7 +115,7 @@ rule robustness_batch:
         models=of_robustness_blades("reduced_model.h5"),
         accuracies=of_robustness_blades("rom_accuracy.csv"),
         kernel=rules.compile_kernel.output[0],
-        analysing=files_behind("extensions.robustness.sample", "study.findings"),
+        analysing=files_behind("extras.robustness.sample", "study.findings"),
     output:
         **described(
             verdicts=f"{OF_SAMPLES}/{{part}}/{{batch}}/verdicts.csv",
@@ -146,11 +146,11 @@ rule robustness:
         plan=ROBUSTNESS,
         analysing=files_behind(
             "study.findings",
-            "extensions.robustness.plan",
-            "extensions.robustness.sensitivity",
-            "extensions.robustness.summary",
+            "extras.robustness.plan",
+            "extras.robustness.sensitivity",
+            "extras.robustness.summary",
         ),
-        drawing=files_behind("extensions.plots.robustness", "plots.style"),
+        drawing=files_behind("extras.plots.robustness", "plots.style"),
     output:
         **drawn("robustness", "Claims"),
         **described(

@@ -1,7 +1,7 @@
 # Rows of blades on one coating (docs/rotor.md). Not part of `all`.
 from functools import cache
 
-from bladerub.extensions.rotor.plan import PLAN, RUNS, read_plan
+from bladerub.extras.rotor.plan import PLAN, RUNS, read_plan
 
 ROTOR = PLAN.as_posix()
 OF_ROWS = f"{RESULTS}/{RUNS.as_posix()}"
@@ -66,7 +66,7 @@ rule rotor_tables:
     input:
         manifests=rotor_manifests,
         plan=ROTOR,
-        analysing=files_behind("extensions.rotor.summary"),
+        analysing=files_behind("extras.rotor.summary"),
     output:
         **described(
             table=shown(f"{TABLES}/rotor.csv", "rotor_table", "Sweeps and long runs"),
@@ -90,7 +90,7 @@ rule rotor_patterns:
         blade=rules.blade.output.reduced_model,
         kernel=rules.compile_kernel.output[0],
         plan=ROTOR,
-        computing=files_behind("extensions.rotor.pattern"),
+        computing=files_behind("extras.rotor.pattern"),
     output:
         **described(
             table=f"{TABLES}/rotor_patterns.csv",
@@ -114,7 +114,7 @@ rule rotor_figure:
     input:
         table=rules.rotor_tables.output.table,
         plan=ROTOR,
-        drawing=files_behind("extensions.plots.rotor", "plots.titles"),
+        drawing=files_behind("extras.plots.rotor", "plots.titles"),
     output:
         **drawn("rotor", "Sweeps and long runs"),
     log:

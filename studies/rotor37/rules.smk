@@ -25,7 +25,7 @@ ROTOR37_SHOWN = [
 @cache
 def rotor37_plan():
     """The config of every set; read only when somebody asks for Rotor 37."""
-    from bladerub.extensions.rotor37.reference import plan
+    from bladerub.extras.rotor37.reference import plan
 
     with bladerub.io.errors.exit_on_error():
         return plan()
@@ -48,7 +48,7 @@ def rotor37_set(wildcards):
 rule rotor37_independent:
     input:
         blade=f"{ROTOR37}/reference/blade/reduced_model.h5",
-        computing=files_behind("extensions.rotor37.independent"),
+        computing=files_behind("extras.rotor37.independent"),
     output:
         **described(table=f"{ROTOR37}/reference/independent.csv"),
     log:
@@ -64,14 +64,14 @@ rule rotor37_independent:
 
 
 def nlstep_program(wildcards):
-    from bladerub.extensions.rotor37.nlstep import program
+    from bladerub.extras.rotor37.nlstep import program
 
     with bladerub.io.errors.exit_on_error():
         return str(program())
 
 
 def nlstep_numbers(wildcards):
-    from bladerub.extensions.rotor37.nlstep import CASES
+    from bladerub.extras.rotor37.nlstep import CASES
 
     return [
         f"{ROTOR37}/reference/nlstep/mu{friction:g}_{modes}_{steps}.csv"
@@ -83,9 +83,9 @@ def nlstep_numbers(wildcards):
 rule rotor37_nlstep_case:
     input:
         blade=f"{ROTOR37}/reference/blade/reduced_model.h5",
-        computing=files_behind("extensions.rotor37.nlstep"),
+        computing=files_behind("extras.rotor37.nlstep"),
         octave=[
-            f"src/bladerub/extensions/rotor37/octave/{name}.m"
+            f"src/bladerub/extras/rotor37/octave/{name}.m"
             for name in ("CMS_ROM", "direct_contact")
         ],
         program=nlstep_program,
@@ -123,8 +123,8 @@ rule rotor37:
     input:
         numbers=rotor37_numbers,
         drawing=files_behind(
-            "extensions.plots.rotor37",
-            "extensions.rotor37.reference",
+            "extras.plots.rotor37",
+            "extras.rotor37.reference",
             "plots.spectrum",
             "plots.wear_map",
         ),
@@ -168,7 +168,7 @@ rule rotor37_direct:
     input:
         blade=rules.rotor37_blade.output.reduced_model,
         kernel=rules.compile_kernel.output[0],
-        measuring=files_behind("extensions.rotor37.direct"),
+        measuring=files_behind("extras.rotor37.direct"),
     output:
         **described(
             blade=f"{ROTOR37}/{{set}}/numbers/blade.csv",
@@ -192,7 +192,7 @@ rule rotor37_coating:
     input:
         blade=rules.rotor37_blade.output.reduced_model,
         kernel=rules.compile_kernel.output[0],
-        measuring=files_behind("extensions.rotor37.numbers", "extensions.small_study"),
+        measuring=files_behind("extras.rotor37.numbers", "extras.small_study"),
     output:
         **described(numbers=f"{ROTOR37}/{{set}}/numbers/{{coating}}.csv"),
     log:

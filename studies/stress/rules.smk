@@ -7,8 +7,8 @@ rule stress:
         mesh=rules.blade.output.mesh,
         kernel=rules.compile_kernel.output[0],
         peaks=rules.peaks.output[0],
-        analysing=files_behind("extensions.stress.table"),
-        drawing=files_behind("extensions.plots.stress"),
+        analysing=files_behind("extras.stress.table"),
+        drawing=files_behind("extras.plots.stress"),
     output:
         **drawn("stress_peaks", "Sweeps and long runs"),
         **described(

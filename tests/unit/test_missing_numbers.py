@@ -13,10 +13,10 @@ from study_fixtures import *  # noqa: F403 (fixtures)
 
 from bladerub.api.map import Map
 from bladerub.explorer.page import build
-from bladerub.extensions import long_runs, sweeps
-from bladerub.extensions.plots.long_runs import long_runs as draw_long_runs
-from bladerub.extensions.plots.sweeps import sweeps as draw_sweeps
-from bladerub.extensions.sweeps import SpeedSweep
+from bladerub.extras import long_runs, sweeps
+from bladerub.extras.plots.long_runs import long_runs as draw_long_runs
+from bladerub.extras.plots.sweeps import sweeps as draw_sweeps
+from bladerub.extras.sweeps import SpeedSweep
 from bladerub.io import tables
 from bladerub.plots.histogram import peak_histogram
 from bladerub.plots.polar import wear_profiles

@@ -1,6 +1,6 @@
 """The blade against CalculiX, an independent finite element program, at rest and rotating.
 
-The decks are those of `bladerub.export.calculix`. The test needs the solver `ccx` on the path.
+The decks are those of `bladerub.extras.export.calculix`. The test needs the solver `ccx` on the path.
 """
 
 import shutil
@@ -16,8 +16,8 @@ from bladerub.blade.build import build
 from bladerub.blade.elasticity import Material
 from bladerub.blade.geometry import BladeShape, lattice
 from bladerub.blade.sources.mesh_file import raised
-from bladerub.export.calculix import frequencies, write_decks
-from bladerub.export.mesh_file import write_mesh_file
+from bladerub.extras.export.calculix import frequencies, write_decks
+from bladerub.extras.export.mesh_file import write_mesh_file
 
 CCX = shutil.which("ccx")
 CONFIG = Path(__file__).parents[2] / "config" / "config.yaml"

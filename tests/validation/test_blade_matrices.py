@@ -7,7 +7,7 @@ from bladerub.blade.build import discretise, meshed_blade, reduce_given
 from bladerub.blade.sources.matrices import import_matrices
 from bladerub.blade.sources.origin import MatrixSource
 from bladerub.contact.run import simulate
-from bladerub.export.matrices import write_fe_matrices
+from bladerub.extras.export.matrices import write_fe_matrices
 from bladerub.study.grid import CoatingCase, run_spec
 
 COATING = CoatingCase("2nd", 2.0, 0.5, 0.0)

@@ -21,7 +21,7 @@ from bladerub.contact.run import simulate
 from bladerub.contact.setup import element_area
 from bladerub.contact.spec import Coating, SweepSpec
 from bladerub.contact.sweep import simulate_sweep
-from bladerub.extensions.heat import LAYER
+from bladerub.extras.heat import LAYER
 from bladerub.study.grid import CoatingCase, run_spec
 
 DEPTH, THICKNESS, CAPACITY, CONDUCTIVITY = 1e-4, 5e-3, 2e6, 5.0

@@ -14,7 +14,7 @@ import pytest
 
 from bladerub.contact.laws import described_law, module_of
 from bladerub.contact.spec import PLASTIC, Coating
-from bladerub.extensions.heat import LAYER
+from bladerub.extras.heat import LAYER
 
 E, K, UNIT, THICKNESS, AREA, VISCOSITY = 1.1, 0.5, 600e6, 6e-3, 1e-6, 1e4
 YIELD = 1e-3  # normalised

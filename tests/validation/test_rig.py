@@ -7,8 +7,8 @@ and has taken the energy ``(σ_Y + K w / 2h) w`` per area.
 
 import pytest
 
-from bladerub.extensions.rig.passes import simulate_passes
-from bladerub.extensions.rig.spec import Rig
+from bladerub.extras.rig.passes import simulate_passes
+from bladerub.extras.rig.spec import Rig
 
 
 @pytest.mark.parametrize(("E", "K", "yield_stress"), [(1.2e9, 3e8, 9e6), (6e8, 3e8, 0.0), (2e9, 0.0, 5e6)])

@@ -10,8 +10,8 @@ import pytest
 
 from bladerub.blade.build import build
 from bladerub.contact.run import simulate
-from bladerub.extensions.rotor37 import direct, nlstep, reference
-from bladerub.extensions.rotor37.numbers import of_displacement
+from bladerub.extras.rotor37 import direct, nlstep, reference
+from bladerub.extras.rotor37.numbers import of_displacement
 from bladerub.io.errors import BadInput
 
 REVOLUTIONS, MODES, STEPS = 10, 20, 1500

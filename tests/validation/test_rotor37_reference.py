@@ -10,9 +10,9 @@ import pandas as pd
 import pytest
 
 from bladerub.blade.build import build
-from bladerub.extensions.rotor37 import direct, numbers, reference
+from bladerub.extras.rotor37 import direct, numbers, reference
+from bladerub.extras.verification.compare import compare
 from bladerub.io.folders import BENCHMARKS
-from bladerub.verification.compare import compare
 
 KNOWN = BENCHMARKS / "rotor37"
 

@@ -1,7 +1,7 @@
 """Stress of the blade against CalculiX, an independent finite element program.
 
-The decks are those of `bladerub.export.calculix`, with a static step that states the stress. CalculiX finds
-the displacement of the blade with C3D20 elements, of 27 integration points each, and the stress at the nodes.
+The decks are those of `bladerub.extras.export.calculix`, with a static step that states the stress.
+CalculiX finds the displacement of the blade with C3D20 elements, of 27 integration points each, and the stress at the nodes.
 The test needs the solver `ccx` on the path.
 Expected: the largest stress to 1 % outside of the tenths of the span at root and tip; at each node within 1 %
 of it from 15 to 80 % of the span. At the edges of the root, where it depends on the mesh, the largest stress
@@ -21,7 +21,7 @@ from bladerub.blade.build import build
 from bladerub.blade.built import BuiltBlade
 from bladerub.blade.elasticity import Material
 from bladerub.blade.stress import NodalStress, running_displacement, von_mises
-from bladerub.export.calculix import deck
+from bladerub.extras.export.calculix import deck
 
 CCX = shutil.which("ccx")
 CONFIG = Path(__file__).parents[2] / "config" / "config.yaml"

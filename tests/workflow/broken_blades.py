@@ -15,7 +15,7 @@ from scipy.io import mmwrite
 from bladerub.blade.geometry import BladeShape
 from bladerub.blade.mesh import BladeMesh
 from bladerub.config.read import load
-from bladerub.export.mesh_file import write_mesh_file
+from bladerub.extras.export.mesh_file import write_mesh_file
 
 CONFIG = Path(__file__).parents[2] / "config" / "config.yaml"
 

@@ -7,7 +7,7 @@ from skfem import MeshTet1
 from bladerub.blade.geometry import BladeShape, lattice
 from bladerub.blade.sources.mesh_file import raised
 from bladerub.config.read import load
-from bladerub.export.mesh_file import write_mesh_file
+from bladerub.extras.export.mesh_file import write_mesh_file
 from bladerub.io import hdf5
 
 PICTURE = "results/figures/fig01_blade.png"

@@ -5,7 +5,7 @@ from scipy import sparse
 
 from bladerub.blade.build import discretise, meshed_blade
 from bladerub.config.read import load
-from bladerub.export.matrices import write_fe_matrices
+from bladerub.extras.export.matrices import write_fe_matrices
 from bladerub.io import hdf5
 
 PICTURE = "results/figures/fig01_blade.png"

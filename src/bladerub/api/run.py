@@ -11,6 +11,7 @@ import xarray as xr
 from matplotlib.figure import Figure
 from tqdm.auto import tqdm
 
+from bladerub import plugins
 from bladerub.api.blade import Blade
 from bladerub.api.dataset import to_dataset
 from bladerub.api.errors import InputError
@@ -23,7 +24,6 @@ from bladerub.contact.result import Energy, RunResult
 from bladerub.contact.row_spec import Row
 from bladerub.contact.setup import compile_kernel
 from bladerub.contact.spec import RunSpec
-from bladerub.extensions.stress.run import RunStress, simulate_with_stress
 from bladerub.io.equality import equal
 from bladerub.io.provenance import PREFIX, provenance
 from bladerub.plots import single_run, titles
@@ -89,7 +89,7 @@ class Run:
 
     stored: StoredRun = field(repr=False)
     longer: "Run | None" = None
-    stress: RunStress | None = None
+    stress: Any = None
 
     def __eq__(self, other: object) -> bool:
         return equal(_content(self), _content(other)) if isinstance(other, Run) else NotImplemented
@@ -397,17 +397,28 @@ def _on_gpu(blade: ReducedBlade, spec: RunSpec, progress: Callable[[int], None] 
     return result
 
 
+def _stress() -> Any:
+    """Return the module that finds the stress of the blade; `ValueError` where the package is without it."""
+    if "stress" not in plugins.offered("MEASURES"):
+        raise ValueError("stress = True: this package is without what finds the stress, must be False")
+    return plugins.load(plugins.offered("MEASURES")["stress"])
+
+
+def _described_stress(attributes: Mapping[str, Any]) -> Any:
+    return _stress().RunStress.described(attributes) if "stress" in plugins.offered("MEASURES") else None
+
+
 class _StressSolver:
     """Simulates a run and keeps its stress."""
 
     def __init__(self, blade: Blade, run: StudyRun):
         self._mesh, self._last = blade.mesh_path, run.config["analysis"]["spectrum_revolutions"]
-        self.stress: RunStress | None = None
+        self.stress: Any = None
 
     def __call__(
         self, blade: ReducedBlade, spec: RunSpec, progress: Callable[[int], None] | None
     ) -> RunResult:
-        result, self.stress = simulate_with_stress(self._mesh, blade, spec, self._last, progress)
+        result, self.stress = _stress().simulate_with_stress(self._mesh, blade, spec, self._last, progress)
         return result
 
 
@@ -458,7 +469,7 @@ def runs_of(run: Run, prefix: str = "") -> dict[str, StoredRun]:
 def run_of(runs: Mapping[str, StoredRun], prefix: str = "") -> Run:
     """Return the run whose parts, as of `runs_of`, are among `runs`."""
     stored, longer = runs[prefix], runs.get(f"{prefix}{_LONGER}")
-    return Run(stored, Run(longer) if longer else None, RunStress.described(stored.attributes))
+    return Run(stored, Run(longer) if longer else None, _described_stress(stored.attributes))
 
 
 def _content(run: Run) -> list[Any]:

@@ -1,4 +1,7 @@
-"""The command ``bladerub``: each of its commands is a module with `add_to`, which names its options."""
+"""The command ``bladerub``: each of its commands is a module with `add_to`, which names its options.
+
+Commands of `bladerub.extras` come after those of the study (`bladerub.plugins`).
+"""
 
 import argparse
 import os
@@ -6,38 +9,14 @@ import sys
 from io import TextIOWrapper
 from typing import Any
 
-from bladerub import __version__
-from bladerub.cli import (
-    benchmark,
-    check_law,
-    compare,
-    config,
-    export,
-    fit_coating,
-    import_blade,
-    new,
-    run,
-    status,
-    verify,
-)
+from bladerub import __version__, plugins
+from bladerub.cli import config, import_blade, new, run, status
 from bladerub.cli.inputs import Parser
 from bladerub.config.errors import ConfigError
 from bladerub.io.errors import BadInput, message_for
 from bladerub.io.folders import provide_for_unknown_user
 
-_COMMANDS = (
-    new,
-    config,
-    run,
-    status,
-    verify,
-    benchmark,
-    compare,
-    fit_coating,
-    check_law,
-    export,
-    import_blade,
-)
+_COMMANDS = (new, config, run, status, import_blade)
 
 
 def parser() -> argparse.ArgumentParser:
@@ -45,7 +24,7 @@ def parser() -> argparse.ArgumentParser:
     root = Parser("bladerub", description="Contact of a compressor blade with its abradable coating.")
     root.add_argument("--version", action="version", version=f"bladerub {__version__}")
     commands = root.add_subparsers(title="commands", dest="name", required=True, metavar="COMMAND")
-    for command in _COMMANDS:
+    for command in (*_COMMANDS, *plugins.loaded("COMMANDS").values()):
         command.add_to(commands)
     return root
 

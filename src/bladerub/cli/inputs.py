@@ -184,6 +184,23 @@ def _made_with(base: Path) -> record.Record | None:
     return record.read(study_folder() / results) if isinstance(results, str) else None
 
 
+def add_law_parameters_to(parser: Parser, option: str, text: str) -> None:
+    """Add the option for the parameters of a law."""
+    parser.option(option, text, action="append", default=[], metavar="NAME=VALUE")
+
+
+def law_parameters(option: str, settings: list[str]) -> dict[str, float]:
+    """Read what the command line gives for each parameter of a law."""
+    values = {}
+    for setting in settings:
+        name, _, value = setting.partition("=")
+        try:
+            values[name.strip()] = float(value)
+        except ValueError:
+            raise InputError(f"{option} = {setting}: must be NAME=VALUE, such as viscosity=1e4") from None
+    return values
+
+
 def blade_path(options: argparse.Namespace, config: dict[str, Any]) -> Path:
     """Return the file of ``--blade``, or where the blade of the results folder is or will be."""
     return options.blade or study_folder() / config["results"] / "blade" / "reduced_model.h5"

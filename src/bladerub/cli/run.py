@@ -10,7 +10,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from bladerub.cli import inputs
-from bladerub.cli.check_law import add_parameters_to, parameters
 from bladerub.cli.inputs import InputError, refused
 from bladerub.config.schema import schema
 
@@ -61,7 +60,7 @@ def add_to(commands: Any) -> None:
     text = "law of the elements by its name (docs/laws.md) or its file, instead of contact.law"
     parser.option("--law", text, metavar="LAW")
     text = "parameter of --law, SI units; once for each of them"
-    add_parameters_to(parser, "--law-parameter", text)
+    inputs.add_law_parameters_to(parser, "--law-parameter", text)
     parser.option("--interference", "instead of that of the casing, m", float, metavar="D")
     speed = parser.add_mutually_exclusive_group(required=True)
     speed.add_argument("--f", type=float, metavar="F_OMEGA", help="speed (normalised)")
@@ -140,7 +139,7 @@ def run(options: argparse.Namespace) -> None:
 
 def _with_law(options: argparse.Namespace, study: "Study") -> "Study":
     """Return the study with the law that is asked for, if one is."""
-    values = parameters("--law-parameter", options.law_parameter)
+    values = inputs.law_parameters("--law-parameter", options.law_parameter)
     if options.law is None:
         if values:
             raise InputError(f"--law-parameter = {options.law_parameter[0]}: goes with --law only")

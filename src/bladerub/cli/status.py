@@ -4,16 +4,13 @@ import argparse
 import json
 import sys
 from collections.abc import Mapping
-from pathlib import Path
 from shutil import get_terminal_size
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from tqdm import tqdm
 
+from bladerub import plugins
 from bladerub.cli import inputs
-
-if TYPE_CHECKING:
-    from bladerub.study.inventory import Inventory
 
 _COLUMNS = ("planned", "done", "missing", "stale", "corrupt", "unreadable", "unbounded")
 
@@ -68,7 +65,11 @@ def status(options: argparse.Namespace) -> None:
         counts[case.name] = of_coating.counts
         damaged += of_coating.damaged
         unreadable += of_coating.unreadable
-    of_rows = _rows(config, results, digest, options.thorough)
+    of_rows = [
+        part
+        for inventories in plugins.loaded("INVENTORIES").values()
+        for part in inventories(config, results, digest, options.thorough)
+    ]
     rows = inventory.total(part.counts for part in of_rows) if of_rows else None
     damaged += [path for part in of_rows for path in part.damaged]
     unreadable += [line for part in of_rows for line in part.unreadable]
@@ -126,21 +127,6 @@ def status(options: argparse.Namespace) -> None:
         )
         print(f"  {unreadable[0]}", file=sys.stderr)
         sys.exit(2)
-
-
-def _rows(config: dict[str, Any], results: Path, digest: str | None, thorough: bool) -> list["Inventory"]:
-    """Take the inventories of the rows of blades, if any were begun."""
-    from bladerub.extensions.rotor.plan import PLAN, RUNS, read_plan
-    from bladerub.study import inventory
-
-    path = inputs.study_folder() / PLAN
-    if not ((results / RUNS).exists() and path.exists()):
-        return []
-    plan = read_plan(path, config)
-    return [
-        inventory.take(config, plan.runs(config, name), results / RUNS / name, digest, thorough)
-        for name in plan.combinations
-    ]
 
 
 def _print_table(counts: Mapping[str, Mapping[str, int]]) -> None:

@@ -62,7 +62,7 @@ def solver_digest() -> str:
     """
     folders = (PACKAGE / "contact", PACKAGE / "numerics")
     sources = [path for folder in folders for path in folder.rglob("*.py") if _gpu() not in path.parents]
-    return _source_digest([*sources, PACKAGE / "blade" / "model.py"])
+    return source_digest([*sources, PACKAGE / "blade" / "model.py"])
 
 
 def _gpu() -> Path:
@@ -72,31 +72,23 @@ def _gpu() -> Path:
 @cache
 def gpu_digest() -> str:
     """Digest the source of what computes a run on a GPU, besides `solver_digest`."""
-    return _source_digest(path for path in _gpu().iterdir() if path.suffix in (".py", ".h", ".cu"))
+    return source_digest(path for path in _gpu().iterdir() if path.suffix in (".py", ".h", ".cu"))
 
 
 @cache
 def storage_digest() -> str:
     """Digest the source of what turns a result into its file."""
-    return _source_digest([PACKAGE / "study" / name for name in ("store.py", "spectra.py")])
+    return source_digest([PACKAGE / "study" / name for name in ("store.py", "spectra.py")])
 
 
 @cache
 def growth_digest() -> str:
     """Digest the source of what decides whether a run grows."""
-    return _source_digest([PACKAGE / "study" / "growth.py"])
+    return source_digest([PACKAGE / "study" / "growth.py"])
 
 
-@cache
-def chart_digest() -> str:
-    """Digest the source of what chooses the speeds of a point of the chart and what it keeps of each run."""
-    measuring = ["blade/frequencies.py"]
-    measuring += [f"study/{name}.py" for name in ("spectra", "peaks", "growth", "wear")]
-    searching = [f"extensions/chart/{name}.py" for name in ("grid", "search", "point")]
-    return _source_digest(PACKAGE / name for name in measuring + searching)
-
-
-def _source_digest(paths: Iterable[Path]) -> str:
+def source_digest(paths: Iterable[Path]) -> str:
+    """Digest sources of the package, named by their paths in it."""
     digest = hashlib.sha256()
     for path in sorted(paths):
         # universal newlines: a checkout with other line ends is the same source
@@ -108,4 +100,4 @@ def _source_digest(paths: Iterable[Path]) -> str:
 @cache
 def builder_digest() -> str:
     """Digest the source of what builds a blade."""
-    return _source_digest((PACKAGE / "blade").rglob("*.py"))
+    return source_digest((PACKAGE / "blade").rglob("*.py"))

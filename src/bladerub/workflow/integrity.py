@@ -4,7 +4,7 @@ import os
 from pathlib import Path
 from typing import NamedTuple
 
-from bladerub.extensions.chart.point import PointRow
+from bladerub import plugins
 from bladerub.io import hdf5, tables
 from bladerub.io.errors import DamagedFile, message_for
 from bladerub.study.manifest import ManifestRow, Row, listed_files
@@ -46,10 +46,10 @@ def _examine(path: Path, faults: Faults) -> None:
         hdf5.read(path)
     elif path.name.endswith(tables.DESCRIPTION):
         tables.check(_table_of(path))
-    elif path.suffix == ".tsv" and path.parent.name == "columns":
-        _examine_listed(path, PointRow, faults)
     elif path.name == "manifest.tsv":
         _examine_listed(path, ManifestRow, faults)
+    elif path.suffix == ".tsv" and path.parent.name in plugins.offered("MANIFESTS"):
+        _examine_listed(path, plugins.loaded("MANIFESTS")[path.parent.name], faults)
 
 
 def _table_of(path: Path) -> Path:

@@ -7,7 +7,7 @@ job.log_to(snakemake.log[0])
 from pathlib import Path
 
 from bladerub.blade.built import read
-from bladerub.extensions.blade_comparison import blades, runs
+from bladerub.extras.blade_comparison import blades, runs
 from bladerub.study.maps import read_map
 from bladerub.workflow import outputs
 

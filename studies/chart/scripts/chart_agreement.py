@@ -4,7 +4,7 @@ from bladerub.workflow import job
 
 job.log_to(snakemake.log[0])
 
-from bladerub.extensions.chart.check import agreement
+from bladerub.extras.chart.check import agreement
 from bladerub.io import tables
 from bladerub.workflow import outputs
 

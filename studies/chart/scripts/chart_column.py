@@ -8,8 +8,8 @@ import sys
 from pathlib import Path
 
 from bladerub.blade.validation import read_reduced_blade
-from bladerub.extensions.chart.column import compute_missing
-from bladerub.extensions.chart.point import POINTS, PointRow
+from bladerub.extras.chart.column import compute_missing
+from bladerub.extras.chart.point import POINTS, PointRow
 from bladerub.study.cache import blade_digest
 from bladerub.study.manifest import write_manifest
 

@@ -4,9 +4,9 @@ from bladerub.workflow import job
 
 job.log_to(snakemake.log[0])
 
-from bladerub.extensions.chart.explanation import table
-from bladerub.extensions.chart.table import read_points
-from bladerub.extensions.plots.chart_peaks import chart_explanation
+from bladerub.extras.chart.explanation import table
+from bladerub.extras.chart.table import read_points
+from bladerub.extras.plots.chart_peaks import chart_explanation
 from bladerub.workflow import outputs
 
 peaks = table(snakemake.config, read_points(snakemake.input.manifests))

@@ -4,7 +4,7 @@ from bladerub.workflow import job
 
 job.log_to(snakemake.log[0])
 
-from bladerub.extensions.plots.chart_moduli import chart_map
+from bladerub.extras.plots.chart_moduli import chart_map
 from bladerub.io import tables
 from bladerub.plots import style
 

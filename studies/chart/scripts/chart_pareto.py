@@ -4,9 +4,9 @@ from bladerub.workflow import job
 
 job.log_to(snakemake.log[0])
 
-from bladerub.extensions.chart.choice import pareto
-from bladerub.extensions.chart.stress import read_chart
-from bladerub.extensions.plots.chart_pareto import chart_pareto
+from bladerub.extras.chart.choice import pareto
+from bladerub.extras.chart.stress import read_chart
+from bladerub.extras.plots.chart_pareto import chart_pareto
 from bladerub.workflow import outputs
 
 chart = read_chart(*snakemake.input.tables)

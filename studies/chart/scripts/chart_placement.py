@@ -4,7 +4,7 @@ from bladerub.workflow import job
 
 job.log_to(snakemake.log[0])
 
-from bladerub.extensions.chart.check import summary, table
+from bladerub.extras.chart.check import summary, table
 from bladerub.study.maps import read_map
 from bladerub.workflow import outputs
 

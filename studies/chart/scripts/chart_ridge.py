@@ -4,8 +4,8 @@ from bladerub.workflow import job
 
 job.log_to(snakemake.log[0])
 
-from bladerub.extensions.chart.ridge import summary, table
-from bladerub.extensions.chart.table import read_points
+from bladerub.extras.chart.ridge import summary, table
+from bladerub.extras.chart.table import read_points
 from bladerub.workflow import outputs
 
 ridges = table(snakemake.config, read_points(snakemake.input.manifests))

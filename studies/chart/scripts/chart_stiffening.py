@@ -5,8 +5,8 @@ from bladerub.workflow import job
 job.log_to(snakemake.log[0])
 
 from bladerub.blade.validation import read_reduced_blade
-from bladerub.extensions.chart.stiffening import table
-from bladerub.extensions.plots.chart_peaks import chart_stiffening
+from bladerub.extras.chart.stiffening import table
+from bladerub.extras.plots.chart_peaks import chart_stiffening
 from bladerub.io import tables
 from bladerub.workflow import outputs
 

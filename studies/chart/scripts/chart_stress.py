@@ -5,7 +5,7 @@ from bladerub.workflow import job
 job.log_to(snakemake.log[0])
 
 from bladerub.blade.validation import read_reduced_blade
-from bladerub.extensions.chart.stress import table
+from bladerub.extras.chart.stress import table
 from bladerub.io import tables
 from bladerub.workflow import outputs
 

@@ -4,7 +4,7 @@ from bladerub.workflow import job
 
 job.log_to(snakemake.log[0])
 
-from bladerub.extensions.chart.table import read_points, table
+from bladerub.extras.chart.table import read_points, table
 from bladerub.workflow import outputs
 
 outputs.save(snakemake, table=table(snakemake.config, read_points(snakemake.input.manifests)))

@@ -5,9 +5,9 @@ from bladerub.workflow import job
 job.log_to(snakemake.log[0])
 
 from bladerub.blade.validation import read_reduced_blade
+from bladerub.extras.verification.rigid_casing import table
 from bladerub.io import tables
 from bladerub.study.peaks import COLUMNS
-from bladerub.verification.rigid_casing import table
 from bladerub.workflow import outputs
 
 blade, peaks = read_reduced_blade(snakemake.input.blade), tables.read(snakemake.input.peaks, COLUMNS)

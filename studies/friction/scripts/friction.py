@@ -4,8 +4,8 @@ from bladerub.workflow import job
 
 job.log_to(snakemake.log[0])
 
-from bladerub.extensions.friction import table as compare
-from bladerub.extensions.plots.friction import friction as draw
+from bladerub.extras.friction import table as compare
+from bladerub.extras.plots.friction import friction as draw
 from bladerub.workflow import outputs
 
 constant, coulomb = snakemake.input.manifests[::2], snakemake.input.manifests[1::2]

@@ -5,9 +5,9 @@ from bladerub.workflow import job
 job.log_to(snakemake.log[0])
 
 from bladerub.config import read as configuration
-from bladerub.extensions.identification import sets
-from bladerub.extensions.identification.plan import read_plan
-from bladerub.extensions.identification.sample import simulate
+from bladerub.extras.identification import sets
+from bladerub.extras.identification.plan import read_plan
+from bladerub.extras.identification.sample import simulate
 from bladerub.io import tables
 from bladerub.io.provenance import provenance
 

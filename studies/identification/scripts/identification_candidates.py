@@ -4,8 +4,8 @@ from bladerub.workflow import job
 
 job.log_to(snakemake.log[0])
 
-from bladerub.extensions.identification import candidates, sets, summary
-from bladerub.extensions.identification.plan import read_plan
+from bladerub.extras.identification import candidates, sets, summary
+from bladerub.extras.identification.plan import read_plan
 from bladerub.io import tables
 from bladerub.io.provenance import provenance
 

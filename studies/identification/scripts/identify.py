@@ -6,9 +6,9 @@ job.log_to(snakemake.log[0])
 
 import pandas as pd
 
-from bladerub.extensions.identification import candidates, sets, summary
-from bladerub.extensions.identification.plan import read_plan
-from bladerub.extensions.plots.identification import identification as draw
+from bladerub.extras.identification import candidates, sets, summary
+from bladerub.extras.identification.plan import read_plan
+from bladerub.extras.plots.identification import identification as draw
 from bladerub.io import tables
 from bladerub.workflow import outputs
 

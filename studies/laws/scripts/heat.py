@@ -5,7 +5,7 @@ from bladerub.workflow import job
 job.log_to(snakemake.log[0])
 
 from bladerub.blade.validation import read_reduced_blade
-from bladerub.extensions.heat import table
+from bladerub.extras.heat import table
 from bladerub.workflow import outputs
 
 outputs.save(snakemake, table=table(snakemake.config, read_reduced_blade(snakemake.input.blade)))

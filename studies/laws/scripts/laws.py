@@ -11,7 +11,7 @@ import pandas as pd
 from bladerub.contact.illustration import loading_cycle
 from bladerub.contact.laws import described_law
 from bladerub.contact.spec import PLASTIC, Coating
-from bladerub.extensions.heat import LAYER
+from bladerub.extras.heat import LAYER
 from bladerub.plots.law_cycles import law_cycles
 from bladerub.workflow import outputs
 

@@ -4,8 +4,8 @@ from bladerub.workflow import job
 
 job.log_to(snakemake.log[0])
 
-from bladerub.extensions import long_runs
-from bladerub.extensions.plots.long_runs import long_runs as draw
+from bladerub.extras import long_runs
+from bladerub.extras.plots.long_runs import long_runs as draw
 from bladerub.workflow import outputs
 
 coatings = [long_runs.read(path) for path in snakemake.input.long]

@@ -4,8 +4,8 @@ from bladerub.workflow import job
 
 job.log_to(snakemake.log[0])
 
-from bladerub.extensions import sweeps
-from bladerub.extensions.plots.sweeps import sweeps as draw
+from bladerub.extras import sweeps
+from bladerub.extras.plots.sweeps import sweeps as draw
 from bladerub.study.maps import read_map
 from bladerub.workflow import outputs
 

@@ -4,8 +4,8 @@ from bladerub.workflow import job
 
 job.log_to(snakemake.log[0])
 
-from bladerub.extensions.rig.plan import read_rigs
-from bladerub.extensions.rig.table import compared, table
+from bladerub.extras.rig.plan import read_rigs
+from bladerub.extras.rig.table import compared, table
 from bladerub.plots.rigs import rigs
 from bladerub.workflow import outputs
 

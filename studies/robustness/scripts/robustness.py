@@ -6,10 +6,10 @@ job.log_to(snakemake.log[0])
 
 import pandas as pd
 
-from bladerub.extensions.plots.robustness import robustness as draw
-from bladerub.extensions.robustness import summary
-from bladerub.extensions.robustness.plan import read_plan
-from bladerub.extensions.robustness.sample import COST
+from bladerub.extras.plots.robustness import robustness as draw
+from bladerub.extras.robustness import summary
+from bladerub.extras.robustness.plan import read_plan
+from bladerub.extras.robustness.sample import COST
 from bladerub.io import tables
 from bladerub.workflow import outputs
 

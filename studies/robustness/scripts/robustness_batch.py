@@ -5,9 +5,9 @@ from bladerub.workflow import job
 job.log_to(snakemake.log[0])
 
 from bladerub.config import read as configuration
-from bladerub.extensions.robustness.design import batch
-from bladerub.extensions.robustness.plan import read_plan
-from bladerub.extensions.robustness.sample import judge
+from bladerub.extras.robustness.design import batch
+from bladerub.extras.robustness.plan import read_plan
+from bladerub.extras.robustness.sample import judge
 from bladerub.io import tables
 from bladerub.io.provenance import provenance
 

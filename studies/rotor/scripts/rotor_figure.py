@@ -6,8 +6,8 @@ job.log_to(snakemake.log[0])
 
 from pathlib import Path
 
-from bladerub.extensions.plots import rotor
-from bladerub.extensions.rotor.plan import read_plan
+from bladerub.extras.plots import rotor
+from bladerub.extras.rotor.plan import read_plan
 from bladerub.io import tables
 from bladerub.workflow import outputs
 

@@ -5,8 +5,8 @@ from bladerub.workflow import job
 job.log_to(snakemake.log[0])
 
 from bladerub.blade.validation import read_reduced_blade
-from bladerub.extensions.rotor import pattern
-from bladerub.extensions.rotor.plan import read_plan
+from bladerub.extras.rotor import pattern
+from bladerub.extras.rotor.plan import read_plan
 from bladerub.workflow import outputs
 
 plan = read_plan(snakemake.input.plan, snakemake.config)

@@ -4,8 +4,8 @@ from bladerub.workflow import job
 
 job.log_to(snakemake.log[0])
 
-from bladerub.extensions.rotor import summary
-from bladerub.extensions.rotor.plan import read_plan
+from bladerub.extras.rotor import summary
+from bladerub.extras.rotor.plan import read_plan
 from bladerub.workflow import outputs
 
 plan = read_plan(snakemake.input.plan, snakemake.config)

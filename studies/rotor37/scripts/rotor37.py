@@ -10,8 +10,8 @@ from pathlib import Path
 import numpy as np
 
 from bladerub.blade.validation import read_reduced_blade
-from bladerub.extensions.plots import rotor37 as plots
-from bladerub.extensions.rotor37 import direct, numbers, reference
+from bladerub.extras.plots import rotor37 as plots
+from bladerub.extras.rotor37 import direct, numbers, reference
 from bladerub.io import tables
 from bladerub.io.provenance import provenance
 from bladerub.plots import style

@@ -7,8 +7,8 @@ job.log_to(snakemake.log[0])
 import sys
 
 from bladerub.blade.validation import read_reduced_blade
-from bladerub.extensions.rotor37.numbers import of_coating
-from bladerub.extensions.small_study import map_coating
+from bladerub.extras.rotor37.numbers import of_coating
+from bladerub.extras.small_study import map_coating
 from bladerub.io import tables
 from bladerub.io.provenance import provenance
 from bladerub.study.cache import blade_digest

@@ -5,8 +5,8 @@ from bladerub.workflow import job
 job.log_to(snakemake.log[0])
 
 from bladerub.blade.validation import read_reduced_blade
-from bladerub.extensions.rotor37 import direct
-from bladerub.extensions.rotor37.numbers import of_blade
+from bladerub.extras.rotor37 import direct
+from bladerub.extras.rotor37.numbers import of_blade
 from bladerub.io import tables
 from bladerub.io.provenance import provenance
 

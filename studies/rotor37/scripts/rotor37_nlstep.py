@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pandas as pd
 
-from bladerub.extensions.rotor37.nlstep import COLUMNS, describe
+from bladerub.extras.rotor37.nlstep import COLUMNS, describe
 from bladerub.io import tables
 from bladerub.io.provenance import PREFIX, provenance
 

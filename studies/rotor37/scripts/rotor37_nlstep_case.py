@@ -7,7 +7,7 @@ job.log_to(snakemake.log[0])
 from pathlib import Path
 
 from bladerub.blade.validation import read_reduced_blade
-from bladerub.extensions.rotor37.nlstep import table
+from bladerub.extras.rotor37.nlstep import table
 from bladerub.io import tables
 from bladerub.io.provenance import provenance
 

@@ -5,8 +5,8 @@ from bladerub.workflow import job
 job.log_to(snakemake.log[0])
 
 from bladerub.blade.validation import read_reduced_blade
-from bladerub.extensions.plots.stress import stress as draw
-from bladerub.extensions.stress.table import table
+from bladerub.extras.plots.stress import stress as draw
+from bladerub.extras.stress.table import table
 from bladerub.io import tables
 from bladerub.study.peaks import COLUMNS
 from bladerub.workflow import outputs

@@ -25,9 +25,9 @@ from bladerub.blade.mesh import BladeMesh
 from bladerub.cli import main
 from bladerub.config.read import load
 from bladerub.contact import law
-from bladerub.export.matrices import write_fe_matrices
-from bladerub.export.mesh_file import write_mesh_file
-from bladerub.export.sections import write_sections
+from bladerub.extras.export.matrices import write_fe_matrices
+from bladerub.extras.export.mesh_file import write_mesh_file
+from bladerub.extras.export.sections import write_sections
 
 CONFIG = Path(__file__).parents[3] / "config" / "config.yaml"
 COUNTS = {"chordwise": 7, "thickness": 1, "spanwise": 3}

@@ -7,7 +7,7 @@ import pytest
 
 from bladerub.cli import main
 from bladerub.contact import law
-from bladerub.verification import element_law
+from bladerub.extras.verification import element_law
 
 PAPER = Path(law.__file__).read_text(encoding="utf-8")
 FORCE = "return maximum(trial - element.elastic * increment, 0.0), increment"

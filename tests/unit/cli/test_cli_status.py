@@ -3,7 +3,7 @@ import json
 import pytest
 
 from bladerub.cli import inputs, main
-from bladerub.extensions.chart.point import PointRow
+from bladerub.extras.chart.point import PointRow
 from bladerub.io import hdf5
 from bladerub.io.checksum import file_checksum
 from bladerub.study.manifest import ManifestRow, write_manifest

@@ -21,7 +21,7 @@ from bladerub.contact.laws import described_law, module_of, source_of
 from bladerub.contact.row import simulate_row
 from bladerub.contact.row_spec import Disk, Row
 from bladerub.contact.run import simulate
-from bladerub.extensions.heat import LAYER
+from bladerub.extras.heat import LAYER
 from bladerub.numerics import lanes, memory
 
 PAGE = mmap.PAGESIZE

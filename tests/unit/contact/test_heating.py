@@ -9,7 +9,7 @@ from bladerub.contact.heating import CELLS, HEATED, Layer, cell_heights, decay
 from bladerub.contact.kernel.records import at_rest
 from bladerub.contact.laws import described_law, module_of
 from bladerub.contact.spec import Coating
-from bladerub.extensions.heat import LAYER
+from bladerub.extras.heat import LAYER
 
 THICKNESS, AREA, PERIOD = 5e-3, np.linspace(1e-6, 2e-6, 8), 0.02
 N = 12

@@ -1,20 +1,21 @@
 import pytest
 
+from bladerub.extras.chart import column
 from bladerub.io import sources
 
 CHARTING = [
     "blade/frequencies.py",
     "study/peaks.py",
     "study/wear.py",
-    "extensions/chart/grid.py",
-    "extensions/chart/search.py",
-    "extensions/chart/point.py",
+    "extras/chart/grid.py",
+    "extras/chart/search.py",
+    "extras/chart/point.py",
 ]
 
 
 @pytest.fixture
 def package(tmp_path, monkeypatch):
-    for folder in ("contact/kernel", "contact/gpu", "blade", "study", "extensions/chart"):
+    for folder in ("contact/kernel", "contact/gpu", "blade", "study", "extras/chart"):
         (tmp_path / folder).mkdir(parents=True)
     for name in (
         "contact/run.py",
@@ -33,7 +34,7 @@ def package(tmp_path, monkeypatch):
 
 SOLVER, STORAGE = sources.solver_digest.__wrapped__, sources.storage_digest.__wrapped__
 GROWTH = sources.growth_digest.__wrapped__
-CHART = sources.chart_digest.__wrapped__
+CHART = column.chart_digest.__wrapped__
 GPU = sources.gpu_digest.__wrapped__
 
 
@@ -113,5 +114,5 @@ class TestCoverage:
     def test_of_the_points_of_the_chart(self, left_out):
         # values and orders of the config are in the key
         config = {"study/grid.py", "study/casings.py", "study/orders.py", "blade/sources/frame.py"}
-        found = left_out("extensions.chart.search", SOLVER, CHART)
+        found = left_out("extras.chart.search", SOLVER, CHART)
         assert found == config | {"study/manifest.py"}  # the name of a longer run

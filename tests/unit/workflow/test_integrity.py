@@ -9,7 +9,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from bladerub.extensions.chart.point import PointRow
+from bladerub.extras.chart.point import PointRow
 from bladerub.io import hdf5, tables
 from bladerub.io.checksum import file_checksum
 from bladerub.io.hdf5 import Variable

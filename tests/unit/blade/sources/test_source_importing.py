@@ -10,7 +10,7 @@ from bladerub.blade.mesh import BladeMesh
 from bladerub.blade.sources.frame import Frame
 from bladerub.blade.sources.importing import import_blade
 from bladerub.blade.sources.origin import Source
-from bladerub.export.mesh_file import write_mesh_file
+from bladerub.extras.export.mesh_file import write_mesh_file
 from bladerub.io.errors import BadInput
 
 REDUCTION = {

@@ -19,7 +19,7 @@ from bladerub.blade.sources import matrix_folder
 from bladerub.blade.sources.frame import Frame
 from bladerub.blade.sources.matrices import import_matrices
 from bladerub.blade.sources.origin import MATRIX_UNITS, MatrixSource, read
-from bladerub.export.matrices import write_fe_matrices
+from bladerub.extras.export.matrices import write_fe_matrices
 from bladerub.io.errors import BadInput
 
 REDUCTION = {

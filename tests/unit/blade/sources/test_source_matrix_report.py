@@ -12,7 +12,7 @@ from bladerub.blade.sources.frame import Frame
 from bladerub.blade.sources.matrices import ImportedMatrices, import_matrices
 from bladerub.blade.sources.origin import MatrixSource
 from bladerub.blade.sources.report import matrix_report
-from bladerub.export.matrices import write_fe_matrices
+from bladerub.extras.export.matrices import write_fe_matrices
 from bladerub.io.errors import BadInput
 
 REDUCTION = {

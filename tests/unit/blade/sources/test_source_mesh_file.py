@@ -6,7 +6,7 @@ from blade_parts import tetrahedral_mesh
 from bladerub.blade.mesh import hexahedral_mesh
 from bladerub.blade.sources.mesh_file import raised, read
 from bladerub.blade.surface import EDGES
-from bladerub.export.mesh_file import write_mesh_file
+from bladerub.extras.export.mesh_file import write_mesh_file
 
 CORNERS = (np.array([0.0, 0.3, 1.0]), np.array([0.0, 1.0]), np.array([0.0, 0.6, 1.0]))
 

@@ -14,7 +14,7 @@ from bladerub.blade.sources.frame import Frame
 from bladerub.blade.sources.importing import import_blade
 from bladerub.blade.sources.origin import Source
 from bladerub.blade.sources.report import mesh_report, spanwise_elements
-from bladerub.export.mesh_file import write_mesh_file
+from bladerub.extras.export.mesh_file import write_mesh_file
 from bladerub.io.errors import BadInput
 
 REDUCTION = {

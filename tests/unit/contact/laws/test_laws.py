@@ -19,7 +19,7 @@ from bladerub.contact.laws import (
 from bladerub.contact.run import simulate
 from bladerub.contact.setup import compile_kernel
 from bladerub.contact.spec import PLASTIC, Coating, ElementLaw
-from bladerub.extensions.heat import LAYER
+from bladerub.extras.heat import LAYER
 from bladerub.numerics import lanes
 
 AREA, STEP, WORN = 1e-6, 1e-6, 1e-5

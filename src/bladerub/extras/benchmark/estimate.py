@@ -1,0 +1,114 @@
+"""How long the whole study takes on this machine, estimated from runs that are drawn from it.
+
+1. Runs at even distances in the list of the study, so from all coatings and speeds, are computed and stored
+   as the study does it, in as many threads as it would have jobs. Those that grow are followed further.
+2. The members of the ensembles cost what the drawn runs near a peak do. How many there are is known but for
+   those of two peaks that have a speed in common.
+3. Every coating has a job for its runs, its map and its ensembles, which starts Python and imports packages.
+
+Not contained are the blade, tables and figures, and what Snakemake itself does.
+"""
+
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Mapping
+from functools import partial
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from bladerub.blade.model import ReducedBlade
+from bladerub.extras.benchmark.machine import cores as cores_here
+from bladerub.extras.verification.verify import StudyRun, study_runs
+from bladerub.io.provenance import provenance
+from bladerub.study.grid import CoatingCase, coating_cases, run_spec
+from bladerub.study.growth import needs_confirmation
+from bladerub.study.job import compute
+from bladerub.study.maps import first_frequency
+from bladerub.study.members import expected_members
+from bladerub.study.orders import peak_orders
+from bladerub.study.parallel import each_done
+from bladerub.study.plan import PlannedRun, longer_run, planned_run
+from bladerub.study.store import write_run
+
+DRAWN = 128
+_JOBS_OF_A_COATING = ("bladerub.study.job", "bladerub.study.maps", "bladerub.study.ensemble")
+"""What each job of a coating imports: that of its runs, its map and its ensembles."""
+
+
+class _Cost(NamedTuple):
+    """CPU time of one run as the study makes it, s."""
+
+    run: float  # of its length in the config
+    longer: float  # of the repetition that follows its growth, 0 if there is none
+    is_near_a_peak: bool
+
+
+def estimate(
+    blade: ReducedBlade, config: Mapping[str, Any], cores: int, drawn: int = DRAWN
+) -> dict[str, Any]:
+    """Estimate the time of the study `config` from `drawn` of its runs, on so many `cores`.
+
+    Returns CPU seconds of one run (``seconds_per_run``, of the length in the config), the number of ``runs``
+    and ``members``, the ``cores``, and the ``study_minutes`` of wall time on them.
+    """
+    runs = study_runs(config)
+    step = max(1, len(runs) // drawn)
+    n_threads = min(cores, cores_here())  # at once, so that the cores share caches as in the study
+    with tempfile.TemporaryDirectory() as folder:
+        made = partial(_cost, blade, config, Path(folder))
+        costs = [cost for _, cost in each_done(made, runs[step // 2 :: step], n_threads)]
+    per_run = float(np.mean([cost.run for cost in costs]))
+    whole = np.array([cost.run + cost.longer for cost in costs])
+    near = whole[[cost.is_near_a_peak for cost in costs]]
+    members = sum(expected_members(config, case) for case in coating_cases(config))
+    starts = sum(map(_start, _JOBS_OF_A_COATING)) * len(coating_cases(config))
+    seconds = len(runs) * whole.mean() + members * (near.mean() if near.size else whole.mean()) + starts
+    return {
+        "seconds_per_run": per_run,
+        "runs": len(runs),
+        "members": members,
+        "cores": cores,
+        "study_minutes": float(seconds) / cores / 60,
+    }
+
+
+def _cost(blade: ReducedBlade, config: Mapping[str, Any], folder: Path, run: StudyRun) -> _Cost:
+    file, spec = f"{run.name.replace('/', '_')}.h5", run_spec(config, run.case, run.f_omega)
+    planned = planned_run(config, spec, file, False, run.row)
+    start = time.thread_time()  # other processes and threads do not count
+    grows = _make(blade, config, run.case, planned, folder)
+    made = time.thread_time()
+    if grows:
+        _make(blade, config, run.case, longer_run(config, planned), folder / "longer")
+    followed = time.thread_time() - made if grows else 0.0
+    return _Cost(made - start, followed, _is_near_a_peak(blade, config, run))
+
+
+def _make(
+    blade: ReducedBlade, config: Mapping[str, Any], case: CoatingCase, planned: PlannedRun, folder: Path
+) -> bool:
+    """Compute and store a run; return whether it grows."""
+    stored = compute(case, planned, blade, "", config["analysis"])
+    write_run(folder / planned.file, stored, provenance(config))
+    amplitude, status = stored.data["revolution_amplitude"], stored.attributes["status"]
+    return needs_confirmation(amplitude, status, config["analysis"]["divergence"])
+
+
+def _is_near_a_peak(blade: ReducedBlade, config: Mapping[str, Any], run: StudyRun) -> bool:
+    low, high = config["analysis"]["peaks"]["speed_window"]
+    over_crossing = run.f_omega / first_frequency(blade, [run.f_omega])[0]
+    return any(low <= order * over_crossing <= high for order in peak_orders(config, run.case.casing))
+
+
+def _start(module: str) -> float:
+    """CPU time of a process that imports `module`, s."""
+    import resource  # not on every system, where the study does not run either
+
+    before = resource.getrusage(resource.RUSAGE_CHILDREN)
+    subprocess.run([sys.executable, "-c", f"import {module}"], check=True)
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime

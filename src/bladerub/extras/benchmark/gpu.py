@@ -1,0 +1,118 @@
+"""The runs of a study on a GPU: how fast, and how equal to those on this processor."""
+
+import time
+from collections.abc import Callable, Mapping
+from functools import partial
+from typing import Any, NamedTuple
+
+import numpy as np
+import pandas as pd
+
+from bladerub.blade.model import ReducedBlade
+from bladerub.contact.gpu.batch import Device
+from bladerub.contact.gpu.many import LeftOut, simulate_many
+from bladerub.contact.result import RunResult
+from bladerub.contact.run import simulate
+from bladerub.contact.spec import RunSpec
+from bladerub.extras.benchmark import machine
+from bladerub.extras.verification.verify import study_runs
+from bladerub.study.grid import run_spec
+from bladerub.study.parallel import each_done
+
+COLUMNS = [
+    *("gpu", "processor", "cores", "gpu_runs", "handed_over", "kernel_s", "gpu_s", "gpu_steps_per_second"),
+    *("compared_runs", "seconds_per_run", "same_status", "same_steps", "same_contact_steps"),
+    *("peak_error_median", "peak_error_p95", "peak_error_p99", "peak_error_largest", "largest_residual"),
+]
+"""Columns of the table, described in ``io/columns.csv``."""
+
+
+class Measures(NamedTuple):
+    """What is compared of a run."""
+
+    status: str
+    n_steps: int
+    n_contact_steps: int
+    peak: np.ndarray  # In each revolution, m
+    residual: float  # Of the energy ledger
+
+
+def measures(result: RunResult) -> Measures:
+    """Keep of a result what is compared."""
+    counts = (result.n_steps, result.n_contact_steps)
+    return Measures(result.status, *counts, result.revolution_peak, result.energy.residual)
+
+
+def compare(
+    blade: ReducedBlade,
+    config: Mapping[str, Any],
+    device: Callable[..., Any],
+    n_compared: int,
+    report: Callable[[str], None] = lambda line: None,
+) -> dict[str, Any]:
+    """Compute all runs of single blades on coatings of the study `config` on a GPU, and some here as well.
+
+    `device` is `bladerub.contact.gpu.device.run`, or takes its arguments; `n_compared` runs, at even
+    distances in the list of the study, are repeated on all cores of this machine. Returns the numbers of
+    `COLUMNS` but for the ``gpu``: ``kernel_s`` of the loops, ``gpu_s`` from the runs' description to their
+    results, ``seconds_per_run`` of a core of this processor, and the relative error of the largest
+    displacement in a revolution, the largest of the revolutions of a run.
+    """
+    single = [run_spec(config, run.case, run.f_omega) for run in study_runs(config) if not run.row]
+    described = [spec for spec in single if not (spec.coating.is_rigid or spec.coating.coulomb)]
+    kernel: list[float] = []
+    told: list[LeftOut] = []
+    watched: Device = partial(device, watch=kernel.append)
+    start = time.perf_counter()
+    found = {
+        number: measures(result) for number, result in simulate_many(blade, described, watched, told.append)
+    }
+    seconds = time.perf_counter() - start
+    for left_out in told:
+        report(str(left_out))
+    numbers = np.linspace(0, len(described) - 1, min(n_compared, len(described))).astype(int).tolist()
+    report(f"{len(numbers)} runs on this processor")
+
+    def made(number: int) -> tuple[Measures, float]:
+        return _timed(blade, described[number])
+
+    here = dict(each_done(made, numbers, machine.cores()))
+    steps = sum(each.n_steps for each in found.values())
+    return {
+        **{name: machine.describe()[name] for name in ("processor", "cores")},
+        "gpu_runs": len(described),
+        "handed_over": sum(left_out.runs for left_out in told),
+        "kernel_s": sum(kernel),
+        "gpu_s": seconds,
+        "gpu_steps_per_second": steps / sum(kernel),
+        "compared_runs": len(numbers),
+        "seconds_per_run": float(np.mean([cost for _, cost in here.values()])),
+        **agreement([(found[number], here[number][0]) for number in numbers]),
+    }
+
+
+def agreement(pairs: list[tuple[Measures, Measures]]) -> dict[str, float]:
+    """Compare runs on the GPU with the same here, see `compare`."""
+    errors = [float(np.nanmax(np.abs(on_gpu.peak / here.peak - 1))) for on_gpu, here in pairs]
+    median, p95, p99, largest = np.quantile(errors, [0.5, 0.95, 0.99, 1.0]).tolist()
+    return {
+        "same_status": sum(on_gpu.status == here.status for on_gpu, here in pairs),
+        "same_steps": sum(on_gpu.n_steps == here.n_steps for on_gpu, here in pairs),
+        "same_contact_steps": sum(on_gpu.n_contact_steps == here.n_contact_steps for on_gpu, here in pairs),
+        "peak_error_median": median,
+        "peak_error_p95": p95,
+        "peak_error_p99": p99,
+        "peak_error_largest": largest,
+        "largest_residual": max(on_gpu.residual for on_gpu, _ in pairs),
+    }
+
+
+def row(gpu: str, figures: Mapping[str, Any]) -> pd.DataFrame:
+    """Arrange what `compare` returns for the GPU of this name."""
+    return pd.DataFrame([{"gpu": gpu, **figures}], columns=COLUMNS)
+
+
+def _timed(blade: ReducedBlade, spec: RunSpec) -> tuple[Measures, float]:
+    start = time.thread_time()
+    result = simulate(blade, spec)
+    return measures(result), time.thread_time() - start

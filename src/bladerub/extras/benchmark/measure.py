@@ -1,0 +1,172 @@
+"""Speeds of the time loop, measured side by side in one process.
+
+Every loop integrates the same two revolutions from rest: once on a casing so near that the tip touches it in
+a third of the steps, once vibrating freely far from it. Rounds take turns, and the median counts.
+"""
+
+import statistics
+import time
+from collections.abc import Callable, Mapping
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from bladerub.blade.model import ReducedBlade
+from bladerub.contact.kernel.loop import Progress, Simulation
+from bladerub.contact.run import simulate
+from bladerub.contact.setup import set_up
+from bladerub.contact.spec import RunSpec
+from bladerub.extras.benchmark import machine, peak, plain
+from bladerub.extras.benchmark.estimate import estimate
+from bladerub.numerics.vectors import LANES
+from bladerub.study.grid import coating_cases, run_spec, speeds
+
+SHARE = 1 / 3
+"""Share of the steps in contact."""
+REVOLUTIONS = 2
+REPEATS = 25
+"""Marches of the loop of the study in each round: free ones take half a millisecond, so the median counts."""
+PEAK_TURNS = 2_000_000
+
+FLOPS_PER_MODE = 39
+"""Of a step by itself: recurrence 3, damping loss 4, displacement of 16 coordinates of the tip 32."""
+FLOPS_PER_FLIGHT = 61
+"""Of a mode in free flight: increment and last step 9, damping loss 12, mean 4, bound 4, tip 32."""
+FLOPS_PER_FORCED_MODE = 32
+FLOPS_PER_RESPONSE = 2 * 16 * 16
+FLOPS_PER_ELEMENT = 17 + 52  # force once, and wear with its ledger
+FLOPS_PER_NODE = 60
+
+
+def benchmark(
+    blade: ReducedBlade,
+    config: Mapping[str, Any],
+    rounds: int,
+    cores: int | None = None,
+    progress: Callable[[str], None] = lambda stage: None,
+) -> dict[str, Any]:
+    """Measure the time loop beside plain loops and beside the arithmetic of the processor, `rounds` times.
+
+    The coating and speed are those in the middle of the lists of the study `config`, which would run on
+    `cores` (all by default). `progress` is called with the name of each stage. Returns the figures that
+    ``bladerub benchmark --json`` prints.
+    """
+    progress("finding a run with contact in a third of the steps")
+    touching, share = in_contact(blade, middle_run(config))
+    free = replace(touching, clearance=(blade.length, blade.length), initial_displacement=1e-6 * blade.length)
+    progress("compiling the plain loop")
+    specs = {"contact": touching, "free": free}
+    law = touching.coating.element_law
+    in_python, compiled = plain.integrator(law), plain.compiled(law)
+    _plain(compiled, blade, touching, 1)
+    peak.turns(1)
+
+    seconds: dict[str, list[dict[str, float]]] = {name: [] for name in specs}
+    operations: list[float] = []
+    for number in range(rounds):
+        progress(f"round {number + 1} of {rounds}")
+        operations.append(PEAK_TURNS * peak.FLOPS_PER_TURN / _timed(peak.turns, PEAK_TURNS))
+        for name, spec in specs.items():
+            steps = _steps(blade, spec)
+            seconds[name].append(
+                {
+                    "numpy": _plain(in_python, blade, spec, steps) / steps,
+                    "numba": _plain(compiled, blade, spec, steps) / steps,
+                    "production": production(blade, spec) / steps,
+                }
+            )
+    progress("timing runs drawn from the study")
+    study = estimate(blade, config, cores or machine.cores())
+    median = statistics.median
+    flops = {name: useful_flops(blade, spec) for name, spec in specs.items()}
+
+    def ratio(loop: str, name: str) -> float:
+        return median(row[loop] / row["production"] for row in seconds[name])
+
+    return {
+        **machine.describe(),
+        "rounds": rounds,
+        "modes": set_up(blade, touching)[0].omega.size,
+        "contact_share": share,
+        "steps_per_second": {
+            loop: {name: 1 / median(row[loop] for row in rows) for name, rows in seconds.items()}
+            for loop in ("numpy", "numba", "production")
+        },
+        "ratio_to_numpy": ratio("numpy", "contact"),
+        "ratio_to_numba": ratio("numba", "contact"),
+        "ratio_to_numpy_free": ratio("numpy", "free"),
+        "ratio_to_numba_free": ratio("numba", "free"),
+        "peak_flops": median(operations),
+        **{
+            f"fraction_of_peak_{name}": median(
+                flops[name] / row["production"] / rate for row, rate in zip(rows, operations, strict=True)
+            )
+            for name, rows in seconds.items()
+        },
+        **study,
+    }
+
+
+def in_contact(blade: ReducedBlade, spec: RunSpec) -> tuple[RunSpec, float]:
+    """Find the interference of the casing that gives contact in about `SHARE` of the steps; return both."""
+    near, far = 2 * spec.casing.amplitude, 0.0
+    for _ in range(12):
+        interference = 0.5 * (near + far)
+        nearer = replace(spec, casing=replace(spec.casing, interference=interference))
+        result = simulate(blade, nearer)
+        share = result.n_contact_steps / result.n_steps
+        if share > SHARE:
+            near = interference
+        else:
+            far = interference
+    return nearer, share
+
+
+def useful_flops(blade: ReducedBlade, spec: RunSpec) -> float:
+    """Simulate a run, and count the useful operations of its mean step; comparisons are not."""
+    rule, simulation = set_up(blade, spec)
+    n, n_under = rule.omega.size, int(2 * simulation.tip.half_width) + 1
+    made_in = [_revolve(simulation) for _ in range(spec.revolutions)]
+    steps, flights, touching = (
+        sum(getattr(made, count) for made in made_in) for count in ("n_steps", "n_flights", "n_contact_steps")
+    )
+    contact = FLOPS_PER_FORCED_MODE * n + FLOPS_PER_RESPONSE
+    contact += LANES * (n_under * FLOPS_PER_ELEMENT + FLOPS_PER_NODE)
+    single = steps - flights * simulation.flight.n_steps
+    return (n * (FLOPS_PER_MODE * single + FLOPS_PER_FLIGHT * flights) + contact * touching) / steps
+
+
+def middle_run(config: Mapping[str, Any]) -> RunSpec:
+    """Describe the run of the middle coating and speed of the study."""
+    cases = [replace(case, law="theta") for case in coating_cases(config) if np.isfinite(case.E)]
+    listed = speeds(config)
+    spec = run_spec(config, cases[len(cases) // 2], listed[len(listed) // 2])
+    return replace(spec, revolutions=REVOLUTIONS, scheme="exponential")
+
+
+def _timed(function: Callable, *arguments: Any) -> float:
+    start = time.thread_time()  # other processes and threads do not count
+    function(*arguments)
+    return time.thread_time() - start
+
+
+def _plain(integrate: Callable, blade: ReducedBlade, spec: RunSpec, steps: int) -> float:
+    arguments = plain.arguments(spec.coating.element_law, *set_up(blade, spec))
+    return _timed(integrate, *arguments, np.zeros(steps))
+
+
+def production(blade: ReducedBlade, spec: RunSpec) -> float:
+    """Time all revolutions of a run by the loop of the study, s."""
+    repeated = (set_up(blade, spec)[1] for _ in range(REPEATS))
+    return statistics.median(
+        sum(_timed(_revolve, simulation) for _ in range(spec.revolutions)) for simulation in repeated
+    )
+
+
+def _revolve(simulation: Simulation) -> Progress:
+    return simulation.advance(np.zeros(simulation.stator.n_elements))
+
+
+def _steps(blade: ReducedBlade, spec: RunSpec) -> int:
+    return set_up(blade, spec)[1].steps_per_element * spec.coating.n_elements * spec.revolutions

@@ -1,0 +1,3 @@
+"""The speed of the time loop."""
+
+COMMANDS = {"benchmark": "extras.benchmark.command"}

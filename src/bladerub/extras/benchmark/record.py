@@ -1,0 +1,61 @@
+"""A table of the speeds of several machines: a row for each machine and kind of motion."""
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import pandas as pd
+
+from bladerub.io import tables
+
+_MACHINE = ["processor", "vector_bits", "cores"]
+_LOOPS = ("numpy", "numba", "production")
+_WHOLE = ["peak_flops", "seconds_per_run", "study_minutes", "cost_of_stress"]
+COLUMNS = [
+    *(*_MACHINE, "motion"),
+    *(f"steps_per_second_{loop}" for loop in _LOOPS),
+    *("ratio_to_numpy", "ratio_to_numba", "fraction_of_peak", *_WHOLE),
+]
+"""Columns of the table, described in ``io/columns.csv``."""
+
+
+def rows(figures: Mapping[str, Any]) -> pd.DataFrame:
+    """Arrange what `bladerub.extras.benchmark.measure.benchmark` returns in two rows: with contact, and free.
+
+    With the ``cost_of_stress``, if it was measured.
+    """
+    found = []
+    for motion, ending in (("contact", ""), ("free", "_free")):
+        steps = [figures["steps_per_second"][loop][motion] for loop in _LOOPS]
+        ratios = [figures[f"ratio_to_{loop}{ending}"] for loop in ("numpy", "numba")]
+        of_machine, whole = ([figures.get(name) for name in names] for names in (_MACHINE, _WHOLE))
+        found.append([*of_machine, motion, *steps, *ratios, figures[f"fraction_of_peak_{motion}"], *whole])
+    return pd.DataFrame(found, columns=COLUMNS)
+
+
+def record(path: str | Path, figures: Mapping[str, Any], origin: Mapping[str, str]) -> None:
+    """Put the rows of this machine into the table at `path`, in the place of its old ones, if any.
+
+    `origin` is from `bladerub.io.provenance.provenance`. Raises as `recorded`.
+    """
+    replace(path, rows(figures), _MACHINE, origin)
+
+
+def replace(path: str | Path, new: pd.DataFrame, by: list[str], origin: Mapping[str, str]) -> None:
+    """Put rows into the table at `path`, in the place of its old ones with the same values `by` columns.
+
+    Raises as `recorded`.
+    """
+    old = recorded(path, list(new.columns))
+    if len(old):
+        same = (old[by] == new.loc[0, by].to_numpy()).all(axis="columns")
+        new = pd.concat([old[~same], new])
+    tables.write(path, new, origin, float_format="%.4g")
+
+
+def recorded(path: str | Path, columns: list[str] = COLUMNS) -> pd.DataFrame:
+    """Read the table at `path`, which has these columns; it has no rows if there is none.
+
+    Raises as `bladerub.io.tables.read` if there is another table.
+    """
+    return tables.read(path, columns) if Path(path).exists() else pd.DataFrame(columns=columns)

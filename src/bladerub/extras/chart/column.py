@@ -1,0 +1,128 @@
+"""The job of one column of the chart: every point that is missing or stale, and the rows of its manifest."""
+
+import functools
+import time
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import asdict
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from bladerub.blade.frequencies import reduced_frequencies
+from bladerub.blade.model import ReducedBlade
+from bladerub.contact.gpu.many import simulate_many
+from bladerub.contact.gpu.server import find
+from bladerub.extras.chart import point as points
+from bladerub.extras.chart.grid import ChartSpeeds, chart_orders, chart_speeds
+from bladerub.extras.chart.point import PointRow
+from bladerub.extras.chart.search import compute, compute_together, search
+from bladerub.io import lock, sources
+from bladerub.io.checksum import file_checksum
+from bladerub.io.sources import gpu_digest, solver_digest
+from bladerub.study import cache
+from bladerub.study.grid import CoatingCase, run_spec
+from bladerub.study.parallel import each_done
+from bladerub.study.plan import on_gpu
+
+
+@functools.cache
+def chart_digest() -> str:
+    """Digest the source of what chooses the speeds of a point of the chart and what it keeps of each run."""
+    measuring = ["blade/frequencies.py"]
+    measuring += [f"study/{name}.py" for name in ("spectra", "peaks", "growth", "wear")]
+    searching = [f"extras/chart/{name}.py" for name in ("grid", "search", "point")]
+    return sources.source_digest(sources.PACKAGE / name for name in measuring + searching)
+
+
+def determinants(config: Mapping[str, Any], case: CoatingCase, speeds: ChartSpeeds) -> str:
+    """Digest all that determines the file of the point of a coating but the blade.
+
+    Other points, and the coatings of the study, have no part in it.
+    """
+    analysis = config["analysis"]
+    gpu = {"gpu": gpu_digest()} if on_gpu(config) else {}
+    return cache.digest(
+        gpu
+        | {
+            "spec": asdict(run_spec(config, case, f_omega=0.0)),
+            "f_omega": speeds.f_omega.tolist(),
+            "uniform": np.flatnonzero(speeds.uniform).tolist(),
+            "coarse": np.flatnonzero(speeds.coarse).tolist(),
+            "refine_above": float(config["chart"]["speeds"]["refine_above"]),
+            "orders": chart_orders(config),
+            "window": [float(end) for end in analysis["peaks"]["speed_window"]],
+            "order_halfwidth": float(analysis["peaks"]["order_halfwidth"]),
+            "spectrum_revolutions": float(analysis["spectrum_revolutions"]),
+            "lobe_prominence": float(analysis["lobe_prominence"]),
+            "divergence": {name: float(value) for name, value in analysis["divergence"].items()},
+            "solver": solver_digest(),
+            "chart": chart_digest(),
+        }
+    )
+
+
+def plan_column(config: Mapping[str, Any], cases: Sequence[CoatingCase]) -> dict[CoatingCase, str]:
+    """Plan the points of a column: the `determinants` of each."""
+    speeds = chart_speeds(config)
+    return {case: determinants(config, case, speeds) for case in cases}
+
+
+def compute_missing(
+    config: Mapping[str, Any],
+    plan: Mapping[CoatingCase, str],
+    blade: ReducedBlade,
+    folder: str | Path,
+    blade_digest: str,
+    report: Callable[[str], None],
+    threads: int = 1,
+) -> list[PointRow]:
+    """Compute those points of a column whose file is missing or stale, as `bladerub.study.job` does runs.
+
+    `plan` is of `plan_column`, `blade_digest` of `bladerub.study.cache`, `folder` that of the points of the
+    whole chart; `report` is called with a line for a log after each computed point, and before waiting.
+    `threads` points are computed at once, or all together on a GPU where ``solver.device`` says so. The rows
+    are for `bladerub.study.manifest.write_manifest`.
+    """
+    folder, speeds, first = Path(folder), chart_speeds(config), next(iter(plan))
+    column_lock = folder / f".{first.casing}_E{first.E:g}_theta{first.theta:g}.lock"
+    entries = {
+        case: cache.Entry(
+            folder / f"{case.name}.h5", cache.digest([planned, blade_digest]), points.MEASURES.keys()
+        )
+        for case, planned in plan.items()
+    }
+    with lock.held(column_lock, lambda: report("another job is at work on this column: waiting for its end")):
+        checksums = {}
+        missing = [case for case, entry in entries.items() if not entry.fetch()]
+        if missing:
+            C1 = np.array([reduced_frequencies(blade, f, n_modes=1)[0] for f in speeds.f_omega]) / blade.f1_hz
+
+        def made(case: CoatingCase) -> tuple[points.ChartPoint, float]:
+            start = time.monotonic()
+            return compute(config, case, blade, speeds, C1), start
+
+        def made_together() -> Iterator[tuple[CoatingCase, tuple[points.ChartPoint, float]]]:
+            start = time.monotonic()
+            searches = {case: search(config, case, blade, speeds, C1) for case in missing}
+            solve = functools.partial(
+                simulate_many, blade, device=find(), report=lambda line: report(str(line))
+            )
+            return ((case, (point, start)) for case, point in compute_together(searches, solve))
+
+        done = made_together() if on_gpu(config) else each_done(made, missing, threads)
+        for number, (case, (point, start)) in enumerate(done, 1):
+            entry = entries[case]
+            entry.make_room()
+            checksums[case] = points.write(entry.path, point, entry.key, config)
+            seconds = time.monotonic() - start
+            report(f"[{number}/{len(missing)}] {case.name}: {point.known.sum()} runs in {seconds:.1f} s")
+        return [
+            PointRow(
+                entry.path.name,
+                entry.key,
+                entry.path.stat().st_size,
+                checksums.get(case) or file_checksum(entry.path),
+            )
+            for case, entry in entries.items()
+        ]

@@ -1,0 +1,3 @@
+"""A chart of many coatings."""
+
+MANIFESTS = {"columns": "extras.chart.point:PointRow"}

@@ -1,0 +1,185 @@
+"""The runs of one point of the chart: at which speeds, and what is kept of each.
+
+1. The point is run at the coarse speeds, then around the maxima of `sought`: each Y_k within the windows of
+   `bladerub.study.peaks`, and the greatest displacement over all speeds.
+2. The intervals on both sides of each local maximum are halved until the neighbours on the grid are run.
+   Local maxima below a set share of the greatest are left as they are. The peaks are ragged, so that a low
+   local maximum may hide a higher peak; `bladerub.extras.chart.check` measures how often it does.
+3. Each run is the study's run of that coating and speed, and is measured as there.
+4. Divergence is judged at the uniform speeds alone, as in `bladerub.study.growth`, with the longer run where
+   the amplitude grows: the search must not weigh in the share of divergent speeds. The longer runs are made
+   together after the search, which does not depend on them.
+"""
+
+from collections.abc import Callable, Generator, Iterable, Iterator, Mapping, Sequence
+from itertools import islice
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from bladerub.blade.model import ReducedBlade
+from bladerub.contact.result import RunResult
+from bladerub.contact.run import simulate
+from bladerub.contact.setup import element_area
+from bladerub.contact.spec import RunSpec
+from bladerub.extras.chart.grid import ChartSpeeds, chart_orders
+from bladerub.extras.chart.point import MEASURES, ChartPoint
+from bladerub.study.grid import CoatingCase, run_spec
+from bladerub.study.growth import confirmation_spec, judge, needs_confirmation
+from bladerub.study.peaks import Response, amplitude_in_window
+from bladerub.study.spectra import order_spectrum
+from bladerub.study.wear import lobes
+
+Search = Generator[list[RunSpec], list[RunResult], ChartPoint]
+"""Yields runs, is sent their results, and returns the point in the end."""
+
+
+def compute(
+    config: Mapping[str, Any], case: CoatingCase, blade: ReducedBlade, speeds: ChartSpeeds, C1: np.ndarray
+) -> ChartPoint:
+    """Run the coating `case` at the speeds that the search chooses; `C1` (n,) is normalised."""
+
+    def solve(specs: Sequence[RunSpec]) -> Iterator[tuple[int, RunResult]]:
+        return ((number, simulate(blade, spec)) for number, spec in enumerate(specs))
+
+    ((_, point),) = compute_together({case: search(config, case, blade, speeds, C1)}, solve)
+    return point
+
+
+def compute_together(
+    searches: Mapping[CoatingCase, Search],
+    solve: Callable[[Sequence[RunSpec]], Iterable[tuple[int, RunResult]]],
+) -> Iterator[tuple[CoatingCase, ChartPoint]]:
+    """Carry out searches together; yield each point, with its coating, as it is complete.
+
+    `solve` yields the number of each run that it is given, with its result.
+    """
+    wanted = {case: next(each) for case, each in searches.items()}
+    while wanted:
+        found = dict(solve([spec for specs in wanted.values() for spec in specs]))
+        results, more = iter([found[number] for number in range(len(found))]), {}
+        for case, specs in wanted.items():
+            try:
+                more[case] = searches[case].send(list(islice(results, len(specs))))
+            except StopIteration as end:
+                yield case, end.value
+        wanted = more
+
+
+def search(
+    config: Mapping[str, Any], case: CoatingCase, blade: ReducedBlade, speeds: ChartSpeeds, C1: np.ndarray
+) -> Search:
+    """Search for the maxima of a coating, as `compute` does."""
+    n, orders = speeds.f_omega.size, chart_orders(config)
+    point = ChartPoint(
+        case=case,
+        f_omega=speeds.f_omega,
+        C1=C1,
+        spectrum_order=np.array(orders, dtype=float),
+        spectrum_amplitude=np.full((n, len(orders)), np.nan),
+        uniform=speeds.uniform,
+        measures={name: np.full(n, np.nan) for name in MEASURES},
+    )
+    share, pending = config["chart"]["speeds"]["refine_above"], np.flatnonzero(speeds.coarse).tolist()
+    ends: list[_End] = []
+    while pending:
+        specs = [run_spec(config, case, point.f_omega[index]) for index in pending]
+        for index, spec, result in zip(pending, specs, (yield specs), strict=True):
+            _enter(config["analysis"], blade, point, index, spec, result)
+            if point.uniform[index]:
+                ends.append(_End(index, spec, result.revolution_amplitude, result.status))
+        pending = next_speeds(point.known, sought(config, point, point.measures["peak"]).values(), share)
+    yield from _judge(config["analysis"], point, ends)
+    return point
+
+
+def sought(config: Mapping[str, Any], response: Response, peak: np.ndarray) -> dict[str, np.ndarray]:
+    """Curves (n,) over speed whose maxima are sought, by column of the chart; NaN where not sought or run.
+
+    `peak` (n,) is the greatest displacement at each speed, m.
+    """
+    settings = config["analysis"]["peaks"]
+    orders = chart_orders(config)
+    amplitudes = {f"Y{order}": amplitude_in_window(response, order, settings) for order in orders}
+    return amplitudes | {"peak": peak}
+
+
+def next_speeds(known: np.ndarray, curves: Iterable[np.ndarray], share: float) -> list[int]:
+    """Return the speeds to run next, as ascending indices into the grid; none once all maxima are enclosed.
+
+    `known` (n,) are the speeds that were run, `curves` (n,) the quantities whose maxima are sought, NaN where
+    not; local maxima below `share` of the greatest are left as they are.
+    """
+    at = np.flatnonzero(known)
+    wanted: set[int] = set()
+    for curve in curves:
+        values = np.nan_to_num(curve[at], nan=-np.inf)
+        if not np.isfinite(values).any():
+            continue
+        left, right = np.append(-np.inf, values[:-1]), np.append(values[1:], -np.inf)
+        maxima = np.flatnonzero((values >= left) & (values >= right) & (values >= share * values.max()))
+        for low, high in [*zip(maxima - 1, maxima, strict=True), *zip(maxima, maxima + 1, strict=True)]:
+            if low >= 0 and high < at.size and at[high] - at[low] > 1:
+                wanted.add(int(at[low] + at[high]) // 2)
+    return sorted(wanted)
+
+
+def _enter(
+    analysis: Mapping[str, Any],
+    blade: ReducedBlade,
+    point: ChartPoint,
+    index: int,
+    spec: RunSpec,
+    result: RunResult,
+) -> None:
+    """Put what is measured of a run at one speed into `point`."""
+    point.spectrum_amplitude[index] = _amplitudes(analysis, point.spectrum_order, spec, result)
+    for name, value in _measured(analysis, blade, spec, result).items():
+        point.measures[name][index] = value
+
+
+def _amplitudes(
+    analysis: Mapping[str, Any], orders: np.ndarray, spec: RunSpec, result: RunResult
+) -> list[float]:
+    """Largest amplitude on each of the engine orders, m."""
+    halfwidth = analysis["peaks"]["order_halfwidth"]
+    order, amplitude = order_spectrum(
+        result.radial_displacement, spec.revolutions, analysis["spectrum_revolutions"], orders.max() + 1
+    )
+    return [float(amplitude[np.abs(order - wanted) <= halfwidth + 1e-9].max()) for wanted in orders]
+
+
+def _measured(
+    analysis: Mapping[str, Any], blade: ReducedBlade, spec: RunSpec, result: RunResult
+) -> dict[str, float]:
+    return {
+        "peak": float(np.nanmax(result.revolution_peak)),
+        "worn_volume": float(result.wear.sum(axis=1) @ element_area(blade, spec)),
+        "deepest_wear": float(result.wear.max()),
+        "lobes": lobes(result.angle, result.wear, analysis["lobe_prominence"]),
+        "unbounded": float(result.status == "unbounded"),
+        "revolutions": result.n_steps * result.time_step * spec.f_omega * blade.f1_hz,
+        **{f"energy_{name}": getattr(result.energy, name) for name in ("damping", "wear", "sliding")},
+    }
+
+
+class _End(NamedTuple):
+    """What tells whether a run diverges."""
+
+    index: int  # of its speed
+    spec: RunSpec
+    amplitude: np.ndarray  # of each revolution, m
+    status: str
+
+
+def _judge(
+    analysis: Mapping[str, Any], point: ChartPoint, ends: Sequence[_End]
+) -> Generator[list[RunSpec], list[RunResult], None]:
+    """Judge whether runs diverge, and put it into `point`; ask for the longer runs of those that grow."""
+    settings = analysis["divergence"]
+    growing = [end for end in ends if needs_confirmation(end.amplitude, end.status, settings)]
+    found = yield [confirmation_spec(end.spec, settings) for end in growing]
+    longer = {end.index: result.revolution_amplitude for end, result in zip(growing, found, strict=True)}
+    for end in ends:
+        verdict = judge(end.amplitude, end.status, settings, longer.get(end.index))
+        point.measures["divergent"][end.index] = float(verdict.divergent)

@@ -1,0 +1,165 @@
+"""The blade itself for other programs, a part of ``bladerub export``."""
+
+import argparse
+from pathlib import Path
+from typing import Any
+
+from bladerub.blade.sources.origin import TABLE_SUFFIXES
+from bladerub.cli import inputs
+from bladerub.cli.inputs import InputError, refused
+
+COORDINATES = ("cartesian", "cylindrical")
+
+
+def add_to(form: Any) -> None:
+    """Add the options that each name what to write of the blade."""
+    for option, metavar, text in (
+        ("--calculix", "DIR", "a folder for CalculiX decks, one for each speed"),
+        (
+            "--mesh",
+            "FILE",
+            "mesh and node sets: .inp, .msh, or .vtu with modes and centrifugal displacements",
+        ),
+        ("--matrices", "FILE", "the reduced blade: .npz or .mat"),
+        (
+            "--fe-matrices",
+            "DIR",
+            "a new folder for what bladerub import reads: finite element matrices, nodes",
+        ),
+        ("--sections", "FILE", "table of sections of a parametric blade: .csv, .txt, .dat"),
+    ):
+        form.add_argument(option, type=Path, metavar=metavar, help=text)
+
+
+def write(options: argparse.Namespace, config: dict[str, Any]) -> dict[str, Any]:
+    """Write what the command line asks for of the blade; return the files and the size of the blade."""
+    if options.fe_matrices:
+        return _write_fe_matrices(options, config)
+
+    from bladerub.blade.elasticity import Material
+    from bladerub.extras.export import calculix, matrices, mesh_file
+    from bladerub.extras.export.vtu import read_mesh
+
+    for option, suffixes in (("mesh", mesh_file.FORMATS), ("matrices", matrices.SUFFIXES)):
+        file = getattr(options, option)
+        if file and file.suffix.lower() not in suffixes:
+            raise InputError(f"--{option} {file}: must end in {', '.join(suffixes)}")
+    found = inputs.read_blade(options, config)
+    path, blade = found.path, found.reduced
+    with refused(OSError):
+        mesh = read_mesh(found.mesh_path, blade)
+        needs_elements = options.calculix or (options.mesh and options.mesh.suffix.lower() != ".vtu")
+        if needs_elements and not len(mesh["cells"]):
+            raise InputError(
+                f"{path}: is of matrices, without elements; write --mesh with .vtu or --matrices"
+            )
+        if options.matrices:
+            matrices.write_matrices(options.matrices, blade)
+            files = [options.matrices]
+        elif options.mesh:
+            sets = {name: mesh[f"{name}_nodes"] for name in ("root", "tip", "interface")}
+            fields = _fields(found.mesh_path)
+            mesh_file.write_mesh_file(options.mesh, mesh["points"], mesh["cells"], sets, fields)
+            files = [options.mesh]
+        else:
+            material = Material.from_config(config["blade"]["material"])
+            body = (mesh["points"], mesh["cells"], mesh["root_nodes"], material)
+            speeds = _speeds(options, blade.f_omega_max)
+            files = calculix.write_decks(options.calculix, speeds, blade.f1_hz, *body)
+    return _figures(files, mesh["points"], mesh["cells"], len(blade.mass))
+
+
+def _write_fe_matrices(options: argparse.Namespace, config: dict[str, Any]) -> dict[str, Any]:
+    """Compute the finite element matrices of the blade of the config again, and write them."""
+    folder = options.fe_matrices
+    if folder.exists() and not (folder.is_dir() and not any(folder.iterdir())):
+        raise InputError(f"--fe-matrices {folder}: is there already, must be a new or an empty folder")
+    if "matrices" in config["blade"].get("source", {}):
+        raise InputError("--fe-matrices: the blade of the config is of matrices already, without elements")
+    inputs.require_writable("fe-matrices", folder)
+    f_max = config["reduction"]["f_omega_max"]
+    speeds = sorted(_speeds(options, f_max))
+
+    from bladerub.blade.build import meshed_blade
+    from bladerub.blade.discrete import by_finite_elements
+    from bladerub.blade.elasticity import Material
+    from bladerub.blade.model import n_interface
+    from bladerub.blade.reduction import fit_speeds
+    from bladerub.extras.export.matrices import write_fe_matrices
+
+    blade = by_finite_elements(
+        meshed_blade(config["blade"], n_interface(config)),
+        Material.from_config(config["blade"]["material"]),
+        [*fit_speeds(f_max), *speeds],
+        [],
+        config["reduction"]["accuracy_modes"],
+    )
+    files = write_fe_matrices(folder, blade, f_max, f".{options.matrix_format or 'mtx'}")
+    mesh = blade.layout.mesh.mesh
+    return _figures(files, mesh.points, mesh.cells, blade.free.free.size)
+
+
+def _figures(files: Any, points: Any, cells: Any, coordinates: int) -> dict[str, Any]:
+    return {
+        "files": [str(file) for file in files],
+        "nodes": len(points),
+        "elements": len(cells),
+        "coordinates": coordinates,
+    }
+
+
+def _fields(path: Path) -> dict[str, Any]:
+    """Read the modes at rest and the centrifugal displacements (m) by name from ``mesh.h5``."""
+    from bladerub.io import hdf5
+
+    data, _ = hdf5.read(path, {"mode_shape", "frequency", "static_displacement", "f_omega"})
+    modes = enumerate(zip(data["frequency"], data["mode_shape"], strict=True), 1)
+    moved = zip(data["f_omega"], data["static_displacement"], strict=True)
+    return {f"mode_{number}_{hertz:.5g}_Hz": shape for number, (hertz, shape) in modes} | {
+        f"centrifugal_{f_omega:.4f}": displacement for f_omega, displacement in moved if f_omega > 0
+    }
+
+
+def _speeds(options: argparse.Namespace, highest: float) -> list[float]:
+    if options.speeds is None:
+        return [0.0, highest / 2, highest]
+    for speed in options.speeds:
+        if not 0 <= speed <= highest:
+            raise InputError(f"--speeds {speed:g}: must be from 0 to {highest:g} (normalised)")
+    return list(dict.fromkeys(options.speeds))
+
+
+def in_words(figures: dict[str, Any]) -> str:
+    """Report what was written."""
+    size = f"{figures['elements']} elements, {figures['nodes']} nodes"
+    about = f"blade of {size}, matrices of {figures['coordinates']} coordinates"
+    return "\n".join([about, *(f"wrote {file}" for file in figures["files"])])
+
+
+def write_sections(options: argparse.Namespace, config: dict[str, Any]) -> dict[str, Any]:
+    """Write the table that the command line asks for; return its size."""
+    path = options.sections
+    if path.suffix.lower() not in TABLE_SUFFIXES:
+        raise InputError(f"--sections {path}: must end in {', '.join(TABLE_SUFFIXES)}")
+    if source := config["blade"].get("source"):
+        origin = source.get("file") or source["matrices"]
+        raise InputError(
+            f"--sections {path}: the blade comes from {origin}; only a parametric one has sections"
+        )
+
+    from bladerub.blade.geometry import BladeShape
+    from bladerub.extras.export import sections
+
+    coordinates = options.coordinates or COORDINATES[0]
+    with refused(OSError), refused(ValueError, because=f"--coordinates {coordinates}: "):
+        n_sections, n_stations = sections.write_sections(
+            path, BladeShape.from_config(config["blade"]), coordinates
+        )
+    return {"files": [str(path)], "coordinates": coordinates, "sections": n_sections, "stations": n_stations}
+
+
+def sections_in_words(figures: dict[str, Any]) -> str:
+    """Report what was written."""
+    (file,) = figures["files"]
+    size = f"{figures['sections']} sections, {figures['stations']} stations in all"
+    return f"{size}, in m and rad, {figures['coordinates']} coordinates\nwrote {file}"

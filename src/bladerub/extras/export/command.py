@@ -1,0 +1,259 @@
+"""``bladerub export``: a run or the blade for other programs."""
+
+import argparse
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from bladerub.cli import inputs
+from bladerub.cli.inputs import InputError, refused
+from bladerub.extras.export import blade_command
+
+if TYPE_CHECKING:
+    from bladerub.api.blade import Blade
+    from bladerub.blade.model import ReducedBlade
+    from bladerub.contact.recording import Recording
+    from bladerub.contact.row_spec import Row
+    from bladerub.study.plan import PlannedRun
+    from bladerub.study.store import StoredRun
+
+SAME = 1e-6
+"""Largest relative difference of the peaks at which a run computed again counts as the run of the file."""
+
+_GOES_WITH = {
+    "speeds": ("calculix", "fe_matrices"),
+    "matrix_format": ("fe_matrices",),
+    "run": ("vtu", "animation"),
+    "coordinates": ("sections",),
+}
+"""Options that need one of others."""
+
+
+def add_to(commands: Any) -> None:
+    """Add this command to the subparsers `commands`."""
+    parser = inputs.add_command(
+        commands,
+        "export",
+        export,
+        help="write the blade's motion in a run, or the blade itself, for other programs",
+        description="With --vtu: compute a run again from its file, its config and its blade, and write the "
+        "motion of the finite element mesh in its last revolution; of a row of blades, that of all, and the "
+        "coating. With --animation: draw the blades and the wear at instants of the whole run. The run_key "
+        "and the peaks of all revolutions show that it is the same run. With --calculix, --mesh, --matrices "
+        "or --fe-matrices: write the blade, which is built first if the results folder has none. With "
+        "--sections: write the sections of the config, for which no blade is built.",
+        epilog="Open blade.pvd in ParaView and apply Warp By Vector to displacement. The mesh is the blade "
+        "at rest in the rotating frame; displacement (m) is that of each node about its running position, "
+        "without the centrifugal displacement; time is in revolutions from the start of the run. Of a run "
+        "that exceeds the displacement limit, the last complete revolution is written.",
+    )
+    parser.option("--run", "the run (HDF5), for --vtu", Path, metavar="FILE")
+    form = parser.add_mutually_exclusive_group(required=True)
+    text = "a new folder for blade.pvd and a .vtu for each instant"
+    form.add_argument("--vtu", type=Path, metavar="DIR", help=text)
+    text = "a new GIF: blades, coating and wear over the whole run, seen along the axis"
+    form.add_argument("--animation", type=Path, metavar="FILE", help=text)
+    blade_command.add_to(form)
+    text = (
+        "of the decks, normalised (default: 0, half of and the highest of the reduced blade); with "
+        "--fe-matrices, of a stiffness in addition to those at these three"
+    )
+    parser.option("--speeds", text, float, nargs="+", metavar="F_OMEGA")
+    text = "of --fe-matrices: Matrix Market, or what scipy.sparse.load_npz reads (default mtx)"
+    parser.option("--matrix-format", text, choices=("mtx", "npz"))
+    text = "of the sections: points of the surface (default), or axial position, radius and angles"
+    parser.option("--coordinates", text, choices=blade_command.COORDINATES)
+    text = "instants in the revolution or the animation, at most one for each element (default 100)"
+    parser.option("--samples", text, int, default=100, metavar="N")
+
+
+def export(options: argparse.Namespace) -> None:
+    """Write what the command line asks for, and print what was written."""
+    config = inputs.read_config(options)
+    for option, forms in _GOES_WITH.items():
+        if getattr(options, option) and not any(getattr(options, form) for form in forms):
+            names = " or ".join(f"--{form.replace('_', '-')}" for form in forms)
+            raise InputError(f"--{option.replace('_', '-')}: goes with {names} only")
+    for form in ("vtu", "animation"):
+        if getattr(options, form) and not options.run:
+            raise InputError(f"--{form}: needs --run, the run whose motion is written")
+    if options.animation:
+        inputs.show(options, _animation(options, config), _animation_in_words)
+    elif options.vtu:
+        inputs.show(options, _motion(options, config), _in_words)
+    elif options.sections:
+        inputs.show(options, blade_command.write_sections(options, config), blade_command.sections_in_words)
+    else:
+        inputs.show(options, blade_command.write(options, config), blade_command.in_words)
+
+
+def _motion(options: argparse.Namespace, config: dict[str, Any]) -> dict[str, Any]:
+    """Write the motion of a run; return what was written."""
+    _check_new(options, config, "vtu")
+
+    from bladerub.contact.row_spec import Row
+    from bladerub.extras.export.vtu import COLLECTION, read_mesh, write_motion
+    from bladerub.extras.stress.run import stress_of
+    from bladerub.io.provenance import provenance
+
+    run, found = _run_and_blade(options, config)
+    with refused(OSError):
+        mesh = read_mesh(found.mesh_path, found.reduced)
+        stress = stress_of(found.mesh_path, run.attributes["f_omega"])
+    plan = _plan(options, config, run, found.path)
+    row = plan.row or Row.even(1)
+    recording = _record(options, run, plan, found.reduced, row, whole=False)
+    names = ("casing", "E", "K", "theta", "law", "f_omega", "run_key")
+    about = {name: run.attributes[name] for name in names} | provenance(config)
+    with refused(OSError, because=f"--vtu {options.vtu}: cannot be written: "):
+        largest = write_motion(options.vtu, mesh, recording, about, stress, plan.row)
+    return {
+        "collection": str(options.vtu / COLLECTION),
+        "samples": options.samples,
+        "revolution": recording.revolution_peak.shape[1],
+        "blades": len(row.blades),
+        "nodes": len(row.blades) * len(mesh["points"]),
+        "elements": len(row.blades) * len(mesh["cells"]),
+        **largest,
+        "displacement_over_length": largest["largest_displacement"] / found.reduced.length,
+        "bytes": sum(file.stat().st_size for file in options.vtu.iterdir()),
+    }
+
+
+def _animation(options: argparse.Namespace, config: dict[str, Any]) -> dict[str, Any]:
+    """Write the animation of a run; return what was written."""
+    if options.animation.suffix.lower() != ".gif":
+        raise InputError(f"--animation {options.animation}: must end in .gif")
+    _check_new(options, config, "animation")
+
+    from bladerub.contact.row_spec import Row
+    from bladerub.plots.animation import animate
+
+    run, found = _run_and_blade(options, config)
+    plan = _plan(options, config, run, found.path)
+    row = plan.row or Row.even(1)
+    recording = _record(options, run, plan, found.reduced, row, whole=True)
+    with refused(OSError, because=f"--animation {options.animation}: cannot be written: "):
+        animate(options.animation, recording, found.reduced, row, run.attributes)
+    return {
+        "animation": str(options.animation),
+        "samples": options.samples,
+        "revolutions": recording.revolution_peak.shape[1],
+        "blades": len(row.blades),
+        "greatest_wear": float(recording.wear.max()),
+        "bytes": options.animation.stat().st_size,
+    }
+
+
+def _check_new(options: argparse.Namespace, config: dict[str, Any], form: str) -> None:
+    inputs.require(options, samples=(1, config["contact"]["elements"]))
+    path = getattr(options, form)
+    if path.exists():
+        kind = "folder" if form == "vtu" else "file"
+        raise InputError(f"--{form} {path}: is there already, must be a new {kind}")
+    inputs.require_writable(form, path)
+
+
+def _run_and_blade(options: argparse.Namespace, config: dict[str, Any]) -> "tuple[StoredRun, Blade]":
+    from bladerub.study import run_set
+
+    with refused(OSError, because="--run "):
+        run = run_set.read(options.run)[""]
+    path = inputs.blade_path(options, config)
+    if not path.exists():
+        raise InputError(f"{path}: is missing; name the blade of the run with --blade, or its --config")
+    return run, inputs.read_blade(options, config)
+
+
+def _plan(options: argparse.Namespace, config: dict[str, Any], run: "StoredRun", blade: Path) -> "PlannedRun":
+    from bladerub.study.cache import blade_digest
+    from bladerub.study.plan import claimed_run
+
+    try:
+        plan = claimed_run(config, options.run.name, run)
+    except KeyError as error:
+        raise InputError(
+            f"--run {options.run}: {error} is not known; must be a run of this config"
+        ) from error
+    except (TypeError, ValueError) as error:
+        raise InputError(f"--run {options.run}: its attributes are not those of a run ({error})") from error
+    if plan.key(blade_digest(blade)) != run.attributes["run_key"]:
+        raise InputError(
+            f"--run {options.run}: is not of this config, the blade {blade} and this version of the solver "
+            "(its run_key differs); name those of the run with --config and --blade, or compute it again"
+        )
+    return plan
+
+
+def _record(
+    options: argparse.Namespace,
+    run: "StoredRun",
+    plan: "PlannedRun",
+    blade: "ReducedBlade",
+    row: "Row",
+    whole: bool,
+) -> "Recording":
+    """Record the last complete revolution of a run, or the `whole` of it up to there."""
+    from bladerub.contact.recording import record
+    from bladerub.contact.setup import compile_kernel
+
+    last, n_elements = plan.spec.revolutions, plan.spec.coating.n_elements
+    if run.attributes["status"] == "unbounded":
+        last = int(np.count_nonzero(np.isfinite(run.data["revolution_peak"]))) - 1
+    if last == 0:
+        raise InputError(
+            f"--run {options.run}: exceeds the displacement limit in its first revolution, so that no "
+            "revolution is complete"
+        )
+    before = 0 if whole else last - 1
+    instants = np.rint(np.linspace(0, (last - before) * n_elements, options.samples + 1)[1:]).astype(int)
+    compile_kernel(n_nodes=blade.n_interface, law=plan.spec.coating.element_law)
+    with inputs.progress_bar(last, "rev") as bar:
+        recording = record(
+            blade,
+            plan.spec,
+            row,
+            (before * n_elements + instants).tolist(),
+            progress=lambda done: bar.update(done - bar.n),
+        )
+    most = run.attributes.get("blade", 1) - 1  # whose peaks are stored
+    stored = run.data["revolution_peak"][:last]
+    difference = np.max(np.abs(recording.revolution_peak[most] - stored))
+    if not difference <= SAME * np.max(stored):
+        raise InputError(
+            f"--run {options.run}: computed again, its peaks differ by {difference:.2g} m: it was made on "
+            "another kind of machine or with other packages; compute it here with bladerub run --output"
+        )
+    return recording
+
+
+def _in_words(figures: dict[str, Any]) -> str:
+    stress = "stress not known: a blade of matrices has no elements"
+    if "largest_von_mises" in figures:
+        place = ", ".join(f"{1e3 * x:.1f}" for x in figures["largest_von_mises_at"])
+        stress = (
+            f"largest von Mises stress {figures['largest_von_mises'] / 1e6:.4g} MPa at ({place}) mm "
+            f"after {figures['largest_von_mises_time']:.3f} revolutions, "
+            f"largest principal stress {figures['largest_principal'] / 1e6:.4g} MPa"
+        )
+    several = f" of {figures['blades']} blades" if figures["blades"] > 1 else ""
+    return "\n".join(
+        [
+            f"{figures['samples']} instants of revolution {figures['revolution']}, "
+            f"{figures['nodes']} nodes, {figures['elements']} elements{several}, "
+            f"{figures['bytes'] / 1e6:.3g} MB",
+            f"largest displacement {figures['largest_displacement'] * 1e3:.4g} mm"
+            + inputs.large_in_words(figures["displacement_over_length"]),
+            stress,
+            f"open {figures['collection']} in ParaView",
+        ]
+    )
+
+
+def _animation_in_words(figures: dict[str, Any]) -> str:
+    return (
+        f"{figures['samples']} instants of {figures['revolutions']} revolutions, {figures['blades']} blades, "
+        f"greatest wear {1e3 * figures['greatest_wear']:.4g} mm: {figures['animation']}, "
+        f"{figures['bytes'] / 1e6:.3g} MB"
+    )

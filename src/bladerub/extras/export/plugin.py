@@ -1,0 +1,3 @@
+"""Files for other programs."""
+
+COMMANDS = {"export": "extras.export.command"}

@@ -1,0 +1,153 @@
+"""The motion of the blade, or of a row, for ParaView: mesh files for each instant, and the collection of all.
+
+The mesh is that at rest in the rotating frame; ``displacement`` is the increment of each node about its
+running position, as in the run, so without the centrifugal displacement and without the rotation. The stress
+is the whole stress, that of the rotation included.
+"""
+
+import os
+import shutil
+import xml.etree.ElementTree as ET
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import meshio
+import numpy as np
+
+from bladerub.blade.model import ReducedBlade
+from bladerub.blade.stress import NodalStress, von_mises
+from bladerub.contact.recording import Recording
+from bladerub.contact.row_spec import Row
+from bladerub.contact.setup import element_angle
+from bladerub.extras.export.mesh_file import block
+from bladerub.io import hdf5
+
+COLLECTION = "blade.pvd"  # the file to open: it names the others with their time in revolutions
+
+_MESH = {"points", "cells", "root_nodes", "tip_nodes", "interface_nodes", "recovery"}
+_FRAME = (
+    "Mesh: blade at rest in the rotating frame, x along the axis of rotation, m. displacement: of each node "
+    "about its running position (in equilibrium at speed), m. von_mises, principal (the largest): "
+    "stress of rotation and vibration, Pa. Time: revolutions from the start of the run."
+)
+
+
+def read_mesh(path: str | Path, blade: ReducedBlade) -> dict[str, np.ndarray]:
+    """Read the mesh of a blade and how it follows the reduced coordinates from its ``mesh.h5``.
+
+    Raises an OSError that names the file if it is missing, damaged, or not the mesh of this blade.
+    """
+    mesh, _ = hdf5.read(path, _MESH)
+    missing = _MESH - mesh.keys()
+    if missing:
+        raise OSError(f"{path}: not the mesh of a blade, {', '.join(sorted(missing))} missing")
+    interface = mesh["points"][mesh["interface_nodes"]]
+    if len(mesh["recovery"]) != len(blade.mass) or not np.array_equal(interface, blade.node_position):
+        raise OSError(f"{path}: is not the mesh of the reduced blade in the same folder")
+    return mesh
+
+
+def write_motion(
+    folder: str | Path,
+    mesh: Mapping[str, np.ndarray],
+    recording: Recording,
+    about: Mapping[str, str],
+    stress: NodalStress | None,
+    row: Row | None,
+) -> dict[str, Any]:
+    """Write a recorded motion to a new folder, whole or not at all.
+
+    `mesh` is from `read_mesh`, `stress` from `bladerub.extras.stress.run.stress_of`; `about` is what the
+    motion is and where it comes from, for a comment in the collection. With a `row` its blades stand at their
+    angles and the coating is written with them; None is a single blade. Returns ``largest_displacement`` (m)
+    and, with `stress`, ``largest_von_mises`` and ``largest_principal`` (Pa), each with its place (m, at rest)
+    and time (revolutions).
+    """
+    folder = Path(folder)
+    folder.parent.mkdir(parents=True, exist_ok=True)
+    temporary = folder.with_name(f".{folder.name}.{os.getpid()}.tmp")
+    temporary.mkdir()
+    turns = [_turn(of.angle) for of in row.blades] if row else [np.eye(3)]
+    points = np.concatenate([mesh["points"] @ turn for turn in turns])
+    n_points, cells = len(mesh["points"]), mesh["cells"]
+    all_cells = np.concatenate([cells + number * n_points for number in range(len(turns))])
+    try:
+        names: list[list[str]] = []
+        largest: dict[str, Any] = {"largest_displacement": 0.0}
+        instants = zip(recording.coordinates, recording.time, strict=True)
+        for number, (coordinates, time) in enumerate(instants, 1):
+            fields: dict[str, list[np.ndarray]] = {}
+            for own, turn in zip(coordinates, turns, strict=True):
+                displacement = np.tensordot(own, mesh["recovery"], axes=1).astype(np.float32)
+                norm = float(np.linalg.norm(displacement, axis=1).max())
+                largest["largest_displacement"] = max(largest["largest_displacement"], norm)
+                turned = (displacement @ turn).astype(np.float32)
+                for name, values in ({"displacement": turned} | _stress_fields(stress, displacement)).items():
+                    fields.setdefault(name, []).append(values)
+            data = {name: np.concatenate(values) for name, values in fields.items()}
+            for name, values in data.items():
+                if name != "displacement":
+                    _note(largest, f"largest_{name}", values, points, time)
+            names.append([f"blade_{number:04}.vtu"])
+            meshio.Mesh(
+                points,
+                [block(points, all_cells)],  # nodes in the order of VTK already
+                point_data=data,
+            ).write(temporary / names[-1][0])
+            if row:
+                names[-1].append(f"coating_{number:04}.vtu")
+                _ring(mesh, recording.wear[number - 1], time).write(temporary / names[-1][1])
+        _write_collection(temporary / COLLECTION, names, recording.time, about)
+        os.rename(temporary, folder)
+    finally:
+        shutil.rmtree(temporary, ignore_errors=True)
+    return largest
+
+
+def _turn(angle: float) -> np.ndarray:
+    """Matrix (3, 3) by which points (n, 3) are multiplied to turn them with the rotation."""
+    cosine, sine = np.cos(angle), np.sin(angle)
+    return np.array([[1.0, 0.0, 0.0], [0.0, cosine, -sine], [0.0, sine, cosine]])
+
+
+def _ring(mesh: Mapping[str, np.ndarray], wear: np.ndarray, time: float) -> meshio.Mesh:
+    """Make the surface of the coating, through the nodes of the tip at rest, with its `wear` (8, n)."""
+    tip = mesh["points"][mesh["interface_nodes"]]
+    n_nodes, n_elements = wear.shape
+    angle = element_angle(n_elements) - 2 * np.pi * time  # as the rotating frame sees it
+    radius = np.hypot(tip[:, 1], tip[:, 2])[:, None]
+    axial = np.broadcast_to(tip[:, :1], wear.shape)
+    points = np.stack([axial, radius * np.sin(angle), radius * np.cos(angle)], axis=-1).reshape(-1, 3)
+    number = np.arange(n_nodes * n_elements).reshape(wear.shape)
+    ahead = np.roll(number, -1, axis=1)
+    cells = np.stack([number[:-1], number[1:], ahead[1:], ahead[:-1]], axis=-1).reshape(-1, 4)
+    return meshio.Mesh(points, [("quad", cells)], point_data={"wear": wear.ravel().astype(np.float32)})
+
+
+def _stress_fields(stress: NodalStress | None, displacement: np.ndarray) -> dict[str, np.ndarray]:
+    if stress is None:
+        return {}
+    tensor = stress(displacement)
+    fields = {"von_mises": von_mises(tensor), "principal": np.linalg.eigvalsh(tensor)[:, -1]}
+    return {name: values.astype(np.float32) for name, values in fields.items()}
+
+
+def _note(largest: dict[str, Any], name: str, values: np.ndarray, points: np.ndarray, time: float) -> None:
+    """Keep the largest of `values`, with place and time, if it exceeds that of the instants before."""
+    node = np.nanargmax(values)
+    if values[node] > largest.get(name, -np.inf):
+        place = {f"{name}_at": points[node].tolist(), f"{name}_time": float(time)}
+        largest.update({name: float(values[node])} | place)
+
+
+def _write_collection(path: Path, names: list[list[str]], time: np.ndarray, about: Mapping[str, str]) -> None:
+    root = ET.Element("VTKFile", type="Collection", version="0.1")
+    lines = [_FRAME, *(f"{key}: {value}" for key, value in about.items())]
+    root.append(ET.Comment("\n".join(["", *(line.replace("--", "- -") for line in lines), ""])))
+    collection = ET.SubElement(root, "Collection")
+    for parts, instant in zip(names, time, strict=True):
+        for part, name in enumerate(parts):
+            ET.SubElement(collection, "DataSet", timestep=f"{instant:.10g}", part=str(part), file=name)
+    ET.indent(root)
+    ET.ElementTree(root).write(path, encoding="utf-8", xml_declaration=True)

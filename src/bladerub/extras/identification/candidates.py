@@ -1,0 +1,103 @@
+"""The best sets of all waves and their neighbours, judged by all claims on a finer grid."""
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from bladerub.extras.identification.implausibility import of_simulated
+from bladerub.extras.identification.plan import Plan
+from bladerub.extras.identification.sample import conduct_set
+from bladerub.extras.identification.targets import TARGETS
+from bladerub.io.tables import read as read_table
+from bladerub.study.findings.claim import YES, claim_of
+
+_GREATEST = (
+    3.0  # implausibility beyond which a target is as bad as it gets: one lost target is not worth five
+)
+
+OWN = 0
+"""Number of the set that has the study's own values."""
+
+PREDICTED = ("C6", "C9", "C12")
+"""Claims without a target."""
+
+_INDEX = ["candidate", "neighbour", "set", "misfit"]
+
+COLUMNS = ["candidate", "neighbour", "id", "holds", "margin"]
+"""Columns of the verdicts; candidate 0 has the study's own values, neighbour 0 is the candidate itself."""
+
+
+def misfit(measured: pd.DataFrame) -> pd.Series:
+    """Return the misfit of each simulated set: mean square of the implausibility of its targets, bounded."""
+    bounded = of_simulated(measured).fillna(_GREATEST).clip(upper=_GREATEST)
+    return (bounded**2).mean(axis=1)
+
+
+def choose(
+    plan: Plan, positions: pd.DataFrame, measured: pd.DataFrame, verdicts: pd.DataFrame
+) -> pd.DataFrame:
+    """Choose the sets in which most parts hold, and draw neighbours; the misfit decides among equals.
+
+    `positions` and `measured` have a row for each simulated set, `verdicts` one for each part as well. A row
+    for each candidate (from 0, which has the study's own values) and neighbour (0: the set itself), with
+    ``set``, ``misfit`` of the set, and the position of each factor.
+    """
+    misfits = misfit(measured)
+    yes = (verdicts.holds == YES).groupby(verdicts["set"]).sum()
+    ranked = pd.DataFrame({"yes": -yes, "misfit": misfits}).drop(OWN).sort_values(["yes", "misfit"])
+    best = [OWN, *ranked.index[: plan.candidates.number]]
+    rng, rows = np.random.default_rng([plan.seed, len(plan.waves) + 1]), []
+    for candidate, number in enumerate(best):
+        for neighbour in range(plan.candidates.neighbours + 1):
+            signs = rng.choice([-1.0, 1.0], len(plan.factors)) if neighbour else np.zeros(len(plan.factors))
+            position = np.clip(positions.loc[number] + plan.candidates.shift * signs, 0.0, 1.0)
+            rows.append((candidate, neighbour, number, misfits[number], *position))
+    return pd.DataFrame(rows, columns=[*_INDEX, *(factor.name for factor in plan.factors)])
+
+
+def as_table(plan: Plan, chosen: pd.DataFrame) -> pd.DataFrame:
+    """Make the long table of `choose`: a row for each factor, with its position and value."""
+    table = chosen.melt(id_vars=_INDEX, var_name="factor", value_name="range_fraction")
+    factors = {factor.name: factor for factor in plan.factors}
+    table["value"] = [
+        factors[name].first_value(position)
+        for name, position in zip(table.factor, table.range_fraction, strict=True)
+    ]
+    table["unit"] = [factors[name].unit for name in table.factor]
+    return table.sort_values(_INDEX[:2], kind="stable", ignore_index=True)
+
+
+def read(path: str | Path) -> pd.DataFrame:
+    """Read a table of `as_table`: the position of each factor (columns) by candidate and neighbour."""
+    long = read_table(path, [*_INDEX, "factor", "range_fraction"])
+    wide = long.pivot(index=_INDEX[:2], columns="factor", values="range_fraction")
+    return wide[list(dict.fromkeys(long.factor))]
+
+
+def judge(
+    study: Mapping[str, Any], plan: Plan, chosen: pd.DataFrame, candidate: int, neighbour: int
+) -> pd.DataFrame:
+    """Make the finer study of one row of `read`: verdicts with `COLUMNS`."""
+    position = chosen.loc[(candidate, neighbour)].to_numpy()
+    found = conduct_set(study, plan, plan.candidates.study, position).findings
+    return found.assign(candidate=candidate, neighbour=neighbour)[COLUMNS]
+
+
+def counts(chosen: pd.DataFrame, verdicts: pd.DataFrame) -> pd.DataFrame:
+    """Count the parts that hold for each candidate and neighbour, of the matched claims and of the others.
+
+    `chosen` is from `as_table`, `verdicts` have `COLUMNS`.
+    """
+    matched = {target.claim for target in TARGETS}
+    yes = verdicts.holds == YES
+    counted = verdicts[_INDEX[:2]].assign(
+        matched_yes=yes & verdicts.id.isin(matched),
+        predicted_yes=yes & verdicts.id.map(claim_of).isin(PREDICTED),
+        yes=yes,
+        parts=True,
+    )
+    summed = counted.groupby(_INDEX[:2]).sum().astype(int).reset_index()
+    return chosen[_INDEX].drop_duplicates().merge(summed, on=_INDEX[:2])

@@ -1,0 +1,96 @@
+"""The peaks of the chart: their height against what goes with it, their speed against the contact modulus."""
+
+from itertools import cycle
+
+import pandas as pd
+from matplotlib.axes import Axes
+from matplotlib.axis import Axis
+from matplotlib.figure import Figure
+from matplotlib.ticker import LogLocator, NullFormatter, StrMethodFormatter
+
+from bladerub.extras.chart.stiffening import is_stiffened
+from bladerub.plots import titles
+from bladerub.plots.style import DARK, FIRST, GREY, ORANGE, PAGE, SECOND, new_figure, styled
+
+_POINTS = {"color": GREY, "markersize": 2.5, "markeredgecolor": "none", "label": "all coatings"}
+_LOOK = {"linewidth": 0.9, "markersize": 3}
+_RIDGE = {**FIRST, **_LOOK, "marker": "s", "label": "on the ridge, by E"}
+_ACROSS = {**SECOND, **_LOOK, "marker": "^", "label": "across its highest cell, by K"}
+
+
+@styled
+def chart_explanation(peaks: pd.DataFrame, unit: float) -> Figure:
+    """Draw Y_k of ``chart_explanation.csv`` against three quantities, a row for each order and θ.
+
+    The ridge is the points of the greatest Y_k for each E; the column of the E at which it is highest runs
+    across it. E = 1 is `unit`, Pa.
+    """
+    peaks = peaks.dropna(subset=["amplitude"])
+    groups = list(peaks.groupby(["order", "theta"]))
+    labels = {
+        "E_T": titles.tangent_modulus(unit),
+        "wear_per_cycle": "wear energy per cycle (J)",
+        "lobes": "worn lobes",
+    }
+    figure = new_figure(PAGE, 0.27 * PAGE * len(groups) + 0.4)
+    rows = figure.subplots(len(groups), len(labels), sharey="row", sharex="col", squeeze=False)
+    for row, ((order, theta), points) in zip(rows, groups, strict=True):
+        for axes, column in zip(row, labels, strict=True):
+            _draw(axes, points, column)
+        row[0].set_ylabel(f"$Y_{{{order}}}$ (mm)")
+        row[0].set_title(rf"$\theta$ = {theta:g} rad", fontsize=8)
+    for axes, label in zip(rows[-1], labels.values(), strict=True):
+        axes.set_xlabel(label)
+    figure.legend(*rows[0][0].get_legend_handles_labels(), loc="outside upper center", ncols=3)
+    return figure
+
+
+def _draw(axes: Axes, points: pd.DataFrame, column: str) -> None:
+    ridge = points.loc[points.groupby("E").amplitude.idxmax()].sort_values("E")
+    top = ridge.loc[ridge.amplitude.idxmax()]
+    across = points[points.E == top.E].sort_values("K")
+    axes.plot(points[column], 1e3 * points.amplitude, ".", **_POINTS)
+    for rows, look in ((ridge, _RIDGE), (across, _ACROSS)):
+        joined = {"linestyle": "none"} if column == "lobes" else {}
+        axes.plot(rows[column], 1e3 * rows.amplitude, **look | joined)
+    axes.set_yscale("log")
+    label_1_2_5(axes.yaxis)
+    axes.grid(True)
+    if column != "lobes":
+        axes.set_xscale("log")
+
+
+_LOOKS = ({"marker": "o", "color": DARK, "ms": 2.4}, {"marker": "^", "color": ORANGE, "ms": 3.2})
+
+
+@styled
+def chart_stiffening(peaks: pd.DataFrame, summary: pd.DataFrame, unit: float) -> Figure:
+    """Draw f_k of all points of ``chart_explanation.csv`` over E_T, a panel for each order.
+
+    `summary` is from `bladerub.extras.chart.stiffening.table`; E = 1 is `unit`, Pa.
+    """
+    orders = sorted(peaks.order.unique())
+    figure = new_figure(PAGE, 0.52 * PAGE)
+    row = figure.subplots(1, len(orders), squeeze=False)[0]
+    correlation = summary.set_index(["order", "theta"]).rank_correlation_E_T
+    for index, (axes, order) in enumerate(zip(row, orders, strict=True)):
+        of_order = peaks[peaks.order == order]
+        for (theta, points), look in zip(of_order.groupby("theta"), cycle(_LOOKS), strict=False):
+            kept, others = points[is_stiffened(points)], points[~is_stiffened(points)]
+            marks = {"ls": "none", "mew": 0.5, **look}
+            label = rf"$\theta$ = {theta:g} rad, rank correlation {correlation[order, theta]:.2f}"
+            axes.plot(kept.E_T, kept.f_peak, **marks, mec="none", label=label)
+            axes.plot(others.E_T, others.f_peak, **marks | {"mfc": "none", "color": GREY})
+        axes.axhline(of_order.f_crossing.mean(), color=GREY, lw=0.9, ls="--", label="crossing with $C_1$")
+        axes.set(xscale="log", xlabel=titles.tangent_modulus(unit), ylabel=f"$f_{{{order}}}$")
+        axes.set_title(titles.panel(index, f"eo({order})"), pad=38)
+        axes.legend(loc="lower center", bbox_to_anchor=(0.5, 1), fontsize=7, borderaxespad=0.1)
+        axes.grid(True)
+    return figure
+
+
+def label_1_2_5(axis: Axis) -> None:
+    """Label a logarithmic axis at 1, 2 and 5 times the powers of ten, in plain numbers."""
+    axis.set_major_locator(LogLocator(subs=(1, 2, 5)))
+    axis.set_major_formatter(StrMethodFormatter("{x:g}"))
+    axis.set_minor_formatter(NullFormatter())

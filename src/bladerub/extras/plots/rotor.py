@@ -1,0 +1,165 @@
+"""Amplification and shares of the wear in rows of blades, and their amplitude over the speed."""
+
+import numpy as np
+import pandas as pd
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from bladerub.extras.rotor.plan import Combination, Plan, described
+from bladerub.extras.rotor.summary import WHAT, label
+from bladerub.plots import titles
+from bladerub.plots.style import BLUE, DARK, GREY, ORANGE, PAGE, new_figure, styled
+from bladerub.study.grid import CoatingCase
+
+_PANELS = (
+    ("amplification", DARK, "amplitude of the row\n(single blade = 1)"),
+    ("longest_share", BLUE, "wear by the longest\n(even share = 1)"),
+    ("largest_share", ORANGE, "wear by the blade that\nwears most (even = 1)"),
+)
+
+_GAP = 3.0  # steps of the speed over their median
+
+
+@styled
+def rotor(plan: Plan, table: pd.DataFrame) -> Figure:
+    """Draw medians and the interval of 90 % of the draws, a column of panels for each coating and speed.
+
+    `table` is that of `bladerub.extras.rotor.summary.combinations`; the shares are in parts of an even
+    one.
+    """
+    groups: dict[tuple, list] = {}
+    for combination in (plan.combinations[name] for name in plan.compared):
+        if combination.blades > 1 or combination != combination.alone:
+            groups.setdefault((combination.case, combination.f_omega), []).append(combination)
+    lines = _lines(list(groups.items()))
+    widest = max(map(_line_width, lines))
+    figure = new_figure(max(PAGE, 0.35 * widest + 2.0), 5.8 * len(lines))
+    parts = figure.subfigures(len(lines), 1, squeeze=False)[:, 0]
+    for part, line in zip(parts, lines, strict=True):
+        widths = [_width(members) for _, members in line]
+        if rest := widest - _line_width(line):
+            widths.append(rest)  # stays empty: all combinations are as far from each other
+        panels = part.subplots(3, len(widths), sharex="col", squeeze=False, width_ratios=widths)
+        for axes in panels[:, len(line) :].flat:
+            axes.remove()
+        for column, ((case, f_omega), members) in zip(panels.T, line, strict=False):
+            _draw_group(column, sorted(members, key=_key), table)
+            column[0].set_title(f"E = {case.E:g}, K = {case.K:g}\n{titles.speed(f_omega)}", fontsize=8)
+        for axes, (_, _, text) in zip(panels[:, 0], _PANELS, strict=True):
+            axes.set_ylabel(text, fontsize=8)
+    panels[-1, 0].set_xlabel("blades: scatter of length, of frequency", loc="left")
+    return figure
+
+
+def _width(members: list[Combination]) -> int:
+    return max(len(members), 3)
+
+
+def _line_width(line: list[tuple]) -> int:
+    return sum(_width(members) for _, members in line)
+
+
+def _lines(groups: list[tuple]) -> list[list[tuple]]:
+    """Break the groups into lines that are no wider than the widest group."""
+    widest = max(_line_width([group]) for group in groups)
+    lines: list[list[tuple]] = [[]]
+    for group in groups:
+        if lines[-1] and _line_width([*lines[-1], group]) > widest:
+            lines.append([])
+        lines[-1].append(group)
+    return lines
+
+
+def _draw_group(column: np.ndarray, members: list[Combination], table: pd.DataFrame) -> None:
+    """Draw the combinations of one coating and speed into a column of panels."""
+    own = _rows_of(members, table)
+    for axes, (name, colour, _) in zip(column, _PANELS, strict=True):
+        scale = [1 if name == "amplification" else of.blades for of in members]
+        _draw(axes, name, colour, own, scale)
+    column[-1].set_xticks(range(len(members)), [label(of) for of in members], rotation=90, fontsize=9)
+
+
+def _key(combination: Combination) -> tuple:
+    of = described(combination)
+    return tuple(of[name] for name in WHAT)
+
+
+def _rows_of(members: list[Combination], table: pd.DataFrame) -> list[pd.Series]:
+    by_key = table.set_index(WHAT)
+    return [by_key.loc[_key(of)] for of in members]
+
+
+def _draw(axes: Axes, name: str, colour: str, own: list[pd.Series], scale: list[float]) -> None:
+    for at, (row, factor) in enumerate(zip(own, scale, strict=True)):
+        low, middle, high = (factor * row[f"{name}_{of}"] for of in ("p05", "median", "p95"))
+        axes.plot([at, at], [low, high], color=colour, linewidth=1.5)
+        axes.plot(at, middle, "o", color=colour, markersize=3.5)
+    axes.axhline(1.0, color=GREY, linewidth=0.6)
+    axes.grid(axis="y")
+    axes.set_ylim(bottom=0)
+
+
+@styled
+def rotor_sweeps(plan: Plan, table: pd.DataFrame) -> Figure:
+    """Draw the amplitude of rows over the speed, beside that of the single blade, and how many rows diverge.
+
+    A column of panels for each coating of the sweeps of `plan`; `table` as of `rotor`.
+    """
+    groups: dict[CoatingCase, list[Combination]] = {}
+    for combination in (plan.combinations[name] for name in plan.swept):
+        groups.setdefault(combination.case, []).append(combination)
+    figure = new_figure(max(PAGE, 1.7 * len(groups) + 0.8), 4.6)
+    panels = figure.subplots(2, len(groups), sharex=True, sharey="row", squeeze=False, height_ratios=(3, 2))
+    for (upper, lower), (case, members) in zip(panels.T, groups.items(), strict=True):
+        members = sorted(members, key=_key)
+        rows = _rows_of(members, table)
+        speeds, single = np.array([(of.f_omega, of == of.alone) for of in members]).T
+        _draw_sweep(upper, lower, pd.DataFrame(rows).reset_index(drop=True), speeds, single.astype(bool))
+        upper.set_title(f"E = {case.E:g}, K = {case.K:g}\nθ = {case.theta:g} rad", fontsize=8)
+    panels[0, 0].set_ylabel("amplitude (mm)")
+    panels[1, 0].set_ylabel("share of the rows")
+    panels[1, 0].set_xlabel(r"rotational frequency $f_\Omega$ (normalised)", loc="left")
+    panels[0, 0].set_ylim(bottom=0)
+    panels[1, 0].set_ylim(-0.03, 1.03)
+    handles = [line for axes in panels[:, 0] for line in axes.get_legend_handles_labels()[0]]
+    figure.legend(handles=handles, loc="outside lower center", ncols=2, fontsize=8)
+    return figure
+
+
+def _draw_sweep(upper: Axes, lower: Axes, rows: pd.DataFrame, speeds: np.ndarray, single: np.ndarray) -> None:
+    alone, drawn = rows[single], rows[~single]
+    upper.plot(
+        *_broken(speeds[single], 1e3 * alone["row_amplitude_median"]),
+        "o-",
+        color=GREY,
+        markersize=2.5,
+        linewidth=0.8,
+        label="single nominal blade",
+    )
+    low, middle, high = (1e3 * drawn[f"row_amplitude_{of}"] for of in ("p05", "median", "p95"))
+    upper.vlines(speeds[~single], low, high, color=DARK, linewidth=0.8)
+    upper.plot(
+        *_broken(speeds[~single], middle),
+        "o-",
+        color=DARK,
+        markersize=3,
+        linewidth=1.0,
+        label="row: median, 5 to 95 % of the draws",
+    )
+    for name, colour, look, text in (
+        ("divergent_rows", ORANGE, "s--", "diverge"),
+        ("unbounded_rows", BLUE, "o-", "leave the displacement limit"),
+    ):
+        share = drawn[name] / drawn["rows"]
+        lower.plot(
+            *_broken(speeds[~single], share), look, color=colour, markersize=3, linewidth=1.0, label=text
+        )
+    for axes in (upper, lower):
+        axes.grid(axis="y")
+
+
+def _broken(speeds: np.ndarray, values: pd.Series) -> tuple[np.ndarray, np.ndarray]:
+    """Leave a gap in a line where no speed was run for much longer than usual."""
+    steps = np.diff(speeds)
+    gaps = np.flatnonzero(steps > _GAP * np.median(steps)) + 1 if steps.size else []
+    return np.insert(speeds, gaps, np.nan), np.insert(np.asarray(values, dtype=float), gaps, np.nan)

@@ -1,0 +1,202 @@
+"""Passes of an elastic blade over a coated sample, by the time loop.
+
+1. The blade is fed while it is far from the sample, by moving the sample: at pass p its surface stands p
+   incursions above the tip of the blade at its running position. All nodes are fed alike.
+2. The profile of the tip spans `ELEMENTS` elements under each node, as long together as the tip of the rig.
+3. Forces are taken at the end of the passage of each element, and summed over the nodes.
+4. By θ the force turns against the motion as in the time loop; the tangential force also has what the coating
+   takes up by wear, over the coated length, as with a rigid tip (`bladerub.extras.rig.passes`).
+"""
+
+import math
+from dataclasses import replace
+from itertools import pairwise
+from typing import NamedTuple
+
+import numpy as np
+import pandas as pd
+from threadpoolctl import threadpool_limits
+
+from bladerub.blade.model import ReducedBlade
+from bladerub.blade.tip import tip_radius
+from bladerub.contact import energy
+from bladerub.contact.kernel.loop import Simulation
+from bladerub.contact.schemes import Recurrence
+from bladerub.contact.setup import SEARCH_RANGE, by_angle, minimum_gap, set_up, strip_width
+from bladerub.contact.spec import Casing, RunSpec, TipProfile
+from bladerub.extras.rig.passes import COLUMNS as RIGID_COLUMNS
+from bladerub.extras.rig.spec import Rig
+from bladerub.numerics.memory import aligned
+
+ELEMENTS, STEPS = 16, 12
+"""Elements under the tip of a node, and least number of time steps in the passage of one."""
+COLUMNS = (*RIGID_COLUMNS, "largest_normal_force", "radial_amplitude")
+"""Columns of `simulate_blade_passes`."""
+
+_LONGEST_STEP = 2e-6  # s
+_LIMIT = 0.1  # displacement, lengths of the blade
+_FAR = 1.0  # gap over what has no coating, m
+_MARGIN = 4 * SEARCH_RANGE  # elements before and behind the sample in which forces are looked for
+_FED = 0.1  # share of the track at least that must be free
+
+
+@threadpool_limits.wrap(limits=1, user_api="blas")  # sums depend on the number of threads
+def simulate_blade_passes(
+    rig: Rig, blade: ReducedBlade, damping_ratio: float, disk_turns: bool = False, elements: int = ELEMENTS
+) -> pd.DataFrame:
+    """Simulate the passes of a rig whose tip is that of an elastic blade; a row each, with `COLUMNS`.
+
+    Parameters
+    ----------
+    rig : Rig
+        Coating, speed and incursion. Width of the tip and length of the track are those of the blade.
+    blade : ReducedBlade
+        The blade.
+    damping_ratio : float
+        Damping of its modes.
+    disk_turns : bool
+        Whether the disk with the sample turns instead of the blade, which then has its stiffness at rest.
+    elements : int
+        Elements of the coating under the tip of a node.
+
+    Returns
+    -------
+    DataFrame
+        The columns of `bladerub.extras.rig.passes.simulate_passes`, and ``largest_normal_force`` (N) and
+        ``radial_amplitude`` of node 1 (m), half its range in the pass. ``normal_force`` and
+        ``tangential_force`` are means: the impulses over the time that the coated length takes.
+        ``worn_depth`` and ``temperature_rise`` are means over the sample, ``largest_pressure`` is that of a
+        node on the area under its tip.
+
+    Raises
+    ------
+    ValueError
+        If the sample leaves no room to feed the blade, the blade is not defined at this speed, its tip
+        leaves the displacement limit, a tenth of its length, or a parameter of the law is out of its range.
+    """
+    rig = replace(rig, track=2 * math.pi * tip_radius(blade), tip_width=float(strip_width(blade).sum()))
+    f_omega = rig.speed / rig.track / blade.f1_hz
+    if disk_turns:
+        at_rest = {"stiffness_1": 0.0 * blade.stiffness_1, "stiffness_2": 0.0 * blade.stiffness_2}
+        blade = replace(blade, **at_rest, stiffness_higher=(), f_omega_max=max(f_omega, blade.f_omega_max))
+    elif f_omega > blade.f_omega_max:
+        fastest = blade.f_omega_max * blade.f1_hz * rig.track
+        raise ValueError(f"speed = {rig.speed:g}: must be at most {fastest:g}, the fastest of this blade")
+    spec = RunSpec(
+        casing=Casing("rig", (1,), (1.0,), 1.0, 1.0, 0.0),  # the sample takes its place
+        coating=replace(rig.coating, n_elements=round(elements * rig.track / rig.tip_length)),
+        tip=TipProfile(elements / 2, rig.edge_drop),
+        clearance=(0.0, 0.0),
+        damping_ratio=damping_ratio,
+        f_omega=f_omega,
+        revolutions=1,
+        scheme="exponential",
+        steps_per_element=STEPS,
+        max_time_step=_LONGEST_STEP,
+        displacement_limit=_LIMIT * blade.length,
+    )
+    rule, simulation = set_up(blade, spec)
+    sample = _Sample(rig, blade, spec, simulation)
+    passes, worn, taken = [], 0.0, 0.0
+    for number in range(1, rig.passes + 1):
+        depth, rise = number * rig.incursion, sample.rise()
+        sample.stand(depth)
+        made = sample.one_pass(rule)
+        balance = energy.balance(rule, simulation.state, 0.0, simulation.angle_per_step)
+        normal = math.cos(rig.theta) * made.impulse
+        tangential = math.sin(rig.theta) * made.impulse + (balance.wear - taken) / rig.speed
+        per_time = rig.speed / sample.length
+        wear = sample.worn_depth()
+        passes.append(
+            (
+                *(number, depth, normal * per_time, tangential * per_time, normal, tangential),
+                *(made.largest_pressure, wear, wear - worn, balance.wear - taken, rise, balance.residual),
+                *(math.cos(rig.theta) * made.largest, made.amplitude),
+            )
+        )
+        worn, taken = wear, balance.wear
+    return pd.DataFrame(passes, columns=list(COLUMNS))
+
+
+class _Pass(NamedTuple):
+    """Contact force of all nodes together in a pass, along the elements, and what the blade does."""
+
+    impulse: float  # N s
+    largest: float  # N
+    largest_pressure: float  # Of a node, Pa
+    amplitude: float  # Half the range of the radial displacement of node 1, m
+
+
+class _Sample:
+    """The coated part of the track, opposite to where the blade stands at the start of a revolution."""
+
+    def __init__(self, rig: Rig, blade: ReducedBlade, spec: RunSpec, simulation: Simulation):
+        self._blade, self._spec = blade, spec
+        n_elements, n_nodes = spec.coating.n_elements, blade.n_interface
+        stator = simulation.stator
+        lanes = stator.initial_gap.shape[1]
+        rows = np.tile(np.arange(n_elements)[:, None], (1, lanes))
+        row_of = by_angle(blade, spec, rows)  # (j, N): the row of each element under each node
+        length = rig.coated or rig.track
+        count = round(length / rig.track * n_elements)
+        centre = int(np.argmin(abs(row_of[0] - n_elements // 2)))
+        self._coated = (centre - count // 2 + np.arange(count)) % n_elements
+        self._rows = row_of[:, self._coated]  # (j, c)
+        self._first, self._last = int(self._rows.min()) - _MARGIN, int(self._rows.max()) + 1 + _MARGIN
+        if count > (1 - _FED) * n_elements or self._first < 0 or self._last > n_elements:
+            chord = float(np.ptp(row_of[:, centre])) * rig.track / n_elements
+            free = (1 - _FED) * rig.track - chord
+            raise ValueError(
+                f"coated = {rig.coated:g}: must be above 0 and at most {free:.3g}, so that the blade is fed "
+                "where there is no coating"
+            )
+        self.length = count * rig.track / n_elements
+        self._area = strip_width(blade) * rig.tip_length
+        far = np.full((n_elements, lanes), _FAR)
+        stator = aligned(stator._replace(initial_gap=far, minimum_gap=far[:, 0].copy()))
+        self._simulation = type(simulation)(
+            *(simulation.modal, simulation.flight, stator, simulation.tip, simulation.state),
+            *(simulation.steps_per_element, simulation.layer),
+        )
+        self._nodes = np.arange(n_nodes)[:, None]
+
+    def stand(self, depth: float) -> None:
+        """Let the original surface of the sample stand by `depth` (m) above the tip at rest."""
+        stator = self._simulation.stator
+        stator.initial_gap[self._rows, self._nodes] = -depth
+        own = stator.initial_gap[:, : len(self._nodes)].T
+        stator.minimum_gap[:] = minimum_gap(own, self._spec.tip.half_width)
+
+    def one_pass(self, rule: Recurrence) -> _Pass:
+        """Let the blade pass over the sample, and turn on to where it started."""
+        simulation, n_elements = self._simulation, self._spec.coating.n_elements
+        displacement = np.empty(n_elements)
+        borders = sorted({0, *range(self._first, self._last + 1), n_elements})
+        forces, lowest, highest = [], math.inf, -math.inf
+        for first, last in pairwise(borders):
+            made = simulation.advance(displacement[first:last], first)
+            if made.n_steps < (last - first) * simulation.steps_per_element:
+                limit = self._spec.displacement_limit
+                raise ValueError(f"incursion: the tip of the blade moves by more than {limit:g} m")
+            lowest, highest = min(lowest, made.lowest), max(highest, made.highest)
+            forces.append(simulation.state.normal_force.ravel()[: len(self._nodes)].copy())
+        of_nodes = np.array(forces)
+        total = of_nodes.sum(axis=1)
+        return _Pass(
+            float(total.sum()) * rule.time_step * simulation.steps_per_element,
+            float(total.max()),
+            float((of_nodes / self._area).max()),
+            0.5 * (highest - lowest),
+        )
+
+    def worn_depth(self) -> float:
+        """Mean worn depth of the sample, m."""
+        wear = by_angle(self._blade, self._spec, self._simulation.state.wear)
+        return float(wear[:, self._coated].mean())
+
+    def rise(self) -> float:
+        """Mean rise of the temperature of the sample, K; NaN if the law knows no heat."""
+        if self._simulation.layer is None:
+            return math.nan
+        rise = by_angle(self._blade, self._spec, self._simulation.layer.rise(self._simulation.state))
+        return float(rise[:, self._coated].mean())

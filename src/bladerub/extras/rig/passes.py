@@ -1,0 +1,132 @@
+"""Passes of a rigid tip over a coated disk, by the law of an element and the profile of the time loop.
+
+1. The tip is prescribed, so every element of the track goes through the same: one is computed. The others
+   under the tip are it a little earlier or later, and the force of the tip is its mean over one passage.
+2. The force of the elements is turned by θ against the motion, as in the time loop. The tip also pays what
+   the elements take up by wear: that energy over the width of an element is a force along the track.
+3. A law that heats warms the element by what friction and wear take from each pass, and lets it cool until
+   the next (`bladerub.contact.heating`).
+"""
+
+import math
+from types import ModuleType
+from typing import Any, NamedTuple
+
+import numpy as np
+import pandas as pd
+
+from bladerub.contact.heating import CELLS, Layer
+from bladerub.contact.kernel.records import at_rest
+from bladerub.contact.laws import module_of
+from bladerub.contact.spec import TipProfile
+from bladerub.contact.tip import coverage, edge, relief
+from bladerub.extras.rig.spec import MEASURABLE, Rig
+from bladerub.numerics.vectors import LANES
+
+ELEMENTS, STEPS = 40, 8
+"""Elements under the tip, and time steps in the passage of one."""
+COLUMNS = ("pass", "tip_depth", *MEASURABLE, "energy_residual")
+"""Columns of `simulate_passes`."""
+
+
+def simulate_passes(rig: Rig, elements: int = ELEMENTS, steps: int = STEPS) -> pd.DataFrame:
+    """Simulate the passes of a rig; a row each.
+
+    Parameters
+    ----------
+    rig : Rig
+        The rig.
+    elements, steps : int
+        Elements under the tip and time steps in the passage of one.
+
+    Returns
+    -------
+    DataFrame
+        ``tip_depth`` below the unworn surface (m), mean ``normal_force`` and ``tangential_force`` on the tip
+        (N), their impulses over the coated part of the track (N s), ``largest_pressure`` on an element
+        (Pa), ``worn_depth`` so far and ``pass_wear`` (m), ``pass_energy`` that the coating takes up (J),
+        ``temperature_rise`` of the surface when the pass begins (K; NaN if the law knows no heat), and
+        ``energy_residual``: work of the tip on an element less what it takes up, over the work exchanged.
+
+    Raises
+    ------
+    ValueError
+        If a parameter of the law is out of its range.
+    """
+    width = rig.tip_length / elements
+    area, tip = rig.tip_width * width, TipProfile(elements / 2, rig.edge_drop)
+    law, coated = module_of(rig.law), rig.coated or rig.track
+    element = law.element(rig.coating, np.array(area), width / steps / rig.speed)
+    offset = np.linspace(edge(tip), -edge(tip), (elements + 1) * steps + 1)
+    share, below = coverage(tip, offset), relief(tip, offset)
+    heat = _Heat(rig, law, area) if hasattr(law, "strength") else None
+    wear, rows = 0.0, []
+    for number in range(1, rig.passes + 1):
+        depth = number * rig.incursion
+        rise, strength = (heat.rise, heat.strength) if heat else (math.nan, 1.0)
+        made = _one_passage(law, element, depth - below, wear)
+        forces, energy = strength * made.force, strength * made.energy
+        tip_force = np.trapezoid(share * forces, dx=1 / steps)
+        if heat:
+            heat.add(energy, math.sin(rig.theta) * tip_force * width)
+        normal = math.cos(rig.theta) * tip_force
+        tangential = math.sin(rig.theta) * tip_force + energy / width
+        rows.append(
+            (
+                *(number, depth, normal, tangential, normal * coated / rig.speed),
+                *(tangential * coated / rig.speed, forces.max() / area, made.wear, made.wear - wear),
+                *(energy * coated / width, rise, made.residual),
+            )
+        )
+        wear = made.wear
+    return pd.DataFrame(rows, columns=list(COLUMNS))
+
+
+class _Passage(NamedTuple):
+    """What an element goes through in one passage of the tip, without heat."""
+
+    force: np.ndarray  # (n,): N
+    wear: float  # After it, m
+    energy: float  # That it takes up, J
+    residual: float  # Of the work of the tip on it, over the work exchanged
+
+
+def _one_passage(law: ModuleType, element: Any, depth: np.ndarray, wear: float) -> _Passage:
+    """Press an element along `depth` (n,) below its original surface (m); it was worn by `wear` before.
+
+    The edge of the tip comes down on it in the first step, and leaves it in the last.
+    """
+    forces, energy, work, exchanged, before = np.zeros(depth.size), 0.0, 0.0, 0.0, 0.0
+    for i, at in enumerate(depth):
+        force, increment = law.return_mapping(element, at - wear, wear)
+        taken = float(law.dissipated_energy(element, wear, increment, before, force))
+        stored = float(law.stored_energy(element, force))
+        wear, energy = wear + float(increment), energy + taken
+        more = taken + stored if i == 0 else 0.5 * float(before + force) * (at - depth[i - 1])
+        work, exchanged = work + more, exchanged + abs(more)
+        forces[i] = before = force
+    missing = abs(work - stored - energy)
+    return _Passage(forces, wear, energy, missing / exchanged if exchanged else 0.0)
+
+
+class _Heat:
+    """The heat of one element, a row of its own in the time loop's layer."""
+
+    def __init__(self, rig: Rig, law: ModuleType, area: float):
+        self._layer = Layer(law, rig.coating, np.full(LANES, area), rig.track / rig.speed)
+        self._state = at_rest(1, 1, CELLS)
+
+    def add(self, flow: float, friction: float) -> None:
+        """Warm the element by what flow and friction make in a pass (J), and let it be until the next."""
+        self._state.heat[0, 0], self._state.heat[0, LANES] = flow, friction
+        self._layer.rest(self._state, 0, 1)
+
+    @property
+    def rise(self) -> float:
+        """Mean rise of temperature over the heated depth, K."""
+        return float(self._layer.rise(self._state)[0, 0])
+
+    @property
+    def strength(self) -> float:
+        """Force of the element over that without heat."""
+        return float(self._state.strength[0, 0])

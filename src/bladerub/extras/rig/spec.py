@@ -1,0 +1,112 @@
+"""What a rig is: tip, coated disk and incursion, in SI units."""
+
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass, field, fields
+
+from bladerub.config import schema
+from bladerub.contact.spec import PLASTIC, Coating, ElementLaw
+
+MEASURABLE = (
+    *("normal_force", "tangential_force", "normal_impulse", "tangential_impulse", "largest_pressure"),
+    *("worn_depth", "pass_wear", "pass_energy", "temperature_rise"),
+)
+"""What a rig may have measured: columns of `bladerub.extras.rig.passes.simulate_passes`."""
+
+
+@dataclass(frozen=True)
+class Rig:
+    """A rigid blade tip that rubs on a coated disk, fed by a constant incursion at each pass.
+
+    Parameters
+    ----------
+    name : str
+        Name of the case.
+    E, K, yield_stress : float
+        Young modulus, plastic modulus and elastic limit of the coating, Pa.
+    thickness : float
+        Of the coating, m.
+    tip_width, tip_length : float
+        Of the tip: across the track, and along it, m.
+    track : float
+        Length of the track that the tip passes from one pass to the next, m: the circumference.
+    speed : float
+        Of the tip along the track, m/s.
+    incursion : float
+        By which the tip is fed at each pass, m.
+    passes : int
+        Number of passes; the first is at the depth of one incursion.
+    theta : float
+        Angle of the contact force from the normal, against the motion, rad.
+    edge_drop : float
+        How much lower the edges of the tip are than its middle, m.
+    coated : float
+        Length of the coated part of the track, m; the whole track if 0.
+    law : ElementLaw
+        Law of the coating.
+    measured : mapping of str to float
+        What was measured in the last pass, by `MEASURABLE`.
+    source : str
+        Where inputs and measured values are from.
+    assumed : tuple of str
+        Names of the parameters that the source does not give.
+
+    Raises
+    ------
+    ValueError
+        If a parameter is not as it must be; the message names it and its value.
+
+    Examples
+    --------
+    >>> import bladerub as br
+    >>> rig = br.Rig(
+    ...     "mine", E=600e6, K=300e6, yield_stress=0.0, thickness=3e-3, tip_width=1e-2, tip_length=2e-3,
+    ...     track=1.0, speed=125.0, incursion=1e-5, law=br.Law("viscoplastic", viscosity=1e4).element_law,
+    ... )
+    >>> rig.law.label, rig.coating.E
+    ('viscoplastic (viscosity 10000)', 600000000.0)
+    """
+
+    name: str
+    E: float
+    K: float
+    yield_stress: float
+    thickness: float
+    tip_width: float
+    tip_length: float
+    track: float
+    speed: float
+    incursion: float
+    passes: int = 1
+    theta: float = 0.0
+    edge_drop: float = 0.0
+    coated: float = 0.0
+    law: ElementLaw = PLASTIC
+    measured: Mapping[str, float] = field(default_factory=dict)
+    source: str = ""
+    assumed: tuple[str, ...] = ()
+
+    def __post_init__(self) -> None:
+        """Raise `ValueError`, which names the parameter and its value, if one is not as it must be."""
+        given = {name: value for name, value in asdict(self).items() if name not in ("name", "law")}
+        given |= {"assumed": list(self.assumed), "measured": dict(self.measured)}
+        if problems := list(schema.problems(given, "rig")):
+            raise ValueError("; ".join(problems))
+        if self.incursion * self.passes >= self.thickness:
+            deepest = self.thickness / self.passes
+            raise ValueError(
+                f"incursion = {self.incursion:g}: must be below {deepest:g}, or the layer is through"
+            )
+        for name in ("tip_length", "coated"):
+            if (length := getattr(self, name)) > self.track:
+                raise ValueError(f"{name} = {length:g}: must be at most the track, {self.track:g}")
+        if unknown := {*self.assumed} - {each.name for each in fields(self)}:
+            raise ValueError(f"assumed = {min(unknown)}: must be a parameter of a rig")
+        if unknown := {*self.measured} - {*MEASURABLE}:
+            raise ValueError(f"measured = {min(unknown)}: must be one of {', '.join(MEASURABLE)}")
+
+    @property
+    def coating(self) -> Coating:
+        """The coating, its moduli in Pa; elements are those of `bladerub.extras.rig.passes`."""
+        return Coating(
+            self.E, self.K, self.theta, self.yield_stress, 1.0, self.thickness, 1, element_law=self.law
+        )

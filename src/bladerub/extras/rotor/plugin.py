@@ -1,0 +1,3 @@
+"""Rows of blades."""
+
+INVENTORIES = {"rows of blades": "extras.rotor.inventory:inventories"}

@@ -1,0 +1,65 @@
+"""Direct contact with the rigid casing at one speed, as in the open benchmarks of the literature.
+
+Speed, damping, friction and gap are those of the example of blade and casing in NLstep (Monjaraz-Tec, Gross
+and Krack, Computers and Structures 260, 2022, 106698), which follows Piollet, Nyssen and Batailly (J. Sound
+Vib. 460, 2019, 114878): no centrifugal stiffening, 50 revolutions.
+"""
+
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from bladerub.blade.model import ReducedBlade
+from bladerub.contact.result import RunResult
+from bladerub.contact.run import simulate
+from bladerub.contact.spec import RunSpec
+from bladerub.extras.rotor37.numbers import of_direct_contact
+from bladerub.study.grid import CoatingCase, run_spec
+
+SPEED = 1344.0
+"""rad/s; four times in a revolution is close to the first frequency."""
+REVOLUTIONS = 50
+FRICTION = (0.0, 0.15)
+CASING = "bumps"
+
+
+def unstiffened(blade: ReducedBlade) -> ReducedBlade:
+    """Return the blade with the stiffness at rest, whatever the speed."""
+    none = np.zeros_like(blade.mass)
+    return replace(blade, stiffness_1=none, stiffness_2=none, stiffness_higher=())
+
+
+def spec_of(config: Mapping[str, Any], blade: ReducedBlade, friction: float) -> RunSpec:
+    """Describe the run."""
+    spec = run_spec(config, CoatingCase.rigid(CASING, friction), SPEED / (2 * np.pi * blade.f1_hz))
+    return replace(spec, revolutions=REVOLUTIONS)
+
+
+def runs(config: Mapping[str, Any], blade: ReducedBlade) -> dict[str, RunResult]:
+    """Simulate the cases, by name: with and without friction, and each with stiffening as well."""
+    found = {}
+    for friction in FRICTION:
+        for name, model in (("rest", unstiffened(blade)), ("stiffened", blade)):
+            found[f"{name}_mu{friction:g}"] = simulate(model, spec_of(config, blade, friction))
+    return found
+
+
+def numbers(results: Mapping[str, RunResult]) -> pd.DataFrame:
+    """Measure the results of `runs`."""
+    return pd.concat(
+        [of_direct_contact(name, result, REVOLUTIONS) for name, result in results.items()], ignore_index=True
+    )
+
+
+def last_revolution(results: Mapping[str, RunResult], points: int = 200) -> pd.DataFrame:
+    """Radial displacement of node 1 in the last revolution of each of `runs`, by the angle turned."""
+    parts = []
+    for name, result in results.items():
+        last = result.radial_displacement.reshape(REVOLUTIONS, -1)[-1]
+        shown = np.arange(0, len(last), len(last) // points)
+        turned = (shown + 0.5) * 2 * np.pi / len(last)
+        parts.append(pd.DataFrame({"case": name, "turned": turned, "radial_displacement": last[shown]}))
+    return pd.concat(parts, ignore_index=True)

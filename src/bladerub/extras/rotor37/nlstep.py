@@ -1,0 +1,180 @@
+"""The direct contact of Rotor 37 as NLstep integrates it: the case in its form, and what it answers.
+
+NLstep (Monjaraz-Tec, Gross and Krack, Comput. Struct. 260 (2022) 106698) has a massless boundary with three
+directions at each node, and a gap that depends on the time alone. It is not part of this repository: its
+function `sim_contact3D` is run by GNU Octave.
+"""
+
+import hashlib
+import os
+import shutil
+import subprocess
+import tempfile
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+import scipy.io
+
+from bladerub.blade.model import ReducedBlade
+from bladerub.contact import casing
+from bladerub.contact.modes import mode_shapes_at, tip_radii
+from bladerub.contact.setup import running_clearance
+from bladerub.contact.spec import RunSpec
+from bladerub.extras.rotor37 import direct
+from bladerub.extras.rotor37.numbers import of_displacement
+from bladerub.io.errors import BadInput
+
+VARIABLE = "BLADERUB_NLSTEP"
+"""Environment variable with the folder of `FUNCTION`."""
+FUNCTION = "sim_contact3D.m"
+OCTAVE = "octave-cli"
+DRIVER = Path(__file__).parent / "octave" / "direct_contact.m"
+"""What Octave runs; the class next to it is the model as NLstep expects it."""
+
+CASES = (
+    (0.0, 20, 1500),
+    (0.0, 20, 3000),
+    (0.15, 10, 1500),
+    (0.15, 20, 1500),
+    (0.15, 20, 3000),
+    (0.15, 50, 4000),
+)
+"""Coefficient of friction, modes that move, and time steps in a revolution."""
+COLUMNS = ["modes", "steps_per_revolution", "number", "value", "unit"]
+
+_DIFFERENCE = 1e-6  # rad, for the slope of the casing
+
+
+def massless_boundary(
+    blade: ReducedBlade, f_omega: float, damping_ratio: float, n_modes: int
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Reduce the blade to its interface and free modes without mass of the interface (MacNeal 1971).
+
+    Parameters
+    ----------
+    blade : ReducedBlade
+        With j interface nodes.
+    f_omega : float
+        Normalised speed.
+    damping_ratio : float
+        Of every mode.
+    n_modes : int
+        Free modes that move; the others respond by their static displacement.
+
+    Returns
+    -------
+    mass, damping, stiffness : (3 j + n_modes, 3 j + n_modes) ndarray
+        For the displacement of each node against the outward normal, with the rotation and in the direction
+        that is left, m, then the modes, kg^1/2 m. kg, N s/m and N/m in the first.
+
+    Raises
+    ------
+    ValueError
+        If the modes left do not span the displacements of the interface.
+    """
+    omega, shapes = mode_shapes_at(blade, f_omega)
+    n_boundary = 3 * blade.n_interface
+    left = omega.size - n_modes
+    if left < n_boundary:
+        raise ValueError(f"{n_modes} moving modes: {left} are left for the {n_boundary} displacements")
+    interface = shapes[:n_boundary].reshape(blade.n_interface, 3, -1)
+    boundary = np.einsum("jda,jan->jdn", directions(blade), interface).reshape(n_boundary, -1)
+    moving, static = boundary[:, :n_modes], boundary[:, n_modes:]
+    residual = np.linalg.inv((static / omega[n_modes:] ** 2) @ static.T)
+    coupling = residual @ moving
+    modal = np.diag(omega[:n_modes] ** 2) + moving.T @ coupling
+    stiffness = np.block([[residual, -coupling], [-coupling.T, modal]])
+    mass, damping = np.zeros_like(stiffness), np.zeros_like(stiffness)
+    mass[n_boundary:, n_boundary:] = np.eye(n_modes)
+    damping[n_boundary:, n_boundary:] = np.diag(2 * damping_ratio * omega[:n_modes])
+    return mass, damping, (stiffness + stiffness.T) / 2
+
+
+def directions(blade: ReducedBlade) -> np.ndarray:
+    """Return unit vectors (j, 3, 3) at the interface nodes: inward, with the rotation, and the third."""
+    inward = -blade.radial_direction
+    third = np.cross(inward, blade.tangential_direction)
+    return np.stack([inward, blade.tangential_direction, third], axis=1)
+
+
+def case(blade: ReducedBlade, spec: RunSpec, n_modes: int, steps: int) -> dict[str, Any]:
+    """State a run on the rigid casing in NLstep's terms, with `steps` in a revolution.
+
+    Arrays are over the j nodes and the ``revolutions * steps + 1`` times, SI units.
+    """
+    mass, damping, stiffness = massless_boundary(blade, spec.f_omega, spec.damping_ratio, n_modes)
+    speed = 2 * np.pi * spec.f_omega * blade.f1_hz
+    time = np.arange(spec.revolutions * steps + 1) * (2 * np.pi / speed / steps)
+    _, y, z = blade.node_position.T
+    clearance = running_clearance(blade, spec)[:, None]
+    angle = (spec.casing.start_angle + np.arctan2(y, z))[:, None] + speed * time
+    before, after = (casing.gap(spec.casing, clearance, angle + sign * _DIFFERENCE) for sign in (-1, 1))
+    return {
+        "mass": mass,
+        "damping": damping,
+        "stiffness": stiffness,
+        "time": time,
+        "gap": casing.gap(spec.casing, clearance, angle),
+        "opening_speed": (after - before) / (2 * _DIFFERENCE) * speed,
+        "sliding_speed": tip_radii(blade)[0] * speed,
+        "friction": np.tan(spec.coating.theta),
+    }
+
+
+def program() -> Path:
+    """Find NLstep's time integration; `BadInput` if it or Octave is missing."""
+    folder = os.environ.get(VARIABLE)
+    found = Path(folder or "") / FUNCTION
+    problems = []
+    if not folder:
+        problems.append(f"{VARIABLE} is not set: it must be the folder with {FUNCTION} (SRC of NLstep)")
+    elif not found.is_file():
+        problems.append(f"{VARIABLE} = {folder}: has no {FUNCTION}; it must be the folder SRC of NLstep")
+    if shutil.which(OCTAVE) is None:
+        problems.append(f"{OCTAVE}: not found; NLstep needs GNU Octave here")
+    if problems:
+        raise BadInput("\n".join(problems))
+    return found
+
+
+def describe(function: Path) -> str:
+    """Say which NLstep and Octave these are."""
+    digest = hashlib.sha256(function.read_bytes()).hexdigest()
+    octave = _octave("--eval", "disp(version)").strip()
+    return f"NLstep, {FUNCTION} with SHA-256 {digest}, under GNU Octave {octave}"
+
+
+def integrate(function: Path, stated: Mapping[str, Any]) -> tuple[np.ndarray, np.ndarray]:
+    """Let NLstep integrate a `case`.
+
+    Returns the radial displacement of node 1 at each time but the first, m, and whether any node is then in
+    contact. Raises `RuntimeError` if the contact forces of a step did not converge.
+    """
+    with tempfile.TemporaryDirectory() as scratch:
+        given, found = Path(scratch) / "case.mat", Path(scratch) / "result.mat"
+        scipy.io.savemat(given, dict(stated))
+        _octave(str(DRIVER), str(function.parent.absolute()), str(given), str(found))
+        result = scipy.io.loadmat(found)
+    if not result["converged"].item():
+        raise RuntimeError("NLstep: the contact forces of a time step have not converged")
+    return -result["inward"][0, 1:], result["in_contact"][0, 1:].astype(bool)
+
+
+def _octave(*arguments: str) -> str:
+    command = [OCTAVE, "--no-init-file", "--quiet", *arguments]
+    return subprocess.run(command, check=True, stdout=subprocess.PIPE, text=True).stdout
+
+
+def table(
+    config: Mapping[str, Any], blade: ReducedBlade, function: Path, friction: float, n_modes: int, steps: int
+) -> pd.DataFrame:
+    """Measure one of `CASES` by NLstep: the numbers of `direct`, columns `COLUMNS`."""
+    model, spec = direct.unstiffened(blade), direct.spec_of(config, blade, friction)
+    displacement, in_contact = integrate(function, case(model, spec, n_modes, steps))
+    name = f"rest_mu{friction:g}"
+    numbers = of_displacement(name, displacement, spec.revolutions)[["number", "value", "unit"]]
+    numbers.loc[len(numbers)] = [f"{name}.contact_share", in_contact.mean(), "1"]
+    return numbers.assign(modes=n_modes, steps_per_revolution=steps)[COLUMNS]

@@ -1,0 +1,42 @@
+"""Reference numbers with their uncertainty: from the same numbers for a plan of variations."""
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from bladerub.config import read as configuration
+from bladerub.extras.calibration import sets
+from bladerub.io.folders import CONFIG, ROOT
+
+PLAN = ROOT / "config" / "rotor37_reference.yaml"
+"""What is computed, and with which variations."""
+
+REFERENCE = "reference"
+"""The set of the plan whose numbers are quoted."""
+VARIATIONS = ("step", "modes", "mesh", "nodes")
+"""The sets whose differences from them are the uncertainty."""
+
+COLUMNS = ["number", "value", "unit", "uncertainty", "resolution", *(f"by_{name}" for name in VARIATIONS)]
+"""Columns of a table of reference numbers."""
+
+
+def plan() -> dict[str, dict[str, Any]]:
+    """Return the config of each set of the plan, laid over the paper's study, whatever that at work is."""
+    return sets(configuration.read(ROOT / CONFIG), PLAN)
+
+
+def with_uncertainty(numbers: Mapping[str, pd.DataFrame]) -> pd.DataFrame:
+    """Combine the numbers of all sets, by name: tables with the columns of `numbers.COLUMNS`.
+
+    The uncertainty is the root of the sum of squares of the changes by each variation and of the resolution.
+    A number that a variation lacks, such as a peak where no run stays bounded, has no uncertainty and is left
+    out.
+    """
+    table = numbers[REFERENCE].set_index("number")
+    for name in VARIATIONS:
+        table[f"by_{name}"] = numbers[name].set_index("number").value - table.value
+    changes = table.drop(columns=["value", "unit"])
+    table["uncertainty"] = np.sqrt((changes**2).sum(axis=1, skipna=False))
+    return table.dropna().reset_index()[COLUMNS]

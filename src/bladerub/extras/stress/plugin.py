@@ -1,0 +1,3 @@
+"""The stress of the blade in a run."""
+
+MEASURES = {"stress": "extras.stress.run"}

@@ -1,0 +1,201 @@
+"""The stress of a run, from its sampled motion and the stress of the blade as a function of it."""
+
+import json
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, fields
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from bladerub.blade.elasticity import Material
+from bladerub.blade.model import ReducedBlade
+from bladerub.blade.stress import NodalStress, running_displacement
+from bladerub.contact.modes import mode_shapes_at
+from bladerub.contact.result import RunResult
+from bladerub.contact.run import simulate
+from bladerub.contact.spec import RunSpec
+from bladerub.extras.stress.peak import ModalStress, static_peak, stress_peaks, stressed_nodes
+from bladerub.extras.stress.sampling import SampledRun, simulate_sampled
+from bladerub.io import hdf5
+from bladerub.io.errors import BadInput
+
+INSTANTS = 200
+"""A revolution; ten times as many raise the largest von Mises stress by up to 2 %."""
+_MODES, _SHARE = 3, 0.7
+"""For many runs, stress is kept where the rotation or one of so many modes causes this share of its most."""
+
+
+@dataclass(frozen=True)
+class RunStress:
+    """Largest stress of a run, Pa, with place at rest (m) and time (revolutions).
+
+    Parameters
+    ----------
+    static : dict
+        Of the rotation alone, as of `bladerub.extras.stress.peak.static_peak`.
+    start_up : dict
+        From the start to where `last` begins, as of `bladerub.extras.stress.peak.stress_peaks`; empty
+        where the run has no more revolutions than those.
+    last : dict
+        Over the last revolutions, likewise.
+    """
+
+    static: dict[str, float]
+    start_up: dict[str, float]
+    last: dict[str, float]
+
+    def attributes(self) -> dict[str, float]:
+        """Name each figure for the file of the run, as ``stress_last_von_mises``."""
+        return {
+            f"stress_{part}_{name}": value
+            for part, figures in vars(self).items()
+            for name, value in figures.items()
+        }
+
+    @classmethod
+    def described(cls, attributes: Mapping[str, Any]) -> "RunStress | None":
+        """Read the stress from the `attributes` of the file of a run; None where they have none."""
+        found = {
+            part: {
+                name.removeprefix(f"stress_{part}_"): value
+                for name, value in attributes.items()
+                if name.startswith(f"stress_{part}_")
+            }
+            for part in (field.name for field in fields(cls))
+        }
+        return cls(**found) if found["last"] else None
+
+
+def stress_of(path: str | Path, f_omega: float) -> NodalStress | None:
+    """Return how to find the stress at the speed `f_omega` of the blade in `path`, its ``mesh.h5``.
+
+    None where the blade is of matrices alone: they tell of no stress.
+    """
+    mesh, attributes = hdf5.read(path)
+    if not len(mesh["cells"]):
+        return None
+    material = Material.from_config(json.loads(attributes["made_from"])["blade"]["material"])
+    running = running_displacement(mesh["f_omega"], mesh["static_displacement"], f_omega)
+    return NodalStress(mesh["points"], mesh["cells"], material, running)
+
+
+def modal_stress(path: str | Path, f_omega: float, patterns: np.ndarray | None = None) -> ModalStress | None:
+    """Return the stress as a function of the reduced coordinates, or of others; None as `stress_of`.
+
+    Each of the others has reduced coordinates `patterns` (k, n). Nodes of elements with an interface node are
+    left out: that a contact force acts in a point is of the model, and the stress there of the mesh.
+    """
+    at_speed = stress_of(path, f_omega)
+    if at_speed is None:
+        return None
+    mesh, _ = hdf5.read(path, {"recovery", "points", "cells", "interface_nodes"})
+    displaced = mesh["recovery"] if patterns is None else np.tensordot(patterns, mesh["recovery"], axes=1)
+    touching = np.isin(mesh["cells"], mesh["interface_nodes"]).any(axis=1)
+    nodes = np.setdiff1d(mesh["cells"], mesh["cells"][touching])
+    return ModalStress.of_mesh(at_speed, displaced, mesh["points"], nodes)
+
+
+class BladeStress:
+    """Stress of a blade at any speed, for many runs of it.
+
+    It is found for each reduced coordinate at three speeds, and between them as a parabola over the square of
+    the speed. It is kept at those nodes only that one of the first modes or the rotation stresses most.
+
+    Parameters
+    ----------
+    path : path
+        The ``mesh.h5`` of the blade.
+    blade : ReducedBlade
+        The blade.
+
+    Raises
+    ------
+    BadInput
+        If the blade is of matrices alone, which tell of no stress.
+    """
+
+    def __init__(self, path: str | Path, blade: ReducedBlade):
+        fastest = float(hdf5.read(path, {"f_omega"})[0]["f_omega"].max())
+        self._squares = np.array([0.0, 0.5, 1.0]) * fastest**2
+        found: list[ModalStress] = []
+        for speed in np.sqrt(self._squares)[::-1]:
+            whole = modal_stress(path, speed)
+            if whole is None:
+                raise BadInput(f"{path}: the blade is of matrices alone, which tell of no stress")
+            if not found:
+                modes = mode_shapes_at(blade, fastest)[1][:, :_MODES]
+                nodes = stressed_nodes(whole.of(modes.T), _SHARE)
+            found.insert(0, whole.at(nodes))
+        self._at, self._blade = found, blade
+
+    def at(self, f_omega: float) -> ModalStress:
+        """Return the stress at the speed `f_omega` as a function of the reduced coordinates."""
+        a, b, c = self._squares
+        x = f_omega**2
+        parts = [
+            (x - b) * (x - c) / (a - b) / (a - c),
+            (x - a) * (x - c) / (b - a) / (b - c),
+            (x - a) * (x - b) / (c - a) / (c - b),
+        ]
+        static, slope = (
+            sum(float(weight) * getattr(of, name) for weight, of in zip(parts, self._at, strict=True))
+            for name in ("static", "slope")
+        )
+        return ModalStress(self._at[0].points, static, slope)
+
+    def of_run(self, spec: RunSpec, last: int) -> tuple[RunResult, RunStress | None]:
+        """Simulate a run and find its stress, with outcome as of `simulate_with_stress`."""
+        run = simulate_sampled(self._blade, spec, INSTANTS)
+        return run.result, sampled_stress(self.at(spec.f_omega).of(run.patterns), run, last)
+
+
+def complete_revolutions(revolution_peak: np.ndarray, status: str) -> int:
+    """Count the revolutions that a run of this outcome has completed; `revolution_peak` as of `RunResult`."""
+    return int(np.isfinite(revolution_peak).sum()) - (status == "unbounded")
+
+
+def simulate_with_stress(
+    mesh: str | Path,
+    blade: ReducedBlade,
+    spec: RunSpec,
+    last: int,
+    progress: Callable[[int], None] | None = None,
+) -> tuple[RunResult, RunStress | None]:
+    """Simulate a run of a single blade and find its stress.
+
+    Parameters
+    ----------
+    mesh : path
+        The ``mesh.h5`` of the blade.
+    blade : ReducedBlade
+        The blade.
+    spec : RunSpec
+        The run.
+    last : int
+        How many revolutions are the last ones.
+    progress : callable, optional
+        Called with the number of revolutions done after each of them.
+
+    Returns
+    -------
+    RunResult, RunStress or None
+        The run as of `bladerub.contact.run.simulate`, but for rounding in the sums of its energies. Its
+        stress is None where the blade is of matrices alone, which tell of no stress, or no revolution is
+        complete.
+    """
+    if stress_of(mesh, spec.f_omega) is None:
+        return simulate(blade, spec, progress), None
+    run = simulate_sampled(blade, spec, INSTANTS, progress)
+    return run.result, sampled_stress(modal_stress(mesh, spec.f_omega, run.patterns), run, last)
+
+
+def sampled_stress(stress: ModalStress, run: SampledRun, last: int) -> RunStress | None:
+    """Find the stress of a sampled run, as `simulate_with_stress`; `stress` is that of its amplitudes."""
+    revolutions = complete_revolutions(run.result.revolution_peak, run.result.status)
+    if not revolutions:
+        return None
+    begin, end = np.searchsorted(run.time, (max(revolutions - last, 0), revolutions), side="right")
+    parts = {"start_up": slice(0, begin), "last": slice(begin, end)} if begin else {"last": slice(0, end)}
+    found = stress_peaks(stress, run.amplitudes, run.time, [*parts.values()])
+    return RunStress(static_peak(stress), **{"start_up": {}, **dict(zip(parts, found, strict=True))})

@@ -1,0 +1,49 @@
+"""Table of the largest stress of the blade at the peaks of the study."""
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import pandas as pd
+from threadpoolctl import threadpool_limits
+
+from bladerub.blade.model import ReducedBlade
+from bladerub.extras.stress.run import BladeStress, RunStress
+from bladerub.study.grid import CoatingCase, run_spec
+
+_CASE = ("casing", "E", "K", "theta", "law")
+_PEAK = ("order", "f_peak", "amplitude")
+_OF_LAST = ("von_mises", "von_mises_x", "von_mises_y", "von_mises_z", "principal", "alternating")
+
+COLUMNS = [*_CASE, *_PEAK, "status", "rotation_von_mises", "start_up_von_mises"]
+COLUMNS += [f"last_{name}" for name in _OF_LAST]
+"""Columns of ``stress.csv``, described in ``io/columns.csv``."""
+
+
+@threadpool_limits.wrap(limits=1, user_api="blas")  # the products are small
+def table(
+    mesh: str | Path, blade: ReducedBlade, config: Mapping[str, Any], peaks: pd.DataFrame
+) -> pd.DataFrame:
+    """Find the stress of the run at each of the `peaks`, a table ``peaks.csv``: a row each, with `COLUMNS`.
+
+    `mesh` is the ``mesh.h5`` of the blade. Raises `BadInput` where it is of matrices alone, which tell of no
+    stress.
+    """
+    stress, rows = BladeStress(mesh, blade), []
+    for peak in peaks.dropna(subset=["f_peak"]).to_dict("records"):
+        spec = run_spec(config, CoatingCase.described(peak), peak["f_peak"])
+        result, found = stress.of_run(spec, config["analysis"]["spectrum_revolutions"])
+        rows.append(
+            {name: peak[name] for name in (*_CASE, *_PEAK)}
+            | {"status": result.status}
+            | (_of_run(found) if found else {})
+        )
+    return pd.DataFrame(rows, columns=COLUMNS)
+
+
+def _of_run(found: RunStress) -> dict[str, float | None]:
+    return {
+        "rotation_von_mises": found.static["von_mises"],
+        "start_up_von_mises": found.start_up.get("von_mises"),
+        **{f"last_{name}": found.last.get(name) for name in _OF_LAST},
+    }

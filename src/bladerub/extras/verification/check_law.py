@@ -1,0 +1,60 @@
+"""``bladerub check-law``: whether a law of the elements does what a law must."""
+
+import argparse
+from dataclasses import asdict
+from typing import Any
+
+from bladerub.cli import inputs
+from bladerub.cli.inputs import InputError, refused
+
+
+def add_to(commands: Any) -> None:
+    """Add this command to the subparsers `commands`."""
+    parser = inputs.add_command(
+        commands,
+        "check-law",
+        check_law,
+        blade=False,
+        help="check a law of the abradable elements",
+        description="Press elements of the coatings of the study by a law along random histories of depth. "
+        "Name lost and created energy, negative wear, what is no number, and a force that falls as the depth "
+        "grows or disagrees with its stiffness; then compile the law with the time loop. The exit code is 1 "
+        "if there is a problem.",
+    )
+    text = "Python file of a law, which is run, or the name of a law of the package"
+    parser.add_argument("law", metavar="LAW", help=text)
+    inputs.add_law_parameters_to(
+        parser, "--parameter", "parameter of the law, SI units; once for each of them"
+    )
+    parser.option("--seed", "of the histories, 0 or more (default 0)", int, metavar="N", default=0)
+
+
+def check_law(options: argparse.Namespace) -> int:
+    """Check the law that the command line names, and print what is wrong."""
+    config = inputs.read_config(options)
+    inputs.require(options, seed=(0, 2**32 - 1))
+    values = inputs.law_parameters("--parameter", options.parameter)
+
+    from bladerub.extras.verification.element_law import check_law as check
+    from bladerub.study.grid import coating_cases, element_law, law_entry, run_spec
+
+    with refused(ValueError):
+        law = element_law({"contact": {"law": law_entry(options.law, values)}})
+    cases = [case for case in coating_cases(config) if not case.is_rigid]
+    if not cases:
+        raise InputError("coatings: have no abradable layer; a law needs one")
+    softest, stiffest = min(cases, key=lambda case: case.E), max(cases, key=lambda case: case.E)
+    coatings = [run_spec(config, case, 0.2).coating for case in (softest, stiffest, cases[len(cases) // 2])]
+    report = check(law, coatings, options.seed)
+    figures = {"law": law.label, "histories": report.histories}
+    figures["problems"] = [asdict(problem) for problem in report.problems]
+    inputs.show(options, figures, _in_words)
+    return 1 if report.problems else 0
+
+
+def _in_words(figures: dict[str, Any]) -> str:
+    head = f"{figures['law']}: {figures['histories']} histories"
+    if not figures["problems"]:
+        return f"{head}, no problem; it compiles with the time loop"
+    lines = [f"{head}, {len(figures['problems'])} kinds of problem; values in SI units"]
+    return "\n".join([*lines, *(f"- {each['what']} ({each['where']})" for each in figures["problems"])])

@@ -1,0 +1,136 @@
+"""``bladerub verify``: how accurate the study is, by runs drawn from it."""
+
+import argparse
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from bladerub.cli import inputs
+from bladerub.cli.inputs import InputError, refused
+
+if TYPE_CHECKING:
+    from bladerub.extras.verification.verify import StudyRun
+
+_MEASURES = {"wear_l2": "wear (L2)", "peak": "spectral peak", "revolution_peak": "revolution peak"}
+_STATISTICS = {"median": "median", "p95": "95 %", "max": "worst"}
+
+
+def add_to(commands: Any) -> None:
+    """Add this command to the subparsers `commands`."""
+    parser = inputs.add_command(
+        commands,
+        "verify",
+        verify,
+        help="measure the error of runs drawn from the study",
+        description="Draw runs from all coatings and speeds of the study, and repeat each with a time step "
+        "four times finer. The relative differences in wear profile (L2), largest spectral amplitude and "
+        "peaks of the revolutions are the error of the run. Each is also compared with the paper's scheme at "
+        "a fine step. Runs with an error above 1 % are listed. One is flagged as sensitive if runs whose "
+        "starts differ by a ten-thousandth of a millimetre or less spread at least half as much. In a row of "
+        "blades, the largest difference of a peak is related to the largest peak of its blades.",
+        epilog="Speed-up at equal error: the paper's scheme has an error proportional to its step, "
+        "measured against the study's scheme with finer steps, in wear (in the spectral peak where nothing "
+        "wears). The cost of that scheme at the step at which this is the error of the study's run (at most "
+        "0.7 of its largest stable step) is divided by the cost of the study's run. The figure is the median "
+        "over runs that are not sensitive and where the error of the paper's scheme shrinks with its step.",
+    )
+    inputs.add_trust_to(parser)
+    parser.option("--sample", "how many runs", int, required=True, metavar="N")
+    parser.option("--seed", "decides which; 0 or more", int, required=True, metavar="S")
+    text = "draw from the runs that tables and claims rest on, such as the peaks, by the maps"
+    parser.add_argument("--peaks", action="store_true", help=text)
+    text = "draw from the rows of blades of a plan, such as config/rotor.yaml, instead"
+    parser.option("--rows", text, Path, metavar="PLAN")
+    text = "runs at once (default 1); they slow each other down, so that costs are less exact with more"
+    parser.option("--jobs", text, int, default=1, metavar="J")
+
+
+def verify(options: argparse.Namespace) -> None:
+    """Verify the runs that the command line asks for, and print the distribution of their errors."""
+    config = inputs.read_config(options)
+    inputs.require(options, seed=(0, 2**63), jobs=(1, 1000))
+    if options.rows and options.peaks:
+        raise InputError(f"--rows = {options.rows}: not with --peaks, which are of single blades")
+
+    from bladerub.extras.verification.report import report
+    from bladerub.extras.verification.verify import draw, important_runs, study_runs, verify_runs
+
+    if options.rows:
+        runs = _rows(config, options.rows)
+    elif options.peaks:
+        runs = important_runs(config, inputs.study_folder() / config["results"] / "maps")
+    else:
+        runs = study_runs(config)
+    with refused(ValueError, because=f"--sample = {options.sample}: "):
+        runs = draw(runs, options.sample, options.seed)
+    blade = inputs.read_blade(options, config)
+    fastest = max(run.f_omega for run in runs)
+    if fastest > blade.reduced.f_omega_max:
+        raise InputError(
+            f"f_omega = {fastest:g}: the speeds of the study must be at most "
+            f"{blade.reduced.f_omega_max:g} (normalised), the highest of {blade.path}"
+        )
+    with refused(ValueError):
+        runs_done = verify_runs(blade.reduced, config, runs, options.jobs)
+        verified = list(inputs.progress_bar(len(runs), "run", runs_done, quiet=options.json))
+    inputs.warn_of_residual(options, max(run.energy_residual for run in verified))
+    inputs.show(options, {"seed": options.seed, "jobs": options.jobs} | report(verified), _in_words)
+
+
+def _rows(config: dict[str, Any], path: Path) -> "list[StudyRun]":
+    """List every row of the plan at `path`."""
+    from bladerub.extras.rotor.plan import read_plan
+    from bladerub.extras.verification.verify import StudyRun
+
+    plan = read_plan(path, config)
+    return [
+        StudyRun(of.case, of.f_omega, plan.row(of, draw), f"{name}/{draw:04d}")
+        for name, of in plan.combinations.items()
+        for draw in range(plan.draws[name])
+    ]
+
+
+def _in_words(figures: dict[str, Any]) -> str:
+    paper, beyond, n = figures["against_paper_scheme"], figures["beyond"], figures["n"]
+    seconds, speedup = figures["seconds"], figures["speedup_at_equal_error"]
+    rows = [
+        ("against a step 4 times finer", *_STATISTICS.values()),
+        *((words, *_shown(figures[key]), f"  {figures['worst'][key]}") for key, words in _MEASURES.items()),
+        ("energy residual", *_shown(figures["energy_residual"])),
+        ("",),
+        ("against the paper's scheme", *_STATISTICS.values()),
+        *((words, *_shown(paper[key])) for key, words in _MEASURES.items()),
+        *(
+            (f"{words}, its own error", *_shown(paper["uncertainty"][key]))
+            for key, words in _MEASURES.items()
+        ),
+    ]
+    lines = [
+        f"{n} runs, seed {figures['seed']}",
+        "",
+        *(inputs.row(38, *row).rstrip() for row in rows),
+        "",
+        f"within 1 % in wear and spectral peak: {figures['within_1_percent']:.1%} of the runs",
+        f"seconds a run: {seconds['study']:.3g}, finer {seconds['finer']:.3g}, "
+        f"paper's scheme {seconds['paper']:.3g}, finer {seconds['paper_finer']:.3g}"
+        + (f" ({figures['jobs']} runs at once: not exact)" if figures["jobs"] > 1 else ""),
+        f"speed-up at equal error: {'none' if speedup is None else f'{speedup:.3g}'} "
+        f"(median of {n - figures['left_out']} of {n} runs)",
+        "",
+        inputs.row(38, "beyond 1 %", "wear", "peak", "revolution") if beyond else "beyond 1 %: none",
+    ]
+    return "\n".join([*lines, *map(_beyond_row, beyond)])
+
+
+def _shown(distribution: dict[str, float | None]) -> list[str]:
+    return [_percent(distribution[key]) for key in _STATISTICS]
+
+
+def _percent(value: float | None) -> str:
+    return "unbounded" if value is None else f"{100 * value:.3g} %"
+
+
+def _beyond_row(entry: dict[str, Any]) -> str:
+    spread = entry["spread"]
+    note = "" if spread is None else f"neighbours {', '.join(_percent(spread[key]) for key in _MEASURES)}"
+    note = f"sensitive: {note}" if entry["sensitive"] else note
+    return inputs.row(38, entry["name"], *(_percent(entry[key]) for key in _MEASURES), f"  {note}").rstrip()

@@ -1,0 +1,140 @@
+"""What the vibration on the rigid casing converges to, whatever the modes, the step and the impact.
+
+An impact excites all modes of the blade at once. So a run on the rigid casing may depend on the modes that
+are kept, on the time step and on what is assumed about impact, for which a discrete model needs a law of its
+own. Here some runs of the study are repeated with each of them changed.
+"""
+
+import math
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
+from typing import Any, NamedTuple
+
+import numpy as np
+import pandas as pd
+from threadpoolctl import threadpool_limits
+
+from bladerub.blade.model import ReducedBlade
+from bladerub.contact import run
+from bladerub.contact.modes import Modes, modes_at
+from bladerub.contact.schemes import SCHEMES
+from bladerub.contact.setup import fixed_steps
+from bladerub.contact.spec import RunSpec
+from bladerub.contact.steps import with_steps
+from bladerub.extras.verification import impact
+from bladerub.study.grid import run_spec, speeds
+from bladerub.study.paper import RIGID
+from bladerub.study.spectra import order_spectrum
+
+PLAIN_SPEED = (0.25, 4)
+"""A speed away from the peaks, and the engine order looked at there."""
+NEIGHBOURS = 2
+"""Speeds of the study to either side of a peak that are looked at as well."""
+RESTITUTIONS = {f"moreau_jean_{e:g}": e for e in (0.0, 0.5, 0.9)}
+STIFFNESSES = {f"penalty_1e{power}": 10.0**power for power in (8, 9, 10)}  # N/m
+
+
+class Alternative(NamedTuple):
+    """Another way to compute a run."""
+
+    treatment: str  # one of `SCHEMES`, of `RESTITUTIONS` and `STIFFNESSES`, or ``massless``
+    finer: int  # the study's time step over this one
+    modes: int | None = None  # kept, all by default
+
+
+OWN = Alternative("exponential", 1)
+NEARBY = (
+    OWN,
+    Alternative("moreau_jean_0", 4),
+    Alternative("massless", 4, 20),
+    Alternative("massless", 4, 40),
+)
+ALTERNATIVES = (
+    *NEARBY,
+    *(Alternative("exponential", finer) for finer in (2, 4, 8)),
+    *(Alternative("central_differences", finer) for finer in (2, 4)),
+    Alternative("moreau_jean_0", 8),
+    *(Alternative(name, 4) for name in (*RESTITUTIONS, *STIFFNESSES) if name != "moreau_jean_0"),
+    *(Alternative("massless", 4, modes) for modes in (10, 60, 80)),
+    *(Alternative("moreau_jean_0", 4, modes) for modes in (10, 20, 40, 60)),
+)
+"""What is tried at `PLAIN_SPEED` and at the peaks; `NEARBY` at the speeds next to them."""
+
+COLUMNS = [
+    *("f_omega", "treatment", "modes", "steps", "order", "complete", "amplitude", "amplitude_change"),
+    *("largest_revolution", "median_revolution", "largest_displacement"),
+]
+"""Columns of ``rigid_convergence.csv``, described in ``io/columns.csv``."""
+
+
+@threadpool_limits.wrap(limits=1, user_api="blas")  # sums depend on the number of threads
+def table(blade: ReducedBlade, config: Mapping[str, Any], peaks: pd.DataFrame) -> pd.DataFrame:
+    """Repeat runs of the study on the rigid casing: a row for each speed and alternative, with `COLUMNS`.
+
+    `peaks` is a table ``peaks.csv``, of which the peaks of the rigid casing are looked at.
+    """
+    rows: list[dict[str, Any]] = []
+    for f_omega, order, alternatives in _listed(config, peaks):
+        spec, modes, own = run_spec(config, RIGID, f_omega), modes_at(blade, f_omega), math.nan
+        for each in alternatives:
+            if (each.modes or 0) >= modes.omega.size:
+                continue
+            made, steps = _simulate(blade, spec, modes, each)
+            found = _measures(made, order, config["analysis"])
+            own = found["amplitude"] if each == OWN else own
+            kept = each.modes or modes.omega.size
+            complete = each.treatment == "massless" or (
+                each.modes is None and each.treatment not in STIFFNESSES
+            )
+            row = dict(zip(COLUMNS, (f_omega, each.treatment, kept, steps, order, complete), strict=False))
+            rows.append(row | found | {"amplitude_change": found["amplitude"] / own - 1})
+    return pd.DataFrame(rows, columns=COLUMNS)
+
+
+def _listed(
+    config: Mapping[str, Any], peaks: pd.DataFrame
+) -> Iterator[tuple[float, float, tuple[Alternative, ...]]]:
+    """List speed, engine order and alternatives."""
+    yield *PLAIN_SPEED, ALTERNATIVES
+    grid = np.array(speeds(config))
+    rigid = peaks[(peaks.casing == RIGID.casing) & np.isinf(peaks.E) & (peaks.theta == RIGID.theta)]
+    for peak in rigid.dropna(subset=["f_peak"]).itertuples():
+        at = int(np.argmin(np.abs(grid - peak.f_peak)))
+        for place in range(max(at - NEIGHBOURS, 0), min(at + NEIGHBOURS + 1, grid.size)):
+            yield float(grid[place]), peak.order, ALTERNATIVES if place == at else NEARBY
+
+
+def _simulate(
+    blade: ReducedBlade, spec: RunSpec, modes: Modes, how: Alternative
+) -> tuple[impact.Motion | run.RunResult, int]:
+    """Make the run; return its outcome and its time steps in the passage of an element."""
+    steps = fixed_steps(blade, spec).steps_per_element * how.finer
+    spec = with_steps(spec, steps)
+    if how.treatment in SCHEMES:
+        return run.simulate(blade, replace(spec, scheme=how.treatment)), steps
+    step, damping = impact.time_step(blade, spec), spec.damping_ratio
+    if how.treatment == "massless":
+        rule = impact.massless_boundary(modes, damping, step, how.modes)
+    elif how.treatment in STIFFNESSES:
+        rule = impact.penalty(modes, damping, step, STIFFNESSES[how.treatment])
+    else:
+        kept = impact.first(modes, how.modes)
+        rule = impact.moreau_jean(kept, damping, step, RESTITUTIONS[how.treatment])
+    return impact.simulate(rule, blade, spec), steps
+
+
+def _measures(
+    made: impact.Motion | run.RunResult, order: float, analysis: Mapping[str, Any]
+) -> dict[str, float]:
+    """Measure the last revolutions of a run, those of the study's spectra, m."""
+    last = analysis["spectrum_revolutions"]
+    orders, amplitude = order_spectrum(
+        made.radial_displacement, made.revolution_peak.size, last, analysis["max_order"]
+    )
+    near = np.abs(orders - order) <= analysis["peaks"]["order_halfwidth"] + 1e-9
+    return {
+        "amplitude": float(amplitude[near].max()),
+        "largest_revolution": float(made.revolution_amplitude[-last:].max()),
+        "median_revolution": float(np.median(made.revolution_amplitude[-last:])),
+        "largest_displacement": float(made.revolution_peak[-last:].max()),
+    }

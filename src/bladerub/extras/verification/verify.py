@@ -1,0 +1,232 @@
+"""The error of each run: the same run with finer steps, with the paper's scheme and from neighbouring starts.
+
+1. *The study's run*: scheme and step of the config.
+2. *Its error*: its `Differences` from the same scheme with a step `REFINEMENT` times finer.
+3. *The paper's scheme*, at `STABLE_PART` of its largest stable step and at one `REFINEMENT` times finer.
+   Being of first order, it has at the finer step an error of its own, ``1 / (REFINEMENT − 1)`` of the
+   difference between the two: the uncertainty of a comparison with it.
+4. *Sensitive* is a run beyond `TOLERANCE` that neighbouring starts change by at least half as much as a
+   finer step does. Its error comes from the run rather than from the solver.
+5. A row of blades (`StudyRun.row`) is one run: `bladerub.extras.verification.differences.row_differences`.
+6. *Speed-up at equal error* (`speedup_at_equal_error`): what the paper's scheme would cost at the error of
+   the study's run, over what the study's run costs.
+"""
+
+import math
+import multiprocessing
+import signal
+import time
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import partial
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from bladerub.blade.model import ReducedBlade
+from bladerub.contact.modes import modes_at
+from bladerub.contact.result import RunResult
+from bladerub.contact.row import simulate_row
+from bladerub.contact.row_spec import Row
+from bladerub.contact.run import simulate
+from bladerub.contact.setup import compile_kernel
+from bladerub.contact.spec import ElementLaw, RunSpec
+from bladerub.contact.steps import STABLE_PART, with_steps
+from bladerub.extras.verification.differences import Differences, largest, row_differences
+from bladerub.study.ensemble import chosen
+from bladerub.study.grid import CoatingCase, coating_cases, element_law, row_of, run_spec, speed_name, speeds
+from bladerub.study.maps import read_map
+
+TOLERANCE = 0.01
+"""Differences beyond this are listed by run."""
+
+REFINEMENT = 4
+"""How many times finer the finer step is: it leaves 1/16 of an error of second order, 1/4 of one of first."""
+
+NEIGHBOURS = (-1e-7, -5e-8, 5e-8, 1e-7)
+"""Initial radial displacements of node 1 in neighbouring starts, m: far below the tolerance to which a blade
+tip is made (some 0.01 mm) and far above rounding."""
+
+
+class StudyRun(NamedTuple):
+    """One point of the study's grid, a coating at a normalised speed; or a row of blades on it."""
+
+    case: CoatingCase
+    f_omega: float
+    row: Row | None = None
+    row_name: str = ""
+
+    @property
+    def name(self) -> str:
+        """Path of the run's file below ``runs``, without its suffix: ``2nd_E2_K0.5_theta0/0.1900``."""
+        return self.row_name or f"{self.case.name}/{speed_name(self.f_omega)}"
+
+
+class Solved(NamedTuple):
+    """Outcome of a run: of its blade, or of each blade of a row."""
+
+    blades: tuple[RunResult, ...]
+    energy_residual: float
+    seconds: float  # of CPU time
+
+
+class Seconds(NamedTuple):
+    """CPU time of one run, s: the study's, with finer steps, the paper's scheme, that with finer steps."""
+
+    study: float
+    finer: float
+    paper: float
+    paper_finer: float
+
+
+@dataclass(frozen=True)
+class VerifiedRun:
+    """The error of one run, see the definitions of this module."""
+
+    run: StudyRun
+    status: str  # "unbounded" if the run or the one with finer steps is, otherwise "completed"
+    error: Differences
+    against_paper: Differences  # from the paper's scheme with finer steps
+    paper_uncertainty: Differences
+    spread: Differences | None  # largest of neighbouring starts; None within tolerance and if unbounded
+    energy_residual: float
+    seconds: Seconds
+    speedup: float | None  # by wear, or by spectral peak where nothing wears
+
+    @property
+    def is_beyond(self) -> bool:
+        """Whether any error is beyond `TOLERANCE`."""
+        return max(self.error) > TOLERANCE
+
+    @property
+    def is_sensitive(self) -> bool:
+        """Whether neighbouring starts explain every error beyond `TOLERANCE`, by half of it at least."""
+        if self.spread is None or not self.is_beyond:
+            return False
+        pairs = zip(self.error, self.spread, strict=True)
+        return all(spread >= error / 2 for error, spread in pairs if error > TOLERANCE)
+
+
+def study_runs(config: Mapping[str, Any]) -> list[StudyRun]:
+    """List every run of the study."""
+    row = row_of(config)
+    return [StudyRun(case, f_omega, row) for case in coating_cases(config) for f_omega in speeds(config)]
+
+
+def important_runs(config: Mapping[str, Any], maps: Path) -> list[StudyRun]:
+    """List the runs that tables and claims rest on (`bladerub.study.ensemble.chosen`), by the folder of maps.
+
+    Raises as `bladerub.study.maps.read_map`.
+    """
+    row = row_of(config)
+    return [
+        StudyRun(case, float(f_omega), row)
+        for case in coating_cases(config)
+        for f_omega in chosen(config, read_map(maps / f"{case.name}.h5"))
+    ]
+
+
+def draw(runs: Sequence[StudyRun], sample: int, seed: int) -> list[StudyRun]:
+    """Draw `sample` distinct runs, all equally likely; raises `ValueError` if there are fewer."""
+    if not 1 <= sample <= len(runs):
+        raise ValueError(f"must be from 1 to {len(runs)}, the number of runs to draw from")
+    drawn = np.random.default_rng(seed).choice(len(runs), size=sample, replace=False)
+    return [runs[index] for index in drawn]
+
+
+def verify_runs(
+    blade: ReducedBlade, config: Mapping[str, Any], runs: Sequence[StudyRun], jobs: int = 1
+) -> Iterator[VerifiedRun]:
+    """Verify runs in `jobs` processes, and yield them in their order; raises as `verify_run`."""
+    law = element_law(config)
+    compile_kernel(n_nodes=blade.n_interface, law=law)
+    verify = partial(verify_run, blade, config)
+    if jobs == 1:
+        yield from map(verify, runs)
+        return
+    context = multiprocessing.get_context("spawn")  # a fork of a process with threads may hang
+    with context.Pool(min(jobs, len(runs)), _start_worker, (blade.n_interface, law)) as pool:
+        yield from pool.imap(verify, runs)
+
+
+def _start_worker(n_nodes: int, law: ElementLaw) -> None:
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # the parent process ends its workers
+    compile_kernel(n_nodes=n_nodes, law=law)
+
+
+def verify_run(blade: ReducedBlade, config: Mapping[str, Any], run: StudyRun) -> VerifiedRun:
+    """Find the error of one run.
+
+    Raises `ValueError` if the blade has no such speed, or the step is too long for the scheme.
+    """
+    spec, analysis = run_spec(config, run.case, run.f_omega), config["analysis"]
+    passage = 1 / (spec.f_omega * blade.f1_hz * spec.coating.n_elements)
+    solve = partial(_solve, blade, run.row)
+    outcome = solve(spec)
+    steps = round(passage / outcome.blades[0].time_step)
+    finer = solve(with_steps(spec, REFINEMENT * steps))
+
+    def differences(one: Solved, other: Solved) -> Differences:
+        return row_differences(one.blades, other.blades, analysis)
+
+    paper = replace(spec, scheme="central_differences")
+    longest = STABLE_PART * 2 / modes_at(blade, spec.f_omega).omega[-1]
+    paper_steps = math.ceil(passage / longest)
+    paper_outcome = solve(with_steps(paper, paper_steps))
+    paper_finer = solve(with_steps(paper, REFINEMENT * paper_steps))
+
+    error = differences(outcome, finer)
+    spread = None
+    if max(error) > TOLERANCE and outcome.blades[0].status == "completed":
+        starts = (replace(spec, initial_displacement=start) for start in NEIGHBOURS)
+        spread = largest(differences(solve(start), outcome) for start in starts)
+    own = differences(paper_outcome, paper_finer)
+    measure = Differences._fields.index("wear_l2" if finer.blades[0].wear.any() else "peak")
+    unbounded = "unbounded" in (outcome.blades[0].status, finer.blades[0].status)
+    return VerifiedRun(
+        run=run,
+        status="unbounded" if unbounded else "completed",
+        error=error,
+        against_paper=differences(outcome, paper_finer),
+        paper_uncertainty=Differences(*(difference / (REFINEMENT - 1) for difference in own)),
+        spread=spread,
+        energy_residual=outcome.energy_residual,
+        seconds=Seconds(outcome.seconds, finer.seconds, paper_outcome.seconds, paper_finer.seconds),
+        speedup=speedup_at_equal_error(
+            error[measure],
+            outcome.seconds,
+            differences(paper_outcome, finer)[measure],
+            differences(paper_finer, finer)[measure],
+            paper_finer.seconds,
+        ),
+    )
+
+
+def speedup_at_equal_error(
+    error: float, seconds: float, paper_error: float, paper_finer_error: float, paper_finer_seconds: float
+) -> float | None:
+    """Cost of the paper's scheme at the error of the study's run, over the cost of the study's run.
+
+    All errors are differences from the same reference, the study's scheme with finer steps. The paper's
+    scheme is of first order: its error is taken as proportional to the step, through the one at the step
+    `REFINEMENT` times finer. Its step of equal error is at most its coarser step, as stability allows no
+    longer one. Its cost is proportional to 1 / step. None if an error is zero or infinite, or that of the
+    paper's scheme does not decrease with its step.
+    """
+    errors = (error, paper_error, paper_finer_error)
+    if min(errors) == 0 or max(errors) == math.inf or paper_finer_error >= paper_error:
+        return None
+    step = min(error / paper_finer_error, REFINEMENT)  # in units of the finer step
+    return paper_finer_seconds / step / seconds
+
+
+def _solve(blade: ReducedBlade, row: Row | None, spec: RunSpec) -> Solved:
+    start = time.thread_time()  # other processes and threads do not count
+    if row is None:
+        result = simulate(blade, spec)
+        return Solved((result,), result.energy.residual, time.thread_time() - start)
+    together = simulate_row(blade, spec, row)
+    seconds = time.thread_time() - start
+    blades = tuple(replace(of, status=together.status) for of in together.blades)
+    return Solved(blades, together.residual, seconds)

@@ -1,0 +1,44 @@
+"""What the folders of `bladerub.extras` add to the package; each may be deleted, and none is named elsewhere.
+
+A folder says what it adds in its ``plugin.py``, which imports nothing: each value is a module below
+`bladerub`, or ``module:object``.
+
+=============== ===================================================================================
+``PUBLIC``      names of the Python interface, each with its module
+``COMMANDS``    commands of ``bladerub``, each with the module whose `add_to` names its options
+``MANIFESTS``   rows of the manifests in folders of a name, for checks of all files
+``INVENTORIES`` what counts runs beside those of the coatings, for ``bladerub status``
+``MEASURES``    what a run may be asked for besides itself, each with its module
+=============== ===================================================================================
+"""
+
+from collections.abc import Iterator
+from functools import cache
+from importlib import import_module
+from pathlib import Path
+from typing import Any
+
+_EXTRAS = "extras"
+
+
+@cache
+def offered(kind: str) -> dict[str, str]:
+    """Where to find what all folders add of a kind, such as ``"COMMANDS"``, by name."""
+    return {name: place for plugin in _plugins() for name, place in getattr(plugin, kind, {}).items()}
+
+
+def load(place: str) -> Any:
+    """Import a module, or an object of one, by its place."""
+    module, _, name = place.partition(":")
+    loaded = import_module(f"bladerub.{module}")
+    return getattr(loaded, name) if name else loaded
+
+
+def loaded(kind: str) -> dict[str, Any]:
+    """Import all that is offered of a kind, by name."""
+    return {name: load(place) for name, place in offered(kind).items()}
+
+
+def _plugins() -> Iterator[Any]:
+    for path in sorted((Path(__file__).parent / _EXTRAS).glob("*/plugin.py")):
+        yield import_module(f"bladerub.{_EXTRAS}.{path.parent.name}.plugin")

@@ -1,0 +1,31 @@
+"""What the benchmark measures: shares, operations and the figures it prints."""
+
+import pytest
+
+from bladerub.contact.run import simulate
+from bladerub.contact.setup import set_up
+from bladerub.extras.benchmark import measure, peak
+
+
+@pytest.mark.slow
+def test_the_casing_is_brought_near_until_a_third_is_contact(blade, spec):
+    found, share = measure.in_contact(blade, spec)
+    assert share == pytest.approx(1 / 3, abs=0.02)
+    assert found.casing.interference > 0
+
+
+def test_useful_operations_of_a_step(blade, spec, change):
+    rule, simulation = set_up(blade, spec)
+    n, flight = rule.omega.size, simulation.flight.n_steps
+    free = change(spec, clearance=(1.0, 1.0))
+    assert measure.useful_flops(blade, free) == pytest.approx(61 * n / flight)
+    result = simulate(blade, spec)
+    flops = measure.useful_flops(blade, spec) * result.n_steps
+    contact = (32 * n + 512 + 8 * (5 * 69 + 60)) * result.n_contact_steps
+    single = (flops - contact - 61 * n / flight * result.n_steps) / (39 * n - 61 * n / flight)
+    assert result.n_contact_steps <= single < result.n_steps
+    assert single == pytest.approx(round(single))
+
+
+def test_the_peak_loop_takes_time_in_proportion():
+    assert peak.turns(1) == pytest.approx(sum((1 + i / 10) * 0.999 + 0.001 for i in range(12)) * 8)

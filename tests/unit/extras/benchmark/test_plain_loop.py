@@ -1,0 +1,35 @@
+"""The plain loop against the loop of the study."""
+
+import numpy as np
+import pytest
+
+from bladerub.contact.laws import described_law
+from bladerub.contact.run import simulate
+from bladerub.contact.setup import set_up
+from bladerub.contact.spec import PLASTIC
+from bladerub.extras.benchmark import plain
+
+pytestmark = pytest.mark.slow
+
+
+VISCOPLASTIC = described_law("viscoplastic", {"viscosity": 1e4})
+
+
+@pytest.mark.parametrize("loop", [plain.integrator, plain.compiled], ids=["numpy", "numba"])
+@pytest.mark.parametrize(
+    ("E", "K", "theta", "law"),
+    [(1.1, 0.5, 0.0, PLASTIC), (2.0, 0.1, 0.15, PLASTIC), (1.1, 0.5, 0.0, VISCOPLASTIC)],
+)
+def test_the_same_run(blade, spec, change, loop, E, K, theta, law):
+    spec = change(spec, E=E, K=K, theta=theta, revolutions=2, element_law=law)
+    integrate = loop(law)
+    result, (rule, simulation) = simulate(blade, spec), set_up(blade, spec)
+    arguments = plain.arguments(law, rule, simulation)
+    displacement = np.zeros(result.n_steps)
+    integrate(*arguments, displacement)
+    middle = 0.5 * (displacement + np.concatenate([[0.0], displacement[:-1]]))
+    per_element = middle.reshape(-1, simulation.steps_per_element).mean(axis=1)
+    scale = np.abs(per_element).max()
+    np.testing.assert_allclose(result.radial_displacement, per_element, rtol=0, atol=1e-7 * scale)
+    wear = arguments[4]
+    np.testing.assert_allclose(np.sort(result.wear), np.sort(wear.T), rtol=0, atol=1e-6 * wear.max())

@@ -1,0 +1,41 @@
+import numpy as np
+import pytest
+
+from bladerub.extras.chart.point import MEASURES, ChartPoint
+from bladerub.study.grid import CoatingCase
+
+F_OMEGA = np.round(np.arange(0.152, 0.4001, 0.002), 6)
+
+
+@pytest.fixture
+def make_point():
+    """A point that was run at all speeds; its response on each order is a hat, C1² = 1 + 3 f_omega²."""
+
+    def make(E, K, Y4=1e-3, Y6=5e-4, f4=0.32, f6=0.19, theta=0.0, divergent=0.0, depth=1e-4):
+        hats = [
+            height * np.clip(1 - np.abs(F_OMEGA - peak) / 0.05, 0.01, None)
+            for peak, height in ((f4, Y4), (f6, Y6))
+        ]
+        uniform = np.zeros(F_OMEGA.size, dtype=bool)
+        uniform[::4] = True
+        measures = {name: np.ones(F_OMEGA.size) for name in MEASURES} | {
+            "peak": np.max(hats, axis=0),
+            "deepest_wear": np.full(F_OMEGA.size, depth),
+            "lobes": np.full(F_OMEGA.size, 4.0),
+            "revolutions": np.full(F_OMEGA.size, 20.0),
+            "divergent": np.where(uniform, divergent, np.nan),
+            "energy_wear": np.full(F_OMEGA.size, 240.0),
+        }
+        case = CoatingCase("2nd", E, K, theta)
+        C1 = np.sqrt(1 + 3 * F_OMEGA**2)
+        return ChartPoint(case, F_OMEGA, C1, np.array([4.0, 6.0]), np.stack(hats, axis=1), uniform, measures)
+
+    return make
+
+
+@pytest.fixture
+def few_speeds(config):
+    """Even speeds 0.16, 0.24 and 0.32; the study has those between as well."""
+    config["speeds"] = {"start": 0.16, "stop": 0.34, "step": 0.02, "extra": []}
+    config["chart"]["speeds"] |= {"start": 0.16, "step": 0.08, "dense_stop": 0.16, "dense_step": 0.08}
+    return config

@@ -1,0 +1,184 @@
+"""The points of a column are computed once each, under keys of all that determines them."""
+
+import random
+from dataclasses import replace
+
+import pytest
+
+from bladerub.extras.chart import column
+from bladerub.extras.chart.column import determinants
+from bladerub.extras.chart.grid import chart_speeds, columns
+from bladerub.extras.chart.point import PointRow
+from bladerub.extras.chart.table import read_points
+from bladerub.io.errors import DamagedFile
+from bladerub.study.cache import ARCHIVE
+from bladerub.study.grid import CoatingCase, run_spec
+from bladerub.study.manifest import listed_files, read_manifest, write_manifest
+
+CASE = CoatingCase("2nd", 2.0, 0.5, 0.0)
+
+
+@pytest.fixture
+def computed(make_point, monkeypatch):
+    """Stand in for the search; lists the K of the points that were asked for."""
+    asked = []
+
+    def compute(config, case, *_):
+        asked.append(case.K)
+        return make_point(case.E, case.K)
+
+    monkeypatch.setattr(column, "compute", compute)
+    return asked
+
+
+@pytest.fixture
+def build(few_speeds, blade, computed, tmp_path):
+    """Compute the column of given K, write its manifest and return what was computed for it."""
+
+    def run(K, digest="blade", report=lambda line: None):
+        few_speeds["chart"] |= {"E": [2], "K": K, "theta": [0.0]}
+        computed.clear()
+        ((name, cases),) = columns(few_speeds).items()
+        plan = column.plan_column(few_speeds, cases)
+        rows = column.compute_missing(few_speeds, plan, blade, tmp_path / "cells", digest, report)
+        write_manifest(tmp_path / "columns" / f"{name}.tsv", rows, PointRow)
+        return list(computed)
+
+    return run
+
+
+@pytest.fixture
+def manifest(tmp_path):
+    return tmp_path / "columns" / "2nd_E2_theta0.tsv"
+
+
+def test_a_column_computes_what_is_not_there(few_speeds, build, manifest, tmp_path):
+    lines = []
+    assert build([0.5, 5], report=lines.append) == [0.5, 5]
+    assert len(lines) == 2
+    rows = read_manifest(manifest, PointRow)
+    assert [row.file for row in rows] == ["2nd_E2_K0.5_theta0.h5", "2nd_E2_K5_theta0.h5"]
+    assert build([0.5, 5]) == []
+    assert read_manifest(manifest, PointRow) == rows
+    assert build([0.5, 1, 5]) == [1]
+    (tmp_path / "cells" / rows[1].file).write_bytes(b"")
+    assert build([0.5, 5]) == [5]
+    few_speeds["analysis"]["divergence"]["growth"] = 0.02
+    assert build([5]) == [5]
+    assert build([5], digest="another blade") == [5]
+
+
+def test_a_change_of_mind_costs_no_point(build, manifest, tmp_path):
+    build([0.5, 5])
+    contents = {path.name: path.read_bytes() for path in (tmp_path / "cells").glob("*.h5")}
+    rows = read_manifest(manifest, PointRow)
+    assert build([0.5, 5], digest="another blade") == [0.5, 5]
+    assert build([0.5, 5]) == build([0.5, 5], digest="another blade") == build([0.5, 5]) == []
+    assert read_manifest(manifest, PointRow) == rows
+    assert {path.name: path.read_bytes() for path in (tmp_path / "cells").glob("*.h5")} == contents
+    assert len(list((tmp_path / "cells" / ARCHIVE).iterdir())) == 2
+
+
+def test_one_random_bit_in_each_of_40_points_is_found_40_times(build, manifest):
+    build([round(0.1 * number, 1) for number in range(1, 41)])
+    files = listed_files(manifest, PointRow)
+    assert not any(file.is_lost() or file.is_damaged() for file in files)
+    draw = random.Random(7)
+    for file in files:
+        content = bytearray(file.path.read_bytes())
+        bit = draw.randrange(8 * len(content))
+        content[bit // 8] ^= 1 << bit % 8
+        file.path.write_bytes(content)
+    assert sum(file.is_damaged() for file in files) == 40
+    assert not any(file.is_lost() for file in files)
+
+
+def test_no_table_is_made_of_a_damaged_point(build, manifest, tmp_path):
+    build([0.5, 5])
+    assert [point.case.K for point in read_points([manifest])] == [0.5, 5]
+    path = tmp_path / "cells" / "2nd_E2_K5_theta0.h5"
+    content = bytearray(path.read_bytes())
+    content[-1] ^= 1
+    path.write_bytes(content)
+    with pytest.raises(DamagedFile, match="K5"):
+        list(read_points([manifest]))
+    path.unlink()
+    with pytest.raises(FileNotFoundError, match="K5"):
+        list(read_points([manifest]))
+
+
+class TestDeterminants:
+    @pytest.fixture
+    def digest(self, few_speeds):
+        few_speeds["chart"]["speeds"] |= {"dense_stop": 0.24, "dense_step": 0.04}
+        return lambda case=CASE: determinants(few_speeds, case, chart_speeds(few_speeds))
+
+    @pytest.mark.parametrize(
+        ("keys", "value"),
+        [
+            (("analysis", "lobe_prominence"), 0.3),
+            (("analysis", "spectrum_revolutions"), 11),
+            (("analysis", "peaks", "speed_window"), [0.9, 1.3]),
+            (("analysis", "peaks", "speed_window"), [0.8, 1.2]),
+            (("analysis", "peaks", "order_halfwidth"), 0.31),
+            (("analysis", "divergence", "growth"), 0.011),
+            (("analysis", "divergence", "revolutions"), 11),
+            (("analysis", "divergence", "confidence"), 0.96),
+            (("analysis", "divergence", "confirmation_revolutions"), 61),
+            (("chart", "speeds", "refine_above"), 0.51),
+            (("chart", "speeds", "start"), 0.18),
+            (("chart", "speeds", "step"), 0.04),
+            (("chart", "speeds", "dense_step"), 0.02),
+            (("chart", "speeds", "dense_stop"), 0.32),
+            (("speeds", "extra"), [0.197]),
+            (("speeds", "stop"), 0.36),
+            (("solver", "revolutions"), 21),
+            (("solver", "scheme"), "central_differences"),
+            (("contact", "damping_ratio"), 2e-3),
+            (("blade", "length"), 0.21),
+        ],
+        ids=lambda keys: ".".join(keys) if isinstance(keys, tuple) else None,
+    )
+    def test_a_setting_that_shapes_the_point_changes_them(self, few_speeds, digest, keys, value):
+        before, section = digest(), few_speeds
+        for key in keys[:-1]:
+            section = section[key]
+        assert section[keys[-1]] != value
+        section[keys[-1]] = value
+        assert digest() != before
+
+    @pytest.mark.parametrize("part", ["casing", "coating", "tip"])
+    def test_every_part_of_the_run_changes_them(self, few_speeds, digest, monkeypatch, part):
+        spec, before = run_spec(few_speeds, CASE, 0.0), digest()
+        field = {"casing": "start_angle", "coating": "yield_stress", "tip": "half_width"}[part]
+        inner = getattr(spec, part)
+        other = replace(spec, **{part: replace(inner, **{field: getattr(inner, field) + 1})})
+        monkeypatch.setattr(column, "run_spec", lambda *_, **__: other)
+        assert digest() != before
+
+    @pytest.mark.parametrize("source", ["solver_digest", "chart_digest"])
+    def test_another_source_changes_them(self, digest, monkeypatch, source):
+        before = digest()
+        monkeypatch.setattr(column, source, lambda: "other")
+        assert digest() != before
+
+    def test_every_coating_has_its_own(self, digest):
+        others = [replace(CASE, E=3.0), replace(CASE, K=1.0), replace(CASE, theta=0.1)]
+        others += [replace(CASE, casing="2nd5nd"), replace(CASE, law="coulomb")]
+        assert len({digest(case) for case in [CASE, *others]}) == 6
+
+    def test_what_acts_elsewhere_leaves_them(self, few_speeds, digest):
+        before = digest()
+        few_speeds["chart"] |= {"E": [7], "K": [8], "limits": {"wear": 1e-9}}
+        few_speeds["coatings"] = []
+        few_speeds["results"] = "elsewhere"
+        few_speeds["figures"] = {"dpi": 50}
+        few_speeds["analysis"] |= {"max_order": 9, "histories": []}
+        assert digest() == before
+
+    def test_the_orders_of_its_casing_change_them_and_those_of_others_do_not(self, few_speeds, digest):
+        before = digest()
+        few_speeds["casings"]["2nd5nd"]["peak_orders"] = [5]
+        assert digest() == before
+        few_speeds["casings"]["2nd"]["peak_orders"] = [2]
+        assert digest() != before

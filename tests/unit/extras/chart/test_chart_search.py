@@ -1,0 +1,130 @@
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from bladerub.contact.setup import strip_width
+from bladerub.extras.chart import search
+from bladerub.extras.chart.grid import chart_speeds
+from bladerub.study.grid import CoatingCase
+
+CASE = CoatingCase("2nd", 2.0, 0.5, 0.0)
+
+
+@pytest.fixture
+def simulated(monkeypatch, make_result):
+    """Stand in for the solver: highest at 0.28, growing at 0.16 and 0.28; lists speeds and revolutions."""
+    asked = []
+
+    def simulate(blade, spec):
+        asked.append((spec.f_omega, spec.revolutions))
+        growth = 0.05 if spec.f_omega in (0.16, 0.28) else 0.0
+        order = 6.0 if spec.f_omega < 0.25 else 4.0
+        height = 1e-3 * (1 - 2 * abs(spec.f_omega - 0.28))
+        return make_result(revolutions=spec.revolutions, order=order, amplitude=height, growth=growth)
+
+    monkeypatch.setattr(search, "simulate", simulate)
+    return asked
+
+
+def test_the_search_encloses_the_peaks_and_judges_even_speeds_alone(few_speeds, blade, simulated):
+    speeds = chart_speeds(few_speeds)
+    np.testing.assert_allclose(speeds.f_omega[speeds.coarse], [0.16, 0.24, 0.32])
+    point = search.compute(few_speeds, CASE, blade, speeds, np.sqrt(1 + 3 * speeds.f_omega**2))
+    runs = [f_omega for f_omega, revolutions in simulated if revolutions == 20]
+    assert runs[:3] == [0.16, 0.24, 0.32]
+    assert sorted(runs) == list(point.f_omega[point.known])
+    assert {0.26, 0.28, 0.3} <= set(runs)
+    assert [f_omega for f_omega, revolutions in simulated if revolutions == 60] == [0.16]
+    judged = dict(zip(point.f_omega, point.measures["divergent"], strict=True))
+    assert (judged[0.16], judged[0.24], judged[0.32]) == (1.0, 0.0, 0.0)
+    assert np.isnan(judged[0.28])
+
+
+def test_searches_together_are_those_alone(few_speeds, blade, simulated):
+    speeds = chart_speeds(few_speeds)
+    C1 = np.sqrt(1 + 3 * speeds.f_omega**2)
+    cases = [CASE, replace(CASE, E=5.0)]
+    asked = []
+
+    def solve(specs):
+        asked.append(len(specs))
+        return ((i, search.simulate(blade, specs[i])) for i in reversed(range(len(specs))))  # in any order
+
+    searches = {case: search.search(few_speeds, case, blade, speeds, C1) for case in cases}
+    together = dict(search.compute_together(searches, solve))
+    for case in cases:
+        alone = search.compute(few_speeds, case, blade, speeds, C1)
+        np.testing.assert_array_equal(together[case].spectrum_amplitude, alone.spectrum_amplitude)
+        for name, values in alone.measures.items():
+            np.testing.assert_array_equal(together[case].measures[name], values)
+    assert asked[0] == 2 * speeds.coarse.sum()  # both at once
+    assert asked[-1] == 2  # the longer runs of those that grow, in the end
+
+
+def test_worn_volume_is_depth_times_area(few_speeds, blade, simulated):
+    speeds = chart_speeds(few_speeds)
+    point = search.compute(few_speeds, CASE, blade, speeds, np.sqrt(1 + 3 * speeds.f_omega**2))
+    depth = 2e-4 * np.linspace(1, 0.5, 8) / np.pi  # the mean of clip(cos, 0) is 1/π
+    expected = np.sum(depth * strip_width(blade) * 2 * np.pi * 0.65)
+    volume = point.measures["worn_volume"][point.known]
+    np.testing.assert_allclose(volume, expected, rtol=1e-5)
+    assert np.all(point.measures["deepest_wear"][point.known] == pytest.approx(2e-4, rel=1e-4))
+
+
+@pytest.fixture
+def measured(few_speeds, blade, make_result, monkeypatch):
+    """Run a point with one result for the runs of the study and another for the longer ones."""
+
+    def compute(result, longer=None):
+        by_length = {result.revolution_peak.size: result}
+        if longer is not None:
+            by_length[longer.revolution_peak.size] = longer
+        monkeypatch.setattr(search, "simulate", lambda _, spec: by_length[spec.revolutions])
+        speeds = chart_speeds(few_speeds)
+        return search.compute(few_speeds, CASE, blade, speeds, np.sqrt(1 + 3 * speeds.f_omega**2))
+
+    return compute
+
+
+def test_each_measure_is_that_of_its_run(measured, make_result, blade):
+    result = make_result(order=4.0, amplitude=1e-3)
+    result = replace(result, revolution_peak=result.revolution_peak + np.linspace(0, 1e-3, 20))
+    point = measured(result)
+    f_omega, of = point.f_omega[point.known], {k: v[point.known] for k, v in point.measures.items()}
+    assert of["peak"] == pytest.approx(2e-3, rel=1e-4)
+    assert of["lobes"] == pytest.approx(4)
+    assert (of["unbounded"] == 0).all()
+    assert of["revolutions"] == pytest.approx(1000 * 2e-7 * f_omega * blade.f1_hz)
+    for name in ("damping", "wear", "sliding"):
+        assert (of[f"energy_{name}"] == getattr(result.energy, name)).all()
+    np.testing.assert_allclose(point.spectrum_amplitude[point.known, 0], 1e-3, rtol=1e-3)
+    assert (point.spectrum_amplitude[point.known, 1] < 1e-6).all()
+
+
+def test_shallow_lobes_are_not_counted(measured, make_result, few_speeds, angle):
+    low = np.where(np.cos(4 * angle) > 0, 1.0, np.where(np.cos(2 * angle) > 0, 0.5, 0.2))
+    result = replace(make_result(), wear=1e-4 * low * np.cos(4 * angle) ** 2 * np.ones((8, 1)))
+    counts = []
+    for prominence in (0.05, 0.9):
+        few_speeds["analysis"]["lobe_prominence"] = prominence
+        counts.append(np.nanmax(measured(result).measures["lobes"]))
+    assert counts[0] > counts[1]
+
+
+def test_an_unbounded_run_is_divergent(measured, make_result):
+    point = measured(make_result(complete=12.5))
+    assert (point.measures["unbounded"][point.known] == 1).all()
+    assert (point.measures["divergent"][point.uniform] == 1).all()
+
+
+@pytest.mark.parametrize(("later", "divergent"), [(0.05, 1.0), (0.0, 0.0)])
+def test_the_longer_run_decides_whether_growth_lasts(measured, make_result, later, divergent):
+    point = measured(make_result(growth=0.05), make_result(revolutions=60, growth=later))
+    assert (point.measures["divergent"][point.uniform] == divergent).all()
+
+
+def test_the_amplitude_just_above_the_highest_order_counts(measured, make_result, few_speeds):
+    few_speeds["analysis"]["peaks"]["order_halfwidth"] = 0.2
+    point = measured(make_result(order=6.1, amplitude=1e-3))
+    np.testing.assert_allclose(point.spectrum_amplitude[point.known, 1], 1e-3, rtol=1e-3)

@@ -1,0 +1,189 @@
+from dataclasses import replace
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from bladerub.extras.chart import check, choice, explanation, ridge, stiffening, table
+from bladerub.extras.chart.point import read, write
+from bladerub.io.tables import described_columns, entry
+from bladerub.study.grid import CoatingCase
+
+E, K = (0.5, 1.0, 2.0), (0.1, 1.0, 10.0)
+
+
+@pytest.fixture
+def chart(make_point):
+    """Highest at K = 1 for each E; the peak of E = 2 lies between the even speeds."""
+    heights = {0.1: 1e-3, 1.0: 2e-3, 10.0: 1.5e-3}
+    return [
+        make_point(e, k, Y4=e * heights[k], f4=0.322 if e == 2 else 0.32, depth=1e-4 * k)
+        for e in E
+        for k in K
+    ]
+
+
+def test_a_point_comes_back_from_its_file(tmp_path, config, make_point):
+    point, path = make_point(1.0, 2.0), tmp_path / "point.h5"
+    point.measures["peak"][3] = np.nan
+    write(path, point, "key", config)
+    again = read(path)
+    assert again.case == point.case
+    np.testing.assert_array_equal(again.uniform, point.uniform)
+    np.testing.assert_array_equal(again.spectrum_amplitude, point.spectrum_amplitude)
+    for name, values in point.measures.items():
+        np.testing.assert_array_equal(again.measures[name], values)
+    assert again.known.sum() == point.f_omega.size - 1
+
+
+def test_a_row_sums_up_a_cell(config, make_point):
+    point = make_point(2.0, 1.0, Y4=3e-3, f4=0.33, divergent=1.0)
+    point.measures["divergent"][0] = 0.0
+    found = table.table(config, [point]).iloc[0]
+    assert (found.Y4, found.f4, found.Y6, found.f6) == (3e-3, 0.33, 5e-4, 0.19)
+    assert (found.peak, found.f_at_peak, found.deepest_wear) == (3e-3, 0.33, 1e-4)
+    assert found.divergent_share == pytest.approx(31 / 32)
+    assert {entry(name) for name in found.index} <= described_columns().keys()
+
+
+def test_the_ridge_is_the_greatest_of_each_E_and_of_each_K(config, chart):
+    ridges = ridge.table(config, chart)
+    finest = ridges[(ridges.order == 4) & (ridges.speed_step == 0.002)]
+    along = finest[finest.along == "E"].set_index("E")
+    assert (along.K == 1.0).all()
+    assert (finest[finest.along == "K"].E == 2.0).all()
+    assert along.E_T[2.0] == pytest.approx(2 / 3)
+    assert along.amplitude[1.0] == pytest.approx(2e-3)
+    assert (along.lowest_neighbour[1.0], along.highest_neighbour[1.0]) == pytest.approx((0.5e-3, 4e-3))
+    assert (along.lowest_neighbour[2.0], along.highest_neighbour[2.0]) == pytest.approx((1e-3, 3e-3))
+
+
+def test_a_coarser_step_loses_what_lies_between(config, chart):
+    found = ridge.summary(ridge.table(config, chart))
+    of_order = found[found.order == 4].set_index("speed_step")
+    assert list(of_order.index) == [0.002, 0.004, 0.008]
+    assert list(of_order.amplitude) == pytest.approx(
+        [4e-3, 4e-3 * (1 - 0.002 / 0.05), 4e-3 * (1 - 0.002 / 0.05)]
+    )
+    assert (of_order.K_shift == 1).all()
+    assert (of_order.height_lost == 0).all()  # the median: two ridge points of three lie on even speeds
+    assert set(found.columns) <= described_columns().keys()
+
+
+def test_the_explanation_counts_cycles(config, chart):
+    found = explanation.table(config, chart).set_index(["E", "K", "order"])
+    assert found.wear_per_cycle[1.0, 1.0, 4] == pytest.approx(240 / (20 * 4))
+    assert found.wear_per_cycle[1.0, 1.0, 6] == pytest.approx(240 / (20 * 6))
+    assert found.E_T[1.0, 1.0, 4] == pytest.approx(0.5)
+    assert found.f_crossing[1.0, 1.0, 4] == pytest.approx(1 / np.sqrt(13), abs=1e-5)
+    assert set(found.reset_index().columns) <= described_columns().keys()
+
+
+@pytest.fixture
+def leaning(blade):
+    """The first mode takes node 1 away from the casing by a fifth of its way along it; the others rest."""
+    axial = np.eye(3)[0]  # the first mode of this blade is axial
+    return replace(
+        blade,
+        radial_direction=blade.radial_direction - 0.2 * axial,
+        tangential_direction=blade.tangential_direction + axial,
+    )
+
+
+@pytest.fixture
+def peaks():
+    """f4 is a function of E_T alone; f6 lies below the crossing where E = 2."""
+    rows = [
+        {"order": order, "theta": 0.0, "E": e, "K": k, "E_T": e * k / (e + k)}
+        for order in (4, 6)
+        for e in E
+        for k in K
+    ]
+    found = pd.DataFrame(rows)
+    found["f_peak"] = 0.3 + 0.05 * np.tanh(found.E_T)
+    found["f_crossing"] = np.where((found.order == 6) & (found.E == 2), 0.4, 0.3)
+    return found
+
+
+def test_a_speed_that_follows_the_modulus_of_the_contact_does_not_scatter_about_it(peaks, leaning):
+    found = stiffening.table(peaks, leaning)
+    of_four = found.set_index("order").loc[4]
+    assert of_four.rank_correlation_E_T == pytest.approx(1)
+    assert of_four.scatter_E_T == pytest.approx(0, abs=1e-12)
+    assert max(of_four.rank_correlation_K, of_four.rank_correlation_E) < 0.95
+    assert set(found.columns) <= described_columns().keys()
+
+
+def test_scatter_is_that_about_the_mean_where_f_falls_throughout(peaks, leaning):
+    peaks = peaks[peaks.order == 4].drop_duplicates("E_T")
+    falling = peaks.assign(f_peak=0.35 - 0.02 * peaks.E_T)  # the nearest curve that never falls is flat
+    assert stiffening.table(falling, leaning).scatter_E_T[0] == pytest.approx(falling.f_peak.std(ddof=0))
+
+
+def test_coatings_of_one_modulus_scatter_about_their_mean(peaks, leaning):
+    peaks = peaks[(peaks.order == 4) & (peaks.K == 1)].assign(f_peak=[0.31, 0.32, 0.36])
+    found = stiffening.table(peaks, leaning)
+    assert found.scatter_K[0] == pytest.approx(np.std([0.31, 0.32, 0.36]))
+    assert np.isnan(found.rank_correlation_K[0])
+
+
+def test_peaks_below_the_crossing_are_counted_and_left_out(peaks, leaning):
+    found = stiffening.table(peaks, leaning).set_index("order")
+    assert list(found.coatings) == [9, 6]
+    assert list(found.below_crossing) == [0, 3]
+    nowhere = stiffening.table(peaks.assign(f_peak=0.29), leaning)
+    assert (nowhere.coatings == 0).all()
+    assert nowhere.scatter_E_T.isna().all()
+
+
+def test_the_share_follows_from_the_lean_of_the_first_mode(leaning):
+    assert stiffening.share(leaning, 0.15, 0.2) == pytest.approx(np.cos(0.15) - np.sin(0.15) / 0.2)
+    assert stiffening.share(leaning, 0.0, 0.2) == 1.0
+
+
+def test_inclined_bars_need_so_much_more_modulus_at_the_same_speed(peaks, leaning):
+    peaks["f_peak"] = 0.3 + 0.01 * peaks.E_T
+    inclined = peaks.assign(theta=0.15, E_T=3.5 * peaks.E_T)  # the same f_k
+    inclined.loc[inclined.f_peak > 0.315, "f_peak"] = 0.4  # beyond what is small
+    found = stiffening.table(pd.concat([peaks, inclined]), leaning)
+    assert list(found[found.order == 4].modulus_ratio) == pytest.approx([1, 3.5])
+    expected = 1 / stiffening.share(leaning, 0.15, 0.3)
+    assert list(found[found.order == 4].modulus_ratio_by_share) == pytest.approx([1, expected])
+
+
+def test_the_front_holds_what_nothing_betters():
+    chart = pd.DataFrame(
+        {
+            "theta": [0.0, 0.0, 0.0, 0.0, 0.15],
+            "peak": [1e-3, 2e-3, 3e-3, 2e-3, 9e-3],
+            "worn_volume": [5.0, 3.0, 4.0, 3.5, 9.0],
+            "deepest_wear": [1e-4, 9e-4, 1e-4, 1e-4, 1e-4],
+            "divergent_share": [0.0, 0.0, 0.0, 0.0, 0.0],
+        }
+    )
+    limits = {"amplitude": 5e-3, "wear": 5e-4, "divergent_share": 0.0}
+    front = choice.pareto(chart, limits)
+    assert list(front.peak) == [1e-3, 2e-3, 9e-3]
+    assert list(front.worn_volume) == [5.0, 3.0, 9.0]
+    assert list(front.safe) == [True, False, False]
+    broken = choice.broken_limits(chart, limits)
+    assert list(broken.wear) == [False, True, False, False, False]
+    assert list(broken.amplitude) == [False] * 4 + [True]
+
+
+def test_the_search_is_put_to_the_study(config, make_map):
+    f_omega = np.append(np.round(np.arange(0.02, 0.4001, 0.002), 6), 0.197)
+    f_omega.sort()
+    maps = [
+        make_map(CoatingCase("2nd", e, 0.5, 0.0), {4: (0.322, 2e-3), 6: (0.19, 1e-3)}, f_omega) for e in E
+    ]
+    maps[1].spectrum_amplitude[f_omega == 0.274, 40] = 3e-3  # a spike that no local maximum leads to
+    found = check.table(config, maps)
+    spike = (found.E == 1.0) & (found.quantity == "Y4")
+    assert (found.missed[~spike] == 0).all()
+    assert found.missed[spike].item() == pytest.approx(1 / 3)
+    counts = check.summary(found).set_index("quantity")
+    assert tuple(counts.loc["Y4", ["coatings", "exact", "within_5_percent"]]) == (3, 2, 2)
+    assert counts.worst_missed["Y4"] == pytest.approx(1 / 3)
+    assert (counts.exact[["Y6", "peak"]] == 3).all()
+    assert {*found.columns, *counts.reset_index().columns} <= described_columns().keys()

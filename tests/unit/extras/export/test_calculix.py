@@ -1,0 +1,44 @@
+import numpy as np
+import pytest
+
+from bladerub.blade.elasticity import Material
+from bladerub.extras.export.calculix import deck, frequencies, write_decks
+
+MATERIAL = Material(110e9, 0.32, 4430.0)
+POINTS = np.arange(60.0).reshape(20, 3)
+
+
+@pytest.mark.parametrize(("n_nodes", "kind", "n_lines"), [(20, "C3D20", 2), (10, "C3D10", 1)])
+def test_a_deck_has_the_elements_in_lines_of_16_numbers(n_nodes, kind, n_lines):
+    lines = deck(POINTS, np.arange(n_nodes)[None], np.array([0, 1]), MATERIAL, 0.0).splitlines()
+    start = lines.index(f"*ELEMENT, TYPE={kind}, ELSET=BLADE") + 1
+    element = lines[start : start + n_lines]
+    assert all(line.endswith(",") for line in element[:-1])
+    numbers = [int(number) for line in element for number in line.rstrip(",").split(",")]
+    assert numbers == [1, *range(1, n_nodes + 1)]
+    assert "*DLOAD" not in lines
+    assert max(len(line.rstrip(",").split(",")) for line in lines) <= 16
+
+
+def test_a_deck_of_a_rotating_blade_has_its_load_first():
+    text = deck(POINTS, np.arange(20)[None], np.array([0]), MATERIAL, 30.0)
+    assert "BLADE, CENTRIF, 9.000000000000e+02, 0., 0., 0., 1., 0., 0." in text
+    assert text.index("*STEP, NLGEOM") < text.index("*STEP, PERTURBATION") < text.index("*FREQUENCY")
+
+
+def test_there_is_a_deck_for_each_speed(tmp_path):
+    paths = write_decks(tmp_path / "decks", [0.0, 0.25], 100.0, POINTS, np.arange(20)[None], [0], MATERIAL)
+    assert [path.name for path in paths] == ["blade_0.0000.inp", "blade_0.2500.inp"]
+    omega_squared = (2 * np.pi * 25.0) ** 2
+    assert f"CENTRIF, {omega_squared:.12e}" in paths[1].read_text()
+
+
+def test_frequencies_are_read_from_the_table_of_calculix(tmp_path):
+    (tmp_path / "blade.dat").write_text(
+        "\n     E I G E N V A L U E   O U T P U T\n\n MODE NO    EIGENVALUE                       FREQUENCY\n"
+        "                                     REAL PART            IMAGINARY PART\n"
+        "                           (RAD/TIME)      (CYCLES/TIME     (RAD/TIME)\n\n"
+        "      1   0.1458357E+07   0.1207625E+04   0.1921995E+03   0.0000000E+00\n"
+        "      2   0.2804134E+08   0.5295407E+04   0.8427901E+03   0.0000000E+00\n"
+    )
+    np.testing.assert_array_equal(frequencies(tmp_path / "blade.dat"), [192.1995, 842.7901])

@@ -1,0 +1,72 @@
+import numpy as np
+import pandas as pd
+import pytest
+
+from bladerub.blade.elasticity import Material, Solid
+from bladerub.blade.geometry import BladeShape
+from bladerub.blade.linear import lowest_modes
+from bladerub.blade.mesh import BladeMesh
+from bladerub.blade.rotation import equilibrium
+from bladerub.blade.sources.frame import Frame
+from bladerub.blade.sources.importing import import_blade
+from bladerub.blade.sources.origin import Source
+from bladerub.config.read import load
+from bladerub.extras.export.sections import write_sections
+from bladerub.io.folders import ROOT
+
+COUNTS = {"chordwise": 7, "thickness": 1, "spanwise": 6}
+
+
+@pytest.fixture
+def blade():
+    """The ``blade`` block of the default config, to be changed at will."""
+    return load(ROOT / "config" / "config.yaml")["blade"]
+
+
+def frequencies(mesh, material):
+    solid = Solid(mesh.mesh, Material.from_config(material), clamped=mesh.root)
+    return lowest_modes(equilibrium(solid, 0.0).stiffness, solid.mass, 8)[0]
+
+
+@pytest.mark.parametrize("coordinates", ["cartesian", "cylindrical"])
+def test_the_default_blade_comes_back_from_its_sections_in_inches_and_degrees(blade, tmp_path, coordinates):
+    path = tmp_path / "blade.csv"
+    write_sections(path, BladeShape.from_config(blade), coordinates)
+    table = pd.read_csv(path, comment="#")
+    lengths = [name for name in table if name not in ("section", "theta1", "theta2")]
+    table[lengths] /= 0.0254
+    if coordinates == "cylindrical":
+        table[["theta1", "theta2"]] = np.rad2deg(table[["theta1", "theta2"]])
+    table.to_csv(path, index=False)
+    source = Source(path, Frame("inch"), angle_unit="deg")
+    imported = import_blade(source, COUNTS)
+    ours = BladeMesh.from_shape(BladeShape.from_config(blade), COUNTS)
+    np.testing.assert_allclose(
+        frequencies(imported.blade.mesh, blade["material"]), frequencies(ours, blade["material"]), rtol=3e-4
+    )
+    assert np.rad2deg(imported.blade.tip_cone) == pytest.approx(blade["tip_cone"], abs=1e-4)
+    assert all(section.cut == (0, 0) for section in imported.sections)
+    interface = imported.blade.mesh.mesh.points[imported.blade.mesh.interface]
+    np.testing.assert_allclose(interface, ours.mesh.points[ours.interface], atol=1e-4)
+
+
+@pytest.mark.parametrize("coordinates", ["cartesian", "cylindrical"])
+def test_edges_square_to_the_axis_are_written_as_well(blade, tmp_path, coordinates):
+    straight = {"camber": 0.0, "stagger": 0.0, "sweep": 0.0, "lean": 0.0}
+    blade["sections"] = [section | straight for section in blade["sections"]]
+    shape = BladeShape.from_config(blade)
+    n_sections, n_stations = write_sections(tmp_path / "blade.csv", shape, coordinates)
+    assert (n_sections, n_stations) == (21, 21 * 61)
+    imported = import_blade(Source(tmp_path / "blade.csv"), COUNTS)
+    direct = BladeMesh.from_shape(shape, COUNTS).mesh
+    np.testing.assert_allclose(imported.blade.mesh.mesh.points, direct.points, atol=1e-4)
+
+
+def test_a_side_that_goes_back_along_the_axis_has_no_cylindrical_table(blade, tmp_path):
+    blade["sections"] = [section | {"stagger": 75.0} for section in blade["sections"]]
+    shape = BladeShape.from_config(blade)
+    with pytest.raises(ValueError, match="the section at 0% of the span goes back along the axis"):
+        write_sections(tmp_path / "blade.csv", shape, "cylindrical")
+    assert not (tmp_path / "blade.csv").exists()
+    write_sections(tmp_path / "blade.csv", shape, "cartesian")
+    assert import_blade(Source(tmp_path / "blade.csv"), COUNTS).volume > 0

@@ -1,0 +1,77 @@
+import numpy as np
+import pytest
+
+from bladerub.contact import law
+from bladerub.contact.spec import Coating
+from bladerub.extras.fit.curves import Curve
+from bladerub.extras.fit.fit import fit, stress
+from bladerub.io.errors import BadInput
+
+TRUTH = {"E": 900e6, "K": 60e6, "yield_stress": 8e6, "overstress": 3e6, "exponent": 0.2}
+NOISE = 0.2e6
+
+
+def curves(rates, seed=None, highest=0.06, n=30, **changed):
+    """Draw curves of the parameters `TRUTH`, with noise if there is a seed."""
+    values = [*(TRUTH | changed).values()][: 3 if len(rates) == 1 else 5]
+    noise = np.random.default_rng(seed).normal(0, NOISE if seed is not None else 0, (len(rates), n))
+    strain = np.linspace(highest / n, highest, n)
+    bare = [Curve(rate, strain, strain) for rate in rates]
+    return [
+        curve._replace(stress=stress(values, curve) + error) for curve, error in zip(bare, noise, strict=True)
+    ]
+
+
+def test_the_stress_is_that_of_the_law_step_by_step_with_unloading():
+    path = np.array([0.002, 0.01, 0.03, 0.028, 0.025, 0.029, 0.04])
+    coating = Coating(900e6, 60e6, 0.0, 8e6, modulus_unit=1.0, thickness=1.0, n_elements=1)
+    expected, wear = [], 0.0
+    for strain in path:
+        force, wear = law.load(coating, strain, wear)
+        expected.append(float(force))
+    np.testing.assert_allclose(stress([900e6, 60e6, 8e6], Curve(0.0, path, path)), expected, rtol=1e-12)
+
+
+@pytest.mark.parametrize("rates", [[0.0], [1e-3, 0.1, 1, 100]])
+def test_parameters_come_back_from_exact_curves(rates):
+    found = fit(curves(rates))
+    for parameter in found.parameters:
+        assert parameter.value == pytest.approx(TRUTH[parameter.name], rel=1e-5)
+
+
+def test_two_rates_give_the_viscosity():
+    found = fit(curves([0.0, 2.0], exponent=1.0))
+    assert [parameter.name for parameter in found.parameters][3:] == ["overstress"]
+    assert found["overstress"].value == pytest.approx(3e6, rel=1e-5)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("rates", [[0.0], [1e-3, 0.1, 1, 100]])
+def test_intervals_cover_the_truth_as_often_as_they_say(rates):
+    draws = [fit(curves(rates, seed)) for seed in range(200)]
+    for name in [parameter.name for parameter in draws[0].parameters]:
+        covered = np.mean([found[name].low <= TRUTH[name] <= found[name].high for found in draws])
+        assert 0.90 <= covered <= 0.99  # binomial: 0.95 within three standard deviations of 200 draws
+
+
+def test_what_elastic_curves_do_not_show_is_said():
+    found = fit(curves([0.0], seed=1, highest=0.005))
+    assert found["E"].determined
+    assert not found["K"].determined
+    assert found["K"].standard_error is None
+
+
+def test_a_plastic_modulus_within_the_noise_is_not_determined():
+    assert not fit(curves([0.0], seed=3, highest=0.012, n=40, K=1e6))["K"].determined
+
+
+def test_residuals_that_follow_one_another_are_said():
+    strain = np.linspace(0.001, 0.06, 60)
+    bent = Curve(0.0, strain, 20e6 * np.tanh(strain / 0.02))
+    assert fit([bent]).has_correlated_residuals
+    assert not fit(curves([0.0], seed=1)).has_correlated_residuals
+
+
+def test_too_few_points_are_refused():
+    with pytest.raises(BadInput, match="3 points are too few for 3 parameters"):
+        fit(curves([0.0], n=3))

@@ -1,0 +1,53 @@
+import numpy as np
+import pytest
+
+from bladerub.extras.identification.emulator import Emulator, Predicted, compared, held_out
+
+
+def smooth(x):
+    return np.sin(4 * x[:, 0]) + x[:, 1] * x[:, 2]
+
+
+@pytest.fixture
+def positions():
+    return np.random.default_rng(1).random((60, 4))
+
+
+def test_a_smooth_function_is_predicted_between_the_sets(positions):
+    emulator = Emulator(positions, smooth(positions))
+    others = np.random.default_rng(2).random((200, 4))
+    found = compared(smooth(others), emulator.predict(others))
+    assert found.explained > 0.98
+    assert found.within_two > 0.8
+
+
+def test_scatter_is_part_of_the_predicted_deviation(positions):
+    rng = np.random.default_rng(3)
+    emulator = Emulator(positions, smooth(positions) + 0.3 * rng.standard_normal(60))
+    others = rng.random((400, 4))
+    scattered = smooth(others) + 0.3 * rng.standard_normal(400)
+    predicted = emulator.predict(others)
+    assert 0.3 < np.median(predicted.deviation) < 0.6
+    assert 0.85 < compared(scattered, predicted).within_two <= 1
+
+
+def test_equal_values_are_predicted_as_they_are(positions):
+    mean, deviation = Emulator(positions, np.full(60, 0.3)).predict(positions[:5])
+    assert mean == pytest.approx(np.full(5, 0.3))
+    assert deviation == pytest.approx(np.zeros(5))
+
+
+def test_sets_left_out_are_predicted_about_as_well_as_new_ones(positions):
+    values = smooth(positions)
+    emulator = Emulator(positions, values)
+    assert held_out(emulator, positions, values).explained > 0.95
+    noise = np.random.default_rng(4).standard_normal(60)
+    assert held_out(Emulator(positions, noise), positions, noise).explained < 0.4
+
+
+def test_compared_says_what_is_explained_and_how_often_the_deviation_holds():
+    values = np.array([0.0, 1.0, 2.0, 3.0])
+    found = compared(values, Predicted(np.array([0.0, 1.0, 2.0, 1.0]), np.full(4, 0.5)))
+    assert found.explained == pytest.approx(1 - 1.0 / 1.25)
+    assert found.within_two == 0.75
+    assert np.isnan(compared(np.empty(0), Predicted(np.empty(0), np.empty(0))).explained)

@@ -1,0 +1,57 @@
+import numpy as np
+import pandas as pd
+import pytest
+
+from bladerub.extras.identification import implausibility
+from bladerub.extras.identification.emulator import Emulator, emulators
+from bladerub.extras.identification.targets import AT_LEAST, AT_MOST, EQUAL, TARGETS, Target
+
+KNOWN = {target.name: target for target in TARGETS}
+
+
+@pytest.mark.parametrize(
+    ("relation", "expected"), [(EQUAL, [0.2, 0.0, 0.3]), (AT_LEAST, [0.2, 0, 0]), (AT_MOST, [0, 0, 0.3])]
+)
+def test_a_target_is_missed_on_the_sides_of_its_relation(relation, expected):
+    target = Target("speed", "C1a", relation, 1.0, 0.1, lambda evidence: 0.0)
+    assert target.excess(np.array([0.8, 1.0, 1.3])) == pytest.approx(np.array(expected))
+    assert np.isnan(target.excess(np.array([np.nan]))).all()
+
+
+def test_quantities_become_a_row_a_set_in_the_order_of_the_targets():
+    names = [TARGETS[3].name, TARGETS[1].name]
+    long = pd.DataFrame({"set": [7, 7, 2, 2], "target": names * 2, "value": [1.0, 2.0, 3.0, 4.0]})
+    table = implausibility.wide(long)
+    assert list(table.columns) == names[::-1]
+    assert list(table.index) == [2, 7]
+    assert table.loc[7, names[0]] == 1.0
+
+
+def test_simulated_sets_are_judged_by_the_error_of_reading_alone():
+    target = KNOWN["f4_soft"]
+    found = implausibility.of_simulated(pd.DataFrame({"f4_soft": [0.31, 0.31 + 2 * target.error, np.nan]}))
+    assert found.f4_soft.to_numpy() == pytest.approx(np.array([0.0, 2.0, np.nan]), nan_ok=True)
+
+
+def test_the_deviation_of_a_prediction_makes_a_set_more_plausible():
+    rng = np.random.default_rng(0)
+    positions, target = rng.random((40, 2)), KNOWN["f4_soft"]
+    far = target.value + 10 * target.error
+    sure = implausibility.predicted({"f4_soft": Emulator(positions, np.full(40, far))}, positions[:3])
+    assert sure.f4_soft.to_numpy() == pytest.approx(np.full(3, 10.0))
+    scattered = far + 5 * target.error * rng.standard_normal(40)
+    unsure = implausibility.predicted({"f4_soft": Emulator(positions, scattered)}, positions)
+    assert unsure.f4_soft.median() < 4
+
+
+def test_a_target_needs_enough_sets_for_an_emulator():
+    positions = np.random.default_rng(0).random((20, 2))
+    measured = pd.DataFrame({"f4_soft": positions[:, 0], "f6_soft": np.where(np.arange(20) < 9, 0.2, np.nan)})
+    assert list(emulators(positions, measured)) == ["f4_soft"]
+
+
+def test_the_worst_targets_are_left_out_when_given_up():
+    table = pd.DataFrame({"a": [1.0, 5.0, np.nan], "b": [4.0, 2.0, 0.0], "c": [2.0, 9.0, 1.0]})
+    assert list(implausibility.without(table, 0)) == [4.0, 9.0, np.inf]
+    assert list(implausibility.without(table, 1)) == [2.0, 5.0, 1.0]
+    assert list(implausibility.without(table, 3)) == [0.0, 0.0, 0.0]

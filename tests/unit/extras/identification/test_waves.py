@@ -1,0 +1,222 @@
+import numpy as np
+import pandas as pd
+import pytest
+
+from bladerub.config.errors import UNKNOWN
+from bladerub.config.files import Located
+from bladerub.extras.factors import Factor
+from bladerub.extras.identification import candidates, sets, summary, waves
+from bladerub.extras.identification.emulator import Emulator
+from bladerub.extras.identification.implausibility import predicted, without
+from bladerub.extras.identification.plan import BATCH, Candidates, Part, Plan
+from bladerub.extras.identification.targets import TARGETS
+
+TARGET = {target.name: target for target in TARGETS}
+STUDY = {"contact": {"modulus_unit": 6e8}, "blade": {"hub_radius": 0.45}}
+EMPTY = Located.of({}, UNKNOWN)
+
+
+@pytest.fixture
+def plan():
+    return Plan(
+        seed=5,
+        factors=(
+            Factor("unit", "Pa", {"contact.modulus_unit": (2e8, 1e9)}),
+            Factor("hub", "m", {"blade.hub_radius": (0.3, 0.6)}),
+        ),
+        parts={"peaks": Part(("C4",), EMPTY)},
+        sets={"soft": {"unit": 2e8}},
+        waves=(32, 8),
+        remaining=0.01,
+        candidates=Candidates(2, 3, 0.02, EMPTY),
+    )
+
+
+@pytest.fixture
+def positions(plan):
+    return waves.first(plan, STUDY)
+
+
+@pytest.fixture
+def measured(positions):
+    """Targets that the sets near (0.3, 0.8) meet."""
+    far = positions - np.array([0.3, 0.8])
+    f4, f6 = TARGET["f4_soft"], TARGET["f6_soft"]
+    return pd.DataFrame(
+        {"f4_soft": f4.value + 40 * f4.error * far[:, 0], "f6_soft": f6.value + 40 * f6.error * far[:, 1]},
+        index=pd.RangeIndex(len(positions), name="set"),
+    )
+
+
+@pytest.fixture
+def emulated(positions, measured):
+    return {name: Emulator(positions, values.to_numpy()) for name, values in measured.items()}
+
+
+def test_the_first_wave_has_the_study_s_own_values_the_given_ones_and_a_spread(plan, positions):
+    assert positions[0] == pytest.approx([0.5, 0.5])
+    assert positions[1] == pytest.approx([0.0, 0.5])
+    assert sorted((32 * positions[2:, 0]).astype(int)) == list(range(32))
+    assert np.array_equal(positions, waves.first(plan, STUDY))
+
+
+def test_sets_are_counted_through_all_waves(plan):
+    assert (plan.size(1), plan.size(2)) == (34, 8)
+    assert [number for batch in plan.batches(1) for number in batch] == list(range(34))
+    assert [number for batch in plan.batches(2) for number in batch] == list(range(34, 42))
+    assert max(map(len, plan.batches(1))) <= BATCH
+
+
+def test_what_is_left_lies_where_the_targets_are_met(plan, emulated):
+    left = waves.remaining(plan, emulated)
+    assert left.given_up == 0
+    assert np.abs(left.points.mean(axis=0) - [0.3, 0.8]).max() < 0.05
+    # three of 40 standard deviations on both sides, in both factors
+    assert left.share == pytest.approx(0.15**2, rel=0.1)
+    assert left.plausible["f4_soft"] == pytest.approx(0.15, rel=0.1)
+
+
+def test_without_an_emulator_all_is_left_and_the_next_sets_are_spread(plan, positions):
+    left = waves.remaining(plan, {})
+    assert (left.share, left.given_up, len(left.points)) == (1.0, 0, waves.POINTS)
+    assert left.plausible.empty
+    assert len(waves.draw(plan, 1, left, {}, positions)) == waves.DRAWN
+
+
+def test_without_an_emulator_the_targets_are_still_compared_with_the_paper(plan, positions, measured):
+    predictions = summary.predictions({}, 34, positions[:3])
+    assert list(predictions.columns) == summary.PREDICTIONS
+    table = summary.targets(measured, predictions)
+    assert set(table.target) == set(measured.columns)
+    assert table.explained.isna().all()
+
+
+def test_as_few_targets_are_given_up_as_leave_enough(plan, positions, measured):
+    nowhere = measured.assign(f4_straight=1.0)  # no target of that name: not asked for
+    nowhere = nowhere.drop(columns="f4_straight").assign(f6_straight=TARGET["f6_straight"].value + 1.0)
+    emulated = {name: Emulator(positions, values.to_numpy()) for name, values in nowhere.items()}
+    left = waves.remaining(plan, emulated)
+    assert left.given_up == 1
+    assert left.share >= plan.remaining
+    assert left.plausible["f6_straight"] == 0
+
+
+def test_the_next_sets_are_plausible_and_far_from_each_other(plan, positions, emulated):
+    left = waves.remaining(plan, emulated)
+    drawn = waves.draw(plan, 1, left, emulated, positions)
+    assert len(drawn) == waves.DRAWN
+    assert (without(predicted(emulated, drawn), left.given_up) <= 3).all()
+    first = drawn[:8]
+    apart = np.linalg.norm(first[:, None] - first, axis=2)[~np.eye(8, dtype=bool)]
+    assert apart.min() > 0.02
+    assert np.array_equal(drawn, waves.draw(plan, 1, left, emulated, positions))
+
+
+@pytest.fixture
+def nearest(measured):
+    """Number of the set that meets the targets best."""
+    return int(candidates.misfit(measured).idxmin())
+
+
+@pytest.fixture
+def verdicts(positions, nearest):
+    """Two parts of which both hold in set 7, one in set 3 and in the nearest, and none in the others."""
+    sets = pd.RangeIndex(len(positions))
+    holds = {"C4a": np.isin(sets, [3, 7]), "C4b": np.isin(sets, [7, nearest])}
+    tables = [
+        pd.DataFrame({"set": sets, "id": id_, "holds": np.where(yes, "yes", "no")})
+        for id_, yes in holds.items()
+    ]
+    return pd.concat(tables, ignore_index=True)
+
+
+@pytest.fixture
+def chosen(plan, positions, measured, verdicts):
+    table = pd.DataFrame(positions, index=measured.index, columns=["unit", "hub"])
+    return candidates.choose(plan, table, measured, verdicts)
+
+
+def test_the_best_sets_and_their_neighbours_are_chosen_beside_the_study_s_own(chosen, measured, nearest):
+    assert len(chosen) == 3 * 4
+    themselves = chosen[chosen.neighbour == 0]
+    assert themselves.set.iloc[0] == candidates.OWN
+    misfit = candidates.misfit(measured)
+    assert list(themselves.set[1:]) == [7, nearest]
+    assert list(themselves.misfit) == list(misfit[themselves.set])
+    for number in (0, 1, 2):
+        itself, *others = chosen[chosen.candidate == number][["unit", "hub"]].to_numpy()
+        moved = np.abs(np.array(others) - itself)
+        assert (moved <= 0.02 + 1e-12).all()
+        assert moved.max() == pytest.approx(0.02)
+
+
+def test_a_table_of_candidates_has_values_and_reads_back(plan, chosen, tmp_path):
+    long = candidates.as_table(plan, chosen)
+    own = long[(long.candidate == 0) & (long.neighbour == 0)].set_index("factor").value
+    assert own.unit == pytest.approx(6e8)
+    long.to_csv(tmp_path / "candidates.csv", index=False)
+    read = candidates.read(tmp_path / "candidates.csv")
+    assert list(read.columns) == ["unit", "hub"]
+    assert read.to_numpy() == pytest.approx(chosen[["unit", "hub"]].to_numpy())
+
+
+def test_a_target_that_is_far_off_counts_as_much_as_one_that_is_missing():
+    error = TARGET["f4_soft"].error
+    found = candidates.misfit(pd.DataFrame({"f4_soft": [0.31, 0.31 + error, 0.31 + 50 * error, np.nan]}))
+    assert list(found) == pytest.approx([0, 1, 9, 9])
+
+
+def test_parts_that_hold_are_counted_by_whether_they_were_matched(plan, chosen):
+    long = candidates.as_table(plan, chosen)
+    rows = [(0, 0, "C4a", "yes"), (0, 0, "C6a", "yes"), (0, 0, "C1a", "yes"), (0, 0, "C9a", "no")]
+    rows += [(1, 0, "C4a", "partly"), (1, 0, "C6a", "no"), (1, 0, "C1a", "yes"), (1, 0, "C9a", "no")]
+    verdicts = pd.DataFrame(rows, columns=["candidate", "neighbour", "id", "holds"]).assign(margin=0.0)
+    counted = candidates.counts(long, verdicts).set_index(["candidate", "neighbour"])
+    assert list(counted.loc[(0, 0)][["matched_yes", "predicted_yes", "yes", "parts"]]) == [1, 1, 3, 4]
+    assert list(counted.loc[(1, 0)][["matched_yes", "predicted_yes", "yes", "parts"]]) == [0, 0, 1, 4]
+
+
+def test_sets_keep_their_numbers_and_values_in_a_file(plan, positions, measured, tmp_path):
+    sets.as_table(plan, 3, positions[:2]).to_csv(tmp_path / "sets.csv", index=False)
+    read = sets.positions([tmp_path / "sets.csv"])
+    assert list(read.index) == [3, 4]
+    assert read.to_numpy() == pytest.approx(positions[:2])
+    listed = summary.sets(plan, pd.DataFrame(positions), candidates.misfit(measured))
+    assert listed[listed.factor == "hub"].value.iloc[0] == pytest.approx(0.45)
+    assert listed.misfit.notna().all()
+
+
+def test_emulators_and_targets_are_compared_with_sets_simulated_later(plan, positions, measured, emulated):
+    left = waves.remaining(plan, emulated)
+    errors = summary.emulated(1, emulated, left, positions, measured)
+    assert list(errors.columns) == summary.EMULATORS
+    assert (errors.explained > 0.8).all()
+    predictions = summary.predictions(emulated, 0, positions)
+    found = summary.targets(measured, predictions).set_index("target")
+    assert (found.explained > 0.99).all()
+    assert found.own_value["f4_soft"] == measured.f4_soft[0]
+    nothing = summary.targets(measured, predictions.iloc[:0]).set_index("target")
+    assert nothing.explained.isna().all()
+
+
+def test_ranges_say_what_is_left_of_each_factor(plan, emulated):
+    found = summary.ranges(plan, waves.remaining(plan, emulated)).set_index("factor")
+    assert found.lowest["hub"] == pytest.approx(0.3)
+    assert found.highest["hub"] == pytest.approx(0.6)
+    assert found.left_low["hub"] < 0.3 + 0.8 * 0.3 < found.left_high["hub"]
+
+
+def test_claims_that_hold_together_less_often_than_by_chance_exclude_each_other():
+    rng = np.random.default_rng(0)
+    one, other = rng.random((2, 400)) < 0.4
+    holds = {"C4a": one, "C5a": ~one, "C8a": other, "C11a": rng.random(400) < 0.01}
+    verdicts = pd.concat(
+        [
+            pd.DataFrame({"set": range(400), "id": id_, "holds": np.where(yes, "yes", "no")})
+            for id_, yes in holds.items()
+        ]
+    )
+    (pair,) = summary.exclusions(verdicts).itertuples(index=False)
+    assert {pair.id, pair.other_id} == {"C4a", "C5a"}
+    assert pair.both == 0
+    assert pair.by_chance == pytest.approx(pair.share * pair.other_share)

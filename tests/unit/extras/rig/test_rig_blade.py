@@ -1,0 +1,116 @@
+"""Passes of an elastic blade: the limit of a rigid one, momentum, energy, and what cannot be simulated."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from bladerub.blade.tip import tip_radius
+from bladerub.contact.laws import described_law
+from bladerub.contact.setup import strip_width
+from bladerub.contact.spec import PLASTIC
+from bladerub.extras.heat import LAYER
+from bladerub.extras.rig import blade as elastic
+from bladerub.extras.rig.passes import simulate_passes
+from bladerub.extras.rig.spec import Rig
+from bladerub.io.tables import described_columns
+
+DAMPING = 2.3e-3
+AS_RIGID = ["normal_impulse", "tangential_impulse", "normal_force", "tangential_force"]
+AS_RIGID += ["worn_depth", "pass_wear", "pass_energy"]
+
+
+@pytest.fixture
+def rig(blade):
+    return Rig(
+        "a blade",
+        E=600e6,
+        K=300e6,
+        yield_stress=1e5,
+        thickness=3e-3,
+        tip_width=float(strip_width(blade).sum()),
+        tip_length=8e-3,
+        track=2 * np.pi * tip_radius(blade),
+        speed=150.0,
+        incursion=1e-5,
+        passes=3,
+        theta=0.2,
+        edge_drop=5e-6,
+        coated=0.1,
+    )
+
+
+@pytest.fixture
+def stiff(blade):
+    """The blade with a millionth of its compliance."""
+    return replace(blade, stiffness_0=1e6 * blade.stiffness_0)
+
+
+def passes(rig, blade, **options):
+    return elastic.simulate_blade_passes(rig, blade, DAMPING, **options)
+
+
+@pytest.mark.parametrize(
+    "law", [PLASTIC, described_law("viscoplastic", {"viscosity": 1e4}), described_law("thermal", LAYER)]
+)
+def test_a_stiff_blade_is_a_rigid_tip(rig, stiff, law):
+    rig = replace(rig, law=law)
+    rigid, made = simulate_passes(rig, elastic.ELEMENTS, elastic.STEPS), passes(rig, stiff)
+    assert tuple(made.columns) == elastic.COLUMNS
+    assert set(made.columns) <= described_columns().keys()
+    for name in AS_RIGID:
+        assert made[name].to_numpy() == pytest.approx(rigid[name].to_numpy(), rel=5e-3), name
+    rise, expected = made.temperature_rise.to_numpy(), rigid.temperature_rise.to_numpy()
+    assert rise == pytest.approx(expected, rel=5e-3, nan_ok=True)
+
+
+def test_a_blade_yields_and_the_ledger_is_closed(rig, blade):
+    rigid, made = simulate_passes(rig), passes(rig, blade)
+    assert made.worn_depth[0] < 0.99 * rigid.worn_depth[0]
+    assert (made.radial_amplitude > 1e-7).all()
+    assert (made.energy_residual < 1e-3).all()
+    assert (made.largest_normal_force <= made.largest_pressure * rig.tip_width * rig.tip_length).all()
+
+
+def test_the_blade_keeps_the_impulse(rig, blade):
+    # Uncoupled masses of 1 kg: what a short pass leaves of momentum, each bounces by v / ω
+    blade = replace(blade, mass=np.eye(24), stiffness_0=(2 * np.pi * 100.0) ** 2 * np.eye(24), f1_hz=100.0)
+    blade = replace(blade, stiffness_1=0 * blade.stiffness_0, stiffness_2=0 * blade.stiffness_0)
+    rig = replace(rig, theta=0.0, passes=1, coated=0.02, edge_drop=0.0)
+    made = passes(rig, blade).iloc[0]
+    impulse = made.normal_impulse * strip_width(blade)[0] / rig.tip_width  # of node 1
+    assert made.radial_amplitude == pytest.approx(impulse / (2 * np.pi * 100.0), rel=0.02)
+
+
+def test_twice_the_sample_takes_twice_the_impulse_of_a_stiff_blade(rig, stiff):
+    short, long = (passes(replace(rig, coated=length), stiff) for length in (0.1, 0.2))
+    assert long.normal_impulse.to_numpy() == pytest.approx(2 * short.normal_impulse.to_numpy(), rel=0.01)
+    assert long.normal_force.to_numpy() == pytest.approx(short.normal_force.to_numpy(), rel=0.01)
+
+
+def test_a_disk_that_turns_leaves_the_blade_its_stiffness_at_rest(rig, blade):
+    at_rest = replace(blade, stiffness_1=0 * blade.stiffness_1, stiffness_2=0 * blade.stiffness_2)
+    turning = passes(rig, blade)
+    assert passes(rig, blade, disk_turns=True).equals(passes(rig, at_rest))
+    assert not passes(rig, blade, disk_turns=True).equals(turning)
+    faster = replace(rig, speed=600.0)
+    assert passes(faster, blade, disk_turns=True).worn_depth.iloc[-1] > 0
+
+
+def test_width_and_track_are_those_of_the_blade(rig, blade):
+    assert passes(replace(rig, track=9.0, tip_width=1.0), blade).equals(passes(rig, blade))
+
+
+@pytest.mark.parametrize(
+    ("change", "problem"),
+    [
+        ({"coated": 0.0}, "coated = 0: must be above 0 and at most 3.6"),
+        ({"coated": 3.9}, "coated = 3.9: must be above 0 and at most 3.6"),
+        ({"speed": 600.0}, "speed = 600: must be at most 3"),
+        ({"incursion": 2e-3, "passes": 1, "E": 6e12, "K": 6e12}, "incursion: the tip of the blade moves by"),
+    ],
+)
+def test_what_cannot_be_simulated_is_refused(rig, blade, change, problem):
+    soft = replace(blade, stiffness_0=1e-4 * blade.stiffness_0) if "K" in change else blade
+    with pytest.raises(ValueError, match=problem):
+        passes(replace(rig, **change), soft)

@@ -1,0 +1,120 @@
+"""Passes of a rigid tip: limits, convergence, heat; and what a rig may not be."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from bladerub.contact.laws import described_law
+from bladerub.extras.heat import LAYER
+from bladerub.extras.rig.passes import simulate_passes
+from bladerub.extras.rig.spec import Rig
+
+RIG = Rig(
+    "bench",
+    E=1.2e9,
+    K=0.3e9,
+    yield_stress=9e6,
+    thickness=3e-3,
+    tip_width=1e-2,
+    tip_length=2e-3,
+    track=1.0,
+    speed=125.0,
+    incursion=1e-4,
+)
+
+
+def last(rig, **fineness):
+    return simulate_passes(rig, **fineness).iloc[-1]
+
+
+def test_theta_turns_the_force_of_the_elements():
+    straight, turned = last(RIG), last(replace(RIG, theta=0.3))
+    assert turned.normal_force == pytest.approx(math.cos(0.3) * straight.normal_force)
+    by_wear = straight.tangential_force  # θ has no part in it
+    assert turned.tangential_force == pytest.approx(math.sin(0.3) * straight.normal_force + by_wear)
+
+
+def test_the_impulse_is_over_the_coated_part():
+    whole, part = last(RIG), last(replace(RIG, coated=0.1))
+    assert whole.normal_impulse == pytest.approx(whole.normal_force / 125.0)
+    assert part.normal_impulse == pytest.approx(0.1 * whole.normal_impulse)
+    assert part.pass_energy == pytest.approx(0.1 * whole.pass_energy)
+
+
+def test_many_passes_wear_what_one_of_the_same_depth_does():
+    one, many = last(RIG), simulate_passes(replace(RIG, incursion=1e-5, passes=10))
+    assert many.worn_depth.iloc[-1] == pytest.approx(one.worn_depth)
+    assert many.pass_wear.sum() == pytest.approx(one.worn_depth)
+    assert many.pass_energy.sum() == pytest.approx(one.pass_energy)
+    assert many.normal_force.iloc[-1] == pytest.approx(one.normal_force)
+
+
+@pytest.mark.parametrize(
+    "law",
+    [
+        described_law("brittle", {"break_strain": 0.004}),
+        described_law("perfectly_plastic", {"yield_stress": 5e6}),
+    ],
+)
+def test_without_lasting_hardening_the_force_of_a_constant_feed_becomes_constant(law):
+    fed = replace(RIG, yield_stress=0.0, incursion=1e-6, passes=120)
+    hardening, steady = simulate_passes(fed), simulate_passes(replace(fed, law=law))
+    assert hardening.normal_force[119] > 1.15 * hardening.normal_force[99]
+    assert steady.normal_force[119] == pytest.approx(steady.normal_force[99])
+    assert steady.pass_wear[119] == pytest.approx(1e-6)  # all that it is fed
+
+
+def test_below_the_elastic_limit_nothing_wears():
+    row = last(replace(RIG, incursion=2e-5))
+    assert (row.worn_depth, row.pass_energy, row.tangential_force) == (0, 0, 0)
+    assert row.normal_force == pytest.approx(1.2e9 * 2e-5 / 3e-3 * 2e-5)
+
+
+def test_a_rounded_tip_converges_with_the_elements():
+    rounded = replace(RIG, edge_drop=4e-5)
+    forces = [last(rounded, elements=n).normal_force for n in (10, 20, 40, 80)]
+    changes = np.abs(np.diff(forces))
+    assert np.all(changes[1:] < 0.5 * changes[:-1])
+    assert changes[-1] < 1e-3 * forces[-1]
+
+
+def test_the_energy_is_balanced_to_second_order():
+    rounded = replace(RIG, edge_drop=9e-5, incursion=5e-5, passes=2)
+    coarse, fine = (last(rounded, steps=n).energy_residual for n in (8, 32))
+    assert fine < coarse / 8
+    assert coarse < 1e-3
+
+
+def test_a_viscous_coating_resists_a_faster_tip_more():
+    viscous = replace(RIG, edge_drop=4e-5, law=described_law("viscoplastic", {"viscosity": 1e4}))
+    slow, fast = (last(replace(viscous, speed=speed)).normal_force for speed in (1e-3, 125.0))
+    assert slow == pytest.approx(last(replace(RIG, edge_drop=4e-5)).normal_force, rel=1e-3)
+    assert fast > 1.02 * slow
+
+
+def test_passes_warm_a_coating_that_heats():
+    hot = replace(RIG, incursion=1e-6, passes=60, theta=0.3, law=described_law("thermal", LAYER))
+    passes, cold = simulate_passes(hot), simulate_passes(replace(hot, law=RIG.law))
+    assert passes.temperature_rise.iloc[0] == 0
+    assert np.all(np.diff(passes.temperature_rise) > 0)
+    assert np.all(cold.temperature_rise.isna())
+    assert np.all(passes.normal_force[1:] < cold.normal_force[1:])
+    np.testing.assert_allclose(passes.worn_depth, cold.worn_depth)  # E and K fall alike
+
+
+@pytest.mark.parametrize(
+    ("change", "told"),
+    [
+        ({"E": -1.0}, "E = -1"),
+        ({"passes": 2.5}, "passes = 2.5"),
+        ({"incursion": 1e-3, "passes": 3}, "incursion = 0.001: must be below 0.001"),
+        ({"tip_length": 0.5, "track": 0.4}, r"tip_length = 0.5: must be at most the track, 0.4"),
+        ({"assumed": ("colour",)}, "assumed = colour: must be a parameter"),
+        ({"measured": {"colour": 1.0}}, "measured = colour: must be one of normal_force"),
+    ],
+)
+def test_what_a_rig_may_not_be_is_named(change, told):
+    with pytest.raises(ValueError, match=told):
+        replace(RIG, **change)

@@ -1,0 +1,52 @@
+"""A sampled run is the run, and its motion that of a recording."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from bladerub.contact.kernel import loop
+from bladerub.contact.recording import record
+from bladerub.contact.row_spec import Row
+from bladerub.contact.run import simulate
+from bladerub.contact.spec import ElementLaw
+from bladerub.extras.stress import sampling
+
+INSTANTS = 40
+
+
+@pytest.mark.parametrize("by_parts", [False, True])
+def test_it_is_the_same_run(blade, spec, by_parts, monkeypatch):
+    if by_parts:  # as with more interface nodes than the compiled loop has lanes
+        monkeypatch.setattr(sampling, "_advance", sampling._advance_by_parts)
+    run, sampled = simulate(blade, spec), sampling.simulate_sampled(blade, spec, INSTANTS)
+    assert sampled.result.n_contact_steps == run.n_contact_steps > 0
+    for name in ("wear", "radial_displacement", "revolution_peak", "revolution_amplitude"):
+        np.testing.assert_array_equal(getattr(sampled.result, name), getattr(run, name))
+    assert sampled.result.energy.residual == pytest.approx(run.energy.residual, abs=1e-9)
+    assert not any("Literal" in str(kinds) for kinds in loop.integrate.signatures)  # compiled for both
+
+
+def test_a_run_of_another_law_is_of_that_law(blade, spec):
+    law = ElementLaw("brittle", (("break_strain", 2e-3),))
+    other = replace(spec, coating=replace(spec.coating, element_law=law))
+    sampled = sampling.simulate_sampled(blade, other, INSTANTS).result.wear
+    np.testing.assert_array_equal(sampled, simulate(blade, other).wear)
+    assert not np.array_equal(sampled, simulate(blade, spec).wear)
+
+
+def test_its_motion_is_that_of_a_recording(blade, spec):
+    sampled = sampling.simulate_sampled(blade, spec, INSTANTS)
+    elements = np.rint(sampled.time * spec.coating.n_elements).astype(int)
+    assert len(elements) == INSTANTS * spec.revolutions
+    recorded = record(blade, spec, Row.even(1), elements.tolist()).coordinates[:, 0]
+    found = sampled.amplitudes @ sampled.patterns
+    np.testing.assert_allclose(found, recorded, atol=1e-6 * np.abs(recorded).max())
+
+
+def test_it_ends_where_the_run_ends(blade, spec):
+    soft = replace(spec, displacement_limit=0.5 * simulate(blade, spec).revolution_peak.max())
+    sampled = sampling.simulate_sampled(blade, soft, INSTANTS)
+    assert sampled.result.status == "unbounded"
+    made = sampled.result.n_steps * sampled.result.time_step * soft.f_omega * blade.f1_hz
+    assert sampled.time[-1] <= made < sampled.time[-1] + 1.01 / INSTANTS

@@ -1,0 +1,138 @@
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from bladerub.extras import long_runs
+from bladerub.extras.long_runs import LongRuns
+from bladerub.io.errors import DamagedFile
+from bladerub.io.tables import described_columns
+from bladerub.study.grid import CoatingCase
+from bladerub.study.maps import write_map
+
+CASE = CoatingCase("2nd", 1.1, 0.5, 0.0)
+
+
+@pytest.fixture
+def study(config):
+    config["long_runs"] = {"revolutions": 200}
+    return config
+
+
+@pytest.fixture
+def coating(make_map):
+    """Peaks at 0.2 and 0.3; grows at 0.05 and 0.2, and saturates in the longer run at 0.1."""
+    f_omega = np.round(np.arange(0.02, 0.4001, 0.01), 6)
+    growth = np.where(np.isin(f_omega, [0.05, 0.1, 0.2]), 0.04, 0.0)
+    longer = np.full((f_omega.size, 60), np.nan)
+    longer[np.isclose(f_omega, 0.05)] = 1e-6 * 1.04 ** np.arange(60)
+    longer[np.isclose(f_omega, 0.1)] = 1e-6
+    return make_map(CASE, {4: (0.3, 2e-4), 6: (0.2, 5e-4)}, growth=growth, longer=longer)
+
+
+def test_runs_that_grow_to_the_end_and_peaks_are_chosen(study, coating):
+    assert long_runs.chosen(study, coating) == {0.05: "grows", 0.2: "f6", 0.3: "f4"}
+
+
+def test_an_unbounded_run_has_come_to_its_end(study, coating):
+    ended = replace(coating, status=np.where(np.isclose(coating.f_omega, 0.05), "unbounded", "completed"))
+    ended.confirmation_amplitude[:] = np.nan
+    assert 0.05 not in long_runs.chosen(study, ended)
+
+
+def test_long_runs_are_the_study_s_runs_made_longer(
+    study, coating, blade, make_result, monkeypatch, tmp_path
+):
+    specs, lines = [], []
+
+    def simulate(_, spec, progress):
+        specs.append(spec)
+        for revolution in range(1, spec.revolutions + 1):
+            progress(revolution)
+        return make_result(revolutions=spec.revolutions, growth=0.001)
+
+    monkeypatch.setattr(long_runs, "simulate", simulate)
+    monkeypatch.setattr(long_runs, "compile_kernel", lambda n_nodes, law: None)
+    long_runs.make(study, coating, blade, tmp_path / "long.h5", lines.append)
+    assert [(spec.f_omega, spec.revolutions) for spec in specs] == [(0.05, 200), (0.2, 200), (0.3, 200)]
+    assert len(lines) == 3
+    long = long_runs.read(tmp_path / "long.h5")
+    assert long.case == CASE
+    assert long.why.tolist() == ["grows", "f6", "f4"]
+    assert long.revolution_amplitude.shape == long.seconds.shape == (3, 200)
+    assert (np.diff(long.seconds, axis=1) >= 0).all()
+    assert long.status.tolist() == ["completed"] * 3
+
+
+@pytest.mark.parametrize(
+    ("revolutions", "confirmation", "expected"),
+    [
+        (500, 60, [20, 60, 125, 250, 500]),
+        (200, 60, [20, 60, 100, 200]),
+        (40, 60, [20, 40]),
+        (100, 0, [20, 25, 50, 100]),
+    ],
+)
+def test_when_long_runs_are_judged(study, revolutions, confirmation, expected):
+    study["long_runs"]["revolutions"] = revolutions
+    study["analysis"]["divergence"]["confirmation_revolutions"] = confirmation
+    assert long_runs.stops(study) == expected
+
+
+def amplitudes():
+    number = np.arange(200.0)
+    ended, free = 1e-4 * 1.05**number, 1e-4 * 1.05**number
+    free[70:] = free[69] * 0.9 ** np.arange(1, 131)
+    ended[70:] = np.nan
+    return {
+        "steady": np.full(200, 1e-4),
+        "saturating": 1e-4 * (2 - np.exp(-number / 30)),
+        "divergent": 1e-4 * 1.02**number,
+        "unbounded": ended,
+        "free": free,
+    }
+
+
+@pytest.mark.parametrize(
+    ("name", "verdicts"),
+    [
+        ("steady", ["steady"] * 4),
+        ("saturating", ["divergent", "saturating", "saturating", "saturating"]),
+        ("divergent", ["divergent"] * 4),
+        ("unbounded", ["divergent", "divergent", "unbounded", "unbounded"]),
+        ("free", ["divergent", "divergent", "saturating", "free"]),
+    ],
+)
+def test_what_is_said_after_more_and_more_revolutions(study, name, verdicts):
+    amplitude = amplitudes()[name]
+    said = [long_runs.verdict_after(study, amplitude, stop)[0] for stop in (20, 60, 100, 200)]
+    assert said == verdicts
+
+
+def test_the_table_has_a_row_for_each_run_and_stop(study):
+    several = amplitudes()
+    n = len(several)
+    seconds = np.where(np.isfinite(np.stack(list(several.values()))), 0.004 * np.arange(1, 201), np.nan)
+    long = LongRuns(
+        CASE,
+        np.linspace(0.1, 0.4, n),
+        np.array(["grows"] * n),
+        np.stack(list(several.values())),
+        np.full(n, 1e-4),
+        np.array(["unbounded" if name == "unbounded" else "completed" for name in several]),
+        seconds,
+    )
+    table = long_runs.table(study, [long])
+    assert set(table.columns) <= described_columns().keys()
+    assert len(table) == 4 * n
+    assert table.ms_per_revolution.to_numpy() == pytest.approx(4.0)
+    last = table[table.revolutions == 200].set_index("status")
+    assert last.late_amplitude["unbounded"] == pytest.approx(several["unbounded"][60:70].mean())
+    assert last.verdict["completed"].tolist() == ["steady", "saturating", "divergent", "free"]
+
+
+def test_another_file_is_named(tmp_path, coating):
+    path = tmp_path / "map.h5"
+    write_map(path, coating, {})
+    with pytest.raises(DamagedFile, match=r"map\.h5: no long runs"):
+        long_runs.read(path)

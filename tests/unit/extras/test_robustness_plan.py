@@ -1,0 +1,225 @@
+import copy
+
+import numpy as np
+import pytest
+import yaml
+
+from bladerub.config.errors import ConfigError
+from bladerub.config.read import load, validate
+from bladerub.extras.robustness.design import batch, blade_name, check, sample_digest
+from bladerub.extras.robustness.plan import BATCH, REFERENCE, REFERENCE_BATCH, read_plan
+from bladerub.io.folders import ROOT
+
+PLAN = {
+    "seed": 3,
+    "factors": {
+        "unit": {
+            "unit": "Pa",
+            "scale": "log",
+            "sets": {"contact.modulus_unit": [1.0e8, 1.0e10]},
+        },
+        "weight": {
+            "unit": "1",
+            "sets": {"casings.2nd5nd.weights[0]": [0.0, 1.0], "casings.2nd.amplitude": [2e-3, 4e-3]},
+        },
+        "turns": {
+            "unit": "1",
+            "sets": {"solver.revolutions": [12, 30]},
+            "multiple_of": 1,
+        },
+    },
+    "parts": {
+        "soft": {"claims": ["C4"], "samples": 16, "study": {"speeds": {"start": 0.1}}},
+        "stiff": {"claims": ["C12"], "samples": 4, "study": {}},
+    },
+}
+
+
+def sample_configs(study, plan, part):
+    """The config of every sample of a part, in their order, from all of its jobs."""
+    made = {}
+    for name in range(len(part.batches())):
+        made |= batch(study, plan, part, str(name))
+    return [made[number] for number in range(part.samples)]
+
+
+@pytest.fixture
+def study():
+    config = validate(load(ROOT / "config" / "config.yaml"))
+    config["solver"]["revolutions"] = 20
+    return config
+
+
+@pytest.fixture
+def write(tmp_path):
+    def written(plan):
+        path = tmp_path / "plan.yaml"
+        path.write_text(yaml.safe_dump(plan, sort_keys=False))
+        return path
+
+    return written
+
+
+def test_a_sample_sets_every_number_of_its_factors(study, write):
+    plan = read_plan(write(PLAN))
+    check(study, plan)
+    configs = sample_configs(study, plan, plan.parts["soft"])
+    positions = plan.positions()
+    assert len(configs) == 16 == len(positions)
+    for config, (unit, weight, turns) in zip(configs, positions, strict=True):
+        assert config["contact"]["modulus_unit"] == pytest.approx(1e8 * 100**unit)
+        assert config["casings"]["2nd5nd"]["weights"] == pytest.approx([weight, 1.0])
+        assert config["casings"]["2nd"]["amplitude"] == pytest.approx(2e-3 + 2e-3 * weight)
+        assert config["solver"]["revolutions"] == round(12 + 18 * turns)
+        assert isinstance(config["solver"]["revolutions"], int)
+        assert config["speeds"]["start"] == 0.1
+    assert study["casings"]["2nd5nd"]["weights"] == [0.25, 1.0]
+
+
+def test_samples_are_the_same_in_each_part_and_each_time(study, write):
+    plan = read_plan(write(PLAN))
+    soft, stiff = (sample_configs(study, plan, part) for part in plan.parts.values())
+    assert [config["casings"] for config in soft[:4]] == [config["casings"] for config in stiff]
+    assert np.array_equal(plan.positions(), read_plan(write(PLAN)).positions())
+    assert not np.array_equal(plan.positions(), read_plan(write(PLAN | {"seed": 4})).positions())
+
+
+def test_samples_fill_the_ranges_evenly(write):
+    positions = read_plan(write(PLAN)).positions()
+    for column in positions.T:  # a Sobol sequence of 16 has one sample in each sixteenth of each factor
+        assert sorted((16 * column).astype(int)) == list(range(16))
+
+
+def test_jobs_have_all_samples_once(write):
+    plan = read_plan(write(PLAN))
+    for part in plan.parts.values():
+        batches = part.batches()
+        assert [number for batch in batches for number in batch] == list(range(part.samples))
+        assert max(map(len, batches)) <= BATCH
+
+
+def test_a_blade_is_shared_by_samples_that_do_not_change_it(study, write):
+    plan = read_plan(write(PLAN))
+    assert len({blade_name(config) for config in sample_configs(study, plan, plan.parts["soft"])}) == 1
+    leaning = copy.deepcopy(PLAN)
+    leaning["factors"]["turns"] |= {"sets": {"blade.tip_cone": [11, 13]}}
+    plan = read_plan(write(leaning))
+    assert len({blade_name(config) for config in sample_configs(study, plan, plan.parts["soft"])}) == 3
+
+
+def changed(*keys, to):
+    plan = copy.deepcopy(PLAN)
+    inner = plan
+    for key in keys[:-1]:
+        inner = inner[key]
+    inner[keys[-1]] = to
+    return plan
+
+
+def remove(*keys):
+    plan = copy.deepcopy(PLAN)
+    for key in keys:
+        del plan[key]
+    return plan
+
+
+UNIT, WEIGHT, TURNS = (("factors", name) for name in ("unit", "weight", "turns"))
+MODULUS = "contact.modulus_unit"
+
+
+@pytest.mark.parametrize(
+    ("plan", "key"),
+    [
+        (changed("seed", to=1.5), "seed = 1.5"),
+        (changed("seed", to=-1), "seed = -1"),
+        (changed("sedd", to=1), "sedd"),
+        (remove("factors"), "factors"),
+        (changed("factors", to={}), "factors"),
+        (changed("factors", to=[1]), "factors"),
+        (changed("factors", "a b", to=PLAN["factors"]["unit"]), 'factors["a b"]'),
+        (changed(*UNIT, "unit", to=1), "factors.unit.unit = 1"),
+        (changed(*UNIT, "scale", to="cubic"), "factors.unit.scale"),
+        (changed(*UNIT, "sets", to={}), "factors.unit.sets"),
+        (changed(*UNIT, "sets", to={MODULUS: [2, 1]}), f'factors.unit.sets["{MODULUS}"][1] = 1'),
+        (changed(*UNIT, "sets", to={MODULUS: [1, 1]}), f'factors.unit.sets["{MODULUS}"][1] = 1'),
+        (changed(*UNIT, "sets", to={MODULUS: [1, 2, 3]}), f'factors.unit.sets["{MODULUS}"]'),
+        (changed(*UNIT, "sets", to={MODULUS: [1, "2 Pa"]}), f'factors.unit.sets["{MODULUS}"][1]'),
+        (changed(*UNIT, "sets", to={MODULUS: [0, 1]}), f"factors.unit.sets.{MODULUS}"),
+        (changed(*TURNS, "multiple_of", to=7), "factors.turns.sets.solver.revolutions"),
+        (changed(*TURNS, "multiple_of", to=0), "factors.turns.multiple_of = 0"),
+        (changed(*WEIGHT, "sets", MODULUS, to=[1, 2]), f"factors.weight.sets.{MODULUS}"),
+        (changed("parts", to={}), "parts"),
+        (changed("parts", "soft", "samples", to=12), "parts.soft.samples = 12"),
+        (changed("parts", "soft", "samples", to=1), "parts.soft.samples = 1"),
+        (changed("parts", "soft", "samples", to=8192), "parts.soft.samples = 8192"),
+        (changed("parts", "soft", "claims", to=["C13"]), "parts.soft.claims[0]"),
+        (changed("parts", "soft", "claims", to=[]), "parts.soft.claims"),
+        (changed("parts", "soft", "claims", to=["C12"]), "parts.stiff.claims"),
+        (changed("parts", "soft", "study", to=3), "parts.soft.study = 3"),
+    ],
+)
+def test_a_wrong_entry_of_a_plan_is_refused_with_its_place(write, plan, key):
+    path = write(plan)
+    with pytest.raises(ConfigError) as caught:
+        read_plan(path)
+    (problem,) = caught.value.problems
+    assert problem.text.replace("'", '"').startswith(key)
+    assert problem.location.source == str(path)
+    assert problem.location.line > 0
+
+
+def test_all_wrong_entries_are_reported_at_once(write):
+    path = write(changed("seed", to=-1) | {"parts": {}})
+    with pytest.raises(ConfigError) as caught:
+        read_plan(path)
+    assert {problem.text.partition(" ")[0] for problem in caught.value.problems} == {"seed", "parts"}
+
+
+@pytest.mark.parametrize(
+    "path", ["contact.modulus", "casings.2nd.weights[1]", "casings.2nd.weights", "results"]
+)
+def test_a_factor_must_set_a_number_of_the_study(study, write, path):
+    plan = read_plan(write(changed("factors", "unit", "sets", to={path: [1, 2]})))
+    with pytest.raises(ConfigError) as caught:
+        sample_configs(study, plan, plan.parts["soft"])
+    (problem,) = caught.value.problems
+    assert problem.text.startswith(f"factors.unit.sets.{path}")
+    assert problem.location == plan.factors[0].location
+
+
+def test_values_that_make_no_study_are_reported_with_part_and_sample(study, write):
+    path = write(changed("factors", "turns", "sets", to={"solver.revolutions": [12, 90]}))
+    with pytest.raises(ConfigError) as caught:
+        check(study, read_plan(path))
+    assert "parts.soft, sample " in str(caught.value)
+    assert "confirmation_revolutions = 60: must be 0, or at least" in str(caught.value)
+
+
+def test_only_what_determines_a_sample_is_in_its_digest(study, write):
+    plan = read_plan(write(PLAN))
+    digests = [sample_digest(config) for config in sample_configs(study, plan, plan.parts["soft"])]
+    assert len(set(digests)) == 16
+    study["figures"]["dpi"] += 1
+    study["chart"]["theta"] = [0.0]
+    study["casings"]["unused"] = study["casings"]["2nd"]
+    assert [sample_digest(each) for each in sample_configs(study, plan, plan.parts["soft"])] == digests
+    study["solver"]["steps_per_element"] += 1
+    assert sample_digest(sample_configs(study, plan, plan.parts["soft"])[0]) != digests[0]
+
+
+def test_jobs_have_their_samples_and_one_the_study_s_own_values(study, write):
+    plan = read_plan(write(PLAN))
+    part = plan.parts["soft"]
+    samples = sample_configs(study, plan, part)
+    assert batch(study, plan, part, "1") == {number: samples[number] for number in range(8, 16)}
+    own = batch(study, plan, part, REFERENCE_BATCH)
+    assert own.keys() == {REFERENCE}
+    assert own[REFERENCE]["contact"] == study["contact"]
+    assert own[REFERENCE]["speeds"]["start"] == 0.1
+
+
+def test_the_plan_of_the_repository_is_one(study):
+    plan = read_plan(ROOT / "config" / "robustness.yaml")
+    check(study, plan)
+    assert [part.samples for part in plan.parts.values()] == [256, 256, 256, 256]
+    assert {claim for part in plan.parts.values() for claim in part.claims} == {f"C{i}" for i in range(1, 13)}

@@ -1,0 +1,103 @@
+import numpy as np
+import pandas as pd
+import pytest
+import yaml
+
+from bladerub.config.errors import ConfigError
+from bladerub.config.read import load, validate
+from bladerub.extras.rotor import summary
+from bladerub.extras.rotor.plan import Combination, read_plan
+from bladerub.io.folders import ROOT
+from bladerub.io.tables import described_columns
+from bladerub.study.grid import CoatingCase
+
+CASE = CoatingCase("2nd", 1.1, 0.5, 0.0)
+
+
+@pytest.fixture
+def study():
+    return validate(load(ROOT / "config" / "config.yaml"))
+
+
+def test_the_plan_has_every_combination_once_and_the_single_blade_beside_it(study):
+    plan = read_plan(ROOT / "config" / "rotor.yaml", study)
+    assert all(name == combination.name for name, combination in plan.combinations.items())
+    assert all(combination.alone.name in plan.combinations for combination in plan.combinations.values())
+    for name, combination in plan.combinations.items():
+        assert (plan.draws[name] > 1) == bool(combination.length_scatter or combination.frequency_scatter)
+
+
+def test_draws_are_those_of_their_number_whatever_the_others(study):
+    plan = read_plan(ROOT / "config" / "rotor.yaml", study)
+    name = Combination(CASE, 0.346, 4, 5e-5, 0.005).name
+    planned = plan.runs(study, name)
+    runs = planned.runs
+    assert not planned.follow
+    assert len(runs) == plan.draws[name]
+    assert len({run.determinants for run in runs}) == len(runs)
+    twice = Combination(CASE, 0.346, 4, 1e-4, 0.005).row(plan.seed + 7)
+    for one, other in zip(runs[7].row.blades, twice.blades, strict=True):
+        assert other.length == pytest.approx(2 * one.length)
+        assert other.frequency == one.frequency
+    assert Combination(CASE, 0.346, 4, coupling=0.01).row(1).disk is not None
+    assert runs[0].row.disk is None
+
+
+def test_a_group_that_the_study_cannot_have_is_named(study, tmp_path):
+    plan = yaml.safe_load((ROOT / "config" / "rotor.yaml").read_text())
+    plan["groups"]["scatter"]["casing"] = "oval"
+    path = tmp_path / "plan.yaml"
+    path.write_text(yaml.safe_dump(plan))
+    with pytest.raises(ConfigError, match=r"groups.scatter.casing = .oval.: must be one of the casings, 2n"):
+        read_plan(path, study)
+
+
+def made(n, **values):
+    base = {"casing": "2nd", "E": 1.1, "K": 0.5, "theta": 0.0, "f_omega": 0.346, "blades": 4}
+    base |= {"length_scatter": 5e-5, "frequency_scatter": 0.0, "coupling": 0.0, "status": "completed"}
+    base |= {"n_unbounded": 0, "row_amplitude": 1e-3, "amplification": 1.0, "longest_amplification": 0.5}
+    base |= {"longest_share": 0.3, "largest_share": 0.4, "max_wear": 1e-3, "wear_harmonic": 2}
+    base |= {"wear_harmonic_share": 0.5, "lobes": 4, "divergent": 0}
+    base |= {"energy_residual": 1e-5}
+    return pd.DataFrame({"draw": range(n)} | {name: [value] * n for name, value in base.items()}).assign(
+        **values
+    )
+
+
+def test_the_distribution_of_known_draws():
+    values = np.random.default_rng(1).permutation(np.arange(1, 200) / 100)
+    harmonic = np.where(np.arange(199) < 150, 2, 4)
+    status = np.where(np.arange(199) < 20, "unbounded", "completed")
+    table = summary.combinations(
+        made(199, amplification=values, wear_harmonic=harmonic, status=status, longest_share=np.nan)
+    )
+    assert list(table.columns) == summary.COLUMNS
+    found = table.iloc[0]
+    assert found.amplification_median == pytest.approx(1.0)
+    assert (found.amplification_p05, found.amplification_p95) == pytest.approx((0.109, 1.891))
+    assert (found.rows, found.unbounded_rows, found.wear_harmonic, found.wear_harmonic_rows) == (
+        199,
+        20,
+        2,
+        150,
+    )
+    assert np.isnan(found.longest_share_median)
+    # order statistics 86 and 114 of 199 hold the median with 95 %
+    assert (found.amplification_low, found.amplification_high) == pytest.approx((0.86, 1.14))
+
+
+def test_few_draws_have_no_interval():
+    found = summary.combinations(made(3)).iloc[0]
+    assert found.amplification_median == 1.0
+    assert np.isnan(found.amplification_low)
+
+
+def test_every_column_is_described():
+    assert {*summary.COLUMNS, *summary.DRAWS} <= described_columns().keys()
+
+
+def test_half_of_the_draws_are_the_first_ones_of_each_combination():
+    table = pd.concat([made(5, E=1.1), made(4, E=20.0), made(1, E=5.0)], ignore_index=True)
+    half = summary.first_half(table)
+    assert half[["E", "draw"]].values.tolist() == [[1.1, 0], [1.1, 1], [20.0, 0], [20.0, 1]]
+    assert summary.combinations(half).rows.tolist() == [2, 2]

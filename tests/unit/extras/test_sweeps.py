@@ -1,0 +1,149 @@
+import dataclasses
+
+import numpy as np
+import pytest
+
+from bladerub.contact.result import Energy
+from bladerub.contact.sweep import SweepResult
+from bladerub.extras import sweep_grid, sweeps
+from bladerub.io.errors import DamagedFile
+from bladerub.io.tables import described_columns
+from bladerub.study.grid import CoatingCase
+from bladerub.study.peaks import peak
+
+CASE = CoatingCase("2nd", 1.1, 0.5, 0.0)
+REVOLUTIONS = 60
+
+
+@pytest.fixture
+def passed(monkeypatch, angle):
+    """Let each sweep vibrate on engine order 4, by a hat over speed; return what was asked for."""
+    asked = []
+
+    def simulate_sweep(_, spec):
+        asked.append(spec)
+        f_omega = np.linspace(spec.run.f_omega, spec.f_end, REVOLUTIONS)
+        height = 1e-3 * np.clip(1 - np.abs(f_omega - 0.3) / 0.05, 0.001, None)
+        track = height[:, None] * np.sin(4 * angle)
+        if spec.rate == 7.0:
+            track[15:], track[14, 100:] = np.nan, np.nan
+            height = np.where(np.arange(REVOLUTIONS) > 14, np.nan, height)
+        return SweepResult(
+            status="unbounded" if spec.rate == 7.0 else "completed",
+            message="for a test",
+            angle=angle,
+            wear=np.full((8, angle.size), 2e-4),
+            radial_displacement=track.ravel(),
+            revolution_peak=height,
+            revolution_amplitude=height,
+            n_steps=1000,
+            n_contact_steps=300,
+            f_omega=f_omega,
+            time=np.arange(REVOLUTIONS) + 0.5,
+            energy=Energy(*(float(i) for i in range(1, 14))),
+            work_stiffness=0.5,
+        )
+
+    monkeypatch.setattr(sweeps, "simulate_sweep", simulate_sweep)
+    return asked
+
+
+@pytest.fixture
+def make(config, blade, passed, tmp_path):
+    def make(direction, rate):
+        path = tmp_path / f"{direction}_{rate}.h5"
+        sweeps.make(config, CASE, blade, direction, rate, path)
+        return sweeps.read(path)
+
+    return make
+
+
+def test_the_study_s_coatings_alone_are_swept(config):
+    config["sweeps"]["coatings"] = ["2nd_E1.1_K0.5_theta0", "2nd_E7_K0.5_theta0", "2nd_rigid_mu0"]
+    assert sweep_grid.swept_cases(config) == [CASE, CoatingCase.rigid("2nd", 0.0)]
+
+
+@pytest.mark.parametrize(("direction", "start", "end"), [("up", 0.14, 0.4), ("down", 0.4, 0.14)])
+def test_a_sweep_is_the_run_of_the_study_from_end_to_end(config, direction, start, end):
+    config["sweeps"] |= {"start": 0.14, "stop": 0.4, "speed_step": 5e-4}
+    spec = sweep_grid.sweep_spec(config, CASE, direction, 0.05)
+    assert (spec.run.f_omega, spec.f_end, spec.rate, spec.speed_step) == (start, end, 0.05, 5e-4)
+    assert spec.run.revolutions == 0
+    assert spec.run.coating.E == 1.1
+
+
+@pytest.mark.parametrize("direction", sweep_grid.DIRECTIONS)
+def test_spectra_are_of_windows_in_the_order_of_speed(make, config, direction):
+    sweep = make(direction, 0.05)
+    window = config["analysis"]["spectrum_revolutions"]
+    assert sweep.f_omega.size == REVOLUTIONS - window + 1
+    assert (np.diff(sweep.f_omega) > 0).all()
+    assert (np.diff(sweep.speed) > 0).all() == (direction == "up")
+    best = np.unravel_index(np.argmax(sweep.spectrum_amplitude), sweep.spectrum_amplitude.shape)
+    assert sweep.f_omega[best[0]] == pytest.approx(0.3, abs=0.003)
+    assert sweep.spectrum_order[best[1]] == 4
+    np.testing.assert_allclose(sweep.C1, np.sqrt(1 + 3 * sweep.f_omega**2))
+    assert (sweep.case, sweep.direction, sweep.rate, sweep.status) == (
+        CASE,
+        direction,
+        0.05,
+        "completed",
+    )
+    assert sweep.max_wear == pytest.approx(2e-4)
+
+
+def test_a_sweep_that_ended_has_spectra_of_whole_revolutions(make, config):
+    sweep = make("up", 7.0)
+    assert sweep.f_omega.size == 14 - config["analysis"]["spectrum_revolutions"] + 1
+    assert np.isfinite(sweep.spectrum_amplitude).all()
+    assert np.isfinite(sweep.revolution_amplitude).sum() == 15
+
+
+def test_a_sweep_shorter_than_a_spectrum_names_its_rate(make, config):
+    config["analysis"]["spectrum_revolutions"] = REVOLUTIONS + 1
+    with pytest.raises(
+        ValueError, match=r"sweeps\.rates = 0\.05: .* has 60 revolutions, a spectrum needs 61"
+    ):
+        make("up", 0.05)
+
+
+def test_peaks_stand_beside_those_at_constant_speed(make, make_map, config):
+    config["sweeps"]["survival"] = 0.5
+    maps = {CASE: make_map(CASE, {4: (0.3, 1.5e-3), 6: (0.2, 5e-4)})}
+    settings = config["analysis"]["peaks"]
+    table = sweeps.table(config, [make("up", 0.05), make("down", 0.05), make("up", 7.0)], maps)
+    assert set(table.columns) <= described_columns().keys()
+    assert len(table) == 6
+    whole = table[(table.order == 4) & (table.rate == 0.05)]
+    constant = peak(maps[CASE], 4, settings)
+    assert (whole.amplitude_constant == constant.amplitude).all()
+    assert (whole.f_peak_constant == 0.3).all()
+    assert whole.f_peak.to_numpy() == pytest.approx(0.3, abs=0.003)
+    assert whole.ratio.to_numpy() == pytest.approx(whole.amplitude / 1.5e-3)
+    assert whole.ratio.between(0.5, 0.67).all()
+    assert whole.survives.all()
+    sixth = table[(table.order == 6) & (table.rate == 0.05)]
+    assert (sixth.ratio < 0.1).all()
+    assert not sixth.survives.any()
+    ended = table[(table.order == 4) & (table.rate == 7.0)].iloc[0]
+    assert np.isnan(ended.f_peak)
+    assert not ended.survives
+    assert ended.status == "unbounded"
+    assert ended.f_end == pytest.approx(np.linspace(0.14, 0.4, REVOLUTIONS)[14])
+
+
+def test_another_file_is_named(tmp_path, make_map):
+    from bladerub.study.maps import write_map
+
+    path = tmp_path / "map.h5"
+    write_map(path, make_map(CASE, {}), {})
+    with pytest.raises(DamagedFile, match=r"map\.h5: not a speed sweep"):
+        sweeps.read(path)
+
+
+def test_the_residual_has_the_work_of_the_stiffness(angle):
+    energy = Energy(0.0, 1.0, 1.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 2.0, 0.0, 0.0, 10.0)
+    fields = {field.name: None for field in dataclasses.fields(SweepResult)}
+    result = SweepResult(**(fields | {"energy": energy, "work_stiffness": 0.75}))
+    assert energy.residual == pytest.approx(0.1)
+    assert result.residual == pytest.approx(0.025)

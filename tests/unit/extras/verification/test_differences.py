@@ -1,0 +1,81 @@
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from bladerub.extras.verification.differences import (
+    UNBOUNDED,
+    Differences,
+    differences,
+    largest,
+    row_differences,
+)
+
+
+@pytest.fixture
+def compare(config):
+    return lambda outcome, reference: differences(outcome, reference, config["analysis"])
+
+
+def test_no_difference(make_result, compare):
+    assert compare(make_result(), make_result()) == Differences(0.0, 0.0, 0.0)
+
+
+def test_each_difference_is_relative_to_the_reference(make_result, compare):
+    reference = make_result(amplitude=1e-3, depth=2e-4)
+    assert compare(make_result(amplitude=1.02e-3, depth=2.1e-4), reference) == pytest.approx(
+        Differences(wear_l2=0.05, peak=0.02, revolution_peak=0.02)
+    )
+
+
+def test_wear_elsewhere_differs_though_it_is_as_much(make_result, compare):
+    reference = make_result()
+    turned = replace(
+        reference, wear=np.roll(reference.wear, 1000 // 6, axis=1)
+    )  # into the valleys of 6 lobes
+    assert compare(turned, reference).wear_l2 == pytest.approx(math.sqrt(2), rel=0.01)
+
+
+def test_the_revolution_that_differs_most_counts_against_the_greatest_peak(make_result, compare):
+    reference = make_result()
+    peaks = reference.revolution_peak.copy()
+    peaks[3] *= 0.5
+    peaks[7] *= 1.1
+    lower = peaks.copy()
+    lower[3] -= 1e-4
+    outcome = replace(reference, revolution_peak=lower)
+    assert compare(outcome, replace(reference, revolution_peak=peaks)).revolution_peak == pytest.approx(
+        1e-4 / 1.1e-3, rel=1e-3
+    )
+
+
+def test_a_casing_that_does_not_wear(make_result, compare):
+    assert compare(make_result(depth=0.0), make_result(depth=0.0)).wear_l2 == 0.0
+    assert compare(make_result(depth=1e-4), make_result(depth=0.0)).wear_l2 == math.inf
+
+
+@pytest.mark.parametrize(("first", "second"), [(None, 3), (3, None), (3, 3)])
+def test_nothing_is_said_of_an_unbounded_run(make_result, compare, first, second):
+    assert compare(make_result(complete=first), make_result(complete=second)) == UNBOUNDED
+
+
+def test_the_peaks_of_a_row_are_related_to_the_blade_that_vibrates_most(make_result, config):
+    def row(large, small):
+        wear = make_result(depth=2e-4)
+        return [replace(make_result(amplitude=of), wear=wear.wear) for of in (small, large)]
+
+    found = row_differences(row(1e-3, 2e-5), row(1e-3, 1e-5), config["analysis"])
+    assert found == pytest.approx(Differences(0.0, 0.01, 0.01), rel=1e-6)
+    one = row(1e-3, 1e-5)[0]
+    assert row_differences([one], [one], config["analysis"]) == Differences(0.0, 0.0, 0.0)
+
+
+def test_nothing_is_said_of_a_row_of_which_one_blade_is_unbounded(make_result, config):
+    whole, left = make_result(), make_result(complete=3)
+    assert row_differences([whole, left], [whole, whole], config["analysis"]) == UNBOUNDED
+    assert row_differences([whole, whole], [left, whole], config["analysis"]) == UNBOUNDED
+
+
+def test_largest():
+    assert largest([Differences(1, 5, 3), Differences(2, 4, 6)]) == Differences(2, 5, 6)

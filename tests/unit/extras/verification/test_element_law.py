@@ -1,0 +1,125 @@
+"""The checker of laws: laws that are right, and what it answers to some that are wrong."""
+
+from pathlib import Path
+
+import pytest
+
+from bladerub.contact import law
+from bladerub.contact.laws import described_law, source_of
+from bladerub.contact.spec import PLASTIC, Coating, ElementLaw
+from bladerub.extras.heat import LAYER
+from bladerub.extras.verification import element_law
+from bladerub.extras.verification.element_law import HISTORIES, TIME_STEPS, check_law
+
+PAPER = Path(law.__file__).read_text(encoding="utf-8")
+DENSIFYING = Path(__file__).parents[3] / "docs" / "laws" / "densifying.py"
+COATINGS = [
+    Coating(E, K, 0.0, 1.5e-8, 600e6, 6e-3, 2000) for E, K in ((0.05, 10.0), (20.0, 0.05), (1.1, 0.5))
+]
+THERMAL = described_law("thermal", LAYER)
+RIGHT = [
+    PLASTIC,
+    described_law("perfectly_plastic", {"yield_stress": 1e6}),
+    described_law("viscoplastic", {"viscosity": 1e4}),
+    described_law("brittle", {"break_strain": 5e-3}),
+    THERMAL,
+    described_law("densifying", {"doubling": 1e-4}, DENSIFYING.read_text(encoding="utf-8")),
+]
+FORCE = "return maximum(trial - element.elastic * increment, 0.0), increment"
+WRONG = {
+    "energy from nothing": (
+        FORCE,
+        "force = maximum(trial - element.elastic * increment, 0.0)\n"
+        "    return where(increment > 0.0, force, 1.5 * force), increment",
+        {
+            "energy is created: a cycle gives back more than it takes",
+            "elastic_force after wear is not the force",
+        },
+    ),
+    "energy that is lost": (
+        "0.5 * element.elastic_compliance * (force * force)",
+        "0.25 * element.elastic_compliance * (force * force)",
+        {"energy is lost: some of the work is neither stored nor dissipated"},
+    ),
+    "negative wear": (FORCE, FORCE.replace(", increment", ", -increment"), {"wear is negative"}),
+    "no number": (
+        "trial = element.elastic * depth\n    increment",
+        "trial = element.elastic * depth / where(wear > 1e-5, 0.0, 1.0)\n    increment",
+        {"it gives what is no number"},
+    ),
+    "a force that falls": (
+        FORCE,
+        FORCE.replace("element.elastic * increment", "2.0 * element.elastic * increment"),
+        {"force or wear falls as the depth grows"},
+    ),
+    "a tangent that is too stiff": (
+        "plastic = element.elastic * element.plastic_compliance * element.hardening",
+        "plastic = element.elastic",
+        {"tangent is not the derivative of the force, as far as it says"},
+    ),
+    "attraction": (FORCE, "return trial - element.elastic * increment, increment", {"an element pulls"}),
+    "an error": (FORCE, "return 1 // 0, increment", {"it cannot be run"}),
+}
+
+
+@pytest.fixture(autouse=True)
+def compiled(monkeypatch):
+    """The laws that would be compiled."""
+    laws = []
+    monkeypatch.setattr(element_law, "compile_kernel", lambda law: laws.append(law))
+    return laws
+
+
+def told(law):
+    return {problem.what for problem in check_law(law, COATINGS).problems}
+
+
+@pytest.mark.parametrize("law", RIGHT, ids=lambda law: law.name)
+def test_a_law_that_is_right_has_no_problem_and_is_compiled(law, compiled):
+    report = check_law(law, COATINGS)
+    assert report.problems == ()
+    assert report.histories == HISTORIES * len(TIME_STEPS) * len(COATINGS)
+    assert compiled == [law]
+
+
+@pytest.mark.parametrize("name", WRONG)
+def test_what_is_wrong_with_a_law_is_told(name, compiled):
+    right, wrong, wanted = WRONG[name]
+    assert PAPER.count(right) == 1
+    assert wanted <= told(ElementLaw("own", (), PAPER.replace(right, wrong)))
+    assert compiled == []
+
+
+@pytest.mark.parametrize(
+    ("right", "wrong"),
+    [
+        ("return np.maximum(1.0 - lost, _LEAST)", "return 1.0 + lost"),
+        ("return np.maximum(1.0 - lost, _LEAST)", "return 1.0 - lost"),
+        ("return np.maximum(1.0 - lost, _LEAST)", "return 0.9 * np.maximum(1.0 - lost, _LEAST)"),
+        ("return np.maximum(1.0 - lost, _LEAST)", "return np.nan * lost"),
+    ],
+    ids=["rises", "below 0", "not 1 in the cold", "no number"],
+)
+def test_what_is_wrong_with_a_strength_is_told(right, wrong, compiled):
+    source = source_of(THERMAL)
+    assert source.count(right) == 1
+    own = ElementLaw("own", THERMAL.parameters, source.replace(right, wrong))
+    assert told(own) == {"strength is not 1 without heat, rises with the temperature or is not above 0"}
+    assert compiled == []
+
+
+def test_a_problem_is_shown_with_numbers():
+    right, wrong, _ = WRONG["negative wear"]
+    problems = check_law(ElementLaw("own", (), PAPER.replace(right, wrong)), COATINGS).problems
+    (where,) = (problem.where for problem in problems if problem.what == "wear is negative")
+    assert where.startswith("depth ")
+    assert "wear -" in where
+
+
+def test_what_cannot_be_compiled_is_a_problem(monkeypatch):
+    def fails(law):
+        raise TypeError("cannot unify\nmore")
+
+    monkeypatch.setattr(element_law, "compile_kernel", fails)
+    (problem,) = check_law(ElementLaw("own", (), PAPER), COATINGS).problems
+    assert (problem.what, problem.where) == ("it cannot be run", "TypeError: cannot unify")

@@ -1,0 +1,65 @@
+"""Impacts of a single mode on a wall, in closed form."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+
+from bladerub.contact.modes import Modes
+from bladerub.extras.verification import impact
+
+OMEGA, DISTANCE = 2 * np.pi * 50.0, 1e-3
+
+
+@pytest.fixture
+def run(blade, spec):
+    """A run of a blade that moves as a whole against a round casing which it touches at rest."""
+    casing = dataclasses.replace(
+        spec.casing, nodal_diameters=(2,), weights=(1.0,), amplitude=1e-14, interference=0.0
+    )
+    f_omega = 10.0 / blade.f1_hz  # ten turns a second: one has five periods
+    values = {"f_omega": f_omega, "revolutions": 1, "steps_per_element": 20, "clearance": (0.0, 0.0)}
+    return dataclasses.replace(spec, casing=casing, initial_displacement=-DISTANCE, **values)
+
+
+@pytest.fixture
+def modes():
+    tip = np.zeros((16, 1))
+    tip[:8] = 1.0
+    return Modes(np.array([OMEGA]), tip, 8)
+
+
+def turning_points(motion):
+    """Largest distances from the wall, one for each flight."""
+    u = motion.radial_displacement
+    low = (u[1:-1] < u[:-2]) & (u[1:-1] <= u[2:]) & (u[1:-1] < -1e-6)
+    return -u[1:-1][low]
+
+
+@pytest.mark.parametrize("restitution", [0.5, 0.9, 1.0])
+def test_each_impact_keeps_its_share_of_the_velocity(run, modes, blade, restitution):
+    rule = impact.moreau_jean(modes, 0.0, impact.time_step(blade, run), restitution)
+    found = turning_points(impact.simulate(rule, blade, run))
+    assert len(found) >= 8  # twice as many as without a wall
+    expected = DISTANCE * restitution ** np.arange(1, 9)
+    np.testing.assert_allclose(found[:8], expected, rtol=0.03)
+
+
+def test_a_mass_that_does_not_bounce_stays_at_the_wall(run, modes, blade):
+    rule = impact.moreau_jean(modes, 0.0, impact.time_step(blade, run), 0.0)
+    motion = impact.simulate(rule, blade, run)
+    half = motion.radial_displacement.size // 2
+    assert np.abs(motion.radial_displacement[half:]).max() < 0.01 * DISTANCE
+
+
+def test_a_stiff_spring_returns_the_velocity(run, modes, blade):
+    run = dataclasses.replace(run, steps_per_element=400)  # the force acts at the end of a step: it damps
+    rule = impact.penalty(modes, 0.0, impact.time_step(blade, run), 50 * OMEGA**2)
+    found = turning_points(impact.simulate(rule, blade, run))
+    np.testing.assert_allclose(found[:8], DISTANCE, rtol=0.03)
+
+
+def test_forces_are_complementary_to_the_distance():
+    retreat = np.array([[2.0, 1.0], [1.0, 2.0]])
+    np.testing.assert_allclose(impact._complementary(retreat, np.array([3.0, 3.0])), [1.0, 1.0])
+    np.testing.assert_allclose(impact._complementary(retreat, np.array([2.0, -5.0])), [1.0, 0.0])

@@ -1,0 +1,86 @@
+import json
+import math
+
+import pytest
+
+from bladerub.extras.verification.differences import Differences
+from bladerub.extras.verification.report import distribution, report
+from bladerub.extras.verification.verify import Seconds, StudyRun, VerifiedRun
+from bladerub.study.grid import CoatingCase
+
+
+def verified(f_omega, wear, peak=0.0, revolution_peak=0.0, **changes):
+    error = Differences(wear, peak, revolution_peak)
+    values = {
+        "run": StudyRun(CoatingCase("2nd", 2.0, 0.5, 0.0), f_omega),
+        "status": "completed",
+        "error": error,
+        "against_paper": Differences(0.02, 0.01, 0.01),
+        "paper_uncertainty": Differences(0.01, 0.005, 0.005),
+        "spread": Differences(0.001, 0.0, 0.0) if max(error) > 0.01 else None,
+        "energy_residual": 1e-4,
+        "seconds": Seconds(0.25, 1.0, 1.0, 4.0),
+        "speedup": 7.0,
+    }
+    return VerifiedRun(**values | changes)
+
+
+def test_distribution_by_hand():
+    values = [0.01 * number for number in range(1, 41)]
+    assert distribution(values[::-1]) == pytest.approx({"median": 0.205, "p95": 0.38, "max": 0.40})
+
+
+def test_infinite_values_are_none():
+    assert distribution([0.1, 0.2, math.inf]) == {"median": 0.2, "p95": None, "max": None}
+
+
+def test_all_runs_within_tolerance():
+    figures = report([verified(0.1, 0.002), verified(0.2, 0.004, peak=0.01)])
+    assert (figures["n"], figures["within_1_percent"], figures["beyond"]) == (2, 1.0, [])
+    assert figures["wear_l2"]["median"] == pytest.approx(0.003)
+    assert figures["worst"]["wear_l2"] == "2nd_E2_K0.5_theta0/0.2000"
+    assert figures["against_paper_scheme"]["wear_l2"]["max"] == 0.02
+    assert figures["against_paper_scheme"]["uncertainty"]["peak"]["p95"] == 0.005
+    assert figures["seconds"] == {"study": 0.25, "finer": 1.0, "paper": 1.0, "paper_finer": 4.0}
+
+
+def test_runs_beyond_tolerance_the_worst_first():
+    runs = [
+        verified(0.1, 0.002),
+        verified(0.2, 0.02, spread=Differences(0.015, 0.0, 0.0)),
+        verified(0.3, 0.001, revolution_peak=0.03),
+        verified(0.4, math.inf, math.inf, math.inf, status="unbounded", spread=None),
+    ]
+    figures = report(runs)
+    assert [entry["f_omega"] for entry in figures["beyond"]] == [0.4, 0.3, 0.2]
+    assert figures["within_1_percent"] == 0.5  # the peak of a revolution does not count
+    assert figures["beyond"][2] == {
+        "name": "2nd_E2_K0.5_theta0/0.2000",
+        "casing": "2nd",
+        "E": 2.0,
+        "K": 0.5,
+        "theta": 0.0,
+        "law": "theta",
+        "variant": "",
+        "f_omega": 0.2,
+        "status": "completed",
+        "wear_l2": 0.02,
+        "peak": 0.0,
+        "revolution_peak": 0.0,
+        "spread": {"wear_l2": 0.015, "peak": 0.0, "revolution_peak": 0.0},
+        "sensitive": True,
+    }
+    assert (figures["beyond"][0]["wear_l2"], figures["beyond"][0]["spread"]) == (None, None)
+    json.dumps(figures, allow_nan=False)
+
+
+def test_speed_up_is_a_median_without_the_runs_that_tell_none():
+    runs = [
+        verified(0.1, 0.002, speedup=5.0),
+        verified(0.2, 0.002, speedup=8.0),
+        verified(0.3, 0.002, speedup=None),
+        verified(0.4, 0.02, speedup=100.0, spread=Differences(0.015, 0.0, 0.0)),
+    ]
+    figures = report(runs)
+    assert (figures["speedup_at_equal_error"], figures["left_out"]) == (6.5, 2)
+    assert report(runs[2:])["speedup_at_equal_error"] is None

@@ -1,0 +1,250 @@
+import math
+from dataclasses import fields, replace
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from bladerub.extras.verification import verify
+from bladerub.extras.verification.differences import Differences
+from bladerub.extras.verification.verify import (
+    NEIGHBOURS,
+    StudyRun,
+    VerifiedRun,
+    draw,
+    important_runs,
+    speedup_at_equal_error,
+    study_runs,
+    verify_run,
+    verify_runs,
+)
+from bladerub.study.grid import CoatingCase, speeds
+from bladerub.study.maps import write_map
+
+
+class Solver:
+    """Stands in for `simulate`: errors of a known law, relative to the exact outcome, in wear and peaks.
+
+    Parameters
+    ----------
+    exponential, paper : callable
+        Relative error at a time step.
+    neighbour : float
+        Relative change by any initial displacement.
+    unbounded : callable
+        Which runs are.
+    """
+
+    def __init__(self, make_result):
+        self.make_result = make_result
+        self.exponential = lambda step: 2e9 * step**2
+        self.paper = lambda step: 2e4 * step
+        self.neighbour = 0.0
+        self.unbounded = lambda spec: False
+        self.specs = []
+
+    def __call__(self, blade, spec):
+        self.specs.append(spec)
+        passage = 1 / (spec.f_omega * blade.f1_hz * spec.coating.n_elements)
+        steps = max(spec.steps_per_element, math.ceil(passage / spec.max_time_step))
+        step = passage / steps
+        error = (self.exponential if spec.scheme == "exponential" else self.paper)(step)
+        error += self.neighbour * (spec.initial_displacement != 0)
+        result = self.make_result(
+            amplitude=1e-3 * (1 + error),
+            depth=2e-4 * (1 + error),
+            complete=3 if self.unbounded(spec) else None,
+        )
+        result = vars(result) | {"time_step": step, "energy": SimpleNamespace(residual=1e-4)}
+        return SimpleNamespace(**result)
+
+
+@pytest.fixture
+def config(config):
+    solver = config["solver"] | {"scheme": "exponential", "steps_per_element": 6, "max_time_step": 2e-6}
+    return config | {"solver": solver}
+
+
+@pytest.fixture
+def solver(monkeypatch, make_result):
+    stand_in = Solver(make_result)
+    monkeypatch.setattr(verify, "simulate", stand_in)
+    return stand_in
+
+
+@pytest.fixture
+def clock(monkeypatch):
+    """Make each run take one second more than the one before."""
+    ticks = iter(np.cumsum([0, 1, 0, 2, 0, 3, 0, 4]))
+    monkeypatch.setattr(verify, "time", SimpleNamespace(thread_time=lambda: next(ticks)))
+
+
+@pytest.fixture
+def run(case):
+    return StudyRun(case, 0.19)
+
+
+def test_every_run_of_the_study_is_listed_once(config):
+    runs = study_runs(config)
+    assert len({run.name for run in runs}) == len(runs) == 63 * 192
+    assert StudyRun(runs[0].case, 0.02).name == "2nd5nd_E11_K0.5_theta0/0.0200"
+
+
+def test_the_important_runs_are_the_peaks_with_their_neighbours_in_speed(config, make_map, tmp_path):
+    case = CoatingCase("2nd", 1.1, 0.5, 0.0)
+    config["coatings"] = [{"casing": "2nd", "E": [1.1], "K": [0.5], "theta": [0.0]}]
+    config["speeds"] = {"start": 0.1, "stop": 0.4, "step": 0.05, "extra": []}
+    coating = make_map(case, {4: (0.3, 2e-4), 6: (0.2, 5e-4)}, speeds(config))
+    write_map(tmp_path / f"{case.name}.h5", coating, {})
+    runs = important_runs(config, tmp_path)
+    assert {run.case for run in runs} == {case}
+    np.testing.assert_allclose([run.f_omega for run in runs], [0.15, 0.2, 0.25, 0.3, 0.35])
+
+
+def test_a_seed_draws_the_same_distinct_runs_again(config):
+    runs = study_runs(config)
+    drawn = draw(runs, 100, seed=1)
+    assert drawn == draw(runs, 100, seed=1)
+    assert drawn != draw(runs, 100, seed=2)
+    assert len(set(drawn)) == 100
+    assert set(draw(runs, len(runs), seed=3)) == set(runs)
+
+
+@pytest.mark.parametrize("sample", [0, -1, 63 * 192 + 1])
+def test_more_runs_than_there_are_cannot_be_drawn(config, sample):
+    with pytest.raises(ValueError, match="must be from 1 to 12096, the number of runs to draw from"):
+        draw(study_runs(config), sample, seed=1)
+
+
+def test_the_steps_compared_are_in_the_ratio_of_four(blade, config, run, solver):
+    stiffer = {name: 1e6 * getattr(blade, name) for name in ("stiffness_0", "stiffness_1", "stiffness_2")}
+    verify_run(replace(blade, **stiffer), config, run)
+    study, finer, paper, paper_finer = solver.specs
+    assert study.steps_per_element == 6
+    assert study.max_time_step == 2e-6
+    assert study.scheme == finer.scheme == "exponential"
+    assert paper.scheme == paper_finer.scheme == "central_differences"
+    passage = 1 / (0.19 * blade.f1_hz * 2000)
+    assert finer.steps_per_element == 4 * math.ceil(passage / 2e-6)
+    assert paper_finer.steps_per_element == 4 * paper.steps_per_element
+    assert finer.max_time_step == paper.max_time_step == paper_finer.max_time_step == math.inf
+    highest = 1e3 * 2 * np.pi * 192 * math.sqrt((1 + 3 * 0.19**2) * 24)
+    assert paper.steps_per_element == math.ceil(passage / (0.7 * 2 / highest))
+
+
+def test_errors_of_known_order(blade, config, run, solver):
+    verified = verify_run(blade, config, run)
+    step = 1 / (0.19 * blade.f1_hz * 2000) / 7
+    fine = 2e9 * step**2 / 16
+    assert verified.error == pytest.approx(Differences(*3 * [15 * fine / (1 + fine)]))
+    paper_step = 1 / (0.19 * blade.f1_hz * 2000) / solver.specs[-1].steps_per_element
+    own = 2e4 * paper_step
+    assert verified.paper_uncertainty == pytest.approx(Differences(*3 * [own / (1 + own)]))
+    assert verified.against_paper == pytest.approx(Differences(*3 * [abs(16 * fine - own) / (1 + own)]))
+    assert verified.status == "completed"
+    assert verified.energy_residual == 1e-4
+    assert not verified.is_beyond
+    assert verified.spread is None
+    assert not verified.is_sensitive
+
+
+def test_a_run_beyond_one_percent_is_started_again_beside_its_start(blade, config, run, solver):
+    solver.exponential = lambda step: 0.032 if step > 1e-6 else 0.002
+    solver.neighbour = 0.01
+    verified = verify_run(blade, config, run)
+    assert [spec.initial_displacement for spec in solver.specs[4:]] == list(NEIGHBOURS)
+    assert verified.is_beyond
+    assert verified.spread == pytest.approx(Differences(*3 * [0.01 / 1.032]))
+    assert not verified.is_sensitive
+    solver.neighbour = 0.02
+    assert verify_run(blade, config, run).is_sensitive
+
+
+def verified_with(error, spread):
+    values = dict.fromkeys(field.name for field in fields(VerifiedRun))
+    return VerifiedRun(**values | {"error": error, "spread": spread})
+
+
+@pytest.mark.parametrize(
+    ("error", "spread", "sensitive"),
+    [
+        (Differences(0.03, 0.001, 0.001), Differences(0.016, 0, 0), True),
+        (Differences(0.03, 0.001, 0.001), Differences(0.014, 1, 1), False),
+        (Differences(0.03, 0.02, 0.001), Differences(0.016, 0.009, 0), False),
+        (Differences(0.03, 0.02, math.inf), Differences(0.016, 0.01, math.inf), True),
+        (Differences(0.02, 0.01, 0.0), Differences(0.01, 0.0, 0.0), True),  # at the borders of both
+        (Differences(0.02, 0.0100001, 0.0), Differences(0.01, 0.0, 0.0), False),
+        (Differences(0.009, 0.009, 0.009), Differences(1, 1, 1), False),
+        (Differences(0.03, 0.001, 0.001), None, False),
+    ],
+)
+def test_sensitive_is_what_spreads_half_as_much_in_all_that_is_beyond(error, spread, sensitive):
+    assert verified_with(error, spread).is_sensitive is sensitive
+
+
+def test_an_unbounded_run_is_beyond_all_tolerance_and_not_excused(blade, config, run, solver):
+    solver.unbounded = lambda spec: spec.scheme == "exponential" and spec.steps_per_element == 6
+    verified = verify_run(blade, config, run)
+    assert verified.status == "unbounded"
+    assert verified.error == Differences(math.inf, math.inf, math.inf)
+    assert verified.is_beyond
+    assert (verified.spread, verified.is_sensitive, verified.speedup) == (None, False, None)
+
+
+def test_the_finer_run_alone_is_unbounded(blade, config, run, solver):
+    solver.unbounded = lambda spec: spec.scheme == "exponential" and spec.steps_per_element > 6
+    verified = verify_run(blade, config, run)
+    assert verified.status == "unbounded"
+    assert verified.spread == Differences(0, 0, 0)
+    assert not verified.is_sensitive
+
+
+def test_speed_up_between_a_second_order_and_a_first_order_scheme():
+    step, paper_step = 2e-6, 3e-7
+    error = 2e9 * step**2
+    paper_error, paper_finer_error = 2e5 * paper_step, 2e5 * paper_step / 4
+    equal_step = error / 2e5
+    expected = 4.0 * (paper_step / 4) / equal_step / 0.25
+    assert speedup_at_equal_error(error, 0.25, paper_error, paper_finer_error, 4.0) == pytest.approx(expected)
+
+
+def test_the_paper_s_scheme_cannot_go_faster_than_its_coarser_step():
+    assert speedup_at_equal_error(0.5, 0.25, 0.04, 0.01, 4.0) == pytest.approx(1.0 / 0.25)
+
+
+@pytest.mark.parametrize(
+    ("error", "paper_error", "paper_finer_error"),
+    [
+        (0.0, 0.04, 0.01),
+        (math.inf, 0.04, 0.01),
+        (0.01, math.inf, 0.01),
+        (0.01, 0.04, 0.0),
+        (0.01, 0.04, 0.04),
+        (0.01, 0.04, 0.05),
+    ],
+)
+def test_no_speed_up_can_be_told(error, paper_error, paper_finer_error):
+    assert speedup_at_equal_error(error, 0.25, paper_error, paper_finer_error, 4.0) is None
+
+
+def test_speed_up_of_a_run(blade, config, run, solver, clock):
+    solver.exponential = lambda step: 2e9 * step**2 if step > 1e-6 else 0.0
+    verified = verify_run(blade, config, run)
+    assert verified.seconds == (1, 2, 3, 4)
+    passage = 1 / (0.19 * blade.f1_hz * 2000)
+    equal_step = 2e9 * (passage / 7) ** 2 / 2e4
+    paper_finer_step = passage / solver.specs[3].steps_per_element
+    assert verified.speedup == pytest.approx(4 * paper_finer_step / min(equal_step, 4 * paper_finer_step))
+
+
+def test_without_wear_the_speed_up_is_at_equal_error_of_the_spectral_peak(blade, config, run, solver):
+    with_wear = solver.make_result
+    solver.make_result = lambda **shape: with_wear(**shape | {"depth": 0.0})
+    verified = verify_run(blade, config, run)
+    assert verified.error.wear_l2 == 0.0
+    assert verified.speedup is not None
+
+
+def test_runs_come_in_their_order(blade, config, solver):
+    runs = draw(study_runs(config), 3, seed=1)
+    assert [verified.run for verified in verify_runs(blade, config, runs)] == runs
