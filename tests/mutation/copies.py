@@ -44,7 +44,7 @@ ROOMS = {
     "contact": Room(f"{SOURCES}/contact", ("tests/unit/contact", "tests/validation/test_contact_*.py")),
     "kernel": Room(f"{SOURCES}/contact/kernel", ("tests/unit/contact", "tests/validation/test_contact_*.py")),
     "blade": Room(f"{SOURCES}/blade", ("tests/unit/blade", "tests/validation/test_blade_*.py")),
-    "extensions": Room(f"{SOURCES}/extensions", ("tests/unit/extras",)),
+    "extras": Room(f"{SOURCES}/extras", ("tests/unit/extras",)),
     "explorer": Room(f"{SOURCES}/explorer", ("tests/unit/explorer",)),
 }
 

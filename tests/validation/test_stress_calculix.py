@@ -1,7 +1,8 @@
 """Stress of the blade against CalculiX, an independent finite element program.
 
 The decks are those of `bladerub.extras.export.calculix`, with a static step that states the stress.
-CalculiX finds the displacement of the blade with C3D20 elements, of 27 integration points each, and the stress at the nodes.
+CalculiX finds the displacement of the blade with C3D20 elements, of 27 integration points each, and the
+stress at the nodes.
 The test needs the solver `ccx` on the path.
 Expected: the largest stress to 1 % outside of the tenths of the span at root and tip; at each node within 1 %
 of it from 15 to 80 % of the span. At the edges of the root, where it depends on the mesh, the largest stress

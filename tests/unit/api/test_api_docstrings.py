@@ -9,7 +9,7 @@ import pytest
 
 import bladerub as br
 
-NAMES = [name for name in br.__all__ if name != "__version__"]
+NAMES = [name for name in dir(br) if name != "__version__"]
 
 
 def members(cls):

@@ -85,7 +85,7 @@ class TestCoverage:
     @pytest.fixture
     def left_out(self, monkeypatch):
         """Modules behind `entry`, directly or not, that none of the digests covers."""
-        monkeypatch.setattr(sources, "_source_digest", set)
+        monkeypatch.setattr(sources, "source_digest", set)
 
         def of(entry, *digests):
             covered = set().union(*(digest() for digest in digests))
