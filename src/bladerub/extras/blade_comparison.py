@@ -32,7 +32,10 @@ def _figures(built: BuiltBlade) -> list[tuple[str, float, str]]:
     first = table[table["mode"] == 1].sort_values("f_omega").f_fe.to_numpy()
     at_rest = table[table.f_omega == 0].set_index("mode").f_fe
     # A blade of matrices does not say how far rotation moves it
-    moved = max((np.linalg.norm(at, axis=1).max() for at in built.static_displacement[-1:]), default=np.nan)
+    moved = max(
+        (np.linalg.norm(displacement, axis=1).max() for displacement in built.static_displacement[-1:]),
+        default=np.nan,
+    )
     return [
         ("f1", at_rest[1], "Hz"),
         ("f2_over_f1", at_rest[2] / at_rest[1], "1"),

@@ -60,18 +60,18 @@ def judge(config: Mapping[str, Any], folder: str | Path, report: Callable[[objec
     called with a `bladerub.study.job.RunDone` after each run.
     """
     folder, origin = Path(folder), provenance(config)
-    model, made = folder / "blade" / "reduced_model.h5", folder / "tables"
+    model, table_folder = folder / "blade" / "reduced_model.h5", folder / "tables"
     write(build(config), origin, model, mesh_path(model), accuracy_path(model))
     study = conduct(config, model, accuracy_path(model), folder, report=report)
-    tables.write(made / "peaks.csv", study.peaks, origin)
-    tables.write(made / "divergence.csv", study.divergence, origin)
+    tables.write(table_folder / "peaks.csv", study.peaks, origin)
+    tables.write(table_folder / "divergence.csv", study.divergence, origin)
     return study.findings
 
 
 def collect(paths: Mapping[str, str | Path]) -> pd.DataFrame:
     """Put the findings of all sets, in a file by the name of each, into one table of `COLUMNS`."""
-    found = [tables.read(path, findings.COLUMNS).assign(set=name) for name, path in paths.items()]
-    return pd.concat(found, ignore_index=True)[COLUMNS]
+    set_findings = [tables.read(path, findings.COLUMNS).assign(set=name) for name, path in paths.items()]
+    return pd.concat(set_findings, ignore_index=True)[COLUMNS]
 
 
 def counts(table: pd.DataFrame) -> pd.DataFrame:

@@ -94,11 +94,11 @@ def _factor(name: str, located: Located) -> Factor:
     entry, location = located.plain(), located.location
     logarithmic, step = entry.get("scale") == "log", entry.get("multiple_of")
     for key, ends in entry["sets"].items():
-        where = f"factors.{name}.sets.{key} = {format_value(ends)}: must be"
+        message = f"factors.{name}.sets.{key} = {format_value(ends)}: must be"
         if logarithmic and ends[0] <= 0:
-            raise ConfigError.at(location, f"{where} above 0 on a logarithmic scale")
+            raise ConfigError.at(location, f"{message} above 0 on a logarithmic scale")
         if step and any(abs(end / step - round(end / step)) > 1e-6 for end in ends):
-            raise ConfigError.at(location, f"{where} multiples of {step:g}, as the values between them are")
+            raise ConfigError.at(location, f"{message} multiples of {step:g}, as the values between them are")
     ranges = {key: (float(low), float(high)) for key, (low, high) in entry["sets"].items()}
     return Factor(name, entry["unit"], ranges, logarithmic, step, location)
 
@@ -118,8 +118,10 @@ def _replaced(config: Located, keys: list[str | int], value: Located, setting: s
             text = f"{setting} = {format_value(config.plain())}: must be a number"
             raise ConfigError.at(value.location, text)
         return value
-    known = content if isinstance(content, dict) else range(len(content)) if isinstance(content, list) else ()
-    if keys[0] not in known:
+    members = (
+        content if isinstance(content, dict) else range(len(content)) if isinstance(content, list) else ()
+    )
+    if keys[0] not in members:
         raise ConfigError.at(value.location, f"{setting}: must be a number of the study, it has none there")
     changed = copy.copy(content)
     changed[keys[0]] = _replaced(content[keys[0]], keys[1:], value, setting)

@@ -107,8 +107,8 @@ def _stopwatch(elapsed: np.ndarray) -> Callable[[int], None]:
     """Return a callback that fills `elapsed` (r,) with the wall time until the end of each revolution, s."""
     start = time.perf_counter()
 
-    def note(done: int) -> None:
-        elapsed[done - 1] = time.perf_counter() - start
+    def note(revolutions: int) -> None:
+        elapsed[revolutions - 1] = time.perf_counter() - start
 
     return note
 
@@ -138,14 +138,14 @@ def verdict_after(config: Mapping[str, Any], amplitude: np.ndarray, revolutions:
     coating away (`DIED_OUT`), ``saturating`` if it grew in the revolutions of the study and no longer does,
     or ``steady``.
     """
-    settings, whole = config["analysis"]["divergence"], amplitude[:revolutions]
-    status = "completed" if np.isfinite(whole).all() else "unbounded"
-    verdict = judge(whole, status, settings)
+    settings, history = config["analysis"]["divergence"], amplitude[:revolutions]
+    status = "completed" if np.isfinite(history).all() else "unbounded"
+    verdict = judge(history, status, settings)
     if status == "unbounded":
         return status, verdict
     if verdict.divergent:
         return "divergent", verdict
-    if whole[-1] < DIED_OUT * whole.max():
+    if history[-1] < DIED_OUT * history.max():
         return "free", verdict
     grew = verdict.growth.grows or growth(amplitude[: config["solver"]["revolutions"]], settings).grows
     return ("saturating" if grew else "steady"), verdict
@@ -163,7 +163,7 @@ def table(config: Mapping[str, Any], coatings: Iterable[LongRuns]) -> pd.DataFra
             run = {name: getattr(long, name)[index] for name in ("f_omega", "why", "max_wear", "status")}
             amplitude, seconds = long.revolution_amplitude[index], long.seconds[index, :revolutions]
             name, verdict = verdict_after(config, amplitude, revolutions)
-            made = np.flatnonzero(np.isfinite(seconds))
+            finite = np.flatnonzero(np.isfinite(seconds))
             rows.append(
                 asdict(long.case)
                 | run
@@ -171,8 +171,8 @@ def table(config: Mapping[str, Any], coatings: Iterable[LongRuns]) -> pd.DataFra
                     "revolutions": revolutions,
                     "verdict": name,
                     "growth_per_revolution": verdict.growth.per_revolution,
-                    "late_amplitude": amplitude[made[-last:]].mean() if made.size else np.nan,
-                    "ms_per_revolution": 1e3 * seconds[made[-1]] / made.size if made.size else np.nan,
+                    "late_amplitude": amplitude[finite[-last:]].mean() if finite.size else np.nan,
+                    "ms_per_revolution": 1e3 * seconds[finite[-1]] / finite.size if finite.size else np.nan,
                 }
             )
     return with_variant(pd.DataFrame(rows), COLUMNS)

@@ -53,12 +53,14 @@ def conduct(
         digest = blade_digest(model)
         mapped = partial(map_coating, config, blade=blade, digest=digest, folder=folder, report=report)
     # a GPU wants all runs at once: each coating of a small study has too few
-    found = dict(each_done(mapped, cases, len(cases) if on_gpu(config) else 1))
-    maps, n_runs = [found[case][0] for case in cases], sum(n for _, n in found.values())
-    made = {"peaks": peak_table.table(config, maps), "divergence": divergence.table(config, maps)}
-    evidence = Evidence(config, made | {"rom_accuracy": read_rom_accuracy(rom_accuracy)}, maps)
-    wanted = findings.CLAIMS if claims is None else findings.of_claims(claims)
-    return SmallStudy(**made, findings=findings.judge(evidence, wanted), n_runs=n_runs, evidence=evidence)
+    results = dict(each_done(mapped, cases, len(cases) if on_gpu(config) else 1))
+    maps, n_runs = [results[case][0] for case in cases], sum(n for _, n in results.values())
+    tables = {"peaks": peak_table.table(config, maps), "divergence": divergence.table(config, maps)}
+    evidence = Evidence(config, tables | {"rom_accuracy": read_rom_accuracy(rom_accuracy)}, maps)
+    selection = findings.CLAIMS if claims is None else findings.of_claims(claims)
+    return SmallStudy(
+        **tables, findings=findings.judge(evidence, selection), n_runs=n_runs, evidence=evidence
+    )
 
 
 def map_coating(
@@ -86,5 +88,5 @@ def _in_memory(
     """Do as `map_coating` without files."""
     runs, longer = compute_all(config, coating_plan(config, case), blade, report)
     planned, prominence = speeds(config), config["analysis"]["lobe_prominence"]
-    made = collect(case, planned, first_frequency(blade, planned), runs, longer, prominence)
-    return replace(made, wear_node=None), len(runs) + sum(run is not None for run in longer)
+    coating_map = collect(case, planned, first_frequency(blade, planned), runs, longer, prominence)
+    return replace(coating_map, wear_node=None), len(runs) + sum(run is not None for run in longer)

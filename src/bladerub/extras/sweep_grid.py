@@ -12,8 +12,8 @@ DIRECTIONS = ("up", "down")
 
 def swept_cases(config: Mapping[str, Any]) -> list[CoatingCase]:
     """List the coatings of ``sweeps.coatings`` that the study has."""
-    listed = set(config["sweeps"]["coatings"])
-    return [case for case in coating_cases(config) if case.name in listed]
+    names = set(config["sweeps"]["coatings"])
+    return [case for case in coating_cases(config) if case.name in names]
 
 
 def sweep_spec(config: Mapping[str, Any], case: CoatingCase, direction: str, rate: float) -> SweepSpec:

@@ -113,9 +113,9 @@ def make(
 def _spectra(result: SweepResult, window: int, max_order: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Mean speed (n,), ascending, of each `window` of whole revolutions, orders (m,) and spectra (n, m)."""
     track = result.radial_displacement.reshape(result.f_omega.size, -1)
-    whole = int(np.isfinite(track).all(axis=1).sum())
+    n_complete = int(np.isfinite(track).all(axis=1).sum())
     order, _ = order_spectrum(np.zeros(window * result.angle.size), window, window, max_order)
-    windows = [slice(first, first + window) for first in range(whole - window + 1)]
+    windows = [slice(first, first + window) for first in range(n_complete - window + 1)]
     f_omega = np.array([result.f_omega[part].mean() for part in windows], dtype=float)
     spectra = [order_spectrum(track[part].ravel(), window, window, max_order)[1] for part in windows]
     ascending = np.argsort(f_omega, kind="stable")
@@ -152,15 +152,15 @@ def table(
     for sweep, order in pairs:
         constant = maps[sweep.case]
         at_constant, window = peak(constant, order, settings), speed_window(constant, order, settings)
-        found = maximum(sweep, amplitude_in_window(sweep, order, settings, window))
+        swept_peak = maximum(sweep, amplitude_in_window(sweep, order, settings, window))
         rows.append(
             asdict(sweep.case)
             | {
                 "direction": sweep.direction,
                 "rate": sweep.rate,
                 "order": order,
-                "f_peak": found.f_omega,
-                "amplitude": found.amplitude,
+                "f_peak": swept_peak.f_omega,
+                "amplitude": swept_peak.amplitude,
                 "f_peak_constant": at_constant.f_omega,
                 "amplitude_constant": at_constant.amplitude,
                 "status": sweep.status,

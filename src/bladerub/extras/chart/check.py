@@ -22,22 +22,22 @@ def table(config: Mapping[str, Any], maps: Iterable[CoatingMap]) -> pd.DataFrame
     rows = []
     for coating in maps:
         curves = sought(config, coating, np.nanmax(coating.revolution_peak, axis=1))
-        known = speeds.coarse.copy()
-        while pending := next_speeds(known, curves.values(), share):
-            known[pending] = True
+        computed = speeds.coarse.copy()
+        while pending := next_speeds(computed, curves.values(), share):
+            computed[pending] = True
         for quantity, curve in curves.items():
-            if not np.isfinite(np.where(known, curve, np.nan)).any():
+            if not np.isfinite(np.where(computed, curve, np.nan)).any():
                 continue  # no run with a spectrum, so nothing to find
-            at, best = int(np.nanargmax(np.where(known, curve, np.nan))), int(np.nanargmax(curve))
+            index, best = int(np.nanargmax(np.where(computed, curve, np.nan))), int(np.nanargmax(curve))
             rows.append(
                 {name: getattr(coating.case, name) for name in COATING}
                 | {
                     "quantity": quantity,
-                    "found": curve[at],
-                    "f_found": coating.f_omega[at],
+                    "found": curve[index],
+                    "f_found": coating.f_omega[index],
                     "greatest": curve[best],
                     "f_greatest": coating.f_omega[best],
-                    "missed": 1 - curve[at] / curve[best],
+                    "missed": 1 - curve[index] / curve[best],
                 }
             )
     return pd.DataFrame(rows)
@@ -48,9 +48,9 @@ def summary(compared: pd.DataFrame) -> pd.DataFrame:
     missed = compared.groupby("quantity").missed
     counted = missed.agg(
         coatings="size",
-        exact=lambda each: (each == 0).sum(),
-        within_1_percent=lambda each: (each <= 0.01).sum(),
-        within_5_percent=lambda each: (each <= 0.05).sum(),
+        exact=lambda misses: (misses == 0).sum(),
+        within_1_percent=lambda misses: (misses <= 0.01).sum(),
+        within_5_percent=lambda misses: (misses <= 0.05).sum(),
         worst_missed="max",
     )
     return counted.reset_index()

@@ -110,8 +110,8 @@ def compute_missing(
             )
             return ((case, (point, start)) for case, point in compute_together(searches, solve))
 
-        done = made_together() if on_gpu(config) else each_done(made, missing, threads)
-        for number, (case, (point, start)) in enumerate(done, 1):
+        results = made_together() if on_gpu(config) else each_done(made, missing, threads)
+        for number, (case, (point, start)) in enumerate(results, 1):
             entry = entries[case]
             entry.make_room()
             checksums[case] = points.write(entry.path, point, entry.key, config)

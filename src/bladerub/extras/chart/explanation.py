@@ -43,8 +43,8 @@ def table(config: Mapping[str, Any], points: Iterable[ChartPoint]) -> pd.DataFra
         rows.append(about)
         if about["reason"]:
             continue  # no peak to look at
-        at = int(np.flatnonzero(point.f_omega == about["f_peak"])[0])
-        cycles = order * point.measures["revolutions"][at]
-        about["lobes"] = int(point.measures["lobes"][at])
-        about |= {f"{loss}_per_cycle": point.measures[f"energy_{loss}"][at] / cycles for loss in LOSSES}
+        index = int(np.flatnonzero(point.f_omega == about["f_peak"])[0])
+        cycles = order * point.measures["revolutions"][index]
+        about["lobes"] = int(point.measures["lobes"][index])
+        about |= {f"{loss}_per_cycle": point.measures[f"energy_{loss}"][index] / cycles for loss in LOSSES}
     return pd.DataFrame(rows, columns=COLUMNS)

@@ -37,17 +37,19 @@ class ChartSpeeds(NamedTuple):
 
 def chart_speeds(config: Mapping[str, Any]) -> ChartSpeeds:
     """Choose the speeds of the study that are nearest to the even ones of ``chart.speeds``."""
-    f_omega, wanted = np.array(speeds(config)), config["chart"]["speeds"]
-    uniform = _nearest(f_omega, wanted["start"], f_omega[-1], wanted["step"])
-    dense = _nearest(f_omega, wanted["start"], min(wanted["dense_stop"], f_omega[-1]), wanted["dense_step"])
+    f_omega, settings = np.array(speeds(config)), config["chart"]["speeds"]
+    uniform = _nearest(f_omega, settings["start"], f_omega[-1], settings["step"])
+    dense = _nearest(
+        f_omega, settings["start"], min(settings["dense_stop"], f_omega[-1]), settings["dense_step"]
+    )
     return ChartSpeeds(f_omega, uniform, uniform | dense)
 
 
 def _nearest(f_omega: np.ndarray, start: float, stop: float, step: float) -> np.ndarray:
     even = np.arange(start, stop + 1e-9, step)
-    chosen = np.zeros(f_omega.size, dtype=bool)
-    chosen[np.abs(f_omega - even[:, None]).argmin(axis=1)] = True
-    return chosen
+    mask = np.zeros(f_omega.size, dtype=bool)
+    mask[np.abs(f_omega - even[:, None]).argmin(axis=1)] = True
+    return mask
 
 
 def check(config: Mapping[str, Any]) -> None:

@@ -44,11 +44,11 @@ def _peaks(config: Mapping[str, Any], points: list[ChartPoint], multiple: int) -
     for point in points:
         steps = (point.f_omega - config["chart"]["speeds"]["start"]) / (config["speeds"]["step"] * multiple)
         even = (np.abs(steps - np.rint(steps)) < 1e-6) | (multiple == 1)
-        seen = replace(point, spectrum_amplitude=np.where(even[:, None], point.spectrum_amplitude, np.nan))
+        subset = replace(point, spectrum_amplitude=np.where(even[:, None], point.spectrum_amplitude, np.nan))
         case = point.case
         for order in chart_orders(config):
-            found = maximum(seen, amplitude_in_window(seen, order, config["analysis"]["peaks"]))
-            rows.append((case.casing, case.theta, order, case.E, case.K, found.f_omega, found.amplitude))
+            peak = maximum(subset, amplitude_in_window(subset, order, config["analysis"]["peaks"]))
+            rows.append((case.casing, case.theta, order, case.E, case.K, peak.f_omega, peak.amplitude))
     return pd.DataFrame(rows, columns=[*_SURFACE, "E", "K", "f_peak", "amplitude"])
 
 

@@ -54,16 +54,16 @@ def compute_together(
 
     `solve` yields the number of each run that it is given, with its result.
     """
-    wanted = {case: next(each) for case, each in searches.items()}
-    while wanted:
-        found = dict(solve([spec for specs in wanted.values() for spec in specs]))
-        results, more = iter([found[number] for number in range(len(found))]), {}
-        for case, specs in wanted.items():
+    pending = {case: next(generator) for case, generator in searches.items()}
+    while pending:
+        by_number = dict(solve([spec for specs in pending.values() for spec in specs]))
+        results, next_specs = iter([by_number[number] for number in range(len(by_number))]), {}
+        for case, specs in pending.items():
             try:
-                more[case] = searches[case].send(list(islice(results, len(specs))))
+                next_specs[case] = searches[case].send(list(islice(results, len(specs))))
             except StopIteration as end:
                 yield case, end.value
-        wanted = more
+        pending = next_specs
 
 
 def search(
@@ -104,24 +104,26 @@ def sought(config: Mapping[str, Any], response: Response, peak: np.ndarray) -> d
     return amplitudes | {"peak": peak}
 
 
-def next_speeds(known: np.ndarray, curves: Iterable[np.ndarray], share: float) -> list[int]:
+def next_speeds(computed: np.ndarray, curves: Iterable[np.ndarray], share: float) -> list[int]:
     """Return the speeds to run next, as ascending indices into the grid; none once all maxima are enclosed.
 
-    `known` (n,) are the speeds that were run, `curves` (n,) the quantities whose maxima are sought, NaN where
-    not; local maxima below `share` of the greatest are left as they are.
+    `computed` (n,) are the speeds that were run, `curves` (n,) the quantities whose maxima are sought, NaN
+    where not; local maxima below `share` of the greatest are left as they are.
     """
-    at = np.flatnonzero(known)
-    wanted: set[int] = set()
+    indices = np.flatnonzero(computed)
+    midpoints: set[int] = set()
     for curve in curves:
-        values = np.nan_to_num(curve[at], nan=-np.inf)
+        values = np.nan_to_num(curve[indices], nan=-np.inf)
         if not np.isfinite(values).any():
             continue
-        left, right = np.append(-np.inf, values[:-1]), np.append(values[1:], -np.inf)
-        maxima = np.flatnonzero((values >= left) & (values >= right) & (values >= share * values.max()))
+        previous, following = np.append(-np.inf, values[:-1]), np.append(values[1:], -np.inf)
+        maxima = np.flatnonzero(
+            (values >= previous) & (values >= following) & (values >= share * values.max())
+        )
         for low, high in [*zip(maxima - 1, maxima, strict=True), *zip(maxima, maxima + 1, strict=True)]:
-            if low >= 0 and high < at.size and at[high] - at[low] > 1:
-                wanted.add(int(at[low] + at[high]) // 2)
-    return sorted(wanted)
+            if low >= 0 and high < indices.size and indices[high] - indices[low] > 1:
+                midpoints.add(int(indices[low] + indices[high]) // 2)
+    return sorted(midpoints)
 
 
 def _enter(
@@ -146,7 +148,9 @@ def _amplitudes(
     order, amplitude = order_spectrum(
         result.radial_displacement, spec.revolutions, analysis["spectrum_revolutions"], orders.max() + 1
     )
-    return [float(amplitude[np.abs(order - wanted) <= halfwidth + 1e-9].max()) for wanted in orders]
+    return [
+        float(amplitude[np.abs(order - engine_order) <= halfwidth + 1e-9].max()) for engine_order in orders
+    ]
 
 
 def _measured(
@@ -178,8 +182,10 @@ def _judge(
     """Judge whether runs diverge, and put it into `point`; ask for the longer runs of those that grow."""
     settings = analysis["divergence"]
     growing = [end for end in ends if needs_confirmation(end.amplitude, end.status, settings)]
-    found = yield [confirmation_spec(end.spec, settings) for end in growing]
-    longer = {end.index: result.revolution_amplitude for end, result in zip(growing, found, strict=True)}
+    confirmations = yield [confirmation_spec(end.spec, settings) for end in growing]
+    longer = {
+        end.index: result.revolution_amplitude for end, result in zip(growing, confirmations, strict=True)
+    }
     for end in ends:
         verdict = judge(end.amplitude, end.status, settings, longer.get(end.index))
         point.measures["divergent"][end.index] = float(verdict.divergent)

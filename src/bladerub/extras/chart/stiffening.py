@@ -50,11 +50,11 @@ def table(peaks: pd.DataFrame, blade: ReducedBlade) -> pd.DataFrame:
     """
     rows = []
     for order, of_order in peaks.groupby("order"):
-        crossing, kept = float(of_order.f_crossing.mean()), of_order[is_stiffened(of_order)]
+        crossing, stiffened = float(of_order.f_crossing.mean()), of_order[is_stiffened(of_order)]
         first = of_order.theta.min()
         first_share = share(blade, first, crossing)
         for theta, every in of_order.groupby("theta"):
-            points = kept[kept.theta == theta]
+            points = stiffened[stiffened.theta == theta]
             rows.append(
                 {
                     "order": order,
@@ -63,7 +63,7 @@ def table(peaks: pd.DataFrame, blade: ReducedBlade) -> pd.DataFrame:
                     "below_crossing": len(every) - len(points),
                     **{f"rank_correlation_{name}": _rank_correlation(points, name) for name in MODULI},
                     **{f"scatter_{name}": _scatter(points, name) for name in MODULI},
-                    "modulus_ratio": _modulus_ratio(points, kept[kept.theta == first]),
+                    "modulus_ratio": _modulus_ratio(points, stiffened[stiffened.theta == first]),
                     "modulus_ratio_by_share": first_share / share(blade, theta, crossing),
                 }
             )
@@ -79,8 +79,8 @@ def _rank_correlation(points: pd.DataFrame, modulus: str) -> float:
 def _scatter(points: pd.DataFrame, modulus: str) -> float:
     if points.empty:
         return np.nan
-    same = points.groupby(modulus).f_peak  # one value of the curve for each modulus
-    curve = pd.Series(isotonic_regression(same.mean(), weights=same.size()).x, index=same.mean().index)
+    groups = points.groupby(modulus).f_peak  # one value of the curve for each modulus
+    curve = pd.Series(isotonic_regression(groups.mean(), weights=groups.size()).x, index=groups.mean().index)
     return float(np.sqrt(np.mean((points.f_peak - points[modulus].map(curve)) ** 2)))
 
 

@@ -33,23 +33,23 @@ def table(
     """
     stress, rows = BladeStress(mesh, blade), []
     last = config["analysis"]["spectrum_revolutions"]
-    at = ["f_at_peak", *(f"f{order}" for order in chart_orders(config))]
+    speed_columns = ["f_at_peak", *(f"f{order}" for order in chart_orders(config))]
     for point in chart.to_dict("records"):
         case = CoatingCase(*(point[name] for name in COATING))
-        found = {}
-        for f_omega in sorted({point[name] for name in at if pd.notna(point[name])}):
+        stresses = {}
+        for f_omega in sorted({point[name] for name in speed_columns if pd.notna(point[name])}):
             _, of_run = stress.of_run(run_spec(config, case, f_omega), last)
             if of_run is not None:
-                found[f_omega] = of_run.last["alternating"]
-        speed = max(found, key=lambda f_omega: found[f_omega], default=None)
+                stresses[f_omega] = of_run.last["alternating"]
+        speed = max(stresses, key=lambda f_omega: stresses[f_omega], default=None)
         rows.append({name: point[name] for name in COATING})
-        rows[-1] |= {"alternating": found.get(speed), "f_alternating": speed}
+        rows[-1] |= {"alternating": stresses.get(speed), "f_alternating": speed}
     return pd.DataFrame(rows, columns=COLUMNS)
 
 
 def read_chart(chart: str | Path, stress: str | Path | None = None) -> pd.DataFrame:
     """Read ``chart.csv``, with the columns of ``chart_stress.csv`` where that is given."""
-    whole = tables.read(chart)
+    rows = tables.read(chart)
     if stress is None:
-        return whole
-    return whole.merge(tables.read(stress, COLUMNS), on=COATING, how="left", validate="one_to_one")
+        return rows
+    return rows.merge(tables.read(stress, COLUMNS), on=COATING, how="left", validate="one_to_one")

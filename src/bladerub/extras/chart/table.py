@@ -49,8 +49,8 @@ def table(config: Mapping[str, Any], points: Iterable[ChartPoint]) -> pd.DataFra
     for point in points:
         measures, row = point.measures, {name: getattr(point.case, name) for name in COATING}
         for order in orders:
-            found = peak(point, order, config["analysis"]["peaks"])
-            row |= {f"f{order}": found.f_omega, f"Y{order}": found.amplitude}
+            order_peak = peak(point, order, config["analysis"]["peaks"])
+            row |= {f"f{order}": order_peak.f_omega, f"Y{order}": order_peak.amplitude}
         highest = int(np.nanargmax(measures["peak"]))
         row |= {"peak": measures["peak"][highest], "f_at_peak": point.f_omega[highest]}
         row |= {name: np.nanmax(measures[name]) for name in ("worn_volume", "deepest_wear")}

@@ -85,21 +85,21 @@ def _read(table: cells.Cells, units: Mapping[str, str]) -> list[Curve]:
 def _values(table: cells.Cells, column: str, stated: str | None, units: Mapping[str, str]) -> np.ndarray:
     """Values of a column in SI: strain and stress of compression, counted positive."""
     unit = stated or units.get(column) or _DEFAULT.get(column)
-    known = UNITS[column]
-    if unit not in known:
+    factors = UNITS[column]
+    if unit not in factors:
         problem = f"unit = {unit}" if unit else "has no unit"
         raise ValueError(
-            f"column {column}: {problem}, must be {' or '.join(known)}: {column} ({[*known][-1]})"
+            f"column {column}: {problem}, must be {' or '.join(factors)}: {column} ({[*factors][-1]})"
         )
-    values = known[unit] * table.numbers(column)
-    most = _MOST[column]
-    bad = (np.abs(values) > most) | ((values < 0) & (column != "stress"))
+    values = factors[unit] * table.numbers(column)
+    bound = _MOST[column]
+    bad = (np.abs(values) > bound) | ((values < 0) & (column != "stress"))
     if bad.any():
         row = int(np.argmax(bad))
         line, cell = [*table.rows][row], table.column(column)[row]
-        limits = f"from {-most if column == 'stress' else 0:g} to {most / known[unit]:g} {unit}"
+        limits = f"from {-bound if column == 'stress' else 0:g} to {bound / factors[unit]:g} {unit}"
         raise ValueError(
             f"line {line}: {column} = {cell}, must be {limits}; compression is positive, and the unit stands "
-            f"behind the name: {column} ({[*known][-1]})"
+            f"behind the name: {column} ({[*factors][-1]})"
         )
     return values

@@ -124,7 +124,7 @@ def fit(curves: Sequence[Curve]) -> Fit:
     starts = sorted(_starts(curves, unit, len(names)), key=lambda start: np.sum(residuals(start) ** 2))[
         :_TRIED
     ]
-    found = min(
+    optimum = min(
         (
             least_squares(residuals, start, bounds=bounds, x_scale=np.abs(start) + 1e-3, xtol=1e-12)
             for start in starts
@@ -132,23 +132,23 @@ def fit(curves: Sequence[Curve]) -> Fit:
         key=lambda result: result.cost,
     )
     freedom = points - len(names)
-    variance = 2 * found.cost / freedom
+    variance = 2 * optimum.cost / freedom
     scale = np.array([1.0 if UNITS[name] == "1" else unit for name in names])
-    covariance = _covariance(found.jac, found.x) * variance * np.outer(scale, scale)
-    if not _yields(curves, measured, 2 * found.cost, len(names)):
+    covariance = _covariance(optimum.jac, optimum.x) * variance * np.outer(scale, scale)
+    if not _yields(curves, measured, 2 * optimum.cost, len(names)):
         covariance[1:] = covariance[:, 1:] = np.nan
     half = student.ppf(0.5 + LEVEL / 2, freedom)
     parameters = tuple(
         _parameter(name, x * s, spread, half, at_bound)
         for name, x, s, spread, at_bound in zip(
-            names, found.x, scale, np.diag(covariance), found.active_mask, strict=True
+            names, optimum.x, scale, np.diag(covariance), optimum.active_mask, strict=True
         )
     )
     return Fit(
         parameters,
         covariance,
         float(np.sqrt(variance) * unit),
-        _autocorrelation(found.fun, [curve.strain.size for curve in curves]),
+        _autocorrelation(optimum.fun, [curve.strain.size for curve in curves]),
         tuple(rates),
         points,
     )
@@ -183,9 +183,9 @@ def _covariance(jacobian: np.ndarray, x: np.ndarray) -> np.ndarray:
     """Compute the covariance for residuals of variance 1; NaN for parameters that the curves do not show."""
     scale = np.abs(x) + 1e-12  # relative changes
     _, singular, directions = np.linalg.svd(jacobian * scale, full_matrices=False)
-    seen = singular > 1e-8 * singular[0]
-    hidden = (np.abs(directions[~seen]) > 1e-4).any(axis=0)
-    inverse = directions[seen].T / singular[seen]
+    visible = singular > 1e-8 * singular[0]
+    hidden = (np.abs(directions[~visible]) > 1e-4).any(axis=0)
+    inverse = directions[visible].T / singular[visible]
     covariance = inverse @ inverse.T * np.outer(scale, scale)
     covariance[hidden] = covariance[:, hidden] = np.nan
     return covariance

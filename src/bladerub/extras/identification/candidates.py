@@ -58,9 +58,9 @@ def choose(
     return pd.DataFrame(rows, columns=[*_INDEX, *(factor.name for factor in plan.factors)])
 
 
-def as_table(plan: Plan, chosen: pd.DataFrame) -> pd.DataFrame:
+def as_table(plan: Plan, candidates: pd.DataFrame) -> pd.DataFrame:
     """Make the long table of `choose`: a row for each factor, with its position and value."""
-    table = chosen.melt(id_vars=_INDEX, var_name="factor", value_name="range_fraction")
+    table = candidates.melt(id_vars=_INDEX, var_name="factor", value_name="range_fraction")
     factors = {factor.name: factor for factor in plan.factors}
     table["value"] = [
         factors[name].first_value(position)
@@ -78,18 +78,18 @@ def read(path: str | Path) -> pd.DataFrame:
 
 
 def judge(
-    study: Mapping[str, Any], plan: Plan, chosen: pd.DataFrame, candidate: int, neighbour: int
+    study: Mapping[str, Any], plan: Plan, candidates: pd.DataFrame, candidate: int, neighbour: int
 ) -> pd.DataFrame:
     """Make the finer study of one row of `read`: verdicts with `COLUMNS`."""
-    position = chosen.loc[(candidate, neighbour)].to_numpy()
-    found = conduct_set(study, plan, plan.candidates.study, position).findings
-    return found.assign(candidate=candidate, neighbour=neighbour)[COLUMNS]
+    position = candidates.loc[(candidate, neighbour)].to_numpy()
+    findings = conduct_set(study, plan, plan.candidates.study, position).findings
+    return findings.assign(candidate=candidate, neighbour=neighbour)[COLUMNS]
 
 
-def counts(chosen: pd.DataFrame, verdicts: pd.DataFrame) -> pd.DataFrame:
+def counts(candidates: pd.DataFrame, verdicts: pd.DataFrame) -> pd.DataFrame:
     """Count the parts that hold for each candidate and neighbour, of the matched claims and of the others.
 
-    `chosen` is from `as_table`, `verdicts` have `COLUMNS`.
+    `candidates` is from `as_table`, `verdicts` have `COLUMNS`.
     """
     matched = {target.claim for target in TARGETS}
     yes = verdicts.holds == YES
@@ -100,4 +100,4 @@ def counts(chosen: pd.DataFrame, verdicts: pd.DataFrame) -> pd.DataFrame:
         parts=True,
     )
     summed = counted.groupby(_INDEX[:2]).sum().astype(int).reset_index()
-    return chosen[_INDEX].drop_duplicates().merge(summed, on=_INDEX[:2])
+    return candidates[_INDEX].drop_duplicates().merge(summed, on=_INDEX[:2])

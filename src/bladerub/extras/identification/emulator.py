@@ -73,12 +73,12 @@ class Emulator:
 
 def emulators(positions: np.ndarray, measured: pd.DataFrame) -> dict[str, Emulator]:
     """Fit an emulator to each target that enough sets have, at the `positions` (n, d) of these sets."""
-    found = {}
+    fits = {}
     for name, values in measured.items():
-        known = values.notna().to_numpy()
-        if known.sum() >= FEWEST:
-            found[name] = Emulator(positions[known], values[known].to_numpy())
-    return found
+        mask = values.notna().to_numpy()
+        if mask.sum() >= FEWEST:
+            fits[name] = Emulator(positions[mask], values[mask].to_numpy())
+    return fits
 
 
 def held_out(emulator: Emulator, positions: np.ndarray, values: np.ndarray) -> HeldOut:
@@ -87,8 +87,10 @@ def held_out(emulator: Emulator, positions: np.ndarray, values: np.ndarray) -> H
     mean, deviation = np.empty(values.size), np.empty(values.size)
     for left_out in range(FOLDS):
         inside, outside = fold != left_out, fold == left_out
-        found = Emulator(positions[inside], values[inside], emulator.covariance).predict(positions[outside])
-        mean[outside], deviation[outside] = found
+        prediction = Emulator(positions[inside], values[inside], emulator.covariance).predict(
+            positions[outside]
+        )
+        mean[outside], deviation[outside] = prediction
     return compared(values, Predicted(mean, deviation))
 
 

@@ -28,15 +28,15 @@ def wide(quantities: pd.DataFrame) -> pd.DataFrame:
 
 def of_simulated(measured: pd.DataFrame) -> pd.DataFrame:
     """Return the implausibility of simulated sets, of the shape of `measured` from `wide`; NaN as there."""
-    known = {target.name: target for target in TARGETS}
-    return measured.apply(lambda values: known[values.name].excess(values) / known[values.name].error)
+    targets = {target.name: target for target in TARGETS}
+    return measured.apply(lambda values: targets[values.name].excess(values) / targets[values.name].error)
 
 
 def predicted(emulated: Mapping[str, "Emulator"], positions: np.ndarray) -> pd.DataFrame:
     """Predict the implausibility of each emulated target (columns) at `positions` (m, d)."""
-    known = {target.name: target for target in TARGETS}
+    targets = {target.name: target for target in TARGETS}
     return pd.DataFrame(
-        {name: _of_prediction(known[name], emulator, positions) for name, emulator in emulated.items()},
+        {name: _of_prediction(targets[name], emulator, positions) for name, emulator in emulated.items()},
         index=range(len(positions)),  # also where nothing is emulated
     )
 

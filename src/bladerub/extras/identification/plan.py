@@ -55,7 +55,7 @@ class Plan:
 
     def first(self, wave: int) -> int:
         """Return the number of the first set of a wave; the sets of all waves are counted through."""
-        return sum(self.size(each) for each in range(1, wave))
+        return sum(self.size(earlier) for earlier in range(1, wave))
 
     def batches(self, wave: int) -> list[range]:
         """Return the sets of each job of a wave."""
@@ -64,10 +64,10 @@ class Plan:
 
     def given(self, study: dict[str, Any]) -> np.ndarray:
         """Return the positions of the study's own values, then of the given sets, (1 + n_sets, d)."""
-        own = [factor.position(factor.own(study)) for factor in self.factors]
-        rows = [own]
+        reference = [factor.position(factor.own(study)) for factor in self.factors]
+        rows = [reference]
         for values in self.sets.values():
-            pairs = zip(self.factors, own, strict=True)
+            pairs = zip(self.factors, reference, strict=True)
             rows.append(
                 [f.position(values[f.name]) if f.name in values else position for f, position in pairs]
             )
@@ -86,8 +86,8 @@ def read_plan(path: str | Path) -> Plan:
         name: Part(tuple(part.content["claims"].plain()), part.content["study"])
         for name, part in content["parts"].content.items()
     }
-    chosen = content["candidates"].content
-    numbers = {key: chosen[key].plain() for key in ("number", "neighbours", "shift")}
+    candidates = content["candidates"].content
+    numbers = {key: candidates[key].plain() for key in ("number", "neighbours", "shift")}
     plan = Plan(
         seed=content["seed"].content,
         factors=factors,
@@ -95,7 +95,7 @@ def read_plan(path: str | Path) -> Plan:
         sets={name: _given(name, entry, factors) for name, entry in content["sets"].content.items()},
         waves=tuple(content["waves"].plain()),
         remaining=content["remaining"].plain(),
-        candidates=Candidates(**numbers, study=chosen["study"]),
+        candidates=Candidates(**numbers, study=candidates["study"]),
     )
     if (missing := FEWEST - plan.size(1)) > 0:
         raise ConfigError.at(
@@ -108,14 +108,16 @@ def read_plan(path: str | Path) -> Plan:
 
 def _given(name: str, entry: Located, factors: tuple[Factor, ...]) -> dict[str, float]:
     """Check that a given set has values of the factors, within their ranges."""
-    known, values = {factor.name: factor for factor in factors}, entry.plain()
+    by_name, values = {factor.name: factor for factor in factors}, entry.plain()
     for key, value in values.items():
-        where = f"sets.{name}.{key} = {format_value(value)}: must be"
-        if key not in known:
-            raise ConfigError.at(entry.location, f"{where} of a factor: {', '.join(known)}")
-        low, high = known[key].range
+        message = f"sets.{name}.{key} = {format_value(value)}: must be"
+        if key not in by_name:
+            raise ConfigError.at(entry.location, f"{message} of a factor: {', '.join(by_name)}")
+        low, high = by_name[key].range
         if not low <= value <= high:
-            raise ConfigError.at(entry.location, f"{where} from {low:g} to {high:g}, the range of the factor")
+            raise ConfigError.at(
+                entry.location, f"{message} from {low:g} to {high:g}, the range of the factor"
+            )
     return values
 
 

@@ -44,11 +44,11 @@ def simulate(study: Mapping[str, Any], plan: Plan, positions: Mapping[int, np.nd
     for number, position in positions.items():
         start, n_runs = time.process_time(), 0
         for part in plan.parts.values():
-            made = conduct_set(study, plan, part.study, position, part.claims)
-            found = measure(made.evidence, part.claims)
-            quantities += [(number, name, value) for name, value in found.items()]
-            verdicts.append(made.findings.assign(set=number)[VERDICTS])
-            n_runs += made.n_runs
+            result = conduct_set(study, plan, part.study, position, part.claims)
+            values = measure(result.evidence, part.claims)
+            quantities += [(number, name, value) for name, value in values.items()]
+            verdicts.append(result.findings.assign(set=number)[VERDICTS])
+            n_runs += result.n_runs
         cost.append((number, n_runs, time.process_time() - start))
     return Simulated(
         pd.DataFrame(quantities, columns=QUANTITIES),
@@ -69,10 +69,10 @@ def check(study: Mapping[str, Any], plan: Plan) -> None:
 
 def determinants(study: Mapping[str, Any], plan: Plan) -> dict[str, Any]:
     """Return what determines the results of a set at given positions, of the plan and of the study."""
-    own = {key: study[key] for key in ("blade", "reduction", "contact", "casings", "solver", "analysis")}
+    settings = {key: study[key] for key in ("blade", "reduction", "contact", "casings", "solver", "analysis")}
     parts = {name: (part.claims, part.study.plain()) for name, part in plan.parts.items()}
     return {
-        "study": config_digest(own),
+        "study": config_digest(settings),
         "factors": [(f.name, f.ranges) for f in plan.factors],
         "parts": parts,
     }

@@ -53,24 +53,24 @@ def sets(plan: Plan, positions: pd.DataFrame, misfit: pd.Series) -> pd.DataFrame
     return table.assign(misfit=table.set.map(misfit))
 
 
-def left_after(wave: int, n_sets: int, left: Remaining) -> pd.DataFrame:
+def left_after(wave: int, n_sets: int, remainder: Remaining) -> pd.DataFrame:
     """Say what is left after a wave: a row with `LEFT`."""
-    return pd.DataFrame([(wave, n_sets, left.given_up, left.share)], columns=LEFT)
+    return pd.DataFrame([(wave, n_sets, remainder.given_up, remainder.share)], columns=LEFT)
 
 
 def emulated(
     wave: int,
     emulators: Mapping[str, Emulator],
-    left: Remaining,
+    remainder: Remaining,
     positions: np.ndarray,
     measured: pd.DataFrame,
 ) -> pd.DataFrame:
     """Say how well each target is predicted: a row each, with `EMULATORS`."""
     rows = []
     for name, emulator in emulators.items():
-        known = measured[name].notna().to_numpy()
-        error = held_out(emulator, positions[known], measured[name].to_numpy()[known])
-        rows.append((wave, name, *error, left.plausible[name]))
+        mask = measured[name].notna().to_numpy()
+        error = held_out(emulator, positions[mask], measured[name].to_numpy()[mask])
+        rows.append((wave, name, *error, remainder.plausible[name]))
     return pd.DataFrame(rows, columns=EMULATORS)
 
 
@@ -118,13 +118,13 @@ def targets(measured: pd.DataFrame, predictions: pd.DataFrame) -> pd.DataFrame:
     return pd.DataFrame(rows)
 
 
-def ranges(plan: Plan, left: Remaining) -> pd.DataFrame:
+def ranges(plan: Plan, remainder: Remaining) -> pd.DataFrame:
     """Say what is left of the range of each factor: its own, and the middle 90 % of what is left."""
     rows = []
     for number, factor in enumerate(plan.factors):
-        low, median, high = np.quantile(left.points[:, number], [0.05, 0.5, 0.95])
+        low, median, high = np.quantile(remainder.points[:, number], [0.05, 0.5, 0.95])
         of_positions = (0.0, 1.0, low, median, high)
-        values = [factor.first_value(float(each)) for each in of_positions]
+        values = [factor.first_value(float(position)) for position in of_positions]
         names = ("lowest", "highest", "left_low", "left_median", "left_high")
         rows.append({"factor": factor.name, "unit": factor.unit, **dict(zip(names, values, strict=True))})
     return pd.DataFrame(rows)
@@ -138,9 +138,9 @@ def exclusions(verdicts: pd.DataFrame) -> pd.DataFrame:
     holds = verdicts.assign(holds=verdicts.holds == YES).pivot(index="set", columns="id", values="holds")
     rows = []
     for one, other in itertools.combinations(holds.columns, 2):
-        known = holds[[one, other]].dropna().astype(bool)
-        shares = known.mean()
-        both, chance = float(known.all(axis=1).mean()), float(shares.prod())
+        pair = holds[[one, other]].dropna().astype(bool)
+        shares = pair.mean()
+        both, chance = float(pair.all(axis=1).mean()), float(shares.prod())
         if shares.min() >= _RARE and both < _SELDOM * chance:
             rows.append((one, other, shares[one], shares[other], both, chance))
     columns = ["id", "other_id", "share", "other_share", "both", "by_chance"]

@@ -60,9 +60,9 @@ class Target:
     error: float
     measure: Callable[[Evidence], float]
 
-    def excess(self, found: np.ndarray) -> np.ndarray:
+    def excess(self, values: np.ndarray) -> np.ndarray:
         """Return how far values (n,) miss the target, never negative; NaN stays NaN."""
-        difference = np.asarray(found, dtype=float) - self.value
+        difference = np.asarray(values, dtype=float) - self.value
         if self.relation == AT_LEAST:
             return np.maximum(-difference, 0.0)
         return np.maximum(difference, 0.0) if self.relation == AT_MOST else np.abs(difference)
@@ -70,14 +70,14 @@ class Target:
 
 def measure(evidence: Evidence, claims: Iterable[str]) -> dict[str, float]:
     """Measure the targets of some claims, ``C2`` standing for all its parts; NaN where a study lacks it."""
-    wanted, found = set(claims), {}
+    selection, values = set(claims), {}
     for target in TARGETS:
-        if claim_of(target.claim) in wanted:
+        if claim_of(target.claim) in selection:
             try:
-                found[target.name] = float(target.measure(evidence))
+                values[target.name] = float(target.measure(evidence))
             except (NotMeasurable, ValueError):  # as of `amplitude_in_window`
-                found[target.name] = float("nan")
-    return found
+                values[target.name] = float("nan")
+    return values
 
 
 def _refined_maximum(f_omega: np.ndarray, values: np.ndarray) -> tuple[float, float]:
@@ -85,8 +85,8 @@ def _refined_maximum(f_omega: np.ndarray, values: np.ndarray) -> tuple[float, fl
     if not np.isfinite(values).any() or np.nanmax(values) <= 0:
         raise NotMeasurable("nothing to find a maximum in")
     best = int(np.nanargmax(values))
-    near = slice(max(best - 1, 0), best + 2)
-    f, height = f_omega[near], values[near]
+    window = slice(max(best - 1, 0), best + 2)
+    f, height = f_omega[window], values[window]
     if f.size < 3 or not np.all(height > 0):
         return float(f_omega[best]), float(values[best])
     curve = np.polynomial.Polynomial.fit(f - f[1], np.log(height), 2).convert().coef
@@ -129,25 +129,25 @@ def _five(low: float, high: float) -> Callable[[Evidence], float]:
 def _harmonic_near(harmonic: int, speed: float) -> Callable[[Evidence], float]:
     def greatest(evidence: Evidence) -> float:
         coating = evidence.map(WORN)
-        near = between(coating.f_omega, speed - NEAR, speed + NEAR)
-        return float(_dominance(evidence, WORN, near, harmonic).max())
+        window = between(coating.f_omega, speed - NEAR, speed + NEAR)
+        return float(_dominance(evidence, WORN, window, harmonic).max())
 
     return greatest
 
 
 def _wear_maximum(evidence: Evidence, speed: float) -> float:
     coating = evidence.map(WORN)
-    near = between(coating.f_omega, speed - 2 * NEAR, speed + 2 * NEAR)
-    return _refined_maximum(coating.f_omega[near], coating.max_wear[near])[0]
+    window = between(coating.f_omega, speed - 2 * NEAR, speed + 2 * NEAR)
+    return _refined_maximum(coating.f_omega[window], coating.max_wear[window])[0]
 
 
 def _vibration_offset(order: int, speed: float) -> Callable[[Evidence], float]:
     def offset(evidence: Evidence) -> float:
         coating = evidence.map(WORN)
-        near = between(coating.f_omega, speed - 2 * NEAR, speed + 2 * NEAR)
+        window = between(coating.f_omega, speed - 2 * NEAR, speed + 2 * NEAR)
         halfwidth = evidence.config["analysis"]["peaks"]["order_halfwidth"]
         amplitude = order_amplitude(coating, order, halfwidth)
-        vibration = _refined_maximum(coating.f_omega[near], amplitude[near])[0]
+        vibration = _refined_maximum(coating.f_omega[window], amplitude[window])[0]
         return vibration - _wear_maximum(evidence, speed)
 
     return offset
@@ -196,10 +196,10 @@ def _over_hardening(reduce: Callable[[np.ndarray], float]) -> Callable[[Evidence
     def smallest(evidence: Evidence) -> float:
         peaks = _modulus_peaks(evidence).sort_values("K")
         peaks = peaks[peaks.E > STIFFENING_FROM]
-        found = [reduce(of.f4.to_numpy()) for _, of in peaks.groupby("E") if len(of) >= 2]
-        if not found:
+        values = [reduce(group.f4.to_numpy()) for _, group in peaks.groupby("E") if len(group) >= 2]
+        if not values:
             raise NotMeasurable(f"no E above {STIFFENING_FROM:g} with two K or more")
-        return float(min(found))
+        return float(min(values))
 
     return smallest
 
@@ -210,10 +210,10 @@ def _over_modulus(column: str, reduce: Callable[[np.ndarray], float]) -> Callabl
     def greatest(evidence: Evidence) -> float:
         peaks = _modulus_peaks(evidence)
         peaks = peaks[(peaks.K <= SOFT_HARDENING) & (peaks.E >= SOFTEST)]
-        found = [reduce(of[column].to_numpy()) for _, of in peaks.groupby("K") if len(of) >= 2]
-        if not found:
+        values = [reduce(group[column].to_numpy()) for _, group in peaks.groupby("K") if len(group) >= 2]
+        if not values:
             raise NotMeasurable(f"no K up to {SOFT_HARDENING:g} with two E or more")
-        return float(max(found))
+        return float(max(values))
 
     return greatest
 
@@ -224,8 +224,8 @@ def _growth_at(case: CoatingCase, speed: float | CoatingCase) -> Callable[[Evide
         if coating.status[index] == "unbounded":
             return _GREATEST_GROWTH
         settings = evidence.config["analysis"]["divergence"]
-        found = growth(coating.revolution_amplitude[index], settings).per_revolution - settings["growth"]
-        return float(np.clip(found, -_GREATEST_GROWTH, _GREATEST_GROWTH))
+        excess = growth(coating.revolution_amplitude[index], settings).per_revolution - settings["growth"]
+        return float(np.clip(excess, -_GREATEST_GROWTH, _GREATEST_GROWTH))
 
     return beyond_limit
 
@@ -242,10 +242,10 @@ def _run(evidence: Evidence, case: CoatingCase, speed: float | CoatingCase) -> t
     """Return the map of `case` and the number of its run at a speed, or at f6 of another coating."""
     coating = evidence.map(case)
     f_omega = evidence.peak(speed, 6, "f_peak") if isinstance(speed, CoatingCase) else speed
-    found = np.flatnonzero(np.abs(coating.f_omega - f_omega) < SAME_SPEED)
-    if found.size == 0:
+    matches = np.flatnonzero(np.abs(coating.f_omega - f_omega) < SAME_SPEED)
+    if matches.size == 0:
         raise NotMeasurable(f"coating {case.name} has no run at f_omega = {f_omega:g}")
-    return coating, int(found[0])
+    return coating, int(matches[0])
 
 
 def _speeds() -> Iterator[Target]:
@@ -267,8 +267,8 @@ def _worn_lobes() -> Iterator[Target]:
     for part, (low, high) in zip(("C2a", "C2b"), FIVE_LOBES, strict=True):
         yield Target(f"five_{low:g}_{high:g}", part, AT_LEAST, 0.0, _SHARE, _five(low, high))
     for part, count, speed in (("C2c", 10, TEN_LOBES), ("C2d", 4, FOUR_LOBES)):
-        found = _harmonic_near(count, speed)
-        yield Target(f"harmonic_{count}_{speed:g}", part, AT_LEAST, 0.0, _SHARE, found)
+        dominance = _harmonic_near(count, speed)
+        yield Target(f"harmonic_{count}_{speed:g}", part, AT_LEAST, 0.0, _SHARE, dominance)
 
 
 def _heights() -> Iterator[Target]:

@@ -52,7 +52,7 @@ def remaining(plan: Plan, emulated: Mapping[str, "Emulator"]) -> Remaining:
 
 
 def draw(
-    plan: Plan, wave: int, left: Remaining, emulated: Mapping[str, "Emulator"], simulated: np.ndarray
+    plan: Plan, wave: int, remainder: Remaining, emulated: Mapping[str, "Emulator"], simulated: np.ndarray
 ) -> np.ndarray:
     """Draw plausible points (n, d) for the wave after `wave`, far from each other and from the `simulated`.
 
@@ -60,19 +60,19 @@ def draw(
     """
     rng = np.random.default_rng([plan.seed, wave])
     count = max(DRAWN, *plan.waves)
-    points = left.points
+    points = remainder.points
     for _ in range(_ROUNDS):
         if len(points) >= _ENOUGH * count:
             break
-        near = points[rng.integers(len(points), size=POINTS // 4)]
-        near = np.clip(near + rng.uniform(-_REACH, _REACH, near.shape), 0.0, 1.0)
-        plausible = without(predicted(emulated, near), left.given_up) <= CUTOFF
-        points = np.vstack([points, near[plausible]])
-    distance, chosen = cdist(points, simulated).min(axis=1), []
+        neighbours = points[rng.integers(len(points), size=POINTS // 4)]
+        neighbours = np.clip(neighbours + rng.uniform(-_REACH, _REACH, neighbours.shape), 0.0, 1.0)
+        plausible = without(predicted(emulated, neighbours), remainder.given_up) <= CUTOFF
+        points = np.vstack([points, neighbours[plausible]])
+    distance, indices = cdist(points, simulated).min(axis=1), []
     for _ in range(min(count, len(points))):
-        chosen.append(int(distance.argmax()))
-        distance = np.minimum(distance, cdist(points, points[chosen[-1:]])[:, 0])
-    return points[chosen]
+        indices.append(int(distance.argmax()))
+        distance = np.minimum(distance, cdist(points, points[indices[-1:]])[:, 0])
+    return points[indices]
 
 
 def _spread(plan: Plan, rng: np.random.Generator, count: int) -> np.ndarray:

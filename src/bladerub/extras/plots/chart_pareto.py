@@ -54,7 +54,9 @@ def _labelled(front: pd.DataFrame, chart: pd.DataFrame) -> list[int]:
     sides = [np.ptp(np.log(values)) for values in _coordinates(chart)]
     steps = [np.diff(np.log(values)) / side for values, side in zip(_coordinates(front), sides, strict=True)]
     along = np.append(0, np.cumsum(np.hypot(*steps)))
-    return sorted({int(np.abs(along - at).argmin()) for at in np.linspace(0, along[-1], _LABELLED)})
+    return sorted(
+        {int(np.abs(along - position).argmin()) for position in np.linspace(0, along[-1], _LABELLED)}
+    )
 
 
 def _coordinates(rows: pd.DataFrame) -> tuple[pd.Series, pd.Series]:

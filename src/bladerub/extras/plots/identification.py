@@ -20,11 +20,11 @@ _COLUMNS = 5
 
 @styled
 def identification(
-    plan: Plan, measured: pd.DataFrame, left: pd.DataFrame, candidates: pd.DataFrame
+    plan: Plan, measured: pd.DataFrame, points: pd.DataFrame, candidates: pd.DataFrame
 ) -> Figure:
     """Draw the targets of all sets above, and what is left of the range of each factor below.
 
-    `measured` has the targets of each set, the study's own first. `left` are points of what is left and
+    `measured` has the targets of each set, the study's own first. `points` are points of what is left and
     `candidates` the best sets, both as fractions of the ranges.
     """
     rows, heights = -(-len(plan.factors) // _COLUMNS), 0.14 * measured.shape[1] + 0.8
@@ -34,7 +34,7 @@ def identification(
     panels = below.subplots(rows, _COLUMNS, squeeze=False).ravel()
     themselves = candidates.xs(0, level="neighbour")
     for axes, factor in zip(panels, plan.factors, strict=False):
-        _draw_range(axes, factor, left[factor.name], themselves[factor.name])
+        _draw_range(axes, factor, points[factor.name], themselves[factor.name])
     for axes in panels[len(plan.factors) :]:
         axes.set_axis_off()
     return figure
@@ -44,16 +44,16 @@ def _draw_targets(axes: Axes, plan: Plan, measured: pd.DataFrame) -> None:
     waves = np.repeat(np.arange(len(plan.waves)), [plan.size(wave + 1) for wave in range(len(plan.waves))])
     colours = colormaps["Blues"](np.linspace(0.35, 0.95, len(plan.waves)))[waves[measured.index]]
     spread = np.random.default_rng(0).uniform(-0.3, 0.3, len(measured))
-    known = {target.name: target for target in TARGETS}
+    targets = {target.name: target for target in TARGETS}
     for row, (name, values) in enumerate(measured.items()):
-        target = known[name]
+        target = targets[name]
         distance = ((values - target.value) / target.error).clip(-_BEYOND, _BEYOND)
         low = -_BEYOND if target.relation == AT_MOST else -CUTOFF
         high = _BEYOND if target.relation == AT_LEAST else CUTOFF
         axes.barh(row, high - low, left=low, height=0.86, color=_PLAUSIBLE, zorder=0)
         axes.scatter(distance, row + spread, s=1.8, color=colours)
         axes.plot(distance.iloc[0], row, "D", color=ORANGE, markersize=4)
-    labels = [f"{known[name].claim}  {name.replace('_', ' ')}" for name in measured]
+    labels = [f"{targets[name].claim}  {name.replace('_', ' ')}" for name in measured]
     axes.set_yticks(range(len(labels)), labels, fontsize=7)
     axes.set_ylim(len(labels) - 0.4, -0.6)
     axes.set_xlim(-_BEYOND - 0.3, _BEYOND + 0.3)
@@ -62,9 +62,9 @@ def _draw_targets(axes: Axes, plan: Plan, measured: pd.DataFrame) -> None:
     axes.tick_params(axis="y", length=0)
 
 
-def _draw_range(axes: Axes, factor: Factor, left: pd.Series, candidates: pd.Series) -> None:
+def _draw_range(axes: Axes, factor: Factor, points: pd.Series, candidates: pd.Series) -> None:
     """Draw the density of what is left of one range, the best sets, and the study's own value."""
-    axes.hist(left, bins=_BINS, range=(0, 1), density=True, color=MISSING, edgecolor="white")
+    axes.hist(points, bins=_BINS, range=(0, 1), density=True, color=MISSING, edgecolor="white")
     axes.axhline(1.0, color=GREY, linewidth=0.6, linestyle=":")
     axes.plot(candidates.iloc[1:], np.full(len(candidates) - 1, 0.15), "|", color=BLUE, markersize=8)
     axes.axvline(candidates.iloc[0], color=ORANGE, linewidth=1.2)

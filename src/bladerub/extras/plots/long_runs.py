@@ -64,7 +64,7 @@ def _draw_verdicts(axes: Axes, table: pd.DataFrame) -> None:
         bars = axes.bar(
             places, n, bottom=bottom, color=color, hatch=_HATCHES.get(verdict), label=verdict, edgecolor=GREY
         )
-        axes.bar_label(bars, [f"{each}" if each else "" for each in n], label_type="center", fontsize=7)
+        axes.bar_label(bars, [f"{count}" if count else "" for count in n], label_type="center", fontsize=7)
         bottom += n
     axes.set_xticks(places, [f"{revolutions}" for revolutions in counts.index])
     axes.set(xlabel="judged after so many revolutions", ylabel="runs", title="(b) what is said of them")
@@ -75,8 +75,8 @@ def _draw_verdicts(axes: Axes, table: pd.DataFrame) -> None:
 def _draw_cost(axes: Axes, coatings: Sequence[LongRuns]) -> None:
     seconds = np.concatenate([long.seconds for long in coatings])
     number = np.arange(1, seconds.shape[1] + 1)
-    made = np.isfinite(seconds).all(axis=1)
-    cost = 1e3 * seconds[made] / number if made.any() else np.full((1, number.size), np.nan)
+    bounded = np.isfinite(seconds).all(axis=1)
+    cost = 1e3 * seconds[bounded] / number if bounded.any() else np.full((1, number.size), np.nan)
     low, middle, high = np.quantile(cost, [0.1, 0.5, 0.9], axis=0)
     axes.fill_between(number, low, high, color="#dfe7ee", label="eight runs of ten")
     axes.plot(number, middle, color=DARK, label="median of the runs that stay in bounds")

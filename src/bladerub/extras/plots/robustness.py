@@ -28,11 +28,11 @@ def robustness(table: pd.DataFrame, indices: pd.DataFrame) -> Figure:
 
 
 def _draw_shares(axes, table: pd.DataFrame) -> None:
-    rows, left = np.arange(len(table)), np.zeros(len(table))
+    rows, start = np.arange(len(table)), np.zeros(len(table))
     for word, colour in SHARES.items():
         share = 100 * table[f"{word}_share"].to_numpy()
-        axes.barh(rows, share, left=left, height=0.72, label=word, color=colour)
-        left += share
+        axes.barh(rows, share, left=start, height=0.72, label=word, color=colour)
+        start += share
     axes.set_yticks(rows, table.id)
     axes.set_ylim(len(table) - 0.4, -0.6)
     axes.set_xlim(0, 100)
@@ -46,12 +46,12 @@ def _draw_factors(axes, table: pd.DataFrame, indices: pd.DataFrame):
     factors = list(dict.fromkeys(indices.factor))
     total = of_verdict.pivot(index="id", columns="factor", values="total")
     total = total.reindex(index=table.id, columns=factors).astype(float)
-    most = np.fmax(DECIDES, total.max(axis=None))  # often small, because there are many factors
+    scale = np.fmax(DECIDES, total.max(axis=None))  # often small, because there are many factors
     columns, rows = np.arange(len(factors) + 1) - 0.5, np.arange(len(table) + 1) - 0.5
-    image = axes.pcolormesh(columns, rows, total, cmap=style.WEAR_MAP, vmin=0, vmax=most)
+    image = axes.pcolormesh(columns, rows, total, cmap=style.WEAR_MAP, vmin=0, vmax=scale)
     for row, column in np.argwhere(total.to_numpy() >= DECIDES):
         value = total.iat[row, column]
-        colour = "white" if value > most / 2 else style.DARK
+        colour = "white" if value > scale / 2 else style.DARK
         axes.text(column, row, f"{value:.1f}", ha="center", va="center", fontsize=6, color=colour)
     for row, predicted in enumerate(table.predicted):
         axes.axhline(row - 0.5, color="white", linewidth=0.6)

@@ -37,8 +37,8 @@ def rotor(plan: Plan, table: pd.DataFrame) -> Figure:
     parts = figure.subfigures(len(lines), 1, squeeze=False)[:, 0]
     for part, line in zip(parts, lines, strict=True):
         widths = [_width(members) for _, members in line]
-        if rest := widest - _line_width(line):
-            widths.append(rest)  # stays empty: all combinations are as far from each other
+        if slack := widest - _line_width(line):
+            widths.append(slack)  # stays empty: all combinations are as far from each other
         panels = part.subplots(3, len(widths), sharex="col", squeeze=False, width_ratios=widths)
         for axes in panels[:, len(line) :].flat:
             axes.remove()
@@ -72,28 +72,28 @@ def _lines(groups: list[tuple]) -> list[list[tuple]]:
 
 def _draw_group(column: np.ndarray, members: list[Combination], table: pd.DataFrame) -> None:
     """Draw the combinations of one coating and speed into a column of panels."""
-    own = _rows_of(members, table)
+    rows = _rows_of(members, table)
     for axes, (name, colour, _) in zip(column, _PANELS, strict=True):
-        scale = [1 if name == "amplification" else of.blades for of in members]
-        _draw(axes, name, colour, own, scale)
-    column[-1].set_xticks(range(len(members)), [label(of) for of in members], rotation=90, fontsize=9)
+        scale = [1 if name == "amplification" else member.blades for member in members]
+        _draw(axes, name, colour, rows, scale)
+    column[-1].set_xticks(range(len(members)), [label(member) for member in members], rotation=90, fontsize=9)
 
 
 def _key(combination: Combination) -> tuple:
-    of = described(combination)
-    return tuple(of[name] for name in WHAT)
+    description = described(combination)
+    return tuple(description[name] for name in WHAT)
 
 
 def _rows_of(members: list[Combination], table: pd.DataFrame) -> list[pd.Series]:
     by_key = table.set_index(WHAT)
-    return [by_key.loc[_key(of)] for of in members]
+    return [by_key.loc[_key(member)] for member in members]
 
 
-def _draw(axes: Axes, name: str, colour: str, own: list[pd.Series], scale: list[float]) -> None:
-    for at, (row, factor) in enumerate(zip(own, scale, strict=True)):
-        low, middle, high = (factor * row[f"{name}_{of}"] for of in ("p05", "median", "p95"))
-        axes.plot([at, at], [low, high], color=colour, linewidth=1.5)
-        axes.plot(at, middle, "o", color=colour, markersize=3.5)
+def _draw(axes: Axes, name: str, colour: str, rows: list[pd.Series], scale: list[float]) -> None:
+    for place, (row, factor) in enumerate(zip(rows, scale, strict=True)):
+        low, middle, high = (factor * row[f"{name}_{statistic}"] for statistic in ("p05", "median", "p95"))
+        axes.plot([place, place], [low, high], color=colour, linewidth=1.5)
+        axes.plot(place, middle, "o", color=colour, markersize=3.5)
     axes.axhline(1.0, color=GREY, linewidth=0.6)
     axes.grid(axis="y")
     axes.set_ylim(bottom=0)
@@ -113,7 +113,7 @@ def rotor_sweeps(plan: Plan, table: pd.DataFrame) -> Figure:
     for (upper, lower), (case, members) in zip(panels.T, groups.items(), strict=True):
         members = sorted(members, key=_key)
         rows = _rows_of(members, table)
-        speeds, single = np.array([(of.f_omega, of == of.alone) for of in members]).T
+        speeds, single = np.array([(member.f_omega, member == member.alone) for member in members]).T
         _draw_sweep(upper, lower, pd.DataFrame(rows).reset_index(drop=True), speeds, single.astype(bool))
         upper.set_title(f"E = {case.E:g}, K = {case.K:g}\nθ = {case.theta:g} rad", fontsize=8)
     panels[0, 0].set_ylabel("amplitude (mm)")
@@ -127,16 +127,16 @@ def rotor_sweeps(plan: Plan, table: pd.DataFrame) -> Figure:
 
 
 def _draw_sweep(upper: Axes, lower: Axes, rows: pd.DataFrame, speeds: np.ndarray, single: np.ndarray) -> None:
-    alone, drawn = rows[single], rows[~single]
+    nominal, drawn = rows[single], rows[~single]
     upper.plot(
-        *_broken(speeds[single], 1e3 * alone["row_amplitude_median"]),
+        *_broken(speeds[single], 1e3 * nominal["row_amplitude_median"]),
         "o-",
         color=GREY,
         markersize=2.5,
         linewidth=0.8,
         label="single nominal blade",
     )
-    low, middle, high = (1e3 * drawn[f"row_amplitude_{of}"] for of in ("p05", "median", "p95"))
+    low, middle, high = (1e3 * drawn[f"row_amplitude_{statistic}"] for statistic in ("p05", "median", "p95"))
     upper.vlines(speeds[~single], low, high, color=DARK, linewidth=0.8)
     upper.plot(
         *_broken(speeds[~single], middle),

@@ -40,10 +40,10 @@ def _draw_response(axes: Axes, coating: CoatingMap, rpm: float, label: str, colo
     speed = coating.f_omega * rpm
     amplitude = 1e3 * coating.revolution_amplitude[:, -_LAST:].max(axis=1)
     axes.plot(speed, amplitude, color=colour, linewidth=1.1, label=label)
-    ended = coating.status != "completed"
+    unbounded = coating.status != "completed"
     axes.plot(
-        speed[ended],
-        np.full(ended.sum(), 0.98),
+        speed[unbounded],
+        np.full(unbounded.sum(), 0.98),
         "x",
         color=colour,
         markersize=4,
@@ -68,9 +68,9 @@ def direct_contact(history: pd.DataFrame, spec: RunSpec, node_angle: float) -> F
         axes.fill_between(
             np.rad2deg(angle), 1e3 * gap, 0.45, color=style.MISSING, linewidth=0, label="casing"
         )
-        own = history[stiffness[0] == name]
+        runs = history[stiffness[0] == name]
         for look, (friction, rows) in zip(
-            (style.FIRST, style.SECOND), own.groupby(stiffness[2]), strict=True
+            (style.FIRST, style.SECOND), runs.groupby(stiffness[2]), strict=True
         ):
             moved = 1e3 * rows.radial_displacement
             axes.plot(np.rad2deg(rows.turned), moved, **look, linewidth=1.1, label=f"μ = {friction}")

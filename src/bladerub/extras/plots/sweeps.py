@@ -69,6 +69,6 @@ def _limit(axes: Axes, case: CoatingCase, swept: Sequence[SpeedSweep], constant:
     bounded = [constant.revolution_amplitude[constant.status == "completed", -1]]
     for sweep in swept:
         if sweep.case == case:
-            begun = sweep.revolution_amplitude[np.isfinite(sweep.revolution_amplitude)]
-            bounded.append(begun[:-2] if sweep.status == "unbounded" else begun)
+            amplitude = sweep.revolution_amplitude[np.isfinite(sweep.revolution_amplitude)]
+            bounded.append(amplitude[:-2] if sweep.status == "unbounded" else amplitude)
     axes.set_ylim(0, 1.08e3 * greatest(*bounded))

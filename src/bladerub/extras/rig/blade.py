@@ -101,17 +101,17 @@ def simulate_blade_passes(
     for number in range(1, rig.passes + 1):
         depth, rise = number * rig.incursion, sample.rise()
         sample.stand(depth)
-        made = sample.one_pass(rule)
+        result = sample.one_pass(rule)
         balance = energy.balance(rule, simulation.state, 0.0, simulation.angle_per_step)
-        normal = math.cos(rig.theta) * made.impulse
-        tangential = math.sin(rig.theta) * made.impulse + (balance.wear - taken) / rig.speed
+        normal = math.cos(rig.theta) * result.impulse
+        tangential = math.sin(rig.theta) * result.impulse + (balance.wear - taken) / rig.speed
         per_time = rig.speed / sample.length
         wear = sample.worn_depth()
         passes.append(
             (
                 *(number, depth, normal * per_time, tangential * per_time, normal, tangential),
-                *(made.largest_pressure, wear, wear - worn, balance.wear - taken, rise, balance.residual),
-                *(math.cos(rig.theta) * made.largest, made.amplitude),
+                *(result.largest_pressure, wear, wear - worn, balance.wear - taken, rise, balance.residual),
+                *(math.cos(rig.theta) * result.largest, result.amplitude),
             )
         )
         worn, taken = wear, balance.wear
@@ -152,8 +152,8 @@ class _Sample:
             )
         self.length = count * rig.track / n_elements
         self._area = strip_width(blade) * rig.tip_length
-        far = np.full((n_elements, lanes), _FAR)
-        stator = aligned(stator._replace(initial_gap=far, minimum_gap=far[:, 0].copy()))
+        gap = np.full((n_elements, lanes), _FAR)
+        stator = aligned(stator._replace(initial_gap=gap, minimum_gap=gap[:, 0].copy()))
         self._simulation = type(simulation)(
             *(simulation.modal, simulation.flight, stator, simulation.tip, simulation.state),
             *(simulation.steps_per_element, simulation.layer),
@@ -164,8 +164,8 @@ class _Sample:
         """Let the original surface of the sample stand by `depth` (m) above the tip at rest."""
         stator = self._simulation.stator
         stator.initial_gap[self._rows, self._nodes] = -depth
-        own = stator.initial_gap[:, : len(self._nodes)].T
-        stator.minimum_gap[:] = minimum_gap(own, self._spec.tip.half_width)
+        gaps = stator.initial_gap[:, : len(self._nodes)].T
+        stator.minimum_gap[:] = minimum_gap(gaps, self._spec.tip.half_width)
 
     def one_pass(self, rule: Recurrence) -> _Pass:
         """Let the blade pass over the sample, and turn on to where it started."""
@@ -174,11 +174,11 @@ class _Sample:
         borders = sorted({0, *range(self._first, self._last + 1), n_elements})
         forces, lowest, highest = [], math.inf, -math.inf
         for first, last in pairwise(borders):
-            made = simulation.advance(displacement[first:last], first)
-            if made.n_steps < (last - first) * simulation.steps_per_element:
+            progress = simulation.advance(displacement[first:last], first)
+            if progress.n_steps < (last - first) * simulation.steps_per_element:
                 limit = self._spec.displacement_limit
                 raise ValueError(f"incursion: the tip of the blade moves by more than {limit:g} m")
-            lowest, highest = min(lowest, made.lowest), max(highest, made.highest)
+            lowest, highest = min(lowest, progress.lowest), max(highest, progress.highest)
             forces.append(simulation.state.normal_force.ravel()[: len(self._nodes)].copy())
         of_nodes = np.array(forces)
         total = of_nodes.sum(axis=1)

@@ -64,8 +64,8 @@ def simulate_passes(rig: Rig, elements: int = ELEMENTS, steps: int = STEPS) -> p
     for number in range(1, rig.passes + 1):
         depth = number * rig.incursion
         rise, strength = (heat.rise, heat.strength) if heat else (math.nan, 1.0)
-        made = _one_passage(law, element, depth - below, wear)
-        forces, energy = strength * made.force, strength * made.energy
+        passage = _one_passage(law, element, depth - below, wear)
+        forces, energy = strength * passage.force, strength * passage.energy
         tip_force = np.trapezoid(share * forces, dx=1 / steps)
         if heat:
             heat.add(energy, math.sin(rig.theta) * tip_force * width)
@@ -74,11 +74,11 @@ def simulate_passes(rig: Rig, elements: int = ELEMENTS, steps: int = STEPS) -> p
         rows.append(
             (
                 *(number, depth, normal, tangential, normal * coated / rig.speed),
-                *(tangential * coated / rig.speed, forces.max() / area, made.wear, made.wear - wear),
-                *(energy * coated / width, rise, made.residual),
+                *(tangential * coated / rig.speed, forces.max() / area, passage.wear, passage.wear - wear),
+                *(energy * coated / width, rise, passage.residual),
             )
         )
-        wear = made.wear
+        wear = passage.wear
     return pd.DataFrame(rows, columns=list(COLUMNS))
 
 
@@ -97,13 +97,13 @@ def _one_passage(law: ModuleType, element: Any, depth: np.ndarray, wear: float) 
     The edge of the tip comes down on it in the first step, and leaves it in the last.
     """
     forces, energy, work, exchanged, before = np.zeros(depth.size), 0.0, 0.0, 0.0, 0.0
-    for i, at in enumerate(depth):
-        force, increment = law.return_mapping(element, at - wear, wear)
+    for i, level in enumerate(depth):
+        force, increment = law.return_mapping(element, level - wear, wear)
         taken = float(law.dissipated_energy(element, wear, increment, before, force))
         stored = float(law.stored_energy(element, force))
         wear, energy = wear + float(increment), energy + taken
-        more = taken + stored if i == 0 else 0.5 * float(before + force) * (at - depth[i - 1])
-        work, exchanged = work + more, exchanged + abs(more)
+        contribution = taken + stored if i == 0 else 0.5 * float(before + force) * (level - depth[i - 1])
+        work, exchanged = work + contribution, exchanged + abs(contribution)
         forces[i] = before = force
     missing = abs(work - stored - energy)
     return _Passage(forces, wear, energy, missing / exchanged if exchanged else 0.0)

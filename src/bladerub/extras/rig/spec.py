@@ -87,9 +87,9 @@ class Rig:
 
     def __post_init__(self) -> None:
         """Raise `ValueError`, which names the parameter and its value, if one is not as it must be."""
-        given = {name: value for name, value in asdict(self).items() if name not in ("name", "law")}
-        given |= {"assumed": list(self.assumed), "measured": dict(self.measured)}
-        if problems := list(schema.problems(given, "rig")):
+        parameters = {name: value for name, value in asdict(self).items() if name not in ("name", "law")}
+        parameters |= {"assumed": list(self.assumed), "measured": dict(self.measured)}
+        if problems := list(schema.problems(parameters, "rig")):
             raise ValueError("; ".join(problems))
         if self.incursion * self.passes >= self.thickness:
             deepest = self.thickness / self.passes
@@ -99,7 +99,7 @@ class Rig:
         for name in ("tip_length", "coated"):
             if (length := getattr(self, name)) > self.track:
                 raise ValueError(f"{name} = {length:g}: must be at most the track, {self.track:g}")
-        if unknown := {*self.assumed} - {each.name for each in fields(self)}:
+        if unknown := {*self.assumed} - {parameter.name for parameter in fields(self)}:
             raise ValueError(f"assumed = {min(unknown)}: must be a parameter of a rig")
         if unknown := {*self.measured} - {*MEASURABLE}:
             raise ValueError(f"measured = {min(unknown)}: must be one of {', '.join(MEASURABLE)}")

@@ -10,13 +10,13 @@ from bladerub.extras.rig.spec import MEASURABLE, Rig
 
 def table(rigs: Iterable[Rig]) -> pd.DataFrame:
     """Simulate the passes of rigs; a row each, with the ``rig`` and its ``element_law``."""
-    made = []
+    tables = []
     for rig in rigs:
         passes = simulate_passes(rig)
         passes.insert(0, "rig", rig.name)
         passes.insert(1, "element_law", rig.law.label)
-        made.append(passes)
-    return pd.concat(made, ignore_index=True)
+        tables.append(passes)
+    return pd.concat(tables, ignore_index=True)
 
 
 def compared(rigs: Iterable[Rig], passes: pd.DataFrame) -> pd.DataFrame:

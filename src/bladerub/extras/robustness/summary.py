@@ -38,9 +38,9 @@ def design(plan: Plan) -> pd.DataFrame:
 def collect(paths: Iterable[str | Path]) -> pd.DataFrame:
     """Put the verdicts of all jobs into one table, ordered by claim and sample, the reference first."""
     verdicts = [read_table(path, sample.COLUMNS) for path in paths]
-    whole = pd.concat([each for each in verdicts if len(each)], ignore_index=True)
-    whole["id"] = pd.Categorical(whole["id"], list(TITLES), ordered=True)
-    return whole.sort_values(["id", "sample"], ignore_index=True).astype({"id": str})
+    table = pd.concat([job for job in verdicts if len(job)], ignore_index=True)
+    table["id"] = pd.Categorical(table["id"], list(TITLES), ordered=True)
+    return table.sort_values(["id", "sample"], ignore_index=True).astype({"id": str})
 
 
 def sensitivities(plan: Plan, verdicts: pd.DataFrame) -> pd.DataFrame:
@@ -54,11 +54,11 @@ def sensitivities(plan: Plan, verdicts: pd.DataFrame) -> pd.DataFrame:
         margin = of_claim.margin.where(of_claim.margin.notna() | (of_claim.holds != NO), -np.inf)
         outputs = {VERDICT: of_claim.holds.map(SCORE), MARGIN: margin[margin.notna()].rank()}
         for output, values in outputs.items():
-            found = indices(positions[of_claim.loc[values.index, "sample"]], values.to_numpy())
-            if np.isnan(found.predicted):
+            estimate = indices(positions[of_claim.loc[values.index, "sample"]], values.to_numpy())
+            if np.isnan(estimate.predicted):
                 continue
             rows += [
-                (id_, output, factor.name, found.first[number], found.total[number], found.predicted)
+                (id_, output, factor.name, estimate.first[number], estimate.total[number], estimate.predicted)
                 for number, factor in enumerate(plan.factors)
             ]
     return pd.DataFrame(rows, columns=INDICES)
@@ -84,8 +84,8 @@ def summary(
         if claim_of(id_) not in part_of:
             continue
         part, n_samples = part_of[claim_of(id_)], counts.sum()
-        own = sensitivity[(sensitivity.id == id_) & (sensitivity.output == VERDICT)]
-        deciding = own[own.total >= DECIDES].sort_values("total", ascending=False)
+        verdict_indices = sensitivity[(sensitivity.id == id_) & (sensitivity.output == VERDICT)]
+        deciding = verdict_indices[verdict_indices.total >= DECIDES].sort_values("total", ascending=False)
         rows.append(
             {
                 "id": id_,
@@ -94,7 +94,7 @@ def summary(
                 "samples": n_samples,
                 **{f"{word}_share": counts[word] / n_samples if n_samples else np.nan for word in SCORE},
                 "reference": reference.get(id_, ""),
-                "predicted": own.predicted.iloc[0] if len(own) else np.nan,
+                "predicted": verdict_indices.predicted.iloc[0] if len(verdict_indices) else np.nan,
                 "decided_by": ", ".join(f"{row.factor} {row.total:.2f}" for row in deciding.itertuples()),
                 "runs_per_sample": of_part.runs[part],
                 "cpu_s_per_sample": of_part.cpu_s[part],

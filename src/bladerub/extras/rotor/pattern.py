@@ -50,8 +50,8 @@ def _of_row(blade: ReducedBlade, spec: RunSpec, row: Row, patterns: Patterns) ->
     angle, depth = lobe_angle(np.array(coefficients), patterns.harmonic), np.abs(coefficients)
     drift = drift_rate(np.array(ends), angle, depth)
     return [
-        {"revolution": end, "pattern_angle": at, "pattern_depth": deep, "pattern_drift": drift}
-        for end, at, deep in zip(ends, angle, depth, strict=True)
+        {"revolution": end, "pattern_angle": position, "pattern_depth": deep, "pattern_drift": drift}
+        for end, position, deep in zip(ends, angle, depth, strict=True)
     ]
 
 
@@ -82,8 +82,10 @@ def drifts(followed: pd.DataFrame) -> pd.DataFrame:
     NaN where all rows of a combination left the displacement limit early.
     """
     of_rows = followed.drop_duplicates([*WHAT, "draw"])
-    found = of_rows.groupby([*WHAT, "pattern_harmonic"], sort=False)["pattern_drift"]
+    drift = of_rows.groupby([*WHAT, "pattern_harmonic"], sort=False)["pattern_drift"]
     quantiles = {"median": 0.5, "p05": 0.05, "p95": 0.95}
-    summary = pd.DataFrame({f"pattern_drift_{name}": found.quantile(at) for name, at in quantiles.items()})
-    summary["rows"], summary["followed_rows"] = found.size(), found.count()
+    summary = pd.DataFrame(
+        {f"pattern_drift_{name}": drift.quantile(level) for name, level in quantiles.items()}
+    )
+    summary["rows"], summary["followed_rows"] = drift.size(), drift.count()
     return summary.reset_index()

@@ -131,20 +131,23 @@ def read_plan(path: str | Path, config: Mapping[str, Any]) -> Plan:
     for section, groups in sections.items():
         for name, group in groups.content.items():
             _check(f"{section}.{name}", group, config)
-    found = {
+    pairs = {
         section: [pair for group in groups.plain().values() for pair in _combinations_of(group)]
         for section, groups in sections.items()
     }
-    followed = found.pop("patterns.groups", [])
+    followed = pairs.pop("patterns.groups", [])
     patterns = {name: plan["patterns"][name] for name in ("harmonic", "interval")} if followed else {}
     draws: dict[str, int] = {}
-    for combination, n in itertools.chain(*found.values()):
+    for combination, n in itertools.chain(*pairs.values()):
         draws[combination.name] = max(n, draws.get(combination.name, 0))
     return Plan(
         plan["seed"],
-        {combination.name: combination for combination, _ in itertools.chain(*found.values())},
+        {combination.name: combination for combination, _ in itertools.chain(*pairs.values())},
         draws,
-        *(tuple(dict.fromkeys(of.name for of, _ in found.get(each, []))) for each in ("groups", "sweeps")),
+        *(
+            tuple(dict.fromkeys(combination.name for combination, _ in pairs.get(section, [])))
+            for section in ("groups", "sweeps")
+        ),
         Patterns(**patterns, draws=dict(followed)) if followed else None,
     )
 
@@ -153,16 +156,19 @@ def _combinations_of(group: Mapping[str, Any]) -> Iterator[tuple[Combination, in
     """Yield the combinations of a group, and of its single nominal blades, with their numbers of draws."""
     case = CoatingCase(group["casing"], *(float(group[name]) for name in ("E", "K", "theta")))
     for values in itertools.product(*(group[name] for name in _LISTS)):
-        found = Combination(case, *values)
-        yield found.alone, 1
-        yield found, group["draws"] if found.length_scatter or found.frequency_scatter else 1
+        combination = Combination(case, *values)
+        yield combination.alone, 1
+        yield (
+            combination,
+            group["draws"] if combination.length_scatter or combination.frequency_scatter else 1,
+        )
 
 
 def _check(name: str, located: Located, config: Mapping[str, Any]) -> None:
     group, fastest = located.plain(), config["reduction"]["f_omega_max"]
     if group["casing"] not in config["casings"]:
-        known = ", ".join(config["casings"])
-        text = f'{name}.casing = "{group["casing"]}": must be one of the casings, {known}'
+        names = ", ".join(config["casings"])
+        text = f'{name}.casing = "{group["casing"]}": must be one of the casings, {names}'
         raise ConfigError.at(located.location, text)
     for f_omega in group["f_omega"]:
         if f_omega > fastest:
@@ -172,6 +178,6 @@ def _check(name: str, located: Located, config: Mapping[str, Any]) -> None:
 
 def described(combination: Combination) -> dict[str, Any]:
     """Describe a combination by the columns of the tables."""
-    own = asdict(combination)
-    case = own.pop("case")
-    return {name: case[name] for name in ("casing", "E", "K", "theta")} | own
+    values = asdict(combination)
+    case = values.pop("case")
+    return {name: case[name] for name in ("casing", "E", "K", "theta")} | values

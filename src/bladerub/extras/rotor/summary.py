@@ -26,7 +26,9 @@ DRAWS += ["divergent", "energy_residual"]
 COLUMNS = [*WHAT, "rows", "unbounded_rows", "divergent_rows"]
 _MEASURED = ("row_amplitude", "amplification", "longest_amplification", "longest_share", "largest_share")
 _MEASURED += ("wear_harmonic_share",)
-COLUMNS += [f"{name}_{of}" for name in _MEASURED for of in ("median", "low", "high", "p05", "p95")]
+COLUMNS += [
+    f"{name}_{statistic}" for name in _MEASURED for statistic in ("median", "low", "high", "p05", "p95")
+]
 COLUMNS += ["wear_harmonic", "wear_harmonic_rows", "lobes_lowest", "lobes_highest", "energy_residual"]
 """Columns of the table of combinations."""
 
@@ -37,14 +39,14 @@ def draws(plan: Plan, folder: str | Path, analysis: Mapping[str, Any]) -> pd.Dat
     Lobes are counted and growth is judged by ``config["analysis"]``. Raises `OSError`, naming the file, if a
     run is missing or damaged.
     """
-    alone: dict[str, float] = {}
+    single_amplitude: dict[str, float] = {}
     rows = []
     for name in sorted(plan.combinations, key=lambda name: plan.combinations[name].blades):
         combination = plan.combinations[name]
         for draw, of_draw in enumerate(_of_combination(Path(folder) / name, analysis)):
             if combination == combination.alone:
-                alone[name] = of_draw["row_amplitude"]
-            nominal = alone[combination.alone.name]
+                single_amplitude[name] = of_draw["row_amplitude"]
+            nominal = single_amplitude[combination.alone.name]
             of_draw["amplification"] = of_draw["row_amplitude"] / nominal
             of_draw["longest_amplification"] = of_draw.pop("longest_amplitude") / nominal
             rows.append(described(combination) | {"draw": draw} | of_draw)
@@ -93,7 +95,11 @@ def combinations(table: pd.DataFrame) -> pd.DataFrame:
         counts = of_what["wear_harmonic"].value_counts()
         rows.append(
             dict(zip(WHAT, what, strict=True))
-            | {f"{name}_{key}": value for name, found in measures.items() for key, value in found.items()}
+            | {
+                f"{name}_{key}": value
+                for name, quantiles in measures.items()
+                for key, value in quantiles.items()
+            }
             | {
                 "rows": len(of_what),
                 "unbounded_rows": int((of_what["status"] == "unbounded").sum()),

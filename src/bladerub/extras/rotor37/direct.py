@@ -40,11 +40,11 @@ def spec_of(config: Mapping[str, Any], blade: ReducedBlade, friction: float) -> 
 
 def runs(config: Mapping[str, Any], blade: ReducedBlade) -> dict[str, RunResult]:
     """Simulate the cases, by name: with and without friction, and each with stiffening as well."""
-    found = {}
+    results = {}
     for friction in FRICTION:
         for name, model in (("rest", unstiffened(blade)), ("stiffened", blade)):
-            found[f"{name}_mu{friction:g}"] = simulate(model, spec_of(config, blade, friction))
-    return found
+            results[f"{name}_mu{friction:g}"] = simulate(model, spec_of(config, blade, friction))
+    return results
 
 
 def numbers(results: Mapping[str, RunResult]) -> pd.DataFrame:
@@ -59,7 +59,7 @@ def last_revolution(results: Mapping[str, RunResult], points: int = 200) -> pd.D
     parts = []
     for name, result in results.items():
         last = result.radial_displacement.reshape(REVOLUTIONS, -1)[-1]
-        shown = np.arange(0, len(last), len(last) // points)
-        turned = (shown + 0.5) * 2 * np.pi / len(last)
-        parts.append(pd.DataFrame({"case": name, "turned": turned, "radial_displacement": last[shown]}))
+        steps = np.arange(0, len(last), len(last) // points)
+        turned = (steps + 0.5) * 2 * np.pi / len(last)
+        parts.append(pd.DataFrame({"case": name, "turned": turned, "radial_displacement": last[steps]}))
     return pd.concat(parts, ignore_index=True)

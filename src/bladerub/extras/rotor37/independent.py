@@ -34,14 +34,14 @@ def table(config: Mapping[str, Any], blade: ReducedBlade) -> pd.DataFrame:
     modes, damping = modes_at(model, spec.f_omega), spec.damping_ratio
     parts = []
     for steps in (STEPS // 2, STEPS):
-        own = replace(spec, steps_per_element=steps)
-        step = impact.time_step(blade, own)
+        variant = replace(spec, steps_per_element=steps)
+        step = impact.time_step(blade, variant)
         rules = {("massless", n): impact.massless_boundary(modes, damping, step, n) for n in (10, 20, 50)} | {
             ("moreau_jean_0", modes.omega.size): impact.moreau_jean(modes, damping, step, 0.0),
             ("penalty_1e9", modes.omega.size): impact.penalty(modes, damping, step, 1e9),
         }
         for (treatment, n), rule in rules.items():
-            made = impact.simulate(rule, model, own)
-            found = of_displacement("rest_mu0", made.radial_displacement, direct.REVOLUTIONS)
-            parts.append(found.assign(treatment=treatment, modes=n, steps=steps)[COLUMNS])
+            result = impact.simulate(rule, model, variant)
+            numbers = of_displacement("rest_mu0", result.radial_displacement, direct.REVOLUTIONS)
+            parts.append(numbers.assign(treatment=treatment, modes=n, steps=steps)[COLUMNS])
     return pd.concat(parts, ignore_index=True)

@@ -77,9 +77,9 @@ def massless_boundary(
     """
     omega, shapes = mode_shapes_at(blade, f_omega)
     n_boundary = 3 * blade.n_interface
-    left = omega.size - n_modes
-    if left < n_boundary:
-        raise ValueError(f"{n_modes} moving modes: {left} are left for the {n_boundary} displacements")
+    n_static = omega.size - n_modes
+    if n_static < n_boundary:
+        raise ValueError(f"{n_modes} moving modes: {n_static} are left for the {n_boundary} displacements")
     interface = shapes[:n_boundary].reshape(blade.n_interface, 3, -1)
     boundary = np.einsum("jda,jan->jdn", directions(blade), interface).reshape(n_boundary, -1)
     moving, static = boundary[:, :n_modes], boundary[:, n_modes:]
@@ -111,14 +111,16 @@ def case(blade: ReducedBlade, spec: RunSpec, n_modes: int, steps: int) -> dict[s
     _, y, z = blade.node_position.T
     clearance = running_clearance(blade, spec)[:, None]
     angle = (spec.casing.start_angle + np.arctan2(y, z))[:, None] + speed * time
-    before, after = (casing.gap(spec.casing, clearance, angle + sign * _DIFFERENCE) for sign in (-1, 1))
+    gap_before, gap_after = (
+        casing.gap(spec.casing, clearance, angle + sign * _DIFFERENCE) for sign in (-1, 1)
+    )
     return {
         "mass": mass,
         "damping": damping,
         "stiffness": stiffness,
         "time": time,
         "gap": casing.gap(spec.casing, clearance, angle),
-        "opening_speed": (after - before) / (2 * _DIFFERENCE) * speed,
+        "opening_speed": (gap_after - gap_before) / (2 * _DIFFERENCE) * speed,
         "sliding_speed": tip_radii(blade)[0] * speed,
         "friction": np.tan(spec.coating.theta),
     }
@@ -127,17 +129,17 @@ def case(blade: ReducedBlade, spec: RunSpec, n_modes: int, steps: int) -> dict[s
 def program() -> Path:
     """Find NLstep's time integration; `BadInput` if it or Octave is missing."""
     folder = os.environ.get(VARIABLE)
-    found = Path(folder or "") / FUNCTION
+    function = Path(folder or "") / FUNCTION
     problems = []
     if not folder:
         problems.append(f"{VARIABLE} is not set: it must be the folder with {FUNCTION} (SRC of NLstep)")
-    elif not found.is_file():
+    elif not function.is_file():
         problems.append(f"{VARIABLE} = {folder}: has no {FUNCTION}; it must be the folder SRC of NLstep")
     if shutil.which(OCTAVE) is None:
         problems.append(f"{OCTAVE}: not found; NLstep needs GNU Octave here")
     if problems:
         raise BadInput("\n".join(problems))
-    return found
+    return function
 
 
 def describe(function: Path) -> str:
@@ -154,10 +156,10 @@ def integrate(function: Path, stated: Mapping[str, Any]) -> tuple[np.ndarray, np
     contact. Raises `RuntimeError` if the contact forces of a step did not converge.
     """
     with tempfile.TemporaryDirectory() as scratch:
-        given, found = Path(scratch) / "case.mat", Path(scratch) / "result.mat"
-        scipy.io.savemat(given, dict(stated))
-        _octave(str(DRIVER), str(function.parent.absolute()), str(given), str(found))
-        result = scipy.io.loadmat(found)
+        case_file, result_file = Path(scratch) / "case.mat", Path(scratch) / "result.mat"
+        scipy.io.savemat(case_file, dict(stated))
+        _octave(str(DRIVER), str(function.parent.absolute()), str(case_file), str(result_file))
+        result = scipy.io.loadmat(result_file)
     if not result["converged"].item():
         raise RuntimeError("NLstep: the contact forces of a time step have not converged")
     return -result["inward"][0, 1:], result["in_contact"][0, 1:].astype(bool)

@@ -91,12 +91,12 @@ def _peak(
     config: Mapping[str, Any], coating: CoatingMap, order: int, rpm: float
 ) -> Iterator[tuple[str, float, str, float]]:
     try:
-        found = peaks.peak(coating, order, peak_settings(config, coating.case.casing))
+        peak = peaks.peak(coating, order, peak_settings(config, coating.case.casing))
     except ValueError:
         return
     name = f"{coating.case.name}.order_{order}"
-    yield f"{name}.speed", found.f_omega * rpm, "1/min", _step(coating) * rpm
-    yield f"{name}.amplitude", found.amplitude, "m", 0.0
+    yield f"{name}.speed", peak.f_omega * rpm, "1/min", _step(coating) * rpm
+    yield f"{name}.amplitude", peak.amplitude, "m", 0.0
 
 
 def _step(coating: CoatingMap) -> float:

@@ -50,6 +50,6 @@ def cost_of_stress(mesh: str | Path, blade: ReducedBlade, config: Mapping[str, A
         return time.thread_time() - start
 
     with tempfile.TemporaryDirectory() as folder:
-        of = partial(seconds, folder=Path(folder))
-        ratios = [of(stressed) / of(simulate) for _ in range(rounds + 1)]
+        cpu_time = partial(seconds, folder=Path(folder))
+        ratios = [cpu_time(stressed) / cpu_time(simulate) for _ in range(rounds + 1)]
     return statistics.median(ratios[1:])

@@ -46,7 +46,7 @@ class ModalStress(NamedTuple):
         of the mesh at this speed.
         """
         static = _six(stress(np.zeros(points.shape)), nodes)
-        slope = np.array([_six(stress(of), nodes) - static for of in recovery])
+        slope = np.array([_six(stress(displacement), nodes) - static for displacement in recovery])
         single = np.float32  # as the displacement per coordinate is stored
         return cls(points[nodes], static.astype(single), slope.astype(single))
 
@@ -121,34 +121,34 @@ def stress_peaks(
         largest von Mises stress of half the range of each component. It is exact where one mode vibrates, and
         else on the safe side.
     """
-    starts = [_largest(stress(of))[0] for of in _extremes(stress, coordinates, parts)]
-    nodes = np.unique([np.argpartition(of, -_FEW)[:, -_FEW:] for of in starts])
-    found: list[dict[str, tuple[float, int, int]]] = [{} for _ in parts]  # stress, node, instant of each kind
-    seen = {*nodes.tolist()}
+    starts = [_largest(stress(extreme))[0] for extreme in _extremes(stress, coordinates, parts)]
+    nodes = np.unique([np.argpartition(start, -_FEW)[:, -_FEW:] for start in starts])
+    peaks: list[dict[str, tuple[float, int, int]]] = [{} for _ in parts]  # stress, node, instant of each kind
+    visited = {*nodes.tolist()}
     while nodes.size:
-        values, most = stress.at(nodes)(coordinates), set()
-        for part, largest in zip(parts, found, strict=True):
-            of, instant, over_nodes = _largest(values[..., part])
-            for kind, node in enumerate(of.argmax(axis=1)):
-                if (name := _KINDS[kind]) not in largest or of[kind, node] > largest[name][0]:
-                    largest[name] = of[kind, node], int(nodes[node]), instant[kind, node]
+        values, candidates = stress.at(nodes)(coordinates), set()
+        for part, largest in zip(parts, peaks, strict=True):
+            maxima, instant, over_nodes = _largest(values[..., part])
+            for kind, node in enumerate(maxima.argmax(axis=1)):
+                if (name := _KINDS[kind]) not in largest or maxima[kind, node] > largest[name][0]:
+                    largest[name] = maxima[kind, node], int(nodes[node]), instant[kind, node]
             highest = np.argpartition(over_nodes, -_INSTANTS)[-_INSTANTS:]
             elsewhere = stress(coordinates[part][[*highest, largest["principal"][2]]])
-            most |= {*_largest(elsewhere)[0][:2].argmax(axis=1).tolist()}
-        nodes = np.array(sorted(most - seen), int)
-        seen |= most
-    return [_named(stress, largest, time[part]) for part, largest in zip(parts, found, strict=True)]
+            candidates |= {*_largest(elsewhere)[0][:2].argmax(axis=1).tolist()}
+        nodes = np.array(sorted(candidates - visited), int)
+        visited |= candidates
+    return [_named(stress, largest, time[part]) for part, largest in zip(parts, peaks, strict=True)]
 
 
 def _named(
     stress: ModalStress, largest: dict[str, tuple[float, int, int]], time: np.ndarray
 ) -> dict[str, float]:
-    named = {}
-    for name, (of, node, instant) in largest.items():
-        named |= _at(stress, name, of, node)
+    figures = {}
+    for name, (value, node, instant) in largest.items():
+        figures |= _at(stress, name, value, node)
         if name != "alternating":
-            named[f"{name}_time"] = float(time[instant])
-    return named
+            figures[f"{name}_time"] = float(time[instant])
+    return figures
 
 
 def _extremes(stress: ModalStress, coordinates: np.ndarray, parts: Sequence[slice]) -> list[np.ndarray]:
@@ -184,8 +184,8 @@ def _largest(values):
                 first = _principal(x, y, z, xy, yz, zx)
                 if first > largest[1, node]:
                     largest[1, node], instants[1, node] = first, instant
-            for component, of in enumerate((x, y, z, xy, yz, zx)):
-                low[component], high[component] = min(low[component], of), max(high[component], of)
+            for component, value in enumerate((x, y, z, xy, yz, zx)):
+                low[component], high[component] = min(low[component], value), max(high[component], value)
         half = (high - low) / 2
         largest[2, node] = _von_mises(half[0], half[1], half[2], half[3], half[4], half[5])
     return largest, instants, over_nodes
@@ -203,7 +203,7 @@ def stressed_nodes(stress: ModalStress, share: float) -> np.ndarray:
 def static_peak(stress: ModalStress) -> dict[str, float]:
     """Find the largest stress at the running position: ``von_mises`` and ``principal``, as `stress_peaks`."""
     largest = {"von_mises": von_mises(stress.static), "principal": principal(stress.static)}
-    mises, first = (_at(stress, name, of.max(), int(of.argmax())) for name, of in largest.items())
+    mises, first = (_at(stress, name, values.max(), int(values.argmax())) for name, values in largest.items())
     return mises | first
 
 

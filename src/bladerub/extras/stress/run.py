@@ -56,7 +56,7 @@ class RunStress:
     @classmethod
     def described(cls, attributes: Mapping[str, Any]) -> "RunStress | None":
         """Read the stress from the `attributes` of the file of a run; None where they have none."""
-        found = {
+        parts = {
             part: {
                 name.removeprefix(f"stress_{part}_"): value
                 for name, value in attributes.items()
@@ -64,7 +64,7 @@ class RunStress:
             }
             for part in (field.name for field in fields(cls))
         }
-        return cls(**found) if found["last"] else None
+        return cls(**parts) if parts["last"] else None
 
 
 def stress_of(path: str | Path, f_omega: float) -> NodalStress | None:
@@ -118,16 +118,16 @@ class BladeStress:
     def __init__(self, path: str | Path, blade: ReducedBlade):
         fastest = float(hdf5.read(path, {"f_omega"})[0]["f_omega"].max())
         self._squares = np.array([0.0, 0.5, 1.0]) * fastest**2
-        found: list[ModalStress] = []
+        stresses: list[ModalStress] = []
         for speed in np.sqrt(self._squares)[::-1]:
-            whole = modal_stress(path, speed)
-            if whole is None:
+            stress = modal_stress(path, speed)
+            if stress is None:
                 raise BadInput(f"{path}: the blade is of matrices alone, which tell of no stress")
-            if not found:
+            if not stresses:
                 modes = mode_shapes_at(blade, fastest)[1][:, :_MODES]
-                nodes = stressed_nodes(whole.of(modes.T), _SHARE)
-            found.insert(0, whole.at(nodes))
-        self._at, self._blade = found, blade
+                nodes = stressed_nodes(stress.of(modes.T), _SHARE)
+            stresses.insert(0, stress.at(nodes))
+        self._at, self._blade = stresses, blade
 
     def at(self, f_omega: float) -> ModalStress:
         """Return the stress at the speed `f_omega` as a function of the reduced coordinates."""
@@ -139,7 +139,7 @@ class BladeStress:
             (x - a) * (x - b) / (c - a) / (c - b),
         ]
         static, slope = (
-            sum(float(weight) * getattr(of, name) for weight, of in zip(parts, self._at, strict=True))
+            sum(float(weight) * getattr(stress, name) for weight, stress in zip(parts, self._at, strict=True))
             for name in ("static", "slope")
         )
         return ModalStress(self._at[0].points, static, slope)
@@ -197,5 +197,5 @@ def sampled_stress(stress: ModalStress, run: SampledRun, last: int) -> RunStress
         return None
     begin, end = np.searchsorted(run.time, (max(revolutions - last, 0), revolutions), side="right")
     parts = {"start_up": slice(0, begin), "last": slice(begin, end)} if begin else {"last": slice(0, end)}
-    found = stress_peaks(stress, run.amplitudes, run.time, [*parts.values()])
-    return RunStress(static_peak(stress), **{"start_up": {}, **dict(zip(parts, found, strict=True))})
+    peaks = stress_peaks(stress, run.amplitudes, run.time, [*parts.values()])
+    return RunStress(static_peak(stress), **{"start_up": {}, **dict(zip(parts, peaks, strict=True))})

@@ -55,16 +55,16 @@ def simulate_sampled(
     forces = np.add.outer(lanes * np.arange(groups), np.arange(rule.n_nodes)).ravel()
     sampled = _Sampled(simulation, ends, n, forces, revolutions)
     initial = sum(energy.blade_energy(rule, simulation.state))
-    whole = (Segment(sampled, revolution, 0, n_elements) for revolution in range(revolutions))
-    history = integrate(whole, revolutions, n_elements, progress)
+    segments = (Segment(sampled, revolution, 0, n_elements) for revolution in range(revolutions))
+    history = integrate(segments, revolutions, n_elements, progress)
     # what the resolved modes displace, and how the others answer to the contact forces
     moving = np.sqrt(rule.share[:n])[:, None] * shapes[:, :n].T
     answer = modes.tip * ((1.0 - rule.share) / omega**2) @ shapes.T
     times = np.add.outer(np.arange(revolutions), ends[1:] / n_elements).ravel()
     return SampledRun(
         run_result(blade, spec, rule, simulation, history, initial),
-        times[: sampled.passed],
-        sampled.amplitudes[: sampled.passed],
+        times[: sampled.n_sampled],
+        sampled.amplitudes[: sampled.n_sampled],
         np.vstack([moving, answer]).astype(np.float32),
     )
 
@@ -78,34 +78,34 @@ class _Sampled:
         self.state, self.steps_per_element = simulation.state, simulation.steps_per_element
         # of the first n modes, and the contact forces of these numbers
         self.amplitudes = np.empty((revolutions * (ends.size - 1), n + forces.size), np.float32)
-        self.passed = 0  # instants
+        self.n_sampled = 0  # instants
         self._simulation, self._ends, self._forces = simulation, ends, forces
         # what is compiled here has the usual lanes and law; other loops are rare, and go by parts in Python
         self._is_usual = isinstance(simulation, Simulation)
 
     def advance(self, displacement: np.ndarray, first: int) -> Progress:
         run = _advance if self._is_usual else _advance_by_parts
-        rows = self.amplitudes[self.passed : self.passed + self._ends.size - 1]
-        passed, made = run(self._simulation, self._ends, displacement, rows, self._forces)
-        self.passed += passed
-        return made
+        rows = self.amplitudes[self.n_sampled : self.n_sampled + self._ends.size - 1]
+        n_instants, progress = run(self._simulation, self._ends, displacement, rows, self._forces)
+        self.n_sampled += n_instants
+        return progress
 
 
 def _advance(simulation, ends, displacement, rows, forces):
     address, per_element = displacement.ctypes.data, simulation.steps_per_element
-    passed, *made = _integrate(*simulation.records, per_element, ends, address, rows, forces)
-    return passed, Progress(*made)
+    n_instants, *progress = _integrate(*simulation.records, per_element, ends, address, rows, forces)
+    return n_instants, Progress(*progress)
 
 
 def _advance_by_parts(simulation, ends, displacement, rows, forces):
     n_steps = n_flights = n_contact = 0
     low, high = np.inf, -np.inf
     for part, (first, last) in enumerate(pairwise(ends)):
-        made = simulation.advance(displacement[first:last], int(first))
-        n_steps, n_flights = n_steps + made.n_steps, n_flights + made.n_flights
-        n_contact += made.n_contact_steps
-        low, high = min(low, made.lowest), max(high, made.highest)
-        if made.n_steps < (last - first) * simulation.steps_per_element:
+        progress = simulation.advance(displacement[first:last], int(first))
+        n_steps, n_flights = n_steps + progress.n_steps, n_flights + progress.n_flights
+        n_contact += progress.n_contact_steps
+        low, high = min(low, progress.lowest), max(high, progress.highest)
+        if progress.n_steps < (last - first) * simulation.steps_per_element:
             return part, Progress(n_steps, n_flights, n_contact, low, high)
         state, n = simulation.state, rows.shape[1] - forces.size
         rows[part] = np.concatenate([state.q[0, :n], state.force[0, forces]])
@@ -116,11 +116,11 @@ def _advance_by_parts(simulation, ends, displacement, rows, forces):
 def _integrate(modal, flight, stator, tip, state, steps_per_element, ends, displacement, rows, forces):
     n_steps = n_flights = n_contact = 0
     low, high = np.inf, -np.inf
-    flew, far = n_steps > 0, 0.0  # no constant: the loop would be compiled once more, for that one
+    in_flight, bound = n_steps > 0, 0.0  # no constant: the loop would be compiled once more, for that one
     n = rows.shape[1] - forces.size
     for part in range(len(rows)):
         first, last = ends[part], ends[part + 1]
-        turns, flew, far, steps, flights, contacts, lowest, highest = loop.integrate(
+        turns, in_flight, bound, steps, flights, contacts, lowest, highest = loop.integrate(
             modal,
             flight,
             stator,
@@ -129,8 +129,8 @@ def _integrate(modal, flight, stator, tip, state, steps_per_element, ends, displ
             steps_per_element,
             first,
             last,
-            flew,
-            far,
+            in_flight,
+            bound,
             displacement + 8 * first,
         )
         take_turns(state.q, modal.n, turns)
@@ -141,8 +141,8 @@ def _integrate(modal, flight, stator, tip, state, steps_per_element, ends, displ
             return part, n_steps, n_flights, n_contact, low, high
         for k in range(n):
             rows[part, k] = _normal(read(state.q, k))
-        for k, of in enumerate(forces):
-            rows[part, n + k] = _normal(read(state.force, of))
+        for k, index in enumerate(forces):
+            rows[part, n + k] = _normal(read(state.force, index))
     return len(rows), n_steps, n_flights, n_contact, low, high
 
 

@@ -32,18 +32,18 @@ def table(
     stress, rows = BladeStress(mesh, blade), []
     for peak in peaks.dropna(subset=["f_peak"]).to_dict("records"):
         spec = run_spec(config, CoatingCase.described(peak), peak["f_peak"])
-        result, found = stress.of_run(spec, config["analysis"]["spectrum_revolutions"])
+        result, run_stress = stress.of_run(spec, config["analysis"]["spectrum_revolutions"])
         rows.append(
             {name: peak[name] for name in (*_CASE, *_PEAK)}
             | {"status": result.status}
-            | (_of_run(found) if found else {})
+            | (_of_run(run_stress) if run_stress else {})
         )
     return pd.DataFrame(rows, columns=COLUMNS)
 
 
-def _of_run(found: RunStress) -> dict[str, float | None]:
+def _of_run(stress: RunStress) -> dict[str, float | None]:
     return {
-        "rotation_von_mises": found.static["von_mises"],
-        "start_up_von_mises": found.start_up.get("von_mises"),
-        **{f"last_{name}": found.last.get(name) for name in _OF_LAST},
+        "rotation_von_mises": stress.static["von_mises"],
+        "start_up_von_mises": stress.start_up.get("von_mises"),
+        **{f"last_{name}": stress.last.get(name) for name in _OF_LAST},
     }
