@@ -203,7 +203,7 @@ def test_only_what_determines_a_sample_is_in_its_digest(study, write):
     study["chart"]["theta"] = [0.0]
     study["casings"]["unused"] = study["casings"]["2nd"]
     assert [sample_digest(each) for each in sample_configs(study, plan, plan.parts["soft"])] == digests
-    study["solver"]["revolutions"] += 1
+    study["solver"]["tolerance"] /= 2
     assert sample_digest(sample_configs(study, plan, plan.parts["soft"])[0]) != digests[0]
 
 
