@@ -54,8 +54,8 @@ def parts(
     JSON, `figures.of_runs` and the scales, in mm.
     """
     wear, deepest = encoding.linear_steps(arc_means(coating.wear, arcs(coating.angle.size)))
-    kept = kept_orders(coating.f_omega, coating.spectrum_order, max_frequency)
-    spectrum = np.concatenate([row[:n] for row, n in zip(coating.spectrum_amplitude, kept, strict=True)])
+    counts = kept_orders(coating.f_omega, coating.spectrum_order, max_frequency)
+    spectrum = np.concatenate([row[:n] for row, n in zip(coating.spectrum_amplitude, counts, strict=True)])
     spectrum_range = AMPLITUDE_FLOOR, encoding.log_range(spectrum, AMPLITUDE_FLOOR)[1]
     growth = np.hstack([coating.revolution_amplitude, coating.confirmation_amplitude])
     growth_range = encoding.log_range(growth, _SMALLEST)

@@ -41,10 +41,10 @@ def log_range(values: np.ndarray, floor: float) -> tuple[float, float]:
 
     The upper is twice the lower at least; the lower is `floor` if there is no such value.
     """
-    shown = values[values > floor]
-    if shown.size == 0:
+    visible = values[values > floor]
+    if visible.size == 0:
         return floor, 2 * floor
-    return float(shown.min()), float(max(shown.max(), 2 * shown.min()))
+    return float(visible.min()), float(max(visible.max(), 2 * visible.min()))
 
 
 def packed(data: bytes) -> str:
@@ -62,9 +62,9 @@ def json_text(value: Any) -> str:
 
 def _plain(value: Any) -> Any:
     if isinstance(value, dict):
-        return {name: _plain(each) for name, each in value.items()}
+        return {name: _plain(entry) for name, entry in value.items()}
     if isinstance(value, list | tuple):
-        return [_plain(each) for each in value]
+        return [_plain(entry) for entry in value]
     if isinstance(value, np.ndarray | np.generic):
         return _plain(value.tolist())
     if isinstance(value, float) and not math.isfinite(value):

@@ -37,10 +37,10 @@ def of_runs(
     `ValueError` if table, manifest and map are not of the same speeds.
     """
     verdicts = of_case(divergence, coating.case).sort_values("f_omega")
-    listed = sorted(runs, key=lambda run: run.f_omega)
+    sorted_runs = sorted(runs, key=lambda run: run.f_omega)
     for source, speeds in (
         ("divergence.csv", verdicts["f_omega"].to_numpy()),
-        ("manifest", np.array([run.f_omega for run in listed])),
+        ("manifest", np.array([run.f_omega for run in sorted_runs])),
     ):
         if not np.array_equal(speeds, coating.f_omega):
             raise ValueError(f"{source}: not the speeds of the map of {coating.case.name}; make it again")
@@ -53,7 +53,7 @@ def of_runs(
         **{name: bands[name].tolist() for name in BANDS},
         "verdict_status": verdicts["status"].tolist(),
         "status": coating.status.tolist(),
-        "run_key": [run.run_key for run in listed],
+        "run_key": [run.run_key for run in sorted_runs],
         "lobes": coating.lobes.tolist(),
         "max_wear": mm(coating.max_wear).tolist(),
         "peak": mm(peak).tolist(),
@@ -73,5 +73,5 @@ def command(case: CoatingCase, configs: list[str]) -> str:
         angle = f"--theta {case.theta:.12g}" if case.law == "theta" else f"--friction {case.friction:.12g}"
         coating = f"--E {case.E:.12g} --K {case.K:.12g} {angle}"
     overlays = f" --config {' '.join(map(shlex.quote, configs))}" if configs else ""
-    own = "".join(f" --{key.replace('_', '-')} {value:.12g}" for key, value in case.own.items())
-    return f"bladerub run{overlays} --casing {shlex.quote(case.casing)} {coating}{own}"
+    options = "".join(f" --{key.replace('_', '-')} {value:.12g}" for key, value in case.own.items())
+    return f"bladerub run{overlays} --casing {shlex.quote(case.casing)} {coating}{options}"

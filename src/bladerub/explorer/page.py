@@ -37,15 +37,15 @@ def build(
     coatings, data, scales = [], [], None
     revolutions, max_frequency = settings["spectrum_revolutions"], settings["max_frequency"]
     for index, (map_path, manifest_path) in enumerate(zip(map_paths, manifest_paths, strict=True)):
-        each, runs = read_map(map_path), read_manifest(manifest_path)
-        own = study.scales(each, max_frequency)
-        scales = scales or own
-        if json_text(own) != json_text(scales):
+        coating_map, runs = read_map(map_path), read_manifest(manifest_path)
+        coating_scales = study.scales(coating_map, max_frequency)
+        scales = scales or coating_scales
+        if json_text(coating_scales) != json_text(scales):
             raise ValueError(
                 f"{map_path}: not of the same blade, speeds and angles as {map_paths[0]}; make the maps again"
             )
-        coatings.append(study.coating(each.case, peaks, configs))
-        for name, text in coating.parts(each, divergence, runs, revolutions, max_frequency).items():
+        coatings.append(study.coating(coating_map.case, peaks, configs))
+        for name, text in coating.parts(coating_map, divergence, runs, revolutions, max_frequency).items():
             data.append(f'<script type="application/gzip" id="{name}-{index}">{text}</script>')
     library, program = get_plotlyjs(), "\n".join(map(_text, _PROGRAM))
     return Template(_text("index.html")).substitute(

@@ -85,4 +85,4 @@ def look() -> dict[str, Any]:
     lines = {"A": style.FIRST["color"], "B": style.SECOND["color"], "dark": style.DARK, "blue": style.BLUE}
     lines |= {"red": style.RED, "orange": style.ORANGE, "missing": style.MISSING}
     steps = np.linspace(0, 1, 64)
-    return {name: [to_hex(each) for each in colours(steps)] for name, colours in maps.items()} | lines
+    return {name: [to_hex(colour) for colour in colours(steps)] for name, colours in maps.items()} | lines

@@ -57,9 +57,9 @@ def animate(
     def draw(frame: int) -> list:
         time = recording.time[frame]
         worn.set_data(*closed(angle, _RING + scale * depth[frame]))
-        for line, own, moved in zip(lines, row.blades, radial[frame], strict=True):
-            at = own.angle + 2 * np.pi * time
-            line.set_data([at, at], [_HUB, _TIP + scale * moved])
+        for line, row_blade, moved in zip(lines, row.blades, radial[frame], strict=True):
+            azimuth = row_blade.angle + 2 * np.pi * time
+            line.set_data([azimuth, azimuth], [_HUB, _TIP + scale * moved])
         title.set_text(f"{name}\nrevolution {time:.2f}, greatest depth {1e3 * depth[frame].max():.3f} mm")
         return [worn, *lines, title]
 

@@ -34,9 +34,9 @@ class View:
 
     def project(self, points: np.ndarray) -> np.ndarray:
         """Horizontal and vertical position (..., 2) of points (..., 3) in the picture, in the same unit."""
-        right = np.cross([0, 0, 1], self.towards_eye)
-        right /= np.linalg.norm(right)
-        return points @ np.stack([right, np.cross(self.towards_eye, right)], axis=1)
+        horizontal = np.cross([0, 0, 1], self.towards_eye)
+        horizontal /= np.linalg.norm(horizontal)
+        return points @ np.stack([horizontal, np.cross(self.towards_eye, horizontal)], axis=1)
 
     def front_faces(self, polygons: np.ndarray) -> np.ndarray:
         """List the faces among (n, 8 or 6, 3) that are turned to the eye, the farthest first."""
@@ -75,16 +75,16 @@ def blade_mesh(
     clamped ones: none where another program has left them out.
     """
     figure = new_figure(PAGE, 0.86 * PAGE)
-    whole, of_tip = figure.subplots(1, 2, width_ratios=[1, 1.05])
+    overview, of_tip = figure.subplots(1, 2, width_ratios=[1, 1.05])
     millimetres = 1e3 * points
     faces = boundary_faces(elements)
-    _draw_whole(whole, millimetres, faces, interface, root)
+    _draw_whole(overview, millimetres, faces, interface, root)
     counted = f"{len(elements)} {_KINDS[elements.shape[1]]}, " if len(elements) else ""
-    whole.set_title(f"(a) {counted}{len(points)} nodes")
+    overview.set_title(f"(a) {counted}{len(points)} nodes")
     if not len(elements):
         of_tip.plot(*millimetres[tip, :2].T, color=DARK, markersize=5, **_NODE)
     _draw_tip(of_tip, millimetres, faces[np.isin(faces, tip).all(axis=1)], interface)
-    figure.legend(*whole.get_legend_handles_labels(), loc="outside lower center", ncols=2)
+    figure.legend(*overview.get_legend_handles_labels(), loc="outside lower center", ncols=2)
     return figure
 
 
@@ -92,14 +92,14 @@ def _draw_whole(
     axes: Axes, points: np.ndarray, faces: np.ndarray, interface: np.ndarray, root: np.ndarray
 ) -> None:
     polygons = points[faces]
-    seen = _VIEW.front_faces(polygons)
-    shade = 0.5 + 0.5 * np.clip(normals(polygons[seen]) @ _LIGHT, 0, 1)
+    visible = _VIEW.front_faces(polygons)
+    shade = 0.5 + 0.5 * np.clip(normals(polygons[visible]) @ _LIGHT, 0, 1)
     if len(root):
         axes.plot(*_VIEW.project(points[root]).T, label="clamped root nodes", zorder=0.5, **_ROOT)
     if not len(faces):
         axes.plot(*_VIEW.project(points).T, color=_METAL * 0.75, markersize=2.5, label="_nodes", **_NODE)
     axes.add_collection(
-        PolyCollection(_VIEW.project(polygons[seen]), facecolors=shade[:, None] * _METAL, **_EDGES)
+        PolyCollection(_VIEW.project(polygons[visible]), facecolors=shade[:, None] * _METAL, **_EDGES)
     )
     axes.plot(*_VIEW.project(points[interface]).T, label="interface nodes", **_INTERFACE)
     axes.set_aspect("equal")
@@ -121,13 +121,13 @@ def _draw_tip(axes: Axes, points: np.ndarray, faces: np.ndarray, interface: np.n
     axes.add_collection(PolyCollection(points[faces][:, :, :2], facecolors=_METAL, **_EDGES))
     nodes = points[interface, :2]
     axes.plot(*nodes.T, **_INTERFACE)
-    near = {"textcoords": "offset points"}
+    placement = {"textcoords": "offset points"}
     side = 1 if nodes[0, 0] <= nodes[-1, 0] else -1  # where the corner above the tip is free
-    beside = "left" if side > 0 else "right"
+    alignment = "left" if side > 0 else "right"
     for number, node in enumerate(nodes, start=1):
-        axes.annotate(str(number), node, xytext=(6 * side, 4), ha=beside, color=RED, **near)
-    axes.annotate("leading edge", nodes[0], xytext=(0, 14), ha="center", va="bottom", **near)
-    axes.annotate("trailing edge", nodes[-1], xytext=(0, -14), ha="center", va="top", **near)
+        axes.annotate(str(number), node, xytext=(6 * side, 4), ha=alignment, color=RED, **placement)
+    axes.annotate("leading edge", nodes[0], xytext=(0, 14), ha="center", va="bottom", **placement)
+    axes.annotate("trailing edge", nodes[-1], xytext=(0, -14), ha="center", va="top", **placement)
     arrow = {"arrowstyle": "-|>", "color": DARK}
     across = 0.5 + 0.35 * side
     axes.annotate(

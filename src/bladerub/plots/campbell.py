@@ -23,25 +23,25 @@ def campbell(
     """
     f_omega, f_fe, f_rom = np.asarray(f_omega), np.asarray(f_fe), np.asarray(f_rom)
     figure = new_figure(PAGE, 0.62 * PAGE)
-    whole, first = figure.subplots(1, 2)
+    all_modes, first = figure.subplots(1, 2)
     speed_max = float(f_omega.max())
-    whole_max, first_max = 1.04 * float(np.nanmax([f_fe, f_rom])), 1.5 * float(np.nanmax(f_rom[:, 0]))
-    engine_orders.draw(whole, {k: k for k in orders[-1:]}, speed_max, whole_max)
+    all_modes_max, first_max = 1.04 * float(np.nanmax([f_fe, f_rom])), 1.5 * float(np.nanmax(f_rom[:, 0]))
+    engine_orders.draw(all_modes, {k: k for k in orders[-1:]}, speed_max, all_modes_max)
     engine_orders.draw(first, {k: k for k in orders}, speed_max, first_max)
-    for axes in (whole, first):
+    for axes in (all_modes, first):
         _modes(axes, f_omega, f_fe, f_rom)
         axes.set(xlim=(0, speed_max), xlabel=r"rotational frequency $f_\Omega\,/\,f_1(0)$")
         if engine:
             engine.add_speeds(axes, "x")
             engine.add_frequencies(axes, "y")
             engine.draw_nominal_speed(axes.axvline)
-    whole.set(ylim=(0, whole_max), ylabel=r"eigenfrequency $f\,/\,f_1(0)$")
-    whole.set_title(f"(a) first {f_rom.shape[1]} modes", pad=16)
+    all_modes.set(ylim=(0, all_modes_max), ylabel=r"eigenfrequency $f\,/\,f_1(0)$")
+    all_modes.set_title(f"(a) first {f_rom.shape[1]} modes", pad=16)
     first.set(ylim=(0, first_max))
     first.set_title("(b) first mode, $C_1$", pad=16)
-    _number(whole, f_rom[0] / whole_max)
+    _number(all_modes, f_rom[0] / all_modes_max)
     _number(first, f_rom[0] / first_max)
-    figure.legend(*whole.get_legend_handles_labels(), loc="outside lower center", ncols=4)
+    figure.legend(*all_modes.get_legend_handles_labels(), loc="outside lower center", ncols=4)
     return figure
 
 
@@ -64,5 +64,5 @@ def _number(axes: Axes, height: np.ndarray) -> None:
         free = [column for column, top in enumerate(tops) if height[mode] >= top]
         column = free[0] if free else len(tops)
         tops[column : column + 1] = [height[mode] + _NUMBER]
-        at = (0.0, height[mode])
-        axes.annotate(f"{mode + 1}", at, (3 + 12 * column, 1.5), xycoords="axes fraction", **look)
+        anchor = (0.0, height[mode])
+        axes.annotate(f"{mode + 1}", anchor, (3 + 12 * column, 1.5), xycoords="axes fraction", **look)

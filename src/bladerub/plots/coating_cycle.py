@@ -69,8 +69,10 @@ def _mark_slopes(axes: Axes, cycle: LoadingCycle) -> None:
         # the upper corner lies on the branch, `share` of the stress below its end
         x, y = strain - share * stress / slope, stress * (1 - share)
         axes.plot([x - length, x, x], [y - height, y - height, y], color=GREY, linewidth=0.9, label="_slope")
-        text, near = f"${name}$ = {slope:g}", {"textcoords": "offset points"}
+        text, placement = f"${name}$ = {slope:g}", {"textcoords": "offset points"}
         if name == "E":
-            axes.annotate(text, (x, y - height / 2), xytext=(3, 0), ha="left", va="center", **near)
+            axes.annotate(text, (x, y - height / 2), xytext=(3, 0), ha="left", va="center", **placement)
         else:
-            axes.annotate(text, (x - length / 2, y - height), xytext=(0, -3), ha="center", va="top", **near)
+            axes.annotate(
+                text, (x - length / 2, y - height), xytext=(0, -3), ha="center", va="top", **placement
+            )

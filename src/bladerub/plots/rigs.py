@@ -17,15 +17,17 @@ def rigs(passes: pd.DataFrame, compared: pd.DataFrame) -> Figure:
     figure = new_figure(PAGE, 0.3 * PAGE * len(names))
     grid = figure.subplots(len(names), 2, squeeze=False)
     for (forces, depths), name in zip(grid, names, strict=True):
-        own = passes[passes.rig == name]
+        rig_passes = passes[passes.rig == name]
         measured = compared[compared.rig == name].set_index("quantity").measured_on_rig
-        marker = "o" if len(own) == 1 else None
+        marker = "o" if len(rig_passes) == 1 else None
         for axes, columns in ((forces, _FORCES), (depths, _DEPTHS)):
             for column, (label, colour, factor) in columns.items():
-                axes.plot(own["pass"], factor * own[column], color=colour, marker=marker, label=label)
+                axes.plot(
+                    rig_passes["pass"], factor * rig_passes[column], color=colour, marker=marker, label=label
+                )
                 if column in measured and pd.notna(measured[column]):
-                    axes.plot(own["pass"].iloc[-1], factor * measured[column], "x", color=colour)
-            axes.set(xlim=(0, 1.05 * len(own)), ylim=(0, 1.1 * axes.get_ylim()[1]), xlabel="pass")
+                    axes.plot(rig_passes["pass"].iloc[-1], factor * measured[column], "x", color=colour)
+            axes.set(xlim=(0, 1.05 * len(rig_passes)), ylim=(0, 1.1 * axes.get_ylim()[1]), xlabel="pass")
             axes.xaxis.set_major_locator(MaxNLocator(integer=True))
             axes.legend(loc="best", frameon=False)
         forces.set(title=f"{name}: force, N")

@@ -19,8 +19,8 @@ _LINE = {"color": DARK, "linestyle": (0, (1, 1.5)), "linewidth": 1.1}
 
 def greatest(*values: np.ndarray | float) -> float:
     """Return the greatest of `values`, where an axis or a scale can end: 1 where none is above 0."""
-    each = np.concatenate([np.ravel(value) for value in values] or [[]]).astype(float)
-    return float(np.max(each, where=each > 0, initial=0.0)) or 1.0
+    numbers = np.concatenate([np.ravel(value) for value in values] or [[]]).astype(float)
+    return float(np.max(numbers, where=numbers > 0, initial=0.0)) or 1.0
 
 
 @dataclass(frozen=True)
@@ -42,10 +42,10 @@ class Engine:
         second = self._second(axes, along, self.f1_hz)
         (second.xaxis if along == "x" else second.yaxis).set_label_text("frequency (Hz)")
 
-    def draw_nominal_speed(self, draw: Callable, named: bool = True) -> None:
+    def draw_nominal_speed(self, draw: Callable, in_legend: bool = True) -> None:
         """Draw the nominal speed, if it is known, by `draw`: ``axvline`` or ``axhline`` of the axes."""
         if self.nominal_speed is not None:
-            label = f"nominal speed, {self.nominal_speed:g} 1/min" if named else "_nominal"
+            label = f"nominal speed, {self.nominal_speed:g} 1/min" if in_legend else "_nominal"
             draw(self.nominal_speed / 60 / self.f1_hz, label=label, zorder=3, **_LINE)
 
     def _second(self, axes: Axes, along: str, factor: float) -> Axes:

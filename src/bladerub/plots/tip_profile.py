@@ -18,11 +18,11 @@ _LABEL = {"facecolor": "white", "edgecolor": "none", "pad": 1.5, "alpha": 0.85}
 def tip_profile(scene: PressedElements) -> Figure:
     """Draw Fig. 3: the elements to scale (a) and their worn ends with the depth magnified (b)."""
     figure = new_figure(PAGE, 0.74 * PAGE)
-    whole, ends = figure.subplots(2, 1, sharex=True, height_ratios=[1.05, 1])
-    _draw_whole(whole, scene)
+    full_view, ends = figure.subplots(2, 1, sharex=True, height_ratios=[1.05, 1])
+    _draw_whole(full_view, scene)
     _draw_ends(ends, scene)
     unit = titles.in_units(scene.coating.modulus_unit)
-    whole.set_title(f"(a) to scale: E = {scene.coating.E:g}, K = {scene.coating.K:g} ({unit})")
+    full_view.set_title(f"(a) to scale: E = {scene.coating.E:g}, K = {scene.coating.K:g} ({unit})")
     ends.set_title("(b) the ends of the elements, depth magnified")
     return figure
 
@@ -41,7 +41,7 @@ def _outlines(scene: PressedElements, lower: np.ndarray, upper: np.ndarray) -> n
 def _draw_whole(axes: Axes, scene: PressedElements) -> None:
     thickness = 1e3 * scene.coating.thickness
     bottom, top = -0.45 * thickness, 1.18 * thickness
-    left, right = 1e3 * (scene.element[[0, -1]] * scene.width + np.array([-1, 1.7]) * scene.width)
+    x_min, x_max = 1e3 * (scene.element[[0, -1]] * scene.width + np.array([-1, 1.7]) * scene.width)
     outer_ends = np.full_like(scene.shortening, scene.coating.thickness)
     pressed = scene.shortening > scene.wear
     axes.add_collection(
@@ -52,9 +52,9 @@ def _draw_whole(axes: Axes, scene: PressedElements) -> None:
             linewidths=0.5,
         )
     )
-    axes.fill_between([left, right], thickness, top, facecolor=GREY, hatch="///", alpha=0.5, linewidth=0)
+    axes.fill_between([x_min, x_max], thickness, top, facecolor=GREY, hatch="///", alpha=0.5, linewidth=0)
     axes.text(
-        (left + right) / 2, (thickness + top) / 2, "rigid casing", ha="center", va="center", bbox=_LABEL
+        (x_min + x_max) / 2, (thickness + top) / 2, "rigid casing", ha="center", va="center", bbox=_LABEL
     )
     x, y = 1e3 * (scene.tip_offset * scene.width), 1e3 * scene.tip_depth
     axes.fill_between(x, bottom, y, color=BLUE, alpha=0.35, linewidth=0)
@@ -62,8 +62,8 @@ def _draw_whole(axes: Axes, scene: PressedElements) -> None:
     axes.text(0, 0.8 * bottom, "blade tip", ha="center", va="center", color=DARK)
     _draw_angle(axes, scene)
     _draw_force(axes, scene)
-    _draw_rotation(axes, 1e3 * ((scene.tip_offset[-1] + 1) * scene.width), 0.55 * bottom, right)
-    axes.set(xlim=(left, right), ylim=(bottom, top), aspect="equal", ylabel="height (mm)")
+    _draw_rotation(axes, 1e3 * ((scene.tip_offset[-1] + 1) * scene.width), 0.55 * bottom, x_max)
+    axes.set(xlim=(x_min, x_max), ylim=(bottom, top), aspect="equal", ylabel="height (mm)")
 
 
 def _draw_angle(axes: Axes, scene: PressedElements) -> None:
@@ -74,8 +74,8 @@ def _draw_angle(axes: Axes, scene: PressedElements) -> None:
     axes.plot([foot, foot], [0, length], color=RED, linewidth=1.1, linestyle=":", label="_radial")
     axes.plot([foot, foot + length * np.sin(theta)], [0, length * np.cos(theta)], color=RED)
     axes.plot(foot + 0.9 * length * np.sin(arc), 0.9 * length * np.cos(arc), color=RED, linewidth=1.1)
-    at, name = (foot + 0.45 * length, 0.4 * length), rf"$\theta$ = {theta:g} rad"
-    axes.annotate(name, at, va="center", color=RED, bbox=_LABEL)
+    anchor, name = (foot + 0.45 * length, 0.4 * length), rf"$\theta$ = {theta:g} rad"
+    axes.annotate(name, anchor, va="center", color=RED, bbox=_LABEL)
 
 
 def _draw_force(axes: Axes, scene: PressedElements) -> None:
@@ -88,8 +88,8 @@ def _draw_force(axes: Axes, scene: PressedElements) -> None:
     axes.legend(loc="lower left")
 
 
-def _draw_rotation(axes: Axes, x: float, y: float, right: float) -> None:
-    end = x + 0.35 * (right - x)
+def _draw_rotation(axes: Axes, x: float, y: float, x_max: float) -> None:
+    end = x + 0.35 * (x_max - x)
     axes.annotate("", (end, y), (x, y), arrowprops={"arrowstyle": "-|>", "color": DARK, "linewidth": 1.2})
     axes.text(end, y, r"  rotation, $e_\theta$", va="center")
 

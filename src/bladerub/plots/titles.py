@@ -14,8 +14,8 @@ def moduli(casing: str, E: float, K: float, unit: float | None = None) -> str:
 
 def moduli_axes(unit: float) -> dict[str, str]:
     """Label horizontal E and vertical K, of which 1 is `unit`, Pa."""
-    of = in_units(unit)
-    return {"xlabel": f"Young modulus E ({of})", "ylabel": f"plastic modulus K ({of})"}
+    unit_text = in_units(unit)
+    return {"xlabel": f"Young modulus E ({unit_text})", "ylabel": f"plastic modulus K ({unit_text})"}
 
 
 def tangent_modulus(unit: float) -> str:
@@ -43,11 +43,11 @@ def coating(case: CoatingCase, unit: float | None = None) -> str:
 
     If `unit`, Pa, is given, it says that E = 1 and K = 1 are that.
     """
-    own = "".join(f", {_OWN[key].format(value)}" for key, value in case.own.items())
+    variant = "".join(f", {_OWN[key].format(value)}" for key, value in case.own.items())
     if case.is_rigid:
-        return f"rigid casing {case.casing}, μ = {case.friction:g}{own}"
+        return f"rigid casing {case.casing}, μ = {case.friction:g}{variant}"
     tangential = angle(case.theta) if case.law == "theta" else f"μ = {case.friction:g}"
-    return f"{moduli(case.casing, case.E, case.K, unit)}, {tangential}{own}"
+    return f"{moduli(case.casing, case.E, case.K, unit)}, {tangential}{variant}"
 
 
 def speed(f_omega: float) -> str:

@@ -21,8 +21,8 @@ def verdicts(holds: pd.DataFrame) -> Figure:
     figure = style.new_figure(style.PAGE, 0.9 + 0.155 * rows + 0.045 * max(map(len, holds.columns)))
     axes = figure.subplots()
     for word, mark in MARKS.items():
-        claim, chosen = np.nonzero((holds == word).to_numpy())
-        axes.scatter(chosen, claim, s=26, linewidth=0.8, label=word, zorder=2, **mark)
+        claim, study = np.nonzero((holds == word).to_numpy())
+        axes.scatter(study, claim, s=26, linewidth=0.8, label=word, zorder=2, **mark)
     axes.set_xticks(range(columns), holds.columns, rotation=90)
     axes.set_yticks(range(rows), holds.index)
     axes.set(xlim=(-0.7, columns - 0.3), ylim=(rows - 0.4, -0.6))

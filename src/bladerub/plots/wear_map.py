@@ -38,7 +38,7 @@ def wear_map(coating: CoatingMap, scales: Scales | None = None) -> Figure:
     if scales.engine:
         scales.engine.add_speeds(lower, "x")
         scales.engine.draw_nominal_speed(upper.axvline)
-        scales.engine.draw_nominal_speed(lower.axvline, named=False)
+        scales.engine.draw_nominal_speed(lower.axvline, in_legend=False)
     legend = {}
     for axes in (lower, upper):
         handles, labels = axes.get_legend_handles_labels()

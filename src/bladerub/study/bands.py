@@ -67,7 +67,10 @@ def draws(maps: Sequence[CoatingMap], ensembles: Sequence[Ensemble]) -> Iterator
     yield list(maps)
     drawn = {ensemble.members[0].case: ensemble for ensemble in ensembles}
     for member in range(min((len(ensemble.members) for ensemble in ensembles), default=0)):
-        yield [drawn[each.case].draw(each, member) if each.case in drawn else each for each in maps]
+        yield [
+            drawn[coating.case].draw(coating, member) if coating.case in drawn else coating
+            for coating in maps
+        ]
 
 
 def of_peaks(
@@ -77,10 +80,10 @@ def of_peaks(
 
     The last column, ``modulus_unit``, is what E = 1 and K = 1 are, Pa.
     """
-    drawn = [peak_table.table(config, each) for each in draws(maps, ensembles)]
+    drawn = [peak_table.table(config, coatings) for coatings in draws(maps, ensembles)]
     table = drawn[0].assign(draws=len(drawn))
     for name in ("f_peak", "amplitude"):
-        bands = [band(values) for values in np.transpose([each[name] for each in drawn])]
+        bands = [band(values) for values in np.transpose([peaks[name] for peaks in drawn])]
         table = table.join(pd.DataFrame(bands, index=table.index).add_prefix(f"{name}_"))
     return table.assign(modulus_unit=modulus_unit(config))
 
@@ -96,11 +99,11 @@ def _run_rows(
     config: Mapping[str, Any], maps: Sequence[CoatingMap], ensembles: Sequence[Ensemble]
 ) -> pd.DataFrame:
     table = divergence.table(config, maps)
-    own = {coating.case: coating for coating in maps}
-    found = [row for each in ensembles for row in _run_bands(config, own, each)]
-    if not found:
+    coatings = {coating.case: coating for coating in maps}
+    rows = [row for ensemble in ensembles for row in _run_bands(config, coatings, ensemble)]
+    if not rows:
         return table.reindex(columns=[*table, *RUN_COLUMNS])
-    bands = pd.DataFrame(found)
+    bands = pd.DataFrame(rows)
     keys = _keys(table)
     return table.merge(bands[[*keys, *RUN_COLUMNS]], "left", on=keys)
 
@@ -110,15 +113,18 @@ def _run_bands(
 ) -> Iterator[dict[str, Any]]:
     """Yield a row for each speed of the ensembles of one coating."""
     coating = maps[ensemble.members[0].case]
-    at, own = ensemble.places(coating), divergence.verdicts(config, coating)
-    verdicts = [[own[i] for i in at], *(divergence.verdicts(config, each) for each in ensemble.members)]
-    max_wear = np.stack([coating.max_wear[at], *(member.max_wear for member in ensemble.members)])
-    lobes = np.stack([coating.lobes[at], *(member.lobes for member in ensemble.members)])
+    places, study_verdicts = ensemble.places(coating), divergence.verdicts(config, coating)
+    verdicts = [
+        [study_verdicts[i] for i in places],
+        *(divergence.verdicts(config, member) for member in ensemble.members),
+    ]
+    max_wear = np.stack([coating.max_wear[places], *(member.max_wear for member in ensemble.members)])
+    lobes = np.stack([coating.lobes[places], *(member.lobes for member in ensemble.members)])
     for index, drawn in enumerate(zip(*verdicts, strict=True)):
         growth = band([verdict.growth.per_revolution for verdict in drawn])
         yield {
             **vars(coating.case),
-            "f_omega": coating.f_omega[at[index]],
+            "f_omega": coating.f_omega[places[index]],
             "draws": len(drawn),
             "divergent_draws": np.mean([verdict.divergent for verdict in drawn]),
             "saturating_draws": np.mean([verdict.saturating for verdict in drawn]),
@@ -141,15 +147,17 @@ def of_findings(
     Every claim of the table is judged on each draw but the first, the study itself, which would agree with
     itself.
     """
-    same, claims = [], [claim for claim in findings.CLAIMS if claim.id in set(table["id"])]
+    agreements, claims = [], [claim for claim in findings.CLAIMS if claim.id in set(table["id"])]
     runs = plain(divergence.table(config, maps))
     for member, drawn in enumerate(islice(draws(maps, ensembles), 1, None)):
         members = plain(divergence.table(config, [ensemble.members[member] for ensemble in ensembles]))
         tables = {"peaks": peak_table.table(config, drawn), "divergence": _drawn_runs(runs, members)}
         judged = findings.judge(Evidence(config, tables | {"rom_accuracy": rom_accuracy}, drawn), claims)
         holds = judged.set_index("id").holds.reindex(table["id"])
-        same.append(holds.to_numpy() == table.holds.to_numpy())
-    return table.assign(draws=len(same), share_of_draws=np.mean(same, axis=0) if same else math.nan)
+        agreements.append(holds.to_numpy() == table.holds.to_numpy())
+    return table.assign(
+        draws=len(agreements), share_of_draws=np.mean(agreements, axis=0) if agreements else math.nan
+    )
 
 
 def _drawn_runs(table: pd.DataFrame, members: pd.DataFrame) -> pd.DataFrame:

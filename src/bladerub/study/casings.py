@@ -48,13 +48,13 @@ def casing_spec(name: str, entry: Mapping[str, Any], length_scale: float = 1.0) 
             raise ValueError(f"table.file = {table['file']}: {error}") from error
         amplitude, lowest = float(np.ptp(gap)), float(np.min(gap))
         inward = (np.max(gap) - gap) / amplitude
-        own = entry.get("interference")
+        interference = entry.get("interference")
         return Casing(
             name=name,
             nodal_diameters=(),
             weights=(),
             amplitude=amplitude,
-            interference=-lowest if own is None else float(own * length_scale),
+            interference=-lowest if interference is None else float(interference * length_scale),
             start_angle=start_angle,
             measured=tuple(zip(angle.tolist(), inward.tolist(), strict=True)),
         )
@@ -99,9 +99,9 @@ def _measured(path: Path, _version: int, unit: float, angle_unit: float) -> tupl
     turn = 2 * np.pi * (1 - 1e-9)
     if len(angle) > 1 and angle[-1] - angle[0] >= turn and gap[-1] == gap[0]:
         angle, gap = angle[:-1], gap[:-1]  # the last row is the first again
-    fewest, most = MEASURED_ANGLES
-    if not fewest <= len(angle) <= most:
-        raise ValueError(f"has {len(angle)} angles; must have {fewest} to {most}")
+    minimum, maximum = MEASURED_ANGLES
+    if not minimum <= len(angle) <= maximum:
+        raise ValueError(f"has {len(angle)} angles; must have {minimum} to {maximum}")
     if (back := np.diff(angle) <= 0).any():
         raise ValueError(f"line {lines[back.argmax() + 1]}: angle must be above that of the row before")
     if angle[-1] - angle[0] >= turn:

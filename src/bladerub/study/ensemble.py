@@ -56,11 +56,11 @@ class Ensemble(Comparable):
 
     def draw(self, coating: CoatingMap, member: int) -> CoatingMap:
         """Return `coating` with the runs of one member in place of its own."""
-        drawn, at, values = self.members[member], self.places(coating), {}
+        drawn, places, values = self.members[member], self.places(coating), {}
         for name in OVER_SPEED:
-            own, other = _equally_long(getattr(coating, name), getattr(drawn, name))
-            values[name] = own.copy()
-            values[name][at] = other
+            study_values, member_values = _equally_long(getattr(coating, name), getattr(drawn, name))
+            values[name] = study_values.copy()
+            values[name][places] = member_values
         return replace(coating, wear_node=None, **values)
 
 
@@ -82,12 +82,12 @@ def starts(settings: Mapping[str, Any], case: CoatingCase, f_omega: float, membe
 def chosen(config: Mapping[str, Any], coating: CoatingMap) -> np.ndarray:
     """Choose the speeds (n,) of a coating that have an ensemble, ascending, normalised."""
     f_omega = coating.f_omega
-    wanted = named(config, coating.case, f_omega)
+    mask = named(config, coating.case, f_omega)
     settings = peak_settings(config, coating.case.casing)
     for order in settings["orders"]:
-        at = nearest_speed(coating, order, settings)
-        wanted[max(at - 1, 0) : at + 2] = True
-    return f_omega[wanted]
+        index = nearest_speed(coating, order, settings)
+        mask[max(index - 1, 0) : index + 2] = True
+    return f_omega[mask]
 
 
 def plan(config: Mapping[str, Any], case: CoatingCase, f_omega: np.ndarray) -> "list[CoatingPlan]":
@@ -99,7 +99,12 @@ def plan(config: Mapping[str, Any], case: CoatingCase, f_omega: np.ndarray) -> "
         spec, drawn = run_spec(config, case, f), starts(settings, case, f, settings["members"])
         members = [replace(spec, initial_displacement=start) for start in drawn.tolist()]
         files = [f"{speed_name(f)}_{number}.h5" for number in range(1, len(members) + 1)]
-        runs.append([planned_run(config, *each, False, row) for each in zip(members, files, strict=True)])
+        runs.append(
+            [
+                planned_run(config, *spec_and_file, False, row)
+                for spec_and_file in zip(members, files, strict=True)
+            ]
+        )
     return [CoatingPlan(case, member) for member in zip(*runs, strict=True)]
 
 
@@ -126,10 +131,10 @@ def make(
     together = CoatingPlan(coating.case, tuple(run for member in planned for run in member.runs))
     rows = compute_missing(config, together, blade, folder, blade_digest, report, threads)
     write_manifest(folder / "manifest.tsv", rows)
-    listed = iter(rows)
+    remaining_rows = iter(rows)
     C1 = coating.C1[np.isin(coating.f_omega, f_omega)]
     members = [
-        maps.collect_listed(config, coating.case, C1, folder, [next(listed) for _ in member.runs])
+        maps.collect_listed(config, coating.case, C1, folder, [next(remaining_rows) for _ in member.runs])
         for member in planned
     ]
     start = [[run.spec.initial_displacement for run in member.runs] for member in planned]

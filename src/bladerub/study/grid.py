@@ -58,13 +58,13 @@ class CoatingCase:
     @classmethod
     def described(cls, attributes: Mapping[str, Any]) -> "CoatingCase":
         """Read the coating from the attributes of a run or a map; raise `KeyError` if one is missing."""
-        known = {"variant": "", **attributes}  # files of earlier versions have no variants
-        return cls(**{field.name: known[field.name] for field in fields(cls)})
+        values = {"variant": "", **attributes}  # files of earlier versions have no variants
+        return cls(**{field.name: values[field.name] for field in fields(cls)})
 
     def with_own(self, **values: float | None) -> "CoatingCase":
         """Return this coating with values of its own for keys of `OWN`; None leaves that of the config."""
-        given = (f"{sign}{values[key]:.12g}" for key, sign in OWN.items() if values.get(key) is not None)
-        return replace(self, variant="_".join(given))
+        parts = (f"{sign}{values[key]:.12g}" for key, sign in OWN.items() if values.get(key) is not None)
+        return replace(self, variant="_".join(parts))
 
     @property
     def own(self) -> dict[str, float]:
@@ -271,8 +271,8 @@ def row_of(config: Mapping[str, Any]) -> Row | None:
         disk=Disk.ring(n_blades, rotor["coupling"]) if "coupling" in rotor else None,
     )
     blades = (
-        replace(own, length=own.length + draw.length, frequency=own.frequency + draw.frequency)
-        for own, draw in zip(row.blades, drawn, strict=True)
+        replace(blade, length=blade.length + draw.length, frequency=blade.frequency + draw.frequency)
+        for blade, draw in zip(row.blades, drawn, strict=True)
     )
     return replace(row, blades=tuple(blades))
 

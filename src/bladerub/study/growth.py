@@ -69,8 +69,8 @@ def growth(amplitude: np.ndarray, settings: Mapping[str, Any]) -> Growth:
     `amplitude` (n,) is that in each revolution, m; NaN after an early end. `settings` are
     ``config["analysis"]["divergence"]``.
     """
-    begun = amplitude[np.isfinite(amplitude)]
-    window = begun[-settings["revolutions"] :]
+    record = amplitude[np.isfinite(amplitude)]
+    window = record[-settings["revolutions"] :]
     if window.size and not window.any():
         return Growth(0.0, 0.0, 0.0)
     number = np.flatnonzero(window > 0)
@@ -79,7 +79,7 @@ def growth(amplitude: np.ndarray, settings: Mapping[str, Any]) -> Growth:
         return Growth(float("nan"), float("nan"), float("nan"))
     (_, slope), (_, margin) = _parameters(time, log_amplitude, 1, settings["confidence"])
     low, high = np.expm1(slope - margin), np.expm1(slope + margin)
-    threshold, before = settings["growth"], begun[: -settings["revolutions"]].max(initial=0.0)
+    threshold, before = settings["growth"], record[: -settings["revolutions"]].max(initial=0.0)
     outgrown = window.max() > before * (1 + threshold) ** settings["revolutions"]
     grows = bool(low > threshold and outgrown)
     levels_off = grows and _bends_to(threshold, time, log_amplitude, settings["confidence"])
@@ -144,11 +144,11 @@ def judge(
     longest = confirmation if confirmed else amplitude
     if confirmed:
         status = "completed" if np.isfinite(confirmation).all() else "unbounded"
-    found = growth(longest, settings)
-    divergent = status == "unbounded" or (found.grows and not found.levels_off)
+    trend = growth(longest, settings)
+    divergent = status == "unbounded" or (trend.grows and not trend.levels_off)
     return Verdict(
-        growth=found,
-        saturating=(confirmed or found.grows) and not divergent,
+        growth=trend,
+        saturating=(confirmed or trend.grows) and not divergent,
         divergent=divergent,
         revolutions=int(np.isfinite(longest).sum()),
         status=status,

@@ -59,7 +59,7 @@ class Inventory(NamedTuple):
     unreadable: list[str]  # for each file that the system refuses to read, its name, the reason and the cure
 
 
-class _Found(NamedTuple):
+class _RunSummary(NamedTuple):
     """A whole run on disk, as its manifest or its file says."""
 
     key: str
@@ -88,37 +88,37 @@ def take(
     damaged = damaged_files(manifest, thorough=thorough)
     sizes = _sizes(folder)
     unreadable = []
-    listed = {} if thorough or damaged else _listed(manifest, sizes, growth_key(config))
+    manifest_runs = {} if thorough or damaged else _listed(manifest, sizes, growth_key(config))
 
-    def look(run: PlannedRun) -> tuple[str, _Found | None]:
+    def look(run: PlannedRun) -> tuple[str, _RunSummary | None]:
         path = folder / run.file
-        found = listed.get(path)
-        if found is None:
+        summary = manifest_runs.get(path)
+        if summary is None:
             if path not in sizes:
                 return "missing", None
             if path in damaged:
                 return "corrupt", None
             try:
-                found = _read(path, settings, thorough)
+                summary = _read(path, settings, thorough)
             except Exception as error:  # h5py raises anything on a damaged file
                 if is_refused(error):
                     unreadable.append(message_for(error))
                     return "unreadable", None
                 damaged.append(path)
                 return "corrupt", None
-        current = digest is not None and found.key == run.key(digest)
-        return ("done" if current else "stale"), found
+        current = digest is not None and summary.key == run.key(digest)
+        return ("done" if current else "stale"), summary
 
     counts = dict.fromkeys(COUNTS, 0) | {"planned": len(plan.runs)}
     for run in plan.runs:
-        state, found = look(run)
+        state, summary = look(run)
         counts[state] += 1
-        if found is None or state != "done":
+        if summary is None or state != "done":
             continue
-        counts["unbounded"] += found.status == "unbounded"
-        counts["unconverged"] += found.unconverged
-        counts["unbalanced"] += found.unbalanced
-        if plan.follow and found.grows:
+        counts["unbounded"] += summary.status == "unbounded"
+        counts["unconverged"] += summary.unconverged
+        counts["unbalanced"] += summary.unbalanced
+        if plan.follow and summary.grows:
             counts["longer_planned"] += 1
             counts["longer_done"] += look(longer_run(config, run))[0] == "done"
     counts["bytes"] = sum(sizes.values())
@@ -131,9 +131,9 @@ def _sizes(folder: Path) -> dict[Path, int]:
     return {path: path.stat().st_size for path in paths if path.is_file()}
 
 
-def _listed(manifest: Path, sizes: Mapping[Path, int], growth_key: str) -> dict[Path, _Found]:
+def _listed(manifest: Path, sizes: Mapping[Path, int], growth_key: str) -> dict[Path, _RunSummary]:
     """Take from the manifest, if there is one, what it says of whole files; the key is that of its job."""
-    found = {}
+    summaries = {}
     for row in read_manifest(manifest) if manifest in sizes else ():
         if row.growth_key != growth_key:
             continue
@@ -142,14 +142,17 @@ def _listed(manifest: Path, sizes: Mapping[Path, int], growth_key: str) -> dict[
         for file, key in zip(files, keys, strict=False):
             if sizes.get(file.path) == file.bytes:
                 unconverged, unbalanced = row.unconverged_steps > 0, not row.energy_residual <= UNBALANCED
-                found[file.path] = _Found(key, row.status, unconverged, unbalanced, len(files) > 1)
-    return found
+                summaries[file.path] = _RunSummary(key, row.status, unconverged, unbalanced, len(files) > 1)
+    return summaries
 
 
-def _read(path: Path, settings: Mapping[str, Any], thorough: bool) -> _Found:
+def _read(path: Path, settings: Mapping[str, Any], thorough: bool) -> _RunSummary:
     """Read the run at `path`, wholly if `thorough`."""
     stored = read_run(path, ALL if thorough else {"revolution_amplitude"})
-    told = stored.attributes
-    grows = needs_confirmation(stored.data["revolution_amplitude"], told["status"], settings)
-    unconverged, unbalanced = told["n_unconverged_steps"] > 0, not told["energy_residual"] <= UNBALANCED
-    return _Found(told["run_key"], told["status"], unconverged, unbalanced, grows)
+    attributes = stored.attributes
+    grows = needs_confirmation(stored.data["revolution_amplitude"], attributes["status"], settings)
+    unconverged, unbalanced = (
+        attributes["n_unconverged_steps"] > 0,
+        not attributes["energy_residual"] <= UNBALANCED,
+    )
+    return _RunSummary(attributes["run_key"], attributes["status"], unconverged, unbalanced, grows)

@@ -58,7 +58,7 @@ class _End(NamedTuple):
     status: str
 
 
-class _Done(NamedTuple):
+class _RunFile(NamedTuple):
     """A run that is in its file."""
 
     key: str
@@ -91,10 +91,10 @@ def compute_missing(
     folder = Path(folder)
     complete = partial(_complete, config, plan.case, blade, folder, blade_digest, report, threads)
     with lock.held(folder / LOCK, lambda: report(f"another job is at work in {folder}: waiting for its end")):
-        done = complete(plan.runs)
-        longer = complete(_longer(config, plan, {file: each.end for file, each in done.items()}))
+        run_files = complete(plan.runs)
+        longer = complete(_longer(config, plan, {file: run_file.end for file, run_file in run_files.items()}))
         key = growth_key(config)
-        return [_row(run, done[run.file], longer.get(longer_file(run)), key) for run in plan.runs]
+        return [_row(run, run_files[run.file], longer.get(longer_file(run)), key) for run in plan.runs]
 
 
 def compute_all(
@@ -114,9 +114,9 @@ def compute_all(
         computed = _each_computed(config, plan.case, blade, runs, keys, report)
         return {run.file: stored for run, (stored, _) in computed}
 
-    done = complete(plan.runs)
-    longer = complete(_longer(config, plan, {file: _end(stored) for file, stored in done.items()}))
-    return [done[run.file] for run in plan.runs], [longer.get(longer_file(run)) for run in plan.runs]
+    stored_runs = complete(plan.runs)
+    longer = complete(_longer(config, plan, {file: _end(stored) for file, stored in stored_runs.items()}))
+    return [stored_runs[run.file] for run in plan.runs], [longer.get(longer_file(run)) for run in plan.runs]
 
 
 def compute(
@@ -141,20 +141,20 @@ def compute(
     return stored_run(case, run.spec, result, key, analysis, run.keep_history)
 
 
-def _row(run: PlannedRun, done: _Done, longer: _Done | None, growth_key: str) -> ManifestRow:
+def _row(run: PlannedRun, run_file: _RunFile, longer: _RunFile | None, growth_key: str) -> ManifestRow:
     return ManifestRow(
         file=run.file,
         f_omega=run.spec.f_omega,
-        run_key=done.key,
-        status=done.end.status,
-        bytes=done.bytes,
+        run_key=run_file.key,
+        status=run_file.end.status,
+        bytes=run_file.bytes,
         confirmation_key=longer.key if longer else "",
         confirmation_bytes=longer.bytes if longer else 0,
-        checksum=done.checksum,
+        checksum=run_file.checksum,
         confirmation_checksum=longer.checksum if longer else "",
-        unconverged_steps=done.unconverged_steps,
+        unconverged_steps=run_file.unconverged_steps,
         growth_key=growth_key,
-        energy_residual=done.energy_residual,
+        energy_residual=run_file.energy_residual,
     )
 
 
@@ -174,11 +174,11 @@ def _complete(
     report: Callable[[object], None],
     threads: int,
     runs: Sequence[PlannedRun],
-) -> dict[str, _Done]:
+) -> dict[str, _RunFile]:
     """Compute what is missing or stale of `runs`, which are of equal length; return all by file."""
     entries = {run.file: Entry(folder / run.file, run.key(blade_digest), MAPPED) for run in runs}
     missing = [run for run in runs if not entries[run.file].fetch()]
-    origin, done = provenance(config), {}
+    origin, run_files = provenance(config), {}
     # a run takes as many steps as its revolutions take time: its cost goes as 1 / speed
     cost_left = sum(1 / run.spec.f_omega for run in missing)
     cost_done, start = 0.0, time.monotonic()
@@ -187,17 +187,17 @@ def _complete(
     for number, (run, (stored, run_start)) in enumerate(computed, 1):
         entry = entries[run.file]
         entry.make_room()
-        done[run.file] = _done(entry, stored, write_run(entry.path, stored, origin))
+        run_files[run.file] = _run_file(entry, stored, write_run(entry.path, stored, origin))
         cost_done += 1 / run.spec.f_omega
         cost_left -= 1 / run.spec.f_omega
-        now, status = time.monotonic(), stored.attributes["status"]
-        seconds_left = (now - start) * max(cost_left, 0.0) / cost_done
-        report(RunDone(number, len(missing), run.file, status, now - run_start, seconds_left))
-    for file in entries.keys() - done.keys():
+        end_time, status = time.monotonic(), stored.attributes["status"]
+        seconds_left = (end_time - start) * max(cost_left, 0.0) / cost_done
+        report(RunDone(number, len(missing), run.file, status, end_time - run_start, seconds_left))
+    for file in entries.keys() - run_files.keys():
         path = entries[file].path
         run = read_run(path, {"revolution_amplitude"}, {"status", "n_unconverged_steps", "energy_residual"})
-        done[file] = _done(entries[file], run, file_checksum(path))
-    return done
+        run_files[file] = _run_file(entries[file], run, file_checksum(path))
+    return run_files
 
 
 def _each_computed(
@@ -211,33 +211,35 @@ def _each_computed(
 ) -> Iterator[tuple[PlannedRun, Made]]:
     """Yield each run as it is done, with its `keys` by file, and with when it was begun."""
 
-    def made(run: PlannedRun, solve: Solve | None = None) -> Made:
+    def compute_run(run: PlannedRun, solve: Solve | None = None) -> Made:
         start = time.monotonic()
         return compute(case, run, blade, keys[run.file], config["analysis"], solve=solve), start
 
-    return _on_gpu(made, runs, blade, report) if on_gpu(config) else each_done(made, runs, threads)
+    return (
+        _on_gpu(compute_run, runs, blade, report) if on_gpu(config) else each_done(compute_run, runs, threads)
+    )
 
 
 def _on_gpu(
-    made: Callable[[PlannedRun, Solve], Made],
+    compute_run: Callable[[PlannedRun, Solve], Made],
     runs: Sequence[PlannedRun],
     blade: ReducedBlade,
     report: Callable[[object], None],
 ) -> Iterator[tuple[PlannedRun, Made]]:
-    """Yield each run with ``made(run, solve)`` as it is done, rows of blades last."""
+    """Yield each run with ``compute_run(run, solve)`` as it is done, rows of blades last."""
 
-    def left_out(told: LeftOut) -> None:
-        report(str(told))
+    def left_out(notice: LeftOut) -> None:
+        report(str(notice))
 
     single = [run for run in runs if not run.row]
     for number, result in simulate_many(blade, [run.spec for run in single], find(), left_out):
-        yield single[number], made(single[number], lambda *_, found=result: found)
-    yield from ((run, made(run, simulate)) for run in runs if run.row)
+        yield single[number], compute_run(single[number], lambda *_, outcome=result: outcome)
+    yield from ((run, compute_run(run, simulate)) for run in runs if run.row)
 
 
-def _done(entry: Entry, run: StoredRun, checksum: str) -> _Done:
+def _run_file(entry: Entry, run: StoredRun, checksum: str) -> _RunFile:
     of_run = run.attributes
-    return _Done(
+    return _RunFile(
         key=entry.key,
         bytes=entry.path.stat().st_size,
         checksum=checksum,

@@ -69,11 +69,11 @@ class ManifestRow(NamedTuple):
     def files(self, folder: Path) -> list[ListedFile]:
         """List the run and, if it has one, its longer run."""
         run = folder / self.file
-        listed = [ListedFile(run, self.bytes, self.checksum)]
+        run_files = [ListedFile(run, self.bytes, self.checksum)]
         if self.confirmation_key:
             longer = confirmation_path(run)
-            listed.append(ListedFile(longer, self.confirmation_bytes, self.confirmation_checksum))
-        return listed
+            run_files.append(ListedFile(longer, self.confirmation_bytes, self.confirmation_checksum))
+        return run_files
 
 
 def confirmation_path(run_path: str | Path) -> Path:
@@ -92,9 +92,9 @@ def listed_longer(run_path: str | Path, run_key: str) -> Path | None:
         rows = read_manifest(path.with_name("manifest.tsv"))
     except FileNotFoundError:
         rows = []
-    listed = [row for row in rows if row.file == path.name and row.run_key == run_key]
-    there = any(row.confirmation_key for row in listed) if listed else longer.exists()
-    return longer if there else None
+    matches = [row for row in rows if row.file == path.name and row.run_key == run_key]
+    has_longer = any(row.confirmation_key for row in matches) if matches else longer.exists()
+    return longer if has_longer else None
 
 
 def write_manifest(path: str | Path, rows: Iterable[Row], kind: type[Row] = ManifestRow) -> None:

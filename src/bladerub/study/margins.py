@@ -60,9 +60,9 @@ def variations(config: Mapping[str, Any], maps: Iterable[CoatingMap]) -> dict[st
         step = every * config["speeds"]["step"]
         varied[f"speed step {step:g}"] = Variation(config, _at(maps, _even_speeds(config, every)))
     for name, (part, key, value) in SETTINGS.items():
-        own = config["analysis"][part][key]
+        study_value = config["analysis"][part][key]
         # below the study's threshold of growth there are no longer runs to judge by
-        if value != own and (key != "growth" or value > own):
+        if value != study_value and (key != "growth" or value > study_value):
             changed = copy.deepcopy(config)
             changed["analysis"][part][key] = value
             varied[name] = Variation(changed, maps)
@@ -73,10 +73,10 @@ def variations(config: Mapping[str, Any], maps: Iterable[CoatingMap]) -> dict[st
     for modulus in ("E", "K"):
         values = {getattr(coating.case, modulus) for coating in maps}
         dropped = sorted(values - _IN_FIGURES[modulus])[::2]
-        kept = [coating for coating in maps if getattr(coating.case, modulus) not in dropped]
-        if dropped and kept:
+        coatings = [coating for coating in maps if getattr(coating.case, modulus) not in dropped]
+        if dropped and coatings:
             without = ", ".join(f"{value:g}" for value in dropped)
-            varied[f"without {modulus} = {without}"] = Variation(config, kept)
+            varied[f"without {modulus} = {without}"] = Variation(config, coatings)
     return varied
 
 
@@ -84,8 +84,10 @@ def _even_speeds(config: Mapping[str, Any], every: int) -> np.ndarray:
     """Return each `every`-th of the even speeds, and those whose displacement is kept: claims name them."""
     grid = config["speeds"]
     even = speeds({**config, "speeds": {**grid, "extra": []}})[::every]
-    named = [round(float(entry["f_omega"]), SPEED_DECIMALS) for entry in config["analysis"]["histories"]]
-    return np.union1d(even, named)
+    history_speeds = [
+        round(float(entry["f_omega"]), SPEED_DECIMALS) for entry in config["analysis"]["histories"]
+    ]
+    return np.union1d(even, history_speeds)
 
 
 def _at(maps: Iterable[CoatingMap], f_omega: np.ndarray) -> list[CoatingMap]:
@@ -93,9 +95,9 @@ def _at(maps: Iterable[CoatingMap], f_omega: np.ndarray) -> list[CoatingMap]:
     over_speed = [name for name, (dims, *_) in DATASETS.items() if dims[0] == "f_omega"]
     selected = []
     for coating in maps:
-        chosen = np.abs(coating.f_omega[:, None] - f_omega).min(axis=1) < SAME_SPEED
+        mask = np.abs(coating.f_omega[:, None] - f_omega).min(axis=1) < SAME_SPEED
         values = {name: getattr(coating, name) for name in over_speed if getattr(coating, name) is not None}
-        selected.append(replace(coating, **{name: each[chosen] for name, each in values.items()}))
+        selected.append(replace(coating, **{name: array[mask] for name, array in values.items()}))
     return selected
 
 
@@ -116,8 +118,8 @@ def table(
     judged = []
     for name, (settings, maps) in variations(config, map(read_map, map_paths)).items():
         _log.warning("%s:", name)  # a heading for what `findings` leaves out
-        found = peak_table.table(settings, maps)
+        peaks = peak_table.table(settings, maps)
         growing = divergence.table(settings, maps)
-        tables = {"peaks": found, "divergence": growing, "rom_accuracy": rom_accuracy}
+        tables = {"peaks": peaks, "divergence": growing, "rom_accuracy": rom_accuracy}
         judged.append(findings.judge(Evidence(settings, tables, maps)).assign(variation=name))
     return pd.concat(judged, ignore_index=True)[COLUMNS]

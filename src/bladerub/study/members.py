@@ -18,8 +18,8 @@ def expected_members(config: Mapping[str, Any], case: CoatingCase) -> int:
 
 def named(config: Mapping[str, Any], case: CoatingCase, f_omega: np.ndarray) -> np.ndarray:
     """Which (n,) of the speeds `f_omega` have an ensemble wherever the peaks are: by history or claim."""
-    wanted = np.array([keeps_history(config, case, float(f)) for f in f_omega])
+    mask = np.array([keeps_history(config, case, float(f)) for f in f_omega])
     if case == WORN:
         for low, high in LOBES:
-            wanted |= between(f_omega, low, high)
-    return wanted
+            mask |= between(f_omega, low, high)
+    return mask

@@ -31,10 +31,10 @@ def excited_orders(config: Mapping[str, Any], casing: str) -> list[int]:
     with C1 at rest is not below the lowest. There may be fewer.
     """
     slowest, *_, fastest = speeds(config)
-    reached = config["analysis"]["peaks"]["speed_window"][1] / fastest
+    lowest_order = config["analysis"]["peaks"]["speed_window"][1] / fastest
     orders = range(1, int(config["analysis"]["max_order"]) + 1)
     excited = [
-        k for k in orders if k >= reached and k * slowest <= 1 and excites(config["casings"][casing], k)
+        k for k in orders if k >= lowest_order and k * slowest <= 1 and excites(config["casings"][casing], k)
     ]
     return excited[:_DERIVED]
 

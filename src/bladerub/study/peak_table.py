@@ -21,5 +21,7 @@ def table(config: Mapping[str, Any], maps: Iterable[CoatingMap]) -> pd.DataFrame
     for coating in maps:
         settings = peak_settings(config, coating.case.casing)
         rows += [peaks.row(coating, order, settings) for order in settings["orders"]]
-    found = pd.DataFrame(rows)
-    return with_variant(found, [*peaks.COLUMNS, *(["reason"] if found["reason"].any() else [])])
+    coating_peaks = pd.DataFrame(rows)
+    return with_variant(
+        coating_peaks, [*peaks.COLUMNS, *(["reason"] if coating_peaks["reason"].any() else [])]
+    )

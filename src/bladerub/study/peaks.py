@@ -97,10 +97,10 @@ def peak(coating: Response, order: float, settings: Mapping[str, Any]) -> Peak:
     ``config["analysis"]["peaks"]``. The peak is NaN, with the reason, if the order does not cross C1 within
     the map, or no run with a spectrum lies in the window. Raises `ValueError` as `order_amplitude`.
     """
-    found = maximum(coating, amplitude_in_window(coating, order, settings))
-    if found.amplitude > 0:
-        return found
-    return Peak(np.nan, found.amplitude, _reason(coating, order, settings, found.amplitude))
+    candidate = maximum(coating, amplitude_in_window(coating, order, settings))
+    if candidate.amplitude > 0:
+        return candidate
+    return Peak(np.nan, candidate.amplitude, _reason(coating, order, settings, candidate.amplitude))
 
 
 def _reason(coating: Response, order: float, settings: Mapping[str, Any], amplitude: float) -> str:

@@ -53,8 +53,8 @@ def order_spectrum(
     n_bins = int(np.floor(max_order * spectrum_revolutions + 1e-9)) + 1
     order = np.arange(n_bins) / spectrum_revolutions
 
-    ended = np.isnan(radial_displacement)
-    complete = (int(np.argmax(ended)) if ended.any() else ended.size) // samples
+    missing = np.isnan(radial_displacement)
+    complete = (int(np.argmax(missing)) if missing.any() else missing.size) // samples
     used = min(spectrum_revolutions, complete)
     if used == 0:
         return order, np.full(n_bins, np.nan)

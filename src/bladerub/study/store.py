@@ -172,33 +172,36 @@ def stored_row(
     the whole row and `OF_BLADES`. Other parameters are those of `stored_run`.
     """
     last = slice(-analysis["spectrum_revolutions"], None)
-    amplitude = _largest(each.revolution_amplitude[last] for each in result.blades)
-    left = np.isin(np.arange(1, len(row.blades) + 1), result.unbounded)
-    most = int(np.argmax(np.where(left == left.any(), np.nan_to_num(amplitude), -1.0)))
-    chosen = result.blades[most]
-    told = replace(chosen, energy=result.energy, status=result.status, message=result.message)
-    stored = stored_run(case, spec, told, run_key, analysis, keep_history)
+    amplitude = _largest(blade.revolution_amplitude[last] for blade in result.blades)
+    unbounded = np.isin(np.arange(1, len(row.blades) + 1), result.unbounded)
+    strongest = int(np.argmax(np.where(unbounded == unbounded.any(), np.nan_to_num(amplitude), -1.0)))
+    strongest_blade = result.blades[strongest]
+    outcome = replace(strongest_blade, energy=result.energy, status=result.status, message=result.message)
+    stored = stored_run(case, spec, outcome, run_key, analysis, keep_history)
     counters = ("n_steps", "n_contact_steps", "n_reversed_steps", "n_fallback_steps", "n_unconverged_steps")
-    stored.attributes.update({name: sum(getattr(of, name) for of in result.blades) for name in counters})
     stored.attributes.update(
-        slowest_sliding=min(of.slowest_sliding for of in result.blades),
+        {name: sum(getattr(blade, name) for blade in result.blades) for name in counters}
+    )
+    stored.attributes.update(
+        slowest_sliding=min(blade.slowest_sliding for blade in result.blades),
         energy_residual=float(result.residual),
         disk_energy=float(result.disk_energy),
-        blade=most + 1,
+        blade=strongest + 1,
     )
-    given = {
-        name: np.array([getattr(of, name) for of in row.blades]) for name in ("angle", "length", "damping")
+    properties = {
+        name: np.array([getattr(blade, name) for blade in row.blades])
+        for name in ("angle", "length", "damping")
     }
-    stored.data.update({f"blade_{name}": values for name, values in given.items()})
+    stored.data.update({f"blade_{name}": values for name, values in properties.items()})
     stored.data.update(
         row=np.array(row.to_json()),
         blade=np.arange(1, len(row.blades) + 1),
-        blade_frequency=np.array([of.frequency_factors(1)[0] - 1 for of in row.blades]),
-        blade_peak=_largest(each.revolution_peak[last] for each in result.blades),
+        blade_frequency=np.array([blade.frequency_factors(1)[0] - 1 for blade in row.blades]),
+        blade_peak=_largest(blade.revolution_peak[last] for blade in result.blades),
         blade_amplitude=amplitude,
         blade_worn_volume=result.worn_volume,
-        blade_unbounded=left.astype(np.int8),
-        blade_energy_residual=np.array([each.energy.residual for each in result.blades]),
+        blade_unbounded=unbounded.astype(np.int8),
+        blade_energy_residual=np.array([blade.energy.residual for blade in result.blades]),
     )
     return stored
 
@@ -224,12 +227,14 @@ def variables(run: StoredRun) -> dict[str, Variable]:
     return {"node": interface_node(len(run.data["wear"]))} | described
 
 
-def read_run(path: str | Path, only: Set[str] = ALL, told: Set[str] = ALL) -> StoredRun:
-    """Read one run, or `only` the named datasets of it, and of its attributes only those `told` and the key.
+def read_run(path: str | Path, only: Set[str] = ALL, attribute_names: Set[str] = ALL) -> StoredRun:
+    """Read one run, or `only` the named datasets of it, of its attributes `attribute_names` and the key.
 
     Raises `OSError` if the file is missing, damaged or not a run; the message names it.
     """
-    data, attributes = hdf5.read(path, only or None, told | {"run_key"} if told else None)
+    data, attributes = hdf5.read(
+        path, only or None, attribute_names | {"run_key"} if attribute_names else None
+    )
     missing = (only or MAPPED) - data.keys() | {"run_key"} - attributes.keys()
     if missing:
         raise DamagedFile(f"{path}: not a run, {', '.join(sorted(missing))} missing")

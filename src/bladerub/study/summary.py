@@ -22,10 +22,10 @@ def spectral_peak(order: np.ndarray, amplitude: np.ndarray) -> tuple[float, floa
     Both are NaN when the spectrum is.
     """
     vibration = np.where(order >= _LOWEST_ORDER, amplitude, 0.0)
-    at = np.argmax(vibration)
-    if np.isnan(vibration[at]):
+    index = np.argmax(vibration)
+    if np.isnan(vibration[index]):
         return np.nan, np.nan
-    return float(order[at]), float(vibration[at])
+    return float(order[index]), float(vibration[index])
 
 
 def displacement_peak(revolution_peak: np.ndarray, revolutions: int) -> float:
@@ -34,8 +34,8 @@ def displacement_peak(revolution_peak: np.ndarray, revolutions: int) -> float:
     `revolution_peak` (r,) is the largest in each revolution, m; NaN after an unbounded end. The largest of
     none is NaN.
     """
-    begun = revolution_peak[np.isfinite(revolution_peak)]
-    return float(np.fmax.reduce(begun[-revolutions:], initial=np.nan))
+    record = revolution_peak[np.isfinite(revolution_peak)]
+    return float(np.fmax.reduce(record[-revolutions:], initial=np.nan))
 
 
 def summarise(run: StoredRun, analysis: Mapping[str, Any], longer: StoredRun | None = None) -> dict[str, Any]:

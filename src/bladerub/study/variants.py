@@ -25,8 +25,8 @@ def plain(table: pd.DataFrame) -> pd.DataFrame:
 def of_case(table: pd.DataFrame, case: CoatingCase) -> pd.DataFrame:
     """Return the rows of one coating."""
     filled = _filled(table)
-    same = [filled[name] == value for name, value in asdict(case).items()]
-    return table[np.logical_and.reduce(same)]
+    matches = [filled[name] == value for name, value in asdict(case).items()]
+    return table[np.logical_and.reduce(matches)]
 
 
 def _filled(table: pd.DataFrame) -> pd.DataFrame:

@@ -59,14 +59,18 @@ def estimate(
     step = max(1, len(runs) // drawn)
     n_threads = min(cores, cores_here())  # at once, so that the cores share caches as in the study
     with tempfile.TemporaryDirectory() as folder:
-        made = partial(_cost, blade, config, Path(folder))
-        costs = [cost for _, cost in each_done(made, runs[step // 2 :: step], n_threads)]
+        cost_of_run = partial(_cost, blade, config, Path(folder))
+        costs = [cost for _, cost in each_done(cost_of_run, runs[step // 2 :: step], n_threads)]
     per_run = float(np.mean([cost.run for cost in costs]))
-    whole = np.array([cost.run + cost.longer for cost in costs])
-    near = whole[[cost.is_near_a_peak for cost in costs]]
+    totals = np.array([cost.run + cost.longer for cost in costs])
+    peak_totals = totals[[cost.is_near_a_peak for cost in costs]]
     members = sum(expected_members(config, case) for case in coating_cases(config))
     starts = sum(map(_start, _JOBS_OF_A_COATING)) * len(coating_cases(config))
-    seconds = len(runs) * whole.mean() + members * (near.mean() if near.size else whole.mean()) + starts
+    seconds = (
+        len(runs) * totals.mean()
+        + members * (peak_totals.mean() if peak_totals.size else totals.mean())
+        + starts
+    )
     return {
         "seconds_per_run": per_run,
         "runs": len(runs),
@@ -81,11 +85,11 @@ def _cost(blade: ReducedBlade, config: Mapping[str, Any], folder: Path, run: Stu
     planned = planned_run(config, spec, file, False, run.row)
     start = time.thread_time()  # other processes and threads do not count
     grows = _make(blade, config, run.case, planned, folder)
-    made = time.thread_time()
+    run_end = time.thread_time()
     if grows:
         _make(blade, config, run.case, longer_run(config, planned), folder / "longer")
-    followed = time.thread_time() - made if grows else 0.0
-    return _Cost(made - start, followed, _is_near_a_peak(blade, config, run))
+    followed = time.thread_time() - run_end if grows else 0.0
+    return _Cost(run_end - start, followed, _is_near_a_peak(blade, config, run))
 
 
 def _make(
@@ -108,7 +112,7 @@ def _start(module: str) -> float:
     """CPU time of a process that imports `module`, s."""
     import resource  # not on every system, where the study does not run either
 
-    before = resource.getrusage(resource.RUSAGE_CHILDREN)
+    usage_before = resource.getrusage(resource.RUSAGE_CHILDREN)
     subprocess.run([sys.executable, "-c", f"import {module}"], check=True)
-    after = resource.getrusage(resource.RUSAGE_CHILDREN)
-    return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+    usage_after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return usage_after.ru_utime + usage_after.ru_stime - usage_before.ru_utime - usage_before.ru_stime

@@ -61,44 +61,47 @@ def compare(
     single = [run_spec(config, run.case, run.f_omega) for run in study_runs(config) if not run.row]
     described = [spec for spec in single if not (spec.coating.is_rigid or spec.coating.coulomb)]
     kernel: list[float] = []
-    told: list[LeftOut] = []
+    notices: list[LeftOut] = []
     watched: Device = partial(device, watch=kernel.append)
     start = time.perf_counter()
-    found = {
-        number: measures(result) for number, result in simulate_many(blade, described, watched, told.append)
+    gpu_measures = {
+        number: measures(result)
+        for number, result in simulate_many(blade, described, watched, notices.append)
     }
     seconds = time.perf_counter() - start
-    for left_out in told:
+    for left_out in notices:
         report(str(left_out))
     numbers = np.linspace(0, len(described) - 1, min(n_compared, len(described))).astype(int).tolist()
     report(f"{len(numbers)} runs on this processor")
 
-    def made(number: int) -> tuple[Measures, float]:
+    def timed_run(number: int) -> tuple[Measures, float]:
         return _timed(blade, described[number])
 
-    here = dict(each_done(made, numbers, machine.cores()))
-    steps = sum(each.n_steps for each in found.values())
+    cpu_runs = dict(each_done(timed_run, numbers, machine.cores()))
+    steps = sum(run.n_steps for run in gpu_measures.values())
     return {
         **{name: machine.describe()[name] for name in ("processor", "cores")},
         "gpu_runs": len(described),
-        "handed_over": sum(left_out.runs for left_out in told),
+        "handed_over": sum(left_out.runs for left_out in notices),
         "kernel_s": sum(kernel),
         "gpu_s": seconds,
         "gpu_steps_per_second": steps / sum(kernel),
         "compared_runs": len(numbers),
-        "seconds_per_run": float(np.mean([cost for _, cost in here.values()])),
-        **agreement([(found[number], here[number][0]) for number in numbers]),
+        "seconds_per_run": float(np.mean([cost for _, cost in cpu_runs.values()])),
+        **agreement([(gpu_measures[number], cpu_runs[number][0]) for number in numbers]),
     }
 
 
 def agreement(pairs: list[tuple[Measures, Measures]]) -> dict[str, float]:
     """Compare runs on the GPU with the same here, see `compare`."""
-    errors = [float(np.nanmax(np.abs(on_gpu.peak / here.peak - 1))) for on_gpu, here in pairs]
+    errors = [float(np.nanmax(np.abs(on_gpu.peak / on_cpu.peak - 1))) for on_gpu, on_cpu in pairs]
     median, p95, p99, largest = np.quantile(errors, [0.5, 0.95, 0.99, 1.0]).tolist()
     return {
-        "same_status": sum(on_gpu.status == here.status for on_gpu, here in pairs),
-        "same_steps": sum(on_gpu.n_steps == here.n_steps for on_gpu, here in pairs),
-        "same_contact_steps": sum(on_gpu.n_contact_steps == here.n_contact_steps for on_gpu, here in pairs),
+        "same_status": sum(on_gpu.status == on_cpu.status for on_gpu, on_cpu in pairs),
+        "same_steps": sum(on_gpu.n_steps == on_cpu.n_steps for on_gpu, on_cpu in pairs),
+        "same_contact_steps": sum(
+            on_gpu.n_contact_steps == on_cpu.n_contact_steps for on_gpu, on_cpu in pairs
+        ),
         "peak_error_median": median,
         "peak_error_p95": p95,
         "peak_error_p99": p99,

@@ -30,7 +30,7 @@ def cores() -> int:
 
 def _processor() -> str:
     """Return the name of the processor; where the system does not tell, that of LLVM."""
-    told = Path("/proc/cpuinfo")
-    lines = told.read_text(encoding="utf-8").splitlines() if told.exists() else []
+    cpuinfo = Path("/proc/cpuinfo")
+    lines = cpuinfo.read_text(encoding="utf-8").splitlines() if cpuinfo.exists() else []
     names = (line.partition(":")[2].strip() for line in lines if line.startswith("model name"))
     return next(names, "") or platform.processor() or binding.get_host_cpu_name()

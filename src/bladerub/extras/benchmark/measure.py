@@ -110,16 +110,16 @@ def benchmark(
 
 def in_contact(blade: ReducedBlade, spec: RunSpec) -> tuple[RunSpec, float]:
     """Find the interference of the casing that gives contact in about `SHARE` of the steps; return both."""
-    near, far = 2 * spec.casing.amplitude, 0.0
+    upper, lower = 2 * spec.casing.amplitude, 0.0
     for _ in range(12):
-        interference = 0.5 * (near + far)
+        interference = 0.5 * (upper + lower)
         nearer = replace(spec, casing=replace(spec.casing, interference=interference))
         result = simulate(blade, nearer)
         share = result.n_contact_steps / result.n_steps
         if share > SHARE:
-            near = interference
+            upper = interference
         else:
-            far = interference
+            lower = interference
     return nearer, share
 
 
@@ -127,9 +127,10 @@ def useful_flops(blade: ReducedBlade, spec: RunSpec) -> float:
     """Simulate a run, and count the useful operations of its mean step; comparisons are not."""
     rule, simulation = set_up(blade, spec)
     n, n_under = rule.omega.size, int(2 * simulation.tip.half_width) + 1
-    made_in = [_revolve(simulation) for _ in range(spec.revolutions)]
+    progress = [_revolve(simulation) for _ in range(spec.revolutions)]
     steps, flights, touching = (
-        sum(getattr(made, count) for made in made_in) for count in ("n_steps", "n_flights", "n_contact_steps")
+        sum(getattr(revolution, count) for revolution in progress)
+        for count in ("n_steps", "n_flights", "n_contact_steps")
     )
     contact = FLOPS_PER_FORCED_MODE * n + FLOPS_PER_RESPONSE
     contact += LANES * (n_under * FLOPS_PER_ELEMENT + FLOPS_PER_NODE)
@@ -140,8 +141,8 @@ def useful_flops(blade: ReducedBlade, spec: RunSpec) -> float:
 def middle_run(config: Mapping[str, Any]) -> RunSpec:
     """Describe the run of the middle coating and speed of the study."""
     cases = [replace(case, law="theta") for case in coating_cases(config) if np.isfinite(case.E)]
-    listed = speeds(config)
-    spec = run_spec(config, cases[len(cases) // 2], listed[len(listed) // 2])
+    grid = speeds(config)
+    spec = run_spec(config, cases[len(cases) // 2], grid[len(grid) // 2])
     return replace(spec, revolutions=REVOLUTIONS, scheme="exponential")
 
 

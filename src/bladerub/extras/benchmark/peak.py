@@ -12,12 +12,12 @@ FLOPS_PER_TURN = CHAINS * LANES * 2
 @njit
 def turns(n):
     """Multiply and add `n` times in each chain; different starts, so that no chain is left out."""
-    by, more = broadcast(0.999), broadcast(0.001)
+    factor, addend = broadcast(0.999), broadcast(0.001)
     a, b, c, d = broadcast(1.0), broadcast(1.1), broadcast(1.2), broadcast(1.3)
     e, f, g, h = broadcast(1.4), broadcast(1.5), broadcast(1.6), broadcast(1.7)
     i, j, k, m = broadcast(1.8), broadcast(1.9), broadcast(2.0), broadcast(2.1)
     for _ in range(n):
-        a, b, c, d = a * by + more, b * by + more, c * by + more, d * by + more
-        e, f, g, h = e * by + more, f * by + more, g * by + more, h * by + more
-        i, j, k, m = i * by + more, j * by + more, k * by + more, m * by + more
+        a, b, c, d = a * factor + addend, b * factor + addend, c * factor + addend, d * factor + addend
+        e, f, g, h = e * factor + addend, f * factor + addend, g * factor + addend, h * factor + addend
+        i, j, k, m = i * factor + addend, j * factor + addend, k * factor + addend, m * factor + addend
     return lane_sum(((a + b) + (c + d)) + ((e + f) + (g + h)) + ((i + j) + (k + m)))

@@ -35,23 +35,23 @@ def integrator(element_law: ElementLaw) -> Callable:
 
     def integrate(modes, element, stator, tip, wear, q, steps_per_element, displacement):
         """Make as many steps as `displacement` (n,) takes, that of node 1, m; `wear` is changed in place."""
-        now, before, by_force, to_tip, compliance = modes
+        coefficient, coefficient_before, by_force, to_tip, compliance = modes
         normal_factor, tangential_factor = stator.normal_factor, stator.tangential_factor
         gap, n_elements, radius = stator.initial_gap, stator.n_elements, tip.radius
         force = np.zeros(16)
         for step in range(displacement.size):
-            q_next = now * q[0] - before * q[1] + force @ by_force
+            q_next = coefficient * q[0] - coefficient_before * q[1] + force @ by_force
             q[2], q[1] = q[1], q[0]
             q[0] = q_next
             u = to_tip @ q_next
-            passed = (step + 1) / steps_per_element % n_elements
+            travel = (step + 1) / steps_per_element % n_elements
             approach = np.sqrt((radius + u[:8]) ** 2 + u[8:] ** 2) - radius
             if force.any() or approach.max() > stator.minimum_gap[step // steps_per_element % n_elements]:
                 free = u
                 u = free + force @ compliance
                 approach = np.sqrt((radius + u[:8]) ** 2 + u[8:] ** 2) - radius
                 for _ in range(MAX_ITERATIONS):
-                    position = tip.start + passed + u[8:] * tip.per_metre
+                    position = tip.start + travel + u[8:] * tip.per_metre
                     first = int(np.floor(position.min() - tip.half_width))
                     rows = np.arange(first, int(np.floor(position.max() + tip.half_width)) + 1)
                     offset = (rows + 0.5).reshape(-1, 1) - position

@@ -24,13 +24,13 @@ def rows(figures: Mapping[str, Any]) -> pd.DataFrame:
 
     With the ``cost_of_stress``, if it was measured.
     """
-    found = []
+    records = []
     for motion, ending in (("contact", ""), ("free", "_free")):
         steps = [figures["steps_per_second"][loop][motion] for loop in _LOOPS]
         ratios = [figures[f"ratio_to_{loop}{ending}"] for loop in ("numpy", "numba")]
-        of_machine, whole = ([figures.get(name) for name in names] for names in (_MACHINE, _WHOLE))
-        found.append([*of_machine, motion, *steps, *ratios, figures[f"fraction_of_peak_{motion}"], *whole])
-    return pd.DataFrame(found, columns=COLUMNS)
+        of_machine, totals = ([figures.get(name) for name in names] for names in (_MACHINE, _WHOLE))
+        records.append([*of_machine, motion, *steps, *ratios, figures[f"fraction_of_peak_{motion}"], *totals])
+    return pd.DataFrame(records, columns=COLUMNS)
 
 
 def record(path: str | Path, figures: Mapping[str, Any], origin: Mapping[str, str]) -> None:
@@ -48,8 +48,8 @@ def replace(path: str | Path, new: pd.DataFrame, by: list[str], origin: Mapping[
     """
     old = recorded(path, list(new.columns))
     if len(old):
-        same = (old[by] == new.loc[0, by].to_numpy()).all(axis="columns")
-        new = pd.concat([old[~same], new])
+        matches = (old[by] == new.loc[0, by].to_numpy()).all(axis="columns")
+        new = pd.concat([old[~matches], new])
     tables.write(path, new, origin, float_format="%.4g")
 
 

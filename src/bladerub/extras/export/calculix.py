@@ -43,7 +43,7 @@ def deck(points: np.ndarray, cells: np.ndarray, root: np.ndarray, material: Mate
 
 def _in_lines(numbers: list[int]) -> list[str]:
     """Write at most 16 of `numbers` on a line, with a comma at its end if more follow."""
-    rows = [numbers[at : at + 16] for at in range(0, len(numbers), 16)]
+    rows = [numbers[start : start + 16] for start in range(0, len(numbers), 16)]
     return [", ".join(map(str, row)) + ("," if row is not rows[-1] else "") for row in rows]
 
 

@@ -68,7 +68,7 @@ def write_motion(
     folder.parent.mkdir(parents=True, exist_ok=True)
     temporary = folder.with_name(f".{folder.name}.{os.getpid()}.tmp")
     temporary.mkdir()
-    turns = [_turn(of.angle) for of in row.blades] if row else [np.eye(3)]
+    turns = [_turn(blade.angle) for blade in row.blades] if row else [np.eye(3)]
     points = np.concatenate([mesh["points"] @ turn for turn in turns])
     n_points, cells = len(mesh["points"]), mesh["cells"]
     all_cells = np.concatenate([cells + number * n_points for number in range(len(turns))])
@@ -78,8 +78,8 @@ def write_motion(
         instants = zip(recording.coordinates, recording.time, strict=True)
         for number, (coordinates, time) in enumerate(instants, 1):
             fields: dict[str, list[np.ndarray]] = {}
-            for own, turn in zip(coordinates, turns, strict=True):
-                displacement = np.tensordot(own, mesh["recovery"], axes=1).astype(np.float32)
+            for blade_coordinates, turn in zip(coordinates, turns, strict=True):
+                displacement = np.tensordot(blade_coordinates, mesh["recovery"], axes=1).astype(np.float32)
                 norm = float(np.linalg.norm(displacement, axis=1).max())
                 largest["largest_displacement"] = max(largest["largest_displacement"], norm)
                 turned = (displacement @ turn).astype(np.float32)

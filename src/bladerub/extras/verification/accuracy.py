@@ -25,18 +25,18 @@ COLUMNS = [
 def table(
     blade: ReducedBlade,
     config: Mapping[str, Any],
-    listed: Mapping[str, Sequence[StudyRun]],
+    candidates: Mapping[str, Sequence[StudyRun]],
     report: Callable[[object], None] = lambda line: None,
 ) -> pd.DataFrame:
     """Verify the runs of `DRAWS` (`bladerub.extras.verification.verify`); a row each, with `COLUMNS`.
 
-    `listed` are the runs to draw from by the names there; of a study that has fewer all are taken. `report`
-    is called with a line for a log after each run.
+    `candidates` are the runs to draw from by the names there; of a study that has fewer all are taken.
+    `report` is called with a line for a log after each run.
     """
     rows = []
     for name, draws in DRAWS.items():
         for seed, sample in draws:
-            runs = draw(listed[name], min(sample, len(listed[name])), seed)
+            runs = draw(candidates[name], min(sample, len(candidates[name])), seed)
             for number, verified in enumerate(verify_runs(blade, config, runs), 1):
                 rows.append([name, seed, *_cells(verified)])
                 report(f"{name}, seed {seed}: {number} of {len(runs)}, {verified.run.name}")

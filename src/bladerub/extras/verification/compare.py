@@ -34,12 +34,12 @@ def compare(folder: str | Path, reference: str | Path, coverage: float = COVERAG
     """
     folder, parts = Path(folder), []
     for path in sorted(Path(reference).glob("*.csv")):
-        known = tables.read(path)
-        if not {*READ, "uncertainty", "unit"} <= set(known) or not (folder / path.name).is_file():
+        reference_table = tables.read(path)
+        if not {*READ, "uncertainty", "unit"} <= set(reference_table) or not (folder / path.name).is_file():
             continue
-        own = tables.read(folder / path.name, READ)
-        own = own[[column for column in (*READ, "unit", "uncertainty") if column in own]]
-        both = known.merge(own, on="number", suffixes=("_reference", ""))
+        table = tables.read(folder / path.name, READ)
+        table = table[[column for column in (*READ, "unit", "uncertainty") if column in table]]
+        both = reference_table.merge(table, on="number", suffixes=("_reference", ""))
         _check_units(folder / path.name, both)
         parts.append(_judged(both, coverage).assign(table=path.stem))
     if not parts or not sum(map(len, parts)):

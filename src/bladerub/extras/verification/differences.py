@@ -41,15 +41,17 @@ def row_differences(
     """
     if any(result.status == "unbounded" for result in (*outcome, *reference)):
         return UNBOUNDED
-    peak, reference_peak = ([_peak(of, analysis) for of in blades] for blades in (outcome, reference))
-    each, reference_each = (
-        np.array([of.revolution_peak for of in blades]) for blades in (outcome, reference)
+    peak, reference_peak = ([_peak(blade, analysis) for blade in blades] for blades in (outcome, reference))
+    revolution_peaks, reference_revolution_peaks = (
+        np.array([blade.revolution_peak for blade in blades]) for blades in (outcome, reference)
     )
     wear, reference_wear = outcome[0].wear, reference[0].wear  # shared by all blades
     return Differences(
         wear_l2=_ratio(np.linalg.norm(wear - reference_wear), np.linalg.norm(reference_wear)),
         peak=_ratio(np.abs(np.subtract(peak, reference_peak)).max(), max(reference_peak)),
-        revolution_peak=_ratio(np.abs(each - reference_each).max(), reference_each.max()),
+        revolution_peak=_ratio(
+            np.abs(revolution_peaks - reference_revolution_peaks).max(), reference_revolution_peaks.max()
+        ),
     )
 
 
@@ -68,7 +70,7 @@ def _peak(result: RunResult, analysis: Mapping[str, Any]) -> float:
     return spectral_peak(order, amplitude)[1]
 
 
-def _ratio(part: float, whole: float) -> float:
-    if part == 0:
+def _ratio(difference: float, reference: float) -> float:
+    if difference == 0:
         return 0.0
-    return float(part / whole) if whole > 0 else math.inf
+    return float(difference / reference) if reference > 0 else math.inf

@@ -73,42 +73,44 @@ def check_law(law: ElementLaw, coatings: Sequence[Coating], seed: int = 0) -> La
     LawReport
         A law that is right has no problems. What the law raises is a problem, not an error.
     """
-    rng, found, histories = np.random.default_rng(seed), _Found(), 0
+    rng, log, histories = np.random.default_rng(seed), _ProblemLog(), 0
     try:
         module = module_of(law)
         for coating in coatings:
             for time_step in TIME_STEPS:
-                own = replace(coating, element_law=law)
+                specimen = replace(coating, element_law=law)
                 with np.errstate(all="ignore"), bounded("its functions", LONGEST_CHECK):
-                    _follow(module, own, time_step, rng, found)
+                    _follow(module, specimen, time_step, rng, log)
                 histories += HISTORIES
             if hasattr(module, "strength"):
                 with bounded("strength", LONGEST_CHECK):
-                    _heat(module, replace(coating, element_law=law), found)
-        if not found.problems:
+                    _heat(module, replace(coating, element_law=law), log)
+        if not log.problems:
             compile_kernel(law=law)
     except Exception as error:  # whatever the law, or the compiler of it, may raise
         first_line = str(error).strip().partition("\n")[0]
-        found.add("it cannot be run", f"{type(error).__name__}: {first_line}")
-    return LawReport(histories, tuple(LawProblem(*each) for each in found.problems.items()))
+        log.add("it cannot be run", f"{type(error).__name__}: {first_line}")
+    return LawReport(histories, tuple(LawProblem(*problem) for problem in log.problems.items()))
 
 
-class _Found:
+class _ProblemLog:
     """The problems so far: the first place where each was found."""
 
     def __init__(self):
         self.problems: dict[str, str] = {}
 
-    def add(self, what: str, where: str) -> None:
-        self.problems.setdefault(what, where)
+    def add(self, what: str, place: str) -> None:
+        self.problems.setdefault(what, place)
 
-    def unless(self, right: np.ndarray, what: str, **values: np.ndarray) -> None:
+    def unless(self, condition: np.ndarray, what: str, **values: np.ndarray) -> None:
         """Note the first history in which something is not right, with what it is there in SI units."""
-        wrong = ~np.broadcast_to(right, (HISTORIES,))
+        wrong = ~np.broadcast_to(condition, (HISTORIES,))
         if wrong.any():
-            at = int(wrong.argmax())
-            each = (f"{name} {np.broadcast_to(value, wrong.shape)[at]:.4g}" for name, value in values.items())
-            self.add(what, ", ".join(name.replace("_", " ") for name in each))
+            history = int(wrong.argmax())
+            readings = (
+                f"{name} {np.broadcast_to(value, wrong.shape)[history]:.4g}" for name, value in values.items()
+            )
+            self.add(what, ", ".join(name.replace("_", " ") for name in readings))
 
 
 def _paths(thickness: float, rng: np.random.Generator) -> np.ndarray:
@@ -116,101 +118,108 @@ def _paths(thickness: float, rng: np.random.Generator) -> np.ndarray:
     deepest = thickness * np.exp(rng.uniform(np.log(_SHALLOW), np.log(_DEEP), HISTORIES))
     corners = rng.uniform(-0.1, 1.0, (_CORNERS + 1, HISTORIES)) * deepest
     corners[[0, -1]] = -0.1 * deepest
-    at = np.arange(_CORNERS * _STEPS + 1) / _STEPS
-    return np.stack([np.interp(at, np.arange(_CORNERS + 1), path) for path in corners.T], axis=1)
+    abscissa = np.arange(_CORNERS * _STEPS + 1) / _STEPS
+    return np.stack([np.interp(abscissa, np.arange(_CORNERS + 1), path) for path in corners.T], axis=1)
 
 
 def _follow(
-    law: ModuleType, coating: Coating, time_step: float, rng: np.random.Generator, found: _Found
+    law: ModuleType, coating: Coating, time_step: float, rng: np.random.Generator, log: _ProblemLog
 ) -> None:
     """Press elements along histories and look at each step."""
     element = law.Element(*element_parameters(coating, np.array([_AREA]), time_step)[:, 0])
     twice = element_parameters(coating, _AREA * np.array([1.0, 2.0]), time_step)
-    alone = element_parameters(coating, np.array([2 * _AREA]), time_step)
-    if not np.allclose(twice, np.column_stack([element, alone]), rtol=1e-9, atol=0.0):
-        found.add("element gives parameters that depend on the areas of other elements", "areas 1 and 2 mm²")
+    single = element_parameters(coating, np.array([2 * _AREA]), time_step)
+    if not np.allclose(twice, np.column_stack([element, single]), rtol=1e-9, atol=0.0):
+        log.add("element gives parameters that depend on the areas of other elements", "areas 1 and 2 mm²")
     paths = _paths(coating.thickness, rng)
     wear, force, stored, dissipated, work, exchanged, unsure, increment = np.zeros((8, HISTORIES))
-    for step, (before, here) in enumerate(itertools.pairwise(paths)):
-        depth, force_before, increment_before = here - wear, force, increment
+    for step, (penetration_before, penetration) in enumerate(itertools.pairwise(paths)):
+        depth, force_before, increment_before = penetration - wear, force, increment
         force, increment = law.return_mapping(element, depth, wear)
         loss = law.dissipated_energy(element, wear, increment, force_before, force)
         stored = law.stored_energy(element, force)
         values = {"depth": depth, "worn": wear, "force": force, "wear": increment}
         finite = np.isfinite(force + increment + loss + stored)
-        found.unless(finite, "it gives what is no number", **values)
+        log.unless(finite, "it gives what is no number", **values)
         if not finite.all():
             return
-        found.unless(increment >= 0, "wear is negative", **values)
-        found.unless(force >= 0, "an element pulls", **values)
-        found.unless((depth > 0) | (force == 0) & (increment == 0), "a force without contact", **values)
-        found.unless(
+        log.unless(increment >= 0, "wear is negative", **values)
+        log.unless(force >= 0, "an element pulls", **values)
+        log.unless((depth > 0) | (force == 0) & (increment == 0), "a force without contact", **values)
+        log.unless(
             loss >= -_ROUNDING * np.abs(force * coating.thickness), "energy is dissipated below 0", **values
         )
         if step % _LOOK_EVERY == 0:
-            _look(law, element, depth, wear, force, increment, rng, found)
-        more = 0.5 * (force + force_before) * (here - before)
-        work, exchanged = work + more, exchanged + np.abs(more)
+            _look(law, element, depth, wear, force, increment, rng, log)
+        step_work = 0.5 * (force + force_before) * (penetration - penetration_before)
+        work, exchanged = work + step_work, exchanged + np.abs(step_work)
         bends = ((force > 0) != (force_before > 0)) | ((increment > 0) != (increment_before > 0))
-        unsure = unsure + np.where(bends, 0.5 * np.abs((force - force_before) * (here - before)), 0.0)
+        unsure = unsure + np.where(
+            bends, 0.5 * np.abs((force - force_before) * (penetration - penetration_before)), 0.0
+        )
         dissipated = dissipated + loss
         wear = wear + increment
         if (step + 1) % _STEPS == 0:
             missing, allowed = work - stored - dissipated, ENERGY * exchanged + unsure
             energies = {"work": work, "stored": stored, "dissipated": dissipated}
-            found.unless(
+            log.unless(
                 missing <= allowed,
                 "energy is lost: some of the work is neither stored nor dissipated",
                 **energies,
             )
-            found.unless(
+            log.unless(
                 missing >= -allowed,
                 "energy is created: more is stored and dissipated than the work",
                 **energies,
             )
-            found.unless(
+            log.unless(
                 work >= -allowed, "energy is created: a cycle gives back more than it takes", **energies
             )
 
 
-def _heat(law: ModuleType, coating: Coating, found: _Found) -> None:
+def _heat(law: ModuleType, coating: Coating, log: _ProblemLog) -> None:
     """Look at the strength over the temperature."""
     rise = np.concatenate([[0.0], np.geomspace(1e-2, 1e4, 600)])
     strength = np.broadcast_to(law.strength(coating, rise), rise.shape)
     falls = np.concatenate([[strength[0] == 1.0], np.diff(strength) <= 0]) & (strength > 0)
     if not falls.all():  # also what is no number
-        at = int(falls.argmin())
+        index = int(falls.argmin())
         what = "strength is not 1 without heat, rises with the temperature or is not above 0"
-        found.add(what, f"temperature rise {rise[at]:.4g}, strength {strength[at]:.4g}")
+        log.add(what, f"temperature rise {rise[index]:.4g}, strength {strength[index]:.4g}")
 
 
-def _look(law, element, depth, wear, force, increment, rng, found: _Found) -> None:
+def _look(law, element, depth, wear, force, increment, rng, log: _ProblemLog) -> None:
     """Look at force and wear at other depths than those of a step."""
     scale = np.abs(depth) + wear
     small = _ROUNDING * element.elastic * scale
     by = scale * 10 ** rng.uniform(-4, 0, HISTORIES)
     deeper_force, deeper_increment = law.return_mapping(element, depth + by, wear)
     values = {"depth": depth, "worn": wear, "force": force}
-    found.unless(
+    log.unless(
         (deeper_force >= force - small) & (deeper_increment >= increment - _ROUNDING * scale),
         "force or wear falls as the depth grows",
         **values,
         deeper_by=by,
         to=deeper_force,
     )
-    left = law.elastic_force(element, depth - increment)
-    found.unless(
-        np.abs(left - force) <= small, "elastic_force after wear is not the force", **values, elastic=left
+    elastic_force = law.elastic_force(element, depth - increment)
+    log.unless(
+        np.abs(elastic_force - force) <= small,
+        "elastic_force after wear is not the force",
+        **values,
+        elastic=elastic_force,
     )
     slope, linear = law.tangent(element, depth, wear)
     finite = np.isfinite(slope) & np.isfinite(linear)
-    found.unless(finite, "it gives what is no number", **values, stiffness=slope, constant_over=linear)
+    log.unless(finite, "it gives what is no number", **values, stiffness=slope, constant_over=linear)
     for part in (0.5, 0.99):
         step = np.minimum(part * linear, scale)
         wide = step > 1e-6 * scale  # else rounding would count
-        more, less = (law.return_mapping(element, depth + sign * step, wear)[0] for sign in (1, -1))
-        error = np.abs(more - less - 2 * step * slope)
-        found.unless(
+        force_above, force_below = (
+            law.return_mapping(element, depth + sign * step, wear)[0] for sign in (1, -1)
+        )
+        error = np.abs(force_above - force_below - 2 * step * slope)
+        log.unless(
             ~wide | (error <= 1e-6 * element.elastic * step + small),
             "tangent is not the derivative of the force, as far as it says",
             **values,

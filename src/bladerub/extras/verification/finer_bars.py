@@ -50,10 +50,10 @@ def table(blade: ReducedBlade, config: Mapping[str, Any], peaks: pd.DataFrame) -
     """
     rows: list[dict[str, Any]] = []
     for (case, peak), times in itertools.product(listed(peaks), REFINEMENTS):
-        found = Response(blade, config, case, peak.order, partial(with_finer_bars, blade, times=times))
+        response = Response(blade, config, case, peak.order, partial(with_finer_bars, blade, times=times))
         start = float(peak.f_peak)
-        at = found.top(start)
-        wear, amplitude = _wear(found.run(start), times), found.amplitude(at)
+        speed = response.top(start)
+        wear, amplitude = _wear(response.run(start), times), response.amplitude(speed)
         if times == 1:
             own_wear, own_amplitude = wear, amplitude
         rows.append(
@@ -61,12 +61,12 @@ def table(blade: ReducedBlade, config: Mapping[str, Any], peaks: pd.DataFrame) -
             | {
                 "order": peak.order,
                 "elements": config["contact"]["elements"] * times,
-                "f_peak": at,
+                "f_peak": speed,
                 "amplitude": amplitude,
                 "amplitude_change": amplitude / own_amplitude - 1,
                 "volume_change": wear.sum() / own_wear.sum() - 1,
                 "wear_difference": np.linalg.norm(wear - own_wear) / np.linalg.norm(own_wear),
-                "status": found.run(start).status,
+                "status": response.run(start).status,
             }
         )
     return pd.DataFrame(rows, columns=COLUMNS)

@@ -138,8 +138,8 @@ def _march(rule, wall, step, counts, q):
     for i in range(revolutions * n_elements * steps):
         u = np.zeros(rule.tip.shape[1])
         for m in range(q.size):
-            before[m], at, flow = v[m], q[m], rule.flow[:, m]
-            q[m], v[m] = flow[0] * at + flow[1] * v[m], flow[2] * at + flow[3] * v[m]
+            before[m], coordinate, flow = v[m], q[m], rule.flow[:, m]
+            q[m], v[m] = flow[0] * coordinate + flow[1] * v[m], flow[2] * coordinate + flow[3] * v[m]
             for k in range(u.size):
                 u[k] += q[m] * rule.tip[m, k]
         turned = wall.speed * step * ((i + 1) % (n_elements * steps))
@@ -151,8 +151,8 @@ def _march(rule, wall, step, counts, q):
             u += rule.shift @ impulse
             q += rule.kick[0] * modal
             v += rule.kick[1] * modal
-        revolution, rest = divmod(i, n_elements * steps)
-        mean[revolution, rest // steps] += u[0] / steps
+        revolution, remainder = divmod(i, n_elements * steps)
+        mean[revolution, remainder // steps] += u[0] / steps
         low[revolution], high[revolution] = min(low[revolution], u[0]), max(high[revolution], u[0])
     return mean, low, high
 
@@ -198,8 +198,8 @@ def _impulse(rule, wall, u, angle, depth, before, free):
         impact = impact[:n] + impact[n:] + by_angle * wall.speed
         onward = onward[:n] + onward[n:] + by_angle * wall.speed
         excess = np.where(depth > 0, onward + rule.restitution * np.maximum(impact, 0.0), -np.inf)
-    found = _complementary(retreat, excess)
-    return -normal * np.concatenate((found, found))
+    magnitude = _complementary(retreat, excess)
+    return -normal * np.concatenate((magnitude, magnitude))
 
 
 @njit(error_model="numpy")
@@ -209,9 +209,9 @@ def _complementary(retreat, excess):
     for _ in range(MAX_SWEEPS):
         change = 0.0
         for j in range(p.size):
-            found = max(0.0, p[j] + (excess[j] - np.sum(retreat[j] * p)) / retreat[j, j])
-            change = max(change, abs(found - p[j]))
-            p[j] = found
+            p_new = max(0.0, p[j] + (excess[j] - np.sum(retreat[j] * p)) / retreat[j, j])
+            change = max(change, abs(p_new - p[j]))
+            p[j] = p_new
         if change <= TOLERANCE * p.max():
             break
     return p

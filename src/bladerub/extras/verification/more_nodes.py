@@ -43,9 +43,9 @@ def table(config: Mapping[str, Any], peaks: pd.DataFrame) -> pd.DataFrame:
     for case, peak in listed(peaks):
         start = float(peak.f_peak)
         for n, blade in blades.items():
-            found = Response(blade, config, case, peak.order)
-            wear, at = _wear(found.run(start), blade), found.top(start)
-            amplitude = found.amplitude(at)
+            response = Response(blade, config, case, peak.order)
+            wear, speed = _wear(response.run(start), blade), response.top(start)
+            amplitude = response.amplitude(speed)
             if n == NODES[0]:
                 own_wear, own_amplitude = wear, amplitude
             rows.append(
@@ -53,12 +53,12 @@ def table(config: Mapping[str, Any], peaks: pd.DataFrame) -> pd.DataFrame:
                 | {
                     "order": peak.order,
                     "interface_nodes": n,
-                    "f_peak": at,
+                    "f_peak": speed,
                     "amplitude": amplitude,
                     "amplitude_change": amplitude / own_amplitude - 1,
                     "volume_change": wear.sum() / own_wear.sum() - 1,
                     "wear_difference": np.linalg.norm(wear - own_wear) / np.linalg.norm(own_wear),
-                    "status": found.run(start).status,
+                    "status": response.run(start).status,
                     "cpu_s": _seconds(blade, config, case, start),
                 }
             )

@@ -24,9 +24,9 @@ CASE_COLUMNS = ("casing", "E", "K", "theta")
 
 def listed(peaks: pd.DataFrame) -> list[tuple[CoatingCase, Any]]:
     """List coating and row of the peaks of the `CASES` in a table ``peaks.csv``, or of all if it has none."""
-    own = peaks[peaks.law == "theta"].dropna(subset=["f_peak"]).itertuples()
-    described = [(CoatingCase(row.casing, row.E, row.K, row.theta), row) for row in own]
-    return [each for each in described if each[0] in CASES] or described
+    rows = peaks[peaks.law == "theta"].dropna(subset=["f_peak"]).itertuples()
+    described = [(CoatingCase(row.casing, row.E, row.K, row.theta), row) for row in rows]
+    return [pair for pair in described if pair[0] in CASES] or described
 
 
 class Response:
@@ -59,16 +59,16 @@ class Response:
             analysis["spectrum_revolutions"],
             analysis["max_order"],
         )
-        near = np.abs(order - self.order) <= analysis["peaks"]["order_halfwidth"] + 1e-9
-        return float(amplitude[near].max())
+        window = np.abs(order - self.order) <= analysis["peaks"]["order_halfwidth"] + 1e-9
+        return float(amplitude[window].max())
 
     def top(self, f_omega: float) -> float:
         """Speed of the study at which the amplitude, rising from `f_omega` on, is greatest."""
         grid = speeds(self.config)
-        at = int(np.argmin(np.abs(np.array(grid) - f_omega)))
+        index = int(np.argmin(np.abs(np.array(grid) - f_omega)))
         while True:
-            near = grid[max(at - 1, 0) : at + 2]
-            best = grid.index(max(near, key=self.amplitude))
-            if best == at:
-                return grid[at]
-            at = best
+            neighbours = grid[max(index - 1, 0) : index + 2]
+            best = grid.index(max(neighbours, key=self.amplitude))
+            if best == index:
+                return grid[index]
+            index = best

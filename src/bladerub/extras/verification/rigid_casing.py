@@ -75,19 +75,21 @@ def table(blade: ReducedBlade, config: Mapping[str, Any], peaks: pd.DataFrame) -
     """
     rows: list[dict[str, Any]] = []
     for f_omega, order, alternatives in _listed(config, peaks):
-        spec, modes, own = run_spec(config, RIGID, f_omega), modes_at(blade, f_omega), math.nan
-        for each in alternatives:
-            if (each.modes or 0) >= modes.omega.size:
+        spec, modes, study_amplitude = run_spec(config, RIGID, f_omega), modes_at(blade, f_omega), math.nan
+        for alternative in alternatives:
+            if (alternative.modes or 0) >= modes.omega.size:
                 continue
-            made, steps = _simulate(blade, spec, modes, each)
-            found = _measures(made, order, config["analysis"])
-            own = found["amplitude"] if each == OWN else own
-            kept = each.modes or modes.omega.size
-            complete = each.treatment == "massless" or (
-                each.modes is None and each.treatment not in STIFFNESSES
+            outcome, steps = _simulate(blade, spec, modes, alternative)
+            measures = _measures(outcome, order, config["analysis"])
+            study_amplitude = measures["amplitude"] if alternative == OWN else study_amplitude
+            n_modes = alternative.modes or modes.omega.size
+            complete = alternative.treatment == "massless" or (
+                alternative.modes is None and alternative.treatment not in STIFFNESSES
             )
-            row = dict(zip(COLUMNS, (f_omega, each.treatment, kept, steps, order, complete), strict=False))
-            rows.append(row | found | {"amplitude_change": found["amplitude"] / own - 1})
+            row = dict(
+                zip(COLUMNS, (f_omega, alternative.treatment, n_modes, steps, order, complete), strict=False)
+            )
+            rows.append(row | measures | {"amplitude_change": measures["amplitude"] / study_amplitude - 1})
     return pd.DataFrame(rows, columns=COLUMNS)
 
 
@@ -99,9 +101,9 @@ def _listed(
     grid = np.array(speeds(config))
     rigid = peaks[(peaks.casing == RIGID.casing) & np.isinf(peaks.E) & (peaks.theta == RIGID.theta)]
     for peak in rigid.dropna(subset=["f_peak"]).itertuples():
-        at = int(np.argmin(np.abs(grid - peak.f_peak)))
-        for place in range(max(at - NEIGHBOURS, 0), min(at + NEIGHBOURS + 1, grid.size)):
-            yield float(grid[place]), peak.order, ALTERNATIVES if place == at else NEARBY
+        index = int(np.argmin(np.abs(grid - peak.f_peak)))
+        for place in range(max(index - NEIGHBOURS, 0), min(index + NEIGHBOURS + 1, grid.size)):
+            yield float(grid[place]), peak.order, ALTERNATIVES if place == index else NEARBY
 
 
 def _simulate(
@@ -118,23 +120,23 @@ def _simulate(
     elif how.treatment in STIFFNESSES:
         rule = impact.penalty(modes, damping, step, STIFFNESSES[how.treatment])
     else:
-        kept = impact.first(modes, how.modes)
-        rule = impact.moreau_jean(kept, damping, step, RESTITUTIONS[how.treatment])
+        first_modes = impact.first(modes, how.modes)
+        rule = impact.moreau_jean(first_modes, damping, step, RESTITUTIONS[how.treatment])
     return impact.simulate(rule, blade, spec), steps
 
 
 def _measures(
-    made: impact.Motion | run.RunResult, order: float, analysis: Mapping[str, Any]
+    outcome: impact.Motion | run.RunResult, order: float, analysis: Mapping[str, Any]
 ) -> dict[str, float]:
     """Measure the last revolutions of a run, those of the study's spectra, m."""
     last = analysis["spectrum_revolutions"]
     orders, amplitude = order_spectrum(
-        made.radial_displacement, made.revolution_peak.size, last, analysis["max_order"]
+        outcome.radial_displacement, outcome.revolution_peak.size, last, analysis["max_order"]
     )
-    near = np.abs(orders - order) <= analysis["peaks"]["order_halfwidth"] + 1e-9
+    window = np.abs(orders - order) <= analysis["peaks"]["order_halfwidth"] + 1e-9
     return {
-        "amplitude": float(amplitude[near].max()),
-        "largest_revolution": float(made.revolution_amplitude[-last:].max()),
-        "median_revolution": float(np.median(made.revolution_amplitude[-last:])),
-        "largest_displacement": float(made.revolution_peak[-last:].max()),
+        "amplitude": float(amplitude[window].max()),
+        "largest_revolution": float(outcome.revolution_amplitude[-last:].max()),
+        "median_revolution": float(np.median(outcome.revolution_amplitude[-last:])),
+        "largest_displacement": float(outcome.revolution_peak[-last:].max()),
     }

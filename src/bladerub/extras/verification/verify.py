@@ -181,7 +181,7 @@ def verify_run(blade: ReducedBlade, config: Mapping[str, Any], run: StudyRun) ->
     if max(error) > TOLERANCE and outcome.blades[0].status == "completed":
         starts = (replace(spec, initial_displacement=start) for start in NEIGHBOURS)
         spread = largest(differences(solve(start), outcome) for start in starts)
-    own = differences(paper_outcome, paper_finer)
+    paper_differences = differences(paper_outcome, paper_finer)
     measure = Differences._fields.index("wear_l2" if finer.blades[0].wear.any() else "peak")
     unbounded = "unbounded" in (outcome.blades[0].status, finer.blades[0].status)
     return VerifiedRun(
@@ -189,7 +189,7 @@ def verify_run(blade: ReducedBlade, config: Mapping[str, Any], run: StudyRun) ->
         status="unbounded" if unbounded else "completed",
         error=error,
         against_paper=differences(outcome, paper_finer),
-        paper_uncertainty=Differences(*(difference / (REFINEMENT - 1) for difference in own)),
+        paper_uncertainty=Differences(*(difference / (REFINEMENT - 1) for difference in paper_differences)),
         spread=spread,
         energy_residual=outcome.energy_residual,
         seconds=Seconds(outcome.seconds, finer.seconds, paper_outcome.seconds, paper_finer.seconds),
@@ -228,5 +228,5 @@ def _solve(blade: ReducedBlade, row: Row | None, spec: RunSpec) -> Solved:
         return Solved((result,), result.energy.residual, time.thread_time() - start)
     together = simulate_row(blade, spec, row)
     seconds = time.thread_time() - start
-    blades = tuple(replace(of, status=together.status) for of in together.blades)
+    blades = tuple(replace(blade_result, status=together.status) for blade_result in together.blades)
     return Solved(blades, together.residual, seconds)

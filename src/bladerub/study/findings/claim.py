@@ -64,7 +64,7 @@ def claim(id_: str, statement: str, *arguments: Any) -> Callable[[Callable], Cal
 
 def in_order() -> tuple[Claim, ...]:
     """Return all claims by number and part, which is the order of the paper."""
-    return tuple(sorted(REGISTERED.values(), key=lambda each: _place(each.id)))
+    return tuple(sorted(REGISTERED.values(), key=lambda part: _place(part.id)))
 
 
 def claim_of(id_: str) -> str:
@@ -80,10 +80,10 @@ def _place(id_: str) -> tuple[str, int, str]:
     return parts[1], int(parts[2]), parts[3]
 
 
-def ratio(value: float, to: float, of: str) -> float:
-    """Divide amplitudes `of` coatings; raises `NotMeasurable` where the second is none."""
+def ratio(value: float, to: float, label: str) -> float:
+    """Divide amplitudes; raises `NotMeasurable`, which names them by `label`, where the second is none."""
     if not to > 0:
-        raise NotMeasurable(f"{of}: an amplitude of {to:g} m is nothing to compare with")
+        raise NotMeasurable(f"{label}: an amplitude of {to:g} m is nothing to compare with")
     return value / to
 
 

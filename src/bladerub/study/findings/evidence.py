@@ -49,8 +49,8 @@ class Evidence:
     def moduli(self, casing: str, theta: float, order: int, column: str) -> pd.DataFrame:
         """Return ``f_peak`` or ``amplitude`` (m) over K (rows) and E (columns), both ascending and finite."""
         peaks = self.peaks
-        wanted = (peaks.casing == casing) & (peaks.theta == theta) & (peaks.order == order)
-        rows = peaks[wanted & (peaks.law == "theta")]
+        selection = (peaks.casing == casing) & (peaks.theta == theta) & (peaks.order == order)
+        rows = peaks[selection & (peaks.law == "theta")]
         table = rows.pivot_table(index="K", columns="E", values=column)
         if min(table.shape) < 2:
             raise NotMeasurable(f"engine order {order} on casing {casing}: fewer than two E or two K")

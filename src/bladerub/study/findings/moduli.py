@@ -27,15 +27,15 @@ def greatest(evidence: Evidence, order: int, figure: str) -> Finding:
     """Rank the coatings by height."""
     ranked = _with_critical(evidence, order).stack().dropna().sort_values(ascending=False)
     relative = ranked.map(lambda height: ratio(height, ranked.iloc[0], f"Y{order}"))
-    own = relative[CRITICAL_K, CRITICAL_E]
+    critical = relative[CRITICAL_K, CRITICAL_E]
     first = [f"({e:g}, {k:g}) at {height:.2f}" for (k, e), height in relative.iloc[:3].items()]
     return Finding(
         claim=f"Y{order} is greatest at (E, K) = (1.1, 0.5) of {ranked.size} cells: first three ({figure})",
         paper="(1.1, 0.5)",
-        measured=f"{', '.join(first)}; (1.1, 0.5) at {own:.2f}",
+        measured=f"{', '.join(first)}; (1.1, 0.5) at {critical:.2f}",
         unit="1",
-        holds=above(own, 1.0, 0.9)[0],
-        margin=float(own - relative.drop((CRITICAL_K, CRITICAL_E)).max()),
+        holds=above(critical, 1.0, 0.9)[0],
+        margin=float(critical - relative.drop((CRITICAL_K, CRITICAL_E)).max()),
     )
 
 
@@ -92,7 +92,9 @@ def height_varies(evidence: Evidence, order: int, figure: str) -> Finding:
     """Largest range over E, relative to the mean over E."""
     table = _soft_hardening(evidence, order, "amplitude")
     widths, heights = table.max(axis=1) - table.min(axis=1), table.mean(axis=1)
-    spread = max(ratio(*each, f"Y{order}") for each in zip(widths, heights, strict=True))
+    spread = max(
+        ratio(*width_and_height, f"Y{order}") for width_and_height in zip(widths, heights, strict=True)
+    )
     text = f"Y{order} hardly varies with E for K <= 0.1: largest range over its mean ({figure})"
     return Finding(text, "near 0", spread, "1", *below(spread, HARDLY["amplitude"], 0.5))
 

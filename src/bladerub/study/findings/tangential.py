@@ -42,7 +42,7 @@ def lower_speed(evidence: Evidence, order: int, paper: float | str) -> Finding:
 @claim("C11b", f"θ = 0 diverges at f_Ω = 0.197 ({_SECTION}, Fig. 18)", STRAIGHT, STRAIGHT_SPEED, "Fig. 18")
 @claim("C11g", f"as C11a, {_AT_TILTED_PEAK}", TILTED, None, "our f6")
 @claim("C11h", f"as C11b, {_AT_STRAIGHT_PEAK}", STRAIGHT, None, "our f6")
-def diverges(evidence: Evidence, case: CoatingCase, speed: float | None, where: str) -> Finding:
+def diverges(evidence: Evidence, case: CoatingCase, speed: float | None, source: str) -> Finding:
     """Growth of the run at `speed`, at this model's f6 if there is none."""
     f_omega = evidence.peak(case, _LOBES, "f_peak") if speed is None else speed
     run, threshold = evidence.run(case, f_omega), evidence.config["analysis"]["divergence"]["growth"]
@@ -50,7 +50,7 @@ def diverges(evidence: Evidence, case: CoatingCase, speed: float | None, where: 
     # growth that ends after the paper's revolutions, or that the scatter hides, is half of the claim
     hidden = run.growth_per_revolution > threshold >= surely
     holds = YES if run.divergent else PARTLY if run.saturating or hidden else NO
-    text = f"theta = {case.theta:g} diverges at f_omega = {f_omega:g}: growth a revolution ({where})"
+    text = f"theta = {case.theta:g} diverges at f_omega = {f_omega:g}: growth a revolution ({source})"
     growth = _growth(run, "growth_per_revolution")
     return Finding(text, f"surely above {threshold:g}", growth, "1", holds, surely - threshold)
 
@@ -71,12 +71,12 @@ def diverges(evidence: Evidence, case: CoatingCase, speed: float | None, where: 
 )
 @claim("C11i", f"as C11c, {_AT_TILTED_PEAK}", STRAIGHT, TILTED, "our f6 of theta = 0.15")
 @claim("C11j", f"as C11d, {_AT_STRAIGHT_PEAK}", TILTED, STRAIGHT, "our f6 of theta = 0")
-def is_steady(evidence: Evidence, case: CoatingCase, speed: float | CoatingCase, where: str) -> Finding:
+def is_steady(evidence: Evidence, case: CoatingCase, speed: float | CoatingCase, source: str) -> Finding:
     """Growth of the run at `speed`, or at this model's f6 of another coating."""
     f_omega = _distinct_peak(evidence, speed) if isinstance(speed, CoatingCase) else speed
     run, threshold = evidence.run(case, f_omega), evidence.config["analysis"]["divergence"]["growth"]
     holds = NO if run.divergent else PARTLY if run.saturating else YES
-    text = f"theta = {case.theta:g} does not diverge at f_omega = {f_omega:g}: growth a revolution ({where})"
+    text = f"theta = {case.theta:g} does not diverge at f_omega = {f_omega:g}: growth a revolution ({source})"
     growth, margin = _growth(run, "growth_per_revolution"), threshold - _growth(run, "growth_low")
     return Finding(text, f"not surely above {threshold:g}", growth, "1", holds, margin)
 
@@ -97,11 +97,11 @@ def is_steady(evidence: Evidence, case: CoatingCase, speed: float | CoatingCase,
 )
 @claim("C11k", f"as C11e, {_AT_TILTED_PEAK}", TILTED, None, "our f6")
 @claim("C11l", f"as C11f, {_AT_STRAIGHT_PEAK}", STRAIGHT, None, "our f6")
-def six_lobes(evidence: Evidence, case: CoatingCase, speed: float | None, where: str) -> Finding:
+def six_lobes(evidence: Evidence, case: CoatingCase, speed: float | None, source: str) -> Finding:
     """Lobes worn by the run at `speed`, at this model's f6 if there is none; and the strongest harmonic."""
     f_omega = evidence.peak(case, _LOBES, "f_peak") if speed is None else speed
     run = evidence.run(case, f_omega)
-    text = f"six worn lobes with theta = {case.theta:g} at f_omega = {f_omega:g} ({where})"
+    text = f"six worn lobes with theta = {case.theta:g} at f_omega = {f_omega:g} ({source})"
     by_lobes, by_harmonic = (
         Finding(text, _LOBES, int(count), "1", *below(abs(int(count) - _LOBES), 0, 1))
         for count in (run.lobes, run.wear_harmonic)
@@ -110,7 +110,7 @@ def six_lobes(evidence: Evidence, case: CoatingCase, speed: float | None, where:
 
 
 def _distinct_peak(evidence: Evidence, case: CoatingCase) -> float:
-    speeds = {each: evidence.peak(each, _LOBES, "f_peak") for each in (STRAIGHT, TILTED)}
+    speeds = {coating: evidence.peak(coating, _LOBES, "f_peak") for coating in (STRAIGHT, TILTED)}
     if len(set(speeds.values())) == 1:
         raise NotMeasurable("f6 is the same speed of the grid with and without theta: needs a finer step")
     return speeds[case]

@@ -93,10 +93,10 @@ def _maxima(coating: CoatingMap, values: np.ndarray) -> np.ndarray:
     return coating.f_omega[peaks - 1]
 
 
-def _nearest(text: str, paper: float, found: np.ndarray) -> Finding:
-    if found.size == 0:
+def _nearest(text: str, paper: float, maxima: np.ndarray) -> Finding:
+    if maxima.size == 0:
         return Finding(text, paper, "none", "1", NO, float("nan"))
-    nearest = float(found[np.argmin(np.abs(found - paper))])
+    nearest = float(maxima[np.argmin(np.abs(maxima - paper))])
     return Finding(text, paper, nearest, "1", *below(abs(nearest - paper), NEAR, 2 * NEAR))
 
 
@@ -139,11 +139,11 @@ def critical_is_higher(evidence: Evidence, order: int) -> Finding:
 def critical_all_orders(evidence: Evidence) -> Finding:
     """Share of the orders crossing C1 within the study whose peak there is a tenth of the highest."""
     coating, settings = evidence.map(CRITICAL), evidence.config["analysis"]["peaks"]
-    found = np.array([peak(coating, order, settings).amplitude for order in _orders(coating)])
-    amplitudes = found[np.isfinite(found)]
+    heights = np.array([peak(coating, order, settings).amplitude for order in _orders(coating)])
+    amplitudes = heights[np.isfinite(heights)]
     if amplitudes.size < 2:
         raise NotMeasurable(f"{CRITICAL.name}: fewer than two engine orders have a peak within its speeds")
-    relative = np.array([ratio(each, amplitudes.max(), CRITICAL.name) for each in amplitudes])
+    relative = np.array([ratio(amplitude, amplitudes.max(), CRITICAL.name) for amplitude in amplitudes])
     share = 100 * float(np.mean(relative >= SIGNIFICANT))
     text = (
         "E = 1.1: significant amplitude where each engine order crosses C1: "
