@@ -27,9 +27,9 @@ inward = {name: casing.amplitude * shape(casing, angle) for name, casing in casi
 
 radius = tip_radius(read_reduced_blade(snakemake.input.blade))
 kind = " bumps" if combined.bump_width else " nodal diameters" if diameters else ""
-named = {f"{name}{kind}": u for name, u in inward.items()}
+curves = {f"{name}{kind}": u for name, u in inward.items()}
 magnification = min(MOST_MAGNIFIED, float(f"{LARGEST * radius / combined.amplitude:.1g}"))
 table = pd.concat(
     pd.DataFrame({"nodal_diameters": name, "angle": angle, "inward": u}) for name, u in inward.items()
 )
-outputs.save(snakemake, casing_polar(angle, named, radius, magnification), data=table)
+outputs.save(snakemake, casing_polar(angle, curves, radius, magnification), data=table)

@@ -19,9 +19,9 @@ table = findings.table(
 ensembles = [ensemble.read(path) for path in snakemake.input.ensembles]
 table = bands.of_findings(snakemake.config, table, rom_accuracy, maps, ensembles)
 # the robustness counts only where its own reference has the verdict of this study
-known = [snakemake.params.robustness.get(id_, ("", math.nan)) for id_ in table["id"]]
+robustness = [snakemake.params.robustness.get(id_, ("", math.nan)) for id_ in table["id"]]
 table["robustness"] = [
     share if reference == holds else math.nan
-    for (reference, share), holds in zip(known, table["holds"], strict=True)
+    for (reference, share), holds in zip(robustness, table["holds"], strict=True)
 ]
 outputs.save(snakemake, table=table)

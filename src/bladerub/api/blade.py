@@ -112,8 +112,8 @@ class Blade:
         """
         fastest = self.reduced.f_omega_max
         if f_omega > fastest:
-            right = f"must be at most {fastest:g} (normalised), the highest speed of {self.path}"
-            raise InputError(name, f_omega, right)
+            requirement = f"must be at most {fastest:g} (normalised), the highest speed of {self.path}"
+            raise InputError(name, f_omega, requirement)
 
     def frequencies(self, f_omega: float = 0.0, n_modes: int = 3) -> np.ndarray:
         """Lowest eigenfrequencies (n_modes,) of the reduced model at the normalised speed `f_omega`, Hz.

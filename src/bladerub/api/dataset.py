@@ -12,7 +12,11 @@ from bladerub.io.hdf5 import Variable
 def to_dataset(variables: Mapping[str, Variable], attributes: Mapping[str, Any]) -> xr.Dataset:
     """Return variables with their units as xarray opens them from a file that holds them."""
     arrays = {
-        name: (each.dims, np.asarray(each.data), {"units": each.units, "long_name": each.long_name})
-        for name, each in variables.items()
+        name: (
+            variable.dims,
+            np.asarray(variable.data),
+            {"units": variable.units, "long_name": variable.long_name},
+        )
+        for name, variable in variables.items()
     }
     return xr.Dataset(arrays, attrs=dict(attributes))

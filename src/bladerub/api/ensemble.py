@@ -195,16 +195,22 @@ def read_ensemble(path: str | Path, run: StudyRun) -> Ensemble:
     True
     """
     stored = run_set.read(path)
-    numbers = range(sum(_START in each.attributes for each in stored.values()))
+    numbers = range(sum(_START in stored_run.attributes for stored_run in stored.values()))
     if not numbers or any(_prefix(number) not in stored for number in numbers):
         raise DamagedFile(f"{path}: no ensemble, {_START} of its runs is missing")
     start = np.array([stored[_prefix(number)].attributes.pop(_START) for number in numbers])
     ensemble = Ensemble(run, start, tuple(run_of(stored, _prefix(number)) for number in numbers))
-    own = ensemble.runs[0]
-    if (own.case, own.f_omega, own.revolutions) != (run.case, run.f_omega, run.spec.revolutions):
-        there = f"{own.case.name}/{speed_name(own.f_omega)} of {own.revolutions} revolutions"
-        asked = f"{run.name} of {run.spec.revolutions} revolutions"
-        raise InputError("run", asked, f"must be that of {path}, {there}")
+    first_run = ensemble.runs[0]
+    if (first_run.case, first_run.f_omega, first_run.revolutions) != (
+        run.case,
+        run.f_omega,
+        run.spec.revolutions,
+    ):
+        content = (
+            f"{first_run.case.name}/{speed_name(first_run.f_omega)} of {first_run.revolutions} revolutions"
+        )
+        request = f"{run.name} of {run.spec.revolutions} revolutions"
+        raise InputError("run", request, f"must be that of {path}, {content}")
     return ensemble
 
 

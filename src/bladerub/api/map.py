@@ -205,20 +205,27 @@ def simulate_speeds(
         raise InputError("speeds", [run.f_omega for run in runs], "must be at least two")
     blade.check_speed("speeds", runs[-1].f_omega)
     with tqdm(total=len(runs), unit="run", disable=not progress, leave=False) as bar:
-        found = solve_all(blade, runs, jobs, follow, bar.update)
-    stored = [run.stored for run in found]
-    longer = [run.longer.stored if run.longer else None for run in found]
-    at = [run.f_omega for run in runs]
+        results = solve_all(blade, runs, jobs, follow, bar.update)
+    stored = [run.stored for run in results]
+    longer = [run.longer.stored if run.longer else None for run in results]
+    normalised_speeds = [run.f_omega for run in runs]
     prominence = coating.config["analysis"]["lobe_prominence"]
     return Map(
-        maps.collect(coating.case, at, maps.first_frequency(blade.reduced, at), stored, longer, prominence)
+        maps.collect(
+            coating.case,
+            normalised_speeds,
+            maps.first_frequency(blade.reduced, normalised_speeds),
+            stored,
+            longer,
+            prominence,
+        )
     )
 
 
 def solve_all(
-    blade: Blade, runs: list[StudyRun], jobs: int, follow: bool, done: Callable[[], Any]
+    blade: Blade, runs: list[StudyRun], jobs: int, follow: bool, advance: Callable[[], Any]
 ) -> list[Run]:
-    """Simulate `runs`, `jobs` at once, without their histories; `done` is called after each."""
+    """Simulate `runs`, `jobs` at once, without their histories; `advance` is called after each."""
     for law in {run.spec.coating.element_law for run in runs}:
         compile_kernel(n_nodes=blade.reduced.n_interface, law=law)
     solver = _solved_together(blade, runs, follow) if on_gpu(runs[0].config) else None
@@ -226,11 +233,11 @@ def solve_all(
     def compute(number: int) -> Run:
         return solve(blade, runs[number], follow, keep_history=False, solver=solver)
 
-    found = {}
+    results = {}
     for number, run in each_done(compute, range(len(runs)), jobs):
-        found[number] = run
-        done()
-    return [found[number] for number in range(len(runs))]
+        results[number] = run
+        advance()
+    return [results[number] for number in range(len(runs))]
 
 
 def _solved_together(blade: Blade, runs: list[StudyRun], follow: bool) -> Solve | None:
@@ -239,12 +246,12 @@ def _solved_together(blade: Blade, runs: list[StudyRun], follow: bool) -> Solve 
         return None
     specs = [run.of_length(blade.length).spec for run in runs]
     settings = runs[0].config["analysis"]["divergence"]
-    found = {specs[number]: result for number, result in simulate_many(blade.reduced, specs, find())}
+    results = {specs[number]: result for number, result in simulate_many(blade.reduced, specs, find())}
     growing = [
         confirmation_spec(spec, settings)
-        for spec, result in found.items()
+        for spec, result in results.items()
         if follow and needs_confirmation(result.revolution_amplitude, result.status, settings)
     ]
-    more = simulate_many(blade.reduced, growing, find())
-    found |= {growing[number]: result for number, result in more}
-    return lambda blade, spec, progress: found[spec]
+    confirmations = simulate_many(blade.reduced, growing, find())
+    results |= {growing[number]: result for number, result in confirmations}
+    return lambda blade, spec, progress: results[spec]

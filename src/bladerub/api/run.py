@@ -140,7 +140,7 @@ class Run:
     @property
     def energy(self) -> Energy:
         """Energy ledger, J; ``energy.residual`` is what it misses, relative."""
-        names = (each.name for each in fields(Energy))
+        names = (entry.name for entry in fields(Energy))
         return Energy(**{name: float(self.stored.data[f"energy_{name}"]) for name in names})
 
     @property
@@ -153,8 +153,8 @@ class Run:
             If the file of the run does not hold it.
         """
         if "radial_displacement" not in self.stored.data:
-            right = "the study keeps the displacement of runs under analysis.histories alone; simulate it"
-            raise InputError("radial_displacement", None, right)
+            reason = "the study keeps the displacement of runs under analysis.histories alone; simulate it"
+            raise InputError("radial_displacement", None, reason)
         return self.stored.data["radial_displacement"]
 
     @property
@@ -182,8 +182,8 @@ class Run:
         ``attributes["blade"]``, which vibrates most, but for the wear and the energy, which are of all.
         """
         data, names = self.stored.data, store.OF_BLADES
-        own = {name.removeprefix("blade_"): data[name] for name in names if name in data}
-        return pd.DataFrame(own, pd.Index(data.get("blade", []), name="blade"))
+        columns = {name.removeprefix("blade_"): data[name] for name in names if name in data}
+        return pd.DataFrame(columns, pd.Index(data.get("blade", []), name="blade"))
 
     def verdict(self, settings: Mapping[str, Any]) -> Verdict:
         """Judge the growth of the run, and of its longer run if there is one.
@@ -320,8 +320,8 @@ def simulate(
 
     The largest stress of the blade:
 
-    >>> found = br.simulate(blade, study.run("2nd", E=2, K=0.5, f_omega=0.19), stress=True).stress
-    >>> found.static["von_mises"] < found.last["von_mises"]
+    >>> peak_stress = br.simulate(blade, study.run("2nd", E=2, K=0.5, f_omega=0.19), stress=True).stress
+    >>> peak_stress.static["von_mises"] < peak_stress.last["von_mises"]
     True
 
     Three blades on one coating, the second 50 µm longer than the others:
@@ -337,32 +337,32 @@ def simulate(
     blade.check_speed("f_omega", run.f_omega)
     compile_kernel(n_nodes=blade.reduced.n_interface, law=run.spec.coating.element_law)
     with tqdm(total=run.spec.revolutions, unit="rev", disable=not progress, leave=False) as bar:
-        shown = counted(bar, run)
+        count = counted(bar, run)
 
-        def done(revolutions: int) -> None:
-            shown(revolutions)
+        def report(revolutions: int) -> None:
+            count(revolutions)
             if each:
                 each(revolutions)
 
-        return solve(blade, run, follow, done, row=row, stress=stress)
+        return solve(blade, run, follow, report, row=row, stress=stress)
 
 
 def counted(bar: tqdm, run: StudyRun) -> Callable[[int], None]:
     """Let a `bar` count the revolutions done of `run`, then those of its longer run."""
 
-    def done(revolutions: int) -> None:
+    def count(revolutions: int) -> None:
         if revolutions < bar.n:
             bar.reset(run.config["analysis"]["divergence"]["confirmation_revolutions"])
         bar.update(revolutions - bar.n)
 
-    return done
+    return count
 
 
 def solve(
     blade: Blade,
     run: StudyRun,
     follow: bool,
-    done: Callable[[int], None] | None = None,
+    progress: Callable[[int], None] | None = None,
     keep_history: bool = True,
     row: Row | None = None,
     stress: bool = False,
@@ -380,16 +380,16 @@ def solve(
     if stress and row:
         raise ValueError("stress = True: is found for a single blade only, must be False with a row")
     stressed = _StressSolver(blade, run) if stress else None
-    stored = _solve(blade, run, run.spec, digest, done, keep_history, row, stressed or solver)
-    found = stressed.stress if stressed else None
-    if found:
-        stored = replace(stored, attributes=stored.attributes | found.attributes())
+    stored = _solve(blade, run, run.spec, digest, progress, keep_history, row, stressed or solver)
+    run_stress = stressed.stress if stressed else None
+    if run_stress:
+        stored = replace(stored, attributes=stored.attributes | run_stress.attributes())
     longer = None
     amplitude, status = stored.data["revolution_amplitude"], stored.attributes["status"]
     if follow and needs_confirmation(amplitude, status, settings):
         spec = confirmation_spec(run.spec, settings)
-        longer = Run(_solve(blade, run, spec, digest, done, False, row, solver))
-    return Run(stored, longer, found)
+        longer = Run(_solve(blade, run, spec, digest, progress, False, row, solver))
+    return Run(stored, longer, run_stress)
 
 
 def _on_gpu(blade: ReducedBlade, spec: RunSpec, progress: Callable[[int], None] | None) -> RunResult:
@@ -427,13 +427,13 @@ def _solve(
     run: StudyRun,
     spec: RunSpec,
     digest: str,
-    done: Callable[[int], None] | None,
+    progress: Callable[[int], None] | None,
     keep_history: bool,
     row: Row | None,
     solver: Solve | None,
 ) -> StoredRun:
     plan = planned_run(run.config, spec, f"{speed_name(spec.f_omega)}.h5", keep_history, row)
-    return compute(run.case, plan, blade.reduced, plan.key(digest), run.config["analysis"], done, solver)
+    return compute(run.case, plan, blade.reduced, plan.key(digest), run.config["analysis"], progress, solver)
 
 
 def read_run(path: str | Path) -> Run:

@@ -211,7 +211,7 @@ class Study:
         >>> br.default_study().coating("2nd", E=1.1, K=0.5, damping_ratio=1e-3).name
         '2nd_E1.1_K0.5_theta0_xi0.001'
         """
-        own = {
+        overrides = {
             "damping_ratio": damping_ratio,
             "layer_thickness": layer_thickness,
             "interference": interference,
@@ -221,8 +221,8 @@ class Study:
         _check("E", E)
         _check("K", K)
         if friction is None:
-            return self._checked(CoatingCase, own, casing, E, K, theta=theta or 0.0)
-        return self._checked(CoatingCase.coulomb, own, casing, E, K, friction=friction)
+            return self._checked(CoatingCase, overrides, casing, E, K, theta=theta or 0.0)
+        return self._checked(CoatingCase.coulomb, overrides, casing, E, K, friction=friction)
 
     def rigid(
         self,
@@ -245,8 +245,8 @@ class Study:
         >>> br.default_study().rigid("2nd", friction=0.1).name
         '2nd_rigid_mu0.1'
         """
-        own = {"damping_ratio": damping_ratio, "interference": interference}
-        return self._checked(CoatingCase.rigid, own, casing, friction=friction)
+        overrides = {"damping_ratio": damping_ratio, "interference": interference}
+        return self._checked(CoatingCase.rigid, overrides, casing, friction=friction)
 
     def run(
         self,
@@ -283,16 +283,21 @@ class Study:
         return coating.at(f_omega, revolutions)
 
     def _checked(
-        self, make: Any, own: Mapping[str, float | None], casing: str, *moduli: float, **tangential: float
+        self,
+        make: Any,
+        overrides: Mapping[str, float | None],
+        casing: str,
+        *moduli: float,
+        **tangential: float,
     ) -> StudyCoating:
         casings = self.config["casings"]
         if casing not in casings:
             raise InputError("casing", casing, _one_of(casing, casings))
-        for name, value in {**tangential, **own}.items():
+        for name, value in {**tangential, **overrides}.items():
             if value is not None:
                 _check(name, value)
         values = (*map(float, moduli), *map(float, tangential.values()))
-        case = make(casing, *values).with_own(**own)
+        case = make(casing, *values).with_own(**overrides)
         if case.variant and (problem := own_problem(dict(self.config), case)):
             raise InputError(problem[0], case.own[problem[0]], f"must be {problem[1]}")
         return StudyCoating(self.config, case)
@@ -367,16 +372,16 @@ def _check(name: str, value: float) -> None:
         raise InputError(name, value, str(error)) from None
 
 
-def _one_of(name: str, known: Collection[str]) -> str:
-    close = get_close_matches(str(name), known, n=1)
-    return f"must be one of {', '.join(known)}" + (f"; did you mean {close[0]}?" if close else "")
+def _one_of(name: str, choices: Collection[str]) -> str:
+    close = get_close_matches(str(name), choices, n=1)
+    return f"must be one of {', '.join(choices)}" + (f"; did you mean {close[0]}?" if close else "")
 
 
 def _of_revolutions(config: Mapping[str, Any], revolutions: int) -> dict[str, Any]:
     """Change a config to runs of so many revolutions: its analysis looks at no more."""
-    most = min(_MOST_REVOLUTIONS, most_revolutions(config))
-    if not isinstance(revolutions, int) or not 2 <= revolutions <= most:
-        raise InputError("revolutions", revolutions, f"must be from 2 to {most}")
+    limit = min(_MOST_REVOLUTIONS, most_revolutions(config))
+    if not isinstance(revolutions, int) or not 2 <= revolutions <= limit:
+        raise InputError("revolutions", revolutions, f"must be from 2 to {limit}")
     analysis, divergence = config["analysis"], config["analysis"]["divergence"]
     shorter = {
         "spectrum_revolutions": min(analysis["spectrum_revolutions"], revolutions),

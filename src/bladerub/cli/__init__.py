@@ -46,9 +46,9 @@ def main(arguments: list[str] | None = None) -> int:
     code, message = 2, None
     try:
         provide_for_unknown_user()
-        found = options.command(options)
+        exit_code = options.command(options)
         sys.stdout.flush()
-        return found or 0
+        return exit_code or 0
     except ConfigError as error:
         print(error, file=sys.stderr)
         return 2

@@ -86,13 +86,15 @@ def import_blade(options: argparse.Namespace) -> None:
         _refuse_at_once(path)
     config = inputs.read_config(options)
     reduction = dict(config["reduction"])
-    given = {name: getattr(options, name) for name in _NAMES if getattr(options, name) is not None}
+    option_values = {name: getattr(options, name) for name in _NAMES if getattr(options, name) is not None}
     kind = "matrices" if path.is_dir() else "file"
     folder = study_folder()
-    named = path.relative_to(folder) if path.is_relative_to(folder) else path  # as configs name it
-    known = config["blade"].get("source", {})
-    known = {name: value for name, value in known.items() if name not in ("file", "matrices")}
-    entry = {kind: str(named)} | asdict(Frame()) | known | given
+    entry_path = path.relative_to(folder) if path.is_relative_to(folder) else path  # as configs name it
+    source_settings = config["blade"].get("source", {})
+    source_settings = {
+        name: value for name, value in source_settings.items() if name not in ("file", "matrices")
+    }
+    entry = {kind: str(entry_path)} | asdict(Frame()) | source_settings | option_values
 
     nominal = config["figures"].get("nominal_speed") if options.rpm is None else options.rpm
 
@@ -109,15 +111,15 @@ def import_blade(options: argparse.Namespace) -> None:
     scale = contact_scale(reduced)
     figures["tip_stiffness"] = tip_stiffness(reduced)
     study = configuration.read(base_config())
-    own = {} if isinstance(source, MatrixSource) else {"material": config["blade"]["material"]}
+    blade_settings = {} if isinstance(source, MatrixSource) else {"material": config["blade"]["material"]}
     mesh = _changed(config["blade"]["mesh"], study["blade"]["mesh"]) if "sections" in figures else {}
-    own |= {"mesh": mesh} if mesh else {}
+    blade_settings |= {"mesh": mesh} if mesh else {}
     reduction = _changed(reduction, study["reduction"])
     drawn = {} if nominal is None else {"nominal_speed": nominal}
     figures["config"] = {
-        "blade": {"length": reduced.length, "source": entry} | own,
+        "blade": {"length": reduced.length, "source": entry} | blade_settings,
         "contact": {"scale": {name: float(f"{factor:.6g}") for name, factor in scale.items()}},
-    } | {name: own for name, own in (("reduction", reduction), ("figures", drawn)) if own}
+    } | {name: changes for name, changes in (("reduction", reduction), ("figures", drawn)) if changes}
     inputs.show(options, figures, lambda figures: _in_words(rows(figures), figures))
 
 
@@ -142,9 +144,9 @@ def _keep(built: "BuiltBlade", config: dict[str, Any]) -> None:
         keep(built, config)
 
 
-def _changed(values: dict[str, Any], known: dict[str, Any]) -> dict[str, Any]:
+def _changed(values: dict[str, Any], study_values: dict[str, Any]) -> dict[str, Any]:
     """Values that are not those of the study, which the printed config has to give as well."""
-    return {name: value for name, value in values.items() if value != known.get(name)}
+    return {name: value for name, value in values.items() if value != study_values.get(name)}
 
 
 def _read_mesh(
@@ -253,8 +255,10 @@ def _matrix_rows(figures: dict[str, Any]) -> dict[str, str]:
     from bladerub.blade.accuracy import percent
 
     measured = "" if figures["length_is_measured"] else " that its nodes reach over"
-    whole = "" if figures["mass_is_whole"] else " without that of the clamped nodes, whose rows are not there"
-    first, last = (figures["interface"][at] for at in (0, -1))
+    omission = (
+        "" if figures["mass_is_whole"] else " without that of the clamped nodes, whose rows are not there"
+    )
+    first, last = (figures["interface"][end] for end in (0, -1))
     rom = max(figures["error_reduced_model"][:6])
     if figures["error_eq2"] is None:
         eq2 = "eq. (2) is exact at the speeds of the files"
@@ -267,7 +271,7 @@ def _matrix_rows(figures: dict[str, Any]) -> dict[str, str]:
         f"{figures['tip_cone_degrees']:.4g} degrees",
         "clamped and tip": f"{figures['clamped_nodes']} and {figures['tip_nodes']} nodes",
         "interface": f"from {_place(first)} to {_place(last)} mm, leading to trailing edge",
-        "mass": f"{figures['mass']:.4g} kg{whole}",
+        "mass": f"{figures['mass']:.4g} kg{omission}",
         "speeds": f"f_omega = {', '.join(f'{speed:g}' for speed in figures['speeds'])}; the highest is "
         f"{figures['omega_max']:.6g} rad/s",
         "first frequency": _first_frequency(figures),
@@ -299,7 +303,9 @@ def _crossings(crossings: list[dict[str, Any]]) -> str:
     """List the speeds at which engine orders cross the first mode, from the fastest."""
     if not crossings:
         return "of mode 1: none within reduction.f_omega_max"
-    return "of mode 1, 1/min: " + ", ".join(f"eo({each['order']}) {each['rpm']:.0f}" for each in crossings)
+    return "of mode 1, 1/min: " + ", ".join(
+        f"eo({crossing['order']}) {crossing['rpm']:.0f}" for crossing in crossings
+    )
 
 
 def _in_words(rows: dict[str, str], figures: dict[str, Any]) -> str:
@@ -308,7 +314,7 @@ def _in_words(rows: dict[str, str], figures: dict[str, Any]) -> str:
         "stagger at the tip": f"{abs(stagger):.4g} degrees, the leading edge "
         f"{'ahead' if stagger >= 0 else 'behind'} in rotation",
         "first mode": "u_r/u_t at the tip {:.3f} at the leading edge, {:.3f} at the trailing edge".format(
-            *(figures["tip_lean"][at] for at in (0, -1))
+            *(figures["tip_lean"][end] for end in (0, -1))
         ),
         "crossings": _crossings(figures["crossings"]),
         "tip stiffness": f"{figures['tip_stiffness']:.4g} N/m, static",

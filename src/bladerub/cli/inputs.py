@@ -33,9 +33,9 @@ class Parser(argparse.ArgumentParser):
         """Exit with code 2."""
         self.exit(2, f"{self.prog}: {message} (see {self.prog} --help)\n")
 
-    def option(self, name: str, text: str, kind: Callable | None = None, **more: Any) -> None:
+    def option(self, name: str, text: str, kind: Callable | None = None, **keywords: Any) -> None:
         """Add an option of this kind (default text) with its help text."""
-        self.add_argument(name, type=kind, help=text, **more)
+        self.add_argument(name, type=kind, help=text, **keywords)
 
 
 @contextmanager
@@ -47,8 +47,8 @@ def as_options(**names: str) -> Iterator[None]:
         yield
     except errors.InputError as error:
         option = names.get(error.name, error.name)
-        more = " (for a casing of another config: --config FILE)" if option == "casing" else ""
-        raise InputError(f"--{option} = {error.value}: {error.right}{more}") from None
+        hint = " (for a casing of another config: --config FILE)" if option == "casing" else ""
+        raise InputError(f"--{option} = {error.value}: {error.right}{hint}") from None
 
 
 @contextmanager

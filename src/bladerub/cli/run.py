@@ -154,30 +154,32 @@ def _with_law(options: argparse.Namespace, study: "Study") -> "Study":
 def _row(options: argparse.Namespace) -> "Row | None":
     """Describe the row of blades that is asked for, if one is."""
     names = ("length_scatter", "frequency_scatter", "coupling", "seed")
-    given = {name: getattr(options, name) for name in names if getattr(options, name) is not None}
+    row_settings = {name: getattr(options, name) for name in names if getattr(options, name) is not None}
     if options.blades is None:
-        for name, value in given.items():
+        for name, value in row_settings.items():
             raise InputError(f"--{name.replace('_', '-')} = {value:g}: goes with --blades only")
         return None
     inputs.require(options, blades=(1, schema()["properties"]["rotor"]["properties"]["blades"]["maximum"]))
     if options.ensemble is not None:
         raise InputError(f"--ensemble = {options.ensemble}: not with --blades; give another --seed instead")
-    for name, value in given.items():
+    for name, value in row_settings.items():
         if not (math.isfinite(value) and value >= 0):
             raise InputError(f"--{name.replace('_', '-')} = {value:g}: must be 0 or more")
 
     from bladerub.contact.row_spec import Disk, Row
 
-    seed, coupling = given.pop("seed", 1), given.pop("coupling", 0.0)
+    seed, coupling = row_settings.pop("seed", 1), row_settings.pop("coupling", 0.0)
     disk = Disk.ring(options.blades, [coupling]) if coupling else None
     with refused(ValueError):
-        return Row.drawn(options.blades, seed, **given, disk=disk)
+        return Row.drawn(options.blades, seed, **row_settings, disk=disk)
 
 
-def _ensemble(options: argparse.Namespace, planned: "StudyRun", blade: "Blade", own: "Run") -> dict[str, Any]:
+def _ensemble(
+    options: argparse.Namespace, planned: "StudyRun", blade: "Blade", result: "Run"
+) -> dict[str, Any]:
     from bladerub.api.ensemble import simulate_ensemble
 
-    ensemble = simulate_ensemble(blade, planned, options.ensemble, own=own, progress=sys.stderr.isatty())
+    ensemble = simulate_ensemble(blade, planned, options.ensemble, own=result, progress=sys.stderr.isatty())
     bands = ensemble.bands()
     return {
         "runs": len(ensemble.runs),
@@ -190,9 +192,9 @@ def _check_coating(options: argparse.Namespace) -> None:
     """Check that the options of a coating are there, and none of another kind."""
     if options.coating == "rigid":
         for option in ("E", "K", "theta", "layer-thickness", "law"):
-            given = getattr(options, option.replace("-", "_"))
-            if given is not None:
-                value = given if option == "law" else f"{given:g}"
+            setting = getattr(options, option.replace("-", "_"))
+            if setting is not None:
+                value = setting if option == "law" else f"{setting:g}"
                 raise InputError(f"--{option} = {value}: goes with --coating abradable only")
         return
     for option in ("E", "K"):
@@ -213,16 +215,20 @@ def _point_out(options: argparse.Namespace) -> None:
 
 
 def _coating(options: argparse.Namespace, study: "Study") -> "StudyCoating":
-    own = {"damping_ratio": options.damping_ratio, "interference": options.interference}
+    coating_values = {"damping_ratio": options.damping_ratio, "interference": options.interference}
     if options.coating == "rigid":
-        return study.rigid(options.casing, friction=options.friction or 0.0, **own)
-    own |= {"theta": options.theta, "friction": options.friction, "layer_thickness": options.layer_thickness}
-    return study.coating(options.casing, E=options.E, K=options.K, **own)
+        return study.rigid(options.casing, friction=options.friction or 0.0, **coating_values)
+    coating_values |= {
+        "theta": options.theta,
+        "friction": options.friction,
+        "layer_thickness": options.layer_thickness,
+    }
+    return study.coating(options.casing, E=options.E, K=options.K, **coating_values)
 
 
 def _figures(planned: "StudyRun", result: "Run", seconds: float) -> dict[str, Any]:
     case, runs = planned.case, (result, result.longer) if result.longer else (result,)
-    given = {
+    conditions = {
         "casing": case.casing,
         "E": None if case.is_rigid else case.E,
         "K": None if case.is_rigid else case.K,
@@ -238,7 +244,7 @@ def _figures(planned: "StudyRun", result: "Run", seconds: float) -> dict[str, An
     }
     steps = sum(run.attributes["n_steps"] for run in runs)
     return {
-        **given,
+        **conditions,
         **result.summary(planned.config),
         "steps_per_second": steps / seconds,
         "run_key": result.attributes["run_key"],
@@ -273,7 +279,7 @@ def _is_run(path: Path) -> bool:
 
 def _in_words(figures: dict[str, Any]) -> str:
     order = figures["engine_order"]
-    after = f", after {figures['growth_revolutions']} revolutions"
+    duration = f", after {figures['growth_revolutions']} revolutions"
     rows = {
         "coating": _coating_in_words(figures),
         **({"law": law} if (law := figures["element_law"]) not in (None, "plastic") else {}),
@@ -288,8 +294,8 @@ def _in_words(figures: dict[str, Any]) -> str:
         "lobes": figures["lobes"],
         "strongest harmonic of the wear": _harmonic_in_words(figures),
         "growth": _growth_in_words(figures),
-        "saturating": ("yes" if figures["saturating"] else "no") + after,
-        "divergent": ("yes" if figures["divergent"] else "no") + after,
+        "saturating": ("yes" if figures["saturating"] else "no") + duration,
+        "divergent": ("yes" if figures["divergent"] else "no") + duration,
         "status": f"{figures['status']}, {figures['revolutions']} revolutions",
         "energy residual": f"{figures['energy_residual']:.2g} of the work exchanged",
         "steps": figures["n_steps"],
@@ -315,13 +321,13 @@ def _stress_in_words(stress: dict[str, dict[str, float]] | None) -> list[str]:
     names = {"static": "rotation alone", "start_up": "start-up", "last": "last revolutions"}
     kinds = {"von_mises": "von Mises", "principal": "largest principal", "alternating": "alternating"}
     lines = []
-    for part, of in names.items():
+    for part, phase in names.items():
         for name, kind in kinds.items():
             if name in stress[part]:
-                found = stress[part]
-                place = ", ".join(f"{1e3 * found[f'{name}_{axis}']:.1f}" for axis in "xyz")
-                time = f", after {found[f'{name}_time']:.3f} revolutions" if f"{name}_time" in found else ""
-                lines.append((f"{kind}, {of}", f"{found[name] / 1e6:.4g} MPa at ({place}) mm{time}"))
+                peaks = stress[part]
+                place = ", ".join(f"{1e3 * peaks[f'{name}_{axis}']:.1f}" for axis in "xyz")
+                time = f", after {peaks[f'{name}_time']:.3f} revolutions" if f"{name}_time" in peaks else ""
+                lines.append((f"{kind}, {phase}", f"{peaks[name] / 1e6:.4g} MPa at ({place}) mm{time}"))
     return ["largest stress:", *inputs.aligned(lines)]
 
 
@@ -352,9 +358,9 @@ _OF_BLADES = {
 def _blades_in_words(blades: list[dict[str, float]]) -> list[str]:
     """Write a line for each blade; a mark at those that left the displacement limit."""
     rows = [tuple(_OF_BLADES)]
-    for of in blades:
-        cells = [f"{factor * of[name]:{form}}" for name, factor, form in _OF_BLADES.values()]
-        rows.append((*cells[:-1], cells[-1] + (" unbounded" if of["unbounded"] else "")))
+    for blade in blades:
+        cells = [f"{factor * blade[name]:{form}}" for name, factor, form in _OF_BLADES.values()]
+        rows.append((*cells[:-1], cells[-1] + (" unbounded" if blade["unbounded"] else "")))
     widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
     return ["  ".join(f"{cell:>{width}}" for cell, width in zip(row, widths, strict=True)) for row in rows]
 

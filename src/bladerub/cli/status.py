@@ -56,7 +56,7 @@ def status(options: argparse.Namespace) -> None:
 
     results = inputs.study_folder() / config["results"]
     digest, note = inventory.current_blade(config, results / "blade" / "reduced_model.h5")
-    counts, damaged, unreadable, lost = {}, [], [], []
+    counts, damaged, unreadable, lost_files = {}, [], [], []
     quiet = True if options.json else None
     width = get_terminal_size().columns
     for case in tqdm(coating_cases(config), unit="coating", ncols=width, disable=quiet, leave=False):
@@ -77,46 +77,46 @@ def status(options: argparse.Namespace) -> None:
         faults = integrity.examine(results)
         damaged += faults.damaged
         unreadable += faults.unreadable
-        lost = faults.lost
+        lost_files = faults.lost_files
     damaged, unreadable = list(dict.fromkeys(damaged)), list(dict.fromkeys(unreadable))
     if options.discard:
         for path in damaged:
             if path.parent.resolve().is_relative_to(results.resolve()):  # not beyond a link
                 path.unlink(missing_ok=True)
-    whole = inventory.total(counts.values())
+    total = inventory.total(counts.values())
     if options.json:
         about = {
             "note": note,
             "damaged": [str(path) for path in damaged],
             "discarded": options.discard,
-            "lost": [str(path) for path in lost],
+            "lost": [str(path) for path in lost_files],
             "cannot_be_read": unreadable,
         }
         total_of_rows = {"rows_of_blades": rows} if rows else {}
-        print(json.dumps(whole | about | {"coatings": counts} | total_of_rows, indent=2))
+        print(json.dumps(total | about | {"coatings": counts} | total_of_rows, indent=2))
         if unreadable:
             sys.exit(2)
         return
-    _print_table(counts | {"all": whole})
-    longer = f"{whole['longer_done']} of {whole['longer_planned']} done"
+    _print_table(counts | {"all": total})
+    longer = f"{total['longer_done']} of {total['longer_planned']} done"
     print(f"\nlonger runs, where growth is to be confirmed: {longer}")
     if rows:
         counted = ", ".join(f"{rows[column]} {column}" for column in _COLUMNS)
         print(f"rows of blades: {counted}, {rows['bytes'] / 1e6:.1f} MB")
-    if whole["unconverged"]:
-        print(f"runs with steps whose contact forces did not converge: {whole['unconverged']}")
-    if whole["unbalanced"]:
+    if total["unconverged"]:
+        print(f"runs with steps whose contact forces did not converge: {total['unconverged']}")
+    if total["unbalanced"]:
         print(
             f"runs whose energy ledger misses more than {UNBALANCED:g} of the work exchanged: "
-            f"{whole['unbalanced']}; do not trust them, or lower solver.tolerance"
+            f"{total['unbalanced']}; do not trust them, or lower solver.tolerance"
         )
     if damaged:
         state = "damaged and deleted" if options.discard else "damaged; delete them, as status --discard does"
         print(f"{state}; then run snakemake again, which makes them alone:")
         print("\n".join(f"  {path}" for path in damaged))
-    if lost:
+    if lost_files:
         print("listed by their manifest, but not there; run snakemake again, which computes them alone:")
-        print("\n".join(f"  {path}" for path in lost))
+        print("\n".join(f"  {path}" for path in lost_files))
     for line in (note, *notes):
         if line:
             print(line)

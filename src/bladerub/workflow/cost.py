@@ -37,7 +37,7 @@ def table(benchmarks: str | Path) -> pd.DataFrame:
                 _log.warning("left out: %s", error)
                 continue
             figures = last.apply(pd.to_numeric, errors="coerce").itertuples(index=False)
-            rows += [(STAGES.get(rule, "figures"), rule, job, *each) for each in figures]
+            rows += [(STAGES.get(rule, "figures"), rule, job, *record) for record in figures]
     return pd.DataFrame(rows, columns=COLUMNS)
 
 

@@ -46,8 +46,8 @@ _MOST_NAMED = 8
 def coatings(config: Mapping[str, Any]) -> str:
     """Name the coatings of the study in a line, so that a list such as ``[0,5]`` shows as two values."""
     names = [case.name for case in coating_cases(config)]
-    more = len(names) - _MOST_NAMED
-    return f"coatings: {', '.join(names[:_MOST_NAMED])}{f' and {more} more' if more > 0 else ''}"
+    excess = len(names) - _MOST_NAMED
+    return f"coatings: {', '.join(names[:_MOST_NAMED])}{f' and {excess} more' if excess > 0 else ''}"
 
 
 def forecast(config: Mapping[str, Any], jobs: Iterable[tuple[str, str | None]]) -> str:
@@ -61,11 +61,11 @@ def forecast(config: Mapping[str, Any], jobs: Iterable[tuple[str, str | None]]) 
         case.name: inventory.take(config, coating_plan(config, case), results / "runs" / case.name, digest)[0]
         for case in coating_cases(config)
     }
-    whole = inventory.total(counts.values())
-    left = whole["planned"] - whole["done"]
-    runs = f"{left:,} of {whole['planned']:,} runs of the study are to be computed"
-    if not left:
-        runs = f"all {whole['planned']:,} runs of the study are done"
+    total = inventory.total(counts.values())
+    n_missing = total["planned"] - total["done"]
+    runs = f"{n_missing:,} of {total['planned']:,} runs of the study are to be computed"
+    if not n_missing:
+        runs = f"all {total['planned']:,} runs of the study are done"
     if not jobs:
         return runs
     costs, n_blades = costs_of(config), config.get("rotor", {"blades": 1})["blades"]

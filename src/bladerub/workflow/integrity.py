@@ -14,7 +14,7 @@ class Faults(NamedTuple):
     """What is wrong with the files of a folder."""
 
     damaged: list[Path]  # read, and not as they were written
-    lost: list[Path]  # listed by a manifest, but not there
+    lost_files: list[Path]  # listed by a manifest, but not there
     unreadable: list[str]  # for each file that the system refuses to read, its name, the reason and the cure
 
 
@@ -60,7 +60,7 @@ def _examine_listed(manifest: Path, kind: type[Row], faults: Faults) -> None:
     for file in listed_files(manifest, kind):
         try:
             if not file.path.exists():
-                faults.lost.append(file.path)
+                faults.lost_files.append(file.path)
             elif file.is_damaged():
                 faults.damaged.append(file.path)
         except OSError as error:

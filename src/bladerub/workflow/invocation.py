@@ -47,12 +47,12 @@ def loss(manifest: str | Path, kind: type[Row] = ManifestRow) -> str | None:
     manifest cannot be read.
     """
     try:
-        lost = [file.path for file in listed_files(manifest, kind) if file.is_lost()]
+        lost_files = [file.path for file in listed_files(manifest, kind) if file.is_lost()]
     except FileNotFoundError:
         return None
     except DamagedFile as error:
         return str(error)
-    return f"{lost[0]}: missing, or not as long as it was written" if lost else None
+    return f"{lost_files[0]}: missing, or not as long as it was written" if lost_files else None
 
 
 def damage(path: str | Path) -> str | None:
@@ -162,7 +162,9 @@ def _handle_termination_beside() -> None:
     """
     handler = signal.getsignal(signal.SIGTERM)
     if callable(handler):
-        signal.signal(signal.SIGTERM, lambda *at: threading.Thread(target=handler, args=at).start())
+        signal.signal(
+            signal.SIGTERM, lambda *arguments: threading.Thread(target=handler, args=arguments).start()
+        )
 
 
 def _schedule_by_events(workflow: Any) -> None:

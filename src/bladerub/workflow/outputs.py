@@ -13,13 +13,13 @@ if TYPE_CHECKING:
     from bladerub.plots.scales import Scales
 
 
-def save(snakemake: Any, figure: "Figure | None" = None, **named: pd.DataFrame) -> None:
+def save(snakemake: Any, figure: "Figure | None" = None, **frames: pd.DataFrame) -> None:
     """Write the outputs of a job, whose `snakemake` is what Snakemake hands to a script.
 
     The figure goes to the outputs ``png`` and ``pdf`` with the parameter ``dpi``, each table to the output of
     its name; that of a figure, ``data``, is written to six digits.
     """
-    for name, table in named.items():
+    for name, table in frames.items():
         digits = "%.6g" if name == "data" else None
         tables.write(snakemake.output[name], table, provenance(snakemake.config), digits)
     if figure is not None:
@@ -36,8 +36,8 @@ def scales(snakemake: Any) -> "Scales":
     """
     from bladerub.plots.scales import Engine, Scales
 
-    known = dict(snakemake.params.scales)
-    if "engine" in known:
+    parameters = dict(snakemake.params.scales)
+    if "engine" in parameters:
         f1_hz = hdf5.read_attributes(snakemake.input.blade)["f1_hz"]
-        known["engine"] = Engine(f1_hz, **known["engine"])
-    return Scales(**known)
+        parameters["engine"] = Engine(f1_hz, **parameters["engine"])
+    return Scales(**parameters)

@@ -85,46 +85,50 @@ def render(text: str, page: str, data: Mapping[str, Table]) -> str:
 
     Raises `PageError`, which names page and line, for a bad expression or a missing comment.
     """
-    done, position, opened = [], 0, None
+    pieces, position, opened = [], 0, None
     for mark in MARK.finditer(text):
-        where = f"{page}:{_line(text, mark.start())}"
+        place = f"{page}:{_line(text, mark.start())}"
         if bool(mark["end"]) != bool(opened):
             raise PageError(
-                f"{where}: {'no number begins' if mark['end'] else 'the number before has no end'}"
+                f"{place}: {'no number begins' if mark['end'] else 'the number before has no end'}"
             )
         if mark["end"]:
-            done.append(_value(opened["source"].replace("\\|", "|"), data, where))
+            pieces.append(_value(opened["source"].replace("\\|", "|"), data, place))
         else:
-            done.append(text[position : mark.end()])
+            pieces.append(text[position : mark.end()])
         position, opened = (mark.start(), None) if mark["end"] else (mark.end(), mark)
     if opened:
         raise PageError(f"{page}:{_line(text, opened.start())}: the number has no end <!-- / -->")
-    return "".join([*done, text[position:]])
+    return "".join([*pieces, text[position:]])
 
 
 def differences(text: str, page: str, data: Mapping[str, Table]) -> list[str]:
     """Name page, line and text of each stale number and each changed verdict; raise as `render`."""
-    found, lines = [], text.split("\n")
-    for first, end, now in _changes(lines, render(text, page, data).split("\n")):
+    problems, lines = [], text.split("\n")
+    for first, end, replacement in _changes(lines, render(text, page, data).split("\n")):
         for number in range(first, max(end, first + 1)):
-            new = now[number - first] if number - first < len(now) else "no such line"
-            found.append(f"{page}:{number + 1}: stale number, now: {new}")
+            new = replacement[number - first] if number - first < len(replacement) else "no such line"
+            problems.append(f"{page}:{number + 1}: stale number, now: {new}")
     for number, old in enumerate(lines, 1):
         for mark in VERDICT.finditer(old):
             try:
                 verdicts = {claim: data["findings"](claim)["holds"] for claim in mark["claims"].split()}
             except LookupError as error:
                 raise PageError(f"{page}:{number}: {error}") from error
-            changed = [f"{claim} is {now}" for claim, now in verdicts.items() if now != mark["verdict"]]
+            changed = [
+                f"{claim} is {verdict}" for claim, verdict in verdicts.items() if verdict != mark["verdict"]
+            ]
             if changed:
-                found.append(f"{page}:{number}: written for {mark['verdict']}, {', '.join(changed)}: {old}")
-    return found
+                problems.append(
+                    f"{page}:{number}: written for {mark['verdict']}, {', '.join(changed)}: {old}"
+                )
+    return problems
 
 
 def _changes(old: list[str], new: list[str]) -> Iterator[tuple[int, int, list[str]]]:
     """List the ranges of lines of `old` that differ, with the lines of `new` in their place."""
     if len(old) == len(new):
-        yield from ((at, at + 1, [new[at]]) for at, line in enumerate(old) if line != new[at])
+        yield from ((index, index + 1, [new[index]]) for index, line in enumerate(old) if line != new[index])
         return
     matcher = difflib.SequenceMatcher(None, old, new, autojunk=False)
     for tag, first, end, start, stop in matcher.get_opcodes():
@@ -132,14 +136,14 @@ def _changes(old: list[str], new: list[str]) -> Iterator[tuple[int, int, list[st
             yield first, end, new[start:stop]
 
 
-def _value(source: str, data: Mapping[str, Table], where: str) -> str:
+def _value(source: str, data: Mapping[str, Table], place: str) -> str:
     try:
         names, evaluate = _compiled(source)
         if missing := names - {*data}:
             raise LookupError(f"docs/data has no {', '.join(sorted(missing))}.csv")
         return str(evaluate(**data))
     except (TemplateError, LookupError, TypeError, ValueError) as error:
-        raise PageError(f"{where}: {source}: {error}") from error
+        raise PageError(f"{place}: {source}: {error}") from error
 
 
 @cache
@@ -195,16 +199,16 @@ def _table(rows: pd.DataFrame, *columns: str) -> str:
     Each of `columns` is a name, perhaps with a filter and a heading: ``wear:mm(2) = wear, mm``. Without them
     all are written as they are.
     """
-    told = [_column(column) for column in columns] or [(name, str, name) for name in rows.columns]
-    cells = [["" if pd.isna(value) else write(value) for value in rows[name]] for name, write, _ in told]
-    lines = [[heading for *_, heading in told], ["---"] * len(told), *zip(*cells, strict=True)]
+    layout = [_column(column) for column in columns] or [(name, str, name) for name in rows.columns]
+    cells = [["" if pd.isna(value) else write(value) for value in rows[name]] for name, write, _ in layout]
+    lines = [[heading for *_, heading in layout], ["---"] * len(layout), *zip(*cells, strict=True)]
     return "\n" + "".join(f"| {' | '.join(line)} |\n" for line in lines)
 
 
 def _column(text: str) -> tuple[str, Callable[[Any], str], str]:
     """Return name of the column, what writes a value of it, and its heading."""
-    told = _COLUMN.fullmatch(text)
-    if not told:
+    parts = _COLUMN.fullmatch(text)
+    if not parts:
         raise ValueError(f"{text}: must be a column, with filter and heading as in 'wear:mm(2) = wear, mm'")
-    form = partial(_FORMS[told["form"]], digits=int(told["digits"])) if told["form"] else str
-    return told["name"], form, told["heading"] or told["name"]
+    form = partial(_FORMS[parts["form"]], digits=int(parts["digits"])) if parts["form"] else str
+    return parts["name"], form, parts["heading"] or parts["name"]

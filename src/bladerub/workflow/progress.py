@@ -26,19 +26,19 @@ class JobProgress:
         self._bar = tqdm(disable=True)
         self._computed, self._start = 0, time.monotonic()
 
-    def __call__(self, done: RunDone | str) -> None:
+    def __call__(self, event: RunDone | str) -> None:
         """Report one computed run, or what the job waits for."""
-        print(done, file=self._log)
-        if isinstance(done, str):
+        print(event, file=self._log)
+        if isinstance(event, str):
             return
         self._computed += 1
         if self._bar.disable and self._terminal.isatty():
             self._take_turn()
-        if self._bar.total != done.total or done.number <= self._bar.n:  # the longer runs are counted again
-            self._bar.reset(done.total)
+        if self._bar.total != event.total or event.number <= self._bar.n:  # the longer runs are counted again
+            self._bar.reset(event.total)
         # not tqdm's own estimate from the rate so far: slow speeds cost more, and come first
-        self._bar.set_postfix_str(f"about {done.seconds_left:.0f} s left", refresh=False)
-        self._bar.update(done.number - self._bar.n)
+        self._bar.set_postfix_str(f"about {event.seconds_left:.0f} s left", refresh=False)
+        self._bar.update(event.number - self._bar.n)
 
     def _take_turn(self) -> None:
         self._lock = lock.attempt(self._turn)

@@ -28,13 +28,13 @@ def table(costs: pd.DataFrame, config: Mapping[str, Any], cores: Sequence[int] =
     last = costs[~chained & ~costs.stage.isin(_FIRST)].wall_s.sort_values(ascending=False)
     expected = costs_of(config)
     priority = {coating: priority_of(coating, expected) for coating in expected.runs}
-    total, whole, rows = expected.total, costs.wall_s.sum(), []
+    total, job_time, rows = expected.total, costs.wall_s.sum(), []
     for n in cores:
         threads = dict.fromkeys(jobs, 1)
         for stage, of_stage in (("rubs", expected.runs), ("ensembles", expected.ensembles)):
-            threads |= {(stage, coating): threads_for(of, total, n) for coating, of in of_stage.items()}
+            threads |= {(stage, coating): threads_for(cost, total, n) for coating, cost in of_stage.items()}
         took = first + _chains(jobs, threads, priority, n) + _in_turn(last, n)
-        rows.append((n, took / 60, whole / n / took))
+        rows.append((n, took / 60, job_time / n / took))
     return pd.DataFrame(rows, columns=COLUMNS)
 
 
@@ -45,22 +45,24 @@ def _chains(
     cores: int,
 ) -> float:
     """Time of the jobs of all coatings, s; those of a coating that has begun come first."""
-    waiting = [(-priority[coating], coating, stage) for stage, coating in jobs if stage == _CHAIN[0]]
+    queue = [(-priority[coating], coating, stage) for stage, coating in jobs if stage == _CHAIN[0]]
     at_work: list[tuple[float, str, str]] = []
-    now, free = 0.0, cores
-    while waiting or at_work:
-        for job in sorted(waiting):
+    clock, free = 0.0, cores
+    while queue or at_work:
+        for job in sorted(queue):
             _, coating, stage = job
             if threads[stage, coating] <= free:
                 free -= threads[stage, coating]
-                waiting.remove(job)
-                end = now + jobs[stage, coating] / threads[stage, coating]
+                queue.remove(job)
+                end = clock + jobs[stage, coating] / threads[stage, coating]
                 heapq.heappush(at_work, (end, coating, stage))
-        now, coating, stage = heapq.heappop(at_work)
+        clock, coating, stage = heapq.heappop(at_work)
         free += threads[stage, coating]
-        following = [after for after in _CHAIN[_CHAIN.index(stage) + 1 :] if (after, coating) in jobs]
-        waiting += [(-BEGUN, coating, after) for after in following[:1]]
-    return now
+        following = [
+            successor for successor in _CHAIN[_CHAIN.index(stage) + 1 :] if (successor, coating) in jobs
+        ]
+        queue += [(-BEGUN, coating, successor) for successor in following[:1]]
+    return clock
 
 
 def _in_turn(seconds: Sequence[float], cores: int) -> float:

@@ -16,9 +16,13 @@ _RUN = ("casing", "E", "K", "theta")
 _COMBINATION = (*_RUN, "f_omega", "blades", "length_scatter", "frequency_scatter", "coupling")
 _ROWS = (
     *(*_COMBINATION, "rows", "unbounded_rows", "divergent_rows"),
-    *(f"row_amplitude_{of}" for of in ("median", "low", "high", "p05", "p95")),
-    *(f"amplification_{of}" for of in ("median", "low", "high", "p05", "p95")),
-    *(f"{share}_{of}" for share in ("longest_share", "largest_share") for of in ("median", "low", "high")),
+    *(f"row_amplitude_{statistic}" for statistic in ("median", "low", "high", "p05", "p95")),
+    *(f"amplification_{statistic}" for statistic in ("median", "low", "high", "p05", "p95")),
+    *(
+        f"{share}_{statistic}"
+        for share in ("longest_share", "largest_share")
+        for statistic in ("median", "low", "high")
+    ),
     *("wear_harmonic", "wear_harmonic_rows", "wear_harmonic_share_median", "lobes_lowest", "lobes_highest"),
     "energy_residual",
 )
@@ -47,7 +51,11 @@ KEPT = {
     ),
     "rotor": _ROWS,
     "rotor_half": _ROWS,
-    "rotor_drift": (*_COMBINATION, "rows", *(f"pattern_drift_{of}" for of in ("median", "p05", "p95"))),
+    "rotor_drift": (
+        *_COMBINATION,
+        "rows",
+        *(f"pattern_drift_{statistic}" for statistic in ("median", "p05", "p95")),
+    ),
     "schedule": ("cores", "minutes", "efficiency"),
     "rigid_convergence": (
         *("f_omega", "treatment", "modes", "steps", "order", "complete", "amplitude"),

@@ -67,8 +67,8 @@ def benchmark(options: argparse.Namespace) -> None:
         from bladerub.extras.benchmark.record import recorded
 
         recorded(options.table)  # another table is refused before anything takes time
-    whole = inputs.read_blade(options, config)
-    blade = whole.reduced
+    stored_blade = inputs.read_blade(options, config)
+    blade = stored_blade.reduced
 
     from bladerub.extras.benchmark.measure import benchmark as measure
 
@@ -83,7 +83,7 @@ def benchmark(options: argparse.Namespace) -> None:
 
         _report_stage("timing runs with the stress of the blade")
         with inputs.refused(OSError, BadInput, because="--stress: "):
-            figures["cost_of_stress"] = cost_of_stress(whole.mesh_path, blade, config, options.rounds)
+            figures["cost_of_stress"] = cost_of_stress(stored_blade.mesh_path, blade, config, options.rounds)
     if options.table:
         from bladerub.extras.benchmark.record import record
         from bladerub.io.provenance import provenance

@@ -44,10 +44,10 @@ def write(options: argparse.Namespace, config: dict[str, Any]) -> dict[str, Any]
         file = getattr(options, option)
         if file and file.suffix.lower() not in suffixes:
             raise InputError(f"--{option} {file}: must end in {', '.join(suffixes)}")
-    found = inputs.read_blade(options, config)
-    path, blade = found.path, found.reduced
+    stored_blade = inputs.read_blade(options, config)
+    path, blade = stored_blade.path, stored_blade.reduced
     with refused(OSError):
-        mesh = read_mesh(found.mesh_path, blade)
+        mesh = read_mesh(stored_blade.mesh_path, blade)
         needs_elements = options.calculix or (options.mesh and options.mesh.suffix.lower() != ".vtu")
         if needs_elements and not len(mesh["cells"]):
             raise InputError(
@@ -58,7 +58,7 @@ def write(options: argparse.Namespace, config: dict[str, Any]) -> dict[str, Any]
             files = [options.matrices]
         elif options.mesh:
             sets = {name: mesh[f"{name}_nodes"] for name in ("root", "tip", "interface")}
-            fields = _fields(found.mesh_path)
+            fields = _fields(stored_blade.mesh_path)
             mesh_file.write_mesh_file(options.mesh, mesh["points"], mesh["cells"], sets, fields)
             files = [options.mesh]
         else:

@@ -97,13 +97,13 @@ def _motion(options: argparse.Namespace, config: dict[str, Any]) -> dict[str, An
     from bladerub.extras.stress.run import stress_of
     from bladerub.io.provenance import provenance
 
-    run, found = _run_and_blade(options, config)
+    run, blade = _run_and_blade(options, config)
     with refused(OSError):
-        mesh = read_mesh(found.mesh_path, found.reduced)
-        stress = stress_of(found.mesh_path, run.attributes["f_omega"])
-    plan = _plan(options, config, run, found.path)
+        mesh = read_mesh(blade.mesh_path, blade.reduced)
+        stress = stress_of(blade.mesh_path, run.attributes["f_omega"])
+    plan = _plan(options, config, run, blade.path)
     row = plan.row or Row.even(1)
-    recording = _record(options, run, plan, found.reduced, row, whole=False)
+    recording = _record(options, run, plan, blade.reduced, row, all_revolutions=False)
     names = ("casing", "E", "K", "theta", "law", "f_omega", "run_key")
     about = {name: run.attributes[name] for name in names} | provenance(config)
     with refused(OSError, because=f"--vtu {options.vtu}: cannot be written: "):
@@ -116,7 +116,7 @@ def _motion(options: argparse.Namespace, config: dict[str, Any]) -> dict[str, An
         "nodes": len(row.blades) * len(mesh["points"]),
         "elements": len(row.blades) * len(mesh["cells"]),
         **largest,
-        "displacement_over_length": largest["largest_displacement"] / found.reduced.length,
+        "displacement_over_length": largest["largest_displacement"] / blade.reduced.length,
         "bytes": sum(file.stat().st_size for file in options.vtu.iterdir()),
     }
 
@@ -130,12 +130,12 @@ def _animation(options: argparse.Namespace, config: dict[str, Any]) -> dict[str,
     from bladerub.contact.row_spec import Row
     from bladerub.plots.animation import animate
 
-    run, found = _run_and_blade(options, config)
-    plan = _plan(options, config, run, found.path)
+    run, blade = _run_and_blade(options, config)
+    plan = _plan(options, config, run, blade.path)
     row = plan.row or Row.even(1)
-    recording = _record(options, run, plan, found.reduced, row, whole=True)
+    recording = _record(options, run, plan, blade.reduced, row, all_revolutions=True)
     with refused(OSError, because=f"--animation {options.animation}: cannot be written: "):
-        animate(options.animation, recording, found.reduced, row, run.attributes)
+        animate(options.animation, recording, blade.reduced, row, run.attributes)
     return {
         "animation": str(options.animation),
         "samples": options.samples,
@@ -192,9 +192,9 @@ def _record(
     plan: "PlannedRun",
     blade: "ReducedBlade",
     row: "Row",
-    whole: bool,
+    all_revolutions: bool,
 ) -> "Recording":
-    """Record the last complete revolution of a run, or the `whole` of it up to there."""
+    """Record the last complete revolution of a run, or `all_revolutions` up to it."""
     from bladerub.contact.recording import record
     from bladerub.contact.setup import compile_kernel
 
@@ -206,7 +206,7 @@ def _record(
             f"--run {options.run}: exceeds the displacement limit in its first revolution, so that no "
             "revolution is complete"
         )
-    before = 0 if whole else last - 1
+    before = 0 if all_revolutions else last - 1
     instants = np.rint(np.linspace(0, (last - before) * n_elements, options.samples + 1)[1:]).astype(int)
     compile_kernel(n_nodes=blade.n_interface, law=plan.spec.coating.element_law)
     with inputs.progress_bar(last, "rev") as bar:
@@ -215,11 +215,11 @@ def _record(
             plan.spec,
             row,
             (before * n_elements + instants).tolist(),
-            progress=lambda done: bar.update(done - bar.n),
+            progress=lambda revolutions: bar.update(revolutions - bar.n),
         )
-    most = run.attributes.get("blade", 1) - 1  # whose peaks are stored
+    blade_index = run.attributes.get("blade", 1) - 1  # whose peaks are stored
     stored = run.data["revolution_peak"][:last]
-    difference = np.max(np.abs(recording.revolution_peak[most] - stored))
+    difference = np.max(np.abs(recording.revolution_peak[blade_index] - stored))
     if not difference <= SAME * np.max(stored):
         raise InputError(
             f"--run {options.run}: computed again, its peaks differ by {difference:.2g} m: it was made on "

@@ -33,22 +33,22 @@ def fit_coating(options: argparse.Namespace) -> None:
     from bladerub.extras.fit.interface import fit_coating as fit
 
     unit = inputs.read_config(options)["contact"]["modulus_unit"]
-    found = fit(options.table, strain_unit=options.strain_unit, stress_unit=options.stress_unit)
-    names = [parameter.name for parameter in found.parameters]
+    result = fit(options.table, strain_unit=options.strain_unit, stress_unit=options.stress_unit)
+    names = [parameter.name for parameter in result.parameters]
     figures = {
-        "points": found.n_points,
-        "rates": list(found.rates),
-        "residual": found.residual,
-        "autocorrelation": found.autocorrelation,
-        "independent_residuals": not found.has_correlated_residuals,
-        "parameters": [asdict(parameter) for parameter in found.parameters],
+        "points": result.n_points,
+        "rates": list(result.rates),
+        "residual": result.residual,
+        "autocorrelation": result.autocorrelation,
+        "independent_residuals": not result.has_correlated_residuals,
+        "parameters": [asdict(parameter) for parameter in result.parameters],
         "covariance": {
             name: {other: float(value) for other, value in zip(names, row, strict=True) if value == value}
-            for name, row in zip(names, found.covariance, strict=True)
+            for name, row in zip(names, result.covariance, strict=True)
         },
         "config": {
             "modulus_unit": unit,
-            **{name: found[name].value / unit for name in ("E", "K", "yield_stress")},
+            **{name: result[name].value / unit for name in ("E", "K", "yield_stress")},
         },
     }
     inputs.show(options, figures, _in_words)
@@ -92,6 +92,6 @@ def _in_words(figures: dict[str, Any]) -> str:
 
 def _row(parameter: dict[str, Any]) -> str:
     unit, factor = ("MPa", 1e-6) if parameter["unit"] == "Pa" else (parameter["unit"], 1.0)
-    known = [parameter[key] for key in ("value", "standard_error", "low", "high")]
-    cells = ["–" if number is None else f"{number * factor:.4g}" for number in known]
+    numbers = [parameter[key] for key in ("value", "standard_error", "low", "high")]
+    cells = ["–" if number is None else f"{number * factor:.4g}" for number in numbers]
     return inputs.row(16, parameter["name"], *cells, unit)

@@ -57,4 +57,6 @@ def _in_words(figures: dict[str, Any]) -> str:
     if not figures["problems"]:
         return f"{head}, no problem; it compiles with the time loop"
     lines = [f"{head}, {len(figures['problems'])} kinds of problem; values in SI units"]
-    return "\n".join([*lines, *(f"- {each['what']} ({each['where']})" for each in figures["problems"])])
+    return "\n".join(
+        [*lines, *(f"- {problem['what']} ({problem['where']})" for problem in figures["problems"])]
+    )

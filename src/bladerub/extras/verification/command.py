@@ -83,8 +83,8 @@ def _rows(config: dict[str, Any], path: Path) -> "list[StudyRun]":
 
     plan = read_plan(path, config)
     return [
-        StudyRun(of.case, of.f_omega, plan.row(of, draw), f"{name}/{draw:04d}")
-        for name, of in plan.combinations.items()
+        StudyRun(combination.case, combination.f_omega, plan.row(combination, draw), f"{name}/{draw:04d}")
+        for name, combination in plan.combinations.items()
         for draw in range(plan.draws[name])
     ]
 

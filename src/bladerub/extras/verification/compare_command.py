@@ -34,8 +34,10 @@ def compare(options: argparse.Namespace) -> int:
     """Compare the tables that the command line names, and print what differs."""
     from bladerub.extras.verification.compare import compare as compare_tables
 
-    own = BENCHMARKS / options.reference
-    reference = own if own.is_dir() and not options.reference.is_dir() else options.reference
+    package_folder = BENCHMARKS / options.reference
+    reference = (
+        package_folder if package_folder.is_dir() and not options.reference.is_dir() else options.reference
+    )
     for folder in (options.folder, reference):
         if not folder.is_dir():
             raise InputError(f"{folder}: there is no such folder")
