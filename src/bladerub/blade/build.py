@@ -35,18 +35,18 @@ def made_from(config: Mapping[str, Any]) -> str:
     Raises OSError or ValueError if a file that the blade comes from cannot be read or is missing.
     """
     blade = config["blade"]
-    given = blade.get("source", {})
-    if given:
-        given = asdict(Frame()) | given  # what a config leaves out is not another blade
-    if "matrices" in given:
-        found = matrix_folder.files(origin.read(given).folder)
-        content = {name: _digest(path) for name, path in found.items()}
-        blade = {"length": blade["length"], "source": {**given, "matrices": content}}
-    elif given:
-        source = origin.read(given)
+    spec = blade.get("source", {})
+    if spec:
+        spec = asdict(Frame()) | spec  # what a config leaves out is not another blade
+    if "matrices" in spec:
+        paths = matrix_folder.files(origin.read(spec).folder)
+        content = {name: _digest(path) for name, path in paths.items()}
+        blade = {"length": blade["length"], "source": {**spec, "matrices": content}}
+    elif spec:
+        source = origin.read(spec)
         parts = ("material", "length", *(("mesh",) if source.is_table else ()))
         blade = {name: blade[name] for name in parts}
-        blade["source"] = {**given, "file": _digest(source.file)}
+        blade["source"] = {**spec, "file": _digest(source.file)}
     return json.dumps({"blade": blade, "reduction": config["reduction"]}, sort_keys=True)
 
 
@@ -93,19 +93,19 @@ def _of_matrices(config: Mapping[str, Any]) -> DiscreteBlade:
     """Read the matrices that `config` names, of a blade of its length."""
     length, reduction = config["blade"]["length"], config["reduction"]
     source = origin.read(config["blade"]["source"])
-    given = import_matrices(
+    imported = import_matrices(
         source, reduction["f_omega_max"], reduction["accuracy_modes"], reduction["modes_per_speed"]
     )
-    layout = given.blade.layout
+    layout = imported.blade.layout
     tip_radius = np.hypot(*layout.mesh.mesh.points[layout.mesh.tip, 1:].T).mean()
-    if given.is_rooted:
+    if imported.is_rooted:
         _check_length(length, layout.length, source.folder)
     elif not (1 - LENGTH_TOLERANCE) * layout.length <= length < tip_radius:
         raise BadInput(
             f"blade.length = {length:g}: must be that of the blade in {source.folder}, whose nodes reach "
             f"over {layout.length:.4g} m up to a tip at a radius of {tip_radius:.4g} m"
         )
-    return given.blade
+    return imported.blade
 
 
 @threadpool_limits.wrap(limits=1)
@@ -117,9 +117,9 @@ def meshed_blade(blade: Mapping[str, Any], n_nodes: int = N_INTERFACE) -> Meshed
         return MeshedBlade(
             BladeMesh.from_shape(shape, blade["mesh"], n_nodes), shape.tip_cone, blade["length"]
         )
-    given = import_blade(origin.read(blade["source"]), blade["mesh"], n_nodes).blade
-    _check_length(blade["length"], given.length, blade["source"]["file"])
-    return given
+    imported = import_blade(origin.read(blade["source"]), blade["mesh"], n_nodes).blade
+    _check_length(blade["length"], imported.length, blade["source"]["file"])
+    return imported
 
 
 def _check_length(length: float, measured: float, path: str | Path) -> None:

@@ -63,8 +63,8 @@ def by_finite_elements(
         if f_omega > 0:
             state = equilibrium(solid, f_omega * unit, state, at_rest)
             moved = 1e3 * np.linalg.norm(solid.full(state.displacement), axis=1).max()
-            found = f"equilibrium in {state.n_steps} load steps, {state.n_iterations} iterations"
-            log.info("f_omega = %.4f: %s, largest displacement %.4g mm", f_omega, found, moved)
+            summary = f"equilibrium in {state.n_steps} load steps, {state.n_iterations} iterations"
+            log.info("f_omega = %.4f: %s, largest displacement %.4g mm", f_omega, summary, moved)
         displacement[f_omega] = state.displacement
         if f_omega in speeds:
             stiffness[f_omega] = state.stiffness

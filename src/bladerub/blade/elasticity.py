@@ -149,8 +149,10 @@ class _Pattern:
         place[free_nodes] = np.arange(n_free)
         number = place[cells]  # (element, node)
         rows, columns = np.broadcast_arrays(number[:, :, None], number[:, None, :])
-        kept = (rows >= 0) & (columns >= 0)
-        pairs, which = np.unique(columns[kept].astype(np.int64) * n_free + rows[kept], return_inverse=True)
+        is_free = (rows >= 0) & (columns >= 0)
+        pairs, which = np.unique(
+            columns[is_free].astype(np.int64) * n_free + rows[is_free], return_inverse=True
+        )
         starts = np.searchsorted(pairs // n_free, np.arange(n_free + 1))
         above, column = np.arange(pairs.size) - starts[pairs // n_free], pairs // n_free
         height = np.diff(starts)[column]  # of the column, in nodes
@@ -161,7 +163,7 @@ class _Pattern:
         entries = first[:, None, None] + axis[:, None] + 3 * height[:, None, None] * axis
         size = 9 * pairs.size
         target = np.full((*rows.shape, 3, 3), size)  # what is clamped goes behind the last
-        target[kept] = entries[which]
+        target[is_free] = entries[which]
         self._target = np.swapaxes(target, 2, 3).ravel()
         self._rows = np.empty(size, dtype=np.int32)
         self._rows[entries] = (3 * (pairs % n_free))[:, None, None] + axis[:, None]
@@ -178,7 +180,7 @@ class _Pattern:
         matrix = sparse.csc_array(matrix).sorted_indices()
         numbers = np.arange(1.0, self._rows.size + 1)
         numbered = sparse.csc_array((numbers, self._rows, self._starts), shape=self._shape)
-        there = sparse.csc_array((np.ones(matrix.nnz), matrix.indices, matrix.indptr), shape=self._shape)
+        pattern = sparse.csc_array((np.ones(matrix.nnz), matrix.indices, matrix.indptr), shape=self._shape)
         values = np.zeros(self._rows.size)
-        values[(numbered * there).data.astype(np.intp) - 1] = matrix.data
+        values[(numbered * pattern).data.astype(np.intp) - 1] = matrix.data
         return values

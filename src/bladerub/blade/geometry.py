@@ -95,15 +95,16 @@ def check(blade: Mapping[str, Any], n_interface: int = N_INTERFACE) -> None:
     spans = [float(section["span"]) for section in blade["sections"]]
     if len(spans) < 2:
         raise ValueError(f"blade.sections: {len(spans)} section(s); give at least two, at span 0 and 1")
-    for at, wanted in ((0, 0.0), (len(spans) - 1, 1.0)):
-        if spans[at] != wanted:
+    for index, end in ((0, 0.0), (len(spans) - 1, 1.0)):
+        if spans[index] != end:
             raise ValueError(
-                f"blade.sections[{at}].span = {spans[at]:g}: the sections must run from span 0 to 1"
+                f"blade.sections[{index}].span = {spans[index]:g}: the sections must run from span 0 to 1"
             )
-    for at, (before, span) in enumerate(pairwise(spans), 1):
+    for index, (before, span) in enumerate(pairwise(spans), 1):
         if span <= before:
             raise ValueError(
-                f"blade.sections[{at}].span = {span:g}: must be above that of the section before ({before:g})"
+                f"blade.sections[{index}].span = {span:g}: must be above that of the section before "
+                f"({before:g})"
             )
     check_interface(blade["mesh"], n_interface)
     xi, eta, zeta = lattice(blade["mesh"])
@@ -113,9 +114,9 @@ def check(blade: Mapping[str, Any], n_interface: int = N_INTERFACE) -> None:
     chord = shape.section(zeta)[0]  # below zero with the thickness, it leaves the determinant positive
     inside_out = (lowest <= 0) | (chord[:-1] <= 0) | (chord[1:] <= 0)
     if np.any(inside_out):
-        at = np.flatnonzero(inside_out)[0]
+        element = np.flatnonzero(inside_out)[0]
         raise ValueError(
-            f"blade.sections: mesh turned inside out at span {zeta[at]:.3g} to {zeta[at + 1]:.3g}; "
+            f"blade.sections: mesh turned inside out at span {zeta[element]:.3g} to {zeta[element + 1]:.3g}; "
             "chord and thickness must stay above zero between the sections, and neighbours must not cross"
         )
 

@@ -77,10 +77,10 @@ class PreconditionedCG:
                 return in_hertz(squares), modes
             residual = images @ shares - (momenta @ shares) * squares
             addition = self.factors(residual)
-            far = np.sum(residual * addition, axis=0) > CLOSE * np.abs(squares)
-            converged = not far.any()
+            unconverged = np.sum(residual * addition, axis=0) > CLOSE * np.abs(squares)
+            converged = not unconverged.any()
             if not converged:
-                addition = addition[:, far]
+                addition = addition[:, unconverged]
         return linear.lowest_modes(self.matrix, mass, n_modes)
 
 
@@ -96,5 +96,5 @@ def _orthonormal(
         block = block / np.linalg.norm(block, axis=0)
         momentum = mass @ block
         factor = np.linalg.cholesky(block.T @ momentum)
-        block, momentum = (solve_triangular(factor, each.T, lower=True).T for each in (block, momentum))
+        block, momentum = (solve_triangular(factor, vectors.T, lower=True).T for vectors in (block, momentum))
     return block, momentum

@@ -125,8 +125,8 @@ def mass_orthonormal(columns: np.ndarray, mass: sparse.csc_array, rank_tolerance
     """
     columns = columns / np.sqrt(np.sum(columns * (mass @ columns), axis=0))
     squares, directions = np.linalg.eigh(columns.T @ (mass @ columns))
-    kept = squares > rank_tolerance**2 * squares[-1]
-    psi = columns @ (directions[:, kept] / np.sqrt(squares[kept]))
+    rank_mask = squares > rank_tolerance**2 * squares[-1]
+    psi = columns @ (directions[:, rank_mask] / np.sqrt(squares[rank_mask]))
     # The Gram matrix squares the condition number: once more, for orthonormality to rounding.
     factor = np.linalg.cholesky(psi.T @ (mass @ psi))
     return np.linalg.solve(factor, psi.T).T

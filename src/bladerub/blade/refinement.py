@@ -116,15 +116,15 @@ def _frequencies_by_law(blade: DiscreteBlade, fits: list, f_max: float) -> dict[
             for f_omega in blade.frequencies
         }
     shares = speed_law(np.eye(len(fits)), f_max)  # of the fits: coefficients as large would fill the memory
-    found = {}
+    frequencies = {}
     for f_omega in blade.frequencies:
         values = np.zeros(fits[0].nnz)
         for weight, fit in zip(stiffness_at(shares, f_omega), fits, strict=True):
             values = blas.daxpy(fit.data, values, a=weight)  # in place
         law = sparse.csc_array((values, fits[0].indices, fits[0].indptr), shape=fits[0].shape)
         modes = blade.modes_at_speed[f_omega]
-        found[f_omega] = PreconditionedCG(law, blade.at_rest).lowest_modes(blade.mass, modes)[0]
-    return found
+        frequencies[f_omega] = PreconditionedCG(law, blade.at_rest).lowest_modes(blade.mass, modes)[0]
+    return frequencies
 
 
 def directions(position: np.ndarray, tip_cone: float) -> tuple[np.ndarray, np.ndarray]:

@@ -46,23 +46,23 @@ def equilibrium(
     EquilibriumError if a step is still without equilibrium after `MAX_HALVINGS` halvings.
     """
     target = omega**2
-    reached, u = (start.omega**2, start.displacement) if start else (0.0, np.zeros(solid.free.size))
+    level, u = (start.omega**2, start.displacement) if start else (0.0, np.zeros(solid.free.size))
     # a tangent is expensive: the first is known, except for the spin softening
-    known = start.stiffness if start and at_rest else None
-    step, smallest = target - reached, abs(target - reached) / 2**MAX_HALVINGS
+    start_stiffness = start.stiffness if start and at_rest else None
+    step, smallest = target - level, abs(target - level) / 2**MAX_HALVINGS
     n_iterations = n_steps = 0
-    while reached != target:
-        aim = target if abs(target - reached) <= abs(step) else reached + step
-        tangent = None if known is None else _softened(solid, known, aim - reached)
-        found, iterations = _newton(solid, aim, u, at_rest, tangent)
+    while level != target:
+        aim = target if abs(target - level) <= abs(step) else level + step
+        tangent = None if start_stiffness is None else _softened(solid, start_stiffness, aim - level)
+        solution, iterations = _newton(solid, aim, u, at_rest, tangent)
         n_iterations += iterations
-        if found is not None:
-            reached, u, known = aim, found, None
+        if solution is not None:
+            level, u, start_stiffness = aim, solution, None
             n_steps += 1
         elif abs(step) / 2 < smallest:
             raise EquilibriumError(
                 f"no static equilibrium at {omega:.6g} rad/s: Newton's method stops converging above "
-                f"{np.sqrt(reached):.6g} rad/s, with load steps of {abs(step):.3g} rad²/s²"
+                f"{np.sqrt(level):.6g} rad/s, with load steps of {abs(step):.3g} rad²/s²"
             )
         else:
             step /= 2

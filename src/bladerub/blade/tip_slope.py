@@ -32,11 +32,11 @@ def tip_slope(
     slopes = []
     for node, outward, along in zip(nodes, radial, tangential, strict=True):
         offset = points[mesh.tip] - node
-        near = np.linalg.norm(offset, axis=1) <= reach
-        offset = offset[near]
+        neighbours = np.linalg.norm(offset, axis=1) <= reach
+        offset = offset[neighbours]
         plane = np.stack([np.ones(len(offset)), offset @ along, offset @ np.cross(outward, along)], axis=1)
         if np.linalg.matrix_rank(plane, tol=1e-3 * reach) < 3:
             return None
-        displacement = recovery[:, mesh.tip[near]] @ outward
+        displacement = recovery[:, mesh.tip[neighbours]] @ outward
         slopes.append(np.linalg.lstsq(plane, displacement.T)[0][1])
     return np.array(slopes)

@@ -76,12 +76,12 @@ def _reads(*parts: str) -> Callable[[Check], Check]:
 @_reads("results")
 def _results(config: Config) -> Iterator[str]:
     folders = config["results"].split("/")
-    where = f"results = {format_value(config['results'])}"
+    setting = f"results = {format_value(config['results'])}"
     if folders[0].casefold() in SOURCE_FOLDERS:
-        yield f"{where}: must not be in {folders[0]}, which is the repository's own"
+        yield f"{setting}: must not be in {folders[0]}, which is the repository's own"
     for path in itertools.accumulate(folders, os.path.join):
         if os.path.isfile(study_folder() / path):
-            yield f"{where}: must be a folder, {path} is a file"
+            yield f"{setting}: must be a folder, {path} is a file"
 
 
 @_reads("blade", "reduction")
@@ -106,12 +106,12 @@ def _blade_source(blade: Config, n_nodes: int) -> Iterator[str]:
         try:
             matrix_folder.files(source.folder)
         except ValueError as error:
-            where = f"blade.source.matrices = {format_value(blade['source']['matrices'])}"
-            yield f"{where}: {error} ({source.folder})"
+            setting = f"blade.source.matrices = {format_value(blade['source']['matrices'])}"
+            yield f"{setting}: {error} ({source.folder})"
         return
     if not source.file.is_file():
-        where = f"blade.source.file = {format_value(blade['source']['file'])}"
-        yield f"{where}: there is no such file ({source.file})"
+        setting = f"blade.source.file = {format_value(blade['source']['file'])}"
+        yield f"{setting}: there is no such file ({source.file})"
     if source.is_table:
         _check_size(blade["mesh"])
         geometry.check_interface(blade["mesh"], n_nodes)
@@ -126,9 +126,9 @@ def _check_size(mesh: Config) -> None:
 @_reads("reduction")
 def _accuracy_modes(config: Config) -> Iterator[str]:
     modes, per_speed = config["reduction"]["accuracy_modes"], config["reduction"]["modes_per_speed"]
-    most = 3 * n_interface(config) + per_speed  # coordinates that the reduced model has for sure
-    if modes > most:
-        yield f"reduction.accuracy_modes = {modes}: must be at most {most}, with {per_speed} modes_per_speed"
+    limit = 3 * n_interface(config) + per_speed  # coordinates that the reduced model has for sure
+    if modes > limit:
+        yield f"reduction.accuracy_modes = {modes}: must be at most {limit}, with {per_speed} modes_per_speed"
 
 
 @_reads("reduction", "blade")
@@ -162,7 +162,7 @@ def _neighbours(config: Config, row: Row) -> Iterator[str]:
     turn = 2 * np.pi * (blade["hub_radius"] + blade["length"])
     moved = config["solver"]["displacement_limit"] * blade["length"] / turn * n_elements
     fewest = math.ceil(2 * (contact["tip_profile"]["half_width"] + moved)) + 4
-    starts = sorted(int(each.angle / (2 * np.pi) % 1 * n_elements) for each in row.blades)
+    starts = sorted(int(neighbour.angle / (2 * np.pi) % 1 * n_elements) for neighbour in row.blades)
     nearest = min(np.diff([*starts, starts[0] + n_elements]))
     if len(starts) > 1 and nearest < fewest:
         yield (
@@ -206,10 +206,10 @@ def _law(config: Config) -> Iterator[str]:
         yield f"contact.law.file = {format_value(law['file'])}: must be without contact.law.name"
         return
     try:
-        own = dict(element_law(config).parameters)
-        if "heated_depth" in own:
+        parameters = dict(element_law(config).parameters)
+        if "heated_depth" in parameters:
             scale = config["contact"].get("scale", UNSCALED)
-            cell_heights(config["contact"]["layer_thickness"] * scale["length"], own["heated_depth"])
+            cell_heights(config["contact"]["layer_thickness"] * scale["length"], parameters["heated_depth"])
     except ValueError as error:
         yield f"contact.law.{error}"
 
@@ -252,16 +252,16 @@ def _contact_at_all(config: Config) -> Iterator[str]:
         if is_shifted or _shape_problem(entry):  # each coating says how deep, see `own_problem`
             continue
         depth, key = casing_spec(name, entry).interference, f"casings.{name}.interference"
-        right = _too_deep(config, entry, depth) or _too_shallow(config, depth)
+        bound = _too_deep(config, entry, depth) or _too_shallow(config, depth)
         if "table" in entry:
             if "interference" not in entry:
                 key = f"casings.{name}.table: interference"
-            if right and depth <= _smallest_clearance(config):
-                right += "; give an interference here or in the entry of coatings, or lower the table"
+            if bound and depth <= _smallest_clearance(config):
+                bound += "; give an interference here or in the entry of coatings, or lower the table"
             if depth >= thickness:
-                right = right or f"below contact.layer_thickness, {thickness:g} m"
-        if right:
-            yield f"{key} = {depth:g}: must be {right}"
+                bound = bound or f"below contact.layer_thickness, {thickness:g} m"
+        if bound:
+            yield f"{key} = {depth:g}: must be {bound}"
 
 
 def _too_shallow(config: Config, depth: float) -> str | None:
@@ -279,16 +279,16 @@ def _smallest_clearance(config: Config) -> float:
 
 def own_problem(config: Config, case: CoatingCase) -> tuple[str, str] | None:
     """Say what is wrong with the values of its own that a coating has: the key, and what would be right."""
-    casing, own = config["casings"][case.casing], case.own
-    thickness = own.get("layer_thickness", config["contact"]["layer_thickness"])
-    depth = own.get("interference", casing_spec("", casing).interference)
-    if "interference" not in own:
-        right = f"above the interference of the casing, {depth:g} m, or the blade reaches through the coating"
-        return ("layer_thickness", right) if depth >= thickness else None
-    right = _too_deep(config, casing, depth) or _too_shallow(config, depth)
+    casing, values = config["casings"][case.casing], case.own
+    thickness = values.get("layer_thickness", config["contact"]["layer_thickness"])
+    depth = values.get("interference", casing_spec("", casing).interference)
+    if "interference" not in values:
+        bound = f"above the interference of the casing, {depth:g} m, or the blade reaches through the coating"
+        return ("layer_thickness", bound) if depth >= thickness else None
+    bound = _too_deep(config, casing, depth) or _too_shallow(config, depth)
     if depth >= thickness:
-        right = f"below the layer thickness, {thickness:g} m, or the blade reaches through the coating"
-    return ("interference", right) if right else None
+        bound = f"below the layer thickness, {thickness:g} m, or the blade reaches through the coating"
+    return ("interference", bound) if bound else None
 
 
 @_reads("casings", "contact", "blade", "coatings")
@@ -296,8 +296,8 @@ def _own_values(config: Config) -> Iterator[str]:
     for index, entry in enumerate(config["coatings"]):
         for case in cases_of(entry) if OWN.keys() & entry.keys() else ():
             if problem := own_problem(config, case):
-                key, right = problem
-                yield f"coatings[{index}].{key} = {case.own[key]:g}: must be {right}"
+                key, bound = problem
+                yield f"coatings[{index}].{key} = {case.own[key]:g}: must be {bound}"
 
 
 @_reads("coatings", "speeds")
@@ -313,37 +313,39 @@ def _runs(config: Config) -> Iterator[str]:
 
 @_reads("analysis", "solver", "contact")
 def _revolutions(config: Config) -> Iterator[str]:
-    most, divergence = most_revolutions(config), config["analysis"]["divergence"]
+    limit, divergence = most_revolutions(config), config["analysis"]["divergence"]
     revolutions, confirmation = config["solver"]["revolutions"], divergence["confirmation_revolutions"]
-    where = f"analysis.divergence.confirmation_revolutions = {confirmation}"
-    for key, number in ((f"solver.revolutions = {revolutions}", revolutions), (where, confirmation)):
-        if number > most:
-            yield f"{key}: must be at most {most}, a run keeps a sample for each element and revolution"
+    setting = f"analysis.divergence.confirmation_revolutions = {confirmation}"
+    for key, number in ((f"solver.revolutions = {revolutions}", revolutions), (setting, confirmation)):
+        if number > limit:
+            yield f"{key}: must be at most {limit}, a run keeps a sample for each element and revolution"
     fewest = revolutions + divergence["revolutions"]
     if 0 < confirmation < fewest:
         sum_of = "solver.revolutions + analysis.divergence.revolutions"
-        yield f"{where}: must be 0, or at least {sum_of} = {fewest}, to show what comes after a run"
+        yield f"{setting}: must be 0, or at least {sum_of} = {fewest}, to show what comes after a run"
 
 
 @_reads("analysis", "coatings", "speeds")
 def _histories(config: Config) -> Iterator[str]:
     cases, grid = set(coating_cases(config)), set(speeds(config))
     for index, entry in enumerate(config["analysis"]["histories"]):
-        where, case = f"analysis.histories[{index}]", listed_case(entry)
+        key, case = f"analysis.histories[{index}]", listed_case(entry)
         if case not in cases:
-            yield f"{where} = {case.name}: must be one of the coatings, add it there or drop it here"
+            yield f"{key} = {case.name}: must be one of the coatings, add it there or drop it here"
         if round(entry["f_omega"], SPEED_DECIMALS) not in grid:
-            right = "one of the speeds, add it to speeds.extra or drop it here"
-            yield f"{where}.f_omega = {entry['f_omega']:g}: must be {right}"
+            requirement = "one of the speeds, add it to speeds.extra or drop it here"
+            yield f"{key}.f_omega = {entry['f_omega']:g}: must be {requirement}"
 
 
 @_reads("analysis", "casings", "coatings", "speeds")
 def _crossings(config: Config) -> Iterator[str]:
     fastest, orders = speeds(config)[-1], {}
     for name in used_casings(config):
-        own = "peak_orders" in config["casings"][name]
-        orders[f"casings.{name}.peak_orders" if own else "analysis.peaks.orders"] = peak_orders(config, name)
-    for where, index, order in ((key, *each) for key, listed in orders.items() for each in enumerate(listed)):
+        has_orders = "peak_orders" in config["casings"][name]
+        orders[f"casings.{name}.peak_orders" if has_orders else "analysis.peaks.orders"] = peak_orders(
+            config, name
+        )
+    for key, index, order in ((key, *pair) for key, values in orders.items() for pair in enumerate(values)):
         if order * fastest < 1:  # rotation stiffens the blade: C1 is nowhere below its value at rest, 1
-            right = f"at least {1 / fastest:.3g} to cross the first frequency below the highest speed"
-            yield f"{where}[{index}] = {order}: must be {right}"
+            bound = f"at least {1 / fastest:.3g} to cross the first frequency below the highest speed"
+            yield f"{key}[{index}] = {order}: must be {bound}"

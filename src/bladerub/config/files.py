@@ -95,10 +95,10 @@ def compose(*paths: str | Path, command_line: Mapping[str, Any] | None = None) -
     layers = [read(path) for path in paths]
     if command_line:
         layers.append(resolve_extend(Located.of(_from_text(command_line), Location("--config"))))
-    whole = Located({}, UNKNOWN)
+    config = Located({}, UNKNOWN)
     for layer in layers:
-        whole = whole.merged(layer)
-    return whole
+        config = config.merged(layer)
+    return config
 
 
 def read(path: str | Path, key: str | None = None) -> Located:
@@ -110,10 +110,10 @@ def read(path: str | Path, key: str | None = None) -> Located:
         As for `compose`.
     """
     path = Path(path)
-    asked, prefix = Location(source_name(path)), ""
+    location, prefix = Location(source_name(path)), ""
     if key:
-        asked, prefix = UNKNOWN, f"{key} = {format_value(str(path))}: "
-    return _extended(_read(path, asked, prefix), [], (os.path.realpath(path),))
+        location, prefix = UNKNOWN, f"{key} = {format_value(str(path))}: "
+    return _extended(_read(path, location, prefix), [], (os.path.realpath(path),))
 
 
 def resolve_extend(layer: Located) -> Located:
@@ -130,7 +130,7 @@ def resolve_extend(layer: Located) -> Located:
 def _extended(layer: Located, opened: list[Path], chain: tuple[str, ...]) -> Located:
     if not isinstance(layer.content, dict) or "extend" not in layer.content:
         return layer
-    whole = Located({}, layer.location)
+    union = Located({}, layer.location)
     for name in _names(layer.content["extend"]):
         folder = Path(name.location.source).parent if name.location.line else Path()
         path, prefix = folder / name.content, f"extend = {format_value(name.content)}: "
@@ -141,9 +141,9 @@ def _extended(layer: Located, opened: list[Path], chain: tuple[str, ...]) -> Loc
         if len(opened) > MOST_EXTENDED:
             raise ConfigError.at(name.location, f"{prefix}must not lead to more than {MOST_EXTENDED} files")
         base = _extended(_read(path, name.location, prefix), opened, (*chain, real))
-        whole = whole.merged(base)
-    own = {key: value for key, value in layer.content.items() if key != "extend"}
-    return whole.merged(Located(own, layer.location))
+        union = union.merged(base)
+    values = {key: value for key, value in layer.content.items() if key != "extend"}
+    return union.merged(Located(values, layer.location))
 
 
 def _names(entry: Located) -> list[Located]:
@@ -151,8 +151,10 @@ def _names(entry: Located) -> list[Located]:
     for name in names:
         is_file = isinstance(name.content, str) and re.fullmatch(r"[^\0]+\.ya?ml", name.content)
         if not is_file or "://" in name.content:
-            right = "the path of a .yaml file, or a list of such, as seen from the file that says so"
-            raise ConfigError.at(name.location, f"extend = {format_value(name.plain())}: must be {right}")
+            requirement = "the path of a .yaml file, or a list of such, as seen from the file that says so"
+            raise ConfigError.at(
+                name.location, f"extend = {format_value(name.plain())}: must be {requirement}"
+            )
     return names
 
 
@@ -162,20 +164,20 @@ def source_name(path: str | Path) -> str:
     return str(path.relative_to(Path.cwd()) if path.is_relative_to(Path.cwd()) else path)
 
 
-def _read(path: Path, asked: Location, prefix: str) -> Located:
-    """Read one YAML file; that it cannot be opened is reported at the location that `asked` for it."""
+def _read(path: Path, location: Location, prefix: str) -> Located:
+    """Read one YAML file; that it cannot be opened is reported at the `location` that asks for it."""
     try:
         about = os.stat(path)
         if not stat.S_ISREG(about.st_mode):
             kind = "is a folder" if stat.S_ISDIR(about.st_mode) else "is not a regular file"
-            raise ConfigError.at(asked, f"{prefix}{kind}, must be a YAML file")
+            raise ConfigError.at(location, f"{prefix}{kind}, must be a YAML file")
         if about.st_size > LARGEST_FILE:
-            raise ConfigError.at(asked, f"{prefix}is larger than {LARGEST_FILE / 1e6:g} MB, no config is")
+            raise ConfigError.at(location, f"{prefix}is larger than {LARGEST_FILE / 1e6:g} MB, no config is")
         text = path.read_text(encoding="utf-8")
     except OSError as error:
-        raise ConfigError.at(asked, f"{prefix}cannot be read ({error.strerror})") from error
+        raise ConfigError.at(location, f"{prefix}cannot be read ({error.strerror})") from error
     except UnicodeDecodeError as error:
-        raise ConfigError.at(asked, f"{prefix}is not text in UTF-8") from error
+        raise ConfigError.at(location, f"{prefix}is not text in UTF-8") from error
     source = source_name(path)
     try:
         located = _Loader(text).read(source)
@@ -188,11 +190,11 @@ def _read(path: Path, asked: Location, prefix: str) -> Located:
         ) from error
     if isinstance(located.content, dict):
         if _TEMPLATES in located.content:
-            where, right = (
+            key_location, reason = (
                 located.content[_TEMPLATES].location,
                 "is not for configs: Snakemake runs its templates",
             )
-            raise ConfigError.at(where, f"{_TEMPLATES}: {right}")
+            raise ConfigError.at(key_location, f"{_TEMPLATES}: {reason}")
         return located
     raise ConfigError.at(Location(source), "must hold keys at its top level, as config/config.yaml does")
 

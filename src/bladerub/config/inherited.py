@@ -42,25 +42,27 @@ def _scaled_casings(config: Config) -> list[str]:
     factor, notes = config["contact"].get("scale", UNSCALED)["length"], []
     for name in used_casings(config):
         casing = config["casings"][name]
-        given = (key for key in ("amplitude", "interference") if key in casing)
-        sizes = [f"{key} {factor * casing[key]:.4g} m" for key in given]
+        keys = (key for key in ("amplitude", "interference") if key in casing)
+        sizes = [f"{key} {factor * casing[key]:.4g} m" for key in keys]
         if factor != 1 and sizes:
             notes.append(f"contact.scale.length = {factor:g}: casing {name} has {' and '.join(sizes)}")
     return notes
 
 
 def _without_lost_histories(config: Config, notes: list[str]) -> Config:
-    cases, grid, kept, lost = set(coating_cases(config)), set(speeds(config)), [], []
+    cases, grid, histories, omissions = set(coating_cases(config)), set(speeds(config)), [], []
     for entry in config["analysis"]["histories"]:
         case, f_omega = listed_case(entry), round(entry["f_omega"], SPEED_DECIMALS)
         if (case, f_omega) in HISTORIES and not (case in cases and f_omega in grid):
-            lost.append(f"{case.name}/{speed_name(f_omega)}")
+            omissions.append(f"{case.name}/{speed_name(f_omega)}")
         else:
-            kept.append(entry)
-    if lost:
-        more = ", ..." if len(lost) > 1 else ""
-        notes.append(f"analysis.histories: {len(lost)} left out, not in this study ({lost[0]}{more})")
-    return {**config, "analysis": {**config["analysis"], "histories": kept}}
+            histories.append(entry)
+    if omissions:
+        ellipsis = ", ..." if len(omissions) > 1 else ""
+        notes.append(
+            f"analysis.histories: {len(omissions)} left out, not in this study ({omissions[0]}{ellipsis})"
+        )
+    return {**config, "analysis": {**config["analysis"], "histories": histories}}
 
 
 def _with_orders_of_casings(config: Config, notes: list[str]) -> Config:
@@ -69,10 +71,12 @@ def _with_orders_of_casings(config: Config, notes: list[str]) -> Config:
     for name in used_casings(config):
         casing, slowest, fastest = casings[name], *ends
         suits = all(excites(casing, order) and order * slowest <= 1 <= order * fastest for order in orders)
-        own = [] if suits or "peak_orders" in casing else excited_orders(config, name)
-        if own:
-            casings[name] = {**casing, "peak_orders": own}
-            notes.append(f"casings.{name}.peak_orders: {own}, instead of {orders} of analysis.peaks.orders")
+        casing_orders = [] if suits or "peak_orders" in casing else excited_orders(config, name)
+        if casing_orders:
+            casings[name] = {**casing, "peak_orders": casing_orders}
+            notes.append(
+                f"casings.{name}.peak_orders: {casing_orders}, instead of {orders} of analysis.peaks.orders"
+            )
     return {**config, "casings": casings}
 
 
@@ -84,6 +88,6 @@ def _doubts(config: Config) -> list[str]:
         idle = [order for order in orders if not excites(config["casings"][name], order)]
         if idle:
             why = f"nodal diameters {diameters} of casing {name} do not excite {idle}"
-            right = f"{excited_orders(config, name)} as casings.{name}.peak_orders"
-            notes.append(f"analysis.peaks.orders = {orders}: {why}; try {right}")
+            proposal = f"{excited_orders(config, name)} as casings.{name}.peak_orders"
+            notes.append(f"analysis.peaks.orders = {orders}: {why}; try {proposal}")
     return notes

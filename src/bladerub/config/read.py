@@ -132,8 +132,8 @@ def _validated(config: Located | Mapping[str, Any], variation: str) -> tuple[dic
     return values, notes
 
 
-def _location(problem: str, locations: Mapping[str, Location], whole: Location = UNKNOWN) -> Location:
+def _location(problem: str, locations: Mapping[str, Location], default: Location = UNKNOWN) -> Location:
     """Find the location of the key that a problem begins with, or of its innermost known group."""
     ends = (match.start() for match in re.finditer(r"[ :.[]", problem))
     keys = [problem[:end] for end in ends if problem[:end] in locations]
-    return locations[keys[-1]] if keys else whole
+    return locations[keys[-1]] if keys else default

@@ -22,8 +22,8 @@ class Record:
     command_line: Mapping[str, Any] = field(default_factory=dict)  # what ``snakemake --config`` was given
 
     def __str__(self) -> str:
-        given = [f"{key}={value}" for key, value in self.command_line.items()]
-        return f"--config {' '.join([*self.files, *given])}"
+        values = [f"{key}={value}" for key, value in self.command_line.items()]
+        return f"--config {' '.join([*self.files, *values])}"
 
     def as_arguments(self) -> str:
         """Write it as options of snakemake."""
@@ -34,8 +34,8 @@ class Record:
 
 def write(results: str | Path, files: Sequence[str | Path], command_line: Mapping[str, Any]) -> None:
     """Record in the folder `results` what its results are made with, in the folder of the study."""
-    here = Path.cwd()
-    paths = [path.relative_to(here) if path.is_relative_to(here) else path for path in map(Path, files)]
+    folder = Path.cwd()
+    paths = [path.relative_to(folder) if path.is_relative_to(folder) else path for path in map(Path, files)]
     laid_over = [path.as_posix() for path in paths if path != CONFIG]
     text = json.dumps(asdict(Record(laid_over, dict(command_line))), indent=2)
     with atomic.writing(Path(results) / FILE) as stream:

@@ -42,8 +42,8 @@ def _keys(schema: Rule, path: str, rule: Rule, value: Any) -> Iterator[tuple[str
     for name, inner in rule.get("properties", {}).items():
         inside = value.get(name) if isinstance(value, dict) else None
         yield from _keys(schema, f"{path}.{name}", inner, inside)
-    named = rule.get("additionalProperties")
-    for kind in _kinds(named) if isinstance(named, Mapping) else ():
+    entry_rule = rule.get("additionalProperties")
+    for kind in _kinds(entry_rule) if isinstance(entry_rule, Mapping) else ():
         yield from _keys(schema, f"{path}.<name>", kind, None)
     for kind in _kinds(rule["items"]) if "items" in rule else ():
         yield from _keys(schema, f"{path}[]", kind, None)

@@ -45,15 +45,15 @@ def problems(config: Mapping[str, Any], definition: str | None = None) -> Iterat
     """
     validator = _validator().evolve(schema=schema()["$defs"][definition]) if definition else _validator()
     errors = sorted(validator.iter_errors(config), key=lambda error: [str(part) for part in error.path])
-    alone = [error for error in errors if error.validator not in _COMPARING]
-    for error in alone:
+    violations = [error for error in errors if error.validator not in _COMPARING]
+    for error in violations:
         yield from _describe(error)
-    broken = {error.path[0] if error.path else "" for error in alone}
+    broken = {error.path[0] if error.path else "" for error in violations}
     valid = {key: value for key, value in config.items() if key not in broken}
     for error in errors:
         if error.validator in _COMPARING and error.path[0] in valid:
-            where = f"{key_path(error.path)} = {format_value(error.instance)}"
-            yield from (f"{where}: must be {right}" for right in _compare(error, valid))
+            setting = f"{key_path(error.path)} = {format_value(error.instance)}"
+            yield from (f"{setting}: must be {requirement}" for requirement in _compare(error, valid))
 
 
 def check_quantity(name: str, value: Any) -> None:
@@ -99,8 +99,8 @@ def _ascending(_: Any, __: Any, values: Any, ___: Any) -> Iterator[jsonschema.Va
     if isinstance(values, list) and all(map(is_number, values)):
         for index, (lower, upper) in enumerate(pairwise(values), 1):
             if float(f"{upper:g}") <= float(f"{lower:g}"):  # six digits, as in the names of files
-                right = f"above the one before ({lower:g})"
-                yield jsonschema.ValidationError(right, path=[index], instance=upper)
+                requirement = f"above the one before ({lower:g})"
+                yield jsonschema.ValidationError(requirement, path=[index], instance=upper)
 
 
 def _to_compare(_: Any, __: Any, ___: Any, ____: Any) -> Iterator[jsonschema.ValidationError]:
@@ -121,19 +121,19 @@ def _compare(error: jsonschema.ValidationError, config: Mapping[str, Any]) -> It
         for part in key.split("."):
             bound = bound.get(part, {})
         if is_number(bound) and not _RELATIONS[relation](error.instance, bound / int(divisor or 1)):
-            named, comma, reason = limit.partition(",")
-            yield f"{named} = {bound / int(divisor or 1):g}{comma}{reason}"
+            condition, comma, reason = limit.partition(",")
+            yield f"{condition} = {bound / int(divisor or 1):g}{comma}{reason}"
 
 
 def _describe(error: jsonschema.ValidationError) -> list[str]:
     """Turn one error of the schema into our lines."""
     parts, rule = list(error.absolute_path), error.schema
-    where = f"{key_path(parts)} = {format_value(error.instance)}" if parts else format_value(error.instance)
+    setting = f"{key_path(parts)} = {format_value(error.instance)}" if parts else format_value(error.instance)
     if error.validator == "additionalProperties":
-        known = rule["properties"]
-        unknown = {key: value for key, value in error.instance.items() if key not in known}
+        fields = rule["properties"]
+        unknown = {key: value for key, value in error.instance.items() if key not in fields}
         return [
-            f"{key_path([*parts, key])} = {format_value(value)}: unknown key, {_nearest(parts, key, known)}"
+            f"{key_path([*parts, key])} = {format_value(value)}: unknown key, {_nearest(parts, key, fields)}"
             for key, value in unknown.items()
         ]
     if error.validator == "required":
@@ -145,20 +145,20 @@ def _describe(error: jsonschema.ValidationError) -> list[str]:
     if "propertyNames" in error.absolute_schema_path:
         return [f"{key_path([*parts, error.instance])}: {_right(rule)}"]
     if error.validator == "uniqueItems":
-        return [f"{where}: {rule['title']} must not name one twice"]
+        return [f"{setting}: {rule['title']} must not name one twice"]
     if error.validator == "ascending":
-        return [f"{where}: must be {error.message}"]
+        return [f"{setting}: must be {error.message}"]
     has_digits = isinstance(error.instance, str) and re.match(r"\s*[-+.\d]", error.instance)
     with_unit = has_digits and rule["type"] in ("number", "integer")
-    right = f"{_right(rule)}{', the number alone' if with_unit else ''}"
+    requirement = f"{_right(rule)}{', the number alone' if with_unit else ''}"
     if with_unit and (reading := yaml_reading(error.instance)):
-        right += f" (YAML reads this as {reading})"
-    return [f"{where}: {right}"]
+        requirement += f" (YAML reads this as {reading})"
+    return [f"{setting}: {requirement}"]
 
 
-def _nearest(parts: list[Any], key: Any, known: dict[str, Any]) -> str:
-    close = get_close_matches(str(key), known, n=1)
-    return f"did you mean {key_path([*parts, close[0]])}?" if close else f"known here: {', '.join(known)}"
+def _nearest(parts: list[Any], key: Any, fields: dict[str, Any]) -> str:
+    close = get_close_matches(str(key), fields, n=1)
+    return f"did you mean {key_path([*parts, close[0]])}?" if close else f"known here: {', '.join(fields)}"
 
 
 def _right(rule: dict[str, Any]) -> str:
@@ -177,9 +177,9 @@ def allowed(rule: Mapping[str, Any]) -> str:
     if "maxProperties" in rule:
         return f"{kind} with {rule['minProperties']} to {rule['maxProperties']} of them"
     if rule["type"] == "array":
-        fewest, most = rule.get("minItems", 0), rule["maxItems"]
+        minimum, maximum = rule.get("minItems", 0), rule["maxItems"]
         order = ", ascending" if "ascending" in rule else ""
-        return f"{kind} of {fewest if fewest == most else f'{fewest} to {most}'} entries{order}"
+        return f"{kind} of {minimum if minimum == maximum else f'{minimum} to {maximum}'} entries{order}"
     if {"minimum", "maximum"} <= rule.keys():
         return f"{kind} from {rule['minimum']:g} to {rule['maximum']:g}"
     words = {"exclusiveMinimum": "above", "minimum": "of at least"}

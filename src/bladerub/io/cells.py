@@ -41,7 +41,7 @@ class Cells(NamedTuple):
             If the column is there twice, or a row has more or fewer cells than there are columns; names the
             line.
         """
-        lower = [known.lower() for known in self.names]
+        lower = [column.lower() for column in self.names]
         if lower.count(name.lower()) > 1:
             raise ValueError(f"line {self.header}: has the column {name.lower()} twice")
         for line, row in self.rows.items():
@@ -50,8 +50,8 @@ class Cells(NamedTuple):
                     f"line {line}: has {len(row)} cells, must have {len(lower)} as the header has (separated "
                     f"by {self.separator}{self._cure(row)})"
                 )
-        at = lower.index(name.lower())
-        return [row[at] for row in self.rows.values()]
+        index = lower.index(name.lower())
+        return [row[index] for row in self.rows.values()]
 
     def numbers(self, name: str) -> np.ndarray:
         """Return the numbers (n_rows,) of a column.
@@ -62,15 +62,15 @@ class Cells(NamedTuple):
             As `column`, or if a cell is no finite number; names its line.
         """
         numbers = np.empty(len(self.rows))
-        for at, (line, cell) in enumerate(zip(self.rows, self.column(name), strict=True)):
+        for index, (line, cell) in enumerate(zip(self.rows, self.column(name), strict=True)):
             text = self._with_point(cell)
             number = float(re.sub("[dD]", "e", text)) if _NUMBER.fullmatch(text) else np.nan
             if not np.isfinite(number):
-                found = cell[:40] or "nothing"
+                excerpt = cell[:40] or "nothing"
                 raise ValueError(
-                    f"line {line}: {name} = {found}, must be a finite number{self._run_together([cell])}"
+                    f"line {line}: {name} = {excerpt}, must be a finite number{self._run_together([cell])}"
                 )
-            numbers[at] = number
+            numbers[index] = number
         return numbers
 
     def _with_point(self, cell: str) -> str:

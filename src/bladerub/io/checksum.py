@@ -24,14 +24,14 @@ def file_checksum(path: str | Path) -> str:
         return hashlib.file_digest(stream, "sha256").hexdigest()
 
 
-def seal(content: bytes, beside: bytes = b"") -> bytes:
-    """Return the bytes of a file with the checksum of them and of those `beside` in place of `BLANK`."""
-    digits = hashlib.sha256(content + beside).hexdigest()
+def seal(content: bytes, companion: bytes = b"") -> bytes:
+    """Return the bytes of a file with the checksum of them and of its `companion` in place of `BLANK`."""
+    digits = hashlib.sha256(content + companion).hexdigest()
     return content.replace(BLANK.encode(), BLANK.replace(64 * "0", digits).encode())
 
 
-def is_sealed(path: str | Path, *beside: str | Path) -> bool:
-    """Return whether the file at `path` carries a checksum, which is of the files `beside` as well.
+def is_sealed(path: str | Path, *companions: str | Path) -> bool:
+    """Return whether the file at `path` carries a checksum, which is of its `companions` as well.
 
     Those of older versions and of other programs do not. Raises `DamagedFile` if a bit is not as it was
     written, another `OSError` if a file is missing or cannot be read.
@@ -41,6 +41,6 @@ def is_sealed(path: str | Path, *beside: str | Path) -> bool:
         return False
     carried = _CARRIED.search(content)
     blank = _CARRIED.sub(BLANK.encode(), content, count=1)
-    if carried is None or seal(blank, b"".join(Path(file).read_bytes() for file in beside)) != content:
+    if carried is None or seal(blank, b"".join(Path(file).read_bytes() for file in companions)) != content:
         raise DamagedFile(f"{path}: not as it was written, its checksum is of other content")
     return True

@@ -51,7 +51,7 @@ def message_for(error: OSError | BadInput) -> str:
         return str(error)
     if isinstance(error, DamagedFile):
         return f"{error}; delete it and run the same command again: it is made again, nothing else is lost"
-    where = "" if error.filename is None else f"{error.filename}: "
+    prefix = "" if error.filename is None else f"{error.filename}: "
     problem, remedy = error.strerror or str(error), ""
     if error.errno in _FULL:
         problem = _FULL[error.errno]
@@ -63,7 +63,7 @@ def message_for(error: OSError | BadInput) -> str:
         remedy = "; make it readable"
     elif error.errno in _FORBIDDEN:
         remedy = "; make it writable, or choose another folder with the key results of the config"
-    return f"{where}{problem}{remedy}"
+    return f"{prefix}{problem}{remedy}"
 
 
 def _is_readable(path: str) -> bool:

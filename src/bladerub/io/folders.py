@@ -28,11 +28,11 @@ def study_folder() -> Path:
     bladerub. If there is none, it is the repository that the package is installed from in place, or the
     working directory itself.
     """
-    here = Path.cwd()
-    for folder in (here, *here.parents):
+    working_folder = Path.cwd()
+    for folder in (working_folder, *working_folder.parents):
         if _is_study(folder):
             return folder
-    return here if ROOT.is_relative_to(PACKAGE) else ROOT
+    return working_folder if ROOT.is_relative_to(PACKAGE) else ROOT
 
 
 def _is_study(folder: Path) -> bool:
@@ -44,8 +44,8 @@ def _is_study(folder: Path) -> bool:
 
 def base_config() -> Path:
     """Find the config that others are laid over: of `study_folder`, or the paper's."""
-    own = study_folder() / CONFIG
-    return own if own.is_file() else ROOT / CONFIG
+    config = study_folder() / CONFIG
+    return config if config.is_file() else ROOT / CONFIG
 
 
 def has_home() -> bool:

@@ -54,8 +54,15 @@ def write(
     data = {name: np.asarray(variable.data) for name, variable in variables.items()}
     blank = _blank(
         tuple(
-            _Layout(name, of.dims, data[name].shape, data[name].dtype.str, of.units, of.long_name)
-            for name, of in variables.items()
+            _Layout(
+                name,
+                variable.dims,
+                data[name].shape,
+                data[name].dtype.str,
+                variable.units,
+                variable.long_name,
+            )
+            for name, variable in variables.items()
         ),
         tuple((key, np.asarray(value).dtype.str) for key, value in attributes.items()),
         tuple((name, values.tobytes()) for name, values in data.items() if name in repeated),
@@ -77,8 +84,8 @@ def write(
             if values.dtype.kind == "U":
                 file[name][...] = values
             else:
-                whole = h5py.h5s.ALL
-                h5py.h5d.open(file.id, name.encode()).write(whole, whole, np.ascontiguousarray(values))
+                space = h5py.h5s.ALL
+                h5py.h5d.open(file.id, name.encode()).write(space, space, np.ascontiguousarray(values))
         file.flush()
         image = checksum.seal(file.id.get_file_image())
     with atomic.writing(path, "wb") as stream:
@@ -105,14 +112,16 @@ class _Blank(NamedTuple):
 
 
 @lru_cache(maxsize=8)
-def _blank(layout: tuple, attributes: tuple, values: tuple, told: tuple, origin: tuple) -> _Blank:
+def _blank(
+    layout: tuple, attributes: tuple, values: tuple, repeated_attributes: tuple, origin: tuple
+) -> _Blank:
     """Make a file without values but those given: the rest takes several times as long as filling it."""
-    given = dict(values)
+    contents = dict(values)
     with h5py.File(io.BytesIO(), "w") as file:
         for key, kind in attributes:
             file.attrs[key] = "" if "U" in kind else np.zeros((), kind)
         file.attrs[CHECKSUM] = np.bytes_(checksum.BLANK)
-        for key, value in (*told, *origin):
+        for key, value in (*repeated_attributes, *origin):
             file.attrs[key] = value
         lengths: dict[str, int] = {}
         coordinates_first = sorted(layout, key=lambda entry: entry[1] != (entry[0],))
@@ -135,8 +144,8 @@ def _blank(layout: tuple, attributes: tuple, values: tuple, told: tuple, origin:
                 dataset.dims[axis].attach_scale(file[dim])
         start = {}
         for name, _, shape, kind, *_ in layout:
-            if name in given:
-                file[name][...] = np.frombuffer(given[name], kind).reshape(shape)
+            if name in contents:
+                file[name][...] = np.frombuffer(contents[name], kind).reshape(shape)
             elif file[name].chunks is None and "U" not in kind and math.prod(shape):
                 file[name][...] = np.zeros(shape, kind)  # or it has no place yet
                 start[name] = file[name].id.get_offset()
@@ -159,24 +168,24 @@ def _dataset(
 
 
 def read(
-    path: str | Path, only: Set[str] | None = None, told: Set[str] | None = None
+    path: str | Path, only: Set[str] | None = None, attribute_names: Set[str] | None = None
 ) -> tuple[dict[str, np.ndarray], dict[str, Any]]:
-    """Read the datasets, all or `only` these, and attributes, all or those `told`, of the file at `path`.
+    """Read datasets, all or `only` these, and attributes, all or `attribute_names`, of the file at `path`.
 
     What the file does not have is left out. Raises an `OSError` that names the file if it is missing or, as
     `DamagedFile`, not a whole HDF5 file, or not as it was written.
     """
     with opened(path) as file:
         checksum.is_sealed(path)
-        return _content(file, only, told)
+        return _content(file, only, attribute_names)
 
 
 def read_any(
-    path: str | Path, only: Set[str] | None = None, told: Set[str] | None = None
+    path: str | Path, only: Set[str] | None = None, attribute_names: Set[str] | None = None
 ) -> tuple[dict[str, np.ndarray], dict[str, Any]]:
     """Read as `read` a file that people may have edited, or other programs written: as it is now."""
     with opened(path) as file:
-        return _content(file, only, told)
+        return _content(file, only, attribute_names)
 
 
 def read_attributes(path: str | Path) -> dict[str, Any]:
@@ -207,10 +216,10 @@ def _system_error(error: Exception) -> int:
 
 
 def _content(
-    file: h5py.File, only: Set[str] | None, told: Set[str] | None
+    file: h5py.File, only: Set[str] | None, attribute_names: Set[str] | None
 ) -> tuple[dict[str, np.ndarray], dict[str, Any]]:
-    wanted = file.keys() if only is None else only & file.keys()
-    return {name: _values(file[name]) for name in wanted}, _attributes(file, told)
+    names = file.keys() if only is None else only & file.keys()
+    return {name: _values(file[name]) for name in names}, _attributes(file, attribute_names)
 
 
 def _values(dataset: h5py.Dataset) -> np.ndarray:

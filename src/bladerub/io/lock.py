@@ -38,11 +38,11 @@ def attempt(path: str | Path) -> IO | None:
 
 def share(path: str | Path) -> tuple[IO, bool]:
     """Share the lock file `path` until the returned stream is closed; also return whether nobody else did."""
-    stream, alone = _opened(path), False
+    stream, is_sole_holder = _opened(path), False
     with suppress(OSError):  # no such locks here
-        alone = _try_alone(stream)
+        is_sole_holder = _try_alone(stream)
         fcntl.flock(stream, fcntl.LOCK_SH)
-    return stream, alone
+    return stream, is_sole_holder
 
 
 def _opened(path: str | Path) -> IO:

@@ -99,8 +99,8 @@ def git_state() -> tuple[str, str]:
 @cache
 def packages() -> str:
     """Versions of what shapes the numbers; PARDISO takes part in the blade where it is installed."""
-    found = [f"python=={platform.python_version()}"]
+    versions = [f"python=={platform.python_version()}"]
     for name in _PACKAGES:
         with suppress(PackageNotFoundError):
-            found.append(f"{name}=={version(name)}")
-    return " ".join(found)
+            versions.append(f"{name}=={version(name)}")
+    return " ".join(versions)

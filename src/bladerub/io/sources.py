@@ -19,13 +19,13 @@ def files_behind(*modules: str) -> list[str]:
     those of the repository if it is the working directory.
     """
     subpackages = {module.partition(".")[0] for module in modules}
-    found, waiting = set(), list(modules)
-    while waiting:
-        path = _path_of(waiting.pop())
-        if path not in found:
-            found.add(path)
-            waiting += [name for name in _imports(path) if name.partition(".")[0] in subpackages]
-    return sorted(_as_input(path).as_posix() for path in found)
+    paths, queue = set(), list(modules)
+    while queue:
+        path = _path_of(queue.pop())
+        if path not in paths:
+            paths.add(path)
+            queue += [name for name in _imports(path) if name.partition(".")[0] in subpackages]
+    return sorted(_as_input(path).as_posix() for path in paths)
 
 
 def _as_input(path: Path) -> Path:

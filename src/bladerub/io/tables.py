@@ -126,5 +126,5 @@ def _description(name: str, table: pd.DataFrame, origin: Mapping[str, str]) -> d
         "url": name,
         "schema:sha256": checksum.BLANK,
         "dc:provenance": [{"schema:name": key, "schema:value": value} for key, value in origin.items()],
-        "tableSchema": {"columns": [named | described[entry(named["name"])] for named in columns]},
+        "tableSchema": {"columns": [heading | described[entry(heading["name"])] for heading in columns]},
     }

@@ -56,7 +56,7 @@ def test_datasets_that_are_not_asked_for_are_not_read(tmp_path):
 
 def test_attributes_that_are_not_asked_for_are_not_read(tmp_path):
     hdf5.write(tmp_path / "file.h5", VARIABLES, {"n": 3, "status": "completed"})
-    data, attributes = hdf5.read(tmp_path / "file.h5", told={"status", "unknown"})
+    data, attributes = hdf5.read(tmp_path / "file.h5", attribute_names={"status", "unknown"})
     assert data.keys() == {*VARIABLES, "node"}
     assert attributes == {"status": "completed"}
 

@@ -15,13 +15,15 @@ _MOST_OFF = 0.35  # of the edge; the middle of a quarter of a circle is 0.21 off
 def check_nodes(points: np.ndarray, cells: np.ndarray) -> None:
     """Check that the nodes of `cells` are apart, and mid-side ones in the middle; a ValueError names one."""
     used = np.unique(cells)
-    lost = used[~np.isfinite(points[used]).all(axis=1)]
-    if lost.size:
-        raise ValueError(f"node {lost[0] + 1}: its coordinates are not finite numbers")
-    far = used[(abs(points[used]) > FARTHEST).any(axis=1)]
-    if far.size:
-        largest = abs(points[far[0]]).max()
-        raise ValueError(f"node {far[0] + 1}: a coordinate is {largest:.3g}; must be {FARTHEST:g} or less")
+    nonfinite = used[~np.isfinite(points[used]).all(axis=1)]
+    if nonfinite.size:
+        raise ValueError(f"node {nonfinite[0] + 1}: its coordinates are not finite numbers")
+    outliers = used[(abs(points[used]) > FARTHEST).any(axis=1)]
+    if outliers.size:
+        largest = abs(points[outliers[0]]).max()
+        raise ValueError(
+            f"node {outliers[0] + 1}: a coordinate is {largest:.3g}; must be {FARTHEST:g} or less"
+        )
     extent = np.ptp(points[used], axis=0).max()
     twins = cKDTree(points[used]).query_pairs(_SAME_PLACE * extent, output_type="ndarray")
     if len(twins):

@@ -65,16 +65,16 @@ def _import_mesh(source: Source, n_interface: int) -> Imported:
     tip_faces = faces[np.isin(faces, tip_nodes).all(axis=1)]
     if not len(tip_faces):
         raise ValueError(f'tip not found: no face of the surface has all its nodes in "{source.tip_set}"')
-    chosen = tip.interface(mesh.points, tip_faces, source.frame.downstream_x, n_interface)
+    interface = tip.interface(mesh.points, tip_faces, source.frame.downstream_x, n_interface)
     return Imported(
-        measured(BladeMesh(mesh, root, tip_nodes, chosen.nodes), source),
+        measured(BladeMesh(mesh, root, tip_nodes, interface.nodes), source),
         is_raised=content.is_raised,
         n_unused=len(content.points) - origin.size,
         node_sets={name: nodes.size for name, nodes in content.node_sets.items()},
         jacobian_ratio=ratio,
         volume=volume,
-        chord=chosen.chord,
-        interface_offset=chosen.offset,
+        chord=interface.chord,
+        interface_offset=interface.offset,
     )
 
 
@@ -84,29 +84,29 @@ def _nodes(content, points, faces, origin, name: str | None, is_tip: bool) -> np
     try:
         if name is None:
             return facing(points, faces, outwards=is_tip)
-        named = _with_middles(content, _named(content, name))
+        members = _with_middles(content, _named(content, name))
     except ValueError as error:
         raise ValueError(f"{part} not found: {error}") from error
-    found = np.flatnonzero(np.isin(origin, named))
-    if not found.size:
+    nodes = np.flatnonzero(np.isin(origin, members))
+    if not nodes.size:
         raise ValueError(f'{part} not found: no node of the set "{name}" is in an element')
-    return found
+    return nodes
 
 
 def _named(content: mesh_file.MeshFile, name: str) -> np.ndarray:
     """Nodes of the set `name`, in capital or small letters unless another set differs in them only."""
     node_sets = content.node_sets
-    alike = [known for known in node_sets if known.lower() == name.lower()]
-    found = name if name in node_sets else alike[0] if len(alike) == 1 else None
-    if found is None and name in content.volume_sets:
+    alike = [set_name for set_name in node_sets if set_name.lower() == name.lower()]
+    key = name if name in node_sets else alike[0] if len(alike) == 1 else None
+    if key is None and name in content.volume_sets:
         raise ValueError(f'"{name}" is a set of volume elements; must be of nodes, points, lines or surfaces')
-    if found is None:
+    if key is None:
         close = get_close_matches(name, node_sets, n=1)
-        known = f"did you mean {close[0]}?" if close else f"there are {', '.join(node_sets) or 'none'}"
-        raise ValueError(f'there is no node set "{name}"; {known}')
-    if not node_sets[found].size:
+        hint = f"did you mean {close[0]}?" if close else f"there are {', '.join(node_sets) or 'none'}"
+        raise ValueError(f'there is no node set "{name}"; {hint}')
+    if not node_sets[key].size:
         raise ValueError(f'the node set "{name}" has no nodes; a set of other sets is not read')
-    return node_sets[found]
+    return node_sets[key]
 
 
 def facing(points: np.ndarray, faces: np.ndarray, outwards: bool) -> np.ndarray:

@@ -57,10 +57,10 @@ def import_matrices(source: MatrixSource, f_max: float, n_modes: int, eta: int) 
         nodes = matrix_folder.read_nodes(names["nodes"])
         layout = _layout(nodes, source)
         free = FreeCoordinates(len(nodes.points), nodes.clamped)
-        n_internal, wanted = free.free.size - 3 * nodes.interface.size, max(n_modes, eta)
-        if n_internal <= wanted:
+        n_internal, n_required = free.free.size - 3 * nodes.interface.size, max(n_modes, eta)
+        if n_internal <= n_required:
             raise ValueError(
-                f"has {n_internal} free coordinates off the interface; must have more than {wanted}, the "
+                f"has {n_internal} free coordinates off the interface; must have more than {n_required}, the "
                 "modes that are wanted"
             )
     with _naming(names[MASS]):
@@ -70,31 +70,31 @@ def import_matrices(source: MatrixSource, f_max: float, n_modes: int, eta: int) 
     for f_omega, name in at_speeds.items():
         with _naming(names[name]):
             stiffness[f_omega] = _of_free(matrix_folder.read_matrix(names[name]), free, source)
-    rest, half, highest = (stiffness[f_omega] for f_omega in fit_speeds(f_max))
+    stiffness_rest, stiffness_half, stiffness_max = (stiffness[f_omega] for f_omega in fit_speeds(f_max))
     with _naming(names[MASS], names[FIT[0]]):
-        rigid_body.check_joined(mass, rest)
+        rigid_body.check_joined(mass, stiffness_rest)
     with _naming(names[MASS]):
         check_definite(mass)
     with _naming(names[FIT[0]]):
-        check_definite(rest)
-        frequency, modes = _modes(rest, mass, n_modes)
-        check_held(rest, modes[:, 0])
-    _check_order(names, layout, free, mass, rest, source.frame.turn)
+        check_definite(stiffness_rest)
+        frequency, modes = _modes(stiffness_rest, mass, n_modes)
+        check_held(stiffness_rest, modes[:, 0])
+    _check_order(names, layout, free, mass, stiffness_rest, source.frame.turn)
     frequencies = {0.0: frequency}
     for f_omega, name in list(at_speeds.items())[1:]:
         with _naming(names[name]):
-            rigid_body.check_change(stiffness[f_omega], rest, free.free[::3] // 3 + 1)
+            rigid_body.check_change(stiffness[f_omega], stiffness_rest, free.free[::3] // 3 + 1)
             check_definite(stiffness[f_omega])
             frequencies[f_omega], _ = _modes(stiffness[f_omega], mass, n_modes)
             if frequencies[f_omega][0] <= 0:  # so near to zero that few of Lanczos's steps do not show it
                 raise ValueError("is not positive definite: a mode of the blade is unstable at this speed")
     _check_speed(source, f_max, frequency[0])
-    change = sparse.linalg.norm(highest - rest)
+    change = sparse.linalg.norm(stiffness_max - stiffness_rest)
     return ImportedMatrices(
         DiscreteBlade(layout, free, mass, stiffness, {}, frequencies, frequency, modes),
         MATRIX_UNITS[source.matrix_units] * _rigid_mass(mass_of_all),
         nodes.clamped.size > 0 and mass_of_all.shape[0] == 3 * len(nodes.points),
-        float(sparse.linalg.norm(half - rest) / change) if change else 0.0,
+        float(sparse.linalg.norm(stiffness_half - stiffness_rest) / change) if change else 0.0,
     )
 
 
@@ -121,7 +121,7 @@ def _check_order(
     layout: MeshedBlade,
     free: FreeCoordinates,
     mass: sparse.csc_array,
-    rest: sparse.csc_array,
+    stiffness_rest: sparse.csc_array,
     turn: np.ndarray,
 ) -> None:
     """Check that mass and stiffness at rest have the order of the nodes."""
@@ -129,12 +129,14 @@ def _check_order(
     with _naming(names[MASS]):
         rigid_body.check_mass(mass, nodes + 1)
     with _naming(names["nodes"]):
-        rigid_body.check_places(rest, points[nodes], nodes + 1, turn)
+        rigid_body.check_places(stiffness_rest, points[nodes], nodes + 1, turn)
     with _naming(names[FIT[0]]):
         interface = np.searchsorted(nodes, layout.mesh.interface)
-        rigid_body.check_stiffness(rest, points[nodes], nodes + 1, points[layout.mesh.root], interface)
+        rigid_body.check_stiffness(
+            stiffness_rest, points[nodes], nodes + 1, points[layout.mesh.root], interface
+        )
     with _naming(names[MASS]):
-        rigid_body.check_same_nodes(mass, rest, nodes + 1)
+        rigid_body.check_same_nodes(mass, stiffness_rest, nodes + 1)
 
 
 def _layout(nodes: matrix_folder.Nodes, source: MatrixSource) -> MeshedBlade:
@@ -180,9 +182,9 @@ def _rigid_mass(mass: sparse.csc_array) -> float:
 def _check_speed(source: MatrixSource, f_max: float, f1_hz: float) -> None:
     omega = 2 * np.pi * f1_hz * f_max
     if source.omega_max is not None and abs(source.omega_max / omega - 1) > OMEGA_TOLERANCE:
-        right = source.omega_max / (2 * np.pi * f1_hz)
+        f_omega = source.omega_max / (2 * np.pi * f1_hz)
         raise BadInput(
-            f"{source.folder}: omega_max = {source.omega_max:g} rad/s is {right:.6g} of the blade's first "
+            f"{source.folder}: omega_max = {source.omega_max:g} rad/s is {f_omega:.6g} of the blade's first "
             f"frequency, {f1_hz:.6g} Hz; reduction.f_omega_max = {f_max:g} must be that"
         )
 
@@ -212,14 +214,14 @@ def _ritz_values(product, n: int) -> np.ndarray:
     before, beta = np.zeros(n), 0.0
     alphas, betas = [], []
     for _ in range(min(_STEPS, n)):
-        after = product(vector) - beta * before
-        alphas.append(after @ vector)
-        after -= alphas[-1] * vector
-        beta = np.linalg.norm(after)
+        residual = product(vector) - beta * before
+        alphas.append(residual @ vector)
+        residual -= alphas[-1] * vector
+        beta = np.linalg.norm(residual)
         betas.append(beta)
         if beta <= _ROUNDING * abs(alphas[0]):
             break
-        before, vector = vector, after / beta
+        before, vector = vector, residual / beta
     return eigvalsh_tridiagonal(np.array(alphas), np.array(betas[:-1]))
 
 

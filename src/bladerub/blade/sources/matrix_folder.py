@@ -49,37 +49,37 @@ def files(folder: Path) -> dict[str, Path]:
     """Find matrices and list of nodes, by name without suffix; a ValueError says which is missing."""
     if not folder.is_dir():
         raise ValueError("there is no such folder")
-    more = {path.stem for path in folder.glob(f"{AT_SPEED}*") if path.suffix in SUFFIXES}
-    found = {}
-    for name in (MASS, *FIT, *sorted(more)):
-        there = [path for suffix in SUFFIXES if (path := folder / f"{name}{suffix}").is_file()]
-        if len(there) != 1:
+    speed_names = {path.stem for path in folder.glob(f"{AT_SPEED}*") if path.suffix in SUFFIXES}
+    paths = {}
+    for name in (MASS, *FIT, *sorted(speed_names)):
+        matches = [path for suffix in SUFFIXES if (path := folder / f"{name}{suffix}").is_file()]
+        if len(matches) != 1:
             either = f"{name}.mtx or {name}.npz"
             ccx = [path.name for path in sorted(folder.iterdir()) if path.suffix in _SUFFIXES_OF_CALCULIX]
             hint = f"; {_CONVERTED} {', '.join(ccx)} of CalculiX" if ccx else ""
             raise ValueError(
-                f"holds both {either.replace('or', 'and')}" if there else f"holds no {either}{hint}"
+                f"holds both {either.replace('or', 'and')}" if matches else f"holds no {either}{hint}"
             )
-        (found[name],) = there
+        (paths[name],) = matches
     if not (folder / NODES).is_file():
         raise ValueError(f"holds no {NODES}")
-    return found | {"nodes": folder / NODES}
+    return paths | {"nodes": folder / NODES}
 
 
 def speeds(names: Mapping[str, Path], fit: Sequence[float]) -> dict[float, str]:
     """Find the stiffness at each normalised speed, ascending; a ValueError names one without such a speed."""
-    found = dict(zip(fit, FIT, strict=True))
+    names_by_speed = dict(zip(fit, FIT, strict=True))
     for name in names:
         if name.startswith(AT_SPEED):
             text = name.removeprefix(AT_SPEED)
             speed = float(text) if re.fullmatch(r"\d*\.?\d+", text) else None
-            if speed is None or not fit[0] < speed < fit[-1] or speed in found:
+            if speed is None or not fit[0] < speed < fit[-1] or speed in names_by_speed:
                 raise ValueError(
                     f"{names[name].name}: must be named after its normalised speed, between 0 and "
                     f"reduction.f_omega_max = {fit[-1]:g}, and none that another file has"
                 )
-            found[speed] = name
-    return dict(sorted(found.items()))
+            names_by_speed[speed] = name
+    return dict(sorted(names_by_speed.items()))
 
 
 def read_nodes(path: Path) -> Nodes:
@@ -96,19 +96,21 @@ def read_nodes(path: Path) -> Nodes:
     if missing:
         raise ValueError(f"has no column {missing[0]}; must have {', '.join(needed)}")
     points = np.stack([_numbers(table, name) for name in _POSITION], axis=1)
-    lost = np.flatnonzero(~np.isfinite(points).all(axis=1))
-    if lost.size:
-        raise ValueError(f"row {lost[0] + 1}: its coordinates are not finite numbers")
-    far = np.flatnonzero((abs(points) > FARTHEST).any(axis=1))
-    if far.size:
-        largest = abs(points[far[0]]).max()
-        raise ValueError(f"row {far[0] + 1}: a coordinate is {largest:.3g}; must be {FARTHEST:g} or less")
+    nonfinite = np.flatnonzero(~np.isfinite(points).all(axis=1))
+    if nonfinite.size:
+        raise ValueError(f"row {nonfinite[0] + 1}: its coordinates are not finite numbers")
+    outliers = np.flatnonzero((abs(points) > FARTHEST).any(axis=1))
+    if outliers.size:
+        largest = abs(points[outliers[0]]).max()
+        raise ValueError(
+            f"row {outliers[0] + 1}: a coordinate is {largest:.3g}; must be {FARTHEST:g} or less"
+        )
     number, clamped, tip = (_marks(table, name) for name in _MARKS)
     n_nodes = max(int(number.max(initial=0)), FEWEST_NODES)
-    for wanted in range(1, n_nodes + 1):
-        if (count := np.count_nonzero(number == wanted)) != 1:
+    for position in range(1, n_nodes + 1):
+        if (count := np.count_nonzero(number == position)) != 1:
             counted = f"{count} nodes have" if count else "no node has"
-            raise ValueError(f"{counted} interface = {wanted}; each of 1 to {n_nodes} must be there once")
+            raise ValueError(f"{counted} interface = {position}; each of 1 to {n_nodes} must be there once")
     interface = np.argsort(number, kind="stable")[-n_nodes:]  # all others are 0
     held = np.flatnonzero((number > 0) & (clamped > 0))
     if held.size:
@@ -144,8 +146,8 @@ def read_matrix(path: Path) -> sparse.csc_array:
     is_text = path.suffix == ".mtx"
     try:
         rows, columns, size = _size_of_text(path) if is_text else _size_of_archive(path)
-        most = max(_ENTRIES_IN_A_ROW * rows, _ENTRIES_OF_DENSE) * _BYTES
-        if rows == columns and rows <= MOST_UNKNOWNS and size <= most:
+        limit = max(_ENTRIES_IN_A_ROW * rows, _ENTRIES_OF_DENSE) * _BYTES
+        if rows == columns and rows <= MOST_UNKNOWNS and size <= limit:
             raw = mmread(path, spmatrix=False) if is_text else sparse.load_npz(path)
             if hasattr(raw, "check_format"):
                 raw.check_format(full_check=True)  # scipy reads past the arrays of what does not pass
@@ -155,9 +157,9 @@ def read_matrix(path: Path) -> sparse.csc_array:
         raise ValueError(f"is {rows} x {columns}; must be square")
     if rows > MOST_UNKNOWNS:
         raise ValueError(f"is {rows} x {rows}; must have {MOST_UNKNOWNS} rows or fewer")
-    if size > most:
+    if size > limit:
         raise ValueError(
-            f"takes {size / 1e9:.2g} GB of memory for {rows} rows; must take {most / 1e9:.2g} GB or less"
+            f"takes {size / 1e9:.2g} GB of memory for {rows} rows; must take {limit / 1e9:.2g} GB or less"
         )
     if raw.dtype.kind not in "iuf":
         raise ValueError(f"holds numbers of the type {raw.dtype}; must be real")
@@ -196,11 +198,11 @@ def _size_of_archive(path: Path) -> tuple[int, int, int]:
 
 def _check_symmetry(matrix: sparse.csc_array) -> None:
     entries = matrix.tocoo()
-    lost = np.flatnonzero(~(np.abs(entries.data) < LARGEST))
-    if lost.size:
-        at = _entry(entries, lost[0])
+    outliers = np.flatnonzero(~(np.abs(entries.data) < LARGEST))
+    if outliers.size:
+        place = _entry(entries, outliers[0])
         raise ValueError(
-            f"its entry {at} is {entries.data[lost[0]]:g}; must be a finite number below {LARGEST:g}"
+            f"its entry {place} is {entries.data[outliers[0]]:g}; must be a finite number below {LARGEST:g}"
         )
     apart = (matrix - matrix.T).tocoo()
     if apart.nnz and np.abs(apart.data).max() > SYMMETRY * np.abs(entries.data).max():
@@ -211,5 +213,5 @@ def _check_symmetry(matrix: sparse.csc_array) -> None:
         raise ValueError(f"is not symmetric: its entry {_entry(apart, worst)} is {off}")
 
 
-def _entry(matrix: sparse.coo_array, at: int) -> str:
-    return f"({matrix.row[at] + 1}, {matrix.col[at] + 1})"
+def _entry(matrix: sparse.coo_array, index: int) -> str:
+    return f"({matrix.row[index] + 1}, {matrix.col[index] + 1})"

@@ -103,9 +103,9 @@ def raised(points: np.ndarray, cells: np.ndarray) -> tuple[np.ndarray, np.ndarra
 def _volume(mesh: meshio.Mesh) -> np.ndarray:
     blocks = [block for block in mesh.cells if block.dim == 3]
     kinds = list(dict.fromkeys(block.type for block in blocks))
-    known = ", ".join(_KINDS)
+    choices = ", ".join(_KINDS)
     if not kinds or not sum(len(block) for block in blocks):
-        raise ValueError(f"has no volume elements; must have some of one kind, {known}")
+        raise ValueError(f"has no volume elements; must have some of one kind, {choices}")
     if len(kinds) > 1 or kinds[0] not in _KINDS:
         raise ValueError(_unusable(*kinds))
     cells = np.concatenate([np.asarray(block.data, dtype=int) for block in blocks])
@@ -160,14 +160,14 @@ def _read_abaqus(path: str) -> meshio.Mesh:
     if "*INSTANCE" in keywords:
         raise ValueError("has *INSTANCE; must be the mesh of one part")
     if "*INCLUDE" in keywords:
-        named = [
+        includes = [
             line.split("=")[-1].strip()
             for line, keyword in zip(lines, keywords, strict=True)
             if keyword == "*INCLUDE"
         ]
         raise ValueError(
             "has *INCLUDE; must be in one file: "
-            f"(cat {' '.join(named)}; grep -vi '^\\*include' {Path(path).name}) > whole.inp"
+            f"(cat {' '.join(includes)}; grep -vi '^\\*include' {Path(path).name}) > whole.inp"
         )
     sets, parts = [], {}
     for number, keyword in enumerate(keywords):
@@ -182,11 +182,11 @@ def _read_abaqus(path: str) -> meshio.Mesh:
     mesh = meshio.abaqus.read(io.StringIO("\n".join([*lines, ""])))
     for name in filter(None, sets):  # meshio takes the n-th set for that of the n-th block
         mesh.cell_sets[name] = [
-            np.arange(len(block)) if of == name else np.array([], dtype=int)
-            for block, of in zip(mesh.cells, sets, strict=True)
+            np.arange(len(block)) if set_name == name else np.array([], dtype=int)
+            for block, set_name in zip(mesh.cells, sets, strict=True)
         ]
-    for first, *more in parts.values():  # meshio keeps the last block of a name, Abaqus adds them up
-        mesh.point_sets[first] = np.concatenate([mesh.point_sets.pop(name) for name in (first, *more)])
+    for first, *others in parts.values():  # meshio keeps the last block of a name, Abaqus adds them up
+        mesh.point_sets[first] = np.concatenate([mesh.point_sets.pop(name) for name in (first, *others)])
     return mesh
 
 

@@ -36,8 +36,8 @@ class Source:
     def __post_init__(self):
         kind = "mesh" if self.is_table else "table of sections"
         for name in ("root_set", "tip_set") if self.is_table else ("angle_unit",):
-            if (given := getattr(self, name)) is not None:
-                raise ValueError(f"{name} = {given}: goes with a {kind}, not with {self.file.name}")
+            if (value := getattr(self, name)) is not None:
+                raise ValueError(f"{name} = {value}: goes with a {kind}, not with {self.file.name}")
 
     @property
     def is_table(self) -> bool:
@@ -62,17 +62,17 @@ def read(source: Mapping[str, Any]) -> Source | MatrixSource:
     Raises a ValueError that begins with the key if neither ``file`` nor ``matrices`` is there, or keys do not
     go together.
     """
-    given = next((name for name in ("matrices", "file") if name in source), None)
-    if given is None:
+    path_key = next((name for name in ("matrices", "file") if name in source), None)
+    if path_key is None:
         raise ValueError("file: missing; must be given, or matrices in its place")
-    kind = MatrixSource if given == "matrices" else Source
-    others = {name: source[name] for name in source if name != given}
+    kind = MatrixSource if path_key == "matrices" else Source
+    others = {name: source[name] for name in source if name != path_key}
     frame = {entry.name: others.pop(entry.name) for entry in fields(Frame) if entry.name in others}
-    known = [entry.name for entry in fields(kind)]
+    names = [entry.name for entry in fields(kind)]
     for key in others:
-        if key not in known:
-            raise ValueError(f"{key} = {source[key]}: must not be given beside {given}")
-    return kind(study_folder() / source[given], Frame(**frame), **others)
+        if key not in names:
+            raise ValueError(f"{key} = {source[key]}: must not be given beside {path_key}")
+    return kind(study_folder() / source[path_key], Frame(**frame), **others)
 
 
 def conversion(path: Path, suffix: str) -> str:
@@ -106,5 +106,5 @@ def files(source: Mapping[str, Any]) -> list[str]:
         return [source["file"]]
     from bladerub.blade.sources import matrix_folder  # imports pandas, which takes time
 
-    found = matrix_folder.files(read(source).folder)
-    return [os.path.join(source["matrices"], path.name) for path in found.values()]
+    paths = matrix_folder.files(read(source).folder)
+    return [os.path.join(source["matrices"], path.name) for path in paths.values()]

@@ -31,22 +31,22 @@ def camber_line(outline: np.ndarray) -> np.ndarray:
     inner = np.stack([_STATIONS, curve(_STATIONS)], axis=1)
     slope = curve.deriv()(_STATIONS)
     ends = []
-    for at, sign in ((0, -1), (-1, 1)):
-        outwards = sign * np.array([1.0, slope[at]])
-        reached, _ = crossings(pieces, inner[at], outwards)
-        if not (reached > 0).any():
+    for end, sign in ((0, -1), (-1, 1)):
+        outwards = sign * np.array([1.0, slope[end]])
+        distances, _ = crossings(pieces, inner[end], outwards)
+        if not (distances > 0).any():
             raise ValueError("no closed profile")
-        ends.append(inner[at] + reached[reached > 0].min() * outwards)
+        ends.append(inner[end] + distances[distances > 0].min() * outwards)
     line = np.vstack([ends[0], inner, ends[1]])
     return corners[first] + chord * line @ to_chord
 
 
 def _middle(pieces: np.ndarray, point: np.ndarray, direction: np.ndarray) -> np.ndarray:
     """Point midway between the two sides on the line through `point` along `direction`."""
-    reached = np.unique(crossings(pieces, point, direction)[0])
-    if reached.size < 2:
+    distances = np.unique(crossings(pieces, point, direction)[0])
+    if distances.size < 2:
         raise ValueError("no profile with two sides")
-    nearest = reached[np.argsort(np.abs(reached))[:2]]
+    nearest = distances[np.argsort(np.abs(distances))[:2]]
     return point + nearest.mean() * direction
 
 

@@ -186,7 +186,9 @@ def _warn_of_proportions(figures: dict[str, Any]) -> Iterator[str]:
     root, tip = figures["extents"]["radius"]
     speed = 2 * np.pi * figures["f1_hz"] * figures["f_omega_max"] * tip
     sections = figures.get("sections", ())
-    thin = next((each for each in sections if each["thickness"] < LEAST_THICKNESS * each["chord"]), None)
+    thin = next(
+        (section for section in sections if section["thickness"] < LEAST_THICKNESS * section["chord"]), None
+    )
     if thin:
         size = f"{1e3 * thin['thickness']:.2g} mm thick over a chord of {1e3 * thin['chord']:.3g} mm"
         yield f"section {thin['name']} is {size}: are its angles in their unit, rad or deg?"
@@ -197,13 +199,13 @@ def _warn_of_proportions(figures: dict[str, Any]) -> Iterator[str]:
         radii = f"from {1e3 * root:.3g} to {1e3 * tip:.3g} mm from the engine axis"
         yield f"it reaches {radii}: are all lengths in one unit, and is the origin on the engine axis?"
     if speed > LARGEST_TIP_SPEED:
-        where = f"reduction.f_omega_max = {figures['f_omega_max']:g}"
-        yield f"its tip moves at {speed:.0f} m/s at {where}, more than a wheel bears: is its radius right?"
+        state = f"reduction.f_omega_max = {figures['f_omega_max']:g}"
+        yield f"its tip moves at {speed:.0f} m/s at {state}, more than a wheel bears: is its radius right?"
     nominal = figures["nominal_speed"]
     speed = 2 * np.pi * (nominal or 0.0) / 60 * tip
     if speed > LARGEST_TIP_SPEED:
-        where = f"{nominal:g} 1/min with a radius of {1e3 * tip:.3g} mm"
-        yield f"its tip moves at {speed:.0f} m/s at {where}, more than a wheel bears: is its unit right?"
+        state = f"{nominal:g} 1/min with a radius of {1e3 * tip:.3g} mm"
+        yield f"its tip moves at {speed:.0f} m/s at {state}, more than a wheel bears: is its unit right?"
 
 
 def _warn_of_mesh(figures: dict[str, Any], imported: Imported, source: Source) -> Iterator[str]:

@@ -30,12 +30,12 @@ def check_joined(mass: sparse.csc_array, stiffness: sparse.csc_array) -> None:
     with np.errstate(divide="ignore", invalid="ignore"):
         square = stiffness.diagonal() / mass.diagonal()  # of the frequency of each coordinate alone
     is_penalty = (mass.diagonal() > 0) & (square > square[joined].max(initial=0.0))
-    alone = np.flatnonzero(~joined & ~is_penalty)
-    if alone.size:
+    isolated = np.flatnonzero(~joined & ~is_penalty)
+    if isolated.size:
         raise ValueError(
-            f"{alone.size} coordinates are joined to no other (row {alone[0] + 1} is the first, without "
-            "those of clamped nodes): clamped ones with a number on the diagonal? Mark their nodes in the "
-            "column clamped of nodes.csv, or leave their rows out"
+            f"{isolated.size} coordinates are joined to no other (row {isolated[0] + 1} is the first, "
+            "without those of clamped nodes): clamped ones with a number on the diagonal? Mark their nodes "
+            "in the column clamped of nodes.csv, or leave their rows out"
         )
 
 
@@ -63,9 +63,11 @@ def check_same_nodes(mass: sparse.csc_array, stiffness: sparse.csc_array, rows: 
         )
 
 
-def check_change(stiffness: sparse.csc_array, rest: sparse.csc_array, rows: np.ndarray) -> None:
+def check_change(stiffness: sparse.csc_array, stiffness_rest: sparse.csc_array, rows: np.ndarray) -> None:
     """Raise ValueError if a stiffness at speed is far from that at rest at nodes: other order or unit."""
-    change, norm = (sparse.linalg.norm(_pairs(matrix), axis=1) for matrix in (stiffness - rest, rest))
+    change, norm = (
+        sparse.linalg.norm(_pairs(matrix), axis=1) for matrix in (stiffness - stiffness_rest, stiffness_rest)
+    )
     bad = change > _CHANGED * norm
     if bad.any():
         raise ValueError(
@@ -153,11 +155,11 @@ def _misplaced(stiffness, pairs, points, free, bad, rows) -> str | None:
     moved[inner] = place
     if (free & (_turned(stiffness, pairs, moved) > _TURNED)).any():
         return None
-    near = _APART * _reach(pairs, points)[inner]
-    wrong = np.linalg.norm(place - points[inner], axis=1) > near
+    tolerance = _APART * _reach(pairs, points)[inner]
+    wrong = np.linalg.norm(place - points[inner], axis=1) > tolerance
     to_listed = cKDTree(points[inner[wrong]]).query(place[wrong])[0]
     cure = "exchanged" if wrong.sum() == 2 else "in another order"
-    if (to_listed > near[wrong]).any():
+    if (to_listed > tolerance[wrong]).any():
         cure = "in another place"
     return f"{_listed(rows[inner[wrong]])}: must be {cure}"
 
@@ -177,8 +179,8 @@ def _reach(pairs: sparse.csr_array, points: np.ndarray) -> np.ndarray:
 
 
 def _lengths(pairs: sparse.csr_array, points: np.ndarray) -> sparse.csr_array:
-    here = np.repeat(np.arange(len(points)), np.diff(pairs.indptr))
-    lengths = np.linalg.norm(points[here] - points[pairs.indices], axis=1)
+    rows = np.repeat(np.arange(len(points)), np.diff(pairs.indptr))
+    lengths = np.linalg.norm(points[rows] - points[pairs.indices], axis=1)
     return sparse.csr_array((lengths, pairs.indices, pairs.indptr), shape=pairs.shape)
 
 
@@ -235,5 +237,5 @@ def _named(rows: np.ndarray) -> str:
 
 
 def _listed(rows: np.ndarray) -> str:
-    more = ", …" if rows.size > _NAMED else ""
-    return f"row{'s' if rows.size > 1 else ''} {', '.join(map(str, rows[:_NAMED]))}{more}"
+    ellipsis = ", …" if rows.size > _NAMED else ""
+    return f"row{'s' if rows.size > 1 else ''} {', '.join(map(str, rows[:_NAMED]))}{ellipsis}"

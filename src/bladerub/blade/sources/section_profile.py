@@ -89,11 +89,11 @@ def _must_be_swapped(section: Section, flat: np.ndarray, downstream_x: int) -> b
     length = np.linalg.norm(chord)
     steps = np.diff(middle, axis=0) @ chord
     if length == 0 or (steps <= 0).any():
-        at = int(np.argmin(steps))
+        index = int(np.argmin(steps))
         raise ValueError(
-            f"line {section.lines[at + 1]}: this station of section {section.name} is no further along the "
-            f"chord than that of line {section.lines[at]}; they must go from the leading to the trailing edge"
-            f"{_cause(section, middle, at)}"
+            f"line {section.lines[index + 1]}: this station of section {section.name} is no further along "
+            f"the chord than that of line {section.lines[index]}; they must go from the leading to the "
+            f"trailing edge{_cause(section, middle, index)}"
         )
     if downstream_x * chord[0] < -1e-3 * length:
         raise ValueError(
@@ -112,11 +112,11 @@ def _must_be_swapped(section: Section, flat: np.ndarray, downstream_x: int) -> b
     return sign < 0
 
 
-def _cause(section: Section, middle: np.ndarray, at: int) -> str:
-    """Say why station `at + 1` may lie before `at` on the camber line `middle` (n, 2), or nothing."""
-    if np.allclose(section.points[:, at + 1], section.points[:, 0]):
+def _cause(section: Section, middle: np.ndarray, index: int) -> str:
+    """Say why station `index + 1` may lie before `index` on the camber line `middle` (n, 2), or nothing."""
+    if np.allclose(section.points[:, index + 1], section.points[:, 0]):
         return ": it is the first station again, so the section stands twice or two sections have one name"
-    for station in (at, at + 1):
+    for station in (index, index + 1):
         others = np.delete(middle, station, axis=0)
         if (np.diff(others, axis=0) @ (others[-1] - others[0]) > 0).all():
             return f": without line {section.lines[station]} all do, so check its numbers"
@@ -150,8 +150,8 @@ class _Curve:
         """Places (n, 5): axial position, radius and angle, then the same unrolled."""
         piece = np.searchsorted(self.knots[self._stops[1:-1]], parameter, side="right")
         values = np.empty((parameter.size, 5))
-        for at, spline in enumerate(self._pieces):
-            values[piece == at] = spline(parameter[piece == at])
+        for index, spline in enumerate(self._pieces):
+            values[piece == index] = spline(parameter[piece == index])
         return values
 
 
@@ -160,29 +160,29 @@ def _edge(sides: list[_Curve], thickness: float, name: str) -> tuple[list[float]
 
     Returns the parameters of both sides behind it, and the chord before, which is cut off.
     """
-    least = EDGE_SHARE * thickness
+    min_thickness = EDGE_SHARE * thickness
     first, second = (side.fine[0] for side in sides)
     chord = sides[0].fine[-1] + sides[1].fine[-1] - first - second
     chord /= np.linalg.norm(chord)
-    if abs(_cross(second - first, chord)) >= least:
+    if abs(_cross(second - first, chord)) >= min_thickness:
         return [0.0, 0.0], 0.0
-    for at, side in enumerate(sides):
+    for index, side in enumerate(sides):
         corners = side.knots[side.corners]
         corners = corners[corners < _LAST_OF_EDGE * side.knots[-1]]
         if corners.size:
             corner = side(corners[-1:])[0, 3:]
-            if np.linalg.norm(corner - sides[1 - at].fine[0]) >= least:
+            if np.linalg.norm(corner - sides[1 - index].fine[0]) >= min_thickness:
                 starts = [0.0, 0.0]
-                starts[at] = corners[-1]
+                starts[index] = corners[-1]
                 return starts, 0.0
-    starts = _cut(sides, least, name)
+    starts = _cut(sides, min_thickness, name)
     ends = [side(np.array([start]))[0, 3:] for side, start in zip(sides, starts, strict=True)]
     foremost = min((side.fine @ chord).min() for side in sides)
     return starts, float(chord @ np.mean(ends, axis=0) - foremost)
 
 
-def _cut(sides: list[_Curve], least: float, name: str) -> list[float]:
-    """Parameters of both sides where the thickness across the camber line reaches `least`."""
+def _cut(sides: list[_Curve], min_thickness: float, name: str) -> list[float]:
+    """Parameters of both sides where the thickness across the camber line reaches `min_thickness`."""
     outline = np.vstack([sides[0].fine, sides[1].fine[::-1]])
     try:
         line = camber_line(np.stack([outline, np.roll(outline, -1, axis=0)], axis=1))
@@ -201,7 +201,7 @@ def _cut(sides: list[_Curve], least: float, name: str) -> list[float]:
     for point, normal in zip(points, across, strict=True):  # from the middle to the edge
         met = [_nearest(side, point, normal) for side in sides]
         gap = 0.0 if None in met else abs(met[0][0] - met[1][0])
-        if gap < least:
+        if gap < min_thickness:
             break
         inner = [parameter for _, parameter in met]
     if inner is None:
@@ -214,9 +214,9 @@ def _nearest(side: _Curve, point: np.ndarray, normal: np.ndarray) -> tuple[float
     distance, place = crossings(np.stack([side.fine[:-1], side.fine[1:]], axis=1), point, normal)
     if not distance.size:
         return None
-    at = np.argmin(np.abs(distance))
+    index = np.argmin(np.abs(distance))
     numbers = np.arange(len(side.fine_parameter))
-    return distance[at], float(np.interp(place[at], numbers, side.fine_parameter))
+    return distance[index], float(np.interp(place[index], numbers, side.fine_parameter))
 
 
 def _paired(sides: list[_Curve], parameters: list[np.ndarray]) -> tuple[np.ndarray, float]:
@@ -224,8 +224,8 @@ def _paired(sides: list[_Curve], parameters: list[np.ndarray]) -> tuple[np.ndarr
     pairs = list(zip(sides, parameters, strict=True))
     first, second = (side(parameter)[:, 3:] for side, parameter in pairs)
     arc, share = arc_length((first + second) / 2), np.linspace(0, 1, len(first))
-    at = np.interp(SAMPLES, arc / arc[-1], share)
-    places = [side(np.interp(at, share, parameter))[:, :3] for side, parameter in pairs]
+    sample_share = np.interp(SAMPLES, arc / arc[-1], share)
+    places = [side(np.interp(sample_share, share, parameter))[:, :3] for side, parameter in pairs]
     return np.stack(places, axis=1), float(arc[-1])
 
 

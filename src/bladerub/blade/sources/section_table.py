@@ -46,11 +46,11 @@ def read(path: str | Path, frame: Frame, angle_unit: str = "rad") -> list[Sectio
 
 def _section(name: str, rows: pd.DataFrame, frame: Frame, angle_unit: str) -> Section:
     lines = rows.index.to_numpy()
-    where = f"section {name} (line {lines[0]})"
-    fewest, most = STATIONS
-    if not fewest <= len(rows) <= most:
+    label = f"section {name} (line {lines[0]})"
+    minimum, maximum = STATIONS
+    if not minimum <= len(rows) <= maximum:
         raise ValueError(
-            f"{where}: has {len(rows)} stations; must have {fewest} to {most} in successive rows"
+            f"{label}: has {len(rows)} stations; must have {minimum} to {maximum} in successive rows"
         )
     if "r" in rows:
         if (rows.r <= 0).any():
@@ -59,7 +59,7 @@ def _section(name: str, rows: pd.DataFrame, frame: Frame, angle_unit: str) -> Se
         angles = ANGLE_UNITS[angle_unit] * rows[["theta1", "theta2"]].to_numpy().T
         if np.ptp(angles) > np.pi:
             raise ValueError(
-                f"{where}: its angles go over {np.ptp(angles):.3g} rad, more than half around the axis; are "
+                f"{label}: its angles go over {np.ptp(angles):.3g} rad, more than half around the axis; are "
                 f"they in {angle_unit}?"
             )
         sides = [frame.cartesian(rows.z.to_numpy(), rows.r.to_numpy(), theta) for theta in angles]
@@ -71,9 +71,9 @@ def _section(name: str, rows: pd.DataFrame, frame: Frame, angle_unit: str) -> Se
 def _check_names(sections: list[Section]) -> None:
     if len(sections) < 2:
         raise ValueError(f"has {len(sections)} section; must have two or more, from hub to tip")
-    seen = {}
+    sections_by_name = {}
     for section in sections:
-        if (first := seen.setdefault(section.name, section)) is not section:
+        if (first := sections_by_name.setdefault(section.name, section)) is not section:
             raise ValueError(
                 f"line {section.lines[0]}: section {section.name} comes back; all its stations must follow "
                 f"line {first.lines[0]}"

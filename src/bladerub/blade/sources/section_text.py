@@ -46,14 +46,14 @@ def _likely_names(table: Cells) -> str:
 
 def _form(columns: set[str]) -> tuple[str, ...]:
     """Choose the form that `columns` belong to."""
-    known = [form for form in (POINTS, CYLINDRICAL) if columns.issuperset(form)]
-    if len(known) == 1 and "section" in columns:
-        return known[0]
+    forms = [form for form in (POINTS, CYLINDRICAL) if columns.issuperset(form)]
+    if len(forms) == 1 and "section" in columns:
+        return forms[0]
     both = f"section, {', '.join(POINTS)} or section, {', '.join(CYLINDRICAL)}"
-    if len(known) == 2:
+    if len(forms) == 2:
         raise ValueError(f"has the columns of both forms; must have either {both}")
-    near = max((POINTS, CYLINDRICAL), key=lambda form: len(columns.intersection(form)))
-    form = ("section", *(known[0] if known else near))
+    closest = max((POINTS, CYLINDRICAL), key=lambda form: len(columns.intersection(form)))
+    form = ("section", *(forms[0] if forms else closest))
     missing = [name for name in form if name not in columns]
-    wanted = ", ".join(form) if len(missing) < len(form) else both
-    raise ValueError(f"has no column {', '.join(missing)}; must have {wanted}")
+    requirement = ", ".join(form) if len(missing) < len(form) else both
+    raise ValueError(f"has no column {', '.join(missing)}; must have {requirement}")

@@ -52,16 +52,16 @@ def interface(
         line = line[::-1]
     arc = arc_length(line)
     evenly = np.linspace(0, arc[-1], n_nodes)
-    wanted = np.stack([np.interp(evenly, arc, line[:, axis]) for axis in range(2)], axis=1)
-    distance = cdist(wanted, flat[nodes])
-    chosen = linear_sum_assignment(distance**2)[1]
-    offset = distance[np.arange(n_nodes), chosen].max()
+    targets = np.stack([np.interp(evenly, arc, line[:, axis]) for axis in range(2)], axis=1)
+    distance = cdist(targets, flat[nodes])
+    indices = linear_sum_assignment(distance**2)[1]
+    offset = distance[np.arange(n_nodes), indices].max()
     if offset > arc[-1] / (2 * (n_nodes - 1)):
         raise ValueError(
             f"the tip is too coarse: an interface node would be {offset:.3g} m off its place on a camber "
             f"line of {arc[-1]:.3g} m"
         )
-    return Interface(nodes[chosen], float(arc[-1]), float(offset))
+    return Interface(nodes[indices], float(arc[-1]), float(offset))
 
 
 def _unrolled(points: np.ndarray, y: float, z: float) -> np.ndarray:
