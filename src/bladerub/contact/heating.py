@@ -41,12 +41,12 @@ class Layer:
     """
 
     def __init__(self, law: ModuleType, coating: Coating, area: np.ndarray, period: float):
-        own = dict(coating.element_law.parameters)
+        parameters = dict(coating.element_law.parameters)
         self.law, self.coating, self.area = law, coating, area
-        self.height = cell_heights(coating.thickness, own["heated_depth"])
-        self.friction_share = own["friction_share"]
-        self.capacity = own["heat_capacity"] * self.height  # J/(m² K)
-        rate, self.shapes = decay(self.height, own["heat_capacity"], own["conductivity"])
+        self.height = cell_heights(coating.thickness, parameters["heated_depth"])
+        self.friction_share = parameters["friction_share"]
+        self.capacity = parameters["heat_capacity"] * self.height  # J/(m² K)
+        rate, self.shapes = decay(self.height, parameters["heat_capacity"], parameters["conductivity"])
         self.decay = rate * period
         per_heat = np.sqrt(self.capacity[:HEATED]) / np.sum(self.capacity[:HEATED])
         self.pulse = per_heat @ self.shapes[:HEATED]  # what 1 J/m² adds to the modes
@@ -58,7 +58,7 @@ class Layer:
         """
         rows = np.arange(first, last) % len(state.heat)
         rows = rows[state.heat[rows].any(axis=1) | state.temperature[rows].any(axis=1)]
-        amplitude = self._after(state, rows, turn)
+        amplitude = self._amplitude_after(state, rows, turn)
         state.temperature[rows] = amplitude.reshape(len(rows), state.temperature.shape[1])
         state.heat[rows] = 0.0
         strength = self.law.strength(self.coating, self._temperature(amplitude))
@@ -67,20 +67,20 @@ class Layer:
     def temperature(self, state: "State") -> np.ndarray:
         """Rise of temperature (N, lanes, n) in the cells of the columns when the tip would come next, K."""
         amplitude = state.temperature.reshape(*state.strength.shape, CELLS).copy()
-        waiting = np.flatnonzero(state.heat.any(axis=1))
-        amplitude[waiting] = self._after(state, waiting, 1.0)
+        rows = np.flatnonzero(state.heat.any(axis=1))
+        amplitude[rows] = self._amplitude_after(state, rows, 1.0)
         return self._temperature(amplitude)
 
     def rise(self, state: "State") -> np.ndarray:
         """Return the mean of these temperatures over the heated depth (N, lanes)."""
         return self.temperature(state)[..., :HEATED].mean(axis=-1)
 
-    def _after(self, state: "State", rows: np.ndarray, turn: float) -> np.ndarray:
+    def _amplitude_after(self, state: "State", rows: np.ndarray, turn: float) -> np.ndarray:
         """Return the temperature of rows after a part of a revolution, in the modes of conduction."""
         flow, friction = np.split(state.heat[rows], 2, axis=1)
         pulse = (flow + self.friction_share * friction) / self.area  # J/m²
-        more = pulse[..., None] * self.pulse
-        return (state.temperature[rows].reshape(more.shape) + more) * np.exp(-self.decay * turn)
+        modal_pulse = pulse[..., None] * self.pulse
+        return (state.temperature[rows].reshape(modal_pulse.shape) + modal_pulse) * np.exp(-self.decay * turn)
 
     def _temperature(self, amplitude: np.ndarray) -> np.ndarray:
         return amplitude @ (self.shapes / np.sqrt(self.capacity)[:, None]).T
@@ -88,12 +88,14 @@ class Layer:
 
 def cell_heights(thickness: float, heated_depth: float) -> np.ndarray:
     """Divide the layer into the `HEATED` cells and others in a geometric series, heights (n,), m."""
-    if heated_depth >= (most := thickness * HEATED / CELLS):
-        raise ValueError(f"heated_depth = {heated_depth:g}: must be below {most:g} m, a quarter of the layer")
+    if heated_depth >= (limit := thickness * HEATED / CELLS):
+        raise ValueError(
+            f"heated_depth = {heated_depth:g}: must be below {limit:g} m, a quarter of the layer"
+        )
     first, below = heated_depth / HEATED, np.arange(1, CELLS - HEATED + 1)
-    rest = thickness - heated_depth
-    steepest = (rest / first) ** (1 / len(below))  # the last cell alone would fill the rest
-    ratio = scipy.optimize.brentq(lambda r: first * np.sum(r**below) - rest, 1.0, steepest)
+    remainder = thickness - heated_depth
+    steepest = (remainder / first) ** (1 / len(below))  # the last cell alone would fill the remainder
+    ratio = scipy.optimize.brentq(lambda r: first * np.sum(r**below) - remainder, 1.0, steepest)
     return first * np.concatenate([np.ones(HEATED), ratio**below])
 
 

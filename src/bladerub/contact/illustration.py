@@ -37,8 +37,8 @@ def loading_cycle(
         time_step = abs(strain[step] - strain[step - 1]) / rate if rate else math.inf
         element = law.element(coating, 1 / coating.modulus_unit, time_step)
         depth = strain[step] * coating.thickness - wear[step - 1]
-        stress[step], more = law.return_mapping(element, depth, wear[step - 1])
-        wear[step] = wear[step - 1] + more
+        stress[step], increment = law.return_mapping(element, depth, wear[step - 1])
+        wear[step] = wear[step - 1] + increment
     if rise:
         stress *= law.strength(coating, rise)
     return LoadingCycle(coating, strain, stress, wear / coating.thickness)

@@ -34,16 +34,16 @@ class History:
         self.revolutions_made = 0.0
         self.is_within_limit = True
 
-    def enter(self, made: Progress, segment: Segment) -> None:
+    def enter(self, progress: Progress, segment: Segment) -> None:
         """Enter what was integrated of a segment."""
         simulation, revolution, first, last = segment
-        self.n_steps += made.n_steps
-        self.n_contact_steps += made.n_contact_steps
-        self.lowest[revolution] = np.fmin(self.lowest[revolution], made.lowest)
-        self.highest[revolution] = np.fmax(self.highest[revolution], made.highest)
-        passed = first + made.n_steps / simulation.steps_per_element
-        self.revolutions_made = revolution + passed / self.displacement.shape[1]
-        self.is_within_limit = made.n_steps == (last - first) * simulation.steps_per_element
+        self.n_steps += progress.n_steps
+        self.n_contact_steps += progress.n_contact_steps
+        self.lowest[revolution] = np.fmin(self.lowest[revolution], progress.lowest)
+        self.highest[revolution] = np.fmax(self.highest[revolution], progress.highest)
+        travel = first + progress.n_steps / simulation.steps_per_element
+        self.revolutions_made = revolution + travel / self.displacement.shape[1]
+        self.is_within_limit = progress.n_steps == (last - first) * simulation.steps_per_element
 
     def outcome(
         self, blade: ReducedBlade, spec: RunSpec, rule: Recurrence, simulation: Simulation, initial: float
@@ -51,12 +51,12 @@ class History:
         """Fields of `bladerub.contact.result.Outcome`; the blade had `initial` energy (J) at the start."""
         revolutions, n_elements = self.displacement.shape
         status, message = "completed", f"{revolutions} revolutions completed"
-        limit, made = spec.displacement_limit, self.revolutions_made
+        limit, elapsed = spec.displacement_limit, self.revolutions_made
         if not self.is_within_limit:
             status = "unbounded"
-            message = f"the tip moved by more than {limit:g} m after {made:.2f} revolutions"
-        elif made != revolutions:
-            status, message = "stopped", f"another blade left the limit after {made:.2f} revolutions"
+            message = f"the tip moved by more than {limit:g} m after {elapsed:.2f} revolutions"
+        elif elapsed != revolutions:
+            status, message = "stopped", f"another blade left the limit after {elapsed:.2f} revolutions"
         lowest, highest = (  # no number where the first step of a revolution left the limit
             np.where(np.isfinite(end), end, np.nan) for end in (self.lowest, self.highest)
         )
@@ -91,8 +91,8 @@ def integrate(
     history = History(revolutions, n_elements)
     for segment in segments:
         simulation, revolution, first, last = segment
-        made = simulation.advance(history.displacement[revolution, first:last], first)
-        history.enter(made, segment)
+        result = simulation.advance(history.displacement[revolution, first:last], first)
+        history.enter(result, segment)
         if not history.is_within_limit:
             break
         if progress is not None and last == n_elements:

@@ -43,8 +43,8 @@ def mode_shapes_at(blade: ReducedBlade, f_omega: float) -> tuple[np.ndarray, np.
     if squares[0] <= 0:
         raise ValueError(f"f_omega = {f_omega:g}: the stiffness of the blade is not positive definite")
     omega = np.sqrt(squares)
-    for each in (omega, vectors):
-        each.flags.writeable = False
+    for array in (omega, vectors):
+        array.flags.writeable = False
     return omega, vectors
 
 

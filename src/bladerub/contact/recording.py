@@ -62,19 +62,22 @@ def record(
     """
     _, seats, simulation, _ = set_up_row(blade, spec, row)
     n_elements, end = spec.coating.n_elements, instants[-1]
-    wanted, wear, displacement = set(instants), [], []
+    stops, wear, displacement = set(instants), [], []
     amplitudes: list[list[np.ndarray]] = [[] for _ in seats]
     forces: list[list[np.ndarray]] = [[] for _ in seats]
     peak = np.full((len(seats), end // n_elements), np.nan)
     for first, last in pairwise(sorted({*range(0, end + 1, n_elements), *instants})):
         passage = np.full((len(seats), last - first), np.nan)
-        _, made = simulation.advance(passage, first)
+        _, blade_progress = simulation.advance(passage, first)
         displacement.append(passage)
         revolution = first // n_elements
         if revolution < peak.shape[1]:
-            largest = [max(abs(of.lowest), abs(of.highest)) if of.n_steps else np.nan for of in made]
+            largest = [
+                max(abs(motion.lowest), abs(motion.highest)) if motion.n_steps else np.nan
+                for motion in blade_progress
+            ]
             peak[:, revolution] = np.fmax(peak[:, revolution], largest)
-        if last in wanted:
+        if last in stops:
             for seat, own_amplitudes, own_forces in zip(seats, amplitudes, forces, strict=True):
                 state, rule = seat.simulation.state, seat.rule
                 own_amplitudes.append(state.q[0, : rule.omega.size].copy())

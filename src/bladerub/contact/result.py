@@ -183,10 +183,12 @@ class RowResult:
     def energy(self) -> Energy:
         """The ledgers of all blades together."""
         ledgers = [blade.energy for blade in self.blades]
-        return Energy(**{each.name: sum(getattr(of, each.name) for of in ledgers) for each in fields(Energy)})
+        return Energy(
+            **{entry.name: sum(getattr(ledger, entry.name) for ledger in ledgers) for entry in fields(Energy)}
+        )
 
     @property
     def residual(self) -> float:
         """What the ledger of all blades, coating and disk misses, over the work exchanged in the contact."""
-        whole = self.energy
-        return replace(whole, elastic=whole.elastic + self.disk_energy).residual
+        total = self.energy
+        return replace(total, elastic=total.elastic + self.disk_energy).residual

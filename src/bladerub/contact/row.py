@@ -72,16 +72,16 @@ def simulate_row(
     initial = stored()
     _march(spec, seats, simulation, begins, progress)
     results = tuple(
-        run_result(blade, each.spec, each.rule, each.simulation, each.history, each.initial) for each in seats
+        run_result(blade, seat.spec, seat.rule, seat.simulation, seat.history, seat.initial) for seat in seats
     )
-    unbounded = tuple(number for number, each in enumerate(results, 1) if each.status == "unbounded")
+    unbounded = tuple(number for number, result in enumerate(results, 1) if result.status == "unbounded")
     status, message = results[0].status, results[0].message
     if unbounded:
         status = "unbounded"
         if len(results) > 1:
             message = f"blade {unbounded[0]}: {results[unbounded[0] - 1].message}"
     area = element_area(blade, spec)
-    worn = [each.simulation.state.ledger[energy.WORN, : area.size] @ area for each in seats]
+    worn = [seat.simulation.state.ledger[energy.WORN, : area.size] @ area for seat in seats]
     return RowResult(
         status=status,
         message=message,
@@ -108,9 +108,9 @@ def set_up_row(blade: ReducedBlade, spec: RunSpec, row: Row) -> RowSetUp:
     """Set up a row; raises as `simulate_row`."""
     modes, spec = modes_at(blade, spec.f_omega, spec), fixed_steps(blade, spec)
     seats: list[_Seat] = []
-    for own in row.blades:
+    for row_blade in row.blades:
         coating = {name: getattr(seats[0].simulation.state, name) for name in COATING} if seats else {}
-        seats.append(_Seat(blade, spec, modes, own, coating))
+        seats.append(_Seat(blade, spec, modes, row_blade, coating))
     apart, reach = _distances(blade, spec, seats)
     begins = [seat.first_clear() if len(seats) > 1 else 0 for seat in seats]
     law = source_of(spec.coating.element_law)
@@ -133,12 +133,12 @@ def row_frequencies(blade: ReducedBlade, f_omega: float, row: Row) -> np.ndarray
     modes = modes_at(blade, f_omega)
     matrices = row.disk.stiffness if row.disk else [np.zeros((len(row.blades), len(row.blades)))]
     return np.array(
-        [_coupled_frequencies(modes, row, mode, np.array(of)) for mode, of in enumerate(matrices)]
+        [_coupled_frequencies(modes, row, mode, np.array(matrix)) for mode, matrix in enumerate(matrices)]
     )
 
 
 def _coupled_frequencies(modes: Modes, row: Row, mode: int, stiffness: np.ndarray) -> np.ndarray:
-    factors = [own.frequency_factors(modes.omega.size)[mode] for own in row.blades]
+    factors = [blade.frequency_factors(modes.omega.size)[mode] for blade in row.blades]
     squares = scipy.linalg.eigvalsh(np.diag(np.square(factors)) + stiffness)
     if squares[0] <= 0:
         raise ValueError(
@@ -155,15 +155,15 @@ class _Seat:
         blade: ReducedBlade,
         spec: RunSpec,
         modes: Modes,
-        own: RowBlade,
+        row_blade: RowBlade,
         coating: Mapping[str, np.ndarray],
     ):
         n_elements = spec.coating.n_elements
-        position = own.angle % _TURN / _TURN * n_elements
-        self.spec = replace(spec, damping_ratio=spec.damping_ratio * own.damping)
+        position = row_blade.angle % _TURN / _TURN * n_elements
+        self.spec = replace(spec, damping_ratio=spec.damping_ratio * row_blade.damping)
         self.row = int(position)  # of the shared coating, which it passes at the start
-        self.modes = modes._replace(omega=modes.omega * own.frequency_factors(modes.omega.size))
-        seat = Seat(position - self.row, own.length, coating)
+        self.modes = modes._replace(omega=modes.omega * row_blade.frequency_factors(modes.omega.size))
+        seat = Seat(position - self.row, row_blade.length, coating)
         self.rule, self.simulation = set_up_modes(self.modes, blade, self.spec, seat)
         self.initial = sum(energy.blade_energy(self.rule, self.simulation.state))
         self.history = History(spec.revolutions, n_elements)
@@ -184,16 +184,17 @@ def _distances(blade: ReducedBlade, spec: RunSpec, seats: Sequence[_Seat]) -> tu
     n_elements, radius = spec.coating.n_elements, tip_radii(blade)[0]
     at_most = spec.tip.half_width + spec.displacement_limit * n_elements / (_TURN * radius.min())
     reach = math.ceil(2 * at_most) + 3  # a node stands anywhere within two elements, rows are whole
-    around = sorted(range(len(seats)), key=lambda at: seats[at].row)
+    around = sorted(range(len(seats)), key=lambda index: seats[index].row)
     apart = [n_elements] * len(seats)
-    for at, next_at in zip(around, [*around[1:], around[0]], strict=True):
-        if at == next_at:
+    for index, next_index in zip(around, [*around[1:], around[0]], strict=True):
+        if index == next_index:
             break
-        distance = apart[next_at] = (seats[next_at].row - seats[at].row) % n_elements
+        distance = apart[next_index] = (seats[next_index].row - seats[index].row) % n_elements
         if distance <= reach:
             raise ValueError(
-                f"row: blades {at + 1} and {next_at + 1} are {distance} of {n_elements} coating elements "
-                f"apart; must be {reach + 1} or more, so that they cannot meet within the displacement limit"
+                f"row: blades {index + 1} and {next_index + 1} are {distance} of {n_elements} coating "
+                f"elements apart; must be {reach + 1} or more, so that they cannot meet within the "
+                "displacement limit"
             )
     return apart, reach
 
@@ -216,11 +217,15 @@ def _coupling(spec: RunSpec, modes: Modes, row: Row, seats: Sequence[_Seat]) -> 
                 "more weakly"
             )
         impulse[mode] = -0.5 * passage * modes.omega[mode] ** 2 * np.array(matrix)
-    omega, kinetic = (np.array([getattr(rule, of)[:n] for rule in rules]).T for of in ("omega", "kinetic"))
+    omega, kinetic = (
+        np.array([getattr(rule, name)[:n] for rule in rules]).T for name in ("omega", "kinetic")
+    )
     damping, h = np.array([seat.spec.damping_ratio for seat in seats]), rules[0].time_step
     damped = omega * np.sqrt(1.0 - damping**2)
     backward = -np.exp(damping * omega * h) * np.sin(damped * h) / damped
-    return Coupling(impulse, *(np.ascontiguousarray(of) for of in (backward, kinetic, 0.5 * omega**2)))
+    return Coupling(
+        impulse, *(np.ascontiguousarray(coefficients) for coefficients in (backward, kinetic, 0.5 * omega**2))
+    )
 
 
 def _stored(row: Row, modes: Modes, seats: Sequence[_Seat]) -> float:
@@ -243,13 +248,13 @@ def _march(
     n_elements = spec.coating.n_elements
     for revolution in range(spec.revolutions):
         displacement = np.full((len(seats), n_elements), np.nan)
-        passed, made = simulation.advance(displacement, revolution * n_elements)
-        for seat, begin, own, of_blade in zip(seats, begins, displacement, made, strict=True):
+        travel, blade_progress = simulation.advance(displacement, revolution * n_elements)
+        for seat, begin, motion, of_blade in zip(seats, begins, displacement, blade_progress, strict=True):
             first = max(0, begin - revolution * n_elements)
-            own[: min(first, passed)] = 0.0
-            seat.history.displacement[revolution] = own
-            if first < passed:
-                seat.history.enter(of_blade, Segment(seat.simulation, revolution, first, passed))
+            motion[: min(first, travel)] = 0.0
+            seat.history.displacement[revolution] = motion
+            if first < travel:
+                seat.history.enter(of_blade, Segment(seat.simulation, revolution, first, travel))
         if not all(seat.history.is_within_limit for seat in seats):
             return
         if progress is not None:

@@ -41,8 +41,8 @@ class RowBlade:
         """Natural frequencies (n_modes,) over those of the nominal blade."""
         factors = np.ones(n_modes)
         if isinstance(self.frequency, tuple):
-            own = self.frequency[:n_modes]
-            factors[: len(own)] += own
+            deviations = self.frequency[:n_modes]
+            factors[: len(deviations)] += deviations
         else:
             factors += self.frequency
         return factors
@@ -84,7 +84,7 @@ class Disk:
     @classmethod
     def of(cls, matrices: Iterable[np.ndarray]) -> Self:
         """Describe the coupling by a matrix (N, N) for each of the first modes."""
-        return cls(tuple(tuple(map(tuple, np.asarray(each, dtype=float).tolist())) for each in matrices))
+        return cls(tuple(tuple(map(tuple, np.asarray(matrix, dtype=float).tolist())) for matrix in matrices))
 
 
 @dataclass(frozen=True)
@@ -142,13 +142,13 @@ class Row:
     @classmethod
     def from_json(cls, text: str) -> Self:
         """Read what `to_json` wrote; raises `KeyError`, `TypeError` or `ValueError` on anything else."""
-        given = json.loads(text)
+        document = json.loads(text)
         blades = []
-        for each in given["blades"]:
-            if isinstance(each["frequency"], list):
-                each["frequency"] = tuple(each["frequency"])
-            blades.append(RowBlade(**each))
-        return cls(tuple(blades), given["disk"] and Disk.of(given["disk"]["stiffness"]))
+        for entry in document["blades"]:
+            if isinstance(entry["frequency"], list):
+                entry["frequency"] = tuple(entry["frequency"])
+            blades.append(RowBlade(**entry))
+        return cls(tuple(blades), document["disk"] and Disk.of(document["disk"]["stiffness"]))
 
     @classmethod
     def even(
@@ -167,21 +167,23 @@ class Row:
         """
         if n_blades < 1:
             raise ValueError(f"row: {n_blades} blades; must have one or more")
-        given = {"angle_error": angle_error, "length": length, "frequency": frequency, "damping": damping}
+        inputs = {"angle_error": angle_error, "length": length, "frequency": frequency, "damping": damping}
         values: dict[str, list[Any]] = {}
-        for name, value in given.items():
-            listed = np.asarray(value, dtype=float)
-            if listed.ndim == 0:
-                listed = np.full(n_blades, listed)
-            if len(listed) not in (1, n_blades) or listed.ndim > (2 if name == "frequency" else 1):
-                shape = " x ".join(map(str, listed.shape))
+        for name, value in inputs.items():
+            array = np.asarray(value, dtype=float)
+            if array.ndim == 0:
+                array = np.full(n_blades, array)
+            if len(array) not in (1, n_blades) or array.ndim > (2 if name == "frequency" else 1):
+                shape = " x ".join(map(str, array.shape))
                 raise ValueError(f"row: {shape} values of {name}; must be 1 or {n_blades}")
-            listed = np.broadcast_to(listed, (n_blades, *listed.shape[1:]))
-            values[name] = [tuple(each) if isinstance(each, list) else each for each in listed.tolist()]
+            array = np.broadcast_to(array, (n_blades, *array.shape[1:]))
+            values[name] = [tuple(entry) if isinstance(entry, list) else entry for entry in array.tolist()]
         error = values.pop("angle_error")
         blades = (
-            RowBlade(2 * np.pi * at / n_blades + error[at], *(each[at] for each in values.values()))
-            for at in range(n_blades)
+            RowBlade(
+                2 * np.pi * index / n_blades + error[index], *(column[index] for column in values.values())
+            )
+            for index in range(n_blades)
         )
         return cls(tuple(blades), disk)
 

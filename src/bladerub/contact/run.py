@@ -53,8 +53,8 @@ def simulate(blade: ReducedBlade, spec: RunSpec, progress: Callable[[int], None]
     n_elements, revolutions = spec.coating.n_elements, spec.revolutions
     rule, simulation = set_up(blade, spec)
     initial = sum(energy.blade_energy(rule, simulation.state))
-    whole = (Segment(simulation, revolution, 0, n_elements) for revolution in range(revolutions))
-    history = integrate(whole, revolutions, n_elements, progress)
+    segments = (Segment(simulation, revolution, 0, n_elements) for revolution in range(revolutions))
+    history = integrate(segments, revolutions, n_elements, progress)
     return run_result(blade, spec, rule, simulation, history, initial)
 
 

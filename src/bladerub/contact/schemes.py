@@ -198,7 +198,7 @@ def _kappa(modes: Modes, margin: np.ndarray, static: np.ndarray, contact: Contac
     return float(np.max(np.abs(np.linalg.eigvals(np.linalg.solve(series, step)))))
 
 
-def _recurrence(modes: Modes, now, before, gain, **rest) -> Recurrence:
+def _recurrence(modes: Modes, now, before, gain, **fields) -> Recurrence:
     return Recurrence(
         now=now,
         before=before,
@@ -208,5 +208,5 @@ def _recurrence(modes: Modes, now, before, gain, **rest) -> Recurrence:
         tip=modes.tip,
         omega=modes.omega,
         n_nodes=modes.n_nodes,
-        **rest,
+        **fields,
     )

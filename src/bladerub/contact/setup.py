@@ -139,14 +139,14 @@ def strip_width(blade: ReducedBlade) -> np.ndarray:
 def by_angle(blade: ReducedBlade, spec: RunSpec, rows: np.ndarray) -> np.ndarray:
     """Bring (N, lanes) rows of elements into the order (j, N) of the angle, for the j nodes."""
     first = _first_element(blade, spec)
-    return np.array([np.roll(of_node, at) for of_node, at in zip(rows.T, first, strict=False)])
+    return np.array([np.roll(of_node, shift) for of_node, shift in zip(rows.T, first, strict=False)])
 
 
 def stator_record(blade: ReducedBlade, spec: RunSpec, rule: Recurrence, seat: Seat = ALONE) -> records.Stator:
     """Describe coating and casing for the time loop, in rows of elements."""
     coating = spec.coating
     normal_factor, tangential_factor = _force_direction(coating)
-    own = np.split(_self_compliance(rule, coating), [blade.n_interface])
+    compliances = np.split(_self_compliance(rule, coating), [blade.n_interface])
     by_lane = _by_lane_of(blade)
     area = by_lane(element_area(blade, spec))
     if coating.is_rigid:
@@ -163,9 +163,9 @@ def stator_record(blade: ReducedBlade, spec: RunSpec, rule: Recurrence, seat: Se
         is_rigid=coating.is_rigid,
         normal_factor=normal_factor,
         tangential_factor=tangential_factor,
-        self_compliance=by_lane(own[0]),
+        self_compliance=by_lane(compliances[0]),
         coulomb=coating.coulomb,
-        tilt_compliance=by_lane(own[1]) if own[1].size else own[1],
+        tilt_compliance=by_lane(compliances[1]) if compliances[1].size else compliances[1],
     )
     return aligned(stator)
 
@@ -188,7 +188,7 @@ def _gaps(
     lanes: int,
 ) -> _Gaps:
     gap = casing.gap(shape, np.array(clearance)[:, None], element_angle(n_elements)) - longer
-    rows = np.array([np.roll(of_node, -at) for of_node, at in zip(gap, first, strict=True)])
+    rows = np.array([np.roll(of_node, -shift) for of_node, shift in zip(gap, first, strict=True)])
     unused = np.full((n_elements, lanes - len(rows)), _NEVER)
     return aligned(_Gaps(np.hstack([rows.T, unused]), minimum_gap(rows, half_width)))
 
@@ -246,8 +246,8 @@ def _check_reach(radius: np.ndarray, per_metre: np.ndarray, spec: RunSpec) -> No
 def _contact(blade: ReducedBlade, spec: RunSpec) -> Contact:
     element = np.full(blade.n_interface, np.inf)
     if not spec.coating.is_rigid:
-        at = module_of(spec.coating.element_law).Element._fields.index("elastic")
-        element = element_parameters(spec.coating, element_area(blade, spec))[at]
+        row = module_of(spec.coating.element_law).Element._fields.index("elastic")
+        element = element_parameters(spec.coating, element_area(blade, spec))[row]
     stiffness = element * 2 * spec.tip.half_width  # the shares under the tip add up to its width
     if spec.turns:
         stiffness = np.concatenate([stiffness, element * (2 / 3) * edge(spec.tip) ** 3])
@@ -270,30 +270,30 @@ def _force_direction(coating: Coating) -> tuple[float, float]:
 
 def _by_lane_of(blade: ReducedBlade) -> Callable[[np.ndarray], np.ndarray]:
     """Return `records.by_lane` for numbers of the nodes of `blade`."""
-    own = module_for(lanes_for(blade.n_interface), "contact.kernel.records")
-    return partial(own.by_lane, n_nodes=blade.n_interface)
+    record_module = module_for(lanes_for(blade.n_interface), "contact.kernel.records")
+    return partial(record_module.by_lane, n_nodes=blade.n_interface)
 
 
 def _free_flight(rule: Recurrence, tip: records.Tip, steps_per_element: int) -> FreeFlight:
     parts = math.ceil(steps_per_element / MOST_STEPS)
     slope = tip.search_range / float(np.min(tip.radius - tip.limit))
-    own = module_for(lanes_for(rule.n_nodes), "contact.kernel.free_flight")
-    return own.free_flight(rule, steps_per_element // parts, slope, edge(tip))
+    flight_module = module_for(lanes_for(rule.n_nodes), "contact.kernel.free_flight")
+    return flight_module.free_flight(rule, steps_per_element // parts, slope, edge(tip))
 
 
 def _initial_state(
     modes: Modes, rule: Recurrence, spec: RunSpec, tip: records.Tip, cells: int
 ) -> records.State:
     """At rest, deflected in the first mode; the step before is the exact free motion back from there."""
-    own = module_for(lanes_for(rule.n_nodes), "contact.kernel.records")
-    state = own.at_rest(rule.omega.size, spec.coating.n_elements, cells)
+    record_module = module_for(lanes_for(rule.n_nodes), "contact.kernel.records")
+    state = record_module.at_rest(rule.omega.size, spec.coating.n_elements, cells)
     if spec.initial_displacement:
         x, damping = rule.omega[0] * rule.time_step, spec.damping_ratio
         damped = math.sqrt(1.0 - damping**2)
         back = math.exp(damping * x) * (math.cos(damped * x) - damping / damped * math.sin(damped * x))
         n = rule.omega.size
         state.q[:, 0] = np.array([1.0, back, back]) * spec.initial_displacement / modes.tip[0, 0]
-        displacement = state.q[:, :n] @ own.by_lane(rule.tip, rule.n_nodes).T
+        displacement = state.q[:, :n] @ record_module.by_lane(rule.tip, rule.n_nodes).T
         radial, tangential, *tilt = np.moveaxis(displacement.reshape(3, -1, tip.radius.size), 1, 0)
         approach = np.hypot(tip.radius + radial, tangential) - tip.radius
         if not max(np.abs(radial).max(), np.abs(tangential).max()) <= tip.limit:
@@ -309,14 +309,14 @@ def _initial_state(
 def _self_compliance(rule: Recurrence, coating: Coating) -> np.ndarray:
     normal_factor, tangential_factor = _force_direction(coating)
     matrix, n = rule.compliance, rule.n_nodes
-    own = np.diag(normal_compliance(matrix, n, normal_factor, tangential_factor))
+    forward = np.diag(normal_compliance(matrix, n, normal_factor, tangential_factor))
     backward = np.diag(normal_compliance(matrix, n, normal_factor, -tangential_factor))
-    if coating.is_rigid and min(np.min(own), np.min(backward)) <= 0:
+    if coating.is_rigid and min(np.min(forward), np.min(backward)) <= 0:
         raise ValueError(
             f"friction {math.tan(coating.theta):g} on the rigid casing: must be so low that no node of this "
             "blade is drawn into the casing by its own friction (Painlevé's paradox)"
         )
-    return np.maximum(own, 0.0)
+    return np.maximum(forward, 0.0)
 
 
 def _start_position(blade: ReducedBlade, spec: RunSpec) -> np.ndarray:

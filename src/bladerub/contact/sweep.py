@@ -73,12 +73,12 @@ def speed_steps(spec: SweepSpec, f1_hz: float) -> list[SpeedStep]:
     edges = np.linspace(start, spec.f_end, n_steps_of_speed + 1)
     speeds = 0.5 * (edges[1:] + edges[:-1])
     duration = abs(spec.f_end - start) / n_steps_of_speed / spec.rate
-    passed = spec.run.revolutions + np.concatenate([[0.0], np.cumsum(speeds * f1_hz * duration)])
-    cuts = np.rint(passed * n_elements).astype(int)
+    revolutions = spec.run.revolutions + np.concatenate([[0.0], np.cumsum(speeds * f1_hz * duration)])
+    cuts = np.rint(revolutions * n_elements).astype(int)
     cuts[-1] += -cuts[-1] % n_elements
     planned = [SpeedStep(start, 0, int(cuts[0]))]
     planned += [
-        SpeedStep(*each) for each in zip(speeds.tolist(), cuts.tolist(), cuts[1:].tolist(), strict=False)
+        SpeedStep(*fields) for fields in zip(speeds.tolist(), cuts.tolist(), cuts[1:].tolist(), strict=False)
     ]
     return [step for step in planned if step.last > step.first]
 
@@ -155,9 +155,9 @@ class _Sweep:
                 self.work += _transfer(self.blade, before, self.stage)
             first = step.first
             while first < step.last:
-                revolution, passed = divmod(first, n_elements)
+                revolution, element = divmod(first, n_elements)
                 last = min(step.last, (revolution + 1) * n_elements)
-                yield Segment(self.stage.simulation, revolution, passed, passed + last - first)
+                yield Segment(self.stage.simulation, revolution, element, element + last - first)
                 first = last
 
     def _stage(self, f_omega: float) -> _Stage:
@@ -171,17 +171,17 @@ class _Sweep:
 
 def _transfer(blade: ReducedBlade, old: _Stage, new: _Stage) -> float:
     """Transfer the state of `old` to `new`; return the work of the change of stiffness, J."""
-    state, here = new.simulation.state, old.simulation.state
+    state, old_state = new.simulation.state, old.simulation.state
     for name in ("force", "normal_force", "moment", "tangential_factor", "response", "ledger", *COATING):
-        getattr(state, name)[:] = getattr(here, name)
+        getattr(state, name)[:] = getattr(old_state, name)
     state.ledger[energy.TORQUE] *= old.simulation.angle_per_step / new.simulation.angle_per_step
 
     into = new.shapes.T @ blade.mass @ old.shapes  # from modal coordinates to modal coordinates
-    force = energy.forces_of_nodes(here, old.rule)[0]
+    force = energy.forces_of_nodes(old_state, old.rule)[0]
     static, static_new = old.tip.T @ force / old.omega**2, new.tip.T @ force / new.omega**2
     n, n_new = old.rule.omega.size, new.rule.omega.size
     share, share_new = np.sqrt(old.rule.share[:n]), np.sqrt(new.rule.share[:n_new])
-    vibration, velocity = _free_motion(old.rule, here.q, force)
+    vibration, velocity = _free_motion(old.rule, old_state.q, force)
 
     total = static.copy()
     total[:n] += share * vibration
@@ -191,9 +191,9 @@ def _transfer(blade: ReducedBlade, old: _Stage, new: _Stage) -> float:
     vibration = into[:n_new, :n] @ vibration + share_new * (into @ static - static_new)[:n_new]
     state.q[:, :n_new] = _rows(new.rule, vibration, into[:n_new, :n] @ velocity, force)
     back = new.rule.time_step / old.rule.time_step
-    state.u[0] = here.u[0]
-    state.u[1] = here.u[0] + back * (here.u[1] - here.u[0])
-    state.u[2] = here.u[0] + 2 * back * (here.u[1] - here.u[0])
+    state.u[0] = old_state.u[0]
+    state.u[1] = old_state.u[0] + back * (old_state.u[1] - old_state.u[0])
+    state.u[2] = old_state.u[0] + 2 * back * (old_state.u[1] - old_state.u[0])
     radius = new.simulation.tip.radius
     for row in state.u:
         radial, tangential, *_ = row.reshape(4, -1)
@@ -211,10 +211,10 @@ def _free_motion(rule: Recurrence, q: np.ndarray, force: np.ndarray) -> tuple[np
     """Displacement and velocity of each resolved mode about its rest under `force`."""
     frequency, decay = _frequency(rule)
     h = rule.time_step
-    rest = rule.tip.T @ force / rule.omega**2
-    now, before = q[:2, : rule.omega.size] - rest
-    sine = (now * np.cos(frequency * h) - before * np.exp(-decay * h)) / np.sin(frequency * h)
-    return now, frequency * sine - decay * now
+    equilibrium = rule.tip.T @ force / rule.omega**2
+    present, before = q[:2, : rule.omega.size] - equilibrium
+    sine = (present * np.cos(frequency * h) - before * np.exp(-decay * h)) / np.sin(frequency * h)
+    return present, frequency * sine - decay * present
 
 
 def _rows(rule: Recurrence, vibration: np.ndarray, velocity: np.ndarray, force: np.ndarray) -> np.ndarray:

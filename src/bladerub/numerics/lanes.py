@@ -72,15 +72,15 @@ def _instance(lanes: int, law: str) -> dict[str, ModuleType]:
         if law:
             _exchange_law(law)
         importlib.import_module("bladerub.contact.kernel.row")
-        made = _loaded()
+        modules = _loaded()
     finally:
         LANES, LAW = USUAL, ""
         sys.modules.update(usual)
         for name, module in usual.items():
             parent, _, child = name.rpartition(".")
             setattr(sys.modules[parent], child, module)
-    _name(made, instance_name(lanes, law))
-    return made
+    _name(modules, instance_name(lanes, law))
+    return modules
 
 
 def _exchange_law(source: str) -> None:
@@ -116,6 +116,6 @@ def _name(modules: dict[str, ModuleType], instance: str) -> None:
 
 
 def _loaded() -> dict[str, ModuleType]:
-    own = tuple(f"bladerub.{name}" for name in _MODULES)
-    inside = tuple(f"{name}." for name in own)
-    return {name: module for name, module in sys.modules.items() if name in own or name.startswith(inside)}
+    names = tuple(f"bladerub.{name}" for name in _MODULES)
+    inside = tuple(f"{name}." for name in names)
+    return {name: module for name, module in sys.modules.items() if name in names or name.startswith(inside)}

@@ -43,11 +43,11 @@ def rows_of(records: Sequence[NamedTuple]) -> np.ndarray:
     """Put records of `addresses`, all of one kind, into rows of 64 bits a field, for `record_at`."""
     rows = np.zeros((len(records), len(records[0])), dtype=np.int64)
     for row, record in zip(rows, records, strict=True):
-        for at, part in enumerate(record):
+        for column, part in enumerate(record):
             if isinstance(part, float):
-                row[at : at + 1].view(float)[0] = part
+                row[column : column + 1].view(float)[0] = part
             elif part is not None:
-                row[at] = part
+                row[column] = part
     return rows
 
 
@@ -136,8 +136,8 @@ def record_at(context, record, address):
     """
 
     def generate(context, builder, signature, arguments):
-        given, parts = cgutils.unpack_tuple(builder, arguments[0]), []
-        for row, (kind, part) in enumerate(zip(record.types, given, strict=True)):
+        values, parts = cgutils.unpack_tuple(builder, arguments[0]), []
+        for row, (kind, part) in enumerate(zip(record.types, values, strict=True)):
             if isinstance(kind, types.Integer | types.Float):
                 part = builder.load(_place_at(builder, arguments[1], row, context.get_value_type(kind)))
             parts.append(part)

@@ -140,7 +140,7 @@ def _of_arrays(function):
 
     @overload(function, jit_options=INLINED, strict=False)
     def choose(*arguments):
-        return function if any(isinstance(each, types.Array) for each in arguments) else None
+        return function if any(isinstance(argument, types.Array) for argument in arguments) else None
 
 
 def _unary(function, name):
@@ -201,12 +201,12 @@ _extreme(minimum, "<")
 _extreme(maximum, ">")
 
 
-def _extreme_lane(builder, comparison, rest):
+def _extreme_lane(builder, comparison, extremes):
     for width in _HALVES:  # against each other
         order = _lanes((i + width) % LANES for i in range(LANES))
-        other = builder.shuffle_vector(rest, _UNDEFINED, order)
-        rest = builder.select(builder.fcmp_ordered(comparison, rest, other), rest, other)
-    return builder.extract_element(rest, ir.Constant(_INDEX, 0))
+        other = builder.shuffle_vector(extremes, _UNDEFINED, order)
+        extremes = builder.select(builder.fcmp_ordered(comparison, extremes, other), extremes, other)
+    return builder.extract_element(extremes, ir.Constant(_INDEX, 0))
 
 
 @instruction(types.float64, vector)
@@ -271,25 +271,30 @@ def all_lanes(builder, condition):
 def _paired(builder, width, a, b):
     """Build the sums of neighbouring parts of `a`, and of `b`, each `width` lanes wide, in turns."""
     starts = range(0, LANES, 2 * width)
-    left = [lane for start in starts for each in (start, LANES + start) for lane in range(each, each + width)]
-    right = [lane + width for lane in left]
-    left_half = builder.shuffle_vector(a, b, _lanes(left))
-    return builder.fadd(left_half, builder.shuffle_vector(a, b, _lanes(right)), flags=FUSED)
+    first_lanes = [
+        lane
+        for start in starts
+        for offset in (start, LANES + start)
+        for lane in range(offset, offset + width)
+    ]
+    second_lanes = [lane + width for lane in first_lanes]
+    first_half = builder.shuffle_vector(a, b, _lanes(first_lanes))
+    return builder.fadd(first_half, builder.shuffle_vector(a, b, _lanes(second_lanes)), flags=FUSED)
 
 
 @instruction(vector, types.UniTuple(vector, LANES))
 def lane_sums(builder, vectors):
     """Vector of the sums of all lanes of so many vectors as it has lanes."""
-    rest = cgutils.unpack_tuple(builder, vectors)
+    sums = cgutils.unpack_tuple(builder, vectors)
     for width in reversed(_HALVES):
-        rest = [_paired(builder, width, a, b) for a, b in zip(rest[::2], rest[1::2], strict=True)]
-    return rest[0]
+        sums = [_paired(builder, width, a, b) for a, b in zip(sums[::2], sums[1::2], strict=True)]
+    return sums[0]
 
 
 @instruction(types.UniTuple(types.UniTuple(vector, LANES), 2), types.UniTuple(vector, 2 * LANES))
 def halves(builder, vectors):
     """First and second half of twice as many vectors as they have lanes."""
-    each = cgutils.unpack_tuple(builder, vectors)
+    parts = cgutils.unpack_tuple(builder, vectors)
     return cgutils.pack_array(
-        builder, [cgutils.pack_array(builder, each[:LANES]), cgutils.pack_array(builder, each[LANES:])]
+        builder, [cgutils.pack_array(builder, parts[:LANES]), cgutils.pack_array(builder, parts[LANES:])]
     )

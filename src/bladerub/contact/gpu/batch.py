@@ -130,15 +130,15 @@ def source(variant: Variant) -> str:
 class _Records:
     """Records of equal size, each kept once."""
 
-    kept: list[np.ndarray] = field(default_factory=list)
+    records: list[np.ndarray] = field(default_factory=list)
     numbers: dict[bytes, int] = field(default_factory=dict)
 
     def number(self, record: np.ndarray) -> int:
         """Return the number of a record, which is kept if there is none like it."""
         content = record.tobytes()
         if content not in self.numbers:
-            self.numbers[content] = len(self.kept)
-            self.kept.append(record)
+            self.numbers[content] = len(self.records)
+            self.records.append(record)
         return self.numbers[content]
 
 
@@ -157,7 +157,7 @@ class Work(NamedTuple):
     modes: np.ndarray  # (n, 2, modes): Modal coordinates at the start, and their last increment
 
 
-class Left(NamedTuple):
+class Output(NamedTuple):
     """What a device leaves of n runs."""
 
     modes: np.ndarray  # (n, 2, modes): As in `Work`, at the end
@@ -169,15 +169,15 @@ class Left(NamedTuple):
     counts: np.ndarray  # (n, 6): See `COUNTS`
 
 
-Device = Callable[[Iterable[Work]], Iterator[Left]]
+Device = Callable[[Iterable[Work]], Iterator[Output]]
 """What carries out the loop for pieces of work: a GPU, or an emulation of one."""
 
 
 def longest_first(works: Sequence[Work]) -> np.ndarray:
     """Return the piece and the number (n, 2) of every run of some pieces, the longest ones first."""
     steps = [work.runs[:, 4] * work.n_elements * work.revolutions for work in works]
-    each = [(piece, run) for piece, of_piece in enumerate(steps) for run in range(len(of_piece))]
-    return np.array(each, dtype=np.int32)[np.argsort(-np.concatenate(steps), kind="stable")]
+    runs = [(piece, run) for piece, of_piece in enumerate(steps) for run in range(len(of_piece))]
+    return np.array(runs, dtype=np.int32)[np.argsort(-np.concatenate(steps), kind="stable")]
 
 
 def described_to_loop(work: Work, addresses: Iterable[int]) -> np.ndarray:
@@ -190,7 +190,7 @@ def described_to_loop(work: Work, addresses: Iterable[int]) -> np.ndarray:
 
 
 def described(work: Work) -> dict[str, tuple[tuple[int, ...], type, float]]:
-    """Shape, type and initial value of what a device leaves, but for the modes, by its name in `Left`."""
+    """Shape, type and initial value of what a device leaves, but for the modes, by its name in `Output`."""
     n, elements_, revolutions = len(work.runs), work.n_elements, work.revolutions
     return {
         "wear": ((n, elements_, LANES), np.float64, 0.0),
@@ -208,45 +208,47 @@ def pack(variant: Variant, simulations: Sequence[Simulation]) -> Work:
     runs = np.empty((len(simulations), 5), dtype=np.int32)
     modes = np.zeros((len(simulations), 2, WARP * variant.vectors))
     modal, stator, casing, tip = (_Records() for _ in range(4))
-    for i, each in enumerate(simulations):
+    for i, simulation in enumerate(simulations):
         runs[i] = (
-            modal.number(_modal_record(each.modal, each.flight, variant.vectors, turns)),
-            stator.number(_stator_record(each, turns)),
-            casing.number(np.concatenate([each.stator.initial_gap.ravel(), each.stator.minimum_gap])),
-            tip.number(_tip_record(each)),
-            each.steps_per_element,
+            modal.number(_modal_record(simulation.modal, simulation.flight, variant.vectors, turns)),
+            stator.number(_stator_record(simulation, turns)),
+            casing.number(
+                np.concatenate([simulation.stator.initial_gap.ravel(), simulation.stator.minimum_gap])
+            ),
+            tip.number(_tip_record(simulation)),
+            simulation.steps_per_element,
         )
-        q, before, _ = each.state.q
+        q, before, _ = simulation.state.q
         modes[i, :, : q.size] = q, q - before
-    records = (np.array(each.kept) for each in (modal, stator, casing, tip))
+    records = (np.array(table.records) for table in (modal, stator, casing, tip))
     size = (variant.n_elements, variant.revolutions)
     return Work(source(variant), _shared(variant), *size, *records, runs, modes)
 
 
-def finish(simulation: Simulation, left: Left, i: int) -> History | None:
+def finish(simulation: Simulation, output: Output, i: int) -> History | None:
     """Bring a simulation to its end by what was left of run `i`; None where it was handed over."""
-    counts = dict(zip(COUNTS, left.counts[i].tolist(), strict=True))
+    counts = dict(zip(COUNTS, output.counts[i].tolist(), strict=True))
     if counts["status"] == HANDED_OVER:
         return None
-    state, (q, increment) = simulation.state, left.modes[i]
+    state, (q, increment) = simulation.state, output.modes[i]
     n = state.q.shape[1]
     state.q[:] = q[:n], (q - increment)[:n], q[:n]  # all damping is in the ledger
-    state.force[:] = left.forces[i].reshape(state.force.shape)
-    state.wear[:] = left.wear[i]
-    groups = left.ledger[i].reshape(-1, WARP // LANES, LANES)
+    state.force[:] = output.forces[i].reshape(state.force.shape)
+    state.wear[:] = output.wear[i]
+    groups = output.ledger[i].reshape(-1, WARP // LANES, LANES)
     state.ledger[list(_OF_NODES)] = groups[:2].reshape(-1, LANES)[: len(_OF_NODES)]
     state.ledger[list(_OF_ELEMENTS)] = groups[2:].sum(axis=1)
     state.ledger[energy.WORN] = state.wear.sum(axis=0)
     state.ledger[energy.REVERSED, 0] = counts["reversed_steps"]
-    history = History(*left.displacement[i].shape)
-    history.displacement[:] = left.displacement[i]
-    history.lowest[:], history.highest[:] = left.range[i].T
+    history = History(*output.displacement[i].shape)
+    history.displacement[:] = output.displacement[i]
+    history.lowest[:], history.highest[:] = output.range[i].T
     history.n_steps, history.n_contact_steps = counts["steps"], counts["contact_steps"]
     history.is_within_limit = counts["status"] == COMPLETED
     history.revolutions_made = float(counts["revolutions"])
     if not history.is_within_limit:
-        passed = counts["last_steps"] / simulation.steps_per_element
-        history.revolutions_made += passed / left.displacement.shape[2]
+        travel = counts["last_steps"] / simulation.steps_per_element
+        history.revolutions_made += travel / output.displacement.shape[2]
     return history
 
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from bladerub.contact.gpu.batch import WARP, Left, Work, described, described_to_loop, longest_first
+from bladerub.contact.gpu.batch import WARP, Output, Work, described, described_to_loop, longest_first
 from bladerub.io.errors import BadInput
 
 if TYPE_CHECKING:
@@ -31,27 +31,27 @@ def connect() -> Any:
     try:
         import cupy
     except ImportError as error:
-        right = "pip install 'bladerub[gpu]', or take solver.device = cpu"
-        raise NoGpuError(f"solver.device = gpu: needs CuPy ({error}): {right}") from error
+        remedy = "pip install 'bladerub[gpu]', or take solver.device = cpu"
+        raise NoGpuError(f"solver.device = gpu: needs CuPy ({error}): {remedy}") from error
     try:
         cupy.cuda.runtime.getDeviceCount()
     except cupy.cuda.runtime.CUDARuntimeError as error:
-        right = "take solver.device = cpu"
-        raise NoGpuError(f"solver.device = gpu: no GPU of NVIDIA was found ({error}): {right}") from error
+        remedy = "take solver.device = cpu"
+        raise NoGpuError(f"solver.device = gpu: no GPU of NVIDIA was found ({error}): {remedy}") from error
     return cupy
 
 
-def run(works: Iterable[Work], watch: Callable[[float], None] = lambda seconds: None) -> Iterator[Left]:
+def run(works: Iterable[Work], watch: Callable[[float], None] = lambda seconds: None) -> Iterator[Output]:
     """Carry out the loop for pieces of work, as many together as fit; yield what each leaves.
 
     `watch` is told the seconds that those took which ran together, without transfers. Raises `NoGpuError`.
     """
-    most = SHARE * connect().cuda.Device().mem_info[1]
+    limit = SHARE * connect().cuda.Device().mem_info[1]
     together: list[Work] = []
     taken = 0
     for work in works:
         size = _size(work)
-        if together and taken + size > most:
+        if together and taken + size > limit:
             yield from _carry_out(together, watch)
             together, taken = [], 0
         together.append(work)
@@ -69,11 +69,11 @@ def describe() -> str:
 class _Arrays(NamedTuple):
     """Of a piece of work, on the GPU."""
 
-    given: "list[cupy.ndarray]"
-    made: "list[cupy.ndarray]"
+    inputs: "list[cupy.ndarray]"
+    outputs: "list[cupy.ndarray]"
 
 
-def _carry_out(together: Sequence[Work], watch: Callable[[float], None]) -> Iterator[Left]:
+def _carry_out(together: Sequence[Work], watch: Callable[[float], None]) -> Iterator[Output]:
     """Let all runs of one program share one kernel: kernels may take turns on a GPU."""
     import cupy
 
@@ -94,8 +94,8 @@ def _carry_out(together: Sequence[Work], watch: Callable[[float], None]) -> Iter
         stream.synchronize()
     watch(time.perf_counter() - start)
     for number in range(len(together)):
-        given, made = arrays.pop(number)
-        yield Left(*map(cupy.asnumpy, (given[-1], *made)))
+        inputs, outputs = arrays.pop(number)
+        yield Output(*map(cupy.asnumpy, (inputs[-1], *outputs)))
 
 
 def _prepare(works: Mapping[int, Work], arrays: dict[int, _Arrays]) -> Callable[[], None]:
@@ -107,10 +107,10 @@ def _prepare(works: Mapping[int, Work], arrays: dict[int, _Arrays]) -> Callable[
 
     batches = []
     for number, work in works.items():
-        given = [cupy.asarray(array) for array in work[4:]]  # in the order of ``Batch``
-        made = [_filled(*each) for each in described(work).values()]
-        batches.append(described_to_loop(work, (array.data.ptr for array in (*given, *made))))
-        arrays[number] = _Arrays(given, made)
+        inputs = [cupy.asarray(array) for array in work[4:]]  # in the order of ``Batch``
+        outputs = [_filled(*description) for description in described(work).values()]
+        batches.append(described_to_loop(work, (array.data.ptr for array in (*inputs, *outputs))))
+        arrays[number] = _Arrays(inputs, outputs)
     order, work = longest_first([*works.values()]), next(iter(works.values()))
     numbers = cupy.asarray(order), _filled((1,), np.int32, 0), cupy.asarray(np.array(batches))
     kernel = _compiled(work.source, work.shared)
@@ -129,8 +129,10 @@ def _filled(shape: tuple[int, ...], kind: type, value: float) -> "cupy.ndarray":
 
 def _size(work: Work) -> int:
     """Bytes on the GPU."""
-    left = sum(math.prod(shape) * np.dtype(kind).itemsize for shape, kind, _ in described(work).values())
-    return left + sum(each.nbytes for each in work[4:])
+    output_size = sum(
+        math.prod(shape) * np.dtype(kind).itemsize for shape, kind, _ in described(work).values()
+    )
+    return output_size + sum(array.nbytes for array in work[4:])
 
 
 @cache

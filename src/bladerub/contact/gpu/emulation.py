@@ -14,7 +14,7 @@ from pathlib import Path
 
 import numpy as np
 
-from bladerub.contact.gpu.batch import Left, Work, described, described_to_loop, longest_first
+from bladerub.contact.gpu.batch import Output, Work, described, described_to_loop, longest_first
 
 COMPILER = "c++"
 _OPTIONS = ("-O2", "-march=native", "-std=c++17", "-shared", "-fPIC", "-Wno-psabi")
@@ -25,7 +25,7 @@ def is_possible() -> bool:
     return shutil.which(COMPILER) is not None
 
 
-def run(works: Iterable[Work], real: str = "double") -> Iterator[Left]:
+def run(works: Iterable[Work], real: str = "double") -> Iterator[Output]:
     """Carry out the loop for pieces of work; raises `OSError` if there is no compiler.
 
     It computes with numbers of the C++ type `real`. What it reads, and what it keeps from step to step in
@@ -34,13 +34,13 @@ def run(works: Iterable[Work], real: str = "double") -> Iterator[Left]:
     return (_run(work, real) for work in works)
 
 
-def _run(work: Work, real: str) -> Left:
-    made = {name: np.full(shape, value, kind) for name, (shape, kind, value) in described(work).items()}
+def _run(work: Work, real: str) -> Output:
+    outputs = {name: np.full(shape, value, kind) for name, (shape, kind, value) in described(work).items()}
     modes, next_run = work.modes.copy(), np.zeros(1, dtype=np.int32)
-    arrays = (*work[4:-1], modes, *made.values())  # in the order of ``Batch``
+    arrays = (*work[4:-1], modes, *outputs.values())  # in the order of ``Batch``
     batch = described_to_loop(work, (array.ctypes.data for array in arrays))
     call(_compiled(work.source, real), len(work.runs), longest_first([work]), next_run, batch)
-    return Left(modes, **made)
+    return Output(modes, **outputs)
 
 
 def call(loop: "ctypes._FuncPointer", n_runs: int, *arrays: np.ndarray) -> None:

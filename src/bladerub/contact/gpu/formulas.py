@@ -45,24 +45,28 @@ def of_law(law: ModuleType, source: str = "") -> str:
 
 def _with_callees(functions: Sequence[Callable], source: str = "") -> str:
     """Translate functions, each after those that it calls."""
-    done: dict[str, tuple[Callable, str]] = {}
-    no_file = {each.name: each for each in ast.parse(source).body if isinstance(each, ast.FunctionDef)}
+    translations: dict[str, tuple[Callable, str]] = {}
+    no_file = {
+        definition.name: definition
+        for definition in ast.parse(source).body
+        if isinstance(definition, ast.FunctionDef)
+    }
 
     def add(function: Callable) -> None:
         name = function.__name__
-        if name in done:
-            if done[name][0] is not function:
+        if name in translations:
+            if translations[name][0] is not function:
                 raise ValueError(f"{name}: two functions of this name, which a GPU can't be given")
             return
-        own = function.__code__.co_filename.startswith("<")
-        translation = _Translation(function, no_file[name] if own else _definition(function))
+        is_text = function.__code__.co_filename.startswith("<")
+        translation = _Translation(function, no_file[name] if is_text else _definition(function))
         for callee in translation.callees():
             add(callee)
-        done[name] = function, translation.text()
+        translations[name] = function, translation.text()
 
     for function in functions:
         add(function)
-    return "\n".join(text for _, text in done.values())
+    return "\n".join(text for _, text in translations.values())
 
 
 def _definition(function: Callable) -> ast.stmt:
@@ -89,10 +93,10 @@ class _Translation:
     def text(self) -> str:
         """Translate the function."""
         arguments = ", ".join(
-            f"const {_RECORDS.get(each.arg, 'real')}& {each.arg}" for each in self.body.args.args
+            f"const {_RECORDS.get(argument.arg, 'real')}& {argument.arg}" for argument in self.body.args.args
         )
-        statements = [each for each in self.body.body if not self._is_docstring(each)]
-        lines = "".join(f"  {self._statement(each)}\n" for each in statements)
+        statements = [statement for statement in self.body.body if not self._is_docstring(statement)]
+        lines = "".join(f"  {self._statement(statement)}\n" for statement in statements)
         kind = "Pair" if isinstance(statements[-1].value, ast.Tuple) else "real"
         return f"HERE {kind} {self.body.name}({arguments}) {{\n{lines}}}"
 
@@ -110,16 +114,16 @@ class _Translation:
             if isinstance(target, ast.Name):
                 return f"{self._declared(target.id)} = {value};"
             if isinstance(target, ast.Tuple) and len(target.elts) == 2:
-                pair = "_and_".join(each.id for each in target.elts)
-                each = zip(target.elts, ("first", "second"), strict=True)
-                parts = [f"{self._declared(name.id)} = {pair}.{part};" for name, part in each]
+                pair = "_and_".join(name.id for name in target.elts)
+                members = zip(target.elts, ("first", "second"), strict=True)
+                parts = [f"{self._declared(name.id)} = {pair}.{part};" for name, part in members]
                 return " ".join([f"const Pair {pair} = {value};", *parts])
         raise self._unknown(statement)
 
     def _declared(self, name: str) -> str:
-        known = name in self.assigned
+        is_declared = name in self.assigned
         self.assigned.add(name)
-        return name if known else f"auto {name}"
+        return name if is_declared else f"auto {name}"
 
     def _expression(self, node: ast.expr) -> str:
         match node:
@@ -131,20 +135,20 @@ class _Translation:
                 return repr(float(value))
             case ast.Attribute(ast.Name(record), field) if record in _RECORDS:
                 return f"{record}.{field}"
-            case ast.BinOp(left, operator, right) if type(operator) in _OPERATORS:
-                left, right = self._expression(left), self._expression(right)
-                return f"({left} {_OPERATORS[type(operator)]} {right})"
+            case ast.BinOp(lhs, operator, rhs) if type(operator) in _OPERATORS:
+                lhs, rhs = self._expression(lhs), self._expression(rhs)
+                return f"({lhs} {_OPERATORS[type(operator)]} {rhs})"
             case ast.UnaryOp(ast.USub(), operand):
                 return f"(0.0 - {self._expression(operand)})"
-            case ast.Compare(left, [comparison], [right]) if type(comparison) in _COMPARISONS:
-                left, right = self._expression(left), self._expression(right)
-                return f"({left} {_COMPARISONS[type(comparison)]} {right})"
+            case ast.Compare(lhs, [comparison], [rhs]) if type(comparison) in _COMPARISONS:
+                lhs, rhs = self._expression(lhs), self._expression(rhs)
+                return f"({lhs} {_COMPARISONS[type(comparison)]} {rhs})"
             case ast.Call(ast.Name(name), arguments, []):
                 return f"{_NAMES.get(name, name)}({', '.join(map(self._expression, arguments))})"
         raise self._unknown(node)
 
     def _is_argument(self, name: str) -> bool:
-        return name in {each.arg for each in self.body.args.args}
+        return name in {argument.arg for argument in self.body.args.args}
 
     def _unknown(self, node: ast.AST) -> ValueError:
         text = ast.unparse(node)

@@ -60,10 +60,10 @@ def simulate_many(
         for first in range(0, len(prepared), batch.MOST_RUNS)
     ]
     works = (batch.pack(variant, [simulation for *_, simulation in part]) for variant, part in parts)
-    for (_, part), left in zip(parts, device(works), strict=True):
+    for (_, part), output in zip(parts, device(works), strict=True):
         for i, (number, rule, simulation) in enumerate(part):
             initial = sum(energy.blade_energy(rule, simulation.state))
-            history = batch.finish(simulation, left, i)
+            history = batch.finish(simulation, output, i)
             if history is None:
                 left_out["Newton's method did not converge in a step"].append(number)
             else:

@@ -17,7 +17,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from bladerub.contact.gpu import ADDRESS, device, emulation
-from bladerub.contact.gpu.batch import Device, Left, Work
+from bladerub.contact.gpu.batch import Device, Output, Work
 from bladerub.io.errors import exit_on_error
 
 
@@ -26,7 +26,7 @@ def find() -> Device:
     return ask if os.environ.get(ADDRESS) else device.run
 
 
-def ask(works: Iterable[Work]) -> Iterator[Left]:
+def ask(works: Iterable[Work]) -> Iterator[Output]:
     """Let the server carry out the loop for pieces of work.
 
     Raises `bladerub.contact.gpu.device.NoGpuError` if it does not answer, and what it raises.
@@ -34,12 +34,12 @@ def ask(works: Iterable[Work]) -> Iterator[Left]:
     address = os.environ[ADDRESS]
     with contextlib.ExitStack() as open_ones:
         try:
-            asked = []
+            connections = []
             for work in works:
-                asked.append(open_ones.enter_context(Client(address, "AF_UNIX")))
-                asked[-1].send(work)
-            for each in asked:
-                answer = each.recv()
+                connections.append(open_ones.enter_context(Client(address, "AF_UNIX")))
+                connections[-1].send(work)
+            for connection in connections:
+                answer = connection.recv()
                 if isinstance(answer, Exception):
                     raise answer
                 yield answer
@@ -72,14 +72,14 @@ def _answer(connection: Connection, requests: "queue.SimpleQueue[_Request]") -> 
 
 def _compute(requests: "queue.SimpleQueue[_Request]", run: Device) -> None:
     while True:
-        waiting = [requests.get()]
+        batch = [requests.get()]
         while not requests.empty():
-            waiting.append(requests.get())
+            batch.append(requests.get())
         try:
-            for request, left in zip(waiting, run(each.work for each in waiting), strict=True):
-                request.answer.set_result(left)
+            for request, output in zip(batch, run(entry.work for entry in batch), strict=True):
+                request.answer.set_result(output)
         except Exception as error:  # it is the callers'
-            for request in waiting:
+            for request in batch:
                 if not request.answer.done():
                     request.answer.set_exception(error)
 

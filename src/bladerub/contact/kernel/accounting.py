@@ -9,23 +9,23 @@ from bladerub.numerics.vectors import LANES, absolute, all_lanes, broadcast, max
 
 
 @inlined
-def update_coating(modal, stator, tip, passed, per_step, state, u, u_before):
+def update_coating(modal, stator, tip, travel, per_step, state, u, u_before):
     """Wear the coating by the forces of this step, and enter energies and sliding in the ledger."""
     approach, normal_force = load(u, 2 * LANES), load(state.normal_force, 0)
     factor = load(state.tangential_factor, 0)
-    position = closest_position(tip, load(u, LANES), passed)
-    position_before = closest_position(tip, load(u_before, LANES), passed - per_step)
+    position = closest_position(tip, load(u, LANES), travel)
+    position_before = closest_position(tip, load(u_before, LANES), travel - per_step)
     _note_sliding(stator, state, normal_force, factor, position - position_before, per_step)
     if stator.is_rigid:
         stored, loss = broadcast(0.0), broadcast(0.0)
         shape = elements.rigid_surface(stator, position_before) - elements.rigid_surface(stator, position)
         supplied = 0.5 * (normal_force + load(state.normal_force, LANES)) * shape
     else:
-        there = elements.Placement(position, approach, tilt.kept(modal.tilt, u))
+        placement = elements.Placement(position, approach, tilt.load_tilt(modal.tilt, u))
         before = elements.Placement(
-            position_before, load(u_before, 2 * LANES), tilt.kept(modal.tilt, u_before)
+            position_before, load(u_before, 2 * LANES), tilt.load_tilt(modal.tilt, u_before)
         )
-        stored, loss, supplied, worn = elements.update_wear(modal.tilt, stator, tip, state, there, before)
+        stored, loss, supplied, worn = elements.update_wear(modal.tilt, stator, tip, state, placement, before)
         add_to(state.ledger, energy.WORN * LANES, worn)
     store(state.moment, 0, (0.0 - factor) * normal_force * (load(tip.lever, 0) + approach))
     entry = state.ledger
@@ -65,12 +65,12 @@ def add_work(modal, stator, tip, angle, state, u_after, u, u_before):
     add_to(entry, energy.EXCHANGED * LANES, absolute(by_radial) + absolute(by_tangential))
     add_to(entry, energy.TORQUE * LANES, load(state.moment, LANES))
     if modal.tilt is not None:
-        more_tilt = 0.5 * (tilt.kept(modal.tilt, u_after) - tilt.kept(modal.tilt, u_before))
+        more_tilt = 0.5 * (tilt.load_tilt(modal.tilt, u_after) - tilt.load_tilt(modal.tilt, u_before))
         by_couple = load(state.force, 3 * LANES + tilt.COUPLE) * more_tilt
         add_to(entry, energy.COUPLE * LANES, by_couple)
         if stator.tangential_factor != 0.0:  # as `_add_sliding`: the rest of what a turn takes from the tip
-            rest = (1.0 + stator.normal_factor) / stator.normal_factor
-            add_to(entry, energy.SLIDING * LANES, 0.0 - rest * by_couple)
+            ratio = (1.0 + stator.normal_factor) / stator.normal_factor
+            add_to(entry, energy.SLIDING * LANES, 0.0 - ratio * by_couple)
 
     if stator.tangential_factor != 0.0:
         _add_sliding(stator, tip, angle, state, load(u, 0), load(u, LANES), more_radial, more_tangential)

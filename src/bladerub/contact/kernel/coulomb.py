@@ -19,11 +19,11 @@ def predict_sliding(modal, state, q, q_before, angle):
     """
     sums = no_sums()
     for k in range(0, modal.n, LANES):
-        now, before = load(q, k), load(q_before, k)
+        present, before = load(q, k), load(q_before, k)
         if modal.corrects:
-            increment = now - before
+            increment = present - before
         else:
-            increment = 0.5 * (load(modal.now, k) * now - load(modal.before, k) * before - before)
+            increment = 0.5 * (load(modal.now, k) * present - load(modal.before, k) * before - before)
         sums = add_tip_displacement(modal, k, increment, sums)
     radial, tangential = tip_displacement(sums)
     store(state.free_sliding, 0, radial)

@@ -47,10 +47,10 @@ def wrap(index, n_elements):
 
 
 @inlined
-def rows_under(tip, behind, ahead):
-    """First and last row that the profile covers of any node between positions `behind` and `ahead`."""
-    first = math.floor(smallest_lane(behind) - tip.half_width)
-    return first, math.floor(largest_lane(ahead) + tip.half_width)
+def rows_under(tip, rear, front):
+    """First and last row that the profile covers of any node between positions `rear` and `front`."""
+    first = math.floor(smallest_lane(rear) - tip.half_width)
+    return first, math.floor(largest_lane(front) + tip.half_width)
 
 
 @within
@@ -59,11 +59,11 @@ def rigid_surface(stator, position):
 
     The surface is smooth through the centres of the elements.
     """
-    found = broadcast(0.0)
+    gap = broadcast(0.0)
     for row in range(math.floor(smallest_lane(position)) - 1, math.floor(largest_lane(position)) + 2):
         weight = maximum(1.0 - absolute((row + 0.5) - position), 0.0)
-        found = found + weight * load(stator.initial_gap, wrap(row, stator.n_elements) * LANES)
-    return found
+        gap = gap + weight * load(stator.initial_gap, wrap(row, stator.n_elements) * LANES)
+    return gap
 
 
 @inlined
@@ -84,8 +84,8 @@ def linearise(tilts, stator, tip, state, position, rows, approach, tilted):
         offset = (row + 0.5) - position
         share = coverage(tip, offset)
         worn = load(state.wear, entry)
-        here = tilt.raised(tilts, approach, tilted, offset)
-        depth = penetration(here, relief(tip, offset), load(stator.initial_gap, entry), worn)
+        local_approach = tilt.raised(tilts, approach, tilted, offset)
+        depth = penetration(local_approach, relief(tip, offset), load(stator.initial_gap, entry), worn)
         force_here, _ = law.return_mapping(element, depth, worn)
         slope, linear = law.tangent(element, depth, worn)
         if HEATS:
@@ -102,7 +102,7 @@ def linearise(tilts, stator, tip, state, position, rows, approach, tilted):
 
 
 @inlined
-def update_wear(tilts, stator, tip, state, there, before):
+def update_wear(tilts, stator, tip, state, placement, before):
     """Leave the elements as the tip presses them at the end of a step, and account for it.
 
     An element partly under the tip counts as elements of which a share is under it: as the edge of the
@@ -111,11 +111,11 @@ def update_wear(tilts, stator, tip, state, there, before):
     exactly along that path. What the depth changes by a change of tilt is work of the blade, the rest of what
     it changes by the profile is work of the rotation.
 
-    `there` and `before` are `Placement`, less than N rows from each other. Returns the elastic energy in the
-    elements, the energy taken by wear and the work of the rotation on the elements in this step, J, and what
-    the elements wear in it, m.
+    `placement` and `before` are `Placement`, less than N rows from each other. Returns the elastic energy in
+    the elements, the energy taken by wear and the work of the rotation on the elements in this step, J, and
+    what the elements wear in it, m.
     """
-    position, approach, tilted = there
+    position, approach, tilted = placement
     position_before, approach_before, tilted_before = before
     element = load_fields(law.Element, stator.law)
     stored, dissipated, supplied, worn_off = broadcast(0.0), broadcast(0.0), broadcast(0.0), broadcast(0.0)
@@ -130,12 +130,12 @@ def update_wear(tilts, stator, tip, state, there, before):
         share, share_before = coverage(tip, offset), coverage(tip, offset + advance)
         lowering = slope * offset + constant  # of the profile over this element, in the step
         worn = load(state.wear, entry)
-        here, turning = tilt.raised(tilts, approach, tilted, offset), closer
+        local_approach, turning = tilt.raised(tilts, approach, tilted, offset), closer
         if tilts is not None:
             middle = offset + 0.5 * advance
             turning = closer + (tilted - tilted_before) * middle
             lowering = lowering - 0.5 * (tilted + tilted_before) * advance
-        depth = penetration(here, relief(tip, offset), load(stator.initial_gap, entry), worn)
+        depth = penetration(local_approach, relief(tip, offset), load(stator.initial_gap, entry), worn)
         deeper = turning + lowering
         force, increment = law.return_mapping(element, depth, worn)
         force_before = law.elastic_force(element, depth - deeper)

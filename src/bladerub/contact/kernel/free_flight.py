@@ -91,12 +91,12 @@ def _form(flight, k, row):
 @inlined
 def bound(flight, n, q, q_before):
     """Bound of what any node can approach the casing in the next free flight, m."""
-    far = broadcast(0.0)
+    reach = broadcast(0.0)
     for k in range(0, n, LANES):
         present = load(q, k)
-        far = far + _form(flight, k, BOUND_Q) * absolute(present)
-        far = far + _form(flight, k, BOUND_D) * absolute(present - load(q_before, k))
-    return lane_sum(far)
+        reach = reach + _form(flight, k, BOUND_Q) * absolute(present)
+        reach = reach + _form(flight, k, BOUND_D) * absolute(present - load(q_before, k))
+    return lane_sum(reach)
 
 
 @inlined
@@ -108,7 +108,7 @@ def fly(flight, modal, q, q1, q2):
     `modal.advance_free` enters none of it again; the mean increment of node 1 (m); and the `bound` of the
     next flight (m).
     """
-    loss = mean = far = broadcast(0.0)
+    loss = mean = reach = broadcast(0.0)
     sums, tilts = no_sums(), tilt.no_sums(modal.tilt)
     for k in range(0, modal.n, LANES):
         present = load(q, k)
@@ -123,10 +123,12 @@ def fly(flight, modal, q, q1, q2):
         store(q, k, x)
         store(q1, k, x - last_step)
         store(q2, k, x)
-        far = far + _form(flight, k, BOUND_Q) * absolute(x) + _form(flight, k, BOUND_D) * absolute(last_step)
+        reach = (
+            reach + _form(flight, k, BOUND_Q) * absolute(x) + _form(flight, k, BOUND_D) * absolute(last_step)
+        )
         sums, tilts = add_tip_displacement(modal, k, x, sums), tilt.add(modal.tilt, k, x, tilts)
-    there = *tip_displacement(sums), tilt.total(modal.tilt, tilts)
-    return there, loss, lane_sum(mean), lane_sum(far)
+    displacement = *tip_displacement(sums), tilt.total(modal.tilt, tilts)
+    return displacement, loss, lane_sum(mean), lane_sum(reach)
 
 
 @inlined

@@ -26,7 +26,7 @@ MAX_SWEEPS = 200
 
 
 @within
-def gauss_seidel(modal, stator, tip, state, passed, u, tolerance):
+def gauss_seidel(modal, stator, tip, state, travel, u, tolerance):
     """Find the contact forces that agree with the displacement they cause, eq. (9).
 
     `u` comes as the displacement (32,) under ``state.force`` and leaves under the forces found. They have
@@ -41,32 +41,32 @@ def gauss_seidel(modal, stator, tip, state, passed, u, tolerance):
         if not is_within_limit(tip, load(u, 0), load(u, LANES)):
             return True
         change, converged = 0.0, True
-        here = closest_position(tip, load(u, LANES), passed)
-        store(position, 0, here)
+        positions = closest_position(tip, load(u, LANES), travel)
+        store(position, 0, positions)
         if stator.is_rigid:
-            store(surface, 0, rigid_surface(stator, here))
+            store(surface, 0, rigid_surface(stator, positions))
         if stator.coulomb:
             towards = normal_approach(tip, load(u, 0), load(u, LANES))
             normal_radial, normal_tangential = normal(tip, load(u, 0), load(u, LANES), towards)
             mobilise(modal, stator, tip, state, normal_radial, normal_tangential, towards)
         for j in range(LANES):
-            own, guess = _self_compliance(modal, stator, state, rows, j), read(normal_force, j)
+            compliance, guess = _self_compliance(modal, stator, state, rows, j), read(normal_force, j)
             tilted, couple = 0.0, 0.0
             if modal.tilt is not None:
                 tilted = read(u, tilt.PLACE + j)
             store(approaches, 0, normal_approach(tip, load(u, 0), load(u, LANES)))
-            free_approach = read(approaches, j) + own * guess
+            free_approach = read(approaches, j) + compliance * guess
             if stator.is_rigid:
-                found = max(0.0, free_approach - read(surface, j)) / own  # eq. (9)
+                node_force = max(0.0, free_approach - read(surface, j)) / compliance  # eq. (9)
             else:
-                found, couple, node_converged = _force_on(
-                    stator, tip, state, j, read(position, j), free_approach, tilted, own, guess
+                node_force, couple, node_converged = _force_on(
+                    stator, tip, state, j, read(position, j), free_approach, tilted, compliance, guess
                 )
                 converged = converged and node_converged
-            if found == 0.0 and guess == 0.0:
+            if node_force == 0.0 and guess == 0.0:
                 continue
-            change = max(change, own * abs(found - guess))
-            write(normal_force, j, found)
+            change = max(change, compliance * abs(node_force - guess))
+            write(normal_force, j, node_force)
             towards = load(approaches, 0)
             normal_radial, normal_tangential = normal(tip, load(u, 0), load(u, LANES), towards)
             factor = load(state.tangential_factor, 0)
@@ -82,8 +82,8 @@ def gauss_seidel(modal, stator, tip, state, passed, u, tolerance):
                 for i in range(0, 2 * LANES, LANES):
                     store(u, i, load(u, i) + load(modal.compliance, rows * k + i) * by)
                 if modal.tilt is not None:
-                    more = load(modal.compliance, rows * k + tilt.COUPLE) * by
-                    store(u, tilt.PLACE, load(u, tilt.PLACE) + more)
+                    tilt_change = load(modal.compliance, rows * k + tilt.COUPLE) * by
+                    store(u, tilt.PLACE, load(u, tilt.PLACE) + tilt_change)
             if modal.tilt is not None:
                 change = max(change, edge(tip) * abs(read(u, tilt.PLACE + j) - tilted))
         if change <= tolerance:
@@ -99,24 +99,25 @@ def _self_compliance(modal, stator, state, rows, j):
 
 
 @within
-def _force_on(stator, tip, state, j, position, free_approach, tilted, own, guess):
-    """Find the force N of the coating on node `j`, which retreats by `own` per unit of it, at a given tilt.
+def _force_on(stator, tip, state, j, position, free_approach, tilted, compliance, guess):
+    """Find the force N of the coating on node `j` at a given tilt.
 
-    Solves ``a + own N(a) = free_approach`` for the approach a by Newton's method within a bracket: N is
-    piecewise linear, so it ends in a few steps. Returns N, its couple and whether it converged.
+    The node retreats by `compliance` per unit of it. Solves ``a + compliance N(a) = free_approach`` for the
+    approach a by Newton's method within a bracket: N is piecewise linear, so it ends in a few steps. Returns
+    N, its couple and whether it converged.
     """
     low, high = -np.inf, np.inf
-    approach = free_approach - own * guess
+    approach = free_approach - compliance * guess
     for _ in range(MAX_NODE_ITERATIONS):
         force, stiffness, couple = _resistance(stator, tip, state, j, position, approach, tilted)
-        residual = approach + own * force - free_approach
+        residual = approach + compliance * force - free_approach
         if abs(residual) <= NODE_TOLERANCE:
             return force, couple, True
         if residual > 0.0:
             high = approach
         else:
             low = approach
-        approach -= residual / (1.0 + own * stiffness)
+        approach -= residual / (1.0 + compliance * stiffness)
         if not low < approach < high:  # or it would alternate between two pieces
             approach = 0.5 * (low + high)
     return force, couple, False
@@ -134,8 +135,8 @@ def _resistance(stator, tip, state, j, position, approach, tilted):
         offset = i + 0.5 - position
         entry = wrap(i, stator.n_elements) * LANES + j
         worn = read(state.wear, entry)
-        here = approach + tilted * offset
-        depth = penetration(here, relief(tip, offset), read(stator.initial_gap, entry), worn)
+        local_approach = approach + tilted * offset
+        depth = penetration(local_approach, relief(tip, offset), read(stator.initial_gap, entry), worn)
         force_here, _ = law.return_mapping(element, depth, worn)
         slope, _ = law.tangent(element, depth, worn)
         if HEATS:

@@ -85,21 +85,21 @@ class Simulation:
         """
         if self.layer is None:
             return self._integrate(displacement, first)
-        made = Progress(0, 0, 0, np.inf, -np.inf)
+        total = Progress(0, 0, 0, np.inf, -np.inf)
         half = self.stator.n_elements // 2
         for start in range(0, displacement.size, half):
             part = displacement[start : start + half]
-            more = self._integrate(part, first + start)
-            made = Progress(
-                *(a + b for a, b in zip(made[:3], more[:3], strict=True)),
-                min(made.lowest, more.lowest),
-                max(made.highest, more.highest),
+            progress = self._integrate(part, first + start)
+            total = Progress(
+                *(a + b for a, b in zip(total[:3], progress[:3], strict=True)),
+                min(total.lowest, progress.lowest),
+                max(total.highest, progress.highest),
             )
-            if more.n_steps < part.size * self.steps_per_element:
+            if progress.n_steps < part.size * self.steps_per_element:
                 break
-            behind = first + start - half // 2  # far from where the tip is, at both ends
-            self.layer.rest(self.state, behind, behind + part.size)
-        return made
+            first_row = first + start - half // 2  # far from where the tip is, at both ends
+            self.layer.rest(self.state, first_row, first_row + part.size)
+        return total
 
     def _integrate(self, displacement: np.ndarray, first: int) -> Progress:
         last = first + displacement.size
@@ -129,7 +129,7 @@ class Step(NamedTuple):
     """One step of the rotation."""
 
     touched: bool  # Whether there was contact before it
-    passed: float  # Elements passed at its end
+    travel: float  # Elements passed at its end
     per_step: float  # Elements passed in it
     angle: float  # Angle passed in it, rad
 
@@ -151,7 +151,7 @@ def _store_displacement(modal, tip, radial, tangential, tilted, u):
     store(u, 0, radial)
     store(u, LANES, tangential)
     store(u, 2 * LANES, approach)
-    tilt.keep(modal.tilt, u, tilted)
+    tilt.store_tilt(modal.tilt, u, tilted)
     return approach
 
 
@@ -167,11 +167,11 @@ def _is_clear(modal, tip, radial, tangential, approach, tilted, minimum_gap):
 
 
 @inlined
-def _stays_clear(modal, flight, tip, u, far, minimum_gap):
-    """Whether a free flight in which no node approaches by more than `far` surely touches nothing."""
-    radial, tangential, approach = load(u, 0) - far, load(u, LANES), load(u, 2 * LANES) + far
-    sideways = absolute(tangential) + flight.sideways * far
-    return _is_clear(modal, tip, radial, sideways, approach, tilt.kept(modal.tilt, u), minimum_gap)
+def _stays_clear(modal, flight, tip, u, reach, minimum_gap):
+    """Whether a free flight in which no node approaches by more than `reach` surely touches nothing."""
+    radial, tangential, approach = load(u, 0) - reach, load(u, LANES), load(u, 2 * LANES) + reach
+    sideways = absolute(tangential) + flight.sideways * reach
+    return _is_clear(modal, tip, radial, sideways, approach, tilt.load_tilt(modal.tilt, u), minimum_gap)
 
 
 @inlined
@@ -204,9 +204,9 @@ def _contact(modal, stator, tip, state, step, rows, clear_of_casing):
     elif within:
         if stator.coulomb:
             predict_sliding(modal, state, rows.q_next, rows.q, step.angle)
-            within = find_forces(modal, stator, tip, step.passed, state, rows.u_next, True)
+            within = find_forces(modal, stator, tip, step.travel, state, rows.u_next, True)
         else:
-            within = find_forces(modal, stator, tip, step.passed, state, rows.u_next, False)
+            within = find_forces(modal, stator, tip, step.travel, state, rows.u_next, False)
         touching = within and largest_lane(load(state.normal_force, 0)) > 0.0
     if not within:
         if step.touched:
@@ -215,7 +215,7 @@ def _contact(modal, stator, tip, state, step, rows, clear_of_casing):
             clear(state.force, 3 * LANES)
         return False, False
     if touching or step.touched:
-        update_coating(modal, stator, tip, step.passed, step.per_step, state, rows.u_next, rows.u)
+        update_coating(modal, stator, tip, step.travel, step.per_step, state, rows.u_next, rows.u)
     if touching and modal.corrects:
         radial, tangential, tilted = correct(modal, state.force, rows.q_next)
         _store_displacement(modal, tip, radial, tangential, tilted, rows.u_next)
@@ -233,8 +233,13 @@ def _clear_negligible(q, n):
 
 
 @njit_on_disk(nogil=True)  # threads of one process integrate at the same time
-def integrate(modal, flight, stator, tip, state, steps_per_element, first, last, flew, far, displacement):
-    """Integrate elements `first` to `last`; a part that goes on gets `flew` and `far` of the part before."""
+def integrate(
+    modal, flight, stator, tip, state, steps_per_element, first, last, is_flying, reach, displacement
+):
+    """Integrate elements `first` to `last`.
+
+    A part that goes on gets `is_flying` and `reach` of the part before.
+    """
     turns = n_flights = n_contact = 0
     bottom, top = np.inf, -np.inf
     per_step = 1.0 / steps_per_element
@@ -251,16 +256,16 @@ def integrate(modal, flight, stator, tip, state, steps_per_element, first, last,
         step = 0
         while step < steps_per_element:
             if touching or step + flight.n_steps > steps_per_element:
-                flew = False
+                is_flying = False
             else:
-                if not flew:
-                    far = free_flight.bound(flight, modal.n, q, q_before)
-                flew = _stays_clear(modal, flight, tip, u, far, minimum_gap)
-            if flew:
+                if not is_flying:
+                    reach = free_flight.bound(flight, modal.n, q, q_before)
+                is_flying = _stays_clear(modal, flight, tip, u, reach, minimum_gap)
+            if is_flying:
                 touched = False
                 node_1 = read(u, 0)
-                there, loss, increment, far = free_flight.fly(flight, modal, q, q_before, q_next)
-                _store_displacement(modal, tip, *there, u)
+                tip_displacement, loss, increment, reach = free_flight.fly(flight, modal, q, q_before, q_next)
+                _store_displacement(modal, tip, *tip_displacement, u)
                 damping = damping + loss
                 mean += flight.n_steps * (node_1 + increment)
                 low, high = free_flight.extremes(node_1, read(u, 0), node_1 + increment)
@@ -276,14 +281,14 @@ def integrate(modal, flight, stator, tip, state, steps_per_element, first, last,
                 step += 1
                 is_clear = _is_clear(modal, tip, radial, tangential, approach, tilted, minimum_gap)
                 if touched or not is_clear:
-                    now = Step(touched, element + step * per_step, per_step, angle)
+                    rotation = Step(touched, element + step * per_step, per_step, angle)
                     rows = Rows(q, q_next, u_before, u, u_next)
-                    within, touching = _contact(modal, stator, tip, state, now, rows, is_clear)
+                    within, touching = _contact(modal, stator, tip, state, rotation, rows, is_clear)
                     if not within:
                         copy(q, q_next, modal.n)  # the damping loss is complete up to here
                         add_to(state.ledger, DAMPING * LANES, damping)
                         n_steps = turns + n_flights * flight.n_steps
-                        return turns, flew, far, n_steps, n_flights, n_contact, bottom, top
+                        return turns, is_flying, reach, n_steps, n_flights, n_contact, bottom, top
                     n_contact += touching
                 node_1, node_1_before = read(u_next, 0), read(u, 0)
                 mean += 0.5 * (node_1_before + node_1)
@@ -296,4 +301,4 @@ def integrate(modal, flight, stator, tip, state, steps_per_element, first, last,
     if not (touched or touching):  # the last step added nothing
         clear(address_of(state.ledger, STORED * LANES), 4 * LANES)
     n_steps = turns + n_flights * flight.n_steps
-    return turns, flew, far, n_steps, n_flights, n_contact, bottom, top
+    return turns, is_flying, reach, n_steps, n_flights, n_contact, bottom, top

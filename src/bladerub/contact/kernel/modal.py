@@ -95,8 +95,8 @@ def advance_free(modal, q, q1, q2):
     loss = broadcast(0.0)
     sums, tilts = no_sums(), tilt.no_sums(modal.tilt)
     for k in range(0, modal.n, LANES):
-        x, more = _recur(modal, k, q, q1, q2)
-        loss = loss + more
+        x, modal_loss = _recur(modal, k, q, q1, q2)
+        loss = loss + modal_loss
         store(q2, k, x)
         sums, tilts = add_tip_displacement(modal, k, x, sums), tilt.add(modal.tilt, k, x, tilts)
     return *tip_displacement(sums), tilt.total(modal.tilt, tilts), loss
@@ -108,8 +108,8 @@ def advance_forced(modal, force, q, q1, q2):
     loss = broadcast(0.0)
     forces, couples = broadcast_each(force), tilt.couples(modal.tilt, force)
     for k in range(0, modal.n, LANES):
-        x, more = _recur(modal, k, q, q1, q2)
-        loss = loss + more
+        x, modal_loss = _recur(modal, k, q, q1, q2)
+        loss = loss + modal_loss
         store(q2, k, x + _by_forces(modal, k, forces, couples))
     return *_project(modal, q2), loss
 

@@ -58,7 +58,7 @@ class Linearisation(NamedTuple):
 
 
 @inlined
-def find_forces(modal, stator, tip, passed, state, u, coulomb):
+def find_forces(modal, stator, tip, travel, state, u, coulomb):
     """Find the contact forces that agree with the displacement they cause.
 
     `u` comes as the displacement without forces of this step and leaves under them. The response to the
@@ -67,15 +67,15 @@ def find_forces(modal, stator, tip, passed, state, u, coulomb):
     """
     free_radial, free_tangential = load(u, 0), load(u, LANES)
     radial, tangential = free_radial + load(state.response, 0), free_tangential + load(state.response, LANES)
-    free_tilt = tilted = tilt.kept(modal.tilt, u)
+    free_tilt = tilted = tilt.load_tilt(modal.tilt, u)
     if modal.tilt is not None:
         tilted = free_tilt + load(state.response, 2 * LANES)
     free = free_radial, free_tangential, free_tilt
-    here = _geometry(tip, radial, tangential, passed)
-    approach = reached = here.approach
+    geometry = _geometry(tip, radial, tangential, travel)
+    approach = loaded_approach = geometry.approach
     linear = _invalid(approach, tilted)
     converged = False
-    reached_tilt = tilted
+    loaded_tilt = tilted
     tried = not stator.is_rigid and is_within_limit(tip, radial, tangential)
     if tried:
         for _ in range(MAX_ITERATIONS):
@@ -83,16 +83,18 @@ def find_forces(modal, stator, tip, passed, state, u, coulomb):
             if modal.tilt is not None:
                 change = change + edge(tip) * absolute(tilted - linear.tilted)
             if not all_lanes(change <= linear.valid):
-                linear = _linearise(modal, stator, tip, state, here, approach, tilted)
-            radial, tangential, reached_tilt = _displace(
-                modal, stator, tip, state, here, linear, approach, tilted, free, coulomb
+                linear = _linearise(modal, stator, tip, state, geometry, approach, tilted)
+            radial, tangential, loaded_tilt = _displace(
+                modal, stator, tip, state, geometry, linear, approach, tilted, free, coulomb
             )
-            more_radial, more_tangential = radial - here.radial, tangential - here.tangential
-            reached = (
-                here.approach + here.normal_radial * more_radial + here.normal_tangential * more_tangential
+            more_radial, more_tangential = radial - geometry.radial, tangential - geometry.tangential
+            loaded_approach = (
+                geometry.approach
+                + geometry.normal_radial * more_radial
+                + geometry.normal_tangential * more_tangential
             )
-            residual = approach - reached
-            tilt_residual = tilted - reached_tilt
+            residual = approach - loaded_approach
+            tilt_residual = tilted - loaded_tilt
             is_straight = all_lanes(absolute(more_tangential) <= STRAIGHT)
             error = absolute(residual)
             if modal.tilt is not None:
@@ -102,18 +104,18 @@ def find_forces(modal, stator, tip, passed, state, u, coulomb):
                 break
             approach = approach - residual / (1.0 + load(stator.self_compliance, 0) * linear.stiffness)
             if modal.tilt is not None:
-                own = load(stator.tilt_compliance, 0)
-                tilted = tilted - tilt_residual / (1.0 + own * linear.second_moment)
+                tilt_compliance = load(stator.tilt_compliance, 0)
+                tilted = tilted - tilt_residual / (1.0 + tilt_compliance * linear.second_moment)
             if not is_straight:
                 if not is_within_limit(tip, radial, tangential):
                     break
-                here = _geometry(tip, radial, tangential, passed)
+                geometry = _geometry(tip, radial, tangential, travel)
                 linear = _invalid(approach, tilted)
     if converged:
         store(u, 0, radial)
         store(u, LANES, tangential)
-        store(u, 2 * LANES, reached)
-        tilt.keep(modal.tilt, u, reached_tilt)
+        store(u, 2 * LANES, loaded_approach)
+        tilt.store_tilt(modal.tilt, u, loaded_tilt)
     else:
         if tried:  # the iteration may have gone anywhere: begin again without forces
             clear(state.force, 3 * LANES)
@@ -121,20 +123,20 @@ def find_forces(modal, stator, tip, passed, state, u, coulomb):
         else:
             store(u, 0, radial)
             store(u, LANES, tangential)
-            tilt.keep(modal.tilt, u, tilted)
-        radial, tangential = _by_sweeps(modal, stator, tip, passed, state, u)
+            tilt.store_tilt(modal.tilt, u, tilted)
+        radial, tangential = _by_sweeps(modal, stator, tip, travel, state, u)
     store(state.response, 0, radial - free_radial)
     store(state.response, LANES, tangential - free_tangential)
     if modal.tilt is not None:
-        store(state.response, 2 * LANES, tilt.kept(modal.tilt, u) - free_tilt)
+        store(state.response, 2 * LANES, tilt.load_tilt(modal.tilt, u) - free_tilt)
     return is_within_limit(tip, radial, tangential)
 
 
 @inlined
-def _geometry(tip, radial, tangential, passed):
+def _geometry(tip, radial, tangential, travel):
     approach = normal_approach(tip, radial, tangential)
     normal_radial, normal_tangential = normal(tip, radial, tangential, approach)
-    position = closest_position(tip, tangential, passed)
+    position = closest_position(tip, tangential, travel)
     rows = elements.rows_under(tip, position, position)
     return Geometry(radial, tangential, approach, normal_radial, normal_tangential, position, rows)
 
@@ -146,13 +148,15 @@ def _invalid(approach, tilted):
 
 
 @inlined
-def _linearise(modal, stator, tip, state, here, approach, tilted):
-    found = elements.linearise(modal.tilt, stator, tip, state, here.position, here.rows, approach, tilted)
-    return Linearisation(approach, tilted, *found)
+def _linearise(modal, stator, tip, state, geometry, approach, tilted):
+    terms = elements.linearise(
+        modal.tilt, stator, tip, state, geometry.position, geometry.rows, approach, tilted
+    )
+    return Linearisation(approach, tilted, *terms)
 
 
 @inlined
-def _displace(modal, stator, tip, state, here, linear, approach, tilted, free, coulomb):
+def _displace(modal, stator, tip, state, geometry, linear, approach, tilted, free, coulomb):
     """Put the forces of the elements at `approach` on the blade; return the displacement under them."""
     closer, turned = approach - linear.approach, tilted - linear.tilted
     normal_force = linear.force + linear.stiffness * closer
@@ -162,12 +166,12 @@ def _displace(modal, stator, tip, state, here, linear, approach, tilted, free, c
         store(state.force, tilt.COUPLE, stator.normal_factor * couple)
     store(state.normal_force, 0, normal_force)
     if coulomb:
-        mobilise(modal, stator, tip, state, here.normal_radial, here.normal_tangential, approach)
+        mobilise(modal, stator, tip, state, geometry.normal_radial, geometry.normal_tangential, approach)
         factor = load(state.tangential_factor, 0)
     else:
         factor = broadcast(stator.tangential_factor)
     by_radial, by_tangential = contact_force(
-        stator.normal_factor, factor, here.normal_radial, here.normal_tangential, normal_force
+        stator.normal_factor, factor, geometry.normal_radial, geometry.normal_tangential, normal_force
     )
     store(state.force, 0, by_radial)
     store(state.force, LANES, by_tangential)
@@ -175,9 +179,9 @@ def _displace(modal, stator, tip, state, here, linear, approach, tilted, free, c
 
 
 @inlined
-def _by_sweeps(modal, stator, tip, passed, state, u):
+def _by_sweeps(modal, stator, tip, travel, state, u):
     """Find the forces node by node, from those in `state`; count how often, and how that ends."""
-    converged = gauss_seidel(modal, stator, tip, state, passed, u, TOLERANCE)
+    converged = gauss_seidel(modal, stator, tip, state, travel, u, TOLERANCE)
     if not stator.is_rigid:
         add_to_number(state.ledger, FALLBACK * LANES, 1.0)
     if not converged:

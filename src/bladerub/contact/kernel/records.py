@@ -152,13 +152,13 @@ def check(record: NamedTuple, shapes: dict) -> None:
     the shape that it must have, and each number is finite (or infinite where that has a meaning).
     """
     for name, part in record._asdict().items():
-        where = f"{type(record).__name__}.{name}"
+        field = f"{type(record).__name__}.{name}"
         if isinstance(part, np.ndarray):
             shape = shapes[name]
             if part.dtype != float or part.shape != shape or not part.flags.c_contiguous:
-                right = f"must be contiguous doubles {shape}"
-                raise ValueError(f"{where}: {part.dtype} {part.shape}, strides {part.strides}; {right}")
+                requirement = f"must be contiguous doubles {shape}"
+                raise ValueError(f"{field}: {part.dtype} {part.shape}, strides {part.strides}; {requirement}")
         if part is None:
             continue
         if not np.isfinite(part).all() and (name not in _MAY_BE_INFINITE or np.isnan(part).any()):
-            raise ValueError(f"{where}: is no finite number everywhere; check blade, law and config")
+            raise ValueError(f"{field}: is no finite number everywhere; check blade, law and config")

@@ -56,7 +56,7 @@ class RowSimulation:
         self.first, self.begins, self.rests = np.array(first), np.array(begins), rests
         self.work = np.zeros(len(blades))
         self._kinds = blades[0].records
-        self._rows = [rows_of(kind) for kind in zip(*(each.records for each in blades), strict=True)]
+        self._rows = [rows_of(kind) for kind in zip(*(blade.records for blade in blades), strict=True)]
 
     def advance(self, displacement: np.ndarray, first: int) -> tuple[int, list[Progress]]:
         """Integrate the passage of n elements, from the one that is the `first` since the start.
@@ -68,32 +68,36 @@ class RowSimulation:
         (n_blades, n), blade = displacement.shape, self.blades[0]
         counts = np.zeros((n_blades, 3), dtype=np.int64)
         ranges = np.full((n_blades, 2), (np.inf, -np.inf))
-        passed, at_once = 0, self.rests.at_once if blade.layer else n
-        while passed < n:
-            part = np.ascontiguousarray(displacement[:, passed : passed + at_once])
-            over = (self.first + first + passed) % blade.stator.n_elements
-            more = _integrate_row(
-                *(self._kinds, *self._rows, blade.steps_per_element, over, self.begins - first - passed),
+        travel, at_once = 0, self.rests.at_once if blade.layer else n
+        while travel < n:
+            part = np.ascontiguousarray(displacement[:, travel : travel + at_once])
+            over = (self.first + first + travel) % blade.stator.n_elements
+            n_passed = _integrate_row(
+                *(self._kinds, *self._rows, blade.steps_per_element, over, self.begins - first - travel),
                 *(part, counts, ranges, self.coupling, self.work),
             )
-            displacement[:, passed : passed + at_once] = part
-            self._rest(first + passed, more)
-            passed += more
-            if more < part.shape[1]:
+            displacement[:, travel : travel + at_once] = part
+            self._rest(first + travel, n_passed)
+            travel += n_passed
+            if n_passed < part.shape[1]:
                 break
-        return passed, [
-            Progress(*map(int, of), *map(float, at)) for of, at in zip(counts, ranges, strict=True)
+        return travel, [
+            Progress(*map(int, count), *map(float, extent))
+            for count, extent in zip(counts, ranges, strict=True)
         ]
 
-    def _rest(self, first: int, passed: int) -> None:
-        """Let the elements half-way to the blades behind be, after `passed` more elements."""
+    def _rest(self, first: int, n_elements: int) -> None:
+        """Let the elements half-way to the blades behind be, after `n_elements` more elements."""
         layer = self.blades[0].layer
         if layer is None:
             return
         for row, apart in zip(self.first + first, self.rests.apart, strict=True):
-            behind = row - (apart - self.rests.at_once) // 2
+            first_row = row - (apart - self.rests.at_once) // 2
             layer.rest(
-                self.blades[0].state, behind, behind + passed, apart / self.blades[0].stator.n_elements
+                self.blades[0].state,
+                first_row,
+                first_row + n_elements,
+                apart / self.blades[0].stator.n_elements,
             )
 
 
@@ -116,7 +120,7 @@ def _integrate_row(
 ):
     n_blades, n_elements = displacement.shape
     is_coupled = coupling.impulse.shape[0] > 0
-    flew, far = np.zeros(n_blades, dtype=np.bool_), np.zeros(n_blades)
+    is_flying, reach = np.zeros(n_blades, dtype=np.bool_), np.zeros(n_blades)
     element, within = 0, True
     while element < n_elements and within:
         if is_coupled:
@@ -128,12 +132,22 @@ def _integrate_row(
             modal, flight = record_at(kinds.modal, _row(modals, b)), record_at(kinds.flight, _row(flights, b))
             stator, tip = record_at(kinds.stator, _row(stators, b)), record_at(kinds.tip, _row(tips, b))
             state = record_at(kinds.state, _row(states, b))
-            at = (over[b] + element) % stator.n_elements
+            row = (over[b] + element) % stator.n_elements
             if n_blades == 1 and not is_coupled:  # adds up what is summed as a single run does
-                together = min(n_elements - element, stator.n_elements - at)
+                together = min(n_elements - element, stator.n_elements - row)
             mean = displacement.ctypes.data + 8 * (n_elements * b + element)
-            turns, flew[b], far[b], n_steps, n_flights, n_contact, lowest, highest = integrate(
-                modal, flight, stator, tip, state, steps_per_element, at, at + together, flew[b], far[b], mean
+            turns, is_flying[b], reach[b], n_steps, n_flights, n_contact, lowest, highest = integrate(
+                modal,
+                flight,
+                stator,
+                tip,
+                state,
+                steps_per_element,
+                row,
+                row + together,
+                is_flying[b],
+                reach[b],
+                mean,
             )
             take_turns(state.q, modal.n, turns)
             take_turns(state.u, 4 * LANES, turns)
@@ -145,7 +159,7 @@ def _integrate_row(
             within = within and n_steps == together * steps_per_element
         if is_coupled:
             _couple(coupling, kinds, modals, states, work)
-            flew[:] = False  # what `far` bounds was the motion without the impulse
+            is_flying[:] = False  # what `reach` bounds was the motion without the impulse
         element += together
     return element
 
@@ -182,12 +196,12 @@ def _couple(coupling, kinds, modals, states, work):
             velocity = 0.0
             for other in range(n_blades):
                 velocity += coupling.impulse[k, b, other] * read(states[other, 0], k)
-            now, before = read(state.q, k), read(state.q, modal.n + k)
+            present, before = read(state.q, k), read(state.q, modal.n + k)
             change = coupling.backward[k, b] * velocity
-            after = before + change
-            write(state.q, modal.n + k, after)
-            work[b] += coupling.kinetic[k, b] * ((now - after) ** 2 - (now - before) ** 2)
-            work[b] += coupling.elastic[k, b] * now * change
+            shifted = before + change
+            write(state.q, modal.n + k, shifted)
+            work[b] += coupling.kinetic[k, b] * ((present - shifted) ** 2 - (present - before) ** 2)
+            work[b] += coupling.elastic[k, b] * present * change
             block, lane = k // LANES, k % LANES
             for row in range(ROWS):
                 by = read(modal.tip, LANES * (ROWS * block + row) + lane)

@@ -65,20 +65,20 @@ def couples(rows, force):
     return broadcast_lanes(address_of(force, COUPLE))
 
 
-@_without_tilt(lambda rows, k, each: each)
-def by_couples(rows, k, each):
+@_without_tilt(lambda rows, k, couple_lanes: couple_lanes)
+def by_couples(rows, k, couple_lanes):
     """Modal force of the couples on the modes from mode k on."""
-    return sum_of_lane_products(address_of(rows, LANES * k), each)
+    return sum_of_lane_products(address_of(rows, LANES * k), couple_lanes)
 
 
 @_without_tilt(lambda rows, u, tilt: None)
-def keep(rows, u, tilt):
+def store_tilt(rows, u, tilt):
     """Store the tilt with the displacement of the tip."""
     store(u, PLACE, tilt)
 
 
 @_without_tilt(lambda rows, u: broadcast(0.0))
-def kept(rows, u):
+def load_tilt(rows, u):
     """Load the tilt stored with a displacement of the tip."""
     return load(u, PLACE)
 

@@ -75,8 +75,8 @@ def element_parameters(coating: Coating, area: np.ndarray, time_step: float = ma
         except (TypeError, ValueError):
             wrong = f"an array of shape {np.shape(value)}"
         if wrong:
-            right = f"must be a finite number, or one for each of {area.size} areas"
-            raise ValueError(f"law {name}: element gives {wrong} as {field}; {right}")
+            requirement = f"must be a finite number, or one for each of {area.size} areas"
+            raise ValueError(f"law {name}: element gives {wrong} as {field}; {requirement}")
     return rows
 
 
@@ -87,20 +87,22 @@ def parameters_of(source: str) -> Mapping[str, Parameter]:
     Raises `ValueError` if it is no Python, lacks a part of `CONTRACT` or its ``PARAMETERS`` are not as they
     must be.
     """
-    listed: Mapping[str, Parameter] = {}
+    parameters: Mapping[str, Parameter] = {}
     for node in _statements(source):
         if isinstance(node, ast.Assign) and getattr(node.targets[0], "id", None) == "PARAMETERS":
             try:
-                listed = {name: Parameter(*map(_plain, entry.elts)) for name, entry in _entries(node.value)}
+                parameters = {
+                    name: Parameter(*map(_plain, entry.elts)) for name, entry in _entries(node.value)
+                }
             except (AttributeError, TypeError, ValueError, RecursionError, MemoryError) as error:
-                right = "must be a dictionary of name: (unit, minimum, maximum, meaning), written out"
-                raise ValueError(f"PARAMETERS on line {node.lineno}: {right}") from error
+                requirement = "must be a dictionary of name: (unit, minimum, maximum, meaning), written out"
+                raise ValueError(f"PARAMETERS on line {node.lineno}: {requirement}") from error
     names = _names_in(source)
-    if source and (missing := [each for each in CONTRACT if each not in names]):
+    if source and (missing := [name for name in CONTRACT if name not in names]):
         raise ValueError(f"has no {', '.join(missing)}; a law must have {', '.join(CONTRACT)}")
-    if "strength" in names and (missing := [each for each in HEAT if each not in listed]):
+    if "strength" in names and (missing := [name for name in HEAT if name not in parameters]):
         raise ValueError(f"has strength, but no {', '.join(missing)} in PARAMETERS")
-    return listed
+    return parameters
 
 
 def described_law(name: str, values: Mapping[str, Any], source: str = "") -> ElementLaw:
@@ -111,22 +113,24 @@ def described_law(name: str, values: Mapping[str, Any], source: str = "") -> Ele
     """
     if not source and name not in NAMES:
         raise ValueError(f"name = {name}: must be one of {', '.join(NAMES)}")
-    known = parameters_of(source_of(ElementLaw(name, (), source)))
-    for given, value in values.items():
-        if given not in known:
-            has = f"this law has {', '.join(known)}" if known else "this law has no parameters of its own"
-            raise ValueError(f"{given} = {value}: unknown parameter, {has}")
-    chosen = []
-    for wanted, rule in known.items():
-        right = f"{rule.meaning}, must be a number from {rule.minimum:g} to {rule.maximum:g}, in {rule.unit}"
-        if wanted not in values:
-            raise ValueError(f"{wanted}: missing, {right}")
-        value = values[wanted]
+    rules = parameters_of(source_of(ElementLaw(name, (), source)))
+    for key, value in values.items():
+        if key not in rules:
+            has = f"this law has {', '.join(rules)}" if rules else "this law has no parameters of its own"
+            raise ValueError(f"{key} = {value}: unknown parameter, {has}")
+    settings = []
+    for parameter, rule in rules.items():
+        requirement = (
+            f"{rule.meaning}, must be a number from {rule.minimum:g} to {rule.maximum:g}, in {rule.unit}"
+        )
+        if parameter not in values:
+            raise ValueError(f"{parameter}: missing, {requirement}")
+        value = values[parameter]
         is_number = isinstance(value, int | float) and not isinstance(value, bool) and math.isfinite(value)
         if not is_number or not rule.minimum <= value <= rule.maximum:
-            raise ValueError(f"{wanted} = {value}: {right}")
-        chosen.append((wanted, float(value)))
-    return ElementLaw(name, tuple(chosen), source)
+            raise ValueError(f"{parameter} = {value}: {requirement}")
+        settings.append((parameter, float(value)))
+    return ElementLaw(name, tuple(settings), source)
 
 
 @cache

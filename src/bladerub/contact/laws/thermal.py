@@ -46,6 +46,6 @@ _LEAST = 0.01
 
 def strength(coating: Coating, rise: np.ndarray) -> np.ndarray:
     """Return the forces at a temperature that is higher by `rise` (K, an array), over those without heat."""
-    own = dict(coating.element_law.parameters)
-    lost = (np.maximum(rise, 0.0) / own["softening_rise"]) ** own["softening_exponent"]
-    return np.maximum(1.0 - lost, _LEAST)
+    parameters = dict(coating.element_law.parameters)
+    loss = (np.maximum(rise, 0.0) / parameters["softening_rise"]) ** parameters["softening_exponent"]
+    return np.maximum(1.0 - loss, _LEAST)

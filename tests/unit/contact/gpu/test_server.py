@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from bladerub.contact.gpu import device, server
-from bladerub.contact.gpu.batch import Left, Work
+from bladerub.contact.gpu.batch import Output, Work
 
 
 def work_of(number, n_runs=2, source="a"):
@@ -18,7 +18,7 @@ def work_of(number, n_runs=2, source="a"):
 
 
 def left_of(work):
-    return Left(work.modes, *(np.zeros((len(work.runs), 1)) for _ in range(6)))
+    return Output(work.modes, *(np.zeros((len(work.runs), 1)) for _ in range(6)))
 
 
 @pytest.fixture
