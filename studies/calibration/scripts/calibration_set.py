@@ -10,7 +10,7 @@ from bladerub.extras.calibration import judge
 from bladerub.io import tables
 from bladerub.io.provenance import provenance
 
-found = judge(
+findings = judge(
     snakemake.params.choices, snakemake.params.folder, report=lambda run: print(run, file=sys.stderr)
 )
-tables.write(snakemake.output[0], found, provenance(snakemake.params.choices))
+tables.write(snakemake.output[0], findings, provenance(snakemake.params.choices))

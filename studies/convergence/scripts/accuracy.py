@@ -13,6 +13,8 @@ from bladerub.extras.verification.verify import important_runs, study_runs
 from bladerub.workflow import outputs
 
 config, maps = snakemake.config, Path(snakemake.input.maps[0]).parent
-listed = {"all": study_runs(config), "important": important_runs(config, maps)}
+runs_by_origin = {"all": study_runs(config), "important": important_runs(config, maps)}
 blade = read_reduced_blade(snakemake.input.blade)
-outputs.save(snakemake, table=table(blade, config, listed, report=lambda line: print(line, file=sys.stderr)))
+outputs.save(
+    snakemake, table=table(blade, config, runs_by_origin, report=lambda line: print(line, file=sys.stderr))
+)

@@ -14,11 +14,11 @@ from bladerub.io.provenance import provenance
 plan = read_plan(snakemake.params.plan)
 batch = plan.batches(int(snakemake.wildcards.wave))[int(snakemake.wildcards.batch)]
 positions = sets.positions([snakemake.input.sets])
-made = simulate(
+results = simulate(
     snakemake.config,
     plan,
     {number: positions.loc[number].to_numpy() for number in batch if number in positions.index},
 )
 origin = provenance({**snakemake.config, "identification": configuration.load(snakemake.params.plan)})
-for name, table in made._asdict().items():
+for name, table in results._asdict().items():
     tables.write(snakemake.output[name], table, origin)

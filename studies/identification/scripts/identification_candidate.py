@@ -10,7 +10,7 @@ from bladerub.io import tables
 from bladerub.io.provenance import provenance
 
 plan = read_plan(snakemake.params.plan)
-chosen = candidates.read(snakemake.input.candidates)
+candidate_rows = candidates.read(snakemake.input.candidates)
 numbers = int(snakemake.wildcards.candidate), int(snakemake.wildcards.neighbour)
-verdicts = candidates.judge(snakemake.config, plan, chosen, *numbers)
+verdicts = candidates.judge(snakemake.config, plan, candidate_rows, *numbers)
 tables.write(snakemake.output.verdicts, verdicts, provenance(snakemake.config))

@@ -12,6 +12,6 @@ from bladerub.io.provenance import provenance
 plan = read_plan(snakemake.params.plan)
 measured = summary.measured(snakemake.input.quantities)
 verdicts = summary.verdicts(snakemake.input.verdicts)
-chosen = candidates.choose(plan, sets.positions(snakemake.input.sets), measured, verdicts)
-table = candidates.as_table(plan, chosen)
+candidate_rows = candidates.choose(plan, sets.positions(snakemake.input.sets), measured, verdicts)
+table = candidates.as_table(plan, candidate_rows)
 tables.write(snakemake.output.candidates, table, provenance(snakemake.config))

@@ -14,16 +14,16 @@ plan, wave = read_plan(snakemake.params.plan), int(snakemake.wildcards.wave)
 measured = summary.measured(snakemake.input.quantities)
 positions = sets.positions(snakemake.input.sets).loc[measured.index].to_numpy()
 emulated = emulators(positions, measured)
-left = waves.remaining(plan, emulated)
-drawn = waves.draw(plan, wave, left, emulated, positions)
+remaining = waves.remaining(plan, emulated)
+drawn = waves.draw(plan, wave, remaining, emulated, positions)
 first = plan.first(wave + 1)
-made = {
-    "left": summary.left_after(wave, len(measured), left),
-    "emulators": summary.emulated(wave, emulated, left, positions, measured),
-    "ranges": summary.ranges(plan, left),
+results = {
+    "left": summary.left_after(wave, len(measured), remaining),
+    "emulators": summary.emulated(wave, emulated, remaining, positions, measured),
+    "ranges": summary.ranges(plan, remaining),
     "next_sets": sets.as_table(plan, first, drawn),
     "predictions": summary.predictions(emulated, first, drawn),
 }
 origin = provenance(snakemake.config)
-for name, table in made.items():
+for name, table in results.items():
     tables.write(snakemake.output[name], table, origin)

@@ -18,22 +18,22 @@ def joined(paths, columns=()):
     return pd.concat([tables.read(path, columns) for path in paths], ignore_index=True)
 
 
-plan, given = read_plan(snakemake.input.plan), snakemake.input
-measured = summary.measured(given.quantities)
-verdicts = summary.verdicts(given.verdicts)
-of_candidates = joined(given.judged, candidates.COLUMNS)
-chosen = tables.read(given.candidates)
-made = {
-    "sets": summary.sets(plan, sets.positions(given.sets), candidates.misfit(measured)),
-    "waves": joined(given.left, summary.LEFT),
-    "emulators": joined(given.emulators, summary.EMULATORS),
-    "targets": summary.targets(measured, joined(given.predictions, summary.PREDICTIONS)),
-    "ranges": tables.read(given.ranges[-1]),
+plan, inputs = read_plan(snakemake.input.plan), snakemake.input
+measured = summary.measured(inputs.quantities)
+verdicts = summary.verdicts(inputs.verdicts)
+of_candidates = joined(inputs.judged, candidates.COLUMNS)
+candidate_rows = tables.read(inputs.candidates)
+results = {
+    "sets": summary.sets(plan, sets.positions(inputs.sets), candidates.misfit(measured)),
+    "waves": joined(inputs.left, summary.LEFT),
+    "emulators": joined(inputs.emulators, summary.EMULATORS),
+    "targets": summary.targets(measured, joined(inputs.predictions, summary.PREDICTIONS)),
+    "ranges": tables.read(inputs.ranges[-1]),
     "exclusions": summary.exclusions(verdicts),
-    "candidates": chosen,
-    "counts": candidates.counts(chosen, of_candidates),
+    "candidates": candidate_rows,
+    "counts": candidates.counts(candidate_rows, of_candidates),
     "verdicts": of_candidates,
 }
-left = sets.positions([given.next_sets[-1]])
-figure = draw(plan, measured, left, candidates.read(given.candidates))
-outputs.save(snakemake, figure, **made)
+remaining = sets.positions([inputs.next_sets[-1]])
+figure = draw(plan, measured, remaining, candidates.read(inputs.candidates))
+outputs.save(snakemake, figure, **results)

@@ -49,14 +49,14 @@ panels = {
 table = pd.concat(
     pd.DataFrame(
         {
-            "element_law": each.coating.element_law.label,
+            "element_law": loading.coating.element_law.label,
             "law_case": label,
-            "strain": each.strain,
-            "stress": each.stress,
-            "plastic_strain": each.plastic_strain,
+            "strain": loading.strain,
+            "stress": loading.stress,
+            "plastic_strain": loading.plastic_strain,
         }
     )
     for cycles in panels.values()
-    for label, each in cycles.items()
+    for label, loading in cycles.items()
 )
 outputs.save(snakemake, law_cycles(panels), data=table)

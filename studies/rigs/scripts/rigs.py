@@ -11,5 +11,5 @@ from bladerub.workflow import outputs
 
 described = read_rigs(snakemake.input.rigs)
 passes = table(described)
-beside = compared(described, passes)
-outputs.save(snakemake, rigs(passes, beside), data=passes, table=beside)
+comparison = compared(described, passes)
+outputs.save(snakemake, rigs(passes, comparison), data=passes, table=comparison)

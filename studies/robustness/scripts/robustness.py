@@ -18,5 +18,5 @@ verdicts = summary.collect(snakemake.input.verdicts)
 cost = pd.concat([tables.read(path, COST) for path in snakemake.input.cost], ignore_index=True)
 indices = summary.sensitivities(plan, verdicts)
 table = summary.summary(plan, verdicts, indices, cost)
-made = {"table": table, "indices": indices, "verdicts": verdicts, "design": summary.design(plan)}
-outputs.save(snakemake, draw(table, indices), **made)
+results = {"table": table, "indices": indices, "verdicts": verdicts, "design": summary.design(plan)}
+outputs.save(snakemake, draw(table, indices), **results)

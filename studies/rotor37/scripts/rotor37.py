@@ -41,23 +41,25 @@ tables.copy(snakemake.input.independent, snakemake.output.independent)
 
 blade = read_reduced_blade(f"{folder}/{reference.REFERENCE}/blade/reduced_model.h5")
 maps = {case: read_map(f"{folder}/{reference.REFERENCE}/maps/{case.name}.h5") for case in cases}
-rigid = {f"μ = {case.friction:g}": found for case, found in maps.items() if case.is_rigid}
+rigid = {f"μ = {case.friction:g}": response for case, response in maps.items() if case.is_rigid}
 coated = {
     angle: {
-        f"E = {case.E:g} GPa": found
-        for case, found in maps.items()
+        f"E = {case.E:g} GPa": response
+        for case, response in maps.items()
         if not case.is_rigid and case.theta == angle
     }
     for angle in sorted({case.theta for case in cases if not case.is_rigid})
 }
-panels = {"rigid casing": rigid} | {f"coated casing, θ = {angle:g}": found for angle, found in coated.items()}
+panels = {"rigid casing": rigid} | {
+    f"coated casing, θ = {angle:g}": response for angle, response in coated.items()
+}
 look = config["figures"]
 engine = Engine(blade.f1_hz, look["nominal_speed"])
 scales = Scales(modulus_unit(config), config["blade"]["length"], engine)
 spectrum = partial(
     spectrum_map, amplitude_range=look["amplitude_range"], f_max=look["max_frequency"], scales=scales
 )
-straight, inclined = (found["E = 1 GPa"] for found in coated.values())
+straight, inclined = (response["E = 1 GPa"] for response in coated.values())
 figures = {
     "response": plots.response(panels, blade.f1_hz, engine.nominal_speed),
     "direct": plots.direct_contact(

@@ -10,5 +10,5 @@ from bladerub.io import tables
 from bladerub.io.provenance import provenance
 
 config = snakemake.params.config
-found = table(config, read_reduced_blade(snakemake.input.blade))
-tables.write(snakemake.output.table, found, provenance(config), "%.7g")
+numbers = table(config, read_reduced_blade(snakemake.input.blade))
+tables.write(snakemake.output.table, numbers, provenance(config), "%.7g")

@@ -12,6 +12,6 @@ from bladerub.extras.rotor37.nlstep import COLUMNS, describe
 from bladerub.io import tables
 from bladerub.io.provenance import PREFIX, provenance
 
-found = pd.concat([tables.read(path, COLUMNS) for path in snakemake.input.numbers], ignore_index=True)
+numbers = pd.concat([tables.read(path, COLUMNS) for path in snakemake.input.numbers], ignore_index=True)
 made_by = {f"{PREFIX}program": describe(Path(snakemake.input.program))}
-tables.write(snakemake.output.table, found, provenance(snakemake.params.config) | made_by, "%.7g")
+tables.write(snakemake.output.table, numbers, provenance(snakemake.params.config) | made_by, "%.7g")

@@ -11,13 +11,13 @@ from bladerub.extras.rotor37.nlstep import table
 from bladerub.io import tables
 from bladerub.io.provenance import provenance
 
-config, given = snakemake.params.config, snakemake.wildcards
-found = table(
+config, wildcards = snakemake.params.config, snakemake.wildcards
+numbers = table(
     config,
     read_reduced_blade(snakemake.input.blade),
     Path(snakemake.input.program),
-    float(given.friction),
-    int(given.modes),
-    int(given.steps),
+    float(wildcards.friction),
+    int(wildcards.modes),
+    int(wildcards.steps),
 )
-tables.write(snakemake.output.table, found, provenance(config), "%.7g")
+tables.write(snakemake.output.table, numbers, provenance(config), "%.7g")

@@ -12,5 +12,5 @@ from bladerub.study.peaks import COLUMNS
 from bladerub.workflow import outputs
 
 blade, peaks = read_reduced_blade(snakemake.input.blade), tables.read(snakemake.input.peaks, COLUMNS)
-found = table(snakemake.input.mesh, blade, snakemake.config, peaks)
-outputs.save(snakemake, draw(found), table=found)
+stresses = table(snakemake.input.mesh, blade, snakemake.config, peaks)
+outputs.save(snakemake, draw(stresses), table=stresses)

@@ -180,7 +180,7 @@ def test_a_damaged_longer_run_is_computed_alone(compute, simulated, growing, rep
 def test_runs_computed_at_once_are_the_same_to_the_byte(study, case, blade, tmp_path):
     study["speeds"] = {"start": 0.1, "stop": 0.3, "step": 0.05, "extra": []}
     study["contact"]["elements"] = 200
-    study["solver"].update(revolutions=3, max_time_step=2e-5)
+    study["solver"].update(revolutions=3, steps_per_element=20, max_time_step=2e-5)
     study["analysis"]["spectrum_revolutions"] = 2
     study["analysis"]["divergence"].update(revolutions=3, growth=-1.0, confirmation_revolutions=6)
     plan = coating_plan(study, case)
@@ -192,7 +192,7 @@ def test_runs_computed_at_once_are_the_same_to_the_byte(study, case, blade, tmp_
 def test_real_runs_go_from_the_solver_to_the_table(study, case, blade, tmp_path):
     study["speeds"] = {"start": 0.1, "stop": 0.3, "step": 0.2, "extra": []}
     study["contact"]["elements"] = 200
-    study["solver"].update(revolutions=3, max_time_step=2e-5)
+    study["solver"].update(revolutions=3, steps_per_element=20, max_time_step=2e-5)
     study["analysis"]["spectrum_revolutions"] = 2
     study["analysis"]["divergence"].update(revolutions=3, confirmation_revolutions=0)
     folder, reports = tmp_path / "runs", []

@@ -16,7 +16,7 @@ SMALL = {
         {"casing": "2nd", "coating": "rigid", "friction": [0.0]},
     ],
     "speeds": {"start": 0.2, "stop": 0.3, "step": 0.1, "extra": []},
-    "solver": {"revolutions": 3, "max_time_step": 1e-5},
+    "solver": {"revolutions": 3, "steps_per_element": 20, "max_time_step": 1e-5},
     "analysis": {
         "spectrum_revolutions": 2,
         "divergence": {"revolutions": 3, "confirmation_revolutions": 6},
