@@ -8,7 +8,7 @@ rule laws:
         laws=files_behind(
             *(f"contact.laws.{name}" for name in NAMES if name != "plastic")
         ),
-        drawing=files_behind("plots.law_cycles"),
+        drawing=files_behind("extras.plots.law_cycles"),
     output:
         **drawn("laws", "Model", with_data=True),
     log:

@@ -9,7 +9,7 @@ rule rigs:
             *(f"contact.laws.{name}" for name in NAMES if name != "plastic")
         ),
         computing=files_behind("extras.rig.table"),
-        drawing=files_behind("plots.rigs"),
+        drawing=files_behind("extras.plots.rigs"),
     output:
         **drawn("rigs", "Model", with_data=True),
         **described(table=f"{TABLES}/rigs.csv"),

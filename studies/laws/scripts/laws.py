@@ -12,7 +12,7 @@ from bladerub.contact.illustration import loading_cycle
 from bladerub.contact.laws import described_law
 from bladerub.contact.spec import PLASTIC, Coating
 from bladerub.extras.heat import LAYER
-from bladerub.plots.law_cycles import law_cycles
+from bladerub.extras.plots.law_cycles import law_cycles
 from bladerub.workflow import outputs
 
 STRAINS = (0.0, 0.03, 0.0, 0.05, 0.0)  # those of Fig. 4

@@ -4,9 +4,9 @@ from bladerub.workflow import job
 
 job.log_to(snakemake.log[0])
 
+from bladerub.extras.plots.rigs import rigs
 from bladerub.extras.rig.plan import read_rigs
 from bladerub.extras.rig.table import compared, table
-from bladerub.plots.rigs import rigs
 from bladerub.workflow import outputs
 
 described = read_rigs(snakemake.input.rigs)

@@ -7,10 +7,10 @@ import pytest
 import yaml
 
 from bladerub.config.errors import ConfigError
+from bladerub.extras.plots.rigs import rigs as draw
 from bladerub.extras.rig.plan import PLAN, read_rigs
 from bladerub.extras.rig.spec import MEASURABLE
 from bladerub.extras.rig.table import compared, table
-from bladerub.plots.rigs import rigs as draw
 
 ROOT = Path(__file__).parents[4]
 

@@ -2,7 +2,7 @@ import numpy as np
 
 from bladerub.contact.illustration import LoadingCycle
 from bladerub.contact.spec import Coating
-from bladerub.plots.law_cycles import law_cycles
+from bladerub.extras.plots.law_cycles import law_cycles
 
 COATING = Coating(2.0, 0.5, 0.0, 0.0, modulus_unit=6e8, thickness=5e-3, n_elements=2000)
 
