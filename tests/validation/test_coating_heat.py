@@ -19,9 +19,10 @@ from bladerub.contact.row import simulate_row
 from bladerub.contact.row_spec import Row
 from bladerub.contact.run import simulate
 from bladerub.contact.setup import element_area
-from bladerub.contact.spec import Coating, SweepSpec
-from bladerub.contact.sweep import simulate_sweep
+from bladerub.contact.spec import Coating
 from bladerub.extras.heat import LAYER
+from bladerub.extras.speed_sweep import simulate_sweep
+from bladerub.extras.sweep_grid import SweepSpec
 from bladerub.study.grid import CoatingCase, run_spec
 
 DEPTH, THICKNESS, CAPACITY, CONDUCTIVITY = 1e-4, 5e-3, 2e6, 5.0

@@ -198,25 +198,3 @@ class RunSpec:
     def turns(self) -> bool:
         """Whether a profile turns with the tip."""
         return self.tip.turns and not self.coating.is_rigid
-
-
-@dataclass(frozen=True)
-class SweepSpec:
-    """One passage through the speeds.
-
-    Parameters
-    ----------
-    run : RunSpec
-        The run, at the speed where the passage begins; it stays there for its ``revolutions``, if any.
-    f_end : float
-        Speed where it ends, normalised; above or below the first.
-    rate : float
-        Change of the normalised speed in a second, positive, 1/s.
-    speed_step : float
-        Largest change of speed between two steps of constant speed, normalised.
-    """
-
-    run: RunSpec
-    f_end: float
-    rate: float
-    speed_step: float

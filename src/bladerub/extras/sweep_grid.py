@@ -1,11 +1,34 @@
 """Which coatings are swept, and how; without the solver, for the planning of the jobs."""
 
 from collections.abc import Mapping
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import Any
 
-from bladerub.contact.spec import SweepSpec
+from bladerub.contact.spec import RunSpec
 from bladerub.study.grid import CoatingCase, coating_cases, run_spec
+
+
+@dataclass(frozen=True)
+class SweepSpec:
+    """One passage through the speeds.
+
+    Parameters
+    ----------
+    run : RunSpec
+        The run, at the speed where the passage begins; it stays there for its ``revolutions``, if any.
+    f_end : float
+        Speed where it ends, normalised; above or below the first.
+    rate : float
+        Change of the normalised speed in a second, positive, 1/s.
+    speed_step : float
+        Largest change of speed between two steps of constant speed, normalised.
+    """
+
+    run: RunSpec
+    f_end: float
+    rate: float
+    speed_step: float
+
 
 DIRECTIONS = ("up", "down")
 

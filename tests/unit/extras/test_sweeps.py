@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from bladerub.contact.result import Energy
-from bladerub.contact.sweep import SweepResult
 from bladerub.extras import sweep_grid, sweeps
+from bladerub.extras.speed_sweep import SweepResult
 from bladerub.io.errors import DamagedFile
 from bladerub.io.tables import described_columns
 from bladerub.study.grid import CoatingCase

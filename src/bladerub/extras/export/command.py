@@ -13,8 +13,8 @@ from bladerub.extras.export import blade_command
 if TYPE_CHECKING:
     from bladerub.api.blade import Blade
     from bladerub.blade.model import ReducedBlade
-    from bladerub.contact.recording import Recording
     from bladerub.contact.row_spec import Row
+    from bladerub.extras.export.recording import Recording
     from bladerub.study.plan import PlannedRun
     from bladerub.study.store import StoredRun
 
@@ -128,7 +128,7 @@ def _animation(options: argparse.Namespace, config: dict[str, Any]) -> dict[str,
     _check_new(options, config, "animation")
 
     from bladerub.contact.row_spec import Row
-    from bladerub.plots.animation import animate
+    from bladerub.extras.export.animation import animate
 
     run, blade = _run_and_blade(options, config)
     plan = _plan(options, config, run, blade.path)
@@ -195,8 +195,8 @@ def _record(
     all_revolutions: bool,
 ) -> "Recording":
     """Record the last complete revolution of a run, or `all_revolutions` up to it."""
-    from bladerub.contact.recording import record
     from bladerub.contact.setup import compile_kernel
+    from bladerub.extras.export.recording import record
 
     last, n_elements = plan.spec.revolutions, plan.spec.coating.n_elements
     if run.attributes["status"] == "unbounded":

@@ -17,10 +17,10 @@ import numpy as np
 
 from bladerub.blade.model import ReducedBlade
 from bladerub.blade.stress import NodalStress, von_mises
-from bladerub.contact.recording import Recording
 from bladerub.contact.row_spec import Row
 from bladerub.contact.setup import element_angle
 from bladerub.extras.export.mesh_file import block
+from bladerub.extras.export.recording import Recording
 from bladerub.io import hdf5
 
 COLLECTION = "blade.pvd"  # the file to open: it names the others with their time in revolutions

@@ -27,7 +27,8 @@ from bladerub.contact.modes import Modes, at_tip, mode_shapes_at
 from bladerub.contact.result import Outcome
 from bladerub.contact.schemes import Recurrence
 from bladerub.contact.setup import set_up_modes
-from bladerub.contact.spec import RunSpec, SweepSpec
+from bladerub.contact.spec import RunSpec
+from bladerub.extras.sweep_grid import SweepSpec
 
 
 @dataclass(frozen=True)
