@@ -6,8 +6,10 @@ from bladerub.extras.chart.point import PointRow
 from bladerub.study.grid import modulus_unit
 
 CHART_ORDERS = chart_orders(config)
-PEAKS = {f"{name}{order}": f"chart_{name}k" for order in CHART_ORDERS for name in "Yf"}
-CHARTED = [*PEAKS, "peak", "worn_volume", "divergent_share"]
+PEAK_CAPTIONS = {
+    f"{name}{order}": f"chart_{name}k" for order in CHART_ORDERS for name in "Yf"
+}
+CHARTED = [*PEAK_CAPTIONS, "peak", "worn_volume", "divergent_share"]
 
 
 @cache
@@ -147,9 +149,9 @@ rule chart_maps:
         png=[
             shown(
                 f"{PLOTS}/chart_{name}.png",
-                PEAKS.get(name, f"chart_{name}"),
+                PEAK_CAPTIONS.get(name, f"chart_{name}"),
                 "Choice of a coating",
-                title=f"Chart: {name}" if name in PEAKS else None,
+                title=f"Chart: {name}" if name in PEAK_CAPTIONS else None,
             )
             for name in CHARTED
         ],

@@ -46,9 +46,7 @@ rule sweep:
     input:
         blade=rules.blade.output.reduced_model,
         kernel=rules.compile_kernel.output[0],
-        analysing=files_behind(
-            "extras.sweeps", "extras.sweep_grid", "study.spectra"
-        ),
+        analysing=files_behind("extras.sweeps", "extras.sweep_grid", "study.spectra"),
     output:
         SWEEPS,
     log:

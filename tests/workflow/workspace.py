@@ -55,7 +55,7 @@ class Workspace:
     @classmethod
     def at(cls, folder: Path, sources: Path | None = None) -> "Workspace":
         """Lay it out in `folder`; `sources` are its own if not given."""
-        for part in ("config", "profiles", "src"):
+        for part in ("config", "profiles", "src", "studies"):
             shutil.copytree(ROOT / part, folder / part, ignore=shutil.ignore_patterns("__pycache__"))
         shutil.copy2(ROOT / "Snakefile", folder)
         return cls(folder, sources or folder / "src")
