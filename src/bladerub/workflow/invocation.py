@@ -1,6 +1,7 @@
 """What an invocation of the workflow plans again and clears away of those killed before it."""
 
 import math
+import os
 import re
 import signal
 import sys
@@ -149,9 +150,21 @@ def start(workflow: Any) -> None:
     _schedule_by_events(workflow)
     for results, on_gpu in _planned:
         prepare(results)
+        date_back(results)
         record.write(results, workflow.config_settings.configfiles, workflow.config_settings.config)
         if on_gpu and workflow.local_exec:  # a job on another machine has the GPU there
             gpu.start_server()
+
+
+def date_back(results: Path) -> None:
+    """Give files of the future the present time: Snakemake refuses what follows from them, without a cure."""
+    now = time.time()
+    paths = [Path(folder, name) for folder, _, names in os.walk(results) for name in names]
+    future = [path for path in paths if path.stat(follow_symlinks=False).st_mtime > now + 1]
+    for path in future:
+        os.utime(path, (now, now), follow_symlinks=False)
+    if future:
+        _print(f"files of the future, by a clock that was ahead: {len(future)}; they are of now")
 
 
 def _handle_termination_beside() -> None:

@@ -5,6 +5,7 @@ import signal
 import subprocess
 import sys
 import threading
+import time
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -211,3 +212,16 @@ def test_an_environment_that_snakemake_cannot_name_to_a_shell_is_refused(workflo
 def test_other_letters_in_the_path_of_the_environment_do(workflow_with, monkeypatch, folder):
     monkeypatch.setattr(sys, "executable", f"/home/{folder}/.venv/bin/python")
     invocation.start(workflow_with())
+
+
+def test_files_of_the_future_are_of_now(tmp_path, capsys):
+    old, new = tmp_path / "runs" / "old.h5", tmp_path / "runs" / "new.h5"
+    old.parent.mkdir()
+    for path, change in ((old, -3600), (new, 7200)):
+        path.touch()
+        os.utime(path, 2 * (time.time() + change,))
+    before = old.stat().st_mtime
+    invocation.date_back(tmp_path)
+    assert old.stat().st_mtime == before
+    assert abs(new.stat().st_mtime - time.time()) < 60
+    assert "files of the future, by a clock that was ahead: 1" in capsys.readouterr().err
