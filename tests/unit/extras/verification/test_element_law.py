@@ -12,7 +12,7 @@ from bladerub.extras.verification import element_law
 from bladerub.extras.verification.element_law import HISTORIES, TIME_STEPS, check_law
 
 PAPER = Path(law.__file__).read_text(encoding="utf-8")
-DENSIFYING = Path(__file__).parents[3] / "docs" / "laws" / "densifying.py"
+DENSIFYING = Path(__file__).parents[4] / "docs" / "laws" / "densifying.py"
 COATINGS = [
     Coating(E, K, 0.0, 1.5e-8, 600e6, 6e-3, 2000) for E, K in ((0.05, 10.0), (20.0, 0.05), (1.1, 0.5))
 ]
