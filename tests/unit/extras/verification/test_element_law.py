@@ -93,10 +93,10 @@ def test_what_is_wrong_with_a_law_is_told(name, compiled):
 @pytest.mark.parametrize(
     ("right", "wrong"),
     [
-        ("return np.maximum(1.0 - lost, _LEAST)", "return 1.0 + lost"),
-        ("return np.maximum(1.0 - lost, _LEAST)", "return 1.0 - lost"),
-        ("return np.maximum(1.0 - lost, _LEAST)", "return 0.9 * np.maximum(1.0 - lost, _LEAST)"),
-        ("return np.maximum(1.0 - lost, _LEAST)", "return np.nan * lost"),
+        ("return np.maximum(1.0 - loss, _LEAST)", "return 1.0 + loss"),
+        ("return np.maximum(1.0 - loss, _LEAST)", "return 1.0 - loss"),
+        ("return np.maximum(1.0 - loss, _LEAST)", "return 0.9 * np.maximum(1.0 - loss, _LEAST)"),
+        ("return np.maximum(1.0 - loss, _LEAST)", "return np.nan * loss"),
     ],
     ids=["rises", "below 0", "not 1 in the cold", "no number"],
 )
