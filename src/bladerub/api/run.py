@@ -398,27 +398,30 @@ def _on_gpu(blade: ReducedBlade, spec: RunSpec, progress: Callable[[int], None] 
 
 
 def _stress() -> Any:
-    """Return the module that finds the stress of the blade; `ValueError` where the package is without it."""
-    if "stress" not in plugins.offered("MEASURES"):
-        raise ValueError("stress = True: this package is without what finds the stress, must be False")
-    return plugins.load(plugins.offered("MEASURES")["stress"])
+    """Return the module that finds the stress of the blade; None where the package is without it."""
+    place = plugins.offered("MEASURES").get("stress")
+    return plugins.load(place) if place else None
 
 
 def _described_stress(attributes: Mapping[str, Any]) -> Any:
-    return _stress().RunStress.described(attributes) if "stress" in plugins.offered("MEASURES") else None
+    module = _stress()
+    return module.RunStress.described(attributes) if module else None
 
 
 class _StressSolver:
     """Simulates a run and keeps its stress."""
 
     def __init__(self, blade: Blade, run: StudyRun):
+        self._module = _stress()
+        if self._module is None:  # before any work
+            raise ValueError("stress = True: this package is without what finds the stress, must be False")
         self._mesh, self._last = blade.mesh_path, run.config["analysis"]["spectrum_revolutions"]
         self.stress: Any = None
 
     def __call__(
         self, blade: ReducedBlade, spec: RunSpec, progress: Callable[[int], None] | None
     ) -> RunResult:
-        result, self.stress = _stress().simulate_with_stress(self._mesh, blade, spec, self._last, progress)
+        result, self.stress = self._module.simulate_with_stress(self._mesh, blade, spec, self._last, progress)
         return result
 
 

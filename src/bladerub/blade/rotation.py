@@ -13,9 +13,7 @@ from bladerub.io.errors import BadInput
 TOLERANCE = 1e-9  # largest residual force accepted, over the norm of the centrifugal load
 NEGLIGIBLE = 1e-8  # correction, over the norm of the displacement, after which the next would be rounding
 MAX_ITERATIONS = 12  # of Newton's method in one load step
-KEEPING = (
-    0.2  # largest ratio of two successive residuals at which a model with factors at rest keeps its tangent
-)
+KEEPING = 0.2  # largest ratio of two successive residuals at which the tangent is kept, with factors at rest
 CORRECTION = 1e-4  # relative error of such a correction by conjugate gradients; the next removes it
 MAX_HALVINGS = 8  # of a load step that failed before giving up
 

@@ -175,11 +175,12 @@ def _neighbours(config: Config, row: Row) -> Iterator[str]:
 def _stable_steps(config: Config) -> Iterator[str]:
     """Check central differences by the highest mode of the blade; its runs do if it is not built yet."""
     solver = config["solver"]
-    by_tolerance = not {"steps_per_element", "max_time_step"} & solver.keys()
-    if solver["scheme"] != "central_differences" or by_tolerance:
+    key = next((name for name in ("max_time_step", "steps_per_element") if name in solver), None)
+    if solver["scheme"] != "central_differences" or key is None:  # by the tolerance they are stable
         return
     from bladerub.blade.validation import read_reduced_blade  # as the rest, needed for this scheme alone
     from bladerub.contact.modes import mode_shapes_at
+    from bladerub.contact.steps import own_steps
     from bladerub.study.inventory import current_blade
 
     model = study_folder() / config["results"] / "blade" / "reduced_model.h5"
@@ -189,12 +190,12 @@ def _stable_steps(config: Config) -> Iterator[str]:
     longest = solver.get("max_time_step", math.inf) * config["contact"].get("scale", UNSCALED)["time"]
     for f_omega in speeds(config):
         passage = 1 / (f_omega * blade.f1_hz * n_elements)
-        step = passage / max(solver.get("steps_per_element", 0), math.ceil(passage / longest))
+        step = passage / own_steps(passage, solver.get("steps_per_element", 0), longest)
         stable = 2 / mode_shapes_at(blade, f_omega)[0][-1]
         if step >= stable:
             yield (
-                f"solver.max_time_step = {longest:g}: central_differences needs steps below {stable:.3g} s "
-                "for the highest mode of this blade"
+                f"solver.{key} = {solver[key]:g}: central_differences needs steps below {stable:.3g} s for "
+                "the highest mode of this blade"
             )
             return
 

@@ -17,7 +17,7 @@ from bladerub.contact.laws import element_parameters, module_of, source_of
 from bladerub.contact.modes import Modes, modes_at, tip_radii
 from bladerub.contact.schemes import SCHEMES, Contact, Recurrence, normal_compliance
 from bladerub.contact.spec import PLASTIC, Casing, Coating, ElementLaw, RunSpec
-from bladerub.contact.steps import steps_per_element, with_steps
+from bladerub.contact.steps import own_steps, steps_per_element, with_steps
 from bladerub.contact.tip import edge
 from bladerub.numerics.lanes import lanes_for, module_for
 from bladerub.numerics.memory import aligned
@@ -50,9 +50,8 @@ def set_up_modes(
     """Prepare a run as `set_up`, with the modes at its speed."""
     law = module_of(spec.coating.element_law)
     contact, passage = _contact(blade, spec), element_passage(blade, spec)
-    n_steps = steps_per_element(spec, modes, contact, passage, _law_order(blade, spec))
-    time_step = passage / n_steps
-    rule = SCHEMES[spec.scheme](modes, spec.damping_ratio, time_step, contact)
+    n_steps = _n_steps(modes, contact, blade, spec)
+    rule = SCHEMES[spec.scheme](modes, spec.damping_ratio, passage / n_steps, contact)
     tip = tip_record(blade, spec, seat)
     stator = stator_record(blade, spec, rule, seat)
     heats = hasattr(law, "strength")
@@ -113,8 +112,7 @@ def time_step(blade: ReducedBlade, spec: RunSpec) -> float:
 def fixed_steps(blade: ReducedBlade, spec: RunSpec) -> RunSpec:
     """Return the run with the steps per element that it takes as its own; raises as `modes_at`."""
     modes, contact = modes_at(blade, spec.f_omega, spec), _contact(blade, spec)
-    passage, order = element_passage(blade, spec), _law_order(blade, spec)
-    return with_steps(spec, steps_per_element(spec, modes, contact, passage, order))
+    return with_steps(spec, _n_steps(modes, contact, blade, spec))
 
 
 def element_area(blade: ReducedBlade, spec: RunSpec) -> np.ndarray:
@@ -252,6 +250,13 @@ def _contact(blade: ReducedBlade, spec: RunSpec) -> Contact:
     if spec.turns:
         stiffness = np.concatenate([stiffness, element * (2 / 3) * edge(spec.tip) ** 3])
     return Contact(stiffness, *_force_direction(spec.coating))
+
+
+def _n_steps(modes: Modes, contact: Contact, blade: ReducedBlade, spec: RunSpec) -> int:
+    passage = element_passage(blade, spec)
+    return own_steps(passage, spec.steps_per_element, spec.max_time_step) or steps_per_element(
+        spec, modes, contact, passage, _law_order(blade, spec)
+    )
 
 
 def _law_order(blade: ReducedBlade, spec: RunSpec) -> int:

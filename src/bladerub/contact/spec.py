@@ -190,11 +190,6 @@ class RunSpec:
     initial_displacement: float = 0.0
 
     @property
-    def has_own_steps(self) -> bool:
-        """Whether the time step is given, and does not follow from the tolerance."""
-        return self.steps_per_element > 0 or math.isfinite(self.max_time_step)
-
-    @property
     def turns(self) -> bool:
         """Whether a profile turns with the tip."""
         return self.tip.turns and not self.coating.is_rigid

@@ -40,16 +40,21 @@ STABLE_PART = 0.7
 """Longest step of central differences, in largest stable steps ``2 / ω_max``: contact stiffens the blade."""
 
 
+def own_steps(passage: float, n_steps: int, longest: float) -> int:
+    """Return the fewest steps in a `passage` (s), `n_steps` at least and of `longest` (s) at most.
+
+    It is 0 without limits (0 and infinity): the tolerance of the run decides.
+    """
+    return max(n_steps, math.ceil(passage / longest))
+
+
 def steps_per_element(
     spec: RunSpec, modes: Modes, contact: Contact, passage: float, law_order: int = 2
 ) -> int:
-    """Return the fewest steps in the `passage` (s) of an element that the run allows.
+    """Return the fewest steps in the `passage` (s) of an element that the tolerance of the run allows.
 
-    A run with `steps_per_element` or `max_time_step` takes those alone; otherwise its `tolerance` decides.
     `law_order` is the order in h to which the law of the elements is integrated.
     """
-    if spec.has_own_steps:
-        return max(spec.steps_per_element, math.ceil(passage / spec.max_time_step))
     n_steps = math.ceil((PASSAGE / math.sqrt(spec.tolerance)) ** (2 / law_order) - 1e-9)
     if spec.scheme == "central_differences":
         n_steps = max(n_steps, math.ceil(passage * modes.omega[-1] / (2 * STABLE_PART)))

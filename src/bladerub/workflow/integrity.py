@@ -48,8 +48,8 @@ def _examine(path: Path, faults: Faults) -> None:
         tables.check(_table_of(path))
     elif path.name == "manifest.tsv":
         _examine_listed(path, ManifestRow, faults)
-    elif path.suffix == ".tsv" and path.parent.name in plugins.offered("MANIFESTS"):
-        _examine_listed(path, plugins.loaded("MANIFESTS")[path.parent.name], faults)
+    elif path.suffix == ".tsv" and (kind := plugins.offered("MANIFESTS").get(path.parent.name)):
+        _examine_listed(path, plugins.load(kind), faults)
 
 
 def _table_of(path: Path) -> Path:

@@ -9,6 +9,7 @@ import tempfile
 import threading
 import time
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -156,15 +157,20 @@ def start(workflow: Any) -> None:
             gpu.start_server()
 
 
-def date_back(results: Path) -> None:
-    """Give files of the future the present time: Snakemake refuses what follows from them, without a cure."""
-    now = time.time()
-    paths = [Path(folder, name) for folder, _, names in os.walk(results) for name in names]
-    future = [path for path in paths if path.stat(follow_symlinks=False).st_mtime > now + 1]
-    for path in future:
-        os.utime(path, (now, now), follow_symlinks=False)
-    if future:
-        _print(f"files of the future, by a clock that was ahead: {len(future)}; they are of now")
+def date_back(results: str | Path) -> None:
+    """Give files of the future the present time: Snakemake refuses what follows from them, without a cure.
+
+    What another invocation takes away meanwhile, or the system refuses, is left as it is.
+    """
+    now, n_future = time.time(), 0
+    for folder, _, names in os.walk(results):
+        for path in (os.path.join(folder, name) for name in names):
+            with suppress(OSError):
+                if os.lstat(path).st_mtime > now + 1:
+                    os.utime(path, (now, now), follow_symlinks=False)
+                    n_future += 1
+    if n_future:
+        _print(f"files of the future, by a clock that was ahead: {n_future}; they are of now")
 
 
 def _handle_termination_beside() -> None:

@@ -30,7 +30,7 @@ from bladerub.contact.result import RunResult
 from bladerub.contact.row import simulate_row
 from bladerub.contact.row_spec import Row
 from bladerub.contact.run import simulate
-from bladerub.contact.setup import compile_kernel
+from bladerub.contact.setup import compile_kernel, element_passage
 from bladerub.contact.spec import ElementLaw, RunSpec
 from bladerub.contact.steps import STABLE_PART, with_steps
 from bladerub.extras.verification.differences import Differences, largest, row_differences
@@ -161,7 +161,7 @@ def verify_run(blade: ReducedBlade, config: Mapping[str, Any], run: StudyRun) ->
     Raises `ValueError` if the blade has no such speed, or the step is too long for the scheme.
     """
     spec, analysis = run_spec(config, run.case, run.f_omega), config["analysis"]
-    passage = 1 / (spec.f_omega * blade.f1_hz * spec.coating.n_elements)
+    passage = element_passage(blade, spec)
     solve = partial(_solve, blade, run.row)
     outcome = solve(spec)
     steps = round(passage / outcome.blades[0].time_step)
