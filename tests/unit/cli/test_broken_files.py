@@ -34,6 +34,8 @@ COUNTS = {"chordwise": 7, "thickness": 1, "spanwise": 3}
 N_DRAWN = int(os.environ.get("BLADERUB_BROKEN_FILES", "12"))
 LONGEST = 240  # s
 MEMORY = 12 * 2**30
+PROCESSES = multiprocessing.get_context("forkserver")  # a fork of a process with threads may hang
+PROCESSES.set_forkserver_preload(["bladerub.cli"])
 WORDS = (b"nan", b"inf", b"1e160", b"-1", b"0", b"99999999", b"1e-300", b"x", b"", b"1,5", b"1;5")
 BLADES = ("blade.inp", "blade.msh", "blade.vtu", "blade.csv", "text", "archives")
 TEXTS = {"law.py": "check-law", "curves.csv": "fit-coating", "gap.csv": "config"}
@@ -159,7 +161,7 @@ def tried(sound: Path, folder: Path, seed: int, name: str, command: str, *option
     if not is_sound:
         damage(folder / name, np.random.default_rng(seed))
     file = folder / ("study.yaml" if command == "config" else name)
-    process = multiprocessing.get_context("fork").Process(
+    process = PROCESSES.Process(
         target=read, args=([command, str(file), *options], folder / "said")
     )
     process.start()
