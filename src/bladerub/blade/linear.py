@@ -1,13 +1,15 @@
 """Factor a sparse symmetric matrix once, solve many times; lowest modes by shift-invert."""
 
+import functools
 import importlib.util
+import os
 import weakref
 from collections.abc import Callable
 
 import numpy as np
 import rslab
 from scipy import sparse
-from scipy.sparse.linalg import LinearOperator, eigsh
+from scipy.sparse.linalg import LinearOperator, eigsh, splu
 
 from bladerub.blade.frequencies import in_hertz
 
@@ -21,16 +23,24 @@ def factorise(matrix: sparse.csc_array) -> Solve:
     """Factor `matrix`, symmetric and regular; return what solves for a right-hand side (n,) or (n, k).
 
     PARDISO does the work when pypardiso is installed, else RSLAB: the factors of LDLᵀ take half the memory
-    and half the time of SciPy's SuperLU, and are the same to the last bit with any number of threads. Raises
-    numpy.linalg.LinAlgError if the matrix is singular.
+    and half the time of SciPy's SuperLU, and are the same to the last bit with any number of threads. SuperLU
+    serves a fork of a process that has used RSLAB: its threads are not in the fork, which would wait for them
+    for ever. Raises numpy.linalg.LinAlgError if the matrix is singular.
     """
     try:
+        if _process_of_threads() != os.getpid():
+            return splu(matrix).solve
         if importlib.util.find_spec("pypardiso"):
             return _Pardiso(matrix)
         factors = rslab.ldlt(matrix, threads=THREADS)
     except RuntimeError as error:
         raise np.linalg.LinAlgError(f"sparse factorisation: {error}") from error
     return lambda rhs: factors.solve(rhs) if rhs.ndim == 1 else factors.solve_many(rhs)
+
+
+@functools.cache
+def _process_of_threads() -> int:
+    return os.getpid()
 
 
 class _Pardiso:

@@ -1,3 +1,5 @@
+import multiprocessing
+
 import numpy as np
 import pytest
 from scipy import sparse
@@ -33,6 +35,21 @@ def test_threads_leave_large_matrices_their_bits(pair, monkeypatch):
     both = factorise(grid)(rhs)
     monkeypatch.setattr(linear, "THREADS", 1)
     np.testing.assert_array_equal(factorise(grid)(rhs), both)
+
+
+def test_a_fork_solves_as_well(pair):
+    """The threads of the solver are not in it: a job of a pool of processes once waited for ever."""
+
+    def solve_in_fork():
+        rhs = np.ones(60)
+        np.testing.assert_allclose(pair[0] @ factorise(pair[0])(rhs), rhs, atol=1e-12)
+
+    factorise(pair[0])
+    process = multiprocessing.get_context("fork").Process(target=solve_in_fork)
+    process.start()
+    process.join(30)
+    process.kill()
+    assert process.exitcode == 0
 
 
 def test_indefinite_matrix_is_solved(pair):
