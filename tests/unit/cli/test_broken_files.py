@@ -161,9 +161,7 @@ def tried(sound: Path, folder: Path, seed: int, name: str, command: str, *option
     if not is_sound:
         damage(folder / name, np.random.default_rng(seed))
     file = folder / ("study.yaml" if command == "config" else name)
-    process = PROCESSES.Process(
-        target=read, args=([command, str(file), *options], folder / "said")
-    )
+    process = PROCESSES.Process(target=read, args=([command, str(file), *options], folder / "said"))
     process.start()
     process.join(LONGEST)
     if process.is_alive():
