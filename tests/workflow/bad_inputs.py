@@ -286,8 +286,8 @@ UNREADABLE: dict[str, tuple[str | bytes, str]] = {
 _RUN = "run --casing 2nd --E 2 --K 0.5 --f 0.19"
 _RIGID = "run --casing 2nd --coating rigid --f 0.19"
 _VERIFY = "verify --sample 1 --seed 1"
-_SPEED = "speed must be a number from 0.001 to 2 (normalised)"
-_YOUNG = "Young modulus must be a number above 0 and at most 1e+06 (normalised)"
+_SPEED = "speed must be a number from 0.001 to 2"
+_YOUNG = "Young modulus must be a number above 0 and at most 1e+06"
 
 COMMANDS: dict[str, str] = {
     "": "bladerub: the following arguments are required: COMMAND",
@@ -302,7 +302,7 @@ COMMANDS: dict[str, str] = {
     f"{_RUN} --E 0": f"--E = 0: {_YOUNG}",
     f"{_RUN} --E nan": f"--E = nan: {_YOUNG}",
     f"{_RUN} --E 1e400": f"--E = inf: {_YOUNG}",
-    f"{_RUN} --K -1": "--K = -1: plastic modulus must be a number from 0 to 1e+06 (normalised)",
+    f"{_RUN} --K -1": "--K = -1: plastic modulus must be a number from 0 to 1e+06",
     f"{_RUN} --K inf": "--K = inf: plastic modulus must be a number from 0",
     f"{_RUN} --theta 15": "--theta = 15: angle of the abradable elements must be a number from 0 to 1.5",
     f"{_RUN} --theta nan": "--theta = nan: angle of the abradable elements must be",

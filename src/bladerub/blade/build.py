@@ -74,6 +74,15 @@ def build(config: Mapping[str, Any]) -> BuiltBlade:
     return reduce_meshed(meshed_blade(config["blade"], n_interface(config)), config)
 
 
+def frequency_at_rest(config: Mapping[str, Any]) -> float:
+    """Return the first frequency at rest (Hz) of the blade that `build` builds; raises the same."""
+    if "matrices" in config["blade"].get("source", {}):
+        return float(_of_matrices(config).frequency[0])
+    material = Material.from_config(config["blade"]["material"])
+    blade = meshed_blade(config["blade"], n_interface(config))
+    return float(by_finite_elements(blade, material, (), (), 1).frequency[0])
+
+
 def reduce_meshed(blade: MeshedBlade, config: Mapping[str, Any]) -> BuiltBlade:
     """Reduce a meshed blade with as many speeds and modes as its tolerance asks for; see `build`."""
 

@@ -8,8 +8,9 @@ from pathlib import Path
 from typing import Any
 
 from bladerub.blade import built
-from bladerub.blade.build import build, is_built, made_from
+from bladerub.blade.build import build, frequency_at_rest, is_built, made_from
 from bladerub.blade.built import BuiltBlade
+from bladerub.io import atomic
 from bladerub.io.folders import cache_folder
 from bladerub.io.provenance import packages, provenance
 from bladerub.io.sources import builder_digest
@@ -21,9 +22,42 @@ def kept_at(config: Mapping[str, Any]) -> Path:
     The folder is named after all that determines the blade: its config, its file, the sources that build it,
     and the versions of the packages. Raises as `bladerub.blade.build.made_from`.
     """
+    return cache_folder() / "blades" / _name(config) / "reduced_model.h5"
+
+
+def _name(config: Mapping[str, Any]) -> str:
     recipe = json.dumps([made_from(config), builder_digest(), packages()])
-    name = hashlib.sha256(recipe.encode()).hexdigest()[:16]
-    return cache_folder() / "blades" / name / "reduced_model.h5"
+    return hashlib.sha256(recipe.encode()).hexdigest()[:16]
+
+
+def kept_frequency(config: Mapping[str, Any]) -> float | None:
+    """Return what `first_frequency` found before for the blade of `config`; None if it did not."""
+    with suppress(OSError, ValueError):
+        return float(_frequency_path(config).read_text(encoding="utf-8"))
+    return None
+
+
+def first_frequency(config: Mapping[str, Any]) -> float:
+    """Return the first frequency at rest of the blade of `config`, Hz, as `rounded_frequency`.
+
+    It takes a few seconds and is kept. Raises as `bladerub.blade.build.frequency_at_rest`.
+    """
+    frequency = kept_frequency(config)
+    if frequency is None:
+        frequency = rounded_frequency(frequency_at_rest(config))
+        with suppress(OSError), atomic.writing(_frequency_path(config)) as stream:
+            stream.write(f"{frequency!r}\n")
+    return frequency
+
+
+def rounded_frequency(f1_hz: float) -> float:
+    """Round a first frequency to the nine digits that do not depend on the machine, to normalise speeds."""
+    return float(f"{f1_hz:.9g}")
+
+
+def _frequency_path(config: Mapping[str, Any]) -> Path:
+    of_blade = {"blade": config["blade"], "reduction": {}}  # which at rest has no part in it
+    return cache_folder() / "frequencies" / _name(of_blade)
 
 
 def keep(blade: BuiltBlade, config: Mapping[str, Any]) -> None:

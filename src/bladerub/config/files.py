@@ -66,10 +66,15 @@ class Located(NamedTuple):
 
     def locations(self) -> dict[str, Location]:
         """Return the location of every value, by its path as `bladerub.config.errors.key_path` writes it."""
-        return {key_path(parts): location for parts, location in self._walk(()) if parts}
+        return {key_path(parts): entry.location for parts, entry in self._walk(()) if parts}
 
-    def _walk(self, parts: tuple) -> Iterator[tuple[tuple, Location]]:
-        yield parts, self.location
+    def values(self) -> dict[str, Any]:
+        """Return every value that is neither a mapping nor a list, by its path as `locations` has it."""
+        entries = ((parts, entry.content) for parts, entry in self._walk(()))
+        return {key_path(parts): value for parts, value in entries if not isinstance(value, dict | list)}
+
+    def _walk(self, parts: tuple) -> Iterator[tuple[tuple, "Located"]]:
+        yield parts, self
         if isinstance(self.content, dict | list):
             pairs = self.content.items() if isinstance(self.content, dict) else enumerate(self.content)
             for part, entry in pairs:

@@ -51,13 +51,15 @@ def read_with_notes(
     """
     located = files.compose(*paths, command_line=command_line)
     if is_checked:
-        from bladerub.config import inherited
+        from bladerub.config import inherited, quantities
 
-        return inherited.fit(located.plain())
+        return inherited.fit(quantities.converted(located)[0].plain())
     return _validated(located, "")
 
 
-def read_plan(path: str | Path, definition: str, key: str | None = None) -> Located:
+def read_plan(
+    path: str | Path, definition: str, key: str | None = None, study: Mapping[str, Any] | None = None
+) -> Located:
     """Read and check a plan, which varies a config.
 
     Parameters
@@ -68,13 +70,17 @@ def read_plan(path: str | Path, definition: str, key: str | None = None) -> Loca
         What it is, of the definitions of the schema.
     key : str, optional
         The key of the config that names the file, reported if it cannot be read.
+    study : mapping, optional
+        The config that it is for; without it a speed, E or K of the plan is a plain number.
 
     Raises
     ------
     ConfigError
         As for `bladerub.config.files.compose`, and every problem found.
     """
-    plan = files.read(path, key)
+    from bladerub.config.quantities import converted
+
+    plan, _ = converted(files.read(path, key), definition, study)
     texts, locations = dict.fromkeys(schema.problems(plan.plain(), definition)), plan.locations()
     if texts:
         raise ConfigError(Problem(_location(text, locations, plan.location), text) for text in texts)
@@ -112,12 +118,13 @@ def validate(config: Located | Mapping[str, Any], variation: str = "") -> dict[s
 def _validated(config: Located | Mapping[str, Any], variation: str) -> tuple[dict[str, Any], list[str]]:
     """Check a config as `validate`; return its values and the notes of `inherited.fit`."""
     # it takes half a second to import, `bladerub --help` and jobs on a cluster do without
-    from bladerub.config import inherited
+    from bladerub.config import inherited, quantities
     from bladerub.config.checks import check
 
-    located = config if isinstance(config, Located) else Located.of(config, UNKNOWN)
+    typed = config if isinstance(config, Located) else Located.of(config, UNKNOWN)
+    located, problems = quantities.converted(typed)
     values, locations = located.plain(), located.locations()
-    problems = list(schema.problems(values))
+    problems += schema.problems(values)
     missing = set(schema.schema()["required"]) - set(values)
     broken = missing | set(map(top_key, problems))
     notes: list[str] = []
@@ -125,8 +132,9 @@ def _validated(config: Located | Mapping[str, Any], variation: str) -> tuple[dic
         values, notes = inherited.fit(values, broken)
     problems += check(values, broken)
     if problems:
+        as_typed = quantities.as_typed(typed, located)
         raise ConfigError(
-            Problem(_location(text, locations), f"{variation}: {text}" if variation else text)
+            Problem(_location(text, locations), (f"{variation}: " if variation else "") + as_typed(text))
             for text in dict.fromkeys(problems)
         )
     return values, notes

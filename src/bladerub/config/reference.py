@@ -3,7 +3,8 @@
 from collections.abc import Iterator, Mapping
 from typing import Any
 
-from bladerub.config.schema import allowed
+from bladerub.config.schema import allowed, kinds
+from bladerub.config.units import choices_by_kind
 
 HEAD = """\
 # Configuration
@@ -14,6 +15,34 @@ file can extend others (`extend`). Values given on the command line (`--config`)
 stands for each entry of a list, `<name>` for any name.
 
 This page is made from `config/schema.yaml` and `config/config.yaml` by `snakemake -j1 docs/config.md`.
+
+## Units
+
+A number may be typed with its unit, in a config, on the command line and in Python. It is converted where
+it is read; the same study in plain numbers has the same runs.
+
+```yaml
+speeds: {{start: 2000 rpm, stop: 4500 rpm, step: 50 rpm}}
+contact: {{layer_thickness: 6 mm}}
+coatings:
+  - {{casing: 2nd, E: [300 MPa, 1.2 GPa], K: [300 MPa], theta: [8 deg]}}
+```
+
+| quantity | units |
+|---|---|
+{units}
+
+The column `unit` of the tables below says what a plain number is in: f1 is the first frequency at rest,
+modulus_unit is `contact.modulus_unit`.
+
+* A speed in rpm is divided by the first frequency of the blade of the config, which is computed the first
+  time, in a few seconds, and kept. It is rounded to nine digits, so that it does not depend on the machine.
+* Speeds of a study have six decimals, about 0.01 rpm. Each speed of a grid in rpm is rounded by itself, so
+  that `--f "5000 rpm"` is the run of a grid with 5000 rpm in it. `reduction.f_omega_max` is rounded up.
+* E, K and `contact.yield_stress` in Pa are divided by `contact.modulus_unit`. `contact.scale` multiplies
+  plain numbers alone: a quantity with a unit is what it says.
+* A plan of rows of blades or rigs may have units, too; factors of a plan and what `sets` give them may not.
+
 """
 
 Rule = Mapping[str, Any]
@@ -24,7 +53,8 @@ def reference(schema: Rule, config: Mapping[str, Any]) -> str:
 
     `config` is the study, for the values that a config without that key has.
     """
-    sections = [HEAD]
+    units_of_kinds = "\n".join(f"| {kind} | {names} |" for kind, names in choices_by_kind().items())
+    sections = [HEAD.format(units=units_of_kinds)]
     for name, part in schema["properties"].items():
         keys = list(_keys(schema, name, part, config.get(name)))
         rows = [_row(*key) for key in keys if key[0] != name or len(keys) == 1]
@@ -43,15 +73,10 @@ def _keys(schema: Rule, path: str, rule: Rule, value: Any) -> Iterator[tuple[str
         inside = value.get(name) if isinstance(value, dict) else None
         yield from _keys(schema, f"{path}.{name}", inner, inside)
     entry_rule = rule.get("additionalProperties")
-    for kind in _kinds(entry_rule) if isinstance(entry_rule, Mapping) else ():
+    for kind in kinds(entry_rule) if isinstance(entry_rule, Mapping) else ():
         yield from _keys(schema, f"{path}.<name>", kind, None)
-    for kind in _kinds(rule["items"]) if "items" in rule else ():
+    for kind in kinds(rule["items"]) if "items" in rule else ():
         yield from _keys(schema, f"{path}[]", kind, None)
-
-
-def _kinds(items: Rule) -> list[Rule]:
-    """Return the kinds of entry that a list or group may have: those of its conditions, or the one it has."""
-    return [branch["then"] for branch in items.get("allOf", []) if "then" in branch] or [items]
 
 
 def _row(path: str, rule: Rule, value: Any) -> str:

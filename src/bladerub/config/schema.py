@@ -10,13 +10,14 @@ import re
 import sys
 from collections.abc import Iterator, Mapping
 from difflib import get_close_matches
-from functools import cache
+from functools import cache, reduce
 from itertools import pairwise
 from typing import Any
 
 import jsonschema
 import yaml
 
+from bladerub.config import units
 from bladerub.config.errors import format_value, key_path
 from bladerub.config.files import yaml_reading
 from bladerub.io.folders import ROOT
@@ -56,6 +57,31 @@ def problems(config: Mapping[str, Any], definition: str | None = None) -> Iterat
             yield from (f"{setting}: must be {requirement}" for requirement in _compare(error, valid))
 
 
+def resolved(rule: Mapping[str, Any]) -> Mapping[str, Any]:
+    """Return the entry of the schema that ``$ref`` names, or `rule` if it has none."""
+    if "$ref" not in rule:
+        return rule
+    return reduce(operator.getitem, rule["$ref"].split("/")[1:], schema())
+
+
+def kinds(rule: Mapping[str, Any]) -> list[Mapping[str, Any]]:
+    """Return the kinds of entry that a list or group may have: those of its conditions, or the one it has."""
+    return [branch["then"] for branch in rule.get("allOf", []) if "then" in branch] or [rule]
+
+
+def inner(rule: Mapping[str, Any], key: str | None) -> Mapping[str, Any] | None:
+    """Return the entry of the schema for what is under `key`, or in a list (None), where `rule` is of it all.
+
+    None if the schema has none. Kinds of one list that share a key say the same of it.
+    """
+    for kind in kinds(rule):
+        within = kind.get("items") if key is None else kind.get("properties", {}).get(key)
+        within = within or (kind.get("additionalProperties") if key is not None else None)
+        if isinstance(within, Mapping):
+            return within
+    return None
+
+
 def check_quantity(name: str, value: Any) -> None:
     """Check one value against the schema's definition of `name`, for instance ``E`` or ``f_omega``.
 
@@ -67,7 +93,7 @@ def check_quantity(name: str, value: Any) -> None:
     rule = schema()["$defs"][name]
     errors = _validator().evolve(schema=rule).iter_errors(value)
     if any(error.validator not in _COMPARING for error in errors):
-        raise ValueError(_right(rule))
+        raise ValueError(_typed(value, rule))
 
 
 def is_number(value: Any) -> bool:
@@ -148,12 +174,25 @@ def _describe(error: jsonschema.ValidationError) -> list[str]:
         return [f"{setting}: {rule['title']} must not name one twice"]
     if error.validator == "ascending":
         return [f"{setting}: must be {error.message}"]
-    has_digits = isinstance(error.instance, str) and re.match(r"\s*[-+.\d]", error.instance)
-    with_unit = has_digits and rule["type"] in ("number", "integer")
-    requirement = f"{_right(rule)}{', the number alone' if with_unit else ''}"
-    if with_unit and (reading := yaml_reading(error.instance)):
-        requirement += f" (YAML reads this as {reading})"
-    return [f"{setting}: {requirement}"]
+    return [f"{setting}: {_typed(error.instance, rule)}"]
+
+
+def _typed(value: Any, rule: dict[str, Any]) -> str:
+    """Say what is wrong with a value: another kind of quantity, another unit than is meant, or its size."""
+    if rule["type"] not in ("number", "integer"):
+        return _right(rule)
+    if is_number(value):
+        meant = units.meant(value, rule)
+        return f"{_right(rule)}{f'; this {meant}' if meant else ''}"
+    if isinstance(value, str) and (reading := yaml_reading(value)):
+        return f"{_right(rule)} (YAML reads this as {reading})"
+    if quantity := units.read(value):
+        try:
+            units.convert(quantity, rule, lambda name: 1.0)
+        except ValueError as error:
+            return str(error)
+        return f"needs {units.needs(rule)} of this study, which is not known; {_right(rule)}"
+    return _right(rule)
 
 
 def _nearest(parts: list[Any], key: Any, fields: dict[str, Any]) -> str:
@@ -163,12 +202,8 @@ def _nearest(parts: list[Any], key: Any, fields: dict[str, Any]) -> str:
 
 def _right(rule: dict[str, Any]) -> str:
     """Say what a value must be, from its entry in the schema."""
-    if "$ref" in rule:
-        rule = schema()["$defs"][rule["$ref"].rsplit("/", 1)[-1]]
-    unit = ""
-    if rule["type"] != "integer" and rule["unit"] not in ("none", "1"):
-        unit = " (normalised)" if rule["unit"] == "normalised" else f", in {rule['unit']}"
-    return f"{rule['title']} must be {allowed(rule)}{unit}"
+    rule = resolved(rule)
+    return f"{rule['title']} must be {allowed(rule)}{units.in_words(rule)}"
 
 
 def allowed(rule: Mapping[str, Any]) -> str:

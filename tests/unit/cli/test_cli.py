@@ -381,7 +381,7 @@ def without(option):
         (changed("--E", "soft"), "--E: invalid float value: 'soft'"),
         (changed("--K", "-1"), "--K = -1: plastic modulus must be a number from 0"),
         (changed("--theta", "15"), "--theta = 15: angle of the abradable elements must be a number from 0"),
-        (changed("--f", "-0.1"), "--f = -0.1: speed must be a number from 0.001 to 2 (normalised)"),
+        (changed("--f", "-0.1"), "--f = -0.1: speed must be a number from 0.001 to 2"),
         (changed("--f", "0.41"), "--f = 0.41: must be at most reduction.f_omega_max = 0.4 (normalised)"),
         ([*RUN, "--blades", "0"], "--blades = 0: must be from 1 to 200"),
         ([*RUN, "--blades", "200"], "row: blades 1 and 2 are 10 of 2000 coating elements apart"),

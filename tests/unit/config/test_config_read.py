@@ -213,8 +213,8 @@ def test_results_stay_below_the_repository(config, name):
         ),
         (
             "blade.length",
-            "200 mm",
-            'blade.length = "200 mm": blade length must be a number from 0.01 to 3, in m, the number alone',
+            "200 kg",
+            'blade.length = "200 kg": is a mass; must be a length: mm, µm, cm, m, in, ft, or a number in m',
         ),
         (
             "contact.damping_ratio",
@@ -225,7 +225,7 @@ def test_results_stay_below_the_repository(config, name):
             "reduction.f_omega_max",
             3,
             "reduction.f_omega_max = 3: highest speed of the reduced model must be a number from 0.01 to 2 "
-            "(normalised)",
+            "(times the first frequency at rest; or rpm, Hz, rad/s)",
         ),
         (
             "analysis.peaks.orders",

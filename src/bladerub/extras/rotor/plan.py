@@ -123,7 +123,7 @@ def read_plan(path: str | Path, config: Mapping[str, Any]) -> Plan:
     `ConfigError` if it is no plan, or the study has not its casings or speeds: the message has file, line,
     key, value and what would be right.
     """
-    located = configuration.read_plan(path, "rotor_plan")
+    located = configuration.read_plan(path, "rotor_plan", study=config)
     plan = located.plain()
     sections = {name: located.content[name] for name in ("groups", "sweeps") if name in plan}
     if "patterns" in plan:

@@ -1,0 +1,167 @@
+"""One study typed in units and in plain numbers, and what is said of units that cannot be."""
+
+import math
+
+import pytest
+
+from bladerub.blade.build import frequency_at_rest, made_from
+from bladerub.blade.cache import first_frequency, kept_frequency
+from bladerub.config.errors import ConfigError
+from bladerub.config.quantities import number, references
+from bladerub.config.read import load, read, read_plan
+from bladerub.io.folders import ROOT
+from bladerub.study.grid import coating_cases, run_spec, speed_name, speeds
+from bladerub.study.plan import planned_run
+
+COARSE = "blade: {mesh: {chordwise: 8, thickness: 1, spanwise: 4}}\n"
+TYPED = """
+blade:
+  material: {young_modulus: 110 GPa, density: 4.43 g/cm3}
+  hub_radius: 458.2 mm
+  length: 20cm
+  tip_cone: 12.45 deg
+contact:
+  modulus_unit: 600 MPa
+  yield_stress: 9 Pa
+  layer_thickness: 6 mm
+  tip_profile: {edge_drop: 20 µm}
+  clearance: {leading_edge: 0.03 mm, trailing_edge: 0.043 %}
+  damping_ratio: 0.23 %
+casings: {2nd: {amplitude: 1 mm, interference: 500 um, start_angle: 90 deg}}
+coatings:
+  - {casing: 2nd, E: [66 MPa, 1.2 GPa], K: [300 MPa], theta: [0, 0.15 rad], layer_thickness: [4 mm]}
+reduction: {f_omega_max: 4600 rpm}
+speeds: {start: 2000 rpm, stop: 4600 rpm, step: 200 rpm, extra: [37.5 Hz]}
+sweeps: {stop: 4600 rpm}
+"""
+PLAIN = """
+blade: {{tip_cone: 12.45}}
+contact: {{damping_ratio: 2.3e-3}}
+coatings:
+  - {{casing: 2nd, E: [0.11, 2], K: [0.5], theta: [0.0, 0.15], layer_thickness: [4.0e-3]}}
+reduction: {{f_omega_max: {f_omega_max}}}
+speeds: {{start: {start}, stop: {stop}, step: {step}, extra: [{extra}]}}
+sweeps: {{stop: {stop}}}
+"""
+
+
+@pytest.fixture
+def study(tmp_path, monkeypatch):
+    """Read configs laid over that of the paper, with a coarse blade."""
+    monkeypatch.setenv("BLADERUB_CACHE", str(tmp_path / "cache"))
+
+    def read_over(text):
+        path = tmp_path / "my.yaml"
+        path.write_text(COARSE)
+        over = tmp_path / "over.yaml"
+        over.write_text(text)
+        return read(ROOT / "config" / "config.yaml", path, over)
+
+    return read_over
+
+
+def keys(config):
+    return {
+        f"{case.name}/{speed_name(f_omega)}": planned_run(
+            config, run_spec(config, case, f_omega), f"{speed_name(f_omega)}.h5", False, None
+        ).key("")
+        for case in coating_cases(config)
+        for f_omega in speeds(config)
+    }
+
+
+def test_a_study_has_the_same_keys_in_units_and_in_plain_numbers(study):
+    typed = study(TYPED)
+    rpm = 1 / 60 / first_frequency(typed)
+    plain = study(
+        PLAIN.format(
+            f_omega_max=math.ceil(4600 * rpm * 1e6) / 1e6,
+            **{name: f"{n * rpm:.12g}" for name, n in {"start": 2000, "stop": 4600, "step": 200}.items()},
+            extra=round(2250 * rpm, 6),
+        )
+    )
+    assert keys(typed) == keys(plain)
+    assert len(keys(typed)) == 4 * 15
+    assert made_from(typed) == made_from(plain)
+
+
+def test_a_grid_in_rpm_has_the_speeds_of_its_rpm(study):
+    config = study(TYPED)
+    typed = [*range(2000, 2400, 200), 2250, *range(2400, 4800, 200)]
+    reference = references(config)
+    assert speeds(config) == sorted(number("f_omega", f"{n} rpm", reference) for n in typed)
+    assert speeds(config)[-1] <= config["reduction"]["f_omega_max"]
+
+
+def test_the_first_frequency_is_that_of_the_blade_and_kept(study):
+    config = study("{}")
+    assert kept_frequency(config) is None
+    assert first_frequency(config) == pytest.approx(frequency_at_rest(config), rel=1e-8)
+    assert kept_frequency(config) == first_frequency(config)
+
+
+def test_a_quantity_is_not_scaled_and_a_plain_number_is(study):
+    scale = "scale: {length: 2, modulus: 3, time: 1}"
+    texts = [f"contact: {{layer_thickness: {h}, {scale}}}\nfigures: {{dpi: 160}}\n" for h in ("6 mm", 6e-3)]
+    (case, *_), configs = coating_cases(study(texts[0])), list(map(study, texts))
+    thickness = [run_spec(config, case, 0.19).coating.thickness for config in configs]
+    assert thickness == pytest.approx([6e-3, 12e-3])
+    assert number("E", "1.8 GPa", references(configs[0])) == 1.0
+
+
+def test_a_law_takes_units_of_its_parameters(study):
+    config = study("contact: {law: {name: viscoplastic, viscosity: 10 kPa s}}")
+    assert config["contact"]["law"]["viscosity"] == 1e4
+
+
+def test_a_plan_is_converted_for_its_study(study, tmp_path):
+    path = tmp_path / "plan.yaml"
+    text = (ROOT / "config" / "rotor.yaml").read_text()
+    assert load(ROOT / "config" / "rotor.yaml")["groups"]
+    path.write_text(text.replace("length_scatter: [0.0", "length_scatter: [0 µm"))
+    assert read_plan(path, "rotor_plan", study=study("{}")).plain() == load(ROOT / "config" / "rotor.yaml")
+
+
+@pytest.mark.parametrize(
+    ("setting", "words"),
+    [
+        (
+            "speeds: {start: 2000 mm}",
+            'speeds.start = "2000 mm": is a length; must be a speed: rpm, Hz, rad/s',
+        ),
+        ("speeds: {start: 2000}", 'this is 2000 times the first frequency at rest; write "2000 rpm"'),
+        ("speeds: {start: 2000 rmp}", 'unknown unit "rmp", did you mean rpm?; must be a speed'),
+        ("speeds: {stop: 9000 rpm}", "(9000 rpm): must be at most reduction.f_omega_max = 0.4"),
+        ("speeds: {step: '1,5 rpm'}", "speed step must be a number from 0.0001 to 2"),
+        ("chart: {E: [3.0e+8]}", 'this is 3e+08 times contact.modulus_unit; write "300 MPa"'),
+        ("chart: {E: [300 rpm]}", 'chart.E[0] = "300 rpm": is a speed; must be a pressure: MPa, GPa'),
+        ("chart: {theta: [8 mm]}", "is a length; must be an angle: deg, rad, or a number in rad"),
+        ("chart: {theta: [8]}", 'this is 8 rad; write "8 deg"'),
+        ("contact: {layer_thickness: 6}", 'this is 6 m; write "6 mm"'),
+        ("contact: {layer_thickness: 6 MPa}", "is a pressure; must be a length: mm, µm"),
+        ("contact: {layer_thickness: 6 mm2}", 'unknown unit "mm2"'),
+        ("contact: {layer_thickness: 6 MM}", 'unknown unit "MM", did you mean mm?'),
+        ("contact: {damping_ratio: 2 s}", "is a time; must be a number, or %"),
+        (
+            "contact: {law: {name: viscoplastic, viscosity: 1 mm}}",
+            "is a length; must be a number in the unit",
+        ),
+        ("blade: {material: {young_modulus: 110}}", 'this is 110 Pa; write "110 MPa" or "110 GPa"'),
+        ("blade: {material: {density: 4430 kg}}", "is a mass; must be a density: kg/m3, g/cm3"),
+        ("blade: {length: -1 m}", "blade.length = -1.0 (-1 m): blade length must be a number from 0.01"),
+        ("solver: {revolutions: 20 s}", "is a time; must be a whole number without a unit"),
+        ("solver: {tolerance: 1 Hz}", "is a speed; must be a number, or %"),
+    ],
+)
+def test_a_wrong_unit_is_named_with_the_right_ones(study, setting, words):
+    with pytest.raises(ConfigError) as error:
+        study(setting)
+    assert any(words in str(problem) for problem in error.value.problems), str(error.value)
+
+
+def test_a_blade_that_has_no_frequency_is_named_once(study):
+    with pytest.raises(ConfigError) as error:
+        study("speeds: {start: 2000 rpm}\nblade: {sections: []}")
+    first, second = error.value.problems
+    assert first.text.startswith("blade.sections = []")
+    assert second.text.startswith('speeds.start = "2000 rpm": needs f1 of this study, which is not known')
