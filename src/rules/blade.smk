@@ -1,6 +1,6 @@
 # Stage 1: the blade, built once: finite elements, reduction, accuracy of the reduction.
 
-from bladerub.blade.sources.origin import files
+from bladerub.blade.source import files, place
 from bladerub.workflow.invocation import damage, loss, replaces
 
 REDUCED_MODEL = f"{RESULTS}/blade/reduced_model.h5"
@@ -11,8 +11,8 @@ rule blade:
     input:
         replaces(workflow, REDUCED_MODEL, damage),
         replaces(workflow, MESH, damage),
-        code=files_behind("blade.cache"),
-        given=files(config["blade"]["source"]) if "source" in config["blade"] else [],
+        code=files_behind("blade.build", *filter(None, [place(config["blade"])])),
+        given=files(config["blade"]),
     output:
         **described(rom_accuracy=f"{RESULTS}/blade/rom_accuracy.csv"),
         reduced_model=REDUCED_MODEL,

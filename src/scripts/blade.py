@@ -7,8 +7,8 @@ job.log_to(snakemake.log[0])
 import logging
 
 from bladerub.blade.accuracy import doubts
+from bladerub.blade.build import build
 from bladerub.blade.built import write
-from bladerub.blade.cache import kept_or_built
 from bladerub.io.provenance import provenance
 
 logging.basicConfig(level=logging.WARNING, format="%(asctime)s %(message)s")
@@ -17,7 +17,7 @@ logging.getLogger("bladerub").setLevel(logging.INFO)
 # of the study, or of a sample of the robustness
 config = {**snakemake.config, "blade": snakemake.params.blade, "reduction": snakemake.params.reduction}
 files = {name: snakemake.output[name] for name in ("reduced_model", "mesh", "rom_accuracy")}
-built = kept_or_built(config)
+built = build(config)
 write(built, provenance(config), **files)
 for doubt in doubts(built.accuracy, config["figures"].get("nominal_speed")):
     job.print_doubt(f"{files['reduced_model']}: {doubt}")

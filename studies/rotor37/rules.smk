@@ -149,7 +149,7 @@ rule rotor37:
 
 use rule blade as rotor37_blade with:
     input:
-        code=files_behind("blade.cache"),
+        code=files_behind("blade.build", "extras.blades.file_source"),
         given="config/blades/rotor37.csv",
     output:
         **described(rom_accuracy=f"{ROTOR37}/{{set}}/blade/rom_accuracy.csv"),

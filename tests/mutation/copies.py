@@ -37,7 +37,7 @@ ROOMS = {
     "io": Room(f"{SOURCES}/io", ("tests/unit/io",)),
     "config": Room(f"{SOURCES}/config", ("tests/unit/config", "tests/unit/cli/test_cli.py")),
     "schema": Room("config", ("tests/unit/config",)),
-    "study": Room(f"{SOURCES}/study", ("tests/unit/study", "tests/validation/test_similarity.py")),
+    "study": Room(f"{SOURCES}/study", ("tests/unit/study",)),
     "findings": Room(
         f"{SOURCES}/study/findings", ("tests/unit/study/test_*find*.py", "tests/unit/study/test_claims.py")
     ),

@@ -12,7 +12,7 @@ import bladerub as br
 from bladerub import plugins
 from bladerub.io.folders import PACKAGE
 
-KINDS = ("PUBLIC", "COMMANDS", "MANIFESTS", "INVENTORIES", "MEASURES")
+KINDS = ("PUBLIC", "COMMANDS", "MANIFESTS", "INVENTORIES", "MEASURES", "SOURCES")
 PROGRAM = """
 import bladerub, bladerub.api.run, bladerub.workflow.integrity
 from bladerub.cli import parser
@@ -47,6 +47,6 @@ def test_the_core_does_without_extras(tmp_path):
     shutil.copytree(PACKAGE, tmp_path / "bladerub", ignore=without)
     environment = os.environ | {"PYTHONPATH": str(tmp_path)}
     lines = subprocess.check_output([sys.executable, "-c", PROGRAM], env=environment, text=True).splitlines()
-    assert lines[0].split() == ["new", "config", "run", "status", "import"]
+    assert lines[0].split() == ["new", "config", "run", "status"]
     assert "Rig" not in lines[1]
     assert "simulate" in lines[1]

@@ -15,7 +15,7 @@ from skfem import MeshTet1
 from bladerub.blade.build import build
 from bladerub.blade.elasticity import Material
 from bladerub.blade.geometry import BladeShape, lattice
-from bladerub.blade.sources.mesh_file import raised
+from bladerub.extras.blades.mesh_file import raised
 from bladerub.extras.export.calculix import frequencies, write_decks
 from bladerub.extras.export.mesh_file import write_mesh_file
 

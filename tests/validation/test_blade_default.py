@@ -8,7 +8,7 @@ import yaml
 
 from bladerub.blade.build import build
 from bladerub.blade.frequencies import tip_lean
-from bladerub.study.similarity import contact_scale
+from bladerub.extras.blades.similarity import contact_scale
 
 pytestmark = pytest.mark.slow
 

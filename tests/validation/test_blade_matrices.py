@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from bladerub.blade.build import discretise, meshed_blade, reduce_given
-from bladerub.blade.sources.matrices import import_matrices
-from bladerub.blade.sources.origin import MatrixSource
 from bladerub.contact.run import simulate
+from bladerub.extras.blades.matrices import import_matrices
+from bladerub.extras.blades.origin import MatrixSource
 from bladerub.extras.export.matrices import write_fe_matrices
 from bladerub.study.grid import CoatingCase, run_spec
 

@@ -11,9 +11,9 @@ import pandas as pd
 import pytest
 from scipy.interpolate import PchipInterpolator
 
-from bladerub.blade.sources.frame import Frame
-from bladerub.blade.sources.importing import import_blade
-from bladerub.blade.sources.origin import Source
+from bladerub.extras.blades.frame import Frame
+from bladerub.extras.blades.importing import import_blade
+from bladerub.extras.blades.origin import Source
 
 FILE = Path(__file__).parent / "rotor37_sections.dat"
 

@@ -16,8 +16,8 @@ from bladerub.blade.geometry import BladeShape
 from bladerub.blade.linear import lowest_modes
 from bladerub.blade.mesh import BladeMesh
 from bladerub.blade.rotation import equilibrium
-from bladerub.blade.sources.importing import import_blade
-from bladerub.blade.sources.origin import Source
+from bladerub.extras.blades.importing import import_blade
+from bladerub.extras.blades.origin import Source
 
 gmsh = pytest.importorskip("gmsh", reason="Gmsh (pip install gmsh) is not installed", exc_type=ImportError)
 

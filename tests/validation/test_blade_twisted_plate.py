@@ -32,9 +32,9 @@ from bladerub.blade.elasticity import Material, Solid
 from bladerub.blade.linear import factorise, lowest_modes
 from bladerub.blade.mesh import hexahedral_mesh
 from bladerub.blade.rotation import equilibrium
-from bladerub.blade.sources import mesh_file
 from bladerub.blade.surface import boundary_faces
 from bladerub.config import read as configuration
+from bladerub.extras.blades import mesh_file
 from bladerub.io.folders import ROOT
 
 PAGE = ROOT / "docs" / "explanation" / "twisted_plate.md"

@@ -7,9 +7,9 @@ import pytest
 
 from bladerub.blade.build import build
 from bladerub.contact.run import simulate
-from bladerub.study import similarity
+from bladerub.extras.blades import similarity
+from bladerub.extras.blades.similarity import contact_scale, tip_stiffness, track_area
 from bladerub.study.grid import CoatingCase, run_spec
-from bladerub.study.similarity import contact_scale, tip_stiffness, track_area
 
 
 @pytest.fixture(scope="module")

@@ -5,8 +5,8 @@ import pytest
 from skfem import MeshTet1
 
 from bladerub.blade.geometry import BladeShape, lattice
-from bladerub.blade.sources.mesh_file import raised
 from bladerub.config.read import load
+from bladerub.extras.blades.mesh_file import raised
 from bladerub.extras.export.mesh_file import write_mesh_file
 from bladerub.io import hdf5
 

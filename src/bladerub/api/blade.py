@@ -16,9 +16,9 @@ from bladerub.api.errors import InputError
 from bladerub.api.notebook import html_table
 from bladerub.api.study import Study
 from bladerub.blade.accuracy import ACCURACY_COLUMNS, doubts
-from bladerub.blade.build import is_built
+from bladerub.blade.build import build, is_built
 from bladerub.blade.built import accuracy_path, mesh_path, paths, write
-from bladerub.blade.cache import kept_at, kept_or_built
+from bladerub.blade.cache import kept_at
 from bladerub.blade.frequencies import reduced_frequencies, tip_lean
 from bladerub.blade.model import ReducedBlade
 from bladerub.blade.validation import read_valid_blade
@@ -224,4 +224,4 @@ def build_blade(study: Study) -> Blade:
 
 def write_blade(config: Mapping[str, Any], path: Path) -> None:
     """Build the blade of `config` and write it to `path`, its mesh and table of accuracy next to it."""
-    write(kept_or_built(config), provenance(config), *paths(path))
+    write(build(config), provenance(config), *paths(path))

@@ -1,9 +1,7 @@
 """From the config to the reduced blade and the tables that say how good it is."""
 
-import hashlib
 import json
 from collections.abc import Mapping
-from dataclasses import asdict
 from functools import lru_cache
 from pathlib import Path
 from typing import Any
@@ -19,14 +17,8 @@ from bladerub.blade.mesh import BladeMesh, MeshedBlade
 from bladerub.blade.model import N_INTERFACE, n_interface
 from bladerub.blade.reduction import fit_speeds
 from bladerub.blade.refinement import MOST_FIT_SPEEDS, reduce_to_tolerance
-from bladerub.blade.sources import matrix_folder, origin
-from bladerub.blade.sources.frame import Frame
-from bladerub.blade.sources.importing import import_blade
-from bladerub.blade.sources.matrices import import_matrices
+from bladerub.blade.source import reader
 from bladerub.io import hdf5
-from bladerub.io.errors import BadInput
-
-LENGTH_TOLERANCE = 0.05  # of ``blade.length`` to what an import measures: its root need not be a cylinder
 
 
 def made_from(config: Mapping[str, Any]) -> str:
@@ -35,18 +27,8 @@ def made_from(config: Mapping[str, Any]) -> str:
     Raises OSError or ValueError if a file that the blade comes from cannot be read or is missing.
     """
     blade = config["blade"]
-    spec = blade.get("source", {})
-    if spec:
-        spec = asdict(Frame()) | spec  # what a config leaves out is not another blade
-    if "matrices" in spec:
-        paths = matrix_folder.files(origin.read(spec).folder)
-        content = {name: _digest(path) for name, path in paths.items()}
-        blade = {"length": blade["length"], "source": {**spec, "matrices": content}}
-    elif spec:
-        source = origin.read(spec)
-        parts = ("material", "length", *(("mesh",) if source.is_table else ()))
-        blade = {name: blade[name] for name in parts}
-        blade["source"] = {**spec, "file": _digest(source.file)}
+    if source := reader(blade):
+        blade = source.recipe(blade)
     return json.dumps({"blade": blade, "reduction": config["reduction"]}, sort_keys=True)
 
 
@@ -58,28 +40,27 @@ def is_built(config: Mapping[str, Any], path: Path) -> bool:
     return hdf5.read_attributes(mesh).get("made_from") == made_from(config)
 
 
-def _digest(path: Path) -> str:
-    with path.open("rb") as file:
-        return hashlib.file_digest(file, "sha256").hexdigest()
-
-
 def build(config: Mapping[str, Any]) -> BuiltBlade:
     """Build the blade of the ``blade`` and ``reduction`` blocks of `config`.
 
     Raises ValueError if the blade cannot be meshed, its subclass BadInput if it cannot be imported, is not of
     its length or ``reduction.tolerance`` is not reached, EquilibriumError if it has no static equilibrium.
     """
-    if "matrices" in config["blade"].get("source", {}):
-        return reduce_given(_of_matrices(config), config)
+    if source := reader(config["blade"]):
+        return source.build(config)
     return reduce_meshed(meshed_blade(config["blade"], n_interface(config)), config)
 
 
 def frequency_at_rest(config: Mapping[str, Any]) -> float:
     """Return the first frequency at rest (Hz) of the blade that `build` builds; raises the same."""
-    if "matrices" in config["blade"].get("source", {}):
-        return float(_of_matrices(config).frequency[0])
+    if source := reader(config["blade"]):
+        return source.frequency_at_rest(config)
+    return frequency_of_mesh(meshed_blade(config["blade"], n_interface(config)), config)
+
+
+def frequency_of_mesh(blade: MeshedBlade, config: Mapping[str, Any]) -> float:
+    """Return the first frequency at rest (Hz) of a meshed blade of the material of `config`."""
     material = Material.from_config(config["blade"]["material"])
-    blade = meshed_blade(config["blade"], n_interface(config))
     return float(by_finite_elements(blade, material, (), (), 1).frequency[0])
 
 
@@ -98,45 +79,14 @@ def reduce_given(blade: DiscreteBlade, config: Mapping[str, Any]) -> BuiltBlade:
     return reduce_to_tolerance(lambda _: blade, config, made_from(config), len(fit_speeds(1.0)))
 
 
-def _of_matrices(config: Mapping[str, Any]) -> DiscreteBlade:
-    """Read the matrices that `config` names, of a blade of its length."""
-    length, reduction = config["blade"]["length"], config["reduction"]
-    source = origin.read(config["blade"]["source"])
-    imported = import_matrices(
-        source, reduction["f_omega_max"], reduction["accuracy_modes"], reduction["modes_per_speed"]
-    )
-    layout = imported.blade.layout
-    tip_radius = np.hypot(*layout.mesh.mesh.points[layout.mesh.tip, 1:].T).mean()
-    if imported.is_rooted:
-        _check_length(length, layout.length, source.folder)
-    elif not (1 - LENGTH_TOLERANCE) * layout.length <= length < tip_radius:
-        raise BadInput(
-            f"blade.length = {length:g}: must be that of the blade in {source.folder}, whose nodes reach "
-            f"over {layout.length:.4g} m up to a tip at a radius of {tip_radius:.4g} m"
-        )
-    return imported.blade
-
-
 @threadpool_limits.wrap(limits=1)
 def meshed_blade(blade: Mapping[str, Any], n_nodes: int = N_INTERFACE) -> MeshedBlade:
     """Mesh the blade of the ``blade`` block, or the one of its source, with `n_nodes` interface nodes."""
-    if "source" not in blade:
-        geometry.check(blade, n_nodes)
-        shape = geometry.BladeShape.from_config(blade)
-        return MeshedBlade(
-            BladeMesh.from_shape(shape, blade["mesh"], n_nodes), shape.tip_cone, blade["length"]
-        )
-    imported = import_blade(origin.read(blade["source"]), blade["mesh"], n_nodes).blade
-    _check_length(blade["length"], imported.length, blade["source"]["file"])
-    return imported
-
-
-def _check_length(length: float, measured: float, path: str | Path) -> None:
-    if abs(measured / length - 1) > LENGTH_TOLERANCE:
-        raise BadInput(
-            f"blade.length = {length:g}: must be that of the blade in {path}, {measured:.4g} m to within "
-            f"{LENGTH_TOLERANCE:.0%}; clearances are in this unit"
-        )
+    if source := reader(blade):
+        return source.meshed(blade, n_nodes)
+    geometry.check(blade, n_nodes)
+    shape = geometry.BladeShape.from_config(blade)
+    return MeshedBlade(BladeMesh.from_shape(shape, blade["mesh"], n_nodes), shape.tip_cone, blade["length"])
 
 
 def discretise(blade: MeshedBlade, config: Mapping[str, Any]) -> DiscreteBlade:

@@ -1,4 +1,4 @@
-"""Blades that were built outside of a study: those of the Python interface and of ``bladerub import``."""
+"""Blades that were built outside of a study, such as those of the Python interface."""
 
 import hashlib
 import json
@@ -7,12 +7,11 @@ from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
-from bladerub.blade import built
-from bladerub.blade.build import build, frequency_at_rest, is_built, made_from
-from bladerub.blade.built import BuiltBlade
+from bladerub.blade.build import frequency_at_rest, made_from
+from bladerub.blade.source import reader_digest
 from bladerub.io import atomic
 from bladerub.io.folders import cache_folder
-from bladerub.io.provenance import packages, provenance
+from bladerub.io.provenance import packages
 from bladerub.io.sources import builder_digest
 
 
@@ -26,7 +25,7 @@ def kept_at(config: Mapping[str, Any]) -> Path:
 
 
 def _name(config: Mapping[str, Any]) -> str:
-    recipe = json.dumps([made_from(config), builder_digest(), packages()])
+    recipe = json.dumps([made_from(config), builder_digest(), reader_digest(config["blade"]), packages()])
     return hashlib.sha256(recipe.encode()).hexdigest()[:16]
 
 
@@ -58,23 +57,3 @@ def rounded_frequency(f1_hz: float) -> float:
 def _frequency_path(config: Mapping[str, Any]) -> Path:
     of_blade = {"blade": config["blade"], "reduction": {}}  # which at rest has no part in it
     return cache_folder() / "frequencies" / _name(of_blade)
-
-
-def keep(blade: BuiltBlade, config: Mapping[str, Any]) -> None:
-    """Keep the blade of `config` for its study; raises OSError if it cannot be written."""
-    path = kept_at(config)
-    if not is_built(config, path):
-        built.write(blade, provenance(config), *built.paths(path))
-
-
-def kept_or_built(config: Mapping[str, Any]) -> BuiltBlade:
-    """Return the blade of `config`: of another program, and kept, as it is kept; else built now.
-
-    Raises as `bladerub.blade.build.build`.
-    """
-    if "source" in config["blade"]:
-        with suppress(OSError):  # damaged: it is built again
-            path = kept_at(config)
-            if is_built(config, path):
-                return built.read(path)
-    return build(config)

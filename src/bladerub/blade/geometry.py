@@ -27,6 +27,7 @@ import scipy  # its parts when they are used: every call of snakemake imports th
 
 from bladerub.blade.model import N_INTERFACE
 
+MOST_ELEMENTS = 20_000  # some 300,000 unknowns: beyond, their factors fill the memory
 EDGE_THICKNESS = 0.4  # over the largest of a section: blunt, so that hexahedra keep their shape
 _COLUMNS = ("chord", "thickness", "camber", "stagger", "sweep", "lean")
 
@@ -84,6 +85,13 @@ def lattice(mesh: Mapping[str, int]) -> tuple[np.ndarray, np.ndarray, np.ndarray
     """ξ, η, ζ of the element corners of a mesh of ``chordwise`` × ``thickness`` × ``spanwise`` elements."""
     xi, eta, zeta = (np.linspace(0, 1, int(mesh[key]) + 1) for key in ("chordwise", "thickness", "spanwise"))
     return xi, eta, zeta
+
+
+def check_size(mesh: Mapping[str, int]) -> None:
+    """Check that a mesh has no more elements than fit into memory, or raise ValueError."""
+    n_elements = mesh["chordwise"] * mesh["thickness"] * mesh["spanwise"]
+    if n_elements > MOST_ELEMENTS:
+        raise ValueError(f"blade.mesh: has {n_elements} elements, must be {MOST_ELEMENTS} or fewer")
 
 
 def check(blade: Mapping[str, Any], n_interface: int = N_INTERFACE) -> None:

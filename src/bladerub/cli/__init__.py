@@ -10,13 +10,13 @@ from io import TextIOWrapper
 from typing import Any
 
 from bladerub import __version__, plugins
-from bladerub.cli import config, import_blade, new, run, status
+from bladerub.cli import config, new, run, status
 from bladerub.cli.inputs import Parser
 from bladerub.config.errors import ConfigError
 from bladerub.io.errors import BadInput, message_for
 from bladerub.io.folders import provide_for_unknown_user
 
-_COMMANDS = (new, config, run, status, import_blade)
+_COMMANDS = (new, config, run, status)
 
 
 def parser() -> argparse.ArgumentParser:
@@ -42,7 +42,7 @@ def main(arguments: list[str] | None = None) -> int:
     """Run the command line; return 0, 1 where numbers differ, 2 on bad input, 130 when interrupted."""
     for stream in (sys.stdout, sys.stderr):
         _write_any_text(stream)
-    options = parser().parse_args(import_blade.joined(sys.argv[1:] if arguments is None else arguments))
+    options = parser().parse_args(arguments)
     code, message = 2, None
     try:
         provide_for_unknown_user()

@@ -29,13 +29,28 @@ class InputError(BadInput):
 class Parser(argparse.ArgumentParser):
     """Reports a bad command line in one line, without the usage."""
 
+    def __init__(self, *args: Any, **keywords: Any):
+        super().__init__(*args, **keywords)
+        self._choices: dict[str, Iterable[str]] = {}  # by option
+
     def error(self, message: str) -> NoReturn:
         """Exit with code 2."""
         self.exit(2, f"{self.prog}: {message} (see {self.prog} --help)\n")
 
     def option(self, name: str, text: str, kind: Callable | None = None, **keywords: Any) -> None:
         """Add an option of this kind (default text) with its help text."""
-        self.add_argument(name, type=kind, help=text, **keywords)
+        action = self.add_argument(name, type=kind, help=text, **keywords)
+        self._choices[name] = action.choices or ()
+
+    def parse_known_args(self, args: Any = None, namespace: Any = None) -> Any:
+        """Parse, with ``--downstream -z`` as ``--downstream=-z`` if ``-z`` is one of the choices."""
+        words: list[str] = []
+        for word in sys.argv[1:] if args is None else args:
+            if words and word.startswith("-") and word in self._choices.get(words[-1], ()):
+                words[-1] += f"={word}"
+            else:
+                words.append(word)
+        return super().parse_known_args(words, namespace)
 
 
 @contextmanager

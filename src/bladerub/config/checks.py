@@ -10,7 +10,7 @@ import numpy as np
 
 from bladerub.blade import geometry
 from bladerub.blade.model import n_interface
-from bladerub.blade.sources import origin
+from bladerub.blade.source import reader
 from bladerub.config.errors import format_value, top_key
 from bladerub.contact.casing import shape
 from bladerub.contact.heating import cell_heights
@@ -38,7 +38,6 @@ Check = Callable[[Config], Iterator[str]]
 SOURCE_FOLDERS = ("benchmarks", "build", "config", "docs", "profiles", "src", "studies", "tests")
 """Folders of the repository, not for results."""
 
-MOST_ELEMENTS = 20_000  # of a blade's mesh, some 300,000 unknowns: beyond, its factors fill the memory
 MOST_RUNS = 2_000_000  # of a study
 MOST_SAMPLES = 20_000_000  # that a run keeps in memory, one an element and revolution
 
@@ -86,41 +85,12 @@ def _results(config: Config) -> Iterator[str]:
 
 @_reads("blade", "reduction")
 def _blade(config: Config) -> Iterator[str]:
-    blade, n_nodes = config["blade"], n_interface(config)
-    if "source" in blade:
-        yield from _blade_source(blade, n_nodes)
+    blade = config["blade"]
+    if source := reader(blade):
+        yield from source.problems(config)
     else:
-        _check_size(blade["mesh"])
-        geometry.check(blade, n_nodes)
-
-
-def _blade_source(blade: Config, n_nodes: int) -> Iterator[str]:
-    try:
-        source = origin.read(blade["source"])
-    except ValueError as error:
-        yield f"blade.source.{error}"
-        return
-    if isinstance(source, origin.MatrixSource):
-        from bladerub.blade.sources import matrix_folder  # imports the solver, which a plan does without
-
-        try:
-            matrix_folder.files(source.folder)
-        except ValueError as error:
-            setting = f"blade.source.matrices = {format_value(blade['source']['matrices'])}"
-            yield f"{setting}: {error} ({source.folder})"
-        return
-    if not source.file.is_file():
-        setting = f"blade.source.file = {format_value(blade['source']['file'])}"
-        yield f"{setting}: there is no such file ({source.file})"
-    if source.is_table:
-        _check_size(blade["mesh"])
-        geometry.check_interface(blade["mesh"], n_nodes)
-
-
-def _check_size(mesh: Config) -> None:
-    n_elements = mesh["chordwise"] * mesh["thickness"] * mesh["spanwise"]
-    if n_elements > MOST_ELEMENTS:
-        raise ValueError(f"blade.mesh: has {n_elements} elements, must be {MOST_ELEMENTS} or fewer")
+        geometry.check_size(blade["mesh"])
+        geometry.check(blade, n_interface(config))
 
 
 @_reads("reduction")
@@ -129,13 +99,6 @@ def _accuracy_modes(config: Config) -> Iterator[str]:
     limit = 3 * n_interface(config) + per_speed  # coordinates that the reduced model has for sure
     if modes > limit:
         yield f"reduction.accuracy_modes = {modes}: must be at most {limit}, with {per_speed} modes_per_speed"
-
-
-@_reads("reduction", "blade")
-def _fit_speeds(config: Config) -> Iterator[str]:
-    count = config["reduction"].get("fit_speeds", 3)
-    if count != 3 and "matrices" in config["blade"].get("source", {}):
-        yield f"reduction.fit_speeds = {count}: must be 3 with blade.source.matrices"
 
 
 @_reads("rotor", "contact", "coatings", "solver", "blade")

@@ -12,10 +12,10 @@ from typing import Any
 
 import numpy as np
 
-from bladerub.blade.sources.frame import ANGLE_UNITS, UNITS
 from bladerub.contact.spec import Casing
 from bladerub.io import cells
 from bladerub.io.folders import study_folder
+from bladerub.io.units import ANGLE_UNITS, UNITS
 
 MEASURED_ANGLES = (8, 10_000)
 """Fewest and most angles of a measured gap."""

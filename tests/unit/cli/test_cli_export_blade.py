@@ -4,9 +4,9 @@ import meshio
 import numpy as np
 import pytest
 
-from bladerub.blade.sources import mesh_file
 from bladerub.blade.validation import read_reduced_blade
 from bladerub.cli import inputs, main
+from bladerub.extras.blades import mesh_file
 from bladerub.io import hdf5
 
 

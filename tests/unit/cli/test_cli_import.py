@@ -12,9 +12,9 @@ from bladerub.blade import build, built, cache
 from bladerub.blade.frequencies import reduced_frequencies
 from bladerub.blade.geometry import BladeShape
 from bladerub.blade.mesh import BladeMesh
-from bladerub.blade.sources import section_text
 from bladerub.cli import main
 from bladerub.config import read as configuration
+from bladerub.extras.blades import section_text
 from bladerub.extras.export.mesh_file import write_mesh_file
 from bladerub.extras.export.sections import write_sections
 from bladerub.io.folders import ROOT
@@ -207,19 +207,21 @@ def test_the_study_takes_the_blade_that_was_imported(look, folder, tmp_path, mon
     assert config["figures"]["nominal_speed"] == 9000
     source = dict(config["blade"]["source"])
     del config["blade"]["source"]["radial"]  # its default, as in a config by hand
-    built_now, folders = build.build(config), [tmp_path / name for name in ("now", "kept")]
-    monkeypatch.setattr(cache, "build", lambda config: pytest.fail("built again"))
-    for blade, into in zip((built_now, cache.kept_or_built(config)), folders, strict=True):
+    meshed = build.meshed_blade(config["blade"])
+    built_now, folders = build.reduce_meshed(meshed, config), [tmp_path / name for name in ("now", "kept")]
+    monkeypatch.setattr(build, "meshed_blade", lambda *_: pytest.fail("built again"))
+    for blade, into in zip((built_now, build.build(config)), folders, strict=True):
         into.mkdir()
         built.write(blade, provenance(config), *built.paths(into / "reduced_model.h5"))
     files = sorted(path.name for path in folders[0].iterdir())
     assert len(files) == 4
     assert all((folders[0] / name).read_bytes() == (folders[1] / name).read_bytes() for name in files)
     cache.kept_at(config).write_bytes(b"damaged")
-    monkeypatch.setattr(cache, "build", lambda config: "built again")
-    assert cache.kept_or_built(config) == "built again"
+    monkeypatch.setattr(build, "meshed_blade", lambda *_: None)
+    monkeypatch.setattr(build, "reduce_meshed", lambda *_: "built again")
+    assert build.build(config) == "built again"
     config["blade"]["source"] = source | {"unit": "m"}
-    assert cache.kept_or_built(config) == "built again"
+    assert build.build(config) == "built again"
 
 
 def test_speeds_of_the_crossings_are_told(look, folder, tmp_path, monkeypatch):

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from bladerub.cli import import_blade, parser
+from bladerub.cli import parser
 
 ROOT = Path(__file__).parents[3]
 PAGES = [
@@ -34,7 +34,7 @@ def parses(command):
     """Whether the parser accepts a command line."""
     words = shlex.split(command, comments=True)[1:]
     try:
-        parser().parse_args(import_blade.joined(words))
+        parser().parse_args(words)
     except SystemExit as end:
         return end.code == 0  # --help
     return True

@@ -105,7 +105,7 @@ class TestCoverage:
 
     def test_of_the_files_of_runs(self, left_out):
         # the values that the grid makes of the config are in the key
-        config = {"study/grid.py", "study/casings.py", "blade/sources/frame.py"}
+        config = {"study/grid.py", "study/casings.py"}
         assert left_out("study.store", SOLVER, STORAGE) == config
 
     def test_of_the_decision_which_runs_are_repeated(self, left_out):
@@ -113,6 +113,6 @@ class TestCoverage:
 
     def test_of_the_points_of_the_chart(self, left_out):
         # values and orders of the config are in the key
-        config = {"study/grid.py", "study/casings.py", "study/orders.py", "blade/sources/frame.py"}
+        config = {"study/grid.py", "study/casings.py", "study/orders.py"}
         found = left_out("extras.chart.search", SOLVER, CHART)
         assert found == config | {"study/manifest.py"}  # the name of a longer run

@@ -4,7 +4,6 @@ import argparse
 from pathlib import Path
 from typing import Any
 
-from bladerub.blade.sources.origin import TABLE_SUFFIXES
 from bladerub.cli import inputs
 from bladerub.cli.inputs import InputError, refused
 
@@ -138,6 +137,8 @@ def in_words(figures: dict[str, Any]) -> str:
 
 def write_sections(options: argparse.Namespace, config: dict[str, Any]) -> dict[str, Any]:
     """Write the table that the command line asks for; return its size."""
+    from bladerub.extras.blades.origin import TABLE_SUFFIXES
+
     path = options.sections
     if path.suffix.lower() not in TABLE_SUFFIXES:
         raise InputError(f"--sections {path}: must end in {', '.join(TABLE_SUFFIXES)}")

@@ -11,7 +11,7 @@ from bladerub.blade.discrete import DiscreteBlade
 from bladerub.blade.mesh import BladeMesh
 from bladerub.blade.model import ReducedBlade
 from bladerub.blade.reduction import fit_speeds
-from bladerub.blade.sources.matrix_folder import AT_SPEED, FIT, MASS, NODES
+from bladerub.extras.blades.matrix_folder import AT_SPEED, FIT, MASS, NODES
 from bladerub.io import atomic
 
 SUFFIXES = (".npz", ".mat")

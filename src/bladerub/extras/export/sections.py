@@ -6,8 +6,8 @@ import numpy as np
 import pandas as pd
 
 from bladerub.blade.geometry import BladeShape
-from bladerub.blade.sources.frame import Frame
-from bladerub.blade.sources.section_text import CYLINDRICAL, POINTS
+from bladerub.extras.blades.frame import Frame
+from bladerub.extras.blades.section_text import CYLINDRICAL, POINTS
 from bladerub.io import atomic
 
 N_SECTIONS, N_STATIONS = 21, 61
@@ -21,7 +21,7 @@ def write_sections(path: str | Path, shape: BladeShape, coordinates: str) -> tup
 
     Units and axes are the defaults of an import: m, rad, the blade's frame. Coordinates are ``cartesian``,
     points of the surface, or ``cylindrical``, axial position, radius and angles, which raises ValueError for
-    a side that goes back along the axis (`bladerub.blade.sources.section_table`).
+    a side that goes back along the axis (`bladerub.extras.blades.section_table`).
     """
     section, columns = (_cartesian, POINTS) if coordinates == "cartesian" else (_cylindrical, CYLINDRICAL)
     heights = enumerate(np.linspace(0, 1, N_SECTIONS).tolist(), 1)

@@ -11,11 +11,11 @@ from bladerub.blade.frequencies import reduced_frequencies, tip_lean
 from bladerub.blade.model import ReducedBlade
 from bladerub.blade.tip import tip_radius
 from bladerub.contact.result import RunResult
+from bladerub.extras.blades.similarity import tip_stiffness
 from bladerub.io import tables
 from bladerub.study import divergence, peaks
 from bladerub.study.maps import CoatingMap
 from bladerub.study.orders import peak_settings
-from bladerub.study.similarity import tip_stiffness
 from bladerub.study.spectra import order_spectrum
 
 COLUMNS = ["number", "value", "unit", "resolution"]

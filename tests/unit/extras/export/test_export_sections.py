@@ -7,10 +7,10 @@ from bladerub.blade.geometry import BladeShape
 from bladerub.blade.linear import lowest_modes
 from bladerub.blade.mesh import BladeMesh
 from bladerub.blade.rotation import equilibrium
-from bladerub.blade.sources.frame import Frame
-from bladerub.blade.sources.importing import import_blade
-from bladerub.blade.sources.origin import Source
 from bladerub.config.read import load
+from bladerub.extras.blades.frame import Frame
+from bladerub.extras.blades.importing import import_blade
+from bladerub.extras.blades.origin import Source
 from bladerub.extras.export.sections import write_sections
 from bladerub.io.folders import ROOT
 

@@ -1,0 +1,53 @@
+"""Where the blade of a config comes from if it is not parametric: ``blade.source``.
+
+Each key of ``blade.source`` that names a place, such as a file, has a module of its own, which plugs in
+(``SOURCES`` of `bladerub.plugins`). In the module are
+
+============================= ==========================================================================
+``problems(config)``          yields a line for each thing in `config` that cannot be
+``recipe(blade)``             the block ``blade`` with all that determines the blade, and no more
+``files(source)``             the files that the block ``source`` names, relative to the study
+``meshed(blade, n_nodes)``    the meshed blade with `n_nodes` interface nodes, where there are elements
+``build(config)``             the `bladerub.blade.built.BuiltBlade`
+``frequency_at_rest(config)`` its first frequency at rest, Hz
+============================= ==========================================================================
+"""
+
+from collections.abc import Mapping
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+from bladerub import plugins
+from bladerub.io.sources import source_digest
+
+
+def place(blade: Mapping[str, Any]) -> str | None:
+    """Name the module, below ``bladerub``, for the source of the block ``blade``; None of a parametric blade.
+
+    Raises a ValueError that begins with the key if there is none.
+    """
+    if "source" not in blade:
+        return None
+    places = plugins.offered("SOURCES")
+    if not places.keys() & blade["source"].keys():
+        raise ValueError(f"blade.source: must have {' or '.join(sorted(places)) or 'a plugin that reads it'}")
+    return next(place for key, place in places.items() if key in blade["source"])
+
+
+def reader(blade: Mapping[str, Any]) -> ModuleType | None:
+    """Import the module that `place` names; None of a parametric blade."""
+    module = place(blade)
+    return module and plugins.load(module)
+
+
+def files(blade: Mapping[str, Any]) -> list[str]:
+    """List the files that the block ``blade`` names; ValueError if one that is needed is missing."""
+    module = reader(blade)
+    return module.files(blade["source"]) if module else []
+
+
+def reader_digest(blade: Mapping[str, Any]) -> str | None:
+    """Digest the sources in the folder of the module for the block ``blade``; None of a parametric blade."""
+    module = reader(blade)
+    return module and source_digest(Path(module.__file__).parent.rglob("*.py"))

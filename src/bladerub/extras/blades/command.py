@@ -1,0 +1,322 @@
+"""``bladerub import``: check a blade from another program before its study."""
+
+import argparse
+import os
+import sys
+from contextlib import suppress
+from dataclasses import asdict
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import yaml
+
+from bladerub.blade.model import ReducedBlade
+from bladerub.cli import inputs
+from bladerub.config import read as configuration
+from bladerub.extras.blades import origin, section_text
+from bladerub.extras.blades.frame import AXES, Frame
+from bladerub.extras.blades.origin import MATRIX_UNITS, MatrixSource, Source
+from bladerub.io.folders import base_config, study_folder
+from bladerub.io.units import ANGLE_UNITS, UNITS
+
+if TYPE_CHECKING:  # loads numba
+    from bladerub.blade.built import BuiltBlade
+
+_FEWEST_SPEEDS = 5
+_NAMES = (
+    *("unit", "angle_unit", "rotation", "downstream", "radial", "root_set", "tip_set", "tip_cone"),
+    *("matrix_units", "omega_max"),
+)
+
+
+def add_to(commands: Any) -> None:
+    """Add this command to the subparsers `commands`."""
+    parser = inputs.add_command(
+        commands,
+        "import",
+        import_blade,
+        blade=False,
+        help="check a blade from another program before its study",
+        description="Read a mesh and find its root, tip and interface nodes, or mesh the sections of a table "
+        "with the numbers of elements of the config, or read a folder with matrices and a list of nodes. "
+        "Reduce the blade as the config says, and report its properties and warnings. Nothing is written but "
+        "the reduced blade, into the cache of this user, from which its study takes it. "
+        "The last lines printed go into a config, whose study is then of that blade. Material (not for "
+        "matrices) and reduction are those of the config; the material in a deck (.inp) "
+        "replaces that of the study. The other options default to blade.source of the "
+        "config, and if that has none to the values given here.",
+    )
+    text = "mesh (.inp, .msh or .vtu), sections (.csv, .txt or .dat) or folder of matrices"
+    parser.add_argument("file", type=Path, metavar="PATH", help=text)
+    parser.option("--unit", "unit of length in the file (default m)", choices=tuple(UNITS))
+    text = "unit of theta1 and theta2 of sections (default rad)"
+    parser.option("--angle-unit", text, choices=tuple(ANGLE_UNITS))
+    for name, meaning in (
+        ("rotation", "the blade turns about this by the right-hand rule (default -x)"),
+        ("downstream", "the air flows along this (default x)"),
+        ("radial", "from root to tip (default z)"),
+    ):
+        parser.option(f"--{name}", f"axis of the file: {meaning}", choices=AXES, metavar="AXIS")
+    parser.option("--root-set", "set of the clamped nodes (default: found)", metavar="NAME")
+    parser.option("--tip-set", "set of the nodes of the tip (default: found)", metavar="NAME")
+    text = "half angle of the casing, positive where it widens downstream (default: fitted to the tip)"
+    parser.option("--tip-cone", text, float, metavar="DEGREES")
+    parser.option("--matrix-units", "of the matrices (default SI)", choices=tuple(MATRIX_UNITS))
+    text = "nominal speed of the rotor, revolutions a minute (default: figures.nominal_speed of the config)"
+    parser.option("--rpm", text, float, metavar="N")
+    text = "speed of stiffness_max, to be checked against reduction.f_omega_max"
+    parser.option("--omega-max", text, float, metavar="RAD_PER_S")
+
+
+def import_blade(options: argparse.Namespace) -> None:
+    """Read and reduce the blade that the command line names, and print its properties."""
+    path = Path(os.path.realpath(options.file))  # Path.resolve fails where links form a circle
+    if not path.is_dir():
+        _refuse_at_once(path)
+    config = inputs.read_config(options)
+    reduction = dict(config["reduction"])
+    option_values = {name: getattr(options, name) for name in _NAMES if getattr(options, name) is not None}
+    kind = "matrices" if path.is_dir() else "file"
+    folder = study_folder()
+    entry_path = path.relative_to(folder) if path.is_relative_to(folder) else path  # as configs name it
+    source_settings = config["blade"].get("source", {})
+    source_settings = {
+        name: value for name, value in source_settings.items() if name not in ("file", "matrices")
+    }
+    entry = {kind: str(entry_path)} | asdict(Frame()) | source_settings | option_values
+
+    nominal = config["figures"].get("nominal_speed") if options.rpm is None else options.rpm
+
+    with inputs.refused(ValueError):
+        source = origin.read(entry)
+
+    from bladerub.extras.blades.similarity import contact_scale, tip_stiffness
+
+    with inputs.refused(ValueError):
+        if isinstance(source, MatrixSource):
+            (figures, reduced), rows = _read_matrices(source, config, entry, nominal), _matrix_rows
+        else:
+            (figures, reduced), rows = _read_mesh(source, config, entry, nominal), _mesh_rows
+    scale = contact_scale(reduced)
+    figures["tip_stiffness"] = tip_stiffness(reduced)
+    study = configuration.read(base_config())
+    blade_settings = {} if isinstance(source, MatrixSource) else {"material": config["blade"]["material"]}
+    mesh = _changed(config["blade"]["mesh"], study["blade"]["mesh"]) if "sections" in figures else {}
+    blade_settings |= {"mesh": mesh} if mesh else {}
+    reduction = _changed(reduction, study["reduction"])
+    drawn = {} if nominal is None else {"nominal_speed": nominal}
+    figures["config"] = {
+        "blade": {"length": reduced.length, "source": entry} | blade_settings,
+        "contact": {"scale": {name: float(f"{factor:.6g}") for name, factor in scale.items()}},
+    } | {name: changes for name, changes in (("reduction", reduction), ("figures", drawn)) if changes}
+    inputs.show(options, figures, lambda figures: _in_words(rows(figures), figures))
+
+
+def _refuse_at_once(path: Path) -> None:
+    """Refuse a file that is plainly no blade before anything that takes seconds to import."""
+    with inputs.refused(ValueError, because=f"{path}: "):
+        origin.check_file(path)
+        if path.suffix.lower() in origin.TABLE_SUFFIXES:
+            section_text.read(path)
+
+
+def _of_study(config: dict[str, Any], entry: dict[str, Any], length: float) -> dict[str, Any]:
+    """Lay what is printed for the config of the blade's study over `config`."""
+    return config | {"blade": config["blade"] | {"length": round(length, 6), "source": entry}}
+
+
+def _keep(built: "BuiltBlade", config: dict[str, Any]) -> None:
+    """Keep the blade for its study, which else builds it itself."""
+    from bladerub.extras.blades.kept import keep
+
+    with suppress(OSError):
+        keep(built, config)
+
+
+def _changed(values: dict[str, Any], study_values: dict[str, Any]) -> dict[str, Any]:
+    """Values that are not those of the study, which the printed config has to give as well."""
+    return {name: value for name, value in values.items() if value != study_values.get(name)}
+
+
+def _read_mesh(
+    source: Source, config: dict[str, Any], entry: dict[str, Any], nominal: float | None
+) -> tuple[dict[str, Any], ReducedBlade]:
+    """Import and reduce the mesh of `source`; return the figures and the reduced blade."""
+    # with fewer, all speeds of the table are those of the fit, where eq. (2) is exact
+    config["reduction"]["accuracy_speeds"] = max(_FEWEST_SPEEDS, config["reduction"]["accuracy_speeds"])
+
+    from bladerub.blade.build import reduce_meshed
+    from bladerub.blade.elasticity import Material
+    from bladerub.blade.model import n_interface
+    from bladerub.extras.blades import importing
+    from bladerub.extras.blades.report import mesh_report
+
+    doubt = _take_material(source, config)
+    imported = importing.import_blade(source, config["blade"]["mesh"], n_interface(config))
+    if sys.stderr.isatty():  # a fine mesh takes minutes
+        nodes, speeds = len(imported.blade.mesh.mesh.points), config["reduction"]["accuracy_speeds"]
+        print(f"bladerub import: reducing a mesh of {nodes} nodes at {speeds} speeds", file=sys.stderr)
+    config = _of_study(config, entry, imported.blade.length)
+    built = reduce_meshed(imported.blade, config)
+    _keep(built, config)
+    material = Material.from_config(config["blade"]["material"])
+    figures = mesh_report(source, imported, built, material, nominal) | {"material": asdict(material)}
+    figures["warnings"] = [*filter(None, [doubt]), *figures["warnings"]]
+    return figures, built.reduced
+
+
+def _take_material(source: Source, config: dict[str, Any]) -> str | None:
+    """Put the material of a deck into `config` in place of the study's; return what else is to be said."""
+    from bladerub.extras.blades import deck_material
+
+    in_config = config["blade"]["material"]
+    try:
+        in_file = None if source.is_table else deck_material.read(source.file, source.frame.unit)
+    except ValueError as error:
+        return f"the material of the config is used, {_of_material(in_config)}; not that of the file: {error}"
+    if in_file is not None and in_config == configuration.read(base_config())["blade"]["material"]:
+        config["blade"] = config["blade"] | {"material": in_file}
+    elif in_file not in (None, in_config):
+        return (
+            f"the material of the config is used, {_of_material(in_config)}; the file has another, "
+            f"{_of_material(in_file)}"
+        )
+    return None
+
+
+def _of_material(material: dict[str, float]) -> str:
+    return "{young_modulus:g} Pa, {poisson_ratio:g}, {density:g} kg/m³".format(**material)
+
+
+def _mesh_rows(figures: dict[str, Any]) -> dict[str, str]:
+    """Describe the figures of a mesh or of sections, by the name of each."""
+    from bladerub.blade.accuracy import percent
+
+    eq2, rom = (max(figures[name][:6]) for name in ("error_eq2", "error_reduced_model"))
+    rows = {
+        "mesh": f"{figures['elements']} {figures['element']}, {figures['nodes']} nodes, "
+        f"{figures['unknowns']} unknowns, {figures['elements_root_to_tip']} elements from root to tip",
+        **_extents(figures),
+        "length": f"{1e3 * figures['length']:.4g} mm, chord at the tip {1e3 * figures['tip_chord']:.4g} mm, "
+        f"cone there {round(figures['tip_cone_degrees'], 3) + 0.0:g} degrees",
+        "root and tip": f"{figures['root_nodes']} and {figures['tip_nodes']} nodes; interface nodes up to "
+        f"{1e3 * figures['interface_offset']:.3g} mm from their even places on the camber line",
+        "volume and mass": f"{1e6 * figures['volume']:.4g} cm³, {figures['mass']:.4g} kg",
+        "material": _of_material(figures["material"]),
+        "worst Jacobian": f"{figures['worst_jacobian']:.3g} (smallest over largest in an element)",
+        "first frequency": f"{_first_frequency(figures)}, where rotation moves the blade by "
+        f"{1e3 * figures['centrifugal_displacement']:.3g} mm",
+        "reduced model": f"{figures['reduced_coordinates']} coordinates; in six modes eq. (2) is up to "
+        f"{percent(eq2)} % off, with the reduction {percent(rom)} %",
+    }
+    if "sections" in figures:
+        hub, *_, tip = figures["sections"]
+        chords, thicknesses = (
+            f"{1e3 * hub[name]:.4g} to {1e3 * tip[name]:.4g} mm" for name in ("chord", "thickness")
+        )
+        rows["sections"] = (
+            f"{len(figures['sections'])}, {hub['name']} to {tip['name']}: chord {chords}, largest thickness "
+            f"{thicknesses}"
+        )
+    return rows
+
+
+def _read_matrices(
+    source: MatrixSource, config: dict[str, Any], entry: dict[str, Any], nominal: float | None
+) -> tuple[dict[str, Any], ReducedBlade]:
+    """Import and reduce the matrices of `source`; return the figures and the reduced blade."""
+    from bladerub.blade.build import reduce_given
+    from bladerub.extras.blades.matrices import import_matrices
+    from bladerub.extras.blades.report import matrix_report
+
+    reduction = config["reduction"]
+    imported = import_matrices(
+        source, reduction["f_omega_max"], reduction["accuracy_modes"], reduction["modes_per_speed"]
+    )
+    config = _of_study(config, entry, imported.blade.layout.length)
+    built = reduce_given(imported.blade, config)
+    _keep(built, config)
+    return matrix_report(source, imported, built, nominal), built.reduced
+
+
+def _matrix_rows(figures: dict[str, Any]) -> dict[str, str]:
+    """Describe the figures, by the name of each."""
+    from bladerub.blade.accuracy import percent
+
+    measured = "" if figures["length_is_measured"] else " that its nodes reach over"
+    omission = (
+        "" if figures["mass_is_whole"] else " without that of the clamped nodes, whose rows are not there"
+    )
+    first, last = (figures["interface"][end] for end in (0, -1))
+    rom = max(figures["error_reduced_model"][:6])
+    if figures["error_eq2"] is None:
+        eq2 = "eq. (2) is exact at the speeds of the files"
+    else:
+        eq2 = f"eq. (2) is up to {percent(max(figures['error_eq2'][:6]))} % off"
+    return {
+        "matrices": f"{figures['nodes']} nodes, {figures['unknowns']} unknowns",
+        **_extents(figures),
+        "length": f"{1e3 * figures['length']:.4g} mm{measured}, cone at the tip "
+        f"{figures['tip_cone_degrees']:.4g} degrees",
+        "clamped and tip": f"{figures['clamped_nodes']} and {figures['tip_nodes']} nodes",
+        "interface": f"from {_place(first)} to {_place(last)} mm, leading to trailing edge",
+        "mass": f"{figures['mass']:.4g} kg{omission}",
+        "speeds": f"f_omega = {', '.join(f'{speed:g}' for speed in figures['speeds'])}; the highest is "
+        f"{figures['omega_max']:.6g} rad/s",
+        "first frequency": _first_frequency(figures),
+        "reduced model": f"{figures['reduced_coordinates']} coordinates; in six modes {eq2}, with the "
+        f"reduction {percent(rom)} %",
+    }
+
+
+def _extents(figures: dict[str, Any]) -> dict[str, str]:
+    """Describe how far the blade extends, by the name of each direction."""
+    return {
+        name: f"{1e3 * low:.4g} to {1e3 * high:.4g} mm" for name, (low, high) in figures["extents"].items()
+    }
+
+
+def _first_frequency(figures: dict[str, Any]) -> str:
+    """Describe the first frequency at rest and at the highest speed."""
+    return (
+        f"{figures['f1_hz']:.6g} Hz, times {figures['campbell_ratio']:.4g} at f_omega = "
+        f"{figures['f_omega_max']:g}"
+    )
+
+
+def _place(point: list[float]) -> str:
+    return "(" + ", ".join(f"{1e3 * x:.4g}" for x in point) + ")"
+
+
+def _crossings(crossings: list[dict[str, Any]]) -> str:
+    """List the speeds at which engine orders cross the first mode, from the fastest."""
+    if not crossings:
+        return "of mode 1: none within reduction.f_omega_max"
+    return "of mode 1, 1/min: " + ", ".join(
+        f"eo({crossing['order']}) {crossing['rpm']:.0f}" for crossing in crossings
+    )
+
+
+def _in_words(rows: dict[str, str], figures: dict[str, Any]) -> str:
+    stagger = figures["tip_stagger_degrees"]
+    rows |= {
+        "stagger at the tip": f"{abs(stagger):.4g} degrees, the leading edge "
+        f"{'ahead' if stagger >= 0 else 'behind'} in rotation",
+        "first mode": "u_r/u_t at the tip {:.3f} at the leading edge, {:.3f} at the trailing edge".format(
+            *(figures["tip_lean"][end] for end in (0, -1))
+        ),
+        "crossings": _crossings(figures["crossings"]),
+        "tip stiffness": f"{figures['tip_stiffness']:.4g} N/m, static",
+    }
+    if figures["nominal_speed"]:
+        rows["nominal speed"] = (
+            f"{figures['nominal_speed']:g} 1/min, f_omega = {figures['nominal_f_omega']:.4g}"
+        )
+    return "\n".join(
+        [
+            *inputs.aligned([*rows.items(), *(("warning", line) for line in figures["warnings"])]),
+            "",
+            "# for the config of its study; without contact.scale the values of the contact are absolute",
+            yaml.safe_dump(figures["config"], sort_keys=False).rstrip(),
+        ]
+    )

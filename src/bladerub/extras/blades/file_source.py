@@ -1,0 +1,69 @@
+"""A blade from a mesh or a table of sections, ``blade.source.file`` (`bladerub.blade.source`)."""
+
+from collections.abc import Iterator, Mapping
+from dataclasses import asdict
+from typing import TYPE_CHECKING, Any
+
+from bladerub.blade import geometry
+from bladerub.blade.model import N_INTERFACE, n_interface
+from bladerub.config.errors import format_value
+from bladerub.extras.blades import origin
+from bladerub.extras.blades.frame import Frame
+from bladerub.io.checksum import file_checksum
+
+if TYPE_CHECKING:  # import the solver, which a plan does without
+    from bladerub.blade.built import BuiltBlade
+    from bladerub.blade.mesh import MeshedBlade
+
+
+def problems(config: Mapping[str, Any]) -> Iterator[str]:
+    """Yield a line for each thing in `config` that cannot be; raises ValueError as `geometry.check_size`."""
+    blade = config["blade"]
+    try:
+        source = origin.read(blade["source"])
+    except ValueError as error:
+        yield f"blade.source.{error}"
+        return
+    if not source.file.is_file():
+        setting = f"blade.source.file = {format_value(blade['source']['file'])}"
+        yield f"{setting}: there is no such file ({source.file})"
+    if source.is_table:
+        geometry.check_size(blade["mesh"])
+        geometry.check_interface(blade["mesh"], n_interface(config))
+
+
+def recipe(blade: Mapping[str, Any]) -> dict[str, Any]:
+    """Reduce the block ``blade`` to what determines the blade, with the content of its file."""
+    source = origin.read(blade["source"])
+    parts = ("material", "length", *(("mesh",) if source.is_table else ()))
+    settings = asdict(Frame()) | blade["source"]  # what a config leaves out is not another blade
+    return {name: blade[name] for name in parts} | {"source": settings | {"file": file_checksum(source.file)}}
+
+
+def files(source: Mapping[str, Any]) -> list[str]:
+    """List the one file of the block ``source``."""
+    return [source["file"]]
+
+
+def meshed(blade: Mapping[str, Any], n_nodes: int = N_INTERFACE) -> "MeshedBlade":
+    """Read the blade, and mesh a table; BadInput if it cannot be used, or is not of the length in `blade`."""
+    from bladerub.extras.blades.importing import check_length, import_blade
+
+    imported = import_blade(origin.read(blade["source"]), blade["mesh"], n_nodes).blade
+    check_length(blade["length"], imported.length, blade["source"]["file"])
+    return imported
+
+
+def build(config: Mapping[str, Any]) -> "BuiltBlade":
+    """Build the blade, or read it where ``bladerub import`` kept it."""
+    from bladerub.blade.build import meshed_blade, reduce_meshed
+    from bladerub.extras.blades.kept import kept
+
+    return kept(config) or reduce_meshed(meshed_blade(config["blade"], n_interface(config)), config)
+
+
+def frequency_at_rest(config: Mapping[str, Any]) -> float:
+    """Compute the first frequency at rest, Hz; raises as `meshed`."""
+    from bladerub.blade.build import frequency_of_mesh, meshed_blade
+
+    return frequency_of_mesh(meshed_blade(config["blade"], n_interface(config)), config)

@@ -1,0 +1,184 @@
+"""From a mesh file or a table of sections to a blade that can be reduced."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from difflib import get_close_matches
+from pathlib import Path
+
+import numpy as np
+from scipy import sparse
+from scipy.sparse.csgraph import connected_components
+
+from bladerub.blade.linear import MOST_UNKNOWNS
+from bladerub.blade.mesh import BladeMesh, MeshedBlade, solid_mesh
+from bladerub.blade.model import N_INTERFACE
+from bladerub.blade.surface import EDGES, boundary_faces, normals
+from bladerub.extras.blades import element_quality, mesh_file, section_blade, tip
+from bladerub.extras.blades.origin import MatrixSource, Source
+from bladerub.extras.blades.section_profile import Profile
+from bladerub.io.errors import BadInput
+
+LENGTH_TOLERANCE = 0.05  # of ``blade.length`` to what an import measures: its root need not be a cylinder
+_FACING = np.cos(np.pi / 4)
+
+
+@dataclass(frozen=True)
+class Imported:
+    """A blade from a mesh file or a table of sections."""
+
+    blade: MeshedBlade
+    jacobian_ratio: np.ndarray = field(repr=False)  # (n_elements,), smallest over largest determinant
+    volume: float  # m³
+    chord: float  # length of the tip's camber line, m
+    interface_offset: float  # largest distance of an interface node from its place on that line, m
+    is_raised: bool = False  # whether its elements were linear (see `bladerub.extras.blades.mesh_file.read`)
+    n_unused: int = 0  # nodes of the file that no element uses, which were left out
+    node_sets: dict[str, int] = field(default_factory=dict)  # number of nodes of each set of the file
+    sections: list[Profile] = field(default_factory=list, repr=False)  # of a table, hub to tip
+
+
+def import_blade(source: Source, counts: Mapping[str, int], n_interface: int = N_INTERFACE) -> Imported:
+    """Read a mesh, or mesh sections by the numbers of elements `counts`; a BadInput says what is wrong.
+
+    The tip gets `n_interface` interface nodes.
+    """
+    try:
+        if source.is_table:
+            return _import_sections(source, counts, n_interface)
+        return _import_mesh(source, n_interface)
+    except ValueError as error:
+        raise BadInput(f"{source.file}: {error}") from error
+
+
+def _import_mesh(source: Source, n_interface: int) -> Imported:
+    content = mesh_file.read(source.file)
+    if 3 * len(content.points) > MOST_UNKNOWNS:
+        raise ValueError(f"has {3 * len(content.points)} unknowns; must be {MOST_UNKNOWNS} or fewer")
+    element_quality.check_nodes(content.points, content.cells)
+    mesh, origin = solid_mesh(source.frame.metres(content.points), content.cells)
+    ratio, volume = element_quality.jacobians(mesh)
+    if np.hypot(mesh.points[:, 1], mesh.points[:, 2]).min() <= 0:
+        raise ValueError(f"a node lies on the engine axis: is it rotation = {source.frame.rotation}?")
+    faces = boundary_faces(mesh.cells)
+    root = _nodes(content, mesh.points, faces, origin, source.root_set, is_tip=False)
+    tip_nodes = _nodes(content, mesh.points, faces, origin, source.tip_set, is_tip=True)
+    if np.isin(tip_nodes, root).any():
+        raise ValueError("root and tip share nodes; name other node sets")
+    tip_faces = faces[np.isin(faces, tip_nodes).all(axis=1)]
+    if not len(tip_faces):
+        raise ValueError(f'tip not found: no face of the surface has all its nodes in "{source.tip_set}"')
+    interface = tip.interface(mesh.points, tip_faces, source.frame.downstream_x, n_interface)
+    return Imported(
+        measured(BladeMesh(mesh, root, tip_nodes, interface.nodes), source),
+        is_raised=content.is_raised,
+        n_unused=len(content.points) - origin.size,
+        node_sets={name: nodes.size for name, nodes in content.node_sets.items()},
+        jacobian_ratio=ratio,
+        volume=volume,
+        chord=interface.chord,
+        interface_offset=interface.offset,
+    )
+
+
+def _nodes(content, points, faces, origin, name: str | None, is_tip: bool) -> np.ndarray:
+    """Nodes of the mesh in the set `name` of the file, or found by the surface."""
+    part = "tip" if is_tip else "root"
+    try:
+        if name is None:
+            return facing(points, faces, outwards=is_tip)
+        members = _with_middles(content, _named(content, name))
+    except ValueError as error:
+        raise ValueError(f"{part} not found: {error}") from error
+    nodes = np.flatnonzero(np.isin(origin, members))
+    if not nodes.size:
+        raise ValueError(f'{part} not found: no node of the set "{name}" is in an element')
+    return nodes
+
+
+def _named(content: mesh_file.MeshFile, name: str) -> np.ndarray:
+    """Nodes of the set `name`, in capital or small letters unless another set differs in them only."""
+    node_sets = content.node_sets
+    alike = [set_name for set_name in node_sets if set_name.lower() == name.lower()]
+    key = name if name in node_sets else alike[0] if len(alike) == 1 else None
+    if key is None and name in content.volume_sets:
+        raise ValueError(f'"{name}" is a set of volume elements; must be of nodes, points, lines or surfaces')
+    if key is None:
+        close = get_close_matches(name, node_sets, n=1)
+        hint = f"did you mean {close[0]}?" if close else f"there are {', '.join(node_sets) or 'none'}"
+        raise ValueError(f'there is no node set "{name}"; {hint}')
+    if not node_sets[key].size:
+        raise ValueError(f'the node set "{name}" has no nodes; a set of other sets is not read')
+    return node_sets[key]
+
+
+def facing(points: np.ndarray, faces: np.ndarray, outwards: bool) -> np.ndarray:
+    """Nodes of the part of the surface that is farthest from the engine axis and faces `outwards`: the tip.
+
+    If not `outwards`, the part nearest to the axis that faces inwards: the root. Its normals are within 45
+    degrees of the radial direction, and its `faces` are connected: it may be a cylinder, a cone or a plane,
+    but ends at its edges. Raises a ValueError if there is none.
+    """
+    sign = 1 if outwards else -1
+    middle = points[faces].mean(axis=1)
+    radius = np.hypot(middle[:, 1], middle[:, 2])
+    radial = normals(points[faces])[:, 1:] * middle[:, 1:]
+    facing_so = faces[sign * radial.sum(axis=1) > _FACING * radius]
+    if not len(facing_so):
+        raise ValueError(
+            "no part of the surface faces along the radius; do the axes of the blade agree "
+            "with rotation, downstream and radial? Or name a node set"
+        )
+    rows = np.repeat(np.arange(len(facing_so)), facing_so.shape[1])
+    touching = sparse.coo_array((np.ones(rows.size), (rows, facing_so.ravel())))
+    _, part = connected_components(touching @ touching.T, directed=False)
+    height = (sign * np.hypot(points[:, 1], points[:, 2]))[facing_so].max(axis=1)
+    return np.unique(facing_so[part == part[np.argmax(height)]])
+
+
+def _with_middles(content: mesh_file.MeshFile, nodes: np.ndarray) -> np.ndarray:
+    """Add the mid-side nodes between two of `nodes` that linear elements got."""
+    if not content.is_raised:
+        return nodes
+    ends = content.cells[:, EDGES[content.cells.shape[1]]]
+    middles = content.cells[:, -ends.shape[1] :]
+    return np.union1d(nodes, middles[np.isin(ends, nodes).all(axis=-1)])
+
+
+def _import_sections(source: Source, counts: Mapping[str, int], n_interface: int) -> Imported:
+    profiles = section_blade.read_profiles(source)
+    shape = section_blade.SectionShape(profiles)
+    mesh = BladeMesh.from_shape(shape, counts, n_interface)
+    try:
+        ratio, volume = element_quality.jacobians(mesh.mesh)
+    except ValueError as error:
+        raise ValueError("between its sections the blade crosses itself; give more sections") from error
+    evenly = shape.points(np.linspace(0, 1, mesh.interface.size), 0.5, 1.0).T
+    offset = np.linalg.norm(mesh.mesh.points[mesh.interface] - evenly, axis=1).max()
+    chord = profiles[-1].chord
+    return Imported(measured(mesh, source), ratio, volume, chord, float(offset), sections=profiles)
+
+
+def measured(mesh: BladeMesh, source: Source | MatrixSource) -> MeshedBlade:
+    """Measure the cone of the tip and the length of the blade, and check that the latter is that of a blade.
+
+    The length is that from the clamped nodes to the tip or, where no node is clamped, the range of the radii.
+    """
+    points = mesh.mesh.points
+    radius = np.hypot(points[:, 1], points[:, 2])
+    tip_cone = tip.cone(points[mesh.tip], source.tip_cone, source.frame.downstream_x)
+    lowest = radius[mesh.root].mean() if mesh.root.size else radius.min()
+    length = float(radius[mesh.tip].mean() - lowest)
+    if mesh.root.size:
+        if length <= 0:
+            raise ValueError(f"the tip is no farther from the engine axis than the root ({length:.3g} m)")
+        source.frame.check_length(length)
+    return MeshedBlade(mesh, tip_cone, length)
+
+
+def check_length(length: float, measured: float, path: str | Path) -> None:
+    """Check the length of the config by that of the blade in the file `path`; BadInput if it is another."""
+    if abs(measured / length - 1) > LENGTH_TOLERANCE:
+        raise BadInput(
+            f"blade.length = {length:g}: must be that of the blade in {path}, {measured:.4g} m to within "
+            f"{LENGTH_TOLERANCE:.0%}; clearances are in this unit"
+        )

@@ -1,0 +1,255 @@
+"""From mass and stiffness of another program to a blade that can be reduced."""
+
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from scipy import sparse
+from scipy.linalg import eigvalsh_tridiagonal
+from scipy.sparse.linalg import ArpackError
+from scipy.spatial.distance import cdist
+from threadpoolctl import threadpool_limits
+
+from bladerub.blade.discrete import DiscreteBlade
+from bladerub.blade.linear import lowest_modes
+from bladerub.blade.mesh import BladeMesh, FreeCoordinates, MeshedBlade, NodeCloud
+from bladerub.blade.reduction import fit_speeds
+from bladerub.extras.blades import matrix_folder, origin, rigid_body
+from bladerub.extras.blades.importing import LENGTH_TOLERANCE, check_length, measured
+from bladerub.extras.blades.matrix_folder import FIT, MASS, NODES
+from bladerub.extras.blades.origin import MATRIX_UNITS, MatrixSource
+from bladerub.io.errors import BadInput
+
+_STEPS = 60  # of Lanczos's method
+_ROUNDING = 1e-10  # of the largest eigenvalue
+_ENERGY = 1e-13  # of what would be there if nothing cancelled; 1e-8 in the first mode of a thin blade
+OMEGA_TOLERANCE = 1e-3  # relative, of the speed of the files to that of the config
+
+
+@dataclass(frozen=True)
+class ImportedMatrices:
+    """A blade from the matrices of another program."""
+
+    blade: DiscreteBlade
+    mass: float  # of the rigid blade, kg
+    mass_is_complete: bool  # whether the files have rows of the clamped nodes, whose mass is missing else
+    half_speed_change: float  # of the stiffness to half the highest speed, over that to the highest; ~ 1/4
+
+    @property
+    def is_rooted(self) -> bool:
+        """Whether clamped nodes are listed, so that the length is known."""
+        return self.blade.layout.mesh.root.size > 0
+
+
+@threadpool_limits.wrap(limits=1)
+def import_matrices(source: MatrixSource, f_max: float, n_modes: int, eta: int) -> ImportedMatrices:
+    """Read the matrices of `source` and check that they are of a blade.
+
+    `f_max` is the normalised speed of ``stiffness_max``. There must be coordinates enough for `n_modes` modes
+    at rest and for `eta` modes with a clamped interface. A BadInput names the file and what is wrong in it.
+    """
+    with _naming(source.folder):
+        names = matrix_folder.files(source.folder)
+        at_speeds = matrix_folder.speeds(names, fit_speeds(f_max))
+    with _naming(names["nodes"]):
+        nodes = matrix_folder.read_nodes(names["nodes"])
+        layout = _layout(nodes, source)
+        free = FreeCoordinates(len(nodes.points), nodes.clamped)
+        n_internal, n_required = free.free.size - 3 * nodes.interface.size, max(n_modes, eta)
+        if n_internal <= n_required:
+            raise ValueError(
+                f"has {n_internal} free coordinates off the interface; must have more than {n_required}, the "
+                "modes that are wanted"
+            )
+    with _naming(names[MASS]):
+        mass_of_all = matrix_folder.read_matrix(names[MASS])
+        mass = _of_free(mass_of_all, free, source)
+    stiffness = {}
+    for f_omega, name in at_speeds.items():
+        with _naming(names[name]):
+            stiffness[f_omega] = _of_free(matrix_folder.read_matrix(names[name]), free, source)
+    stiffness_rest, stiffness_half, stiffness_max = (stiffness[f_omega] for f_omega in fit_speeds(f_max))
+    with _naming(names[MASS], names[FIT[0]]):
+        rigid_body.check_joined(mass, stiffness_rest)
+    with _naming(names[MASS]):
+        check_definite(mass)
+    with _naming(names[FIT[0]]):
+        check_definite(stiffness_rest)
+        frequency, modes = _modes(stiffness_rest, mass, n_modes)
+        check_held(stiffness_rest, modes[:, 0])
+    _check_order(names, layout, free, mass, stiffness_rest, source.frame.turn)
+    frequencies = {0.0: frequency}
+    for f_omega, name in list(at_speeds.items())[1:]:
+        with _naming(names[name]):
+            rigid_body.check_change(stiffness[f_omega], stiffness_rest, free.free[::3] // 3 + 1)
+            check_definite(stiffness[f_omega])
+            frequencies[f_omega], _ = _modes(stiffness[f_omega], mass, n_modes)
+            if frequencies[f_omega][0] <= 0:  # so near to zero that few of Lanczos's steps do not show it
+                raise ValueError("is not positive definite: a mode of the blade is unstable at this speed")
+    _check_speed(source, f_max, frequency[0])
+    change = sparse.linalg.norm(stiffness_max - stiffness_rest)
+    return ImportedMatrices(
+        DiscreteBlade(layout, free, mass, stiffness, {}, frequencies, frequency, modes),
+        MATRIX_UNITS[source.matrix_units] * _rigid_mass(mass_of_all),
+        nodes.clamped.size > 0 and mass_of_all.shape[0] == 3 * len(nodes.points),
+        float(sparse.linalg.norm(stiffness_half - stiffness_rest) / change) if change else 0.0,
+    )
+
+
+def of_length(config: Mapping[str, Any]) -> DiscreteBlade:
+    """Import the matrices that `config` names; BadInput as `import_matrices`, or if it has another length."""
+    length, reduction = config["blade"]["length"], config["reduction"]
+    source = origin.read(config["blade"]["source"])
+    imported = import_matrices(
+        source, reduction["f_omega_max"], reduction["accuracy_modes"], reduction["modes_per_speed"]
+    )
+    layout = imported.blade.layout
+    tip_radius = np.hypot(*layout.mesh.mesh.points[layout.mesh.tip, 1:].T).mean()
+    if imported.is_rooted:
+        check_length(length, layout.length, source.folder)
+    elif not (1 - LENGTH_TOLERANCE) * layout.length <= length < tip_radius:
+        raise BadInput(
+            f"blade.length = {length:g}: must be that of the blade in {source.folder}, whose nodes reach "
+            f"over {layout.length:.4g} m up to a tip at a radius of {tip_radius:.4g} m"
+        )
+    return imported.blade
+
+
+def _modes(
+    stiffness: sparse.csc_array, mass: sparse.csc_array, n_modes: int
+) -> tuple[np.ndarray, np.ndarray]:
+    try:
+        return lowest_modes(stiffness, mass, n_modes)
+    except (np.linalg.LinAlgError, ArpackError) as error:
+        raise ValueError(f"is singular ({error}); are the clamped nodes marked?") from error
+
+
+@contextmanager
+def _naming(*paths: Path) -> Iterator[None]:
+    """Add `paths` to the message of a ValueError."""
+    try:
+        yield
+    except ValueError as error:
+        raise BadInput(f"{' and '.join(map(str, paths))}: {error}") from error
+
+
+def _check_order(
+    names: dict[str, Path],
+    layout: MeshedBlade,
+    free: FreeCoordinates,
+    mass: sparse.csc_array,
+    stiffness_rest: sparse.csc_array,
+    turn: np.ndarray,
+) -> None:
+    """Check that mass and stiffness at rest have the order of the nodes."""
+    points, nodes = layout.mesh.mesh.points, free.free[::3] // 3
+    with _naming(names[MASS]):
+        rigid_body.check_mass(mass, nodes + 1)
+    with _naming(names["nodes"]):
+        rigid_body.check_places(stiffness_rest, points[nodes], nodes + 1, turn)
+    with _naming(names[FIT[0]]):
+        interface = np.searchsorted(nodes, layout.mesh.interface)
+        rigid_body.check_stiffness(
+            stiffness_rest, points[nodes], nodes + 1, points[layout.mesh.root], interface
+        )
+    with _naming(names[MASS]):
+        rigid_body.check_same_nodes(mass, stiffness_rest, nodes + 1)
+
+
+def _layout(nodes: matrix_folder.Nodes, source: MatrixSource) -> MeshedBlade:
+    """Convert the nodes to the blade's frame, and check that the interface is that of a tip."""
+    points = source.frame.metres(nodes.points)
+    radius = np.hypot(points[:, 1], points[:, 2])
+    ends = points[nodes.interface]
+    if radius[nodes.interface].min() <= 0:
+        raise ValueError("an interface node lies on the engine axis, which must pass through the origin")
+    twins = np.argwhere(np.triu(cdist(ends, ends) == 0, k=1))
+    if len(twins):
+        first, second = twins[0] + 1
+        raise ValueError(f"interface nodes {first} and {second} are in one place")
+    if source.frame.downstream_x * (ends[-1, 0] - ends[0, 0]) <= 0:
+        raise ValueError(
+            f"interface node 1 is downstream of node {len(ends)}; must be at the leading edge: is downstream "
+            f"= {source.frame.downstream} the direction of the flow?"
+        )
+    tip_nodes = nodes.tip if nodes.tip.size else nodes.interface
+    return measured(BladeMesh(NodeCloud(points), nodes.clamped, tip_nodes, nodes.interface), source)
+
+
+def _of_free(matrix: sparse.csc_array, free: FreeCoordinates, source: MatrixSource) -> sparse.csc_array:
+    """Rows and columns of the free coordinates in `matrix`, in the blade's axes and SI units."""
+    n, n_all = free.free.size, 3 * free.n_nodes
+    if matrix.shape[0] not in (n, n_all):
+        raise ValueError(
+            f"is {matrix.shape[0]} x {matrix.shape[0]}; must have three rows for each of the {free.n_nodes} "
+            f"nodes of {NODES} ({n_all})" + (f", or for each that is not clamped ({n})" if n < n_all else "")
+        )
+    if matrix.shape[0] > n:
+        matrix = matrix[free.free][:, free.free]
+    rotation = sparse.kron(sparse.eye_array(n // 3), source.frame.turn, format="csc")
+    return sparse.csc_array(MATRIX_UNITS[source.matrix_units] * (rotation @ matrix @ rotation.T))
+
+
+def _rigid_mass(mass: sparse.csc_array) -> float:
+    """Mass of the rigid body, the mean of the three directions."""
+    rigid = np.tile(np.eye(3), (mass.shape[0] // 3, 1))
+    return float(np.trace(rigid.T @ (mass @ rigid)) / 3)
+
+
+def _check_speed(source: MatrixSource, f_max: float, f1_hz: float) -> None:
+    omega = 2 * np.pi * f1_hz * f_max
+    if source.omega_max is not None and abs(source.omega_max / omega - 1) > OMEGA_TOLERANCE:
+        f_omega = source.omega_max / (2 * np.pi * f1_hz)
+        raise BadInput(
+            f"{source.folder}: omega_max = {source.omega_max:g} rad/s is {f_omega:.6g} of the blade's first "
+            f"frequency, {f1_hz:.6g} Hz; reduction.f_omega_max = {f_max:g} must be that"
+        )
+
+
+def check_definite(matrix: sparse.csc_array) -> None:
+    """Raise ValueError if a symmetric matrix has an entry on its diagonal or an eigenvalue below zero.
+
+    Ritz values of Lanczos's method lie between the eigenvalues, so a negative one is proof. Eigenvalues near
+    zero may stay unnoticed (see `check_held` for these).
+    """
+    diagonal = matrix.diagonal()
+    low = np.flatnonzero(diagonal <= 0)
+    if low.size:
+        raise ValueError(
+            f"is not positive definite: its entry ({low[0] + 1}, {low[0] + 1}) is {diagonal[low[0]]:.3g}; "
+            "must be above 0"
+        )
+    scale = 1 / np.sqrt(diagonal)
+    ritz = _ritz_values(lambda vector: scale * (matrix @ (scale * vector)), diagonal.size)
+    if ritz.min() < -_ROUNDING * np.abs(ritz).max():
+        raise ValueError("is not positive definite: it has negative eigenvalues")
+
+
+def _ritz_values(product, n: int) -> np.ndarray:
+    vector = np.random.default_rng(0).standard_normal(n)
+    vector /= np.linalg.norm(vector)
+    before, beta = np.zeros(n), 0.0
+    alphas, betas = [], []
+    for _ in range(min(_STEPS, n)):
+        residual = product(vector) - beta * before
+        alphas.append(residual @ vector)
+        residual -= alphas[-1] * vector
+        beta = np.linalg.norm(residual)
+        betas.append(beta)
+        if beta <= _ROUNDING * abs(alphas[0]):
+            break
+        before, vector = vector, residual / beta
+    return eigvalsh_tridiagonal(np.array(alphas), np.array(betas[:-1]))
+
+
+def check_held(stiffness: sparse.csc_array, mode: np.ndarray) -> None:
+    """Raise ValueError if the energy of the lowest `mode` of a stiffness is negative or only rounding."""
+    size = np.abs(mode)
+    if mode @ (stiffness @ mode) <= _ENERGY * (size @ (abs(stiffness) @ size)):
+        raise ValueError(
+            "is singular or indefinite: its lowest mode moves the blade without resistance; mark the clamped "
+            "nodes, or leave their rows out"
+        )

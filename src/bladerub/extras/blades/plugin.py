@@ -1,0 +1,4 @@
+"""Blades from meshes, tables of sections and matrices of other programs."""
+
+SOURCES = {"matrices": "extras.blades.matrix_source", "file": "extras.blades.file_source"}
+COMMANDS = {"import": "extras.blades.command"}

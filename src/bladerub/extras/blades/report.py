@@ -1,0 +1,254 @@
+"""The figures of an imported blade, and warnings of what is probably wrong with it."""
+
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+from scipy import sparse
+from scipy.sparse.csgraph import dijkstra
+
+from bladerub.blade.accuracy import doubts, errors_by_mode
+from bladerub.blade.built import BuiltBlade
+from bladerub.blade.elasticity import Material
+from bladerub.blade.frequencies import crossing_speeds, tip_lean
+from bladerub.blade.mesh import BladeMesh, MeshedBlade
+from bladerub.blade.model import ReducedBlade
+from bladerub.blade.surface import EDGES, NAMES
+from bladerub.extras.blades.importing import Imported
+from bladerub.extras.blades.matrices import ImportedMatrices
+from bladerub.extras.blades.origin import MatrixSource, Source
+from bladerub.extras.blades.section_profile import EDGE_SHARE
+
+ORDERS = range(1, 13)  # engine orders whose crossings with the first frequency are stated
+FREQUENCIES = (5.0, 20e3)  # Hz, of the first mode
+LARGEST_LEAN = 20.0  # degrees
+LEAST_STAGGER = -5.0  # degrees; above, the blade is nearly straight
+FEWEST_ELEMENTS = 10  # from root to tip
+LEAST_JACOBIAN_RATIO = 0.1
+LARGEST_OFFSET = 0.03  # of an interface node, over the chord
+DENSITIES = (10.0, 25e3)  # kg/m³ of the box around a blade, of which it fills some hundredths or all
+LEAST_THICKNESS = 0.005  # largest of a section, over its chord
+ASPECTS = (1 / 3, 15.0)  # length over the chord of the tip
+HUB_RATIOS = (0.1, 0.98)  # radius of the root over that of the tip
+LARGEST_TIP_SPEED = 800.0  # m/s; wheels burst
+HALF_SPEED_CHANGE = (0.15, 0.35)  # a quarter, as centrifugal forces grow with the square of the speed
+
+
+def mesh_report(
+    source: Source,
+    imported: Imported,
+    built: BuiltBlade,
+    material: Material,
+    nominal_speed: float | None = None,
+) -> dict[str, Any]:
+    """Figures of a blade from a mesh or sections, and warnings, ready for JSON; SI units.
+
+    `nominal_speed` is that of its rotor, 1/min, if it is known: a wheel bears it.
+    ``error_eq2`` and ``error_reduced_model`` hold for each mode the largest relative error of the frequency
+    over the speeds of the accuracy table: that of eq. (2) alone, and with the reduction.
+    """
+    mesh = imported.blade.mesh
+    figures = {
+        "file": str(source.file),
+        "element": NAMES[mesh.mesh.cells.shape[1]],
+        "elements": len(mesh.mesh.cells),
+        **_of_blade(source, imported.blade, built, nominal_speed),
+        "elements_root_to_tip": spanwise_elements(mesh),
+        "node_sets": imported.node_sets,
+        "root_nodes": int(mesh.root.size),
+        "tip_chord": imported.chord,
+        "interface_offset": imported.interface_offset,
+        "volume": imported.volume,
+        "mass": imported.volume * material.density,
+        "worst_jacobian": float(imported.jacobian_ratio.min()),
+        "centrifugal_displacement": float(np.linalg.norm(built.static_displacement[-1], axis=1).max()),
+    }
+    if imported.sections:
+        figures["sections"] = [
+            {
+                "name": section.name,
+                "mean_radius": section.radius,
+                "chord": section.chord,
+                "thickness": section.thickness,
+                "cut_leading_edge": section.cut[0],
+                "cut_trailing_edge": section.cut[1],
+            }
+            for section in imported.sections
+        ]
+    warnings = [*_warn_of_mesh(figures, imported, source), *doubts(built.accuracy, nominal_speed)]
+    return figures | {"warnings": warnings}
+
+
+def matrix_report(
+    source: MatrixSource, imported: ImportedMatrices, built: BuiltBlade, nominal_speed: float | None = None
+) -> dict[str, Any]:
+    """Figures of a blade from matrices, and warnings, as `mesh_report`.
+
+    ``error_eq2`` is none where all files are of the speeds of the fit, where eq. (2) is exact.
+    """
+    layout = imported.blade.layout
+    points = layout.mesh.mesh.points
+    speeds = list(imported.blade.stiffness)
+    figures = {
+        "folder": str(source.folder),
+        **_of_blade(source, layout, built, nominal_speed),
+        "clamped_nodes": int(layout.mesh.root.size),
+        "interface": points[layout.mesh.interface].tolist(),
+        "length_is_measured": imported.is_rooted,
+        "mass": imported.mass,
+        "mass_is_whole": imported.mass_is_complete,
+        "speeds": speeds,
+        "omega_max": 2 * np.pi * float(built.frequency[0]) * speeds[-1],
+        "stiffness_half_way": imported.half_speed_change,
+    }
+    warnings = [*_warn_of_matrices(figures, imported, source), *doubts(built.accuracy, nominal_speed)]
+    if len(speeds) == 3:
+        figures["error_eq2"] = None
+    return figures | {"warnings": warnings}
+
+
+def _of_blade(
+    source: Source | MatrixSource, layout: MeshedBlade, built: BuiltBlade, nominal_speed: float | None
+) -> dict[str, Any]:
+    """Figures of the nodes, of the frequencies and of the reduced model."""
+    points, table = layout.mesh.mesh.points, built.accuracy
+    errors = errors_by_mode(table)
+    first = table[table["mode"] == 1].sort_values("f_omega").f_fe.to_numpy()
+    rpm = 60 * built.reduced.f1_hz
+    crossings = crossing_speeds(built.reduced, ORDERS)
+    return {
+        "nodes": len(points),
+        "unknowns": 3 * (len(points) - layout.mesh.root.size),
+        "tip_nodes": int(layout.mesh.tip.size),
+        "extents": _extents(points),
+        "length": layout.length,
+        "tip_cone_degrees": source.frame.downstream_x * float(np.rad2deg(layout.tip_cone)),
+        "f1_hz": float(built.frequency[0]),
+        "tip_stagger_degrees": _stagger(built.reduced),
+        "tip_lean": tip_lean(built.reduced).tolist(),
+        "crossings": [
+            {"order": order, "f_omega": f_omega, "rpm": f_omega * rpm} for order, f_omega in crossings.items()
+        ],
+        "nominal_speed": nominal_speed,
+        "nominal_f_omega": nominal_speed and nominal_speed / rpm,
+        "campbell_ratio": float(first[-1] / first[0]),
+        "f_omega_max": built.reduced.f_omega_max,
+        "lowest_frequency": float(table.f_fe.min()),
+        "reduced_coordinates": len(built.reduced.mass),
+        "error_eq2": errors.speed_law.tolist(),
+        "error_reduced_model": errors.reduced_model.tolist(),
+    }
+
+
+def _stagger(blade: ReducedBlade) -> float:
+    """Angle (degrees) of the tip's chord to the axis, positive where its leading edge is ahead."""
+    leading, trailing = blade.node_position[[0, -1]]
+    across = (leading - trailing) @ blade.tangential_direction[[0, -1]].mean(axis=0)
+    return float(np.rad2deg(np.arctan2(across, abs(leading[0] - trailing[0]))))
+
+
+def spanwise_elements(mesh: BladeMesh) -> int:
+    """Count the element edges on the shortest path from the root to the tip."""
+    cells = mesh.mesh.cells
+    edges = cells[:, EDGES[cells.shape[1]]].reshape(-1, 2)
+    n_nodes = len(mesh.mesh.points)
+    graph = sparse.coo_array((np.ones(len(edges)), tuple(edges.T)), shape=(n_nodes, n_nodes)).tocsr()
+    steps = dijkstra(graph, directed=False, indices=mesh.root, unweighted=True, min_only=True)
+    return int(steps[mesh.tip].min())
+
+
+def _extents(points: np.ndarray) -> dict[str, list[float]]:
+    """Give the ends of the ranges of the coordinates and of the radius of `points` (n, 3), m."""
+    values = dict(zip("xyz", points.T, strict=True)) | {"radius": np.hypot(points[:, 1], points[:, 2])}
+    return {name: [float(value.min()), float(value.max())] for name, value in values.items()}
+
+
+def _warn_of_frame(figures: dict[str, Any], source: Source | MatrixSource, lean: float) -> Iterator[str]:
+    """Warn of a wrong unit or wrong axes; the middle of the blade is `lean` (rad) off its radial axis."""
+    frame, stagger = source.frame, figures["tip_stagger_degrees"]
+    if not FREQUENCIES[0] <= figures["f1_hz"] <= FREQUENCIES[1]:
+        yield f"its first frequency is {figures['f1_hz']:.4g} Hz: are length and material in their units?"
+    if abs(lean) > np.deg2rad(LARGEST_LEAN):
+        yield (
+            f"its middle is {np.rad2deg(lean):.3g} degrees about the engine axis from the radial axis "
+            f"{frame.radial}: is that the right axis, and is the origin on the engine axis?"
+        )
+    if stagger < LEAST_STAGGER:
+        yield (
+            f"the leading edge of the tip is {-stagger:.3g} degrees behind its trailing edge in rotation: "
+            f"has rotation = {frame.rotation} or downstream = {frame.downstream} the wrong sign?"
+        )
+
+
+def _warn_of_proportions(figures: dict[str, Any]) -> Iterator[str]:
+    """Warn of what no blade is like: a length or an angle is in another unit than the rest."""
+    length, chord = figures["length"], figures["tip_chord"]
+    root, tip = figures["extents"]["radius"]
+    speed = 2 * np.pi * figures["f1_hz"] * figures["f_omega_max"] * tip
+    sections = figures.get("sections", ())
+    thin = next(
+        (section for section in sections if section["thickness"] < LEAST_THICKNESS * section["chord"]), None
+    )
+    if thin:
+        size = f"{1e3 * thin['thickness']:.2g} mm thick over a chord of {1e3 * thin['chord']:.3g} mm"
+        yield f"section {thin['name']} is {size}: are its angles in their unit, rad or deg?"
+    if not ASPECTS[0] <= length / chord <= ASPECTS[1]:
+        size = f"{1e3 * length:.3g} mm long with a chord of {1e3 * chord:.3g} mm at the tip"
+        yield f"it is {size}: are all lengths in one unit?"
+    if not HUB_RATIOS[0] <= root / tip <= HUB_RATIOS[1]:
+        radii = f"from {1e3 * root:.3g} to {1e3 * tip:.3g} mm from the engine axis"
+        yield f"it reaches {radii}: are all lengths in one unit, and is the origin on the engine axis?"
+    if speed > LARGEST_TIP_SPEED:
+        state = f"reduction.f_omega_max = {figures['f_omega_max']:g}"
+        yield f"its tip moves at {speed:.0f} m/s at {state}, more than a wheel bears: is its radius right?"
+    nominal = figures["nominal_speed"]
+    speed = 2 * np.pi * (nominal or 0.0) / 60 * tip
+    if speed > LARGEST_TIP_SPEED:
+        state = f"{nominal:g} 1/min with a radius of {1e3 * tip:.3g} mm"
+        yield f"its tip moves at {speed:.0f} m/s at {state}, more than a wheel bears: is its unit right?"
+
+
+def _warn_of_mesh(figures: dict[str, Any], imported: Imported, source: Source) -> Iterator[str]:
+    yield from _warn_of_frame(figures, source, imported.blade.lean)
+    yield from _warn_of_proportions(figures)
+    n_elements, offset = figures["elements_root_to_tip"], figures["interface_offset"]
+    if imported.is_raised:
+        yield "its elements were linear: they got mid-side nodes, but curved faces stay faceted"
+    if imported.n_unused:
+        yield f"{imported.n_unused} nodes of the file belong to no element and were left out"
+    if n_elements < FEWEST_ELEMENTS:
+        yield f"its mesh is coarse, with {n_elements} elements from root to tip: compare with a finer mesh"
+    if figures["worst_jacobian"] < LEAST_JACOBIAN_RATIO:
+        factor = 1 / figures["worst_jacobian"]
+        worst = np.argmin(imported.jacobian_ratio) + 1
+        yield f"element {worst} is badly shaped: its Jacobian varies by a factor of {factor:.3g}"
+    cut = [section for section in imported.sections if max(section.cut) > 0]
+    if cut:
+        share, name = max((max(section.cut) / section.chord, section.name) for section in cut)
+        yield (
+            f"edges of {len(cut)} of {len(imported.sections)} sections were cut off where they are thinner "
+            f"than {EDGE_SHARE:.0%} of the section: up to {share:.2%} of the chord (section {name})"
+        )
+    if offset > LARGEST_OFFSET * figures["tip_chord"]:
+        yield f"an interface node is {1e3 * offset:.3g} mm from its place on the camber line of the tip"
+
+
+def _warn_of_matrices(
+    figures: dict[str, Any], imported: ImportedMatrices, source: MatrixSource
+) -> Iterator[str]:
+    yield from _warn_of_frame(figures, source, imported.blade.layout.lean)
+    box = np.prod(np.ptp(imported.blade.layout.mesh.mesh.points, axis=0))
+    if not DENSITIES[0] * box <= figures["mass"] <= DENSITIES[1] * box:
+        yield (
+            f"its mass is {figures['mass']:.3g} kg in a box of {1e6 * box:.3g} cm³: are the matrices in "
+            f"{source.matrix_units}, and the nodes in {source.frame.unit}?"
+        )
+    if not imported.is_rooted:
+        yield f"no node is clamped in nodes.csv: set blade.length (all reach over {figures['length']:.4g} m)"
+    if not HALF_SPEED_CHANGE[0] <= imported.half_speed_change <= HALF_SPEED_CHANGE[1]:
+        yield (
+            f"stiffness_half shows {imported.half_speed_change:.2g} of the change from stiffness_rest to "
+            "stiffness_max, not about a quarter: do the names of the files state their speeds?"
+        )
+    if len(figures["speeds"]) == 3:
+        yield "the error of eq. (2) is not known at the three speeds of its fit: add stiffness_at_<f_omega>"

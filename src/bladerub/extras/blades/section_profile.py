@@ -1,0 +1,237 @@
+"""The profile of a section: two sides as curves, paired along the chord, without too thin edges."""
+
+from dataclasses import dataclass, field
+from itertools import pairwise
+
+import numpy as np
+from scipy.interpolate import CubicSpline
+from scipy.spatial import cKDTree
+
+from bladerub.extras.blades.profile import arc_length, camber_line, crossings
+from bladerub.extras.blades.section_table import Section
+
+EDGE_SHARE = 0.1  # of the largest thickness, below which an edge is cut off, to leave room for hexahedra
+SAMPLES = np.linspace(0, 1, 201)  # of a profile, by relative arc length of the camber line
+
+_CORNER = np.deg2rad(60)  # a side that turns more at a station has a corner there, else it is smooth
+_FINE = 400  # points of a curve, or some more
+_LAST_OF_EDGE = 0.25  # of the side; a corner further on is none of a blunt edge
+_CUTS = 0.5 * np.linspace(0, 1, 201) ** 2  # of the camber line, where its thickness is looked at
+
+
+@dataclass(frozen=True)
+class Profile:
+    """A section that can be meshed.
+
+    `samples` are axial position (m), radius (m) and angle ``atan2(y, z)`` (rad) in the blade's frame, at
+    `SAMPLES`, on the two sides. The angle of the second side is larger, or, where x points upstream, smaller,
+    so that elements are right-handed.
+    """
+
+    name: str
+    samples: np.ndarray = field(repr=False)  # (201, 2, 3)
+    radius: float  # mean, m
+    chord: float  # length of the camber line, m
+    thickness: float  # largest, m
+    cut: tuple[float, float]  # chord cut off at the leading and at the trailing edge, m
+
+
+def profile(section: Section, downstream_x: int) -> Profile:
+    """Make the profile of `section`; a ValueError names it and a line of its table.
+
+    `downstream_x` is 1 where x points downstream, else -1.
+    """
+    place = _cylindrical(section)
+    flat = _unrolled(place)
+    if _must_be_swapped(section, flat, downstream_x):
+        place, flat = place[::-1], flat[::-1]
+    sides = [_Curve(*side) for side in zip(place, flat, strict=True)]
+    thickness = cKDTree(sides[1].fine).query(sides[0].fine)[0].max()
+    starts, cut_leading = _edge(sides, thickness, section.name)
+    backwards = [_Curve(*side) for side in zip(place[:, ::-1], flat[:, ::-1], strict=True)]
+    stops, cut_trailing = _edge(backwards, thickness, section.name)
+    parameters = [
+        _even(side, start, side.knots[-1] - stop)
+        for side, start, stop in zip(sides, starts, stops, strict=True)
+    ]
+    samples, chord = _paired(sides, parameters)
+    radius = float(samples[:, :, 1].mean())
+    return Profile(section.name, samples, radius, chord, float(thickness), (cut_leading, cut_trailing))
+
+
+def _cylindrical(section: Section) -> np.ndarray:
+    """Axial position, radius and angle (2, n, 3) of the stations, the angles of one turn."""
+    x, y, z = np.moveaxis(section.points, -1, 0)
+    radius = np.hypot(y, z)
+    if radius.min() <= 0:
+        line = section.lines[np.argmin(radius.min(axis=0))]
+        raise ValueError(f"line {line}: lies on the engine axis, which must pass through the origin")
+    middle = np.arctan2(y.mean(), z.mean())
+    cos, sin = np.cos(middle), np.sin(middle)
+    phi = middle + np.arctan2(y * cos - z * sin, z * cos + y * sin)
+    return np.stack([x, radius, phi], axis=-1)
+
+
+def _unrolled(place: np.ndarray) -> np.ndarray:
+    """Axial position and arc length about the engine axis (2, n, 2)."""
+    x, radius, phi = np.moveaxis(place, -1, 0)
+    return np.stack([x, radius * (phi - phi.mean())], axis=-1)
+
+
+def _cross(a: np.ndarray, b: np.ndarray) -> np.ndarray:
+    return a[..., 0] * b[..., 1] - a[..., 1] * b[..., 0]
+
+
+def _must_be_swapped(section: Section, flat: np.ndarray, downstream_x: int) -> bool:
+    """Check that stations follow the chord and sides are apart; return whether the sides must be swapped."""
+    middle = flat.mean(axis=0)
+    chord = middle[-1] - middle[0]
+    length = np.linalg.norm(chord)
+    steps = np.diff(middle, axis=0) @ chord
+    if length == 0 or (steps <= 0).any():
+        index = int(np.argmin(steps))
+        raise ValueError(
+            f"line {section.lines[index + 1]}: this station of section {section.name} is no further along "
+            f"the chord than that of line {section.lines[index]}; they must go from the leading to the "
+            f"trailing edge{_cause(section, middle, index)}"
+        )
+    if downstream_x * chord[0] < -1e-3 * length:
+        raise ValueError(
+            f"section {section.name} (line {section.lines[0]}): its first station lies downstream of its "
+            "last; must begin at the leading edge, or blade.source.downstream has the wrong sign"
+        )
+    thickness = _cross(np.gradient(middle, axis=0), flat[1] - flat[0])
+    sign = 1 if thickness.sum() > 0 else -1
+    bad = sign * thickness < -1e-9 * np.abs(thickness).max()
+    bad[1:-1] |= thickness[1:-1] == 0
+    if bad.any():
+        raise ValueError(
+            f"line {section.lines[np.argmax(bad)]}: the sides of section {section.name} touch or cross here; "
+            "they may meet at its first and last station only"
+        )
+    return sign < 0
+
+
+def _cause(section: Section, middle: np.ndarray, index: int) -> str:
+    """Say why station `index + 1` may lie before `index` on the camber line `middle` (n, 2), or nothing."""
+    if np.allclose(section.points[:, index + 1], section.points[:, 0]):
+        return ": it is the first station again, so the section stands twice or two sections have one name"
+    for station in (index, index + 1):
+        others = np.delete(middle, station, axis=0)
+        if (np.diff(others, axis=0) @ (others[-1] - others[0]) > 0).all():
+            return f": without line {section.lines[station]} all do, so check its numbers"
+    return ""
+
+
+class _Curve:
+    """One side as a curve through its stations, smooth except at corners.
+
+    Its parameter is the length of the polygon through the stations, m: `knots` at the stations. `corners` are
+    stations where it turns sharply, `fine` are many points of the curve, unrolled, at `fine_parameter`.
+    """
+
+    def __init__(self, place: np.ndarray, flat: np.ndarray):
+        apart = np.append(True, np.linalg.norm(np.diff(flat, axis=0), axis=1) > 0)
+        place, flat = place[apart], flat[apart]
+        self.knots = arc_length(flat)
+        chords = np.diff(flat, axis=0)
+        turn = np.arctan2(np.abs(_cross(chords[:-1], chords[1:])), np.sum(chords[:-1] * chords[1:], axis=1))
+        self.corners = 1 + np.flatnonzero(turn > _CORNER)
+        self._stops = [0, *self.corners, len(flat) - 1]
+        both = np.hstack([place, flat])
+        pieces = [slice(start, stop + 1) for start, stop in pairwise(self._stops)]
+        self._pieces = [CubicSpline(self.knots[piece], both[piece]) for piece in pieces]
+        last = len(flat) - 1
+        fine = np.linspace(0, last, -(-_FINE // last) * last + 1)
+        self.fine_parameter = np.interp(fine, np.arange(last + 1), self.knots)
+        self.fine = self(self.fine_parameter)[:, 3:]
+
+    def __call__(self, parameter: np.ndarray) -> np.ndarray:
+        """Places (n, 5): axial position, radius and angle, then the same unrolled."""
+        piece = np.searchsorted(self.knots[self._stops[1:-1]], parameter, side="right")
+        values = np.empty((parameter.size, 5))
+        for index, spline in enumerate(self._pieces):
+            values[piece == index] = spline(parameter[piece == index])
+        return values
+
+
+def _edge(sides: list[_Curve], thickness: float, name: str) -> tuple[list[float], float]:
+    """Find a leading edge that is wide enough: as it is, between two corners, or after a cut.
+
+    Returns the parameters of both sides behind it, and the chord before, which is cut off.
+    """
+    min_thickness = EDGE_SHARE * thickness
+    first, second = (side.fine[0] for side in sides)
+    chord = sides[0].fine[-1] + sides[1].fine[-1] - first - second
+    chord /= np.linalg.norm(chord)
+    if abs(_cross(second - first, chord)) >= min_thickness:
+        return [0.0, 0.0], 0.0
+    for index, side in enumerate(sides):
+        corners = side.knots[side.corners]
+        corners = corners[corners < _LAST_OF_EDGE * side.knots[-1]]
+        if corners.size:
+            corner = side(corners[-1:])[0, 3:]
+            if np.linalg.norm(corner - sides[1 - index].fine[0]) >= min_thickness:
+                starts = [0.0, 0.0]
+                starts[index] = corners[-1]
+                return starts, 0.0
+    starts = _cut(sides, min_thickness, name)
+    ends = [side(np.array([start]))[0, 3:] for side, start in zip(sides, starts, strict=True)]
+    foremost = min((side.fine @ chord).min() for side in sides)
+    return starts, float(chord @ np.mean(ends, axis=0) - foremost)
+
+
+def _cut(sides: list[_Curve], min_thickness: float, name: str) -> list[float]:
+    """Parameters of both sides where the thickness across the camber line reaches `min_thickness`."""
+    outline = np.vstack([sides[0].fine, sides[1].fine[::-1]])
+    try:
+        line = camber_line(np.stack([outline, np.roll(outline, -1, axis=0)], axis=1))
+    except ValueError as error:
+        raise ValueError(f"section {name}: is {error}") from error
+    start = (sides[0].fine[0] + sides[1].fine[0]) / 2
+    if np.linalg.norm(line[-1] - start) < np.linalg.norm(line[0] - start):
+        line = line[::-1]
+    arc = arc_length(line)
+    places = _CUTS[::-1] * arc[-1]
+    points = np.stack([np.interp(places, arc, axis) for axis in line.T], axis=1)
+    tangents = np.stack([np.interp(places, arc, axis) for axis in np.gradient(line, arc, axis=0).T], axis=1)
+    across = np.stack([-tangents[:, 1], tangents[:, 0]], axis=1)
+    across /= np.linalg.norm(tangents, axis=1, keepdims=True)
+    inner = None
+    for point, normal in zip(points, across, strict=True):  # from the middle to the edge
+        met = [_nearest(side, point, normal) for side in sides]
+        gap = 0.0 if None in met else abs(met[0][0] - met[1][0])
+        if gap < min_thickness:
+            break
+        inner = [parameter for _, parameter in met]
+    if inner is None:
+        raise ValueError(f"section {name}: is too thin in the middle of its chord to be cut at its edges")
+    return inner
+
+
+def _nearest(side: _Curve, point: np.ndarray, normal: np.ndarray) -> tuple[float, float] | None:
+    """Distance to the nearest point of `side` on the line along `normal`, and the parameter there."""
+    distance, place = crossings(np.stack([side.fine[:-1], side.fine[1:]], axis=1), point, normal)
+    if not distance.size:
+        return None
+    index = np.argmin(np.abs(distance))
+    numbers = np.arange(len(side.fine_parameter))
+    return distance[index], float(np.interp(place[index], numbers, side.fine_parameter))
+
+
+def _paired(sides: list[_Curve], parameters: list[np.ndarray]) -> tuple[np.ndarray, float]:
+    """Places (201, 2, 3) on both sides at `SAMPLES` of the camber line between them, and its length."""
+    pairs = list(zip(sides, parameters, strict=True))
+    first, second = (side(parameter)[:, 3:] for side, parameter in pairs)
+    arc, share = arc_length((first + second) / 2), np.linspace(0, 1, len(first))
+    sample_share = np.interp(SAMPLES, arc / arc[-1], share)
+    places = [side(np.interp(sample_share, share, parameter))[:, :3] for side, parameter in pairs]
+    return np.stack(places, axis=1), float(arc[-1])
+
+
+def _even(side: _Curve, start: float, stop: float) -> np.ndarray:
+    """Parameters at even steps of the arc length between two of them."""
+    inside = (side.fine_parameter > start) & (side.fine_parameter < stop)
+    parameter = np.concatenate([[start], side.fine_parameter[inside], [stop]])
+    arc = arc_length(side(parameter)[:, 3:])
+    return np.interp(np.linspace(0, arc[-1], 8 * SAMPLES.size), arc, parameter)

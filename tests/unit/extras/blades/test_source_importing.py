@@ -1,0 +1,183 @@
+import meshio
+import numpy as np
+import pytest
+from blade_parts import tetrahedral_mesh
+
+from bladerub.blade.build import build, made_from
+from bladerub.blade.frequencies import reduced_frequencies
+from bladerub.blade.geometry import BladeShape, lattice
+from bladerub.blade.mesh import BladeMesh
+from bladerub.extras.blades.frame import Frame
+from bladerub.extras.blades.importing import import_blade
+from bladerub.extras.blades.origin import Source
+from bladerub.extras.export.mesh_file import write_mesh_file
+from bladerub.io.errors import BadInput
+
+REDUCTION = {
+    "f_omega_max": 0.4,
+    "modes_per_speed": 3,
+    "rank_tolerance": 1e-5,
+    "accuracy_speeds": 3,
+    "accuracy_modes": 8,
+}
+
+
+@pytest.fixture
+def blade(twisted_config):
+    twisted_config["tip_cone"] = 9.0
+    return BladeMesh.from_shape(BladeShape.from_config(twisted_config), twisted_config["mesh"])
+
+
+@pytest.fixture
+def write(blade, tmp_path):
+    """Write the blade with other points or elements, and say where."""
+
+    def file(name="blade.inp", points=None, cells=None, **node_sets):
+        sets = {"ROOT": blade.root, "TIP": blade.tip} | node_sets
+        points = blade.mesh.points if points is None else points
+        write_mesh_file(tmp_path / name, points, blade.mesh.cells if cells is None else cells, sets)
+        return tmp_path / name
+
+    return file
+
+
+@pytest.mark.parametrize("name", ["blade.inp", "blade.msh", "blade.vtu"])
+@pytest.mark.parametrize("sets", [{}, {"root_set": "ROOT", "tip_set": "tip"}], ids=["by rule", "by name"])
+def test_the_blade_comes_back_from_its_file(blade, write, name, sets):
+    imported = import_blade(Source(write(name), **sets), {})
+    mesh = imported.blade.mesh
+    for nodes in ("root", "tip", "interface"):
+        ours, theirs = getattr(blade, nodes), getattr(mesh, nodes)
+        a, b = blade.mesh.points[ours], mesh.mesh.points[theirs]
+        if nodes != "interface":
+            a, b = np.unique(a, axis=0), np.unique(b, axis=0)
+        np.testing.assert_array_equal(a, b)
+    assert np.rad2deg(imported.blade.tip_cone) == pytest.approx(9.0, abs=1e-9)
+    assert imported.blade.length == pytest.approx(0.2, rel=0.01)
+    assert imported.n_unused == 0
+    assert imported.jacobian_ratio.min() > 0
+
+
+@pytest.mark.parametrize("name", ["blade.inp", "blade.msh", "blade.vtu"])
+def test_its_frequencies_come_back_as_well(twisted_config, tmp_path, name):
+    config = {"blade": twisted_config, "reduction": REDUCTION}
+    ours = build(config)
+    sets = {"root": ours.mesh.root, "tip": ours.mesh.tip}
+    write_mesh_file(tmp_path / name, ours.mesh.mesh.points, ours.mesh.mesh.cells, sets)
+    theirs = build(config | {"blade": twisted_config | {"source": {"file": str(tmp_path / name)}}})
+    np.testing.assert_allclose(theirs.frequency, ours.frequency, rtol=1e-9)
+    np.testing.assert_allclose(theirs.accuracy.f_fe, ours.accuracy.f_fe, rtol=1e-9)
+    for f_omega in (0.0, 0.3):
+        a, b = (reduced_frequencies(blade.reduced, f_omega, 8) for blade in (ours, theirs))
+        np.testing.assert_allclose(b, a, rtol=1e-8)
+    np.testing.assert_allclose(theirs.reduced.radial_direction, ours.reduced.radial_direction, atol=1e-12)
+
+
+def test_the_same_blade_in_other_axes_and_units(blade, write):
+    # x of the file along the blade, its z upstream: the blade turns about +z there, as it does about -x here
+    turn = np.array([[0, 0, -1], [0, 1, 0], [1, 0, 0]], dtype=float)
+    frame = Frame("mm", rotation="z", downstream="-z", radial="x")
+    np.testing.assert_array_equal(frame.turn, turn)
+    path = write("turned.inp", points=1e3 * blade.mesh.points @ turn)
+    mesh = import_blade(Source(path, frame), {}).blade.mesh
+    found = mesh.mesh.points[mesh.interface]
+    np.testing.assert_allclose(found, blade.mesh.points[blade.interface], atol=1e-15)
+
+
+def test_flow_against_x_turns_the_interface_and_the_cone_around(blade, write):
+    imported = import_blade(Source(write(), Frame(downstream="-x"), tip_cone=-9.0), {})
+    mesh = imported.blade.mesh
+    ours = blade.mesh.points[blade.interface]
+    np.testing.assert_array_equal(mesh.mesh.points[mesh.interface], ours[::-1])
+    assert np.rad2deg(imported.blade.tip_cone) == pytest.approx(9.0)
+
+
+def test_tetrahedra_become_a_blade(twisted_config, tmp_path):
+    counts = {"chordwise": 14, "thickness": 2, "spanwise": 6}
+    mesh, cube = tetrahedral_mesh(*lattice(counts), BladeShape.from_config(twisted_config).points)
+    write_mesh_file(tmp_path / "blade.msh", mesh.points, mesh.cells, {})
+    found = import_blade(Source(tmp_path / "blade.msh"), {}).blade.mesh
+    for nodes, end in ((found.root, 0), (found.tip, 1)):
+        expected = mesh.points[cube[2] == end]
+        np.testing.assert_array_equal(
+            np.unique(found.mesh.points[nodes], axis=0), np.unique(expected, axis=0)
+        )
+
+
+def test_nodes_in_no_element_are_left_out(blade, write):
+    imported = import_blade(Source(write(points=np.vstack([blade.mesh.points, [[0, 0, 0], [9, 9, 9]]]))), {})
+    assert imported.n_unused == 2
+    assert len(imported.blade.mesh.mesh.points) == len(blade.mesh.points)
+
+
+def test_sets_of_linear_elements_get_the_middles_too(blade, tmp_path):
+    corners, number = np.unique(blade.mesh.cells[:, :8], return_inverse=True)
+    root = np.flatnonzero(np.isin(corners, blade.root))
+    mesh = meshio.Mesh(
+        blade.mesh.points[corners], [("hexahedron", number.reshape(-1, 8))], point_sets={"ROOT": root}
+    )
+    meshio.abaqus.write(str(tmp_path / "linear.inp"), mesh)
+    imported = import_blade(Source(tmp_path / "linear.inp", root_set="ROOT"), {})
+    assert imported.is_raised
+    assert imported.blade.mesh.root.size == blade.root.size
+
+
+def moved(points, nodes, by):
+    changed = points.copy()
+    changed[nodes] += by
+    return changed
+
+
+def test_broken_meshes_are_refused_with_file_and_culprit(blade, write):
+    points, cells = blade.mesh.points, blade.mesh.cells
+    corner = cells[5, 0]
+    nan = moved(points, corner, np.nan)
+    twin = points.copy()
+    twin[cells[0, 0]] = points[cells[-1, 6]]
+    swapped = cells[:, [0, 1, 2, 3, 4, 5, 6, 7, 8, 11, 10, 9, *range(12, 20)]]
+    inside_out = moved(points, corner, [0, 0.05, 0])
+    loose = cells.copy()
+    shared = np.intersect1d(cells[0, 8:], cells[1, 8:])[0]
+    loose[1, cells[1] == shared] = len(points)
+    near = points[shared] + 1e-4
+    cases = [
+        ({"points": nan}, {}, f"node {corner + 1}: its coordinates are not finite"),
+        ({"points": twin}, {}, "are in one place; merge them"),
+        ({"cells": swapped}, {}, "element 1: its 10th node is not in the middle of its edge"),
+        ({"points": points * [1, -1, 1]}, {}, "all elements are left-handed"),
+        ({"points": inside_out}, {}, "its Jacobian is negative|not in the middle"),
+        ({"points": np.vstack([points, near]), "cells": loose}, {}, "must share the mid-side nodes"),
+        ({}, {"root_set": "FOOT"}, 'root not found: there is no node set "FOOT"; did you mean ROOT'),
+        ({}, {"tip_set": "hub"}, 'tip not found: there is no node set "hub"; there are ROOT, TIP'),
+        ({"TIP": np.array([], dtype=int)}, {"tip_set": "TIP"}, 'the node set "TIP" has no nodes'),
+        (
+            {"TIP": blade.tip[:3]},
+            {"tip_set": "TIP"},
+            "tip not found: no face of the surface has",
+        ),
+        ({"TIP": blade.root}, {"tip_set": "TIP"}, "root and tip share nodes"),
+        ({"ROOT": blade.tip, "TIP": blade.root}, {"root_set": "ROOT", "tip_set": "TIP"}, "no farther from"),
+        ({"points": points - points[blade.root[0]]}, {}, "a node lies on the engine axis"),
+    ]
+    for number, (content, source, said) in enumerate(cases):
+        path = write(f"broken{number}.inp", **content)
+        with pytest.raises(BadInput, match=said) as caught:
+            import_blade(Source(path, **source), {})
+        assert str(caught.value).startswith(f"{path}: ")
+        assert "\n" not in str(caught.value)
+
+
+def test_a_length_that_is_not_the_blades_is_refused(twisted_config, write):
+    config = twisted_config | {"source": {"file": str(write())}, "length": 0.25}
+    with pytest.raises(BadInput, match=r"blade.length = 0.25: must be that of the blade in .*, 0.199"):
+        build({"blade": config, "reduction": REDUCTION})
+
+
+def test_a_blade_is_of_its_file_not_of_the_sections(twisted_config, write):
+    path = write()
+    config = {"blade": twisted_config | {"source": {"file": str(path)}}, "reduction": REDUCTION}
+    first = made_from(config)
+    config["blade"]["hub_radius"] = 1.0
+    assert made_from(config) == first
+    path.write_text(path.read_text() + "** another\n")
+    assert made_from(config) != first

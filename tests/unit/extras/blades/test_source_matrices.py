@@ -1,0 +1,434 @@
+import copy
+import shutil
+from pathlib import Path
+from zipfile import ZIP_DEFLATED, ZipFile
+
+import numpy as np
+import pandas as pd
+import pytest
+from blade_parts import TITANIUM, section
+from scipy import sparse
+from scipy.io import mmwrite
+
+from bladerub.blade.build import build, made_from, meshed_blade
+from bladerub.blade.discrete import by_finite_elements
+from bladerub.blade.elasticity import Material, Solid
+from bladerub.blade.frequencies import reduced_frequencies
+from bladerub.blade.rotation import rotating_stiffness
+from bladerub.extras.blades import matrix_folder
+from bladerub.extras.blades.frame import Frame
+from bladerub.extras.blades.matrices import import_matrices
+from bladerub.extras.blades.origin import MATRIX_UNITS, MatrixSource, read
+from bladerub.extras.export.matrices import write_fe_matrices
+from bladerub.io.errors import BadInput
+
+REDUCTION = {
+    "f_omega_max": 0.4,
+    "modes_per_speed": 3,
+    "rank_tolerance": 1e-5,
+    "accuracy_speeds": 5,
+    "accuracy_modes": 8,
+}
+
+
+BLADE = {
+    "material": TITANIUM,
+    "hub_radius": 0.45,
+    "length": 0.2,
+    "tip_cone": 9.0,
+    "sections": [
+        section(0.0, thickness=0.1, camber=35.0, stagger=20.0),
+        section(1.0, chord=0.075, thickness=0.05, camber=10.0, stagger=50.0, sweep=-0.004, lean=0.003),
+    ],
+    "mesh": {"chordwise": 7, "thickness": 1, "spanwise": 3},
+}
+
+
+@pytest.fixture
+def config():
+    return copy.deepcopy({"blade": BLADE, "reduction": REDUCTION})
+
+
+@pytest.fixture(scope="module")
+def discrete():
+    speeds = np.linspace(0, 0.4, REDUCTION["accuracy_speeds"]).tolist()
+    material = Material.from_config(BLADE["material"])
+    return by_finite_elements(meshed_blade(BLADE), material, speeds, [], REDUCTION["accuracy_modes"])
+
+
+@pytest.fixture(scope="module")
+def written(discrete, tmp_path_factory):
+    folder = tmp_path_factory.mktemp("written")
+    write_fe_matrices(folder, discrete, 0.4, ".npz")
+    return folder
+
+
+@pytest.fixture
+def folder(written, tmp_path):
+    """Matrices of the blade that a test may change."""
+    return Path(shutil.copytree(written, tmp_path / "matrices"))
+
+
+def imported(folder, **source):
+    return import_matrices(MatrixSource(folder, **source), 0.4, 8, 3)
+
+
+def of_folder(config, folder, **more):
+    return config | {"blade": config["blade"] | {"source": {"matrices": str(folder), **more}}}
+
+
+@pytest.mark.parametrize("suffix", [".mtx", ".npz"])
+def test_the_blade_comes_back_from_its_matrices(config, discrete, tmp_path, suffix):
+    paths = write_fe_matrices(tmp_path, discrete, 0.4, suffix)
+    assert sorted(path.name for path in paths) == sorted(path.name for path in tmp_path.iterdir())
+    ours, theirs = build(config), build(of_folder(config, tmp_path))
+    np.testing.assert_allclose(theirs.frequency, ours.frequency, rtol=1e-9)
+    np.testing.assert_allclose(theirs.accuracy, ours.accuracy, rtol=1e-8, atol=1e-8)
+    for f_omega in (0.0, 0.3):
+        a, b = (reduced_frequencies(blade.reduced, f_omega, 8) for blade in (ours, theirs))
+        np.testing.assert_allclose(b, a, rtol=1e-8)
+    for name in ("root", "tip", "interface"):
+        np.testing.assert_array_equal(getattr(theirs.mesh, name), getattr(ours.mesh, name))
+    for name in ("node_position", "radial_direction", "tangential_direction"):
+        a, b = (getattr(blade.reduced, name) for blade in (ours, theirs))
+        np.testing.assert_allclose(b, a, atol=1e-12)
+    assert theirs.mesh.mesh.cells.shape == (0, 20)
+    assert theirs.static_displacement.shape == (0, len(ours.mesh.mesh.points), 3)
+
+
+def test_rows_of_clamped_nodes_other_axes_and_units(config, discrete, tmp_path):
+    """All rows, x along the blade, z upstream, in mm, t and N/mm, as other programs write them."""
+    turn = np.array([[0, 0, -1], [0, 1, 0], [1, 0, 0]], dtype=float)  # rows: axes of the blade in the file
+    mesh = discrete.layout.mesh
+    solid = Solid(mesh.mesh, Material.from_config(TITANIUM))
+    everywhere = sparse.kron(sparse.eye_array(solid.n_nodes), turn)
+    omega = 2 * np.pi * discrete.frequency[0] * np.array([0.0, 0.2, 0.4])
+    displacement = [discrete.free.full(discrete.displacement[f_omega]).ravel() for f_omega in (0.0, 0.2, 0.4)]
+    matrices = {"mass": solid.mass}
+    for name, u, speed in zip(("rest", "half", "max"), displacement, omega, strict=True):
+        matrices[f"stiffness_{name}"] = rotating_stiffness(solid, u, speed**2)
+    for name, matrix in matrices.items():
+        mmwrite(tmp_path / f"{name}.mtx", 1e-3 * (everywhere.T @ matrix @ everywhere), precision=17)
+    nodes = pd.DataFrame(1e3 * mesh.mesh.points @ turn, columns=["x", "y", "z"])
+    nodes["interface"] = pd.Series(range(1, 9), index=mesh.interface)  # empty elsewhere
+    nodes["clamped"] = np.isin(np.arange(len(nodes)), mesh.root).astype(int)
+    nodes.to_csv(tmp_path / "nodes.csv", index=False)
+
+    frame = Frame("mm", rotation="z", downstream="-z", radial="x")
+    given = imported(tmp_path, frame=frame, matrix_units="mm-tonne", omega_max=omega[-1])
+    volume = solid.mass.sum() / 3 / TITANIUM["density"]
+    assert given.mass == pytest.approx(TITANIUM["density"] * volume)
+    assert given.mass_is_complete
+    assert given.blade.layout.length == pytest.approx(0.2, rel=0.01)
+    np.testing.assert_allclose(given.blade.frequency, discrete.frequency, rtol=1e-9)
+    np.testing.assert_allclose(given.blade.layout.mesh.mesh.points, mesh.mesh.points, atol=1e-15)
+    for ours, theirs in (
+        (discrete.mass, given.blade.mass),
+        (discrete.stiffness[0.4], given.blade.stiffness[0.4]),
+    ):
+        assert abs(theirs - ours).max() <= 1e-12 * abs(ours).max()
+
+
+def test_nodes_without_clamped_ones_tell_no_length(config, folder):
+    nodes = pd.read_csv(folder / "nodes.csv")
+    nodes[nodes.clamped == 0].drop(columns="clamped").to_csv(folder / "nodes.csv", index=False)
+    given = imported(folder)
+    assert not given.is_rooted
+    assert not given.mass_is_complete
+    assert 0.1 < given.blade.layout.length < 0.199
+    assert build(of_folder(config, folder)).reduced.length == 0.2
+    for length in (0.1, 0.7):
+        config["blade"]["length"] = length
+        with pytest.raises(
+            BadInput, match=rf"blade.length = {length}: must be that of the blade in .*/matrices"
+        ):
+            build(of_folder(config, folder))
+
+
+def test_a_blade_that_nothing_holds_is_refused(discrete, folder):
+    mesh = discrete.layout.mesh.mesh
+    loose = Solid(mesh, Material.from_config(TITANIUM))
+    sparse.save_npz(folder / "mass.npz", loose.mass)
+    for path in folder.glob("stiffness_*"):
+        sparse.save_npz(path, loose.tangent(np.zeros(loose.free.size)))
+    nodes = pd.read_csv(folder / "nodes.csv")
+    nodes.drop(columns="clamped").to_csv(folder / "nodes.csv", index=False)
+    with pytest.raises(
+        BadInput, match=r"stiffness_rest.npz: is singular or indefinite: its lowest mode moves"
+    ):
+        imported(folder)
+
+
+def test_matrices_with_fewer_modes_than_wanted_are_refused(folder):
+    with pytest.raises(
+        BadInput, match=r"nodes.csv: has 462 free coordinates off .* more than 462, the modes"
+    ):
+        import_matrices(MatrixSource(folder), 0.4, 8, 462)
+
+
+def test_a_length_that_is_not_the_blades_is_refused(config, folder):
+    config["blade"]["length"] = 0.25
+    with pytest.raises(BadInput, match=r"blade.length = 0.25: must be that of .*, 0.1994? m"):
+        build(of_folder(config, folder))
+
+
+def test_a_speed_that_is_not_the_configs_is_refused(folder, discrete):
+    omega = 2 * np.pi * discrete.frequency[0] * 0.4
+    assert imported(folder, omega_max=1.0009 * omega).blade.frequency[0] == pytest.approx(
+        discrete.frequency[0]
+    )
+    with pytest.raises(BadInput, match=r"is 0.44 of the blade's first .*f_omega_max = 0.4 must be that"):
+        imported(folder, omega_max=1.1 * omega)
+
+
+def test_a_blade_is_of_its_files_not_of_the_material(config, folder):
+    ours = of_folder(config, folder)
+    first = made_from(ours)
+    ours["blade"]["material"]["density"] = 1000.0
+    assert made_from(ours) == first
+    sparse.save_npz(folder / "mass.npz", 2 * sparse.load_npz(folder / "mass.npz"))
+    assert made_from(ours) != first
+
+
+def matrix(name, change):
+    """Change the matrix `name` of a folder."""
+
+    def apply(folder):
+        path = folder / f"{name}.npz"
+        sparse.save_npz(path, sparse.csc_array(change(sparse.load_npz(path).tolil())))
+
+    return apply
+
+
+def entry(row, column, value):
+    def change(matrix):
+        matrix[row, column] = value
+        return matrix
+
+    return change
+
+
+def nodes(change):
+    """Change the table of nodes of a folder."""
+
+    def apply(folder):
+        change(pd.read_csv(folder / "nodes.csv").astype(object)).to_csv(folder / "nodes.csv", index=False)
+
+    return apply
+
+
+def cell(row, column, value):
+    def change(table):
+        table.loc[row, column] = value
+        return table
+
+    return change
+
+
+def text(name, content):
+    def apply(folder):
+        (folder / "mass.npz").unlink()
+        (folder / name).write_text(content)
+
+    return apply
+
+
+def added(name, source="stiffness_half.npz"):
+    return lambda folder: shutil.copy(folder / source, folder / name)
+
+
+def renamed(before, after):
+    return lambda folder: (folder / before).rename(folder / after)
+
+
+def archive(**changes):
+    """Replace arrays of mass.npz, which scipy reads without a look at them."""
+
+    def apply(folder):
+        with np.load(folder / "mass.npz") as content:
+            arrays = {name: changes.get(name, lambda array: array)(array) for name, array in content.items()}
+        np.savez_compressed(folder / "mass.npz", **arrays)
+
+    return apply
+
+
+def bomb(folder):
+    """An archive of a few hundred kB that unpacks to 1.2 GB."""
+    with ZipFile(folder / "mass.npz", "a", ZIP_DEFLATED) as file, file.open("padding.npy", "w") as stream:
+        for _ in range(1200):
+            stream.write(bytes(10**6))
+
+
+HEADER = "%%MatrixMarket matrix coordinate real"
+INTERFACE = "interface node 1 is downstream of node 8; must be at the leading edge"
+
+BROKEN = {
+    "a missing file": (
+        lambda folder: (folder / "stiffness_half.npz").unlink(),
+        "matrices: holds no stiffness_half",
+    ),
+    "no list of nodes": (lambda folder: (folder / "nodes.csv").unlink(), "matrices: holds no nodes.csv"),
+    "both formats": (added("mass.mtx", "mass.npz"), "matrices: holds both mass.mtx and mass.npz"),
+    "an empty matrix": (text("mass.mtx", ""), "mass.mtx: is empty"),
+    "an empty list": (lambda folder: (folder / "nodes.csv").write_text(""), "nodes.csv: is empty"),
+    "no matrix": (text("mass.npz", "nonsense"), "mass.npz: is not a .npz file that can be read"),
+    "a cut file": (
+        text("mass.mtx", f"{HEADER} general\n9 9 5\n1 1 2.0\n"),
+        "mass.mtx: is not a .mtx file that",
+    ),
+    "offsets past the end": (
+        archive(indptr=lambda array: array + 10**9 * (array > 0)),
+        "mass.npz: is not a .npz file that can be read",
+    ),
+    "offsets that go back": (
+        archive(indptr=lambda array: np.where(np.arange(array.size) == 5, 10**6, array)),
+        "mass.npz: is not a .npz file that can be read",
+    ),
+    "places outside": (
+        archive(indices=lambda array: array - 10**7),
+        "mass.npz: is not a .npz file that can be read",
+    ),
+    "a bomb": (bomb, "mass.npz: takes 1.2 GB of memory for 486 rows; must take 0.8 GB or less"),
+    "more entries than fit": (
+        text("mass.mtx", f"{HEADER} general\n9 9 99999999999\n1 1 2.0\n"),
+        r"mass.mtx: takes 1.6e\+03 GB of memory for 9 rows",
+    ),
+    "of Abaqus, by labels": (
+        text("mass.mtx", "**\n1,1, 1,1,  2.0e-03\n"),
+        "mass.mtx: .* of Abaqus, FORMAT=MATRIX INPUT",
+    ),
+    "of Abaqus, by rows": (text("mass.mtx", "1 1  2.0e-03\n"), "mass.mtx: .* of Abaqus, FORMAT=COORDINATE"),
+    "of CalculiX": (
+        text("blade.mas", "1 1 2.0e-03\n"),
+        "holds no mass.mtx or mass.npz; .*blade.mas of Calcul",
+    ),
+    "not square": (
+        matrix("stiffness_max", lambda m: m[:-3]),
+        r"stiffness_max.npz: is \d+ x \d+; must be square",
+    ),
+    "complex": (
+        matrix("mass", lambda m: m * 1j),
+        "mass.npz: holds numbers of the type complex128; must be real",
+    ),
+    "NaN": (matrix("stiffness_half", entry(4, 6, np.nan)), r"half.npz: its entry \(5, 7\) is nan"),
+    "not symmetric": (
+        matrix("stiffness_max", lambda m: entry(4, 6, 1.01 * m[4, 6])(m)),
+        r"stiffness_max.npz: is not symmetric: its entry \((5, 7|7, 5)\) is .* off its mirror image",
+    ),
+    "a triangle": (
+        matrix("stiffness_rest", sparse.tril),
+        "rest.npz: holds one triangle only; must hold both",
+    ),
+    "both triangles of a symmetric file": (
+        text("mass.mtx", f"{HEADER} symmetric\n3 3 4\n1 1 2\n2 1 1\n1 2 1\n2 2 2\n"),
+        "mass.mtx: has entries twice",
+    ),
+    "another size": (
+        matrix("stiffness_rest", lambda m: m[:-3, :-3]),
+        "rest.npz: is .* three rows for each of the",
+    ),
+    "no mass": (
+        matrix("mass", entry(6, 6, 0.0)),
+        r"mass.npz: is not positive definite: its entry \(7, 7\) is 0",
+    ),
+    "negative mass": (
+        matrix("mass", lambda m: entry(0, 1, 5 * m[0, 0])(entry(1, 0, 5 * m[0, 0])(m))),
+        "mass.npz: is not positive definite: it has negative eigenvalues",
+    ),
+    "indefinite": (
+        matrix("stiffness_rest", lambda m: m - 0.5 * sparse.diags_array(m.diagonal())),
+        "rest.npz: is not positive definite: it has negative eigenvalues",
+    ),
+    "too few nodes": (
+        nodes(lambda table: table.drop(index=table.index[(table.clamped + table.tip) == 0][:1])),
+        r"mass.npz: is \d+ x \d+; must have three rows for each",
+    ),
+    "a node without place": (nodes(cell(3, "y", np.nan)), "nodes.csv: row 4: its coordinates are not finite"),
+    "words": (nodes(cell(5, "z", "high")), "nodes.csv: row 6: z = high: must be a number"),
+    "no interface": (
+        nodes(lambda table: table.drop(columns="interface")),
+        "nodes.csv: has no column interface",
+    ),
+    "a number missing": (
+        nodes(lambda table: table.assign(interface=table.interface.replace(3, 0))),
+        "nodes.csv: no node has interface = 3; each of 1 to 8 must be there once",
+    ),
+    "a number twice": (
+        nodes(lambda table: cell(table.index[table.interface == 0][-1], "interface", 2)(table)),
+        "nodes.csv: 2 nodes have interface = 2",
+    ),
+    "no such number": (
+        nodes(cell(7, "interface", 33)),
+        "nodes.csv: row 8: interface = 33: must be a whole number",
+    ),
+    "clamped by halves": (
+        nodes(cell(7, "clamped", 0.5)),
+        "nodes.csv: row 8: clamped = 0.5: must be a whole number",
+    ),
+    "clamped at the tip": (
+        nodes(lambda table: table.assign(clamped=table.clamped.where(table.interface != 1, 1))),
+        "an interface node must not be clamped",
+    ),
+    "backwards": (
+        nodes(lambda table: table.assign(interface=[9 - n if n else 0 for n in table.interface])),
+        f"nodes.csv: {INTERFACE}",
+    ),
+    "two in one place": (
+        nodes(
+            lambda table: table.assign(
+                **{
+                    axis: table[axis].where(table.interface != 5, table[axis][table.interface == 6].item())
+                    for axis in "xyz"
+                }
+            )
+        ),
+        "nodes.csv: interface nodes 5 and 6 are in one place",
+    ),
+    "no speed": (
+        added("stiffness_at_low.npz"),
+        "stiffness_at_low.npz: must be named after its normalised speed",
+    ),
+    "a speed too high": (added("stiffness_at_0.5.npz"), "stiffness_at_0.5.npz: must be named after .* = 0.4"),
+    "a speed twice": (added("stiffness_at_0.20.npz"), "stiffness_at_0.20.npz: .* none that another file has"),
+}
+
+
+@pytest.mark.parametrize("name", BROKEN)
+def test_broken_folders_are_refused_with_file_and_culprit(folder, name):
+    apply, said = BROKEN[name]
+    apply(folder)
+    with pytest.raises(BadInput, match=said) as caught:
+        imported(folder)
+    assert str(caught.value).startswith(str(folder))
+    assert "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("source", "said"),
+    [
+        ({}, "file: missing; must be given, or matrices in its place"),
+        ({"matrices": "m", "file": "blade.inp"}, "file = blade.inp: must not be given beside matrices"),
+        ({"matrices": "m", "root_set": "R"}, "root_set = R: must not be given beside matrices"),
+        ({"file": "blade.inp", "matrix_units": "SI"}, "matrix_units = SI: must not be given beside file"),
+    ],
+)
+def test_keys_that_do_not_go_together_are_refused(source, said):
+    with pytest.raises(ValueError, match=said):
+        read(source)
+
+
+def test_units_of_matrices_are_those_of_their_systems():
+    pound_force, inch = 4.4482216152605, 0.0254
+    assert {"SI": 1.0, "mm-tonne": 1e3, "inch-lbf": pytest.approx(pound_force / inch)} == MATRIX_UNITS
+
+
+@pytest.mark.parametrize(("off", "is_symmetric"), [(0.9e-8, True), (1.1e-8, False)])
+def test_matrices_are_symmetric_to_1e_8_of_their_largest_entry(tmp_path, off, is_symmetric):
+    entries = np.array([[4.0, 1.0], [1.0 + 4.0 * off, 2.0]])
+    sparse.save_npz(tmp_path / "mass.npz", sparse.csc_array(entries))
+    if is_symmetric:
+        matrix = matrix_folder.read_matrix(tmp_path / "mass.npz").toarray()
+        np.testing.assert_array_equal(matrix, matrix.T)
+    else:
+        with pytest.raises(ValueError, match=r"is not symmetric: its entry \(\d, \d\)"):
+            matrix_folder.read_matrix(tmp_path / "mass.npz")

@@ -1,0 +1,174 @@
+import meshio
+import numpy as np
+import pytest
+from blade_parts import tetrahedral_mesh
+
+from bladerub.blade.mesh import hexahedral_mesh
+from bladerub.blade.surface import EDGES
+from bladerub.extras.blades.mesh_file import raised, read
+from bladerub.extras.export.mesh_file import write_mesh_file
+
+CORNERS = (np.array([0.0, 0.3, 1.0]), np.array([0.0, 1.0]), np.array([0.0, 0.6, 1.0]))
+
+
+def bent(*cube):
+    x, y, z = np.stack(cube)
+    return np.stack([x + 0.1 * z**2, y - 0.2 * x * z, z + 0.05 * x**2])
+
+
+@pytest.mark.parametrize("suffix", [".inp", ".msh", ".vtu", ".VTU"])
+@pytest.mark.parametrize("make_mesh", [hexahedral_mesh, tetrahedral_mesh])
+def test_a_mesh_survives_its_file(make_mesh, suffix, tmp_path):
+    mesh, cube = make_mesh(*CORNERS, bent)
+    bottom, top = (np.flatnonzero(cube[2] == end) for end in (0, 1))
+    write_mesh_file(
+        tmp_path / f"m{suffix}", mesh.points, mesh.cells, {"ROOT": bottom, "TIP": top, "INTERFACE": top[:3]}
+    )
+    content = read(tmp_path / f"m{suffix}")
+    np.testing.assert_array_equal(content.points, mesh.points)
+    np.testing.assert_array_equal(content.cells, mesh.cells)
+    assert not content.is_raised
+    assert {name: nodes.tolist() for name, nodes in content.node_sets.items()} == {
+        "ROOT": bottom.tolist(),
+        "TIP": top.tolist(),
+        "INTERFACE": top[:3].tolist(),
+    }
+
+
+@pytest.mark.parametrize(
+    ("make_mesh", "kind"), [(hexahedral_mesh, "hexahedron"), (tetrahedral_mesh, "tetra")]
+)
+def test_linear_elements_get_the_middles_of_their_edges(make_mesh, kind, tmp_path):
+    mesh, _ = make_mesh(*CORNERS, lambda *cube: np.stack(cube))
+    n_corners = mesh.cells.shape[1] - len(EDGES[mesh.cells.shape[1]])
+    linear = meshio.Mesh(mesh.points[: mesh.nvertices], [(kind, mesh.cells[:, :n_corners])])
+    meshio.vtu.write(str(tmp_path / "m.vtu"), linear)
+    content = read(tmp_path / "m.vtu")
+    assert content.is_raised
+    assert len(content.points) == len(mesh.points)
+    np.testing.assert_allclose(content.points[content.cells], mesh.points[mesh.cells], atol=1e-15)
+
+
+def test_neighbours_share_the_middles():
+    points = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1], [1, 1, 1]], dtype=float)
+    more, cells = raised(points, np.array([[0, 1, 2, 3], [1, 2, 3, 4]]))
+    assert len(more) == 5 + 9
+    assert np.intersect1d(cells[0, 4:], cells[1, 4:]).size == 3
+
+
+def test_node_sets_of_abaqus_go_by_range_as_well(tmp_path):
+    (tmp_path / "m.inp").write_text(
+        "*NODE\n1, 0, 0, 0\n2, 1, 0, 0\n3, 0, 1, 0\n4, 0, 0, 1\n"
+        "*ELEMENT, TYPE=C3D4, ELSET=EALL\n1, 1, 2, 3, 4\n*NSET, NSET=Some, GENERATE\n1, 3, 1\n"
+    )
+    content = read(tmp_path / "m.inp")
+    np.testing.assert_array_equal(content.node_sets["Some"], [0, 1, 2])
+
+
+def test_faces_of_gmsh_in_abaqus_files_are_node_sets(tmp_path):
+    # What Gmsh writes of a tetrahedron with two physical surfaces; the first block is in no set here.
+    (tmp_path / "m.inp").write_text(
+        "*Node\n1, 0, 0, 0\n2, 1, 0, 0\n3, 0, 1, 0\n4, 0, 0, 1\n"
+        "*ELEMENT, type=T3D2\n1, 1, 2\n"
+        "*ELEMENT, type=cps3, ELSET=Root\n2, 1, 2, 3\n"
+        "*ELEMENT, type=M3D3, ELSET=Tip\n3, 1, 2, 4\n"
+        "*ELEMENT, type=c3d4, ELSET=Volume1\n4, 1, 2, 3, 4\n"
+    )
+    content = read(tmp_path / "m.inp")
+    assert {name: nodes.tolist() for name, nodes in content.node_sets.items()} == {
+        "Root": [0, 1, 2],
+        "Tip": [0, 1, 3],
+    }
+
+
+WEDGE = f"1, {', '.join(str(1 + node % 6) for node in range(15))}\n"
+GROUPS = """$MeshFormat
+2.2 0 8
+$EndMeshFormat
+$PhysicalNames
+3
+1 1 "{line}"
+2 1 "TIP"
+3 1 "BLADE"
+$EndPhysicalNames
+$Nodes
+5
+1 0 0 0
+2 1 0 0
+3 0 1 0
+4 0 0 1
+5 1 1 1
+$EndNodes
+$Elements
+4
+1 1 2 1 1 3 4
+2 2 2 1 1 1 2 3
+3 4 2 1 1 1 2 3 4
+4 4 2 1 1 2 3 4 5
+$EndElements
+"""
+
+
+def test_physical_groups_of_gmsh_are_kept_apart_by_dimension(tmp_path):
+    (tmp_path / "m.msh").write_text(GROUPS.format(line="EDGE"))
+    content = read(tmp_path / "m.msh")
+    assert {name: nodes.tolist() for name, nodes in content.node_sets.items()} == {
+        "EDGE": [2, 3],
+        "TIP": [0, 1, 2],
+    }
+    assert content.volume_sets == ["BLADE"]
+
+
+def test_blocks_of_a_node_set_add_up(tmp_path):
+    (tmp_path / "m.inp").write_text(
+        TETRAHEDRON + "*ELEMENT, TYPE=C3D4, ELSET=EALL\n1, 1, 2, 3, 4\n"
+        "*NSET, NSET=Tip\n1, 2\n*NSET, NSET=Root\n4\n*NSET, nset=TIP, GENERATE\n2, 3, 1\n"
+    )
+    content = read(tmp_path / "m.inp")
+    assert {name: nodes.tolist() for name, nodes in content.node_sets.items()} == {
+        "Tip": [0, 1, 2],
+        "Root": [3],
+    }
+    assert content.volume_sets == ["EALL"]
+
+
+TETRAHEDRON = "*NODE\n1, 0, 0, 0\n2, 1, 0, 0\n3, 0, 1, 0\n4, 0, 0, 1\n5, 1, 1, 1\n6, 0, 1, 1\n"
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "said"),
+    [
+        ("m.step", "solid", "must be a mesh file that ends in .inp, .msh, .vtu"),
+        ("m.bdf", "BEGIN BULK", "meshio convert m.bdf m.vtu converts it"),
+        ("m.msh", "** cgx\n*NODE, NSET=Nall\n", r"begins with \*NODE, .*: rename it to m.inp"),
+        ("m.inp", "$MeshFormat\n4.1 0 8\n", "begins with .*: rename it to m.msh"),
+        ("m.inp", "$ Nastran\nBEGIN BULK\n", "rename it to m.bdf, then meshio convert m.bdf m.vtu"),
+        ("m.vtu", "# vtk DataFile Version 3.0\n", "rename it to m.vtk, then meshio convert m.vtk m.vtu"),
+        ("m.inp", "", "is empty"),
+        ("m.msh", "nonsense\n", "is not a .msh file that can be read"),
+        ("m.vtu", "<VTKFile", "is not a .vtu file that can be read"),
+        ("m.inp", TETRAHEDRON, "has no volume elements"),
+        ("m.inp", TETRAHEDRON + "*ELEMENT, TYPE=S3\n1, 1, 2, 3\n", "has no volume elements"),
+        ("m.inp", TETRAHEDRON + "*ELEMENT, TYPE=C3D6\n1, 1, 2, 3, 4, 5, 6\n", "has wedge"),
+        ("m.inp", TETRAHEDRON + "*ELEMENT, TYPE=C3D15\n" + WEDGE, "has wedge15.* into tetrahedra"),
+        (
+            "m.inp",
+            TETRAHEDRON + "*ELEMENT, TYPE=C3D4\n1, 1, 2, 3, 4\n*ELEMENT, TYPE=C3D6\n2, 1, 2, 3, 4, 5, 6\n",
+            "mixes tetra and wedge",
+        ),
+        ("m.inp", TETRAHEDRON + "*ELEMENT, TYPE=C3D4\n1, 1, 2, 3, 9\n", "can be read"),
+        ("m.inp", TETRAHEDRON + TETRAHEDRON, "has 2 blocks"),
+        ("m.inp", "*Instance, name=a\n" + TETRAHEDRON, r"has \*INSTANCE; must be the mesh of one part"),
+        ("m.inp", TETRAHEDRON + "*INCLUDE, INPUT=b.inp\n", r"has \*INCLUDE; .*\(cat b.inp; "),
+        ("m.msh", GROUPS.format(line="TIP"), "has several physical groups TIP"),
+    ],
+)
+def test_what_is_no_usable_mesh_is_told(name, text, said, tmp_path):
+    (tmp_path / name).write_text(text)
+    with pytest.raises(ValueError, match=said):
+        read(tmp_path / name)
+
+
+def test_a_file_that_is_not_there_is_told(tmp_path):
+    with pytest.raises(ValueError, match="there is no such file"):
+        read(tmp_path / "m.inp")

@@ -1,0 +1,126 @@
+import dataclasses
+import json
+import re
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from bladerub.blade.build import reduce_meshed
+from bladerub.blade.elasticity import Material
+from bladerub.blade.geometry import BladeShape
+from bladerub.blade.mesh import BladeMesh, MeshedBlade
+from bladerub.extras.blades.frame import Frame
+from bladerub.extras.blades.importing import import_blade
+from bladerub.extras.blades.origin import Source
+from bladerub.extras.blades.report import mesh_report, spanwise_elements
+from bladerub.extras.export.mesh_file import write_mesh_file
+from bladerub.io.errors import BadInput
+
+REDUCTION = {
+    "f_omega_max": 0.4,
+    "modes_per_speed": 6,
+    "rank_tolerance": 1e-6,
+    "accuracy_speeds": 3,
+    "accuracy_modes": 8,
+}
+
+
+STIFF = {"young_modulus": 2e12, "poisson_ratio": 0.3, "density": 4430.0}
+THIN = SimpleNamespace(name="s3", radius=0.5, chord=0.08, thickness=1e-4, cut=(0.0, 0.0))
+
+
+@pytest.fixture
+def reported(twisted_config, tmp_path):
+    """Report on the twisted blade in a file, with changes to its sections, frame or what was imported."""
+
+    def make(frame=None, of_shape=None, counts=None, **changes):
+        if of_shape:
+            twisted_config["sections"] = of_shape
+        shape = BladeShape.from_config(twisted_config)
+        blade = BladeMesh.from_shape(shape, counts or twisted_config["mesh"])
+        path = tmp_path / "blade.vtu"
+        write_mesh_file(path, blade.mesh.points, blade.mesh.cells, {"root": blade.root})
+        source = Source(path, frame or Frame())
+        imported = dataclasses.replace(import_blade(source, {}), **changes)
+        config = {"blade": twisted_config, "reduction": REDUCTION}
+        built = reduce_meshed(imported.blade, config)
+        return mesh_report(source, imported, built, Material.from_config(twisted_config["material"])), built
+
+    return make
+
+
+def test_figures_are_those_of_the_blade(reported):
+    figures, built = reported()
+    assert json.loads(json.dumps(figures)) == figures
+    assert figures["unknowns"] == 3 * (figures["nodes"] - built.mesh.root.size)
+    assert figures["mass"] == pytest.approx(4430.0 * figures["volume"])
+    assert figures["extents"]["radius"] == pytest.approx([0.45, 0.65])
+    assert figures["f1_hz"] == built.frequency[0]
+    first = built.accuracy[built.accuracy["mode"] == 1].f_fe.to_numpy()
+    assert figures["campbell_ratio"] == first[-1] / first[0] > 1
+    assert len(figures["error_eq2"]) == len(figures["error_reduced_model"]) == 8
+    assert max(figures["error_eq2"]) < 1e-6  # the three speeds are those of the fit
+    assert figures["error_reduced_model"][0] < 1e-3
+    assert figures["elements_root_to_tip"] == 3
+    (coarse,) = figures["warnings"]
+    assert re.match("its mesh is coarse, with 3 elements", coarse)
+
+
+def test_elements_are_counted_along_the_shortest_path(twisted_config):
+    counts = {"chordwise": 7, "thickness": 1, "spanwise": 5}
+    assert spanwise_elements(BladeMesh.from_shape(BladeShape.from_config(twisted_config), counts)) == 5
+
+
+def test_a_wrong_unit_is_refused(reported):
+    with pytest.raises(BadInput, match=r"with the unit mm the blade is 0.0002 m long; must be"):
+        reported(Frame("mm"))
+
+
+def test_a_frequency_that_no_blade_has_gets_a_warning(reported, twisted_config):
+    twisted_config["material"]["young_modulus"] = 110.0  # GPa
+    figures, _ = reported()
+    assert any("Hz: are length and material in their units?" in line for line in figures["warnings"])
+
+
+@pytest.mark.parametrize(
+    ("change", "warning"),
+    [
+        ({"is_raised": True}, "its elements were linear"),
+        ({"n_unused": 4}, "4 nodes of the file belong to no element"),
+        ({"interface_offset": 0.004}, "an interface node is 4 mm from its place on the camber line"),
+        ({"chord": 0.9}, "it is 200 mm long with a chord of 900 mm at the tip: are all lengths in one unit"),
+        ({"sections": [THIN]}, "section s3 is 0.1 mm thick over a chord of 80 mm: are its angles in"),
+        ({"jacobian_ratio": np.array([0.5, 0.05, 0.4])}, "element 2 is badly shaped: .* factor of 20"),
+    ],
+)
+def test_what_is_odd_about_a_mesh_gets_a_warning(reported, change, warning):
+    figures, _ = reported(**change)
+    assert any(re.match(warning, line) for line in figures["warnings"])
+
+
+@pytest.mark.parametrize(
+    ("key", "value", "warning"),
+    [
+        (
+            "hub_radius",
+            0.01,
+            "it reaches from 10 to 210 mm from the engine axis",
+        ),
+        (
+            "material",
+            {"young_modulus": 2e12, "poisson_ratio": 0.3, "density": 4430.0},
+            "its tip moves at .* m/s",
+        ),
+    ],
+)
+def test_a_wheel_that_could_not_exist_gets_a_warning(reported, twisted_config, key, value, warning):
+    twisted_config[key] = value
+    figures, _ = reported()
+    assert any(re.match(warning, line) for line in figures["warnings"])
+
+
+def test_a_blade_far_from_its_radial_axis_gets_a_warning(reported, monkeypatch):
+    monkeypatch.setattr(MeshedBlade, "lean", np.deg2rad(50.0))
+    figures, _ = reported()
+    assert any(re.match("its middle is 50 degrees about the engine", line) for line in figures["warnings"])

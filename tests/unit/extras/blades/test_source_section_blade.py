@@ -1,0 +1,210 @@
+import dataclasses
+
+import numpy as np
+import pandas as pd
+import pytest
+from blade_parts import TITANIUM
+from section_parts import CHORD, LENGTH, THICKNESS, cartesian, cylindrical, in_space, lens, twisted_plate
+
+from bladerub.blade.build import build, made_from
+from bladerub.blade.elasticity import Material, Solid
+from bladerub.blade.geometry import lattice
+from bladerub.blade.linear import lowest_modes
+from bladerub.blade.mesh import hexahedral_mesh
+from bladerub.blade.rotation import equilibrium
+from bladerub.extras.blades.frame import Frame
+from bladerub.extras.blades.importing import import_blade
+from bladerub.extras.blades.origin import Source
+from bladerub.extras.blades.section_profile import EDGE_SHARE
+from bladerub.io.errors import BadInput
+
+COUNTS = {"chordwise": 7, "thickness": 1, "spanwise": 6}
+RIGHT_HANDED = Frame(rotation="x", downstream="x")  # angles of a table then grow along the rotation
+
+
+def cylindrical_in_degrees(solid, **counts):
+    table = cylindrical(solid, **counts)
+    return table.assign(theta1=np.rad2deg(-table.theta1), theta2=np.rad2deg(-table.theta2))
+
+
+FORMS = pytest.mark.parametrize(
+    ("make", "angle_unit"), [(cartesian, None), (cylindrical_in_degrees, "deg")], ids=["points", "angles"]
+)
+
+
+@pytest.fixture
+def read(tmp_path):
+    """Import a table: what comes out."""
+
+    def blade(table, frame=None, counts=COUNTS, name="blade.csv", **source):
+        table.to_csv(tmp_path / name, index=False)
+        return import_blade(Source(tmp_path / name, frame or Frame(), **source), counts)
+
+    return blade
+
+
+def frequencies(mesh, root):
+    solid = Solid(mesh, Material.from_config(TITANIUM), clamped=root)
+    return lowest_modes(equilibrium(solid, 0.0).stiffness, solid.mass, 8)[0]
+
+
+@FORMS
+def test_a_twisted_plate_is_that_of_its_formula(read, make, angle_unit):
+    imported = read(make(twisted_plate), angle_unit=angle_unit)
+    direct, (_, _, zeta) = hexahedral_mesh(*lattice(COUNTS), in_space(twisted_plate))
+    mesh = imported.blade.mesh
+    assert imported.volume == pytest.approx(CHORD * THICKNESS * LENGTH, rel=1e-4)
+    np.testing.assert_allclose(
+        frequencies(mesh.mesh, mesh.root), frequencies(direct, np.flatnonzero(zeta == 0)), rtol=2e-4
+    )
+    assert imported.blade.length == pytest.approx(LENGTH, rel=1e-9)
+    assert imported.blade.tip_cone == pytest.approx(0, abs=1e-9)
+    assert all(section.cut == (0, 0) for section in imported.sections)
+
+
+def test_interface_nodes_are_even_on_the_camber_line_of_the_tip(read):
+    mesh = read(cartesian(twisted_plate)).blade.mesh
+    expected = in_space(twisted_plate)(np.linspace(0, 1, 8), 0.5, 1.0)
+    np.testing.assert_allclose(mesh.mesh.points[mesh.interface], expected.T, atol=2e-6)
+
+
+@FORMS
+def test_sharp_edges_are_cut_where_they_become_too_thin(read, make, angle_unit):
+    imported = read(make(lens), angle_unit=angle_unit)
+    start = (1 - np.sqrt(1 - EDGE_SHARE)) / 2  # where 4 ξ (1 - ξ) is the share
+    lost = 2 * (2 * start**2 - 4 / 3 * start**3)
+    for section in imported.sections:
+        assert section.cut == pytest.approx((start * CHORD, start * CHORD), rel=0.05)
+        assert section.thickness == pytest.approx(THICKNESS, rel=1e-3)
+    assert imported.volume == pytest.approx((2 / 3 - lost) * CHORD * THICKNESS * LENGTH, rel=2e-3)
+
+
+def test_which_side_comes_first_does_not_matter(read):
+    table = cartesian(twisted_plate)
+    swapped = table.rename(columns=lambda name: name.translate(str.maketrans("12", "21")))
+    points = [read(sections).blade.mesh.mesh.points for sections in (table, swapped)]
+    np.testing.assert_allclose(*points, atol=1e-15)
+
+
+@pytest.mark.parametrize(
+    ("frame", "sign_of_z", "sign_of_theta"),
+    [
+        (Frame("inch", rotation="z", downstream="-z", radial="x"), -1, 1),
+        (Frame("inch", rotation="-z", downstream="z", radial="-y"), 1, -1),
+        (Frame("inch"), 1, -1),
+    ],
+)
+def test_angles_turn_by_the_right_hand_about_the_positive_axis(read, frame, sign_of_z, sign_of_theta):
+    table = cylindrical(twisted_plate)
+    angles = np.rad2deg(sign_of_theta * table[["theta1", "theta2"]])
+    given = table.assign(z=sign_of_z * table.z / 0.0254, r=table.r / 0.0254, **angles)
+    mesh = read(given, frame, angle_unit="deg").blade.mesh
+    ours = read(table.assign(theta1=-table.theta1, theta2=-table.theta2)).blade.mesh
+    np.testing.assert_allclose(mesh.mesh.points, ours.mesh.points, atol=1e-12)
+
+
+def test_a_blade_whose_flow_is_along_its_rotation_vector_has_its_leading_edge_there(read):
+    table = cylindrical(twisted_plate)
+    imported = read(table, RIGHT_HANDED)
+    mesh = imported.blade.mesh
+    leading, trailing = mesh.mesh.points[mesh.interface[[0, -1]]]
+    assert leading[0] > trailing[0]  # x of the blade's frame points against the rotation vector
+    assert imported.volume == pytest.approx(CHORD * THICKNESS * LENGTH, rel=1e-4)
+
+
+def test_two_sections_are_joined_by_straight_lines(read):
+    mesh = read(cartesian(twisted_plate, n_sections=2)).blade.mesh.mesh
+    x, y, z = mesh.points.T
+    half = np.isclose(np.hypot(y, z), 0.55)
+    ends = [in_space(twisted_plate)(xi, 0.5, np.array([0.0, 1.0]))[0].mean() for xi in (0.0, 1.0)]
+    assert (x[half].min() + x[half].max()) / 2 == pytest.approx(np.mean(ends), abs=1e-9)
+    assert half.sum() >= 2 * 8
+
+
+def moved(table, section, x=0.0, z=0.0):
+    """Move a section along the axis and outwards, or by what each of its stations says."""
+    here = table.section == section
+    return table.assign(
+        **{name: table[name] + np.where(here, x, 0.0) for name in ("x1", "x2")},
+        **{name: table[name] + np.where(here, z, 0.0) for name in ("z1", "z2")},
+    )
+
+
+def tip_first(table):
+    return pd.concat([part for _, part in reversed(list(table.groupby("section")))])
+
+
+def thin_above_the_hub(table):
+    """Three sections, two close to each other: the thickness of a parabola through them is below zero."""
+    table = table[table.section.isin(["s0", "s1", "s8"])]
+    middle = {axis: (table[f"{axis}1"] + table[f"{axis}2"]) / 2 for axis in "xyz"}
+    share = np.where(table.section == "s0", 1.0, 0.05)
+    thin = {f"{axis}{side}": (1 - share) * middle[axis] for axis in "xyz" for side in "12"}
+    return table.assign(**{name: shift + share * table[name] for name, shift in thin.items()})
+
+
+@pytest.mark.parametrize(
+    ("change", "said"),
+    [
+        (lambda t: t[::-1], "section s8 .line 2.: its first station lies downstream of its last"),
+        (lambda t: moved(t, "s2", x=2e-2 * (t.index % 3)), "must go from the leading to the trailing edge"),
+        (
+            lambda t: t.assign(x1=t.x1 - 0.02 * (t.index == 30), x2=t.x2 - 0.02 * (t.index == 30)),
+            "without line 32 all do, so check its numbers",
+        ),
+        (lambda t: pd.concat([t[t.section == "s0"], t]), "line .*it is the first station again"),
+        (tip_first, "section s7: its mean radius .* is not above that of section s8 before it"),
+        (lambda t: t.assign(x2=t.x1, y2=t.y1, z2=t.z1), "the sides of section s0 touch or cross here"),
+        (lambda t: t.assign(y1=t.y1 + 0.01 * (t.index == 30)), "line 32: the sides of section s1 touch"),
+        (lambda t: t.assign(y1=0.0, z1=0.0), "line 2: lies on the engine axis"),
+        (lambda t: moved(t, "s3", z=0.15), "section s4: its mean radius of .* sections must go from hub to"),
+        (lambda t: moved(t, "s4", z=1.5 * t.x1), "sections s3 and s4 cross: s4 is not the farther from"),
+        (
+            lambda t: t.assign(**100 * t.iloc[:, 1:]),
+            "with the unit m the blade is 20 m long; must be from 0.01 to 3 m",
+        ),
+        (lambda t: t.assign(x1=900 * t.x1, x2=900 * t.x2), "all lengths must be in one unit"),
+        (thin_above_the_hub, "between its sections the blade crosses itself"),
+    ],
+)
+def test_sections_that_make_no_blade_are_refused_with_file_and_culprit(read, change, said):
+    with pytest.raises(BadInput, match=said) as caught:
+        read(change(cartesian(twisted_plate)))
+    assert "blade.csv: " in str(caught.value)
+    assert "\n" not in str(caught.value)
+
+
+def test_what_a_table_has_no_use_for_is_told(tmp_path):
+    with pytest.raises(ValueError, match=r"tip_set = TIP: goes with a mesh, not with a.csv"):
+        Source(tmp_path / "a.csv", tip_set="TIP")
+    with pytest.raises(ValueError, match=r"angle_unit = deg: goes with a table of sections, not with a.msh"):
+        Source(tmp_path / "a.msh", angle_unit="deg")
+
+
+def test_a_blade_of_sections_is_of_its_table_and_its_mesh(blade_config, tmp_path):
+    path = tmp_path / "blade.csv"
+    cartesian(twisted_plate).to_csv(path, index=False)
+    config = {"blade": blade_config | {"source": {"file": str(path)}}, "reduction": {}}
+    first = made_from(config)
+    config["blade"]["hub_radius"] = 1.0
+    assert made_from(config) == first
+    config["blade"]["mesh"] = COUNTS
+    assert made_from(config) != first
+    path.write_text(path.read_text() + "# another\n")
+    assert len({first, made_from(config)}) == 2
+
+
+def test_a_blade_is_built_from_its_sections(blade_config, tmp_path, read):
+    imported = read(cartesian(twisted_plate), counts=blade_config["mesh"])
+    assert dataclasses.asdict(imported)["node_sets"] == {}
+    reduction = {
+        "f_omega_max": 0.4,
+        "modes_per_speed": 3,
+        "rank_tolerance": 1e-5,
+        "accuracy_speeds": 2,
+        "accuracy_modes": 8,
+    }
+    source = {"file": str(tmp_path / "blade.csv")}
+    built = build({"blade": blade_config | {"source": source}, "reduction": reduction})
+    np.testing.assert_array_equal(built.mesh.mesh.points, imported.blade.mesh.mesh.points)
+    assert built.accuracy.relative_error.abs()[0] < 1e-3
