@@ -7,7 +7,7 @@ import bladerub.io.errors
 import bladerub.workflow.invocation
 from bladerub.io.folders import ROOT
 from bladerub.study.grid import coating_cases
-from bladerub.study.plan import on_gpu
+from bladerub.study.solver import solver_of
 
 min_version("9.0")
 
@@ -32,7 +32,10 @@ COATINGS = [case.name for case in coating_cases(config)]
 
 # Not in the jobs, which are processes that read this file as well
 if workflow.is_main_process:
-    bladerub.workflow.invocation.plan(workflow, RESULTS, NOTES, on_gpu(config))
+    with bladerub.io.errors.exit_on_error():
+        bladerub.workflow.invocation.plan(
+            workflow, RESULTS, NOTES, solver_of(config).start
+        )
     if workflow.output_settings.dryrun:
         from bladerub.workflow import forecast  # takes seconds to import
 

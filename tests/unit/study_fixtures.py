@@ -8,7 +8,7 @@ import yaml
 from bladerub.blade.model import ReducedBlade
 from bladerub.contact.result import Energy, RunResult
 from bladerub.io.provenance import provenance
-from bladerub.study import job, store
+from bladerub.study import store
 from bladerub.study.grid import CoatingCase, run_spec
 from bladerub.study.job import compute_missing
 from bladerub.study.maps import CoatingMap
@@ -163,7 +163,7 @@ def simulated(monkeypatch, make_result, growing, repeated):
             complete=1.5 if spec.f_omega == 0.3 else None,
         )
 
-    monkeypatch.setattr(job, "simulate", simulate)
+    monkeypatch.setattr("bladerub.contact.run.simulate", simulate)
     return speeds
 
 

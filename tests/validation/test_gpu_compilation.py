@@ -4,10 +4,10 @@ import re
 
 import pytest
 
-from bladerub.contact.gpu import batch, device
-from bladerub.contact.gpu.batch import Variant
 from bladerub.contact.laws import NAMES, module_of
 from bladerub.contact.spec import PLASTIC, ElementLaw
+from bladerub.extras.gpu import batch, device
+from bladerub.extras.gpu.batch import Variant
 
 REGISTERS = 255  # of a thread
 nvrtc = pytest.importorskip("cupy_backends.cuda.libs.nvrtc", reason="no CuPy; pip install -e .[gpu]")

@@ -10,9 +10,9 @@ from functools import partial
 import numpy as np
 import pytest
 
-from bladerub.contact.gpu import emulation
-from bladerub.contact.gpu.many import simulate_many
 from bladerub.contact.run import simulate
+from bladerub.extras.gpu import emulation
+from bladerub.extras.gpu.many import simulate_many
 from bladerub.study.grid import coating_cases, run_spec, speeds
 
 pytestmark = [

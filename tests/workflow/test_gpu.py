@@ -7,7 +7,7 @@ from importlib.util import find_spec
 import numpy as np
 import pytest
 
-from bladerub.contact.gpu import ADDRESS, emulation
+from bladerub.extras.gpu import ADDRESS, emulation
 from bladerub.study.manifest import read_manifest
 from bladerub.study.store import read_run
 
@@ -30,7 +30,7 @@ def gpu(tmp_path, monkeypatch):
     """Start the process that has the GPU, which is emulated."""
     folder = tmp_path / "gpu"
     folder.mkdir()
-    command = [sys.executable, "-m", "bladerub.contact.gpu.server", folder / "socket", "--emulated"]
+    command = [sys.executable, "-m", "bladerub.extras.gpu.server", folder / "socket", "--emulated"]
     with subprocess.Popen(command, stdin=subprocess.PIPE) as server:
         while not (folder / "socket").exists():
             assert server.poll() is None

@@ -17,8 +17,6 @@ from bladerub.api.errors import InputError
 from bladerub.api.notebook import html_table
 from bladerub.api.run import Run, solve
 from bladerub.api.study import StudyCoating, StudyRun
-from bladerub.contact.gpu.many import simulate_many
-from bladerub.contact.gpu.server import find
 from bladerub.contact.setup import compile_kernel
 from bladerub.io.provenance import provenance
 from bladerub.plots.scales import greatest
@@ -28,10 +26,9 @@ from bladerub.plots.wear_map import wear_map
 from bladerub.study import maps
 from bladerub.study.grid import CoatingCase, row_of
 from bladerub.study.growth import confirmation_spec, needs_confirmation
-from bladerub.study.job import Solve
 from bladerub.study.maps import CoatingMap
 from bladerub.study.parallel import each_done
-from bladerub.study.plan import on_gpu
+from bladerub.study.solver import Solve, solver_of
 
 _PER_SPEED = ("C1", "max_wear", "lobes", "status", "wear_harmonic", "wear_harmonic_share")
 _PER_REVOLUTION = ("revolution_peak", "revolution_amplitude")
@@ -228,30 +225,35 @@ def solve_all(
     """Simulate `runs`, `jobs` at once, without their histories; `advance` is called after each."""
     for law in {run.spec.coating.element_law for run in runs}:
         compile_kernel(n_nodes=blade.reduced.n_interface, law=law)
-    solver = _solved_together(blade, runs, follow) if on_gpu(runs[0].config) else None
-
-    def compute(number: int) -> Run:
-        return solve(blade, runs[number], follow, keep_history=False, solver=solver)
-
-    results = {}
-    for number, run in each_done(compute, range(len(runs)), jobs):
-        results[number] = run
-        advance()
-    return [results[number] for number in range(len(runs))]
-
-
-def _solved_together(blade: Blade, runs: list[StudyRun], follow: bool) -> Solve | None:
-    """Simulate single blades on the GPU, longer where they grow; return what looks the results up."""
     if row_of(runs[0].config):
-        return None
+        results = {}
+
+        def compute(number: int) -> Run:
+            return solve(blade, runs[number], follow, keep_history=False)
+
+        for number, run in each_done(compute, range(len(runs)), jobs):
+            results[number] = run
+            advance()
+        return [results[number] for number in range(len(runs))]
+    solver = _solved_together(blade, runs, jobs, follow, advance)
+    return [solve(blade, run, follow, keep_history=False, solver=solver) for run in runs]
+
+
+def _solved_together(
+    blade: Blade, runs: list[StudyRun], jobs: int, follow: bool, advance: Callable[[], Any]
+) -> Solve:
+    """Simulate single blades, then longer those that grow; return what looks the results up."""
     specs = [run.of_length(blade.length).spec for run in runs]
-    settings = runs[0].config["analysis"]["divergence"]
-    results = {specs[number]: result for number, result in simulate_many(blade.reduced, specs, find())}
+    solver, settings = solver_of(runs[0].config), runs[0].config["analysis"]["divergence"]
+    results = {}
+    for solved in solver.simulate_many(blade.reduced, specs, jobs):
+        results[specs[solved.number]] = solved.result
+        advance()
     growing = [
         confirmation_spec(spec, settings)
         for spec, result in results.items()
         if follow and needs_confirmation(result.revolution_amplitude, result.status, settings)
     ]
-    confirmations = simulate_many(blade.reduced, growing, find())
-    results |= {growing[number]: result for number, result in confirmations}
+    confirmations = solver.simulate_many(blade.reduced, growing, jobs)
+    results |= {growing[solved.number]: solved.result for solved in confirmations}
     return lambda blade, spec, progress: results[spec]

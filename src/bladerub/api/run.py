@@ -18,8 +18,6 @@ from bladerub.api.errors import InputError
 from bladerub.api.notebook import html_table
 from bladerub.api.study import StudyRun
 from bladerub.blade.model import ReducedBlade
-from bladerub.contact.gpu.many import simulate_many
-from bladerub.contact.gpu.server import find
 from bladerub.contact.result import Energy, RunResult
 from bladerub.contact.row_spec import Row
 from bladerub.contact.setup import compile_kernel
@@ -31,9 +29,10 @@ from bladerub.plots.style import saved
 from bladerub.study import run_set, store
 from bladerub.study.grid import CoatingCase, row_of, speed_name
 from bladerub.study.growth import Verdict, confirmation_spec, judge, needs_confirmation
-from bladerub.study.job import Solve, compute
+from bladerub.study.job import compute
 from bladerub.study.manifest import listed_longer
-from bladerub.study.plan import on_gpu, planned_run
+from bladerub.study.plan import planned_run
+from bladerub.study.solver import Solve, one_by, solver_of
 from bladerub.study.store import StoredRun
 from bladerub.study.summary import displacement_peak, summarise
 
@@ -375,8 +374,7 @@ def solve(
     digest, settings = blade.digest, run.config["analysis"]["divergence"]
     run = run.of_length(blade.length)  # perhaps not the study's own blade
     row = row or row_of(run.config)
-    if solver is None and on_gpu(run.config):
-        solver = _on_gpu
+    solver = solver or one_by(solver_of(run.config))
     if stress and row:
         raise ValueError("stress = True: is found for a single blade only, must be False with a row")
     stressed = _StressSolver(blade, run) if stress else None
@@ -390,11 +388,6 @@ def solve(
         spec = confirmation_spec(run.spec, settings)
         longer = Run(_solve(blade, run, spec, digest, progress, False, row, solver))
     return Run(stored, longer, run_stress)
-
-
-def _on_gpu(blade: ReducedBlade, spec: RunSpec, progress: Callable[[int], None] | None) -> RunResult:
-    ((_, result),) = simulate_many(blade, [spec], find())
-    return result
 
 
 def _stress() -> Any:

@@ -9,6 +9,7 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from bladerub import plugins
 from bladerub.cli import inputs
 from bladerub.cli.inputs import InputError, refused
 from bladerub.config.schema import schema
@@ -79,8 +80,8 @@ def add_to(commands: Any) -> None:
     parser.option("--seed", "of the draws of the blades, 0 or more (default 1)", int, metavar="N")
     text = "find the largest stress of the blade too, at start-up and in the last revolutions"
     parser.add_argument("--stress", action="store_true", help=text)
-    text = "what the run is computed on, instead of solver.device; a GPU is for many at once"
-    parser.option("--device", text, choices=["cpu", "gpu"])
+    text = "what the run is computed on, instead of solver.device"
+    parser.option("--device", text, choices=["cpu", *plugins.offered("SOLVERS")])
     parser.option("--output", "write the run with its whole history (HDF5)", Path, metavar="FILE")
 
 

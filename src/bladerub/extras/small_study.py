@@ -18,7 +18,8 @@ from bladerub.study.job import compute_all, compute_missing
 from bladerub.study.manifest import write_manifest
 from bladerub.study.maps import CoatingMap, build_map, collect, first_frequency, read_map
 from bladerub.study.parallel import each_done
-from bladerub.study.plan import coating_plan, on_gpu
+from bladerub.study.plan import coating_plan
+from bladerub.study.solver import solver_of
 
 
 class SmallStudy(NamedTuple):
@@ -52,8 +53,8 @@ def conduct(
     else:
         digest = blade_digest(model)
         mapped = partial(map_coating, config, blade=blade, digest=digest, folder=folder, report=report)
-    # a GPU wants all runs at once: each coating of a small study has too few
-    results = dict(each_done(mapped, cases, len(cases) if on_gpu(config) else 1))
+    # each coating of a small study has few runs
+    results = dict(each_done(mapped, cases, len(cases) if solver_of(config).wants_many else 1))
     maps, n_runs = [results[case][0] for case in cases], sum(n for _, n in results.values())
     tables = {"peaks": peak_table.table(config, maps), "divergence": divergence.table(config, maps)}
     evidence = Evidence(config, tables | {"rom_accuracy": read_rom_accuracy(rom_accuracy)}, maps)

@@ -56,23 +56,10 @@ def _imports(path: Path) -> tuple[str, ...]:
 
 @cache
 def solver_digest() -> str:
-    """Digest the source of what computes a run: contact, numerics and the reduced blade's own class.
-
-    What computes it on a GPU counts apart (`gpu_digest`).
-    """
+    """Digest the source of what computes a run: contact, numerics and the reduced blade's own class."""
     folders = (PACKAGE / "contact", PACKAGE / "numerics")
-    sources = [path for folder in folders for path in folder.rglob("*.py") if _gpu() not in path.parents]
+    sources = [path for folder in folders for path in folder.rglob("*.py")]
     return source_digest([*sources, PACKAGE / "blade" / "model.py"])
-
-
-def _gpu() -> Path:
-    return PACKAGE / "contact" / "gpu"
-
-
-@cache
-def gpu_digest() -> str:
-    """Digest the source of what computes a run on a GPU, besides `solver_digest`."""
-    return source_digest(path for path in _gpu().iterdir() if path.suffix in (".py", ".h", ".cu"))
 
 
 @cache

@@ -10,9 +10,6 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from bladerub.blade.model import ReducedBlade
-from bladerub.contact.gpu.many import LeftOut, simulate_many
-from bladerub.contact.gpu.server import find
-from bladerub.contact.result import RunResult
 from bladerub.contact.row import simulate_row
 from bladerub.contact.run import simulate
 from bladerub.io import lock
@@ -23,11 +20,9 @@ from bladerub.study.grid import CoatingCase
 from bladerub.study.growth import needs_confirmation
 from bladerub.study.manifest import ManifestRow
 from bladerub.study.parallel import each_done
-from bladerub.study.plan import CoatingPlan, PlannedRun, growth_key, longer_file, longer_run, on_gpu
+from bladerub.study.plan import CoatingPlan, PlannedRun, growth_key, longer_file, longer_run
+from bladerub.study.solver import Solve, solver_of
 from bladerub.study.store import MAPPED, StoredRun, read_run, stored_row, stored_run, write_run
-
-Solve = Callable[..., RunResult]
-Made = tuple[StoredRun, float]
 
 LOCK = ".lock"
 """Empty file in the folder of the runs, locked by the job at work on them."""
@@ -86,7 +81,7 @@ def compute_missing(
     (`bladerub.study.cache`, whose `blade_digest` is that of the blade). One job at a time works on a folder:
     another, of another invocation, waits for its end and takes over what it has computed. `report` is called
     with a line for a log: a `RunDone` after each computed run, or a text before waiting. `threads` runs are
-    computed at once, or all on a GPU where ``solver.device`` says so.
+    computed at once, or all together by a solver that does so (`bladerub.study.solver`).
     """
     folder = Path(folder)
     complete = partial(_complete, config, plan.case, blade, folder, blade_digest, report, threads)
@@ -106,13 +101,13 @@ def compute_all(
     """Compute the runs that `compute_missing` would, all of them, and keep them in memory.
 
     Returns the runs of the `plan` in its order, and the longer run of each or None. They have no keys.
-    `report` is called with what a GPU hands over to the processor.
+    `report` is called with the lines of the solver for a log.
     """
 
     def complete(runs: Sequence[PlannedRun]) -> dict[str, StoredRun]:
         keys = dict.fromkeys((run.file for run in runs), "")
         computed = _each_computed(config, plan.case, blade, runs, keys, report)
-        return {run.file: stored for run, (stored, _) in computed}
+        return {run.file: stored for run, stored, _ in computed}
 
     stored_runs = complete(plan.runs)
     longer = complete(_longer(config, plan, {file: _end(stored) for file, stored in stored_runs.items()}))
@@ -184,15 +179,15 @@ def _complete(
     cost_done, start = 0.0, time.monotonic()
     keys = {file: entry.key for file, entry in entries.items()}
     computed = _each_computed(config, case, blade, missing, keys, report, threads)
-    for number, (run, (stored, run_start)) in enumerate(computed, 1):
+    for number, (run, stored, seconds) in enumerate(computed, 1):
         entry = entries[run.file]
         entry.make_room()
         run_files[run.file] = _run_file(entry, stored, write_run(entry.path, stored, origin))
         cost_done += 1 / run.spec.f_omega
         cost_left -= 1 / run.spec.f_omega
-        end_time, status = time.monotonic(), stored.attributes["status"]
-        seconds_left = (end_time - start) * max(cost_left, 0.0) / cost_done
-        report(RunDone(number, len(missing), run.file, status, end_time - run_start, seconds_left))
+        seconds_left = (time.monotonic() - start) * max(cost_left, 0.0) / cost_done
+        status = stored.attributes["status"]
+        report(RunDone(number, len(missing), run.file, status, seconds, seconds_left))
     for file in entries.keys() - run_files.keys():
         path = entries[file].path
         run = read_run(path, {"revolution_amplitude"}, {"status", "n_unconverged_steps", "energy_residual"})
@@ -208,33 +203,22 @@ def _each_computed(
     keys: Mapping[str, str],
     report: Callable[[object], None],
     threads: int = 1,
-) -> Iterator[tuple[PlannedRun, Made]]:
-    """Yield each run as it is done, with its `keys` by file, and with when it was begun."""
+) -> Iterator[tuple[PlannedRun, StoredRun, float]]:
+    """Yield each run as it is done, with its `keys` by file, and the seconds that it took; rows last."""
+    analysis = config["analysis"]
 
-    def compute_run(run: PlannedRun, solve: Solve | None = None) -> Made:
+    def compute_row(run: PlannedRun) -> tuple[StoredRun, float]:
         start = time.monotonic()
-        return compute(case, run, blade, keys[run.file], config["analysis"], solve=solve), start
-
-    return (
-        _on_gpu(compute_run, runs, blade, report) if on_gpu(config) else each_done(compute_run, runs, threads)
-    )
-
-
-def _on_gpu(
-    compute_run: Callable[[PlannedRun, Solve], Made],
-    runs: Sequence[PlannedRun],
-    blade: ReducedBlade,
-    report: Callable[[object], None],
-) -> Iterator[tuple[PlannedRun, Made]]:
-    """Yield each run with ``compute_run(run, solve)`` as it is done, rows of blades last."""
-
-    def left_out(notice: LeftOut) -> None:
-        report(str(notice))
+        return compute(case, run, blade, keys[run.file], analysis), time.monotonic() - start
 
     single = [run for run in runs if not run.row]
-    for number, result in simulate_many(blade, [run.spec for run in single], find(), left_out):
-        yield single[number], compute_run(single[number], lambda *_, outcome=result: outcome)
-    yield from ((run, compute_run(run, simulate)) for run in runs if run.row)
+    solved = solver_of(config).simulate_many(blade, [run.spec for run in single], threads, report)
+    for number, result, seconds in solved:
+        run = single[number]
+        stored = stored_run(case, run.spec, result, keys[run.file], analysis, run.keep_history)
+        yield run, stored, seconds
+    for run, (stored, seconds) in each_done(compute_row, [run for run in runs if run.row], threads):
+        yield run, stored, seconds
 
 
 def _run_file(entry: Entry, run: StoredRun, checksum: str) -> _RunFile:

@@ -6,20 +6,16 @@ from typing import Any
 
 from bladerub.contact.row_spec import Row
 from bladerub.contact.spec import RunSpec
-from bladerub.io.sources import gpu_digest, solver_digest, storage_digest
+from bladerub.io.sources import solver_digest, storage_digest
 from bladerub.study import cache
 from bladerub.study.grid import CoatingCase, keeps_history, row_of, run_spec, speed_name, speeds
 from bladerub.study.growth import confirmation_determinants, confirmation_spec
 from bladerub.study.manifest import CONFIRMATION
+from bladerub.study.solver import solver_of
 from bladerub.study.store import StoredRun
 
 SHAPING_SETTINGS = ("spectrum_revolutions", "max_order")
 """Keys of ``config["analysis"]`` that decide what a run file holds; the others act on maps and tables."""
-
-
-def on_gpu(config: Mapping[str, Any]) -> bool:
-    """Whether the runs of the study `config` are computed on a GPU."""
-    return config["solver"]["device"] == "gpu"
 
 
 @dataclass(frozen=True)
@@ -64,8 +60,8 @@ def planned_run(
     }
     if row:
         determinants["row"] = row
-    elif on_gpu(config):  # the last bits differ, and with them a chaotic run
-        determinants["gpu"] = gpu_digest()
+    else:  # what computes it decides the last bits, and with them a chaotic run
+        determinants |= solver_of(config).determinants()
     return PlannedRun(spec, file, keep_history, cache.digest(determinants), row)
 
 

@@ -19,7 +19,7 @@ from bladerub.io import atomic, checksum
 from bladerub.io.errors import BadInput, DamagedFile, exit_on_error
 from bladerub.io.folders import CONFIG, provide_for_unknown_user
 from bladerub.study.manifest import ManifestRow, Row, listed_files
-from bladerub.workflow import claims, gpu
+from bladerub.workflow import claims
 
 
 def _take_two_interrupts_for_one() -> None:
@@ -106,18 +106,20 @@ def _made_with(results: str, workflow: Any) -> record.Record | None:
     return None if settings.configfiles or settings.config else record.read(Path(results))
 
 
-_planned: list[tuple[str, bool]] = []
+_planned: list[tuple[str, Callable[[], None]]] = []
 
 
-def plan(workflow: Any, results: str, notes: Sequence[str] = (), on_gpu: bool = False) -> None:
+def plan(
+    workflow: Any, results: str, notes: Sequence[str] = (), begin: Callable[[], None] = lambda: None
+) -> None:
     """Note what this invocation of Snakemake's `workflow` will `start`, with the results in this folder.
 
     Prints which config the results were made with, if the command line names none, and the `notes` on the
-    config, a line each. `on_gpu` is whether runs are computed on a GPU.
+    config, a line each. `begin` is called at the start if jobs run on this machine.
     """
     provide_for_unknown_user()
     _take_two_interrupts_for_one()
-    _planned[:] = [(results, on_gpu)]
+    _planned[:] = [(results, begin)]
     if made_with := _made_with(results, workflow):
         notes = [f"{results} was made with {made_with.as_arguments()}; this is the study without it", *notes]
     for note in notes:
@@ -149,12 +151,12 @@ def start(workflow: Any) -> None:
         _print("the last snakemake here was killed; what it had finished is kept")
     _handle_termination_beside()
     _schedule_by_events(workflow)
-    for results, on_gpu in _planned:
+    for results, begin in _planned:
         prepare(results)
         date_back(results)
         record.write(results, workflow.config_settings.configfiles, workflow.config_settings.config)
-        if on_gpu and workflow.local_exec:  # a job on another machine has the GPU there
-            gpu.start_server()
+        if workflow.local_exec:  # a job on another machine shares nothing with this process
+            begin()
 
 
 def date_back(results: str | Path) -> None:

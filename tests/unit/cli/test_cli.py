@@ -451,7 +451,7 @@ def test_interruption_leaves_no_traceback(small, blade_file, monkeypatch, capsys
     def interrupted(*_, **__):
         raise KeyboardInterrupt
 
-    monkeypatch.setattr("bladerub.study.job.simulate", interrupted)
+    monkeypatch.setattr("bladerub.contact.run.simulate", interrupted)
     assert told(capsys, [*RUN, *small]) == (130, "bladerub run: interrupted\n")
 
 

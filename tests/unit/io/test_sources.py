@@ -1,6 +1,7 @@
 import pytest
 
 from bladerub.extras.chart import column
+from bladerub.extras.gpu import solver
 from bladerub.io import sources
 
 CHARTING = [
@@ -15,12 +16,12 @@ CHARTING = [
 
 @pytest.fixture
 def package(tmp_path, monkeypatch):
-    for folder in ("contact/kernel", "contact/gpu", "blade", "study", "extras/chart"):
+    for folder in ("contact/kernel", "extras/gpu", "blade", "study", "extras/chart"):
         (tmp_path / folder).mkdir(parents=True)
     for name in (
         "contact/run.py",
         "contact/kernel/run.py",
-        "contact/gpu/loop.cu",
+        "extras/gpu/loop.cu",
         "blade/model.py",
         "study/store.py",
         "study/spectra.py",
@@ -35,7 +36,7 @@ def package(tmp_path, monkeypatch):
 SOLVER, STORAGE = sources.solver_digest.__wrapped__, sources.storage_digest.__wrapped__
 GROWTH = sources.growth_digest.__wrapped__
 CHART = column.chart_digest.__wrapped__
-GPU = sources.gpu_digest.__wrapped__
+GPU = solver.gpu_digest.__wrapped__
 
 
 @pytest.mark.parametrize(
@@ -46,8 +47,8 @@ GPU = sources.gpu_digest.__wrapped__
         ("contact/new.py", SOLVER, STORAGE),
         ("blade/model.py", SOLVER, STORAGE),
         ("blade/model.py", SOLVER, GPU),
-        ("contact/gpu/loop.cu", GPU, SOLVER),
-        ("contact/gpu/new.py", GPU, SOLVER),
+        ("extras/gpu/loop.cu", GPU, SOLVER),
+        ("extras/gpu/new.py", GPU, SOLVER),
         ("study/store.py", STORAGE, SOLVER),
         ("study/spectra.py", STORAGE, SOLVER),
         ("study/growth.py", GROWTH, STORAGE),

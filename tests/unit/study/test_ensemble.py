@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from bladerub.io.errors import DamagedFile
-from bladerub.study import ensemble, job
+from bladerub.study import ensemble
 from bladerub.study.grid import CoatingCase, run_spec, speeds
 from bladerub.study.maps import write_map
 from bladerub.study.paper import WORN
@@ -45,7 +45,7 @@ def made(study, coating, blade, make_result, monkeypatch, tmp_path):
         height = 1e-3 + 1e3 * spec.initial_displacement
         return make_result(spec.revolutions, amplitude=height, growth=0.04 if grows else 0.0)
 
-    monkeypatch.setattr(job, "simulate", simulate)
+    monkeypatch.setattr("bladerub.contact.run.simulate", simulate)
 
     def make(report=lambda line: None):
         return ensemble.make(study, coating, blade, "blade", tmp_path / "runs", tmp_path / "e.h5", report)

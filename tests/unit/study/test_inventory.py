@@ -9,10 +9,10 @@ import h5py
 import numpy as np
 import pytest
 
+from bladerub.contact import run as contact_run
 from bladerub.contact.result import Energy
 from bladerub.io import hdf5
 from bladerub.study import inventory as module
-from bladerub.study import job
 from bladerub.study.inventory import COUNTS, take, total
 from bladerub.study.manifest import write_manifest
 from bladerub.study.plan import coating_plan
@@ -145,13 +145,13 @@ def test_a_lost_longer_run_is_counted(done, inventory, tmp_path):
 def test_runs_whose_contact_forces_did_not_converge_are_counted(
     simulated, compute, inventory, monkeypatch, tmp_path
 ):
-    simulate = job.simulate
+    simulate = contact_run.simulate
 
     def unconverged(blade, spec, progress=None):
         steps = {0.1: 3, 0.2: 1}.get(spec.f_omega, 0)
         return replace(simulate(blade, spec), n_unconverged_steps=steps, n_fallback_steps=9)
 
-    monkeypatch.setattr(job, "simulate", unconverged)
+    monkeypatch.setattr("bladerub.contact.run.simulate", unconverged)
     rows = compute()
     assert (inventory()["done"], inventory()["unconverged"]) == (4, 2)
     write_manifest(tmp_path / "manifest.tsv", rows)
@@ -161,14 +161,14 @@ def test_runs_whose_contact_forces_did_not_converge_are_counted(
 
 
 def test_runs_out_of_balance_are_counted(simulated, compute, inventory, monkeypatch, tmp_path):
-    simulate = job.simulate
+    simulate = contact_run.simulate
 
     def unbalanced(blade, spec, progress=None):
         wear = {0.1: 0.01, 0.2: np.nan}.get(spec.f_omega, 0.0)
         entries = dict.fromkeys(Energy.__annotations__, 0.0) | {"wear": wear, "exchanged": 1.0}
         return replace(simulate(blade, spec), energy=Energy(**entries))
 
-    monkeypatch.setattr(job, "simulate", unbalanced)
+    monkeypatch.setattr("bladerub.contact.run.simulate", unbalanced)
     rows = compute()
     assert inventory()["unbalanced"] == 2
     write_manifest(tmp_path / "manifest.tsv", rows)

@@ -104,21 +104,6 @@ def test_another_source_of_solver_or_storage_is_another_run(monkeypatch, key, di
     assert key() != before
 
 
-def test_a_gpu_makes_other_runs_of_single_blades(monkeypatch, key, config, spec):
-    def of_row():
-        return planned_run(config, spec, "0.1900.h5", False, Row.even(2)).key("blade")
-
-    on_cpu, row = key(), of_row()
-    config["solver"]["device"] = "gpu"
-    on_gpu = key()
-    assert on_gpu != on_cpu
-    assert of_row() == row  # which the processor computes in any case
-    monkeypatch.setattr(plan, "gpu_digest", lambda: "other")
-    assert key() not in (on_cpu, on_gpu)
-    config["solver"]["device"] = "cpu"
-    assert key() == on_cpu
-
-
 def test_another_commit_is_the_same_run(monkeypatch, key):
     before = key()
     monkeypatch.setattr(provenance, "git_state", lambda: ("another", "modified"))

@@ -1,3 +1,4 @@
+import itertools
 import math
 
 import h5py
@@ -107,7 +108,8 @@ def test_an_interrupted_job_goes_on_where_it_stopped(compute, simulated, monkeyp
 
 
 def test_each_computed_run_is_reported_with_the_time_left(compute, simulated, monkeypatch):
-    clock = iter([0.0, 0.0, 12.0, 12.0, 18.0, 18.0, 24.0, 24.0, 30.0, 30.0])
+    ends = [0.0, 12.0, 18.0, 24.0, 30.0]
+    clock = iter([0.0, *(time for pair in itertools.pairwise(ends) for time in (*pair, pair[1])), 30.0])
     monkeypatch.setattr(job.time, "monotonic", lambda: next(clock))
     reports = []
     compute(report=reports.append)
@@ -215,7 +217,8 @@ def test_runs_on_the_rigid_casing_go_to_the_tables_as_those_of_infinite_moduli(
     study, blade, make_result, monkeypatch, tmp_path
 ):
     monkeypatch.setattr(
-        job, "simulate", lambda _, spec, __: make_result(spec.revolutions, order=4.0, depth=0.0)
+        "bladerub.contact.run.simulate",
+        lambda _, spec, __: make_result(spec.revolutions, order=4.0, depth=0.0),
     )
     case = CoatingCase.rigid("2nd", 0.15)
     rows = compute_missing(study, coating_plan(study, case), blade, tmp_path, "digest")

@@ -97,8 +97,8 @@ def _on_gpu(options: argparse.Namespace, config: dict[str, Any]) -> None:
     if options.nodes or options.stress:
         raise InputError("--gpu: goes with neither --nodes nor --stress")
 
-    from bladerub.contact.gpu import device
     from bladerub.extras.benchmark import gpu, record
+    from bladerub.extras.gpu import device
     from bladerub.io.provenance import provenance
 
     if options.table:

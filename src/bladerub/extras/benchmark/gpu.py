@@ -9,12 +9,12 @@ import numpy as np
 import pandas as pd
 
 from bladerub.blade.model import ReducedBlade
-from bladerub.contact.gpu.batch import Device
-from bladerub.contact.gpu.many import LeftOut, simulate_many
 from bladerub.contact.result import RunResult
 from bladerub.contact.run import simulate
 from bladerub.contact.spec import RunSpec
 from bladerub.extras.benchmark import machine
+from bladerub.extras.gpu.batch import Device
+from bladerub.extras.gpu.many import LeftOut, simulate_many
 from bladerub.extras.verification.verify import study_runs
 from bladerub.study.grid import run_spec
 from bladerub.study.parallel import each_done
@@ -52,7 +52,7 @@ def compare(
 ) -> dict[str, Any]:
     """Compute all runs of single blades on coatings of the study `config` on a GPU, and some here as well.
 
-    `device` is `bladerub.contact.gpu.device.run`, or takes its arguments; `n_compared` runs, at even
+    `device` is `bladerub.extras.gpu.device.run`, or takes its arguments; `n_compared` runs, at even
     distances in the list of the study, are repeated on all cores of this machine. Returns the numbers of
     `COLUMNS` but for the ``gpu``: ``kernel_s`` of the loops, ``gpu_s`` from the runs' description to their
     results, ``seconds_per_run`` of a core of this processor, and the relative error of the largest

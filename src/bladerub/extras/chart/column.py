@@ -11,19 +11,19 @@ import numpy as np
 
 from bladerub.blade.frequencies import reduced_frequencies
 from bladerub.blade.model import ReducedBlade
-from bladerub.contact.gpu.many import simulate_many
-from bladerub.contact.gpu.server import find
+from bladerub.contact.result import RunResult
+from bladerub.contact.spec import RunSpec
 from bladerub.extras.chart import point as points
 from bladerub.extras.chart.grid import ChartSpeeds, chart_orders, chart_speeds
 from bladerub.extras.chart.point import PointRow
 from bladerub.extras.chart.search import compute, compute_together, search
 from bladerub.io import lock, sources
 from bladerub.io.checksum import file_checksum
-from bladerub.io.sources import gpu_digest, solver_digest
+from bladerub.io.sources import solver_digest
 from bladerub.study import cache
 from bladerub.study.grid import CoatingCase, run_spec
 from bladerub.study.parallel import each_done
-from bladerub.study.plan import on_gpu
+from bladerub.study.solver import solver_of
 
 
 @functools.cache
@@ -41,9 +41,8 @@ def determinants(config: Mapping[str, Any], case: CoatingCase, speeds: ChartSpee
     Other points, and the coatings of the study, have no part in it.
     """
     analysis = config["analysis"]
-    gpu = {"gpu": gpu_digest()} if on_gpu(config) else {}
     return cache.digest(
-        gpu
+        solver_of(config).determinants()
         | {
             "spec": asdict(run_spec(config, case, f_omega=0.0)),
             "f_omega": speeds.f_omega.tolist(),
@@ -81,10 +80,11 @@ def compute_missing(
 
     `plan` is of `plan_column`, `blade_digest` of `bladerub.study.cache`, `folder` that of the points of the
     whole chart; `report` is called with a line for a log after each computed point, and before waiting.
-    `threads` points are computed at once, or all together on a GPU where ``solver.device`` says so. The rows
+    `threads` points are computed at once, or all together by a solver that does so. The rows
     are for `bladerub.study.manifest.write_manifest`.
     """
     folder, speeds, first = Path(folder), chart_speeds(config), next(iter(plan))
+    solver = solver_of(config)
     column_lock = folder / f".{first.casing}_E{first.E:g}_theta{first.theta:g}.lock"
     entries = {
         case: cache.Entry(
@@ -105,12 +105,14 @@ def compute_missing(
         def made_together() -> Iterator[tuple[CoatingCase, tuple[points.ChartPoint, float]]]:
             start = time.monotonic()
             searches = {case: search(config, case, blade, speeds, C1) for case in missing}
-            solve = functools.partial(
-                simulate_many, blade, device=find(), report=lambda line: report(str(line))
-            )
+
+            def solve(specs: Sequence[RunSpec]) -> Iterator[tuple[int, RunResult]]:
+                solved = solver.simulate_many(blade, specs, threads, report)
+                return ((number, result) for number, result, _ in solved)
+
             return ((case, (point, start)) for case, point in compute_together(searches, solve))
 
-        results = made_together() if on_gpu(config) else each_done(made, missing, threads)
+        results = made_together() if solver.wants_many else each_done(made, missing, threads)
         for number, (case, (point, start)) in enumerate(results, 1):
             entry = entries[case]
             entry.make_room()

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from bladerub.config import read as configuration
-from bladerub.contact.gpu import emulation
 from bladerub.extras.benchmark import gpu
 from bladerub.extras.benchmark.gpu import Measures, agreement
+from bladerub.extras.gpu import emulation
 from bladerub.io import tables
 
 SMALL = {

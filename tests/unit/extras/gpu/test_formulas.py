@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 
 from bladerub.contact import law as plastic
-from bladerub.contact.gpu import batch, emulation, formulas
 from bladerub.contact.laws import NAMES, module_of, source_of
 from bladerub.contact.spec import ElementLaw, TipProfile
 from bladerub.contact.tip import coverage, relief
+from bladerub.extras.gpu import batch, emulation, formulas
 
 WRAPPED = """
 extern "C" void evaluate(int n, const double* parameters, const double* given, double* found) {

@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 from bladerub.blade.model import ReducedBlade
-from bladerub.contact.gpu import emulation
-from bladerub.contact.gpu.many import simulate_many
 from bladerub.contact.run import simulate
 from bladerub.contact.spec import ElementLaw
+from bladerub.extras.gpu import emulation
+from bladerub.extras.gpu.many import simulate_many
 
 pytestmark = pytest.mark.skipif(
     not emulation.is_possible(), reason=f"no {emulation.COMPILER}, which compiles the emulation"

@@ -7,8 +7,8 @@ from multiprocessing.connection import Listener
 import numpy as np
 import pytest
 
-from bladerub.contact.gpu import device, server
-from bladerub.contact.gpu.batch import Output, Work
+from bladerub.extras.gpu import device, server
+from bladerub.extras.gpu.batch import Output, Work
 
 
 def work_of(number, n_runs=2, source="a"):

@@ -1,7 +1,7 @@
 """One process that has the GPU, for the jobs of a workflow: what they ask for is computed together there.
 
 Kernels of different processes take turns on a GPU, and few runs take as long as many. So Snakemake's main
-process starts this one, and each job sends its runs to it (`bladerub.workflow.gpu`).
+process starts this one, and each job sends its runs to it (`bladerub.extras.gpu.process`).
 """
 
 import contextlib
@@ -16,8 +16,8 @@ from multiprocessing.connection import Client, Connection, Listener
 from pathlib import Path
 from typing import NamedTuple
 
-from bladerub.contact.gpu import ADDRESS, device, emulation
-from bladerub.contact.gpu.batch import Device, Output, Work
+from bladerub.extras.gpu import ADDRESS, device, emulation
+from bladerub.extras.gpu.batch import Device, Output, Work
 from bladerub.io.errors import exit_on_error
 
 
@@ -29,7 +29,7 @@ def find() -> Device:
 def ask(works: Iterable[Work]) -> Iterator[Output]:
     """Let the server carry out the loop for pieces of work.
 
-    Raises `bladerub.contact.gpu.device.NoGpuError` if it does not answer, and what it raises.
+    Raises `bladerub.extras.gpu.device.NoGpuError` if it does not answer, and what it raises.
     """
     address = os.environ[ADDRESS]
     with contextlib.ExitStack() as open_ones:

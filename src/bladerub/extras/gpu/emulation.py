@@ -14,7 +14,7 @@ from pathlib import Path
 
 import numpy as np
 
-from bladerub.contact.gpu.batch import Output, Work, described, described_to_loop, longest_first
+from bladerub.extras.gpu.batch import Output, Work, described, described_to_loop, longest_first
 
 COMPILER = "c++"
 _OPTIONS = ("-O2", "-march=native", "-std=c++17", "-shared", "-fPIC", "-Wno-psabi")

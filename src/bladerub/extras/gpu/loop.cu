@@ -3,7 +3,7 @@
 // It makes the steps of `bladerub.contact.kernel` for a scheme that does not correct, deformable elements and
 // a force of constant direction; a run that it can't go on with is HANDED_OVER. Its functions are named as
 // those there. The formulas of law, profile and contact force are not written here: they are translated from
-// Python (`bladerub.contact.gpu.formulas`) and stand before this text, with the constants in capitals.
+// Python (`bladerub.extras.gpu.formulas`) and stand before this text, with the constants in capitals.
 //
 // A lane is node j = lane % 8 in group = lane / 8 and holds the modes lane, lane + 32, ... The groups share
 // the rows of elements under a node: of its window, a group has each fourth row.

@@ -7,11 +7,36 @@ import pytest
 
 import bladerub as br
 from bladerub.api import map as maps
-from bladerub.api import run as runs
 from bladerub.cli import main
-from bladerub.contact.gpu import ADDRESS, emulation
+from bladerub.contact.row_spec import Row
+from bladerub.extras.gpu import ADDRESS, emulation, server, solver
+from bladerub.io.errors import BadInput
+from bladerub.study.plan import planned_run
+from bladerub.study.solver import solver_of
 
 pytestmark = pytest.mark.skipif(not emulation.is_possible(), reason="no C++ compiler")
+
+
+@pytest.fixture(scope="module")
+def small(tmp_path_factory):
+    """A folder with a config whose blade is coarse, and a cache for this blade."""
+    folder = tmp_path_factory.mktemp("gpu")
+    mesh = "blade: {mesh: {chordwise: 7, thickness: 1, spanwise: 6}}\nreduction: {accuracy_speeds: 3}\n"
+    (folder / "small.yaml").write_text(mesh + "results: results_of_no_workflow\n")
+    return folder
+
+
+@pytest.fixture(scope="module")
+def blade(small):
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("BLADERUB_CACHE", str(small / "cache"))
+        return br.build_blade(br.load_study(small / "small.yaml"))
+
+
+@pytest.fixture
+def run(small, blade):
+    study = br.load_study(small / "small.yaml")
+    return br.simulate(blade, study.run("2nd", E=2, K=0.5, f_omega=0.19, revolutions=3), follow=False)
 
 
 @pytest.fixture
@@ -24,8 +49,7 @@ def gpu(monkeypatch):
             given.append(len(work.runs))
             yield from emulation.run([work])
 
-    for module in (runs, maps):
-        monkeypatch.setattr(module, "find", lambda: device)
+    monkeypatch.setattr(server, "find", lambda: device)
     return given
 
 
@@ -42,6 +66,26 @@ def test_one_run(gpu, on_gpu, blade, run):
     assert found.status == run.status
     np.testing.assert_allclose(found.wear, run.wear, rtol=0, atol=1e-9)
     assert found.attributes["run_key"] != run.attributes["run_key"]
+
+
+def test_its_sources_are_part_of_the_key_of_a_run(on_gpu, monkeypatch):
+    config, spec = on_gpu.config, on_gpu.run("2nd", E=2, K=0.5, f_omega=0.19).spec
+
+    def key(row=None):
+        return planned_run(config, spec, "0.1900.h5", False, row).key("blade")
+
+    of_gpu, of_row = key(), key(Row.even(2))
+    monkeypatch.setattr(solver, "gpu_digest", lambda: "other")
+    assert key() != of_gpu
+    config["solver"]["device"] = "cpu"
+    assert key() != of_gpu
+    assert key(Row.even(2)) == of_row  # which the processor computes in any case
+
+
+def test_a_package_without_it_says_so(on_gpu, monkeypatch):
+    monkeypatch.setattr("bladerub.plugins.offered", lambda kind: {})
+    with pytest.raises(BadInput, match=r"solver\.device = gpu: this package is without it, must be cpu"):
+        solver_of(on_gpu.config)
 
 
 def test_speeds_are_computed_together(gpu, on_gpu, blade):

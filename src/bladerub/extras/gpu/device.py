@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from bladerub.contact.gpu.batch import WARP, Output, Work, described, described_to_loop, longest_first
+from bladerub.extras.gpu.batch import WARP, Output, Work, described, described_to_loop, longest_first
 from bladerub.io.errors import BadInput
 
 if TYPE_CHECKING:

@@ -8,14 +8,14 @@ from threadpoolctl import threadpool_limits
 
 from bladerub.blade.model import ReducedBlade
 from bladerub.contact import energy
-from bladerub.contact.gpu import batch
-from bladerub.contact.gpu.batch import Device, Variant
 from bladerub.contact.kernel.loop import Simulation
 from bladerub.contact.result import RunResult
 from bladerub.contact.run import run_result, simulate
 from bladerub.contact.schemes import Recurrence
 from bladerub.contact.setup import set_up
 from bladerub.contact.spec import RunSpec
+from bladerub.extras.gpu import batch
+from bladerub.extras.gpu.batch import Device, Variant
 
 
 class LeftOut(NamedTuple):

@@ -8,9 +8,9 @@ from types import ModuleType, SimpleNamespace
 import numpy as np
 import pytest
 
-from bladerub.contact.gpu import device, emulation
-from bladerub.contact.gpu.many import simulate_many
 from bladerub.contact.run import simulate
+from bladerub.extras.gpu import device, emulation
+from bladerub.extras.gpu.many import simulate_many
 
 
 class Stream(nullcontext):
@@ -109,7 +109,7 @@ def test_pieces_that_do_not_fit_into_the_memory_follow_each_other(cupy, blade, s
         return original(together, watch)
 
     monkeypatch.setattr(device, "_carry_out", note)
-    monkeypatch.setattr("bladerub.contact.gpu.batch.MOST_RUNS", 1)
+    monkeypatch.setattr("bladerub.extras.gpu.batch.MOST_RUNS", 1)
     expected = [result.energy for _, result in simulate_many(blade, [spec] * 6, device.run)]
     assert carried_out == [6]
     carried_out.clear()

@@ -7,11 +7,11 @@ import tempfile
 import time
 from pathlib import Path
 
-from bladerub.contact.gpu import ADDRESS  # without the solver: every call of snakemake comes here
+from bladerub.extras.gpu import ADDRESS  # without the solver: every call of snakemake comes here
 
 
 def start_server() -> None:
-    """Start `bladerub.contact.gpu.server` for the jobs of this process, with which it ends.
+    """Start `bladerub.extras.gpu.server` for the jobs of this process, with which it ends.
 
     One that the environment names already is used as it is.
 
@@ -21,7 +21,7 @@ def start_server() -> None:
         return
     address = Path(tempfile.mkdtemp(prefix="bladerub-gpu-")) / "socket"
     server = subprocess.Popen(
-        [sys.executable, "-m", "bladerub.contact.gpu.server", str(address)],
+        [sys.executable, "-m", "bladerub.extras.gpu.server", str(address)],
         stdin=subprocess.PIPE,  # ends with this process, however that ends, and the server with it
         start_new_session=True,  # Ctrl-C is for Snakemake, whose jobs may end theirs
     )

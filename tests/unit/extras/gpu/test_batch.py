@@ -4,10 +4,10 @@ import math
 
 import pytest
 
-from bladerub.contact.gpu import batch
-from bladerub.contact.gpu.batch import longest_first, pack, refusal, variant_of
 from bladerub.contact.setup import set_up
 from bladerub.contact.spec import ElementLaw
+from bladerub.extras.gpu import batch
+from bladerub.extras.gpu.batch import longest_first, pack, refusal, variant_of
 
 HEATED = {
     "heat_capacity": 1e6,

@@ -1,0 +1,3 @@
+"""One GPU for many runs."""
+
+SOLVERS = {"gpu": "extras.gpu.solver:Gpu"}

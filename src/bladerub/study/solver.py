@@ -1,0 +1,106 @@
+"""What computes the runs of a study: many specs → many results.
+
+It is the processor, or what a folder of `bladerub.extras` offers under another name (``SOLVERS`` of
+`bladerub.plugins`); ``solver.device`` of the config names it.
+"""
+
+import time
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from typing import Any, NamedTuple, Protocol
+
+from bladerub import plugins
+from bladerub.blade.model import ReducedBlade
+from bladerub.contact.result import RunResult
+from bladerub.contact.spec import RunSpec
+from bladerub.io.errors import BadInput
+from bladerub.study.parallel import each_done
+
+Solve = Callable[[ReducedBlade, RunSpec, Callable[[int], None] | None], RunResult]
+"""Simulates one run as `bladerub.contact.run.simulate`."""
+
+
+class Solved(NamedTuple):
+    """A run that was computed."""
+
+    number: int  # Of its spec
+    result: RunResult
+    seconds: float  # Of wall time; 0 where it has no time of its own
+
+
+class Solver(Protocol):
+    """Computes runs of one blade."""
+
+    wants_many: bool
+    """Whether it computes runs together, and is idle where it gets a few at a time."""
+
+    def simulate_many(
+        self,
+        blade: ReducedBlade,
+        specs: Sequence[RunSpec],
+        threads: int = 1,
+        report: Callable[[str], None] = lambda line: None,
+        progress: Callable[[int], None] | None = None,
+    ) -> Iterator[Solved]:
+        """Yield each run as it is done; raises as `bladerub.contact.run.simulate`.
+
+        `threads` runs may be computed at once, `report` is called with lines for a log, and `progress` with
+        the number of revolutions done of a run, where they are counted.
+        """
+
+    def determinants(self) -> dict[str, str]:
+        """Name and digest of what determines a run besides `bladerub.io.sources.solver_digest`."""
+
+    def start(self) -> None:
+        """Begin, in the main process of a workflow, what its jobs on this machine share."""
+
+
+class Processor:
+    """Computes runs one after the other, or some at once in threads."""
+
+    wants_many = False
+
+    def simulate_many(
+        self,
+        blade: ReducedBlade,
+        specs: Sequence[RunSpec],
+        threads: int = 1,
+        report: Callable[[str], None] = lambda line: None,
+        progress: Callable[[int], None] | None = None,
+    ) -> Iterator[Solved]:
+        """Yield each run as it is done."""
+        from bladerub.contact.run import simulate  # loads the compiler: who plans runs alone does without
+
+        def timed(number: int) -> tuple[RunResult, float]:
+            start = time.monotonic()
+            return simulate(blade, specs[number], progress), time.monotonic() - start
+
+        for number, (result, seconds) in each_done(timed, range(len(specs)), threads):
+            yield Solved(number, result, seconds)
+
+    def determinants(self) -> dict[str, str]:
+        """Return that nothing else determines a run."""
+        return {}
+
+    def start(self) -> None:
+        """Begin nothing: jobs share nothing."""
+
+
+def solver_of(config: Mapping[str, Any]) -> Solver:
+    """Return what computes the runs of the study `config`; raises `BadInput` where that is not there."""
+    name, offered = config["solver"]["device"], plugins.offered("SOLVERS")
+    if name == "cpu":
+        return Processor()
+    if name not in offered:
+        names = " or ".join(["cpu", *offered])
+        raise BadInput(f"solver.device = {name}: this package is without it, must be {names}")
+    return plugins.load(offered[name])()
+
+
+def one_by(solver: Solver) -> Solve:
+    """Return what lets a `solver` compute a single run."""
+
+    def solve(blade: ReducedBlade, spec: RunSpec, progress: Callable[[int], None] | None = None) -> RunResult:
+        (solved,) = solver.simulate_many(blade, [spec], progress=progress)
+        return solved.result
+
+    return solve
