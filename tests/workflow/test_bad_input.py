@@ -1,131 +1,136 @@
-"""Bad configs, files and command lines: one line each that names the culprit, exit code 2, nothing written.
+"""Bad configs, files and command lines: one line that names the culprit, exit code 2, nothing written.
 
-All of them go through the functions behind the commands; a sample goes through the commands themselves, and
-``python tests/workflow/all_bad_inputs.py`` puts all of them through those.
+One of a kind; tests/unit/config tries the rules of the config, tests/unit/blade those of blades.
 """
 
-from pathlib import Path
+import os
+from dataclasses import MISSING, fields
+from itertools import pairwise
 
+import h5py
+import numpy as np
 import pytest
 import yaml
-from bad_inputs import COMMANDS, CONFIGS, UNREADABLE, make_files
-from broken_blades import IMPORTS, make_blades
 
+from bladerub.blade.model import ReducedBlade, write_reduced_blade
 from bladerub.cli import inputs, main
 
-ALL_CONFIGS = CONFIGS | UNREADABLE
-
-
-def write_overlay(folder: Path, content: dict | str | bytes) -> None:
-    if isinstance(content, dict):
-        content = yaml.safe_dump(content)
-    (folder / "overlay.yaml").write_bytes(content.encode() if isinstance(content, str) else content)
-
-
-@pytest.fixture
-def command(tmp_path, monkeypatch, capsys):
-    """Run a command line in an empty folder that stands for the repository: exit code and standard error."""
-    monkeypatch.setattr(inputs, "study_folder", lambda: tmp_path)
-    monkeypatch.chdir(tmp_path)
-
-    def run(arguments):
-        before = sorted(tmp_path.rglob("*"))
-        try:
-            code = main(arguments)
-        except SystemExit as end:  # argparse ends the program itself
-            code = end.code
-        assert sorted(tmp_path.rglob("*")) == before
-        output = capsys.readouterr()
-        assert output.out == ""
-        return code, output.err
-
-    return run
-
-
-@pytest.mark.parametrize("case", ALL_CONFIGS)
-def test_bad_config(command, tmp_path, case):
-    content, words = ALL_CONFIGS[case]
-    write_overlay(tmp_path, content)
-    code, line = command(["status", "--config", "overlay.yaml"])
-    assert code == 2
-    assert line.startswith(words)
-    assert line.count("\n") == 1
-
-
-@pytest.mark.parametrize("line", COMMANDS)
-def test_bad_command_line(command, tmp_path, line):
-    make_files(tmp_path)
-    code, output = command(line.split())
-    assert code == 2
-    assert COMMANDS[line] in output
-    assert output.count("\n") == 1
+RUN = "run --casing 2nd --E 2 --K 0.5 --f 0.19"
+COMMANDS = {
+    "": "required: COMMAND",
+    "rnu": "invalid choice: 'rnu'",
+    "run --casing 2nd --E 2 --f 0.19": "--K: missing",
+    "run --casing 2dn --E 2 --K 1 --f 0.19": '"2dn": must be one of 2nd, 2nd5nd; did you mean 2nd?',
+    f"{RUN} --E soft": "argument --E: invalid float value: 'soft'",
+    f"{RUN} --E 0": "--E = 0: ",
+    f"{RUN} --K inf": "--K = inf: ",
+    f"{RUN} --f nan": "--f = nan: ",
+    f"{RUN} --f 0.41": "--f = 0.41: must be at most reduction.f_omega_max = 0.4",
+    f"{RUN} --theta 0.1 --friction 0.1": "--friction = 0.1: ",
+    f"{RUN} --revolutions {10**30}": f"--revolutions = {10**30}: ",
+    f"{RUN} --depth 3": "unrecognized arguments: --depth 3",
+    f"{RUN} --config no.yaml": "no.yaml: cannot be read (No such file or directory)",
+    f"{RUN} --config pipe": "pipe: is not a regular file, must be a YAML file",
+    f"{RUN} --output folder": "--output folder: is a folder, must be a file",
+    f"{RUN} --output text/run.h5": "--output text/run.h5: cannot be written, ",
+    f"{RUN} --output sound.h5": "--output sound.h5: is there and is no run",
+    f"{RUN} --blade no.h5": "no.h5: No such file or directory",
+    f"{RUN} --blade /dev/zero": "/dev/zero: is not a regular file, must be a reduced blade (HDF5)",
+    f"{RUN} --blade truncated.h5": "truncated.h5: not a readable HDF5 file",
+    f"{RUN} --blade other.h5": "other.h5: not a reduced blade, 'mass' is missing",
+    f"{RUN} --blade nan.h5": "nan.h5: not a valid reduced blade, mass: must be finite",
+    f"{RUN} --blade lopsided.h5": "lopsided.h5: not a valid reduced blade, stiffness_0: must be symmetric",
+    f"{RUN} --blade endless.h5": "endless.h5: not a reduced blade, mass has the shape (200000, 200000)",
+    "verify --sample 1": "the following arguments are required: --seed",
+    "verify --sample 0 --seed 1": "--sample = 0: must be from 1 to ",
+    "status results": "unrecognized arguments: results",
+    "benchmark --rounds 0": "--rounds = 0: must be from 1 to 1000",
+    "benchmark --config rigid.yaml": "coatings: must have an abradable one",
+    "import no.inp": "no.inp: there is no such file",
+}
 
 
 @pytest.fixture(scope="module")
-def blades(tmp_path_factory):
-    """Here are the blades that cannot be one."""
-    folder = tmp_path_factory.mktemp("broken")
-    make_blades(folder)
+def folder(tmp_path_factory):
+    """Here are the files that `COMMANDS` name."""
+    folder = tmp_path_factory.mktemp("files")
+    (folder / "folder").mkdir()
+    (folder / "text").write_text("mass = 1\n")
+    (folder / "rigid.yaml").write_text(
+        "coatings: [{casing: 2nd, coating: rigid, friction: [0]}]\nanalysis: {histories: []}\n"
+    )
+    os.mkfifo(folder / "pipe")
+    kinds = {float: 1.0, int: 6, np.ndarray: np.eye(24)}
+    values = {field.name: kinds[field.type] for field in fields(ReducedBlade) if field.default is MISSING}
+    nodes = dict.fromkeys(("node_position", "radial_direction", "tangential_direction"), np.eye(8, 3))
+    sound = folder / "sound.h5"
+    write_reduced_blade(sound, ReducedBlade(**values | nodes | {"f_omega_max": 0.4}), {})
+    (folder / "truncated.h5").write_bytes(sound.read_bytes()[:3000])
+    for name in ("other", "nan", "lopsided", "endless"):
+        (folder / f"{name}.h5").write_bytes(sound.read_bytes())
+        with h5py.File(folder / f"{name}.h5", "r+") as file:
+            if name in ("other", "endless"):
+                del file["mass"]
+            if name == "endless":
+                file.create_dataset("mass", shape=(200_000, 200_000), dtype=float, chunks=(100, 100))
+            if name == "nan":
+                file["mass"][0, 0] = np.nan
+            if name == "lopsided":
+                file["stiffness_0"][1, 2] = 0.5
     return folder
 
 
-@pytest.mark.parametrize("line", IMPORTS)
-def test_broken_blade(blades, monkeypatch, capsys, line):
-    monkeypatch.chdir(blades)
-    before = sorted(blades.rglob("*"))
-    assert main(line.split()) == 2
-    assert sorted(blades.rglob("*")) == before
+@pytest.mark.parametrize("line", COMMANDS)
+def test_bad_command_line(folder, monkeypatch, capsys, line):
+    monkeypatch.setattr(inputs, "study_folder", lambda: folder)
+    monkeypatch.chdir(folder)
+    before = sorted(folder.rglob("*"))
+    try:
+        code = main(line.split())
+    except SystemExit as end:  # argparse ends the program itself
+        code = end.code
     output = capsys.readouterr()
-    assert output.out == ""
-    assert IMPORTS[line] in output.err
-    assert output.err.count("\n") == 1
+    assert (code, output.out, output.err.count("\n")) == (2, "", 1)
+    assert COMMANDS[line] in output.err
+    assert sorted(folder.rglob("*")) == before
 
 
-def lines_of_ours(stderr: str) -> list[str]:
+def lines_of_ours(stderr):
     """Snakemake says that it uses a profile and lays one config over the other; all else must be ours."""
     its_own = ("Config file config/config.yaml is extended", "Using workflow specific profile")
     return [line for line in stderr.splitlines() if not line.startswith(its_own)]
 
 
-SAMPLE = [
-    "unknown key",
-    "number with its unit",
-    "not a number",
-    "sections out of order",
-    "mesh beyond all memory",
-    "speed above the reduced model's",
-    "E of nothing",
-    "a million coatings",
-    "casing named like a path",
-    "results outside the repository",
-    "results among the sources",
-    "extends itself",
-    "aliases without end",
-]
+CONFIGS = {
+    "contact:\n  damping: 0.01\n": "overlay.yaml:2: contact.damping =",
+    "results: ../elsewhere\n": "overlay.yaml:1: results =",
+    "blade: {mesh: {chordwise: 200, thickness: 20, spanwise: 400}}\n": "overlay.yaml:1: blade.mesh:",
+    "\nextend: [overlay.yaml]\n": "overlay.yaml:2: extend =",
+    "a: &a [x, x, x, x, x, x, x, x]\n"
+    + "".join(f"{new}: &{new} [{', '.join([f'*{old}'] * 9)}]\n" for old, new in pairwise("abcdefg")): (
+        "overlay.yaml:1: not valid YAML"
+    ),
+}
 
 
-@pytest.mark.parametrize("case", SAMPLE)
-def test_snakemake_with_a_bad_config(workspace, case):
-    config, words = CONFIGS[case]
-    done = workspace.snakemake("--cores", "1", config=config)
+@pytest.mark.parametrize("text", CONFIGS)
+def test_snakemake_with_a_bad_config(workspace, text):
+    done = workspace.snakemake("--cores", "1", config=text)
     (line,) = lines_of_ours(done.stderr)
-    assert line.startswith(words)
-    assert done.stdout == ""
-    assert done.returncode == 2
+    assert line.startswith(CONFIGS[text])
+    assert (done.returncode, done.stdout) == (2, "")
     assert not (workspace.folder / "results").exists()
 
 
-@pytest.mark.parametrize("case", ["call of a function", "groups without end", "other encoding"])
-def test_snakemake_with_a_config_that_it_does_not_read_itself(workspace, case):
-    content, words = UNREADABLE[case]
-    write_overlay(workspace.folder, content)
+def test_snakemake_with_a_config_that_calls_a_function(workspace):
+    """Snakemake would run it, were it read as a ``--configfile``."""
+    overlay = "a: !!python/object/apply:os.system ['touch x']\n"
+    (workspace.folder / "overlay.yaml").write_text(overlay)
     done = workspace.snakemake("--cores", "1", "--config", "extend=overlay.yaml")
     (line,) = lines_of_ours(done.stderr)
-    # a file that cannot be opened has no line: the key that asked for it is named
-    where = words.replace("overlay.yaml: ", '--config: extend = "overlay.yaml": ')
-    assert line.startswith(where)
+    assert line.startswith("overlay.yaml:1: not valid YAML")
     assert done.returncode == 2
-    assert not (workspace.folder / "results").exists()
+    assert not (workspace.folder / "x").exists()
 
 
 def test_all_problems_are_reported_at_once_with_their_locations(workspace):

