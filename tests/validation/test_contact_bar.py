@@ -18,14 +18,7 @@ from typing import NamedTuple
 
 import numpy as np
 import pytest
-from bar_solutions import (
-    DOYEN,
-    GRAVITY,
-    SPEED,
-    first_contact_force,
-    rebound_speed,
-    second_contact_force,
-)
+from bar_solutions import DOYEN, GRAVITY, SPEED, first_contact_force, rebound_speed, second_contact_force
 
 from bladerub.contact.kernel import records
 from bladerub.contact.kernel.free_flight import free_flight

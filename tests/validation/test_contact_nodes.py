@@ -22,7 +22,7 @@ def config(request):
     return load(request.config.rootpath / "config" / "config.yaml")
 
 
-@pytest.fixture(scope="module", params=[5, 12, 19])
+@pytest.fixture(scope="module", params=[5, pytest.param(12, marks=pytest.mark.nightly), 19])
 def wide(request, config):
     config = copy.deepcopy(config)
     config["blade"]["mesh"] = {"chordwise": 20, "thickness": 2, "spanwise": 4}

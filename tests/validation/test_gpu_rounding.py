@@ -32,9 +32,7 @@ def specs(coarse_config):
     coatings = [case for case in coating_cases(coarse_config) if not case.is_rigid]
     fast = [speed for speed in speeds(coarse_config) if speed > 0.15]  # of few steps a revolution
     drawn = zip(
-        rng.choice(len(coatings), N_RUNS, replace=False),
-        rng.choice(fast, N_RUNS, replace=False),
-        strict=True,
+        rng.choice(len(coatings), N_RUNS, replace=False), rng.choice(fast, N_RUNS, replace=False), strict=True
     )
     specs = [run_spec(coarse_config, coatings[number], float(speed)) for number, speed in drawn]
     # steps longer than the study's: extended precision takes fifty times as long

@@ -17,11 +17,6 @@ def test_blade_goes_to_xarray_and_pandas(blade):
     assert {"f_omega", "mode", "f_fe", "f_rom"} <= set(blade.accuracy().columns)
 
 
-def test_blade_shows_itself(blade):
-    assert "<caption>Blade</caption>" in blade._repr_html_()
-    assert blade.plot_mesh()._repr_html_().startswith("<img")
-
-
 def test_a_doubtful_blade_gets_a_warning(study, blade, small, monkeypatch):
     monkeypatch.setenv("BLADERUB_CACHE", str(small / "cache"))
     figures = {**study.config["figures"], "nominal_speed": 6e4}

@@ -29,15 +29,3 @@ def test_written_map_is_what_xarray_opens_and_read_map_reads(study, sweep, tmp_p
     xr.testing.assert_identical(br.read_map(path).to_xarray(), sweep.to_xarray())
     with xr.open_dataset(path, engine="h5netcdf", phony_dims="sort") as opened:
         xr.testing.assert_equal(opened.load(), sweep.to_xarray())
-
-
-def test_map_in_pandas_has_a_row_for_each_speed(sweep):
-    table = sweep.to_pandas()
-    assert table.index.tolist() == [0.19, 0.2]
-    np.testing.assert_array_equal(table["max_wear"], sweep.coating.max_wear)
-
-
-def test_map_shows_itself(sweep):
-    assert "<caption>Map</caption>" in sweep._repr_html_()
-    for draw in (sweep.plot_wear, sweep.plot_spectrum):
-        assert draw()._repr_html_().startswith("<img")

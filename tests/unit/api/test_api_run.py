@@ -35,12 +35,6 @@ def test_run_in_xarray_is_what_xarray_opens(study, run, tmp_path):
         }
 
 
-def test_run_in_pandas_has_a_row_for_each_revolution(run):
-    table = run.to_pandas()
-    assert list(table.index) == [1, 2, 3]
-    np.testing.assert_array_equal(table["revolution_peak"], run.revolution_peak)
-
-
 def test_progress_and_each_count_the_revolutions(study, blade, capsys):
     done = []
     asked = study.run("2nd", E=2, K=0.5, f_omega=0.19, revolutions=2)
@@ -55,12 +49,6 @@ def test_growing_run_is_followed_further(study, blade):
     assert short.longer is None
     assert run.longer.revolutions == settings["confirmation_revolutions"]
     assert run.verdict(settings).revolutions == run.longer.revolutions > short.verdict(settings).revolutions
-
-
-def test_run_shows_itself(run):
-    assert "<caption>Run</caption>" in run._repr_html_()
-    for draw in (run.plot_wear, run.plot_history, run.plot_spectrum):
-        assert draw()._repr_html_().startswith("<img")
 
 
 @pytest.fixture(scope="module")
@@ -86,21 +74,12 @@ def test_a_row_tells_of_each_blade(study, row_run, tmp_path):
     assert row_run.to_xarray()["blade_worn_volume"].dims == ("blade",)
 
 
-def test_a_run_of_one_blade_is_no_row(run):
-    assert run.blades.empty
-
-
 def test_a_row_of_one_blade_is_its_run(study, blade, run):
     planned = study.run("2nd", E=2, K=0.5, f_omega=0.19, revolutions=run.revolutions)
     alone, row = (br.simulate(blade, planned, row=row) for row in (None, br.Row.even(1)))
     for name, values in alone.stored.data.items():
         np.testing.assert_array_equal(row.stored.data[name], values, err_msg=name)
     assert alone.attributes["run_key"] != row.attributes["run_key"]
-
-
-def test_a_row_that_is_too_dense_is_refused(study, blade):
-    with pytest.raises(ValueError, match="blades 1 and 2 are 6 of 2000 coating elements apart"):
-        br.simulate(blade, study.run("2nd", E=2, K=0.5, f_omega=0.19), row=br.Row.even(300))
 
 
 def test_rows_are_computed_once_and_again_when_their_blades_change(study, blade, tmp_path):
@@ -135,8 +114,3 @@ def test_the_run_with_its_stress_is_the_run(study, blade):
     assert stressed.attributes["stress_last_von_mises"] == stressed.stress.last["von_mises"]
     for name in ("wear", "radial_displacement", "revolution_peak", "spectrum_amplitude"):
         np.testing.assert_array_equal(stressed.stored.data[name], run.stored.data[name])
-
-
-def test_the_stress_of_a_row_is_refused(study, blade):
-    with pytest.raises(ValueError, match="stress = True: is found for a single blade only"):
-        br.simulate(blade, study.run("2nd", E=2, K=0.5, f_omega=0.19), row=br.Row.even(2), stress=True)

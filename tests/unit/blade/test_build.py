@@ -1,18 +1,12 @@
-import dataclasses
-
 import numpy as np
 import pandas as pd
 import pytest
 import scipy.linalg
 
-from bladerub.blade import linear
-from bladerub.blade.build import build, meshed_blade, reduce_meshed
+from bladerub.blade.build import build
 from bladerub.blade.built import write
-from bladerub.blade.discrete import by_finite_elements
-from bladerub.blade.elasticity import Material, Solid
 from bladerub.blade.geometry import BladeShape
 from bladerub.blade.refinement import directions
-from bladerub.blade.rotation import equilibrium
 from bladerub.blade.validation import read_reduced_blade
 from bladerub.io import hdf5
 
@@ -87,23 +81,6 @@ def test_static_displacements_are_those_of_their_speeds(built):
     assert 2 < full / half < 4
 
 
-def test_speeds_are_in_units_of_the_first_frequency(twisted_config):
-    blade = meshed_blade(twisted_config)
-    material = Material.from_config(twisted_config["material"])
-    found = by_finite_elements(blade, material, [0.3], [0.0, 0.3], 3)
-    solid = Solid(blade.mesh.mesh, material, clamped=blade.mesh.root)
-    at_speed = equilibrium(solid, 2 * np.pi * 0.3 * found.frequency[0])
-    exact, _ = linear.lowest_modes(at_speed.stiffness, solid.mass, 3)
-    np.testing.assert_allclose(found.frequencies[0.3], exact, rtol=1e-9)
-    assert list(found.stiffness) == [0.3]
-    np.testing.assert_allclose(found.stiffness[0.3].data, at_speed.stiffness.data, rtol=1e-6)
-
-
-def test_the_length_of_the_config_is_that_of_the_reduced_blade(twisted_config):
-    meshed = dataclasses.replace(meshed_blade(twisted_config), length=0.201)
-    assert reduce_meshed(meshed, {"blade": twisted_config, "reduction": CONFIG}).reduced.length == 0.2
-
-
 def test_nodes_follow_the_reduced_coordinates(built):
     """At the interface by definition, eq. (5); in the first mode as in that of the finite elements."""
     at_interface = built.recovery[:24, built.mesh.interface].reshape(24, 24)
@@ -123,11 +100,6 @@ def test_reduced_blade_is_symmetric_and_of_the_size_of_eq_4(built):
     for matrix in (blade.mass, blade.stiffness_0, blade.stiffness_1, blade.stiffness_2):
         np.testing.assert_array_equal(matrix, matrix.T)
     assert np.linalg.eigvalsh(blade.mass).min() > 0
-
-
-def test_eq_2_costs_nothing_at_the_fit_speeds(built):
-    # The three table speeds are the fit speeds here.
-    np.testing.assert_allclose(built.accuracy.f_fe_eq2, built.accuracy.f_fe, rtol=1e-8)
 
 
 def test_a_blade_inside_out_is_refused_before_anything_is_computed(twisted_config):

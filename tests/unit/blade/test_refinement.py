@@ -48,12 +48,6 @@ def test_modes_are_added_where_the_speed_law_is_good_enough(reduced):
     assert built.reduced.stiffness_higher == ()
 
 
-def test_more_fit_speeds_can_be_asked_for(reduced):
-    three, five = reduced(), reduced(fit_speeds=5)
-    assert len(five.reduced.stiffness_higher) == 2
-    assert largest(five).speed_law < 0.2 * largest(three).speed_law
-
-
 def test_a_tolerance_out_of_reach_is_refused_with_what_is_reached(reduced, monkeypatch):
     monkeypatch.setattr(refinement, "MOST_MODES_PER_SPEED", 4)
     monkeypatch.setattr(building, "MOST_FIT_SPEEDS", 3)
@@ -89,22 +83,12 @@ def test_a_fit_speed_is_added_while_eq_2_has_more_than_half_of_the_tolerance(tri
     assert found == [(3, 6), (4, 6), (5, 6), (5, 8), (5, 10)]
 
 
-def test_fit_speeds_end_at_the_most_there_can_be(tried):
-    found = tried(0.01, lambda *_: 0.5, lambda _, modes: 0.02 if modes < 8 else 0.0, most_fit_speeds=4)
-    assert found == [(3, 6), (4, 6), (4, 8)]
-
-
 @pytest.mark.parametrize(("mode", "steps"), [(6, 13), (7, 1)])
 def test_the_first_six_modes_count_and_thirty_at_a_speed_are_the_most(tried, mode, steps):
     def in_that_mode(_, modes):
         return 0.0 if modes == 30 else 0.02
 
     assert len(tried(0.01, lambda *_: 0.0, in_that_mode, mode=mode)) == steps
-
-
-def test_thirty_modes_that_are_not_enough_are_the_end(tried):
-    with pytest.raises(BadInput, match="30 modes at each"):
-        tried(0.01, lambda *_: 0.0, lambda *_: 0.02)
 
 
 def test_errors_are_the_largest_over_the_speeds():

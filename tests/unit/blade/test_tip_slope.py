@@ -29,12 +29,6 @@ def test_turn_about_the_axis_of_rotation_has_its_angle_as_slope(tip):
     np.testing.assert_allclose(slope_of(tip, turn), -1.0, rtol=0, atol=1e-4)
 
 
-def test_translation_and_pitch_have_no_circumferential_slope(tip):
-    up = np.broadcast_to([0.0, 0.0, 1.0], tip.mesh.points.shape)
-    np.testing.assert_allclose(slope_of(tip, up), 0.0, rtol=0, atol=1e-10)
-    np.testing.assert_allclose(slope_of(tip, up * tip.mesh.points[:, :1]), 0.0, rtol=0, atol=1e-10)
-
-
 def test_tip_that_is_a_line_of_nodes_has_no_slope(tip):
     line = BladeMesh(tip.mesh, tip.root, tip.interface, tip.interface)
     assert slope_of(line, tip.mesh.points) is None

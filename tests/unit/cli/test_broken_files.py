@@ -46,7 +46,7 @@ coatings: [{casing: measured, E: [2], K: [0.5], theta: [0.0]}]
 analysis: {histories: []}
 """
 
-pytestmark = pytest.mark.slow
+pytestmark = [pytest.mark.slow, pytest.mark.nightly]
 
 
 @pytest.fixture(scope="module")

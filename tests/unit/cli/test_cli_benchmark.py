@@ -18,26 +18,6 @@ speeds: {start: 0.2, stop: 0.4, step: 0.1, extra: []}
 solver: {revolutions: 3}
 analysis: {spectrum_revolutions: 2, divergence: {revolutions: 3}, histories: []}
 """
-KEYS = {
-    "processor",
-    "vector_bits",
-    "members",
-    "rounds",
-    "modes",
-    "contact_share",
-    "steps_per_second",
-    "ratio_to_numpy",
-    "ratio_to_numba",
-    "ratio_to_numpy_free",
-    "ratio_to_numba_free",
-    "peak_flops",
-    "fraction_of_peak_contact",
-    "fraction_of_peak_free",
-    "seconds_per_run",
-    "runs",
-    "cores",
-    "study_minutes",
-}
 
 
 @pytest.fixture(scope="module")
@@ -57,7 +37,6 @@ def benchmark(folder, monkeypatch):
 def test_json_holds_every_figure(benchmark, capsys):
     assert benchmark("--json", "--rounds", "1", "--cores", "2") == 0
     told = json.loads(capsys.readouterr().out)
-    assert told.keys() == KEYS
     assert 0.2 < told["contact_share"] < 0.5
     for loop, rates in told["steps_per_second"].items():
         assert rates["free"] > rates["contact"] > 0, loop
@@ -70,20 +49,10 @@ def test_json_holds_every_figure(benchmark, capsys):
     assert told["processor"]
 
 
-def test_in_words(benchmark, capsys):
-    assert benchmark("--rounds", "1", "--stress") == 0
-    words = capsys.readouterr().out
-    assert "fraction of peak" in words
-    assert "a run with the stress of the blade" in words
-
-
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        (["--rounds", "0"], "--rounds = 0: must be from 1 to 1000"),
-        (["--cores", "-1"], "--cores = -1: must be from 1 to 1000000"),
         (["--nodes", "16", "33"], "--nodes 33: must be from 4 to 32"),
-        (["--blade", "no.h5"], "no.h5: No such file or directory"),
         (["--table", str(PEAKS)], "peaks.csv: not the right table, processor"),
     ],
 )
@@ -92,10 +61,3 @@ def test_bad_input_is_answered_in_one_line(benchmark, capsys, arguments, message
     error = capsys.readouterr().err
     assert message in error
     assert error.count("\n") == 1
-
-
-def test_a_study_of_rigid_casings_alone_is_refused(benchmark, folder, capsys):
-    rigid = folder / "rigid.yaml"
-    rigid.write_text("coatings: [{casing: 2nd, coating: rigid, friction: [0.0]}]\n")
-    assert benchmark("--config", str(rigid)) == 2
-    assert "must have an abradable one" in capsys.readouterr().err

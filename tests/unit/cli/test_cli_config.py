@@ -40,11 +40,7 @@ def test_a_valid_config_is_summed_up_and_its_law_named_but_not_executed(study, c
     ("text", "line", "word"),
     [
         ("a: 1\n__use_yte__: true\nb: ?open('executed', 'w')\n", 2, "__use_yte__"),
-        ("contact:\n\tdamping_ratio: 0.004\n", 2, "YAML"),
-        ("a: [1\nb: {\n", 2, "YAML"),
-        ("a: 1\na: 2\n", 2, "twice"),
         ("a: !!python/object/apply:os.system [touch executed]\n", 1, "tag"),
-        ("- 1\n", 0, "keys"),
     ],
 )
 def test_what_is_no_config_is_one_line_with_file_and_line(study, capsys, text, line, word):

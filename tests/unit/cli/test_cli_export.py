@@ -129,13 +129,6 @@ def test_figures_as_json(export, tmp_path, folder):
         np.testing.assert_allclose(figures[f"largest_{name}_at"], data[0].points[node])
 
 
-def test_equal_exports_are_equal_files(export, tmp_path):
-    for name in "ab":
-        assert export(tmp_path / name, "--samples", "2")[0] == 0
-    for file in (tmp_path / "a").iterdir():
-        assert file.read_bytes() == (tmp_path / "b" / file.name).read_bytes()
-
-
 def test_a_row_of_blades_is_shown_with_its_coating(export, tmp_path, folder):
     run, blades = tmp_path / "row.h5", ["--blades", "3", "--length-scatter", "5e-5", "--coupling", "0.01"]
     config = ["--config", str(folder / "small.yaml")]
@@ -220,25 +213,6 @@ def test_a_run_of_something_else_is_refused(export, tmp_path, folder, attributes
     assert err.startswith(f"bladerub export: --run {run}: ")
     assert said in err
     assert not (tmp_path / "motion").exists()
-
-
-@pytest.mark.parametrize(
-    ("more", "said"),
-    [
-        (["--samples", "0"], "--samples = 0: must be from 1 to 2000"),
-        (["--samples", "2001"], "--samples = 2001: must be from 1 to 2000"),
-        (["--samples", "many"], "argument --samples: invalid int value"),
-        (["--blade", "none.h5"], "none.h5: is missing"),
-        (["--run", "none.h5"], "--run none.h5: No such file or directory"),
-        (["--vtu", "."], "--vtu .: is there already"),
-    ],
-)
-def test_bad_options_are_refused_and_write_nothing(export, tmp_path, monkeypatch, more, said):
-    monkeypatch.chdir(tmp_path)
-    code, out, err = export(tmp_path / "motion", *more)
-    assert (code, out, err.count("\n")) == (2, "", 1)
-    assert said in err
-    assert not list(tmp_path.iterdir())
 
 
 def test_a_place_that_cannot_be_written_is_refused(export, tmp_path, monkeypatch):

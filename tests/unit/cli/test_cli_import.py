@@ -93,13 +93,6 @@ def test_what_it_prints_is_a_config_of_the_blade(look, folder, monkeypatch):
     assert "nodes at 5 speeds" in waiting
 
 
-def test_an_axis_may_begin_with_a_minus(look):
-    code, out, _ = look("--unit", "mm", "--rotation", "x", "--downstream", "-x", "--radial", "-z", "--json")
-    assert code == 0
-    source = json.loads(out)["config"]["blade"]["source"]
-    assert (source["rotation"], source["downstream"], source["radial"]) == ("x", "-x", "-z")
-
-
 def test_a_sense_of_rotation_that_no_compressor_has_is_told(look):
     right, wrong = (json.loads(look("--unit", "mm", "--rotation", axis, "--json")[1]) for axis in ("-x", "x"))
     np.testing.assert_allclose(right["tip_lean"], np.negative(wrong["tip_lean"]), rtol=1e-4)
@@ -108,28 +101,6 @@ def test_a_sense_of_rotation_that_no_compressor_has_is_told(look):
     told = [line for line in wrong["warnings"] if line not in right["warnings"]]
     assert len(told) == 1
     assert "has rotation = x or downstream = x the wrong sign?" in told[0]
-
-
-@pytest.mark.parametrize(
-    ("more", "said"),
-    [
-        (["--tip-set", "TIP"], 'tip not found: there is no node set "TIP"; did you mean TOP?'),
-        (["--radial", "x"], "radial = x: must not be the axis of rotation"),
-    ],
-)
-def test_what_cannot_be_imported_is_told_in_one_line(look, more, said):
-    code, out, err = look("--unit", "mm", *more)
-    assert (code, out, err.count("\n")) == (2, "", 1)
-    assert said in err
-
-
-def test_a_file_that_is_no_mesh_is_told(look, folder):
-    code, _, err = look(file="small.yaml")
-    assert code == 2
-    assert err == (
-        f"bladerub import: {folder}/small.yaml: must be a mesh file that ends in .inp, .msh, .vtu, "
-        "or a table of sections in .csv, .txt, .dat\n"
-    )
 
 
 def test_sections_are_meshed_as_the_config_says_and_reported(look, folder):
@@ -235,13 +206,6 @@ def test_speeds_of_the_crossings_are_told(look, folder, tmp_path, monkeypatch):
     for each in figures["crossings"]:
         first = reduced_frequencies(blade, each["f_omega"], 1)[0]
         assert each["order"] * each["rpm"] / 60 == pytest.approx(first, rel=1e-6)
-
-
-def test_a_nominal_speed_that_no_wheel_bears_is_told(look):
-    right, wrong = (look("--unit", "mm", "--rpm", rpm)[1] for rpm in ("7000", "17000"))
-    assert "its tip moves at" not in right
-    assert re.search(r"its tip moves at 1[12]\d\d m/s at 17000 1/min with a radius of 6[5-9]\d mm", wrong)
-    assert "1/min is f_omega = 1.451, beyond reduction.f_omega_max = 0.4: raise that" in wrong
 
 
 def _published(folder):

@@ -6,19 +6,6 @@ import pytest
 from bladerub.cli import inputs, main
 
 MEASURES = {"wear_l2", "peak", "revolution_peak"}
-KEYS = MEASURES | {
-    "seed",
-    "jobs",
-    "n",
-    "within_1_percent",
-    "energy_residual",
-    "worst",
-    "against_paper_scheme",
-    "speedup_at_equal_error",
-    "left_out",
-    "seconds",
-    "beyond",
-}
 SMALL = """
 blade: {mesh: {chordwise: 7, thickness: 1, spanwise: 6}}
 reduction: {accuracy_speeds: 3}
@@ -63,7 +50,6 @@ def figures(verify, capsys):
 
 def test_json_holds_every_figure(figures):
     told = figures("--sample", "2", "--seed", "1")
-    assert told.keys() == KEYS
     assert (told["n"], told["seed"], told["jobs"]) == (2, 1, 1)
     assert 0 <= told["within_1_percent"] <= 1
     for measure in MEASURES:
@@ -104,7 +90,6 @@ def test_rows_of_blades_are_drawn_from_their_plan(figures, verify, folder, capsy
     plan = folder / "rotor.yaml"
     plan.write_text(ROWS)
     told = figures("--rows", str(plan), "--sample", "3", "--seed", "1")
-    assert told.keys() == KEYS
     assert told["n"] == 3
     assert told["energy_residual"]["max"] < 1e-3
     assert told["worst"]["wear_l2"].startswith("2nd_E2_K0.5_theta0.15_f0.")
@@ -119,45 +104,12 @@ def test_rows_of_blades_are_drawn_from_their_plan(figures, verify, folder, capsy
     assert "no.yaml: cannot be read" in capsys.readouterr().err
 
 
-def test_in_words(verify, capsys):
-    assert verify("--sample", "2", "--seed", "1", "--jobs", "2") == 0
-    output = capsys.readouterr()
-    assert output.out.startswith("2 runs, seed 1\n")
-    for words in ("within 1 %", "seconds a run", "not exact", "speed-up at equal error", "beyond 1 %"):
-        assert words in output.out
-    assert output.err == ""  # no progress bar away from a terminal
-
-
 def test_progress_bar_on_a_terminal(verify, monkeypatch):
     terminal = io.StringIO()
     terminal.isatty = lambda: True
     monkeypatch.setattr("sys.stderr", terminal)
     assert verify("--sample", "1", "--seed", "1") == 0
     assert "0/1" in terminal.getvalue()
-
-
-@pytest.mark.parametrize(
-    ("arguments", "words"),
-    [
-        (
-            ["--sample", "7", "--seed", "1"],
-            "--sample = 7: must be from 1 to 6, the number of runs to draw from",
-        ),
-        (["--sample", "0", "--seed", "1"], "--sample = 0: must be from 1 to 6"),
-        (["--sample", "1", "--seed", "-1"], "--seed = -1: must be from 0 to "),
-        (["--sample", "1", "--seed", "1", "--jobs", "0"], "--jobs = 0: must be from 1 to 1000"),
-        (["--sample", "1", "--seed", "1", "--peaks"], "2nd_E2_K0.5_theta0.15.h5: No such file or directory"),
-        (["--sample", "1"], "the following arguments are required: --seed"),
-        (["--sample", "1", "--seed", "1", "--blade", "no.h5"], "no.h5: No such file or directory"),
-        (["--sample", "1", "--seed", "1", "--config", "no.yaml"], "no.yaml: cannot be read"),
-    ],
-)
-def test_bad_input_is_answered_in_one_line(verify, arguments, words, capsys):
-    assert verify(*arguments) == 2
-    output = capsys.readouterr()
-    assert output.out == ""
-    assert words in output.err
-    assert output.err.count("\n") == 1
 
 
 def test_a_blade_too_slow_for_the_study_is_refused(verify, figures, folder, capsys):

@@ -46,13 +46,3 @@ def test_elements_behind_the_tip_are_worn_and_those_ahead_are_not(scene):
     assert scene.wear[behind] == pytest.approx(scene.wear[0])
     assert not scene.wear[ahead].any()
     assert not scene.stress[behind | ahead].any()
-
-
-def test_elements_under_the_tip_are_as_short_as_its_profile(scene):
-    under = np.abs(scene.element) <= 3
-    profile = 1.5e-4 - 1e-4 * (scene.element[under] / 3) ** 2
-    np.testing.assert_allclose(scene.shortening[under], np.maximum(profile, scene.wear[under]))
-    assert scene.shortening[6] == scene.tip_depth.max() == 1.5e-4
-    assert scene.stress[6] == pytest.approx(2 * (scene.shortening[6] - scene.wear[6]) / 5e-3)
-    np.testing.assert_allclose(scene.tip_depth, 1.5e-4 - 1e-4 * (scene.tip_offset / 3) ** 2)
-    assert scene.tip_offset[[0, -1]] == pytest.approx([-3.5, 3.5])

@@ -172,14 +172,6 @@ def test_a_coupled_row_vibrates_at_the_frequency_of_its_nodal_diameter(blade, sp
         np.testing.assert_allclose(each.radial_displacement, expected, rtol=0, atol=1e-4 * start)
 
 
-def test_blades_of_a_coupled_row_may_resolve_different_numbers_of_modes(blade, spec, change):
-    spec = change(spec, steps_per_element=2, max_time_step=1e-3)
-    row = Row.even(2, frequency=[0.0, 0.5], disk=Disk.ring(2, [0.01]))
-    found = simulate_row(blade, spec, row)
-    assert found.blades[0].n_modes != found.blades[1].n_modes
-    assert found.disk_energy > 0
-
-
 @pytest.mark.parametrize("turns", [False, True])
 def test_the_ledger_closes_with_the_disk_in_it(blade, spec, change, turns):
     blade = dataclasses.replace(blade, tip_slope=np.full((8, len(blade.mass)), -3.0))
@@ -245,36 +237,16 @@ def test_a_run_that_ends_early_knows_nothing_of_what_comes_later(blade, spec):
     for ended, each in zip(tight.blades, whole.blades, strict=True):
         made = np.isfinite(ended.radial_displacement)
         np.testing.assert_allclose(
-            ended.radial_displacement[made],
-            each.radial_displacement[made],
-            rtol=0,
-            atol=1e-9 * peaks.max(),
+            ended.radial_displacement[made], each.radial_displacement[made], rtol=0, atol=1e-9 * peaks.max()
         )
-
-
-def test_progress_counts_the_revolutions_that_all_have_done(blade, spec):
-    seen = []
-    simulate_row(blade, spec, Row.even(3), progress=seen.append)
-    assert seen[-1] == spec.revolutions
-    assert seen == sorted(set(seen))
 
 
 @pytest.mark.parametrize(
     ("make", "message"),
     [
-        (lambda: Row(()), "no blades"),
         (lambda: Row.even(0), "0 blades"),
         (lambda: Row.even(3, length=[1e-5, 0.0]), "2 values of length; must be 1 or 3"),
-        (lambda: Row((RowBlade(0.0, np.nan),)), "length = nan; must be a finite number"),
-        (lambda: Row.even(2, frequency=[0.0, -1.0]), "blade 2: frequency = -1"),
-        (
-            lambda: Row.drawn(2, 1, length_scatter=-1e-5),
-            "length_scatter = -1e-05; must be a finite number, 0 or",
-        ),
-        (lambda: Row.drawn(0, 1), "0 blades"),
         (lambda: Row.even(2, damping=-0.5), "blade 1: damping = -0.5"),
-        (lambda: Row.even(2, frequency=[[0.0, np.inf], [0.0, 0.0]]), "blade 1: frequency = "),
-        (lambda: Row.even(2, length=[[0.0], [0.0]]), "2 x 1 values of length; must be 1 or 2"),
         (lambda: Row.even(3, disk=Disk.ring(2, [0.1])), r"mode 1: a matrix of shape \(2, 2\)"),
         (lambda: Row.even(2, disk=Disk.of([[[1.0, 0.1], [0.2, 1.0]]])), "mode 1: must be a symmetric matrix"),
     ],
@@ -282,18 +254,6 @@ def test_progress_counts_the_revolutions_that_all_have_done(blade, spec):
 def test_a_row_that_cannot_be_is_refused(make, message):
     with pytest.raises(ValueError, match=message):
         make()
-
-
-def test_neighbours_that_could_meet_are_refused(blade, spec):
-    with pytest.raises(
-        ValueError, match=r"blades \d+ and \d+ are \d+ of 400 coating elements apart; must be"
-    ):
-        simulate_row(blade, spec, Row.even(40))
-
-
-def test_a_blade_that_touches_all_around_is_refused(blade, spec):
-    with pytest.raises(ValueError, match="touches all around the casing"):
-        simulate_row(blade, spec, Row.even(2, length=[0.0, 5e-3]))
 
 
 @pytest.mark.parametrize(

@@ -73,13 +73,6 @@ def uneven(blade):
     )
 
 
-def test_strips_reach_half_way_to_the_next_node_and_fill_the_chord(uneven):
-    width = setup.strip_width(uneven)
-    assert width.sum() == pytest.approx(UNEVEN[-1] - UNEVEN[0])
-    assert width[0] == pytest.approx((UNEVEN[1] - UNEVEN[0]) / 2)
-    assert width[3] == pytest.approx((UNEVEN[4] - UNEVEN[2]) / 2)
-
-
 def test_the_blade_begins_over_the_element_at_its_angle(uneven, spec):
     _, simulation = setup.set_up(uneven, spec)
     n_elements = spec.coating.n_elements
@@ -99,13 +92,6 @@ def test_the_step_is_the_longest_that_is_allowed(uneven, spec, change, max_time_
     assert simulation.steps_per_element == steps
     assert rule.time_step == pytest.approx(passage / steps)
     assert rule.time_step <= max_time_step
-
-
-def test_no_node_may_move_farther_than_the_search_looks(blade, spec):
-    radius = np.linspace(0.5, 0.7, 8)  # elements are narrowest under the innermost node
-    position = np.column_stack([UNEVEN, np.zeros(8), radius])
-    tip = setup.tip_record(dataclasses.replace(blade, node_position=position), spec)
-    assert np.max(tip.search_range * tip.per_metre) == pytest.approx(SEARCH_RANGE)
 
 
 def at_radius(blade, radius):
@@ -179,8 +165,3 @@ def test_each_field_that_is_read_by_address_is_checked(blade, spec, kind):
             bad = records | {kind: records[kind]._replace(**{name: wrong})}
             with pytest.raises(ValueError, match=rf"\.{name}: "):
                 type(simulation)(*bad.values(), simulation.steps_per_element)
-
-
-def test_a_displacement_at_the_start_beyond_the_limit_is_refused(blade, spec):
-    with pytest.raises(ValueError, match="initial_displacement"):
-        setup.set_up(blade, dataclasses.replace(spec, initial_displacement=1.0))

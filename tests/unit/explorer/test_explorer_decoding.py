@@ -41,12 +41,3 @@ def test_amplitudes_are_those_packed(dtype):
     steps, top = logarithmic_steps(amplitude, 1e-7, 1e-2, dtype), np.iinfo(dtype).max
     values = evaluate("data.js", f"[...ratios({steps.tolist()}, {top}, [1e-7, 1e-2])]")
     np.testing.assert_allclose(values, amplitude, rtol=np.log(1e5) / (top - 1) / 2 * 1.001)
-
-
-def test_a_step_of_zero_is_no_value():
-    assert evaluate("data.js", "[...ratios([0, 1], 255, [1e-7, 1e-2])].map(Number.isNaN)") == [True, False]
-
-
-@pytest.mark.parametrize(("length", "words"), [("1.23456", "1.235 mm"), ("null", "none")])
-def test_lengths_are_written_in_mm(length, words):
-    assert evaluate("words.js", f"millimetres({length})") == words

@@ -28,30 +28,6 @@ def test_bands_are_of_the_runs_with_an_ensemble(coating, verdicts, runs):
     assert math.isnan(found["max_wear_low"][0])
 
 
-def test_rows_are_of_the_case_alone(coating, verdicts):
-    others = [
-        CoatingCase("2nd", 2.0, 0.5, 0.0),
-        CoatingCase("5nd", 2.0, 0.5, 0.15),
-        CoatingCase.rigid("2nd", 0),
-    ]
-    assert len(figures.of_case(verdicts, coating.case)) == 3
-    assert [len(figures.of_case(verdicts, case)) for case in others] == [0, 0, 0]
-
-
-def test_rows_of_the_rigid_casing_are_found(coating, verdicts):
-    case = CoatingCase.rigid("2nd", 0.15)
-    table = verdicts.assign(E=math.inf, K=math.inf, theta=case.theta, law=case.law)
-    assert len(figures.of_case(table, case)) == 3
-
-
-def test_other_speeds_than_those_of_the_map_are_named(coating, verdicts, runs):
-    with pytest.raises(ValueError, match=r"divergence\.csv: not the speeds of the map of 2nd_E2_K0\.5"):
-        figures.of_runs(coating, verdicts[1:], runs, 10)
-    moved = [run._replace(f_omega=run.f_omega + 0.01) for run in runs]
-    with pytest.raises(ValueError, match="manifest: not the speeds"):
-        figures.of_runs(coating, verdicts, moved, 10)
-
-
 @pytest.mark.parametrize(
     ("case", "configs", "command"),
     [

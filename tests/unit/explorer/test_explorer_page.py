@@ -11,11 +11,9 @@ from importlib.resources import files
 import numpy as np
 import pandas as pd
 import pytest
-from matplotlib.colors import to_hex
 
 from bladerub.explorer.coating import AMPLITUDE_FLOOR, parts
 from bladerub.explorer.page import build
-from bladerub.plots import style
 from bladerub.study.grid import CoatingCase
 from bladerub.study.manifest import write_manifest
 from bladerub.study.maps import write_map
@@ -77,19 +75,6 @@ def test_what_is_packed_comes_back(coating, verdicts, runs):
     assert numbers["runs"]["growth_per_revolution"] == verdicts["growth_per_revolution"].tolist()
 
 
-def test_a_blade_that_never_moved_has_pictures(coating, verdicts, runs):
-    still = dataclasses.replace(
-        coating,
-        wear=np.zeros((3, 60)),
-        spectrum_amplitude=np.zeros((3, 301)),
-        revolution_amplitude=np.zeros((3, 20)),
-        confirmation_amplitude=np.empty((3, 0)),
-    )
-    packed = parts(still, verdicts, runs, 10, 2.5)
-    assert not np.frombuffer(gzip.decompress(base64.b64decode(packed["wear"])), np.uint8).any()
-    assert set(gzip.decompress(base64.b64decode(packed["spectrum"]))) == {1}
-
-
 def test_the_page_holds_every_coating_and_needs_nothing_else(page, coating):
     other = dataclasses.replace(coating, case=CoatingCase.rigid("2nd", 0.0))
     text = page(coating, other)
@@ -102,32 +87,6 @@ def test_the_page_holds_every_coating_and_needs_nothing_else(page, coating):
     assert len(scripts(text, "application/gzip")) == 8
     assert re.findall(r"<(?:script|link|img|iframe)[^>]*\b(?:src|href)=", text) == []
     assert text == page(coating, other)
-
-
-def test_axes_are_those_of_the_maps(page, coating):
-    (study,) = map(json.loads, scripts(page(coating), "application/json"))
-    assert study["f_omega"] == coating.f_omega.tolist()
-    assert study["C1"] == coating.C1.tolist()
-    assert study["speed_edges"] == pytest.approx([0.05, 0.15, 0.25, 0.35])
-    assert study["speed_of_bin"] == [0, 1, 2]
-    assert study["angle_edges"] == pytest.approx(np.arange(61) * 6.0, abs=1e-9)  # degrees
-    assert study["order"] == coating.spectrum_order.tolist()
-    assert study["kept"] == [252, 132, 132]  # to 2.5 / f_omega, but to order 13 at least, and one more
-    assert study["amplitude_range"] == pytest.approx([2e-3, 3.0])  # mm
-    assert study["amplitude_floor"] == pytest.approx(1e3 * AMPLITUDE_FLOOR)
-    assert study["last_order"] == 13
-    assert {
-        name: study[name] for name in ("max_frequency", "growth_revolutions", "spectrum_revolutions")
-    } == {name: SETTINGS[name] for name in ("max_frequency", "growth_revolutions", "spectrum_revolutions")}
-
-
-def test_colours_are_those_of_the_figures(page, coating):
-    (study,) = map(json.loads, scripts(page(coating), "application/json"))
-    look = study["look"]
-    for name, colours in (("wear", style.WEAR_MAP), ("amplitude", style.AMPLITUDE_MAP)):
-        assert len(look[name]) == 64
-        assert (look[name][0], look[name][-1]) == (to_hex(colours(0.0)), to_hex(colours(1.0)))
-    assert (look["A"], look["B"]) == (style.FIRST["color"], style.SECOND["color"])
 
 
 UNPACK = """
@@ -180,9 +139,3 @@ def test_a_hostile_name_adds_no_markup(page, coating):
     assert "<img" not in text.split("<script>")[0]
     (study,) = scripts(text, "application/json")
     assert json.loads(study)["coatings"][0]["casing"] == hostile
-
-
-def test_a_map_of_another_blade_is_named(page, coating):
-    other = dataclasses.replace(coating, case=CoatingCase.rigid("2nd", 0.0), C1=1.01 * coating.C1)
-    with pytest.raises(ValueError, match=r"1\.h5: not of the same blade, speeds and angles as .*0\.h5"):
-        page(coating, other)

@@ -42,13 +42,6 @@ def test_the_figures_of_a_blade_are_those_of_its_model(built):
     assert (table.value[table.blade == "reference"].to_numpy() == figures.to_numpy()).all()
 
 
-def test_a_blade_that_does_not_say_how_far_it_moves_has_its_other_figures(built):
-    built.static_displacement = built.static_displacement[:0]
-    figures = blade_comparison.blades({"this": built}).set_index("number").value
-    assert np.isnan(figures.centrifugal_displacement)
-    assert figures.drop("centrifugal_displacement").notna().all()
-
-
 def test_the_compliance_is_that_of_springs_under_their_shares_of_the_force(blade):
     springs = np.diag(np.repeat(np.arange(1.0, 9.0), 3)) * 1e6  # the same in all directions of a node
     expected = np.mean(1 / (8 * np.arange(1.0, 9.0) * 1e6))
@@ -70,7 +63,3 @@ def test_runs_are_compared_at_the_common_speeds(config, case, make_map):
     assert table.worn_depth_share.to_numpy() == pytest.approx(1e-4 / 0.1, rel=1e-5)
     assert table.reference_worn_depth_share.to_numpy() == pytest.approx(1e-4 / 0.2, rel=1e-5)
     assert (table.casing == case.casing).all()
-
-
-def test_studies_without_a_common_coating_leave_an_empty_table(config):
-    assert list(blade_comparison.runs(config, [], (0.1, 0.2)).columns) == blade_comparison.RUN_COLUMNS

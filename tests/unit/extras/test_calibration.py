@@ -51,14 +51,6 @@ def test_every_problem_is_reported_with_its_set(study, asked):
     assert second.startswith("c: contact.damping")
 
 
-@pytest.mark.parametrize("name", ["../b", "a b", "..", "é"])
-def test_the_name_of_a_set_must_be_that_of_a_folder(study, asked, name):
-    with pytest.raises(ConfigError) as caught:
-        plan(asked(f"sets: {{a: {{}}, {name}: {{}}}}\n"))
-    (problem,) = caught.value.problems
-    assert problem.text.startswith("sets")
-
-
 def test_a_plan_what_is_common_and_a_set_can_extend_files(study, asked, tmp_path):
     (tmp_path / "deeper").mkdir()
     (tmp_path / "deeper" / "old.yaml").write_text("extend: finer.yaml\nsets: {old: {extend: finer.yaml}}\n")
@@ -87,42 +79,12 @@ def test_problems_of_a_set_are_reported_with_file_and_line(study, asked):
     assert str(caught.value).startswith(f"{config['calibration']}:6: a: contact.damping_ratio = 2: ")
 
 
-@pytest.mark.parametrize(
-    ("text", "key"),
-    [("sets: []\n", "sets"), ("common: {}\n", "sets"), ("sets: {a: {}}\nspeeds: {}\n", "speeds")],
-)
-def test_what_is_no_plan_is_refused(study, asked, text, key):
-    config = asked(text)
-    with pytest.raises(ConfigError) as caught:
-        plan(config)
-    (problem,) = caught.value.problems
-    assert problem.text.startswith(key)
-    assert problem.location.source == config["calibration"]
-
-
-def test_a_set_without_choices_is_the_study(study, asked):
-    config = asked("common:\nsets:\n  as_it_is:\n")
-    assert plan(config) == {"as_it_is": config}
-
-
 @pytest.mark.parametrize(("file", "of_the_study"), [("calibration", "study"), ("laws", "plastic")])
 def test_the_plans_of_the_repository_have_the_study_in_them(study, file, of_the_study, monkeypatch):
     monkeypatch.chdir(ROOT)
     sets = plan(study | {"calibration": f"config/{file}.yaml"})
     own = sets[of_the_study]
     assert all(own[part] == study[part] for part in ("blade", "contact", "casings", "solver"))
-
-
-def test_the_plan_of_the_calibration_begins_with_the_study(study, monkeypatch):
-    monkeypatch.chdir(ROOT)
-    assert study["calibration"] == "config/calibration.yaml"
-    assert next(iter(plan(study))) == "study"
-
-
-def test_a_plan_that_is_not_there_is_reported_with_its_key(study):
-    with pytest.raises(ConfigError) as caught:
-        plan(study | {"calibration": "nowhere.yaml"})
-    assert str(caught.value).startswith('config: calibration = "nowhere.yaml": cannot be read (')
 
 
 def test_findings_of_all_sets_make_one_table(tmp_path):

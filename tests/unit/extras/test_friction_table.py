@@ -3,7 +3,6 @@ from dataclasses import replace
 import pytest
 
 from bladerub.extras import friction
-from bladerub.io.errors import DamagedFile
 from bladerub.io.tables import described_columns
 from bladerub.study.manifest import ManifestRow, write_manifest
 
@@ -38,13 +37,3 @@ def test_both_laws_are_compared_speed_by_speed(stored):
     assert (first.reversed_theta, first.reversed_coulomb) == pytest.approx((0.1, 0.2))
     assert first.slowest_sliding == -0.2
     assert (first.status_theta, first.status_coulomb) == ("completed", "unbounded")
-
-
-def test_a_run_without_contact_has_no_reversed_steps(stored):
-    pair = [stored(law, [0.1], n_contact_steps=0, n_reversed_steps=0) for law in ("theta", "coulomb")]
-    assert friction.table([pair], revolutions=10).reversed_theta[0] == 0
-
-
-def test_coatings_of_other_speeds_cannot_be_compared(stored):
-    with pytest.raises(DamagedFile, match=r"coulomb.manifest\.tsv"):
-        friction.table([(stored("theta", [0.1]), stored("coulomb", [0.2]))], revolutions=10)

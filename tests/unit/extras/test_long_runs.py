@@ -1,14 +1,10 @@
-from dataclasses import replace
-
 import numpy as np
 import pytest
 
 from bladerub.extras import long_runs
 from bladerub.extras.long_runs import LongRuns
-from bladerub.io.errors import DamagedFile
 from bladerub.io.tables import described_columns
 from bladerub.study.grid import CoatingCase
-from bladerub.study.maps import write_map
 
 CASE = CoatingCase("2nd", 1.1, 0.5, 0.0)
 
@@ -34,12 +30,6 @@ def test_runs_that_grow_to_the_end_and_peaks_are_chosen(study, coating):
     assert long_runs.chosen(study, coating) == {0.05: "grows", 0.2: "f6", 0.3: "f4"}
 
 
-def test_an_unbounded_run_has_come_to_its_end(study, coating):
-    ended = replace(coating, status=np.where(np.isclose(coating.f_omega, 0.05), "unbounded", "completed"))
-    ended.confirmation_amplitude[:] = np.nan
-    assert 0.05 not in long_runs.chosen(study, ended)
-
-
 def test_long_runs_are_the_study_s_runs_made_longer(
     study, coating, blade, make_result, monkeypatch, tmp_path
 ):
@@ -62,21 +52,6 @@ def test_long_runs_are_the_study_s_runs_made_longer(
     assert long.revolution_amplitude.shape == long.seconds.shape == (3, 200)
     assert (np.diff(long.seconds, axis=1) >= 0).all()
     assert long.status.tolist() == ["completed"] * 3
-
-
-@pytest.mark.parametrize(
-    ("revolutions", "confirmation", "expected"),
-    [
-        (500, 60, [20, 60, 125, 250, 500]),
-        (200, 60, [20, 60, 100, 200]),
-        (40, 60, [20, 40]),
-        (100, 0, [20, 25, 50, 100]),
-    ],
-)
-def test_when_long_runs_are_judged(study, revolutions, confirmation, expected):
-    study["long_runs"]["revolutions"] = revolutions
-    study["analysis"]["divergence"]["confirmation_revolutions"] = confirmation
-    assert long_runs.stops(study) == expected
 
 
 def amplitudes():
@@ -129,10 +104,3 @@ def test_the_table_has_a_row_for_each_run_and_stop(study):
     last = table[table.revolutions == 200].set_index("status")
     assert last.late_amplitude["unbounded"] == pytest.approx(several["unbounded"][60:70].mean())
     assert last.verdict["completed"].tolist() == ["steady", "saturating", "divergent", "free"]
-
-
-def test_another_file_is_named(tmp_path, coating):
-    path = tmp_path / "map.h5"
-    write_map(path, coating, {})
-    with pytest.raises(DamagedFile, match=r"map\.h5: no long runs"):
-        long_runs.read(path)

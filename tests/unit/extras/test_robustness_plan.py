@@ -1,6 +1,5 @@
 import copy
 
-import numpy as np
 import pytest
 import yaml
 
@@ -13,20 +12,12 @@ from bladerub.io.folders import ROOT
 PLAN = {
     "seed": 3,
     "factors": {
-        "unit": {
-            "unit": "Pa",
-            "scale": "log",
-            "sets": {"contact.modulus_unit": [1.0e8, 1.0e10]},
-        },
+        "unit": {"unit": "Pa", "scale": "log", "sets": {"contact.modulus_unit": [1.0e8, 1.0e10]}},
         "weight": {
             "unit": "1",
             "sets": {"casings.2nd5nd.weights[0]": [0.0, 1.0], "casings.2nd.amplitude": [2e-3, 4e-3]},
         },
-        "turns": {
-            "unit": "1",
-            "sets": {"solver.revolutions": [12, 30]},
-            "multiple_of": 1,
-        },
+        "turns": {"unit": "1", "sets": {"solver.revolutions": [12, 30]}, "multiple_of": 1},
     },
     "parts": {
         "soft": {"claims": ["C4"], "samples": 16, "study": {"speeds": {"start": 0.1}}},
@@ -76,14 +67,6 @@ def test_a_sample_sets_every_number_of_its_factors(study, write):
     assert study["casings"]["2nd5nd"]["weights"] == [0.25, 1.0]
 
 
-def test_samples_are_the_same_in_each_part_and_each_time(study, write):
-    plan = read_plan(write(PLAN))
-    soft, stiff = (sample_configs(study, plan, part) for part in plan.parts.values())
-    assert [config["casings"] for config in soft[:4]] == [config["casings"] for config in stiff]
-    assert np.array_equal(plan.positions(), read_plan(write(PLAN)).positions())
-    assert not np.array_equal(plan.positions(), read_plan(write(PLAN | {"seed": 4})).positions())
-
-
 def test_samples_fill_the_ranges_evenly(write):
     positions = read_plan(write(PLAN)).positions()
     for column in positions.T:  # a Sobol sequence of 16 has one sample in each sixteenth of each factor
@@ -116,13 +99,6 @@ def changed(*keys, to):
     return plan
 
 
-def remove(*keys):
-    plan = copy.deepcopy(PLAN)
-    for key in keys:
-        del plan[key]
-    return plan
-
-
 UNIT, WEIGHT, TURNS = (("factors", name) for name in ("unit", "weight", "turns"))
 MODULUS = "contact.modulus_unit"
 
@@ -131,31 +107,14 @@ MODULUS = "contact.modulus_unit"
     ("plan", "key"),
     [
         (changed("seed", to=1.5), "seed = 1.5"),
-        (changed("seed", to=-1), "seed = -1"),
         (changed("sedd", to=1), "sedd"),
-        (remove("factors"), "factors"),
-        (changed("factors", to={}), "factors"),
-        (changed("factors", to=[1]), "factors"),
-        (changed("factors", "a b", to=PLAN["factors"]["unit"]), 'factors["a b"]'),
-        (changed(*UNIT, "unit", to=1), "factors.unit.unit = 1"),
-        (changed(*UNIT, "scale", to="cubic"), "factors.unit.scale"),
-        (changed(*UNIT, "sets", to={}), "factors.unit.sets"),
-        (changed(*UNIT, "sets", to={MODULUS: [2, 1]}), f'factors.unit.sets["{MODULUS}"][1] = 1'),
         (changed(*UNIT, "sets", to={MODULUS: [1, 1]}), f'factors.unit.sets["{MODULUS}"][1] = 1'),
-        (changed(*UNIT, "sets", to={MODULUS: [1, 2, 3]}), f'factors.unit.sets["{MODULUS}"]'),
-        (changed(*UNIT, "sets", to={MODULUS: [1, "2 Pa"]}), f'factors.unit.sets["{MODULUS}"][1]'),
         (changed(*UNIT, "sets", to={MODULUS: [0, 1]}), f"factors.unit.sets.{MODULUS}"),
         (changed(*TURNS, "multiple_of", to=7), "factors.turns.sets.solver.revolutions"),
-        (changed(*TURNS, "multiple_of", to=0), "factors.turns.multiple_of = 0"),
         (changed(*WEIGHT, "sets", MODULUS, to=[1, 2]), f"factors.weight.sets.{MODULUS}"),
-        (changed("parts", to={}), "parts"),
         (changed("parts", "soft", "samples", to=12), "parts.soft.samples = 12"),
-        (changed("parts", "soft", "samples", to=1), "parts.soft.samples = 1"),
-        (changed("parts", "soft", "samples", to=8192), "parts.soft.samples = 8192"),
         (changed("parts", "soft", "claims", to=["C13"]), "parts.soft.claims[0]"),
-        (changed("parts", "soft", "claims", to=[]), "parts.soft.claims"),
         (changed("parts", "soft", "claims", to=["C12"]), "parts.stiff.claims"),
-        (changed("parts", "soft", "study", to=3), "parts.soft.study = 3"),
     ],
 )
 def test_a_wrong_entry_of_a_plan_is_refused_with_its_place(write, plan, key):
@@ -166,13 +125,6 @@ def test_a_wrong_entry_of_a_plan_is_refused_with_its_place(write, plan, key):
     assert problem.text.replace("'", '"').startswith(key)
     assert problem.location.source == str(path)
     assert problem.location.line > 0
-
-
-def test_all_wrong_entries_are_reported_at_once(write):
-    path = write(changed("seed", to=-1) | {"parts": {}})
-    with pytest.raises(ConfigError) as caught:
-        read_plan(path)
-    assert {problem.text.partition(" ")[0] for problem in caught.value.problems} == {"seed", "parts"}
 
 
 @pytest.mark.parametrize(
@@ -216,10 +168,3 @@ def test_jobs_have_their_samples_and_one_the_study_s_own_values(study, write):
     assert own.keys() == {REFERENCE}
     assert own[REFERENCE]["contact"] == study["contact"]
     assert own[REFERENCE]["speeds"]["start"] == 0.1
-
-
-def test_the_plan_of_the_repository_is_one(study):
-    plan = read_plan(ROOT / "config" / "robustness.yaml")
-    check(study, plan)
-    assert [part.samples for part in plan.parts.values()] == [256, 256, 256, 256]
-    assert {claim for part in plan.parts.values() for claim in part.claims} == {f"C{i}" for i in range(1, 13)}

@@ -5,7 +5,6 @@ from bladerub.config.read import load, validate
 from bladerub.extras.rotor import pattern
 from bladerub.extras.rotor.plan import Combination, Patterns, Plan
 from bladerub.io.folders import ROOT
-from bladerub.io.tables import described_columns
 from bladerub.study.grid import CoatingCase
 
 ANGLE = np.arange(240) * (2 * np.pi / 240)
@@ -31,11 +30,6 @@ def test_intervals_count_by_what_was_worn_off_in_them():
     assert pattern.drift_rate(revolution, lobe, np.array([1e-3, 1e-3, 1e-3, 0.0])) == pytest.approx(0.05)
 
 
-def test_two_intervals_or_no_wear_have_no_drift():
-    assert np.isnan(pattern.drift_rate(np.array([2, 4]), np.array([0.1, 0.2]), np.ones(2)))
-    assert np.isnan(pattern.drift_rate(np.array([2, 4, 6]), np.zeros(3), np.zeros(3)))
-
-
 @pytest.mark.slow
 def test_the_depths_of_all_intervals_make_the_wear_of_the_run(blade):
     config = validate(load(ROOT / "config" / "config.yaml"))
@@ -55,8 +49,3 @@ def test_the_depths_of_all_intervals_make_the_wear_of_the_run(blade):
     assert summary.pattern_drift_median[0] == pytest.approx(
         followed.drop_duplicates("draw").pattern_drift.mean()
     )
-
-
-def test_every_column_is_described():
-    extra = {f"pattern_drift_{name}" for name in ("median", "p05", "p95")} | {"followed_rows"}
-    assert {*pattern.COLUMNS, *extra} <= described_columns().keys()

@@ -119,14 +119,3 @@ def test_a_failed_flush_names_the_file(tmp_path, monkeypatch):
         stream.write("new")
     assert (raised.value.errno, raised.value.filename) == (errno.ENOSPC, str(tmp_path / "file"))
     assert list(tmp_path.iterdir()) == []
-
-
-def test_a_folder_that_is_a_file_is_named(tmp_path):
-    (tmp_path / "folder").touch()
-    with pytest.raises(OSError, match="folder"), atomic.writing(tmp_path / "folder" / "file"):
-        pass
-
-
-def test_the_error_of_another_file_keeps_its_name(tmp_path):
-    with pytest.raises(FileNotFoundError, match="elsewhere"), atomic.writing(tmp_path / "file"):
-        (tmp_path / "elsewhere").read_text()

@@ -52,20 +52,13 @@ def test_what_spreadsheets_add_is_taken(tmp_path, text):
     ("text", "said"),
     [
         ("angle,gap\n0,5,12,00\n", "line 2: has 4 cells.*semicolons"),
-        ("angle,gap\n0;12\n", "line 2: has 1 cells"),
-        ("angle gap\n0,12\n", "line 2: has 1 cells"),
         ("angle gap\n0 1\n1 12 # two\n2\n", "line 4: has 1 cells"),
-        ("angle,gap,\n0,5,12\n", "line 2: has 3 cells"),
         ('angle,gap\n0,"1,234.5"\n', "line 2: gap = 1,234.5"),
         ("angle;gap\n0;1.234,5\n", "line 2: gap = 1.234,5"),
         ("angle;gap\n0;nan\n", "line 2: gap = nan"),
-        ("angle;gap\n0;1_0\n", "line 2: gap = 1_0"),
-        ("angle;gap\n0;1e999\n", "line 2: gap = 1e999"),
         ("angle;gap\n0;\u0663\n", "line 2: gap"),
-        ("angle;gap\n0;\n", "line 2: gap = nothing"),
         ("gap;Gap\n0;1\n", "line 1: has the column gap twice"),
         ("angle;gap\n", "no rows"),
-        ("# only\n", "is empty"),
         ("", "is empty"),
     ],
 )
@@ -82,9 +75,3 @@ def test_text_in_another_encoding_is_refused(tmp_path, encoding):
     path.write_bytes("# gemessen für Öl\nangle;gap\n0;1\n".encode(encoding))
     with pytest.raises(ValueError, match="UTF-8"):
         cells.read(path)
-
-
-def test_a_file_that_is_none_is_refused(tmp_path):
-    for path in (tmp_path, tmp_path / "nowhere.csv", tmp_path / ("a" * 300)):
-        with pytest.raises(ValueError, match=r"no such file|cannot be read"):
-            cells.read(path)

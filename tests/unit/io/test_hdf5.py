@@ -54,13 +54,6 @@ def test_datasets_that_are_not_asked_for_are_not_read(tmp_path):
     assert attributes == {"n": 3}
 
 
-def test_attributes_that_are_not_asked_for_are_not_read(tmp_path):
-    hdf5.write(tmp_path / "file.h5", VARIABLES, {"n": 3, "status": "completed"})
-    data, attributes = hdf5.read(tmp_path / "file.h5", attribute_names={"status", "unknown"})
-    assert data.keys() == {*VARIABLES, "node"}
-    assert attributes == {"status": "completed"}
-
-
 def test_what_is_written_is_read(tmp_path):
     hdf5.write(tmp_path / "file.h5", VARIABLES, {"n": 3, "status": "completed"})
     data, attributes = hdf5.read(tmp_path / "file.h5")
@@ -118,11 +111,6 @@ def test_disagreeing_lengths_are_refused_and_leave_the_old_file(tmp_path):
     assert list(tmp_path.iterdir()) == [path]
 
 
-def test_dimensions_must_all_be_named(tmp_path):
-    with pytest.raises(ValueError, match="wear: 2 dimensions, but named"):
-        hdf5.write(tmp_path / "file.h5", {"wear": Variable(("node",), np.zeros((2, 5)), "m", "")}, {})
-
-
 @pytest.mark.parametrize("read", [hdf5.read, hdf5.read_attributes])
 def test_unreadable_file_is_named(tmp_path, read):
     path = tmp_path / "file.h5"
@@ -143,12 +131,3 @@ def test_whatever_h5py_raises_is_a_damaged_file(tmp_path, monkeypatch, error):
     monkeypatch.setattr(hdf5.h5py, "File", broken)
     with pytest.raises(DamagedFile, match=r"file\.h5: not a readable HDF5 file"):
         hdf5.read(tmp_path / "file.h5")
-
-
-def test_text_is_written_and_read_as_text(tmp_path):
-    names = Variable(("node",), np.array(["leading edge", "Bürste"]), "1", "name of a node")
-    hdf5.write(tmp_path / "file.h5", {"name": names}, {})
-    data, _ = hdf5.read(tmp_path / "file.h5")
-    assert data["name"].tolist() == ["leading edge", "Bürste"]
-    with xr.open_dataset(tmp_path / "file.h5", engine="h5netcdf") as dataset:
-        assert dataset.name.to_numpy().tolist() == ["leading edge", "Bürste"]

@@ -46,13 +46,6 @@ def test_an_edit_or_a_new_source_is_a_modification(repository, name):
     assert git_state() == (head(repository), "modified")
 
 
-def test_asking_leaves_the_repository_alone(repository):
-    os.utime(repository / "src" / "a.py", (1, 1))  # git would note that in its index
-    index = (repository / ".git" / "index").read_bytes()
-    git_state()
-    assert (repository / ".git" / "index").read_bytes() == index
-
-
 def test_the_repository_of_a_hook_is_not_ours(repository, tmp_path, monkeypatch):
     commit = head(repository)
     monkeypatch.setenv("GIT_DIR", str(tmp_path / "other"))
@@ -98,17 +91,8 @@ def test_a_file_has_what_made_it_as_attributes(monkeypatch):
     assert provenance.software() == f"bladerub {__version__}, git commit abc (clean)"
 
 
-def test_how_a_config_is_written_does_not_matter():
-    other = {"results": "elsewhere", "coatings": [{"rigid": False, "E": (11.0,)}], "blade": CONFIG["blade"]}
-    assert provenance.config_digest(other) == provenance.config_digest(CONFIG)
-
-
 @pytest.mark.parametrize("value", [11.000000000000002, "11", None])
 def test_another_config_has_another_digest(value):
     other = copy.deepcopy(CONFIG)
     other["coatings"][0]["E"] = [value]
     assert provenance.config_digest(other) != provenance.config_digest(CONFIG)
-
-
-def test_true_is_not_one():
-    assert provenance.config_digest({"a": True}) != provenance.config_digest({"a": 1})

@@ -46,7 +46,9 @@ def test_totals_of_sixteen_vectors():
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("n_nodes", "law"), [(12, "plastic"), (8, "viscoplastic")])
+@pytest.mark.parametrize(
+    ("n_nodes", "law"), [pytest.param(12, "plastic", marks=pytest.mark.nightly), (8, "viscoplastic")]
+)
 def test_machine_code_of_another_process_is_used(n_nodes, law):
     """Each job of a study is a process of its own, and compiling takes longer than most of them."""
     program = (
@@ -82,6 +84,7 @@ print(sum(kernel._integrate_row.stats.cache_misses.values()))
 
 
 @pytest.mark.slow
+@pytest.mark.nightly
 def test_rows_by_two_laws_leave_machine_code_that_later_processes_use(tmp_path):
     """A later process has but one of the laws; where the code on disk is damaged, it is made anew."""
     environment = os.environ | {"NUMBA_CACHE_DIR": str(tmp_path)}

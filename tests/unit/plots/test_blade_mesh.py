@@ -1,5 +1,4 @@
 import numpy as np
-import pytest
 
 from bladerub.blade.surface import boundary_faces, normals
 from bladerub.plots.blade_mesh import View, blade_mesh
@@ -52,20 +51,6 @@ def test_farther_faces_are_drawn_first():
     assert (np.diff(depth) >= 0).all()
 
 
-@pytest.fixture
-def panels(draws):
-    points, hexahedra = tower(3)
-    top, bottom = np.flatnonzero(points[:, 2] == 3), np.flatnonzero(points[:, 2] == 0)
-    return draws(blade_mesh(points, hexahedra, top, bottom, top)).axes
-
-
-def test_all_node_sets_are_marked(panels):
-    counts = {line.get_label(): len(line.get_xdata()) for line in panels[0].lines}
-    assert counts["clamped root nodes"] == 8
-    assert counts["interface nodes"] == 8
-    assert panels[0].get_title(loc="left") == "(a) 3 hexahedra, 44 nodes"
-
-
 def test_nodes_without_elements_are_drawn_as_points(draws):
     points, _ = tower(3)
     top, nothing = np.flatnonzero(points[:, 2] == 3), np.array([], dtype=int)
@@ -75,16 +60,3 @@ def test_nodes_without_elements_are_drawn_as_points(draws):
     assert counts["_nodes"] == 44
     assert "clamped root nodes" not in counts
     assert [len(line.get_xdata()) for line in tip.lines] == [8, 8]
-
-
-def test_the_tip_shows_its_face_and_numbered_nodes_in_mm(panels):
-    (tip,) = panels[1].collections[0].get_paths()
-    assert tip.vertices.max() == pytest.approx(1e3)
-    numbers = [text.get_text() for text in panels[1].texts if text.get_text().isdigit()]
-    assert numbers == [str(i) for i in range(1, 9)]
-    points, _ = tower(3)
-    ends = 1e3 * points[points[:, 2] == 3][[0, -1], :2]
-    at = {text.get_text(): text.xy for text in panels[1].texts}
-    np.testing.assert_allclose([at["leading edge"], at["trailing edge"]], ends)
-    assert panels[1].get_xlabel() == "axial x (mm)"
-    assert panels[1].get_aspect() == 1

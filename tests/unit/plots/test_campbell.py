@@ -1,5 +1,3 @@
-import itertools
-
 import numpy as np
 import pytest
 
@@ -30,16 +28,3 @@ def test_the_second_panel_shows_the_first_mode_alone_with_all_engine_orders(axes
     assert ROM[:, 0].max() < axes[1].get_ylim()[1] < ROM[:, 1].min()
     assert sum(line.get_label() in ("_eo", "engine orders eo(k)") for line in axes[1].lines) == 12
     assert axes[0].get_ylim()[1] > ROM.max()
-
-
-def test_no_number_of_a_mode_lies_on_another(draws):
-    modes = np.array([1, 2.8, 9.4, 9.7, 10.2, 11.9, 12.0, 12.05, 12.1, 12.3])[None] * np.ones((5, 1))
-    figure = draws(campbell(SPEED, modes, modes, range(1, 13)))
-    boxes = {}
-    for axes in figure.axes:
-        numbers = [text for text in axes.texts if text.get_text().isdigit()]
-        boxes[axes] = [number.get_window_extent() for number in numbers]
-        assert [int(number.get_text()) for number in numbers] == list(range(1, len(numbers) + 1))
-    whole, first = boxes.values()
-    assert (len(whole), len(first)) == (10, 1)
-    assert not any(one.overlaps(other) for one, other in itertools.combinations(whole, 2))

@@ -1,12 +1,10 @@
 """What figures of a blade from another program say besides the normalised numbers."""
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 
 from bladerub.plots.campbell import campbell
-from bladerub.plots.scales import LARGE, Engine, Scales
+from bladerub.plots.scales import Engine, Scales
 from bladerub.plots.spectrum import spectrum_map
 from bladerub.plots.wear_map import wear_map
 
@@ -69,23 +67,3 @@ def test_without_an_engine_there_is_one_scale_from_zero(coating_map, draws):
         for axes in draws(figure).axes:
             assert not axes.child_axes
             assert not nominal(axes)
-
-
-def test_a_nominal_speed_need_not_be_known(coating_map, draws):
-    upper, lower, _ = draws(wear_map(coating_map, Scales(engine=Engine(850.0)))).axes
-    assert not nominal(upper) | nominal(lower)
-    assert upper.get_legend() is None
-
-
-def test_displacements_beyond_small_ones_are_marked(coating_map, draws):
-    peak = np.full((6, 20), 1e-4)
-    peak[1, 3], peak[4] = 0.0034, 0.0032  # 5.2 and 4.8 %
-    peak[5, 10:] = np.nan  # after an early end
-    moved = replace(coating_map, revolution_peak=peak)
-    lower = draws(wear_map(moved, SCALES)).axes[1]
-    (rings,) = [line for line in lower.lines if line.get_label() == LARGE]
-    np.testing.assert_array_equal(rings.get_xydata(), [[0.15, 5]])
-    axes = draws(spectrum_map(moved, RANGE, 2.5, SCALES)).axes[0]
-    (marks,) = [line for line in axes.lines if line.get_label() == LARGE]
-    np.testing.assert_array_equal(marks.get_xydata(), [[0, 0.15]])
-    assert LARGE == "displacement above 5% of the blade's length"

@@ -13,13 +13,6 @@ def axes(coating_map, draws):
     return draws(spectrum_map(coating_map, RANGE, f_max=2.5)).axes
 
 
-def test_axes_and_colour_bar_are_named_with_their_units(axes):
-    assert "f" in axes[0].get_xlabel()
-    assert r"f_\Omega" in axes[0].get_ylabel()
-    assert "(mm, log scale)" in axes[1].get_ylabel()
-    assert axes[0].get_title(loc="left") == "casing 2nd, E = 0.11, K = 0.5, θ = 0.15 rad"
-
-
 def test_colours_are_the_amplitudes_in_mm_on_the_given_scale(axes, coating_map):
     mesh = axes[0].collections[0]
     drawn = mesh.get_array().reshape(6, -1)
@@ -83,28 +76,3 @@ def test_curves_are_the_amplitudes_in_mm(peak_axes, sections):
         np.testing.assert_allclose(curve.get_xdata(), 1e3 * section.amplitude)
     assert peak_axes[1].get_xlabel() == "amplitude (mm)"
     assert peak_axes[1].get_xlim() == pytest.approx((0, 1.1 * 0.101))
-
-
-def test_the_engine_orders_of_the_peaks_are_marked(peak_axes):
-    rays = [line.get_xydata()[1] for line in peak_axes[0].lines if line.get_label() == "_section"]
-    np.testing.assert_allclose(rays, [[4 * 0.35, 0.35], [6 * 0.35, 0.35]])
-
-
-def test_the_legend_gives_height_and_speed(peak_axes):
-    texts = [text.get_text() for text in peak_axes[1].get_legend().get_texts()]
-    assert texts[0] == "eo(4): $Y_{4}$ = 0.101 mm at $f_{4}$ = 0.300"
-
-
-def test_maxima_are_ringed_in_both_panels(peak_axes):
-    on_spectrum = [line.get_xydata()[0] for line in peak_axes[0].lines if line.get_label() == "_peak"]
-    on_curves = [line.get_xydata()[0] for line in peak_axes[1].lines if line.get_label() == "_peak"]
-    np.testing.assert_allclose(on_spectrum, [[4 * 0.3, 0.3], [6 * 0.2, 0.2]])
-    np.testing.assert_allclose(on_curves, [[0.101, 0.3], [1e-3, 0.2]])
-
-
-def test_the_searched_speeds_are_shaded(peak_axes, sections):
-    bands = [
-        patch.get_extents().transformed(peak_axes[1].transData.inverted()) for patch in peak_axes[1].patches
-    ]
-    for band, section in zip(bands, sections, strict=True):
-        assert (band.y0, band.y1) == pytest.approx(section.window)

@@ -1,16 +1,8 @@
-from itertools import pairwise
-
 import matplotlib
-import pytest
 from PIL import Image
 
 from bladerub.io.provenance import software
 from bladerub.plots import style
-
-
-def luminance(colour: str) -> float:
-    red, green, blue = matplotlib.colors.to_rgb(colour)
-    return 0.2126 * red + 0.7152 * green + 0.0722 * blue
 
 
 def test_the_style_leaves_the_settings_of_the_session_alone(tmp_path):
@@ -51,23 +43,3 @@ def test_pictures_say_what_made_them(tmp_path):
     with Image.open(tmp_path / "a.png") as image:
         assert image.info["Software"].startswith(software())
     assert software().split(",")[0].encode() in (tmp_path / "a.pdf").read_bytes()
-
-
-def test_dpi_sets_the_pixels_of_the_png(tmp_path):
-    from matplotlib.image import imread
-
-    style.save(style.new_figure(2, 1), tmp_path / "a.png", tmp_path / "a.pdf", dpi=70)
-    assert imread(tmp_path / "a.png").shape[:2] == (70, 140)
-
-
-def test_the_two_lines_of_a_comparison_differ_in_grey_and_in_dash():
-    assert abs(luminance(style.FIRST["color"]) - luminance(style.SECOND["color"])) > 0.3
-    assert style.FIRST["linestyle"] != style.SECOND["linestyle"]
-
-
-@pytest.mark.parametrize("name", ["AMPLITUDE_MAP", "WEAR_MAP", "HEIGHT_MAP"])
-def test_colour_maps_keep_their_order_in_grey(name):
-    colours = matplotlib.colormaps.get_cmap(getattr(style, name))
-    steps = [luminance(colours(i / 32)) for i in range(33)]
-    falling = [b < a for a, b in pairwise(steps)]
-    assert all(falling) or not any(falling)

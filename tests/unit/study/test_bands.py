@@ -60,13 +60,6 @@ def ensembles(make_map):
     return [Ensemble(np.zeros((3, 3)), tuple(members))]
 
 
-def test_the_study_is_the_first_draw(maps, ensembles):
-    first, *others = bands.draws(maps, ensembles)
-    assert first == maps
-    assert len(others) == 3
-    assert all(drawn[1] is maps[1] for drawn in others)
-
-
 def test_peaks_have_the_band_of_all_draws(config, maps, ensembles):
     table = bands.of_peaks(config, maps, ensembles)
     own = peak_table.table(config, maps).columns
@@ -100,18 +93,6 @@ def test_runs_with_an_ensemble_have_bands_and_others_none(config, maps, ensemble
         0.5 * np.median([5e-4, 4.5e-4, 6.5e-4, 1.1e-4]), rel=0.1
     )
     assert set(table.columns) <= described_columns().keys()
-
-
-def test_without_ensembles_the_columns_are_empty(config, maps):
-    for table, columns in (
-        (bands.of_peaks(config, maps, []), bands.PEAK_COLUMNS),
-        (bands.of_runs(config, maps, []), bands.RUN_COLUMNS),
-    ):
-        assert list(table.columns[-len(columns) - 1 :]) == [*columns, "modulus_unit"]
-    assert table[bands.RUN_COLUMNS].isna().all(axis=None)
-    judged = pd.DataFrame({"id": ["C4a"], "holds": ["yes"]})
-    found = bands.of_findings(config, judged, None, maps, [])
-    assert (found.draws[0], np.isnan(found.share_of_draws[0])) == (0, True)
 
 
 def test_a_verdict_has_the_share_of_draws_that_agree(config, maps, ensembles, monkeypatch):

@@ -164,12 +164,6 @@ def test_prominence_of_a_maximum_over_speed(evidence, make_map, height, found):
     assert measure("C3a", evidence([coating])).measured == (0.26 if found else 0.05)
 
 
-def test_wear_that_grows_to_the_last_speed_has_its_maximum_there(evidence, make_map):
-    coating = make_map(WORN, {}, [0.02, 0.2, 0.3, 0.37])
-    coating.max_wear[:] = [1e-6, 2e-5, 5e-5, 1e-4]
-    check("C3b", evidence([coating]), 0.37, "yes")
-
-
 @pytest.mark.parametrize("sign", [1, -1])
 @pytest.mark.parametrize(("id_", "offset", "holds"), each("C4a", "C4b", borders=NEAR))
 def test_speed_of_the_soft_peaks(evidence, id_, offset, holds, sign):
@@ -327,8 +321,7 @@ def test_ratio_of_the_tilted_to_the_straight_peak(evidence, id_, ratio, holds):
 
 
 @pytest.mark.parametrize(
-    ("id_", "shift", "holds"),
-    each("C10c", "C10d", borders=[(-1e-6, "yes"), (0.0, "partly"), (1e-6, "no")]),
+    ("id_", "shift", "holds"), each("C10c", "C10d", borders=[(-1e-6, "yes"), (0.0, "partly"), (1e-6, "no")])
 )
 def test_shift_of_the_tilted_peak(evidence, id_, shift, holds):
     order = {"C10c": 4, "C10d": 6}[id_]
@@ -492,13 +485,6 @@ def test_moduli_are_compared_along_rows_and_columns_with_two_of_them(evidence):
     assert not any(is_measured(id_, study) for id_ in ("C6b", "C7a", "C7b", "C8a", "C8b"))
 
 
-@pytest.mark.parametrize("id_", ["C6a", "C6b", "C7a", "C9a"])
-@pytest.mark.parametrize(("K", "judged"), [([0.5], False), ([0.5, 1.0], True)])
-def test_one_row_of_moduli_ranks_nothing(evidence, id_, K, judged):
-    order = 6 if id_ == "C9a" else 4
-    assert is_measured(id_, evidence(peaks=over_moduli(lambda e, k: e, [0.11, 1.1], K, order))) == judged
-
-
 @pytest.mark.parametrize(
     ("dropped", "judged"), [([], True), ([5.0], True), ([20.0], False), ([5.0, 11.0], False)]
 )
@@ -516,13 +502,3 @@ def test_one_order_alone_shows_no_share(evidence, make_map, speeds, judged):
     """C1 is crossed by order 4 at 0.277, by order 5 at 0.213."""
     coating = make_map(CRITICAL, {4: (0.25, 1e-3), 5: (0.2, 1e-3)}, speeds)
     assert is_measured("C5c", evidence([coating])) == judged
-
-
-def test_verdicts_of_several_studies_are_laid_out_in_their_order():
-    table = pd.DataFrame(
-        [("C2a", "b", "yes"), ("C1a", "b", "no"), ("C2a", "a", "partly"), ("C1a", "a", "no")],
-        columns=["id", "study", "holds"],
-    )
-    wide = findings.verdicts(table, by="study")
-    assert (list(wide.index), list(wide.columns)) == (["C2a", "C1a"], ["b", "a"])
-    assert wide.to_numpy().tolist() == [["yes", "partly"], ["no", "no"]]

@@ -1,6 +1,5 @@
 import itertools
 import logging
-import re
 
 import numpy as np
 import pandas as pd
@@ -97,11 +96,7 @@ def paper(config, make_map):
         make_map(CoatingCase("2nd", 0.11, 0.5, 0.0), {4: (0.31, 1e-4), 6: (0.21, 1e-4)}, SPEEDS),
         make_map(CoatingCase("2nd", 1.1, 0.5, 0.0), crossings, SPEEDS),
     ]
-    tables = {
-        "rom_accuracy": paper_rom_accuracy(),
-        "peaks": paper_peaks(),
-        "divergence": paper_divergence(),
-    }
+    tables = {"rom_accuracy": paper_rom_accuracy(), "peaks": paper_peaks(), "divergence": paper_divergence()}
     return config, tables, {coating.case.name: coating for coating in maps}
 
 
@@ -123,101 +118,6 @@ def test_a_study_that_shows_the_paper_fulfils_every_claim(paper, judge):
     assert (table.margin[table.unit == "1"].dropna() >= 0).all()
 
 
-@pytest.mark.parametrize(
-    ("id_", "change", "holds"),
-    [
-        ("C6a", ((1.5, 0.5), 1.05e-3), "partly"),
-        ("C6a", ((11.0, 0.5), 2e-3), "no"),
-        ("C6b", ((2.0, 0.05), 1e-3), "partly"),
-        ("C6c", ((1.5, 1.0), 0.6e-3), "partly"),
-        ("C8a", ((20.0, 0.1), 0.4e-3), "partly"),
-        ("C8a", ((20.0, 0.1), 1.5e-3), "no"),
-    ],
-)
-def test_other_heights_break_the_claims_on_them(paper, judge, id_, change, holds):
-    (E, K), height = change
-    table = paper[1]["peaks"]
-    table.loc[(table.E == E) & (table.K == K) & (table.order == 4), "amplitude"] = height
-    table.loc[(table.E == E) & (table.K == K) & (table.order == 6), "amplitude"] = height
-    judged = judge(*paper)
-    assert judged.holds[id_] == holds
-    twin = {"C6a": "C9a", "C8a": "C9d"}.get(id_)
-    if twin:
-        assert judged.holds[twin] == holds
-
-
-def test_the_greatest_cells_are_named_with_their_heights(paper, judge):
-    finding = judge(*paper).loc["C6a"]
-    assert finding.measured.startswith("(1.1, 0.5) at 1.00, (0.5, 0.5) at 0.90, (1.1, 5) at 0.88")
-    assert finding.margin == pytest.approx(0.1)
-
-
-@pytest.mark.parametrize(
-    ("E", "K", "f_peak", "id_", "holds"),
-    [
-        (5.0, 10.0, 0.29, "C7a", "partly"),  # falls for one E, rises on average
-        (5.0, 1.0, 0.29, "C7b", "partly"),  # a dip on the way
-        (5.0, 0.05, 0.28, "C8b", "partly"),
-        (5.0, 0.05, 0.25, "C8b", "no"),
-        (0.11, 0.5, 0.36, "C4b", "partly"),
-        (0.11, 0.5, 0.40, "C4b", "no"),
-    ],
-)
-def test_other_peak_speeds_break_the_claims_on_them(paper, judge, E, K, f_peak, id_, holds):
-    table = paper[1]["peaks"]
-    table.loc[(table.E == E) & (table.K == K) & (table.order == 4), "f_peak"] = f_peak
-    assert judge(*paper).holds[id_] == holds
-
-
-def test_one_column_of_moduli_ranks_nothing(paper, judge):
-    config, tables, maps = paper
-    critical = tables["peaks"][tables["peaks"].E == 1.1]
-    peaks = pd.concat([critical, critical.assign(E=0.05)])  # the second is outside the paper's range
-    judged = judge(config, {**tables, "peaks": peaks}, maps)
-    assert not [id_ for id_ in judged.index if id_[:2] in ("C6", "C7", "C8", "C9")]
-
-
-def test_falling_f6_is_no_contact_stiffening(paper, judge):
-    table = paper[1]["peaks"]
-    sixth = (table.order == 6) & (table.theta == 0) & np.isfinite(table.E)
-    table.loc[sixth, "f_peak"] = 0.2 - 0.002 * table.loc[sixth, "K"].map(HARDENING.index)
-    judged = judge(*paper)
-    assert list(judged.holds[["C7a", "C7b", "C9b", "C9c"]]) == ["yes", "yes", "no", "no"]
-
-
-def test_accuracy_of_the_reduced_model_is_judged_mode_by_mode(paper, judge):
-    table = paper[1]["rom_accuracy"]
-    table.loc[(table["mode"] == 6) & (table.f_omega == 0.4), "relative_error"] = -0.01
-    table.loc[(table["mode"] == 7) & (table.f_omega == 0.4), "relative_error"] = 0.1
-    table.loc[table["mode"] == 8, "relative_error"] = 1.0  # of which the paper says nothing
-    judged = judge(*paper)
-    assert list(judged.holds[["C1a", "C1b"]]) == ["partly", "no"]
-    assert judged.measured["C1a"] == pytest.approx(1.0)
-
-
-def test_other_lobes_break_the_claims_on_them(paper, judge):
-    coating = paper[2][WORN.name]
-    coating.lobes[coating.f_omega <= 0.08] = [5, 5, 5, 6, 6, 6, 6]
-    coating.lobes[coating.f_omega >= 0.24] = 3
-    coating.lobes[np.isclose(coating.f_omega, 0.1)] = 7
-    coating.lobes[np.isclose(coating.f_omega, 0.14)] = 10
-    judged = judge(*paper)
-    assert list(judged.holds[["C2a", "C2b", "C2c", "C2d"]]) == ["partly", "no", "partly", "no"]
-    assert judged.measured["C2c"] == pytest.approx(0.14)
-    assert judged.measured["C2d"] == "none"
-
-
-def test_wear_maxima_elsewhere_break_the_claims_on_them(paper, judge, make_map):
-    moved = make_map(WORN, {5: (0.22, 1e-3), 4: (0.30, 2e-3)}, SPEEDS, lobes=5)
-    moved.max_wear[:] = np.roll(moved.max_wear, 6)  # wear and vibration 0.06 apart
-    paper[2][WORN.name] = moved
-    judged = judge(*paper)
-    assert list(judged.holds[["C3a", "C3b"]]) == ["yes", "yes"]
-    assert list(judged.holds[["C3c", "C3d"]]) == ["no", "no"]
-    moved.max_wear[:] = 1e-4
-    assert list(judge(*paper).measured[["C3a", "C3c"]]) == ["none", "none"]
-
-
 def test_a_claim_says_the_same_whether_it_holds_or_nothing_is_found(paper, judge, make_map):
     before = judge(*paper)
     nothing = make_map(WORN, {5: (0.26, 1e-3)}, SPEEDS, lobes=3)
@@ -228,28 +128,6 @@ def test_a_claim_says_the_same_whether_it_holds_or_nothing_is_found(paper, judge
     for column in ("claim", "paper", "unit"):
         pd.testing.assert_series_equal(after[column], before[column])
     assert after.margin[["C2c", "C3a"]].isna().all()
-
-
-def test_odd_orders_and_missing_orders_break_the_claims_on_them(paper, judge, make_map):
-    soft, critical = CoatingCase("2nd", 0.11, 0.5, 0.0), CoatingCase("2nd", 1.1, 0.5, 0.0)
-    paper[2][soft.name] = make_map(soft, {4: (0.31, 1e-4), 5: (0.24, 5e-5)}, SPEEDS)
-    paper[2][critical.name] = make_map(critical, {4: (0.31, 1e-3), 6: (0.2, 1e-3)}, SPEEDS)
-    judged = judge(*paper)
-    assert judged.holds["C4c"] == "no"
-    assert judged.measured["C4c"] == pytest.approx(0.5, rel=1e-2)
-    assert judged.holds["C5c"] == "no"
-    assert judged.measured["C5c"] == pytest.approx(100 * 2 / 9)  # of the orders 4 to 12
-
-
-def test_theta_that_raises_the_response_breaks_claim_10(paper, judge):
-    table = paper[1]["peaks"]
-    tilted = table.theta == 0.15
-    table.loc[tilted, "amplitude"] *= 2
-    table.loc[tilted & (table.order == 4), "f_peak"] = 0.31
-    table.loc[tilted & (table.order == 6), "f_peak"] = 0.197
-    judged = judge(*paper)
-    assert list(judged.holds[["C10a", "C10b", "C10c", "C10d"]]) == ["no", "no", "no", "partly"]
-    assert not {"C11i", "C11j"} & set(judged.index)  # one speed for both cannot tell them apart
 
 
 def test_divergence_is_measured_at_the_papers_speed_and_at_ours(paper, judge):
@@ -275,69 +153,6 @@ def test_divergence_is_measured_at_the_papers_speed_and_at_ours(paper, judge):
     assert judged.margin["C11b"] == pytest.approx(-0.02)
     assert (judged.measured["C11h"], judged.margin["C11h"]) == pytest.approx((0.04, 0.02))
     assert (judged.measured["C11d"], judged.margin["C11d"]) == (np.inf, -np.inf)
-
-
-def test_growth_that_ends_is_half_of_the_claims_on_divergence(paper, judge):
-    paper[1]["divergence"] = paper[1]["divergence"].assign(
-        divergent=False, saturating=True, growth_per_revolution=1e-4, growth_low=-1e-3
-    )
-    judged = judge(*paper)
-    assert list(judged.holds[["C11a", "C11b", "C11g", "C11h"]]) == ["partly"] * 4
-    assert list(judged.holds[["C11c", "C11d", "C11i", "C11j"]]) == ["partly"] * 4
-
-
-def test_no_growth_is_no_divergence_for_the_claims(paper, judge):
-    paper[1]["divergence"] = paper[1]["divergence"].assign(divergent=False)  # as of a beat that came round
-    judged = judge(*paper)
-    assert list(judged.holds[["C11a", "C11b", "C11g", "C11h"]]) == ["no"] * 4
-
-
-def test_a_wear_maximum_far_from_the_papers_is_not_compared_with_vibration(paper, judge, make_map):
-    paper[2][WORN.name] = make_map(WORN, {5: (0.15, 1e-3), 4: (0.38, 2e-3)}, SPEEDS, lobes=5)
-    judged = judge(*paper)
-    assert list(judged.measured[["C3c"]]) == ["none"]
-    assert list(judged.holds[["C3a", "C3c", "C3d"]]) == ["no", "no", "yes"]
-
-
-def test_soft_coatings_are_judged_when_the_study_has_them(paper, judge):
-    softer = paper[1]["divergence"].assign(E=0.05, theta=0.0, divergent=[False, False, False, True])
-    paper[1]["divergence"] = pd.concat([paper[1]["divergence"], softer], ignore_index=True)
-    finding = judge(*paper).loc["C12b"]
-    assert (finding.holds, finding.measured) == ("no", 25)
-
-
-def stiff_peaks(table, order, column, values):
-    """Set Y_k or f_k at E = 5, 11 and 20 and the highest K."""
-    for E, value in zip((5.0, 11.0, 20.0), values, strict=True):
-        table.loc[(table.E == E) & (table.K == 10.0) & (table.order == order), column] = value
-
-
-@pytest.mark.parametrize(
-    ("amplitudes", "speeds", "holds", "measured", "margin"),
-    [
-        ([8e-4, 7e-4, 6e-4], [0.310] * 3, "yes", "Y4 +9%, f4 -0.002, Y6 +9%, f6 -0.002; none softer", 0.545),
-        ([8e-4, 7e-4, 6e-4], [0.340, 0.330, 0.324], "partly", "Y4 +9%, f4 +0.012,", -0.2),
-        ([6e-4, 7e-4, 6.4e-4], [0.312] * 3, "partly", "Y4 +16%, f4 +0.000, .*; E = 5 is nearer", -0.364),
-        ([3e-4, 4e-4, 2e-4], [0.312] * 3, "no", "Y4 -64%, .*; E = 11 is nearer", -2.182),
-    ],
-)
-def test_stiff_coatings_are_compared_with_the_rigid_casing(
-    paper, judge, amplitudes, speeds, holds, measured, margin
-):
-    stiff_peaks(paper[1]["peaks"], 4, "amplitude", amplitudes)
-    stiff_peaks(paper[1]["peaks"], 4, "f_peak", speeds)
-    finding = judge(*paper).loc["C12a"]
-    assert finding.holds == holds
-    assert re.match(measured.replace("+", r"\+"), finding.measured)
-    assert finding.margin == pytest.approx(margin, abs=1e-3)
-
-
-def test_without_a_rigid_casing_stiff_coatings_are_not_judged(paper, judge, caplog):
-    table = paper[1]["peaks"]
-    paper[1]["peaks"] = table[np.isfinite(table.E)]
-    with caplog.at_level(logging.WARNING):
-        assert set(judge(*paper).index) == PAPER_IDS - {"C12a"}
-    assert "no peak of engine order 4 for coating 2nd_rigid_mu0" in caplog.text
 
 
 def test_the_rigid_casing_takes_no_part_in_the_claims_on_E_and_K(paper, judge):

@@ -13,7 +13,7 @@ from bladerub.contact import run as contact_run
 from bladerub.contact.result import Energy
 from bladerub.io import hdf5
 from bladerub.study import inventory as module
-from bladerub.study.inventory import COUNTS, take, total
+from bladerub.study.inventory import COUNTS, take
 from bladerub.study.manifest import write_manifest
 from bladerub.study.plan import coating_plan
 from bladerub.study.store import read_run
@@ -103,13 +103,6 @@ def test_a_changed_setting_makes_every_run_stale_and_a_speed_only_itself(done, i
     assert counts(inventory()) == {**NONE, "stale": 4, "missing": 1}
 
 
-def test_a_speed_out_of_the_plan_is_not_counted_but_takes_its_place(done, inventory, study):
-    before = inventory()["bytes"]
-    study["speeds"]["extra"] = []
-    found = inventory()
-    assert (found["planned"], found["done"], found["bytes"]) == (3, 3, before)
-
-
 def test_truncated_and_foreign_files_are_corrupt(done, inventory, tmp_path):
     os.truncate(tmp_path / "0.1000.h5", 2000)
     (tmp_path / "0.2000.h5").write_text("no HDF5")
@@ -134,12 +127,6 @@ def test_damage_anywhere_in_a_file_ends_no_inventory_and_is_found(done, inventor
         found.append(counts(inventory(thorough=True))["corrupt"])
     assert set(found) <= {0, 1}
     assert sum(found) == len(found) if listed else sum(found) > 20
-
-
-def test_a_lost_longer_run_is_counted(done, inventory, tmp_path):
-    (tmp_path / "confirmation" / "0.2000.h5").unlink()
-    found = inventory()
-    assert (found["done"], found["longer_planned"], found["longer_done"]) == (4, 1, 0)
 
 
 def test_runs_whose_contact_forces_did_not_converge_are_counted(
@@ -173,12 +160,6 @@ def test_runs_out_of_balance_are_counted(simulated, compute, inventory, monkeypa
     assert inventory()["unbalanced"] == 2
     write_manifest(tmp_path / "manifest.tsv", rows)
     assert inventory()["unbalanced"] == 2
-
-
-def test_a_total_adds_up(done, inventory):
-    one = inventory()
-    assert total([one, one]) == {name: 2 * count for name, count in one.items()}
-    assert total([]) == dict.fromkeys(COUNTS, 0)
 
 
 def test_each_damaged_file_is_named(done, look, tmp_path):
@@ -215,7 +196,7 @@ def test_one_random_bit_in_each_of_40_files_is_found_40_times(
     assert sorted(damaged) == hit
 
 
-REFUSALS = [errno.EAGAIN, errno.ENOLCK, errno.EACCES, errno.ESTALE, errno.EMFILE, errno.EIO]
+REFUSALS = [errno.EAGAIN, errno.EIO]
 
 
 @pytest.mark.parametrize("code", REFUSALS)

@@ -2,7 +2,6 @@ import dataclasses
 
 import numpy as np
 import pytest
-import xarray
 
 from bladerub.io.errors import DamagedFile
 from bladerub.study import grid, maps
@@ -61,23 +60,6 @@ def test_a_map_gathers_the_runs_by_speed(build, tmp_path, make_result):
     np.testing.assert_allclose(coating.wear[1], wear.mean(axis=0), atol=1e-10)
 
 
-def test_xarray_opens_a_map_with_coordinates_and_units(build, tmp_path):
-    path = build(tmp_path / "map.h5")
-    with xarray.open_dataset(path, engine="h5netcdf", phony_dims="sort") as coating:
-        assert coating.wear.dims == ("f_omega", "angle")
-        assert coating.wear_node.dims == ("f_omega", "node", "angle")
-        assert coating.spectrum_amplitude.dims == ("f_omega", "spectrum_order")
-        assert coating.revolution_amplitude.dims == ("f_omega", "revolution_number")
-        assert coating.confirmation_amplitude.dims == ("f_omega", "confirmation_revolution_number")
-        assert coating.confirmation_revolution_number[-1] == 60
-        assert coating.status.values.tolist() == ["completed", "completed", "unbounded"]
-        assert float(coating.spectrum_amplitude.sel(f_omega=0.19, spectrum_order=6)) == pytest.approx(1e-3)
-        assert (coating.attrs["casing"], coating.attrs["theta"]) == ("2nd", 0.15)
-        for variable in coating.variables.values():
-            assert variable.attrs["units"]
-            assert variable.attrs["long_name"]
-
-
 def test_a_map_comes_back_as_written(tmp_path, case, make_map):
     written = make_map(case, {4: (0.3, 1e-4)}, status="completed")
     maps.write_map(tmp_path / "map.h5", written, {})
@@ -86,13 +68,6 @@ def test_a_map_comes_back_as_written(tmp_path, case, make_map):
     assert read.case == case
     for field in dataclasses.fields(written)[1:]:
         np.testing.assert_array_equal(getattr(read, field.name), getattr(written, field.name))
-
-
-def test_a_missing_run_is_named(build, folder, tmp_path):
-    (folder / "0.1900.h5").unlink()
-    with pytest.raises(OSError, match=r"No such file .*0\.1900\.h5"):
-        build(tmp_path / "map.h5")
-    assert not (tmp_path / "map.h5").exists()
 
 
 def test_a_damaged_run_is_named(build, folder, tmp_path):
@@ -125,8 +100,3 @@ def test_no_manifest_or_an_empty_one_is_an_error(build, folder, tmp_path):
     (folder / "manifest.tsv").unlink()
     with pytest.raises(OSError, match=r"manifest\.tsv"):
         build(tmp_path / "map.h5")
-
-
-def test_what_is_not_a_map_is_an_error_with_its_name(folder):
-    with pytest.raises(OSError, match=r"0\.1900\.h5: not a map, 'f_omega' is missing"):
-        maps.read_map(folder / "0.1900.h5")

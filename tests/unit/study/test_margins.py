@@ -40,12 +40,6 @@ def varied(study, maps):
     return margins.variations(study, maps)
 
 
-def test_the_first_variation_is_the_study_itself(varied, study, maps):
-    assert next(iter(varied)) == margins.STUDY
-    assert varied[margins.STUDY].config == study
-    assert varied[margins.STUDY].maps == maps
-
-
 def test_speeds_are_dropped_but_not_those_that_claims_name(varied, maps):
     twice = varied["speed step 0.02"].maps[0]
     expected = np.union1d(np.arange(0.02, 0.4001, 0.02), [0.19, 0.197, 0.206])
@@ -73,12 +67,6 @@ def test_every_second_modulus_is_dropped_but_not_those_of_figures(varied):
     assert {coating.case.K for coating in varied["without K = 0.1, 5"].maps} == {0.5, 1.0}
 
 
-def test_one_coating_has_no_grid_to_thin(study, make_map):
-    study["analysis"]["histories"] = []
-    only = make_map(CoatingCase("2nd", 3.0, 0.5, 0.0), {}, speeds(study))
-    assert not [name for name in margins.variations(study, [only]) if name.startswith("without")]
-
-
 @pytest.mark.parametrize(("name", "choice"), margins.SETTINGS.items())
 def test_settings_are_varied_one_at_a_time(varied, study, name, choice):
     part, key, value = choice
@@ -87,17 +75,6 @@ def test_settings_are_varied_one_at_a_time(varied, study, name, choice):
     config["analysis"][part][key] = study["analysis"][part][key]
     assert config == study
     assert maps == varied[margins.STUDY].maps
-
-
-def test_settings_of_the_study_and_lower_growth_are_no_variations(study, maps):
-    study["analysis"]["peaks"] |= {"speed_window": [0.9, 1.2], "order_halfwidth": 0.5}
-    study["analysis"]["divergence"]["growth"] = 0.05
-    names = set(margins.variations(study, maps))
-    assert margins.SETTINGS.keys() & names == {
-        "window 0.75 to 1.50",
-        "window from the crossing",
-        "line of the order alone",
-    }
 
 
 def test_claims_on_a_peak_that_a_variation_lacks_are_left_out(study, make_map, tmp_path, caplog):

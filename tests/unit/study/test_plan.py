@@ -47,11 +47,6 @@ def _other(leaf):
     return leaf + 1 if isinstance(leaf, int) else math.nextafter(leaf, 0.0 if leaf == math.inf else math.inf)
 
 
-def test_the_key_is_stable(key, config, case):
-    assert len(key()) == 64
-    assert key() == key(run_spec(config, case, 0.19))
-
-
 def test_the_rigid_casing_has_a_key_of_its_own(key, config):
     rigid, stiff = CoatingCase.rigid("2nd", 0.0), CoatingCase("2nd", 1e6, 1e6, 0.0)
     keys = [key(run_spec(config, case, 0.19)) for case in (rigid, rigid, stiff)]
@@ -108,18 +103,6 @@ def test_another_commit_is_the_same_run(monkeypatch, key):
     before = key()
     monkeypatch.setattr(provenance, "git_state", lambda: ("another", "modified"))
     assert key() == before
-
-
-def test_the_plan_of_a_coating_has_each_speed_and_its_own_history(config, case):
-    planned = coating_plan(config, case)
-    assert planned.case == case
-    assert [run.spec.f_omega for run in planned.runs] == grid.speeds(config)
-    assert [run.file for run in planned.runs] == [f"{f:.4f}.h5" for f in grid.speeds(config)]
-    for run in planned.runs:
-        assert run.spec == run_spec(config, case, run.spec.f_omega)
-        assert run.keep_history == grid.keeps_history(config, case, run.spec.f_omega)
-    assert any(run.keep_history for run in planned.runs)
-    assert len({run.key("blade") for run in planned.runs}) == len(planned.runs)
 
 
 def test_the_blades_of_a_row_are_part_of_the_key(config, spec):

@@ -27,14 +27,6 @@ def test_all_runs_are_computed_once(compute, simulated, tmp_path):
     assert len(simulated) == 4
 
 
-def test_only_listed_runs_have_a_history(compute, simulated, tmp_path):
-    compute()
-    with_history = [
-        path.name for path in tmp_path.glob("*.h5") if "radial_displacement" in read_run(path).data
-    ]
-    assert with_history == ["0.1900.h5"]
-
-
 def test_missing_damaged_and_new_runs_are_computed_and_no_others(compute, study, simulated, tmp_path):
     compute()
     (tmp_path / "0.1000.h5").unlink()
@@ -83,13 +75,6 @@ def test_another_blade_makes_every_run_stale(compute, simulated):
     simulated.clear()
     compute(digest="another blade")
     assert len(simulated) == 4
-
-
-def test_runs_that_left_the_plan_stay(compute, study, simulated, tmp_path):
-    compute()
-    study["speeds"]["extra"] = []
-    assert len(compute()) == 3
-    assert (tmp_path / "0.1900.h5").exists()
 
 
 def test_an_interrupted_job_goes_on_where_it_stopped(compute, simulated, monkeypatch):

@@ -64,21 +64,3 @@ def test_an_unbounded_run_is_summed_up_over_what_was_run(summed_up, make_result)
     summary = summed_up(make_result(complete=3.5))
     assert (summary["divergent"], summary["status"], summary["engine_order"]) == (True, "unbounded", 6.0)
     assert summary["peak_amplitude"] == pytest.approx(1e-3, rel=1e-4)
-
-
-def test_a_run_without_a_complete_revolution_has_no_engine_order(summed_up, make_result):
-    summary = summed_up(make_result(complete=0.5))
-    assert summary["engine_order"] is None
-    assert summary["growth_per_revolution"] is summary["growth_low"] is summary["growth_high"] is None
-
-
-def test_a_blade_that_never_touched(summed_up, make_result):
-    summary = summed_up(make_result(amplitude=0.0, depth=0.0))
-    assert summary["engine_order"] is None
-    assert (summary["peak_amplitude"], summary["max_wear"], summary["lobes"]) == (0.0, 0.0, 0)
-    assert not summary["divergent"]
-
-
-def test_values_are_plain_python(summed_up, make_result):
-    for value in summed_up(make_result()).values():
-        assert not isinstance(value, np.generic)

@@ -25,18 +25,6 @@ def maps(make_map):
     ]
 
 
-def test_the_name_and_the_attributes_of_a_file_hold_the_values():
-    assert VARIANT.name == "2nd_E2_K0.5_theta0_xi0.001_h0.004_d0.0004"
-    assert CoatingCase.rigid("2nd", 0.0).with_own(interference=4e-4).name == "2nd_rigid_mu0_d0.0004"
-    assert VARIANT.own == OWN
-    assert PLAIN.with_own(damping_ratio=1 / 3).own["damping_ratio"] == pytest.approx(1 / 3, rel=1e-11)
-    assert PLAIN.with_own(damping_ratio=None) == PLAIN != VARIANT
-    attributes = dataclasses.asdict(VARIANT)
-    assert CoatingCase.described(attributes) == VARIANT
-    del attributes["variant"]  # as in files of earlier versions
-    assert CoatingCase.described(attributes) == PLAIN
-
-
 def test_lists_of_an_entry_stand_for_all_combinations(config):
     entry = {"casing": "2nd", "E": [2], "K": [0.5], "theta": [0.0]}
     config["coatings"] = [entry, entry | {"damping_ratio": [1e-3, 2e-3], "interference": [3e-4, 4e-4]}]

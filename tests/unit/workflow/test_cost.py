@@ -1,7 +1,6 @@
-import pandas as pd
 import pytest
 
-from bladerub.workflow.cost import COLUMNS, by_stage, table
+from bladerub.workflow.cost import COLUMNS, table
 
 RECORD = (
     "s\th:m:s\tmax_rss\tmax_vms\tmax_uss\tmax_pss\tio_in\tio_out\tmean_load\tcpu_time\n"
@@ -36,22 +35,6 @@ def test_a_row_a_job(benchmarks):
     assert (rub.stage, rub.wall_s, rub.cpu_s, rub.memory_mb) == ("rubs", 30.0, 21.0, 200.0)
     assert costs.loc[("blade", ""), "stage"] == "blade"
     assert len(costs) == 5
-
-
-def test_a_job_too_short_to_be_looked_at_has_no_figures(benchmarks):
-    short = table(benchmarks).set_index("rule").loc["fig05_casing"]
-    assert short.wall_s == 0.1
-    assert pd.isna(short.cpu_s)
-    assert pd.isna(short.memory_mb)
-
-
-def test_stages_come_in_the_order_of_the_workflow(benchmarks):
-    stages = by_stage(table(benchmarks))
-    assert list(stages.index) == ["blade", "rubs", "figures"]
-    assert list(stages.jobs) == [1, 2, 2]
-    assert list(stages.cpu_s) == [15.0, 30.0, 1.5]
-    assert list(stages.memory_mb) == [480.0, 200.0, 250.0]
-    assert stages.share.sum() == pytest.approx(1.0)
 
 
 @pytest.mark.parametrize("content", ["", "s\th:m:s\tmax", RECORD.splitlines(keepends=True)[0]])

@@ -35,8 +35,3 @@ def test_a_dry_run_counts_what_is_left_and_what_its_jobs_cost(study):
     numbers = re.findall(r"\d+", forecast(config, jobs).replace(",", ""))
     assert numbers == ["120", "200", "8", f"{seconds / 60:.0f}"]
     assert costs.ensembles[JOBS[0][1]] > 0
-
-
-def test_a_dry_run_of_a_finished_study_says_so(study):
-    assert re.findall(r"\d+", forecast(study(done=100), [])) == ["200"]
-    assert re.findall(r"\d+", forecast(study(done=100), [("fig11_Y4", None)])) == ["200", "1", "1"]

@@ -75,13 +75,6 @@ def test_a_file_that_is_empty_or_cut_short_is_found(results, name, share):
     assert path in examine(results).damaged
 
 
-@pytest.mark.parametrize("name", [RUN, MEMBER, POINT])
-def test_a_lost_file_is_named(results, name):
-    (results / name).unlink()
-    damaged, lost, unreadable = examine(results)
-    assert (damaged, set(lost), unreadable) == ([], {results / name}, [])
-
-
 @pytest.mark.parametrize("code", [errno.EACCES, errno.EMFILE, errno.EIO, errno.ESTALE])
 def test_what_the_system_refuses_is_not_damaged(results, monkeypatch, code):
     whole = Path.read_bytes

@@ -1,4 +1,3 @@
-import getpass
 import os
 import re
 import signal
@@ -10,12 +9,10 @@ from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
-from snakemake.cli import get_argument_parser
 from snakemake.scheduling.job_scheduler import JobRateLimiter
 from snakemake.settings.types import MaxJobsPerTimespan
 
 from bladerub.config import record
-from bladerub.io import errors
 from bladerub.io.errors import BadInput
 from bladerub.study.manifest import ManifestRow, write_manifest
 from bladerub.workflow import invocation
@@ -47,12 +44,6 @@ def test_a_run_that_is_missing_or_cut_short_is_a_loss(manifest, name, size):
     run = manifest.parent / name
     run.unlink() if size is None else run.write_bytes(bytes(size))
     assert str(run) in invocation.loss(manifest)
-
-
-@pytest.mark.parametrize("end", [0, 50, -2, -9])
-def test_a_manifest_that_is_cut_short_is_a_loss(manifest, end):
-    manifest.write_bytes(manifest.read_bytes()[:end])
-    assert str(manifest) in invocation.loss(manifest)
 
 
 def test_a_manifest_that_cannot_be_read_is_no_loss(manifest):
@@ -98,23 +89,6 @@ def test_targets_of_results_of_another_config_are_refused(workflow_with, of_quic
     assert NAMED in str(refused.value)
 
 
-def test_the_study_beside_results_of_another_config_begins_with_a_line(workflow_with, of_quick, capsys):
-    workflow = workflow_with(targets={"all"})
-    invocation.plan(workflow, of_quick)
-    (line,) = capsys.readouterr().err.splitlines()
-    assert NAMED in line
-    invocation.start(workflow)
-    assert record.read(Path(of_quick)) is None
-
-
-@pytest.mark.parametrize("options", [{"configfiles": ["config/config.yaml"]}, {"config": {"results": "r"}}])
-def test_a_config_that_is_named_is_that_of_the_call(workflow_with, of_quick, options, capsys):
-    workflow = workflow_with(targets={"stress"}, **options)
-    invocation.plan(workflow, of_quick)
-    assert capsys.readouterr().err == ""
-    invocation.start(workflow)
-
-
 def test_preparing_makes_the_folder_and_sweeps_it(tmp_path):
     results = tmp_path / "results"
     invocation.prepare(results)
@@ -122,13 +96,6 @@ def test_preparing_makes_the_folder_and_sweeps_it(tmp_path):
     abandoned.touch()
     invocation.prepare(results)
     assert list(results.iterdir()) == [abandoned]  # of another host, and fresh
-
-
-def test_a_folder_that_cannot_be_made_is_named(tmp_path):
-    (tmp_path / "results").touch()
-    with pytest.raises(OSError, match="results") as raised:
-        invocation.prepare(tmp_path / "results")
-    assert "\n" not in errors.message_for(raised.value)
 
 
 @pytest.mark.parametrize(
@@ -139,11 +106,6 @@ def test_the_default_limit_of_jobs_alone_is_lifted_on_this_machine(workflow_with
     workflow = workflow_with(JobRateLimiter(MaxJobsPerTimespan.parse_choice(rate)), local_exec)
     invocation.start(workflow)
     assert (workflow.scheduler.job_rate_limiter is not None) == kept
-
-
-def test_snakemake_has_the_limit_by_default():
-    default = get_argument_parser().get_default("max_jobs_per_timespan")
-    assert default == "{}/{}s".format(*invocation._DEFAULT_JOB_RATE)
 
 
 def test_a_handler_of_sigterm_may_wait_for_what_the_main_thread_holds(workflow_with):
@@ -193,25 +155,11 @@ def test_two_interrupts_in_a_row_are_one(workflow_with, tmp_path, monkeypatch):
         signal.signal(signal.SIGINT, before)
 
 
-def test_a_user_without_a_name_gets_one(workflow_with, tmp_path, monkeypatch):
-    for name in ("LOGNAME", "USER", "LNAME", "USERNAME"):
-        monkeypatch.setenv(name, "")
-    monkeypatch.setattr("os.getuid", lambda: 12345)
-    invocation.plan(workflow_with(), str(tmp_path))
-    assert getpass.getuser() == "12345"
-
-
 @pytest.mark.parametrize("folder", ["two words", "Söhne & Co", "o'brien", "100 #1", "(v2)"])
 def test_an_environment_that_snakemake_cannot_name_to_a_shell_is_refused(workflow_with, monkeypatch, folder):
     monkeypatch.setattr(sys, "executable", f"/home/{folder}/.venv/bin/python")
     with pytest.raises(BadInput, match=re.escape(folder)):
         invocation.start(workflow_with())
-
-
-@pytest.mark.parametrize("folder", ["Söhne", "100%", "a+b@c"])
-def test_other_letters_in_the_path_of_the_environment_do(workflow_with, monkeypatch, folder):
-    monkeypatch.setattr(sys, "executable", f"/home/{folder}/.venv/bin/python")
-    invocation.start(workflow_with())
 
 
 def test_files_of_the_future_are_of_now(tmp_path, capsys):

@@ -29,11 +29,6 @@ def test_tables_and_figure_go_to_their_outputs(job):
     assert tables.read(job.output["data"])["f_omega"].tolist() == [0.123457]
 
 
-def test_a_table_alone_needs_no_figure(job, tmp_path):
-    outputs.save(job, table=TABLE)
-    assert {path.name for path in tmp_path.iterdir()} == {"table.csv", "table.csv-metadata.json"}
-
-
 def test_a_figure_imports_neither_the_solver_nor_parts_of_scipy_it_may_not_need():
     """A study draws a hundred, each by a job that imports anew."""
     program = (

@@ -199,13 +199,7 @@ CHANGES = [
         1e3,
         "chart_explanation.rows.query('order==4 and theta==0 and E==2",
     ),
-    (
-        "chart_agreement",
-        {"E": 2, "K": 0.5, "theta": 0, "quantity": "Y4"},
-        "disagreement",
-        1,
-        "'Y4',disagree",
-    ),
+    ("chart_agreement", {"E": 2, "K": 0.5, "theta": 0, "quantity": "Y4"}, "disagreement", 1, "'Y4',disagree"),
     ("chart_placement_summary", {"quantity": "Y6"}, "exact", 1, "chart_placement_summary.rows|table"),
     (
         "chart_ridge_summary",
@@ -310,13 +304,7 @@ CHANGES = [
         "C9z",
         "identification_exclusions.rows.other_id",
     ),
-    (
-        "identification_ranges",
-        {"factor": "unit"},
-        "lowest",
-        1.0,
-        "identification_ranges.rows.merge",
-    ),
+    ("identification_ranges", {"factor": "unit"}, "lowest", 1.0, "identification_ranges.rows.merge"),
     ("rotor37_blade", {"number": "f1_rest"}, "value", 1.0, "rotor37_blade('f1_rest').value"),
     (
         "rotor37_direct",

@@ -34,16 +34,6 @@ def test_the_bar_is_on_a_terminal_only(tmp_path):
     assert file.getvalue() == ""
 
 
-def test_the_bar_starts_again_with_the_longer_runs(tmp_path):
-    terminal = Terminal()
-    progress = JobProgress("2nd_E2_K0.5_theta0", io.StringIO(), terminal, tmp_path / "turn")
-    progress(done(1, 1))
-    terminal.truncate(0)
-    progress(done(1, 1, "longer/0.1000.h5"))
-    assert "0/1" in terminal.getvalue()
-    progress.summary([])
-
-
 def test_the_last_line_counts_what_was_computed_and_what_is_there(tmp_path):
     progress = JobProgress("2nd_E2_K0.5_theta0", io.StringIO(), io.StringIO(), tmp_path / "turn")
     progress(done(1, 1))
@@ -56,17 +46,3 @@ def test_the_last_line_counts_what_was_computed_and_what_is_there(tmp_path):
     counts, cost = line.split("; ")
     assert counts == "2nd_E2_K0.5_theta0: 3 runs, 1 of them longer as well, 1 unbounded"
     assert cost.startswith("1 computed in ")
-
-
-def test_jobs_at_the_same_time_show_one_bar_and_the_next_takes_over(tmp_path):
-    first, second = Terminal(), Terminal()
-    shown = JobProgress("first", io.StringIO(), first, tmp_path / "turn")
-    waiting = JobProgress("second", io.StringIO(), second, tmp_path / "turn")
-    shown(done(1, 2))
-    waiting(done(1, 3))
-    assert "first" in first.getvalue()
-    assert second.getvalue() == ""
-    shown.summary([])
-    waiting(done(2, 3))
-    assert "second" in second.getvalue()
-    waiting.summary([])

@@ -39,11 +39,6 @@ def test_one_core_takes_the_sum_of_all_jobs(costs, study):
     assert row.efficiency == pytest.approx(1.0)
 
 
-def test_two_cores_share_the_coatings(costs, study, monkeypatch):
-    monkeypatch.setattr(schedule, "threads_for", lambda cost, total, cores: 1)
-    assert minutes(costs, study, 2) == pytest.approx(1 + 2 * 6 + 0.5)
-
-
 def test_jobs_with_all_threads_come_one_after_the_other(costs, study, monkeypatch):
     monkeypatch.setattr(schedule, "threads_for", lambda cost, total, cores: cores)
     assert 1 + 4 * 2.5 + 0.5 <= minutes(costs, study, 2) <= 1 + 4 * (2.5 + 1) + 0.5
@@ -64,8 +59,3 @@ def test_the_runs_of_the_longest_chain_come_first(costs, study, monkeypatch):
     monkeypatch.setattr(schedule, "priority_of", lambda coating, expected: 0.5 * (coating == last))
     costs.loc[(costs.stage == "rubs") & (costs.job == last), "wall_s"] = 1020.0
     assert minutes(costs, study, 2) == pytest.approx(1 + (17 + 1) + 0.5)
-
-
-def test_more_cores_than_jobs_leave_the_longest_chain(costs, study, monkeypatch):
-    monkeypatch.setattr(schedule, "threads_for", lambda cost, total, cores: 1)
-    assert minutes(costs, study, 64) == pytest.approx(1 + 6 + 0.5)

@@ -140,24 +140,6 @@ def test_the_bound_of_the_next_flight_is_that_from_where_the_first_ends(scheme, 
     assert next_bound == pytest.approx(bound, rel=1e-9)
 
 
-@pytest.mark.parametrize("n_steps", [1, 2, 24])
-def test_any_number_of_steps(scheme, vibration, n_steps):
-    flight = free_flight.free_flight(scheme, n_steps, SLOPE)
-    by_q, by_d = (np.ravel(flight.forms[:, i])[: scheme.omega.size] for i in (0, 1))
-    history = in_steps(scheme, vibration, n_steps)
-    expected = history[-1] - vibration[0]
-    found = by_q * vibration[0] + by_d * (vibration[0] - vibration[1])
-    np.testing.assert_allclose(found, expected, rtol=0, atol=1e-12 * np.abs(history).max())
-
-
-@pytest.mark.parametrize("parabola", [(1.0, -3.0, 1.0), (-2.0, 1.5, 0.3), (0.0, 1.0, 0.0), (0.0, 0.0, 2.0)])
-def test_extremes_of_a_parabola(parabola):
-    x = np.linspace(0, 1, 100_001)
-    curve = np.polyval(parabola, x)
-    found = free_flight.extremes(curve[0], curve[-1], np.trapezoid(curve, x))
-    assert found == pytest.approx((curve.min(), curve.max()), abs=1e-9)
-
-
 @pytest.mark.parametrize(("E", "theta"), [(1.1, 0.0), (20.0, 0.1), (np.inf, 0.0)])
 def test_a_run_is_the_same_without_free_flight(blade, spec, change, E, theta):
     spec = change(spec, E=E, K=E / 2, theta=theta, clearance=(2e-4, 2.5e-4), initial_displacement=1e-6)

@@ -25,7 +25,9 @@ with open(sys.argv[2], "wb") as file:
 
 
 # "generic" has 128 bits, on x86-64 and on ARM
-PROCESSORS = ["generic", "haswell"] if platform.machine() == "x86_64" else ["generic"]
+PROCESSORS = ["generic"]
+if platform.machine() == "x86_64":
+    PROCESSORS.append(pytest.param("haswell", marks=pytest.mark.nightly))
 
 
 @pytest.mark.parametrize("processor", PROCESSORS)

@@ -14,13 +14,11 @@ from bladerub.contact.laws import (
     element_parameters,
     module_of,
     parameters_of,
-    source_of,
 )
 from bladerub.contact.run import simulate
 from bladerub.contact.setup import compile_kernel
 from bladerub.contact.spec import PLASTIC, Coating, ElementLaw
 from bladerub.extras.heat import LAYER
-from bladerub.numerics import lanes
 
 AREA, STEP, WORN = 1e-6, 1e-6, 1e-5
 THERMAL = described_law("thermal", LAYER | {"heated_depth": 5e-4, "softening_rise": 20.0})
@@ -100,20 +98,11 @@ def test_without_viscosity_or_breaking_a_law_is_plastic(law):
     )
 
 
-def test_the_own_yield_stress_of_perfect_plasticity_counts_alone():
-    law = described_law("perfectly_plastic", {"yield_stress": 2e6})
-    _, _, force, _ = pressed(law, np.array([1e-3, 2e-3]))
-    np.testing.assert_allclose(force, 2e6 * AREA, rtol=1e-9)
-
-
 @pytest.mark.parametrize(
     ("name", "values", "message"),
     [
         ("viscoplastic", {"viscosity": -1}, "viscosity = -1: .* must be a number from 0 to 1e.09, in Pa s"),
-        ("viscoplastic", {"viscosity": True}, "viscosity = True: .* must be a number"),
         ("viscoplastic", {}, "viscosity: missing, .* must be a number from 0"),
-        ("viscoplastic", {"viscosity": 1, "rate": 2}, "rate = 2: unknown parameter, this law has viscosity"),
-        ("plastic", {"viscosity": 1}, "viscosity = 1: unknown parameter, this law has no parameters"),
         ("elastic", {}, "name = elastic: must be one of plastic, brittle, perfectly_plastic, thermal, visco"),
     ],
 )
@@ -134,21 +123,6 @@ def test_a_wrong_parameter_is_named(name, values, message):
 def test_parameters_are_read_without_running_the_law(source, message):
     with pytest.raises(ValueError, match=message):
         parameters_of(source)
-
-
-def test_parameters_state_range_unit_and_meaning():
-    (rule,) = parameters_of(source_of(LAWS[2])).values()
-    assert (rule.unit, rule.minimum) == ("Pa s", 0.0)
-    assert "rate" in rule.meaning
-
-
-def test_another_law_leaves_the_usual_modules_alone():
-    kernel = lanes.module_for(8, "contact.kernel.elements", source_of(LAWS[3]))
-    usual = lanes.module_for(8, "contact.kernel.elements")
-    assert usual.law is law
-    assert kernel.law is module_of(LAWS[3]) is not law
-    assert "crushing_force" in kernel.law.Element._fields
-    assert lanes.LAW == ""
 
 
 @pytest.mark.slow
@@ -231,15 +205,9 @@ def test_one_number_for_all_elements_is_repeated(one):
     "element",
     [
         "return Element(*(np.ones(3) for x in own))",
-        "return Element(*(np.ones((2, x.size)) for x in own))",
-        "return tuple(own)[:-1]",
         "return Element(*(x * np.nan for x in own))",
-        "return Element(*(x * 1j for x in own))",
-        "return Element(*('a' for x in own))",
         "return 3",
-        "return None",
         "sys.exit(0)",
-        "raise KeyError('x')",
         "while True: pass",
         "return element(coating, area)",
     ],

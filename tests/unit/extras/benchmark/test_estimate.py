@@ -41,10 +41,3 @@ def test_runs_and_members_cost_what_the_drawn_ones_do(study, blade, monkeypatch)
     assert found["study_minutes"] == pytest.approx(seconds / 4 / 60)
     assert found["seconds_per_run"] == pytest.approx((near * 1.0 + (runs - near) * 2.0) / runs)
     assert (found["runs"], found["members"], found["cores"]) == (runs, members, 4)
-
-
-@pytest.mark.slow
-def test_drawn_runs_are_computed_as_the_study_does(study, blade):
-    found = estimate(blade, study, cores=2, drawn=4)
-    assert 0 < found["seconds_per_run"] < 60
-    assert found["study_minutes"] * 2 * 60 > found["runs"] * found["seconds_per_run"]

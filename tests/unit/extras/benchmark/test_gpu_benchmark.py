@@ -40,6 +40,7 @@ def test_differences_are_counted_and_the_largest_revolution_of_a_run_taken():
 
 
 @pytest.mark.slow
+@pytest.mark.nightly
 @pytest.mark.skipif(not emulation.is_possible(), reason="no C++ compiler")
 def test_the_study_on_an_emulated_gpu(blade, tmp_path):
     study = configuration.read("config/config.yaml", command_line=SMALL)

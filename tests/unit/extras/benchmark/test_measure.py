@@ -4,7 +4,7 @@ import pytest
 
 from bladerub.contact.run import simulate
 from bladerub.contact.setup import set_up
-from bladerub.extras.benchmark import measure, peak
+from bladerub.extras.benchmark import measure
 
 
 @pytest.mark.slow
@@ -25,7 +25,3 @@ def test_useful_operations_of_a_step(blade, spec, change):
     single = (flops - contact - 61 * n / flight * result.n_steps) / (39 * n - 61 * n / flight)
     assert result.n_contact_steps <= single < result.n_steps
     assert single == pytest.approx(round(single))
-
-
-def test_the_peak_loop_takes_time_in_proportion():
-    assert peak.turns(1) == pytest.approx(sum((1 + i / 10) * 0.999 + 0.001 for i in range(12)) * 8)

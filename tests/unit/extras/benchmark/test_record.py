@@ -1,10 +1,7 @@
 """The table of several machines."""
 
-import pytest
-
 from bladerub.extras.benchmark.record import record
 from bladerub.io import tables
-from bladerub.io.errors import DamagedFile
 
 
 def figures(processor, ratio):
@@ -35,11 +32,3 @@ def test_each_machine_has_a_row_for_contact_and_one_for_free_motion(tmp_path):
     assert table.ratio_to_numpy["A", "contact"] == 400.0
     assert table.steps_per_second_production["B", "free"] == 200.0
     assert table.fraction_of_peak["B", "free"] == 0.6
-
-
-def test_another_table_is_not_overwritten(tmp_path):
-    path = tmp_path / "peaks.csv"
-    path.write_text("casing,E\n2nd,1\n")
-    with pytest.raises(DamagedFile, match="not the right table, processor"):
-        record(path, figures("A", 1.0), {})
-    assert path.read_text() == "casing,E\n2nd,1\n"

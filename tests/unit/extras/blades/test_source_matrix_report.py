@@ -9,11 +9,10 @@ from bladerub.blade.build import meshed_blade, reduce_given
 from bladerub.blade.discrete import by_finite_elements
 from bladerub.blade.elasticity import Material
 from bladerub.extras.blades.frame import Frame
-from bladerub.extras.blades.matrices import ImportedMatrices, import_matrices
+from bladerub.extras.blades.matrices import import_matrices
 from bladerub.extras.blades.origin import MatrixSource
 from bladerub.extras.blades.report import matrix_report
 from bladerub.extras.export.matrices import write_fe_matrices
-from bladerub.io.errors import BadInput
 
 REDUCTION = {
     "f_omega_max": 0.4,
@@ -73,22 +72,3 @@ def test_wrong_units_of_the_matrices_get_a_warning_though_the_frequencies_are_ri
     assert re.fullmatch(
         rf"its mass is .* kg in a box of .* are the matrices in {units}, and the nodes in m\?", wrong_units
     )
-
-
-def test_a_wrong_unit_of_the_nodes_is_refused(reported):
-    with pytest.raises(BadInput, match=r"with the unit mm the blade is 0.0002 m long; must be"):
-        reported(Frame("mm"))
-
-
-def test_files_of_other_speeds_get_a_warning(reported):
-    figures, _ = reported(half_speed_change=0.56)
-    (odd,) = figures["warnings"]
-    assert odd.startswith("stiffness_half shows 0.56 of the change")
-
-
-def test_a_blade_without_clamped_nodes_gets_a_warning(reported, monkeypatch):
-    monkeypatch.setattr(ImportedMatrices, "is_rooted", False)
-    figures, _ = reported()
-    assert not figures["length_is_measured"]
-    (loose,) = figures["warnings"]
-    assert loose.startswith("no node is clamped in nodes.csv")

@@ -9,11 +9,11 @@ import pytest
 from bladerub.blade.build import reduce_meshed
 from bladerub.blade.elasticity import Material
 from bladerub.blade.geometry import BladeShape
-from bladerub.blade.mesh import BladeMesh, MeshedBlade
+from bladerub.blade.mesh import BladeMesh
 from bladerub.extras.blades.frame import Frame
 from bladerub.extras.blades.importing import import_blade
 from bladerub.extras.blades.origin import Source
-from bladerub.extras.blades.report import mesh_report, spanwise_elements
+from bladerub.extras.blades.report import mesh_report
 from bladerub.extras.export.mesh_file import write_mesh_file
 from bladerub.io.errors import BadInput
 
@@ -26,7 +26,6 @@ REDUCTION = {
 }
 
 
-STIFF = {"young_modulus": 2e12, "poisson_ratio": 0.3, "density": 4430.0}
 THIN = SimpleNamespace(name="s3", radius=0.5, chord=0.08, thickness=1e-4, cut=(0.0, 0.0))
 
 
@@ -67,11 +66,6 @@ def test_figures_are_those_of_the_blade(reported):
     assert re.match("its mesh is coarse, with 3 elements", coarse)
 
 
-def test_elements_are_counted_along_the_shortest_path(twisted_config):
-    counts = {"chordwise": 7, "thickness": 1, "spanwise": 5}
-    assert spanwise_elements(BladeMesh.from_shape(BladeShape.from_config(twisted_config), counts)) == 5
-
-
 def test_a_wrong_unit_is_refused(reported):
     with pytest.raises(BadInput, match=r"with the unit mm the blade is 0.0002 m long; must be"):
         reported(Frame("mm"))
@@ -86,10 +80,7 @@ def test_a_frequency_that_no_blade_has_gets_a_warning(reported, twisted_config):
 @pytest.mark.parametrize(
     ("change", "warning"),
     [
-        ({"is_raised": True}, "its elements were linear"),
-        ({"n_unused": 4}, "4 nodes of the file belong to no element"),
         ({"interface_offset": 0.004}, "an interface node is 4 mm from its place on the camber line"),
-        ({"chord": 0.9}, "it is 200 mm long with a chord of 900 mm at the tip: are all lengths in one unit"),
         ({"sections": [THIN]}, "section s3 is 0.1 mm thick over a chord of 80 mm: are its angles in"),
         ({"jacobian_ratio": np.array([0.5, 0.05, 0.4])}, "element 2 is badly shaped: .* factor of 20"),
     ],
@@ -97,30 +88,3 @@ def test_a_frequency_that_no_blade_has_gets_a_warning(reported, twisted_config):
 def test_what_is_odd_about_a_mesh_gets_a_warning(reported, change, warning):
     figures, _ = reported(**change)
     assert any(re.match(warning, line) for line in figures["warnings"])
-
-
-@pytest.mark.parametrize(
-    ("key", "value", "warning"),
-    [
-        (
-            "hub_radius",
-            0.01,
-            "it reaches from 10 to 210 mm from the engine axis",
-        ),
-        (
-            "material",
-            {"young_modulus": 2e12, "poisson_ratio": 0.3, "density": 4430.0},
-            "its tip moves at .* m/s",
-        ),
-    ],
-)
-def test_a_wheel_that_could_not_exist_gets_a_warning(reported, twisted_config, key, value, warning):
-    twisted_config[key] = value
-    figures, _ = reported()
-    assert any(re.match(warning, line) for line in figures["warnings"])
-
-
-def test_a_blade_far_from_its_radial_axis_gets_a_warning(reported, monkeypatch):
-    monkeypatch.setattr(MeshedBlade, "lean", np.deg2rad(50.0))
-    figures, _ = reported()
-    assert any(re.match("its middle is 50 degrees about the engine", line) for line in figures["warnings"])

@@ -44,12 +44,6 @@ def two_nodes_exchanged(n):
     return (3 * nodes[:, None] + np.arange(3)).ravel()
 
 
-def one_exchanged(n):
-    order = np.arange(3 * n)
-    order[3 * n - 3 : 3 * n - 1] = order[3 * n - 3 : 3 * n - 1][::-1]
-    return order
-
-
 def reversed_axes(n):
     return np.arange(3 * n).reshape(n, 3)[:, ::-1].ravel()
 
@@ -76,18 +70,14 @@ def misread(table):
 
 ORDERS = {
     "by direction": (by_direction, ALL, r"mass.npz: .* all x, then all y, then all z"),
-    "only the stiffness by direction": (by_direction, STIFFNESS, r"rest.npz: .* all x, then all y, then all"),
     "only half the speed by direction": (by_direction, STIFFNESS[1:2], "stiffness_half.npz: differs from"),
     "as a solver renumbers": (renumbered, ALL, "nodes.csv: must have the order of the matrices: has the "),
     "only the mass renumbered": (renumbered, ALL[:1], r"mass.npz: joins the nodes in rows \d+ and \d+"),
-    "only the highest speed renumbered": (renumbered, STIFFNESS[2:], "stiffness_max.npz: differs from"),
-    "two nodes of the mass exchanged": (two_nodes_exchanged, ALL[:1], "mass.npz: joins the nodes in rows"),
     "two nodes at the highest speed exchanged": (
         two_nodes_exchanged,
         STIFFNESS[2:],
         r"stiffness_max.npz: differs from .* at \d+ nodes \(rows",
     ),
-    "two coordinates of a node exchanged": (one_exchanged, ALL, r"mass.npz: .* between directions, at"),
     "z, y, x": (reversed_axes, ALL, r"nodes.csv: x, y, z are -?z, -?y, -?x of the matrices"),
 }
 
@@ -116,15 +106,6 @@ def test_nodes_in_other_places_are_refused(folder, name):
     change, said = NODES[name]
     change(pd.read_csv(folder / "nodes.csv")).to_csv(folder / "nodes.csv", index=False)
     with pytest.raises(BadInput, match=said):
-        imported(folder)
-
-
-def test_two_interface_nodes_exchanged_are_named(folder):
-    table = pd.read_csv(folder / "nodes.csv")
-    three, six = (table.index[table.interface == number][0] for number in (3, 6))
-    rows = sorted((three + 1, six + 1))
-    places([three + 1, six + 1], [six + 1, three + 1])(table).to_csv(folder / "nodes.csv", index=False)
-    with pytest.raises(BadInput, match=f"nodes.csv: rows {rows[0]}, {rows[1]}: must be exchanged"):
         imported(folder)
 
 

@@ -57,19 +57,9 @@ def test_where_the_blade_stands_does_not_matter(twisted_config, angle):
     assert other.chord == pytest.approx(one.chord, rel=1e-9)
 
 
-def test_a_tip_with_too_few_nodes_is_refused():
-    points = np.array([[0, 0, 1], [1, 0, 1], [0, 1, 1], [0.5, 0, 1], [0.5, 0.5, 1], [0, 0.5, 1]], dtype=float)
-    with pytest.raises(ValueError, match="the tip has 6 nodes; must have 8 or more"):
-        interface(points, np.array([[0, 3, 1, 4, 2, 5]]), 1)
-
-
 def test_a_coarse_tip_is_refused(twisted_config):
     _, points, faces = tip_of(
         twisted_config, hexahedral_mesh, {"chordwise": 2, "thickness": 1, "spanwise": 1}
     )
     with pytest.raises(ValueError, match=r"the tip is too coarse: .* on a camber line of 0.07"):
         interface(points, faces, 1)
-
-
-def test_a_cone_that_is_named_is_not_fitted():
-    assert tip.cone(np.eye(3), 12.0, -1) == pytest.approx(-np.deg2rad(12.0))

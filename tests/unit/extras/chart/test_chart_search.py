@@ -102,28 +102,6 @@ def test_each_measure_is_that_of_its_run(measured, make_result, blade):
     assert (point.spectrum_amplitude[point.known, 1] < 1e-6).all()
 
 
-def test_shallow_lobes_are_not_counted(measured, make_result, few_speeds, angle):
-    low = np.where(np.cos(4 * angle) > 0, 1.0, np.where(np.cos(2 * angle) > 0, 0.5, 0.2))
-    result = replace(make_result(), wear=1e-4 * low * np.cos(4 * angle) ** 2 * np.ones((8, 1)))
-    counts = []
-    for prominence in (0.05, 0.9):
-        few_speeds["analysis"]["lobe_prominence"] = prominence
-        counts.append(np.nanmax(measured(result).measures["lobes"]))
-    assert counts[0] > counts[1]
-
-
-def test_an_unbounded_run_is_divergent(measured, make_result):
-    point = measured(make_result(complete=12.5))
-    assert (point.measures["unbounded"][point.known] == 1).all()
-    assert (point.measures["divergent"][point.uniform] == 1).all()
-
-
-@pytest.mark.parametrize(("later", "divergent"), [(0.05, 1.0), (0.0, 0.0)])
-def test_the_longer_run_decides_whether_growth_lasts(measured, make_result, later, divergent):
-    point = measured(make_result(growth=0.05), make_result(revolutions=60, growth=later))
-    assert (point.measures["divergent"][point.uniform] == divergent).all()
-
-
 def test_the_amplitude_just_above_the_highest_order_counts(measured, make_result, few_speeds):
     few_speeds["analysis"]["peaks"]["order_halfwidth"] = 0.2
     point = measured(make_result(order=6.1, amplitude=1e-3))

@@ -114,28 +114,6 @@ def test_a_speed_that_follows_the_modulus_of_the_contact_does_not_scatter_about_
     assert set(found.columns) <= described_columns().keys()
 
 
-def test_scatter_is_that_about_the_mean_where_f_falls_throughout(peaks, leaning):
-    peaks = peaks[peaks.order == 4].drop_duplicates("E_T")
-    falling = peaks.assign(f_peak=0.35 - 0.02 * peaks.E_T)  # the nearest curve that never falls is flat
-    assert stiffening.table(falling, leaning).scatter_E_T[0] == pytest.approx(falling.f_peak.std(ddof=0))
-
-
-def test_coatings_of_one_modulus_scatter_about_their_mean(peaks, leaning):
-    peaks = peaks[(peaks.order == 4) & (peaks.K == 1)].assign(f_peak=[0.31, 0.32, 0.36])
-    found = stiffening.table(peaks, leaning)
-    assert found.scatter_K[0] == pytest.approx(np.std([0.31, 0.32, 0.36]))
-    assert np.isnan(found.rank_correlation_K[0])
-
-
-def test_peaks_below_the_crossing_are_counted_and_left_out(peaks, leaning):
-    found = stiffening.table(peaks, leaning).set_index("order")
-    assert list(found.coatings) == [9, 6]
-    assert list(found.below_crossing) == [0, 3]
-    nowhere = stiffening.table(peaks.assign(f_peak=0.29), leaning)
-    assert (nowhere.coatings == 0).all()
-    assert nowhere.scatter_E_T.isna().all()
-
-
 def test_the_share_follows_from_the_lean_of_the_first_mode(leaning):
     assert stiffening.share(leaning, 0.15, 0.2) == pytest.approx(np.cos(0.15) - np.sin(0.15) / 0.2)
     assert stiffening.share(leaning, 0.0, 0.2) == 1.0

@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from bladerub.blade.elasticity import Material
-from bladerub.extras.export.calculix import deck, frequencies, write_decks
+from bladerub.extras.export.calculix import deck, frequencies
 
 MATERIAL = Material(110e9, 0.32, 4430.0)
 POINTS = np.arange(60.0).reshape(20, 3)
@@ -24,13 +24,6 @@ def test_a_deck_of_a_rotating_blade_has_its_load_first():
     text = deck(POINTS, np.arange(20)[None], np.array([0]), MATERIAL, 30.0)
     assert "BLADE, CENTRIF, 9.000000000000e+02, 0., 0., 0., 1., 0., 0." in text
     assert text.index("*STEP, NLGEOM") < text.index("*STEP, PERTURBATION") < text.index("*FREQUENCY")
-
-
-def test_there_is_a_deck_for_each_speed(tmp_path):
-    paths = write_decks(tmp_path / "decks", [0.0, 0.25], 100.0, POINTS, np.arange(20)[None], [0], MATERIAL)
-    assert [path.name for path in paths] == ["blade_0.0000.inp", "blade_0.2500.inp"]
-    omega_squared = (2 * np.pi * 25.0) ** 2
-    assert f"CENTRIF, {omega_squared:.12e}" in paths[1].read_text()
 
 
 def test_frequencies_are_read_from_the_table_of_calculix(tmp_path):

@@ -60,13 +60,3 @@ def test_edges_square_to_the_axis_are_written_as_well(blade, tmp_path, coordinat
     imported = import_blade(Source(tmp_path / "blade.csv"), COUNTS)
     direct = BladeMesh.from_shape(shape, COUNTS).mesh
     np.testing.assert_allclose(imported.blade.mesh.mesh.points, direct.points, atol=1e-4)
-
-
-def test_a_side_that_goes_back_along_the_axis_has_no_cylindrical_table(blade, tmp_path):
-    blade["sections"] = [section | {"stagger": 75.0} for section in blade["sections"]]
-    shape = BladeShape.from_config(blade)
-    with pytest.raises(ValueError, match="the section at 0% of the span goes back along the axis"):
-        write_sections(tmp_path / "blade.csv", shape, "cylindrical")
-    assert not (tmp_path / "blade.csv").exists()
-    write_sections(tmp_path / "blade.csv", shape, "cartesian")
-    assert import_blade(Source(tmp_path / "blade.csv"), COUNTS).volume > 0

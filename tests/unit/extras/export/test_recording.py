@@ -79,12 +79,6 @@ def test_instants_end_with_the_revolution(blade, spec, n_instants):
     np.testing.assert_allclose(recording.time, np.arange(1, n_instants + 1) / n_instants, atol=0.5 / 200)
 
 
-def test_progress_counts_revolutions(blade, spec):
-    seen = []
-    record_alone(blade, spec, 2, 3, seen.append)
-    assert seen == [1, 2]
-
-
 def test_a_row_moves_and_wears_as_in_its_run(blade, spec, change):
     spec = change(spec, E=2.0, revolutions=3)
     row = Row.even(2, length=[0.0, 2e-5], frequency=[0.0, 0.01], disk=Disk.ring(2, [1e-3]))
@@ -99,11 +93,3 @@ def test_a_row_moves_and_wears_as_in_its_run(blade, spec, change):
         between = 0.5 * (tip[1:] + tip[:-1])  # of a coarse ring
         means = of.radial_displacement[401:]
         np.testing.assert_allclose(between, means, rtol=0, atol=0.06 * np.abs(means).max())
-
-
-def test_a_row_of_one_is_recorded_as_the_blade_alone(blade, in_contact):
-    alone = simulate(blade, in_contact)
-    row = record(blade, in_contact, Row.even(1), [200 * in_contact.revolutions])
-    np.testing.assert_array_equal(row.radial_displacement[0], alone.radial_displacement)
-    np.testing.assert_array_equal(row.revolution_peak[0], alone.revolution_peak)
-    np.testing.assert_array_equal(row.wear[-1], alone.wear)

@@ -49,18 +49,11 @@ def test_a_spreadsheet_with_decimal_commas_gives_the_same_curves(table):
     ("header", "rows", "words"),
     [
         ("strain,force,rate", ROWS, "no column stress"),
-        ("strain,stress (Pa)", ROWS, "line 2: has 3 cells, must have 2"),
         ("strain,stress,rate", ROWS, "column stress: has no unit"),
-        ("strain,stress (psi),rate", ROWS, "unit = psi, must be Pa or kPa or MPa or GPa"),
         ("strain,stress (Pa),rate", ["0.01,x,1", *ROWS], "line 2: stress = x, must be a finite number"),
-        ("strain,stress (Pa),rate", [*ROWS, "0.04,,1"], "line 8: stress = nothing"),
         ("strain,stress (Pa),rate", [*ROWS, "-0.04,1,1"], "line 8: strain = -0.04, must be from 0"),
-        ("strain,stress (Pa),rate", [*ROWS, "0.04,1,-1"], "line 8: rate = -1, must be from 0"),
         ("strain,stress (Pa),rate", [*ROWS, "1.5,12,1"], "line 8: strain = 1.5, must be from 0 to 1 1"),
-        ("strain,stress (Pa),rate", ROWS[:2], "has 2 rows, must have 5"),
         ("strain,stress (Pa),rate", ["0.01,-5,1"] * 5, "stress: is negative"),
-        ("strain,stress (Pa),rate", ["0,5,1"] * 5, "strain: is 0 in every row"),
-        ("strain,stress (Pa),strain", ROWS, "column strain twice"),
         ("test,stress (Pa),rate,strain", ["a,1,1,1"] * 4 + ["a,1,2,1"], "test a has 2 rates"),
     ],
 )
@@ -68,8 +61,3 @@ def test_bad_tables_are_named(table, header, rows, words):
     with pytest.raises(BadInput) as refused:
         read(table(header, rows))
     assert words in str(refused.value)
-
-
-def test_a_missing_file_is_named(tmp_path):
-    with pytest.raises(BadInput, match=r"none\.csv: there is no such file"):
-        read(tmp_path / "none.csv")

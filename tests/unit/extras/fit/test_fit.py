@@ -5,7 +5,6 @@ from bladerub.contact import law
 from bladerub.contact.spec import Coating
 from bladerub.extras.fit.curves import Curve
 from bladerub.extras.fit.fit import fit, stress
-from bladerub.io.errors import BadInput
 
 TRUTH = {"E": 900e6, "K": 60e6, "yield_stress": 8e6, "overstress": 3e6, "exponent": 0.2}
 NOISE = 0.2e6
@@ -63,15 +62,3 @@ def test_what_elastic_curves_do_not_show_is_said():
 
 def test_a_plastic_modulus_within_the_noise_is_not_determined():
     assert not fit(curves([0.0], seed=3, highest=0.012, n=40, K=1e6))["K"].determined
-
-
-def test_residuals_that_follow_one_another_are_said():
-    strain = np.linspace(0.001, 0.06, 60)
-    bent = Curve(0.0, strain, 20e6 * np.tanh(strain / 0.02))
-    assert fit([bent]).has_correlated_residuals
-    assert not fit(curves([0.0], seed=1)).has_correlated_residuals
-
-
-def test_too_few_points_are_refused():
-    with pytest.raises(BadInput, match="3 points are too few for 3 parameters"):
-        fit(curves([0.0], n=3))

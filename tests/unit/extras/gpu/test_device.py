@@ -100,30 +100,6 @@ def test_runs_of_several_sizes_share_a_kernel(cupy, blade, spec, change):
     assert cupy.launches["grid"] == [(3,), (1,)]
 
 
-@pytest.mark.skipif(not emulation.is_possible(), reason="no C++ compiler")
-def test_pieces_that_do_not_fit_into_the_memory_follow_each_other(cupy, blade, spec, monkeypatch):
-    carried_out, original = [], device._carry_out
-
-    def note(together, watch):
-        carried_out.append(len(together))
-        return original(together, watch)
-
-    monkeypatch.setattr(device, "_carry_out", note)
-    monkeypatch.setattr("bladerub.extras.gpu.batch.MOST_RUNS", 1)
-    expected = [result.energy for _, result in simulate_many(blade, [spec] * 6, device.run)]
-    assert carried_out == [6]
-    carried_out.clear()
-    cupy.chip.mem_info = (0, 1)
-    assert [result.energy for _, result in simulate_many(blade, [spec] * 3, device.run)] == expected[:3]
-    assert carried_out == [1, 1, 1]
-
-
-def test_without_cupy_it_is_said_what_to_install(monkeypatch):
-    monkeypatch.setitem(sys.modules, "cupy", None)
-    with pytest.raises(device.NoGpuError, match=r"needs CuPy .*pip install 'bladerub\[gpu\]'"):
-        device.connect()
-
-
 def test_without_a_gpu_it_is_said_what_to_take(cupy, monkeypatch):
     def none():
         raise RuntimeError("no driver")

@@ -1,15 +1,12 @@
 """The Python interface and the command with the runs on a GPU, which is emulated."""
 
-import json
-
 import numpy as np
 import pytest
 
 import bladerub as br
 from bladerub.api import map as maps
-from bladerub.cli import main
 from bladerub.contact.row_spec import Row
-from bladerub.extras.gpu import ADDRESS, emulation, server, solver
+from bladerub.extras.gpu import emulation, server, solver
 from bladerub.io.errors import BadInput
 from bladerub.study.plan import planned_run
 from bladerub.study.solver import solver_of
@@ -96,20 +93,3 @@ def test_speeds_are_computed_together(gpu, on_gpu, blade):
     assert [each.f_omega for each in found] == [0.19, 0.2]
     alone = br.simulate(blade, runs_[1], follow=False)
     np.testing.assert_array_equal(found[1].wear, alone.wear)
-
-
-def test_the_command_says_what_is_missing(small, monkeypatch, capsys):
-    monkeypatch.delenv(ADDRESS, raising=False)
-    monkeypatch.setitem(__import__("sys").modules, "cupy", None)
-    monkeypatch.setenv("BLADERUB_CACHE", str(small / "cache"))
-    arguments = ["run", "--config", str(small / "small.yaml"), "--casing", "2nd", "--E", "2", "--K", "0.5"]
-    assert main([*arguments, "--f", "0.19", "--revolutions", "3", "--device", "gpu", "--json"]) == 2
-    assert "solver.device = gpu: needs CuPy" in capsys.readouterr().err
-
-
-def test_the_command_follows_its_option(gpu, small, monkeypatch, capsys):
-    monkeypatch.setenv("BLADERUB_CACHE", str(small / "cache"))
-    arguments = ["run", "--config", str(small / "small.yaml"), "--casing", "2nd", "--E", "2", "--K", "0.5"]
-    assert main([*arguments, "--f", "0.19", "--revolutions", "3", "--device", "gpu", "--json"]) == 0
-    assert json.loads(capsys.readouterr().out)["status"] == "completed"
-    assert len(gpu) >= 1

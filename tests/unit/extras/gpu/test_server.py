@@ -7,7 +7,7 @@ from multiprocessing.connection import Listener
 import numpy as np
 import pytest
 
-from bladerub.extras.gpu import device, server
+from bladerub.extras.gpu import server
 from bladerub.extras.gpu.batch import Output, Work
 
 
@@ -89,14 +89,3 @@ def test_an_error_reaches_who_asked(serve):
         list(server.ask([work_of(1, source="wrong")]))
     (left,) = server.ask([work_of(1)])  # and the server goes on
     assert np.all(left.modes == 1)
-
-
-def test_a_server_that_is_gone_is_said(monkeypatch, tmp_path):
-    monkeypatch.setenv(server.ADDRESS, str(tmp_path / "nothing"))
-    with pytest.raises(device.NoGpuError, match=r"does not answer at .*nothing"):
-        list(server.ask([work_of(1)]))
-
-
-def test_without_a_server_it_is_the_gpu_itself(monkeypatch):
-    monkeypatch.delenv(server.ADDRESS, raising=False)
-    assert server.find() is device.run

@@ -31,12 +31,6 @@ def test_scatter_is_part_of_the_predicted_deviation(positions):
     assert 0.85 < compared(scattered, predicted).within_two <= 1
 
 
-def test_equal_values_are_predicted_as_they_are(positions):
-    mean, deviation = Emulator(positions, np.full(60, 0.3)).predict(positions[:5])
-    assert mean == pytest.approx(np.full(5, 0.3))
-    assert deviation == pytest.approx(np.zeros(5))
-
-
 def test_sets_left_out_are_predicted_about_as_well_as_new_ones(positions):
     values = smooth(positions)
     emulator = Emulator(positions, values)

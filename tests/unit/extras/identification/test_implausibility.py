@@ -3,7 +3,7 @@ import pandas as pd
 import pytest
 
 from bladerub.extras.identification import implausibility
-from bladerub.extras.identification.emulator import Emulator, emulators
+from bladerub.extras.identification.emulator import Emulator
 from bladerub.extras.identification.targets import AT_LEAST, AT_MOST, EQUAL, TARGETS, Target
 
 KNOWN = {target.name: target for target in TARGETS}
@@ -42,12 +42,6 @@ def test_the_deviation_of_a_prediction_makes_a_set_more_plausible():
     scattered = far + 5 * target.error * rng.standard_normal(40)
     unsure = implausibility.predicted({"f4_soft": Emulator(positions, scattered)}, positions)
     assert unsure.f4_soft.median() < 4
-
-
-def test_a_target_needs_enough_sets_for_an_emulator():
-    positions = np.random.default_rng(0).random((20, 2))
-    measured = pd.DataFrame({"f4_soft": positions[:, 0], "f6_soft": np.where(np.arange(20) < 9, 0.2, np.nan)})
-    assert list(emulators(positions, measured)) == ["f4_soft"]
 
 
 def test_the_worst_targets_are_left_out_when_given_up():

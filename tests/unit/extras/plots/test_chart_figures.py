@@ -5,12 +5,8 @@ import pandas as pd
 import pytest
 
 from bladerub.extras.chart import stiffening
-from bladerub.extras.chart.choice import broken_limits, pareto
-from bladerub.extras.plots.chart_moduli import QUANTITIES, chart_map, chart_safe, drawn_quantity
-from bladerub.extras.plots.chart_pareto import chart_pareto
+from bladerub.extras.plots.chart_moduli import QUANTITIES, chart_map, drawn_quantity
 from bladerub.extras.plots.chart_peaks import chart_explanation, chart_stiffening
-
-LIMITS = {"amplitude": 2.5e-3, "wear": 1e-3, "divergent_share": 0.0}
 
 
 @pytest.fixture
@@ -41,53 +37,6 @@ def test_every_quantity_is_drawn_with_the_paper_s_coatings_and_the_ridge(chart, 
     dots, _, ridge = panel.lines
     assert sorted(zip(*dots.get_data(), strict=True)) == [(0.11, 0.5), (0.5, 0.5), (1.1, 0.5)]
     np.testing.assert_array_equal(ridge.get_data(), [[0.11, 0.5, 1.1], [0.5, 0.5, 0.5]])
-
-
-def test_cells_say_which_limits_they_break(chart, draws):
-    chart.loc[0, "divergent_share"] = 0.1
-    figure = draws(chart_safe(chart, broken_limits(chart, LIMITS), LIMITS, 2e8))
-    said = {text.get_position(): text.get_text() for text in figure.axes[0].texts}
-    assert said[0.11, 0.3] == "D"
-    assert said[0.5, 0.5] == "W"
-    assert said[0.5, 0.3] == ""
-
-
-def test_stress_beyond_the_fatigue_limit_is_said_where_there_is_one(chart, draws):
-    limits = LIMITS | {"fatigue": 300e6}
-    chart["alternating"] = np.where(chart.E == 0.5, 400e6, 200e6)
-    figure = draws(chart_safe(chart, broken_limits(chart, limits), limits, 2e8))
-    said = {text.get_position(): text.get_text() for text in figure.axes[0].texts}
-    assert said[0.5, 0.5] == "WF"
-    assert said[0.5, 0.3] == "F"
-    assert said[0.11, 0.3] == ""
-    assert "F: alternating stress above 300 MPa" in [text.get_text() for text in figure.legends[0].texts]
-
-
-def test_the_front_is_drawn_and_named(chart, draws):
-    axes = draws(chart_pareto(chart, pareto(chart, LIMITS))).axes[0]
-    (front,) = [line for line in axes.lines if line.get_label() == "bettered by none in both"]
-    np.testing.assert_allclose(front.get_xdata(), [1.11 * 0.5])
-    assert [text.get_text() for text in axes.texts] == ["E 0.11, K 0.3"]
-
-
-def test_names_lie_evenly_along_the_front(draws):
-    n = 101
-    curve = pd.DataFrame({"theta": 0.0, "E": np.arange(n), "K": 1.0, "peak": np.geomspace(1e-3, 1e-2, n)})
-    curve["worn_volume"] = 1e-4 * np.minimum(1, np.geomspace(1e2, 1e-2, n))  # flat, then steep
-    curve["safe"] = False
-    axes = draws(chart_pareto(curve, curve)).axes[0]
-    named = np.array([int(text.get_text().split()[1].rstrip(",")) for text in axes.texts])
-    assert named[0] == 0
-    assert named[-1] == n - 1
-    apart = np.hypot(np.diff(named) / 100, np.diff(np.log(curve.worn_volume[named])) / np.log(100))
-    assert np.ptp(apart) < 0.5 * apart.mean()
-
-
-def test_coatings_that_are_not_worn_have_no_place_on_the_axis(chart, draws):
-    chart.loc[chart.theta == 0, "worn_volume"] = 0.0
-    at_0, at_15 = draws(chart_pareto(chart, pareto(chart, LIMITS))).axes
-    assert not at_0.texts
-    assert [text.get_text() for text in at_15.texts] == ["E 0.11, K 0.3"]
 
 
 def test_the_ridge_is_drawn_against_what_explains_it(chart, draws):

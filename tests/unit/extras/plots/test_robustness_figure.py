@@ -3,7 +3,6 @@ import pandas as pd
 import pytest
 
 from bladerub.extras.plots.robustness import robustness
-from bladerub.plots import style
 
 FACTORS = ["unit", "lean"]
 
@@ -46,8 +45,3 @@ def test_indices_fill_the_rows_of_what_varies(total, top):
     written = {text.get_text() for text in factors.texts}
     assert ("0.3" in written) == (top == 0.3)
     assert "0.40" in written
-
-
-def test_it_saves(tmp_path):
-    style.save(drawn([0.3, 0.05]), tmp_path / "a.png", tmp_path / "a.pdf", 60)
-    assert (tmp_path / "a.png").stat().st_size > 3000

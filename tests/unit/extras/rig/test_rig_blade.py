@@ -97,10 +97,6 @@ def test_a_disk_that_turns_leaves_the_blade_its_stiffness_at_rest(rig, blade):
     assert passes(faster, blade, disk_turns=True).worn_depth.iloc[-1] > 0
 
 
-def test_width_and_track_are_those_of_the_blade(rig, blade):
-    assert passes(replace(rig, track=9.0, tip_width=1.0), blade).equals(passes(rig, blade))
-
-
 @pytest.mark.parametrize(
     ("change", "problem"),
     [

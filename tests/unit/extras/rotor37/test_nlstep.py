@@ -9,7 +9,6 @@ import scipy.linalg
 from bladerub.contact.casing import gap
 from bladerub.contact.modes import mode_shapes_at, tip_radii
 from bladerub.extras.rotor37 import direct, nlstep, reference
-from bladerub.io.errors import BadInput
 
 F_OMEGA, DAMPING, MOVING = 0.2, 0.005, 6
 
@@ -68,21 +67,3 @@ def test_the_gap_is_that_of_the_casing_under_each_node_as_the_blade_turns(blade)
     np.testing.assert_allclose(stated["opening_speed"], opening, atol=0.01 * opening.max())
     np.testing.assert_allclose(stated["sliding_speed"], tip_radii(blade)[0] * speed)
     assert stated["friction"] == pytest.approx(0.15)
-
-
-@pytest.mark.parametrize(
-    ("folder", "answer"),
-    [
-        (None, "BLADERUB_NLSTEP is not set: it must be the folder with sim_contact3D.m"),
-        ("elsewhere", "BLADERUB_NLSTEP = elsewhere: has no sim_contact3D.m"),
-    ],
-)
-def test_a_missing_program_is_named(monkeypatch, folder, answer):
-    monkeypatch.setenv("PATH", "")
-    monkeypatch.delenv(nlstep.VARIABLE, raising=False)
-    if folder:
-        monkeypatch.setenv(nlstep.VARIABLE, folder)
-    with pytest.raises(BadInput) as raised:
-        nlstep.program()
-    assert answer in str(raised.value)
-    assert "octave-cli: not found; NLstep needs GNU Octave here" in str(raised.value)

@@ -7,7 +7,6 @@ import pytest
 from bladerub.extras.verification import accuracy
 from bladerub.extras.verification.differences import Differences
 from bladerub.extras.verification.verify import Seconds, StudyRun, VerifiedRun
-from bladerub.io import tables
 from bladerub.study.grid import CoatingCase
 
 RUNS = [StudyRun(CoatingCase("2nd", 2.0, 0.5, 0.15), 0.1 + 0.01 * number) for number in range(12)]
@@ -60,8 +59,3 @@ def test_a_row_holds_errors_what_starts_change_and_cost(table):
     assert math.isnan(within.start_wear_l2)
     assert not within.sensitive
     assert within.speedup_at_equal_error == 200.0
-
-
-def test_its_columns_are_described(table, tmp_path):
-    tables.write(tmp_path / "accuracy.csv", table, {})
-    assert tables.read(tmp_path / "accuracy.csv").columns.tolist() == accuracy.COLUMNS

@@ -42,21 +42,7 @@ def test_a_number_without_uncertainty_must_be_the_same(folders):
     assert compare(*folders(KNOWN.assign(value=[100.0, 200.0, 0.26]))).agrees.tolist() == [True, True, False]
 
 
-def test_numbers_that_are_missing_are_not_compared(folders):
-    assert compare(*folders(KNOWN[1:])).number.tolist() == ["f2", "share"]
-
-
-def test_a_number_that_is_none_does_not_agree(folders):
-    assert not compare(*folders(KNOWN.assign(value=float("nan")))).agrees.any()
-
-
 def test_another_unit_is_refused_with_file_and_number(folders):
     own, reference = folders(KNOWN.assign(unit=["rad/s", "Hz", "1"]))
     with pytest.raises(ValueError, match=r"blade\.csv: f1 is in rad/s; must be in Hz"):
-        compare(own, reference)
-
-
-def test_tables_with_nothing_in_common_are_refused(folders):
-    own, reference = folders(KNOWN, name="coatings")
-    with pytest.raises(ValueError, match="in common"):
         compare(own, reference)

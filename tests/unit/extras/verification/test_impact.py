@@ -57,9 +57,3 @@ def test_a_stiff_spring_returns_the_velocity(run, modes, blade):
     rule = impact.penalty(modes, 0.0, impact.time_step(blade, run), 50 * OMEGA**2)
     found = turning_points(impact.simulate(rule, blade, run))
     np.testing.assert_allclose(found[:8], DISTANCE, rtol=0.03)
-
-
-def test_forces_are_complementary_to_the_distance():
-    retreat = np.array([[2.0, 1.0], [1.0, 2.0]])
-    np.testing.assert_allclose(impact._complementary(retreat, np.array([3.0, 3.0])), [1.0, 1.0])
-    np.testing.assert_allclose(impact._complementary(retreat, np.array([2.0, -5.0])), [1.0, 0.0])

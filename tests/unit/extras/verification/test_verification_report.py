@@ -30,20 +30,6 @@ def test_distribution_by_hand():
     assert distribution(values[::-1]) == pytest.approx({"median": 0.205, "p95": 0.38, "max": 0.40})
 
 
-def test_infinite_values_are_none():
-    assert distribution([0.1, 0.2, math.inf]) == {"median": 0.2, "p95": None, "max": None}
-
-
-def test_all_runs_within_tolerance():
-    figures = report([verified(0.1, 0.002), verified(0.2, 0.004, peak=0.01)])
-    assert (figures["n"], figures["within_1_percent"], figures["beyond"]) == (2, 1.0, [])
-    assert figures["wear_l2"]["median"] == pytest.approx(0.003)
-    assert figures["worst"]["wear_l2"] == "2nd_E2_K0.5_theta0/0.2000"
-    assert figures["against_paper_scheme"]["wear_l2"]["max"] == 0.02
-    assert figures["against_paper_scheme"]["uncertainty"]["peak"]["p95"] == 0.005
-    assert figures["seconds"] == {"study": 0.25, "finer": 1.0, "paper": 1.0, "paper_finer": 4.0}
-
-
 def test_runs_beyond_tolerance_the_worst_first():
     runs = [
         verified(0.1, 0.002),

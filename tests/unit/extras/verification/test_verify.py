@@ -11,12 +11,10 @@ from bladerub.extras.verification.verify import (
     NEIGHBOURS,
     StudyRun,
     VerifiedRun,
-    draw,
     important_runs,
     speedup_at_equal_error,
     study_runs,
     verify_run,
-    verify_runs,
 )
 from bladerub.study.grid import CoatingCase, speeds
 from bladerub.study.maps import write_map
@@ -99,21 +97,6 @@ def test_the_important_runs_are_the_peaks_with_their_neighbours_in_speed(config,
     runs = important_runs(config, tmp_path)
     assert {run.case for run in runs} == {case}
     np.testing.assert_allclose([run.f_omega for run in runs], [0.15, 0.2, 0.25, 0.3, 0.35])
-
-
-def test_a_seed_draws_the_same_distinct_runs_again(config):
-    runs = study_runs(config)
-    drawn = draw(runs, 100, seed=1)
-    assert drawn == draw(runs, 100, seed=1)
-    assert drawn != draw(runs, 100, seed=2)
-    assert len(set(drawn)) == 100
-    assert set(draw(runs, len(runs), seed=3)) == set(runs)
-
-
-@pytest.mark.parametrize("sample", [0, -1, 63 * 192 + 1])
-def test_more_runs_than_there_are_cannot_be_drawn(config, sample):
-    with pytest.raises(ValueError, match="must be from 1 to 12096, the number of runs to draw from"):
-        draw(study_runs(config), sample, seed=1)
 
 
 def test_the_steps_compared_are_in_the_ratio_of_four(blade, config, run, solver):
@@ -208,25 +191,6 @@ def test_speed_up_between_a_second_order_and_a_first_order_scheme():
     assert speedup_at_equal_error(error, 0.25, paper_error, paper_finer_error, 4.0) == pytest.approx(expected)
 
 
-def test_the_paper_s_scheme_cannot_go_faster_than_its_coarser_step():
-    assert speedup_at_equal_error(0.5, 0.25, 0.04, 0.01, 4.0) == pytest.approx(1.0 / 0.25)
-
-
-@pytest.mark.parametrize(
-    ("error", "paper_error", "paper_finer_error"),
-    [
-        (0.0, 0.04, 0.01),
-        (math.inf, 0.04, 0.01),
-        (0.01, math.inf, 0.01),
-        (0.01, 0.04, 0.0),
-        (0.01, 0.04, 0.04),
-        (0.01, 0.04, 0.05),
-    ],
-)
-def test_no_speed_up_can_be_told(error, paper_error, paper_finer_error):
-    assert speedup_at_equal_error(error, 0.25, paper_error, paper_finer_error, 4.0) is None
-
-
 def test_speed_up_of_a_run(blade, config, run, solver, clock):
     solver.exponential = lambda step: 2e9 * step**2 if step > 1e-6 else 0.0
     verified = verify_run(blade, config, run)
@@ -235,16 +199,3 @@ def test_speed_up_of_a_run(blade, config, run, solver, clock):
     equal_step = 2e9 * (passage / 7) ** 2 / 2e4
     paper_finer_step = passage / solver.specs[3].steps_per_element
     assert verified.speedup == pytest.approx(4 * paper_finer_step / min(equal_step, 4 * paper_finer_step))
-
-
-def test_without_wear_the_speed_up_is_at_equal_error_of_the_spectral_peak(blade, config, run, solver):
-    with_wear = solver.make_result
-    solver.make_result = lambda **shape: with_wear(**shape | {"depth": 0.0})
-    verified = verify_run(blade, config, run)
-    assert verified.error.wear_l2 == 0.0
-    assert verified.speedup is not None
-
-
-def test_runs_come_in_their_order(blade, config, solver):
-    runs = draw(study_runs(config), 3, seed=1)
-    assert [verified.run for verified in verify_runs(blade, config, runs)] == runs
