@@ -1,0 +1,106 @@
+"""Numbers that pages quote by name: ``{{ peak_rigid }}`` on a page is what the module of its name says here.
+
+Such a module has one function, ``numbers(tables)``, which returns the text for each name. ``tables["peaks"]``
+is ``docs/data/peaks.csv`` as pandas reads it; a name with slashes is a table elsewhere in the repository.
+A text may be a whole table (`table`), which then stands alone on its line of the page.
+"""
+
+import importlib
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pandas as pd
+
+from bladerub.io import tables as files
+
+FOLDER = Path(__file__).parent
+
+
+class Tables(dict[str, pd.DataFrame]):
+    """Tables of the repository at `root` by name, each read when it is first asked for.
+
+    ``tables["peaks"].attrs["commit"]`` is the commit of the program that computed it.
+    """
+
+    def __init__(self, root: Path = FOLDER.parents[1]) -> None:
+        super().__init__()
+        self.root = root
+
+    def path(self, name: str) -> Path:
+        """Return the file of the table `name`."""
+        return self.root / ("" if "/" in name else "docs/data") / f"{name}.csv"
+
+    def __missing__(self, name: str) -> pd.DataFrame:
+        table = files.read(self.path(name))
+        if files.description_path(self.path(name)).exists():
+            table.attrs["commit"] = files.read_origin(self.path(name))["provenance_git_commit"][:7]
+        self[name] = table
+        return table
+
+
+def has_numbers(page: str) -> bool:
+    """Return whether the page ``docs/…/<page>.md`` quotes numbers."""
+    return (FOLDER / f"{page}.py").exists()
+
+
+def numbers_of(page: str, tables: Tables) -> dict[str, str]:
+    """Return the text for each name that the page ``docs/…/<page>.md`` may quote."""
+    return importlib.import_module(f"{__name__}.{page}").numbers(tables)
+
+
+def rows(table: pd.DataFrame, **values: Any) -> pd.DataFrame:
+    """Return the rows that have `values` in the columns of these names; a list holds alternatives."""
+    for column, value in values.items():
+        table = table[table[column].isin(value if isinstance(value, list) else [value])]
+    return table
+
+
+def row(table: pd.DataFrame, **values: Any) -> pd.Series:
+    """Return the one row that has `values` in the columns of these names."""
+    chosen = rows(table, **values)
+    if len(chosen) != 1:
+        raise LookupError(f"{len(chosen)} rows with {values}")
+    return chosen.iloc[0]
+
+
+def peak(peaks: pd.DataFrame, E: float, K: float, order: int = 4, theta: float = 0.0) -> pd.Series:
+    """Return the row of one coating on the casing of two nodal diameters, for one engine order."""
+    return row(peaks, casing="2nd", E=E, K=K, theta=theta, order=order)
+
+
+def fixed(value: float, digits: int = 0) -> str:
+    """Write a number with so many decimals; raise `ValueError` for none."""
+    if pd.isna(value):
+        raise ValueError("no number")
+    return f"{float(value):,.{digits}f}"
+
+
+def percent(share: float, digits: int = 0) -> str:
+    """Write a share in per cent, without the sign."""
+    return fixed(100 * float(share), digits)
+
+
+def mm(length: float, digits: int = 1) -> str:
+    """Write a length in millimetres, of one in metres."""
+    return fixed(1e3 * float(length), digits)
+
+
+def significant(value: float, digits: int = 3) -> str:
+    """Write a number with so many significant digits."""
+    return f"{value:.{digits}g}"
+
+
+def table(rows: pd.DataFrame, **columns: Callable[[Any], str]) -> str:
+    """Write `rows` as a table of Markdown, a column by the function of its name in `columns` if there is one.
+
+    What is missing leaves its cell empty.
+    """
+    text = pd.DataFrame(
+        {
+            column: ["" if pd.isna(value) else columns.get(column, str)(value) for value in values]
+            for column, values in rows.items()
+        }
+    )
+    lines = [list(map(str, text.columns)), ["---"] * len(text.columns), *text.to_numpy().tolist()]
+    return "\n".join(f"| {' | '.join(line)} |" for line in lines)
