@@ -6,8 +6,9 @@ A text may be a whole table (`table`), which then stands alone on its line of th
 """
 
 import importlib
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any
 
 import pandas as pd
@@ -86,21 +87,28 @@ def mm(length: float, digits: int = 1) -> str:
     return fixed(1e3 * float(length), digits)
 
 
+def decimals(digits: int) -> Callable[[float], str]:
+    """Return what writes a number with so many decimals, for a column of a table."""
+    return lambda value: fixed(value, digits)
+
+
 def significant(value: float, digits: int = 3) -> str:
     """Write a number with so many significant digits."""
     return f"{value:.{digits}g}"
 
 
-def table(rows: pd.DataFrame, **columns: Callable[[Any], str]) -> str:
-    """Write `rows` as a table of Markdown, a column by the function of its name in `columns` if there is one.
+def table(
+    rows: pd.DataFrame, columns: Mapping[str, str | tuple[str, Callable[[Any], str]]] = MappingProxyType({})
+) -> str:
+    """Write `rows` as a table of Markdown, with `columns`: the heading of each, and what writes its values.
 
-    What is missing leaves its cell empty.
+    Without `columns` all are written as they are. What is missing leaves its cell empty.
     """
-    text = pd.DataFrame(
-        {
-            column: ["" if pd.isna(value) else columns.get(column, str)(value) for value in values]
-            for column, values in rows.items()
-        }
-    )
+    text = pd.DataFrame()
+    for column in columns or rows.columns:
+        heading, write = columns.get(column, column), str
+        if isinstance(heading, tuple):
+            heading, write = heading
+        text[heading] = ["" if pd.isna(value) else write(value) for value in rows[column]]
     lines = [list(map(str, text.columns)), ["---"] * len(text.columns), *text.to_numpy().tolist()]
     return "\n".join(f"| {' | '.join(line)} |" for line in lines)

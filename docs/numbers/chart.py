@@ -2,7 +2,7 @@
 
 import pandas as pd
 
-from docs.numbers import fixed, mm, peak, percent, row, rows, table
+from docs.numbers import decimals, fixed, mm, peak, percent, row, rows, table
 
 _LIMITS = {"peak": 2e-3, "deepest_wear": 1e-3, "divergent_share": 0}
 """Limits of the config: displacement and depth in metres, share of the speeds."""
@@ -104,14 +104,13 @@ def _ridge(explanation):
     headings = ["θ", "order", "Y_k and the energy by wear", "Y_k and E_T"]
     return {
         "energies": table(
-            pd.DataFrame(
-                {
-                    "K": across["K"],
-                    "by wear, J": across["wear_per_cycle"].map("{:.1f}".format),
-                    "by the damping of the blade, J": across["damping_per_cycle"].map("{:.1f}".format),
-                    "Y4, mm": across["amplitude"].map(mm),
-                }
-            )
+            across,
+            {
+                "K": "K",
+                "wear_per_cycle": ("by wear, J", decimals(1)),
+                "damping_per_cycle": ("by the damping of the blade, J", decimals(1)),
+                "amplitude": ("Y4, mm", mm),
+            },
         ),
         "correlations": table(
             pd.DataFrame(correlations, columns=headings).assign(**{"E_T on the ridge": moduli})
@@ -133,25 +132,16 @@ def _speeds(stiffening, explanation, peaks):
     other = other[other["f_peak"] < other["f_crossing"]]
     return {
         "stiffening": table(
-            pd.DataFrame(
-                {
-                    "θ": stiffening["theta"],
-                    "order": stiffening["order"],
-                    "coatings": stiffening["coatings"],
-                    **{
-                        f"rank correlation with {modulus}": stiffening[f"rank_correlation_{modulus}"].map(
-                            "{:.2f}".format
-                        )
-                        for modulus in ("E_T", "K", "E")
-                    },
-                    **{
-                        f"distance from the best rising curve of {modulus}": stiffening[
-                            f"scatter_{modulus}"
-                        ].map("{:.4f}".format)
-                        for modulus in ("E_T", "K", "E")
-                    },
-                }
-            )
+            stiffening,
+            {"theta": "θ", "order": "order", "coatings": "coatings"}
+            | {
+                f"rank_correlation_{E}": (f"rank correlation with {E}", decimals(2))
+                for E in ("E_T", "K", "E")
+            }
+            | {
+                f"scatter_{E}": (f"distance from the best rising curve of {E}", decimals(4))
+                for E in ("E_T", "K", "E")
+            },
         ),
         "f4_rising": rising,
         "f4_falling": falling,
@@ -171,37 +161,34 @@ def _speeds(stiffening, explanation, peaks):
 
 def _placement(placement):
     return table(
-        pd.DataFrame(
-            {
-                "quantity": placement["quantity"],
-                "coatings": placement["coatings"],
-                "found exactly": placement["exact"],
-                "within 1 %": placement["within_1_percent"],
-                "within 5 %": placement["within_5_percent"],
-                "worst, % too low": placement["worst_missed"].map(lambda missed: percent(missed, 1)),
-            }
-        )
+        placement,
+        {
+            "quantity": "quantity",
+            "coatings": "coatings",
+            "exact": "found exactly",
+            "within_1_percent": "within 1 %",
+            "within_5_percent": "within 5 %",
+            "worst_missed": ("worst, % too low", lambda missed: percent(missed, 1)),
+        },
     )
 
 
 def _ridge_by_step(ridge):
     return table(
-        pd.DataFrame(
-            {
-                "θ": ridge["theta"],
-                "order": ridge["order"],
-                "step": ridge["speed_step"],
-                "highest at (E, K)": [f"({E:g}, {K:g})" for E, K in ridge[["E", "K"]].to_numpy()],
-                "its E_T": ridge["E_T"].map("{:.2f}".format),
-                "height, mm": ridge["amplitude"].map(lambda height: mm(height, 2)),
-                "speed": ridge["f_peak"].map("{:.3f}".format),
-                "neighbours differ by, %": ridge["neighbour_spread"].map(percent),
-                "height lost, %": ["" if pd.isna(lost) else percent(lost) for lost in ridge["height_lost"]],
-                "K off by the factor": [
-                    "" if pd.isna(shift) else fixed(shift, 1) for shift in ridge["K_shift"]
-                ],
-            }
-        )
+        ridge,
+        {
+            "theta": "θ",
+            "order": "order",
+            "speed_step": "step",
+            "E": "E of the highest",
+            "K": "its K",
+            "E_T": ("its E_T", decimals(2)),
+            "amplitude": ("height, mm", lambda height: mm(height, 2)),
+            "f_peak": ("speed", decimals(3)),
+            "neighbour_spread": ("neighbours differ by, %", percent),
+            "height_lost": ("height lost, %", percent),
+            "K_shift": ("K off by the factor", decimals(1)),
+        },
     )
 
 

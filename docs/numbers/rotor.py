@@ -93,17 +93,19 @@ def _patterns(critical):
 
 
 def _drift(drift):
-    peaks = rows(drift, f_omega=[0.346, 0.31], length_scatter=5e-5)
-    headings = {"median": "median, degrees a revolution", "p05": "5 %", "p95": "95 %"}
+    def degrees(angle):
+        return fixed(math.degrees(angle), 1)
+
     return table(
-        peaks[["E", "f_omega", "blades"]]
-        .rename(columns={"f_omega": "f_Ω"})
-        .assign(
-            **{
-                heading: [fixed(math.degrees(angle), 1) for angle in peaks[f"pattern_drift_{statistic}"]]
-                for statistic, heading in headings.items()
-            }
-        )
+        rows(drift, f_omega=[0.346, 0.31], length_scatter=5e-5),
+        {
+            "E": "E",
+            "f_omega": "f_Ω",
+            "blades": "blades",
+            "pattern_drift_median": ("median, degrees a revolution", degrees),
+            "pattern_drift_p05": ("5 %", degrees),
+            "pattern_drift_p95": ("95 %", degrees),
+        },
     )
 
 

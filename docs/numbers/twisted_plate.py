@@ -25,9 +25,7 @@ def numbers(tables):
         "divergent_common": fixed(runs["divergent"].sum()),
         "divergent_default": fixed(runs["reference_divergent"].sum()),
         "other_lobes": table(
-            others[["f_omega", "lobes", "reference_lobes"]].set_axis(
-                ["f_Ω", "lobes, twisted plate", "default blade"], axis=1
-            )
+            others, {"f_omega": "f_Ω", "lobes": "lobes, twisted plate", "reference_lobes": "default blade"}
         ),
     }
 

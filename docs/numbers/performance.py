@@ -1,0 +1,101 @@
+"""Numbers of docs/explanation/performance.md."""
+
+from docs.numbers import decimals, fixed, percent, rows, table
+
+
+def numbers(tables):
+    """Return the text for each name on the page."""
+    return (
+        _loop(tables["benchmark"])
+        | _study(tables["divergence"], tables["cost"], tables["schedule"])
+        | _gpu(tables["gpu"])
+    )
+
+
+def _loop(benchmark):
+    def million(digits):
+        return lambda steps: fixed(steps / 1e6, digits)
+
+    fractions = benchmark.groupby("motion")["fraction_of_peak"]
+    low, high = fractions.min(), fractions.max()
+    return {
+        "speeds": table(
+            benchmark,
+            {
+                "processor": "processor",
+                "vector_bits": "bits",
+                "motion": "motion",
+                "steps_per_second_numpy": ("NumPy", million(3)),
+                "steps_per_second_numba": ("by numba", million(2)),
+                "steps_per_second_production": ("loop of the study", million(1)),
+                "ratio_to_numpy": ("times NumPy", fixed),
+                "ratio_to_numba": ("times numba", decimals(1)),
+                "fraction_of_peak": ("fraction of peak", decimals(2)),
+            },
+        ),
+        "study": table(
+            rows(benchmark, motion="contact"),
+            {
+                "processor": "processor",
+                "vector_bits": "bits",
+                "cores": "cores",
+                "seconds_per_run": ("seconds a run", decimals(3)),
+                "study_minutes": ("minutes of the study", decimals(1)),
+            },
+        ),
+        "peak_free": f"{percent(low['free'])} to {percent(high['free'])}",
+        "peak_contact": f"{percent(low['contact'])} to {percent(high['contact'])}",
+    }
+
+
+def _study(divergence, cost, schedule):
+    stages = cost.replace({"stage": {"rubs": "runs"}}).groupby("stage")["wall_s"].agg(["count", "sum"])
+    stages["share"] = stages["sum"] / stages["sum"].sum()
+    return {
+        "runs": fixed(divergence["runs"].sum()),
+        "repeated": fixed(divergence[divergence["revolutions"] > 20]["runs"].sum()),
+        "stages": table(
+            stages.sort_values("sum", ascending=False).reset_index(),
+            {
+                "stage": "stage",
+                "count": "jobs",
+                "sum": ("wall time of the jobs, s", fixed),
+                "share": ("share, %", lambda share: percent(share, 1)),
+            },
+        ),
+        "memory": fixed(cost["memory_mb"].max()),
+        "memory_coating": fixed(rows(cost, stage="rubs")["memory_mb"].max()),
+        "schedule": table(
+            schedule,
+            {
+                "cores": "cores",
+                "minutes": ("minutes", decimals(1)),
+                "efficiency": ("efficiency", decimals(2)),
+            },
+        ),
+    }
+
+
+def _gpu(gpu):
+    card = gpu.iloc[0]
+    return {
+        "gpu": table(
+            gpu.assign(billion=gpu["gpu_steps_per_second"] / 1e9),
+            {
+                "gpu": "GPU",
+                "gpu_runs": "runs",
+                "kernel_s": ("time of the loops, s", decimals(1)),
+                "billion": ("steps, 10⁹/s", decimals(1)),
+                "gpu_s": ("with the host, s", decimals(1)),
+                "handed_over": "left to the processor",
+            },
+        ),
+        "gpu_compared": fixed(card["compared_runs"]),
+        "gpu_same_status": fixed(card["same_status"]),
+        "gpu_same_steps": fixed(card["same_steps"]),
+        "gpu_error_median": f"{card['peak_error_median']:.0e}",
+        "gpu_error_p99": f"{card['peak_error_p99']:.0e}",
+        "gpu_error_largest": f"{card['peak_error_largest']:.0e}",
+        "gpu_residual": f"{card['largest_residual']:.0e}",
+        "gpu_host": fixed(card["gpu_s"] / card["kernel_s"], 1),
+    }
