@@ -27,7 +27,8 @@ def claims(findings: pd.DataFrame, *groups: str) -> str:
 def counts(findings: pd.DataFrame) -> str:
     """Say how many parts hold, hold partly and do not."""
     number = findings["holds"].value_counts()
-    return f"{number['yes']} hold, {number['partly']} hold partly and {number['no']} do not"
+    yes, partly, no = (number.get(verdict, 0) for verdict in ("yes", "partly", "no"))
+    return f"{yes} hold, {partly} hold partly and {no} do not"
 
 
 def changes(
@@ -60,6 +61,26 @@ def variations(margins: pd.DataFrame) -> str:
         if len(others):
             lines.append([part, verdict, "; ".join(f"{other}: {names}" for other, names in others.items())])
     return table(pd.DataFrame(lines, columns=["part", "in the study", "otherwise"]))
+
+
+def changed_sentences(sentences: pd.DataFrame, findings: pd.DataFrame) -> list[str]:
+    """Name the `sentences` that were written for verdicts which are others now, with page and verdicts.
+
+    ``docs/numbers/verdicts.csv`` lists them: page, claims, the verdict of these, how the sentence begins.
+    """
+    verdicts = findings.set_index("id")["holds"]
+    changed = []
+    for sentence in sentences.itertuples():
+        others = [
+            f"{claim} is {verdicts[claim]}"
+            for claim in sentence.claims.split()
+            if verdicts[claim] != sentence.verdict
+        ]
+        if others:
+            changed.append(
+                f"{sentence.page}: written for {sentence.verdict}, {', '.join(others)}: {sentence.sentence}"
+            )
+    return changed
 
 
 def measured(part: pd.Series) -> str:

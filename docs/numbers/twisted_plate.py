@@ -18,7 +18,7 @@ def numbers(tables):
         "same_lobes": fixed((runs["lobes"] == runs["reference_lobes"]).sum()),
         "wear_ratio": fixed(ratio.median(), 2),
         "wear_ratio_range": f"{fixed(ratio.quantile(0.1), 2)} to {fixed(ratio.quantile(0.9), 2)}",
-        "wear_correlation": fixed(wear.corr(reference, method="spearman"), 2),
+        "wear_correlation": fixed(wear.rank().corr(reference.rank()), 2),
         "peaks": _peaks(tables["twisted_plate_peaks"], tables["peaks"]),
         "speeds": fixed(divergence["runs"].sum()),
         "divergent": fixed(rows(divergence, divergent=True)["runs"].sum()),

@@ -1,4 +1,5 @@
-# What the repository shows of itself: pictures and the reference of the config, both committed. Not part of `all`.
+# What the repository shows of itself, all committed: pictures, reference of the config, tables that pages quote. Not
+# part of `all`.
 from pathlib import Path
 
 IMAGES = [
@@ -59,61 +60,25 @@ rule config_reference:
         "../scripts/config_reference.py"
 
 
-# Tables of the study that pages quote; the targets below have more
-QUOTED = ["findings", "margins", "peaks", "divergence", "rom_accuracy", "campbell"]
-
-
-# Without an output: they render the pages in place, whenever they are asked for.
+# Without an output: it takes snapshots anew whenever it is asked for, of other studies as well if they are there
 rule docs_data:
     input:
-        [f"{TABLES}/{name}.csv" for name in QUOTED],
-    log:
-        f"{RESULTS}/logs/docs_data.log",
-    script:
-        script_of("docs_data")
-
-
-use rule docs_data as docs_cost with:
-    input:
+        expand(
+            f"{TABLES}/{{name}}.csv",
+            name=[
+                "findings",
+                "margins",
+                "peaks",
+                "divergence",
+                "rom_accuracy",
+                "campbell",
+            ],
+        ),
         rules.cost.output.table,
         rules.cost.output.schedule,
     log:
-        f"{RESULTS}/logs/docs_cost.log",
-
-
-# With `--configfile config/fine.yaml`, whose margins have the answers with the finer speeds
-use rule docs_data as docs_fine with:
-    input:
-        f"{TABLES}/margins.csv",
-    log:
-        f"{RESULTS}/logs/docs_fine.log",
+        f"{RESULTS}/logs/docs_data.log",
     params:
-        prefix="fine_",
-        only={"variation": "study"},
-
-
-# With `--configfile config/longer.yaml`
-use rule docs_data as docs_longer with:
-    input:
-        [f"{TABLES}/{name}.csv" for name in ("findings", "peaks", "divergence")],
-    log:
-        f"{RESULTS}/logs/docs_longer.log",
-    params:
-        prefix="longer_",
-
-
-use rule docs_data as docs_tip_turns with:
-    input:
-        f"{TIP_TURNS}/tables/findings.csv",
-        f"{TIP_TURNS}/tables/peaks.csv",
-    log:
-        f"{RESULTS}/logs/docs_tip_turns.log",
-    params:
-        prefix="tip_turns_",
-
-
-rule docs_pages:
-    log:
-        f"{RESULTS}/logs/docs_pages.log",
+        results=RESULTS,
     script:
         script_of("docs_data")

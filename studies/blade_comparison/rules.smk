@@ -38,13 +38,3 @@ rule blade_comparison:
 
 
 # With `--configfile config/twisted_plate.yaml`
-use rule docs_data as docs_twisted_plate with:
-    input:
-        rules.blade_comparison.output.blades,
-        rules.blade_comparison.output.runs,
-        f"{TABLES}/peaks.csv",
-        f"{TABLES}/divergence.csv",
-    log:
-        f"{RESULTS}/logs/docs_twisted_plate.log",
-    params:
-        prefix="twisted_plate_",

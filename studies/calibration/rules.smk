@@ -62,11 +62,3 @@ rule calibration_set:
         choices=calibration_set,
     script:
         "scripts/calibration_set.py"
-
-
-use rule docs_data as docs_calibration with:
-    input:
-        rules.calibration.output.table,
-        rules.calibration.output.counts,
-    log:
-        f"{RESULTS}/logs/docs_calibration.log",

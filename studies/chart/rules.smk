@@ -316,15 +316,3 @@ use rule images as chart_images with:
         f"{RESULTS}/logs/chart_images.log",
     params:
         colours=20,
-
-
-use rule docs_data as docs_chart with:
-    input:
-        rules.chart_table.output.table,
-        rules.chart_ridge.output.summary,
-        rules.chart_stiffening.output.table,
-        rules.chart_placement.output.summary,
-        rules.chart_explanation.output.table,
-        rules.chart_agreement.output.table,
-    log:
-        f"{RESULTS}/logs/docs_chart.log",

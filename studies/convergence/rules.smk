@@ -74,31 +74,3 @@ rule accuracy:
         runtime=minutes(30),
     script:
         "scripts/accuracy.py"
-
-
-use rule docs_data as docs_finer_bars with:
-    input:
-        rules.finer_bars.output.table,
-    log:
-        f"{RESULTS}/logs/docs_finer_bars.log",
-
-
-use rule docs_data as docs_rigid_convergence with:
-    input:
-        rules.rigid_convergence.output.table,
-    log:
-        f"{RESULTS}/logs/docs_rigid_convergence.log",
-
-
-use rule docs_data as docs_accuracy with:
-    input:
-        rules.accuracy.output.table,
-    log:
-        f"{RESULTS}/logs/docs_accuracy.log",
-
-
-use rule docs_data as docs_more_nodes with:
-    input:
-        rules.more_nodes.output.table,
-    log:
-        f"{RESULTS}/logs/docs_more_nodes.log",

@@ -21,10 +21,3 @@ rule friction:
         dpi=DPI,
     script:
         "scripts/friction.py"
-
-
-use rule docs_data as docs_friction with:
-    input:
-        rules.friction.output.table,
-    log:
-        f"{RESULTS}/logs/docs_friction.log",

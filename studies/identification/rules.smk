@@ -267,17 +267,3 @@ use rule images as identification_image with:
         f"{RESULTS}/logs/identification_image.log",
     params:
         colours=8,
-
-
-use rule docs_data as docs_identification with:
-    input:
-        rules.identify.output.waves,
-        rules.identify.output.emulators,
-        rules.identify.output.targets,
-        rules.identify.output.ranges,
-        rules.identify.output.exclusions,
-        rules.identify.output.candidates,
-        rules.identify.output.counts,
-        rules.identify.output.verdicts,
-    log:
-        f"{RESULTS}/logs/docs_identification.log",

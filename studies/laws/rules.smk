@@ -41,28 +41,3 @@ rule heat:
 
 
 # With `--config calibration=config/laws.yaml results=results/laws`, whose rules make these tables; heat likewise
-use rule docs_data as docs_laws with:
-    input:
-        "results/laws/tables/calibration.csv",
-        "results/laws/tables/calibration_counts.csv",
-    log:
-        f"{RESULTS}/logs/docs_laws.log",
-    params:
-        prefix="laws_",
-
-
-use rule docs_data as docs_heat with:
-    input:
-        rules.heat.output.table,
-    log:
-        f"{RESULTS}/logs/docs_heat.log",
-
-
-use rule docs_data as docs_heat_calibration with:
-    input:
-        "results/heat/tables/calibration.csv",
-        "results/heat/tables/calibration_counts.csv",
-    log:
-        f"{RESULTS}/logs/docs_heat_calibration.log",
-    params:
-        prefix="heat_",

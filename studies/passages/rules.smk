@@ -123,17 +123,3 @@ use rule images as passage_images with:
         f"{RESULTS}/logs/passage_images.log",
     params:
         colours=20,
-
-
-use rule docs_data as docs_sweeps with:
-    input:
-        rules.sweeps.output.table,
-    log:
-        f"{RESULTS}/logs/docs_sweeps.log",
-
-
-use rule docs_data as docs_long_runs with:
-    input:
-        rules.long_runs.output.table,
-    log:
-        f"{RESULTS}/logs/docs_long_runs.log",

@@ -178,10 +178,3 @@ use rule images as robustness_image with:
         f"{RESULTS}/logs/robustness_image.log",
     params:
         colours=20,
-
-
-use rule docs_data as docs_robustness with:
-    input:
-        rules.robustness.output.table,
-    log:
-        f"{RESULTS}/logs/docs_robustness.log",

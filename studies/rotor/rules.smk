@@ -161,12 +161,3 @@ use rule images as rotor_image with:
     params:
         colours=64,
         shrink=2,
-
-
-use rule docs_data as docs_rotor with:
-    input:
-        rules.rotor_tables.output.table,
-        rules.rotor_tables.output.half,
-        rules.rotor_patterns.output.drift,
-    log:
-        f"{RESULTS}/logs/docs_rotor.log",

@@ -220,31 +220,21 @@ use rule images as rotor37_images with:
         colours=12,
 
 
-use rule docs_data as docs_rotor37 with:
+# The reference numbers of the repository, once they are computed anew
+rule rotor37_reference:
     input:
         [
             rules.rotor37.output[name]
             for name in [*REFERENCE_TABLES, "history", "independent"]
         ],
     log:
-        f"{RESULTS}/logs/docs_rotor37.log",
-    params:
-        folder="benchmarks/rotor37",
+        f"{RESULTS}/logs/rotor37_reference.log",
+    script:
+        "scripts/rotor37_reference.py"
 
 
-use rule docs_data as docs_rotor37_nlstep with:
+use rule rotor37_reference as rotor37_nlstep_reference with:
     input:
         rules.rotor37_nlstep.output.table,
     log:
-        f"{RESULTS}/logs/docs_rotor37_nlstep.log",
-    params:
-        folder="benchmarks/rotor37",
-
-
-use rule docs_data as docs_rotor37_nodes with:
-    input:
-        "results_rotor37/tables/more_nodes.csv",
-    log:
-        f"{RESULTS}/logs/docs_rotor37_nodes.log",
-    params:
-        prefix="rotor37_",
+        f"{RESULTS}/logs/rotor37_nlstep_reference.log",

@@ -25,10 +25,3 @@ rule stress:
         dpi=DPI,
     script:
         "scripts/stress.py"
-
-
-use rule docs_data as docs_stress with:
-    input:
-        rules.stress.output.table,
-    log:
-        f"{RESULTS}/logs/docs_stress.log",

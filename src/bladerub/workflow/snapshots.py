@@ -1,9 +1,7 @@
 """Snapshots of tables for the pages, small enough for the repository."""
 
-from collections.abc import Mapping
+import tempfile
 from pathlib import Path
-from types import MappingProxyType
-from typing import Any
 
 from bladerub.io import tables
 
@@ -69,23 +67,51 @@ KEPT = {
 """Tables of which pages need these columns only, to four digits."""
 
 
-def take(source: Path, target: Path, only: Mapping[str, Any] = MappingProxyType({})) -> None:
-    """Take the table at `source` as the snapshot `target`: as `COUNTED` or `KEPT` say, others whole.
+ROWS = {"fine_margins": {"variation": "study"}}
+"""Snapshots that have only the rows with these values."""
 
-    Of the rows those are taken that have the values of `only` in its columns.
+
+def update(folder: Path, results: Path) -> None:
+    """Take each snapshot in `folder` anew from its table below `results`, where there is one that differs.
+
+    An equal table keeps the description of the study that it was first taken from.
     """
-    name = source.stem
+    with tempfile.TemporaryDirectory() as scratch:
+        for snapshot in sorted(folder.glob("*.csv")):
+            if source := source_of(snapshot.stem, results):
+                taken = Path(scratch) / snapshot.name
+                take(source, taken)
+                if taken.read_bytes() != snapshot.read_bytes():
+                    tables.copy(taken, snapshot)
+
+
+def source_of(name: str, results: Path) -> Path | None:
+    """Return the table of which ``docs/data/<name>.csv`` is a snapshot, `None` if it was not made.
+
+    ``peaks`` is of the study, ``longer_peaks`` of that in ``results/longer`` or ``results_longer``.
+    """
+    places = [results / "tables" / f"{name}.csv", results / "benchmarks" / f"{name}.csv"]
+    words = name.split("_")
+    for count in range(1, len(words)):
+        study, table = "_".join(words[:count]), "_".join(words[count:])
+        folders = results / study, results.with_name(f"{results.name}_{study}")
+        places.extend(folder / "tables" / f"{table}.csv" for folder in folders)
+    return next((place for place in places if place.exists()), None)
+
+
+def take(source: Path, target: Path) -> None:
+    """Take the table at `source` as the snapshot `target`, as `COUNTED`, `KEPT` and `ROWS` say."""
+    name, only = source.stem, ROWS.get(target.stem, {})
     if name not in COUNTED | KEPT and not only:
         tables.copy(source, target)
         return
     table, origin = tables.read(source), tables.read_origin(source)
     for column, value in only.items():
         table = table[table[column] == value]
-    if name not in COUNTED | KEPT:
-        tables.write(target, table, origin)
-        return
     if name in COUNTED:
         counted = table.groupby(COUNTED[name], as_index=False).size()
         tables.write(target, counted.rename(columns={"size": "runs"}), origin)
-    else:
+    elif name in KEPT:
         tables.write(target, table[[*KEPT[name]]], origin, float_format="%.4g")
+    else:
+        tables.write(target, table, origin)

@@ -1,6 +1,7 @@
 """Snapshots of big tables hold what pages quote."""
 
 import pandas as pd
+import pytest
 
 from bladerub.io import tables
 from bladerub.workflow import snapshots
@@ -46,6 +47,35 @@ def test_only_rows_that_are_asked_for_are_taken(tmp_path):
     table = pd.DataFrame([("study", "C1a"), ("other", "C1a")], columns=["variation", "id"])
     source, target = tmp_path / "margins.csv", tmp_path / "fine_margins.csv"
     tables.write(source, table, ORIGIN)
-    snapshots.take(source, target, {"variation": "study"})
+    snapshots.take(source, target)
     assert tables.read(target).to_dict("records") == [{"variation": "study", "id": "C1a"}]
     assert tables.read_origin(target) == ORIGIN
+
+
+@pytest.mark.parametrize(
+    ("name", "made"),
+    [
+        ("chart_agreement", "results/tables/chart_agreement.csv"),
+        ("cost", "results/benchmarks/cost.csv"),
+        ("longer_peaks", "results/longer/tables/peaks.csv"),
+        ("twisted_plate_blade_comparison", "results_twisted_plate/tables/blade_comparison.csv"),
+    ],
+)
+def test_a_snapshot_is_of_the_table_of_its_study(tmp_path, name, made):
+    assert snapshots.source_of(name, tmp_path / "results") is None
+    (tmp_path / made).parent.mkdir(parents=True)
+    (tmp_path / made).touch()
+    assert snapshots.source_of(name, tmp_path / "results") == tmp_path / made
+
+
+def test_an_equal_snapshot_keeps_its_description(tmp_path):
+    folder, made = tmp_path / "data", tmp_path / "results" / "tables"
+    folder.mkdir()
+    made.mkdir(parents=True)
+    for name, value in (("findings", "no"), ("margins", "yes")):
+        tables.write(folder / f"{name}.csv", pd.DataFrame({"holds": ["yes"]}), ORIGIN)
+        tables.write(made / f"{name}.csv", pd.DataFrame({"holds": [value]}), {"version": "2"})
+    snapshots.update(folder, tmp_path / "results")
+    assert tables.read(folder / "findings.csv")["holds"].tolist() == ["no"]
+    assert tables.read_origin(folder / "findings.csv") == {"version": "2"}
+    assert tables.read_origin(folder / "margins.csv") == ORIGIN

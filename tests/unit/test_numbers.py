@@ -1,0 +1,113 @@
+"""Pages quote tables by name, and what they quote changes with the tables."""
+
+import re
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pandas as pd
+import pytest
+
+from docs.numbers import FOLDER, Tables, numbers_of, readme, table
+from docs.numbers.claims import changed_sentences
+
+ROOT = Path(__file__).parents[2]
+NAME = re.compile(r"\{\{ (\w+) \}\}")
+TEXTS = {page: page.read_text(encoding="utf-8") for page in (ROOT / "docs").glob("[!_a]*/*.md")}
+TEXTS |= {page: page.read_text(encoding="utf-8") for page in (ROOT / "docs").glob("*.md")}
+PAGES = {page.stem: text for page, text in TEXTS.items() if NAME.search(text)}
+SENTENCES = pd.read_csv(FOLDER / "verdicts.csv")
+
+
+@pytest.fixture(scope="module")
+def tables():
+    return Tables()
+
+
+@pytest.mark.parametrize("page", sorted(PAGES))
+def test_each_name_of_a_page_has_a_number_and_each_number_is_quoted(page, tables):
+    assert set(NAME.findall(PAGES[page])) == set(numbers_of(page, tables))
+
+
+def test_no_sentence_was_written_for_another_verdict(tables):
+    assert changed_sentences(SENTENCES, tables["findings"]) == []
+
+
+def test_a_changed_verdict_names_its_sentences(tables):
+    changed = tables["findings"].assign(
+        holds=lambda findings: findings["holds"].mask(findings["id"] == "C7b", "no")
+    )
+    sentences = changed_sentences(SENTENCES, changed)
+    assert [sentence.split(":")[0] for sentence in sentences] == ["paper_vs_ours", "calibration"]
+    assert all("C7b is no" in sentence for sentence in sentences)
+
+
+def test_each_sentence_is_on_its_page():
+    texts = {page: " ".join(text.split()) for page, text in PAGES.items()}
+    assert [line.sentence for line in SENTENCES.itertuples() if line.sentence not in texts[line.page]] == []
+
+
+def test_the_readme_has_the_claims_of_the_tables(tables, tmp_path):
+    page = shutil.copy(ROOT / "README.md", tmp_path)
+    readme.update(Path(page), tables)
+    assert Path(page).read_text(encoding="utf-8") == (ROOT / "README.md").read_text(encoding="utf-8")
+    changed = Tables()
+    changed["findings"] = tables["findings"].replace({"holds": {"partly": "no"}})
+    readme.update(Path(page), changed)
+    assert " 0 hold partly" in Path(page).read_text(encoding="utf-8")
+
+
+def test_a_table_has_the_columns_that_it_is_asked_for():
+    rows = pd.DataFrame({"E": [1.0, 2.0], "wear": [1.234e-3, None], "left_out": [0, 0]})
+    written = table(rows, {"E": "E", "wear": ("wear, mm", lambda wear: f"{1e3 * wear:.2f}")})
+    assert written == "| E | wear, mm |\n| --- | --- |\n| 1.0 | 1.23 |\n| 2.0 |  |"
+
+
+@pytest.fixture
+def site(tmp_path):
+    """A site of one page, `model`, with the numbers and tables of this one."""
+    docs = tmp_path / "docs"
+    ignored = shutil.ignore_patterns("__pycache__", "*-metadata.json")
+    shutil.copytree(FOLDER, docs / "numbers", ignore=ignored)
+    shutil.copytree(ROOT / "docs" / "data", docs / "data", ignore=ignored)
+    shutil.copy(ROOT / "docs" / "page_numbers.py", docs)
+    (docs / "model.md").write_text(
+        "# Model\n\n{{ runs_soft }} runs, {{ worse_than_rigid }} times\n", encoding="utf-8"
+    )
+    (docs / "conf.py").write_text(
+        f"import sys\nsys.path[:0] = [{str(docs)!r}, {str(tmp_path)!r}]\n"
+        "extensions = ['myst_parser', 'page_numbers']\n"
+        "myst_enable_extensions = ['substitution']\nroot_doc = 'model'\n",
+        encoding="utf-8",
+    )
+    return docs
+
+
+def build(docs):
+    """Build the site; return what the build says, and the text of its page if there is one."""
+    command = [sys.executable, "-m", "sphinx", "-W", "-q", "-b", "text", str(docs), str(docs / "_build")]
+    done = subprocess.run(command, capture_output=True, text=True)
+    return done.stderr, (docs / "_build" / "model.txt").read_text("utf-8") if done.returncode == 0 else None
+
+
+@pytest.mark.slow
+def test_a_changed_value_changes_the_page_and_a_removed_one_fails_the_build(site):
+    assert build(site) == ("", "Model\n*****\n\n1,152 runs, 2.4 times\n")
+    peaks = site / "data" / "peaks.csv"
+    values = pd.read_csv(peaks)
+    chosen = (values[["casing", "E", "K", "theta", "order"]] == ["2nd", 1.1, 1, 0, 4]).all(axis="columns")
+    values.loc[chosen, "amplitude"] *= 2
+    values.to_csv(peaks, index=False)
+    assert build(site) == ("", "Model\n*****\n\n1,152 runs, 4.8 times\n")
+    values[~chosen].to_csv(peaks, index=False)
+    assert "0 rows with {'casing': '2nd', 'E': 1.1, 'K': 1, 'theta': 0.0, 'order': 4}" in build(site)[0]
+
+
+@pytest.mark.slow
+def test_a_missing_name_fails_the_build(site):
+    with (site / "model.md").open("a", encoding="utf-8") as page:
+        page.write("\n{{ runs_of_nobody }}\n")
+    said, page = build(site)
+    assert page is None
+    assert "'runs_of_nobody' is undefined" in said
