@@ -10,7 +10,7 @@ rule cost:
         rules.divergence.output,
         FIGURES,
         JUDGED,
-        rules.explorer.output,
+        lambda wildcards: [path for paths in ADDED_TO_ALL.values() for path in paths],
         maps=expand(rules.map.output, coating=COATINGS),
         collecting=files_behind("workflow.cost", "workflow.schedule"),
         drawing=files_behind("plots.cost"),
@@ -22,6 +22,7 @@ rule cost:
         f"{RESULTS}/logs/cost.log",
     params:
         benchmarks=MEASURED,
+        added=lambda wildcards: list(ADDED_TO_ALL),
         dpi=DPI,
     script:
         "../scripts/cost.py"

@@ -8,5 +8,5 @@ from bladerub.plots.cost import cost
 from bladerub.workflow import outputs, schedule
 from bladerub.workflow.cost import by_stage, table
 
-costs = table(snakemake.params.benchmarks)
+costs = table(snakemake.params.benchmarks, snakemake.params.added)
 outputs.save(snakemake, cost(by_stage(costs)), table=costs, schedule=schedule.table(costs, snakemake.config))

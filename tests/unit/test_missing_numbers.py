@@ -12,8 +12,8 @@ import pytest
 from study_fixtures import *  # noqa: F403 (fixtures)
 
 from bladerub.api.map import Map
-from bladerub.explorer.page import build
 from bladerub.extras import long_runs, sweeps
+from bladerub.extras.explorer.page import build
 from bladerub.extras.plots.long_runs import long_runs as draw_long_runs
 from bladerub.extras.plots.sweeps import sweeps as draw_sweeps
 from bladerub.extras.sweeps import SpeedSweep

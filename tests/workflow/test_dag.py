@@ -98,7 +98,7 @@ def test_an_edit_of_the_peak_search_plans_what_comes_of_it(copied_study, tiny):
 
 
 def test_an_edit_of_the_page_plans_the_page(copied_study, tiny):
-    copied_study.edit("explorer/page/style.css", "}", "} /* edited */")
+    copied_study.edit("extras/explorer/page/style.css", "}", "} /* edited */")
     assert copied_study.plan(tiny) == {"explorer": 1, "cost": 1, "all": 1}
 
 

@@ -10,7 +10,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from bladerub.explorer.page import build
+from bladerub.extras.explorer.page import build
 from bladerub.study.manifest import read_manifest, write_manifest
 from bladerub.study.maps import read_map, write_map
 

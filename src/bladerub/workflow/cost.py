@@ -1,6 +1,7 @@
 """What a study costs: the records that Snakemake keeps of its jobs, a row a job."""
 
 import logging
+from collections.abc import Iterable
 from pathlib import Path
 
 import pandas as pd
@@ -13,31 +14,32 @@ _log = logging.getLogger(__name__)
 STAGES = {"blade": "blade", "compile_kernel": "compilation", "coating": "rubs"}
 STAGES |= {"ensemble": "ensembles", "map": "maps"}
 STAGES |= dict.fromkeys(("peaks", "divergence", "findings", "margins"), "tables")
-STAGES |= {"history": "figures", "explorer": "explorer"}
+STAGES |= {"history": "figures"}
 """Stage of each rule, in the order of the workflow; rules named after a figure of the paper: ``figures``."""
 _RECORDED = ["s", "cpu_time", "max_rss"]
 COLUMNS = ["stage", "rule", "job", "wall_s", "cpu_s", "memory_mb"]
 
 
-def table(benchmarks: str | Path) -> pd.DataFrame:
+def table(benchmarks: str | Path, others: Iterable[str] = ()) -> pd.DataFrame:
     """Collect the records of the last execution of each job, a row a job.
 
-    They are in the folder `benchmarks`: ``<rule>.tsv``, or ``<rule>/<job>.tsv``. `COLUMNS`: ``job`` is empty
-    for a rule of one job. CPU time and largest memory are those of the job's process and its children; NaN
-    where a job was too short to be measured. A record that breaks off is left out; the log says so.
+    They are in the folder `benchmarks`: ``<rule>.tsv``, or ``<rule>/<job>.tsv``. Besides the rules of
+    `STAGES` they are of `others`, each a stage of its own. `COLUMNS`: ``job`` is empty for a rule of one job.
+    CPU time and largest memory are those of the job's process and its children; NaN where a job was too short
+    to be measured. A record that breaks off is left out; the log says so.
     """
-    rows = []
+    rows, stage_of = [], STAGES | {rule: rule for rule in others}
     for path in sorted(Path(benchmarks).rglob("*.tsv")):
         *rule, name = path.relative_to(benchmarks).with_suffix("").parts
         rule, job = (rule[0], name) if rule else (name, "")
-        if rule in STAGES or rule.startswith("fig"):
+        if rule in stage_of or rule.startswith("fig"):
             try:
                 last = tables.read(path, _RECORDED, separator="\t")[_RECORDED].tail(1)
             except DamagedFile as error:  # Snakemake was stopped while it wrote: no job is worth doing again
                 _log.warning("left out: %s", error)
                 continue
             figures = last.apply(pd.to_numeric, errors="coerce").itertuples(index=False)
-            rows += [(STAGES.get(rule, "figures"), rule, job, *record) for record in figures]
+            rows += [(stage_of.get(rule, "figures"), rule, job, *record) for record in figures]
     return pd.DataFrame(rows, columns=COLUMNS)
 
 
@@ -49,6 +51,7 @@ def by_stage(costs: pd.DataFrame) -> pd.DataFrame:
     grouped = costs.groupby("stage").agg(
         jobs=("rule", "size"), cpu_s=("cpu_s", "sum"), memory_mb=("memory_mb", "max")
     )
-    stages = grouped.loc[[stage for stage in dict.fromkeys(STAGES.values()) if stage in grouped.index]]
+    order = dict.fromkeys([*STAGES.values(), *grouped.index])  # those of other rules at the end
+    stages = grouped.loc[[stage for stage in order if stage in grouped.index]]
     stages.insert(2, "share", stages["cpu_s"] / stages["cpu_s"].sum())
     return stages

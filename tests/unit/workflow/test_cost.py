@@ -35,6 +35,7 @@ def test_a_row_a_job(benchmarks):
     assert (rub.stage, rub.wall_s, rub.cpu_s, rub.memory_mb) == ("rubs", 30.0, 21.0, 200.0)
     assert costs.loc[("blade", ""), "stage"] == "blade"
     assert len(costs) == 5
+    assert "somebody_elses" in set(table(benchmarks, ["somebody_elses"]).stage)
 
 
 @pytest.mark.parametrize("content", ["", "s\th:m:s\tmax", RECORD.splitlines(keepends=True)[0]])

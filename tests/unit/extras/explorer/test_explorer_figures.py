@@ -2,7 +2,7 @@ import math
 
 import pytest
 
-from bladerub.explorer import figures
+from bladerub.extras.explorer import figures
 from bladerub.study.grid import CoatingCase
 
 

@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from bladerub.explorer.coating import LAST_ORDER, MOST_ANGLES, arc_means, arcs, kept_orders
+from bladerub.extras.explorer.coating import LAST_ORDER, MOST_ANGLES, arc_means, arcs, kept_orders
 
 
 @pytest.mark.parametrize(("n_elements", "n_arcs"), [(2000, MOST_ANGLES), (1999, MOST_ANGLES), (60, 60)])

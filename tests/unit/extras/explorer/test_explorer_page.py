@@ -12,8 +12,8 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from bladerub.explorer.coating import AMPLITUDE_FLOOR, parts
-from bladerub.explorer.page import build
+from bladerub.extras.explorer.coating import AMPLITUDE_FLOOR, parts
+from bladerub.extras.explorer.page import build
 from bladerub.study.grid import CoatingCase
 from bladerub.study.manifest import write_manifest
 from bladerub.study.maps import write_map
@@ -106,7 +106,7 @@ new Function(`${program}; open(0).then(show)`)();
 @pytest.mark.skipif(shutil.which("node") is None, reason="no node; apt-get install nodejs")
 def test_the_program_of_the_page_unpacks_the_study(page, coating):
     texts = re.findall(r'<script type="[^"]*" id="([^"]*)">(.*?)</script>', page(coating), re.DOTALL)
-    program = files("bladerub.explorer").joinpath("page", "data.js").read_text(encoding="utf-8")
+    program = files("bladerub.extras.explorer").joinpath("page", "data.js").read_text(encoding="utf-8")
     given = json.dumps({"page": dict(texts), "program": program})
     done = subprocess.run(["node", "-e", UNPACK], input=given, capture_output=True, text=True, check=True)
     shown = json.loads(done.stdout)

@@ -3,7 +3,7 @@
 import numpy as np
 import pandas as pd
 
-from bladerub.explorer import encoding, figures
+from bladerub.extras.explorer import encoding, figures
 from bladerub.plots.spectrum import ORDERS
 from bladerub.study.manifest import ManifestRow
 from bladerub.study.maps import CoatingMap

@@ -8,8 +8,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from bladerub import explorer
-from bladerub.explorer.encoding import differences, linear_steps, logarithmic_steps
+from bladerub.extras import explorer
+from bladerub.extras.explorer.encoding import differences, linear_steps, logarithmic_steps
 
 NODE = shutil.which("node")
 pytestmark = [pytest.mark.browser, pytest.mark.skipif(NODE is None, reason="no node; apt-get install nodejs")]

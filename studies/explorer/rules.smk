@@ -13,8 +13,8 @@ rule explorer:
         maps=expand(rules.map.output, coating=COATINGS),
         peaks=rules.peaks.output[0],
         divergence=rules.divergence.output[0],
-        packing=files_behind("explorer.page"),
-        page=sorted(glob("src/bladerub/explorer/page/*")),
+        packing=files_behind("extras.explorer.page"),
+        page=sorted(glob("src/bladerub/extras/explorer/page/*")),
         analysing=files_behind("study.summary"),
         drawing=files_behind("plots.spectrum"),
     output:
@@ -38,4 +38,7 @@ rule explorer:
             if path != "config/config.yaml"
         ],
     script:
-        "../scripts/explorer.py"
+        "scripts/explorer.py"
+
+
+ADDED_TO_ALL["explorer"] = rules.explorer.output

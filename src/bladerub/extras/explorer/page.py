@@ -10,8 +10,8 @@ from typing import Any
 import pandas as pd
 from plotly.offline import get_plotlyjs
 
-from bladerub.explorer import coating, study
-from bladerub.explorer.encoding import json_text
+from bladerub.extras.explorer import coating, study
+from bladerub.extras.explorer.encoding import json_text
 from bladerub.study.manifest import read_manifest
 from bladerub.study.maps import read_map
 
@@ -30,9 +30,9 @@ def build(
     """Make the page, as HTML; equal data give equal text.
 
     `map_paths` and `manifest_paths` have each coating in the same order, `peaks` and `divergence` are
-    ``peaks.csv`` and ``divergence.csv``, `settings` as of `bladerub.explorer.study.about`, `configs` the
-    files that were laid over config/config.yaml. Raises `OSError` if a map or manifest cannot be read, and
-    `ValueError` if the coatings were not computed at the same speeds, or the tables are of other ones.
+    ``peaks.csv`` and ``divergence.csv``, `settings` as of `bladerub.extras.explorer.study.about`, `configs`
+    the files that were laid over config/config.yaml. Raises `OSError` if a map or manifest cannot be read,
+    and `ValueError` if the coatings were not computed at the same speeds, or the tables are of other ones.
     """
     coatings, data, scales = [], [], None
     revolutions, max_frequency = settings["spectrum_revolutions"], settings["max_frequency"]
@@ -59,7 +59,7 @@ def build(
 
 
 def _text(name: str) -> str:
-    return files("bladerub.explorer").joinpath("page", name).read_text(encoding="utf-8")
+    return files("bladerub.extras.explorer").joinpath("page", name).read_text(encoding="utf-8")
 
 
 def _policy(*scripts: str) -> str:

@@ -8,8 +8,8 @@ import pandas as pd
 from matplotlib import colormaps
 from matplotlib.colors import to_hex
 
-from bladerub.explorer import figures
-from bladerub.explorer.coating import AMPLITUDE_FLOOR, LAST_ORDER, arcs, kept_orders
+from bladerub.extras.explorer import figures
+from bladerub.extras.explorer.coating import AMPLITUDE_FLOOR, LAST_ORDER, arcs, kept_orders
 from bladerub.io.provenance import software
 from bladerub.plots import bins, spectrum, style, titles
 from bladerub.study.bands import PEAK_COLUMNS

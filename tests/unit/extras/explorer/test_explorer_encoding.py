@@ -5,7 +5,7 @@ import json
 import numpy as np
 import pytest
 
-from bladerub.explorer.encoding import (
+from bladerub.extras.explorer.encoding import (
     differences,
     json_text,
     linear_steps,

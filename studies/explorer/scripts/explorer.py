@@ -5,7 +5,7 @@ from bladerub.workflow import job
 job.log_to(snakemake.log[0])
 
 from bladerub.blade.accuracy import ACCURACY_COLUMNS, doubts
-from bladerub.explorer.page import build
+from bladerub.extras.explorer.page import build
 from bladerub.io import atomic, tables
 from bladerub.study import divergence, peaks
 
