@@ -132,7 +132,8 @@ def _ensemble(study, coating):
     chosen = ensemble.chosen(study, coating)
     at = np.isin(coating.f_omega, chosen)
     values = {name: getattr(coating, name)[at] for name in (*ensemble.OVER_SPEED, "C1", "f_omega")}
-    return ensemble.Ensemble(np.zeros((1, chosen.size)), (replace(coating, wear_node=None, **values),))
+    member = replace(coating, wear_node=None, **values)
+    return ensemble.Ensemble(np.zeros((1, chosen.size)), (member,), member)
 
 
 def test_one_bad_coating_takes_no_number_from_the_others(study, sound, hostile, accuracy, tmp_path):

@@ -8,6 +8,10 @@ The band of n draws is the interval in which a further draw falls with probabili
 distributed normally: ``mean ± t s √(1 + 1/n)``. Here s is their standard deviation, and t the quantile of
 Student's distribution with n − 1 degrees of freedom. The band shrinks to a point for a run that is not
 chaotic. With few draws it is wider than their range: nine of them span but 80 % of their distribution.
+
+The refined runs of the ensembles show what error the time step makes. Theirs is a quarter of that of the
+study, so that they differ by three quarters of it (`ERROR`). Where a run is chaotic, the difference is that
+of two draws, and lies within the band.
 """
 
 import math
@@ -25,20 +29,28 @@ from bladerub.study.ensemble import Ensemble
 from bladerub.study.findings.evidence import Evidence
 from bladerub.study.grid import CoatingCase, modulus_unit
 from bladerub.study.maps import CoatingMap
+from bladerub.study.orders import peak_settings
 from bladerub.study.variants import plain
 
 PROBABILITY = 0.9
 """Probability of a draw to fall into the band: 5 % lie below and 5 % above it."""
 
+ERROR = 4 / 3
+"""Error that the step makes, over the difference from refined runs."""
+
 _ENDS = ("median", "low", "high")
 
-PEAK_COLUMNS = ["draws", *(f"{name}_{end}" for name in ("f_peak", "amplitude") for end in _ENDS)]
+PEAK_COLUMNS = [
+    "draws",
+    *(f"{name}_{end}" for name in ("f_peak", "amplitude") for end in _ENDS),
+    *("f_peak_error", "amplitude_error"),
+]
 """Columns that the bands add to ``peaks.csv``."""
 
 RUN_COLUMNS = [
     *("draws", "divergent_draws", "saturating_draws"),
     *(f"{name}_{end}" for name in ("growth_rate", "max_wear") for end in _ENDS),
-    *("lobes_lowest", "lobes_highest"),
+    *("lobes_lowest", "lobes_highest", "max_wear_error"),
 ]
 """Columns that the bands add to ``divergence.csv``, empty for runs without an ensemble."""
 
@@ -65,12 +77,25 @@ def band(values: Sequence[float] | np.ndarray) -> Band:
 def draws(maps: Sequence[CoatingMap], ensembles: Sequence[Ensemble]) -> Iterator[list[CoatingMap]]:
     """Yield each draw of the study of these `maps`, the study itself first; `ensembles` are of the same."""
     yield list(maps)
-    drawn = {ensemble.members[0].case: ensemble for ensemble in ensembles}
     for member in range(min((len(ensemble.members) for ensemble in ensembles), default=0)):
-        yield [
-            drawn[coating.case].draw(coating, member) if coating.case in drawn else coating
-            for coating in maps
-        ]
+        yield _with(maps, [(ensemble, ensemble.members[member]) for ensemble in ensembles])
+
+
+def refined(maps: Sequence[CoatingMap], ensembles: Sequence[Ensemble]) -> list[CoatingMap]:
+    """Return the study of these `maps` with the refined runs of the `ensembles` in place of its own."""
+    return _with(maps, [(ensemble, ensemble.refined) for ensemble in ensembles])
+
+
+def _with(maps: Sequence[CoatingMap], runs: Sequence[tuple[Ensemble, CoatingMap]]) -> list[CoatingMap]:
+    """Return `maps` with the `runs` of ensembles in place of their own."""
+    drawn = {ensemble.refined.case: (ensemble, values) for ensemble, values in runs}
+    replaced = []
+    for coating in maps:
+        if coating.case in drawn:
+            ensemble, values = drawn[coating.case]
+            coating = ensemble.draw(coating, values)
+        replaced.append(coating)
+    return replaced
 
 
 def of_peaks(
@@ -85,6 +110,17 @@ def of_peaks(
     for name in ("f_peak", "amplitude"):
         bands = [band(values) for values in np.transpose([peaks[name] for peaks in drawn])]
         table = table.join(pd.DataFrame(bands, index=table.index).add_prefix(f"{name}_"))
+    finer, cases = (
+        peak_table.table(config, refined(maps, ensembles)),
+        {ensemble.refined.case for ensemble in ensembles},
+    )
+    is_refined = [
+        coating.case in cases
+        for coating in maps
+        for _ in peak_settings(config, coating.case.casing)["orders"]
+    ]
+    for name in ("f_peak", "amplitude"):
+        table[f"{name}_error"] = (ERROR * (finer[name] - table[name]).abs()).where(is_refined)
     return table.assign(modulus_unit=modulus_unit(config))
 
 
@@ -132,6 +168,7 @@ def _run_bands(
             **{f"max_wear_{end}": value for end, value in band(max_wear[:, index])._asdict().items()},
             "lobes_lowest": int(lobes[:, index].min()),
             "lobes_highest": int(lobes[:, index].max()),
+            "max_wear_error": ERROR * abs(ensemble.refined.max_wear[index] - max_wear[0, index]),
         }
 
 
@@ -142,21 +179,29 @@ def of_findings(
     maps: Sequence[CoatingMap],
     ensembles: Sequence[Ensemble],
 ) -> pd.DataFrame:
-    """Add ``draws`` and ``share_of_draws`` to the `table` of findings: the draws that have its verdict.
+    """Add ``draws``, ``share_of_draws`` and ``holds_refined`` to the `table` of findings.
 
-    Every claim of the table is judged on each draw but the first, the study itself, which would agree with
-    itself.
+    These are the draws that have its verdict, and the verdict with refined runs. Every claim of the table is
+    judged on each draw but the first, the study itself, which would agree with itself.
     """
-    agreements, claims = [], [claim for claim in findings.CLAIMS if claim.id in set(table["id"])]
+    claims = [claim for claim in findings.CLAIMS if claim.id in set(table["id"])]
     runs = plain(divergence.table(config, maps))
-    for member, drawn in enumerate(islice(draws(maps, ensembles), 1, None)):
-        members = plain(divergence.table(config, [ensemble.members[member] for ensemble in ensembles]))
-        tables = {"peaks": peak_table.table(config, drawn), "divergence": _drawn_runs(runs, members)}
-        judged = findings.judge(Evidence(config, tables | {"rom_accuracy": rom_accuracy}, drawn), claims)
-        holds = judged.set_index("id").holds.reindex(table["id"])
-        agreements.append(holds.to_numpy() == table.holds.to_numpy())
+
+    def verdicts(drawn: list[CoatingMap], replaced: list[CoatingMap]) -> np.ndarray:
+        rows = _drawn_runs(runs, plain(divergence.table(config, replaced)))
+        tables = {"peaks": peak_table.table(config, drawn), "divergence": rows, "rom_accuracy": rom_accuracy}
+        judged = findings.judge(Evidence(config, tables, drawn), claims)
+        return judged.set_index("id").holds.reindex(table["id"]).to_numpy()
+
+    agreements = [
+        verdicts(drawn, [ensemble.members[member] for ensemble in ensembles]) == table.holds.to_numpy()
+        for member, drawn in enumerate(islice(draws(maps, ensembles), 1, None))
+    ]
+    finer = [ensemble.refined for ensemble in ensembles]
     return table.assign(
-        draws=len(agreements), share_of_draws=np.mean(agreements, axis=0) if agreements else math.nan
+        draws=len(agreements),
+        share_of_draws=np.mean(agreements, axis=0) if agreements else math.nan,
+        holds_refined=verdicts(refined(maps, ensembles), finer) if finer else "",
     )
 
 

@@ -9,7 +9,9 @@
 3. The runs with an ensemble are those that tables and claims rest on (`chosen`): the peaks of each coating,
    or where its orders meet C1 if it has none, with their neighbours in speed, the runs whose displacement is
    kept, and those of the claims on lobes.
-4. Members are stored, found again and followed further when they grow as the runs of the study are
+4. Each of them is repeated from its own start with a quarter of the tolerance, which is half the step
+   (`bladerub.contact.steps`): what changes is three quarters of the error that the step of the run makes.
+5. Members are stored, found again and followed further when they grow as the runs of the study are
    (`bladerub.study.job`), in the folder ``ensemble`` next to them.
 """
 
@@ -22,6 +24,7 @@ from zlib import crc32
 import numpy as np
 
 from bladerub.blade.model import ReducedBlade
+from bladerub.contact.spec import RunSpec
 from bladerub.io import hdf5
 from bladerub.io.equality import Comparable
 from bladerub.io.errors import DamagedFile
@@ -49,14 +52,15 @@ class Ensemble(Comparable):
 
     start: np.ndarray  # (m, n), radial displacement of node 1 at the start of m members at n speeds, m
     members: tuple[CoatingMap, ...]  # m maps of the n speeds, ascending; without ``wear_node``
+    refined: CoatingMap  # the runs of the study at these speeds with a quarter of the tolerance
 
     def places(self, coating: CoatingMap) -> np.ndarray:
         """Return the places (n,) of the ensembles among the speeds of `coating`, the map of the study."""
         return np.searchsorted(coating.f_omega, self.members[0].f_omega - SAME_SPEED)
 
-    def draw(self, coating: CoatingMap, member: int) -> CoatingMap:
-        """Return `coating` with the runs of one member in place of its own."""
-        drawn, places, values = self.members[member], self.places(coating), {}
+    def draw(self, coating: CoatingMap, drawn: CoatingMap) -> CoatingMap:
+        """Return `coating` with the runs `drawn`, of a member or refined, in place of its own."""
+        places, values = self.places(coating), {}
         for name in OVER_SPEED:
             study_values, member_values = _equally_long(getattr(coating, name), getattr(drawn, name))
             values[name] = study_values.copy()
@@ -70,6 +74,9 @@ OVER_SPEED = tuple(
     if dims[0] == "f_omega" and name not in {"f_omega", "C1", "wear_node"}
 )
 """Datasets of a map that differ between members."""
+
+_REFINED = "refined_"
+_FINER = "with a quarter of the tolerance of the step"
 
 
 def starts(settings: Mapping[str, Any], case: CoatingCase, f_omega: float, members: int) -> np.ndarray:
@@ -90,8 +97,18 @@ def chosen(config: Mapping[str, Any], coating: CoatingMap) -> np.ndarray:
     return f_omega[mask]
 
 
+def refined(spec: RunSpec) -> RunSpec:
+    """Return the run with a quarter of its tolerance, and half of steps that it has by itself."""
+    return replace(
+        spec,
+        tolerance=spec.tolerance / 4,
+        steps_per_element=2 * spec.steps_per_element,
+        max_time_step=spec.max_time_step / 2,
+    )
+
+
 def plan(config: Mapping[str, Any], case: CoatingCase, f_omega: np.ndarray) -> "list[CoatingPlan]":
-    """Plan the members of one coating at the speeds `f_omega`: the runs of each."""
+    """Plan the members of one coating at the speeds `f_omega`, then the refined runs: the runs of each."""
     from bladerub.study.plan import CoatingPlan, planned_run
 
     settings, row, runs = config["ensemble"], row_of(config), []
@@ -99,6 +116,8 @@ def plan(config: Mapping[str, Any], case: CoatingCase, f_omega: np.ndarray) -> "
         spec, drawn = run_spec(config, case, f), starts(settings, case, f, settings["members"])
         members = [replace(spec, initial_displacement=start) for start in drawn.tolist()]
         files = [f"{speed_name(f)}_{number}.h5" for number in range(1, len(members) + 1)]
+        members.append(refined(spec))
+        files.append(f"{speed_name(f)}_refined.h5")
         runs.append(
             [
                 planned_run(config, *spec_and_file, False, row)
@@ -133,12 +152,12 @@ def make(
     write_manifest(folder / "manifest.tsv", rows)
     remaining_rows = iter(rows)
     C1 = coating.C1[np.isin(coating.f_omega, f_omega)]
-    members = [
+    *members, refined_runs = [
         maps.collect_listed(config, coating.case, C1, folder, [next(remaining_rows) for _ in member.runs])
         for member in planned
     ]
-    start = [[run.spec.initial_displacement for run in member.runs] for member in planned]
-    write(path, Ensemble(np.array(start), tuple(members)), provenance(config))
+    start = [[run.spec.initial_displacement for run in member.runs] for member in planned[:-1]]
+    write(path, Ensemble(np.array(start), tuple(members), refined_runs), provenance(config))
     return rows
 
 
@@ -154,8 +173,9 @@ def write(path: str | Path, ensemble: Ensemble, origin: Mapping[str, str]) -> No
     variables["start"] = Variable(("member", "f_omega"), ensemble.start, "m", start)
     for name in OVER_SPEED:
         dims, unit, long_name = maps.DATASETS[name]
-        values = _equally_long(*(getattr(member, name) for member in ensemble.members))
-        variables[name] = Variable(("member", *dims), np.stack(values), unit, long_name)
+        values = _equally_long(*(getattr(runs, name) for runs in (*ensemble.members, ensemble.refined)))
+        variables[name] = Variable(("member", *dims), np.stack(values[:-1]), unit, long_name)
+        variables[_REFINED + name] = Variable(dims, values[-1], unit, f"{long_name}, {_FINER}")
     hdf5.write(path, variables, {**vars(first.case)}, origin)
 
 
@@ -165,13 +185,16 @@ def read(path: str | Path) -> Ensemble:
     try:
         shared = {name: data[name] for name in maps.DATASETS if name not in (*OVER_SPEED, "wear_node")}
         case, start = CoatingCase.described(attributes), data["start"]
-        members = tuple(
-            CoatingMap(case=case, wear_node=None, **shared, **{name: data[name][i] for name in OVER_SPEED})
-            for i in range(len(start))
+        *members, refined_runs = (
+            CoatingMap(case=case, wear_node=None, **shared, **values)
+            for values in (
+                *({name: data[name][member] for name in OVER_SPEED} for member in range(len(start))),
+                {name: data[_REFINED + name] for name in OVER_SPEED},
+            )
         )
     except KeyError as error:
         raise DamagedFile(f"{path}: no ensembles, {error} is missing") from error
-    return Ensemble(start, members)
+    return Ensemble(start, tuple(members), refined_runs)
 
 
 def _equally_long(*arrays: np.ndarray) -> list[np.ndarray]:

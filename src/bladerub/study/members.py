@@ -1,4 +1,4 @@
-"""How many members the ensembles of a coating have, known before its runs are."""
+"""What the ensembles of a coating cost, known before its runs are."""
 
 from collections.abc import Mapping
 from typing import Any
@@ -9,11 +9,19 @@ from bladerub.study.grid import CoatingCase, between, keeps_history, speeds
 from bladerub.study.orders import peak_orders
 from bladerub.study.paper import LOBES, WORN
 
+REFINED = 2
+"""Steps of a refined run, over those of a run of the study."""
 
-def expected_members(config: Mapping[str, Any], case: CoatingCase) -> int:
-    """Count the members of a coating before its peaks are known, as if no two were next to each other."""
+
+def expected_cost(config: Mapping[str, Any], case: CoatingCase) -> int:
+    """Count the members of a coating before its peaks are known, as if no two were next to each other.
+
+    Refined runs count as `REFINED`.
+    """
+    if not config["ensemble"]["members"]:
+        return 0
     by_name = int(named(config, case, np.array(speeds(config))).sum())
-    return config["ensemble"]["members"] * (by_name + 3 * len(peak_orders(config, case.casing)))
+    return (config["ensemble"]["members"] + REFINED) * (by_name + 3 * len(peak_orders(config, case.casing)))
 
 
 def named(config: Mapping[str, Any], case: CoatingCase, f_omega: np.ndarray) -> np.ndarray:

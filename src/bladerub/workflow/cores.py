@@ -5,7 +5,7 @@ from collections.abc import Mapping
 from typing import Any, NamedTuple
 
 from bladerub.study.grid import coating_cases, speeds
-from bladerub.study.members import expected_members
+from bladerub.study.members import expected_cost
 
 FEWEST = 8
 """Jobs that a core should have to do, at least: the last ones then end at nearly the same time."""
@@ -55,5 +55,5 @@ def costs_of(config: Mapping[str, Any]) -> Costs:
     n_speeds = len(speeds(config))
     return Costs(
         runs={case.name: weight * n_speeds for case, weight in weights.items()},
-        ensembles={case.name: weight * expected_members(config, case) for case, weight in weights.items()},
+        ensembles={case.name: weight * expected_cost(config, case) for case, weight in weights.items()},
     )

@@ -93,8 +93,10 @@ def test_maps_and_ensembles_are_written_whole(study, blade, sweep, planned, ense
     assert br.read_run(tmp_path / "ensemble.h5").wear.tolist() == ensemble.runs[0].wear.tolist()
     with pytest.raises(br.InputError, match="must be that of"):
         br.read_ensemble(tmp_path / "ensemble.h5", study.run("2nd", E=2, K=0.5, f_omega=0.19))
-    members = tuple(replace(sweep.coating, wear_node=None, lobes=sweep.coating.lobes + n) for n in (0, 1))
-    of_study = study_ensemble.Ensemble(np.array([[1e-9, 2e-9], [3e-9, 4e-9]]), members)
+    *members, finer = (
+        replace(sweep.coating, wear_node=None, lobes=sweep.coating.lobes + n) for n in range(3)
+    )
+    of_study = study_ensemble.Ensemble(np.array([[1e-9, 2e-9], [3e-9, 4e-9]]), tuple(members), finer)
     study_ensemble.write(tmp_path / "of_study.h5", of_study, {})
     assert study_ensemble.read(tmp_path / "of_study.h5") == of_study
 

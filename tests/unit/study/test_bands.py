@@ -57,7 +57,8 @@ def ensembles(make_map):
             whole.revolution_amplitude[1] *= 1.05 ** np.arange(20)
             whole.lobes[1] = 4
         members.append(replace(whole, wear_node=None))
-    return [Ensemble(np.zeros((3, 3)), tuple(members))]
+    finer = make_map(CASE, {4: (0.3, 2e-4), 6: (0.2, 5.03e-4)}, [0.15, 0.2, 0.22])
+    return [Ensemble(np.zeros((3, 3)), tuple(members), replace(finer, wear_node=None))]
 
 
 def test_peaks_have_the_band_of_all_draws(config, maps, ensembles):
@@ -73,6 +74,9 @@ def test_peaks_have_the_band_of_all_draws(config, maps, ensembles):
     )
     assert of_six.f_peak_median == 0.2
     assert of_six.f_peak_high > 0.22
+    assert of_six.amplitude_error == pytest.approx(4e-6, rel=1e-3)
+    assert of_six.f_peak_error == 0
+    assert table[table.E == 2].amplitude_error.isna().all()  # without an ensemble
     of_four = table[(table.E == 1.1) & (table.order == 4)].iloc[0]
     assert of_four.amplitude_low == pytest.approx(of_four.amplitude_high) == pytest.approx(2e-4)
     assert set(table.columns) <= described_columns().keys()
@@ -108,7 +112,8 @@ def test_a_verdict_has_the_share_of_draws_that_agree(config, maps, ensembles, mo
     monkeypatch.setattr(findings, "judge", judge)
     table = pd.DataFrame({"id": ["C1a", "C9a", "C10a"], "holds": ["yes", "no", "yes"]})
     found = bands.of_findings(config, table, "accuracy", maps, ensembles)
-    assert heights == pytest.approx(list(HEIGHTS))
+    assert heights == pytest.approx([*HEIGHTS, 5.03e-4])
+    assert list(found.holds_refined.fillna("left out")) == ["yes", "no", "left out"]
     assert list(found.share_of_draws) == pytest.approx([1, 2 / 3, 0])
     assert list(found.draws) == [3, 3, 3]
 
@@ -123,8 +128,8 @@ def test_claims_are_judged_on_the_runs_of_the_draw(config, maps, ensembles, monk
     monkeypatch.setattr(findings, "judge", judge)
     bands.of_findings(config, pd.DataFrame({"id": ["C1a"], "holds": ["yes"]}), None, maps, ensembles)
     drawn = list(bands.draws(maps, ensembles))[1:]
-    assert len(given) == len(drawn) == 3
-    for found, each in zip(given, drawn, strict=True):
+    assert len(given) == len(drawn) + 1 == 4  # the refined runs last
+    for found, each in zip(given, drawn, strict=False):
         expected = divergence.table(config, each)  # of all runs, not only of those that the draw changes
         pd.testing.assert_frame_equal(found[expected.columns], expected)
     assert given[1].divergent.sum() == given[0].divergent.sum() + 1

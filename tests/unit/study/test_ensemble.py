@@ -103,9 +103,18 @@ class TestMake:
         made()
         spec = made.specs[0]
         assert spec == replace(run_spec(study, CASE, 0.15), initial_displacement=spec.initial_displacement)
-        drawn = [spec.initial_displacement for spec in made.specs if spec.revolutions == 20]
+        runs = [spec for spec in made.specs if spec.revolutions == 20]
+        drawn = [spec.initial_displacement for spec in runs if spec.tolerance == 0.01]
         assert np.abs(drawn).min() > 0
         assert len(set(drawn)) == 10
+
+    def test_each_run_is_repeated_with_a_quarter_of_the_tolerance(self, made, study):
+        made()
+        finer = [spec for spec in made.specs if spec.tolerance != 0.01]
+        assert [spec.f_omega for spec in finer] == [0.15, 0.2, 0.25, 0.3, 0.35]
+        assert finer[0] == replace(run_spec(study, CASE, 0.15), tolerance=0.0025)
+        heights = ensemble.read(made.path).refined.spectrum_amplitude[:, 60]
+        np.testing.assert_allclose(heights, 1e-3, rtol=1e-3)
 
     def test_files_are_next_to_the_runs_with_their_keys(self, made, study):
         rows = made()
@@ -154,7 +163,7 @@ class TestMake:
 def test_a_draw_has_the_runs_of_one_member_and_the_study_s_elsewhere(made, coating):
     made()
     read = ensemble.read(made.path)
-    drawn = read.draw(coating, 1)
+    drawn = read.draw(coating, read.members[1])
     at = np.isin(coating.f_omega, read.members[1].f_omega)
     for name in ("spectrum_amplitude", "wear", "lobes", "status", "max_wear", "revolution_amplitude"):
         np.testing.assert_array_equal(getattr(drawn, name)[at], getattr(read.members[1], name))

@@ -28,7 +28,7 @@ from bladerub.study.grid import CoatingCase, coating_cases, run_spec
 from bladerub.study.growth import needs_confirmation
 from bladerub.study.job import compute
 from bladerub.study.maps import first_frequency
-from bladerub.study.members import expected_members
+from bladerub.study.members import expected_cost
 from bladerub.study.orders import peak_orders
 from bladerub.study.parallel import each_done
 from bladerub.study.plan import PlannedRun, longer_run, planned_run
@@ -64,7 +64,7 @@ def estimate(
     per_run = float(np.mean([cost.run for cost in costs]))
     totals = np.array([cost.run + cost.longer for cost in costs])
     peak_totals = totals[[cost.is_near_a_peak for cost in costs]]
-    members = sum(expected_members(config, case) for case in coating_cases(config))
+    members = sum(expected_cost(config, case) for case in coating_cases(config))
     starts = sum(map(_start, _JOBS_OF_A_COATING)) * len(coating_cases(config))
     seconds = (
         len(runs) * totals.mean()
