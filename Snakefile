@@ -47,6 +47,10 @@ onstart:
         bladerub.workflow.invocation.start(workflow)
 
 
+onsuccess:
+    bladerub.workflow.invocation.finished(RESULTS)
+
+
 onerror:
     bladerub.workflow.invocation.stopped()
 

@@ -209,6 +209,15 @@ def stopped() -> None:
     _print("what is finished is kept; the same command goes on from there")
 
 
+def finished(results: str | Path) -> None:
+    """Say after the last job what there is, and what to open."""
+    results = Path(results)
+    n_figures = sum(path.suffix == ".png" for path in results.glob("figures/**/*"))
+    _print(f"{n_figures} figures in {results / 'figures'}, tables in {results / 'tables'}")
+    for page in sorted(results.glob("*.html")):
+        _print(f"open {page} in a browser")
+
+
 def prepare(results: str | Path) -> None:
     """Delete what killed jobs were writing; raise an `OSError` if the results folder cannot be written."""
     results = Path(results)

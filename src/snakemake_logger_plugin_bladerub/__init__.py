@@ -1,0 +1,72 @@
+"""Snakemake's messages in few lines: what is planned, each stage that is done, and errors.
+
+The default profile names this plugin. Snakemake's own messages are those of ``--verbose`` and of dry runs.
+"""
+
+import logging
+import sys
+import textwrap
+import time
+from collections import Counter
+
+from snakemake_interface_logger_plugins.base import LogHandlerBase
+from snakemake_interface_logger_plugins.common import LogEvent
+
+LONGEST = 200
+"""Characters of a line: lists of files can have thousands."""
+
+_SHOWN = {LogEvent.JOB_ERROR, LogEvent.GROUP_ERROR, LogEvent.ERROR}
+
+
+class LogHandler(LogHandlerBase):
+    """Writes to standard error."""
+
+    writes_to_stream = True
+    writes_to_file = False
+    has_filter = False  # `--quiet` acts as ever
+    has_formatter = False
+    needs_rulegraph = False
+
+    def __post_init__(self) -> None:
+        self._shows_all = self.common_settings.verbose or self.common_settings.dryrun
+        self._stages: dict[int, str] = {}  # of jobs that were begun
+        self._planned: Counter[str] = Counter()
+        self._done: Counter[str] = Counter()
+
+    def emit(self, record: logging.LogRecord) -> None:
+        """Print what the record comes to, if anything."""
+        try:
+            text = self.format(record) if self._is_shown(record) else self._progress(record)
+        except Exception:
+            self.handleError(record)
+            return
+        for line in text.splitlines():
+            print(line if len(line) <= LONGEST else f"{line[: LONGEST - 1]}…", file=sys.stderr)
+
+    def _is_shown(self, record: logging.LogRecord) -> bool:
+        event = getattr(record, "event", None)
+        if self._shows_all or event in _SHOWN or record.levelno >= logging.WARNING:
+            return True
+        return event is None and record.getMessage().startswith("Nothing to be done")
+
+    def _progress(self, record: logging.LogRecord) -> str:
+        """Say what is planned, or that the last job of a stage is done."""
+        event = getattr(record, "event", None)
+        if event == LogEvent.RUN_INFO:
+            for rule, count in record.stats.items():
+                if rule != "total":
+                    self._planned[_stage(rule)] += count
+            jobs = (f"{stage} {count}" if count > 1 else stage for stage, count in self._planned.items())
+            return textwrap.fill(f"{self._planned.total()} jobs: {', '.join(jobs)}", LONGEST // 2)
+        if event == LogEvent.JOB_INFO:
+            self._stages[record.jobid] = _stage(record.rule_name)
+        elif event == LogEvent.JOB_FINISHED and (stage := self._stages.get(record.job_id)):
+            self._done[stage] += 1
+            if self._done[stage] >= self._planned[stage]:
+                done = f"{self._done.total()} of {self._planned.total()} jobs are done"
+                return f"{time.strftime('%H:%M:%S')} {stage}: {self._done[stage]}; {done}"
+        return ""
+
+
+def _stage(rule: str) -> str:
+    return "figures" if rule.startswith("fig") else rule
