@@ -39,12 +39,15 @@ if workflow.is_main_process:
     if workflow.output_settings.dryrun:
         from bladerub.workflow import forecast  # takes seconds to import
 
-        forecast.print_at_exit(config, workflow)
+        forecast.announce_at_exit(config, workflow)
 
 
 onstart:
     with bladerub.io.errors.exit_on_error():
         bladerub.workflow.invocation.start(workflow)
+    from bladerub.workflow import forecast
+
+    forecast.announce(config, workflow, workflow.resource_settings.cores)
 
 
 onsuccess:

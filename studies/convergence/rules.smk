@@ -74,3 +74,26 @@ rule accuracy:
         runtime=minutes(30),
     script:
         "scripts/accuracy.py"
+
+
+# What a run costs at several tolerances of its step, and what its error is then
+rule steps:
+    input:
+        blade=rules.blade.output.reduced_model,
+        kernel=rules.compile_kernel.output[0],
+        analysing=files_behind("extras.verification.steps"),
+        drawing=files_behind("extras.plots.steps"),
+    output:
+        **described(table=f"{TABLES}/steps.csv"),
+        png=f"{PLOTS}/steps.png",
+        pdf=f"{PLOTS}/steps.pdf",
+    log:
+        f"{RESULTS}/logs/steps.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/steps.tsv"
+    resources:
+        runtime=minutes(20),
+    params:
+        dpi=DPI,
+    script:
+        "scripts/steps.py"

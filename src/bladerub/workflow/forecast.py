@@ -1,4 +1,4 @@
-"""What a dry run says: how many runs of the study are to be computed, and about how long its jobs take."""
+"""What is said of a plan: how many runs of the study are to be computed, and about how long its jobs take."""
 
 import atexit
 import copy
@@ -23,21 +23,21 @@ SECONDS_AT_FIRST = {"blade": 15, "compile_kernel": 15}
 """Of one core, for the jobs that are made once, by their rule."""
 
 
-def print_at_exit(config: Mapping[str, Any], workflow: Any) -> None:
-    """Print the `forecast` after the jobs that Snakemake lists for its `workflow`, unless that failed."""
-    study = copy.deepcopy(dict(config))
+def announce(config: Mapping[str, Any], workflow: Any, cores: int | None = None) -> None:
+    """Print the `forecast` of the jobs that Snakemake's `workflow` is to do, unless it has failed before."""
+    if workflow.dag is None:  # there was an error
+        return
+    jobs = [(job.rule.name, job.wildcards.get("coating")) for job in workflow.dag.needrun_jobs()]
+    try:
+        line = forecast(config, jobs, cores)
+    except OSError as error:
+        line = message_for(error)
+    print(f"bladerub: {coatings(config)}\nbladerub: {line}", file=sys.stderr)
 
-    def print_forecast() -> None:
-        if workflow.dag is None:  # there was an error
-            return
-        jobs = [(job.rule.name, job.wildcards.get("coating")) for job in workflow.dag.needrun_jobs()]
-        try:
-            line = forecast(study, jobs)
-        except OSError as error:
-            line = message_for(error)
-        print(f"bladerub: {coatings(study)}\nbladerub: {line}", file=sys.stderr)
 
-    atexit.register(print_forecast)
+def announce_at_exit(config: Mapping[str, Any], workflow: Any) -> None:
+    """Print the `forecast` after the jobs that a dry run lists."""
+    atexit.register(announce, copy.deepcopy(dict(config)), workflow)
 
 
 _MOST_NAMED = 8
@@ -50,10 +50,13 @@ def coatings(config: Mapping[str, Any]) -> str:
     return f"coatings: {', '.join(names[:_MOST_NAMED])}{f' and {excess} more' if excess > 0 else ''}"
 
 
-def forecast(config: Mapping[str, Any], jobs: Iterable[tuple[str, str | None]]) -> str:
+def forecast(
+    config: Mapping[str, Any], jobs: Iterable[tuple[str, str | None]], cores: int | None = None
+) -> str:
     """Say in a line how many runs of the study are missing, stale or corrupt, and what the `jobs` cost.
 
-    These are all that are planned, as pairs of their rule and the coating of its wildcards.
+    These are all that are planned, as pairs of their rule and the coating of its wildcards. Without `cores`,
+    of which Snakemake tells a dry run nothing, the time is that of one.
     """
     results, jobs = Path(config["results"]), list(jobs)
     digest, _ = inventory.current_blade(config, results / "blade" / "reduced_model.h5")
@@ -79,5 +82,6 @@ def forecast(config: Mapping[str, Any], jobs: Iterable[tuple[str, str | None]]) 
         elif rule == "ensemble" and coating in counts:
             simulated += costs.ensembles[coating]
     seconds += simulated * config["solver"]["revolutions"] * SECONDS_PER_REVOLUTION
-    # Snakemake tells a dry run of no more cores
-    return f"{runs}; {len(jobs):,} jobs, about {max(seconds / 60, 1):.0f} min of one core"
+    minutes = max(seconds / 60 / (cores or 1), 1)
+    machine = f"on {cores} cores" if cores else "of one core"
+    return f"{runs}; {len(jobs):,} jobs, about {minutes:.0f} min {machine}"

@@ -1,0 +1,91 @@
+"""Steps and error of runs at several tolerances of the step, and with one step for all coatings."""
+
+import math
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import astuple, replace
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from bladerub.blade.model import ReducedBlade
+from bladerub.contact.run import simulate
+from bladerub.contact.setup import element_passage
+from bladerub.contact.spec import RunSpec
+from bladerub.contact.steps import own_steps, with_steps
+from bladerub.extras.verification.differences import differences, largest
+from bladerub.extras.verification.response import CASE_COLUMNS
+from bladerub.extras.verification.verify import NEIGHBOURS, REFINEMENT, StudyRun
+from bladerub.study.grid import coating_cases, run_spec, speeds
+
+TOLERANCES = (0.1, 0.03, 0.01, 0.003)
+
+UNIFORM = (20, 1.2e-6)
+"""One step for all coatings: at least so many in an element, of at most so many seconds."""
+
+SAMPLE = 12
+"""Runs drawn for each Young modulus."""
+
+SEED = 11
+
+COLUMNS = [
+    *(*CASE_COLUMNS, "law", "f_omega", "tolerance", "steps_per_element", "steps_per_revolution"),
+    *("error", "sensitive", "energy_residual"),
+]
+"""Columns of ``steps.csv``; the tolerance of `UNIFORM` is empty."""
+
+
+def draw(config: Mapping[str, Any]) -> list[StudyRun]:
+    """Draw `SAMPLE` runs of the study for each Young modulus, coating and speed evenly."""
+    random, listed = np.random.default_rng(SEED), np.array(speeds(config))
+    runs = []
+    for E in sorted({case.E for case in coating_cases(config)}):
+        cases = [case for case in coating_cases(config) if case.E == E]
+        drawn = random.choice(listed, min(SAMPLE, listed.size), replace=False).tolist()
+        runs += [StudyRun(cases[random.integers(len(cases))], f_omega) for f_omega in drawn]
+    return runs
+
+
+def table(
+    blade: ReducedBlade, config: Mapping[str, Any], report: Callable[[object], None] = lambda line: None
+) -> pd.DataFrame:
+    """Find steps and error of the drawn runs at each tolerance; a row each, with `COLUMNS`.
+
+    The error is the largest of `bladerub.extras.verification.differences` from a run of `REFINEMENT` times
+    the steps of the smallest tolerance. A run is sensitive if neighbouring starts change it by half its error
+    at a tolerance of 0.01 or more, and by 1 % at least. `report` is called with a line for each run.
+    """
+    rows, runs = [], draw(config)
+    for number, run in enumerate(runs, 1):
+        rows += _rows(blade, config, run)
+        report(f"{number} of {len(runs)}, {run.name}")
+    return pd.DataFrame(rows, columns=COLUMNS)
+
+
+def _rows(blade: ReducedBlade, config: Mapping[str, Any], run: StudyRun) -> Iterator[list[Any]]:
+    spec, analysis = run_spec(config, run.case, run.f_omega), config["analysis"]
+    passage = element_passage(blade, spec)
+    specs: dict[float, RunSpec] = {
+        tolerance: replace(spec, tolerance=tolerance, steps_per_element=0, max_time_step=math.inf)
+        for tolerance in TOLERANCES
+    }
+    specs[math.nan] = with_steps(spec, own_steps(passage, *UNIFORM))
+    results = {tolerance: simulate(blade, run_spec) for tolerance, run_spec in specs.items()}
+    steps = {tolerance: round(passage / result.time_step) for tolerance, result in results.items()}
+    reference = simulate(blade, with_steps(spec, REFINEMENT * steps[min(TOLERANCES)]))
+    errors = {
+        tolerance: max(differences(result, reference, analysis)) for tolerance, result in results.items()
+    }
+
+    # Only what is beyond 1 % can be chaotic
+    error, spread = errors[0.01], 0.0
+    if error > 0.01 and math.isfinite(error):
+        starts = (simulate(blade, replace(specs[0.01], initial_displacement=start)) for start in NEIGHBOURS)
+        spread = max(largest(differences(start, results[0.01], analysis) for start in starts))
+    for tolerance, result in results.items():
+        yield [
+            *astuple(run.case)[: len(CASE_COLUMNS)],
+            *(run.case.law, run.f_omega, tolerance, steps[tolerance]),
+            steps[tolerance] * spec.coating.n_elements,
+            *(errors[tolerance], spread >= max(error / 2, 0.01), result.energy.residual),
+        ]

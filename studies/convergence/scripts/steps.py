@@ -1,0 +1,16 @@
+"""Measure the error of drawn runs over their time steps."""
+
+from bladerub.workflow import job
+
+job.log_to(snakemake.log[0])
+
+import sys
+
+from bladerub.blade.validation import read_reduced_blade
+from bladerub.extras.plots.steps import steps as draw
+from bladerub.extras.verification.steps import table
+from bladerub.workflow import outputs
+
+blade = read_reduced_blade(snakemake.input.blade)
+rows = table(blade, snakemake.config, report=lambda line: print(line, file=sys.stderr))
+outputs.save(snakemake, draw(rows), table=rows)

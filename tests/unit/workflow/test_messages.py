@@ -1,0 +1,66 @@
+"""What an execution prints: few lines, none of them long."""
+
+import logging
+from types import SimpleNamespace
+
+import pytest
+from snakemake.logging import DefaultFormatter
+from snakemake_interface_logger_plugins.common import LogEvent
+
+from snakemake_logger_plugin_bladerub import LONGEST, LogHandler
+
+
+@pytest.fixture
+def lines(capsys):
+    """Hand records to a handler; return the lines that it prints."""
+
+    def printed(*records, verbose=False):
+        handler = LogHandler(SimpleNamespace(verbose=verbose, dryrun=False), None)
+        handler.setFormatter(DefaultFormatter())
+        for level, message, values in records:
+            handler.emit(logging.makeLogRecord({"levelno": level, "msg": message, **values}))
+        return capsys.readouterr().err.splitlines()
+
+    return printed
+
+
+def begun(number, rule):
+    return logging.INFO, "", {"event": LogEvent.JOB_INFO, "jobid": number, "rule_name": rule}
+
+
+def done(number):
+    return logging.INFO, "", {"event": LogEvent.JOB_FINISHED, "job_id": number}
+
+
+PLAN = logging.INFO, "table", {"event": LogEvent.RUN_INFO, "stats": {"coating": 2, "fig11_Y4": 1, "total": 3}}
+
+
+def test_a_line_for_the_plan_and_for_each_stage_that_is_done(lines):
+    selected = logging.INFO, "Select jobs to execute...", {}
+    jobs = [
+        begun(1, "coating"),
+        begun(2, "coating"),
+        done(2),
+        selected,
+        begun(3, "fig11_Y4"),
+        done(3),
+        done(1),
+    ]
+    plan, *stages = lines(PLAN, *jobs)
+    assert plan == "3 jobs: coating 2, figures"
+    assert [line.split(maxsplit=1)[1] for line in stages] == [
+        "figures: 1; 2 of 3 jobs are done",
+        "coating: 2; 3 of 3 jobs are done",
+    ]
+
+
+def test_errors_and_warnings_are_shown_and_no_line_is_long(lines):
+    inputs = "Error in rule coating:\n    input: " + ", ".join(["results/blade.h5"] * 100)
+    shown = lines(
+        (logging.ERROR, inputs, {}), (logging.WARNING, "old", {}), (logging.INFO, "shell: bash", {})
+    )
+    assert [len(line) for line in shown] == [22, LONGEST, 3]
+
+
+def test_verbose_shows_all(lines):
+    assert lines((logging.INFO, "shell: bash", {}), verbose=True) == ["shell: bash"]
