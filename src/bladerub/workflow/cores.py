@@ -10,21 +10,24 @@ from bladerub.study.members import expected_cost
 FEWEST = 8
 """Jobs that a core should have to do, at least: the last ones then end at nearly the same time."""
 
-ON_RIGID_CASING = 4
-"""Time of a run on the rigid casing over that of one on a coating, about (`docs/data/cost.csv`)."""
+ON_RIGID_CASING = 5
+"""Time of a run on the rigid casing over that of one on a soft coating, about (`docs/data/cost.csv`)."""
+
+STIFF = 3.0
+"""Young modulus from which on the time of a run is about proportional to it, as its steps are."""
 
 BEGUN = 1
 """Priority of the map and the ensembles of a coating: they come before the runs of any other."""
 
 
 class Costs(NamedTuple):
-    """What the runs and the ensembles of each coating of a study cost, by its name, in runs on a coating."""
+    """What runs and ensembles of each coating of a study cost, by its name, in runs on a soft coating."""
 
-    runs: Mapping[str, int]
-    ensembles: Mapping[str, int]
+    runs: Mapping[str, float]
+    ensembles: Mapping[str, float]
 
     @property
-    def total(self) -> int:
+    def total(self) -> float:
         """Of the whole study."""
         return sum(self.runs.values()) + sum(self.ensembles.values())
 
@@ -51,7 +54,9 @@ def priority_of(coating: str, costs: Costs) -> float:
 
 def costs_of(config: Mapping[str, Any]) -> Costs:
     """Estimate what the jobs of a study cost."""
-    weights = {case: ON_RIGID_CASING if case.is_rigid else 1 for case in coating_cases(config)}
+    weights = {
+        case: ON_RIGID_CASING if case.is_rigid else max(1.0, case.E / STIFF) for case in coating_cases(config)
+    }
     n_speeds = len(speeds(config))
     return Costs(
         runs={case.name: weight * n_speeds for case, weight in weights.items()},
