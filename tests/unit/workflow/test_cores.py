@@ -38,8 +38,8 @@ def test_what_follows_runs_comes_before_other_runs():
         assert priority_of("only", Costs({"only": 10}, {"only": members})) < BEGUN
 
 
-def test_the_study_begins_with_the_coating_of_fig_6_and_the_rigid_casing():
+def test_the_study_begins_with_the_coating_of_fig_6_and_the_stiffest():
     """The largest ensembles and the slowest runs: either would otherwise end long after all else."""
     costs = costs_of(configuration.read("config/config.yaml", command_line={}))
     first, second, *_ = sorted(costs.runs, key=lambda coating: -priority_of(coating, costs))
-    assert (first, second) == ("2nd5nd_E11_K0.5_theta0", "2nd_rigid_mu0")
+    assert (first, second.partition("_K")[0]) == ("2nd5nd_E11_K0.5_theta0", "2nd_E20")
