@@ -203,7 +203,9 @@ def test_quick_study_can_draw_every_figure(workspace):
     shutil.copy(workspace.folder / "config" / "quick.yaml", workspace.folder / "overlay.yaml")
     done = workspace.snakemake("--dry-run", "--configfile", "overlay.yaml")
     assert done.returncode == 0, done.stderr
-    assert re.search(r"^bladerub: ([\d,]+) of \1 runs of the study", done.stderr, re.MULTILINE)
+    assert re.search(
+        r"^bladerub: ([\d,]+) of \1 runs of the study .*; \d+ jobs, about \d+ min", done.stderr, re.MULTILINE
+    )
     assert {f"fig{n:02}" for n in range(1, 20)} <= {
         word[:5] for word in (done.stdout + done.stderr).split() if word.startswith("fig")
     }

@@ -27,7 +27,8 @@ def announce(config: Mapping[str, Any], workflow: Any, cores: int | None = None)
     """Print the `forecast` of the jobs that Snakemake's `workflow` is to do, unless it has failed before."""
     if workflow.dag is None:  # there was an error
         return
-    jobs = [(job.rule.name, job.wildcards.get("coating")) for job in workflow.dag.needrun_jobs()]
+    planned = workflow.dag.needrun_jobs(exclude_finished=False)  # to Snakemake a dry run has finished all
+    jobs = [(job.rule.name, job.wildcards.get("coating")) for job in planned]
     try:
         line = forecast(config, jobs, cores)
     except OSError as error:
