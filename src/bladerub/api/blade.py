@@ -5,11 +5,10 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pandas as pd
-import xarray as xr
 from matplotlib.figure import Figure
 
 from bladerub.api.errors import InputError
@@ -24,12 +23,16 @@ from bladerub.blade.model import ReducedBlade
 from bladerub.blade.validation import read_valid_blade
 from bladerub.io import tables
 from bladerub.io.equality import equal
+from bladerub.io.optional import package
 from bladerub.io.provenance import provenance
 from bladerub.plots import blade_mesh
 from bladerub.plots.campbell import campbell
 from bladerub.plots.spectrum import ORDERS
 from bladerub.plots.style import saved
 from bladerub.study.cache import blade_digest
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 
 @dataclass(frozen=True)
@@ -151,9 +154,9 @@ class Blade:
         modes = self.accuracy().pivot(index="f_omega", columns="mode") / self.f1_hz
         return saved(campbell(modes.index, modes["f_fe"], modes["f_rom"], ORDERS), path)
 
-    def to_xarray(self) -> xr.Dataset:
+    def to_xarray(self) -> "xr.Dataset":
         """Return matrices, interface nodes and directions with units and names."""
-        return xr.load_dataset(self.path, engine="h5netcdf", phony_dims="sort")
+        return package("xarray", "xarray").load_dataset(self.path, engine="h5netcdf", phony_dims="sort")
 
     def _repr_html_(self) -> str:
         rows = {

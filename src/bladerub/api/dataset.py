@@ -1,15 +1,18 @@
 """From the variables of our files to xarray."""
 
 from collections.abc import Mapping
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import xarray as xr
 
 from bladerub.io.hdf5 import Variable
+from bladerub.io.optional import package
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 
-def to_dataset(variables: Mapping[str, Variable], attributes: Mapping[str, Any]) -> xr.Dataset:
+def to_dataset(variables: Mapping[str, Variable], attributes: Mapping[str, Any]) -> "xr.Dataset":
     """Return variables with their units as xarray opens them from a file that holds them."""
     arrays = {
         name: (
@@ -19,4 +22,4 @@ def to_dataset(variables: Mapping[str, Variable], attributes: Mapping[str, Any])
         )
         for name, variable in variables.items()
     }
-    return xr.Dataset(arrays, attrs=dict(attributes))
+    return package("xarray", "xarray").Dataset(arrays, attrs=dict(attributes))

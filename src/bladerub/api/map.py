@@ -3,11 +3,10 @@
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pandas as pd
-import xarray as xr
 from matplotlib.figure import Figure
 from tqdm.auto import tqdm
 
@@ -29,6 +28,9 @@ from bladerub.study.growth import confirmation_spec, needs_confirmation
 from bladerub.study.maps import CoatingMap
 from bladerub.study.parallel import each_done
 from bladerub.study.solver import Solve, solver_of
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 _PER_SPEED = ("C1", "max_wear", "lobes", "status", "wear_harmonic", "wear_harmonic_share")
 _PER_REVOLUTION = ("revolution_peak", "revolution_amplitude")
@@ -102,7 +104,7 @@ class Map:
         ends = amplitude_range or (1e-3 * largest, largest)
         return saved(spectrum_map(self.coating, ends, max_frequency), path)
 
-    def to_xarray(self) -> xr.Dataset:
+    def to_xarray(self) -> "xr.Dataset":
         """Return all arrays with coordinates, units and names."""
         return to_dataset(maps.variables(self.coating), asdict(self.case))
 

@@ -3,11 +3,10 @@
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, fields, replace
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pandas as pd
-import xarray as xr
 from matplotlib.figure import Figure
 from tqdm.auto import tqdm
 
@@ -35,6 +34,9 @@ from bladerub.study.plan import planned_run
 from bladerub.study.solver import Solve, one_by, solver_of
 from bladerub.study.store import StoredRun
 from bladerub.study.summary import displacement_peak, summarise
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 _LONGER = "longer_"
 
@@ -223,7 +225,7 @@ class Run:
         spectrum = self.spectrum
         return saved(single_run.spectrum(spectrum.index, spectrum.to_numpy(), self._title), path)
 
-    def to_xarray(self) -> xr.Dataset:
+    def to_xarray(self) -> "xr.Dataset":
         """Return all datasets with units and names, and the attributes: those of the file of `write`."""
         return to_dataset(*run_set.joined(runs_of(self)))
 

@@ -2,6 +2,7 @@
 
 import argparse
 import shutil
+from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
@@ -37,4 +38,5 @@ def new(options: argparse.Namespace) -> None:
             shutil.copytree(ROOT / name, folder / name, ignore=shutil.ignore_patterns(*_OF_THE_PACKAGE))
         shutil.copytree(_TEMPLATE, folder, dirs_exist_ok=True)
         (folder / ".gitignore").write_text("results/\n.snakemake/\n", encoding="utf-8")
-    print(f"{folder}: edit config/config.yaml, then: cd {folder} && snakemake -j2")
+    install = "" if find_spec("snakemake") else "pip install 'bladerub[study]' && "
+    print(f"{folder}: edit config/config.yaml, then: {install}cd {folder} && snakemake -j2")

@@ -9,12 +9,14 @@ from contextlib import redirect_stderr
 from dataclasses import dataclass, field
 from pathlib import Path
 
-import meshio
 import numpy as np
 
 from bladerub.blade.surface import EDGES
 from bladerub.extras.blades import origin
 from bladerub.io.errors import refuse_content
+from bladerub.io.optional import package
+
+meshio = package("meshio", "mesh")
 
 log = logging.getLogger(__name__)
 

@@ -7,6 +7,7 @@ from typing import Any
 
 from bladerub.extras.blades.frame import Frame
 from bladerub.io.folders import study_folder
+from bladerub.io.optional import package
 
 MATRIX_UNITS = {"SI": 1.0, "mm-tonne": 1e3, "inch-lbf": 4.4482216152605 / 0.0254}
 """N/m of the stiffness, and equally kg of the mass, by the name of a system of units with the second in it.
@@ -85,10 +86,12 @@ def conversion(path: Path, suffix: str) -> str:
 def check_file(path: Path) -> None:
     """Check the name of a mesh or table, and that it is there; a ValueError says what is wrong."""
     if path.suffix.lower() not in (*MESH_SUFFIXES, *TABLE_SUFFIXES):
-        from meshio import extension_to_filetypes  # takes time
-
         suffix = path.suffix.lower()
-        cure = f": {conversion(path, suffix)}" if suffix in extension_to_filetypes else ""
+        cure = (
+            f": {conversion(path, suffix)}"
+            if suffix in package("meshio", "mesh").extension_to_filetypes
+            else ""
+        )
         raise ValueError(
             f"must be a mesh file that ends in {', '.join(MESH_SUFFIXES)}, or a table of sections in "
             f"{', '.join(TABLE_SUFFIXES)}{cure}"

@@ -4,11 +4,13 @@ from collections.abc import Mapping
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-import meshio
 import numpy as np
 
 from bladerub.blade.surface import NAMES, boundary_faces
 from bladerub.io import atomic
+from bladerub.io.optional import package
+
+meshio = package("meshio", "mesh")
 
 FORMATS = {".inp": "abaqus", ".msh": "gmsh22", ".vtu": "vtu"}  # names in meshio by suffix
 _FACES = {20: "quad8", 10: "triangle6"}

@@ -12,7 +12,6 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-import meshio
 import numpy as np
 
 from bladerub.blade.model import ReducedBlade
@@ -22,6 +21,9 @@ from bladerub.contact.setup import element_angle
 from bladerub.extras.export.mesh_file import block
 from bladerub.extras.export.recording import Recording
 from bladerub.io import hdf5
+from bladerub.io.optional import package
+
+meshio = package("meshio", "mesh")
 
 COLLECTION = "blade.pvd"  # the file to open: it names the others with their time in revolutions
 

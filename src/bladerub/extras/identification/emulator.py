@@ -7,10 +7,12 @@ scatter that no smooth function explains: chaotic runs, and maxima between the s
 from typing import NamedTuple
 
 import numpy as np
-import openturns
 import pandas as pd
 
 from bladerub.extras.identification.plan import FEWEST
+from bladerub.io.optional import package
+
+openturns = package("openturns", "uq")
 
 FOLDS = 5
 """Number of parts that the sets are split into, each predicted from the others."""

@@ -10,7 +10,10 @@ by that share they become shares of the whole variance.
 from typing import NamedTuple
 
 import numpy as np
-import openturns
+
+from bladerub.io.optional import package
+
+openturns = package("openturns", "uq")
 
 FEWEST = 16
 """Number of samples below which there are no indices."""
