@@ -84,5 +84,5 @@ def forecast(
             simulated += costs.ensembles[coating]
     seconds += simulated * config["solver"]["revolutions"] * SECONDS_PER_REVOLUTION
     minutes = max(seconds / 60 / (cores or 1), 1)
-    machine = f"on {cores} cores" if cores else "of one core"
+    machine = f"on {cores} cores" if cores and cores > 1 else "of one core"
     return f"{runs}; {len(jobs):,} jobs, about {minutes:.0f} min {machine}"
