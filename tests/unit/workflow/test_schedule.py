@@ -8,7 +8,7 @@ from bladerub.study.grid import coating_cases
 from bladerub.workflow import schedule
 
 STUDY = {
-    "coatings": [{"casing": "2nd", "E": [1, 2, 5, 11], "K": [0.5], "theta": [0.15]}],
+    "coatings": [{"casing": "2nd", "E": [0.5, 1, 1.5, 2], "K": [0.5], "theta": [0.15]}],
     "speeds": {"start": 0.1, "stop": 0.4, "step": 0.1, "extra": []},
     "analysis": {"histories": []},
     "ensemble": {"members": 0},
