@@ -1,7 +1,7 @@
 """A blade: its reduced model, its mesh, and how well the one follows the other."""
 
 import warnings
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
@@ -118,15 +118,19 @@ class Blade:
             requirement = f"must be at most {fastest:g} (normalised), the highest speed of {self.path}"
             raise InputError(name, f_omega, requirement)
 
-    def frequencies(self, f_omega: float = 0.0, n_modes: int = 3) -> np.ndarray:
-        """Lowest eigenfrequencies (n_modes,) of the reduced model at the normalised speed `f_omega`, Hz.
+    def frequencies(self, f_omega: float | Sequence[float] = 0.0, n_modes: int = 3) -> np.ndarray:
+        """Lowest eigenfrequencies of the reduced model at the normalised speed `f_omega`, Hz.
+
+        They are (n_modes,), or (n, n_modes) at n speeds.
 
         Raises
         ------
         ValueError
-            If the speed is outside the range of the blade.
+            If a speed is outside the range of the blade.
         """
-        return reduced_frequencies(self.reduced, f_omega, n_modes)
+        if isinstance(f_omega, float | int):
+            return reduced_frequencies(self.reduced, f_omega, n_modes)
+        return np.stack([reduced_frequencies(self.reduced, speed, n_modes) for speed in f_omega])
 
     def accuracy(self) -> pd.DataFrame:
         """Frequencies (Hz) of finite elements, eq. (2) and reduced model, as in ``rom_accuracy.csv``.

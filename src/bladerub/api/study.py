@@ -13,6 +13,8 @@ from bladerub.api.law import Law
 from bladerub.api.notebook import html_table
 from bladerub.config import read as configuration
 from bladerub.config.checks import most_revolutions, own_problem
+from bladerub.config.errors import UNKNOWN
+from bladerub.config.files import Located
 from bladerub.config.schema import check_quantity
 from bladerub.contact.spec import RunSpec
 from bladerub.io.folders import CONFIG, ROOT, base_config, study_folder
@@ -158,6 +160,38 @@ class Study:
         """
         contact = {**self.config["contact"], "law": law.entry}
         return replace(self, config={**self.config, "contact": contact})
+
+    def replace(self, settings: str | Mapping[str, Any], value: Any = None) -> "Study":
+        """Return this study with other values in its config, checked as a whole.
+
+        Parameters
+        ----------
+        settings : str or mapping
+            A key with dots, as in messages, whose value `value` is; or nested values as in a config file,
+            which are laid over those of this study.
+        value : optional
+            Of the key.
+
+        Raises
+        ------
+        ConfigError
+            With a line for each problem: key, value and what would be right.
+
+        Examples
+        --------
+        >>> import bladerub as br
+        >>> study = br.default_study().replace("contact.damping_ratio", 1e-3)
+        >>> study.config["contact"]["damping_ratio"]
+        0.001
+        >>> study.replace({"solver": {"revolutions": 40}, "results": "results/longer"}).results.name
+        'longer'
+        """
+        if isinstance(settings, str):
+            for name in reversed(settings.split(".")):
+                value = {name: value}
+            settings = value
+        overlay = Located.of(settings, UNKNOWN)
+        return replace(self, config=configuration.validate(configuration.vary(self.config, overlay)))
 
     @property
     def coatings(self) -> list[StudyCoating]:

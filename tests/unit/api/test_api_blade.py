@@ -1,3 +1,4 @@
+import numpy as np
 import pytest
 import xarray as xr
 
@@ -22,3 +23,9 @@ def test_a_doubtful_blade_gets_a_warning(study, blade, small, monkeypatch):
     figures = {**study.config["figures"], "nominal_speed": 6e4}
     with pytest.warns(UserWarning, match="beyond reduction.f_omega_max = 0.4"):
         br.build_blade(br.Study({**study.config, "figures": figures}, study.folder))
+
+
+def test_frequencies_at_several_speeds(blade):
+    np.testing.assert_array_equal(
+        blade.frequencies([0.0, 0.2], 2), [blade.frequencies(speed, 2) for speed in (0.0, 0.2)]
+    )

@@ -37,3 +37,11 @@ def test_config_in_the_working_directory_comes_before_that_of_the_package(tmp_pa
     (tmp_path / "config" / "quick.yaml").write_text("solver: {revolutions: 30}\n")
     monkeypatch.chdir(tmp_path)
     assert br.load_study("config/quick.yaml").config["solver"]["revolutions"] == 30
+
+
+def test_a_replaced_value_is_checked_and_leaves_the_study_as_it_was(study):
+    damped = study.replace("contact.damping_ratio", 1e-3)
+    assert damped.config["contact"]["damping_ratio"] == 1e-3
+    assert damped == study.replace({"contact": {"damping_ratio": 1e-3}}) != study
+    with pytest.raises(br.ConfigError, match=r"contact\.damping_ratio = 2"):
+        study.replace("contact.damping_ratio", 2)
