@@ -10,6 +10,7 @@ A folder says what it adds in its ``plugin.py``, which imports nothing: each val
 ``INVENTORIES`` what counts runs beside those of the coatings, for ``bladerub status``
 ``MEASURES``    what a run may be asked for besides itself, each with its module
 ``SOURCES``     keys of ``blade.source`` of the config, each with its module (`bladerub.blade.source`)
+``LAWS``        laws of the coating by name, each with the module for the loop (`bladerub.contact.laws`)
 ``SOLVERS``     what computes runs instead of the processor, by the name in ``solver.device``
 =============== ===================================================================================
 """

@@ -4,6 +4,7 @@ from dataclasses import asdict
 from functools import cache
 
 from bladerub.blade.model import n_interface
+from bladerub.contact.laws import law_digest
 from bladerub.study.grid import case_from_name, element_law, speeds
 from bladerub.study.growth import confirmation_determinants
 from bladerub.study.plan import coating_plan
@@ -70,6 +71,7 @@ rule compile_kernel:
         tip_turns=config["contact"].get("tip_turns", False),
         n_nodes=n_interface(config),
         law=asdict(element_law(config)),
+        law_module=law_digest(element_law(config)),
     script:
         script_of("compile_kernel")
 

@@ -6,7 +6,7 @@ rule laws:
     input:
         model=files_behind("contact.illustration"),
         laws=files_behind(
-            *(f"contact.laws.{name}" for name in NAMES if name != "plastic")
+            *(f"extras.laws.{name}" for name in NAMES if name != "plastic")
         ),
         drawing=files_behind("extras.plots.law_cycles"),
     output:
@@ -27,7 +27,7 @@ rule heat:
     input:
         blade=rules.blade.output.reduced_model,
         kernel=rules.compile_kernel.output[0],
-        computing=files_behind("extras.heat", "contact.laws.thermal"),
+        computing=files_behind("extras.heat", "extras.laws.thermal"),
     output:
         **described(table=f"{TABLES}/heat.csv"),
     log:

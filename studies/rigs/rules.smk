@@ -6,7 +6,7 @@ rule rigs:
     input:
         rigs=RIGS.as_posix(),
         laws=files_behind(
-            *(f"contact.laws.{name}" for name in NAMES if name != "plastic")
+            *(f"extras.laws.{name}" for name in NAMES if name != "plastic")
         ),
         computing=files_behind("extras.rig.table"),
         drawing=files_behind("extras.plots.rigs"),

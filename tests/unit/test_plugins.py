@@ -12,7 +12,7 @@ import bladerub as br
 from bladerub import plugins
 from bladerub.io.folders import PACKAGE
 
-KINDS = ("PUBLIC", "COMMANDS", "MANIFESTS", "INVENTORIES", "MEASURES", "SOURCES", "SOLVERS")
+KINDS = ("PUBLIC", "COMMANDS", "MANIFESTS", "INVENTORIES", "MEASURES", "SOURCES", "LAWS", "SOLVERS")
 PROGRAM = """
 import bladerub, bladerub.api.run, bladerub.workflow.integrity
 from bladerub.cli import parser

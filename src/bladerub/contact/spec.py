@@ -49,7 +49,7 @@ class ElementLaw:
     Parameters
     ----------
     name : str
-        ``"plastic"``, the law of the paper, or a module of `bladerub.contact.laws`.
+        ``"plastic"``, the law of the paper, or one that plugs in (`bladerub.contact.laws`).
     parameters : tuple of (str, float)
         Name and value, SI units, of each parameter that the law has beside E, K and σ_Y.
     source : str

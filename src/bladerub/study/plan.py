@@ -4,6 +4,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
+from bladerub.contact.laws import law_digest
 from bladerub.contact.row_spec import Row
 from bladerub.contact.spec import RunSpec
 from bladerub.io.sources import solver_digest, storage_digest
@@ -54,6 +55,7 @@ def planned_run(
     determinants = {
         "spec": spec,
         "solver": solver_digest(),
+        **law_digest(spec.coating.element_law),
         "storage": storage_digest(),
         "keep_history": bool(keep_history),
         "analysis": {name: float(config["analysis"][name]) for name in SHAPING_SETTINGS},

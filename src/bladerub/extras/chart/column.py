@@ -11,6 +11,7 @@ import numpy as np
 
 from bladerub.blade.frequencies import reduced_frequencies
 from bladerub.blade.model import ReducedBlade
+from bladerub.contact.laws import law_digest
 from bladerub.contact.result import RunResult
 from bladerub.contact.spec import RunSpec
 from bladerub.extras.chart import point as points
@@ -21,7 +22,7 @@ from bladerub.io import lock, sources
 from bladerub.io.checksum import file_checksum
 from bladerub.io.sources import solver_digest
 from bladerub.study import cache
-from bladerub.study.grid import CoatingCase, run_spec
+from bladerub.study.grid import CoatingCase, element_law, run_spec
 from bladerub.study.parallel import each_done
 from bladerub.study.solver import solver_of
 
@@ -43,6 +44,7 @@ def determinants(config: Mapping[str, Any], case: CoatingCase, speeds: ChartSpee
     analysis = config["analysis"]
     return cache.digest(
         solver_of(config).determinants()
+        | law_digest(element_law(config))
         | {
             "spec": asdict(run_spec(config, case, f_omega=0.0)),
             "f_omega": speeds.f_omega.tolist(),

@@ -12,6 +12,7 @@ from bladerub.contact.laws import (
     NAMES,
     described_law,
     element_parameters,
+    law_digest,
     module_of,
     parameters_of,
 )
@@ -54,6 +55,11 @@ def pressed(law, depth, time_step=STEP):
 
 def test_every_law_of_the_package_is_tested():
     assert sorted(law.name for law in LAWS) == sorted(NAMES)
+
+
+def test_the_module_of_a_law_that_plugs_in_counts_for_the_key():
+    assert law_digest(PLASTIC) == law_digest(OWN) == {}
+    assert len({law_digest(law)["law"] for law in LAWS[1:]}) == len(LAWS) - 1
 
 
 @pytest.mark.parametrize("law", LAWS, ids=named)

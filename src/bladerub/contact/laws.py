@@ -1,29 +1,30 @@
-"""Laws of an abradable element beside that of the paper (`bladerub.contact.law`), each a module.
+"""Laws of an abradable element beside that of the paper (`bladerub.contact.law`), each a module or a file.
 
 A law has the functions of `bladerub.contact.law` (docs/laws.md has the contract), and a dictionary
 `PARAMETERS` with unit, range and meaning of each parameter of its own. That is a literal: configs are checked
 by it without running the law. The time loop is compiled with the law in it
-(`bladerub.numerics.lanes.module_for`).
+(`bladerub.numerics.lanes.module_for`). Those that have a name plug in (``LAWS`` of `bladerub.plugins`).
 """
 
 import ast
+import hashlib
 import math
 from collections.abc import Mapping
 from contextlib import nullcontext
 from functools import cache
-from pathlib import Path
 from types import ModuleType
 from typing import Any, NamedTuple
 
 import numpy as np
 
+from bladerub import plugins
 from bladerub.contact.spec import PLASTIC, Coating, ElementLaw
+from bladerub.io.folders import PACKAGE
 from bladerub.numerics.lanes import USUAL, module_for
 from bladerub.numerics.user_code import bounded
 
-_FOLDER = Path(__file__).parent
-NAMES = (PLASTIC.name, *sorted(path.stem for path in _FOLDER.glob("[a-z]*.py")))
-"""Laws of this package."""
+NAMES = (PLASTIC.name, *sorted(plugins.offered("LAWS")))
+"""Laws that a config may name."""
 CONTRACT = (
     *("Element", "element", "return_mapping", "tangent", "elastic_force"),
     *("stored_energy", "dissipated_energy"),
@@ -43,10 +44,20 @@ class Parameter(NamedTuple):
 
 
 def source_of(law: ElementLaw) -> str:
-    """Return the text of the module of a law; it is empty for that of the paper, which the loop has."""
+    """Return the text of the module of a law; it is empty for that of the paper, which the loop has.
+
+    Raises `ValueError`, which names the law, if there is none of its name.
+    """
     if law.source or law.name == PLASTIC.name:
         return law.source
     return _source_in_package(law.name)
+
+
+def law_digest(law: ElementLaw) -> dict[str, str]:
+    """Digest the module of a law that plugs in, as ``law``; nothing of others: loop and spec have them."""
+    if law.source or law.name not in plugins.offered("LAWS"):
+        return {}
+    return {"law": hashlib.sha256(source_of(law).encode()).hexdigest()}
 
 
 def module_of(law: ElementLaw, lanes: int = USUAL) -> ModuleType:
@@ -111,8 +122,6 @@ def described_law(name: str, values: Mapping[str, Any], source: str = "") -> Ele
     Raises `ValueError`, which names the parameter, if one is missing, unknown or out of its range; and as
     `parameters_of`.
     """
-    if not source and name not in NAMES:
-        raise ValueError(f"name = {name}: must be one of {', '.join(NAMES)}")
     rules = parameters_of(source_of(ElementLaw(name, (), source)))
     for key, value in values.items():
         if key not in rules:
@@ -135,7 +144,10 @@ def described_law(name: str, values: Mapping[str, Any], source: str = "") -> Ele
 
 @cache
 def _source_in_package(name: str) -> str:
-    return (_FOLDER / f"{name}.py").read_text(encoding="utf-8")
+    place = plugins.offered("LAWS").get(name)
+    if place is None:
+        raise ValueError(f"name = {name}: must be one of {', '.join(NAMES)}")
+    return PACKAGE.joinpath(*place.split(".")).with_suffix(".py").read_text(encoding="utf-8")
 
 
 def _statements(source: str) -> list[ast.stmt]:

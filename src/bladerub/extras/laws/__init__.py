@@ -1,0 +1,1 @@
+"""Laws of the coating beside that of the paper, each the text of a module (`bladerub.contact.laws`)."""
