@@ -1,4 +1,4 @@
-"""Numbers of docs/explanation/bands.md."""
+"""Numbers of docs/how-to/how_sure.md."""
 
 from docs.numbers import fixed, percent, rows
 
