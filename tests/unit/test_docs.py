@@ -49,6 +49,19 @@ def test_every_link_leads_to_a_file(page):
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda path: path.name)
+def test_no_link_is_empty(page):
+    assert [heading for path, heading in LINK.findall(text_of(page)) if not path and not heading] == []
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda path: path.name)
+def test_no_line_of_prose_has_more_than_400_characters(page):
+    prose = re.sub(r"^```.*?^```", "", text_of(page), flags=re.M | re.S)
+    lines = [line for line in prose.splitlines() if not line.lstrip().startswith("|")]
+    too_long = [line for line in lines if len(line) > 400]
+    assert too_long == [] or page.name == "config.md"  # which is made from the schema
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda path: path.name)
 def test_every_link_to_a_heading_finds_it(page):
     named = [(target, heading) for target, heading in local_links(page) if heading]
     assert [(str(target), heading) for target, heading in named if heading not in anchors(target)] == []
