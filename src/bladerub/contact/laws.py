@@ -3,7 +3,7 @@
 A law has the functions of `bladerub.contact.law` (docs/laws.md has the contract), and a dictionary
 `PARAMETERS` with unit, range and meaning of each parameter of its own. That is a literal: configs are checked
 by it without running the law. The time loop is compiled with the law in it
-(`bladerub.numerics.lanes.module_for`). Those that have a name plug in (``LAWS`` of `bladerub.plugins`).
+(`bladerub.contact.variants`). Those that have a name plug in (``LAWS`` of `bladerub.plugins`).
 """
 
 import ast
@@ -19,8 +19,9 @@ import numpy as np
 
 from bladerub import plugins
 from bladerub.contact.spec import PLASTIC, Coating, ElementLaw
+from bladerub.contact.variants import module_for
 from bladerub.io.folders import PACKAGE
-from bladerub.numerics.lanes import USUAL, module_for
+from bladerub.numerics.lanes import USUAL
 from bladerub.numerics.user_code import bounded
 
 NAMES = (PLASTIC.name, *sorted(plugins.offered("LAWS")))

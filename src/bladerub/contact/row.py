@@ -33,7 +33,8 @@ from bladerub.contact.row_spec import Row, RowBlade
 from bladerub.contact.run import run_result
 from bladerub.contact.setup import Seat, element_area, fixed_steps, set_up_modes
 from bladerub.contact.spec import RunSpec
-from bladerub.numerics.lanes import lanes_for, module_for
+from bladerub.contact.variants import module_for
+from bladerub.numerics.lanes import lanes_for
 
 _TURN = 2 * np.pi
 

@@ -19,7 +19,8 @@ from bladerub.contact.schemes import SCHEMES, Contact, Recurrence, normal_compli
 from bladerub.contact.spec import PLASTIC, Casing, Coating, ElementLaw, RunSpec
 from bladerub.contact.steps import own_steps, steps_per_element, with_steps
 from bladerub.contact.tip import edge
-from bladerub.numerics.lanes import lanes_for, module_for
+from bladerub.contact.variants import module_for
+from bladerub.numerics.lanes import lanes_for
 from bladerub.numerics.memory import aligned
 
 _NEVER = 1.0  # gap of a lane without a node, m: nothing moves so far

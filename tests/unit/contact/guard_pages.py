@@ -16,6 +16,7 @@ import numpy as np
 sys.path.insert(0, str(Path(__file__).parents[1]))
 import stand_in
 
+from bladerub.contact import variants
 from bladerub.contact.kernel import loop, row
 from bladerub.contact.laws import described_law, module_of, source_of
 from bladerub.contact.row import simulate_row
@@ -48,7 +49,7 @@ def guard(law, n_nodes):
     width, source = lanes.lanes_for(n_nodes), source_of(law)
     for name in (
         memory,
-        lanes.module_for(width, "numerics.memory"),
+        variants.module_for(width, "numerics.memory"),
         _module(width, "numerics.memory", source),
     ):
         name._aligned = guarded
@@ -68,7 +69,7 @@ def guard(law, n_nodes):
 
 
 def _module(width, name, source):
-    return lanes.module_for(width, name, source)
+    return variants.module_for(width, name, source)
 
 
 def drawn_blade(rng, n_nodes):

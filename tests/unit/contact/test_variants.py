@@ -1,0 +1,99 @@
+"""Modules of the time loop for tips with more than eight nodes, and for other laws."""
+
+import os
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+from bladerub.contact import variants
+from bladerub.contact.kernel import loop
+from bladerub.numerics import lanes, vectors
+
+
+def test_modules_of_another_width_leave_those_in_use_alone():
+    wide = variants.module_for(16, "numerics.vectors")
+    assert (wide.LANES, vectors.LANES, lanes.LANES) == (16, 8, 8)
+    assert sys.modules["bladerub.numerics.vectors"] is vectors
+    assert sys.modules["bladerub.contact.kernel.loop"] is loop
+    assert variants.module_for(16, "contact.kernel.loop") is not loop
+    assert variants.module_for(8, "contact.kernel.loop") is loop
+    import bladerub.contact.kernel
+
+    assert bladerub.contact.kernel.loop is loop
+
+
+def test_totals_of_sixteen_vectors():
+    from numba import njit
+
+    wide, memory = (variants.module_for(16, f"numerics.{name}") for name in ("vectors", "memory"))
+    a, out = np.random.default_rng(1).normal(size=(16, 16)), np.zeros(16)
+
+    @njit
+    def totals(a, out):
+        sums = memory.no_lane_sums()
+        for row in range(16):
+            sums = memory.add_lane_products(sums, a, memory.load(a, 16 * row))
+        memory.store(out, 0, wide.lane_sums(sums))
+
+    totals(a.ctypes.data, out.ctypes.data)
+    np.testing.assert_allclose(out, (a @ a.sum(axis=0)), rtol=1e-12)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("n_nodes", "law"), [pytest.param(12, "plastic", marks=pytest.mark.nightly), (8, "viscoplastic")]
+)
+def test_machine_code_of_another_process_is_used(n_nodes, law):
+    """Each job of a study is a process of its own, and compiling takes longer than most of them."""
+    program = (
+        "from bladerub.contact.laws import described_law, source_of\n"
+        "from bladerub.contact.setup import compile_kernel\n"
+        "from bladerub.contact import variants\n"
+        "from bladerub.numerics.lanes import lanes_for\n"
+        f"law = described_law({law!r}, {{'viscosity': 1e4}} if {law!r} == 'viscoplastic' else {{}})\n"
+        f"compile_kernel(n_nodes={n_nodes}, law=law)\n"
+        f"loop = variants.module_for(lanes_for({n_nodes}), 'contact.kernel.loop', source_of(law))\n"
+        "print(sum(loop.integrate.stats.cache_misses.values()))"
+    )
+    command = [sys.executable, "-c", program]
+    subprocess.run(command, capture_output=True, check=True)
+    assert subprocess.run(command, capture_output=True, text=True, check=True).stdout == "0\n"
+
+
+ROWS = """
+import dataclasses, sys
+sys.path.insert(0, "tests/unit")
+import stand_in
+from bladerub.contact.kernel import row as kernel
+from bladerub.contact.laws import described_law
+from bladerub.contact.row import simulate_row
+from bladerub.contact.row_spec import Row
+from bladerub.contact.spec import PLASTIC
+blade, spec = (getattr(stand_in, name).__wrapped__() for name in ("blade", "spec"))
+laws = [described_law("viscoplastic", {"viscosity": 1e4}), PLASTIC]
+for law in laws[int(sys.argv[1]):]:
+    coating = dataclasses.replace(spec.coating, element_law=law)
+    simulate_row(blade, dataclasses.replace(spec, coating=coating, revolutions=1), Row.even(2))
+print(sum(kernel._integrate_row.stats.cache_misses.values()))
+"""
+
+
+@pytest.mark.slow
+@pytest.mark.nightly
+def test_rows_by_two_laws_leave_machine_code_that_later_processes_use(tmp_path):
+    """A later process has but one of the laws; where the code on disk is damaged, it is made anew."""
+    environment = os.environ | {"NUMBA_CACHE_DIR": str(tmp_path)}
+
+    def misses(first):
+        command = [sys.executable, "-c", ROWS, str(first)]
+        done = subprocess.run(command, capture_output=True, text=True, env=environment, check=True)
+        return int(done.stdout)
+
+    misses(0)
+    assert misses(1) == 0
+    for index in tmp_path.rglob("row._integrate_row*.nbi"):
+        index.write_bytes(index.read_bytes()[:-100])
+    assert misses(1) == 1
+    assert misses(1) == 0
