@@ -16,10 +16,10 @@ from bladerub.blade.model import ReducedBlade
 from bladerub.contact.casing import shape
 from bladerub.contact.heating import HEATED, cell_heights
 from bladerub.contact.laws import module_of
-from bladerub.contact.row_spec import Row
 from bladerub.contact.setup import time_step
 from bladerub.contact.spec import RunSpec
 from bladerub.contact.tip import coverage, relief
+from bladerub.extras.rows.spec import Row
 
 
 def simulate(

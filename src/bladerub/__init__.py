@@ -21,7 +21,6 @@ if TYPE_CHECKING:
     from bladerub.api.run import Run, read_run, simulate
     from bladerub.api.study import Study, StudyCoating, StudyRun, default_study, load_study
     from bladerub.config.errors import ConfigError
-    from bladerub.contact.row_spec import Disk, Row, RowBlade
 
 __version__ = "0.1.0"
 
@@ -34,20 +33,16 @@ _MODULES = {
     "api.run": ("Run", "read_run", "simulate"),
     "api.study": ("Study", "StudyCoating", "StudyRun", "default_study", "load_study"),
     "config.errors": ("ConfigError",),
-    "contact.row_spec": ("Disk", "Row", "RowBlade"),
 }
 _HOME = {name: f"bladerub.{module}" for module, names in _MODULES.items() for name in names}
 
 __all__ = [
     "Blade",
     "ConfigError",
-    "Disk",
     "Ensemble",
     "InputError",
     "Law",
     "Map",
-    "Row",
-    "RowBlade",
     "Run",
     "Study",
     "StudyCoating",

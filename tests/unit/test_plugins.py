@@ -12,7 +12,18 @@ import bladerub as br
 from bladerub import plugins
 from bladerub.io.folders import PACKAGE
 
-KINDS = ("PUBLIC", "COMMANDS", "MANIFESTS", "INVENTORIES", "MEASURES", "SOURCES", "LAWS", "SOLVERS")
+KINDS = (
+    "PUBLIC",
+    "COMMANDS",
+    "MANIFESTS",
+    "INVENTORIES",
+    "MEASURES",
+    "SOURCES",
+    "LAWS",
+    "SOLVERS",
+    "ROWS",
+    "DATASETS",
+)
 PROGRAM = """
 import bladerub, bladerub.api.run, bladerub.workflow.integrity
 from bladerub.cli import parser

@@ -15,12 +15,12 @@ from scipy.special import erf
 from bladerub.contact import heating
 from bladerub.contact.kernel.records import at_rest
 from bladerub.contact.laws import described_law, module_of
-from bladerub.contact.row import simulate_row
-from bladerub.contact.row_spec import Row
 from bladerub.contact.run import simulate
 from bladerub.contact.setup import element_area
 from bladerub.contact.spec import Coating
 from bladerub.extras.heat import LAYER
+from bladerub.extras.rows.row import simulate_row
+from bladerub.extras.rows.spec import Row
 from bladerub.extras.speed_sweep import simulate_sweep
 from bladerub.extras.sweep_grid import SweepSpec
 from bladerub.study.grid import CoatingCase, run_spec

@@ -23,10 +23,11 @@ from bladerub.plots.spectrum import spectrum_map
 from bladerub.plots.style import saved
 from bladerub.plots.wear_map import wear_map
 from bladerub.study import maps
-from bladerub.study.grid import CoatingCase, row_of
+from bladerub.study.grid import CoatingCase
 from bladerub.study.growth import confirmation_spec, needs_confirmation
 from bladerub.study.maps import CoatingMap
 from bladerub.study.parallel import each_done
+from bladerub.study.row import row_of
 from bladerub.study.solver import Solve, solver_of
 
 if TYPE_CHECKING:

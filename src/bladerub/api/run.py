@@ -18,7 +18,6 @@ from bladerub.api.notebook import html_table
 from bladerub.api.study import StudyRun
 from bladerub.blade.model import ReducedBlade
 from bladerub.contact.result import Energy, RunResult
-from bladerub.contact.row_spec import Row
 from bladerub.contact.setup import compile_kernel
 from bladerub.contact.spec import RunSpec
 from bladerub.io.equality import equal
@@ -26,11 +25,12 @@ from bladerub.io.provenance import PREFIX, provenance
 from bladerub.plots import single_run, titles
 from bladerub.plots.style import saved
 from bladerub.study import run_set, store
-from bladerub.study.grid import CoatingCase, row_of, speed_name
+from bladerub.study.grid import CoatingCase, speed_name
 from bladerub.study.growth import Verdict, confirmation_spec, judge, needs_confirmation
 from bladerub.study.job import compute
 from bladerub.study.manifest import listed_longer
 from bladerub.study.plan import planned_run
+from bladerub.study.row import row_of
 from bladerub.study.solver import Solve, one_by, solver_of
 from bladerub.study.store import StoredRun
 from bladerub.study.summary import displacement_peak, summarise
@@ -179,10 +179,10 @@ class Run:
     def blades(self) -> pd.DataFrame:
         """A row for each blade of a row: what it is and what it did, SI units; none for a single blade.
 
-        The columns are those of `bladerub.study.store.OF_BLADES`. The other results are of the blade
+        The columns are the datasets ``blade_…`` of its file. The other results are of the blade
         ``attributes["blade"]``, which vibrates most, but for the wear and the energy, which are of all.
         """
-        data, names = self.stored.data, store.OF_BLADES
+        data, names = self.stored.data, [name for name in store.datasets() if name.startswith("blade_")]
         columns = {name.removeprefix("blade_"): data[name] for name in names if name in data}
         return pd.DataFrame(columns, pd.Index(data.get("blade", []), name="blade"))
 
@@ -269,7 +269,7 @@ def simulate(
     blade: Blade,
     run: StudyRun,
     *,
-    row: Row | None = None,
+    row: Any = None,
     follow: bool = True,
     stress: bool = False,
     progress: bool = False,
@@ -308,7 +308,7 @@ def simulate(
         If the speed is outside the range of the blade.
     ValueError
         If the time step of the study is too long for the scheme, or the row cannot be: its neighbours are
-        too close, for instance (`bladerub.contact.row.simulate_row`), or its stress is asked for.
+        too close, for instance, or its stress is asked for.
     OSError
         If the mesh of the blade, which the stress needs, is missing or damaged.
 
@@ -365,7 +365,7 @@ def solve(
     follow: bool,
     progress: Callable[[int], None] | None = None,
     keep_history: bool = True,
-    row: Row | None = None,
+    row: Any = None,
     stress: bool = False,
     solver: Solve | None = None,
 ) -> Run:
@@ -427,7 +427,7 @@ def _solve(
     digest: str,
     progress: Callable[[int], None] | None,
     keep_history: bool,
-    row: Row | None,
+    row: Any,
     solver: Solve | None,
 ) -> StoredRun:
     plan = planned_run(run.config, spec, f"{speed_name(spec.f_omega)}.h5", keep_history, row)

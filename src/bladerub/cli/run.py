@@ -18,7 +18,6 @@ if TYPE_CHECKING:  # as in `inputs`
     from bladerub.api.blade import Blade
     from bladerub.api.run import Run
     from bladerub.api.study import Study, StudyCoating, StudyRun
-    from bladerub.contact.row_spec import Row
 
 _STEEP = math.pi / 4  # beyond this angle the force is more tangential than normal
 _UNITS = {"E": "contact.modulus_unit", "K": "contact.modulus_unit", "theta": "rad", "f_omega": "f1 at rest"}
@@ -152,7 +151,7 @@ def _with_law(options: argparse.Namespace, study: "Study") -> "Study":
         return study.with_law(Law(options.law, **values))
 
 
-def _row(options: argparse.Namespace) -> "Row | None":
+def _row(options: argparse.Namespace) -> Any:
     """Describe the row of blades that is asked for, if one is."""
     names = ("length_scatter", "frequency_scatter", "coupling", "seed")
     row_settings = {name: getattr(options, name) for name in names if getattr(options, name) is not None}
@@ -167,12 +166,10 @@ def _row(options: argparse.Namespace) -> "Row | None":
         if not (math.isfinite(value) and value >= 0):
             raise InputError(f"--{name.replace('_', '-')} = {value:g}: must be 0 or more")
 
-    from bladerub.contact.row_spec import Disk, Row
+    from bladerub.study.row import rows
 
-    seed, coupling = row_settings.pop("seed", 1), row_settings.pop("coupling", 0.0)
-    disk = Disk.ring(options.blades, [coupling]) if coupling else None
     with refused(ValueError):
-        return Row.drawn(options.blades, seed, **row_settings, disk=disk)
+        return rows().drawn(options.blades, row_settings.pop("seed", 1), **row_settings)
 
 
 def _ensemble(

@@ -14,7 +14,6 @@ from bladerub.blade.source import reader
 from bladerub.config.errors import format_value, top_key
 from bladerub.contact.casing import shape
 from bladerub.contact.heating import cell_heights
-from bladerub.contact.row_spec import Row
 from bladerub.io.folders import study_folder
 from bladerub.study.casings import casing_spec
 from bladerub.study.grid import (
@@ -27,10 +26,10 @@ from bladerub.study.grid import (
     compared_cases,
     element_law,
     listed_case,
-    row_of,
     speeds,
 )
 from bladerub.study.orders import peak_orders, used_casings
+from bladerub.study.row import row_of
 
 Config = dict[str, Any]
 Check = Callable[[Config], Iterator[str]]
@@ -119,8 +118,8 @@ def _rotor(config: Config) -> Iterator[str]:
         yield from _neighbours(config, row)
 
 
-def _neighbours(config: Config, row: Row) -> Iterator[str]:
-    """Check what `bladerub.contact.row` asks of the distance of blades, at the largest radius of the tip."""
+def _neighbours(config: Config, row: Any) -> Iterator[str]:
+    """Check what a row asks of the distance of its blades, at the largest radius of the tip."""
     contact, blade, n_elements = config["contact"], config["blade"], config["contact"]["elements"]
     turn = 2 * np.pi * (blade["hub_radius"] + blade["length"])
     moved = config["solver"]["displacement_limit"] * blade["length"] / turn * n_elements

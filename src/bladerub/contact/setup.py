@@ -30,11 +30,11 @@ SEARCH_RANGE = 4
 
 
 class Seat(NamedTuple):
-    """Where a blade of a row is on the disk, and what it meets there."""
+    """Where a blade is on the disk, and what it meets there."""
 
     ahead: float = 0.0  # Angle ahead of where a run starts, elements; whole ones are not counted
     longer: float = 0.0  # Tip radius beyond the nominal one, m
-    coating: Mapping[str, np.ndarray] = {}  # `records.COATING` of the state that the blades share
+    coating: Mapping[str, np.ndarray] = {}  # `records.COATING` of a state, where blades share it
 
 
 ALONE = Seat()

@@ -31,12 +31,13 @@ from bladerub.io.errors import DamagedFile
 from bladerub.io.hdf5 import Variable
 from bladerub.io.provenance import provenance
 from bladerub.study import maps
-from bladerub.study.grid import SAME_SPEED, CoatingCase, row_of, run_spec, speed_name
+from bladerub.study.grid import SAME_SPEED, CoatingCase, run_spec, speed_name
 from bladerub.study.manifest import ManifestRow, write_manifest
 from bladerub.study.maps import CoatingMap
 from bladerub.study.members import named
 from bladerub.study.orders import peak_settings
 from bladerub.study.peaks import nearest_speed
+from bladerub.study.row import row_of
 
 if TYPE_CHECKING:  # import the time loop, which readers of ensembles do without
     from bladerub.study.job import RunDone

@@ -10,7 +10,6 @@ from typing import Any
 import numpy as np
 
 from bladerub.contact.laws import described_law, parameters_of
-from bladerub.contact.row_spec import Disk, Row
 from bladerub.contact.spec import PLASTIC, Coating, ElementLaw, RunSpec, TipProfile
 from bladerub.io.folders import study_folder
 from bladerub.study.casings import casing_spec
@@ -251,30 +250,6 @@ def run_spec(config: Mapping[str, Any], case: CoatingCase, f_omega: float) -> Ru
         steps_per_element=int(solver.get("steps_per_element", 0)),
         max_time_step=float(solver.get("max_time_step", math.inf) * scale["time"]),
     )
-
-
-def row_of(config: Mapping[str, Any]) -> Row | None:
-    """Describe the row of blades that the runs of the study are of; None for single blades.
-
-    Raises `ValueError` if a list has neither one value nor one for each blade.
-    """
-    if "rotor" not in config:
-        return None
-    rotor = config["rotor"]
-    n_blades = rotor["blades"]
-    scatters = (float(rotor.get(f"{name}_scatter", 0.0)) for name in ("length", "frequency"))
-    drawn = Row.drawn(n_blades, rotor.get("seed", 1), *scatters).blades
-    row = Row.even(
-        n_blades,
-        **{name: rotor.get(name, 0.0) for name in ("length", "frequency", "angle_error")},
-        damping=rotor.get("damping", 1.0),
-        disk=Disk.ring(n_blades, rotor["coupling"]) if "coupling" in rotor else None,
-    )
-    blades = (
-        replace(blade, length=blade.length + draw.length, frequency=blade.frequency + draw.frequency)
-        for blade, draw in zip(row.blades, drawn, strict=True)
-    )
-    return replace(row, blades=tuple(blades))
 
 
 def keeps_history(config: Mapping[str, Any], case: CoatingCase, f_omega: float) -> bool:

@@ -10,7 +10,6 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from bladerub.blade.model import ReducedBlade
-from bladerub.contact.row import simulate_row
 from bladerub.contact.run import simulate
 from bladerub.io import lock
 from bladerub.io.checksum import file_checksum
@@ -21,8 +20,9 @@ from bladerub.study.growth import needs_confirmation
 from bladerub.study.manifest import ManifestRow
 from bladerub.study.parallel import each_done
 from bladerub.study.plan import CoatingPlan, PlannedRun, growth_key, longer_file, longer_run
+from bladerub.study.row import rows
 from bladerub.study.solver import Solve, solver_of
-from bladerub.study.store import MAPPED, StoredRun, read_run, stored_row, stored_run, write_run
+from bladerub.study.store import MAPPED, StoredRun, read_run, stored_run, write_run
 
 LOCK = ".lock"
 """Empty file in the folder of the runs, locked by the job at work on them."""
@@ -127,11 +127,11 @@ def compute(
 
     `key` is that of the run, `analysis` of the config; `progress` is called with the number of revolutions
     done. A single blade is simulated by `solve`, by default `bladerub.contact.run.simulate`. Raises
-    `ValueError` as `bladerub.contact.run.simulate` and `bladerub.contact.row.simulate_row`.
+    `ValueError` as `bladerub.contact.run.simulate` and `bladerub.study.row.rows`.
     """
     if run.row:
-        outcome = simulate_row(blade, run.spec, run.row, progress)
-        return stored_row(case, run.spec, run.row, outcome, key, analysis, run.keep_history)
+        row = run.row, blade, case, run.spec
+        return rows().compute(*row, key, analysis, run.keep_history, progress)
     result = (solve or simulate)(blade, run.spec, progress)
     return stored_run(case, run.spec, result, key, analysis, run.keep_history)
 

@@ -5,13 +5,13 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from bladerub.contact.laws import law_digest
-from bladerub.contact.row_spec import Row
 from bladerub.contact.spec import RunSpec
 from bladerub.io.sources import solver_digest, storage_digest
 from bladerub.study import cache
-from bladerub.study.grid import CoatingCase, keeps_history, row_of, run_spec, speed_name, speeds
+from bladerub.study.grid import CoatingCase, keeps_history, run_spec, speed_name, speeds
 from bladerub.study.growth import confirmation_determinants, confirmation_spec
 from bladerub.study.manifest import CONFIRMATION
+from bladerub.study.row import row_of, rows
 from bladerub.study.solver import solver_of
 from bladerub.study.store import StoredRun
 
@@ -27,7 +27,7 @@ class PlannedRun:
     file: str  # in the folder of its coating
     keep_history: bool  # whether the whole radial displacement of node 1 is stored
     determinants: str  # digest of all that determines the file but the blade; other runs have no part in it
-    row: Row | None = None  # the blades, where there is more than the one
+    row: Any = None  # the blades (`bladerub.study.row`), where there is more than the one
 
     @property
     def n_blades(self) -> int:
@@ -49,7 +49,7 @@ class CoatingPlan:
 
 
 def planned_run(
-    config: Mapping[str, Any], spec: RunSpec, file: str, keep_history: bool, row: Row | None = None
+    config: Mapping[str, Any], spec: RunSpec, file: str, keep_history: bool, row: Any = None
 ) -> PlannedRun:
     """Plan one run (see `PlannedRun`); `config` is the study."""
     determinants = {
@@ -61,7 +61,7 @@ def planned_run(
         "analysis": {name: float(config["analysis"][name]) for name in SHAPING_SETTINGS},
     }
     if row:
-        determinants["row"] = row
+        determinants |= rows().determinants(row)
     else:  # what computes it decides the last bits, and with them a chaotic run
         determinants |= solver_of(config).determinants()
     return PlannedRun(spec, file, keep_history, cache.digest(determinants), row)
@@ -103,5 +103,5 @@ def claimed_run(config: Mapping[str, Any], file: str, run: StoredRun) -> Planned
     spec = replace(run_spec(config, case, attributes["f_omega"]), revolutions=attributes["revolutions"])
     shortest = min(analysis["spectrum_revolutions"], spec.revolutions)  # as of a short run asked for alone
     config = {**config, "analysis": {**analysis, "spectrum_revolutions": shortest}}
-    row = Row.from_json(str(run.data["row"])) if "row" in run.data else None
+    row = rows().stored(run) if "row" in run.data else None
     return planned_run(config, spec, file, "radial_displacement" in run.data, row)

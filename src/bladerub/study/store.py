@@ -1,15 +1,16 @@
 """Runs on disk: one HDF5 file a run."""
 
-from collections.abc import Iterable, Mapping, Set
-from dataclasses import asdict, dataclass, fields, replace
+from collections.abc import Mapping, Set
+from dataclasses import asdict, dataclass, fields
+from functools import cache
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
+from bladerub import plugins
 from bladerub.blade.model import interface_node
-from bladerub.contact.result import RowResult, RunResult
-from bladerub.contact.row_spec import Row
+from bladerub.contact.result import RunResult
 from bladerub.contact.spec import PLASTIC, RunSpec
 from bladerub.io import hdf5
 from bladerub.io.errors import DamagedFile
@@ -54,25 +55,7 @@ _DATASETS = {
     **{f"energy_{name}": ((), "J", long_name) for name, long_name in _ENERGIES.items()},
     "revolution": (("revolution",), "1", "time in revolutions from the start"),
     "radial_displacement": (("revolution",), "m", "radial displacement of node 1"),
-    "row": ((), "1", "the row of blades, as bladerub.Row.from_json reads it"),
-    "blade": (("blade",), "1", "number of the blade in the row, counted from 1"),
-    "blade_angle": (("blade",), "rad", "angle by which the blade is ahead of the start"),
-    "blade_length": (("blade",), "m", "tip radius of the blade beyond the nominal one"),
-    "blade_frequency": (("blade",), "1", "relative deviation of the first frequency of the blade"),
-    "blade_damping": (("blade",), "1", "damping ratio of the blade over that of the run"),
-    "blade_peak": (("blade",), "m", "largest absolute radial displacement of node 1, last revolutions"),
-    "blade_amplitude": (
-        ("blade",),
-        "m",
-        "largest half range of the radial displacement of node 1 in a revolution, last revolutions",
-    ),
-    "blade_worn_volume": (("blade",), "m3", "volume of coating that the blade has worn off"),
-    "blade_unbounded": (("blade",), "1", "1 where the blade left the displacement limit"),
-    "blade_energy_residual": (("blade",), "1", "what the ledger of the blade misses, without the disk"),
 }
-
-OF_BLADES = tuple(name for name in _DATASETS if name.startswith("blade_"))
-"""Datasets of a row of blades, a number for each blade."""
 
 MAPPED = {"wear", "spectrum_amplitude", "revolution_peak", "revolution_amplitude"}
 """What the map of a coating needs of each run."""
@@ -157,58 +140,13 @@ def stored_run(
     return StoredRun(attributes, data)
 
 
-def stored_row(
-    case: CoatingCase,
-    spec: RunSpec,
-    row: Row,
-    result: RowResult,
-    run_key: str,
-    analysis: Mapping[str, Any],
-    keep_history: bool,
-) -> StoredRun:
-    """Take from the outcome of a row what is stored of it.
-
-    It is the run of the blade that vibrates most, whose number is the attribute ``blade``, with the energy of
-    the whole row and `OF_BLADES`. Other parameters are those of `stored_run`.
-    """
-    last = slice(-analysis["spectrum_revolutions"], None)
-    amplitude = _largest(blade.revolution_amplitude[last] for blade in result.blades)
-    unbounded = np.isin(np.arange(1, len(row.blades) + 1), result.unbounded)
-    strongest = int(np.argmax(np.where(unbounded == unbounded.any(), np.nan_to_num(amplitude), -1.0)))
-    strongest_blade = result.blades[strongest]
-    outcome = replace(strongest_blade, energy=result.energy, status=result.status, message=result.message)
-    stored = stored_run(case, spec, outcome, run_key, analysis, keep_history)
-    counters = ("n_steps", "n_contact_steps", "n_reversed_steps", "n_fallback_steps", "n_unconverged_steps")
-    stored.attributes.update(
-        {name: sum(getattr(blade, name) for blade in result.blades) for name in counters}
-    )
-    stored.attributes.update(
-        slowest_sliding=min(blade.slowest_sliding for blade in result.blades),
-        energy_residual=float(result.residual),
-        disk_energy=float(result.disk_energy),
-        blade=strongest + 1,
-    )
-    properties = {
-        name: np.array([getattr(blade, name) for blade in row.blades])
-        for name in ("angle", "length", "damping")
-    }
-    stored.data.update({f"blade_{name}": values for name, values in properties.items()})
-    stored.data.update(
-        row=np.array(row.to_json()),
-        blade=np.arange(1, len(row.blades) + 1),
-        blade_frequency=np.array([blade.frequency_factors(1)[0] - 1 for blade in row.blades]),
-        blade_peak=_largest(blade.revolution_peak[last] for blade in result.blades),
-        blade_amplitude=amplitude,
-        blade_worn_volume=result.worn_volume,
-        blade_unbounded=unbounded.astype(np.int8),
-        blade_energy_residual=np.array([blade.energy.residual for blade in result.blades]),
-    )
-    return stored
-
-
-def _largest(of_blades: Iterable[np.ndarray]) -> np.ndarray:
-    """Largest of some numbers of each blade; NaN where it has none."""
-    return np.array([np.fmax.reduce(numbers) for numbers in of_blades])
+@cache
+def datasets() -> dict[str, tuple[tuple[str, ...], str, str]]:
+    """Return dimensions, unit and meaning of all that a run file may hold, by name."""
+    entries = dict(_DATASETS)
+    for more in plugins.loaded("DATASETS").values():
+        entries |= more
+    return entries
 
 
 def write_run(path: str | Path, run: StoredRun, origin: Mapping[str, str]) -> str:
@@ -221,10 +159,11 @@ def write_run(path: str | Path, run: StoredRun, origin: Mapping[str, str]) -> st
 
 def variables(run: StoredRun) -> dict[str, Variable]:
     """Give the datasets of a run their dimensions, units and meaning."""
-    described = {
-        name: Variable(_DATASETS[name][0], values, *_DATASETS[name][1:]) for name, values in run.data.items()
-    }
-    return {"node": interface_node(len(run.data["wear"]))} | described
+    entries, described = datasets(), {"node": interface_node(len(run.data["wear"]))}
+    for name, values in run.data.items():
+        dimensions, unit, meaning = entries[name]
+        described[name] = Variable(dimensions, values, unit, meaning)
+    return described
 
 
 def read_run(path: str | Path, only: Set[str] = ALL, attribute_names: Set[str] = ALL) -> StoredRun:

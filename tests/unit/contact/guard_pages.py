@@ -17,12 +17,13 @@ sys.path.insert(0, str(Path(__file__).parents[1]))
 import stand_in
 
 from bladerub.contact import variants
-from bladerub.contact.kernel import loop, row
+from bladerub.contact.kernel import loop
 from bladerub.contact.laws import described_law, module_of, source_of
-from bladerub.contact.row import simulate_row
-from bladerub.contact.row_spec import Disk, Row
 from bladerub.contact.run import simulate
 from bladerub.extras.heat import LAYER
+from bladerub.extras.rows import kernel as row
+from bladerub.extras.rows.row import simulate_row
+from bladerub.extras.rows.spec import Disk, Row
 from bladerub.numerics import lanes, memory
 
 PAGE = mmap.PAGESIZE
@@ -64,7 +65,7 @@ def guard(law, n_nodes):
                 return made
 
             kernel.Simulation._integrate = within_guards
-    for kernel in {_module(width, "contact.kernel.row", source), row}:
+    for kernel in {_module(width, "extras.rows.kernel", source), row}:
         kernel.rows_of = lambda records: guarded(memory.rows_of(records))
 
 

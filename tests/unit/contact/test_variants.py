@@ -66,10 +66,10 @@ ROWS = """
 import dataclasses, sys
 sys.path.insert(0, "tests/unit")
 import stand_in
-from bladerub.contact.kernel import row as kernel
+from bladerub.extras.rows import kernel
 from bladerub.contact.laws import described_law
-from bladerub.contact.row import simulate_row
-from bladerub.contact.row_spec import Row
+from bladerub.extras.rows.row import simulate_row
+from bladerub.extras.rows.spec import Row
 from bladerub.contact.spec import PLASTIC
 blade, spec = (getattr(stand_in, name).__wrapped__() for name in ("blade", "spec"))
 laws = [described_law("viscoplastic", {"viscosity": 1e4}), PLASTIC]
@@ -93,7 +93,7 @@ def test_rows_by_two_laws_leave_machine_code_that_later_processes_use(tmp_path):
 
     misses(0)
     assert misses(1) == 0
-    for index in tmp_path.rglob("row._integrate_row*.nbi"):
+    for index in tmp_path.rglob("kernel._integrate_row*.nbi"):
         index.write_bytes(index.read_bytes()[:-100])
     assert misses(1) == 1
     assert misses(1) == 0

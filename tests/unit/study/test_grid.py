@@ -4,7 +4,6 @@ import math
 import pandas as pd
 import pytest
 
-from bladerub.contact.row_spec import Disk, Row
 from bladerub.contact.spec import PLASTIC
 from bladerub.study import grid
 from bladerub.study.grid import CoatingCase
@@ -127,20 +126,6 @@ def test_compared_coatings_are_found_by_name_and_are_no_part_of_the_study(config
     assert [case.name for case in pairs[0]] == ["2nd_E3_K0.5_theta0.15", "2nd_E3_K0.5_mu0.151135"]
     assert pairs[1][1] == grid.case_from_name(config, pairs[1][1].name)
     assert not {case for pair in pairs for case in pair} & set(grid.coating_cases(config))
-
-
-def test_runs_are_of_single_blades_unless_the_study_has_a_rotor(config):
-    assert grid.row_of(config) is None
-    rotor = {"blades": 3, "length": [1e-5, 0.0, 0.0], "damping": [1.2], "coupling": [0.01, 0.003]}
-    row = grid.row_of(config | {"rotor": rotor})
-    assert row == Row.even(3, [1e-5, 0.0, 0.0], damping=1.2, disk=Disk.ring(3, [0.01, 0.003]))
-    drawn = grid.row_of(config | {"rotor": rotor | {"length_scatter": 5e-5, "seed": 4}})
-    draws = Row.drawn(3, 4, 5e-5)
-    for own, plain, draw in zip(drawn.blades, row.blades, draws.blades, strict=True):
-        assert own.length == plain.length + draw.length
-        assert own.frequency == 0.0
-    with pytest.raises(ValueError, match=r"row: 2 values of length; must be 1 or 3"):
-        grid.row_of(config | {"rotor": rotor | {"length": [0.0, 0.0]}})
 
 
 @pytest.fixture

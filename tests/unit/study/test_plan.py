@@ -5,7 +5,6 @@ import math
 
 import pytest
 
-from bladerub.contact.row_spec import Disk, Row
 from bladerub.io import provenance
 from bladerub.study import grid, plan
 from bladerub.study.grid import CoatingCase, run_spec
@@ -103,27 +102,6 @@ def test_another_commit_is_the_same_run(monkeypatch, key):
     before = key()
     monkeypatch.setattr(provenance, "git_state", lambda: ("another", "modified"))
     assert key() == before
-
-
-def test_the_blades_of_a_row_are_part_of_the_key(config, spec):
-    def key(row):
-        return planned_run(config, spec, "0.1900.h5", False, row).key("blade")
-
-    rows = [
-        None,
-        Row.even(1),
-        Row.even(2),
-        Row.even(2, length=[0.0, 1e-5]),
-        Row.even(2, frequency=0.01),
-        Row.even(2, frequency=[[0.01], [0.01]]),
-        Row.even(2, damping=2.0),
-        Row.even(2, angle_error=0.01),
-        Row.even(2, disk=Disk.ring(2, [0.01])),
-    ]
-    assert len({key(row) for row in rows}) == len(rows)
-    assert key(Row.even(2, length=[0.0, 1e-5])) == key(Row.even(2, length=[0.0, 1e-5]))
-    run = planned_run(config, spec, "0.1900.h5", False, rows[3])
-    assert longer_run(config, run).row == rows[3]
 
 
 def test_the_longer_run_is_the_same_run_for_longer(config, spec):

@@ -20,7 +20,7 @@ from bladerub.contact.kernel.free_flight import FreeFlight
 from bladerub.contact.kernel.modal import Modal, advance_forced, advance_free, correct
 from bladerub.contact.kernel.newton import find_forces
 from bladerub.contact.kernel.records import State, Stator, Tip, check, shapes
-from bladerub.numerics.machine_code import inlined, njit_on_disk
+from bladerub.numerics.machine_code import inlined, njit_on_disk, within
 from bladerub.numerics.memory import add_to, address_of, addresses, clear, copy, load, read, store, write
 from bladerub.numerics.vectors import LANES, absolute, all_lanes, broadcast, largest_lane, where
 
@@ -302,3 +302,14 @@ def integrate(
         clear(address_of(state.ledger, STORED * LANES), 4 * LANES)
     n_steps = turns + n_flights * flight.n_steps
     return turns, is_flying, reach, n_steps, n_flights, n_contact, bottom, top
+
+
+@within
+def take_turns(rows, n, turns):
+    """Bring three rows of `n` numbers in order, which the loop has let take `turns`."""
+    for _ in range(turns % 3):
+        for k in range(n):
+            last = read(rows, 2 * n + k)
+            write(rows, 2 * n + k, read(rows, n + k))
+            write(rows, n + k, read(rows, k))
+            write(rows, k, last)

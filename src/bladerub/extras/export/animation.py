@@ -10,9 +10,9 @@ from matplotlib.animation import FuncAnimation, PillowWriter
 
 from bladerub.blade.model import ReducedBlade
 from bladerub.contact.modes import tip_radii
-from bladerub.contact.row_spec import Row
 from bladerub.contact.setup import element_angle
 from bladerub.extras.export.recording import Recording
+from bladerub.extras.rows.spec import Row
 from bladerub.io import atomic
 from bladerub.plots import titles
 from bladerub.plots.polar import closed, open_polar

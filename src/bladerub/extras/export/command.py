@@ -13,8 +13,8 @@ from bladerub.extras.export import blade_command
 if TYPE_CHECKING:
     from bladerub.api.blade import Blade
     from bladerub.blade.model import ReducedBlade
-    from bladerub.contact.row_spec import Row
     from bladerub.extras.export.recording import Recording
+    from bladerub.extras.rows.spec import Row
     from bladerub.study.plan import PlannedRun
     from bladerub.study.store import StoredRun
 
@@ -92,8 +92,8 @@ def _motion(options: argparse.Namespace, config: dict[str, Any]) -> dict[str, An
     """Write the motion of a run; return what was written."""
     _check_new(options, config, "vtu")
 
-    from bladerub.contact.row_spec import Row
     from bladerub.extras.export.vtu import COLLECTION, read_mesh, write_motion
+    from bladerub.extras.rows.spec import Row
     from bladerub.extras.stress.run import stress_of
     from bladerub.io.provenance import provenance
 
@@ -127,8 +127,8 @@ def _animation(options: argparse.Namespace, config: dict[str, Any]) -> dict[str,
         raise InputError(f"--animation {options.animation}: must end in .gif")
     _check_new(options, config, "animation")
 
-    from bladerub.contact.row_spec import Row
     from bladerub.extras.export.animation import animate
+    from bladerub.extras.rows.spec import Row
 
     run, blade = _run_and_blade(options, config)
     plan = _plan(options, config, run, blade.path)

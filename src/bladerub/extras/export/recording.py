@@ -10,10 +10,10 @@ from threadpoolctl import threadpool_limits
 from bladerub.blade.model import ReducedBlade
 from bladerub.contact.energy import forces_of_nodes
 from bladerub.contact.modes import at_tip, mode_shapes_at
-from bladerub.contact.row import set_up_row
-from bladerub.contact.row_spec import Row
 from bladerub.contact.setup import by_angle
 from bladerub.contact.spec import RunSpec
+from bladerub.extras.rows.row import set_up_row
+from bladerub.extras.rows.spec import Row
 
 
 class Recording(NamedTuple):
@@ -39,7 +39,7 @@ def record(
     instants: Sequence[int],
     progress: Callable[[int], None] | None = None,
 ) -> Recording:
-    """Simulate a row as `bladerub.contact.row.simulate_row` does, and record it at some instants.
+    """Simulate a row as `bladerub.extras.rows.row.simulate_row` does, and record it at some instants.
 
     Parameters
     ----------

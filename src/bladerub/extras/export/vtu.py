@@ -16,10 +16,10 @@ import numpy as np
 
 from bladerub.blade.model import ReducedBlade
 from bladerub.blade.stress import NodalStress, von_mises
-from bladerub.contact.row_spec import Row
 from bladerub.contact.setup import element_angle
 from bladerub.extras.export.mesh_file import block
 from bladerub.extras.export.recording import Recording
+from bladerub.extras.rows.spec import Row
 from bladerub.io import hdf5
 from bladerub.io.optional import package
 

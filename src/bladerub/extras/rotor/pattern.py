@@ -8,11 +8,11 @@ import numpy as np
 import pandas as pd
 
 from bladerub.blade.model import ReducedBlade
-from bladerub.contact.row import simulate_row
-from bladerub.contact.row_spec import Row
 from bladerub.contact.spec import RunSpec
 from bladerub.extras.rotor.plan import Patterns, Plan, described
 from bladerub.extras.rotor.summary import WHAT
+from bladerub.extras.rows.row import simulate_row
+from bladerub.extras.rows.spec import Row
 from bladerub.study.grid import run_spec
 
 COLUMNS = [*WHAT, "draw", "pattern_harmonic", "revolution", "pattern_angle", "pattern_depth", "pattern_drift"]
@@ -22,7 +22,7 @@ COLUMNS = [*WHAT, "draw", "pattern_harmonic", "revolution", "pattern_angle", "pa
 def table(config: Mapping[str, Any], blade: ReducedBlade, plan: Plan) -> pd.DataFrame:
     """Follow the worn pattern of each row among the patterns of `plan`: a line an interval, with `COLUMNS`.
 
-    `config` is the study. Raises `ValueError` as `bladerub.contact.row.simulate_row`.
+    `config` is the study. Raises `ValueError` as `bladerub.extras.rows.row.simulate_row`.
     """
     lines = []
     for combination, draws in plan.patterns.draws.items():

@@ -9,7 +9,7 @@ from typing import Any
 from bladerub.config import read as configuration
 from bladerub.config.errors import ConfigError
 from bladerub.config.files import Located
-from bladerub.contact.row_spec import Disk, Row
+from bladerub.extras.rows.spec import Disk, Row
 from bladerub.study.grid import CoatingCase, run_spec, speed_name
 from bladerub.study.plan import CoatingPlan, planned_run
 

@@ -9,9 +9,10 @@ import pandas as pd
 from scipy.stats import binom
 
 from bladerub.extras.rotor.plan import Combination, Plan, described
+from bladerub.extras.rows.datasets import OF_BLADES
 from bladerub.study.growth import judge
 from bladerub.study.manifest import read_manifest
-from bladerub.study.store import OF_BLADES, read_run
+from bladerub.study.store import read_run
 from bladerub.study.wear import dominant_harmonic, lobes
 
 WHAT = ["casing", "E", "K", "theta", "f_omega", "blades"]

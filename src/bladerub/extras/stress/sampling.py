@@ -16,8 +16,7 @@ from bladerub.blade.model import ReducedBlade
 from bladerub.contact import energy
 from bladerub.contact.integration import Segment, integrate
 from bladerub.contact.kernel import loop
-from bladerub.contact.kernel.loop import Progress, Simulation
-from bladerub.contact.kernel.row import take_turns
+from bladerub.contact.kernel.loop import Progress, Simulation, take_turns
 from bladerub.contact.modes import Modes, at_tip, mode_shapes_at
 from bladerub.contact.result import RunResult
 from bladerub.contact.run import run_result

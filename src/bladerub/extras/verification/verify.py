@@ -27,16 +27,17 @@ import numpy as np
 from bladerub.blade.model import ReducedBlade
 from bladerub.contact.modes import modes_at
 from bladerub.contact.result import RunResult
-from bladerub.contact.row import simulate_row
-from bladerub.contact.row_spec import Row
 from bladerub.contact.run import simulate
 from bladerub.contact.setup import compile_kernel, element_passage
 from bladerub.contact.spec import ElementLaw, RunSpec
 from bladerub.contact.steps import STABLE_PART, with_steps
+from bladerub.extras.rows.row import simulate_row
+from bladerub.extras.rows.spec import Row
 from bladerub.extras.verification.differences import Differences, largest, row_differences
 from bladerub.study.ensemble import chosen
-from bladerub.study.grid import CoatingCase, coating_cases, element_law, row_of, run_spec, speed_name, speeds
+from bladerub.study.grid import CoatingCase, coating_cases, element_law, run_spec, speed_name, speeds
 from bladerub.study.maps import read_map
+from bladerub.study.row import row_of
 
 TOLERANCE = 0.01
 """Differences beyond this are listed by run."""

@@ -4,12 +4,12 @@ import numpy as np
 import pytest
 
 from bladerub.contact.modes import at_tip
-from bladerub.contact.row import simulate_row
-from bladerub.contact.row_spec import Disk, Row
 from bladerub.contact.run import simulate
 from bladerub.contact.setup import set_up
 from bladerub.contact.spec import Coating
 from bladerub.extras.export.recording import record
+from bladerub.extras.rows.row import simulate_row
+from bladerub.extras.rows.spec import Disk, Row
 
 
 def record_alone(blade, spec, revolution, n_instants, progress=None):

@@ -5,8 +5,8 @@ import pytest
 
 import bladerub as br
 from bladerub.api import map as maps
-from bladerub.contact.row_spec import Row
 from bladerub.extras.gpu import emulation, server, solver
+from bladerub.extras.rows.spec import Row
 from bladerub.io.errors import BadInput
 from bladerub.study.plan import planned_run
 from bladerub.study.solver import solver_of

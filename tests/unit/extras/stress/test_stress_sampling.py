@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 from bladerub.contact.kernel import loop
-from bladerub.contact.row_spec import Row
 from bladerub.contact.run import simulate
 from bladerub.contact.spec import ElementLaw
 from bladerub.extras.export.recording import record
+from bladerub.extras.rows.spec import Row
 from bladerub.extras.stress import sampling
 
 INSTANTS = 40

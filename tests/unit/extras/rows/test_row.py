@@ -8,10 +8,10 @@ import pytest
 import scipy.linalg
 
 from bladerub.contact.modes import modes_at
-from bladerub.contact.row import row_frequencies, simulate_row
-from bladerub.contact.row_spec import Disk, Row, RowBlade
 from bladerub.contact.run import simulate
 from bladerub.contact.setup import element_area
+from bladerub.extras.rows.row import row_frequencies, simulate_row
+from bladerub.extras.rows.spec import Disk, Row, RowBlade
 
 SHOWN = ("radial_displacement", "revolution_peak", "revolution_amplitude")
 

@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from bladerub.contact.kernel import tilt
-from bladerub.contact.kernel.loop import Progress, Simulation, integrate
+from bladerub.contact.kernel.loop import Progress, Simulation, integrate, take_turns
 from bladerub.contact.kernel.modal import ROWS
 from bladerub.numerics.machine_code import inlined, njit_on_disk, within
 from bladerub.numerics.memory import add_to_number, address_of, read, record_at, rows_of, write
@@ -168,17 +168,6 @@ def _integrate_row(
 def _row(rows, b):
     """Address of row `b`."""
     return rows.ctypes.data + 8 * rows.shape[1] * b
-
-
-@within
-def take_turns(rows, n, turns):
-    """Bring three rows of `n` numbers in order, which the loop has let take `turns`."""
-    for _ in range(turns % 3):
-        for k in range(n):
-            last = read(rows, 2 * n + k)
-            write(rows, 2 * n + k, read(rows, n + k))
-            write(rows, n + k, read(rows, k))
-            write(rows, k, last)
 
 
 @within

@@ -7,7 +7,7 @@
 3. The casing distorts at the start of the run. A blade that would overlap with it there is held until it
    first passes a place where it touches nothing at rest.
 4. On a stiff disk each blade vibrates by itself, as in `bladerub.contact.run`. A disk may couple the first
-   modes of the blades (`bladerub.contact.row_spec.Disk`).
+   modes of the blades (`bladerub.extras.rows.spec.Disk`).
 5. The run ends for all blades in the element in which the first of them leaves the displacement limit.
 """
 
@@ -25,15 +25,15 @@ from bladerub.blade.model import ReducedBlade
 from bladerub.contact import energy
 from bladerub.contact.integration import History, Segment
 from bladerub.contact.kernel.records import COATING
-from bladerub.contact.kernel.row import Coupling, Rests, RowSimulation
 from bladerub.contact.laws import source_of
 from bladerub.contact.modes import Modes, modes_at, tip_radii
-from bladerub.contact.result import RowResult
-from bladerub.contact.row_spec import Row, RowBlade
 from bladerub.contact.run import run_result
 from bladerub.contact.setup import Seat, element_area, fixed_steps, set_up_modes
 from bladerub.contact.spec import RunSpec
 from bladerub.contact.variants import module_for
+from bladerub.extras.rows.kernel import Coupling, Rests, RowSimulation
+from bladerub.extras.rows.result import RowResult
+from bladerub.extras.rows.spec import Row, RowBlade
 from bladerub.numerics.lanes import lanes_for
 
 _TURN = 2 * np.pi
@@ -115,7 +115,7 @@ def set_up_row(blade: ReducedBlade, spec: RunSpec, row: Row) -> RowSetUp:
     apart, reach = _distances(blade, spec, seats)
     begins = [seat.first_clear() if len(seats) > 1 else 0 for seat in seats]
     law = source_of(spec.coating.element_law)
-    kernel = module_for(lanes_for(blade.n_interface), "contact.kernel.row", law)
+    kernel = module_for(lanes_for(blade.n_interface), "extras.rows.kernel", law)
     coupling = _coupling(spec, modes, row, seats)
     rests = Rests(apart, min(spec.coating.n_elements // 2, min(apart) - reach))
     simulation = kernel.RowSimulation(

@@ -1,0 +1,5 @@
+"""Rows of blades that rub on one coating."""
+
+PUBLIC = dict.fromkeys(("Disk", "Row", "RowBlade"), "extras.rows.spec")
+ROWS = {"rotor": "extras.rows.study"}
+DATASETS = {"rows": "extras.rows.datasets:DATASETS"}

@@ -1,0 +1,1 @@
+from stand_in import blade, change, spec  # noqa: F401 (fixtures)

@@ -1,0 +1,66 @@
+"""Rows of blades in a config, and in the keys of its runs."""
+
+import pytest
+
+from bladerub.extras.rows import study
+from bladerub.extras.rows.spec import Disk, Row
+from bladerub.study.grid import run_spec
+from bladerub.study.plan import longer_run, planned_run
+from bladerub.study.row import row_of
+
+
+@pytest.fixture
+def spec(config, case):
+    return run_spec(config, case, 0.19)
+
+
+def test_runs_are_of_single_blades_unless_the_study_has_a_rotor(config):
+    assert row_of(config) is None
+    rotor = {"blades": 3, "length": [1e-5, 0.0, 0.0], "damping": [1.2], "coupling": [0.01, 0.003]}
+    row = row_of(config | {"rotor": rotor})
+    assert row == Row.even(3, [1e-5, 0.0, 0.0], damping=1.2, disk=Disk.ring(3, [0.01, 0.003]))
+    drawn = row_of(config | {"rotor": rotor | {"length_scatter": 5e-5, "seed": 4}})
+    draws = Row.drawn(3, 4, 5e-5)
+    for own, plain, draw in zip(drawn.blades, row.blades, draws.blades, strict=True):
+        assert own.length == plain.length + draw.length
+        assert own.frequency == 0.0
+    with pytest.raises(ValueError, match=r"row: 2 values of length; must be 1 or 3"):
+        row_of(config | {"rotor": rotor | {"length": [0.0, 0.0]}})
+
+
+def test_the_blades_of_a_row_are_part_of_the_key(config, spec):
+    def key(row):
+        return planned_run(config, spec, "0.1900.h5", False, row).key("blade")
+
+    rows = [
+        None,
+        Row.even(1),
+        Row.even(2),
+        Row.even(2, length=[0.0, 1e-5]),
+        Row.even(2, frequency=0.01),
+        Row.even(2, frequency=[[0.01], [0.01]]),
+        Row.even(2, damping=2.0),
+        Row.even(2, angle_error=0.01),
+        Row.even(2, disk=Disk.ring(2, [0.01])),
+    ]
+    assert len({key(row) for row in rows}) == len(rows)
+    assert key(Row.even(2, length=[0.0, 1e-5])) == key(Row.even(2, length=[0.0, 1e-5]))
+    run = planned_run(config, spec, "0.1900.h5", False, rows[3])
+    assert longer_run(config, run).row == rows[3]
+
+
+def test_the_sources_of_rows_are_part_of_their_keys_alone(config, spec, monkeypatch):
+    def keys():
+        return [planned_run(config, spec, "0.1900.h5", False, row).key("") for row in (None, Row.even(2))]
+
+    single, row = keys()
+    monkeypatch.setattr(study, "rows_digest", lambda: "other")
+    assert keys()[0] == single
+    assert keys()[1] != row
+
+
+def test_a_package_without_rows_says_so(config, monkeypatch):
+    monkeypatch.setattr("bladerub.plugins.offered", lambda kind: {})
+    assert row_of(config) is None
+    with pytest.raises(ValueError, match="row: this package computes no rows of blades"):
+        row_of(config | {"rotor": {"blades": 2}})
