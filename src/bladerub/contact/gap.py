@@ -46,6 +46,14 @@ def penetration(approach, relief, initial_gap, wear):
 
 
 @inlined
+def is_above(tip, radial, tangential, approach, minimum_gap):
+    """Whether all nodes are surely above the lowest surface in reach."""
+    return all_lanes(
+        (approach <= minimum_gap) & (absolute(tangential) <= tip.search_range) & (radial > -tip.limit)
+    )
+
+
+@inlined
 def is_within_limit(tip, radial, tangential):
     """Whether every displacement is a number below the limit."""
     return all_lanes((absolute(radial) <= tip.limit) & (absolute(tangential) <= tip.limit))

@@ -2,7 +2,8 @@
 
 from bladerub.contact import energy
 from bladerub.contact.gap import closest_position, normal, normal_approach, rotation_distance
-from bladerub.contact.kernel import elements, tilt
+from bladerub.contact.kernel import elements
+from bladerub.contact.kernel.composition import composed
 from bladerub.numerics.machine_code import inlined
 from bladerub.numerics.memory import add_to, add_to_number, address_of, load, store
 from bladerub.numerics.vectors import LANES, absolute, all_lanes, broadcast, maximum, where
@@ -21,11 +22,9 @@ def update_coating(modal, stator, tip, travel, per_step, state, u, u_before):
         shape = elements.rigid_surface(stator, position_before) - elements.rigid_surface(stator, position)
         supplied = 0.5 * (normal_force + load(state.normal_force, LANES)) * shape
     else:
-        placement = elements.Placement(position, approach, tilt.load_tilt(modal.tilt, u))
-        before = elements.Placement(
-            position_before, load(u_before, 2 * LANES), tilt.load_tilt(modal.tilt, u_before)
-        )
-        stored, loss, supplied, worn = elements.update_wear(modal.tilt, stator, tip, state, placement, before)
+        placement = elements.Placement(position, elements.load_pose(modal, u))
+        before = elements.Placement(position_before, elements.load_pose(modal, u_before))
+        stored, loss, supplied, worn = elements.update_wear(modal, stator, tip, state, placement, before)
         add_to(state.ledger, energy.WORN * LANES, worn)
     store(state.moment, 0, (0.0 - factor) * normal_force * (load(tip.lever, 0) + approach))
     entry = state.ledger
@@ -49,12 +48,20 @@ def _note_sliding(stator, state, normal_force, factor, advance, per_step):
         add_to_number(state.ledger, energy.REVERSED * LANES, 1.0)
 
 
-@inlined
+@composed
 def add_work(modal, stator, tip, angle, state, u_after, u, u_before):
     """Add the work of the forces at `u`, over half of the path from the step before to the step after.
 
     The blade rotates by `angle` (rad) in a step.
     """
+    more_radial, more_tangential = add_work_of_forces(state, u_after, u_before)
+    if stator.tangential_factor != 0.0:
+        add_sliding(stator, tip, angle, state, load(u, 0), load(u, LANES), more_radial, more_tangential)
+
+
+@inlined
+def add_work_of_forces(state, u_after, u_before):
+    """Add the work of the forces on the nodes; return half of their path, radial and tangential, m."""
     entry = state.ledger
     more_radial = 0.5 * (load(u_after, 0) - load(u_before, 0))
     more_tangential = 0.5 * (load(u_after, LANES) - load(u_before, LANES))
@@ -64,20 +71,11 @@ def add_work(modal, stator, tip, angle, state, u_after, u, u_before):
     add_to(entry, energy.TANGENTIAL * LANES, by_tangential)
     add_to(entry, energy.EXCHANGED * LANES, absolute(by_radial) + absolute(by_tangential))
     add_to(entry, energy.TORQUE * LANES, load(state.moment, LANES))
-    if modal.tilt is not None:
-        more_tilt = 0.5 * (tilt.load_tilt(modal.tilt, u_after) - tilt.load_tilt(modal.tilt, u_before))
-        by_couple = load(state.force, 3 * LANES + tilt.COUPLE) * more_tilt
-        add_to(entry, energy.COUPLE * LANES, by_couple)
-        if stator.tangential_factor != 0.0:  # as `_add_sliding`: the rest of what a turn takes from the tip
-            ratio = (1.0 + stator.normal_factor) / stator.normal_factor
-            add_to(entry, energy.SLIDING * LANES, 0.0 - ratio * by_couple)
-
-    if stator.tangential_factor != 0.0:
-        _add_sliding(stator, tip, angle, state, load(u, 0), load(u, LANES), more_radial, more_tangential)
+    return more_radial, more_tangential
 
 
 @inlined
-def _add_sliding(stator, tip, angle, state, radial, tangential, more_radial, more_tangential):
+def add_sliding(stator, tip, angle, state, radial, tangential, more_radial, more_tangential):
     """Add the energy that sliding takes: the tangential force times the distance over the casing.
 
     A unit of approach takes N from the tip, of which the blade gives N cos θ; the rest comes from there too.

@@ -2,10 +2,15 @@
 
 from bladerub.contact.friction import mobilisation
 from bladerub.contact.gap import rotation_distance
-from bladerub.contact.kernel.modal import add_tip_displacement, displaced, tip_displacement
-from bladerub.contact.kernel.tilt import COUPLE
+from bladerub.contact.kernel.modal import (
+    add_tip_displacement,
+    displaced,
+    displacement_of_nodes,
+    no_tip_displacement,
+    tip_displacement,
+)
 from bladerub.numerics.machine_code import inlined, within
-from bladerub.numerics.memory import address_of, load, no_sums, store
+from bladerub.numerics.memory import address_of, copy, load, store
 from bladerub.numerics.vectors import LANES, broadcast
 
 
@@ -17,7 +22,7 @@ def predict_sliding(modal, state, q, q_before, angle):
     exponential scheme on the steps before and after, of which the mean is meant. The blade rotates by `angle`
     (rad) in a step.
     """
-    sums = no_sums()
+    sums = no_tip_displacement(modal)
     for k in range(0, modal.n, LANES):
         present, before = load(q, k), load(q_before, k)
         if modal.corrects:
@@ -25,9 +30,9 @@ def predict_sliding(modal, state, q, q_before, angle):
         else:
             increment = 0.5 * (load(modal.now, k) * present - load(modal.before, k) * before - before)
         sums = add_tip_displacement(modal, k, increment, sums)
-    radial, tangential = tip_displacement(sums)
-    store(state.free_sliding, 0, radial)
-    store(state.free_sliding, LANES, tangential)
+    sliding = tip_displacement(modal, sums)
+    store(state.free_sliding, 0, sliding.radial)
+    store(state.free_sliding, LANES, sliding.tangential)
     store(state.free_sliding, 2 * LANES, broadcast(angle))
 
 
@@ -35,15 +40,12 @@ def predict_sliding(modal, state, q, q_before, angle):
 def mobilise(modal, stator, tip, state, normal_radial, normal_tangential, approach):
     """Find the tangential factor of each node by Coulomb's law, under the forces in `state.normal_force`."""
     normal_force, frictionless = load(state.normal_force, 0), address_of(state.scratch, 4 * 2 * LANES)
-    if modal.tilt is not None:
-        store(frictionless, COUPLE, load(state.force, COUPLE))
+    copy(state.force, frictionless, 3 * LANES)
     store(frictionless, 0, stator.normal_factor * normal_radial * normal_force)
     store(frictionless, LANES, stator.normal_factor * normal_tangential * normal_force)
-    free_radial, free_tangential = load(state.free_sliding, 0), load(state.free_sliding, LANES)
-    radial, tangential, _ = displaced(
-        modal.tilt, modal.mobility, frictionless, free_radial, free_tangential, broadcast(0.0)
-    )
+    free = displacement_of_nodes(modal, load(state.free_sliding, 0), load(state.free_sliding, LANES))
+    moved = displaced(modal, modal.mobility, frictionless, free)
     rotation = rotation_distance(tip, load(state.free_sliding, 2 * LANES), approach)
-    sliding = rotation + normal_radial * tangential - normal_tangential * radial
+    sliding = rotation + normal_radial * moved.tangential - normal_tangential * moved.radial
     stopping = (0.0 - stator.tangential_factor) * normal_force * load(modal.stopping, 0)
     store(state.tangential_factor, 0, stator.tangential_factor * mobilisation(sliding, stopping))

@@ -6,8 +6,8 @@ from typing import NamedTuple
 import numpy as np
 
 from bladerub.contact import law
-from bladerub.contact.gap import penetration
-from bladerub.contact.kernel import tilt
+from bladerub.contact.gap import is_above, penetration
+from bladerub.contact.kernel.composition import composed
 from bladerub.contact.tip import coverage, relief
 from bladerub.numerics.machine_code import inlined, within
 from bladerub.numerics.memory import add_to, load, load_fields, store
@@ -28,12 +28,64 @@ NO_CHANGE = 1e-12
 """Change of depth below which the force of an element is taken as constant over a step, m."""
 
 
-class Placement(NamedTuple):
-    """Where the profiles are on the casing; a vector each."""
+class Pose(NamedTuple):
+    """How the profile of each node is to the casing."""
 
-    position: np.ndarray  # Of the nodes, in rows
-    approach: np.ndarray  # m
-    tilted: np.ndarray  # m per element
+    approach: np.ndarray  # Vector, m
+
+
+class Placement(NamedTuple):
+    """Where the profiles are on the casing."""
+
+    position: np.ndarray  # Of the nodes, a vector, in rows
+    pose: Pose
+
+
+class Linearisation(NamedTuple):
+    """What the elements under each node answer near a pose; vectors."""
+
+    pose: Pose
+    force: np.ndarray  # N
+    stiffness: np.ndarray  # N/m
+    # Change of depth over which the force is linear, m: no element comes into contact, begins to flow or to
+    # unload
+    valid: np.ndarray
+
+
+@composed
+def pose_of(modal, approach, displacement):
+    """Pose of the profiles at a displacement of the tip, by which the nodes approach the casing."""
+    return Pose(approach)
+
+
+@composed
+def load_pose(modal, u):
+    """Pose at a displacement that was stored (`bladerub.contact.kernel.modal.store_tip`)."""
+    return Pose(load(u, 2 * LANES))
+
+
+@composed
+def approach_at(modal, pose, offset):
+    """Approach of the profile to the casing at `offset` elements from the node, m, without its relief."""
+    return pose.approach
+
+
+@composed
+def motion_at(modal, pose, before, offset, advance, lowering):
+    """Split what a profile comes closer by between two poses: by the blade, and by the rotation, m.
+
+    The second is the `lowering` of the profile over an element, which it passes by `advance` elements.
+    """
+    return pose.approach - before.approach, lowering
+
+
+@composed
+def is_clear(modal, tip, radial, tangential, approach, u, minimum_gap):
+    """Whether the tip surely touches nothing: its closest profile is above the lowest surface in reach.
+
+    `u` is the displacement as it was stored.
+    """
+    return is_above(tip, radial, tangential, approach, minimum_gap)
 
 
 @inlined
@@ -67,60 +119,62 @@ def rigid_surface(stator, position):
 
 
 @inlined
-def linearise(tilts, stator, tip, state, position, rows, approach, tilted):
-    """Press the elements under each node by its `approach` and tilt, but leave them as they are.
+def press(element, stator, tip, state, row, offset, approach):
+    """Press the element in `row` under each node, but leave it as it is.
 
-    Returns force (N), stiffness (N/m), and the change of depth over which the force is linear (m): no element
-    comes into contact, begins to flow or to unload. And where the profile turns, where `tilts` is
-    ``modal.tilt`` and not None, the first moment of the force about the node (N elements), the first and the
-    second moment of the stiffness.
+    Returns its force (N), its stiffness (N/m), and the change of depth over which these hold (m).
     """
+    entry = wrap(row, stator.n_elements) * LANES
+    worn = load(state.wear, entry)
+    depth = penetration(approach, relief(tip, offset), load(stator.initial_gap, entry), worn)
+    force, _ = law.return_mapping(element, depth, worn)
+    stiffness, linear = law.tangent(element, depth, worn)
+    if HEATS:
+        strength = load(state.strength, entry)
+        force, stiffness = strength * force, strength * stiffness
+    return force, stiffness, linear
+
+
+@composed
+def no_linearisation(modal, pose):
+    """Give one that holds nowhere."""
+    return Linearisation(pose, broadcast(0.0), broadcast(0.0), broadcast(-1.0))
+
+
+@composed
+def linearise(modal, stator, tip, state, position, rows, pose):
+    """Press the elements under each node by its profile, and sum up what they answer."""
     element = load_fields(law.Element, stator.law)
     force, stiffness, valid = broadcast(0.0), broadcast(0.0), broadcast(math.inf)
-    couple, first_moment, second_moment = broadcast(0.0), broadcast(0.0), broadcast(0.0)
     first, last = rows
     for row in range(first, last + 1):
-        entry = wrap(row, stator.n_elements) * LANES
         offset = (row + 0.5) - position
         share = coverage(tip, offset)
-        worn = load(state.wear, entry)
-        local_approach = tilt.raised(tilts, approach, tilted, offset)
-        depth = penetration(local_approach, relief(tip, offset), load(stator.initial_gap, entry), worn)
-        force_here, _ = law.return_mapping(element, depth, worn)
-        slope, linear = law.tangent(element, depth, worn)
-        if HEATS:
-            strength = load(state.strength, entry)
-            force_here, slope = strength * force_here, strength * slope
+        force_here, slope, linear = press(element, stator, tip, state, row, offset, pose.approach)
         force = force + share * force_here
         stiffness = stiffness + share * slope
         valid = minimum(valid, linear)
-        if tilts is not None:
-            couple = couple + share * offset * force_here
-            first_moment = first_moment + share * offset * slope
-            second_moment = second_moment + share * offset * offset * slope
-    return force, stiffness, valid, couple, first_moment, second_moment
+    return Linearisation(pose, force, stiffness, valid)
 
 
 @inlined
-def update_wear(tilts, stator, tip, state, placement, before):
+def update_wear(modal, stator, tip, state, placement, before):
     """Leave the elements as the tip presses them at the end of a step, and account for it.
 
     An element partly under the tip counts as elements of which a share is under it: as the edge of the
     profile moves on, whole elements are pressed down or released, at the cost or to the profit of the
     rotation. Between the ends of the step, approach and profile change linearly, and the law is integrated
-    exactly along that path. What the depth changes by a change of tilt is work of the blade, the rest of what
-    it changes by the profile is work of the rotation.
+    exactly along that path.
 
     `placement` and `before` are `Placement`, less than N rows from each other. Returns the elastic energy in
     the elements, the energy taken by wear and the work of the rotation on the elements in this step, J, and
     what the elements wear in it, m.
     """
-    position, approach, tilted = placement
-    position_before, approach_before, tilted_before = before
+    position, position_before = placement.position, before.position
     element = load_fields(law.Element, stator.law)
     stored, dissipated, supplied, worn_off = broadcast(0.0), broadcast(0.0), broadcast(0.0), broadcast(0.0)
     first, last = rows_under(tip, minimum(position, position_before), maximum(position, position_before))
-    advance, closer = position - position_before, approach - approach_before
+    advance = position - position_before
     constant, slope = relief(tip, advance), 2.0 * tip.curvature * advance
     # Of friction, J per N of the force of an element; the tip slides over the casing by `advance`
     by_friction = (0.0 - load(state.tangential_factor, 0)) * advance / load(tip.per_metre, 0)
@@ -130,13 +184,10 @@ def update_wear(tilts, stator, tip, state, placement, before):
         share, share_before = coverage(tip, offset), coverage(tip, offset + advance)
         lowering = slope * offset + constant  # of the profile over this element, in the step
         worn = load(state.wear, entry)
-        local_approach, turning = tilt.raised(tilts, approach, tilted, offset), closer
-        if tilts is not None:
-            middle = offset + 0.5 * advance
-            turning = closer + (tilted - tilted_before) * middle
-            lowering = lowering - 0.5 * (tilted + tilted_before) * advance
-        depth = penetration(local_approach, relief(tip, offset), load(stator.initial_gap, entry), worn)
-        deeper = turning + lowering
+        closer, lowering = motion_at(modal, placement.pose, before.pose, offset, advance, lowering)
+        approach = approach_at(modal, placement.pose, offset)
+        depth = penetration(approach, relief(tip, offset), load(stator.initial_gap, entry), worn)
+        deeper = closer + lowering
         force, increment = law.return_mapping(element, depth, worn)
         force_before = law.elastic_force(element, depth - deeper)
         under, was_under = share > 0.0, share_before > 0.0

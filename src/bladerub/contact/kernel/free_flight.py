@@ -8,12 +8,16 @@ from typing import NamedTuple
 
 import numpy as np
 
-from bladerub.contact.kernel import tilt
-from bladerub.contact.kernel.modal import add_tip_displacement, in_vectors, tip_displacement
+from bladerub.contact.kernel.modal import (
+    add_tip_displacement,
+    in_vectors,
+    no_tip_displacement,
+    tip_displacement,
+)
 from bladerub.contact.kernel.records import N_FORMS
 from bladerub.contact.schemes import Recurrence
 from bladerub.numerics.machine_code import inlined
-from bladerub.numerics.memory import aligned, load, no_sums, store
+from bladerub.numerics.memory import aligned, load, store
 from bladerub.numerics.vectors import LANES, absolute, broadcast, lane_sum
 
 MOST_STEPS = 24
@@ -103,13 +107,12 @@ def bound(flight, n, q, q_before):
 def fly(flight, modal, q, q1, q2):
     """Move the modes freely by all steps at once, in place, and project them on the tip.
 
-    Returns the displacement of the tip (radial, tangential, m, and tilt, m per element); the damping loss up
-    to the end of the flight, spread over the lanes (J), where the oldest coordinates `q2` become such that
-    `modal.advance_free` enters none of it again; the mean increment of node 1 (m); and the `bound` of the
-    next flight (m).
+    Returns the displacement of the tip; the damping loss up to the end of the flight, spread over the lanes
+    (J), where the oldest coordinates `q2` become such that `modal.advance_free` enters none of it again; the
+    mean increment of node 1 (m); and the `bound` of the next flight (m).
     """
     loss = mean = reach = broadcast(0.0)
-    sums, tilts = no_sums(), tilt.no_sums(modal.tilt)
+    sums = no_tip_displacement(modal)
     for k in range(0, modal.n, LANES):
         present = load(q, k)
         last, change = present - load(q1, k), present - load(q2, k)
@@ -126,9 +129,8 @@ def fly(flight, modal, q, q1, q2):
         reach = (
             reach + _form(flight, k, BOUND_Q) * absolute(x) + _form(flight, k, BOUND_D) * absolute(last_step)
         )
-        sums, tilts = add_tip_displacement(modal, k, x, sums), tilt.add(modal.tilt, k, x, tilts)
-    displacement = *tip_displacement(sums), tilt.total(modal.tilt, tilts)
-    return displacement, loss, lane_sum(mean), lane_sum(reach)
+        sums = add_tip_displacement(modal, k, x, sums)
+    return tip_displacement(modal, sums), loss, lane_sum(mean), lane_sum(reach)
 
 
 @inlined

@@ -11,9 +11,9 @@ import numpy as np
 from bladerub.contact import law
 from bladerub.contact.friction import contact_force
 from bladerub.contact.gap import closest_position, is_within_limit, normal, normal_approach, penetration
-from bladerub.contact.kernel import tilt
 from bladerub.contact.kernel.coulomb import mobilise
 from bladerub.contact.kernel.elements import HEATS, rigid_surface, wrap
+from bladerub.contact.kernel.records import COUPLE, TILT
 from bladerub.contact.tip import coverage, edge, relief
 from bladerub.numerics.machine_code import within
 from bladerub.numerics.memory import address_of, load, read, read_fields, store, write
@@ -53,7 +53,7 @@ def gauss_seidel(modal, stator, tip, state, travel, u, tolerance):
             compliance, guess = _self_compliance(modal, stator, state, rows, j), read(normal_force, j)
             tilted, couple = 0.0, 0.0
             if modal.tilt is not None:
-                tilted = read(u, tilt.PLACE + j)
+                tilted = read(u, TILT + j)
             store(approaches, 0, normal_approach(tip, load(u, 0), load(u, LANES)))
             free_approach = read(approaches, j) + compliance * guess
             if stator.is_rigid:
@@ -75,17 +75,17 @@ def gauss_seidel(modal, stator, tip, state, travel, u, tolerance):
             )
             store(turned, 0, radial)
             store(turned, LANES, tangential)
-            store(turned, tilt.COUPLE, stator.normal_factor * broadcast(couple))
+            store(turned, COUPLE, stator.normal_factor * broadcast(couple))
             for k in range(j, rows, LANES):
                 by = read(turned, k) - read(force, k)
                 write(force, k, read(turned, k))
                 for i in range(0, 2 * LANES, LANES):
                     store(u, i, load(u, i) + load(modal.compliance, rows * k + i) * by)
                 if modal.tilt is not None:
-                    tilt_change = load(modal.compliance, rows * k + tilt.COUPLE) * by
-                    store(u, tilt.PLACE, load(u, tilt.PLACE) + tilt_change)
+                    tilt_change = load(modal.compliance, rows * k + COUPLE) * by
+                    store(u, TILT, load(u, TILT) + tilt_change)
             if modal.tilt is not None:
-                change = max(change, edge(tip) * abs(read(u, tilt.PLACE + j) - tilted))
+                change = max(change, edge(tip) * abs(read(u, TILT + j) - tilted))
         if change <= tolerance:
             return converged
     return False

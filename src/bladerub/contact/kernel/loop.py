@@ -12,17 +12,17 @@ import numpy as np
 
 from bladerub.contact.energy import DAMPING, STORED
 from bladerub.contact.gap import is_within_limit, normal_approach
-from bladerub.contact.kernel import free_flight, tilt
+from bladerub.contact.kernel import free_flight, turning  # noqa: F401 (has counterparts of others)
 from bladerub.contact.kernel.accounting import add_work, update_coating
 from bladerub.contact.kernel.coulomb import predict_sliding
-from bladerub.contact.kernel.elements import HEATS
+from bladerub.contact.kernel.elements import HEATS, is_clear
 from bladerub.contact.kernel.free_flight import FreeFlight
-from bladerub.contact.kernel.modal import Modal, advance_forced, advance_free, correct
+from bladerub.contact.kernel.modal import Modal, advance_forced, advance_free, correct, store_tip
 from bladerub.contact.kernel.newton import find_forces
 from bladerub.contact.kernel.records import State, Stator, Tip, check, shapes
 from bladerub.numerics.machine_code import inlined, njit_on_disk, within
 from bladerub.numerics.memory import add_to, address_of, addresses, clear, copy, load, read, store, write
-from bladerub.numerics.vectors import LANES, absolute, all_lanes, broadcast, largest_lane, where
+from bladerub.numerics.vectors import LANES, absolute, broadcast, largest_lane, where
 
 if TYPE_CHECKING:
     from bladerub.contact.heating import Layer
@@ -145,25 +145,11 @@ class Rows(NamedTuple):
 
 
 @inlined
-def _store_displacement(modal, tip, radial, tangential, tilted, u):
+def _store_displacement(modal, tip, displacement, u):
     """Store a displacement of the tip and the approach of its nodes; return this."""
-    approach = normal_approach(tip, radial, tangential)
-    store(u, 0, radial)
-    store(u, LANES, tangential)
-    store(u, 2 * LANES, approach)
-    tilt.store_tilt(modal.tilt, u, tilted)
+    approach = normal_approach(tip, displacement.radial, displacement.tangential)
+    store_tip(modal, u, displacement, approach)
     return approach
-
-
-@inlined
-def _is_clear(modal, tip, radial, tangential, approach, tilted, minimum_gap):
-    """Whether the tip surely touches nothing: its closest profile is above the lowest surface in reach."""
-    clear = all_lanes(
-        (approach <= minimum_gap) & (absolute(tangential) <= tip.search_range) & (radial > -tip.limit)
-    )
-    if modal.tilt is not None and clear:  # most steps near the casing end before
-        clear = all_lanes(tilt.furthest(modal.tilt, tip, approach, tilted) <= minimum_gap)
-    return clear
 
 
 @inlined
@@ -171,7 +157,7 @@ def _stays_clear(modal, flight, tip, u, reach, minimum_gap):
     """Whether a free flight in which no node approaches by more than `reach` surely touches nothing."""
     radial, tangential, approach = load(u, 0) - reach, load(u, LANES), load(u, 2 * LANES) + reach
     sideways = absolute(tangential) + flight.sideways * reach
-    return _is_clear(modal, tip, radial, sideways, approach, tilt.load_tilt(modal.tilt, u), minimum_gap)
+    return is_clear(modal, tip, radial, sideways, approach, u, minimum_gap)
 
 
 @inlined
@@ -217,8 +203,7 @@ def _contact(modal, stator, tip, state, step, rows, clear_of_casing):
     if touching or step.touched:
         update_coating(modal, stator, tip, step.travel, step.per_step, state, rows.u_next, rows.u)
     if touching and modal.corrects:
-        radial, tangential, tilted = correct(modal, state.force, rows.q_next)
-        _store_displacement(modal, tip, radial, tangential, tilted, rows.u_next)
+        _store_displacement(modal, tip, correct(modal, state.force, rows.q_next), rows.u_next)
     if step.touched:
         add_work(modal, stator, tip, step.angle, state, rows.u_next, rows.u, rows.u_before)
         clear(address_of(state.normal_force, LANES), LANES)
@@ -264,8 +249,8 @@ def integrate(
             if is_flying:
                 touched = False
                 node_1 = read(u, 0)
-                tip_displacement, loss, increment, reach = free_flight.fly(flight, modal, q, q_before, q_next)
-                _store_displacement(modal, tip, *tip_displacement, u)
+                moved, loss, increment, reach = free_flight.fly(flight, modal, q, q_before, q_next)
+                _store_displacement(modal, tip, moved, u)
                 damping = damping + loss
                 mean += flight.n_steps * (node_1 + increment)
                 low, high = free_flight.extremes(node_1, read(u, 0), node_1 + increment)
@@ -275,15 +260,17 @@ def integrate(
                 continue
             for _ in range(min(flight.n_steps, steps_per_element - step)):
                 touched = touching
-                radial, tangential, tilted, loss = _advance(modal, state, touched, q, q_before, q_next)
-                approach = _store_displacement(modal, tip, radial, tangential, tilted, u_next)
+                moved, loss = _advance(modal, state, touched, q, q_before, q_next)
+                approach = _store_displacement(modal, tip, moved, u_next)
                 damping = damping + loss
                 step += 1
-                is_clear = _is_clear(modal, tip, radial, tangential, approach, tilted, minimum_gap)
-                if touched or not is_clear:
+                clear_of_casing = is_clear(
+                    modal, tip, moved.radial, moved.tangential, approach, u_next, minimum_gap
+                )
+                if touched or not clear_of_casing:
                     rotation = Step(touched, element + step * per_step, per_step, angle)
                     rows = Rows(q, q_next, u_before, u, u_next)
-                    within, touching = _contact(modal, stator, tip, state, rotation, rows, is_clear)
+                    within, touching = _contact(modal, stator, tip, state, rotation, rows, clear_of_casing)
                     if not within:
                         copy(q, q_next, modal.n)  # the damping loss is complete up to here
                         add_to(state.ledger, DAMPING * LANES, damping)

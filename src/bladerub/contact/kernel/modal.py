@@ -4,12 +4,13 @@ from typing import NamedTuple
 
 import numpy as np
 
-from bladerub.contact.kernel import tilt
+from bladerub.contact.kernel.composition import composed
 from bladerub.contact.kernel.records import by_lane
 from bladerub.contact.schemes import Recurrence
 from bladerub.numerics.machine_code import inlined
 from bladerub.numerics.memory import (
     add_products,
+    add_to_number,
     address_of,
     aligned,
     broadcast_each,
@@ -84,47 +85,52 @@ def in_vectors(rows: np.ndarray) -> np.ndarray:
     return padded.reshape(len(rows), -1, LANES).swapaxes(0, 1)
 
 
+class Displacement(NamedTuple):
+    """Of the nodes of the tip, a vector each, m."""
+
+    radial: np.ndarray
+    tangential: np.ndarray
+
+
 @inlined
 def advance_free(modal, q, q1, q2):
-    """Move the modes freely by one step, in place of the oldest coordinates `q2`; project them on the tip.
+    """Move the modes freely by one step, eq. (1), in place of the oldest coordinates `q2`.
 
-    Returns the displacement of the tip (radial, tangential, m), the interface rows of eq. (6), its tilt (m
-    per element), and the damping loss of the step before, spread over the lanes (J): its end is known only
-    now.
+    Returns the displacement of the tip, and the damping loss of the step before, spread over the lanes (J):
+    its end is known only now.
     """
-    loss = broadcast(0.0)
-    sums, tilts = no_sums(), tilt.no_sums(modal.tilt)
+    loss, sums = broadcast(0.0), no_tip_displacement(modal)
     for k in range(0, modal.n, LANES):
         x, modal_loss = _recur(modal, k, q, q1, q2)
         loss = loss + modal_loss
         store(q2, k, x)
-        sums, tilts = add_tip_displacement(modal, k, x, sums), tilt.add(modal.tilt, k, x, tilts)
-    return *tip_displacement(sums), tilt.total(modal.tilt, tilts), loss
+        sums = add_tip_displacement(modal, k, x, sums)
+    return tip_displacement(modal, sums), loss
 
 
 @inlined
 def advance_forced(modal, force, q, q1, q2):
     """Move the modes as `advance_free`, under the contact forces (24,) of the step before."""
-    loss = broadcast(0.0)
-    forces, couples = broadcast_each(force), tilt.couples(modal.tilt, force)
+    loss, forces = broadcast(0.0), spread_forces(modal, force)
     for k in range(0, modal.n, LANES):
         x, modal_loss = _recur(modal, k, q, q1, q2)
         loss = loss + modal_loss
-        store(q2, k, x + _by_forces(modal, k, forces, couples))
-    return *_project(modal, q2), loss
+        store(q2, k, x + load(modal.gain, k) * modal_force(modal, k, forces))
+    return _project(modal, q2), loss
 
 
 @inlined
 def correct(modal, force, q):
-    """Add the effect of contact forces (24,) to the modal coordinates; project these on the tip."""
-    forces, couples = broadcast_each(force), tilt.couples(modal.tilt, force)
+    """Add the effect of contact forces (24,) to the modal coordinates; return the displacement of the tip."""
+    forces = spread_forces(modal, force)
     for k in range(0, modal.n, LANES):
-        store(q, k, load(q, k) + _by_forces(modal, k, forces, couples))
+        store(q, k, load(q, k) + load(modal.gain, k) * modal_force(modal, k, forces))
     return _project(modal, q)
 
 
 @inlined
 def _recur(modal, k, q, q1, q2):
+    """Solve eq. (1) without forces for the modes from mode k on: the recurrence of the scheme."""
     present = load(q, k)
     change = present - load(q2, k)
     x = load(modal.now, k) * present - load(modal.before, k) * load(q1, k)
@@ -132,48 +138,82 @@ def _recur(modal, k, q, q1, q2):
 
 
 @inlined
-def _by_forces(modal, k, forces, couples):
-    by_forces = sum_of_products(address_of(modal.tip, ROWS * k), forces)
-    return load(modal.gain, k) * (by_forces + tilt.by_couples(modal.tilt, k, couples))
-
-
-@inlined
 def _project(modal, q):
-    sums, tilts = no_sums(), tilt.no_sums(modal.tilt)
+    sums = no_tip_displacement(modal)
     for k in range(0, modal.n, LANES):
-        x = load(q, k)
-        sums, tilts = add_tip_displacement(modal, k, x, sums), tilt.add(modal.tilt, k, x, tilts)
-    return *tip_displacement(sums), tilt.total(modal.tilt, tilts)
+        sums = add_tip_displacement(modal, k, load(q, k), sums)
+    return tip_displacement(modal, sums)
 
 
-@inlined
+@composed
+def spread_forces(modal, force):
+    """Each contact force in all lanes of a vector, for `modal_force`."""
+    return broadcast_each(force)
+
+
+@composed
+def modal_force(modal, k, forces):
+    """Force on the modes from mode k on."""
+    return sum_of_products(address_of(modal.tip, ROWS * k), forces)
+
+
+@composed
+def no_tip_displacement(modal):
+    """Give the sums, one for each coordinate of the tip, to which `add_tip_displacement` adds."""
+    return no_sums()
+
+
+@composed
 def add_tip_displacement(modal, k, x, sums):
-    """Add to a sum for each coordinate of the tip what the modes `x`, from mode k on, displace at the tip."""
+    """Add what the modes `x`, from mode k on, displace at the tip."""
     return add_products(sums, address_of(modal.tip, ROWS * k), x)
 
 
-@inlined
-def tip_displacement(sums):
-    """Radial and tangential displacement of the tip from the sums: the interface rows of eq. (6), m."""
+@composed
+def tip_displacement(modal, sums):
+    """Displacement of the tip from the sums: the interface rows of eq. (6)."""
     radial, tangential = halves(sums)
-    return lane_sums(radial), lane_sums(tangential)
+    return Displacement(lane_sums(radial), lane_sums(tangential))
 
 
-@inlined
-def displaced(rows, response, force, radial, tangential, tilted):
-    """Add to the displacement of the tip what contact forces (24,) cause, a row of `response` for each.
+@composed
+def displacement_of_nodes(modal, radial, tangential):
+    """Displacement of the tip where only its nodes move."""
+    return Displacement(radial, tangential)
 
-    Couples have a part in it where the profile turns, where `rows` is ``modal.tilt`` and not None.
-    """
-    width = ROWS if rows is None else ROWS + LANES
-    more_radial = more_tangential = more_tilted = broadcast(0.0)  # two sums at the same time
-    for i in range(0, width, 2):
+
+@composed
+def store_tip(modal, u, displacement, approach):
+    """Store a displacement of the tip and the approach of its nodes to the casing (m) in `u` (32,)."""
+    store(u, 0, displacement.radial)
+    store(u, LANES, displacement.tangential)
+    store(u, 2 * LANES, approach)
+
+
+@composed
+def load_tip(modal, u):
+    """Load a displacement of the tip that was stored."""
+    return Displacement(load(u, 0), load(u, LANES))
+
+
+@composed
+def move_tip(modal, k, change, u):
+    """Add to a stored displacement what a `change` of mode k alone makes of it."""
+    block, lane = k // LANES, k % LANES
+    for row in range(ROWS):
+        by = read(modal.tip, LANES * (ROWS * block + row) + lane)
+        add_to_number(u, row, by * change)
+
+
+@composed
+def displaced(modal, response, force, free):
+    """Add to the displacement `free` what contact forces (24,) cause, a row of `response` for each."""
+    radial, tangential = free
+    more_radial = more_tangential = broadcast(0.0)  # two sums at the same time
+    for i in range(0, ROWS, 2):
         by, by_next = read(force, i), read(force, i + 1)
-        radial = radial + load(response, width * i) * by
-        tangential = tangential + load(response, width * i + LANES) * by
-        more_radial = more_radial + load(response, width * (i + 1)) * by_next
-        more_tangential = more_tangential + load(response, width * (i + 1) + LANES) * by_next
-        if rows is not None:
-            tilted = tilted + load(response, width * i + ROWS) * by
-            more_tilted = more_tilted + load(response, width * (i + 1) + ROWS) * by_next
-    return radial + more_radial, tangential + more_tangential, tilted + more_tilted
+        radial = radial + load(response, ROWS * i) * by
+        tangential = tangential + load(response, ROWS * i + LANES) * by
+        more_radial = more_radial + load(response, ROWS * (i + 1)) * by_next
+        more_tangential = more_tangential + load(response, ROWS * (i + 1) + LANES) * by_next
+    return Displacement(radial + more_radial, tangential + more_tangential)

@@ -89,6 +89,8 @@ class State(NamedTuple):
     scratch: np.ndarray  # (6, 16): Of no meaning between steps
 
 
+TILT, COUPLE = 3 * LANES, 2 * LANES
+"""Where in `State.u` the tilt is, and in `State.force` the couples; of a profile that turns."""
 COATING = ("wear", "strength", "heat", "temperature")
 """What of `State` belongs to the coating."""
 

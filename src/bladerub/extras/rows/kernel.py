@@ -9,11 +9,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from bladerub.contact.kernel import tilt
 from bladerub.contact.kernel.loop import Progress, Simulation, integrate, take_turns
-from bladerub.contact.kernel.modal import ROWS
+from bladerub.contact.kernel.modal import move_tip
 from bladerub.numerics.machine_code import inlined, njit_on_disk, within
-from bladerub.numerics.memory import add_to_number, address_of, read, record_at, rows_of, write
+from bladerub.numerics.memory import address_of, read, record_at, rows_of, write
 from bladerub.numerics.vectors import LANES
 
 
@@ -191,8 +190,4 @@ def _couple(coupling, kinds, modals, states, work):
             write(state.q, modal.n + k, shifted)
             work[b] += coupling.kinetic[k, b] * ((present - shifted) ** 2 - (present - before) ** 2)
             work[b] += coupling.elastic[k, b] * present * change
-            block, lane = k // LANES, k % LANES
-            for row in range(ROWS):
-                by = read(modal.tip, LANES * (ROWS * block + row) + lane)
-                add_to_number(tip_before, row, by * change)
-            tilt.move(modal.tilt, k, change, tip_before)
+            move_tip(modal, k, change, tip_before)
