@@ -21,7 +21,7 @@ COMMANDS = {
     "rnu": "invalid choice: 'rnu'",
     "run --casing 2nd --E 2 --f 0.19": "--K: missing",
     "run --casing 2dn --E 2 --K 1 --f 0.19": '"2dn": must be one of 2nd, 2nd5nd; did you mean 2nd?',
-    f"{RUN} --E soft": "argument --E: invalid float value: 'soft'",
+    f"{RUN} --E soft": "argument --E: must be a number, or one with a unit: 'soft'",
     f"{RUN} --E 0": "--E = 0: ",
     f"{RUN} --K inf": "--K = inf: ",
     f"{RUN} --f nan": "--f = nan: ",

@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 
 from bladerub.api.errors import InputError
 from bladerub.api.notebook import html_table
-from bladerub.api.study import Study
+from bladerub.api.study import Quantity, Study
 from bladerub.blade.accuracy import ACCURACY_COLUMNS, doubts
 from bladerub.blade.build import build, is_built
 from bladerub.blade.built import accuracy_path, mesh_path, paths, write
@@ -21,6 +21,7 @@ from bladerub.blade.cache import kept_at
 from bladerub.blade.frequencies import reduced_frequencies, tip_lean
 from bladerub.blade.model import ReducedBlade
 from bladerub.blade.validation import read_valid_blade
+from bladerub.config.quantities import number, references
 from bladerub.io import tables
 from bladerub.io.equality import equal
 from bladerub.io.optional import package
@@ -105,6 +106,24 @@ class Blade:
         """File of the mesh that belongs to the reduced model."""
         return mesh_path(self.path)
 
+    def f_omega(self, speed: Quantity) -> float:
+        """Normalise a speed with a unit, such as ``"2200 rpm"``; one that is a number is normalised already.
+
+        Raises
+        ------
+        InputError
+            If it is no speed.
+
+        Examples
+        --------
+        >>> 0.18 < blade.f_omega("2200 rpm") < 0.2
+        True
+        """
+        try:
+            return float(number("f_omega", speed, references({}, self.f1_hz)))
+        except ValueError as error:
+            raise InputError("speed", speed, str(error)) from None
+
     def check_speed(self, name: str, f_omega: float) -> None:
         """Check that the reduced model holds at the normalised speed `f_omega`, the argument `name`.
 
@@ -118,8 +137,8 @@ class Blade:
             requirement = f"must be at most {fastest:g} (normalised), the highest speed of {self.path}"
             raise InputError(name, f_omega, requirement)
 
-    def frequencies(self, f_omega: float | Sequence[float] = 0.0, n_modes: int = 3) -> np.ndarray:
-        """Lowest eigenfrequencies of the reduced model at the normalised speed `f_omega`, Hz.
+    def frequencies(self, f_omega: Quantity | Sequence[Quantity] = 0.0, n_modes: int = 3) -> np.ndarray:
+        """Lowest eigenfrequencies of the reduced model at a speed as of `Blade.f_omega`, Hz.
 
         They are (n_modes,), or (n, n_modes) at n speeds.
 
@@ -128,9 +147,10 @@ class Blade:
         ValueError
             If a speed is outside the range of the blade.
         """
-        if isinstance(f_omega, float | int):
-            return reduced_frequencies(self.reduced, f_omega, n_modes)
-        return np.stack([reduced_frequencies(self.reduced, speed, n_modes) for speed in f_omega])
+        if isinstance(f_omega, float | int | str):
+            return reduced_frequencies(self.reduced, self.f_omega(f_omega), n_modes)
+        speeds = [self.f_omega(speed) for speed in f_omega]
+        return np.stack([reduced_frequencies(self.reduced, speed, n_modes) for speed in speeds])
 
     def accuracy(self) -> pd.DataFrame:
         """Frequencies (Hz) of finite elements, eq. (2) and reduced model, as in ``rom_accuracy.csv``.

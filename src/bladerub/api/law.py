@@ -4,6 +4,7 @@ from collections.abc import Mapping
 from types import MappingProxyType
 
 from bladerub.api.errors import InputError
+from bladerub.config.quantities import law_numbers
 from bladerub.contact.spec import ElementLaw
 from bladerub.study import grid
 
@@ -16,8 +17,8 @@ class Law:
     name : str
         ``"plastic"`` (the paper's), ``"perfectly_plastic"``, ``"viscoplastic"``, ``"brittle"`` or
         ``"thermal"``; or the path of a Python file with a law of your own, which ends in ``.py``.
-    **parameters : float
-        A value for each parameter of the law, SI units.
+    **parameters : float or str
+        A value for each parameter of the law, in SI units or text with a unit, such as ``"10 kPa s"``.
 
     Raises
     ------
@@ -32,14 +33,16 @@ class Law:
     Law('viscoplastic', viscosity=10000.0)
     >>> law.parameters["viscosity"]  # Pa s
     10000.0
+    >>> br.Law("viscoplastic", viscosity="10 kPa s") == law
+    True
     >>> law.name, sorted(law.entry)
     ('viscoplastic', ['name', 'viscosity'])
     >>> law.element_law.label
     'viscoplastic (viscosity 10000)'
     """
 
-    def __init__(self, name: str, **parameters: float):
-        self._entry = grid.law_entry(str(name), parameters)
+    def __init__(self, name: str, **parameters: float | str):
+        self._entry = grid.law_entry(str(name), law_numbers(str(name), parameters))
         try:
             self._described = grid.element_law({"contact": {"law": self._entry}})
         except ValueError as error:

@@ -15,7 +15,7 @@ from bladerub.api.dataset import to_dataset
 from bladerub.api.errors import InputError
 from bladerub.api.notebook import html_table
 from bladerub.api.run import Run, solve
-from bladerub.api.study import StudyCoating, StudyRun
+from bladerub.api.study import Quantity, StudyCoating, StudyRun
 from bladerub.contact.setup import compile_kernel
 from bladerub.io.provenance import provenance
 from bladerub.plots.scales import greatest
@@ -161,7 +161,7 @@ def read_map(path: str | Path) -> Map:
 def simulate_speeds(
     blade: Blade,
     coating: StudyCoating,
-    speeds: Iterable[float],
+    speeds: Iterable[Quantity],
     *,
     jobs: int = 1,
     follow: bool = True,
@@ -175,8 +175,8 @@ def simulate_speeds(
         The blade.
     coating : StudyCoating
         The coating, from `Study.coating` or `Study.rigid`.
-    speeds : iterable of float
-        Speeds, normalised: at least two, ascending in the map.
+    speeds : iterable of float or str
+        Speeds, normalised or with a unit (``"2200 rpm"``, of this blade): at least two, ascending in the map.
     jobs : int
         Runs at once.
     follow, progress : bool
@@ -200,7 +200,7 @@ def simulate_speeds(
     >>> sweep.status.tolist()
     ['completed', 'completed']
     """
-    runs = [coating.at(f_omega) for f_omega in sorted({float(f) for f in speeds})]
+    runs = [coating.at(f_omega) for f_omega in sorted({blade.f_omega(speed) for speed in speeds})]
     if len(runs) < 2:
         raise InputError("speeds", [run.f_omega for run in runs], "must be at least two")
     blade.check_speed("speeds", runs[-1].f_omega)

@@ -11,6 +11,7 @@ import numpy as np
 from bladerub.api.errors import InputError
 from bladerub.api.law import Law
 from bladerub.api.notebook import html_table
+from bladerub.config import quantities
 from bladerub.config import read as configuration
 from bladerub.config.checks import most_revolutions, own_problem
 from bladerub.config.errors import UNKNOWN
@@ -22,6 +23,9 @@ from bladerub.study import grid
 from bladerub.study.grid import CoatingCase
 
 _MOST_REVOLUTIONS = 10_000
+
+Quantity = float | str
+"""A plain number as in a config, or text with a unit: ``"11400 rpm"``, ``"1.2 GPa"``, ``"6 mm"``."""
 
 
 @dataclass(frozen=True)
@@ -96,8 +100,10 @@ class StudyCoating:
         """Name in paths, for instance ``2nd_E2_K0.5_theta0.15``."""
         return self.case.name
 
-    def at(self, f_omega: float, revolutions: int | None = None) -> StudyRun:
-        """Describe the run at the speed `f_omega` (normalised), of so many revolutions.
+    def at(self, f_omega: Quantity, revolutions: int | None = None) -> StudyRun:
+        """Describe the run at the speed `f_omega`, of so many revolutions.
+
+        The speed is normalised, or text such as ``"2200 rpm"``, by the first frequency of the study's blade.
 
         Raises
         ------
@@ -110,7 +116,7 @@ class StudyCoating:
         >>> br.default_study().coating("2nd", E=2, K=0.5).at(0.19).name
         '2nd_E2_K0.5_theta0/0.1900'
         """
-        _check("f_omega", f_omega)
+        f_omega = _number(self.config, "f_omega", f_omega)
         config = self.config if revolutions is None else _of_revolutions(self.config, revolutions)
         return StudyRun(config, self.case, grid.run_spec(config, self.case, f_omega))
 
@@ -207,13 +213,13 @@ class Study:
         self,
         casing: str,
         *,
-        E: float,
-        K: float,
-        theta: float | None = None,
+        E: Quantity,
+        K: Quantity,
+        theta: Quantity | None = None,
         friction: float | None = None,
-        damping_ratio: float | None = None,
-        layer_thickness: float | None = None,
-        interference: float | None = None,
+        damping_ratio: Quantity | None = None,
+        layer_thickness: Quantity | None = None,
+        interference: Quantity | None = None,
     ) -> StudyCoating:
         """Describe an abradable coating, which need not be one that the study lists.
 
@@ -221,8 +227,9 @@ class Study:
         ----------
         casing : str
             Name of a casing of the config, for instance ``"2nd"``.
-        E, K : float
-            Young modulus and plastic modulus, normalised.
+        E, K : float or str
+            Young modulus and plastic modulus, normalised, or text with a unit such as ``"1.2 GPa"``. So may
+            be all others; docs/config.md has the units.
         theta : float, optional
             Angle of the abradable elements, rad: the contact force has this constant direction. Default 0.
         friction : float, optional
@@ -242,6 +249,8 @@ class Study:
         >>> import bladerub as br
         >>> br.default_study().coating("2nd", E=1.1, K=0.5).name
         '2nd_E1.1_K0.5_theta0'
+        >>> br.default_study().coating("2nd", E="660 MPa", K="300 MPa").name
+        '2nd_E1.1_K0.5_theta0'
         >>> br.default_study().coating("2nd", E=1.1, K=0.5, damping_ratio=1e-3).name
         '2nd_E1.1_K0.5_theta0_xi0.001'
         """
@@ -252,8 +261,7 @@ class Study:
         }
         if friction is not None and theta is not None:
             raise InputError("friction", friction, "goes without theta, which says the same")
-        _check("E", E)
-        _check("K", K)
+        E, K = (_number(self.config, name, value) for name, value in (("E", E), ("K", K)))
         if friction is None:
             return self._checked(CoatingCase, overrides, casing, E, K, theta=theta or 0.0)
         return self._checked(CoatingCase.coulomb, overrides, casing, E, K, friction=friction)
@@ -263,8 +271,8 @@ class Study:
         casing: str,
         *,
         friction: float = 0.0,
-        damping_ratio: float | None = None,
-        interference: float | None = None,
+        damping_ratio: Quantity | None = None,
+        interference: Quantity | None = None,
     ) -> StudyCoating:
         """Describe direct contact with the rigid casing under Coulomb's coefficient `friction`.
 
@@ -286,15 +294,15 @@ class Study:
         self,
         casing: str,
         *,
-        E: float,
-        K: float,
-        f_omega: float,
-        theta: float | None = None,
+        E: Quantity,
+        K: Quantity,
+        f_omega: Quantity,
+        theta: Quantity | None = None,
         friction: float | None = None,
         revolutions: int | None = None,
-        damping_ratio: float | None = None,
-        layer_thickness: float | None = None,
-        interference: float | None = None,
+        damping_ratio: Quantity | None = None,
+        layer_thickness: Quantity | None = None,
+        interference: Quantity | None = None,
     ) -> StudyRun:
         """Describe the run of an abradable coating at one speed; see `coating` and `StudyCoating.at`.
 
@@ -319,19 +327,20 @@ class Study:
     def _checked(
         self,
         make: Any,
-        overrides: Mapping[str, float | None],
+        overrides: Mapping[str, Quantity | None],
         casing: str,
         *moduli: float,
-        **tangential: float,
+        **tangential: Quantity,
     ) -> StudyCoating:
         casings = self.config["casings"]
         if casing not in casings:
             raise InputError("casing", casing, _one_of(casing, casings))
-        for name, value in {**tangential, **overrides}.items():
-            if value is not None:
-                _check(name, value)
-        values = (*map(float, moduli), *map(float, tangential.values()))
-        case = make(casing, *values).with_own(**overrides)
+        plain = {
+            name: None if value is None else _number(self.config, name, value)
+            for name, value in {**tangential, **overrides}.items()
+        }
+        values = (*map(float, moduli), *(float(plain[name]) for name in tangential))
+        case = make(casing, *values).with_own(**{name: plain[name] for name in overrides})
         if case.variant and (problem := own_problem(dict(self.config), case)):
             raise InputError(problem[0], case.own[problem[0]], f"must be {problem[1]}")
         return StudyCoating(self.config, case)
@@ -399,11 +408,14 @@ def _found(path: str | Path) -> Path:
     return next((place for place in places if place.is_file()), Path(path))
 
 
-def _check(name: str, value: float) -> None:
+def _number(config: Mapping[str, Any], name: str, value: Quantity) -> float:
+    """Return the argument `name` as a plain number that the schema allows."""
     try:
-        check_quantity(name, value)
+        plain = quantities.number(name, value, quantities.references(config))
+        check_quantity(name, plain)
     except ValueError as error:
         raise InputError(name, value, str(error)) from None
+    return plain
 
 
 def _one_of(name: str, choices: Collection[str]) -> str:

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any, NoReturn
 from tqdm import tqdm
 
 from bladerub.config import read as configuration
-from bladerub.config import record
+from bladerub.config import record, units
 from bladerub.config.errors import format_value
 from bladerub.io.errors import BadInput, message_for
 from bladerub.io.folders import base_config, study_folder
@@ -204,16 +204,42 @@ def add_law_parameters_to(parser: Parser, option: str, text: str) -> None:
     parser.option(option, text, action="append", default=[], metavar="NAME=VALUE")
 
 
-def law_parameters(option: str, settings: list[str]) -> dict[str, float]:
-    """Read what the command line gives for each parameter of a law."""
-    values = {}
+def law_parameters(option: str, settings: list[str], law: str | None) -> dict[str, float | str]:
+    """Read what the command line gives for each parameter of a law, converted if the law has it."""
+    values: dict[str, float | str] = {}
     for setting in settings:
         name, _, value = setting.partition("=")
         try:
-            values[name.strip()] = float(value)
-        except ValueError:
+            values[name.strip()] = quantity(value)
+        except argparse.ArgumentTypeError:
             raise InputError(f"{option} = {setting}: must be NAME=VALUE, such as viscosity=1e4") from None
-    return values
+    if law is None or not values:
+        return values
+
+    from bladerub.config.quantities import law_numbers
+
+    return law_numbers(law, values)
+
+
+def quantity(text: str) -> float | str:
+    """Read an option that is a number, or one with a unit, which stays text until the study is known."""
+    with suppress(ValueError):
+        return float(text)
+    if units.read(text) is None:
+        raise argparse.ArgumentTypeError(f"must be a number, or one with a unit: {text!r}")
+    return text
+
+
+def convert(options: argparse.Namespace, *names: str, reference: units.Reference) -> None:
+    """Turn options with a unit, by their names in the schema, into plain numbers."""
+    from bladerub.config.quantities import number
+
+    for name in names:
+        typed = getattr(options, name)
+        try:
+            setattr(options, name, number(name, typed, reference))
+        except ValueError as error:
+            raise InputError(f"--{name.replace('_', '-')} = {format_value(typed)}: {error}") from None
 
 
 def blade_path(options: argparse.Namespace, config: dict[str, Any]) -> Path:

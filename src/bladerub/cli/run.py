@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 from bladerub import plugins
 from bladerub.cli import inputs
-from bladerub.cli.inputs import InputError, refused
+from bladerub.cli.inputs import InputError, quantity, refused
 from bladerub.config.schema import schema
 
 if TYPE_CHECKING:  # as in `inputs`
@@ -19,6 +19,8 @@ if TYPE_CHECKING:  # as in `inputs`
     from bladerub.api.run import Run
     from bladerub.api.study import Study, StudyCoating, StudyRun
 
+_QUANTITIES = ("E", "K", "theta", "friction", "damping_ratio", "layer_thickness", "interference")
+_QUANTITIES += ("length_scatter", "frequency_scatter")
 _STEEP = math.pi / 4  # beyond this angle the force is more tangential than normal
 _UNITS = {"E": "contact.modulus_unit", "K": "contact.modulus_unit", "theta": "rad", "f_omega": "f1 at rest"}
 _UNITS |= {
@@ -48,32 +50,34 @@ def add_to(commands: Any) -> None:
     parser.option("--casing", "name of a casing of the config, such as 2nd", required=True)
     text = "abradable, with E, K and theta or friction (default), or rigid, with friction"
     parser.option("--coating", text, choices=["abradable", "rigid"], default="abradable")
-    parser.option("--E", "Young modulus of the abradable coating (normalised)", float)
-    parser.option("--K", "plastic modulus of the abradable coating (normalised)", float)
-    parser.option("--theta", "angle of its elements, rad (default 0): direction of the contact force", float)
+    parser.option("--E", "Young modulus of the abradable coating: normalised, or '1.2 GPa'", quantity)
+    parser.option("--K", "plastic modulus of the abradable coating: likewise", quantity)
+    text = "angle of its elements, rad or '8 deg' (default 0): direction of the contact force"
+    parser.option("--theta", text, quantity)
     text = "coefficient of Coulomb friction, instead of --theta, or on the rigid casing (default 0)"
     parser.option("--friction", text, float, metavar="MU")
     text = "of every mode, instead of contact.damping_ratio"
-    parser.option("--damping-ratio", text, float, metavar="XI")
-    text = "of the abradable coating, m, instead of contact.layer_thickness"
-    parser.option("--layer-thickness", text, float, metavar="H")
+    parser.option("--damping-ratio", text, quantity, metavar="XI")
+    text = "of the abradable coating, m or '4 mm', instead of contact.layer_thickness"
+    parser.option("--layer-thickness", text, quantity, metavar="H")
     text = "law of the elements by its name (docs/laws.md) or its file, instead of contact.law"
     parser.option("--law", text, metavar="LAW")
-    text = "parameter of --law, SI units; once for each of them"
+    text = "parameter of --law, SI units or with its unit; once for each of them"
     inputs.add_law_parameters_to(parser, "--law-parameter", text)
-    parser.option("--interference", "instead of that of the casing, m", float, metavar="D")
+    parser.option("--interference", "instead of that of the casing, m or '0.4 mm'", quantity, metavar="D")
     speed = parser.add_mutually_exclusive_group(required=True)
-    speed.add_argument("--f", type=float, metavar="F_OMEGA", help="speed (normalised)")
-    speed.add_argument("--rpm", type=float, metavar="N", help="speed in revolutions a minute")
+    text = "speed: normalised, or with a unit, such as 2200rpm or '38 Hz'"
+    speed.add_argument("--f", type=quantity, metavar="F_OMEGA", help=text)
+    speed.add_argument("--rpm", type=float, metavar="N", help="the same as --f 'N rpm'")
     parser.option("--revolutions", "instead of solver.revolutions, at least 2", int, metavar="N")
     text = "run it again from so many other starts, as the study does, and show the bands"
     parser.option("--ensemble", text, int, metavar="N")
     text = "so many blades, at even angles, that rub on one coating"
     parser.option("--blades", text, int, metavar="N")
-    text = "standard deviation of their tip radii, m (default 0)"
-    parser.option("--length-scatter", text, float, metavar="S")
+    text = "standard deviation of their tip radii, m or '20 µm' (default 0)"
+    parser.option("--length-scatter", text, quantity, metavar="S")
     text = "standard deviation of their natural frequencies, relative (default 0)"
-    parser.option("--frequency-scatter", text, float, metavar="S")
+    parser.option("--frequency-scatter", text, quantity, metavar="S")
     text = "springs of the disk between neighbours over the stiffness of the first mode (default 0: none)"
     parser.option("--coupling", text, float, metavar="C")
     parser.option("--seed", "of the draws of the blades, 0 or more (default 1)", int, metavar="N")
@@ -95,24 +99,26 @@ def run(options: argparse.Namespace) -> None:
 
     from bladerub.api.run import counted, simulate
     from bladerub.api.study import Study
+    from bladerub.config.quantities import references
 
+    inputs.convert(options, *_QUANTITIES, reference=references(config))
     row = _row(options)
     if options.stress and (row or config.get("rotor")):
         raise InputError("--stress: is of a single blade; not with --blades or the block rotor of the config")
     study = _with_law(options, Study(config, inputs.study_folder()))
     if options.output:
         _check_output(options.output)
-    blade = None
-    if options.rpm is not None:
-        blade = inputs.read_blade(options, config)
-        options.f = options.rpm / 60 / blade.f1_hz
-    with inputs.as_options(f_omega="f", damping_ratio="damping-ratio", layer_thickness="layer-thickness"):
-        planned = _coating(options, study).at(options.f, options.revolutions)
+    speed = options.f if options.rpm is None else f"{options.rpm!r} rpm"
+    blade = inputs.read_blade(options, config) if options.blade else None
+    names = {"f_omega": "f", "speed": "f", "damping_ratio": "damping-ratio"}
+    with inputs.as_options(**names, layer_thickness="layer-thickness"):
+        f_omega = blade.f_omega(speed) if blade else speed
+        planned = _coating(options, study).at(f_omega, options.revolutions)
     fastest = config["reduction"]["f_omega_max"]
-    if not options.blade and options.f > fastest:  # of a blade that may not be built yet
-        raise InputError(
-            f"--f = {options.f:g}: must be at most reduction.f_omega_max = {fastest:g} (normalised)"
-        )
+    if not blade and planned.f_omega > fastest:  # of a blade that may not be built yet
+        typed = f" ({speed})" if isinstance(speed, str) else ""
+        limit = f"reduction.f_omega_max = {fastest:g} (times the first frequency at rest)"
+        raise InputError(f"--f = {planned.f_omega:g}{typed}: must be at most {limit}")
     _point_out(options)
     blade = blade or inputs.read_blade(options, config)
     bar = inputs.progress_bar(planned.spec.revolutions, "rev")
@@ -139,7 +145,7 @@ def run(options: argparse.Namespace) -> None:
 
 def _with_law(options: argparse.Namespace, study: "Study") -> "Study":
     """Return the study with the law that is asked for, if one is."""
-    values = inputs.law_parameters("--law-parameter", options.law_parameter)
+    values = inputs.law_parameters("--law-parameter", options.law_parameter, options.law)
     if options.law is None:
         if values:
             raise InputError(f"--law-parameter = {options.law_parameter[0]}: goes with --law only")

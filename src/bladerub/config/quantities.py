@@ -45,13 +45,14 @@ def references(config: Mapping[str, Any], f1_hz: float | None = None) -> units.R
 def number(name: str, value: Any, reference: units.Reference) -> Any:
     """Return `value` as a plain number if it is a quantity with a unit, anything else as it is.
 
-    `name` is that of a definition of the schema, such as ``E``. A speed is rounded as those of the grid.
-    Raises ValueError if the unit is of another kind, and as the `reference`.
+    `name` is that of a definition of the schema, such as ``E``, or of a key of ``rotor``. A speed is rounded
+    as those of the grid. Raises ValueError if the unit is of another kind, and as the `reference`.
     """
     quantity = units.read(value)
     if quantity is None:
         return value
-    plain = units.convert(quantity, schema()["$defs"][name], reference)
+    rule = schema()["$defs"].get(name) or schema()["properties"]["rotor"]["properties"][name]
+    plain = units.convert(quantity, rule, reference)
     return round(plain, SPEED_DECIMALS) if name == "f_omega" else plain
 
 

@@ -24,7 +24,7 @@ def add_to(commands: Any) -> None:
     text = "Python file of a law, which is run, or the name of a law of the package"
     parser.add_argument("law", metavar="LAW", help=text)
     inputs.add_law_parameters_to(
-        parser, "--parameter", "parameter of the law, SI units; once for each of them"
+        parser, "--parameter", "parameter of the law, SI units or with its unit; once for each of them"
     )
     parser.option("--seed", "of the histories, 0 or more (default 0)", int, metavar="N", default=0)
 
@@ -33,7 +33,7 @@ def check_law(options: argparse.Namespace) -> int:
     """Check the law that the command line names, and print what is wrong."""
     config = inputs.read_config(options)
     inputs.require(options, seed=(0, 2**32 - 1))
-    values = inputs.law_parameters("--parameter", options.parameter)
+    values = inputs.law_parameters("--parameter", options.parameter, options.law)
 
     from bladerub.extras.verification.element_law import check_law as check
     from bladerub.study.grid import coating_cases, element_law, law_entry, run_spec
