@@ -22,10 +22,12 @@ SPECTRA = {
     key: config["figures"][key] for key in ("dpi", "max_frequency", "amplitude_range")
 }
 
-# What E = 1 is, and a displacement that is large; of a blade from another program also the speeds of its rotor
-SCALES = {"modulus_unit": modulus_unit(config), "length": config["blade"]["length"]}
-if "source" in config["blade"]:
-    SCALES["engine"] = {"nominal_speed": config["figures"].get("nominal_speed")}
+# What E = 1 is, a displacement that is large, and what is known of the rotor but the first frequency of its blade
+SCALES = {
+    "modulus_unit": modulus_unit(config),
+    "length": config["blade"]["length"],
+    "engine": {"nominal_speed": config["figures"].get("nominal_speed")},
+}
 
 # Speeds at which the displacement of both is kept: the paper's two, and those where this blade has its peaks
 BOTH = [

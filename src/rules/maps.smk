@@ -75,6 +75,7 @@ LISTED_MEMBERS = expand(rules.ensemble.output.members, coating=WITH_ENSEMBLE)
 
 rule peaks:
     input:
+        blade=rules.blade.output.reduced_model,
         maps=expand(rules.map.output, coating=COATINGS),
         ensembles=ENSEMBLES,
         analysing=files_behind("study.bands"),
@@ -92,6 +93,7 @@ rule peaks:
 
 rule divergence:
     input:
+        blade=rules.blade.output.reduced_model,
         maps=expand(rules.map.output, coating=COATINGS),
         ensembles=ENSEMBLES,
         analysing=files_behind("study.bands"),

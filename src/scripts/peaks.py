@@ -9,4 +9,5 @@ from bladerub.study.maps import read_map
 from bladerub.workflow import outputs
 
 maps, ensembles = map(read_map, snakemake.input.maps), map(ensemble.read, snakemake.input.ensembles)
-outputs.save(snakemake, table=bands.of_peaks(snakemake.config, list(maps), list(ensembles)))
+table = bands.of_peaks(snakemake.config, list(maps), list(ensembles))
+outputs.save(snakemake, table=table.assign(f_peak_rpm=outputs.rpm(snakemake, table.f_peak)))

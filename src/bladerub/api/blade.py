@@ -12,7 +12,7 @@ import pandas as pd
 from matplotlib.figure import Figure
 
 from bladerub.api.errors import InputError
-from bladerub.api.notebook import html_table
+from bladerub.api.notebook import Shown
 from bladerub.api.study import Quantity, Study
 from bladerub.blade.accuracy import ACCURACY_COLUMNS, doubts
 from bladerub.blade.build import build, is_built
@@ -22,12 +22,14 @@ from bladerub.blade.frequencies import reduced_frequencies, tip_lean
 from bladerub.blade.model import ReducedBlade
 from bladerub.blade.validation import read_valid_blade
 from bladerub.config.quantities import number, references
+from bladerub.config.units import speed_in_words
 from bladerub.io import tables
 from bladerub.io.equality import equal
 from bladerub.io.optional import package
 from bladerub.io.provenance import provenance
 from bladerub.plots import blade_mesh
 from bladerub.plots.campbell import campbell
+from bladerub.plots.scales import Engine
 from bladerub.plots.spectrum import ORDERS
 from bladerub.plots.style import saved
 from bladerub.study.cache import blade_digest
@@ -36,8 +38,8 @@ if TYPE_CHECKING:
     import xarray as xr
 
 
-@dataclass(frozen=True)
-class Blade:
+@dataclass(frozen=True, repr=False)
+class Blade(Shown):
     """A blade, from `build_blade` or `read_blade`.
 
     Parameters
@@ -176,22 +178,21 @@ class Blade:
     def plot_campbell(self, path: str | Path | None = None) -> Figure:
         """Draw Fig. 2: the Campbell diagram; `path` to write it there as well. Raises as `accuracy`."""
         modes = self.accuracy().pivot(index="f_omega", columns="mode") / self.f1_hz
-        return saved(campbell(modes.index, modes["f_fe"], modes["f_rom"], ORDERS), path)
+        return saved(campbell(modes.index, modes["f_fe"], modes["f_rom"], ORDERS, Engine(self.f1_hz)), path)
 
     def to_xarray(self) -> "xr.Dataset":
         """Return matrices, interface nodes and directions with units and names."""
         return package("xarray", "xarray").load_dataset(self.path, engine="h5netcdf", phony_dims="sort")
 
-    def _repr_html_(self) -> str:
-        rows = {
+    def _shown(self) -> tuple[str, Mapping[str, str]]:
+        return "Blade", {
             "first eigenfrequency at rest": f"{self.f1_hz:.5g} Hz",
             "u_r/u_t of mode 1 at the tip": f"{self.tip_lean[0]:.3f} to {self.tip_lean[-1]:.3f}",
             "length": f"{1e3 * self.length:.4g} mm",
             "coordinates": f"{len(self.reduced.mass)}",
-            "highest speed": f"{self.reduced.f_omega_max:g} of the first frequency",
+            "highest speed": speed_in_words(self.reduced.f_omega_max, self.f1_hz),
             "file": f"{self.path}",
         }
-        return html_table("Blade", rows)
 
 
 def read_blade(path: str | Path) -> Blade:

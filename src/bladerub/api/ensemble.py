@@ -1,5 +1,6 @@
 """An ensemble: one run from many starts."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
@@ -10,7 +11,7 @@ from tqdm.auto import tqdm
 from bladerub.api.blade import Blade
 from bladerub.api.errors import InputError
 from bladerub.api.map import solve_all
-from bladerub.api.notebook import html_table
+from bladerub.api.notebook import Shown
 from bladerub.api.run import Run, run_of, runs_of
 from bladerub.api.study import StudyRun
 from bladerub.io.equality import Comparable
@@ -27,8 +28,8 @@ _START = "initial_displacement"  # attribute of each run in the file of an ensem
 _BANDED = ("peak_amplitude", "spectral_peak", "max_wear", "lobes", "wear_harmonic", "growth_per_revolution")
 
 
-@dataclass(frozen=True, eq=False)
-class Ensemble(Comparable):
+@dataclass(frozen=True, eq=False, repr=False)
+class Ensemble(Shown, Comparable):
     """One run and its repetitions from other starts, from `simulate_ensemble`.
 
     Parameters
@@ -103,9 +104,9 @@ class Ensemble(Comparable):
             together[prefix] = replace(run.stored, attributes=attributes)
         run_set.write(path, together, provenance(self.planned.config))
 
-    def _repr_html_(self) -> str:
-        rows = {name: f"{low:.4g} to {high:.4g}" for name, (_, low, high) in self.bands().iterrows()}
-        return html_table(f"Ensemble of {len(self.runs)} runs", rows)
+    def _shown(self) -> tuple[str, Mapping[str, str]]:
+        bands = {name: f"{low:.4g} to {high:.4g}" for name, (_, low, high) in self.bands().iterrows()}
+        return f"Ensemble of {len(self.runs)} runs", {"run": self.planned.name, **bands}
 
 
 def simulate_ensemble(

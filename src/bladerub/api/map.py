@@ -1,6 +1,7 @@
 """A map: all runs of one coating over the speed."""
 
 from collections.abc import Callable, Iterable, Mapping
+from contextlib import suppress
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -13,12 +14,14 @@ from tqdm.auto import tqdm
 from bladerub.api.blade import Blade
 from bladerub.api.dataset import to_dataset
 from bladerub.api.errors import InputError
-from bladerub.api.notebook import html_table
+from bladerub.api.notebook import Shown
 from bladerub.api.run import Run, solve
 from bladerub.api.study import Quantity, StudyCoating, StudyRun
+from bladerub.config.units import speeds_in_words
 from bladerub.contact.setup import compile_kernel
+from bladerub.io.hdf5 import read_attributes
 from bladerub.io.provenance import provenance
-from bladerub.plots.scales import greatest
+from bladerub.plots.scales import Engine, Scales, greatest
 from bladerub.plots.spectrum import spectrum_map
 from bladerub.plots.style import saved
 from bladerub.plots.wear_map import wear_map
@@ -37,8 +40,8 @@ _PER_SPEED = ("C1", "max_wear", "lobes", "status", "wear_harmonic", "wear_harmon
 _PER_REVOLUTION = ("revolution_peak", "revolution_amplitude")
 
 
-@dataclass(frozen=True)
-class Map:
+@dataclass(frozen=True, repr=False)
+class Map(Shown):
     """Wear and spectra of one coating over the speed, from `simulate_speeds` or `read_map`.
 
     Parameters
@@ -46,6 +49,8 @@ class Map:
     coating : CoatingMap
         The arrays: `bladerub.study.maps.DATASETS` has dimensions, unit and meaning of each. SI units,
         speeds normalised.
+    f1_hz : float, optional
+        First frequency of the blade at rest, Hz, for what is shown in rpm and Hz.
 
     Examples
     --------
@@ -64,7 +69,8 @@ class Map:
     >>> figure = sweep.plot_spectrum("spectrum.png")
     """
 
-    coating: CoatingMap = field(repr=False)
+    coating: CoatingMap
+    f1_hz: float | None = field(default=None, compare=False)
 
     @property
     def case(self) -> CoatingCase:
@@ -88,7 +94,7 @@ class Map:
 
     def plot_wear(self, path: str | Path | None = None) -> Figure:
         """Draw the wear around the casing over the speed (Fig. 6); `path` to write it there as well."""
-        return saved(wear_map(self.coating), path)
+        return saved(wear_map(self.coating, self._scales), path)
 
     def plot_spectrum(
         self,
@@ -103,7 +109,7 @@ class Map:
         """
         largest = greatest(self.coating.spectrum_amplitude)
         ends = amplitude_range or (1e-3 * largest, largest)
-        return saved(spectrum_map(self.coating, ends, max_frequency), path)
+        return saved(spectrum_map(self.coating, ends, max_frequency, self._scales), path)
 
     def to_xarray(self) -> "xr.Dataset":
         """Return all arrays with coordinates, units and names."""
@@ -130,18 +136,23 @@ class Map:
         """
         maps.write_map(path, self.coating, provenance(config))
 
-    def _repr_html_(self) -> str:
-        rows = {
+    @property
+    def _scales(self) -> Scales:
+        return Scales(engine=Engine(self.f1_hz) if self.f1_hz else None)
+
+    def _shown(self) -> tuple[str, Mapping[str, str]]:
+        return "Map", {
             "coating": self.case.name,
-            "speeds": f"{self.f_omega.size}, from {self.f_omega[0]:g} to {self.f_omega[-1]:g}",
+            "speeds": speeds_in_words(self.f_omega.tolist(), self.f1_hz),
             "greatest wear": f"{1e3 * self.coating.max_wear.max():.4g} mm",
             "unbounded": f"{np.count_nonzero(self.status != 'completed')}",
         }
-        return html_table("Map", rows)
 
 
 def read_map(path: str | Path) -> Map:
     """Read the map of one coating, such as ``results/maps/2nd_E2_K0.5_theta0.h5``.
+
+    Its first frequency is that of the blade of the same results, if there is one.
 
     Raises
     ------
@@ -155,7 +166,11 @@ def read_map(path: str | Path) -> Map:
     >>> br.read_map("2nd_E2_K0.5_theta0.h5").case.name
     '2nd_E2_K0.5_theta0'
     """
-    return Map(maps.read_map(path, with_nodes=True))
+    blade = Path(path).absolute().parents[1] / "blade" / "reduced_model.h5"
+    f1_hz = None
+    with suppress(OSError, KeyError):
+        f1_hz = float(read_attributes(blade)["f1_hz"])
+    return Map(maps.read_map(path, with_nodes=True), f1_hz)
 
 
 def simulate_speeds(
@@ -218,7 +233,8 @@ def simulate_speeds(
             stored,
             longer,
             prominence,
-        )
+        ),
+        blade.f1_hz,
     )
 
 

@@ -1,7 +1,24 @@
-"""How objects show themselves in a notebook."""
+"""How objects show themselves, in a terminal and in a notebook."""
 
+from abc import ABC, abstractmethod
 from collections.abc import Mapping
 from html import escape
+
+
+class Shown(ABC):
+    """Shows itself by what a person asks of it first: a title, and names with values."""
+
+    @abstractmethod
+    def _shown(self) -> tuple[str, Mapping[str, str]]:
+        """Return title and rows."""
+
+    def __repr__(self) -> str:
+        title, rows = self._shown()
+        width = max(map(len, rows))
+        return "\n".join([title, *(f"  {name:<{width}}  {value}" for name, value in rows.items())])
+
+    def _repr_html_(self) -> str:
+        return html_table(*self._shown())
 
 
 def html_table(title: str, rows: Mapping[str, str]) -> str:

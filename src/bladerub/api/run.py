@@ -14,9 +14,10 @@ from bladerub import plugins
 from bladerub.api.blade import Blade
 from bladerub.api.dataset import to_dataset
 from bladerub.api.errors import InputError
-from bladerub.api.notebook import html_table
+from bladerub.api.notebook import Shown
 from bladerub.api.study import StudyRun
 from bladerub.blade.model import ReducedBlade
+from bladerub.config.units import speed_in_words
 from bladerub.contact.result import Energy, RunResult
 from bladerub.contact.setup import compile_kernel
 from bladerub.contact.spec import RunSpec
@@ -41,8 +42,8 @@ if TYPE_CHECKING:
 _LONGER = "longer_"
 
 
-@dataclass(frozen=True, eq=False)
-class Run:
+@dataclass(frozen=True, eq=False, repr=False)
+class Run(Shown):
     """Outcome of one run, from `simulate` or `read_run`.
 
     Parameters
@@ -67,6 +68,8 @@ class Run:
     >>> bool(run.spectrum.max() < run.revolution_peak.max())
     True
     >>> run.energy.residual < 1e-3
+    True
+    >>> round(run.f1_hz) == round(blade.f1_hz)
     True
     >>> run.attributes["n_unconverged_steps"]
     0
@@ -109,6 +112,12 @@ class Run:
     def f_omega(self) -> float:
         """Rotational frequency over the first eigenfrequency at rest."""
         return self.attributes["f_omega"]
+
+    @property
+    def f1_hz(self) -> float | None:
+        """First frequency of its blade at rest, Hz, by the time step; None of an unbounded run."""
+        steps = self.attributes["n_steps"] * self.attributes["time_step"] / max(1, len(self.blades))
+        return self.revolutions / (self.f_omega * steps) if self.status == "completed" else None
 
     @property
     def revolutions(self) -> int:
@@ -251,18 +260,19 @@ class Run:
     def _title(self) -> str:
         return f"{titles.coating(self.case)}, {titles.speed(self.f_omega)}"
 
-    def _repr_html_(self) -> str:
-        peaks = self.revolution_peak
-        rows = {
+    def _shown(self) -> tuple[str, Mapping[str, str]]:
+        peaks, longer = self.revolution_peak, self.longer
+        followed = {"followed for": f"{longer.revolutions} revolutions, {longer.status}"} if longer else {}
+        return "Run", {
             "coating": self.case.name,
-            "speed": f"{self.f_omega:g} of the first frequency at rest",
+            "speed": speed_in_words(self.f_omega, self.f1_hz),
             "revolutions": f"{self.revolutions}",
             "status": self.status,
             "largest radial displacement": f"{1e3 * displacement_peak(peaks, peaks.size):.4g} mm",
             "greatest wear": f"{1e3 * self.wear.max():.4g} mm",
             "energy residual": f"{self.energy.residual:.2g}",
+            **followed,
         }
-        return html_table("Run", rows)
 
 
 def simulate(

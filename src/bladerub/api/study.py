@@ -10,13 +10,14 @@ import numpy as np
 
 from bladerub.api.errors import InputError
 from bladerub.api.law import Law
-from bladerub.api.notebook import html_table
+from bladerub.api.notebook import Shown
 from bladerub.config import quantities
 from bladerub.config import read as configuration
 from bladerub.config.checks import most_revolutions, own_problem
 from bladerub.config.errors import UNKNOWN
 from bladerub.config.files import Located
 from bladerub.config.schema import check_quantity
+from bladerub.config.units import pressure_in_words, speed_in_words, speeds_in_words
 from bladerub.contact.spec import RunSpec
 from bladerub.io.folders import CONFIG, ROOT, base_config, study_folder
 from bladerub.study import grid
@@ -28,7 +29,7 @@ Quantity = float | str
 """A plain number as in a config, or text with a unit: ``"11400 rpm"``, ``"1.2 GPa"``, ``"6 mm"``."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class StudyRun:
     """One run of a study: a coating at one speed, from `Study.run` or `StudyCoating.at`.
 
@@ -71,8 +72,13 @@ class StudyRun:
         """Coating and speed as in paths, for instance ``2nd_E2_K0.5_theta0.15/0.1900``."""
         return f"{self.case.name}/{grid.speed_name(self.f_omega)}"
 
+    def __repr__(self) -> str:
+        speed = speed_in_words(self.f_omega, _known_frequency(self.config))
+        coating = f"{self.case.name}{_moduli(self.config, self.case)}"
+        return f"StudyRun({coating}, at {speed}, {self.spec.revolutions} revolutions)"
 
-@dataclass(frozen=True)
+
+@dataclass(frozen=True, repr=False)
 class StudyCoating:
     """One coating of a study, or the rigid casing, from `Study.coating` or `Study.rigid`.
 
@@ -120,9 +126,12 @@ class StudyCoating:
         config = self.config if revolutions is None else _of_revolutions(self.config, revolutions)
         return StudyRun(config, self.case, grid.run_spec(config, self.case, f_omega))
 
+    def __repr__(self) -> str:
+        return f"StudyCoating({self.case.name}{_moduli(self.config, self.case)})"
 
-@dataclass(frozen=True)
-class Study:
+
+@dataclass(frozen=True, repr=False)
+class Study(Shown):
     """A study: everything that its config says.
 
     Parameters
@@ -336,25 +345,29 @@ class Study:
         if casing not in casings:
             raise InputError("casing", casing, _one_of(casing, casings))
         plain = {
-            name: None if value is None else _number(self.config, name, value)
+            name: _number(self.config, name, value)
             for name, value in {**tangential, **overrides}.items()
+            if value is not None
         }
         values = (*map(float, moduli), *(float(plain[name]) for name in tangential))
-        case = make(casing, *values).with_own(**{name: plain[name] for name in overrides})
+        case = make(casing, *values).with_own(**{name: plain.get(name) for name in overrides})
         if case.variant and (problem := own_problem(dict(self.config), case)):
             raise InputError(problem[0], case.own[problem[0]], f"must be {problem[1]}")
         return StudyCoating(self.config, case)
 
-    def _repr_html_(self) -> str:
-        speeds, config = self.speeds, self.config
-        rows = {
+    def _shown(self) -> tuple[str, Mapping[str, str]]:
+        config, unit = self.config, grid.modulus_unit(self.config)
+        cases = [coating.case for coating in self.coatings]
+        moduli = [unit * case.E for case in cases if not case.is_rigid]
+        ends = f", E from {pressure_in_words(min(moduli))} to {pressure_in_words(max(moduli))}"
+        return "Study", {
             "casings": ", ".join(config["casings"]),
-            "coatings": f"{len(self.coatings)}",
-            "speeds": f"{speeds.size}, from {speeds[0]:g} to {speeds[-1]:g} of the first frequency at rest",
+            "coatings": f"{len(cases)}{ends if moduli else ''}",
+            "E = 1, K = 1": pressure_in_words(unit),
+            "speeds": speeds_in_words(grid.speeds(config), _known_frequency(config)),
             "revolutions": f"{config['solver']['revolutions']}",
             "results": f"{self.results}",
         }
-        return html_table("Study", rows)
 
 
 def load_study(*paths: str | Path) -> Study:
@@ -416,6 +429,20 @@ def _number(config: Mapping[str, Any], name: str, value: Quantity) -> float:
     except ValueError as error:
         raise InputError(name, value, str(error)) from None
     return plain
+
+
+def _known_frequency(config: Mapping[str, Any]) -> float | None:
+    from bladerub.blade.cache import kept_frequency  # imports the solver, which a plan does without
+
+    return kept_frequency(config)
+
+
+def _moduli(config: Mapping[str, Any], case: CoatingCase) -> str:
+    """Write E and K of a coating in Pa; nothing of the rigid casing."""
+    if case.is_rigid:
+        return ""
+    E, K = (pressure_in_words(grid.modulus_unit(config) * modulus) for modulus in (case.E, case.K))
+    return f", E = {E}, K = {K}"
 
 
 def _one_of(name: str, choices: Collection[str]) -> str:

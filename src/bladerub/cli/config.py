@@ -5,6 +5,7 @@ import sys
 from typing import Any
 
 from bladerub.config.read import read_with_notes
+from bladerub.config.units import pressure_in_words, speeds_in_words
 from bladerub.io.folders import base_config
 
 
@@ -26,7 +27,8 @@ def check(options: argparse.Namespace) -> None:
     """Check the config that the command line names; raises `ConfigError`."""
     config, notes = read_with_notes(base_config(), *options.files)
 
-    from bladerub.study.grid import coating_cases, speeds
+    from bladerub.blade.cache import kept_frequency
+    from bladerub.study.grid import coating_cases, modulus_unit, speeds
 
     for note in notes:
         print(f"bladerub config: {note}", file=sys.stderr)
@@ -35,5 +37,7 @@ def check(options: argparse.Namespace) -> None:
         f"valid: {n_coatings} coatings at {n_speeds} speeds are {n_coatings * n_speeds:,} runs, "
         f"in {config['results']}"
     )
+    print(f"speeds: {speeds_in_words(speeds(config), kept_frequency(config))}")
+    print(f"E = 1 and K = 1: {pressure_in_words(modulus_unit(config))}")
     law = config["contact"].get("law", {}).get("file")
     print(f"executes {law}, the law of the coatings: read it as any program" if law else "executes no file")

@@ -11,6 +11,7 @@ from tqdm import tqdm
 
 from bladerub import plugins
 from bladerub.cli import inputs
+from bladerub.config.units import speeds_in_words
 
 _COLUMNS = ("planned", "done", "missing", "stale", "corrupt", "unreadable", "unbounded")
 
@@ -48,9 +49,10 @@ def status(options: argparse.Namespace) -> None:
     """
     config, notes = inputs.read_config_with_notes(options)
 
+    from bladerub.blade.cache import kept_frequency
     from bladerub.contact.result import UNBALANCED
     from bladerub.study import inventory
-    from bladerub.study.grid import coating_cases
+    from bladerub.study.grid import coating_cases, speeds
     from bladerub.study.plan import coating_plan
     from bladerub.workflow import integrity
 
@@ -98,6 +100,7 @@ def status(options: argparse.Namespace) -> None:
             sys.exit(2)
         return
     _print_table(counts | {"all": total})
+    print(f"\nspeeds: {speeds_in_words(speeds(config), kept_frequency(config))}", end="")
     longer = f"{total['longer_done']} of {total['longer_planned']} done"
     print(f"\nlonger runs, where growth is to be confirmed: {longer}")
     if rows:

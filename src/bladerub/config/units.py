@@ -6,7 +6,7 @@ are sizes of the study itself, its *references*: what one of them is in SI is kn
 
 import math
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from difflib import get_close_matches
 from fractions import Fraction
 from functools import cache
@@ -160,6 +160,24 @@ def _in_range(value: float, rule: Mapping[str, Any]) -> list[str]:
         for unit in choices(rule).split(", ")[:2]  # the usual ones
         if lowest <= value * float(_UNITS[unit][1] / _UNITS[rule["unit"]][1]) <= highest
     ]
+
+
+def speed_in_words(f_omega: float, f1_hz: float | None) -> str:
+    """Write a normalised speed, and in rpm where the first frequency at rest is known."""
+    rpm = f", {60 * f_omega * f1_hz:,.0f} rpm" if f1_hz else ""
+    return f"{f_omega:g} of the first frequency at rest{rpm}"
+
+
+def speeds_in_words(speeds: Sequence[float], f1_hz: float | None) -> str:
+    """Write number and ends of ascending normalised speeds, as `speed_in_words`."""
+    low, high = speeds[0], speeds[-1]
+    rpm = f", {60 * low * f1_hz:,.0f} to {60 * high * f1_hz:,.0f} rpm" if f1_hz else ""
+    return f"{len(speeds)}, from {low:g} to {high:g} of the first frequency at rest{rpm}"
+
+
+def pressure_in_words(pascal: float) -> str:
+    """Write a pressure in MPa or GPa."""
+    return f"{pascal / 1e9:.4g} GPa" if pascal >= 1e9 else f"{pascal / 1e6:.4g} MPa"
 
 
 def _kind(rule: Mapping[str, Any]) -> str | None:

@@ -25,17 +25,17 @@ def greatest(*values: np.ndarray | float) -> float:
 
 @dataclass(frozen=True)
 class Engine:
-    """The rotor of a blade from another program."""
+    """The rotor of a blade: what normalised speeds and frequencies are in rpm and Hz."""
 
     f1_hz: float  # first frequency of the blade at rest
     nominal_speed: float | None = None  # 1/min
 
     def add_speeds(self, axes: Axes, along: str) -> None:
-        """Add a second scale, 1/min and Hz, to the speeds that run `along` "x" or "y"."""
+        """Add a second scale, rpm and Hz, to the speeds that run `along` "x" or "y"."""
         second = self._second(axes, along, 60 * self.f1_hz)
         axis = second.xaxis if along == "x" else second.yaxis
         axis.set_major_formatter(lambda rpm, _: f"{rpm:.0f}\n{rpm / 60:.0f} Hz")
-        axis.set_label_text("rotor speed (1/min, Hz)")
+        axis.set_label_text("rotor speed (rpm, Hz)")
 
     def add_frequencies(self, axes: Axes, along: str) -> None:
         """Add a second scale, Hz, to the frequencies that run `along` "x" or "y"."""
@@ -45,7 +45,7 @@ class Engine:
     def draw_nominal_speed(self, draw: Callable, in_legend: bool = True) -> None:
         """Draw the nominal speed, if it is known, by `draw`: ``axvline`` or ``axhline`` of the axes."""
         if self.nominal_speed is not None:
-            label = f"nominal speed, {self.nominal_speed:g} 1/min" if in_legend else "_nominal"
+            label = f"nominal speed, {self.nominal_speed:g} rpm" if in_legend else "_nominal"
             draw(self.nominal_speed / 60 / self.f1_hz, label=label, zorder=3, **_LINE)
 
     def _second(self, axes: Axes, along: str, factor: float) -> Axes:

@@ -28,11 +28,16 @@ def save(snakemake: Any, figure: "Figure | None" = None, **frames: pd.DataFrame)
         style.save(figure, snakemake.output["png"], snakemake.output["pdf"], snakemake.params["dpi"])
 
 
+def rpm(snakemake: Any, f_omega: pd.Series) -> pd.Series:
+    """Turn normalised speeds into revolutions a minute of the input ``blade`` of a job."""
+    return 60 * hdf5.read_attributes(snakemake.input.blade)["f1_hz"] * f_omega
+
+
 def scales(snakemake: Any) -> "Scales":
     """Tell a figure what its numbers are, from the parameter ``scales`` of a job and its input ``blade``.
 
-    The parameter has ``modulus_unit`` (Pa) and ``length`` (m) and, for a blade from another program,
-    ``engine``: what is known of it but the first frequency.
+    The parameter has ``modulus_unit`` (Pa) and ``length`` (m) and ``engine``: what is known of the rotor but
+    the first frequency of its blade.
     """
     from bladerub.plots.scales import Engine, Scales
 

@@ -51,6 +51,15 @@ def test_growing_run_is_followed_further(study, blade):
     assert run.verdict(settings).revolutions == run.longer.revolutions > short.verdict(settings).revolutions
 
 
+def test_what_is_printed_has_rpm_and_hertz_and_pascal(study, blade, run, sweep):
+    rpm = 60 * 0.19 * blade.f1_hz
+    assert f"{blade.f1_hz:.5g} Hz" in repr(blade)
+    assert f"0.19 of the first frequency at rest, {rpm:,.0f} rpm" in repr(run)
+    assert f"{rpm:,.0f} to {rpm * 20 / 19:,.0f} rpm" in repr(sweep)
+    assert "E from 30 MPa to 12 GPa" in repr(study)
+    assert "<caption>Run</caption>" in run._repr_html_()
+
+
 @pytest.fixture(scope="module")
 def row_run(study, blade):
     row = br.Row.even(3, length=[0.0, 5e-5, -4e-3], frequency=[0.0, 0.01, 0.0])

@@ -129,6 +129,10 @@ def test_a_speed_in_revolutions_a_minute_is_the_same_run(small, blade_file, caps
     by_speed["rpm"] = json.loads(capsys.readouterr().out)
     assert by_speed["rpm"]["f_omega"] == pytest.approx(0.19, rel=1e-12)
     assert by_speed["rpm"]["max_wear"] == pytest.approx(by_speed["f"]["max_wear"], rel=1e-6)
+    in_units = {"--f": f"{rpm:.4f}rpm", "--E": "1.2 GPa", "--K": "300MPa"}
+    typed = [in_units.get(option, value) for option, value in zip(["", *RUN], RUN, strict=False)]
+    main([*typed, *small, "--json"])
+    assert json.loads(capsys.readouterr().out)["run_key"] == by_speed["f"]["run_key"]
 
 
 def test_an_ensemble_shows_its_bands(small, blade_file, capsys, monkeypatch):
@@ -259,6 +263,8 @@ def without(option):
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
+        ([*RUN, "--E", "2 rpm"], '--E = "2 rpm": is a speed; must be a pressure: MPa, GPa'),
+        ([*RUN, "--f", "9000 rpm"], "(9000 rpm): must be at most reduction.f_omega_max = 0.4"),
         ([*RUN, "--blades", "0"], "--blades = 0: must be from 1 to 200"),
         ([*RUN, "--blades", "200"], "row: blades 1 and 2 are 10 of 2000 coating elements apart"),
         ([*RUN, "--blades", "3", "--ensemble", "2"], "--ensemble = 2: not with --blades"),

@@ -32,9 +32,9 @@ def test_a_wear_map_has_the_speed_of_the_rotor_from_the_first_of_the_study_on(co
     assert lower.get_xlim() == pytest.approx((0.075, 0.375))
     ends, name, ticks = second(lower, "x")
     assert ends == pytest.approx(60 * 850 * np.array([0.075, 0.375]))
-    assert name == "rotor speed (1/min, Hz)"
+    assert name == "rotor speed (rpm, Hz)"
     assert "12000\n200 Hz" in ticks
-    assert nominal(upper)["nominal speed, 15300 1/min"][0] == pytest.approx(0.3)
+    assert nominal(upper)["nominal speed, 15300 rpm"][0] == pytest.approx(0.3)
     assert nominal(lower)["_nominal"][0] == pytest.approx(0.3)
     assert upper.get_title(loc="left") == "casing 2nd, E = 0.11, K = 0.5 (in units of 600 MPa), θ = 0.15 rad"
 
@@ -47,7 +47,7 @@ def test_a_spectrum_has_the_speed_of_the_rotor_and_hertz(coating_map, draws):
     ends, _, ticks = second(axes, "y")
     assert ends == pytest.approx((3825, 19125))
     assert "12000\n200 Hz" in ticks
-    assert nominal(axes)["nominal speed, 15300 1/min"][1] == pytest.approx(0.3)
+    assert nominal(axes)["nominal speed, 15300 rpm"][1] == pytest.approx(0.3)
     assert axes.get_legend() is None  # it would lie on the spectrum
     assert len(figure.legends) == 1
 
@@ -58,7 +58,7 @@ def test_a_campbell_diagram_has_both(draws):
     for axes in draws(campbell(speed, modes, modes, range(1, 13), ENGINE)).axes:
         assert second(axes, "x")[0] == pytest.approx((0, 20400))
         assert second(axes, "y")[0] == pytest.approx(850 * np.array(axes.get_ylim()))
-        assert nominal(axes)["nominal speed, 15300 1/min"][0] == pytest.approx(0.3)
+        assert nominal(axes)["nominal speed, 15300 rpm"][0] == pytest.approx(0.3)
 
 
 def test_without_an_engine_there_is_one_scale_from_zero(coating_map, draws):
