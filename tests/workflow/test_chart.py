@@ -8,19 +8,8 @@ from workspace import TINY
 
 from bladerub.io import tables
 
-FIGURES = [
-    "Y4",
-    "f4",
-    "Y6",
-    "f6",
-    "peak",
-    "worn_volume",
-    "divergent_share",
-    "safe",
-    "pareto",
-    "explanation",
-    "stiffening",
-]
+FIGURES = ["Y4", "f4", "Y6", "f6", "peak", "worn_volume", "divergent_share", "safe", "pareto"]
+FIGURES += ["explanation", "stiffening"]
 AGREEMENT = "results/tables/chart_agreement.csv"
 CHART = {"chart": {"E": [0.11, 2], "K": [0.5, 5], "theta": [0.0]}}
 
@@ -50,6 +39,12 @@ def files(workspace):
     }
 
 
+def test_the_chart_is_planned(study, charted):
+    plan = study.plan(charted, "chart")
+    assert plan["chart_column"] == len(charted["chart"]["E"])
+
+
+@pytest.mark.nightly
 def test_the_chart_is_drawn_once_and_a_lost_cell_is_made_anew_alone(copied_chart, charted):
     for name in FIGURES:
         assert (copied_chart.results / "figures" / f"chart_{name}.png").stat().st_size > 10_000
@@ -87,13 +82,8 @@ def test_the_chart_is_drawn_once_and_a_lost_cell_is_made_anew_alone(copied_chart
 def test_a_chart_without_its_crossing_is_refused_before_any_work(workspace, charted):
     charted["speeds"] |= {"stop": 0.22, "step": 0.02}
     charted["analysis"]["peaks"] = {"orders": [6]}
-    ellipse = {
-        "nodal_diameters": [2],
-        "weights": [1.0],
-        "amplitude": 1e-3,
-        "interference": 5e-4,
-        "start_angle": 0.0,
-    }
+    ellipse = {"nodal_diameters": [2], "weights": [1.0], "start_angle": 0.0}
+    ellipse |= {"amplitude": 1e-3, "interference": 5e-4}
     charted["casings"] = {"other": {**ellipse, "peak_orders": [4, 6]}}
     charted["chart"]["casing"] = "other"  # of no coating: the study is right without it
     done = workspace.snakemake("chart", "--dry-run", config=charted)
@@ -102,6 +92,7 @@ def test_a_chart_without_its_crossing_is_refused_before_any_work(workspace, char
     assert not workspace.results.exists()
 
 
+@pytest.mark.nightly
 def test_a_fatigue_limit_asks_for_the_stress_of_the_chart_alone(copied_chart, charted):
     cells = files(copied_chart)
     limited = charted | {"chart": charted["chart"] | {"limits": {"fatigue": 1.0}}}

@@ -39,13 +39,6 @@ def test_one_figure_plans_only_what_it_needs(workspace, tiny):
     assert plan == {"blade": 1, "compile_kernel": 1, "coating": 1, "map": 1, "fig08_spectrum_soft": 1}
 
 
-def test_a_wear_map_of_any_coating_is_drawn_when_asked_for(copied_study, tiny):
-    name = "results/figures/wear_map/2nd_E1.1_K0.5_theta0.png"
-    assert copied_study.plan(tiny, name) == {"wear_map": 1}
-    copied_study.build(tiny, name)
-    assert (copied_study.folder / name).stat().st_size > 10_000
-
-
 def test_a_complete_study_has_nothing_left_to_do(study, tiny):
     assert study.plan(tiny) == {}
 
@@ -53,13 +46,6 @@ def test_a_complete_study_has_nothing_left_to_do(study, tiny):
 def test_a_new_coating_plans_itself_and_what_draws_from_it(study, with_E3):
     new = {"coating": 2, "map": 2}  # with both theta
     assert study.plan(with_E3) == new | TABLES | HISTOGRAMS | {"explorer": 1, "cost": 1, "all": 1}
-
-
-def test_resolution_plans_only_figures(study, tiny):
-    plan = study.plan(tiny | {"figures": {"dpi": 50}})
-    assert len(plan) == 23
-    others = {name for name in plan if not name.startswith("fig")}
-    assert others == {"history", "margins", "cost", "all"}
 
 
 def test_the_scale_of_spectra_plans_what_shows_them(study, tiny):
@@ -95,11 +81,6 @@ def test_an_edit_of_the_peak_search_plans_what_comes_of_it(copied_study, tiny):
     plan = copied_study.plan(tiny)
     others = {"margins": 1, "fig10_peaks": 1, "explorer": 1, "cost": 1, "all": 1}
     assert plan == others | TABLES | HISTOGRAMS  # ensembles are at the peaks, so that growth has other bands
-
-
-def test_an_edit_of_the_page_plans_the_page(copied_study, tiny):
-    copied_study.edit("extras/explorer/page/style.css", "}", "} /* edited */")
-    assert copied_study.plan(tiny) == {"explorer": 1, "cost": 1, "all": 1}
 
 
 def test_runs_that_take_longest_come_first(workspace, tiny):
@@ -173,13 +154,6 @@ def test_thresholds_of_growth_plan_no_coating_without_confirmation(copied_study,
     copied_study.build(tiny, manifest)
     tiny["analysis"]["divergence"]["growth"] = 0.05
     assert copied_study.plan(tiny, manifest) == {}
-
-
-def test_deleted_tables_are_made_again_without_a_new_blade(copied_study, tiny):
-    shutil.rmtree(copied_study.folder / "results" / "tables")
-    plan = copied_study.plan(tiny)
-    assert plan.keys() >= {"blade_tables", "peaks"}
-    assert plan.keys().isdisjoint({"blade", "compile_kernel", "coating", "map"})
 
 
 def test_a_failed_job_says_why_and_loses_no_run(copied_study, tiny):

@@ -14,7 +14,7 @@ from bladerub.extras.explorer.page import build
 from bladerub.study.manifest import read_manifest, write_manifest
 from bladerub.study.maps import read_map, write_map
 
-pytestmark = pytest.mark.browser
+pytestmark = [pytest.mark.browser, pytest.mark.nightly]
 
 STRAIGHT, INCLINED, RIGID = "2nd_E2_K0.5_theta0", "2nd_E2_K0.5_theta0.15", "2nd_rigid_mu0"
 FLAGS = [
@@ -165,16 +165,6 @@ def test_it_opens_soon_from_a_file_and_asks_nobody(explorer):
     assert explorer.path.stat().st_size < 15e6
 
 
-def test_the_first_view_is_the_strongest_peak(explorer, table):
-    explorer.open()
-    peaks = table("peaks")
-    strongest = peaks[(peaks["order"] == 4) & np.isfinite(peaks["E"])].nlargest(1, "amplitude").iloc[0]
-    assert explorer.speed == strongest["f_peak"]
-    assert explorer.run["Peak Y4 of the coating"] == [
-        f"{1e3 * strongest['amplitude']:.4g} mm at f4 = {strongest['f_peak']:g}"
-    ]
-
-
 def test_the_pictures_are_those_of_the_study(explorer, map_of):
     coating = map_of(STRAIGHT)
     at = int(np.flatnonzero(coating.f_omega == 0.206)[0])
@@ -213,25 +203,6 @@ def test_the_numbers_are_those_of_the_tables(explorer, study, map_of, table):
     assert shown["Repeat it by"][0].startswith(command)
 
 
-def test_another_coating_changes_the_pictures(explorer):
-    def seen():
-        return [explorer.drawn(*of).tolist() for of in (("polar", "r"), ("line", "y"), ("growth", "y"))]
-
-    before, wear = seen(), explorer.drawn("wear-A", "z[0]")
-    explorer.choose("#coating-A [name=E]", "1.1")
-    assert all(now != then for now, then in zip(seen(), before, strict=True))
-    assert explorer.drawn("wear-A", "z[0]").tolist() != wear.tolist()
-    assert "E = 1.1" in explorer.find("#wear-A-title").text
-    assert "A=2nd_E1.1_K0.5_theta0" in explorer.link
-    explorer.choose("#coating-A [name=E]", "rigid")
-    assert f"A={RIGID}" in explorer.link
-    assert explorer.find("#coating-A .angle").text == "friction μ"
-    assert explorer.run["Greatest wear after 3 revolutions, any node"] == ["0 mm"]
-    explorer.choose("#coating-A [name=casing]", "2nd5nd")
-    assert "A=2nd5nd_E11_K0.5_theta0" in explorer.link
-    assert explorer.complaints == []
-
-
 @pytest.mark.parametrize(("name", "x", "y"), [("wear-A", 0.27, 100), ("spectrum-A", 1.0, 0.27)])
 def test_a_click_in_a_map_chooses_the_speed(explorer, name, x, y):
     before = explorer.drawn("polar", "r").tolist(), explorer.run["Key of the run"]
@@ -243,45 +214,6 @@ def test_a_click_in_a_map_chooses_the_speed(explorer, name, x, y):
         "return ['wear-A', 'spectrum-A'].map((name) => document.getElementById(name).layout.shapes.at(-1))"
     )
     assert (lines[0]["x0"], lines[1]["y0"]) == (0.27, 0.27)
-
-
-def test_a_cell_of_the_moduli_chooses_its_coating(explorer, table):
-    cell = "#moduli-Y [data-coating='2nd_E0.11_K0.5_theta0']"
-    peaks = table("peaks")
-    soft = peaks[(peaks["E"] == 0.11) & (peaks["order"] == 4)].iloc[0]
-    assert explorer.find(cell).text == f"{1e3 * soft['amplitude']:.2f}"
-    explorer.click(cell)
-    assert "A=2nd_E0.11_K0.5_theta0" in explorer.link
-    assert "coating A" in explorer.find(cell).accessible_name
-    explorer.click("#order [value='6']")
-    soft = peaks[(peaks["E"] == 0.11) & (peaks["order"] == 6)].iloc[0]
-    text = explorer.find("#moduli-f [data-coating='2nd_E0.11_K0.5_theta0']").text
-    assert text.splitlines() == ["A", f"{soft['f_peak']:.3f}"]
-
-
-def test_two_coatings_side_by_side(explorer):
-    assert not explorer.find("#wear-B").is_displayed()
-    explorer.click("#compare").choose("#coating-B [name=casing]", "2nd").choose("#coating-B [name=E]", "2")
-    explorer.choose("#coating-B [name=angle]", "0.15")
-    assert f"A={STRAIGHT}&B={INCLINED}" in explorer.link
-    assert explorer.find("#spectrum-B").is_displayed()
-    assert explorer.drawn("polar", "r", 0).tolist() != explorer.drawn("polar", "r", 1).tolist()
-    looks = explorer.driver.execute_script(
-        "return document.getElementById('polar').data.map(({ line }) => [line.color, line.dash])"
-    )
-    assert looks[0][0] != looks[1][0]
-    assert looks[0][1] != looks[1][1]  # not by colour alone
-    tops = "return ['A', 'B'].map((side) => document.getElementById(`wear-${side}`).layout.coloraxis.cmax)"
-    one, same = explorer.driver.execute_script(tops)
-    assert one == same
-    explorer.click("#same-scale")
-    one, other = explorer.driver.execute_script(tops)
-    assert one != other
-    assert len(explorer.run["Key of the run"]) == 2
-    assert len(explorer.all("#moduli-Y [data-coating]")) == 1  # with the angle of B
-    explorer.click("#side [value=A]").click("#moduli-f [data-coating^='2nd_E1.1_']")
-    assert f"A=2nd_E1.1_K0.5_theta0&B={INCLINED}" in explorer.link
-    assert explorer.complaints == []
 
 
 def test_keys_change_the_speed(explorer):
@@ -300,42 +232,6 @@ def test_keys_change_the_speed(explorer):
     assert explorer.press(Keys.ARROW_LEFT).speed == 0.19  # here they choose a coating
 
 
-def test_keys_walk_the_moduli(explorer):
-    from selenium.webdriver.common.keys import Keys
-
-    explorer.driver.execute_script(
-        f"document.querySelector('#moduli-Y [data-coating=\"{STRAIGHT}\"]').focus()"
-    )
-    explorer.press(Keys.ARROW_LEFT)
-    assert explorer.driver.switch_to.active_element.get_attribute("data-coating") == "2nd_E1.1_K0.5_theta0"
-    assert f"A={STRAIGHT}" in explorer.link
-    explorer.press(Keys.ENTER)
-    assert "A=2nd_E1.1_K0.5_theta0" in explorer.link
-    focused = explorer.driver.switch_to.active_element
-    assert focused.get_attribute("data-coating") == "2nd_E1.1_K0.5_theta0"
-    assert len(explorer.all("#moduli-Y [tabindex='0']")) == 1
-
-
-def test_the_tab_key_reaches_every_control_and_each_has_a_name_and_a_ring(explorer):
-    from selenium.webdriver.common.keys import Keys
-
-    explorer.open(f"#A={STRAIGHT}&B={INCLINED}&f=0.206")
-    reached = {}
-    for _ in range(80):
-        explorer.driver.switch_to.active_element.send_keys(Keys.TAB)
-        focused = explorer.driver.switch_to.active_element
-        if focused.tag_name == "body" or focused.id in reached:
-            break
-        ring = focused.value_of_css_property("outline-style"), focused.value_of_css_property("outline-width")
-        reached[focused.id] = focused.accessible_name, ring
-    assert [name for name, _ in reached.values() if not name] == []
-    assert {ring for _, ring in reached.values()} == {("solid", "3px")}
-    controls = explorer.all("select, input:not([type=radio]), .picture, #link, #slower, #faster")
-    seen = [control for control in controls if control.is_displayed()]
-    assert len(seen) > 10
-    assert [control.accessible_name for control in seen if control.id not in reached] == []
-
-
 def test_a_link_restores_the_view(explorer):
     explorer.click("#compare").choose("#coating-B [name=E]", "0.11").choose("#axis", "order")
     explorer.click("#same-scale").click("#order [value='6']").click_map("spectrum-A", 4.0, 0.31)
@@ -352,12 +248,6 @@ def test_a_link_restores_the_view(explorer):
     explorer.open(link)
     assert explorer.link == link
     assert explorer.driver.execute_script(state) == seen
-
-
-def test_a_link_followed_within_the_page_is_shown(explorer):
-    explorer.driver.execute_script(f"location.hash = '#A={RIGID}&f=0.35'")
-    explorer.wait()
-    assert (explorer.speed, explorer.run["Worn lobes after 3 revolutions"]) == (0.35, ["0"])
 
 
 def test_a_foreign_link_says_what_is_amiss(explorer):

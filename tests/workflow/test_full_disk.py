@@ -30,6 +30,7 @@ def size(study, *names):
     return sum(path.stat().st_size for name in names for path in (study.folder / "results").glob(name))
 
 
+@pytest.mark.nightly
 def test_a_full_disk_loses_nothing(workspace, study, tiny, mount):
     before = size(study, "blade/*", "tables/[cr]*.csv")
     runs = size(study, f"runs/{COATING}/*.h5")

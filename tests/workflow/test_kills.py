@@ -1,11 +1,25 @@
-"""Real kills of the real workflow; `kills.py` does it on a larger study, as often as asked."""
+"""Kill the workflow at random moments, and see that a kill costs nothing but the work it interrupts."""
 
-import itertools
+import filecmp
+import os
+import random
+import re
+import shutil
+import signal
+import subprocess
+import sys
+import time
+from contextlib import suppress
+from pathlib import Path
 
-import kills
 import pytest
 import yaml
 
+WAYS = ("kill all", "terminate", "kill one job", "Ctrl-C", "Ctrl-C twice")
+UNEQUAL = re.compile(r"logs/|benchmarks/|.*\.lock")
+"""Files that tell of the machine, not of the study."""
+LAST = 600
+"""Longest that a study may take, s."""
 ROWS = {
     "casing": "2nd",
     "E": 2,
@@ -18,43 +32,121 @@ ROWS = {
     "coupling": [0, 0.01],
     "draws": 30,
 }
+ROTOR = {"seed": 1, "groups": {"some": ROWS}}
 
 
-@pytest.fixture
-def killed(study, tiny, tmp_path):
-    """The tiny study without its results, to be made up to its peaks."""
-    workspace = study.copy(tmp_path / "killed", "results", ".snakemake")
-    (workspace.folder / "overlay.yaml").write_text(yaml.safe_dump(tiny))
-    return kills.Study(workspace, ("-j2", "results/tables/peaks.csv", "--configfile", "overlay.yaml"))
+def start(workspace, target):
+    """Give the command, in a session of its own."""
+    command = [Path(sys.executable).with_name("snakemake"), "-j2", target, "--configfile", "overlay.yaml"]
+    with (workspace.folder / "output.txt").open("w") as output:
+        return subprocess.Popen(
+            command,
+            cwd=workspace.folder,
+            env=workspace.environment,
+            stdin=subprocess.DEVNULL,
+            stdout=output,
+            stderr=subprocess.STDOUT,
+            start_new_session=True,
+        )
 
 
-def test_kills_cost_nothing_but_what_they_interrupt(study, killed):
-    def compare():
-        assert kills.unlike(killed.workspace, study) == []
+def jobs_of(process):
+    """Number of each process that executes a script of a rule.
 
-    _torment(killed, compare, seconds=15.0, seed=3)
+    A child of it, which is about to become another program, is not one: the job would survive it.
+    """
+    jobs, parents = set(), {}
+    for folder in Path("/proc").glob("[0-9]*"):
+        with suppress(FileNotFoundError, ProcessLookupError):
+            if os.getpgid(int(folder.name)) == process.pid:
+                command = (folder / "cmdline").read_text().split("\0")
+                if re.search(r"\.snakemake/scripts/tmp\w+\.(\w+)\.py$", "".join(command[1:2])):
+                    jobs.add(int(folder.name))
+                parents[int(folder.name)] = int((folder / "stat").read_text().rpartition(")")[2].split()[1])
+    return {job for job in jobs if parents.get(job) not in jobs}
 
 
+def kill(way, process, draw):
+    if way == "terminate":
+        process.send_signal(signal.SIGTERM)
+    elif way == "kill all":
+        os.killpg(process.pid, signal.SIGKILL)
+    elif way == "kill one job":
+        while process.poll() is None:
+            if jobs := jobs_of(process):
+                os.kill(draw.choice(sorted(jobs)), signal.SIGKILL)
+                break
+    else:
+        os.killpg(process.pid, signal.SIGINT)
+        if way == "Ctrl-C twice":
+            time.sleep(0.3)
+            with suppress(ProcessLookupError):
+                os.killpg(process.pid, signal.SIGINT)
+
+
+def unlike(here, there):
+    """Files of the results here that are not the same there."""
+    paths = (path.relative_to(here.results).as_posix() for path in here.results.rglob("*") if path.is_file())
+    names = [name for name in paths if not UNEQUAL.match(name)]
+    _, unequal, missing = filecmp.cmpfiles(here.results, there.results, names, shallow=False)
+    return sorted(unequal + missing)
+
+
+def torment(workspace, target, ways, seconds, seed):
+    """Kill a study, which takes `seconds` undisturbed, in each of the `ways`, and let it come to its end.
+
+    Where it ends before a kill, it is begun again.
+    """
+    draw, left, spent, known = random.Random(seed), list(ways), 0.0, {}
+    while left:
+        process, began = start(workspace, target), time.monotonic()
+        try:
+            process.wait(draw.uniform(0.0, max(seconds - spent, seconds / 4)))
+        except subprocess.TimeoutExpired:
+            before = workspace.runs()
+            kill(left[0], process, draw)
+            process.wait(LAST)
+            assert left.pop(0)[:4] != "Ctrl" or jobs_of(process) == set(), "at work after Ctrl-C"
+            known |= before
+            spent += time.monotonic() - began
+        else:
+            assert process.returncode == 0
+            seconds, spent, known = spent + time.monotonic() - began, 0.0, {}
+            for name in ("results", ".snakemake"):
+                shutil.rmtree(workspace.folder / name)
+            continue
+        finally:
+            with suppress(ProcessLookupError):
+                os.killpg(process.pid, signal.SIGKILL)
+        output = (workspace.folder / "output.txt").read_text()
+        assert "LockException" not in output, output
+        assert "IncompleteFilesException" not in output, output
+        now = workspace.runs()
+        again = [name for name, written in known.items() if now.get(name) != written]
+        assert again == [], "whole before, written again after a kill"
+        known = now
+    assert start(workspace, target).wait(LAST) == 0, (workspace.folder / "output.txt").read_text()
+    now = workspace.runs()
+    assert {name: now[name] for name in known} == known
+
+
+@pytest.mark.parametrize("ways", [WAYS[:1], pytest.param(WAYS[1:], marks=pytest.mark.nightly)])
+def test_kills_cost_nothing_but_what_they_interrupt(study, tiny, tmp_path, ways):
+    killed = study.copy(tmp_path / "killed", "results", ".snakemake")
+    (killed.folder / "overlay.yaml").write_text(yaml.safe_dump(tiny))
+    torment(killed, "results/tables/peaks.csv", ways, seconds=15.0, seed=3)
+    assert unlike(killed, study) == []
+
+
+@pytest.mark.nightly
 def test_kills_of_jobs_with_rows_of_blades_cost_nothing_but_what_they_interrupt(study, tiny, tmp_path):
-    def make(name):
+    pair = []
+    for name in ("undisturbed", "killed"):
         workspace = study.copy(tmp_path / name)
-        plan = yaml.safe_dump({"seed": 1, "groups": {"some": ROWS}}, sort_keys=False)
-        (workspace.folder / "config" / "rotor.yaml").write_text(plan)
+        (workspace.folder / "config" / "rotor.yaml").write_text(yaml.safe_dump(ROTOR, sort_keys=False))
         (workspace.folder / "overlay.yaml").write_text(yaml.safe_dump(tiny))
-        return kills.Study(workspace, ("-j2", "rotor", "--configfile", "overlay.yaml"))
-
-    undisturbed, killed = make("undisturbed"), make("killed")
-    kills.finish(undisturbed)
-
-    def compare():
-        assert kills.unlike(killed.workspace, undisturbed.workspace) == []
-
-    _torment(killed, compare, seconds=10.0, seed=5)
-
-
-def _torment(killed, compare, seconds, seed):
-    # seconds: about what it takes; a kill that comes too late is made up for
-    done = list(itertools.islice(kills.torment(killed, compare, seconds, seed), len(kills.WAYS)))
-    assert [kill.way for kill in done] == list(kills.WAYS)
-    kills.finish(killed)
-    compare()
+        pair.append(workspace)
+    undisturbed, killed = pair
+    assert start(undisturbed, "rotor").wait(LAST) == 0
+    torment(killed, "rotor", WAYS, seconds=10.0, seed=5)
+    assert unlike(killed, undisturbed) == []

@@ -119,6 +119,7 @@ def test_the_first_study(clone: Workspace):
     assert "xarray.Dataset" in printed
 
 
+@pytest.mark.nightly
 def test_a_study_of_ones_own(clone: Workspace):
     run("docs/tutorials/own_study.md", clone)
     results = clone.folder / "results_my_study"

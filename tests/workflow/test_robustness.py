@@ -8,21 +8,9 @@ from bladerub.io import tables
 PLAN = {
     "seed": 1,
     "factors": {
-        "unit": {
-            "unit": "Pa",
-            "scale": "log",
-            "sets": {"contact.modulus_unit": [2.0e8, 8.0e8]},
-        },
-        "lean": {
-            "unit": "degrees",
-            "sets": {"blade.tip_cone": [12.0, 13.0]},
-            "multiple_of": 1,
-        },
-        "step": {
-            "unit": "1",
-            "sets": {"speeds.step": [0.03, 0.05]},
-            "multiple_of": 0.005,
-        },
+        "unit": {"unit": "Pa", "scale": "log", "sets": {"contact.modulus_unit": [2.0e8, 8.0e8]}},
+        "lean": {"unit": "degrees", "sets": {"blade.tip_cone": [12.0, 13.0]}, "multiple_of": 1},
+        "step": {"unit": "1", "sets": {"speeds.step": [0.03, 0.05]}, "multiple_of": 0.005},
     },
     "parts": {
         "lobes": {
@@ -51,12 +39,16 @@ def planned(copied_study, tiny):
     return tiny
 
 
-def test_the_design_is_made_once_and_a_lost_job_is_made_anew_alone(copied_study, planned):
+def test_the_design_is_planned(copied_study, planned):
     assert copied_study.plan(planned, "robustness") == {
         "robustness_blade": 3,  # two of the samples, one of the study's own values
         "robustness_batch": 5,
         "robustness": 1,
     }
+
+
+@pytest.mark.nightly
+def test_the_design_is_made_once_and_a_lost_job_is_made_anew_alone(copied_study, planned):
     copied_study.build(planned, "robustness")
     folder = copied_study.results / "tables"
     table = tables.read(folder / "robustness.csv").set_index("id")
@@ -103,18 +95,11 @@ def test_the_design_is_made_once_and_a_lost_job_is_made_anew_alone(copied_study,
     assert copied_study.plan(planned, "robustness") == {"robustness_batch": 1, "robustness": 1}
 
 
-@pytest.mark.parametrize(
-    ("change", "problem"),
-    [
-        ({"seed": -1}, "config/robustness.yaml:1: seed = -1:"),
-        ({"factors": {}}, "config/robustness.yaml:2: factors = {}:"),
-    ],
-)
-def test_a_bad_plan_is_refused_before_any_work(workspace, tiny, change, problem):
-    plan = yaml.safe_dump(PLAN | change, sort_keys=False)
+def test_a_bad_plan_is_refused_before_any_work(workspace, tiny):
+    plan = yaml.safe_dump(PLAN | {"factors": {}}, sort_keys=False)
     (workspace.folder / "config" / "robustness.yaml").write_text(plan)
     done = workspace.snakemake("robustness", "--dry-run", config=tiny)
     assert done.returncode == 2
-    assert problem in done.stderr
+    assert "config/robustness.yaml:2: factors = {}:" in done.stderr
     assert not workspace.results.exists()
     assert workspace.plan(tiny)["blade"] == 1  # a study needs no plan

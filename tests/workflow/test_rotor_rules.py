@@ -27,22 +27,18 @@ PLAN = {
     "patterns": {"harmonic": 4, "interval": 1, "groups": {"some": PATTERN}},
 }
 
+TAIL = dict.fromkeys(("rotor_tables", "rotor_figure", "rotor_sweeps_figure", "rotor_patterns", "rotor"), 1)
+
 
 def write(workspace, **changes):
     plan = PLAN | {"groups": {"small": GROUP | changes}}
     (workspace.folder / "config" / "rotor.yaml").write_text(yaml.safe_dump(plan, sort_keys=False))
 
 
+@pytest.mark.nightly
 def test_rows_are_made_once_and_lost_or_changed_ones_alone(copied_study, tiny):
     write(copied_study)
-    assert copied_study.plan(tiny, "rotor") == {
-        "rotor_combination": 5,
-        "rotor_tables": 1,
-        "rotor_figure": 1,
-        "rotor_sweeps_figure": 1,
-        "rotor_patterns": 1,
-        "rotor": 1,
-    }
+    assert copied_study.plan(tiny, "rotor") == TAIL | {"rotor_combination": 5}
     copied_study.build(tiny, "rotor")
     draws = tables.read(copied_study.results / "tables" / "rotor_draws.csv")
     table = tables.read(copied_study.results / "tables" / "rotor.csv")
@@ -76,33 +72,18 @@ def test_rows_are_made_once_and_lost_or_changed_ones_alone(copied_study, tiny):
     assert {name for name in times if times[name] != again[name]} == {"0001.h5", "0002.h5"}
 
     write(copied_study, draws=4)
-    assert copied_study.plan(tiny, "rotor") == {
-        "rotor_combination": 2,
-        "rotor_tables": 1,
-        "rotor_figure": 1,
-        "rotor_sweeps_figure": 1,
-        "rotor_patterns": 1,
-        "rotor": 1,
-    }
+    assert copied_study.plan(tiny, "rotor") == TAIL | {"rotor_combination": 2}
     copied_study.build(tiny, "rotor")
     assert len(tables.read(copied_study.results / "tables" / "rotor_draws.csv")) == 2 * 4 + 1 + 2 + 1
     more = {path.name: path.stat().st_mtime_ns for path in folder.glob("*.h5")}
     assert {name for name in more if more[name] != again.get(name)} == {"0003.h5"}
 
 
-@pytest.mark.parametrize(
-    ("changes", "problem"),
-    [
-        ({"draws": 0}, "draws = 0: number of draws must be a whole number from 1"),
-        ({"casing": "3nd"}, 'groups.small.casing = "3nd": must be one of the casings, 2nd, 2nd5nd'),
-        ({"f_omega": [0.5]}, "groups.small.f_omega: 0.5: must be at most reduction.f_omega_max = "),
-    ],
-)
-def test_a_bad_plan_is_refused_before_any_work(workspace, tiny, changes, problem):
-    write(workspace, **changes)
+def test_a_bad_plan_is_refused_before_any_work(workspace, tiny):
+    write(workspace, casing="3nd")
     done = workspace.snakemake("rotor", "--dry-run", config=tiny)
     assert done.returncode == 2
-    assert problem in done.stderr
+    assert 'groups.small.casing = "3nd": must be one of the casings, 2nd, 2nd5nd' in done.stderr
     assert not workspace.results.exists()
 
 

@@ -39,7 +39,9 @@ print(blade.path)
 """
 
 
-@pytest.fixture(params=["1", "2", ""], ids=["one thread", "two threads", "default threads"])
+@pytest.fixture(
+    params=["2", pytest.param("1", marks=pytest.mark.nightly), pytest.param("", marks=pytest.mark.nightly)]
+)
 def environment(request, tmp_path, copied_study):
     limits = dict.fromkeys(("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"), request.param)
     given = {name: value for name, value in os.environ.items() if name not in limits}

@@ -79,6 +79,7 @@ def test_time_asked_for_grows_with_the_revolutions_of_a_coating(workspace, tiny)
     assert (minutes["coating"], minutes["map"]) == (3, 1)
 
 
+@pytest.mark.nightly
 @pytest.mark.slurm
 @pytest.mark.skipif(obstacle() is not None, reason=str(obstacle()))
 def test_study_goes_on_after_scancel_and_is_what_a_local_one_is(cluster, workspace, longer, tmp_path_factory):

@@ -15,9 +15,13 @@ def beside(tiny):
     return tiny | {"sweeps": sweeps | {"speed_step": 2e-3}, "long_runs": {"revolutions": 12}}
 
 
-def test_sweeps_and_long_runs_are_made_when_asked_for(copied_study, beside):
-    plan = copied_study.plan(beside, "sweeps", "long_runs")
+def test_sweeps_and_long_runs_are_planned(study, beside):
+    plan = study.plan(beside, "sweeps", "long_runs")
     assert plan == {"sweep": 8, "sweeps": 1, "long_coating": 6, "long_runs": 1}
+
+
+@pytest.mark.nightly
+def test_sweeps_and_long_runs_are_made_when_asked_for(copied_study, beside):
     copied_study.build(beside, "sweeps", "long_runs")
     for name in ("sweeps", "long_runs"):
         assert (copied_study.results / "figures" / f"{name}.png").stat().st_size > 10_000
