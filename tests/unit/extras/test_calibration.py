@@ -72,13 +72,6 @@ def test_a_plan_what_is_common_and_a_set_can_extend_files(study, asked, tmp_path
     assert {config["speeds"]["start"] for config in sets.values()} == {0.1}
 
 
-def test_problems_of_a_set_are_reported_with_file_and_line(study, asked):
-    config = asked("common:\n  speeds: {start: 0.1}\nsets:\n  a:\n    contact:\n      damping_ratio: 2\n")
-    with pytest.raises(ConfigError) as caught:
-        plan(config)
-    assert str(caught.value).startswith(f"{config['calibration']}:6: a: contact.damping_ratio = 2: ")
-
-
 @pytest.mark.parametrize(("file", "of_the_study"), [("calibration", "study"), ("laws", "plastic")])
 def test_the_plans_of_the_repository_have_the_study_in_them(study, file, of_the_study, monkeypatch):
     monkeypatch.chdir(ROOT)

@@ -19,11 +19,6 @@ def test_own_value_lies_at_its_fraction_of_the_range(factor, fraction):
     assert factor.first_value(fraction) == pytest.approx(factor.own(STUDY))
 
 
-def test_a_value_outside_the_range_lies_at_its_end():
-    assert UNIT.position(1e12) == 1.0
-    assert DEPTH.position(0.1) == 0.0
-
-
 @pytest.mark.parametrize(("position", "turns"), [(0.0, False), (0.49, False), (0.51, True), (1.0, True)])
 def test_factors_set_numbers_and_switches(position, turns):
     varied = lay_over(Located.of(STUDY, UNKNOWN), (UNIT, DEPTH, TURNS), (1.0, 0.25, position)).plain()

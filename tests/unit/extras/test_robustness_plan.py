@@ -6,7 +6,7 @@ import yaml
 from bladerub.config.errors import ConfigError
 from bladerub.config.read import load, validate
 from bladerub.extras.robustness.design import batch, blade_name, check, sample_digest
-from bladerub.extras.robustness.plan import BATCH, REFERENCE, REFERENCE_BATCH, read_plan
+from bladerub.extras.robustness.plan import REFERENCE, REFERENCE_BATCH, read_plan
 from bladerub.io.folders import ROOT
 
 PLAN = {
@@ -73,14 +73,6 @@ def test_samples_fill_the_ranges_evenly(write):
         assert sorted((16 * column).astype(int)) == list(range(16))
 
 
-def test_jobs_have_all_samples_once(write):
-    plan = read_plan(write(PLAN))
-    for part in plan.parts.values():
-        batches = part.batches()
-        assert [number for batch in batches for number in batch] == list(range(part.samples))
-        assert max(map(len, batches)) <= BATCH
-
-
 def test_a_blade_is_shared_by_samples_that_do_not_change_it(study, write):
     plan = read_plan(write(PLAN))
     assert len({blade_name(config) for config in sample_configs(study, plan, plan.parts["soft"])}) == 1
@@ -137,14 +129,6 @@ def test_a_factor_must_set_a_number_of_the_study(study, write, path):
     (problem,) = caught.value.problems
     assert problem.text.startswith(f"factors.unit.sets.{path}")
     assert problem.location == plan.factors[0].location
-
-
-def test_values_that_make_no_study_are_reported_with_part_and_sample(study, write):
-    path = write(changed("factors", "turns", "sets", to={"solver.revolutions": [12, 90]}))
-    with pytest.raises(ConfigError) as caught:
-        check(study, read_plan(path))
-    assert "parts.soft, sample " in str(caught.value)
-    assert "confirmation_revolutions = 60: must be 0, or at least" in str(caught.value)
 
 
 def test_only_what_determines_a_sample_is_in_its_digest(study, write):

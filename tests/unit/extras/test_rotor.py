@@ -72,10 +72,3 @@ def test_the_distribution_of_known_draws():
     assert np.isnan(found.longest_share_median)
     # order statistics 86 and 114 of 199 hold the median with 95 %
     assert (found.amplification_low, found.amplification_high) == pytest.approx((0.86, 1.14))
-
-
-def test_half_of_the_draws_are_the_first_ones_of_each_combination():
-    table = pd.concat([made(5, E=1.1), made(4, E=20.0), made(1, E=5.0)], ignore_index=True)
-    half = summary.first_half(table)
-    assert half[["E", "draw"]].values.tolist() == [[1.1, 0], [1.1, 1], [20.0, 0], [20.0, 1]]
-    assert summary.combinations(half).rows.tolist() == [2, 2]

@@ -25,11 +25,6 @@ def test_the_drift_of_lobes_that_turn_evenly_is_their_rate(rate):
     assert pattern.drift_rate(revolution, lobe, np.abs(parts)) == pytest.approx(rate)
 
 
-def test_intervals_count_by_what_was_worn_off_in_them():
-    revolution, lobe = np.array([2, 4, 6, 8]), np.array([0.1, 0.2, 0.3, 9.0])
-    assert pattern.drift_rate(revolution, lobe, np.array([1e-3, 1e-3, 1e-3, 0.0])) == pytest.approx(0.05)
-
-
 @pytest.mark.slow
 def test_the_depths_of_all_intervals_make_the_wear_of_the_run(blade):
     config = validate(load(ROOT / "config" / "config.yaml"))

@@ -58,14 +58,6 @@ def test_without_a_folder_it_is_the_same_and_nothing_is_written(made, study, gro
         np.testing.assert_array_equal(getattr(in_memory, name), getattr(of_files, name))
 
 
-def test_an_order_without_a_run_near_its_crossing_has_no_peak(made, study):
-    study["speeds"] = {"start": 0.1, "stop": 0.2, "step": 0.05, "extra": []}
-    found = made({"C1"}).peaks.set_index("order")
-    assert np.isnan(found.amplitude[4])
-    assert found.reason[4].startswith("order 4 does not cross C1")
-    assert found.amplitude[6] > 0
-
-
 def test_each_sample_of_a_job_has_its_verdicts_and_cost(monkeypatch, study):
     def conduct(config, model, rom_accuracy, claims):
         assert (model, rom_accuracy) == (f"model {config['seed']}", "accuracy")

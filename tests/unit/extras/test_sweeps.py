@@ -57,11 +57,6 @@ def make(config, blade, passed, tmp_path):
     return make
 
 
-def test_the_study_s_coatings_alone_are_swept(config):
-    config["sweeps"]["coatings"] = ["2nd_E1.1_K0.5_theta0", "2nd_E7_K0.5_theta0", "2nd_rigid_mu0"]
-    assert sweep_grid.swept_cases(config) == [CASE, CoatingCase.rigid("2nd", 0.0)]
-
-
 @pytest.mark.parametrize(("direction", "start", "end"), [("up", 0.14, 0.4), ("down", 0.4, 0.14)])
 def test_a_sweep_is_the_run_of_the_study_from_end_to_end(config, direction, start, end):
     config["sweeps"] |= {"start": 0.14, "stop": 0.4, "speed_step": 5e-4}

@@ -47,13 +47,6 @@ def test_large_datasets_are_compressed_and_have_a_checksum(tmp_path, n, is_packe
         assert (peak.compression == "gzip", peak.shuffle, peak.fletcher32) == (is_packed,) * 3
 
 
-def test_datasets_that_are_not_asked_for_are_not_read(tmp_path):
-    hdf5.write(tmp_path / "file.h5", VARIABLES, {"n": 3})
-    data, attributes = hdf5.read(tmp_path / "file.h5", {"wear", "unknown"})
-    assert data.keys() == {"wear"}
-    assert attributes == {"n": 3}
-
-
 def test_what_is_written_is_read(tmp_path):
     hdf5.write(tmp_path / "file.h5", VARIABLES, {"n": 3, "status": "completed"})
     data, attributes = hdf5.read(tmp_path / "file.h5")
@@ -61,13 +54,6 @@ def test_what_is_written_is_read(tmp_path):
     np.testing.assert_array_equal(data["node"], [0, 1])
     assert attributes == {"n": 3, "status": "completed"}
     assert hdf5.read_attributes(tmp_path / "file.h5") == attributes
-
-
-def test_each_file_has_its_origin_as_attributes(tmp_path):
-    for commit in ("abc", "def", "abc"):
-        hdf5.write(tmp_path / "file.h5", VARIABLES, {"n": 3}, {"provenance_git_commit": commit})
-        attributes = hdf5.read_attributes(tmp_path / "file.h5")
-        assert attributes == {"n": 3, "provenance_git_commit": commit}
 
 
 def test_files_with_repeated_values_hold_their_own(tmp_path):

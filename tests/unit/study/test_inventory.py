@@ -1,6 +1,5 @@
 import errno
 import os
-import random
 import re
 from dataclasses import replace
 from types import SimpleNamespace
@@ -167,33 +166,6 @@ def test_each_damaged_file_is_named(done, look, tmp_path):
     for path in hurt:
         os.truncate(path, path.stat().st_size // 2 - 1)  # half a manifest may end with a line
     assert sorted(look()[1]) == sorted(hurt)
-
-
-def flip_a_bit(path, draw):
-    """Change one bit anywhere in the file, its times not."""
-    content, times = bytearray(path.read_bytes()), path.stat()
-    bit = draw.randrange(8 * len(content))
-    content[bit // 8] ^= 1 << bit % 8
-    path.write_bytes(content)
-    os.utime(path, ns=(times.st_atime_ns, times.st_mtime_ns))
-
-
-def test_one_random_bit_in_each_of_40_files_is_found_40_times(
-    simulated, growing, compute, look, study, tmp_path
-):
-    study["speeds"] = {"start": 0.11, "stop": 0.36, "step": 0.01, "extra": []}
-    growing.update({round(0.11 + 0.01 * index, 6): 0.05 for index in range(16)})
-    write_manifest(tmp_path / "manifest.tsv", compute())
-    files = sorted(tmp_path.rglob("*.h5"))
-    assert len(files) == 26 + 16
-    counts, damaged, _ = look(thorough=True)
-    assert (counts["done"], counts["longer_done"], damaged) == (26, 16, [])
-    draw = random.Random(23)
-    hit = sorted(draw.sample(files, 40))
-    for path in hit:
-        flip_a_bit(path, draw)
-    counts, damaged, _ = look(thorough=True)
-    assert sorted(damaged) == hit
 
 
 REFUSALS = [errno.EAGAIN, errno.EIO]

@@ -10,9 +10,3 @@ def test_the_machine_is_described():
     assert told["processor"].strip()
     assert told["vector_bits"] in {64, 128, 256, 512}
     assert 1 <= told["cores"] <= os.cpu_count()
-
-
-def test_the_widest_vectors_count(monkeypatch):
-    known = {"sse2": True, "avx": True, "avx512f": False}
-    monkeypatch.setattr(machine.binding, "get_host_cpu_features", lambda: known)
-    assert machine.describe()["vector_bits"] == 256

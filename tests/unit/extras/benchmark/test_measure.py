@@ -7,13 +7,6 @@ from bladerub.contact.setup import set_up
 from bladerub.extras.benchmark import measure
 
 
-@pytest.mark.slow
-def test_the_casing_is_brought_near_until_a_third_is_contact(blade, spec):
-    found, share = measure.in_contact(blade, spec)
-    assert share == pytest.approx(1 / 3, abs=0.02)
-    assert found.casing.interference > 0
-
-
 def test_useful_operations_of_a_step(blade, spec, change):
     rule, simulation = set_up(blade, spec)
     n, flight = rule.omega.size, simulation.flight.n_steps

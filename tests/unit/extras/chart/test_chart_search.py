@@ -100,9 +100,3 @@ def test_each_measure_is_that_of_its_run(measured, make_result, blade):
         assert (of[f"energy_{name}"] == getattr(result.energy, name)).all()
     np.testing.assert_allclose(point.spectrum_amplitude[point.known, 0], 1e-3, rtol=1e-3)
     assert (point.spectrum_amplitude[point.known, 1] < 1e-6).all()
-
-
-def test_the_amplitude_just_above_the_highest_order_counts(measured, make_result, few_speeds):
-    few_speeds["analysis"]["peaks"]["order_halfwidth"] = 0.2
-    point = measured(make_result(order=6.1, amplitude=1e-3))
-    np.testing.assert_allclose(point.spectrum_amplitude[point.known, 1], 1e-3, rtol=1e-3)

@@ -26,14 +26,3 @@ def test_a_lower_maximum_is_looked_at_only_from_the_share_on():
     curve = np.where(place > 40, hidden, 100 - 2 * np.abs(place - 16.0))
     assert not search(curve, 8, share=0.9)[47]
     assert search(curve, 8, share=0.6)[47]
-
-
-def test_maxima_at_an_end_and_on_level_ground_are_enclosed():
-    assert search(np.arange(17.0), 4, share=1.0)[14:].all()
-    assert search(np.ones(9), 4, share=1.0).all()
-
-
-def test_nothing_is_sought_where_nothing_is_known():
-    known = np.array([True, False, True])
-    assert next_speeds(known, [np.full(3, np.nan)], 0.5) == []
-    assert next_speeds(known, [], 0.5) == []

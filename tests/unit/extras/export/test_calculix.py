@@ -1,23 +1,10 @@
 import numpy as np
-import pytest
 
 from bladerub.blade.elasticity import Material
 from bladerub.extras.export.calculix import deck, frequencies
 
 MATERIAL = Material(110e9, 0.32, 4430.0)
 POINTS = np.arange(60.0).reshape(20, 3)
-
-
-@pytest.mark.parametrize(("n_nodes", "kind", "n_lines"), [(20, "C3D20", 2), (10, "C3D10", 1)])
-def test_a_deck_has_the_elements_in_lines_of_16_numbers(n_nodes, kind, n_lines):
-    lines = deck(POINTS, np.arange(n_nodes)[None], np.array([0, 1]), MATERIAL, 0.0).splitlines()
-    start = lines.index(f"*ELEMENT, TYPE={kind}, ELSET=BLADE") + 1
-    element = lines[start : start + n_lines]
-    assert all(line.endswith(",") for line in element[:-1])
-    numbers = [int(number) for line in element for number in line.rstrip(",").split(",")]
-    assert numbers == [1, *range(1, n_nodes + 1)]
-    assert "*DLOAD" not in lines
-    assert max(len(line.rstrip(",").split(",")) for line in lines) <= 16
 
 
 def test_a_deck_of_a_rotating_blade_has_its_load_first():

@@ -48,15 +48,3 @@ def test_the_default_blade_comes_back_from_its_sections_in_inches_and_degrees(bl
     assert all(section.cut == (0, 0) for section in imported.sections)
     interface = imported.blade.mesh.mesh.points[imported.blade.mesh.interface]
     np.testing.assert_allclose(interface, ours.mesh.points[ours.interface], atol=1e-4)
-
-
-@pytest.mark.parametrize("coordinates", ["cartesian", "cylindrical"])
-def test_edges_square_to_the_axis_are_written_as_well(blade, tmp_path, coordinates):
-    straight = {"camber": 0.0, "stagger": 0.0, "sweep": 0.0, "lean": 0.0}
-    blade["sections"] = [section | straight for section in blade["sections"]]
-    shape = BladeShape.from_config(blade)
-    n_sections, n_stations = write_sections(tmp_path / "blade.csv", shape, coordinates)
-    assert (n_sections, n_stations) == (21, 21 * 61)
-    imported = import_blade(Source(tmp_path / "blade.csv"), COUNTS)
-    direct = BladeMesh.from_shape(shape, COUNTS).mesh
-    np.testing.assert_allclose(imported.blade.mesh.mesh.points, direct.points, atol=1e-4)

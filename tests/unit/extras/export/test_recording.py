@@ -70,15 +70,6 @@ def test_node_1_moves_as_in_the_run(blade, in_contact):
     np.testing.assert_allclose(between, last[1:], rtol=0, atol=0.06 * scale)  # of a coarse ring
 
 
-@pytest.mark.parametrize("n_instants", [1, 7, 200])
-def test_instants_end_with_the_revolution(blade, spec, n_instants):
-    recording = record_alone(blade, spec, 1, n_instants)
-    assert recording.time.shape == (n_instants,)
-    assert recording.coordinates.shape == (n_instants, len(blade.mass))
-    assert recording.time[-1] == 1
-    np.testing.assert_allclose(recording.time, np.arange(1, n_instants + 1) / n_instants, atol=0.5 / 200)
-
-
 def test_a_row_moves_and_wears_as_in_its_run(blade, spec, change):
     spec = change(spec, E=2.0, revolutions=3)
     row = Row.even(2, length=[0.0, 2e-5], frequency=[0.0, 0.01], disk=Disk.ring(2, [1e-3]))

@@ -58,7 +58,3 @@ def test_what_elastic_curves_do_not_show_is_said():
     assert found["E"].determined
     assert not found["K"].determined
     assert found["K"].standard_error is None
-
-
-def test_a_plastic_modulus_within_the_noise_is_not_determined():
-    assert not fit(curves([0.0], seed=3, highest=0.012, n=40, K=1e6))["K"].determined

@@ -7,7 +7,7 @@ import pytest
 from bladerub.contact.setup import set_up
 from bladerub.contact.spec import ElementLaw
 from bladerub.extras.gpu import batch
-from bladerub.extras.gpu.batch import longest_first, pack, refusal, variant_of
+from bladerub.extras.gpu.batch import pack, refusal, variant_of
 
 HEATED = {
     "heat_capacity": 1e6,
@@ -48,20 +48,6 @@ def test_what_the_loop_can_not_do_is_said(values, reason, blade, spec, change):
     told = refusal(changed, set_up(blade, changed)[1])
     assert reason in told
     assert bool(told) == bool(values)
-
-
-def test_the_longest_runs_of_all_pieces_come_first(blade, spec, change):
-    sizes = [{"f_omega": 0.3}, {"f_omega": 0.3, "revolutions": 7}, {"f_omega": 0.1, "n_elements": 150}]
-    specs = [[change(spec, **size), change(spec, f_omega=0.2)] for size in sizes[:1]]
-    specs += [[change(spec, **size)] for size in sizes[1:]]
-    works = [packed(blade, each) for each in specs]
-    order = longest_first(works)
-    assert sorted(map(tuple, order.tolist())) == [(0, 0), (0, 1), (1, 0), (2, 0)]
-    steps = [
-        works[piece].runs[run, 4] * works[piece].n_elements * works[piece].revolutions for piece, run in order
-    ]
-    assert steps == sorted(steps, reverse=True)
-    assert len(set(steps)) > 2
 
 
 def test_the_window_of_elements_is_wide_enough(blade, spec, change):

@@ -100,13 +100,6 @@ def test_two_functions_of_one_name_are_refused():
         formulas.of_law(module, source)
 
 
-def test_a_number_of_the_module_is_written_out():
-    module, source = module_with(
-        elastic_force="SOFT = 0.25\ndef elastic_force(element, depth):\n    return SOFT * depth\n"
-    )
-    assert "(0.25 * depth)" in formulas.of_law(module, source)
-
-
 def test_the_functions_are_those_that_the_loop_of_the_processor_calls():
     elements = inspect.getsource(__import__("bladerub.contact.kernel.elements", fromlist=["x"]))
     assert {name for name in dir(plastic) if f"law.{name}(" in elements} <= set(formulas.LAW)

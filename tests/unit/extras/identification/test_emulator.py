@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from bladerub.extras.identification.emulator import Emulator, Predicted, compared, held_out
+from bladerub.extras.identification.emulator import Emulator, compared, held_out
 
 
 def smooth(x):
@@ -37,11 +37,3 @@ def test_sets_left_out_are_predicted_about_as_well_as_new_ones(positions):
     assert held_out(emulator, positions, values).explained > 0.95
     noise = np.random.default_rng(4).standard_normal(60)
     assert held_out(Emulator(positions, noise), positions, noise).explained < 0.4
-
-
-def test_compared_says_what_is_explained_and_how_often_the_deviation_holds():
-    values = np.array([0.0, 1.0, 2.0, 3.0])
-    found = compared(values, Predicted(np.array([0.0, 1.0, 2.0, 1.0]), np.full(4, 0.5)))
-    assert found.explained == pytest.approx(1 - 1.0 / 1.25)
-    assert found.within_two == 0.75
-    assert np.isnan(compared(np.empty(0), Predicted(np.empty(0), np.empty(0))).explained)

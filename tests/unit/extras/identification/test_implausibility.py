@@ -27,12 +27,6 @@ def test_quantities_become_a_row_a_set_in_the_order_of_the_targets():
     assert table.loc[7, names[0]] == 1.0
 
 
-def test_simulated_sets_are_judged_by_the_error_of_reading_alone():
-    target = KNOWN["f4_soft"]
-    found = implausibility.of_simulated(pd.DataFrame({"f4_soft": [0.31, 0.31 + 2 * target.error, np.nan]}))
-    assert found.f4_soft.to_numpy() == pytest.approx(np.array([0.0, 2.0, np.nan]), nan_ok=True)
-
-
 def test_the_deviation_of_a_prediction_makes_a_set_more_plausible():
     rng = np.random.default_rng(0)
     positions, target = rng.random((40, 2)), KNOWN["f4_soft"]
@@ -42,10 +36,3 @@ def test_the_deviation_of_a_prediction_makes_a_set_more_plausible():
     scattered = far + 5 * target.error * rng.standard_normal(40)
     unsure = implausibility.predicted({"f4_soft": Emulator(positions, scattered)}, positions)
     assert unsure.f4_soft.median() < 4
-
-
-def test_the_worst_targets_are_left_out_when_given_up():
-    table = pd.DataFrame({"a": [1.0, 5.0, np.nan], "b": [4.0, 2.0, 0.0], "c": [2.0, 9.0, 1.0]})
-    assert list(implausibility.without(table, 0)) == [4.0, 9.0, np.inf]
-    assert list(implausibility.without(table, 1)) == [2.0, 5.0, 1.0]
-    assert list(implausibility.without(table, 3)) == [0.0, 0.0, 0.0]

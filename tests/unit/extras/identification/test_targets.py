@@ -44,14 +44,6 @@ def test_a_peak_lies_between_the_speeds_of_the_grid(measured, hat):
     assert found["Y6_critical"] == pytest.approx(-np.log(2), abs=1e-6)
 
 
-def test_theta_shifts_and_lowers_the_peaks(measured, hat):
-    found = measured(hat(STRAIGHT, f6=0.198), hat(TILTED, f4=0.303, Y4=1e-3, f6=0.19, Y6=0.5e-3))
-    assert found["f4_shift"] == pytest.approx(-0.008, abs=1e-3)
-    assert found["f6_shift"] == pytest.approx(-0.008, abs=1e-3)
-    assert found["Y4_tilted"] == pytest.approx(-np.log(2), abs=0.05)
-    assert found["Y6_tilted"] == pytest.approx(-np.log(2), abs=0.05)
-
-
 def test_growth_counts_above_the_limit_of_the_study_and_an_unbounded_run_counts_as_growing(measured, hat):
     growth = np.where(SPEEDS == 0.19, 0.05, 0.0)
     status = np.where(SPEEDS == 0.197, "unbounded", "completed")

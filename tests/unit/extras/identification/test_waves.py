@@ -5,7 +5,7 @@ import pytest
 from bladerub.config.errors import UNKNOWN
 from bladerub.config.files import Located
 from bladerub.extras.factors import Factor
-from bladerub.extras.identification import candidates, sets, summary, waves
+from bladerub.extras.identification import candidates, summary, waves
 from bladerub.extras.identification.emulator import Emulator
 from bladerub.extras.identification.implausibility import predicted, without
 from bladerub.extras.identification.plan import Candidates, Part, Plan
@@ -69,13 +69,6 @@ def test_what_is_left_lies_where_the_targets_are_met(plan, emulated):
     assert left.plausible["f4_soft"] == pytest.approx(0.15, rel=0.1)
 
 
-def test_without_an_emulator_all_is_left_and_the_next_sets_are_spread(plan, positions):
-    left = waves.remaining(plan, {})
-    assert (left.share, left.given_up, len(left.points)) == (1.0, 0, waves.POINTS)
-    assert left.plausible.empty
-    assert len(waves.draw(plan, 1, left, {}, positions)) == waves.DRAWN
-
-
 def test_as_few_targets_are_given_up_as_leave_enough(plan, positions, measured):
     nowhere = measured.assign(f4_straight=1.0)  # no target of that name: not asked for
     nowhere = nowhere.drop(columns="f4_straight").assign(f6_straight=TARGET["f6_straight"].value + 1.0)
@@ -135,16 +128,6 @@ def test_the_best_sets_and_their_neighbours_are_chosen_beside_the_study_s_own(ch
         assert moved.max() == pytest.approx(0.02)
 
 
-def test_a_table_of_candidates_has_values_and_reads_back(plan, chosen, tmp_path):
-    long = candidates.as_table(plan, chosen)
-    own = long[(long.candidate == 0) & (long.neighbour == 0)].set_index("factor").value
-    assert own.unit == pytest.approx(6e8)
-    long.to_csv(tmp_path / "candidates.csv", index=False)
-    read = candidates.read(tmp_path / "candidates.csv")
-    assert list(read.columns) == ["unit", "hub"]
-    assert read.to_numpy() == pytest.approx(chosen[["unit", "hub"]].to_numpy())
-
-
 def test_parts_that_hold_are_counted_by_whether_they_were_matched(plan, chosen):
     long = candidates.as_table(plan, chosen)
     rows = [(0, 0, "C4a", "yes"), (0, 0, "C6a", "yes"), (0, 0, "C1a", "yes"), (0, 0, "C9a", "no")]
@@ -153,29 +136,6 @@ def test_parts_that_hold_are_counted_by_whether_they_were_matched(plan, chosen):
     counted = candidates.counts(long, verdicts).set_index(["candidate", "neighbour"])
     assert list(counted.loc[(0, 0)][["matched_yes", "predicted_yes", "yes", "parts"]]) == [1, 1, 3, 4]
     assert list(counted.loc[(1, 0)][["matched_yes", "predicted_yes", "yes", "parts"]]) == [0, 0, 1, 4]
-
-
-def test_sets_keep_their_numbers_and_values_in_a_file(plan, positions, measured, tmp_path):
-    sets.as_table(plan, 3, positions[:2]).to_csv(tmp_path / "sets.csv", index=False)
-    read = sets.positions([tmp_path / "sets.csv"])
-    assert list(read.index) == [3, 4]
-    assert read.to_numpy() == pytest.approx(positions[:2])
-    listed = summary.sets(plan, pd.DataFrame(positions), candidates.misfit(measured))
-    assert listed[listed.factor == "hub"].value.iloc[0] == pytest.approx(0.45)
-    assert listed.misfit.notna().all()
-
-
-def test_emulators_and_targets_are_compared_with_sets_simulated_later(plan, positions, measured, emulated):
-    left = waves.remaining(plan, emulated)
-    errors = summary.emulated(1, emulated, left, positions, measured)
-    assert list(errors.columns) == summary.EMULATORS
-    assert (errors.explained > 0.8).all()
-    predictions = summary.predictions(emulated, 0, positions)
-    found = summary.targets(measured, predictions).set_index("target")
-    assert (found.explained > 0.99).all()
-    assert found.own_value["f4_soft"] == measured.f4_soft[0]
-    nothing = summary.targets(measured, predictions.iloc[:0]).set_index("target")
-    assert nothing.explained.isna().all()
 
 
 def test_claims_that_hold_together_less_often_than_by_chance_exclude_each_other():

@@ -1,9 +1,6 @@
 import numpy as np
-import pandas as pd
 import pytest
 
-from bladerub.extras.long_runs import LongRuns
-from bladerub.extras.plots.long_runs import long_runs
 from bladerub.extras.plots.sweeps import sweeps
 from bladerub.extras.sweeps import SpeedSweep
 from bladerub.study.grid import CoatingCase
@@ -49,25 +46,3 @@ def test_a_sweep_is_drawn_by_direction_over_the_runs_at_constant_speed(draws, co
     np.testing.assert_allclose(down.lines[1].get_xdata(), SPEED[::-1])
     assert up.get_ylim()[1] == pytest.approx(1.08 * 2.0)  # the run that left all bounds is out of it
     assert up.get_xlim() == pytest.approx((0.14, 0.4))
-
-
-def test_growth_verdicts_and_cost_of_long_runs(draws):
-    number = np.arange(1, 41)
-    amplitude = np.stack([1e-4 * 1.02**number, np.full(40, 2e-4)])
-    long = LongRuns(
-        CASE,
-        np.array([0.2, 0.3]),
-        np.array(["grows", "f4"]),
-        amplitude,
-        np.full(2, 1e-4),
-        np.array(["completed"] * 2),
-        np.stack([0.004 * number, 0.005 * number]),
-    )
-    table = pd.DataFrame(
-        {"revolutions": [20, 40] * 2, "verdict": ["divergent", "divergent", "steady", "steady"]}
-    )
-    growth, verdicts, cost = draws(long_runs([long], table)).axes
-    np.testing.assert_allclose(growth.lines[0].get_ydata(), 1e3 * amplitude[0])
-    assert sorted(bar.get_height() for bar in verdicts.patches) == [0] * 6 + [1] * 4
-    assert [label.get_text() for label in verdicts.get_xticklabels()] == ["20", "40"]
-    np.testing.assert_allclose(cost.lines[0].get_ydata(), 4.5)

@@ -6,7 +6,6 @@ from bladerub.extras.stress.peak import (
     principal,
     static_peak,
     stress_peaks,
-    stressed_nodes,
     von_mises,
 )
 
@@ -25,11 +24,6 @@ def test_invariants_are_those_of_the_eigenvalues():
     np.testing.assert_allclose(principal(six(tensor)), values[:, 2], atol=1e-9)
     squares = sum((values[:, k] - values[:, k - 1]) ** 2 for k in range(3)) / 2
     np.testing.assert_allclose(von_mises(six(tensor)), np.sqrt(squares))
-
-
-def test_pressure_has_no_von_mises_stress():
-    pressure = np.array([-2.0, -2.0, -2.0, 0, 0, 0])
-    assert (von_mises(pressure), principal(pressure)) == (0.0, -2.0)
 
 
 def test_peak_of_one_vibrating_coordinate_about_tension():
@@ -77,10 +71,3 @@ def test_stress_of_other_coordinates_is_that_of_the_same_motion(drawn):
     stress, coordinates, _ = drawn
     patterns = np.random.default_rng(2).normal(size=(3, 4))
     np.testing.assert_allclose(stress.of(patterns)(coordinates[:, :3]), stress(coordinates[:, :3] @ patterns))
-
-
-def test_nodes_are_kept_for_each_cause_of_stress():
-    slope = np.zeros((2, 6, 4))
-    slope[0, 3], slope[1, 3] = (0.1, 0.9, 1.0, 0.0), (9.0, 1.0, 1.0, 0.0)
-    stress = ModalStress(np.zeros((4, 3)), np.zeros((6, 4)), slope)
-    assert stressed_nodes(stress, 0.7).tolist() == [0, 1, 2]

@@ -42,13 +42,6 @@ def made_name(made):
     return f"2nd_E2_K0.5_theta0.15/{made.f_omega.iloc[-1]:.4f}"
 
 
-def test_every_draw_of_a_small_study_has_all_of_its_runs(table):
-    drawn = table.groupby(["drawn_from", "seed"]).f_omega.apply(sorted).to_dict()
-    assert drawn.keys() == {("all", 1), ("all", 2), ("all", 3), ("important", 1)}
-    assert drawn["all", 2] == pytest.approx([run.f_omega for run in RUNS])
-    assert drawn["important", 1] == pytest.approx([0.2, 0.21])
-
-
 def test_a_row_holds_errors_what_starts_change_and_cost(table):
     row = table[table.f_omega > 0.2].iloc[0]
     assert (row.E, row.K, row.theta, row.law, row.status) == (2.0, 0.5, 0.15, "theta", "completed")

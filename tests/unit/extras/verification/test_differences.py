@@ -59,9 +59,3 @@ def test_the_peaks_of_a_row_are_related_to_the_blade_that_vibrates_most(make_res
     assert found == pytest.approx(Differences(0.0, 0.01, 0.01), rel=1e-6)
     one = row(1e-3, 1e-5)[0]
     assert row_differences([one], [one], config["analysis"]) == Differences(0.0, 0.0, 0.0)
-
-
-def test_nothing_is_said_of_a_row_of_which_one_blade_is_unbounded(make_result, config):
-    whole, left = make_result(), make_result(complete=3)
-    assert row_differences([whole, left], [whole, whole], config["analysis"]) == UNBOUNDED
-    assert row_differences([whole, whole], [left, whole], config["analysis"]) == UNBOUNDED

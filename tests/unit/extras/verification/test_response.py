@@ -7,11 +7,6 @@ def peaks(*rows):
     return pd.DataFrame(rows, columns=["casing", "E", "K", "theta", "order", "f_peak", "law"])
 
 
-def test_of_the_study_of_the_paper_five_coatings_are_listed():
-    table = peaks(("2nd", 2.0, 0.5, 0.15, 6, 0.19, "theta"), ("2nd", 2.0, 1.0, 0.0, 4, 0.3, "theta"))
-    assert [(case.E, case.theta, peak.order) for case, peak in listed(table)] == [(2.0, 0.15, 6)]
-
-
 def test_of_a_study_without_these_all_coatings_are_listed():
     table = peaks(
         ("bumps", 1.0, 0.5, 0.0, 4, 0.31, "theta"),

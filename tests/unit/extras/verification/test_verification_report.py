@@ -1,10 +1,8 @@
 import json
 import math
 
-import pytest
-
 from bladerub.extras.verification.differences import Differences
-from bladerub.extras.verification.report import distribution, report
+from bladerub.extras.verification.report import report
 from bladerub.extras.verification.verify import Seconds, StudyRun, VerifiedRun
 from bladerub.study.grid import CoatingCase
 
@@ -23,11 +21,6 @@ def verified(f_omega, wear, peak=0.0, revolution_peak=0.0, **changes):
         "speedup": 7.0,
     }
     return VerifiedRun(**values | changes)
-
-
-def test_distribution_by_hand():
-    values = [0.01 * number for number in range(1, 41)]
-    assert distribution(values[::-1]) == pytest.approx({"median": 0.205, "p95": 0.38, "max": 0.40})
 
 
 def test_runs_beyond_tolerance_the_worst_first():
