@@ -19,7 +19,8 @@ PYTEST = ("-m", "pytest", "-n0", "-x", "-q", "-m", "not slow and not nightly", "
 
 def tests_of(folder: Path, file: str) -> list[Path]:
     """List the tests of the room of a source, those named after the source first."""
-    room, stem = Path(file).parts[2], Path(file).stem
+    path = Path(file)
+    room, stem = path.parts[2 if path.parts[0] == "src" else 0], path.stem
     named_after = sorted((folder / "tests").glob(f"**/test_*{stem}.py"))
     physics = sorted((folder / "tests" / "validation").glob(f"test_{room}_*.py"))
     return [*named_after, folder / "tests" / "unit" / room, *physics]

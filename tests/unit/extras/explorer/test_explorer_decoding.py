@@ -41,3 +41,8 @@ def test_amplitudes_are_those_packed(dtype):
     steps, top = logarithmic_steps(amplitude, 1e-7, 1e-2, dtype), np.iinfo(dtype).max
     values = evaluate("data.js", f"[...ratios({steps.tolist()}, {top}, [1e-7, 1e-2])]")
     np.testing.assert_allclose(values, amplitude, rtol=np.log(1e5) / (top - 1) / 2 * 1.001)
+
+
+@pytest.mark.parametrize(("length", "words"), [("1.23456", "1.235 mm"), ("null", "none")])
+def test_lengths_are_written_in_mm(length, words):
+    assert evaluate("words.js", f"millimetres({length})") == words
