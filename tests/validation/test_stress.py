@@ -12,7 +12,7 @@ from bladerub.blade.elasticity import Material, Solid
 from bladerub.blade.linear import factorise
 from bladerub.blade.mesh import hexahedral_mesh
 from bladerub.blade.rotation import equilibrium
-from bladerub.blade.stress import NodalStress, running_displacement, von_mises
+from bladerub.extras.stress.nodal import NodalStress, running_displacement, von_mises
 
 YOUNG, DENSITY, LENGTH, WIDTH, THICKNESS = 2e11, 7800.0, 1.0, 0.05, 0.02
 

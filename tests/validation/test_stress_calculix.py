@@ -21,8 +21,8 @@ import yaml
 from bladerub.blade.build import build
 from bladerub.blade.built import BuiltBlade
 from bladerub.blade.elasticity import Material
-from bladerub.blade.stress import NodalStress, running_displacement, von_mises
 from bladerub.extras.export.calculix import deck
+from bladerub.extras.stress.nodal import NodalStress, running_displacement, von_mises
 
 CCX = shutil.which("ccx")
 CONFIG = Path(__file__).parents[2] / "config" / "config.yaml"

@@ -10,18 +10,20 @@ import shutil
 import xml.etree.ElementTree as ET
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from bladerub.blade.model import ReducedBlade
-from bladerub.blade.stress import NodalStress, von_mises
 from bladerub.contact.setup import element_angle
 from bladerub.extras.export.mesh_file import block
 from bladerub.extras.export.recording import Recording
 from bladerub.extras.rows.spec import Row
 from bladerub.io import hdf5
 from bladerub.io.optional import package
+
+if TYPE_CHECKING:
+    from bladerub.extras.stress.nodal import NodalStress
 
 meshio = package("meshio", "mesh")
 
@@ -55,7 +57,7 @@ def write_motion(
     mesh: Mapping[str, np.ndarray],
     recording: Recording,
     about: Mapping[str, str],
-    stress: NodalStress | None,
+    stress: "NodalStress | None",
     row: Row | None,
 ) -> dict[str, Any]:
     """Write a recorded motion to a new folder, whole or not at all.
@@ -127,10 +129,12 @@ def _ring(mesh: Mapping[str, np.ndarray], wear: np.ndarray, time: float) -> mesh
     return meshio.Mesh(points, [("quad", cells)], point_data={"wear": wear.ravel().astype(np.float32)})
 
 
-def _stress_fields(stress: NodalStress | None, displacement: np.ndarray) -> dict[str, np.ndarray]:
+def _stress_fields(stress: "NodalStress | None", displacement: np.ndarray) -> dict[str, np.ndarray]:
     if stress is None:
         return {}
     tensor = stress(displacement)
+    from bladerub.extras.stress.nodal import von_mises
+
     fields = {"von_mises": von_mises(tensor), "principal": np.linalg.eigvalsh(tensor)[:, -1]}
     return {name: values.astype(np.float32) for name, values in fields.items()}
 

@@ -1,9 +1,9 @@
 """The largest stress of a blade in motion, with its place and time.
 
-The stress of `bladerub.blade.stress` is that at the running position plus a part linear in the displacement,
-and so in the coordinates of the motion: that part is found once for each coordinate, not for each instant.
-All nodes are looked at in few instants, all instants at few nodes, in turns until neither finds a larger
-stress.
+The stress of `bladerub.extras.stress.nodal` is that at the running position plus a part linear in the
+displacement, and so in the coordinates of the motion: that part is found once for each coordinate, not for
+each instant. All nodes are looked at in few instants, all instants at few nodes, in turns until neither finds
+a larger stress.
 """
 
 from collections.abc import Sequence
@@ -13,7 +13,7 @@ from typing import NamedTuple
 import numpy as np
 from numba.extending import register_jitable
 
-from bladerub.blade.stress import NodalStress
+from bladerub.extras.stress.nodal import NodalStress
 from bladerub.numerics.machine_code import njit_on_disk
 
 _ROWS, _COLUMNS = (0, 1, 2, 0, 1, 2), (0, 1, 2, 1, 2, 0)

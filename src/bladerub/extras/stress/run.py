@@ -10,11 +10,11 @@ import numpy as np
 
 from bladerub.blade.elasticity import Material
 from bladerub.blade.model import ReducedBlade
-from bladerub.blade.stress import NodalStress, running_displacement
 from bladerub.contact.modes import mode_shapes_at
 from bladerub.contact.result import RunResult
 from bladerub.contact.run import simulate
 from bladerub.contact.spec import RunSpec
+from bladerub.extras.stress.nodal import NodalStress, running_displacement
 from bladerub.extras.stress.peak import ModalStress, static_peak, stress_peaks, stressed_nodes
 from bladerub.extras.stress.sampling import SampledRun, simulate_sampled
 from bladerub.io import hdf5
