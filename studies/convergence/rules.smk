@@ -97,3 +97,14 @@ rule steps:
         dpi=DPI,
     script:
         "scripts/steps.py"
+
+
+use rule images as steps_image with:
+    input:
+        rules.steps.output.png,
+    output:
+        "docs/images/steps.png",
+    log:
+        f"{RESULTS}/logs/steps_image.log",
+    params:
+        colours=64,

@@ -55,6 +55,7 @@ KEPT = {
         *(f"pattern_drift_{statistic}" for statistic in ("median", "p05", "p95")),
     ),
     "schedule": ("cores", "minutes", "efficiency"),
+    "steps": ("E", "tolerance", "steps_per_revolution", "error", "sensitive"),
     "rigid_convergence": (
         *("f_omega", "treatment", "modes", "steps", "order", "complete", "amplitude"),
         *("amplitude_change", "largest_revolution", "median_revolution", "largest_displacement"),

@@ -5,6 +5,7 @@ import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.ticker import LogLocator, NullLocator
 
 from bladerub.plots.style import DARK, GREY, PAGE, new_figure, styled
 
@@ -30,7 +31,10 @@ def steps(table: pd.DataFrame) -> Figure:
         for E, runs in calm.groupby("E"):
             _draw(axes, runs, quantile, colours[E], "rigid" if np.isinf(E) else f"E = {E:g}")
         axes.axhline(_STUDY, color=GREY, linewidth=0.8, linestyle=":")
-        axes.set(xscale="log", yscale="log", xlabel="time steps in a revolution", title=name)
+        axes.set(xscale="log", yscale="log", xlabel="time steps in a revolution (thousand)", title=name)
+        axes.xaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
+        axes.xaxis.set_major_formatter(lambda steps, _: f"{steps / 1e3:g}")
+        axes.xaxis.set_minor_locator(NullLocator())
         axes.grid()
     panels[0].set_ylabel("error")
     handles, labels = panels[0].get_legend_handles_labels()
