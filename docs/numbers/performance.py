@@ -87,7 +87,7 @@ def _steps(steps):
     calm = study[~study["sensitive"]].groupby("E")
     errors = pd.DataFrame(
         {
-            "E": [f"{E:g}" if E < math.inf else "rigid" for E in calm.groups],
+            "E": [f"{E:g}" if math.isfinite(E) else "rigid" for E in calm.groups],
             "chaotic": study.groupby("E")["sensitive"].sum().to_numpy(),
             "thousand": calm["steps_per_revolution"].median().to_numpy() / 1e3,
             "median": calm["error"].median().to_numpy(),

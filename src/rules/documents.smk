@@ -29,7 +29,7 @@ rule images:
     log:
         f"{RESULTS}/logs/images.log",
     params:
-        colours=64,
+        colours=48,
         few=[f"docs/images/{name}" for name in IMAGES if "history" in name],  # lines
     script:
         script_of("images")

@@ -107,4 +107,4 @@ use rule images as steps_image with:
     log:
         f"{RESULTS}/logs/steps_image.log",
     params:
-        colours=64,
+        colours=24,
