@@ -19,7 +19,7 @@ _SHOWN = {LogEvent.JOB_ERROR, LogEvent.GROUP_ERROR, LogEvent.ERROR}
 
 
 class LogHandler(LogHandlerBase):
-    """Writes to standard error."""
+    """Writes to standard error, and in a dry run to standard output, as Snakemake does."""
 
     writes_to_stream = True
     writes_to_file = False
@@ -28,6 +28,7 @@ class LogHandler(LogHandlerBase):
     needs_rulegraph = False
 
     def __post_init__(self) -> None:
+        self._stream = sys.stdout if self.common_settings.stdout else sys.stderr
         self._shows_all = self.common_settings.verbose or self.common_settings.dryrun
         self._stages: dict[int, str] = {}  # of jobs that were begun
         self._planned: Counter[str] = Counter()
@@ -41,7 +42,8 @@ class LogHandler(LogHandlerBase):
             self.handleError(record)
             return
         for line in text.splitlines():
-            print(line if len(line) <= LONGEST else f"{line[: LONGEST - 1]}…", file=sys.stderr)
+            is_long = len(line) > LONGEST and not self._shows_all
+            print(f"{line[: LONGEST - 1]}…" if is_long else line, file=self._stream)
 
     def _is_shown(self, record: logging.LogRecord) -> bool:
         event = getattr(record, "event", None)

@@ -15,7 +15,7 @@ def lines(capsys):
     """Hand records to a handler; return the lines that it prints."""
 
     def printed(*records, verbose=False):
-        handler = LogHandler(SimpleNamespace(verbose=verbose, dryrun=False), None)
+        handler = LogHandler(SimpleNamespace(verbose=verbose, dryrun=False, stdout=False), None)
         handler.setFormatter(DefaultFormatter())
         for level, message, values in records:
             handler.emit(logging.makeLogRecord({"levelno": level, "msg": message, **values}))
