@@ -1,0 +1,3 @@
+"""A finished study on one page, in the units of the machine."""
+
+COMMANDS = {"report": "extras.report.command"}

@@ -1,0 +1,155 @@
+"""The page of a finished study: its numbers are those of the tables, and each has its unit."""
+
+import json
+import re
+from xml.etree import ElementTree
+
+import numpy as np
+import pandas as pd
+import pytest
+import yaml
+
+from bladerub.cli import inputs, main
+from bladerub.extras.report import words
+from bladerub.io import hdf5, tables
+from bladerub.io.provenance import provenance
+from bladerub.study import bands
+from bladerub.study.grid import coating_cases
+from bladerub.study.maps import write_map
+
+F1 = 192.0
+OVERLAY = {
+    "coatings": [
+        {"casing": "2nd", "E": [2], "K": [0.5], "theta": [0.0, 0.15]},
+        {"casing": "2nd", "coating": "rigid", "friction": [0.0]},
+    ],
+    "speeds": {"start": 0.02, "stop": 0.4, "step": 0.01, "extra": []},
+    "analysis": {"histories": []},
+    "ensemble": {"members": 0},
+}
+STRAIGHT, INCLINED, RIGID = "2nd_E2_K0.5_theta0", "2nd_E2_K0.5_theta0.15", "2nd_rigid_mu0"
+PURE = {"engine order", "f_Ω / f₁(0)"}
+
+
+class Page:
+    """A page and its tables: a dictionary of texts for each row."""
+
+    def __init__(self, text):
+        self.text, self._tables = text, {}
+        for part in re.findall("<table>.*?</table>", text, re.S):
+            table = ElementTree.fromstring(part)
+            head, *rows = [[cell.text for cell in row] for row in table.iter("tr")]
+            self._tables[table.findtext("caption")] = [dict(zip(head, row, strict=True)) for row in rows]
+
+    @property
+    def cells(self):
+        return [cell for rows in self._tables.values() for row in rows for cell in row.items()]
+
+    def table(self, beginning):
+        return next(rows for caption, rows in self._tables.items() if caption.startswith(beginning))
+
+
+@pytest.fixture
+def study(config, make_map, tmp_path, monkeypatch):
+    """Three coatings: the first is the worst, diverges from 0.3 on and is unbounded at the last speed."""
+    config |= {key: OVERLAY[key] for key in ("coatings", "speeds", "ensemble")}
+    config["analysis"]["histories"] = []
+    cases = {case.name: case for case in coating_cases(config)}
+    growth = np.where(np.round(np.arange(0.02, 0.4001, 0.01), 6) >= 0.3, 0.05, 0.0)
+    status = np.where(growth.cumsum() > 0.52, "unbounded", "completed")
+    maps = [
+        make_map(cases[STRAIGHT], {4: (0.29, 3e-3), 6: (0.18, 1e-3)}, growth=growth, status=status),
+        make_map(cases[INCLINED], {4: (0.28, 5e-4), 6: (0.17, 2e-4), 9: (0.1, 4e-3)}),
+        make_map(cases[RIGID], {4: (0.31, 1e-3), 6: (0.19, 9e-4)}),
+    ]
+    folder = tmp_path / "results"
+    hdf5.write(folder / "blade" / "reduced_model.h5", {}, {"f1_hz": F1})
+    for coating in maps:
+        write_map(folder / "maps" / f"{coating.case.name}.h5", coating, provenance(config))
+    f_omega = np.repeat([0.0, 0.2, 0.4], 7)
+    modes = pd.DataFrame({"f_omega": f_omega, "mode": 3 * [*range(1, 8)]})
+    f_fe = F1 * modes["mode"] * np.sqrt(1 + 3 * f_omega**2)
+    accuracy = modes.assign(f_fe=f_fe, f_fe_eq2=1.02 * f_fe, f_rom=f_fe, relative_error=0.0)
+    frames = {
+        "peaks": bands.of_peaks(config, maps, []),
+        "divergence": bands.of_runs(config, maps, []),
+        "campbell": accuracy[["f_omega", "mode", "f_fe", "f_rom"]],
+        "rom_accuracy": accuracy,
+    }
+    for name, frame in frames.items():
+        tables.write(folder / "tables" / f"{name}.csv", frame, provenance(config))
+    monkeypatch.setattr(inputs, "study_folder", lambda: tmp_path)
+    (tmp_path / "small.yaml").write_text(yaml.safe_dump(OVERLAY))
+    return folder
+
+
+@pytest.fixture
+def report(study, capsys):
+    def call(*options):
+        code = main(["report", "--config", str(study.parent / "small.yaml"), *options])
+        return code, capsys.readouterr()
+
+    return call
+
+
+@pytest.fixture
+def page(study, report):
+    assert report("--coating", STRAIGHT)[0] == 0
+    return Page((study / "report.html").read_text(encoding="utf-8"))
+
+
+def test_numbers_are_those_of_the_tables_and_have_units(study, page):
+    peaks = tables.read(study / "tables" / "peaks.csv")
+    rows = page.table("Peak of each coating")
+    assert [row["coating"] for row in rows] == [*2 * [STRAIGHT], *2 * [RIGID], *2 * [INCLINED]]
+    shown = {(row["coating"], int(row["engine order"])): row for row in rows}
+    names = {0.0: STRAIGHT, 0.15: INCLINED}
+    for peak in peaks[np.isfinite(peaks.E)].itertuples():
+        row = shown[names[peak.theta], peak.order]
+        assert row["amplitude (mm)"] == f"{1e3 * peak.amplitude:.3g}"
+        assert row["speed (rpm)"] == f"{60 * F1 * peak.f_peak:,.0f}"
+    runs = tables.read(study / "tables" / "divergence.csv").query("theta == 0 and E < 100")
+    worst = page.table("Coatings side by side")[0]
+    assert worst["diverging speeds (%)"] == f"{100 * runs.divergent.mean():.3g}" != "0"
+    assert (worst["coating"], worst["E"], worst["K"]) == (STRAIGHT, "1.2 GPa", "300 MPa")
+    first = 60 * F1 * runs[runs.divergent].f_omega.min()
+    assert f"diverges at {runs.divergent.sum()} of 39 speeds, {first:,.0f} to 4,608 rpm" in page.text
+    for name, text in page.cells:
+        plain = re.fullmatch(r"[\d.,]+(e-?\d+)?", text) and name not in PURE
+        assert not plain or re.search(r"\((mm|rpm|MPa|%|runs)\)$", name), (name, text)
+
+
+def test_doubts_and_changes_are_named_on_a_page_whole_by_itself(page):
+    assert "eq. (2) is up to 2 %" in page.text
+    assert "vibrates more than at its peaks, 4 mm at 1,152 rpm on order 9" in page.text
+    assert "energy" not in page.text
+    assert "also excites engine orders 2 (outside of 230 to 4,608 rpm)" in page.text
+    (change,) = page.table("One property changed")
+    assert (change["change"], change["highest peak (mm)"]) == ("θ = 0° → θ = 8.59°", "3 → 0.5")
+    (doubtful,) = page.table("Runs to read with care")
+    assert doubtful["ended at the displacement limit (runs)"] == "1"
+    assert not re.search(r"<script|<link|src=\"(?!data:)|url\(|\$", page.text)
+    anchors = re.findall(r'<a href="#([\w-]+)"', page.text)
+    assert len(anchors) == 7
+    assert all(f'id="{anchor}"' in page.text for anchor in anchors)
+
+
+def test_a_study_that_is_not_finished_is_refused_in_a_line(study, report):
+    (study / "tables" / "peaks.csv").unlink()
+    code, output = report("--json")
+    assert (code, output.err.count("\n")) == (2, 1)
+    assert "snakemake -j2 results/tables/peaks.csv --configfile" in output.err
+
+
+def test_coatings_are_chosen_by_name(study, report, tmp_path):
+    assert report("--coating", "2nd")[0] == 2
+    code, output = report("--json", "--coating", RIGID, "-o", str(tmp_path / "page.html"))
+    assert (code, json.loads(output.out)["coatings"][0]) == (0, STRAIGHT)
+    assert (tmp_path / "page.html").read_text(encoding="utf-8").count("<img ") == 2
+
+
+def test_ranges_are_those_of_neighbours():
+    speeds = np.arange(10) * 100.0
+    parts = words.ranges(np.isin(np.arange(10), [0, 1, 4, 6, 7, 8]), speeds)
+    assert parts == [(0, 100), (400, 400), (600, 800)]
+    assert words.ranges_in_words(parts, 1) == "600 to 800 and 2 narrower within 0 to 800 rpm"
