@@ -111,8 +111,9 @@ def test_a_job_that_outlives_its_snakemake_is_waited_for(begun, begin):
         first.kill()
         first.wait()
         second = begin(study.folder)
-        for text in ("the last snakemake here was killed", "rule coating:"):
-            wait_until(contains(study.folder / "output.txt", text), second)
+        log.unlink()
+        wait_until(contains(study.folder / "output.txt", "the last snakemake here was killed"), second)
+        wait_until(contains(log, "another job is at work in"), second)
         assert second.poll() is None
     assert second.wait(300) == 0
     assert study.runs() == runs

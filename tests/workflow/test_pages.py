@@ -96,8 +96,9 @@ def run_python(page: str, clone: Workspace) -> str:
 
 def test_the_python_example_of_the_readme(clone: Workspace):
     printed = run_python("README.md", clone)
-    assert printed.startswith("completed ")
-    assert "xarray.Dataset" in printed
+    assert printed.startswith("Run\n")
+    assert "completed" in printed
+    assert "\nMap\n" in printed
 
 
 def test_the_python_example_of_the_first_study_writes_its_plots(clone: Workspace):

@@ -36,7 +36,7 @@ def test_runs_and_members_cost_what_the_drawn_ones_do(study, blade, monkeypatch)
     monkeypatch.setattr(module, "_start", lambda imported: 0.5)
     found = estimate(blade, study, cores=4, drawn=1000)
     runs = len(study_runs(study))
-    near, members = 2, 2 * (1 + 3 * 2 + 3 * 2)  # histories, and each peak with its neighbours
+    near, members = 2, (2 + 2) * (1 + 3 * 2 + 3 * 2)  # and refined: histories, each peak with its neighbours
     seconds = near * 4.0 + (runs - near) * 2.0 + members * 4.0 + 2 * 3 * 0.5
     assert found["study_minutes"] == pytest.approx(seconds / 4 / 60)
     assert found["seconds_per_run"] == pytest.approx((near * 1.0 + (runs - near) * 2.0) / runs)
