@@ -1,14 +1,28 @@
 # Stage 1: the blade, built once: finite elements, reduction, accuracy of the reduction.
+from pathlib import Path
 
 from bladerub.blade.source import files, place
+from bladerub.io.errors import DamagedFile
 from bladerub.workflow.invocation import damage, loss, replaces
 
 REDUCED_MODEL = f"{RESULTS}/blade/reduced_model.h5"
 MESH = f"{RESULTS}/blade/mesh.h5"
 
 
+def of_another_config(model):
+    """Say so of a blade that `bladerub run` has left here: Snakemake has no record of how it was made."""
+    from bladerub.blade.build import is_built  # takes a second to import
+
+    try:
+        is_current = not Path(model).exists() or is_built(config, Path(model))
+    except DamagedFile as error:
+        return str(error)
+    return None if is_current else f"{model}: of another config"
+
+
 rule blade:
     input:
+        replaces(workflow, REDUCED_MODEL, of_another_config),
         replaces(workflow, REDUCED_MODEL, damage),
         replaces(workflow, MESH, damage),
         code=files_behind("blade.build", *filter(None, [place(config["blade"])])),

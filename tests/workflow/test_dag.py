@@ -43,6 +43,14 @@ def test_a_complete_study_has_nothing_left_to_do(study, tiny):
     assert study.plan(tiny) == {}
 
 
+def test_a_blade_that_snakemake_has_no_record_of_is_made_anew_for_another_config(copied_study, tiny):
+    """As after `bladerub run`, whose blade once served the runs of a study of another config."""
+    shutil.rmtree(copied_study.folder / ".snakemake")
+    assert copied_study.plan(tiny) == {}
+    tiny["blade"] = {**tiny["blade"], "length": 0.21}
+    assert copied_study.plan(tiny)["blade"] == 1
+
+
 def test_a_new_coating_plans_itself_and_what_draws_from_it(study, with_E3):
     new = {"coating": 2, "map": 2}  # with both theta
     assert study.plan(with_E3) == new | TABLES | HISTOGRAMS | {"explorer": 1, "cost": 1, "all": 1}
