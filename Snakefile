@@ -47,7 +47,7 @@ onstart:
         bladerub.workflow.invocation.start(workflow)
     from bladerub.workflow import forecast
 
-    forecast.announce(config, workflow, workflow.resource_settings.cores)
+    forecast.announce(config, workflow, workflow.resource_settings.cores, plan_of)
 
 
 onsuccess:

@@ -6,7 +6,7 @@ It is the processor, or what a folder of `bladerub.extras` offers under another 
 
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from typing import Any, NamedTuple, Protocol
+from typing import Any, NamedTuple
 
 from bladerub import plugins
 from bladerub.blade.model import ReducedBlade
@@ -27,10 +27,10 @@ class Solved(NamedTuple):
     seconds: float  # Of wall time; 0 where it has no time of its own
 
 
-class Solver(Protocol):
-    """Computes runs of one blade."""
+class Solver:
+    """Computes runs of one blade; a solver derives from this."""
 
-    wants_many: bool
+    wants_many = False
     """Whether it computes runs together, and is idle where it gets a few at a time."""
 
     def simulate_many(
@@ -46,18 +46,18 @@ class Solver(Protocol):
         `threads` runs may be computed at once, `report` is called with lines for a log, and `progress` with
         the number of revolutions done of a run, where they are counted.
         """
+        raise NotImplementedError
 
     def determinants(self) -> dict[str, str]:
-        """Name and digest of what determines a run besides `bladerub.io.sources.solver_digest`."""
+        """Name and digest of what determines a run besides `bladerub.io.sources.solver_digest`, if any."""
+        return {}
 
     def start(self) -> None:
-        """Begin, in the main process of a workflow, what its jobs on this machine share."""
+        """Begin, in the main process of a workflow, what its jobs on this machine share, if anything."""
 
 
-class Processor:
+class Processor(Solver):
     """Computes runs one after the other, or some at once in threads."""
-
-    wants_many = False
 
     def simulate_many(
         self,
@@ -76,13 +76,6 @@ class Processor:
 
         for number, (result, seconds) in each_done(timed, range(len(specs)), threads):
             yield Solved(number, result, seconds)
-
-    def determinants(self) -> dict[str, str]:
-        """Return that nothing else determines a run."""
-        return {}
-
-    def start(self) -> None:
-        """Begin nothing: jobs share nothing."""
 
 
 def solver_of(config: Mapping[str, Any]) -> Solver:

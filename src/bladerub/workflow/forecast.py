@@ -3,14 +3,14 @@
 import atexit
 import copy
 import sys
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
 from bladerub.io.errors import message_for
 from bladerub.study import inventory
 from bladerub.study.grid import coating_cases
-from bladerub.study.plan import coating_plan
+from bladerub.study.plan import CoatingPlan, coating_plan
 from bladerub.workflow.cores import costs_of
 
 SECONDS_PER_REVOLUTION = 0.006
@@ -23,14 +23,19 @@ SECONDS_AT_FIRST = {"blade": 15, "compile_kernel": 15}
 """Of one core, for the jobs that are made once, by their rule."""
 
 
-def announce(config: Mapping[str, Any], workflow: Any, cores: int | None = None) -> None:
+def announce(
+    config: Mapping[str, Any],
+    workflow: Any,
+    cores: int | None = None,
+    plan_of: Callable[[str], CoatingPlan] | None = None,
+) -> None:
     """Print the `forecast` of the jobs that Snakemake's `workflow` is to do, unless it has failed before."""
     if workflow.dag is None:  # there was an error
         return
     planned = workflow.dag.needrun_jobs(exclude_finished=False)  # to Snakemake a dry run has finished all
     jobs = [(job.rule.name, job.wildcards.get("coating")) for job in planned]
     try:
-        line = forecast(config, jobs, cores)
+        line = forecast(config, jobs, cores, plan_of)
     except OSError as error:
         line = message_for(error)
     print(f"bladerub: {coatings(config)}\nbladerub: {line}", file=sys.stderr)
@@ -52,19 +57,23 @@ def coatings(config: Mapping[str, Any]) -> str:
 
 
 def forecast(
-    config: Mapping[str, Any], jobs: Iterable[tuple[str, str | None]], cores: int | None = None
+    config: Mapping[str, Any],
+    jobs: Iterable[tuple[str, str | None]],
+    cores: int | None = None,
+    plan_of: Callable[[str], CoatingPlan] | None = None,
 ) -> str:
     """Say in a line how many runs of the study are missing, stale or corrupt, and what the `jobs` cost.
 
     These are all that are planned, as pairs of their rule and the coating of its wildcards. Without `cores`,
-    of which Snakemake tells a dry run nothing, the time is that of one.
+    of which Snakemake tells a dry run nothing, the time is that of one. `plan_of` gives the plan of a coating
+    by its name, where the caller has it already.
     """
     results, jobs = Path(config["results"]), list(jobs)
     digest, _ = inventory.current_blade(config, results / "blade" / "reduced_model.h5")
-    counts = {
-        case.name: inventory.take(config, coating_plan(config, case), results / "runs" / case.name, digest)[0]
-        for case in coating_cases(config)
-    }
+    counts = {}
+    for case in coating_cases(config):
+        plan = plan_of(case.name) if plan_of else coating_plan(config, case)
+        counts[case.name] = inventory.take(config, plan, results / "runs" / case.name, digest)[0]
     total = inventory.total(counts.values())
     n_missing = total["planned"] - total["done"]
     runs = f"{n_missing:,} of {total['planned']:,} runs of the study are to be computed"

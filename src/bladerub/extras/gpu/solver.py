@@ -7,10 +7,10 @@ from bladerub.blade.model import ReducedBlade
 from bladerub.contact.spec import RunSpec
 from bladerub.extras.gpu import process
 from bladerub.io import sources
-from bladerub.study.solver import Solved
+from bladerub.study.solver import Solved, Solver
 
 
-class Gpu:
+class Gpu(Solver):
     """Computes all runs together; the processor computes those that it does not know."""
 
     wants_many = True

@@ -7,9 +7,9 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import LogLocator, NullLocator
 
+from bladerub.extras.verification.steps import STUDY
 from bladerub.plots.style import DARK, GREY, PAGE, new_figure, styled
 
-_STUDY = 0.01
 _QUANTILES = {"median": 0.5, "nine runs in ten": 0.9}
 
 
@@ -30,7 +30,7 @@ def steps(table: pd.DataFrame) -> Figure:
     for axes, (name, quantile) in zip(panels, _QUANTILES.items(), strict=True):
         for E, runs in calm.groupby("E"):
             _draw(axes, runs, quantile, colours[E], "rigid" if np.isinf(E) else f"E = {E:g}")
-        axes.axhline(_STUDY, color=GREY, linewidth=0.8, linestyle=":")
+        axes.axhline(STUDY, color=GREY, linewidth=0.8, linestyle=":")
         axes.set(xscale="log", yscale="log", xlabel="time steps in a revolution (thousand)", title=name)
         axes.xaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
         axes.xaxis.set_major_formatter(lambda steps, _: f"{steps / 1e3:g}")
@@ -49,6 +49,6 @@ def _draw(axes: Axes, runs: pd.DataFrame, quantile: float, colour: object, label
     cost, error = by_tolerance.steps_per_revolution.median(), by_tolerance.error.quantile(quantile)
     rule, uniform = cost.index.notna(), cost.index.isna()
     axes.plot(cost[rule], error[rule], color=colour, marker="o", markersize=3, mfc="white", label=label)
-    axes.plot(cost[_STUDY], error[_STUDY], color=colour, marker="o", markersize=5, label=f"_{label}")
+    axes.plot(cost[STUDY], error[STUDY], color=colour, marker="o", markersize=5, label=f"_{label}")
     look = {"color": colour, "marker": "x", "linestyle": "none", "markersize": 5}
     axes.plot(cost[uniform], error[uniform], **look, label=f"_{label}")

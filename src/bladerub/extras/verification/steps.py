@@ -15,10 +15,13 @@ from bladerub.contact.spec import RunSpec
 from bladerub.contact.steps import own_steps, with_steps
 from bladerub.extras.verification.differences import differences, largest
 from bladerub.extras.verification.response import CASE_COLUMNS
-from bladerub.extras.verification.verify import NEIGHBOURS, REFINEMENT, StudyRun
+from bladerub.extras.verification.verify import NEIGHBOURS, REFINEMENT, TOLERANCE, StudyRun
 from bladerub.study.grid import coating_cases, run_spec, speeds
 
 TOLERANCES = (0.1, 0.03, 0.01, 0.003)
+
+STUDY = 0.01
+"""The one of these that the study takes."""
 
 UNIFORM = (20, 1.2e-6)
 """One step for all coatings: at least so many in an element, of at most so many seconds."""
@@ -78,14 +81,14 @@ def _rows(blade: ReducedBlade, config: Mapping[str, Any], run: StudyRun) -> Iter
     }
 
     # Only what is beyond 1 % can be chaotic
-    error, spread = errors[0.01], 0.0
-    if error > 0.01 and math.isfinite(error):
-        starts = (simulate(blade, replace(specs[0.01], initial_displacement=start)) for start in NEIGHBOURS)
-        spread = max(largest(differences(start, results[0.01], analysis) for start in starts))
+    error, spread = errors[STUDY], 0.0
+    if error > TOLERANCE and math.isfinite(error):
+        starts = (simulate(blade, replace(specs[STUDY], initial_displacement=start)) for start in NEIGHBOURS)
+        spread = max(largest(differences(start, results[STUDY], analysis) for start in starts))
     for tolerance, result in results.items():
         yield [
             *astuple(run.case)[: len(CASE_COLUMNS)],
             *(run.case.law, run.f_omega, tolerance, steps[tolerance]),
             steps[tolerance] * spec.coating.n_elements,
-            *(errors[tolerance], spread >= max(error / 2, 0.01), result.energy.residual),
+            *(errors[tolerance], spread >= max(error / 2, TOLERANCE), result.energy.residual),
         ]
