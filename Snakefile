@@ -68,7 +68,6 @@ include: "src/rules/runs.smk"
 include: "src/rules/maps.smk"
 include: "src/rules/figures.smk"
 include: "src/rules/margins.smk"
-include: "src/rules/cost.smk"
 include: "src/rules/documents.smk"
 
 
@@ -98,7 +97,6 @@ rule all:
         FIGURES,
         JUDGED,
         list(ADDED_TO_ALL.values()),
-        rules.cost.output,
 
 
 include: "src/rules/crate.smk"

@@ -74,8 +74,8 @@ rule docs_data:
                 "campbell",
             ],
         ),
-        rules.cost.output.table,
-        rules.cost.output.schedule,
+        f"{RESULTS}/benchmarks/cost.csv",  # of the study `cost`
+        f"{RESULTS}/benchmarks/schedule.csv",
     log:
         f"{RESULTS}/logs/docs_data.log",
     params:

@@ -7,9 +7,8 @@ job.log_to(snakemake.log[0])
 import sys
 from pathlib import Path
 
-from bladerub.workflow import snapshots
-
-sys.path.insert(0, str(Path.cwd()))  # for docs.numbers
+sys.path.insert(0, str(Path.cwd()))  # for docs
+from docs import snapshots
 from docs.numbers import Tables, readme
 
 snapshots.update(Path("docs/data"), Path(snakemake.params.results))

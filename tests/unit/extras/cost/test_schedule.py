@@ -4,8 +4,8 @@ import pandas as pd
 import pytest
 
 from bladerub.config import read as configuration
+from bladerub.extras.cost import schedule
 from bladerub.study.grid import coating_cases
-from bladerub.workflow import schedule
 
 STUDY = {
     "coatings": [{"casing": "2nd", "E": [0.5, 1, 1.5, 2], "K": [0.5], "theta": [0.15]}],

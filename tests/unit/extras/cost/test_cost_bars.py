@@ -1,7 +1,7 @@
 import pandas as pd
 import pytest
 
-from bladerub.plots.cost import cost
+from bladerub.extras.cost.figure import cost
 
 
 @pytest.fixture

@@ -4,7 +4,7 @@ import pandas as pd
 import pytest
 
 from bladerub.io import tables
-from bladerub.workflow import snapshots
+from docs import snapshots
 
 ORIGIN = {"version": "1"}
 

@@ -1,6 +1,6 @@
 import pytest
 
-from bladerub.workflow.cost import COLUMNS, table
+from bladerub.extras.cost.jobs import COLUMNS, table
 
 RECORD = (
     "s\th:m:s\tmax_rss\tmax_vms\tmax_uss\tmax_pss\tio_in\tio_out\tmean_load\tcpu_time\n"

@@ -9,7 +9,7 @@ from bladerub.plots import style
 
 @style.styled
 def cost(stages: pd.DataFrame) -> Figure:
-    """Draw processor time and memory, a bar a stage, from `bladerub.workflow.cost.by_stage`."""
+    """Draw processor time and memory, a bar a stage, from `bladerub.extras.cost.jobs.by_stage`."""
     figure = style.new_figure(style.PAGE, 0.34 * style.PAGE)
     time, memory = figure.subplots(1, 2, sharey=True, width_ratios=[3, 2])
     place, minutes = np.arange(len(stages)), stages["cpu_s"] / 60

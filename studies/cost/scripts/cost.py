@@ -4,9 +4,10 @@ from bladerub.workflow import job
 
 job.log_to(snakemake.log[0])
 
-from bladerub.plots.cost import cost
-from bladerub.workflow import outputs, schedule
-from bladerub.workflow.cost import by_stage, table
+from bladerub.extras.cost import schedule
+from bladerub.extras.cost.figure import cost
+from bladerub.extras.cost.jobs import by_stage, table
+from bladerub.workflow import outputs
 
 costs = table(snakemake.params.benchmarks, snakemake.params.added)
 outputs.save(snakemake, cost(by_stage(costs)), table=costs, schedule=schedule.table(costs, snakemake.config))

@@ -15,7 +15,7 @@ _FIRST = ("blade", "compilation")
 
 
 def table(costs: pd.DataFrame, config: Mapping[str, Any], cores: Sequence[int] = CORES) -> pd.DataFrame:
-    """Simulate the schedule of the jobs of `costs`, a table of `bladerub.workflow.cost`, on so many `cores`.
+    """Simulate the schedule of the jobs of `costs`, of `bladerub.extras.cost.jobs`, on so many `cores`.
 
     Every core works as fast as that which the jobs were measured on, and so does each thread of a job. Blade
     and kernel come first; then each coating has its runs, its map and its ensembles, those begun before the

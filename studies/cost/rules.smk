@@ -3,6 +3,11 @@
 MEASURED = f"{RESULTS}/benchmarks"  # all that differs from one execution to the next
 
 
+def added():
+    """The rules that studies add to `all`, but for this one."""
+    return [name for name in ADDED_TO_ALL if name != "cost"]
+
+
 rule cost:
     input:
         # not for what is in them: any job that was repeated may have another cost
@@ -10,10 +15,10 @@ rule cost:
         rules.divergence.output,
         FIGURES,
         JUDGED,
-        lambda wildcards: [path for paths in ADDED_TO_ALL.values() for path in paths],
+        lambda wildcards: [path for name in added() for path in ADDED_TO_ALL[name]],
         maps=expand(rules.map.output, coating=COATINGS),
-        collecting=files_behind("workflow.cost", "workflow.schedule"),
-        drawing=files_behind("plots.cost"),
+        collecting=files_behind("extras.cost.jobs", "extras.cost.schedule"),
+        drawing=files_behind("extras.cost.figure"),
     output:
         **described(table=f"{MEASURED}/cost.csv", schedule=f"{MEASURED}/schedule.csv"),
         png=shown(f"{MEASURED}/cost.png", "cost", "Cost"),
@@ -22,7 +27,10 @@ rule cost:
         f"{RESULTS}/logs/cost.log",
     params:
         benchmarks=MEASURED,
-        added=lambda wildcards: list(ADDED_TO_ALL),
+        added=lambda wildcards: added(),
         dpi=DPI,
     script:
-        "../scripts/cost.py"
+        "scripts/cost.py"
+
+
+ADDED_TO_ALL["cost"] = rules.cost.output
