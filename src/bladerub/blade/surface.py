@@ -11,7 +11,7 @@ EDGES = {  # by the number of nodes: the corners at the ends of each edge, in th
     10: np.array([(0, 1), (1, 2), (2, 0), (0, 3), (1, 3), (2, 3)]),
 }
 
-_FACES = {  # corners and mid-side nodes in turn around each face of an element, seen from outside
+FACES = {  # corners and mid-side nodes in turn around each face of an element, seen from outside
     20: np.array(
         [
             *[(0, 11, 3, 10, 2, 9, 1, 8), (4, 12, 5, 13, 6, 14, 7, 15), (0, 8, 1, 17, 5, 12, 4, 16)],
@@ -28,7 +28,7 @@ def boundary_faces(cells: np.ndarray) -> np.ndarray:
     The nodes of elements are in the order of CalculiX's C3D20 or C3D10; those of a face are corners and
     mid-side nodes in turn, a corner first, counter-clockwise seen from outside.
     """
-    faces = cells[:, _FACES[cells.shape[1]]]
+    faces = cells[:, FACES[cells.shape[1]]]
     faces = faces.reshape(-1, faces.shape[-1])
     _, inverse, count = np.unique(np.sort(faces, axis=1), axis=0, return_inverse=True, return_counts=True)
     return faces[count[inverse.ravel()] == 1]

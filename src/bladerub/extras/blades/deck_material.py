@@ -1,9 +1,9 @@
 """The material in a deck of Abaqus or CalculiX, whose units are those of its length."""
 
 import re
-from collections.abc import Iterator
 from pathlib import Path
 
+from bladerub.extras.blades import deck
 from bladerub.extras.blades.frame import FORCES
 from bladerub.io.units import UNITS
 
@@ -33,7 +33,8 @@ def read(path: str | Path, unit: str) -> dict[str, float] | None:
 def _materials(path: Path) -> dict[str, tuple[list[str], list[str]]]:
     """Lines of *ELASTIC and of *DENSITY by the name of the material, of those that solid sections use."""
     materials, used, name = {}, [], None
-    for keyword, parameters, lines in _blocks(path):
+    for keyword, parameters, _, data in deck.blocks(path):
+        lines = [line.text for line in data]
         if keyword == "*MATERIAL":
             name = parameters.get("NAME", "").upper()
             materials[name] = ([], [])
@@ -49,28 +50,6 @@ def _materials(path: Path) -> dict[str, tuple[list[str], list[str]]]:
     return {name: materials[name] for name in used if name in materials} or materials
 
 
-def _blocks(path: Path) -> Iterator[tuple[str, dict[str, str], list[str]]]:
-    """Yield keyword, parameters and data lines of each block, comments left out."""
-    text = path.read_text(encoding="utf-8", errors="replace")
-    lines = (line.strip() for line in text.splitlines() if line.strip() and not line.startswith("**"))
-    head: list[str] = []
-    data: list[str] = []
-    for line in lines:
-        if line.startswith("*"):
-            if head:
-                yield head[0].upper(), _parameters(head[1:]), data
-            head, data = [part.strip() for part in line.split(",")], []
-        else:
-            data.append(line)
-    if head:
-        yield head[0].upper(), _parameters(head[1:]), data
-
-
-def _parameters(words: list[str]) -> dict[str, str]:
-    pairs = (word.partition("=") for word in words)
-    return {key.strip().upper(): value.strip().strip('"') for key, _, value in pairs}
-
-
 def _si(name: str, elastic: list[str], density: list[str], unit: str) -> dict[str, float]:
     numbers = []
     for keyword, lines, n in (("*ELASTIC", elastic, 2), ("*DENSITY", density, 1)):
@@ -80,7 +59,7 @@ def _si(name: str, elastic: list[str], density: list[str], unit: str) -> dict[st
             raise ValueError(f"{keyword} of {name} is a table of {len(lines)} lines, of temperature or else")
         words = [word for word in re.split(r"[,\s]+", lines[0]) if word]
         try:
-            numbers += [float(word) for word in words[:n]]
+            numbers += [deck.number(word) for word in words[:n]]
         except ValueError:
             raise ValueError(f"{keyword} of {name} is {lines[0]}, not numbers") from None
         if len(words) < n:

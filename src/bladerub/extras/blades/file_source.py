@@ -1,5 +1,6 @@
 """A blade from a mesh or a table of sections, ``blade.source.file`` (`bladerub.blade.source`)."""
 
+import os
 from collections.abc import Iterator, Mapping
 from dataclasses import asdict
 from typing import TYPE_CHECKING, Any
@@ -7,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 from bladerub.blade import geometry
 from bladerub.blade.model import N_INTERFACE, n_interface
 from bladerub.config.errors import format_value
-from bladerub.extras.blades import origin
+from bladerub.extras.blades import deck, origin
 from bladerub.extras.blades.frame import Frame
 from bladerub.io.checksum import file_checksum
 
@@ -27,6 +28,10 @@ def problems(config: Mapping[str, Any]) -> Iterator[str]:
     if not source.file.is_file():
         setting = f"blade.source.file = {format_value(blade['source']['file'])}"
         yield f"{setting}: there is no such file ({source.file})"
+    try:
+        files(blade["source"])
+    except ValueError as error:
+        yield f"blade.source.file = {format_value(blade['source']['file'])}: {error}"
     if source.is_table:
         geometry.check_size(blade["mesh"])
         geometry.check_interface(blade["mesh"], n_interface(config))
@@ -37,12 +42,21 @@ def recipe(blade: Mapping[str, Any]) -> dict[str, Any]:
     source = origin.read(blade["source"])
     parts = ("material", "length", *(("mesh",) if source.is_table else ()))
     settings = asdict(Frame()) | blade["source"]  # what a config leaves out is not another blade
-    return {name: blade[name] for name in parts} | {"source": settings | {"file": file_checksum(source.file)}}
+    main, *included = [file_checksum(source.file.parent / name) for name in _names(source)]
+    content = [main, *included] if included else main
+    return {name: blade[name] for name in parts} | {"source": settings | {"file": content}}
 
 
 def files(source: Mapping[str, Any]) -> list[str]:
-    """List the one file of the block ``source``."""
-    return [source["file"]]
+    """List the file of the block ``source`` and those that it includes; ValueError if one is missing."""
+    folder = os.path.dirname(source["file"])
+    return [os.path.join(folder, name) for name in _names(origin.read(source))]
+
+
+def _names(source: origin.Source) -> list[str]:
+    """Name the file and those that it includes, relative to its folder."""
+    is_deck = source.file.suffix.lower() == ".inp" and source.file.is_file()
+    return [source.file.name, *(deck.included(source.file) if is_deck else ())]
 
 
 def meshed(blade: Mapping[str, Any], n_nodes: int = N_INTERFACE) -> "MeshedBlade":

@@ -3,6 +3,7 @@
 import io
 import itertools
 import logging
+import os
 import re
 from collections import Counter
 from contextlib import redirect_stderr
@@ -12,7 +13,8 @@ from pathlib import Path
 import numpy as np
 
 from bladerub.blade.surface import EDGES
-from bladerub.extras.blades import origin
+from bladerub.extras.blades import deck_mesh, origin
+from bladerub.extras.blades.deck_mesh import Content
 from bladerub.io.errors import refuse_content
 from bladerub.io.optional import package
 
@@ -21,13 +23,6 @@ meshio = package("meshio", "mesh")
 log = logging.getLogger(__name__)
 
 _LOOKED_THROUGH = 4000  # characters, for the first line
-_NAMES_IN_MESHIO = {
-    **dict.fromkeys(("CPS6", "S6", "M3D6", "SFM3D6"), "STRI65"),
-    **dict.fromkeys(("CPS8", "CPS8R", "CPE8", "CPE8R", "S8", "M3D8", "M3D8R", "SFM3D8"), "S8R"),
-    **dict.fromkeys(("CPE3", "M3D3", "SFM3D3"), "CPS3"),
-    **dict.fromkeys(("CPE4", "CPE4R", "M3D4", "M3D4R", "SFM3D4"), "CPS4"),
-}  # of the elements of surfaces that Gmsh and others write in Abaqus files
-
 _STARTS = {
     **dict.fromkeys(("*NODE", "*HEADING", "*PART"), ".inp"),
     "$MESHFORMAT": ".msh",
@@ -36,6 +31,7 @@ _STARTS = {
     **dict.fromkeys(("SOL ", "CEND", "BEGIN BULK", "GRID"), ".bdf"),
 }  # first words of files, and how their names end
 
+_WITH_CENTRES = "hexahedron27"
 _KINDS = ("hexahedron20", "tetra10", "hexahedron", "tetra")  # in meshio; of the last two, quadratic are made
 
 
@@ -63,24 +59,27 @@ def read(path: str | Path) -> MeshFile:
     origin.check_file(path)
     suffix = path.suffix.lower()
     _check_start(path)
-    warnings = io.StringIO()
-    try:
-        with redirect_stderr(warnings):  # where meshio prints them
-            mesh = READERS[suffix](str(path))
-    except Exception as error:  # readers of foreign files raise all kinds of errors
-        if isinstance(error, KeyError) and str(error.args[0]).startswith(("wedge", "pyramid", "hexahedron")):
-            raise ValueError(_unusable(error.args[0])) from error  # meshio knows the kind by name only
-        refuse_content(path, error)
-    cells = _volume(mesh)
-    points = np.asarray(mesh.points, dtype=float)
+    content = deck_mesh.read(path) if suffix == ".inp" else _of_meshio(_read_by_meshio(path))
+    cells = _volume(content)
+    points = np.asarray(content.points, dtype=float)
     if points.shape[1:] != (3,):
         raise ValueError("nodes must have three coordinates")
     is_linear = cells.shape[1] < 10
     if is_linear:
         points, cells = raised(points, cells)
+    return MeshFile(points, cells, content.node_sets, content.volume_sets, is_linear)
+
+
+def _read_by_meshio(path: Path) -> meshio.Mesh:
+    warnings = io.StringIO()
+    try:
+        with redirect_stderr(warnings):  # where meshio prints them
+            mesh = _READERS[path.suffix.lower()](str(path))
+    except Exception as error:  # readers of foreign files raise all kinds of errors
+        refuse_content(path, error)
     if warnings.getvalue():
         log.warning("%s: %s", path, " ".join(warnings.getvalue().split()))
-    return MeshFile(points, cells, _node_sets(mesh), _volume_sets(mesh), is_linear)
+    return mesh
 
 
 def _check_start(path: Path) -> None:
@@ -102,17 +101,31 @@ def raised(points: np.ndarray, cells: np.ndarray) -> tuple[np.ndarray, np.ndarra
     return np.vstack([points, points[edges].mean(axis=1)]), np.hstack([cells, middle])
 
 
-def _volume(mesh: meshio.Mesh) -> np.ndarray:
-    blocks = [block for block in mesh.cells if block.dim == 3]
-    kinds = list(dict.fromkeys(block.type for block in blocks))
+def _of_meshio(mesh: meshio.Mesh) -> Content:
+    solids: dict[str, list[np.ndarray]] = {}
+    for block in mesh.cells:
+        if block.dim == 3 and len(block):
+            solids.setdefault(block.type, []).append(np.asarray(block.data, dtype=int))
+    cells = {kind: np.concatenate(blocks) for kind, blocks in solids.items()}
+    for kind, nodes in cells.items():  # Gmsh has an element again for each of its physical groups
+        cells[kind] = nodes[np.sort(np.unique(nodes, axis=0, return_index=True)[1])]
+    return Content(mesh.points, cells, _node_sets(mesh), _volume_sets(mesh))
+
+
+def _volume(content: Content) -> np.ndarray:
     choices = ", ".join(_KINDS)
-    if not kinds or not sum(len(block) for block in blocks):
+    if not content.solids:
         raise ValueError(f"has no volume elements; must have some of one kind, {choices}")
-    if len(kinds) > 1 or kinds[0] not in _KINDS:
-        raise ValueError(_unusable(*kinds))
-    cells = np.concatenate([np.asarray(block.data, dtype=int) for block in blocks])
-    if cells.min() < 0 or cells.max() >= len(mesh.points):
+    (kind, cells), *others = content.solids.items()
+    if kind == _WITH_CENTRES and not others:
+        cells = cells[:, :20]  # without the nodes in the middle of faces and of the element
+    elif others or kind not in _KINDS:
+        raise ValueError(_unusable(*content.solids))
+    if cells.min() < 0 or cells.max() >= len(content.points):
         raise ValueError("an element names a node that is not there")
+    twice = len(cells) - len(np.unique(np.sort(cells, axis=1), axis=0))
+    if twice:
+        raise ValueError(f"{twice} elements have the same nodes as others; must be there once")
     return cells
 
 
@@ -153,59 +166,30 @@ def _node_sets(mesh: meshio.Mesh) -> dict[str, np.ndarray]:
     return {name: nodes for name, nodes in merged.items() if nodes.size or name in mesh.point_sets}
 
 
-def _read_abaqus(path: str) -> meshio.Mesh:
-    """Read the mesh of one part, without what meshio silently misreads."""
-    lines = Path(path).read_text(encoding="utf-8", errors="replace").splitlines()
-    keywords = [line.partition(",")[0].strip().upper() for line in lines]
-    if keywords.count("*NODE") > 1:
-        raise ValueError(f"has {keywords.count('*NODE')} blocks *NODE; must have all nodes in one")
-    if "*INSTANCE" in keywords:
-        raise ValueError("has *INSTANCE; must be the mesh of one part")
-    if "*INCLUDE" in keywords:
-        includes = [
-            line.split("=")[-1].strip()
-            for line, keyword in zip(lines, keywords, strict=True)
-            if keyword == "*INCLUDE"
-        ]
-        raise ValueError(
-            "has *INCLUDE; must be in one file: "
-            f"(cat {' '.join(includes)}; grep -vi '^\\*include' {Path(path).name}) > whole.inp"
-        )
-    sets, parts = [], {}
-    for number, keyword in enumerate(keywords):
-        if keyword == "*ELEMENT":
-            lines[number] = re.sub(r"(?i)(\btype\s*=\s*)(\w+)", _type_in_meshio, lines[number])
-            name = re.search(r"(?i)\belset\s*=\s*([^,]+)", lines[number])
-            sets.append(name[1].strip() if name else None)
-        if keyword == "*NSET" and (name := re.search(r"(?i)\bnset\s*=\s*([^,]+)", lines[number])):
-            names = parts.setdefault(name[1].strip().upper(), [])
-            names.append(f"{name[1].strip()}{chr(0) * len(names)}")  # each block by a name of its own
-            lines[number] = lines[number].replace(name[1], names[-1])
-    mesh = meshio.abaqus.read(io.StringIO("\n".join([*lines, ""])))
-    for name in filter(None, sets):  # meshio takes the n-th set for that of the n-th block
-        mesh.cell_sets[name] = [
-            np.arange(len(block)) if set_name == name else np.array([], dtype=int)
-            for block, set_name in zip(mesh.cells, sets, strict=True)
-        ]
-    for first, *others in parts.values():  # meshio keeps the last block of a name, Abaqus adds them up
-        mesh.point_sets[first] = np.concatenate([mesh.point_sets.pop(name) for name in (first, *others)])
-    return mesh
-
-
 def _read_gmsh(path: str) -> meshio.Mesh:
     """Read a mesh whose physical groups have each a name of its own, as meshio looks them up by it."""
-    with Path(path).open(encoding="utf-8", errors="replace") as stream:
-        head = itertools.takewhile(lambda line: line.strip() not in ("$EndPhysicalNames", "$Nodes"), stream)
-        names = re.findall(r'^\d+ +\d+ +"(.*)"\s*$', "".join(head), re.MULTILINE)
+    with Path(path).open("rb") as stream:
+        start = stream.read(_LOOKED_THROUGH).decode(errors="replace").strip()
+        stream.seek(-min(_LOOKED_THROUGH, stream.tell()), os.SEEK_END)
+        *_, last = stream.read().strip().splitlines()
+        stream.seek(0)
+        lines = (line.decode(errors="replace").strip() for line in stream)
+        head = itertools.takewhile(lambda line: line not in ("$EndPhysicalNames", "$Nodes"), lines)
+        names = re.findall(r'^\d+ +\d+ +"(.*)"$', "\n".join(head), re.MULTILINE)
+    if not start.startswith(("$MeshFormat", "$Comments")):
+        raise ValueError(f"begins with {start.splitlines()[0][:40]!r}; must begin with $MeshFormat")
+    if not last.startswith(b"$End"):
+        raise ValueError("does not end with a line $End…: it is cut off")
     twice = [name for name, count in Counter(names).items() if count > 1]
     if twice:
         raise ValueError(f"has several physical groups {twice[0]}; each must have a name of its own")
-    return meshio.gmsh.read(path)
+    try:
+        return meshio.gmsh.read(path)
+    except ValueError as error:
+        if "gmsh:physical" not in str(error):
+            raise
+        reason = "elements of some entities are in no physical group; save without Mesh.SaveAll"
+        raise ValueError(reason) from error
 
 
-def _type_in_meshio(match: re.Match) -> str:
-    kind = match[2].upper()
-    return match[1] + _NAMES_IN_MESHIO.get(kind, kind)
-
-
-READERS = dict(zip(origin.MESH_SUFFIXES, (_read_abaqus, _read_gmsh, meshio.vtu.read), strict=True))
+_READERS = {".msh": _read_gmsh, ".vtu": meshio.vtu.read}

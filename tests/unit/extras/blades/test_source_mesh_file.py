@@ -5,6 +5,7 @@ from blade_parts import tetrahedral_mesh
 
 from bladerub.blade.mesh import hexahedral_mesh
 from bladerub.blade.surface import EDGES
+from bladerub.extras.blades import file_source
 from bladerub.extras.blades.mesh_file import raised, read
 from bladerub.extras.export.mesh_file import write_mesh_file
 
@@ -56,13 +57,38 @@ def test_neighbours_share_the_middles():
     assert np.intersect1d(cells[0, 4:], cells[1, 4:]).size == 3
 
 
-def test_node_sets_of_abaqus_go_by_range_as_well(tmp_path):
+def test_a_deck_is_read_as_abaqus_reads_it(tmp_path):
+    (tmp_path / "the nodes.inp").write_text("1, 0, 0, 0,\n2, 1.D0,\n3, , 1\n")
     (tmp_path / "m.inp").write_text(
-        "*NODE\n1, 0, 0, 0\n2, 1, 0, 0\n3, 0, 1, 0\n4, 0, 0, 1\n"
-        "*ELEMENT, TYPE=C3D4, ELSET=EALL\n1, 1, 2, 3, 4\n*NSET, NSET=Some, GENERATE\n1, 3, 1\n"
+        "*PART, NAME=Blade\n*Node, nset=Early,\n input=the nodes.inp\n** comment\n  *NODE\n4, 0, 0, 1\n"
+        "*ELEMENT,\nTYPE=C3D4T, ELSET=Eall\n10, 1, 2,\n3, 4\n*END PART\n*ASSEMBLY\n"
+        "*INSTANCE, NAME=B-1, PART=Blade\n*END INSTANCE\n"
+        "*NSET, NSET=Some, INSTANCE=B-1,\nGENERATE\n1, 3, 2\n4, 4\n"
+        '*NSET, NSET="Some more"\nsome, B-1.2\n*NSET, NSET=OfElements, ELSET=B-1.EALL\n'
+        "*ELSET, ELSET=_S_S2, INSTANCE=B-1\n10\n*SURFACE, NAME=Side\n_S_S2, S2\n*END ASSEMBLY\n"
     )
     content = read(tmp_path / "m.inp")
-    np.testing.assert_array_equal(content.node_sets["Some"], [0, 1, 2])
+    np.testing.assert_array_equal(content.points[:4], [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]])
+    assert content.cells[:, :4].tolist() == [[0, 1, 2, 3]]
+    assert {name: sorted(nodes) for name, nodes in content.node_sets.items()} == {
+        "Early": [0, 1, 2],
+        "Some": [0, 2, 3],
+        "Some more": [0, 1, 2, 3],
+        "OfElements": [0, 1, 2, 3],
+        "Side": [0, 1, 3],
+    }
+    assert content.volume_sets == ["Eall", "_S_S2"]
+
+
+def test_an_included_file_is_part_of_the_blade(tmp_path):
+    deck, nodes = tmp_path / "m.inp", tmp_path / "n.inp"
+    deck.write_text("*INCLUDE, INPUT=n.inp\n")
+    nodes.write_text("*NODE\n1, 0, 0, 0\n")
+    blade = {"material": {}, "length": 0.1, "source": {"file": str(deck)}}
+    before = file_source.recipe(blade)
+    assert file_source.files(blade["source"]) == [str(deck), str(nodes)]
+    nodes.write_text("*NODE\n1, 0, 0, 1\n")
+    assert file_source.recipe(blade) != before
 
 
 def test_faces_of_gmsh_in_abaqus_files_are_node_sets(tmp_path):
@@ -110,13 +136,15 @@ $EndElements
 
 
 def test_physical_groups_of_gmsh_are_kept_apart_by_dimension(tmp_path):
-    (tmp_path / "m.msh").write_text(GROUPS.format(line="EDGE"))
+    text = GROUPS.format(line="EDGE").replace("$Elements\n4\n", "$Elements\n5\n5 4 2 9 1 1 2 3 4\n")  # twice
+    (tmp_path / "m.msh").write_text(text)
     content = read(tmp_path / "m.msh")
     assert {name: nodes.tolist() for name, nodes in content.node_sets.items()} == {
         "EDGE": [2, 3],
         "TIP": [0, 1, 2],
     }
     assert content.volume_sets == ["BLADE"]
+    assert len(content.cells) == 2
 
 
 def test_blocks_of_a_node_set_add_up(tmp_path):
@@ -148,10 +176,23 @@ TETRAHEDRON = "*NODE\n1, 0, 0, 0\n2, 1, 0, 0\n3, 0, 1, 0\n4, 0, 0, 1\n5, 1, 1, 1
             TETRAHEDRON + "*ELEMENT, TYPE=C3D4\n1, 1, 2, 3, 4\n*ELEMENT, TYPE=C3D6\n2, 1, 2, 3, 4, 5, 6\n",
             "mixes tetra and wedge",
         ),
-        ("m.inp", TETRAHEDRON + "*ELEMENT, TYPE=C3D4\n1, 1, 2, 3, 9\n", "can be read"),
-        ("m.inp", "*Instance, name=a\n" + TETRAHEDRON, r"has \*INSTANCE; must be the mesh of one part"),
-        ("m.inp", TETRAHEDRON + "*INCLUDE, INPUT=b.inp\n", r"has \*INCLUDE; .*\(cat b.inp; "),
+        ("m.inp", TETRAHEDRON + "*ELEMENT, TYPE=C3D4\n1, 1, 2, 3, 9\n", "line 9: node 9 of element 1"),
+        ("m.inp", TETRAHEDRON + "*ELEMENT, TYPE=C3D4\n1, 1, 2, 3\n", "line 9: element 1 has too few nodes"),
+        ("m.inp", TETRAHEDRON + "*ELEMENT, TYPE=C3D4\n1, 1, 2, 3,\n4, 5\n", "line 10: element 1 has 5 nodes"),
+        ("m.inp", TETRAHEDRON + "*ELEMENT, TYPE=C3D4\n1, 1, 2, 3, 4\n2, 2, 3, 1, 4\n", "1 elements have"),
+        ("m.inp", TETRAHEDRON + "*ELEMENT, TYPE=MASS\n1, 1\n", "line 8: has elements of type MASS"),
+        ("m.inp", TETRAHEDRON + "2, 1, 0, 1\n", "line 8: node 2 is there twice"),
+        ("m.inp", TETRAHEDRON + "7, 1, O, 1\n", "line 8: has 7, 1, O, 1, must be a node"),
+        ("m.inp", TETRAHEDRON + "*NSET, NSET=A\n1, 9\n", "line 9: 9 of the set A is not there"),
+        ("m.inp", TETRAHEDRON + "*NSET, NSET=A\n1, B\n", "line 9: there is no set B"),
+        ("m.inp", TETRAHEDRON + "*NGEN\n1, 6, 2\n", r"line 8: has \*NGEN, which makes nodes"),
+        ("m.inp", TETRAHEDRON.replace("*NODE", "*NODE, SYSTEM=C"), "line 1: has .* Cartesian"),
+        ("m.inp", TETRAHEDRON + "*INSTANCE, PART=A\n0, 5, 0\n", r"has \*INSTANCE, which moves its part"),
+        ("m.inp", "*INSTANCE\n*INSTANCE\n" + TETRAHEDRON, r"line 2: has another \*INSTANCE"),
+        ("m.inp", TETRAHEDRON + "*INCLUDE, INPUT=b.inp\n", "line 8: it includes b.inp, which is not in"),
+        ("m.inp", TETRAHEDRON + "*INCLUDE, INPUT=m.inp\n", "line 8: .* includes itself"),
         ("m.msh", GROUPS.format(line="TIP"), "has several physical groups TIP"),
+        ("m.msh", GROUPS.format(line="EDGE")[:-20], "it is cut off"),
     ],
 )
 def test_what_is_no_usable_mesh_is_told(name, text, said, tmp_path):

@@ -1,0 +1,265 @@
+"""The mesh in a deck of Abaqus or CalculiX: nodes, solid elements by kind, sets of nodes."""
+
+import re
+from collections.abc import Iterable, Iterator
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+
+from bladerub.blade.surface import FACES
+from bladerub.extras.blades import deck
+from bladerub.extras.blades.deck import Block, Line
+
+_SOLID = re.compile(r"C3D(\d+)[A-Z]*")
+_KINDS = {
+    4: "tetra",
+    5: "pyramid",
+    6: "wedge",
+    8: "hexahedron",
+    10: "tetra10",
+    13: "pyramid13",
+    15: "wedge15",
+    20: "hexahedron20",
+    27: "hexahedron27",
+}  # in meshio, by number of nodes
+_MARKING = re.compile(
+    r"(T[23]D[23]|B[23][123]|STRI|S[34689]|M3D|SFM3D|CP[ES]\d|R3D|DS\d)\w*"
+)  # elements of lines and surfaces, whose sets are sets of nodes here
+_GENERATING = ("*NGEN", "*NFILL", "*NCOPY", "*NMAP", "*ELGEN", "*ELCOPY")
+_CARTESIAN = "R"
+_FACE_LABEL = re.compile("S([1-6])")
+_QUADRATIC = {8: 20, 20: 20, 4: 10, 10: 10}  # nodes of the element with the same faces
+
+
+class Content(NamedTuple):
+    """What is read of a mesh file; nodes count from 0 in the order of the file."""
+
+    points: np.ndarray  # (n_points, 3), as in the file
+    solids: dict[str, np.ndarray]  # nodes (n_elements, n_nodes) by kind of meshio
+    node_sets: dict[str, np.ndarray]  # also those of elements of lines and surfaces
+    volume_sets: list[str]  # names of sets of solid elements
+
+
+def read(path: Path) -> Content:
+    """Read the mesh of one part; a ValueError names line and cause of what is not read."""
+    blocks = list(deck.blocks(path))
+    _check(blocks)
+    model = _Model(blocks)
+    if not model.rows:
+        raise ValueError("has no *NODE")
+    node_sets, volume_sets = dict(model.node_sets), []
+    for name, numbers in model.element_sets.items():
+        if model.kinds.keys() & numbers.keys():
+            volume_sets.append(name)
+        else:
+            node_sets.setdefault(name, dict.fromkeys(model.nodes_of(numbers)))
+    return Content(
+        np.array(model.points),
+        {kind: np.array(cells) for kind, cells in model.solids().items()},
+        {name: np.array([model.rows[node] for node in nodes], int) for name, nodes in node_sets.items()},
+        volume_sets,
+    )
+
+
+def _check(blocks: list[Block]) -> None:
+    """Refuse what makes or moves nodes or elements in a way that is not followed here."""
+    for block in blocks:
+        where = f"{block.place}: has {block.keyword}"
+        system = block.parameters.get("SYSTEM", _CARTESIAN).upper()
+        if block.keyword in _GENERATING:
+            raise ValueError(f"{where}, which makes nodes or elements; must list them all")
+        if block.keyword == "*SYSTEM" and block.lines:
+            raise ValueError(f"{where}; nodes must be in the axes of the whole model")
+        if block.keyword == "*NODE" and system != _CARTESIAN:
+            raise ValueError(f"{where} with SYSTEM={system}; must be in Cartesian coordinates")
+        if block.keyword == "*INSTANCE" and any(re.search("[1-9]", line.text) for line in block.lines):
+            raise ValueError(f"{where}, which moves its part; must leave it where it is")
+    for keyword in ("*PART", "*INSTANCE"):
+        places = [block.place for block in blocks if block.keyword == keyword]
+        if len(places) > 1:
+            raise ValueError(f"{places[1]}: has another {keyword}; must be the mesh of one part")
+
+
+class _Sets(dict[str, dict[int, None]]):
+    """Numbers in each set, by its first name; capital and small letters are alike, blocks of one add up."""
+
+    def __init__(self):
+        super().__init__()
+        self._names: dict[str, tuple[str, bool]] = {}
+
+    def add(self, name: str, numbers: Iterable[int], in_part: bool, place: str) -> None:
+        first, first_in_part = self._names.setdefault(name.upper(), (name, in_part))
+        if first_in_part != in_part:
+            raise ValueError(f"{place}: a set {name} is in the part as well; must have another name")
+        self.setdefault(first, {}).update(dict.fromkeys(numbers))
+
+    def has(self, name: str) -> bool:
+        return name.upper() in self._names
+
+    def members(self, name: str, place: str) -> dict[int, None]:
+        """Numbers in the set `name`, which may have the name of its instance before a point."""
+        for key in (name.upper(), name.upper().rpartition(".")[2]):
+            if key in self._names:
+                return self[self._names[key][0]]
+        raise ValueError(f"{place}: there is no set {name} above this line")
+
+
+class _Model:
+    """What a deck holds, by the numbers of its nodes and elements."""
+
+    def __init__(self, blocks: list[Block]):
+        self.rows: dict[int, int] = {}  # of nodes
+        self.points: list[list[float]] = []
+        self.nodes: dict[int, list[int]] = {}  # of elements
+        self.kinds: dict[int, str] = {}  # of solid elements
+        self.node_sets, self.element_sets = _Sets(), _Sets()
+        for keywords, add in (
+            (("*NODE",), self._add_nodes),
+            (("*ELEMENT",), self._add_elements),
+            (("*NSET", "*ELSET"), self._add_set),
+            (("*SURFACE",), self._add_surface),
+        ):
+            in_part = False
+            for block in blocks:
+                in_part = block.keyword == "*PART" or (in_part and block.keyword != "*END PART")
+                if block.keyword in keywords:
+                    add(block, in_part)
+
+    def solids(self) -> dict[str, list[list[int]]]:
+        """Rows of the nodes of solid elements, by kind."""
+        cells: dict[str, list[list[int]]] = {}
+        for number, kind in self.kinds.items():
+            cells.setdefault(kind, []).append([self.rows[node] for node in self.nodes[number]])
+        return cells
+
+    def nodes_of(self, elements: Iterable[int]) -> Iterator[int]:
+        """Yield the nodes of `elements`."""
+        return (node for number in elements for node in self.nodes[number])
+
+    def _add_nodes(self, block: Block, in_part: bool) -> None:
+        for line in block.lines:
+            cells = line.cells()
+            number, point = _whole(cells[0], line), _coordinates(cells[1:], line)
+            row = self.rows.setdefault(number, len(self.points))
+            if row == len(self.points):
+                self.points.append(point)
+            elif self.points[row] != point:
+                raise ValueError(f"{line.place}: node {number} is there twice, in two places")
+            if "NSET" in block.parameters:
+                self.node_sets.add(block.parameters["NSET"], [number], in_part, line.place)
+
+    def _add_elements(self, block: Block, in_part: bool) -> None:
+        kind = _kind(block)
+        for line, (number, *nodes) in _elements(block, kind):
+            if absent := [node for node in nodes if node not in self.rows]:
+                raise ValueError(f"{line.place}: node {absent[0]} of element {number} is not there")
+            if self.nodes.setdefault(number, nodes) is not nodes:
+                raise ValueError(f"{line.place}: element {number} is there twice")
+            if kind:
+                self.kinds[number] = kind
+            if "ELSET" in block.parameters:
+                self.element_sets.add(block.parameters["ELSET"], [number], in_part, line.place)
+
+    def _add_set(self, block: Block, in_part: bool) -> None:
+        parameters = block.parameters
+        if block.keyword == "*NSET" and "ELSET" in parameters:
+            elements = self.element_sets.members(parameters["ELSET"], block.place)
+            self.node_sets.add(_name(block, "NSET"), self.nodes_of(elements), in_part, block.place)
+            return
+        sets, members = {"*NSET": (self.node_sets, self.rows), "*ELSET": (self.element_sets, self.nodes)}[
+            block.keyword
+        ]
+        name = _name(block, block.keyword[1:])
+        sets.add(name, [], in_part, block.place)
+        for line in block.lines:
+            numbers = _range(line) if "GENERATE" in parameters else _members(line, sets)
+            present = [number for number in numbers if number in members]
+            if len(present) < len(numbers) and "GENERATE" not in parameters:
+                absent = next(number for number in numbers if number not in members)
+                raise ValueError(f"{line.place}: {absent} of the set {name} is not there")
+            sets.add(name, present, in_part, line.place)
+
+    def _add_surface(self, block: Block, in_part: bool) -> None:
+        """Add the nodes of a surface as a set of nodes, unless one has its name."""
+        nodes: dict[int, None] = {}
+        for line in block.lines:
+            member, *label = line.cells()
+            if block.parameters.get("TYPE", "ELEMENT").upper() == "NODE":
+                nodes.update(dict.fromkeys(_members(Line(member, line.place), self.node_sets)))
+                continue
+            face = _FACE_LABEL.fullmatch(label[0].upper()) if label else None
+            elements = _members(Line(member, line.place), self.element_sets)
+            if face is None or any(len(self.nodes[number]) not in _QUADRATIC for number in elements):
+                return  # of shells or wedges, or all outer faces of a set
+            for number in elements:
+                corners = self.nodes[number]
+                places = FACES[_QUADRATIC[len(corners)]][int(face[1]) - 1]
+                nodes.update(dict.fromkeys(corners[place] for place in places if place < len(corners)))
+        name = _name(block, "NAME")
+        if not self.node_sets.has(name):
+            self.node_sets.add(name, nodes, in_part, block.place)
+
+
+def _name(block: Block, parameter: str) -> str:
+    if not block.parameters.get(parameter):
+        raise ValueError(f"{block.place}: {block.keyword} has no {parameter}=")
+    return block.parameters[parameter]
+
+
+def _kind(block: Block) -> str | None:
+    """Kind of meshio of the elements of a block; None of lines and surfaces."""
+    name = _name(block, "TYPE").upper()
+    solid = _SOLID.fullmatch(name)
+    if solid and int(solid[1]) in _KINDS:
+        return _KINDS[int(solid[1])]
+    if not _MARKING.fullmatch(name):
+        raise ValueError(f"{block.place}: has elements of type {name}, which are not read; leave them out")
+    return None
+
+
+def _elements(block: Block, kind: str | None) -> Iterator[tuple[Line, list[int]]]:
+    """Yield number and nodes of each element, and its last line."""
+    n_numbers = next((n + 1 for n, name in _KINDS.items() if name == kind), None)
+    numbers: list[int] = []
+    for line in block.lines:
+        numbers += [_whole(cell, line) for cell in line.cells()]
+        if n_numbers is None and line.text.endswith(","):
+            continue
+        if n_numbers is not None and len(numbers) > n_numbers:
+            raise ValueError(
+                f"{line.place}: element {numbers[0]} has {len(numbers) - 1} nodes, must have {n_numbers - 1}"
+            )
+        if n_numbers in (None, len(numbers)):
+            yield line, numbers
+            numbers = []
+    if numbers:
+        raise ValueError(f"{block.lines[-1].place}: element {numbers[0]} has too few nodes")
+
+
+def _whole(cell: str, line: Line) -> int:
+    if not re.fullmatch(r"[+-]?\d+", cell):
+        raise ValueError(f"{line.place}: has {cell or 'nothing'}, must be a whole number")
+    return int(cell)
+
+
+def _coordinates(cells: list[str], line: Line) -> list[float]:
+    """Three coordinates; those that are left out are 0."""
+    try:
+        return ([deck.number(cell) for cell in cells] + [0.0, 0.0, 0.0])[:3]
+    except ValueError:
+        raise ValueError(f"{line.place}: has {line.text[:60]}, must be a node and its coordinates") from None
+
+
+def _range(line: Line) -> range:
+    first, last, *step = (_whole(cell, line) for cell in line.cells())
+    return range(first, last + 1, *(step or [1]))
+
+
+def _members(line: Line, sets: _Sets) -> list[int]:
+    """Numbers of a line, and the members of sets that it names."""
+    members: list[int] = []
+    for cell in filter(None, line.cells()):
+        is_number = re.fullmatch(r"\d+", cell.rpartition(".")[2])
+        members += [int(cell.rpartition(".")[2])] if is_number else sets.members(cell, line.place)
+    return members
