@@ -1,7 +1,8 @@
 # A dense chart of coatings at speeds that the search for its peaks chooses (docs/explanation/chart.md). Not part of `all`.
 from functools import cache, partial
 
-from bladerub.extras.chart.grid import chart_orders, check, columns
+from bladerub.extras.chart.grid import chart_orders, check
+from bladerub.extras.chart.plan import columns
 from bladerub.extras.chart.point import PointRow
 from bladerub.study.grid import modulus_unit
 
@@ -206,6 +207,22 @@ rule chart_pareto:
         "scripts/chart_pareto.py"
 
 
+rule chart_choice:
+    input:
+        tables=chart_with_stress,
+        analysing=files_behind("extras.chart.choice", "extras.chart.stress"),
+    output:
+        **described(table=f"{TABLES}/chart_choice.csv"),
+    log:
+        f"{RESULTS}/logs/chart_choice.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/chart_choice.tsv"
+    params:
+        limits=config["chart"]["limits"],
+    script:
+        "scripts/chart_choice.py"
+
+
 rule chart_explanation:
     input:
         manifests=chart_manifests,
@@ -296,6 +313,7 @@ rule chart:
         rules.chart_maps.output,
         rules.chart_safe.output,
         rules.chart_pareto.output,
+        rules.chart_choice.output,
         rules.chart_explanation.output,
         rules.chart_stiffening.output,
 

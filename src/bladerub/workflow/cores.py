@@ -1,8 +1,10 @@
-"""How the cores of a machine are divided among the jobs of a study."""
+"""What the jobs of a study cost, and how the cores of a machine are divided among them."""
 
 import math
 from collections.abc import Mapping
 from typing import Any, NamedTuple
+
+import numpy as np
 
 from bladerub.study.grid import coating_cases, speeds
 from bladerub.study.members import expected_cost
@@ -11,10 +13,23 @@ FEWEST = 8
 """Jobs that a core should have to do, at least: the last ones then end at nearly the same time."""
 
 ON_RIGID_CASING = 5
-"""Time of a run on the rigid casing over that of one on a soft coating, about (`docs/data/cost.csv`)."""
+"""Time of a run on the rigid casing over that of one on a soft coating, about."""
 
-STIFF = 3.0
-"""Young modulus from which on the time of a run is about proportional to it, as its steps are."""
+STIFF = 28.0
+"""E / f_omega from which on the time of a run is about proportional to it, as its steps are."""
+
+SECONDS_PER_REVOLUTION = 0.0033
+"""Of one core, for a run of the paper's blade on a soft coating. Measured with the other core at work, at
+seven speeds on 17 coatings and the rigid casing, as were `STIFF` and `ON_RIGID_CASING`."""
+
+GROWING = 0.09
+"""Share of the runs that grow, and are made again with the longer length (the study's 63 coatings)."""
+
+SECONDS_PER_JOB = 5
+"""Of one core, to start Snakemake and the job and to draw, collect or analyse; rounded up."""
+
+SECONDS_AT_FIRST = {"blade": 15, "compile_kernel": 15}
+"""Of one core, for the jobs that are made once, by their rule."""
 
 BEGUN = 1
 """Priority of the map and the ensembles of a coating: they come before the runs of any other."""
@@ -52,13 +67,19 @@ def priority_of(coating: str, costs: Costs) -> float:
     return BEGUN * of_coating / (1 + costs.total)
 
 
+def run_cost(E: float, f_omega: np.ndarray) -> np.ndarray:
+    """Estimate what runs at the speeds `f_omega` (n,) cost on a coating of modulus `E`, in soft ones (n,)."""
+    return np.maximum(1.0, E / STIFF / f_omega)
+
+
 def costs_of(config: Mapping[str, Any]) -> Costs:
     """Estimate what the jobs of a study cost."""
+    f_omega = np.array(speeds(config))
     weights = {
-        case: ON_RIGID_CASING if case.is_rigid else max(1.0, case.E / STIFF) for case in coating_cases(config)
+        case: ON_RIGID_CASING if case.is_rigid else float(run_cost(case.E, f_omega).mean())
+        for case in coating_cases(config)
     }
-    n_speeds = len(speeds(config))
     return Costs(
-        runs={case.name: weight * n_speeds for case, weight in weights.items()},
+        runs={case.name: weight * f_omega.size for case, weight in weights.items()},
         ensembles={case.name: weight * expected_cost(config, case) for case, weight in weights.items()},
     )

@@ -11,16 +11,13 @@ from bladerub.io.errors import message_for
 from bladerub.study import inventory
 from bladerub.study.grid import coating_cases
 from bladerub.study.plan import CoatingPlan, coating_plan
-from bladerub.workflow.cores import costs_of
-
-SECONDS_PER_REVOLUTION = 0.006
-"""Of one core, for a run of the paper's blade with its longer run, if it needs one (`docs/data/cost.csv`)."""
-
-SECONDS_PER_JOB = 5
-"""Of one core, to start Snakemake and the job and to draw, collect or analyse; rounded up."""
-
-SECONDS_AT_FIRST = {"blade": 15, "compile_kernel": 15}
-"""Of one core, for the jobs that are made once, by their rule."""
+from bladerub.workflow.cores import (
+    GROWING,
+    SECONDS_AT_FIRST,
+    SECONDS_PER_JOB,
+    SECONDS_PER_REVOLUTION,
+    costs_of,
+)
 
 
 def announce(
@@ -91,7 +88,8 @@ def forecast(
             simulated += share * n_blades * costs.runs[coating]
         elif rule == "ensemble" and coating in counts:
             simulated += costs.ensembles[coating]
-    seconds += simulated * config["solver"]["revolutions"] * SECONDS_PER_REVOLUTION
+    longer = GROWING * config["analysis"]["divergence"]["confirmation_revolutions"]
+    seconds += simulated * (config["solver"]["revolutions"] + longer) * SECONDS_PER_REVOLUTION
     minutes = max(seconds / 60 / (cores or 1), 1)
     machine = f"on {cores} cores" if cores and cores > 1 else "of one core"
     return f"{runs}; {len(jobs):,} jobs, about {minutes:.0f} min {machine}"

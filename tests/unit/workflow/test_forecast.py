@@ -3,8 +3,14 @@ import re
 import pytest
 
 from bladerub.study import inventory
-from bladerub.workflow.cores import costs_of
-from bladerub.workflow.forecast import SECONDS_AT_FIRST, SECONDS_PER_JOB, SECONDS_PER_REVOLUTION, forecast
+from bladerub.workflow.cores import (
+    GROWING,
+    SECONDS_AT_FIRST,
+    SECONDS_PER_JOB,
+    SECONDS_PER_REVOLUTION,
+    costs_of,
+)
+from bladerub.workflow.forecast import forecast
 
 
 @pytest.fixture
@@ -31,7 +37,10 @@ def test_a_dry_run_counts_what_is_left_and_what_its_jobs_cost(study):
     jobs = [("blade", None), *JOBS, ("fig11_Y4", None)]
     costs = costs_of(config)
     runs = 0.6 * sum(costs.runs.values()) + sum(costs.ensembles.values())
-    seconds = runs * 3600 * SECONDS_PER_REVOLUTION + 8 * SECONDS_PER_JOB + SECONDS_AT_FIRST["blade"]
+    longer = GROWING * config["analysis"]["divergence"]["confirmation_revolutions"]
+    seconds = (
+        runs * (3600 + longer) * SECONDS_PER_REVOLUTION + 8 * SECONDS_PER_JOB + SECONDS_AT_FIRST["blade"]
+    )
     numbers = re.findall(r"\d+", forecast(config, jobs).replace(",", ""))
     assert numbers == ["120", "200", "8", f"{seconds / 60:.0f}"]
     assert costs.ensembles[JOBS[0][1]] > 0

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from bladerub.extras.chart.grid import chart_speeds
+from bladerub.extras.chart.plan import chart_speeds
 from bladerub.extras.chart.search import next_speeds, sought
 from bladerub.extras.chart.table import COATING
 from bladerub.study.maps import CoatingMap

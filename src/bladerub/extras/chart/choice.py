@@ -1,9 +1,11 @@
-"""Which coating to choose: limits that a safe one keeps, and the coatings that no other is better than."""
+"""Which coating to choose: limits of a safe one, which to recommend, and those that no other betters."""
 
 from collections.abc import Mapping
 
 import numpy as np
 import pandas as pd
+
+from bladerub.extras.chart.table import COATING
 
 LIMITED = {
     "amplitude": "peak",
@@ -12,6 +14,17 @@ LIMITED = {
     "fatigue": "alternating",
 }
 """Column of the chart that each of ``chart.limits`` is for; the last is of its stress."""
+
+_OF_CHART = [
+    *COATING,
+    *("safe", "broken", "peak", "f_at_peak", "worn_volume", "deepest_wear", "divergent_share"),
+]
+CHOICE = [
+    *_OF_CHART,
+    *(f"{name}_{side}" for name in ("E", "K") for side in ("below", "above")),
+    *("neighbours", "safe_neighbours", "lowest_neighbour", "highest_neighbour", "safe_coatings", "coatings"),
+]
+"""Columns of ``chart_choice.csv``."""
 
 
 def broken_limits(chart: pd.DataFrame, limits: Mapping[str, float]) -> pd.DataFrame:
@@ -31,3 +44,38 @@ def pareto(chart: pd.DataFrame, limits: Mapping[str, float]) -> pd.DataFrame:
         best_before = np.minimum.accumulate(np.append(np.inf, ordered.worn_volume.to_numpy()[:-1]))
         fronts.append(ordered[ordered.worn_volume.to_numpy() < best_before])
     return pd.concat(fronts, ignore_index=True)
+
+
+def recommended(chart: pd.DataFrame, limits: Mapping[str, float]) -> pd.DataFrame:
+    """Recommend for each θ the coating with the lowest displacement of those that break the fewest limits.
+
+    Columns of `CHOICE`: how sure that is shows in the coatings next to it on the chart, eight or fewer. If
+    most of them are not safe, or their displacements spread far, another sample of the coating may not be as
+    good; what lies between the moduli below and above (NaN: the end of the chart) was not computed.
+    """
+    judged = chart.assign(broken=broken_limits(chart, limits).sum(axis=1))
+    judged["safe"] = judged["broken"] == 0
+    rows = []
+    for _, coatings in judged.groupby("theta"):
+        best = coatings.sort_values(["broken", "peak", "worn_volume"]).iloc[0]
+        ends = {name: _next_to(coatings[name], best[name]) for name in ("E", "K")}
+        near = [coatings[name].isin([best[name], *ends[name].values()]) for name in ends]
+        around = coatings[near[0] & near[1]].drop(best.name)
+        rows.append(
+            {
+                **best[_OF_CHART],
+                **{f"{name}_{side}": value for name in ends for side, value in ends[name].items()},
+                "neighbours": len(around),
+                "safe_neighbours": int(around["safe"].sum()),
+                "lowest_neighbour": around["peak"].min(),
+                "highest_neighbour": around["peak"].max(),
+                "safe_coatings": int(coatings["safe"].sum()),
+                "coatings": len(coatings),
+            }
+        )
+    return pd.DataFrame(rows, columns=CHOICE)
+
+
+def _next_to(moduli: pd.Series, modulus: float) -> dict[str, float]:
+    """Find the next lower and the next higher of `moduli`, NaN if there is none."""
+    return {"below": moduli[moduli < modulus].max(), "above": moduli[moduli > modulus].min()}

@@ -15,7 +15,8 @@ from bladerub.contact.laws import law_digest
 from bladerub.contact.result import RunResult
 from bladerub.contact.spec import RunSpec
 from bladerub.extras.chart import point as points
-from bladerub.extras.chart.grid import ChartSpeeds, chart_orders, chart_speeds
+from bladerub.extras.chart.grid import ChartSpeeds, chart_orders
+from bladerub.extras.chart.plan import chart_speeds
 from bladerub.extras.chart.point import PointRow
 from bladerub.extras.chart.search import compute, compute_together, search
 from bladerub.io import lock, sources
@@ -41,6 +42,22 @@ def determinants(config: Mapping[str, Any], case: CoatingCase, speeds: ChartSpee
 
     Other points, and the coatings of the study, have no part in it.
     """
+    return cache.digest(
+        {
+            "runs": run_determinants(config, case, speeds),
+            "uniform": np.flatnonzero(speeds.uniform).tolist(),
+            "coarse": np.flatnonzero(speeds.coarse).tolist(),
+            "refine_above": float(config["chart"]["speeds"]["refine_above"]),
+            "window": [float(end) for end in config["analysis"]["peaks"]["speed_window"]],
+        }
+    )
+
+
+def run_determinants(config: Mapping[str, Any], case: CoatingCase, speeds: ChartSpeeds) -> str:
+    """Digest what determines the runs of a coating, and what is kept of them, but the blade.
+
+    The speeds that the search chooses have no part in it.
+    """
     analysis = config["analysis"]
     return cache.digest(
         solver_of(config).determinants()
@@ -48,11 +65,7 @@ def determinants(config: Mapping[str, Any], case: CoatingCase, speeds: ChartSpee
         | {
             "spec": asdict(run_spec(config, case, f_omega=0.0)),
             "f_omega": speeds.f_omega.tolist(),
-            "uniform": np.flatnonzero(speeds.uniform).tolist(),
-            "coarse": np.flatnonzero(speeds.coarse).tolist(),
-            "refine_above": float(config["chart"]["speeds"]["refine_above"]),
             "orders": chart_orders(config),
-            "window": [float(end) for end in analysis["peaks"]["speed_window"]],
             "order_halfwidth": float(analysis["peaks"]["order_halfwidth"]),
             "spectrum_revolutions": float(analysis["spectrum_revolutions"]),
             "lobe_prominence": float(analysis["lobe_prominence"]),
@@ -94,19 +107,21 @@ def compute_missing(
         )
         for case, planned in plan.items()
     }
+    runs_keys = {case: cache.digest([run_determinants(config, case, speeds), blade_digest]) for case in plan}
     with lock.held(column_lock, lambda: report("another job is at work on this column: waiting for its end")):
         checksums = {}
         missing = [case for case, entry in entries.items() if not entry.fetch()]
+        earlier = {case: points.read_of(entries[case].path, runs_keys[case]) for case in missing}
         if missing:
             C1 = np.array([reduced_frequencies(blade, f, n_modes=1)[0] for f in speeds.f_omega]) / blade.f1_hz
 
         def made(case: CoatingCase) -> tuple[points.ChartPoint, float]:
             start = time.monotonic()
-            return compute(config, case, blade, speeds, C1), start
+            return compute(config, case, blade, speeds, C1, earlier[case]), start
 
         def made_together() -> Iterator[tuple[CoatingCase, tuple[points.ChartPoint, float]]]:
             start = time.monotonic()
-            searches = {case: search(config, case, blade, speeds, C1) for case in missing}
+            searches = {case: search(config, case, blade, speeds, C1, earlier[case]) for case in missing}
 
             def solve(specs: Sequence[RunSpec]) -> Iterator[tuple[int, RunResult]]:
                 solved = solver.simulate_many(blade, specs, threads, report)
@@ -118,7 +133,7 @@ def compute_missing(
         for number, (case, (point, start)) in enumerate(results, 1):
             entry = entries[case]
             entry.make_room()
-            checksums[case] = points.write(entry.path, point, entry.key, config)
+            checksums[case] = points.write(entry.path, point, entry.key, runs_keys[case], config)
             seconds = time.monotonic() - start
             report(f"[{number}/{len(missing)}] {case.name}: {point.known.sum()} runs in {seconds:.1f} s")
         return [

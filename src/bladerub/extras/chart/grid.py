@@ -1,4 +1,4 @@
-"""Which coatings the chart has, and the speeds at which each of them is run first."""
+"""Engine orders of the chart, and speeds at which each of its coatings may be run, and is run first."""
 
 from collections.abc import Mapping
 from typing import Any, NamedTuple
@@ -6,25 +6,13 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from bladerub.io.errors import BadInput
-from bladerub.study.grid import CoatingCase, speeds
+from bladerub.study.grid import speeds
 from bladerub.study.orders import peak_orders
 
 
 def chart_orders(config: Mapping[str, Any]) -> list[int]:
     """Return the engine orders of the chart, those of its casing: 4 and 6 in the paper's Figs. 11 to 14."""
     return peak_orders(config, config["chart"]["casing"])
-
-
-def columns(config: Mapping[str, Any]) -> dict[str, list[CoatingCase]]:
-    """List the coatings of each column, all K at one θ and E, by the name of the column."""
-    chart = config["chart"]
-    return {
-        f"{chart['casing']}_E{E:g}_theta{theta:g}": [
-            CoatingCase(chart["casing"], float(E), float(K), float(theta)) for K in chart["K"]
-        ]
-        for theta in chart["theta"]
-        for E in chart["E"]
-    }
 
 
 class ChartSpeeds(NamedTuple):
@@ -35,18 +23,19 @@ class ChartSpeeds(NamedTuple):
     coarse: np.ndarray  # (n,) of bool, these and denser ones at low speed: where the search for maxima begins
 
 
-def chart_speeds(config: Mapping[str, Any]) -> ChartSpeeds:
-    """Choose the speeds of the study that are nearest to the even ones of ``chart.speeds``."""
+def nearest_speeds(config: Mapping[str, Any], multiple: int = 1) -> ChartSpeeds:
+    """Choose the speeds of the study that are nearest to the even ones of ``chart.speeds``.
+
+    The even ones are `multiple` times as far apart as the config says.
+    """
     f_omega, settings = np.array(speeds(config)), config["chart"]["speeds"]
-    uniform = _nearest(f_omega, settings["start"], f_omega[-1], settings["step"])
-    dense = _nearest(
-        f_omega, settings["start"], min(settings["dense_stop"], f_omega[-1]), settings["dense_step"]
-    )
+    start, stop, dense_stop = settings["start"], f_omega[-1], min(settings["dense_stop"], f_omega[-1])
+    uniform = _nearest(f_omega, np.arange(start, stop + 1e-9, multiple * settings["step"]))
+    dense = _nearest(f_omega, np.arange(start, dense_stop + 1e-9, multiple * settings["dense_step"]))
     return ChartSpeeds(f_omega, uniform, uniform | dense)
 
 
-def _nearest(f_omega: np.ndarray, start: float, stop: float, step: float) -> np.ndarray:
-    even = np.arange(start, stop + 1e-9, step)
+def _nearest(f_omega: np.ndarray, even: np.ndarray) -> np.ndarray:
     mask = np.zeros(f_omega.size, dtype=bool)
     mask[np.abs(f_omega - even[:, None]).argmin(axis=1)] = True
     return mask

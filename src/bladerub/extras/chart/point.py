@@ -7,8 +7,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from bladerub.io import hdf5
-from bladerub.io.errors import DamagedFile
+from bladerub.io import checksum, hdf5
+from bladerub.io.errors import DamagedFile, is_refused
 from bladerub.io.hdf5 import Variable
 from bladerub.io.provenance import provenance
 from bladerub.study.grid import CoatingCase
@@ -39,6 +39,9 @@ _DATASETS = {
     "uniform": ("1", "1 at the speeds of which shares are"),
 }
 
+
+RUNS_KEY = "runs_key"
+"""Attribute of the file of a point: what determines its runs, but not the speeds of the search."""
 
 POINTS = "cells"
 """Folder of the points, next to that of the manifests."""
@@ -75,8 +78,11 @@ class ChartPoint:
         return np.isfinite(self.measures["peak"])
 
 
-def write(path: str | Path, point: ChartPoint, key: str, config: Mapping[str, Any]) -> str:
-    """Write `point` to `path` under its `key`, whole or not at all; return the checksum of the file."""
+def write(path: str | Path, point: ChartPoint, key: str, runs_key: str, config: Mapping[str, Any]) -> str:
+    """Write `point` to `path` under its `key`, whole or not at all; return the checksum of the file.
+
+    `runs_key` is that of its runs, whichever of their speeds the search chose.
+    """
     described = _DATASETS | {name: (unit, f"{what}; NaN: not run") for name, (unit, what) in MEASURES.items()}
     values = vars(point) | point.measures | {"uniform": point.uniform.astype(np.int8)}
     dims = {"spectrum_order": ("spectrum_order",), "spectrum_amplitude": ("f_omega", "spectrum_order")}
@@ -84,7 +90,9 @@ def write(path: str | Path, point: ChartPoint, key: str, config: Mapping[str, An
         name: Variable(dims.get(name, ("f_omega",)), values[name], unit, long_name)
         for name, (unit, long_name) in described.items()
     }
-    return hdf5.write(path, variables, asdict(point.case) | {"cell_key": key}, provenance(config))
+    return hdf5.write(
+        path, variables, asdict(point.case) | {"cell_key": key, RUNS_KEY: runs_key}, provenance(config)
+    )
 
 
 def read(path: str | Path) -> ChartPoint:
@@ -99,3 +107,14 @@ def read(path: str | Path) -> ChartPoint:
         )
     except KeyError as error:
         raise DamagedFile(f"{path}: not a point of the chart, {error} is missing") from error
+
+
+def read_of(path: str | Path, runs_key: str) -> ChartPoint | None:
+    """Read a point if it is there, whole, and of the runs of `runs_key`; else None."""
+    try:
+        is_same = hdf5.read_attributes(path).get(RUNS_KEY) == runs_key and checksum.is_sealed(path)
+        return read(path) if is_same else None
+    except OSError as error:
+        if is_refused(error):
+            raise
+        return None

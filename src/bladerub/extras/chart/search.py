@@ -9,6 +9,8 @@
 4. Divergence is judged at the uniform speeds alone, as in `bladerub.study.growth`, with the longer run where
    the amplitude grows: the search must not weigh in the share of divergent speeds. The longer runs are made
    together after the search, which does not depend on them.
+5. What an earlier search from other speeds found of the same runs is taken over: a whole chart after one
+   within a budget computes the rest.
 """
 
 from collections.abc import Callable, Generator, Iterable, Iterator, Mapping, Sequence
@@ -35,14 +37,22 @@ Search = Generator[list[RunSpec], list[RunResult], ChartPoint]
 
 
 def compute(
-    config: Mapping[str, Any], case: CoatingCase, blade: ReducedBlade, speeds: ChartSpeeds, C1: np.ndarray
+    config: Mapping[str, Any],
+    case: CoatingCase,
+    blade: ReducedBlade,
+    speeds: ChartSpeeds,
+    C1: np.ndarray,
+    earlier: ChartPoint | None = None,
 ) -> ChartPoint:
-    """Run the coating `case` at the speeds that the search chooses; `C1` (n,) is normalised."""
+    """Run the coating `case` at the speeds that the search chooses; `C1` (n,) is normalised.
+
+    `earlier` is a point of the same runs, at other of their speeds.
+    """
 
     def solve(specs: Sequence[RunSpec]) -> Iterator[tuple[int, RunResult]]:
         return ((number, simulate(blade, spec)) for number, spec in enumerate(specs))
 
-    ((_, point),) = compute_together({case: search(config, case, blade, speeds, C1)}, solve)
+    ((_, point),) = compute_together({case: search(config, case, blade, speeds, C1, earlier)}, solve)
     return point
 
 
@@ -67,7 +77,12 @@ def compute_together(
 
 
 def search(
-    config: Mapping[str, Any], case: CoatingCase, blade: ReducedBlade, speeds: ChartSpeeds, C1: np.ndarray
+    config: Mapping[str, Any],
+    case: CoatingCase,
+    blade: ReducedBlade,
+    speeds: ChartSpeeds,
+    C1: np.ndarray,
+    earlier: ChartPoint | None = None,
 ) -> Search:
     """Search for the maxima of a coating, as `compute` does."""
     n, orders = speeds.f_omega.size, chart_orders(config)
@@ -83,14 +98,27 @@ def search(
     share, pending = config["chart"]["speeds"]["refine_above"], np.flatnonzero(speeds.coarse).tolist()
     ends: list[_End] = []
     while pending:
-        specs = [run_spec(config, case, point.f_omega[index]) for index in pending]
-        for index, spec, result in zip(pending, specs, (yield specs), strict=True):
+        to_run = [index for index in pending if not _taken_over(point, earlier, index)]
+        specs = [run_spec(config, case, point.f_omega[index]) for index in to_run]
+        for index, spec, result in zip(to_run, specs, (yield specs), strict=True):
             _enter(config["analysis"], blade, point, index, spec, result)
             if point.uniform[index]:
                 ends.append(_End(index, spec, result.revolution_amplitude, result.status))
         pending = next_speeds(point.known, sought(config, point, point.measures["peak"]).values(), share)
     yield from _judge(config["analysis"], point, ends)
     return point
+
+
+def _taken_over(point: ChartPoint, earlier: ChartPoint | None, index: int) -> bool:
+    """Take into `point` what `earlier` knows of the run at one speed; return whether that is all."""
+    needed = "divergent" if point.uniform[index] else "peak"
+    if earlier is None or np.isnan(earlier.measures[needed][index]):
+        return False
+    point.spectrum_amplitude[index] = earlier.spectrum_amplitude[index]
+    for name, values in earlier.measures.items():
+        if name != "divergent" or point.uniform[index]:
+            point.measures[name][index] = values[index]
+    return True
 
 
 def sought(config: Mapping[str, Any], response: Response, peak: np.ndarray) -> dict[str, np.ndarray]:

@@ -6,7 +6,7 @@ import pytest
 
 from bladerub.extras.chart import column
 from bladerub.extras.chart.column import determinants
-from bladerub.extras.chart.grid import chart_speeds, columns
+from bladerub.extras.chart.plan import chart_speeds, columns
 from bladerub.extras.chart.point import PointRow
 from bladerub.extras.chart.table import read_points
 from bladerub.io.errors import DamagedFile

@@ -1,6 +1,7 @@
 import pytest
 
-from bladerub.extras.chart.grid import chart_orders, check, columns
+from bladerub.extras.chart.grid import chart_orders, check
+from bladerub.extras.chart.plan import columns
 from bladerub.io.errors import BadInput
 
 

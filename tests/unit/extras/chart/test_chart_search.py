@@ -5,7 +5,8 @@ import pytest
 
 from bladerub.contact.setup import strip_width
 from bladerub.extras.chart import search
-from bladerub.extras.chart.grid import chart_speeds
+from bladerub.extras.chart.grid import nearest_speeds
+from bladerub.extras.chart.plan import chart_speeds
 from bladerub.study.grid import CoatingCase
 
 CASE = CoatingCase("2nd", 2.0, 0.5, 0.0)
@@ -60,6 +61,25 @@ def test_searches_together_are_those_alone(few_speeds, blade, simulated):
             np.testing.assert_array_equal(together[case].measures[name], values)
     assert asked[0] == 2 * speeds.coarse.sum()  # both at once
     assert asked[-1] == 2  # the longer runs of those that grow, in the end
+
+
+def test_a_search_from_more_speeds_computes_what_an_earlier_one_did_not(few_speeds, blade, simulated):
+    speeds = chart_speeds(few_speeds)
+    C1 = np.sqrt(1 + 3 * speeds.f_omega**2)
+    far = nearest_speeds(few_speeds, 2)
+    earlier = search.compute(few_speeds, CASE, blade, far, C1)
+    simulated.clear()
+    whole = search.compute(few_speeds, CASE, blade, speeds, C1)
+    needed = len(simulated)
+    simulated.clear()
+    again = search.compute(few_speeds, CASE, blade, speeds, C1, earlier)
+    assert len(simulated) < needed
+    # runs that the earlier search found beside its even speeds were not judged there
+    known = set(speeds.f_omega[earlier.known & ~(speeds.uniform & ~far.uniform)])
+    assert not known & {f_omega for f_omega, _ in simulated}
+    np.testing.assert_array_equal(again.spectrum_amplitude, whole.spectrum_amplitude)
+    for name, values in whole.measures.items():
+        np.testing.assert_array_equal(again.measures[name], values)
 
 
 def test_worn_volume_is_depth_times_area(few_speeds, blade, simulated):

@@ -26,7 +26,7 @@ def chart(make_point):
 def test_a_point_comes_back_from_its_file(tmp_path, config, make_point):
     point, path = make_point(1.0, 2.0), tmp_path / "point.h5"
     point.measures["peak"][3] = np.nan
-    write(path, point, "key", config)
+    write(path, point, "key", "runs", config)
     again = read(path)
     assert again.case == point.case
     np.testing.assert_array_equal(again.uniform, point.uniform)
@@ -147,6 +147,20 @@ def test_the_front_holds_what_nothing_betters():
     broken = choice.broken_limits(chart, limits)
     assert list(broken.wear) == [False, True, False, False, False]
     assert list(broken.amplitude) == [False] * 4 + [True]
+
+
+def test_the_recommended_coating_says_how_good_those_next_to_it_are(config, chart):
+    rows = table.table(config, chart)
+    limits = {"amplitude": 1.6e-3, "wear": 5e-4}
+    (soft,) = choice.recommended(rows, limits).to_dict("records")
+    assert (soft["E"], soft["K"], soft["safe"], soft["coatings"]) == (0.5, 0.1, True, 9)
+    assert np.isnan([soft["E_below"], soft["K_below"]]).all()
+    assert (soft["E_above"], soft["K_above"]) == (1.0, 1.0)
+    assert (soft["neighbours"], soft["safe_neighbours"]) == (3, 2)
+    assert (soft["lowest_neighbour"], soft["highest_neighbour"]) == pytest.approx((1e-3, 2e-3))
+    (none,) = choice.recommended(rows, {"amplitude": 1e-5, "wear": 1e-3}).to_dict("records")
+    assert (none["safe"], none["broken"], none["safe_coatings"]) == (False, 1, 0)
+    assert {entry(name) for name in choice.CHOICE} <= described_columns().keys()
 
 
 def test_the_search_is_put_to_the_study(config, make_map):

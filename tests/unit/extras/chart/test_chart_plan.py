@@ -1,0 +1,54 @@
+"""What of the chart is computed within its minutes."""
+
+import itertools
+
+import pytest
+
+from bladerub.extras.chart.plan import chart_speeds, columns, expected_minutes, plan
+from bladerub.io.errors import BadInput
+
+
+@pytest.fixture
+def within(config):
+    def make(minutes, **keys):
+        config["chart"] |= {"minutes": minutes, **keys}
+        return plan(config)
+
+    return make
+
+
+@pytest.mark.parametrize("minutes", [2, 3, 5, 10, 30])
+def test_the_forecast_of_a_plan_is_within_its_minutes_and_no_more_fits(config, within, minutes):
+    chosen = within(minutes)
+    assert expected_minutes(config, chosen) <= minutes
+    assert expected_minutes(config, chosen) > 0.75 * minutes
+    assert (chosen.E[0], chosen.E[-1]) == (0.05, 50)
+    assert (chosen.K[0], chosen.K[-1]) == (0.02, 20)
+    found = columns(config)
+    assert len(found) == 2 * len(chosen.E)
+    assert {len(cases) for cases in found.values()} == {len(chosen.K)}
+
+
+def test_a_larger_budget_adds_to_a_smaller_one(within):
+    plans = [within(minutes) for minutes in (2, 4, 8, 16, 32)]
+    for small, large in itertools.pairwise(plans):
+        assert set(small.E) <= set(large.E)
+        assert set(small.K) <= set(large.K)
+        assert len(small.E) * len(small.K) < len(large.E) * len(large.K)
+
+
+def test_the_whole_chart_comes_first_at_half_of_the_speeds(config, within):
+    whole = plan(config)
+    assert (whole.multiple, len(whole.E), len(whole.K)) == (1, 24, 24)
+    minutes = expected_minutes(config, whole)
+    assert within(minutes + 0.1) == whole
+    half = chart_speeds(config)
+    assert within(minutes - 0.1) == whole._replace(multiple=2)
+    fewer = chart_speeds(config)
+    assert set(fewer.f_omega[fewer.coarse]) < set(half.f_omega[half.coarse])
+    assert within(minutes / 8 - 1, cores=16) == whole._replace(multiple=2)
+
+
+def test_minutes_for_less_than_four_coatings_are_refused(within):
+    with pytest.raises(BadInput, match=r"chart.minutes = 1: must be at least 1\.\d for the ends"):
+        within(1)
