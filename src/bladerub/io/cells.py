@@ -53,8 +53,8 @@ class Cells(NamedTuple):
         index = lower.index(name.lower())
         return [row[index] for row in self.rows.values()]
 
-    def numbers(self, name: str) -> np.ndarray:
-        """Return the numbers (n_rows,) of a column.
+    def numbers(self, name: str, empty: float = np.nan) -> np.ndarray:
+        """Return the numbers (n_rows,) of a column; a cell with nothing in it is `empty`.
 
         Raises
         ------
@@ -64,7 +64,9 @@ class Cells(NamedTuple):
         numbers = np.empty(len(self.rows))
         for index, (line, cell) in enumerate(zip(self.rows, self.column(name), strict=True)):
             text = self._with_point(cell)
-            number = float(re.sub("[dD]", "e", text)) if _NUMBER.fullmatch(text) else np.nan
+            number = (
+                float(re.sub("[dD]", "e", text)) if _NUMBER.fullmatch(text) else np.nan if text else empty
+            )
             if not np.isfinite(number):
                 excerpt = cell[:40] or "nothing"
                 raise ValueError(

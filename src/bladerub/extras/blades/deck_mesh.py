@@ -47,7 +47,7 @@ def read(path: Path) -> Content:
     _check(blocks)
     model = _Model(blocks)
     if not model.rows:
-        raise ValueError("has no *NODE")
+        raise ValueError("has no *NODE, as a deck of Abaqus or CalculiX has")
     node_sets, volume_sets = dict(model.node_sets), []
     for name, numbers in model.element_sets.items():
         if model.kinds.keys() & numbers.keys():

@@ -23,6 +23,7 @@ from bladerub.extras.blades.matrix_folder import FIT, MASS, NODES
 from bladerub.extras.blades.origin import MATRIX_UNITS, MatrixSource
 from bladerub.io.errors import BadInput
 
+_PENALTY = 1e4  # diagonal entry over the median, from which on a coordinate is held
 _STEPS = 60  # of Lanczos's method
 _ROUNDING = 1e-10  # of the largest eigenvalue
 _ENERGY = 1e-13  # of what would be there if nothing cancelled; 1e-8 in the first mode of a thin blade
@@ -36,6 +37,7 @@ class ImportedMatrices:
     blade: DiscreteBlade
     mass: float  # of the rigid blade, kg
     mass_is_complete: bool  # whether the files have rows of the clamped nodes, whose mass is missing else
+    wave_speed: float  # of its material, along the blade, m/s
     half_speed_change: float  # of the stiffness to half the highest speed, over that to the highest; ~ 1/4
 
     @property
@@ -95,6 +97,7 @@ def import_matrices(source: MatrixSource, f_max: float, n_modes: int, eta: int) 
         DiscreteBlade(layout, free, mass, stiffness, {}, frequencies, frequency, modes),
         MATRIX_UNITS[source.matrix_units] * _rigid_mass(mass_of_all),
         nodes.clamped.size > 0 and mass_of_all.shape[0] == 3 * len(nodes.points),
+        _wave_speed(stiffness_rest, mass, layout, free),
         float(sparse.linalg.norm(stiffness_half - stiffness_rest) / change) if change else 0.0,
     )
 
@@ -197,6 +200,19 @@ def _rigid_mass(mass: sparse.csc_array) -> float:
     """Mass of the rigid body, the mean of the three directions."""
     rigid = np.tile(np.eye(3), (mass.shape[0] // 3, 1))
     return float(np.trace(rigid.T @ (mass @ rigid)) / 3)
+
+
+def _wave_speed(
+    stiffness: sparse.csc_array, mass: sparse.csc_array, layout: MeshedBlade, free: FreeCoordinates
+) -> float:
+    """Speed (m/s) of waves in the material: root of the energy of a blade stretched evenly, over its mass."""
+    along = layout.mesh.mesh.points[:, 2]
+    stretched = np.zeros(3 * len(along))
+    stretched[2::3] = along - (along[layout.mesh.root].mean() if layout.mesh.root.size else along.min())
+    stretched = stretched[free.free]
+    diagonal = stiffness.diagonal()
+    stretched[diagonal > _PENALTY * np.median(diagonal)] = 0.0
+    return float(np.sqrt(stretched @ (stiffness @ stretched) / _rigid_mass(mass)))
 
 
 def _check_speed(source: MatrixSource, f_max: float, f1_hz: float) -> None:

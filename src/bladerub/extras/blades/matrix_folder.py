@@ -1,5 +1,6 @@
 """A folder with the matrices of a blade: its files and their formats."""
 
+import io
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
@@ -7,12 +8,13 @@ from pathlib import Path
 from zipfile import ZipFile
 
 import numpy as np
-import pandas as pd
 from scipy import sparse
 from scipy.io import mminfo, mmread
 
 from bladerub.blade.linear import MOST_UNKNOWNS
 from bladerub.extras.blades.element_quality import FARTHEST
+from bladerub.io import cells
+from bladerub.io.cells import Cells
 from bladerub.io.errors import refuse_content
 from bladerub.numerics.lanes import FEWEST_NODES, MOST_NODES
 
@@ -27,6 +29,8 @@ _ENTRIES_IN_A_ROW = 400  # on average; quadratic hexahedra have 180
 _ENTRIES_OF_DENSE = 5 * 10**7  # as many may be there in any matrix
 LARGEST = 1e100  # entry; penalties have 1e20 or so, and beyond 1e154 squares overflow
 _SMALL = 1000  # bytes, of the head of an array
+_IN_NUMBERS = b"0123456789+-.eEdD \t\r\nnNaAiIfFtTyY"  # and in nan, inf, infinity
+_D_TO_E = bytes.maketrans(b"dD", b"eE")
 _SHOWN = 40  # characters of a line
 _CONVERTED = "docs/how-to/bring_matrices.md has the script that converts"
 SYMMETRY = 1e-8  # largest difference of two entries that must be equal, over the largest entry
@@ -57,6 +61,8 @@ def files(folder: Path) -> dict[str, Path]:
             either = f"{name}.mtx or {name}.npz"
             ccx = [path.name for path in sorted(folder.iterdir()) if path.suffix in _SUFFIXES_OF_CALCULIX]
             hint = f"; {_CONVERTED} {', '.join(ccx)} of CalculiX" if ccx else ""
+            others = [path.name for path in sorted(folder.glob(f"{name}.*")) if path.suffix not in SUFFIXES]
+            hint = hint or (f", but {', '.join(others)}" if others else "")
             raise ValueError(
                 f"holds both {either.replace('or', 'and')}" if matches else f"holds no {either}{hint}"
             )
@@ -83,29 +89,23 @@ def speeds(names: Mapping[str, Path], fit: Sequence[float]) -> dict[float, str]:
 
 
 def read_nodes(path: Path) -> Nodes:
-    """Read ``nodes.csv``; a ValueError names the row, counted from 1 below the header."""
-    if path.stat().st_size == 0:
-        raise ValueError("is empty")
-    try:
-        table = pd.read_csv(path, skipinitialspace=True, comment="#")
-    except (ValueError, OSError) as error:
-        raise ValueError(f"is no table that can be read ({' '.join(str(error).split())})") from error
-    table.columns = table.columns.astype(str).str.strip()
-    needed = [*_POSITION, "interface"]
-    missing = [name for name in needed if name not in table]
-    if missing:
-        raise ValueError(f"has no column {missing[0]}; must have {', '.join(needed)}")
-    points = np.stack([_numbers(table, name) for name in _POSITION], axis=1)
-    nonfinite = np.flatnonzero(~np.isfinite(points).all(axis=1))
-    if nonfinite.size:
-        raise ValueError(f"row {nonfinite[0] + 1}: its coordinates are not finite numbers")
+    """Read ``nodes.csv``; a ValueError names the line."""
+    table = cells.read(path)
+    names = [name.lower() for name in table.names]
+    if missing := [name for name in (*_POSITION, "interface") if name not in names]:
+        raise ValueError(
+            f"has no column {', '.join(missing)}; line {table.header} must name x, y, z and interface, "
+            f"separated as the cells below ({table.separator} here)"
+        )
+    lines = list(table.rows)
+    points = np.stack([table.numbers(name) for name in _POSITION], axis=1)
     outliers = np.flatnonzero((abs(points) > FARTHEST).any(axis=1))
     if outliers.size:
         largest = abs(points[outliers[0]]).max()
         raise ValueError(
-            f"row {outliers[0] + 1}: a coordinate is {largest:.3g}; must be {FARTHEST:g} or less"
+            f"line {lines[outliers[0]]}: a coordinate is {largest:.3g}; must be {FARTHEST:g} or less"
         )
-    number, clamped, tip = (_marks(table, name) for name in _MARKS)
+    number, clamped, tip = (_marks(table, name) if name in names else np.zeros(len(lines)) for name in _MARKS)
     n_nodes = max(int(number.max(initial=0)), FEWEST_NODES)
     for position in range(1, n_nodes + 1):
         if (count := np.count_nonzero(number == position)) != 1:
@@ -114,27 +114,17 @@ def read_nodes(path: Path) -> Nodes:
     interface = np.argsort(number, kind="stable")[-n_nodes:]  # all others are 0
     held = np.flatnonzero((number > 0) & (clamped > 0))
     if held.size:
-        raise ValueError(f"row {held[0] + 1}: an interface node must not be clamped")
+        raise ValueError(f"line {lines[held[0]]}: an interface node must not be clamped")
     return Nodes(points, interface, np.flatnonzero(clamped), np.flatnonzero(tip))
 
 
-def _numbers(table: pd.DataFrame, name: str) -> np.ndarray:
-    numbers = pd.to_numeric(table[name], errors="coerce")
-    words = np.flatnonzero(numbers.isna() & table[name].notna())
-    if words.size:
-        raise ValueError(f"row {words[0] + 1}: {name} = {table[name].iloc[words[0]]}: must be a number")
-    return numbers.to_numpy(dtype=float)
-
-
-def _marks(table: pd.DataFrame, name: str) -> np.ndarray:
-    if name not in table:
-        return np.zeros(len(table))
-    marks = np.nan_to_num(_numbers(table, name), nan=0.0, posinf=-1.0)
+def _marks(table: Cells, name: str) -> np.ndarray:
+    marks = table.numbers(name, empty=0.0)
     odd = np.flatnonzero((marks != np.rint(marks)) | (marks < 0) | (marks > _MARKS[name]))
     if odd.size:
         raise ValueError(
-            f"row {odd[0] + 1}: {name} = {table[name].iloc[odd[0]]}: must be a whole number from 0 to "
-            f"{_MARKS[name]}, or nothing"
+            f"line {list(table.rows)[odd[0]]}: {name} = {table.column(name)[odd[0]]}: must be a whole number "
+            f"from 0 to {_MARKS[name]}, or nothing"
         )
     return marks
 
@@ -148,7 +138,7 @@ def read_matrix(path: Path) -> sparse.csc_array:
         rows, columns, size = _size_of_text(path) if is_text else _size_of_archive(path)
         limit = max(_ENTRIES_IN_A_ROW * rows, _ENTRIES_OF_DENSE) * _BYTES
         if rows == columns and rows <= MOST_UNKNOWNS and size <= limit:
-            raw = mmread(path, spmatrix=False) if is_text else sparse.load_npz(path)
+            raw = mmread(_numbers_of(path), spmatrix=False) if is_text else sparse.load_npz(path)
             if hasattr(raw, "check_format"):
                 raw.check_format(full_check=True)  # scipy reads past the arrays of what does not pass
     except Exception as error:  # readers of foreign files raise all kinds of errors
@@ -181,8 +171,22 @@ def _size_of_text(path: Path) -> tuple[int, int, int]:
             kind = "COORDINATE" if numbers and "," not in first else "MATRIX INPUT"
             raise ValueError(f"it is of Abaqus, FORMAT={kind}; {_CONVERTED} it")
         raise ValueError(f"it begins with {first[:_SHOWN]!r}; must begin with %%MatrixMarket")
-    rows, columns, entries = mminfo(path)[:3]
+    rows, columns, entries, _, field_name, _ = mminfo(path)
+    if field_name == "pattern":
+        raise ValueError("it holds places of entries (pattern), and no numbers")
     return rows, columns, _BYTES * entries
+
+
+def _numbers_of(path: Path) -> io.BytesIO:
+    """Return a Matrix Market file with exponents that have an E; scipy passes over what follows a number."""
+    content = path.read_bytes()
+    end_of_comments = [*re.finditer(rb"(?m)^%.*\n", content)][-1].end()
+    body = content[end_of_comments:]
+    if odd := body.translate(None, _IN_NUMBERS):
+        place = body.index(odd[:1])
+        line = content.count(b"\n", 0, end_of_comments + place) + 1
+        raise ValueError(f"line {line} has {odd[:1].decode('latin-1')!r}; must hold numbers with a point")
+    return io.BytesIO(content[:end_of_comments] + body.translate(_D_TO_E))
 
 
 def _size_of_archive(path: Path) -> tuple[int, int, int]:
@@ -193,6 +197,9 @@ def _size_of_archive(path: Path) -> tuple[int, int, int]:
         raise ValueError("its shape has more than two numbers")
     with np.load(path) as content:
         rows, columns = (int(number) for number in content["shape"])
+        for name in {"indices", "indptr", "row", "col", "offsets"}.intersection(content.files):
+            if content[name].dtype.kind not in "iu":
+                raise ValueError(f"its {name} are {content[name].dtype}, must be whole numbers")
     return rows, columns, sum(unpacked.values()) - len(unpacked) * _SMALL
 
 

@@ -31,6 +31,7 @@ _STARTS = {
     **dict.fromkeys(("SOL ", "CEND", "BEGIN BULK", "GRID"), ".bdf"),
 }  # first words of files, and how their names end
 
+_ENDS = {".msh": "$End", ".vtu": "</VTKFile>"}
 _WITH_CENTRES = "hexahedron27"
 _KINDS = ("hexahedron20", "tetra10", "hexahedron", "tetra")  # in meshio; of the last two, quadratic are made
 
@@ -40,7 +41,7 @@ class MeshFile:
     """The content of a mesh file.
 
     `node_sets` are node sets and sets of surface elements of Abaqus, physical groups of surfaces, lines and
-    points of Gmsh, and integer point data of VTK (nodes where it is not zero).
+    points of Gmsh, and whole-numbered point data of VTK (nodes where it is not zero).
     """
 
     points: np.ndarray = field(repr=False)  # (n_points, 3), in unit and axes of the file, then those added
@@ -59,6 +60,7 @@ def read(path: str | Path) -> MeshFile:
     origin.check_file(path)
     suffix = path.suffix.lower()
     _check_start(path)
+    _check_end(path)
     content = deck_mesh.read(path) if suffix == ".inp" else _of_meshio(_read_by_meshio(path))
     cells = _volume(content)
     points = np.asarray(content.points, dtype=float)
@@ -85,12 +87,25 @@ def _read_by_meshio(path: Path) -> meshio.Mesh:
 def _check_start(path: Path) -> None:
     """Raise ValueError if a file begins as one of another program."""
     with path.open(encoding="utf-8", errors="replace") as stream:
-        lines = (line.strip() for line in stream.read(_LOOKED_THROUGH).splitlines())
+        text = stream.read(_LOOKED_THROUGH)
+    if "\0" in text and path.suffix.lower() == ".inp":
+        raise ValueError("is not text in UTF-8; save it as such")
+    lines = (line.strip() for line in text.splitlines())
     first = next((line for line in lines if line and not line.startswith(("**", "$ ", "<?xml"))), "")
     for start, suffix in _STARTS.items():
         if first.upper().startswith(start) and suffix != path.suffix.lower():
             cure = origin.conversion(path, suffix)
             raise ValueError(f"begins with {first[: len(start)]}, as a {suffix} file does: {cure}")
+
+
+def _check_end(path: Path) -> None:
+    """Raise ValueError if a file of Gmsh or VTK is cut off."""
+    expected = _ENDS.get(path.suffix.lower(), "")
+    with path.open("rb") as stream:
+        stream.seek(-min(_LOOKED_THROUGH, path.stat().st_size), os.SEEK_END)
+        *_, last = [b"", *stream.read().strip().splitlines()]
+    if expected.encode() not in last:
+        raise ValueError(f"does not end with {expected}: it is cut off, or no {path.suffix} file")
 
 
 def raised(points: np.ndarray, cells: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -152,7 +167,7 @@ def _volume_sets(mesh: meshio.Mesh) -> list[str]:
 def _node_sets(mesh: meshio.Mesh) -> dict[str, np.ndarray]:
     sets = {name: [np.asarray(nodes, dtype=int)] for name, nodes in mesh.point_sets.items()}
     for name, values in mesh.point_data.items():
-        if values.ndim == 1 and values.dtype.kind in "iub":
+        if values.ndim == 1 and (values.dtype.kind in "iub" or np.isin(values, (0, 1)).all()):
             sets.setdefault(name, []).append(np.flatnonzero(values))
     for name, (tag, dimension) in mesh.field_data.items():  # Gmsh counts tags anew in each dimension
         for block, physical in zip(mesh.cells, mesh.cell_data.get("gmsh:physical", []), strict=False):
@@ -170,16 +185,12 @@ def _read_gmsh(path: str) -> meshio.Mesh:
     """Read a mesh whose physical groups have each a name of its own, as meshio looks them up by it."""
     with Path(path).open("rb") as stream:
         start = stream.read(_LOOKED_THROUGH).decode(errors="replace").strip()
-        stream.seek(-min(_LOOKED_THROUGH, stream.tell()), os.SEEK_END)
-        *_, last = stream.read().strip().splitlines()
         stream.seek(0)
         lines = (line.decode(errors="replace").strip() for line in stream)
         head = itertools.takewhile(lambda line: line not in ("$EndPhysicalNames", "$Nodes"), lines)
         names = re.findall(r'^\d+ +\d+ +"(.*)"$', "\n".join(head), re.MULTILINE)
     if not start.startswith(("$MeshFormat", "$Comments")):
         raise ValueError(f"begins with {start.splitlines()[0][:40]!r}; must begin with $MeshFormat")
-    if not last.startswith(b"$End"):
-        raise ValueError("does not end with a line $End…: it is cut off")
     twice = [name for name, count in Counter(names).items() if count > 1]
     if twice:
         raise ValueError(f"has several physical groups {twice[0]}; each must have a name of its own")

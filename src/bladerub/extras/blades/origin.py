@@ -15,6 +15,7 @@ MATRIX_UNITS = {"SI": 1.0, "mm-tonne": 1e3, "inch-lbf": 4.4482216152605 / 0.0254
 As the two are equal, frequencies do not show when the wrong system is named.
 """
 MESH_SUFFIXES = (".inp", ".msh", ".vtu")
+_BY_GMSH = {".unv": "-save", **dict.fromkeys((".stp", ".step", ".igs", ".iges", ".brep"), "-3 -order 2")}
 TABLE_SUFFIXES = (".csv", ".txt", ".dat")  # of tables of sections; all other files are meshes
 
 
@@ -76,7 +77,9 @@ def read(source: Mapping[str, Any]) -> Source | MatrixSource:
 
 
 def conversion(path: Path, suffix: str) -> str:
-    """Say how a mesh that ends in `suffix`, or should, becomes one that is read."""
+    """Say how a file that ends in `suffix`, or should, becomes a mesh that is read."""
+    if suffix in _BY_GMSH:
+        return f"gmsh {path.name} {_BY_GMSH[suffix]} -o {path.stem}.msh"
     name = f"{path.stem}{suffix}"
     rename = "" if path.suffix.lower() == suffix else f"rename it to {name}"
     convert = "" if suffix in MESH_SUFFIXES else f"meshio convert {name} {path.stem}.vtu converts it"
@@ -89,7 +92,7 @@ def check_file(path: Path) -> None:
         suffix = path.suffix.lower()
         cure = (
             f": {conversion(path, suffix)}"
-            if suffix in package("meshio", "mesh").extension_to_filetypes
+            if suffix in {*package("meshio", "mesh").extension_to_filetypes, *_BY_GMSH}
             else ""
         )
         raise ValueError(

@@ -27,6 +27,7 @@ FEWEST_ELEMENTS = 10  # from root to tip
 LEAST_JACOBIAN_RATIO = 0.1
 LARGEST_OFFSET = 0.03  # of an interface node, over the chord
 DENSITIES = (10.0, 25e3)  # kg/m³ of the box around a blade, of which it fills some hundredths or all
+WAVE_SPEEDS = (500.0, 30e3)  # m/s in a material, from plastics to carbon fibres, with room for the estimate
 LEAST_THICKNESS = 0.005  # largest of a section, over its chord
 ASPECTS = (1 / 3, 15.0)  # length over the chord of the tip
 HUB_RATIOS = (0.1, 0.98)  # radius of the root over that of the tip
@@ -99,6 +100,7 @@ def matrix_report(
         "mass_is_whole": imported.mass_is_complete,
         "speeds": speeds,
         "omega_max": 2 * np.pi * float(built.frequency[0]) * speeds[-1],
+        "wave_speed": imported.wave_speed,
         "stiffness_half_way": imported.half_speed_change,
     }
     warnings = [*_warn_of_matrices(figures, imported, source), *doubts(built.accuracy, nominal_speed)]
@@ -242,6 +244,11 @@ def _warn_of_matrices(
         yield (
             f"its mass is {figures['mass']:.3g} kg in a box of {1e6 * box:.3g} cm³: are the matrices in "
             f"{source.matrix_units}, and the nodes in {source.frame.unit}?"
+        )
+    if not WAVE_SPEEDS[0] <= imported.wave_speed <= WAVE_SPEEDS[1]:
+        yield (
+            f"waves in its material would have {imported.wave_speed:.3g} m/s, in metals 4000 to 6500: are "
+            "mass, stiffness and nodes in units that go together?"
         )
     if not imported.is_rooted:
         yield f"no node is clamped in nodes.csv: set blade.length (all reach over {figures['length']:.4g} m)"

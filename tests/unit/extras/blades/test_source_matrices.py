@@ -1,4 +1,5 @@
 import copy
+import re
 import shutil
 from pathlib import Path
 from zipfile import ZIP_DEFLATED, ZipFile
@@ -109,6 +110,8 @@ def test_rows_of_clamped_nodes_other_axes_and_units(config, discrete, tmp_path):
         matrices[f"stiffness_{name}"] = rotating_stiffness(solid, u, speed**2)
     for name, matrix in matrices.items():
         mmwrite(tmp_path / f"{name}.mtx", 1e-3 * (everywhere.T @ matrix @ everywhere), precision=17)
+        content = (tmp_path / f"{name}.mtx").read_text()
+        (tmp_path / f"{name}.mtx").write_text(re.sub(r"e([+-])", r"D\1", content))  # as Fortran writes
     nodes = pd.DataFrame(1e3 * mesh.mesh.points @ turn, columns=["x", "y", "z"])
     nodes["interface"] = pd.Series(range(1, 9), index=mesh.interface)  # empty elsewhere
     nodes["clamped"] = np.isin(np.arange(len(nodes)), mesh.root).astype(int)
@@ -254,6 +257,12 @@ BROKEN = {
         text("mass.mtx", f"{HEADER} general\n9 9 5\n1 1 2.0\n"),
         "mass.mtx: is not a .mtx file that",
     ),
+    "decimal commas": (
+        text("mass.mtx", f"{HEADER} general\n1 1 1\n1 1 2,0\n"),
+        "mass.mtx: .*line 3 has ','",
+    ),
+    "packed": (text("mass.mtx.gz", ""), "holds no mass.mtx or mass.npz, but mass.mtx.gz"),
+    "fractions of rows": (archive(indices=lambda array: array + 0.4), "mass.npz: .*its indices are float64"),
     "offsets that go back": (
         archive(indptr=lambda array: np.where(np.arange(array.size) == 5, 10**6, array)),
         "mass.npz: is not a .npz file that can be read",
@@ -284,7 +293,7 @@ BROKEN = {
         matrix("stiffness_rest", lambda m: m - 0.5 * sparse.diags_array(m.diagonal())),
         "rest.npz: is not positive definite: it has negative eigenvalues",
     ),
-    "words": (nodes(cell(5, "z", "high")), "nodes.csv: row 6: z = high: must be a number"),
+    "words": (nodes(cell(5, "z", "high")), "nodes.csv: line 7: z = high, must be a finite number"),
     "a number twice": (
         nodes(lambda table: cell(table.index[table.interface == 0][-1], "interface", 2)(table)),
         "nodes.csv: 2 nodes have interface = 2",

@@ -51,6 +51,7 @@ def test_figures_are_those_of_the_blade(reported):
     assert figures["mass"] == pytest.approx(blade.mass.sum() / 3)
     assert not figures["mass_is_whole"]
     assert figures["interface"] == blade.layout.mesh.mesh.points[blade.layout.mesh.interface].tolist()
+    assert figures["wave_speed"] == pytest.approx(6000, rel=0.05)
     assert figures["stiffness_half_way"] == pytest.approx(0.25, abs=0.03)
     assert 1e-6 < max(figures["error_eq2"]) < 0.01
     assert figures["campbell_ratio"] > 1
@@ -72,3 +73,8 @@ def test_wrong_units_of_the_matrices_get_a_warning_though_the_frequencies_are_ri
     assert re.fullmatch(
         rf"its mass is .* kg in a box of .* are the matrices in {units}, and the nodes in m\?", wrong_units
     )
+
+
+def test_stiffness_and_mass_in_units_that_do_not_go_together_get_a_warning(reported):
+    (doubt,) = reported(wave_speed=192.0)[0]["warnings"]
+    assert doubt.startswith("waves in its material would have 192 m/s")

@@ -168,7 +168,9 @@ TETRAHEDRON = "*NODE\n1, 0, 0, 0\n2, 1, 0, 0\n3, 0, 1, 0\n4, 0, 0, 1\n5, 1, 1, 1
     [
         ("m.step", "solid", "must be a mesh file that ends in .inp, .msh, .vtu"),
         ("m.msh", "** cgx\n*NODE, NSET=Nall\n", r"begins with \*NODE, .*: rename it to m.inp"),
-        ("m.msh", "nonsense\n", "is not a .msh file that can be read"),
+        ("m.msh", "nonsense\n$End\n", "begins with 'nonsense'; must begin with"),
+        ("m.inp", "\0", "is not text"),
+        ("m.vtu", "<VTKFile>", "does not end with </VTKFile>"),
         ("m.inp", TETRAHEDRON, "has no volume elements"),
         ("m.inp", TETRAHEDRON + "*ELEMENT, TYPE=C3D15\n" + WEDGE, "has wedge15.* into tetrahedra"),
         (
@@ -192,7 +194,7 @@ TETRAHEDRON = "*NODE\n1, 0, 0, 0\n2, 1, 0, 0\n3, 0, 1, 0\n4, 0, 0, 1\n5, 1, 1, 1
         ("m.inp", TETRAHEDRON + "*INCLUDE, INPUT=b.inp\n", "line 8: it includes b.inp, which is not in"),
         ("m.inp", TETRAHEDRON + "*INCLUDE, INPUT=m.inp\n", "line 8: .* includes itself"),
         ("m.msh", GROUPS.format(line="TIP"), "has several physical groups TIP"),
-        ("m.msh", GROUPS.format(line="EDGE")[:-20], "it is cut off"),
+        ("m.msh", GROUPS.format(line="EDGE")[:-20], "does not end with .End: it is cut off"),
     ],
 )
 def test_what_is_no_usable_mesh_is_told(name, text, said, tmp_path):
