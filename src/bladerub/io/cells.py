@@ -20,6 +20,8 @@ LARGEST_FILE = 100_000_000
 
 _SEPARATORS = {";": "semicolons", "\t": "tabs", ",": "commas", None: "white space"}
 _NUMBER = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)([eEdD][-+]?\d+)?", re.ASCII)
+_THOUSANDS = re.compile(r"[-+]?[1-9]\d{0,2},\d{3}", re.ASCII)
+_COMMENT = re.compile(r"#(?!N/?[AV]\b|[A-Z/0]+[!?]).*")  # but an error of a spreadsheet, as #DIV/0!
 _TWO_NUMBERS = re.compile(r"[-+]?\d*\.\d{2,}([eEdD][-+]?\d+)?[-+]?\d*\.\d", re.ASCII)
 _STATED_SEPARATOR = re.compile(r"sep=(.)")  # the first line of a CSV, in some spreadsheets
 
@@ -31,6 +33,18 @@ class Cells(NamedTuple):
     rows: dict[int, list[str]]  # cells by the line of the file, counted from 1
     header: int  # the line that names the columns
     separator: str  # of the cells, in words
+
+    def require(self, *names: str) -> None:
+        """Check that there are columns `names`, in small letters; a ValueError names those that are not."""
+        columns = [column.lower() for column in self.names]
+        missing = [name for name in names if name not in columns]
+        if missing:
+            bare = {re.split(r"\s*[\[(]", column)[0] for column in columns}
+            cure = "; no unit may stand behind a name" if bare.issuperset(missing) else ""
+            raise ValueError(
+                f"has no column {', '.join(missing)}; line {self.header} must name {', '.join(names)}, "
+                f"separated as the cells below ({self.separator} here){cure}"
+            )
 
     def column(self, name: str) -> list[str]:
         """Return the cells of a column; capital and small letters are alike.
@@ -73,7 +87,32 @@ class Cells(NamedTuple):
                     f"line {line}: {name} = {excerpt}, must be a finite number{self._run_together([cell])}"
                 )
             numbers[index] = number
+        if self.separator != "commas" and any("," in cell for cell in self.column(name)):
+            self._check_marks()
         return numbers
+
+    def _check_marks(self) -> None:
+        """Refuse commas that separate thousands, or may do so."""
+        marked = [
+            (line, cell)
+            for line, row in self.rows.items()
+            for cell in row
+            if re.search("[.,]", cell) and _NUMBER.fullmatch(cell.replace(",", "."))
+        ]
+        points = [(line, cell) for line, cell in marked if "." in cell]
+        commas = [(line, cell) for line, cell in marked if "," in cell]
+        if points and commas:
+            (line, cell), (other_line, other) = points[0], commas[0]
+            raise ValueError(
+                f"line {line} has {cell} and line {other_line} {other}; all numbers must have the same "
+                "decimal mark, and none between thousands"
+            )
+        if commas and all(_THOUSANDS.fullmatch(cell) for _, cell in commas):
+            line, cell = commas[0]
+            raise ValueError(
+                f"line {line} has {cell}: with a decimal comma, or one between thousands? Write "
+                f"{cell.replace(',', '.')} or {cell.replace(',', '')}"
+            )
 
     def _with_point(self, cell: str) -> str:
         return cell if self.separator == "commas" else cell.replace(",", ".")
@@ -137,7 +176,7 @@ def _lines(path: Path) -> dict[int, str]:
         raise ValueError(f"cannot be read ({error.strerror})") from error
     if "\0" in text:
         raise ValueError("is not text in UTF-8; save it as such (in a spreadsheet: CSV UTF-8)")
-    bare = {number: line.split("#")[0].strip(" ") for number, line in enumerate(text.split("\n"), 1)}
+    bare = {number: _COMMENT.sub("", line).strip(" ") for number, line in enumerate(text.split("\n"), 1)}
     return {number: line for number, line in bare.items() if line.strip(' \t;,"')}
 
 

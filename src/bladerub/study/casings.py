@@ -21,6 +21,7 @@ MEASURED_ANGLES = (8, 10_000)
 """Fewest and most angles of a measured gap."""
 
 _WIDEST_STEP = np.pi / 2  # rad, between angles of a measured gap: from there on an oval is not resolved
+_UNEVEN = 4.0  # widest step over the next; beyond, a part of the turn is missing
 _HIGHEST_HARMONIC = 100
 _MARKED = 0.1  # of the largest harmonic: those of a measured shape from there on count as nodal diameters
 
@@ -87,12 +88,7 @@ def nodal_diameters(entry: Mapping[str, Any]) -> list[int]:
 def _measured(path: Path, _version: int, unit: float, angle_unit: float) -> tuple[np.ndarray, np.ndarray]:
     """Angles (rad) and gaps (m) of a table; `_version` makes an edited file another one."""
     table = cells.read(path)
-    names = {name.lower() for name in table.names}
-    if missing := [name for name in ("angle", "gap") if name not in names]:
-        raise ValueError(
-            f"has no column {', '.join(missing)}; line {table.header} must name angle and gap, separated as "
-            f"the cells below ({table.separator} here)"
-        )
+    table.require("angle", "gap")
     angle = angle_unit * table.numbers("angle")
     gap = unit * table.numbers("gap")
     lines = list(table.rows)
@@ -110,11 +106,11 @@ def _measured(path: Path, _version: int, unit: float, angle_unit: float) -> tupl
         raise ValueError(f"has the same gap everywhere, {gap[0]:g} m; must vary")
     steps = np.diff(angle, append=angle[0] + 2 * np.pi)
     widest = np.argmax(steps)
-    if steps[widest] >= _WIDEST_STEP:
+    if steps[widest] >= _WIDEST_STEP or steps[widest] > _UNEVEN * np.partition(steps, -2)[-2]:
         step, start = np.rad2deg(steps[widest]), np.rad2deg(angle[widest])
         raise ValueError(
             f"line {lines[widest]}: no angle for {step:g} degrees after {start:g}; must go around the casing "
-            f"in steps below {np.rad2deg(_WIDEST_STEP):g} degrees"
+            f"in steps below {np.rad2deg(_WIDEST_STEP):g} degrees, none {_UNEVEN:g} times as wide as the next"
         )
     order = np.argsort(angle % (2 * np.pi))
     return (angle % (2 * np.pi))[order], gap[order]

@@ -58,6 +58,7 @@ def test_nodal_diameters_of_a_table_are_its_harmonics(table, rows):
     [
         (lambda rows: rows[:5], "5 angles"),
         (lambda rows: rows[:19], "no angle for 270 degrees"),
+        (lambda rows: rows[:60], "no angle for 65 degrees after 295"),
         (lambda rows: [*rows, "380,0.3"], "380"),
         (lambda rows: [*rows[:3], rows[1], *rows[4:]], "line 6"),
         (lambda rows: [*rows[:3], "15,wide", *rows[4:]], "line 6"),

@@ -92,11 +92,8 @@ def read_nodes(path: Path) -> Nodes:
     """Read ``nodes.csv``; a ValueError names the line."""
     table = cells.read(path)
     names = [name.lower() for name in table.names]
-    if missing := [name for name in (*_POSITION, "interface") if name not in names]:
-        raise ValueError(
-            f"has no column {', '.join(missing)}; line {table.header} must name x, y, z and interface, "
-            f"separated as the cells below ({table.separator} here)"
-        )
+    table.require(*_POSITION, "interface")
+    names = [name.lower() for name in table.names]
     lines = list(table.rows)
     points = np.stack([table.numbers(name) for name in _POSITION], axis=1)
     outliers = np.flatnonzero((abs(points) > FARTHEST).any(axis=1))

@@ -52,6 +52,9 @@ def _form(columns: set[str]) -> tuple[str, ...]:
     both = f"section, {', '.join(POINTS)} or section, {', '.join(CYLINDRICAL)}"
     if len(forms) == 2:
         raise ValueError(f"has the columns of both forms; must have either {both}")
+    bare = {re.split(r"\s*[\[(]", column)[0] for column in columns}
+    if not forms and any(bare.issuperset(form) for form in (POINTS, CYLINDRICAL)):
+        raise ValueError("has units behind the names of its columns; give them as unit and angle_unit")
     closest = max((POINTS, CYLINDRICAL), key=lambda form: len(columns.intersection(form)))
     form = ("section", *(forms[0] if forms else closest))
     missing = [name for name in form if name not in columns]

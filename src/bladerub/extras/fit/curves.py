@@ -26,6 +26,7 @@ _DEFAULT = {"strain": "1", "rate": "1/s"}  # stress has none: Pa and MPa are bot
 _MOST = {"strain": 1.0, "stress": 1e12, "rate": 1e9}
 """Largest values that a coating can have, in SI: beyond, the unit is another."""
 FEWEST_ROWS = 5
+FEWEST_OF_CURVE = 3
 _HEADER = re.compile(r"\s*(.*?)\s*(?:[\[(]\s*([^\])]*?)\s*[\])])?\s*", re.DOTALL)
 
 
@@ -79,6 +80,17 @@ def _read(table: cells.Cells, units: Mapping[str, str]) -> list[Curve]:
     curves = [
         Curve(float(rows.rate.iloc[0]), rows.strain.to_numpy(), rows.stress.to_numpy()) for _, rows in groups
     ]
+    for curve in curves:
+        if len(curve.strain) < FEWEST_OF_CURVE:
+            raise ValueError(
+                f"the rate {curve.rate:g} 1/s has {len(curve.strain)} rows, must have {FEWEST_OF_CURVE} or "
+                "more; all rows of a test must have one rate, the nominal one"
+            )
+        if curve.strain[0] > 0 and curve.strain[0] == curve.strain.max():
+            raise ValueError(
+                f"the curve at the rate {curve.rate:g} 1/s begins at its largest strain; rows must be in the "
+                "order of loading"
+            )
     return sorted(curves, key=lambda curve: curve.rate)
 
 

@@ -54,6 +54,8 @@ def test_a_spreadsheet_with_decimal_commas_gives_the_same_curves(table):
         ("strain,stress (Pa),rate", [*ROWS, "-0.04,1,1"], "line 8: strain = -0.04, must be from 0"),
         ("strain,stress (Pa),rate", [*ROWS, "1.5,12,1"], "line 8: strain = 1.5, must be from 0 to 1 1"),
         ("strain,stress (Pa),rate", ["0.01,-5,1"] * 5, "stress: is negative"),
+        ("strain,stress (Pa)", [f"{0.5 - 0.1 * n},{5 - n}" for n in range(5)], "begins at its largest"),
+        ("strain,stress (Pa),rate", [f"0.{n},{n},1.{n}" for n in range(1, 7)], "the rate 1.1 1/s has 1 rows"),
         ("test,stress (Pa),rate,strain", ["a,1,1,1"] * 4 + ["a,1,2,1"], "test a has 2 rates"),
     ],
 )
