@@ -9,7 +9,7 @@ from bladerub.io.units import UNITS
 
 _YOUNG = (1e9, 1e12)  # Pa, from plastics to ceramics
 _DENSITY = (500.0, 25e3)  # kg/m³, as blade.material.density of the config
-_POISSON = (0.0, 0.49)
+_POISSON = (0.05, 0.49)
 
 
 def read(path: str | Path, unit: str) -> dict[str, float] | None:
@@ -37,6 +37,8 @@ def _materials(path: Path) -> dict[str, tuple[list[str], list[str]]]:
         lines = [line.text for line in data]
         if keyword == "*MATERIAL":
             name = parameters.get("NAME", "").upper()
+            if name in materials:
+                raise ValueError(f"it has the material {name} twice")
             materials[name] = ([], [])
         elif keyword == "*SOLID SECTION":
             used.append(parameters.get("MATERIAL", "").upper())
@@ -47,7 +49,9 @@ def _materials(path: Path) -> dict[str, tuple[list[str], list[str]]]:
             materials[name][0].extend(lines)
         elif keyword == "*DENSITY" and name is not None:
             materials[name][1].extend(lines)
-    return {name: materials[name] for name in used if name in materials} or materials
+    if absent := [name for name in used if name not in materials] if materials else []:
+        raise ValueError(f"a *SOLID SECTION has the material {absent[0]}, which is not there")
+    return {name: materials[name] for name in used} or materials
 
 
 def _si(name: str, elastic: list[str], density: list[str], unit: str) -> dict[str, float]:
@@ -62,8 +66,8 @@ def _si(name: str, elastic: list[str], density: list[str], unit: str) -> dict[st
             numbers += [deck.number(word) for word in words[:n]]
         except ValueError:
             raise ValueError(f"{keyword} of {name} is {lines[0]}, not numbers") from None
-        if len(words) < n:
-            raise ValueError(f"{keyword} of {name} is {lines[0]}, must be {n} numbers")
+        if not n <= len(words) <= n + 1:  # a temperature may follow
+            raise ValueError(f"{keyword} of {name} is {lines[0]}, must be {n} numbers, a temperature aside")
     length, force = UNITS[unit], FORCES.get(unit, 1.0)
     young, poisson, dense = numbers[0] * force / length**2, numbers[1], numbers[2] * force / length**4
     for text, value, (low, high) in (
