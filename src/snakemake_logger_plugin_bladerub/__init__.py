@@ -1,8 +1,10 @@
 """Snakemake's messages in few lines: what is planned, each stage that is done, and errors.
 
+A job that fails says why itself (`bladerub.workflow.job`); here is said which it was and where its log is.
 The default profile names this plugin. Snakemake's own messages are those of ``--verbose`` and of dry runs.
 """
 
+import argparse
 import logging
 import sys
 import textwrap
@@ -16,6 +18,8 @@ LONGEST = 200
 """Characters of a line: lists of files can have thousands."""
 
 _SHOWN = {LogEvent.JOB_ERROR, LogEvent.GROUP_ERROR, LogEvent.ERROR}
+_SAID_BY_JOB = "returned non-zero exit status"
+_AGAIN = "Exiting because a job execution failed"
 
 
 class LogHandler(LogHandlerBase):
@@ -37,7 +41,12 @@ class LogHandler(LogHandlerBase):
     def emit(self, record: logging.LogRecord) -> None:
         """Print what the record comes to, if anything."""
         try:
-            text = self.format(record) if self._is_shown(record) else self._progress(record)
+            if self._shows_all:
+                text = self.format(record)
+            elif self._is_shown(record):
+                text = self._explained(record) or self.format(record)
+            else:
+                text = self._progress(record)
         except Exception:
             self.handleError(record)
             return
@@ -45,11 +54,20 @@ class LogHandler(LogHandlerBase):
             is_long = len(line) > LONGEST and not self._shows_all
             print(f"{line[: LONGEST - 1]}…" if is_long else line, file=self._stream)
 
-    def _is_shown(self, record: logging.LogRecord) -> bool:
+    def _explained(self, record: logging.LogRecord) -> str:
         event = getattr(record, "event", None)
-        if self._shows_all or event in _SHOWN or record.levelno >= logging.WARNING:
+        if event == LogEvent.JOB_ERROR:
+            return _failed_job(record)
+        # Snakemake reads the files of --configfile before the Snakefile, and names none of them
+        return _refused_config() if event == LogEvent.ERROR and not self._planned else ""
+
+    def _is_shown(self, record: logging.LogRecord) -> bool:
+        event, message = getattr(record, "event", None), record.getMessage()
+        if message.startswith(_AGAIN) or (event == LogEvent.ERROR and _SAID_BY_JOB in message):
+            return False
+        if event in _SHOWN or record.levelno >= logging.WARNING:
             return True
-        return event is None and record.getMessage().startswith("Nothing to be done")
+        return event is None and message.startswith("Nothing to be done")
 
     def _progress(self, record: logging.LogRecord) -> str:
         """Say what is planned, or that the last job of a stage is done."""
@@ -72,3 +90,24 @@ class LogHandler(LogHandlerBase):
 
 def _stage(rule: str) -> str:
     return "figures" if rule.startswith("fig") else rule
+
+
+def _failed_job(record: logging.LogRecord) -> str:
+    """Say in a line which job failed, by the file that it did not make, and where its log is."""
+    output = f" ({record.output[0]})" if record.output else ""
+    return f"{record.rule_name} failed{output}; log: {', '.join(record.log)}" if record.log else ""
+
+
+def _refused_config() -> str:
+    """Say file, line and column of what is no YAML in the configs of the command line, if anything is."""
+    from bladerub.config import files
+    from bladerub.config.errors import ConfigError
+
+    parser = argparse.ArgumentParser(add_help=False)
+    parser.add_argument("--configfile", "--configfiles", nargs="+", default=[])
+    try:
+        for path in parser.parse_known_args(sys.argv[1:])[0].configfile:
+            files.read(path)
+    except ConfigError as error:
+        return str(error)
+    return ""

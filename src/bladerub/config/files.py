@@ -188,11 +188,10 @@ def _read(path: Path, location: Location, prefix: str) -> Located:
         located = _Loader(text).read(source)
     except yaml.YAMLError as error:
         mark, position = getattr(error, "problem_mark", None), getattr(error, "position", None)
-        line = mark.line + 1 if mark else 0 if position is None else text.count("\n", 0, position) + 1
+        line, column = (mark.line + 1, mark.column + 1) if mark else _line_and_column(text, position)
         problem = getattr(error, "problem", None) or getattr(error, "reason", None) or str(error)
-        raise ConfigError.at(
-            Location(source, line), f"not valid YAML ({' '.join(problem.split())})"
-        ) from error
+        what = f"not valid YAML ({' '.join(problem.split())})" + (f", column {column}" if column else "")
+        raise ConfigError.at(Location(source, line), what) from error
     if isinstance(located.content, dict):
         if _TEMPLATES in located.content:
             key_location, reason = (
@@ -202,6 +201,13 @@ def _read(path: Path, location: Location, prefix: str) -> Located:
             raise ConfigError.at(key_location, f"{_TEMPLATES}: {reason}")
         return located
     raise ConfigError.at(Location(source), "must hold keys at its top level, as config/config.yaml does")
+
+
+def _line_and_column(text: str, position: int | None) -> tuple[int, int]:
+    """Count both from 1 at the `position` in `text`; they are 0 where it is not known."""
+    if position is None:
+        return 0, 0
+    return text.count("\n", 0, position) + 1, position - text.rfind("\n", 0, position)
 
 
 class _Loader(yaml.SafeLoader):

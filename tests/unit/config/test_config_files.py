@@ -101,7 +101,10 @@ NAME = "must be the path of a .yaml file, or a list of such, as seen from the fi
         ("extend: b.yaml\n", 'b.yaml:1: extend = "./a.yaml": these files extend each other in a circle'),
         ("extend: folder.yaml\n", 'a.yaml:1: extend = "folder.yaml": is a folder, must be a YAML file'),
         ("extend: https://host/b.yaml\n", f'a.yaml:1: extend = "https://host/b.yaml": {NAME}'),
-        ("extend: broken.yaml\n", "broken.yaml:2: not valid YAML (expected ',' or ']', but got ':')"),
+        (
+            "extend: broken.yaml\n",
+            "broken.yaml:2: not valid YAML (expected ',' or ']', but got ':'), column 2",
+        ),
     ],
 )
 def test_what_cannot_be_extended_is_reported_with_its_location(folder, tmp_path, text, answer):
@@ -153,7 +156,7 @@ def laughs(of):
         ("a: &a {b: 1}\nc: {<<: *a}", "a.yaml:2: not valid YAML"),
         ("a: 1\n---\nb: 2", "a.yaml:2: not valid YAML"),
         ("a: 1\nb: *nowhere", "a.yaml:2: not valid YAML"),
-        (b"a: 1\nb: x\0y", "a.yaml:2: not valid YAML"),
+        (b"a: 1\nb: x\0y", "a.yaml:2: not valid YAML (special characters are not allowed), column 5"),
         (b"a: \xe9", "a.yaml: is not text in UTF-8"),
     ],
 )

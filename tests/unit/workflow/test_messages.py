@@ -62,5 +62,46 @@ def test_errors_and_warnings_are_shown_and_no_line_is_long(lines):
     assert [len(line) for line in shown] == [22, LONGEST, 3]
 
 
+def test_a_failed_job_is_named_with_its_log_and_said_once(lines):
+    job = {"event": LogEvent.JOB_ERROR, "rule_name": "coating", "output": ["a.tsv"], "log": ["logs/a.log"]}
+    shown = lines(
+        PLAN,
+        (logging.ERROR, "Error in rule coating", job),
+        (logging.ERROR, "Command 'python a.py' returned non-zero exit status 1.", {"event": LogEvent.ERROR}),
+        (logging.ERROR, "Exiting because a job execution failed. Look above", {}),
+    )
+    assert len(shown) == 2
+    assert "a.tsv" in shown[1]
+    assert "logs/a.log" in shown[1]
+
+
+@pytest.mark.parametrize(
+    ("content", "location"),
+    [
+        (b"a: 1\n\tb: 2\n", "mine.yaml:2: "),
+        (b"- a\n", "mine.yaml: "),
+        (b"\xff", "mine.yaml: "),
+        (None, "mine.yaml: "),
+    ],
+)
+def test_what_is_no_config_is_named_where_snakemake_names_no_file(
+    lines, tmp_path, monkeypatch, content, location
+):
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr("sys.argv", ["snakemake", "-j2", "--configfile", "mine.yaml", "-n"])
+    if content is not None:
+        (tmp_path / "mine.yaml").write_bytes(content)
+    (line,) = lines((logging.ERROR, "WorkflowError:\nConfig file is not valid", {"event": LogEvent.ERROR}))
+    assert line.startswith(location)
+
+
+def test_an_error_that_is_not_of_the_config_is_that_of_snakemake(lines, tmp_path, monkeypatch):
+    (tmp_path / "mine.yaml").write_text("a: 1\n")
+    monkeypatch.setattr("sys.argv", ["snakemake", "--configfile", str(tmp_path / "mine.yaml")])
+    assert lines((logging.ERROR, "MissingRuleException", {"event": LogEvent.ERROR})) == [
+        "MissingRuleException"
+    ]
+
+
 def test_verbose_shows_all(lines):
     assert lines((logging.INFO, "shell: bash", {}), verbose=True) == ["shell: bash"]
