@@ -20,6 +20,7 @@ from bladerub.study.variants import of_case
 STRESS = "last_von_mises"
 """Column of ``stress.csv`` that the page shows, Pa; not every study has the table."""
 
+BLADE = "blade/reduced_model.h5"
 _RUN_COLUMNS = ["f_omega", "divergent", "saturating", "divergent_draws"]
 _PEAK_COLUMNS = ["order", "f_peak", "amplitude", *bands.PEAK_COLUMNS, "reason"]
 
@@ -27,9 +28,10 @@ _PEAK_COLUMNS = ["order", "f_peak", "amplitude", *bands.PEAK_COLUMNS, "reason"]
 class Results(NamedTuple):
     """A finished study: SI units, speeds as normalised ``f_omega`` or ``f_peak`` and in ``rpm``.
 
-    ``peaks`` has a row for each coating and engine order, ``runs`` one for each coating and speed, both with
-    the ``name`` of the coating. ``coatings`` has one for each coating, by name, the worst first: its highest
-    peak, its deepest wear, and the shares of its speeds that diverge and that pass the displacement limit.
+    ``runs`` has a row for each coating and speed, ``peaks`` one for each coating and engine order, the worst
+    coating first, both with the ``name`` of the coating. ``coatings`` has one for each coating, by name, the
+    worst first: its highest peak, its deepest wear, and the shares of its speeds that diverge and that pass
+    the displacement limit. ``chart`` is ``chart_choice.csv``, empty without a chart.
     """
 
     config: Mapping[str, Any]
@@ -41,18 +43,18 @@ class Results(NamedTuple):
     coatings: pd.DataFrame
     campbell: pd.DataFrame
     accuracy: pd.DataFrame
+    chart: pd.DataFrame
     origin: dict[str, str]  # provenance of the tables
 
     def map(self, name: str) -> CoatingMap:
         """Read the map of a coating."""
-        return read_map(_map(self.folder, name))
+        return read_map(self.folder / f"maps/{name}.h5")
 
 
 def files(config: Mapping[str, Any], folder: Path) -> list[Path]:
     """List the files that a report needs of the results `folder`."""
-    maps = [_map(folder, case.name) for case in coating_cases(config)]
-    names = ("campbell", "rom_accuracy", "peaks", "divergence")
-    return [_blade(folder), *maps, *(_table(folder, name) for name in names)]
+    tables = [folder / f"tables/{name}.csv" for name in ("campbell", "rom_accuracy", "peaks", "divergence")]
+    return [folder / BLADE, *(folder / f"maps/{case.name}.h5" for case in coating_cases(config)), *tables]
 
 
 def read(config: Mapping[str, Any], folder: Path) -> Results:
@@ -61,37 +63,39 @@ def read(config: Mapping[str, Any], folder: Path) -> Results:
     Raises `OSError`, naming the file, if one is damaged, and `ValueError` if tables and maps are not of the
     same coatings and speeds.
     """
-    rpm = 60 * float(hdf5.read_attributes(_blade(folder))["f1_hz"])
-    verdicts = tables.read(_table(folder, "divergence"), divergence.COLUMNS)
-    peak_table = tables.read(_table(folder, "peaks"), peaks.COLUMNS)
+    f1_hz = float(hdf5.read_attributes(folder / BLADE)["f1_hz"])
+    verdicts = tables.read(folder / "tables/divergence.csv", divergence.COLUMNS)
+    peak_table = tables.read(folder / "tables/peaks.csv", peaks.COLUMNS)
     cases = {case.name: case for case in coating_cases(config)}
-    runs = {
-        name: _runs(read_map(_map(folder, name)), of_case(verdicts, case), folder)
-        for name, case in cases.items()
-    }
-    all_peaks = _joined({name: _peaks(folder, case, peak_table, runs[name]) for name, case in cases.items()})
-    all_peaks, all_runs = all_peaks.assign(rpm=rpm * all_peaks.f_peak), _joined(runs)
-    all_runs = all_runs.assign(rpm=rpm * all_runs.f_omega)
+    runs = _joined({name: _runs(folder, case, verdicts) for name, case in cases.items()})
+    rows = _joined({name: _peaks(folder, case, peak_table, runs) for name, case in cases.items()})
+    runs["rpm"], rows["rpm"] = 60 * f1_hz * runs.f_omega, 60 * f1_hz * rows.f_peak
+    coatings = _coatings(rows, runs)
+    chart = folder / "tables/chart_choice.csv"
     return Results(
         config=config,
         folder=folder,
-        f1_hz=rpm / 60,
+        f1_hz=f1_hz,
         cases=cases,
-        peaks=all_peaks,
-        runs=all_runs,
-        coatings=_coatings(all_peaks, all_runs),
-        campbell=tables.read(_table(folder, "campbell"), CAMPBELL_COLUMNS),
-        accuracy=tables.read(_table(folder, "rom_accuracy"), ACCURACY_COLUMNS),
-        origin=tables.read_origin(_table(folder, "peaks")),
+        peaks=rows.sort_values("name", key=lambda names: names.map(coatings.index.get_loc), kind="stable"),
+        runs=runs,
+        coatings=coatings,
+        campbell=tables.read(folder / "tables/campbell.csv", CAMPBELL_COLUMNS),
+        accuracy=tables.read(folder / "tables/rom_accuracy.csv", ACCURACY_COLUMNS),
+        chart=tables.read(chart) if chart.exists() else pd.DataFrame(),
+        origin=tables.read_origin(folder / "tables/peaks.csv"),
     )
 
 
-def _runs(coating: CoatingMap, verdicts: pd.DataFrame, folder: Path) -> pd.DataFrame:
+def _runs(folder: Path, case: CoatingCase, verdicts: pd.DataFrame) -> pd.DataFrame:
     """Join map, verdicts and manifest of one coating: a row for each speed."""
-    name = coating.case.name
-    runs = verdicts.sort_values("f_omega").reset_index(drop=True)
+    coating = read_map(folder / f"maps/{case.name}.h5")
+    runs = of_case(verdicts, case).sort_values("f_omega").reset_index(drop=True)
     if not np.array_equal(runs["f_omega"], coating.f_omega):
-        raise ValueError(f"tables/divergence.csv: not the speeds of maps/{name}.h5; run snakemake again")
+        raise ValueError(f"tables/divergence.csv: not the speeds of maps/{case.name}.h5; run snakemake again")
+    path = folder / "runs" / case.name / "manifest.tsv"
+    listed = {row.f_omega: row for row in read_manifest(path)} if path.exists() else {}
+    known = [listed.get(speed) for speed in coating.f_omega.tolist()]
     strongest = [spectral_peak(coating.spectrum_order, row) for row in coating.spectrum_amplitude]
     order, response = np.transpose(strongest)
     return runs.reindex(columns=_RUN_COLUMNS).assign(
@@ -100,18 +104,10 @@ def _runs(coating: CoatingMap, verdicts: pd.DataFrame, folder: Path) -> pd.DataF
         response=response,
         displacement=np.nan_to_num(coating.revolution_peak).max(axis=1),
         max_wear=coating.max_wear,
-        **_of_manifest(folder / "runs" / name / "manifest.tsv", coating.f_omega),
+        # 1 or 0; NaN where no manifest tells
+        unconverged=[float(row.unconverged_steps > 0) if row else np.nan for row in known],
+        unbalanced=[float(row.energy_residual > UNBALANCED) if row else np.nan for row in known],
     )
-
-
-def _of_manifest(path: Path, f_omega: np.ndarray) -> dict[str, list[float]]:
-    """Say which runs did not converge or lose energy, 1 or 0; NaN where no manifest tells."""
-    rows = {row.f_omega: row for row in read_manifest(path)} if path.exists() else {}
-    listed = [rows.get(speed) for speed in f_omega.tolist()]
-    return {
-        "unconverged": [float(row.unconverged_steps > 0) if row else np.nan for row in listed],
-        "unbalanced": [float(row.energy_residual > UNBALANCED) if row else np.nan for row in listed],
-    }
 
 
 def _peaks(folder: Path, case: CoatingCase, peak_table: pd.DataFrame, runs: pd.DataFrame) -> pd.DataFrame:
@@ -119,36 +115,22 @@ def _peaks(folder: Path, case: CoatingCase, peak_table: pd.DataFrame, runs: pd.D
     rows = of_case(peak_table, case).reindex(columns=_PEAK_COLUMNS)
     if rows.empty:
         raise ValueError(f"tables/peaks.csv: has no peak of {case.name}; run snakemake again")
-    run = runs[["f_omega", "divergent", "saturating", "max_wear"]]
+    run = runs.loc[runs.name == case.name, ["f_omega", "divergent", "saturating", "max_wear"]]
     rows = rows.merge(run, "left", left_on="f_peak", right_on="f_omega")
-    path = _table(folder, "stress")
+    path = folder / "tables/stress.csv"
     if path.exists():
         stress = of_case(tables.read(path, [*peaks.COLUMNS, STRESS]), case)
         return rows.merge(stress[["order", STRESS]], "left", on="order")
     return rows.assign(**{STRESS: np.nan})
 
 
-def _coatings(all_peaks: pd.DataFrame, runs: pd.DataFrame) -> pd.DataFrame:
-    highest = all_peaks.sort_values("amplitude", ascending=False, kind="stable", na_position="last")
-    summaries = runs.groupby("name").agg(
-        deepest=("max_wear", "max"),
-        divergent_share=("divergent", "mean"),
-        unbounded_share=("unbounded", "mean"),
-    )
-    return highest.drop_duplicates("name").set_index("name").join(summaries)
+def _coatings(rows: pd.DataFrame, runs: pd.DataFrame) -> pd.DataFrame:
+    worst_first = rows.sort_values("amplitude", ascending=False, kind="stable", na_position="last")
+    highest = worst_first.drop_duplicates("name").set_index("name", drop=False)
+    of_runs = runs.groupby("name")[["max_wear", "divergent", "unbounded"]]
+    deepest, shares = of_runs.max().max_wear.rename("deepest"), of_runs.mean().add_suffix("_share")
+    return highest.join(deepest).join(shares)
 
 
 def _joined(parts: Mapping[str, pd.DataFrame]) -> pd.DataFrame:
     return pd.concat([part.assign(name=name) for name, part in parts.items()], ignore_index=True)
-
-
-def _map(folder: Path, name: str) -> Path:
-    return folder / "maps" / f"{name}.h5"
-
-
-def _table(folder: Path, name: str) -> Path:
-    return folder / "tables" / f"{name}.csv"
-
-
-def _blade(folder: Path) -> Path:
-    return folder / "blade" / "reduced_model.h5"
