@@ -1,6 +1,8 @@
 """Checks of the nodes and elements of a mesh."""
 
 import numpy as np
+from scipy import sparse
+from scipy.sparse.csgraph import connected_components
 from scipy.spatial import cKDTree
 
 from bladerub.blade.mesh import SolidMesh
@@ -39,6 +41,27 @@ def check_nodes(points: np.ndarray, cells: np.ndarray) -> None:
         raise ValueError(
             f"element {element + 1}: its {number}th node is not in the middle of its edge; nodes must be in "
             "the order of CalculiX and VTK"
+        )
+
+
+def check_joined(cells: np.ndarray) -> None:
+    """Check that `cells` are one body of elements whose nodes differ; a ValueError says if they are not."""
+    ordered = np.sort(cells, axis=1)
+    collapsed = np.flatnonzero((np.diff(ordered, axis=1) == 0).any(axis=1))
+    if collapsed.size:
+        raise ValueError(
+            f"element {collapsed[0] + 1}: has a node twice ({collapsed.size} such of {len(cells)}); wedges "
+            "written as hexahedra must be split into tetrahedra, and all others too"
+        )
+    rows = np.repeat(np.arange(len(cells)), cells.shape[1])
+    members = sparse.coo_array((np.ones(cells.size, dtype=np.int8), (rows, cells.ravel()))).tocsr()
+    graph = sparse.block_array([[None, members], [members.T, None]], format="csr")
+    part = connected_components(graph, directed=False)[1][: len(cells)]
+    sizes = np.unique(part, return_counts=True)[1]
+    if sizes.size > 1:
+        raise ValueError(
+            f"has {sizes.size} bodies that share no nodes, of {', '.join(map(str, sizes[:4]))} elements; "
+            "must be one blade: merge nodes where they touch, or leave the others out"
         )
 
 

@@ -54,6 +54,7 @@ def _import_mesh(source: Source, n_interface: int) -> Imported:
     content = mesh_file.read(source.file)
     if 3 * len(content.points) > MOST_UNKNOWNS:
         raise ValueError(f"has {3 * len(content.points)} unknowns; must be {MOST_UNKNOWNS} or fewer")
+    element_quality.check_joined(content.cells)
     element_quality.check_nodes(content.points, content.cells)
     mesh, origin = solid_mesh(source.frame.metres(content.points), content.cells)
     ratio, volume = element_quality.jacobians(mesh)

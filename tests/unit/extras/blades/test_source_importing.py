@@ -140,8 +140,13 @@ def test_broken_meshes_are_refused_with_file_and_culprit(blade, write):
     shared = np.intersect1d(cells[0, 8:], cells[1, 8:])[0]
     loose[1, cells[1] == shared] = len(points)
     near = points[shared] + 1e-4
+    collapsed = cells.copy()
+    collapsed[2, 1] = collapsed[2, 0]
+    second = (np.vstack([points, points * [1, -1, -1]]), np.vstack([cells, cells + len(points)]))
     cases = [
         ({"points": nan}, {}, f"node {corner + 1}: its coordinates are not finite"),
+        ({"cells": collapsed}, {}, "element 3: has a node twice"),
+        ({"points": second[0], "cells": second[1]}, {}, "has 2 bodies that share no nodes"),
         ({"points": twin}, {}, "are in one place; merge them"),
         ({"cells": swapped}, {}, "element 1: its 10th node is not in the middle of its edge"),
         ({"points": points * [1, -1, 1]}, {}, "all elements are left-handed"),
