@@ -14,11 +14,11 @@ import scipy.optimize
 
 from bladerub.blade.model import ReducedBlade
 from bladerub.contact.casing import shape
-from bladerub.contact.heating import HEATED, cell_heights
 from bladerub.contact.laws import module_of
 from bladerub.contact.setup import time_step
 from bladerub.contact.spec import RunSpec
 from bladerub.contact.tip import coverage, relief
+from bladerub.extras.laws.heating import HEATED, cell_heights
 from bladerub.extras.rows.spec import Row
 
 
@@ -215,7 +215,7 @@ class _Coating:
 
 
 class _Heat:
-    """Temperature of the elements, in cells from the surface on, by what `bladerub.contact.heating` says."""
+    """Temperature of the elements, in cells from the surface on, as in `bladerub.extras.laws.heating`."""
 
     def __init__(self, spec: RunSpec, coating: _Coating, area: np.ndarray, h: float):
         own, n = dict(spec.coating.element_law.parameters), spec.coating.n_elements

@@ -11,6 +11,7 @@ A folder says what it adds in its ``plugin.py``, which imports nothing: each val
 ``MEASURES``    what a run may be asked for besides itself, each with its module
 ``SOURCES``     keys of ``blade.source`` of the config, each with its module (`bladerub.blade.source`)
 ``LAWS``        laws of the coating by name, each with the module for the loop (`bladerub.contact.laws`)
+``CHECKS``      what a law of the coating must satisfy in a layer: functions of both that raise `ValueError`
 ``ROWS``        what computes rows of blades, by the key of the config that describes them
 ``DATASETS``    what a run file may hold besides that of a single blade: a dictionary as of the store
 ``SOLVERS``     what computes runs instead of the processor, by the name in ``solver.device``

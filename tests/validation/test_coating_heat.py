@@ -12,13 +12,13 @@ import numpy as np
 import pytest
 from scipy.special import erf
 
-from bladerub.contact import heating
 from bladerub.contact.kernel.records import at_rest
 from bladerub.contact.laws import described_law, module_of
 from bladerub.contact.run import simulate
 from bladerub.contact.setup import element_area
 from bladerub.contact.spec import Coating
 from bladerub.extras.heat import LAYER
+from bladerub.extras.laws import heating
 from bladerub.extras.rows.row import simulate_row
 from bladerub.extras.rows.spec import Row
 from bladerub.extras.speed_sweep import simulate_sweep
@@ -39,8 +39,8 @@ def mean_left(time):
     law = thermal()
     coating = Coating(1.1, 0.5, 0.1, 1e-6, 600e6, THICKNESS, 4, element_law=law)
     layer = heating.Layer(module_of(law), coating, np.ones(8), time)
-    state = at_rest(1, 4, cells=heating.CELLS)
-    state.heat[:, :8] = CAPACITY * DEPTH
+    state = at_rest(1, 4, kept=heating.CELLS)
+    state.taken[:, :8] = CAPACITY * DEPTH
     layer.rest(state, 0, 4)
     return layer.rise(state)[0, 0]
 
@@ -62,7 +62,9 @@ def test_the_slowest_mode_is_that_of_the_layer():
 
 def kept(result, blade, spec):
     """Heat in the layer, all of which is in the heated depth, J."""
-    return float(np.sum(result.temperature_rise * element_area(blade, spec)[:, None]) * CAPACITY * DEPTH)
+    return float(
+        np.sum(result.layer["temperature_rise"] * element_area(blade, spec)[:, None]) * CAPACITY * DEPTH
+    )
 
 
 def made(result):
@@ -80,7 +82,7 @@ def test_what_the_ledger_has_as_heat_is_in_the_layer(coarse_config, coarse_blade
     spec = without_conduction(coarse_config, 0.19)
     result = simulate(coarse_blade, spec)
     print(f"run: {kept(result, coarse_blade, spec) / made(result):.6f} of the heat")
-    assert result.temperature_rise.max() > 10
+    assert result.layer["temperature_rise"].max() > 10
     assert kept(result, coarse_blade, spec) == pytest.approx(made(result), rel=1e-3)
 
 
@@ -89,7 +91,7 @@ def test_blades_of_a_row_heat_one_layer(coarse_config, coarse_blade):
     result = simulate_row(coarse_blade, spec, Row.even(3, length=[0.0, 2e-5, 0.0]))
     heat = sum(map(made, result.blades))
     print(f"row: {kept(result.blades[0], coarse_blade, spec) / heat:.6f} of the heat")
-    rise, *others = (each.temperature_rise for each in result.blades)
+    rise, *others = (each.layer["temperature_rise"] for each in result.blades)
     for other in others:
         np.testing.assert_array_equal(other, rise)
     assert kept(result.blades[0], coarse_blade, spec) == pytest.approx(heat, rel=1e-3)
@@ -98,7 +100,7 @@ def test_blades_of_a_row_heat_one_layer(coarse_config, coarse_blade):
 def test_a_row_of_one_is_the_run(coarse_config, coarse_blade):
     spec = without_conduction(coarse_config, 0.19)
     run, row = simulate(coarse_blade, spec), simulate_row(coarse_blade, spec, Row.even(1))
-    np.testing.assert_array_equal(row.blades[0].temperature_rise, run.temperature_rise)
+    np.testing.assert_array_equal(row.blades[0].layer["temperature_rise"], run.layer["temperature_rise"])
     np.testing.assert_array_equal(row.wear, run.wear)
 
 

@@ -61,8 +61,8 @@ class Run(Shown):
     ('completed', 3, 0.19, '2nd_E2_K0.5_theta0')
     >>> run.wear.shape, run.angle.shape
     ((8, 2000), (2000,))
-    >>> run.temperature_rise is None  # the law of the paper knows no heat
-    True
+    >>> run.layer  # the law of the paper leaves nothing but wear
+    {}
     >>> run.revolution_peak.size, run.revolution_amplitude.size, run.radial_displacement.size
     (3, 3, 6000)
     >>> bool(run.spectrum.max() < run.revolution_peak.max())
@@ -140,12 +140,9 @@ class Run(Shown):
         return self.stored.data["wear"]
 
     @property
-    def temperature_rise(self) -> np.ndarray | None:
-        """By which the surface of the coating is warmer at the end (8, n), K; None if the law has no heat.
-
-        It is the mean over the heated depth, when the tip would come next (`bladerub.contact.heating`).
-        """
-        return self.stored.data.get("temperature_rise")
+    def layer(self) -> dict[str, np.ndarray]:
+        """What else than wear the law of the coating leaves in the elements (8, n), by name; SI units."""
+        return self.stored.layer
 
     @property
     def energy(self) -> Energy:

@@ -28,7 +28,6 @@ _UNITS |= {
     "displacement_over_length": "1",
     "peak_amplitude": "m",
     "max_wear": "m",
-    "max_temperature_rise": "K",
     "growth_per_revolution": "1",
 }
 _UNITS |= {"von_mises": "Pa", "principal": "Pa", "alternating": "Pa"}
@@ -294,7 +293,7 @@ def _in_words(figures: dict[str, Any]) -> str:
         + inputs.large_in_words(figures["displacement_over_length"]),
         "engine order": "none" if order is None else f"{order:.4g}",
         "maximum wear": f"{figures['max_wear'] * 1e3:.4g} mm",
-        **_heat_in_words(figures),
+        **_layer_in_words(figures),
         "lobes": figures["lobes"],
         "strongest harmonic of the wear": _harmonic_in_words(figures),
         "growth": _growth_in_words(figures),
@@ -335,9 +334,14 @@ def _stress_in_words(stress: dict[str, dict[str, float]] | None) -> list[str]:
     return ["largest stress:", *inputs.aligned(lines)]
 
 
-def _heat_in_words(figures: dict[str, Any]) -> dict[str, str]:
-    rise = figures.get("max_temperature_rise")
-    return {} if rise is None else {"warmest surface": f"{rise:.3g} K above the casing, at the end"}
+def _layer_in_words(figures: dict[str, Any]) -> dict[str, str]:
+    from bladerub.study.store import datasets
+
+    return {
+        f"largest {name.replace('_', ' ')}": f"{figures[f'max_{name}']:.3g} {unit}, at the end"
+        for name, (_, unit, _) in datasets().items()
+        if f"max_{name}" in figures and name != "wear"
+    }
 
 
 def _coating_in_words(figures: dict[str, Any]) -> str:

@@ -8,12 +8,12 @@ from typing import Any
 
 import numpy as np
 
+from bladerub import plugins
 from bladerub.blade import geometry
 from bladerub.blade.model import n_interface
 from bladerub.blade.source import reader
 from bladerub.config.errors import format_value, top_key
 from bladerub.contact.casing import shape
-from bladerub.contact.heating import cell_heights
 from bladerub.io.folders import study_folder
 from bladerub.study.casings import casing_spec
 from bladerub.study.grid import (
@@ -169,10 +169,9 @@ def _law(config: Config) -> Iterator[str]:
         yield f"contact.law.file = {format_value(law['file'])}: must be without contact.law.name"
         return
     try:
-        parameters = dict(element_law(config).parameters)
-        if "heated_depth" in parameters:
-            scale = config["contact"].get("scale", UNSCALED)
-            cell_heights(config["contact"]["layer_thickness"] * scale["length"], parameters["heated_depth"])
+        scale = config["contact"].get("scale", UNSCALED)
+        for check in plugins.loaded("CHECKS").values():
+            check(element_law(config), config["contact"]["layer_thickness"] * scale["length"])
     except ValueError as error:
         yield f"contact.law.{error}"
 

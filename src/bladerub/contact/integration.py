@@ -61,7 +61,6 @@ class History:
             np.where(np.isfinite(end), end, np.nan) for end in (self.lowest, self.highest)
         )
         state, layer = simulation.state, simulation.layer
-        rise = by_angle(blade, spec, layer.rise(state)) if layer else None
         return {
             "status": status,
             "message": message,
@@ -73,7 +72,10 @@ class History:
             "n_steps": self.n_steps,
             "n_contact_steps": self.n_contact_steps,
             "energy": energy.balance(rule, state, initial, simulation.angle_per_step),
-            "temperature_rise": rise,
+            "layer": {
+                name: by_angle(blade, spec, rows)
+                for name, rows in (layer.outcome(state) if layer else {}).items()
+            },
         }
 
 

@@ -20,6 +20,7 @@ import numpy as np
 from bladerub import plugins
 from bladerub.contact.spec import PLASTIC, Coating, ElementLaw
 from bladerub.contact.variants import module_for
+from bladerub.io import sources
 from bladerub.io.folders import PACKAGE
 from bladerub.numerics.lanes import USUAL
 from bladerub.numerics.user_code import bounded
@@ -31,8 +32,6 @@ CONTRACT = (
     *("stored_energy", "dissipated_energy"),
 )
 """What the module of a law has for the program."""
-HEAT = ("heat_capacity", "conductivity", "heated_depth", "friction_share")
-"""Parameters of a law with ``strength``, for `bladerub.contact.heating`."""
 
 
 class Parameter(NamedTuple):
@@ -55,10 +54,13 @@ def source_of(law: ElementLaw) -> str:
 
 
 def law_digest(law: ElementLaw) -> dict[str, str]:
-    """Digest the module of a law that plugs in, as ``law``; nothing of others: loop and spec have them."""
-    if law.source or law.name not in plugins.offered("LAWS"):
+    """Digest what loop and spec lack of a law: its module if it plugs in, and what it imports of extras."""
+    if not (law.source or law.name in plugins.offered("LAWS")):
         return {}
-    return {"law": hashlib.sha256(source_of(law).encode()).hexdigest()}
+    source = source_of(law)
+    plugs_in = {} if law.source else {"law": hashlib.sha256(source.encode()).hexdigest()}
+    imported = [name for name in sources.imports_in(source) if name.startswith("extras.")]
+    return plugs_in | ({"law_imports": sources.digest_behind(*imported)} if imported else {})
 
 
 def module_of(law: ElementLaw, lanes: int = USUAL) -> ModuleType:
@@ -112,8 +114,8 @@ def parameters_of(source: str) -> Mapping[str, Parameter]:
     names = _names_in(source)
     if source and (missing := [name for name in CONTRACT if name not in names]):
         raise ValueError(f"has no {', '.join(missing)}; a law must have {', '.join(CONTRACT)}")
-    if "strength" in names and (missing := [name for name in HEAT if name not in parameters]):
-        raise ValueError(f"has strength, but no {', '.join(missing)} in PARAMETERS")
+    if "strength" in names and "Layer" not in names:
+        raise ValueError("has strength, but no Layer, which it is for")
     return parameters
 
 

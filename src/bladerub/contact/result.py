@@ -95,9 +95,8 @@ class Outcome:
         Steps made, and those of them with contact.
     energy : Energy
         The ledger.
-    temperature_rise : (8, n_elements) ndarray, optional
-        By which each element is warmer at its surface when the tip would come next, mean over the heated
-        depth, K; None where the law knows no heat.
+    layer : dict of str to (8, n_elements) ndarray
+        What else the law of the coating leaves in the elements, by name; nothing by that of the paper.
     """
 
     status: str
@@ -110,7 +109,7 @@ class Outcome:
     n_steps: int
     n_contact_steps: int
     energy: Energy
-    temperature_rise: np.ndarray | None = field(default=None, kw_only=True)
+    layer: dict[str, np.ndarray] = field(default_factory=dict, kw_only=True)
 
 
 @dataclass(frozen=True)

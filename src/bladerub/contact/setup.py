@@ -3,13 +3,13 @@
 import math
 from collections.abc import Callable, Mapping
 from functools import lru_cache, partial
+from types import ModuleType
 from typing import NamedTuple
 
 import numpy as np
 
 from bladerub.blade.model import N_INTERFACE, ReducedBlade
 from bladerub.contact import casing
-from bladerub.contact.heating import CELLS, Layer
 from bladerub.contact.kernel import records
 from bladerub.contact.kernel.free_flight import MOST_STEPS, FreeFlight
 from bladerub.contact.kernel.loop import Simulation
@@ -55,17 +55,16 @@ def set_up_modes(
     rule = SCHEMES[spec.scheme](modes, spec.damping_ratio, passage / n_steps, contact)
     tip = tip_record(blade, spec, seat)
     stator = stator_record(blade, spec, rule, seat)
-    heats = hasattr(law, "strength")
-    state = _initial_state(modes, rule, spec, tip, CELLS if heats else 0)
+    state = _initial_state(modes, rule, spec, tip, _kept_by(law))
     state = state._replace(**seat.coating)
     flight = _free_flight(rule, tip, n_steps)
     kernel = partial(module_for, lanes_for(modes.n_nodes), law=source_of(spec.coating.element_law))
     simulation = kernel("contact.kernel.loop").Simulation
     layer = None
-    if heats:
+    if hasattr(law, "Layer"):
         period = passage * spec.coating.n_elements
         area = _by_lane_of(blade)(element_area(blade, spec))
-        layer = Layer(law, spec.coating, area, period)
+        layer = law.Layer(law, spec.coating, area, period)
     return rule, simulation(
         kernel("contact.kernel.modal").pack(rule), flight, stator, tip, state, n_steps, layer
     )
@@ -88,11 +87,15 @@ def compile_kernel(tip_turns: bool = False, n_nodes: int = N_INTERFACE, law: Ele
     tip = records.Tip(zeros, zeros, zeros + 1.0, zeros + 1.0, 2.0, 0.0, 0.0, 1.0)
     kernel = partial(module_for, lanes, law=source_of(law))
     flight = kernel("contact.kernel.free_flight").free_flight(rule, 1, 0.0, 0.0)
-    cells = CELLS if hasattr(module_of(law), "strength") else 0
-    state = kernel("contact.kernel.records").at_rest(1, 8, cells)
+    state = kernel("contact.kernel.records").at_rest(1, 8, _kept_by(module_of(law)))
     kernel("contact.kernel.loop").Simulation(
         kernel("contact.kernel.modal").pack(rule), flight, aligned(stator), aligned(tip), state, 1
     ).advance(np.zeros(8))
+
+
+def _kept_by(law: ModuleType) -> int:
+    """Numbers that the layer of a law keeps of each element."""
+    return law.Layer.numbers if hasattr(law, "Layer") else 0
 
 
 def element_angle(n_elements: int) -> np.ndarray:
@@ -288,11 +291,11 @@ def _free_flight(rule: Recurrence, tip: records.Tip, steps_per_element: int) -> 
 
 
 def _initial_state(
-    modes: Modes, rule: Recurrence, spec: RunSpec, tip: records.Tip, cells: int
+    modes: Modes, rule: Recurrence, spec: RunSpec, tip: records.Tip, kept: int
 ) -> records.State:
     """At rest, deflected in the first mode; the step before is the exact free motion back from there."""
     record_module = module_for(lanes_for(rule.n_nodes), "contact.kernel.records")
-    state = record_module.at_rest(rule.omega.size, spec.coating.n_elements, cells)
+    state = record_module.at_rest(rule.omega.size, spec.coating.n_elements, kept)
     if spec.initial_displacement:
         x, damping = rule.omega[0] * rule.time_step, spec.damping_ratio
         damped = math.sqrt(1.0 - damping**2)

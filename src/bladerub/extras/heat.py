@@ -73,7 +73,7 @@ def _measured(config: Mapping[str, Any], blade: ReducedBlade, spec: RunSpec) -> 
     if needs_confirmation(result.revolution_amplitude, result.status, settings):
         longer = simulate(blade, confirmation_spec(spec, settings)).revolution_amplitude
     verdict = judge(result.revolution_amplitude, result.status, settings, longer)
-    rise = result.temperature_rise
+    rise = result.layer.get("temperature_rise")
     return (
         float(np.nanmax(result.revolution_amplitude)),
         float(result.wear.max()),

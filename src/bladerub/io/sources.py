@@ -18,6 +18,15 @@ def files_behind(*modules: str) -> list[str]:
     it reads. Modules are named below ``bladerub``, such as ``"study.maps"``. The paths are sorted, and
     those of the repository if it is the working directory.
     """
+    return sorted(_as_input(path).as_posix() for path in _paths_behind(modules))
+
+
+def digest_behind(*modules: str) -> str:
+    """Digest the sources that `files_behind` lists."""
+    return source_digest(_paths_behind(modules))
+
+
+def _paths_behind(modules: Iterable[str]) -> set[Path]:
     subpackages = {module.partition(".")[0] for module in modules}
     paths, queue = set(), list(modules)
     while queue:
@@ -25,7 +34,7 @@ def files_behind(*modules: str) -> list[str]:
         if path not in paths:
             paths.add(path)
             queue += [name for name in _imports(path) if name.partition(".")[0] in subpackages]
-    return sorted(_as_input(path).as_posix() for path in paths)
+    return paths
 
 
 def _as_input(path: Path) -> Path:
@@ -45,9 +54,13 @@ _IMPORT = re.compile(r"^[ \t]*(from bladerub\.[\w.]+ import (?:\([^)]*\)|.*))$",
 
 @cache
 def _imports(path: Path) -> tuple[str, ...]:
-    """Modules of this package that the file at `path` imports, wherever in it."""
+    return imports_in(path.read_text(encoding="utf-8"))
+
+
+def imports_in(source: str) -> tuple[str, ...]:
+    """Modules of this package that a source imports, wherever in it."""
     names: list[str] = []
-    for statement in _IMPORT.findall(path.read_text(encoding="utf-8")):
+    for statement in _IMPORT.findall(source):
         (node,) = ast.parse(statement).body
         base = node.module.removeprefix("bladerub.")
         names += [base, *(f"{base}.{alias.name}" for alias in node.names)]

@@ -38,7 +38,6 @@ _ENERGIES = {
 _DATASETS = {
     "angle": (("angle",), "rad", "casing angle of the element centres"),
     "wear": (("node", "angle"), "m", "permanent shortening of the coating under each interface node"),
-    "temperature_rise": (("node", "angle"), "K", "by which the surface of the coating is warmer at the end"),
     "spectrum_order": (("spectrum_order",), "1", "engine order"),
     "spectrum_amplitude": (("spectrum_order",), "m", "amplitude of the radial displacement of node 1"),
     "revolution_number": (("revolution_number",), "1", "revolution, counted from 1"),
@@ -77,12 +76,21 @@ class StoredRun:
 
     The datasets are ``wear`` (8, n), ``angle`` (n,), ``spectrum_order`` and ``spectrum_amplitude`` (m,),
     ``revolution_peak``, ``revolution_amplitude`` and ``revolution_number`` (r,), ``energy_*`` (scalars), and
-    for runs with history ``radial_displacement`` over ``revolution`` (r n,). Where the coating heats,
-    ``temperature_rise`` (8, n).
+    for runs with history ``radial_displacement`` over ``revolution`` (r n,); and what the `layer` has.
     """
 
     attributes: dict[str, Any]
     data: dict[str, np.ndarray]
+
+    @property
+    def layer(self) -> dict[str, np.ndarray]:
+        """What else than wear the law of the coating leaves in the elements (8, n), by name."""
+        shape = _DATASETS["wear"][0]
+        return {
+            name: values
+            for name, values in self.data.items()
+            if name != "wear" and datasets()[name][0] == shape
+        }
 
 
 def stored_run(
@@ -103,6 +111,7 @@ def stored_run(
     data = {
         "angle": result.angle,
         "wear": result.wear.astype(np.float32),  # 1e-7 of a depth known to 1e-2
+        **{name: values.astype(np.float32) for name, values in result.layer.items()},
         "spectrum_order": order,
         "spectrum_amplitude": amplitude,
         "revolution_number": np.arange(1, spec.revolutions + 1),
@@ -110,8 +119,6 @@ def stored_run(
         "revolution_amplitude": result.revolution_amplitude,
         **{f"energy_{name}": np.asarray(getattr(result.energy, name)) for name in _ENERGIES},
     }
-    if result.temperature_rise is not None:
-        data["temperature_rise"] = result.temperature_rise.astype(np.float32)
     if keep_history:
         n_samples = result.radial_displacement.size
         data["revolution"] = (np.arange(n_samples) + 0.5) * spec.revolutions / n_samples

@@ -47,11 +47,11 @@ def summarise(run: StoredRun, analysis: Mapping[str, Any], longer: StoredRun | N
         ``peak_amplitude`` (m): largest absolute radial displacement of node 1 over the last
         ``spectrum_revolutions``, or over as many before an early end; None when the first step ended the run.
         ``engine_order``: of the largest spectral amplitude from order 0.5 up; None when the run ended within
-        its first revolution or the blade never moved. ``max_wear`` (m), ``max_temperature_rise`` (K) where
-        the coating heats, ``lobes``, ``wear_harmonic`` and its share, see `bladerub.study.wear`.
-        ``growth_per_revolution`` with its confidence
-        interval ``growth_low``, ``growth_high`` (0.03 is 3 %; None of a run too short), ``saturating``,
-        ``divergent``, and ``growth_revolutions``: how many these were found in, those of the `longer` run if
+        its first revolution or the blade never moved. ``max_wear`` (m), ``max_<name>`` of what else the law
+        leaves in the coating (`StoredRun.layer`), ``lobes``, ``wear_harmonic`` and its share
+        (`bladerub.study.wear`). ``growth_per_revolution`` with its confidence interval ``growth_low``,
+        ``growth_high`` (0.03 is 3 %; None of a run too short), ``saturating``, ``divergent``, and
+        ``growth_revolutions``: how many these were found in, those of the `longer` run if
         there is one (`bladerub.study.growth`). ``energy_residual`` (`bladerub.contact.result.Energy`),
         ``n_steps``, ``status``.
     """
@@ -66,11 +66,7 @@ def summarise(run: StoredRun, analysis: Mapping[str, Any], longer: StoredRun | N
         "peak_amplitude": peak if np.isfinite(peak) else None,
         "engine_order": engine_order if height > 0 else None,
         "max_wear": float(data["wear"].max()),
-        **(
-            {"max_temperature_rise": float(data["temperature_rise"].max())}
-            if "temperature_rise" in data
-            else {}
-        ),
+        **{f"max_{name}": float(values.max()) for name, values in run.layer.items()},
         "lobes": lobes(data["angle"], data["wear"], analysis["lobe_prominence"]),
         "wear_harmonic": harmonic,
         "wear_harmonic_share": share,

@@ -205,7 +205,7 @@ def test_run_with_another_law_says_so(small, blade_file, folder, capsys):
     assert main([*RUN, "--law", "thermal", *law, "--output", str(path), *small]) == 0
     words = capsys.readouterr().out
     assert re.search("law  +thermal .heat_capacity 2e.06, conductivity 5, ", words)
-    warmest = float(re.search(r"warmest surface  +([\d.]+) K above the casing", words)[1])
+    warmest = float(re.search(r"largest temperature rise  +([\d.]+) K", words)[1])
     stored = read_run(path)
     assert stored.data["temperature_rise"].max() == pytest.approx(warmest, rel=1e-2)
     assert stored.data["temperature_rise"].shape == stored.data["wear"].shape

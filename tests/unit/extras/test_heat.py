@@ -29,7 +29,7 @@ def test_each_case_is_its_run_and_what_grows_is_followed(monkeypatch, config):
             revolution_amplitude=amplitude,
             status="completed",
             wear=np.full((8, 4), 2e-4),
-            temperature_rise=rise,
+            layer={} if rise is None else {"temperature_rise": rise},
         )
 
     monkeypatch.setattr(heat, "simulate", simulate)

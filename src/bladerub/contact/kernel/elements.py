@@ -22,8 +22,8 @@ from bladerub.numerics.vectors import (
     where,
 )
 
-HEATS = hasattr(law, "strength")
-"""Whether the forces of an element depend on its temperature (`bladerub.contact.heating`)."""
+LAYERED = hasattr(law, "Layer")
+"""Whether something changes the forces of the elements between passages (`bladerub.contact.laws`)."""
 NO_CHANGE = 1e-12
 """Change of depth below which the force of an element is taken as constant over a step, m."""
 
@@ -129,7 +129,7 @@ def press(element, stator, tip, state, row, offset, approach):
     depth = penetration(approach, relief(tip, offset), load(stator.initial_gap, entry), worn)
     force, _ = law.return_mapping(element, depth, worn)
     stiffness, linear = law.tangent(element, depth, worn)
-    if HEATS:
+    if LAYERED:
         strength = load(state.strength, entry)
         force, stiffness = strength * force, strength * stiffness
     return force, stiffness, linear
@@ -196,13 +196,13 @@ def update_wear(modal, stator, tip, state, placement, before):
         worn_off = worn_off + increment
         energy, energy_before = law.stored_energy(element, force), law.stored_energy(element, force_before)
         loss = law.dissipated_energy(element, worn, increment, where(was_under, force_before, 0.0), force)
-        if HEATS:
+        if LAYERED:
             strength = load(state.strength, entry)
             force, force_before = strength * force, strength * force_before
             energy, energy_before, loss = strength * energy, strength * energy_before, strength * loss
-            add_to(state.heat, 2 * entry, loss)
+            add_to(state.taken, 2 * entry, loss)
             mean = 0.5 * (share * force + share_before * force_before)
-            add_to(state.heat, 2 * entry + LANES, mean * by_friction)
+            add_to(state.taken, 2 * entry + LANES, mean * by_friction)
         stored = stored + share * energy
         dissipated = dissipated + loss
         mean_share = 0.5 * (share + share_before)

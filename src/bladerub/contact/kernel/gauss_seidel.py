@@ -12,7 +12,7 @@ from bladerub.contact import law
 from bladerub.contact.friction import contact_force
 from bladerub.contact.gap import closest_position, is_within_limit, normal, normal_approach, penetration
 from bladerub.contact.kernel.coulomb import mobilise
-from bladerub.contact.kernel.elements import HEATS, rigid_surface, wrap
+from bladerub.contact.kernel.elements import LAYERED, rigid_surface, wrap
 from bladerub.contact.kernel.records import COUPLE, TILT
 from bladerub.contact.tip import coverage, edge, relief
 from bladerub.numerics.machine_code import within
@@ -139,7 +139,7 @@ def _resistance(stator, tip, state, j, position, approach, tilted):
         depth = penetration(local_approach, relief(tip, offset), read(stator.initial_gap, entry), worn)
         force_here, _ = law.return_mapping(element, depth, worn)
         slope, _ = law.tangent(element, depth, worn)
-        if HEATS:
+        if LAYERED:
             strength = read(state.strength, entry)
             force_here, slope = strength * force_here, strength * slope
         share = coverage(tip, offset)

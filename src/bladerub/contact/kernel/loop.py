@@ -6,7 +6,7 @@ Compiled functions on the addresses of the arrays of five records, which `Simula
 output. Where the tip surely touches nothing, many steps are made at once (`free_flight`).
 """
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -15,7 +15,7 @@ from bladerub.contact.gap import is_within_limit, normal_approach
 from bladerub.contact.kernel import free_flight, turning  # noqa: F401 (has counterparts of others)
 from bladerub.contact.kernel.accounting import add_work, update_coating
 from bladerub.contact.kernel.coulomb import predict_sliding
-from bladerub.contact.kernel.elements import HEATS, is_clear
+from bladerub.contact.kernel.elements import LAYERED, is_clear
 from bladerub.contact.kernel.free_flight import FreeFlight
 from bladerub.contact.kernel.modal import Modal, advance_forced, advance_free, correct, store_tip
 from bladerub.contact.kernel.newton import find_forces
@@ -23,9 +23,6 @@ from bladerub.contact.kernel.records import State, Stator, Tip, check, shapes
 from bladerub.numerics.machine_code import inlined, njit_on_disk, within
 from bladerub.numerics.memory import add_to, address_of, addresses, clear, copy, load, read, store, write
 from bladerub.numerics.vectors import LANES, absolute, broadcast, largest_lane, where
-
-if TYPE_CHECKING:
-    from bladerub.contact.heating import Layer
 
 NEGLIGIBLE = 1e-100
 """Modal coordinates below this are zero, m kg^1/2: numbers too small to be normal would slow the loop."""
@@ -47,8 +44,8 @@ class Simulation:
     """A blade and a stator, ready to be integrated.
 
     `modal` are the coefficients of the scheme for one step, `flight` those for many steps of free flight.
-    `advance` changes `state`. The passage of one element takes `steps_per_element` time steps. Where heat
-    changes the strength of the coating, `layer` is where it flows.
+    `advance` changes `state`. The passage of one element takes `steps_per_element` time steps. `layer` is
+    what the law lets happen in the coating between passages, if it does.
     """
 
     def __init__(
@@ -59,13 +56,12 @@ class Simulation:
         tip: Tip,
         state: State,
         steps_per_element: int,
-        layer: "Layer | None" = None,
+        layer: Any = None,
     ):
         self.modal, self.flight, self.stator, self.tip, self.state = modal, flight, stator, tip, state
         self.steps_per_element, self.layer = steps_per_element, layer
-        cells, turns = state.temperature.shape[1] // LANES, modal.tilt is not None
-        heated = stator.n_elements if HEATS else 0
-        shape = shapes(modal.n, stator.n_elements, heated, cells, turns)
+        kept, turns = state.layer.shape[1] // LANES, modal.tilt is not None
+        shape = shapes(modal.n, stator.n_elements, stator.n_elements if LAYERED else 0, kept, turns)
         records = modal, flight, stator, tip, state
         for record in records:
             check(record, shape)

@@ -81,17 +81,17 @@ class State(NamedTuple):
     # rotation
     free_sliding: np.ndarray
     wear: np.ndarray  # (N, 8): Permanent shortening of the elements, in the rows of `Stator`, m
-    # Where the law has a strength that heat lowers (`bladerub.contact.heating`), else without rows:
-    strength: np.ndarray  # (N, 8): Forces of the elements over those without heat
-    heat: np.ndarray  # (N, 16): What flow, then friction made in them since the last passage, J
-    temperature: np.ndarray  # (N, 8 n): Of the n cells of their columns, in the modes of conduction
+    # Where the law has a layer, which changes between passages (`bladerub.contact.laws`), else without rows:
+    strength: np.ndarray  # (N, 8): Forces of the elements over those by the law alone
+    taken: np.ndarray  # (N, 16): What flow, then friction took there since the last passage, J
+    layer: np.ndarray  # (N, 8 n): The n numbers that it keeps of each element
     ledger: np.ndarray  # (18, 8): Entries of `bladerub.contact.energy`, to be summed over the nodes
     scratch: np.ndarray  # (6, 16): Of no meaning between steps
 
 
 TILT, COUPLE = 3 * LANES, 2 * LANES
 """Where in `State.u` the tilt is, and in `State.force` the couples; of a profile that turns."""
-COATING = ("wear", "strength", "heat", "temperature")
+COATING = ("wear", "strength", "taken", "layer")
 """What of `State` belongs to the coating."""
 
 
@@ -105,20 +105,19 @@ def by_lane(rows: np.ndarray, n_nodes: int) -> np.ndarray:
     return groups.take(node, axis=1).reshape(-1, *rows.shape[1:])
 
 
-def at_rest(n_modes: int, n_elements: int, cells: int = 0) -> State:
-    """State of a blade at rest before an unworn coating, whose columns have `cells` if they conduct heat."""
-    heated = n_elements if cells else 0
-    shape = shapes(n_modes + -n_modes % LANES, n_elements, heated, cells)
+def at_rest(n_modes: int, n_elements: int, kept: int = 0) -> State:
+    """State of a blade at rest before an unworn coating, whose layer keeps `kept` numbers of an element."""
+    shape = shapes(n_modes + -n_modes % LANES, n_elements, n_elements if kept else 0, kept)
     state = State(*(np.zeros(shape[name]) for name in State._fields))
     state.strength[:] = 1.0
     return aligned(state)
 
 
-def shapes(n: int, n_elements: int, heated: int = 0, cells: int = 0, turns: bool = False) -> dict:
+def shapes(n: int, n_elements: int, layered: int = 0, kept: int = 0, turns: bool = False) -> dict:
     """Shape of each array that the loop reads by address, by its field.
 
-    `n` is the number of modes, whole vectors, `heated` that of the rows that heat changes, `cells` that of
-    the cells of their columns, `turns` says whether the profile turns.
+    `n` is the number of modes, whole vectors, `layered` that of the rows of a layer, `kept` that of the
+    numbers that it keeps of an element, `turns` says whether the profile turns.
     """
     lanes, tip = (LANES,), (3 if turns else 2) * LANES
     of_modes, of_elements = (n,), (n_elements, LANES)
@@ -139,9 +138,9 @@ def shapes(n: int, n_elements: int, heated: int = 0, cells: int = 0, turns: bool
         **dict.fromkeys(("normal_force", "moment", "tangential_factor"), (2, LANES)),
         **dict.fromkeys(("response", "free_sliding"), (3 * LANES,)),
         "wear": of_elements,
-        "strength": (heated, LANES),
-        "heat": (heated, 2 * LANES),
-        "temperature": (heated, cells * LANES),
+        "strength": (layered, LANES),
+        "taken": (layered, 2 * LANES),
+        "layer": (layered, kept * LANES),
         "ledger": (N_ENTRIES, LANES),
         "scratch": (6, 2 * LANES),
     }

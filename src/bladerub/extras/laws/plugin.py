@@ -1,5 +1,7 @@
 """Laws of the coating beside that of the paper."""
 
+CHECKS = {"heat": "extras.laws.heating:check"}
+DATASETS = {"heat": "extras.laws.heating:DATASETS"}
 LAWS = {
     "brittle": "extras.laws.brittle",
     "perfectly_plastic": "extras.laws.perfectly_plastic",

@@ -2,7 +2,7 @@
 
 The plastic law, all of whose forces fall with the temperature by the factor of Johnson and Cook (1983),
 ``1 − (T / T_m)^m`` with T the rise and T_m that at which nothing is left. The bar is a column of the layer:
-`bladerub.contact.heating` lets its heat flow to the casing and puts the factors of its parts in series.
+`bladerub.extras.laws.heating` lets its heat flow to the casing and puts the factors of its parts in series.
 """
 
 import numpy as np
@@ -18,9 +18,11 @@ from bladerub.contact.law import (
     tangent,
 )
 from bladerub.contact.spec import Coating
+from bladerub.extras.laws.heating import Layer
 
 __all__ = [
     "Element",
+    "Layer",
     "dissipated_energy",
     "elastic_force",
     "elastic_limit",

@@ -5,7 +5,7 @@
 2. The force of the elements is turned by θ against the motion, as in the time loop. The tip also pays what
    the elements take up by wear: that energy over the width of an element is a force along the track.
 3. A law that heats warms the element by what friction and wear take from each pass, and lets it cool until
-   the next (`bladerub.contact.heating`).
+   the next (`bladerub.extras.laws.heating`).
 """
 
 import math
@@ -15,11 +15,11 @@ from typing import Any, NamedTuple
 import numpy as np
 import pandas as pd
 
-from bladerub.contact.heating import CELLS, Layer
 from bladerub.contact.kernel.records import at_rest
 from bladerub.contact.laws import module_of
 from bladerub.contact.spec import TipProfile
 from bladerub.contact.tip import coverage, edge, relief
+from bladerub.extras.laws.heating import CELLS, Layer
 from bladerub.extras.rig.spec import MEASURABLE, Rig
 from bladerub.numerics.vectors import LANES
 
@@ -118,7 +118,7 @@ class _Heat:
 
     def add(self, flow: float, friction: float) -> None:
         """Warm the element by what flow and friction make in a pass (J), and let it be until the next."""
-        self._state.heat[0, 0], self._state.heat[0, LANES] = flow, friction
+        self._state.taken[0, 0], self._state.taken[0, LANES] = flow, friction
         self._layer.rest(self._state, 0, 1)
 
     @property

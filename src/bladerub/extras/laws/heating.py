@@ -1,4 +1,4 @@
-"""Heat in the coating, for laws whose strength depends on the temperature.
+"""Heat in the coating: the layer of laws whose strength depends on the temperature.
 
 1. What friction and flow take from the contact in one passage of the tip warms the element to its
    ``heated_depth``. It is a column of the layer, and exchanges no heat with its neighbours.
@@ -20,6 +20,13 @@ from bladerub.contact.spec import Coating
 
 if TYPE_CHECKING:
     from bladerub.contact.kernel.records import State
+    from bladerub.contact.spec import ElementLaw
+
+PARAMETERS = ("heat_capacity", "conductivity", "heated_depth", "friction_share")
+"""Of a law with this layer; ``strength(coating, rise)`` is its force over that in the cold."""
+DATASETS = {
+    "temperature_rise": (("node", "angle"), "K", "by which the surface of the coating is warmer at the end")
+}
 
 HEATED, CELLS = 3, 12
 """Finite volumes of the heated depth, all alike, and of a column, where they grow towards the casing."""
@@ -40,8 +47,11 @@ class Layer:
         Of a revolution, s.
     """
 
+    numbers = CELLS  # that a state keeps of each column
+
     def __init__(self, law: ModuleType, coating: Coating, area: np.ndarray, period: float):
         parameters = dict(coating.element_law.parameters)
+        check(coating.element_law, coating.thickness)
         self.law, self.coating, self.area = law, coating, area
         self.height = cell_heights(coating.thickness, parameters["heated_depth"])
         self.friction_share = parameters["friction_share"]
@@ -56,34 +66,48 @@ class Layer:
 
         That is after a part `turn` of a revolution.
         """
-        rows = np.arange(first, last) % len(state.heat)
-        rows = rows[state.heat[rows].any(axis=1) | state.temperature[rows].any(axis=1)]
+        rows = np.arange(first, last) % len(state.taken)
+        rows = rows[state.taken[rows].any(axis=1) | state.layer[rows].any(axis=1)]
         amplitude = self._amplitude_after(state, rows, turn)
-        state.temperature[rows] = amplitude.reshape(len(rows), state.temperature.shape[1])
-        state.heat[rows] = 0.0
+        state.layer[rows] = amplitude.reshape(len(rows), state.layer.shape[1])
+        state.taken[rows] = 0.0
         strength = self.law.strength(self.coating, self._temperature(amplitude))
         state.strength[rows] = self.coating.thickness / np.sum(self.height / strength, axis=-1)
 
     def temperature(self, state: "State") -> np.ndarray:
         """Rise of temperature (N, lanes, n) in the cells of the columns when the tip would come next, K."""
-        amplitude = state.temperature.reshape(*state.strength.shape, CELLS).copy()
-        rows = np.flatnonzero(state.heat.any(axis=1))
+        amplitude = state.layer.reshape(*state.strength.shape, CELLS).copy()
+        rows = np.flatnonzero(state.taken.any(axis=1))
         amplitude[rows] = self._amplitude_after(state, rows, 1.0)
         return self._temperature(amplitude)
 
+    def outcome(self, state: "State") -> dict[str, np.ndarray]:
+        """Return what a run has of the layer in the end, each (N, lanes)."""
+        return {"temperature_rise": self.rise(state)}
+
     def rise(self, state: "State") -> np.ndarray:
-        """Return the mean of these temperatures over the heated depth (N, lanes)."""
+        """Return the mean of `temperature` over the heated depth (N, lanes), K."""
         return self.temperature(state)[..., :HEATED].mean(axis=-1)
 
     def _amplitude_after(self, state: "State", rows: np.ndarray, turn: float) -> np.ndarray:
         """Return the temperature of rows after a part of a revolution, in the modes of conduction."""
-        flow, friction = np.split(state.heat[rows], 2, axis=1)
+        flow, friction = np.split(state.taken[rows], 2, axis=1)
         pulse = (flow + self.friction_share * friction) / self.area  # J/m²
         modal_pulse = pulse[..., None] * self.pulse
-        return (state.temperature[rows].reshape(modal_pulse.shape) + modal_pulse) * np.exp(-self.decay * turn)
+        return (state.layer[rows].reshape(modal_pulse.shape) + modal_pulse) * np.exp(-self.decay * turn)
 
     def _temperature(self, amplitude: np.ndarray) -> np.ndarray:
         return amplitude @ (self.shapes / np.sqrt(self.capacity)[:, None]).T
+
+
+def check(law: "ElementLaw", thickness: float) -> None:
+    """Check the parameters of a law with heat for a layer; raises `ValueError`."""
+    parameters = dict(law.parameters)
+    missing = [name for name in PARAMETERS if name not in parameters]
+    if not missing:
+        cell_heights(thickness, parameters["heated_depth"])
+    elif len(missing) < len(PARAMETERS):
+        raise ValueError(f"{law.name}: has heat, but no {', '.join(missing)} in PARAMETERS")
 
 
 def cell_heights(thickness: float, heated_depth: float) -> np.ndarray:

@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 
-from bladerub.contact.heating import CELLS, HEATED, Layer, cell_heights, decay
 from bladerub.contact.kernel.records import at_rest
 from bladerub.contact.laws import described_law, module_of
 from bladerub.contact.spec import Coating
 from bladerub.extras.heat import LAYER
+from bladerub.extras.laws.heating import CELLS, HEATED, Layer, cell_heights, decay
 
 THICKNESS, AREA, PERIOD = 5e-3, np.linspace(1e-6, 2e-6, 8), 0.02
 N = 12
@@ -22,8 +22,8 @@ def layer(**values):
 
 def heated(flow=0.0, friction=0.0):
     """State after a passage that made so much heat in rows 3 to 5, J."""
-    state = at_rest(1, N, cells=CELLS)
-    state.heat[3:6] = np.repeat([flow, friction], 8)
+    state = at_rest(1, N, kept=CELLS)
+    state.taken[3:6] = np.repeat([flow, friction], 8)
     return state
 
 
@@ -47,7 +47,7 @@ def test_without_conduction_all_heat_stays_in_the_heated_depth():
     np.testing.assert_allclose(np.ptp(rise[..., :HEATED], axis=-1), 0, atol=1e-9)
     np.testing.assert_allclose(rise[..., HEATED:], 0, atol=1e-9)
     assert not rise[:3].any()
-    assert not state.heat.any()
+    assert not state.taken.any()
 
 
 def test_conduction_takes_heat_to_the_casing_and_makes_none():
@@ -76,8 +76,8 @@ def test_strength_is_that_of_the_cells_in_series():
 def test_rows_wrap_around_and_others_wait():
     own, state = layer(), heated(flow=0.01)
     own.rest(state, -8, -7)  # row 4
-    assert not state.heat[4].any()
-    assert state.heat[[3, 5], :8].all()
+    assert not state.taken[4].any()
+    assert state.taken[[3, 5], :8].all()
     assert (state.strength[4] < 1).all()
     assert (state.strength[[3, 5]] == 1).all()
 
