@@ -14,9 +14,7 @@ from bladerub import plugins
 
 if TYPE_CHECKING:
     from bladerub.api.blade import Blade, build_blade, read_blade
-    from bladerub.api.ensemble import Ensemble, read_ensemble, simulate_ensemble
     from bladerub.api.errors import InputError
-    from bladerub.api.law import Law
     from bladerub.api.map import Map, read_map, simulate_speeds
     from bladerub.api.run import Run, read_run, simulate
     from bladerub.api.study import Study, StudyCoating, StudyRun, default_study, load_study
@@ -26,9 +24,7 @@ __version__ = "0.1.0"
 
 _MODULES = {
     "api.blade": ("Blade", "build_blade", "read_blade"),
-    "api.ensemble": ("Ensemble", "read_ensemble", "simulate_ensemble"),
     "api.errors": ("InputError",),
-    "api.law": ("Law",),
     "api.map": ("Map", "read_map", "simulate_speeds"),
     "api.run": ("Run", "read_run", "simulate"),
     "api.study": ("Study", "StudyCoating", "StudyRun", "default_study", "load_study"),
@@ -39,9 +35,7 @@ _HOME = {name: f"bladerub.{module}" for module, names in _MODULES.items() for na
 __all__ = [
     "Blade",
     "ConfigError",
-    "Ensemble",
     "InputError",
-    "Law",
     "Map",
     "Run",
     "Study",
@@ -52,11 +46,9 @@ __all__ = [
     "default_study",
     "load_study",
     "read_blade",
-    "read_ensemble",
     "read_map",
     "read_run",
     "simulate",
-    "simulate_ensemble",
     "simulate_speeds",
 ]
 

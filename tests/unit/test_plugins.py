@@ -15,6 +15,8 @@ from bladerub.io.folders import PACKAGE
 KINDS = (
     "PUBLIC",
     "COMMANDS",
+    "CHECKS",
+    "RUN_OPTIONS",
     "MANIFESTS",
     "INVENTORIES",
     "MEASURES",

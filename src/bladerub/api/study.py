@@ -9,7 +9,6 @@ from typing import Any
 import numpy as np
 
 from bladerub.api.errors import InputError
-from bladerub.api.law import Law
 from bladerub.api.notebook import Shown
 from bladerub.config import quantities
 from bladerub.config import read as configuration
@@ -163,8 +162,10 @@ class Study(Shown):
         """Folder of the results of the workflow."""
         return self.folder / self.config["results"]
 
-    def with_law(self, law: Law) -> "Study":
-        """Return this study with another law of the abradable elements, for all its coatings.
+    def with_law(self, law: Any) -> "Study":
+        """Return this study with another `law` of the abradable elements, for all its coatings.
+
+        Its ``entry`` is the block ``contact.law`` of a config.
 
         Examples
         --------

@@ -5,22 +5,20 @@ import math
 import os
 import sys
 import time
-from dataclasses import asdict
+from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from bladerub import plugins
 from bladerub.cli import inputs
 from bladerub.cli.inputs import InputError, quantity, refused
-from bladerub.config.schema import schema
+from bladerub.cli.run_option import RunOption
 
 if TYPE_CHECKING:  # as in `inputs`
-    from bladerub.api.blade import Blade
     from bladerub.api.run import Run
     from bladerub.api.study import Study, StudyCoating, StudyRun
 
 _QUANTITIES = ("E", "K", "theta", "friction", "damping_ratio", "layer_thickness", "interference")
-_QUANTITIES += ("length_scatter", "frequency_scatter")
 _STEEP = math.pi / 4  # beyond this angle the force is more tangential than normal
 _UNITS = {"E": "contact.modulus_unit", "K": "contact.modulus_unit", "theta": "rad", "f_omega": "f1 at rest"}
 _UNITS |= {
@@ -30,7 +28,6 @@ _UNITS |= {
     "max_wear": "m",
     "growth_per_revolution": "1",
 }
-_UNITS |= {"von_mises": "Pa", "principal": "Pa", "alternating": "Pa"}
 _UNITS |= {"rpm": "1/min", "damping_ratio": "1", "layer_thickness": "m", "interference": "m"}
 
 
@@ -59,32 +56,22 @@ def add_to(commands: Any) -> None:
     parser.option("--damping-ratio", text, quantity, metavar="XI")
     text = "of the abradable coating, m or '4 mm', instead of contact.layer_thickness"
     parser.option("--layer-thickness", text, quantity, metavar="H")
-    text = "law of the elements by its name (docs/laws.md) or its file, instead of contact.law"
-    parser.option("--law", text, metavar="LAW")
-    text = "parameter of --law, SI units or with its unit; once for each of them"
-    inputs.add_law_parameters_to(parser, "--law-parameter", text)
     parser.option("--interference", "instead of that of the casing, m or '0.4 mm'", quantity, metavar="D")
     speed = parser.add_mutually_exclusive_group(required=True)
     text = "speed: normalised, or with a unit, such as 2200rpm or '38 Hz'"
     speed.add_argument("--f", type=quantity, metavar="F_OMEGA", help=text)
     speed.add_argument("--rpm", type=float, metavar="N", help="the same as --f 'N rpm'")
     parser.option("--revolutions", "instead of solver.revolutions, at least 2", int, metavar="N")
-    text = "run it again from so many other starts, as the study does, and show the bands"
-    parser.option("--ensemble", text, int, metavar="N")
-    text = "so many blades, at even angles, that rub on one coating"
-    parser.option("--blades", text, int, metavar="N")
-    text = "standard deviation of their tip radii, m or '20 µm' (default 0)"
-    parser.option("--length-scatter", text, quantity, metavar="S")
-    text = "standard deviation of their natural frequencies, relative (default 0)"
-    parser.option("--frequency-scatter", text, quantity, metavar="S")
-    text = "springs of the disk between neighbours over the stiffness of the first mode (default 0: none)"
-    parser.option("--coupling", text, float, metavar="C")
-    parser.option("--seed", "of the draws of the blades, 0 or more (default 1)", int, metavar="N")
-    text = "find the largest stress of the blade too, at start-up and in the last revolutions"
-    parser.add_argument("--stress", action="store_true", help=text)
+    for option in _options():
+        option.add_to(parser)
     text = "what the run is computed on, instead of solver.device"
     parser.option("--device", text, choices=["cpu", *plugins.offered("SOLVERS")])
     parser.option("--output", "write the run with its whole history (HDF5)", Path, metavar="FILE")
+
+
+@cache
+def _options() -> list[RunOption]:
+    return [option() for option in plugins.loaded("RUN_OPTIONS").values()]
 
 
 def run(options: argparse.Namespace) -> None:
@@ -93,18 +80,18 @@ def run(options: argparse.Namespace) -> None:
     _check_coating(options)
     if options.device:
         config["solver"]["device"] = options.device
-    if options.ensemble is not None and options.ensemble < 1:
-        raise InputError(f"--ensemble = {options.ensemble}: must be at least 1")
+    for option in _options():
+        option.check(options, config)
 
     from bladerub.api.run import counted, simulate
     from bladerub.api.study import Study
     from bladerub.config.quantities import references
 
     inputs.convert(options, *_QUANTITIES, reference=references(config))
-    row = _row(options)
-    if options.stress and (row or config.get("rotor")):
-        raise InputError("--stress: is of a single blade; not with --blades or the block rotor of the config")
-    study = _with_law(options, Study(config, inputs.study_folder()))
+    study, more = Study(config, inputs.study_folder()), {}
+    for option in _options():
+        study = option.vary(options, study)
+        more |= option.arguments(options)
     if options.output:
         _check_output(options.output)
     speed = options.f if options.rpm is None else f"{options.rpm!r} rpm"
@@ -123,7 +110,7 @@ def run(options: argparse.Namespace) -> None:
     bar = inputs.progress_bar(planned.spec.revolutions, "rev")
     with bar, refused(ValueError, OSError), inputs.as_options(f_omega="f"):
         start = time.perf_counter()
-        result = simulate(blade, planned, row=row, stress=options.stress, each=counted(bar, planned))
+        result = simulate(blade, planned, each=counted(bar, planned), **more)
         seconds = time.perf_counter() - start
     if options.output:
         with refused(OSError, because=f"--output {options.output}: cannot be written: "):
@@ -132,73 +119,19 @@ def run(options: argparse.Namespace) -> None:
     peak = figures["peak_amplitude"]
     figures["displacement_over_length"] = None if peak is None else peak / blade.length
     inputs.warn_of_residual(options, figures["energy_residual"])
-    if options.ensemble is not None:
-        figures["ensemble"] = _ensemble(options, planned, blade, result)
-    if options.stress:
-        figures["stress"] = asdict(result.stress) if result.stress else None
-    if len(result.blades):
-        figures["blade"] = result.attributes["blade"]
-        figures["blades"] = result.blades.reset_index().to_dict("records")
+    for option in _options():
+        figures |= option.figures(options, planned, blade, result)
+        figures["units"] |= option.units
     inputs.show(options, figures, _in_words)
-
-
-def _with_law(options: argparse.Namespace, study: "Study") -> "Study":
-    """Return the study with the law that is asked for, if one is."""
-    values = inputs.law_parameters("--law-parameter", options.law_parameter, options.law)
-    if options.law is None:
-        if values:
-            raise InputError(f"--law-parameter = {options.law_parameter[0]}: goes with --law only")
-        return study
-
-    from bladerub.api.law import Law
-
-    with inputs.as_options():
-        return study.with_law(Law(options.law, **values))
-
-
-def _row(options: argparse.Namespace) -> Any:
-    """Describe the row of blades that is asked for, if one is."""
-    names = ("length_scatter", "frequency_scatter", "coupling", "seed")
-    row_settings = {name: getattr(options, name) for name in names if getattr(options, name) is not None}
-    if options.blades is None:
-        for name, value in row_settings.items():
-            raise InputError(f"--{name.replace('_', '-')} = {value:g}: goes with --blades only")
-        return None
-    inputs.require(options, blades=(1, schema()["properties"]["rotor"]["properties"]["blades"]["maximum"]))
-    if options.ensemble is not None:
-        raise InputError(f"--ensemble = {options.ensemble}: not with --blades; give another --seed instead")
-    for name, value in row_settings.items():
-        if not (math.isfinite(value) and value >= 0):
-            raise InputError(f"--{name.replace('_', '-')} = {value:g}: must be 0 or more")
-
-    from bladerub.study.row import rows
-
-    with refused(ValueError):
-        return rows().drawn(options.blades, row_settings.pop("seed", 1), **row_settings)
-
-
-def _ensemble(
-    options: argparse.Namespace, planned: "StudyRun", blade: "Blade", result: "Run"
-) -> dict[str, Any]:
-    from bladerub.api.ensemble import simulate_ensemble
-
-    ensemble = simulate_ensemble(blade, planned, options.ensemble, own=result, progress=sys.stderr.isatty())
-    bands = ensemble.bands()
-    return {
-        "runs": len(ensemble.runs),
-        "divergent_draws": float(ensemble.to_pandas().divergent.mean()),
-        **bands.astype(object).where(bands.notna(), None).to_dict("index"),
-    }
 
 
 def _check_coating(options: argparse.Namespace) -> None:
     """Check that the options of a coating are there, and none of another kind."""
     if options.coating == "rigid":
-        for option in ("E", "K", "theta", "layer-thickness", "law"):
+        for option in ("E", "K", "theta", "layer-thickness"):
             setting = getattr(options, option.replace("-", "_"))
             if setting is not None:
-                value = setting if option == "law" else f"{setting:g}"
-                raise InputError(f"--{option} = {value}: goes with --coating abradable only")
+                raise InputError(f"--{option} = {setting:g}: goes with --coating abradable only")
         return
     for option in ("E", "K"):
         if getattr(options, option) is None:
@@ -251,7 +184,7 @@ def _figures(planned: "StudyRun", result: "Run", seconds: float) -> dict[str, An
         **result.summary(planned.config),
         "steps_per_second": steps / seconds,
         "run_key": result.attributes["run_key"],
-        "units": _UNITS,
+        "units": dict(_UNITS),
     }
 
 
@@ -305,33 +238,10 @@ def _in_words(figures: dict[str, Any]) -> str:
         "steps per second": f"{figures['steps_per_second']:.3g}",
     }
     lines = inputs.aligned(rows.items())
-    if "stress" in figures:
-        lines += ["", *_stress_in_words(figures["stress"])]
-    if "blades" in figures:
-        lines += [
-            "",
-            f"a row of {len(figures['blades'])}, above blade {figures['blade']}, which vibrates most:",
-        ]
-        lines += _blades_in_words(figures["blades"])
-    if "ensemble" in figures:
-        lines += ["", *_bands_in_words(figures["ensemble"])]
+    for option in _options():
+        if more := option.in_words(figures):
+            lines += ["", *more]
     return "\n".join(lines)
-
-
-def _stress_in_words(stress: dict[str, dict[str, float]] | None) -> list[str]:
-    if stress is None:
-        return ["stress: not known, the blade is of matrices alone or no revolution is complete"]
-    names = {"static": "rotation alone", "start_up": "start-up", "last": "last revolutions"}
-    kinds = {"von_mises": "von Mises", "principal": "largest principal", "alternating": "alternating"}
-    lines = []
-    for part, phase in names.items():
-        for name, kind in kinds.items():
-            if name in stress[part]:
-                peaks = stress[part]
-                place = ", ".join(f"{1e3 * peaks[f'{name}_{axis}']:.1f}" for axis in "xyz")
-                time = f", after {peaks[f'{name}_time']:.3f} revolutions" if f"{name}_time" in peaks else ""
-                lines.append((f"{kind}, {phase}", f"{peaks[name] / 1e6:.4g} MPa at ({place}) mm{time}"))
-    return ["largest stress:", *inputs.aligned(lines)]
 
 
 def _layer_in_words(figures: dict[str, Any]) -> dict[str, str]:
@@ -350,46 +260,6 @@ def _coating_in_words(figures: dict[str, Any]) -> str:
         return "none, the casing is rigid"
     unit = figures["modulus_unit"] / 1e6
     return ", ".join(f"{name} = {figures[name]:g} ({figures[name] * unit:.4g} MPa)" for name in ("E", "K"))
-
-
-_OF_BLADES = {
-    "blade": ("blade", 1, "d"),
-    "length, µm": ("length", 1e6, ".1f"),
-    "frequency, %": ("frequency", 100, ".2f"),
-    "peak, mm": ("peak", 1e3, ".4f"),
-    "amplitude, mm": ("amplitude", 1e3, ".4f"),
-    "worn, cm³": ("worn_volume", 1e6, ".3f"),
-}
-"""Columns of the table of a row, with the name of the figure, its factor and format."""
-
-
-def _blades_in_words(blades: list[dict[str, float]]) -> list[str]:
-    """Write a line for each blade; a mark at those that left the displacement limit."""
-    rows = [tuple(_OF_BLADES)]
-    for blade in blades:
-        cells = [f"{factor * blade[name]:{form}}" for name, factor, form in _OF_BLADES.values()]
-        rows.append((*cells[:-1], cells[-1] + (" unbounded" if blade["unbounded"] else "")))
-    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
-    return ["  ".join(f"{cell:>{width}}" for cell, width in zip(row, widths, strict=True)) for row in rows]
-
-
-def _bands_in_words(ensemble: dict[str, Any]) -> list[str]:
-    def between(band: dict[str, float | None], factor: float, unit: str) -> str:
-        if band["low"] is None:
-            return "not measurable"
-        median, low, high = (f"{factor * band[end]:.4g}" for end in ("median", "low", "high"))
-        return f"{median} {unit}({low} to {high})".replace("  ", " ")
-
-    rows = {
-        "ensemble": f"{ensemble['runs']} runs: median, and the interval of 90 % of further starts",
-        "peak displacement": between(ensemble["peak_amplitude"], 1e3, "mm "),
-        "spectral peak": between(ensemble["spectral_peak"], 1e3, "mm "),
-        "maximum wear": between(ensemble["max_wear"], 1e3, "mm "),
-        "lobes": between(ensemble["lobes"], 1, ""),
-        "growth": between(ensemble["growth_per_revolution"], 100, "% a revolution "),
-        "divergent": f"{100 * ensemble['divergent_draws']:.0f} % of the runs",
-    }
-    return inputs.aligned(rows.items())
 
 
 def _harmonic_in_words(figures: dict[str, Any]) -> str:

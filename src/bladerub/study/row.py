@@ -12,8 +12,8 @@ KEY = "rotor"
 def rows() -> Any:
     """Return the module that computes rows; raises `ValueError` where the package is without it.
 
-    It has `described(config)`, `drawn(n_blades, seed, …)`, `stored(run)`, `determinants(row)` and
-    `compute(row, blade, case, spec, key, analysis, keep_history, progress)`. A row has ``blades``.
+    It has `described(config)`, `stored(run)`, `determinants(row)` and `compute(row, blade, case, spec, key,
+    analysis, keep_history, progress)`. A row has ``blades``.
     """
     if KEY not in (offered := plugins.offered("ROWS")):
         raise ValueError("row: this package computes no rows of blades; must be left out")

@@ -8,10 +8,10 @@ import sys
 import numpy as np
 import pytest
 
-from bladerub.api import ensemble
 from bladerub.api.map import solve_all
 from bladerub.blade.validation import read_reduced_blade
 from bladerub.cli import inputs, main
+from bladerub.extras.ensembles import interface
 from bladerub.io.hdf5 import read_attributes
 from bladerub.study.store import read_run
 
@@ -142,7 +142,7 @@ def test_an_ensemble_shows_its_bands(small, blade_file, capsys, monkeypatch):
         further.extend(runs)
         return solve_all(blade, runs, *more)
 
-    monkeypatch.setattr(ensemble, "solve_all", counted)
+    monkeypatch.setattr(interface, "solve_all", counted)
     assert main([*RUN, *small, "--revolutions", "2", "--ensemble", "2", "--json"]) == 0
     figures = json.loads(capsys.readouterr().out)
     bands = figures["ensemble"]

@@ -2,6 +2,8 @@
 
 CHECKS = {"heat": "extras.laws.heating:check"}
 DATASETS = {"heat": "extras.laws.heating:DATASETS"}
+PUBLIC = {"Law": "extras.laws.interface"}
+RUN_OPTIONS = {"law": "extras.laws.run_option:LawOption"}
 LAWS = {
     "brittle": "extras.laws.brittle",
     "perfectly_plastic": "extras.laws.perfectly_plastic",

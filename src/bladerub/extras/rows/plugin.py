@@ -3,3 +3,4 @@
 PUBLIC = dict.fromkeys(("Disk", "Row", "RowBlade"), "extras.rows.spec")
 ROWS = {"rotor": "extras.rows.study"}
 DATASETS = {"rows": "extras.rows.datasets:DATASETS"}
+RUN_OPTIONS = {"row": "extras.rows.run_option:RowOption"}

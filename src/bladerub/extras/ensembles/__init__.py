@@ -1,0 +1,1 @@
+"""One run from many starts, whatever the study makes of its peaks."""

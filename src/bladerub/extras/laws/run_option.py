@@ -1,0 +1,40 @@
+"""``bladerub run --law LAW``: another law of the elements than that of the config."""
+
+import argparse
+from typing import TYPE_CHECKING, Any
+
+from bladerub.cli import inputs
+from bladerub.cli.inputs import InputError
+from bladerub.cli.run_option import RunOption
+
+if TYPE_CHECKING:
+    from bladerub.api.study import Study
+
+
+class LawOption(RunOption):
+    """The law and its parameters."""
+
+    def add_to(self, parser: inputs.Parser) -> None:
+        """Add ``--law`` and ``--law-parameter``."""
+        text = "law of the elements by its name (docs/laws.md) or its file, instead of contact.law"
+        parser.option("--law", text, metavar="LAW")
+        text = "parameter of --law, SI units or with its unit; once for each of them"
+        inputs.add_law_parameters_to(parser, "--law-parameter", text)
+
+    def check(self, options: argparse.Namespace, config: dict[str, Any]) -> None:
+        """Refuse a law of the rigid casing, and parameters of none."""
+        if options.law is not None and options.coating == "rigid":
+            raise InputError(f"--law = {options.law}: goes with --coating abradable only")
+        if inputs.law_parameters("--law-parameter", options.law_parameter, None) and options.law is None:
+            raise InputError(f"--law-parameter = {options.law_parameter[0]}: goes with --law only")
+
+    def vary(self, options: argparse.Namespace, study: "Study") -> "Study":
+        """Return the study with the law."""
+        if options.law is None:
+            return study
+
+        from bladerub.extras.laws.interface import Law
+
+        values = inputs.law_parameters("--law-parameter", options.law_parameter, options.law)
+        with inputs.as_options():
+            return study.with_law(Law(options.law, **values))

@@ -1,0 +1,65 @@
+"""``bladerub run --stress``: the largest stress of the blade in the run."""
+
+import argparse
+from collections.abc import Mapping
+from dataclasses import asdict
+from typing import TYPE_CHECKING, Any, ClassVar
+
+from bladerub.cli import inputs
+from bladerub.cli.inputs import InputError
+from bladerub.cli.run_option import RunOption
+
+if TYPE_CHECKING:
+    from bladerub.api.blade import Blade
+    from bladerub.api.run import Run
+    from bladerub.api.study import StudyRun
+
+_PARTS = {"static": "rotation alone", "start_up": "start-up", "last": "last revolutions"}
+_KINDS = {"von_mises": "von Mises", "principal": "largest principal", "alternating": "alternating"}
+
+
+class StressOption(RunOption):
+    """Whether the stress is found."""
+
+    units: ClassVar[Mapping[str, str]] = dict.fromkeys(_KINDS, "Pa")
+
+    def add_to(self, parser: inputs.Parser) -> None:
+        """Add ``--stress``."""
+        text = "find the largest stress of the blade too, at start-up and in the last revolutions"
+        parser.add_argument("--stress", action="store_true", help=text)
+
+    def check(self, options: argparse.Namespace, config: dict[str, Any]) -> None:
+        """Refuse the stress of rows."""
+        if options.stress and (getattr(options, "blades", None) is not None or config.get("rotor")):
+            raise InputError(
+                "--stress: is of a single blade; not with --blades or the block rotor of the config"
+            )
+
+    def arguments(self, options: argparse.Namespace) -> dict[str, Any]:
+        """Ask for the stress."""
+        return {"stress": True} if options.stress else {}
+
+    def figures(
+        self, options: argparse.Namespace, planned: "StudyRun", blade: "Blade", run: "Run"
+    ) -> dict[str, Any]:
+        """Return the stress; None if it is not known."""
+        return {"stress": asdict(run.stress) if run.stress else None} if options.stress else {}
+
+    def in_words(self, figures: Mapping[str, Any]) -> list[str]:
+        """Write a line for each part of the run and kind of stress, with the place."""
+        if "stress" not in figures:
+            return []
+        stress = figures["stress"]
+        if stress is None:
+            return ["stress: not known, the blade is of matrices alone or no revolution is complete"]
+        lines = []
+        for part, phase in _PARTS.items():
+            for name, kind in _KINDS.items():
+                if name in stress[part]:
+                    peaks = stress[part]
+                    place = ", ".join(f"{1e3 * peaks[f'{name}_{axis}']:.1f}" for axis in "xyz")
+                    time = (
+                        f", after {peaks[f'{name}_time']:.3f} revolutions" if f"{name}_time" in peaks else ""
+                    )
+                    lines.append((f"{kind}, {phase}", f"{peaks[name] / 1e6:.4g} MPa at ({place}) mm{time}"))
+        return ["largest stress:", *inputs.aligned(lines)]
