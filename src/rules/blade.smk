@@ -11,7 +11,7 @@ MESH = f"{RESULTS}/blade/mesh.h5"
 
 def of_another_config(model):
     """Say so of a blade that `bladerub run` has left here: Snakemake has no record of how it was made."""
-    from bladerub.blade.build import is_built  # takes a second to import
+    from bladerub.blade.files import is_built
 
     try:
         is_current = not Path(model).exists() or is_built(config, Path(model))

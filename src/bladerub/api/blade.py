@@ -15,9 +15,10 @@ from bladerub.api.errors import InputError
 from bladerub.api.notebook import Shown
 from bladerub.api.study import Quantity, Study
 from bladerub.blade.accuracy import ACCURACY_COLUMNS, doubts
-from bladerub.blade.build import build, is_built
-from bladerub.blade.built import accuracy_path, mesh_path, paths, write
+from bladerub.blade.build import build
+from bladerub.blade.built import write
 from bladerub.blade.cache import kept_at
+from bladerub.blade.files import accuracy_path, is_built, mesh_path, paths
 from bladerub.blade.frequencies import reduced_frequencies, tip_lean
 from bladerub.blade.model import ReducedBlade
 from bladerub.blade.validation import read_valid_blade

@@ -1,43 +1,22 @@
 """From the config to the reduced blade and the tables that say how good it is."""
 
-import json
 from collections.abc import Mapping
 from functools import lru_cache
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 from threadpoolctl import threadpool_limits
 
 from bladerub.blade import geometry
-from bladerub.blade.built import BuiltBlade, mesh_path
+from bladerub.blade.built import BuiltBlade
 from bladerub.blade.discrete import DiscreteBlade, by_finite_elements
 from bladerub.blade.elasticity import Material
+from bladerub.blade.files import made_from
 from bladerub.blade.mesh import BladeMesh, MeshedBlade
 from bladerub.blade.model import N_INTERFACE, n_interface
 from bladerub.blade.reduction import fit_speeds
 from bladerub.blade.refinement import MOST_FIT_SPEEDS, reduce_to_tolerance
 from bladerub.blade.source import reader
-from bladerub.io import hdf5
-
-
-def made_from(config: Mapping[str, Any]) -> str:
-    """Write down what of `config` determines the blade: equal for two configs of the same blade.
-
-    Raises OSError or ValueError if a file that the blade comes from cannot be read or is missing.
-    """
-    blade = config["blade"]
-    if source := reader(blade):
-        blade = source.recipe(blade)
-    return json.dumps({"blade": blade, "reduction": config["reduction"]}, sort_keys=True)
-
-
-def is_built(config: Mapping[str, Any], path: Path) -> bool:
-    """Return whether the reduced blade at `path` was built from `config`, as its mesh states."""
-    mesh = mesh_path(path)
-    if not (path.exists() and mesh.exists()):
-        return False
-    return hdf5.read_attributes(mesh).get("made_from") == made_from(config)
 
 
 def build(config: Mapping[str, Any]) -> BuiltBlade:

@@ -8,6 +8,7 @@ import numpy as np
 import pandas as pd
 
 from bladerub.blade.accuracy import ACCURACY_COLUMNS
+from bladerub.blade.files import accuracy_path, mesh_path
 from bladerub.blade.mesh import BladeMesh, NodeCloud, solid_mesh
 from bladerub.blade.model import AXIS, ReducedBlade, interface_node, write_reduced_blade
 from bladerub.blade.validation import read_reduced_blade
@@ -28,22 +29,7 @@ class BuiltBlade:
     static_displacement: np.ndarray  # (n_speeds, n_nodes, 3), from rest to the equilibria at speed, m
     static_speed: np.ndarray  # (n_speeds,), normalised, the accuracy speeds whose equilibria are known
     accuracy: pd.DataFrame  # from `bladerub.blade.accuracy.accuracy_table`
-    made_from: str  # from `bladerub.blade.build.made_from`
-
-
-def mesh_path(reduced_model: Path) -> Path:
-    """Return the file of the mesh that belongs to the reduced model in the file `reduced_model`."""
-    return reduced_model.with_name("mesh.h5")
-
-
-def accuracy_path(reduced_model: Path) -> Path:
-    """Return the table of the accuracy of the reduced model in the file `reduced_model`."""
-    return reduced_model.with_name("rom_accuracy.csv")
-
-
-def paths(reduced_model: Path) -> tuple[Path, Path, Path]:
-    """Return the files of a blade whose reduced model is the file `reduced_model`, as `write` takes them."""
-    return reduced_model, mesh_path(reduced_model), accuracy_path(reduced_model)
+    made_from: str  # from `bladerub.blade.files.made_from`
 
 
 def write(

@@ -7,7 +7,8 @@ from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
-from bladerub.blade.build import frequency_at_rest, made_from
+from bladerub.blade.build import frequency_at_rest
+from bladerub.blade.files import made_from
 from bladerub.blade.source import reader_digest
 from bladerub.io import atomic
 from bladerub.io.folders import cache_folder
@@ -19,7 +20,7 @@ def kept_at(config: Mapping[str, Any]) -> Path:
     """Return where the reduced blade of `config` is kept, whether it is there or not.
 
     The folder is named after all that determines the blade: its config, its file, the sources that build it,
-    and the versions of the packages. Raises as `bladerub.blade.build.made_from`.
+    and the versions of the packages. Raises as `bladerub.blade.files.made_from`.
     """
     return cache_folder() / "blades" / _name(config) / "reduced_model.h5"
 

@@ -254,7 +254,7 @@ def read_blade(options: argparse.Namespace, config: dict[str, Any]) -> "Blade":
     A damaged file is an `OSError` if the command can make it again, an `InputError` if not.
     """
     from bladerub.api import blade as blades
-    from bladerub.blade.built import mesh_path
+    from bladerub.blade.files import is_built, mesh_path
     from bladerub.workflow import invocation
 
     path = blade_path(options, config)
@@ -262,7 +262,7 @@ def read_blade(options: argparse.Namespace, config: dict[str, Any]) -> "Blade":
         invocation.prepare(path.parents[1])
         print(f"bladerub {options.name}: building the blade first, into {path.parent}", file=sys.stderr)
         blades.write_blade(config, path)
-    elif not options.blade and not blades.is_built(config, path):
+    elif not options.blade and not is_built(config, path):
         raise InputError(
             f"{path}: was built from another config; name that with --config, build it again with "
             "snakemake, delete it, or name another blade with --blade"

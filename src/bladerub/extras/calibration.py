@@ -11,7 +11,8 @@ from typing import Any
 import pandas as pd
 
 from bladerub.blade.build import build
-from bladerub.blade.built import accuracy_path, mesh_path, write
+from bladerub.blade.built import write
+from bladerub.blade.files import accuracy_path, mesh_path
 from bladerub.config import read as configuration
 from bladerub.config.errors import ConfigError
 from bladerub.extras.small_study import conduct

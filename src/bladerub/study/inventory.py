@@ -5,7 +5,7 @@ from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from bladerub.blade.build import is_built
+from bladerub.blade.files import is_built
 from bladerub.blade.validation import read_reduced_blade
 from bladerub.contact.result import UNBALANCED
 from bladerub.io.errors import is_refused, message_for

@@ -4,8 +4,9 @@ import math
 
 import pytest
 
-from bladerub.blade.build import frequency_at_rest, made_from
+from bladerub.blade.build import frequency_at_rest
 from bladerub.blade.cache import first_frequency, kept_frequency
+from bladerub.blade.files import made_from
 from bladerub.config.errors import ConfigError
 from bladerub.config.quantities import number, references
 from bladerub.config.read import load, read, read_plan

@@ -5,9 +5,9 @@ from contextlib import suppress
 from typing import Any
 
 from bladerub.blade import built
-from bladerub.blade.build import is_built
 from bladerub.blade.built import BuiltBlade
 from bladerub.blade.cache import kept_at
+from bladerub.blade.files import is_built, paths
 from bladerub.io.provenance import provenance
 
 
@@ -15,7 +15,7 @@ def keep(blade: BuiltBlade, config: Mapping[str, Any]) -> None:
     """Keep the blade of `config` for its study; raises OSError if it cannot be written."""
     path = kept_at(config)
     if not is_built(config, path):
-        built.write(blade, provenance(config), *built.paths(path))
+        built.write(blade, provenance(config), *paths(path))
 
 
 def kept(config: Mapping[str, Any]) -> BuiltBlade | None:

@@ -10,7 +10,8 @@ import numpy as np
 import pandas as pd
 
 from bladerub.blade.build import build
-from bladerub.blade.built import accuracy_path, mesh_path, write
+from bladerub.blade.built import write
+from bladerub.blade.files import accuracy_path, mesh_path
 from bladerub.config.files import Located
 from bladerub.extras.identification.plan import Plan, config_of
 from bladerub.extras.identification.targets import measure

@@ -3,7 +3,8 @@ import numpy as np
 import pytest
 from blade_parts import tetrahedral_mesh
 
-from bladerub.blade.build import build, made_from
+from bladerub.blade.build import build
+from bladerub.blade.files import made_from
 from bladerub.blade.frequencies import reduced_frequencies
 from bladerub.blade.geometry import BladeShape, lattice
 from bladerub.blade.mesh import BladeMesh

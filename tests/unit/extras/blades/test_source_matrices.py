@@ -11,9 +11,10 @@ from blade_parts import TITANIUM, section
 from scipy import sparse
 from scipy.io import mmwrite
 
-from bladerub.blade.build import build, made_from, meshed_blade
+from bladerub.blade.build import build, meshed_blade
 from bladerub.blade.discrete import by_finite_elements
 from bladerub.blade.elasticity import Material, Solid
+from bladerub.blade.files import made_from
 from bladerub.blade.frequencies import reduced_frequencies
 from bladerub.blade.rotation import rotating_stiffness
 from bladerub.extras.blades import matrix_folder

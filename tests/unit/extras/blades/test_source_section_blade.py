@@ -6,8 +6,9 @@ import pytest
 from blade_parts import TITANIUM
 from section_parts import CHORD, LENGTH, THICKNESS, cartesian, cylindrical, in_space, lens, twisted_plate
 
-from bladerub.blade.build import build, made_from
+from bladerub.blade.build import build
 from bladerub.blade.elasticity import Material, Solid
+from bladerub.blade.files import made_from
 from bladerub.blade.geometry import lattice
 from bladerub.blade.linear import lowest_modes
 from bladerub.blade.mesh import hexahedral_mesh

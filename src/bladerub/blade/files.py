@@ -1,0 +1,43 @@
+"""The files of a blade, and what they were built from; importing this loads nothing of the builder."""
+
+import json
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from bladerub.blade.source import reader
+from bladerub.io import hdf5
+
+
+def mesh_path(reduced_model: Path) -> Path:
+    """Return the file of the mesh that belongs to the reduced model in the file `reduced_model`."""
+    return reduced_model.with_name("mesh.h5")
+
+
+def accuracy_path(reduced_model: Path) -> Path:
+    """Return the table of the accuracy of the reduced model in the file `reduced_model`."""
+    return reduced_model.with_name("rom_accuracy.csv")
+
+
+def paths(reduced_model: Path) -> tuple[Path, Path, Path]:
+    """Return the files of a blade whose reduced model is the file `reduced_model`, as `write` takes them."""
+    return reduced_model, mesh_path(reduced_model), accuracy_path(reduced_model)
+
+
+def made_from(config: Mapping[str, Any]) -> str:
+    """Write down what of `config` determines the blade: equal for two configs of the same blade.
+
+    Raises OSError or ValueError if a file that the blade comes from cannot be read or is missing.
+    """
+    blade = config["blade"]
+    if source := reader(blade):
+        blade = source.recipe(blade)
+    return json.dumps({"blade": blade, "reduction": config["reduction"]}, sort_keys=True)
+
+
+def is_built(config: Mapping[str, Any], path: Path) -> bool:
+    """Return whether the reduced blade at `path` was built from `config`, as its mesh states."""
+    mesh = mesh_path(path)
+    if not (path.exists() and mesh.exists()):
+        return False
+    return hdf5.read_attributes(mesh).get("made_from") == made_from(config)
