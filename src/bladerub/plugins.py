@@ -11,6 +11,7 @@ A folder says what it adds in its ``plugin.py``, which imports nothing: each val
 ``INVENTORIES`` what counts runs beside those of the coatings, for ``bladerub status``
 ``MEASURES``    what a run may be asked for besides itself, each with its module
 ``SOURCES``     keys of ``blade.source`` of the config, each with its module (`bladerub.blade.source`)
+``CASINGS``     casings that are no sum of nodal diameters, by the key of the config that describes them
 ``LAWS``        laws of the coating by name, each with the module for the loop (`bladerub.contact.laws`)
 ``CHECKS``      what a law of the coating must satisfy in a layer: functions of both that raise `ValueError`
 ``ROWS``        what computes rows of blades, by the key of the config that describes them

@@ -15,6 +15,7 @@ from bladerub.io.folders import PACKAGE
 KINDS = (
     "PUBLIC",
     "COMMANDS",
+    "CASINGS",
     "CHECKS",
     "RUN_OPTIONS",
     "MANIFESTS",

@@ -185,7 +185,7 @@ def _casings(config: Config) -> Iterator[str]:
 
 def _shape_problem(entry: Config) -> str | None:
     """Say what is wrong with the shape of a casing; None if nothing is."""
-    if "table" in entry:
+    if "nodal_diameters" not in entry:
         try:
             casing_spec("", entry)
         except ValueError as error:

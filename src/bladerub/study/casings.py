@@ -1,116 +1,47 @@
-"""Casings of the config, in SI units: nodal diameters, bumps, or a gap measured around the casing.
-
-Each figure and table imports this for the names of coatings; what only a measured gap needs is imported where
-it is read.
-"""
+"""Casings of the config, in SI units: nodal diameters, bumps, or of a kind that plugs in (``CASINGS``)."""
 
 import math
 from collections.abc import Mapping
-from functools import lru_cache
-from pathlib import Path
 from typing import Any
 
-import numpy as np
-
+from bladerub import plugins
 from bladerub.contact.spec import Casing
-from bladerub.io import cells
-from bladerub.io.folders import study_folder
-from bladerub.io.units import ANGLE_UNITS, UNITS
-
-MEASURED_ANGLES = (8, 10_000)
-"""Fewest and most angles of a measured gap."""
-
-_WIDEST_STEP = np.pi / 2  # rad, between angles of a measured gap: from there on an oval is not resolved
-_UNEVEN = 4.0  # widest step over the next; beyond, a part of the turn is missing
-_HIGHEST_HARMONIC = 100
-_MARKED = 0.1  # of the largest harmonic: those of a measured shape from there on count as nodal diameters
 
 
 def casing_spec(name: str, entry: Mapping[str, Any], length_scale: float = 1.0) -> Casing:
-    """Describe an entry of ``casings`` in SI units.
-
-    `length_scale` is ``contact.scale.length``; a measured gap is what it is. With an ``interference`` beside
-    the table, the measured gap is shifted to it.
+    """Describe an entry of ``casings`` in SI units; `length_scale` is ``contact.scale.length``.
 
     Raises
     ------
     ValueError
-        If the table of a measured gap cannot be read or is none; begins with the key.
+        If a kind that plugs in cannot be read, or no kind does that has the keys of the entry; begins with
+        the key.
     """
-    start_angle = math.radians(entry["start_angle"])
-    if "table" in entry:
-        table = entry["table"]
-        path = study_folder() / table["file"]
-        units = UNITS[table.get("unit", "m")], ANGLE_UNITS[table.get("angle_unit", "deg")]
-        try:
-            version = path.stat().st_mtime_ns if path.is_file() else 0
-            angle, gap = _measured(path, version, *units)
-        except ValueError as error:
-            raise ValueError(f"table.file = {table['file']}: {error}") from error
-        amplitude, lowest = float(np.ptp(gap)), float(np.min(gap))
-        inward = (np.max(gap) - gap) / amplitude
-        interference = entry.get("interference")
-        return Casing(
-            name=name,
-            nodal_diameters=(),
-            weights=(),
-            amplitude=amplitude,
-            interference=-lowest if interference is None else float(interference * length_scale),
-            start_angle=start_angle,
-            measured=tuple(zip(angle.tolist(), inward.tolist(), strict=True)),
-        )
+    if kind := _kind(entry):
+        return kind.casing_spec(name, entry, length_scale)
     return Casing(
         name=name,
         nodal_diameters=tuple(int(n) for n in entry["nodal_diameters"]),
         weights=tuple(float(weight) for weight in entry["weights"]),
         amplitude=float(entry["amplitude"] * length_scale),
         interference=float(entry["interference"] * length_scale),
-        start_angle=start_angle,
+        start_angle=math.radians(entry["start_angle"]),
         bump_width=float(entry.get("bump_width", 0.0)),
     )
 
 
 def nodal_diameters(entry: Mapping[str, Any]) -> list[int]:
-    """List the nodal diameters of a casing of the config: those with weight.
-
-    Of a measured gap they are its harmonics of at least a tenth of the largest.
-    """
-    if "table" in entry:
-        from bladerub.contact.casing import shape
-
-        angle = np.linspace(0, 2 * np.pi, 4 * _HIGHEST_HARMONIC, endpoint=False)
-        size = np.abs(np.fft.rfft(shape(casing_spec("", entry), angle)))[1 : _HIGHEST_HARMONIC + 1]
-        return [n for n, of_n in enumerate(size, 1) if of_n >= _MARKED * np.max(size)]
+    """List the nodal diameters of a casing of the config: those with weight."""
+    if kind := _kind(entry):
+        return kind.nodal_diameters(entry)
     return [n for n, w in zip(entry["nodal_diameters"], entry["weights"], strict=False) if w]
 
 
-@lru_cache
-def _measured(path: Path, _version: int, unit: float, angle_unit: float) -> tuple[np.ndarray, np.ndarray]:
-    """Angles (rad) and gaps (m) of a table; `_version` makes an edited file another one."""
-    table = cells.read(path)
-    table.require("angle", "gap")
-    angle = angle_unit * table.numbers("angle")
-    gap = unit * table.numbers("gap")
-    lines = list(table.rows)
-    turn = 2 * np.pi * (1 - 1e-9)
-    if len(angle) > 1 and angle[-1] - angle[0] >= turn and gap[-1] == gap[0]:
-        angle, gap = angle[:-1], gap[:-1]  # the last row is the first again
-    minimum, maximum = MEASURED_ANGLES
-    if not minimum <= len(angle) <= maximum:
-        raise ValueError(f"has {len(angle)} angles; must have {minimum} to {maximum}")
-    if (back := np.diff(angle) <= 0).any():
-        raise ValueError(f"line {lines[back.argmax() + 1]}: angle must be above that of the row before")
-    if angle[-1] - angle[0] >= turn:
-        raise ValueError(f"goes over {np.rad2deg(angle[-1] - angle[0]):g} degrees; must stay within a turn")
-    if np.ptp(gap) == 0:
-        raise ValueError(f"has the same gap everywhere, {gap[0]:g} m; must vary")
-    steps = np.diff(angle, append=angle[0] + 2 * np.pi)
-    widest = np.argmax(steps)
-    if steps[widest] >= _WIDEST_STEP or steps[widest] > _UNEVEN * np.partition(steps, -2)[-2]:
-        step, start = np.rad2deg(steps[widest]), np.rad2deg(angle[widest])
-        raise ValueError(
-            f"line {lines[widest]}: no angle for {step:g} degrees after {start:g}; must go around the casing "
-            f"in steps below {np.rad2deg(_WIDEST_STEP):g} degrees, none {_UNEVEN:g} times as wide as the next"
-        )
-    order = np.argsort(angle % (2 * np.pi))
-    return (angle % (2 * np.pi))[order], gap[order]
+def _kind(entry: Mapping[str, Any]) -> Any:
+    """Return the module that describes an entry by the key it has; None for nodal diameters."""
+    if "nodal_diameters" in entry:
+        return None
+    for key, place in plugins.offered("CASINGS").items():
+        if key in entry:
+            return plugins.load(place)
+    raise ValueError("nodal_diameters: missing, this package has casings of these alone")

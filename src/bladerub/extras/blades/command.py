@@ -16,8 +16,8 @@ from bladerub.config import read as configuration
 from bladerub.extras.blades import origin, section_text
 from bladerub.extras.blades.frame import AXES, Frame
 from bladerub.extras.blades.origin import MATRIX_UNITS, MatrixSource, Source
+from bladerub.extras.file_units import ANGLE_UNITS, UNITS
 from bladerub.io.folders import base_config, study_folder
-from bladerub.io.units import ANGLE_UNITS, UNITS
 
 if TYPE_CHECKING:  # loads numba
     from bladerub.blade.built import BuiltBlade

@@ -5,7 +5,7 @@ from pathlib import Path
 
 from bladerub.extras.blades import deck
 from bladerub.extras.blades.frame import FORCES
-from bladerub.io.units import UNITS
+from bladerub.extras.file_units import UNITS
 
 _YOUNG = (1e9, 1e12)  # Pa, from plastics to ceramics
 _DENSITY = (500.0, 25e3)  # kg/m³, as blade.material.density of the config

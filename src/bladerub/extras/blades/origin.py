@@ -32,7 +32,7 @@ class Source:
     root_set: str | None = None
     tip_set: str | None = None
     tip_cone: float | None = None  # half angle of the flow path at the tip, degrees, positive: it widens
-    angle_unit: str | None = None  # of a table, one of `bladerub.io.units.ANGLE_UNITS`; else rad
+    angle_unit: str | None = None  # of a table, one of `bladerub.extras.file_units.ANGLE_UNITS`; else rad
 
     def __post_init__(self):
         kind = "mesh" if self.is_table else "table of sections"

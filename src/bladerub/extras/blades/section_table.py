@@ -2,7 +2,7 @@
 
 The names of the columns, in capital or small letters, show which of two forms a table has. In both, `section`
 names the section, hub to tip; other columns are ignored. How cells are separated and numbers written is for
-`bladerub.io.cells`.
+`bladerub.extras.cells`.
 
 - Points of the surface: x, y and z of one side (`x1`, `y1`, `z1`) and of the other (`x2`, `y2`, `z2`).
 - As compressor rotors are published: axial position `z` and radius `r`, and at both the angles `theta1` and
@@ -18,7 +18,7 @@ import pandas as pd
 from bladerub.extras.blades import section_text
 from bladerub.extras.blades.frame import Frame
 from bladerub.extras.blades.section_text import POINTS
-from bladerub.io.units import ANGLE_UNITS
+from bladerub.extras.file_units import ANGLE_UNITS
 
 STATIONS = (5, 2000)  # fewest and most of a section
 

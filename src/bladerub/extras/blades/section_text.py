@@ -7,9 +7,9 @@ import re
 from itertools import islice
 from pathlib import Path
 
+from bladerub.extras import cells
 from bladerub.extras.blades import origin
-from bladerub.io import cells
-from bladerub.io.cells import Cells
+from bladerub.extras.cells import Cells
 
 POINTS = ("x1", "y1", "z1", "x2", "y2", "z2")
 CYLINDRICAL = ("z", "r", "theta1", "theta2")

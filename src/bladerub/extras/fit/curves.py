@@ -2,7 +2,7 @@
 
 A unit stands behind the name of its column, in brackets: ``stress (MPa)``. The rows of a rate, or of a test
 where that column is there, are one curve, in the order of loading. How cells are separated and numbers
-written is for `bladerub.io.cells`.
+written is for `bladerub.extras.cells`.
 """
 
 import re
@@ -13,7 +13,7 @@ from typing import NamedTuple
 import numpy as np
 import pandas as pd
 
-from bladerub.io import cells
+from bladerub.extras import cells
 from bladerub.io.errors import BadInput
 
 UNITS = {

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from bladerub.extras.blades.frame import AXES, Frame
-from bladerub.io.units import UNITS
+from bladerub.extras.file_units import UNITS
 
 FRAMES = [
     Frame("m", rotation, downstream, radial)

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from bladerub.io import cells
+from bladerub.extras import cells
 
 ANGLE = np.array([0.0, 0.5, 10.0, 20.5])
 GAP = np.array([12.0, -13.73, 0.0042, 1500.0])

@@ -1,0 +1,1 @@
+"""Casings whose gap was measured."""

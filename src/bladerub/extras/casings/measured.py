@@ -1,0 +1,90 @@
+"""A casing whose gap was measured around it, as a table (`bladerub.study.casings`)."""
+
+import math
+from collections.abc import Mapping
+from functools import lru_cache
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from bladerub.contact.casing import shape
+from bladerub.contact.spec import Casing
+from bladerub.extras import cells
+from bladerub.extras.file_units import ANGLE_UNITS, UNITS
+from bladerub.io.folders import study_folder
+
+MEASURED_ANGLES = (8, 10_000)
+"""Fewest and most angles of a measured gap."""
+
+_WIDEST_STEP = np.pi / 2  # rad, between angles of a measured gap: from there on an oval is not resolved
+_UNEVEN = 4.0  # widest step over the next; beyond, a part of the turn is missing
+_HIGHEST_HARMONIC = 100
+_MARKED = 0.1  # of the largest harmonic: those of a measured shape from there on count as nodal diameters
+
+
+def casing_spec(name: str, entry: Mapping[str, Any], length_scale: float) -> Casing:
+    """Describe an entry of ``casings`` in SI units; the measured gap is what it is.
+
+    With an ``interference`` beside the table, it is shifted to that. Raises `ValueError`, which begins with
+    the key, if the table cannot be read or is none.
+    """
+    table = entry["table"]
+    path = study_folder() / table["file"]
+    units = UNITS[table.get("unit", "m")], ANGLE_UNITS[table.get("angle_unit", "deg")]
+    try:
+        version = path.stat().st_mtime_ns if path.is_file() else 0
+        angle, gap = _measured(path, version, *units)
+    except ValueError as error:
+        raise ValueError(f"table.file = {table['file']}: {error}") from error
+    amplitude, lowest = float(np.ptp(gap)), float(np.min(gap))
+    inward = (np.max(gap) - gap) / amplitude
+    interference = entry.get("interference")
+    return Casing(
+        name=name,
+        nodal_diameters=(),
+        weights=(),
+        amplitude=amplitude,
+        interference=-lowest if interference is None else float(interference * length_scale),
+        start_angle=math.radians(entry["start_angle"]),
+        measured=tuple(zip(angle.tolist(), inward.tolist(), strict=True)),
+    )
+
+
+def nodal_diameters(entry: Mapping[str, Any]) -> list[int]:
+    """List the harmonics of the shape of at least a tenth of the largest."""
+    angle = np.linspace(0, 2 * np.pi, 4 * _HIGHEST_HARMONIC, endpoint=False)
+    size = np.abs(np.fft.rfft(shape(casing_spec("", entry, 1.0), angle)))[1 : _HIGHEST_HARMONIC + 1]
+    return [n for n, of_n in enumerate(size, 1) if of_n >= _MARKED * np.max(size)]
+
+
+@lru_cache
+def _measured(path: Path, _version: int, unit: float, angle_unit: float) -> tuple[np.ndarray, np.ndarray]:
+    """Angles (rad) and gaps (m) of a table; `_version` makes an edited file another one."""
+    table = cells.read(path)
+    table.require("angle", "gap")
+    angle = angle_unit * table.numbers("angle")
+    gap = unit * table.numbers("gap")
+    lines = list(table.rows)
+    turn = 2 * np.pi * (1 - 1e-9)
+    if len(angle) > 1 and angle[-1] - angle[0] >= turn and gap[-1] == gap[0]:
+        angle, gap = angle[:-1], gap[:-1]  # the last row is the first again
+    minimum, maximum = MEASURED_ANGLES
+    if not minimum <= len(angle) <= maximum:
+        raise ValueError(f"has {len(angle)} angles; must have {minimum} to {maximum}")
+    if (back := np.diff(angle) <= 0).any():
+        raise ValueError(f"line {lines[back.argmax() + 1]}: angle must be above that of the row before")
+    if angle[-1] - angle[0] >= turn:
+        raise ValueError(f"goes over {np.rad2deg(angle[-1] - angle[0]):g} degrees; must stay within a turn")
+    if np.ptp(gap) == 0:
+        raise ValueError(f"has the same gap everywhere, {gap[0]:g} m; must vary")
+    steps = np.diff(angle, append=angle[0] + 2 * np.pi)
+    widest = np.argmax(steps)
+    if steps[widest] >= _WIDEST_STEP or steps[widest] > _UNEVEN * np.partition(steps, -2)[-2]:
+        step, start = np.rad2deg(steps[widest]), np.rad2deg(angle[widest])
+        raise ValueError(
+            f"line {lines[widest]}: no angle for {step:g} degrees after {start:g}; must go around the casing "
+            f"in steps below {np.rad2deg(_WIDEST_STEP):g} degrees, none {_UNEVEN:g} times as wide as the next"
+        )
+    order = np.argsort(angle % (2 * np.pi))
+    return (angle % (2 * np.pi))[order], gap[order]

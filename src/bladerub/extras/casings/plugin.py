@@ -1,0 +1,3 @@
+"""Casings whose gap was measured."""
+
+CASINGS = {"table": "extras.casings.measured"}
