@@ -17,6 +17,7 @@ KINDS = (
     "COMMANDS",
     "CASINGS",
     "CHECKS",
+    "MOTIONS",
     "RUN_OPTIONS",
     "MANIFESTS",
     "INVENTORIES",

@@ -7,6 +7,7 @@ import scipy.linalg
 from threadpoolctl import threadpool_limits
 
 from bladerub.blade.model import ReducedBlade
+from bladerub.contact.motion import motion
 from bladerub.contact.spec import RunSpec
 from bladerub.numerics.once import once
 
@@ -16,7 +17,7 @@ class Modes(NamedTuple):
 
     omega: np.ndarray  # (n,): Natural angular frequencies, ascending, rad/s
     # (2 j, n): Displacement of the tip per unit of each mode: radial at its j nodes, then tangential,
-    # kg^-1/2; (3 j, n) with the tilt of a profile that turns (`tilt_at`)
+    # kg^-1/2; (3 j, n) with a further motion (`bladerub.contact.motion`)
     tip: np.ndarray
     n_nodes: int  # j
 
@@ -51,30 +52,15 @@ def mode_shapes_at(blade: ReducedBlade, f_omega: float) -> tuple[np.ndarray, np.
 def at_tip(blade: ReducedBlade, coordinates: np.ndarray, spec: RunSpec | None = None) -> np.ndarray:
     """Project reduced coordinates (n, k) on the tip (2 j, k): radial at its j nodes, then tangential.
 
-    Where the profile turns in the contact that `spec` describes, the tilt follows (3 j, k), see `tilt_at`.
+    In the contact that `spec` describes a further motion may follow (3 j, k), see `bladerub.contact.motion`.
     """
     interface = coordinates[: 3 * blade.n_interface].reshape(blade.n_interface, 3, -1)
     radial = np.einsum("ja,jan->jn", blade.radial_direction, interface)
     tangential = np.einsum("ja,jan->jn", blade.tangential_direction, interface)
-    tilt = tilt_at(blade, coordinates, spec) if spec and spec.turns else np.empty((0, radial.shape[1]))
-    return np.ascontiguousarray(np.vstack([radial, tangential, tilt]))
-
-
-def tilt_at(blade: ReducedBlade, coordinates: np.ndarray, spec: RunSpec) -> np.ndarray:
-    """Tilt (j, k) of the tip's profile against the casing for reduced coordinates (n, k), m per element.
-
-    It is the slope of the blade's tip, and the angle by which the node has moved along the curved casing.
-    Raises `ValueError` if the blade does not say how its tip turns.
-    """
-    if blade.tip_slope is None:
-        raise ValueError(
-            "contact.tip_turns = true: this blade has no tip_slope; build it again, or, if it is given by "
-            "matrices, list more nodes of its tip, or set it to false"
-        )
-    _, tangential = np.split(at_tip(blade, coordinates), 2)
-    radius, curvature_radius = tip_radii(blade)
-    width = 2 * np.pi * radius / spec.coating.n_elements  # of an element
-    return width[:, None] * (blade.tip_slope @ coordinates + tangential / curvature_radius[:, None])
+    rows = [radial, tangential]
+    if spec and spec.turns:
+        rows.append(motion().further(blade, coordinates, spec))
+    return np.ascontiguousarray(np.vstack(rows))
 
 
 def tip_radii(blade: ReducedBlade) -> tuple[np.ndarray, np.ndarray]:

@@ -49,8 +49,8 @@ class Recurrence(NamedTuple):
     # (n,): Kinetic energy per ``(q⁺ − q)²`` and energy lost to damping per ``(q⁺ − q⁻)²``, 1/s²
     kinetic: np.ndarray
     loss: np.ndarray
-    # (2 j, n): Displacement of the tip per unit of each resolved mode, kg^-1/2. Where its profile turns, this
-    # and the matrices below have 3 j rows: tilt and couple follow
+    # (2 j, n): Displacement of the tip per unit of each resolved mode, kg^-1/2. With a further
+    # motion this and the matrices below have 3 j rows
     tip: np.ndarray
     omega: np.ndarray  # (n,): Natural angular frequencies of the resolved modes, rad/s
     # (all modes,): Part of each mode of the blade that is resolved; the rest responds by its static
@@ -67,8 +67,8 @@ class Recurrence(NamedTuple):
 class Contact(NamedTuple):
     """What a scheme needs to know of the contact."""
 
-    # (j,): Largest stiffness under each node, N/m; infinite for the rigid casing. Where the profile turns
-    # that against its tilt follows (2 j,)
+    # (j,): Largest stiffness under each node, N/m; infinite for the rigid casing. That against a
+    # further motion follows (2 j,)
     stiffness: np.ndarray
     radial: float  # Direction of the force on the blade
     tangential: float
@@ -158,12 +158,12 @@ SCHEMES: dict[str, Callable[[Modes, float, float, Contact], Recurrence]] = {
 def normal_compliance(compliance: np.ndarray, n: int, radial: float, tangential: float) -> np.ndarray:
     """Retreat (n, n) of each of `n` nodes from the casing per unit of contact force at each, m/N.
 
-    Where the profile turns, that of its tilt and by its couples follows (2 n, 2 n).
+    That of a further motion and by its forces follows (2 n, 2 n).
     """
-    r, t, tilt = slice(n), slice(n, 2 * n), slice(2 * n, None)
+    r, t, further = slice(n), slice(n, 2 * n), slice(2 * n, None)
     by_force = compliance[:, r] * radial + compliance[:, t] * tangential
-    retreat = -np.hstack([by_force, compliance[:, tilt] * radial])
-    return np.vstack([retreat[r], retreat[tilt]])
+    retreat = -np.hstack([by_force, compliance[:, further] * radial])
+    return np.vstack([retreat[r], retreat[further]])
 
 
 def _resolve(modes: Modes, x: np.ndarray, n: int, contact: Contact) -> tuple[Modes, np.ndarray, np.ndarray]:

@@ -15,6 +15,7 @@ from bladerub.contact.kernel.free_flight import MOST_STEPS, FreeFlight
 from bladerub.contact.kernel.loop import Simulation
 from bladerub.contact.laws import element_parameters, module_of, source_of
 from bladerub.contact.modes import Modes, modes_at, tip_radii
+from bladerub.contact.motion import motion
 from bladerub.contact.schemes import SCHEMES, Contact, Recurrence, normal_compliance
 from bladerub.contact.spec import PLASTIC, Casing, Coating, ElementLaw, RunSpec
 from bladerub.contact.steps import own_steps, steps_per_element, with_steps
@@ -167,7 +168,7 @@ def stator_record(blade: ReducedBlade, spec: RunSpec, rule: Recurrence, seat: Se
         tangential_factor=tangential_factor,
         self_compliance=by_lane(compliances[0]),
         coulomb=coating.coulomb,
-        tilt_compliance=by_lane(compliances[1]) if compliances[1].size else compliances[1],
+        further_compliance=by_lane(compliances[1]) if compliances[1].size else compliances[1],
     )
     return aligned(stator)
 
@@ -252,7 +253,7 @@ def _contact(blade: ReducedBlade, spec: RunSpec) -> Contact:
         element = element_parameters(spec.coating, element_area(blade, spec))[row]
     stiffness = element * 2 * spec.tip.half_width  # the shares under the tip add up to its width
     if spec.turns:
-        stiffness = np.concatenate([stiffness, element * (2 / 3) * edge(spec.tip) ** 3])
+        stiffness = np.concatenate([stiffness, motion().stiffness(element, spec.tip)])
     return Contact(stiffness, *_force_direction(spec.coating))
 
 
@@ -303,14 +304,14 @@ def _initial_state(
         n = rule.omega.size
         state.q[:, 0] = np.array([1.0, back, back]) * spec.initial_displacement / modes.tip[0, 0]
         displacement = state.q[:, :n] @ record_module.by_lane(rule.tip, rule.n_nodes).T
-        radial, tangential, *tilt = np.moveaxis(displacement.reshape(3, -1, tip.radius.size), 1, 0)
+        radial, tangential, *further = np.moveaxis(displacement.reshape(3, -1, tip.radius.size), 1, 0)
         approach = np.hypot(tip.radius + radial, tangential) - tip.radius
         if not max(np.abs(radial).max(), np.abs(tangential).max()) <= tip.limit:
             raise ValueError(
                 f"initial_displacement = {spec.initial_displacement:g} m: moves a node of the tip beyond the "
                 f"displacement limit, {tip.limit:g} m"
             )
-        moved = np.concatenate([radial, tangential, approach, *tilt], axis=1)
+        moved = np.concatenate([radial, tangential, approach, *further], axis=1)
         state.u[:, : moved.shape[1]] = moved
     return state
 

@@ -4,12 +4,6 @@ The profile is a parabola. It carries elements up to ``half_width`` on either si
 the edge is partly covered: its force counts by the covered share, which fades over the width of one element,
 from ``half_width - 0.5`` to ``half_width + 0.5``. The parabola goes on to there. So the force does not jump
 when an element passes the edge, and the shares always add up to the width of the profile.
-
-Where the profile turns with the blade, it is tilted: at ``offset`` elements from the node it comes closer to
-the casing by ``tilt * offset``. The tilt (m per element) is the slope of the tip against the casing under
-the displaced node: that of the blade's surface, and the angle by which the node has moved along the curved
-casing. A turn of the whole blade about the axis so leaves the gap as it is. The forces of the elements act
-on the blade with their couple as well, the sum of ``offset`` times force, which does work on the tilt.
 """
 
 from bladerub.numerics.vectors import absolute, elementwise, maximum, minimum

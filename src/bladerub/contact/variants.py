@@ -12,11 +12,14 @@ from functools import cache
 from types import FunctionType, ModuleType
 
 from bladerub.numerics.lanes import USUAL, importing_for, instance_name
+from bladerub.numerics.machine_code import counterparts
 from bladerub.numerics.user_code import bounded
 
 _LAW = "bladerub.contact.law"
 _ALIKE = ("numerics.vectors", "numerics.memory", "contact.law", "contact.tip", "contact.gap")
-_ALIKE = tuple(f"bladerub.{name}" for name in (*_ALIKE, "contact.friction", "contact.kernel"))
+_ALIKE = tuple(
+    f"bladerub.{name}" for name in (*_ALIKE, "contact.friction", *counterparts(), "contact.kernel")
+)
 """Modules of which each variant has its own, and all that are in the last one."""
 
 _importing = threading.Lock()

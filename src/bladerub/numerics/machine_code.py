@@ -2,7 +2,8 @@
 
 Numba notices a change of the file that holds a cached function, but not of functions that it calls in
 other files: a run after an edit could use old code. The folder of the cache therefore carries a digest
-of all sources of the solver, the number of lanes, and a digest of the law if it is not the usual one.
+of all sources of the solver, one of what plugs into the loop, the number of lanes, and a digest of the law if
+it is not the usual one.
 """
 
 import os
@@ -14,9 +15,10 @@ import numba
 from numba.core.caching import FunctionCache
 from numba.extending import register_jitable
 
+from bladerub import plugins
 from bladerub.io.errors import BadInput
 from bladerub.io.folders import cache_folder
-from bladerub.io.sources import solver_digest
+from bladerub.io.sources import digest_behind, solver_digest
 from bladerub.numerics import lanes
 
 if numba.config.DISABLE_JIT:
@@ -32,6 +34,11 @@ inlined = register_jitable(**INLINED)
 """Decorate a function that compiled code inlines; for Python it stays as it is."""
 
 _BESIDE = Path(__file__).parent / "__pycache__"
+
+
+def counterparts() -> list[str]:
+    """Name the modules that plug into the loop (`bladerub.contact.kernel.composition`), below `bladerub`."""
+    return [f"{place}.kernel" for place in plugins.offered("MOTIONS").values()]
 
 
 class _Cache(FunctionCache):
@@ -57,7 +64,8 @@ def njit_on_disk(**options) -> Callable[[Callable], Callable]:
         user_folder = numba.config.CACHE_DIR
         parent = Path(user_folder or (_BESIDE if os.access(_BESIDE.parent, os.W_OK) else cache_folder()))
         instance = lanes.instance_name(lanes.LANES, lanes.LAW)
-        numba.config.CACHE_DIR = str(parent / f"machine-code-{solver_digest()[:16]}-{instance}")
+        digest = f"{solver_digest()[:16]}-{digest_behind(*counterparts())[:8]}"
+        numba.config.CACHE_DIR = str(parent / f"machine-code-{digest}-{instance}")
         try:
             compiled = numba.njit(**options)(function)
             compiled._cache = _Cache(function)  # as `cache=True` does with that of Numba

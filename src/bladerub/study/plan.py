@@ -5,6 +5,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from bladerub.contact.laws import law_digest
+from bladerub.contact.motion import motion_digest
 from bladerub.contact.spec import RunSpec
 from bladerub.io.sources import solver_digest, storage_digest
 from bladerub.study import cache
@@ -56,6 +57,7 @@ def planned_run(
         "spec": spec,
         "solver": solver_digest(),
         **law_digest(spec.coating.element_law),
+        **motion_digest(spec),
         "storage": storage_digest(),
         "keep_history": bool(keep_history),
         "analysis": {name: float(config["analysis"][name]) for name in SHAPING_SETTINGS},

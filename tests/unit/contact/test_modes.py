@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 from threadpoolctl import threadpool_limits
 
-from bladerub.contact.modes import mode_shapes_at, modes_at, tilt_at
+from bladerub.contact.modes import mode_shapes_at, modes_at
+from bladerub.extras.turning.motion import further
 
 
 def test_modes_diagonalise_the_blade_and_give_its_static_tip_compliance(blade):
@@ -29,10 +30,10 @@ def test_turn_of_the_whole_blade_about_the_axis_tilts_no_profile(blade, spec):
     _, y, z = blade.node_position.T
     turn = np.concatenate([np.column_stack([0 * y, z, -y]).ravel(), np.zeros(6)])
     turning = dataclasses.replace(blade, tip_slope=-np.outer(np.ones(8), turn) / (turn @ turn))
-    np.testing.assert_allclose(tilt_at(turning, turn[:, None], spec), 0.0, rtol=0, atol=1e-12)
+    np.testing.assert_allclose(further(turning, turn[:, None], spec), 0.0, rtol=0, atol=1e-12)
     along = dataclasses.replace(blade, tip_slope=np.zeros((8, turn.size)))  # it moves and does not turn
     width = 2 * np.pi * 0.65 / spec.coating.n_elements
-    np.testing.assert_allclose(tilt_at(along, turn[:, None], spec), width)
+    np.testing.assert_allclose(further(along, turn[:, None], spec), width)
 
 
 def test_the_shapes_do_not_depend_on_the_threads_of_who_asks_first(blade):

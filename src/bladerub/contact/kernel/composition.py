@@ -1,9 +1,9 @@
-"""How the time loop is composed: by the paper's functions, or others where the profile of the tip turns.
+"""How the time loop is composed: by the paper's functions, or others where the tip moves otherwise as well.
 
-The modules of the loop have the paper's: the profile keeps its angle. Those marked `composed` have a
-counterpart in `bladerub.contact.kernel.turning`. The compiler takes one of both by the type of their first
-argument, the record ``Modal``, whose field ``tilt`` is None where the profile keeps its angle: nothing of a
-tilt is in the machine code of the paper's loop.
+The modules of the loop have the paper's: the nodes of the tip move, the profile keeps its angle. Those marked
+`composed` may have a counterpart (`bladerub.contact.motion`). The compiler takes one of both by the type of
+their first argument, the record ``Modal``, whose field ``further`` is None for the paper's: nothing of
+another motion is in the machine code of the paper's loop.
 """
 
 from collections.abc import Callable
@@ -21,8 +21,8 @@ def composed(function: Callable) -> Callable:
 
     @overload(function, strict=False, jit_options=INLINED)
     def choose(modal, *_):
-        keeps_its_angle = isinstance(modal.types[modal.fields.index("tilt")], types.NoneType)
-        return function if keeps_its_angle else _counterparts[function]
+        is_of_paper = isinstance(modal.types[modal.fields.index("further")], types.NoneType)
+        return function if is_of_paper else _counterparts[function]
 
     return function
 

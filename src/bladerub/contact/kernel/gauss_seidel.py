@@ -11,13 +11,14 @@ import numpy as np
 from bladerub.contact import law
 from bladerub.contact.friction import contact_force
 from bladerub.contact.gap import closest_position, is_within_limit, normal, normal_approach, penetration
+from bladerub.contact.kernel.composition import composed
 from bladerub.contact.kernel.coulomb import mobilise
 from bladerub.contact.kernel.elements import LAYERED, rigid_surface, wrap
-from bladerub.contact.kernel.records import COUPLE, TILT
-from bladerub.contact.tip import coverage, edge, relief
+from bladerub.contact.kernel.modal import ROWS
+from bladerub.contact.tip import coverage, relief
 from bladerub.numerics.machine_code import within
 from bladerub.numerics.memory import address_of, load, read, read_fields, store, write
-from bladerub.numerics.vectors import LANES, broadcast
+from bladerub.numerics.vectors import LANES
 
 NODE_TOLERANCE = 1e-12
 """Error of a node's approach at which its own force has converged, m."""
@@ -36,7 +37,7 @@ def gauss_seidel(modal, stator, tip, state, travel, u, tolerance):
     force, normal_force = state.force, state.normal_force
     position, surface = state.scratch, address_of(state.scratch, 2 * LANES)
     approaches, turned = address_of(state.scratch, 4 * LANES), address_of(state.scratch, 6 * LANES)
-    rows = (2 if modal.tilt is None else 3) * LANES
+    rows = width(modal)
     for _ in range(MAX_SWEEPS):
         if not is_within_limit(tip, load(u, 0), load(u, LANES)):
             return True
@@ -51,16 +52,15 @@ def gauss_seidel(modal, stator, tip, state, travel, u, tolerance):
             mobilise(modal, stator, tip, state, normal_radial, normal_tangential, towards)
         for j in range(LANES):
             compliance, guess = _self_compliance(modal, stator, state, rows, j), read(normal_force, j)
-            tilted, couple = 0.0, 0.0
-            if modal.tilt is not None:
-                tilted = read(u, TILT + j)
+            further = further_of(modal, u, j)
             store(approaches, 0, normal_approach(tip, load(u, 0), load(u, LANES)))
             free_approach = read(approaches, j) + compliance * guess
             if stator.is_rigid:
                 node_force = max(0.0, free_approach - read(surface, j)) / compliance  # eq. (9)
             else:
-                node_force, couple, node_converged = _force_on(
-                    stator, tip, state, j, read(position, j), free_approach, tilted, compliance, guess
+                place = read(position, j)
+                node_force, node_converged = _force_on(
+                    modal, stator, tip, state, j, place, free_approach, further, compliance, guess, turned
                 )
                 converged = converged and node_converged
             if node_force == 0.0 and guess == 0.0:
@@ -75,20 +75,39 @@ def gauss_seidel(modal, stator, tip, state, travel, u, tolerance):
             )
             store(turned, 0, radial)
             store(turned, LANES, tangential)
-            store(turned, COUPLE, stator.normal_factor * broadcast(couple))
             for k in range(j, rows, LANES):
                 by = read(turned, k) - read(force, k)
                 write(force, k, read(turned, k))
-                for i in range(0, 2 * LANES, LANES):
-                    store(u, i, load(u, i) + load(modal.compliance, rows * k + i) * by)
-                if modal.tilt is not None:
-                    tilt_change = load(modal.compliance, rows * k + COUPLE) * by
-                    store(u, TILT, load(u, TILT) + tilt_change)
-            if modal.tilt is not None:
-                change = max(change, edge(tip) * abs(read(u, TILT + j) - tilted))
+                add_displacement(modal, u, rows * k, by)
+            change = max(change, further_change(modal, tip, u, j, further))
         if change <= tolerance:
             return converged
     return False
+
+
+@composed
+def width(modal):
+    """Coordinates of the tip."""
+    return ROWS
+
+
+@composed
+def further_of(modal, u, j):
+    """Further coordinate of node `j`, which the search leaves as it is while it looks at this node."""
+    return 0.0
+
+
+@composed
+def further_change(modal, tip, u, j, before):
+    """Most that a change of the further coordinate moves the profile of node `j`, m."""
+    return 0.0
+
+
+@composed
+def add_displacement(modal, u, row, by):
+    """Add to a displacement what a change of one force makes, from `row` of the compliances on."""
+    for i in range(0, ROWS, LANES):
+        store(u, i, load(u, i) + load(modal.compliance, row + i) * by)
 
 
 @within
@@ -99,20 +118,20 @@ def _self_compliance(modal, stator, state, rows, j):
 
 
 @within
-def _force_on(stator, tip, state, j, position, free_approach, tilted, compliance, guess):
-    """Find the force N of the coating on node `j` at a given tilt.
+def _force_on(modal, stator, tip, state, j, position, free_approach, further, compliance, guess, forces):
+    """Find the force N of the coating on node `j` at a given further coordinate.
 
     The node retreats by `compliance` per unit of it. Solves ``a + compliance N(a) = free_approach`` for the
     approach a by Newton's method within a bracket: N is piecewise linear, so it ends in a few steps. Returns
-    N, its couple and whether it converged.
+    N and whether it converged.
     """
     low, high = -np.inf, np.inf
     approach = free_approach - compliance * guess
     for _ in range(MAX_NODE_ITERATIONS):
-        force, stiffness, couple = _resistance(stator, tip, state, j, position, approach, tilted)
+        force, stiffness = resistance(modal, stator, tip, state, j, position, approach, further, forces)
         residual = approach + compliance * force - free_approach
         if abs(residual) <= NODE_TOLERANCE:
-            return force, couple, True
+            return force, True
         if residual > 0.0:
             high = approach
         else:
@@ -120,30 +139,37 @@ def _force_on(stator, tip, state, j, position, free_approach, tilted, compliance
         approach -= residual / (1.0 + compliance * stiffness)
         if not low < approach < high:  # or it would alternate between two pieces
             approach = 0.5 * (low + high)
-    return force, couple, False
+    return force, False
 
 
-@within
-def _resistance(stator, tip, state, j, position, approach, tilted):
-    """Force (N), stiffness (N/m) and couple of the elements under node `j`, as `elements.linearise`."""
-    force = couple = 0.0
-    stiffness = 0.0
+@composed
+def resistance(modal, stator, tip, state, j, position, approach, further, forces):
+    """Force (N) and stiffness (N/m) of the elements under node `j`, as `elements.linearise`.
+
+    A counterpart enters the force along the further coordinate in `forces` (24,).
+    """
+    force = stiffness = 0.0
     element = read_fields(law.Element, address_of(stator.law, j))
     first = math.floor(position - tip.half_width)
     last = math.floor(position + tip.half_width)
     for i in range(first, last + 1):
         offset = i + 0.5 - position
-        entry = wrap(i, stator.n_elements) * LANES + j
-        worn = read(state.wear, entry)
-        local_approach = approach + tilted * offset
-        depth = penetration(local_approach, relief(tip, offset), read(stator.initial_gap, entry), worn)
-        force_here, _ = law.return_mapping(element, depth, worn)
-        slope, _ = law.tangent(element, depth, worn)
-        if LAYERED:
-            strength = read(state.strength, entry)
-            force_here, slope = strength * force_here, strength * slope
+        force_here, slope = press_one(element, stator, tip, state, i, j, offset, approach)
         share = coverage(tip, offset)
         force += share * force_here
         stiffness += share * slope
-        couple += share * offset * force_here
-    return force, stiffness, couple
+    return force, stiffness
+
+
+@within
+def press_one(element, stator, tip, state, i, j, offset, approach):
+    """Press the element in row `i` under node `j`, as `elements.press`; return its force and stiffness."""
+    entry = wrap(i, stator.n_elements) * LANES + j
+    worn = read(state.wear, entry)
+    depth = penetration(approach, relief(tip, offset), read(stator.initial_gap, entry), worn)
+    force, _ = law.return_mapping(element, depth, worn)
+    slope, _ = law.tangent(element, depth, worn)
+    if LAYERED:
+        strength = read(state.strength, entry)
+        force, slope = strength * force, strength * slope
+    return force, slope

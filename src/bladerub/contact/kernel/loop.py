@@ -10,9 +10,10 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from bladerub import plugins
 from bladerub.contact.energy import DAMPING, STORED
 from bladerub.contact.gap import is_within_limit, normal_approach
-from bladerub.contact.kernel import free_flight, turning  # noqa: F401 (has counterparts of others)
+from bladerub.contact.kernel import free_flight
 from bladerub.contact.kernel.accounting import add_work, update_coating
 from bladerub.contact.kernel.coulomb import predict_sliding
 from bladerub.contact.kernel.elements import LAYERED, is_clear
@@ -20,9 +21,12 @@ from bladerub.contact.kernel.free_flight import FreeFlight
 from bladerub.contact.kernel.modal import Modal, advance_forced, advance_free, correct, store_tip
 from bladerub.contact.kernel.newton import find_forces
 from bladerub.contact.kernel.records import State, Stator, Tip, check, shapes
-from bladerub.numerics.machine_code import inlined, njit_on_disk, within
+from bladerub.numerics.machine_code import counterparts, inlined, njit_on_disk, within
 from bladerub.numerics.memory import add_to, address_of, addresses, clear, copy, load, read, store, write
 from bladerub.numerics.vectors import LANES, absolute, broadcast, largest_lane, where
+
+for _place in counterparts():  # counterparts of functions below
+    plugins.load(_place)
 
 NEGLIGIBLE = 1e-100
 """Modal coordinates below this are zero, m kg^1/2: numbers too small to be normal would slow the loop."""
@@ -60,8 +64,8 @@ class Simulation:
     ):
         self.modal, self.flight, self.stator, self.tip, self.state = modal, flight, stator, tip, state
         self.steps_per_element, self.layer = steps_per_element, layer
-        kept, turns = state.layer.shape[1] // LANES, modal.tilt is not None
-        shape = shapes(modal.n, stator.n_elements, stator.n_elements if LAYERED else 0, kept, turns)
+        kept, moves = state.layer.shape[1] // LANES, modal.further is not None
+        shape = shapes(modal.n, stator.n_elements, stator.n_elements if LAYERED else 0, kept, moves)
         records = modal, flight, stator, tip, state
         for record in records:
             check(record, shape)

@@ -36,7 +36,7 @@ class Modal(NamedTuple):
     # (n / 8, 16, 8): Displacement of the tip per unit of each mode, a block for each vector of modes
     tip: np.ndarray
     gain: np.ndarray  # (n,): Modal coordinates per unit of modal force
-    # (16, 16): Displacement of the tip in the step of each force itself, m/N; (24, 24) with the tilt
+    # (16, 16): Displacement of the tip in the step of each force itself, m/N; (24, 24) with a further motion
     compliance: np.ndarray
     corrects: bool  # Whether forces act in the step they are evaluated in
     # (16, 16) or (24, 24): Displacement of the tip in a step, as `bladerub.contact.friction` counts it, per
@@ -44,7 +44,8 @@ class Modal(NamedTuple):
     mobility: np.ndarray
     # (8,): The most that tangential forces of 1 N on all nodes take from the sliding distance of each, m
     stopping: np.ndarray
-    tilt: np.ndarray | None  # (n / 8, 8, 8): Tilt of the profile per unit of each mode, where it turns
+    # (n / 8, 8, 8): Further coordinate of each node per unit of each mode, if there is one
+    further: np.ndarray | None
 
 
 def pack(rule: Recurrence) -> Modal:
@@ -63,7 +64,7 @@ def pack(rule: Recurrence) -> Modal:
         corrects=rule.corrects,
         mobility=_by_lane_both(mobility, n),
         stopping=by_lane(np.abs(mobility[n : 2 * n, n : 2 * n]).sum(axis=1), n),
-        tilt=in_vectors(tip[ROWS:]) if len(tip) > ROWS else None,
+        further=in_vectors(tip[ROWS:]) if len(tip) > ROWS else None,
     )
     return aligned(modal)
 

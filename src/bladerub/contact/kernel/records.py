@@ -39,8 +39,8 @@ class Stator(NamedTuple):
     self_compliance: np.ndarray
     # Whether the tangential part of the force follows the sliding of the node by Coulomb's law
     coulomb: bool = False
-    # (8,): The same of its tilt per unit of its own couple, where the profile turns, m/N per element squared
-    tilt_compliance: np.ndarray = np.empty(0)
+    # (8,): The same of a further coordinate per unit of its own force, where there is one
+    further_compliance: np.ndarray = np.empty(0)
 
 
 class Tip(NamedTuple):
@@ -63,19 +63,19 @@ class State(NamedTuple):
 
     # (3, n): Modal coordinates now, one and two steps before, padded with zeros to whole vectors
     q: np.ndarray
-    # (3, 32): Radial and tangential displacement of the tip at the same times, the approach of its
-    # nodes (m), and its tilt (m per element)
+    # (3, 32): Radial and tangential displacement of the tip at the same times, the approach of its nodes
+    # (m), and a further coordinate of each
     u: np.ndarray
-    # (2, 24): Contact forces on the blade now and one step before, radial and tangential (N), and couples
-    # (N elements)
+    # (2, 24): Contact forces on the blade now and one step before, radial and tangential (N), and along the
+    # further coordinates
     force: np.ndarray
     # (2, 8): Of each node at the same times: size of the contact force (N), its moment about the axis (N
     # m), and its tangential factor, that of the stator or what friction mobilises of it
     normal_force: np.ndarray
     moment: np.ndarray
     tangential_factor: np.ndarray
-    # (24,): Displacement and tilt of the tip by the forces of the last step in that step: where the search
-    # for forces begins, m and m per element
+    # (24,): Coordinates of the tip by the forces of the last step in that step: where the search for forces
+    # begins
     response: np.ndarray
     # (24,): Sliding of the tip without the forces of this step: radial and tangential, m, and angle of
     # rotation
@@ -89,8 +89,6 @@ class State(NamedTuple):
     scratch: np.ndarray  # (6, 16): Of no meaning between steps
 
 
-TILT, COUPLE = 3 * LANES, 2 * LANES
-"""Where in `State.u` the tilt is, and in `State.force` the couples; of a profile that turns."""
 COATING = ("wear", "strength", "taken", "layer")
 """What of `State` belongs to the coating."""
 
@@ -113,25 +111,25 @@ def at_rest(n_modes: int, n_elements: int, kept: int = 0) -> State:
     return aligned(state)
 
 
-def shapes(n: int, n_elements: int, layered: int = 0, kept: int = 0, turns: bool = False) -> dict:
+def shapes(n: int, n_elements: int, layered: int = 0, kept: int = 0, moves: bool = False) -> dict:
     """Shape of each array that the loop reads by address, by its field.
 
     `n` is the number of modes, whole vectors, `layered` that of the rows of a layer, `kept` that of the
-    numbers that it keeps of an element, `turns` says whether the profile turns.
+    numbers that it keeps of an element, `moves` whether there is a further motion.
     """
-    lanes, tip = (LANES,), (3 if turns else 2) * LANES
+    lanes, tip = (LANES,), (3 if moves else 2) * LANES
     of_modes, of_elements = (n,), (n_elements, LANES)
     return {
         **dict.fromkeys(("now", "before", "loss", "gain"), of_modes),
         **dict.fromkeys(("compliance", "mobility"), (tip, tip)),
         **dict.fromkeys(("stopping", "start", "per_metre", "radius", "lever", "self_compliance"), lanes),
         "tip": (n // LANES, 2 * LANES, LANES),
-        "tilt": (n // LANES, LANES, LANES),
+        "further": (n // LANES, LANES, LANES),
         "forms": (n // LANES, N_FORMS, LANES),
         "initial_gap": of_elements,
         "minimum_gap": (n_elements,),
         "law": (len(law.Element._fields), LANES),
-        "tilt_compliance": lanes if turns else (0,),
+        "further_compliance": lanes if moves else (0,),
         "q": (3, n),
         "u": (3, 4 * LANES),
         "force": (2, 3 * LANES),

@@ -90,7 +90,7 @@ def variant_of(spec: RunSpec, simulation: Simulation) -> Variant:
     """Return the variant of the loop that a run needs."""
     return Variant(
         vectors=math.ceil(simulation.modal.n / WARP),
-        turns=simulation.modal.tilt is not None,
+        turns=simulation.modal.further is not None,
         rows=math.ceil((2 * spec.tip.half_width + 3) / 4),
         law=replace(spec.coating.element_law, parameters=()),
         n_elements=spec.coating.n_elements,
@@ -279,7 +279,7 @@ def _modal_record(modal: Modal, flight: FreeFlight, vectors: int, turns: bool) -
     width, half = 2 * LANES, (np.arange(WARP) >> 3) & 1
     share = width // 2
     if turns:
-        tilt = flat(modal.tilt).reshape(LANES, vectors, WARP)
+        tilt = flat(modal.further).reshape(LANES, vectors, WARP)
         slots += [tilt[node ^ s, :, lane].T for s in range(LANES)]
         width, share = 3 * LANES, 3 * LANES // 2
     compliance = modal.compliance.reshape(width, width)
@@ -299,7 +299,7 @@ def _modal_record(modal: Modal, flight: FreeFlight, vectors: int, turns: bool) -
 
 def _stator_record(simulation: Simulation, turns: bool) -> np.ndarray:
     stator = simulation.stator
-    tilt = stator.tilt_compliance if turns else np.zeros(LANES)
+    tilt = stator.further_compliance if turns else np.zeros(LANES)
     factors = [stator.normal_factor, stator.tangential_factor]
     return np.concatenate([stator.law.ravel(), stator.self_compliance, tilt, factors])
 

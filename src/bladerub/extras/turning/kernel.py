@@ -1,4 +1,4 @@
-"""The functions of the time loop where the profile of the tip turns with the blade (`bladerub.contact.tip`).
+"""The functions of the time loop where the profile of the tip turns with the blade.
 
 Its tilt is a second unknown of each node, and the couple of the elements a second force. Each function takes
 the place of the one that its decorator names (`bladerub.contact.kernel.composition`).
@@ -11,11 +11,10 @@ import numpy as np
 
 from bladerub.contact import energy, law
 from bladerub.contact.gap import is_above
-from bladerub.contact.kernel import accounting, elements, newton
+from bladerub.contact.kernel import accounting, elements, gauss_seidel, newton
 from bladerub.contact.kernel import modal as modes
 from bladerub.contact.kernel.composition import in_place_of
 from bladerub.contact.kernel.modal import ROWS
-from bladerub.contact.kernel.records import COUPLE, TILT
 from bladerub.contact.tip import coverage, edge, highest
 from bladerub.numerics.memory import (
     add_lane_products,
@@ -30,9 +29,11 @@ from bladerub.numerics.memory import (
     no_lane_sums,
     no_sums,
     read,
+    read_fields,
     store,
     sum_of_lane_products,
     sum_of_products,
+    write,
 )
 from bladerub.numerics.vectors import (
     LANES,
@@ -44,6 +45,8 @@ from bladerub.numerics.vectors import (
     minimum,
 )
 
+TILT, COUPLE = 3 * LANES, 2 * LANES
+"""Where in `State.u` the tilt is (m per element), and in `State.force` the couples (N elements)."""
 WIDTH = ROWS + LANES
 """Coordinates of the tip: those of its nodes, then the tilt of each profile."""
 
@@ -89,7 +92,7 @@ def add_tip_displacement(modal, k, x, sums):
     """Add what the modes move and tilt."""
     of_nodes, of_tilt = sums
     of_nodes = add_products(of_nodes, address_of(modal.tip, ROWS * k), x)
-    return of_nodes, add_lane_products(of_tilt, address_of(modal.tilt, LANES * k), x)
+    return of_nodes, add_lane_products(of_tilt, address_of(modal.further, LANES * k), x)
 
 
 @in_place_of(modes.tip_displacement)
@@ -111,7 +114,7 @@ def modal_force(modal, k, forces):
     """Modal force of forces and couples."""
     of_nodes, couples = forces
     by_forces = sum_of_products(address_of(modal.tip, ROWS * k), of_nodes)
-    return by_forces + sum_of_lane_products(address_of(modal.tilt, LANES * k), couples)
+    return by_forces + sum_of_lane_products(address_of(modal.further, LANES * k), couples)
 
 
 @in_place_of(modes.displacement_of_nodes)
@@ -143,7 +146,7 @@ def move_tip(modal, k, change, u):
         by = read(modal.tip, LANES * (ROWS * block + row) + lane)
         add_to_number(u, row, by * change)
     for row in range(LANES):
-        by = read(modal.tilt, LANES * (LANES * block + row) + lane)
+        by = read(modal.further, LANES * (LANES * block + row) + lane)
         add_to_number(u, TILT + row, by * change)
 
 
@@ -261,7 +264,7 @@ def newton_step(modal, stator, linear, pose, loaded):
     residual, tilt_residual = pose.approach - loaded.approach, pose.tilt - loaded.tilt
     return Pose(
         pose.approach - residual / (1.0 + load(stator.self_compliance, 0) * linear.stiffness),
-        pose.tilt - tilt_residual / (1.0 + load(stator.tilt_compliance, 0) * linear.second_moment),
+        pose.tilt - tilt_residual / (1.0 + load(stator.further_compliance, 0) * linear.second_moment),
     )
 
 
@@ -272,6 +275,54 @@ def answer(modal, stator, state, linear, pose):
     couple = linear.couple + linear.first_moment * closer + linear.second_moment * turned
     store(state.force, COUPLE, stator.normal_factor * couple)
     return linear.force + linear.stiffness * closer + linear.first_moment * turned
+
+
+# ---- the search node by node (`bladerub.contact.kernel.gauss_seidel`)
+
+
+@in_place_of(gauss_seidel.width)
+def width(modal):
+    """Count the tilts as well."""
+    return WIDTH
+
+
+@in_place_of(gauss_seidel.further_of)
+def further_of(modal, u, j):
+    """Take the tilt."""
+    return read(u, TILT + j)
+
+
+@in_place_of(gauss_seidel.further_change)
+def further_change(modal, tip, u, j, before):
+    """Look at the edge of the profile."""
+    return edge(tip) * abs(read(u, TILT + j) - before)
+
+
+@in_place_of(gauss_seidel.add_displacement)
+def add_displacement(modal, u, row, by):
+    """Add to the tilts as well."""
+    for i in range(0, ROWS, LANES):
+        store(u, i, load(u, i) + load(modal.compliance, row + i) * by)
+    store(u, TILT, load(u, TILT) + load(modal.compliance, row + COUPLE) * by)
+
+
+@in_place_of(gauss_seidel.resistance)
+def resistance(modal, stator, tip, state, j, position, approach, tilt, forces):
+    """Sum up the couple as well."""
+    force = stiffness = couple = 0.0
+    element = read_fields(law.Element, address_of(stator.law, j))
+    first = math.floor(position - tip.half_width)
+    last = math.floor(position + tip.half_width)
+    for i in range(first, last + 1):
+        offset = i + 0.5 - position
+        local_approach = approach + tilt * offset
+        force_here, slope = gauss_seidel.press_one(element, stator, tip, state, i, j, offset, local_approach)
+        share = coverage(tip, offset)
+        force += share * force_here
+        stiffness += share * slope
+        couple += share * offset * force_here
+    write(forces, COUPLE + j, stator.normal_factor * couple)
+    return force, stiffness
 
 
 # ---- the ledger (`bladerub.contact.kernel.accounting`)

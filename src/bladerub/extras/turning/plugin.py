@@ -1,0 +1,3 @@
+"""A profile of the blade tip that turns with the blade."""
+
+MOTIONS = {"tip_turns": "extras.turning"}
