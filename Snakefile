@@ -8,6 +8,7 @@ import bladerub.workflow.invocation
 from bladerub.io.folders import ROOT
 from bladerub.study.grid import coating_cases
 from bladerub.study.solver import solver_of
+from bladerub.workflow.studies import rules_of_studies
 
 min_version("9.0")
 
@@ -30,11 +31,14 @@ RESULTS = config["results"]
 COATINGS = [case.name for case in coating_cases(config)]
 
 
+RULES_OF_STUDIES, LEFT_OUT = rules_of_studies(ROOT)
+
+
 # Not in the jobs, which are processes that read this file as well
 if workflow.is_main_process:
     with bladerub.io.errors.exit_on_error():
         bladerub.workflow.invocation.plan(
-            workflow, RESULTS, NOTES, solver_of(config).start
+            workflow, RESULTS, [*NOTES, *LEFT_OUT], solver_of(config).start
         )
     if workflow.output_settings.dryrun:
         from bladerub.workflow import forecast  # takes seconds to import
@@ -74,7 +78,7 @@ include: "src/rules/documents.smk"
 # Outputs of rules of studies that `all` makes as well, by rule
 ADDED_TO_ALL = {}
 
-for rules_of_study in sorted(ROOT.glob("studies/*/rules.smk")):
+for rules_of_study in RULES_OF_STUDIES:
 
     include: rules_of_study.as_posix()
 

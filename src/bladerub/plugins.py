@@ -18,6 +18,7 @@ A folder says what it adds in its ``plugin.py``, which imports nothing: each val
 ``ROWS``        what computes rows of blades, by the key of the config that describes them
 ``DATASETS``    what a run file may hold besides that of a single blade: a dictionary as of the store
 ``SOLVERS``     what computes runs instead of the processor, by the name in ``solver.device``
+``NEEDS``       names of other folders, without which a folder adds nothing
 =============== ===================================================================================
 """
 
@@ -27,7 +28,7 @@ from importlib import import_module
 from pathlib import Path
 from typing import Any
 
-_EXTRAS = "extras"
+EXTRAS = Path(__file__).parent / "extras"
 
 
 @cache
@@ -49,5 +50,7 @@ def loaded(kind: str) -> dict[str, Any]:
 
 
 def _plugins() -> Iterator[Any]:
-    for path in sorted((Path(__file__).parent / _EXTRAS).glob("*/plugin.py")):
-        yield import_module(f"bladerub.{_EXTRAS}.{path.parent.name}.plugin")
+    for path in sorted(EXTRAS.glob("*/plugin.py")):
+        plugin = import_module(f"bladerub.extras.{path.parent.name}.plugin")
+        if all((EXTRAS / name).is_dir() for name in getattr(plugin, "NEEDS", ())):
+            yield plugin

@@ -10,6 +10,7 @@ import pytest
 
 import bladerub as br
 from bladerub import plugins
+from bladerub.cli import main
 from bladerub.io.folders import PACKAGE
 
 KINDS = (
@@ -65,3 +66,19 @@ def test_the_core_does_without_extras(tmp_path):
     assert lines[0].split() == ["new", "config", "run", "status"]
     assert "Rig" not in lines[1]
     assert "simulate" in lines[1]
+
+
+def test_a_command_says_which_folder_it_needs(monkeypatch, capsys):
+    monkeypatch.setitem(sys.modules, "bladerub.extras.verification.element_law", None)
+    assert main(["check-law", "brittle", "--parameter", "break_strain=0.1"]) == 2
+    assert "needs bladerub.extras.verification.element_law, which this package" in capsys.readouterr().err
+
+
+def test_a_folder_adds_nothing_without_what_it_needs(monkeypatch, tmp_path):
+    for path in (PACKAGE / "extras").glob("*/plugin.py"):
+        (tmp_path / path.parent.name).mkdir()
+        (tmp_path / path.parent.name / "plugin.py").touch()
+    shutil.rmtree(tmp_path / "rows")
+    monkeypatch.setattr(plugins, "EXTRAS", tmp_path)
+    assert "rows of blades" not in plugins.offered.__wrapped__("INVENTORIES")
+    assert "columns" in plugins.offered.__wrapped__("MANIFESTS")

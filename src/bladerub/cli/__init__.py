@@ -59,6 +59,10 @@ def main(arguments: list[str] | None = None) -> int:
         return 0
     except OSError as error:
         message = message_for(error)
+    except ModuleNotFoundError as error:
+        if not (error.name or "").startswith("bladerub.extras."):
+            raise
+        message = f"needs {error.name}, which this package is without"
     except KeyboardInterrupt:
         code, message = 130, "interrupted"
     print(f"bladerub {options.name}: {message}", file=sys.stderr)

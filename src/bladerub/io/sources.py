@@ -49,22 +49,45 @@ def _path_of(module: str) -> Path:
 
 
 # Whole files are not parsed: every call of snakemake reads some two hundred of them
-_IMPORT = re.compile(r"^[ \t]*(from bladerub\.[\w.]+ import (?:\([^)]*\)|.*))$", re.M)
+_IMPORT = re.compile(r"^([ \t]*)(from bladerub\.[\w.]+ import (?:\([^)]*\)|.*))$", re.M)
+_EXTRA = re.compile(r"\bextras(?:\.\w+)+")
+
+
+def extras_behind(*sources: str) -> set[str]:
+    """Name folders and modules of `bladerub.extras` that sources name, or what these import at their top."""
+    names = {name for source in sources for name in _EXTRA.findall(source)}
+    seen: set[str] = set()
+    while new := names - seen:
+        seen |= new
+        for path in filter(Path.is_file, map(_path_of, new)):
+            names |= {name for name, is_at_top in _named(path) if is_at_top}
+    return {name.split(".")[1] for name in names if name.startswith("extras.")}
 
 
 @cache
 def _imports(path: Path) -> tuple[str, ...]:
-    return imports_in(path.read_text(encoding="utf-8"))
+    """Modules of this package that the file at `path` imports, wherever in it."""
+    return tuple(name for name, _ in _named(path) if _path_of(name).is_file())
 
 
 def imports_in(source: str) -> tuple[str, ...]:
     """Modules of this package that a source imports, wherever in it."""
-    names: list[str] = []
-    for statement in _IMPORT.findall(source):
+    return tuple(name for name, _ in _named_in(source) if _path_of(name).is_file())
+
+
+@cache
+def _named(path: Path) -> tuple[tuple[str, bool], ...]:
+    return _named_in(path.read_text(encoding="utf-8"))
+
+
+def _named_in(source: str) -> tuple[tuple[str, bool], ...]:
+    """Name modules of this package, or objects of them, that a source imports, and whether at its top."""
+    names: list[tuple[str, bool]] = []
+    for indent, statement in _IMPORT.findall(source):
         (node,) = ast.parse(statement).body
         base = node.module.removeprefix("bladerub.")
-        names += [base, *(f"{base}.{alias.name}" for alias in node.names)]
-    return tuple(name for name in names if _path_of(name).is_file())
+        names += [(name, not indent) for name in (base, *(f"{base}.{alias.name}" for alias in node.names))]
+    return tuple(names)
 
 
 @cache

@@ -22,7 +22,7 @@ import numpy as np
 
 from bladerub.blade.model import ReducedBlade
 from bladerub.extras.benchmark.machine import cores as cores_here
-from bladerub.extras.verification.verify import StudyRun, study_runs
+from bladerub.extras.study_runs import StudyRun, study_runs
 from bladerub.io.provenance import provenance
 from bladerub.study.grid import CoatingCase, coating_cases, run_spec
 from bladerub.study.growth import needs_confirmation

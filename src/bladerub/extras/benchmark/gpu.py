@@ -15,7 +15,7 @@ from bladerub.contact.spec import RunSpec
 from bladerub.extras.benchmark import machine
 from bladerub.extras.gpu.batch import Device
 from bladerub.extras.gpu.many import LeftOut, simulate_many
-from bladerub.extras.verification.verify import study_runs
+from bladerub.extras.study_runs import study_runs
 from bladerub.study.grid import run_spec
 from bladerub.study.parallel import each_done
 

@@ -5,7 +5,7 @@
 2. The force of the elements is turned by θ against the motion, as in the time loop. The tip also pays what
    the elements take up by wear: that energy over the width of an element is a force along the track.
 3. A law that heats warms the element by what friction and wear take from each pass, and lets it cool until
-   the next (`bladerub.extras.laws.heating`).
+   the next.
 """
 
 import math
@@ -19,7 +19,6 @@ from bladerub.contact.kernel.records import at_rest
 from bladerub.contact.laws import module_of
 from bladerub.contact.spec import TipProfile
 from bladerub.contact.tip import coverage, edge, relief
-from bladerub.extras.laws.heating import CELLS, Layer
 from bladerub.extras.rig.spec import MEASURABLE, Rig
 from bladerub.numerics.vectors import LANES
 
@@ -59,7 +58,7 @@ def simulate_passes(rig: Rig, elements: int = ELEMENTS, steps: int = STEPS) -> p
     element = law.element(rig.coating, np.array(area), width / steps / rig.speed)
     offset = np.linspace(edge(tip), -edge(tip), (elements + 1) * steps + 1)
     share, below = coverage(tip, offset), relief(tip, offset)
-    heat = _Heat(rig, law, area) if hasattr(law, "strength") else None
+    heat = _Heat(rig, law, area) if hasattr(law, "Layer") else None
     wear, rows = 0.0, []
     for number in range(1, rig.passes + 1):
         depth = number * rig.incursion
@@ -113,8 +112,8 @@ class _Heat:
     """The heat of one element, a row of its own in the time loop's layer."""
 
     def __init__(self, rig: Rig, law: ModuleType, area: float):
-        self._layer = Layer(law, rig.coating, np.full(LANES, area), rig.track / rig.speed)
-        self._state = at_rest(1, 1, CELLS)
+        self._layer = law.Layer(law, rig.coating, np.full(LANES, area), rig.track / rig.speed)
+        self._state = at_rest(1, 1, law.Layer.numbers)
 
     def add(self, flow: float, friction: float) -> None:
         """Warm the element by what flow and friction make in a pass (J), and let it be until the next."""

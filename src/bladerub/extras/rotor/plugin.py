@@ -1,3 +1,4 @@
 """Rows of blades."""
 
+NEEDS = ("rows",)
 INVENTORIES = {"rows of blades": "extras.rotor.inventory:inventories"}

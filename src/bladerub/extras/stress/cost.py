@@ -15,7 +15,7 @@ from bladerub.contact.result import RunResult
 from bladerub.contact.run import simulate
 from bladerub.contact.spec import RunSpec
 from bladerub.extras.stress.run import BladeStress
-from bladerub.extras.verification.verify import study_runs
+from bladerub.extras.study_runs import study_runs
 from bladerub.io.provenance import provenance
 from bladerub.study.grid import run_spec
 from bladerub.study.job import compute

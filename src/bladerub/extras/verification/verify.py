@@ -31,11 +31,10 @@ from bladerub.contact.run import simulate
 from bladerub.contact.setup import compile_kernel, element_passage
 from bladerub.contact.spec import ElementLaw, RunSpec
 from bladerub.contact.steps import STABLE_PART, with_steps
-from bladerub.extras.rows.row import simulate_row
-from bladerub.extras.rows.spec import Row
+from bladerub.extras.study_runs import StudyRun
 from bladerub.extras.verification.differences import Differences, largest, row_differences
 from bladerub.study.ensemble import chosen
-from bladerub.study.grid import CoatingCase, coating_cases, element_law, run_spec, speed_name, speeds
+from bladerub.study.grid import coating_cases, element_law, run_spec
 from bladerub.study.maps import read_map
 from bladerub.study.row import row_of
 
@@ -48,20 +47,6 @@ REFINEMENT = 4
 NEIGHBOURS = (-1e-7, -5e-8, 5e-8, 1e-7)
 """Initial radial displacements of node 1 in neighbouring starts, m: far below the tolerance to which a blade
 tip is made (some 0.01 mm) and far above rounding."""
-
-
-class StudyRun(NamedTuple):
-    """One point of the study's grid, a coating at a normalised speed; or a row of blades on it."""
-
-    case: CoatingCase
-    f_omega: float
-    row: Row | None = None
-    row_name: str = ""
-
-    @property
-    def name(self) -> str:
-        """Path of the run's file below ``runs``, without its suffix: ``2nd_E2_K0.5_theta0/0.1900``."""
-        return self.row_name or f"{self.case.name}/{speed_name(self.f_omega)}"
 
 
 class Solved(NamedTuple):
@@ -107,12 +92,6 @@ class VerifiedRun:
             return False
         pairs = zip(self.error, self.spread, strict=True)
         return all(spread >= error / 2 for error, spread in pairs if error > TOLERANCE)
-
-
-def study_runs(config: Mapping[str, Any]) -> list[StudyRun]:
-    """List every run of the study."""
-    row = row_of(config)
-    return [StudyRun(case, f_omega, row) for case in coating_cases(config) for f_omega in speeds(config)]
 
 
 def important_runs(config: Mapping[str, Any], maps: Path) -> list[StudyRun]:
@@ -222,11 +201,14 @@ def speedup_at_equal_error(
     return paper_finer_seconds / step / seconds
 
 
-def _solve(blade: ReducedBlade, row: Row | None, spec: RunSpec) -> Solved:
+def _solve(blade: ReducedBlade, row: Any, spec: RunSpec) -> Solved:
     start = time.thread_time()  # other processes and threads do not count
     if row is None:
         result = simulate(blade, spec)
         return Solved((result,), result.energy.residual, time.thread_time() - start)
+
+    from bladerub.extras.rows.row import simulate_row  # single blades do without
+
     together = simulate_row(blade, spec, row)
     seconds = time.thread_time() - start
     blades = tuple(replace(blade_result, status=together.status) for blade_result in together.blades)

@@ -5,7 +5,7 @@ import pytest
 from bladerub.config import read as configuration
 from bladerub.extras.benchmark import estimate as module
 from bladerub.extras.benchmark.estimate import _Cost, estimate
-from bladerub.extras.verification.verify import study_runs
+from bladerub.extras.study_runs import study_runs
 
 SMALL = {
     "coatings": [{"casing": "2nd", "E": [2, 20], "K": [0.5], "theta": [0.15]}],
