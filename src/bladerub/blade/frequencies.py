@@ -1,7 +1,5 @@
 """Natural frequencies of the reduced blade at speed, and the motion of its tip in the first mode."""
 
-from collections.abc import Iterable
-
 import numpy as np
 import scipy  # its parts when they are used: every job of a figure imports this module
 from threadpoolctl import threadpool_limits
@@ -21,23 +19,6 @@ def reduced_frequencies(blade: ReducedBlade, f_omega: float, n_modes: int | None
     frequencies = in_hertz(squares)
     frequencies.flags.writeable = False
     return frequencies
-
-
-def crossing_speeds(blade: ReducedBlade, orders: Iterable[int]) -> dict[int, float]:
-    """Find the speeds (normalised) at which engine orders cross the first frequency, by order.
-
-    Orders that do not cross it up to ``f_omega_max`` are left out.
-    """
-
-    def above(f_omega: float, order: int) -> float:
-        return order * f_omega - float(reduced_frequencies(blade, f_omega, 1)[0]) / blade.f1_hz
-
-    fastest = blade.f_omega_max
-    return {
-        order: float(scipy.optimize.brentq(above, 0.0, fastest, args=(order,), xtol=1e-9))
-        for order in orders
-        if above(fastest, order) >= 0
-    }
 
 
 def in_hertz(squares: np.ndarray) -> np.ndarray:

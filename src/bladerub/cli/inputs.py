@@ -199,28 +199,6 @@ def _made_with(base: Path) -> record.Record | None:
     return record.read(study_folder() / results) if isinstance(results, str) else None
 
 
-def add_law_parameters_to(parser: Parser, option: str, text: str) -> None:
-    """Add the option for the parameters of a law."""
-    parser.option(option, text, action="append", default=[], metavar="NAME=VALUE")
-
-
-def law_parameters(option: str, settings: list[str], law: str | None) -> dict[str, float | str]:
-    """Read what the command line gives for each parameter of a law, converted if the law has it."""
-    values: dict[str, float | str] = {}
-    for setting in settings:
-        name, _, value = setting.partition("=")
-        try:
-            values[name.strip()] = quantity(value)
-        except argparse.ArgumentTypeError:
-            raise InputError(f"{option} = {setting}: must be NAME=VALUE, such as viscosity=1e4") from None
-    if law is None or not values:
-        return values
-
-    from bladerub.config.quantities import law_numbers
-
-    return law_numbers(law, values)
-
-
 def quantity(text: str) -> float | str:
     """Read an option that is a number, or one with a unit, which stays text until the study is known."""
     with suppress(ValueError):

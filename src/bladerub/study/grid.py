@@ -180,11 +180,6 @@ def modulus_unit(config: Mapping[str, Any]) -> float:
     return float(config["contact"]["modulus_unit"] * scale["modulus"])
 
 
-def law_entry(law: str, parameters: Mapping[str, float]) -> dict[str, str | float]:
-    """Return ``contact.law`` of a config for a law by its name, or by its file, which ends in ``.py``."""
-    return {"file" if law.endswith(".py") else "name": law, **parameters}
-
-
 def element_law(config: Mapping[str, Any]) -> ElementLaw:
     """Describe the law of the elements that the config names, by default plasticity with linear hardening.
 

@@ -14,7 +14,6 @@ from bladerub.study.growth import confirmation_determinants, confirmation_spec
 from bladerub.study.manifest import CONFIRMATION
 from bladerub.study.row import row_of, rows
 from bladerub.study.solver import solver_of
-from bladerub.study.store import StoredRun
 
 SHAPING_SETTINGS = ("spectrum_revolutions", "max_order")
 """Keys of ``config["analysis"]`` that decide what a run file holds; the others act on maps and tables."""
@@ -93,17 +92,3 @@ def longer_run(config: Mapping[str, Any], run: PlannedRun) -> PlannedRun:
 def longer_file(run: PlannedRun) -> str:
     """Return in which file, in the folder of its coating, the longer run of `run` is."""
     return f"{CONFIRMATION}/{run.file}"
-
-
-def claimed_run(config: Mapping[str, Any], file: str, run: StoredRun) -> PlannedRun:
-    """Plan again what a stored run says it is; its own key shows whether `config` and blade made it.
-
-    Raises `KeyError` if the file lacks an attribute of a run, or the config its casing.
-    """
-    attributes, analysis = run.attributes, config["analysis"]
-    case = CoatingCase.described(attributes)
-    spec = replace(run_spec(config, case, attributes["f_omega"]), revolutions=attributes["revolutions"])
-    shortest = min(analysis["spectrum_revolutions"], spec.revolutions)  # as of a short run asked for alone
-    config = {**config, "analysis": {**analysis, "spectrum_revolutions": shortest}}
-    row = rows().stored(run) if "row" in run.data else None
-    return planned_run(config, spec, file, "radial_displacement" in run.data, row)

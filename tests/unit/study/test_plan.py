@@ -5,11 +5,12 @@ import math
 
 import pytest
 
+from bladerub.extras.export.claimed import claimed_run
 from bladerub.io import provenance
 from bladerub.study import grid, plan
 from bladerub.study.grid import CoatingCase, run_spec
 from bladerub.study.growth import confirmation_determinants, confirmation_spec
-from bladerub.study.plan import claimed_run, coating_plan, longer_run, planned_run
+from bladerub.study.plan import coating_plan, longer_run, planned_run
 from bladerub.study.store import StoredRun
 
 

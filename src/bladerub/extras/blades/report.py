@@ -1,16 +1,17 @@
 """The figures of an imported blade, and warnings of what is probably wrong with it."""
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from typing import Any
 
 import numpy as np
+import scipy
 from scipy import sparse
 from scipy.sparse.csgraph import dijkstra
 
 from bladerub.blade.accuracy import doubts, errors_by_mode
 from bladerub.blade.built import BuiltBlade
 from bladerub.blade.elasticity import Material
-from bladerub.blade.frequencies import crossing_speeds, tip_lean
+from bladerub.blade.frequencies import reduced_frequencies, tip_lean
 from bladerub.blade.mesh import BladeMesh, MeshedBlade
 from bladerub.blade.model import ReducedBlade
 from bladerub.blade.surface import EDGES, NAMES
@@ -117,7 +118,7 @@ def _of_blade(
     errors = errors_by_mode(table)
     first = table[table["mode"] == 1].sort_values("f_omega").f_fe.to_numpy()
     rpm = 60 * built.reduced.f1_hz
-    crossings = crossing_speeds(built.reduced, ORDERS)
+    crossings = _crossing_speeds(built.reduced, ORDERS)
     return {
         "nodes": len(points),
         "unknowns": 3 * (len(points) - layout.mesh.root.size),
@@ -259,3 +260,20 @@ def _warn_of_matrices(
         )
     if len(figures["speeds"]) == 3:
         yield "the error of eq. (2) is not known at the three speeds of its fit: add stiffness_at_<f_omega>"
+
+
+def _crossing_speeds(blade: ReducedBlade, orders: Iterable[int]) -> dict[int, float]:
+    """Find the speeds (normalised) at which engine orders cross the first frequency, by order.
+
+    Orders that do not cross it up to ``f_omega_max`` are left out.
+    """
+
+    def above(f_omega: float, order: int) -> float:
+        return order * f_omega - float(reduced_frequencies(blade, f_omega, 1)[0]) / blade.f1_hz
+
+    fastest = blade.f_omega_max
+    return {
+        order: float(scipy.optimize.brentq(above, 0.0, fastest, args=(order,), xtol=1e-9))
+        for order in orders
+        if above(fastest, order) >= 0
+    }

@@ -167,8 +167,8 @@ def _run_and_blade(options: argparse.Namespace, config: dict[str, Any]) -> "tupl
 
 
 def _plan(options: argparse.Namespace, config: dict[str, Any], run: "StoredRun", blade: Path) -> "PlannedRun":
+    from bladerub.extras.export.claimed import claimed_run
     from bladerub.study.cache import blade_digest
-    from bladerub.study.plan import claimed_run
 
     try:
         plan = claimed_run(config, options.run.name, run)

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 from bladerub.cli import inputs
 from bladerub.cli.inputs import InputError
 from bladerub.cli.run_option import RunOption
+from bladerub.extras.law_options import add_law_parameters_to, law_parameters
 
 if TYPE_CHECKING:
     from bladerub.api.study import Study
@@ -19,13 +20,13 @@ class LawOption(RunOption):
         text = "law of the elements by its name (docs/laws.md) or its file, instead of contact.law"
         parser.option("--law", text, metavar="LAW")
         text = "parameter of --law, SI units or with its unit; once for each of them"
-        inputs.add_law_parameters_to(parser, "--law-parameter", text)
+        add_law_parameters_to(parser, "--law-parameter", text)
 
     def check(self, options: argparse.Namespace, config: dict[str, Any]) -> None:
         """Refuse a law of the rigid casing, and parameters of none."""
         if options.law is not None and options.coating == "rigid":
             raise InputError(f"--law = {options.law}: goes with --coating abradable only")
-        if inputs.law_parameters("--law-parameter", options.law_parameter, None) and options.law is None:
+        if law_parameters("--law-parameter", options.law_parameter, None) and options.law is None:
             raise InputError(f"--law-parameter = {options.law_parameter[0]}: goes with --law only")
 
     def vary(self, options: argparse.Namespace, study: "Study") -> "Study":
@@ -35,6 +36,6 @@ class LawOption(RunOption):
 
         from bladerub.extras.laws.interface import Law
 
-        values = inputs.law_parameters("--law-parameter", options.law_parameter, options.law)
+        values = law_parameters("--law-parameter", options.law_parameter, options.law)
         with inputs.as_options():
             return study.with_law(Law(options.law, **values))

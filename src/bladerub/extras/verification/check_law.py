@@ -6,6 +6,7 @@ from typing import Any
 
 from bladerub.cli import inputs
 from bladerub.cli.inputs import InputError, refused
+from bladerub.extras.law_options import add_law_parameters_to, law_entry, law_parameters
 
 
 def add_to(commands: Any) -> None:
@@ -23,7 +24,7 @@ def add_to(commands: Any) -> None:
     )
     text = "Python file of a law, which is run, or the name of a law of the package"
     parser.add_argument("law", metavar="LAW", help=text)
-    inputs.add_law_parameters_to(
+    add_law_parameters_to(
         parser, "--parameter", "parameter of the law, SI units or with its unit; once for each of them"
     )
     parser.option("--seed", "of the histories, 0 or more (default 0)", int, metavar="N", default=0)
@@ -33,10 +34,10 @@ def check_law(options: argparse.Namespace) -> int:
     """Check the law that the command line names, and print what is wrong."""
     config = inputs.read_config(options)
     inputs.require(options, seed=(0, 2**32 - 1))
-    values = inputs.law_parameters("--parameter", options.parameter, options.law)
+    values = law_parameters("--parameter", options.parameter, options.law)
 
     from bladerub.extras.verification.element_law import check_law as check
-    from bladerub.study.grid import coating_cases, element_law, law_entry, run_spec
+    from bladerub.study.grid import coating_cases, element_law, run_spec
 
     with refused(ValueError):
         law = element_law({"contact": {"law": law_entry(options.law, values)}})
