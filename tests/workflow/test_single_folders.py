@@ -1,4 +1,4 @@
-"""Each folder of the extras and of the studies can be deleted alone: all else works, or says what it needs."""
+"""Each folder of extras and of studies can be deleted alone: all else works, or says what it needs."""
 
 import shutil
 import sys

@@ -176,6 +176,12 @@ def _law(config: Config) -> Iterator[str]:
         yield f"contact.law.{error}"
 
 
+@_reads("contact")
+def _tip(config: Config) -> Iterator[str]:
+    if config["contact"].get("tip_turns") and not plugins.offered("MOTIONS"):
+        yield "contact.tip_turns = true: must be false, this package's tips keep their angle"
+
+
 @_reads("casings")
 def _casings(config: Config) -> Iterator[str]:
     for name, entry in config["casings"].items():

@@ -10,7 +10,7 @@ from typing import Any
 from bladerub import plugins
 from bladerub.contact.spec import RunSpec
 from bladerub.io.sources import digest_behind
-from bladerub.numerics.machine_code import counterparts
+from bladerub.numerics.lanes import counterparts
 
 _KEY = "tip_turns"  # of the block contact of the config
 

@@ -11,8 +11,7 @@ import threading
 from functools import cache
 from types import FunctionType, ModuleType
 
-from bladerub.numerics.lanes import USUAL, importing_for, instance_name
-from bladerub.numerics.machine_code import counterparts
+from bladerub.numerics.lanes import USUAL, counterparts, importing_for, instance_name
 from bladerub.numerics.user_code import bounded
 
 _LAW = "bladerub.contact.law"

@@ -9,6 +9,8 @@ import hashlib
 from collections.abc import Iterator
 from contextlib import contextmanager
 
+from bladerub import plugins
+
 USUAL = 8
 """Doubles in a vector of the modules that are imported by name."""
 LANES = USUAL
@@ -42,3 +44,8 @@ def importing_for(lanes: int, law: str) -> Iterator[None]:
         yield
     finally:
         LANES, LAW = USUAL, ""
+
+
+def counterparts() -> list[str]:
+    """Name the modules that plug into the loop (`bladerub.contact.kernel.composition`), below `bladerub`."""
+    return [f"{place}.kernel" for place in plugins.offered("MOTIONS").values()]

@@ -15,7 +15,6 @@ import numba
 from numba.core.caching import FunctionCache
 from numba.extending import register_jitable
 
-from bladerub import plugins
 from bladerub.io.errors import BadInput
 from bladerub.io.folders import cache_folder
 from bladerub.io.sources import digest_behind, solver_digest
@@ -34,11 +33,6 @@ inlined = register_jitable(**INLINED)
 """Decorate a function that compiled code inlines; for Python it stays as it is."""
 
 _BESIDE = Path(__file__).parent / "__pycache__"
-
-
-def counterparts() -> list[str]:
-    """Name the modules that plug into the loop (`bladerub.contact.kernel.composition`), below `bladerub`."""
-    return [f"{place}.kernel" for place in plugins.offered("MOTIONS").values()]
 
 
 class _Cache(FunctionCache):
@@ -64,7 +58,7 @@ def njit_on_disk(**options) -> Callable[[Callable], Callable]:
         user_folder = numba.config.CACHE_DIR
         parent = Path(user_folder or (_BESIDE if os.access(_BESIDE.parent, os.W_OK) else cache_folder()))
         instance = lanes.instance_name(lanes.LANES, lanes.LAW)
-        digest = f"{solver_digest()[:16]}-{digest_behind(*counterparts())[:8]}"
+        digest = f"{solver_digest()[:16]}-{digest_behind(*lanes.counterparts())[:8]}"
         numba.config.CACHE_DIR = str(parent / f"machine-code-{digest}-{instance}")
         try:
             compiled = numba.njit(**options)(function)
