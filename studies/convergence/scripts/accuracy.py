@@ -8,8 +8,9 @@ import sys
 from pathlib import Path
 
 from bladerub.blade.validation import read_reduced_blade
+from bladerub.extras.study_runs import study_runs
 from bladerub.extras.verification.accuracy import table
-from bladerub.extras.verification.verify import important_runs, study_runs
+from bladerub.extras.verification.verify import important_runs
 from bladerub.workflow import outputs
 
 config, maps = snakemake.config, Path(snakemake.input.maps[0]).parent

@@ -12,9 +12,9 @@ from scipy import sparse
 from scipy.io import mminfo, mmread
 
 from bladerub.blade.linear import MOST_UNKNOWNS
+from bladerub.extras import cells
 from bladerub.extras.blades.element_quality import FARTHEST
-from bladerub.io import cells
-from bladerub.io.cells import Cells
+from bladerub.extras.cells import Cells
 from bladerub.io.errors import refuse_content
 from bladerub.numerics.lanes import FEWEST_NODES, MOST_NODES
 
