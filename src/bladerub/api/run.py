@@ -16,9 +16,8 @@ from bladerub.api.dataset import to_dataset
 from bladerub.api.errors import InputError
 from bladerub.api.notebook import Shown
 from bladerub.api.study import StudyRun
-from bladerub.blade.model import ReducedBlade
 from bladerub.config.units import speed_in_words
-from bladerub.contact.result import Energy, RunResult
+from bladerub.contact.result import Energy
 from bladerub.contact.setup import compile_kernel
 from bladerub.contact.spec import RunSpec
 from bladerub.io.equality import equal
@@ -386,7 +385,7 @@ def solve(
     solver = solver or one_by(solver_of(run.config))
     if stress and row:
         raise ValueError("stress = True: is found for a single blade only, must be False with a row")
-    stressed = _StressSolver(blade, run) if stress else None
+    stressed = _stress_solver(blade, run) if stress else None
     stored = _solve(blade, run, run.spec, digest, progress, keep_history, row, stressed or solver)
     run_stress = stressed.stress if stressed else None
     if run_stress:
@@ -410,21 +409,10 @@ def _described_stress(attributes: Mapping[str, Any]) -> Any:
     return module.RunStress.described(attributes) if module else None
 
 
-class _StressSolver:
-    """Simulates a run and keeps its stress."""
-
-    def __init__(self, blade: Blade, run: StudyRun):
-        self._module = _stress()
-        if self._module is None:  # before any work
-            raise ValueError("stress = True: this package is without what finds the stress, must be False")
-        self._mesh, self._last = blade.mesh_path, run.config["analysis"]["spectrum_revolutions"]
-        self.stress: Any = None
-
-    def __call__(
-        self, blade: ReducedBlade, spec: RunSpec, progress: Callable[[int], None] | None
-    ) -> RunResult:
-        result, self.stress = self._module.simulate_with_stress(self._mesh, blade, spec, self._last, progress)
-        return result
+def _stress_solver(blade: Blade, run: StudyRun) -> Any:
+    if (module := _stress()) is None:  # before any work
+        raise ValueError("stress = True: this package is without what finds the stress, must be False")
+    return module.StressSolver(blade.mesh_path, run.config["analysis"]["spectrum_revolutions"])
 
 
 def _solve(

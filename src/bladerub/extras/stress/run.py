@@ -155,6 +155,29 @@ def complete_revolutions(revolution_peak: np.ndarray, status: str) -> int:
     return int(np.isfinite(revolution_peak).sum()) - (status == "unbounded")
 
 
+class StressSolver:
+    """Simulates a run, as `bladerub.contact.run.simulate`, and keeps its stress.
+
+    Parameters
+    ----------
+    mesh : path
+        The ``mesh.h5`` of the blade.
+    last : int
+        How many revolutions are the last ones.
+    """
+
+    def __init__(self, mesh: str | Path, last: int):
+        self._mesh, self._last = mesh, last
+        self.stress: RunStress | None = None
+
+    def __call__(
+        self, blade: ReducedBlade, spec: RunSpec, progress: Callable[[int], None] | None
+    ) -> RunResult:
+        """Simulate the run; its `stress` is there afterwards."""
+        result, self.stress = simulate_with_stress(self._mesh, blade, spec, self._last, progress)
+        return result
+
+
 def simulate_with_stress(
     mesh: str | Path,
     blade: ReducedBlade,
