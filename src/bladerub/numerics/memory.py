@@ -4,7 +4,6 @@ Compiled code that takes, slices or passes on arrays counts their references eac
 what it does with them. It therefore gets records of their `addresses`.
 """
 
-from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -39,24 +38,13 @@ def addresses(record: NamedTuple) -> NamedTuple:
     return type(record)(*(part.ctypes.data if isinstance(part, np.ndarray) else part for part in record))
 
 
-def rows_of(records: Sequence[NamedTuple]) -> np.ndarray:
-    """Put records of `addresses`, all of one kind, into rows of 64 bits a field, for `record_at`."""
-    rows = np.zeros((len(records), len(records[0])), dtype=np.int64)
-    for row, record in zip(rows, records, strict=True):
-        for column, part in enumerate(record):
-            if isinstance(part, float):
-                row[column : column + 1].view(float)[0] = part
-            elif part is not None:
-                row[column] = part
-    return rows
-
-
 def _place(builder, address, index, kind):
     start = builder.inttoptr(address, DOUBLE.as_pointer())
     return builder.bitcast(builder.gep(start, [index]), kind.as_pointer())
 
 
-def _place_at(builder, address, number, kind):
+def place_at(builder, address, number, kind):
+    """Build the place of the number `number` of the array at `address`, of this kind."""
     return _place(builder, address, ir.Constant(address.type, number), kind)
 
 
@@ -128,30 +116,12 @@ def read_fields(context, record, address):
     return _fields(record, types.float64, DOUBLE)
 
 
-@intrinsic
-def record_at(context, record, address):
-    """Load a record of the kind of `record` from the row at `address`, see `rows_of`.
-
-    Truth values are those of `record`: all records of a kind have the same.
-    """
-
-    def generate(context, builder, signature, arguments):
-        values, parts = cgutils.unpack_tuple(builder, arguments[0]), []
-        for row, (kind, part) in enumerate(zip(record.types, values, strict=True)):
-            if isinstance(kind, types.Integer | types.Float):
-                part = builder.load(_place_at(builder, arguments[1], row, context.get_value_type(kind)))
-            parts.append(part)
-        return context.make_tuple(builder, record, parts)
-
-    return record(record, types.intp), generate
-
-
 def _fields(record, kind, llvm_type):
     n = len(record.instance_class._fields)
     result = types.NamedUniTuple(kind, n, record.instance_class)
 
     def generate(context, builder, signature, arguments):
-        places = (_place_at(builder, arguments[1], LANES * row, llvm_type) for row in range(n))
+        places = (place_at(builder, arguments[1], LANES * row, llvm_type) for row in range(n))
         return context.make_tuple(builder, result, [builder.load(place, align=8) for place in places])
 
     return result(record, types.intp), generate
@@ -178,7 +148,7 @@ def _sums(n):
 
     @instruction(several, types.intp)
     def broadcast_each(builder, address):
-        numbers = (builder.load(_place_at(builder, address, i, DOUBLE)) for i in range(n))
+        numbers = (builder.load(place_at(builder, address, i, DOUBLE)) for i in range(n))
         return cgutils.pack_array(builder, [spread(builder, number) for number in numbers])
 
     @instruction(vector, types.intp, several)
@@ -194,7 +164,7 @@ def _sums(n):
 
 def _rows(builder, address, n):
     """Load consecutive vectors."""
-    places = (_place_at(builder, address, LANES * i, VECTOR) for i in range(n))
+    places = (place_at(builder, address, LANES * i, VECTOR) for i in range(n))
     return [builder.load(place, align=8) for place in places]
 
 

@@ -66,7 +66,8 @@ def guard(law, n_nodes):
 
             kernel.Simulation._integrate = within_guards
     for kernel in {_module(width, "extras.rows.kernel", source), row}:
-        kernel.rows_of = lambda records: guarded(memory.rows_of(records))
+        if kernel.rows_of.__name__ == "rows_of":
+            kernel.rows_of = lambda records, plain=kernel.rows_of: guarded(plain(records))
 
 
 def _module(width, name, source):

@@ -8,11 +8,14 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
+from numba import types
+from numba.core import cgutils
+from numba.extending import intrinsic
 
 from bladerub.contact.kernel.loop import Progress, Simulation, integrate, take_turns
 from bladerub.contact.kernel.modal import move_tip
 from bladerub.numerics.machine_code import inlined, njit_on_disk, within
-from bladerub.numerics.memory import address_of, read, record_at, rows_of, write
+from bladerub.numerics.memory import address_of, place_at, read, write
 from bladerub.numerics.vectors import LANES
 
 
@@ -98,6 +101,36 @@ class RowSimulation:
                 first_row + n_elements,
                 apart / self.blades[0].stator.n_elements,
             )
+
+
+def rows_of(records: Sequence[NamedTuple]) -> np.ndarray:
+    """Put records of `addresses`, all of one kind, into rows of 64 bits a field, for `record_at`."""
+    rows = np.zeros((len(records), len(records[0])), dtype=np.int64)
+    for row, record in zip(rows, records, strict=True):
+        for column, part in enumerate(record):
+            if isinstance(part, float):
+                row[column : column + 1].view(float)[0] = part
+            elif part is not None:
+                row[column] = part
+    return rows
+
+
+@intrinsic
+def record_at(context, record, address):
+    """Load a record of the kind of `record` from the row at `address`, see `rows_of`.
+
+    Truth values are those of `record`: all records of a kind have the same.
+    """
+
+    def generate(context, builder, signature, arguments):
+        values, parts = cgutils.unpack_tuple(builder, arguments[0]), []
+        for row, (kind, part) in enumerate(zip(record.types, values, strict=True)):
+            if isinstance(kind, types.Integer | types.Float):
+                part = builder.load(place_at(builder, arguments[1], row, context.get_value_type(kind)))
+            parts.append(part)
+        return context.make_tuple(builder, record, parts)
+
+    return record(record, types.intp), generate
 
 
 @njit_on_disk(nogil=True)
