@@ -163,6 +163,8 @@ def _coating(options: argparse.Namespace, study: "Study") -> "StudyCoating":
 
 
 def _figures(planned: "StudyRun", result: "Run", seconds: float) -> dict[str, Any]:
+    from bladerub.study.store import datasets
+
     case, runs = planned.case, (result, result.longer) if result.longer else (result,)
     conditions = {
         "casing": case.casing,
@@ -184,7 +186,7 @@ def _figures(planned: "StudyRun", result: "Run", seconds: float) -> dict[str, An
         **result.summary(planned.config),
         "steps_per_second": steps / seconds,
         "run_key": result.attributes["run_key"],
-        "units": dict(_UNITS),
+        "units": _UNITS | {f"max_{name}": datasets()[name][1] for name in result.layer},
     }
 
 

@@ -85,12 +85,9 @@ class StoredRun:
     @property
     def layer(self) -> dict[str, np.ndarray]:
         """What else than wear the law of the coating leaves in the elements (8, n), by name."""
-        shape = _DATASETS["wear"][0]
-        return {
-            name: values
-            for name, values in self.data.items()
-            if name != "wear" and datasets()[name][0] == shape
-        }
+        shape, described = _DATASETS["wear"][0], datasets()
+        others = self.data.keys() & described.keys() - {"wear"}
+        return {name: self.data[name] for name in sorted(others) if described[name][0] == shape}
 
 
 def stored_run(
