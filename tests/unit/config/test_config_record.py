@@ -21,7 +21,7 @@ def test_nothing_was_laid_over(tmp_path, monkeypatch):
     assert record.read(tmp_path / "results") is None
 
 
-@pytest.mark.parametrize("text", ["", "{}", "[1]", '{"files": 1, "other": 2}'])
+@pytest.mark.parametrize("text", ["", "{}", "[1]", '{"files": 1}', '{"files": [], "command_line": [1]}'])
 def test_a_damaged_record_is_none(tmp_path, text):
     (tmp_path / record.FILE).write_text(text)
     assert record.read(tmp_path) is None
