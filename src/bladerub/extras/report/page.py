@@ -75,9 +75,9 @@ def _campbell(results: Results) -> str:
 def _maps(results: Results, name: str) -> dict[str, str]:
     """Draw wear and spectra of a coating over the speed, as addresses of PNGs that hold them, by caption."""
     figures, scales, coating = results.config["figures"], _scales(results), results.map(name)
-    ends, highest = tuple(figures["amplitude_range"]), figures["max_frequency"]
+    ends, highest, worn = tuple(figures["amplitude_range"]), figures["max_frequency"], coating.max_wear.any()
     return {
-        "Worn depth around the casing over the speed": _png(wear_map(coating, scales)),
+        **({"Worn depth around the casing over the speed": _png(wear_map(coating, scales))} if worn else {}),
         "Vibration over frequency and speed": _png(spectrum_map(coating, ends, highest, scales)),
     }
 

@@ -39,7 +39,7 @@ class Page:
         for part in re.findall("<table>.*?</table>", text, re.S):
             table = ElementTree.fromstring(part)
             head, *rows = [[cell.text for cell in row] for row in table.iter("tr")]
-            self._tables[table.findtext("caption")] = [dict(zip(head, row, strict=True)) for row in rows]
+            self._tables[table.findtext("caption/span")] = [dict(zip(head, row, strict=True)) for row in rows]
 
     @property
     def cells(self):
