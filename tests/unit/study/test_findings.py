@@ -108,53 +108,6 @@ def judge():
     return judged
 
 
-def test_a_study_that_shows_the_paper_fulfils_every_claim(paper, judge):
-    # f6 of the straight coating at K = 0.5 is 0.197, of the tilted one 0.19: as in Figs. 17 and 18
-    table = judge(*paper)
-    assert set(table.index) == PAPER_IDS
-    assert table.index.is_unique
-    assert list(table[table.holds != "yes"].index) == []
-    assert {type(text) for text in table.claim} == {str}
-    assert (table.margin[table.unit == "1"].dropna() >= 0).all()
-
-
-def test_a_claim_says_the_same_whether_it_holds_or_nothing_is_found(paper, judge, make_map):
-    before = judge(*paper)
-    nothing = make_map(WORN, {5: (0.26, 1e-3)}, SPEEDS, lobes=3)
-    nothing.max_wear[:] = 1e-4
-    paper[2][WORN.name] = nothing
-    after = judge(*paper)
-    assert list(after.measured[["C2c", "C3a"]]) == ["none"] * 2
-    for column in ("claim", "paper", "unit"):
-        pd.testing.assert_series_equal(after[column], before[column])
-    assert after.margin[["C2c", "C3a"]].isna().all()
-
-
-def test_divergence_is_measured_at_the_papers_speed_and_at_ours(paper, judge):
-    table = paper[1]["divergence"]
-    named = (table.E == 2) & (table.K == 0.5)
-    straight = named & (table.theta == 0) & (table.f_omega == 0.197)
-    table.loc[straight, ["growth_per_revolution", "growth_low", "divergent", "lobes"]] = [
-        0.04,
-        -0.01,
-        False,
-        5,
-    ]
-    tilted = (table.theta == 0.15) & (table.f_omega == 0.197)
-    table.loc[tilted, ["divergent", "status"]] = [True, "unbounded"]
-    rows = table.iloc[:1].assign(f_omega=0.204, growth_per_revolution=0.04, growth_low=0.03, divergent=True)
-    paper[1]["divergence"] = pd.concat([table, rows], ignore_index=True)
-    own = paper[1]["peaks"]
-    own.loc[(own.E == 2) & (own.K == 0.5) & (own.theta == 0) & (own.order == 6), "f_peak"] = 0.204
-    judged = judge(*paper)
-    # growth that the scatter hides is half of C11b
-    assert list(judged.holds[["C11b", "C11f", "C11h", "C11d"]]) == ["partly", "partly", "yes", "no"]
-    assert judged.measured["C11b"] == pytest.approx(0.04)
-    assert judged.margin["C11b"] == pytest.approx(-0.02)
-    assert (judged.measured["C11h"], judged.margin["C11h"]) == pytest.approx((0.04, 0.02))
-    assert (judged.measured["C11d"], judged.margin["C11d"]) == (np.inf, -np.inf)
-
-
 def test_the_rigid_casing_takes_no_part_in_the_claims_on_E_and_K(paper, judge):
     table = paper[1]["peaks"]
     table.loc[np.isinf(table.E), ["amplitude", "f_peak"]] = [1.0, 0.02]
@@ -180,12 +133,6 @@ def test_a_small_study_leaves_out_what_it_cannot_tell_and_logs_it(paper, judge, 
     assert len(caplog.records) == len(out) + 1
 
 
-def test_without_peaks_there_is_nothing_to_say_on_them(paper, judge):
-    config, tables, maps = paper
-    judged = judge(config, {**tables, "peaks": tables["peaks"].iloc[:0]}, maps)
-    assert {id_[:3].rstrip("abcdef") for id_ in judged.index} == {"C1", "C2", "C3", "C4", "C5", "C11"}
-
-
 def test_the_table_is_read_from_the_files_of_a_study(paper, tmp_path):
     config, tables, maps = paper
     for name, coating in maps.items():
@@ -199,6 +146,7 @@ def test_the_table_is_read_from_the_files_of_a_study(paper, tmp_path):
         divergence_path=tmp_path / "divergence.csv",
         rom_accuracy=read_rom_accuracy(tmp_path / "rom_accuracy.csv"),
     )
+    # f6 of the straight coating at K = 0.5 is 0.197, of the tilted one 0.19: as in Figs. 17 and 18
     columns = ["id", "claim", "paper", "measured", "unit", "holds", "margin"]
     assert list(table.columns) == [*columns, "measured_by_harmonic", "holds_by_harmonic"]
     assert set(table.id) == PAPER_IDS

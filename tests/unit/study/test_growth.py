@@ -63,17 +63,11 @@ class TestGrowthRate:
         inside = np.mean([each.low < 0.03 < each.high for each in found])
         assert inside == pytest.approx(0.95, abs=0.02)
 
-    def test_has_a_wider_interval_at_a_higher_confidence(self):
-        run = scattered(1.03**NUMBER, 0.02)[0]
-        assert growth(run, SETTINGS | {"confidence": 0.99}).low < growth(run, SETTINGS).low
-
     def test_is_nothing_for_a_blade_that_never_moved(self):
         found = growth(np.zeros(20), SETTINGS)
         assert (found.per_revolution, found.low, found.high, found.grows) == (0, 0, 0, False)
 
-    @pytest.mark.parametrize(
-        ("begun", "measured"), [(0, "none"), (1, "none"), (2, "rate"), (3, "interval"), (4, "interval")]
-    )
+    @pytest.mark.parametrize(("begun", "measured"), [(1, "none"), (2, "rate"), (3, "interval")])
     def test_of_few_revolutions_has_no_interval_and_of_fewer_no_value(self, begun, measured):
         amplitude = np.full(20, np.nan)
         amplitude[:begun] = 1.5 ** np.arange(begun)
@@ -82,16 +76,6 @@ class TestGrowthRate:
         assert np.isfinite(found.low) == np.isfinite(found.high) == (measured == "interval")
         assert found.grows == (measured == "interval")
         assert not found.levels_off
-
-    def test_leaves_out_revolutions_without_motion(self):
-        found = growth(np.r_[np.zeros(5), 1.1 ** np.arange(5)], SETTINGS)
-        assert found.per_revolution == pytest.approx(0.1)
-
-    def test_of_a_very_long_run_is_found_as_well(self):
-        number = np.arange(10_000.0)
-        found = growth(np.exp(1e-3 * number), SETTINGS | {"revolutions": 10_000, "growth": 1e-4})
-        assert found.per_revolution == pytest.approx(np.expm1(1e-3))
-        assert (found.grows, found.levels_off) == (True, False)
 
 
 class TestGrows:
@@ -104,7 +88,7 @@ class TestGrows:
     def test_through_the_scatter_of_real_runs(self, scatter, least):
         assert share(scattered(1.03**NUMBER, scatter)) >= least
 
-    @pytest.mark.parametrize("scatter", [0.001, 0.01, 0.05, 0.1, 0.2])
+    @pytest.mark.parametrize("scatter", [0.001, 0.05, 0.2])
     def test_not_when_steady_or_decaying(self, scatter):
         assert share(scattered(np.ones(20), scatter)) <= 0.02
         assert share(scattered(np.ones(20), scatter, correlation=0.8)) <= 0.1
@@ -143,10 +127,7 @@ class TestLevelsOff:
             found = growth(saturation(NUMBER, tau), SETTINGS)
             assert (found.grows, found.levels_off) == (True, False)
 
-    def test_not_visible_in_large_scatter(self):
-        assert share(scattered(saturation(NUMBER, 8), 0.1), "levels_off") < 0.05
-
-    @pytest.mark.parametrize("scatter", [0, 0.001, 0.01, 0.05, 0.1])
+    @pytest.mark.parametrize("scatter", [0, 0.01, 0.1])
     def test_not_on_exponential_growth(self, scatter):
         assert share(scattered(1.05**NUMBER, scatter), "levels_off") <= 0.05
 
@@ -160,20 +141,11 @@ class TestLevelsOff:
 
 
 class TestVerdict:
-    def test_growth_without_end_is_divergence(self):
-        verdict = judge(1.03**NUMBER, "completed", SETTINGS)
-        assert (verdict.divergent, verdict.saturating) == (True, False)
-        assert (verdict.revolutions, verdict.status) == (20, "completed")
-
     def test_leaving_all_bounds_is_divergence_whatever_the_fit(self):
         for amplitude in (0.5**NUMBER, np.array([1.0, np.nan, np.nan])):
             verdict = judge(amplitude, "unbounded", SETTINGS)
             assert (verdict.divergent, verdict.saturating, verdict.status) == (True, False, "unbounded")
         assert verdict.revolutions == 1
-
-    def test_levelling_off_is_saturation(self):
-        verdict = judge(saturation(NUMBER, 8), "completed", SETTINGS)
-        assert (verdict.divergent, verdict.saturating) == (False, True)
 
     def test_the_longer_run_decides(self):
         slow = judge(saturation(NUMBER, 20), "completed", SETTINGS)
@@ -188,10 +160,6 @@ class TestVerdict:
         longer[40:] = np.nan
         verdict = judge(saturation(NUMBER, 20), "completed", SETTINGS, longer)
         assert (verdict.divergent, verdict.revolutions, verdict.status) == (True, 40, "unbounded")
-
-    @pytest.mark.parametrize("none", [None, np.empty(0), np.full(60, np.nan)])
-    def test_no_longer_run_can_be_told_in_three_ways(self, none):
-        assert judge(np.ones(20), "completed", SETTINGS, none) == judge(np.ones(20), "completed", SETTINGS)
 
 
 def test_completed_runs_that_grow_need_confirmation_if_wanted():

@@ -48,7 +48,6 @@ def test_it_lists_runs_and_longer_runs(path):
 @pytest.mark.parametrize(
     "content",
     [
-        "",
         f"{OLDER}\n0.1900.h5\t0.1",
         f"{OLDER}\n../0.1900.h5\t0.1\tk\tcompleted\t1\t\t0\t\t\n",
         f"{OLDER}\n0.1900.h5\t0.1\tk\tcompleted\t1\t\t0\t1234\tbreaks off",

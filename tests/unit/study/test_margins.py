@@ -1,5 +1,4 @@
 import itertools
-import logging
 
 import numpy as np
 import pandas as pd
@@ -52,15 +51,6 @@ def test_speeds_are_dropped_but_not_those_that_claims_name(varied, maps):
             assert len(values) == expected.size, name
 
 
-def test_extra_speeds_are_a_variation_where_claims_do_not_name_them(varied, study, make_map):
-    assert "even speeds only" not in varied
-    study["speeds"]["extra"].append(0.315)
-    coating = make_map(CoatingCase("2nd", 2.0, 0.5, 0.0), {}, speeds(study))
-    only_even = margins.variations(study, [coating])["even speeds only"].maps[0]
-    assert only_even.f_omega.size == coating.f_omega.size - 1
-    assert 0.315 not in only_even.f_omega
-
-
 def test_every_second_modulus_is_dropped_but_not_those_of_figures(varied):
     young = {coating.case.E for coating in varied["without E = 0.2, 5"].maps}
     assert young == set(YOUNG) - {0.2, 5.0}
@@ -75,19 +65,6 @@ def test_settings_are_varied_one_at_a_time(varied, study, name, choice):
     config["analysis"][part][key] = study["analysis"][part][key]
     assert config == study
     assert maps == varied[margins.STUDY].maps
-
-
-def test_claims_on_a_peak_that_a_variation_lacks_are_left_out(study, make_map, tmp_path, caplog):
-    study["speeds"] = {"start": 0.1, "stop": 0.4, "step": 0.1, "extra": []}
-    study["analysis"]["histories"] = []
-    path = tmp_path / "map.h5"
-    write_map(path, make_map(CoatingCase("2nd", 2.0, 0.5, 0.0), {}, speeds(study)), {})
-    (tmp_path / "a.csv").write_text("f_omega,mode,relative_error\n0,1,1e-4\n")
-    with caplog.at_level(logging.WARNING):
-        table = margins.table(study, [path], tmp_path / "a.csv")
-    said = caplog.text.partition("speed step 0.2:")[2]
-    assert "no peak of engine order 6 for coating 2nd_E2_K0.5_theta0: no run between" in said
-    assert margins.STUDY in set(table.variation)
 
 
 def test_a_table_has_every_claim_in_every_variation(study, maps, tmp_path):

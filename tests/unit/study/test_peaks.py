@@ -42,14 +42,6 @@ def test_a_line_at_the_halfwidth_belongs_to_the_order(make_map, halfwidth, count
     assert found == pytest.approx(9e-4 if counts else 1e-4)
 
 
-@pytest.mark.parametrize("end", [0, -1])
-def test_a_crossing_at_the_lowest_or_highest_speed_is_one(make_map, end):
-    coating = make_map(CASE, {}, [0.1, 0.2, 0.3])
-    coating.C1[:] = [0.5, 0.55, 0.6] if end == 0 else [1.0, 1.1, 1.5]
-    coating.C1[end] = 5 * coating.f_omega[end]
-    assert peaks.crossing_speed(coating, 5) == coating.f_omega[end]
-
-
 def test_runs_without_a_spectrum_are_passed_over(make_map, settings):
     coating = make_map(CASE, {6: (0.2, 1e-4)})
     coating.spectrum_amplitude[np.isclose(coating.f_omega, 0.2)] = np.nan

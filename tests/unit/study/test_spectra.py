@@ -66,16 +66,3 @@ def test_a_run_without_one_complete_revolution_has_no_spectrum():
     u = sine(6)
     u[SAMPLES - 1 :] = np.nan
     assert np.isnan(spectrum(u)[1]).all()
-
-
-@pytest.mark.parametrize(
-    ("arguments", "message"),
-    [
-        ({"revolutions": 19}, "do not divide into 19"),
-        ({"spectrum_revolutions": 21}, "over 21 revolutions needs a run of as many"),
-        ({"max_order": 201.0}, "order 201 is above 200"),
-    ],
-)
-def test_a_spectrum_that_the_record_cannot_give_is_an_error(arguments, message):
-    with pytest.raises(ValueError, match=message):
-        spectrum(sine(6), **arguments)

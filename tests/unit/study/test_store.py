@@ -54,16 +54,3 @@ def test_an_unbounded_run_keeps_wear_peaks_and_what_spectrum_there_is(write_run,
     assert run.data["spectrum_amplitude"].max() == pytest.approx(1e-3)
     assert np.isfinite(run.data["revolution_peak"][:13]).all()
     assert np.isnan(run.data["revolution_peak"][13:]).all()
-
-
-def test_a_run_is_small_on_disk(write_run):
-    assert write_run().stat().st_size < 90e3  # 10,900 runs stay below a gigabyte
-
-
-@pytest.mark.parametrize("content", [None, b"", b"not HDF5"])
-def test_reading_what_is_not_a_run_names_the_file(tmp_path, content):
-    path = tmp_path / "0.1900.h5"
-    if content is not None:
-        path.write_bytes(content)
-    with pytest.raises(OSError, match=r"0\.1900\.h5"):
-        store.read_run(path)

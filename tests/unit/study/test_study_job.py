@@ -1,4 +1,3 @@
-import itertools
 import math
 
 import h5py
@@ -8,7 +7,7 @@ import pytest
 
 from bladerub.io import hdf5
 from bladerub.io.errors import DamagedFile
-from bladerub.study import divergence, job, maps, peak_table
+from bladerub.study import divergence, maps, peak_table
 from bladerub.study.grid import CoatingCase
 from bladerub.study.job import compute_missing
 from bladerub.study.manifest import write_manifest
@@ -70,13 +69,6 @@ def test_a_run_without_a_checksum_is_computed_again_and_archived(compute, simula
     assert archived.read_bytes() == older
 
 
-def test_another_blade_makes_every_run_stale(compute, simulated):
-    compute()
-    simulated.clear()
-    compute(digest="another blade")
-    assert len(simulated) == 4
-
-
 def test_an_interrupted_job_goes_on_where_it_stopped(compute, simulated, monkeypatch):
     class Stopped(Exception):
         pass
@@ -90,24 +82,6 @@ def test_an_interrupted_job_goes_on_where_it_stopped(compute, simulated, monkeyp
     simulated.clear()
     compute()
     assert simulated == [0.2, 0.3]
-
-
-def test_each_computed_run_is_reported_with_the_time_left(compute, simulated, monkeypatch):
-    ends = [0.0, 12.0, 18.0, 24.0, 30.0]
-    clock = iter([0.0, *(time for pair in itertools.pairwise(ends) for time in (*pair, pair[1])), 30.0])
-    monkeypatch.setattr(job.time, "monotonic", lambda: next(clock))
-    reports = []
-    compute(report=reports.append)
-    assert [(done.number, done.total, done.file) for done in reports] == [
-        (1, 4, "0.1000.h5"),
-        (2, 4, "0.1900.h5"),
-        (3, 4, "0.2000.h5"),
-        (4, 4, "0.3000.h5"),
-    ]
-    # 10 units of cost (1 / speed) took 12 s, and 1/0.19 + 1/0.2 + 1/0.3 are left
-    assert reports[0].seconds_left == pytest.approx(12 / 10 * (1 / 0.19 + 1 / 0.2 + 1 / 0.3))
-    assert reports[-1].seconds_left == pytest.approx(0, abs=1e-9)
-    assert str(reports[1]).startswith("[2/4] 0.1900.h5 completed in 6.0 s, about ")
 
 
 def test_runs_that_grow_are_repeated_for_longer_once(compute, simulated, growing, repeated, tmp_path):
@@ -154,14 +128,6 @@ def test_another_threshold_repeats_other_runs(compute, study, simulated, growing
     study["analysis"]["divergence"]["growth"] = 0.01
     assert [bool(row.confirmation_key) for row in compute()] == [True, False, True, False]
     assert (len(simulated), repeated) == (4, [0.2, 0.1])
-
-
-def test_a_damaged_longer_run_is_computed_alone(compute, simulated, growing, repeated, tmp_path):
-    growing.update({0.1: 0.03, 0.2: 0.03})
-    rows = compute()
-    (tmp_path / "confirmation" / "0.1000.h5").write_bytes(b"")
-    assert compute() == rows
-    assert (len(simulated), repeated) == (4, [0.1, 0.2, 0.1])
 
 
 def test_runs_computed_at_once_are_the_same_to_the_byte(study, case, blade, tmp_path):

@@ -13,16 +13,10 @@ def pattern(angle, n, unequal=0.0, phase=0.0):
     return 1e-3 * depth * np.clip(np.cos(n * angle + phase) - 0.2, 0, None)
 
 
-@pytest.mark.parametrize("n", [1, 2, 5, 20])
-@pytest.mark.parametrize("unequal", [0.0, 0.5])
+@pytest.mark.parametrize(("n", "unequal"), [(1, 0.0), (5, 0.5), (20, 0.0)])
 @pytest.mark.parametrize("phase", [0.0, np.pi])  # a lobe, a valley at the wrap-around
 def test_lobes_of_a_synthetic_pattern_are_counted(angle, n, unequal, phase):
     assert lobes(angle, pattern(angle, n, unequal, phase), PROMINENCE) == n
-
-
-def test_joined_lobes_count_where_a_valley_parts_them(angle):
-    joined = 1e-3 * (1 + 0.5 * np.cos(5 * angle))
-    assert lobes(angle, joined, PROMINENCE) == 5
 
 
 def test_the_count_does_not_change_when_the_casing_is_turned(angle):
@@ -55,7 +49,7 @@ def test_no_wear_and_an_even_ring_have_no_lobes(angle):
     assert lobes(angle, 1e-3 * (1 + 0.05 * np.cos(7 * angle)), PROMINENCE) == 0
 
 
-@pytest.mark.parametrize("seed", range(8))
+@pytest.mark.parametrize("seed", range(3))
 def test_a_rough_pattern_has_as_many_peaks_as_the_library_finds(angle, seed):
     rng = np.random.default_rng(seed)
     depth = ndimage.gaussian_filter1d(rng.random(angle.size), rng.uniform(5, 40), mode="wrap")
@@ -71,7 +65,7 @@ def test_a_rough_pattern_has_as_many_peaks_as_the_library_finds(angle, seed):
 
 
 class TestDominantHarmonic:
-    @pytest.mark.parametrize("count", [1, 4, 10, 999, 1000])
+    @pytest.mark.parametrize("count", [1, 10, 1000])
     def test_one_harmonic_has_all_of_the_variance(self, count):
         angle = 2 * np.pi * (np.arange(2000) + 0.5) / 2000
         wave = np.sin(count * angle + 0.3)
@@ -81,17 +75,6 @@ class TestDominantHarmonic:
         wear = 1e-3 * (3 + 2 * np.cos(4 * angle) + np.cos(6 * angle))
         nodes = np.stack([wear, wear]) + 1e-3 * np.array([[1], [-1]]) * np.cos(9 * angle)
         assert dominant_harmonic(nodes) == (4, pytest.approx(4 / 5))
-
-    def test_a_turn_of_the_casing_and_a_factor_change_nothing(self, angle):
-        wear = pattern(angle, 5, 0.4, 0.2)
-        harmonic, share = dominant_harmonic(wear)
-        assert harmonic == 5
-        assert dominant_harmonic(7e-3 * np.roll(wear, 333)) == (5, pytest.approx(share))
-
-    def test_shallow_valleys_change_the_lobes_but_not_the_harmonic(self, angle):
-        wear = 1e-3 * (10 + 0.3 * np.cos(4 * angle))
-        assert lobes(angle, wear, PROMINENCE) == 0
-        assert dominant_harmonic(wear)[0] == 4
 
     @pytest.mark.parametrize("depth", [0.0, 1e-3])
     def test_no_wear_and_an_even_ring_have_none(self, angle, depth):
