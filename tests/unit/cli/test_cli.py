@@ -112,11 +112,6 @@ def test_the_stress_of_a_run_is_that_of_its_motion(small, blade_file, folder, ca
     exported = json.loads(capsys.readouterr().out)
     assert stress["last"]["von_mises"] == pytest.approx(exported["largest_von_mises"], rel=0.02)
     assert stress["last"]["principal"] == pytest.approx(exported["largest_principal"], rel=0.02)
-    assert main(arguments) == 0
-    words = capsys.readouterr().out.partition("largest stress:\n")[2].splitlines()
-    assert len(words) == 2 + 3 + 3
-    assert words[0].startswith("von Mises, rotation alone")
-    assert all(" MPa at (" in line for line in words)
 
 
 def test_a_speed_in_revolutions_a_minute_is_the_same_run(small, blade_file, capsys):
@@ -150,8 +145,6 @@ def test_an_ensemble_shows_its_bands(small, blade_file, capsys, monkeypatch):
     assert len(further) == 2  # the run itself is made once
     assert bands["max_wear"]["low"] <= bands["max_wear"]["median"] <= bands["max_wear"]["high"]
     assert bands["peak_amplitude"]["median"] == pytest.approx(figures["peak_amplitude"], rel=0.1)
-    assert main([*RUN, *small, "--revolutions", "2", "--ensemble", "2"]) == 0
-    assert "3 runs" in capsys.readouterr().out
 
 
 def test_a_row_shows_its_blades(small, blade_file, folder, capsys):
@@ -175,25 +168,14 @@ def test_a_row_shows_its_blades(small, blade_file, folder, capsys):
     assert shown("--seed", "2")["blades"] != found["blades"]
 
 
-@pytest.mark.parametrize(("friction", "options"), [(0.0, []), (0.15, ["--friction", "0.15"])])
-def test_run_on_the_rigid_casing_wears_nothing(small, blade_file, folder, capsys, friction, options):
+def test_run_on_the_rigid_casing_wears_nothing(small, blade_file, folder, capsys):
     path = folder / "rigid.h5"
-    assert main([*RIGID, *options, *small, "--json", "--output", str(path)]) == 0
+    assert main([*RIGID, "--friction", "0.15", *small, "--json", "--output", str(path)]) == 0
     figures = json.loads(capsys.readouterr().out)
     assert (figures["max_wear"], figures["lobes"]) == (0, 0)
     assert figures["peak_amplitude"] > 0
     about = read_run(path).attributes
-    assert (about["E"], about["K"], about["theta"]) == (math.inf, math.inf, math.atan(friction))
-
-
-def test_run_takes_damping_layer_and_interference_of_its_own(small, blade_file, folder, capsys):
-    path = folder / "own.h5"
-    own = ["--damping-ratio", "0.001", "--layer-thickness", "0.004", "--interference", "0.0004"]
-    assert main([*RUN, *own, *small, "--json", "--output", str(path)]) == 0
-    figures, about = json.loads(capsys.readouterr().out), read_run(path).attributes
-    assert about["variant"] == "xi0.001_h0.004_d0.0004"
-    assert (figures["damping_ratio"], figures["layer_thickness"]) == (0.001, 0.004)
-    assert (figures["interference"], about["damping_ratio"], about["layer_thickness"]) == (4e-4, 0.001, 0.004)
+    assert (about["E"], about["K"], about["theta"]) == (math.inf, math.inf, math.atan(0.15))
 
 
 @pytest.mark.slow
@@ -210,33 +192,6 @@ def test_run_with_another_law_says_so(small, blade_file, folder, capsys):
     assert stored.data["temperature_rise"].max() == pytest.approx(warmest, rel=1e-2)
     assert stored.data["temperature_rise"].shape == stored.data["wear"].shape
     assert stored.attributes["element_law"].startswith("thermal (heat_capacity 2e+06, conductivity 5, ")
-    other = folder / "plastic.h5"
-    assert main([*RUN, "--law", "plastic", "--output", str(other), *small, "--json"]) == 0
-    figures, about = json.loads(capsys.readouterr().out), read_run(other).attributes
-    assert figures["element_law"] == "plastic"
-    assert "max_temperature_rise" not in figures
-    assert "element_law" not in about
-    assert about["run_key"] != read_run(path).attributes["run_key"]
-
-
-def test_run_by_coulombs_law_is_kept_as_such(small, blade_file, folder, capsys):
-    path = folder / "coulomb.h5"
-    command = [*without("--theta"), "--friction", "0.15"]
-    assert main([*command, *small, "--json", "--output", str(path)]) == 0
-    assert json.loads(capsys.readouterr().out)["peak_amplitude"] > 0
-    about = read_run(path).attributes
-    assert (about["law"], about["theta"]) == ("coulomb", math.atan(0.15))
-    assert 0 < about["slowest_sliding"] < 1
-
-
-def test_clearances_are_in_lengths_of_the_given_blade(small, blade_file, folder, capsys):
-    main([*RUN, *small, "--json", "--blade", str(blade_file)])
-    same = json.loads(capsys.readouterr().out)
-    config = folder / "longer.yaml"
-    config.write_text("blade: {length: 0.4}\n")
-    assert main([*RUN, *small, "--json", "--config", str(config), "--blade", str(blade_file)]) == 0
-    other = json.loads(capsys.readouterr().out)
-    assert other["peak_amplitude"] == same["peak_amplitude"]
 
 
 def test_blade_of_another_config_is_refused(small, blade_file, folder, capsys):
@@ -247,34 +202,15 @@ def test_blade_of_another_config_is_refused(small, blade_file, folder, capsys):
     assert line.startswith(f"bladerub run: {blade_file}: was built from another config; ")
 
 
-def test_progress_bar_on_a_terminal(small, blade_file, monkeypatch, capsys):
-    terminal = io.StringIO()
-    terminal.isatty = lambda: True
-    monkeypatch.setattr("sys.stderr", terminal)
-    assert main([*RUN, *small]) == 0
-    assert "2/2" in terminal.getvalue() or "0/2" in terminal.getvalue()
-
-
-def without(option):
-    at = RUN.index(option)
-    return [*RUN[:at], *RUN[at + 2 :]]
-
-
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
         ([*RUN, "--E", "2 rpm"], '--E = "2 rpm": is a speed; must be a pressure: MPa, GPa'),
         ([*RUN, "--f", "9000 rpm"], "(9000 rpm): must be at most reduction.f_omega_max = 0.4"),
-        ([*RUN, "--blades", "0"], "--blades = 0: must be from 1 to 200"),
         ([*RUN, "--blades", "200"], "row: blades 1 and 2 are 10 of 2000 coating elements apart"),
-        ([*RUN, "--blades", "3", "--ensemble", "2"], "--ensemble = 2: not with --blades"),
-        ([*RUN, "--blades", "3", "--length-scatter", "nan"], "--length-scatter = nan: must be 0 or more"),
-        ([*RUN, "--stress", "--blades", "2"], "--stress: is of a single blade"),
         ([*RUN, "--coupling", "0.1"], "--coupling = 0.1: goes with --blades only"),
         ([*RUN, "--law", "viscoplastic"], '--law = "viscoplastic": viscosity: missing'),
         ([*RUN, "--law-parameter", "viscosity"], "--law-parameter = viscosity: must be NAME=VALUE"),
-        ([*RUN, "--interference", "0.01"], "--interference = "),
-        ([*RIGID, "--law", "plastic"], "--law = plastic: goes with --coating abradable only"),
     ],
 )
 def test_bad_input_is_answered_in_one_line(small, blade_file, arguments, words, capsys):
@@ -282,16 +218,6 @@ def test_bad_input_is_answered_in_one_line(small, blade_file, arguments, words, 
     assert code == 2
     assert words in line
     assert line.count("\n") == 1
-
-
-def test_time_step_too_long_for_the_blade_is_answered_in_one_line(small, blade_file, folder, capsys):
-    config = folder / "long_step.yaml"
-    config.write_text("solver: {scheme: central_differences, max_time_step: 1e-4, steps_per_element: 1}\n")
-    code, line = told(capsys, [*RUN, *small, "--config", str(config)])
-    assert code == 2
-    assert line.count("\n") == 1
-    assert re.search(r"time step \d\.\d+e-0[56] s", line)
-    assert "for the highest mode of this blade" in line
 
 
 def test_interruption_leaves_no_traceback(small, blade_file, monkeypatch, capsys):
@@ -302,9 +228,8 @@ def test_interruption_leaves_no_traceback(small, blade_file, monkeypatch, capsys
     assert told(capsys, [*RUN, *small]) == (130, "bladerub run: interrupted\n")
 
 
-@pytest.mark.parametrize("name", ["reduced_model.h5", "mesh.h5"])
-def test_a_truncated_file_of_the_blade_is_named_and_made_anew_when_deleted(small, blade_file, name, capsys):
-    path = blade_file.with_name(name)
+def test_a_truncated_file_of_the_blade_is_named_and_made_anew_when_deleted(small, blade_file, capsys):
+    path = blade_file.with_name("mesh.h5")
     whole = path.read_bytes()
     path.write_bytes(whole[: len(whole) // 2])
     code, line = told(capsys, [*RUN, *small])
@@ -328,10 +253,9 @@ def test_a_reader_that_ends_early_is_no_error(tmp_path):
         assert process.wait() == 0
 
 
-@pytest.mark.parametrize("encoding", ["ascii", "latin-1"])
 @pytest.mark.parametrize("text", ["θ = 0.15, 10 µm", "M\udcfcller.inp"])  # and a name of other bytes
-def test_every_text_can_be_printed_in_any_locale(monkeypatch, encoding, text):
-    stream = io.TextIOWrapper(io.BytesIO(), encoding)
+def test_every_text_can_be_printed_in_any_locale(monkeypatch, text):
+    stream = io.TextIOWrapper(io.BytesIO(), "ascii")
     monkeypatch.setattr(sys, "stdout", stream)
     monkeypatch.setattr("bladerub.cli.status.status", lambda options: print(text))
     assert main(["status"]) == 0

@@ -4,7 +4,6 @@ import meshio
 import numpy as np
 import pytest
 
-from bladerub.blade.validation import read_reduced_blade
 from bladerub.cli import inputs, main
 from bladerub.extras.blades import mesh_file
 from bladerub.io import hdf5
@@ -70,26 +69,10 @@ def test_a_vtu_file_has_modes_and_centrifugal_displacements(export, folder, tmp_
     np.testing.assert_array_equal(data["centrifugal_0.4000"], mesh["static_displacement"][-1])
 
 
-def test_matrices_are_those_of_the_reduced_blade(export, folder, tmp_path):
-    assert export("--matrices", tmp_path / "blade.npz")[0] == 0
-    blade = read_reduced_blade(folder / "results" / "blade" / "reduced_model.h5")
-    with np.load(tmp_path / "blade.npz") as data:
-        np.testing.assert_array_equal(data["stiffness_1"], blade.stiffness_1)
-
-
 @pytest.mark.parametrize(
     ("arguments", "said"),
     [
-        (
-            [],
-            "one of the arguments --vtu --animation --calculix --mesh --matrices --fe-matrices --sections is "
-            "required",
-        ),
         (["--calculix", "{}", "--speeds", "0.5"], "--speeds 0.5: must be from 0 to 0.4 (normalised)"),
-        (
-            ["--matrices", "{}/blade.npz", "--speeds", "0.1"],
-            "--speeds: goes with --calculix or --fe-matrices only",
-        ),
         (["--vtu", "{}/motion"], "--vtu: needs --run"),
         (["--mesh", "{}/blade.inp", "--matrices", "{}/blade.npz"], "not allowed with argument"),
     ],
@@ -115,23 +98,3 @@ def test_sections_need_no_blade_and_come_in_two_coordinates(export, folder, tmp_
     assert out.splitlines()[-1] == f"wrote {tmp_path / 'blade.txt'}"
     headers = [(tmp_path / name).read_text().splitlines()[1] for name in ("blade.csv", "blade.txt")]
     assert headers == ["section,x1,y1,z1,x2,y2,z2", "section,z,r,theta1,theta2"]
-
-
-def test_sections_that_cannot_be_written_are_told(export, tmp_path):
-    code, _, err = export("--sections", tmp_path / "blade.xls")
-    assert code == 2
-    assert err == f"bladerub export: --sections {tmp_path}/blade.xls: must end in .csv, .txt, .dat\n"
-    code, _, err = export("--mesh", tmp_path / "blade.vtu", "--coordinates", "cartesian")
-    assert (code, err) == (2, "bladerub export: --coordinates: goes with --sections only\n")
-    export("--sections", tmp_path / "blade.csv")
-    (tmp_path / "foreign.yaml").write_text(f"blade: {{source: {{file: {tmp_path}/blade.csv}}}}\n")
-    code, _, err = export("--sections", tmp_path / "other.csv", "--config", tmp_path / "foreign.yaml")
-    assert code == 2
-    assert "blade.csv; only a parametric one has sections" in err
-    assert not (tmp_path / "other.csv").exists()
-    steep = "{span: %g, chord: 0.08, thickness: 0.1, camber: 40, stagger: 75, sweep: 0, lean: 0}"
-    (tmp_path / "steep.yaml").write_text(f"blade: {{sections: [{steep % 0}, {steep % 1}]}}\n")
-    to_steep = ("--sections", tmp_path / "other.csv", "--config", tmp_path / "steep.yaml")
-    code, _, err = export(*to_steep, "--coordinates", "cylindrical")
-    assert (code, err.count("\n")) == (2, 1)
-    assert "--coordinates cylindrical: the section at 0% of the span goes back along the axis" in err

@@ -1,7 +1,5 @@
 """``bladerub fit-coating`` as it is called."""
 
-import json
-
 import numpy as np
 import pytest
 import yaml
@@ -40,19 +38,6 @@ def test_the_lines_are_accepted_by_the_config(table, tmp_path, capsys):
     assert yaml.safe_load(lines)["contact"]["modulus_unit"] == 600e6
 
 
-def test_figures_as_json(table, capsys):
-    assert main(["fit-coating", table(0.05), "--json"]) == 0
-    figures = json.loads(capsys.readouterr().out)
-    assert [row["name"] for row in figures["parameters"] if row["determined"]] == ["E", "K", "yield_stress"]
-    errors = {row["name"]: row["standard_error"] for row in figures["parameters"]}
-    assert figures["covariance"]["E"]["E"] == pytest.approx(errors["E"] ** 2)
-
-
 def test_what_is_not_determined_is_named(table, capsys):
     assert main(["fit-coating", table(0.008)]) == 0
     assert "not determined by these curves: K, yield_stress" in capsys.readouterr().out
-
-
-def test_bad_input_is_one_line_and_exit_code_2(tmp_path, capsys):
-    assert main(["fit-coating", str(tmp_path / "none.csv")]) == 2
-    assert "none.csv: there is no such file" in capsys.readouterr().err

@@ -15,7 +15,6 @@ from bladerub.blade.geometry import BladeShape
 from bladerub.blade.mesh import BladeMesh
 from bladerub.cli import main
 from bladerub.config import read as configuration
-from bladerub.extras.blades import section_text
 from bladerub.extras.export.mesh_file import write_mesh_file
 from bladerub.extras.export.sections import write_sections
 from bladerub.io.folders import ROOT
@@ -119,28 +118,6 @@ def test_sections_are_meshed_as_the_config_says_and_reported(look, folder):
     assert figures["sections"][-1]["mean_radius"] == pytest.approx(0.6582, abs=0.01)
     assert figures["sections"][-1]["cut_leading_edge"] == 0
     assert figures["config"]["blade"]["source"]["angle_unit"] == "rad"
-    code, out, err = look("--tip-set", "TIP", *coarse, file="blade.csv")
-    assert (code, out) == (2, "")
-    assert err == "bladerub import: tip_set = TIP: goes with a mesh, not with blade.csv\n"
-    (folder / "blade.csv").write_text("section,z,r\n1,0,1\n")
-    code, _, err = look(*coarse, file="blade.csv")
-    assert code == 2
-    assert err.startswith(f"bladerub import: {folder}/blade.csv: has no column theta1, theta2; must have")
-
-
-def test_sharp_edges_are_reported_as_cut(look, folder):
-    rows = ["section x1 y1 z1 x2 y2 z2"]
-    for name, z in (("hub", 0.45), ("tip", 0.65)):
-        rows += [
-            f"{name} {x} {half} {z} {x} {-half} {z}"
-            for x, half in ((-0.04, 0), (-0.02, 3e-3), (0, 4e-3), (0.02, 3e-3), (0.04, 0))
-        ]
-    (folder / "lens.txt").write_text("\n".join(rows))
-    (folder / "coarse.yaml").write_text("blade: {mesh: {chordwise: 7, thickness: 1, spanwise: 6}}\n")
-    code, out, _ = look("--json", "--config", str(folder / "coarse.yaml"), file="lens.txt")
-    assert code == 0
-    (cut,) = [line for line in json.loads(out)["warnings"] if "cut" in line]
-    assert cut.startswith("edges of 2 of 2 sections were cut off where they are thinner than 10% of the")
 
 
 HEAVY = ("numba", "pandas", "scipy", "skfem", "meshio")
@@ -149,9 +126,7 @@ HEAVY = ("numba", "pandas", "scipy", "skfem", "meshio")
 @pytest.mark.parametrize(
     ("name", "text", "said"),
     [
-        ("none.csv", None, "none.csv: there is no such file"),
         ("none.inp", None, "none.inp: there is no such file"),
-        ("no.csv", "section,z,r,theta1\n1,0,1,0\n", "no.csv: has no column theta2; must have section, z, r"),
         ("short.csv", "section,z,r,theta1,theta2\n1,0,1,0\n", "short.csv: line 2: has 4 cells, must have 5"),
     ],
 )
@@ -252,28 +227,6 @@ def test_a_file_in_the_layout_of_rotor_67_becomes_a_blade_as_its_page_says(look,
     )
     assert 100 < converted["f1_hz"] < 1000
     assert converted["tip_stagger_degrees"] == pytest.approx(54, abs=1)
-
-
-def test_a_file_in_the_layout_of_rotor_37_becomes_a_table_as_its_page_says(folder):
-    published = [
-        " Table IV A Rotor of Our Own",
-        " SURFACE NUMBER     1 FROM THE HUB - hub/blade intersection.",
-        "    J      Z           R         THETA 1     THETA 2",
-        *(f"  {j:3}   {j}.0281091  17.7903728  -0.116{j}276  -0.1165276" for j in range(1, 7)),
-        " SURFACE NUMBER     2 FROM THE HUB.",
-        "    J      Z           R         THETA 1     THETA 2",
-        *(f"  {j:3}   {j}.0515031  18.4658165  -0.112{j}646  -0.1128646" for j in range(1, 7)),
-    ]
-    (folder / "rotor37geometry.dat").write_text("\n".join(published))
-    page = (ROOT / "docs" / "how-to" / "bring_sections.md").read_text(encoding="utf-8")
-    (code,) = re.findall(r"(\(echo section .*?> rotor37.txt\n)", page, re.DOTALL)
-    subprocess.run(["sh", "-c", code], cwd=folder, check=True)
-    cells, _ = section_text.read(folder / "rotor37.txt")
-    assert cells.names == ["section", "z", "r", "theta1", "theta2"]
-    rows = list(cells.rows.values())
-    assert len(rows) == 12
-    assert rows[0] == ["1", "1.0281091", "17.7903728", "-0.1161276", "-0.1165276"]
-    assert rows[-1] == ["2", "6.0515031", "18.4658165", "-0.1126646", "-0.1128646"]
 
 
 def test_the_material_of_a_deck_is_that_of_its_study_unless_the_config_has_another(look, folder):

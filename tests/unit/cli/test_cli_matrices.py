@@ -80,30 +80,12 @@ def test_what_it_prints_is_a_config_of_the_blade(written, command, tmp_path):
     ("more", "said"),
     [
         (["--omega-max", "400"], "omega_max = 400 rad/s is 0.325"),
-        (["--root-set", "FOOT"], "root_set = FOOT: must not be given beside matrices"),
     ],
 )
 def test_what_cannot_be_imported_is_told_in_one_line(written, command, more, said):
     code, out, err = command("import", written / "m", *more)
     assert (code, out, err.count("\n")) == (2, "", 1)
     assert said in err
-
-
-def test_a_folder_of_something_else_is_told(command, tmp_path):
-    code, _, err = command("import", tmp_path)
-    assert (code, err) == (2, f"bladerub import: {tmp_path}: holds no mass.mtx or mass.npz\n")
-
-
-def test_nothing_is_written_over_or_at_speeds_that_are_not_there(written, command):
-    before = {path: path.stat().st_mtime_ns for path in (written / "m").iterdir()}
-    code, _, err = command("export", "--fe-matrices", written / "m")
-    assert code == 2
-    assert "is there already, must be a new or an empty folder" in err
-    code, _, err = command("export", "--fe-matrices", written / "new", "--speeds", "0.5")
-    assert code == 2
-    assert "--speeds 0.5: must be from 0 to 0.4 (normalised)" in err
-    assert not (written / "new").exists()
-    assert {path: path.stat().st_mtime_ns for path in (written / "m").iterdir()} == before
 
 
 @pytest.fixture

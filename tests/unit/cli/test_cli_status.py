@@ -87,10 +87,3 @@ def test_every_kind_of_damaged_file_is_named_and_deleted_on_request(small, files
     assert not any(path.exists() for path in hurt)
     assert files[2].exists()
     assert files[4].exists()
-
-
-def test_a_damaged_manifest_of_the_chart_is_named(small, files, tmp_path, capsys):
-    manifest = tmp_path / "results" / "chart" / "columns" / "2nd_E2_theta0.tsv"
-    manifest.write_text(manifest.read_text()[:-9])
-    main(["status", "--thorough", "--json", *small])
-    assert str(manifest) in json.loads(capsys.readouterr().out)["damaged"]
