@@ -12,11 +12,7 @@ import pytest
 from study_fixtures import *  # noqa: F403 (fixtures)
 
 from bladerub.api.map import Map
-from bladerub.extras import long_runs, sweeps
 from bladerub.extras.explorer.page import build
-from bladerub.extras.plots.long_runs import long_runs as draw_long_runs
-from bladerub.extras.plots.sweeps import sweeps as draw_sweeps
-from bladerub.extras.sweeps import SpeedSweep
 from bladerub.io import tables
 from bladerub.plots.histogram import peak_histogram
 from bladerub.plots.polar import wear_profiles
@@ -199,48 +195,3 @@ def test_every_figure_and_page_is_made(study, sound, hostile, how_many, accuracy
             "<script"
         )[0]
     )
-
-
-def test_sweeps_and_long_runs_go_on(study, sound, hostile, draws):
-    maps = {each.case: each for each in (hostile(sound[0]), sound[1])}
-    swept = [
-        SpeedSweep(
-            case=case,
-            direction="up",
-            rate=0.05,
-            status=coating.status[0],
-            energy_residual=0.0,
-            max_wear=1e-4,
-            speed=coating.f_omega,
-            revolution_amplitude=coating.revolution_peak[:, 0],
-            f_omega=coating.f_omega,
-            C1=coating.C1,
-            spectrum_order=coating.spectrum_order,
-            spectrum_amplitude=coating.spectrum_amplitude,
-        )
-        for case, coating in maps.items()
-    ]
-    table = sweeps.table(study, swept, maps)
-    assert table.survives.isna().tolist() == (~(table.amplitude_constant > 0)).tolist()
-    assert table.survives[table.E == sound[1].case.E].all()
-    draws(draw_sweeps(swept, maps))
-    longer = []
-    for coating in maps.values():
-        reasons = long_runs.chosen(study, coating)
-        assert {"f4", "f6"} <= set(reasons.values())
-        at = np.isin(coating.f_omega, list(reasons))
-        seconds = np.where(np.isfinite(coating.revolution_peak), np.arange(1.0, 21.0), np.nan)[at]
-        values = (coating.revolution_amplitude, coating.max_wear, coating.status)
-        amplitude, wear, status = (each[at] for each in values)
-        longer.append(
-            long_runs.LongRuns(
-                coating.case,
-                np.array(list(reasons)),
-                np.array(list(reasons.values())),
-                amplitude,
-                wear,
-                status,
-                seconds,
-            )
-        )
-    draws(draw_long_runs(longer, long_runs.table(study, longer)))

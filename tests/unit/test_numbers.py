@@ -34,15 +34,6 @@ def test_no_sentence_was_written_for_another_verdict(tables):
     assert changed_sentences(SENTENCES, tables["findings"]) == []
 
 
-def test_a_changed_verdict_names_its_sentences(tables):
-    changed = tables["findings"].assign(
-        holds=lambda findings: findings["holds"].mask(findings["id"] == "C7b", "no")
-    )
-    sentences = changed_sentences(SENTENCES, changed)
-    assert [sentence.split(":")[0] for sentence in sentences] == ["paper_vs_ours", "calibration"]
-    assert all("C7b is no" in sentence for sentence in sentences)
-
-
 def test_each_sentence_is_on_its_page():
     texts = {page: " ".join(text.split()) for page, text in PAGES.items()}
     assert [line.sentence for line in SENTENCES.itertuples() if line.sentence not in texts[line.page]] == []
@@ -102,12 +93,3 @@ def test_a_changed_value_changes_the_page_and_a_removed_one_fails_the_build(site
     assert build(site) == ("", "Model\n*****\n\n1,152 runs, 4.8 times\n")
     values[~chosen].to_csv(peaks, index=False)
     assert "0 rows with {'casing': '2nd', 'E': 1.1, 'K': 1, 'theta': 0.0, 'order': 4}" in build(site)[0]
-
-
-@pytest.mark.slow
-def test_a_missing_name_fails_the_build(site):
-    with (site / "model.md").open("a", encoding="utf-8") as page:
-        page.write("\n{{ runs_of_nobody }}\n")
-    said, page = build(site)
-    assert page is None
-    assert "'runs_of_nobody' is undefined" in said

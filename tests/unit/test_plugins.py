@@ -37,9 +37,8 @@ print(*dir(bladerub))
 """
 
 
-@pytest.mark.parametrize("kind", KINDS)
-def test_all_that_is_offered_is_there(kind):
-    assert plugins.loaded(kind)
+def test_all_that_is_offered_is_there():
+    assert all(plugins.loaded(kind) for kind in KINDS)
 
 
 def test_names_and_commands_of_extras_are_public():

@@ -182,20 +182,6 @@ def test_wear_loss_is_that_of_the_worn_profile(blade, spec, change):
     assert result.energy.wear == pytest.approx(expected.sum(), rel=1e-6)  # but for half of the last step
 
 
-def test_step_divides_the_passage_of_an_element(blade, spec):
-    result = simulate(blade, spec)
-    passage = 1 / (spec.f_omega * blade.f1_hz * spec.coating.n_elements)
-    steps = passage / result.time_step
-    assert steps == pytest.approx(round(steps), abs=1e-9)
-    assert result.time_step <= spec.max_time_step
-    assert round(steps) >= spec.steps_per_element
-    fine = simulate(blade, dataclasses.replace(spec, max_time_step=passage / 13.5, revolutions=1))
-    assert fine.time_step == pytest.approx(passage / 14)
-    assert result.n_steps == round(steps) * spec.coating.n_elements * spec.revolutions
-    assert result.radial_displacement.shape == (spec.revolutions * spec.coating.n_elements,)
-    assert result.angle[[0, -1]] == pytest.approx([np.pi / 200, 2 * np.pi - np.pi / 200])
-
-
 def test_common_turn_of_casing_and_start_changes_nothing_but_the_angle(blade, spec, change):
     """A 2-diameter casing is the same after half a turn."""
     spec = change(spec, nodal_diameters=(2,), weights=(1.0,), start_angle=np.pi / 2)
@@ -238,16 +224,6 @@ def test_exponential_scheme_stays_bounded_however_stiff_the_coating(blade, spec,
         result = simulate(blade, change(stiff, steps_per_element=steps, max_time_step=1e-3, revolutions=3))
         assert result.status == "completed"
         assert result.revolution_peak.max() < 10 * spec.casing.interference
-
-
-def test_step_too_long_for_the_highest_mode_is_refused(blade, spec, change):
-    with pytest.raises(ValueError, match=r"time step .* less than .* for the highest mode"):
-        simulate(blade, change(spec, scheme="central_differences", steps_per_element=1, max_time_step=2e-5))
-
-
-def test_speed_outside_the_model_is_refused(blade, spec, change):
-    with pytest.raises(ValueError, match=r"f_omega = 0\.5 is outside the fitted range \[0, 0\.4\]"):
-        simulate(blade, change(spec, f_omega=0.5))
 
 
 def test_a_run_that_leaves_the_limit_in_its_first_step_has_no_amplitude(blade, spec, change):

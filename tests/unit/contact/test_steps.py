@@ -10,7 +10,7 @@ from bladerub.contact import setup
 from bladerub.contact.laws import described_law
 from bladerub.contact.modes import Modes
 from bladerub.contact.schemes import Contact
-from bladerub.contact.steps import BOUNCE, PASSAGE, STABLE_PART, bounce, steps_per_element, with_steps
+from bladerub.contact.steps import BOUNCE, PASSAGE, STABLE_PART, bounce, steps_per_element
 
 MASS, STIFFNESS = 1e-3, 2e7
 
@@ -64,12 +64,3 @@ def test_central_differences_are_stable(blade, by_tolerance):
     run = by_tolerance(scheme="central_differences")
     rule, _ = setup.set_up(blade, run)
     assert rule.omega[-1] * rule.time_step <= 2 * STABLE_PART
-
-
-def test_steps_of_a_run_come_before_its_tolerance(blade, by_tolerance):
-    run = by_tolerance()
-    n = setup.fixed_steps(blade, run).steps_per_element
-    assert setup.set_up(blade, run)[1].steps_per_element == n
-    assert setup.set_up(blade, with_steps(run, 3))[1].steps_per_element == 3
-    passage = setup.element_passage(blade, run)
-    assert setup.time_step(blade, replace(run, max_time_step=passage / 8.5)) == pytest.approx(passage / 9)

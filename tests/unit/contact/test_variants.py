@@ -8,20 +8,6 @@ import numpy as np
 import pytest
 
 from bladerub.contact import variants
-from bladerub.contact.kernel import loop
-from bladerub.numerics import lanes, vectors
-
-
-def test_modules_of_another_width_leave_those_in_use_alone():
-    wide = variants.module_for(16, "numerics.vectors")
-    assert (wide.LANES, vectors.LANES, lanes.LANES) == (16, 8, 8)
-    assert sys.modules["bladerub.numerics.vectors"] is vectors
-    assert sys.modules["bladerub.contact.kernel.loop"] is loop
-    assert variants.module_for(16, "contact.kernel.loop") is not loop
-    assert variants.module_for(8, "contact.kernel.loop") is loop
-    import bladerub.contact.kernel
-
-    assert bladerub.contact.kernel.loop is loop
 
 
 def test_totals_of_sixteen_vectors():

@@ -48,6 +48,7 @@ def test_a_run_that_converges_counts_no_unconverged_step(blade, spec, stiff):
 
 
 @pytest.mark.slow
+@pytest.mark.nightly
 def test_without_newton_steps_every_step_near_the_casing_falls_back_and_converges(blade, stiff, tmp_path):
     whole, result = simulate(blade, stiff), limited(blade, stiff, tmp_path, 0, 200)
     assert result.n_fallback_steps >= result.n_contact_steps > 100
