@@ -2,8 +2,6 @@ import numpy as np
 import pytest
 
 from bladerub.extras import long_runs
-from bladerub.extras.long_runs import LongRuns
-from bladerub.io.tables import described_columns
 from bladerub.study.grid import CoatingCase
 
 CASE = CoatingCase("2nd", 1.1, 0.5, 0.0)
@@ -82,25 +80,3 @@ def test_what_is_said_after_more_and_more_revolutions(study, name, verdicts):
     amplitude = amplitudes()[name]
     said = [long_runs.verdict_after(study, amplitude, stop)[0] for stop in (20, 60, 100, 200)]
     assert said == verdicts
-
-
-def test_the_table_has_a_row_for_each_run_and_stop(study):
-    several = amplitudes()
-    n = len(several)
-    seconds = np.where(np.isfinite(np.stack(list(several.values()))), 0.004 * np.arange(1, 201), np.nan)
-    long = LongRuns(
-        CASE,
-        np.linspace(0.1, 0.4, n),
-        np.array(["grows"] * n),
-        np.stack(list(several.values())),
-        np.full(n, 1e-4),
-        np.array(["unbounded" if name == "unbounded" else "completed" for name in several]),
-        seconds,
-    )
-    table = long_runs.table(study, [long])
-    assert set(table.columns) <= described_columns().keys()
-    assert len(table) == 4 * n
-    assert table.ms_per_revolution.to_numpy() == pytest.approx(4.0)
-    last = table[table.revolutions == 200].set_index("status")
-    assert last.late_amplitude["unbounded"] == pytest.approx(several["unbounded"][60:70].mean())
-    assert last.verdict["completed"].tolist() == ["steady", "saturating", "divergent", "free"]

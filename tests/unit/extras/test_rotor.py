@@ -16,14 +16,6 @@ def study():
     return validate(load(ROOT / "config" / "config.yaml"))
 
 
-def test_the_plan_has_every_combination_once_and_the_single_blade_beside_it(study):
-    plan = read_plan(ROOT / "config" / "rotor.yaml", study)
-    assert all(name == combination.name for name, combination in plan.combinations.items())
-    assert all(combination.alone.name in plan.combinations for combination in plan.combinations.values())
-    for name, combination in plan.combinations.items():
-        assert (plan.draws[name] > 1) == bool(combination.length_scatter or combination.frequency_scatter)
-
-
 def test_draws_are_those_of_their_number_whatever_the_others(study):
     plan = read_plan(ROOT / "config" / "rotor.yaml", study)
     name = Combination(CASE, 0.346, 4, 5e-5, 0.005).name

@@ -3,7 +3,6 @@ import pandas as pd
 import pytest
 
 from bladerub.extras import small_study
-from bladerub.extras.robustness import sample
 from bladerub.study.grid import coating_cases
 from bladerub.study.maps import DATASETS
 
@@ -56,21 +55,3 @@ def test_without_a_folder_it_is_the_same_and_nothing_is_written(made, study, gro
     for name in DATASETS.keys() - {"wear_node"}:
         assert getattr(in_memory, name).dtype == getattr(of_files, name).dtype
         np.testing.assert_array_equal(getattr(in_memory, name), getattr(of_files, name))
-
-
-def test_each_sample_of_a_job_has_its_verdicts_and_cost(monkeypatch, study):
-    def conduct(config, model, rom_accuracy, claims):
-        assert (model, rom_accuracy) == (f"model {config['seed']}", "accuracy")
-        table = pd.DataFrame({"id": list(claims), "holds": "yes", "margin": float(config["seed"])})
-        return small_study.SmallStudy(pd.DataFrame(), pd.DataFrame(), table, 10 + config["seed"], None)
-
-    monkeypatch.setattr(sample, "conduct", conduct)
-    monkeypatch.setattr(sample.configuration, "validate", lambda config: config)
-    blades = [("model 1", "accuracy"), ("model 2", "accuracy")]
-    verdicts, cost = sample.judge("soft", {7: {"seed": 1}, 8: {"seed": 2}}, ("C1a", "C1b"), blades)
-    assert list(verdicts.columns) == sample.COLUMNS
-    assert list(verdicts["sample"]) == [7, 7, 8, 8]
-    assert list(verdicts.margin) == [1, 1, 2, 2]
-    assert list(cost.columns) == sample.COST
-    assert cost[["part", "sample", "runs"]].to_numpy().tolist() == [["soft", 7, 11], ["soft", 8, 12]]
-    assert np.isfinite(cost.cpu_s).all()

@@ -81,13 +81,6 @@ def test_spectra_are_of_windows_in_the_order_of_speed(make, config, direction):
     assert sweep.max_wear == pytest.approx(2e-4)
 
 
-def test_a_sweep_that_ended_has_spectra_of_whole_revolutions(make, config):
-    sweep = make("up", 7.0)
-    assert sweep.f_omega.size == 14 - config["analysis"]["spectrum_revolutions"] + 1
-    assert np.isfinite(sweep.spectrum_amplitude).all()
-    assert np.isfinite(sweep.revolution_amplitude).sum() == 15
-
-
 def test_peaks_stand_beside_those_at_constant_speed(make, make_map, config):
     config["sweeps"]["survival"] = 0.5
     maps = {CASE: make_map(CASE, {4: (0.3, 1.5e-3), 6: (0.2, 5e-4)})}

@@ -15,7 +15,11 @@ pytestmark = pytest.mark.slow
 VISCOPLASTIC = described_law("viscoplastic", {"viscosity": 1e4})
 
 
-@pytest.mark.parametrize("loop", [plain.integrator, plain.compiled], ids=["numpy", "numba"])
+@pytest.mark.parametrize(
+    "loop",
+    [plain.integrator, pytest.param(plain.compiled, marks=pytest.mark.nightly)],
+    ids=["numpy", "numba"],
+)
 @pytest.mark.parametrize(
     ("E", "K", "theta", "law"),
     [

@@ -1,9 +1,7 @@
 import dataclasses
 import json
 import re
-from types import SimpleNamespace
 
-import numpy as np
 import pytest
 
 from bladerub.blade.build import reduce_meshed
@@ -24,9 +22,6 @@ REDUCTION = {
     "accuracy_speeds": 3,
     "accuracy_modes": 8,
 }
-
-
-THIN = SimpleNamespace(name="s3", radius=0.5, chord=0.08, thickness=1e-4, cut=(0.0, 0.0))
 
 
 @pytest.fixture
@@ -71,20 +66,6 @@ def test_a_wrong_unit_is_refused(reported):
         reported(Frame("mm"))
 
 
-def test_a_frequency_that_no_blade_has_gets_a_warning(reported, twisted_config):
-    twisted_config["material"]["young_modulus"] = 110.0  # GPa
-    figures, _ = reported()
-    assert any("Hz: are length and material in their units?" in line for line in figures["warnings"])
-
-
-@pytest.mark.parametrize(
-    ("change", "warning"),
-    [
-        ({"interface_offset": 0.004}, "an interface node is 4 mm from its place on the camber line"),
-        ({"sections": [THIN]}, "section s3 is 0.1 mm thick over a chord of 80 mm: are its angles in"),
-        ({"jacobian_ratio": np.array([0.5, 0.05, 0.4])}, "element 2 is badly shaped: .* factor of 20"),
-    ],
-)
-def test_what_is_odd_about_a_mesh_gets_a_warning(reported, change, warning):
-    figures, _ = reported(**change)
-    assert any(re.match(warning, line) for line in figures["warnings"])
+def test_what_is_odd_about_a_mesh_gets_a_warning(reported):
+    figures, _ = reported(interface_offset=0.004)
+    assert any(line.startswith("an interface node is 4 mm from its place") for line in figures["warnings"])

@@ -1,7 +1,6 @@
 import dataclasses
 
 import numpy as np
-import pandas as pd
 import pytest
 from blade_parts import TITANIUM
 from section_parts import CHORD, LENGTH, THICKNESS, cartesian, cylindrical, in_space, lens, twisted_plate
@@ -115,36 +114,16 @@ def moved(table, section, x=0.0, z=0.0):
     )
 
 
-def tip_first(table):
-    return pd.concat([part for _, part in reversed(list(table.groupby("section")))])
-
-
-def thin_above_the_hub(table):
-    """Three sections, two close to each other: the thickness of a parabola through them is below zero."""
-    table = table[table.section.isin(["s0", "s1", "s8"])]
-    middle = {axis: (table[f"{axis}1"] + table[f"{axis}2"]) / 2 for axis in "xyz"}
-    share = np.where(table.section == "s0", 1.0, 0.05)
-    thin = {f"{axis}{side}": (1 - share) * middle[axis] for axis in "xyz" for side in "12"}
-    return table.assign(**{name: shift + share * table[name] for name, shift in thin.items()})
-
-
 @pytest.mark.parametrize(
     ("change", "said"),
     [
         (lambda t: t[::-1], "section s8 .line 2.: its first station lies downstream of its last"),
-        (lambda t: moved(t, "s2", x=2e-2 * (t.index % 3)), "must go from the leading to the trailing edge"),
         (
             lambda t: t.assign(x1=t.x1 - 0.02 * (t.index == 30), x2=t.x2 - 0.02 * (t.index == 30)),
             "without line 32 all do, so check its numbers",
         ),
-        (tip_first, "section s7: its mean radius .* is not above that of section s8 before it"),
         (lambda t: t.assign(x2=t.x1, y2=t.y1, z2=t.z1), "the sides of section s0 touch or cross here"),
         (lambda t: moved(t, "s4", z=1.5 * t.x1), "sections s3 and s4 cross: s4 is not the farther from"),
-        (
-            lambda t: t.assign(**100 * t.iloc[:, 1:]),
-            "with the unit m the blade is 20 m long; must be from 0.01 to 3 m",
-        ),
-        (thin_above_the_hub, "between its sections the blade crosses itself"),
     ],
 )
 def test_sections_that_make_no_blade_are_refused_with_file_and_culprit(read, change, said):

@@ -55,11 +55,3 @@ def test_where_the_blade_stands_does_not_matter(twisted_config, angle):
     one, other = interface(points, faces, 1), interface(turned, faces, 1)
     np.testing.assert_array_equal(one.nodes, other.nodes)
     assert other.chord == pytest.approx(one.chord, rel=1e-9)
-
-
-def test_a_coarse_tip_is_refused(twisted_config):
-    _, points, faces = tip_of(
-        twisted_config, hexahedral_mesh, {"chordwise": 2, "thickness": 1, "spanwise": 1}
-    )
-    with pytest.raises(ValueError, match=r"the tip is too coarse: .* on a camber line of 0.07"):
-        interface(points, faces, 1)

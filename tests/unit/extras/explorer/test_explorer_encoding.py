@@ -1,17 +1,10 @@
-import base64
-import gzip
-import json
-
 import numpy as np
 import pytest
 
 from bladerub.extras.explorer.encoding import (
     differences,
-    json_text,
     linear_steps,
-    log_range,
     logarithmic_steps,
-    packed,
 )
 
 
@@ -42,30 +35,3 @@ def test_logarithmic_steps_keep_values_to_half_a_ratio(rng, dtype):
     back = 1e-8 * 1e6 ** ((steps - 1.0) / n_steps)
     assert steps.dtype == dtype
     assert np.abs(np.log(back / values)).max() <= np.log(1e6) / n_steps / 2 * (1 + 1e-6)
-
-
-@pytest.mark.parametrize(
-    ("values", "ends"),
-    [
-        ([np.nan, 0.0, 1e-3, 1e-1], (1e-3, 1e-1)),
-        ([1e-3, 1.1e-3], (1e-3, 2e-3)),
-        ([np.nan, 0.0], (1e-9, 2e-9)),
-    ],
-)
-def test_a_range_holds_what_is_above_the_floor(values, ends):
-    assert log_range(np.array(values), 1e-9) == pytest.approx(ends)
-
-
-def test_packed_data_come_back_and_equal_data_give_equal_text(rng):
-    data = rng.bytes(1000)
-    assert gzip.decompress(base64.b64decode(packed(data))) == data
-    assert packed(data) == packed(data)
-
-
-@pytest.mark.parametrize(
-    "name", ["</script><script>alert(1)</script>", "<!--<script>", "a & b", "\u2028\u2029", "\\u003c", "\"'`"]
-)
-def test_a_hostile_name_stays_a_name(name):
-    text = json_text({name: [name]})
-    assert json.loads(text) == {name: [name]}
-    assert not set("<>&\u2028\u2029") & set(text)

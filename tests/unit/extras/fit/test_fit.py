@@ -45,7 +45,7 @@ def test_two_rates_give_the_viscosity():
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("rates", [[0.0], [1e-3, 0.1, 1, 100]])
+@pytest.mark.parametrize("rates", [[0.0], pytest.param([1e-3, 0.1, 1, 100], marks=pytest.mark.nightly)])
 def test_intervals_cover_the_truth_as_often_as_they_say(rates):
     draws = [fit(curves(rates, seed)) for seed in range(200)]
     for name in [parameter.name for parameter in draws[0].parameters]:

@@ -24,15 +24,6 @@ def packed(blade, specs):
     return pack(variant_of(specs[0], simulations[0]), simulations)
 
 
-def test_runs_share_what_is_equal(blade, spec, change):
-    specs = [change(spec, f_omega=f_omega, theta=theta) for f_omega in (0.2, 0.3) for theta in (0.0, 0.1)]
-    work = packed(blade, specs)
-    assert len(work.casing) == len(work.tip) == 1
-    assert len(work.modal) == 2  # one a speed
-    assert len(work.stator) == 2  # one a direction of the force
-    assert len(work.runs) == 4
-
-
 @pytest.mark.parametrize(
     ("values", "reason"),
     [

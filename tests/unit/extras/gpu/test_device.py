@@ -76,17 +76,6 @@ def cupy(monkeypatch):
 
 
 @pytest.mark.skipif(not emulation.is_possible(), reason="no C++ compiler")
-def test_the_arguments_of_the_kernel_are_those_that_it_has(cupy, blade, spec, change):
-    specs = [change(spec, f_omega=f_omega) for f_omega in (0.25, 0.3)]
-    found = dict(simulate_many(blade, specs, device.run))
-    for number, each in enumerate(specs):
-        expected = simulate(blade, each)
-        np.testing.assert_allclose(found[number].wear, expected.wear, rtol=0, atol=1e-9)
-        assert found[number].n_steps == expected.n_steps
-    assert cupy.launches["grid"] == [(2,)]
-
-
-@pytest.mark.skipif(not emulation.is_possible(), reason="no C++ compiler")
 def test_runs_of_several_sizes_share_a_kernel(cupy, blade, spec, change):
     """Those of a wider profile have one of their own."""
     sizes = [{"revolutions": 2}, {"n_elements": 150}, {}, {"half_width": 2.6}]

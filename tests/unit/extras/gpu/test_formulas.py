@@ -79,15 +79,12 @@ def module_with(**functions: str) -> tuple[ModuleType, str]:
     ("body", "named"),
     [
         ("return element.elastic * abs(depth)", "elastic_force: abs"),
-        ("return element.elastic * depth ** 2", "elastic_force: depth ** 2"),
-        ("return depth if depth else 0.0", "elastic_force: depth if depth else 0.0"),
         ("return unheard_of * depth", "elastic_force: unheard_of"),
-        ("for i in (1, 2): depth = depth + 1\n    return depth", "elastic_force: for i in"),
     ],
 )
 def test_what_a_gpu_is_not_given_is_named(body, named):
     module, source = module_with(elastic_force=f"def elastic_force(element, depth):\n    {body}\n")
-    with pytest.raises(ValueError, match=named.replace("*", r"\*")):
+    with pytest.raises(ValueError, match=named):
         formulas.of_law(module, source)
 
 

@@ -7,9 +7,7 @@ import bladerub as br
 from bladerub.api import map as maps
 from bladerub.extras.gpu import emulation, server, solver
 from bladerub.extras.rows.spec import Row
-from bladerub.io.errors import BadInput
 from bladerub.study.plan import planned_run
-from bladerub.study.solver import solver_of
 
 pytestmark = pytest.mark.skipif(not emulation.is_possible(), reason="no C++ compiler")
 
@@ -77,12 +75,6 @@ def test_its_sources_are_part_of_the_key_of_a_run(on_gpu, monkeypatch):
     config["solver"]["device"] = "cpu"
     assert key() != of_gpu
     assert key(Row.even(2)) == of_row  # which the processor computes in any case
-
-
-def test_a_package_without_it_says_so(on_gpu, monkeypatch):
-    monkeypatch.setattr("bladerub.plugins.offered", lambda kind: {})
-    with pytest.raises(BadInput, match=r"solver\.device = gpu: this package is without it, must be cpu"):
-        solver_of(on_gpu.config)
 
 
 def test_speeds_are_computed_together(gpu, on_gpu, blade):

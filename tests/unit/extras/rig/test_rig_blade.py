@@ -94,9 +94,7 @@ def test_a_disk_that_turns_leaves_the_blade_its_stiffness_at_rest(rig, blade):
 @pytest.mark.parametrize(
     ("change", "problem"),
     [
-        ({"coated": 0.0}, "coated = 0: must be above 0 and at most 3.6"),
         ({"coated": 3.9}, "coated = 3.9: must be above 0 and at most 3.6"),
-        ({"speed": 600.0}, "speed = 600: must be at most 3"),
         ({"incursion": 2e-3, "passes": 1, "E": 6e12, "K": 6e12}, "incursion: the tip of the blade moves by"),
     ],
 )

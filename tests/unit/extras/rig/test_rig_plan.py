@@ -43,14 +43,6 @@ def test_what_was_measured_stands_beside_what_is_computed(tmp_path):
     assert [line.get_ydata().item() for line in crosses] == [50.0]
 
 
-@pytest.mark.parametrize(
-    ("change", "told"),
-    [
-        ({"speed": 0.0}, r"rigs.yaml:\d+: rigs.ballistic_bench.speed = 0"),
-        ({"incursion": 5e-3}, r"rigs.yaml:\d+: rigs.ballistic_bench.incursion = 0.005: must be below 0.003"),
-        ({"law": {"name": "unheard"}}, r"rigs.ballistic_bench.*unheard"),
-    ],
-)
-def test_a_problem_has_file_and_key(change, told, tmp_path):
-    with pytest.raises(ConfigError, match=told):
-        read_rigs(write(tmp_path, **change))
+def test_a_problem_has_file_and_key(tmp_path):
+    with pytest.raises(ConfigError, match=r"rigs.yaml:\d+: rigs.ballistic_bench.incursion = 0.005: must be"):
+        read_rigs(write(tmp_path, incursion=5e-3))

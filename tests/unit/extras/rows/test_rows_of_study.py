@@ -57,10 +57,3 @@ def test_the_sources_of_rows_are_part_of_their_keys_alone(config, spec, monkeypa
     monkeypatch.setattr(study, "rows_digest", lambda: "other")
     assert keys()[0] == single
     assert keys()[1] != row
-
-
-def test_a_package_without_rows_says_so(config, monkeypatch):
-    monkeypatch.setattr("bladerub.plugins.offered", lambda kind: {})
-    assert row_of(config) is None
-    with pytest.raises(ValueError, match="row: this package computes no rows of blades"):
-        row_of(config | {"rotor": {"blades": 2}})

@@ -1,13 +1,10 @@
 """A sampled run is the run, and its motion that of a recording."""
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 
 from bladerub.contact.kernel import loop
 from bladerub.contact.run import simulate
-from bladerub.contact.spec import ElementLaw
 from bladerub.extras.export.recording import record
 from bladerub.extras.rows.spec import Row
 from bladerub.extras.stress import sampling
@@ -25,14 +22,6 @@ def test_it_is_the_same_run(blade, spec, by_parts, monkeypatch):
         np.testing.assert_array_equal(getattr(sampled.result, name), getattr(run, name))
     assert sampled.result.energy.residual == pytest.approx(run.energy.residual, abs=1e-9)
     assert not any("Literal" in str(kinds) for kinds in loop.integrate.signatures)  # compiled for both
-
-
-def test_a_run_of_another_law_is_of_that_law(blade, spec):
-    law = ElementLaw("brittle", (("break_strain", 2e-3),))
-    other = replace(spec, coating=replace(spec.coating, element_law=law))
-    sampled = sampling.simulate_sampled(blade, other, INSTANTS).result.wear
-    np.testing.assert_array_equal(sampled, simulate(blade, other).wear)
-    assert not np.array_equal(sampled, simulate(blade, spec).wear)
 
 
 def test_its_motion_is_that_of_a_recording(blade, spec):

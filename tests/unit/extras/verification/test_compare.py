@@ -36,7 +36,3 @@ def test_the_uncertainty_of_both_counts(folders):
     found = compare(*folders(own))
     assert found.agrees.all()
     assert found.allowed[0] == pytest.approx(2 * 1.3, rel=1e-3)
-
-
-def test_a_number_without_uncertainty_must_be_the_same(folders):
-    assert compare(*folders(KNOWN.assign(value=[100.0, 200.0, 0.26]))).agrees.tolist() == [True, True, False]

@@ -32,19 +32,6 @@ def test_wear_elsewhere_differs_though_it_is_as_much(make_result, compare):
     assert compare(turned, reference).wear_l2 == pytest.approx(math.sqrt(2), rel=0.01)
 
 
-def test_the_revolution_that_differs_most_counts_against_the_greatest_peak(make_result, compare):
-    reference = make_result()
-    peaks = reference.revolution_peak.copy()
-    peaks[3] *= 0.5
-    peaks[7] *= 1.1
-    lower = peaks.copy()
-    lower[3] -= 1e-4
-    outcome = replace(reference, revolution_peak=lower)
-    assert compare(outcome, replace(reference, revolution_peak=peaks)).revolution_peak == pytest.approx(
-        1e-4 / 1.1e-3, rel=1e-3
-    )
-
-
 @pytest.mark.parametrize(("first", "second"), [(None, 3), (3, None), (3, 3)])
 def test_nothing_is_said_of_an_unbounded_run(make_result, compare, first, second):
     assert compare(make_result(complete=first), make_result(complete=second)) == UNBOUNDED

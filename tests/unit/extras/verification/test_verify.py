@@ -1,5 +1,5 @@
 import math
-from dataclasses import fields, replace
+from dataclasses import fields
 from types import SimpleNamespace
 
 import numpy as np
@@ -85,22 +85,6 @@ def test_the_important_runs_are_the_peaks_with_their_neighbours_in_speed(config,
     np.testing.assert_allclose([run.f_omega for run in runs], [0.15, 0.2, 0.25, 0.3, 0.35])
 
 
-def test_the_steps_compared_are_in_the_ratio_of_four(blade, config, run, solver):
-    stiffer = {name: 1e6 * getattr(blade, name) for name in ("stiffness_0", "stiffness_1", "stiffness_2")}
-    verify_run(replace(blade, **stiffer), config, run)
-    study, finer, paper, paper_finer = solver.specs
-    assert study.steps_per_element == 6
-    assert study.max_time_step == 2e-6
-    assert study.scheme == finer.scheme == "exponential"
-    assert paper.scheme == paper_finer.scheme == "central_differences"
-    passage = 1 / (0.19 * blade.f1_hz * 2000)
-    assert finer.steps_per_element == 4 * math.ceil(passage / 2e-6)
-    assert paper_finer.steps_per_element == 4 * paper.steps_per_element
-    assert finer.max_time_step == paper.max_time_step == paper_finer.max_time_step == math.inf
-    highest = 1e3 * 2 * np.pi * 192 * math.sqrt((1 + 3 * 0.19**2) * 24)
-    assert paper.steps_per_element == math.ceil(passage / (0.7 * 2 / highest))
-
-
 def test_errors_of_known_order(blade, config, run, solver):
     verified = verify_run(blade, config, run)
     step = 1 / (0.19 * blade.f1_hz * 2000) / 7
@@ -140,24 +124,12 @@ def verified_with(error, spread):
         (Differences(0.03, 0.001, 0.001), Differences(0.016, 0, 0), True),
         (Differences(0.03, 0.001, 0.001), Differences(0.014, 1, 1), False),
         (Differences(0.03, 0.02, 0.001), Differences(0.016, 0.009, 0), False),
-        (Differences(0.03, 0.02, math.inf), Differences(0.016, 0.01, math.inf), True),
         (Differences(0.02, 0.01, 0.0), Differences(0.01, 0.0, 0.0), True),  # at the borders of both
-        (Differences(0.02, 0.0100001, 0.0), Differences(0.01, 0.0, 0.0), False),
-        (Differences(0.009, 0.009, 0.009), Differences(1, 1, 1), False),
         (Differences(0.03, 0.001, 0.001), None, False),
     ],
 )
 def test_sensitive_is_what_spreads_half_as_much_in_all_that_is_beyond(error, spread, sensitive):
     assert verified_with(error, spread).is_sensitive is sensitive
-
-
-def test_an_unbounded_run_is_beyond_all_tolerance_and_not_excused(blade, config, run, solver):
-    solver.unbounded = lambda spec: spec.scheme == "exponential" and spec.steps_per_element == 6
-    verified = verify_run(blade, config, run)
-    assert verified.status == "unbounded"
-    assert verified.error == Differences(math.inf, math.inf, math.inf)
-    assert verified.is_beyond
-    assert (verified.spread, verified.is_sensitive, verified.speedup) == (None, False, None)
 
 
 def test_speed_up_between_a_second_order_and_a_first_order_scheme():
