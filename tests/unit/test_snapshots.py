@@ -37,28 +37,11 @@ def test_quoted_columns_are_kept_to_four_digits(tmp_path):
     ]
 
 
-def test_another_table_is_taken_whole(tmp_path):
-    table = pd.DataFrame([("C1a", 0.123456)], columns=["id", "measured"])
-    source, target = taken(tmp_path, "findings", table)
-    assert target.read_bytes() == source.read_bytes()
-
-
-def test_only_rows_that_are_asked_for_are_taken(tmp_path):
-    table = pd.DataFrame([("study", "C1a"), ("other", "C1a")], columns=["variation", "id"])
-    source, target = tmp_path / "margins.csv", tmp_path / "fine_margins.csv"
-    tables.write(source, table, ORIGIN)
-    snapshots.take(source, target)
-    assert tables.read(target).to_dict("records") == [{"variation": "study", "id": "C1a"}]
-    assert tables.read_origin(target) == ORIGIN
-
-
 @pytest.mark.parametrize(
     ("name", "made"),
     [
-        ("chart_agreement", "results/tables/chart_agreement.csv"),
         ("cost", "results/benchmarks/cost.csv"),
         ("longer_peaks", "results/longer/tables/peaks.csv"),
-        ("twisted_plate_blade_comparison", "results_twisted_plate/tables/blade_comparison.csv"),
     ],
 )
 def test_a_snapshot_is_of_the_table_of_its_study(tmp_path, name, made):

@@ -1,9 +1,6 @@
-from pathlib import Path
-
 import pytest
 
 from bladerub.io import sources
-from bladerub.io.folders import ROOT
 
 FILES = {
     "study/__init__.py": "",
@@ -41,14 +38,3 @@ STUDY = ["study/__init__.py", "study/findings/claim.py", "study/grid.py", "study
 )
 def test_imports_are_followed_within_the_subpackages_of_the_modules(package, modules, behind):
     assert sources.files_behind(*modules) == [f"src/bladerub/{name}" for name in behind]
-
-
-def test_outside_the_repository_paths_are_absolute(tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    assert Path(sources.files_behind("study.maps")[0]).is_absolute()
-
-
-def test_the_root_is_where_the_workflow_is(monkeypatch):
-    assert (ROOT / "Snakefile").is_file()
-    monkeypatch.chdir(ROOT)
-    assert (ROOT / sources.files_behind("study.maps")[0]).is_file()

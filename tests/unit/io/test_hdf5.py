@@ -30,23 +30,6 @@ def test_xarray_opens_the_file(tmp_path):
         assert dataset.energy == 3.5
 
 
-def test_each_dimension_has_its_scale(tmp_path):
-    hdf5.write(tmp_path / "file.h5", VARIABLES, {})
-    with h5py.File(tmp_path / "file.h5") as file:
-        assert [scale.name for dim in file["wear"].dims for scale in dim.values()] == ["/node", "/angle"]
-        assert file["angle"].is_scale
-        assert file["node"].attrs["long_name"] == "index along node"
-        assert file["node"].attrs["units"] == "1"
-
-
-@pytest.mark.parametrize(("n", "is_packed"), [(1024, True), (1023, False)])
-def test_large_datasets_are_compressed_and_have_a_checksum(tmp_path, n, is_packed):
-    hdf5.write(tmp_path / "file.h5", {"peak": Variable(("step",), np.zeros(n), "m", "peak")}, {})
-    with h5py.File(tmp_path / "file.h5") as file:
-        peak = file["peak"]
-        assert (peak.compression == "gzip", peak.shuffle, peak.fletcher32) == (is_packed,) * 3
-
-
 def test_what_is_written_is_read(tmp_path):
     hdf5.write(tmp_path / "file.h5", VARIABLES, {"n": 3, "status": "completed"})
     data, attributes = hdf5.read(tmp_path / "file.h5")
@@ -107,13 +90,3 @@ def test_unreadable_file_is_named(tmp_path, read):
     path.write_bytes(path.read_bytes()[:2000])
     with pytest.raises(DamagedFile, match=r"file\.h5: not a readable HDF5 file"):
         read(path)
-
-
-@pytest.mark.parametrize("error", [OSError, RuntimeError, KeyError, ValueError])
-def test_whatever_h5py_raises_is_a_damaged_file(tmp_path, monkeypatch, error):
-    def broken(*_):
-        raise error("bad object header")
-
-    monkeypatch.setattr(hdf5.h5py, "File", broken)
-    with pytest.raises(DamagedFile, match=r"file\.h5: not a readable HDF5 file"):
-        hdf5.read(tmp_path / "file.h5")

@@ -19,14 +19,6 @@ def holder(python_at_work, tmp_path):
     return python_at_work(HOLDER, tmp_path / "lock")
 
 
-def test_a_free_lock_is_held_without_waiting(tmp_path):
-    waited = []
-    for _ in range(2):
-        with lock.held(tmp_path / "folder" / "lock", lambda: waited.append(1)):
-            pass
-    assert waited == []
-
-
 def test_the_second_to_ask_waits_until_the_first_is_done(tmp_path, holder):
     waited = []
 
@@ -77,16 +69,3 @@ def test_sharing_reports_whether_another_process_shares(tmp_path):
     fourth, alone = lock.share(tmp_path / "lock")
     assert alone
     fourth.close()
-
-
-def test_where_there_are_no_locks_work_goes_on(tmp_path, monkeypatch):
-    def unsupported(*_):
-        raise OSError(38, "Function not implemented")
-
-    monkeypatch.setattr(lock.fcntl, "flock", unsupported)
-    done = []
-    with lock.held(tmp_path / "lock", lambda: None):
-        done.append(1)
-    stream, alone = lock.share(tmp_path / "lock")
-    stream.close()
-    assert (done, alone) == ([1], False)

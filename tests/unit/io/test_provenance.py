@@ -45,18 +45,12 @@ def test_an_edit_or_a_new_source_is_a_modification(repository, name):
     assert git_state() == (head(repository), "modified")
 
 
-def test_the_repository_of_a_hook_is_not_ours(repository, tmp_path, monkeypatch):
-    commit = head(repository)
-    monkeypatch.setenv("GIT_DIR", str(tmp_path / "other"))
-    assert git_state() == (commit, "clean")
-
-
 def test_a_folder_inside_another_repository_has_no_commit(repository, monkeypatch):
     monkeypatch.setattr(provenance, "ROOT", repository / "src")
     assert git_state() == ("unknown", "unknown")
 
 
-@pytest.mark.parametrize("missing", ["commit", "git", "folder", "answer"])
+@pytest.mark.parametrize("missing", ["commit", "git", "answer"])
 def test_what_git_does_not_know_is_unknown(repository, tmp_path, monkeypatch, missing):
     if missing == "commit":
         new = tmp_path / "new"
@@ -64,8 +58,6 @@ def test_what_git_does_not_know_is_unknown(repository, tmp_path, monkeypatch, mi
         monkeypatch.setattr(provenance, "ROOT", new)
     elif missing == "git":
         monkeypatch.setenv("PATH", str(tmp_path))
-    elif missing == "folder":
-        monkeypatch.setattr(provenance, "ROOT", tmp_path / "none")
     else:
         os.mkfifo(tmp_path / "silent")
         (tmp_path / "git").write_text(f"#!/bin/sh\nread answer < '{tmp_path / 'silent'}'\n")

@@ -38,15 +38,6 @@ def test_the_description_has_units_datatypes_and_origin(table, tmp_path):
     assert amplitude["dc:description"] == "amplitude of the radial displacement of node 1 on the engine order"
 
 
-def test_the_peaks_of_every_engine_order_share_an_entry(tmp_path):
-    tables.write(tmp_path / "chart.csv", pd.DataFrame({"Y3": [1e-3], "f12": [0.2]}), ORIGIN)
-    about = json.loads((tmp_path / "chart.csv-metadata.json").read_text(encoding="utf-8"))
-    height, speed = about["tableSchema"]["columns"]
-    assert (height["name"], height["schema:unitText"]) == ("Y3", "m")
-    assert (speed["titles"], speed["schema:unitText"]) == ("f12", "1")
-    assert [tables.entry(name) for name in ("Y3", "f_peak", "f_at_peak")] == ["Yk", "f_peak", "f_at_peak"]
-
-
 def test_a_copy_brings_its_description_and_the_origin_is_that_of_the_file_now(table, tmp_path):
     source, target = tmp_path / "a" / "peaks.csv", tmp_path / "peaks.csv"
     for origin in (ORIGIN, ORIGIN | {"provenance_git_commit": "def"}):
@@ -80,7 +71,6 @@ def test_a_column_that_nobody_described_is_refused_before_anything_is_written(ta
     ("content", "words"),
     [
         (b"E,amp", "not a whole table, it breaks off"),
-        (b"E,amplitude\n1,2\n1,2,3,4\n", "not a table"),
         (b"K,amplitude\n1,2\n", "not the right table, E missing"),
     ],
 )

@@ -1,7 +1,7 @@
 import numpy as np
 
 from bladerub.blade.surface import boundary_faces, normals
-from bladerub.plots.blade_mesh import View, blade_mesh
+from bladerub.plots.blade_mesh import View
 
 CORNERS = np.array(
     [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 0, 1], [1, 0, 1], [1, 1, 1], [0, 1, 1]], float
@@ -41,22 +41,3 @@ def test_view_from_the_front():
     seen = view.front_faces(polygons)
     np.testing.assert_allclose(polygons[seen][:, :, 1], 0, atol=1e-12)
     assert len(seen) == 2
-
-
-def test_farther_faces_are_drawn_first():
-    points, hexahedra = tower(2)
-    view = View(elevation=30, azimuth=40)
-    polygons = points[boundary_faces(hexahedra)]
-    depth = (polygons[view.front_faces(polygons)] @ view.towards_eye).mean(axis=1)
-    assert (np.diff(depth) >= 0).all()
-
-
-def test_nodes_without_elements_are_drawn_as_points(draws):
-    points, _ = tower(3)
-    top, nothing = np.flatnonzero(points[:, 2] == 3), np.array([], dtype=int)
-    whole, tip = draws(blade_mesh(points, np.empty((0, 20), dtype=int), top, nothing, top)).axes
-    assert whole.get_title(loc="left") == "(a) 44 nodes"
-    counts = {line.get_label(): len(line.get_xdata()) for line in whole.lines}
-    assert counts["_nodes"] == 44
-    assert "clamped root nodes" not in counts
-    assert [len(line.get_xdata()) for line in tip.lines] == [8, 8]

@@ -21,10 +21,3 @@ def test_both_models_in_both_panels(axes):
         np.testing.assert_array_equal(np.transpose([line.get_ydata() for line in fe]), FE)
         assert all(line.is_dashed() for line in fe)
         assert not any(line.is_dashed() for line in rom)
-        assert r"f_\Omega" in panel.get_xlabel()
-
-
-def test_the_second_panel_shows_the_first_mode_alone_with_all_engine_orders(axes):
-    assert ROM[:, 0].max() < axes[1].get_ylim()[1] < ROM[:, 1].min()
-    assert sum(line.get_label() in ("_eo", "engine orders eo(k)") for line in axes[1].lines) == 12
-    assert axes[0].get_ylim()[1] > ROM.max()

@@ -1,7 +1,6 @@
 import numpy as np
 import pandas as pd
 import pytest
-from matplotlib.patches import Rectangle
 from mpl_toolkits.mplot3d import Axes3D
 
 from bladerub.plots.histogram import peak_histogram
@@ -19,11 +18,6 @@ def draw(mm, quantity="amplitude", half=np.nan):
     return peak_histogram(rows.assign(casing="2nd", theta=0.0, order=4), quantity, order=4, unit=600e6)[1]
 
 
-@pytest.fixture
-def figure():
-    return draw(MM)
-
-
 def test_a_bar_for_each_value_and_none_for_a_hole(monkeypatch):
     bars = []
     monkeypatch.setattr(Axes3D, "bar3d", lambda self, *bar, **look: bars.append(bar))
@@ -37,10 +31,8 @@ def test_a_bar_for_each_value_and_none_for_a_hole(monkeypatch):
 @pytest.mark.parametrize(
     ("quantity", "half", "texts", "hatched"),
     [
-        ("amplitude", 1e-6, {"0.10", "0.40", "0.30", "0.20"}, set()),
         ("amplitude", 3.1e-5, {"0.10\n±0.03", "0.40\n±0.03", "0.30\n±0.03", "0.20\n±0.03"}, {0, 1, 2}),
         ("f_peak", 0.009, {"0.100\n±0.009", "0.400\n±0.009", "0.300\n±0.009", "0.200\n±0.009"}, set()),
-        ("f_peak", 0.011, {"0.100\n±0.011", "0.400\n±0.011", "0.300\n±0.011", "0.200\n±0.011"}, {0, 1, 2}),
     ],
 )
 def test_bands_stand_below_the_values_and_wide_ones_are_hatched(quantity, half, texts, hatched):
@@ -48,7 +40,6 @@ def test_bands_stand_below_the_values_and_wide_ones_are_hatched(quantity, half, 
     assert {text.get_text() for text in cells.texts} == texts | {"–"}
     places = {patch.get_x() + 0.5 for patch in cells.patches if patch.get_hatch()}
     assert places == hatched
-    assert ("hatched" in cells.get_title(loc="left")) == bool(hatched)
 
 
 @pytest.mark.parametrize(("quantity", "floor"), [("f_peak", 0.292), ("amplitude", 0.0)])
@@ -74,14 +65,5 @@ def test_amplitudes_of_one_order_are_drawn_in_mm(draws):
     ends = ["amplitude_low", "amplitude_high"]
     assert list(table.columns) == ["casing", "E", "K", "theta", "order", "amplitude", *ends]
     pd.testing.assert_frame_equal(table, PEAKS.loc[PEAKS.order == 4, table.columns])
-    bars, cells, _ = draws(figure).axes
-    assert bars.get_title(loc="left") == "(a) $Y_4$ (mm)"
+    _, cells, _ = draws(figure).axes
     assert [text.get_text() for text in cells.texts] == ["1.00", "3.00", "2.00", "–"]
-
-
-def test_speeds_of_one_order_stand_on_a_floor_below_the_lowest(draws):
-    table, figure = peak_histogram(PEAKS, "f_peak", order=4, unit=600e6)
-    pd.testing.assert_frame_equal(table, PEAKS.loc[PEAKS.order == 4, table.columns])
-    bars, cells, _ = draws(figure).axes
-    assert bars.get_zlim()[0] == pytest.approx(0.29)
-    assert not [patch for patch in cells.patches if isinstance(patch, Rectangle)]

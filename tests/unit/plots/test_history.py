@@ -44,10 +44,8 @@ def axes(drawn):
 
 
 def test_displacements_in_mm_on_one_scale(axes):
-    for panel, displacement, name in zip(axes, (STEADY, GROWING), AMPLITUDE, strict=False):
+    for panel, displacement in zip(axes, (STEADY, GROWING), strict=False):
         np.testing.assert_allclose(panel.lines[0].get_ydata(), 1e3 * displacement)
-        assert panel.get_ylabel() == "$u_r$ (mm)"
-        assert panel.get_title(loc="left").endswith(name)
     assert axes[0].get_ylim() == axes[1].get_ylim()
     assert axes[0].get_ylim()[1] > 1e3 * np.nanmax(np.abs(GROWING))
 
@@ -56,8 +54,6 @@ def test_the_growth_of_both_runs(axes):
     steady, growing = axes[2].lines
     np.testing.assert_allclose(steady.get_xydata(), np.transpose([[0.5, 1.5, 2.5, 3.5], [0.1] * 4]))
     np.testing.assert_allclose(growing.get_ydata(), [0.16, 0.27, 0.44, np.nan])
-    assert axes[2].get_xlim() == (0, 4)
-    assert axes[2].get_xlabel() == "revolution"
 
 
 def test_runs_are_read_from_their_files_and_named_by_their_angle(drawn):

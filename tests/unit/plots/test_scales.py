@@ -5,12 +5,10 @@ import pytest
 
 from bladerub.plots.campbell import campbell
 from bladerub.plots.scales import Engine, Scales
-from bladerub.plots.spectrum import spectrum_map
 from bladerub.plots.wear_map import wear_map
 
 ENGINE = Engine(f1_hz=850.0, nominal_speed=15300.0)  # f_omega = 0.3
 SCALES = Scales(modulus_unit=0.6e9, length=0.066, engine=ENGINE)
-RANGE = (5e-7, 5e-4)
 
 
 def second(axes, along):
@@ -36,20 +34,6 @@ def test_a_wear_map_has_the_speed_of_the_rotor_from_the_first_of_the_study_on(co
     assert "12000\n200 Hz" in ticks
     assert nominal(upper)["nominal speed, 15300 rpm"][0] == pytest.approx(0.3)
     assert nominal(lower)["_nominal"][0] == pytest.approx(0.3)
-    assert upper.get_title(loc="left") == "casing 2nd, E = 0.11, K = 0.5 (in units of 600 MPa), θ = 0.15 rad"
-
-
-def test_a_spectrum_has_the_speed_of_the_rotor_and_hertz(coating_map, draws):
-    figure = draws(spectrum_map(coating_map, RANGE, 2.5, SCALES))
-    axes = figure.axes[0]
-    assert axes.get_ylim() == pytest.approx((0.075, 0.375))
-    assert second(axes, "x")[:2] == (pytest.approx((0, 2125)), "frequency (Hz)")
-    ends, _, ticks = second(axes, "y")
-    assert ends == pytest.approx((3825, 19125))
-    assert "12000\n200 Hz" in ticks
-    assert nominal(axes)["nominal speed, 15300 rpm"][1] == pytest.approx(0.3)
-    assert axes.get_legend() is None  # it would lie on the spectrum
-    assert len(figure.legends) == 1
 
 
 def test_a_campbell_diagram_has_both(draws):
@@ -59,11 +43,3 @@ def test_a_campbell_diagram_has_both(draws):
         assert second(axes, "x")[0] == pytest.approx((0, 20400))
         assert second(axes, "y")[0] == pytest.approx(850 * np.array(axes.get_ylim()))
         assert nominal(axes)["nominal speed, 15300 rpm"][0] == pytest.approx(0.3)
-
-
-def test_without_an_engine_there_is_one_scale_from_zero(coating_map, draws):
-    known = Scales(modulus_unit=0.6e9, length=0.2)
-    for figure in (wear_map(coating_map, known), spectrum_map(coating_map, RANGE, 2.5, known)):
-        for axes in draws(figure).axes:
-            assert not axes.child_axes
-            assert not nominal(axes)

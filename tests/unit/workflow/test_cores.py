@@ -3,7 +3,7 @@
 import pytest
 
 from bladerub.config import read as configuration
-from bladerub.workflow.cores import BEGUN, Costs, costs_of, priority_of, threads_for
+from bladerub.workflow.cores import costs_of, priority_of, threads_for
 
 
 @pytest.mark.parametrize(
@@ -18,24 +18,6 @@ from bladerub.workflow.cores import BEGUN, Costs, costs_of, priority_of, threads
 )
 def test_a_job_larger_than_the_share_of_a_core_has_more_threads(cost, cores, threads):
     assert threads_for(cost, 100, cores) == threads
-
-
-def test_the_runs_of_the_longest_chain_come_first():
-    costs = Costs(
-        runs={"short": 10, "many members": 10, "costly runs": 40},
-        ensembles={"short": 2, "many members": 50, "costly runs": 8},
-    )
-    assert sorted(costs.runs, key=lambda coating: priority_of(coating, costs)) == [
-        "short",
-        "costly runs",
-        "many members",
-    ]
-    assert priority_of("of no study", costs) == 0.0
-
-
-def test_what_follows_runs_comes_before_other_runs():
-    for members in (10, 100_000):
-        assert priority_of("only", Costs({"only": 10}, {"only": members})) < BEGUN
 
 
 def test_the_study_begins_with_the_coating_of_fig_6_and_the_stiffest():

@@ -38,19 +38,11 @@ def test_a_whole_coating_has_no_loss(manifest):
     assert invocation.loss(manifest.with_name("none.tsv")) is None
 
 
-@pytest.mark.parametrize("name", ["0.1.h5", "confirmation/0.2.h5"])
-@pytest.mark.parametrize("size", [None, 0, 9])
+@pytest.mark.parametrize(("name", "size"), [("0.1.h5", None), ("confirmation/0.2.h5", 9)])
 def test_a_run_that_is_missing_or_cut_short_is_a_loss(manifest, name, size):
     run = manifest.parent / name
     run.unlink() if size is None else run.write_bytes(bytes(size))
     assert str(run) in invocation.loss(manifest)
-
-
-def test_a_manifest_that_cannot_be_read_is_no_loss(manifest):
-    manifest.unlink()
-    manifest.mkdir()
-    with pytest.raises(OSError, match=r"manifest\.tsv"):
-        invocation.loss(manifest)
 
 
 @pytest.fixture
@@ -89,18 +81,9 @@ def test_targets_of_results_of_another_config_are_refused(workflow_with, of_quic
     assert NAMED in str(refused.value)
 
 
-def test_preparing_makes_the_folder_and_sweeps_it(tmp_path):
-    results = tmp_path / "results"
-    invocation.prepare(results)
-    abandoned = results / ".peaks.csv.node1.7.tmp"
-    abandoned.touch()
-    invocation.prepare(results)
-    assert list(results.iterdir()) == [abandoned]  # of another host, and fresh
-
-
 @pytest.mark.parametrize(
     ("rate", "local_exec", "kept"),
-    [("100/1s", True, False), ("100/1s", False, True), ("1/1m", True, True), ("100/2s", True, True)],
+    [("100/1s", True, False), ("100/1s", False, True), ("1/1m", True, True)],
 )
 def test_the_default_limit_of_jobs_alone_is_lifted_on_this_machine(workflow_with, rate, local_exec, kept):
     workflow = workflow_with(JobRateLimiter(MaxJobsPerTimespan.parse_choice(rate)), local_exec)
@@ -155,10 +138,9 @@ def test_two_interrupts_in_a_row_are_one(workflow_with, tmp_path, monkeypatch):
         signal.signal(signal.SIGINT, before)
 
 
-@pytest.mark.parametrize("folder", ["two words", "Söhne & Co", "o'brien", "100 #1", "(v2)"])
-def test_an_environment_that_snakemake_cannot_name_to_a_shell_is_refused(workflow_with, monkeypatch, folder):
-    monkeypatch.setattr(sys, "executable", f"/home/{folder}/.venv/bin/python")
-    with pytest.raises(BadInput, match=re.escape(folder)):
+def test_an_environment_that_snakemake_cannot_name_to_a_shell_is_refused(workflow_with, monkeypatch):
+    monkeypatch.setattr(sys, "executable", "/home/two words/.venv/bin/python")
+    with pytest.raises(BadInput, match="two words"):
         invocation.start(workflow_with())
 
 

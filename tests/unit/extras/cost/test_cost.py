@@ -38,9 +38,8 @@ def test_a_row_a_job(benchmarks):
     assert "somebody_elses" in set(table(benchmarks, ["somebody_elses"]).stage)
 
 
-@pytest.mark.parametrize("content", ["", "s\th:m:s\tmax", RECORD.splitlines(keepends=True)[0]])
-def test_a_record_that_breaks_off_is_left_out(benchmarks, content):
-    (benchmarks / "blade.tsv").write_text(content)
+def test_a_record_that_breaks_off_is_left_out(benchmarks):
+    (benchmarks / "blade.tsv").write_text("s\th:m:s\tmax")
     costs = table(benchmarks)
     assert "blade" not in set(costs.rule)
     assert len(costs) == 4

@@ -39,19 +39,6 @@ def test_one_core_takes_the_sum_of_all_jobs(costs, study):
     assert row.efficiency == pytest.approx(1.0)
 
 
-def test_jobs_with_all_threads_come_one_after_the_other(costs, study, monkeypatch):
-    monkeypatch.setattr(schedule, "threads_for", lambda cost, total, cores: cores)
-    assert 1 + 4 * 2.5 + 0.5 <= minutes(costs, study, 2) <= 1 + 4 * (2.5 + 1) + 0.5
-
-
-def test_what_follows_a_coating_comes_before_the_runs_of_others(costs, study, monkeypatch):
-    """Else the map of the first coating, here the longest job, would end last."""
-    monkeypatch.setattr(schedule, "threads_for", lambda cost, total, cores: 1)
-    first = coating_cases(study)[0].name
-    costs.loc[(costs.stage == "maps") & (costs.job == first), "wall_s"] = 900.0
-    assert minutes(costs, study, 2) == pytest.approx(1 + (5 + 15) + 0.5)
-
-
 def test_the_runs_of_the_longest_chain_come_first(costs, study, monkeypatch):
     """Else the last coating, here of the longest runs, would end long after the other core."""
     monkeypatch.setattr(schedule, "threads_for", lambda cost, total, cores: 1)
