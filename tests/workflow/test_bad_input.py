@@ -17,36 +17,18 @@ from bladerub.cli import inputs, main
 
 RUN = "run --casing 2nd --E 2 --K 0.5 --f 0.19"
 COMMANDS = {
-    "": "required: COMMAND",
-    "rnu": "invalid choice: 'rnu'",
-    "run --casing 2nd --E 2 --f 0.19": "--K: missing",
     "run --casing 2dn --E 2 --K 1 --f 0.19": '"2dn": must be one of 2nd, 2nd5nd; did you mean 2nd?',
     f"{RUN} --E soft": "argument --E: must be a number, or one with a unit: 'soft'",
-    f"{RUN} --E 0": "--E = 0: ",
-    f"{RUN} --K inf": "--K = inf: ",
-    f"{RUN} --f nan": "--f = nan: ",
     f"{RUN} --f 0.41": "--f = 0.41: must be at most reduction.f_omega_max = 0.4",
-    f"{RUN} --theta 0.1 --friction 0.1": "--friction = 0.1: ",
     f"{RUN} --revolutions {10**30}": f"--revolutions = {10**30}: ",
-    f"{RUN} --depth 3": "unrecognized arguments: --depth 3",
-    f"{RUN} --config no.yaml": "no.yaml: cannot be read (No such file or directory)",
     f"{RUN} --config pipe": "pipe: is not a regular file, must be a YAML file",
-    f"{RUN} --output folder": "--output folder: is a folder, must be a file",
     f"{RUN} --output text/run.h5": "--output text/run.h5: cannot be written, ",
-    f"{RUN} --output sound.h5": "--output sound.h5: is there and is no run",
-    f"{RUN} --blade no.h5": "no.h5: No such file or directory",
     f"{RUN} --blade /dev/zero": "/dev/zero: is not a regular file, must be a reduced blade (HDF5)",
     f"{RUN} --blade truncated.h5": "truncated.h5: not a readable HDF5 file",
     f"{RUN} --blade other.h5": "other.h5: not a reduced blade, 'mass' is missing",
-    f"{RUN} --blade nan.h5": "nan.h5: not a valid reduced blade, mass: must be finite",
-    f"{RUN} --blade lopsided.h5": "lopsided.h5: not a valid reduced blade, stiffness_0: must be symmetric",
     f"{RUN} --blade endless.h5": "endless.h5: not a reduced blade, mass has the shape (200000, 200000)",
     "verify --sample 1": "the following arguments are required: --seed",
-    "verify --sample 0 --seed 1": "--sample = 0: must be from 1 to ",
-    "status results": "unrecognized arguments: results",
-    "benchmark --rounds 0": "--rounds = 0: must be from 1 to 1000",
     "benchmark --config rigid.yaml": "coatings: must have an abradable one",
-    "import no.inp": "no.inp: there is no such file",
 }
 
 
@@ -66,17 +48,12 @@ def folder(tmp_path_factory):
     sound = folder / "sound.h5"
     write_reduced_blade(sound, ReducedBlade(**values | nodes | {"f_omega_max": 0.4}), {})
     (folder / "truncated.h5").write_bytes(sound.read_bytes()[:3000])
-    for name in ("other", "nan", "lopsided", "endless"):
+    for name in ("other", "endless"):
         (folder / f"{name}.h5").write_bytes(sound.read_bytes())
         with h5py.File(folder / f"{name}.h5", "r+") as file:
-            if name in ("other", "endless"):
-                del file["mass"]
+            del file["mass"]
             if name == "endless":
                 file.create_dataset("mass", shape=(200_000, 200_000), dtype=float, chunks=(100, 100))
-            if name == "nan":
-                file["mass"][0, 0] = np.nan
-            if name == "lopsided":
-                file["stiffness_0"][1, 2] = 0.5
     return folder
 
 
@@ -104,7 +81,6 @@ def lines_of_ours(stderr):
 CONFIGS = {
     "contact:\n  damping: 0.01\n": "overlay.yaml:2: contact.damping =",
     "results: ../elsewhere\n": "overlay.yaml:1: results =",
-    "blade: {mesh: {chordwise: 200, thickness: 20, spanwise: 400}}\n": "overlay.yaml:1: blade.mesh:",
     "\nextend: [overlay.yaml]\n": "overlay.yaml:2: extend =",
     "a: &a [x, x, x, x, x, x, x, x]\n"
     + "".join(f"{new}: &{new} [{', '.join([f'*{old}'] * 9)}]\n" for old, new in pairwise("abcdefg")): (
@@ -144,16 +120,6 @@ def test_all_problems_are_reported_at_once_with_their_locations(workspace):
         "--config: figures.dpi ",
     ]
     assert done.returncode == 2
-
-
-def test_a_malformed_study_is_answered_with_file_and_line(workspace):
-    path = workspace.folder / "config" / "config.yaml"
-    path.write_text("results: results\nblade: [1\ncontact: 2\n")
-    done = workspace.snakemake("--cores", "1")
-    (line,) = lines_of_ours(done.stderr)
-    assert line.startswith("config/config.yaml:3: not valid YAML")
-    assert done.returncode == 2
-    assert not (workspace.folder / "results").exists()
 
 
 def test_what_a_config_extends_lies_under_it_and_the_command_line_over_all(workspace, tiny):

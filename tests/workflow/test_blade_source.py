@@ -58,11 +58,3 @@ def test_a_broken_file_ends_the_study_with_one_line(workspace, foreign):
     assert len(said) == 1
     assert "Traceback" not in done.stderr
     assert not (workspace.folder / "results" / "blade").exists()
-
-
-def test_a_missing_file_is_told_before_anything_starts(workspace, foreign):
-    (workspace.folder / "meshes" / "blade.msh").unlink()
-    done = workspace.snakemake(PICTURE, "--cores", "1", config=foreign)
-    assert done.returncode == 2
-    assert 'blade.source.file = "meshes/blade.msh": there is no such file' in done.stderr
-    assert not (workspace.folder / "results").exists()

@@ -90,21 +90,3 @@ def test_a_chart_without_its_crossing_is_refused_before_any_work(workspace, char
     assert done.returncode == 2
     assert "speeds.stop = 0.22: must be at least 0.25 for the chart" in done.stderr
     assert not workspace.results.exists()
-
-
-@pytest.mark.nightly
-def test_a_fatigue_limit_asks_for_the_stress_of_the_chart_alone(copied_chart, charted):
-    cells = files(copied_chart)
-    limited = charted | {"chart": charted["chart"] | {"limits": {"fatigue": 1.0}}}
-    assert copied_chart.plan(limited, "chart") == {
-        "chart": 1,
-        "chart_stress": 1,
-        "chart_safe": 1,
-        "chart_pareto": 1,
-    }
-    copied_chart.build(limited, "chart")
-    stress = tables.read(copied_chart.results / "tables" / "chart_stress.csv")
-    assert len(stress) == 4
-    assert (stress.alternating > 1.0).all()
-    assert not tables.read(copied_chart.results / "tables" / "chart_pareto.csv").safe.any()
-    assert files(copied_chart) == cells

@@ -203,18 +203,3 @@ def test_the_calibration_is_planned_when_asked_for(workspace, tiny):
     assert done.returncode != 0
     assert "odd: contact.damping_ratio = 2" in done.stderr
     assert "Traceback" not in done.stderr
-    (workspace.folder / "mine.yaml").write_text("sets: {one: {}, two: {contact: {damping_ratio: 0.01}}}\n")
-    assert workspace.plan(tiny | {"calibration": "mine.yaml"}, "calibration")["calibration_set"] == 2
-    done = workspace.snakemake("calibration", "--dry-run", config=tiny | {"calibration": "nowhere.yaml"})
-    assert done.returncode != 0
-    assert 'calibration = "nowhere.yaml": cannot be read' in done.stderr
-    assert "Traceback" not in done.stderr
-
-
-def test_pictures_for_the_documents_are_the_figures_made_small(copied_study, tiny):
-    copied_study.build(tiny, "images")
-    figures = {path.name: path for path in (copied_study.folder / "results" / "figures").glob("*.png")}
-    small = {path.name: path for path in (copied_study.folder / "docs" / "images").iterdir()}
-    assert small.keys() == figures.keys()
-    assert all(small[name].stat().st_size < figures[name].stat().st_size for name in small)
-    assert all(path.read_bytes().startswith(b"\x89PNG") for path in small.values())

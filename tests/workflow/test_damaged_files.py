@@ -81,27 +81,6 @@ def flip_a_bit(path: Path, draw: random.Random) -> None:
     os.utime(path, ns=(times.st_atime_ns, times.st_mtime_ns))
 
 
-@pytest.mark.nightly
-def test_one_random_bit_in_each_of_40_runs_is_found_and_costs_these_runs(copied_study, tiny, results):
-    before, written = contents(results), copied_study.runs()
-    draw = random.Random(40)
-    hit = sorted(draw.sample(sorted(written), 40))
-    assert any("confirmation" in name for name in hit)
-    for name in hit:
-        flip_a_bit(results / "runs" / name, draw)
-    runs = [str(results / "runs" / name) for name in hit]
-    assert copied_study.plan(tiny) == {}  # nothing shows it from outside
-    assert sorted(copied_study.status("--thorough")["damaged"]) == runs
-    assert sorted(copied_study.status("--thorough", "--discard")["damaged"]) == runs
-    coatings = [path.stem for path in (results / "maps").iterdir()]
-    manifests = [f"results/runs/{coating}/manifest.tsv" for coating in coatings]
-    copied_study.build(tiny, *manifests, *(f"results/maps/{coating}.h5" for coating in coatings))
-    assert contents(results) == before
-    now = copied_study.runs()
-    assert sorted(name for name, stamp in now.items() if stamp != written[name]) == hit
-    assert copied_study.status("--thorough")["damaged"] == []
-
-
 def test_a_damaged_blade_is_made_again_and_costs_no_run(copied_study, tiny, results):
     before, written = contents(results), copied_study.runs()
     flip_a_bit(results / "blade" / "reduced_model.h5", random.Random(1))
@@ -135,6 +114,7 @@ def test_what_is_lost_or_damaged_of_an_ensemble_costs_its_members_alone(copied_s
     assert {path for path in members if path.stat().st_mtime_ns != times[path]} == {lost, empty, flipped}
 
 
+@pytest.mark.nightly
 def test_one_random_bit_in_a_file_of_any_kind_is_found_and_repaired(copied_study, tiny, results):
     before, draw = contents(results), random.Random(8)
     tables = {path: path.read_bytes() for path in (results / "tables").iterdir()}

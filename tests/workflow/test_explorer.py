@@ -1,22 +1,19 @@
 """The explorer of the tiny study in a real browser; skipped where there is none."""
 
-import json
 import shutil
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-import pandas as pd
 import pytest
 
-from bladerub.extras.explorer.page import build
-from bladerub.study.manifest import read_manifest, write_manifest
-from bladerub.study.maps import read_map, write_map
+from bladerub.study.maps import read_map
 
 pytestmark = [pytest.mark.browser, pytest.mark.nightly]
 
-STRAIGHT, INCLINED, RIGID = "2nd_E2_K0.5_theta0", "2nd_E2_K0.5_theta0.15", "2nd_rigid_mu0"
+STRAIGHT = "2nd_E2_K0.5_theta0"
+
 FLAGS = [
     "headless",
     "no-sandbox",
@@ -151,11 +148,6 @@ def map_of(study) -> Callable:
     return lambda name: read_map(study.folder / "results" / "maps" / f"{name}.h5")
 
 
-@pytest.fixture
-def table(study) -> Callable:
-    return lambda name: pd.read_csv(study.folder / "results" / "tables" / f"{name}.csv")
-
-
 def test_it_opens_soon_from_a_file_and_asks_nobody(explorer):
     since = "return performance.now()"
     taken = [explorer.open().driver.execute_script(since) / 1e3 for _ in range(3)]
@@ -186,23 +178,6 @@ def test_the_pictures_are_those_of_the_study(explorer, map_of):
     np.testing.assert_allclose(markers, 1e3 * coating.revolution_amplitude[at], rtol=2e-3)
 
 
-def test_the_numbers_are_those_of_the_tables(explorer, study, map_of, table):
-    verdicts = table("divergence")
-    verdict = verdicts[(verdicts["E"] == 2) & (verdicts["theta"] == 0) & (verdicts["f_omega"] == 0.206)].iloc[
-        0
-    ]
-    coating, shown = map_of(STRAIGHT), explorer.run
-    at = int(np.flatnonzero(coating.f_omega == 0.206)[0])
-    growth = f"{100 * verdict['growth_per_revolution']:.3g} % (".replace("-", "−")
-    assert shown["Growth per revolution"][0].startswith(growth)
-    assert shown["Worn lobes after 3 revolutions"] == [str(verdict["lobes"])]
-    assert shown["Greatest wear after 3 revolutions, any node"] == [f"{1e3 * coating.max_wear[at]:.4g} mm"]
-    manifest = read_manifest(study.folder / "results" / "runs" / STRAIGHT / "manifest.tsv")
-    assert shown["Key of the run"] == [run.run_key for run in manifest if run.f_omega == 0.206]
-    command = "bladerub run --config overlay.yaml --casing 2nd --E 2 --K 0.5 --theta 0 --f 0.206"
-    assert shown["Repeat it by"][0].startswith(command)
-
-
 @pytest.mark.parametrize(("name", "x", "y"), [("wear-A", 0.27, 100), ("spectrum-A", 1.0, 0.27)])
 def test_a_click_in_a_map_chooses_the_speed(explorer, name, x, y):
     before = explorer.drawn("polar", "r").tolist(), explorer.run["Key of the run"]
@@ -214,22 +189,6 @@ def test_a_click_in_a_map_chooses_the_speed(explorer, name, x, y):
         "return ['wear-A', 'spectrum-A'].map((name) => document.getElementById(name).layout.shapes.at(-1))"
     )
     assert (lines[0]["x0"], lines[1]["y0"]) == (0.27, 0.27)
-
-
-def test_keys_change_the_speed(explorer):
-    from selenium.webdriver.common.keys import Keys
-
-    explorer.driver.execute_script("document.querySelector('#speed').focus()")
-    assert explorer.press(Keys.ARROW_RIGHT).speed == 0.23
-    assert explorer.press(Keys.ARROW_LEFT, Keys.ARROW_LEFT).speed == 0.197
-    assert explorer.press(Keys.END).speed == 0.35
-    assert explorer.press(Keys.ARROW_UP).speed == 0.35  # the last there is
-    assert explorer.press(Keys.HOME).speed == 0.15
-    explorer.driver.execute_script("document.querySelector('#growth').focus()")
-    assert explorer.press(Keys.ARROW_UP).speed == 0.19
-    assert "f=0.19&" in explorer.link
-    explorer.driver.execute_script("document.querySelector('#coating-A [name=E]').focus()")
-    assert explorer.press(Keys.ARROW_LEFT).speed == 0.19  # here they choose a coating
 
 
 def test_a_link_restores_the_view(explorer):
@@ -248,45 +207,3 @@ def test_a_link_restores_the_view(explorer):
     explorer.open(link)
     assert explorer.link == link
     assert explorer.driver.execute_script(state) == seen
-
-
-def test_a_foreign_link_says_what_is_amiss(explorer):
-    explorer.open("#A=<b>none</b>&f=fast&spectra=colour&peaks=9&B=")
-    text = explorer.find("#status").text
-    for part in ('coating "<b>none</b>"', 'f "fast"', 'spectra "colour"', 'peaks "9"', 'coating ""'):
-        assert part in text
-    assert explorer.complaints == []
-
-
-def test_hostile_names_run_nothing(study, driver, tmp_path):
-    hostile = (
-        "</script><script>document.title = 'taken'</script><img src=x onerror=\"document.title = 'taken'\">"
-    )
-    results = study.folder / "results"
-    coating = read_map(results / "maps" / f"{STRAIGHT}.h5", with_nodes=True)
-    object.__setattr__(coating.case, "casing", hostile)
-    write_map(tmp_path / "map.h5", coating, {})
-    write_manifest(tmp_path / "manifest.tsv", read_manifest(results / "runs" / STRAIGHT / "manifest.tsv"))
-    tables = []
-    for name in ("peaks", "divergence"):
-        rows = pd.read_csv(results / "tables" / f"{name}.csv")
-        mine = rows[(rows["E"] == 2) & (rows["theta"] == 0)]
-        tables.append(mine.assign(casing=hostile))
-    settings = {
-        "max_frequency": 2.5,
-        "amplitude_range": [2e-6, 3e-3],
-        "growth_revolutions": 3,
-        "spectrum_revolutions": 2,
-        "doubts": [],
-    }
-    page = tmp_path / "explorer.html"
-    page.write_text(
-        build([tmp_path / "map.h5"], [tmp_path / "manifest.tsv"], *tables, settings, [hostile]),
-        encoding="utf-8",
-    )
-    explorer = Explorer(driver, page).open()
-    assert driver.title == "bladerub explorer"
-    assert hostile in explorer.find("#wear-A-title").text
-    assert explorer.all("#main img") == []
-    assert explorer.complaints == []
-    assert json.loads(driver.execute_script("return JSON.stringify(document.scripts.length)")) == 7

@@ -76,17 +76,10 @@ def test_waves_follow_one_another_and_a_lost_job_is_made_anew_alone(copied_study
     assert lost.read_bytes() == said
 
 
-@pytest.mark.parametrize(
-    ("change", "problem"),
-    [
-        ({"waves": [8, 4]}, "waves = [8, 4]: the first must be at least 14"),
-        ({"sets": {"soft": {"unt": 1.0}}}, "sets.soft.unt = 1.0: "),
-    ],
-)
-def test_a_bad_plan_is_refused_before_any_work(workspace, tiny, change, problem):
-    (workspace.folder / PATH).write_text(yaml.safe_dump(PLAN | change, sort_keys=False))
+def test_a_bad_plan_is_refused_before_any_work(workspace, tiny):
+    (workspace.folder / PATH).write_text(yaml.safe_dump(PLAN | {"waves": [8, 4]}, sort_keys=False))
     done = workspace.snakemake("identify", "--dry-run", config=tiny)
     assert done.returncode == 2
-    assert re.search(rf"{PATH}:\d+: {re.escape(problem)}", done.stderr)
+    assert re.search(rf"{PATH}:\d+: waves = \[8, 4\]: the first must be at least 14", done.stderr)
     assert not workspace.results.exists()
     assert workspace.plan(tiny)["blade"] == 1  # a study needs no plan

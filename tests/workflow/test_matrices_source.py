@@ -33,11 +33,3 @@ def test_a_blade_of_matrices_is_made_and_drawn_and_made_anew_with_a_file(workspa
     file = workspace.folder / "matrices" / "stiffness_half.npz"
     sparse.save_npz(file, 1.0001 * sparse.load_npz(file))
     assert workspace.plan(foreign, PICTURE) == {"blade": 1, "fig01_blade": 1}
-
-
-def test_a_missing_matrix_is_told_before_anything_starts(workspace, foreign):
-    (workspace.folder / "matrices" / "mass.npz").unlink()
-    done = workspace.snakemake(PICTURE, "--cores", "1", config=foreign)
-    assert done.returncode == 2
-    assert 'blade.source.matrices = "matrices": holds no mass.mtx or mass.npz' in done.stderr
-    assert not (workspace.folder / "results").exists()

@@ -93,13 +93,3 @@ def test_the_design_is_made_once_and_a_lost_job_is_made_anew_alone(copied_study,
     more = PLAN | {"parts": {**PLAN["parts"], "angle": {**PLAN["parts"]["angle"], "samples": 4}}}
     (copied_study.folder / "config" / "robustness.yaml").write_text(yaml.safe_dump(more, sort_keys=False))
     assert copied_study.plan(planned, "robustness") == {"robustness_batch": 1, "robustness": 1}
-
-
-def test_a_bad_plan_is_refused_before_any_work(workspace, tiny):
-    plan = yaml.safe_dump(PLAN | {"factors": {}}, sort_keys=False)
-    (workspace.folder / "config" / "robustness.yaml").write_text(plan)
-    done = workspace.snakemake("robustness", "--dry-run", config=tiny)
-    assert done.returncode == 2
-    assert "config/robustness.yaml:2: factors = {}:" in done.stderr
-    assert not workspace.results.exists()
-    assert workspace.plan(tiny)["blade"] == 1  # a study needs no plan

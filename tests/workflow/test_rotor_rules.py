@@ -79,14 +79,6 @@ def test_rows_are_made_once_and_lost_or_changed_ones_alone(copied_study, tiny):
     assert {name for name in more if more[name] != again.get(name)} == {"0003.h5"}
 
 
-def test_a_bad_plan_is_refused_before_any_work(workspace, tiny):
-    write(workspace, casing="3nd")
-    done = workspace.snakemake("rotor", "--dry-run", config=tiny)
-    assert done.returncode == 2
-    assert 'groups.small.casing = "3nd": must be one of the casings, 2nd, 2nd5nd' in done.stderr
-    assert not workspace.results.exists()
-
-
 def test_a_study_may_be_of_rows_throughout(copied_study, tiny):
     rotor = {"blades": 2, "length": [0.0, 5.0e-5], "frequency_scatter": 0.01, "coupling": [0.01]}
     target = "results/maps/2nd_E2_K0.5_theta0.h5"

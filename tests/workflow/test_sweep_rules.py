@@ -46,11 +46,3 @@ def test_sweeps_and_long_runs_are_made_when_asked_for(copied_study, beside):
     beside["sweeps"]["rates"] = [1.0, 3.0]
     assert copied_study.plan(beside, "sweeps") == {"sweep": 4, "sweeps": 1}
     assert copied_study.plan(beside) == {}  # the study has no part in it
-
-
-def test_sweeps_of_no_coating_are_refused_when_asked_for(workspace, beside):
-    beside["sweeps"]["coatings"] = ["2nd_E7_K0.5_theta0"]
-    done = workspace.snakemake("sweeps", "-n", config=beside)
-    assert done.returncode != 0
-    assert "sweeps.coatings: the study has none of them; must name some of its coatings" in done.stderr
-    assert "Traceback" not in done.stderr
