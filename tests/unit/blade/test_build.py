@@ -100,9 +100,3 @@ def test_reduced_blade_is_symmetric_and_of_the_size_of_eq_4(built):
     for matrix in (blade.mass, blade.stiffness_0, blade.stiffness_1, blade.stiffness_2):
         np.testing.assert_array_equal(matrix, matrix.T)
     assert np.linalg.eigvalsh(blade.mass).min() > 0
-
-
-def test_a_blade_inside_out_is_refused_before_anything_is_computed(twisted_config):
-    twisted_config["sections"][1]["thickness"] = -0.05
-    with pytest.raises(ValueError, match="inside out"):
-        build({"blade": twisted_config, "reduction": CONFIG})

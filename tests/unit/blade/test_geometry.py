@@ -47,16 +47,13 @@ def test_sections_are_stacked_by_the_centroid_of_the_camber_line(twisted_config)
     assert np.arctan2(y, z).mean() == pytest.approx(0.0, abs=1e-8)
 
 
-@pytest.mark.parametrize("fault", [{"thickness": -0.05}, {"chord": -0.08}])
-def test_check_finds_a_mesh_turned_inside_out(blade_config, fault):
-    blade_config["sections"][1].update(fault)
+def test_check_finds_a_mesh_turned_inside_out(blade_config):
+    blade_config["sections"][1].update(thickness=-0.05)
     with pytest.raises(ValueError, match=r"^blade\.sections: mesh turned inside out at span"):
         check(blade_config)
 
 
-@pytest.mark.parametrize(
-    ("chordwise", "thickness", "n_nodes"), [(6, 1, 7), (6, 3, 7), (3, 2, 7), (3, 4, 7), (1, 1, 2)]
-)
+@pytest.mark.parametrize(("chordwise", "thickness", "n_nodes"), [(6, 1, 7), (3, 4, 7)])
 def test_check_counts_the_nodes_of_the_interface(blade_config, chordwise, thickness, n_nodes):
     blade_config["mesh"].update(chordwise=chordwise, thickness=thickness)
     with pytest.raises(ValueError, match=rf"^blade\.mesh\.chordwise = {chordwise}: gives {n_nodes} nodes"):

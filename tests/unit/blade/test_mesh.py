@@ -13,11 +13,6 @@ def twisted(twisted_config):
     return shape, BladeMesh.from_shape(shape, twisted_config["mesh"])
 
 
-def brick():
-    corners = (np.array([0.0, 0.5, 1.0]), np.array([0.0, 1.0]), np.array([0.0, 1.0]))
-    return hexahedral_mesh(*corners, lambda *cube: np.stack(cube))
-
-
 def test_every_node_lies_on_the_blade(twisted_config):
     shape = BladeShape.from_config(twisted_config)
     lattice = (np.linspace(0, 1, 8), np.linspace(0, 1, 2), np.linspace(0, 1, 4))
@@ -29,7 +24,8 @@ def test_every_node_lies_on_the_blade(twisted_config):
 
 
 def test_hexahedra_are_numbered_as_c3d20():
-    mesh, _ = brick()
+    corners = (np.array([0.0, 0.5, 1.0]), np.array([0.0, 1.0]), np.array([0.0, 1.0]))
+    mesh, _ = hexahedral_mesh(*corners, lambda *cube: np.stack(cube))
     for element in mesh.points[mesh.cells]:
         bottom, top = element[:4], element[4:8]
         np.testing.assert_allclose(top - bottom, [[0, 0, 1]] * 4)
@@ -59,26 +55,6 @@ def test_elements_survive_a_new_numbering(make_mesh):
     again, origin = solid_mesh(points, shuffled[mesh.cells])
     np.testing.assert_array_equal(again.points, points[origin])
     np.testing.assert_array_equal(again.points[again.cells], mesh.points[mesh.cells])
-
-
-def test_elements_that_do_not_share_their_mid_side_nodes_are_refused():
-    mesh, _ = brick()
-    cells = mesh.cells.copy()
-    shared = np.intersect1d(cells[0, 8:], cells[1, 8:])[0]
-    cells[1, cells[1] == shared] = len(mesh.points)
-    points = np.vstack([mesh.points, mesh.points[shared]])
-    with pytest.raises(ValueError, match=r"element \d: must share the mid-side nodes of its neighbours"):
-        solid_mesh(points, cells)
-
-
-def test_a_mid_side_node_of_two_edges_is_refused():
-    mesh, _ = brick()
-    cells = mesh.cells.copy()
-    (own,) = np.setdiff1d(cells[0, 8:12], cells[1])[:1]
-    other = np.setdiff1d(cells[1, 12:16], cells[0])[0]
-    cells[1, cells[1] == other] = own
-    with pytest.raises(ValueError, match=f"node {own + 1}: is in the middle of more than one edge"):
-        solid_mesh(mesh.points, cells)
 
 
 def test_interface_runs_along_the_tip_from_leading_to_trailing_edge(twisted):

@@ -4,14 +4,11 @@ from scipy import sparse
 from scipy.linalg import eigh
 
 from bladerub.blade.linear import factorise, lowest_modes
-from bladerub.blade.model import stiffness_at
 from bladerub.blade.reduction import (
     Partition,
-    fit_speeds,
     internal_solve,
     mass_orthonormal,
     project,
-    speed_law,
     transformation,
 )
 from bladerub.blade.rotation import equilibrium
@@ -99,13 +96,3 @@ def test_factors_of_the_whole_solve_for_the_internal_coordinates(blocks):
     for columns in (slice(None), 0):
         wanted = exact(rhs[:, columns])
         np.testing.assert_allclose(solve(rhs[:, columns]), wanted, atol=1e-9 * np.abs(wanted).max())
-
-
-def test_the_speed_law_returns_what_it_was_fitted_to():
-    rng = np.random.default_rng(3)
-    assert fit_speeds(0.4, 5) == pytest.approx([0, 0.1, 0.2, 0.3, 0.4])
-    for count in (3, 5):
-        fits = [rng.standard_normal((2, 2)) for _ in range(count)]
-        law = speed_law(fits, 0.4)
-        for f_omega, fit in zip(fit_speeds(0.4, count), fits, strict=True):
-            np.testing.assert_allclose(stiffness_at(law, f_omega), fit, atol=1e-12)

@@ -5,8 +5,6 @@ import pytest
 
 from bladerub.study import ensemble
 from bladerub.study.grid import CoatingCase, run_spec, speeds
-from bladerub.study.plan import coating_plan
-from bladerub.study.store import read_run
 
 CASE = CoatingCase("2nd", 1.1, 0.5, 0.0)
 SETTINGS = {"members": 8, "displacement": 1e-7, "seed": 1}
@@ -101,14 +99,6 @@ class TestMake:
         heights = ensemble.read(made.path).refined.spectrum_amplitude[:, 60]
         np.testing.assert_allclose(heights, 1e-3, rtol=1e-3)
 
-    def test_files_are_next_to_the_runs_with_their_keys(self, made, study):
-        rows = made()
-        assert [row.file for row in rows[:2]] == ["0.1500_1.h5", "0.2000_1.h5"]
-        keys = {read_run(made.runs / row.file).attributes["run_key"] for row in rows}
-        assert keys == {row.run_key for row in rows}
-        own = {run.key("blade") for run in coating_plan(study, CASE).runs}
-        assert not keys & own
-
     def test_nothing_is_computed_twice_and_more_members_are_added(self, made, study):
         made()
         before = len(made.specs)
@@ -121,12 +111,6 @@ class TestMake:
             *[0.25],
             *[0.15, 0.2, 0.25, 0.3, 0.35],
         ]
-
-    def test_a_member_that_grows_is_followed_further(self, made):
-        made()
-        longer = [spec.f_omega for spec in made.specs if spec.revolutions == 60]
-        growing = [s for s in made.specs if s.f_omega == 0.2 and s.initial_displacement > 0]
-        assert longer == [0.2] * (len(growing) // 2)
 
     def test_what_is_written_is_read_again(self, made, study):
         made()

@@ -1,6 +1,7 @@
 """What each claim measures, and the verdict on it; `test_claims.py` has the borders of verdicts."""
 
 import itertools
+import logging
 
 import numpy as np
 import pandas as pd
@@ -361,6 +362,16 @@ def test_share_of_divergent_runs_on_soft_coatings(evidence, n_divergent, holds):
     )
     table = pd.concat([soft, others], ignore_index=True)
     check("C12b", evidence(divergence=table), n_divergent / 10, holds)
+
+
+def test_a_small_study_leaves_out_what_it_cannot_tell_and_logs_it(evidence, caplog):
+    accuracy = pd.DataFrame({"mode": range(1, 7), "relative_error": 1e-4})
+    with caplog.at_level(logging.WARNING):
+        judged = findings.judge(evidence(rom_accuracy=accuracy))
+    assert list(judged["id"]) == ["C1a"]
+    assert list(judged.holds) == ["yes"]
+    assert len(caplog.records) == len(CLAIMS) - 1
+    assert "left out: C1b: " in caplog.text
 
 
 def test_moduli_are_compared_along_rows_and_columns_with_two_of_them(evidence):

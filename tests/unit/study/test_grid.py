@@ -52,12 +52,6 @@ def test_speeds_are_sorted_unique_and_include_both_ends_and_the_extra_ones(confi
     assert 0.197 in speeds
 
 
-def test_speeds_that_would_share_a_file_are_an_error(config):
-    config["speeds"]["extra"] = [0.19002]
-    with pytest.raises(ValueError, match=r"0\.19 and 0\.19002 are closer"):
-        grid.speeds(config)
-
-
 def test_rounding_loses_no_speed_at_the_stop(config):
     config["speeds"] = {"start": 0.02, "stop": 0.32, "step": 0.1, "extra": []}
     assert (0.32 - 0.02) / 0.1 < 3
@@ -90,13 +84,6 @@ def test_the_scale_of_another_blade_multiplies_lengths_moduli_and_times(config, 
     }
     for name, value in before.items():
         assert after[name] == (factors[name] * value if name in factors else value), name
-
-
-def test_histories_are_kept_for_the_listed_runs_only(config, case):
-    assert grid.keeps_history(config, case, 0.19)
-    assert grid.keeps_history(config, CoatingCase("2nd", 2.0, 0.5, 0.0), 0.197)
-    assert not grid.keeps_history(config, case, 0.2)
-    assert not grid.keeps_history(config, CoatingCase("2nd", 5.0, 0.5, 0.15), 0.19)
 
 
 def test_friction_instead_of_theta_is_coulombs_law_at_its_angle(config):

@@ -74,15 +74,6 @@ def test_a_changed_setting_makes_every_run_stale_and_a_speed_only_itself(done, i
     assert counts(inventory()) == {**NONE, "stale": 4, "missing": 1}
 
 
-def test_truncated_and_foreign_files_are_corrupt(done, inventory, tmp_path):
-    os.truncate(tmp_path / "0.1000.h5", 2000)
-    (tmp_path / "0.2000.h5").write_text("no HDF5")
-    (tmp_path / "0.1900.h5").unlink()
-    for thorough in (False, True):
-        found = counts(inventory(thorough=thorough))
-        assert found == {**NONE, "done": 1, "missing": 1, "corrupt": 2, "unbounded": 1}
-
-
 @pytest.mark.parametrize("listed", [True, False])
 def test_damage_anywhere_in_a_file_ends_no_inventory_and_is_found(done, inventory, tmp_path, listed):
     if not listed:  # before the end of the job

@@ -60,9 +60,3 @@ def test_a_short_run_keeps_bins_and_amplitude_at_less_resolution():
     assert order.size == 241
     assert amplitude[60] == pytest.approx(1.0, rel=1e-2)
     assert amplitude[50] < 1e-9  # two bins of three revolutions away
-
-
-def test_a_run_without_one_complete_revolution_has_no_spectrum():
-    u = sine(6)
-    u[SAMPLES - 1 :] = np.nan
-    assert np.isnan(spectrum(u)[1]).all()

@@ -121,15 +121,6 @@ def test_another_length_of_confirmation_repeats_only_what_grows(compute, study, 
     assert (len(simulated), len(repeated)) == (4, 2)
 
 
-def test_another_threshold_repeats_other_runs(compute, study, simulated, growing, repeated):
-    growing.update({0.1: 0.02, 0.2: 0.03})
-    study["analysis"]["divergence"]["growth"] = 0.025
-    assert [bool(row.confirmation_key) for row in compute()] == [False, False, True, False]
-    study["analysis"]["divergence"]["growth"] = 0.01
-    assert [bool(row.confirmation_key) for row in compute()] == [True, False, True, False]
-    assert (len(simulated), repeated) == (4, [0.2, 0.1])
-
-
 def test_runs_computed_at_once_are_the_same_to_the_byte(study, case, blade, tmp_path):
     study["speeds"] = {"start": 0.1, "stop": 0.3, "step": 0.05, "extra": []}
     study["contact"]["elements"] = 200

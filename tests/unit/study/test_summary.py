@@ -51,16 +51,3 @@ def test_slow_drift_is_no_vibration(order, found):
     orders = np.arange(100) / 10
     amplitude = np.where(orders == order, 2.0, np.where(orders == 6.0, 1.0, 0.0))
     assert spectral_peak(orders, amplitude) == (found, 1.0 if order < 0.5 else 2.0)
-
-
-def test_the_peak_is_of_the_last_revolutions(summed_up, make_result):
-    decaying = make_result(growth=-0.2)
-    summary = summed_up(decaying)
-    assert summary["peak_amplitude"] == pytest.approx(1e-3 * 0.8**10, rel=1e-4)
-    assert not summary["divergent"]
-
-
-def test_an_unbounded_run_is_summed_up_over_what_was_run(summed_up, make_result):
-    summary = summed_up(make_result(complete=3.5))
-    assert (summary["divergent"], summary["status"], summary["engine_order"]) == (True, "unbounded", 6.0)
-    assert summary["peak_amplitude"] == pytest.approx(1e-3, rel=1e-4)
