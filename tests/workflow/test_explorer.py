@@ -66,7 +66,6 @@ class Explorer:
         Select(self.find(selector)).select_by_value(value)
         return self.wait()
 
-
     def click_map(self, name: str, x: float, y: float) -> "Explorer":
         """Click a picture at the values `x`, `y` of its axes."""
         from selenium.webdriver import ActionChains
