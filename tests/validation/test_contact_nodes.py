@@ -52,7 +52,7 @@ def test_the_blade_has_as_many_nodes_as_it_is_asked_for(wide):
     assert wide.tip_slope.shape == (wide.n_interface, len(wide.mass))
 
 
-@pytest.mark.parametrize("turns", [False, True])
+@pytest.mark.parametrize("turns", [pytest.param(False, marks=pytest.mark.nightly), True])
 def test_the_loop_agrees_with_the_reference_model(wide, spec, turns):
     spec = dataclasses.replace(spec, tip=dataclasses.replace(spec.tip, turns=turns))
     rule, simulation = set_up(wide, spec)

@@ -16,6 +16,7 @@ from bladerub.extras.gpu.many import simulate_many
 from bladerub.study.grid import coating_cases, run_spec, speeds
 
 pytestmark = [
+    pytest.mark.nightly,  # long doubles are emulated
     pytest.mark.skipif(
         not emulation.is_possible(), reason=f"no {emulation.COMPILER}, which compiles the emulation"
     ),

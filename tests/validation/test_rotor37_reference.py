@@ -37,6 +37,7 @@ def test_a_fresh_calculation_on_a_coarser_mesh_agrees(coarse, tmp_path):
     assert table[~table.agrees].empty
 
 
+@pytest.mark.nightly
 def test_five_per_cent_of_stiffness_are_noticed(coarse, tmp_path):
     stiffer = copy.deepcopy(coarse)
     stiffer["blade"]["material"]["young_modulus"] *= 1.05

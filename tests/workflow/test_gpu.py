@@ -41,6 +41,7 @@ def gpu(tmp_path, monkeypatch):
     assert not folder.exists()
 
 
+@pytest.mark.nightly
 @pytest.mark.skipif(not emulation.is_possible(), reason="no C++ compiler")
 def test_the_runs_are_those_of_the_processor(copied_study, few, gpu):
     def runs():

@@ -15,6 +15,8 @@ from pathlib import Path
 import pytest
 import yaml
 
+pytestmark = pytest.mark.nightly
+
 WAYS = ("kill all", "terminate", "kill one job", "Ctrl-C", "Ctrl-C twice")
 UNEQUAL = re.compile(r"logs/|benchmarks/|.*\.lock")
 """Files that tell of the machine, not of the study."""
@@ -130,15 +132,13 @@ def torment(workspace, target, ways, seconds, seed):
     assert {name: now[name] for name in known} == known
 
 
-@pytest.mark.parametrize("ways", [WAYS[:1], pytest.param(WAYS[1:], marks=pytest.mark.nightly)])
-def test_kills_cost_nothing_but_what_they_interrupt(study, tiny, tmp_path, ways):
+def test_kills_cost_nothing_but_what_they_interrupt(study, tiny, tmp_path):
     killed = study.copy(tmp_path / "killed", "results", ".snakemake")
     (killed.folder / "overlay.yaml").write_text(yaml.safe_dump(tiny))
-    torment(killed, "results/tables/peaks.csv", ways, seconds=15.0, seed=3)
+    torment(killed, "results/tables/peaks.csv", WAYS, seconds=15.0, seed=3)
     assert unlike(killed, study) == []
 
 
-@pytest.mark.nightly
 def test_kills_of_jobs_with_rows_of_blades_cost_nothing_but_what_they_interrupt(study, tiny, tmp_path):
     pair = []
     for name in ("undisturbed", "killed"):

@@ -34,6 +34,7 @@ def benchmark(folder, monkeypatch):
     return lambda *arguments: main(["benchmark", "--config", str(config), *arguments])
 
 
+@pytest.mark.nightly
 def test_json_holds_every_figure(benchmark, capsys):
     assert benchmark("--json", "--rounds", "1", "--cores", "2") == 0
     told = json.loads(capsys.readouterr().out)

@@ -56,7 +56,13 @@ def assert_equal(found, expected, tolerance=TOLERANCE):
         assert getattr(found.energy, each.name) == pytest.approx(given, abs=tolerance * scale), each.name
 
 
-@pytest.mark.parametrize("case", CASES)
+@pytest.mark.parametrize(
+    "case",
+    [
+        pytest.param(case, marks=[] if case in ("stiff", "viscoplastic") else pytest.mark.nightly)
+        for case in CASES
+    ],
+)
 def test_the_loop_of_the_gpu_makes_the_steps_of_the_processors(case, blade, spec, change):
     ((found, expected),) = pairs(blade, [change(spec, **CASES[case])])
     assert expected.n_contact_steps > 100

@@ -91,7 +91,12 @@ def test_neither_order_nor_numbering_changes_anything(blade, spec):
 
 
 @pytest.mark.parametrize(
-    ("scheme", "turns"), [("exponential", False), ("exponential", True), ("central_differences", False)]
+    ("scheme", "turns"),
+    [
+        pytest.param("exponential", False, marks=pytest.mark.nightly),
+        ("exponential", True),
+        pytest.param("central_differences", False, marks=pytest.mark.nightly),
+    ],
 )
 def test_blades_wear_one_coating_as_in_the_plain_model(blade, spec, change, scheme, turns):
     row_of = Row((RowBlade(0.0, 0.0, 0.01), RowBlade(3.3, 3e-5, (-0.02, 0.03), 2.0)))
