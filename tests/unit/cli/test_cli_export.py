@@ -1,5 +1,4 @@
 import json
-import os
 import xml.etree.ElementTree as ET
 
 import meshio
@@ -187,18 +186,6 @@ def test_a_run_of_something_else_is_refused(export, tmp_path, folder, attributes
     assert err.startswith(f"bladerub export: --run {run}: ")
     assert said in err
     assert not (tmp_path / "motion").exists()
-
-
-def test_a_place_that_cannot_be_written_is_refused(export, tmp_path, monkeypatch):
-    (tmp_path / "file").write_text("")
-    code, _, err = export(tmp_path / "file" / "motion")
-    assert (code, err.count("\n")) == (2, 1)
-    assert f"cannot be written, {tmp_path / 'file'} is no folder" in err
-    monkeypatch.setattr(os, "rename", lambda *paths: (_ for _ in ()).throw(OSError(28, "No space left")))
-    code, _, err = export(tmp_path / "motion", "--samples", "1")
-    assert (code, err.count("\n")) == (2, 1)
-    assert f"--vtu {tmp_path / 'motion'}: cannot be written" in err
-    assert [path.name for path in tmp_path.iterdir()] == ["file"]
 
 
 def test_a_blade_without_its_mesh_is_refused(export, tmp_path, folder):

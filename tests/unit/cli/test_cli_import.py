@@ -227,28 +227,3 @@ def test_a_file_in_the_layout_of_rotor_67_becomes_a_blade_as_its_page_says(look,
     )
     assert 100 < converted["f1_hz"] < 1000
     assert converted["tip_stagger_degrees"] == pytest.approx(54, abs=1)
-
-
-def test_the_material_of_a_deck_is_that_of_its_study_unless_the_config_has_another(look, folder):
-    steel, nickel = "{young_modulus: 2.1e+11, poisson_ratio: 0.3, density: 7850}", (2.03e11, 0.29, 8220.0)
-    deck = "*MATERIAL, NAME=A\n*ELASTIC\n203000, 0.29\n*DENSITY\n8.22e-9\n"
-    (folder / "nickel.inp").write_text((folder / "blade.inp").read_text() + deck)
-    (folder / "two.inp").write_text((folder / "nickel.inp").read_text() + "*ELASTIC\n180000, 0.29, 400\n")
-    (folder / "steel.yaml").write_text(f"blade: {{material: {steel}}}\n")
-    figures = {}
-    for file, *config in (
-        ("nickel.inp",),
-        ("nickel.inp", "--config", str(folder / "steel.yaml")),
-        ("two.inp",),
-    ):
-        code, out, err = look("--unit", "mm", "--json", *config, file=file)
-        assert code == 0, err
-        figures[file, len(config)] = json.loads(out)
-    taken, steels, table = figures.values()
-    assert tuple(taken["config"]["blade"]["material"].values()) == pytest.approx(nickel)
-    assert taken["mass"] == pytest.approx(8220 * taken["volume"])
-    assert not any("material" in line for line in taken["warnings"])
-    assert steels["config"]["blade"]["material"]["density"] == 7850
-    assert "the file has another, 2.03e+11 Pa, 0.29, 8220 kg/m³" in steels["warnings"][0]
-    assert table["config"]["blade"]["material"]["density"] == 4430
-    assert "not that of the file: *ELASTIC of A is a table of 2 lines" in table["warnings"][0]

@@ -4,8 +4,6 @@ import re
 import shlex
 from pathlib import Path
 
-import pytest
-
 from bladerub.cli import parser
 
 ROOT = Path(__file__).parents[3]
@@ -40,18 +38,6 @@ def parses(command):
     return True
 
 
-@pytest.mark.parametrize(("page", "command"), sorted(set(commands())))
-def test_a_command_of_a_page_is_accepted(page, command):
-    assert parses(command)
-
-
-@pytest.mark.parametrize(
-    "command",
-    [
-        "bladerub run --casing 2nd --E 2",
-        "bladerub status --deep",
-        "bladerub export --mesh a.inp --sections b.csv",
-    ],
-)
-def test_a_wrong_command_is_refused(command):
-    assert not parses(command)
+def test_the_commands_of_pages_are_accepted():
+    assert [command for command in sorted(set(commands())) if not parses(command[1])] == []
+    assert not parses("bladerub status --deep")

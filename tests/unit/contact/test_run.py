@@ -182,15 +182,6 @@ def test_wear_loss_is_that_of_the_worn_profile(blade, spec, change):
     assert result.energy.wear == pytest.approx(expected.sum(), rel=1e-6)  # but for half of the last step
 
 
-def test_common_turn_of_casing_and_start_changes_nothing_but_the_angle(blade, spec, change):
-    """A 2-diameter casing is the same after half a turn."""
-    spec = change(spec, nodal_diameters=(2,), weights=(1.0,), start_angle=np.pi / 2)
-    here, there = simulate(blade, spec), simulate(blade, change(spec, start_angle=3 * np.pi / 2))
-    scale = np.abs(here.radial_displacement).max()
-    np.testing.assert_allclose(here.radial_displacement, there.radial_displacement, atol=1e-8 * scale)
-    np.testing.assert_allclose(np.roll(here.wear, 100, axis=1), there.wear, atol=1e-8 * here.wear.max())
-
-
 def test_unbounded_run_stops_and_keeps_its_data(blade, spec, change):
     whole = simulate(blade, spec)
     limit = 0.5 * np.abs(whole.revolution_peak).max()

@@ -28,30 +28,6 @@ def test_runs_that_grow_to_the_end_and_peaks_are_chosen(study, coating):
     assert long_runs.chosen(study, coating) == {0.05: "grows", 0.2: "f6", 0.3: "f4"}
 
 
-def test_long_runs_are_the_study_s_runs_made_longer(
-    study, coating, blade, make_result, monkeypatch, tmp_path
-):
-    specs, lines = [], []
-
-    def simulate(_, spec, progress):
-        specs.append(spec)
-        for revolution in range(1, spec.revolutions + 1):
-            progress(revolution)
-        return make_result(revolutions=spec.revolutions, growth=0.001)
-
-    monkeypatch.setattr(long_runs, "simulate", simulate)
-    monkeypatch.setattr(long_runs, "compile_kernel", lambda n_nodes, law: None)
-    long_runs.make(study, coating, blade, tmp_path / "long.h5", lines.append)
-    assert [(spec.f_omega, spec.revolutions) for spec in specs] == [(0.05, 200), (0.2, 200), (0.3, 200)]
-    assert len(lines) == 3
-    long = long_runs.read(tmp_path / "long.h5")
-    assert long.case == CASE
-    assert long.why.tolist() == ["grows", "f6", "f4"]
-    assert long.revolution_amplitude.shape == long.seconds.shape == (3, 200)
-    assert (np.diff(long.seconds, axis=1) >= 0).all()
-    assert long.status.tolist() == ["completed"] * 3
-
-
 def amplitudes():
     number = np.arange(200.0)
     ended, free = 1e-4 * 1.05**number, 1e-4 * 1.05**number

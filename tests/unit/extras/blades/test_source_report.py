@@ -13,7 +13,6 @@ from bladerub.extras.blades.importing import import_blade
 from bladerub.extras.blades.origin import Source
 from bladerub.extras.blades.report import mesh_report
 from bladerub.extras.export.mesh_file import write_mesh_file
-from bladerub.io.errors import BadInput
 
 REDUCTION = {
     "f_omega_max": 0.4,
@@ -59,11 +58,6 @@ def test_figures_are_those_of_the_blade(reported):
     assert figures["elements_root_to_tip"] == 3
     (coarse,) = figures["warnings"]
     assert re.match("its mesh is coarse, with 3 elements", coarse)
-
-
-def test_a_wrong_unit_is_refused(reported):
-    with pytest.raises(BadInput, match=r"with the unit mm the blade is 0.0002 m long; must be"):
-        reported(Frame("mm"))
 
 
 def test_what_is_odd_about_a_mesh_gets_a_warning(reported):

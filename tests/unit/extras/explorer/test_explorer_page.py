@@ -4,9 +4,6 @@ import gzip
 import hashlib
 import json
 import re
-import shutil
-import subprocess
-from importlib.resources import files
 
 import numpy as np
 import pandas as pd
@@ -87,39 +84,6 @@ def test_the_page_holds_every_coating_and_needs_nothing_else(page, coating):
     assert len(scripts(text, "application/gzip")) == 8
     assert re.findall(r"<(?:script|link|img|iframe)[^>]*\b(?:src|href)=", text) == []
     assert text == page(coating, other)
-
-
-UNPACK = """
-const { page, program } = JSON.parse(require("fs").readFileSync(0));
-globalThis.document = { getElementById: (id) => ({ textContent: page[id] }) };
-globalThis.show = ({ wear, spectrum, growth, deepest, highest, revolutions }) => console.log(JSON.stringify({
-  wear: wear.map((row) => [...row]),
-  spectrum: spectrum.map((row) => [...row]),
-  growth: growth.map(({ own, longer }) => [...own, ...longer]),
-  deepest, highest, revolutions,
-}));
-new Function(`${program}; open(0).then(show)`)();
-"""
-
-
-@pytest.mark.browser
-@pytest.mark.skipif(shutil.which("node") is None, reason="no node; apt-get install nodejs")
-def test_the_program_of_the_page_unpacks_the_study(page, coating):
-    texts = re.findall(r'<script type="[^"]*" id="([^"]*)">(.*?)</script>', page(coating), re.DOTALL)
-    program = files("bladerub.extras.explorer").joinpath("page", "data.js").read_text(encoding="utf-8")
-    given = json.dumps({"page": dict(texts), "program": program})
-    done = subprocess.run(["node", "-e", UNPACK], input=given, capture_output=True, text=True, check=True)
-    shown = json.loads(done.stdout)
-    np.testing.assert_allclose(shown["wear"], 1e3 * coating.wear, atol=1.0 / 509)
-    for speed, n in enumerate((252, 132)):
-        amplitude = 1e3 * np.maximum(coating.spectrum_amplitude[speed, :n], AMPLITUDE_FLOOR)
-        np.testing.assert_allclose(shown["spectrum"][speed], amplitude, rtol=0.03)
-    assert shown["spectrum"][2] == [None] * 132
-    amplitude = 1e3 * np.hstack([coating.revolution_amplitude, coating.confirmation_amplitude])
-    np.testing.assert_allclose(np.array(shown["growth"], dtype=float), amplitude, rtol=1e-3)
-    assert shown["deepest"] == pytest.approx(1e3 * coating.wear.max())
-    assert shown["highest"] == pytest.approx(1e3 * np.nanmax(coating.spectrum_amplitude[:, :252]), rel=0.05)
-    assert shown["revolutions"] == 20
 
 
 def test_the_policy_lets_only_its_own_scripts_run(page, coating):

@@ -26,11 +26,6 @@ def test_a_curve_for_each_rate_in_si(table):
     np.testing.assert_allclose(fast.stress, [6e6, 11e6, 12e6])
 
 
-def test_tests_of_one_rate_are_curves_of_their_own(table):
-    rows = [f"{row.rsplit(',', 1)[0]},{name}" for row, name in zip(ROWS, "aaabbb", strict=True)]
-    assert [curve.strain.size for curve in read(table("strain,stress (Pa),test", rows))] == [3, 3]
-
-
 def test_units_of_the_header_come_before_those_given(table):
     path = table("strain,stress (MPa),rate")
     assert read(path, {"stress": "Pa"})[0].stress[0] == 5e6

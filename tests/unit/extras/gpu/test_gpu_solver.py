@@ -29,12 +29,6 @@ def blade(small):
 
 
 @pytest.fixture
-def run(small, blade):
-    study = br.load_study(small / "small.yaml")
-    return br.simulate(blade, study.run("2nd", E=2, K=0.5, f_omega=0.19, revolutions=3), follow=False)
-
-
-@pytest.fixture
 def gpu(monkeypatch):
     """Stand in for the GPU; lists how many runs it was given at once."""
     given = []
@@ -53,14 +47,6 @@ def on_gpu(small):
     path = small / "gpu.yaml"
     path.write_text((small / "small.yaml").read_text() + "solver: {device: gpu}\n")
     return br.load_study(path)
-
-
-def test_one_run(gpu, on_gpu, blade, run):
-    found = br.simulate(blade, on_gpu.run("2nd", E=2, K=0.5, f_omega=0.19, revolutions=3), follow=False)
-    assert gpu == [1]
-    assert found.status == run.status
-    np.testing.assert_allclose(found.wear, run.wear, rtol=0, atol=1e-9)
-    assert found.attributes["run_key"] != run.attributes["run_key"]
 
 
 def test_its_sources_are_part_of_the_key_of_a_run(on_gpu, monkeypatch):
