@@ -53,9 +53,6 @@ class Explorer:
     def find(self, selector: str) -> Any:
         return self.driver.find_element("css selector", selector)
 
-    def all(self, selector: str) -> list[Any]:
-        return self.driver.find_elements("css selector", selector)
-
     def click(self, selector: str) -> "Explorer":
         self.find(selector).click()
         return self.wait()

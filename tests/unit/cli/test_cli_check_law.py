@@ -30,31 +30,12 @@ def test_a_right_law_is_said_to_be_right(written, monkeypatch, capsys):
     assert capsys.readouterr().out == "mine: 360 histories, no problem; it compiles with the time loop\n"
 
 
-@pytest.mark.parametrize(
-    ("force", "words"),
-    [
-        (
-            "force = maximum(trial - element.elastic * increment, 0.0)\n"
-            "    return where(increment > 0.0, force, 1.5 * force), increment",
-            "- energy is created: more is stored and dissipated than the work (work ",
-        ),
-    ],
-    ids=["energy from nothing"],
-)
-def test_a_wrong_law_is_told_what_is_wrong(written, capsys, force, words):
-    assert main(["check-law", written(force)]) == 1
-    assert words in capsys.readouterr().out
+def test_a_wrong_law_is_told_what_is_wrong(written, capsys):
+    path = written(FORCE.replace(", increment", ", -increment"))
+    assert main(["check-law", path]) == 1
+    assert "- wear is negative (depth " in capsys.readouterr().out
 
 
-@pytest.mark.parametrize(
-    ("arguments", "words"),
-    [
-        (["none.py"], "file = none.py: there is no such file"),
-        (["viscoplastic", "--parameter", "viscosity"], "--parameter = viscosity: must be NAME=VALUE"),
-    ],
-)
-def test_bad_input_is_answered_in_one_line(arguments, words, capsys):
-    assert main(["check-law", *arguments]) == 2
-    line = capsys.readouterr().err
-    assert words in line
-    assert line.count("\n") == 1
+def test_bad_input_is_answered_in_one_line(capsys):
+    assert main(["check-law", "none.py"]) == 2
+    assert capsys.readouterr().err == "bladerub check-law: file = none.py: there is no such file\n"
