@@ -18,7 +18,7 @@ def guarded_runs(*arguments):
 @pytest.mark.parametrize(
     "arguments",
     [
-        pytest.param((6, 1, 8, "plastic"), marks=pytest.mark.slow),
+        pytest.param((12, 1, 8, "plastic"), marks=pytest.mark.slow),
         pytest.param((500, 7, 32, *ALL), marks=[pytest.mark.slow, pytest.mark.nightly], id="nightly"),
     ],
 )
