@@ -91,12 +91,3 @@ def test_a_longer_run_that_is_missing_or_stale_is_named(build, folder, tmp_path)
     longer.unlink()
     with pytest.raises(OSError, match=r"No such file .*confirmation/0\.1900\.h5"):
         build(tmp_path / "map.h5")
-
-
-def test_no_manifest_or_an_empty_one_is_an_error(build, folder, tmp_path):
-    write_manifest(folder / "manifest.tsv", [])
-    with pytest.raises(DamagedFile, match=r"manifest\.tsv: lists 0 speeds, not the 3 planned"):
-        build(tmp_path / "map.h5")
-    (folder / "manifest.tsv").unlink()
-    with pytest.raises(OSError, match=r"manifest\.tsv"):
-        build(tmp_path / "map.h5")
