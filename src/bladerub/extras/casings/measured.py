@@ -75,16 +75,21 @@ def _measured(path: Path, _version: int, unit: float, angle_unit: float) -> tupl
     if (back := np.diff(angle) <= 0).any():
         raise ValueError(f"line {lines[back.argmax() + 1]}: angle must be above that of the row before")
     if angle[-1] - angle[0] >= turn:
-        raise ValueError(f"goes over {np.rad2deg(angle[-1] - angle[0]):g} degrees; must stay within a turn")
+        raise ValueError(
+            f"goes over {np.rad2deg(angle[-1] - angle[0]):g} degrees; must stay within a turn, without "
+            "a row that repeats the first angle"
+        )
     if np.ptp(gap) == 0:
         raise ValueError(f"has the same gap everywhere, {gap[0]:g} m; must vary")
     steps = np.diff(angle, append=angle[0] + 2 * np.pi)
     widest = np.argmax(steps)
     if steps[widest] >= _WIDEST_STEP or steps[widest] > _UNEVEN * np.partition(steps, -2)[-2]:
         step, start = np.rad2deg(steps[widest]), np.rad2deg(angle[widest])
+        is_rad = np.rad2deg(angle[-1] - angle[0]) <= 2 * np.pi
         raise ValueError(
             f"line {lines[widest]}: no angle for {step:g} degrees after {start:g}; must go around the casing "
             f"in steps below {np.rad2deg(_WIDEST_STEP):g} degrees, none {_UNEVEN:g} times as wide as the next"
+            f"{'; are the angles in rad (angle_unit)?' if is_rad else ''}"
         )
     order = np.argsort(angle % (2 * np.pi))
     return (angle % (2 * np.pi))[order], gap[order]
