@@ -15,7 +15,6 @@ from bladerub.study.summary import LARGE_DISPLACEMENT
 QUIET = 0.1  # of the highest peak of a coating, below which a speed counts as free of interaction
 WIDE_BAND = 0.1  # of the amplitude of a peak, from which on it counts as chaotic
 _ELSEWHERE = 1.05  # times the highest peak, from which on vibration beside the peaks is worth a warning
-_ORDERS = range(1, 13)
 
 
 def shown(results: Results, most: int) -> list[str]:
@@ -45,8 +44,8 @@ def changes(results: Results, names: Sequence[str]) -> Iterator[tuple[str, str, 
 def quiet(results: Results, name: str) -> str:
     """Say at which speeds (rpm) no run of a coating grows or vibrates beyond `QUIET`."""
     runs = results.runs[results.runs.name == name]
-    grows = runs.divergent | runs.saturating | runs.unbounded
-    calm = ~grows & (runs.response < QUIET * results.coatings.amplitude[name])
+    calm = runs.response < QUIET * results.coatings.amplitude[name]
+    calm &= ~(runs.divergent | runs.saturating | runs.unbounded)
     return ranges(calm.to_numpy(), runs.rpm.to_numpy(), 5)
 
 
@@ -60,9 +59,10 @@ def lowest(results: Results) -> Iterator[tuple[str, pd.Series]]:
         table = results.coatings[[case.casing == casing and not case.is_rigid for case in cases]]
         table = table.dropna(subset=["amplitude"])
         calm = table[table.divergent_share == 0]
-        for what, part in (("", table), (" of those that diverge at no speed", calm)):
-            if len(table) > 1 and len(part):
-                yield what, part.iloc[-1]
+        if len(table) > 1:
+            yield "", table.iloc[-1]
+            if len(calm) and table.divergent_share.iloc[-1]:
+                yield " of those that diverge at no speed", calm.iloc[-1]
 
 
 def doubtful(results: Results) -> pd.DataFrame:
@@ -88,13 +88,10 @@ def elsewhere(results: Results) -> pd.DataFrame:
 
 
 def unsought(results: Results) -> Iterator[tuple[str, dict[int, float]]]:
-    """Find the orders that a casing excites and the study seeks no peak on, and where they cross mode 1.
-
-    Yields the casing, and rpm by order, NaN outside of the speeds of the study.
-    """
+    """Find casings, and rpm (NaN: outside) where orders on which the study seeks no peak cross mode 1."""
     for casing in used_casings(results.config):
         coating = results.map(next(name for name, case in results.cases.items() if case.casing == casing))
         sought, entry = peak_orders(results.config, casing), results.config["casings"][casing]
-        orders = [order for order in _ORDERS if order not in sought and excites(entry, order)]
+        orders = [order for order in range(1, 13) if order not in sought and excites(entry, order)]
         if orders:
             yield casing, {order: 60 * results.f1_hz * crossing_speed(coating, order) for order in orders}

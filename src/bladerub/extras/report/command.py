@@ -22,9 +22,8 @@ def add_to(commands: Any) -> None:
         report,
         blade=False,
         help="write a page that says at which rpm the blade is in trouble, and with which coating",
-        description="Read tables, maps and blade of a finished study and write one HTML file: the worst "
-        "speeds of each coating, Campbell diagram, divergence, how sure that is, and what other coatings of "
-        "the study change. Nothing is simulated.",
+        description="Read a finished study and write one HTML file: the worst speeds of each coating, how "
+        "sure that is, and what other coatings of the study change. Nothing is simulated.",
     )
     text = "the page (default: report.html in the results folder)"
     parser.add_argument("-o", "--output", type=Path, help=text, metavar="FILE")

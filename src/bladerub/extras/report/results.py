@@ -21,8 +21,6 @@ STRESS = "last_von_mises"
 """Column of ``stress.csv`` that the page shows, Pa; not every study has the table."""
 
 BLADE = "blade/reduced_model.h5"
-_RUN_COLUMNS = ["f_omega", "divergent", "saturating", "divergent_draws"]
-_PEAK_COLUMNS = ["order", "f_peak", "amplitude", *bands.PEAK_COLUMNS, "reason"]
 
 
 class Results(NamedTuple):
@@ -98,7 +96,7 @@ def _runs(folder: Path, case: CoatingCase, verdicts: pd.DataFrame) -> pd.DataFra
     known = [listed.get(speed) for speed in coating.f_omega.tolist()]
     strongest = [spectral_peak(coating.spectrum_order, row) for row in coating.spectrum_amplitude]
     order, response = np.transpose(strongest)
-    return runs.reindex(columns=_RUN_COLUMNS).assign(
+    return runs.reindex(columns=["f_omega", "divergent", "saturating", "divergent_draws"]).assign(
         unbounded=(runs["status"] != "completed") | (coating.status != "completed"),
         strongest_order=order,
         response=response,
@@ -112,7 +110,8 @@ def _runs(folder: Path, case: CoatingCase, verdicts: pd.DataFrame) -> pd.DataFra
 
 def _peaks(folder: Path, case: CoatingCase, peak_table: pd.DataFrame, runs: pd.DataFrame) -> pd.DataFrame:
     """Join the peaks of one coating with the runs at their speeds and, where it is known, the stress."""
-    rows = of_case(peak_table, case).reindex(columns=_PEAK_COLUMNS)
+    columns = ["order", "f_peak", "amplitude", *bands.PEAK_COLUMNS, "reason"]
+    rows = of_case(peak_table, case).reindex(columns=columns)
     if rows.empty:
         raise ValueError(f"tables/peaks.csv: has no peak of {case.name}; run snakemake again")
     run = runs.loc[runs.name == case.name, ["f_omega", "divergent", "saturating", "max_wear"]]
@@ -125,7 +124,7 @@ def _peaks(folder: Path, case: CoatingCase, peak_table: pd.DataFrame, runs: pd.D
 
 
 def _coatings(rows: pd.DataFrame, runs: pd.DataFrame) -> pd.DataFrame:
-    worst_first = rows.sort_values("amplitude", ascending=False, kind="stable", na_position="last")
+    worst_first = rows.sort_values("amplitude", ascending=False, kind="stable")
     highest = worst_first.drop_duplicates("name").set_index("name", drop=False)
     of_runs = runs.groupby("name")[["max_wear", "divergent", "unbounded"]]
     deepest, shares = of_runs.max().max_wear.rename("deepest"), of_runs.mean().add_suffix("_share")

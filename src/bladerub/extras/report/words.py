@@ -57,10 +57,7 @@ def title(config: Mapping[str, Any], case: CoatingCase) -> str:
 
 
 def ranges(mask: np.ndarray, speeds: np.ndarray, most: int = 3) -> str:
-    """Write, in rpm, the ranges of the ascending `speeds` (n,) in which `mask` (n,) is true.
-
-    Of more than `most` ranges the widest, and the ends of all.
-    """
+    """Write the ranges of ascending `speeds` (n,), rpm, with a true `mask` (n,): the widest, and the ends."""
     steps = np.diff(np.concatenate([[0], np.asarray(mask, dtype=int), [0]]))
     starts, ends = np.flatnonzero(steps == 1), np.flatnonzero(steps == -1) - 1
     parts = list(zip(speeds[starts].tolist(), speeds[ends].tolist(), strict=True))
