@@ -7,7 +7,7 @@ from pathlib import Path
 import bladerub
 
 HERE = Path(__file__).parent
-sys.path[:0] = [str(HERE), str(HERE.parent)]  # for gallery_pictures, page_numbers; docs.numbers
+sys.path[:0] = [str(HERE), str(HERE.parent)]  # for the extensions here; docs.numbers
 os.environ.setdefault("BLADERUB_CACHE", str(HERE / "_build" / "cache"))  # examples share a blade
 
 EXPLORER = HERE.parent / "results" / "explorer.html"  # of `snakemake`, if it was run before
@@ -22,6 +22,7 @@ release = bladerub.__version__
 
 extensions = [
     "myst_parser",  # pages in Markdown
+    "research_notes",  # those of studies, and links
     "page_numbers",  # what they quote by name
     "sphinx.ext.autosummary",  # API
     "numpydoc",  # its docstrings
@@ -30,6 +31,7 @@ extensions = [
 ]
 exclude_patterns = ["_build", "gallery"]
 nitpicky = True
+suppress_warnings = ["toc.empty_glob"]  # of research notes, where there are no studies
 
 myst_enable_extensions = ["colon_fence", "deflist", "substitution"]
 myst_heading_anchors = 3  # links to headings, as GitHub makes them

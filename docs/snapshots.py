@@ -87,7 +87,7 @@ def update(folder: Path, results: Path) -> None:
 
 
 def source_of(name: str, results: Path) -> Path | None:
-    """Return the table of which ``docs/data/<name>.csv`` is a snapshot, `None` if it was not made.
+    """Return the table of which ``<name>.csv`` is a snapshot, `None` if it was not made.
 
     ``peaks`` is of the study, ``longer_peaks`` of that in ``results/longer`` or ``results_longer``.
     """

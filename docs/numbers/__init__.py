@@ -1,11 +1,12 @@
 """Numbers that pages quote by name: ``{{ peak_rigid }}`` on a page is what the module of its name says here.
 
-Such a module has one function, ``numbers(tables)``, which returns the text for each name. ``tables["peaks"]``
-is ``docs/data/peaks.csv`` as pandas reads it; a name with slashes is a table elsewhere in the repository.
-A text may be a whole table (`table`), which then stands alone on its line of the page.
+The module of the page of a study, ``studies/<name>/README.md``, is ``numbers.py`` beside it. A module has one
+function, ``numbers(tables)``, which returns the text for each name. ``tables["peaks"]`` is the table of this
+name in ``docs/data``, or in the folder ``data`` of a study, as pandas reads it; a name with slashes is a table
+elsewhere in the repository. A text may be a whole table (`table`), which then stands alone on its line of the page.
 """
 
-import importlib
+import importlib.util
 from collections.abc import Callable, Mapping
 from pathlib import Path
 from types import MappingProxyType
@@ -16,6 +17,12 @@ import pandas as pd
 from bladerub.io import tables as files
 
 FOLDER = Path(__file__).parent
+ROOT = FOLDER.parents[1]
+
+
+def data_folders(root: Path = ROOT) -> list[Path]:
+    """Return the folders of tables that pages quote: that of the documents, and those of studies."""
+    return [root / "docs" / "data", *sorted(root.glob("studies/*/data"))]
 
 
 class Tables(dict[str, pd.DataFrame]):
@@ -24,13 +31,15 @@ class Tables(dict[str, pd.DataFrame]):
     ``tables["peaks"].attrs["commit"]`` is the commit of the program that computed it.
     """
 
-    def __init__(self, root: Path = FOLDER.parents[1]) -> None:
+    def __init__(self, root: Path = ROOT) -> None:
         super().__init__()
         self.root = root
 
     def path(self, name: str) -> Path:
         """Return the file of the table `name`."""
-        return self.root / ("" if "/" in name else "docs/data") / f"{name}.csv"
+        folders = [self.root] if "/" in name else data_folders(self.root)
+        paths = [folder / f"{name}.csv" for folder in folders]
+        return next((path for path in paths if path.exists()), paths[0])
 
     def __missing__(self, name: str) -> pd.DataFrame:
         table = files.read(self.path(name))
@@ -40,14 +49,18 @@ class Tables(dict[str, pd.DataFrame]):
         return table
 
 
-def has_numbers(page: str) -> bool:
-    """Return whether the page ``docs/…/<page>.md`` quotes numbers."""
-    return (FOLDER / f"{page}.py").exists()
+def module_of(page: str) -> Path:
+    """Return the file of the numbers of a page: ``docs/…/<page>.md``, or ``studies/<page>/README.md``."""
+    module = FOLDER / f"{page}.py"
+    return module if module.exists() else ROOT / "studies" / page / "numbers.py"
 
 
 def numbers_of(page: str, tables: Tables) -> dict[str, str]:
-    """Return the text for each name that the page ``docs/…/<page>.md`` may quote."""
-    return importlib.import_module(f"{__name__}.{page}").numbers(tables)
+    """Return the text for each name that a page may quote."""
+    spec = importlib.util.spec_from_file_location(f"numbers_of_{page}", module_of(page))
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module.numbers(tables)
 
 
 def rows(table: pd.DataFrame, **values: Any) -> pd.DataFrame:

@@ -1,9 +1,5 @@
 """Numbers of docs/explanation/performance.md."""
 
-import math
-
-import pandas as pd
-
 from docs.numbers import decimals, fixed, percent, rows, table
 
 
@@ -12,8 +8,6 @@ def numbers(tables):
     return (
         _loop(tables["benchmark"])
         | _study(tables["divergence"], tables["cost"], tables["schedule"])
-        | _steps(tables["steps"])
-        | _errors(tables["peaks"], tables["findings"])
         | _gpu(tables["gpu"])
     )
 
@@ -79,52 +73,6 @@ def _study(divergence, cost, schedule):
                 "efficiency": ("efficiency", decimals(2)),
             },
         ),
-    }
-
-
-def _steps(steps):
-    study = rows(steps, tolerance=0.01)
-    calm = study[~study["sensitive"]].groupby("E")
-    errors = pd.DataFrame(
-        {
-            "E": [f"{E:g}" if math.isfinite(E) else "rigid" for E in calm.groups],
-            "chaotic": study.groupby("E")["sensitive"].sum().to_numpy(),
-            "thousand": calm["steps_per_revolution"].median().to_numpy() / 1e3,
-            "median": calm["error"].median().to_numpy(),
-            "most": calm["error"].quantile(0.9).to_numpy(),
-            "worst": calm["error"].max().to_numpy(),
-        }
-    )
-
-    def share(error):
-        return percent(error, 3 if error < 1e-3 else 2)
-
-    return {
-        "errors": table(
-            errors,
-            {
-                "E": "E",
-                "thousand": ("steps in a revolution, thousand", fixed),
-                "median": ("median error, %", share),
-                "most": ("nine runs in ten, %", share),
-                "worst": ("worst, %", share),
-                "chaotic": "chaotic runs, not counted",
-            },
-        ),
-        "sample": fixed(study.groupby("E").size().max()),
-    }
-
-
-def _errors(peaks, findings):
-    error = peaks["amplitude_error"] / peaks["amplitude"]
-    moved = int((peaks["f_peak_error"] > 0).sum())
-    return {
-        "verdicts": fixed(len(findings)),
-        "verdicts_kept": fixed((findings["holds"] == findings["holds_refined"]).sum()),
-        "peaks": fixed(error.notna().sum()),
-        "peak_error_median": percent(error.median(), 3),
-        "peaks_beyond": fixed((error > 0.01).sum()),
-        "peaks_moved": fixed(moved),
     }
 
 

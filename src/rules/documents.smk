@@ -8,17 +8,6 @@ IMAGES = [
     for path in output
     if path.endswith(".png") and Path(path).parent == Path(PLOTS)
 ]
-TIP_TURNS = "results/tip_turns"  # of config/tip_turns.yaml, whose rules make it
-TIP_TURNS_FIGURES = [
-    "fig08_spectrum_soft",
-    "fig09_spectrum_critical",
-    "fig11_Y4",
-    "fig12_f4",
-    "fig13_Y6",
-    "fig14_f6",
-    "fig15_spectrum_theta0",
-    "fig16_spectrum_theta015",
-]
 
 
 rule images:
@@ -35,18 +24,6 @@ rule images:
         script_of("images")
 
 
-use rule images as tip_turns_images with:
-    input:
-        [f"{TIP_TURNS}/figures/{name}.png" for name in TIP_TURNS_FIGURES],
-    output:
-        [f"docs/images/tip_turns_{name}.png" for name in TIP_TURNS_FIGURES],
-    log:
-        f"{RESULTS}/logs/tip_turns_images.log",
-    params:
-        colours=64,
-        shrink=2,  # shown in pairs
-
-
 rule config_reference:
     input:
         schema="config/schema.yaml",
@@ -60,7 +37,7 @@ rule config_reference:
         "../scripts/config_reference.py"
 
 
-# Without an output: it takes snapshots anew whenever it is asked for, of other studies as well if they are there
+# Without an output: it takes snapshots anew whenever it is asked for, those of the pages of studies/ as well
 rule docs_data:
     input:
         expand(

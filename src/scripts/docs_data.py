@@ -9,7 +9,8 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path.cwd()))  # for docs
 from docs import snapshots
-from docs.numbers import Tables, readme
+from docs.numbers import Tables, data_folders, readme
 
-snapshots.update(Path("docs/data"), Path(snakemake.params.results))
+for folder in data_folders(Path()):
+    snapshots.update(folder, Path(snakemake.params.results))
 readme.update(Path("README.md"), Tables())

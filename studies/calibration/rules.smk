@@ -1,4 +1,4 @@
-# The choices that the paper leaves open, varied (docs/explanation/calibration.md). Not part of `all`.
+# The choices that the paper leaves open, varied (studies/calibration/README.md). Not part of `all`.
 from functools import cache
 
 

@@ -1,4 +1,4 @@
-# A dense chart of coatings at speeds that the search for its peaks chooses (docs/explanation/chart.md). Not part of `all`.
+# A dense chart of coatings at speeds that the search for its peaks chooses (studies/chart/README.md). Not part of `all`.
 from functools import cache, partial
 
 from bladerub.extras.chart.grid import chart_orders, check
@@ -329,7 +329,7 @@ use rule images as chart_images with:
     input:
         [f"{PLOTS}/chart_{name}.png" for name in CHART_FIGURES],
     output:
-        [f"docs/images/chart_{name}.png" for name in CHART_FIGURES],
+        [f"studies/chart/images/chart_{name}.png" for name in CHART_FIGURES],
     log:
         f"{RESULTS}/logs/chart_images.log",
     params:

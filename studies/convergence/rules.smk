@@ -103,7 +103,7 @@ use rule images as steps_image with:
     input:
         rules.steps.output.png,
     output:
-        "docs/images/steps.png",
+        "studies/convergence/images/steps.png",
     log:
         f"{RESULTS}/logs/steps_image.log",
     params:

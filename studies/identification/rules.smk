@@ -1,4 +1,4 @@
-# Which values of what the paper does not print agree with it (docs/explanation/identification.md). Not part of `all`.
+# Which values of what the paper does not print agree with it (studies/identification/README.md). Not part of `all`.
 from functools import cache
 
 IDENTIFICATION = "config/identification.yaml"
@@ -262,7 +262,7 @@ use rule images as identification_image with:
     input:
         f"{PLOTS}/identification.png",
     output:
-        "docs/images/identification.png",
+        "studies/identification/images/identification.png",
     log:
         f"{RESULTS}/logs/identification_image.log",
     params:

@@ -1,4 +1,4 @@
-# Speed sweeps and long runs, compared with the study (docs/explanation/sweeps.md). Not part of `all`.
+# Speed sweeps and long runs, compared with the study (studies/passages/README.md). Not part of `all`.
 from bladerub.extras.sweep_grid import DIRECTIONS, swept_cases, sweep_spec
 
 SWEPT = [case.name for case in swept_cases(config)]
@@ -118,7 +118,7 @@ use rule images as passage_images with:
     input:
         [f"{PLOTS}/{name}.png" for name in PASSAGE_FIGURES],
     output:
-        [f"docs/images/{name}.png" for name in PASSAGE_FIGURES],
+        [f"studies/passages/images/{name}.png" for name in PASSAGE_FIGURES],
     log:
         f"{RESULTS}/logs/passage_images.log",
     params:

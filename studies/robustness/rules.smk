@@ -1,4 +1,4 @@
-# How far the claims depend on what the paper leaves open (docs/explanation/robustness.md). Not part of `all`.
+# How far the claims depend on what the paper leaves open (studies/robustness/README.md). Not part of `all`.
 from functools import cache
 
 ROBUSTNESS = "config/robustness.yaml"
@@ -173,7 +173,7 @@ use rule images as robustness_image with:
     input:
         f"{PLOTS}/robustness.png",
     output:
-        "docs/images/robustness.png",
+        "studies/robustness/images/robustness.png",
     log:
         f"{RESULTS}/logs/robustness_image.log",
     params:

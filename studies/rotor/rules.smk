@@ -1,4 +1,4 @@
-# Rows of blades on one coating (docs/rotor.md). Not part of `all`.
+# Rows of blades on one coating (studies/rotor/README.md). Not part of `all`.
 from functools import cache
 
 from bladerub.extras.rotor.plan import PLAN, RUNS, read_plan
@@ -154,8 +154,8 @@ use rule images as rotor_image with:
         f"{PLOTS}/rotor.png",
         f"{PLOTS}/rotor_sweeps.png",
     output:
-        "docs/images/rotor.png",
-        "docs/images/rotor_sweeps.png",
+        "studies/rotor/images/rotor.png",
+        "studies/rotor/images/rotor_sweeps.png",
     log:
         f"{RESULTS}/logs/rotor_image.log",
     params:

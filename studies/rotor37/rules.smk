@@ -1,4 +1,4 @@
-# Reference numbers of NASA Rotor 37, beside the study at work (docs/rotor37.md). Not part of `all`.
+# Reference numbers of NASA Rotor 37, beside the study at work (studies/rotor37/README.md). Not part of `all`.
 from functools import cache
 
 from bladerub.study.grid import coating_cases
@@ -213,7 +213,7 @@ use rule images as rotor37_images with:
     input:
         [f"{ROTOR37}/figures/{name}.png" for name in ROTOR37_SHOWN],
     output:
-        [f"docs/images/rotor37_{name}.png" for name in ROTOR37_SHOWN],
+        [f"studies/rotor37/images/rotor37_{name}.png" for name in ROTOR37_SHOWN],
     log:
         f"{RESULTS}/logs/rotor37_images.log",
     params:

@@ -19,7 +19,7 @@ from bladerub.config import record
 
 INSTALL = "python3 -m venv .venv && .venv/bin/pip install -r environment.txt"
 BLOCK = re.compile(r"^```sh\n(.*?)^```$", re.M | re.S)
-GUIDES = sorted((ROOT / "docs" / "how-to").glob("*.md"))
+GUIDES = [ROOT / "docs" / "laws.md", *sorted((ROOT / "docs" / "how-to").glob("*.md"))]
 
 
 def blocks(page: str | Path) -> list[str]:

@@ -1,0 +1,201 @@
+"""Numbers of studies/chart/README.md."""
+
+import pandas as pd
+
+from docs.numbers import decimals, fixed, mm, peak, percent, row, rows, table
+
+_LIMITS = {"peak": 2e-3, "deepest_wear": 1e-3, "divergent_share": 0}
+"""Limits of the config: displacement and depth in metres, share of the speeds."""
+
+
+def numbers(tables):
+    """Return the text for each name on the page."""
+    chart, explanation = tables["chart"], tables["chart_explanation"]
+    return (
+        {
+            "commit": chart.attrs["commit"],
+            "points": fixed(len(chart)),
+            "runs": fixed(chart["runs"].sum()),
+            "runs_a_point": fixed(chart["runs"].mean()),
+            "placement": _placement(tables["chart_placement_summary"]),
+            "ridge_by_step": _ridge_by_step(tables["chart_ridge_summary"]),
+        }
+        | _amplitudes(chart, tables["peaks"])
+        | _ridge(explanation)
+        | _speeds(tables["chart_stiffening"], explanation, tables["peaks"])
+        | _agreement(tables["chart_agreement"])
+    )
+
+
+def _amplitudes(chart, peaks):
+    straight, inclined = rows(chart, theta=0), rows(chart, theta=0.15)
+    stiff = straight[straight["E"] >= 0.75]
+    ridge = _highest(stiff, "Y4")
+    ridge6 = _highest(straight[straight["E"].between(0.17, 5)], "Y6")
+    highest6 = straight.loc[straight["Y6"].idxmax()]
+    kinds = []
+    for kind, chosen in (
+        ("deforms plastically (K ≤ 0.05)", chart["K"] <= 0.05),
+        ("springs back (E < 0.1, K ≥ 1)", (chart["E"] < 0.1) & (chart["K"] >= 1)),
+    ):
+        for theta, coatings in chart[chosen].groupby("theta"):
+            kinds.append(
+                [
+                    kind,
+                    f"{theta:g}",
+                    _range(coatings["peak"], mm),
+                    _range(1e6 * coatings["worn_volume"], fixed),
+                ]
+            )
+    return {
+        "ridge_K": _range(ridge["K"], lambda K: fixed(K, 2)),
+        "ridge_Y4": _range(ridge["Y4"], mm),
+        "Y4_soft": _range(rows(stiff, K=0.02)["Y4"], mm),
+        "Y4_hard": _range(rows(stiff, K=20)["Y4"], mm),
+        "ridge_K_Y6": _range(ridge6["K"], lambda K: fixed(K, 2)),
+        "Y6_highest": mm(highest6["Y6"]),
+        "Y6_highest_at": f"({highest6['E']:g}, {highest6['K']:g})",
+        "Y4_inclined": mm(inclined["Y4"].max()),
+        "Y6_inclined": mm(inclined["Y6"].max()),
+        "ridge_K_inclined": fixed(_highest(inclined[inclined["E"] >= 2], "Y4")["K"].median(), 1),
+        "ridge_K_straight": fixed(_highest(straight[straight["E"] >= 2], "Y4")["K"].median(), 1),
+        "Y4_paper": mm(peak(peaks, 1.1, 0.5)["amplitude"], 2),
+        "Y4_ridge": mm(row(straight, casing="2nd", E=1.1, K=0.3)["Y4"], 2),
+        "two_kinds": table(
+            pd.DataFrame(kinds, columns=["the coating", "θ", "greatest displacement, mm", "worn volume, cm³"])
+        ),
+        "coatings": fixed(len(straight)),
+        "safe_straight": fixed(_safe(straight)),
+        "safe_inclined": fixed(_safe(inclined)),
+        "divergent_ridge": percent(rows(straight, K=0.3)["divergent_share"].max()),
+        "divergent_ridge_inclined": percent(rows(inclined, K=0.5)["divergent_share"].max()),
+        "divergent_hard": percent(straight[straight["K"] >= 5]["divergent_share"].max()),
+        "divergent_soft": percent(straight[straight["K"] < 0.06]["divergent_share"].max()),
+    }
+
+
+def _highest(coatings, quantity):
+    """Return for each E the coating with the greatest `quantity`."""
+    return coatings.loc[coatings.groupby("E")[quantity].idxmax()]
+
+
+def _range(values, write):
+    return f"{write(values.min())} to {write(values.max())}"
+
+
+def _safe(coatings):
+    within = pd.DataFrame({quantity: coatings[quantity] <= limit for quantity, limit in _LIMITS.items()})
+    return within.all(axis=1).sum()
+
+
+def _ridge(explanation):
+    """Explain the ridge: contact stiffness, energy and lobes at the peaks."""
+    across = rows(explanation, order=4, theta=0, E=2, K=[0.02, 0.1, 0.3, 1, 6, 20])
+    correlations, moduli, lobes = [], [], []
+    for (theta, order), peaks in explanation.groupby(["theta", "order"]):
+        ranks = peaks[["amplitude", "wear_per_cycle", "E_T"]].rank().corr()["amplitude"]
+        correlations.append([f"{theta:g}", order, fixed(ranks["wear_per_cycle"], 2), fixed(ranks["E_T"], 2)])
+        ridge = _highest(peaks[peaks["E"] >= 0.75], "amplitude")["E_T"]
+        moduli.append(_range(ridge, lambda E_T: fixed(E_T, 2)))
+        if order == 4:
+            half = len(peaks) // 2
+            four = peaks.sort_values("amplitude")["lobes"] == 4
+            lobes.append([f"{theta:g}", percent(four.tail(half).mean()), percent(four.head(half).mean())])
+    headings = ["θ", "order", "Y_k and the energy by wear", "Y_k and E_T"]
+    return {
+        "energies": table(
+            across,
+            {
+                "K": "K",
+                "wear_per_cycle": ("by wear, J", decimals(1)),
+                "damping_per_cycle": ("by the damping of the blade, J", decimals(1)),
+                "amplitude": ("Y4, mm", mm),
+            },
+        ),
+        "correlations": table(
+            pd.DataFrame(correlations, columns=headings).assign(**{"E_T on the ridge": moduli})
+        ),
+        "lobes": table(
+            pd.DataFrame(lobes, columns=["θ", "four lobes: upper half of Y4, %", "lower half of Y4, %"])
+        ),
+    }
+
+
+def _speeds(stiffening, explanation, peaks):
+    f4 = rows(explanation, order=4, theta=0)
+    rising, falling, hard = (
+        fixed(f4[(f4["E_T"] >= low) & (f4["E_T"] < high)]["f_peak"].median(), 3)
+        for low, high in ((3, 4.3), (4.3, 7), (8.4, 100))
+    )
+    inclined = rows(stiffening, theta=0.15).set_index("order")
+    other = rows(explanation, order=6, theta=0)
+    other = other[other["f_peak"] < other["f_crossing"]]
+    return {
+        "stiffening": table(
+            stiffening,
+            {"theta": "θ", "order": "order", "coatings": "coatings"}
+            | {
+                f"rank_correlation_{E}": (f"rank correlation with {E}", decimals(2))
+                for E in ("E_T", "K", "E")
+            }
+            | {
+                f"scatter_{E}": (f"distance from the best rising curve of {E}", decimals(4))
+                for E in ("E_T", "K", "E")
+            },
+        ),
+        "f4_rising": rising,
+        "f4_falling": falling,
+        "f4_hard": hard,
+        "f4_rigid": fixed(row(peaks, law="coulomb", order=4)["f_peak"], 3),
+        "modulus_ratios": " and ".join(f"{inclined.loc[order, 'modulus_ratio']:.1f}" for order in (4, 6)),
+        "modulus_ratios_by_share": " and ".join(
+            f"{inclined.loc[order, 'modulus_ratio_by_share']:.2f}" for order in (4, 6)
+        ),
+        "share": fixed(1 / inclined.loc[4, "modulus_ratio_by_share"], 2),
+        "other_K": f"{other['K'].min():g}",
+        "other_E_T": fixed(other["E_T"].min(), 1),
+        "other_coatings": fixed(len(other)),
+        "other_speeds": _range(other["f_peak"], lambda speed: fixed(speed, 3)),
+    }
+
+
+def _placement(placement):
+    return table(
+        placement,
+        {
+            "quantity": "quantity",
+            "coatings": "coatings",
+            "exact": "found exactly",
+            "within_1_percent": "within 1 %",
+            "within_5_percent": "within 5 %",
+            "worst_missed": ("worst, % too low", lambda missed: percent(missed, 1)),
+        },
+    )
+
+
+def _ridge_by_step(ridge):
+    return table(
+        ridge,
+        {
+            "theta": "θ",
+            "order": "order",
+            "speed_step": "step",
+            "E": "E of the highest",
+            "K": "its K",
+            "E_T": ("its E_T", decimals(2)),
+            "amplitude": ("height, mm", lambda height: mm(height, 2)),
+            "f_peak": ("speed", decimals(3)),
+            "neighbour_spread": ("neighbours differ by, %", percent),
+            "height_lost": ("height lost, %", percent),
+            "K_shift": ("K off by the factor", decimals(1)),
+        },
+    )
+
+
+def _agreement(agreement):
+    same = rows(agreement, disagreement=0)["quantity"].value_counts()
+    return {
+        "compared": fixed(len(rows(agreement, quantity="Y4"))),
+        "same_Y4": fixed(same["Y4"]),
+        "same_Y6": fixed(same["Y6"]),
+    }

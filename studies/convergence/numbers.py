@@ -1,0 +1,155 @@
+"""Numbers of studies/convergence/README.md."""
+
+import math
+
+import pandas as pd
+
+from docs.numbers import fixed, mm, percent, rows, table
+from docs.numbers.refinement import cost, greatest_changes, refinement
+
+_LIMIT = 0.01
+"""Difference from a finer step, in any of three measures, from which on a run is looked at again."""
+_MEASURES = ["wear_l2", "peak", "revolution_peak"]
+
+
+def numbers(tables):
+    """Return the text for each name on the page."""
+    return (
+        _steps(tables["steps"])
+        | _errors(tables["peaks"], tables["findings"])
+        | _accuracy(tables["accuracy"])
+        | _elements(tables["finer_bars"])
+        | _nodes(tables["more_nodes"])
+        | _impact(tables["rigid_convergence"])
+    )
+
+
+def _steps(steps):
+    study = rows(steps, tolerance=0.01)
+    calm = study[~study["sensitive"]].groupby("E")
+    errors = pd.DataFrame(
+        {
+            "E": [f"{E:g}" if math.isfinite(E) else "rigid" for E in calm.groups],
+            "chaotic": study.groupby("E")["sensitive"].sum().to_numpy(),
+            "thousand": calm["steps_per_revolution"].median().to_numpy() / 1e3,
+            "median": calm["error"].median().to_numpy(),
+            "most": calm["error"].quantile(0.9).to_numpy(),
+            "worst": calm["error"].max().to_numpy(),
+        }
+    )
+
+    def share(error):
+        return percent(error, 3 if error < 1e-3 else 2)
+
+    return {
+        "errors": table(
+            errors,
+            {
+                "E": "E",
+                "thousand": ("steps in a revolution, thousand", fixed),
+                "median": ("median error, %", share),
+                "most": ("nine runs in ten, %", share),
+                "worst": ("worst, %", share),
+                "chaotic": "chaotic runs, not counted",
+            },
+        ),
+        "sample": fixed(study.groupby("E").size().max()),
+    }
+
+
+def _errors(peaks, findings):
+    error = peaks["amplitude_error"] / peaks["amplitude"]
+    moved = int((peaks["f_peak_error"] > 0).sum())
+    return {
+        "verdicts": fixed(len(findings)),
+        "verdicts_kept": fixed((findings["holds"] == findings["holds_refined"]).sum()),
+        "peaks": fixed(error.notna().sum()),
+        "peak_error_median": percent(error.median(), 3),
+        "peaks_beyond": fixed((error > 0.01).sum()),
+        "peaks_moved": fixed(moved),
+    }
+
+
+def _accuracy(accuracy):
+    drawn, important = rows(accuracy, drawn_from="all"), rows(accuracy, drawn_from="important")
+    errors, starts = (
+        accuracy[[f"{of}_{measure}" for measure in _MEASURES]].max(axis=1) > _LIMIT
+        for of in ("error", "start")
+    )
+    by_modulus = accuracy.assign(beyond=errors, chaotic=starts).groupby("E")[["beyond", "chaotic"]]
+    unexplained = accuracy[errors & ~starts & (accuracy["status"] == "completed")]
+    return {
+        "drawn": fixed(len(drawn)),
+        "important": fixed(len(important)),
+        "accurate_important": fixed(
+            ((important["error_wear_l2"] <= _LIMIT) & (important["error_peak"] <= _LIMIT)).sum()
+        ),
+        "by_modulus": table(
+            by_modulus.sum().assign(runs=by_modulus.size()).reset_index(),
+            {"E": "E", "runs": "runs", "beyond": "beyond 1 %", "chaotic": "of these chaotic"},
+        ),
+        "drawn_unbounded": fixed(len(rows(accuracy, status="unbounded"))),
+        "unexplained": table(
+            unexplained,
+            {
+                "casing": "casing",
+                "E": "E",
+                "K": "K",
+                "theta": "θ",
+                "f_omega": "f_Ω",
+                "error_wear_l2": ("wear, %", lambda error: percent(error, 2)),
+                "error_peak": ("spectral peak, %", lambda error: percent(error, 2)),
+                "error_revolution_peak": ("revolution peak, %", lambda error: percent(error, 2)),
+            },
+        ),
+    }
+
+
+def _elements(bars):
+    soft = greatest_changes(
+        bars[(bars["elements"] == 8000) & (bars["status"] == "completed") & (bars["E"] < 20)]
+    )
+    return {
+        "finer_elements": refinement(bars, "elements"),
+        "Y_by_elements": percent(soft["Y"], 1),
+        "volume_by_elements": percent(soft["volume"], 1),
+        "wear_by_elements": percent(soft["wear"], 1),
+    }
+
+
+def _nodes(nodes):
+    soft = greatest_changes(nodes[(nodes["interface_nodes"] == 24) & (nodes["E"] < 20)])
+    return {
+        "more_nodes": refinement(nodes, "interface_nodes"),
+        "Y_by_nodes": percent(soft["Y"], 1),
+        "volume_by_nodes": percent(soft["volume"], 1),
+        "wear_by_nodes": percent(soft["wear"], 1),
+        "cost_16": cost(nodes, 16),
+        "cost_24": cost(nodes, 24),
+    }
+
+
+def _impact(impact):
+    lines = []
+    for f_omega, order in ((0.25, 4), (0.388, 4), (0.232, 6)):
+        runs = rows(impact, f_omega=f_omega)
+        study = rows(runs, treatment="exponential").iloc[0]
+        complete = rows(runs, complete=True)
+        change = {
+            "complete": complete["amplitude_change"],
+            "truncated": rows(runs, complete=False, treatment="moreau_jean_0")["amplitude_change"],
+            "springs": runs[runs["treatment"].str.startswith("penalty")]["amplitude_change"],
+            "largest revolution, complete": complete["largest_revolution"] / study["largest_revolution"] - 1,
+        }
+        lines.append(
+            {"f_Ω": f_omega, "order": order, "study, mm": mm(study["amplitude"], 3)}
+            | {alternative: _range(values) for alternative, values in change.items()}
+        )
+    return {
+        "impact": table(pd.DataFrame(lines)),
+        "impact_near_peaks": _range(rows(impact, complete=True)["amplitude_change"]),
+    }
+
+
+def _range(changes):
+    return f"{100 * changes.min():+.1f} to {100 * changes.max():+.1f}"

@@ -1,0 +1,147 @@
+"""Numbers of studies/rotor/README.md."""
+
+import math
+
+import pandas as pd
+
+from docs.numbers import fixed, mm, percent, row, rows, table
+
+_SCATTER = {"length_scatter": 5e-5, "frequency_scatter": 0.005, "coupling": 0}
+_CRITICAL = {"E": 1.1, "K": 0.5, "theta": 0, "f_omega": 0.346} | _SCATTER
+"""The paper's critical coating at its f4, with blades that scatter by 50 µm and 0.5 %."""
+_WINDOWS = {"f4": (0.3, 0.38), "f6": (0.18, 0.22)}
+"""Speeds of the sweeps around a peak."""
+
+
+def numbers(tables):
+    """Return the text for each name on the page."""
+    rotor, half, drift = tables["rotor"], tables["rotor_half"], tables["rotor_drift"]
+    critical = rows(rotor, **_CRITICAL)
+    others = {
+        "10 µm, equal frequencies": {"length_scatter": 1e-5, "frequency_scatter": 0},
+        "10 µm, 0.5 %": {"length_scatter": 1e-5},
+        "10 µm, 2 %": {"length_scatter": 1e-5, "frequency_scatter": 0.02},
+        "100 µm, equal frequencies": {"length_scatter": 1e-4, "frequency_scatter": 0},
+        "off resonance, 0.280": {"f_omega": 0.28},
+        "E = 0.11 at its f4": {"E": 0.11, "f_omega": 0.31},
+        "E = 0.11 at its f6": {"E": 0.11, "f_omega": 0.186},
+        "E = 20 at its f6": {"E": 20, "f_omega": 0.2},
+        "twelve blades on a coupled disk": {"blades": 12, "coupling": 0.01},
+    }
+    return {
+        "by_blades": _combinations(
+            rotor, half, "blades", {str(blades): {"blades": blades} for blades in sorted(critical["blades"])}
+        ),
+        "by_combination": _combinations(
+            rotor, half, "four blades", {name: {"blades": 4} | change for name, change in others.items()}
+        ),
+        "energy_residual": fixed(1e6 * rotor["energy_residual"].max()),
+        "patterns": _patterns(critical),
+        "drift": _drift(drift),
+        "drift_draws": fixed(row(drift, **_CRITICAL, blades=4)["rows"]),
+        "sweeps": _sweeps(rotor),
+        "growth": _growth(rotor),
+    }
+
+
+def _combinations(rotor, half, heading, combinations):
+    """Write rows of blades by combination, each with the results of the first half of its draws."""
+    lines = []
+    for name, changes in combinations.items():
+        values = row(rotor, **(_CRITICAL | changes))
+        first = row(half, **(_CRITICAL | changes))
+        blades = values["blades"]
+        lines.append(
+            {
+                heading: name,
+                "draws": fixed(values["rows"]),
+                "leave the limit, %": percent(values["unbounded_rows"] / values["rows"]),
+                "of the first half": percent(first["unbounded_rows"] / first["rows"]),
+                "amplitude": f"{_interval(values)}",
+                "amplitude of the first half": f"{_interval(first)}",
+                "wear of the longest": _share(blades, values["longest_share_median"]),
+                "wear of the most worn": _share(blades, values["largest_share_median"]),
+            }
+        )
+    return table(pd.DataFrame(lines))
+
+
+def _interval(values):
+    low, high = values["amplification_low"], values["amplification_high"]
+    return f"{values['amplification_median']:.2f} ({low:.2f} to {high:.2f})"
+
+
+def _share(blades, share):
+    return "" if blades == 1 or pd.isna(share) else fixed(blades * share, 2)
+
+
+def _patterns(critical):
+    return table(
+        pd.DataFrame(
+            {
+                "blades": critical["blades"],
+                "strongest harmonic of the wear": critical["wear_harmonic"].map(fixed),
+                "rows that have it, %": (critical["wear_harmonic_rows"] / critical["rows"]).map(percent),
+                "its share of the variance, %": critical["wear_harmonic_share_median"].map(percent),
+                "lobes": [
+                    f"{low} to {high}"
+                    for low, high in critical[["lobes_lowest", "lobes_highest"]].to_numpy(int)
+                ],
+            }
+        )
+    )
+
+
+def _drift(drift):
+    def degrees(angle):
+        return fixed(math.degrees(angle), 1)
+
+    return table(
+        rows(drift, f_omega=[0.346, 0.31], length_scatter=5e-5),
+        {
+            "E": "E",
+            "f_omega": "f_Ω",
+            "blades": "blades",
+            "pattern_drift_median": ("median, degrees a revolution", degrees),
+            "pattern_drift_p05": ("5 %", degrees),
+            "pattern_drift_p95": ("95 %", degrees),
+        },
+    )
+
+
+def _sweeps(rotor):
+    lines = []
+    for peak, theta, moduli in (
+        ("f4", 0, (0.5, 1.1, 2, 5, 20)),
+        ("f4", 0.15, (2,)),
+        ("f6", 0, (2,)),
+        ("f6", 0.15, (2,)),
+    ):
+        for E in moduli:
+            sweep = rows(rotor, E=E, K=0.5, theta=theta, blades=4, **_SCATTER)
+            sweep = sweep[sweep["f_omega"].between(*_WINDOWS[peak])]
+            highest = sweep.loc[sweep["row_amplitude_median"].idxmax()]
+            lines.append(
+                {
+                    "around": peak,
+                    "E": E,
+                    "θ": theta,
+                    "greatest median amplitude, mm": mm(highest["row_amplitude_median"]),
+                    "at f_Ω": fixed(highest["f_omega"], 3),
+                    "leave the limit at the worst speed, %": percent(
+                        (sweep["unbounded_rows"] / sweep["rows"]).max()
+                    ),
+                }
+            )
+    return table(pd.DataFrame(lines))
+
+
+def _growth(rotor):
+    diverge = rows(rotor, E=2, K=0.5, f_omega=[0.19, 0.197, 0.206], blades=4, **_SCATTER)
+    shares = (
+        diverge.assign(share=(diverge["divergent_rows"] / diverge["rows"]).map(percent))
+        .pivot(index="f_omega", columns="theta", values="share")
+        .rename(columns="θ = {:g}: rows that diverge, %".format)
+        .rename_axis("f_Ω")
+    )
+    return table(shares.reset_index())

@@ -1,0 +1,170 @@
+"""Numbers of studies/rotor37/README.md."""
+
+import re
+
+import pandas as pd
+
+from docs.numbers import fixed, mm, percent, row, rows, table
+from docs.numbers.refinement import cost, greatest_changes, refinement
+
+_AMPLITUDE = "rest_mu0.15.amplitude"
+
+
+def numbers(tables):
+    """Return the text for each name on the page."""
+    blade, direct, interaction, coatings, independent, nlstep = (
+        tables[f"benchmarks/rotor37/{name}"]
+        for name in ("blade", "direct", "interaction", "coatings", "independent", "nlstep")
+    )
+    blade = blade.set_index("number")
+    friction = rows(direct, number=_AMPLITUDE).iloc[0]
+    nlstep_error = rows(nlstep, number=_AMPLITUDE)["value"] / friction["value"] - 1
+    return (
+        {
+            "numbers_blade": fixed(len(blade)),
+            "numbers_direct": fixed(len(direct)),
+            "numbers_interaction": fixed(len(interaction)),
+            "numbers_coatings": fixed(len(coatings)),
+            "frequencies": _frequencies(blade),
+            "lean_leading_edge": fixed(blade.loc["lean_leading_edge", "value"], 2),
+            "lean_trailing_edge": fixed(blade.loc["lean_trailing_edge", "value"], 2),
+            "direct": _direct(direct.set_index("number")),
+            "nlstep": _nlstep(nlstep, direct.set_index("number")["value"]),
+            "nlstep_error": percent(nlstep_error.abs().max(), 1),
+            "direct_uncertainty": percent(friction["uncertainty"] / friction["value"], 1),
+            "rigid_peaks": _rigid_peaks(interaction.set_index("number")),
+            "coatings": _coatings(coatings.set_index("number")),
+        }
+        | _independent(independent, direct)
+        | _nodes(tables["rotor37_more_nodes"])
+    )
+
+
+def _frequencies(blade):
+    names = {"at rest, Hz": "rest", "at the design speed, Hz": "nominal"}
+    return table(
+        pd.DataFrame(
+            [
+                {"mode": mode}
+                | {heading: _with_error(blade, f"f{mode}_{speed}", 1, 1) for heading, speed in names.items()}
+                for mode in range(1, 5)
+            ]
+        )
+    )
+
+
+def _with_error(values, number, factor, digits):
+    value, error = values.loc[number, ["value", "uncertainty"]]
+    return f"{factor * value:.{digits}f} ± {factor * error:.{digits}f}"
+
+
+def _direct(direct):
+    lines = []
+    for stiffening, case in (("without", "rest"), ("with", "stiffened")):
+        for friction in ("0", "0.15"):
+            name = f"{case}_mu{friction}"
+            orders = {
+                f"order {order}": mm(direct.loc[f"{name}.order_{order}", "value"], 4) for order in (2, 4, 6)
+            }
+            amplitude = _with_error(direct, f"{name}.amplitude", 1e3, 4)
+            lines.append(
+                {"centrifugal stiffening": stiffening, "μ": friction, "amplitude, mm": amplitude} | orders
+            )
+    return table(pd.DataFrame(lines))
+
+
+def _independent(independent, direct):
+    amplitudes = rows(independent, number="rest_mu0.amplitude")
+    here = row(direct, number="rest_mu0.amplitude")["value"]
+    most = independent["modes"].max()
+
+    def amplitude(treatment, modes=most, steps=20):
+        return row(amplitudes, treatment=treatment, modes=modes, steps=steps)["value"]
+
+    integrators = {
+        "massless boundary, 50 moving modes": amplitude("massless", 50),
+        "massless boundary, 10 moving modes": amplitude("massless", 10),
+        "Moreau-Jean time stepping": amplitude("moreau_jean_0"),
+        "springs of 10⁹ N/m": amplitude("penalty_1e9"),
+    }
+    massless = rows(independent, treatment="massless", modes=50, steps=20).merge(direct, on="number")
+    orders = massless[massless["number"].str.contains("order")]
+    return {
+        "independent": table(
+            pd.DataFrame(
+                [[name, f"{100 * (value / here - 1):+.2f}"] for name, value in integrators.items()],
+                columns=["independent integrator", "difference, %"],
+            )
+        ),
+        "independent_step": percent(abs(amplitude("massless", 50, 10) / amplitude("massless", 50) - 1), 2),
+        "independent_orders_nm": fixed(1e9 * (orders["value_x"] - orders["value_y"]).abs().max()),
+    }
+
+
+def _nlstep(nlstep, direct):
+    lines = []
+    for (modes, steps), values in nlstep.groupby(["modes", "steps_per_revolution"]):
+        values = values.set_index("number")["value"]
+        for friction in ("0", "0.15"):
+            case = f"rest_mu{friction}"
+            if f"{case}.amplitude" not in values:
+                continue
+            amplitude = direct[f"{case}.amplitude"]
+            difference = {
+                name: f"{100 * (values[f'{case}.{number}'] - direct[f'{case}.{number}']) / amplitude:+.1f}"
+                for name, number in (
+                    ("difference, %", "amplitude"),
+                    *((f"order {n}", f"order_{n}") for n in (2, 4, 6)),
+                )
+            }
+            lines.append(
+                {"μ": friction, "modes": modes, "steps a revolution": steps}
+                | {"amplitude, mm": mm(values[f"{case}.amplitude"], 4)}
+                | difference
+            )
+    return table(pd.DataFrame(lines).sort_values(["μ", "modes", "steps a revolution"]))
+
+
+def _rigid_peaks(interaction):
+    lines = []
+    for order in (4, 6, 8, 10, 12):
+        line = {"order": order}
+        for friction in ("0", "0.15"):
+            peak = f"bumps_rigid_mu{friction}.order_{order}"
+            line[f"μ = {friction}: 1/min"] = _with_error(interaction, f"{peak}.speed", 1, 0)
+            line[f"μ = {friction}: mm"] = _with_error(interaction, f"{peak}.amplitude", 1e3, 3)
+        lines.append(line)
+    return table(pd.DataFrame(lines))
+
+
+def _coatings(coatings):
+    lines = []
+    for coating in coatings.index[coatings.index.str.endswith("deepest_wear")].str.removesuffix(
+        ".deepest_wear"
+    ):
+        E, theta = re.match(r"bumps_E(.+)_K.+_theta(.+)", coating).groups()
+        line = {"coating": f"E = {E} GPa, θ = {theta}"}
+        for order in (4, 6):
+            line[f"order {order}: 1/min"] = _with_error(coatings, f"{coating}.order_{order}.speed", 1, 0)
+            line[f"order {order}: mm"] = _with_error(coatings, f"{coating}.order_{order}.amplitude", 1e3, 2)
+        line["deepest wear, mm"] = _with_error(coatings, f"{coating}.deepest_wear", 1e3, 2)
+        line["divergent speeds, %"] = _with_error(coatings, f"{coating}.divergent_share", 100, 0)
+        lines.append(line)
+    return table(pd.DataFrame(lines))
+
+
+def _nodes(nodes):
+    shift = (
+        nodes.groupby(["E", "theta", "order"])["f_peak"].agg(lambda speeds: speeds.max() - speeds.min()).max()
+    )
+    finest = rows(nodes, interface_nodes=24)
+    changes, soft = greatest_changes(finest), greatest_changes(finest[finest["E"] < 1])
+    return {
+        "more_nodes": refinement(nodes, "interface_nodes"),
+        "speeds_by_nodes": fixed(shift, 3),
+        "Y_by_nodes": percent(changes["Y"]),
+        "volume_by_nodes": percent(changes["volume"]),
+        "Y_by_nodes_soft": percent(soft["Y"]),
+        "cost_16": cost(nodes, 16),
+        "cost_24": cost(nodes, 24),
+    }
