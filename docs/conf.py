@@ -12,7 +12,6 @@ os.environ.setdefault("BLADERUB_CACHE", str(HERE / "_build" / "cache"))  # examp
 
 EXPLORER = HERE.parent / "results" / "explorer.html"  # of `snakemake`, if it was run before
 if EXPLORER.exists():
-    tags.add("explorer")  # noqa: F821
     html_extra_path = [str(EXPLORER)]
 
 project = "bladerub"
@@ -66,3 +65,15 @@ html_theme_options = {
 }
 html_show_sourcelink = False
 html_copy_source = False
+
+
+def _link_explorer(app, docname, source):
+    """Link to the explorer of the site, which the repository does not have."""
+    if docname == "how-to/report":
+        source[0] += '\n<a href="../explorer.html">The explorer of a small study</a> is part of this site.\n'
+
+
+def setup(app):
+    """Connect what depends on the results that are there."""
+    if EXPLORER.exists():
+        app.connect("source-read", _link_explorer)

@@ -1,7 +1,7 @@
-"""Sphinx extension: the page of a study, ``studies/<name>/README.md``, is the page ``notes/<name>`` of the site.
+"""Sphinx extension: the page of a study, ``studies/<name>/README.md``, is ``notes/<name>`` on the site.
 
 Pages link to files, as GitHub follows them. Here a link to the page of a study leads to its page of the site,
-or is plain text where that study was deleted; a link to an example of the gallery leads to what it has printed.
+or is plain text where that study was deleted; a link to an example of the gallery leads to its output.
 """
 
 import os
@@ -51,6 +51,8 @@ def _page_of(path):
     """Return the file of the site for one of the repository; `None` for the page of a deleted study."""
     if path.name == "README.md" and path.parent.parent == HERE.parent / "studies":
         return NOTES / f"{path.parent.name}.md" if path.exists() else None
+    if path.name in ("CONTRIBUTING.md", "CHANGELOG.md"):
+        return HERE / path.name.lower()
     if path == HERE / "gallery":
         return HERE / "auto_gallery" / "index.rst"
     if path.parent == HERE / "gallery":

@@ -1,9 +1,9 @@
 """Numbers that pages quote by name: ``{{ peak_rigid }}`` on a page is what the module of its name says here.
 
-The module of the page of a study, ``studies/<name>/README.md``, is ``numbers.py`` beside it. A module has one
+The module of the page of a study, ``studies/<name>/README.md``, is ``numbers.py`` beside it. A module has a
 function, ``numbers(tables)``, which returns the text for each name. ``tables["peaks"]`` is the table of this
-name in ``docs/data``, or in the folder ``data`` of a study, as pandas reads it; a name with slashes is a table
-elsewhere in the repository. A text may be a whole table (`table`), which then stands alone on its line of the page.
+name in ``docs/data``, or in the folder ``data`` of a study, as pandas reads it; a name with slashes is a
+table elsewhere in the repository. A text may be a whole table (`table`), alone on its line of the page.
 """
 
 import importlib.util

@@ -2,7 +2,7 @@
 
 1. Without ``chart.minutes`` it is the whole chart; with it also, if the forecast is not longer.
 2. Else the search of each coating begins at speeds twice as far apart. That saves a third of the runs; on the
-   coatings of the study it misses few peaks (docs/explanation/chart.md), and twice as far again too many.
+   coatings of the study it misses few peaks (studies/chart/README.md), and twice as far again too many.
 3. If that is still too long: the ends of E and K alone, then one modulus after the other, each in the middle
    of the widest gap on the logarithmic scale, as long as the forecast allows it. A larger budget adds to the
    coatings of a smaller one.

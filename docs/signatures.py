@@ -1,0 +1,72 @@
+"""Write the signatures of the Python interface into docs/reference/api.md: `python -m docs.signatures`."""
+
+import inspect
+from functools import cached_property
+from pathlib import Path
+
+import bladerub
+
+PAGE = Path(__file__).parent / "reference" / "api.md"
+DATA = (property, cached_property)
+SECTIONS = {
+    "Studies": ("load_study", "default_study", "Study", "StudyCoating", "StudyRun", "Law"),
+    "Blades": ("build_blade", "read_blade", "Blade"),
+    "Runs": ("simulate", "read_run", "Run"),
+    "Maps": ("simulate_speeds", "read_map", "Map"),
+    "Ensembles": ("simulate_ensemble", "read_ensemble", "Ensemble"),
+    "Rows of blades": ("Row", "RowBlade", "Disk"),
+    "Coatings": ("fit_coating", "Rig", "simulate_rig"),
+    "Errors": ("InputError", "ConfigError"),
+}
+MARK = "<!-- signatures, written by `python -m docs.signatures` -->\n"
+
+
+def updated(text: str) -> str:
+    """Return the text of the page with the signatures of today."""
+    parts = [text.partition(MARK)[0] + MARK]
+    for title, names in SECTIONS.items():
+        parts.append(f"## {title}\n")
+        parts += [_described(getattr(bladerub, name)) for name in names]
+    return "\n".join(parts).rstrip() + "\n"
+
+
+def _described(thing: type) -> str:
+    """Return signature and first line of a function or class, and a table of the members of a class."""
+    error = inspect.isclass(thing) and issubclass(thing, Exception)
+    call = thing.__name__ if error else _call(thing.__name__, thing)
+    lines = [f"**`{call}`**", f"{_first_line(thing)}\n"]
+    members = [] if error or not inspect.isclass(thing) else _members(thing)
+    if members:
+        lines += ["| member | what it is |", "|---|---|", *members, ""]
+    return "\n".join(lines)
+
+
+def _members(thing: type) -> list[str]:
+    """Return a row for each public method and property of a class."""
+    rows = []
+    for name, member in vars(thing).items():
+        plain = member.__func__ if isinstance(member, classmethod | staticmethod) else member
+        if not name.startswith("_") and (inspect.isfunction(plain) or isinstance(plain, DATA)):
+            call = _call(name, plain) if inspect.isfunction(plain) else name
+            rows.append(f"| `{call}` | {_first_line(plain)} |")
+    return rows
+
+
+def _call(name: str, function: object) -> str:
+    """Return the call of a function with its parameters and defaults, without types."""
+    signature = inspect.signature(function)
+    empty = inspect.Parameter.empty
+    parameters = [
+        parameter.replace(annotation=empty)
+        for parameter in signature.parameters.values()
+        if parameter.name not in ("self", "cls")
+    ]
+    return name + str(signature.replace(parameters=parameters, return_annotation=empty))
+
+
+def _first_line(thing: object) -> str:
+    return inspect.getdoc(thing).split("\n\n")[0].replace("\n", " ").replace("|", "\\|").replace("``", "`").replace("`bladerub.", "`")
+
+
+if __name__ == "__main__":
+    PAGE.write_text(updated(PAGE.read_text("utf-8")), encoding="utf-8")
