@@ -37,7 +37,7 @@ from bladerub.config import read as configuration
 from bladerub.extras.blades import mesh_file
 from bladerub.io.folders import ROOT
 
-PAGE = ROOT / "docs" / "explanation" / "twisted_plate.md"
+PAGE = ROOT / "docs" / "explanation" / "validation.md"
 BLADE = ROOT / "config" / "blades" / "twisted_plate.inp"  # of config/twisted_plate.yaml
 
 STEEL = Material(2e11, 0.3, 8000.0)
