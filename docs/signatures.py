@@ -65,7 +65,11 @@ def _call(name: str, function: object) -> str:
 
 
 def _first_line(thing: object) -> str:
-    return inspect.getdoc(thing).split("\n\n")[0].replace("\n", " ").replace("|", "\\|").replace("``", "`").replace("`bladerub.", "`")
+    """Return the first line of a description, for a cell of a table."""
+    line = inspect.getdoc(thing).split("\n\n")[0]
+    for old, new in (("\n", " "), ("|", "\\|"), ("``", "`"), ("`bladerub.", "`")):
+        line = line.replace(old, new)
+    return line
 
 
 if __name__ == "__main__":
