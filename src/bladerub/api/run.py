@@ -200,7 +200,7 @@ class Run(Shown):
         return judge(self.revolution_amplitude, self.status, settings, longer)
 
     def summary(self, config: Mapping[str, Any]) -> dict[str, Any]:
-        """Summarise the run by the settings of the study `config`; keys as of `bladerub run --json`.
+        """Summarise the run by the settings of the study `config`; keys as of `--json` of `bladerub run`.
 
         They are those of `bladerub.study.summary.summarise`: peak amplitude and its engine order, wear,
         lobes, growth and verdict, steps, status.
