@@ -18,6 +18,10 @@ A folder says what it adds in its ``plugin.py``, which imports nothing: each val
 ``ROWS``        what computes rows of blades, by the key of the config that describes them
 ``DATASETS``    what a run file may hold besides that of a single blade: a dictionary as of the store
 ``SOLVERS``     what computes runs instead of the processor, by the name in ``solver.device``
+``SECTIONS``    keys of the config by their path, such as ``blade.source``, each with its type: a model
+                or an annotated type (`bladerub.config.fields`). One with a default is in every config
+``AGREEMENTS``  functions that yield the problems of a config that has a section, by its name
+                (`bladerub.config.checks.reads`)
 ``NEEDS``       names of other folders, without which a folder adds nothing
 =============== ===================================================================================
 """

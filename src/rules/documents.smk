@@ -26,11 +26,15 @@ rule images:
 
 rule config_reference:
     input:
-        schema="config/schema.yaml",
         config="config/config.yaml",
-        writing=files_behind("config.reference"),
+        settings=[
+            path.relative_to(ROOT).as_posix()
+            for path in ROOT.glob("src/bladerub/**/settings.py")
+        ],
+        writing=files_behind("config.reference", "config.json_schema"),
     output:
-        "docs/config.md",
+        reference="docs/config.md",
+        schema="config/schema.json",
     log:
         f"{RESULTS}/logs/config_reference.log",
     script:

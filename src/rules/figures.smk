@@ -33,7 +33,8 @@ SCALES = {
 BOTH = [
     f
     for f in speeds(config)
-    if all(keeps_history(config, case, f) for case in (STRAIGHT, INCLINED))
+    if {STRAIGHT, INCLINED} <= set(coating_cases(config))
+    and all(keeps_history(config, case, f) for case in (STRAIGHT, INCLINED))
 ]
 OWN = [f_omega for f_omega in BOTH if f_omega not in (0.190, 0.197)]
 

@@ -2,14 +2,14 @@
 import csv
 import os
 
-from bladerub.study.orders import used_casings
+from bladerub.study.orders import peak_orders, used_casings
 from bladerub.workflow.cores import BEGUN
 
 # What decides the table of the peaks: the orders of a casing of its own, if it has any, besides those of all
 PEAKS = config["analysis"]["peaks"] | {
-    name: config["casings"][name]["peak_orders"]
+    name: peak_orders(config, name)
     for name in used_casings(config)
-    if "peak_orders" in config["casings"][name]
+    if peak_orders(config, name) != config["analysis"]["peaks"]["orders"]
 }
 
 

@@ -1,13 +1,15 @@
-"""Write the reference of the config from its schema."""
+"""Write the reference of the config and its JSON schema from the models."""
 
 from bladerub.workflow import job
 
 job.log_to(snakemake.log[0])
 
+from bladerub.config import json_schema
 from bladerub.config.read import load
 from bladerub.config.reference import reference
 from bladerub.io import atomic
 
-schema, config = load(snakemake.input.schema), load(snakemake.input.config)
-with atomic.writing(snakemake.output[0]) as stream:
-    stream.write(reference(schema, config))
+texts = {"reference": reference(load(snakemake.input.config)), "schema": json_schema.text()}
+for name, text in texts.items():
+    with atomic.writing(snakemake.output[name]) as stream:
+        stream.write(text)

@@ -5,7 +5,7 @@ from functools import cache
 @cache
 def calibration_plan():
     """The config of every set; read only when somebody asks for the calibration."""
-    from bladerub.extras.calibration import plan
+    from bladerub.extras.calibration.sets import plan
 
     with bladerub.io.errors.exit_on_error():
         return plan(config)
@@ -26,7 +26,7 @@ def calibration_set(wildcards):
 rule calibration:
     input:
         findings=calibration_findings,
-        drawing=files_behind("extras.calibration", "plots.verdicts"),
+        drawing=files_behind("extras.calibration.sets", "plots.verdicts"),
     output:
         **described(
             table=f"{TABLES}/calibration.csv",
@@ -47,7 +47,7 @@ rule calibration_set:
         kernel=rules.compile_kernel.output[0],
         building=rules.blade.input.code,
         given=rules.blade.input.given,
-        analysing=files_behind("extras.calibration", "study.findings"),
+        analysing=files_behind("extras.calibration.sets", "study.findings"),
     output:
         **described(table=f"{RESULTS}/calibration/{{set}}/tables/findings.csv"),
     log:

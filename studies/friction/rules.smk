@@ -7,7 +7,7 @@ COMPARED = [case.name for pair in compared_cases(config) for case in pair]
 rule friction:
     input:
         manifests=expand(rules.coating.output[0], coating=COMPARED),
-        analysing=files_behind("extras.friction", "study.summary"),
+        analysing=files_behind("extras.friction.table", "study.summary"),
         drawing=files_behind("extras.plots.friction"),
     output:
         **drawn("friction", "Angle of the elements"),

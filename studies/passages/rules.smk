@@ -1,5 +1,5 @@
 # Speed sweeps and long runs, compared with the study (studies/passages/README.md). Not part of `all`.
-from bladerub.extras.sweep_grid import DIRECTIONS, swept_cases, sweep_spec
+from bladerub.extras.passages.sweep_grid import DIRECTIONS, swept_cases, sweep_spec
 
 SWEPT = [case.name for case in swept_cases(config)]
 SWEEPS = f"{RESULTS}/sweeps/{{coating}}_{{direction}}_{{rate}}.h5"
@@ -25,7 +25,7 @@ rule sweeps:
     input:
         maps=swept_maps,
         sweeps=expand(SWEEPS, coating=SWEPT, direction=DIRECTIONS, rate=RATES),
-        analysing=files_behind("extras.sweeps", "study.peaks"),
+        analysing=files_behind("extras.passages.sweeps", "study.peaks"),
         drawing=files_behind("extras.plots.sweeps", "plots.titles"),
     output:
         **drawn("sweeps", "Sweeps and long runs"),
@@ -46,7 +46,7 @@ rule sweep:
     input:
         blade=rules.blade.output.reduced_model,
         kernel=rules.compile_kernel.output[0],
-        analysing=files_behind("extras.sweeps", "extras.sweep_grid", "study.spectra"),
+        analysing=files_behind("extras.passages.sweeps", "extras.passages.sweep_grid", "study.spectra"),
     output:
         SWEEPS,
     log:
@@ -71,7 +71,7 @@ rule sweep:
 rule long_runs:
     input:
         long=expand(f"{RESULTS}/long_runs/{{coating}}.h5", coating=COATINGS),
-        analysing=files_behind("extras.long_runs", "study.growth"),
+        analysing=files_behind("extras.passages.long_runs", "study.growth"),
         drawing=files_behind("extras.plots.long_runs", "plots.titles"),
     output:
         **drawn("long_runs", "Sweeps and long runs"),
@@ -94,7 +94,7 @@ rule long_coating:
         map=rules.map.output[0],
         blade=rules.blade.output.reduced_model,
         kernel=rules.compile_kernel.output[0],
-        analysing=files_behind("extras.long_runs", "study.peaks", "study.growth"),
+        analysing=files_behind("extras.passages.long_runs", "study.peaks", "study.growth"),
     output:
         f"{RESULTS}/long_runs/{{coating}}.h5",
     log:

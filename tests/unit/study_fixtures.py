@@ -1,12 +1,12 @@
 import copy
-from pathlib import Path
 
 import numpy as np
 import pytest
-import yaml
 
 from bladerub.blade.model import ReducedBlade
+from bladerub.config.read import load
 from bladerub.contact.result import Energy, RunResult
+from bladerub.io.folders import ROOT
 from bladerub.io.provenance import provenance
 from bladerub.study import store
 from bladerub.study.grid import CoatingCase, run_spec
@@ -17,7 +17,7 @@ from bladerub.study.plan import coating_plan
 N_ELEMENTS = 2000
 
 
-CONFIG = yaml.safe_load((Path(__file__).parents[2] / "config" / "config.yaml").read_text(encoding="utf-8"))
+CONFIG = load(ROOT / "config" / "config.yaml")
 
 
 @pytest.fixture

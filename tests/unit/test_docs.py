@@ -4,7 +4,7 @@ import ast
 import re
 from pathlib import Path
 
-import yaml
+from bladerub.config.read import load
 
 ROOT = Path(__file__).parents[2]
 DOCS = ROOT / "docs"
@@ -84,7 +84,7 @@ def _defined_by(node):
 
 
 def test_the_glossary_names_keys_of_the_config_that_exist():
-    config = yaml.safe_load((ROOT / "config" / "config.yaml").read_text(encoding="utf-8"))
+    config = load(ROOT / "config" / "config.yaml")
     rows = TERM_ROW.finditer(PAGES[DOCS / "reference" / "glossary.md"])
     named = {name for row in rows for name in re.findall(r"`([^`]+)`", row["code"])}
     keys = {name for name in named if not name.startswith("bladerub.")}

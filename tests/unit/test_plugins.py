@@ -27,6 +27,8 @@ KINDS = (
     "LAWS",
     "SOLVERS",
     "ROWS",
+    "SECTIONS",
+    "AGREEMENTS",
     "DATASETS",
 )
 PROGRAM = """

@@ -19,10 +19,10 @@ from bladerub.contact.setup import element_area
 from bladerub.contact.spec import Coating
 from bladerub.extras.heat import LAYER
 from bladerub.extras.laws import heating
+from bladerub.extras.passages.speed_sweep import simulate_sweep
+from bladerub.extras.passages.sweep_grid import SweepSpec
 from bladerub.extras.rows.row import simulate_row
 from bladerub.extras.rows.spec import Row
-from bladerub.extras.speed_sweep import simulate_sweep
-from bladerub.extras.sweep_grid import SweepSpec
 from bladerub.study.grid import CoatingCase, run_spec
 
 DEPTH, THICKNESS, CAPACITY, CONDUCTIVITY = 1e-4, 5e-3, 2e6, 5.0

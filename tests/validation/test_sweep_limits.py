@@ -12,8 +12,8 @@ import pytest
 
 from bladerub.contact.modes import modes_at
 from bladerub.contact.run import simulate
-from bladerub.extras.speed_sweep import simulate_sweep
-from bladerub.extras.sweep_grid import SweepSpec
+from bladerub.extras.passages.speed_sweep import simulate_sweep
+from bladerub.extras.passages.sweep_grid import SweepSpec
 from bladerub.study.grid import CoatingCase, run_spec
 
 pytestmark = pytest.mark.slow

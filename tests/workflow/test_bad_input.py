@@ -81,7 +81,7 @@ def lines_of_ours(stderr):
 CONFIGS = {
     "contact:\n  damping: 0.01\n": "overlay.yaml:2: contact.damping =",
     "results: ../elsewhere\n": "overlay.yaml:1: results =",
-    "\nextend: [overlay.yaml]\n": "overlay.yaml:2: extend =",
+    "\nchart: {casing: 3rd}\n": "overlay.yaml:2: chart.casing =",
     "a: &a [x, x, x, x, x, x, x, x]\n"
     + "".join(f"{new}: &{new} [{', '.join([f'*{old}'] * 9)}]\n" for old, new in pairwise("abcdefg")): (
         "overlay.yaml:1: not valid YAML"
@@ -98,45 +98,31 @@ def test_snakemake_with_a_bad_config(workspace, text):
     assert not (workspace.folder / "results").exists()
 
 
-def test_snakemake_with_a_config_that_calls_a_function(workspace):
-    """Snakemake would run it, were it read as a ``--configfile``."""
-    overlay = "a: !!python/object/apply:os.system ['touch x']\n"
-    (workspace.folder / "overlay.yaml").write_text(overlay)
-    done = workspace.snakemake("--cores", "1", "--config", "extend=overlay.yaml")
-    (line,) = lines_of_ours(done.stderr)
-    assert line.startswith("overlay.yaml:1: not valid YAML")
-    assert done.returncode == 2
-    assert not (workspace.folder / "x").exists()
-
-
 def test_all_problems_are_reported_at_once_with_their_locations(workspace):
-    (workspace.folder / "mine.yaml").write_text("extend: config/quick.yaml\nblade:\n  length: 200\n")
-    done = workspace.snakemake(
-        "--cores", "1", "--configfile", "mine.yaml", "--config", "coating=[]", "figures={dpi: 2}"
-    )
+    (workspace.folder / "mine.yaml").write_text("\nblade:\n  length: 200\n")
+    files, values = ("config/quick.yaml", "mine.yaml"), ("coating=[]", "figures={dpi: 2}")
+    done = workspace.snakemake("--cores", "1", "--configfile", *files, "--config", *values)
     assert [line.split("=")[0] for line in lines_of_ours(done.stderr)] == [
-        "--config: coating ",
         "mine.yaml:3: blade.length ",
+        "--config: coating ",
         "--config: figures.dpi ",
     ]
     assert done.returncode == 2
 
 
-def test_what_a_config_extends_lies_under_it_and_the_command_line_over_all(workspace, tiny):
+def test_files_lie_over_one_another_and_the_command_line_over_all(workspace, tiny):
     folder = workspace.folder
-    (folder / "deeper").mkdir()
-    (folder / "deeper" / "base.yaml").write_text(
-        yaml.safe_dump(tiny | {"results": "extended", "figures": {"dpi": 31, "max_frequency": 2}})
+    (folder / "base.yaml").write_text(
+        yaml.safe_dump(tiny | {"results": "base", "figures": {"dpi": 31, "max_frequency": 2}})
     )
     (folder / "mine.yaml").write_text(
-        "extend: deeper/base.yaml\nresults: own\nfigures: {dpi: 32}\n"
+        "results: own\nfigures: {dpi: 32}\n"
         "coatings: [{casing: 2nd, E: [2], K: [0.5], theta: [0.0, 0.15]}]\nsolver: {max_time_step: 25e-8}\n"
     )
-    done = workspace.snakemake(
-        "--dry-run", "--configfile", "mine.yaml", "--config", "figures={max_frequency: 1e0}", "results=said"
-    )
+    files, values = ("base.yaml", "mine.yaml"), ("figures={max_frequency: 1e0}", "results=said")
+    done = workspace.snakemake("--dry-run", "--configfile", *files, "--config", *values)
     assert done.returncode == 0, done.stderr
     assert "said/maps/2nd_E2_K0.5_theta0.15.h5" in done.stdout
     assert "2nd5nd" not in done.stdout
     assert "own/" not in done.stdout
-    assert "extended/" not in done.stdout
+    assert "base/" not in done.stdout

@@ -132,7 +132,7 @@ def test_a_study_of_ones_own(clone: Workspace):
     ]
     assert (results / "figures" / "wear_map" / "2nd_E2_K1_theta0.png").exists()
     made_with = record.read(results)
-    assert [Path(file).name for file in made_with.files] == ["my_study.yaml"]
+    assert [Path(file).name for file in made_with.files] == ["quick.yaml", "my_study.yaml"]
 
 
 def test_a_blade_of_ones_own(clone: Workspace):

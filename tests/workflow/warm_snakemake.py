@@ -14,7 +14,7 @@ import sys
 from importlib import import_module
 
 PACKAGES = (
-    *("snakemake.cli", "snakemake_executor_plugin_slurm", "jinja2", "jsonschema", "h5py", "pandas", "numba"),
+    *("snakemake.cli", "snakemake_executor_plugin_slurm", "jinja2", "pydantic", "h5py", "pandas", "numba"),
     *("scipy.interpolate", "scipy.io", "scipy.linalg", "scipy.ndimage", "skfem.models", "rslab", "meshio"),
     *("snakemake.profiles", "snakemake.report.html_reporter", "snakemake.storage", "argparse_dataclass"),
     *("docutils.core", "dpath", "nbformat.v4", "PIL.Image", "platformdirs", "requests", "smart_open", "yte"),

@@ -15,7 +15,8 @@ from bladerub.config import read as configuration
 from bladerub.config.checks import most_revolutions, own_problem
 from bladerub.config.errors import UNKNOWN
 from bladerub.config.files import Located
-from bladerub.config.schema import check_quantity
+from bladerub.config.models.quantities import QUANTITIES
+from bladerub.config.problems import check_quantity
 from bladerub.config.units import pressure_in_words, speed_in_words, speeds_in_words
 from bladerub.contact.spec import RunSpec
 from bladerub.io.folders import CONFIG, ROOT, base_config, study_folder
@@ -423,10 +424,10 @@ def _found(path: str | Path) -> Path:
 
 
 def _number(config: Mapping[str, Any], name: str, value: Quantity) -> float:
-    """Return the argument `name` as a plain number that the schema allows."""
+    """Return the argument `name` as a plain number within its bounds."""
     try:
         plain = quantities.number(name, value, quantities.references(config))
-        check_quantity(name, plain)
+        check_quantity(plain, QUANTITIES[name])
     except ValueError as error:
         raise InputError(name, value, str(error)) from None
     return plain

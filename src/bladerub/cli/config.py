@@ -20,11 +20,18 @@ def add_to(commands: Any) -> None:
     )
     text = "YAML files laid over config/config.yaml, in order"
     parser.add_argument("files", nargs="*", metavar="FILE", help=text)
+    text = "print the JSON schema of such a file, for editors"
+    parser.add_argument("--schema", action="store_true", help=text)
     parser.set_defaults(command=check)
 
 
 def check(options: argparse.Namespace) -> None:
     """Check the config that the command line names; raises `ConfigError`."""
+    if options.schema:
+        from bladerub.config import json_schema
+
+        print(json_schema.text(), end="")
+        return
     config, notes = read_with_notes(base_config(), *options.files)
 
     from bladerub.blade.cache import kept_frequency

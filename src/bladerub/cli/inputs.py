@@ -164,7 +164,7 @@ def read_config(options: argparse.Namespace) -> dict[str, Any]:
 
 
 def read_config_with_notes(options: argparse.Namespace) -> tuple[dict[str, Any], list[str]]:
-    """Read the config as `read_config`; return it and a line for each doubt (`bladerub.config.inherited`)."""
+    """Read the config as `read_config`; return it and the lines of `bladerub.config.notes`."""
     base = base_config()
     made_with = None if options.config else _made_with(base)
     if made_with is None:
@@ -208,14 +208,14 @@ def quantity(text: str) -> float | str:
     return text
 
 
-def convert(options: argparse.Namespace, *names: str, reference: units.Reference) -> None:
-    """Turn options with a unit, by their names in the schema, into plain numbers."""
+def convert(options: argparse.Namespace, *names: str, reference: units.Reference, section: str = "") -> None:
+    """Turn options with a unit, by their names or those in a section of the config, into plain numbers."""
     from bladerub.config.quantities import number
 
     for name in names:
         typed = getattr(options, name)
         try:
-            setattr(options, name, number(name, typed, reference))
+            setattr(options, name, number(f"{section}{name}", typed, reference))
         except ValueError as error:
             raise InputError(f"--{name.replace('_', '-')} = {format_value(typed)}: {error}") from None
 

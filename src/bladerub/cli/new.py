@@ -12,7 +12,7 @@ from bladerub.io.folders import ROOT
 
 _TEMPLATE = Path(__file__).with_name("template")
 _COPIED = ("config", "profiles")
-_OF_THE_PACKAGE = ("schema.yaml", "__pycache__")
+_OF_THE_PACKAGE = ("__pycache__",)
 
 
 def add_to(commands: Any) -> None:

@@ -1,4 +1,4 @@
-"""What the schema cannot say of a config: that its parts agree with each other."""
+"""What models cannot say of a config: that its sections agree with each other."""
 
 import itertools
 import math
@@ -23,13 +23,12 @@ from bladerub.study.grid import (
     CoatingCase,
     cases_of,
     coating_cases,
-    compared_cases,
     element_law,
     listed_case,
     speeds,
 )
 from bladerub.study.orders import peak_orders, used_casings
-from bladerub.study.row import row_of
+from bladerub.study.paper import HISTORIES
 
 Config = dict[str, Any]
 Check = Callable[[Config], Iterator[str]]
@@ -40,17 +39,28 @@ SOURCE_FOLDERS = ("benchmarks", "build", "config", "docs", "profiles", "src", "s
 MOST_RUNS = 2_000_000  # of a study
 MOST_SAMPLES = 20_000_000  # that a run keeps in memory, one an element and revolution
 
-_checks: list[tuple[Check, frozenset[str]]] = []
+_checks: list[Check] = []
+
+
+def reads(*sections: str) -> Callable[[Check], Check]:
+    """Mark a function that yields problems of a config, a line each, with the sections that it reads."""
+
+    def mark(function: Check) -> Check:
+        function.sections = frozenset(sections)  # type: ignore[attr-defined]
+        return function
+
+    return mark
 
 
 def check(config: Config, broken: Collection[str]) -> list[str]:
-    """List the problems of `config`, one line each.
+    """List the problems of `config`, one line each, also by what plugs in (``AGREEMENTS``).
 
-    A check is left out if it reads a top-level key in `broken`, or one with a problem already found.
+    A check is left out if it reads a section in `broken`, or one with a problem already found.
     """
     problems: list[str] = []
-    for function, parts in _checks:
-        if not parts & {*broken, *map(top_key, problems)}:
+    added = [function for section, function in plugins.loaded("AGREEMENTS").items() if section in config]
+    for function in (*_checks, *added):
+        if not function.sections & {*broken, *map(top_key, problems)}:  # type: ignore[attr-defined]
             try:
                 problems += function(config)
             except ValueError as error:  # of the function that reads the value: it says what would be right
@@ -63,9 +73,11 @@ def most_revolutions(config: Mapping[str, Any]) -> int:
     return MOST_SAMPLES // config["contact"]["elements"]
 
 
-def _reads(*parts: str) -> Callable[[Check], Check]:
+def _reads(*sections: str) -> Callable[[Check], Check]:
+    """Mark a check as `reads`, and list it."""
+
     def register(function: Check) -> Check:
-        _checks.append((function, frozenset(parts)))
+        _checks.append(reads(*sections)(function))
         return function
 
     return register
@@ -100,39 +112,6 @@ def _accuracy_modes(config: Config) -> Iterator[str]:
         yield f"reduction.accuracy_modes = {modes}: must be at most {limit}, with {per_speed} modes_per_speed"
 
 
-@_reads("rotor", "contact", "coatings", "solver", "blade")
-def _rotor(config: Config) -> Iterator[str]:
-    try:
-        row = row_of(config)
-    except ValueError as error:  # it begins with "row: "
-        yield f"rotor: {str(error).partition(': ')[2]}"
-        return
-    if row is None:
-        return
-    contact = config["contact"]
-    ratios = (case.own.get("damping_ratio", contact["damping_ratio"]) for case in coating_cases(config))
-    if (ratio := max(ratios) * max(blade.damping for blade in row.blades)) >= 1:
-        damping = format_value(config["rotor"]["damping"])
-        yield f"rotor.damping = {damping}: must be below 1 times the damping ratio, it comes to {ratio:g}"
-    if "source" not in config["blade"]:
-        yield from _neighbours(config, row)
-
-
-def _neighbours(config: Config, row: Any) -> Iterator[str]:
-    """Check what a row asks of the distance of its blades, at the largest radius of the tip."""
-    contact, blade, n_elements = config["contact"], config["blade"], config["contact"]["elements"]
-    turn = 2 * np.pi * (blade["hub_radius"] + blade["length"])
-    moved = config["solver"]["displacement_limit"] * blade["length"] / turn * n_elements
-    fewest = math.ceil(2 * (contact["tip_profile"]["half_width"] + moved)) + 4
-    starts = sorted(int(neighbour.angle / (2 * np.pi) % 1 * n_elements) for neighbour in row.blades)
-    nearest = min(np.diff([*starts, starts[0] + n_elements]))
-    if len(starts) > 1 and nearest < fewest:
-        yield (
-            f"rotor.blades = {len(starts)}: two are {nearest} of {n_elements} contact.elements apart; "
-            f"must be {fewest} or more, so that they cannot meet within solver.displacement_limit"
-        )
-
-
 @_reads("results", "blade", "reduction", "casings", "contact", "coatings", "solver", "speeds")
 def _stable_steps(config: Config) -> Iterator[str]:
     """Check central differences by the highest mode of the blade; its runs do if it is not built yet."""
@@ -164,14 +143,10 @@ def _stable_steps(config: Config) -> Iterator[str]:
 
 @_reads("contact")
 def _law(config: Config) -> Iterator[str]:
-    law = config["contact"].get("law", {})
-    if "name" in law and "file" in law:
-        yield f"contact.law.file = {format_value(law['file'])}: must be without contact.law.name"
-        return
     try:
-        scale = config["contact"].get("scale", UNSCALED)
+        law, scale = element_law(config), config["contact"].get("scale", UNSCALED)
         for check in plugins.loaded("CHECKS").values():
-            check(element_law(config), config["contact"]["layer_thickness"] * scale["length"])
+            check(law, config["contact"]["layer_thickness"] * scale["length"])
     except ValueError as error:
         yield f"contact.law.{error}"
 
@@ -183,24 +158,13 @@ def _tip(config: Config) -> Iterator[str]:
 
 
 @_reads("casings")
-def _casings(config: Config) -> Iterator[str]:
+def _tables(config: Config) -> Iterator[str]:
+    """Read the tables of measured casings."""
     for name, entry in config["casings"].items():
-        if problem := _shape_problem(entry):
-            yield f"casings.{name}.{problem}"
-
-
-def _shape_problem(entry: Config) -> str | None:
-    """Say what is wrong with the shape of a casing; None if nothing is."""
-    if "nodal_diameters" not in entry:
         try:
             casing_spec("", entry)
         except ValueError as error:
-            return str(error)
-        return None
-    diameters, weights = entry["nodal_diameters"], entry["weights"]
-    if len(weights) != len(diameters):
-        return f"weights = {weights}: must be {len(diameters)}, one for each of nodal_diameters"
-    return None if any(weights) else f"weights = {weights}: at least one must not be 0"
+            yield f"casings.{name}.{error}"
 
 
 def _too_deep(config: Config, entry: Config, depth: float) -> str | None:
@@ -210,26 +174,29 @@ def _too_deep(config: Config, entry: Config, depth: float) -> str | None:
     return f"at most {deepest:g} m, or the blade touches all around" if depth > deepest else None
 
 
-@_reads("casings", "contact", "blade", "coatings", "friction", "chart")
+@_reads("casings", "contact", "blade", "coatings")
 def _contact_at_all(config: Config) -> Iterator[str]:
-    thickness = config["contact"]["layer_thickness"]
-    cases = [*coating_cases(config), *itertools.chain(*compared_cases(config))]
-    for name, entry in config["casings"].items():
+    cases = coating_cases(config)
+    for name in config["casings"]:
         depths = [case.own.get("interference") for case in cases if case.casing == name]
-        is_shifted = depths and None not in depths and name != config.get("chart", {}).get("casing")
-        if is_shifted or _shape_problem(entry):  # each coating says how deep, see `own_problem`
-            continue
-        depth, key = casing_spec(name, entry).interference, f"casings.{name}.interference"
-        bound = _too_deep(config, entry, depth) or _too_shallow(config, depth)
-        if "table" in entry:
-            if "interference" not in entry:
-                key = f"casings.{name}.table: interference"
-            if bound and depth <= _smallest_clearance(config):
-                bound += "; give an interference here or in the entry of coatings, or lower the table"
-            if depth >= thickness:
-                bound = bound or f"below contact.layer_thickness, {thickness:g} m"
-        if bound:
-            yield f"{key} = {depth:g}: must be {bound}"
+        if not depths or None in depths:  # or each coating says how deep, see `own_problem`
+            yield from casing_problems(config, name)
+
+
+def casing_problems(config: Config, name: str) -> Iterator[str]:
+    """Say how the depth of a casing is wrong for coatings that have no `interference` of their own."""
+    thickness, entry = config["contact"]["layer_thickness"], config["casings"][name]
+    depth, key = casing_spec(name, entry).interference, f"casings.{name}.interference"
+    bound = _too_deep(config, entry, depth) or _too_shallow(config, depth)
+    if "table" in entry:
+        if "interference" not in entry:
+            key = f"casings.{name}.table: interference"
+        if bound and depth <= _smallest_clearance(config):
+            bound += "; give an interference here or in the entry of coatings, or lower the table"
+        if depth >= thickness:
+            bound = bound or f"below contact.layer_thickness, {thickness:g} m"
+    if bound:
+        yield f"{key} = {depth:g}: must be {bound}"
 
 
 def _too_shallow(config: Config, depth: float) -> str | None:
@@ -298,9 +265,12 @@ def _histories(config: Config) -> Iterator[str]:
     cases, grid = set(coating_cases(config)), set(speeds(config))
     for index, entry in enumerate(config["analysis"]["histories"]):
         key, case = f"analysis.histories[{index}]", listed_case(entry)
+        f_omega = round(entry["f_omega"], SPEED_DECIMALS)
+        if (case, f_omega) in HISTORIES:  # the paper's, which a study of other coatings or speeds leaves out
+            continue
         if case not in cases:
             yield f"{key} = {case.name}: must be one of the coatings, add it there or drop it here"
-        if round(entry["f_omega"], SPEED_DECIMALS) not in grid:
+        if f_omega not in grid:
             requirement = "one of the speeds, add it to speeds.extra or drop it here"
             yield f"{key}.f_omega = {entry['f_omega']:g}: must be {requirement}"
 

@@ -1,7 +1,6 @@
 """Config files: YAML read with the location of every value, and laid over one another.
 
-A file can extend others (key ``extend``): they are read first, and it is laid over them. The limits below
-keep any file from running code, filling the memory or taking for ever.
+The limits below keep any file from running code, filling the memory or taking for ever.
 """
 
 import os
@@ -19,7 +18,6 @@ LARGEST_FILE = 1_000_000  # bytes
 MOST_VALUES = 100_000  # in a file, those of an alias counted wherever it is used
 LONGEST_VALUE = 1000  # characters of a value or key
 DEEPEST = 32  # levels of mappings and lists
-MOST_EXTENDED = 20  # files read because one extends the other
 
 _NUMBER = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)[eE][-+]?\d+")
 _OCTAL = re.compile(r"[-+]?0[0-7_]+")
@@ -87,10 +85,9 @@ def compose(*paths: str | Path, command_line: Mapping[str, Any] | None = None) -
     Parameters
     ----------
     paths : path-like
-        The files; each is laid over those that it extends.
+        The files.
     command_line : mapping, optional
-        What ``snakemake --config`` was given; below the top, Snakemake leaves numbers as text. A key
-        ``extend`` names files relative to the working directory.
+        What ``snakemake --config`` was given; below the top, Snakemake leaves numbers as text.
 
     Raises
     ------
@@ -99,15 +96,15 @@ def compose(*paths: str | Path, command_line: Mapping[str, Any] | None = None) -
     """
     layers = [read(path) for path in paths]
     if command_line:
-        layers.append(resolve_extend(Located.of(_from_text(command_line), Location("--config"))))
+        layers.append(Located.of(_from_text(command_line), Location("--config")))
     config = Located({}, UNKNOWN)
     for layer in layers:
         config = config.merged(layer)
     return config
 
 
-def read(path: str | Path, key: str | None = None) -> Located:
-    """Read one YAML file and those that it extends; `key` is the key of the config that names it, if any.
+def read(path: str | Path, key: str | None = None, location: Location = UNKNOWN) -> Located:
+    """Read one YAML file; `key` is the key, at this location, that names it, if any.
 
     Raises
     ------
@@ -115,52 +112,9 @@ def read(path: str | Path, key: str | None = None) -> Located:
         As for `compose`.
     """
     path = Path(path)
-    location, prefix = Location(source_name(path)), ""
-    if key:
-        location, prefix = UNKNOWN, f"{key} = {format_value(str(path))}: "
-    return _extended(_read(path, location, prefix), [], (os.path.realpath(path),))
-
-
-def resolve_extend(layer: Located) -> Located:
-    """Lay the mapping `layer` over the files that its key ``extend`` names.
-
-    Raises
-    ------
-    ConfigError
-        As for `compose`, at the location of the name.
-    """
-    return _extended(layer, [], ())
-
-
-def _extended(layer: Located, opened: list[Path], chain: tuple[str, ...]) -> Located:
-    if not isinstance(layer.content, dict) or "extend" not in layer.content:
-        return layer
-    union = Located({}, layer.location)
-    for name in _names(layer.content["extend"]):
-        folder = Path(name.location.source).parent if name.location.line else Path()
-        path, prefix = folder / name.content, f"extend = {format_value(name.content)}: "
-        real = os.path.realpath(path)
-        if real in chain:
-            raise ConfigError.at(name.location, f"{prefix}these files extend each other in a circle")
-        opened.append(path)
-        if len(opened) > MOST_EXTENDED:
-            raise ConfigError.at(name.location, f"{prefix}must not lead to more than {MOST_EXTENDED} files")
-        base = _extended(_read(path, name.location, prefix), opened, (*chain, real))
-        union = union.merged(base)
-    values = {key: value for key, value in layer.content.items() if key != "extend"}
-    return union.merged(Located(values, layer.location))
-
-
-def _names(entry: Located) -> list[Located]:
-    names = entry.content if isinstance(entry.content, list) else [entry]
-    for name in names:
-        is_file = isinstance(name.content, str) and re.fullmatch(r"[^\0]+\.ya?ml", name.content)
-        if not is_file or "://" in name.content:
-            requirement = "the path of a .yaml file, or a list of such, as seen from the file that says so"
-            raise ConfigError.at(
-                name.location, f"extend = {format_value(name.plain())}: must be {requirement}"
-            )
-    return names
+    if not key:
+        return _read(path, Location(source_name(path)), "")
+    return _read(path, location, f"{key} = {format_value(str(path))}: ")
 
 
 def source_name(path: str | Path) -> str:

@@ -1,4 +1,4 @@
-"""Quantities typed with a unit become the numbers that they stand for, wherever the schema has a number."""
+"""Quantities typed with a unit become the numbers that they stand for, wherever a config has a number."""
 
 from collections.abc import Callable, Mapping
 from contextlib import suppress
@@ -6,12 +6,15 @@ from typing import Any
 
 from bladerub.config import units
 from bladerub.config.errors import top_key
+from bladerub.config.fields import Unit
 from bladerub.config.files import Located
-from bladerub.config.schema import inner, problems, resolved, schema
+from bladerub.config.keys import Key, key_of
+from bladerub.config.models.contact import Law
+from bladerub.config.models.quantities import QUANTITIES
+from bladerub.config.models.study import whole
+from bladerub.config.problems import problems
 from bladerub.io.folders import study_folder
 from bladerub.study.grid import SPEED_DECIMALS, UNSCALED, modulus_unit
-
-Rule = Mapping[str, Any]
 
 _READS = {"f1": {"blade", "reduction"}, "modulus_unit": {"contact"}, "blade lengths": {"blade"}}
 """Keys at the top of the config that say what a reference is; `UNSCALED` ones are of ``contact``."""
@@ -45,15 +48,24 @@ def references(config: Mapping[str, Any], f1_hz: float | None = None) -> units.R
 def number(name: str, value: Any, reference: units.Reference) -> Any:
     """Return `value` as a plain number if it is a quantity with a unit, anything else as it is.
 
-    `name` is that of a definition of the schema, such as ``E``, or of a key of ``rotor``. A speed is rounded
-    as those of the grid. Raises ValueError if the unit is of another kind, and as the `reference`.
+    `name` is one of `QUANTITIES`, such as ``E``, or the path of a key, such as ``rotor.length_scatter``. A
+    speed is rounded as those of the grid. Raises ValueError if the unit is of another kind, and as the
+    `reference`.
     """
     quantity = units.read(value)
     if quantity is None:
         return value
-    rule = schema()["$defs"].get(name) or schema()["properties"]["rotor"]["properties"][name]
-    plain = units.convert(quantity, rule, reference)
+    key = key_of(QUANTITIES[name]) if name in QUANTITIES else key_at(name)
+    plain = units.convert(quantity, key, reference)
     return round(plain, SPEED_DECIMALS) if name == "f_omega" else plain
+
+
+def key_at(path: str) -> Key:
+    """Return what a config may hold at a path such as ``rotor.blades``."""
+    key = key_of(whole())
+    for name in path.split("."):
+        key = key.fields()[name]
+    return key
 
 
 def law_numbers(law: str, values: Mapping[str, Any]) -> dict[str, Any]:
@@ -61,40 +73,40 @@ def law_numbers(law: str, values: Mapping[str, Any]) -> dict[str, Any]:
 
     What cannot be converted stays as it is, for the law to refuse.
     """
-    rules, plain = _law_rules({"file" if law.endswith(".py") else "name": law}), dict(values)
+    keys, plain = _law_keys({"file" if law.endswith(".py") else "name": law}), dict(values)
     for name, value in values.items():
-        if name in rules and (quantity := units.read(value)):
+        if name in keys and (quantity := units.read(value)):
             with suppress(ValueError):
-                plain[name] = units.convert(quantity, rules[name], _no_reference)
+                plain[name] = units.convert(quantity, keys[name], _no_reference)
     return plain
 
 
 def converted(
-    config: Located, definition: str | None = None, study: Mapping[str, Any] | None = None
+    config: Located, kind: Any = None, study: Mapping[str, Any] | None = None
 ) -> tuple[Located, list[str]]:
     """Return a config with plain numbers instead of quantities, and why a reference is not known, if so.
 
-    A quantity of another kind than it must be, or of a reference that is not known, stays as it is: the
-    schema refuses it.
+    A quantity of another kind than it must be, or of a reference that is not known, stays as it is: its model
+    refuses it.
 
     Parameters
     ----------
     config : Located
-        A config, or a plan of this `definition` of the schema.
-    definition : str, optional
-        What a plan is.
+        A config, or a plan.
+    kind : type, optional
+        Model of the plan.
     study : mapping, optional
         The checked config that a plan is for, whose references it has. Those of a config are its own.
     """
-    rule = schema()["$defs"][definition] if definition else schema()
+    key = key_of(kind or whole())
     wanted: set[str] = set()
 
     def note(name: str) -> float:
         wanted.add(name)
         raise Unknown
 
-    config = _converted(config, rule, note)
-    if not wanted or (definition and study is None):
+    config = _converted(config, key, note)
+    if not wanted or (kind and study is None):
         return config, []
     size_of = references(study or config.plain())
     sizes, reasons = {}, []
@@ -113,7 +125,7 @@ def converted(
             raise Unknown
         return sizes[name]
 
-    return _converted(config, rule, known), reasons
+    return _converted(config, key, known), reasons
 
 
 def as_typed(typed: Located, config: Located) -> Callable[[str], str]:
@@ -133,8 +145,8 @@ def _require_sound(config: Located, parts: set[str]) -> None:
     """Raise `Unknown` where a key at the top in `parts` has a problem, but for quantities to be converted."""
     from bladerub.config.checks import check  # takes half a second to import
 
-    values = _converted(config, schema(), _no_reference, lambda rule: rule["maximum"]).plain()
-    others = schema()["properties"].keys() - parts
+    values = _converted(config, key_of(whole()), _no_reference, lambda key: key.highest).plain()
+    others = whole().model_fields.keys() - parts
     if any(top_key(text) in parts for text in problems(values)) or check(values, others):
         raise Unknown
 
@@ -144,41 +156,33 @@ def _no_reference(name: str) -> float:
 
 
 def _converted(
-    entry: Located,
-    rule: Rule | None,
-    reference: units.Reference,
-    instead: Callable[[Rule], float] | None = None,
+    entry: Located, key: Key | None, reference: units.Reference, instead: Callable[[Key], float] | None = None
 ) -> Located:
     """Convert all that is in `entry`, with `instead` of a quantity whose reference is unknown."""
-    if rule is None:
+    content = entry.content
+    if key is None:
         return entry
-    rule, content = resolved(rule), entry.content
     if isinstance(content, dict):
-        own = _law_rules(entry.plain()) if rule is _law() else {}
+        of_law = _law_keys(entry.plain()) if Law in key.models.values() else {}
         values = {
-            key: _converted(value, own.get(key) or inner(rule, key), reference, instead)
-            for key, value in content.items()
+            name: _converted(value, of_law.get(name) or key.inner(name), reference, instead)
+            for name, value in content.items()
         }
         return Located(values, entry.location)
     if isinstance(content, list):
-        values = [_converted(value, inner(rule, None), reference, instead) for value in content]
-        return Located(values, entry.location)
-    if rule.get("type") == "number" and (quantity := units.read(content)):
+        return Located([_converted(v, key.entry, reference, instead) for v in content], entry.location)
+    if key.kind == "a number" and (quantity := units.read(content)):
         try:
-            return Located(units.convert(quantity, rule, reference), entry.location)
+            return Located(units.convert(quantity, key, reference), entry.location)
         except Unknown:
-            return Located(instead(rule), entry.location) if instead else entry
+            return Located(instead(key), entry.location) if instead else entry
         except ValueError:
             return entry
     return entry
 
 
-def _law() -> Rule:
-    return schema()["properties"]["contact"]["properties"]["law"]
-
-
-def _law_rules(law: Mapping[str, Any]) -> dict[str, Rule]:
-    """Give the parameters of ``contact.law`` their units, which its schema does not know."""
+def _law_keys(law: Mapping[str, Any]) -> dict[str, Key]:
+    """Give the parameters of ``contact.law`` their units, which its model does not know."""
     from bladerub.contact.laws import parameters_of, source_of
     from bladerub.contact.spec import ElementLaw
 
@@ -188,4 +192,4 @@ def _law_rules(law: Mapping[str, Any]) -> dict[str, Rule]:
         parameters = parameters_of(source or source_of(ElementLaw(law.get("name", "plastic"))))
     except (OSError, ValueError, TypeError):  # which the law's own check says
         return {}
-    return {name: {"type": "number", "unit": parameter.unit} for name, parameter in parameters.items()}
+    return {name: Key("a number", unit=Unit(parameter.unit)) for name, parameter in parameters.items()}

@@ -6,11 +6,10 @@ one line that names the location, the key, the value and what would be right.
 
 import re
 from collections.abc import Mapping
-from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
-from bladerub.config import files, schema
+from bladerub.config import files
 from bladerub.config.errors import UNKNOWN, ConfigError, Location, Problem, top_key
 from bladerub.config.files import Located
 
@@ -23,12 +22,14 @@ def load(*paths: str | Path) -> dict[str, Any]:
     ConfigError
         As for `bladerub.config.files.compose`.
     """
-    return files.compose(*paths).plain()
+    return _composed(*paths).plain()
 
 
 def is_whole(path: str | Path) -> bool:
-    """Return whether the file at `path` has every block of a config; raises as `load`."""
-    return set(schema.schema()["required"]) <= load(path).keys()
+    """Return whether the file at `path` has every section of a config; raises as `load`."""
+    from bladerub.config.models.study import required
+
+    return required() <= load(path).keys()
 
 
 def read(*paths: str | Path, command_line: Mapping[str, Any] | None = None) -> dict[str, Any]:
@@ -45,20 +46,20 @@ def read(*paths: str | Path, command_line: Mapping[str, Any] | None = None) -> d
 def read_with_notes(
     *paths: str | Path, command_line: Mapping[str, Any] | None = None, is_checked: bool = False
 ) -> tuple[dict[str, Any], list[str]]:
-    """Read a config as `read`; return it, and a line for each change or doubt of `inherited.fit`.
+    """Read a config as `read`; return it, and the lines of `bladerub.config.notes`.
 
-    One that `is_checked`, as by the process that started this one, is not checked again.
+    One that `is_checked`, as by the process that started this one, is not checked again and has no notes.
     """
-    located = files.compose(*paths, command_line=command_line)
+    located = _composed(*paths, command_line=command_line)
     if is_checked:
-        from bladerub.config import inherited, quantities
+        from bladerub.config.quantities import converted
 
-        return inherited.fit(quantities.converted(located)[0].plain())
+        return converted(located)[0].plain(), []
     return _validated(located, "")
 
 
 def read_plan(
-    path: str | Path, definition: str, key: str | None = None, study: Mapping[str, Any] | None = None
+    path: str | Path, kind: Any, key: str | None = None, study: Mapping[str, Any] | None = None
 ) -> Located:
     """Read and check a plan, which varies a config.
 
@@ -66,8 +67,8 @@ def read_plan(
     ----------
     path : path-like
         The YAML file.
-    definition : str
-        What it is, of the definitions of the schema.
+    kind : type
+        Its model (`bladerub.config.fields.Section`).
     key : str, optional
         The key of the config that names the file, reported if it cannot be read.
     study : mapping, optional
@@ -78,26 +79,27 @@ def read_plan(
     ConfigError
         As for `bladerub.config.files.compose`, and every problem found.
     """
+    from bladerub.config.problems import problems
     from bladerub.config.quantities import converted
 
-    plan, _ = converted(files.read(path, key), definition, study)
-    texts, locations = dict.fromkeys(schema.problems(plan.plain(), definition)), plan.locations()
+    plan, _ = converted(files.read(path, key), kind, study)
+    texts, locations = dict.fromkeys(problems(plan.plain(), kind)), plan.locations()
     if texts:
         raise ConfigError(Problem(_location(text, locations, plan.location), text) for text in texts)
     return plan
 
 
 def vary(config: Mapping[str, Any], *variations: Located) -> Located:
-    """Lay variations of a plan over a config, each with the files that it extends, without a check."""
+    """Lay variations of a plan over a config, without a check."""
     varied = Located.of(config, UNKNOWN)
     for variation in variations:
         if variation.content is not None:
-            varied = varied.merged(files.resolve_extend(variation))
+            varied = varied.merged(variation)
     return varied
 
 
 def validate(config: Located | Mapping[str, Any], variation: str = "") -> dict[str, Any]:
-    """Check a config against the schema and for what a schema cannot say; return its values.
+    """Check a config by its models and for what they cannot say; return its values.
 
     Parameters
     ----------
@@ -109,27 +111,26 @@ def validate(config: Located | Mapping[str, Any], variation: str = "") -> dict[s
     Raises
     ------
     ConfigError
-        Every problem found, one line each: location, key, value and what would be right. What a schema cannot
-        say is checked for those parts of the config that agree with the schema.
+        Every problem found, one line each: location, key, value and what would be right. What models cannot
+        say is checked for those sections that agree with theirs.
     """
     return _validated(config, variation)[0]
 
 
 def _validated(config: Located | Mapping[str, Any], variation: str) -> tuple[dict[str, Any], list[str]]:
-    """Check a config as `validate`; return its values and the notes of `inherited.fit`."""
+    """Check a config as `validate`; return its values and the notes on it."""
     # it takes half a second to import, `bladerub --help` and jobs on a cluster do without
-    from bladerub.config import inherited, quantities
+    from bladerub.config import quantities
     from bladerub.config.checks import check
+    from bladerub.config.models.study import required
+    from bladerub.config.notes import notes
+    from bladerub.config.problems import problems as problems_of
 
     typed = config if isinstance(config, Located) else Located.of(config, UNKNOWN)
     located, problems = quantities.converted(typed)
     values, locations = located.plain(), located.locations()
-    problems += schema.problems(values)
-    missing = set(schema.schema()["required"]) - set(values)
-    broken = missing | set(map(top_key, problems))
-    notes: list[str] = []
-    with suppress(ValueError):  # of values that `check` reports
-        values, notes = inherited.fit(values, broken)
+    problems += problems_of(values)
+    broken = (required() - values.keys()) | set(map(top_key, problems))
     problems += check(values, broken)
     if problems:
         as_typed = quantities.as_typed(typed, located)
@@ -137,7 +138,14 @@ def _validated(config: Located | Mapping[str, Any], variation: str) -> tuple[dic
             Problem(_location(text, locations), (f"{variation}: " if variation else "") + as_typed(text))
             for text in dict.fromkeys(problems)
         )
-    return values, notes
+    return values, notes(values)
+
+
+def _composed(*paths: str | Path, command_line: Mapping[str, Any] | None = None) -> Located:
+    """Lay files and the command line over the defaults of what plugs in."""
+    from bladerub.config.models.study import defaults
+
+    return Located.of(defaults(), UNKNOWN).merged(files.compose(*paths, command_line=command_line))
 
 
 def _location(problem: str, locations: Mapping[str, Location], default: Location = UNKNOWN) -> Location:

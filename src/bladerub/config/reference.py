@@ -1,20 +1,28 @@
-"""The reference of all keys of a config, docs/config.md, written from the schema and the study's values."""
+"""The reference of all keys of a config, docs/config.md, written from the models and the study's values."""
 
 from collections.abc import Iterator, Mapping
 from typing import Any
 
-from bladerub.config.schema import allowed, kinds
+from bladerub.config.docstrings import docstrings
+from bladerub.config.keys import Key, key_of
+from bladerub.config.models.study import whole
 from bladerub.config.units import choices_by_kind
 
 HEAD = """\
 # Configuration
 
 The values of the study are in `config/config.yaml`. A file of your own needs only the keys that it changes:
-`snakemake -j2 --configfile my.yaml` lays it over the study. Mappings merge, a list is replaced as a whole. A
-file can extend others (`extend`). Values given on the command line (`--config`) are laid over all files. `[]`
-stands for each entry of a list, `<name>` for any name.
+`snakemake -j2 --configfile my.yaml` lays it over the study, and each further file over those before. Mappings
+merge, a list is replaced as a whole. Values given on the command line (`--config`) are laid over all files.
+`[]` stands for each entry of a list, `<name>` for any name. A section that `config/config.yaml` does not
+have, such as `chart`, belongs to a further study: its values are those of the last column, and a file may
+change them as any others.
 
-This page is made from `config/schema.yaml` and `config/config.yaml` by `snakemake -j1 docs/config.md`.
+`bladerub config my.yaml` checks a file. Editors that know YAML schemas check it as you type with
+`# yaml-language-server: $schema=config/schema.json` in its first line.
+
+This page and `config/schema.json` are made from the models in `src/bladerub/config/models/` and the
+`settings.py` of extras by `snakemake -j1 docs/config.md`.
 
 ## Units
 
@@ -45,47 +53,62 @@ modulus_unit is `contact.modulus_unit`.
 
 """
 
-Rule = Mapping[str, Any]
 
-
-def reference(schema: Rule, config: Mapping[str, Any]) -> str:
+def reference(config: Mapping[str, Any]) -> str:
     """Write the reference in Markdown: a section for each key at the top, a row for each key below it.
 
     `config` is the study, for the values that a config without that key has.
     """
     units_of_kinds = "\n".join(f"| {kind} | {names} |" for kind, names in choices_by_kind().items())
     sections = [HEAD.format(units=units_of_kinds)]
-    for name, part in schema["properties"].items():
-        keys = list(_keys(schema, name, part, config.get(name)))
-        rows = [_row(*key) for key in keys if key[0] != name or len(keys) == 1]
-        rows = list(dict.fromkeys(rows))  # kinds of entry have keys in common
-        table = ["| key | what | unit | may be | in the study | why |", "|---|---|---|---|---|---|", *rows]
-        sections.append("\n".join([f"## {name}", "", part["description"].strip(), "", *table, ""]))
+    for name, key in key_of(whole()).fields().items():
+        rows = _rows(name, key, config.get(name), "")
+        table = ["| key | what | unit | may be | in the study |", "|---|---|---|---|---|", *rows]
+        text = docstrings(whole()).get(name, key.description)
+        sections.append("\n".join([f"## {name}", "", text, "", *table, ""]))
     return "\n".join(sections)
 
 
-def _keys(schema: Rule, path: str, rule: Rule, value: Any) -> Iterator[tuple[str, Rule, Any]]:
-    """Yield path, rule and value of each key, the value None where the study has no single one."""
-    if "$ref" in rule:
-        rule = schema["$defs"][rule["$ref"].rsplit("/", 1)[1]]
-    yield path, rule, None if isinstance(value, dict | list) else value
-    for name, inner in rule.get("properties", {}).items():
-        inside = value.get(name) if isinstance(value, dict) else None
-        yield from _keys(schema, f"{path}.{name}", inner, inside)
-    entry_rule = rule.get("additionalProperties")
-    for kind in kinds(entry_rule) if isinstance(entry_rule, Mapping) else ():
-        yield from _keys(schema, f"{path}.<name>", kind, None)
-    for kind in kinds(rule["items"]) if "items" in rule else ():
-        yield from _keys(schema, f"{path}[]", kind, None)
+def _rows(path: str, key: Key, value: Any, text: str) -> Iterator[str]:
+    """Write a row for each key at and below a path; `value` is None where the study has no single one."""
+    texts = {name: words for kind in key.models.values() for name, words in docstrings(kind).items()}
+    entry = key.entry if key.kind == "a list" else None
+    is_plain = entry and not (entry.models or entry.entry)
+    if "." in path or "[" in path or not (key.fields() or key.entry) or is_plain:
+        yield _row(path, key, value, text)
+    for name, inner in key.fields().items():
+        below = value.get(name) if isinstance(value, Mapping) else None
+        yield from _rows(f"{path}.{name}", inner, below, texts.get(name, inner.description))
+    if key.entry and not is_plain:
+        yield from _rows(f"{path}[]" if entry else f"{path}.<name>", key.entry, None, key.entry.description)
 
 
-def _row(path: str, rule: Rule, value: Any) -> str:
+def _row(path: str, key: Key, value: Any, text: str) -> str:
+    may_be = [key.allowed(), *map(str, key.limits)]
+    unit = key.unit.name
+    if key.entry and key.kind == "a list":
+        may_be += [] if key.entry.models else [f"each {key.entry.allowed()}", *map(str, key.entry.limits)]
+        unit = key.entry.unit.name
     cells = (
         f"`{path}`",
-        rule["title"],
-        "" if rule["unit"] in ("none", "1") else rule["unit"],
-        "; ".join([allowed(rule), *(limit.partition(",")[0] for limit in rule.get("limits", []))]),
-        "" if value is None else f"`{value:g}`" if isinstance(value, float) else f"`{value}`",
-        rule["description"],
+        text,
+        "" if unit == "1" else unit,
+        "; ".join(may_be),
+        _value(value),
     )
-    return "| " + " | ".join(" ".join(str(cell).replace("|", "\\|").split()) for cell in cells) + " |"
+    return "| " + " | ".join(" ".join(cell.replace("|", "\\|").split()) for cell in cells) + " |"
+
+
+def _value(value: Any) -> str:
+    if value is None or isinstance(value, Mapping):
+        return ""
+    if isinstance(value, list):
+        is_short = value and not isinstance(value[0], Mapping) and len(value) < 10
+        return f"`[{', '.join(map(_plain, value))}]`" if is_short else ""
+    return f"`{_plain(value)}`"
+
+
+def _plain(value: Any) -> str:
+    if isinstance(value, bool):
+        return str(value).lower()
+    return f"{value:g}" if isinstance(value, float) else str(value)

@@ -1,18 +1,21 @@
 """Units that a quantity may be typed with, ``2000 rpm``, and its value in the unit of its key.
 
-The schema says the unit of every key. Most are SI; ``f1``, ``f1/s``, ``modulus_unit`` and ``blade lengths``
+The models say the unit of every key. Most are SI; ``f1``, ``f1/s``, ``modulus_unit`` and ``blade lengths``
 are sizes of the study itself, its *references*: what one of them is in SI is known once the study is.
 """
 
 import math
 import re
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from difflib import get_close_matches
 from fractions import Fraction
 from functools import cache
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from bladerub.config.errors import format_value
+
+if TYPE_CHECKING:
+    from bladerub.config.keys import Key
 
 _PI = Fraction(math.pi)
 _MILLE, _MICRO = Fraction(1, 1000), Fraction(1, 1_000_000)
@@ -52,7 +55,8 @@ _IN_WORDS = {
     "f1/s": "times the first frequency at rest, in a second",
     "modulus_unit": "times contact.modulus_unit",
 }
-_QUANTITY = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*([^\s\d.,+-].*?)\s*", re.S)
+_NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?"
+_QUANTITY = re.compile(rf"\s*({_NUMBER})\s*([^\s\d.,+-].*?)\s*", re.S)
 _FEWEST, _MOST_HZ = 10.0, 1000.0  # of a plain number that is a speed in rpm or Hz
 _DIGITS = 12  # of a value in units of a reference, which is itself known to fewer
 
@@ -73,43 +77,51 @@ def read(text: Any) -> Quantity | None:
     return Quantity(Fraction(match[1]), " ".join(match[2].split())) if match else None
 
 
-def needs(rule: Mapping[str, Any]) -> str | None:
-    """Return the reference that a quantity of this entry of the schema is divided by; None for none."""
-    unit = rule["unit"]
-    return {"f1/s": "f1"}.get(unit, unit) if unit in _REFERENCES else rule.get("scaled")
+def needs(key: "Key") -> str | None:
+    """Return the reference that a quantity below this key is divided by; None for none."""
+    unit = key.unit.name
+    return {"f1/s": "f1"}.get(unit, unit) if unit in _REFERENCES else key.unit.scaled
 
 
-def convert(quantity: Quantity, rule: Mapping[str, Any], reference: Reference) -> float:
-    """Return the value of a quantity in the unit of its entry of the schema, `rule`.
+def convert(quantity: Quantity, key: "Key", reference: Reference) -> float:
+    """Return the value of a quantity in the unit of its key.
 
     It is the number nearest to the exact one, as if that were typed; in units of a reference it has twelve
-    digits. ``decimals`` of the rule round it up, ``scaled`` undoes what multiplies it later. Raises
+    digits. ``decimals`` of the unit round it up, ``scaled`` undoes what multiplies it later. Raises
     ValueError that says what the quantity is and what it must be, and as the `reference`.
     """
     kind, size = _UNITS.get(quantity.unit, (None, Fraction(1)))
-    if kind is None or (kind != _kind(rule) and not (kind == "share" and _is_share(rule))):
-        raise ValueError(f"{_what_is(quantity.unit, kind)}; must be {right(rule)}")
-    exact, relative_to = quantity.number * size, needs(rule)
+    if kind is None or (kind != _kind(key) and not (kind == "share" and _is_share(key))):
+        raise ValueError(f"{_what_is(quantity.unit, kind)}; must be {right(key)}")
+    exact, relative_to = quantity.number * size, needs(key)
     if kind == "share" or relative_to is None:
-        return float(exact / _UNITS.get(rule["unit"], ("", 1))[1])
+        return float(exact / _UNITS.get(key.unit.name, ("", 1))[1])
     divisor = reference(relative_to)
     if divisor == 1:  # as where no ``contact.scale`` is
         return float(exact)
     value = float(f"{float(exact / Fraction(divisor)):.{_DIGITS}g}")
-    if "decimals" in rule:
-        value = math.ceil(round(value * 10 ** rule["decimals"], 3)) / 10 ** rule["decimals"]
+    if (decimals := key.unit.decimals) is not None:
+        value = math.ceil(round(value * 10**decimals, 3)) / 10**decimals
     return value
 
 
-def right(rule: Mapping[str, Any]) -> str:
+def right(key: "Key") -> str:
     """Say which units a quantity may have: ``a speed: rpm, Hz, rad/s, or a number times the first ...``."""
-    kind, unit = _kind(rule), rule["unit"]
-    plain = "a whole number" if rule["type"] == "integer" else "a number"
+    kind, unit = _kind(key), key.unit.name
     if unit == "SI":
-        return f"{plain} in the unit of this parameter (docs/laws.md), or another of its kind"
+        return f"{key.kind} in the unit of this parameter (docs/laws.md), or another of its kind"
     if kind is None:
-        return f"{plain}{', or %' if _is_share(rule) else ' without a unit'}"
-    return f"{_article(kind)} {kind}: {choices(rule)}, or {plain} {_IN_WORDS.get(unit, f'in {unit}')}"
+        return f"{key.kind}{', or %' if _is_share(key) else ' without a unit'}"
+    return f"{_article(kind)} {kind}: {choices(key)}, or {key.kind} {_IN_WORDS.get(unit, f'in {unit}')}"
+
+
+def pattern(unit: str) -> str:
+    """Return what matches a number typed with a unit, where this is the unit of a plain one."""
+    kind = _REFERENCES.get(unit) or _UNITS.get(unit, (None,))[0]
+    kinds = _TABLE if unit == "SI" else [kind] if kind else ["share"]
+    kinds = [*kinds, "share"] if unit == "blade lengths" else kinds
+    names = [name for kind in kinds for name in _TABLE[kind]]
+    return rf"^\s*{_NUMBER}\s*({'|'.join(map(re.escape, names))})\s*$"
 
 
 @cache
@@ -122,43 +134,42 @@ def choices_by_kind() -> dict[str, str]:
     return lists
 
 
-def choices(rule: Mapping[str, Any]) -> str:
-    """List the units that a quantity of this entry of the schema may have; empty for none."""
-    kind = _kind(rule)
+def choices(key: "Key") -> str:
+    """List the units that a quantity below this key may have; empty for none."""
+    kind = _kind(key)
     if kind is None:
-        return "%" if _is_share(rule) else ""
+        return "%" if _is_share(key) else ""
     return choices_by_kind()[kind]
 
 
-def in_words(rule: Mapping[str, Any]) -> str:
-    """Say what a plain number of this entry of the schema is in, to stand behind it; empty for a pure one."""
-    unit = rule["unit"]
-    if rule["type"] == "integer" or unit in ("none", "1"):
+def in_words(key: "Key") -> str:
+    """Say what a plain number below this key is in, to stand behind it; empty for a pure one."""
+    unit = key.unit.name
+    if unit == "1":
         return ""
-    return f" ({_IN_WORDS[unit]}; or {choices(rule)})" if unit in _IN_WORDS else f", in {unit}"
+    return f" ({_IN_WORDS[unit]}; or {choices(key)})" if unit in _IN_WORDS else f", in {unit}"
 
 
-def meant(value: float, rule: Mapping[str, Any]) -> str | None:
+def meant(value: float, key: "Key") -> str | None:
     """Say what a plain number outside of its range is, and what was probably meant; None if nothing is."""
-    kind, unit = _kind(rule), rule["unit"]
-    if kind is None or rule["type"] == "integer" or not value:
+    kind, unit = _kind(key), key.unit.name
+    if kind is None or not value:
         return None
     words, proposals = _IN_WORDS.get(unit, unit), []
-    if unit == "f1" and value >= max(_FEWEST, rule["maximum"]):
+    if unit == "f1" and value >= max(_FEWEST, key.highest):
         proposals = [f'"{value:g} rpm"'] + [f'"{value:g} Hz"'] * (value < _MOST_HZ)
-    elif unit == "modulus_unit" and value > rule["maximum"]:
+    elif unit == "modulus_unit" and value > key.highest:
         proposals = [f'"{value / 1e6:g} MPa"']
     elif unit not in _REFERENCES:
-        proposals = _in_range(value, rule)
+        proposals = _in_range(value, key)
     return f"is {value:g} {words}; write {' or '.join(proposals)}" if proposals else None
 
 
-def _in_range(value: float, rule: Mapping[str, Any]) -> list[str]:
-    lowest, highest = rule.get("minimum", rule.get("exclusiveMinimum", -math.inf)), rule["maximum"]
+def _in_range(value: float, key: "Key") -> list[str]:
     return [
         f'"{value:g} {unit}"'
-        for unit in choices(rule).split(", ")[:2]  # the usual ones
-        if lowest <= value * float(_UNITS[unit][1] / _UNITS[rule["unit"]][1]) <= highest
+        for unit in choices(key).split(", ")[:2]  # the usual ones
+        if key.lowest <= value * float(_UNITS[unit][1] / _UNITS[key.unit.name][1]) <= key.highest
     ]
 
 
@@ -180,16 +191,15 @@ def pressure_in_words(pascal: float) -> str:
     return f"{pascal / 1e9:.4g} GPa" if pascal >= 1e9 else f"{pascal / 1e6:.4g} MPa"
 
 
-def _kind(rule: Mapping[str, Any]) -> str | None:
-    unit = rule["unit"]
-    if rule["type"] not in ("number", ["number", "null"]):
-        return None
+def _kind(key: "Key") -> str | None:
+    """Say which kind of quantity a number below this key is; None of a pure number."""
+    unit = key.unit.name
     return _REFERENCES.get(unit) or _UNITS.get(unit, (None,))[0]
 
 
-def _is_share(rule: Mapping[str, Any]) -> bool:
+def _is_share(key: "Key") -> bool:
     """Return whether a value may be typed in %: pure numbers, and those in sizes of the study."""
-    return rule["type"] == "number" and (_kind(rule) is None or rule["unit"] == "blade lengths")
+    return key.kind == "a number" and (_kind(key) is None or key.unit.name == "blade lengths")
 
 
 def _what_is(unit: str, kind: str | None) -> str:

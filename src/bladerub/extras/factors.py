@@ -10,7 +10,7 @@ from typing import Any
 
 from bladerub.config.errors import UNKNOWN, ConfigError, Location, format_value
 from bladerub.config.files import Located
-from bladerub.config.schema import is_number
+from bladerub.config.problems import is_number
 
 
 @dataclass(frozen=True)
@@ -64,7 +64,7 @@ class Factor:
 
 
 def read_factors(located: Located) -> tuple[Factor, ...]:
-    """Make the factors of a plan from its group ``factors``, which the schema has checked.
+    """Make the factors of a plan from its group ``factors``, which its model has checked.
 
     Raises `ConfigError` for a range that its scale does not allow, and for a number that two factors set.
     """

@@ -111,9 +111,9 @@ def growth_digest() -> str:
 
 
 def source_digest(paths: Iterable[Path]) -> str:
-    """Digest sources of the package, named by their paths in it."""
+    """Digest sources of the package, named by their paths in it, but not what only describes a config."""
     digest = hashlib.sha256()
-    for path in sorted(paths):
+    for path in sorted(path for path in paths if path.name != "settings.py"):
         # universal newlines: a checkout with other line ends is the same source
         entry = [path.relative_to(PACKAGE).as_posix(), path.read_text(encoding="utf-8")]
         digest.update(json.dumps(entry).encode())

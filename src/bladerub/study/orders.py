@@ -5,13 +5,25 @@ from typing import Any
 
 from bladerub.study.casings import nodal_diameters
 from bladerub.study.grid import coating_cases, speeds
+from bladerub.study.paper import ORDERS
 
 _DERIVED = 2  # orders of a casing that does not excite those of the config, as many as the paper has
 
 
 def peak_orders(config: Mapping[str, Any], casing: str) -> list[int]:
-    """Return the orders of the coatings of one casing: its ``peak_orders``, or ``analysis.peaks.orders``."""
-    return config["casings"][casing].get("peak_orders", config["analysis"]["peaks"]["orders"])
+    """Return the orders of the coatings of one casing: its ``peak_orders``, or ``analysis.peaks.orders``.
+
+    If those are the paper's, and the casing does not excite them within the speeds of the study, they are its
+    `excited_orders`.
+    """
+    entry, orders = config["casings"][casing], config["analysis"]["peaks"]["orders"]
+    if "peak_orders" in entry:
+        return entry["peak_orders"]
+    slowest, *_, fastest = speeds(config)
+    suits = all(excites(entry, order) and order * slowest <= 1 <= order * fastest for order in orders)
+    if suits or orders != list(ORDERS):
+        return orders
+    return excited_orders(config, casing) or orders
 
 
 def peak_settings(config: Mapping[str, Any], casing: str) -> dict[str, Any]:

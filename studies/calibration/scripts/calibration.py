@@ -6,7 +6,7 @@ job.log_to(snakemake.log[0])
 
 from pathlib import Path
 
-from bladerub.extras.calibration import collect, counts
+from bladerub.extras.calibration.sets import collect, counts
 from bladerub.plots.verdicts import verdicts as draw
 from bladerub.study.findings import verdicts
 from bladerub.workflow import outputs

@@ -6,7 +6,7 @@ job.log_to(snakemake.log[0])
 
 import sys
 
-from bladerub.extras.calibration import judge
+from bladerub.extras.calibration.sets import judge
 from bladerub.io import tables
 from bladerub.io.provenance import provenance
 

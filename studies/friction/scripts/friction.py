@@ -4,7 +4,7 @@ from bladerub.workflow import job
 
 job.log_to(snakemake.log[0])
 
-from bladerub.extras.friction import table as compare
+from bladerub.extras.friction.table import table as compare
 from bladerub.extras.plots.friction import friction as draw
 from bladerub.workflow import outputs
 

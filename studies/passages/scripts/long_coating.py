@@ -7,7 +7,7 @@ job.log_to(snakemake.log[0])
 import sys
 
 from bladerub.blade.validation import read_reduced_blade
-from bladerub.extras import long_runs
+from bladerub.extras.passages import long_runs
 from bladerub.study.maps import read_map
 
 long_runs.make(

@@ -7,7 +7,7 @@ job.log_to(snakemake.log[0])
 import sys
 
 from bladerub.blade.validation import read_reduced_blade
-from bladerub.extras import sweeps
+from bladerub.extras.passages import sweeps
 from bladerub.study.grid import case_from_name
 
 wildcards = snakemake.wildcards

@@ -4,7 +4,7 @@ from bladerub.workflow import job
 
 job.log_to(snakemake.log[0])
 
-from bladerub.extras import sweeps
+from bladerub.extras.passages import sweeps
 from bladerub.extras.plots.sweeps import sweeps as draw
 from bladerub.study.maps import read_map
 from bladerub.workflow import outputs

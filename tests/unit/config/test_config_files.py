@@ -5,7 +5,7 @@ import yaml
 
 from bladerub.config import files
 from bladerub.config.errors import ConfigError, format_value, key_path
-from bladerub.config.files import LARGEST_FILE, LONGEST_VALUE, MOST_EXTENDED, MOST_VALUES, compose
+from bladerub.config.files import LARGEST_FILE, LONGEST_VALUE, MOST_VALUES, compose
 from bladerub.config.read import read
 from bladerub.io.folders import ROOT
 
@@ -71,67 +71,16 @@ def test_values_that_only_look_like_a_date_stay_text_on_the_command_line():
     assert compose(command_line={"a": {"b": "2001-99-99"}}).plain() == {"a": {"b": "2001-99-99"}}
 
 
-def test_a_file_is_laid_over_those_that_it_extends(folder, tmp_path):
-    (tmp_path / "deeper").mkdir()
-    (tmp_path / "deeper" / "second.yaml").write_text("extend: ../first.yaml\na: {c: 2}\n")
-    folder(
-        base="a: {b: 0, c: 0, d: 0, e: 0}\n",
-        first="a: {b: 1, c: 1, d: 1}\n",
-        mine="extend: [first.yaml, deeper/second.yaml]\na: {d: 3}\n",
-    )
-    composed = compose("base.yaml", "mine.yaml", command_line={"a": {"e": "4"}})
-    assert composed.plain() == {"a": {"b": 1, "c": 2, "d": 3, "e": 4}}
-    assert str(composed.locations()["a.c"]) == "deeper/second.yaml:2"
-
-
-def test_the_command_line_can_extend(folder):
-    folder(base="a: {b: 0, c: 0, d: 0}\n", mine="a: {c: 1, d: 1}\n")
-    composed = compose("base.yaml", command_line={"extend": "mine.yaml", "a": {"d": "2"}})
-    assert composed.plain() == {"a": {"b": 0, "c": 1, "d": 2}}
-
-
-NAME = "must be the path of a .yaml file, or a list of such, as seen from the file that says so"
-
-
-@pytest.mark.parametrize(
-    ("text", "answer"),
-    [
-        ("\nextend: no.yaml\n", 'a.yaml:2: extend = "no.yaml": cannot be read (No such file or directory)'),
-        ("extend: a.yaml\n", 'a.yaml:1: extend = "a.yaml": these files extend each other in a circle'),
-        ("extend: b.yaml\n", 'b.yaml:1: extend = "./a.yaml": these files extend each other in a circle'),
-        ("extend: folder.yaml\n", 'a.yaml:1: extend = "folder.yaml": is a folder, must be a YAML file'),
-        ("extend: https://host/b.yaml\n", f'a.yaml:1: extend = "https://host/b.yaml": {NAME}'),
-        (
-            "extend: broken.yaml\n",
-            "broken.yaml:2: not valid YAML (expected ',' or ']', but got ':'), column 2",
-        ),
-    ],
-)
-def test_what_cannot_be_extended_is_reported_with_its_location(folder, tmp_path, text, answer):
-    (tmp_path / "folder.yaml").mkdir()
-    folder(a=text, b="extend: ./a.yaml\n", broken="a: [1\nb: 2\n")
-    assert answer in error_of("a.yaml")
-
-
-def test_as_many_levels_characters_and_files_are_read_as_the_limits_say(folder):
+def test_as_many_levels_and_characters_are_read_as_the_limits_say(folder):
     lists = files.DEEPEST - 1  # in the mapping at the top
-    names = ", ".join(f"f{index}.yaml" for index in range(MOST_EXTENDED))
-    folder(**{f"f{index}": "f: 1\n" for index in range(MOST_EXTENDED + 1)})
     for inside, outside, answer in (
         (f"a: {'[' * lists}{']' * lists}", f"a: [{'[' * lists}{']' * lists}]", "32 levels"),
         (f"a: {'x' * LONGEST_VALUE}", f"a: {'x' * (LONGEST_VALUE + 1)}", f"more than {LONGEST_VALUE} char"),
         (f"{'x' * LONGEST_VALUE}: a", f"{'x' * (LONGEST_VALUE + 1)}: a", f"more than {LONGEST_VALUE} char"),
-        (f"extend: [{names}]", f"extend: [{names}, f{MOST_EXTENDED}.yaml]", f'"f{MOST_EXTENDED}.yaml"'),
     ):
         folder(a=inside, b=outside)
         compose("a.yaml")
         assert answer in error_of("b.yaml")
-
-
-def test_files_that_extend_ever_more_are_refused(folder):
-    """Each of a few small files names the next one ten times: no circle, but a billion readings."""
-    folder(**{f"f{i}": f"extend: [{', '.join([f'f{i + 1}.yaml'] * 10)}]\n" for i in range(9)}, f9="a: 1\n")
-    assert f"must not lead to more than {MOST_EXTENDED} files" in error_of("f0.yaml")
 
 
 def laughs(of):

@@ -1,15 +1,12 @@
 import copy
 from unittest.mock import Mock
 
-import jsonschema
 import numpy as np
 import pytest
 
 from bladerub.config.errors import ConfigError
+from bladerub.config.files import compose
 from bladerub.config.read import load, validate
-from bladerub.config.schema import schema
-from bladerub.contact import laws
-from bladerub.contact.spec import ElementLaw
 from bladerub.io.folders import ROOT
 
 CONFIGS = [
@@ -35,43 +32,10 @@ def problems(config):
     return [problem.text for problem in error.value.problems]
 
 
-def rules(rule, path=""):
-    """Every entry of the schema, with its path."""
-    if "allOf" in rule:  # kinds of entry, distinguished by their keys
-        for number, kind in enumerate(rule["allOf"]):
-            if "then" in kind:
-                yield from rules(kind["then"], f"{path}[{number}]")
-        return
-    yield path, rule
-    for key in ("properties", "$defs"):
-        for name, inner in rule.get(key, {}).items():
-            if "$ref" not in inner:
-                yield from rules(inner, f"{path}.{name}")
-    for key in ("items", "additionalProperties", "propertyNames"):
-        if isinstance(rule.get(key), dict) and "$ref" not in rule[key]:
-            yield from rules(rule[key], f"{path}[{key}]")
-
-
 @pytest.mark.parametrize("paths", CONFIGS, ids=["config", "quick", "plate"])
 def test_configs_of_the_repository_are_valid(paths):
     config = load(*paths)
     assert validate(config) == config
-
-
-def test_schema_is_a_schema():
-    jsonschema.Draft202012Validator.check_schema(schema())
-
-
-def test_every_entry_of_the_schema_says_what_it_is():
-    for path, rule in rules(schema()):
-        assert {"title", "type", "unit", "description"} <= rule.keys(), path
-        if rule["type"] in ("number", "integer"):
-            assert rule.keys() & {"minimum", "exclusiveMinimum"}, path
-            assert rule.keys() & {"maximum", "exclusiveMaximum"}, path
-        if rule["type"] == "string":
-            assert {"pattern", "form"} <= rule.keys(), path
-        if rule["type"] == "object" and path:
-            assert "additionalProperties" in rule, path
 
 
 @pytest.mark.parametrize(
@@ -87,21 +51,11 @@ def test_a_wrong_law_is_one_line(config, law, message):
     assert found.startswith(message)
 
 
-def test_every_law_and_its_parameters_are_in_the_schema(config):
-    rule = schema()["properties"]["contact"]["properties"]["law"]
-    for name in laws.NAMES:
-        assert name in rule["properties"]["name"]["form"]
-        for parameter, of in laws.parameters_of(laws.source_of(ElementLaw(name))).items():
-            assert (
-                f"{parameter} ({of.unit})".removesuffix(" (1)") in rule["additionalProperties"]["description"]
-            )
-
-
 @pytest.mark.parametrize(("text", "number"), [("1e-3", 1e-3), ("1_000", 1000), ("3", 3)])
 def test_numbers_of_any_spelling_are_numbers(tmp_path, text, number):
     path = tmp_path / "config.yaml"
     path.write_text(f"value: {text}\nlist: [{text}]\n")
-    config = load(path)
+    config = compose(path).plain()
     assert config == {"value": number, "list": [number]}
     assert not isinstance(config["value"], str)
 
@@ -142,52 +96,6 @@ def test_results_stay_below_the_repository(config, name):
     config["results"] = name
     (problem,) = problems(config)
     assert problem.startswith("results = ")
-
-
-@pytest.mark.parametrize(
-    ("path", "value", "sentence"),
-    [
-        ("blade.length", None, "blade.length: missing, blade length must be a number from 0.01 to 3, in m"),
-        (
-            "figures.xyz",
-            1,
-            "figures.xyz = 1: unknown key, known here: dpi, max_frequency, amplitude_range, nominal_speed",
-        ),
-        ("figures.dpj", 1, "figures.dpj = 1: unknown key, did you mean figures.dpi?"),
-        (
-            "blade.length",
-            "200 kg",
-            'blade.length = "200 kg": is a mass; must be a length: mm, µm, cm, m, in, ft, or a number in m',
-        ),
-        (
-            "analysis.peaks.orders",
-            [],
-            "analysis.peaks.orders = []: list of engine orders must be a list of 1 to 1000 entries",
-        ),
-        (
-            "analysis.peaks.orders",
-            [4, 4],
-            "analysis.peaks.orders = [4, 4]: list of engine orders must not name one twice",
-        ),
-        ("chart.K", [1, 5, 2], "chart.K[2] = 2: must be above the one before (5)"),
-        ("chart.casing", "3nd", 'chart.casing = "3nd": must be one of the casings, 2nd, 2nd5nd'),
-        (
-            "speeds.stop",
-            0.41,
-            "speeds.stop = 0.41: must be at most reduction.f_omega_max = 0.4, the reduced blade is not valid "
-            "above",
-        ),
-    ],
-)
-def test_each_kind_of_problem_has_its_sentence(config, path, value, sentence):
-    *groups, key = path.split(".")
-    part = config
-    for group in groups:
-        part = part[group]
-    part[key] = value
-    if value is None:
-        del part[key]
-    assert sentence in problems(config)
 
 
 RIGID = {"casing": "2nd", "coating": "rigid", "friction": [0.0]}

@@ -2,7 +2,7 @@ import pytest
 
 from bladerub.config.errors import ConfigError
 from bladerub.config.read import load, validate
-from bladerub.extras.calibration import plan
+from bladerub.extras.calibration.sets import plan
 from bladerub.io.folders import ROOT
 
 
@@ -47,6 +47,17 @@ def test_every_problem_is_reported_with_its_set(study, asked):
     first, second = sorted(problem.text for problem in caught.value.problems)
     assert first.startswith("a: contact.damping_ratio = 2")
     assert second.startswith("c: contact.damping")
+
+
+def test_a_plan_can_name_a_file_that_lies_under_what_is_common(asked, tmp_path):
+    (tmp_path / "soft.yaml").write_text("contact: {modulus_unit: 1.0e+8, damping_ratio: 1.0e-3}\n")
+    text = "common: {contact: {damping_ratio: 2.0e-3}}\n"
+    text += "sets: {old: {}, stiff: {contact: {modulus_unit: 4.0e+8}}}\n"
+    sets = plan(asked(f"file: soft.yaml\n{text}"))
+    assert [config["contact"]["modulus_unit"] for config in sets.values()] == [1e8, 4e8]
+    assert {config["contact"]["damping_ratio"] for config in sets.values()} == {2e-3}
+    with pytest.raises(ConfigError, match=r"plan.yaml:1: file = .*: cannot be read"):
+        plan(asked(f"file: none.yaml\n{text}"))
 
 
 @pytest.mark.parametrize(("file", "of_the_study"), [("calibration", "study"), ("laws", "plastic")])

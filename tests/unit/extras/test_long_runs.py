@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from bladerub.extras import long_runs
+from bladerub.extras.passages import long_runs
 from bladerub.study.grid import CoatingCase
 
 CASE = CoatingCase("2nd", 1.1, 0.5, 0.0)

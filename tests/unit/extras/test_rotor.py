@@ -64,3 +64,11 @@ def test_the_distribution_of_known_draws():
     assert np.isnan(found.longest_share_median)
     # order statistics 86 and 114 of 199 hold the median with 95 %
     assert (found.amplification_low, found.amplification_high) == pytest.approx((0.86, 1.14))
+
+
+def test_a_plan_may_have_units(study, tmp_path):
+    path = tmp_path / "plan.yaml"
+    text = (ROOT / "config" / "rotor.yaml").read_text()
+    path.write_text(text.replace("length_scatter: [5.0e-5]", "length_scatter: [50 µm]"))
+    assert path.read_text() != text
+    assert read_plan(path, study) == read_plan(ROOT / "config" / "rotor.yaml", study)

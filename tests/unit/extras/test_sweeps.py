@@ -2,8 +2,8 @@ import numpy as np
 import pytest
 
 from bladerub.contact.result import Energy
-from bladerub.extras import sweep_grid, sweeps
-from bladerub.extras.speed_sweep import SweepResult
+from bladerub.extras.passages import sweep_grid, sweeps
+from bladerub.extras.passages.speed_sweep import SweepResult
 from bladerub.io.tables import described_columns
 from bladerub.study.grid import CoatingCase
 from bladerub.study.peaks import peak

@@ -10,6 +10,7 @@ from bladerub.config import read as configuration
 from bladerub.config.errors import ConfigError, format_value
 from bladerub.config.files import Located
 from bladerub.extras.factors import Factor, lay_over, read_factors
+from bladerub.extras.identification.settings import IdentificationPlan
 
 BATCH = 4
 """Sets of one job."""
@@ -79,7 +80,7 @@ def read_plan(path: str | Path) -> Plan:
 
     Raises `ConfigError` if it is none: the message has file, line, key, value and what would be right.
     """
-    located = configuration.read_plan(path, "identification_plan")
+    located = configuration.read_plan(path, IdentificationPlan)
     content = located.content
     factors = read_factors(content["factors"])
     parts = {

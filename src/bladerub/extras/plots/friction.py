@@ -15,7 +15,7 @@ COLOURS = (style.DARK, style.ORANGE, style.BLUE, style.RED, style.GREY, style.VI
 def friction(table: pd.DataFrame) -> Figure:
     """Draw the difference of the peaks and the slowest sliding over the speed, a colour for each coating.
 
-    `table` is from `bladerub.extras.friction.table`.
+    `table` is from `bladerub.extras.friction.table.table`.
     """
     figure = style.new_figure(style.PAGE, 0.85 * style.PAGE)
     difference, sliding = figure.subplots(2, 1, sharex=True)

@@ -7,7 +7,7 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from bladerub.extras.long_runs import LongRuns
+from bladerub.extras.passages.long_runs import LongRuns
 from bladerub.plots.scales import greatest
 from bladerub.plots.style import BLUE, DARK, GREY, ORANGE, PAGE, RED, new_figure, styled
 
@@ -26,7 +26,7 @@ _LOOKS = {True: {"color": DARK, "linewidth": 0.7}, False: {"color": GREY, "linew
 
 @styled
 def long_runs(coatings: Sequence[LongRuns], table: pd.DataFrame) -> Figure:
-    """Draw growth, verdicts and cost; `table` is from `bladerub.extras.long_runs.table`."""
+    """Draw growth, verdicts and cost; `table` is from `bladerub.extras.passages.long_runs.table`."""
     figure = new_figure(PAGE, 0.72 * PAGE)
     panels = figure.subplot_mosaic([["growth", "growth"], ["verdicts", "cost"]], height_ratios=[1.2, 1])
     _draw_growth(panels["growth"], coatings)

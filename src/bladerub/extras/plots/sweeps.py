@@ -6,8 +6,8 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from bladerub.extras.sweep_grid import DIRECTIONS
-from bladerub.extras.sweeps import SpeedSweep
+from bladerub.extras.passages.sweep_grid import DIRECTIONS
+from bladerub.extras.passages.sweeps import SpeedSweep
 from bladerub.plots import titles
 from bladerub.plots.scales import greatest
 from bladerub.plots.style import BLUE, DARK, GREY, ORANGE, PAGE, RED, new_figure, styled

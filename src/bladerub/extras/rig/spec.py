@@ -3,8 +3,9 @@
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field, fields
 
-from bladerub.config import schema
+from bladerub.config.problems import problems
 from bladerub.contact.spec import PLASTIC, Coating, ElementLaw
+from bladerub.extras.rig.settings import RigSettings
 
 MEASURABLE = (
     *("normal_force", "tangential_force", "normal_impulse", "tangential_impulse", "largest_pressure"),
@@ -89,8 +90,8 @@ class Rig:
         """Raise `ValueError`, which names the parameter and its value, if one is not as it must be."""
         parameters = {name: value for name, value in asdict(self).items() if name not in ("name", "law")}
         parameters |= {"assumed": list(self.assumed), "measured": dict(self.measured)}
-        if problems := list(schema.problems(parameters, "rig")):
-            raise ValueError("; ".join(problems))
+        if mistakes := list(problems(parameters, RigSettings)):
+            raise ValueError("; ".join(mistakes))
         if self.incursion * self.passes >= self.thickness:
             deepest = self.thickness / self.passes
             raise ValueError(

@@ -15,6 +15,7 @@ from bladerub.config import read as configuration
 from bladerub.config.errors import UNKNOWN, ConfigError, Location
 from bladerub.config.files import Located
 from bladerub.extras.factors import Factor, read_factors
+from bladerub.extras.robustness.settings import RobustnessPlan
 
 BATCH = 8
 """Samples of one job."""
@@ -57,7 +58,7 @@ def read_plan(path: str | Path) -> Plan:
 
     Raises `ConfigError` if it is none: the message has file, line, key, value and what would be right.
     """
-    plan = configuration.read_plan(path, "robustness_plan")
+    plan = configuration.read_plan(path, RobustnessPlan)
     factors = read_factors(plan.content["factors"])
     parts = {name: _part(name, entry) for name, entry in plan.content["parts"].content.items()}
     for one, other in itertools.combinations(parts.values(), 2):

@@ -7,7 +7,7 @@ import numpy as np
 import pandas as pd
 
 from bladerub.config import read as configuration
-from bladerub.extras.calibration import sets
+from bladerub.extras.calibration.sets import sets
 from bladerub.io.folders import CONFIG, ROOT
 
 PLAN = ROOT / "config" / "rotor37_reference.yaml"

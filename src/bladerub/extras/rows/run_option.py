@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Any
 from bladerub.cli import inputs
 from bladerub.cli.inputs import InputError, quantity
 from bladerub.cli.run_option import RunOption
-from bladerub.config.schema import schema
 
 if TYPE_CHECKING:
     from bladerub.api.blade import Blade
@@ -44,17 +43,17 @@ class RowOption(RunOption):
 
     def check(self, options: argparse.Namespace, config: dict[str, Any]) -> None:
         """Convert the scatters; refuse settings without blades, and numbers that cannot be."""
-        from bladerub.config.quantities import references
+        from bladerub.config.quantities import key_at, references
 
-        inputs.convert(options, "length_scatter", "frequency_scatter", reference=references(config))
+        names = ("length_scatter", "frequency_scatter")
+        inputs.convert(options, *names, reference=references(config), section="rotor.")
         for name, value in _settings(options).items():
             option = f"--{name.replace('_', '-')} = {value:g}"
             if options.blades is None:
                 raise InputError(f"{option}: goes with --blades only")
             if not (math.isfinite(value) and value >= 0):
                 raise InputError(f"{option}: must be 0 or more")
-        maximum = schema()["properties"]["rotor"]["properties"]["blades"]["maximum"]
-        inputs.require(options, blades=(1, maximum))
+        inputs.require(options, blades=(1, int(key_at("rotor.blades").bounds["le"])))
 
     def arguments(self, options: argparse.Namespace) -> dict[str, Any]:
         """Draw the row."""

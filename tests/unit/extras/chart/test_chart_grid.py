@@ -22,6 +22,7 @@ def test_orders_are_those_of_the_chart_s_casing(config):
 
 
 def test_an_order_without_a_crossing_is_refused(config):
+    config["casings"]["2nd"]["peak_orders"] = [4, 6]
     check(config)
     config["speeds"]["stop"] = 0.24
     with pytest.raises(BadInput, match=r"speeds.stop = 0.24: must be at least 0.25 for the chart"):

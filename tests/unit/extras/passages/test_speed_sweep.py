@@ -5,8 +5,8 @@ from scipy.integrate import solve_ivp
 from bladerub.contact.modes import at_tip, mode_shapes_at
 from bladerub.contact.run import simulate
 from bladerub.contact.setup import set_up
-from bladerub.extras.speed_sweep import simulate_sweep, speed_steps
-from bladerub.extras.sweep_grid import SweepSpec
+from bladerub.extras.passages.speed_sweep import simulate_sweep, speed_steps
+from bladerub.extras.passages.sweep_grid import SweepSpec
 
 N = 200
 """Elements of the ring."""

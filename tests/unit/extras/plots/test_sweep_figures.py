@@ -1,8 +1,8 @@
 import numpy as np
 import pytest
 
+from bladerub.extras.passages.sweeps import SpeedSweep
 from bladerub.extras.plots.sweeps import sweeps
-from bladerub.extras.sweeps import SpeedSweep
 from bladerub.study.grid import CoatingCase
 from bladerub.study.maps import CoatingMap
 

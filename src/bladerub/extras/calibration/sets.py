@@ -13,8 +13,10 @@ import pandas as pd
 from bladerub.blade.build import build
 from bladerub.blade.built import write
 from bladerub.blade.files import accuracy_path, mesh_path
+from bladerub.config import files
 from bladerub.config import read as configuration
 from bladerub.config.errors import ConfigError
+from bladerub.extras.calibration.settings import CalibrationPlan
 from bladerub.extras.small_study import conduct
 from bladerub.io import tables
 from bladerub.io.provenance import provenance
@@ -31,17 +33,19 @@ COUNTS = ["set", "yes", "partly", "no", "better", "worse"]
 def plan(config: Mapping[str, Any]) -> dict[str, dict[str, Any]]:
     """Read the plan of a study and make the config of each of its sets, by name and in the order of the plan.
 
-    ``calibration`` of the study `config` names a YAML file with ``common``, laid over the study in every set,
-    and ``sets``, by name what is laid over that. Each of them can extend other files. Raises `ConfigError` if
-    the file is no plan or a set no config, with every problem and the set it is in.
+    ``calibration`` of the study `config` names a YAML file (`CalibrationPlan`). Raises `ConfigError` if it is
+    no plan or a set no config, with every problem and the set it is in.
     """
     return sets(config, config["calibration"], "calibration")
 
 
 def sets(config: Mapping[str, Any], path: str | Path, key: str | None = None) -> dict[str, dict[str, Any]]:
     """Make the config of each set of the plan at `path`, as `plan`; `key` of the config names it, if any."""
-    content = configuration.read_plan(path, "calibration_plan", key).content
-    common = [content["common"]] if "common" in content else []
+    content, common = configuration.read_plan(path, CalibrationPlan, key).content, []
+    if named := content.get("file"):
+        common.append(files.read(Path(path).parent / named.content, "file", named.location))
+    if "common" in content:
+        common.append(content["common"])
     configs, problems = {}, []
     for name, choices in content["sets"].content.items():
         try:

@@ -28,7 +28,7 @@ from bladerub.contact.result import Outcome
 from bladerub.contact.schemes import Recurrence
 from bladerub.contact.setup import set_up_modes
 from bladerub.contact.spec import RunSpec
-from bladerub.extras.sweep_grid import SweepSpec
+from bladerub.extras.passages.sweep_grid import SweepSpec
 
 
 @dataclass(frozen=True)

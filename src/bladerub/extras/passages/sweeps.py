@@ -10,8 +10,8 @@ import pandas as pd
 
 from bladerub.blade.frequencies import reduced_frequencies
 from bladerub.blade.model import ReducedBlade
-from bladerub.extras.speed_sweep import SweepResult, simulate_sweep
-from bladerub.extras.sweep_grid import sweep_spec
+from bladerub.extras.passages.speed_sweep import SweepResult, simulate_sweep
+from bladerub.extras.passages.sweep_grid import sweep_spec
 from bladerub.io import hdf5
 from bladerub.io.errors import DamagedFile
 from bladerub.io.hdf5 import Variable
@@ -53,7 +53,7 @@ class SpeedSweep:
     direction: str  # up or down
     rate: float  # change of the normalised speed per second, 1/s
     status: str  # completed or unbounded
-    energy_residual: float  # see `bladerub.extras.speed_sweep.SweepResult.residual`
+    energy_residual: float  # see `bladerub.extras.passages.speed_sweep.SweepResult.residual`
     max_wear: float  # at the end, m
     speed: np.ndarray  # (r,), mean of each revolution in the order of time, normalised
     revolution_amplitude: np.ndarray  # (r,), half the range of u_r of node 1, m; NaN after an unbounded end

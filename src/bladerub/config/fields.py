@@ -1,0 +1,159 @@
+"""What the models of a config are written with: sections, units, and bounds that other keys give.
+
+A section is a pydantic model. Each of its keys has a type with a unit, bounds, and a docstring that says what
+it is and why it has its value in the study of the paper::
+
+    class Speeds(Section):
+        '''Rotational frequencies that every coating is run at.'''
+
+        step: Speed = Field(ge=1e-4, le=2)
+        '''Determines how finely a peak is resolved; the cost is proportional to its inverse.'''
+
+Plain numbers are SI, or in a size of the study: ``f1`` is the first frequency of the blade at rest,
+``modulus_unit`` is ``contact.modulus_unit`` times ``contact.scale.modulus``. A number may also be typed with
+a unit of the same kind (`bladerub.config.units`).
+"""
+
+from collections.abc import Hashable
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import Annotated, Any, ClassVar, TypeVar
+
+from pydantic import AfterValidator, BaseModel, ConfigDict, Field, GetCoreSchemaHandler, GetJsonSchemaHandler
+from pydantic_core import CoreSchema, PydanticCustomError, core_schema
+
+from bladerub.config import units
+from bladerub.config.docstrings import docstrings
+
+T = TypeVar("T")
+
+
+class Section(BaseModel):
+    """A group of keys; its docstring says what it is of."""
+
+    model_config: ClassVar[ConfigDict] = ConfigDict(
+        extra="forbid", strict=True, frozen=True, allow_inf_nan=False
+    )
+
+    @classmethod
+    def __get_pydantic_json_schema__(cls, core: CoreSchema, handler: GetJsonSchemaHandler) -> dict[str, Any]:
+        """Add the docstrings of the keys."""
+        reference = handler(core)
+        rules = handler.resolve_ref_schema(reference)
+        for name, text in docstrings(cls).items():
+            rules["properties"][name]["description"] = text
+        return reference
+
+
+@dataclass(frozen=True)
+class Unit:
+    """Unit of a plain number; one may also be typed with a unit of its own.
+
+    `scaled` names the factor of ``contact.scale`` by which plain numbers are multiplied, and quantities with
+    a unit are not. A quantity is rounded up to so many `decimals`.
+    """
+
+    name: str
+    scaled: str | None = None
+    decimals: int | None = None
+
+    def __get_pydantic_json_schema__(self, core: CoreSchema, handler: GetJsonSchemaHandler) -> dict[str, Any]:
+        """Allow text that is a number with a unit."""
+        return {"anyOf": [handler(core), {"type": "string", "pattern": units.pattern(self.name)}]}
+
+
+@dataclass(frozen=True)
+class Limit:
+    """A bound of a number that another key of the config gives, over a whole number; and the reason."""
+
+    relation: str  # "at most", "below", "at least" or "above"
+    key: str
+    reason: str = ""
+    divisor: int = 1
+
+    def __str__(self) -> str:
+        return f"{self.relation} {self.key}" + (f" / {self.divisor}" if self.divisor > 1 else "")
+
+
+@dataclass(frozen=True)
+class OneOf:
+    """A text that is one of the keys of a group at the top of the config."""
+
+    group: str
+
+
+@dataclass(frozen=True)
+class Form:
+    """What a text must be, in words."""
+
+    words: str
+
+
+class _Omittable:
+    """A key that may be left out; it may not be null."""
+
+    def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
+        """Drop null of the type."""
+        return handler(source)["schema"]
+
+
+Omitted = Annotated[T | None, _Omittable()]
+"""Type of a key that a config may lack: ``length: Omitted[Metre] = Field(None, ge=0)``."""
+
+
+OWN = ("unique", "ascending", "kind", "disagree")
+"""Types of the errors that validators here and in models raise: their messages say what is right."""
+
+
+def disagreement(key: str, right: str) -> PydanticCustomError:
+    """Make the error of a group whose keys do not agree: of one of them, and what would be right."""
+    return PydanticCustomError("disagree", right.replace("{", "{{"), {"within": key})
+
+
+def _unique(values: list[Hashable]) -> list[Hashable]:
+    if len(set(values)) < len(values):
+        raise PydanticCustomError("unique", "must not name one twice")
+    return values
+
+
+class _Unique:
+    def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
+        """Compare the values of the list."""
+        return core_schema.no_info_after_validator_function(_unique, handler(source))
+
+    def __get_pydantic_json_schema__(self, core: CoreSchema, handler: GetJsonSchemaHandler) -> dict[str, Any]:
+        """Say so as a schema does."""
+        return handler(core) | {"uniqueItems": True}
+
+
+def _ascending(values: list[float]) -> list[float]:
+    for index, (lower, upper) in enumerate(pairwise(values), 1):
+        if float(f"{upper:g}") <= float(f"{lower:g}"):  # six digits, as in the names of files
+            text = f"must be above the one before ({lower:g})"
+            raise PydanticCustomError("ascending", text, {"within": index})
+    return values
+
+
+UNIQUE = _Unique()
+"""A list that names nothing twice."""
+ASCENDING = AfterValidator(_ascending)
+"""A list each of whose numbers is above the one before."""
+
+Number = Annotated[float, Unit("1")]
+Metre = Annotated[float, Unit("m")]
+ScaledMetre = Annotated[float, Unit("m", scaled="length")]
+Second = Annotated[float, Unit("s")]
+Pascal = Annotated[float, Unit("Pa")]
+Degree = Annotated[float, Unit("degrees")]
+Radian = Annotated[float, Unit("rad")]
+Speed = Annotated[float, Unit("f1")]
+Modulus = Annotated[float, Unit("modulus_unit")]
+BladeLengths = Annotated[float, Unit("blade lengths")]
+Seed = Annotated[int, Field(ge=0, le=4294967295)]
+ConfigFile = Annotated[str, Field(pattern=r"^.+\.ya?ml$"), Form("the path of a .yaml file")]
+Name = Annotated[
+    str,
+    Field(pattern=r"^[A-Za-z][A-Za-z0-9_]*$", max_length=40),
+    Form("at most 40 letters, digits and underscores, a letter first"),
+]
+"""A name that becomes that of a column or of a folder."""

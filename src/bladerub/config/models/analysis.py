@@ -1,0 +1,89 @@
+"""How runs become spectra, maps, tables and figures."""
+
+from typing import Annotated
+
+from pydantic import Field
+
+from bladerub.config.fields import ASCENDING, Limit, Metre, Number, Omitted, Section, Seed, Speed, Unit
+from bladerub.config.models.coatings import Histories
+from bladerub.config.models.quantities import EngineOrders
+
+
+class Peaks(Section):
+    """How Y4, f4, Y6 and f6 are read from the maps."""
+
+    orders: EngineOrders
+    """4 and 6, as in Fig. 10; casings.<name>.peak_orders is for casings that do not excite them."""
+    order_halfwidth: Annotated[float, Unit("engine orders")] = Field(gt=0, le=0.5)
+    """The peak lies on the engine-order line to within this; at 0.5 neighbouring lines meet."""
+    speed_window: Annotated[list[Annotated[float, Unit("crossing speeds"), Field(gt=0, le=5)]], ASCENDING] = (
+        Field(min_length=2, max_length=2)
+    )
+    """In units of the speed where the engine order crosses C1 of the free blade: contact stiffening moves
+    peaks up from there."""
+
+
+class Divergence(Section):
+    """When a run is called divergent or saturating; defined in src/bladerub/study/growth.py."""
+
+    revolutions: Annotated[int, Limit("at most", "solver.revolutions")] = Field(ge=3, le=10000)
+    """Of the fit of growth: the last ten, past the transient; fewer than three show no scatter, fewer than
+    four no bend."""
+    growth: Annotated[float, Unit("1/revolution")] = Field(ge=0, le=10)
+    """Relative growth of the amplitude in one revolution; a run grows when it is surely above."""
+    confidence: Number = Field(ge=0.5, le=0.9999)
+    """Of the two-sided intervals of growth and curvature, usually 0.95."""
+    confirmation_revolutions: int = Field(ge=0, le=10000)
+    """A run that grows is repeated for this number, and judged by the last of them; with 0 every run is
+    judged by its own. Three times the paper's 20 show the end of most growth."""
+
+
+class Analysis(Section):
+    """How runs become spectra, maps and tables."""
+
+    spectrum_revolutions: Annotated[int, Limit("at most", "solver.revolutions")] = Field(ge=1, le=10000)
+    """The last ten, as in the paper."""
+    max_order: Annotated[
+        float,
+        Unit("engine orders"),
+        Limit("at most", "contact.elements", "there is one sample an element", divisor=2),
+    ] = Field(ge=1, le=10000)
+    """Highest engine order kept. Covers C1 (order 50 at f_omega = 0.02) in the spectra; more only makes files
+    larger."""
+    peaks: Peaks
+    divergence: Divergence
+    lobe_prominence: Annotated[float, Unit("greatest worn depths")] = Field(gt=0, lt=1)
+    """How much a worn lobe must stand out to be counted."""
+    histories: Histories
+
+
+class Ensemble(Section):
+    """The runs at the peaks of each coating with their neighbours in speed, repeated from other starts.
+
+    So are those that claims name: chaotic runs differ by 5 to 30 %. The bands in `peaks.csv` and
+    `divergence.csv` and the shares in `findings.csv` come from them.
+    """
+
+    members: int = Field(ge=0, le=1000)
+    """So many starts of each run, besides the study's own; with 0 tables have no bands."""
+    displacement: Metre = Field(gt=0, le=1e-5)
+    """Largest one at the start, of node 1, radially, in the first mode. A start is drawn evenly between this
+    and its negative: far above rounding, far below the tolerance to which a blade tip is made."""
+    seed: Seed
+    """Another seed draws other starts."""
+
+
+class Figures(Section):
+    """Appearance only."""
+
+    dpi: int = Field(ge=30, le=1200)
+    """Of the PNG files: sharp on a screen, small in a repository."""
+    max_frequency: Speed = Field(gt=0, le=100)
+    """Top of the spectrum figures. Shows C1 and the engine orders that the paper discusses."""
+    amplitude_range: Annotated[list[Annotated[Metre, Field(gt=0, le=1)]], ASCENDING] = Field(
+        min_length=2, max_length=2
+    )
+    """Colour scale of the spectrum figures, by the amplitude of the radial displacement of node 1: a
+    logarithmic one for Figs. 7 to 10, 15 and 16, so that they can be compared."""
+    nominal_speed: Omitted[Annotated[float, Unit("1/min")]] = Field(None, gt=0, le=1e6)
+    """Of the rotor: figures over the speed have a line there. None if not given."""

@@ -1,0 +1,144 @@
+"""Coatings of the study: abradable ones, those with Coulomb friction, and direct contact with the casing."""
+
+from collections.abc import Mapping
+from typing import Annotated, Any
+
+from pydantic import Discriminator, Field, Tag
+
+from bladerub.config.fields import Omitted, Section
+from bladerub.config.models.quantities import (
+    CasingName,
+    DampingRatio,
+    Friction,
+    Interference,
+    LayerThickness,
+    PlasticModulus,
+    Rigid,
+    RunSpeed,
+    Theta,
+    YoungModulus,
+)
+
+_SEVERAL = Field(min_length=1, max_length=1000)
+_VARIED = Field(
+    None, min_length=1, max_length=1000, description="Instead of that of the config; each makes a coating."
+)
+
+
+class RigidCoating(Section):
+    """Direct contact with one casing, which neither deforms nor wears."""
+
+    casing: CasingName
+    coating: Rigid
+    friction: list[Friction] = _SEVERAL
+    """0, for comparison with coatings of theta = 0."""
+    damping_ratio: Omitted[list[DampingRatio]] = _VARIED
+    interference: Omitted[list[Interference]] = _VARIED
+
+
+class _Layers(Section):
+    casing: CasingName
+    E: list[YoungModulus] = _SEVERAL
+    """The nine of the paper, and a softer one."""
+    K: list[PlasticModulus] = _SEVERAL
+    """The paper names 0.1, 0.5, 1 and 5; the others complete its histograms."""
+    damping_ratio: Omitted[list[DampingRatio]] = _VARIED
+    layer_thickness: Omitted[list[LayerThickness]] = _VARIED
+    interference: Omitted[list[Interference]] = _VARIED
+
+
+class Coating(_Layers):
+    """Abradable coatings of one casing."""
+
+    theta: list[Theta] = _SEVERAL
+    """0, and the 0.15 of Fig. 16."""
+
+
+class CoatingWithFriction(_Layers):
+    """Abradable coatings of one casing, with Coulomb friction."""
+
+    friction: list[Friction] = _SEVERAL
+    """The tangent of theta, for comparison; the study has none."""
+
+
+class _Run(Section):
+    casing: CasingName
+    f_omega: RunSpeed
+    damping_ratio: Omitted[DampingRatio] = None
+    interference: Omitted[Interference] = None
+
+
+class HistoryOfDirectContact(_Run):
+    """One run of the grid on the rigid casing."""
+
+    coating: Rigid
+    friction: Friction
+
+
+class _LayerRun(_Run):
+    E: YoungModulus
+    K: PlasticModulus
+    layer_thickness: Omitted[LayerThickness] = None
+
+
+class History(_LayerRun):
+    """One run of the grid on an abradable coating."""
+
+    theta: Theta
+
+
+class HistoryWithFriction(_LayerRun):
+    """One run of the grid on an abradable coating with Coulomb friction."""
+
+    friction: Friction
+
+
+def _kind(entry: Any) -> str | None:
+    """Tell the kinds of coating apart; none of an entry whose key `coating` is not ``rigid``."""
+    if not isinstance(entry, Mapping):
+        return "layer"
+    if "coating" in entry:
+        return "rigid" if entry["coating"] == "rigid" else None
+    return "friction" if "friction" in entry else "layer"
+
+
+_KIND = Discriminator(
+    _kind,
+    custom_error_type="kind",
+    custom_error_message="must be rigid; an abradable coating has no such key",
+    custom_error_context={"within": "coating"},
+)
+
+Coatings = Annotated[
+    list[
+        Annotated[
+            Annotated[Coating, Tag("layer")]
+            | Annotated[CoatingWithFriction, Tag("friction")]
+            | Annotated[RigidCoating, Tag("rigid")],
+            _KIND,
+        ]
+    ],
+    Field(
+        min_length=1,
+        max_length=1000,
+        description="Each entry stands for all combinations of its E, K and theta, or of its coefficients "
+        "of friction: with theta the contact force has a constant direction, with friction it follows "
+        "Coulomb's law (studies/friction/README.md). An entry with the key `coating` is no abradable "
+        "layer but direct contact with the rigid casing.",
+    ),
+]
+Histories = Annotated[
+    list[
+        Annotated[
+            Annotated[History, Tag("layer")]
+            | Annotated[HistoryWithFriction, Tag("friction")]
+            | Annotated[HistoryOfDirectContact, Tag("rigid")],
+            _KIND,
+        ]
+    ],
+    Field(
+        max_length=10000,
+        description="Runs whose whole displacement is kept, those of Figs. 17 and 18. Those that the study "
+        "does not have are left out.",
+    ),
+]

@@ -1,0 +1,198 @@
+"""Contact: coating, tip and clearance, and the shapes of the casings."""
+
+from collections.abc import Mapping
+from typing import Annotated, Any, Literal
+
+from pydantic import ConfigDict, Discriminator, Field, Tag, model_validator
+
+from bladerub.config.fields import (
+    UNIQUE,
+    BladeLengths,
+    Form,
+    Limit,
+    Modulus,
+    Number,
+    Omitted,
+    Pascal,
+    ScaledMetre,
+    Section,
+    Unit,
+    disagreement,
+)
+from bladerub.config.models.quantities import (
+    DampingRatio,
+    EngineOrders,
+    Interference,
+    LayerThickness,
+    StartAngle,
+)
+
+
+class TipProfile(Section):
+    """Parabola under each interface node, Fig. 3 of the paper."""
+
+    half_width: Annotated[
+        float,
+        Unit("elements"),
+        Limit("at most", "contact.elements", "the tip of a blade is narrow", divisor=8),
+    ] = Field(gt=0, le=20)
+    """The whole width is about the thickness of the blade at its tip."""
+    edge_drop: ScaledMetre = Field(ge=0, le=0.01)
+    """How much lower the edge of the tip is than its middle; determines the width of the track."""
+
+
+class Law(Section):
+    """How an element of the layer deforms and wears (docs/laws.md); the paper's law, plastic, if not given.
+
+    The name of a law or the file of one of your own, and a value for each of its parameters, in its own unit.
+    ``contact.scale`` does not apply to them.
+    """
+
+    model_config = ConfigDict(extra="allow")
+    __pydantic_extra__: dict[str, Annotated[float, Unit("SI"), Field(ge=-1e15, le=1e15)]]
+
+    name: Annotated[Omitted[str], Form("the name of a law")] = Field(None, pattern=r"^[a-z_]+$")
+    """docs/laws.md lists the laws, with the parameters of each and their units."""
+    file: Annotated[Omitted[str], Form("the path of a Python file that ends in .py")] = Field(
+        None, pattern=r"^.+\.py$"
+    )
+    """Instead of the name: a law of your own, which `bladerub check-law` checks. The loop is compiled with
+    it. Relative to the folder that Snakemake runs in. It is run, so read a file of somebody else first."""
+
+    @model_validator(mode="after")
+    def _has_one_law(self) -> "Law":
+        if self.name is not None and self.file is not None:
+            raise disagreement("file", "must be without the name of a law")
+        return self
+
+
+class Clearance(Section):
+    """The paper's 0.015 % to 0.043 % of the blade length, linear along the chord."""
+
+    leading_edge: BladeLengths = Field(ge=0, le=0.05)
+    """Lower end of the paper's range."""
+    trailing_edge: BladeLengths = Field(ge=0, le=0.05)
+    """Upper end of the paper's range."""
+
+
+class Scale(Section):
+    """Multiplies values that are for the blade of config/config.yaml.
+
+    E and K then mean the same on another blade. `bladerub import` prints it. It multiplies those of your own
+    files as well. Without it all values are absolute.
+    """
+
+    length: Number = Field(ge=0.001, le=1000)
+    """Of amplitude and interference of the casings, contact.layer_thickness and
+    contact.tip_profile.edge_drop."""
+    modulus: Number = Field(ge=1e-6, le=1e6)
+    """Of contact.modulus_unit; keeps the stiffness of an element in proportion to that of the tip."""
+    time: Number = Field(ge=0.001, le=1000)
+    """Of solver.max_time_step; periods of the first mode."""
+
+
+class Contact(Section):
+    """Coating, tip and clearances, but for what each coating varies."""
+
+    modulus_unit: Pascal = Field(ge=1000, le=1e12)
+    """What E = 1 and K = 1 are. Not given by the paper; fitted so that the peaks are at the paper's
+    speeds."""
+    yield_stress: Modulus = Field(ge=0, le=100)
+    """Elastic limit σ_Y, the paper's value: zero in practice."""
+    layer_thickness: LayerThickness
+    elements: int = Field(ge=100, le=100000)
+    """Around the circumference, the paper's 2,000."""
+    tip_profile: TipProfile
+    tip_turns: Omitted[bool] = None
+    """Whether the profile of Fig. 3 turns with the tip as the blade bends, and the blade feels the couple of
+    the contact forces; false where it is left out. The paper does not mention it. Direct contact with the
+    rigid casing has no profile."""
+    law: Omitted[Law] = None
+    clearance: Clearance
+    scale: Omitted[Scale] = None
+    damping_ratio: DampingRatio
+
+
+CasingInterference = Annotated[
+    Interference, Limit("below", "contact.layer_thickness", "or the blade reaches through the coating")
+]
+
+
+class _AnyCasing(Section):
+    interference: CasingInterference
+    start_angle: StartAngle
+    peak_orders: Omitted[EngineOrders] = None
+    """Instead of analysis.peaks.orders. If this is left out and the casing does not excite those, its peaks
+    are at the two lowest orders that a nodal diameter divides and whose speed window ends below the highest
+    speed."""
+
+
+class Casing(_AnyCasing):
+    """Shape of one casing, a sum of waves, or of bumps."""
+
+    nodal_diameters: Annotated[
+        list[Annotated[int, Limit("at most", "contact.elements", divisor=2), Field(ge=1, le=100)]], UNIQUE
+    ] = Field(min_length=1, max_length=20)
+    """Numbers of full waves around the circumference. The paper distorts the casing along 2 and 5."""
+    weights: list[Annotated[Number, Field(ge=-100, le=100)]] = Field(min_length=1, max_length=20)
+    """One for each nodal diameter; the sum is scaled to a maximum of 1. Not given by the paper; chosen for
+    the lobes of Fig. 6."""
+    amplitude: ScaledMetre = Field(gt=0, le=0.05)
+    """The paper's "one millimetre" for 2 nodal diameters; half of it for 2 + 5, where a smaller one gives the
+    lobes of Fig. 6."""
+    bump_width: Omitted[Number] = Field(None, gt=0, le=1)
+    """Each nodal diameter n then stands for n Gaussian bumps instead of n waves; over the distance between
+    two of them."""
+
+    @model_validator(mode="after")
+    def _weights_fit(self) -> "Casing":
+        number = len(self.nodal_diameters)
+        if len(self.weights) != number:
+            raise disagreement("weights", f"must be {number}, one for each of nodal_diameters")
+        if not any(self.weights):
+            raise disagreement("weights", "at least one must not be 0")
+        return self
+
+
+class GapTable(Section):
+    """A text with the columns angle and gap, named in its first row.
+
+    The gap is what contact.clearance is added to, negative where tip and coating overlap, at angles that
+    count in the direction of rotation. ``contact.scale`` does not apply to it.
+    """
+
+    file: Annotated[str, Form("the path of a file that ends in .csv, .txt or .dat")] = Field(
+        pattern=r"^.+\.([cC][sS][vV]|[tT][xX][tT]|[dD][aA][tT])$"
+    )
+    """Relative to the folder that Snakemake runs in."""
+    unit: Omitted[Literal["m", "mm", "cm", "inch", "in", "feet", "ft"]] = None
+    """Of the gap; m if it is not given."""
+    angle_unit: Omitted[Literal["rad", "deg"]] = None
+    """deg if it is not given."""
+
+
+class MeasuredCasing(_AnyCasing):
+    """Shape of one casing by a table of the gap around it."""
+
+    table: GapTable
+    interference: Omitted[CasingInterference] = None
+
+
+def _kind(entry: Any) -> str:
+    return "measured" if isinstance(entry, Mapping) and "table" in entry else "sum"
+
+
+CasingNames = Annotated[
+    str,
+    Field(pattern=r"^[A-Za-z0-9]+$", max_length=40),
+    Form("at most 40 letters and digits, it becomes part of file names"),
+]
+Casings = Annotated[
+    dict[
+        CasingNames,
+        Annotated[
+            Annotated[Casing, Tag("sum")] | Annotated[MeasuredCasing, Tag("measured")], Discriminator(_kind)
+        ],
+    ],
+    Field(min_length=1, max_length=100, description="Rigid inner shapes, by short names as in the paper."),
+]

@@ -1,0 +1,122 @@
+"""The whole config of a study: the sections of the core, and those that plug in."""
+
+from collections.abc import Mapping
+from functools import cache
+from typing import Annotated, Any, Literal
+
+from pydantic import Field, create_model
+from pydantic.fields import FieldInfo
+
+from bladerub import plugins
+from bladerub.config.fields import BladeLengths, Form, Limit, Number, Omitted, Section, Speed, Unit
+from bladerub.config.models.analysis import Analysis, Ensemble, Figures
+from bladerub.config.models.blade import Blade, Reduction
+from bladerub.config.models.coatings import Coatings
+from bladerub.config.models.contact import Casings, Contact
+from bladerub.config.models.quantities import RunSpeed
+
+
+class Speeds(Section):
+    """Rotational frequencies that every coating is run at."""
+
+    start: Speed = Field(ge=0.001, le=2)
+    """Lowest speed. At lower ones a run takes long (in proportion to 1/speed) and nothing resonates."""
+    stop: Annotated[
+        Speed,
+        Limit("at least", "speeds.start"),
+        Limit("at most", "reduction.f_omega_max", "the reduced blade is not valid above"),
+    ] = Field(ge=0.001, le=2)
+    """Highest speed: upper end of the paper's range."""
+    step: Speed = Field(ge=1e-4, le=2)
+    """Determines how finely a peak is resolved; the cost is proportional to its inverse."""
+    extra: list[RunSpeed] = Field(max_length=10000)
+    """In addition to the evenly spaced ones, for instance those of Figs. 17 and 18."""
+
+
+class Solver(Section):
+    """Time integration of one run."""
+
+    revolutions: int = Field(ge=1, le=10000)
+    """Exactly twenty in the paper."""
+    scheme: Literal["exponential", "central_differences"]
+    """Exponential is exact in each mode and of second order in the contact forces; central differences with
+    prediction and correction are the paper's scheme, of first order."""
+    tolerance: Number = Field(ge=1e-5, le=0.1)
+    """Largest relative error of worn depth, spectral peak and peak of a revolution of a run that is not
+    chaotic. The time step follows from it, for each coating and speed; central differences, of first order,
+    promise none."""
+    steps_per_element: Omitted[int] = Field(None, ge=1, le=1000)
+    """Fewest time steps in the passage of one element. Instead of a tolerance, alone or with the next key."""
+    max_time_step: Omitted[Annotated[float, Unit("s", scaled="time")]] = Field(None, ge=1e-9, le=1e-4)
+    """Instead of a tolerance; central differences need it below the stability limit of the highest mode of
+    the blade."""
+    displacement_limit: BladeLengths = Field(ge=1e-3, le=1)
+    """Beyond it small displacements are no longer small, and the run ends as unbounded."""
+    device: Literal[("cpu", *plugins.offered("SOLVERS"))]  # type: ignore[valid-type]
+    """What the runs are computed on; a GPU computes many at once. A chaotic run depends on what it is
+    computed on, so the runs of the other are stale."""
+
+
+class Study(Section):
+    """The whole study, from the blade to the figures."""
+
+    results: Annotated[
+        str,
+        Form(
+            "a folder below the one Snakemake runs in, of at most 120 letters, digits and _ . - only, "
+            'without ".."'
+        ),
+    ] = Field(pattern=r"^[A-Za-z0-9_][A-Za-z0-9_.-]*(/[A-Za-z0-9_][A-Za-z0-9_.-]*)*$", max_length=120)
+    """Everything a rule makes is written to this folder, so that it can be deleted as a whole."""
+    blade: Blade
+    reduction: Reduction
+    contact: Contact
+    casings: Casings
+    coatings: Coatings
+    speeds: Speeds
+    solver: Solver
+    analysis: Analysis
+    ensemble: Ensemble
+    figures: Figures
+
+
+@cache
+def whole() -> type[Section]:
+    """Make the model of a config: the core with what plugs in (``SECTIONS`` of `bladerub.plugins`)."""
+    return _extended(Study, "", plugins.loaded("SECTIONS"))
+
+
+def required() -> set[str]:
+    """Return the names of the sections that every config has."""
+    return {name for name, field in Study.model_fields.items() if field.is_required()}
+
+
+@cache
+def defaults() -> dict[str, Any]:
+    """Return the sections that plug in with a default, which a file need not have."""
+    values = {
+        name: field.get_default(call_default_factory=True)
+        for name, field in whole().model_fields.items()
+        if name not in Study.model_fields
+    }
+    return {
+        name: value.model_dump(exclude_none=True) if isinstance(value, Section) else value
+        for name, value in values.items()
+        if value is not None
+    }
+
+
+def _extended(model: type[Section], path: str, offered: Mapping[str, Any]) -> type[Section]:
+    """Add to the model of the section at `path` what is offered of it and of the sections below."""
+    below = {key.removeprefix(path): kind for key, kind in offered.items() if key.startswith(path)}
+    added: dict[str, Any] = {key: _field(kind) for key, kind in below.items() if "." not in key}
+    for name in {key.partition(".")[0] for key in below} - added.keys():
+        field = model.model_fields[name]
+        added[name] = (_extended(field.annotation, f"{path}{name}.", offered), field)
+    return create_model(model.__name__, __base__=model, __doc__=model.__doc__, **added) if added else model
+
+
+def _field(kind: Any) -> Any:
+    """Let a config leave out a section without a default."""
+    is_omitted = FieldInfo.from_annotation(kind).is_required()
+    return (Omitted[kind], None) if is_omitted else kind

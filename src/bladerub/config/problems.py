@@ -1,0 +1,157 @@
+"""What the models say of a config, in lines that name key, value and what is right."""
+
+import operator
+import sys
+from collections.abc import Collection, Iterator, Mapping
+from dataclasses import replace
+from difflib import get_close_matches
+from functools import cache
+from typing import Any
+
+from pydantic import TypeAdapter, ValidationError
+
+from bladerub.config import units
+from bladerub.config.errors import format_value, key_path, top_key
+from bladerub.config.fields import OWN
+from bladerub.config.files import yaml_reading
+from bladerub.config.keys import NUMBERS, Key, key_of
+from bladerub.config.models.study import whole
+
+_RELATIONS = {"at most": operator.le, "below": operator.lt, "at least": operator.ge, "above": operator.gt}
+
+
+def problems(values: Any, kind: Any = None) -> Iterator[str]:
+    """Yield a line for each problem of a config, or of what is of another `kind`: a model, or a type.
+
+    Numbers that other keys limit are compared where both parts of the config are as they must be.
+    """
+    kind = kind or whole()
+    key = _key(kind)
+    try:
+        _adapter(kind).validate_python(values)
+    except ValidationError as error:
+        mistakes = error.errors(include_url=False)
+    else:
+        mistakes = []
+    lines = sorted({_line(mistake, key, values) for mistake in mistakes})
+    yield from lines
+    if isinstance(values, Mapping):
+        broken = set(map(top_key, lines))
+        valid = {name: value for name, value in values.items() if name not in broken}
+        yield from _compared(valid, key, valid, ())
+
+
+def check_quantity(value: Any, kind: Any) -> None:
+    """Check one value by its type; raise a ValueError that says what would be right."""
+    try:
+        _adapter(kind).validate_python(value)
+    except ValidationError:
+        raise ValueError(_wrong(value, _key(kind))) from None
+
+
+def is_number(value: Any) -> bool:
+    """Return whether `value` is a finite number; True and False are none in a config, unlike in Python."""
+    is_one = isinstance(value, int | float) and not isinstance(value, bool)
+    return is_one and abs(value) <= sys.float_info.max  # a whole number may be above
+
+
+@cache
+def _key(kind: Any) -> Key:
+    return key_of(kind)
+
+
+@cache
+def _adapter(kind: Any) -> TypeAdapter:
+    return TypeAdapter(kind)
+
+
+def _line(mistake: Mapping[str, Any], whole: Key, values: Any) -> str:
+    """Write a mistake that pydantic found as ours."""
+    parts, group, key, value = _place(mistake["loc"], whole, values)
+    within = mistake.get("ctx", {}).get("within")
+    if within is not None:  # of our own validators, which see a list or a group as a whole
+        parts, value = [*parts, within], value[within]
+    path, kind = key_path(parts), mistake["type"]
+    setting = f"{path} = {format_value(value)}" if parts else format_value(value)
+    if kind == "missing":
+        new = (
+            "" if len(parts) > 1 else " (a config of an older version? `bladerub new` writes one that has it)"
+        )
+        return f"{path}: missing, {key.right()}{new}"
+    if kind == "extra_forbidden":
+        return f"{setting}: unknown key, {_nearest(parts, group.fields())}"
+    if kind in OWN:
+        return f"{setting}: {mistake['msg']}"
+    if mistake["loc"][-1:] == ("[key]",):
+        return f"{path}: {key.right()}"
+    return f"{setting}: {_wrong(value, key)}"
+
+
+def _place(location: tuple, key: Key, value: Any) -> tuple[list[Any], Key, Key, Any]:
+    """Follow the location of a mistake to its path, the group that it is in, its key and the value.
+
+    Besides names and indices it has the tags of kinds of group, and ``[key]`` where a name is wrong.
+    """
+    parts: list[Any] = []
+    group = key
+    for part in location:
+        if part == "[key]":
+            return parts, group, group.names, value
+        if len(key.models) > 1:
+            key = replace(key, models={"": key.models[part]})
+            continue
+        parts.append(part)
+        group, key = key, key.inner(part if isinstance(part, str) else None)
+        value = value[part] if isinstance(part, int) else value.get(part)
+    return parts, group, key, value
+
+
+def _wrong(value: Any, key: Key) -> str:
+    """Say what is wrong with a value: another kind of quantity, another unit than is meant, or its size."""
+    if key.kind not in NUMBERS:
+        return key.right()
+    if is_number(value):
+        meant = units.meant(value, key)
+        return f"{key.right()}{f'; this {meant}' if meant else ''}"
+    if isinstance(value, str) and (reading := yaml_reading(value)):
+        return f"{key.right()} (YAML reads this as {reading})"
+    if quantity := units.read(value):
+        try:
+            units.convert(quantity, key, lambda name: 1.0)
+        except ValueError as error:
+            return str(error)
+        return f"needs {units.needs(key)} of this study, which is not known; {key.right()}"
+    return key.right()
+
+
+def _nearest(parts: list[Any], names: Collection[str]) -> str:
+    close = get_close_matches(str(parts[-1]), names, n=1)
+    return (
+        f"did you mean {key_path([*parts[:-1], close[0]])}?" if close else f"known here: {', '.join(names)}"
+    )
+
+
+def _compared(config: Mapping[str, Any], key: Key, value: Any, parts: tuple) -> Iterator[str]:
+    """Compare numbers and names in `value` with what other keys of the config say."""
+    for right in _differences(config, key, value):
+        yield f"{key_path(parts)} = {format_value(value)}: must be {right}"
+    if isinstance(value, Mapping):
+        for name, entry in value.items():
+            if inner := key.inner(name):
+                yield from _compared(config, inner, entry, (*parts, name))
+    elif isinstance(value, list) and key.entry:
+        for index, entry in enumerate(value):
+            yield from _compared(config, key.entry, entry, (*parts, index))
+
+
+def _differences(config: Mapping[str, Any], key: Key, value: Any) -> Iterator[str]:
+    """Yield what a value must be by other keys, where it is not."""
+    names = config.get(key.one_of, {value}) if key.one_of else {}
+    if key.one_of and value not in names:
+        yield f"one of the {key.one_of}, {', '.join(names)}"
+    for limit in key.limits:
+        bound: Any = config
+        for part in limit.key.split("."):
+            bound = bound.get(part, {})
+        if is_number(bound) and not _RELATIONS[limit.relation](value, bound / limit.divisor):
+            yield f"{limit} = {bound / limit.divisor:g}{f', {limit.reason}' if limit.reason else ''}"

@@ -1,0 +1,71 @@
+"""What a config says of a blade of another program."""
+
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from bladerub.config.fields import Degree, Form, Omitted, Section, Unit
+
+_Axis = Literal["x", "y", "z", "-x", "-y", "-z"]
+_NodeSet = Annotated[
+    str, Field(pattern=r"^.+$", max_length=200), Form("the name of a node set or of a physical group")
+]
+
+
+class Source(Section):
+    """A mesh of another program, a table of sections, or matrices, instead of the parametric blade.
+
+    hub_radius, tip_cone and sections then have no effect, mesh only with a table, and the material none with
+    matrices. `bladerub import` with the file or folder checks it, and prints this group for it. Must have
+    either file or matrices.
+    """
+
+    file: Annotated[
+        Omitted[str],
+        Form(
+            "the path of a file that ends in .inp (Abaqus, CalculiX), .msh (Gmsh) or .vtu (VTK), or of a "
+            "table of sections that ends in .csv, .txt or .dat"
+        ),
+    ] = Field(
+        None,
+        pattern=r"^.+\.([iI][nN][pP]|[mM][sS][hH]|[vV][tT][uU]|[cC][sS][vV]|[tT][xX][tT]|[dD][aA][tT])$",
+    )
+    """A mesh has hexahedra of 20 or 8 nodes or tetrahedra of 10 or 4, of one kind. A table has a row for each
+    station of a section, with columns section, x1, y1, z1, x2, y2, z2 or section, z, r, theta1, theta2. A
+    relative path is relative to the folder that Snakemake runs in."""
+    matrices: Annotated[Omitted[str], Form("the path of a folder")] = Field(None, pattern=r"^.+$")
+    """The folder holds mass, stiffness_rest, stiffness_half and stiffness_max, each as .mtx (Matrix Market)
+    or .npz (SciPy), and nodes.csv (docs/how-to/bring_matrices.md); the stiffness is that about the
+    equilibrium at rest, at half of reduction.f_omega_max and at it."""
+    matrix_units: Annotated[
+        Omitted[Literal["SI", "mm-tonne", "inch-lbf"]],
+        Form("SI (kg, N/m), mm-tonne (t, N/mm) or inch-lbf (lbf s²/in, lbf/in)"),
+    ] = None
+    """SI if not given. Frequencies are the same in all of them, so only the mass shows a mistake."""
+    omega_max: Omitted[Annotated[float, Unit("rad/s")]] = Field(None, gt=0, le=100000)
+    """Speed of stiffness_max. If given, it must be reduction.f_omega_max times the first frequency of the
+    matrices to within 0.1 %."""
+    unit: Annotated[
+        Omitted[Literal["m", "mm", "cm", "inch", "in", "feet", "ft"]],
+        Form("m, mm, cm, inch (in) or feet (ft)"),
+    ] = None
+    """Unit of length of the file, which does not say; m if not given. Everything else in the config stays in
+    SI units."""
+    angle_unit: Omitted[Literal["rad", "deg"]] = None
+    """Of theta1 and theta2 of a table of sections; rad if not given."""
+    rotation: Omitted[_Axis] = None
+    """The axis of the file, through its origin, about which the blade turns by the right-hand rule; -x if not
+    given, as for the parametric blade."""
+    downstream: Omitted[_Axis] = None
+    """Direction of the flow. Distinguishes the leading from the trailing edge; along the axis of rotation, x
+    if not given."""
+    radial: Omitted[_Axis] = None
+    """The axis of the file from root to tip, z if not given."""
+    root_set: Omitted[_NodeSet] = None
+    """The clamped nodes; if not given, those of the surface nearest to the axis of rotation that looks
+    towards it."""
+    tip_set: Omitted[_NodeSet] = None
+    """The tip face; if not given, the surface farthest from the axis that looks away from it."""
+    tip_cone: Omitted[Degree] = Field(None, ge=-45, le=45)
+    """Half angle of the flow path at the tip of the file, positive where the casing widens downstream; if not
+    given, of the cone that fits the tip best."""

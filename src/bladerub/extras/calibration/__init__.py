@@ -1,0 +1,1 @@
+"""What the paper leaves open, varied: sets of choices, each a small study."""

@@ -1,0 +1,3 @@
+"""What the paper leaves open, varied."""
+
+SECTIONS = {"calibration": "extras.calibration.settings:CALIBRATION"}

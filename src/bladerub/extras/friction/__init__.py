@@ -1,0 +1,1 @@
+"""The two laws of friction compared."""

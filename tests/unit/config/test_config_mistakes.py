@@ -1,0 +1,72 @@
+"""What is said of mistakes, and that no config whatever ends in a traceback."""
+
+import copy
+import math
+import random
+
+import pytest
+
+from bladerub.config.errors import ConfigError
+from bladerub.config.read import load, read, validate
+from bladerub.io.folders import ROOT
+from tests.unit.config.mistakes import MISTAKES
+
+STUDY = ROOT / "config" / "config.yaml"
+WILD = [
+    *(None, True, "", "x", "020", "1:30", "1,5", "../x", "ü\u202e", "~", "x" * 900, "5 mm", "-1 rpm", "3 %"),
+    *(math.nan, math.inf, -1, 0, 0.5, 1e-320, 1e308, 10**30, 10**400, 2**63),
+    *([], {}, [[]], [None], [1] * 300, {"x": {"x": {}}}, {"": 0}, ["a", {"b": [1, 2]}], {"file": "x"}),
+    *({"name": []}, {"table": 1}, {"coating": "rigid"}, {"friction": None}, {"[key]": 1}, {"layer": {}}),
+]
+
+
+@pytest.mark.parametrize("mistake", MISTAKES, ids=lambda mistake: mistake.key)
+def test_a_mistake_is_named_with_file_line_key_and_what_is_right(tmp_path, mistake):
+    path = tmp_path / "my.yaml"
+    path.write_text(mistake.text, encoding="utf-8")
+    with pytest.raises(ConfigError) as error:
+        read(STUDY, path)
+    lines = [str(problem) for problem in error.value.problems]
+    (line,) = [line for line in lines if line.startswith(f"{path}:{mistake.line}: {mistake.key}")]
+    assert mistake.right in line
+
+
+def test_the_mistakes_of_all_parts_are_named_at_once(tmp_path):
+    (tmp_path / "my.yaml").write_text(
+        "blade: {length: 9}\ncasings: {2nd: {weights: [0]}}\nfigures: {dpi: 2}\n"
+    )
+    with pytest.raises(ConfigError) as error:
+        read(STUDY, tmp_path / "my.yaml")
+    assert [problem.location.line for problem in error.value.problems] == [1, 2, 3]
+
+
+def groups(config):
+    """Yield each group and list of a config."""
+    yield config
+    for value in config.values() if isinstance(config, dict) else config:
+        if value and isinstance(value, dict | list):
+            yield from groups(value)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", range(4))
+def test_a_hundred_wild_configs_are_valid_or_refused_in_lines(monkeypatch, seed):
+    monkeypatch.chdir(ROOT)
+    study, chance, refused = load(STUDY), random.Random(seed), 0
+    for _ in range(100):
+        config = copy.deepcopy(study)
+        for _ in range(chance.randint(1, 4)):
+            group = chance.choice(list(groups(config)))
+            if isinstance(group, dict):
+                group[chance.choice([*group, "x", "file"])] = chance.choice(WILD)
+            else:
+                group[chance.randrange(len(group))] = chance.choice(WILD)
+        try:
+            validate(config)
+        except ConfigError as error:
+            lines = str(error).splitlines()
+            assert lines
+            assert all(line.startswith("config: ") for line in lines), lines
+            assert max(map(len, lines)) < 1000
+            refused += 1
+    assert refused > 50

@@ -1,0 +1,118 @@
+"""The models of a config: what each key says of itself, and what plugs in."""
+
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from bladerub.config.docstrings import docstrings
+from bladerub.config.fields import Section
+from bladerub.config.keys import NUMBERS, Key, key_of
+from bladerub.config.models.study import Study, defaults, required, whole
+from bladerub.config.problems import problems
+from bladerub.config.read import load
+from bladerub.io.folders import PACKAGE, ROOT
+
+STUDY = load(ROOT / "config" / "config.yaml")
+CORE = """
+from bladerub.config.read import read
+from bladerub.config.errors import ConfigError
+from bladerub.io.folders import ROOT
+import sys
+study, mine = sys.argv[1:]
+print(*read(study))
+try:
+    read(study, mine)
+except ConfigError as error:
+    print(error)
+"""
+
+
+def all_keys(key, path="", is_said=True):
+    """Yield the path of each key, itself, and whether something is said of it."""
+    yield path, key, is_said
+    texts = {name for kind in key.models.values() for name in docstrings(kind)}
+    for name, inner in key.fields().items():
+        is_said = name in texts or bool(inner.description)
+        yield from all_keys(inner, f"{path}.{name}" if path else name, is_said)
+    if key.entry:
+        yield from all_keys(key.entry, f"{path}[]")
+
+
+KEYS = list(all_keys(key_of(whole())))
+BY_PATH = {path: key for path, key, _ in KEYS}
+
+
+def test_every_number_has_bounds_and_every_key_of_a_group_says_what_it_is():
+    for path, key, is_said in KEYS:
+        if key.kind in NUMBERS:
+            assert key.lowest is not None, path
+            assert key.highest is not None, path
+        assert is_said, path
+
+
+def test_what_limits_a_number_is_a_number_or_a_group_of_the_config():
+    limits = [limit for key in BY_PATH.values() for limit in key.limits]
+    assert limits
+    for limit in limits:
+        value = STUDY
+        for name in limit.key.split("."):
+            value = value[name]
+        assert isinstance(value, int | float), limit
+    assert {key.one_of for key in BY_PATH.values() if key.one_of} <= STUDY.keys()
+
+
+def test_sections_plug_in_at_the_top_and_below():
+    assert {"chart", "sweeps", "rotor"} <= whole().model_fields.keys() - Study.model_fields.keys()
+    assert "source" in key_of(whole()).fields()["blade"].fields()
+    assert defaults().keys() <= STUDY.keys()
+    assert not defaults().keys() & required()
+
+
+def test_the_core_reads_its_study_without_extras_and_refuses_their_keys_in_a_line(tmp_path):
+    without = shutil.ignore_patterns("extras", "__pycache__", "repository")
+    shutil.copytree(PACKAGE, tmp_path / "bladerub", ignore=without)
+    mine = tmp_path / "mine.yaml"
+    mine.write_text("chart: {casing: 2nd}\nblade: {source: {file: a.inp}}\nsolver: {device: gpu}\n")
+    command = [sys.executable, "-c", CORE, ROOT / "config" / "config.yaml", mine]
+    lines = subprocess.check_output(
+        command, env={"PYTHONPATH": str(tmp_path)}, cwd=tmp_path, text=True
+    ).splitlines()
+    assert set(lines[0].split()) == required()
+    assert [line.partition(" = ")[0] for line in lines[1:]] == [
+        "mine.yaml:2: blade.source",
+        "mine.yaml:1: chart",
+        "mine.yaml:3: solver.device",
+    ]
+
+
+@pytest.mark.parametrize("value", [True, None, "0.2", [0.2], float("nan"), float("-inf"), 10**400])
+def test_only_finite_numbers_are_numbers(value):
+    class Mine(Section):
+        """A section."""
+
+        length: float
+
+    assert list(problems({"length": 2}, Mine)) == []
+    (line,) = problems({"length": value}, Mine)
+    assert line.startswith("length = ")
+
+
+def test_a_key_says_its_range_in_words():
+    assert Key("a number", bounds={"ge": 0, "lt": 1}).allowed() == "a number of at least 0 and below 1"
+    assert BY_PATH["solver.revolutions"].allowed() == "a whole number from 1 to 10000"
+    assert BY_PATH["solver.scheme"].allowed() == "exponential or central_differences"
+
+
+def test_settings_of_extras_are_named_by_their_plugins():
+    """A `settings.py` that nothing names would check nothing."""
+    settings = {path.parent.name for path in (PACKAGE / "extras").glob("*/settings.py")}
+    plans = {"rig", "rotor", "robustness", "identification"}  # of files of their own
+    named = {
+        path.parent.name
+        for path in Path(PACKAGE / "extras").glob("*/plugin.py")
+        if "SECTIONS" in path.read_text()
+    }
+    assert settings == named | plans
