@@ -4,6 +4,7 @@ import jsonschema
 import pytest
 import yaml
 
+from bladerub.cli import main
 from bladerub.config import json_schema
 from bladerub.config.files import read
 from bladerub.config.read import load
@@ -29,6 +30,11 @@ def schema():
 def test_the_committed_schema_and_reference_are_up_to_date():
     assert (ROOT / "config" / "schema.json").read_text(encoding="utf-8") == json_schema.text()
     assert (ROOT / "docs" / "config.md").read_text(encoding="utf-8") == reference(STUDY)
+
+
+def test_the_schema_is_printed(capsys):
+    assert main(["config", "--schema"]) == 0
+    assert capsys.readouterr().out == json_schema.text()
 
 
 @pytest.mark.parametrize("path", CONFIGS, ids=lambda path: path.stem)
