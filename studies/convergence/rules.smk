@@ -6,7 +6,7 @@ rule finer_bars:
         blade=rules.blade.output.reduced_model,
         kernel=rules.compile_kernel.output[0],
         peaks=rules.peaks.output[0],
-        analysing=files_behind("extras.verification.finer_bars"),
+        analysing=files_behind("extras.verification.refinement"),
     output:
         **described(table=f"{TABLES}/finer_bars.csv"),
     log:
@@ -24,7 +24,7 @@ rule more_nodes:
     input:
         kernel=rules.compile_kernel.output[0],
         peaks=rules.peaks.output[0],
-        analysing=files_behind("extras.verification.more_nodes"),
+        analysing=files_behind("extras.verification.refinement"),
     output:
         **described(table=f"{TABLES}/more_nodes.csv"),
     log:

@@ -5,10 +5,10 @@ from bladerub.workflow import job
 job.log_to(snakemake.log[0])
 
 from bladerub.blade.validation import read_reduced_blade
-from bladerub.extras.verification.finer_bars import table
+from bladerub.extras.verification.refinement import finer_bars
 from bladerub.io import tables
 from bladerub.study.peaks import COLUMNS
 from bladerub.workflow import outputs
 
 blade, peaks = read_reduced_blade(snakemake.input.blade), tables.read(snakemake.input.peaks, COLUMNS)
-outputs.save(snakemake, table=table(blade, snakemake.config, peaks))
+outputs.save(snakemake, table=finer_bars(blade, snakemake.config, peaks))

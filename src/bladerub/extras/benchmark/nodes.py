@@ -6,7 +6,7 @@ from typing import Any
 
 from bladerub.blade.model import N_INTERFACE
 from bladerub.extras.benchmark.measure import in_contact, middle_run, production
-from bladerub.extras.verification.more_nodes import blade_with
+from bladerub.extras.verification.refinement import blade_with
 
 
 def cost_by_nodes(config: Mapping[str, Any], counts: Sequence[int], rounds: int) -> dict[str, float]:

@@ -10,6 +10,7 @@ from bladerub.blade.model import ReducedBlade
 from bladerub.contact.result import RunResult
 from bladerub.contact.run import simulate
 from bladerub.contact.spec import RunSpec
+from bladerub.extras.verification.impact import Motion
 from bladerub.study.grid import CoatingCase, run_spec, speeds
 from bladerub.study.spectra import order_spectrum
 
@@ -27,6 +28,18 @@ def listed(peaks: pd.DataFrame) -> list[tuple[CoatingCase, Any]]:
     rows = peaks[peaks.law == "theta"].dropna(subset=["f_peak"]).itertuples()
     described = [(CoatingCase(row.casing, row.E, row.K, row.theta), row) for row in rows]
     return [pair for pair in described if pair[0] in CASES] or described
+
+
+def amplitude_on(order: float, run: RunResult | Motion, analysis: Mapping[str, Any]) -> float:
+    """Return the amplitude of a run on an engine order, m, as in `bladerub.study.peaks`."""
+    orders, amplitude = order_spectrum(
+        run.radial_displacement,
+        run.revolution_peak.size,
+        analysis["spectrum_revolutions"],
+        analysis["max_order"],
+    )
+    window = np.abs(orders - order) <= analysis["peaks"]["order_halfwidth"] + 1e-9
+    return float(amplitude[window].max())
 
 
 class Response:
@@ -51,16 +64,8 @@ class Response:
         return self.runs[f_omega]
 
     def amplitude(self, f_omega: float) -> float:
-        """Amplitude on the engine order, m, as in `bladerub.study.peaks`."""
-        run, analysis = self.run(f_omega), self.config["analysis"]
-        order, amplitude = order_spectrum(
-            run.radial_displacement,
-            run.revolution_peak.size,
-            analysis["spectrum_revolutions"],
-            analysis["max_order"],
-        )
-        window = np.abs(order - self.order) <= analysis["peaks"]["order_halfwidth"] + 1e-9
-        return float(amplitude[window].max())
+        """Amplitude on the engine order, m."""
+        return amplitude_on(self.order, self.run(f_omega), self.config["analysis"])
 
     def top(self, f_omega: float) -> float:
         """Speed of the study at which the amplitude, rising from `f_omega` on, is greatest."""

@@ -22,9 +22,9 @@ from bladerub.contact.setup import fixed_steps
 from bladerub.contact.spec import RunSpec
 from bladerub.contact.steps import with_steps
 from bladerub.extras.verification import impact
+from bladerub.extras.verification.response import amplitude_on
 from bladerub.study.grid import run_spec, speeds
 from bladerub.study.paper import RIGID
-from bladerub.study.spectra import order_spectrum
 
 PLAIN_SPEED = (0.25, 4)
 """A speed away from the peaks, and the engine order looked at there."""
@@ -130,12 +130,8 @@ def _measures(
 ) -> dict[str, float]:
     """Measure the last revolutions of a run, those of the study's spectra, m."""
     last = analysis["spectrum_revolutions"]
-    orders, amplitude = order_spectrum(
-        outcome.radial_displacement, outcome.revolution_peak.size, last, analysis["max_order"]
-    )
-    window = np.abs(orders - order) <= analysis["peaks"]["order_halfwidth"] + 1e-9
     return {
-        "amplitude": float(amplitude[window].max()),
+        "amplitude": amplitude_on(order, outcome, analysis),
         "largest_revolution": float(outcome.revolution_amplitude[-last:].max()),
         "median_revolution": float(np.median(outcome.revolution_amplitude[-last:])),
         "largest_displacement": float(outcome.revolution_peak[-last:].max()),

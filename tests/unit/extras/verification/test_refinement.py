@@ -7,7 +7,7 @@ import pytest
 from bladerub.contact.law import element
 from bladerub.contact.setup import element_area, time_step
 from bladerub.contact.steps import with_steps
-from bladerub.extras.verification import finer_bars, response
+from bladerub.extras.verification import refinement, response
 from bladerub.study.grid import CoatingCase, run_spec
 from bladerub.study.peaks import COLUMNS
 
@@ -16,7 +16,7 @@ CASE = CoatingCase("2nd", 2.0, 0.5, 0.15)
 
 def test_tip_coating_and_step_stay_the_same(blade, config):
     own = with_steps(run_spec(config, CASE, 0.3), 20)
-    finer = finer_bars.with_finer_bars(blade, own, 4)
+    finer = refinement.with_finer_bars(blade, own, 4)
     assert finer.coating.n_elements == 4 * own.coating.n_elements
     assert finer.tip.half_width / finer.coating.n_elements == pytest.approx(
         own.tip.half_width / own.coating.n_elements
@@ -28,7 +28,7 @@ def test_tip_coating_and_step_stay_the_same(blade, config):
 
 
 @pytest.fixture
-def table(blade, config, make_result, monkeypatch):
+def bars(blade, config, make_result, monkeypatch):
     """The table of a response whose peak is at 0.31, with finer bars at 0.314 and half as high."""
 
     def simulate(_, spec):
@@ -43,16 +43,16 @@ def table(blade, config, make_result, monkeypatch):
         ["2nd", 2.0, 0.5, 0.15, 6, 0.31, 1e-3, "coulomb"],
         ["2nd", 2.0, 1.0, 0.0, 6, 0.31, 1e-3, "theta"],
     ]
-    return finer_bars.table(blade, config, pd.DataFrame(rows, columns=COLUMNS))
+    return refinement.finer_bars(blade, config, pd.DataFrame(rows, columns=COLUMNS))
 
 
-def test_the_peak_is_followed_and_compared_with_that_of_the_study(table, config):
+def test_the_peak_is_followed_and_compared_with_that_of_the_study(bars, config):
     n = config["contact"]["elements"]
-    assert table.elements.tolist() == [n, 2 * n, 4 * n]  # of the listed coating alone
-    assert table.f_peak.tolist() == [0.31, 0.314, 0.314]
-    np.testing.assert_allclose(table.amplitude_change, [0, -0.5, -0.5], atol=1e-9)
+    assert bars.elements.tolist() == [n, 2 * n, 4 * n]  # of the listed coating alone
+    assert bars.f_peak.tolist() == [0.31, 0.314, 0.314]
+    np.testing.assert_allclose(bars.amplitude_change, [0, -0.5, -0.5], atol=1e-9)
 
 
-def test_wear_is_compared_as_the_mean_under_each_element_of_the_study(table):
-    np.testing.assert_allclose(table.volume_change, [0, 1, 3], atol=1e-9)
-    np.testing.assert_allclose(table.wear_difference, [0, 1, 3], atol=1e-9)
+def test_wear_is_compared_as_the_mean_under_each_element_of_the_study(bars):
+    np.testing.assert_allclose(bars.volume_change, [0, 1, 3], atol=1e-9)
+    np.testing.assert_allclose(bars.wear_difference, [0, 1, 3], atol=1e-9)

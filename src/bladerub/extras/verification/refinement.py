@@ -1,0 +1,145 @@
+"""The study's peaks again, with finer bars under the same tip, and with more interface nodes on it.
+
+A bar is an abradable element. With n times as many, the profile keeps its shape in metres and the coating
+its stiffness per area; the time step stays. What remains is how the bars resolve the edge of the profile
+(`bladerub.contact.tip.coverage`) and the wear under it.
+
+Blades with more nodes have the same mesh, which is finer along the chord than the study's, so that the nodes
+find even places. More nodes give the reduced model more static modes of the tip as well.
+"""
+
+import copy
+import math
+import time
+from collections.abc import Callable, Mapping
+from dataclasses import replace
+from functools import partial
+from typing import Any, NamedTuple
+
+import numpy as np
+import pandas as pd
+
+from bladerub.blade.build import build
+from bladerub.blade.model import ReducedBlade
+from bladerub.contact.result import RunResult
+from bladerub.contact.run import simulate
+from bladerub.contact.setup import compile_kernel, fixed_steps, strip_width
+from bladerub.contact.spec import RunSpec
+from bladerub.extras.verification.response import CASE_COLUMNS, Response, listed
+from bladerub.study.grid import CoatingCase, element_law, run_spec
+
+REFINEMENTS = (1, 2, 4)
+"""How many times finer the bars are; 1 are the study's."""
+
+NODES = (8, 16, 24)
+"""Numbers of interface nodes; 8 are the study's."""
+
+CHORDWISE = 24  # elements; 49 nodes along the camber line
+
+_COMPARED = ("f_peak", "amplitude", "amplitude_change", "volume_change", "wear_difference", "status")
+
+
+class Model(NamedTuple):
+    """A model of the runs that is compared with others."""
+
+    blade: ReducedBlade
+    wear: Callable[[RunResult], np.ndarray]  # mean wear of a run, m, of one shape in all models
+    change: Callable[[RunSpec], RunSpec] = lambda spec: spec
+
+
+def finer_bars(blade: ReducedBlade, config: Mapping[str, Any], peaks: pd.DataFrame) -> pd.DataFrame:
+    """Find the peaks of some coatings of `peaks`, a table ``peaks.csv``, again with finer bars.
+
+    A row for each peak and number of bars: see `compared`.
+    """
+    models = {
+        config["contact"]["elements"] * times: Model(
+            blade, partial(_under_bars, times=times), partial(with_finer_bars, blade, times=times)
+        )
+        for times in REFINEMENTS
+    }
+    return compared("elements", models, config, peaks)
+
+
+def more_nodes(config: Mapping[str, Any], peaks: pd.DataFrame) -> pd.DataFrame:
+    """Find the peaks of some coatings of `peaks`, a table ``peaks.csv``, again with more interface nodes.
+
+    A row for each peak and number of nodes: see `compared`. ``cpu_s`` are the seconds of the run at the
+    study's speed of the peak.
+    """
+    blades = {n: blade_with(config, n) for n in NODES}
+    models = {n: Model(blade, partial(_along_chord, blade)) for n, blade in blades.items()}
+    return compared("interface_nodes", models, config, peaks).assign(
+        cpu_s=[
+            _seconds(blade, config, case, float(peak.f_peak))
+            for case, peak in listed(peaks)
+            for blade in blades.values()
+        ]
+    )
+
+
+def compared(
+    column: str, models: Mapping[int, Model], config: Mapping[str, Any], peaks: pd.DataFrame
+) -> pd.DataFrame:
+    """Find peaks with each of some models, by the number that `column` has; the first is the study's.
+
+    A row for each of the peaks that `listed` takes and each model: the peak to which the response rises from
+    the study's speed of the peak, and the wear at that speed.
+    """
+    rows: list[dict[str, Any]] = []
+    for case, peak in listed(peaks):
+        start = float(peak.f_peak)
+        for number, model in models.items():
+            response = Response(model.blade, config, case, peak.order, model.change)
+            wear, speed = model.wear(response.run(start)), response.top(start)
+            amplitude = response.amplitude(speed)
+            if number == next(iter(models)):
+                own_wear, own_amplitude = wear, amplitude
+            changes = (
+                amplitude / own_amplitude - 1,
+                wear.sum() / own_wear.sum() - 1,
+                np.linalg.norm(wear - own_wear) / np.linalg.norm(own_wear),
+            )
+            values = (speed, amplitude, *changes, response.run(start).status)
+            rows.append(
+                {name: getattr(case, name) for name in CASE_COLUMNS}
+                | {"order": peak.order, column: number}
+                | dict(zip(_COMPARED, values, strict=True))
+            )
+    return pd.DataFrame(rows, columns=[*CASE_COLUMNS, "order", column, *_COMPARED])
+
+
+def with_finer_bars(blade: ReducedBlade, spec: RunSpec, times: int) -> RunSpec:
+    """Return the run with bars `times` finer under the same tip, at the same time step."""
+    spec = fixed_steps(blade, spec)
+    return replace(
+        spec,
+        coating=replace(spec.coating, n_elements=spec.coating.n_elements * times),
+        tip=replace(spec.tip, half_width=spec.tip.half_width * times),
+        steps_per_element=math.ceil(spec.steps_per_element / times),
+    )
+
+
+def blade_with(config: Mapping[str, Any], n: int) -> ReducedBlade:
+    """Build the blade of `config` with `n` interface nodes, and compile the time loop for them."""
+    varied = copy.deepcopy({name: config[name] for name in ("blade", "reduction")})
+    varied["blade"]["mesh"] = {**varied["blade"]["mesh"], "chordwise": CHORDWISE, "thickness": 2}
+    varied["reduction"]["interface_nodes"] = n
+    compile_kernel(n_nodes=n, law=element_law(config))
+    return build(varied).reduced
+
+
+def _under_bars(run: RunResult, times: int) -> np.ndarray:
+    """Mean wear (8, N) under each of the study's bars, m."""
+    return run.wear.reshape(len(run.wear), -1, times).mean(axis=2)
+
+
+def _along_chord(blade: ReducedBlade, run: RunResult) -> np.ndarray:
+    """Mean wear (N,) along the chord, m."""
+    return np.average(run.wear, axis=0, weights=strip_width(blade))
+
+
+def _seconds(blade: ReducedBlade, config: Mapping[str, Any], case: CoatingCase, f_omega: float) -> float:
+    start = time.process_time()
+    simulate(blade, run_spec(config, case, f_omega))
+    return time.process_time() - start
