@@ -302,103 +302,61 @@ rule fig10_peaks:
         "../scripts/fig10_peaks.py"
 
 
-rule fig11_Y4:
+# All from one table, so that one job draws them: quantity and engine order of each
+HISTOGRAMS = {
+    "fig11_Y4": ("amplitude", 4),
+    "fig12_f4": ("f_peak", 4),
+    "fig13_Y6": ("amplitude", 6),
+    "fig14_f6": ("f_peak", 6),
+}
+
+
+rule histograms:
     input:
         peaks=rules.peaks.output[0],
         drawing=files_behind("plots.histogram"),
     output:
-        **drawn("fig11_Y4", "Moduli of the coating", with_data=True),
+        **drawn_together(HISTOGRAMS, "Moduli of the coating"),
     log:
-        f"{RESULTS}/logs/fig11_Y4.log",
+        f"{RESULTS}/logs/histograms.log",
     benchmark:
-        f"{RESULTS}/benchmarks/fig11_Y4.tsv"
+        f"{RESULTS}/benchmarks/histograms.tsv"
     params:
         dpi=DPI,
         coatings=MODULI,
-        quantity="amplitude",
-        order=4,
+        figures=HISTOGRAMS,
         modulus_unit=modulus_unit(config),
     script:
-        "../scripts/histogram.py"
+        "../scripts/histograms.py"
 
 
-use rule fig11_Y4 as fig12_f4 with:
-    output:
-        **drawn("fig12_f4", "Moduli of the coating", with_data=True),
-    log:
-        f"{RESULTS}/logs/fig12_f4.log",
-    benchmark:
-        f"{RESULTS}/benchmarks/fig12_f4.tsv"
-    params:
-        quantity="f_peak",
+# Runs of each: Figs. 17 and 18, and the same at speeds of our own
+HISTORIES = {
+    {0.190: "fig17_history_0190", 0.197: "fig18_history_0197"}.get(
+        f_omega, f"history_{speed_name(f_omega)}"
+    ): runs_at(f_omega)
+    for f_omega in BOTH
+}
 
 
-use rule fig11_Y4 as fig13_Y6 with:
-    output:
-        **drawn("fig13_Y6", "Moduli of the coating", with_data=True),
-    log:
-        f"{RESULTS}/logs/fig13_Y6.log",
-    benchmark:
-        f"{RESULTS}/benchmarks/fig13_Y6.tsv"
-    params:
-        order=6,
-
-
-use rule fig11_Y4 as fig14_f6 with:
-    output:
-        **drawn("fig14_f6", "Moduli of the coating", with_data=True),
-    log:
-        f"{RESULTS}/logs/fig14_f6.log",
-    benchmark:
-        f"{RESULTS}/benchmarks/fig14_f6.tsv"
-    params:
-        quantity="f_peak",
-        order=6,
-
-
-# As Figs. 17 and 18, at a speed of our own
-rule history:
+rule histories:
     input:
         manifests=expand(
             rules.coating.output[0], coating=[STRAIGHT.name, INCLINED.name]
         ),
         drawing=files_behind("plots.history"),
     output:
-        **drawn("history_{speed}", "Angle of the elements", with_data=True),
+        **drawn_together(HISTORIES, "Angle of the elements"),
     log:
-        f"{RESULTS}/logs/history/{{speed}}.log",
+        f"{RESULTS}/logs/histories.log",
     benchmark:
-        f"{RESULTS}/benchmarks/history/{{speed}}.tsv"
-    wildcard_constraints:
-        speed=r"\d\.\d{4}",
+        f"{RESULTS}/benchmarks/histories.tsv"
     params:
         dpi=DPI,
         scales=SCALES,
-        runs=lambda wildcards: runs_at(float(wildcards.speed)),
+        figures=HISTORIES,
     script:
-        "../scripts/history.py"
-
-
-use rule history as fig17_history_0190 with:
-    output:
-        **drawn("fig17_history_0190", "Angle of the elements", with_data=True),
-    log:
-        f"{RESULTS}/logs/fig17_history_0190.log",
-    benchmark:
-        f"{RESULTS}/benchmarks/fig17_history_0190.tsv"
-    params:
-        runs=runs_at(0.190),
-
-
-use rule history as fig18_history_0197 with:
-    output:
-        **drawn("fig18_history_0197", "Angle of the elements", with_data=True),
-    log:
-        f"{RESULTS}/logs/fig18_history_0197.log",
-    benchmark:
-        f"{RESULTS}/benchmarks/fig18_history_0197.tsv"
-    params:
-        runs=runs_at(0.197),
+        "../scripts/histories.py"
 
 
 rule fig19_wear_polar:
@@ -422,7 +380,7 @@ def in_study(*cases):
     return {case.name for case in cases} <= set(COATINGS)
 
 
-HISTOGRAMS = any(
+WITH_MODULI = any(
     case.casing == "2nd"
     and case.theta == 0
     and case.law == "theta"
@@ -447,20 +405,15 @@ PLANNED = {
     "fig08_spectrum_soft": in_study(SOFT),
     "fig09_spectrum_critical": in_study(CRITICAL),
     "fig10_peaks": in_study(SOFT),
-    "fig11_Y4": HISTOGRAMS,
-    "fig12_f4": HISTOGRAMS,
-    "fig13_Y6": HISTOGRAMS,
-    "fig14_f6": HISTOGRAMS,
+    "histograms": WITH_MODULI,
     "fig15_spectrum_theta0": in_study(STRAIGHT),
     "fig16_spectrum_theta015": in_study(INCLINED),
-    "fig17_history_0190": 0.190 in BOTH,
-    "fig18_history_0197": 0.197 in BOTH,
+    "histories": bool(BOTH),
     "fig19_wear_polar": in_study(STRAIGHT, INCLINED)
     and {0.190, 0.197} <= set(speeds(config)),
 }
 # What `rule all` asks for
 FIGURES = [getattr(rules, name).output for name, needed in PLANNED.items() if needed]
-FIGURES += [expand(rules.history.output, speed=[speed_name(f) for f in OWN])]
 FIGURES += [expand(rules.spectrum.output, coating=OTHER)]
 # On a blade from another program, the wear map of every coating that can wear, and every casing
 ON_OTHER_BLADE = "source" in config["blade"]

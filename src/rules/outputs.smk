@@ -54,13 +54,22 @@ def described(**tables):
 
 
 def drawn(name, category, with_data=False):
-    """The files of a figure; the one with a speed in its name has one caption for all."""
+    """The files of a figure; those of all speeds have one caption."""
     files = {
-        "png": shown(f"{PLOTS}/{name}.png", name.split("_{")[0], category),
+        "png": shown(f"{PLOTS}/{name}.png", name.split("_0.")[0], category),
         "pdf": f"{PLOTS}/{name}.pdf",
     }
     data = described(data=f"{PLOTS}/{name}.csv") if with_data else {}
     return files | data
+
+
+def drawn_together(names, category):
+    """The files of figures with data that one job draws, each by the name of its figure and its kind."""
+    return {
+        f"{name}_{kind}": file
+        for name in names
+        for kind, file in drawn(name, category, with_data=True).items()
+    }
 
 
 def memory_mb(wildcards, attempt):

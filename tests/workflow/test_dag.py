@@ -12,7 +12,7 @@ from bladerub.contact import law
 from bladerub.io.hdf5 import read_attributes
 
 TABLES = {"peaks": 1, "divergence": 1, "findings": 1, "margins": 1}
-HISTOGRAMS = {"fig11_Y4": 1, "fig12_f4": 1, "fig13_Y6": 1, "fig14_f6": 1}
+HISTOGRAMS = {"histograms": 1}
 
 
 @pytest.fixture

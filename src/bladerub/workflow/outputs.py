@@ -13,19 +13,21 @@ if TYPE_CHECKING:
     from bladerub.plots.scales import Scales
 
 
-def save(snakemake: Any, figure: "Figure | None" = None, **frames: pd.DataFrame) -> None:
+def save(snakemake: Any, figure: "Figure | None" = None, prefix: str = "", **frames: pd.DataFrame) -> None:
     """Write the outputs of a job, whose `snakemake` is what Snakemake hands to a script.
 
     The figure goes to the outputs ``png`` and ``pdf`` with the parameter ``dpi``, each table to the output of
-    its name; that of a figure, ``data``, is written to six digits.
+    its name; that of a figure, ``data``, is written to six digits. Names of outputs begin with `prefix` where
+    a job draws several figures.
     """
     for name, table in frames.items():
         digits = "%.6g" if name == "data" else None
-        tables.write(snakemake.output[name], table, provenance(snakemake.config), digits)
+        tables.write(snakemake.output[prefix + name], table, provenance(snakemake.config), digits)
     if figure is not None:
         from bladerub.plots import style  # imports Matplotlib, which jobs of tables do without
 
-        style.save(figure, snakemake.output["png"], snakemake.output["pdf"], snakemake.params["dpi"])
+        files = (snakemake.output[prefix + kind] for kind in ("png", "pdf"))
+        style.save(figure, *files, snakemake.params["dpi"])
 
 
 def rpm(snakemake: Any, f_omega: pd.Series) -> pd.Series:

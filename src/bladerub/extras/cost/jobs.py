@@ -14,7 +14,7 @@ _log = logging.getLogger(__name__)
 STAGES = {"blade": "blade", "compile_kernel": "compilation", "coating": "rubs"}
 STAGES |= {"ensemble": "ensembles", "map": "maps"}
 STAGES |= dict.fromkeys(("peaks", "divergence", "findings", "margins"), "tables")
-STAGES |= {"history": "figures"}
+STAGES |= dict.fromkeys(("histograms", "histories"), "figures")
 """Stage of each rule, in the order of the workflow; rules named after a figure of the paper: ``figures``."""
 _RECORDED = ["s", "cpu_time", "max_rss"]
 COLUMNS = ["stage", "rule", "job", "wall_s", "cpu_s", "memory_mb"]

@@ -10,7 +10,8 @@ from bladerub.study.peaks import COLUMNS
 from bladerub.study.variants import plain
 from bladerub.workflow import outputs
 
-peaks = plain(tables.read(snakemake.input.peaks, COLUMNS)).query(snakemake.params.coatings)
 settings = snakemake.params
-data, figure = peak_histogram(peaks, settings.quantity, settings.order, settings.modulus_unit)
-outputs.save(snakemake, figure, data=data)
+peaks = plain(tables.read(snakemake.input.peaks, COLUMNS)).query(settings.coatings)
+for name, (quantity, order) in settings.figures.items():
+    data, figure = peak_histogram(peaks, quantity, order, settings.modulus_unit)
+    outputs.save(snakemake, figure, f"{name}_", data=data)

@@ -7,5 +7,6 @@ job.log_to(snakemake.log[0])
 from bladerub.plots.history import history
 from bladerub.workflow import outputs
 
-data, figure = history(snakemake.params.runs, snakemake.params.scales["modulus_unit"])
-outputs.save(snakemake, figure, data=data)
+for name, runs in snakemake.params.figures.items():
+    data, figure = history(runs, snakemake.params.scales["modulus_unit"])
+    outputs.save(snakemake, figure, f"{name}_", data=data)
