@@ -93,9 +93,9 @@ rule all:
         rules.blade.output,
         rules.blade_tables.output,
         # the maps need them, but Snakemake replaces no lost one for a map that is there
-        expand(rules.coating.output, coating=COATINGS),
+        expand(rules.coating.output.manifest, coating=COATINGS),
         LISTED_MEMBERS,
-        expand(rules.map.output, coating=COATINGS),
+        expand(rules.coating.output.map, coating=COATINGS),
         rules.peaks.output,
         rules.divergence.output,
         FIGURES,

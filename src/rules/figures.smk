@@ -165,7 +165,7 @@ use rule casing as fig05_casing with:
 # Of any coating, for the asking; of another blade or casing also part of `all`
 rule wear_map:
     input:
-        map=rules.map.output[0],
+        map=rules.coating.output.map,
         blade=rules.blade.output.reduced_model,
         drawing=files_behind("plots.wear_map"),
     output:
@@ -197,7 +197,7 @@ use rule wear_map as fig06_wear_map with:
 
 rule spectrum:
     input:
-        map=rules.map.output[0],
+        map=rules.coating.output.map,
         blade=rules.blade.output.reduced_model,
         drawing=files_behind("plots.spectrum"),
     output:
@@ -342,7 +342,7 @@ HISTORIES = {
 rule histories:
     input:
         manifests=expand(
-            rules.coating.output[0], coating=[STRAIGHT.name, INCLINED.name]
+            rules.coating.output.manifest, coating=[STRAIGHT.name, INCLINED.name]
         ),
         drawing=files_behind("plots.history"),
     output:

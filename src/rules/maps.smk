@@ -1,4 +1,4 @@
-# Stages 3 and 4: what the runs of a coating show together, and the tables over all coatings.
+# Stages 3 and 4: the bands of a coating, and the tables over all coatings.
 import csv
 import os
 
@@ -13,28 +13,8 @@ PEAKS = config["analysis"]["peaks"] | {
 }
 
 
-MAP = f"{RESULTS}/maps/{{coating}}.h5"
 ENSEMBLE = f"{RESULTS}/ensembles/{{coating}}.h5"
 MEMBERS = f"{RESULTS}/runs/{{coating}}/ensemble/manifest.tsv"
-
-
-rule map:
-    input:
-        replaces(workflow, MAP, damage),
-        manifest=rules.coating.output[0],
-        blade=rules.blade.output.reduced_model,
-        analysing=files_behind("study.maps"),
-    output:
-        MAP,
-    log:
-        f"{RESULTS}/logs/map/{{coating}}.log",
-    benchmark:
-        f"{RESULTS}/benchmarks/map/{{coating}}.tsv"
-    priority: BEGUN
-    params:
-        lobe_prominence=config["analysis"]["lobe_prominence"],
-    script:
-        "../scripts/map.py"
 
 
 rule ensemble:
@@ -42,7 +22,7 @@ rule ensemble:
     input:
         replaces(workflow, ENSEMBLE, damage),
         replaces(workflow, MEMBERS),
-        map=rules.map.output[0],
+        map=rules.coating.output.map,
         blade=rules.blade.output.reduced_model,
         kernel=rules.compile_kernel.output[0],
         analysing=files_behind("study.ensemble"),
@@ -76,7 +56,7 @@ LISTED_MEMBERS = expand(rules.ensemble.output.members, coating=WITH_ENSEMBLE)
 rule peaks:
     input:
         blade=rules.blade.output.reduced_model,
-        maps=expand(rules.map.output, coating=COATINGS),
+        maps=expand(rules.coating.output.map, coating=COATINGS),
         ensembles=ENSEMBLES,
         analysing=files_behind("study.bands"),
     output:
@@ -94,7 +74,7 @@ rule peaks:
 rule divergence:
     input:
         blade=rules.blade.output.reduced_model,
-        maps=expand(rules.map.output, coating=COATINGS),
+        maps=expand(rules.coating.output.map, coating=COATINGS),
         ensembles=ENSEMBLES,
         analysing=files_behind("study.bands"),
     output:
@@ -123,7 +103,7 @@ def reported_robustness(wildcards):
 
 rule findings:
     input:
-        maps=expand(rules.map.output, coating=COATINGS),
+        maps=expand(rules.coating.output.map, coating=COATINGS),
         ensembles=ENSEMBLES,
         peaks=rules.peaks.output[0],
         divergence=rules.divergence.output[0],

@@ -3,7 +3,7 @@
 
 rule margins:
     input:
-        maps=expand(rules.map.output, coating=COATINGS),
+        maps=expand(rules.coating.output.map, coating=COATINGS),
         rom_accuracy=rules.blade_tables.output.rom_accuracy,
         analysing=files_behind("study.margins"),
         drawing=files_behind("plots.verdicts"),

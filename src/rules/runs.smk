@@ -1,4 +1,4 @@
-# Stage 2: the runs. One job is one coating at all its speeds; one run is one file.
+# Stage 2: the runs. One job is one coating at all its speeds, with its map; one run is one file.
 import math
 from dataclasses import asdict
 from functools import cache
@@ -77,6 +77,7 @@ rule compile_kernel:
 
 
 MANIFEST = f"{RESULTS}/runs/{{coating}}/manifest.tsv"
+MAP = f"{RESULTS}/maps/{{coating}}.h5"
 
 
 rule coating:
@@ -84,10 +85,13 @@ rule coating:
     # finished runs must survive. The key inside the file of a run shows whether it is current.
     input:
         replaces(workflow, MANIFEST),
+        replaces(workflow, MAP, damage),
         blade=rules.blade.output.reduced_model,
         kernel=rules.compile_kernel.output[0],
+        analysing=files_behind("study.maps"),
     output:
-        MANIFEST,
+        manifest=MANIFEST,
+        map=MAP,
     log:
         f"{RESULTS}/logs/coating/{{coating}}.log",
     benchmark:
@@ -98,7 +102,8 @@ rule coating:
         mem_mb=memory_mb,  # 240 measured, and two Pythons of Snakemake
         runtime=coating_minutes,
     params:
-        folder=subpath(output[0], parent=True),
+        folder=subpath(output.manifest, parent=True),
+        lobe_prominence=config["analysis"]["lobe_prominence"],
         plan=lambda wildcards: plan_of(wildcards.coating),  # no reason to run, being an object
         planned=planned_runs,
         confirmed=confirmation_determinants(config["analysis"]["divergence"]),

@@ -1,4 +1,4 @@
-"""Compute the runs of one folder that are missing or stale, then write its manifest."""
+"""Compute the runs of one coating that are missing or stale, collect them in its map, write the manifest."""
 
 from bladerub.workflow import job
 
@@ -10,19 +10,22 @@ from bladerub.blade.validation import read_reduced_blade
 from bladerub.study.cache import blade_digest
 from bladerub.study.job import compute_missing
 from bladerub.study.manifest import write_manifest
+from bladerub.study.maps import build_map
 from bladerub.workflow.progress import of_job
 
 plan = snakemake.params.plan
 folder = Path(snakemake.params.folder)
 progress = of_job(folder.name, folder)
+blade = read_reduced_blade(snakemake.input.blade)
 rows = compute_missing(
     snakemake.config,
     plan,
-    read_reduced_blade(snakemake.input.blade),
+    blade,
     folder,
     blade_digest(snakemake.input.blade),
     report=progress,
     threads=snakemake.threads,
 )
-write_manifest(snakemake.output[0], rows)
+build_map(snakemake.config, plan.case, blade, folder, rows, snakemake.output.map)
+write_manifest(snakemake.output.manifest, rows)
 progress.finish(rows)

@@ -62,7 +62,7 @@ rule accuracy:
     input:
         blade=rules.blade.output.reduced_model,
         kernel=rules.compile_kernel.output[0],
-        maps=expand(rules.map.output, coating=COATINGS),
+        maps=expand(rules.coating.output.map, coating=COATINGS),
         analysing=files_behind("extras.verification.accuracy"),
     output:
         **described(table=f"{TABLES}/accuracy.csv"),

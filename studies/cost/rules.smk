@@ -16,7 +16,7 @@ rule cost:
         FIGURES,
         JUDGED,
         lambda wildcards: [path for name in added() for path in ADDED_TO_ALL[name]],
-        maps=expand(rules.map.output, coating=COATINGS),
+        maps=expand(rules.coating.output.map, coating=COATINGS),
         collecting=files_behind("extras.cost.jobs", "extras.cost.schedule"),
         drawing=files_behind("extras.cost.figure"),
     output:

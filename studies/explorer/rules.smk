@@ -9,8 +9,8 @@ from bladerub.study.grid import modulus_unit
 rule explorer:
     input:
         accuracy=rules.blade.output.rom_accuracy,
-        manifests=expand(rules.coating.output[0], coating=COATINGS),
-        maps=expand(rules.map.output, coating=COATINGS),
+        manifests=expand(rules.coating.output.manifest, coating=COATINGS),
+        maps=expand(rules.coating.output.map, coating=COATINGS),
         peaks=rules.peaks.output[0],
         divergence=rules.divergence.output[0],
         packing=files_behind("extras.explorer.page"),

@@ -6,7 +6,7 @@ COMPARED = [case.name for pair in compared_cases(config) for case in pair]
 
 rule friction:
     input:
-        manifests=expand(rules.coating.output[0], coating=COMPARED),
+        manifests=expand(rules.coating.output.manifest, coating=COMPARED),
         analysing=files_behind("extras.friction.table", "study.summary"),
         drawing=files_behind("extras.plots.friction"),
     output:

@@ -12,7 +12,7 @@ def swept_maps(wildcards):
             raise bladerub.io.errors.BadInput(
                 "sweeps.coatings: the study has none of them; must name some of its coatings"
             )
-    return expand(rules.map.output, coating=SWEPT)
+    return expand(rules.coating.output.map, coating=SWEPT)
 
 
 def planned_sweep(wildcards):
@@ -91,7 +91,7 @@ rule long_runs:
 
 rule long_coating:
     input:
-        map=rules.map.output[0],
+        map=rules.coating.output.map,
         blade=rules.blade.output.reduced_model,
         kernel=rules.compile_kernel.output[0],
         analysing=files_behind("extras.passages.long_runs", "study.peaks", "study.growth"),

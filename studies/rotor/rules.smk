@@ -55,7 +55,7 @@ rule rotor_combination:
         plan=lambda wildcards: rotor_runs(wildcards.combination),
         planned=planned_rows,
     script:
-        "../../src/scripts/coating.py"
+        "scripts/combination.py"
 
 
 def rotor_manifests(wildcards):

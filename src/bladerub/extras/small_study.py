@@ -78,8 +78,8 @@ def map_coating(
     """
     runs, path = Path(folder) / "runs" / case.name, Path(folder) / "maps" / f"{case.name}.h5"
     rows = compute_missing(config, coating_plan(config, case), blade, runs, digest, report)
+    build_map(config, case, blade, runs, rows, path)
     write_manifest(runs / "manifest.tsv", rows)
-    build_map(config, case, blade, runs, path)
     return read_map(path), len(rows) + sum(bool(row.confirmation_key) for row in rows)
 
 

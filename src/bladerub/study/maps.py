@@ -15,8 +15,8 @@ from bladerub.io.equality import Comparable
 from bladerub.io.errors import DamagedFile
 from bladerub.io.hdf5 import Variable
 from bladerub.io.provenance import provenance
-from bladerub.study.grid import CoatingCase, speeds
-from bladerub.study.manifest import ManifestRow, confirmation_path, read_manifest
+from bladerub.study.grid import CoatingCase
+from bladerub.study.manifest import ManifestRow, confirmation_path
 from bladerub.study.wear import dominant_harmonic, lobes
 
 if TYPE_CHECKING:  # imports the time loop, which readers of maps do without
@@ -95,23 +95,18 @@ def build_map(
     case: CoatingCase,
     blade: ReducedBlade,
     runs_folder: str | Path,
+    rows: Sequence[ManifestRow],
     path: str | Path,
 ) -> None:
     """Collect the runs of one coating in the map file `path`, with its `DATASETS`.
 
-    ``manifest.tsv`` in `runs_folder` lists which of the runs there belong to the study `config`, whose
-    ``analysis.lobe_prominence`` decides what counts as a lobe; `blade` is for its first frequency. Raises
-    `OSError`, naming the file, if the manifest or a run is missing or damaged, if the manifest lists other
-    speeds than the study has, or a run is another than the manifest's.
+    `rows` are those of the manifest of `runs_folder`. ``analysis.lobe_prominence`` of the
+    study `config` decides what counts as a lobe; `blade` is for its first frequency. Raises `OSError`, naming
+    the file, if a run is missing or damaged, or another than that of its row.
     """
-    folder, planned = Path(runs_folder), speeds(config)
-    rows = sorted(read_manifest(folder / "manifest.tsv"), key=lambda row: row.f_omega)
-    if [row.f_omega for row in rows] != planned:
-        raise DamagedFile(
-            f"{folder / 'manifest.tsv'}: lists {len(rows)} speeds, not the {len(planned)} planned"
-        )
-    C1 = first_frequency(blade, planned)
-    write_map(path, collect_listed(config, case, C1, folder, rows), provenance(config))
+    rows = sorted(rows, key=lambda row: row.f_omega)
+    C1 = first_frequency(blade, [row.f_omega for row in rows])
+    write_map(path, collect_listed(config, case, C1, Path(runs_folder), rows), provenance(config))
 
 
 def first_frequency(blade: ReducedBlade, speeds: Sequence[float]) -> np.ndarray:

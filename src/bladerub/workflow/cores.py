@@ -32,7 +32,7 @@ SECONDS_AT_FIRST = {"blade": 15, "compile_kernel": 15}
 """Of one core, for the jobs that are made once, by their rule."""
 
 BEGUN = 1
-"""Priority of the map and the ensembles of a coating: they come before the runs of any other."""
+"""Priority of the ensembles of a coating: they come before the runs of any other."""
 
 
 class Costs(NamedTuple):

@@ -6,7 +6,7 @@ import pytest
 from bladerub.io.errors import DamagedFile
 from bladerub.study import grid, maps
 from bladerub.study.growth import confirmation_spec
-from bladerub.study.manifest import ManifestRow, confirmation_path, write_manifest
+from bladerub.study.manifest import ManifestRow, confirmation_path, read_manifest, write_manifest
 
 SPEEDS = [0.1, 0.19, 0.3]
 
@@ -37,7 +37,7 @@ def folder(tmp_path, config, case, make_result, write_run):
 @pytest.fixture
 def build(config, case, blade, folder):
     def build_to(path):
-        maps.build_map(config, case, blade, folder, path)
+        maps.build_map(config, case, blade, folder, read_manifest(folder / "manifest.tsv"), path)
         return path
 
     return build_to

@@ -141,8 +141,7 @@ def test_real_runs_go_from_the_solver_to_the_table(study, case, blade, tmp_path)
     study["analysis"]["divergence"].update(revolutions=3, confirmation_revolutions=0)
     folder, reports = tmp_path / "runs", []
     rows = compute_missing(study, coating_plan(study, case), blade, folder, "digest", reports.append)
-    write_manifest(folder / "manifest.tsv", rows)
-    maps.build_map(study, case, blade, folder, tmp_path / "map.h5")
+    maps.build_map(study, case, blade, folder, rows, tmp_path / "map.h5")
     table = divergence.table(study, [maps.read_map(tmp_path / "map.h5")])
     assert [done.file for done in reports] == ["0.1000.h5", "0.3000.h5"]
     assert list(table.f_omega) == [0.1, 0.3]
@@ -164,8 +163,7 @@ def test_runs_on_the_rigid_casing_go_to_the_tables_as_those_of_infinite_moduli(
     )
     case = CoatingCase.rigid("2nd", 0.15)
     rows = compute_missing(study, coating_plan(study, case), blade, tmp_path, "digest")
-    write_manifest(tmp_path / "manifest.tsv", rows)
-    maps.build_map(study, case, blade, tmp_path, tmp_path / "map.h5")
+    maps.build_map(study, case, blade, tmp_path, rows, tmp_path / "map.h5")
     coating = maps.read_map(tmp_path / "map.h5")
     assert coating.case == case
     assert not coating.max_wear.any()

@@ -10,7 +10,7 @@ from bladerub.workflow.cores import BEGUN, costs_of, priority_of, threads_for
 
 CORES = (1, 2, 4, 8, 16, 32, 64)
 COLUMNS = ["cores", "minutes", "efficiency"]
-_CHAIN = ("rubs", "maps", "ensembles")  # of each coating, one after the other
+_CHAIN = ("rubs", "ensembles")  # of each coating, one after the other
 _FIRST = ("blade", "compilation")
 
 
@@ -18,7 +18,7 @@ def table(costs: pd.DataFrame, config: Mapping[str, Any], cores: Sequence[int] =
     """Simulate the schedule of the jobs of `costs`, of `bladerub.extras.cost.jobs`, on so many `cores`.
 
     Every core works as fast as that which the jobs were measured on, and so does each thread of a job. Blade
-    and kernel come first; then each coating has its runs, its map and its ensembles, those begun before the
+    and kernel come first; then each coating has its runs and its ensembles, those begun before the
     runs of others, and of these the longest; all else comes last. Returns a row for each number of cores,
     with `COLUMNS`: the minutes, and the time of all jobs over that of all cores.
     """
