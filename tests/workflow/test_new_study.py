@@ -13,7 +13,7 @@ OWN_RULE = """
 
 rule own:
     input:
-        rules.map.output[0].format(coating="2nd_E1.1_K0.5_theta0"),
+        rules.coating.output.map.format(coating="2nd_E1.1_K0.5_theta0"),
     output:
         "results/own.txt",
     shell:

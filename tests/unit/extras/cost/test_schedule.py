@@ -22,10 +22,10 @@ def study():
 
 @pytest.fixture
 def costs(study):
-    """A blade in 60 s, four coatings of 300 s each with maps of 60 s, two tables of 30 s."""
+    """A blade in 60 s, four coatings of 300 s each with ensembles of 60 s, two tables of 30 s."""
     jobs = [("blade", "", 60.0), ("tables", "a", 30.0), ("tables", "b", 30.0)]
     for case in coating_cases(study):
-        jobs += [("rubs", case.name, 300.0), ("maps", case.name, 60.0)]
+        jobs += [("rubs", case.name, 300.0), ("ensembles", case.name, 60.0)]
     return pd.DataFrame(jobs, columns=["stage", "job", "wall_s"])
 
 
