@@ -20,7 +20,10 @@ LONGEST_VALUE = 1000  # characters of a value or key
 DEEPEST = 32  # levels of mappings and lists
 
 _NUMBER = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)[eE][-+]?\d+")
+_FORTRAN = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)[dD][-+]?\d+")
 _OCTAL = re.compile(r"[-+]?0[0-7_]+")
+_HEXADECIMAL = re.compile(r"[-+]?0x[0-9a-fA-F_]+")
+_BINARY = re.compile(r"[-+]?0b[01_]+")
 _SEXAGESIMAL = re.compile(r"[-+]?[0-9][0-9_]*(:[0-5]?[0-9])+(\.[0-9_]*)?")
 _TEMPLATES = "__use_yte__"
 _TAGS = {yaml.MappingNode: "tag:yaml.org,2002:map", yaml.SequenceNode: "tag:yaml.org,2002:seq"}
@@ -209,7 +212,10 @@ class _Loader(yaml.SafeLoader):
         if len(node.value) > LONGEST_VALUE:
             raise _error(f"a key of more than {LONGEST_VALUE} characters", node)
         if node.tag != "tag:yaml.org,2002:str":
-            raise _error(f"a key must be text, write {format_value(node.value)}", node)
+            comma = (
+                "; the decimal mark is a point, and a comma ends a value" if node.value.isdecimal() else ""
+            )
+            raise _error(f"a key must be text, write {format_value(node.value)}{comma}", node)
         return node.value
 
     def scalar(self, node: yaml.ScalarNode) -> Any:
@@ -228,10 +234,17 @@ class _Loader(yaml.SafeLoader):
 
 
 def yaml_reading(text: str) -> str | None:
-    """Say what YAML 1.1 makes of a number with a leading zero or colons, ``16, as octal``; None of others."""
-    kinds = {"octal": _OCTAL, "of base 60": _SEXAGESIMAL}
+    """Say what YAML 1.1 makes of a number that is not in decimals, ``16, as octal``; None of others."""
+    kinds = {"octal": _OCTAL, "hexadecimal": _HEXADECIMAL, "binary": _BINARY, "of base 60": _SEXAGESIMAL}
     kind = next((name for name, form in kinds.items() if form.fullmatch(text)), None)
     return kind and f"{yaml.safe_load(text)}, as {kind}"
+
+
+def decimal_form(text: str) -> str | None:
+    """Write a number with the exponent of Fortran, or with leading zeros, as YAML has it; None of others."""
+    if _FORTRAN.fullmatch(text):
+        return text.lower().replace("d", "e")
+    return str(int(text)) if text.isdecimal() and text.startswith("0") else None
 
 
 def _limit(depth: int, number: int, node: yaml.Node | yaml.Event) -> None:

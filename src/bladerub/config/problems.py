@@ -13,7 +13,7 @@ from pydantic import TypeAdapter, ValidationError
 from bladerub.config import units
 from bladerub.config.errors import format_value, key_path, top_key
 from bladerub.config.fields import OWN
-from bladerub.config.files import yaml_reading
+from bladerub.config.files import decimal_form, yaml_reading
 from bladerub.config.keys import NUMBERS, Key, key_of
 from bladerub.config.models.study import whole
 
@@ -115,6 +115,8 @@ def _wrong(value: Any, key: Key) -> str:
         return f"{key.right()}{f'; this {meant}' if meant else ''}"
     if isinstance(value, str) and (reading := yaml_reading(value)):
         return f"{key.right()} (YAML reads this as {reading})"
+    if isinstance(value, str) and (decimal := decimal_form(value)):
+        return f"{key.right()}; write {decimal}"
     if quantity := units.read(value):
         try:
             units.convert(quantity, key, lambda name: 1.0)

@@ -92,7 +92,7 @@ def convert(quantity: Quantity, key: "Key", reference: Reference) -> float:
     """
     kind, size = _UNITS.get(quantity.unit, (None, Fraction(1)))
     if kind is None or (kind != _kind(key) and not (kind == "share" and _is_share(key))):
-        raise ValueError(f"{_what_is(quantity.unit, kind)}; must be {right(key)}")
+        raise ValueError(f"{_what_is(quantity.unit, kind, _kind(key))}; must be {right(key)}")
     exact, relative_to = quantity.number * size, needs(key)
     if kind == "share" or relative_to is None:
         return float(exact / _UNITS.get(key.unit.name, ("", 1))[1])
@@ -202,10 +202,10 @@ def _is_share(key: "Key") -> bool:
     return key.kind == "a number" and (_kind(key) is None or key.unit.name == "blade lengths")
 
 
-def _what_is(unit: str, kind: str | None) -> str:
+def _what_is(unit: str, kind: str | None, wanted: str | None) -> str:
     if kind is not None:
         return f"is {_article(kind)} {kind}"
-    lower = {known.lower(): known for known in reversed(_UNITS)}
+    lower = {known.lower(): known for known in reversed(_TABLE.get(wanted, _UNITS))}
     close = get_close_matches(unit.lower(), lower, n=1)
     hint = f", did you mean {lower[close[0]]}?" if close else ""
     return f"has the unknown unit {format_value(unit)}{hint}"
