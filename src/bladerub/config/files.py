@@ -198,7 +198,7 @@ class _Loader(yaml.SafeLoader):
             return Located([self._located(entry, source, depth + 1) for entry in node.value], location)
         content: dict[str, Located] = {}
         for key_node, entry in node.value:
-            key = self._key(key_node)
+            key = self._key(key_node, entry)
             if key in content:
                 raise _error(f"{key_path([key])} is given twice", key_node)
             value = self._located(entry, source, depth + 1)
@@ -206,16 +206,15 @@ class _Loader(yaml.SafeLoader):
         return Located(content, location)
 
     @staticmethod
-    def _key(node: yaml.Node) -> str:
+    def _key(node: yaml.Node, entry: yaml.Node) -> str:
         if not isinstance(node, yaml.ScalarNode):
             raise _error("a key must be text", node)
         if len(node.value) > LONGEST_VALUE:
             raise _error(f"a key of more than {LONGEST_VALUE} characters", node)
         if node.tag != "tag:yaml.org,2002:str":
-            comma = (
-                "; the decimal mark is a point, and a comma ends a value" if node.value.isdecimal() else ""
-            )
-            raise _error(f"a key must be text, write {format_value(node.value)}{comma}", node)
+            is_decimal = node.value.isdecimal() and entry.value == ""  # what follows the comma of 0,01
+            cause = "; the decimal mark is a point" if is_decimal else ""
+            raise _error(f"a key must be text, write {format_value(node.value)}{cause}", node)
         return node.value
 
     def scalar(self, node: yaml.ScalarNode) -> Any:
