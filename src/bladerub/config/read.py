@@ -4,6 +4,7 @@
 one line that names the location, the key, the value and what would be right.
 """
 
+import json
 import re
 from collections.abc import Mapping
 from pathlib import Path
@@ -12,6 +13,10 @@ from typing import Any
 from bladerub.config import files
 from bladerub.config.errors import UNKNOWN, ConfigError, Location, Problem, top_key
 from bladerub.config.files import Located
+from bladerub.io.folders import ROOT
+
+SCHEMA = ROOT / "config" / "schema.json"
+"""What any part of bladerub reads in a config, for editors."""
 
 
 def load(*paths: str | Path) -> dict[str, Any]:
@@ -51,11 +56,14 @@ def read_with_notes(
     One that `is_checked`, as by the process that started this one, is not checked again and has no notes.
     """
     located = _composed(*paths, command_line=command_line)
+    absent = _absent(located)
+    located = Located({k: v for k, v in located.content.items() if k not in absent}, located.location)
     if is_checked:
         from bladerub.config.quantities import converted
 
         return converted(located)[0].plain(), []
-    return _validated(located, "")
+    values, notes = _validated(located, "")
+    return values, [*(f"{name}: left out, what reads it is not installed" for name in absent), *notes]
 
 
 def read_plan(
@@ -146,6 +154,17 @@ def _composed(*paths: str | Path, command_line: Mapping[str, Any] | None = None)
     from bladerub.config.models.study import defaults
 
     return Located.of(defaults(), UNKNOWN).merged(files.compose(*paths, command_line=command_line))
+
+
+def _absent(config: Located) -> list[str]:
+    """List the sections that the published schema has, and no part of this installation."""
+    from bladerub.config.models.study import whole
+
+    unknown = [name for name in config.content if name not in whole().model_fields]
+    if not unknown:
+        return []
+    published = json.loads(SCHEMA.read_text(encoding="utf-8"))["properties"]
+    return [name for name in unknown if name in published]
 
 
 def _location(problem: str, locations: Mapping[str, Location], default: Location = UNKNOWN) -> Location:
