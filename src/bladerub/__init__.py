@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from bladerub.api.blade import Blade, build_blade, read_blade
     from bladerub.api.errors import InputError
     from bladerub.api.map import Map, read_map, simulate_speeds
-    from bladerub.api.run import Run, read_run, simulate
+    from bladerub.api.run import Run, plot_spectra, read_run, simulate
     from bladerub.api.study import Study, StudyCoating, StudyRun, default_study, load_study
     from bladerub.config.errors import ConfigError
 
@@ -26,7 +26,7 @@ _MODULES = {
     "api.blade": ("Blade", "build_blade", "read_blade"),
     "api.errors": ("InputError",),
     "api.map": ("Map", "read_map", "simulate_speeds"),
-    "api.run": ("Run", "read_run", "simulate"),
+    "api.run": ("Run", "plot_spectra", "read_run", "simulate"),
     "api.study": ("Study", "StudyCoating", "StudyRun", "default_study", "load_study"),
     "config.errors": ("ConfigError",),
 }
@@ -45,6 +45,7 @@ __all__ = [
     "build_blade",
     "default_study",
     "load_study",
+    "plot_spectra",
     "read_blade",
     "read_map",
     "read_run",

@@ -10,4 +10,4 @@ job.log_to(snakemake.log[0])
 from bladerub.plots import blade_mesh
 from bladerub.workflow import outputs
 
-outputs.save(snakemake, blade_mesh.from_file(snakemake.input.mesh))
+outputs.save(snakemake, blade_mesh.blade_mesh(*blade_mesh.read_mesh(snakemake.input.mesh)))

@@ -9,10 +9,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pandas as pd
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from bladerub.api.errors import InputError
 from bladerub.api.notebook import Shown
+from bladerub.api.progress import step
 from bladerub.api.study import Quantity, Study
 from bladerub.blade.accuracy import ACCURACY_COLUMNS, doubts
 from bladerub.blade.build import build
@@ -32,7 +34,6 @@ from bladerub.plots import blade_mesh
 from bladerub.plots.campbell import campbell
 from bladerub.plots.scales import Engine
 from bladerub.plots.spectrum import ORDERS
-from bladerub.plots.style import saved
 from bladerub.study.cache import blade_digest
 
 if TYPE_CHECKING:
@@ -172,14 +173,21 @@ class Blade(Shown):
         """
         return doubts(self.accuracy(), nominal_speed)
 
-    def plot_mesh(self, path: str | Path | None = None) -> Figure:
-        """Draw Fig. 1: mesh, clamped root and interface nodes; `path` to write it there as well."""
-        return saved(blade_mesh.from_file(self.mesh_path), path)
+    def plot_mesh(self, path: str | Path | None = None, *, ax: Axes | None = None) -> Figure | Axes:
+        """Draw Fig. 1: mesh, clamped root and interface nodes.
 
-    def plot_campbell(self, path: str | Path | None = None) -> Figure:
-        """Draw Fig. 2: the Campbell diagram; `path` to write it there as well. Raises as `accuracy`."""
+        `path` is to write it there as well. In the axes `ax`, which are returned, is the mesh as a whole.
+        """
+        return blade_mesh.blade_mesh(*blade_mesh.read_mesh(self.mesh_path), path=path, ax=ax)
+
+    def plot_campbell(self, path: str | Path | None = None, *, ax: Axes | None = None) -> Figure | Axes:
+        """Draw Fig. 2: the Campbell diagram; `path` as `plot_mesh`. Raises as `accuracy`.
+
+        In the axes `ax`, which are returned, are the first mode and the engine orders.
+        """
         modes = self.accuracy().pivot(index="f_omega", columns="mode") / self.f1_hz
-        return saved(campbell(modes.index, modes["f_fe"], modes["f_rom"], ORDERS, Engine(self.f1_hz)), path)
+        f_fe, f_rom, engine = modes["f_fe"], modes["f_rom"], Engine(self.f1_hz)
+        return campbell(modes.index, f_fe, f_rom, ORDERS, engine, path=path, ax=ax)
 
     def to_xarray(self) -> "xr.Dataset":
         """Return matrices, interface nodes and directions with units and names."""
@@ -216,11 +224,11 @@ def read_blade(path: str | Path) -> Blade:
     return Blade(read_valid_blade(path), path)
 
 
-def build_blade(study: Study) -> Blade:
+def build_blade(study: Study, progress: bool | None = None) -> Blade:
     """Build the blade of a study, or read it where it is built already.
 
     A blade of the same config is looked for in the results of the study, then in the cache
-    (`bladerub.io.folders.cache_folder`), where a new one is kept.
+    (`bladerub.io.folders.cache_folder`), where a new one is kept. `progress` is as of `simulate`.
 
     Warns
     -----
@@ -244,7 +252,8 @@ def build_blade(study: Study) -> Blade:
     of_study = study.results / "blade" / "reduced_model.h5"
     path = of_study if is_built(study.config, of_study) else kept_at(study.config)
     if not is_built(study.config, path):
-        write_blade(study.config, path)
+        with step("building the blade", progress):
+            write_blade(study.config, path)
     blade = read_blade(path)
     for line in blade.doubts(study.config["figures"].get("nominal_speed")):
         warnings.warn(line, stacklevel=2)

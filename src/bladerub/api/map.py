@@ -8,30 +8,33 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pandas as pd
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from tqdm.auto import tqdm
 
 from bladerub.api.blade import Blade
 from bladerub.api.dataset import to_dataset
 from bladerub.api.errors import InputError
+from bladerub.api.lists import over
 from bladerub.api.notebook import Shown
+from bladerub.api.progress import bar, step
 from bladerub.api.run import Run, solve
-from bladerub.api.study import Quantity, StudyCoating, StudyRun
+from bladerub.api.study import Quantity, StudyCoating, StudyRun, settings_of
 from bladerub.config.units import speeds_in_words
 from bladerub.contact.setup import compile_kernel
 from bladerub.io.hdf5 import read_attributes
 from bladerub.io.provenance import provenance
 from bladerub.plots.scales import Engine, Scales, greatest
 from bladerub.plots.spectrum import spectrum_map
-from bladerub.plots.style import saved
 from bladerub.plots.wear_map import wear_map
 from bladerub.study import maps
+from bladerub.study.divergence import in_a_word, verdicts
 from bladerub.study.grid import CoatingCase
 from bladerub.study.growth import confirmation_spec, needs_confirmation
 from bladerub.study.maps import CoatingMap
 from bladerub.study.parallel import each_done
 from bladerub.study.row import row_of
 from bladerub.study.solver import Solve, solver_of
+from bladerub.study.summary import spectral_peak
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -51,6 +54,8 @@ class Map(Shown):
         speeds normalised.
     f1_hz : float, optional
         First frequency of the blade at rest, Hz, for what is shown in rpm and Hz.
+    config : mapping, optional
+        That of its study, if it was simulated here.
 
     Examples
     --------
@@ -71,6 +76,7 @@ class Map(Shown):
 
     coating: CoatingMap
     f1_hz: float | None = field(default=None, compare=False)
+    config: Mapping[str, Any] | None = field(default=None, compare=False)
 
     @property
     def case(self) -> CoatingCase:
@@ -92,49 +98,67 @@ class Map(Shown):
         """``"completed"`` or ``"unbounded"`` of each run (n,)."""
         return self.coating.status
 
-    def plot_wear(self, path: str | Path | None = None) -> Figure:
-        """Draw the wear around the casing over the speed (Fig. 6); `path` to write it there as well."""
-        return saved(wear_map(self.coating, self._scales), path)
+    def plot_wear(self, path: str | Path | None = None, *, ax: Axes | None = None) -> Figure | Axes:
+        """Draw the wear around the casing over the speed (Fig. 6); `path` to write it there as well.
+
+        In the axes `ax`, which are returned, is the wear without the number of lobes.
+        """
+        return wear_map(self.coating, self._scales, path=path, ax=ax)
 
     def plot_spectrum(
         self,
         path: str | Path | None = None,
         amplitude_range: tuple[float, float] | None = None,
         max_frequency: float = 2.0,
-    ) -> Figure:
-        """Draw the spectra over the speed (Figs. 7 to 9); `path` as `plot_wear`.
+        *,
+        ax: Axes | None = None,
+    ) -> Figure | Axes:
+        """Draw the spectra over the speed (Figs. 7 to 9); `path` and `ax` as `plot_wear`.
 
         `amplitude_range` are the ends of the colour scale, m (default: three decades up to the largest
         amplitude); `max_frequency` is the right end of the axis, normalised.
         """
         largest = greatest(self.coating.spectrum_amplitude)
         ends = amplitude_range or (1e-3 * largest, largest)
-        return saved(spectrum_map(self.coating, ends, max_frequency, self._scales), path)
+        return spectrum_map(self.coating, ends, max_frequency, self._scales, path=path, ax=ax)
 
     def to_xarray(self) -> "xr.Dataset":
         """Return all arrays with coordinates, units and names."""
         return to_dataset(maps.variables(self.coating), asdict(self.case))
 
-    def to_pandas(self) -> pd.DataFrame:
-        """Return a row for each speed.
+    def to_pandas(self, config: Mapping[str, Any] | None = None) -> pd.DataFrame:
+        """Return a row for each speed, judged by the settings of a `config` as of `Run.verdict`.
 
-        Columns: ``C1`` (first eigenfrequency, normalised), ``max_wear`` (m), ``lobes``, ``status``,
-        ``wear_harmonic`` and ``wear_harmonic_share`` (`bladerub.study.wear.dominant_harmonic`),
-        ``revolution_peak`` and ``revolution_amplitude`` of the last revolution (m).
+        Columns: ``rpm`` (NaN where the blade is not known), ``C1`` (first eigenfrequency, normalised),
+        ``max_wear`` (worn depth, m), ``lobes``, ``status``, ``wear_harmonic`` and ``wear_harmonic_share``
+        (`bladerub.study.wear.dominant_harmonic`), ``revolution_peak`` and ``revolution_amplitude`` of the
+        last revolution (m), ``engine_order`` and ``spectral_peak`` (m) of the largest amplitude of the
+        spectrum above order 0.5, ``growth_per_revolution`` (0.03 is 3 %) and ``verdict``
+        (`bladerub.study.divergence.in_a_word`).
         """
-        columns = {name: getattr(self.coating, name) for name in _PER_SPEED}
-        last = {name: getattr(self.coating, name)[:, -1] for name in _PER_REVOLUTION}
-        return pd.DataFrame(columns | last, index=pd.Index(self.f_omega, name="f_omega"))
+        coating, judged = self.coating, verdicts(settings_of(config, self.config), self.coating)
+        spectra = coating.spectrum_amplitude
+        peaks = np.array([spectral_peak(coating.spectrum_order, spectrum) for spectrum in spectra])
+        columns = {
+            "rpm": 60 * (self.f1_hz or np.nan) * self.f_omega,
+            **{name: getattr(coating, name) for name in _PER_SPEED},
+            **{name: getattr(coating, name)[:, -1] for name in _PER_REVOLUTION},
+            "engine_order": np.where(peaks[:, 1] > 0, peaks[:, 0], np.nan),
+            "spectral_peak": peaks[:, 1],
+            "growth_per_revolution": [verdict.growth.per_revolution for verdict in judged],
+            "verdict": [in_a_word(verdict) for verdict in judged],
+        }
+        return pd.DataFrame(columns, index=pd.Index(self.f_omega, name="f_omega"))
 
-    def write(self, path: str | Path, config: Mapping[str, Any]) -> None:
-        """Write the map of the study `config` to the HDF5 file `path`, whole or not at all.
+    def write(self, path: str | Path, config: Mapping[str, Any] | None = None) -> None:
+        """Write the map to the HDF5 file `path`, whole or not at all; `config` as of `Run.verdict`.
 
         Raises
         ------
         OSError
             If it cannot be written; the message names the file.
         """
-        maps.write_map(path, self.coating, provenance(config))
+        maps.write_map(path, self.coating, provenance(settings_of(config, self.config)))
 
     @property
     def _scales(self) -> Scales:
@@ -149,6 +173,7 @@ class Map(Shown):
         }
 
 
+@over("path")
 def read_map(path: str | Path) -> Map:
     """Read the map of one coating, such as ``results/maps/2nd_E2_K0.5_theta0.h5``.
 
@@ -173,6 +198,7 @@ def read_map(path: str | Path) -> Map:
     return Map(maps.read_map(path, with_nodes=True), f1_hz)
 
 
+@over("coating")
 def simulate_speeds(
     blade: Blade,
     coating: StudyCoating,
@@ -180,7 +206,7 @@ def simulate_speeds(
     *,
     jobs: int = 1,
     follow: bool = True,
-    progress: bool = True,
+    progress: bool | None = None,
 ) -> Map:
     """Simulate one coating at many speeds.
 
@@ -189,12 +215,12 @@ def simulate_speeds(
     blade : Blade
         The blade.
     coating : StudyCoating
-        The coating, from `Study.coating` or `Study.rigid`.
+        The coating, from `Study.coating` or `Study.rigid`; a list of them gives a list of maps.
     speeds : iterable of float or str
         Speeds, normalised or with a unit (``"2200 rpm"``, of this blade): at least two, ascending in the map.
     jobs : int
         Runs at once.
-    follow, progress : bool
+    follow, progress : bool, optional
         As of `simulate`.
 
     Raises
@@ -219,8 +245,7 @@ def simulate_speeds(
     if len(runs) < 2:
         raise InputError("speeds", [run.f_omega for run in runs], "must be at least two")
     blade.check_speed("speeds", runs[-1].f_omega)
-    with tqdm(total=len(runs), unit="run", disable=not progress, leave=False) as bar:
-        results = solve_all(blade, runs, jobs, follow, bar.update)
+    results = solve_all(blade, runs, jobs, follow, progress)
     stored = [run.stored for run in results]
     longer = [run.longer.stored if run.longer else None for run in results]
     normalised_speeds = [run.f_omega for run in runs]
@@ -235,16 +260,21 @@ def simulate_speeds(
             prominence,
         ),
         blade.f1_hz,
+        coating.config,
     )
 
 
 def solve_all(
-    blade: Blade, runs: list[StudyRun], jobs: int, follow: bool, advance: Callable[[], Any]
+    blade: Blade, runs: list[StudyRun], jobs: int, follow: bool, progress: bool | None
 ) -> list[Run]:
-    """Simulate `runs`, `jobs` at once, without their histories; `advance` is called after each."""
-    for law in {run.spec.coating.element_law for run in runs}:
-        compile_kernel(n_nodes=blade.reduced.n_interface, law=law)
-    if row_of(runs[0].config):
+    """Simulate `runs`, `jobs` at once, without their histories; other arguments as of `simulate`."""
+    with step("compiling the time loop", progress):
+        for law in {run.spec.coating.element_law for run in runs}:
+            compile_kernel(n_nodes=blade.reduced.n_interface, law=law)
+    with bar(len(runs), "run", progress) as line:
+        if not row_of(runs[0].config):
+            solver = _solved_together(blade, runs, jobs, follow, line.update)
+            return [solve(blade, run, follow, keep_history=False, solver=solver) for run in runs]
         results = {}
 
         def compute(number: int) -> Run:
@@ -252,10 +282,8 @@ def solve_all(
 
         for number, run in each_done(compute, range(len(runs)), jobs):
             results[number] = run
-            advance()
+            line.update()
         return [results[number] for number in range(len(runs))]
-    solver = _solved_together(blade, runs, jobs, follow, advance)
-    return [solve(blade, run, follow, keep_history=False, solver=solver) for run in runs]
 
 
 def _solved_together(

@@ -1,21 +1,24 @@
 """One run: simulated here, or read from its file."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field, fields, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pandas as pd
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from tqdm.auto import tqdm
+from tqdm import tqdm
 
 from bladerub import plugins
 from bladerub.api.blade import Blade
 from bladerub.api.dataset import to_dataset
 from bladerub.api.errors import InputError
+from bladerub.api.lists import over
 from bladerub.api.notebook import Shown
-from bladerub.api.study import StudyRun
+from bladerub.api.progress import bar, step
+from bladerub.api.study import StudyRun, settings_of
 from bladerub.config.units import speed_in_words
 from bladerub.contact.result import Energy
 from bladerub.contact.setup import compile_kernel
@@ -23,8 +26,8 @@ from bladerub.contact.spec import RunSpec
 from bladerub.io.equality import equal
 from bladerub.io.provenance import PREFIX, provenance
 from bladerub.plots import single_run, titles
-from bladerub.plots.style import saved
 from bladerub.study import run_set, store
+from bladerub.study.divergence import in_a_word
 from bladerub.study.grid import CoatingCase, speed_name
 from bladerub.study.growth import Verdict, confirmation_spec, judge, needs_confirmation
 from bladerub.study.job import compute
@@ -53,6 +56,8 @@ class Run(Shown):
         The same for more revolutions, where the amplitude grows: it shows whether the growth lasts.
     stress : RunStress, optional
         The largest stress of the blade, where `simulate` was asked for it.
+    config : mapping, optional
+        That of its study, if it was simulated here.
 
     Examples
     --------
@@ -74,15 +79,15 @@ class Run(Shown):
     0
     >>> len(run.blades)  # no row of blades, but a single one
     0
-    >>> run.verdict(study.config["analysis"]["divergence"]).divergent
+    >>> run.verdict().divergent
     False
-    >>> run.summary(study.config)["status"]
+    >>> run.summary()["status"]
     'completed'
     >>> run.to_xarray()["wear"].units
     'm'
     >>> list(run.to_pandas().index)
     [1, 2, 3]
-    >>> run.write("run.h5", study.config)
+    >>> run.write("run.h5")
     >>> br.read_run("run.h5") == run
     True
     >>> figure = run.plot_wear("wear.png")
@@ -93,6 +98,7 @@ class Run(Shown):
     stored: StoredRun = field(repr=False)
     longer: "Run | None" = None
     stress: Any = None
+    config: Mapping[str, Any] | None = field(default=None, repr=False)
 
     def __eq__(self, other: object) -> bool:
         return equal(_content(self), _content(other)) if isinstance(other, Run) else NotImplemented
@@ -191,44 +197,53 @@ class Run(Shown):
         columns = {name.removeprefix("blade_"): data[name] for name in names if name in data}
         return pd.DataFrame(columns, pd.Index(data.get("blade", []), name="blade"))
 
-    def verdict(self, settings: Mapping[str, Any]) -> Verdict:
-        """Judge the growth of the run, and of its longer run if there is one.
+    def verdict(self, settings: Mapping[str, Any] | None = None) -> Verdict:
+        """Judge the growth of the run, and of its longer run if there is one, see `bladerub.study.growth`.
 
-        `settings` are ``config["analysis"]["divergence"]`` of the study; see `bladerub.study.growth`.
+        The status of a run says how its simulation ended, the verdict what its vibration does. A run that is
+        ``"unbounded"`` is divergent; one that is ``"completed"`` is divergent, saturating (it grows, but
+        levels off) or neither. The verdict, and its own ``status``, are of the longer run if there is one.
+
+        `settings` are ``config["analysis"]["divergence"]`` of a study. Default: of its own study, or of the
+        study at work (`load_study`) if the run was read from a file.
         """
         longer = self.longer.revolution_amplitude if self.longer else None
+        settings = settings or settings_of(None, self.config)["analysis"]["divergence"]
         return judge(self.revolution_amplitude, self.status, settings, longer)
 
-    def summary(self, config: Mapping[str, Any]) -> dict[str, Any]:
-        """Summarise the run by the settings of the study `config`; keys as of `--json` of `bladerub run`.
+    def summary(self, config: Mapping[str, Any] | None = None) -> dict[str, Any]:
+        """Summarise the run by the settings of a study `config`; keys as of `bladerub run --json`.
+
+        Default: the config of its own study, or of the study at work if the run was read from a file.
 
         They are those of `bladerub.study.summary.summarise`: peak amplitude and its engine order, wear,
         lobes, growth and verdict, steps, status.
         """
-        return summarise(self.stored, config["analysis"], self.longer.stored if self.longer else None)
+        analysis = settings_of(config, self.config)["analysis"]
+        return summarise(self.stored, analysis, self.longer.stored if self.longer else None)
 
-    def plot_wear(self, path: str | Path | None = None) -> Figure:
-        """Draw the worn depth around the casing (mean of the nodes); `path` to write it there as well."""
-        return saved(single_run.wear(self.angle, self.wear.mean(axis=0), self._title), path)
+    def plot_wear(self, path: str | Path | None = None, *, ax: Axes | None = None) -> Figure | Axes:
+        """Draw the worn depth around the casing (mean of the nodes); `path` to write it there as well.
 
-    def plot_history(self, path: str | Path | None = None) -> Figure:
-        """Draw the radial displacement of node 1 over the run and its amplitude; `path` as `plot_wear`.
+        `ax` are axes to draw into, polar or not, which are returned: one line more for each run.
+        """
+        return single_run.wear(self.angle, self.wear.mean(axis=0), self._title, path=path, ax=ax)
+
+    def plot_history(self, path: str | Path | None = None, *, ax: Axes | None = None) -> Figure | Axes:
+        """Draw the radial displacement of node 1 over the run and its amplitude; arguments as `plot_wear`.
 
         Raises
         ------
         InputError
             As `radial_displacement`.
         """
-        displacement = self.radial_displacement
-        figure = single_run.history(
-            self.stored.data["revolution"], displacement, self.revolution_amplitude, self._title
-        )
-        return saved(figure, path)
+        moves = self.stored.data.get("revolution"), self.radial_displacement, self.revolution_amplitude
+        return single_run.history(*moves, self._title, path=path, ax=ax)
 
-    def plot_spectrum(self, path: str | Path | None = None) -> Figure:
-        """Draw the amplitude over the engine order; `path` as `plot_wear`."""
+    def plot_spectrum(self, path: str | Path | None = None, *, ax: Axes | None = None) -> Figure | Axes:
+        """Draw the amplitude over the engine order; arguments as `plot_wear`."""
         spectrum = self.spectrum
-        return saved(single_run.spectrum(spectrum.index, spectrum.to_numpy(), self._title), path)
+        return single_run.spectrum(spectrum.index, spectrum.to_numpy(), self._title, path=path, ax=ax)
 
     def to_xarray(self) -> "xr.Dataset":
         """Return all datasets with units and names, and the attributes: those of the file of `write`."""
@@ -240,8 +255,8 @@ class Run(Shown):
         number = pd.Index(self.stored.data["revolution_number"], name="revolution")
         return pd.DataFrame({name: self.stored.data[name] for name in columns}, number)
 
-    def write(self, path: str | Path, config: Mapping[str, Any]) -> None:
-        """Write the run of the study `config` to the HDF5 file `path`, whole or not at all.
+    def write(self, path: str | Path, config: Mapping[str, Any] | None = None) -> None:
+        """Write the run to the HDF5 file `path`, whole or not at all; `config` as of `verdict`.
 
         The names of its longer run, if it has one, begin with ``longer_``. `read_run` returns an equal run.
 
@@ -250,7 +265,7 @@ class Run(Shown):
         OSError
             If it cannot be written; the message names the file.
         """
-        run_set.write(path, runs_of(self), provenance(config))
+        run_set.write(path, runs_of(self), provenance(settings_of(config, self.config)))
 
     @property
     def _title(self) -> str:
@@ -264,6 +279,7 @@ class Run(Shown):
             "speed": speed_in_words(self.f_omega, self.f1_hz),
             "revolutions": f"{self.revolutions}",
             "status": self.status,
+            **({"verdict": in_a_word(self.verdict())} if self.config else {}),
             "largest radial displacement": f"{1e3 * displacement_peak(peaks, peaks.size):.4g} mm",
             "greatest wear": f"{1e3 * self.wear.max():.4g} mm",
             "energy residual": f"{self.energy.residual:.2g}",
@@ -271,6 +287,7 @@ class Run(Shown):
         }
 
 
+@over("run")
 def simulate(
     blade: Blade,
     run: StudyRun,
@@ -278,7 +295,7 @@ def simulate(
     row: Any = None,
     follow: bool = True,
     stress: bool = False,
-    progress: bool = False,
+    progress: bool | None = None,
     each: Callable[[int], None] | None = None,
 ) -> Run:
     """Simulate one run.
@@ -288,7 +305,7 @@ def simulate(
     blade : Blade
         The blade, from `build_blade` or `read_blade`.
     run : StudyRun
-        The run, from `Study.run` or `StudyCoating.at`.
+        The run, from `Study.run` or `StudyCoating.at`; a list of them gives a list of runs.
     row : Row, optional
         Blades that rub on one coating together, instead of the one: `Run.blades`. Default: those of the
         ``rotor`` of the study, if it has one.
@@ -298,8 +315,9 @@ def simulate(
         Whether the largest stress of the blade is found at rotation alone, at start-up and in the last
         ``analysis.spectrum_revolutions``: `Run.stress`, and attributes of the file. It is None where the
         blade is of matrices alone, which tell of no stress, or no revolution is complete.
-    progress : bool
-        Whether a bar shows the revolutions done.
+    progress : bool, optional
+        Whether a line on standard error shows what is being done. Default: if that is a terminal, and in a
+        notebook.
     each : callable, optional
         Called with the number of revolutions done after each of them.
 
@@ -342,9 +360,10 @@ def simulate(
     (3, 2)
     """
     blade.check_speed("f_omega", run.f_omega)
-    compile_kernel(n_nodes=blade.reduced.n_interface, law=run.spec.coating.element_law)
-    with tqdm(total=run.spec.revolutions, unit="rev", disable=not progress, leave=False) as bar:
-        count = counted(bar, run)
+    with step("compiling the time loop", progress):
+        compile_kernel(n_nodes=blade.reduced.n_interface, law=run.spec.coating.element_law)
+    with bar(run.spec.revolutions, "rev", progress) as line:
+        count = counted(line, run)
 
         def report(revolutions: int) -> None:
             count(revolutions)
@@ -395,7 +414,7 @@ def solve(
     if follow and needs_confirmation(amplitude, status, settings):
         spec = confirmation_spec(run.spec, settings)
         longer = Run(_solve(blade, run, spec, digest, progress, False, row, solver))
-    return Run(stored, longer, run_stress)
+    return Run(stored, longer, run_stress, run.config)
 
 
 def _stress() -> Any:
@@ -429,11 +448,12 @@ def _solve(
     return compute(run.case, plan, blade.reduced, plan.key(digest), run.config["analysis"], progress, solver)
 
 
+@over("path")
 def read_run(path: str | Path) -> Run:
     """Read one run of a study, such as ``results/runs/2nd_E2_K0.5_theta0/0.1900.h5``, or of `Run.write`.
 
     The longer run is read with it, where there is one. That of a run of a study is the one that the manifest
-    of the coating lists.
+    of the coating lists. A list of paths gives a list of runs.
 
     Raises
     ------
@@ -451,6 +471,33 @@ def read_run(path: str | Path) -> Run:
     if _LONGER not in runs and (longer := listed_longer(path, runs[""].attributes["run_key"])):
         runs[_LONGER] = store.read_run(longer)
     return run_of(runs)
+
+
+def plot_spectra(
+    runs: Iterable[Run], path: str | Path | None = None, *, ax: Axes | None = None
+) -> Figure | Axes:
+    """Draw the spectra of several runs in one picture; arguments as of `Run.plot_spectrum`.
+
+    Its other plots draw several runs in one picture as well, if the same axes are given to each.
+
+    Raises
+    ------
+    ValueError
+        If there is no run.
+
+    Examples
+    --------
+    >>> import bladerub as br
+    >>> stiffer = br.simulate(blade, study.run("2nd", E=4, K=0.5, f_omega=0.19, revolutions=3))
+    >>> len(br.plot_spectra([run, stiffer]).axes[0].lines)
+    2
+    """
+    first, *others = runs
+    picture = first.plot_spectrum(None if others else path, ax=ax)
+    axes = picture.axes[0] if isinstance(picture, Figure) else picture
+    for run in others:
+        run.plot_spectrum(path if run is others[-1] else None, ax=axes)
+    return picture
 
 
 def runs_of(run: Run, prefix: str = "") -> dict[str, StoredRun]:

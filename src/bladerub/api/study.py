@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from bladerub.api.errors import InputError
+from bladerub.api.lists import over
 from bladerub.api.notebook import Shown
 from bladerub.config import quantities
 from bladerub.config import read as configuration
@@ -16,6 +17,7 @@ from bladerub.config.checks import most_revolutions, own_problem
 from bladerub.config.errors import UNKNOWN
 from bladerub.config.files import Located
 from bladerub.config.models.quantities import QUANTITIES
+from bladerub.config.models.study import required
 from bladerub.config.problems import check_quantity
 from bladerub.config.units import pressure_in_words, speed_in_words, speeds_in_words
 from bladerub.contact.spec import RunSpec
@@ -106,10 +108,12 @@ class StudyCoating:
         """Name in paths, for instance ``2nd_E2_K0.5_theta0.15``."""
         return self.case.name
 
+    @over("f_omega")
     def at(self, f_omega: Quantity, revolutions: int | None = None) -> StudyRun:
         """Describe the run at the speed `f_omega`, of so many revolutions.
 
-        The speed is normalised, or text such as ``"2200 rpm"``, by the first frequency of the study's blade.
+        The speed is normalised, or text such as ``"2200 rpm"``, by the first frequency of the study's
+        blade. A list of speeds gives a list of runs.
 
         Raises
         ------
@@ -157,6 +161,26 @@ class Study(Shown):
 
     config: Mapping[str, Any] = field(repr=False)
     folder: Path
+
+    @classmethod
+    def from_settings(cls, settings: Mapping[str, Any]) -> "Study":
+        """Return the study of nested values as in a config file, as `load_study` does that of a file.
+
+        Raises
+        ------
+        ConfigError
+            As `replace`.
+
+        Examples
+        --------
+        >>> import bladerub as br
+        >>> study = br.Study.from_settings({"solver": {"revolutions": 40}})
+        >>> study.config["solver"]["revolutions"], len(study.coatings)
+        (40, 63)
+        """
+        is_whole = required() <= settings.keys()
+        config = {} if is_whole else configuration.read(base_config())
+        return cls(config, study_folder()).replace(settings)
 
     @property
     def results(self) -> Path:
@@ -220,6 +244,7 @@ class Study(Shown):
         """Speeds (n,) of the study, ascending, normalised."""
         return np.array(grid.speeds(self.config))
 
+    @over("E", "K", "theta", "friction", "damping_ratio", "layer_thickness", "interference")
     def coating(
         self,
         casing: str,
@@ -233,6 +258,8 @@ class Study(Shown):
         interference: Quantity | None = None,
     ) -> StudyCoating:
         """Describe an abradable coating, which need not be one that the study lists.
+
+        A list for any number gives a list of coatings, with several lists one for each combination.
 
         Parameters
         ----------
@@ -277,6 +304,7 @@ class Study(Shown):
             return self._checked(CoatingCase, overrides, casing, E, K, theta=theta or 0.0)
         return self._checked(CoatingCase.coulomb, overrides, casing, E, K, friction=friction)
 
+    @over("friction", "damping_ratio", "interference")
     def rigid(
         self,
         casing: str,
@@ -301,6 +329,7 @@ class Study(Shown):
         overrides = {"damping_ratio": damping_ratio, "interference": interference}
         return self._checked(CoatingCase.rigid, overrides, casing, friction=friction)
 
+    @over("E", "K", "f_omega", "theta", "friction", "damping_ratio", "layer_thickness", "interference")
     def run(
         self,
         casing: str,
@@ -322,6 +351,8 @@ class Study(Shown):
         >>> import bladerub as br
         >>> br.default_study().run("2nd", E=2, K=0.5, theta=0.15, f_omega=0.19).spec.revolutions
         20
+        >>> len(br.default_study().run("2nd", E=[1, 2, 4], K=0.5, f_omega=[0.19, 0.2]))
+        6
         """
         coating = self.coating(
             casing,
@@ -416,6 +447,11 @@ def default_study() -> Study:
     ['2nd', '2nd5nd']
     """
     return Study(configuration.read(ROOT / CONFIG), study_folder())
+
+
+def settings_of(*configs: Mapping[str, Any] | None) -> Mapping[str, Any]:
+    """Return the first of the `configs` that there is, or that of the study at work."""
+    return next((config for config in configs if config is not None), None) or load_study().config
 
 
 def _found(path: str | Path) -> Path:

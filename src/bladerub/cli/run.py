@@ -110,7 +110,7 @@ def run(options: argparse.Namespace) -> None:
     bar = inputs.progress_bar(planned.spec.revolutions, "rev")
     with bar, refused(ValueError, OSError), inputs.as_options(f_omega="f"):
         start = time.perf_counter()
-        result = simulate(blade, planned, each=counted(bar, planned), **more)
+        result = simulate(blade, planned, progress=False, each=counted(bar, planned), **more)
         seconds = time.perf_counter() - start
     if options.output:
         with refused(OSError, because=f"--output {options.output}: cannot be written: "):

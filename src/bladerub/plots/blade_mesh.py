@@ -12,7 +12,7 @@ from matplotlib.markers import CARETUP
 
 from bladerub.blade.surface import boundary_faces, normals
 from bladerub.io import hdf5
-from bladerub.plots.style import DARK, PAGE, RED, new_figure, styled
+from bladerub.plots.style import DARK, PAGE, RED, new_figure, on_axes
 
 
 @dataclass(frozen=True)
@@ -56,14 +56,26 @@ _AXES = ("x, axial ", "right", "center"), ("y, rotation", "center", "top"), ("z,
 _AXIS = 35  # length of the drawn axes, mm
 
 
-def from_file(path: str | Path) -> Figure:
-    """Draw Fig. 1 as `blade_mesh` from the file of a mesh; raises `OSError` if it cannot be read."""
+def read_mesh(path: str | Path) -> tuple[np.ndarray, ...]:
+    """Read the arguments of `blade_mesh` from the file of a mesh; raises `OSError` if it cannot be read."""
     mesh, _ = hdf5.read(path)
     nodes = (mesh[f"{name}_nodes"] for name in ("interface", "root", "tip"))
-    return blade_mesh(mesh["points"], mesh["cells"], *nodes)
+    return mesh["points"], mesh["cells"], *nodes
 
 
-@styled
+def _draw_alone(
+    axes: Axes,
+    points: np.ndarray,
+    elements: np.ndarray,
+    interface: np.ndarray,
+    root: np.ndarray,
+    tip: np.ndarray,
+) -> None:
+    _draw_whole(axes, 1e3 * points, boundary_faces(elements), interface, root)
+    axes.legend(loc="best")
+
+
+@on_axes(_draw_alone)
 def blade_mesh(
     points: np.ndarray, elements: np.ndarray, interface: np.ndarray, root: np.ndarray, tip: np.ndarray
 ) -> Figure:
@@ -72,7 +84,8 @@ def blade_mesh(
     `points` (n, 3) are the nodes, m: x along the axis, y tangential, z along the stacking line. `elements`
     are their nodes in the order of CalculiX's C3D20 or C3D10; without them the nodes are drawn. `interface`
     (8,) are the interface nodes from leading to trailing edge, `tip` those of the tip face, `root` the
-    clamped ones: none where another program has left them out.
+    clamped ones: none where another program has left them out. Axes that are given
+    hold (a).
     """
     figure = new_figure(PAGE, 0.86 * PAGE)
     overview, of_tip = figure.subplots(1, 2, width_ratios=[1, 1.05])

@@ -1,17 +1,34 @@
 """Campbell diagram: eigenfrequencies of the finite element model and of the reduced model over the speed."""
 
+from collections.abc import Mapping
+
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from bladerub.plots import engine_orders
 from bladerub.plots.scales import Engine
-from bladerub.plots.style import DARK, ORANGE, PAGE, new_figure, styled
+from bladerub.plots.style import DARK, ORANGE, PAGE, new_figure, on_axes
 
+_FREQUENCY = r"eigenfrequency $f\,/\,f_1(0)$"
 _NUMBER = 0.045  # height of a number and what is above it, over that of the axes
 
 
-@styled
+def _draw_first(
+    axes: Axes,
+    f_omega: np.ndarray,
+    f_fe: np.ndarray,
+    f_rom: np.ndarray,
+    orders: range,
+    engine: Engine | None = None,
+) -> None:
+    f_rom = np.asarray(f_rom)
+    _draw(axes, f_omega, f_fe, f_rom, {k: k for k in orders}, 1.5 * float(np.nanmax(f_rom[:, 0])), engine)
+    axes.set_ylabel(_FREQUENCY)
+    axes.legend(loc="lower right")
+
+
+@on_axes(_draw_first)
 def campbell(
     f_omega: np.ndarray, f_fe: np.ndarray, f_rom: np.ndarray, orders: range, engine: Engine | None = None
 ) -> Figure:
@@ -19,30 +36,40 @@ def campbell(
 
     Finite elements `f_fe` dashed on top of the reduced model `f_rom`, solid: eigenfrequencies (n, n_modes),
     ascending, NaN where unknown, at the speeds `f_omega` (n,); all normalised. With an `engine` there are its
-    speeds and frequencies besides, and its nominal speed.
+    speeds and frequencies besides, and its nominal speed. Axes that are given hold (b).
     """
-    f_omega, f_fe, f_rom = np.asarray(f_omega), np.asarray(f_fe), np.asarray(f_rom)
+    f_rom = np.asarray(f_rom)
     figure = new_figure(PAGE, 0.62 * PAGE)
     all_modes, first = figure.subplots(1, 2)
-    speed_max = float(f_omega.max())
-    all_modes_max, first_max = 1.04 * float(np.nanmax([f_fe, f_rom])), 1.5 * float(np.nanmax(f_rom[:, 0]))
-    engine_orders.draw(all_modes, {k: k for k in orders[-1:]}, speed_max, all_modes_max)
-    engine_orders.draw(first, {k: k for k in orders}, speed_max, first_max)
-    for axes in (all_modes, first):
-        _modes(axes, f_omega, f_fe, f_rom)
-        axes.set(xlim=(0, speed_max), xlabel=r"rotational frequency $f_\Omega\,/\,f_1(0)$")
-        if engine:
-            engine.add_speeds(axes, "x")
-            engine.add_frequencies(axes, "y")
-            engine.draw_nominal_speed(axes.axvline)
-    all_modes.set(ylim=(0, all_modes_max), ylabel=r"eigenfrequency $f\,/\,f_1(0)$")
+    highest = 1.04 * float(np.nanmax([f_fe, f_rom]))
+    _draw(all_modes, f_omega, f_fe, f_rom, {k: k for k in orders[-1:]}, highest, engine)
+    all_modes.set_ylabel(_FREQUENCY)
     all_modes.set_title(f"(a) first {f_rom.shape[1]} modes", pad=16)
-    first.set(ylim=(0, first_max))
+    _draw(first, f_omega, f_fe, f_rom, {k: k for k in orders}, 1.5 * float(np.nanmax(f_rom[:, 0])), engine)
     first.set_title("(b) first mode, $C_1$", pad=16)
-    _number(all_modes, f_rom[0] / all_modes_max)
-    _number(first, f_rom[0] / first_max)
     figure.legend(*all_modes.get_legend_handles_labels(), loc="outside lower center", ncols=4)
     return figure
+
+
+def _draw(
+    axes: Axes,
+    f_omega: np.ndarray,
+    f_fe: np.ndarray,
+    f_rom: np.ndarray,
+    slopes: Mapping[int, float],
+    highest: float,
+    engine: Engine | None,
+) -> None:
+    f_omega, f_fe = np.asarray(f_omega), np.asarray(f_fe)
+    fastest = float(f_omega.max())
+    engine_orders.draw(axes, slopes, fastest, highest)
+    _modes(axes, f_omega, f_fe, f_rom)
+    axes.set(xlim=(0, fastest), ylim=(0, highest), xlabel=r"rotational frequency $f_\Omega\,/\,f_1(0)$")
+    if engine:
+        engine.add_speeds(axes, "x")
+        engine.add_frequencies(axes, "y")
+        engine.draw_nominal_speed(axes.axvline)
+    _number(axes, f_rom[0] / highest)
 
 
 def _modes(axes: Axes, f_omega: np.ndarray, f_fe: np.ndarray, f_rom: np.ndarray) -> None:

@@ -81,15 +81,20 @@ def wear_profiles(maps: Sequence[CoatingMap], speeds: Sequence[float]) -> tuple[
 
 
 def open_polar(figure: Figure, *position: int) -> PolarAxes:
-    """Add polar axes to `figure` at the subplot `position`; labels of the radius stay readable over lines."""
+    """Add polar axes to `figure` at the subplot `position`, prepared."""
     axes = figure.add_subplot(*position, projection="polar")
+    prepare_polar(axes)
+    return axes
+
+
+def prepare_polar(axes: PolarAxes) -> None:
+    """Turn polar axes so that 0 is above; labels of the radius stay readable over lines."""
     axes.set_theta_zero_location("N")
     axes.set_thetagrids(range(0, 360, 45))
     axes.set_rlabel_position(90)
     axes.tick_params(labelsize=7)
     for label in axes.get_yticklabels():
         label.set_bbox({"facecolor": "white", "edgecolor": "none", "pad": 0.5, "alpha": 0.8})
-    return axes
 
 
 def closed(angle: np.ndarray, radius: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

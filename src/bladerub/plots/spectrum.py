@@ -10,7 +10,18 @@ from matplotlib.figure import Figure
 
 from bladerub.plots import bins, engine_orders, titles
 from bladerub.plots.scales import LARGE, Scales, greatest
-from bladerub.plots.style import AMPLITUDE_MAP, BLUE, DARK, MISSING, ORANGE, PAGE, RED, new_figure, styled
+from bladerub.plots.style import (
+    AMPLITUDE_MAP,
+    BLUE,
+    DARK,
+    MISSING,
+    ORANGE,
+    PAGE,
+    RED,
+    new_figure,
+    on_axes,
+    styled,
+)
 from bladerub.study.maps import CoatingMap
 from bladerub.study.peaks import Peak
 
@@ -37,7 +48,21 @@ class PeakSection:
     amplitude_band: tuple[float, float]  # and of its amplitude, m
 
 
-@styled
+def _draw_alone(
+    axes: Axes,
+    coating: CoatingMap,
+    amplitude_range: tuple[float, float],
+    f_max: float,
+    scales: Scales | None = None,
+) -> None:
+    scales = scales or Scales()
+    mesh = _draw_spectrum(axes, coating, amplitude_range, f_max, scales)
+    axes.set_title(titles.coating(coating.case, scales.modulus_unit), loc="left", pad=16)
+    _add_colour_bar(axes, mesh)
+    axes.legend(loc="lower right")
+
+
+@on_axes(_draw_alone)
 def spectrum_map(
     coating: CoatingMap,
     amplitude_range: tuple[float, float],
@@ -54,7 +79,8 @@ def spectrum_map(
     axes = figure.add_subplot()
     mesh = _draw_spectrum(axes, coating, amplitude_range, f_max, scales)
     axes.set_title(titles.coating(coating.case, scales.modulus_unit), pad=16)
-    _add_colour_bar(figure, axes, mesh)
+    _add_colour_bar(axes, mesh)
+    _add_legend(axes, scales)
     return figure
 
 
@@ -75,7 +101,8 @@ def peak_sections(
     spectrum, curves = figure.subplots(1, 2, sharey=True, width_ratios=[1.5, 1])
     mesh = _draw_spectrum(spectrum, coating, amplitude_range, f_max, scales)
     spectrum.set_title("(a) " + titles.coating(coating.case, scales.modulus_unit), pad=16)
-    _add_colour_bar(figure, spectrum, mesh, location="bottom", aspect=40)
+    _add_colour_bar(spectrum, mesh, location="bottom", aspect=40)
+    _add_legend(spectrum, scales)
     ray = coating.f_omega[-1] * np.array([0, 1])
     for section, look in zip(sections, _LOOKS, strict=False):
         spectrum.plot(section.order * ray, ray, color=RED, linewidth=0.8, label="_section")
@@ -127,17 +154,20 @@ def _draw_spectrum(
         xlabel=r"frequency $f\,/\,f_1(0)$",
         ylabel=r"rotational frequency $f_\Omega\,/\,f_1(0)$",
     )
+    return mesh
+
+
+def _add_legend(axes: Axes, scales: Scales) -> None:
     if scales.engine:  # without the empty room below the first speed
         handles = axes.get_legend_handles_labels()
         axes.figure.legend(*handles, loc="outside lower center", ncols=4)
     else:
         axes.legend(loc="lower right", title="grey: not computed", title_fontsize=7)
-    return mesh
 
 
-def _add_colour_bar(figure: Figure, axes: Axes, mesh: QuadMesh, **place) -> None:
+def _add_colour_bar(axes: Axes, mesh: QuadMesh, **place) -> None:
     label = "amplitude of node 1, radial (mm, log scale)"
-    figure.colorbar(mesh, ax=axes, label=label, extend="both", pad=0.015, **place)
+    axes.figure.colorbar(mesh, ax=axes, label=label, extend="both", pad=0.015, **place)
 
 
 def _draw_section(axes: Axes, f_omega: np.ndarray, section: PeakSection, look: dict) -> None:

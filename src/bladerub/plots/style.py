@@ -5,9 +5,10 @@ from collections.abc import Callable
 from functools import wraps
 from io import BytesIO
 from pathlib import Path
-from typing import TypeVar
+from typing import Any, TypeVar
 
 import matplotlib
+from matplotlib.axes import Axes
 from matplotlib.colors import LinearSegmentedColormap
 from matplotlib.figure import Figure
 
@@ -82,14 +83,6 @@ class Picture(Figure):
         return f'<img src="data:image/png;base64,{b64encode(stream.getvalue()).decode()}">'
 
 
-def saved(figure: Figure, path: str | Path | None) -> Figure:
-    """Write `figure` to `path`, if that is given, in the format of its ending; return the figure."""
-    if path is not None:
-        with matplotlib.rc_context(_RC):
-            figure.savefig(path, dpi=_FILE_DPI)
-    return figure
-
-
 Drawn = TypeVar("Drawn")
 
 
@@ -102,6 +95,47 @@ def styled(draw: Callable[..., Drawn]) -> Callable[..., Drawn]:
             return draw(*args, **kwargs)
 
     return in_style
+
+
+def on_axes(draw_into: Callable[..., Any]) -> Callable[[Callable[..., Figure]], Callable[..., Any]]:
+    """Let a function that draws a figure call `draw_into` instead where it is given axes, as ``ax``.
+
+    The figure or the axes are returned. With a ``path`` the figure is written there as well, in the format of
+    its ending.
+    """
+
+    def decorate(draw: Callable[..., Figure]) -> Callable[..., Any]:
+        @wraps(draw)
+        def drawn(*args, path: str | Path | None = None, ax: Axes | None = None, **kwargs) -> Any:
+            with matplotlib.rc_context(_RC):
+                if ax is None:
+                    figure = draw(*args, **kwargs)
+                else:
+                    figure = ax.figure
+                    draw_into(ax, *args, **kwargs)
+                if path is not None:
+                    figure.savefig(path, dpi=_FILE_DPI)
+            return figure if ax is None else ax
+
+        return drawn
+
+    return decorate
+
+
+def alone(width: float, height: float, **subplot: Any) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
+    """Let a function that draws into axes draw a figure of this size without them; rest as `on_axes`."""
+
+    def decorate(draw_into: Callable[..., Any]) -> Callable[..., Any]:
+        @on_axes(draw_into)
+        @wraps(draw_into)
+        def draw(*args, **kwargs) -> Figure:
+            figure = new_figure(width, height)
+            draw_into(figure.add_subplot(**subplot), *args, **kwargs)
+            return figure
+
+        return draw
+
+    return decorate
 
 
 def new_figure(width: float = PAGE, height: float = 0.6 * PAGE) -> Figure:

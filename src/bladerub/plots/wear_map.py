@@ -7,7 +7,7 @@ from matplotlib.ticker import MaxNLocator
 
 from bladerub.plots import bins, titles
 from bladerub.plots.scales import LARGE, Scales
-from bladerub.plots.style import DARK, MISSING, PAGE, RED, WEAR_MAP, new_figure, styled
+from bladerub.plots.style import DARK, MISSING, PAGE, RED, WEAR_MAP, new_figure, on_axes
 from bladerub.study.maps import CoatingMap
 
 _COMPLETED = {"marker": "o", "markersize": 2.5, "color": DARK, "label": "completed"}
@@ -15,29 +15,46 @@ _LARGE = {"marker": "o", "markersize": 6, "fillstyle": "none", "color": RED, "la
 _ENDED_EARLY = {"marker": "x", "markersize": 4, "color": RED, "label": "ended early"}
 
 
-@styled
+def _draw_wear(axes: Axes, coating: CoatingMap, scales: Scales) -> None:
+    speed_edges, rows = bins.with_gaps(coating.f_omega, 1e3 * coating.wear)
+    angle_edges, look = np.degrees(bins.edges(coating.angle)), {"cmap": WEAR_MAP, "vmin": 0}
+    mesh = axes.pcolormesh(speed_edges, angle_edges, np.ma.masked_invalid(rows.T), **look, rasterized=True)
+    axes.figure.colorbar(mesh, ax=axes, label="worn depth, mean of the nodes (mm)", pad=0.015)
+    start = speed_edges[0] if scales.engine else 0.0
+    axes.set(facecolor=MISSING, ylim=(0, 360), yticks=range(0, 361, 60), ylabel="casing angle (°)")
+    axes.set(xlim=(start, speed_edges[-1]))
+    axes.set_title(titles.coating(coating.case, scales.modulus_unit), loc="left")
+    if start < speed_edges[0] or not np.isfinite(rows).all():
+        axes.set_title("grey: not computed", loc="right", fontsize=7)
+    if scales.engine:
+        scales.engine.draw_nominal_speed(axes.axvline)
+
+
+def _name_speeds(axes: Axes, scales: Scales) -> None:
+    axes.set_xlabel(r"rotational frequency $f_\Omega\,/\,f_1(0)$")
+    if scales.engine:
+        scales.engine.add_speeds(axes, "x")
+
+
+def _draw_alone(axes: Axes, coating: CoatingMap, scales: Scales | None = None) -> None:
+    _draw_wear(axes, coating, scales or Scales())
+    _name_speeds(axes, scales or Scales())
+
+
+@on_axes(_draw_alone)
 def wear_map(coating: CoatingMap, scales: Scales | None = None) -> Figure:
     """Draw Fig. 6: worn depth over speed and casing angle, below it the number of worn lobes.
 
     Runs that exceeded the displacement limit are crossed below: their wear is that of their early end. Those
-    with a displacement beyond small ones are ringed.
+    with a displacement beyond small ones are ringed. Axes that are given hold the upper diagram.
     """
     scales = scales or Scales()
-    speed_edges, rows = bins.with_gaps(coating.f_omega, 1e3 * coating.wear)
     figure = new_figure(PAGE, 0.68 * PAGE)
     upper, lower = figure.subplots(2, 1, sharex=True, height_ratios=[4, 1])
-    angle_edges, look = np.degrees(bins.edges(coating.angle)), {"cmap": WEAR_MAP, "vmin": 0}
-    mesh = upper.pcolormesh(speed_edges, angle_edges, np.ma.masked_invalid(rows.T), **look, rasterized=True)
-    figure.colorbar(mesh, ax=upper, label="worn depth, mean of the nodes (mm)", pad=0.015)
-    upper.set(facecolor=MISSING, ylim=(0, 360), yticks=range(0, 361, 60), ylabel="casing angle (°)")
-    upper.set_title(titles.coating(coating.case, scales.modulus_unit))
+    _draw_wear(upper, coating, scales)
     _draw_lobes(lower, coating, scales)
-    start = speed_edges[0] if scales.engine else 0.0
-    if start < speed_edges[0] or not np.isfinite(rows).all():
-        upper.set_title("grey: not computed", loc="right", fontsize=7)
+    _name_speeds(lower, scales)
     if scales.engine:
-        scales.engine.add_speeds(lower, "x")
-        scales.engine.draw_nominal_speed(upper.axvline)
         scales.engine.draw_nominal_speed(lower.axvline, in_legend=False)
     legend = {}
     for axes in (lower, upper):
@@ -46,7 +63,6 @@ def wear_map(coating: CoatingMap, scales: Scales | None = None) -> Figure:
     if len(legend) > 1:
         names = {"handles": legend.values(), "labels": legend.keys()}
         figure.legend(**names, loc="outside lower center", ncols=4, handletextpad=0.4)
-    lower.set(xlim=(start, speed_edges[-1]), xlabel=r"rotational frequency $f_\Omega\,/\,f_1(0)$")
     return figure
 
 

@@ -48,6 +48,11 @@ def verdicts(config: Mapping[str, Any], coating: CoatingMap) -> list[Verdict]:
     ]
 
 
+def in_a_word(verdict: Verdict) -> str:
+    """Return ``divergent``, ``saturating`` or, of a vibration that does not grow, ``bounded``."""
+    return "divergent" if verdict.divergent else "saturating" if verdict.saturating else "bounded"
+
+
 @lru_cache(maxsize=1 << 15)  # parts of a study and its draws have most runs in common
 def _judged(amplitude: bytes, status: str, settings: tuple[tuple[str, float], ...], longer: bytes) -> Verdict:
     return judge(np.frombuffer(amplitude), status, dict(settings), np.frombuffer(longer))

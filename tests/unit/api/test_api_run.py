@@ -48,7 +48,7 @@ def test_growing_run_is_followed_further(study, blade):
     run, short = br.simulate(blade, asked), br.simulate(blade, asked, follow=False)
     assert short.longer is None
     assert run.longer.revolutions == settings["confirmation_revolutions"]
-    assert run.verdict(settings).revolutions == run.longer.revolutions > short.verdict(settings).revolutions
+    assert run.verdict().revolutions == run.longer.revolutions > short.verdict().revolutions
 
 
 def test_what_is_printed_has_rpm_and_hertz_and_pascal(study, blade, run, sweep):

@@ -6,7 +6,6 @@ from pathlib import Path
 
 import numpy as np
 import pandas as pd
-from tqdm.auto import tqdm
 
 from bladerub.api.blade import Blade
 from bladerub.api.errors import InputError
@@ -117,7 +116,7 @@ def simulate_ensemble(
     own: Run | None = None,
     jobs: int = 1,
     follow: bool = True,
-    progress: bool = True,
+    progress: bool | None = None,
 ) -> Ensemble:
     """Simulate one run, and again from `members` other starts within ``ensemble.displacement``.
 
@@ -135,7 +134,7 @@ def simulate_ensemble(
         What `simulate` gave for the run, if it did; otherwise it is simulated as well.
     jobs : int
         Runs at once.
-    follow, progress : bool
+    follow, progress : bool, optional
         As of `simulate`.
 
     Returns
@@ -164,8 +163,7 @@ def simulate_ensemble(
         replace(run, spec=replace(run.spec, initial_displacement=displacement))
         for displacement in start.tolist()[own is not None :]
     ]
-    with tqdm(total=len(drawn), unit="run", disable=not progress, leave=False) as bar:
-        runs = solve_all(blade, drawn, jobs, follow, bar.update)
+    runs = solve_all(blade, drawn, jobs, follow, progress)
     return Ensemble(run, start, tuple(runs if own is None else [own, *runs]))
 
 

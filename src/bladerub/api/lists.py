@@ -1,0 +1,41 @@
+"""Lists in place of single values."""
+
+import inspect
+from collections.abc import Callable
+from functools import wraps
+from itertools import product
+from typing import Any, TypeVar
+
+import numpy as np
+
+Function = TypeVar("Function", bound=Callable[..., Any])
+
+
+def over(*names: str) -> Callable[[Function], Function]:
+    """Let a function take lists (tuples, ranges, arrays) for the arguments `names`, and return a list then.
+
+    It is called for each value; of several lists for each combination, the last argument varying fastest.
+    """
+
+    def decorate(function: Function) -> Function:
+        signature = inspect.signature(function)
+
+        @wraps(function)
+        def called(*args: Any, **kwargs: Any) -> Any:
+            bound = signature.bind(*args, **kwargs)
+            lists = {
+                name: value.tolist() if isinstance(value, np.ndarray) else value
+                for name, value in bound.arguments.items()
+                if name in names and isinstance(value, list | tuple | range | np.ndarray)
+            }
+            if not lists:
+                return function(*args, **kwargs)
+            results = []
+            for values in product(*lists.values()):
+                bound.arguments.update(zip(lists, values, strict=True))
+                results.append(function(*bound.args, **bound.kwargs))
+            return results
+
+        return called  # type: ignore[return-value]
+
+    return decorate

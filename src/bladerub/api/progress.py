@@ -1,0 +1,23 @@
+"""What shows on standard error how far a call has come.
+
+`progress` is None, for a terminal or notebook alone, or whether to show it.
+"""
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+from tqdm.auto import tqdm
+
+
+def bar(total: int, unit: str, progress: bool | None) -> tqdm:
+    """Return a bar of so many units, which goes when they are done."""
+    return tqdm(total=total, unit=unit, disable=None if progress is None else not progress, leave=False)
+
+
+@contextmanager
+def step(text: str, progress: bool | None) -> Iterator[None]:
+    """Show what is being done until it is done."""
+    with bar(1, "", progress) as line:
+        line.bar_format = "{desc}"
+        line.set_description_str(f"{text} …")
+        yield

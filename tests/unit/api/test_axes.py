@@ -1,0 +1,120 @@
+"""What the plots draw into axes that are given."""
+
+import matplotlib.pyplot as plt
+import numpy as np
+import pytest
+from matplotlib.figure import Figure
+
+import bladerub as br
+
+
+@pytest.fixture
+def axes():
+    return Figure().add_subplot()
+
+
+@pytest.fixture(scope="module")
+def stiffer(study, blade):
+    return br.simulate(blade, study.run("2nd", E=11, K=0.5, f_omega=0.19, revolutions=3), follow=False)
+
+
+def test_each_run_is_a_line_in_the_axes(run, stiffer, axes):
+    for each in (run, stiffer):
+        assert each.plot_spectrum(ax=axes) is axes
+    for line, each in zip(axes.lines, (run, stiffer), strict=True):
+        np.testing.assert_array_equal(
+            line.get_xydata(), np.column_stack([each.spectrum.index, 1e3 * each.spectrum])
+        )
+    assert axes.get_ylim()[1] > 1e3 * max(run.spectrum.max(), stiffer.spectrum.max())
+    looks = {(line.get_color(), line.get_linestyle()) for line in axes.lines}
+    assert len(looks) == 2
+
+
+def test_several_spectra_are_those_of_the_runs(run, stiffer, axes, tmp_path):
+    figure = br.plot_spectra([run, stiffer], tmp_path / "spectra.png")
+    assert (tmp_path / "spectra.png").exists()
+    assert br.plot_spectra([run, stiffer], ax=axes) is axes
+    for drawn in (figure.axes[0], axes):
+        np.testing.assert_array_equal(drawn.lines[1].get_ydata(), 1e3 * stiffer.spectrum)
+
+
+def test_wear_is_drawn_around_polar_axes_and_along_others(run, stiffer, axes):
+    polar = plt.figure().add_subplot(projection="polar")
+    for each in (run, stiffer):
+        assert each.plot_wear(ax=polar) is polar
+        assert each.plot_wear(ax=axes) is axes
+    for drawn, angle in ((polar, run.angle), (axes, np.degrees(run.angle))):
+        line = drawn.lines[1]
+        np.testing.assert_allclose(line.get_xdata()[: angle.size], angle)
+        np.testing.assert_array_equal(line.get_ydata()[: angle.size], 1e3 * stiffer.wear.mean(axis=0))
+    plt.close(polar.figure)
+
+
+def test_a_history_has_displacement_and_amplitude(run, axes):
+    assert run.plot_history(ax=axes) is axes
+    displacement, amplitude = axes.lines
+    np.testing.assert_array_equal(displacement.get_ydata(), 1e3 * run.radial_displacement)
+    np.testing.assert_array_equal(amplitude.get_ydata(), 1e3 * run.revolution_amplitude)
+
+
+def test_maps_are_drawn_into_the_axes(sweep, axes):
+    assert sweep.plot_wear(ax=axes) is axes
+    np.testing.assert_array_equal(axes.collections[0].get_array(), 1e3 * sweep.wear.T)
+    of_spectra = Figure().add_subplot()
+    assert sweep.plot_spectrum(ax=of_spectra) is of_spectra
+    np.testing.assert_array_equal(
+        of_spectra.collections[0].get_array(), 1e3 * sweep.coating.spectrum_amplitude
+    )
+
+
+def test_the_blade_is_drawn_into_the_axes(blade, axes):
+    assert blade.plot_campbell(ax=axes) is axes
+    first = blade.accuracy().query("mode == 1").f_rom / blade.f1_hz
+    assert any(np.array_equal(line.get_ydata(), first) for line in axes.lines)
+    of_mesh = Figure().add_subplot()
+    assert blade.plot_mesh(ax=of_mesh) is of_mesh
+    assert len(of_mesh.collections[0].get_paths()) > 50
+
+
+def test_lists_give_lists_over_their_combinations(study, blade):
+    runs = study.run("2nd", E=[1, 2], K=0.5, f_omega=np.array([0.19, 0.2]), revolutions=2)
+    assert [(run.case.E, run.f_omega) for run in runs] == [(1, 0.19), (1, 0.2), (2, 0.19), (2, 0.2)]
+    assert study.coating("2nd", E=2, K=0.5).at(["2200 rpm", 0.2])[1].f_omega == 0.2
+    solved = br.simulate(blade, runs[::2], follow=False)
+    assert [run.case.E for run in solved] == [1, 2]
+    assert solved[0] == br.simulate(blade, runs[0], follow=False)
+
+
+def test_a_table_of_speeds_says_what_the_runs_do(study, blade, sweep):
+    table = sweep.to_pandas()
+    for f_omega, row in table.iterrows():
+        run = br.simulate(blade, study.run("2nd", E=2, K=0.5, f_omega=f_omega))
+        summary = run.summary()
+        assert row.rpm == pytest.approx(60 * f_omega * blade.f1_hz)
+        for name in ("engine_order", "max_wear", "growth_per_revolution", "status"):
+            assert row[name] == summary[name]
+        assert row.verdict == (
+            "divergent" if summary["divergent"] else "saturating" if summary["saturating"] else "bounded"
+        )
+        assert row.revolution_amplitude == run.revolution_amplitude[-1]
+
+
+def test_settings_make_the_study_that_their_file_makes(study, small):
+    settings = {
+        "blade": {"mesh": {"chordwise": 7, "thickness": 1, "spanwise": 6}},
+        "reduction": {"accuracy_speeds": 3},
+        "results": "results_of_no_workflow",
+    }
+    assert br.Study.from_settings(settings) == study
+    assert br.Study.from_settings(study.config) == study
+    with pytest.raises(br.ConfigError, match="chordwize"):
+        br.Study.from_settings({"blade": {"mesh": {"chordwize": 7}}})
+
+
+def test_progress_is_silent_where_no_terminal_is_unless_asked_for(study, blade, capsys):
+    planned = study.run("2nd", E=2, K=0.5, f_omega=0.19, revolutions=2)
+    br.simulate(blade, planned, follow=False)
+    br.simulate(blade, planned, follow=False, progress=False)
+    assert capsys.readouterr().err == ""
+    br.simulate(blade, planned, follow=False, progress=True)
+    assert "compiling" in capsys.readouterr().err
