@@ -106,6 +106,6 @@ class TestCoverage:
 
     def test_of_the_points_of_the_chart(self, left_out):
         # values and orders of the config are in the key
-        config = {"study/grid.py", "study/casings.py", "study/orders.py"}
+        config = {"study/grid.py", "study/casings.py", "study/orders.py", "study/paper.py"}
         found = left_out("extras.chart.search", SOLVER, CHART)
         assert found == config | {"study/manifest.py"}  # the name of a longer run
