@@ -19,7 +19,8 @@ LONGEST = 200
 
 _SHOWN = {LogEvent.JOB_ERROR, LogEvent.GROUP_ERROR, LogEvent.ERROR}
 _SAID_BY_JOB = "returned non-zero exit status"
-_AGAIN = "Exiting because a job execution failed"
+_AGAIN = "Exiting because a job execution failed", "At least one job did not complete successfully"
+_INTERRUPTED = "died with <Signals.SIGINT"
 
 
 class LogHandler(LogHandlerBase):
@@ -37,6 +38,7 @@ class LogHandler(LogHandlerBase):
         self._stages: dict[int, str] = {}  # of jobs that were begun
         self._planned: Counter[str] = Counter()
         self._done: Counter[str] = Counter()
+        self._is_interrupted = False
 
     def emit(self, record: logging.LogRecord) -> None:
         """Print what the record comes to, if anything."""
@@ -63,7 +65,10 @@ class LogHandler(LogHandlerBase):
 
     def _is_shown(self, record: logging.LogRecord) -> bool:
         event, message = getattr(record, "event", None), record.getMessage()
-        if message.startswith(_AGAIN) or (event == LogEvent.ERROR and _SAID_BY_JOB in message):
+        self._is_interrupted |= _INTERRUPTED in message
+        if any(text in message for text in _AGAIN) or (event == LogEvent.ERROR and _SAID_BY_JOB in message):
+            return False
+        if self._is_interrupted and event in _SHOWN:  # Ctrl-C ends all jobs, none of them has failed
             return False
         if event in _SHOWN or record.levelno >= logging.WARNING:
             return True

@@ -75,6 +75,15 @@ def test_a_failed_job_is_named_with_its_log_and_said_once(lines):
     assert "logs/a.log" in shown[1]
 
 
+def test_jobs_that_ctrl_c_ends_have_not_failed(lines):
+    job = {"event": LogEvent.JOB_ERROR, "rule_name": "coating", "output": ["a.tsv"], "log": ["logs/a.log"]}
+    ended = "Command 'python a.py' died with <Signals.{}>."
+    by_user = logging.ERROR, ended.format("SIGINT: 2"), {"event": LogEvent.ERROR}
+    by_system = logging.ERROR, ended.format("SIGKILL: 9"), {"event": LogEvent.ERROR}
+    assert lines(by_user, (logging.ERROR, "Error in rule coating", job)) == []
+    assert len(lines(by_system, (logging.ERROR, "Error in rule coating", job))) == 2
+
+
 @pytest.mark.parametrize(
     ("content", "location"),
     [
