@@ -212,7 +212,7 @@ class Run(Shown):
         return judge(self.revolution_amplitude, self.status, settings, longer)
 
     def summary(self, config: Mapping[str, Any] | None = None) -> dict[str, Any]:
-        """Summarise the run by the settings of a study `config`; keys as of `bladerub run --json`.
+        """Summarise the run by the settings of a study `config`; keys as of `--json` of `bladerub run`.
 
         Default: the config of its own study, or of the study at work if the run was read from a file.
 

@@ -161,7 +161,7 @@ def _absent(config: Located) -> list[str]:
     from bladerub.config.models.study import whole
 
     unknown = [name for name in config.content if name not in whole().model_fields]
-    if not unknown:
+    if not unknown or not SCHEMA.is_file():
         return []
     published = json.loads(SCHEMA.read_text(encoding="utf-8"))["properties"]
     return [name for name in unknown if name in published]
