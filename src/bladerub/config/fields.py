@@ -22,8 +22,8 @@ from typing import Annotated, Any, ClassVar, TypeVar
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field, GetCoreSchemaHandler, GetJsonSchemaHandler
 from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
-from bladerub.config import units
 from bladerub.config.docstrings import docstrings
+from bladerub.config.units import Unit
 
 T = TypeVar("T")
 
@@ -43,23 +43,6 @@ class Section(BaseModel):
         for name, text in docstrings(cls).items():
             rules["properties"][name]["description"] = text
         return reference
-
-
-@dataclass(frozen=True)
-class Unit:
-    """Unit of a plain number; one may also be typed with a unit of its own.
-
-    `scaled` names the factor of ``contact.scale`` by which plain numbers are multiplied, and quantities with
-    a unit are not. A quantity is rounded up to so many `decimals`.
-    """
-
-    name: str
-    scaled: str | None = None
-    decimals: int | None = None
-
-    def __get_pydantic_json_schema__(self, core: CoreSchema, handler: GetJsonSchemaHandler) -> dict[str, Any]:
-        """Allow text that is a number with a unit."""
-        return {"anyOf": [handler(core), {"type": "string", "pattern": units.pattern(self.name)}]}
 
 
 @dataclass(frozen=True)
