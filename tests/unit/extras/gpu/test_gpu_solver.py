@@ -66,7 +66,7 @@ def test_its_sources_are_part_of_the_key_of_a_run(on_gpu, monkeypatch):
 def test_speeds_are_computed_together(gpu, on_gpu, blade):
     coating = on_gpu.coating("2nd", E=2, K=0.5)
     runs_ = [coating.at(f, revolutions=3) for f in (0.19, 0.2)]
-    found = maps.solve_all(blade, runs_, jobs=2, follow=False, advance=lambda: None)
+    found = maps.solve_all(blade, runs_, jobs=2, follow=False, progress=False)
     assert gpu == [2]
     assert [each.f_omega for each in found] == [0.19, 0.2]
     alone = br.simulate(blade, runs_[1], follow=False)
