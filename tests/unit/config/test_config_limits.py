@@ -97,7 +97,6 @@ BORDERS = [
     (SAMPLES | {"analysis.divergence.confirmation_revolutions": 0}, "solver.revolutions", 200, 201),
     ({}, "sweeps.stop", 0.4, just_above(0.4)),
     ({"sweeps.start": 0.3}, "sweeps.stop", just_above(0.3), 0.3),
-    ({}, "chart.speeds.start", math.nextafter(0.4, 0), 0.4),
     ({}, "chart.K", [1, 1.00001], [1, 1.0000001]),
     ({}, "chart.theta", [0.0, 0.15], [0.15, 0.0]),
     ({}, "chart.casing", "2nd5nd", "3nd"),

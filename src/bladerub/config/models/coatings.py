@@ -5,7 +5,7 @@ from typing import Annotated, Any
 
 from pydantic import Discriminator, Field, Tag
 
-from bladerub.config.fields import Omitted, Section
+from bladerub.config.fields import Omitted, Section, Speed
 from bladerub.config.models.quantities import (
     CasingName,
     DampingRatio,
@@ -14,7 +14,6 @@ from bladerub.config.models.quantities import (
     LayerThickness,
     PlasticModulus,
     Rigid,
-    RunSpeed,
     Theta,
     YoungModulus,
 )
@@ -63,7 +62,8 @@ class CoatingWithFriction(_Layers):
 
 class _Run(Section):
     casing: CasingName
-    f_omega: RunSpeed
+    f_omega: Speed = Field(ge=0.001, le=2)
+    """One of the speeds of the study; of the paper's histories, those at others are left out."""
     damping_ratio: Omitted[DampingRatio] = None
     interference: Omitted[Interference] = None
 

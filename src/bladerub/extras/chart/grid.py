@@ -42,8 +42,13 @@ def _nearest(f_omega: np.ndarray, even: np.ndarray) -> np.ndarray:
 
 
 def check(config: Mapping[str, Any]) -> None:
-    """Raise `BadInput`, naming the key, if an engine order of the chart has no crossing with C1."""
+    """Raise `BadInput`, naming the key, if the chart has no speeds, or an engine order no crossing with C1.
+
+    Studies without a chart need neither.
+    """
     highest, lowest = config["speeds"]["stop"], min(chart_orders(config))
+    if (start := config["chart"]["speeds"]["start"]) >= highest:
+        raise BadInput(f"chart.speeds.start = {start:g}: must be below speeds.stop = {highest:g}")
     if lowest * highest < 1:  # rotation stiffens the blade: C1 is nowhere below its value at rest, 1
         raise BadInput(
             f"speeds.stop = {highest:g}: must be at least {1 / lowest:g} for the chart, or engine order "

@@ -6,7 +6,6 @@ from pydantic import Field
 
 from bladerub.config.fields import (
     ASCENDING,
-    Limit,
     Metre,
     Modulus,
     Number,
@@ -32,9 +31,9 @@ class ChartSpeeds(Section):
     study.
     """
 
-    start: Annotated[Speed, Limit("below", "speeds.stop")] = Field(0.152, ge=0.001, le=2)
-    """Lower end of the window of eo(6). Slower runs cost most, and no coating of the study has its greatest
-    displacement there."""
+    start: Speed = Field(0.152, ge=0.001, le=2)
+    """Below speeds.stop: the lower end of the window of eo(6). Slower runs cost most, and no coating of the
+    study has its greatest displacement there."""
     step: Speed = Field(0.008, ge=1e-4, le=2)
     """Of the even speeds, up to speeds.stop; shares of divergent speeds are of these."""
     dense_stop: Speed = Field(0.24, ge=0.001, le=2)

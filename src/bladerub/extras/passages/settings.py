@@ -4,7 +4,7 @@ from typing import Annotated
 
 from pydantic import Field
 
-from bladerub.config.fields import UNIQUE, Form, Limit, Section, Speed, Unit
+from bladerub.config.fields import UNIQUE, Form, Limit, Omitted, Section, Speed, Unit
 
 _Coating = Annotated[
     str,
@@ -24,12 +24,16 @@ class Sweeps(Section):
     """By their names in paths. Those that the study does not have are left out, as in the figures."""
     start: Speed = Field(0.14, gt=0, le=10)
     """Below all peaks of interest, so that the response to the first contact has decayed there."""
-    stop: Annotated[
-        Speed,
-        Limit("above", "sweeps.start"),
-        Limit("at most", "reduction.f_omega_max", "beyond which the stiffness of the blade is not fitted"),
-    ] = Field(0.4, gt=0, le=10)
-    """The end of the paper's range."""
+    stop: Omitted[
+        Annotated[
+            Speed,
+            Limit("above", "sweeps.start"),
+            Limit(
+                "at most", "reduction.f_omega_max", "beyond which the stiffness of the blade is not fitted"
+            ),
+        ]
+    ] = Field(None, gt=0, le=10)
+    """reduction.f_omega_max if not given, the end of the paper's range."""
     rates: Annotated[list[Annotated[float, Unit("f1/s"), Field(ge=1e-4, le=10)]], UNIQUE] = Field(
         [0.01, 0.05, 0.2], min_length=1, max_length=100
     )

@@ -42,7 +42,7 @@ def swept_cases(config: Mapping[str, Any]) -> list[CoatingCase]:
 def sweep_spec(config: Mapping[str, Any], case: CoatingCase, direction: str, rate: float) -> SweepSpec:
     """Describe one sweep in SI units; it begins at rest, on a new coating."""
     settings = config["sweeps"]
-    ends = settings["start"], settings["stop"]
+    ends = settings["start"], settings.get("stop", config["reduction"]["f_omega_max"])
     start, stop = ends if direction == "up" else ends[::-1]
     run = replace(run_spec(config, case, start), revolutions=0)
     return SweepSpec(run, float(stop), rate, float(settings["speed_step"]))

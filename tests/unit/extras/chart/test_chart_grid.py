@@ -27,3 +27,10 @@ def test_an_order_without_a_crossing_is_refused(config):
     config["speeds"]["stop"] = 0.24
     with pytest.raises(BadInput, match=r"speeds.stop = 0.24: must be at least 0.25 for the chart"):
         check(config)
+
+
+def test_a_chart_has_speeds_of_the_study(config):
+    config["speeds"]["stop"] = 0.3
+    config["chart"]["speeds"]["start"] = 0.3
+    with pytest.raises(BadInput, match=r"chart.speeds.start = 0.3: must be below speeds.stop = 0.3"):
+        check(config)
