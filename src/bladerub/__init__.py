@@ -16,8 +16,10 @@ if TYPE_CHECKING:
     from bladerub.api.blade import Blade, build_blade, read_blade
     from bladerub.api.errors import InputError
     from bladerub.api.map import Map, read_map, simulate_speeds
-    from bladerub.api.run import Run, plot_spectra, read_run, simulate
-    from bladerub.api.study import Study, StudyCoating, StudyRun, default_study, load_study
+    from bladerub.api.planned import StudyCoating, StudyRun
+    from bladerub.api.run import Run, plot_spectra, read_run
+    from bladerub.api.simulate import simulate
+    from bladerub.api.study import Study, default_study, load_study
     from bladerub.config.errors import ConfigError
 
 __version__ = "0.1.0"
@@ -26,8 +28,10 @@ _MODULES = {
     "api.blade": ("Blade", "build_blade", "read_blade"),
     "api.errors": ("InputError",),
     "api.map": ("Map", "read_map", "simulate_speeds"),
-    "api.run": ("Run", "plot_spectra", "read_run", "simulate"),
-    "api.study": ("Study", "StudyCoating", "StudyRun", "default_study", "load_study"),
+    "api.planned": ("StudyCoating", "StudyRun"),
+    "api.run": ("Run", "plot_spectra", "read_run"),
+    "api.simulate": ("simulate",),
+    "api.study": ("Study", "default_study", "load_study"),
     "config.errors": ("ConfigError",),
 }
 _HOME = {name: f"bladerub.{module}" for module, names in _MODULES.items() for name in names}

@@ -14,8 +14,9 @@ from matplotlib.figure import Figure
 
 from bladerub.api.errors import InputError
 from bladerub.api.notebook import Shown
+from bladerub.api.planned import Quantity
 from bladerub.api.progress import step
-from bladerub.api.study import Quantity, Study
+from bladerub.api.study import Study
 from bladerub.blade.accuracy import ACCURACY_COLUMNS, doubts
 from bladerub.blade.build import build
 from bladerub.blade.built import write

@@ -16,9 +16,11 @@ from bladerub.api.dataset import to_dataset
 from bladerub.api.errors import InputError
 from bladerub.api.lists import over
 from bladerub.api.notebook import Shown
+from bladerub.api.planned import Quantity, StudyCoating, StudyRun
 from bladerub.api.progress import bar, step
-from bladerub.api.run import Run, solve
-from bladerub.api.study import Quantity, StudyCoating, StudyRun, settings_of
+from bladerub.api.run import Run
+from bladerub.api.simulate import solve
+from bladerub.api.study import settings_of
 from bladerub.config.units import speeds_in_words
 from bladerub.contact.setup import compile_kernel
 from bladerub.io.hdf5 import read_attributes

@@ -1,7 +1,7 @@
-"""One run: simulated here, or read from its file."""
+"""The outcome of one run, simulated here or read from its file."""
 
-from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass, field, fields, replace
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field, fields
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -9,32 +9,23 @@ import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from tqdm import tqdm
 
 from bladerub import plugins
-from bladerub.api.blade import Blade
 from bladerub.api.dataset import to_dataset
 from bladerub.api.errors import InputError
 from bladerub.api.lists import over
 from bladerub.api.notebook import Shown
-from bladerub.api.progress import bar, step
-from bladerub.api.study import StudyRun, settings_of
+from bladerub.api.study import settings_of
 from bladerub.config.units import speed_in_words
 from bladerub.contact.result import Energy
-from bladerub.contact.setup import compile_kernel
-from bladerub.contact.spec import RunSpec
 from bladerub.io.equality import equal
 from bladerub.io.provenance import PREFIX, provenance
 from bladerub.plots import single_run, titles
 from bladerub.study import run_set, store
 from bladerub.study.divergence import in_a_word
-from bladerub.study.grid import CoatingCase, speed_name
-from bladerub.study.growth import Verdict, confirmation_spec, judge, needs_confirmation
-from bladerub.study.job import compute
+from bladerub.study.grid import CoatingCase
+from bladerub.study.growth import Verdict, judge
 from bladerub.study.manifest import listed_longer
-from bladerub.study.plan import planned_run
-from bladerub.study.row import row_of
-from bladerub.study.solver import Solve, one_by, solver_of
 from bladerub.study.store import StoredRun
 from bladerub.study.summary import displacement_peak, summarise
 
@@ -287,167 +278,6 @@ class Run(Shown):
         }
 
 
-@over("run")
-def simulate(
-    blade: Blade,
-    run: StudyRun,
-    *,
-    row: Any = None,
-    follow: bool = True,
-    stress: bool = False,
-    progress: bool | None = None,
-    each: Callable[[int], None] | None = None,
-) -> Run:
-    """Simulate one run.
-
-    Parameters
-    ----------
-    blade : Blade
-        The blade, from `build_blade` or `read_blade`.
-    run : StudyRun
-        The run, from `Study.run` or `StudyCoating.at`; a list of them gives a list of runs.
-    row : Row, optional
-        Blades that rub on one coating together, instead of the one: `Run.blades`. Default: those of the
-        ``rotor`` of the study, if it has one.
-    follow : bool
-        Whether a run that grows is repeated for more revolutions, as the study does: its `Run.longer`.
-    stress : bool
-        Whether the largest stress of the blade is found at rotation alone, at start-up and in the last
-        ``analysis.spectrum_revolutions``: `Run.stress`, and attributes of the file. It is None where the
-        blade is of matrices alone, which tell of no stress, or no revolution is complete.
-    progress : bool, optional
-        Whether a line on standard error shows what is being done. Default: if that is a terminal, and in a
-        notebook.
-    each : callable, optional
-        Called with the number of revolutions done after each of them.
-
-    Returns
-    -------
-    Run
-        With the whole displacement of node 1.
-
-    Raises
-    ------
-    InputError
-        If the speed is outside the range of the blade.
-    ValueError
-        If the time step of the study is too long for the scheme, or the row cannot be: its neighbours are
-        too close, for instance, or its stress is asked for.
-    OSError
-        If the mesh of the blade, which the stress needs, is missing or damaged.
-
-    Examples
-    --------
-    >>> import bladerub as br
-    >>> run = br.simulate(blade, study.run("2nd", E=2, K=0.5, f_omega=0.19))
-    >>> run.revolutions, run.status
-    (20, 'completed')
-
-    The largest stress of the blade:
-
-    >>> peak_stress = br.simulate(blade, study.run("2nd", E=2, K=0.5, f_omega=0.19), stress=True).stress
-    >>> peak_stress.static["von_mises"] < peak_stress.last["von_mises"]
-    True
-
-    Three blades on one coating, the second 50 µm longer than the others:
-
-    >>> row = br.simulate(
-    ...     blade,
-    ...     study.run("2nd", E=2, K=0.5, f_omega=0.19, revolutions=3),
-    ...     row=br.Row.even(3, length=[0.0, 5e-5, 0.0]),
-    ... )
-    >>> len(row.blades), int(row.blades.worn_volume.idxmax())
-    (3, 2)
-    """
-    blade.check_speed("f_omega", run.f_omega)
-    with step("compiling the time loop", progress):
-        compile_kernel(n_nodes=blade.reduced.n_interface, law=run.spec.coating.element_law)
-    with bar(run.spec.revolutions, "rev", progress) as line:
-        count = counted(line, run)
-
-        def report(revolutions: int) -> None:
-            count(revolutions)
-            if each:
-                each(revolutions)
-
-        return solve(blade, run, follow, report, row=row, stress=stress)
-
-
-def counted(bar: tqdm, run: StudyRun) -> Callable[[int], None]:
-    """Let a `bar` count the revolutions done of `run`, then those of its longer run."""
-
-    def count(revolutions: int) -> None:
-        if revolutions < bar.n:
-            bar.reset(run.config["analysis"]["divergence"]["confirmation_revolutions"])
-        bar.update(revolutions - bar.n)
-
-    return count
-
-
-def solve(
-    blade: Blade,
-    run: StudyRun,
-    follow: bool,
-    progress: Callable[[int], None] | None = None,
-    keep_history: bool = True,
-    row: Any = None,
-    stress: bool = False,
-    solver: Solve | None = None,
-) -> Run:
-    """Simulate `run`, and its longer run if it is to `follow` growth; parameters as of `simulate`.
-
-    A single blade is simulated by `solver`, by default on what ``solver.device`` says.
-    """
-    digest, settings = blade.digest, run.config["analysis"]["divergence"]
-    run = run.of_length(blade.length)  # perhaps not the study's own blade
-    row = row or row_of(run.config)
-    solver = solver or one_by(solver_of(run.config))
-    if stress and row:
-        raise ValueError("stress = True: is found for a single blade only, must be False with a row")
-    stressed = _stress_solver(blade, run) if stress else None
-    stored = _solve(blade, run, run.spec, digest, progress, keep_history, row, stressed or solver)
-    run_stress = stressed.stress if stressed else None
-    if run_stress:
-        stored = replace(stored, attributes=stored.attributes | run_stress.attributes())
-    longer = None
-    amplitude, status = stored.data["revolution_amplitude"], stored.attributes["status"]
-    if follow and needs_confirmation(amplitude, status, settings):
-        spec = confirmation_spec(run.spec, settings)
-        longer = Run(_solve(blade, run, spec, digest, progress, False, row, solver))
-    return Run(stored, longer, run_stress, run.config)
-
-
-def _stress() -> Any:
-    """Return the module that finds the stress of the blade; None where the package is without it."""
-    place = plugins.offered("MEASURES").get("stress")
-    return plugins.load(place) if place else None
-
-
-def _described_stress(attributes: Mapping[str, Any]) -> Any:
-    module = _stress()
-    return module.RunStress.described(attributes) if module else None
-
-
-def _stress_solver(blade: Blade, run: StudyRun) -> Any:
-    if (module := _stress()) is None:  # before any work
-        raise ValueError("stress = True: this package is without what finds the stress, must be False")
-    return module.StressSolver(blade.mesh_path, run.config["analysis"]["spectrum_revolutions"])
-
-
-def _solve(
-    blade: Blade,
-    run: StudyRun,
-    spec: RunSpec,
-    digest: str,
-    progress: Callable[[int], None] | None,
-    keep_history: bool,
-    row: Any,
-    solver: Solve | None,
-) -> StoredRun:
-    plan = planned_run(run.config, spec, f"{speed_name(spec.f_omega)}.h5", keep_history, row)
-    return compute(run.case, plan, blade.reduced, plan.key(digest), run.config["analysis"], progress, solver)
-
-
 @over("path")
 def read_run(path: str | Path) -> Run:
     """Read one run of a study, such as ``results/runs/2nd_E2_K0.5_theta0/0.1900.h5``, or of `Run.write`.
@@ -510,6 +340,17 @@ def run_of(runs: Mapping[str, StoredRun], prefix: str = "") -> Run:
     """Return the run whose parts, as of `runs_of`, are among `runs`."""
     stored, longer = runs[prefix], runs.get(f"{prefix}{_LONGER}")
     return Run(stored, Run(longer) if longer else None, _described_stress(stored.attributes))
+
+
+def stress_measure() -> Any:
+    """Return the module that finds the stress of the blade; None where the package is without it."""
+    place = plugins.offered("MEASURES").get("stress")
+    return plugins.load(place) if place else None
+
+
+def _described_stress(attributes: Mapping[str, Any]) -> Any:
+    module = stress_measure()
+    return module.RunStress.described(attributes) if module else None
 
 
 def _content(run: Run) -> list[Any]:

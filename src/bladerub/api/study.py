@@ -1,4 +1,4 @@
-"""A study: its config, and the coatings and runs that can be asked of it."""
+"""A study: its config, and the coatings and runs that it has or can be asked for."""
 
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field, replace
@@ -11,127 +11,16 @@ import numpy as np
 from bladerub.api.errors import InputError
 from bladerub.api.lists import over
 from bladerub.api.notebook import Shown
-from bladerub.config import quantities
+from bladerub.api.planned import Quantity, StudyCoating, StudyRun, checked_number, known_frequency
 from bladerub.config import read as configuration
-from bladerub.config.checks import most_revolutions, own_problem
+from bladerub.config.checks import own_problem
 from bladerub.config.errors import UNKNOWN
 from bladerub.config.files import Located
-from bladerub.config.models.quantities import QUANTITIES
 from bladerub.config.models.study import required
-from bladerub.config.problems import check_quantity
-from bladerub.config.units import pressure_in_words, speed_in_words, speeds_in_words
-from bladerub.contact.spec import RunSpec
+from bladerub.config.units import pressure_in_words, speeds_in_words
 from bladerub.io.folders import CONFIG, ROOT, base_config, study_folder
 from bladerub.study import grid
 from bladerub.study.grid import CoatingCase
-
-_MOST_REVOLUTIONS = 10_000
-
-Quantity = float | str
-"""A plain number as in a config, or text with a unit: ``"11400 rpm"``, ``"1.2 GPa"``, ``"6 mm"``."""
-
-
-@dataclass(frozen=True, repr=False)
-class StudyRun:
-    """One run of a study: a coating at one speed, from `Study.run` or `StudyCoating.at`.
-
-    Parameters
-    ----------
-    config : mapping
-        The config of the study, for a run of this length.
-    case : CoatingCase
-        Casing, coating and law of friction, normalised.
-    spec : RunSpec
-        The same in SI units, with everything else that the run is.
-
-    Examples
-    --------
-    >>> planned = study.run("2nd", E=2, K=0.5, theta=0.15, f_omega=0.19)
-    >>> planned.name, planned.f_omega
-    ('2nd_E2_K0.5_theta0.15/0.1900', 0.19)
-    >>> round(planned.of_length(0.1).spec.displacement_limit, 6)  # m: a tenth of the blade
-    0.01
-    """
-
-    config: Mapping[str, Any] = field(repr=False)
-    case: CoatingCase
-    spec: RunSpec = field(repr=False)
-
-    @property
-    def f_omega(self) -> float:
-        """Rotational frequency over the first eigenfrequency at rest."""
-        return self.spec.f_omega
-
-    def of_length(self, length: float) -> "StudyRun":
-        """Describe the same run of a blade of this `length` (m): clearances and limits are in this unit."""
-        config = {**self.config, "blade": {**self.config["blade"], "length": length}}
-        spec = grid.run_spec(config, self.case, self.f_omega)
-        start = self.spec.initial_displacement
-        return StudyRun(config, self.case, replace(spec, initial_displacement=start))
-
-    @property
-    def name(self) -> str:
-        """Coating and speed as in paths, for instance ``2nd_E2_K0.5_theta0.15/0.1900``."""
-        return f"{self.case.name}/{grid.speed_name(self.f_omega)}"
-
-    def __repr__(self) -> str:
-        speed = speed_in_words(self.f_omega, _known_frequency(self.config))
-        coating = f"{self.case.name}{_moduli(self.config, self.case)}"
-        return f"StudyRun({coating}, at {speed}, {self.spec.revolutions} revolutions)"
-
-
-@dataclass(frozen=True, repr=False)
-class StudyCoating:
-    """One coating of a study, or the rigid casing, from `Study.coating` or `Study.rigid`.
-
-    Parameters
-    ----------
-    config : mapping
-        The config of the study.
-    case : CoatingCase
-        Casing, coating and law of friction, normalised.
-
-    Examples
-    --------
-    >>> coating = study.coating("2nd", E=2, K=0.5)
-    >>> coating.name
-    '2nd_E2_K0.5_theta0'
-    >>> coating.at(0.19, revolutions=5).spec.revolutions
-    5
-    """
-
-    config: Mapping[str, Any] = field(repr=False)
-    case: CoatingCase
-
-    @property
-    def name(self) -> str:
-        """Name in paths, for instance ``2nd_E2_K0.5_theta0.15``."""
-        return self.case.name
-
-    @over("f_omega")
-    def at(self, f_omega: Quantity, revolutions: int | None = None) -> StudyRun:
-        """Describe the run at the speed `f_omega`, of so many revolutions.
-
-        The speed is normalised, or text such as ``"2200 rpm"``, by the first frequency of the study's
-        blade. A list of speeds gives a list of runs.
-
-        Raises
-        ------
-        InputError
-            If `f_omega` or `revolutions` is not possible.
-
-        Examples
-        --------
-        >>> import bladerub as br
-        >>> br.default_study().coating("2nd", E=2, K=0.5).at(0.19).name
-        '2nd_E2_K0.5_theta0/0.1900'
-        """
-        f_omega = _number(self.config, "f_omega", f_omega)
-        config = self.config if revolutions is None else _of_revolutions(self.config, revolutions)
-        return StudyRun(config, self.case, grid.run_spec(config, self.case, f_omega))
-
-    def __repr__(self) -> str:
-        return f"StudyCoating({self.case.name}{_moduli(self.config, self.case)})"
 
 
 @dataclass(frozen=True, repr=False)
@@ -299,7 +188,7 @@ class Study(Shown):
         }
         if friction is not None and theta is not None:
             raise InputError("friction", friction, "goes without theta, which says the same")
-        E, K = (_number(self.config, name, value) for name, value in (("E", E), ("K", K)))
+        E, K = (checked_number(self.config, name, value) for name, value in (("E", E), ("K", K)))
         if friction is None:
             return self._checked(CoatingCase, overrides, casing, E, K, theta=theta or 0.0)
         return self._checked(CoatingCase.coulomb, overrides, casing, E, K, friction=friction)
@@ -378,7 +267,7 @@ class Study(Shown):
         if casing not in casings:
             raise InputError("casing", casing, _one_of(casing, casings))
         plain = {
-            name: _number(self.config, name, value)
+            name: checked_number(self.config, name, value)
             for name, value in {**tangential, **overrides}.items()
             if value is not None
         }
@@ -397,7 +286,7 @@ class Study(Shown):
             "casings": ", ".join(config["casings"]),
             "coatings": f"{len(cases)}{ends if moduli else ''}",
             "E = 1, K = 1": pressure_in_words(unit),
-            "speeds": speeds_in_words(grid.speeds(config), _known_frequency(config)),
+            "speeds": speeds_in_words(grid.speeds(config), known_frequency(config)),
             "revolutions": f"{config['solver']['revolutions']}",
             "results": f"{self.results}",
         }
@@ -459,47 +348,6 @@ def _found(path: str | Path) -> Path:
     return next((place for place in places if place.is_file()), Path(path))
 
 
-def _number(config: Mapping[str, Any], name: str, value: Quantity) -> float:
-    """Return the argument `name` as a plain number within its bounds."""
-    try:
-        plain = quantities.number(name, value, quantities.references(config))
-        check_quantity(plain, QUANTITIES[name])
-    except ValueError as error:
-        raise InputError(name, value, str(error)) from None
-    return plain
-
-
-def _known_frequency(config: Mapping[str, Any]) -> float | None:
-    from bladerub.blade.cache import kept_frequency  # imports the solver, which a plan does without
-
-    return kept_frequency(config)
-
-
-def _moduli(config: Mapping[str, Any], case: CoatingCase) -> str:
-    """Write E and K of a coating in Pa; nothing of the rigid casing."""
-    if case.is_rigid:
-        return ""
-    E, K = (pressure_in_words(grid.modulus_unit(config) * modulus) for modulus in (case.E, case.K))
-    return f", E = {E}, K = {K}"
-
-
 def _one_of(name: str, choices: Collection[str]) -> str:
     close = get_close_matches(str(name), choices, n=1)
     return f"must be one of {', '.join(choices)}" + (f"; did you mean {close[0]}?" if close else "")
-
-
-def _of_revolutions(config: Mapping[str, Any], revolutions: int) -> dict[str, Any]:
-    """Change a config to runs of so many revolutions: its analysis looks at no more."""
-    limit = min(_MOST_REVOLUTIONS, most_revolutions(config))
-    if not isinstance(revolutions, int) or not 2 <= revolutions <= limit:
-        raise InputError("revolutions", revolutions, f"must be from 2 to {limit}")
-    analysis, divergence = config["analysis"], config["analysis"]["divergence"]
-    shorter = {
-        "spectrum_revolutions": min(analysis["spectrum_revolutions"], revolutions),
-        "divergence": {**divergence, "revolutions": min(divergence["revolutions"], revolutions)},
-    }
-    return {
-        **config,
-        "solver": {**config["solver"], "revolutions": revolutions},
-        "analysis": {**analysis, **shorter},
-    }

@@ -15,8 +15,9 @@ from bladerub.cli.inputs import InputError, quantity, refused
 from bladerub.cli.run_option import RunOption
 
 if TYPE_CHECKING:  # as in `inputs`
+    from bladerub.api.planned import StudyCoating, StudyRun
     from bladerub.api.run import Run
-    from bladerub.api.study import Study, StudyCoating, StudyRun
+    from bladerub.api.study import Study
 
 _QUANTITIES = ("E", "K", "theta", "friction", "damping_ratio", "layer_thickness", "interference")
 _STEEP = math.pi / 4  # beyond this angle the force is more tangential than normal
@@ -83,7 +84,7 @@ def run(options: argparse.Namespace) -> None:
     for option in _options():
         option.check(options, config)
 
-    from bladerub.api.run import counted, simulate
+    from bladerub.api.simulate import counted, simulate
     from bladerub.api.study import Study
     from bladerub.config.quantities import references
 

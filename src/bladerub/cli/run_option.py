@@ -8,8 +8,9 @@ from bladerub.cli.inputs import Parser
 
 if TYPE_CHECKING:
     from bladerub.api.blade import Blade
+    from bladerub.api.planned import StudyRun
     from bladerub.api.run import Run
-    from bladerub.api.study import Study, StudyRun
+    from bladerub.api.study import Study
 
 
 class RunOption:

@@ -11,8 +11,8 @@ from bladerub.api.blade import Blade
 from bladerub.api.errors import InputError
 from bladerub.api.map import solve_all
 from bladerub.api.notebook import Shown
+from bladerub.api.planned import StudyRun
 from bladerub.api.run import Run, run_of, runs_of
-from bladerub.api.study import StudyRun
 from bladerub.io.equality import Comparable
 from bladerub.io.errors import DamagedFile
 from bladerub.io.provenance import provenance

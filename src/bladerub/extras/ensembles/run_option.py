@@ -11,8 +11,8 @@ from bladerub.cli.run_option import RunOption
 
 if TYPE_CHECKING:
     from bladerub.api.blade import Blade
+    from bladerub.api.planned import StudyRun
     from bladerub.api.run import Run
-    from bladerub.api.study import StudyRun
 
 
 class EnsembleOption(RunOption):

@@ -11,8 +11,8 @@ from bladerub.cli.run_option import RunOption
 
 if TYPE_CHECKING:
     from bladerub.api.blade import Blade
+    from bladerub.api.planned import StudyRun
     from bladerub.api.run import Run
-    from bladerub.api.study import StudyRun
 
 _PARTS = {"static": "rotation alone", "start_up": "start-up", "last": "last revolutions"}
 _KINDS = {"von_mises": "von Mises", "principal": "largest principal", "alternating": "alternating"}

@@ -1,0 +1,166 @@
+"""What can be asked of a study: one of its coatings, and one run."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from typing import Any
+
+from bladerub.api.errors import InputError
+from bladerub.api.lists import over
+from bladerub.config import quantities
+from bladerub.config.checks import most_revolutions
+from bladerub.config.models.quantities import QUANTITIES
+from bladerub.config.problems import check_quantity
+from bladerub.config.units import pressure_in_words, speed_in_words
+from bladerub.contact.spec import RunSpec
+from bladerub.study import grid
+from bladerub.study.grid import CoatingCase
+
+_MOST_REVOLUTIONS = 10_000
+
+Quantity = float | str
+"""A plain number as in a config, or text with a unit: ``"11400 rpm"``, ``"1.2 GPa"``, ``"6 mm"``."""
+
+
+@dataclass(frozen=True, repr=False)
+class StudyRun:
+    """One run of a study: a coating at one speed, from `Study.run` or `StudyCoating.at`.
+
+    Parameters
+    ----------
+    config : mapping
+        The config of the study, for a run of this length.
+    case : CoatingCase
+        Casing, coating and law of friction, normalised.
+    spec : RunSpec
+        The same in SI units, with everything else that the run is.
+
+    Examples
+    --------
+    >>> planned = study.run("2nd", E=2, K=0.5, theta=0.15, f_omega=0.19)
+    >>> planned.name, planned.f_omega
+    ('2nd_E2_K0.5_theta0.15/0.1900', 0.19)
+    >>> round(planned.of_length(0.1).spec.displacement_limit, 6)  # m: a tenth of the blade
+    0.01
+    """
+
+    config: Mapping[str, Any] = field(repr=False)
+    case: CoatingCase
+    spec: RunSpec = field(repr=False)
+
+    @property
+    def f_omega(self) -> float:
+        """Rotational frequency over the first eigenfrequency at rest."""
+        return self.spec.f_omega
+
+    def of_length(self, length: float) -> "StudyRun":
+        """Describe the same run of a blade of this `length` (m): clearances and limits are in this unit."""
+        config = {**self.config, "blade": {**self.config["blade"], "length": length}}
+        spec = grid.run_spec(config, self.case, self.f_omega)
+        start = self.spec.initial_displacement
+        return StudyRun(config, self.case, replace(spec, initial_displacement=start))
+
+    @property
+    def name(self) -> str:
+        """Coating and speed as in paths, for instance ``2nd_E2_K0.5_theta0.15/0.1900``."""
+        return f"{self.case.name}/{grid.speed_name(self.f_omega)}"
+
+    def __repr__(self) -> str:
+        speed = speed_in_words(self.f_omega, known_frequency(self.config))
+        coating = f"{self.case.name}{_moduli(self.config, self.case)}"
+        return f"StudyRun({coating}, at {speed}, {self.spec.revolutions} revolutions)"
+
+
+@dataclass(frozen=True, repr=False)
+class StudyCoating:
+    """One coating of a study, or the rigid casing, from `Study.coating` or `Study.rigid`.
+
+    Parameters
+    ----------
+    config : mapping
+        The config of the study.
+    case : CoatingCase
+        Casing, coating and law of friction, normalised.
+
+    Examples
+    --------
+    >>> coating = study.coating("2nd", E=2, K=0.5)
+    >>> coating.name
+    '2nd_E2_K0.5_theta0'
+    >>> coating.at(0.19, revolutions=5).spec.revolutions
+    5
+    """
+
+    config: Mapping[str, Any] = field(repr=False)
+    case: CoatingCase
+
+    @property
+    def name(self) -> str:
+        """Name in paths, for instance ``2nd_E2_K0.5_theta0.15``."""
+        return self.case.name
+
+    @over("f_omega")
+    def at(self, f_omega: Quantity, revolutions: int | None = None) -> StudyRun:
+        """Describe the run at the speed `f_omega`, of so many revolutions.
+
+        The speed is normalised, or text such as ``"2200 rpm"``, by the first frequency of the study's
+        blade. A list of speeds gives a list of runs.
+
+        Raises
+        ------
+        InputError
+            If `f_omega` or `revolutions` is not possible.
+
+        Examples
+        --------
+        >>> import bladerub as br
+        >>> br.default_study().coating("2nd", E=2, K=0.5).at(0.19).name
+        '2nd_E2_K0.5_theta0/0.1900'
+        """
+        f_omega = checked_number(self.config, "f_omega", f_omega)
+        config = self.config if revolutions is None else _of_revolutions(self.config, revolutions)
+        return StudyRun(config, self.case, grid.run_spec(config, self.case, f_omega))
+
+    def __repr__(self) -> str:
+        return f"StudyCoating({self.case.name}{_moduli(self.config, self.case)})"
+
+
+def checked_number(config: Mapping[str, Any], name: str, value: Quantity) -> float:
+    """Return the argument `name` as a plain number within its bounds."""
+    try:
+        plain = quantities.number(name, value, quantities.references(config))
+        check_quantity(plain, QUANTITIES[name])
+    except ValueError as error:
+        raise InputError(name, value, str(error)) from None
+    return plain
+
+
+def known_frequency(config: Mapping[str, Any]) -> float | None:
+    """Return the first frequency at rest of the study's blade, Hz, if it has been built."""
+    from bladerub.blade.cache import kept_frequency  # imports the solver, which a plan does without
+
+    return kept_frequency(config)
+
+
+def _moduli(config: Mapping[str, Any], case: CoatingCase) -> str:
+    """Write E and K of a coating in Pa; nothing of the rigid casing."""
+    if case.is_rigid:
+        return ""
+    E, K = (pressure_in_words(grid.modulus_unit(config) * modulus) for modulus in (case.E, case.K))
+    return f", E = {E}, K = {K}"
+
+
+def _of_revolutions(config: Mapping[str, Any], revolutions: int) -> dict[str, Any]:
+    """Change a config to runs of so many revolutions: its analysis looks at no more."""
+    limit = min(_MOST_REVOLUTIONS, most_revolutions(config))
+    if not isinstance(revolutions, int) or not 2 <= revolutions <= limit:
+        raise InputError("revolutions", revolutions, f"must be from 2 to {limit}")
+    analysis, divergence = config["analysis"], config["analysis"]["divergence"]
+    shorter = {
+        "spectrum_revolutions": min(analysis["spectrum_revolutions"], revolutions),
+        "divergence": {**divergence, "revolutions": min(divergence["revolutions"], revolutions)},
+    }
+    return {
+        **config,
+        "solver": {**config["solver"], "revolutions": revolutions},
+        "analysis": {**analysis, **shorter},
+    }
