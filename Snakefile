@@ -2,9 +2,9 @@
 # are collected, analysed and drawn. `snakemake -j2` makes all of it; config/config.yaml says what.
 from snakemake.utils import min_version
 
-import bladerub.config.read
 import bladerub.io.errors
 import bladerub.workflow.invocation
+import bladerub.workflow.settings
 from bladerub.io.folders import ROOT
 from bladerub.study.grid import coating_cases
 from bladerub.study.solver import solver_of
@@ -12,14 +12,9 @@ from bladerub.workflow.studies import rules_of_studies
 
 min_version("9.0")
 
-# Snakemake knows neither the lines of a file nor the key `extend`: the config is read here, before it reads it
+# Snakemake keeps no lines of files, which messages name: the config is read here, before it reads it
 with bladerub.io.errors.exit_on_error():
-    study, NOTES = bladerub.config.read.read_with_notes(
-        "config/config.yaml",
-        *workflow.config_settings.configfiles,
-        command_line=workflow.config_settings.config,
-        is_checked=not workflow.is_main_process,
-    )
+    study, NOTES, LAID_OVER = bladerub.workflow.settings.read(workflow, config)
 
 
 configfile: "config/config.yaml"
@@ -38,7 +33,7 @@ RULES_OF_STUDIES, LEFT_OUT = rules_of_studies(ROOT)
 if workflow.is_main_process:
     with bladerub.io.errors.exit_on_error():
         bladerub.workflow.invocation.plan(
-            workflow, RESULTS, [*NOTES, *LEFT_OUT], solver_of(config).start
+            RESULTS, LAID_OVER, [*NOTES, *LEFT_OUT], solver_of(config).start
         )
     if workflow.output_settings.dryrun:
         from bladerub.workflow import forecast  # takes seconds to import

@@ -7,6 +7,9 @@ from pathlib import Path
 
 import pytest
 import yaml
+from workspace import ROOT
+
+from bladerub.study.store import read_run
 
 MAP = "results/maps/2nd_E1.1_K0.5_theta0.h5"
 OWN_RULE = """
@@ -52,3 +55,30 @@ def test_it_computes_its_own_config_and_takes_rules_of_ones_own(tmp_path, call, 
     assert counts["coatings"]["2nd_E1.1_K0.5_theta0"]["missing"] == 0
     plan = call(folder, "snakemake", "-n", "--quiet", "rules", "--configfile", "small.yaml")
     assert "histograms" in plan
+
+
+MODULE = """
+configfile: "config/config.yaml"
+
+
+module rub:
+    snakefile:
+        {snakefile!r}
+    config:
+        config["rub"]
+
+
+use rule * from rub as rub_*
+"""
+
+
+def test_the_config_of_a_module_statement_is_that_of_the_study(tmp_path, call, tiny):
+    tiny["coatings"] = [{"casing": "2nd", "E": [3], "K": [0.5], "theta": [0.0]}]
+    (tmp_path / "Snakefile").write_text(MODULE.format(snakefile=str(ROOT / "Snakefile")))
+    (tmp_path / "config").mkdir()
+    content = {"samples": ["a"], "rub": {**tiny, "results": "results/rub"}}
+    (tmp_path / "config" / "config.yaml").write_text(yaml.safe_dump(content))
+    folder = tmp_path / "results" / "rub" / "runs" / "2nd_E3_K0.5_theta0"
+    call(tmp_path, "snakemake", "-j2", f"{folder.relative_to(tmp_path)}/manifest.tsv")
+    assert read_run(folder / "0.1500.h5").attributes["revolutions"] == tiny["solver"]["revolutions"]
+    assert [path.parent for path in folder.parent.glob("*/manifest.tsv")] == [folder]

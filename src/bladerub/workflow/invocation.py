@@ -15,6 +15,7 @@ from pathlib import Path
 from typing import Any
 
 from bladerub.config import record
+from bladerub.config.record import Record
 from bladerub.io import atomic, checksum
 from bladerub.io.errors import BadInput, DamagedFile, exit_on_error
 from bladerub.io.folders import CONFIG, provide_for_unknown_user
@@ -100,27 +101,29 @@ def _print(line: str) -> None:
     print(f"bladerub: {line}", file=sys.stderr)
 
 
-def _made_with(results: str, workflow: Any) -> record.Record | None:
-    """Read which config `results` were made with, where the command line names none."""
-    settings = workflow.config_settings
-    return None if settings.configfiles or settings.config else record.read(Path(results))
+def _made_with(results: str, laid_over: Record) -> Record | None:
+    """Read which config `results` were made with, where nothing is laid over that of the study."""
+    return None if laid_over.files or laid_over.command_line else record.read(Path(results))
 
 
-_planned: list[tuple[str, Callable[[], None]]] = []
+_planned: list[tuple[str, Record, Callable[[], None]]] = []
 
 
 def plan(
-    workflow: Any, results: str, notes: Sequence[str] = (), begin: Callable[[], None] = lambda: None
+    results: str,
+    laid_over: Record,
+    notes: Sequence[str] = (),
+    begin: Callable[[], None] = lambda: None,
 ) -> None:
-    """Note what this invocation of Snakemake's `workflow` will `start`, with the results in this folder.
+    """Note what this invocation will `start`, with the results in this folder, and what makes them.
 
-    Prints which config the results were made with, if the command line names none, and the `notes` on the
-    config, a line each. `begin` is called at the start if jobs run on this machine.
+    Prints which config the results were made with, if nothing is `laid_over` that of the study, and the
+    `notes` on the config, a line each. `begin` is called at the start if jobs run on this machine.
     """
     provide_for_unknown_user()
     _take_two_interrupts_for_one()
-    _planned[:] = [(results, begin)]
-    if made_with := _made_with(results, workflow):
+    _planned[:] = [(results, laid_over, begin)]
+    if made_with := _made_with(results, laid_over):
         notes = [f"{results} was made with {made_with.as_arguments()}; this is the study without it", *notes]
     for note in notes:
         _print(note)
@@ -135,8 +138,8 @@ def start(workflow: Any) -> None:
     that study. So it does where the jobs could not start.
     """
     targets = set(workflow.dag_settings.targets) - {"all"}
-    for results, _ in _planned:
-        if targets and (made_with := _made_with(results, workflow)):
+    for results, laid_over, _ in _planned:
+        if targets and (made_with := _made_with(results, laid_over)):
             raise BadInput(
                 f"{' '.join(sorted(targets))}: add {made_with.as_arguments()}, as {results} was made, "
                 f"or --configfile {CONFIG} to compute that study first"
@@ -151,10 +154,10 @@ def start(workflow: Any) -> None:
         _print("the last snakemake here was killed; what it had finished is kept")
     _handle_termination_beside()
     _schedule_by_events(workflow)
-    for results, begin in _planned:
+    for results, laid_over, begin in _planned:
         prepare(results)
         date_back(results)
-        record.write(results, workflow.config_settings.configfiles, workflow.config_settings.config)
+        record.write(results, laid_over.files, laid_over.command_line)
         if workflow.local_exec:  # a job on another machine shares nothing with this process
             begin()
 

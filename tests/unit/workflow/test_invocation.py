@@ -13,6 +13,7 @@ from snakemake.scheduling.job_scheduler import JobRateLimiter
 from snakemake.settings.types import MaxJobsPerTimespan
 
 from bladerub.config import record
+from bladerub.config.record import Record
 from bladerub.io.errors import BadInput
 from bladerub.study.manifest import ManifestRow, write_manifest
 from bladerub.workflow import invocation
@@ -51,13 +52,12 @@ def workflow_with(tmp_path, monkeypatch):
     persistence = SimpleNamespace(path=tmp_path, all_outputfiles=list, all_inputfiles=list)
     monkeypatch.setattr(invocation, "_planned", [])
 
-    def workflow(limiter=None, local_exec=True, targets=(), configfiles=(), config=()):
+    def workflow(limiter=None, local_exec=True, targets=()):
         return SimpleNamespace(
             scheduler=SimpleNamespace(job_rate_limiter=limiter),
             local_exec=local_exec,
             persistence=persistence,
             dag_settings=SimpleNamespace(targets=list(targets)),
-            config_settings=SimpleNamespace(configfiles=configfiles, config=dict(config)),
         )
 
     return workflow
@@ -75,7 +75,7 @@ NAMED = """--configfile config/quick.yaml --config 'solver={"revolutions": 3}'""
 
 def test_targets_of_results_of_another_config_are_refused(workflow_with, of_quick):
     workflow = workflow_with(targets={"stress"})
-    invocation.plan(workflow, of_quick)
+    invocation.plan(of_quick, Record(()))
     with pytest.raises(BadInput) as refused:
         invocation.start(workflow)
     assert NAMED in str(refused.value)
@@ -128,7 +128,7 @@ def test_two_interrupts_in_a_row_are_one(workflow_with, tmp_path, monkeypatch):
     before = signal.getsignal(signal.SIGINT)
     signal.signal(signal.SIGINT, signal.default_int_handler)
     try:
-        invocation.plan(workflow_with(), str(tmp_path))
+        invocation.plan(str(tmp_path), Record(()))
         with pytest.raises(KeyboardInterrupt):
             signal.raise_signal(signal.SIGINT)
         signal.raise_signal(signal.SIGINT)

@@ -1,0 +1,45 @@
+"""The config of an invocation of the workflow: that of the study, and what Snakemake lays over it."""
+
+from collections.abc import Mapping
+from typing import Any
+
+from bladerub.config.read import is_whole, read_with_notes
+from bladerub.config.record import Record
+from bladerub.io.folders import CONFIG, ROOT
+
+
+def read(workflow: Any, config: Mapping[str, Any]) -> tuple[dict[str, Any], list[str], Record]:
+    """Read the config of the study with the lines of its files, which Snakemake does not keep.
+
+    Parameters
+    ----------
+    workflow : snakemake.workflow.Workflow
+        That of the Snakefile.
+    config : mapping
+        As Snakemake has it before any ``configfile``: what the command line says, or what ``config`` of the
+        ``module`` statement of another Snakefile says. That is laid over the config of the study here, or of
+        the paper where there is none; files and values of the command line are then of the other workflow.
+
+    Returns
+    -------
+    config : dict
+        Checked.
+    notes : list of str
+        Lines that are worth knowing (`bladerub.config.notes`).
+    laid_over : Record
+        What was laid over the config of the study.
+
+    Raises
+    ------
+    ConfigError
+        As `bladerub.config.read.read`.
+    """
+    settings = workflow.config_settings
+    base, laid_over = CONFIG, Record(settings.configfiles, settings.config)
+    if config and config != settings.overwrite_config:
+        base = CONFIG if CONFIG.is_file() and is_whole(CONFIG) else ROOT / CONFIG
+        laid_over = Record((), config)
+    values = laid_over.command_line
+    is_checked = not workflow.is_main_process
+    study, notes = read_with_notes(base, *laid_over.files, command_line=values, is_checked=is_checked)
+    return study, notes, laid_over
