@@ -211,6 +211,8 @@ class _Loader(yaml.SafeLoader):
             raise _error("a key must be text", node)
         if len(node.value) > LONGEST_VALUE:
             raise _error(f"a key of more than {LONGEST_VALUE} characters", node)
+        if node.tag == "tag:yaml.org,2002:merge":
+            raise _error("<< is not for configs: lay one file over another, or write the keys out", node)
         if node.tag != "tag:yaml.org,2002:str":
             is_decimal = node.value.isdecimal() and entry.value == ""  # what follows the comma of 0,01
             cause = "; the decimal mark is a point" if is_decimal else ""

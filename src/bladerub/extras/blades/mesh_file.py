@@ -196,6 +196,10 @@ def _read_gmsh(path: str) -> meshio.Mesh:
         raise ValueError(f"has several physical groups {twice[0]}; each must have a name of its own")
     try:
         return meshio.gmsh.read(path)
+    except meshio.ReadError as error:
+        if str(error):
+            raise
+        raise ValueError("damaged, or binary of another machine: save it as text, Mesh.Binary = 0") from error
     except ValueError as error:
         if "gmsh:physical" not in str(error):
             raise
