@@ -58,7 +58,7 @@ class BladeShape:
 
     def section(self, zeta: np.ndarray) -> np.ndarray:
         """Interpolate the columns of `sections` at the relative heights `zeta`: (6, ...)."""
-        return np.moveaxis(scipy.interpolate.CubicSpline(self.span, self.sections)(zeta), -1, 0)
+        return np.moveaxis(_through(self.span, self.sections, zeta), -1, 0)
 
     def points(self, xi: np.ndarray, eta: np.ndarray, zeta: np.ndarray) -> np.ndarray:
         """Map the unit cube to space: points (3, ...), m.
@@ -79,6 +79,30 @@ class BladeShape:
         t = -along * np.sin(stagger) + across * np.cos(stagger) + lean
         radius = self.hub_radius + zeta * (self.length + x * np.tan(self.tip_cone))
         return np.stack([x, radius * np.sin(t / radius), radius * np.cos(t / radius)])
+
+
+def _through(x: np.ndarray, rows: np.ndarray, at: np.ndarray) -> np.ndarray:
+    """Interpolate `rows` (n, k) at the places `x` (n,) as SciPy's cubic spline does: (..., k).
+
+    Up to three rows without SciPy, to the same bits: `scipy.interpolate` takes most of a second to import,
+    and every command checks the shape of a blade.
+    """
+    if len(x) > 3:
+        return scipy.interpolate.CubicSpline(x, rows)(at)
+    width = np.diff(x)[:, None]
+    chord = np.diff(rows, axis=0) / width
+    if len(x) == 2:
+        slope = chord[[0, 0]]
+    else:
+        (before,), (after,) = width
+        system = [[1, 1, 0], [after, 2 * (before + after), before], [0, 1, 1]]
+        middle = 3 * (before * chord[1] + after * chord[0])
+        slope = np.linalg.solve(system, [2 * chord[0], middle, 2 * chord[1]])
+    bend = (slope[:-1] + slope[1:] - 2 * chord) / width
+    piece = np.clip(np.searchsorted(x, at, side="right") - 1, 0, len(x) - 2)
+    h = (at - x[piece])[..., None]
+    square = (chord - slope[:-1]) / width - bend
+    return rows[piece] + slope[piece] * h + square[piece] * (h * h) + (bend / width)[piece] * (h * h * h)
 
 
 def lattice(mesh: Mapping[str, int]) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

@@ -15,12 +15,13 @@ from collections.abc import Collection, Mapping
 from contextlib import suppress
 from functools import cache
 from pathlib import Path
-from typing import Any
-
-import pandas as pd
+from typing import TYPE_CHECKING, Any
 
 from bladerub.io import atomic, checksum
 from bladerub.io.errors import DamagedFile
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 DESCRIPTION = "-metadata.json"
 """What follows the name of a table in that of its description, by the location that the W3C names first."""
@@ -29,7 +30,7 @@ COLUMNS_FILE = Path(__file__).with_name("columns.csv")
 
 
 def write(
-    path: str | Path, table: pd.DataFrame, origin: Mapping[str, str], float_format: str | None = None
+    path: str | Path, table: "pd.DataFrame", origin: Mapping[str, str], float_format: str | None = None
 ) -> None:
     """Write `table` to `path`, without its index, and its description next to it.
 
@@ -47,12 +48,14 @@ def write(
             stream.write(text)
 
 
-def read(path: str | Path, columns: Collection[str] = (), separator: str = ",") -> pd.DataFrame:
+def read(path: str | Path, columns: Collection[str] = (), separator: str = ",") -> "pd.DataFrame":
     """Read a table that has the columns `columns` and of which every row must be whole.
 
     Raises an `OSError` that names the file if it is missing, breaks off, is not a table, lacks a column, or
     is not as it was written with the description next to it.
     """
+    import pandas as pd  # takes half a second, which jobs that draw without a table do without
+
     with suppress(FileNotFoundError):  # a table without a description
         check(path)
     try:
@@ -115,7 +118,7 @@ def entry(column: str) -> str:
     return re.sub(r"(?<=^[Yf])\d+$", "k", column)
 
 
-def _description(name: str, table: pd.DataFrame, origin: Mapping[str, str]) -> dict[str, Any]:
+def _description(name: str, table: "pd.DataFrame", origin: Mapping[str, str]) -> dict[str, Any]:
     described = described_columns()
     unknown = [column for column in table.columns if entry(column) not in described]
     if unknown:

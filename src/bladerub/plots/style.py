@@ -152,6 +152,7 @@ def save(figure: Figure, png: str | Path, pdf: str | Path, dpi: float) -> None:
     with matplotlib.rc_context(_RC):
         with atomic.writing(png, "wb") as stream:
             figure.savefig(stream, format="png", dpi=dpi, metadata={"Software": origin})
+        figure.set_layout_engine("none")  # what is placed stays: to place it again takes as long as drawing
         with atomic.writing(pdf, "wb") as stream:
             about = {"Creator": origin, "CreationDate": None}
             figure.savefig(stream, format="pdf", dpi=_PDF_RASTER_DPI, metadata=about)

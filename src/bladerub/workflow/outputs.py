@@ -2,18 +2,17 @@
 
 from typing import TYPE_CHECKING, Any
 
-import pandas as pd
-
 from bladerub.io import hdf5, tables
 from bladerub.io.provenance import provenance
 
 if TYPE_CHECKING:
+    import pandas as pd
     from matplotlib.figure import Figure
 
     from bladerub.plots.scales import Scales
 
 
-def save(snakemake: Any, figure: "Figure | None" = None, prefix: str = "", **frames: pd.DataFrame) -> None:
+def save(snakemake: Any, figure: "Figure | None" = None, prefix: str = "", **frames: "pd.DataFrame") -> None:
     """Write the outputs of a job, whose `snakemake` is what Snakemake hands to a script.
 
     The figure goes to the outputs ``png`` and ``pdf`` with the parameter ``dpi``, each table to the output of
@@ -30,7 +29,7 @@ def save(snakemake: Any, figure: "Figure | None" = None, prefix: str = "", **fra
         style.save(figure, *files, snakemake.params["dpi"])
 
 
-def rpm(snakemake: Any, f_omega: pd.Series) -> pd.Series:
+def rpm(snakemake: Any, f_omega: "pd.Series") -> "pd.Series":
     """Turn normalised speeds into revolutions a minute of the input ``blade`` of a job."""
     return 60 * hdf5.read_attributes(snakemake.input.blade)["f1_hz"] * f_omega
 

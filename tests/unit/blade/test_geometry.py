@@ -1,6 +1,7 @@
 import numpy as np
 import pytest
 from blade_parts import section
+from scipy.interpolate import CubicSpline
 
 from bladerub.blade.geometry import BladeShape, check, corner_jacobians
 
@@ -13,6 +14,15 @@ def test_every_section_lies_on_its_cylinder(twisted_config):
     xi, eta, zeta = np.meshgrid(*[np.linspace(0, 1, 5)] * 3)
     points = BladeShape.from_config(twisted_config).points(xi, eta, zeta)
     np.testing.assert_allclose(np.hypot(points[1], points[2]), 0.45 + 0.2 * zeta, rtol=1e-14)
+
+
+@pytest.mark.parametrize("n", [2, 3, 4])
+def test_sections_are_on_a_cubic_spline_to_the_last_bit(n):
+    rng = np.random.default_rng(n)
+    span, sections = np.r_[0.0, np.sort(rng.random(n - 2)), 1.0], rng.random((n, 6))
+    zeta = np.r_[span, rng.random(20)]
+    shape = BladeShape(0.45, 0.2, 0.0, span, sections)
+    np.testing.assert_array_equal(shape.section(zeta).T, CubicSpline(span, sections)(zeta))
 
 
 def test_lean_is_an_arc_with_the_rotation_and_sweep_goes_downstream(blade_config):
