@@ -66,7 +66,6 @@ include: "src/rules/blade.smk"
 include: "src/rules/runs.smk"
 include: "src/rules/maps.smk"
 include: "src/rules/figures.smk"
-include: "src/rules/margins.smk"
 include: "src/rules/documents.smk"
 
 

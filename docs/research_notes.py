@@ -1,4 +1,4 @@
-"""Sphinx extension: the page of a study, ``studies/<name>/README.md``, is ``notes/<name>`` on the site.
+"""Sphinx extension: the page of a study, ``studies/…/<name>/README.md``, is ``notes/<name>`` on the site.
 
 Pages link to files, as GitHub follows them. Here a link to the page of a study leads to its page of the site,
 or is plain text where that study was deleted; a link to an example of the gallery leads to its output.
@@ -18,7 +18,7 @@ def _write_notes(app):
     NOTES.mkdir(exist_ok=True)
     texts = {
         NOTES / f"{readme.parent.name}.md": follow(readme.read_text("utf-8"), readme.parent, NOTES)
-        for readme in HERE.parent.glob("studies/*/README.md")
+        for readme in HERE.parent.glob("studies/**/README.md")
     }
     for page in set(NOTES.glob("*.md")) - set(texts):
         page.unlink()
@@ -49,7 +49,7 @@ def follow(text, folder, page_folder):
 
 def _page_of(path):
     """Return the file of the site for one of the repository; `None` for the page of a deleted study."""
-    if path.name == "README.md" and path.parent.parent == HERE.parent / "studies":
+    if path.name == "README.md" and HERE.parent / "studies" in path.parents:
         return NOTES / f"{path.parent.name}.md" if path.exists() else None
     if path.name in ("CONTRIBUTING.md", "CHANGELOG.md"):
         return HERE / path.name.lower()

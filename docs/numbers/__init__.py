@@ -22,7 +22,7 @@ ROOT = FOLDER.parents[1]
 
 def data_folders(root: Path = ROOT) -> list[Path]:
     """Return the folders of tables that pages quote: that of the documents, and those of studies."""
-    return [root / "docs" / "data", *sorted(root.glob("studies/*/data"))]
+    return [root / "docs" / "data", *sorted(root.glob("studies/**/data"))]
 
 
 class Tables(dict[str, pd.DataFrame]):
@@ -50,9 +50,9 @@ class Tables(dict[str, pd.DataFrame]):
 
 
 def module_of(page: str) -> Path:
-    """Return the file of the numbers of a page: ``docs/…/<page>.md``, or ``studies/<page>/README.md``."""
+    """Return the file of the numbers of a page: ``docs/…/<page>.md``, or ``studies/…/<page>/README.md``."""
     module = FOLDER / f"{page}.py"
-    return module if module.exists() else ROOT / "studies" / page / "numbers.py"
+    return next(ROOT.glob(f"studies/**/{page}/numbers.py"), module)
 
 
 def numbers_of(page: str, tables: Tables) -> dict[str, str]:

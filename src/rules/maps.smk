@@ -119,3 +119,7 @@ rule findings:
         robustness=reported_robustness,
     script:
         "../scripts/findings.py"
+
+
+# The paper speaks of its own blade: one from another program is not judged by its claims
+JUDGED = [] if "source" in config["blade"] else [rules.findings.output]

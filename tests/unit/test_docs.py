@@ -10,7 +10,7 @@ ROOT = Path(__file__).parents[2]
 DOCS = ROOT / "docs"
 STUDIES = ROOT / "studies"
 BUILT = {DOCS / "_build", DOCS / "auto_gallery", DOCS / "notes"}
-NOTES = STUDIES.glob("*/README.md")
+NOTES = STUDIES.glob("**/README.md")
 PAGES = {
     page: page.read_text(encoding="utf-8")
     for page in (ROOT / "README.md", ROOT / "CONTRIBUTING.md", *DOCS.rglob("*.md"), *NOTES)
@@ -40,7 +40,7 @@ def test_every_link_leads_to_a_file_and_heading():
 
 def is_of_a_deleted_study(target):
     """Whether this is the page of a study that is not there: the site makes plain text of such links."""
-    return target.name == "README.md" and target.parent.parent == STUDIES and not target.parent.exists()
+    return target.name == "README.md" and STUDIES in target.parents and not target.parent.exists()
 
 
 def test_no_formula_needs_the_network():

@@ -16,7 +16,7 @@ ROOT = Path(__file__).parents[2]
 NAME = re.compile(r"\{\{ (\w+) \}\}")
 FILES = {page.stem: page for page in (ROOT / "docs").glob("[!_an]*/*.md")}
 FILES |= {page.stem: page for page in (ROOT / "docs").glob("*.md")}
-FILES |= {page.parent.name: page for page in ROOT.glob("studies/*/README.md")}
+FILES |= {page.parent.name: page for page in ROOT.glob("studies/**/README.md")}
 TEXTS = {name: page.read_text(encoding="utf-8") for name, page in FILES.items()}
 PAGES = {name: text for name, text in TEXTS.items() if NAME.search(text)}
 SENTENCES = pd.read_csv(FOLDER / "verdicts.csv")

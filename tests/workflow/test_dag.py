@@ -193,7 +193,7 @@ def test_quick_study_can_draw_every_figure(workspace):
 
 def test_the_calibration_is_planned_when_asked_for(workspace, tiny):
     plan = workspace.plan(tiny, "calibration")
-    assert plan.keys() == {"compile_kernel", "calibration_set", "calibration"}
+    assert plan.keys() == {"compile_kernel", "variation", "calibration"}
     (workspace.folder / "config" / "calibration.yaml").write_text(
         "sets: {odd: {contact: {damping_ratio: 2}}}\n"
     )

@@ -1,1 +1,1 @@
-"""Studies beside the paper's: chart, robustness, calibration, sweeps, long runs, friction laws compared."""
+"""Studies beside the paper's: chart, variations, sweeps, long runs, friction laws compared."""

@@ -12,7 +12,7 @@ PAGES = [
     ROOT / "CONTRIBUTING.md",
     *(ROOT / "docs").glob("*.md"),
     *(ROOT / "docs").glob("[!_an]*/*.md"),
-    *ROOT.glob("studies/*/README.md"),
+    *ROOT.glob("studies/**/README.md"),
 ]
 BLOCK = re.compile(r"^```sh\n(.*?)^```$", re.M | re.S)
 IN_A_LINE = re.compile(r"`(bladerub [a-z-]+ [^`]*--[^`]*)`")

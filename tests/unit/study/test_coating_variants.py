@@ -6,7 +6,7 @@ import pandas as pd
 import pytest
 
 from bladerub.io import tables
-from bladerub.study import divergence, grid, margins, peak_table
+from bladerub.study import divergence, grid, peak_table
 from bladerub.study.findings.evidence import Evidence
 from bladerub.study.grid import CoatingCase
 from bladerub.study.plan import coating_plan
@@ -84,4 +84,3 @@ def test_the_claims_of_the_paper_are_judged_without_variants(config, maps):
     evidence = Evidence(config, found | {"rom_accuracy": None}, maps)
     assert evidence.peak(PLAIN, 6, "amplitude") == pytest.approx(2e-4)
     assert len(evidence.peaks) == 2
-    assert [coating.case for coating in margins.variations(config, maps)[margins.STUDY].maps] == [PLAIN]

@@ -28,7 +28,7 @@ def table(benchmarks: str | Path, others: Iterable[str] = ()) -> pd.DataFrame:
     CPU time and largest memory are those of the job's process and its children; NaN where a job was too short
     to be measured. A record that breaks off is left out; the log says so.
     """
-    rows, stage_of = [], STAGES | {rule: rule for rule in others}
+    rows, stage_of = [], {rule: rule for rule in others} | STAGES
     for path in sorted(Path(benchmarks).rglob("*.tsv")):
         *rule, name = path.relative_to(benchmarks).with_suffix("").parts
         rule, job = (rule[0], name) if rule else (name, "")

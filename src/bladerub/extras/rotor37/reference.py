@@ -7,7 +7,7 @@ import numpy as np
 import pandas as pd
 
 from bladerub.config import read as configuration
-from bladerub.extras.calibration.sets import sets
+from bladerub.extras.variations.plan import read
 from bladerub.io.folders import CONFIG, ROOT
 
 PLAN = ROOT / "config" / "rotor37_reference.yaml"
@@ -24,7 +24,11 @@ COLUMNS = ["number", "value", "unit", "uncertainty", "resolution", *(f"by_{name}
 
 def plan() -> dict[str, dict[str, Any]]:
     """Return the config of each set of the plan, laid over the paper's study, whatever that at work is."""
-    return sets(configuration.read(ROOT / CONFIG), PLAN)
+    study = configuration.read(ROOT / CONFIG)
+    return {
+        name: configuration.validate(configuration.vary(study, *part.study), name)
+        for name, part in read("calibration", PLAN).parts.items()
+    }
 
 
 def with_uncertainty(numbers: Mapping[str, pd.DataFrame]) -> pd.DataFrame:

@@ -1,3 +1,0 @@
-"""What the paper leaves open, varied."""
-
-SECTIONS = {"calibration": "extras.calibration.settings:CALIBRATION"}

@@ -1,0 +1,138 @@
+"""Prediction of a target between the simulated sets: a Gaussian process with a linear trend.
+
+The process is OpenTURNS's, with a Matérn covariance (5/2) and a length for each factor. Its nugget is the
+scatter that no smooth function explains: chaotic runs, and maxima between the speeds of the grid.
+"""
+
+from collections.abc import Iterator
+from typing import NamedTuple
+
+import numpy as np
+import pandas as pd
+
+from bladerub.extras.variations.plan import FEWEST
+from bladerub.io.optional import package
+
+openturns = package("openturns", "uq")
+
+FOLDS = 5
+"""Number of parts that the sets are split into, each predicted from the others."""
+
+_SMOOTHNESS = 2.5
+_LENGTHS = (0.1, 10.0)  # of the covariance in ranges of a factor: at the longest its effect is linear
+_FIRST_LENGTH = 2.0
+_NUGGETS = (1e-6, 10.0)  # of the variance of the smooth part
+_FIRST_NUGGET = 0.1
+
+
+class Predicted(NamedTuple):
+    """Mean and standard deviation of a target at m points, each (m,); the scatter counts as deviation."""
+
+    mean: np.ndarray
+    deviation: np.ndarray
+
+
+class HeldOut(NamedTuple):
+    """How well sets are predicted that the emulator was not made from."""
+
+    explained: float  # share of their variance; below 0 if their mean is a better prediction
+    within_two: float  # share of them within two predicted standard deviations
+
+
+class Emulator:
+    """Gaussian process through `values` (n,) at `positions` (n, d); equal values are predicted as they are.
+
+    The `covariance` is fitted by maximum likelihood unless one is given.
+    """
+
+    def __init__(
+        self,
+        positions: np.ndarray,
+        values: np.ndarray,
+        covariance: openturns.CovarianceModel | None = None,
+    ):
+        self._mean, self._scale = float(values.mean()), float(values.std())
+        self.covariance = covariance
+        self._regression = None
+        if self._scale > 1e-12 * max(1.0, abs(self._mean)):
+            fitted = _fit(positions, (values - self._mean) / self._scale, covariance)
+            self.covariance = fitted.getCovarianceModel()
+            algorithm = openturns.GaussianProcessRegression(fitted)
+            algorithm.run()
+            self._regression = algorithm.getResult()
+
+    def predict(self, positions: np.ndarray) -> Predicted:
+        """Predict the target at `positions` (m, d)."""
+        if self._regression is None:
+            return Predicted(np.full(len(positions), self._mean), np.zeros(len(positions)))
+        points = openturns.Sample(positions)
+        mean = np.array(self._regression.getMetaModel()(points)).ravel()
+        conditional = openturns.GaussianProcessConditionalCovariance(self._regression)
+        variance = np.array(conditional.getConditionalMarginalVariance(points)).ravel()
+        scatter = self.covariance.getNuggetFactor() * self.covariance.getAmplitude()[0] ** 2
+        deviation = np.sqrt(np.maximum(variance, 0.0) + scatter)
+        return Predicted(self._mean + self._scale * mean, self._scale * deviation)
+
+
+def emulators(positions: np.ndarray, measured: pd.DataFrame) -> dict[str, Emulator]:
+    """Fit an emulator to each target that enough sets have, at the `positions` (n, d) of these sets."""
+    fits = {}
+    for name, values in measured.items():
+        mask = values.notna().to_numpy()
+        if mask.sum() >= FEWEST:
+            fits[name] = Emulator(positions[mask], values[mask].to_numpy())
+    return fits
+
+
+def held_out(emulator: Emulator, positions: np.ndarray, values: np.ndarray) -> HeldOut:
+    """Predict each of `FOLDS` parts of the sets from the others, with the covariance of `emulator`."""
+    mean, deviation = np.empty(values.size), np.empty(values.size)
+    for inside, outside in folds(values.size):
+        prediction = Emulator(positions[inside], values[inside], emulator.covariance).predict(
+            positions[outside]
+        )
+        mean[outside], deviation[outside] = prediction
+    return compared(values, Predicted(mean, deviation))
+
+
+def folds(count: int) -> Iterator[tuple[np.ndarray, np.ndarray]]:
+    """Yield those of `count` sets to learn from and those to predict, each a mask, `FOLDS` times."""
+    fold = np.arange(count) % FOLDS
+    for left_out in range(FOLDS):
+        yield fold != left_out, fold == left_out
+
+
+def compared(values: np.ndarray, predicted: Predicted) -> HeldOut:
+    """Compare simulated `values` (m,) with their prediction; NaN without any."""
+    if values.size == 0:
+        return HeldOut(np.nan, np.nan)
+    missed, variance = values - predicted.mean, float(np.var(values))
+    explained = 1 - np.mean(missed**2) / variance if variance > 0 else np.nan
+    return HeldOut(float(explained), float(np.mean(np.abs(missed) <= 2 * predicted.deviation)))
+
+
+def _fit(
+    positions: np.ndarray, values: np.ndarray, covariance: openturns.CovarianceModel | None
+) -> openturns.GaussianProcessFitterResult:
+    n_factors, optimise = positions.shape[1], covariance is None
+    if optimise:
+        covariance = openturns.MaternModel([_FIRST_LENGTH] * n_factors, [1.0], _SMOOTHNESS)
+        covariance.setNuggetFactor(_FIRST_NUGGET)
+        covariance.activateNuggetFactor(True)
+    basis = openturns.LinearBasisFactory(n_factors).build()
+    algorithm = openturns.GaussianProcessFitter(
+        openturns.Sample(positions), openturns.Sample(values[:, None]), covariance, basis
+    )
+    algorithm.setOptimizeParameters(optimise)
+    if optimise:
+        # the default algorithm stops far from the maximum when there is scatter; the last point of a search
+        # that ends early is as good
+        search = openturns.TNC()
+        search.setCheckStatus(False)
+        algorithm.setOptimizationAlgorithm(search)
+        low, high = (
+            [length] * n_factors + [nugget] for length, nugget in zip(_LENGTHS, _NUGGETS, strict=True)
+        )
+        algorithm.setOptimizationBounds(openturns.Interval(low, high))
+    algorithm.run()
+    return algorithm.getResult()

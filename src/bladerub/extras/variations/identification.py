@@ -1,0 +1,135 @@
+"""Tables of an identification: sets, what the waves leave, targets, claims that exclude each other."""
+
+import itertools
+from collections.abc import Iterable, Mapping
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+
+from bladerub.extras.variations.emulator import Emulator, Predicted, compared, held_out
+from bladerub.extras.variations.implausibility import CUTOFF, of_simulated, wide
+from bladerub.extras.variations.job import QUANTITIES
+from bladerub.extras.variations.job import read as read_jobs
+from bladerub.extras.variations.plan import Plan
+from bladerub.extras.variations.targets import TARGETS
+from bladerub.extras.variations.waves import Remaining, as_table, with_values
+from bladerub.study.findings.claim import YES
+
+PREDICTIONS = ["set", "target", "predicted_value", "deviation"]
+"""Columns of the targets as predicted before a set is simulated."""
+
+LEFT = ["wave", "sets", "given_up", "remaining"]
+"""Columns of what is left after a wave: targets that had to be given up, share of the volume."""
+
+EMULATORS = ["wave", "target", "explained", "within_two", "plausible"]
+"""Columns of the emulators after a wave: see `bladerub.extras.variations.emulator.HeldOut`; the share
+of the volume that the target alone leaves."""
+
+_RARE = 0.05  # a claim that holds in fewer sets says nothing about which others it goes with
+_SELDOM = 0.5  # of the sets that chance would give: fewer are called an exclusion
+
+
+def measured(paths: Iterable[str | Path]) -> pd.DataFrame:
+    """Read the targets of all jobs: a row for each set, a column for each target, in their order."""
+    return wide(read_jobs(paths, QUANTITIES))
+
+
+def sets(plan: Plan, positions: pd.DataFrame, misfit: pd.Series) -> pd.DataFrame:
+    """List every simulated set: a row for each factor, with its position and value, and the set's misfit."""
+    table = with_values(plan, as_table(plan, 0, positions.to_numpy()))
+    return table.assign(misfit=table.set.map(misfit))
+
+
+def left_after(wave: int, n_sets: int, remainder: Remaining) -> pd.DataFrame:
+    """Say what is left after a wave: a row with `LEFT`."""
+    return pd.DataFrame([(wave, n_sets, remainder.given_up, remainder.share)], columns=LEFT)
+
+
+def emulated(
+    wave: int,
+    emulators: Mapping[str, Emulator],
+    remainder: Remaining,
+    positions: np.ndarray,
+    measured: pd.DataFrame,
+) -> pd.DataFrame:
+    """Say how well each target is predicted: a row each, with `EMULATORS`."""
+    rows = []
+    for name, emulator in emulators.items():
+        mask = measured[name].notna().to_numpy()
+        error = held_out(emulator, positions[mask], measured[name].to_numpy()[mask])
+        rows.append((wave, name, *error, remainder.plausible[name]))
+    return pd.DataFrame(rows, columns=EMULATORS)
+
+
+def predictions(emulators: Mapping[str, Emulator], first: int, drawn: np.ndarray) -> pd.DataFrame:
+    """Predict the targets of the sets `drawn` (n, d), numbered from `first`, with `PREDICTIONS`."""
+    tables = []
+    for name, emulator in emulators.items():
+        mean, deviation = emulator.predict(drawn)
+        numbers = np.arange(first, first + len(drawn))
+        tables.append(pd.DataFrame(dict(zip(PREDICTIONS, (numbers, name, mean, deviation), strict=True))))
+    return pd.concat(tables or [pd.DataFrame(columns=PREDICTIONS)], ignore_index=True)
+
+
+def targets(measured: pd.DataFrame, predictions: pd.DataFrame) -> pd.DataFrame:
+    """Compare the targets with the paper: a row each.
+
+    `measured` is of all sets, the study's own the first; `predictions` are of sets that were simulated later.
+    """
+    implausible, rows = of_simulated(measured), []
+    for target in TARGETS:
+        if target.name not in measured:
+            continue
+        values = measured[target.name]
+        of_target = predictions[predictions.target == target.name].set_index("set")
+        later = of_target.join(values.rename("simulated"), how="inner").dropna()
+        error = compared(
+            later.simulated.to_numpy(),
+            Predicted(later.predicted_value.to_numpy(), later.deviation.to_numpy()),
+        )
+        rows.append(
+            {
+                "target": target.name,
+                "id": target.claim,
+                "relation": target.relation,
+                "paper_value": target.value,
+                "error": target.error,
+                "own_value": values.iloc[0],
+                "lowest": values.min(),
+                "highest": values.max(),
+                "plausible": float((implausible[target.name] <= CUTOFF).mean()),
+                "explained": error.explained,
+                "within_two": error.within_two,
+            }
+        )
+    return pd.DataFrame(rows)
+
+
+def ranges(plan: Plan, remainder: Remaining) -> pd.DataFrame:
+    """Say what is left of the range of each factor: its own, and the middle 90 % of what is left."""
+    rows = []
+    for number, factor in enumerate(plan.factors):
+        low, median, high = np.quantile(remainder.points[:, number], [0.05, 0.5, 0.95])
+        of_positions = (0.0, 1.0, low, median, high)
+        values = [factor.first_value(float(position)) for position in of_positions]
+        names = ("lowest", "highest", "left_low", "left_median", "left_high")
+        rows.append({"factor": factor.name, "unit": factor.unit, **dict(zip(names, values, strict=True))})
+    return pd.DataFrame(rows)
+
+
+def exclusions(verdicts: pd.DataFrame) -> pd.DataFrame:
+    """List the pairs of claims that hold together in fewer sets than chance would give, rarest first.
+
+    ``both`` is the share of the sets in which both hold, ``by_chance`` the product of their own shares.
+    """
+    holds = verdicts.assign(holds=verdicts.holds == YES).pivot(index="set", columns="id", values="holds")
+    rows = []
+    for one, other in itertools.combinations(holds.columns, 2):
+        pair = holds[[one, other]].dropna().astype(bool)
+        shares = pair.mean()
+        both, chance = float(pair.all(axis=1).mean()), float(shares.prod())
+        if shares.min() >= _RARE and both < _SELDOM * chance:
+            rows.append((one, other, shares[one], shares[other], both, chance))
+    columns = ["id", "other_id", "share", "other_share", "both", "by_chance"]
+    return pd.DataFrame(rows, columns=columns).sort_values("both", ignore_index=True)

@@ -1,0 +1,186 @@
+"""One kind of job: the small study of each of some sets of inputs, its verdicts and measures."""
+
+import math
+import time
+from collections.abc import Callable, Iterable, Mapping
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+import pandas as pd
+from threadpoolctl import threadpool_limits
+
+from bladerub.blade.build import build
+from bladerub.blade.built import write
+from bladerub.blade.cache import kept_at
+from bladerub.blade.files import accuracy_path, paths
+from bladerub.config import read as configuration
+from bladerub.config.errors import ConfigError
+from bladerub.config.files import Located
+from bladerub.extras.small_study import conduct
+from bladerub.extras.variations.factors import lay_over
+from bladerub.extras.variations.plan import Job, Part, Plan
+from bladerub.extras.variations.targets import measure
+from bladerub.extras.variations.waves import known
+from bladerub.io import lock, tables
+from bladerub.io.provenance import config_digest, provenance
+from bladerub.study.grid import coating_cases, speeds
+
+VERDICTS = ["set", "id", "claim", "paper", "measured", "unit", "holds", "margin"]
+"""Columns of the verdicts."""
+
+QUANTITIES = ["set", "target", "value"]
+"""Columns of the measured targets; NaN where a study has nothing to measure."""
+
+COST = ["part", "set", "runs", "cpu_s"]
+"""Columns of the cost of the small studies: runs, and processor time in s without that of the blade."""
+
+_DETERMINING = ("blade", "reduction", "contact", "coatings", "speeds", "solver", "analysis")  # and casings
+
+
+class Case(NamedTuple):
+    """One small study: the config of one set of inputs and one part."""
+
+    set: str | int
+    part: Part
+    config: Located  # values not checked
+
+    def checked(self) -> dict[str, Any]:
+        """Return the config; raises `ConfigError` if the values make no study together."""
+        is_listed = self.set == self.part.name
+        name = self.part.name if is_listed else f"parts.{self.part.name}, set {self.set}"
+        return configuration.validate(self.config, name)
+
+
+class Judged(NamedTuple):
+    """What some sets show: tables with `VERDICTS`, `QUANTITIES` and `COST`."""
+
+    verdicts: pd.DataFrame
+    quantities: pd.DataFrame
+    cost: pd.DataFrame
+
+
+def cases(
+    study: Mapping[str, Any], plan: Plan, job: Job, positions: Mapping[str | int, np.ndarray | None]
+) -> list[Case]:
+    """Make the config of each small study of a job, from the `study` that is varied.
+
+    `positions` (d,) in the ranges of the factors are by set, None for the study's own values; a set that has
+    none is left out. Raises `ConfigError` if a factor sets what the study does not have.
+    """
+    return [
+        Case(name, part, _varied(study, plan, part, positions[name]))
+        for name in job.sets
+        for part in job.parts
+        if name in positions
+    ]
+
+
+# Threads take longer than the splines of a blade's sections
+@threadpool_limits.wrap(limits=1, user_api="blas")
+def check(study: Mapping[str, Any], plan: Plan) -> None:
+    """Check every set whose position the plan has; raises `ConfigError`, naming part and set.
+
+    The problems of all sets that are listed are reported together, of those that are drawn the first.
+    """
+    jobs, positions = plan.jobs().values(), known(plan)
+    if plan.candidates:
+        positions = dict(enumerate(plan.listed(study)))
+        jobs = [Job(tuple(positions), (*plan.parts.values(), plan.candidates.part))]
+    problems = []
+    for job in jobs:
+        for case in cases(study, plan, job, positions):
+            try:
+                case.checked()
+            except ConfigError as error:
+                if plan.factors:
+                    raise
+                problems += error.problems
+    if problems:
+        raise ConfigError(problems)
+
+
+def determinants(study: Mapping[str, Any], plan: Plan, job: Job) -> list[Any]:
+    """Return what determines the results of a job but code: a change is a reason to run it.
+
+    Sets whose positions the plan does not have stand there with the study's own values, beside the factors.
+    """
+    positions = known(plan) or dict.fromkeys(job.sets)
+    factors = [] if known(plan) else [(f.name, f.ranges, f.logarithmic, f.multiple_of) for f in plan.factors]
+    digests = [
+        (case.set, case.part.claims, digest(case.config.plain()))
+        for case in cases(study, plan, job, positions)
+    ]
+    return [*digests, *factors]
+
+
+def digest(config: Mapping[str, Any]) -> str:
+    """Digest those parts of its config that determine what a small study shows."""
+    used = {case.casing for case in coating_cases(config)}
+    determining = {key: config[key] for key in _DETERMINING}
+    determining["casings"] = {name: config["casings"][name] for name in sorted(used)}
+    return config_digest(determining)
+
+
+def minutes(study: Mapping[str, Any], plan: Plan, job: Job) -> int:
+    """Return the time to ask a cluster for: a minute a set, and three times what the revolutions took."""
+    revolutions = 0.0
+    for case in cases(study, plan, job, known(plan) or dict.fromkeys(job.sets)):
+        config = case.config.plain()
+        runs = len(coating_cases(config)) * len(speeds(config))
+        scale = config["contact"]["elements"] / study["contact"]["elements"]
+        revolutions += runs * config["solver"]["revolutions"] * scale
+    return math.ceil(1 + len(job.sets) + 0.03 * revolutions / 60)
+
+
+def judge(
+    cases: Iterable[Case],
+    blades: str | Path,
+    folder: str | Path | None = None,
+    report: Callable[[object], None] = lambda line: None,
+) -> Judged:
+    """Make the small study of each case, judge the claims of its part and measure their targets.
+
+    Each blade is built once in a folder of `blades`. `folder`, for the only case, keeps runs, maps, peaks and
+    divergence; without it they are in memory alone. `report` is as of `bladerub.study.job.compute_missing`.
+    Raises `ConfigError` if the values of a case make no study together.
+    """
+    verdicts, quantities, cost = [], [], []
+    for case in cases:
+        config = case.checked()
+        model = blade_of(config, blades, report)
+        start = time.process_time()
+        study = conduct(config, model, accuracy_path(model), folder, case.part.claims, report)
+        cost.append((case.part.name, case.set, study.n_runs, time.process_time() - start))
+        verdicts.append(study.findings.assign(set=case.set)[VERDICTS])
+        if case.part.claims:
+            measured = measure(study.evidence, case.part.claims)
+            quantities += [(case.set, name, value) for name, value in measured.items()]
+        for name in ("peaks", "divergence") if folder else ():
+            tables.write(Path(folder) / "tables" / f"{name}.csv", getattr(study, name), provenance(config))
+    return Judged(
+        pd.concat(verdicts, ignore_index=True),
+        pd.DataFrame(quantities, columns=QUANTITIES),
+        pd.DataFrame(cost, columns=COST),
+    )
+
+
+def blade_of(config: Mapping[str, Any], blades: str | Path, report: Callable[[object], None]) -> Path:
+    """Return the file of the reduced blade of `config`, in a folder of `blades`; built if it is not there."""
+    folder = Path(blades) / kept_at(config).parent.name
+    model = folder / "reduced_model.h5"
+    with lock.held(folder / ".lock", lambda: report(f"another job builds the blade in {folder}")):
+        if not model.exists():
+            write(build(config), provenance(config), *paths(model))
+    return model
+
+
+def read(paths: Iterable[str | Path], columns: list[str]) -> pd.DataFrame:
+    """Read a table of several jobs as one, with `columns`."""
+    jobs = [tables.read(path, columns) for path in paths]
+    return pd.concat([job for job in jobs if len(job)] or jobs[:1], ignore_index=True)
+
+
+def _varied(study: Mapping[str, Any], plan: Plan, part: Part, position: np.ndarray | None) -> Located:
+    varied = configuration.vary(study, *part.study)
+    return varied if position is None else lay_over(varied, plan.factors, position)

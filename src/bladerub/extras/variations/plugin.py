@@ -1,0 +1,3 @@
+"""The study repeated with other inputs."""
+
+SECTIONS = {"calibration": "extras.variations.settings:CALIBRATION"}

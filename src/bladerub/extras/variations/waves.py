@@ -1,0 +1,126 @@
+"""The sampler: positions of sets in the ranges of the factors.
+
+Those of a robustness, and of the first wave of an identification, are spread over all ranges (a scrambled
+Sobol sequence), those of later waves over what is left.
+"""
+
+from collections.abc import Iterable, Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+import pandas as pd
+from scipy.spatial.distance import cdist
+from scipy.stats import qmc
+
+from bladerub.extras.variations.implausibility import CUTOFF, predicted, without
+from bladerub.extras.variations.plan import REFERENCE, Plan
+from bladerub.io.tables import read as read_table
+
+if TYPE_CHECKING:
+    from bladerub.extras.variations.emulator import Emulator
+
+POSITIONS = ["set", "factor", "range_fraction"]
+"""Columns of the sets of a wave: each factor as a fraction of its range."""
+
+POINTS = 2**14
+"""Points at which it is asked what is left of the ranges; a power of two."""
+
+DRAWN = 256
+"""Least number of points drawn from what is left: the next sets are the first of them."""
+
+_ENOUGH = 10  # points left for each to draw, or more are looked for near those there are
+_REACH = 0.1  # how far, in ranges
+_ROUNDS = 5
+
+
+class Remaining(NamedTuple):
+    """What is left of the ranges."""
+
+    points: np.ndarray  # (m, d), plausible ones of `POINTS` spread evenly
+    share: float  # of the volume
+    given_up: int  # targets that had to be, so that enough was left
+    plausible: pd.Series  # share of the volume that each target alone leaves
+
+
+def design(plan: Plan) -> np.ndarray:
+    """Return the positions (n, d) of all samples of a robustness."""
+    return _spread(plan, np.random.default_rng(plan.seed), plan.waves[0])
+
+
+def known(plan: Plan) -> dict[str | int, np.ndarray | None]:
+    """Return the position (d,) of each set of a calibration or robustness; None with the study's own values.
+
+    Those of an identification are in tables, because later waves depend on the results of earlier ones.
+    """
+    if plan.candidates:
+        return {}
+    return {REFERENCE: None, **dict(enumerate(design(plan)))} if plan.factors else dict.fromkeys(plan.parts)
+
+
+def first(plan: Plan, study: Mapping[str, Any]) -> np.ndarray:
+    """Return the positions (n, d) of the first wave: the study's own, the given ones, a Sobol sequence."""
+    return np.vstack([plan.listed(study), design(plan)])
+
+
+def as_table(plan: Plan, number: int, drawn: np.ndarray) -> pd.DataFrame:
+    """Make the table of the sets `drawn` (n, d), numbered from `number`, with `POSITIONS`."""
+    names = [factor.name for factor in plan.factors]
+    numbers = np.repeat(np.arange(number, number + len(drawn)), len(names))
+    return pd.DataFrame({"set": numbers, "factor": names * len(drawn), "range_fraction": np.ravel(drawn)})
+
+
+def with_values(plan: Plan, table: pd.DataFrame) -> pd.DataFrame:
+    """Add to a table with `POSITIONS` the first number that each factor sets, and its unit."""
+    by_name = {factor.name: factor for factor in plan.factors}
+    factors = [by_name[name] for name in table.factor]
+    positions = zip(factors, table.range_fraction, strict=True)
+    values = [factor.first_value(position) for factor, position in positions]
+    return table.assign(value=values, unit=[factor.unit for factor in factors])
+
+
+def read(paths: Iterable[str | Path], index: str | list[str] = "set") -> pd.DataFrame:
+    """Read positions: a row for each set, or another `index`, a column for each factor in order."""
+    long = pd.concat([read_table(path, POSITIONS) for path in paths])
+    wide = long.pivot(index=index, columns="factor", values="range_fraction")
+    return wide[list(dict.fromkeys(long.factor))]
+
+
+def remaining(plan: Plan, emulated: Mapping[str, "Emulator"]) -> Remaining:
+    """Find what is left of the ranges; as few targets are given up as leave the share of the plan."""
+    points = _spread(plan, np.random.default_rng([plan.seed, 0]), POINTS)
+    implausible = predicted(emulated, points)
+    for given_up in range(implausible.shape[1] + 1):
+        plausible = without(implausible, given_up) <= CUTOFF
+        if plausible.mean() >= plan.remaining:
+            break
+    return Remaining(points[plausible], float(plausible.mean()), given_up, (implausible <= CUTOFF).mean())
+
+
+def draw(
+    plan: Plan, wave: int, remainder: Remaining, emulated: Mapping[str, "Emulator"], simulated: np.ndarray
+) -> np.ndarray:
+    """Draw plausible points (n, d) for the wave after `wave`, far from each other and from the `simulated`.
+
+    Each is as far as possible from those before it. There are `DRAWN`, or as many as the wave needs.
+    """
+    rng = np.random.default_rng([plan.seed, wave])
+    count = max(DRAWN, *plan.waves)
+    points = remainder.points
+    for _ in range(_ROUNDS):
+        if len(points) >= _ENOUGH * count:
+            break
+        neighbours = points[rng.integers(len(points), size=POINTS // 4)]
+        neighbours = np.clip(neighbours + rng.uniform(-_REACH, _REACH, neighbours.shape), 0.0, 1.0)
+        plausible = without(predicted(emulated, neighbours), remainder.given_up) <= CUTOFF
+        points = np.vstack([points, neighbours[plausible]])
+    distance, indices = cdist(points, simulated).min(axis=1), []
+    for _ in range(min(count, len(points))):
+        indices.append(int(distance.argmax()))
+        distance = np.minimum(distance, cdist(points, points[indices[-1:]])[:, 0])
+    return points[indices]
+
+
+def _spread(plan: Plan, rng: np.random.Generator, count: int) -> np.ndarray:
+    sequence = qmc.Sobol(len(plan.factors), scramble=True, rng=rng)
+    return sequence.random_base2(int(np.ceil(np.log2(count))))[:count]

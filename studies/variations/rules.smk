@@ -1,0 +1,352 @@
+# The study repeated with other inputs: calibration, robustness, identification; and on parts of itself: margins. Only
+# the last is part of `all`.
+from functools import cache
+
+PLANS = {
+    "calibration": config["calibration"],
+    "robustness": "config/robustness.yaml",
+    "identification": "config/identification.yaml",
+}
+OF_SETS = f"{RESULTS}/identification"
+
+
+@cache
+def variations_plan(kind):
+    """The plan of that kind; read and checked only when somebody asks for it."""
+    from bladerub.extras.variations.job import check
+    from bladerub.extras.variations.plan import read
+
+    with bladerub.io.errors.exit_on_error():
+        key = kind if kind in config else None
+        plan = read(kind, PLANS[kind], key)
+        if workflow.is_main_process:
+            check(config, plan)
+    return plan
+
+
+def identification_plan():
+    return variations_plan("identification")
+
+
+@cache
+def determining_sets(kind, job):
+    """All of plan and study that determines what the sets of a job show: a changed one is a reason to run."""
+    from bladerub.extras.variations.job import determinants
+
+    plan = variations_plan(kind)
+    with bladerub.io.errors.exit_on_error():
+        return determinants(config, plan, plan.jobs()[job])
+
+
+def of_jobs(kind, file, *folders):
+    """What the jobs of a plan, or those whose name begins with one of the folders, write under that name."""
+    return [
+        f"{RESULTS}/{kind}/{job}/{file}"
+        for job in variations_plan(kind).jobs()
+        if job.startswith(folders or "")
+    ]
+
+
+def drawn_sets(wildcards):
+    """The table with the sets of a job, of an identification."""
+    if wildcards.kind != "identification":
+        return []
+    folder = wildcards.job.partition("/")[0]
+    name = "candidates" if folder == "candidates" else "sets"
+    return f"{OF_SETS}/{folder}/{name}.csv"
+
+
+def variations_kernels(wildcards):
+    """The machine code that the sets need: jobs that start together would all compile it."""
+    factors = variations_plan(wildcards.kind).factors
+    turns = any("contact.tip_turns" in factor.ranges for factor in factors)
+    both = [rules.compile_kernel.output[0], rules.identification_kernel.output[0]]
+    return both if turns else both[:1]
+
+
+def variation_minutes(wildcards, attempt):
+    """As `coating_minutes`, over the coatings and elements of the small studies, and a minute for each blade."""
+    from bladerub.extras.variations.job import minutes
+
+    plan = variations_plan(wildcards.kind)
+    return attempt * minutes(config, plan, plan.jobs()[wildcards.job])
+
+
+use rule compile_kernel as identification_kernel with:
+    output:
+        f"{OF_SETS}/kernel.json",
+    log:
+        f"{RESULTS}/logs/identification_kernel.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/identification_kernel.tsv"
+    params:
+        tip_turns=True,
+
+
+# The one kind of job; the blades are beside it, undeclared, under the digest of what they are built from
+rule variation:
+    input:
+        sets=drawn_sets,
+        kernel=variations_kernels,
+        building=rules.blade.input.code,
+        given=rules.blade.input.given,
+        simulating=files_behind("extras.variations.job", "study.findings"),
+    output:
+        **described(
+            verdicts=f"{RESULTS}/{{kind}}/{{job}}/verdicts.csv",
+            quantities=f"{RESULTS}/{{kind}}/{{job}}/quantities.csv",
+            cost=f"{RESULTS}/{{kind}}/{{job}}/cost.csv",
+        ),
+    log:
+        f"{RESULTS}/logs/{{kind}}/{{job}}.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/{{kind}}/{{job}}.tsv"
+    wildcard_constraints:
+        kind="|".join(PLANS),
+        job="[A-Za-z0-9_.]+(/[A-Za-z0-9_]+)?",
+    resources:
+        mem_mb=memory_mb,  # 600 measured
+        runtime=variation_minutes,
+    params:
+        plan=lambda wildcards: PLANS[wildcards.kind],
+        determining=lambda wildcards: determining_sets(wildcards.kind, wildcards.job),
+        blades=f"{RESULTS}/{{kind}}/blades",
+        # only of a calibration are runs and maps kept
+        folder=lambda wildcards: (
+            f"{RESULTS}/calibration/{wildcards.job}"
+            if wildcards.kind == "calibration"
+            else None
+        ),
+    script:
+        "scripts/variation.py"
+
+
+rule calibration:
+    input:
+        verdicts=lambda wildcards: of_jobs("calibration", "verdicts.csv"),
+        summing=files_behind("extras.variations.calibration"),
+        drawing=files_behind("extras.variations.verdicts", "plots.style"),
+    output:
+        **described(
+            table=f"{TABLES}/calibration.csv",
+            counts=f"{TABLES}/calibration_counts.csv",
+        ),
+        png=f"{PLOTS}/calibration.png",
+        pdf=f"{PLOTS}/calibration.pdf",
+    log:
+        f"{RESULTS}/logs/calibration.log",
+    params:
+        dpi=DPI,
+    script:
+        "scripts/calibration.py"
+
+
+rule robustness:
+    input:
+        verdicts=lambda wildcards: of_jobs("robustness", "verdicts.csv"),
+        cost=lambda wildcards: of_jobs("robustness", "cost.csv"),
+        plan=PLANS["robustness"],
+        analysing=files_behind("study.findings", "extras.variations.robustness"),
+        drawing=files_behind("extras.variations.figures", "plots.style"),
+    output:
+        **drawn("robustness", "Claims"),
+        **described(
+            table=shown(f"{TABLES}/robustness.csv", "robustness_table", "Claims"),
+            indices=f"{TABLES}/robustness_indices.csv",
+            verdicts=f"{TABLES}/robustness_verdicts.csv",
+            design=f"{TABLES}/robustness_design.csv",
+        ),
+    log:
+        f"{RESULTS}/logs/robustness.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/robustness.tsv"
+    params:
+        dpi=DPI,
+    script:
+        "scripts/robustness.py"
+
+
+def waves_up_to(last=None):
+    """Numbers of the waves up to one, of all of the plan without it."""
+    return range(1, (last or len(identification_plan().waves)) + 1)
+
+
+def of_waves(file, last=None):
+    """What there is of these waves under that name."""
+    return [f"{OF_SETS}/wave{wave}/{file}" for wave in waves_up_to(last)]
+
+
+def of_sets(file, last=None):
+    """What all jobs of these waves write under that name."""
+    folders = [f"wave{wave}/" for wave in waves_up_to(last)]
+    return of_jobs("identification", file, *folders)
+
+
+rule identification_wave:
+    input:
+        next_sets=lambda wildcards: (
+            []
+            if wildcards.wave == "1"
+            else f"{OF_SETS}/wave{int(wildcards.wave) - 1}/next_sets.csv"
+        ),
+    output:
+        **described(sets=f"{OF_SETS}/wave{{wave}}/sets.csv"),
+    log:
+        f"{RESULTS}/logs/identification_wave/{{wave}}.log",
+    wildcard_constraints:
+        wave="[0-9]+",
+    resources:
+        mem_mb=memory_mb,
+        runtime=minutes(5),
+    params:
+        plan=PLANS["identification"],
+        ranges=lambda wildcards: [
+            (factor.name, factor.ranges) for factor in identification_plan().factors
+        ],
+        drawn=lambda wildcards: identification_plan().size(int(wildcards.wave)),
+    script:
+        "scripts/identification_wave.py"
+
+
+rule identification_left:
+    input:
+        sets=lambda wildcards: of_waves("sets.csv", int(wildcards.wave)),
+        quantities=lambda wildcards: of_sets("quantities.csv", int(wildcards.wave)),
+        drawing=files_behind("extras.variations.waves"),
+    output:
+        **described(
+            left=f"{OF_SETS}/wave{{wave}}/left.csv",
+            emulators=f"{OF_SETS}/wave{{wave}}/emulators.csv",
+            ranges=f"{OF_SETS}/wave{{wave}}/ranges.csv",
+            next_sets=f"{OF_SETS}/wave{{wave}}/next_sets.csv",
+            predictions=f"{OF_SETS}/wave{{wave}}/predictions.csv",
+        ),
+    log:
+        f"{RESULTS}/logs/identification_left/{{wave}}.log",
+    wildcard_constraints:
+        wave="[0-9]+",
+    resources:
+        mem_mb=memory_mb,
+        runtime=minutes(120),
+    params:
+        plan=PLANS["identification"],
+        remaining=lambda wildcards: identification_plan().remaining,
+    script:
+        "scripts/identification_left.py"
+
+
+rule identification_candidates:
+    input:
+        sets=lambda wildcards: of_waves("sets.csv"),
+        quantities=lambda wildcards: of_sets("quantities.csv"),
+        verdicts=lambda wildcards: of_sets("verdicts.csv"),
+        choosing=files_behind("extras.variations.candidates"),
+    output:
+        **described(candidates=f"{OF_SETS}/candidates/candidates.csv"),
+    log:
+        f"{RESULTS}/logs/identification_candidates.log",
+    resources:
+        mem_mb=memory_mb,
+        runtime=minutes(5),
+    params:
+        plan=PLANS["identification"],
+        wanted=lambda wildcards: identification_plan().candidates.pairs,
+        shift=lambda wildcards: identification_plan().candidates.shift,
+    script:
+        "scripts/identification_candidates.py"
+
+
+rule identify:
+    input:
+        sets=lambda wildcards: of_waves("sets.csv"),
+        quantities=lambda wildcards: of_sets("quantities.csv"),
+        verdicts=lambda wildcards: of_sets("verdicts.csv"),
+        left=lambda wildcards: of_waves("left.csv"),
+        emulators=lambda wildcards: of_waves("emulators.csv"),
+        ranges=lambda wildcards: of_waves("ranges.csv"),
+        next_sets=lambda wildcards: of_waves("next_sets.csv"),
+        predictions=lambda wildcards: of_waves("predictions.csv"),
+        candidates=rules.identification_candidates.output.candidates,
+        judged=lambda wildcards: of_jobs(
+            "identification", "verdicts.csv", "candidates/"
+        ),
+        plan=PLANS["identification"],
+        summing=files_behind(
+            "extras.variations.identification", "extras.variations.candidates"
+        ),
+        drawing=files_behind("extras.variations.figures", "plots.style"),
+    output:
+        **drawn("identification", "Claims"),
+        **described(
+            **{
+                name: f"{TABLES}/identification_{name}.csv"
+                for name in (
+                    "sets",
+                    "waves",
+                    "emulators",
+                    "targets",
+                    "ranges",
+                    "exclusions",
+                    "candidates",
+                    "counts",
+                    "verdicts",
+                )
+            }
+        ),
+    log:
+        f"{RESULTS}/logs/identify.log",
+    resources:
+        mem_mb=memory_mb,
+        runtime=minutes(10),
+    params:
+        dpi=DPI,
+    script:
+        "scripts/identify.py"
+
+
+# How far the analysis itself decides the verdicts
+rule margins:
+    input:
+        maps=expand(rules.coating.output.map, coating=COATINGS),
+        rom_accuracy=rules.blade_tables.output.rom_accuracy,
+        analysing=files_behind("extras.variations.margins", "study.findings"),
+        drawing=files_behind("extras.variations.verdicts", "plots.style"),
+    output:
+        **drawn("margins", "Claims"),
+        **described(table=shown(f"{TABLES}/margins.csv", "margins_table", "Claims")),
+    log:
+        f"{RESULTS}/logs/margins.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/margins.tsv"
+    params:
+        analysis=config["analysis"] | {"peaks": PEAKS},
+        speeds=config["speeds"],
+        dpi=DPI,
+    script:
+        "scripts/margins.py"
+
+
+# The paper speaks of its own blade: one from another program is not judged by its claims
+if "source" not in config["blade"]:
+    ADDED_TO_ALL["margins"] = rules.margins.output
+
+
+# The pictures of the pages, with as few colours as each does with
+PICTURES = {
+    "docs/images/margins": 48,
+    "studies/variations/robustness/images/robustness": 20,
+    "studies/variations/identification/images/identification": 8,
+}
+
+
+use rule images as variations_image with:
+    input:
+        lambda wildcards: f"{PLOTS}/{Path(wildcards.picture).name}.png",
+    output:
+        "{picture}.png",
+    log:
+        f"{RESULTS}/logs/variations_image/{{picture}}.log",
+    wildcard_constraints:
+        picture="|".join(PICTURES),
+    params:
+        colours=lambda wildcards: PICTURES[wildcards.picture],

@@ -1,0 +1,33 @@
+"""Simulate some sets of inputs of a plan: the verdicts on the claims, and measures of them."""
+
+from bladerub.workflow import job
+
+job.log_to(snakemake.log[0])
+
+import sys
+
+from bladerub.config import read as configuration
+from bladerub.extras.variations import candidates, waves
+from bladerub.extras.variations.job import cases, judge
+from bladerub.extras.variations.plan import read
+from bladerub.io import tables
+from bladerub.io.provenance import provenance
+
+kind, name, path = snakemake.wildcards.kind, snakemake.wildcards.job, snakemake.params.plan
+plan = read(kind, path)
+if name.startswith("candidates/"):
+    positions = dict(enumerate(candidates.read(snakemake.input.sets).to_numpy()))
+elif snakemake.input.sets:
+    drawn = waves.read([snakemake.input.sets])
+    positions = dict(zip(drawn.index, drawn.to_numpy(), strict=True))
+else:
+    positions = waves.known(plan)
+results = judge(
+    cases(snakemake.config, plan, plan.jobs()[name], positions),
+    snakemake.params.blades,
+    snakemake.params.folder,
+    report=lambda line: print(line, file=sys.stderr),
+)
+origin = provenance({**snakemake.config, kind: configuration.load(path)})
+for table, content in results._asdict().items():
+    tables.write(snakemake.output[table], content, origin)
