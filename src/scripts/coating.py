@@ -1,4 +1,4 @@
-"""Compute the runs of one coating that are missing or stale, collect them in its map, write the manifest."""
+"""Compute the runs of a coating, or rows of blades, that are missing or stale, and write map and manifest."""
 
 from bladerub.workflow import job
 
@@ -26,6 +26,7 @@ rows = compute_missing(
     report=progress,
     threads=snakemake.threads,
 )
-build_map(snakemake.config, plan.case, blade, folder, rows, snakemake.output.map)
+if path := snakemake.output.get("map"):  # rows of blades have none
+    build_map(snakemake.config, plan.case, blade, folder, rows, path)
 write_manifest(snakemake.output.manifest, rows)
 progress.finish(rows)

@@ -42,7 +42,7 @@ rule rotor_combination:
         blade=rules.blade.output.reduced_model,
         kernel=rules.compile_kernel.output[0],
     output:
-        ROW_MANIFEST,
+        manifest=ROW_MANIFEST,
     log:
         f"{RESULTS}/logs/rotor_combination/{{combination}}.log",
     benchmark:
@@ -51,11 +51,11 @@ rule rotor_combination:
         mem_mb=memory_mb,
         runtime=rotor_minutes,
     params:
-        folder=subpath(output[0], parent=True),
+        folder=subpath(output.manifest, parent=True),
         plan=lambda wildcards: rotor_runs(wildcards.combination),
         planned=planned_rows,
     script:
-        "scripts/combination.py"
+        script_of("coating")
 
 
 def rotor_manifests(wildcards):
