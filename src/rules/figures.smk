@@ -62,6 +62,7 @@ rule fig01_blade:
         drawing=files_behind("plots.blade_mesh"),
     output:
         **drawn("fig01_blade", "Model"),
+    group: "drawing"
     log:
         f"{RESULTS}/logs/fig01_blade.log",
     benchmark:
@@ -79,6 +80,7 @@ rule fig02_campbell:
         drawing=files_behind("plots.campbell"),
     output:
         **drawn("fig02_campbell", "Model", with_data=True),
+    group: "drawing"
     log:
         f"{RESULTS}/logs/fig02_campbell.log",
     benchmark:
@@ -97,6 +99,7 @@ rule fig03_tip_profile:
         drawing=files_behind("plots.tip_profile"),
     output:
         **drawn("fig03_tip_profile", "Model", with_data=True),
+    group: "drawing"
     log:
         f"{RESULTS}/logs/fig03_tip_profile.log",
     benchmark:
@@ -115,6 +118,7 @@ rule fig04_coating_cycle:
         drawing=files_behind("plots.coating_cycle"),
     output:
         **drawn("fig04_coating_cycle", "Model", with_data=True),
+    group: "drawing"
     log:
         f"{RESULTS}/logs/fig04_coating_cycle.log",
     benchmark:
@@ -136,6 +140,7 @@ rule casing:
         **described(data=f"{PLOTS}/casing/{{casing}}.csv"),
         png=f"{PLOTS}/casing/{{casing}}.png",
         pdf=f"{PLOTS}/casing/{{casing}}.pdf",
+    group: "drawing"
     log:
         f"{RESULTS}/logs/casing/{{casing}}.log",
     benchmark:
@@ -171,6 +176,7 @@ rule wear_map:
     output:
         png=f"{PLOTS}/wear_map/{{coating}}.png",
         pdf=f"{PLOTS}/wear_map/{{coating}}.pdf",
+    group: "drawing"
     log:
         f"{RESULTS}/logs/wear_map/{{coating}}.log",
     benchmark:
@@ -203,6 +209,7 @@ rule spectrum:
     output:
         png=f"{PLOTS}/spectrum/{{coating}}.png",
         pdf=f"{PLOTS}/spectrum/{{coating}}.pdf",
+    group: "drawing"
     log:
         f"{RESULTS}/logs/spectrum/{{coating}}.log",
     benchmark:
@@ -290,6 +297,7 @@ rule fig10_peaks:
         drawing=rules.spectrum.input.drawing,
     output:
         **drawn("fig10_peaks", "Wear and spectra", with_data=True),
+    group: "drawing"
     log:
         f"{RESULTS}/logs/fig10_peaks.log",
     benchmark:
@@ -317,6 +325,7 @@ rule histograms:
         drawing=files_behind("plots.histogram"),
     output:
         **drawn_together(HISTOGRAMS, "Moduli of the coating"),
+    group: "drawing"
     log:
         f"{RESULTS}/logs/histograms.log",
     benchmark:
@@ -347,6 +356,7 @@ rule histories:
         drawing=files_behind("plots.history"),
     output:
         **drawn_together(HISTORIES, "Angle of the elements"),
+    group: "drawing"
     log:
         f"{RESULTS}/logs/histories.log",
     benchmark:
@@ -365,6 +375,7 @@ rule fig19_wear_polar:
         drawing=files_behind("plots.polar"),
     output:
         **drawn("fig19_wear_polar", "Angle of the elements", with_data=True),
+    group: "drawing"
     log:
         f"{RESULTS}/logs/fig19_wear_polar.log",
     benchmark:

@@ -29,6 +29,7 @@ rule ensemble:
     output:
         ENSEMBLE,
         members=MEMBERS,
+    group: "rubs"
     log:
         f"{RESULTS}/logs/ensemble/{{coating}}.log",
     benchmark:
@@ -61,6 +62,7 @@ rule peaks:
         analysing=files_behind("study.bands"),
     output:
         **described(table=f"{TABLES}/peaks.csv"),
+    group: "drawing"
     log:
         f"{RESULTS}/logs/peaks.log",
     benchmark:
@@ -79,6 +81,7 @@ rule divergence:
         analysing=files_behind("study.bands"),
     output:
         **described(table=f"{TABLES}/divergence.csv"),
+    group: "drawing"
     log:
         f"{RESULTS}/logs/divergence.log",
     benchmark:
@@ -111,6 +114,7 @@ rule findings:
         analysing=files_behind("study.bands"),
     output:
         **described(table=shown(f"{TABLES}/findings.csv", "findings", "Claims")),
+    group: "drawing"
     log:
         f"{RESULTS}/logs/findings.log",
     benchmark:

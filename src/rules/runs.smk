@@ -92,6 +92,7 @@ rule coating:
     output:
         manifest=MANIFEST,
         map=MAP,
+    group: "rubs"
     log:
         f"{RESULTS}/logs/coating/{{coating}}.log",
     benchmark:

@@ -9,6 +9,7 @@ rule finer_bars:
         analysing=files_behind("extras.verification.refinement"),
     output:
         **described(table=f"{TABLES}/finer_bars.csv"),
+    group: "drawing"
     log:
         f"{RESULTS}/logs/finer_bars.log",
     benchmark:
@@ -27,6 +28,7 @@ rule more_nodes:
         analysing=files_behind("extras.verification.refinement"),
     output:
         **described(table=f"{TABLES}/more_nodes.csv"),
+    group: "drawing"
     log:
         f"{RESULTS}/logs/more_nodes.log",
     benchmark:
@@ -47,6 +49,7 @@ rule rigid_convergence:
         analysing=files_behind("extras.verification.rigid_casing"),
     output:
         **described(table=f"{TABLES}/rigid_convergence.csv"),
+    group: "drawing"
     log:
         f"{RESULTS}/logs/rigid_convergence.log",
     benchmark:

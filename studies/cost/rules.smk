@@ -23,6 +23,7 @@ rule cost:
         **described(table=f"{MEASURED}/cost.csv", schedule=f"{MEASURED}/schedule.csv"),
         png=shown(f"{MEASURED}/cost.png", "cost", "Cost"),
         pdf=f"{MEASURED}/cost.pdf",
+    group: "drawing"
     log:
         f"{RESULTS}/logs/cost.log",
     params:

@@ -19,6 +19,7 @@ rule explorer:
         drawing=files_behind("plots.spectrum"),
     output:
         f"{RESULTS}/explorer.html",
+    group: "drawing"
     log:
         f"{RESULTS}/logs/explorer.log",
     benchmark:

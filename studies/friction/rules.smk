@@ -12,6 +12,7 @@ rule friction:
     output:
         **drawn("friction", "Angle of the elements"),
         **described(table=f"{TABLES}/friction.csv"),
+    group: "drawing"
     log:
         f"{RESULTS}/logs/friction.log",
     benchmark:

@@ -11,6 +11,7 @@ rule laws:
         drawing=files_behind("extras.plots.law_cycles"),
     output:
         **drawn("laws", "Model", with_data=True),
+    group: "drawing"
     log:
         f"{RESULTS}/logs/laws.log",
     benchmark:

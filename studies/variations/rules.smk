@@ -314,6 +314,7 @@ rule margins:
     output:
         **drawn("margins", "Claims"),
         **described(table=shown(f"{TABLES}/margins.csv", "margins_table", "Claims")),
+    group: "drawing"
     log:
         f"{RESULTS}/logs/margins.log",
     benchmark:
