@@ -30,7 +30,7 @@ def test_a_page_of_the_documents(text, followed):
     ("text", "followed"),
     [
         ("[a](../../docs/config.md)", "[a](../config.md)"),
-        ("[a](../robustness/README.md)", "[a](robustness.md)"),
+        ("[a](../variations/robustness/README.md)", "[a](robustness.md)"),
         ("![a](images/chart_Y4.png)", "![a](../../studies/chart/images/chart_Y4.png)"),
     ],
 )
