@@ -10,7 +10,8 @@ A folder says what it adds in its ``plugin.py``, which imports nothing: each val
 ``MANIFESTS``   rows of the manifests in folders of a name, for checks of all files
 ``INVENTORIES`` what counts runs beside those of the coatings, for ``bladerub status``
 ``MEASURES``    what a run may be asked for besides itself, each with its module
-``SOURCES``     keys of ``blade.source`` of the config, each with its module (`bladerub.blade.source`)
+``SOURCES``     keys of ``blade.source`` of the config, each with its module (`bladerub.blade.source`);
+                what the config says below one is in ``SECTIONS``
 ``CASINGS``     casings that are no sum of nodal diameters, by the key of the config that describes them
 ``LAWS``        laws of the coating by name, each with the module for the loop (`bladerub.contact.laws`)
 ``CHECKS``      what a law of the coating must satisfy in a layer: functions of both that raise `ValueError`
@@ -19,7 +20,8 @@ A folder says what it adds in its ``plugin.py``, which imports nothing: each val
 ``DATASETS``    what a run file may hold besides that of a single blade: a dictionary as of the store
 ``SOLVERS``     what computes runs instead of the processor, by the name in ``solver.device``
 ``SECTIONS``    keys of the config by their path, such as ``blade.source``, each with its type: a model
-                or an annotated type (`bladerub.config.fields`). One with a default is in every config
+                or an annotated type (`bladerub.config.fields`). One with a default is in every config,
+                and one below another that plugs in is a key of that
 ``AGREEMENTS``  functions that yield the problems of a config that has a section, by its name
                 (`bladerub.config.checks.reads`)
 ``NEEDS``       names of other folders, without which a folder adds nothing

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 
+from bladerub import plugins
 from bladerub.config.docstrings import docstrings
 from bladerub.config.fields import Section
 from bladerub.config.keys import NUMBERS, Key, key_of
@@ -86,6 +87,29 @@ def test_the_core_reads_its_study_without_extras_and_refuses_their_keys_in_a_lin
         "mine.yaml:1: chart",
         "mine.yaml:3: solver.device",
     ]
+
+
+class Profile(Section):
+    """A source of blades."""
+
+    digits: str
+
+
+class File(Section):
+    """A source with sources of other plugins beside it."""
+
+    file: str
+
+
+@pytest.mark.parametrize("others", [{}, {"blade.source": File}])
+def test_a_key_plugs_in_below_a_section_that_plugs_in_or_is_not_there(monkeypatch, others):
+    monkeypatch.setattr(plugins, "loaded", lambda kind: {"blade.source.profile": Profile} | others)
+    source = key_of(whole.__wrapped__()).fields()["blade"].fields()["source"]
+    assert source.fields().keys() == {
+        "profile",
+        *(name for kind in others.values() for name in kind.model_fields),
+    }
+    assert source.fields()["profile"].fields().keys() == {"digits"}
 
 
 @pytest.mark.parametrize("value", [True, None, "0.2", [0.2], float("nan"), float("-inf"), 10**400])

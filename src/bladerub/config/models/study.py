@@ -107,12 +107,17 @@ def defaults() -> dict[str, Any]:
 
 
 def _extended(model: type[Section], path: str, offered: Mapping[str, Any]) -> type[Section]:
-    """Add to the model of the section at `path` what is offered of it and of the sections below."""
+    """Add to the model of the section at `path` what is offered of it and of the sections below.
+
+    One of these may plug in itself, or be there only for what is below it.
+    """
     below = {key.removeprefix(path): kind for key, kind in offered.items() if key.startswith(path)}
     added: dict[str, Any] = {key: _field(kind) for key, kind in below.items() if "." not in key}
-    for name in {key.partition(".")[0] for key in below} - added.keys():
-        field = model.model_fields[name]
-        added[name] = (_extended(field.annotation, f"{path}{name}.", offered), field)
+    for name in sorted({key.partition(".")[0] for key in below if "." in key}):
+        if field := model.model_fields.get(name):
+            added[name] = (_extended(field.annotation, f"{path}{name}.", offered), field)
+        else:
+            added[name] = _field(_extended(below.get(name, Section), f"{path}{name}.", offered))
     return create_model(model.__name__, __base__=model, __doc__=model.__doc__, **added) if added else model
 
 
