@@ -25,17 +25,21 @@ CATEGORIES = {
         1,
     )
 }
+CAPTIONS = {path.stem: path.as_posix() for path in ROOT.glob("studies/**/report/*.rst")}
 
 
 def shown(path, name, category, title=None):
-    """A file that the report shows; its name there is `title`, or the first line of its caption."""
-    caption = workflow.source_path(f"../report/{name}.rst")
+    """A file that the report shows; its name there is `title`, or the first line of its caption.
+
+    The caption of a study is `report/<name>.rst` in its folder.
+    """
+    caption = CAPTIONS.get(name) or workflow.source_path(f"../report/{name}.rst")
     with open(caption, encoding="utf-8") as lines:
         title = title or next(lines).strip()
     return report(
         path,
         caption=caption,
-        category=CATEGORIES[category],
+        category=CATEGORIES.get(category, category),
         labels={"what": title, "as": path.rsplit(".", 1)[-1]},
     )
 

@@ -30,15 +30,21 @@ COLUMNS_FILE = Path(__file__).with_name("columns.csv")
 
 
 def write(
-    path: str | Path, table: "pd.DataFrame", origin: Mapping[str, str], float_format: str | None = None
+    path: str | Path,
+    table: "pd.DataFrame",
+    origin: Mapping[str, str],
+    float_format: str | None = None,
+    columns_file: Path | None = None,
 ) -> None:
     """Write `table` to `path`, without its index, and its description next to it.
 
     It has one observation a row; `origin` is from `bladerub.io.provenance.provenance`, `float_format` as of
-    pandas. Raises `ValueError`, before anything is written, if a column is not described in `COLUMNS_FILE`.
+    pandas. Raises `ValueError`, before anything is written, if a column is described neither in
+    `COLUMNS_FILE` nor in `columns_file`, of its form.
     """
     path = Path(path)
-    description = json.dumps(_description(path.name, table, origin), indent=2, ensure_ascii=False)
+    described = described_columns() | (described_columns(columns_file) if columns_file else {})
+    description = json.dumps(_description(path.name, table, described, origin), indent=2, ensure_ascii=False)
     content = table.to_csv(index=False, float_format=float_format, lineterminator="\n").encode()
     for file, text in (
         (path, content),
@@ -103,9 +109,9 @@ def read_origin(path: str | Path) -> dict[str, str]:
 
 
 @cache
-def described_columns() -> dict[str, dict[str, Any]]:
-    """Return the description of every column by its `entry`, as "CSV on the Web" has it."""
-    described, (_, *rows) = {}, csv.reader(COLUMNS_FILE.read_text(encoding="utf-8").splitlines())
+def described_columns(columns_file: Path = COLUMNS_FILE) -> dict[str, dict[str, Any]]:
+    """Return the description of every column of a file by its `entry`, as "CSV on the Web" has it."""
+    described, (_, *rows) = {}, csv.reader(columns_file.read_text(encoding="utf-8").splitlines())
     for name, datatype, unit, description in rows:
         kind = {"base": "boolean", "format": "True|False"} if datatype == "boolean" else datatype
         about = {"datatype": kind, "dc:description": description}
@@ -118,11 +124,15 @@ def entry(column: str) -> str:
     return re.sub(r"(?<=^[Yf])\d+$", "k", column)
 
 
-def _description(name: str, table: "pd.DataFrame", origin: Mapping[str, str]) -> dict[str, Any]:
-    described = described_columns()
+def _description(
+    name: str, table: "pd.DataFrame", described: Mapping[str, dict[str, Any]], origin: Mapping[str, str]
+) -> dict[str, Any]:
     unknown = [column for column in table.columns if entry(column) not in described]
     if unknown:
-        raise ValueError(f"{name}: columns not described in {COLUMNS_FILE.name}: {', '.join(unknown)}")
+        raise ValueError(
+            f"{name}: columns not described: {', '.join(unknown)}; describe them in {COLUMNS_FILE}, or those "
+            f"of one study in {COLUMNS_FILE.name} of its folder"
+        )
     columns = [{"name": column, "titles": column} for column in table.columns]
     return {
         "@context": ["http://www.w3.org/ns/csvw", {"@language": "en"}],

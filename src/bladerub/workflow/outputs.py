@@ -1,5 +1,6 @@
 """What the scripts of the rules write: tables that say what made them, and figures."""
 
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from bladerub.io import hdf5, tables
@@ -17,16 +18,23 @@ def save(snakemake: Any, figure: "Figure | None" = None, prefix: str = "", **fra
 
     The figure goes to the outputs ``png`` and ``pdf`` with the parameter ``dpi``, each table to the output of
     its name; that of a figure, ``data``, is written to six digits. Names of outputs begin with `prefix` where
-    a job draws several figures.
+    a job draws several figures. Columns of a study alone are described in ``columns.csv`` of its folder.
     """
     for name, table in frames.items():
         digits = "%.6g" if name == "data" else None
-        tables.write(snakemake.output[prefix + name], table, provenance(snakemake.config), digits)
+        origin = provenance(snakemake.config)
+        tables.write(snakemake.output[prefix + name], table, origin, digits, _columns_file(snakemake))
     if figure is not None:
         from bladerub.plots import style  # imports Matplotlib, which jobs of tables do without
 
         files = (snakemake.output[prefix + kind] for kind in ("png", "pdf"))
         style.save(figure, *files, snakemake.params["dpi"])
+
+
+def _columns_file(snakemake: Any) -> Path | None:
+    """Find ``columns.csv`` beside the folder of the script; None if there is none."""
+    path = Path(snakemake.scriptdir).parent / tables.COLUMNS_FILE.name
+    return path if path.is_file() else None
 
 
 def rpm(snakemake: Any, f_omega: "pd.Series") -> "pd.Series":

@@ -62,7 +62,7 @@ def test_every_column_is_described_once_with_datatype_and_unit():
 
 
 def test_a_column_that_nobody_described_is_refused_before_anything_is_written(table, tmp_path):
-    with pytest.raises(ValueError, match=r"peaks\.csv: columns not described in columns\.csv: depth"):
+    with pytest.raises(ValueError, match=r"peaks\.csv: columns not described: depth; describe them in "):
         tables.write(tmp_path / "peaks.csv", table.assign(depth=1), ORIGIN)
     assert not list(tmp_path.iterdir())
 
