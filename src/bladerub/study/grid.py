@@ -192,7 +192,7 @@ def element_law(config: Mapping[str, Any]) -> ElementLaw:
         return described_law(name, values)
     path = study_folder() / file
     if not path.is_file():
-        raise ValueError(f"file = {file}: there is no such file")
+        raise ValueError(f"file = {file}: there is no such file ({path})")
     try:
         source = path.read_text(encoding="utf-8")
         if not source:  # which would stand for a law of the package

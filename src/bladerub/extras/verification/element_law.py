@@ -79,7 +79,7 @@ def check_law(law: ElementLaw, coatings: Sequence[Coating], seed: int = 0) -> La
         for coating in coatings:
             for time_step in TIME_STEPS:
                 specimen = replace(coating, element_law=law)
-                with np.errstate(all="ignore"), bounded("its functions", LONGEST_CHECK):
+                with np.errstate(all="ignore"), bounded("one of its functions", LONGEST_CHECK):
                     _follow(module, specimen, time_step, rng, log)
                 histories += HISTORIES
             if hasattr(module, "strength"):
