@@ -286,4 +286,4 @@ def _crossings(config: Config) -> Iterator[str]:
     for key, index, order in ((key, *pair) for key, values in orders.items() for pair in enumerate(values)):
         if order * fastest < 1:  # rotation stiffens the blade: C1 is nowhere below its value at rest, 1
             bound = f"at least {1 / fastest:.3g} to cross the first frequency below the highest speed"
-            yield f"{key}[{index}] = {order}: must be {bound}"
+            yield f"{key}[{index}] = {order}: must be {bound}; give others in your config, or higher speeds"
