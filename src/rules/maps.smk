@@ -29,12 +29,13 @@ rule ensemble:
     output:
         ENSEMBLE,
         members=MEMBERS,
-    group: "rubs"
     log:
         f"{RESULTS}/logs/ensemble/{{coating}}.log",
     benchmark:
         f"{RESULTS}/benchmarks/ensemble/{{coating}}.tsv"
     priority: BEGUN  # the longest job of the study is one of these
+    group:
+        "rubs"
     threads: ensemble_threads
     resources:
         mem_mb=memory_mb,
@@ -62,11 +63,12 @@ rule peaks:
         analysing=files_behind("study.bands"),
     output:
         **described(table=f"{TABLES}/peaks.csv"),
-    group: "drawing"
     log:
         f"{RESULTS}/logs/peaks.log",
     benchmark:
         f"{RESULTS}/benchmarks/peaks.tsv"
+    group:
+        "drawing"
     params:
         peaks=PEAKS,
     script:
@@ -81,11 +83,12 @@ rule divergence:
         analysing=files_behind("study.bands"),
     output:
         **described(table=f"{TABLES}/divergence.csv"),
-    group: "drawing"
     log:
         f"{RESULTS}/logs/divergence.log",
     benchmark:
         f"{RESULTS}/benchmarks/divergence.tsv"
+    group:
+        "drawing"
     params:
         divergence=config["analysis"]["divergence"],
     script:
@@ -114,11 +117,12 @@ rule findings:
         analysing=files_behind("study.bands"),
     output:
         **described(table=shown(f"{TABLES}/findings.csv", "findings", "Claims")),
-    group: "drawing"
     log:
         f"{RESULTS}/logs/findings.log",
     benchmark:
         f"{RESULTS}/benchmarks/findings.tsv"
+    group:
+        "drawing"
     params:
         robustness=reported_robustness,
     script:

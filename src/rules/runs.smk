@@ -92,12 +92,13 @@ rule coating:
     output:
         manifest=MANIFEST,
         map=MAP,
-    group: "rubs"
     log:
         f"{RESULTS}/logs/coating/{{coating}}.log",
     benchmark:
         f"{RESULTS}/benchmarks/coating/{{coating}}.tsv"
     priority: coating_priority
+    group:
+        "rubs"
     threads: coating_threads
     resources:
         mem_mb=memory_mb,  # 240 measured, and two Pythons of Snakemake
