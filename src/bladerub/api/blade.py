@@ -9,17 +9,14 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pandas as pd
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 
+from bladerub import plots
 from bladerub.api.errors import InputError
 from bladerub.api.notebook import Shown
 from bladerub.api.planned import Quantity
 from bladerub.api.progress import step
 from bladerub.api.study import Study
 from bladerub.blade.accuracy import ACCURACY_COLUMNS, doubts
-from bladerub.blade.build import build
-from bladerub.blade.built import write
 from bladerub.blade.cache import kept_at
 from bladerub.blade.files import accuracy_path, is_built, mesh_path, paths
 from bladerub.blade.frequencies import reduced_frequencies, tip_lean
@@ -31,14 +28,12 @@ from bladerub.io import tables
 from bladerub.io.equality import equal
 from bladerub.io.optional import package
 from bladerub.io.provenance import provenance
-from bladerub.plots import blade_mesh
-from bladerub.plots.campbell import campbell
-from bladerub.plots.scales import Engine
-from bladerub.plots.spectrum import ORDERS
 from bladerub.study.cache import blade_digest
 
 if TYPE_CHECKING:
     import xarray as xr
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
 
 @dataclass(frozen=True, repr=False)
@@ -174,21 +169,23 @@ class Blade(Shown):
         """
         return doubts(self.accuracy(), nominal_speed)
 
-    def plot_mesh(self, path: str | Path | None = None, *, ax: Axes | None = None) -> Figure | Axes:
+    def plot_mesh(self, path: str | Path | None = None, *, ax: "Axes | None" = None) -> "Figure | Axes":
         """Draw Fig. 1: mesh, clamped root and interface nodes.
 
         `path` is to write it there as well. In the axes `ax`, which are returned, is the mesh as a whole.
         """
-        return blade_mesh.blade_mesh(*blade_mesh.read_mesh(self.mesh_path), path=path, ax=ax)
+        drawn = plots.blade_mesh.read_mesh(self.mesh_path)
+        return plots.blade_mesh.blade_mesh(*drawn, path=path, ax=ax)
 
-    def plot_campbell(self, path: str | Path | None = None, *, ax: Axes | None = None) -> Figure | Axes:
+    def plot_campbell(self, path: str | Path | None = None, *, ax: "Axes | None" = None) -> "Figure | Axes":
         """Draw Fig. 2: the Campbell diagram; `path` as `plot_mesh`. Raises as `accuracy`.
 
         In the axes `ax`, which are returned, are the first mode and the engine orders.
         """
         modes = self.accuracy().pivot(index="f_omega", columns="mode") / self.f1_hz
-        f_fe, f_rom, engine = modes["f_fe"], modes["f_rom"], Engine(self.f1_hz)
-        return campbell(modes.index, f_fe, f_rom, ORDERS, engine, path=path, ax=ax)
+        f_fe, f_rom, engine = modes["f_fe"], modes["f_rom"], plots.scales.Engine(self.f1_hz)
+        orders = plots.spectrum.ORDERS
+        return plots.campbell.campbell(modes.index, f_fe, f_rom, orders, engine, path=path, ax=ax)
 
     def to_xarray(self) -> "xr.Dataset":
         """Return matrices, interface nodes and directions with units and names."""
@@ -263,4 +260,8 @@ def build_blade(study: Study, progress: bool | None = None) -> Blade:
 
 def write_blade(config: Mapping[str, Any], path: Path) -> None:
     """Build the blade of `config` and write it to `path`, its mesh and table of accuracy next to it."""
+    # they import scikit-fem and the solver, which a blade that is built already does without
+    from bladerub.blade.build import build
+    from bladerub.blade.built import write
+
     write(build(config), provenance(config), *paths(path))

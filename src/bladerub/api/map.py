@@ -8,9 +8,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pandas as pd
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 
+from bladerub import plots
 from bladerub.api.blade import Blade
 from bladerub.api.dataset import to_dataset
 from bladerub.api.errors import InputError
@@ -25,9 +24,6 @@ from bladerub.config.units import speeds_in_words
 from bladerub.contact.setup import compile_kernel
 from bladerub.io.hdf5 import read_attributes
 from bladerub.io.provenance import provenance
-from bladerub.plots.scales import Engine, Scales, greatest
-from bladerub.plots.spectrum import spectrum_map
-from bladerub.plots.wear_map import wear_map
 from bladerub.study import maps
 from bladerub.study.divergence import in_a_word, verdicts
 from bladerub.study.grid import CoatingCase
@@ -40,6 +36,10 @@ from bladerub.study.summary import spectral_peak
 
 if TYPE_CHECKING:
     import xarray as xr
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+    from bladerub.plots.scales import Scales
 
 _PER_SPEED = ("C1", "max_wear", "lobes", "status", "wear_harmonic", "wear_harmonic_share")
 _PER_REVOLUTION = ("revolution_peak", "revolution_amplitude")
@@ -100,12 +100,12 @@ class Map(Shown):
         """``"completed"`` or ``"unbounded"`` of each run (n,)."""
         return self.coating.status
 
-    def plot_wear(self, path: str | Path | None = None, *, ax: Axes | None = None) -> Figure | Axes:
+    def plot_wear(self, path: str | Path | None = None, *, ax: "Axes | None" = None) -> "Figure | Axes":
         """Draw the wear around the casing over the speed (Fig. 6); `path` to write it there as well.
 
         In the axes `ax`, which are returned, is the wear without the number of lobes.
         """
-        return wear_map(self.coating, self._scales, path=path, ax=ax)
+        return plots.wear_map.wear_map(self.coating, self._scales, path=path, ax=ax)
 
     def plot_spectrum(
         self,
@@ -113,16 +113,16 @@ class Map(Shown):
         amplitude_range: tuple[float, float] | None = None,
         max_frequency: float = 2.0,
         *,
-        ax: Axes | None = None,
-    ) -> Figure | Axes:
+        ax: "Axes | None" = None,
+    ) -> "Figure | Axes":
         """Draw the spectra over the speed (Figs. 7 to 9); `path` and `ax` as `plot_wear`.
 
         `amplitude_range` are the ends of the colour scale, m (default: three decades up to the largest
         amplitude); `max_frequency` is the right end of the axis, normalised.
         """
-        largest = greatest(self.coating.spectrum_amplitude)
+        largest = plots.scales.greatest(self.coating.spectrum_amplitude)
         ends = amplitude_range or (1e-3 * largest, largest)
-        return spectrum_map(self.coating, ends, max_frequency, self._scales, path=path, ax=ax)
+        return plots.spectrum.spectrum_map(self.coating, ends, max_frequency, self._scales, path=path, ax=ax)
 
     def to_xarray(self) -> "xr.Dataset":
         """Return all arrays with coordinates, units and names."""
@@ -163,8 +163,9 @@ class Map(Shown):
         maps.write_map(path, self.coating, provenance(settings_of(config, self.config)))
 
     @property
-    def _scales(self) -> Scales:
-        return Scales(engine=Engine(self.f1_hz) if self.f1_hz else None)
+    def _scales(self) -> "Scales":
+        engine = plots.scales.Engine(self.f1_hz) if self.f1_hz else None
+        return plots.scales.Scales(engine=engine)
 
     def _shown(self) -> tuple[str, Mapping[str, str]]:
         return "Map", {

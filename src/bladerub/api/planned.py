@@ -6,6 +6,7 @@ from typing import Any
 
 from bladerub.api.errors import InputError
 from bladerub.api.lists import over
+from bladerub.blade.cache import kept_frequency
 from bladerub.config import quantities
 from bladerub.config.checks import most_revolutions
 from bladerub.config.models.quantities import QUANTITIES
@@ -136,8 +137,6 @@ def checked_number(config: Mapping[str, Any], name: str, value: Quantity) -> flo
 
 def known_frequency(config: Mapping[str, Any]) -> float | None:
     """Return the first frequency at rest of the study's blade, Hz, if it has been built."""
-    from bladerub.blade.cache import kept_frequency  # imports the solver, which a plan does without
-
     return kept_frequency(config)
 
 

@@ -3,14 +3,12 @@
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, fields
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 import pandas as pd
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 
-from bladerub import plugins
+from bladerub import plots, plugins
 from bladerub.api.dataset import to_dataset
 from bladerub.api.errors import InputError
 from bladerub.api.lists import over
@@ -20,7 +18,7 @@ from bladerub.config.units import speed_in_words
 from bladerub.contact.result import Energy
 from bladerub.io.equality import equal
 from bladerub.io.provenance import PREFIX, provenance
-from bladerub.plots import single_run, titles
+from bladerub.plots import titles
 from bladerub.study import run_set, store
 from bladerub.study.divergence import in_a_word
 from bladerub.study.grid import CoatingCase
@@ -31,6 +29,8 @@ from bladerub.study.summary import displacement_peak, summarise
 
 if TYPE_CHECKING:
     import xarray as xr
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
 _LONGER = "longer_"
 
@@ -213,14 +213,14 @@ class Run(Shown):
         analysis = settings_of(config, self.config)["analysis"]
         return summarise(self.stored, analysis, self.longer.stored if self.longer else None)
 
-    def plot_wear(self, path: str | Path | None = None, *, ax: Axes | None = None) -> Figure | Axes:
+    def plot_wear(self, path: str | Path | None = None, *, ax: "Axes | None" = None) -> "Figure | Axes":
         """Draw the worn depth around the casing (mean of the nodes); `path` to write it there as well.
 
         `ax` are axes to draw into, polar or not, which are returned: one line more for each run.
         """
-        return single_run.wear(self.angle, self.wear.mean(axis=0), self._title, path=path, ax=ax)
+        return plots.single_run.wear(self.angle, self.wear.mean(axis=0), self._title, path=path, ax=ax)
 
-    def plot_history(self, path: str | Path | None = None, *, ax: Axes | None = None) -> Figure | Axes:
+    def plot_history(self, path: str | Path | None = None, *, ax: "Axes | None" = None) -> "Figure | Axes":
         """Draw the radial displacement of node 1 over the run and its amplitude; arguments as `plot_wear`.
 
         Raises
@@ -229,12 +229,12 @@ class Run(Shown):
             As `radial_displacement`.
         """
         moves = self.stored.data.get("revolution"), self.radial_displacement, self.revolution_amplitude
-        return single_run.history(*moves, self._title, path=path, ax=ax)
+        return plots.single_run.history(*moves, self._title, path=path, ax=ax)
 
-    def plot_spectrum(self, path: str | Path | None = None, *, ax: Axes | None = None) -> Figure | Axes:
+    def plot_spectrum(self, path: str | Path | None = None, *, ax: "Axes | None" = None) -> "Figure | Axes":
         """Draw the amplitude over the engine order; arguments as `plot_wear`."""
         spectrum = self.spectrum
-        return single_run.spectrum(spectrum.index, spectrum.to_numpy(), self._title, path=path, ax=ax)
+        return plots.single_run.spectrum(spectrum.index, spectrum.to_numpy(), self._title, path=path, ax=ax)
 
     def to_xarray(self) -> "xr.Dataset":
         """Return all datasets with units and names, and the attributes: those of the file of `write`."""
@@ -304,8 +304,8 @@ def read_run(path: str | Path) -> Run:
 
 
 def plot_spectra(
-    runs: Iterable[Run], path: str | Path | None = None, *, ax: Axes | None = None
-) -> Figure | Axes:
+    runs: Iterable[Run], path: str | Path | None = None, *, ax: "Axes | None" = None
+) -> "Figure | Axes":
     """Draw the spectra of several runs in one picture; arguments as of `Run.plot_spectrum`.
 
     Its other plots draw several runs in one picture as well, if the same axes are given to each.
@@ -324,7 +324,7 @@ def plot_spectra(
     """
     first, *others = runs
     picture = first.plot_spectrum(None if others else path, ax=ax)
-    axes = picture.axes[0] if isinstance(picture, Figure) else picture
+    axes = cast("Figure", picture).axes[0] if ax is None else ax
     for run in others:
         run.plot_spectrum(path if run is others[-1] else None, ax=axes)
     return picture

@@ -7,7 +7,6 @@ from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
-from bladerub.blade.build import frequency_at_rest
 from bladerub.blade.files import made_from
 from bladerub.blade.source import reader_digest
 from bladerub.io import atomic
@@ -44,6 +43,8 @@ def first_frequency(config: Mapping[str, Any]) -> float:
     """
     frequency = kept_frequency(config)
     if frequency is None:
+        from bladerub.blade.build import frequency_at_rest  # imports the solver
+
         frequency = rounded_frequency(frequency_at_rest(config))
         with suppress(OSError), atomic.writing(_frequency_path(config)) as stream:
             stream.write(f"{frequency!r}\n")

@@ -15,6 +15,7 @@ from bladerub.cli.inputs import Parser
 from bladerub.config.errors import ConfigError
 from bladerub.io.errors import BadInput, message_for
 from bladerub.io.folders import provide_for_unknown_user
+from bladerub.io.garbage import collect_seldom
 
 _COMMANDS = (new, config, run, status)
 
@@ -40,6 +41,7 @@ def _write_any_text(stream: Any) -> None:
 
 def main(arguments: list[str] | None = None) -> int:
     """Run the command line; return 0, 1 where numbers differ, 2 on bad input, 130 when interrupted."""
+    collect_seldom()
     for stream in (sys.stdout, sys.stderr):
         _write_any_text(stream)
     options = parser().parse_args(arguments)

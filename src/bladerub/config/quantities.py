@@ -4,6 +4,7 @@ from collections.abc import Callable, Mapping
 from contextlib import suppress
 from typing import Any
 
+from bladerub.blade.cache import first_frequency, rounded_frequency
 from bladerub.config import units
 from bladerub.config.errors import top_key
 from bladerub.config.fields import Unit
@@ -33,8 +34,6 @@ def references(config: Mapping[str, Any], f1_hz: float | None = None) -> units.R
 
     def size(name: str) -> float:
         if name == "f1":
-            from bladerub.blade.cache import first_frequency, rounded_frequency  # imports the solver
-
             return rounded_frequency(f1_hz) if f1_hz else first_frequency(config)
         if name == "modulus_unit":
             return modulus_unit(config)

@@ -42,6 +42,7 @@ def _as_input(path: Path) -> Path:
     return in_repository if in_repository.is_file() else path
 
 
+@cache
 def _path_of(module: str) -> Path:
     path = PACKAGE.joinpath(*module.split("."))
     package = path / "__init__.py"

@@ -19,6 +19,7 @@ from bladerub.config.record import Record
 from bladerub.io import atomic, checksum
 from bladerub.io.errors import BadInput, DamagedFile, exit_on_error
 from bladerub.io.folders import CONFIG, provide_for_unknown_user
+from bladerub.io.garbage import collect_seldom
 from bladerub.study.manifest import ManifestRow, Row, listed_files
 from bladerub.workflow import claims
 
@@ -120,6 +121,7 @@ def plan(
     Prints which config the results were made with, if nothing is `laid_over` that of the study, and the
     `notes` on the config, a line each. `begin` is called at the start if jobs run on this machine.
     """
+    collect_seldom()
     provide_for_unknown_user()
     _take_two_interrupts_for_one()
     _planned[:] = [(results, laid_over, begin)]

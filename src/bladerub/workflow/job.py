@@ -5,7 +5,7 @@ from contextlib import suppress
 from pathlib import Path
 from types import TracebackType
 
-from bladerub.io import errors
+from bladerub.io import errors, garbage
 
 
 def log_to(path: str | Path) -> None:
@@ -15,6 +15,7 @@ def log_to(path: str | Path) -> None:
     that it is seen even if the log is on a full disk. The traceback of any other goes to the log, its last
     line to both.
     """
+    garbage.collect_seldom()
     sys.stderr = open(path, "w", buffering=1, encoding="utf-8")  # noqa: SIM115 (a traceback must reach it)
     sys.excepthook = _report
 

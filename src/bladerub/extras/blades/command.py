@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING, Any
 
 import yaml
 
-from bladerub.blade.model import ReducedBlade
 from bladerub.cli import inputs
 from bladerub.config import read as configuration
 from bladerub.extras.blades import origin, section_text
@@ -19,8 +18,9 @@ from bladerub.extras.blades.origin import MATRIX_UNITS, MatrixSource, Source
 from bladerub.extras.file_units import ANGLE_UNITS, UNITS
 from bladerub.io.folders import base_config, study_folder
 
-if TYPE_CHECKING:  # loads numba
+if TYPE_CHECKING:  # load numba, NumPy
     from bladerub.blade.built import BuiltBlade
+    from bladerub.blade.model import ReducedBlade
 
 _FEWEST_SPEEDS = 5
 _NAMES = (
@@ -140,7 +140,7 @@ def _changed(values: dict[str, Any], study_values: dict[str, Any]) -> dict[str, 
 
 def _read_mesh(
     source: Source, config: dict[str, Any], entry: dict[str, Any], nominal: float | None
-) -> tuple[dict[str, Any], ReducedBlade]:
+) -> "tuple[dict[str, Any], ReducedBlade]":
     """Import and reduce the mesh of `source`; return the figures and the reduced blade."""
     # with fewer, all speeds of the table are those of the fit, where eq. (2) is exact
     config["reduction"]["accuracy_speeds"] = max(_FEWEST_SPEEDS, config["reduction"]["accuracy_speeds"])
@@ -223,7 +223,7 @@ def _mesh_rows(figures: dict[str, Any]) -> dict[str, str]:
 
 def _read_matrices(
     source: MatrixSource, config: dict[str, Any], entry: dict[str, Any], nominal: float | None
-) -> tuple[dict[str, Any], ReducedBlade]:
+) -> "tuple[dict[str, Any], ReducedBlade]":
     """Import and reduce the matrices of `source`; return the figures and the reduced blade."""
     from bladerub.blade.build import reduce_given
     from bladerub.extras.blades.matrices import import_matrices
