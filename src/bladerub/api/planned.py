@@ -66,7 +66,7 @@ class StudyRun:
         return f"{self.case.name}/{grid.speed_name(self.f_omega)}"
 
     def __repr__(self) -> str:
-        speed = speed_in_words(self.f_omega, known_frequency(self.config))
+        speed = speed_in_words(self.f_omega, kept_frequency(self.config))
         coating = f"{self.case.name}{_moduli(self.config, self.case)}"
         return f"StudyRun({coating}, at {speed}, {self.spec.revolutions} revolutions)"
 
@@ -133,11 +133,6 @@ def checked_number(config: Mapping[str, Any], name: str, value: Quantity) -> flo
     except ValueError as error:
         raise InputError(name, value, str(error)) from None
     return plain
-
-
-def known_frequency(config: Mapping[str, Any]) -> float | None:
-    """Return the first frequency at rest of the study's blade, Hz, if it has been built."""
-    return kept_frequency(config)
 
 
 def _moduli(config: Mapping[str, Any], case: CoatingCase) -> str:

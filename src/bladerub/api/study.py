@@ -11,7 +11,8 @@ import numpy as np
 from bladerub.api.errors import InputError
 from bladerub.api.lists import over
 from bladerub.api.notebook import Shown
-from bladerub.api.planned import Quantity, StudyCoating, StudyRun, checked_number, known_frequency
+from bladerub.api.planned import Quantity, StudyCoating, StudyRun, checked_number
+from bladerub.blade.cache import kept_frequency
 from bladerub.config import read as configuration
 from bladerub.config.checks import own_problem
 from bladerub.config.errors import UNKNOWN
@@ -286,7 +287,7 @@ class Study(Shown):
             "casings": ", ".join(config["casings"]),
             "coatings": f"{len(cases)}{ends if moduli else ''}",
             "E = 1, K = 1": pressure_in_words(unit),
-            "speeds": speeds_in_words(grid.speeds(config), known_frequency(config)),
+            "speeds": speeds_in_words(grid.speeds(config), kept_frequency(config)),
             "revolutions": f"{config['solver']['revolutions']}",
             "results": f"{self.results}",
         }
