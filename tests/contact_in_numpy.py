@@ -6,6 +6,7 @@ casing are those of the package; all else is written out here.
 """
 
 import itertools
+import math
 from dataclasses import replace
 
 import numpy as np
@@ -17,7 +18,7 @@ from bladerub.contact.casing import shape
 from bladerub.contact.laws import module_of
 from bladerub.contact.setup import time_step
 from bladerub.contact.spec import RunSpec
-from bladerub.contact.tip import coverage, relief
+from bladerub.contact.tip import coverage, edge, relief
 from bladerub.extras.laws.heating import HEATED, cell_heights
 from bladerub.extras.rows.spec import Row
 
@@ -140,12 +141,22 @@ def _exponential(blade, spec, n_modes, coating):
 
 def _implicit_forces(coating, time, u, compliance, guess):
     """Find the forces that the coating answers to the displacement they cause."""
-    if not coating.contact(time, u)[0].any():
+    if not coating.contact(time, u).any():
         return np.zeros(len(u))
 
     def imbalance(force):
-        return coating.contact(time, u + compliance @ force)[0] - force
+        return coating.contact(time, u + compliance @ force) - force
 
+    # Broyden's method, and that of Powell where it does not converge
+    force, inverse, remaining = guess, np.eye(len(u)), imbalance(guess)
+    for _ in range(25):
+        if np.abs(remaining).max() < 1e-8:
+            return force + remaining
+        step = inverse @ remaining
+        force = force + step
+        before, remaining = remaining, imbalance(force)
+        change = inverse @ (before - remaining)
+        inverse += np.outer(step - change, step @ inverse) / (step @ change)
     found = scipy.optimize.root(imbalance, guess, tol=1e-12)
     remaining = imbalance(found.x)
     if np.abs(remaining).max() > 1e-6:
@@ -174,43 +185,51 @@ class _Coating:
         overlap = casing.interference - casing.amplitude + casing.amplitude * shape(casing, self.angle)
         self.initial_gap = clearance - overlap  # g₀ of eq. (8)
         self.wear = np.zeros((blade.n_interface, n))
+        reach = math.ceil(edge(spec.tip)) + 1
+        self.rows, self.around = np.arange(len(self.wear))[:, None], np.arange(-reach, reach + 1)
         self.strength = np.ones_like(self.wear)
         self.heat = _Heat(spec, self, area, time_step(blade, spec)) if hasattr(self.law, "strength") else None
         self.q, self.pull = np.zeros(
             (2, len(blade.mass))
         )  # modal coordinates of the blade, and forces on them
 
-    def contact(self, time: float, u: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Contact forces on the tip at the displacement `u`, both as `tip_rows`, and the wear (j, N) then."""
+    def contact(self, time: float, u: np.ndarray) -> np.ndarray:
+        """Forces on the tip at the displacement `u`, both as `tip_rows`."""
         u_r, u_t, *tilt = u.reshape(-1, len(self.wear), 1)
         # eq. (7): the closest point of the casing turns with the blade and moves with its vibration
         position = self.node_angle + self.speed * time + u_t / self.radius
-        offset = (self.angle - position + np.pi) % (2 * np.pi) - np.pi
+        # of the ring under each node, what the profile may carry
+        near = np.floor(position / (2 * np.pi) * len(self.angle)).astype(int) + self.around
+        near = self.rows, near % len(self.angle)
+        offset = (self.angle[near[1]] - position + np.pi) % (2 * np.pi) - np.pi
         offset *= self.spec.coating.n_elements / (2 * np.pi)
         # eq. (8): g = g₀ + (u^m − u^s) · n, under the profile of Fig. 3; u^s is the wear
         R = self.curvature_radius
         approach = np.hypot(R + u_r, u_t) - R - relief(self.spec.tip, offset) + offset * sum(tilt)
-        gap = self.initial_gap - approach + self.wear
+        gap = self.initial_gap[near] - approach + self.wear[near]
         # Fig. 4, and eq. (9): no force where the gap is open, and never a pulling one
         share = coverage(self.spec.tip, offset)
-        element_force, increment = self.law.return_mapping(self.element, -gap, self.wear)
-        element_force = self.strength * element_force
-        self.position, self.pressed, self.increment = position, share * element_force, increment * (share > 0)
-        magnitude = np.sum(share * element_force, axis=1, keepdims=True)
-        couple = np.sum(share * element_force * offset, axis=1, keepdims=True)
+        element_force, increment = self.law.return_mapping(self.element, -gap, self.wear[near])
+        element_force = share * self.strength[near] * element_force
+        self.position, self.near, self.near_force = position, near, element_force
+        self.near_increment = increment * (share > 0)
+        magnitude = np.sum(element_force, axis=1, keepdims=True)
+        couple = np.sum(element_force * offset, axis=1, keepdims=True)
         # F_r = −cos θ |F| e_r and F_θ = −sin θ |F| e_θ, at the displaced node
         direction = np.arctan2(u_t, R + u_r) + self.spec.coating.theta
         force = [-magnitude * np.cos(direction), -magnitude * np.sin(direction)]
         force += [-couple * np.cos(self.spec.coating.theta) for _ in tilt]
-        return np.ravel(force), self.wear + self.increment
+        return np.ravel(force)
 
     def settle(self, step: int, h: float, u: np.ndarray) -> np.ndarray:
         """Leave the elements as they are at the end of a step; return the forces."""
-        force, wear = self.contact(step * h, u)
+        force = self.contact(step * h, u)
         if self.heat is not None:
+            self.pressed, self.increment = np.zeros((2, *self.wear.shape))
+            self.pressed[self.near], self.increment[self.near] = self.near_force, self.near_increment
             self.heat.enter(self)
             self.strength = self.heat.strength(step, self.strength)
-        self.wear = wear
+        self.wear[self.near] += self.near_increment
         return force
 
 
