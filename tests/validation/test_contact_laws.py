@@ -138,10 +138,16 @@ def drawn(name, rng):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", ["perfectly_plastic", "viscoplastic", "brittle", "thermal"])
-def test_the_ledger_of_random_runs_closes(run, name):
+@pytest.mark.parametrize(
+    ("name", "runs"),
+    [
+        *(pytest.param(name, 100, marks=pytest.mark.nightly) for name in ("perfectly_plastic", "brittle")),
+        *(("viscoplastic", 25), ("thermal", 25)),
+    ],
+)
+def test_the_ledger_of_random_runs_closes(run, name, runs):
     rng, residuals, worn = np.random.default_rng(8), [], 0
-    for _ in range(100):
+    for _ in range(runs):
         young, plastic = np.exp(rng.uniform(np.log([0.1, 0.05]), np.log([10, 5])))
         theta, speed = rng.choice([0.0, 0.15]), rng.uniform(0.1, 0.4)
         result = run(young, plastic, speed, theta, revolutions=2, element_law=drawn(name, rng))
@@ -149,13 +155,16 @@ def test_the_ledger_of_random_runs_closes(run, name):
         worn += result.wear.max() > 1e-5
     print(f"{name}: largest residual {max(residuals):.2g}, median {np.median(residuals):.2g}, {worn} worn")
     assert max(residuals) <= 1e-3
-    assert worn > 90
+    assert worn > 0.9 * runs
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("law", "theta", "least"),
-    [(PERFECT, 0.0, 1.7), (VISCOPLASTIC, 0.0, 0.8), (BRITTLE, 0.0, 1.7), (THERMAL, 0.15, 1.7)],
+    [
+        *(pytest.param(law, 0.0, 1.7, marks=pytest.mark.nightly) for law in (PERFECT, BRITTLE)),
+        *((VISCOPLASTIC, 0.0, 0.8), (THERMAL, 0.15, 1.7)),
+    ],
     ids=lambda law: getattr(law, "name", ""),
 )
 def test_wear_converges_with_the_step(run, law, theta, least):
@@ -163,7 +172,7 @@ def test_wear_converges_with_the_step(run, law, theta, least):
     steps = np.array([20, 40, 80])
     worn = [
         run(E, K, 0.12, theta, revolutions=2, steps_per_element=n, element_law=law).wear
-        for n in (*steps, 1280)
+        for n in (*steps, 640)
     ]
     errors = [np.linalg.norm(wear - worn[-1]) / np.linalg.norm(worn[-1]) for wear in worn[:-1]]
     print(f"{law.name}: order {order(steps, errors):.2f}, errors {errors}")

@@ -11,10 +11,12 @@ import pytest
 
 from bladerub.blade.build import build
 from bladerub.extras.rotor37 import direct, numbers, reference
+from bladerub.extras.verification import impact
 from bladerub.extras.verification.compare import compare
 from bladerub.io.folders import BENCHMARKS
 
 KNOWN = BENCHMARKS / "rotor37"
+impact._march.enable_caching()  # as in tests/unit/extras/verification/test_impact.py: one of both compiles it
 
 
 def computed(config, folder):

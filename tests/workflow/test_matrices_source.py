@@ -23,6 +23,7 @@ def foreign(workspace, tiny):
     return tiny
 
 
+@pytest.mark.nightly
 def test_a_blade_of_matrices_is_made_and_drawn_and_made_anew_with_a_file(workspace, foreign):
     workspace.build(foreign, PICTURE)
     mesh, _ = hdf5.read(workspace.folder / "results" / "blade" / "mesh.h5")

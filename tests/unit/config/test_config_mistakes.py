@@ -49,7 +49,7 @@ def groups(config):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("seed", range(4))
+@pytest.mark.parametrize("seed", [0, *(pytest.param(seed, marks=pytest.mark.nightly) for seed in (1, 2, 3))])
 def test_a_hundred_wild_configs_are_valid_or_refused_in_lines(monkeypatch, seed):
     monkeypatch.chdir(ROOT)
     study, chance, refused = load(STUDY), random.Random(seed), 0

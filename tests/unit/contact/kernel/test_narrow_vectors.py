@@ -11,7 +11,7 @@ import pytest
 
 from bladerub.contact.run import simulate
 
-pytestmark = pytest.mark.slow
+pytestmark = [pytest.mark.slow, pytest.mark.nightly]
 
 CHILD = """
 import pickle, sys
@@ -25,9 +25,7 @@ with open(sys.argv[2], "wb") as file:
 
 
 # "generic" has 128 bits, on x86-64 and on ARM
-PROCESSORS = ["generic"]
-if platform.machine() == "x86_64":
-    PROCESSORS.append(pytest.param("haswell", marks=pytest.mark.nightly))
+PROCESSORS = ["generic", "haswell"] if platform.machine() == "x86_64" else ["generic"]
 
 
 @pytest.mark.parametrize("processor", PROCESSORS)

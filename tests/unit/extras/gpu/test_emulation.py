@@ -58,10 +58,7 @@ def assert_equal(found, expected, tolerance=TOLERANCE):
 
 @pytest.mark.parametrize(
     "case",
-    [
-        pytest.param(case, marks=[] if case in ("stiff", "viscoplastic") else pytest.mark.nightly)
-        for case in CASES
-    ],
+    [pytest.param(case, marks=[] if case == "stiff" else pytest.mark.nightly) for case in CASES],
 )
 def test_the_loop_of_the_gpu_makes_the_steps_of_the_processors(case, blade, spec, change):
     ((found, expected),) = pairs(blade, [change(spec, **CASES[case])])

@@ -8,6 +8,7 @@ import pytest
 from bladerub.contact.modes import Modes
 from bladerub.extras.verification import impact
 
+impact._march.enable_caching()  # as in tests/validation/test_rotor37_reference.py: one of both compiles it
 OMEGA, DISTANCE = 2 * np.pi * 50.0, 1e-3
 
 
