@@ -14,15 +14,32 @@ from bladerub.io import lock
 os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
 
 
+FOLDER = Path(__file__).parent
+AT_WORK_MEANWHILE = (
+    *("test_laws.py", "test_contact_nodes.py", "test_contact_laws.py", "test_row.py", "test_emulation.py"),
+    *("test_rotor37_reference.py", "test_impact.py", "test_blade_default.py"),
+)
+"""Files that take long and need no study."""
+
+
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     """Mark every test of this folder as slow, and put them first: each runs the real workflow.
 
-    Files go to pytest's processes in this order; short ones at the end let all processes end together.
+    Files go to pytest's processes in this order. The first makes the study that all others of this folder
+    copy; long ones without it come next. Short ones at the end let all processes end together.
     """
     for item in items:
-        if Path(__file__).parent in item.path.parents:
+        if FOLDER in item.path.parents:
             item.add_marker("slow")
-    items.sort(key=lambda item: Path(__file__).parent not in item.path.parents)
+    items.sort(key=_place)
+
+
+def _place(item: pytest.Item) -> int:
+    if item.path.name in AT_WORK_MEANWHILE:
+        return 1
+    if FOLDER in item.path.parents:
+        return 0 if item.path.name == "test_at_once.py" else 2
+    return 3
 
 
 @pytest.fixture

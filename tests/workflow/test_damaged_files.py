@@ -83,7 +83,6 @@ def flip_a_bit(path: Path, draw: random.Random) -> None:
 def test_a_damaged_blade_is_made_again_and_costs_no_run(copied_study, tiny, results):
     before, written = contents(results), copied_study.runs()
     flip_a_bit(results / "blade" / "reduced_model.h5", random.Random(1))
-    assert copied_study.plan(tiny)["blade"] == 1
     assert "blade" in copied_study.plan(tiny, f"results/runs/{COATING}/manifest.tsv")
     copied_study.build(tiny, f"results/runs/{COATING}/manifest.tsv", "results/blade/mesh.h5")
     assert (contents(results), copied_study.runs()) == (before, written)
