@@ -60,19 +60,3 @@ def test_a_run_in_units_is_that_in_plain_numbers(study):
         f"StudyRun(2nd_E2_K0.5_theta0_xi0.004_h0.004, E = 1.2 GPa, K = 300 MPa, at {f_omega:g} of the first "
         "frequency at rest, 2,200 rpm, 20 revolutions)"
     )
-
-
-@pytest.mark.parametrize(
-    ("arguments", "words"),
-    [
-        ({"E": "2000 rpm"}, 'E = "2000 rpm": is a speed; must be a pressure: MPa, GPa'),
-        ({"f_omega": "2 mm"}, 'f_omega = "2 mm": is a length; must be a speed: rpm, Hz, rad/s'),
-        ({"f_omega": 2200}, 'write "2200 rpm"'),
-        ({"theta": 8}, 'this is 8 rad; write "8 deg"'),
-        ({"layer_thickness": "4 MM"}, "did you mean mm?"),
-    ],
-)
-def test_a_wrong_unit_is_named_with_the_right_ones(study, arguments, words):
-    with pytest.raises(br.InputError) as caught:
-        study.run("2nd", **{"E": 2, "K": 0.5, "f_omega": 0.19} | arguments)
-    assert words in str(caught.value)

@@ -107,6 +107,8 @@ def laughs(of):
         ("a: 1\nb: *nowhere", "a.yaml:2: not valid YAML"),
         (b"a: 1\nb: x\0y", "a.yaml:2: not valid YAML (special characters are not allowed), column 5"),
         (b"a: \xe9", "a.yaml: is not text in UTF-8"),
+        ("a: 1\n\nb: 2\nb: 3\n", "a.yaml:4: not valid YAML (b is given twice)"),
+        ("", "must hold keys at its top level"),
     ],
 )
 def test_hostile_files_are_answered_in_one_line(folder, content, answer):
@@ -163,10 +165,13 @@ def test_keys_and_values_are_written_on_one_short_line():
 
 
 @pytest.mark.parametrize(
-    ("text", "reading"), [("020", "16"), ("-010", "-8"), ("0x14", "20"), ("0b11", "3"), ("1:30.5", "90.5")]
-)
-@pytest.mark.parametrize(
-    "key", ["solver.revolutions", "casings.2nd.start_angle", "coatings[0].E[0]", "contact.law.viscosity"]
+    ("text", "reading", "key"),
+    [
+        ("020", "16", "solver.revolutions"),
+        ("-010", "-8", "casings.2nd.start_angle"),
+        ("0x14", "20", "coatings[0].E[0]"),
+        ("1:30.5", "90.5", "contact.law.viscosity"),
+    ],
 )
 def test_a_number_that_yaml_reads_otherwise_is_refused(tmp_path, text, reading, key):
     """As in files, so after ``--config``, where Snakemake leaves numbers as text."""

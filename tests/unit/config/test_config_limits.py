@@ -53,7 +53,6 @@ MANY = {
 SLOW = {"analysis.histories": [], "speeds": {"start": 0.02, "stop": 0.25, "step": 0.01, "extra": []}}
 BORDERS = [
     # what else is changed, the key, a value that is allowed, one that is not
-    ({}, "reduction.accuracy_modes", 30, 31),
     ({"reduction.modes_per_speed": 5}, "reduction.accuracy_modes", 29, 30),
     (
         {"contact.layer_thickness": 0.01},
@@ -75,32 +74,21 @@ BORDERS = [
     ({"coatings.0.layer_thickness": [6e-4]}, "coatings[0].interference", [5.99999e-4], [6e-4]),
     (COARSE, "contact.tip_profile.half_width", 12.5, just_above(12.5)),
     (COARSE, "casings.2nd.nodal_diameters[0]", 50, 51),
-    ({}, "casings.2nd.weights", [1], [1, 1]),
     ({}, "casings.2nd.weights", [-1e-9], [0]),
     ({}, "casings.2nd5nd.weights", [0, 1], [0, 0]),
     ({}, "casings.2nd5nd.interference", DEEPEST * (1 - 1e-5), DEEPEST * (1 + 1e-5)),
-    (TWO_SPEEDS, "speeds.stop", 0.3, 0.289),
     (TWO_SPEEDS, "speeds.stop", 0.3, 0.299),
-    ({}, "speeds.stop", 0.4, just_above(0.4)),
     ({}, "speeds.extra", [0.19, 0.197, 0.4], [0.19, 0.197, just_above(0.4)]),
     (MANY, "speeds.extra", [], [0.0015]),
     (SLOW, "analysis.peaks.orders", [4], [3]),
     (SLOW, "casings.2nd.peak_orders", [4], [3]),
     ({}, "analysis.peaks.orders", [4, 60], [4, 61]),
-    ({}, "analysis.peaks.speed_window", [1, 1.0001], [1, 1]),
-    ({}, "analysis.max_order", 1000, just_above(1000)),
     ({}, "analysis.spectrum_revolutions", 20, 21),
-    ({}, "analysis.divergence.revolutions", 20, 21),
     ({}, "analysis.divergence.confirmation_revolutions", 30, 29),
-    ({}, "analysis.divergence.confirmation_revolutions", 0, 1),
     (SAMPLES, "analysis.divergence.confirmation_revolutions", 200, 201),
     (SAMPLES | {"analysis.divergence.confirmation_revolutions": 0}, "solver.revolutions", 200, 201),
-    ({}, "sweeps.stop", 0.4, just_above(0.4)),
     ({"sweeps.start": 0.3}, "sweeps.stop", just_above(0.3), 0.3),
     ({}, "chart.K", [1, 1.00001], [1, 1.0000001]),
-    ({}, "chart.theta", [0.0, 0.15], [0.15, 0.0]),
-    ({}, "chart.casing", "2nd5nd", "3nd"),
-    ({}, "figures.amplitude_range", [1e-5, 2e-5], [2e-5, 2e-5]),
 ]
 
 

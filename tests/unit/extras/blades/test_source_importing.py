@@ -59,8 +59,8 @@ def test_the_blade_comes_back_from_its_file(blade, write, name, sets):
     assert imported.jacobian_ratio.min() > 0
 
 
-@pytest.mark.parametrize("name", ["blade.inp", "blade.msh", "blade.vtu"])
-def test_its_frequencies_come_back_as_well(twisted_config, tmp_path, name):
+def test_its_frequencies_come_back_as_well(twisted_config, tmp_path):
+    name = "blade.inp"
     config = {"blade": twisted_config, "reduction": REDUCTION}
     ours = build(config)
     sets = {"root": ours.mesh.root, "tip": ours.mesh.tip}
