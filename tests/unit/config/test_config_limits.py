@@ -73,6 +73,7 @@ BORDERS = [
     ({}, "coatings[0].layer_thickness", [5.00001e-4], [4e-3, 5e-4]),
     ({"coatings.0.layer_thickness": [6e-4]}, "coatings[0].interference", [5.99999e-4], [6e-4]),
     (COARSE, "contact.tip_profile.half_width", 12.5, just_above(12.5)),
+    ({}, "contact.tip_profile.half_width", 20, just_above(20)),
     (COARSE, "casings.2nd.nodal_diameters[0]", 50, 51),
     ({}, "casings.2nd.weights", [-1e-9], [0]),
     ({}, "casings.2nd5nd.weights", [0, 1], [0, 0]),
