@@ -79,6 +79,7 @@ def test_the_loop_agrees_with_the_reference_model(wide, spec, turns):
     [
         *((5, 1.1, 0.5), (5, np.inf, np.inf), (12, 1.1, 0.5)),
         *(pytest.param(n, np.inf, np.inf, marks=pytest.mark.nightly) for n in (12, 19)),
+        pytest.param(19, 1.1, 0.5, marks=pytest.mark.nightly),
     ],
     indirect=["wide"],
 )
