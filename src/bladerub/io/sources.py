@@ -42,9 +42,13 @@ def _as_input(path: Path) -> Path:
     return in_repository if in_repository.is_file() else path
 
 
-@cache
 def _path_of(module: str) -> Path:
-    path = PACKAGE.joinpath(*module.split("."))
+    return _path_below(PACKAGE, module)
+
+
+@cache
+def _path_below(folder: Path, module: str) -> Path:
+    path = folder.joinpath(*module.split("."))
     package = path / "__init__.py"
     return package if package.is_file() else path.with_suffix(".py")
 
