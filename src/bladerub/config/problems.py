@@ -78,8 +78,8 @@ def _line(mistake: Mapping[str, Any], whole: Key, values: Any) -> str:
             "" if len(parts) > 1 else " (a config of an older version? `bladerub new` writes one that has it)"
         )
         return f"{path}: missing, {key.right()}{new}"
-    if setting.startswith("extend = "):
-        return f"{setting}: is a key no more, give both files: --configfile {value} FILE"
+    if kind == "extra_forbidden" and path == "extend":
+        return f"{setting}: is a key no more, give --configfile both files, the one named here first"
     if kind == "extra_forbidden":
         return f"{setting}: unknown key, {_nearest(parts, group.fields())}"
     if kind in OWN:

@@ -21,6 +21,7 @@ MISTAKES = [
         'a number from 0.01 to 3, in m; this is 200 m; write "200 mm"',
     ),
     Mistake("blade: {lenght: 0.2}\n", 1, "blade.lenght", "did you mean blade.length?"),
+    Mistake("extend: config/quick.yaml\n", 1, "extend", "both files, the one named here first"),
     Mistake("contact:\n  damping_ratio: 1.0\n", 2, "contact.damping_ratio", "of at least 0 and below 1"),
     Mistake(
         "contact:\n  layer_thickness: 6 MPa\n",
