@@ -54,8 +54,9 @@ rule blade_tables:
             campbell=f"{TABLES}/campbell.csv",
             rom_accuracy=f"{TABLES}/rom_accuracy.csv",
         ),
-    group: "drawing"
     log:
         f"{RESULTS}/logs/blade_tables.log",
+    group:
+        "drawing"
     script:
         "../scripts/blade_tables.py"

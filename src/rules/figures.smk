@@ -62,11 +62,12 @@ rule fig01_blade:
         drawing=files_behind("plots.blade_mesh"),
     output:
         **drawn("fig01_blade", "Model"),
-    group: "drawing"
     log:
         f"{RESULTS}/logs/fig01_blade.log",
     benchmark:
         f"{RESULTS}/benchmarks/fig01_blade.tsv"
+    group:
+        "drawing"
     params:
         dpi=DPI,
     script:
@@ -80,11 +81,12 @@ rule fig02_campbell:
         drawing=files_behind("plots.campbell"),
     output:
         **drawn("fig02_campbell", "Model", with_data=True),
-    group: "drawing"
     log:
         f"{RESULTS}/logs/fig02_campbell.log",
     benchmark:
         f"{RESULTS}/benchmarks/fig02_campbell.tsv"
+    group:
+        "drawing"
     params:
         dpi=DPI,
         scales=SCALES,
@@ -99,11 +101,12 @@ rule fig03_tip_profile:
         drawing=files_behind("plots.tip_profile"),
     output:
         **drawn("fig03_tip_profile", "Model", with_data=True),
-    group: "drawing"
     log:
         f"{RESULTS}/logs/fig03_tip_profile.log",
     benchmark:
         f"{RESULTS}/benchmarks/fig03_tip_profile.tsv"
+    group:
+        "drawing"
     params:
         dpi=DPI,
         coating=part_of_run(INCLINED, "coating"),
@@ -118,11 +121,12 @@ rule fig04_coating_cycle:
         drawing=files_behind("plots.coating_cycle"),
     output:
         **drawn("fig04_coating_cycle", "Model", with_data=True),
-    group: "drawing"
     log:
         f"{RESULTS}/logs/fig04_coating_cycle.log",
     benchmark:
         f"{RESULTS}/benchmarks/fig04_coating_cycle.tsv"
+    group:
+        "drawing"
     params:
         dpi=DPI,
         coating=part_of_run(STRAIGHT, "coating"),
@@ -140,13 +144,14 @@ rule casing:
         **described(data=f"{PLOTS}/casing/{{casing}}.csv"),
         png=f"{PLOTS}/casing/{{casing}}.png",
         pdf=f"{PLOTS}/casing/{{casing}}.pdf",
-    group: "drawing"
     log:
         f"{RESULTS}/logs/casing/{{casing}}.log",
     benchmark:
         f"{RESULTS}/benchmarks/casing/{{casing}}.tsv"
     wildcard_constraints:
         casing="|".join(config["casings"]),
+    group:
+        "drawing"
     params:
         dpi=DPI,
         casing=lambda wildcards: part_of_run(
@@ -176,11 +181,12 @@ rule wear_map:
     output:
         png=f"{PLOTS}/wear_map/{{coating}}.png",
         pdf=f"{PLOTS}/wear_map/{{coating}}.pdf",
-    group: "drawing"
     log:
         f"{RESULTS}/logs/wear_map/{{coating}}.log",
     benchmark:
         f"{RESULTS}/benchmarks/wear_map/{{coating}}.tsv"
+    group:
+        "drawing"
     params:
         dpi=DPI,
         scales=SCALES,
@@ -209,11 +215,12 @@ rule spectrum:
     output:
         png=f"{PLOTS}/spectrum/{{coating}}.png",
         pdf=f"{PLOTS}/spectrum/{{coating}}.pdf",
-    group: "drawing"
     log:
         f"{RESULTS}/logs/spectrum/{{coating}}.log",
     benchmark:
         f"{RESULTS}/benchmarks/spectrum/{{coating}}.tsv"
+    group:
+        "drawing"
     params:
         **SPECTRA,
         scales=SCALES,
@@ -297,11 +304,12 @@ rule fig10_peaks:
         drawing=rules.spectrum.input.drawing,
     output:
         **drawn("fig10_peaks", "Wear and spectra", with_data=True),
-    group: "drawing"
     log:
         f"{RESULTS}/logs/fig10_peaks.log",
     benchmark:
         f"{RESULTS}/benchmarks/fig10_peaks.tsv"
+    group:
+        "drawing"
     params:
         **SPECTRA,
         scales=SCALES,
@@ -325,11 +333,12 @@ rule histograms:
         drawing=files_behind("plots.histogram"),
     output:
         **drawn_together(HISTOGRAMS, "Moduli of the coating"),
-    group: "drawing"
     log:
         f"{RESULTS}/logs/histograms.log",
     benchmark:
         f"{RESULTS}/benchmarks/histograms.tsv"
+    group:
+        "drawing"
     params:
         dpi=DPI,
         coatings=MODULI,
@@ -356,11 +365,12 @@ rule histories:
         drawing=files_behind("plots.history"),
     output:
         **drawn_together(HISTORIES, "Angle of the elements"),
-    group: "drawing"
     log:
         f"{RESULTS}/logs/histories.log",
     benchmark:
         f"{RESULTS}/benchmarks/histories.tsv"
+    group:
+        "drawing"
     params:
         dpi=DPI,
         scales=SCALES,
@@ -375,11 +385,12 @@ rule fig19_wear_polar:
         drawing=files_behind("plots.polar"),
     output:
         **drawn("fig19_wear_polar", "Angle of the elements", with_data=True),
-    group: "drawing"
     log:
         f"{RESULTS}/logs/fig19_wear_polar.log",
     benchmark:
         f"{RESULTS}/benchmarks/fig19_wear_polar.tsv"
+    group:
+        "drawing"
     params:
         dpi=DPI,
         speeds=[0.190, 0.197, *OWN],

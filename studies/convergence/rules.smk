@@ -9,11 +9,12 @@ rule finer_bars:
         analysing=files_behind("extras.verification.refinement"),
     output:
         **described(table=f"{TABLES}/finer_bars.csv"),
-    group: "drawing"
     log:
         f"{RESULTS}/logs/finer_bars.log",
     benchmark:
         f"{RESULTS}/benchmarks/finer_bars.tsv"
+    group:
+        "drawing"
     resources:
         runtime=minutes(5),
     script:
@@ -28,11 +29,12 @@ rule more_nodes:
         analysing=files_behind("extras.verification.refinement"),
     output:
         **described(table=f"{TABLES}/more_nodes.csv"),
-    group: "drawing"
     log:
         f"{RESULTS}/logs/more_nodes.log",
     benchmark:
         f"{RESULTS}/benchmarks/more_nodes.tsv"
+    group:
+        "drawing"
     resources:
         mem_mb=memory_mb,
         runtime=minutes(10),
@@ -49,11 +51,12 @@ rule rigid_convergence:
         analysing=files_behind("extras.verification.rigid_casing"),
     output:
         **described(table=f"{TABLES}/rigid_convergence.csv"),
-    group: "drawing"
     log:
         f"{RESULTS}/logs/rigid_convergence.log",
     benchmark:
         f"{RESULTS}/benchmarks/rigid_convergence.tsv"
+    group:
+        "drawing"
     resources:
         runtime=minutes(15),
     script:

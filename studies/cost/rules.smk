@@ -23,9 +23,10 @@ rule cost:
         **described(table=f"{MEASURED}/cost.csv", schedule=f"{MEASURED}/schedule.csv"),
         png=shown(f"{MEASURED}/cost.png", "cost", "Cost"),
         pdf=f"{MEASURED}/cost.pdf",
-    group: "drawing"
     log:
         f"{RESULTS}/logs/cost.log",
+    group:
+        "drawing"
     params:
         benchmarks=MEASURED,
         added=lambda wildcards: added(),

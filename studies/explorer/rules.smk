@@ -19,11 +19,12 @@ rule explorer:
         drawing=files_behind("plots.spectrum"),
     output:
         f"{RESULTS}/explorer.html",
-    group: "drawing"
     log:
         f"{RESULTS}/logs/explorer.log",
     benchmark:
         f"{RESULTS}/benchmarks/explorer.tsv"
+    group:
+        "drawing"
     params:
         settings={
             "max_frequency": config["figures"]["max_frequency"],

@@ -12,11 +12,12 @@ rule friction:
     output:
         **drawn("friction", "Angle of the elements"),
         **described(table=f"{TABLES}/friction.csv"),
-    group: "drawing"
     log:
         f"{RESULTS}/logs/friction.log",
     benchmark:
         f"{RESULTS}/benchmarks/friction.tsv"
+    group:
+        "drawing"
     params:
         revolutions=config["analysis"]["spectrum_revolutions"],
         dpi=DPI,

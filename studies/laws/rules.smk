@@ -11,11 +11,12 @@ rule laws:
         drawing=files_behind("extras.plots.law_cycles"),
     output:
         **drawn("laws", "Model", with_data=True),
-    group: "drawing"
     log:
         f"{RESULTS}/logs/laws.log",
     benchmark:
         f"{RESULTS}/benchmarks/laws.tsv"
+    group:
+        "drawing"
     params:
         dpi=DPI,
         coating=part_of_run(STRAIGHT, "coating"),

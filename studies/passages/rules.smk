@@ -46,7 +46,9 @@ rule sweep:
     input:
         blade=rules.blade.output.reduced_model,
         kernel=rules.compile_kernel.output[0],
-        analysing=files_behind("extras.passages.sweeps", "extras.passages.sweep_grid", "study.spectra"),
+        analysing=files_behind(
+            "extras.passages.sweeps", "extras.passages.sweep_grid", "study.spectra"
+        ),
     output:
         SWEEPS,
     log:
@@ -94,7 +96,9 @@ rule long_coating:
         map=rules.coating.output.map,
         blade=rules.blade.output.reduced_model,
         kernel=rules.compile_kernel.output[0],
-        analysing=files_behind("extras.passages.long_runs", "study.peaks", "study.growth"),
+        analysing=files_behind(
+            "extras.passages.long_runs", "study.peaks", "study.growth"
+        ),
     output:
         f"{RESULTS}/long_runs/{{coating}}.h5",
     log:

@@ -314,11 +314,12 @@ rule margins:
     output:
         **drawn("margins", "Claims"),
         **described(table=shown(f"{TABLES}/margins.csv", "margins_table", "Claims")),
-    group: "drawing"
     log:
         f"{RESULTS}/logs/margins.log",
     benchmark:
         f"{RESULTS}/benchmarks/margins.tsv"
+    group:
+        "drawing"
     params:
         analysis=config["analysis"] | {"peaks": PEAKS},
         speeds=config["speeds"],
