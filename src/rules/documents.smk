@@ -31,7 +31,8 @@ rule config_reference:
             path.relative_to(ROOT).as_posix()
             for path in ROOT.glob("src/bladerub/**/settings.py")
         ],
-        writing=files_behind("config.reference", "config.json_schema"),
+        page="docs/config_keys.py",
+        writing=files_behind("config.keys", "config.json_schema"),
     output:
         reference="docs/config.md",
         schema="config/schema.json",

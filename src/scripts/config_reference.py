@@ -4,10 +4,14 @@ from bladerub.workflow import job
 
 job.log_to(snakemake.log[0])
 
+import sys
+from pathlib import Path
+
+sys.path.insert(0, str(Path.cwd()))  # for docs
 from bladerub.config import json_schema
 from bladerub.config.read import load
-from bladerub.config.reference import reference
 from bladerub.io import atomic
+from docs.config_keys import reference
 
 texts = {"reference": reference(load(snakemake.input.config)), "schema": json_schema.text()}
 for name, text in texts.items():

@@ -8,8 +8,8 @@ from bladerub.cli import main
 from bladerub.config import json_schema
 from bladerub.config.files import read
 from bladerub.config.read import load
-from bladerub.config.reference import reference
 from bladerub.io.folders import ROOT
+from docs.config_keys import reference
 from tests.unit.config.mistakes import MISTAKES
 
 CONFIGS = sorted(

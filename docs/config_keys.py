@@ -1,4 +1,4 @@
-"""The reference of all keys of a config, docs/config.md, written from the models and the study's values."""
+"""The page of all keys of a config, docs/config.md, written from the models and the study's values."""
 
 from collections.abc import Iterator, Mapping
 from typing import Any
