@@ -124,21 +124,11 @@ def set_up_row(blade: ReducedBlade, spec: RunSpec, row: Row) -> RowSetUp:
     return RowSetUp(modes, seats, simulation, begins)
 
 
-def row_frequencies(blade: ReducedBlade, f_omega: float, row: Row) -> np.ndarray:
-    """Find the natural angular frequencies of the coupled modes of a row.
+def coupled_frequencies(modes: Modes, row: Row, mode: int, stiffness: np.ndarray) -> np.ndarray:
+    """Find the natural angular frequencies (N,) of a mode that the disk couples by `stiffness` (N, N), rad/s.
 
-    Returns those of each of the k modes that the disk couples in a row (k, N), ascending, rad/s; of the
-    first mode where there is no disk. Raises `ValueError` as `bladerub.contact.modes.mode_shapes_at`, and if
-    the disk makes a mode unstable.
+    They ascend; `modes` are those of the nominal blade. Raises `ValueError` if the disk makes one unstable.
     """
-    modes = modes_at(blade, f_omega)
-    matrices = row.disk.stiffness if row.disk else [np.zeros((len(row.blades), len(row.blades)))]
-    return np.array(
-        [_coupled_frequencies(modes, row, mode, np.array(matrix)) for mode, matrix in enumerate(matrices)]
-    )
-
-
-def _coupled_frequencies(modes: Modes, row: Row, mode: int, stiffness: np.ndarray) -> np.ndarray:
     factors = [blade.frequency_factors(modes.omega.size)[mode] for blade in row.blades]
     squares = scipy.linalg.eigvalsh(np.diag(np.square(factors)) + stiffness)
     if squares[0] <= 0:
@@ -210,7 +200,7 @@ def _coupling(spec: RunSpec, modes: Modes, row: Row, seats: Sequence[_Seat]) -> 
         raise ValueError(f"row, disk: couples {n} modes; must be at most the {resolved} that are resolved")
     passage = rules[0].time_step * seats[0].simulation.steps_per_element
     for mode, matrix in enumerate(matrices):
-        fastest = _coupled_frequencies(modes, row, mode, np.array(matrix))[-1]
+        fastest = coupled_frequencies(modes, row, mode, np.array(matrix))[-1]
         if fastest * passage > LONGEST_IMPULSE:
             raise ValueError(
                 f"row, disk: mode {mode + 1} of the {n} that it couples moves by {fastest * passage:.2g} rad "

@@ -10,7 +10,7 @@ import scipy.linalg
 from bladerub.contact.modes import modes_at
 from bladerub.contact.run import simulate
 from bladerub.contact.setup import element_area
-from bladerub.extras.rows.row import row_frequencies, simulate_row
+from bladerub.extras.rows.row import coupled_frequencies, simulate_row
 from bladerub.extras.rows.spec import Disk, Row, RowBlade
 
 SHOWN = ("radial_displacement", "revolution_peak", "revolution_amplitude")
@@ -136,11 +136,13 @@ def test_a_disk_couples_the_blades_as_in_the_plain_model(blade, spec, change):
 
 def test_identical_blades_on_a_ring_have_the_frequencies_of_the_cyclic_closed_form(blade):
     n_blades, coupling, f_omega = 7, [0.05, 0.003], 0.3
-    found = row_frequencies(blade, f_omega, Row.even(n_blades, disk=Disk.ring(n_blades, coupling)))
-    omega, diameters = modes_at(blade, f_omega).omega, np.arange(n_blades)
-    for mode, c in enumerate(coupling):
-        closed_form = omega[mode] * np.sqrt(1 + 4 * c * np.sin(np.pi * diameters / n_blades) ** 2)
-        np.testing.assert_allclose(found[mode], np.sort(closed_form), rtol=1e-9)
+    row, modes = Row.even(n_blades, disk=Disk.ring(n_blades, coupling)), modes_at(blade, f_omega)
+    for mode, (c, matrix) in enumerate(zip(coupling, row.disk.stiffness, strict=True)):
+        found = coupled_frequencies(modes, row, mode, np.array(matrix))
+        closed_form = modes.omega[mode] * np.sqrt(
+            1 + 4 * c * np.sin(np.pi * np.arange(n_blades) / n_blades) ** 2
+        )
+        np.testing.assert_allclose(found, np.sort(closed_form), rtol=1e-9)
 
 
 def test_mistuned_blades_have_the_frequencies_of_the_whole_row(blade):
@@ -155,8 +157,9 @@ def test_mistuned_blades_have_the_frequencies_of_the_whole_row(blade):
         own = np.diag((1 + scatter[:, mode]) ** 2 - 1)
         stiffness += squares[mode] * np.kron(own + matrix, np.outer(forces[:, mode], forces[:, mode]))
     whole = scipy.linalg.eigh(stiffness, np.kron(np.eye(n_blades), blade.mass), eigvals_only=True)
-    found = np.sort(row_frequencies(blade, f_omega, row).ravel())
-    np.testing.assert_allclose(found, np.sqrt(whole[: 2 * n_blades]), rtol=1e-9)
+    modes_of_blade = modes_at(blade, f_omega)
+    found = [coupled_frequencies(modes_of_blade, row, *of_mode) for of_mode in enumerate(matrices)]
+    np.testing.assert_allclose(np.sort(found, axis=None), np.sqrt(whole[: 2 * n_blades]), rtol=1e-9)
 
 
 def test_a_coupled_row_vibrates_at_the_frequency_of_its_nodal_diameter(blade, spec, change):
