@@ -54,7 +54,6 @@ KEPT = {
         "rows",
         *(f"pattern_drift_{statistic}" for statistic in ("median", "p05", "p95")),
     ),
-    "schedule": ("cores", "minutes", "efficiency"),
     "steps": ("E", "tolerance", "steps_per_revolution", "error", "sensitive"),
     "rigid_convergence": (
         *("f_omega", "treatment", "modes", "steps", "order", "complete", "amplitude"),

@@ -7,7 +7,7 @@ def numbers(tables):
     """Return the text for each name on the page."""
     return (
         _loop(tables["benchmark"])
-        | _study(tables["divergence"], tables["cost"], tables["schedule"])
+        | _study(tables["divergence"], tables["cost"])
         | _gpu(tables["gpu"])
     )
 
@@ -48,7 +48,7 @@ def _loop(benchmark):
     }
 
 
-def _study(divergence, cost, schedule):
+def _study(divergence, cost):
     stages = cost.replace({"stage": {"rubs": "runs"}}).groupby("stage")["wall_s"].agg(["count", "sum"])
     stages["share"] = stages["sum"] / stages["sum"].sum()
     return {
@@ -65,14 +65,6 @@ def _study(divergence, cost, schedule):
         ),
         "memory": fixed(cost["memory_mb"].max()),
         "memory_coating": fixed(rows(cost, stage="rubs")["memory_mb"].max()),
-        "schedule": table(
-            schedule,
-            {
-                "cores": "cores",
-                "minutes": ("minutes", decimals(1)),
-                "efficiency": ("efficiency", decimals(2)),
-            },
-        ),
     }
 
 

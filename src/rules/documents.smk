@@ -57,7 +57,6 @@ rule docs_data:
         ),
         f"{TABLES}/margins.csv",  # of the study `variations`
         f"{RESULTS}/benchmarks/cost.csv",  # of the study `cost`
-        f"{RESULTS}/benchmarks/schedule.csv",
     log:
         f"{RESULTS}/logs/docs_data.log",
     params:

@@ -17,10 +17,10 @@ rule cost:
         JUDGED,
         lambda wildcards: [path for name in added() for path in ADDED_TO_ALL[name]],
         maps=expand(rules.coating.output.map, coating=COATINGS),
-        collecting=files_behind("extras.cost.jobs", "extras.cost.schedule"),
+        collecting=files_behind("extras.cost.jobs"),
         drawing=files_behind("extras.cost.figure"),
     output:
-        **described(table=f"{MEASURED}/cost.csv", schedule=f"{MEASURED}/schedule.csv"),
+        **described(table=f"{MEASURED}/cost.csv"),
         png=shown(f"{MEASURED}/cost.png", "cost", "Cost"),
         pdf=f"{MEASURED}/cost.pdf",
     log:

@@ -1,13 +1,12 @@
-"""Collect what the jobs of the study cost, and what they would on more cores."""
+"""Collect what the jobs of the study cost."""
 
 from bladerub.workflow import job
 
 job.log_to(snakemake.log[0])
 
-from bladerub.extras.cost import schedule
 from bladerub.extras.cost.figure import cost
 from bladerub.extras.cost.jobs import by_stage, table
 from bladerub.workflow import outputs
 
 costs = table(snakemake.params.benchmarks, snakemake.params.added)
-outputs.save(snakemake, cost(by_stage(costs)), table=costs, schedule=schedule.table(costs, snakemake.config))
+outputs.save(snakemake, cost(by_stage(costs)), table=costs)

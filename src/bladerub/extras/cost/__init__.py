@@ -1,1 +1,1 @@
-"""What a study costs: processor time, memory, and minutes on more cores."""
+"""What a study costs: processor time and memory."""
