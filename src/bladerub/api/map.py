@@ -1,6 +1,6 @@
 """A map: all runs of one coating over the speed."""
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Iterable, Mapping
 from contextlib import suppress
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
@@ -18,7 +18,6 @@ from bladerub.api.notebook import Shown
 from bladerub.api.planned import Quantity, StudyCoating, StudyRun
 from bladerub.api.progress import bar, step
 from bladerub.api.run import Run
-from bladerub.api.simulate import solve
 from bladerub.api.study import settings_of
 from bladerub.config.units import speeds_in_words
 from bladerub.contact.setup import compile_kernel
@@ -27,11 +26,10 @@ from bladerub.io.provenance import provenance
 from bladerub.study import maps
 from bladerub.study.divergence import in_a_word, verdicts
 from bladerub.study.grid import CoatingCase
-from bladerub.study.growth import confirmation_spec, needs_confirmation
+from bladerub.study.job import compute_all
 from bladerub.study.maps import CoatingMap
-from bladerub.study.parallel import each_done
+from bladerub.study.plan import CoatingPlan, planned_run
 from bladerub.study.row import row_of
-from bladerub.study.solver import Solve, solver_of
 from bladerub.study.summary import spectral_peak
 
 if TYPE_CHECKING:
@@ -251,59 +249,25 @@ def simulate_speeds(
     results = solve_all(blade, runs, jobs, follow, progress)
     stored = [run.stored for run in results]
     longer = [run.longer.stored if run.longer else None for run in results]
-    normalised_speeds = [run.f_omega for run in runs]
-    prominence = coating.config["analysis"]["lobe_prominence"]
-    return Map(
-        maps.collect(
-            coating.case,
-            normalised_speeds,
-            maps.first_frequency(blade.reduced, normalised_speeds),
-            stored,
-            longer,
-            prominence,
-        ),
-        blade.f1_hz,
-        coating.config,
-    )
+    f_omega, prominence = [run.f_omega for run in runs], coating.config["analysis"]["lobe_prominence"]
+    C1 = maps.first_frequency(blade.reduced, f_omega)
+    collected = maps.collect(coating.case, f_omega, C1, stored, longer, prominence)
+    return Map(collected, blade.f1_hz, coating.config)
 
 
 def solve_all(
     blade: Blade, runs: list[StudyRun], jobs: int, follow: bool, progress: bool | None
 ) -> list[Run]:
-    """Simulate `runs`, `jobs` at once, without their histories; other arguments as of `simulate`."""
+    """Simulate `runs` of a coating, `jobs` at once, without histories; other arguments as of `simulate`."""
     with step("compiling the time loop", progress):
-        for law in {run.spec.coating.element_law for run in runs}:
-            compile_kernel(n_nodes=blade.reduced.n_interface, law=law)
+        compile_kernel(n_nodes=blade.reduced.n_interface, law=runs[0].spec.coating.element_law)
+    specs, config = [run.of_length(blade.length).spec for run in runs], runs[0].of_length(blade.length).config
+    files, row = (f"{number}.h5" for number in range(len(runs))), row_of(config)
+    planned = [planned_run(config, *run, False, row) for run in zip(specs, files, strict=True)]
+    plan = CoatingPlan(runs[0].case, tuple(planned), follow)
     with bar(len(runs), "run", progress) as line:
-        if not row_of(runs[0].config):
-            solver = _solved_together(blade, runs, jobs, follow, line.update)
-            return [solve(blade, run, follow, keep_history=False, solver=solver) for run in runs]
-        results = {}
-
-        def compute(number: int) -> Run:
-            return solve(blade, runs[number], follow, keep_history=False)
-
-        for number, run in each_done(compute, range(len(runs)), jobs):
-            results[number] = run
-            line.update()
-        return [results[number] for number in range(len(runs))]
-
-
-def _solved_together(
-    blade: Blade, runs: list[StudyRun], jobs: int, follow: bool, advance: Callable[[], Any]
-) -> Solve:
-    """Simulate single blades, then longer those that grow; return what looks the results up."""
-    specs = [run.of_length(blade.length).spec for run in runs]
-    solver, settings = solver_of(runs[0].config), runs[0].config["analysis"]["divergence"]
-    results = {}
-    for solved in solver.simulate_many(blade.reduced, specs, jobs):
-        results[specs[solved.number]] = solved.result
-        advance()
-    growing = [
-        confirmation_spec(spec, settings)
-        for spec, result in results.items()
-        if follow and needs_confirmation(result.revolution_amplitude, result.status, settings)
-    ]
-    confirmations = solver.simulate_many(blade.reduced, growing, jobs)
-    results |= {growing[solved.number]: solved.result for solved in confirmations}
-    return lambda blade, spec, progress: results[spec]
+        stored, longer = compute_all(
+            config, plan, blade.reduced, blade.digest, threads=jobs, advance=line.update
+        )
+    pairs = zip(stored, longer, strict=True)
+    return [Run(run, Run(more) if more else None, config=config) for run, more in pairs]

@@ -12,11 +12,10 @@ from bladerub.api.planned import StudyRun
 from bladerub.api.progress import bar, step
 from bladerub.api.run import Run, stress_measure
 from bladerub.contact.setup import compile_kernel
-from bladerub.contact.spec import RunSpec
 from bladerub.study.grid import speed_name
-from bladerub.study.growth import confirmation_spec, needs_confirmation
+from bladerub.study.growth import needs_confirmation
 from bladerub.study.job import compute
-from bladerub.study.plan import planned_run
+from bladerub.study.plan import PlannedRun, longer_run, planned_run
 from bladerub.study.row import row_of
 from bladerub.study.solver import Solve, one_by, solver_of
 from bladerub.study.store import StoredRun
@@ -95,6 +94,11 @@ def simulate(
     (3, 2)
     """
     blade.check_speed("f_omega", run.f_omega)
+    run = run.of_length(blade.length)  # perhaps not the study's own blade
+    row, solver, analysis = row or row_of(run.config), one_by(solver_of(run.config)), run.config["analysis"]
+    if stress and row:
+        raise ValueError("stress = True: is found for a single blade only, must be False with a row")
+    stressed = _stress_solver(blade, run) if stress else None
     with step("compiling the time loop", progress):
         compile_kernel(n_nodes=blade.reduced.n_interface, law=run.spec.coating.element_law)
     with bar(run.spec.revolutions, "rev", progress) as line:
@@ -105,7 +109,19 @@ def simulate(
             if each:
                 each(revolutions)
 
-        return solve(blade, run, follow, report, row=row, stress=stress)
+        def computed(planned: PlannedRun, solver: Solve) -> StoredRun:
+            key = planned.key(blade.digest)
+            return compute(run.case, planned, blade.reduced, key, analysis, report, solver)
+
+        planned = planned_run(run.config, run.spec, f"{speed_name(run.f_omega)}.h5", True, row)
+        stored, longer = computed(planned, stressed or solver), None
+        amplitude, status = stored.data["revolution_amplitude"], stored.attributes["status"]
+        if follow and needs_confirmation(amplitude, status, analysis["divergence"]):
+            longer = Run(computed(longer_run(run.config, planned), solver))
+    run_stress = stressed.stress if stressed else None
+    if run_stress:
+        stored = replace(stored, attributes=stored.attributes | run_stress.attributes())
+    return Run(stored, longer, run_stress, run.config)
 
 
 def counted(bar: tqdm, run: StudyRun) -> Callable[[int], None]:
@@ -119,54 +135,7 @@ def counted(bar: tqdm, run: StudyRun) -> Callable[[int], None]:
     return count
 
 
-def solve(
-    blade: Blade,
-    run: StudyRun,
-    follow: bool,
-    progress: Callable[[int], None] | None = None,
-    keep_history: bool = True,
-    row: Any = None,
-    stress: bool = False,
-    solver: Solve | None = None,
-) -> Run:
-    """Simulate `run`, and its longer run if it is to `follow` growth; parameters as of `simulate`.
-
-    A single blade is simulated by `solver`, by default on what ``solver.device`` says.
-    """
-    digest, settings = blade.digest, run.config["analysis"]["divergence"]
-    run = run.of_length(blade.length)  # perhaps not the study's own blade
-    row = row or row_of(run.config)
-    solver = solver or one_by(solver_of(run.config))
-    if stress and row:
-        raise ValueError("stress = True: is found for a single blade only, must be False with a row")
-    stressed = _stress_solver(blade, run) if stress else None
-    stored = _solve(blade, run, run.spec, digest, progress, keep_history, row, stressed or solver)
-    run_stress = stressed.stress if stressed else None
-    if run_stress:
-        stored = replace(stored, attributes=stored.attributes | run_stress.attributes())
-    longer = None
-    amplitude, status = stored.data["revolution_amplitude"], stored.attributes["status"]
-    if follow and needs_confirmation(amplitude, status, settings):
-        spec = confirmation_spec(run.spec, settings)
-        longer = Run(_solve(blade, run, spec, digest, progress, False, row, solver))
-    return Run(stored, longer, run_stress, run.config)
-
-
 def _stress_solver(blade: Blade, run: StudyRun) -> Any:
     if (module := stress_measure()) is None:  # before any work
         raise ValueError("stress = True: this package is without what finds the stress, must be False")
     return module.StressSolver(blade.mesh_path, run.config["analysis"]["spectrum_revolutions"])
-
-
-def _solve(
-    blade: Blade,
-    run: StudyRun,
-    spec: RunSpec,
-    digest: str,
-    progress: Callable[[int], None] | None,
-    keep_history: bool,
-    row: Any,
-    solver: Solve | None,
-) -> StoredRun:
-    plan = planned_run(run.config, spec, f"{speed_name(spec.f_omega)}.h5", keep_history, row)
-    return compute(run.case, plan, blade.reduced, plan.key(digest), run.config["analysis"], progress, solver)

@@ -17,9 +17,8 @@ from bladerub.study.grid import CoatingCase, coating_cases, speeds
 from bladerub.study.job import compute_all, compute_missing
 from bladerub.study.manifest import write_manifest
 from bladerub.study.maps import CoatingMap, build_map, collect, first_frequency, read_map
-from bladerub.study.parallel import each_done
 from bladerub.study.plan import coating_plan
-from bladerub.study.solver import solver_of
+from bladerub.study.solver import each_done, solver_of
 
 
 class SmallStudy(NamedTuple):
@@ -87,7 +86,7 @@ def _in_memory(
     config: Mapping[str, Any], case: CoatingCase, blade: ReducedBlade, report: Callable[[object], None]
 ) -> tuple[CoatingMap, int]:
     """Do as `map_coating` without files."""
-    runs, longer = compute_all(config, coating_plan(config, case), blade, report)
+    runs, longer = compute_all(config, coating_plan(config, case), blade, report=report)
     planned, prominence = speeds(config), config["analysis"]["lobe_prominence"]
     coating_map = collect(case, planned, first_frequency(blade, planned), runs, longer, prominence)
     return replace(coating_map, wear_node=None), len(runs) + sum(run is not None for run in longer)

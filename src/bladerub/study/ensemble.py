@@ -18,7 +18,7 @@
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 from zlib import crc32
 
 import numpy as np
@@ -32,16 +32,14 @@ from bladerub.io.hdf5 import Variable
 from bladerub.io.provenance import provenance
 from bladerub.study import maps
 from bladerub.study.grid import SAME_SPEED, CoatingCase, run_spec, speed_name
+from bladerub.study.job import RunDone, compute_missing
 from bladerub.study.manifest import ManifestRow, write_manifest
 from bladerub.study.maps import CoatingMap
 from bladerub.study.members import named
 from bladerub.study.orders import peak_settings
 from bladerub.study.peaks import nearest_speed
+from bladerub.study.plan import CoatingPlan, planned_run
 from bladerub.study.row import row_of
-
-if TYPE_CHECKING:  # import the time loop, which readers of ensembles do without
-    from bladerub.study.job import RunDone
-    from bladerub.study.plan import CoatingPlan
 
 FOLDER = "ensemble"
 """Folder of the members in that of the coating's runs, with a manifest of its own."""
@@ -108,10 +106,8 @@ def refined(spec: RunSpec) -> RunSpec:
     )
 
 
-def plan(config: Mapping[str, Any], case: CoatingCase, f_omega: np.ndarray) -> "list[CoatingPlan]":
+def plan(config: Mapping[str, Any], case: CoatingCase, f_omega: np.ndarray) -> list[CoatingPlan]:
     """Plan the members of one coating at the speeds `f_omega`, then the refined runs: the runs of each."""
-    from bladerub.study.plan import CoatingPlan, planned_run
-
     settings, row, runs = config["ensemble"], row_of(config), []
     for f in map(float, f_omega):
         spec, drawn = run_spec(config, case, f), starts(settings, case, f, settings["members"])
@@ -135,7 +131,7 @@ def make(
     blade_digest: str,
     runs_folder: str | Path,
     path: str | Path,
-    report: "Callable[[RunDone | str], None]",
+    report: Callable[[RunDone | str], None],
     threads: int = 1,
 ) -> list[ManifestRow]:
     """Compute the members of a coating that are missing or stale, and collect all in the file `path`.
@@ -143,9 +139,6 @@ def make(
     Returns the rows of their manifest. `coating` is its map, `runs_folder` that of its runs; other parameters
     are those of `bladerub.study.job.compute_missing`.
     """
-    from bladerub.study.job import compute_missing
-    from bladerub.study.plan import CoatingPlan
-
     folder, f_omega = Path(runs_folder) / FOLDER, chosen(config, coating)
     planned = plan(config, coating.case, f_omega)
     together = CoatingPlan(coating.case, tuple(run for member in planned for run in member.runs))

@@ -10,7 +10,6 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from bladerub.blade.model import ReducedBlade
-from bladerub.contact.run import simulate
 from bladerub.io import lock
 from bladerub.io.checksum import file_checksum
 from bladerub.io.provenance import provenance
@@ -18,10 +17,9 @@ from bladerub.study.cache import Entry
 from bladerub.study.grid import CoatingCase
 from bladerub.study.growth import needs_confirmation
 from bladerub.study.manifest import ManifestRow
-from bladerub.study.parallel import each_done
 from bladerub.study.plan import CoatingPlan, PlannedRun, growth_key, longer_file, longer_run
 from bladerub.study.row import rows
-from bladerub.study.solver import Solve, solver_of
+from bladerub.study.solver import Solve, Solver, each_done, one_by, solver_of
 from bladerub.study.store import MAPPED, StoredRun, read_run, stored_run, write_run
 
 LOCK = ".lock"
@@ -96,21 +94,27 @@ def compute_all(
     config: Mapping[str, Any],
     plan: CoatingPlan,
     blade: ReducedBlade,
+    blade_digest: str = "",
     report: Callable[[object], None] = lambda line: None,
+    threads: int = 1,
+    advance: Callable[[], object] = lambda: None,
 ) -> tuple[list[StoredRun], list[StoredRun | None]]:
     """Compute the runs that `compute_missing` would, all of them, and keep them in memory.
 
-    Returns the runs of the `plan` in its order, and the longer run of each or None. They have no keys.
-    `report` is called with the lines of the solver for a log.
+    Returns the runs of the `plan` in its order, and the longer run of each or None. `report` is called with
+    the lines of the solver for a log, `advance` after each run of the plan.
     """
 
-    def complete(runs: Sequence[PlannedRun]) -> dict[str, StoredRun]:
-        keys = dict.fromkeys((run.file for run in runs), "")
-        computed = _each_computed(config, plan.case, blade, runs, keys, report)
-        return {run.file: stored for run, stored, _ in computed}
+    def complete(runs: Sequence[PlannedRun], advance: Callable[[], object]) -> dict[str, StoredRun]:
+        computed = {}
+        for run, stored, _ in _each_computed(config, plan.case, blade, runs, blade_digest, report, threads):
+            computed[run.file] = stored
+            advance()
+        return computed
 
-    stored_runs = complete(plan.runs)
-    longer = complete(_longer(config, plan, {file: _end(stored) for file, stored in stored_runs.items()}))
+    stored_runs = complete(plan.runs, advance)
+    ends = {file: _end(stored) for file, stored in stored_runs.items()}
+    longer = complete(_longer(config, plan, ends), lambda: None)
     return [stored_runs[run.file] for run in plan.runs], [longer.get(longer_file(run)) for run in plan.runs]
 
 
@@ -126,13 +130,13 @@ def compute(
     """Simulate what was planned, a single blade or a row, and return what is stored of it.
 
     `key` is that of the run, `analysis` of the config; `progress` is called with the number of revolutions
-    done. A single blade is simulated by `solve`, by default `bladerub.contact.run.simulate`. Raises
-    `ValueError` as `bladerub.contact.run.simulate` and `bladerub.study.row.rows`.
+    done. A single blade is simulated by `solve`, by default on the processor. Raises `ValueError` as
+    `bladerub.contact.run.simulate` and `bladerub.study.row.rows`.
     """
     if run.row:
         row = run.row, blade, case, run.spec
         return rows().compute(*row, key, analysis, run.keep_history, progress)
-    result = (solve or simulate)(blade, run.spec, progress)
+    result = (solve or one_by(Solver()))(blade, run.spec, progress)
     return stored_run(case, run.spec, result, key, analysis, run.keep_history)
 
 
@@ -177,8 +181,7 @@ def _complete(
     # a run takes as many steps as its revolutions take time: its cost goes as 1 / speed
     cost_left = sum(1 / run.spec.f_omega for run in missing)
     cost_done, start = 0.0, time.monotonic()
-    keys = {file: entry.key for file, entry in entries.items()}
-    computed = _each_computed(config, case, blade, missing, keys, report, threads)
+    computed = _each_computed(config, case, blade, missing, blade_digest, report, threads)
     for number, (run, stored, seconds) in enumerate(computed, 1):
         entry = entries[run.file]
         entry.make_room()
@@ -200,23 +203,23 @@ def _each_computed(
     case: CoatingCase,
     blade: ReducedBlade,
     runs: Sequence[PlannedRun],
-    keys: Mapping[str, str],
+    blade_digest: str,
     report: Callable[[object], None],
-    threads: int = 1,
+    threads: int,
 ) -> Iterator[tuple[PlannedRun, StoredRun, float]]:
-    """Yield each run as it is done, with its `keys` by file, and the seconds that it took; rows last."""
+    """Yield each run as it is done, and the seconds that it took; rows last."""
     analysis = config["analysis"]
 
     def compute_row(run: PlannedRun) -> tuple[StoredRun, float]:
         start = time.monotonic()
-        return compute(case, run, blade, keys[run.file], analysis), time.monotonic() - start
+        return compute(case, run, blade, run.key(blade_digest), analysis), time.monotonic() - start
 
     single = [run for run in runs if not run.row]
     solved = solver_of(config).simulate_many(blade, [run.spec for run in single], threads, report)
     for number, result, seconds in solved:
         run = single[number]
-        stored = stored_run(case, run.spec, result, keys[run.file], analysis, run.keep_history)
-        yield run, stored, seconds
+        key = run.key(blade_digest)
+        yield run, stored_run(case, run.spec, result, key, analysis, run.keep_history), seconds
     for run, (stored, seconds) in each_done(compute_row, [run for run in runs if run.row], threads):
         yield run, stored, seconds
 

@@ -4,7 +4,7 @@ from collections.abc import Mapping, Sequence, Set
 from dataclasses import asdict, dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -17,10 +17,8 @@ from bladerub.io.hdf5 import Variable
 from bladerub.io.provenance import provenance
 from bladerub.study.grid import CoatingCase
 from bladerub.study.manifest import ManifestRow, confirmation_path
+from bladerub.study.store import MAPPED, StoredRun, read_run
 from bladerub.study.wear import dominant_harmonic, lobes
-
-if TYPE_CHECKING:  # imports the time loop, which readers of maps do without
-    from bladerub.study.store import StoredRun
 
 _RADIAL = "the radial displacement of node 1"
 _LARGEST = "largest absolute radial displacement of node 1 in each revolution"
@@ -125,8 +123,6 @@ def collect_listed(
 
     `C1` is from `first_frequency`; other parameters are those of `build_map`, which raises the same.
     """
-    from bladerub.study.store import MAPPED
-
     runs = [_listed_run(folder, folder / row.file, row.run_key, MAPPED) for row in rows]
     scales = _listed_run(folder, folder / rows[0].file, rows[0].run_key, {"angle", "spectrum_order"})
     runs[0].data.update(scales.data)
@@ -135,7 +131,7 @@ def collect_listed(
     return collect(case, [row.f_omega for row in rows], C1, runs, longer, prominence)
 
 
-def _longer_run(folder: Path, row: ManifestRow) -> "StoredRun | None":
+def _longer_run(folder: Path, row: ManifestRow) -> StoredRun | None:
     if not row.confirmation_key:
         return None
     path = confirmation_path(folder / row.file)
@@ -146,8 +142,8 @@ def collect(
     case: CoatingCase,
     speeds: Sequence[float],
     C1: np.ndarray,
-    runs: "Sequence[StoredRun]",
-    longer: "Sequence[StoredRun | None]",
+    runs: Sequence[StoredRun],
+    longer: Sequence[StoredRun | None],
     prominence: float,
 ) -> CoatingMap:
     """Collect runs of one coating at ascending speeds (normalised), and their longer runs or None.
@@ -155,8 +151,6 @@ def collect(
     Of the first run all datasets are needed, of the others `MAPPED`, of the longer ones the amplitude.
     `C1` is from `first_frequency`, `prominence` decides what counts as a lobe.
     """
-    from bladerub.study.store import MAPPED
-
     scales = {name: runs[0].data[name] for name in ("angle", "spectrum_order")}
     collected = {name: np.stack([run.data[name] for run in runs]) for name in MAPPED}
     wear = collected.pop("wear")
@@ -175,7 +169,7 @@ def collect(
     )
 
 
-def _confirmation_amplitude(longer: "Sequence[StoredRun | None]") -> np.ndarray:
+def _confirmation_amplitude(longer: Sequence[StoredRun | None]) -> np.ndarray:
     amplitudes = {i: run.data["revolution_amplitude"] for i, run in enumerate(longer) if run is not None}
     revolutions = max((amplitude.size for amplitude in amplitudes.values()), default=0)
     collected = np.full((len(longer), revolutions), np.nan)
@@ -184,9 +178,7 @@ def _confirmation_amplitude(longer: "Sequence[StoredRun | None]") -> np.ndarray:
     return collected
 
 
-def _listed_run(folder: Path, path: Path, key: str, datasets: Set[str]) -> "StoredRun":
-    from bladerub.study.store import read_run
-
+def _listed_run(folder: Path, path: Path, key: str, datasets: Set[str]) -> StoredRun:
     run = read_run(path, datasets, {"status"})
     if run.attributes["run_key"] != key:
         raise DamagedFile(f"{path}: not the run that {folder / 'manifest.tsv'} lists, its key differs")

@@ -5,15 +5,20 @@ It is the processor, or what a folder of `bladerub.extras` offers under another 
 """
 
 import time
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from typing import Any, NamedTuple
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor, as_completed
+from typing import Any, NamedTuple, TypeVar
+
+from threadpoolctl import threadpool_limits
 
 from bladerub import plugins
 from bladerub.blade.model import ReducedBlade
 from bladerub.contact.result import RunResult
 from bladerub.contact.spec import RunSpec
 from bladerub.io.errors import BadInput
-from bladerub.study.parallel import each_done
+
+Item = TypeVar("Item")
+Result = TypeVar("Result")
 
 Solve = Callable[[ReducedBlade, RunSpec, Callable[[int], None] | None], RunResult]
 """Simulates one run as `bladerub.contact.run.simulate`."""
@@ -28,7 +33,7 @@ class Solved(NamedTuple):
 
 
 class Solver:
-    """Computes runs of one blade; a solver derives from this."""
+    """Computes runs of one blade on the processor; what computes them otherwise derives from this."""
 
     wants_many = False
     """Whether it computes runs together, and is idle where it gets a few at a time."""
@@ -46,28 +51,6 @@ class Solver:
         `threads` runs may be computed at once, `report` is called with lines for a log, and `progress` with
         the number of revolutions done of a run, where they are counted.
         """
-        raise NotImplementedError
-
-    def determinants(self) -> dict[str, str]:
-        """Name and digest of what determines a run besides `bladerub.io.sources.solver_digest`, if any."""
-        return {}
-
-    def start(self) -> None:
-        """Begin, in the main process of a workflow, what its jobs on this machine share, if anything."""
-
-
-class Processor(Solver):
-    """Computes runs one after the other, or some at once in threads."""
-
-    def simulate_many(
-        self,
-        blade: ReducedBlade,
-        specs: Sequence[RunSpec],
-        threads: int = 1,
-        report: Callable[[str], None] = lambda line: None,
-        progress: Callable[[int], None] | None = None,
-    ) -> Iterator[Solved]:
-        """Yield each run as it is done."""
         from bladerub.contact.run import simulate  # loads the compiler: who plans runs alone does without
 
         def timed(number: int) -> tuple[RunResult, float]:
@@ -77,12 +60,19 @@ class Processor(Solver):
         for number, (result, seconds) in each_done(timed, range(len(specs)), threads):
             yield Solved(number, result, seconds)
 
+    def determinants(self) -> dict[str, str]:
+        """Name and digest of what determines a run besides `bladerub.io.sources.solver_digest`, if any."""
+        return {}
+
+    def start(self) -> None:
+        """Begin, in the main process of a workflow, what its jobs on this machine share, if anything."""
+
 
 def solver_of(config: Mapping[str, Any]) -> Solver:
     """Return what computes the runs of the study `config`; raises `BadInput` where that is not there."""
     name, offered = config["solver"]["device"], plugins.offered("SOLVERS")
     if name == "cpu":
-        return Processor()
+        return Solver()
     if name not in offered:
         names = " or ".join(["cpu", *offered])
         raise BadInput(f"solver.device = {name}: this package is without it, must be {names}")
@@ -97,3 +87,24 @@ def one_by(solver: Solver) -> Solve:
         return solved.result
 
     return solve
+
+
+def each_done(
+    compute: Callable[[Item], Result], items: Iterable[Item], threads: int
+) -> Iterator[tuple[Item, Result]]:
+    """Yield each item with ``compute(item)`` as it is done, `threads` at once: the loop holds no global lock.
+
+    With one thread the items are computed in this one, in their order, and each only when it is asked for.
+    After an error, which is raised, or when no more are asked for, none is begun.
+    """
+    with threadpool_limits(1, "blas"):  # one for all: threads that come and go change each other's
+        if threads == 1:
+            yield from ((item, compute(item)) for item in items)
+            return
+        with ThreadPoolExecutor(threads) as pool:
+            futures = {pool.submit(compute, item): item for item in items}
+            try:
+                for future in as_completed(futures):
+                    yield futures[future], future.result()
+            finally:
+                pool.shutdown(wait=False, cancel_futures=True)

@@ -30,8 +30,8 @@ from bladerub.study.job import compute
 from bladerub.study.maps import first_frequency
 from bladerub.study.members import expected_cost
 from bladerub.study.orders import peak_orders
-from bladerub.study.parallel import each_done
 from bladerub.study.plan import PlannedRun, longer_run, planned_run
+from bladerub.study.solver import each_done
 from bladerub.study.store import write_run
 
 DRAWN = 128

@@ -17,7 +17,7 @@ from bladerub.extras.gpu.batch import Device
 from bladerub.extras.gpu.many import LeftOut, simulate_many
 from bladerub.extras.study_runs import study_runs
 from bladerub.study.grid import run_spec
-from bladerub.study.parallel import each_done
+from bladerub.study.solver import each_done
 
 COLUMNS = [
     *("gpu", "processor", "cores", "gpu_runs", "handed_over", "kernel_s", "gpu_s", "gpu_steps_per_second"),

@@ -24,8 +24,7 @@ from bladerub.io.checksum import file_checksum
 from bladerub.io.sources import solver_digest
 from bladerub.study import cache
 from bladerub.study.grid import CoatingCase, element_law, run_spec
-from bladerub.study.parallel import each_done
-from bladerub.study.solver import solver_of
+from bladerub.study.solver import each_done, solver_of
 
 
 @functools.cache

@@ -5,7 +5,7 @@ import time
 
 import pytest
 
-from bladerub.study.parallel import each_done
+from bladerub.study.solver import each_done
 
 
 def test_one_thread_is_the_caller_s_and_computes_on_demand():
