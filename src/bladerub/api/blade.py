@@ -55,6 +55,8 @@ class Blade(Shown):
     ((8,), True)
     >>> blade.frequencies(f_omega=0.3).shape
     (3,)
+    >>> 0.18 < blade.f_omega("2200 rpm") < 0.2
+    True
     >>> blade.check_speed("f_omega", 0.39)
     >>> float(blade.accuracy()["f_omega"].max())
     0.4
@@ -109,15 +111,7 @@ class Blade(Shown):
     def f_omega(self, speed: Quantity) -> float:
         """Normalise a speed with a unit, such as ``"2200 rpm"``; one that is a number is normalised already.
 
-        Raises
-        ------
-        InputError
-            If it is no speed.
-
-        Examples
-        --------
-        >>> 0.18 < blade.f_omega("2200 rpm") < 0.2
-        True
+        Raises `InputError` if it is no speed.
         """
         try:
             return float(number("f_omega", speed, references({}, self.f1_hz)))
@@ -127,10 +121,7 @@ class Blade(Shown):
     def check_speed(self, name: str, f_omega: float) -> None:
         """Check that the reduced model holds at the normalised speed `f_omega`, the argument `name`.
 
-        Raises
-        ------
-        InputError
-            If it does not; the message says up to which speed it does.
+        Raises `InputError`, which says up to which speed it does, if not.
         """
         fastest = self.reduced.f_omega_max
         if f_omega > fastest:
@@ -138,14 +129,9 @@ class Blade(Shown):
             raise InputError(name, f_omega, requirement)
 
     def frequencies(self, f_omega: Quantity | Sequence[Quantity] = 0.0, n_modes: int = 3) -> np.ndarray:
-        """Lowest eigenfrequencies of the reduced model at a speed as of `Blade.f_omega`, Hz.
+        """Lowest eigenfrequencies (n_modes,) of the reduced model at a speed as of `Blade.f_omega`, Hz.
 
-        They are (n_modes,), or (n, n_modes) at n speeds.
-
-        Raises
-        ------
-        ValueError
-            If a speed is outside the range of the blade.
+        At n speeds they are (n, n_modes). Raises ValueError if one is outside the range of the blade.
         """
         if isinstance(f_omega, float | int | str):
             return reduced_frequencies(self.reduced, self.f_omega(f_omega), n_modes)
@@ -155,10 +141,7 @@ class Blade(Shown):
     def accuracy(self) -> pd.DataFrame:
         """Frequencies (Hz) of finite elements, eq. (2) and reduced model, as in ``rom_accuracy.csv``.
 
-        Raises
-        ------
-        OSError
-            If the table is missing, as for a blade read from elsewhere; the message names it.
+        Raises OSError, which names the table, if it is missing, as for a blade read from elsewhere.
         """
         return tables.read(accuracy_path(self.path), ACCURACY_COLUMNS)
 

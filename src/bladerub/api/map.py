@@ -153,10 +153,7 @@ class Map(Shown):
     def write(self, path: str | Path, config: Mapping[str, Any] | None = None) -> None:
         """Write the map to the HDF5 file `path`, whole or not at all; `config` as of `Run.verdict`.
 
-        Raises
-        ------
-        OSError
-            If it cannot be written; the message names the file.
+        Raises OSError, which names the file, if it cannot be written.
         """
         maps.write_map(path, self.coating, provenance(settings_of(config, self.config)))
 
@@ -218,7 +215,7 @@ def simulate_speeds(
     coating : StudyCoating
         The coating, from `Study.coating` or `Study.rigid`; a list of them gives a list of maps.
     speeds : iterable of float or str
-        Speeds, normalised or with a unit (``"2200 rpm"``, of this blade): at least two, ascending in the map.
+        Speeds, normalised or with a unit (``"2200 rpm"``, of this blade): two or more, ascending in the map.
     jobs : int
         Runs at once.
     follow, progress : bool, optional
@@ -228,11 +225,6 @@ def simulate_speeds(
     ------
     InputError
         If a speed is outside the range of the blade, or there are fewer than two.
-
-    Returns
-    -------
-    Map
-        Speeds ascending, each once.
 
     Examples
     --------

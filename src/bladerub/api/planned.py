@@ -104,18 +104,7 @@ class StudyCoating:
         """Describe the run at the speed `f_omega`, of so many revolutions.
 
         The speed is normalised, or text such as ``"2200 rpm"``, by the first frequency of the study's
-        blade. A list of speeds gives a list of runs.
-
-        Raises
-        ------
-        InputError
-            If `f_omega` or `revolutions` is not possible.
-
-        Examples
-        --------
-        >>> import bladerub as br
-        >>> br.default_study().coating("2nd", E=2, K=0.5).at(0.19).name
-        '2nd_E2_K0.5_theta0/0.1900'
+        blade. A list of speeds gives a list of runs. Raises `InputError` if either is not possible.
         """
         f_omega = checked_number(self.config, "f_omega", f_omega)
         config = self.config if revolutions is None else _of_revolutions(self.config, revolutions)

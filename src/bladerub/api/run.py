@@ -150,10 +150,7 @@ class Run(Shown):
     def radial_displacement(self) -> np.ndarray:
         """Radial displacement of node 1 over the run, m: mean over the passage of each element.
 
-        Raises
-        ------
-        InputError
-            If the file of the run does not hold it.
+        Raises `InputError` if the file of the run does not hold it.
         """
         if "radial_displacement" not in self.stored.data:
             reason = "the study keeps the displacement of runs under analysis.histories alone; simulate it"
@@ -203,12 +200,10 @@ class Run(Shown):
         return judge(self.revolution_amplitude, self.status, settings, longer)
 
     def summary(self, config: Mapping[str, Any] | None = None) -> dict[str, Any]:
-        """Summarise the run by the settings of a study `config`; keys as of `--json` of `bladerub run`.
+        """Summarise the run by the settings of a study `config`, by default as of `verdict`.
 
-        Default: the config of its own study, or of the study at work if the run was read from a file.
-
-        They are those of `bladerub.study.summary.summarise`: peak amplitude and its engine order, wear,
-        lobes, growth and verdict, steps, status.
+        The keys are those of `bladerub.study.summary.summarise`, as in `--json` of `bladerub run`: peak
+        amplitude and its engine order, wear, lobes, growth and verdict, steps, status.
         """
         analysis = settings_of(config, self.config)["analysis"]
         return summarise(self.stored, analysis, self.longer.stored if self.longer else None)
@@ -223,10 +218,7 @@ class Run(Shown):
     def plot_history(self, path: str | Path | None = None, *, ax: "Axes | None" = None) -> "Figure | Axes":
         """Draw the radial displacement of node 1 over the run and its amplitude; arguments as `plot_wear`.
 
-        Raises
-        ------
-        InputError
-            As `radial_displacement`.
+        Raises as `radial_displacement`.
         """
         moves = self.stored.data.get("revolution"), self.radial_displacement, self.revolution_amplitude
         return plots.single_run.history(*moves, self._title, path=path, ax=ax)
@@ -250,11 +242,7 @@ class Run(Shown):
         """Write the run to the HDF5 file `path`, whole or not at all; `config` as of `verdict`.
 
         The names of its longer run, if it has one, begin with ``longer_``. `read_run` returns an equal run.
-
-        Raises
-        ------
-        OSError
-            If it cannot be written; the message names the file.
+        Raises OSError, which names the file, if it cannot be written.
         """
         run_set.write(path, runs_of(self), provenance(settings_of(config, self.config)))
 

@@ -45,8 +45,21 @@ class Study(Shown):
     'results'
     >>> study.coating("2nd", E=2, K=0.5).name
     '2nd_E2_K0.5_theta0'
-    >>> study.run("2nd", E=2, K=0.5, f_omega=0.19).f_omega
-    0.19
+    >>> study.rigid("2nd", friction=0.1).name
+    '2nd_rigid_mu0.1'
+    >>> study.run("2nd", E=2, K=0.5, theta=0.15, f_omega=0.19).spec.revolutions
+    20
+    >>> len(study.run("2nd", E=[1, 2, 4], K=0.5, f_omega=[0.19, 0.2]))
+    6
+    >>> study.replace("contact.damping_ratio", 1e-3).config["contact"]["damping_ratio"]
+    0.001
+    >>> study.replace({"solver": {"revolutions": 40}, "results": "results/longer"}).results.name
+    'longer'
+    >>> br.Study.from_settings({"solver": {"revolutions": 40}}).config["solver"]["revolutions"]
+    40
+    >>> viscoplastic = study.with_law(br.Law("viscoplastic", viscosity=1e4))
+    >>> viscoplastic.coating("2nd", E=2, K=0.5).at(0.19).spec.coating.element_law.name
+    'viscoplastic'
     """
 
     config: Mapping[str, Any] = field(repr=False)
@@ -54,22 +67,8 @@ class Study(Shown):
 
     @classmethod
     def from_settings(cls, settings: Mapping[str, Any]) -> "Study":
-        """Return the study of nested values as in a config file, as `load_study` does that of a file.
-
-        Raises
-        ------
-        ConfigError
-            As `replace`.
-
-        Examples
-        --------
-        >>> import bladerub as br
-        >>> study = br.Study.from_settings({"solver": {"revolutions": 40}})
-        >>> study.config["solver"]["revolutions"], len(study.coatings)
-        (40, 63)
-        """
-        is_whole = required() <= settings.keys()
-        config = {} if is_whole else configuration.read(base_config())
+        """Return the study of nested values as `load_study` does that of a file; raises as `replace`."""
+        config = {} if required() <= settings.keys() else configuration.read(base_config())
         return cls(config, study_folder()).replace(settings)
 
     @property
@@ -81,13 +80,6 @@ class Study(Shown):
         """Return this study with another `law` of the abradable elements, for all its coatings.
 
         Its ``entry`` is the block ``contact.law`` of a config.
-
-        Examples
-        --------
-        >>> import bladerub as br
-        >>> study = br.default_study().with_law(br.Law("viscoplastic", viscosity=1e4))
-        >>> study.coating("2nd", E=2, K=0.5).at(0.19).spec.coating.element_law.name
-        'viscoplastic'
         """
         contact = {**self.config["contact"], "law": law.entry}
         return replace(self, config={**self.config, "contact": contact})
@@ -95,27 +87,9 @@ class Study(Shown):
     def replace(self, settings: str | Mapping[str, Any], value: Any = None) -> "Study":
         """Return this study with other values in its config, checked as a whole.
 
-        Parameters
-        ----------
-        settings : str or mapping
-            A key with dots, as in messages, whose value `value` is; or nested values as in a config file,
-            which are laid over those of this study.
-        value : optional
-            Of the key.
-
-        Raises
-        ------
-        ConfigError
-            With a line for each problem: key, value and what would be right.
-
-        Examples
-        --------
-        >>> import bladerub as br
-        >>> study = br.default_study().replace("contact.damping_ratio", 1e-3)
-        >>> study.config["contact"]["damping_ratio"]
-        0.001
-        >>> study.replace({"solver": {"revolutions": 40}, "results": "results/longer"}).results.name
-        'longer'
+        `settings` are a key with dots, as in messages, whose value `value` is; or nested values as in a
+        config file, which are laid over those of this study. Raises `ConfigError` with a line for each
+        problem: key, value and what would be right.
         """
         if isinstance(settings, str):
             for name in reversed(settings.split(".")):
@@ -203,19 +177,7 @@ class Study(Shown):
         damping_ratio: Quantity | None = None,
         interference: Quantity | None = None,
     ) -> StudyCoating:
-        """Describe direct contact with the rigid casing under Coulomb's coefficient `friction`.
-
-        Raises
-        ------
-        InputError
-            As `coating`.
-
-        Examples
-        --------
-        >>> import bladerub as br
-        >>> br.default_study().rigid("2nd", friction=0.1).name
-        '2nd_rigid_mu0.1'
-        """
+        """Describe direct contact with the rigid casing by Coulomb's law; the rest is as of `coating`."""
         overrides = {"damping_ratio": damping_ratio, "interference": interference}
         return self._checked(CoatingCase.rigid, overrides, casing, friction=friction)
 
@@ -234,16 +196,7 @@ class Study(Shown):
         layer_thickness: Quantity | None = None,
         interference: Quantity | None = None,
     ) -> StudyRun:
-        """Describe the run of an abradable coating at one speed; see `coating` and `StudyCoating.at`.
-
-        Examples
-        --------
-        >>> import bladerub as br
-        >>> br.default_study().run("2nd", E=2, K=0.5, theta=0.15, f_omega=0.19).spec.revolutions
-        20
-        >>> len(br.default_study().run("2nd", E=[1, 2, 4], K=0.5, f_omega=[0.19, 0.2]))
-        6
-        """
+        """Describe the run of an abradable coating at one speed; see `coating` and `StudyCoating.at`."""
         coating = self.coating(
             casing,
             E=E,
@@ -300,14 +253,9 @@ def load_study(*paths: str | Path) -> Study:
     ----------
     *paths : path-like
         A whole config, such as ``config/config.yaml``, and files laid over it in order. Files that change
-        only some keys, such as ``config/quick.yaml``, are laid over the config of the study at work, or of
-        the paper if there is none. A path is looked for in the working directory, then in the folder of the
-        study, then among the configs that come with the package.
-
-    Returns
-    -------
-    Study
-        With the folder of the study at work (`bladerub.io.folders.study_folder`).
+        only some keys, such as ``config/quick.yaml``, are laid over the config of the study at work
+        (`bladerub.io.folders.study_folder`), or of the paper if there is none. A path is looked for in the
+        working directory, then in the folder of the study, then among the configs of the package.
 
     Raises
     ------

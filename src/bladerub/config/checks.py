@@ -39,8 +39,6 @@ SOURCE_FOLDERS = ("benchmarks", "build", "config", "docs", "profiles", "src", "s
 MOST_RUNS = 2_000_000  # of a study
 MOST_SAMPLES = 20_000_000  # that a run keeps in memory, one an element and revolution
 
-_checks: list[Check] = []
-
 
 def reads(*sections: str) -> Callable[[Check], Check]:
     """Mark a function that yields problems of a config, a line each, with the sections that it reads."""
@@ -59,7 +57,7 @@ def check(config: Config, broken: Collection[str]) -> list[str]:
     """
     problems: list[str] = []
     added = [function for section, function in plugins.loaded("AGREEMENTS").items() if section in config]
-    for function in (*_checks, *added):
+    for function in (*_CHECKS, *added):
         if not function.sections & {*broken, *map(top_key, problems)}:  # type: ignore[attr-defined]
             try:
                 problems += function(config)
@@ -73,17 +71,7 @@ def most_revolutions(config: Mapping[str, Any]) -> int:
     return MOST_SAMPLES // config["contact"]["elements"]
 
 
-def _reads(*sections: str) -> Callable[[Check], Check]:
-    """Mark a check as `reads`, and list it."""
-
-    def register(function: Check) -> Check:
-        _checks.append(reads(*sections)(function))
-        return function
-
-    return register
-
-
-@_reads("results")
+@reads("results")
 def _results(config: Config) -> Iterator[str]:
     folders = config["results"].split("/")
     setting = f"results = {format_value(config['results'])}"
@@ -94,7 +82,7 @@ def _results(config: Config) -> Iterator[str]:
             yield f"{setting}: must be a folder, {path} is a file"
 
 
-@_reads("blade", "reduction")
+@reads("blade", "reduction")
 def _blade(config: Config) -> Iterator[str]:
     blade = config["blade"]
     if source := reader(blade):
@@ -104,7 +92,7 @@ def _blade(config: Config) -> Iterator[str]:
         geometry.check(blade, n_interface(config))
 
 
-@_reads("reduction")
+@reads("reduction")
 def _accuracy_modes(config: Config) -> Iterator[str]:
     modes, per_speed = config["reduction"]["accuracy_modes"], config["reduction"]["modes_per_speed"]
     limit = 3 * n_interface(config) + per_speed  # coordinates that the reduced model has for sure
@@ -112,7 +100,7 @@ def _accuracy_modes(config: Config) -> Iterator[str]:
         yield f"reduction.accuracy_modes = {modes}: must be at most {limit}, with {per_speed} modes_per_speed"
 
 
-@_reads("results", "blade", "reduction", "casings", "contact", "coatings", "solver", "speeds")
+@reads("results", "blade", "reduction", "casings", "contact", "coatings", "solver", "speeds")
 def _stable_steps(config: Config) -> Iterator[str]:
     """Check central differences by the highest mode of the blade; its runs do if it is not built yet."""
     solver = config["solver"]
@@ -141,7 +129,7 @@ def _stable_steps(config: Config) -> Iterator[str]:
             return
 
 
-@_reads("contact")
+@reads("contact")
 def _law(config: Config) -> Iterator[str]:
     try:
         law, scale = element_law(config), config["contact"].get("scale", UNSCALED)
@@ -151,13 +139,13 @@ def _law(config: Config) -> Iterator[str]:
         yield f"contact.law.{error}"
 
 
-@_reads("contact")
+@reads("contact")
 def _tip(config: Config) -> Iterator[str]:
     if config["contact"].get("tip_turns") and not plugins.offered("MOTIONS"):
         yield "contact.tip_turns = true: must be false, this package's tips keep their angle"
 
 
-@_reads("casings")
+@reads("casings")
 def _tables(config: Config) -> Iterator[str]:
     """Read the tables of measured casings."""
     for name, entry in config["casings"].items():
@@ -174,7 +162,7 @@ def _too_deep(config: Config, entry: Config, depth: float) -> str | None:
     return f"at most {deepest:g} m, or the blade touches all around" if depth > deepest else None
 
 
-@_reads("casings", "contact", "blade", "coatings")
+@reads("casings", "contact", "blade", "coatings")
 def _contact_at_all(config: Config) -> Iterator[str]:
     cases = coating_cases(config)
     for name in config["casings"]:
@@ -226,7 +214,7 @@ def own_problem(config: Config, case: CoatingCase) -> tuple[str, str] | None:
     return ("interference", bound) if bound else None
 
 
-@_reads("casings", "contact", "blade", "coatings")
+@reads("casings", "contact", "blade", "coatings")
 def _own_values(config: Config) -> Iterator[str]:
     for index, entry in enumerate(config["coatings"]):
         for case in cases_of(entry) if OWN.keys() & entry.keys() else ():
@@ -235,7 +223,7 @@ def _own_values(config: Config) -> Iterator[str]:
                 yield f"coatings[{index}].{key} = {case.own[key]:g}: must be {bound}"
 
 
-@_reads("coatings", "speeds")
+@reads("coatings", "speeds")
 def _runs(config: Config) -> Iterator[str]:
     n_speeds = len(speeds(config))
     if n_speeds < 2:
@@ -246,7 +234,7 @@ def _runs(config: Config) -> Iterator[str]:
         yield f"speeds: {n_speeds} speeds are {n_runs} runs on all coatings, must be {MOST_RUNS} or fewer"
 
 
-@_reads("analysis", "solver", "contact")
+@reads("analysis", "solver", "contact")
 def _revolutions(config: Config) -> Iterator[str]:
     limit, divergence = most_revolutions(config), config["analysis"]["divergence"]
     revolutions, confirmation = config["solver"]["revolutions"], divergence["confirmation_revolutions"]
@@ -260,7 +248,7 @@ def _revolutions(config: Config) -> Iterator[str]:
         yield f"{setting}: must be 0, or at least {sum_of} = {fewest}, to show what comes after a run"
 
 
-@_reads("analysis", "coatings", "speeds")
+@reads("analysis", "coatings", "speeds")
 def _histories(config: Config) -> Iterator[str]:
     cases, grid = set(coating_cases(config)), set(speeds(config))
     for index, entry in enumerate(config["analysis"]["histories"]):
@@ -275,15 +263,20 @@ def _histories(config: Config) -> Iterator[str]:
             yield f"{key}.f_omega = {entry['f_omega']:g}: must be {requirement}"
 
 
-@_reads("analysis", "casings", "coatings", "speeds")
+@reads("analysis", "casings", "coatings", "speeds")
 def _crossings(config: Config) -> Iterator[str]:
     fastest, orders = speeds(config)[-1], {}
     for name in used_casings(config):
         has_orders = "peak_orders" in config["casings"][name]
-        orders[f"casings.{name}.peak_orders" if has_orders else "analysis.peaks.orders"] = peak_orders(
-            config, name
-        )
+        key = f"casings.{name}.peak_orders" if has_orders else "analysis.peaks.orders"
+        orders[key] = peak_orders(config, name)
     for key, index, order in ((key, *pair) for key, values in orders.items() for pair in enumerate(values)):
         if order * fastest < 1:  # rotation stiffens the blade: C1 is nowhere below its value at rest, 1
             bound = f"at least {1 / fastest:.3g} to cross the first frequency below the highest speed"
             yield f"{key}[{index}] = {order}: must be {bound}; give others in your config, or higher speeds"
+
+
+_CHECKS = (
+    *(_results, _blade, _accuracy_modes, _stable_steps, _law, _tip, _tables, _contact_at_all, _own_values),
+    *(_runs, _revolutions, _histories, _crossings),
+)

@@ -97,37 +97,21 @@ def compose(*paths: str | Path, command_line: Mapping[str, Any] | None = None) -
     ConfigError
         If a file is missing, is not YAML, not a mapping or beyond limits; names the file and the line.
     """
-    layers = [read(path) for path in paths]
-    if command_line:
-        layers.append(Located.of(_from_text(command_line), Location("--config")))
     config = Located({}, UNKNOWN)
-    for layer in layers:
-        config = config.merged(layer)
-    return config
+    for path in paths:
+        config = config.merged(read(path))
+    return config.merged(Located.of(_from_text(command_line or {}), Location("--config")))
 
 
 def read(path: str | Path, key: str | None = None, location: Location = UNKNOWN) -> Located:
-    """Read one YAML file; `key` is the key, at this location, that names it, if any.
+    """Read one YAML file; `key` is the key that names it, if any; that it cannot be opened is reported there.
 
-    Raises
-    ------
-    ConfigError
-        As for `compose`.
+    Raises `ConfigError` as `compose`.
     """
     path = Path(path)
-    if not key:
-        return _read(path, Location(source_name(path)), "")
-    return _read(path, location, f"{key} = {format_value(str(path))}: ")
-
-
-def source_name(path: str | Path) -> str:
-    """Name the file `path` as the source of its values: relative to the working directory, if it is below."""
-    path = Path(os.path.abspath(path))
-    return str(path.relative_to(Path.cwd()) if path.is_relative_to(Path.cwd()) else path)
-
-
-def _read(path: Path, location: Location, prefix: str) -> Located:
-    """Read one YAML file; that it cannot be opened is reported at the `location` that asks for it."""
+    absolute = Path(os.path.abspath(path))
+    source = str(absolute.relative_to(Path.cwd()) if absolute.is_relative_to(Path.cwd()) else absolute)
+    prefix, location = (f"{key} = {format_value(str(path))}: ", location) if key else ("", Location(source))
     try:
         about = os.stat(path)
         if not stat.S_ISREG(about.st_mode):
@@ -140,7 +124,6 @@ def _read(path: Path, location: Location, prefix: str) -> Located:
         raise ConfigError.at(location, f"{prefix}cannot be read ({error.strerror})") from error
     except UnicodeDecodeError as error:
         raise ConfigError.at(location, f"{prefix}is not text in UTF-8") from error
-    source = source_name(path)
     try:
         located = _Loader(text).read(source)
     except yaml.YAMLError as error:
@@ -149,15 +132,12 @@ def _read(path: Path, location: Location, prefix: str) -> Located:
         problem = getattr(error, "problem", None) or getattr(error, "reason", None) or str(error)
         what = f"not valid YAML ({' '.join(problem.split())})" + (f", column {column}" if column else "")
         raise ConfigError.at(Location(source, line), what) from error
-    if isinstance(located.content, dict):
-        if _TEMPLATES in located.content:
-            key_location, reason = (
-                located.content[_TEMPLATES].location,
-                "is not for configs: Snakemake runs its templates",
-            )
-            raise ConfigError.at(key_location, f"{_TEMPLATES}: {reason}")
-        return located
-    raise ConfigError.at(Location(source), "must hold keys at its top level, as config/config.yaml does")
+    if not isinstance(located.content, dict):
+        raise ConfigError.at(Location(source), "must hold keys at its top level, as config/config.yaml does")
+    if _TEMPLATES in located.content:
+        reason = "is not for configs: Snakemake runs its templates"
+        raise ConfigError.at(located.content[_TEMPLATES].location, f"{_TEMPLATES}: {reason}")
+    return located
 
 
 def _line_and_column(text: str, position: int | None) -> tuple[int, int]:

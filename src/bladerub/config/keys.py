@@ -47,7 +47,9 @@ class Key:
 
     def fields(self) -> dict[str, "Key"]:
         """Return the keys of a group, of all the kinds that it may be of; those of one name say the same."""
-        return {name: key for model in reversed(self.models.values()) for name, key in keys_of(model).items()}
+        return {
+            name: key for model in reversed(self.models.values()) for name, key in _keys_of(model).items()
+        }
 
     def inner(self, name: str | None) -> "Key | None":
         """Return what is allowed under a name, or as an entry (None); None if nothing is known of it."""
@@ -77,8 +79,7 @@ class Key:
 
 
 @cache
-def keys_of(model: type[Section]) -> dict[str, Key]:
-    """Return the keys of a model by name, with what is allowed below each."""
+def _keys_of(model: type[Section]) -> dict[str, Key]:
     return {name: key_of(info) for name, info in model.model_fields.items()}
 
 

@@ -55,14 +55,7 @@ def is_number(value: Any) -> bool:
     return is_one and abs(value) <= sys.float_info.max  # a whole number may be above
 
 
-@cache
-def _key(kind: Any) -> Key:
-    return key_of(kind)
-
-
-@cache
-def _adapter(kind: Any) -> TypeAdapter:
-    return TypeAdapter(kind)
+_key, _adapter = cache(key_of), cache(TypeAdapter)
 
 
 def _line(mistake: Mapping[str, Any], whole: Key, values: Any) -> str:
