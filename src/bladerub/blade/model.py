@@ -30,51 +30,27 @@ AXIS = Variable(("axis",), np.array(["x", "y", "z"]), "1", "x along the axis of 
 
 @dataclass(frozen=True, eq=False)  # one is equal to itself alone: what is found of it can be cached
 class ReducedBlade:
-    """Craig-Bampton model of a rotating blade with centrifugal stiffening, eqs. (2) to (6).
+    """Craig-Bampton model of a rotating blade with centrifugal stiffening, eqs. (2) to (6), of n coordinates.
 
-    Parameters
-    ----------
-    mass : (n, n) ndarray
-        Reduced mass matrix. The first 24 coordinates are the x, y, z displacements (m) of the
-        interface nodes, node by node from the leading to the trailing edge.
-    stiffness_0, stiffness_1, stiffness_2 : (n, n) ndarray
-        K⁰, K¹, K² of eq. (2) for the normalised rotational frequency, N/m.
-    node_position : (8, 3) ndarray
-        Interface nodes at rest in the rotating frame, m (x along the axis, z along the stacking line).
-    radial_direction, tangential_direction : (8, 3) ndarray
-        Unit vectors at each node: out of the flow path (normal to the casing; radial where the flow path is
-        a cylinder), and tangential, positive with the rotation.
-    f1_hz : float
-        First eigenfrequency at rest, Hz; the unit of all normalised frequencies.
-    f_omega_max : float
-        Highest rotational frequency the model was fitted for, normalised.
-    eta : int
-        Fixed-interface modes kept at each fit speed.
-    rank_tolerance : float
-        Relative singular value below which a column of eq. (4) is dropped.
-    length : float
-        Blade length, m.
-    stiffness_higher : tuple of (n, n) ndarray
-        Coefficients of the 6th, 8th ... power of the normalised rotational frequency, N/m, where the fit has
-        more speeds than the three of eq. (3).
-    tip_slope : (8, n) ndarray, optional
-        Circumferential slope of the tip at each interface node per unit of each coordinate, 1/m, positive
-        where the side ahead in the rotation rises; None where the blade does not tell.
+    The first 24 are the x, y, z displacements (m) of the interface nodes, node by node from the leading to
+    the trailing edge.
     """
 
-    mass: np.ndarray
-    stiffness_0: np.ndarray
+    mass: np.ndarray  # (n, n), kg
+    stiffness_0: np.ndarray  # (n, n), K⁰, K¹, K² of eq. (2) for the normalised rotational frequency, N/m
     stiffness_1: np.ndarray
     stiffness_2: np.ndarray
-    node_position: np.ndarray
-    radial_direction: np.ndarray
-    tangential_direction: np.ndarray
-    f1_hz: float
-    f_omega_max: float
-    eta: int
-    rank_tolerance: float
-    length: float
-    stiffness_higher: tuple[np.ndarray, ...] = ()
+    node_position: np.ndarray  # (8, 3), interface nodes at rest in the rotating frame: x axial, z radial, m
+    radial_direction: np.ndarray  # (8, 3), unit vectors out of the flow path, normal to the casing
+    tangential_direction: np.ndarray  # (8, 3), unit vectors, positive with the rotation
+    f1_hz: float  # first eigenfrequency at rest, Hz; the unit of all normalised frequencies
+    f_omega_max: float  # highest rotational frequency that the model was fitted for, normalised
+    eta: int  # fixed-interface modes kept at each fit speed
+    rank_tolerance: float  # relative singular value below which a column of eq. (4) is dropped
+    length: float  # m
+    stiffness_higher: tuple[np.ndarray, ...] = ()  # (n, n), of the 6th, 8th … power of f_Ω, if the fit has it
+    # (8, n), circumferential slope of the tip at each node per unit of each coordinate, 1/m, positive where
+    # the side ahead in the rotation rises; None where the blade does not tell
     tip_slope: np.ndarray | None = None
 
     def stiffness(self, f_omega: float) -> np.ndarray:
@@ -119,11 +95,7 @@ _ARRAYS = {
     "stiffness_1": (_MATRIX, "N/m", "coefficient of f_omega^2 in the stiffness, eq. (2)"),
     "stiffness_2": (_MATRIX, "N/m", "coefficient of f_omega^4 in the stiffness, eq. (2)"),
     "node_position": (_AT_NODES, "m", "interface nodes at rest in the rotating frame"),
-    "radial_direction": (
-        _AT_NODES,
-        "1",
-        "radial direction at each interface node, normal to the casing",
-    ),
+    "radial_direction": (_AT_NODES, "1", "radial direction at each interface node, normal to the casing"),
     "tangential_direction": (
         _AT_NODES,
         "1",

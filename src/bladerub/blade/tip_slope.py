@@ -15,16 +15,8 @@ def tip_slope(
 
     A plane is fitted to the radial displacement of the tip's nodes around, within `REACH`. The slope is that
     of the plane along the casing, positive where the side ahead in the rotation rises. None if some interface
-    node has too few neighbours on the tip for a plane.
-
-    Parameters
-    ----------
-    mesh : BladeMesh
-        The blade's mesh, of which nodes are used alone.
-    recovery : (n, n_nodes, 3) ndarray
-        Displacement of the nodes per unit of each coordinate.
-    radial, tangential : (8, 3) ndarray
-        Directions at the interface nodes, as in `bladerub.blade.model.ReducedBlade`.
+    node has too few neighbours on the tip for a plane. `recovery` (n, n_nodes, 3) is the displacement of the
+    nodes per unit of each coordinate; `radial` and `tangential` (8, 3) are the directions at the interface.
     """
     points = mesh.mesh.points
     nodes = points[mesh.interface]

@@ -85,17 +85,9 @@ class Located(NamedTuple):
 def compose(*paths: str | Path, command_line: Mapping[str, Any] | None = None) -> Located:
     """Read YAML files, each laid over those before it, and the values of the command line over them all.
 
-    Parameters
-    ----------
-    paths : path-like
-        The files.
-    command_line : mapping, optional
-        What ``snakemake --config`` was given; below the top, Snakemake leaves numbers as text.
-
-    Raises
-    ------
-    ConfigError
-        If a file is missing, is not YAML, not a mapping or beyond limits; names the file and the line.
+    `command_line` is what ``snakemake --config`` was given; below the top, Snakemake leaves numbers as text.
+    Raises `ConfigError`, which names the file and the line, if one is missing, is not YAML, not a mapping or
+    beyond limits.
     """
     config = Located({}, UNKNOWN)
     for path in paths:

@@ -86,16 +86,8 @@ def converted(
     """Return a config with plain numbers instead of quantities, and why a reference is not known, if so.
 
     A quantity of another kind than it must be, or of a reference that is not known, stays as it is: its model
-    refuses it.
-
-    Parameters
-    ----------
-    config : Located
-        A config, or a plan.
-    kind : type, optional
-        Model of the plan.
-    study : mapping, optional
-        The checked config that a plan is for, whose references it has. Those of a config are its own.
+    refuses it. A config has its own references; a plan, of the model `kind`, those of the checked `study`
+    that it is for.
     """
     key = key_of(kind or whole())
     wanted: set[str] = set()

@@ -20,13 +20,7 @@ SCHEMA = ROOT / "config" / "schema.json"
 
 
 def load(*paths: str | Path) -> dict[str, Any]:
-    """Read YAML files, each laid over those before it, without a check of what they hold.
-
-    Raises
-    ------
-    ConfigError
-        As for `bladerub.config.files.compose`.
-    """
+    """Read YAML files as `bladerub.config.files.compose`, without a check of what they hold."""
     return _composed(*paths).plain()
 
 
@@ -38,13 +32,7 @@ def is_whole(path: str | Path) -> bool:
 
 
 def read(*paths: str | Path, command_line: Mapping[str, Any] | None = None) -> dict[str, Any]:
-    """Read a config and check it; parameters as for `bladerub.config.files.compose`.
-
-    Raises
-    ------
-    ConfigError
-        As for `bladerub.config.files.compose` and `validate`.
-    """
+    """Read a config as `bladerub.config.files.compose` and `validate` it: arguments and errors are theirs."""
     return read_with_notes(*paths, command_line=command_line)[0]
 
 
@@ -69,23 +57,11 @@ def read_with_notes(
 def read_plan(
     path: str | Path, kind: Any, key: str | None = None, study: Mapping[str, Any] | None = None
 ) -> Located:
-    """Read and check a plan, which varies a config.
+    """Read and check a plan, which varies a config: the YAML file at `path`, of the model `kind`.
 
-    Parameters
-    ----------
-    path : path-like
-        The YAML file.
-    kind : type
-        Its model (`bladerub.config.fields.Section`).
-    key : str, optional
-        The key of the config that names the file, reported if it cannot be read.
-    study : mapping, optional
-        The config that it is for; without it a speed, E or K of the plan is a plain number.
-
-    Raises
-    ------
-    ConfigError
-        As for `bladerub.config.files.compose`, and every problem found.
+    `key` is that of the config that names the file, reported if it cannot be read; `study` the config that it
+    is for, without which a speed, E or K of the plan is a plain number. Raises `ConfigError` as
+    `bladerub.config.files.compose`, and with every problem found.
     """
     from bladerub.config.problems import problems
     from bladerub.config.quantities import converted
@@ -109,18 +85,10 @@ def vary(config: Mapping[str, Any], *variations: Located) -> Located:
 def validate(config: Located | Mapping[str, Any], variation: str = "") -> dict[str, Any]:
     """Check a config by its models and for what they cannot say; return its values.
 
-    Parameters
-    ----------
-    config : Located or mapping
-        From `bladerub.config.files.compose`, or values alone, whose problems then have no file and line.
-    variation : str, optional
-        What the text of each problem begins with: the name of this variation of the study.
-
-    Raises
-    ------
-    ConfigError
-        Every problem found, one line each: location, key, value and what would be right. What models cannot
-        say is checked for those sections that agree with theirs.
+    It is from `bladerub.config.files.compose`, or values alone, whose problems then have no file and line.
+    The text of each problem begins with `variation`, the name of this variation of the study. Raises
+    `ConfigError` with every problem found, one line each: location, key, value and what would be right. What
+    models cannot say is checked for those sections that agree with theirs.
     """
     return _validated(config, variation)[0]
 

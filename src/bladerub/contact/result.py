@@ -15,47 +15,21 @@ class Energy:
     The blade: ``kinetic + elastic − initial + damping = work_radial + work_tangential + work_couple``.
     Blade and casing:
     ``kinetic + elastic − initial + damping + stored + wear + sliding = work_shape + work_rotation``.
-
-    Parameters
-    ----------
-    initial : float
-        In the blade at the start.
-    kinetic, elastic : float
-        In the blade at the end of the run.
-    damping : float
-        Dissipated by modal damping.
-    work_radial, work_tangential : float
-        Done on the blade by the radial and by the tangential contact forces.
-    work_couple : float
-        Done on the blade by the couples of the contact forces under the tip, where its profile turns.
-    stored : float
-        Elastic energy in the coating at the end of the run.
-    wear : float
-        Dissipated by plastic shortening of the coating.
-    work_shape : float
-        Done by the rotation in moving the tip over the casing, against its shape and onto new elements.
-    work_rotation : float
-        Done by the rotation against the tangential force of the coating (θ) or friction.
-    sliding : float
-        Dissipated between tip and casing by that tangential resistance.
-    exchanged : float
-        Work exchanged in the contact: on the blade and of the casing shape, of each node in each step,
-        whatever its sign.
     """
 
-    initial: float
-    kinetic: float
+    initial: float  # in the blade at the start
+    kinetic: float  # in the blade at the end of the run, as is the elastic
     elastic: float
-    damping: float
-    work_radial: float
-    work_tangential: float
-    work_couple: float
-    stored: float
-    wear: float
-    work_shape: float
-    work_rotation: float
-    sliding: float
-    exchanged: float
+    damping: float  # dissipated by modal damping
+    work_radial: float  # done on the blade by the radial contact forces
+    work_tangential: float  # and by the tangential ones
+    work_couple: float  # and by the couples of these forces under the tip, where its profile turns
+    stored: float  # elastic, in the coating at the end of the run
+    wear: float  # dissipated by plastic shortening of the coating
+    work_shape: float  # of the rotation, in moving the tip against the casing's shape and onto new elements
+    work_rotation: float  # of the rotation, against the tangential force of the coating (θ) or friction
+    sliding: float  # dissipated between tip and casing by that tangential resistance
+    exchanged: float  # on the blade and of the shape, of each node in each step, whatever its sign
 
     @property
     def residual(self) -> float:
@@ -69,75 +43,38 @@ class Energy:
 
 @dataclass(frozen=True)
 class Outcome:
-    """What a run and a speed sweep have in common.
+    """What a run and a speed sweep have in common."""
 
-    Parameters
-    ----------
-    status : str
-        ``"completed"``, or ``"unbounded"`` when a displacement exceeded the limit; ``"stopped"`` before
-        its end for another reason.
-    message : str
-        The same in words.
-    angle : (n_elements,) ndarray
-        Casing angle of the element centres, rad.
-    wear : (8, n_elements) ndarray
-        Permanent shortening of each element under each node, m.
-    radial_displacement : (revolutions * n_elements,) ndarray
-        Radial displacement of node 1, mean over the passage of each element, m; NaN after an
-        unbounded end.
-    revolution_peak : (revolutions,) ndarray
-        Largest absolute radial displacement of node 1 in each revolution, m; NaN likewise. In free flight
-        (`bladerub.contact.kernel.free_flight`) it is that of a parabola.
-    revolution_amplitude : (revolutions,) ndarray
-        Half the range of the radial displacement of node 1 in each revolution, m: its vibration without
-        the mean deflection; NaN likewise.
-    n_steps, n_contact_steps : int
-        Steps made, and those of them with contact.
-    energy : Energy
-        The ledger.
-    layer : dict of str to (8, n_elements) ndarray
-        What else the law of the coating leaves in the elements, by name; nothing by that of the paper.
-    """
-
-    status: str
-    message: str
-    angle: np.ndarray
-    wear: np.ndarray
+    status: str  # "completed"; "unbounded" when a displacement exceeded the limit; "stopped" before its end
+    message: str  # the same in words
+    angle: np.ndarray  # (n_elements,), casing angle of the element centres, rad
+    wear: np.ndarray  # (8, n_elements), permanent shortening of each element under each node, m
+    # (revolutions * n_elements,), of node 1, mean over the passage of each element, m; NaN after an early end
     radial_displacement: np.ndarray
+    # (revolutions,), largest absolute one in each revolution, m; NaN likewise. In free flight
+    # (`bladerub.contact.kernel.free_flight`) it is that of a parabola
     revolution_peak: np.ndarray
-    revolution_amplitude: np.ndarray
+    revolution_amplitude: np.ndarray  # half its range in each revolution, m: no mean deflection; NaN likewise
     n_steps: int
-    n_contact_steps: int
+    n_contact_steps: int  # those of them with contact
     energy: Energy
+    # what else the law of the coating leaves in the elements (8, n_elements), by name; nothing by the paper's
     layer: dict[str, np.ndarray] = field(default_factory=dict, kw_only=True)
 
 
 @dataclass(frozen=True)
 class RunResult(Outcome):
-    """Outcome of one run, with the fields of `Outcome`.
+    """Outcome of one run, with the fields of `Outcome`."""
 
-    Parameters
-    ----------
-    time_step : float
-        Step used, s.
-    n_reversed_steps : int
-        Steps with contact in which a node that touches did not slide over the casing with the rotation: it
-        slid back or, by Coulomb's law, stuck. Without any, both laws of friction give the same run.
-    slowest_sliding : float
-        Lowest speed over the casing of a node that touches, over that by the rotation: below 0 it slid back.
-        At most 1, which is also that of a run without contact.
-    n_fallback_steps : int
-        Steps in which Newton's method did not converge, so that the forces were found node by node; always 0
-        for the rigid casing, whose forces are always found so.
-    n_unconverged_steps : int
-        Steps whose contact forces did not converge: what they leave of imbalance goes into the run.
-    n_modes : int
-        Modes that the scheme resolved; the others were condensed.
-    """
-
-    time_step: float
+    time_step: float  # s
+    # steps with contact in which a node that touches did not slide over the casing with the rotation: it slid
+    # back or, by Coulomb's law, stuck; without any, both laws of friction give the same run
     n_reversed_steps: int
+    # lowest speed over the casing of a node that touches, over that by the rotation: below 0 it slid back; at
+    # most 1, which is also that of a run without contact
     slowest_sliding: float
+    # steps in which Newton's method did not converge, so that the forces were found node by node; always 0
+    # for the rigid casing, whose forces are always found so
     n_fallback_steps: int
-    n_unconverged_steps: int
-    n_modes: int
+    n_unconverged_steps: int  # whose forces did not converge: what they leave of imbalance goes into the run
+    n_modes: int  # that the scheme resolved; the others were condensed

@@ -248,12 +248,7 @@ def _chosen(condition, a, b):
 _of_arrays(where)
 
 
-@_built_in(
-    where,
-    _chosen,
-    (types.boolean, types.float64, types.float64),
-    *product([mask], _EITHER, _EITHER),
-)
+@_built_in(where, _chosen, (types.boolean, types.float64, types.float64), *product([mask], _EITHER, _EITHER))
 def _(context, builder, signature, arguments):
     condition, *values = arguments
     if signature.args[0] == mask:

@@ -64,10 +64,7 @@ def _draw_alone(
 
 @on_axes(_draw_alone)
 def spectrum_map(
-    coating: CoatingMap,
-    amplitude_range: tuple[float, float],
-    f_max: float,
-    scales: Scales | None = None,
+    coating: CoatingMap, amplitude_range: tuple[float, float], f_max: float, scales: Scales | None = None
 ) -> Figure:
     """Draw Figs. 7, 8, 9, 15 and 16: f horizontally, f_Ω vertically, amplitude in colour.
 

@@ -89,13 +89,14 @@ def refined(maps: Sequence[CoatingMap], ensembles: Sequence[Ensemble]) -> list[C
 def _with(maps: Sequence[CoatingMap], runs: Sequence[tuple[Ensemble, CoatingMap]]) -> list[CoatingMap]:
     """Return `maps` with the `runs` of ensembles in place of their own."""
     drawn = {ensemble.refined.case: (ensemble, values) for ensemble, values in runs}
-    replaced = []
-    for coating in maps:
-        if coating.case in drawn:
-            ensemble, values = drawn[coating.case]
-            coating = ensemble.draw(coating, values)
-        replaced.append(coating)
-    return replaced
+
+    def with_runs(coating: CoatingMap) -> CoatingMap:
+        if coating.case not in drawn:
+            return coating
+        ensemble, values = drawn[coating.case]
+        return ensemble.draw(coating, values)
+
+    return list(map(with_runs, maps))
 
 
 def of_peaks(
@@ -110,10 +111,8 @@ def of_peaks(
     for name in ("f_peak", "amplitude"):
         bands = [band(values) for values in np.transpose([peaks[name] for peaks in drawn])]
         table = table.join(pd.DataFrame(bands, index=table.index).add_prefix(f"{name}_"))
-    finer, cases = (
-        peak_table.table(config, refined(maps, ensembles)),
-        {ensemble.refined.case for ensemble in ensembles},
-    )
+    finer = peak_table.table(config, refined(maps, ensembles))
+    cases = {ensemble.refined.case for ensemble in ensembles}
     is_refined = [
         coating.case in cases
         for coating in maps
@@ -128,20 +127,14 @@ def of_runs(
     config: Mapping[str, Any], maps: Sequence[CoatingMap], ensembles: Sequence[Ensemble]
 ) -> pd.DataFrame:
     """Judge every run, as `bladerub.study.divergence.table`, with `RUN_COLUMNS` and ``modulus_unit``."""
-    return _run_rows(config, maps, ensembles).assign(modulus_unit=modulus_unit(config))
-
-
-def _run_rows(
-    config: Mapping[str, Any], maps: Sequence[CoatingMap], ensembles: Sequence[Ensemble]
-) -> pd.DataFrame:
-    table = divergence.table(config, maps)
-    coatings = {coating.case: coating for coating in maps}
+    table, coatings = divergence.table(config, maps), {coating.case: coating for coating in maps}
     rows = [row for ensemble in ensembles for row in _run_bands(config, coatings, ensemble)]
-    if not rows:
-        return table.reindex(columns=[*table, *RUN_COLUMNS])
-    bands = pd.DataFrame(rows)
-    keys = _keys(table)
-    return table.merge(bands[[*keys, *RUN_COLUMNS]], "left", on=keys)
+    if rows:
+        keys = _keys(table)
+        table = table.merge(pd.DataFrame(rows)[[*keys, *RUN_COLUMNS]], "left", on=keys)
+    else:
+        table = table.reindex(columns=[*table, *RUN_COLUMNS])
+    return table.assign(modulus_unit=modulus_unit(config))
 
 
 def _run_bands(

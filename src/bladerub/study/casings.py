@@ -11,11 +11,7 @@ from bladerub.contact.spec import Casing
 def casing_spec(name: str, entry: Mapping[str, Any], length_scale: float = 1.0) -> Casing:
     """Describe an entry of ``casings`` in SI units; `length_scale` is ``contact.scale.length``.
 
-    Raises
-    ------
-    ValueError
-        If a kind that plugs in cannot be read, or no kind does that has the keys of the entry; begins with
-        the key.
+    Raises a ValueError that begins with the key if a kind that plugs in cannot be read, or none does.
     """
     if kind := _kind(entry):
         return kind.casing_spec(name, entry, length_scale)

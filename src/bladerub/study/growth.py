@@ -129,10 +129,7 @@ def needs_confirmation(amplitude: np.ndarray, status: str, settings: Mapping[str
 
 
 def judge(
-    amplitude: np.ndarray,
-    status: str,
-    settings: Mapping[str, Any],
-    confirmation: np.ndarray | None = None,
+    amplitude: np.ndarray, status: str, settings: Mapping[str, Any], confirmation: np.ndarray | None = None
 ) -> Verdict:
     """Judge one run.
 

@@ -113,11 +113,7 @@ def first_frequency(blade: ReducedBlade, speeds: Sequence[float]) -> np.ndarray:
 
 
 def collect_listed(
-    config: Mapping[str, Any],
-    case: CoatingCase,
-    C1: np.ndarray,
-    folder: Path,
-    rows: Sequence[ManifestRow],
+    config: Mapping[str, Any], case: CoatingCase, C1: np.ndarray, folder: Path, rows: Sequence[ManifestRow]
 ) -> CoatingMap:
     """Collect the runs in `folder` that these rows of its manifest list, at ascending speeds.
 

@@ -73,10 +73,7 @@ def order_amplitude(coating: Response, order: float, halfwidth: float) -> np.nda
 
 
 def amplitude_in_window(
-    coating: Response,
-    order: float,
-    settings: Mapping[str, Any],
-    window: tuple[float, float] | None = None,
+    coating: Response, order: float, settings: Mapping[str, Any], window: tuple[float, float] | None = None
 ) -> np.ndarray:
     """Amplitude among which the peak of an engine order is sought, m (n,); NaN outside the speed `window`.
 

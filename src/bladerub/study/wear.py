@@ -30,16 +30,8 @@ def lobes(angle: np.ndarray, wear: np.ndarray, prominence: float) -> int:
 def dominant_harmonic(wear: np.ndarray) -> tuple[int, float]:
     """Find the harmonic of the casing angle that is strongest in the worn depth: `lobes` without a threshold.
 
-    Parameters
-    ----------
-    wear : ndarray
-        Worn depth (8, n) or (n,) at even angles around the casing, m; averaged over the nodes.
-
-    Returns
-    -------
-    tuple
-        The harmonic, 1 or more, and its share of the variance of the depth; (0, 0.0) where the casing is not
-        worn, or evenly.
+    `wear` is (8, n) or (n,) at even angles, m. Returns the harmonic, 1 or more, and its share of the variance
+    of the mean over the nodes; (0, 0.0) where the casing is not worn, or evenly.
     """
     depth = np.atleast_2d(wear).mean(axis=0)
     power = np.abs(np.fft.rfft(depth)[1:]) ** 2

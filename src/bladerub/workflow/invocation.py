@@ -111,10 +111,7 @@ _planned: list[tuple[str, Record, Callable[[], None]]] = []
 
 
 def plan(
-    results: str,
-    laid_over: Record,
-    notes: Sequence[str] = (),
-    begin: Callable[[], None] = lambda: None,
+    results: str, laid_over: Record, notes: Sequence[str] = (), begin: Callable[[], None] = lambda: None
 ) -> None:
     """Note what this invocation will `start`, with the results in this folder, and what makes them.
 

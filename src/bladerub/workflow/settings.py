@@ -11,28 +11,11 @@ from bladerub.io.folders import CONFIG, ROOT
 def read(workflow: Any, config: Mapping[str, Any]) -> tuple[dict[str, Any], list[str], Record]:
     """Read the config of the study with the lines of its files, which Snakemake does not keep.
 
-    Parameters
-    ----------
-    workflow : snakemake.workflow.Workflow
-        That of the Snakefile.
-    config : mapping
-        As Snakemake has it before any ``configfile``: what the command line says, or what ``config`` of the
-        ``module`` statement of another Snakefile says. That is laid over the config of the study here, or of
-        the paper where there is none; files and values of the command line are then of the other workflow.
-
-    Returns
-    -------
-    config : dict
-        Checked.
-    notes : list of str
-        Lines that are worth knowing (`bladerub.config.notes`).
-    laid_over : Record
-        What was laid over the config of the study.
-
-    Raises
-    ------
-    ConfigError
-        As `bladerub.config.read.read`.
+    `workflow` is that of the Snakefile, `config` as Snakemake has it before any ``configfile``: what the
+    command line says, or ``config`` of the ``module`` statement of another Snakefile. That is laid over the
+    config of the study here, or of the paper where there is none; files and values of the command line are
+    then of the other workflow. Returns the checked config, the lines of `bladerub.config.notes`, and what was
+    laid over the config of the study. Raises `ConfigError` as `bladerub.config.read.read`.
     """
     settings = workflow.config_settings
     base, laid_over = CONFIG, Record(settings.configfiles, settings.config)

@@ -11,8 +11,7 @@ _ORDERS = (4, 6)
 
 
 @claim(
-    "C12a",
-    'above E = 20 contact is as with the rigid casing ("Local maxima evolution", end of paragraph 2)',
+    "C12a", 'above E = 20 contact is as with the rigid casing ("Local maxima evolution", end of paragraph 2)'
 )
 def stiff_is_rigid(evidence: Evidence) -> Finding:
     """How far Y4, f4, Y6 and f6 lie from those of the rigid casing, each in units of `HARDLY`.

@@ -56,11 +56,7 @@ def diverges(evidence: Evidence, case: CoatingCase, speed: float | None, source:
 
 
 @claim(
-    "C11c",
-    f"θ = 0 does not diverge at f_Ω = 0.190 ({_SECTION}, Fig. 17)",
-    STRAIGHT,
-    TILTED_SPEED,
-    "Fig. 17",
+    "C11c", f"θ = 0 does not diverge at f_Ω = 0.190 ({_SECTION}, Fig. 17)", STRAIGHT, TILTED_SPEED, "Fig. 17"
 )
 @claim(
     "C11d",

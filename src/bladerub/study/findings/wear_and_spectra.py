@@ -6,16 +6,7 @@ from bladerub.study.findings.claim import NO, Finding, NotMeasurable, above, bel
 from bladerub.study.findings.evidence import Evidence
 from bladerub.study.grid import between
 from bladerub.study.maps import CoatingMap
-from bladerub.study.paper import (
-    CRITICAL,
-    FIVE_LOBES,
-    FOUR_LOBES,
-    NEAR,
-    SIGNIFICANT,
-    SOFT,
-    TEN_LOBES,
-    WORN,
-)
+from bladerub.study.paper import CRITICAL, FIVE_LOBES, FOUR_LOBES, NEAR, SIGNIFICANT, SOFT, TEN_LOBES, WORN
 from bladerub.study.peaks import order_amplitude, peak
 
 _SECTION = 'section "Case study"'
