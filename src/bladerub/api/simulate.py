@@ -4,8 +4,6 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
-from tqdm import tqdm
-
 from bladerub.api.blade import Blade
 from bladerub.api.lists import over
 from bladerub.api.planned import StudyRun
@@ -102,10 +100,11 @@ def simulate(
     with step("compiling the time loop", progress):
         compile_kernel(n_nodes=blade.reduced.n_interface, law=run.spec.coating.element_law)
     with bar(run.spec.revolutions, "rev", progress) as line:
-        count = counted(line, run)
 
         def report(revolutions: int) -> None:
-            count(revolutions)
+            if revolutions < line.n:  # of the longer run
+                line.reset(analysis["divergence"]["confirmation_revolutions"])
+            line.update(revolutions - line.n)
             if each:
                 each(revolutions)
 
@@ -122,17 +121,6 @@ def simulate(
     if run_stress:
         stored = replace(stored, attributes=stored.attributes | run_stress.attributes())
     return Run(stored, longer, run_stress, run.config)
-
-
-def counted(bar: tqdm, run: StudyRun) -> Callable[[int], None]:
-    """Let a `bar` count the revolutions done of `run`, then those of its longer run."""
-
-    def count(revolutions: int) -> None:
-        if revolutions < bar.n:
-            bar.reset(run.config["analysis"]["divergence"]["confirmation_revolutions"])
-        bar.update(revolutions - bar.n)
-
-    return count
 
 
 def _stress_solver(blade: Blade, run: StudyRun) -> Any:

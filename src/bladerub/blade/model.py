@@ -4,7 +4,7 @@ import itertools
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Annotated, Any, get_type_hints
 
 import numpy as np
 
@@ -27,6 +27,8 @@ def interface_node(n_nodes: int) -> Variable:
 
 AXIS = Variable(("axis",), np.array(["x", "y", "z"]), "1", "x along the axis of rotation, z along the blade")
 
+_MATRIX, _AT_NODES = ("coordinate", "coordinate_column"), ("node", "axis")
+
 
 @dataclass(frozen=True, eq=False)  # one is equal to itself alone: what is found of it can be cached
 class ReducedBlade:
@@ -36,22 +38,29 @@ class ReducedBlade:
     the trailing edge.
     """
 
-    mass: np.ndarray  # (n, n), kg
-    stiffness_0: np.ndarray  # (n, n), K⁰, K¹, K² of eq. (2) for the normalised rotational frequency, N/m
-    stiffness_1: np.ndarray
-    stiffness_2: np.ndarray
-    node_position: np.ndarray  # (8, 3), interface nodes at rest in the rotating frame: x axial, z radial, m
-    radial_direction: np.ndarray  # (8, 3), unit vectors out of the flow path, normal to the casing
-    tangential_direction: np.ndarray  # (8, 3), unit vectors, positive with the rotation
+    mass: Annotated[np.ndarray, _MATRIX, "kg", "reduced mass matrix"]
+    stiffness_0: Annotated[np.ndarray, _MATRIX, "N/m", "constant term of the stiffness, eq. (2)"]
+    stiffness_1: Annotated[np.ndarray, _MATRIX, "N/m", "coefficient of f_omega^2 in the stiffness, eq. (2)"]
+    stiffness_2: Annotated[np.ndarray, _MATRIX, "N/m", "coefficient of f_omega^4 in the stiffness, eq. (2)"]
+    node_position: Annotated[np.ndarray, _AT_NODES, "m", "interface nodes at rest in the rotating frame"]
+    radial_direction: Annotated[
+        np.ndarray, _AT_NODES, "1", "radial direction at each interface node, normal to the casing"
+    ]
+    tangential_direction: Annotated[
+        np.ndarray, _AT_NODES, "1", "tangential direction at each interface node, positive with the rotation"
+    ]
     f1_hz: float  # first eigenfrequency at rest, Hz; the unit of all normalised frequencies
     f_omega_max: float  # highest rotational frequency that the model was fitted for, normalised
     eta: int  # fixed-interface modes kept at each fit speed
     rank_tolerance: float  # relative singular value below which a column of eq. (4) is dropped
     length: float  # m
     stiffness_higher: tuple[np.ndarray, ...] = ()  # (n, n), of the 6th, 8th … power of f_Ω, if the fit has it
-    # (8, n), circumferential slope of the tip at each node per unit of each coordinate, 1/m, positive where
-    # the side ahead in the rotation rises; None where the blade does not tell
-    tip_slope: np.ndarray | None = None
+    tip_slope: Annotated[
+        np.ndarray | None,  # where the blade does not tell
+        ("node", "coordinate"),
+        "1/m",
+        "circumferential slope of the tip per unit of each coordinate, up with the rotation",
+    ] = None
 
     def stiffness(self, f_omega: float) -> np.ndarray:
         """Stiffness matrix (n, n) in N/m at the normalised rotational frequency `f_omega`, eq. (2).
@@ -88,24 +97,10 @@ def stiffness_at(coefficients: Sequence, f_omega: float):
     return sum((f_omega ** (2 * power) * term for power, term in enumerate(higher, 3)), start=total)
 
 
-_MATRIX, _AT_NODES = ("coordinate", "coordinate_column"), ("node", "axis")
 _ARRAYS = {
-    "mass": (_MATRIX, "kg", "reduced mass matrix"),
-    "stiffness_0": (_MATRIX, "N/m", "constant term of the stiffness, eq. (2)"),
-    "stiffness_1": (_MATRIX, "N/m", "coefficient of f_omega^2 in the stiffness, eq. (2)"),
-    "stiffness_2": (_MATRIX, "N/m", "coefficient of f_omega^4 in the stiffness, eq. (2)"),
-    "node_position": (_AT_NODES, "m", "interface nodes at rest in the rotating frame"),
-    "radial_direction": (_AT_NODES, "1", "radial direction at each interface node, normal to the casing"),
-    "tangential_direction": (
-        _AT_NODES,
-        "1",
-        "tangential direction at each interface node, positive with the rotation",
-    ),
-    "tip_slope": (
-        ("node", "coordinate"),
-        "1/m",
-        "circumferential slope of the tip per unit of each coordinate, up with the rotation",
-    ),
+    name: kind.__metadata__
+    for name, kind in get_type_hints(ReducedBlade, include_extras=True).items()
+    if hasattr(kind, "__metadata__")
 }
 _REQUIRED = tuple(name for name in _ARRAYS if name != "tip_slope")
 _ATTRIBUTES = ("f1_hz", "f_omega_max", "eta", "rank_tolerance", "length")

@@ -84,7 +84,7 @@ def run(options: argparse.Namespace) -> None:
     for option in _options():
         option.check(options, config)
 
-    from bladerub.api.simulate import counted, simulate
+    from bladerub.api.simulate import simulate
     from bladerub.api.study import Study
     from bladerub.config.quantities import references
 
@@ -108,10 +108,9 @@ def run(options: argparse.Namespace) -> None:
         raise InputError(f"--f = {planned.f_omega:g}{typed}: must be at most {limit}")
     _point_out(options)
     blade = blade or inputs.read_blade(options, config)
-    bar = inputs.progress_bar(planned.spec.revolutions, "rev")
-    with bar, refused(ValueError, OSError), inputs.as_options(f_omega="f"):
+    with refused(ValueError, OSError), inputs.as_options(f_omega="f"):
         start = time.perf_counter()
-        result = simulate(blade, planned, progress=False, each=counted(bar, planned), **more)
+        result = simulate(blade, planned, **more)
         seconds = time.perf_counter() - start
     if options.output:
         with refused(OSError, because=f"--output {options.output}: cannot be written: "):

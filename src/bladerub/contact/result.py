@@ -1,6 +1,7 @@
 """What a run gives, in SI units."""
 
 from dataclasses import dataclass, field
+from typing import Annotated, get_type_hints
 
 import numpy as np
 
@@ -17,19 +18,25 @@ class Energy:
     ``kinetic + elastic − initial + damping + stored + wear + sliding = work_shape + work_rotation``.
     """
 
-    initial: float  # in the blade at the start
-    kinetic: float  # in the blade at the end of the run, as is the elastic
-    elastic: float
-    damping: float  # dissipated by modal damping
-    work_radial: float  # done on the blade by the radial contact forces
-    work_tangential: float  # and by the tangential ones
-    work_couple: float  # and by the couples of these forces under the tip, where its profile turns
-    stored: float  # elastic, in the coating at the end of the run
-    wear: float  # dissipated by plastic shortening of the coating
-    work_shape: float  # of the rotation, in moving the tip against the casing's shape and onto new elements
-    work_rotation: float  # of the rotation, against the tangential force of the coating (θ) or friction
-    sliding: float  # dissipated between tip and casing by that tangential resistance
-    exchanged: float  # on the blade and of the shape, of each node in each step, whatever its sign
+    initial: Annotated[float, "energy of the blade at the start"]
+    kinetic: Annotated[float, "kinetic energy of the blade at the end"]
+    elastic: Annotated[float, "elastic energy of the blade at the end"]
+    damping: Annotated[float, "energy dissipated by modal damping"]
+    work_radial: Annotated[float, "work done on the blade by the radial contact forces"]
+    work_tangential: Annotated[float, "work done on the blade by the tangential contact forces"]
+    work_couple: Annotated[
+        float, "work done on the blade by the couples of the contact forces, where the tip turns"
+    ]
+    stored: Annotated[float, "elastic energy in the coating at the end"]
+    wear: Annotated[float, "energy dissipated by plastic shortening of the coating"]
+    work_shape: Annotated[
+        float, "work of the rotation in moving the tip over the casing shape and onto new elements"
+    ]
+    work_rotation: Annotated[
+        float, "work of the rotation against the tangential resistance of the coating"
+    ]  # by θ or friction
+    sliding: Annotated[float, "energy dissipated by the tangential resistance of the coating"]
+    exchanged: Annotated[float, "work exchanged in the contact, whatever its sign"]  # of each node and step
 
     @property
     def residual(self) -> float:
@@ -39,6 +46,10 @@ class Energy:
             self.kinetic + self.elastic - self.initial + self.damping + self.stored + self.wear + self.sliding
         )
         return abs(supplied - taken) / self.exchanged if self.exchanged else 0.0
+
+
+ENERGIES = {name: kind.__metadata__[0] for name, kind in get_type_hints(Energy, include_extras=True).items()}
+"""What each entry of the ledger is."""
 
 
 @dataclass(frozen=True)

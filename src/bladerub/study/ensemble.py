@@ -31,12 +31,12 @@ from bladerub.io.errors import DamagedFile
 from bladerub.io.hdf5 import Variable
 from bladerub.io.provenance import provenance
 from bladerub.study import maps
-from bladerub.study.grid import SAME_SPEED, CoatingCase, run_spec, speed_name
+from bladerub.study.grid import SAME_SPEED, CoatingCase, between, keeps_history, run_spec, speed_name, speeds
 from bladerub.study.job import RunDone, compute_missing
 from bladerub.study.manifest import ManifestRow, write_manifest
 from bladerub.study.maps import CoatingMap
-from bladerub.study.members import named
-from bladerub.study.orders import peak_settings
+from bladerub.study.orders import peak_orders, peak_settings
+from bladerub.study.paper import LOBES, WORN
 from bladerub.study.peaks import nearest_speed
 from bladerub.study.plan import CoatingPlan, planned_run
 from bladerub.study.row import row_of
@@ -74,6 +74,12 @@ OVER_SPEED = tuple(
 )
 """Datasets of a map that differ between members."""
 
+FOLLOWED = 2
+"""Cost of a member at the claims on lobes: about half of these grow, and are followed three times as long."""
+
+REFINED = 2
+"""Steps of a refined run, over those of a run of the study."""
+
 _REFINED = "refined_"
 _FINER = "with a quarter of the tolerance of the step"
 
@@ -94,6 +100,26 @@ def chosen(config: Mapping[str, Any], coating: CoatingMap) -> np.ndarray:
         index = nearest_speed(coating, order, settings)
         mask[max(index - 1, 0) : index + 2] = True
     return f_omega[mask]
+
+
+def expected_cost(config: Mapping[str, Any], case: CoatingCase) -> int:
+    """Count the members of a coating before its peaks are known, as if no two were next to each other.
+
+    Refined runs count as `REFINED`, those of the claims on lobes as `FOLLOWED`.
+    """
+    if not config["ensemble"]["members"]:
+        return 0
+    by_name = int(named(config, case, np.array(speeds(config))).sum()) * (FOLLOWED if case == WORN else 1)
+    return (config["ensemble"]["members"] + REFINED) * (by_name + 3 * len(peak_orders(config, case.casing)))
+
+
+def named(config: Mapping[str, Any], case: CoatingCase, f_omega: np.ndarray) -> np.ndarray:
+    """Which (n,) of the speeds `f_omega` have an ensemble wherever the peaks are: by history or claim."""
+    mask = np.array([keeps_history(config, case, float(f)) for f in f_omega])
+    if case == WORN:
+        for low, high in LOBES:
+            mask |= between(f_omega, low, high)
+    return mask
 
 
 def refined(spec: RunSpec) -> RunSpec:

@@ -4,7 +4,7 @@ from collections.abc import Mapping, Sequence, Set
 from dataclasses import asdict, dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import Any
+from typing import Annotated, Any, get_type_hints
 
 import numpy as np
 
@@ -25,23 +25,6 @@ _LARGEST = "largest absolute radial displacement of node 1 in each revolution"
 _HALF_RANGE = f"half the range of {_RADIAL} in each revolution"
 _LONGER = "confirmation_revolution_number"
 
-DATASETS = {
-    "f_omega": (("f_omega",), "1", "rotational frequency over the first frequency at rest"),
-    "C1": (("f_omega",), "1", "first eigenfrequency at speed over that at rest"),
-    "angle": (("angle",), "rad", "casing angle of the element centres"),
-    "wear": (("f_omega", "angle"), "m", "worn depth, mean over the interface nodes"),
-    "wear_node": (("f_omega", "node", "angle"), "m", "worn depth under each interface node"),
-    "spectrum_order": (("spectrum_order",), "1", "engine order"),
-    "spectrum_amplitude": (("f_omega", "spectrum_order"), "m", f"amplitude of {_RADIAL}"),
-    "revolution_peak": (("f_omega", "revolution_number"), "m", _LARGEST),
-    "revolution_amplitude": (("f_omega", "revolution_number"), "m", _HALF_RANGE),
-    "confirmation_amplitude": (("f_omega", _LONGER), "m", f"{_HALF_RANGE} of the longer run"),
-    "max_wear": (("f_omega",), "m", "greatest worn depth under any node"),
-    "lobes": (("f_omega",), "1", "number of worn lobes"),
-    "status": (("f_omega",), "1", "completed, or unbounded: the tip exceeded the displacement limit"),
-}
-"""Dimensions, unit and meaning of each dataset of a map."""
-
 _STRONGEST = "harmonic of the casing angle strongest in the worn depth"
 DERIVED = {
     "wear_harmonic": (("f_omega",), "1", f"{_STRONGEST}; 0: no wear"),
@@ -59,19 +42,25 @@ class CoatingMap(Comparable):
     """
 
     case: CoatingCase
-    f_omega: np.ndarray
-    C1: np.ndarray
-    angle: np.ndarray
-    wear: np.ndarray
-    wear_node: np.ndarray | None
-    spectrum_order: np.ndarray
-    spectrum_amplitude: np.ndarray
-    revolution_peak: np.ndarray
-    revolution_amplitude: np.ndarray
-    confirmation_amplitude: np.ndarray
-    max_wear: np.ndarray
-    lobes: np.ndarray
-    status: np.ndarray
+    f_omega: Annotated[np.ndarray, ("f_omega",), "1", "rotational frequency over the first frequency at rest"]
+    C1: Annotated[np.ndarray, ("f_omega",), "1", "first eigenfrequency at speed over that at rest"]
+    angle: Annotated[np.ndarray, ("angle",), "rad", "casing angle of the element centres"]
+    wear: Annotated[np.ndarray, ("f_omega", "angle"), "m", "worn depth, mean over the interface nodes"]
+    wear_node: Annotated[
+        np.ndarray | None, ("f_omega", "node", "angle"), "m", "worn depth under each interface node"
+    ]
+    spectrum_order: Annotated[np.ndarray, ("spectrum_order",), "1", "engine order"]
+    spectrum_amplitude: Annotated[np.ndarray, ("f_omega", "spectrum_order"), "m", f"amplitude of {_RADIAL}"]
+    revolution_peak: Annotated[np.ndarray, ("f_omega", "revolution_number"), "m", _LARGEST]
+    revolution_amplitude: Annotated[np.ndarray, ("f_omega", "revolution_number"), "m", _HALF_RANGE]
+    confirmation_amplitude: Annotated[
+        np.ndarray, ("f_omega", _LONGER), "m", f"{_HALF_RANGE} of the longer run"
+    ]
+    max_wear: Annotated[np.ndarray, ("f_omega",), "m", "greatest worn depth under any node"]
+    lobes: Annotated[np.ndarray, ("f_omega",), "1", "number of worn lobes"]
+    status: Annotated[
+        np.ndarray, ("f_omega",), "1", "completed, or unbounded: the tip exceeded the displacement limit"
+    ]
 
     @cached_property
     def wear_harmonic(self) -> np.ndarray:
@@ -86,6 +75,14 @@ class CoatingMap(Comparable):
     @cached_property
     def _harmonics(self) -> list[tuple[int, float]]:
         return [dominant_harmonic(wear) for wear in self.wear]
+
+
+DATASETS: dict[str, tuple[tuple[str, ...], str, str]] = {
+    name: kind.__metadata__
+    for name, kind in get_type_hints(CoatingMap, include_extras=True).items()
+    if name != "case"
+}
+"""Dimensions, unit and meaning of each dataset of a map."""
 
 
 def build_map(

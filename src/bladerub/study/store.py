@@ -10,30 +10,13 @@ import numpy as np
 
 from bladerub import plugins
 from bladerub.blade.model import interface_node
-from bladerub.contact.result import RunResult
+from bladerub.contact.result import ENERGIES, RunResult
 from bladerub.contact.spec import PLASTIC, RunSpec
 from bladerub.io import hdf5
 from bladerub.io.errors import DamagedFile
 from bladerub.io.hdf5 import Variable
 from bladerub.study.grid import CoatingCase
 from bladerub.study.spectra import order_spectrum
-
-_ENERGIES = {
-    "initial": "energy of the blade at the start",
-    "kinetic": "kinetic energy of the blade at the end",
-    "elastic": "elastic energy of the blade at the end",
-    "damping": "energy dissipated by modal damping",
-    "work_radial": "work done on the blade by the radial contact forces",
-    "work_tangential": "work done on the blade by the tangential contact forces",
-    "work_couple": "work done on the blade by the couples of the contact forces, where the tip turns",
-    "stored": "elastic energy in the coating at the end",
-    "wear": "energy dissipated by plastic shortening of the coating",
-    "work_shape": "work of the rotation in moving the tip over the casing shape and onto new elements",
-    "work_rotation": "work of the rotation against the tangential resistance of the coating",
-    "sliding": "energy dissipated by the tangential resistance of the coating",
-    "exchanged": "work exchanged in the contact, whatever its sign",
-}
-
 
 _DATASETS = {
     "angle": (("angle",), "rad", "casing angle of the element centres"),
@@ -51,7 +34,7 @@ _DATASETS = {
         "m",
         "half the range of the radial displacement of node 1 in each revolution",
     ),
-    **{f"energy_{name}": ((), "J", long_name) for name, long_name in _ENERGIES.items()},
+    **{f"energy_{name}": ((), "J", long_name) for name, long_name in ENERGIES.items()},
     "revolution": (("revolution",), "1", "time in revolutions from the start"),
     "radial_displacement": (("revolution",), "m", "radial displacement of node 1"),
 }
@@ -114,7 +97,7 @@ def stored_run(
         "revolution_number": np.arange(1, spec.revolutions + 1),
         "revolution_peak": result.revolution_peak,
         "revolution_amplitude": result.revolution_amplitude,
-        **{f"energy_{name}": np.asarray(getattr(result.energy, name)) for name in _ENERGIES},
+        **{f"energy_{name}": np.asarray(getattr(result.energy, name)) for name in ENERGIES},
     }
     if keep_history:
         n_samples = result.radial_displacement.size

@@ -6,8 +6,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from bladerub.study.ensemble import expected_cost
 from bladerub.study.grid import coating_cases, speeds
-from bladerub.study.members import expected_cost
 
 FEWEST = 8
 """Jobs that a core should have to do, at least: the last ones then end at nearly the same time."""

@@ -2,8 +2,8 @@
 
 import numpy as np
 
+from bladerub.study.ensemble import expected_cost, named
 from bladerub.study.grid import CoatingCase, speeds
-from bladerub.study.members import expected_cost, named
 from bladerub.study.paper import WORN
 
 CASE = CoatingCase("2nd", 1.1, 0.5, 0.0)

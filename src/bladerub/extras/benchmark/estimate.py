@@ -24,11 +24,11 @@ from bladerub.blade.model import ReducedBlade
 from bladerub.extras.benchmark.machine import cores as cores_here
 from bladerub.extras.study_runs import StudyRun, study_runs
 from bladerub.io.provenance import provenance
+from bladerub.study.ensemble import expected_cost
 from bladerub.study.grid import CoatingCase, coating_cases, run_spec
 from bladerub.study.growth import needs_confirmation
 from bladerub.study.job import compute
 from bladerub.study.maps import first_frequency
-from bladerub.study.members import expected_cost
 from bladerub.study.orders import peak_orders
 from bladerub.study.plan import PlannedRun, longer_run, planned_run
 from bladerub.study.solver import each_done
