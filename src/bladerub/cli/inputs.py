@@ -156,15 +156,16 @@ def aligned(rows: Iterable[tuple[str, str]]) -> list[str]:
 
 
 def read_config(options: argparse.Namespace) -> dict[str, Any]:
-    """Read and check the study's config with the files of ``--config`` laid over it.
-
-    Without ``--config``, those are laid over it that made the results (`bladerub.config.record`).
-    """
+    """Read the study's config as `read_config_with_notes`."""
     return read_config_with_notes(options)[0]
 
 
 def read_config_with_notes(options: argparse.Namespace) -> tuple[dict[str, Any], list[str]]:
-    """Read the config as `read_config`; return it and the lines of `bladerub.config.notes`."""
+    """Read and check the study's config with the files of ``--config`` laid over it.
+
+    Without ``--config``, those are laid over it that made the results (`bladerub.config.record`). Returns the
+    lines of `bladerub.config.notes` as well.
+    """
     base = base_config()
     made_with = None if options.config else _made_with(base)
     if made_with is None:
@@ -173,7 +174,8 @@ def read_config_with_notes(options: argparse.Namespace) -> tuple[dict[str, Any],
     files = [study_folder() / file for file in made_with.files]
     config, notes = configuration.read_with_notes(base, *files, command_line=made_with.command_line)
     law = config["contact"].get("law", {}).get("file")
-    if law and not getattr(options, "trust", True) and law not in _named_laws(base):
+    named_law = configuration.load(base)["contact"].get("law", {}).get("file")
+    if law not in (None, named_law) and not getattr(options, "trust", True):
         raise InputError(
             f"{config['results']}/{record.FILE} names the law {law}, a program that this would execute: "
             "read it, then add --trust, or name the config yourself with --config FILE"
@@ -185,12 +187,6 @@ def add_trust_to(parser: Parser) -> None:
     """Add ``--trust`` to the options of a command that simulates."""
     text = "execute the law that the record of the results folder names, which may be from somebody else"
     parser.add_argument("--trust", action="store_true", help=text)
-
-
-def _named_laws(base: Path) -> list[str]:
-    """List the file of the law that the study's own config names."""
-    law = configuration.load(base)["contact"].get("law", {})
-    return [law["file"]] if "file" in law else []
 
 
 def _made_with(base: Path) -> record.Record | None:

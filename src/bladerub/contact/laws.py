@@ -63,9 +63,9 @@ def law_digest(law: ElementLaw) -> dict[str, str]:
     return plugs_in | ({"law_imports": sources.digest_behind(*imported)} if imported else {})
 
 
-def module_of(law: ElementLaw, lanes: int = USUAL) -> ModuleType:
+def module_of(law: ElementLaw) -> ModuleType:
     """Return the module of a law, whose functions are those of `bladerub.contact.law`."""
-    return module_for(lanes, "contact.law", source_of(law))
+    return module_for(USUAL, "contact.law", source_of(law))
 
 
 def element_parameters(coating: Coating, area: np.ndarray, time_step: float = math.inf) -> np.ndarray:

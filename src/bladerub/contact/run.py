@@ -28,27 +28,9 @@ def simulate(blade: ReducedBlade, spec: RunSpec, progress: Callable[[int], None]
        (`bladerub.contact.friction`); tangential displacement is positive with the rotation.
     5. The blade starts at rest, deflected in its first mode where the spec says so.
 
-    `bladerub.contact.reference` has the whole model on a page.
-
-    Parameters
-    ----------
-    blade : ReducedBlade
-        The blade.
-    spec : RunSpec
-        Stator, speed and length of the run.
-    progress : callable, optional
-        Called with the number of revolutions done after each of them.
-
-    Returns
-    -------
-    RunResult
-        With ``status`` ``"completed"``, or ``"unbounded"`` when a displacement exceeded the limit: what was
-        computed until then is kept.
-
-    Raises
-    ------
-    ValueError
-        If the speed is outside the range of the blade, or the step too long for the scheme.
+    `bladerub.contact.reference` has the whole model on a page. `progress` is called with the number of
+    revolutions done after each of them. What was computed until a displacement exceeded the limit is kept.
+    Raises `ValueError` if the speed is outside the range of the blade, or the step too long for the scheme.
     """
     n_elements, revolutions = spec.coating.n_elements, spec.revolutions
     rule, simulation = set_up(blade, spec)

@@ -180,12 +180,10 @@ def read(
         return _content(file, only, attribute_names)
 
 
-def read_any(
-    path: str | Path, only: Set[str] | None = None, attribute_names: Set[str] | None = None
-) -> tuple[dict[str, np.ndarray], dict[str, Any]]:
+def read_any(path: str | Path) -> tuple[dict[str, np.ndarray], dict[str, Any]]:
     """Read as `read` a file that people may have edited, or other programs written: as it is now."""
     with opened(path) as file:
-        return _content(file, only, attribute_names)
+        return _content(file)
 
 
 def read_attributes(path: str | Path) -> dict[str, Any]:
@@ -216,7 +214,7 @@ def _system_error(error: Exception) -> int:
 
 
 def _content(
-    file: h5py.File, only: Set[str] | None, attribute_names: Set[str] | None
+    file: h5py.File, only: Set[str] | None = None, attribute_names: Set[str] | None = None
 ) -> tuple[dict[str, np.ndarray], dict[str, Any]]:
     names = file.keys() if only is None else only & file.keys()
     return {name: _values(file[name]) for name in names}, _attributes(file, attribute_names)

@@ -143,10 +143,10 @@ def listed_files(path: str | Path, kind: type[Row] = ManifestRow) -> list[Listed
     return [file for row in read_manifest(path, kind) for file in row.files(Path(path).parent)]
 
 
-def damaged_files(path: str | Path, kind: type[Row] = ManifestRow, thorough: bool = True) -> list[Path]:
+def damaged_files(path: str | Path, thorough: bool = True) -> list[Path]:
     """List the damaged files of a manifest, looked for only if `thorough`, or itself if it is damaged."""
     try:
-        return [file.path for file in listed_files(path, kind) if thorough and file.is_damaged()]
+        return [file.path for file in listed_files(path) if thorough and file.is_damaged()]
     except FileNotFoundError:
         return []
     except DamagedFile:
