@@ -3,7 +3,7 @@
 from collections.abc import Iterator, Mapping
 from typing import Any
 
-from bladerub.config.docstrings import docstrings
+from bladerub.config.fields import docstrings
 from bladerub.config.keys import Key, key_of
 from bladerub.config.models.study import whole
 from bladerub.config.units import choices_by_kind

@@ -5,11 +5,7 @@ from docs.numbers import decimals, fixed, percent, rows, table
 
 def numbers(tables):
     """Return the text for each name on the page."""
-    return (
-        _loop(tables["benchmark"])
-        | _study(tables["divergence"], tables["cost"])
-        | _gpu(tables["gpu"])
-    )
+    return _loop(tables["benchmark"]) | _study(tables["divergence"], tables["cost"]) | _gpu(tables["gpu"])
 
 
 def _loop(benchmark):

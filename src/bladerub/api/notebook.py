@@ -18,14 +18,10 @@ class Shown(ABC):
         return "\n".join([title, *(f"  {name:<{width}}  {value}" for name, value in rows.items())])
 
     def _repr_html_(self) -> str:
-        return html_table(*self._shown())
-
-
-def html_table(title: str, rows: Mapping[str, str]) -> str:
-    """Write a table of two columns under a title as HTML."""
-    cells = "".join(
-        f"<tr><th style='text-align:left'>{escape(name)}</th>"
-        f"<td style='text-align:left'>{escape(value)}</td></tr>"
-        for name, value in rows.items()
-    )
-    return f"<table><caption>{escape(title)}</caption>{cells}</table>"
+        title, rows = self._shown()
+        cells = "".join(
+            f"<tr><th style='text-align:left'>{escape(name)}</th>"
+            f"<td style='text-align:left'>{escape(value)}</td></tr>"
+            for name, value in rows.items()
+        )
+        return f"<table><caption>{escape(title)}</caption>{cells}</table>"

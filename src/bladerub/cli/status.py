@@ -4,10 +4,7 @@ import argparse
 import json
 import sys
 from collections.abc import Mapping
-from shutil import get_terminal_size
 from typing import Any
-
-from tqdm import tqdm
 
 from bladerub import plugins
 from bladerub.cli import inputs
@@ -58,29 +55,23 @@ def status(options: argparse.Namespace) -> None:
 
     results = inputs.study_folder() / config["results"]
     digest, note = inventory.current_blade(config, results / "blade" / "reduced_model.h5")
-    counts, damaged, unreadable, lost_files = {}, [], [], []
-    quiet = True if options.json else None
-    width = get_terminal_size().columns
-    for case in tqdm(coating_cases(config), unit="coating", ncols=width, disable=quiet, leave=False):
+    cases, taken = coating_cases(config), {}
+    for case in inputs.progress_bar(len(cases), "coating", cases, quiet=options.json):
         folder = results / "runs" / case.name
-        of_coating = inventory.take(config, coating_plan(config, case), folder, digest, options.thorough)
-        counts[case.name] = of_coating.counts
-        damaged += of_coating.damaged
-        unreadable += of_coating.unreadable
+        taken[case.name] = inventory.take(
+            config, coating_plan(config, case), folder, digest, options.thorough
+        )
     of_rows = [
         part
         for inventories in plugins.loaded("INVENTORIES").values()
         for part in inventories(config, results, digest, options.thorough)
     ]
+    counts = {name: part.counts for name, part in taken.items()}
     rows = inventory.total(part.counts for part in of_rows) if of_rows else None
-    damaged += [path for part in of_rows for path in part.damaged]
-    unreadable += [line for part in of_rows for line in part.unreadable]
-    if options.thorough:
-        faults = integrity.examine(results)
-        damaged += faults.damaged
-        unreadable += faults.unreadable
-        lost_files = faults.lost_files
-    damaged, unreadable = list(dict.fromkeys(damaged)), list(dict.fromkeys(unreadable))
+    faults = integrity.examine(results) if options.thorough else integrity.Faults([], [], [])
+    parts, lost_files = [*taken.values(), *of_rows, faults], faults.lost_files
+    damaged = list(dict.fromkeys(path for part in parts for path in part.damaged))
+    unreadable = list(dict.fromkeys(line for part in parts for line in part.unreadable))
     if options.discard:
         for path in damaged:
             if path.parent.resolve().is_relative_to(results.resolve()):  # not beyond a link

@@ -14,15 +14,18 @@ Plain numbers are SI, or in a size of the study: ``f1`` is the first frequency o
 a unit of the same kind (`bladerub.config.units`).
 """
 
+import ast
+import sys
 from collections.abc import Hashable
 from dataclasses import dataclass
+from functools import cache
 from itertools import pairwise
+from pathlib import Path
 from typing import Annotated, Any, ClassVar, TypeVar
 
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field, GetCoreSchemaHandler, GetJsonSchemaHandler
 from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
-from bladerub.config.docstrings import docstrings
 from bladerub.config.units import Unit
 
 T = TypeVar("T")
@@ -43,6 +46,27 @@ class Section(BaseModel):
         for name, text in docstrings(cls).items():
             rules["properties"][name]["description"] = text
         return reference
+
+
+@cache
+def docstrings(model: type) -> dict[str, str]:
+    """Return the docstrings of the keys of a model and its bases, by key, from their sources."""
+    texts: dict[str, str] = {}
+    for part in reversed(model.__mro__):
+        body = _classes(part.__module__).get(part.__name__, [])
+        for key, text in pairwise(body):
+            if isinstance(key, ast.AnnAssign) and isinstance(text, ast.Expr) and part is not BaseModel:
+                texts[key.target.id] = " ".join(text.value.value.split())
+    return texts
+
+
+@cache
+def _classes(module: str) -> dict[str, list]:
+    """Parse the classes of a module: the body of each by its name."""
+    if not (file := getattr(sys.modules[module], "__file__", None)):
+        return {}
+    tree = ast.parse(Path(file).read_text(encoding="utf-8"))
+    return {node.name: node.body for node in tree.body if isinstance(node, ast.ClassDef)}
 
 
 @dataclass(frozen=True)

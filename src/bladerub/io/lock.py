@@ -36,15 +36,6 @@ def attempt(path: str | Path) -> IO | None:
     return stream
 
 
-def share(path: str | Path) -> tuple[IO, bool]:
-    """Share the lock file `path` until the returned stream is closed; also return whether nobody else did."""
-    stream, is_sole_holder = _opened(path), False
-    with suppress(OSError):  # no such locks here
-        is_sole_holder = _try_alone(stream)
-        fcntl.flock(stream, fcntl.LOCK_SH)
-    return stream, is_sole_holder
-
-
 def _opened(path: str | Path) -> IO:
     Path(path).parent.mkdir(parents=True, exist_ok=True)
     return open(path, "a")

@@ -32,7 +32,7 @@ def coating_cycle(cycles: Mapping[str, LoadingCycle]) -> Figure:
             xlabel=r"compressive strain $\varepsilon$",
         )
     unit = next(iter(cycles.values())).coating.modulus_unit
-    panels[0].set_ylabel(titles.stress(unit))
+    panels[0].set_ylabel(rf"compressive stress $\sigma$ ({titles.in_units(unit)})")
     figure.legend(*panels[0].get_legend_handles_labels(), loc="outside lower center", ncols=3)
     return figure
 

@@ -18,16 +18,6 @@ def moduli_axes(unit: float) -> dict[str, str]:
     return {"xlabel": f"Young modulus E ({unit_text})", "ylabel": f"plastic modulus K ({unit_text})"}
 
 
-def tangent_modulus(unit: float) -> str:
-    """Label the modulus of a wearing coating, of which 1 is `unit`, Pa."""
-    return f"$E_T = EK/(E+K)$ ({in_units(unit)})"
-
-
-def stress(unit: float) -> str:
-    """Label a stress of which 1 is `unit`, Pa."""
-    return rf"compressive stress $\sigma$ ({in_units(unit)})"
-
-
 def in_units(unit: float) -> str:
     """Say of moduli that 1 is `unit`, Pa."""
     return f"in units of {unit / 1e6:.4g} MPa"

@@ -8,8 +8,7 @@ from pathlib import Path
 import pytest
 
 from bladerub import plugins
-from bladerub.config.docstrings import docstrings
-from bladerub.config.fields import Section
+from bladerub.config.fields import Section, docstrings
 from bladerub.config.keys import NUMBERS, Key, key_of
 from bladerub.config.models.study import Study, defaults, required, whole
 from bladerub.config.problems import problems

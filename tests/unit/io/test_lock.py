@@ -54,18 +54,3 @@ def test_a_killed_holder_leaves_no_lock(tmp_path, holder):
     with lock.held(tmp_path / "lock", lambda: waited.append(1)):
         pass
     assert waited == []
-
-
-def test_sharing_reports_whether_another_process_shares(tmp_path):
-    first, alone = lock.share(tmp_path / "lock")
-    assert alone
-    second, alone = lock.share(tmp_path / "lock")
-    assert not alone
-    first.close()
-    third, alone = lock.share(tmp_path / "lock")
-    assert not alone  # the second is still there
-    second.close()
-    third.close()
-    fourth, alone = lock.share(tmp_path / "lock")
-    assert alone
-    fourth.close()

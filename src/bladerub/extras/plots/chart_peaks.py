@@ -18,6 +18,10 @@ _RIDGE = {**FIRST, **_LOOK, "marker": "s", "label": "on the ridge, by E"}
 _ACROSS = {**SECOND, **_LOOK, "marker": "^", "label": "across its highest cell, by K"}
 
 
+def _tangent_modulus(unit: float) -> str:
+    return f"$E_T = EK/(E+K)$ ({titles.in_units(unit)})"
+
+
 @styled
 def chart_explanation(peaks: pd.DataFrame, unit: float) -> Figure:
     """Draw Y_k of ``chart_explanation.csv`` against three quantities, a row for each order and θ.
@@ -28,7 +32,7 @@ def chart_explanation(peaks: pd.DataFrame, unit: float) -> Figure:
     peaks = peaks.dropna(subset=["amplitude"])
     groups = list(peaks.groupby(["order", "theta"]))
     labels = {
-        "E_T": titles.tangent_modulus(unit),
+        "E_T": _tangent_modulus(unit),
         "wear_per_cycle": "wear energy per cycle (J)",
         "lobes": "worn lobes",
     }
@@ -82,7 +86,7 @@ def chart_stiffening(peaks: pd.DataFrame, summary: pd.DataFrame, unit: float) ->
             axes.plot(stiffened.E_T, stiffened.f_peak, **marks, mec="none", label=label)
             axes.plot(others.E_T, others.f_peak, **marks | {"mfc": "none", "color": GREY})
         axes.axhline(of_order.f_crossing.mean(), color=GREY, lw=0.9, ls="--", label="crossing with $C_1$")
-        axes.set(xscale="log", xlabel=titles.tangent_modulus(unit), ylabel=f"$f_{{{order}}}$")
+        axes.set(xscale="log", xlabel=_tangent_modulus(unit), ylabel=f"$f_{{{order}}}$")
         axes.set_title(titles.panel(index, f"eo({order})"), pad=38)
         axes.legend(loc="lower center", bbox_to_anchor=(0.5, 1), fontsize=7, borderaxespad=0.1)
         axes.grid(True)
