@@ -13,7 +13,7 @@ from bladerub.study.cache import blade_digest
 from bladerub.study.growth import needs_confirmation
 from bladerub.study.manifest import damaged_files, read_manifest
 from bladerub.study.plan import CoatingPlan, PlannedRun, growth_key, longer_run
-from bladerub.study.store import ALL, read_run
+from bladerub.study.store import read_run
 
 COUNTS = {
     "planned": "runs of the study: done, missing, stale, corrupt and unreadable",
@@ -148,7 +148,7 @@ def _listed(manifest: Path, sizes: Mapping[Path, int], growth_key: str) -> dict[
 
 def _read(path: Path, settings: Mapping[str, Any], thorough: bool) -> _RunSummary:
     """Read the run at `path`, wholly if `thorough`."""
-    stored = read_run(path, ALL if thorough else {"revolution_amplitude"})
+    stored = read_run(path, None if thorough else {"revolution_amplitude"})
     attributes = stored.attributes
     grows = needs_confirmation(stored.data["revolution_amplitude"], attributes["status"], settings)
     unconverged, unbalanced = (

@@ -39,12 +39,13 @@ _DATASETS = {
     "radial_displacement": (("revolution",), "m", "radial displacement of node 1"),
 }
 
+_COUNTERS = (
+    *("time_step", "n_steps", "n_contact_steps", "n_reversed_steps", "n_fallback_steps"),
+    *("n_unconverged_steps", "slowest_sliding"),
+)
+
 MAPPED = {"wear", "spectrum_amplitude", "revolution_peak", "revolution_amplitude"}
 """What the map of a coating needs of each run."""
-
-
-ALL: Set[str] = frozenset()
-"""For `read_run`: every dataset, or every attribute, that there is."""
 
 _REPEATED = {"node", "angle", "spectrum_order", "revolution_number", "revolution"} | {
     *(field.name for field in fields(CoatingCase)),
@@ -107,13 +108,7 @@ def stored_run(
         **asdict(case),
         "f_omega": spec.f_omega,
         "revolutions": spec.revolutions,
-        "time_step": result.time_step,
-        "n_steps": result.n_steps,
-        "n_contact_steps": result.n_contact_steps,
-        "n_reversed_steps": result.n_reversed_steps,
-        "n_fallback_steps": result.n_fallback_steps,
-        "n_unconverged_steps": result.n_unconverged_steps,
-        "slowest_sliding": result.slowest_sliding,
+        **{name: getattr(result, name) for name in _COUNTERS},
         "scheme": spec.scheme,
         "energy_residual": result.energy.residual,
         "damping_ratio": spec.damping_ratio,
@@ -153,14 +148,14 @@ def variables(run: StoredRun) -> dict[str, Variable]:
     return described
 
 
-def read_run(path: str | Path, only: Set[str] = ALL, attribute_names: Set[str] = ALL) -> StoredRun:
+def read_run(
+    path: str | Path, only: Set[str] | None = None, attribute_names: Set[str] | None = None
+) -> StoredRun:
     """Read one run, or `only` the named datasets of it, of its attributes `attribute_names` and the key.
 
     Raises `OSError` if the file is missing, damaged or not a run; the message names it.
     """
-    data, attributes = hdf5.read(
-        path, only or None, attribute_names | {"run_key"} if attribute_names else None
-    )
+    data, attributes = hdf5.read(path, only, attribute_names and attribute_names | {"run_key"})
     missing = (only or MAPPED) - data.keys() | {"run_key"} - attributes.keys()
     if missing:
         raise DamagedFile(f"{path}: not a run, {', '.join(sorted(missing))} missing")
