@@ -43,6 +43,9 @@ class ConfigError(BadInput):
     ... except br.ConfigError as error:
     ...     print(len(error.problems))
     1
+    >>> from bladerub.config.errors import Location
+    >>> print(br.ConfigError.at(Location("my.yaml", 3), "speeds.step = 0: must be above 0"))
+    my.yaml:3: speeds.step = 0: must be above 0
     """
 
     def __init__(self, problems: Iterable[Problem]):
@@ -54,14 +57,7 @@ class ConfigError(BadInput):
 
     @classmethod
     def at(cls, location: Location, text: str) -> "ConfigError":
-        """Make the error of a single problem.
-
-        Examples
-        --------
-        >>> from bladerub.config.errors import Location
-        >>> print(br.ConfigError.at(Location("my.yaml", 3), "speeds.step = 0: must be above 0"))
-        my.yaml:3: speeds.step = 0: must be above 0
-        """
+        """Make the error of a single problem."""
         return cls([Problem(location, text)])
 
 
