@@ -194,19 +194,6 @@ rule wear_map:
         "../scripts/wear_map.py"
 
 
-use rule wear_map as fig06_wear_map with:
-    input:
-        map=map_of(LOBED),
-        blade=rules.blade.output.reduced_model,
-        drawing=rules.wear_map.input.drawing,
-    output:
-        **drawn("fig06_wear_map", "Wear and spectra"),
-    log:
-        f"{RESULTS}/logs/fig06_wear_map.log",
-    benchmark:
-        f"{RESULTS}/benchmarks/fig06_wear_map.tsv"
-
-
 rule spectrum:
     input:
         map=rules.coating.output.map,
@@ -228,69 +215,38 @@ rule spectrum:
         "../scripts/spectrum.py"
 
 
-use rule spectrum as fig07_spectrum_2nd5nd with:
-    input:
-        map=map_of(LOBED),
-        blade=rules.blade.output.reduced_model,
-        drawing=rules.spectrum.input.drawing,
-    output:
-        **drawn("fig07_spectrum_2nd5nd", "Wear and spectra"),
-    log:
-        f"{RESULTS}/logs/fig07_spectrum_2nd5nd.log",
-    benchmark:
-        f"{RESULTS}/benchmarks/fig07_spectrum_2nd5nd.tsv"
+# Figures of the paper that show the map of one coating, drawn as those of any coating are
+OF_MAPS = {
+    "fig06_wear_map": (LOBED, "Wear and spectra"),
+    "fig07_spectrum_2nd5nd": (LOBED, "Wear and spectra"),
+    "fig08_spectrum_soft": (SOFT, "Wear and spectra"),
+    "fig09_spectrum_critical": (CRITICAL, "Wear and spectra"),
+    "fig15_spectrum_theta0": (STRAIGHT, "Angle of the elements"),
+    "fig16_spectrum_theta015": (INCLINED, "Angle of the elements"),
+}
+for figure, (case, category) in OF_MAPS.items():
+    kind = "wear_map" if "wear_map" in figure else "spectrum"
 
-
-use rule spectrum as fig08_spectrum_soft with:
-    input:
-        map=map_of(SOFT),
-        blade=rules.blade.output.reduced_model,
-        drawing=rules.spectrum.input.drawing,
-    output:
-        **drawn("fig08_spectrum_soft", "Wear and spectra"),
-    log:
-        f"{RESULTS}/logs/fig08_spectrum_soft.log",
-    benchmark:
-        f"{RESULTS}/benchmarks/fig08_spectrum_soft.tsv"
-
-
-use rule spectrum as fig09_spectrum_critical with:
-    input:
-        map=map_of(CRITICAL),
-        blade=rules.blade.output.reduced_model,
-        drawing=rules.spectrum.input.drawing,
-    output:
-        **drawn("fig09_spectrum_critical", "Wear and spectra"),
-    log:
-        f"{RESULTS}/logs/fig09_spectrum_critical.log",
-    benchmark:
-        f"{RESULTS}/benchmarks/fig09_spectrum_critical.tsv"
-
-
-use rule spectrum as fig15_spectrum_theta0 with:
-    input:
-        map=map_of(STRAIGHT),
-        blade=rules.blade.output.reduced_model,
-        drawing=rules.spectrum.input.drawing,
-    output:
-        **drawn("fig15_spectrum_theta0", "Angle of the elements"),
-    log:
-        f"{RESULTS}/logs/fig15_spectrum_theta0.log",
-    benchmark:
-        f"{RESULTS}/benchmarks/fig15_spectrum_theta0.tsv"
-
-
-use rule spectrum as fig16_spectrum_theta015 with:
-    input:
-        map=map_of(INCLINED),
-        blade=rules.blade.output.reduced_model,
-        drawing=rules.spectrum.input.drawing,
-    output:
-        **drawn("fig16_spectrum_theta015", "Angle of the elements"),
-    log:
-        f"{RESULTS}/logs/fig16_spectrum_theta015.log",
-    benchmark:
-        f"{RESULTS}/benchmarks/fig16_spectrum_theta015.tsv"
+    rule:
+        name:
+            figure
+        input:
+            map=map_of(case),
+            blade=rules.blade.output.reduced_model,
+            drawing=getattr(rules, kind).input.drawing,
+        output:
+            **drawn(figure, category),
+        log:
+            f"{RESULTS}/logs/{figure}.log",
+        benchmark:
+            f"{RESULTS}/benchmarks/{figure}.tsv"
+        group:
+            "drawing"
+        params:
+            **(SPECTRA if kind == "spectrum" else {"dpi": DPI}),
+            scales=SCALES,
+        script:
+            f"../scripts/{kind}.py"
 
 
 rule fig10_peaks:
@@ -422,14 +378,9 @@ PLANNED = {
     "fig03_tip_profile": in_study(INCLINED),
     "fig04_coating_cycle": in_study(STRAIGHT),
     "fig05_casing": in_study(LOBED),
-    "fig06_wear_map": in_study(LOBED),
-    "fig07_spectrum_2nd5nd": in_study(LOBED),
-    "fig08_spectrum_soft": in_study(SOFT),
-    "fig09_spectrum_critical": in_study(CRITICAL),
+    **{figure: in_study(case) for figure, (case, _) in OF_MAPS.items()},
     "fig10_peaks": in_study(SOFT),
     "histograms": WITH_MODULI,
-    "fig15_spectrum_theta0": in_study(STRAIGHT),
-    "fig16_spectrum_theta015": in_study(INCLINED),
     "histories": bool(BOTH),
     "fig19_wear_polar": in_study(STRAIGHT, INCLINED)
     and {0.190, 0.197} <= set(speeds(config)),

@@ -41,24 +41,9 @@ def record(
 ) -> Recording:
     """Simulate a row as `bladerub.extras.rows.row.simulate_row` does, and record it at some instants.
 
-    Parameters
-    ----------
-    blade : ReducedBlade
-        The nominal blade.
-    spec : RunSpec
-        The run. No blade may leave the displacement limit before the last instant.
-    row : Row
-        The blades. A row of one nominal blade at angle 0 is the run of `bladerub.contact.run.simulate`.
-    instants : sequence of int
-        Ascending, as numbers of elements that have passed since the start; nothing is computed after the
-        last one.
-    progress : callable, optional
-        Called with the number of revolutions done after each of them.
-
-    Raises
-    ------
-    ValueError
-        As `simulate_row`.
+    These ascend, as numbers of elements that have passed since the start; nothing is computed after the last,
+    before which no blade may leave the displacement limit. Other parameters, and what is raised, are those of
+    `simulate_row`.
     """
     _, seats, simulation, _ = set_up_row(blade, spec, row)
     n_elements, end = spec.coating.n_elements, instants[-1]

@@ -35,16 +35,8 @@ HEATED, CELLS = 3, 12
 class Layer:
     """The layer as the columns of all elements under j nodes.
 
-    Parameters
-    ----------
-    law : module
-        With ``strength``.
-    coating : Coating
-        With the parameters of the law.
-    area : (lanes,) ndarray
-        Cross-section of an element under each node, m².
-    period : float
-        Of a revolution, s.
+    The module `law` has ``strength``, the `coating` the parameters of the law. `area` (lanes,) is the
+    cross-section of an element under each node, m², `period` that of a revolution, s.
     """
 
     numbers = CELLS  # that a state keeps of each column

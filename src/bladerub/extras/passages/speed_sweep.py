@@ -11,7 +11,7 @@
    paper in five seconds it is below a hundredth of the centrifugal one from f_Ω = 0.1 on.
 """
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 
@@ -33,21 +33,11 @@ from bladerub.extras.passages.sweep_grid import SweepSpec
 
 @dataclass(frozen=True)
 class SweepResult(Outcome):
-    """Outcome of one sweep, with the fields of `Outcome`; its ledger lacks what the change of stiffness does.
+    """Outcome of one sweep, as `Outcome`; its ledger lacks what the change of stiffness does."""
 
-    Parameters
-    ----------
-    f_omega : (revolutions,) ndarray
-        Mean speed of each revolution, normalised.
-    time : (revolutions,) ndarray
-        Middle of each revolution, s from the start.
-    work_stiffness : float
-        Work of the rotation on the blade through the change of its stiffness, J.
-    """
-
-    f_omega: np.ndarray
-    time: np.ndarray
-    work_stiffness: float
+    f_omega: np.ndarray  # (revolutions,), mean speed of each, normalised
+    time: np.ndarray  # (revolutions,), middle of each, s from the start
+    work_stiffness: float  # of the rotation on the blade through the change of its stiffness, J
 
     @property
     def residual(self) -> float:
@@ -85,31 +75,17 @@ def speed_steps(spec: SweepSpec, f1_hz: float) -> list[SpeedStep]:
 
 
 @threadpool_limits.wrap(limits=1, user_api="blas")  # sums depend on the number of threads
-def simulate_sweep(
-    blade: ReducedBlade, spec: SweepSpec, progress: Callable[[int], None] | None = None
-) -> SweepResult:
+def simulate_sweep(blade: ReducedBlade, spec: SweepSpec) -> SweepResult:
     """Simulate contact while the speed changes.
 
-    Parameters
-    ----------
-    blade : ReducedBlade
-        The blade.
-    spec : SweepSpec
-        Run, end, rate.
-    progress : callable, optional
-        Called with the number of revolutions done after each of them.
-
-    Raises
-    ------
-    ValueError
-        If a speed is outside the range of the blade, or the step too long for the scheme.
+    Raises `ValueError` if a speed is outside the range of the blade, or the step too long for the scheme.
     """
     n_elements = spec.run.coating.n_elements
     plan = speed_steps(spec, blade.f1_hz)
     sweep = _Sweep(blade, spec.run, plan)
     initial = sum(energy.blade_energy(sweep.stage.rule, sweep.stage.simulation.state))
     revolutions = plan[-1].last // n_elements
-    history = integrate(sweep.segments(), revolutions, n_elements, progress)
+    history = integrate(sweep.segments(), revolutions, n_elements)
     f_omega, time = _speed_by_revolution(plan, n_elements, blade.f1_hz)
     return SweepResult(
         **history.outcome(blade, spec.run, sweep.stage.rule, sweep.stage.simulation, initial),

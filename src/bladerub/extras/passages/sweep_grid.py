@@ -10,24 +10,12 @@ from bladerub.study.grid import CoatingCase, coating_cases, run_spec
 
 @dataclass(frozen=True)
 class SweepSpec:
-    """One passage through the speeds.
+    """One passage through the speeds, which are normalised."""
 
-    Parameters
-    ----------
-    run : RunSpec
-        The run, at the speed where the passage begins; it stays there for its ``revolutions``, if any.
-    f_end : float
-        Speed where it ends, normalised; above or below the first.
-    rate : float
-        Change of the normalised speed in a second, positive, 1/s.
-    speed_step : float
-        Largest change of speed between two steps of constant speed, normalised.
-    """
-
-    run: RunSpec
-    f_end: float
-    rate: float
-    speed_step: float
+    run: RunSpec  # at the speed where the passage begins; it stays there for its ``revolutions``, if any
+    f_end: float  # speed where it ends, above or below the first
+    rate: float  # change of the speed in a second, positive, 1/s
+    speed_step: float  # largest change between two steps of constant speed
 
 
 DIRECTIONS = ("up", "down")

@@ -46,33 +46,15 @@ def simulate_blade_passes(
 ) -> pd.DataFrame:
     """Simulate the passes of a rig whose tip is that of an elastic blade; a row each, with `COLUMNS`.
 
-    Parameters
-    ----------
-    rig : Rig
-        Coating, speed and incursion. Width of the tip and length of the track are those of the blade.
-    blade : ReducedBlade
-        The blade.
-    damping_ratio : float
-        Damping of its modes.
-    disk_turns : bool
-        Whether the disk with the sample turns instead of the blade, which then has its stiffness at rest.
-    elements : int
-        Elements of the coating under the tip of a node.
+    Other parameters are those of `bladerub.extras.rig.interface.simulate_rig`; there are so many `elements`
+    of the coating under the tip of a node. ``normal_force`` and ``tangential_force`` are means: the impulses
+    over the time that the coated length takes. ``worn_depth`` and ``temperature_rise`` are means over the
+    sample, ``largest_pressure`` is that of a node on the area under its tip, ``radial_amplitude`` half the
+    range of node 1 in the pass (m).
 
-    Returns
-    -------
-    DataFrame
-        The columns of `bladerub.extras.rig.passes.simulate_passes`, and ``largest_normal_force`` (N) and
-        ``radial_amplitude`` of node 1 (m), half its range in the pass. ``normal_force`` and
-        ``tangential_force`` are means: the impulses over the time that the coated length takes.
-        ``worn_depth`` and ``temperature_rise`` are means over the sample, ``largest_pressure`` is that of a
-        node on the area under its tip.
-
-    Raises
-    ------
-    ValueError
-        If the sample leaves no room to feed the blade, the blade is not defined at this speed, its tip
-        leaves the displacement limit, a tenth of its length, or a parameter of the law is out of its range.
+    Raises `ValueError` if the sample leaves no room to feed the blade, the blade is not defined at this
+    speed, its tip leaves the displacement limit, a tenth of its length, or a parameter of the law is out of
+    its range.
     """
     rig = replace(rig, track=2 * math.pi * tip_radius(blade), tip_width=float(strip_width(blade).sum()))
     f_omega = rig.speed / rig.track / blade.f1_hz

@@ -29,28 +29,14 @@ COLUMNS = ("pass", "tip_depth", *MEASURABLE, "energy_residual")
 
 
 def simulate_passes(rig: Rig, elements: int = ELEMENTS, steps: int = STEPS) -> pd.DataFrame:
-    """Simulate the passes of a rig; a row each.
+    """Simulate the passes of a rig; a row each, with `COLUMNS`.
 
-    Parameters
-    ----------
-    rig : Rig
-        The rig.
-    elements, steps : int
-        Elements under the tip and time steps in the passage of one.
-
-    Returns
-    -------
-    DataFrame
-        ``tip_depth`` below the unworn surface (m), mean ``normal_force`` and ``tangential_force`` on the tip
-        (N), their impulses over the coated part of the track (N s), ``largest_pressure`` on an element
-        (Pa), ``worn_depth`` so far and ``pass_wear`` (m), ``pass_energy`` that the coating takes up (J),
-        ``temperature_rise`` of the surface when the pass begins (K; NaN if the law knows no heat), and
-        ``energy_residual``: work of the tip on an element less what it takes up, over the work exchanged.
-
-    Raises
-    ------
-    ValueError
-        If a parameter of the law is out of its range.
+    ``tip_depth`` is below the unworn surface (m), ``normal_force`` and ``tangential_force`` are means on the
+    tip (N), their impulses over the coated part of the track (N s), ``largest_pressure`` on an element (Pa),
+    ``worn_depth`` so far and ``pass_wear`` (m), ``pass_energy`` that the coating takes up (J),
+    ``temperature_rise`` of the surface when the pass begins (K; NaN if the law knows no heat), and
+    ``energy_residual``: work of the tip on an element less what it takes up, over the work exchanged. Raises
+    `ValueError` if a parameter of the law is out of its range.
     """
     width = rig.tip_length / elements
     area, tip = rig.tip_width * width, TipProfile(elements / 2, rig.edge_drop)

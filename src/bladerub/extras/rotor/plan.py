@@ -19,30 +19,14 @@ _LISTS = ("f_omega", "blades", "length_scatter", "frequency_scatter", "coupling"
 
 @dataclass(frozen=True)
 class Combination:
-    """Rows of one kind on one coating at one speed; scatters are standard deviations.
-
-    Parameters
-    ----------
-    case : CoatingCase
-        The coating.
-    f_omega : float
-        Speed, normalised.
-    blades : int
-        Number of blades.
-    length_scatter : float
-        Of the tip radii, m.
-    frequency_scatter : float
-        Of the natural frequencies, relative.
-    coupling : float
-        Springs between neighbours over the stiffness of the first mode; 0 for a stiff disk.
-    """
+    """Rows of one kind on one coating at one speed; scatters are standard deviations."""
 
     case: CoatingCase
-    f_omega: float
+    f_omega: float  # normalised
     blades: int
-    length_scatter: float = 0.0
-    frequency_scatter: float = 0.0
-    coupling: float = 0.0
+    length_scatter: float = 0.0  # of the tip radii, m
+    frequency_scatter: float = 0.0  # of the natural frequencies, relative
+    coupling: float = 0.0  # springs between neighbours over the stiffness of the first mode; 0: a stiff disk
 
     @property
     def name(self) -> str:
@@ -63,21 +47,11 @@ class Combination:
 
 @dataclass(frozen=True)
 class Patterns:
-    """Rows whose worn pattern is followed.
+    """Rows whose worn pattern is followed."""
 
-    Parameters
-    ----------
-    harmonic : int
-        Number of lobes of the pattern.
-    interval : int
-        Revolutions between two looks at the wear.
-    draws : dict
-        Number of draws of each combination.
-    """
-
-    harmonic: int
-    interval: int
-    draws: dict[Combination, int]
+    harmonic: int  # lobes of the pattern
+    interval: int  # revolutions between two looks at the wear
+    draws: dict[Combination, int]  # number of them
 
 
 @dataclass(frozen=True)

@@ -53,27 +53,11 @@ def massless_boundary(
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Reduce the blade to its interface and free modes without mass of the interface (MacNeal 1971).
 
-    Parameters
-    ----------
-    blade : ReducedBlade
-        With j interface nodes.
-    f_omega : float
-        Normalised speed.
-    damping_ratio : float
-        Of every mode.
-    n_modes : int
-        Free modes that move; the others respond by their static displacement.
-
-    Returns
-    -------
-    mass, damping, stiffness : (3 j + n_modes, 3 j + n_modes) ndarray
-        For the displacement of each node against the outward normal, with the rotation and in the direction
-        that is left, m, then the modes, kg^1/2 m. kg, N s/m and N/m in the first.
-
-    Raises
-    ------
-    ValueError
-        If the modes left do not span the displacements of the interface.
+    `n_modes` free modes move, damped by `damping_ratio`; the others respond by their static displacement.
+    Returns mass, damping and stiffness (3 j + n_modes, 3 j + n_modes) for the displacement of each of the j
+    interface nodes against the outward normal, with the rotation and in the direction that is left, m, then
+    the modes, kg^1/2 m; kg, N s/m and N/m in the first. Raises `ValueError` if the modes left do not span the
+    displacements of the interface.
     """
     omega, shapes = mode_shapes_at(blade, f_omega)
     n_boundary = 3 * blade.n_interface

@@ -11,36 +11,19 @@ from bladerub.contact.result import Energy, RunResult
 class RowResult:
     """Outcome of a run of a row.
 
-    Parameters
-    ----------
-    status, message : str
-        As of `Outcome`, for the whole row.
-    angle : (n_elements,) ndarray
-        Casing angle of the element centres, rad.
-    wear : (8, n_elements) ndarray
-        Permanent shortening of each element under each node by all blades, m.
-    blades : tuple of RunResult
-        Outcome of each blade, in the order of the row. Revolutions are counted from the start of the row, the
-        wear is that of all. The energy ledger of a blade lacks the work of the disk.
-    worn_volume : (n_blades,) ndarray
-        Volume that each blade has worn off, m³.
-    unbounded : tuple of int
-        Numbers of the blades, counted from 1, that left the displacement limit.
-    disk_work : (n_blades,) ndarray
-        Work of the disk on each blade, J.
-    disk_energy : float
-        Elastic energy that the disk has taken up since the start, J.
+    Of each blade revolutions are counted from the start of the row, the wear is that of all, and the energy
+    ledger lacks the work of the disk.
     """
 
-    status: str
+    status: str  # as of `Outcome`, for the whole row
     message: str
-    angle: np.ndarray
-    wear: np.ndarray
-    blades: tuple[RunResult, ...]
-    worn_volume: np.ndarray
-    unbounded: tuple[int, ...]
-    disk_work: np.ndarray
-    disk_energy: float
+    angle: np.ndarray  # (n_elements,), casing angle of the element centres, rad
+    wear: np.ndarray  # (8, n_elements), permanent shortening under each node by all blades, m
+    blades: tuple[RunResult, ...]  # in the order of the row
+    worn_volume: np.ndarray  # (n_blades,), that each has worn off, m³
+    unbounded: tuple[int, ...]  # numbers, counted from 1, of the blades that left the displacement limit
+    disk_work: np.ndarray  # (n_blades,), on each blade, J
+    disk_energy: float  # elastic, that the disk has taken up since the start, J
 
     @property
     def energy(self) -> Energy:

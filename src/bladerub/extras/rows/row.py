@@ -49,24 +49,11 @@ def simulate_row(
 ) -> RowResult:
     """Simulate the contact of a row of blades with one coating at one constant speed.
 
-    Parameters
-    ----------
-    blade : ReducedBlade
-        The nominal blade.
-    spec : RunSpec
-        Stator, speed and length of the run. A row of one nominal blade at angle 0 makes the run of
-        `bladerub.contact.run.simulate`, to the last bit.
-    row : Row
-        The blades.
-    progress : callable, optional
-        Called with the number of revolutions done after each of them.
-
-    Raises
-    ------
-    ValueError
-        As `simulate`; and if neighbours are so close that they could meet, a blade is so long that it touches
-        all around the casing, or the disk couples modes that the scheme does not resolve, that are too fast
-        for its impulses or that it makes unstable.
+    `blade` is the nominal one. A row of one nominal blade at angle 0 makes the run of
+    `bladerub.contact.run.simulate`, to the last bit. `progress` is called with the number of revolutions done
+    after each of them. Raises `ValueError` as `simulate`; and if neighbours are so close that they could
+    meet, a blade is so long that it touches all around the casing, or the disk couples modes that the scheme
+    does not resolve, that are too fast for its impulses or that it makes unstable.
     """
     modes, seats, simulation, begins = set_up_row(blade, spec, row)
     stored = partial(_stored, row, modes, seats)

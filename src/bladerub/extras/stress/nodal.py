@@ -18,16 +18,9 @@ from bladerub.blade.mesh import MeshHexS2, solid_mesh
 class NodalStress:
     """Cauchy stress at the nodes of a mesh, in axes that turn with the vibrating material.
 
-    Parameters
-    ----------
-    points : (n_nodes, 3) ndarray
-        Nodes at rest, m.
-    cells : (n_elements, 20 or 10) ndarray
-        Nodes of each element, in the order of CalculiX and VTK.
-    material : Material
-        Isotropic, St Venant-Kirchhoff.
-    running : (n_nodes, 3) ndarray
-        Displacement from rest to the equilibrium at speed, m.
+    `points` (n_nodes, 3) are at rest, m, `cells` (n_elements, 20 or 10) in the order of CalculiX and VTK; the
+    `material` is isotropic, St Venant-Kirchhoff; `running` (n_nodes, 3) is the displacement from rest to the
+    equilibrium at speed, m.
     """
 
     def __init__(self, points: np.ndarray, cells: np.ndarray, material: Material, running: np.ndarray):

@@ -100,26 +100,15 @@ def _principal(x, y, z, xy, yz, zx):
 def stress_peaks(
     stress: ModalStress, coordinates: np.ndarray, time: np.ndarray, parts: Sequence[slice]
 ) -> list[dict[str, float]]:
-    """Find the largest stress in each part of a motion.
+    """Find the largest stress in each part of a motion, of a blade whose `stress` is at its speed.
 
-    Parameters
-    ----------
-    stress : ModalStress
-        Of the blade at the speed of the motion.
-    coordinates : (s, k) ndarray
-        Its coordinates about the running position at each instant.
-    time : (s,) ndarray
-        The instants, revolutions.
-    parts : sequence of slice
-        The instants of each part, none of them empty.
+    `coordinates` (s, k) are about the running position at each instant, `time` (s,) in revolutions; `parts`
+    are the instants of each part, none of them empty.
 
-    Returns
-    -------
-    list of dict
-        For each part ``von_mises`` and ``principal`` (largest principal), Pa, each with its place at rest
-        ``…_x``, ``…_y``, ``…_z``, m, and ``…_time``, revolutions. ``alternating``, Pa, with its place: the
-        largest von Mises stress of half the range of each component. It is exact where one mode vibrates, and
-        else on the safe side.
+    Returns for each part ``von_mises`` and ``principal`` (largest principal), Pa, each with its place at rest
+    ``…_x``, ``…_y``, ``…_z``, m, and ``…_time``, revolutions. ``alternating``, Pa, with its place: the
+    largest von Mises stress of half the range of each component. It is exact where one mode vibrates, and
+    else on the safe side.
     """
     starts = [_largest(stress(extreme))[0] for extreme in _extremes(stress, coordinates, parts)]
     nodes = np.unique([np.argpartition(start, -_FEW)[:, -_FEW:] for start in starts])

@@ -28,22 +28,11 @@ _MODES, _SHARE = 3, 0.7
 
 @dataclass(frozen=True)
 class RunStress:
-    """Largest stress of a run, Pa, with place at rest (m) and time (revolutions).
+    """Largest stress of a run, Pa, with place at rest (m) and time (revolutions)."""
 
-    Parameters
-    ----------
-    static : dict
-        Of the rotation alone, as of `bladerub.extras.stress.peak.static_peak`.
-    start_up : dict
-        From the start to where `last` begins, as of `bladerub.extras.stress.peak.stress_peaks`; empty
-        where the run has no more revolutions than those.
-    last : dict
-        Over the last revolutions, likewise.
-    """
-
-    static: dict[str, float]
-    start_up: dict[str, float]
-    last: dict[str, float]
+    static: dict[str, float]  # of the rotation alone, as of `bladerub.extras.stress.peak.static_peak`
+    start_up: dict[str, float]  # up to `last`, as of `bladerub.extras.stress.peak.stress_peaks`; may be empty
+    last: dict[str, float]  # over the last revolutions, likewise
 
     def attributes(self) -> dict[str, float]:
         """Name each figure for the file of the run, as ``stress_last_von_mises``."""
@@ -101,18 +90,7 @@ class BladeStress:
 
     It is found for each reduced coordinate at three speeds, and between them as a parabola over the square of
     the speed. It is kept at those nodes only that one of the first modes or the rotation stresses most.
-
-    Parameters
-    ----------
-    path : path
-        The ``mesh.h5`` of the blade.
-    blade : ReducedBlade
-        The blade.
-
-    Raises
-    ------
-    BadInput
-        If the blade is of matrices alone, which tell of no stress.
+    `path` is the ``mesh.h5`` of the blade. Raises `BadInput` if that is of matrices alone.
     """
 
     def __init__(self, path: str | Path, blade: ReducedBlade):
@@ -145,7 +123,7 @@ class BladeStress:
         return ModalStress(self._at[0].points, static, slope)
 
     def of_run(self, spec: RunSpec, last: int) -> tuple[RunResult, RunStress | None]:
-        """Simulate a run and find its stress, with outcome as of `simulate_with_stress`."""
+        """Simulate a run and find its stress, with outcome as of `StressSolver`."""
         run = simulate_sampled(self._blade, spec, INSTANTS)
         return run.result, sampled_stress(self.at(spec.f_omega).of(run.patterns), run, last)
 
@@ -156,14 +134,11 @@ def complete_revolutions(revolution_peak: np.ndarray, status: str) -> int:
 
 
 class StressSolver:
-    """Simulates a run, as `bladerub.contact.run.simulate`, and keeps its stress.
+    """Simulates a run of a single blade, as `bladerub.contact.run.simulate`, and keeps its `stress`.
 
-    Parameters
-    ----------
-    mesh : path
-        The ``mesh.h5`` of the blade.
-    last : int
-        How many revolutions are the last ones.
+    The run is that of `simulate` but for rounding in the sums of its energies. `mesh` is the ``mesh.h5`` of
+    the blade, `last` how many revolutions are the last ones. The stress is None where the blade is of
+    matrices alone, which tell of no stress, or no revolution is complete.
     """
 
     def __init__(self, mesh: str | Path, last: int):
@@ -171,50 +146,20 @@ class StressSolver:
         self.stress: RunStress | None = None
 
     def __call__(
-        self, blade: ReducedBlade, spec: RunSpec, progress: Callable[[int], None] | None
+        self, blade: ReducedBlade, spec: RunSpec, progress: Callable[[int], None] | None = None
     ) -> RunResult:
         """Simulate the run; its `stress` is there afterwards."""
-        result, self.stress = simulate_with_stress(self._mesh, blade, spec, self._last, progress)
-        return result
-
-
-def simulate_with_stress(
-    mesh: str | Path,
-    blade: ReducedBlade,
-    spec: RunSpec,
-    last: int,
-    progress: Callable[[int], None] | None = None,
-) -> tuple[RunResult, RunStress | None]:
-    """Simulate a run of a single blade and find its stress.
-
-    Parameters
-    ----------
-    mesh : path
-        The ``mesh.h5`` of the blade.
-    blade : ReducedBlade
-        The blade.
-    spec : RunSpec
-        The run.
-    last : int
-        How many revolutions are the last ones.
-    progress : callable, optional
-        Called with the number of revolutions done after each of them.
-
-    Returns
-    -------
-    RunResult, RunStress or None
-        The run as of `bladerub.contact.run.simulate`, but for rounding in the sums of its energies. Its
-        stress is None where the blade is of matrices alone, which tell of no stress, or no revolution is
-        complete.
-    """
-    if stress_of(mesh, spec.f_omega) is None:
-        return simulate(blade, spec, progress), None
-    run = simulate_sampled(blade, spec, INSTANTS, progress)
-    return run.result, sampled_stress(modal_stress(mesh, spec.f_omega, run.patterns), run, last)
+        self.stress = None
+        if stress_of(self._mesh, spec.f_omega) is None:
+            return simulate(blade, spec, progress)
+        run = simulate_sampled(blade, spec, INSTANTS, progress)
+        stress = modal_stress(self._mesh, spec.f_omega, run.patterns)
+        self.stress = sampled_stress(stress, run, self._last)
+        return run.result
 
 
 def sampled_stress(stress: ModalStress, run: SampledRun, last: int) -> RunStress | None:
-    """Find the stress of a sampled run, as `simulate_with_stress`; `stress` is that of its amplitudes."""
+    """Find the stress of a sampled run, as `StressSolver` does; `stress` is that of its amplitudes."""
     revolutions = complete_revolutions(run.result.revolution_peak, run.result.status)
     if not revolutions:
         return None

@@ -57,21 +57,11 @@ class LawReport:
 
 
 def check_law(law: ElementLaw, coatings: Sequence[Coating], seed: int = 0) -> LawReport:
-    """Press elements of `coatings` by a law along random histories; those that wear off begin unworn.
+    """Press elements of `coatings` by a law along random histories.
 
-    Parameters
-    ----------
-    law : ElementLaw
-        The law; that of the coatings does not count.
-    coatings : sequence of Coating
-        The coatings, all with a layer.
-    seed : int
-        Of the histories, which are the same for the same seed.
-
-    Returns
-    -------
-    LawReport
-        A law that is right has no problems. What the law raises is a problem, not an error.
+    All coatings have a layer; their own law does not count. Elements that wear off begin unworn. The
+    histories are the same for the same `seed`. A law that is right has no problems; what it raises is a
+    problem, not an error.
     """
     rng, log, histories = np.random.default_rng(seed), _ProblemLog(), 0
     try:
