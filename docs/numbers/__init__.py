@@ -7,7 +7,7 @@ table elsewhere in the repository. A text may be a whole table (`table`), alone 
 """
 
 import importlib.util
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from types import MappingProxyType
 from typing import Any
@@ -18,6 +18,7 @@ from bladerub.io import tables as files
 
 FOLDER = Path(__file__).parent
 ROOT = FOLDER.parents[1]
+_SYMBOLS = {"theta": "θ", "f_omega": "f_Ω"}
 
 
 def data_folders(root: Path = ROOT) -> list[Path]:
@@ -110,14 +111,25 @@ def significant(value: float, digits: int = 3) -> str:
     return f"{value:.{digits}g}"
 
 
+def span(values: pd.Series, write: Callable[[float], str]) -> str:
+    """Write the ends of a range of numbers."""
+    return f"{write(values.min())} to {write(values.max())}"
+
+
+def same(*columns: str) -> dict[str, str]:
+    """Head columns of a `table` by their names, or by the symbols that these stand for."""
+    return {column: _SYMBOLS.get(column, column) for column in columns}
+
+
 def table(
-    rows: pd.DataFrame, columns: Mapping[str, str | tuple[str, Callable[[Any], str]]] = MappingProxyType({})
+    rows: pd.DataFrame | Sequence[Mapping[str, Any]],
+    columns: Mapping[str, str | tuple[str, Callable[[Any], str]]] = MappingProxyType({}),
 ) -> str:
     """Write `rows` as a table of Markdown, with `columns`: the heading of each, and what writes its values.
 
     Without `columns` all are written as they are. What is missing leaves its cell empty.
     """
-    text = pd.DataFrame()
+    rows, text = pd.DataFrame(rows), pd.DataFrame()
     for column in columns or rows.columns:
         heading, write = columns.get(column, column), str
         if isinstance(heading, tuple):

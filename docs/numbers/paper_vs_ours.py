@@ -2,7 +2,7 @@
 
 import pandas as pd
 
-from docs.numbers import fixed, mm, peak, percent, row, rows, table
+from docs.numbers import decimals, fixed, mm, peak, percent, row, rows, span, table
 from docs.numbers.claims import changes, claims, counts, variations
 
 _RIDGE = [1.1, 1.5, 2.0, 5.0, 11.0, 20.0]
@@ -99,12 +99,12 @@ def _longer_peaks(peaks, longer):
     ridge = both[(both["casing"] == "2nd") & (both["K"] == 0.5) & (both["theta"] == 0) & (both["order"] == 4)]
     fall = ridge[ridge["E"] >= 1.1]["fall"]
     return {
-        "Y4_soft_longer": f"{mm(soft[1].min())} to {mm(soft[1].max())}",
-        "Y4_soft_20": f"{mm(soft[0].min())} to {mm(soft[0].max())}",
+        "Y4_soft_longer": span(soft[1], mm),
+        "Y4_soft_20": span(soft[0], mm),
         "heights_longer": table(heights),
         "peaks": fixed(len(both)),
         "peaks_at_same_speed": fixed((both["fall"].abs() < 0.0065).sum()),
-        "f4_fall_on_ridge": f"{fixed(fall.min(), 3)} to {fixed(fall.max(), 3)}",
+        "f4_fall_on_ridge": span(fall, decimals(3)),
         "f6_longer_2_5": fixed(peak(longer, 2, 5, 6)["f_peak"], 3),
         "f6_longer_11_5": fixed(peak(longer, 11, 5, 6)["f_peak"], 3),
     }

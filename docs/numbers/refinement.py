@@ -25,7 +25,7 @@ def refinement(changes: pd.DataFrame, level: str) -> str:
                 ),
             }
         )
-    return table(pd.DataFrame(lines))
+    return table(lines)
 
 
 def greatest_changes(changes: pd.DataFrame) -> dict[str, float]:

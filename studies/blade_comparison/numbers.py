@@ -1,7 +1,5 @@
 """Numbers of studies/blade_comparison/README.md."""
 
-import pandas as pd
-
 from docs.numbers import fixed, peak, rows, table
 
 
@@ -51,24 +49,21 @@ def _blades(comparison):
         "coordinates": ("reduced coordinates", 1, 0),
     }
     values = comparison.set_index(["number", "blade"])["value"]
+    both = {"twisted plate": "this", "default blade": "reference"}
     return table(
-        pd.DataFrame(
-            [
-                [label, *(fixed(factor * values[number, blade], digits) for blade in ("this", "reference"))]
-                for number, (label, factor, digits) in what.items()
-            ],
-            columns=["", "twisted plate", "default blade"],
-        )
+        [
+            {"": label} | {name: fixed(factor * values[number, of], digits) for name, of in both.items()}
+            for number, (label, factor, digits) in what.items()
+        ]
     )
 
 
 def _peaks(plate, default):
+    both = {"twisted plate": plate, "default blade": default}
     return table(
-        pd.DataFrame(
-            [
-                [f"f{order}", *(fixed(peak(peaks, 2, 0.5, order)["f_peak"], 3) for peaks in (plate, default))]
-                for order in (4, 6)
-            ],
-            columns=["peak", "twisted plate", "default blade"],
-        )
+        [
+            {"peak": f"f{order}"}
+            | {name: fixed(peak(peaks, 2, 0.5, order)["f_peak"], 3) for name, peaks in both.items()}
+            for order in (4, 6)
+        ]
     )

@@ -2,7 +2,7 @@
 
 import pandas as pd
 
-from docs.numbers import decimals, fixed, mm, peak, percent, row, rows, table
+from docs.numbers import decimals, fixed, mm, peak, percent, row, rows, same, span, table
 
 _LIMITS = {"peak": 2e-3, "deepest_wear": 1e-3, "divergent_share": 0}
 """Limits of the config: displacement and depth in metres, share of the speeds."""
@@ -39,20 +39,15 @@ def _amplitudes(chart, peaks):
         ("springs back (E < 0.1, K ≥ 1)", (chart["E"] < 0.1) & (chart["K"] >= 1)),
     ):
         for theta, coatings in chart[chosen].groupby("theta"):
-            kinds.append(
-                [
-                    kind,
-                    f"{theta:g}",
-                    _range(coatings["peak"], mm),
-                    _range(1e6 * coatings["worn_volume"], fixed),
-                ]
-            )
+            line = {"the coating": kind, "θ": f"{theta:g}"}
+            line["greatest displacement, mm"] = span(coatings["peak"], mm)
+            kinds.append(line | {"worn volume, cm³": span(1e6 * coatings["worn_volume"], fixed)})
     return {
-        "ridge_K": _range(ridge["K"], lambda K: fixed(K, 2)),
-        "ridge_Y4": _range(ridge["Y4"], mm),
-        "Y4_soft": _range(rows(stiff, K=0.02)["Y4"], mm),
-        "Y4_hard": _range(rows(stiff, K=20)["Y4"], mm),
-        "ridge_K_Y6": _range(ridge6["K"], lambda K: fixed(K, 2)),
+        "ridge_K": span(ridge["K"], decimals(2)),
+        "ridge_Y4": span(ridge["Y4"], mm),
+        "Y4_soft": span(rows(stiff, K=0.02)["Y4"], mm),
+        "Y4_hard": span(rows(stiff, K=20)["Y4"], mm),
+        "ridge_K_Y6": span(ridge6["K"], decimals(2)),
         "Y6_highest": mm(highest6["Y6"]),
         "Y6_highest_at": f"({highest6['E']:g}, {highest6['K']:g})",
         "Y4_inclined": mm(inclined["Y4"].max()),
@@ -61,9 +56,7 @@ def _amplitudes(chart, peaks):
         "ridge_K_straight": fixed(_highest(straight[straight["E"] >= 2], "Y4")["K"].median(), 1),
         "Y4_paper": mm(peak(peaks, 1.1, 0.5)["amplitude"], 2),
         "Y4_ridge": mm(row(straight, casing="2nd", E=1.1, K=0.3)["Y4"], 2),
-        "two_kinds": table(
-            pd.DataFrame(kinds, columns=["the coating", "θ", "greatest displacement, mm", "worn volume, cm³"])
-        ),
+        "two_kinds": table(kinds),
         "coatings": fixed(len(straight)),
         "safe_straight": fixed(_safe(straight)),
         "safe_inclined": fixed(_safe(inclined)),
@@ -79,10 +72,6 @@ def _highest(coatings, quantity):
     return coatings.loc[coatings.groupby("E")[quantity].idxmax()]
 
 
-def _range(values, write):
-    return f"{write(values.min())} to {write(values.max())}"
-
-
 def _safe(coatings):
     within = pd.DataFrame({quantity: coatings[quantity] <= limit for quantity, limit in _LIMITS.items()})
     return within.all(axis=1).sum()
@@ -91,17 +80,19 @@ def _safe(coatings):
 def _ridge(explanation):
     """Explain the ridge: contact stiffness, energy and lobes at the peaks."""
     across = rows(explanation, order=4, theta=0, E=2, K=[0.02, 0.1, 0.3, 1, 6, 20])
-    correlations, moduli, lobes = [], [], []
+    correlations, lobes = [], []
     for (theta, order), peaks in explanation.groupby(["theta", "order"]):
         ranks = peaks[["amplitude", "wear_per_cycle", "E_T"]].rank().corr()["amplitude"]
-        correlations.append([f"{theta:g}", order, fixed(ranks["wear_per_cycle"], 2), fixed(ranks["E_T"], 2)])
-        ridge = _highest(peaks[peaks["E"] >= 0.75], "amplitude")["E_T"]
-        moduli.append(_range(ridge, lambda E_T: fixed(E_T, 2)))
+        ridge, line = _highest(peaks[peaks["E"] >= 0.75], "amplitude")["E_T"], {"θ": f"{theta:g}"}
+        correlations.append(
+            line
+            | {"order": order, "Y_k and the energy by wear": fixed(ranks["wear_per_cycle"], 2)}
+            | {"Y_k and E_T": fixed(ranks["E_T"], 2), "E_T on the ridge": span(ridge, decimals(2))}
+        )
         if order == 4:
-            half = len(peaks) // 2
-            four = peaks.sort_values("amplitude")["lobes"] == 4
-            lobes.append([f"{theta:g}", percent(four.tail(half).mean()), percent(four.head(half).mean())])
-    headings = ["θ", "order", "Y_k and the energy by wear", "Y_k and E_T"]
+            half, four = len(peaks) // 2, peaks.sort_values("amplitude")["lobes"] == 4
+            line["four lobes: upper half of Y4, %"] = percent(four.tail(half).mean())
+            lobes.append(line | {"lower half of Y4, %": percent(four.head(half).mean())})
     return {
         "energies": table(
             across,
@@ -112,12 +103,8 @@ def _ridge(explanation):
                 "amplitude": ("Y4, mm", mm),
             },
         ),
-        "correlations": table(
-            pd.DataFrame(correlations, columns=headings).assign(**{"E_T on the ridge": moduli})
-        ),
-        "lobes": table(
-            pd.DataFrame(lobes, columns=["θ", "four lobes: upper half of Y4, %", "lower half of Y4, %"])
-        ),
+        "correlations": table(correlations),
+        "lobes": table(lobes),
     }
 
 
@@ -133,7 +120,7 @@ def _speeds(stiffening, explanation, peaks):
     return {
         "stiffening": table(
             stiffening,
-            {"theta": "θ", "order": "order", "coatings": "coatings"}
+            same("theta", "order", "coatings")
             | {
                 f"rank_correlation_{E}": (f"rank correlation with {E}", decimals(2))
                 for E in ("E_T", "K", "E")
@@ -155,16 +142,15 @@ def _speeds(stiffening, explanation, peaks):
         "other_K": f"{other['K'].min():g}",
         "other_E_T": fixed(other["E_T"].min(), 1),
         "other_coatings": fixed(len(other)),
-        "other_speeds": _range(other["f_peak"], lambda speed: fixed(speed, 3)),
+        "other_speeds": span(other["f_peak"], decimals(3)),
     }
 
 
 def _placement(placement):
     return table(
         placement,
-        {
-            "quantity": "quantity",
-            "coatings": "coatings",
+        same("quantity", "coatings")
+        | {
             "exact": "found exactly",
             "within_1_percent": "within 1 %",
             "within_5_percent": "within 5 %",
@@ -176,9 +162,8 @@ def _placement(placement):
 def _ridge_by_step(ridge):
     return table(
         ridge,
-        {
-            "theta": "θ",
-            "order": "order",
+        same("theta", "order")
+        | {
             "speed_step": "step",
             "E": "E of the highest",
             "K": "its K",

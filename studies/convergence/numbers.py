@@ -4,12 +4,12 @@ import math
 
 import pandas as pd
 
-from docs.numbers import fixed, mm, percent, rows, table
+from docs.numbers import fixed, mm, percent, rows, same, span, table
 from docs.numbers.refinement import cost, greatest_changes, refinement
 
 _LIMIT = 0.01
 """Difference from a finer step, in any of three measures, from which on a run is looked at again."""
-_MEASURES = ["wear_l2", "peak", "revolution_peak"]
+_MEASURES = {"wear_l2": "wear", "peak": "spectral peak", "revolution_peak": "revolution peak"}
 
 
 def numbers(tables):
@@ -91,15 +91,12 @@ def _accuracy(accuracy):
         "drawn_unbounded": fixed(len(rows(accuracy, status="unbounded"))),
         "unexplained": table(
             unexplained,
-            {
-                "casing": "casing",
-                "E": "E",
-                "K": "K",
-                "theta": "θ",
-                "f_omega": "f_Ω",
-                "error_wear_l2": ("wear, %", lambda error: percent(error, 2)),
-                "error_peak": ("spectral peak, %", lambda error: percent(error, 2)),
-                "error_revolution_peak": ("revolution peak, %", lambda error: percent(error, 2)),
+            same("casing", "E", "K", "theta", "f_omega")
+            | {
+                f"error_{measure}": (f"{words}, %", lambda error: percent(error, 2))
+                for measure, words in zip(
+                    _MEASURES, ("wear", "spectral peak", "revolution peak"), strict=True
+                )
             },
         ),
     }
@@ -143,13 +140,9 @@ def _impact(impact):
         }
         lines.append(
             {"f_Ω": f_omega, "order": order, "study, mm": mm(study["amplitude"], 3)}
-            | {alternative: _range(values) for alternative, values in change.items()}
+            | {alternative: span(100 * values, "{:+.1f}".format) for alternative, values in change.items()}
         )
     return {
-        "impact": table(pd.DataFrame(lines)),
-        "impact_near_peaks": _range(rows(impact, complete=True)["amplitude_change"]),
+        "impact": table(lines),
+        "impact_near_peaks": span(100 * rows(impact, complete=True)["amplitude_change"], "{:+.1f}".format),
     }
-
-
-def _range(changes):
-    return f"{100 * changes.min():+.1f} to {100 * changes.max():+.1f}"

@@ -2,7 +2,7 @@
 
 import pandas as pd
 
-from docs.numbers import decimals, fixed, mm, percent, row, rows, table
+from docs.numbers import decimals, fixed, mm, percent, row, rows, same, span, table
 
 
 def numbers(tables):
@@ -14,29 +14,21 @@ def numbers(tables):
         "commit": counts.attrs["commit"],
         "sets": table(
             counts,
-            {
-                "set": "set",
-                "yes": "yes",
-                "partly": "partly",
-                "no": "no",
-                "better": "better than plastic",
-                "worse": "worse than plastic",
-            },
+            same("set", "yes", "partly", "no")
+            | {"better": "better than plastic", "worse": "worse than plastic"},
         ),
         "viscosity": table(
-            pd.DataFrame(
-                [
-                    [claim, *(fixed(measured[law, part], 2) for law in ("plastic", "viscoplastic_2e4"))]
-                    for part, claim in (
-                        ("C9d", "range of Y6 over its mean, K ≤ 0.1 (C9d)"),
-                        ("C10b", "Y6 with θ = 0.15 over that with θ = 0 (C10b)"),
-                    )
-                ],
-                columns=["", "plastic", "2e4 Pa s"],
-            )
+            [
+                {"": claim, "plastic": fixed(measured["plastic", part], 2)}
+                | {"2e4 Pa s": fixed(measured["viscoplastic_2e4", part], 2)}
+                for part, claim in (
+                    ("C9d", "range of Y6 over its mean, K ≤ 0.1 (C9d)"),
+                    ("C10b", "Y6 with θ = 0.15 over that with θ = 0 (C10b)"),
+                )
+            ]
         ),
-        "f6_over_sets": _range(rows(verdicts, id="C4a")["measured"]),
-        "f4_over_sets": _range(rows(verdicts, id="C4b")["measured"]),
+        "f6_over_sets": span(pd.to_numeric(rows(verdicts, id="C4a")["measured"]), decimals(3)),
+        "f4_over_sets": span(pd.to_numeric(rows(verdicts, id="C4b")["measured"]), decimals(3)),
         "heat": table(
             tables["heat"],
             {
@@ -57,11 +49,6 @@ def numbers(tables):
         "ratios_with_heat": _ratios(heated, "thermal_1"),
         "ratios_without_heat": _ratios(heated, "plastic"),
     }
-
-
-def _range(speeds):
-    speeds = pd.to_numeric(speeds)
-    return f"{fixed(speeds.min(), 3)} to {fixed(speeds.max(), 3)}"
 
 
 def _ratios(verdicts, law):

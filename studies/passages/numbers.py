@@ -1,8 +1,6 @@
 """Numbers of studies/passages/README.md."""
 
-import pandas as pd
-
-from docs.numbers import decimals, fixed, percent, rows, table
+from docs.numbers import decimals, fixed, percent, rows, same, span, table
 
 
 def numbers(tables):
@@ -19,7 +17,6 @@ def _sweeps(sweeps):
     worn = rows(sweeps, E=2, K=0.5, theta=0, rate=0.01)
     worn = worn[~((worn["direction"] == "down") & (worn["order"] == 4))]  # the first peak of a run-down
     beyond = rows(sweeps, order=4, status="unbounded")
-    residuals = sweeps["energy_residual"]
     return {
         "rigid": table(
             rigid, {"rate": "rate, 1/s", "up": ("run-up", decimals(2)), "down": ("run-down", decimals(2))}
@@ -41,18 +38,12 @@ def _sweeps(sweeps):
         "hard_survive_eo4": fixed(len(rows(hard, survives=True, order=4, rate=[0.05, 0.2]))),
         "beyond": table(
             beyond,
-            {
-                "E": "E",
-                "K": "K",
-                "theta": "θ",
-                "direction": "direction",
-                "rate": "rate, 1/s",
-                "f_end": ("exceeds it at", decimals(3)),
-            },
+            same("E", "K", "theta", "direction")
+            | {"rate": "rate, 1/s", "f_end": ("exceeds it at", decimals(3))},
         ),
         "run_downs": fixed(len(rows(sweeps, direction="down", order=4))),
         "run_downs_beyond": fixed(len(rows(beyond, direction="down"))),
-        "residual": f"{residuals.min():.0e} to {residuals.max():.0e}",
+        "residual": span(sweeps["energy_residual"], "{:.0e}".format),
     }
 
 
@@ -75,6 +66,4 @@ def _long_runs(runs):
             {"runs that": name, "after": revolutions, "runs": counts.sum()}
             | {heading: counts.get(verdict, 0) for verdict, heading in verdicts.items()}
         )
-    return {
-        "long_runs": table(pd.DataFrame(lines)),
-    }
+    return {"long_runs": table(lines)}

@@ -4,7 +4,7 @@ import math
 
 import pandas as pd
 
-from docs.numbers import fixed, mm, percent, row, rows, table
+from docs.numbers import fixed, mm, percent, row, rows, same, table
 
 _SCATTER = {"length_scatter": 5e-5, "frequency_scatter": 0.005, "coupling": 0}
 _CRITICAL = {"E": 1.1, "K": 0.5, "theta": 0, "f_omega": 0.346} | _SCATTER
@@ -57,13 +57,13 @@ def _combinations(rotor, half, heading, combinations):
                 "draws": fixed(values["rows"]),
                 "leave the limit, %": percent(values["unbounded_rows"] / values["rows"]),
                 "of the first half": percent(first["unbounded_rows"] / first["rows"]),
-                "amplitude": f"{_interval(values)}",
-                "amplitude of the first half": f"{_interval(first)}",
+                "amplitude": _interval(values),
+                "amplitude of the first half": _interval(first),
                 "wear of the longest": _share(blades, values["longest_share_median"]),
                 "wear of the most worn": _share(blades, values["largest_share_median"]),
             }
         )
-    return table(pd.DataFrame(lines))
+    return table(lines)
 
 
 def _interval(values):
@@ -98,10 +98,8 @@ def _drift(drift):
 
     return table(
         rows(drift, f_omega=[0.346, 0.31], length_scatter=5e-5),
-        {
-            "E": "E",
-            "f_omega": "f_Ω",
-            "blades": "blades",
+        same("E", "f_omega", "blades")
+        | {
             "pattern_drift_median": ("median, degrees a revolution", degrees),
             "pattern_drift_p05": ("5 %", degrees),
             "pattern_drift_p95": ("95 %", degrees),
@@ -133,7 +131,7 @@ def _sweeps(rotor):
                     ),
                 }
             )
-    return table(pd.DataFrame(lines))
+    return table(lines)
 
 
 def _growth(rotor):

@@ -43,13 +43,11 @@ def numbers(tables):
 def _frequencies(blade):
     names = {"at rest, Hz": "rest", "at the design speed, Hz": "nominal"}
     return table(
-        pd.DataFrame(
-            [
-                {"mode": mode}
-                | {heading: _with_error(blade, f"f{mode}_{speed}", 1, 1) for heading, speed in names.items()}
-                for mode in range(1, 5)
-            ]
-        )
+        [
+            {"mode": mode}
+            | {heading: _with_error(blade, f"f{mode}_{speed}", 1, 1) for heading, speed in names.items()}
+            for mode in range(1, 5)
+        ]
     )
 
 
@@ -70,7 +68,7 @@ def _direct(direct):
             lines.append(
                 {"centrifugal stiffening": stiffening, "μ": friction, "amplitude, mm": amplitude} | orders
             )
-    return table(pd.DataFrame(lines))
+    return table(lines)
 
 
 def _independent(independent, direct):
@@ -91,10 +89,10 @@ def _independent(independent, direct):
     orders = massless[massless["number"].str.contains("order")]
     return {
         "independent": table(
-            pd.DataFrame(
-                [[name, f"{100 * (value / here - 1):+.2f}"] for name, value in integrators.items()],
-                columns=["independent integrator", "difference, %"],
-            )
+            [
+                {"independent integrator": name, "difference, %": f"{100 * (value / here - 1):+.2f}"}
+                for name, value in integrators.items()
+            ]
         ),
         "independent_step": percent(abs(amplitude("massless", 50, 10) / amplitude("massless", 50) - 1), 2),
         "independent_orders_nm": fixed(1e9 * (orders["value_x"] - orders["value_y"]).abs().max()),
@@ -134,7 +132,7 @@ def _rigid_peaks(interaction):
             line[f"μ = {friction}: 1/min"] = _with_error(interaction, f"{peak}.speed", 1, 0)
             line[f"μ = {friction}: mm"] = _with_error(interaction, f"{peak}.amplitude", 1e3, 3)
         lines.append(line)
-    return table(pd.DataFrame(lines))
+    return table(lines)
 
 
 def _coatings(coatings):
@@ -150,7 +148,7 @@ def _coatings(coatings):
         line["deepest wear, mm"] = _with_error(coatings, f"{coating}.deepest_wear", 1e3, 2)
         line["divergent speeds, %"] = _with_error(coatings, f"{coating}.divergent_share", 100, 0)
         lines.append(line)
-    return table(pd.DataFrame(lines))
+    return table(lines)
 
 
 def _nodes(nodes):

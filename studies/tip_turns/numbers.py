@@ -1,7 +1,5 @@
 """Numbers of studies/tip_turns/README.md."""
 
-import pandas as pd
-
 from docs.numbers import fixed, mm, row, rows, table
 from docs.numbers.claims import changes
 
@@ -42,4 +40,4 @@ def _peaks(fixed_angle, turned):
             line[f"f{order}"] = " → ".join(fixed(peak["f_peak"], 3) for peak in both)
             line[f"Y{order}, mm"] = " → ".join(mm(peak["amplitude"], 2) for peak in both)
         lines.append(line)
-    return table(pd.DataFrame(lines))
+    return table(lines)

@@ -1,6 +1,6 @@
 """Numbers of studies/variations/calibration/README.md."""
 
-from docs.numbers import fixed, percent, rows, table
+from docs.numbers import fixed, percent, rows, same, table
 
 
 def numbers(tables):
@@ -14,14 +14,8 @@ def numbers(tables):
         "sets": fixed(len(counts)),
         "verdicts": table(
             counts,
-            {
-                "set": "set",
-                "yes": "yes",
-                "partly": "partly",
-                "no": "no",
-                "better": "better than the study",
-                "worse": "worse than the study",
-            },
+            same("set", "yes", "partly", "no")
+            | {"better": "better than the study", "worse": "worse than the study"},
         ),
         "measured": table(
             measured,
