@@ -194,6 +194,19 @@ rule wear_map:
         "../scripts/wear_map.py"
 
 
+use rule wear_map as fig06_wear_map with:
+    input:
+        map=map_of(LOBED),
+        blade=rules.blade.output.reduced_model,
+        drawing=rules.wear_map.input.drawing,
+    output:
+        **drawn("fig06_wear_map", "Wear and spectra"),
+    log:
+        f"{RESULTS}/logs/fig06_wear_map.log",
+    benchmark:
+        f"{RESULTS}/benchmarks/fig06_wear_map.tsv"
+
+
 rule spectrum:
     input:
         map=rules.coating.output.map,
@@ -215,17 +228,15 @@ rule spectrum:
         "../scripts/spectrum.py"
 
 
-# Figures of the paper that show the map of one coating, drawn as those of any coating are
-OF_MAPS = {
-    "fig06_wear_map": (LOBED, "Wear and spectra"),
+# The paper's spectra, each of one coating: drawn as that of any coating is
+OF_SPECTRA = {
     "fig07_spectrum_2nd5nd": (LOBED, "Wear and spectra"),
     "fig08_spectrum_soft": (SOFT, "Wear and spectra"),
     "fig09_spectrum_critical": (CRITICAL, "Wear and spectra"),
     "fig15_spectrum_theta0": (STRAIGHT, "Angle of the elements"),
     "fig16_spectrum_theta015": (INCLINED, "Angle of the elements"),
 }
-for figure, (case, category) in OF_MAPS.items():
-    kind = "wear_map" if "wear_map" in figure else "spectrum"
+for figure, (case, category) in OF_SPECTRA.items():
 
     rule:
         name:
@@ -233,7 +244,7 @@ for figure, (case, category) in OF_MAPS.items():
         input:
             map=map_of(case),
             blade=rules.blade.output.reduced_model,
-            drawing=getattr(rules, kind).input.drawing,
+            drawing=rules.spectrum.input.drawing,
         output:
             **drawn(figure, category),
         log:
@@ -243,10 +254,10 @@ for figure, (case, category) in OF_MAPS.items():
         group:
             "drawing"
         params:
-            **(SPECTRA if kind == "spectrum" else {"dpi": DPI}),
+            **SPECTRA,
             scales=SCALES,
         script:
-            f"../scripts/{kind}.py"
+            "../scripts/spectrum.py"
 
 
 rule fig10_peaks:
@@ -378,7 +389,8 @@ PLANNED = {
     "fig03_tip_profile": in_study(INCLINED),
     "fig04_coating_cycle": in_study(STRAIGHT),
     "fig05_casing": in_study(LOBED),
-    **{figure: in_study(case) for figure, (case, _) in OF_MAPS.items()},
+    "fig06_wear_map": in_study(LOBED),
+    **{figure: in_study(case) for figure, (case, _) in OF_SPECTRA.items()},
     "fig10_peaks": in_study(SOFT),
     "histograms": WITH_MODULI,
     "histories": bool(BOTH),
