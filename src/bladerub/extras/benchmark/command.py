@@ -64,9 +64,9 @@ def benchmark(options: argparse.Namespace) -> None:
         _on_gpu(options, config)
         return
     if options.table:
-        from bladerub.extras.benchmark.record import recorded
+        from bladerub.extras.benchmark import record
 
-        recorded(options.table)  # another table is refused before anything takes time
+        record.recorded(options.table)  # another table is refused before anything takes time
     stored_blade = inputs.read_blade(options, config)
     blade = stored_blade.reduced
 
@@ -85,10 +85,9 @@ def benchmark(options: argparse.Namespace) -> None:
         with inputs.refused(OSError, BadInput, because="--stress: "):
             figures["cost_of_stress"] = cost_of_stress(stored_blade.mesh_path, blade, config, options.rounds)
     if options.table:
-        from bladerub.extras.benchmark.record import record
         from bladerub.io.provenance import provenance
 
-        record(options.table, figures, provenance(config))
+        record.replace(options.table, record.rows(figures), record.MACHINE, provenance(config))
     inputs.show(options, figures, _in_words)
 
 

@@ -8,11 +8,12 @@ import pandas as pd
 
 from bladerub.io import tables
 
-_MACHINE = ["processor", "vector_bits", "cores"]
+MACHINE = ["processor", "vector_bits", "cores"]
+"""Columns that tell machines apart."""
 _LOOPS = ("numpy", "numba", "production")
 _WHOLE = ["peak_flops", "seconds_per_run", "study_minutes", "cost_of_stress"]
 COLUMNS = [
-    *(*_MACHINE, "motion"),
+    *(*MACHINE, "motion"),
     *(f"steps_per_second_{loop}" for loop in _LOOPS),
     *("ratio_to_numpy", "ratio_to_numba", "fraction_of_peak", *_WHOLE),
 ]
@@ -28,23 +29,15 @@ def rows(figures: Mapping[str, Any]) -> pd.DataFrame:
     for motion, ending in (("contact", ""), ("free", "_free")):
         steps = [figures["steps_per_second"][loop][motion] for loop in _LOOPS]
         ratios = [figures[f"ratio_to_{loop}{ending}"] for loop in ("numpy", "numba")]
-        of_machine, totals = ([figures.get(name) for name in names] for names in (_MACHINE, _WHOLE))
+        of_machine, totals = ([figures.get(name) for name in names] for names in (MACHINE, _WHOLE))
         records.append([*of_machine, motion, *steps, *ratios, figures[f"fraction_of_peak_{motion}"], *totals])
     return pd.DataFrame(records, columns=COLUMNS)
-
-
-def record(path: str | Path, figures: Mapping[str, Any], origin: Mapping[str, str]) -> None:
-    """Put the rows of this machine into the table at `path`, in the place of its old ones, if any.
-
-    `origin` is from `bladerub.io.provenance.provenance`. Raises as `recorded`.
-    """
-    replace(path, rows(figures), _MACHINE, origin)
 
 
 def replace(path: str | Path, new: pd.DataFrame, by: list[str], origin: Mapping[str, str]) -> None:
     """Put rows into the table at `path`, in the place of its old ones with the same values `by` columns.
 
-    Raises as `recorded`.
+    `origin` is from `bladerub.io.provenance.provenance`. Raises as `recorded`.
     """
     old = recorded(path, list(new.columns))
     if len(old):

@@ -23,9 +23,6 @@ class Recording(NamedTuple):
     # (s, N, n): Reduced coordinates of each blade, increments about its running position
     coordinates: np.ndarray
     wear: np.ndarray  # (s, 8, n_elements): Worn depth under each node, by casing angle, m
-    # (N, e): Of node 1 of each blade up to the last instant, mean over the passage of each element, m; NaN
-    # where it was at rest
-    radial_displacement: np.ndarray
     # (N, r): Largest absolute radial displacement of node 1 of each blade in each revolution that was
     # computed to its end, m; NaN where it was at rest
     revolution_peak: np.ndarray
@@ -47,14 +44,12 @@ def record(
     """
     _, seats, simulation, _ = set_up_row(blade, spec, row)
     n_elements, end = spec.coating.n_elements, instants[-1]
-    stops, wear, displacement = set(instants), [], []
+    stops, wear = set(instants), []
     amplitudes: list[list[np.ndarray]] = [[] for _ in seats]
     forces: list[list[np.ndarray]] = [[] for _ in seats]
     peak = np.full((len(seats), end // n_elements), np.nan)
     for first, last in pairwise(sorted({*range(0, end + 1, n_elements), *instants})):
-        passage = np.full((len(seats), last - first), np.nan)
-        _, blade_progress = simulation.advance(passage, first)
-        displacement.append(passage)
+        _, blade_progress = simulation.advance(np.empty((len(seats), last - first)), first)
         revolution = first // n_elements
         if revolution < peak.shape[1]:
             largest = [
@@ -83,6 +78,5 @@ def record(
         np.array(instants) / n_elements,
         np.stack(coordinates, axis=1),
         np.array(wear),
-        np.concatenate(displacement, axis=1),
         peak,
     )

@@ -10,7 +10,8 @@ from bladerub.config import read as configuration
 from bladerub.config.errors import ConfigError
 from bladerub.config.files import Located
 from bladerub.extras.rotor.settings import RotorPlan
-from bladerub.extras.rows.spec import Disk, Row
+from bladerub.extras.rows.spec import Row
+from bladerub.extras.rows.study import drawn
 from bladerub.study.grid import CoatingCase, run_spec, speed_name
 from bladerub.study.plan import CoatingPlan, planned_run
 
@@ -41,8 +42,8 @@ class Combination:
 
     def row(self, seed: int) -> Row:
         """Draw a row."""
-        disk = Disk.ring(self.blades, [self.coupling]) if self.coupling else None
-        return Row.drawn(self.blades, seed, self.length_scatter, self.frequency_scatter, disk)
+        scatters = {name: getattr(self, name) for name in ("length_scatter", "frequency_scatter")}
+        return drawn(self.blades, seed, self.coupling, **scatters)
 
 
 @dataclass(frozen=True)

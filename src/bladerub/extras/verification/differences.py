@@ -23,21 +23,14 @@ UNBOUNDED = Differences(math.inf, math.inf, math.inf)
 """The differences where one of two outcomes is unbounded."""
 
 
-def differences(outcome: RunResult, reference: RunResult, analysis: Mapping[str, Any]) -> Differences:
-    """Compare two outcomes of the same run; ``config["analysis"]`` decides on the spectrum.
-
-    A difference is 0 where both are zero, infinite where only the reference is; all are infinite if either
-    run is unbounded.
-    """
-    return row_differences([outcome], [reference], analysis)
-
-
-def row_differences(
+def differences(
     outcome: Sequence[RunResult], reference: Sequence[RunResult], analysis: Mapping[str, Any]
 ) -> Differences:
-    """Compare two outcomes of the blades of a row, as `differences`.
+    """Compare two outcomes of the same run, of each blade of a row; ``config["analysis"]`` has the spectrum.
 
-    The largest of a peak's differences over the blades is related to the largest of their peaks.
+    A difference is 0 where both are zero, infinite where only the reference is; all are infinite if either
+    run is unbounded. The largest of a peak's differences over the blades is related to the largest of their
+    peaks.
     """
     if any(result.status == "unbounded" for result in (*outcome, *reference)):
         return UNBOUNDED

@@ -77,14 +77,14 @@ def _rows(blade: ReducedBlade, config: Mapping[str, Any], run: StudyRun) -> Iter
     steps = {tolerance: round(passage / result.time_step) for tolerance, result in results.items()}
     reference = simulate(blade, with_steps(spec, REFINEMENT * steps[min(TOLERANCES)]))
     errors = {
-        tolerance: max(differences(result, reference, analysis)) for tolerance, result in results.items()
+        tolerance: max(differences([result], [reference], analysis)) for tolerance, result in results.items()
     }
 
     # Only what is beyond 1 % can be chaotic
     error, spread = errors[STUDY], 0.0
     if error > TOLERANCE and math.isfinite(error):
         starts = (simulate(blade, replace(specs[STUDY], initial_displacement=start)) for start in NEIGHBOURS)
-        spread = max(largest(differences(start, results[STUDY], analysis) for start in starts))
+        spread = max(largest(differences([start], [results[STUDY]], analysis) for start in starts))
     for tolerance, result in results.items():
         yield [
             *astuple(run.case)[: len(CASE_COLUMNS)],

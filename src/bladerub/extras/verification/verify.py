@@ -7,7 +7,7 @@
    difference between the two: the uncertainty of a comparison with it.
 4. *Sensitive* is a run beyond `TOLERANCE` that neighbouring starts change by at least half as much as a
    finer step does. Its error comes from the run rather than from the solver.
-5. A row of blades (`StudyRun.row`) is one run: `bladerub.extras.verification.differences.row_differences`.
+5. A row of blades (`StudyRun.row`) is one run: `bladerub.extras.verification.differences.differences`.
 6. *Speed-up at equal error* (`speedup_at_equal_error`): what the paper's scheme would cost at the error of
    the study's run, over what the study's run costs.
 """
@@ -32,7 +32,7 @@ from bladerub.contact.setup import compile_kernel, element_passage
 from bladerub.contact.spec import ElementLaw, RunSpec
 from bladerub.contact.steps import STABLE_PART, with_steps
 from bladerub.extras.study_runs import StudyRun
-from bladerub.extras.verification.differences import Differences, largest, row_differences
+from bladerub.extras.verification.differences import Differences, differences, largest
 from bladerub.study.ensemble import chosen
 from bladerub.study.grid import coating_cases, element_law, run_spec
 from bladerub.study.maps import read_map
@@ -147,8 +147,8 @@ def verify_run(blade: ReducedBlade, config: Mapping[str, Any], run: StudyRun) ->
     steps = round(passage / outcome.blades[0].time_step)
     finer = solve(with_steps(spec, REFINEMENT * steps))
 
-    def differences(one: Solved, other: Solved) -> Differences:
-        return row_differences(one.blades, other.blades, analysis)
+    def compare(one: Solved, other: Solved) -> Differences:
+        return differences(one.blades, other.blades, analysis)
 
     paper = replace(spec, scheme="central_differences")
     longest = STABLE_PART * 2 / modes_at(blade, spec.f_omega).omega[-1]
@@ -156,19 +156,19 @@ def verify_run(blade: ReducedBlade, config: Mapping[str, Any], run: StudyRun) ->
     paper_outcome = solve(with_steps(paper, paper_steps))
     paper_finer = solve(with_steps(paper, REFINEMENT * paper_steps))
 
-    error = differences(outcome, finer)
+    error = compare(outcome, finer)
     spread = None
     if max(error) > TOLERANCE and outcome.blades[0].status == "completed":
         starts = (replace(spec, initial_displacement=start) for start in NEIGHBOURS)
-        spread = largest(differences(solve(start), outcome) for start in starts)
-    paper_differences = differences(paper_outcome, paper_finer)
+        spread = largest(compare(solve(start), outcome) for start in starts)
+    paper_differences = compare(paper_outcome, paper_finer)
     measure = Differences._fields.index("wear_l2" if finer.blades[0].wear.any() else "peak")
     unbounded = "unbounded" in (outcome.blades[0].status, finer.blades[0].status)
     return VerifiedRun(
         run=run,
         status="unbounded" if unbounded else "completed",
         error=error,
-        against_paper=differences(outcome, paper_finer),
+        against_paper=compare(outcome, paper_finer),
         paper_uncertainty=Differences(*(difference / (REFINEMENT - 1) for difference in paper_differences)),
         spread=spread,
         energy_residual=outcome.energy_residual,
@@ -176,8 +176,8 @@ def verify_run(blade: ReducedBlade, config: Mapping[str, Any], run: StudyRun) ->
         speedup=speedup_at_equal_error(
             error[measure],
             outcome.seconds,
-            differences(paper_outcome, finer)[measure],
-            differences(paper_finer, finer)[measure],
+            compare(paper_outcome, finer)[measure],
+            compare(paper_finer, finer)[measure],
             paper_finer.seconds,
         ),
     )

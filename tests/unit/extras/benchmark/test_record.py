@@ -1,6 +1,6 @@
 """The table of several machines."""
 
-from bladerub.extras.benchmark.record import record
+from bladerub.extras.benchmark.record import MACHINE, replace, rows
 from bladerub.io import tables
 
 
@@ -26,7 +26,7 @@ def figures(processor, ratio):
 def test_each_machine_has_a_row_for_contact_and_one_for_free_motion(tmp_path):
     path = tmp_path / "benchmark.csv"
     for processor, ratio in (("A", 300.0), ("B", 100.0), ("A", 400.0)):
-        record(path, figures(processor, ratio), {})
+        replace(path, rows(figures(processor, ratio)), MACHINE, {})
     table = tables.read(path).set_index(["processor", "motion"])
     assert sorted(table.index) == [("A", "contact"), ("A", "free"), ("B", "contact"), ("B", "free")]
     assert table.ratio_to_numpy["A", "contact"] == 400.0

@@ -4,17 +4,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from bladerub.extras.verification.differences import (
-    UNBOUNDED,
-    Differences,
-    differences,
-    row_differences,
-)
+from bladerub.extras.verification.differences import UNBOUNDED, Differences, differences
 
 
 @pytest.fixture
 def compare(config):
-    return lambda outcome, reference: differences(outcome, reference, config["analysis"])
+    return lambda outcome, reference: differences([outcome], [reference], config["analysis"])
 
 
 def test_each_difference_is_relative_to_the_reference(make_result, compare):
@@ -42,7 +37,7 @@ def test_the_peaks_of_a_row_are_related_to_the_blade_that_vibrates_most(make_res
         wear = make_result(depth=2e-4)
         return [replace(make_result(amplitude=of), wear=wear.wear) for of in (small, large)]
 
-    found = row_differences(row(1e-3, 2e-5), row(1e-3, 1e-5), config["analysis"])
+    found = differences(row(1e-3, 2e-5), row(1e-3, 1e-5), config["analysis"])
     assert found == pytest.approx(Differences(0.0, 0.01, 0.01), rel=1e-6)
     one = row(1e-3, 1e-5)[0]
-    assert row_differences([one], [one], config["analysis"]) == Differences(0.0, 0.0, 0.0)
+    assert differences([one], [one], config["analysis"]) == Differences(0.0, 0.0, 0.0)
