@@ -31,8 +31,6 @@ rule blade_comparison:
         ),
     log:
         f"{RESULTS}/logs/blade_comparison.log",
-    benchmark:
-        f"{RESULTS}/benchmarks/blade_comparison.tsv"
     script:
         "scripts/blade_comparison.py"
 

@@ -88,8 +88,6 @@ rule chart_table:
         **described(table=f"{TABLES}/chart.csv"),
     log:
         f"{RESULTS}/logs/chart_table.log",
-    benchmark:
-        f"{RESULTS}/benchmarks/chart_table.tsv"
     params:
         peaks=config["analysis"]["peaks"] | {"orders": CHART_ORDERS},
     script:
@@ -133,8 +131,6 @@ rule chart_ridge:
         ),
     log:
         f"{RESULTS}/logs/chart_ridge.log",
-    benchmark:
-        f"{RESULTS}/benchmarks/chart_ridge.tsv"
     params:
         peaks=config["analysis"]["peaks"] | {"orders": CHART_ORDERS},
     script:
@@ -159,8 +155,6 @@ rule chart_maps:
         pdf=[f"{PLOTS}/chart_{name}.pdf" for name in CHARTED],
     log:
         f"{RESULTS}/logs/chart_maps.log",
-    benchmark:
-        f"{RESULTS}/benchmarks/chart_maps.tsv"
     params:
         dpi=DPI,
         quantities=CHARTED,
@@ -178,8 +172,6 @@ rule chart_safe:
         **drawn("chart_safe", "Choice of a coating"),
     log:
         f"{RESULTS}/logs/chart_safe.log",
-    benchmark:
-        f"{RESULTS}/benchmarks/chart_safe.tsv"
     params:
         dpi=DPI,
         modulus_unit=modulus_unit(config),
@@ -198,8 +190,6 @@ rule chart_pareto:
         **described(table=f"{TABLES}/chart_pareto.csv"),
     log:
         f"{RESULTS}/logs/chart_pareto.log",
-    benchmark:
-        f"{RESULTS}/benchmarks/chart_pareto.tsv"
     params:
         dpi=DPI,
         limits=config["chart"]["limits"],
@@ -215,8 +205,6 @@ rule chart_choice:
         **described(table=f"{TABLES}/chart_choice.csv"),
     log:
         f"{RESULTS}/logs/chart_choice.log",
-    benchmark:
-        f"{RESULTS}/benchmarks/chart_choice.tsv"
     params:
         limits=config["chart"]["limits"],
     script:
@@ -235,8 +223,6 @@ rule chart_explanation:
         **described(table=f"{TABLES}/chart_explanation.csv"),
     log:
         f"{RESULTS}/logs/chart_explanation.log",
-    benchmark:
-        f"{RESULTS}/benchmarks/chart_explanation.tsv"
     params:
         dpi=DPI,
         peaks=config["analysis"]["peaks"] | {"orders": CHART_ORDERS},
@@ -256,8 +242,6 @@ rule chart_stiffening:
         **described(table=f"{TABLES}/chart_stiffening.csv"),
     log:
         f"{RESULTS}/logs/chart_stiffening.log",
-    benchmark:
-        f"{RESULTS}/benchmarks/chart_stiffening.tsv"
     params:
         dpi=DPI,
         modulus_unit=modulus_unit(config),
@@ -281,8 +265,6 @@ rule chart_placement:
         ),
     log:
         f"{RESULTS}/logs/chart_placement.log",
-    benchmark:
-        f"{RESULTS}/benchmarks/chart_placement.tsv"
     params:
         peaks=config["analysis"]["peaks"] | {"orders": CHART_ORDERS},
         speeds=config["chart"]["speeds"],
@@ -300,8 +282,6 @@ rule chart_agreement:
         **described(table=f"{TABLES}/chart_agreement.csv"),
     log:
         f"{RESULTS}/logs/chart_agreement.log",
-    benchmark:
-        f"{RESULTS}/benchmarks/chart_agreement.tsv"
     script:
         "scripts/chart_agreement.py"
 

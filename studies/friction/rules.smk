@@ -14,8 +14,6 @@ rule friction:
         **described(table=f"{TABLES}/friction.csv"),
     log:
         f"{RESULTS}/logs/friction.log",
-    benchmark:
-        f"{RESULTS}/benchmarks/friction.tsv"
     group:
         "drawing"
     params:

@@ -13,8 +13,6 @@ rule laws:
         **drawn("laws", "Model", with_data=True),
     log:
         f"{RESULTS}/logs/laws.log",
-    benchmark:
-        f"{RESULTS}/benchmarks/laws.tsv"
     group:
         "drawing"
     params:

@@ -75,8 +75,6 @@ rule rotor_tables:
         ),
     log:
         f"{RESULTS}/logs/rotor_tables.log",
-    benchmark:
-        f"{RESULTS}/benchmarks/rotor_tables.tsv"
     params:
         folder=OF_ROWS,
         analysis=config["analysis"],
@@ -119,8 +117,6 @@ rule rotor_figure:
         **drawn("rotor", "Sweeps and long runs"),
     log:
         f"{RESULTS}/logs/rotor_figure.log",
-    benchmark:
-        f"{RESULTS}/benchmarks/rotor_figure.tsv"
     params:
         dpi=DPI,
     script:
@@ -132,8 +128,6 @@ use rule rotor_figure as rotor_sweeps_figure with:
         **drawn("rotor_sweeps", "Sweeps and long runs"),
     log:
         f"{RESULTS}/logs/rotor_sweeps_figure.log",
-    benchmark:
-        f"{RESULTS}/benchmarks/rotor_sweeps_figure.tsv"
 
 
 localrules:

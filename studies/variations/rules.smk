@@ -158,8 +158,6 @@ rule robustness:
         ),
     log:
         f"{RESULTS}/logs/robustness.log",
-    benchmark:
-        f"{RESULTS}/benchmarks/robustness.tsv"
     params:
         dpi=DPI,
     script:
