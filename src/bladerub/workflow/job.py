@@ -20,6 +20,11 @@ def log_to(path: str | Path) -> None:
     sys.excepthook = _report
 
 
+def log(line: object) -> None:
+    """Print a line to the log of this job."""
+    print(line, file=sys.stderr)
+
+
 def print_doubt(line: str) -> None:
     """Print a doubt about what this job made to its log and, to be seen, to the former standard error."""
     for stream in (sys.stderr, sys.__stderr__):

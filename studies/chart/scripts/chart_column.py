@@ -4,7 +4,6 @@ from bladerub.workflow import job
 
 job.log_to(snakemake.log[0])
 
-import sys
 from pathlib import Path
 
 from bladerub.blade.validation import read_reduced_blade
@@ -20,7 +19,7 @@ rows = compute_missing(
     read_reduced_blade(snakemake.input.blade),
     path.parents[1] / POINTS,
     blade_digest(snakemake.input.blade),
-    report=lambda line: print(line, file=sys.stderr),
+    report=job.log,
     threads=snakemake.threads,
 )
 write_manifest(path, rows, PointRow)

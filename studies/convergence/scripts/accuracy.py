@@ -4,7 +4,6 @@ from bladerub.workflow import job
 
 job.log_to(snakemake.log[0])
 
-import sys
 from pathlib import Path
 
 from bladerub.blade.validation import read_reduced_blade
@@ -16,6 +15,4 @@ from bladerub.workflow import outputs
 config, maps = snakemake.config, Path(snakemake.input.maps[0]).parent
 runs_by_origin = {"all": study_runs(config), "important": important_runs(config, maps)}
 blade = read_reduced_blade(snakemake.input.blade)
-outputs.save(
-    snakemake, table=table(blade, config, runs_by_origin, report=lambda line: print(line, file=sys.stderr))
-)
+outputs.save(snakemake, table=table(blade, config, runs_by_origin, report=job.log))

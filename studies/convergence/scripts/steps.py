@@ -4,13 +4,11 @@ from bladerub.workflow import job
 
 job.log_to(snakemake.log[0])
 
-import sys
-
 from bladerub.blade.validation import read_reduced_blade
 from bladerub.extras.plots.steps import steps as draw
 from bladerub.extras.verification.steps import table
 from bladerub.workflow import outputs
 
 blade = read_reduced_blade(snakemake.input.blade)
-rows = table(blade, snakemake.config, report=lambda line: print(line, file=sys.stderr))
+rows = table(blade, snakemake.config, report=job.log)
 outputs.save(snakemake, draw(rows), table=rows)

@@ -4,8 +4,6 @@ from bladerub.workflow import job
 
 job.log_to(snakemake.log[0])
 
-import sys
-
 from bladerub.blade.validation import read_reduced_blade
 from bladerub.extras.passages import long_runs
 from bladerub.study.maps import read_map
@@ -15,5 +13,5 @@ long_runs.make(
     read_map(snakemake.input.map),
     read_reduced_blade(snakemake.input.blade),
     snakemake.output[0],
-    report=lambda line: print(line, file=sys.stderr),
+    report=job.log,
 )

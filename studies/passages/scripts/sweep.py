@@ -4,8 +4,6 @@ from bladerub.workflow import job
 
 job.log_to(snakemake.log[0])
 
-import sys
-
 from bladerub.blade.validation import read_reduced_blade
 from bladerub.extras.passages import sweeps
 from bladerub.study.grid import case_from_name
@@ -19,4 +17,4 @@ result = sweeps.make(
     float(wildcards.rate),
     snakemake.output[0],
 )
-print(result.message, file=sys.stderr)
+job.log(result.message)

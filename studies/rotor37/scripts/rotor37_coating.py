@@ -4,8 +4,6 @@ from bladerub.workflow import job
 
 job.log_to(snakemake.log[0])
 
-import sys
-
 from bladerub.blade.validation import read_reduced_blade
 from bladerub.extras.rotor37.numbers import of_coating
 from bladerub.extras.small_study import map_coating
@@ -22,7 +20,7 @@ coating, _ = map_coating(
     blade,
     blade_digest(model),
     snakemake.params.folder,
-    report=lambda run: print(run, file=sys.stderr),
+    report=job.log,
 )
 numbers = of_coating(config, coating, blade)
 tables.write(snakemake.output.numbers, numbers, provenance(config))

@@ -9,12 +9,10 @@ from bladerub.extras.variations.identification import measured
 from bladerub.extras.variations.job import VERDICTS
 from bladerub.extras.variations.job import read as read_jobs
 from bladerub.extras.variations.plan import read
-from bladerub.io import tables
-from bladerub.io.provenance import provenance
+from bladerub.workflow import outputs
 
 plan = read("identification", snakemake.params.plan)
 quantities = measured(snakemake.input.quantities)
 verdicts = read_jobs(snakemake.input.verdicts, VERDICTS)
 candidate_rows = candidates.choose(plan, waves.read(snakemake.input.sets), quantities, verdicts)
-table = candidates.as_table(plan, candidate_rows)
-tables.write(snakemake.output.candidates, table, provenance(snakemake.config))
+outputs.save(snakemake, candidates=candidates.as_table(plan, candidate_rows))

@@ -8,8 +8,7 @@ from bladerub.extras.variations import identification as summary
 from bladerub.extras.variations import waves
 from bladerub.extras.variations.emulator import emulators
 from bladerub.extras.variations.plan import read
-from bladerub.io import tables
-from bladerub.io.provenance import provenance
+from bladerub.workflow import outputs
 
 plan, wave = read("identification", snakemake.params.plan), int(snakemake.wildcards.wave)
 measured = summary.measured(snakemake.input.quantities)
@@ -18,13 +17,11 @@ emulated = emulators(positions, measured)
 remaining = waves.remaining(plan, emulated)
 drawn = waves.draw(plan, wave, remaining, emulated, positions)
 first = plan.first(wave + 1)
-results = {
-    "left": summary.left_after(wave, len(measured), remaining),
-    "emulators": summary.emulated(wave, emulated, remaining, positions, measured),
-    "ranges": summary.ranges(plan, remaining),
-    "next_sets": waves.as_table(plan, first, drawn),
-    "predictions": summary.predictions(emulated, first, drawn),
-}
-origin = provenance(snakemake.config)
-for name, table in results.items():
-    tables.write(snakemake.output[name], table, origin)
+outputs.save(
+    snakemake,
+    left=summary.left_after(wave, len(measured), remaining),
+    emulators=summary.emulated(wave, emulated, remaining, positions, measured),
+    ranges=summary.ranges(plan, remaining),
+    next_sets=waves.as_table(plan, first, drawn),
+    predictions=summary.predictions(emulated, first, drawn),
+)

@@ -6,13 +6,11 @@ job.log_to(snakemake.log[0])
 
 from bladerub.extras.variations import waves
 from bladerub.extras.variations.plan import read
-from bladerub.io import tables
-from bladerub.io.provenance import provenance
+from bladerub.workflow import outputs
 
 plan, wave = read("identification", snakemake.params.plan), int(snakemake.wildcards.wave)
 if wave == 1:
     drawn = waves.first(plan, snakemake.config)
 else:
     drawn = waves.read([snakemake.input.next_sets]).to_numpy()[: plan.size(wave)]
-table = waves.as_table(plan, plan.first(wave), drawn)
-tables.write(snakemake.output.sets, table, provenance(snakemake.config))
+outputs.save(snakemake, sets=waves.as_table(plan, plan.first(wave), drawn))

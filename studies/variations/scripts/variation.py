@@ -4,8 +4,6 @@ from bladerub.workflow import job
 
 job.log_to(snakemake.log[0])
 
-import sys
-
 from bladerub.config import read as configuration
 from bladerub.extras.variations import candidates, waves
 from bladerub.extras.variations.job import cases, judge
@@ -26,7 +24,7 @@ results = judge(
     cases(snakemake.config, plan, plan.jobs()[name], positions),
     snakemake.params.blades,
     snakemake.params.folder,
-    report=lambda line: print(line, file=sys.stderr),
+    report=job.log,
 )
 origin = provenance({**snakemake.config, kind: configuration.load(path)})
 for table, content in results._asdict().items():
