@@ -14,6 +14,7 @@ from study_fixtures import *  # noqa: F403 (fixtures)
 from bladerub.api.map import Map
 from bladerub.extras.explorer.page import build
 from bladerub.extras.variations import margins
+from bladerub.extras.variations.calibration import verdicts
 from bladerub.extras.variations.verdicts import verdicts as draw_verdicts
 from bladerub.io import tables
 from bladerub.plots.histogram import peak_histogram
@@ -21,7 +22,6 @@ from bladerub.plots.polar import wear_profiles
 from bladerub.plots.spectrum import PeakSection, peak_sections, spectrum_map
 from bladerub.plots.wear_map import wear_map
 from bladerub.study import bands, ensemble, findings
-from bladerub.study.findings import verdicts
 from bladerub.study.findings.evidence import Evidence
 from bladerub.study.grid import coating_cases, speeds
 from bladerub.study.manifest import ManifestRow, write_manifest

@@ -12,6 +12,7 @@ from bladerub.blade.model import ReducedBlade
 from bladerub.blade.validation import read_reduced_blade
 from bladerub.study import divergence, findings, peak_table
 from bladerub.study.cache import blade_digest
+from bladerub.study.findings.claim import claim_of
 from bladerub.study.findings.evidence import Evidence, read_rom_accuracy
 from bladerub.study.grid import CoatingCase, coating_cases, speeds
 from bladerub.study.job import compute_all, compute_missing
@@ -57,7 +58,7 @@ def conduct(
     maps, n_runs = [results[case][0] for case in cases], sum(n for _, n in results.values())
     tables = {"peaks": peak_table.table(config, maps), "divergence": divergence.table(config, maps)}
     evidence = Evidence(config, tables | {"rom_accuracy": read_rom_accuracy(rom_accuracy)}, maps)
-    selection = findings.CLAIMS if claims is None else findings.of_claims(claims)
+    selection = [part for part in findings.CLAIMS if claims is None or claim_of(part.id) in claims]
     return SmallStudy(
         **tables, findings=findings.judge(evidence, selection), n_runs=n_runs, evidence=evidence
     )

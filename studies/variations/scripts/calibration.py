@@ -6,9 +6,8 @@ job.log_to(snakemake.log[0])
 
 from pathlib import Path
 
-from bladerub.extras.variations.calibration import collect, counts
+from bladerub.extras.variations.calibration import collect, counts, verdicts
 from bladerub.extras.variations.verdicts import verdicts as draw
-from bladerub.study.findings import verdicts
 from bladerub.workflow import outputs
 
 table = collect({Path(path).parent.name: path for path in snakemake.input.verdicts})

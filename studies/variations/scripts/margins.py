@@ -5,8 +5,8 @@ from bladerub.workflow import job
 job.log_to(snakemake.log[0])
 
 from bladerub.extras.variations import margins
+from bladerub.extras.variations.calibration import verdicts
 from bladerub.extras.variations.verdicts import verdicts as draw
-from bladerub.study.findings import verdicts
 from bladerub.workflow import outputs
 
 table = margins.table(snakemake.config, snakemake.input.maps, snakemake.input.rom_accuracy)

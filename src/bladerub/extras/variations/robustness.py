@@ -9,8 +9,10 @@ import pandas as pd
 from bladerub.extras.variations import job, waves
 from bladerub.extras.variations.plan import REFERENCE, Plan
 from bladerub.extras.variations.sensitivity import indices
-from bladerub.study.findings import TITLES, claim_of
-from bladerub.study.findings.claim import NO, SCORE
+from bladerub.study.findings import CLAIMS
+from bladerub.study.findings.claim import NO, SCORE, claim_of
+
+_TITLES = {claim.id: claim.statement for claim in CLAIMS}
 
 DECIDES = 0.1
 """Total index from which a factor is named among those that decide."""
@@ -40,7 +42,7 @@ def design(plan: Plan) -> pd.DataFrame:
 def collect(paths: Iterable[str | Path]) -> pd.DataFrame:
     """Put the verdicts of all jobs into one table, ordered by claim and sample, the reference first."""
     table = job.read(paths, job.VERDICTS).rename(columns={"set": "sample"})[COLUMNS]
-    table["id"] = pd.Categorical(table["id"], list(TITLES), ordered=True)
+    table["id"] = pd.Categorical(table["id"], list(_TITLES), ordered=True)
     return table.sort_values(["id", "sample"], ignore_index=True).astype({"id": str})
 
 
@@ -79,7 +81,7 @@ def summary(
     reference = verdicts[own_values].set_index("id").holds
     of_part = drawn.groupby("part")[["runs", "cpu_s"]].median()
     shares = pd.crosstab(verdicts.id[~own_values], verdicts.holds[~own_values])
-    shares = shares.reindex(index=TITLES, columns=SCORE, fill_value=0)
+    shares = shares.reindex(index=_TITLES, columns=SCORE, fill_value=0)
     rows = []
     for id_, counts in shares.iterrows():
         if claim_of(id_) not in part_of:
@@ -90,7 +92,7 @@ def summary(
         rows.append(
             {
                 "id": id_,
-                "claim": TITLES[id_],
+                "claim": _TITLES[id_],
                 "part": part,
                 "samples": n_samples,
                 **{f"{word}_share": counts[word] / n_samples if n_samples else np.nan for word in SCORE},

@@ -6,7 +6,7 @@ missing.
 """
 
 import logging
-from collections.abc import Collection, Iterable, Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import asdict, fields
 from pathlib import Path
 from typing import Any
@@ -16,7 +16,7 @@ import pandas as pd
 from bladerub.io.tables import read as read_table
 from bladerub.study import divergence, peaks
 from bladerub.study.findings import limits, moduli, reduction, tangential, wear_and_spectra
-from bladerub.study.findings.claim import Claim, Finding, NotMeasurable, claim_of, in_order
+from bladerub.study.findings.claim import Claim, Finding, NotMeasurable, in_order
 from bladerub.study.findings.evidence import Evidence
 from bladerub.study.maps import CoatingMap
 
@@ -24,9 +24,6 @@ _REGISTERING = (limits, moduli, reduction, tangential, wear_and_spectra)  # by t
 
 CLAIMS: tuple[Claim, ...] = in_order()
 """Every measurable part of every claim, in the order of the table."""
-
-TITLES = {claim.id: claim.statement for claim in CLAIMS}
-"""What each part says, by its id, in the order of the table."""
 
 COLUMNS = ["id", *(field.name for field in fields(Finding))]
 """Columns of `table`, see `Finding`."""
@@ -53,11 +50,6 @@ def table(
     return judge(Evidence(config, tables, maps))
 
 
-def of_claims(claims: Collection[str]) -> list[Claim]:
-    """Return the measurable parts of the claims named, ``C2`` for C2a to C2d."""
-    return [part for part in CLAIMS if claim_of(part.id) in claims]
-
-
 def judge(evidence: Evidence, claims: Iterable[Claim] = CLAIMS) -> pd.DataFrame:
     """Measure `claims` on `evidence` (see `table`)."""
     rows = []
@@ -67,12 +59,3 @@ def judge(evidence: Evidence, claims: Iterable[Claim] = CLAIMS) -> pd.DataFrame:
         except NotMeasurable as error:
             _log.warning("left out: %s: %s (%s)", claim.id, claim.statement, error)
     return pd.DataFrame(rows, columns=COLUMNS)
-
-
-def verdicts(table: pd.DataFrame, by: str) -> pd.DataFrame:
-    """Return ``holds`` of each claim (rows) by the values of the column `by` (columns), both in their order.
-
-    `table` has the findings of several studies, or of several ways to judge one, which `by` distinguishes.
-    """
-    wide = table.pivot_table(index="id", columns=by, values="holds", aggfunc="first")
-    return wide.loc[list(dict.fromkeys(table["id"])), list(dict.fromkeys(table[by]))]

@@ -6,7 +6,7 @@ import pandas as pd
 import pytest
 
 from bladerub.extras.variations import margins
-from bladerub.study.findings import verdicts
+from bladerub.extras.variations.calibration import verdicts
 from bladerub.study.grid import CoatingCase, speeds
 from bladerub.study.maps import write_map
 
