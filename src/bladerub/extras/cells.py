@@ -49,11 +49,8 @@ class Cells(NamedTuple):
     def column(self, name: str) -> list[str]:
         """Return the cells of a column; capital and small letters are alike.
 
-        Raises
-        ------
-        ValueError
-            If the column is there twice, or a row has more or fewer cells than there are columns; names the
-            line.
+        Raises ValueError, which names the line, if the column is there twice, or a row has more or fewer
+        cells than there are columns.
         """
         lower = [column.lower() for column in self.names]
         if lower.count(name.lower()) > 1:
@@ -70,10 +67,7 @@ class Cells(NamedTuple):
     def numbers(self, name: str, empty: float = np.nan) -> np.ndarray:
         """Return the numbers (n_rows,) of a column; a cell with nothing in it is `empty`.
 
-        Raises
-        ------
-        ValueError
-            As `column`, or if a cell is no finite number; names its line.
+        Raises ValueError as `column`, or if a cell is no finite number; names its line.
         """
         numbers = np.empty(len(self.rows))
         for index, (line, cell) in enumerate(zip(self.rows, self.column(name), strict=True)):
@@ -131,13 +125,7 @@ class Cells(NamedTuple):
 
 
 def read(path: Path) -> Cells:
-    """Read a table.
-
-    Raises
-    ------
-    ValueError
-        If the file cannot be read, is no text in UTF-8 or has no rows.
-    """
+    """Read a table; raises ValueError if the file cannot be read, is no text in UTF-8 or has no rows."""
     content = _lines(path)
     if not content:
         raise ValueError("is empty")

@@ -118,21 +118,14 @@ def _dominance(evidence: Evidence, case: CoatingCase, inside: np.ndarray, harmon
     return share[:, harmonic - 1] - others.max(axis=1)
 
 
-def _five(low: float, high: float) -> Callable[[Evidence], float]:
-    def mean(evidence: Evidence) -> float:
-        coating = evidence.map(WORN)
-        return float(_dominance(evidence, WORN, between(coating.f_omega, low, high), 5).mean())
+def _between(
+    low: float, high: float, harmonic: int, reduce: Callable[[np.ndarray], float]
+) -> Callable[[Evidence], float]:
+    def dominance(evidence: Evidence) -> float:
+        inside = between(evidence.map(WORN).f_omega, low, high)
+        return float(reduce(_dominance(evidence, WORN, inside, harmonic)))
 
-    return mean
-
-
-def _harmonic_near(harmonic: int, speed: float) -> Callable[[Evidence], float]:
-    def greatest(evidence: Evidence) -> float:
-        coating = evidence.map(WORN)
-        window = between(coating.f_omega, speed - NEAR, speed + NEAR)
-        return float(_dominance(evidence, WORN, window, harmonic).max())
-
-    return greatest
+    return dominance
 
 
 def _wear_maximum(evidence: Evidence, speed: float) -> float:
@@ -265,9 +258,9 @@ def _speeds() -> Iterator[Target]:
 
 def _worn_lobes() -> Iterator[Target]:
     for part, (low, high) in zip(("C2a", "C2b"), FIVE_LOBES, strict=True):
-        yield Target(f"five_{low:g}_{high:g}", part, AT_LEAST, 0.0, _SHARE, _five(low, high))
+        yield Target(f"five_{low:g}_{high:g}", part, AT_LEAST, 0.0, _SHARE, _between(low, high, 5, np.mean))
     for part, count, speed in (("C2c", 10, TEN_LOBES), ("C2d", 4, FOUR_LOBES)):
-        dominance = _harmonic_near(count, speed)
+        dominance = _between(speed - NEAR, speed + NEAR, count, np.max)
         yield Target(f"harmonic_{count}_{speed:g}", part, AT_LEAST, 0.0, _SHARE, dominance)
 
 
@@ -293,27 +286,16 @@ def _moduli() -> Iterator[Target]:
 
 
 def _divergence() -> Iterator[Target]:
-    for part, case, speed in (
-        ("C11a", TILTED, TILTED_SPEED),
-        ("C11b", STRAIGHT, STRAIGHT_SPEED),
-        ("C11g", TILTED, TILTED),
-        ("C11h", STRAIGHT, STRAIGHT),
+    own = ((TILTED, TILTED_SPEED), (STRAIGHT, STRAIGHT_SPEED), (TILTED, TILTED), (STRAIGHT, STRAIGHT))
+    others = ((STRAIGHT, TILTED_SPEED), (TILTED, STRAIGHT_SPEED), (STRAIGHT, TILTED), (TILTED, STRAIGHT))
+    for name, letters, runs, relation, error, measure_at in (
+        ("growth", "abgh", own, AT_LEAST, _GROWTH, _growth_at),
+        ("growth", "cdij", others, AT_MOST, _GROWTH, _growth_at),
+        ("six", "efkl", own, AT_LEAST, _SHARE, _six_at),
     ):
-        yield Target(f"growth_{part}", part, AT_LEAST, 0.0, _GROWTH, _growth_at(case, speed))
-    for part, case, speed in (
-        ("C11c", STRAIGHT, TILTED_SPEED),
-        ("C11d", TILTED, STRAIGHT_SPEED),
-        ("C11i", STRAIGHT, TILTED),
-        ("C11j", TILTED, STRAIGHT),
-    ):
-        yield Target(f"growth_{part}", part, AT_MOST, 0.0, _GROWTH, _growth_at(case, speed))
-    for part, case, speed in (
-        ("C11e", TILTED, TILTED_SPEED),
-        ("C11f", STRAIGHT, STRAIGHT_SPEED),
-        ("C11k", TILTED, TILTED),
-        ("C11l", STRAIGHT, STRAIGHT),
-    ):
-        yield Target(f"six_{part}", part, AT_LEAST, 0.0, _SHARE, _six_at(case, speed))
+        for letter, (case, speed) in zip(letters, runs, strict=True):
+            part = f"C11{letter}"
+            yield Target(f"{name}_{part}", part, relation, 0.0, error, measure_at(case, speed))
 
 
 TARGETS = (*_worn_lobes(), *_speeds(), *_heights(), *_moduli(), *_divergence())

@@ -23,14 +23,9 @@ def compare(folder: str | Path, reference: str | Path, coverage: float = COVERAG
     """Compare the tables of `folder` with those of `reference` that have the same names.
 
     Two numbers agree where they differ by no more than `coverage` times the root of the sum of squares of
-    their uncertainties. A compared number without one counts as exact.
-
-    Raises
-    ------
-    ValueError
-        If the folders have no table and number in common, or a number has another unit.
-    OSError
-        If a table cannot be read or lacks a column.
+    their uncertainties. A compared number without one counts as exact. Raises ValueError if the folders have
+    no table and number in common, or a number has another unit; OSError if a table cannot be read or lacks a
+    column.
     """
     folder, parts = Path(folder), []
     for path in sorted(Path(reference).glob("*.csv")):
