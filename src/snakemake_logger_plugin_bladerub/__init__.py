@@ -44,7 +44,7 @@ class LogHandler(LogHandlerBase):
         """Print what the record comes to, if anything."""
         try:
             if self._shows_all:
-                text = self.format(record)
+                text = self._refusal(record) or self.format(record)
             elif self._is_shown(record):
                 text = self._explained(record) or self.format(record)
             else:
@@ -58,10 +58,12 @@ class LogHandler(LogHandlerBase):
 
     def _explained(self, record: logging.LogRecord) -> str:
         event = getattr(record, "event", None)
-        if event == LogEvent.JOB_ERROR:
-            return _failed_job(record)
+        return _failed_job(record) if event == LogEvent.JOB_ERROR else self._refusal(record)
+
+    def _refusal(self, record: logging.LogRecord) -> str:
         # Snakemake reads the files of --configfile before the Snakefile, and names none of them
-        return _refused_config() if event == LogEvent.ERROR and not self._planned else ""
+        is_early = getattr(record, "event", None) == LogEvent.ERROR and not self._planned
+        return _refused_config() if is_early else ""
 
     def _is_shown(self, record: logging.LogRecord) -> bool:
         event, message = getattr(record, "event", None), record.getMessage()

@@ -14,8 +14,8 @@ from snakemake_logger_plugin_bladerub import LONGEST, LogHandler
 def lines(capsys):
     """Hand records to a handler; return the lines that it prints."""
 
-    def printed(*records, verbose=False):
-        handler = LogHandler(SimpleNamespace(verbose=verbose, dryrun=False, stdout=False), None)
+    def printed(*records, verbose=False, dryrun=False):
+        handler = LogHandler(SimpleNamespace(verbose=verbose, dryrun=dryrun, stdout=False), None)
         handler.setFormatter(DefaultFormatter())
         for level, message, values in records:
             handler.emit(logging.makeLogRecord({"levelno": level, "msg": message, **values}))
@@ -84,6 +84,7 @@ def test_jobs_that_ctrl_c_ends_have_not_failed(lines):
     assert len(lines(by_system, (logging.ERROR, "Error in rule coating", job))) == 2
 
 
+@pytest.mark.parametrize("dryrun", [False, True])
 @pytest.mark.parametrize(
     ("content", "location"),
     [
@@ -94,22 +95,22 @@ def test_jobs_that_ctrl_c_ends_have_not_failed(lines):
     ],
 )
 def test_what_is_no_config_is_named_where_snakemake_names_no_file(
-    lines, tmp_path, monkeypatch, content, location
+    lines, tmp_path, monkeypatch, content, location, dryrun
 ):
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr("sys.argv", ["snakemake", "-j2", "--configfile", "mine.yaml", "-n"])
     if content is not None:
         (tmp_path / "mine.yaml").write_bytes(content)
-    (line,) = lines((logging.ERROR, "WorkflowError:\nConfig file is not valid", {"event": LogEvent.ERROR}))
+    refused = logging.ERROR, "WorkflowError:\nConfig file is not valid", {"event": LogEvent.ERROR}
+    (line,) = lines(refused, dryrun=dryrun)
     assert line.startswith(location)
 
 
 def test_an_error_that_is_not_of_the_config_is_that_of_snakemake(lines, tmp_path, monkeypatch):
     (tmp_path / "mine.yaml").write_text("a: 1\n")
     monkeypatch.setattr("sys.argv", ["snakemake", "--configfile", str(tmp_path / "mine.yaml")])
-    assert lines((logging.ERROR, "MissingRuleException", {"event": LogEvent.ERROR})) == [
-        "MissingRuleException"
-    ]
+    missing = logging.ERROR, "MissingRuleException", {"event": LogEvent.ERROR}
+    assert lines(missing) == lines(missing, dryrun=True) == ["MissingRuleException"]
 
 
 def test_verbose_shows_all(lines):
