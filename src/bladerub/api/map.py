@@ -29,7 +29,7 @@ from bladerub.study.grid import CoatingCase
 from bladerub.study.job import compute_all
 from bladerub.study.maps import CoatingMap
 from bladerub.study.plan import CoatingPlan, planned_run
-from bladerub.study.row import row_of
+from bladerub.study.solver import row_of
 from bladerub.study.summary import spectral_peak
 
 if TYPE_CHECKING:

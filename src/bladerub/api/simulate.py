@@ -14,8 +14,7 @@ from bladerub.study.grid import speed_name
 from bladerub.study.growth import needs_confirmation
 from bladerub.study.job import compute
 from bladerub.study.plan import PlannedRun, longer_run, planned_run
-from bladerub.study.row import row_of
-from bladerub.study.solver import Solve, one_by, solver_of
+from bladerub.study.solver import Solve, one_by, row_of, solver_of
 from bladerub.study.store import StoredRun
 
 

@@ -61,7 +61,7 @@ def as_options(**names: str) -> Iterator[None]:
     try:
         yield
     except errors.InputError as error:
-        option = names.get(error.name, error.name)
+        option = names.get(error.name, error.name).replace("_", "-")
         hint = " (for a casing of another config: --config FILE)" if option == "casing" else ""
         raise InputError(f"--{option} = {error.value}: {error.right}{hint}") from None
 

@@ -97,8 +97,7 @@ def run(options: argparse.Namespace) -> None:
         _check_output(options.output)
     speed = options.f if options.rpm is None else f"{options.rpm!r} rpm"
     blade = inputs.read_blade(options, config) if options.blade else None
-    names = {"f_omega": "f", "speed": "f", "damping_ratio": "damping-ratio"}
-    with inputs.as_options(**names, layer_thickness="layer-thickness"):
+    with inputs.as_options(f_omega="f", speed="f"):
         f_omega = blade.f_omega(speed) if blade else speed
         planned = _coating(options, study).at(f_omega, options.revolutions)
     fastest = config["reduction"]["f_omega_max"]

@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from typing import Any, NamedTuple
 
 from bladerub.study.grid import CoatingCase, coating_cases, speed_name, speeds
-from bladerub.study.row import row_of
+from bladerub.study.solver import row_of
 
 
 class StudyRun(NamedTuple):

@@ -39,7 +39,7 @@ from bladerub.study.orders import peak_orders, peak_settings
 from bladerub.study.paper import LOBES, WORN
 from bladerub.study.peaks import nearest_speed
 from bladerub.study.plan import CoatingPlan, planned_run
-from bladerub.study.row import row_of
+from bladerub.study.solver import row_of
 
 FOLDER = "ensemble"
 """Folder of the members in that of the coating's runs, with a manifest of its own."""

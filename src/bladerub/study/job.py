@@ -18,8 +18,7 @@ from bladerub.study.grid import CoatingCase
 from bladerub.study.growth import needs_confirmation
 from bladerub.study.manifest import ManifestRow
 from bladerub.study.plan import CoatingPlan, PlannedRun, growth_key, longer_file, longer_run
-from bladerub.study.row import rows
-from bladerub.study.solver import Solve, Solver, each_done, one_by, solver_of
+from bladerub.study.solver import Solve, Solver, each_done, one_by, rows, solver_of
 from bladerub.study.store import MAPPED, StoredRun, read_run, stored_run, write_run
 
 LOCK = ".lock"
@@ -131,7 +130,7 @@ def compute(
 
     `key` is that of the run, `analysis` of the config; `progress` is called with the number of revolutions
     done. A single blade is simulated by `solve`, by default on the processor. Raises `ValueError` as
-    `bladerub.contact.run.simulate` and `bladerub.study.row.rows`.
+    `bladerub.contact.run.simulate` and `bladerub.study.solver.rows`.
     """
     if run.row:
         row = run.row, blade, case, run.spec

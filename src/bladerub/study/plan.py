@@ -12,8 +12,7 @@ from bladerub.study import cache
 from bladerub.study.grid import CoatingCase, keeps_history, run_spec, speed_name, speeds
 from bladerub.study.growth import confirmation_determinants, confirmation_spec
 from bladerub.study.manifest import CONFIRMATION
-from bladerub.study.row import row_of, rows
-from bladerub.study.solver import solver_of
+from bladerub.study.solver import row_of, rows, solver_of
 
 SHAPING_SETTINGS = ("spectrum_revolutions", "max_order")
 """Keys of ``config["analysis"]`` that decide what a run file holds; the others act on maps and tables."""
@@ -27,7 +26,7 @@ class PlannedRun:
     file: str  # in the folder of its coating
     keep_history: bool  # whether the whole radial displacement of node 1 is stored
     determinants: str  # digest of all that determines the file but the blade; other runs have no part in it
-    row: Any = None  # the blades (`bladerub.study.row`), where there is more than the one
+    row: Any = None  # the blades (`bladerub.study.solver`), where there is more than the one
 
     @property
     def n_blades(self) -> int:

@@ -1,7 +1,8 @@
 """What computes the runs of a study: many specs → many results.
 
 It is the processor, or what a folder of `bladerub.extras` offers under another name (``SOLVERS`` of
-`bladerub.plugins`); ``solver.device`` of the config names it.
+`bladerub.plugins`); ``solver.device`` of the config names it. Rows of blades that rub on one coating, instead
+of the single blade, have another (``ROWS``).
 """
 
 import time
@@ -16,6 +17,9 @@ from bladerub.blade.model import ReducedBlade
 from bladerub.contact.result import RunResult
 from bladerub.contact.spec import RunSpec
 from bladerub.io.errors import BadInput
+
+ROW = "rotor"
+"""Block of the config that describes a row of blades."""
 
 Item = TypeVar("Item")
 Result = TypeVar("Result")
@@ -108,3 +112,22 @@ def each_done(
                     yield futures[future], future.result()
             finally:
                 pool.shutdown(wait=False, cancel_futures=True)
+
+
+def rows() -> Any:
+    """Return the module that computes rows; raises `ValueError` where the package is without it.
+
+    It has `described(config)`, `stored(run)`, `determinants(row)` and `compute(row, blade, case, spec, key,
+    analysis, keep_history, progress)`. A row has ``blades``.
+    """
+    if ROW not in (offered := plugins.offered("ROWS")):
+        raise ValueError("row: this package computes no rows of blades; must be left out")
+    return plugins.load(offered[ROW])
+
+
+def row_of(config: Mapping[str, Any]) -> Any:
+    """Describe the row of blades that the runs of the study are of; None for single blades.
+
+    Raises `ValueError` if a list has neither one value nor one for each blade, and as `rows`.
+    """
+    return rows().described(config) if ROW in config else None

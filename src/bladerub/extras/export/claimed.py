@@ -6,7 +6,7 @@ from typing import Any
 
 from bladerub.study.grid import CoatingCase, run_spec
 from bladerub.study.plan import PlannedRun, planned_run
-from bladerub.study.row import rows
+from bladerub.study.solver import rows
 from bladerub.study.store import StoredRun
 
 

@@ -1,4 +1,4 @@
-"""Rows of blades as runs of a study (`bladerub.study.row`)."""
+"""Rows of blades as runs of a study (`bladerub.study.solver`)."""
 
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import replace

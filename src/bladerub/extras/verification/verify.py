@@ -36,7 +36,7 @@ from bladerub.extras.verification.differences import Differences, differences, l
 from bladerub.study.ensemble import chosen
 from bladerub.study.grid import coating_cases, element_law, run_spec
 from bladerub.study.maps import read_map
-from bladerub.study.row import row_of
+from bladerub.study.solver import row_of
 
 TOLERANCE = 0.01
 """Differences beyond this are listed by run."""

@@ -6,7 +6,7 @@ from bladerub.extras.rows import study
 from bladerub.extras.rows.spec import Disk, Row
 from bladerub.study.grid import run_spec
 from bladerub.study.plan import longer_run, planned_run
-from bladerub.study.row import row_of
+from bladerub.study.solver import row_of
 
 
 @pytest.fixture
