@@ -103,7 +103,9 @@ def sound(study, make_map):
     ]
 
 
-@pytest.fixture(params=HOSTILE)
+@pytest.fixture(
+    params=[pytest.param(kind, marks=[pytest.mark.nightly] * ("peak" not in kind)) for kind in HOSTILE]
+)
 def hostile(request):
     return HOSTILE[request.param]
 

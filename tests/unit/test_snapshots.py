@@ -39,10 +39,7 @@ def test_quoted_columns_are_kept_to_four_digits(tmp_path):
 
 @pytest.mark.parametrize(
     ("name", "made"),
-    [
-        ("cost", "results/benchmarks/cost.csv"),
-        ("longer_peaks", "results/longer/tables/peaks.csv"),
-    ],
+    [("cost", "results/benchmarks/cost.csv"), ("longer_peaks", "results/longer/tables/peaks.csv")],
 )
 def test_a_snapshot_is_of_the_table_of_its_study(tmp_path, name, made):
     assert snapshots.source_of(name, tmp_path / "results") is None

@@ -62,8 +62,14 @@ def clone(study: Workspace, tmp_path_factory: pytest.TempPathFactory) -> Workspa
 
 @pytest.fixture(scope="module")
 def full_study(tmp_path_factory: pytest.TempPathFactory) -> Workspace:
-    """The full study, of which nothing has been computed; for plans only."""
-    return Workspace.at(tmp_path_factory.mktemp("full"))
+    """The full study with the coatings and speeds of the quick one, of which nothing has been computed."""
+    full = Workspace.at(tmp_path_factory.mktemp("full"))
+    quick, config = (
+        yaml.safe_load((full.folder / "config" / f"{name}.yaml").read_text()) for name in ("quick", "config")
+    )
+    config |= {key: quick[key] for key in ("coatings", "speeds", "chart")}
+    (full.folder / "config" / "config.yaml").write_text(yaml.safe_dump(config, sort_keys=False))
+    return full
 
 
 def test_the_installation_is_the_one_of_the_readme():
@@ -135,6 +141,7 @@ def test_a_study_of_ones_own(clone: Workspace):
     assert [Path(file).name for file in made_with.files] == ["quick.yaml", "my_study.yaml"]
 
 
+@pytest.mark.nightly
 def test_a_blade_of_ones_own(clone: Workspace):
     run("docs/tutorials/own_blade.md", clone)
     figures = clone.folder / "results_my_blade" / "figures"

@@ -26,15 +26,6 @@ def test_written_run_is_read_with_the_same_arrays(study, run, tmp_path):
     assert read.case == run.case
 
 
-def test_run_in_xarray_is_what_xarray_opens(study, run, tmp_path):
-    run.write(tmp_path / "0.1900.h5", study.config)
-    with xr.open_dataset(tmp_path / "0.1900.h5", engine="h5netcdf", phony_dims="sort") as opened:
-        xr.testing.assert_equal(run.to_xarray(), opened.load())
-        assert {name: run.to_xarray()[name].attrs["units"] for name in opened} == {
-            name: opened[name].attrs["units"] for name in opened
-        }
-
-
 def test_progress_and_each_count_the_revolutions(study, blade, capsys):
     done = []
     asked = study.run("2nd", E=2, K=0.5, f_omega=0.19, revolutions=2)
@@ -49,15 +40,6 @@ def test_growing_run_is_followed_further(study, blade):
     assert short.longer is None
     assert run.longer.revolutions == settings["confirmation_revolutions"]
     assert run.verdict().revolutions == run.longer.revolutions > short.verdict().revolutions
-
-
-def test_what_is_printed_has_rpm_and_hertz_and_pascal(study, blade, run, sweep):
-    rpm = 60 * 0.19 * blade.f1_hz
-    assert f"{blade.f1_hz:.5g} Hz" in repr(blade)
-    assert f"0.19 of the first frequency at rest, {rpm:,.0f} rpm" in repr(run)
-    assert f"{rpm:,.0f} to {rpm * 20 / 19:,.0f} rpm" in repr(sweep)
-    assert "E from 30 MPa to 12 GPa" in repr(study)
-    assert "<caption>Run</caption>" in run._repr_html_()
 
 
 @pytest.fixture(scope="module")
@@ -81,14 +63,6 @@ def test_a_row_tells_of_each_blade(study, row_run, tmp_path):
     read = br.read_run(tmp_path / "row.h5")
     pd.testing.assert_frame_equal(read.blades, blades)
     assert row_run.to_xarray()["blade_worn_volume"].dims == ("blade",)
-
-
-def test_a_row_of_one_blade_is_its_run(study, blade, run):
-    planned = study.run("2nd", E=2, K=0.5, f_omega=0.19, revolutions=run.revolutions)
-    alone, row = (br.simulate(blade, planned, row=row) for row in (None, br.Row.even(1)))
-    for name, values in alone.stored.data.items():
-        np.testing.assert_array_equal(row.stored.data[name], values, err_msg=name)
-    assert alone.attributes["run_key"] != row.attributes["run_key"]
 
 
 def test_rows_are_computed_once_and_again_when_their_blades_change(study, blade, tmp_path):

@@ -30,14 +30,6 @@ def test_each_run_is_a_line_in_the_axes(run, stiffer, axes):
     assert len(looks) == 2
 
 
-def test_several_spectra_are_those_of_the_runs(run, stiffer, axes, tmp_path):
-    figure = br.plot_spectra([run, stiffer], tmp_path / "spectra.png")
-    assert (tmp_path / "spectra.png").exists()
-    assert br.plot_spectra([run, stiffer], ax=axes) is axes
-    for drawn in (figure.axes[0], axes):
-        np.testing.assert_array_equal(drawn.lines[1].get_ydata(), 1e3 * stiffer.spectrum)
-
-
 def test_wear_is_drawn_around_polar_axes_and_along_others(run, stiffer, axes):
     polar = plt.figure().add_subplot(projection="polar")
     for each in (run, stiffer):
@@ -109,12 +101,3 @@ def test_settings_make_the_study_that_their_file_makes(study, small):
     assert br.Study.from_settings(study.config) == study
     with pytest.raises(br.ConfigError, match="chordwize"):
         br.Study.from_settings({"blade": {"mesh": {"chordwize": 7}}})
-
-
-def test_progress_is_silent_where_no_terminal_is_unless_asked_for(study, blade, capsys):
-    planned = study.run("2nd", E=2, K=0.5, f_omega=0.19, revolutions=2)
-    br.simulate(blade, planned, follow=False)
-    br.simulate(blade, planned, follow=False, progress=False)
-    assert capsys.readouterr().err == ""
-    br.simulate(blade, planned, follow=False, progress=True)
-    assert "compiling" in capsys.readouterr().err

@@ -4,13 +4,7 @@ from scipy import sparse
 from scipy.linalg import eigh
 
 from bladerub.blade.linear import factorise, lowest_modes
-from bladerub.blade.reduction import (
-    Partition,
-    internal_solve,
-    mass_orthonormal,
-    project,
-    transformation,
-)
+from bladerub.blade.reduction import Partition, internal_solve, mass_orthonormal, project, transformation
 from bladerub.blade.rotation import equilibrium
 
 ETA = 4

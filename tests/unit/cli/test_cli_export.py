@@ -173,11 +173,7 @@ def test_a_run_that_left_all_bounds_is_shown_until_then(export, tmp_path, folder
 
 
 @pytest.mark.parametrize(
-    ("attributes", "said"),
-    [
-        ({"E": 2.5}, "its run_key differs"),
-        ({"peak": 1}, "its peaks differ by"),
-    ],
+    ("attributes", "said"), [({"E": 2.5}, "its run_key differs"), ({"peak": 1}, "its peaks differ by")]
 )
 def test_a_run_of_something_else_is_refused(export, tmp_path, folder, attributes, said):
     run = changed(folder / "run.h5", tmp_path / "run.h5", **attributes)

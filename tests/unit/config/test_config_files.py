@@ -51,13 +51,6 @@ def test_every_value_has_the_location_that_it_comes_from(folder):
     }
 
 
-def test_files_elsewhere_are_named_in_full(tmp_path, monkeypatch):
-    (tmp_path / "here").mkdir()
-    (tmp_path / "a.yaml").write_text("a: 1\n")
-    monkeypatch.chdir(tmp_path / "here")
-    assert str(compose("../a.yaml").locations()["a"]) == f"{tmp_path}/a.yaml:1"
-
-
 @pytest.mark.parametrize(
     ("text", "value"),
     [("1", 1), ("0.5", 0.5), ("1e-3", 1e-3), (".nan", "nan"), ("true", True), ("2nd", "2nd"), ("", None)],
@@ -65,10 +58,6 @@ def test_files_elsewhere_are_named_in_full(tmp_path, monkeypatch):
 def test_the_command_line_reads_values_as_a_file_does(text, value):
     read = compose(command_line={"a": [text]}).plain()["a"][0]
     assert read == value or str(read) == value
-
-
-def test_values_that_only_look_like_a_date_stay_text_on_the_command_line():
-    assert compose(command_line={"a": {"b": "2001-99-99"}}).plain() == {"a": {"b": "2001-99-99"}}
 
 
 def test_as_many_levels_and_characters_are_read_as_the_limits_say(folder):
@@ -117,29 +106,6 @@ def test_hostile_files_are_answered_in_one_line(folder, content, answer):
     assert answer in line
     assert "\n" not in line
     assert len(line) < 250
-
-
-@pytest.mark.parametrize(
-    ("text", "is_allowed"),
-    [
-        (f"a: [{', '.join('1' * 97)}]", True),  # with the list, its key and the whole
-        (f"a: [{', '.join('1' * 98)}]", False),
-        (f"a: &a [{', '.join('1' * 48)}]\nb: *a", True),  # 48 + 1 each, and the whole
-        (f"a: &a [{', '.join('1' * 49)}]\nb: *a", False),
-    ],
-)
-def test_as_many_values_as_the_limit_are_read(folder, monkeypatch, text, is_allowed):
-    monkeypatch.setattr(files, "MOST_VALUES", 100)
-    folder(a=text)
-    if is_allowed:
-        assert compose("a.yaml").plain()["a"][0] == 1
-    else:
-        assert "more than 100 values" in error_of("a.yaml")
-
-
-def test_a_byte_order_mark_is_no_part_of_the_first_key(folder):
-    folder(a="\ufeffa: 1\n")
-    assert compose("a.yaml").plain() == {"a": 1}
 
 
 def test_aliases_are_read(folder):

@@ -9,7 +9,7 @@ import pytest
 
 from bladerub import plugins
 from bladerub.config.fields import Section, docstrings
-from bladerub.config.keys import NUMBERS, Key, key_of
+from bladerub.config.keys import NUMBERS, key_of
 from bladerub.config.models.study import Study, defaults, required, whole
 from bladerub.config.problems import problems
 from bladerub.config.read import load
@@ -121,12 +121,6 @@ def test_only_finite_numbers_are_numbers(value):
     assert list(problems({"length": 2}, Mine)) == []
     (line,) = problems({"length": value}, Mine)
     assert line.startswith("length = ")
-
-
-def test_a_key_says_its_range_in_words():
-    assert Key("a number", bounds={"ge": 0, "lt": 1}).allowed() == "a number of at least 0 and below 1"
-    assert BY_PATH["solver.revolutions"].allowed() == "a whole number from 1 to 10000"
-    assert BY_PATH["solver.scheme"].allowed() == "exponential or central_differences"
 
 
 def test_settings_of_extras_are_named_by_their_plugins():

@@ -37,19 +37,6 @@ def test_configs_of_the_repository_are_valid(paths):
     assert validate(config) == config
 
 
-@pytest.mark.parametrize(
-    ("law", "message"),
-    [
-        ({"name": "viscoplastic"}, "contact.law.viscosity: missing, stress beyond the elastic limit"),
-        ({"name": "elastic"}, "contact.law.name = elastic: must be one of plastic, brittle"),
-    ],
-)
-def test_a_wrong_law_is_one_line(config, law, message):
-    config["contact"]["law"] = law
-    (found,) = problems(config)
-    assert found.startswith(message)
-
-
 @pytest.mark.parametrize("name", ["..", "/tmp", "", "a b", "$(touch x)", "src", "README.md/runs"])
 def test_results_stay_below_the_repository(config, name):
     config["results"] = name
@@ -75,15 +62,6 @@ def test_each_kind_of_coating_has_keys_of_its_own(config, entry, start):
     config["coatings"], config["analysis"]["histories"] = [entry], []
     (problem,) = problems(config)
     assert problem.startswith(start)
-
-
-def test_no_newline_gets_into_a_name(config):
-    config["results"] = "results\n"
-    config["casings"]["2nd\n"] = config["casings"]["2nd"]
-    assert [problem.split(":")[0] for problem in problems(config)] == [
-        'casings["2nd "]',
-        'results = "results "',
-    ]
 
 
 def test_a_plan_that_nobody_can_compute_is_refused_before_it_is_made(config):

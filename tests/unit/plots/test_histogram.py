@@ -1,6 +1,5 @@
 import numpy as np
 import pandas as pd
-import pytest
 from mpl_toolkits.mplot3d import Axes3D
 
 from bladerub.plots.histogram import peak_histogram
@@ -26,27 +25,6 @@ def test_a_bar_for_each_value_and_none_for_a_hole(monkeypatch):
     places = np.rint(np.transpose([x + width / 2, y + depth / 2])).astype(int)
     np.testing.assert_array_equal(places, [[0, 0], [1, 0], [1, 1], [2, 1]])
     np.testing.assert_allclose(floor + height, [0.1, 0.4, 0.3, 0.2])
-
-
-@pytest.mark.parametrize(
-    ("quantity", "half", "texts", "hatched"),
-    [
-        ("amplitude", 3.1e-5, {"0.10\n±0.03", "0.40\n±0.03", "0.30\n±0.03", "0.20\n±0.03"}, {0, 1, 2}),
-        ("f_peak", 0.009, {"0.100\n±0.009", "0.400\n±0.009", "0.300\n±0.009", "0.200\n±0.009"}, set()),
-    ],
-)
-def test_bands_stand_below_the_values_and_wide_ones_are_hatched(quantity, half, texts, hatched):
-    cells = draw(MM, quantity, half).axes[1]
-    assert {text.get_text() for text in cells.texts} == texts | {"–"}
-    places = {patch.get_x() + 0.5 for patch in cells.patches if patch.get_hatch()}
-    assert places == hatched
-
-
-@pytest.mark.parametrize(("quantity", "floor"), [("f_peak", 0.292), ("amplitude", 0.0)])
-def test_bars_and_colours_begin_at_the_floor(draws, quantity, floor):
-    figure = draws(draw(0.3 + MM[1:] / 100, quantity))
-    assert figure.axes[0].get_zlim()[0] == pytest.approx(floor)
-    assert figure.axes[1].collections[0].norm.vmin == pytest.approx(floor)
 
 
 PEAKS = pd.DataFrame(

@@ -82,8 +82,7 @@ def test_targets_of_results_of_another_config_are_refused(workflow_with, of_quic
 
 
 @pytest.mark.parametrize(
-    ("rate", "local_exec", "kept"),
-    [("100/1s", True, False), ("100/1s", False, True), ("1/1m", True, True)],
+    ("rate", "local_exec", "kept"), [("100/1s", True, False), ("100/1s", False, True), ("1/1m", True, True)]
 )
 def test_the_default_limit_of_jobs_alone_is_lifted_on_this_machine(workflow_with, rate, local_exec, kept):
     workflow = workflow_with(JobRateLimiter(MaxJobsPerTimespan.parse_choice(rate)), local_exec)

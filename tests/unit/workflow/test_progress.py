@@ -1,7 +1,6 @@
 import io
 
 from bladerub.study.job import RunDone
-from bladerub.study.manifest import ManifestRow
 from bladerub.workflow.progress import JobProgress
 
 
@@ -32,17 +31,3 @@ def test_the_bar_is_on_a_terminal_only(tmp_path):
     assert "2nd_E2_K0.5_theta0" in terminal.getvalue()
     assert "/1 |" in terminal.getvalue()
     assert file.getvalue() == ""
-
-
-def test_the_last_line_counts_what_was_computed_and_what_is_there(tmp_path):
-    progress = JobProgress("2nd_E2_K0.5_theta0", io.StringIO(), io.StringIO(), tmp_path / "turn")
-    progress(done(1, 1))
-    rows = [
-        ManifestRow("0.1000.h5", 0.1, "a", "completed", 9),
-        ManifestRow("0.2000.h5", 0.2, "b", "completed", 9, "c", 9),
-        ManifestRow("0.3000.h5", 0.3, "d", "unbounded", 9),
-    ]
-    line = progress.summary(rows)
-    counts, cost = line.split("; ")
-    assert counts == "2nd_E2_K0.5_theta0: 3 runs, 1 of them longer as well, 1 unbounded"
-    assert cost.startswith("1 computed in ")

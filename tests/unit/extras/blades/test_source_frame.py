@@ -29,11 +29,6 @@ def test_every_frame_is_turned_never_mirrored_and_rotation_increases_the_angle_o
         assert np.arctan2(y, z) == pytest.approx(1e-3, rel=1e-5)
 
 
-def test_the_parametric_blade_has_the_frame_that_is_not_named():
-    points = np.random.default_rng(1).standard_normal((5, 3))
-    np.testing.assert_array_equal(Frame().metres(points), points)
-
-
 def test_units_are_those_of_the_law():
     lengths = {unit: Frame(unit).metres(np.array([[0.0, 0.0, 1.0]]))[0, 2] for unit in UNITS}
     inch, foot = 0.0254, 0.3048

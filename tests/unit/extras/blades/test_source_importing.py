@@ -1,4 +1,3 @@
-import meshio
 import numpy as np
 import pytest
 from blade_parts import tetrahedral_mesh
@@ -109,18 +108,6 @@ def test_nodes_in_no_element_are_left_out(blade, write):
     imported = import_blade(Source(write(points=np.vstack([blade.mesh.points, [[0, 0, 0], [9, 9, 9]]]))), {})
     assert imported.n_unused == 2
     assert len(imported.blade.mesh.mesh.points) == len(blade.mesh.points)
-
-
-def test_sets_of_linear_elements_get_the_middles_too(blade, tmp_path):
-    corners, number = np.unique(blade.mesh.cells[:, :8], return_inverse=True)
-    root = np.flatnonzero(np.isin(corners, blade.root))
-    mesh = meshio.Mesh(
-        blade.mesh.points[corners], [("hexahedron", number.reshape(-1, 8))], point_sets={"ROOT": root}
-    )
-    meshio.abaqus.write(str(tmp_path / "linear.inp"), mesh)
-    imported = import_blade(Source(tmp_path / "linear.inp", root_set="ROOT"), {})
-    assert imported.is_raised
-    assert imported.blade.mesh.root.size == blade.root.size
 
 
 def moved(points, nodes, by):

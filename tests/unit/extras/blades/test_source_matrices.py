@@ -17,7 +17,6 @@ from bladerub.blade.elasticity import Material, Solid
 from bladerub.blade.files import made_from
 from bladerub.blade.frequencies import reduced_frequencies
 from bladerub.blade.rotation import rotating_stiffness
-from bladerub.extras.blades import matrix_folder
 from bladerub.extras.blades.frame import Frame
 from bladerub.extras.blades.matrices import import_matrices
 from bladerub.extras.blades.origin import MatrixSource, read
@@ -257,10 +256,7 @@ BROKEN = {
         text("mass.mtx", f"{HEADER} general\n9 9 5\n1 1 2.0\n"),
         "mass.mtx: is not a .mtx file that",
     ),
-    "decimal commas": (
-        text("mass.mtx", f"{HEADER} general\n1 1 1\n1 1 2,0\n"),
-        "mass.mtx: .*line 3 has ','",
-    ),
+    "decimal commas": (text("mass.mtx", f"{HEADER} general\n1 1 1\n1 1 2,0\n"), "mass.mtx: .*line 3 has ','"),
     "offsets that go back": (
         archive(indptr=lambda array: np.where(np.arange(array.size) == 5, 10**6, array)),
         "mass.npz: is not a .npz file that can be read",
@@ -313,15 +309,3 @@ def test_broken_folders_are_refused_with_file_and_culprit(folder, name):
 def test_keys_that_do_not_go_together_are_refused(source, said):
     with pytest.raises(ValueError, match=said):
         read(source)
-
-
-@pytest.mark.parametrize(("off", "is_symmetric"), [(0.9e-8, True), (1.1e-8, False)])
-def test_matrices_are_symmetric_to_1e_8_of_their_largest_entry(tmp_path, off, is_symmetric):
-    entries = np.array([[4.0, 1.0], [1.0 + 4.0 * off, 2.0]])
-    sparse.save_npz(tmp_path / "mass.npz", sparse.csc_array(entries))
-    if is_symmetric:
-        matrix = matrix_folder.read_matrix(tmp_path / "mass.npz").toarray()
-        np.testing.assert_array_equal(matrix, matrix.T)
-    else:
-        with pytest.raises(ValueError, match=r"is not symmetric: its entry \(\d, \d\)"):
-            matrix_folder.read_matrix(tmp_path / "mass.npz")

@@ -66,8 +66,3 @@ def test_wrong_units_of_the_matrices_get_a_warning_though_the_frequencies_are_ri
     assert re.fullmatch(
         rf"its mass is .* kg in a box of .* are the matrices in {units}, and the nodes in m\?", wrong_units
     )
-
-
-def test_stiffness_and_mass_in_units_that_do_not_go_together_get_a_warning(reported):
-    (doubt,) = reported(wave_speed=192.0)[0]["warnings"]
-    assert doubt.startswith("waves in its material would have 192 m/s")

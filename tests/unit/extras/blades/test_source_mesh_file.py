@@ -6,7 +6,7 @@ from blade_parts import tetrahedral_mesh
 from bladerub.blade.mesh import hexahedral_mesh
 from bladerub.blade.surface import EDGES
 from bladerub.extras.blades import file_source
-from bladerub.extras.blades.mesh_file import raised, read
+from bladerub.extras.blades.mesh_file import read
 from bladerub.extras.export.mesh_file import write_mesh_file
 
 CORNERS = (np.array([0.0, 0.3, 1.0]), np.array([0.0, 1.0]), np.array([0.0, 0.6, 1.0]))
@@ -48,13 +48,6 @@ def test_linear_elements_get_the_middles_of_their_edges(make_mesh, kind, tmp_pat
     assert content.is_raised
     assert len(content.points) == len(mesh.points)
     np.testing.assert_allclose(content.points[content.cells], mesh.points[mesh.cells], atol=1e-15)
-
-
-def test_neighbours_share_the_middles():
-    points = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1], [1, 1, 1]], dtype=float)
-    more, cells = raised(points, np.array([[0, 1, 2, 3], [1, 2, 3, 4]]))
-    assert len(more) == 5 + 9
-    assert np.intersect1d(cells[0, 4:], cells[1, 4:]).size == 3
 
 
 def test_a_deck_is_read_as_abaqus_reads_it(tmp_path):
@@ -145,19 +138,6 @@ def test_physical_groups_of_gmsh_are_kept_apart_by_dimension(tmp_path):
     }
     assert content.volume_sets == ["BLADE"]
     assert len(content.cells) == 2
-
-
-def test_blocks_of_a_node_set_add_up(tmp_path):
-    (tmp_path / "m.inp").write_text(
-        TETRAHEDRON + "*ELEMENT, TYPE=C3D4, ELSET=EALL\n1, 1, 2, 3, 4\n"
-        "*NSET, NSET=Tip\n1, 2\n*NSET, NSET=Root\n4\n*NSET, nset=TIP, GENERATE\n2, 3, 1\n"
-    )
-    content = read(tmp_path / "m.inp")
-    assert {name: nodes.tolist() for name, nodes in content.node_sets.items()} == {
-        "Tip": [0, 1, 2],
-        "Root": [3],
-    }
-    assert content.volume_sets == ["EALL"]
 
 
 TETRAHEDRON = "*NODE\n1, 0, 0, 0\n2, 1, 0, 0\n3, 0, 1, 0\n4, 0, 0, 1\n5, 1, 1, 1\n6, 0, 1, 1\n"

@@ -62,12 +62,6 @@ def test_a_twisted_plate_is_that_of_its_formula(read, make, angle_unit):
     assert all(section.cut == (0, 0) for section in imported.sections)
 
 
-def test_interface_nodes_are_even_on_the_camber_line_of_the_tip(read):
-    mesh = read(cartesian(twisted_plate)).blade.mesh
-    expected = in_space(twisted_plate)(np.linspace(0, 1, 8), 0.5, 1.0)
-    np.testing.assert_allclose(mesh.mesh.points[mesh.interface], expected.T, atol=2e-6)
-
-
 @FORMS
 def test_sharp_edges_are_cut_where_they_become_too_thin(read, make, angle_unit):
     imported = read(make(lens), angle_unit=angle_unit)

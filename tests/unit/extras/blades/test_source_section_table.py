@@ -73,14 +73,3 @@ def test_degrees_are_radians_by_another_name(table):
 def test_what_is_no_table_is_refused_with_line_or_section(table, text, said):
     with pytest.raises(ValueError, match=said):
         table(text)
-
-
-@pytest.mark.parametrize("text", [COMMAS.replace(",", ";"), SPACES])
-def test_decimal_commas_do_unless_commas_separate(table, text):
-    for ours, theirs in zip(table(COMMAS), table(text.replace(".", ",")), strict=True):
-        np.testing.assert_array_equal(ours.points, theirs.points)
-
-
-def test_exponents_as_fortran_writes_them_do(table):
-    for ours, theirs in zip(table(SPACES), table(SPACES.replace("-0.01", "-1.0D-02")), strict=True):
-        np.testing.assert_array_equal(ours.points, theirs.points)

@@ -1,6 +1,6 @@
 import pytest
 
-from bladerub.extras.chart.grid import chart_orders, check
+from bladerub.extras.chart.grid import check
 from bladerub.extras.chart.plan import columns
 from bladerub.io.errors import BadInput
 
@@ -13,12 +13,6 @@ def test_a_column_is_all_K_at_one_E_and_theta(config):
         "2nd_E2_K0.5_theta0.15",
         "2nd_E2_K5_theta0.15",
     ]
-
-
-def test_orders_are_those_of_the_chart_s_casing(config):
-    assert chart_orders(config) == [4, 6]
-    config["casings"]["2nd"]["peak_orders"] = [3, 9]
-    assert chart_orders(config) == [3, 9]
 
 
 def test_an_order_without_a_crossing_is_refused(config):

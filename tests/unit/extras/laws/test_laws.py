@@ -151,10 +151,7 @@ def test_the_law_of_the_paper_from_a_file_gives_the_same_bits(blade, spec, chang
 @pytest.mark.slow
 @pytest.mark.parametrize(
     "law",
-    [
-        pytest.param(law, marks=[] if law.name in ("viscoplastic", "thermal") else pytest.mark.nightly)
-        for law in LAWS[1:]
-    ],
+    [pytest.param(law, marks=[] if law.name == "viscoplastic" else pytest.mark.nightly) for law in LAWS[1:]],
     ids=named,
 )
 def test_the_loop_agrees_with_the_reference(blade, spec, change, law):
@@ -175,10 +172,7 @@ def test_the_loop_agrees_with_the_reference(blade, spec, change, law):
 @pytest.mark.parametrize(
     ("scheme", "step", "within"),
     # the loop takes the force at the start of a step from the corrected displacement, the reference as it was
-    [
-        ("exponential", 1e-5, 1e-6),
-        pytest.param("central_differences", 2e-6, 3e-4, marks=pytest.mark.nightly),
-    ],
+    [("exponential", 1e-5, 1e-6), pytest.param("central_differences", 2e-6, 3e-4, marks=pytest.mark.nightly)],
 )
 def test_the_loop_heats_the_layer_as_the_reference_does(blade, spec, change, scheme, step, within):
     spec = change(spec, scheme=scheme, max_time_step=step, revolutions=3, element_law=THERMAL)
@@ -217,12 +211,7 @@ def test_one_number_for_all_elements_is_repeated(one):
 
 
 @pytest.mark.parametrize(
-    "element",
-    [
-        "return Element(*(np.ones(3) for x in own))",
-        "sys.exit(0)",
-        "while True: pass",
-    ],
+    "element", ["return Element(*(np.ones(3) for x in own))", "sys.exit(0)", "while True: pass"]
 )
 def test_what_is_no_parameters_is_refused(element, monkeypatch):
     monkeypatch.setattr("bladerub.numerics.user_code.LONGEST_CALL", 0.5)

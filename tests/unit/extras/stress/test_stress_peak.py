@@ -1,13 +1,7 @@
 import numpy as np
 import pytest
 
-from bladerub.extras.stress.peak import (
-    ModalStress,
-    principal,
-    static_peak,
-    stress_peaks,
-    von_mises,
-)
+from bladerub.extras.stress.peak import ModalStress, principal, static_peak, stress_peaks, von_mises
 
 KINDS = {"von_mises": von_mises, "principal": principal}
 
