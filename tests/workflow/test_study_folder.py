@@ -1,6 +1,16 @@
 """A study of one's own is one folder: rules, script, caption and columns."""
 
-from bladerub.io import tables
+import json
+import re
+import sys
+import zipfile
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from bladerub.io import hdf5, tables
 
 FILES = {
     "rules.smk": """
@@ -36,3 +46,127 @@ def test_a_folder_is_all_that_a_study_needs(workspace, tiny):
     table = workspace.results / "tables" / "own.csv"
     assert tables.read(table)["own"].tolist() == [1.0]
     assert "of this study alone" in tables.description_path(table).read_text(encoding="utf-8")
+
+
+def test_the_crate_holds_the_workflow_and_what_it_made(copied_study, tiny):
+    copied_study.build(tiny, "crate")
+    with zipfile.ZipFile(copied_study.results / "study.crate.zip") as archive:
+        names, metadata = archive.namelist(), json.loads(archive.read("ro-crate-metadata.json"))
+    entities = {entity["@id"]: entity for entity in metadata["@graph"]}
+    workflow = entities[entities["./"]["mainEntity"]["@id"]]
+    assert "ComputationalWorkflow" in workflow["@type"]
+    assert entities["#provenance_software"]["value"].startswith("bladerub ")
+    assert {part["@id"] for part in entities["./"]["hasPart"]} <= entities.keys()
+    assert {"Snakefile", "config/config.yaml", "results/tables/findings.csv"} <= set(names)
+    assert "results/maps/2nd_E2_K0.5_theta0.15.h5" in names
+
+
+def test_the_page_of_a_finished_study_needs_no_option(copied_study):
+    done = copied_study.call(Path(sys.executable).with_name("bladerub"), "report")
+    assert done.returncode == 0, done.stderr
+    page = (copied_study.results / "report.html").read_text(encoding="utf-8")
+    worst = tables.read(copied_study.results / "tables" / "peaks.csv").nlargest(1, "amplitude").iloc[0]
+    assert f"The highest peak: {1e3 * worst.amplitude:.3g} mm at {worst.f_peak_rpm:,.0f} rpm" in page
+    assert 'href="explorer.html"' in page
+    assert len(page) < 5e6
+
+
+def test_both_laws_are_compared_when_asked_for(copied_study, tiny):
+    tiny["friction"] = [{"casing": "2nd", "E": [2], "K": [0.5], "theta": [0.15]}]
+    plan = copied_study.plan(tiny, "friction")
+    assert plan == {"coating": 1, "friction": 1}  # the one with theta is of the study
+    copied_study.build(tiny, "friction")
+    table = pd.read_csv(copied_study.results / "tables" / "friction.csv")
+    assert list(table.f_omega) == [0.15, 0.19, 0.197, 0.206, 0.23, 0.27, 0.31, 0.35]
+    assert (table.reversed_theta == 0).all()
+    assert (table.reversed_coulomb == 0).all()
+    assert table.slowest_sliding.between(0, 1, inclusive="neither").all()
+    assert table.difference.abs().max() < 1e-6
+    assert (table.peak_theta > 0).all()
+    assert (copied_study.results / "figures" / "friction.png").stat().st_size > 10_000
+    assert copied_study.plan(tiny) == {}  # and the study has no part in it
+
+
+OUTSIDE = (
+    "chart_",
+    "friction",
+    "identification",
+    "laws",
+    "long_runs",
+    "rigs",
+    "robustness",
+    "rotor",
+    "stress",
+    "sweeps",
+)
+
+
+"""How captions of what `all` does not make begin."""
+
+
+def test_the_report_is_one_page_with_every_figure(copied_study, tiny):
+    done = copied_study.snakemake("--report", "report.html", config=tiny)
+    assert done.returncode == 0, done.stderr
+    page = (copied_study.folder / "report.html").read_text(encoding="utf-8")
+    squeezed = " ".join(page.split())
+    captions = (copied_study.folder / "src" / "report").glob("*.rst")
+    for path in (path for path in captions if not path.name.startswith(OUTSIDE)):
+        for paragraph in path.read_text(encoding="utf-8").split("\n\n"):  # the first is its name in the menu
+            assert " ".join(paragraph.split())[:60].split('"')[0] in squeezed
+    assert "fig08_spectrum_soft.png" in page
+    assert "findings.csv" in page
+    # nothing is loaded from elsewhere
+    assert re.findall(r"<(?:script|link|img)[^>]+(?:src|href)=\"(?:https?:)?//[^\"]+", page) == []
+
+
+def test_each_peak_has_its_stress(copied_study, tiny):
+    assert copied_study.plan(tiny, "stress") == {"stress": 1}
+    copied_study.build(tiny, "stress")
+    peaks = tables.read(copied_study.results / "tables" / "peaks.csv")
+    stress = tables.read(copied_study.results / "tables" / "stress.csv")
+    assert stress.f_peak.tolist() == peaks.f_peak.dropna().tolist()
+    assert (stress.rotation_von_mises > 0).all()
+    assert (stress.last_von_mises > stress.rotation_von_mises).all()
+    assert copied_study.plan(tiny, "stress") == {}
+
+
+SWEPT = ["2nd_E1.1_K0.5_theta0", "2nd_rigid_mu0"]
+
+
+@pytest.fixture
+def beside(tiny):
+    sweeps = {"coatings": [*SWEPT, "2nd_E7_K0.5_theta0"], "start": 0.16, "stop": 0.34, "rates": [1.0, 2.0]}
+    return tiny | {"sweeps": sweeps | {"speed_step": 2e-3}, "long_runs": {"revolutions": 12}}
+
+
+def test_sweeps_and_long_runs_are_planned(study, beside):
+    plan = study.plan(beside, "sweeps", "long_runs")
+    assert plan == {"sweep": 8, "sweeps": 1, "long_coating": 6, "long_runs": 1}
+
+
+@pytest.mark.nightly
+def test_sweeps_and_long_runs_are_made_when_asked_for(copied_study, beside):
+    copied_study.build(beside, "sweeps", "long_runs")
+    for name in ("sweeps", "long_runs"):
+        assert (copied_study.results / "figures" / f"{name}.png").stat().st_size > 10_000
+
+    table = pd.read_csv(copied_study.results / "tables" / "sweeps.csv")
+    assert len(table) == 2 * 2 * 2 * 2  # coatings, directions, rates, engine orders
+    assert (table.energy_residual < 1e-3).all()
+    peaks = pd.read_csv(copied_study.results / "tables" / "peaks.csv")
+    both = table.merge(peaks, on=["casing", "E", "K", "theta", "order"], suffixes=("", "_study"))
+    assert len(both) == len(table)
+    assert (both.amplitude_constant == both.amplitude_study).all()
+
+    long = pd.read_csv(copied_study.results / "tables" / "long_runs.csv")
+    assert set(long.revolutions) == {3, 6, 12}
+    path = copied_study.results / "long_runs" / "2nd_E1.1_K0.5_theta0.h5"
+    data, _ = hdf5.read(path)
+    for f_omega, amplitude in zip(data["f_omega"], data["revolution_amplitude"], strict=True):
+        run = copied_study.results / "runs" / "2nd_E1.1_K0.5_theta0" / f"{f_omega:.4f}.h5"
+        np.testing.assert_array_equal(hdf5.read(run)[0]["revolution_amplitude"], amplitude[:3])
+
+    assert copied_study.plan(beside, "sweeps", "long_runs") == {}
+    beside["sweeps"]["rates"] = [1.0, 3.0]
+    assert copied_study.plan(beside, "sweeps") == {"sweep": 4, "sweeps": 1}
+    assert copied_study.plan(beside) == {}  # the study has no part in it

@@ -1,4 +1,6 @@
+import numpy as np
 import pytest
+import xarray as xr
 
 import bladerub as br
 from bladerub.blade.cache import first_frequency
@@ -60,3 +62,55 @@ def test_a_run_in_units_is_that_in_plain_numbers(study):
         f"StudyRun(2nd_E2_K0.5_theta0_xi0.004_h0.004, E = 1.2 GPa, K = 300 MPa, at {f_omega:g} of the first "
         "frequency at rest, 2,200 rpm, 20 revolutions)"
     )
+
+
+def test_blade_is_built_once(study, blade, small, monkeypatch):
+    monkeypatch.setenv("BLADERUB_CACHE", str(small / "cache"))
+    written = blade.path.stat().st_mtime_ns
+    assert br.build_blade(study).path == blade.path
+    assert blade.path.stat().st_mtime_ns == written
+
+
+def test_blade_goes_to_xarray_and_pandas(blade):
+    with xr.open_dataset(blade.path, engine="h5netcdf", phony_dims="sort") as opened:
+        xr.testing.assert_identical(blade.to_xarray(), opened.load())
+    assert {"f_omega", "mode", "f_fe", "f_rom"} <= set(blade.accuracy().columns)
+
+
+def test_a_doubtful_blade_gets_a_warning(study, blade, small, monkeypatch):
+    monkeypatch.setenv("BLADERUB_CACHE", str(small / "cache"))
+    figures = {**study.config["figures"], "nominal_speed": 6e4}
+    with pytest.warns(UserWarning, match="beyond reduction.f_omega_max = 0.4"):
+        br.build_blade(br.Study({**study.config, "figures": figures}, study.folder))
+
+
+def test_frequencies_at_several_speeds(blade):
+    np.testing.assert_array_equal(
+        blade.frequencies([0.0, 0.2], 2), [blade.frequencies(speed, 2) for speed in (0.0, 0.2)]
+    )
+
+
+def test_two_jobs_give_the_bits_of_one(study, blade, sweep):
+    again = br.simulate_speeds(blade, study.coating("2nd", E=2, K=0.5), [0.19, 0.2], jobs=2, progress=False)
+    xr.testing.assert_identical(again.to_xarray(), sweep.to_xarray())
+
+
+def test_speeds_ascend_and_are_the_single_runs(study, blade, sweep):
+    assert sweep.f_omega.tolist() == [0.19, 0.2]
+    single = br.simulate(blade, study.run("2nd", E=2, K=0.5, f_omega=0.19), follow=False)
+    np.testing.assert_array_equal(sweep.wear[0], single.wear.mean(axis=0))
+
+
+@pytest.mark.parametrize("speeds", [[0.2], [0.2, 0.2], [0.2, 0.45]])
+def test_speeds_that_make_no_map_are_named(study, blade, speeds):
+    with pytest.raises(br.InputError) as caught:
+        br.simulate_speeds(blade, study.coating("2nd", E=2, K=0.5), speeds, progress=False)
+    assert caught.value.name == "speeds"
+
+
+def test_written_map_is_what_xarray_opens_and_read_map_reads(study, sweep, tmp_path):
+    path = tmp_path / "map.h5"
+    sweep.write(path, study.config)
+    xr.testing.assert_identical(br.read_map(path).to_xarray(), sweep.to_xarray())
+    with xr.open_dataset(path, engine="h5netcdf", phony_dims="sort") as opened:
+        xr.testing.assert_equal(opened.load(), sweep.to_xarray())

@@ -1,10 +1,20 @@
 import dataclasses
+from dataclasses import replace
 
+import h5py
 import numpy as np
+import pandas as pd
 import pytest
 
+from bladerub.blade.accuracy import ACCURACY_COLUMNS, accuracy_table, doubts
+from bladerub.blade.frequencies import reduced_frequencies
+from bladerub.blade.mesh import BladeMesh, NodeCloud
 from bladerub.blade.model import write_reduced_blade
-from bladerub.blade.validation import read_reduced_blade
+from bladerub.blade.refinement import directions
+from bladerub.blade.tip import tip_radius
+from bladerub.blade.tip_slope import tip_slope
+from bladerub.blade.validation import read_reduced_blade, read_valid_blade
+from bladerub.io.errors import DamagedFile
 
 
 @pytest.fixture
@@ -36,3 +46,122 @@ def test_a_speed_beyond_the_fit_is_refused(blade):
     for f_omega in (0.4001, -0.0001):
         with pytest.raises(ValueError, match=r"is outside the fitted range \[0, 0.4\]"):
             blade.stiffness(f_omega)
+
+
+def test_reduced_frequencies_are_those_of_the_oscillators(oscillators):
+    expected = np.sqrt(np.arange(1, 6) ** 2 + 100 * 0.3**2 / (2 * np.pi) ** 2)
+    np.testing.assert_allclose(reduced_frequencies(oscillators, 0.3, 5), expected, rtol=1e-12)
+    assert reduced_frequencies(oscillators, 0.0)[-1] == pytest.approx(30.0)
+
+
+def test_the_radius_of_the_tip_is_the_distance_from_the_axis(blade):
+    assert tip_radius(blade) == pytest.approx(0.65)
+    moved = replace(blade, node_position=blade.node_position + np.array([1.0, 0.0, 0.0]))
+    assert tip_radius(moved) == pytest.approx(0.65)
+
+
+RADIUS = 0.6
+
+
+@pytest.fixture
+def tip():
+    """A tip of 15 by 3 nodes on a cylinder, staggered, whose middle row has the interface."""
+    along, across = np.meshgrid(np.linspace(-0.04, 0.04, 15), np.linspace(-4e-3, 4e-3, 3), indexing="ij")
+    x, arc = (0.5 * along - 0.8 * across).ravel(), (0.8 * along + 0.5 * across).ravel()
+    points = np.column_stack([x, RADIUS * np.sin(arc / RADIUS), RADIUS * np.cos(arc / RADIUS)])
+    middle = np.flatnonzero(np.isclose(across.ravel(), 0))[::2]
+    return BladeMesh(NodeCloud(points), np.array([], dtype=int), np.arange(len(points)), middle)
+
+
+def slope_of(tip, motion):
+    radial, tangential = directions(tip.mesh.points[tip.interface], 0.0)
+    return tip_slope(tip, motion[None], radial, tangential)
+
+
+def test_turn_about_the_axis_of_rotation_has_its_angle_as_slope(tip):
+    _, y, z = tip.mesh.points.T
+    turn = np.column_stack([0 * y, z, -y])  # forward by 1 rad, to first order
+    np.testing.assert_allclose(slope_of(tip, turn), -1.0, rtol=0, atol=1e-4)
+
+
+def test_tip_that_is_a_line_of_nodes_has_no_slope(tip):
+    line = BladeMesh(tip.mesh, tip.root, tip.interface, tip.interface)
+    assert slope_of(line, tip.mesh.points) is None
+
+
+@pytest.fixture
+def told(blade, tmp_path):
+    """Write the blade with some values changed: what is said of it."""
+
+    def answer(**changes):
+        path = tmp_path / "blade.h5"
+        write_reduced_blade(path, dataclasses.replace(blade, **changes), {})
+        with pytest.raises(ValueError, match="not a valid reduced blade") as error:
+            read_valid_blade(path)
+        return str(error.value).split("blade, ")[1]
+
+    return answer
+
+
+def test_a_valid_blade_is_read_as_it_is(blade, tmp_path):
+    write_reduced_blade(tmp_path / "blade.h5", blade, {})
+    read = read_valid_blade(tmp_path / "blade.h5")
+    np.testing.assert_array_equal(read.mass, blade.mass)
+    assert read.length == blade.length
+
+
+def test_what_is_no_blade_is_named(told, blade):
+    broken = blade.mass.copy()
+    broken[3, 4] = np.nan
+    assert told(mass=broken) == "mass: must be finite, has NaN or infinite entries"
+    assert told(stiffness_2=np.triu(blade.stiffness_2)) == "stiffness_2: must be symmetric"
+    assert told(mass=-blade.mass) == "mass: must be positive definite"
+    assert told(length=-0.2) == "length = -0.2: must be a number above 0"
+
+
+def test_an_edited_blade_can_be_tried_and_is_not_that_of_the_study(blade, tmp_path):
+    path = tmp_path / "blade.h5"
+    write_reduced_blade(path, blade, {})
+    with h5py.File(path, "r+") as file:
+        file["node_position"][3, 2] *= 1.001
+    assert read_valid_blade(path).node_position[3, 2] == 1.001 * blade.node_position[3, 2]
+    with pytest.raises(DamagedFile, match=r"blade\.h5: not as it was written"):
+        read_reduced_blade(path)
+
+
+def test_table_has_a_row_for_each_speed_and_mode(oscillators):
+    finite_element = {0.0: np.array([1.0, 2.0]), 0.4: np.array([1.1, 2.2])}
+    by_law = {0.0: np.array([1.0, 2.0]), 0.4: np.array([1.2, 2.3])}
+    table = accuracy_table(oscillators, finite_element, by_law)
+    assert list(table.columns) == ACCURACY_COLUMNS
+    assert table[["f_omega", "mode"]].to_numpy().tolist() == [[0.0, 1], [0.0, 2], [0.4, 1], [0.4, 2]]
+    assert table.f_fe_eq2.tolist() == [1.0, 2.0, 1.2, 2.3]
+    expected = reduced_frequencies(oscillators, 0.4, 2) / [1.1, 2.2] - 1
+    np.testing.assert_allclose(table.relative_error, [0.0, 0.0, *expected], atol=1e-12)
+
+
+def of_errors(eq2, reduced):
+    """Make a table of one mode of 100 Hz at rest, with these relative errors at the last speed but one."""
+    f_omega = np.arange(5) / 10
+    f_fe = 100 * (1 + f_omega)
+    at = f_omega == 0.3
+    table = pd.DataFrame({"f_omega": f_omega, "mode": 1, "f_fe": f_fe, "f_fe_eq2": f_fe * (1 + eq2 * at)})
+    return table.assign(f_rom=f_fe * (1 + reduced * at), relative_error=reduced * at)
+
+
+@pytest.mark.parametrize(
+    ("table", "nominal", "doubt", "cure"),
+    [
+        (of_errors(0.009, 0.015), None, None, None),
+        (of_errors(0.039, 0.04), 2400.0, "eq. (2) is up to 3.9 %", ": lower reduction.f_omega_max"),
+        (of_errors(0.009, 0.009), 3000.0, "the nominal speed of 3000 1/min is f_omega = 0.5", ": raise that"),
+    ],
+)
+def test_one_line_for_each_doubt(table, nominal, doubt, cure):
+    lines = doubts(table, nominal)
+    if doubt is None:
+        assert lines == []
+    else:
+        (line,) = lines
+        assert line.startswith(doubt)
+        assert cure in line

@@ -1,14 +1,22 @@
 """``bladerub check-law`` as it is called, with laws from files."""
 
+import json
 from pathlib import Path
 
+import numpy as np
+import pandas as pd
 import pytest
+import yaml
 
 from bladerub.cli import main
+from bladerub.config import read
 from bladerub.contact import law
 from bladerub.extras.verification import element_law
+from bladerub.io.folders import BENCHMARKS, base_config
 
 PAPER = Path(law.__file__).read_text(encoding="utf-8")
+
+
 FORCE = "return maximum(trial - element.elastic * increment, 0.0), increment"
 
 
@@ -42,3 +50,69 @@ def test_bad_input_is_answered_in_one_line(capsys):
     line = capsys.readouterr().err
     assert "file = none.py: there is no such file" in line
     assert line.count("\n") == 1
+
+
+@pytest.fixture
+def own(tmp_path):
+    """Write the reference numbers of Rotor 37 as another program's, some of them 5 % higher."""
+
+    def written(*changed):
+        table = pd.read_csv(BENCHMARKS / "rotor37" / "blade.csv")[["number", "value", "unit"]]
+        table.loc[table.number.isin(changed), "value"] *= 1.05
+        table.to_csv(tmp_path / "blade.csv", index=False)
+        return str(tmp_path)
+
+    return written
+
+
+def test_equal_numbers_agree(own, capsys):
+    assert main(["compare", own(), "rotor37"]) == 0
+    assert "agree" in capsys.readouterr().out
+
+
+def test_a_number_that_is_off_is_named_and_the_exit_code_is_1(own, capsys):
+    assert main(["compare", own("f1_rest"), str(BENCHMARKS / "rotor37"), "--json"]) == 1
+    figures = json.loads(capsys.readouterr().out)
+    assert [row["number"] for row in figures["different"]] == ["f1_rest"]
+    assert main(["compare", own("f1_rest"), "rotor37"]) == 1
+    assert "blade/f1_rest" in capsys.readouterr().out
+
+
+def test_folders_that_are_not_there_are_refused(own, capsys):
+    assert main(["compare", "nowhere", "rotor37"]) == 2
+    assert main(["compare", own(), "nowhere"]) == 2
+    assert "nowhere" in capsys.readouterr().err
+
+
+@pytest.fixture
+def table(tmp_path):
+    """Write a curve of E = 900, K = 60, σ_Y = 9 MPa up to a strain, with noise."""
+
+    def written(highest):
+        strain = np.linspace(highest / 40, highest, 40)
+        exact = np.minimum(900 * strain, 9 + 900 * 60 / 960 * (strain - 0.01))
+        noisy = exact + np.random.default_rng(1).normal(0, 0.05, strain.size)
+        path = tmp_path / "curve.csv"
+        lines = ["strain,stress (MPa)", *(f"{a},{b}" for a, b in zip(strain, noisy, strict=True))]
+        path.write_text("\n".join(lines) + "\n", encoding="utf-8")
+        return str(path)
+
+    return written
+
+
+def test_the_lines_are_accepted_by_the_config(table, tmp_path, capsys):
+    assert main(["fit-coating", table(0.05)]) == 0
+    lines = capsys.readouterr().out.partition("for the config:\n")[2]
+    file = tmp_path / "fitted.yaml"
+    file.write_text(lines, encoding="utf-8")
+    study = read.read(base_config(), file)
+    contact, coating = study["contact"], study["coatings"][0]
+    assert coating["E"][0] * contact["modulus_unit"] == pytest.approx(900e6, rel=0.02)
+    assert coating["K"][0] * contact["modulus_unit"] == pytest.approx(60e6, rel=0.05)
+    assert contact["yield_stress"] * contact["modulus_unit"] == pytest.approx(9e6, rel=0.02)
+    assert yaml.safe_load(lines)["contact"]["modulus_unit"] == 600e6
+
+
+def test_what_is_not_determined_is_named(table, capsys):
+    assert main(["fit-coating", table(0.008)]) == 0
+    assert "not determined by these curves: K, yield_stress" in capsys.readouterr().out

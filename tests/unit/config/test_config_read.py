@@ -1,11 +1,14 @@
 import copy
+from pathlib import Path
 from unittest.mock import Mock
 
 import numpy as np
 import pytest
 
+from bladerub.config import record
 from bladerub.config.errors import ConfigError
 from bladerub.config.read import load, validate
+from bladerub.config.record import Record
 from bladerub.io.folders import ROOT
 
 CONFIGS = [
@@ -45,6 +48,8 @@ def test_results_stay_below_the_repository(config, name):
 
 
 RIGID = {"casing": "2nd", "coating": "rigid", "friction": [0.0]}
+
+
 ABRADABLE = {"casing": "2nd", "E": [3], "K": [1], "theta": [0.0]}
 
 
@@ -123,3 +128,24 @@ def test_central_differences_are_checked_by_the_blade_that_is_built(config, monk
         validate(config)
     config["solver"]["max_time_step"] = 1.9e-6
     validate(config)
+
+
+def test_what_was_laid_over_the_config_comes_back(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    files = [Path("config/config.yaml"), tmp_path / "config" / "quick.yaml", Path("/elsewhere/own.yaml")]
+    record.write("results", files, {"results": "results"})
+    found = record.read(tmp_path / "results")
+    assert found == Record(["config/quick.yaml", "/elsewhere/own.yaml"], {"results": "results"})
+    assert str(found) == "--config config/quick.yaml /elsewhere/own.yaml results=results"
+
+
+def test_nothing_was_laid_over(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    record.write("results", ["config/config.yaml"], {})
+    assert record.read(tmp_path / "results") is None
+
+
+@pytest.mark.parametrize("text", ["", "{}", "[1]", '{"files": 1}', '{"files": [], "command_line": [1]}'])
+def test_a_damaged_record_is_none(tmp_path, text):
+    (tmp_path / record.FILE).write_text(text)
+    assert record.read(tmp_path) is None

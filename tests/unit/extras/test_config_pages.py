@@ -10,6 +10,7 @@ from bladerub.config.files import read
 from bladerub.config.read import load
 from bladerub.io.folders import ROOT
 from docs.config_keys import reference
+from docs.signatures import PAGE, updated
 from tests.unit.config.mistakes import MISTAKES
 
 CONFIGS = sorted(
@@ -17,6 +18,8 @@ CONFIGS = sorted(
     for path in (ROOT / "config").glob("*.yaml")
     if path.read_text(encoding="utf-8").startswith("# yaml-language-server: $schema=schema.json\n")
 )
+
+
 STUDY = load(ROOT / "config" / "config.yaml")
 
 
@@ -67,3 +70,8 @@ def test_a_row_of_the_reference_has_unit_range_and_value():
     assert row("casings.<name>.interference")[2] == "m"
     assert "each a number above 0" in row("coatings[].E")[3]
     assert row("chart.speeds.step")[4] == "`0.008`"
+
+
+def test_the_page_has_the_signatures_of_today():
+    text = PAGE.read_text(encoding="utf-8")
+    assert updated(text) == text

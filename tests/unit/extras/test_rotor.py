@@ -3,7 +3,7 @@ import pandas as pd
 import pytest
 
 from bladerub.config.read import load, validate
-from bladerub.extras.rotor import summary
+from bladerub.extras.rotor import pattern, summary
 from bladerub.extras.rotor.plan import Combination, read_plan
 from bladerub.io.folders import ROOT
 from bladerub.study.grid import CoatingCase
@@ -72,3 +72,21 @@ def test_a_plan_may_have_units(study, tmp_path):
     path.write_text(text.replace("length_scatter: [5.0e-5]", "length_scatter: [50 µm]"))
     assert path.read_text() != text
     assert read_plan(path, study) == read_plan(ROOT / "config" / "rotor.yaml", study)
+
+
+ANGLE = np.arange(240) * (2 * np.pi / 240)
+
+
+def worn(lobe, depth=1e-4):
+    """Three lobes, one of them at `lobe`, on an even ground and a strong other harmonic."""
+    return 2e-3 + depth * np.cos(3 * (ANGLE - lobe)) + 1e-3 * np.cos(2 * ANGLE)
+
+
+@pytest.mark.parametrize("rate", [0.08, -0.08])
+def test_the_drift_of_lobes_that_turn_evenly_is_their_rate(rate):
+    revolution = np.arange(1, 41)  # turns by more than the distance of two lobes
+    parts = np.array([pattern.component(ANGLE, worn(0.3 + rate * at), 3) for at in revolution])
+    assert np.abs(parts) == pytest.approx(1e-4)
+    lobe = pattern.lobe_angle(parts, 3)
+    assert np.diff(lobe) == pytest.approx(rate)
+    assert pattern.drift_rate(revolution, lobe, np.abs(parts)) == pytest.approx(rate)

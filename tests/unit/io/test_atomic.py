@@ -1,10 +1,12 @@
 import os
 import signal
+import threading
 import time
 
 import pytest
 
-from bladerub.io import atomic
+from bladerub.io import atomic, lock
+from bladerub.io.folders import cache_folder
 
 HALF_WRITTEN = """
 import sys
@@ -96,3 +98,84 @@ def test_a_temporary_file_that_another_process_sweeps_first_is_no_error(tmp_path
     (tmp_path / ".a.node1.7.tmp").touch()
     atomic.delete_abandoned(tmp_path)
     assert list(tmp_path.iterdir()) == []
+
+
+HOLDER = """
+import sys
+from bladerub.io import lock
+with lock.held(sys.argv[1], lambda: None):
+    print("held", flush=True)
+    sys.stdin.read()
+"""
+
+
+@pytest.fixture
+def holder(python_at_work, tmp_path):
+    """A process that holds the lock until its input is closed."""
+    return python_at_work(HOLDER, tmp_path / "lock")
+
+
+def test_the_second_to_ask_waits_until_the_first_is_done(tmp_path, holder):
+    waited = []
+
+    def release():
+        waited.append(holder.poll())
+        holder.stdin.close()
+
+    with lock.held(tmp_path / "lock", release):
+        assert holder.wait(timeout=60) == 0
+    assert waited == [None]
+
+
+def test_the_second_to_ask_gets_no_further_before(tmp_path):
+    waits, holds = threading.Event(), threading.Event()
+
+    def hold():
+        with lock.held(tmp_path / "lock", waits.set):
+            holds.set()
+
+    second = threading.Thread(target=hold)
+    with lock.held(tmp_path / "lock", lambda: None):
+        second.start()
+        assert waits.wait(timeout=60)
+        assert not holds.wait(timeout=0.2)
+    second.join(timeout=60)
+    assert holds.is_set()
+
+
+def test_a_killed_holder_leaves_no_lock(tmp_path, holder):
+    waited = []
+    holder.kill()
+    holder.wait()
+    with lock.held(tmp_path / "lock", lambda: waited.append(1)):
+        pass
+    assert waited == []
+
+
+@pytest.fixture
+def homeless(tmp_path, monkeypatch):
+    """A user without a home, as in a container under a foreign number."""
+    for name in ("BLADERUB_CACHE", "XDG_CACHE_HOME"):
+        monkeypatch.delenv(name, raising=False)
+    monkeypatch.setenv("HOME", str(tmp_path / "nonexistent"))
+    monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
+    return tmp_path / f"bladerub-{os.getuid()}"
+
+
+def test_a_user_without_a_home_keeps_things_where_nobody_else_writes(homeless):
+    assert cache_folder() == homeless
+    assert homeless.stat().st_mode & 0o777 == 0o700
+    assert cache_folder() == homeless
+
+
+def test_a_folder_that_others_can_write_is_refused(homeless):
+    homeless.mkdir()
+    homeless.chmod(0o777)
+    with pytest.raises(OSError, match="BLADERUB_CACHE"):
+        cache_folder()
+
+
+@pytest.mark.parametrize("name", ["BLADERUB_CACHE", "XDG_CACHE_HOME"])
+def test_a_folder_that_is_named_is_used(homeless, tmp_path, monkeypatch, name):
+    monkeypatch.setenv(name, str(tmp_path / "named"))
+    assert cache_folder().is_relative_to(tmp_path / "named")

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from numba import njit
 
-from bladerub.numerics import memory, vectors
+from bladerub.numerics import lanes, memory, vectors
 from bladerub.numerics.memory import addresses, aligned
 from bladerub.numerics.vectors import LANES
 
@@ -115,3 +115,8 @@ def test_aligned_records_keep_what_is_in_them():
     for array in record[:3]:
         assert array.flags.c_contiguous
         assert array.ctypes.data % 64 == 0
+
+
+@pytest.mark.parametrize(("n_nodes", "wanted"), [(4, 8), (8, 8), (9, 16), (16, 16), (17, 32), (32, 32)])
+def test_lanes_are_the_next_power_of_two_from_eight_on(n_nodes, wanted):
+    assert lanes.lanes_for(n_nodes) == wanted

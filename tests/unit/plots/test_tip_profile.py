@@ -1,8 +1,11 @@
 import numpy as np
 import pytest
 
-from bladerub.contact.illustration import PressedElements
+from bladerub.blade.surface import boundary_faces, normals
+from bladerub.contact.illustration import LoadingCycle, PressedElements
 from bladerub.contact.spec import Coating
+from bladerub.plots.blade_mesh import View
+from bladerub.plots.coating_cycle import coating_cycle
 from bladerub.plots.tip_profile import tip_profile
 
 SCENE = PressedElements(
@@ -41,3 +44,76 @@ def test_worn_heights_in_micrometres(panels):
     )
     np.testing.assert_allclose([bar.get_y() for bar in element], 1e6 * SCENE.shortening)
     np.testing.assert_allclose([bar.get_x() + bar.get_width() / 2 for bar in worn], 2.0 * SCENE.element)
+
+
+E, K = 2.0, 0.5
+
+
+def cycle(yield_stress: float) -> LoadingCycle:
+    """Load to 0.03 and unload, in closed form."""
+    strain = np.concatenate([np.linspace(0, 0.03, 31), np.linspace(0.029, 0, 30)])
+    highest = np.maximum.accumulate(strain)
+    plastic = np.maximum(E * highest - yield_stress, 0) / (E + K)
+    stress = np.maximum(E * (strain - plastic), 0)
+    coating = Coating(E, K, 0.0, yield_stress, modulus_unit=1e8, thickness=5e-3, n_elements=2000)
+    return LoadingCycle(coating, strain, stress, plastic)
+
+
+@pytest.fixture
+def cycles(draws):
+    return draws(coating_cycle({"(a) small": cycle(0.0), "(b) large": cycle(0.02)})).axes
+
+
+def test_slope_triangles_have_the_slopes_they_name(cycles):
+    for panel in cycles:
+        triangles = [line.get_xydata() for line in panel.lines if line.get_label() == "_slope"]
+        slopes = [(corner[1] - start[1]) / (corner[0] - start[0]) for start, _, corner in triangles]
+        assert slopes == pytest.approx([2.0, 0.4])
+
+
+def test_the_remaining_strain_is_marked_where_the_element_is_released(cycles):
+    for panel, yield_stress in zip(cycles, (0.0, 0.02), strict=True):
+        (mark,) = [line for line in panel.lines if line.get_marker() == "v"]
+        assert mark.get_xdata() == pytest.approx([(E * 0.03 - yield_stress) / (E + K)])
+
+
+CORNERS = np.array(
+    [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 0, 1], [1, 0, 1], [1, 1, 1], [0, 1, 1]], float
+)
+
+
+EDGES = [(0, 1), (1, 2), (2, 3), (3, 0), (4, 5), (5, 6), (6, 7), (7, 4), (0, 4), (1, 5), (2, 6), (3, 7)]
+
+
+def tower(n: int) -> tuple[np.ndarray, np.ndarray]:
+    """Stack n unit cubes of 20 nodes: points and connectivity."""
+    cube = np.vstack([CORNERS, [(CORNERS[a] + CORNERS[b]) / 2 for a, b in EDGES]])
+    every = np.vstack([cube + np.array([0, 0, level]) for level in range(n)])
+    points, index = np.unique(every, axis=0, return_inverse=True)
+    return points, index.reshape(n, 20)
+
+
+def test_faces_between_elements_are_left_out():
+    points, hexahedra = tower(3)
+    faces = boundary_faces(hexahedra)
+    assert faces.shape == (14, 8)
+    assert set(np.unique(faces)) == set(range(len(points)))
+
+
+def test_normals_point_outward_and_nodes_go_around():
+    points, hexahedra = tower(2)
+    polygons = points[boundary_faces(hexahedra)]
+    outward = polygons.mean(axis=1) - points.mean(axis=0)
+    assert (np.einsum("ij,ij->i", normals(polygons), outward) > 0).all()
+    steps = np.linalg.norm(np.diff(polygons, axis=1), axis=2)
+    np.testing.assert_allclose(steps, 0.5)  # from a corner to the next mid-side node
+
+
+def test_view_from_the_front():
+    view = View(elevation=0, azimuth=-90)  # looking along +y: x to the right, z up
+    np.testing.assert_allclose(view.project(np.eye(3)), [[1, 0], [0, 0], [0, 1]], atol=1e-12)
+    points, hexahedra = tower(2)
+    polygons = points[boundary_faces(hexahedra)]
+    seen = view.front_faces(polygons)
+    np.testing.assert_allclose(polygons[seen][:, :, 1], 0, atol=1e-12)
+    assert len(seen) == 2

@@ -1,8 +1,11 @@
 import numpy as np
 import pytest
 
-from bladerub.study import peaks
+from bladerub.study import divergence, peaks
 from bladerub.study.grid import CoatingCase
+from bladerub.study.peak_table import table
+from bladerub.study.store import stored_run
+from bladerub.study.summary import spectral_peak, summarise
 
 CASE = CoatingCase("2nd", 1.1, 0.5, 0.0)
 
@@ -60,3 +63,103 @@ def test_a_missing_peak_has_a_reason(make_map, settings):
         assert np.isnan([f_omega, amplitude]).all()
         assert why.startswith(reason)
         assert coating.f_omega[peaks.nearest_speed(coating, order, settings)] == nearest
+
+
+def test_the_table_has_a_row_per_coating_and_order(config, make_map):
+    maps = []
+    for E, f_peak in ((0.11, 0.19), (1.1, 0.21)):
+        case = CoatingCase("2nd", E, 0.5, 0.0)
+        maps.append(make_map(case, {4: (0.31, E * 1e-4), 6: (f_peak, E * 2e-4)}))
+    peaks = table(config, maps)
+    assert list(peaks.columns) == ["casing", "E", "K", "theta", "order", "f_peak", "amplitude", "law"]
+    assert list(peaks.E) == [0.11, 0.11, 1.1, 1.1]
+    assert list(peaks.order) == [4, 6, 4, 6]
+    np.testing.assert_allclose(peaks.f_peak, [0.31, 0.19, 0.31, 0.21])
+    np.testing.assert_allclose(peaks.amplitude, [1.1e-5, 2.2e-5, 1.1e-4, 2.2e-4])
+
+
+def test_the_table_has_a_row_per_run(config, make_map):
+    cases = [CoatingCase("2nd", E, 0.5, 0.0) for E in (0.11, 2.0)]
+    speeds = [0.1, 0.2, 0.3]
+    maps = []
+    for case, growth, status in zip(
+        cases, (0.0, [0.0, 0.05, 0.002]), ("completed", ["completed", "completed", "unbounded"]), strict=True
+    ):
+        maps.append(make_map(case, {}, speeds, lobes=[5, 6, 4], growth=growth, status=status))
+    table = divergence.table(config, maps)
+    assert list(table.columns) == divergence.COLUMNS
+    assert list(table.columns[:9]) == (
+        ["casing", "E", "K", "theta", "f_omega", "growth_per_revolution", "saturating", "divergent", "lobes"]
+    )
+    assert list(table.E) == [0.11] * 3 + [2.0] * 3
+    assert list(table.f_omega) == speeds * 2
+    assert list(table.divergent) == [False] * 4 + [True, True]
+    assert not table.saturating.any()
+    assert list(table.lobes) == [5, 6, 4] * 2
+    assert list(table.revolutions) == [20] * 6
+    assert list(table.status)[-2:] == ["completed", "unbounded"]
+    np.testing.assert_allclose(table.growth_per_revolution, [0, 0, 0, 0, 0.05, 0.002], atol=1e-12)
+    assert (table.growth_low < table.growth_per_revolution).all()
+    assert (table.growth_high > table.growth_per_revolution).all()
+
+
+def test_a_longer_run_decides_where_there_is_one(config, make_map, case):
+    longer = np.full((4, 60), np.nan)
+    longer[0] = 1.03 ** np.arange(60)
+    longer[1] = 1 - np.exp(-np.arange(1, 61) / 12)
+    longer[2, :41] = 1.03 ** np.arange(41)
+    speeds = [0.1, 0.2, 0.3, 0.4]
+    coating = make_map(case, {}, speeds, growth=[0.03, 0.03, 0.03, 0.0], longer=longer)
+    table = divergence.table(config, [coating])
+    assert list(table.divergent) == [True, False, True, False]
+    assert list(table.saturating) == [False, True, False, False]
+    assert list(table.revolutions) == [60, 60, 41, 20]
+    assert list(table.status) == ["completed", "completed", "unbounded", "completed"]
+    assert table.growth_per_revolution[1] == pytest.approx(0, abs=2e-3)
+
+
+@pytest.fixture
+def summed_up(spec, config):
+    """The summary of a result, as of the study's config."""
+
+    def of(result, longer=None):
+        case, analysis = CoatingCase("2nd", 2.0, 0.5, 0.0), config["analysis"]
+        stored = [each and stored_run(case, spec, each, "key", analysis, False) for each in (result, longer)]
+        return summarise(stored[0], analysis, stored[1])
+
+    return of
+
+
+def test_a_steady_run(summed_up, make_result):
+    assert summed_up(make_result(order=6, amplitude=1e-3, depth=2e-4)) == {
+        "peak_amplitude": pytest.approx(1e-3, rel=1e-4),
+        "engine_order": 6.0,
+        "max_wear": pytest.approx(2e-4, rel=1e-3),
+        "lobes": 6,
+        "wear_harmonic": 6,
+        "wear_harmonic_share": pytest.approx(0.84, abs=0.01),
+        "growth_per_revolution": pytest.approx(0, abs=1e-9),
+        "growth_low": pytest.approx(-3e-4, rel=0.2),
+        "growth_high": pytest.approx(3e-4, rel=0.2),
+        "saturating": False,
+        "divergent": False,
+        "growth_revolutions": 20,
+        "energy_residual": pytest.approx(1.23, abs=0.01),  # of the stand-in
+        "n_steps": 1000,
+        "status": "completed",
+    }
+
+
+def test_a_growing_run(summed_up, make_result):
+    summary = summed_up(make_result(order=4, growth=0.03))
+    assert (summary["divergent"], summary["saturating"], summary["status"]) == (True, False, "completed")
+    assert summary["growth_per_revolution"] == pytest.approx(0.03)
+    assert summary["growth_low"] < 0.03 < summary["growth_high"]
+    assert summary["peak_amplitude"] == pytest.approx(1e-3 * 1.03**19, rel=1e-4)
+
+
+@pytest.mark.parametrize(("order", "found"), [(0.4, 6.0), (0.5, 0.5)])
+def test_slow_drift_is_no_vibration(order, found):
+    orders = np.arange(100) / 10
+    amplitude = np.where(orders == order, 2.0, np.where(orders == 6.0, 1.0, 0.0))
+    assert spectral_peak(orders, amplitude) == (found, 1.0 if order < 0.5 else 2.0)

@@ -1,16 +1,22 @@
+import io
 import re
 
 import pytest
 
+from bladerub.config import read as configuration
 from bladerub.study import inventory
+from bladerub.study.job import RunDone
 from bladerub.workflow.cores import (
     GROWING,
     SECONDS_AT_FIRST,
     SECONDS_PER_JOB,
     SECONDS_PER_REVOLUTION,
     costs_of,
+    priority_of,
+    threads_for,
 )
 from bladerub.workflow.forecast import forecast
+from bladerub.workflow.progress import JobProgress
 
 
 @pytest.fixture
@@ -44,3 +50,53 @@ def test_a_dry_run_counts_what_is_left_and_what_its_jobs_cost(study):
     numbers = re.findall(r"\d+", forecast(config, jobs).replace(",", ""))
     assert numbers == ["120", "200", "8", f"{seconds / 60:.0f}"]
     assert costs.ensembles[JOBS[0][1]] > 0
+
+
+@pytest.mark.parametrize(
+    ("cost", "cores", "threads"),
+    [
+        (1, 16, 1),
+        (1, 64, 5),
+        (10, 4, 3),
+        (100, 4, 4),  # the only job
+        (10, None, 1),
+    ],
+)
+def test_a_job_larger_than_the_share_of_a_core_has_more_threads(cost, cores, threads):
+    assert threads_for(cost, 100, cores) == threads
+
+
+def test_the_study_begins_with_the_coating_of_fig_6_and_the_stiffest():
+    """The largest ensembles and the slowest runs: either would otherwise end long after all else."""
+    costs = costs_of(configuration.read("config/config.yaml", command_line={}))
+    first, second, *_ = sorted(costs.runs, key=lambda coating: -priority_of(coating, costs))
+    assert (first, second.partition("_K")[0]) == ("2nd5nd_E11_K0.5_theta0", "2nd_E20")
+
+
+class Terminal(io.StringIO):
+    def isatty(self):
+        return True
+
+
+def done(number, total, file="0.1000.h5"):
+    return RunDone(number, total, file, "completed", 0.1, 0.2)
+
+
+def test_each_run_is_a_line_of_the_log_with_the_time_left(tmp_path):
+    log = io.StringIO()
+    progress = JobProgress("2nd_E2_K0.5_theta0", log, io.StringIO(), tmp_path / "turn")
+    progress(done(1, 2))
+    progress(done(2, 2))
+    assert log.getvalue().splitlines() == [str(done(1, 2)), str(done(2, 2))]
+    assert "s left" in log.getvalue()
+
+
+def test_the_bar_is_on_a_terminal_only(tmp_path):
+    terminal, file = Terminal(), io.StringIO()
+    for stream in (terminal, file):
+        progress = JobProgress("2nd_E2_K0.5_theta0", io.StringIO(), stream, tmp_path / "turn")
+        progress(done(1, 1))
+        progress.summary([])
+    assert "2nd_E2_K0.5_theta0" in terminal.getvalue()
+    assert "/1 |" in terminal.getvalue()
+    assert file.getvalue() == ""

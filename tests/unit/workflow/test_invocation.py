@@ -1,3 +1,4 @@
+import json
 import os
 import re
 import signal
@@ -15,8 +16,11 @@ from snakemake.settings.types import MaxJobsPerTimespan
 from bladerub.config import record
 from bladerub.config.record import Record
 from bladerub.io.errors import BadInput
+from bladerub.io.folders import ROOT
 from bladerub.study.manifest import ManifestRow, write_manifest
-from bladerub.workflow import invocation
+from bladerub.workflow import invocation, settings
+from bladerub.workflow.claims import claim
+from bladerub.workflow.studies import rules_of_studies
 
 
 @pytest.fixture
@@ -154,3 +158,84 @@ def test_files_of_the_future_are_of_now(tmp_path, capsys):
     assert old.stat().st_mtime == before
     assert abs(new.stat().st_mtime - time.time()) < 60
     assert "files of the future, by a clock that was ahead: 1" in capsys.readouterr().err
+
+
+CLAIM = """
+import sys
+from bladerub.workflow.claims import claim
+print(claim(sys.argv[1], ["a", "b"], ["c"]), flush=True)
+sys.stdin.read()
+"""
+
+
+@pytest.fixture
+def other(tmp_path):
+    """Another process, which makes a and b of c."""
+    with subprocess.Popen(
+        [sys.executable, "-c", CLAIM, tmp_path], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True
+    ) as process:
+        assert process.stdout.readline() == "False\n"
+        yield process
+        process.kill()
+
+
+@pytest.mark.parametrize(("outputs", "inputs"), [("a", ""), ("x", "b"), ("c", "")])
+def test_who_makes_or_needs_what_another_makes_is_kept_out(other, tmp_path, outputs, inputs):
+    with pytest.raises(BadInput, match="another snakemake is at work"):
+        claim(tmp_path, outputs, inputs)
+
+
+def test_who_shares_but_inputs_is_let_in(other, tmp_path):
+    assert claim(tmp_path, "x", "c") is False
+
+
+def test_the_claim_of_the_dead_is_void(other, tmp_path):
+    other.kill()
+    other.wait()
+    assert claim(tmp_path, "a", "c") is True
+    (remaining,) = tmp_path.glob("*.json")
+    assert json.loads(remaining.read_text()) == {"makes": ["a"], "needs": ["c"]}
+
+
+def test_an_orderly_end_leaves_no_claim(other, tmp_path):
+    other.communicate()
+    assert list(tmp_path.glob("*.json")) == []
+
+
+def test_a_study_without_its_extra_is_left_out(tmp_path):
+    for name, extra in (("one", "cost.jobs"), ("two", "nowhere.table"), ("three", "chart.stress")):
+        (tmp_path / "studies" / name / "scripts").mkdir(parents=True)
+        (tmp_path / "studies" / name / "rules.smk").write_text(f'files_behind("extras.{extra}")\n')
+    script = tmp_path / "studies" / "three" / "scripts" / "three.py"
+    script.write_text("from bladerub.extras.lost import table\n")
+    complete, notes = rules_of_studies(tmp_path)
+    assert [path.parent.name for path in complete] == ["one"]
+    assert notes == [
+        "without the study three, which needs bladerub.extras.lost",
+        "without the study two, which needs bladerub.extras.nowhere",
+    ]
+
+
+def workflow(files=(), values=None):
+    overwrite = {"solver": {"revolutions": 25}} if files else values or {}
+    command_line = SimpleNamespace(configfiles=list(files), config=values or {}, overwrite_config=overwrite)
+    return SimpleNamespace(config_settings=command_line, is_main_process=True)
+
+
+def test_a_module_statement_is_laid_over_the_study(tmp_path, monkeypatch):
+    given = {"solver": {"revolutions": 30}}
+    for folder in (ROOT, tmp_path):  # there is a study, or none
+        monkeypatch.chdir(folder)
+        study, notes, laid_over = settings.read(workflow(values={"dpi": 3}), given)
+        assert (study["solver"]["revolutions"], notes) == (30, [])
+        assert laid_over == Record((), given)
+
+
+def test_so_is_the_command_line(tmp_path, monkeypatch):
+    monkeypatch.chdir(ROOT)
+    path = tmp_path / "my.yaml"
+    path.write_text("solver: {revolutions: 25}\n")
+    called = workflow([path])
+    study, _, laid_over = settings.read(called, called.config_settings.overwrite_config)
+    assert study["solver"]["revolutions"] == 25
+    assert laid_over.files == [path]

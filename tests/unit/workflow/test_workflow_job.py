@@ -2,8 +2,15 @@ import ast
 import subprocess
 import sys
 from pathlib import Path
+from types import SimpleNamespace
 
+import pandas as pd
 import pytest
+from matplotlib.image import imread
+
+from bladerub.io import tables
+from bladerub.plots import style
+from bladerub.workflow import outputs
 
 SCRIPT = """
 import sys
@@ -50,3 +57,43 @@ def test_the_log_of_a_job_is_open_before_its_imports():
     for script in SCRIPTS:
         _, *first = ast.parse(script.read_text(encoding="utf-8")).body[:3]
         assert [ast.unparse(statement) for statement in first] == logged, script
+
+
+TABLE = pd.DataFrame({"f_omega": [0.1234567891], "theta": [0.15]})
+
+
+@pytest.fixture
+def job(tmp_path):
+    paths = {name: str(tmp_path / f"a.{name}") for name in ("png", "pdf")}
+    paths |= {name: str(tmp_path / f"{name}.csv") for name in ("table", "data")}
+    scripts = tmp_path / "scripts"
+    return SimpleNamespace(output=paths, config={"seed": 1}, params={"dpi": 70}, scriptdir=str(scripts))
+
+
+def test_tables_and_figure_go_to_their_outputs(job):
+    outputs.save(job, style.new_figure(2, 1), table=TABLE, data=TABLE)
+    assert imread(job.output["png"]).shape[:2] == (70, 140)
+    with open(job.output["pdf"], "rb") as stream:
+        assert stream.read(4) == b"%PDF"
+    pd.testing.assert_frame_equal(tables.read(job.output["table"]), TABLE)
+    assert tables.read(job.output["data"])["f_omega"].tolist() == [0.123457]
+
+
+def test_a_study_describes_columns_of_its_own_in_its_folder(job, tmp_path):
+    table = TABLE.assign(own=1.0)
+    with pytest.raises(ValueError, match="not described: own"):
+        outputs.save(job, table=table)
+    columns = "column,datatype,unit,description\nown,number,m,of this study alone\n"
+    (tmp_path / "columns.csv").write_text(columns, encoding="utf-8")
+    outputs.save(job, table=table)
+    assert "of this study alone" in tables.description_path(job.output["table"]).read_text(encoding="utf-8")
+
+
+def test_a_figure_imports_neither_the_solver_nor_parts_of_scipy_it_may_not_need():
+    """A study draws a hundred, each by a job that imports anew."""
+    program = (
+        "import sys; import bladerub.plots.wear_map, bladerub.study.peaks, bladerub.workflow.outputs; "
+        "print([name for name in ('numba', 'scipy.linalg', 'scipy.ndimage', 'skfem') if name in sys.modules])"
+    )
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
+    assert done.stdout == "[]\n"

@@ -2,9 +2,15 @@
 
 import pytest
 
+from bladerub.config import read as configuration
 from bladerub.contact.run import simulate
 from bladerub.contact.setup import set_up
+from bladerub.extras.benchmark import estimate as module
 from bladerub.extras.benchmark import measure
+from bladerub.extras.benchmark.estimate import _Cost, estimate
+from bladerub.extras.benchmark.record import MACHINE, replace, rows
+from bladerub.extras.study_runs import study_runs
+from bladerub.io import tables
 
 
 def test_useful_operations_of_a_step(blade, spec, change):
@@ -18,3 +24,69 @@ def test_useful_operations_of_a_step(blade, spec, change):
     single = (flops - contact - 61 * n / flight * result.n_steps) / (39 * n - 61 * n / flight)
     assert result.n_contact_steps <= single < result.n_steps
     assert single == pytest.approx(round(single))
+
+
+SMALL = {
+    "coatings": [{"casing": "2nd", "E": [2, 20], "K": [0.5], "theta": [0.15]}],
+    "speeds": {"start": 0.16, "stop": 0.4, "step": 0.06, "extra": []},
+    "solver": {"revolutions": 3},
+    "ensemble": {"members": 2},
+    "analysis": {
+        "spectrum_revolutions": 2,
+        "divergence": {"revolutions": 3, "confirmation_revolutions": 6},
+        "histories": [{"casing": "2nd", "E": 2, "K": 0.5, "theta": 0.15, "f_omega": 0.16}],
+    },
+}
+
+
+@pytest.fixture(scope="module")
+def study():
+    return configuration.read("config/config.yaml", command_line=SMALL)
+
+
+def test_runs_and_members_cost_what_the_drawn_ones_do(study, blade, monkeypatch):
+    """Runs at 0.16 grow and are near a peak, others take twice as long."""
+
+    def cost(blade, config, folder, run):
+        near = run.f_omega == 0.16
+        return _Cost(1.0, 3.0, True) if near else _Cost(2.0, 0.0, False)
+
+    monkeypatch.setattr(module, "_cost", cost)
+    monkeypatch.setattr(module, "_start", lambda imported: 0.5)
+    found = estimate(blade, study, cores=4, drawn=1000)
+    runs = len(study_runs(study))
+    near, members = 2, (2 + 2) * (1 + 3 * 2 + 3 * 2)  # and refined: histories, each peak with its neighbours
+    seconds = near * 4.0 + (runs - near) * 2.0 + members * 4.0 + 2 * 3 * 0.5
+    assert found["study_minutes"] == pytest.approx(seconds / 4 / 60)
+    assert found["seconds_per_run"] == pytest.approx((near * 1.0 + (runs - near) * 2.0) / runs)
+    assert (found["runs"], found["members"], found["cores"]) == (runs, members, 4)
+
+
+def figures(processor, ratio):
+    loops = {"numpy": 1.0, "numba": 10.0, "production": ratio}
+    return {
+        "processor": processor,
+        "vector_bits": 512,
+        "cores": 2,
+        "steps_per_second": {loop: {"contact": rate, "free": 2 * rate} for loop, rate in loops.items()},
+        "ratio_to_numpy": ratio,
+        "ratio_to_numba": ratio / 10,
+        "ratio_to_numpy_free": ratio,
+        "ratio_to_numba_free": ratio / 10,
+        "fraction_of_peak_contact": 0.4,
+        "fraction_of_peak_free": 0.6,
+        "peak_flops": 6e10,
+        "seconds_per_run": 0.1,
+        "study_minutes": 20.0,
+    }
+
+
+def test_each_machine_has_a_row_for_contact_and_one_for_free_motion(tmp_path):
+    path = tmp_path / "benchmark.csv"
+    for processor, ratio in (("A", 300.0), ("B", 100.0), ("A", 400.0)):
+        replace(path, rows(figures(processor, ratio)), MACHINE, {})
+    table = tables.read(path).set_index(["processor", "motion"])
+    assert sorted(table.index) == [("A", "contact"), ("A", "free"), ("B", "contact"), ("B", "free")]
+    assert table.ratio_to_numpy["A", "contact"] == 400.0
+    assert table.steps_per_second_production["B", "free"] == 200.0
+    assert table.fraction_of_peak["B", "free"] == 0.6

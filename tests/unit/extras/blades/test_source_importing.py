@@ -1,16 +1,22 @@
+import itertools
+
 import numpy as np
 import pytest
-from blade_parts import tetrahedral_mesh
+from blade_parts import section, tetrahedral_mesh
 
 from bladerub.blade.build import build
 from bladerub.blade.files import made_from
 from bladerub.blade.frequencies import reduced_frequencies
 from bladerub.blade.geometry import BladeShape, lattice
-from bladerub.blade.mesh import BladeMesh
-from bladerub.extras.blades.frame import Frame
-from bladerub.extras.blades.importing import import_blade
+from bladerub.blade.mesh import BladeMesh, hexahedral_mesh
+from bladerub.blade.surface import boundary_faces
+from bladerub.extras.blades import tip
+from bladerub.extras.blades.frame import AXES, Frame
+from bladerub.extras.blades.importing import facing, import_blade
 from bladerub.extras.blades.origin import Source
+from bladerub.extras.blades.tip import interface
 from bladerub.extras.export.mesh_file import write_mesh_file
+from bladerub.extras.file_units import UNITS
 from bladerub.io.errors import BadInput
 
 REDUCTION = {
@@ -160,3 +166,108 @@ def test_a_blade_is_of_its_file_not_of_the_sections(twisted_config, write):
     assert made_from(config) == first
     path.write_text(path.read_text() + "** another\n")
     assert made_from(config) != first
+
+
+@pytest.mark.parametrize(("degrees", "is_part"), [(40.0, True), (50.0, False)])
+def test_the_tip_is_what_faces_within_45_degrees_of_the_radius(degrees, is_part):
+    """A block whose top falls off from its middle on, so that one half of it faces sideways."""
+    fall = np.tan(np.deg2rad(degrees))
+
+    def points(xi, eta, zeta):
+        x = xi - 0.5
+        return np.stack([x, 0.1 * (eta - 0.5), 10 + zeta * (1 - fall * np.maximum(x, 0))])
+
+    mesh, (xi, _, zeta) = hexahedral_mesh(*(np.linspace(0, 1, n + 1) for n in (4, 1, 2)), points)
+    tip = facing(mesh.points, boundary_faces(mesh.cells), outwards=True)
+    level = np.flatnonzero((zeta == 1) & (xi <= 0.5))
+    whole_top = np.flatnonzero(zeta == 1)
+    np.testing.assert_array_equal(tip, whole_top if is_part else level)
+
+
+def tip_of(blade_config, make_mesh, counts):
+    shape = BladeShape.from_config(blade_config)
+    mesh, cube = make_mesh(*lattice(counts), shape.points)
+    faces = boundary_faces(mesh.cells)
+    return shape, mesh.points, faces[(cube[2][faces] == 1).all(axis=1)]
+
+
+@pytest.mark.parametrize("cone", [-20.0, 0.0, 12.0])
+def test_the_cone_of_the_tip_is_found(twisted_config, cone):
+    twisted_config["tip_cone"] = cone
+    _, points, faces = tip_of(twisted_config, hexahedral_mesh, twisted_config["mesh"])
+    assert np.rad2deg(tip.cone(points[np.unique(faces)], None, -1)) == pytest.approx(cone, abs=1e-9)
+
+
+@pytest.mark.parametrize("camber", [0.0, 30.0, 80.0])
+@pytest.mark.parametrize("make_mesh", [hexahedral_mesh, tetrahedral_mesh])
+def test_interface_nodes_lie_evenly_on_the_camber_line(blade_config, make_mesh, camber):
+    blade_config["sections"] = [section(0.0), section(1.0, camber=camber, stagger=40.0)]
+    shape, points, faces = tip_of(blade_config, make_mesh, {"chordwise": 28, "thickness": 2, "spanwise": 1})
+    found = interface(points, faces, downstream_x=1)
+    line = shape.points(np.linspace(0, 1, 2001), 0.5, 1.0).T
+    arc = np.concatenate([[0], np.cumsum(np.linalg.norm(np.diff(line, axis=0), axis=1))])
+    evenly = np.stack([np.interp(np.linspace(0, arc[-1], 8), arc, column) for column in line.T], axis=1)
+    off = np.linalg.norm(points[found.nodes] - evenly, axis=1)
+    assert found.chord == pytest.approx(arc[-1], rel=3e-3)
+    assert off.max() < 0.6 * arc[-1] / 56  # half the distance of nodes along the chord, and a little
+    assert found.offset < 0.6 * arc[-1] / 56
+
+
+def test_the_leading_edge_is_upstream(twisted_config):
+    _, points, faces = tip_of(
+        twisted_config, hexahedral_mesh, {"chordwise": 14, "thickness": 2, "spanwise": 1}
+    )
+    one, other = (interface(points, faces, downstream_x=sign) for sign in (1, -1))
+    np.testing.assert_array_equal(one.nodes, other.nodes[::-1])
+    assert points[one.nodes[0], 0] < points[one.nodes[-1], 0]
+
+
+@pytest.mark.parametrize("angle", [90.0, 180.0, -120.0])
+def test_where_the_blade_stands_does_not_matter(twisted_config, angle):
+    _, points, faces = tip_of(twisted_config, hexahedral_mesh, twisted_config["mesh"])
+    c, s = np.cos(np.deg2rad(angle)), np.sin(np.deg2rad(angle))
+    turned = points @ np.array([[1, 0, 0], [0, c, s], [0, -s, c]])
+    one, other = interface(points, faces, 1), interface(turned, faces, 1)
+    np.testing.assert_array_equal(one.nodes, other.nodes)
+    assert other.chord == pytest.approx(one.chord, rel=1e-9)
+
+
+FRAMES = [
+    Frame("m", rotation, downstream, radial)
+    for rotation, downstream, radial in itertools.product(AXES, repeat=3)
+    if downstream[-1] == rotation[-1] != radial[-1]
+]
+
+
+def vector(axis):
+    return (-1.0 if axis.startswith("-") else 1.0) * np.eye(3)["xyz".index(axis[-1])]
+
+
+def test_every_frame_is_turned_never_mirrored_and_rotation_increases_the_angle_of_the_blade():
+    assert len(FRAMES) == 48
+    for frame in FRAMES:
+        assert np.linalg.det(frame.turn) == pytest.approx(1.0)
+        radial, along = frame.metres(np.stack([vector(frame.radial), vector(frame.downstream)]))
+        np.testing.assert_array_equal(radial, [0, 0, 1])
+        np.testing.assert_array_equal(along, [frame.downstream_x, 0, 0])
+        tip = vector(frame.radial)
+        _, y, z = frame.metres(tip + 1e-3 * np.cross(vector(frame.rotation), tip))
+        assert np.arctan2(y, z) == pytest.approx(1e-3, rel=1e-5)
+
+
+def test_units_are_those_of_the_law():
+    lengths = {unit: Frame(unit).metres(np.array([[0.0, 0.0, 1.0]]))[0, 2] for unit in UNITS}
+    inch, foot = 0.0254, 0.3048
+    assert lengths == {"m": 1.0, "mm": 0.001, "cm": 0.01, "inch": inch, "feet": foot, "in": inch, "ft": foot}
+
+
+@pytest.mark.parametrize(
+    ("axes", "said"),
+    [
+        ({"downstream": "y"}, "downstream = y: must be along the axis of rotation, x or -x"),
+        ({"radial": "-x"}, "radial = -x: must not be the axis of rotation"),
+    ],
+)
+def test_axes_that_do_not_go_together_are_refused(axes, said):
+    with pytest.raises(ValueError, match=said):
+        Frame(**axes)

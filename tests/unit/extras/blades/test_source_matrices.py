@@ -1,6 +1,8 @@
 import copy
 import re
 import shutil
+import subprocess
+import sys
 from pathlib import Path
 from zipfile import ZIP_DEFLATED, ZipFile
 
@@ -9,7 +11,7 @@ import pandas as pd
 import pytest
 from blade_parts import TITANIUM, section
 from scipy import sparse
-from scipy.io import mmwrite
+from scipy.io import mmread, mmwrite
 
 from bladerub.blade.build import build, meshed_blade
 from bladerub.blade.discrete import by_finite_elements
@@ -18,7 +20,7 @@ from bladerub.blade.files import made_from
 from bladerub.blade.frequencies import reduced_frequencies
 from bladerub.blade.rotation import rotating_stiffness
 from bladerub.extras.blades.frame import Frame
-from bladerub.extras.blades.matrices import import_matrices
+from bladerub.extras.blades.matrices import check_definite, check_held, import_matrices
 from bladerub.extras.blades.origin import MatrixSource, read
 from bladerub.extras.export.matrices import write_fe_matrices
 from bladerub.io.errors import BadInput
@@ -245,7 +247,10 @@ def bomb(folder):
 
 
 HEADER = "%%MatrixMarket matrix coordinate real"
+
+
 INTERFACE = "interface node 1 is downstream of node 8; must be at the leading edge"
+
 
 BROKEN = {
     "a missing file": (
@@ -309,3 +314,60 @@ def test_broken_folders_are_refused_with_file_and_culprit(folder, name):
 def test_keys_that_do_not_go_together_are_refused(source, said):
     with pytest.raises(ValueError, match=said):
         read(source)
+
+
+def chain(n, held=True):
+    """Stiffness of `n` masses in a row, each tied to the next, the first to the wall if `held`."""
+    stiffness = sparse.diags_array(
+        [-np.ones(n - 1), 2 * np.ones(n), -np.ones(n - 1)], offsets=[-1, 0, 1]
+    ).tolil()
+    stiffness[-1, -1] = 1.0
+    stiffness[0, 0] = 2.0 if held else 1.0
+    return sparse.csc_array(stiffness)
+
+
+def lowest_mode(stiffness):
+    return np.linalg.eigh(stiffness.toarray())[1][:, 0]
+
+
+@pytest.mark.parametrize("n", [2, 40, 2000])
+def test_a_chain_on_a_wall_passes(n):
+    check_definite(chain(n))
+    if n < 1000:
+        check_held(chain(n), lowest_mode(chain(n)))
+
+
+def test_one_negative_eigenvalue_among_many_is_found():
+    stiffness = chain(2000).tolil()
+    stiffness[700, 701] = stiffness[701, 700] = -2.5
+    with pytest.raises(ValueError, match="is not positive definite: it has negative eigenvalues"):
+        check_definite(sparse.csc_array(stiffness))
+
+
+def test_a_chain_without_wall_is_not_held():
+    with pytest.raises(ValueError, match="is singular or indefinite"):
+        check_held(chain(40, held=False), lowest_mode(chain(40, held=False)))
+
+
+PAGE = Path(__file__).parents[4] / "docs" / "how-to" / "bring_matrices.md"
+
+
+MATRIX = np.array([[2.0, 0.5, -1.0], [0.5, 3.0, 0.0], [-1.0, 0.0, 4.0]])
+
+
+WRITTEN = {
+    "abaqus.mtx": "** MASS\n7,1, 7,1, 2.0\n7,2, 7,1, 0.5\n7,2, 7,2, 3.0\n7,3, 7,1, -1.0\n7,3, 7,3, 4.0\n",
+    "rows.mtx": "1 1 2.0\n1 2 0.5\n1 3 -1.0\n2 1 0.5\n2 2 3.0\n3 1 -1.0\n3 3 4.0\n",
+    "blade.sti": "1 1 4.0\n1 2 -1.0\n2 2 2.0\n2 3 0.5\n3 3 3.0\n",  # rows z, x, y
+}
+
+
+@pytest.mark.parametrize("name", WRITTEN)
+def test_matrices_of_other_programs_become_matrix_market(name, tmp_path):
+    (code,) = re.findall(r"```python\n(.*?)```", PAGE.read_text(encoding="utf-8"), re.DOTALL)
+    (tmp_path / "convert.py").write_text(code)
+    (tmp_path / name).write_text(WRITTEN[name])
+    if name == "blade.sti":
+        (tmp_path / "blade.dof").write_text("7.3\n7.1\n7.2\n")
+    subprocess.run([sys.executable, "convert.py", name, "out.mtx"], cwd=tmp_path, check=True)
+    np.testing.assert_array_equal(mmread(tmp_path / "out.mtx").toarray(), MATRIX)

@@ -7,6 +7,7 @@ from bladerub.contact.setup import strip_width
 from bladerub.extras.chart import search
 from bladerub.extras.chart.grid import nearest_speeds
 from bladerub.extras.chart.plan import chart_speeds
+from bladerub.extras.chart.search import next_speeds
 from bladerub.study.grid import CoatingCase
 
 CASE = CoatingCase("2nd", 2.0, 0.5, 0.0)
@@ -120,3 +121,28 @@ def test_each_measure_is_that_of_its_run(measured, make_result, blade):
         assert (of[f"energy_{name}"] == getattr(result.energy, name)).all()
     np.testing.assert_allclose(point.spectrum_amplitude[point.known, 0], 1e-3, rtol=1e-3)
     assert (point.spectrum_amplitude[point.known, 1] < 1e-6).all()
+
+
+def looked_at(curve, step, share):
+    """Run a looked_at on a curve that is known everywhere: which speeds it looks at."""
+    known = np.zeros(curve.size, dtype=bool)
+    known[::step] = True
+    while new := next_speeds(known, [np.where(known, curve, np.nan)], share):
+        assert not known[new].any()
+        known[new] = True
+    return known
+
+
+def test_a_smooth_maximum_is_enclosed_by_its_neighbours():
+    curve = -np.abs(np.arange(65) - 21.0) + 100
+    known = looked_at(curve, 8, share=1.0)
+    assert known[20:23].all()
+    assert known.sum() <= 9 + 7
+
+
+def test_a_lower_maximum_is_looked_at_only_from_the_share_on():
+    place = np.arange(65)
+    hidden = 50 + 60.0 * (place == 47) + 20 * np.clip(1 - np.abs(place - 48) / 4, 0, None)  # 70 at its sample
+    curve = np.where(place > 40, hidden, 100 - 2 * np.abs(place - 16.0))
+    assert not looked_at(curve, 8, share=0.9)[47]
+    assert looked_at(curve, 8, share=0.6)[47]

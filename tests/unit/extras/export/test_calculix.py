@@ -1,9 +1,16 @@
+import dataclasses
+
 import numpy as np
+import pytest
+from scipy.io import loadmat
 
 from bladerub.blade.elasticity import Material
 from bladerub.extras.export.calculix import deck, frequencies
+from bladerub.extras.export.matrices import write_matrices
 
 MATERIAL = Material(110e9, 0.32, 4430.0)
+
+
 POINTS = np.arange(60.0).reshape(20, 3)
 
 
@@ -22,3 +29,15 @@ def test_frequencies_are_read_from_the_table_of_calculix(tmp_path):
         "      2   0.2804134E+08   0.5295407E+04   0.8427901E+03   0.0000000E+00\n"
     )
     np.testing.assert_array_equal(frequencies(tmp_path / "blade.dat"), [192.1995, 842.7901])
+
+
+@pytest.mark.parametrize("name", ["blade.npz", "blade.mat"])
+def test_matrices_come_back_under_their_names(blade, name, tmp_path):
+    blade = dataclasses.replace(blade, stiffness_higher=(2 * blade.mass,))
+    write_matrices(tmp_path / "new" / name, blade)
+    read = np.load if name.endswith("npz") else loadmat
+    data = read(tmp_path / "new" / name)
+    for matrix_name, matrix in blade.arrays.items():
+        np.testing.assert_array_equal(data[matrix_name], matrix)
+    for attribute in ("f1_hz", "f_omega_max", "eta", "rank_tolerance", "length"):
+        assert np.squeeze(data[attribute]) == getattr(blade, attribute)

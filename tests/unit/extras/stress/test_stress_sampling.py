@@ -8,6 +8,10 @@ from bladerub.contact.run import simulate
 from bladerub.extras.export.recording import record
 from bladerub.extras.rows.spec import Row
 from bladerub.extras.stress import sampling
+from bladerub.extras.stress import table as stress_table
+from bladerub.extras.stress.run import StressSolver
+from bladerub.io import hdf5
+from bladerub.io.tables import described_columns
 
 INSTANTS = 40
 
@@ -31,3 +35,17 @@ def test_its_motion_is_that_of_a_recording(blade, spec):
     recorded = record(blade, spec, Row.even(1), elements.tolist()).coordinates[:, 0]
     found = sampled.amplitudes @ sampled.patterns
     np.testing.assert_allclose(found, recorded, atol=1e-6 * np.abs(recorded).max())
+
+
+def test_every_column_is_described():
+    assert {*stress_table.COLUMNS} <= described_columns().keys()
+
+
+def test_a_run_of_a_blade_of_matrices_tells_of_no_stress(tmp_path, blade, spec):
+    path = tmp_path / "mesh.h5"
+    cells = hdf5.Variable(("element", "corner"), np.zeros((0, 20), dtype=int), "1", "nodes of each element")
+    hdf5.write(path, {"cells": cells}, {"made_from": "{}"})
+    solver = StressSolver(path, last=1)
+    result = solver(blade, spec)
+    assert solver.stress is None
+    np.testing.assert_array_equal(result.wear, simulate(blade, spec).wear)

@@ -6,14 +6,18 @@ from bladerub.config.errors import UNKNOWN
 from bladerub.config.files import Located
 from bladerub.extras.variations import candidates, waves
 from bladerub.extras.variations import identification as summary
-from bladerub.extras.variations.emulator import Emulator
+from bladerub.extras.variations.emulator import Emulator, compared, held_out
 from bladerub.extras.variations.factors import Factor
 from bladerub.extras.variations.implausibility import predicted, without
 from bladerub.extras.variations.plan import Candidates, Part, Plan
 from bladerub.extras.variations.targets import TARGETS
 
 TARGET = {target.name: target for target in TARGETS}
+
+
 STUDY = {"contact": {"modulus_unit": 6e8}, "blade": {"hub_radius": 0.45}}
+
+
 EMPTY = Located.of({}, UNKNOWN)
 
 
@@ -153,3 +157,38 @@ def test_claims_that_hold_together_less_often_than_by_chance_exclude_each_other(
     assert {pair.id, pair.other_id} == {"C4a", "C5a"}
     assert pair.both == 0
     assert pair.by_chance == pytest.approx(pair.share * pair.other_share)
+
+
+def smooth(x):
+    return np.sin(4 * x[:, 0]) + x[:, 1] * x[:, 2]
+
+
+@pytest.fixture
+def places():
+    return np.random.default_rng(1).random((60, 4))
+
+
+def test_a_smooth_function_is_predicted_between_the_sets(places):
+    emulator = Emulator(places, smooth(places))
+    others = np.random.default_rng(2).random((200, 4))
+    found = compared(smooth(others), emulator.predict(others))
+    assert found.explained > 0.98
+    assert found.within_two > 0.8
+
+
+def test_scatter_is_part_of_the_predicted_deviation(places):
+    rng = np.random.default_rng(3)
+    emulator = Emulator(places, smooth(places) + 0.3 * rng.standard_normal(60))
+    others = rng.random((400, 4))
+    scattered = smooth(others) + 0.3 * rng.standard_normal(400)
+    predicted = emulator.predict(others)
+    assert 0.3 < np.median(predicted.deviation) < 0.6
+    assert 0.85 < compared(scattered, predicted).within_two <= 1
+
+
+def test_sets_left_out_are_predicted_about_as_well_as_new_ones(places):
+    values = smooth(places)
+    emulator = Emulator(places, values)
+    assert held_out(emulator, places, values).explained > 0.95
+    noise = np.random.default_rng(4).standard_normal(60)
+    assert held_out(Emulator(places, noise), places, noise).explained < 0.4

@@ -1,3 +1,4 @@
+import math
 from dataclasses import replace
 
 import numpy as np
@@ -7,7 +8,8 @@ import pytest
 from bladerub.contact.law import element
 from bladerub.contact.setup import element_area, time_step
 from bladerub.contact.steps import with_steps
-from bladerub.extras.verification import refinement, response
+from bladerub.extras.verification import refinement, response, rigid_casing
+from bladerub.extras.verification.response import listed
 from bladerub.study.grid import CoatingCase, run_spec
 from bladerub.study.peaks import COLUMNS
 
@@ -56,3 +58,42 @@ def test_the_peak_is_followed_and_compared_with_that_of_the_study(bars, config):
 def test_wear_is_compared_as_the_mean_under_each_element_of_the_study(bars):
     np.testing.assert_allclose(bars.volume_change, [0, 1, 3], atol=1e-9)
     np.testing.assert_allclose(bars.wear_difference, [0, 1, 3], atol=1e-9)
+
+
+def peaks(*rows):
+    return pd.DataFrame(rows, columns=["casing", "E", "K", "theta", "order", "f_peak", "law"])
+
+
+def test_of_a_study_without_these_all_coatings_are_listed():
+    table = peaks(
+        ("bumps", 1.0, 0.5, 0.0, 4, 0.31, "theta"),
+        ("bumps", 1.0, 0.5, 0.0, 6, 0.19, "theta"),
+        ("bumps", 1.0, 0.5, float("nan"), 6, 0.19, "coulomb"),
+    )
+    assert [(case.casing, peak.f_peak) for case, peak in listed(table)] == [("bumps", 0.31), ("bumps", 0.19)]
+
+
+def test_each_peak_and_a_plain_speed_is_repeated_and_compared_with_the_run_of_the_study(
+    blade, config, make_result, monkeypatch
+):
+    def simulate(_, spec, modes, how):
+        return make_result(amplitude=2e-3 if how.treatment == "massless" else 1e-3, depth=0.0), how.finer
+
+    monkeypatch.setattr(rigid_casing, "_simulate", simulate)
+    peaks = pd.DataFrame(
+        [
+            ["2nd", math.inf, math.inf, 0.0, 4, 0.388, 1e-3, "coulomb"],
+            ["2nd", 2.0, 0.5, 0.0, 4, 0.3, 1e-3, "theta"],
+        ],
+        columns=COLUMNS,
+    )
+    table = rigid_casing.table(blade, config, peaks)
+    assert table.columns.tolist() == rigid_casing.COLUMNS
+    assert sorted(table.f_omega.unique()) == [0.25, 0.384, 0.386, 0.388, 0.39, 0.392]
+    assert set(table.order) == {4}
+    own = table[(table.treatment == "exponential") & (table.steps == 1)]
+    np.testing.assert_allclose(own.amplitude_change, 0, atol=1e-12)
+    massless = table[table.treatment == "massless"]
+    np.testing.assert_allclose(massless.amplitude_change, 1, atol=1e-9)
+    assert massless.complete.all()
+    assert not table[(table.treatment == "moreau_jean_0") & (table.modes == 10)].complete.any()
