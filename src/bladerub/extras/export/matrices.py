@@ -19,13 +19,10 @@ _DIGITS = 17  # enough to restore every bit
 
 
 def write_matrices(path: str | Path, blade: ReducedBlade) -> None:
-    """Write the fields of `ReducedBlade` under their own names; `path` ends in ``.npz`` or ``.mat``."""
-    path = Path(path)
-    if path.suffix.lower() not in SUFFIXES:
-        raise ValueError(f"{path}: must end in {' or '.join(SUFFIXES)}")
+    """Write the fields of `ReducedBlade` under their own names; `path` ends in one of `SUFFIXES`."""
     content = blade.arrays | blade.attributes
     with atomic.writing(path, "wb") as file:
-        if path.suffix.lower() == ".npz":
+        if Path(path).suffix.lower() == ".npz":
             np.savez_compressed(file, **content)
         else:
             savemat(file, content, do_compression=True, oned_as="column")

@@ -23,7 +23,7 @@ def write_mesh_file(
     node_sets: Mapping[str, np.ndarray],
     fields: Mapping[str, np.ndarray] | None = None,
 ) -> None:
-    """Write a mesh as ``.inp``, ``.msh`` or ``.vtu``, as the suffix of `path` says.
+    """Write a mesh as ``.inp``, ``.msh`` or ``.vtu``, as the suffix of `path` says, one of `FORMATS`.
 
     `points` (n_nodes, 3) are in m, `cells` (n_elements, 20 or 10) in the order of CalculiX and VTK. The node
     sets become node sets in ``.inp``; in ``.msh`` physical groups of the faces of the surface that lie in
@@ -31,8 +31,6 @@ def write_mesh_file(
     displacements (`fields`) are point data in ``.vtu``; the other formats have no place for them.
     """
     suffix = Path(path).suffix.lower()
-    if suffix not in FORMATS:
-        raise ValueError(f"{path}: must end in {', '.join(FORMATS)}")
     if suffix == ".inp":
         mesh = meshio.Mesh(points, [block(points, cells)], point_sets=dict(node_sets))
     elif suffix == ".msh":
