@@ -68,7 +68,8 @@ def benchmark(
         progress(f"round {number + 1} of {rounds}")
         operations.append(PEAK_TURNS * peak.FLOPS_PER_TURN / _timed(peak.turns, PEAK_TURNS))
         for name, spec in specs.items():
-            steps = _steps(blade, spec)
+            per_element = set_up(blade, spec)[1].steps_per_element
+            steps = per_element * spec.coating.n_elements * spec.revolutions
             seconds[name].append(
                 {
                     "numpy": _plain(in_python, blade, spec, steps) / steps,
@@ -167,7 +168,3 @@ def production(blade: ReducedBlade, spec: RunSpec) -> float:
 
 def _revolve(simulation: Simulation) -> Progress:
     return simulation.advance(np.zeros(simulation.stator.n_elements))
-
-
-def _steps(blade: ReducedBlade, spec: RunSpec) -> int:
-    return set_up(blade, spec)[1].steps_per_element * spec.coating.n_elements * spec.revolutions

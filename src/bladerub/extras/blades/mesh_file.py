@@ -135,21 +135,16 @@ def _volume(content: Content) -> np.ndarray:
     if kind == _WITH_CENTRES and not others:
         cells = cells[:, :20]  # without the nodes in the middle of faces and of the element
     elif others or kind not in _KINDS:
-        raise ValueError(_unusable(*content.solids))
+        raise ValueError(
+            f"{'mixes' if others else 'has'} {' and '.join(content.solids)}; must have elements of one kind, "
+            f"{choices}: split wedges and pyramids into tetrahedra, and hexahedra then too"
+        )
     if cells.min() < 0 or cells.max() >= len(content.points):
         raise ValueError("an element names a node that is not there")
     twice = len(cells) - len(np.unique(np.sort(cells, axis=1), axis=0))
     if twice:
         raise ValueError(f"{twice} elements have the same nodes as others; must be there once")
     return cells
-
-
-def _unusable(*kinds: str) -> str:
-    """Say why elements of `kinds` of meshio cannot be used, and what to do."""
-    return (
-        f"{'mixes' if len(kinds) > 1 else 'has'} {' and '.join(kinds)}; must have elements of one kind, "
-        f"{', '.join(_KINDS)}: split wedges and pyramids into tetrahedra, and hexahedra then too"
-    )
 
 
 def _volume_sets(mesh: meshio.Mesh) -> list[str]:

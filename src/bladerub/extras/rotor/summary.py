@@ -44,7 +44,9 @@ def draws(plan: Plan, folder: str | Path, analysis: Mapping[str, Any]) -> pd.Dat
     rows = []
     for name in sorted(plan.combinations, key=lambda name: plan.combinations[name].blades):
         combination = plan.combinations[name]
-        for draw, of_draw in enumerate(_of_combination(Path(folder) / name, analysis)):
+        runs = Path(folder) / name
+        for draw, listed in enumerate(read_manifest(runs / "manifest.tsv")):
+            of_draw = _measure(runs / listed.file, analysis)
             if combination == combination.alone:
                 single_amplitude[name] = of_draw["row_amplitude"]
             nominal = single_amplitude[combination.alone.name]
@@ -52,10 +54,6 @@ def draws(plan: Plan, folder: str | Path, analysis: Mapping[str, Any]) -> pd.Dat
             of_draw["longest_amplification"] = of_draw.pop("longest_amplitude") / nominal
             rows.append(described(combination) | {"draw": draw} | of_draw)
     return pd.DataFrame(rows)[DRAWS]
-
-
-def _of_combination(folder: Path, analysis: Mapping[str, Any]) -> list[dict[str, float]]:
-    return [_measure(folder / row.file, analysis) for row in read_manifest(folder / "manifest.tsv")]
 
 
 def _measure(path: Path, analysis: Mapping[str, Any]) -> dict[str, float]:

@@ -95,12 +95,8 @@ def _peak(
     except ValueError:
         return
     name = f"{coating.case.name}.order_{order}"
-    yield f"{name}.speed", peak.f_omega * rpm, "1/min", _step(coating) * rpm
+    yield f"{name}.speed", peak.f_omega * rpm, "1/min", float(np.diff(coating.f_omega).max()) * rpm
     yield f"{name}.amplitude", peak.amplitude, "m", 0.0
-
-
-def _step(coating: CoatingMap) -> float:
-    return float(np.diff(coating.f_omega).max())
 
 
 def _numbers(rows: list[tuple[str, float, str]]) -> pd.DataFrame:
