@@ -6,6 +6,7 @@ One of a kind; tests/unit/config tries the rules of the config, tests/unit/blade
 import os
 from dataclasses import MISSING, fields
 from itertools import pairwise
+from typing import get_type_hints
 
 import h5py
 import numpy as np
@@ -43,7 +44,10 @@ def folder(tmp_path_factory):
     )
     os.mkfifo(folder / "pipe")
     kinds = {float: 1.0, int: 6, np.ndarray: np.eye(24)}
-    values = {field.name: kinds[field.type] for field in fields(ReducedBlade) if field.default is MISSING}
+    types = get_type_hints(ReducedBlade)  # without what datasets are described by
+    values = {
+        field.name: kinds[types[field.name]] for field in fields(ReducedBlade) if field.default is MISSING
+    }
     nodes = dict.fromkeys(("node_position", "radial_direction", "tangential_direction"), np.eye(8, 3))
     sound = folder / "sound.h5"
     write_reduced_blade(sound, ReducedBlade(**values | nodes | {"f_omega_max": 0.4}), {})

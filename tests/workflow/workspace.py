@@ -128,8 +128,12 @@ class Workspace:
         )
 
     def plan(self, config: dict[str, Any], *targets: str) -> dict[str, int]:
-        """Dry-run: how many jobs of each rule are planned."""
+        """Dry-run: how many jobs of each rule are planned. The folder keeps the config of its study."""
+        overlay = self.folder / "overlay.yaml"
+        of_study = overlay.read_text() if overlay.exists() else None
         done = self.snakemake(*targets, "--dry-run", config=config)
+        if of_study is not None:
+            overlay.write_text(of_study)
         assert done.returncode == 0, done.stderr
         text = done.stdout + done.stderr
         if "Nothing to be done" in text:
