@@ -52,6 +52,12 @@ def simulate(
     return history[:, : 2 * blade.n_interface], coating.wear
 
 
+def element_means(displacement: np.ndarray, n_elements: int) -> np.ndarray:
+    """Mean displacement in the passage of each element, from rest on."""
+    ends = np.concatenate([[0.0], displacement])
+    return (0.5 * (ends[1:] + ends[:-1])).reshape(n_elements, -1).mean(axis=1)
+
+
 def simulate_row(
     blade: ReducedBlade, spec: RunSpec, row: Row, n_steps: int, n_modes: int | None = None
 ) -> tuple[np.ndarray, np.ndarray]:

@@ -1,8 +1,8 @@
-"""A small blade and simple blocks of quadratic elements."""
+import copy
 
 import numpy as np
 import pytest
-from blade_parts import TITANIUM, section
+from blade_parts import TWISTED, section
 
 from bladerub.blade.elasticity import Material, Solid
 from bladerub.blade.mesh import hexahedral_mesh
@@ -12,24 +12,13 @@ from bladerub.blade.model import ReducedBlade
 @pytest.fixture
 def blade_config():
     """The ``blade`` block of a straight plate of a blade, to be changed at will."""
-    return {
-        "material": dict(TITANIUM),
-        "hub_radius": 0.45,
-        "length": 0.2,
-        "tip_cone": 0.0,
-        "sections": [section(0.0), section(1.0)],
-        "mesh": {"chordwise": 7, "thickness": 1, "spanwise": 3},
-    }
+    return copy.deepcopy(TWISTED | {"sections": [section(0.0), section(1.0)]})
 
 
 @pytest.fixture
-def twisted_config(blade_config):
+def twisted_config():
     """The same, tapered, cambered and twisted."""
-    blade_config["sections"] = [
-        section(0.0, thickness=0.1, camber=35.0, stagger=20.0),
-        section(1.0, chord=0.075, thickness=0.05, camber=10.0, stagger=50.0, sweep=-0.004, lean=0.003),
-    ]
-    return blade_config
+    return copy.deepcopy(TWISTED)
 
 
 @pytest.fixture

@@ -1,5 +1,3 @@
-"""A blade and a run for the tests of all that computes."""
-
 import dataclasses
 import re
 from contextlib import contextmanager

@@ -1,5 +1,3 @@
-"""Pages quote tables by name, and what they quote changes with the tables."""
-
 import re
 import shutil
 import subprocess

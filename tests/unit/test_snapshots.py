@@ -1,5 +1,3 @@
-"""Snapshots of big tables hold what pages quote."""
-
 import pandas as pd
 import pytest
 

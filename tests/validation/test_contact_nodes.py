@@ -64,9 +64,8 @@ def test_the_loop_agrees_with_the_reference_model(wide, spec, turns):
     assert made.n_contact_steps > 50
     n_steps = n_elements * simulation.steps_per_element
     history, wear = contact_in_numpy.simulate(wide, spec, n_steps, rule.omega.size)
-    radial = np.concatenate([[0.0], history[:, 0]])
-    means = 0.5 * (radial[1:] + radial[:-1]).reshape(n_elements, -1)
-    np.testing.assert_allclose(shown, means.mean(axis=1), atol=1e-6 * np.abs(history).max())
+    means = contact_in_numpy.element_means(history[:, 0], n_elements)
+    np.testing.assert_allclose(shown, means, atol=1e-6 * np.abs(history).max())
     ours = simulate(wide, spec).wear
     assert ours.shape == (wide.n_interface, spec.coating.n_elements)
     worn = simulation.state.wear[:, : wide.n_interface]

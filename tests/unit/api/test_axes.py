@@ -1,5 +1,3 @@
-"""What the plots draw into axes that are given."""
-
 import matplotlib.pyplot as plt
 import numpy as np
 import pytest

@@ -2,6 +2,7 @@ import numpy as np
 import pandas as pd
 import pytest
 import scipy.linalg
+from blade_parts import REDUCTION
 
 from bladerub.blade.build import build
 from bladerub.blade.built import write
@@ -10,13 +11,7 @@ from bladerub.blade.refinement import directions
 from bladerub.blade.validation import read_reduced_blade
 from bladerub.io import hdf5
 
-CONFIG = {
-    "f_omega_max": 0.4,
-    "modes_per_speed": 3,
-    "rank_tolerance": 1e-5,
-    "accuracy_speeds": 3,
-    "accuracy_modes": 4,
-}
+CONFIG = REDUCTION | {"accuracy_modes": 4}
 
 
 @pytest.fixture

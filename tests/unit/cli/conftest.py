@@ -1,7 +1,40 @@
 import pytest
 
+from bladerub.cli import inputs, main
 from bladerub.config import record
 from bladerub.io.folders import ROOT
+
+COARSE = "blade: {mesh: {chordwise: 7, thickness: 1, spanwise: 6}}\nreduction: {accuracy_speeds: 3}\n"
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    """Stands for the repository, with a config of a coarse blade."""
+    folder = tmp_path_factory.mktemp("repository")
+    (folder / "small.yaml").write_text(COARSE)
+    return folder
+
+
+@pytest.fixture
+def command(capsys):
+    """Give a command: exit code, what it printed and its errors."""
+
+    def give(*words):
+        capsys.readouterr()
+        try:
+            code = main([str(word) for word in words])
+        except SystemExit as end:  # argparse ends the program itself
+            code = end.code
+        return code, *capsys.readouterr()
+
+    return give
+
+
+@pytest.fixture
+def at_home(folder, monkeypatch, command):
+    """Give a command in the folder."""
+    monkeypatch.setattr(inputs, "study_folder", lambda: folder)
+    return command
 
 
 @pytest.fixture(autouse=True)

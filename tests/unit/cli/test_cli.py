@@ -17,21 +17,11 @@ from bladerub.study.store import read_run
 RUN = ["run", "--casing", "2nd", "--E", "2", "--K", "0.5", "--theta", "0.15", "--f", "0.19"]
 
 
-@pytest.fixture(scope="module")
-def folder(tmp_path_factory):
-    """Stands for the repository: its results folder is empty at first, then has the blade of `small`."""
-    return tmp_path_factory.mktemp("repository")
-
-
 @pytest.fixture
 def small(folder, monkeypatch):
     """Options for a coarse blade and a short run."""
     monkeypatch.setattr(inputs, "study_folder", lambda: folder)
-    overlay = folder / "small.yaml"
-    overlay.write_text(
-        "blade: {mesh: {chordwise: 7, thickness: 1, spanwise: 6}}\nreduction: {accuracy_speeds: 3}\n"
-    )
-    return ["--config", str(overlay), "--revolutions", "2"]
+    return ["--config", str(folder / "small.yaml"), "--revolutions", "2"]
 
 
 @pytest.fixture

@@ -3,8 +3,6 @@ from pathlib import Path
 
 import pytest
 
-from bladerub.cli import inputs, main
-
 pytestmark = pytest.mark.slow
 
 PEAKS = Path(__file__).parents[3] / "docs" / "data" / "peaks.csv"
@@ -20,24 +18,17 @@ analysis: {spectrum_revolutions: 2, divergence: {revolutions: 3}, histories: []}
 """
 
 
-@pytest.fixture(scope="module")
-def folder(tmp_path_factory):
-    """Stands for the repository: its results folder is empty at first, then has the coarse blade."""
-    return tmp_path_factory.mktemp("repository")
-
-
 @pytest.fixture
-def benchmark(folder, monkeypatch):
-    monkeypatch.setattr(inputs, "study_folder", lambda: folder)
-    config = folder / "small.yaml"
-    config.write_text(SMALL)
-    return lambda *arguments: main(["benchmark", "--config", str(config), *arguments])
+def benchmark(folder, at_home):
+    (folder / "small.yaml").write_text(SMALL)
+    return lambda *arguments: at_home("benchmark", "--config", folder / "small.yaml", *arguments)
 
 
 @pytest.mark.nightly
-def test_json_holds_every_figure(benchmark, capsys):
-    assert benchmark("--json", "--rounds", "1", "--cores", "2") == 0
-    told = json.loads(capsys.readouterr().out)
+def test_json_holds_every_figure(benchmark):
+    code, out, _ = benchmark("--json", "--rounds", "1", "--cores", "2")
+    assert code == 0
+    told = json.loads(out)
     assert 0.2 < told["contact_share"] < 0.5
     for loop, rates in told["steps_per_second"].items():
         assert rates["free"] > rates["contact"] > 0, loop
@@ -57,8 +48,8 @@ def test_json_holds_every_figure(benchmark, capsys):
         (["--table", str(PEAKS)], "peaks.csv: not the right table, processor"),
     ],
 )
-def test_bad_input_is_answered_in_one_line(benchmark, capsys, arguments, message):
-    assert benchmark(*arguments) == 2
-    error = capsys.readouterr().err
+def test_bad_input_is_answered_in_one_line(benchmark, arguments, message):
+    code, _, error = benchmark(*arguments)
+    assert code == 2
     assert message in error
     assert error.count("\n") == 1

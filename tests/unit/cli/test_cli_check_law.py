@@ -1,5 +1,3 @@
-"""``bladerub check-law`` as it is called, with laws from files."""
-
 import json
 from pathlib import Path
 

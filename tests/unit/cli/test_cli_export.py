@@ -15,12 +15,8 @@ RUN = ["--casing", "2nd", "--E", "2", "--K", "0.5", "--theta", "0.15", "--f", "0
 
 
 @pytest.fixture(scope="module")
-def folder(tmp_path_factory):
-    """Stands for the repository: a coarse blade in its results folder, and beside it a short run."""
-    folder = tmp_path_factory.mktemp("repository")
-    (folder / "small.yaml").write_text(
-        "blade: {mesh: {chordwise: 7, thickness: 1, spanwise: 6}}\nreduction: {accuracy_speeds: 3}\n"
-    )
+def folder(folder):
+    """The coarse blade is in its results folder, and beside it a short run."""
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(inputs, "study_folder", lambda: folder)
         config = ["--config", str(folder / "small.yaml")]
@@ -29,20 +25,13 @@ def folder(tmp_path_factory):
 
 
 @pytest.fixture
-def export(folder, monkeypatch, capsys):
-    """Run the command on `folder`: exit code, what it printed and its errors."""
-    monkeypatch.setattr(inputs, "study_folder", lambda: folder)
+def export(folder, at_home):
+    """Run the command on `folder`."""
 
-    def run(vtu, *more, run=folder / "run.h5", config=folder / "small.yaml"):
-        capsys.readouterr()
-        arguments = ["export", "--run", str(run), "--vtu", str(vtu), "--config", str(config), *more]
-        try:
-            code = main(arguments)
-        except SystemExit as error:  # argparse ends the program itself
-            code = error.code
-        return code, *capsys.readouterr()
+    def give(vtu, *more, run=folder / "run.h5"):
+        return at_home("export", "--run", run, "--vtu", vtu, "--config", folder / "small.yaml", *more)
 
-    return run
+    return give
 
 
 @pytest.fixture(scope="module")

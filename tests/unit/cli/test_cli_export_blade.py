@@ -4,35 +4,14 @@ import meshio
 import numpy as np
 import pytest
 
-from bladerub.cli import inputs, main
 from bladerub.extras.blades import mesh_file
 from bladerub.io import hdf5
 
 
-@pytest.fixture(scope="module")
-def folder(tmp_path_factory):
-    """Stands for the repository, with a config of a coarse blade."""
-    folder = tmp_path_factory.mktemp("repository")
-    (folder / "small.yaml").write_text(
-        "blade: {mesh: {chordwise: 7, thickness: 1, spanwise: 4}}\nreduction: {accuracy_speeds: 3}\n"
-    )
-    return folder
-
-
 @pytest.fixture
-def export(folder, monkeypatch, capsys):
-    """Run the command on `folder`: exit code, what it printed and its errors."""
-    monkeypatch.setattr(inputs, "study_folder", lambda: folder)
-
-    def run(*more):
-        capsys.readouterr()
-        try:
-            code = main(["export", "--config", str(folder / "small.yaml"), *map(str, more)])
-        except SystemExit as error:  # argparse ends the program itself
-            code = error.code
-        return code, *capsys.readouterr()
-
-    return run
+def export(folder, at_home):
+    """Run the command on `folder`."""
+    return lambda *more: at_home("export", "--config", folder / "small.yaml", *more)
 
 
 def test_decks_are_written_for_three_speeds_or_those_named(export, tmp_path):

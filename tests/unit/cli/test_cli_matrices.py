@@ -11,42 +11,12 @@ import yaml
 from bladerub.cli import inputs, main
 from bladerub.io import hdf5
 
-SMALL = """\
-blade: {mesh: {chordwise: 7, thickness: 1, spanwise: 6}}
-reduction: {accuracy_speeds: 3}
-"""
-
-
-@pytest.fixture
-def command(capsys):
-    """Run a command: exit code, what it printed and its errors."""
-
-    def run(*words):
-        try:
-            code = main([str(word) for word in words])
-        except SystemExit as error:  # argparse ends the program itself
-            code = error.code
-        return code, *capsys.readouterr()
-
-    return run
-
 
 @pytest.fixture(scope="module")
-def written(tmp_path_factory):
+def written(folder):
     """The matrices of a coarse default blade at five speeds, and its config."""
-    folder = tmp_path_factory.mktemp("blade")
-    (folder / "small.yaml").write_text(SMALL)
-    words = [
-        "export",
-        "--config",
-        folder / "small.yaml",
-        "--fe-matrices",
-        folder / "m",
-        "--speeds",
-        "0.1",
-        "0.3",
-    ]
-    assert main([str(word) for word in [*words, "--matrix-format", "npz"]]) == 0
+    words = ["export", "--config", folder / "small.yaml", "--fe-matrices", folder / "m"]
+    assert main([str(word) for word in [*words, "--speeds", 0.1, 0.3, "--matrix-format", "npz"]]) == 0
     return folder
 
 

@@ -2,8 +2,6 @@ import json
 
 import pytest
 
-from bladerub.cli import inputs, main
-
 MEASURES = {"wear_l2", "peak", "revolution_peak"}
 SMALL = """
 blade: {mesh: {chordwise: 7, thickness: 1, spanwise: 6}}
@@ -16,33 +14,19 @@ analysis: {spectrum_revolutions: 2, divergence: {revolutions: 3}, histories: []}
 """
 
 
-@pytest.fixture(scope="module")
-def folder(tmp_path_factory):
-    """Stands for the repository: its results folder is empty at first, then has the coarse blade."""
-    return tmp_path_factory.mktemp("repository")
-
-
 @pytest.fixture
-def verify(folder, monkeypatch):
+def verify(folder, at_home):
     """Run the command on a study of six short runs of a coarse blade."""
-    monkeypatch.setattr(inputs, "study_folder", lambda: folder)
-    config = folder / "small.yaml"
-    config.write_text(SMALL)
-
-    def run(*arguments):
-        try:
-            return main(["verify", "--config", str(config), *arguments])
-        except SystemExit as end:  # argparse ends the program itself
-            return end.code
-
-    return run
+    (folder / "small.yaml").write_text(SMALL)
+    return lambda *arguments: at_home("verify", "--config", folder / "small.yaml", *arguments)
 
 
 @pytest.fixture
-def figures(verify, capsys):
+def figures(verify):
     def of(*arguments):
-        assert verify("--json", *arguments) == 0
-        return json.loads(capsys.readouterr().out)
+        code, out, _ = verify("--json", *arguments)
+        assert code == 0
+        return json.loads(out)
 
     return of
 
@@ -82,12 +66,13 @@ groups:
 """
 
 
-def test_rows_of_blades_are_drawn_from_their_plan(figures, verify, folder, capsys):
+def test_rows_of_blades_are_drawn_from_their_plan(figures, verify, folder):
     plan = folder / "rotor.yaml"
     plan.write_text(ROWS)
     told = figures("--rows", str(plan), "--sample", "3", "--seed", "1")
     assert told["n"] == 3
     assert told["energy_residual"]["max"] < 1e-3
     assert told["worst"]["wear_l2"].startswith("2nd_E2_K0.5_theta0.15_f0.")
-    assert verify("--rows", str(plan), "--sample", "19", "--seed", "1") == 2  # 4 x 4 rows, 2 single blades
-    assert "must be from 1 to 18" in capsys.readouterr().err
+    code, _, error = verify("--rows", plan, "--sample", "19", "--seed", "1")  # of 4 x 4 rows, 2 single blades
+    assert code == 2
+    assert "must be from 1 to 18" in error

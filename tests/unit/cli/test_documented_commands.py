@@ -1,5 +1,3 @@
-"""The commands that pages show are those that the parser knows."""
-
 import re
 import shlex
 from pathlib import Path

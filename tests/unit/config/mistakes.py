@@ -1,5 +1,3 @@
-"""Mistakes in files laid over the study, for the tests of messages and of the JSON schema."""
-
 from typing import NamedTuple
 
 

@@ -1,5 +1,3 @@
-"""What is said of mistakes, and that no config whatever ends in a traceback."""
-
 import copy
 import math
 import random

@@ -1,5 +1,3 @@
-"""The models of a config: what each key says of itself, and what plugs in."""
-
 import shutil
 import subprocess
 import sys

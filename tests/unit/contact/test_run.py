@@ -34,8 +34,7 @@ def test_loop_agrees_with_numpy_reference_to_rounding(blade, spec, change, schem
         ):
             np.testing.assert_allclose(ours, papers, rtol=0, atol=1e-11 * np.abs(papers).max())
     node_1 = history[:, 0]
-    middle = 0.5 * (node_1 + np.concatenate([[0.0], node_1[:-1]]))
-    per_element = middle.reshape(spec.coating.n_elements, -1).mean(axis=1)
+    per_element = contact_in_numpy.element_means(node_1, spec.coating.n_elements)
     scale = np.abs(node_1).max()
     assert np.count_nonzero(wear.max(axis=1)) == 8  # every node rubs
     atol = 1e-9 if scheme == "central_differences" else 1e-6  # both find the implicit forces by iteration
@@ -67,8 +66,7 @@ def test_loop_agrees_with_numpy_reference_where_the_profile_turns(
     fixed = simulate(turning_blade, change(spec, turns=False))
     assert np.abs(result.wear - fixed.wear).max() > 0.02 * wear.max()
     node_1 = history[:, 0]
-    middle = 0.5 * (node_1 + np.concatenate([[0.0], node_1[:-1]]))
-    per_element = middle.reshape(spec.coating.n_elements, -1).mean(axis=1)
+    per_element = contact_in_numpy.element_means(node_1, spec.coating.n_elements)
     atol = 1e-9 if scheme == "central_differences" else 1e-6
     scale = np.abs(node_1).max()
     np.testing.assert_allclose(result.radial_displacement, per_element, rtol=0, atol=atol * scale)

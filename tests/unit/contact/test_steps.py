@@ -1,5 +1,3 @@
-"""The step that follows from a tolerance."""
-
 import dataclasses
 import math
 from dataclasses import replace

@@ -1,5 +1,3 @@
-"""Modules of the time loop for tips with more than eight nodes, and for other laws."""
-
 import os
 import subprocess
 import sys

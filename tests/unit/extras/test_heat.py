@@ -1,5 +1,3 @@
-"""What heat changes in one run, as it is tabulated."""
-
 from types import SimpleNamespace
 
 import numpy as np

@@ -1,5 +1,3 @@
-"""The register of claims: ids, order and statements."""
-
 import pytest
 
 from bladerub.study.findings import claim as register

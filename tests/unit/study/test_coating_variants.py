@@ -1,5 +1,3 @@
-"""Coatings with a damping ratio, layer thickness or interference of their own."""
-
 import dataclasses
 
 import pandas as pd

@@ -1,5 +1,3 @@
-"""What an execution prints: few lines, none of them long."""
-
 import logging
 from types import SimpleNamespace
 

@@ -1,5 +1,3 @@
-"""Steps whose forces do not converge are counted."""
-
 import os
 import pickle
 import subprocess

@@ -1,5 +1,3 @@
-"""Free flight over many steps against the single steps."""
-
 from dataclasses import astuple
 from typing import NamedTuple
 

@@ -1,5 +1,3 @@
-"""The benchmark of a GPU, which is emulated: its numbers are those of the runs."""
-
 import numpy as np
 import pytest
 

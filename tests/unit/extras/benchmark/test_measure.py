@@ -1,5 +1,3 @@
-"""What the benchmark measures: shares, operations and the figures it prints."""
-
 import pytest
 
 from bladerub.config import read as configuration

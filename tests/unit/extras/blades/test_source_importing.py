@@ -2,7 +2,7 @@ import itertools
 
 import numpy as np
 import pytest
-from blade_parts import section, tetrahedral_mesh
+from blade_parts import REDUCTION, section, tetrahedral_mesh
 
 from bladerub.blade.build import build
 from bladerub.blade.files import made_from
@@ -18,14 +18,6 @@ from bladerub.extras.blades.tip import interface
 from bladerub.extras.export.mesh_file import write_mesh_file
 from bladerub.extras.file_units import UNITS
 from bladerub.io.errors import BadInput
-
-REDUCTION = {
-    "f_omega_max": 0.4,
-    "modes_per_speed": 3,
-    "rank_tolerance": 1e-5,
-    "accuracy_speeds": 3,
-    "accuracy_modes": 8,
-}
 
 
 @pytest.fixture

@@ -9,7 +9,7 @@ from zipfile import ZIP_DEFLATED, ZipFile
 import numpy as np
 import pandas as pd
 import pytest
-from blade_parts import TITANIUM, section
+from blade_parts import REDUCTION, TITANIUM, TWISTED
 from scipy import sparse
 from scipy.io import mmread, mmwrite
 
@@ -25,36 +25,20 @@ from bladerub.extras.blades.origin import MatrixSource, read
 from bladerub.extras.export.matrices import write_fe_matrices
 from bladerub.io.errors import BadInput
 
-REDUCTION = {
-    "f_omega_max": 0.4,
-    "modes_per_speed": 3,
-    "rank_tolerance": 1e-5,
-    "accuracy_speeds": 5,
-    "accuracy_modes": 8,
-}
+FIVE_SPEEDS = REDUCTION | {"accuracy_speeds": 5}
 
 
-BLADE = {
-    "material": TITANIUM,
-    "hub_radius": 0.45,
-    "length": 0.2,
-    "tip_cone": 9.0,
-    "sections": [
-        section(0.0, thickness=0.1, camber=35.0, stagger=20.0),
-        section(1.0, chord=0.075, thickness=0.05, camber=10.0, stagger=50.0, sweep=-0.004, lean=0.003),
-    ],
-    "mesh": {"chordwise": 7, "thickness": 1, "spanwise": 3},
-}
+BLADE = TWISTED | {"tip_cone": 9.0}
 
 
 @pytest.fixture
 def config():
-    return copy.deepcopy({"blade": BLADE, "reduction": REDUCTION})
+    return copy.deepcopy({"blade": BLADE, "reduction": FIVE_SPEEDS})
 
 
 @pytest.fixture(scope="module")
 def discrete():
-    speeds = np.linspace(0, 0.4, REDUCTION["accuracy_speeds"]).tolist()
+    speeds = np.linspace(0, 0.4, FIVE_SPEEDS["accuracy_speeds"]).tolist()
     material = Material.from_config(BLADE["material"])
     return by_finite_elements(meshed_blade(BLADE), material, speeds, [], REDUCTION["accuracy_modes"])
 

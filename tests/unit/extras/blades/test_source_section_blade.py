@@ -2,7 +2,7 @@ import dataclasses
 
 import numpy as np
 import pytest
-from blade_parts import TITANIUM
+from blade_parts import REDUCTION, TITANIUM
 from section_parts import CHORD, LENGTH, THICKNESS, cartesian, cylindrical, in_space, lens, twisted_plate
 
 from bladerub.blade.build import build
@@ -143,14 +143,7 @@ def test_a_blade_of_sections_is_of_its_table_and_its_mesh(blade_config, tmp_path
 def test_a_blade_is_built_from_its_sections(blade_config, tmp_path, read):
     imported = read(cartesian(twisted_plate), counts=blade_config["mesh"])
     assert dataclasses.asdict(imported)["node_sets"] == {}
-    reduction = {
-        "f_omega_max": 0.4,
-        "modes_per_speed": 3,
-        "rank_tolerance": 1e-5,
-        "accuracy_speeds": 2,
-        "accuracy_modes": 8,
-    }
     source = {"file": str(tmp_path / "blade.csv")}
-    built = build({"blade": blade_config | {"source": source}, "reduction": reduction})
+    built = build({"blade": blade_config | {"source": source}, "reduction": REDUCTION})
     np.testing.assert_array_equal(built.mesh.mesh.points, imported.blade.mesh.mesh.points)
     assert built.accuracy.relative_error.abs()[0] < 1e-3

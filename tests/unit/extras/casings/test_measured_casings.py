@@ -1,5 +1,3 @@
-"""Casings of the config: by nodal diameters, bumps, or a table of the gap."""
-
 import numpy as np
 import pytest
 

@@ -1,5 +1,3 @@
-"""What of the chart is computed within its minutes."""
-
 import itertools
 
 import pytest

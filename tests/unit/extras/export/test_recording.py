@@ -1,5 +1,3 @@
-"""The recorded motion is that of the run, seen at the tip and at node 1."""
-
 import numpy as np
 import pytest
 

@@ -1,5 +1,3 @@
-"""The Python interface and the command with the runs on a GPU, which is emulated."""
-
 import numpy as np
 import pytest
 

@@ -1,5 +1,3 @@
-"""The page of a finished study: its numbers are those of the tables, and each has its unit."""
-
 import json
 import re
 from xml.etree import ElementTree

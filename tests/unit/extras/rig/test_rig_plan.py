@@ -1,5 +1,3 @@
-"""Rigs of a file, their table and figure."""
-
 from pathlib import Path
 
 import numpy as np

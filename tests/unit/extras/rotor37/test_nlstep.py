@@ -1,5 +1,3 @@
-"""The case of direct contact in NLstep's form."""
-
 from dataclasses import replace
 
 import numpy as np

@@ -1,5 +1,3 @@
-"""Reference numbers: what is measured, and what their uncertainty is made of."""
-
 from types import SimpleNamespace
 
 import numpy as np

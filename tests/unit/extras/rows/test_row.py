@@ -1,5 +1,3 @@
-"""Rows of blades against single blades and against the plain model of a row."""
-
 import dataclasses
 
 import contact_in_numpy
@@ -108,10 +106,8 @@ def test_blades_wear_one_coating_as_in_the_plain_model(blade, spec, change, sche
     assert all(each.n_modes == one.n_modes for each in row.blades)
     histories, wear = contact_in_numpy.simulate_row(blade, spec, row_of, one.n_steps, one.n_modes)
     for ours, history in zip(row.blades, histories, strict=True):
-        node_1 = np.concatenate([[0.0], history[:, 0]])
-        middle = 0.5 * (node_1[1:] + node_1[:-1])
-        per_element = middle.reshape(spec.coating.n_elements, -1).mean(axis=1)
-        scale = np.abs(node_1).max()
+        per_element = contact_in_numpy.element_means(history[:, 0], spec.coating.n_elements)
+        scale = np.abs(history[:, 0]).max()
         np.testing.assert_allclose(ours.radial_displacement, per_element, rtol=0, atol=2e-6 * scale)
     np.testing.assert_allclose(row.wear, wear, rtol=0, atol=2e-6 * wear.max())
 
@@ -126,8 +122,7 @@ def test_a_disk_couples_the_blades_as_in_the_plain_model(blade, spec, change):
     for ours, apart, history in zip(
         row.blades, simulate_row(blade, spec, Row(row_of.blades)).blades, histories, strict=True
     ):
-        node_1 = np.concatenate([[0.0], history[:, 0]])
-        per_element = (0.5 * (node_1[1:] + node_1[:-1])).reshape(spec.coating.n_elements, -1).mean(axis=1)
+        per_element = contact_in_numpy.element_means(history[:, 0], spec.coating.n_elements)
         error = np.abs(ours.radial_displacement - per_element).max()
         effect = np.abs(ours.radial_displacement - apart.radial_displacement).max()
         assert error < 2e-4 * effect  # 9e-5 measured

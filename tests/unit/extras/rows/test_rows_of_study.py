@@ -1,5 +1,3 @@
-"""Rows of blades in a config, and in the keys of its runs."""
-
 import pytest
 
 from bladerub.extras.rows import study

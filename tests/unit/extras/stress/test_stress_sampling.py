@@ -1,5 +1,3 @@
-"""A sampled run is the run, and its motion that of a recording."""
-
 import numpy as np
 import pytest
 

@@ -1,5 +1,3 @@
-"""Each target is measured on maps whose value is known."""
-
 import numpy as np
 import pytest
 
