@@ -116,7 +116,7 @@ def span(values: pd.Series, write: Callable[[float], str]) -> str:
     return f"{write(values.min())} to {write(values.max())}"
 
 
-def same(*columns: str) -> dict[str, str]:
+def headings(*columns: str) -> dict[str, str]:
     """Head columns of a `table` by their names, or by the symbols that these stand for."""
     return {column: _SYMBOLS.get(column, column) for column in columns}
 

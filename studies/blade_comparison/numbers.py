@@ -52,7 +52,8 @@ def _blades(comparison):
     both = {"twisted plate": "this", "default blade": "reference"}
     return table(
         [
-            {"": label} | {name: fixed(factor * values[number, of], digits) for name, of in both.items()}
+            {"": label}
+            | {name: fixed(factor * values[number, blade], digits) for name, blade in both.items()}
             for number, (label, factor, digits) in what.items()
         ]
     )

@@ -2,7 +2,7 @@
 
 import pandas as pd
 
-from docs.numbers import decimals, fixed, mm, peak, percent, row, rows, same, span, table
+from docs.numbers import decimals, fixed, headings, mm, peak, percent, row, rows, span, table
 
 _LIMITS = {"peak": 2e-3, "deepest_wear": 1e-3, "divergent_share": 0}
 """Limits of the config: displacement and depth in metres, share of the speeds."""
@@ -34,11 +34,11 @@ def _amplitudes(chart, peaks):
     ridge6 = _highest(straight[straight["E"].between(0.17, 5)], "Y6")
     highest6 = straight.loc[straight["Y6"].idxmax()]
     kinds = []
-    for kind, chosen in (
+    for kind, members in (
         ("deforms plastically (K ≤ 0.05)", chart["K"] <= 0.05),
         ("springs back (E < 0.1, K ≥ 1)", (chart["E"] < 0.1) & (chart["K"] >= 1)),
     ):
-        for theta, coatings in chart[chosen].groupby("theta"):
+        for theta, coatings in chart[members].groupby("theta"):
             line = {"the coating": kind, "θ": f"{theta:g}"}
             line["greatest displacement, mm"] = span(coatings["peak"], mm)
             kinds.append(line | {"worn volume, cm³": span(1e6 * coatings["worn_volume"], fixed)})
@@ -120,7 +120,7 @@ def _speeds(stiffening, explanation, peaks):
     return {
         "stiffening": table(
             stiffening,
-            same("theta", "order", "coatings")
+            headings("theta", "order", "coatings")
             | {
                 f"rank_correlation_{E}": (f"rank correlation with {E}", decimals(2))
                 for E in ("E_T", "K", "E")
@@ -149,7 +149,7 @@ def _speeds(stiffening, explanation, peaks):
 def _placement(placement):
     return table(
         placement,
-        same("quantity", "coatings")
+        headings("quantity", "coatings")
         | {
             "exact": "found exactly",
             "within_1_percent": "within 1 %",
@@ -162,7 +162,7 @@ def _placement(placement):
 def _ridge_by_step(ridge):
     return table(
         ridge,
-        same("theta", "order")
+        headings("theta", "order")
         | {
             "speed_step": "step",
             "E": "E of the highest",
@@ -178,9 +178,9 @@ def _ridge_by_step(ridge):
 
 
 def _agreement(agreement):
-    same = rows(agreement, disagreement=0)["quantity"].value_counts()
+    agreeing = rows(agreement, disagreement=0)["quantity"].value_counts()
     return {
         "compared": fixed(len(rows(agreement, quantity="Y4"))),
-        "same_Y4": fixed(same["Y4"]),
-        "same_Y6": fixed(same["Y6"]),
+        "same_Y4": fixed(agreeing["Y4"]),
+        "same_Y6": fixed(agreeing["Y6"]),
     }

@@ -4,7 +4,7 @@ import math
 
 import pandas as pd
 
-from docs.numbers import fixed, mm, percent, rows, same, span, table
+from docs.numbers import fixed, headings, mm, percent, rows, span, table
 from docs.numbers.refinement import cost, greatest_changes, refinement
 
 _LIMIT = 0.01
@@ -73,8 +73,8 @@ def _errors(peaks, findings):
 def _accuracy(accuracy):
     drawn, important = rows(accuracy, drawn_from="all"), rows(accuracy, drawn_from="important")
     errors, starts = (
-        accuracy[[f"{of}_{measure}" for measure in _MEASURES]].max(axis=1) > _LIMIT
-        for of in ("error", "start")
+        accuracy[[f"{origin}_{measure}" for measure in _MEASURES]].max(axis=1) > _LIMIT
+        for origin in ("error", "start")
     )
     by_modulus = accuracy.assign(beyond=errors, chaotic=starts).groupby("E")[["beyond", "chaotic"]]
     unexplained = accuracy[errors & ~starts & (accuracy["status"] == "completed")]
@@ -91,7 +91,7 @@ def _accuracy(accuracy):
         "drawn_unbounded": fixed(len(rows(accuracy, status="unbounded"))),
         "unexplained": table(
             unexplained,
-            same("casing", "E", "K", "theta", "f_omega")
+            headings("casing", "E", "K", "theta", "f_omega")
             | {
                 f"error_{measure}": (f"{words}, %", lambda error: percent(error, 2))
                 for measure, words in zip(

@@ -2,7 +2,7 @@
 
 import pandas as pd
 
-from docs.numbers import decimals, fixed, mm, percent, row, rows, same, span, table
+from docs.numbers import decimals, fixed, headings, mm, percent, row, rows, span, table
 
 
 def numbers(tables):
@@ -14,7 +14,7 @@ def numbers(tables):
         "commit": counts.attrs["commit"],
         "sets": table(
             counts,
-            same("set", "yes", "partly", "no")
+            headings("set", "yes", "partly", "no")
             | {"better": "better than plastic", "worse": "worse than plastic"},
         ),
         "viscosity": table(

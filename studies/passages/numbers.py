@@ -1,6 +1,6 @@
 """Numbers of studies/passages/README.md."""
 
-from docs.numbers import decimals, fixed, percent, rows, same, span, table
+from docs.numbers import decimals, fixed, headings, percent, rows, span, table
 
 
 def numbers(tables):
@@ -38,7 +38,7 @@ def _sweeps(sweeps):
         "hard_survive_eo4": fixed(len(rows(hard, survives=True, order=4, rate=[0.05, 0.2]))),
         "beyond": table(
             beyond,
-            same("E", "K", "theta", "direction")
+            headings("E", "K", "theta", "direction")
             | {"rate": "rate, 1/s", "f_end": ("exceeds it at", decimals(3))},
         ),
         "run_downs": fixed(len(rows(sweeps, direction="down", order=4))),

@@ -4,7 +4,7 @@ import math
 
 import pandas as pd
 
-from docs.numbers import fixed, mm, percent, row, rows, same, table
+from docs.numbers import fixed, headings, mm, percent, row, rows, table
 
 _SCATTER = {"length_scatter": 5e-5, "frequency_scatter": 0.005, "coupling": 0}
 _CRITICAL = {"E": 1.1, "K": 0.5, "theta": 0, "f_omega": 0.346} | _SCATTER
@@ -98,7 +98,7 @@ def _drift(drift):
 
     return table(
         rows(drift, f_omega=[0.346, 0.31], length_scatter=5e-5),
-        same("E", "f_omega", "blades")
+        headings("E", "f_omega", "blades")
         | {
             "pattern_drift_median": ("median, degrees a revolution", degrees),
             "pattern_drift_p05": ("5 %", degrees),

@@ -73,10 +73,10 @@ def _direct(direct):
 
 def _independent(independent, direct):
     amplitudes = rows(independent, number="rest_mu0.amplitude")
-    here = row(direct, number="rest_mu0.amplitude")["value"]
-    most = independent["modes"].max()
+    direct_amplitude = row(direct, number="rest_mu0.amplitude")["value"]
+    all_modes = independent["modes"].max()
 
-    def amplitude(treatment, modes=most, steps=20):
+    def amplitude(treatment, modes=all_modes, steps=20):
         return row(amplitudes, treatment=treatment, modes=modes, steps=steps)["value"]
 
     integrators = {
@@ -90,7 +90,10 @@ def _independent(independent, direct):
     return {
         "independent": table(
             [
-                {"independent integrator": name, "difference, %": f"{100 * (value / here - 1):+.2f}"}
+                {
+                    "independent integrator": name,
+                    "difference, %": f"{100 * (value / direct_amplitude - 1):+.2f}",
+                }
                 for name, value in integrators.items()
             ]
         ),

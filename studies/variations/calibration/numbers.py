@@ -1,6 +1,6 @@
 """Numbers of studies/variations/calibration/README.md."""
 
-from docs.numbers import fixed, percent, rows, same, table
+from docs.numbers import fixed, headings, percent, rows, table
 
 
 def numbers(tables):
@@ -14,7 +14,7 @@ def numbers(tables):
         "sets": fixed(len(counts)),
         "verdicts": table(
             counts,
-            same("set", "yes", "partly", "no")
+            headings("set", "yes", "partly", "no")
             | {"better": "better than the study", "worse": "worse than the study"},
         ),
         "measured": table(
