@@ -72,6 +72,7 @@ def test_run_spec_is_in_si(config, case):
 
 
 def test_the_scale_of_another_blade_multiplies_lengths_moduli_and_times(config, case):
+    config["solver"]["max_time_step"] = 1e-6
     before = pd.json_normalize(dataclasses.asdict(grid.run_spec(config, case, 0.19))).iloc[0]
     config["contact"]["scale"] = {"length": 3.0, "modulus": 5.0, "time": 7.0}
     after = pd.json_normalize(dataclasses.asdict(grid.run_spec(config, case, 0.19))).iloc[0]
