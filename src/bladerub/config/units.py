@@ -11,15 +11,13 @@ from dataclasses import dataclass
 from difflib import get_close_matches
 from fractions import Fraction
 from functools import cache
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
 from bladerub.config.errors import format_value
 
 if TYPE_CHECKING:
     from pydantic import GetJsonSchemaHandler
     from pydantic_core import CoreSchema
-
-    from bladerub.config.keys import Key
 
 _PI = Fraction(math.pi)
 _MILLE, _MICRO = Fraction(1, 1000), Fraction(1, 1_000_000)
@@ -87,6 +85,26 @@ class Unit:
         return {"anyOf": [handler(core), {"type": "string", "pattern": pattern(self.name)}]}
 
 
+class NumberKey(Protocol):
+    """A number of a config (`bladerub.config.keys.Key`): its kind in words, its unit and its bounds."""
+
+    @property
+    def kind(self) -> str:
+        """Say ``a number`` or ``a whole number``."""
+
+    @property
+    def unit(self) -> Unit:
+        """Return that of a plain number."""
+
+    @property
+    def lowest(self) -> float | None:
+        """Return its lower bound."""
+
+    @property
+    def highest(self) -> float | None:
+        """Return its upper bound."""
+
+
 class Quantity(NamedTuple):
     """A number and its unit as typed; the unit need not be a known one."""
 
@@ -100,13 +118,13 @@ def read(text: Any) -> Quantity | None:
     return Quantity(Fraction(match[1]), " ".join(match[2].split())) if match else None
 
 
-def needs(key: "Key") -> str | None:
+def needs(key: NumberKey) -> str | None:
     """Return the reference that a quantity below this key is divided by; None for none."""
     unit = key.unit.name
     return {"f1/s": "f1"}.get(unit, unit) if unit in _REFERENCES else key.unit.scaled
 
 
-def convert(quantity: Quantity, key: "Key", reference: Reference) -> float:
+def convert(quantity: Quantity, key: NumberKey, reference: Reference) -> float:
     """Return the value of a quantity in the unit of its key.
 
     It is the number nearest to the exact one, as if that were typed; in units of a reference it has twelve
@@ -128,7 +146,7 @@ def convert(quantity: Quantity, key: "Key", reference: Reference) -> float:
     return value
 
 
-def right(key: "Key") -> str:
+def right(key: NumberKey) -> str:
     """Say which units a quantity may have: ``a speed: rpm, Hz, rad/s, or a number times the first ...``."""
     kind, unit = _kind(key), key.unit.name
     if unit == "SI":
@@ -157,7 +175,7 @@ def choices_by_kind() -> dict[str, str]:
     return lists
 
 
-def choices(key: "Key") -> str:
+def choices(key: NumberKey) -> str:
     """List the units that a quantity below this key may have; empty for none."""
     kind = _kind(key)
     if kind is None:
@@ -165,7 +183,7 @@ def choices(key: "Key") -> str:
     return choices_by_kind()[kind]
 
 
-def in_words(key: "Key") -> str:
+def in_words(key: NumberKey) -> str:
     """Say what a plain number below this key is in, to stand behind it; empty for a pure one."""
     unit = key.unit.name
     if unit == "1":
@@ -173,7 +191,7 @@ def in_words(key: "Key") -> str:
     return f" ({_IN_WORDS[unit]}; or {choices(key)})" if unit in _IN_WORDS else f", in {unit}"
 
 
-def meant(value: float, key: "Key") -> str | None:
+def meant(value: float, key: NumberKey) -> str | None:
     """Say what a plain number outside of its range is, and what was probably meant; None if nothing is."""
     kind, unit = _kind(key), key.unit.name
     if kind is None or not value:
@@ -188,7 +206,7 @@ def meant(value: float, key: "Key") -> str | None:
     return f"is {value:g} {words}; write {' or '.join(proposals)}" if proposals else None
 
 
-def _in_range(value: float, key: "Key") -> list[str]:
+def _in_range(value: float, key: NumberKey) -> list[str]:
     return [
         f'"{value:g} {unit}"'
         for unit in choices(key).split(", ")[:2]  # the usual ones
@@ -214,13 +232,13 @@ def pressure_in_words(pascal: float) -> str:
     return f"{pascal / 1e9:.4g} GPa" if pascal >= 1e9 else f"{pascal / 1e6:.4g} MPa"
 
 
-def _kind(key: "Key") -> str | None:
+def _kind(key: NumberKey) -> str | None:
     """Say which kind of quantity a number below this key is; None of a pure number."""
     unit = key.unit.name
     return _REFERENCES.get(unit) or _UNITS.get(unit, (None,))[0]
 
 
-def _is_share(key: "Key") -> bool:
+def _is_share(key: NumberKey) -> bool:
     """Return whether a value may be typed in %: pure numbers, and those in sizes of the study."""
     return key.kind == "a number" and (_kind(key) is None or key.unit.name == "blade lengths")
 
