@@ -253,9 +253,9 @@ def solve_all(
     """Simulate `runs` of a coating, `jobs` at once, without histories; other arguments as of `simulate`."""
     with step("compiling the time loop", progress):
         compile_kernel(n_nodes=blade.reduced.n_interface, law=runs[0].spec.coating.element_law)
-    specs, config = [run.of_length(blade.length).spec for run in runs], runs[0].of_length(blade.length).config
-    files, row = (f"{number}.h5" for number in range(len(runs))), row_of(config)
-    planned = [planned_run(config, *run, False, row) for run in zip(specs, files, strict=True)]
+    runs = [run.of_length(blade.length) for run in runs]  # perhaps not the study's own blade
+    config, row = runs[0].config, row_of(runs[0].config)
+    planned = [planned_run(config, run.spec, f"{n}.h5", False, row) for n, run in enumerate(runs)]
     plan = CoatingPlan(runs[0].case, tuple(planned), follow)
     with bar(len(runs), "run", progress) as line:
         stored, longer = compute_all(
