@@ -43,6 +43,9 @@ def _take_two_interrupts_for_one() -> None:
 
 _SECOND_INTERRUPT = 5.0  # s
 
+START_OF_JOBS = Path(__file__).with_name("start_of_jobs")
+"""What Python executes at the start of all jobs: a folder for their ``PYTHONPATH``."""
+
 
 def loss(manifest: str | Path, kind: type[Row] = ManifestRow) -> str | None:
     """Say in a line which file of a manifest is lost or cut short, or that the manifest itself is damaged.
@@ -153,6 +156,9 @@ def start(workflow: Any) -> None:
         _print("the last snakemake here was killed; what it had finished is kept")
     _handle_termination_beside()
     _schedule_by_events(workflow)
+    os.environ["PYTHONPATH"] = os.pathsep.join(
+        filter(None, [str(START_OF_JOBS), os.environ.get("PYTHONPATH")])
+    )
     for results, laid_over, begin in _planned:
         prepare(results)
         date_back(results)

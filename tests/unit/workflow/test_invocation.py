@@ -55,6 +55,7 @@ def workflow_with(tmp_path, monkeypatch):
     """What `plan` and `start` see of Snakemake's workflow."""
     persistence = SimpleNamespace(path=tmp_path, all_outputfiles=list, all_inputfiles=list)
     monkeypatch.setattr(invocation, "_planned", [])
+    monkeypatch.setenv("PYTHONPATH", "")
 
     def workflow(limiter=None, local_exec=True, targets=()):
         return SimpleNamespace(
@@ -139,6 +140,18 @@ def test_two_interrupts_in_a_row_are_one(workflow_with, tmp_path, monkeypatch):
             signal.raise_signal(signal.SIGINT)
     finally:
         signal.signal(signal.SIGINT, before)
+
+
+def test_an_interrupt_before_the_first_line_of_a_script_prints_nothing(tmp_path):
+    (tmp_path / "sitecustomize.py").write_text("print('of the environment')")
+    folders = os.pathsep.join([str(invocation.START_OF_JOBS), str(tmp_path)])
+    done = subprocess.run(
+        [sys.executable, "-c", "raise KeyboardInterrupt"],
+        env=os.environ | {"PYTHONPATH": folders},
+        capture_output=True,
+        text=True,
+    )
+    assert (done.returncode, done.stdout, done.stderr) == (-signal.SIGINT, "of the environment\n", "")
 
 
 def test_an_environment_that_snakemake_cannot_name_to_a_shell_is_refused(workflow_with, monkeypatch):
