@@ -1,11 +1,13 @@
 import copy
 import math
 import random
+import re
 
 import pytest
+import yaml
 
 from bladerub.config.errors import ConfigError
-from bladerub.config.read import load, read, validate
+from bladerub.config.read import load, read
 from bladerub.io.folders import ROOT
 from tests.unit.config.mistakes import MISTAKES
 
@@ -16,6 +18,7 @@ WILD = [
     *([], {}, [[]], [None], [1] * 300, {"x": {"x": {}}}, {"": 0}, ["a", {"b": [1, 2]}], {"file": "x"}),
     *({"name": []}, {"table": 1}, {"coating": "rigid"}, {"friction": None}, {"[key]": 1}, {"layer": {}}),
 ]
+RIGHT = ("must ", "unknown key", "not valid YAML", "there is no such file")
 
 
 @pytest.mark.parametrize("mistake", MISTAKES, ids=lambda mistake: mistake.key)
@@ -46,11 +49,16 @@ def groups(config):
             yield from groups(value)
 
 
+class _Unshared(yaml.SafeDumper):
+    def ignore_aliases(self, _):
+        return True
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("seed", [0, *(pytest.param(seed, marks=pytest.mark.nightly) for seed in (1, 2, 3))])
-def test_a_hundred_wild_configs_are_valid_or_refused_in_lines(monkeypatch, seed):
+def test_a_hundred_wild_configs_are_valid_or_refused_in_lines(tmp_path, monkeypatch, seed):
     monkeypatch.chdir(ROOT)
-    study, chance, refused = load(STUDY), random.Random(seed), 0
+    path, study, chance, refused = tmp_path / "wild.yaml", load(STUDY), random.Random(seed), 0
     for _ in range(100):
         config = copy.deepcopy(study)
         for _ in range(chance.randint(1, 4)):
@@ -59,12 +67,13 @@ def test_a_hundred_wild_configs_are_valid_or_refused_in_lines(monkeypatch, seed)
                 group[chance.choice([*group, "x", "file"])] = chance.choice(WILD)
             else:
                 group[chance.randrange(len(group))] = chance.choice(WILD)
+        path.write_text(yaml.dump(config, Dumper=_Unshared, allow_unicode=True), encoding="utf-8")
         try:
-            validate(config)
+            read(path)
         except ConfigError as error:
-            lines = str(error).splitlines()
-            assert lines
-            assert all(line.startswith("config: ") for line in lines), lines
-            assert max(map(len, lines)) < 1000
+            for line in map(str, error.problems):
+                assert re.match(rf"{re.escape(str(path))}:[1-9]\d*: \S", line), line
+                assert any(right in line for right in RIGHT), line
+                assert len(line) < 1000
             refused += 1
     assert refused > 50
