@@ -2,17 +2,17 @@
 
 A script handles errors from its first line on (`bladerub.workflow.job`). Before it Python starts and imports
 Snakemake, for half a second. Python executes this module then (`site`), since its folder is in the
-``PYTHONPATH`` of all jobs (`bladerub.workflow.invocation.start`).
+``PYTHONPATH`` of all jobs (`bladerub.workflow.invocation.start`). It imports nothing that takes time, since
+Python does not start at all if it is interrupted here.
 """
 
 import sys
 from importlib.machinery import PathFinder
-from importlib.util import module_from_spec
-from os.path import dirname
-from types import TracebackType
+
+HERE = __file__.removesuffix("/sitecustomize.py")
 
 
-def _report(kind: type[BaseException], error: BaseException, trace: TracebackType | None) -> None:
+def _report(kind: type[BaseException], error: BaseException, trace: object) -> None:
     if not issubclass(kind, KeyboardInterrupt):
         sys.__excepthook__(kind, error, trace)
 
@@ -20,6 +20,6 @@ def _report(kind: type[BaseException], error: BaseException, trace: TracebackTyp
 sys.excepthook = _report
 
 # The environment may have a module of this name as well, which this one hides
-others = PathFinder.find_spec("sitecustomize", [path for path in sys.path if path != dirname(__file__)])
+others = PathFinder.find_spec("sitecustomize", [path for path in sys.path if path != HERE])
 if others and others.loader:
-    others.loader.exec_module(module_from_spec(others))
+    others.loader.exec_module(type(sys)("sitecustomize"))
