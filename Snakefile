@@ -5,6 +5,7 @@ from snakemake.utils import min_version
 import bladerub.io.errors
 import bladerub.workflow.invocation
 import bladerub.workflow.settings
+from bladerub import plugins
 from bladerub.io.folders import ROOT
 from bladerub.study.grid import coating_cases
 from bladerub.study.solver import solver_of
@@ -36,17 +37,19 @@ if workflow.is_main_process:
             RESULTS, LAID_OVER, [*NOTES, *LEFT_OUT], solver_of(config).start
         )
     if workflow.output_settings.dryrun:
-        from bladerub.workflow import forecast  # takes seconds to import
-
-        forecast.announce_at_exit(config, workflow)
+        for forecast in plugins.loaded(
+            "FORECASTS"
+        ).values():  # they take seconds to import
+            forecast.announce_at_exit(config, workflow)
 
 
 onstart:
     with bladerub.io.errors.exit_on_error():
         bladerub.workflow.invocation.start(workflow)
-    from bladerub.workflow import forecast
-
-    forecast.announce(config, workflow, workflow.resource_settings.cores, plan_of)
+    for forecast in plugins.loaded("FORECASTS").values():
+        forecast.announce(
+            config, workflow, workflow.resource_settings.cores, plan_of
+        )
 
 
 onsuccess:

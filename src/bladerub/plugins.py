@@ -24,6 +24,8 @@ A folder says what it adds in its ``plugin.py``, which imports nothing: each val
                 and one below another that plugs in is a key of that
 ``AGREEMENTS``  functions that yield the problems of a config that has a section, by its name
                 (`bladerub.config.checks.reads`)
+``FORECASTS``   what says how much a plan of Snakemake computes, and how long: modules with `announce` and
+                `announce_at_exit`
 ``NEEDS``       names of other folders, without which a folder adds nothing
 =============== ===================================================================================
 """

@@ -30,6 +30,7 @@ KINDS = (
     "SECTIONS",
     "AGREEMENTS",
     "DATASETS",
+    "FORECASTS",
 )
 PROGRAM = """
 import bladerub, bladerub.api.run, bladerub.workflow.integrity

@@ -8,7 +8,7 @@
    coatings of a smaller one.
 
 Engine orders, revolutions and all else of a run stay: its results are those of the whole chart. The plan
-follows from the config alone, by the constants of `bladerub.workflow.cores`. On another machine, or with a
+follows from the config alone, by the constants of `bladerub.extras.job_times`. On another machine, or with a
 blade of another cost, the chart takes longer or shorter, but is the same.
 """
 
@@ -19,15 +19,15 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from bladerub.extras.chart.grid import ChartSpeeds, nearest_speeds
-from bladerub.io.errors import BadInput
-from bladerub.study.grid import CoatingCase
-from bladerub.workflow.cores import (
+from bladerub.extras.job_times import (
     GROWING,
     SECONDS_AT_FIRST,
     SECONDS_PER_JOB,
     SECONDS_PER_REVOLUTION,
-    run_cost,
 )
+from bladerub.io.errors import BadInput
+from bladerub.study.grid import CoatingCase
+from bladerub.workflow.cores import run_cost
 
 CORES = 2
 """Cores of the minutes if the config does not say: those of ``snakemake -j2``."""

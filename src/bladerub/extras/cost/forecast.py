@@ -7,17 +7,17 @@ from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
-from bladerub.io.errors import message_for
-from bladerub.study import inventory
-from bladerub.study.grid import coating_cases
-from bladerub.study.plan import CoatingPlan, coating_plan
-from bladerub.workflow.cores import (
+from bladerub.extras.job_times import (
     GROWING,
     SECONDS_AT_FIRST,
     SECONDS_PER_JOB,
     SECONDS_PER_REVOLUTION,
-    costs_of,
 )
+from bladerub.io.errors import message_for
+from bladerub.study import inventory
+from bladerub.study.grid import coating_cases
+from bladerub.study.plan import CoatingPlan, coating_plan
+from bladerub.workflow.cores import costs_of
 
 
 def announce(

@@ -1,55 +1,11 @@
 import io
-import re
 
 import pytest
 
 from bladerub.config import read as configuration
-from bladerub.study import inventory
 from bladerub.study.job import RunDone
-from bladerub.workflow.cores import (
-    GROWING,
-    SECONDS_AT_FIRST,
-    SECONDS_PER_JOB,
-    SECONDS_PER_REVOLUTION,
-    costs_of,
-    priority_of,
-    threads_for,
-)
-from bladerub.workflow.forecast import forecast
+from bladerub.workflow.cores import costs_of, priority_of, threads_for
 from bladerub.workflow.progress import JobProgress
-
-
-@pytest.fixture
-def study(config, monkeypatch):
-    """A study of which so many runs of each coating are done."""
-
-    def of(done):
-        def take(config, plan, folder, digest):
-            return dict.fromkeys(inventory.COUNTS, 0) | {"planned": 100, "done": done}, []
-
-        monkeypatch.setattr(inventory, "take", take)
-        monkeypatch.setattr(inventory, "current_blade", lambda *_: (None, None))
-        return config | {"coatings": [{"casing": "2nd", "E": [1, 2], "K": [0.5], "theta": [0.0]}]}
-
-    return of
-
-
-JOBS = [(rule, f"2nd_E{E}_K0.5_theta0") for E in (1, 2) for rule in ("coating", "map", "ensemble")]
-
-
-def test_a_dry_run_counts_what_is_left_and_what_its_jobs_cost(study):
-    config = study(done=40)
-    config["solver"]["revolutions"] = 3600
-    jobs = [("blade", None), *JOBS, ("fig11_Y4", None)]
-    costs = costs_of(config)
-    runs = 0.6 * sum(costs.runs.values()) + sum(costs.ensembles.values())
-    longer = GROWING * config["analysis"]["divergence"]["confirmation_revolutions"]
-    seconds = (
-        runs * (3600 + longer) * SECONDS_PER_REVOLUTION + 8 * SECONDS_PER_JOB + SECONDS_AT_FIRST["blade"]
-    )
-    numbers = re.findall(r"\d+", forecast(config, jobs).replace(",", ""))
-    assert numbers == ["120", "200", "8", f"{seconds / 60:.0f}"]
-    assert costs.ensembles[JOBS[0][1]] > 0
 
 
 @pytest.mark.parametrize(
