@@ -45,14 +45,11 @@ def test_an_edit_or_a_new_source_is_a_modification(repository, name):
     assert git_state() == (head(repository), "modified")
 
 
-def test_a_folder_inside_another_repository_has_no_commit(repository, monkeypatch):
-    monkeypatch.setattr(provenance, "ROOT", repository / "src")
-    assert git_state() == ("unknown", "unknown")
-
-
-@pytest.mark.parametrize("missing", ["commit", "git", "answer"])
+@pytest.mark.parametrize("missing", ["repository", "commit", "git", "answer"])
 def test_what_git_does_not_know_is_unknown(repository, tmp_path, monkeypatch, missing):
-    if missing == "commit":
+    if missing == "repository":  # it only lies in another's
+        monkeypatch.setattr(provenance, "ROOT", repository / "src")
+    elif missing == "commit":
         new = tmp_path / "new"
         subprocess.run([*GIT, "init", "-q", new], check=True)
         monkeypatch.setattr(provenance, "ROOT", new)

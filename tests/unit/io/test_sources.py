@@ -4,65 +4,41 @@ from bladerub.extras.chart import column
 from bladerub.extras.gpu import solver
 from bladerub.io import sources
 
-CHARTING = [
-    "blade/frequencies.py",
-    "study/peaks.py",
-    "study/wear.py",
-    "extras/chart/grid.py",
-    "extras/chart/search.py",
-    "extras/chart/point.py",
+SOLVER, STORAGE = sources.solver_digest.__wrapped__, sources.storage_digest.__wrapped__
+GROWTH, CHART = sources.growth_digest.__wrapped__, column.chart_digest.__wrapped__
+GPU = solver.gpu_digest.__wrapped__
+EDITS = [  # the file, the digest that it belongs to, one that it does not
+    ("contact/run.py", SOLVER, STORAGE),
+    ("contact/kernel/run.py", SOLVER, STORAGE),
+    ("blade/model.py", SOLVER, STORAGE),
+    ("blade/model.py", SOLVER, GPU),
+    ("extras/gpu/loop.cu", GPU, SOLVER),
+    ("extras/gpu/new.py", GPU, SOLVER),
+    ("study/store.py", STORAGE, SOLVER),
+    ("study/spectra.py", STORAGE, SOLVER),
+    ("study/spectra.py", CHART, SOLVER),
+    ("study/growth.py", GROWTH, STORAGE),
+    ("study/growth.py", GROWTH, SOLVER),
+    ("study/growth.py", CHART, SOLVER),
+    ("study/peaks.py", CHART, SOLVER),
+    ("study/wear.py", CHART, SOLVER),
+    ("blade/frequencies.py", CHART, SOLVER),
+    ("extras/chart/grid.py", CHART, SOLVER),
+    ("extras/chart/search.py", CHART, SOLVER),
+    ("extras/chart/point.py", CHART, SOLVER),
 ]
 
 
 @pytest.fixture
 def package(tmp_path, monkeypatch):
-    for folder in ("contact/kernel", "extras/gpu", "blade", "study", "extras/chart"):
-        (tmp_path / folder).mkdir(parents=True)
-    for name in (
-        "contact/run.py",
-        "contact/kernel/run.py",
-        "extras/gpu/loop.cu",
-        "blade/model.py",
-        "study/store.py",
-        "study/spectra.py",
-        "study/growth.py",
-        *CHARTING,
-    ):
+    for name, *_ in EDITS:
+        (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
         (tmp_path / name).write_text("a = 1\n")
     monkeypatch.setattr(sources, "PACKAGE", tmp_path)
     return tmp_path
 
 
-SOLVER, STORAGE = sources.solver_digest.__wrapped__, sources.storage_digest.__wrapped__
-
-
-GROWTH = sources.growth_digest.__wrapped__
-
-
-CHART = column.chart_digest.__wrapped__
-
-
-GPU = solver.gpu_digest.__wrapped__
-
-
-@pytest.mark.parametrize(
-    ("changed", "digest", "other"),
-    [
-        ("contact/run.py", SOLVER, STORAGE),
-        ("contact/new.py", SOLVER, STORAGE),
-        ("blade/model.py", SOLVER, STORAGE),
-        ("blade/model.py", SOLVER, GPU),
-        ("extras/gpu/loop.cu", GPU, SOLVER),
-        ("extras/gpu/new.py", GPU, SOLVER),
-        ("study/store.py", STORAGE, SOLVER),
-        ("study/spectra.py", STORAGE, SOLVER),
-        ("study/growth.py", GROWTH, STORAGE),
-        ("study/growth.py", GROWTH, SOLVER),
-        ("study/growth.py", CHART, SOLVER),
-        ("study/spectra.py", CHART, SOLVER),
-        *((name, CHART, SOLVER) for name in CHARTING),
-    ],
-)
+@pytest.mark.parametrize(("changed", "digest", "other"), EDITS)
 def test_an_edit_changes_the_digest_it_belongs_to_alone(package, changed, digest, other):
     before = digest(), other()
     (package / changed).write_text("a = 2\n")
@@ -78,43 +54,40 @@ def test_a_file_that_moves_changes_the_digest(package):
     assert len({before, after, SOLVER()}) == 3
 
 
-class TestCoverage:
-    """What the digests of results leave out determines no number, for the reason that is given here."""
+def left_out(entry, *digests):
+    """Modules behind `entry`, directly or not, that none of the digests covers."""
+    covered = set().union(*(digest() for digest in digests))
+    found, waiting = set(), [entry]
+    while waiting:
+        path = sources._path_of(waiting.pop())
+        if path not in found:
+            found.add(path)
+            waiting += sources._imports(path)
+    names = {path.relative_to(sources.PACKAGE).as_posix() for path in found - covered}
+    return {name for name in names if not name.startswith("io/")}  # moves numbers, computes none
 
-    @pytest.fixture
-    def left_out(self, monkeypatch):
-        """Modules behind `entry`, directly or not, that none of the digests covers."""
-        monkeypatch.setattr(sources, "source_digest", set)
 
-        def of(entry, *digests):
-            covered = set().union(*(digest() for digest in digests))
-            found, waiting = set(), [entry]
-            while waiting:
-                path = sources._path_of(waiting.pop())
-                if path not in found:
-                    found.add(path)
-                    waiting += sources._imports(path)
-            names = {path.relative_to(sources.PACKAGE).as_posix() for path in found - covered}
-            return {name for name in names if not name.startswith("io/")}  # moves numbers, computes none
+CONFIG = {"study/grid.py", "study/casings.py"}
+"""What makes values of the config, which are in the key."""
 
-        return of
 
-    def test_of_the_solver(self, left_out):
-        assert left_out("contact.run", SOLVER) == set()
-
-    def test_of_the_files_of_runs(self, left_out):
-        # the values that the grid makes of the config are in the key
-        config = {"study/grid.py", "study/casings.py"}
-        assert left_out("study.store", SOLVER, STORAGE) == config
-
-    def test_of_the_decision_which_runs_are_repeated(self, left_out):
-        assert left_out("study.growth", SOLVER, GROWTH) == set()
-
-    def test_of_the_points_of_the_chart(self, left_out):
-        # values and orders of the config are in the key
-        config = {"study/grid.py", "study/casings.py", "study/orders.py", "study/paper.py"}
-        found = left_out("extras.chart.search", SOLVER, CHART)
-        assert found == config | {"study/manifest.py"}  # the name of a longer run
+@pytest.mark.parametrize(
+    ("entry", "digests", "expected"),
+    [
+        ("contact.run", (SOLVER,), set()),
+        ("study.store", (SOLVER, STORAGE), CONFIG),
+        ("study.growth", (SOLVER, GROWTH), set()),
+        # manifest: the name of a longer run
+        (
+            "extras.chart.search",
+            (SOLVER, CHART),
+            CONFIG | {"study/orders.py", "study/paper.py", "study/manifest.py"},
+        ),
+    ],
+)
+def test_what_digests_of_results_leave_out_determines_no_number(monkeypatch, entry, digests, expected):
+    monkeypatch.setattr(sources, "source_digest", set)
+    assert left_out(entry, *digests) == expected
 
 
 FILES = {

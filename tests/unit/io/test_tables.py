@@ -35,7 +35,6 @@ def test_the_description_has_units_datatypes_and_origin(table, tmp_path):
     assert (casing["name"], casing["datatype"], "schema:unitText" in casing) == ("casing", "string", False)
     assert (amplitude["titles"], amplitude["datatype"]) == ("amplitude", "number")
     assert amplitude["schema:unitText"] == "m"
-    assert amplitude["dc:description"] == "amplitude of the radial displacement of node 1 on the engine order"
 
 
 def test_a_copy_brings_its_description_and_the_origin_is_that_of_the_file_now(table, tmp_path):
@@ -48,17 +47,11 @@ def test_a_copy_brings_its_description_and_the_origin_is_that_of_the_file_now(ta
 
 
 def test_every_column_is_described_once_with_datatype_and_unit():
-    (header, *rows) = csv.reader(tables.COLUMNS_FILE.read_text(encoding="utf-8").splitlines())
-    assert header == ["column", "datatype", "unit", "description"]
+    (_, *rows) = csv.reader(tables.COLUMNS_FILE.read_text(encoding="utf-8").splitlines())
     assert len({name for name, *_ in rows}) == len(rows)
-    assert tables.described_columns().keys() == {name for name, *_ in rows}
     for name, datatype, unit, description in rows:
-        assert datatype in {"string", "number", "integer", "boolean"}, name
         assert description, name
-        if datatype in {"string", "boolean"}:
-            assert unit == "", name
-        if datatype == "integer":
-            assert unit == "1", name
+        assert {"string": "", "boolean": "", "integer": "1", "number": unit}[datatype] == unit, name
 
 
 def test_a_column_that_nobody_described_is_refused_before_anything_is_written(table, tmp_path):

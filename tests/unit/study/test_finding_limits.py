@@ -167,14 +167,16 @@ def test_strength_of_odd_orders(evidence, make_map, odd, share, holds):
     check("C4c", evidence([coating]), share, holds)
 
 
-@pytest.mark.parametrize(("raised", "holds"), either_side(1.0, 0.95))
-@pytest.mark.parametrize(("id_", "order"), [("C5a", 4), ("C5b", 6)])
-def test_ratio_of_the_critical_to_the_soft_peak(evidence, id_, order, raised, holds):
-    table = peak_rows(
-        *((CRITICAL, k, 0.3, raised if k == order else 9.0) for k in (4, 6)),
-        *((SOFT, k, 0.3, 1.0) for k in (4, 6)),
-    )
-    check(id_, evidence(peaks=table), raised, holds)
+@pytest.mark.parametrize(
+    ("ids", "case", "other", "partly"),
+    [(("C5a", "C5b"), CRITICAL, SOFT, 0.95), (("C10a", "C10b"), TILTED, STRAIGHT, 1.05)],
+)
+def test_ratio_of_the_peaks_of_two_coatings(evidence, ids, case, other, partly):
+    for number, (ratio, holds) in itertools.product((0, 1), either_side(1.0, partly)):
+        heights = [2 * ratio, 9.0][:: 1 - 2 * number]
+        rows = [(case, order, 0.3, height) for order, height in zip((4, 6), heights, strict=True)]
+        table = peak_rows(*rows, *((other, order, 0.3, 2.0) for order in (4, 6)))
+        check(ids[number], evidence(peaks=table), ratio, holds)
 
 
 @pytest.mark.parametrize(
@@ -255,13 +257,6 @@ def test_variation_with_E_at_low_K(evidence, id_, order, yes, partly, worst):
         if id_ in ("C8a", "C9d"):
             table["amplitude"] *= 3.0  # relative to the mean
         check(id_, evidence(peaks=table), spread, holds)
-
-
-@pytest.mark.parametrize(("lowered", "holds"), either_side(1.0, 1.05))
-@pytest.mark.parametrize(("id_", "order"), [("C10a", 4), ("C10b", 6)])
-def test_ratio_of_the_tilted_to_the_straight_peak(evidence, id_, order, lowered, holds):
-    rows = [(TILTED, k, 0.19, 2 * lowered if k == order else 0.1) for k in (4, 6)]
-    check(id_, evidence(peaks=peak_rows(*rows, *((STRAIGHT, k, 0.2, 2.0) for k in (4, 6)))), lowered, holds)
 
 
 @pytest.mark.parametrize(("id_", "order"), [("C10c", 4), ("C10d", 6)])
