@@ -12,6 +12,7 @@ import pandas as pd
 
 from bladerub import plots
 from bladerub.api.errors import InputError
+from bladerub.api.lists import over
 from bladerub.api.notebook import Shown
 from bladerub.api.planned import Quantity
 from bladerub.api.progress import step
@@ -108,10 +109,11 @@ class Blade(Shown):
         """File of the mesh that belongs to the reduced model."""
         return mesh_path(self.path)
 
+    @over("speed")
     def f_omega(self, speed: Quantity) -> float:
         """Normalise a speed with a unit, such as ``"2200 rpm"``; one that is a number is normalised already.
 
-        Raises `InputError` if it is no speed.
+        A list of speeds gives a list. Raises `InputError` if one is no speed.
         """
         try:
             return float(number("f_omega", speed, references({}, self.f1_hz)))

@@ -99,12 +99,13 @@ class StudyCoating:
         """Name in paths, for instance ``2nd_E2_K0.5_theta0.15``."""
         return self.case.name
 
-    @over("f_omega")
+    @over("f_omega", "revolutions")
     def at(self, f_omega: Quantity, revolutions: int | None = None) -> StudyRun:
         """Describe the run at the speed `f_omega`, of so many revolutions.
 
         The speed is normalised, or text such as ``"2200 rpm"``, by the first frequency of the study's
-        blade. A list of speeds gives a list of runs. Raises `InputError` if either is not possible.
+        blade. A list of speeds, or of revolutions, gives a list of runs. Raises `InputError` if either is
+        not possible.
         """
         f_omega = checked_number(self.config, "f_omega", f_omega)
         config = self.config if revolutions is None else _of_revolutions(self.config, revolutions)

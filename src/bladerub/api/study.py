@@ -23,6 +23,9 @@ from bladerub.io.folders import CONFIG, ROOT, base_config, study_folder
 from bladerub.study import grid
 from bladerub.study.grid import CoatingCase
 
+OVERRIDES = ("damping_ratio", "layer_thickness", "interference")
+"""What a coating may have of its own instead of what the config says of all."""
+
 
 @dataclass(frozen=True, repr=False)
 class Study(Shown):
@@ -108,7 +111,7 @@ class Study(Shown):
         """Speeds (n,) of the study, ascending, normalised."""
         return np.array(grid.speeds(self.config))
 
-    @over("E", "K", "theta", "friction", "damping_ratio", "layer_thickness", "interference")
+    @over("E", "K", "theta", "friction", *OVERRIDES)
     def coating(
         self,
         casing: str,
@@ -181,7 +184,7 @@ class Study(Shown):
         overrides = {"damping_ratio": damping_ratio, "interference": interference}
         return self._checked(CoatingCase.rigid, overrides, casing, friction=friction)
 
-    @over("E", "K", "f_omega", "theta", "friction", "damping_ratio", "layer_thickness", "interference")
+    @over("E", "K", "f_omega", "theta", "friction", "revolutions", *OVERRIDES)
     def run(
         self,
         casing: str,

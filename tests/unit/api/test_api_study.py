@@ -88,6 +88,14 @@ def test_frequencies_at_several_speeds(blade):
     np.testing.assert_array_equal(
         blade.frequencies([0.0, 0.2], 2), [blade.frequencies(speed, 2) for speed in (0.0, 0.2)]
     )
+    assert blade.f_omega(["2200 rpm", 0.2]) == [blade.f_omega("2200 rpm"), 0.2]
+
+
+def test_a_list_of_lengths_gives_a_list_of_runs(study):
+    runs = study.run("2nd", E=2, K=0.5, f_omega=[0.19, 0.2], revolutions=[2, 3])
+    assert [(run.f_omega, run.spec.revolutions) for run in runs] == [
+        (f_omega, revolutions) for f_omega in (0.19, 0.2) for revolutions in (2, 3)
+    ]
 
 
 def test_two_jobs_give_the_bits_of_one(study, blade, sweep):

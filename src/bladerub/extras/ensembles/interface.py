@@ -9,6 +9,7 @@ import pandas as pd
 
 from bladerub.api.blade import Blade
 from bladerub.api.errors import InputError
+from bladerub.api.lists import over
 from bladerub.api.map import solve_all
 from bladerub.api.notebook import Shown
 from bladerub.api.planned import StudyRun
@@ -108,6 +109,7 @@ class Ensemble(Shown, Comparable):
         return f"Ensemble of {len(self.runs)} runs", {"run": self.planned.name, **bands}
 
 
+@over("run")
 def simulate_ensemble(
     blade: Blade,
     run: StudyRun,
@@ -127,7 +129,7 @@ def simulate_ensemble(
     blade : Blade
         The blade.
     run : StudyRun
-        The run, from `Study.run` or `StudyCoating.at`.
+        The run, from `Study.run` or `StudyCoating.at`; a list of them gives a list of ensembles.
     members : int
         Further starts, at least one: the first of them are those of the study.
     own : Run, optional

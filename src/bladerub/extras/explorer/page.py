@@ -8,10 +8,10 @@ from string import Template
 from typing import Any
 
 import pandas as pd
-from plotly.offline import get_plotlyjs
 
 from bladerub.extras.explorer import coating, study
 from bladerub.extras.explorer.encoding import json_text
+from bladerub.io.optional import package
 from bladerub.study.manifest import read_manifest
 from bladerub.study.maps import read_map
 
@@ -47,7 +47,7 @@ def build(
         coatings.append(study.coating(coating_map.case, peaks, configs))
         for name, text in coating.parts(coating_map, divergence, runs, revolutions, max_frequency).items():
             data.append(f'<script type="application/gzip" id="{name}-{index}">{text}</script>')
-    library, program = get_plotlyjs(), "\n".join(map(_text, _PROGRAM))
+    library, program = package("plotly.offline", "study").get_plotlyjs(), "\n".join(map(_text, _PROGRAM))
     return Template(_text("index.html")).substitute(
         policy=_policy(library, program),
         style=_text("style.css"),

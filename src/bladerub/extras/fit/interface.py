@@ -2,10 +2,12 @@
 
 from pathlib import Path
 
+from bladerub.api.lists import over
 from bladerub.extras.fit import curves
 from bladerub.extras.fit.fit import Fit, fit
 
 
+@over("path")
 def fit_coating(path: str | Path, *, strain_unit: str | None = None, stress_unit: str | None = None) -> Fit:
     """Fit E, K, the elastic limit and, over several rates, the overstress to compressive curves.
 
@@ -14,6 +16,7 @@ def fit_coating(path: str | Path, *, strain_unit: str | None = None, stress_unit
     path : path
         Table in CSV with the columns ``strain``, ``stress`` and, for several rates, ``rate`` (1/s), a unit in
         brackets behind each: ``stress (MPa)``. A column ``test`` tells tests of one rate apart.
+        A list of paths gives a list of fits.
     strain_unit : str, optional
         ``"1"`` or ``"%"``, where the header has none. Default: 1.
     stress_unit : str, optional

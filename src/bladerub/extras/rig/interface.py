@@ -3,12 +3,14 @@
 import pandas as pd
 
 from bladerub.api.blade import Blade
+from bladerub.api.lists import over
 from bladerub.api.study import default_study
 from bladerub.extras.rig.blade import simulate_blade_passes
 from bladerub.extras.rig.passes import simulate_passes
 from bladerub.extras.rig.spec import Rig
 
 
+@over("rig")
 def simulate_rig(
     rig: Rig, blade: Blade | None = None, damping_ratio: float | None = None, disk_turns: bool = False
 ) -> pd.DataFrame:
@@ -17,7 +19,7 @@ def simulate_rig(
     Parameters
     ----------
     rig : Rig
-        Tip, coated disk and incursion.
+        Tip, coated disk and incursion; a list of rigs gives a list of tables.
     blade : Blade, optional
         An elastic blade in the place of the rigid tip. Width of the tip and length of the track are then its
         own, and the coated part of the track must leave room to feed it.
