@@ -3,7 +3,6 @@
 from collections.abc import Iterator, Mapping
 from typing import Any
 
-from bladerub.config.fields import docstrings
 from bladerub.config.keys import Key, key_of
 from bladerub.config.models.study import whole
 from bladerub.config.units import choices_by_kind
@@ -62,28 +61,26 @@ def reference(config: Mapping[str, Any]) -> str:
     units_of_kinds = "\n".join(f"| {kind} | {names} |" for kind, names in choices_by_kind().items())
     sections = [HEAD.format(units=units_of_kinds)]
     for name, key in key_of(whole()).fields().items():
-        rows = _rows(name, key, config.get(name), "")
+        rows = _rows(name, key, config.get(name))
         table = ["| key | what | unit | may be | in the study |", "|---|---|---|---|---|", *rows]
-        text = docstrings(whole()).get(name, key.description)
-        sections.append("\n".join([f"## {name}", "", text, "", *table, ""]))
+        sections.append("\n".join([f"## {name}", "", key.description, "", *table, ""]))
     return "\n".join(sections)
 
 
-def _rows(path: str, key: Key, value: Any, text: str) -> Iterator[str]:
+def _rows(path: str, key: Key, value: Any) -> Iterator[str]:
     """Write a row for each key at and below a path; `value` is None where the study has no single one."""
-    texts = {name: words for kind in key.models.values() for name, words in docstrings(kind).items()}
     entry = key.entry if key.kind == "a list" else None
     is_plain = entry and not (entry.models or entry.entry)
     if "." in path or "[" in path or not (key.fields() or key.entry) or is_plain:
-        yield _row(path, key, value, text)
+        yield _row(path, key, value)
     for name, inner in key.fields().items():
         below = value.get(name) if isinstance(value, Mapping) else None
-        yield from _rows(f"{path}.{name}", inner, below, texts.get(name, inner.description))
+        yield from _rows(f"{path}.{name}", inner, below)
     if key.entry and not is_plain:
-        yield from _rows(f"{path}[]" if entry else f"{path}.<name>", key.entry, None, key.entry.description)
+        yield from _rows(f"{path}[]" if entry else f"{path}.<name>", key.entry, None)
 
 
-def _row(path: str, key: Key, value: Any, text: str) -> str:
+def _row(path: str, key: Key, value: Any) -> str:
     may_be = [key.allowed(), *map(str, key.limits)]
     unit = key.unit.name
     if key.entry and key.kind == "a list":
@@ -91,7 +88,7 @@ def _row(path: str, key: Key, value: Any, text: str) -> str:
         unit = key.entry.unit.name
     cells = (
         f"`{path}`",
-        text,
+        key.description,
         "" if unit == "1" else unit,
         "; ".join(may_be),
         _value(value),

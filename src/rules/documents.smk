@@ -32,7 +32,7 @@ rule config_reference:
             for path in ROOT.glob("src/bladerub/**/settings.py")
         ],
         page="docs/config_keys.py",
-        writing=files_behind("config.keys", "config.json_schema"),
+        writing=files_behind("config.keys"),
     output:
         reference="docs/config.md",
         schema="config/schema.json",

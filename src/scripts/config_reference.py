@@ -8,8 +8,8 @@ import sys
 from pathlib import Path
 
 sys.path.insert(0, str(Path.cwd()))  # for docs
-from bladerub.config import json_schema
 from bladerub.config.read import load
+from bladerub.extras.config import json_schema
 from bladerub.io import atomic
 from docs.config_keys import reference
 

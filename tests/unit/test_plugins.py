@@ -65,7 +65,7 @@ def test_the_core_does_without_extras(tmp_path):
     shutil.copytree(PACKAGE, tmp_path / "bladerub", ignore=without)
     environment = os.environ | {"PYTHONPATH": str(tmp_path)}
     lines = subprocess.check_output([sys.executable, "-c", PROGRAM], env=environment, text=True).splitlines()
-    assert lines[0].split() == ["new", "config", "run", "status"]
+    assert lines[0].split() == ["new", "run", "status"]
     assert "Rig" not in lines[1]
     assert "simulate" in lines[1]
 

@@ -30,7 +30,6 @@ LOW_SPEEDS = {
 
 def numbers(rule, value, path=()):
     """Yield the path and the bounds of each number of the config, with the number itself."""
-    rule = SCHEMA["$defs"][rule["$ref"].rsplit("/", 1)[1]] if "$ref" in rule else rule
     for name, inner in rule.get("properties", {}).items():
         if isinstance(value, dict) and name in value:
             yield from numbers(inner, value[name], (*path, name))

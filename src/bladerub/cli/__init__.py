@@ -10,14 +10,14 @@ from io import TextIOWrapper
 from typing import Any
 
 from bladerub import __version__, plugins
-from bladerub.cli import config, new, run, status
+from bladerub.cli import new, run, status
 from bladerub.cli.inputs import Parser
 from bladerub.config.errors import ConfigError
 from bladerub.io.errors import BadInput, message_for
 from bladerub.io.folders import provide_for_unknown_user
 from bladerub.io.garbage import collect_seldom
 
-_COMMANDS = (new, config, run, status)
+_COMMANDS = (new, run, status)
 
 
 def parser() -> argparse.ArgumentParser:

@@ -14,17 +14,13 @@ Plain numbers are SI, or in a size of the study: ``f1`` is the first frequency o
 a unit of the same kind (`bladerub.config.units`).
 """
 
-import ast
-import sys
 from collections.abc import Hashable
 from dataclasses import dataclass
-from functools import cache
 from itertools import pairwise
-from pathlib import Path
 from typing import Annotated, Any, ClassVar, TypeVar
 
-from pydantic import AfterValidator, BaseModel, ConfigDict, Field, GetCoreSchemaHandler, GetJsonSchemaHandler
-from pydantic_core import CoreSchema, PydanticCustomError, core_schema
+from pydantic import AfterValidator, BaseModel, ConfigDict, Field, GetCoreSchemaHandler
+from pydantic_core import CoreSchema, PydanticCustomError
 
 from bladerub.config.units import Unit
 
@@ -35,38 +31,8 @@ class Section(BaseModel):
     """A group of keys; its docstring says what it is of."""
 
     model_config: ClassVar[ConfigDict] = ConfigDict(
-        extra="forbid", strict=True, frozen=True, allow_inf_nan=False
+        extra="forbid", strict=True, frozen=True, allow_inf_nan=False, use_attribute_docstrings=True
     )
-
-    @classmethod
-    def __get_pydantic_json_schema__(cls, core: CoreSchema, handler: GetJsonSchemaHandler) -> dict[str, Any]:
-        """Add the docstrings of the keys."""
-        reference = handler(core)
-        rules = handler.resolve_ref_schema(reference)
-        for name, text in docstrings(cls).items():
-            rules["properties"][name]["description"] = text
-        return reference
-
-
-@cache
-def docstrings(model: type) -> dict[str, str]:
-    """Return the docstrings of the keys of a model and its bases, by key, from their sources."""
-    texts: dict[str, str] = {}
-    for part in reversed(model.__mro__):
-        body = _classes(part.__module__).get(part.__name__, [])
-        for key, text in pairwise(body):
-            if isinstance(key, ast.AnnAssign) and isinstance(text, ast.Expr) and part is not BaseModel:
-                texts[key.target.id] = " ".join(text.value.value.split())
-    return texts
-
-
-@cache
-def _classes(module: str) -> dict[str, list]:
-    """Parse the classes of a module: the body of each by its name."""
-    if not (file := getattr(sys.modules[module], "__file__", None)):
-        return {}
-    tree = ast.parse(Path(file).read_text(encoding="utf-8"))
-    return {node.name: node.body for node in tree.body if isinstance(node, ast.ClassDef)}
 
 
 @dataclass(frozen=True)
@@ -123,16 +89,6 @@ def _unique(values: list[Hashable]) -> list[Hashable]:
     return values
 
 
-class _Unique:
-    def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
-        """Compare the values of the list."""
-        return core_schema.no_info_after_validator_function(_unique, handler(source))
-
-    def __get_pydantic_json_schema__(self, core: CoreSchema, handler: GetJsonSchemaHandler) -> dict[str, Any]:
-        """Say so as a schema does."""
-        return handler(core) | {"uniqueItems": True}
-
-
 def _ascending(values: list[float]) -> list[float]:
     for index, (lower, upper) in enumerate(pairwise(values), 1):
         if float(f"{upper:g}") <= float(f"{lower:g}"):  # six digits, as in the names of files
@@ -141,7 +97,7 @@ def _ascending(values: list[float]) -> list[float]:
     return values
 
 
-UNIQUE = _Unique()
+UNIQUE = AfterValidator(_unique)
 """A list that names nothing twice."""
 ASCENDING = AfterValidator(_ascending)
 """A list each of whose numbers is above the one before."""

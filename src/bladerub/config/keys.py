@@ -11,10 +11,11 @@ from pydantic import Tag
 from pydantic.fields import FieldInfo
 
 from bladerub.config import units
-from bladerub.config.fields import ASCENDING, Form, Limit, OneOf, Section, Unit
+from bladerub.config.fields import ASCENDING, UNIQUE, Form, Limit, OneOf, Section, Unit
 
 _KINDS = {float: "a number", int: "a whole number", str: "text", bool: "true or false"}
 NUMBERS = ("a number", "a whole number")
+_FEWEST, _MOST_HZ = 10.0, 1000.0  # of a plain number that is a speed in rpm or Hz
 _WORDS = {"gt": "above", "ge": "of at least", "lt": "below", "le": "at most"}
 
 
@@ -28,9 +29,12 @@ class Key:
     sizes: tuple[int, int | None] = (0, None)  # fewest and most entries of a list or group
     unit: Unit = Unit("1")  # noqa: RUF009
     form: str = ""  # what a text must be
+    pattern: str = ""
+    choices: tuple[str, ...] = ()  # of a text
     limits: tuple[Limit, ...] = ()
     one_of: str = ""  # group at the top of the config that has it as a key
     is_ascending: bool = False
+    is_unique: bool = False
     models: Mapping[str, type[Section]] = field(default_factory=dict)  # of a group: its kinds by their tags
     names: "Key | None" = None  # of a group of names: what they must be
     entry: "Key | None" = None  # of a list, or of a group of names
@@ -73,9 +77,61 @@ class Key:
         words = (f"{word} {self.bounds[name]:g}" for name, word in _WORDS.items() if name in self.bounds)
         return f"{self.kind} {' and '.join(words)}".rstrip()
 
+    @property
+    def typed_units(self) -> str:
+        """Units that a quantity may have, apart from that of a plain number; empty for none."""
+        if self.unit.kind is None:
+            return "%" if self.is_share else ""
+        return units.choices_by_kind()[self.unit.kind]
+
+    @property
+    def is_share(self) -> bool:
+        """Whether a value may be typed in %: pure numbers, and those in sizes of the study."""
+        return self.kind == "a number" and (self.unit.kind is None or self.unit.name == "blade lengths")
+
     def right(self) -> str:
         """Say what is right: ``must be a number from 0.01 to 3, in m``."""
-        return f"must be {self.allowed()}{units.in_words(self)}"
+        words = self.unit.words
+        behind = f", {words}" if words.startswith("in ") else words and f" ({words}; or {self.typed_units})"
+        return f"must be {self.allowed()}{behind}"
+
+    def convert(self, quantity: units.Quantity, reference: units.Reference) -> float:
+        """Return a quantity as a plain number, see `bladerub.config.units.convert`.
+
+        Raises ValueError that says what the quantity is and what it must be, and as the `reference`.
+        """
+        kind, wanted = units.size_of(quantity.unit)[0], self.unit.kind
+        if kind is None or (kind != wanted and not (kind == "share" and self.is_share)):
+            raise ValueError(f"{units.mistaken(quantity.unit, wanted)}; must be {self._quantity()}")
+        return units.convert(quantity, self.unit, reference)
+
+    def _quantity(self) -> str:
+        """Say which units a quantity may have, ``a speed: rpm, Hz, rad/s, or a number times the ...``."""
+        kind = self.unit.kind
+        if self.unit.name == "SI":
+            return f"{self.kind} in the unit of this parameter (docs/laws.md), or another of its kind"
+        if kind is None:
+            return f"{self.kind}{', or %' if self.is_share else ' without a unit'}"
+        return f"{units.article(kind)} {kind}: {self.typed_units}, or {self.kind} {self.unit.words}"
+
+    def meant(self, value: float) -> str:
+        """Say what a plain number out of range is, and what was probably meant; empty if nothing."""
+        unit, proposals = self.unit.name, []
+        if self.unit.kind is None or not value:
+            return ""
+        if unit == "f1" and value >= max(_FEWEST, self.highest):
+            proposals = [f'"{value:g} rpm"'] + [f'"{value:g} Hz"'] * (value < _MOST_HZ)
+        elif unit == "modulus_unit" and value > self.highest:
+            proposals = [f'"{value / 1e6:g} MPa"']
+        elif not self.unit.reference or self.unit.scaled:
+            size = units.size_of(unit)[1]
+            proposals = [
+                f'"{value:g} {usual}"'
+                for usual in self.typed_units.split(", ")[:2]
+                if self.lowest <= value * float(units.size_of(usual)[1] / size) <= self.highest
+            ]
+        words = self.unit.words.removeprefix("in ")
+        return f"; this is {value:g} {words}; write {' or '.join(proposals)}" if proposals else ""
 
 
 @cache
@@ -93,11 +149,12 @@ def key_of(kind: Any) -> Key:
         "limits": tuple(mark for mark in marks if isinstance(mark, Limit)),
         "one_of": _last(marks, OneOf, "group", ""),
         "is_ascending": ASCENDING in marks,
+        "is_unique": UNIQUE in marks,
     }
     origin, arguments = get_origin(annotation), get_args(annotation)
     if origin is Literal:
         words = " or ".join(filter(None, (", ".join(map(str, arguments[:-1])), str(arguments[-1]))))
-        return Key("text", **common | {"form": common["form"] or words})
+        return Key("text", **common | {"form": common["form"] or words, "choices": arguments})
     if origin is list:
         return Key("a list", entry=key_of(arguments[0]), **common)
     if origin is dict:
@@ -112,6 +169,7 @@ def key_of(kind: Any) -> Key:
         _KINDS.get(annotation, "a group of keys"),
         bounds=limits,
         unit=next((mark for mark in marks if isinstance(mark, Unit)), Unit("1")),
+        pattern=next((mark.pattern for mark in marks if getattr(mark, "pattern", None)), ""),
         **common,
     )
 

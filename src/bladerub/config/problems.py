@@ -106,18 +106,17 @@ def _wrong(value: Any, key: Key) -> str:
     if key.kind not in NUMBERS:
         return key.right()
     if is_number(value):
-        meant = units.meant(value, key)
-        return f"{key.right()}{f'; this {meant}' if meant else ''}"
+        return key.right() + key.meant(value)
     if isinstance(value, str) and (reading := yaml_reading(value)):
         return f"{key.right()} (YAML reads this as {reading})"
     if isinstance(value, str) and (decimal := decimal_form(value)):
         return f"{key.right()}; write {decimal}"
     if quantity := units.read(value):
         try:
-            units.convert(quantity, key, lambda name: 1.0)
+            key.convert(quantity, lambda name: 1.0)
         except ValueError as error:
             return str(error)
-        return f"needs {units.needs(key)} of this study, which is not known; {key.right()}"
+        return f"needs {key.unit.reference} of this study, which is not known; {key.right()}"
     return key.right()
 
 

@@ -55,7 +55,7 @@ def number(name: str, value: Any, reference: units.Reference) -> Any:
     if quantity is None:
         return value
     key = key_of(QUANTITIES[name]) if name in QUANTITIES else key_at(name)
-    plain = units.convert(quantity, key, reference)
+    plain = key.convert(quantity, reference)
     return round(plain, SPEED_DECIMALS) if name == "f_omega" else plain
 
 
@@ -76,7 +76,7 @@ def law_numbers(law: str, values: Mapping[str, Any]) -> dict[str, Any]:
     for name, value in values.items():
         if name in keys and (quantity := units.read(value)):
             with suppress(ValueError):
-                plain[name] = units.convert(quantity, keys[name], _no_reference)
+                plain[name] = keys[name].convert(quantity, _no_reference)
     return plain
 
 
@@ -164,7 +164,7 @@ def _converted(
         return Located([_converted(v, key.entry, reference, instead) for v in content], entry.location)
     if key.kind == "a number" and (quantity := units.read(content)):
         try:
-            return Located(units.convert(quantity, key, reference), entry.location)
+            return Located(key.convert(quantity, reference), entry.location)
         except Unknown:
             return Located(instead(key), entry.location) if instead else entry
         except ValueError:

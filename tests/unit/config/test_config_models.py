@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from bladerub import plugins
-from bladerub.config.fields import Section, docstrings
+from bladerub.config.fields import Section
 from bladerub.config.keys import NUMBERS, key_of
 from bladerub.config.models.study import Study, defaults, required, whole
 from bladerub.config.problems import problems
@@ -31,10 +31,8 @@ except ConfigError as error:
 def all_keys(key, path="", is_said=True):
     """Yield the path of each key, itself, and whether something is said of it."""
     yield path, key, is_said
-    texts = {name for kind in key.models.values() for name in docstrings(kind)}
     for name, inner in key.fields().items():
-        is_said = name in texts or bool(inner.description)
-        yield from all_keys(inner, f"{path}.{name}" if path else name, is_said)
+        yield from all_keys(inner, f"{path}.{name}" if path else name, bool(inner.description))
     if key.entry:
         yield from all_keys(key.entry, f"{path}[]")
 

@@ -5,9 +5,9 @@ import pytest
 import yaml
 
 from bladerub.cli import main
-from bladerub.config import json_schema
 from bladerub.config.files import read
 from bladerub.config.read import load
+from bladerub.extras.config import json_schema
 from bladerub.io.folders import ROOT
 from docs.config_keys import reference
 from docs.signatures import PAGE, updated

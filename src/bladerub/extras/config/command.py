@@ -28,7 +28,7 @@ def add_to(commands: Any) -> None:
 def check(options: argparse.Namespace) -> None:
     """Check the config that the command line names; raises `ConfigError`."""
     if options.schema:
-        from bladerub.config import json_schema
+        from bladerub.extras.config import json_schema
 
         print(json_schema.text(), end="")
         return

@@ -1,0 +1,1 @@
+"""Configs checked, for people and their editors."""

@@ -1,0 +1,3 @@
+"""Configs checked, for people and their editors."""
+
+COMMANDS = {"config": "extras.config.command"}
