@@ -4,29 +4,6 @@ from mpl_toolkits.mplot3d import Axes3D
 
 from bladerub.plots.histogram import peak_histogram
 
-VALUES = np.array([[0.1, np.nan], [0.4, 0.3], [np.nan, 0.2]])
-MM = pd.DataFrame(VALUES, index=[0.11, 1.1, 20], columns=[0.5, 5])
-
-
-def draw(mm, quantity="amplitude", half=np.nan):
-    """Draw the values over E (rows) and K (columns), as amplitudes in mm or as speeds, `half` a band."""
-    rows = mm.rename_axis(index="E", columns="K").stack(future_stack=True).rename(quantity).reset_index()
-    rows[quantity] *= 1e-3 if quantity == "amplitude" else 1
-    ends = {f"{quantity}_low": rows[quantity] - half, f"{quantity}_high": rows[quantity] + half}
-    rows = rows.assign(**ends)
-    return peak_histogram(rows.assign(casing="2nd", theta=0.0, order=4), quantity, order=4, unit=600e6)[1]
-
-
-def test_a_bar_for_each_value_and_none_for_a_hole(monkeypatch):
-    bars = []
-    monkeypatch.setattr(Axes3D, "bar3d", lambda self, *bar, **look: bars.append(bar))
-    draw(MM, "f_peak")
-    ((x, y, floor, width, depth, height),) = bars
-    places = np.rint(np.transpose([x + width / 2, y + depth / 2])).astype(int)
-    np.testing.assert_array_equal(places, [[0, 0], [1, 0], [1, 1], [2, 1]])
-    np.testing.assert_allclose(floor + height, [0.1, 0.4, 0.3, 0.2])
-
-
 PEAKS = pd.DataFrame(
     [
         ("2nd", 1.1, 0.5, 0.0, 4, 0.31, 2e-3),
@@ -38,10 +15,16 @@ PEAKS = pd.DataFrame(
 ).assign(**{f"{name}_{end}": np.nan for name in ("f_peak", "amplitude") for end in ("low", "high")})
 
 
-def test_amplitudes_of_one_order_are_drawn_in_mm(draws):
+def test_amplitudes_of_one_order_are_bars_and_cells_in_mm_and_holes_are_none(draws, monkeypatch):
+    bars = []
+    monkeypatch.setattr(Axes3D, "bar3d", lambda self, *bar, **look: bars.append(bar))
     table, figure = peak_histogram(PEAKS, "amplitude", order=4, unit=600e6)
     ends = ["amplitude_low", "amplitude_high"]
     assert list(table.columns) == ["casing", "E", "K", "theta", "order", "amplitude", *ends]
     pd.testing.assert_frame_equal(table, PEAKS.loc[PEAKS.order == 4, table.columns])
+    ((x, y, floor, width, depth, height),) = bars
+    places = np.rint(np.transpose([x + width / 2, y + depth / 2])).astype(int)
+    np.testing.assert_array_equal(places, [[0, 0], [0, 1], [1, 0]])
+    np.testing.assert_allclose(floor + height, [1.0, 3.0, 2.0])
     _, cells, _ = draws(figure).axes
     assert [text.get_text() for text in cells.texts] == ["1.00", "3.00", "2.00", "–"]
