@@ -50,11 +50,8 @@ def test_speeds_are_sorted_unique_and_include_both_ends_and_the_extra_ones(confi
     assert speeds == sorted(set(speeds))
     assert (speeds[0], speeds[-1]) == (0.02, 0.4)
     assert 0.197 in speeds
-
-
-def test_rounding_loses_no_speed_at_the_stop(config):
     config["speeds"] = {"start": 0.02, "stop": 0.32, "step": 0.1, "extra": []}
-    assert (0.32 - 0.02) / 0.1 < 3
+    assert (0.32 - 0.02) / 0.1 < 3  # rounding loses no speed at the stop
     assert grid.speeds(config) == [0.02, 0.12, 0.22, 0.32]
 
 
@@ -63,12 +60,7 @@ def test_run_spec_is_in_si(config, case):
     assert spec.clearance == pytest.approx((1.5e-4 * 0.2, 4.3e-4 * 0.2))
     assert spec.displacement_limit == pytest.approx(config["solver"]["displacement_limit"] * 0.2)
     assert spec.casing.start_angle == pytest.approx(math.radians(config["casings"]["2nd"]["start_angle"]))
-    assert spec.casing.amplitude == config["casings"]["2nd"]["amplitude"]
     assert (spec.coating.E, spec.coating.K, spec.coating.theta) == (2.0, 0.5, 0.15)
-    assert spec.coating.n_elements == config["contact"]["elements"]
-    assert spec.tip.half_width == config["contact"]["tip_profile"]["half_width"]
-    assert spec.f_omega == 0.19
-    assert spec.revolutions == config["solver"]["revolutions"]
 
 
 def test_the_scale_of_another_blade_multiplies_lengths_moduli_and_times(config, case):

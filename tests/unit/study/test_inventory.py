@@ -91,37 +91,25 @@ def test_damage_anywhere_in_a_file_ends_no_inventory_and_is_found(done, inventor
     assert sum(found) == len(found) if listed else sum(found) > 20
 
 
-def test_runs_whose_contact_forces_did_not_converge_are_counted(
+def test_runs_that_did_not_converge_or_are_out_of_balance_are_counted(
     simulated, compute, inventory, monkeypatch, tmp_path
 ):
     simulate = contact_run.simulate
 
-    def unconverged(blade, spec, progress=None):
-        steps = {0.1: 3, 0.2: 1}.get(spec.f_omega, 0)
-        return replace(simulate(blade, spec), n_unconverged_steps=steps, n_fallback_steps=9)
+    def doubtful(blade, spec, progress=None):
+        steps, wear = {0.1: (3, 0.01), 0.2: (1, np.nan)}.get(spec.f_omega, (0, 0.0))
+        entries = dict.fromkeys(Energy.__annotations__, 0.0) | {"wear": wear, "exchanged": 1.0}
+        result = replace(simulate(blade, spec), energy=Energy(**entries))
+        return replace(result, n_unconverged_steps=steps, n_fallback_steps=9)
 
-    monkeypatch.setattr("bladerub.contact.run.simulate", unconverged)
+    monkeypatch.setattr("bladerub.contact.run.simulate", doubtful)
     rows = compute()
-    assert (inventory()["done"], inventory()["unconverged"]) == (4, 2)
-    write_manifest(tmp_path / "manifest.tsv", rows)
-    assert (inventory()["done"], inventory()["unconverged"]) == (4, 2)
+    for _ in range(2):  # without and with the manifest
+        found = inventory()
+        assert (found["done"], found["unconverged"], found["unbalanced"]) == (4, 2, 2)
+        write_manifest(tmp_path / "manifest.tsv", rows)
     attributes = read_run(tmp_path / "0.1000.h5").attributes
     assert (attributes["n_unconverged_steps"], attributes["n_fallback_steps"]) == (3, 9)
-
-
-def test_runs_out_of_balance_are_counted(simulated, compute, inventory, monkeypatch, tmp_path):
-    simulate = contact_run.simulate
-
-    def unbalanced(blade, spec, progress=None):
-        wear = {0.1: 0.01, 0.2: np.nan}.get(spec.f_omega, 0.0)
-        entries = dict.fromkeys(Energy.__annotations__, 0.0) | {"wear": wear, "exchanged": 1.0}
-        return replace(simulate(blade, spec), energy=Energy(**entries))
-
-    monkeypatch.setattr("bladerub.contact.run.simulate", unbalanced)
-    rows = compute()
-    assert inventory()["unbalanced"] == 2
-    write_manifest(tmp_path / "manifest.tsv", rows)
-    assert inventory()["unbalanced"] == 2
 
 
 def test_each_damaged_file_is_named(done, look, tmp_path):
@@ -132,21 +120,17 @@ def test_each_damaged_file_is_named(done, look, tmp_path):
 
 
 @pytest.mark.parametrize("thorough", [False, True])
-def test_what_the_system_refuses_to_read_is_not_damaged(done, look, monkeypatch, tmp_path, thorough):
+def test_what_the_system_refuses_to_read_is_neither_damaged_nor_computed_again(
+    done, look, compute, simulated, monkeypatch, tmp_path, thorough
+):
+    content = {path: path.read_bytes() for path in tmp_path.rglob("*.h5")}
     refuse(monkeypatch, "0.1000.h5")
     (tmp_path / "manifest.tsv").unlink()  # or it is not opened
     taken = look(thorough=thorough)
     assert (taken.counts["unreadable"], taken.counts["corrupt"], taken.damaged) == (1, 0, [])
     (line,) = taken.unreadable
     assert "0.1000.h5" in line
-
-
-def test_what_the_system_refuses_to_read_is_not_computed_again(
-    done, compute, simulated, monkeypatch, tmp_path
-):
-    content = {path: path.read_bytes() for path in tmp_path.rglob("*.h5")}
     simulated.clear()
-    refuse(monkeypatch, "0.1000.h5")
     with pytest.raises(OSError, match=re.escape("0.1000.h5")):
         compute()
     assert simulated == []

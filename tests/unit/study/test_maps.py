@@ -70,24 +70,17 @@ def test_a_map_comes_back_as_written(tmp_path, case, make_map):
         np.testing.assert_array_equal(getattr(read, field.name), getattr(written, field.name))
 
 
-def test_a_damaged_run_is_named(build, folder, tmp_path):
-    run = folder / "0.1900.h5"
-    run.write_bytes(run.read_bytes()[:5000])
-    with pytest.raises(DamagedFile, match=r"0\.1900\.h5: not a readable HDF5 file"):
+@pytest.mark.parametrize("which", ["runs", "longer runs"])
+def test_a_run_that_is_damaged_missing_or_stale_is_named(build, folder, tmp_path, which):
+    paths = [folder / "0.1900.h5", folder / "0.3000.h5"]
+    path, other = paths if which == "runs" else map(confirmation_path, paths)
+    name = path.relative_to(folder)
+    path.write_bytes(path.read_bytes()[:5000])
+    with pytest.raises(DamagedFile, match=rf"{name}: not a readable HDF5 file"):
         build(tmp_path / "map.h5")
-
-
-def test_a_run_with_another_key_than_the_manifests_is_an_error(build, folder, tmp_path):
-    (folder / "0.1900.h5").write_bytes((folder / "0.3000.h5").read_bytes())
-    with pytest.raises(OSError, match=r"0\.1900\.h5: not the run that .*manifest\.tsv lists"):
+    path.write_bytes(other.read_bytes())
+    with pytest.raises(OSError, match=rf"{name}: not the run that .*manifest\.tsv lists"):
         build(tmp_path / "map.h5")
-
-
-def test_a_longer_run_that_is_missing_or_stale_is_named(build, folder, tmp_path):
-    longer = confirmation_path(folder / "0.1900.h5")
-    longer.write_bytes(confirmation_path(folder / "0.3000.h5").read_bytes())
-    with pytest.raises(OSError, match=r"confirmation/0\.1900\.h5: not the run that .*manifest\.tsv lists"):
-        build(tmp_path / "map.h5")
-    longer.unlink()
-    with pytest.raises(OSError, match=r"No such file .*confirmation/0\.1900\.h5"):
+    path.unlink()
+    with pytest.raises(OSError, match=rf"No such file .*{name}"):
         build(tmp_path / "map.h5")

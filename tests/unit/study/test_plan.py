@@ -62,24 +62,25 @@ def test_every_field_of_the_run_changes_the_key(key, spec):
     assert len(keys) == 1 + len(leaves)
 
 
-@pytest.mark.parametrize("setting", ["spectrum_revolutions", "max_order"])
-def test_what_shapes_the_file_changes_the_key(key, config, setting):
-    before = key()
-    config["analysis"][setting] += 1
-    assert key() != before
+def test_what_else_shapes_the_file_changes_the_key(key, config, monkeypatch):
+    keys = [key(), key(blade="other"), key(history=True)]
+    for setting in ("spectrum_revolutions", "max_order"):
+        config["analysis"][setting] += 1
+        keys.append(key())
+    for digest in ("solver_digest", "storage_digest"):
+        monkeypatch.setattr(plan, digest, lambda: "other")
+        keys.append(key())
+    assert len(set(keys)) == 7
 
 
-def test_blade_and_history_change_the_key(key):
-    assert len({key(), key(blade="other"), key(history=True)}) == 3
-
-
-def test_settings_of_maps_and_tables_and_the_folder_leave_the_key(key, config):
+def test_settings_of_maps_and_tables_the_folder_and_the_commit_leave_the_key(key, config, monkeypatch):
     before = key()
     config["analysis"]["lobe_prominence"] = 0.9
     config["analysis"]["peaks"]["orders"] = [2]
     config["analysis"]["divergence"] = {"growth": 0.5, "confirmation_revolutions": 100}
     config["analysis"]["histories"] = []
     config["results"] = "elsewhere"
+    monkeypatch.setattr(provenance, "git_state", lambda: ("another", "modified"))
     assert key() == before
 
 
@@ -90,19 +91,6 @@ def test_a_finer_grid_or_other_coatings_leave_the_keys(config, case):
     assert case in grid.coating_cases(config)
     after = {run.file: run.key("blade") for run in coating_plan(config, case).runs}
     assert before.items() < after.items()
-
-
-@pytest.mark.parametrize("digest", ["solver_digest", "storage_digest"])
-def test_another_source_of_solver_or_storage_is_another_run(monkeypatch, key, digest):
-    before = key()
-    monkeypatch.setattr(plan, digest, lambda: "other")
-    assert key() != before
-
-
-def test_another_commit_is_the_same_run(monkeypatch, key):
-    before = key()
-    monkeypatch.setattr(provenance, "git_state", lambda: ("another", "modified"))
-    assert key() == before
 
 
 def test_the_longer_run_is_the_same_run_for_longer(config, spec):

@@ -27,21 +27,9 @@ def test_all_runs_are_computed_once(compute, simulated, tmp_path):
 
 
 def test_missing_damaged_and_new_runs_are_computed_and_no_others(compute, study, simulated, tmp_path):
-    compute()
-    (tmp_path / "0.1000.h5").unlink()
-    (tmp_path / "0.2000.h5").write_bytes((tmp_path / "0.2000.h5").read_bytes()[:3000])
-    study["speeds"]["extra"].append(0.25)
-    simulated.clear()
-    compute()
-    assert simulated == [0.1, 0.2, 0.25]
-
-
-def test_a_damaged_run_is_computed_again_when_another_is_lost_and_gets_no_checksum_as_it_is(
-    compute, simulated, tmp_path
-):
-    rows = compute()
+    """A run of which a bit changed gets no checksum as it is, with or without a manifest."""
+    rows, damaged = compute(), tmp_path / "0.2000.h5"
     write_manifest(tmp_path / "manifest.tsv", rows)
-    damaged = tmp_path / "0.2000.h5"
     with h5py.File(damaged) as file:
         start = file["energy_wear"].id.get_offset()  # neither packed nor with a checksum of HDF5
     content = bytearray(damaged.read_bytes())
@@ -50,10 +38,14 @@ def test_a_damaged_run_is_computed_again_when_another_is_lost_and_gets_no_checks
     with pytest.raises(DamagedFile, match=r"0\.2000\.h5: not as it was written"):
         read_run(damaged)
     (tmp_path / "0.1000.h5").unlink()
+    (tmp_path / "0.3000.h5").write_bytes((tmp_path / "0.3000.h5").read_bytes()[:3000])
     (tmp_path / "manifest.tsv").unlink()
     simulated.clear()
     assert compute() == rows
-    assert simulated == [0.1, 0.2]
+    assert simulated == [0.1, 0.2, 0.3]
+    study["speeds"]["extra"].append(0.25)
+    compute()
+    assert simulated == [0.1, 0.2, 0.3, 0.25]
 
 
 def test_a_run_without_a_checksum_is_computed_again_and_archived(compute, simulated, tmp_path):
@@ -121,37 +113,35 @@ def test_another_length_of_confirmation_repeats_only_what_grows(compute, study, 
     assert (len(simulated), len(repeated)) == (4, 2)
 
 
-def test_runs_computed_at_once_are_the_same_to_the_byte(study, case, blade, tmp_path):
-    study["speeds"] = {"start": 0.1, "stop": 0.3, "step": 0.05, "extra": []}
+@pytest.fixture
+def quick(study, case):
+    """A study whose runs take a blink, and its plan."""
+    study["speeds"] = {"start": 0.1, "stop": 0.3, "step": 0.1, "extra": []}
     study["contact"]["elements"] = 200
     study["solver"].update(revolutions=3, steps_per_element=20, max_time_step=2e-5)
     study["analysis"]["spectrum_revolutions"] = 2
     study["analysis"]["divergence"].update(revolutions=3, growth=-1.0, confirmation_revolutions=6)
-    plan = coating_plan(study, case)
-    one, three = (compute_missing(study, plan, blade, tmp_path / str(n), "digest", threads=n) for n in (1, 3))
+    return study, coating_plan(study, case)
+
+
+def test_runs_computed_at_once_are_the_same_to_the_byte(quick, blade, tmp_path):
+    one, three = (compute_missing(*quick, blade, tmp_path / str(n), "digest", threads=n) for n in (1, 3))
     assert one == three
     assert any(row.confirmation_checksum for row in one)
 
 
-def test_real_runs_go_from_the_solver_to_the_table(study, case, blade, tmp_path):
-    study["speeds"] = {"start": 0.1, "stop": 0.3, "step": 0.2, "extra": []}
-    study["contact"]["elements"] = 200
-    study["solver"].update(revolutions=3, steps_per_element=20, max_time_step=2e-5)
-    study["analysis"]["spectrum_revolutions"] = 2
-    study["analysis"]["divergence"].update(revolutions=3, confirmation_revolutions=0)
-    folder, reports = tmp_path / "runs", []
-    rows = compute_missing(study, coating_plan(study, case), blade, folder, "digest", reports.append)
+def test_real_runs_go_from_the_solver_to_the_table(quick, case, blade, tmp_path):
+    study, plan = quick
+    folder = tmp_path / "runs"
+    rows = compute_missing(study, plan, blade, folder, "digest")
     maps.build_map(study, case, blade, folder, rows, tmp_path / "map.h5")
-    table = divergence.table(study, [maps.read_map(tmp_path / "map.h5")])
-    assert [done.file for done in reports] == ["0.1000.h5", "0.3000.h5"]
-    assert list(table.f_omega) == [0.1, 0.3]
-    assert set(table.status) == {"completed"}
     coating = maps.read_map(tmp_path / "map.h5", with_nodes=True)
-    assert coating.wear_node.shape == (2, 8, 200)
+    table = divergence.table(study, [coating])
+    assert list(table.f_omega) == [0.1, 0.2, 0.3]
+    assert set(table.status) == {"completed"}
+    assert coating.wear_node.shape == (3, 8, 200)
     assert (coating.max_wear > 0).all()
-    assert list(coating.lobes) == [2, 2]  # stiff and heavy, it cuts the two lobes of the casing
-    assert compute_missing(study, coating_plan(study, case), blade, folder, "digest", reports.append) == rows
-    assert len(reports) == 2
+    assert list(coating.lobes) == [2, 2, 2]  # stiff and heavy, it cuts the two lobes of the casing
 
 
 def test_runs_on_the_rigid_casing_go_to_the_tables_as_those_of_infinite_moduli(
