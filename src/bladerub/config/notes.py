@@ -46,7 +46,7 @@ def _scaled_casings(config: Config) -> Iterator[str]:
     for name in used_casings(config):
         casing = config["casings"][name]
         keys = (key for key in ("amplitude", "interference") if key in casing)
-        sizes = [f"{key} {factor * casing[key]:.4g} m" for key in keys]
+        sizes = [f"{key} {1e3 * factor * casing[key]:.4g} mm" for key in keys]
         if factor != 1 and sizes:
             yield f"contact.scale.length = {factor:g}: casing {name} has {' and '.join(sizes)}"
 

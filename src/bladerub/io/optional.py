@@ -17,4 +17,4 @@ def package(module: str, extra: str) -> ModuleType:
     except ModuleNotFoundError as error:
         if error.name != module.partition(".")[0]:
             raise
-        raise MissingPackage(f"needs {error.name}: pip install 'bladerub[{extra}]'") from error
+        raise MissingPackage(f"needs {error.name}: pip install 'bladerub[{extra}]'") from None
