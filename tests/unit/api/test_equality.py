@@ -90,6 +90,8 @@ def test_maps_and_ensembles_are_written_whole(study, blade, sweep, planned, ense
     read = br.read_ensemble(tmp_path / "ensemble.h5", planned)
     assert read == ensemble
     assert read.bands().equals(ensemble.bands())
+    low, high = 1e3 * ensemble.bands().loc["max_wear", ["low", "high"]]
+    assert f"{low:.4g} to {high:.4g} mm" in repr(ensemble)
     assert br.read_run(tmp_path / "ensemble.h5").wear.tolist() == ensemble.runs[0].wear.tolist()
     with pytest.raises(br.InputError, match="must be that of"):
         br.read_ensemble(tmp_path / "ensemble.h5", study.run("2nd", E=2, K=0.5, f_omega=0.19))

@@ -25,7 +25,8 @@ from bladerub.study.store import StoredRun
 from bladerub.study.summary import spectral_peak
 
 _START = "initial_displacement"  # attribute of each run in the file of an ensemble, m
-_BANDED = ("peak_amplitude", "spectral_peak", "max_wear", "lobes", "wear_harmonic", "growth_per_revolution")
+_LENGTHS = ["peak_amplitude", "spectral_peak", "max_wear"]
+_BANDED = (*_LENGTHS, "lobes", "wear_harmonic", "growth_per_revolution")
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -105,7 +106,12 @@ class Ensemble(Shown, Comparable):
         run_set.write(path, together, provenance(self.planned.config))
 
     def _shown(self) -> tuple[str, Mapping[str, str]]:
-        bands = {name: f"{low:.4g} to {high:.4g}" for name, (_, low, high) in self.bands().iterrows()}
+        table = self.bands()
+        table.loc[_LENGTHS] *= 1e3
+        units = dict.fromkeys(_LENGTHS, " mm")
+        bands = {
+            name: f"{low:.4g} to {high:.4g}{units.get(name, '')}" for name, (_, low, high) in table.iterrows()
+        }
         return f"Ensemble of {len(self.runs)} runs", {"run": self.planned.name, **bands}
 
 
