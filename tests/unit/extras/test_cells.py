@@ -9,10 +9,6 @@ ANGLE = np.array([0.0, 0.5, 10.0, 20.5])
 GAP = np.array([12.0, -13.73, 0.0042, 1500.0])
 
 
-def _texts(decimal):
-    return [[f"{value:.4f}".replace(".", decimal) for value in row] for row in zip(ANGLE, GAP, strict=True)]
-
-
 @pytest.mark.parametrize("first", ["", "# cold\n", "\n", "# cold; 3,5 mm\n\n"])
 @pytest.mark.parametrize("end", ["\n", "\r\n", "\r"])
 @pytest.mark.parametrize("mark", ["", "\ufeff"])
@@ -21,7 +17,8 @@ def _texts(decimal):
     [(",", "."), (";", "."), (";", ","), ("\t", ","), (" ", ","), ("  ", "."), (", ", ".")],
 )
 def test_the_numbers_are_those_of_the_file(tmp_path, separator, decimal, mark, end, first):
-    lines = [separator.join(row) for row in [["Angle", "gap"], *_texts(decimal)]]
+    rows = [[f"{value:.4f}".replace(".", decimal) for value in row] for row in zip(ANGLE, GAP, strict=True)]
+    lines = [separator.join(row) for row in [["Angle", "gap"], *rows]]
     path = tmp_path / "table.csv"
     path.write_bytes((mark + (first + "\n".join(lines)).replace("\n", end)).encode())
     table = cells.read(path)

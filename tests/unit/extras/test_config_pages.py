@@ -30,14 +30,12 @@ def schema():
     return jsonschema.Draft202012Validator(schema)
 
 
-def test_the_committed_schema_and_reference_are_up_to_date():
-    assert (ROOT / "config" / "schema.json").read_text(encoding="utf-8") == json_schema.text()
-    assert (ROOT / "docs" / "config.md").read_text(encoding="utf-8") == reference(STUDY)
-
-
-def test_the_schema_is_printed(capsys):
+def test_the_committed_schema_and_pages_are_up_to_date(capsys):
     assert main(["config", "--schema"]) == 0
-    assert capsys.readouterr().out == json_schema.text()
+    assert (ROOT / "config" / "schema.json").read_text(encoding="utf-8") == capsys.readouterr().out
+    assert (ROOT / "docs" / "config.md").read_text(encoding="utf-8") == reference(STUDY)
+    page = PAGE.read_text(encoding="utf-8")
+    assert updated(page) == page
 
 
 @pytest.mark.parametrize("path", CONFIGS, ids=lambda path: path.stem)
@@ -56,22 +54,3 @@ def test_the_schema_refuses_the_mistakes_that_it_can_see(schema, tmp_path, mista
     path = tmp_path / "my.yaml"
     path.write_text(mistake.text, encoding="utf-8")
     assert schema.is_valid(read(path).plain()) != mistake.in_schema
-
-
-def row(path):
-    (line,) = [line for line in reference(STUDY).splitlines() if line.startswith(f"| `{path}` |")]
-    return [cell.strip() for cell in line.strip("|").split("|")]
-
-
-def test_a_row_of_the_reference_has_unit_range_and_value():
-    _, what, unit, may_be, value = row("contact.damping_ratio")
-    assert "titanium" in what
-    assert (unit, may_be, value) == ("", "a number of at least 0 and below 1", "`0.0023`")
-    assert row("casings.<name>.interference")[2] == "m"
-    assert "each a number above 0" in row("coatings[].E")[3]
-    assert row("chart.speeds.step")[4] == "`0.008`"
-
-
-def test_the_page_has_the_signatures_of_today():
-    text = PAGE.read_text(encoding="utf-8")
-    assert updated(text) == text

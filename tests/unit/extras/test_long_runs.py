@@ -9,22 +9,17 @@ CASE = CoatingCase("2nd", 1.1, 0.5, 0.0)
 
 @pytest.fixture
 def study(config):
-    config["long_runs"] = {"revolutions": 200}
-    return config
+    return config | {"long_runs": {"revolutions": 200}}
 
 
-@pytest.fixture
-def coating(make_map):
+def test_runs_that_grow_to_the_end_and_peaks_are_chosen(study, make_map):
     """Peaks at 0.2 and 0.3; grows at 0.05 and 0.2, and saturates in the longer run at 0.1."""
     f_omega = np.round(np.arange(0.02, 0.4001, 0.01), 6)
     growth = np.where(np.isin(f_omega, [0.05, 0.1, 0.2]), 0.04, 0.0)
     longer = np.full((f_omega.size, 60), np.nan)
     longer[np.isclose(f_omega, 0.05)] = 1e-6 * 1.04 ** np.arange(60)
     longer[np.isclose(f_omega, 0.1)] = 1e-6
-    return make_map(CASE, {4: (0.3, 2e-4), 6: (0.2, 5e-4)}, growth=growth, longer=longer)
-
-
-def test_runs_that_grow_to_the_end_and_peaks_are_chosen(study, coating):
+    coating = make_map(CASE, {4: (0.3, 2e-4), 6: (0.2, 5e-4)}, growth=growth, longer=longer)
     assert long_runs.chosen(study, coating) == {0.05: "grows", 0.2: "f6", 0.3: "f4"}
 
 

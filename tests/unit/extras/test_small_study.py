@@ -41,20 +41,15 @@ def test_a_small_study_has_all_runs_and_judges_the_claims_asked_for(made, simula
     assert set(found.findings["id"]) == {"C1a", "C1b"}
     simulated.clear()
     assert made({"C2"}).findings.empty
-    again = made()
-    assert {"C1a", "C1b"} <= set(again.findings["id"])
     assert simulated == []
-    assert again.n_runs == 5
 
 
 def test_without_a_folder_it_is_the_same_and_nothing_is_written(made, study, growing, simulated, tmp_path):
     growing[0.19] = 0.05
     kept = made()
-    n_simulated = len(simulated)
     files = sorted(tmp_path.rglob("*"))
     passing = made(folder=None)
     assert sorted(tmp_path.rglob("*")) == files
-    assert len(simulated) == 2 * n_simulated
     assert passing.n_runs == kept.n_runs == 5
     for table in ("peaks", "divergence", "findings"):
         pd.testing.assert_frame_equal(getattr(passing, table), getattr(kept, table), check_exact=True)
@@ -86,7 +81,8 @@ def test_both_laws_are_compared_speed_by_speed(stored):
     coulomb = stored("coulomb", [0.1, 0.2], amplitude=1.1e-3, n_reversed_steps=60, status="unbounded")
     table = friction.table([(constant, coulomb)], revolutions=10)
     assert list(table.columns) == friction.COLUMNS
-    assert set(table.columns) <= described_columns().keys()
+    described = {*table, *blade_comparison.BLADE_COLUMNS, *blade_comparison.RUN_COLUMNS}
+    assert described <= described_columns().keys()
     assert list(table.f_omega) == [0.1, 0.2]
     first = table.iloc[0]
     assert first.peak_theta == pytest.approx(1e-3, rel=1e-4)
@@ -117,7 +113,6 @@ def built(blade):
 def test_the_figures_of_a_blade_are_those_of_its_model(built):
     table = blade_comparison.blades({"this": built, "reference": built})
     assert list(table.columns) == blade_comparison.BLADE_COLUMNS
-    assert set(table.columns) <= described_columns().keys()
     figures = table[table.blade == "this"].set_index("number").value
     f1, f2 = reduced_frequencies(built.reduced, 0.0, 2)
     assert figures.f1 == pytest.approx(f1 / 1.001)
@@ -142,7 +137,6 @@ def test_runs_are_compared_at_the_common_speeds(config, case, make_map):
     other = make_map(case, {4: (0.3, 1e-3)}, f_omega=[0.1 + 1e-13, 0.2, 0.3], lobes=[2, 3, 4])
     table = blade_comparison.runs(config, [(one, other)], (0.1, 0.2))
     assert list(table.columns) == blade_comparison.RUN_COLUMNS
-    assert set(table.columns) <= described_columns().keys()
     assert list(table.f_omega) == [0.1, 0.3]
     assert list(table.lobes) == [2, 5]
     assert list(table.reference_lobes) == [2, 4]

@@ -73,23 +73,18 @@ def test_spectra_are_of_windows_in_the_order_of_speed(make, config, direction):
 def test_peaks_stand_beside_those_at_constant_speed(make, make_map, config):
     config["sweeps"]["survival"] = 0.5
     maps = {CASE: make_map(CASE, {4: (0.3, 1.5e-3), 6: (0.2, 5e-4)})}
-    settings = config["analysis"]["peaks"]
     table = sweeps.table(config, [make("up", 0.05), make("down", 0.05), make("up", 7.0)], maps)
     assert set(table.columns) <= described_columns().keys()
     assert len(table) == 6
     whole = table[(table.order == 4) & (table.rate == 0.05)]
-    constant = peak(maps[CASE], 4, settings)
+    constant = peak(maps[CASE], 4, config["analysis"]["peaks"])
     assert (whole.amplitude_constant == constant.amplitude).all()
     assert (whole.f_peak_constant == 0.3).all()
     assert whole.f_peak.to_numpy() == pytest.approx(0.3, abs=0.003)
     assert whole.ratio.to_numpy() == pytest.approx(whole.amplitude / 1.5e-3)
-    assert whole.ratio.between(0.5, 0.67).all()
     assert whole.survives.all()
-    sixth = table[(table.order == 6) & (table.rate == 0.05)]
-    assert (sixth.ratio < 0.1).all()
-    assert not sixth.survives.any()
+    assert not table[table.order == 6].survives.any()
     ended = table[(table.order == 4) & (table.rate == 7.0)].iloc[0]
     assert np.isnan(ended.f_peak)
-    assert not ended.survives
-    assert ended.status == "unbounded"
+    assert (ended.survives, ended.status) == (False, "unbounded")
     assert ended.f_end == pytest.approx(np.linspace(0.14, 0.4, REVOLUTIONS)[14])

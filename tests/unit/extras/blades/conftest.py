@@ -1,2 +1,35 @@
+import shutil
+from pathlib import Path
+
+import numpy as np
+import pytest
 from blade_fixtures import blade_config, twisted_config  # noqa: F401 (fixtures)
+from blade_parts import REDUCTION, TWISTED
 from stand_in import blade  # noqa: F401 (fixture)
+
+from bladerub.blade.build import meshed_blade
+from bladerub.blade.discrete import by_finite_elements
+from bladerub.blade.elasticity import Material
+from bladerub.extras.export.matrices import write_fe_matrices
+
+
+@pytest.fixture(scope="session")
+def discrete():
+    """The twisted blade, a little conical, as matrices at five speeds."""
+    config = TWISTED | {"tip_cone": 9.0}
+    speeds = np.linspace(0, 0.4, 5).tolist()
+    material = Material.from_config(config["material"])
+    return by_finite_elements(meshed_blade(config), material, speeds, [], REDUCTION["accuracy_modes"])
+
+
+@pytest.fixture(scope="session")
+def written(discrete, tmp_path_factory):
+    folder = tmp_path_factory.mktemp("written")
+    write_fe_matrices(folder, discrete, 0.4, ".npz")
+    return folder
+
+
+@pytest.fixture
+def folder(written, tmp_path):
+    """Matrices of the blade that a test may change."""
+    return Path(shutil.copytree(written, tmp_path / "matrices"))

@@ -13,14 +13,13 @@ from blade_parts import REDUCTION, TITANIUM, TWISTED
 from scipy import sparse
 from scipy.io import mmread, mmwrite
 
-from bladerub.blade.build import build, meshed_blade
-from bladerub.blade.discrete import by_finite_elements
+from bladerub.blade.build import build
 from bladerub.blade.elasticity import Material, Solid
 from bladerub.blade.files import made_from
 from bladerub.blade.frequencies import reduced_frequencies
 from bladerub.blade.rotation import rotating_stiffness
 from bladerub.extras.blades.frame import Frame
-from bladerub.extras.blades.matrices import check_definite, check_held, import_matrices
+from bladerub.extras.blades.matrices import check_definite, import_matrices
 from bladerub.extras.blades.origin import MatrixSource, read
 from bladerub.extras.export.matrices import write_fe_matrices
 from bladerub.io.errors import BadInput
@@ -28,32 +27,9 @@ from bladerub.io.errors import BadInput
 FIVE_SPEEDS = REDUCTION | {"accuracy_speeds": 5}
 
 
-BLADE = TWISTED | {"tip_cone": 9.0}
-
-
 @pytest.fixture
 def config():
-    return copy.deepcopy({"blade": BLADE, "reduction": FIVE_SPEEDS})
-
-
-@pytest.fixture(scope="module")
-def discrete():
-    speeds = np.linspace(0, 0.4, FIVE_SPEEDS["accuracy_speeds"]).tolist()
-    material = Material.from_config(BLADE["material"])
-    return by_finite_elements(meshed_blade(BLADE), material, speeds, [], REDUCTION["accuracy_modes"])
-
-
-@pytest.fixture(scope="module")
-def written(discrete, tmp_path_factory):
-    folder = tmp_path_factory.mktemp("written")
-    write_fe_matrices(folder, discrete, 0.4, ".npz")
-    return folder
-
-
-@pytest.fixture
-def folder(written, tmp_path):
-    """Matrices of the blade that a test may change."""
-    return Path(shutil.copytree(written, tmp_path / "matrices"))
+    return copy.deepcopy({"blade": TWISTED | {"tip_cone": 9.0}, "reduction": FIVE_SPEEDS})
 
 
 def imported(folder, **source):
@@ -125,25 +101,19 @@ def test_nodes_without_clamped_ones_tell_no_length(config, folder):
     assert not given.mass_is_complete
     assert 0.1 < given.blade.layout.length < 0.199
     assert build(of_folder(config, folder)).reduced.length == 0.2
-    for length in (0.1, 0.7):
-        config["blade"]["length"] = length
-        with pytest.raises(
-            BadInput, match=rf"blade.length = {length}: must be that of the blade in .*/matrices"
-        ):
-            build(of_folder(config, folder))
+    config["blade"]["length"] = 0.1
+    with pytest.raises(BadInput, match=r"blade.length = 0.1: must be that of the blade in .*/matrices"):
+        build(of_folder(config, folder))
 
 
 def test_a_blade_that_nothing_holds_is_refused(discrete, folder):
-    mesh = discrete.layout.mesh.mesh
-    loose = Solid(mesh, Material.from_config(TITANIUM))
+    loose = Solid(discrete.layout.mesh.mesh, Material.from_config(TITANIUM))
     sparse.save_npz(folder / "mass.npz", loose.mass)
     for path in folder.glob("stiffness_*"):
         sparse.save_npz(path, loose.tangent(np.zeros(loose.free.size)))
     nodes = pd.read_csv(folder / "nodes.csv")
     nodes.drop(columns="clamped").to_csv(folder / "nodes.csv", index=False)
-    with pytest.raises(
-        BadInput, match=r"stiffness_rest.npz: is singular or indefinite: its lowest mode moves"
-    ):
+    with pytest.raises(BadInput, match=r"rest.npz: is singular or indefinite: its lowest mode moves"):
         imported(folder)
 
 
@@ -165,62 +135,39 @@ def test_a_blade_is_of_its_files_not_of_the_material(config, folder):
     assert made_from(ours) != first
 
 
-def matrix(name, change):
-    """Change the matrix `name` of a folder."""
-
-    def apply(folder):
-        path = folder / f"{name}.npz"
-        sparse.save_npz(path, sparse.csc_array(change(sparse.load_npz(path).tolil())))
-
-    return apply
+def matrix(folder, name, change):
+    path = folder / f"{name}.npz"
+    sparse.save_npz(path, sparse.csc_array(change(sparse.load_npz(path))))
 
 
-def entry(row, column, value):
+def entry(folder, name, row, column, value=0.0, times=0.0):
     def change(matrix):
-        matrix[row, column] = value
+        matrix = matrix.tolil()
+        matrix[row, column] = value + times * matrix[row, column]
         return matrix
 
-    return change
+    matrix(folder, name, change)
 
 
-def nodes(change):
-    """Change the table of nodes of a folder."""
-
-    def apply(folder):
-        change(pd.read_csv(folder / "nodes.csv").astype(object)).to_csv(folder / "nodes.csv", index=False)
-
-    return apply
-
-
-def cell(row, column, value):
-    def change(table):
-        table.loc[row, column] = value
-        return table
-
-    return change
+def nodes(folder, change):
+    """Change the numbers of the interface nodes, 0 elsewhere."""
+    table = pd.read_csv(folder / "nodes.csv")
+    table.assign(interface=change(table.interface.fillna(0).to_numpy())).to_csv(
+        folder / "nodes.csv", index=False
+    )
 
 
-def text(name, content):
-    def apply(folder):
-        (folder / "mass.npz").unlink()
-        (folder / name).write_text(content)
-
-    return apply
+def text(folder, name, content):
+    (folder / "mass.npz").unlink()
+    (folder / name).write_text(content)
 
 
-def added(name, source="stiffness_half.npz"):
-    return lambda folder: shutil.copy(folder / source, folder / name)
-
-
-def archive(**changes):
-    """Replace arrays of mass.npz, which scipy reads without a look at them."""
-
-    def apply(folder):
-        with np.load(folder / "mass.npz") as content:
-            arrays = {name: changes.get(name, lambda array: array)(array) for name, array in content.items()}
-        np.savez_compressed(folder / "mass.npz", **arrays)
-
-    return apply
+def offsets_that_go_back(folder):
+    """Scipy reads the arrays of an archive without a look at them."""
+    with np.load(folder / "mass.npz") as content:
+        arrays = dict(content)
+    arrays["indptr"][5] = 10**6
+    np.savez_compressed(folder / "mass.npz", **arrays)
 
 
 def bomb(folder):
@@ -230,56 +177,40 @@ def bomb(folder):
             stream.write(bytes(10**6))
 
 
-HEADER = "%%MatrixMarket matrix coordinate real"
+HEADER = "%%MatrixMarket matrix coordinate real general\n"
 
 
-INTERFACE = "interface node 1 is downstream of node 8; must be at the leading edge"
-
-
-BROKEN = {
-    "a missing file": (
-        lambda folder: (folder / "stiffness_half.npz").unlink(),
-        "matrices: holds no stiffness_half",
-    ),
-    "a cut file": (
-        text("mass.mtx", f"{HEADER} general\n9 9 5\n1 1 2.0\n"),
-        "mass.mtx: is not a .mtx file that",
-    ),
-    "decimal commas": (text("mass.mtx", f"{HEADER} general\n1 1 1\n1 1 2,0\n"), "mass.mtx: .*line 3 has ','"),
-    "offsets that go back": (
-        archive(indptr=lambda array: np.where(np.arange(array.size) == 5, 10**6, array)),
-        "mass.npz: is not a .npz file that can be read",
-    ),
-    "a bomb": (bomb, "mass.npz: takes 1.2 GB of memory for 486 rows; must take 0.8 GB or less"),
-    "of CalculiX": (
-        text("blade.mas", "1 1 2.0e-03\n"),
-        "holds no mass.mtx or mass.npz; .*blade.mas of Calcul",
-    ),
-    "NaN": (matrix("stiffness_half", entry(4, 6, np.nan)), r"half.npz: its entry \(5, 7\) is nan"),
-    "not symmetric": (
-        matrix("stiffness_max", lambda m: entry(4, 6, 1.01 * m[4, 6])(m)),
-        r"stiffness_max.npz: is not symmetric: its entry \((5, 7|7, 5)\) is .* off its mirror image",
-    ),
-    "indefinite": (
-        matrix("stiffness_rest", lambda m: m - 0.5 * sparse.diags_array(m.diagonal())),
-        "rest.npz: is not positive definite: it has negative eigenvalues",
-    ),
-    "a number twice": (
-        nodes(lambda table: cell(table.index[table.interface == 0][-1], "interface", 2)(table)),
-        "nodes.csv: 2 nodes have interface = 2",
-    ),
-    "backwards": (
-        nodes(lambda table: table.assign(interface=[9 - n if n else 0 for n in table.interface])),
-        f"nodes.csv: {INTERFACE}",
-    ),
-    "a speed too high": (added("stiffness_at_0.5.npz"), "stiffness_at_0.5.npz: must be named after .* = 0.4"),
-}
-
-
-@pytest.mark.parametrize("name", BROKEN)
-def test_broken_folders_are_refused_with_file_and_culprit(folder, name):
-    apply, said = BROKEN[name]
-    apply(folder)
+@pytest.mark.parametrize(
+    ("change", "said"),
+    [
+        (lambda at: (at / "stiffness_half.npz").unlink(), "matrices: holds no stiffness_half"),
+        (lambda at: text(at, "mass.mtx", HEADER + "9 9 5\n1 1 2.0\n"), "mass.mtx: is not a .mtx file that"),
+        (lambda at: text(at, "mass.mtx", HEADER + "1 1 1\n1 1 2,0\n"), "mass.mtx: .*line 3 has ','"),
+        (offsets_that_go_back, "mass.npz: is not a .npz file that can be read"),
+        (bomb, "mass.npz: takes 1.2 GB of memory for 486 rows; must take 0.8 GB or less"),
+        (lambda at: text(at, "blade.mas", "1 1 2.0e-03\n"), "holds no mass.mtx .*blade.mas of Calcul"),
+        (lambda at: entry(at, "stiffness_half", 4, 6, np.nan), r"half.npz: its entry \(5, 7\) is nan"),
+        (
+            lambda at: entry(at, "stiffness_max", 4, 6, times=1.01),
+            r"stiffness_max.npz: is not symmetric: its entry \((5, 7|7, 5)\) is",
+        ),
+        (
+            lambda at: matrix(at, "stiffness_rest", lambda m: m - 0.5 * sparse.diags_array(m.diagonal())),
+            "rest.npz: is not positive definite: it has negative eigenvalues",
+        ),
+        (lambda at: nodes(at, lambda n: np.where(n == 3, 2, n)), "nodes.csv: 2 nodes have interface = 2"),
+        (
+            lambda at: nodes(at, lambda n: np.where(n > 0, 9 - n, 0)),
+            "nodes.csv: interface node 1 is downstream of node 8; must be at the leading edge",
+        ),
+        (
+            lambda at: shutil.copy(at / "stiffness_half.npz", at / "stiffness_at_0.5.npz"),
+            "stiffness_at_0.5.npz: must be named after .* = 0.4",
+        ),
+    ],
+)
+def test_broken_folders_are_refused_with_file_and_culprit(folder, change, said):
+    change(folder)
     with pytest.raises(BadInput, match=said) as caught:
         imported(folder)
     assert str(caught.value).startswith(str(folder))
@@ -300,37 +231,15 @@ def test_keys_that_do_not_go_together_are_refused(source, said):
         read(source)
 
 
-def chain(n, held=True):
-    """Stiffness of `n` masses in a row, each tied to the next, the first to the wall if `held`."""
-    stiffness = sparse.diags_array(
-        [-np.ones(n - 1), 2 * np.ones(n), -np.ones(n - 1)], offsets=[-1, 0, 1]
-    ).tolil()
-    stiffness[-1, -1] = 1.0
-    stiffness[0, 0] = 2.0 if held else 1.0
-    return sparse.csc_array(stiffness)
-
-
-def lowest_mode(stiffness):
-    return np.linalg.eigh(stiffness.toarray())[1][:, 0]
-
-
-@pytest.mark.parametrize("n", [2, 40, 2000])
-def test_a_chain_on_a_wall_passes(n):
-    check_definite(chain(n))
-    if n < 1000:
-        check_held(chain(n), lowest_mode(chain(n)))
-
-
 def test_one_negative_eigenvalue_among_many_is_found():
-    stiffness = chain(2000).tolil()
+    """Of a chain of masses on a wall."""
+    n = 2000
+    stiffness = sparse.diags_array([-np.ones(n - 1), 2 * np.ones(n), -np.ones(n - 1)], offsets=[-1, 0, 1])
+    check_definite(sparse.csc_array(stiffness))
+    stiffness = stiffness.tolil()
     stiffness[700, 701] = stiffness[701, 700] = -2.5
     with pytest.raises(ValueError, match="is not positive definite: it has negative eigenvalues"):
         check_definite(sparse.csc_array(stiffness))
-
-
-def test_a_chain_without_wall_is_not_held():
-    with pytest.raises(ValueError, match="is singular or indefinite"):
-        check_held(chain(40, held=False), lowest_mode(chain(40, held=False)))
 
 
 PAGE = Path(__file__).parents[4] / "docs" / "how-to" / "bring_matrices.md"

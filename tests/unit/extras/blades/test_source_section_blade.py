@@ -19,7 +19,6 @@ from bladerub.extras.blades.section_profile import EDGE_SHARE
 from bladerub.io.errors import BadInput
 
 COUNTS = {"chordwise": 7, "thickness": 1, "spanwise": 6}
-RIGHT_HANDED = Frame(rotation="x", downstream="x")  # angles of a table then grow along the rotation
 
 
 def cylindrical_in_degrees(solid, **counts):
@@ -91,21 +90,17 @@ def test_angles_turn_by_the_right_hand_about_the_positive_axis(read, frame, sign
 
 
 def test_a_blade_whose_flow_is_along_its_rotation_vector_has_its_leading_edge_there(read):
-    table = cylindrical(twisted_plate)
-    imported = read(table, RIGHT_HANDED)
+    imported = read(cylindrical(twisted_plate), Frame(rotation="x", downstream="x"))
     mesh = imported.blade.mesh
     leading, trailing = mesh.mesh.points[mesh.interface[[0, -1]]]
     assert leading[0] > trailing[0]  # x of the blade's frame points against the rotation vector
     assert imported.volume == pytest.approx(CHORD * THICKNESS * LENGTH, rel=1e-4)
 
 
-def moved(table, section, x=0.0, z=0.0):
-    """Move a section along the axis and outwards, or by what each of its stations says."""
-    here = table.section == section
-    return table.assign(
-        **{name: table[name] + np.where(here, x, 0.0) for name in ("x1", "x2")},
-        **{name: table[name] + np.where(here, z, 0.0) for name in ("z1", "z2")},
-    )
+def raised(table, section, z):
+    """Move the stations of a section outwards."""
+    z = np.where(table.section == section, z, 0.0)
+    return table.assign(z1=table.z1 + z, z2=table.z2 + z)
 
 
 @pytest.mark.parametrize(
@@ -117,7 +112,7 @@ def moved(table, section, x=0.0, z=0.0):
             "without line 32 all do, so check its numbers",
         ),
         (lambda t: t.assign(x2=t.x1, y2=t.y1, z2=t.z1), "the sides of section s0 touch or cross here"),
-        (lambda t: moved(t, "s4", z=1.5 * t.x1), "sections s3 and s4 cross: s4 is not the farther from"),
+        (lambda t: raised(t, "s4", 1.5 * t.x1), "sections s3 and s4 cross: s4 is not the farther from"),
     ],
 )
 def test_sections_that_make_no_blade_are_refused_with_file_and_culprit(read, change, said):

@@ -1,6 +1,8 @@
 """The points of a column are computed once each, under keys of all that determines them."""
 
+import operator
 from dataclasses import replace
+from functools import reduce
 
 import pytest
 
@@ -11,7 +13,7 @@ from bladerub.extras.chart.point import PointRow
 from bladerub.extras.chart.table import read_points
 from bladerub.io.errors import DamagedFile
 from bladerub.study.cache import ARCHIVE
-from bladerub.study.grid import CoatingCase, run_spec
+from bladerub.study.grid import CoatingCase
 from bladerub.study.manifest import read_manifest, write_manifest
 
 CASE = CoatingCase("2nd", 2.0, 0.5, 0.0)
@@ -34,12 +36,12 @@ def computed(make_point, monkeypatch):
 def build(few_speeds, blade, computed, tmp_path):
     """Compute the column of given K, write its manifest and return what was computed for it."""
 
-    def run(K, digest="blade", report=lambda line: None):
+    def run(K, digest="blade"):
         few_speeds["chart"] |= {"E": [2], "K": K, "theta": [0.0]}
         computed.clear()
         ((name, cases),) = columns(few_speeds).items()
         plan = column.plan_column(few_speeds, cases)
-        rows = column.compute_missing(few_speeds, plan, blade, tmp_path / "cells", digest, report)
+        rows = column.compute_missing(few_speeds, plan, blade, tmp_path / "cells", digest, lambda line: None)
         write_manifest(tmp_path / "columns" / f"{name}.tsv", rows, PointRow)
         return list(computed)
 
@@ -52,9 +54,7 @@ def manifest(tmp_path):
 
 
 def test_a_column_computes_what_is_not_there(few_speeds, build, manifest, tmp_path):
-    lines = []
-    assert build([0.5, 5], report=lines.append) == [0.5, 5]
-    assert len(lines) == 2
+    assert build([0.5, 5]) == [0.5, 5]
     rows = read_manifest(manifest, PointRow)
     assert [row.file for row in rows] == ["2nd_E2_K0.5_theta0.h5", "2nd_E2_K5_theta0.h5"]
     assert build([0.5, 5]) == []
@@ -64,7 +64,6 @@ def test_a_column_computes_what_is_not_there(few_speeds, build, manifest, tmp_pa
     assert build([0.5, 5]) == [5]
     few_speeds["analysis"]["divergence"]["growth"] = 0.02
     assert build([5]) == [5]
-    assert build([5], digest="another blade") == [5]
 
 
 def test_a_change_of_mind_costs_no_point(build, manifest, tmp_path):
@@ -111,25 +110,17 @@ class TestDeterminants:
             (("speeds", "stop"), 0.36),
             (("solver", "revolutions"), 21),
             (("contact", "damping_ratio"), 2e-3),
+            (("contact", "layer_thickness"), 7e-3),
+            (("contact", "tip_profile", "half_width"), 3.0),
+            (("casings", "2nd", "start_angle"), 12.0),
             (("blade", "length"), 0.21),
         ],
         ids=lambda keys: ".".join(keys) if isinstance(keys, tuple) else None,
     )
     def test_a_setting_that_shapes_the_point_changes_them(self, few_speeds, digest, keys, value):
-        before, section = digest(), few_speeds
-        for key in keys[:-1]:
-            section = section[key]
+        before, section = digest(), reduce(operator.getitem, keys[:-1], few_speeds)
         assert section[keys[-1]] != value
         section[keys[-1]] = value
-        assert digest() != before
-
-    @pytest.mark.parametrize("part", ["casing", "coating", "tip"])
-    def test_every_part_of_the_run_changes_them(self, few_speeds, digest, monkeypatch, part):
-        spec, before = run_spec(few_speeds, CASE, 0.0), digest()
-        field = {"casing": "start_angle", "coating": "yield_stress", "tip": "half_width"}[part]
-        inner = getattr(spec, part)
-        other = replace(spec, **{part: replace(inner, **{field: getattr(inner, field) + 1})})
-        monkeypatch.setattr(column, "run_spec", lambda *_, **__: other)
         assert digest() != before
 
     @pytest.mark.parametrize("source", ["solver_digest", "chart_digest"])

@@ -83,35 +83,12 @@ def test_a_search_from_more_speeds_computes_what_an_earlier_one_did_not(few_spee
         np.testing.assert_array_equal(again.measures[name], values)
 
 
-def test_worn_volume_is_depth_times_area(few_speeds, blade, simulated):
-    speeds = chart_speeds(few_speeds)
-    point = search.compute(few_speeds, CASE, blade, speeds, np.sqrt(1 + 3 * speeds.f_omega**2))
-    depth = 2e-4 * np.linspace(1, 0.5, 8) / np.pi  # the mean of clip(cos, 0) is 1/π
-    expected = np.sum(depth * strip_width(blade) * 2 * np.pi * 0.65)
-    volume = point.measures["worn_volume"][point.known]
-    np.testing.assert_allclose(volume, expected, rtol=1e-5)
-    assert np.all(point.measures["deepest_wear"][point.known] == pytest.approx(2e-4, rel=1e-4))
-
-
-@pytest.fixture
-def measured(few_speeds, blade, make_result, monkeypatch):
-    """Run a point with one result for the runs of the study and another for the longer ones."""
-
-    def compute(result, longer=None):
-        by_length = {result.revolution_peak.size: result}
-        if longer is not None:
-            by_length[longer.revolution_peak.size] = longer
-        monkeypatch.setattr(search, "simulate", lambda _, spec: by_length[spec.revolutions])
-        speeds = chart_speeds(few_speeds)
-        return search.compute(few_speeds, CASE, blade, speeds, np.sqrt(1 + 3 * speeds.f_omega**2))
-
-    return compute
-
-
-def test_each_measure_is_that_of_its_run(measured, make_result, blade):
+def test_each_measure_is_that_of_its_run(few_speeds, make_result, blade, monkeypatch):
     result = make_result(order=4.0, amplitude=1e-3)
     result = replace(result, revolution_peak=result.revolution_peak + np.linspace(0, 1e-3, 20))
-    point = measured(result)
+    monkeypatch.setattr(search, "simulate", lambda *_: result)
+    speeds = chart_speeds(few_speeds)
+    point = search.compute(few_speeds, CASE, blade, speeds, np.sqrt(1 + 3 * speeds.f_omega**2))
     f_omega, of = point.f_omega[point.known], {k: v[point.known] for k, v in point.measures.items()}
     assert of["peak"] == pytest.approx(2e-3, rel=1e-4)
     assert of["lobes"] == pytest.approx(4)
@@ -121,6 +98,9 @@ def test_each_measure_is_that_of_its_run(measured, make_result, blade):
         assert (of[f"energy_{name}"] == getattr(result.energy, name)).all()
     np.testing.assert_allclose(point.spectrum_amplitude[point.known, 0], 1e-3, rtol=1e-3)
     assert (point.spectrum_amplitude[point.known, 1] < 1e-6).all()
+    depth = 2e-4 * np.linspace(1, 0.5, 8) / np.pi  # the mean of clip(cos, 0) is 1/π
+    assert of["worn_volume"] == pytest.approx(np.sum(depth * strip_width(blade) * 2 * np.pi * 0.65), rel=1e-5)
+    assert of["deepest_wear"] == pytest.approx(2e-4, rel=1e-4)
 
 
 def looked_at(curve, step, share):

@@ -1,3 +1,4 @@
+import itertools
 from dataclasses import replace
 
 import numpy as np
@@ -16,11 +17,8 @@ E, K = (0.5, 1.0, 2.0), (0.1, 1.0, 10.0)
 def chart(make_point):
     """Highest at K = 1 for each E; the peak of E = 2 lies between the even speeds."""
     heights = {0.1: 1e-3, 1.0: 2e-3, 10.0: 1.5e-3}
-    return [
-        make_point(e, k, Y4=e * heights[k], f4=0.322 if e == 2 else 0.32, depth=1e-4 * k)
-        for e in E
-        for k in K
-    ]
+    values = itertools.product(E, K)
+    return [make_point(e, k, e * heights[k], f4=0.322 if e == 2 else 0.32, depth=1e-4 * k) for e, k in values]
 
 
 def test_a_point_comes_back_from_its_file(tmp_path, config, make_point):
@@ -56,15 +54,10 @@ def test_the_ridge_is_the_greatest_of_each_E_and_of_each_K(config, chart):
     assert along.amplitude[1.0] == pytest.approx(2e-3)
     assert (along.lowest_neighbour[1.0], along.highest_neighbour[1.0]) == pytest.approx((0.5e-3, 4e-3))
     assert (along.lowest_neighbour[2.0], along.highest_neighbour[2.0]) == pytest.approx((1e-3, 3e-3))
-
-
-def test_a_coarser_step_loses_what_lies_between(config, chart):
-    found = ridge.summary(ridge.table(config, chart))
+    found = ridge.summary(ridges)  # a coarser step loses what lies between
     of_order = found[found.order == 4].set_index("speed_step")
     assert list(of_order.index) == [0.002, 0.004, 0.008]
-    assert list(of_order.amplitude) == pytest.approx(
-        [4e-3, 4e-3 * (1 - 0.002 / 0.05), 4e-3 * (1 - 0.002 / 0.05)]
-    )
+    assert list(of_order.amplitude) == pytest.approx([4e-3, *2 * [4e-3 * (1 - 0.002 / 0.05)]])
     assert (of_order.K_shift == 1).all()
     assert (of_order.height_lost == 0).all()  # the median: two ridge points of three lie on even speeds
     assert set(found.columns) <= described_columns().keys()
@@ -93,13 +86,8 @@ def leaning(blade):
 @pytest.fixture
 def peaks():
     """f4 is a function of E_T alone; f6 lies below the crossing where E = 2."""
-    rows = [
-        {"order": order, "theta": 0.0, "E": e, "K": k, "E_T": e * k / (e + k)}
-        for order in (4, 6)
-        for e in E
-        for k in K
-    ]
-    found = pd.DataFrame(rows)
+    found = pd.DataFrame(itertools.product((4, 6), E, K), columns=["order", "E", "K"]).assign(theta=0.0)
+    found["E_T"] = found.E * found.K / (found.E + found.K)
     found["f_peak"] = 0.3 + 0.05 * np.tanh(found.E_T)
     found["f_crossing"] = np.where((found.order == 6) & (found.E == 2), 0.4, 0.3)
     return found
@@ -114,17 +102,14 @@ def test_a_speed_that_follows_the_modulus_of_the_contact_does_not_scatter_about_
     assert set(found.columns) <= described_columns().keys()
 
 
-def test_the_share_follows_from_the_lean_of_the_first_mode(leaning):
-    assert stiffening.share(leaning, 0.15, 0.2) == pytest.approx(np.cos(0.15) - np.sin(0.15) / 0.2)
-    assert stiffening.share(leaning, 0.0, 0.2) == 1.0
-
-
 def test_inclined_bars_need_so_much_more_modulus_at_the_same_speed(peaks, leaning):
     peaks["f_peak"] = 0.3 + 0.01 * peaks.E_T
     inclined = peaks.assign(theta=0.15, E_T=3.5 * peaks.E_T)  # the same f_k
     inclined.loc[inclined.f_peak > 0.315, "f_peak"] = 0.4  # beyond what is small
     found = stiffening.table(pd.concat([peaks, inclined]), leaning)
     assert list(found[found.order == 4].modulus_ratio) == pytest.approx([1, 3.5])
+    share = np.cos(0.15) - np.sin(0.15) / 0.2  # by the lean of the first mode
+    assert stiffening.share(leaning, 0.15, 0.2) == pytest.approx(share)
     expected = 1 / stiffening.share(leaning, 0.15, 0.3)
     assert list(found[found.order == 4].modulus_ratio_by_share) == pytest.approx([1, expected])
 
@@ -164,11 +149,9 @@ def test_the_recommended_coating_says_how_good_those_next_to_it_are(config, char
 
 
 def test_the_search_is_put_to_the_study(config, make_map):
-    f_omega = np.append(np.round(np.arange(0.02, 0.4001, 0.002), 6), 0.197)
-    f_omega.sort()
-    maps = [
-        make_map(CoatingCase("2nd", e, 0.5, 0.0), {4: (0.322, 2e-3), 6: (0.19, 1e-3)}, f_omega) for e in E
-    ]
+    f_omega = np.sort([*np.round(np.arange(0.02, 0.4001, 0.002), 6), 0.197])
+    hats = {4: (0.322, 2e-3), 6: (0.19, 1e-3)}
+    maps = [make_map(CoatingCase("2nd", e, 0.5, 0.0), hats, f_omega) for e in E]
     maps[1].spectrum_amplitude[f_omega == 0.274, 40] = 3e-3  # a spike that no local maximum leads to
     found = check.table(config, maps)
     spike = (found.E == 1.0) & (found.quantity == "Y4")

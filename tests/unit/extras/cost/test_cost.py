@@ -28,11 +28,7 @@ def benchmarks(tmp_path):
 
 def test_a_row_a_job(benchmarks):
     costs = table(benchmarks).set_index(["rule", "job"])
-    assert [*costs.index.names, *costs.columns] == [
-        "rule",
-        "job",
-        *(c for c in COLUMNS if c not in ("rule", "job")),
-    ]
+    assert {*costs.index.names, *costs.columns} == {*COLUMNS}
     rub = costs.loc[("coating", "2nd_E2_K0.5_theta0.15")]
     assert (rub.stage, rub.wall_s, rub.cpu_s, rub.memory_mb) == ("rubs", 30.0, 21.0, 200.0)
     assert costs.loc[("blade", ""), "stage"] == "blade"
@@ -42,9 +38,7 @@ def test_a_row_a_job(benchmarks):
 
 def test_a_record_that_breaks_off_is_left_out(benchmarks):
     (benchmarks / "blade.tsv").write_text("s\th:m:s\tmax")
-    costs = table(benchmarks)
-    assert "blade" not in set(costs.rule)
-    assert len(costs) == 4
+    assert sorted(table(benchmarks).rule) == ["coating", "coating", "fig05_casing", "fig08_spectrum_soft"]
 
 
 def test_bars_are_minutes_and_megabytes():

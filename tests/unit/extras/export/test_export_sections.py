@@ -17,19 +17,14 @@ from bladerub.io.folders import ROOT
 COUNTS = {"chordwise": 7, "thickness": 1, "spanwise": 6}
 
 
-@pytest.fixture
-def blade():
-    """The ``blade`` block of the default config, to be changed at will."""
-    return load(ROOT / "config" / "config.yaml")["blade"]
-
-
 def frequencies(mesh, material):
     solid = Solid(mesh.mesh, Material.from_config(material), clamped=mesh.root)
     return lowest_modes(equilibrium(solid, 0.0).stiffness, solid.mass, 8)[0]
 
 
 @pytest.mark.parametrize("coordinates", ["cartesian", "cylindrical"])
-def test_the_default_blade_comes_back_from_its_sections_in_inches_and_degrees(blade, tmp_path, coordinates):
+def test_the_default_blade_comes_back_from_its_sections_in_inches_and_degrees(tmp_path, coordinates):
+    blade = load(ROOT / "config" / "config.yaml")["blade"]
     path = tmp_path / "blade.csv"
     write_sections(path, BladeShape.from_config(blade), coordinates)
     table = pd.read_csv(path, comment="#")
@@ -38,12 +33,10 @@ def test_the_default_blade_comes_back_from_its_sections_in_inches_and_degrees(bl
     if coordinates == "cylindrical":
         table[["theta1", "theta2"]] = np.rad2deg(table[["theta1", "theta2"]])
     table.to_csv(path, index=False)
-    source = Source(path, Frame("inch"), angle_unit="deg")
-    imported = import_blade(source, COUNTS)
+    imported = import_blade(Source(path, Frame("inch"), angle_unit="deg"), COUNTS)
     ours = BladeMesh.from_shape(BladeShape.from_config(blade), COUNTS)
-    np.testing.assert_allclose(
-        frequencies(imported.blade.mesh, blade["material"]), frequencies(ours, blade["material"]), rtol=3e-4
-    )
+    found, expected = (frequencies(mesh, blade["material"]) for mesh in (imported.blade.mesh, ours))
+    np.testing.assert_allclose(found, expected, rtol=3e-4)
     assert np.rad2deg(imported.blade.tip_cone) == pytest.approx(blade["tip_cone"], abs=1e-4)
     assert all(section.cut == (0, 0) for section in imported.sections)
     interface = imported.blade.mesh.mesh.points[imported.blade.mesh.interface]

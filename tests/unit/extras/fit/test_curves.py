@@ -19,14 +19,11 @@ def table(tmp_path):
     return written
 
 
-def test_a_curve_for_each_rate_in_si(table):
+def test_a_curve_for_each_rate_in_si_by_the_units_of_the_header_or_those_given(table):
     slow, fast = read(table("Strain [%], stress (MPa), rate (1/s)"))
     assert (slow.rate, fast.rate) == (1, 100)
     np.testing.assert_allclose(slow.strain, [1e-4, 2e-4, 3e-4])
     np.testing.assert_allclose(fast.stress, [6e6, 11e6, 12e6])
-
-
-def test_units_of_the_header_come_before_those_given(table):
     path = table("strain,stress (MPa),rate")
     assert read(path, {"stress": "Pa"})[0].stress[0] == 5e6
     assert read(table("strain,stress,rate"), {"stress": "kPa"})[0].stress[0] == 5e3

@@ -1,9 +1,10 @@
 """The calls of CuPy, on one that works on arrays of NumPy; and what is said where there is none."""
 
 import sys
-from collections import defaultdict
-from contextlib import nullcontext
-from types import ModuleType, SimpleNamespace
+from functools import cache
+from types import SimpleNamespace
+from typing import ClassVar
+from unittest.mock import MagicMock
 
 import numpy as np
 import pytest
@@ -13,66 +14,48 @@ from bladerub.extras.gpu import device, emulation
 from bladerub.extras.gpu.many import simulate_many
 
 
-class Stream(nullcontext):
-    def __init__(self, non_blocking):
-        super().__init__()
-        assert non_blocking
-
-    def synchronize(self):
-        pass
-
-
 class Array(np.ndarray):
     """With the memory that CuPy gives an array."""
 
-    def __new__(cls, shape, dtype):
-        array = np.empty(shape, dtype).view(cls)
-        memory = np.asarray(array).reshape(-1).view(np.uint8)
-        array.memory = SimpleNamespace(
-            ptr=array.ctypes.data, memset_async=lambda value, size: memory[:size].fill(value)
-        )
-        return array
-
-    @classmethod
-    def of(cls, given):
-        array = cls(given.shape, given.dtype)
-        array[...] = given
-        return array
-
     @property
     def data(self):
-        return self.memory
+        memory = np.asarray(self).reshape(-1).view(np.uint8)
+        return SimpleNamespace(
+            ptr=self.ctypes.data, memset_async=lambda value, size: memory[:size].fill(value)
+        )
+
+
+class Kernel:
+    """The emulation; lists the grids of its launches."""
+
+    grids: ClassVar = []
+
+    def __init__(self, source):
+        self.source = source
+
+    def __call__(self, grid, block, arguments, shared_mem):
+        self.grids.append(grid)
+        assert block == (32,)
+        assert shared_mem == self.max_dynamic_shared_size_bytes > 0
+        n_runs, *arrays = arguments
+        emulation.call(emulation._compiled(self.source, "double"), int(n_runs), *arrays)
 
 
 @pytest.fixture
 def cupy(monkeypatch):
-    """Stand in for CuPy; the kernel is the emulation. Lists the launches."""
-    device._compiled.cache_clear()
-    launches = defaultdict(list)
-
-    class Kernel:
-        def __init__(self, source):
-            self.source = source
-
-        def __call__(self, grid, block, arguments, shared_mem):
-            launches["grid"].append(grid)
-            assert block == (32,)
-            assert shared_mem == self.max_dynamic_shared_size_bytes > 0
-            n_runs, *arrays = arguments
-            emulation.call(emulation._compiled(self.source, "double"), int(n_runs), *arrays)
-
-    module = ModuleType("cupy")
-    module.asarray, module.empty = Array.of, Array
-    module.asnumpy = np.array
+    """Stand in for CuPy."""
+    monkeypatch.setattr(device, "_compiled", cache(device._compiled.__wrapped__))
+    monkeypatch.setattr(Kernel, "grids", [])
+    module = MagicMock(asnumpy=np.array)
+    module.asarray = lambda given: np.array(given).view(Array)
+    module.empty = lambda shape, dtype: np.empty(shape, dtype).view(Array)
     module.RawModule = lambda code, options: SimpleNamespace(get_function=lambda name: Kernel(code))
-    chip = SimpleNamespace(mem_info=(0, 10**9), attributes={"MultiProcessorCount": 2})
-    runtime = SimpleNamespace(getDeviceCount=lambda: 1, CUDARuntimeError=RuntimeError)
-    module.cuda = SimpleNamespace(
-        Stream=Stream, Device=lambda: chip, runtime=runtime, get_current_stream=lambda: Stream(True)
+    module.cuda.Device.return_value = SimpleNamespace(
+        mem_info=(0, 10**9), attributes={"MultiProcessorCount": 2}
     )
+    module.cuda.runtime.CUDARuntimeError = RuntimeError
     monkeypatch.setitem(sys.modules, "cupy", module)
-    yield SimpleNamespace(launches=launches, chip=chip)
-    device._compiled.cache_clear()
+    return module
 
 
 @pytest.mark.skipif(not emulation.is_possible(), reason="no C++ compiler")
@@ -86,15 +69,10 @@ def test_runs_of_several_sizes_share_a_kernel(cupy, blade, spec, change):
         np.testing.assert_allclose(found[number].wear, expected.wear, rtol=0, atol=1e-9)
         assert found[number].radial_displacement.shape == expected.radial_displacement.shape
         assert found[number].n_steps == expected.n_steps
-    assert cupy.launches["grid"] == [(3,), (1,)]
+    assert Kernel.grids == [(3,), (1,)]
 
 
-def test_without_a_gpu_it_is_said_what_to_take(cupy, monkeypatch):
-    def none():
-        raise RuntimeError("no driver")
-
-    monkeypatch.setattr(sys.modules["cupy"].cuda.runtime, "getDeviceCount", none)
-    with pytest.raises(
-        device.NoGpuError, match=r"no GPU of NVIDIA was found \(no driver\): take solver.device"
-    ):
+def test_without_a_gpu_it_is_said_what_to_take(cupy):
+    cupy.cuda.runtime.getDeviceCount.side_effect = RuntimeError("no driver")
+    with pytest.raises(device.NoGpuError, match=r"was found \(no driver\): take solver.device"):
         device.connect()

@@ -7,7 +7,7 @@ from bladerub.contact.kernel.records import at_rest
 from bladerub.contact.laws import described_law, module_of
 from bladerub.contact.spec import Coating
 from bladerub.extras.heat import LAYER
-from bladerub.extras.laws.heating import CELLS, HEATED, Layer, cell_heights, decay
+from bladerub.extras.laws.heating import CELLS, HEATED, Layer, cell_heights
 
 THICKNESS, AREA, PERIOD = 5e-3, np.linspace(1e-6, 2e-6, 8), 0.02
 N = 12
@@ -38,7 +38,7 @@ def test_cells_fill_the_layer_from_the_heated_depth_on():
     assert ratio[-1] > 1
 
 
-def test_without_conduction_all_heat_stays_in_the_heated_depth():
+def test_without_conduction_all_heat_stays_in_the_heated_depth_and_cells_are_in_series():
     own, state = layer(conductivity=0.0), heated(flow=0.01, friction=0.03)
     own.rest(state, 0, N)
     rise = own.temperature(state)
@@ -48,28 +48,9 @@ def test_without_conduction_all_heat_stays_in_the_heated_depth():
     np.testing.assert_allclose(rise[..., HEATED:], 0, atol=1e-9)
     assert not rise[:3].any()
     assert not state.taken.any()
-
-
-def test_conduction_takes_heat_to_the_casing_and_makes_none():
-    own, state = layer(), heated(flow=0.01)
-    kept = []
-    for _ in range(4000):
-        own.rest(state, 0, N)
-        rise = own.temperature(state)
-        assert (np.diff(rise[4], axis=-1) < 1e-9).all()  # the surface stays warmest
-        kept.append(np.sum(rise * own.capacity, axis=-1)[4] * AREA)
-    np.testing.assert_allclose(kept[0], 0.01, rtol=1e-6)
-    assert (np.diff(kept, axis=0) < 0).all()
-    assert kept[-1].max() < 1e-3 * 0.01
-
-
-def test_strength_is_that_of_the_cells_in_series():
-    own, state = layer(conductivity=0.0), heated(flow=0.02)
-    own.rest(state, 0, N)
-    rise = 0.02 / AREA / (2e6 * 1e-4)
-    left = np.maximum(1 - (rise / 500) ** 2, 0.01)
-    wanted = 1 / ((1 - 1e-4 / THICKNESS) + 1e-4 / THICKNESS / left)
-    np.testing.assert_allclose(state.strength[4], wanted, rtol=1e-9)
+    left = np.maximum(1 - (wanted / 500) ** 2, 0.01)
+    strength = 1 / ((1 - 1e-4 / THICKNESS) + 1e-4 / THICKNESS / left)
+    np.testing.assert_allclose(state.strength[4], strength, rtol=1e-9)
     np.testing.assert_array_equal(state.strength[8], 1.0)
 
 
@@ -91,14 +72,7 @@ def test_two_shorter_rests_are_one():
     np.testing.assert_allclose(own.temperature(twice), own.temperature(once), atol=1e-9)
 
 
-def test_modes_of_conduction_are_orthonormal_and_decay():
-    rate, shapes = decay(cell_heights(THICKNESS, 1e-4), 2e6, 5.0)
-    np.testing.assert_allclose(shapes.T @ shapes, np.eye(CELLS), atol=1e-12)
-    assert rate.min() > 0
-
-
-@pytest.mark.parametrize("rise", [0.0, 250.0, 1e4])
-def test_strength_falls_with_the_temperature_and_stays_above_0(rise):
+def test_strength_falls_with_the_temperature_and_stays_above_0():
     own = layer()
-    wanted = {0.0: 1.0, 250.0: 0.75, 1e4: 0.01}[rise]
-    assert own.law.strength(own.coating, np.array([rise]))[0] == pytest.approx(wanted)
+    strength = own.law.strength(own.coating, np.array([[0.0], [250.0], [1e4]]))
+    np.testing.assert_allclose(strength.ravel(), [1.0, 0.75, 0.01])

@@ -52,41 +52,10 @@ def pressed(law, depth, time_step=STEP):
     return module, element, *module.return_mapping(element, depth, WORN)
 
 
-def test_every_law_of_the_package_is_tested():
-    assert sorted(law.name for law in LAWS) == sorted(NAMES)
-
-
 def test_the_module_of_a_law_that_plugs_in_counts_for_the_key():
+    assert sorted(law.name for law in LAWS) == sorted(NAMES)
     assert law_digest(PLASTIC) == law_digest(OWN) == {}
     assert len({law_digest(law)["law"] for law in LAWS[1:]}) == len(LAWS) - 1
-
-
-@pytest.mark.parametrize("law", LAWS, ids=named)
-def test_stiffness_is_the_derivative_of_force_and_constant_as_far_as_it_says(law):
-    depth = np.linspace(-1e-5, 5e-5, 300)
-    module, element, *_ = pressed(law, depth)
-    slope, linear = module.tangent(element, depth, WORN)
-    for by in (1e-4 * linear, 0.999 * linear):
-        more, less = (pressed(law, depth + sign * by)[2] for sign in (1, -1))
-        np.testing.assert_allclose((more - less) / (2 * by), slope, rtol=1e-6, atol=1e-6 * element.elastic)
-
-
-@pytest.mark.parametrize("law", LAWS, ids=named)
-def test_wear_and_force_are_of_one_deformation(law):
-    """What an element is shortened by is elastic or worn off, and it only pushes."""
-    depth = np.linspace(-1e-5, 5e-5, 300)
-    module, element, force, increment = pressed(law, depth)
-    np.testing.assert_allclose(force, module.elastic_force(element, depth - increment), rtol=1e-12)
-    assert force.min() == 0
-    assert increment.min() == 0 < increment.max()
-
-
-@pytest.mark.parametrize("law", LAWS, ids=named)
-def test_no_wear_below_the_elastic_limit(law):
-    module, element, *_ = pressed(law, 0.0)
-    limit = module.elastic_limit(element, WORN)
-    below, above = (pressed(law, part * limit / element.elastic)[3] for part in (0.999, 1.001))
-    assert below == 0 < above
 
 
 @pytest.mark.parametrize("law", PLASTIC_LIMITS, ids=named)
@@ -96,23 +65,18 @@ def test_without_viscosity_or_breaking_a_law_is_plastic(law):
     plastic, plastic_element, *wanted = pressed(PLASTIC, depth)
     np.testing.assert_allclose(found, wanted, rtol=1e-12)
     force, increment = wanted
-    np.testing.assert_allclose(
-        module.dissipated_energy(element, WORN, increment, 0.0, force),
-        plastic.dissipated_energy(plastic_element, WORN, increment, 0.0, force),
-        rtol=1e-12,
-    )
+    of_plastic = plastic.dissipated_energy(plastic_element, WORN, increment, 0.0, force)
+    found = module.dissipated_energy(element, WORN, increment, 0.0, force)
+    np.testing.assert_allclose(found, of_plastic, rtol=1e-12)
 
 
 @pytest.mark.parametrize(
-    ("name", "values", "message"),
-    [
-        ("viscoplastic", {}, "viscosity: missing, .* must be a number from 0"),
-        ("elastic", {}, "name = elastic: must be one of plastic, brittle, perfectly_plastic, thermal, visco"),
-    ],
+    ("name", "message"),
+    [("viscoplastic", "viscosity: missing"), ("elastic", "elastic: must be one of")],
 )
-def test_a_wrong_parameter_is_named(name, values, message):
+def test_a_wrong_law_or_parameter_is_named(name, message):
     with pytest.raises(ValueError, match=message):
-        described_law(name, values)
+        described_law(name, {})
 
 
 @pytest.mark.parametrize(
@@ -120,20 +84,12 @@ def test_a_wrong_parameter_is_named(name, values, message):
     [
         ("def", "is no Python"),
         ("x = 1\nPARAMETERS = {'a': ('Pa', low(), 1.0, 'it')}", "PARAMETERS on line 2: must be a dictionary"),
+        ("(" * 100_000, r"Python|a law must have"),
     ],
 )
 def test_parameters_are_read_without_running_the_law(source, message):
     with pytest.raises(ValueError, match=message):
         parameters_of(source)
-
-
-@pytest.mark.slow
-@pytest.mark.nightly
-@pytest.mark.parametrize("law", PLASTIC_LIMITS, ids=named)
-def test_the_loop_with_a_law_in_its_plastic_limit_is_that_of_the_paper(blade, spec, change, law):
-    wanted, found = simulate(blade, spec), simulate(blade, change(spec, element_law=law))
-    np.testing.assert_allclose(found.wear, wanted.wear, atol=1e-9)
-    assert wanted.wear.max() > 1e-6
 
 
 @pytest.mark.slow
@@ -183,13 +139,9 @@ def test_the_loop_heats_the_layer_as_the_reference_does(blade, spec, change, sch
 
 def user_law(element):
     """A law of a file that is that of the paper with another `element`, in Python."""
-    text = (
-        "import sys, math\nimport numpy as np\nfrom bladerub.contact import law as paper\n"
-        "from bladerub.contact.law import *\n"
-        "from bladerub.contact.law import Element, return_mapping, tangent, elastic_force\n"
-        "from bladerub.contact.law import stored_energy, dissipated_energy\nPARAMETERS = {}\n"
-        "def element(coating, area, time_step=math.inf):\n    own = paper.element(coating, area)\n"
-    )
+    text = OWN.source.replace("def element(", "def of_paper(")
+    text += "import math, sys\nimport numpy as np\nPARAMETERS = {}\n"
+    text += "def element(coating, area, time_step=math.inf):\n    own = of_paper(coating, area)\n"
     return ElementLaw("own", (), f"{text}    {element}\n")
 
 
@@ -198,9 +150,7 @@ AREAS = np.linspace(1e-6, 2e-6, 8)
 
 @pytest.mark.parametrize("one", ["float(np.mean(x))", "np.mean(x) * np.ones((1, 1))"])
 def test_one_number_for_all_elements_is_repeated(one):
-    own = dataclasses.replace(
-        coating(PLASTIC), element_law=user_law(f"return Element(*({one} for x in own))")
-    )
+    own = coating(user_law(f"return Element(*({one} for x in own))"))
     expected = element_parameters(coating(PLASTIC), np.full(8, AREAS.mean()))
     rows = element_parameters(own, AREAS)
     assert rows.shape == expected.shape
@@ -213,14 +163,9 @@ def test_one_number_for_all_elements_is_repeated(one):
 def test_what_is_no_parameters_is_refused(element, monkeypatch):
     monkeypatch.setattr("bladerub.numerics.user_code.LONGEST_CALL", 0.5)
     with pytest.raises(ValueError, match=r"^law own: "):
-        element_parameters(dataclasses.replace(coating(PLASTIC), element_law=user_law(element)), AREAS)
+        element_parameters(coating(user_law(element)), AREAS)
 
 
 def test_a_module_that_does_not_end_well_is_refused():
     with pytest.raises(ValueError, match="its module"):
         module_of(ElementLaw("own", (), "import sys; sys.exit(0)"))
-
-
-def test_a_nested_text_is_refused():
-    with pytest.raises(ValueError, match=r"Python|a law must have"):
-        parameters_of("(" * 100_000)

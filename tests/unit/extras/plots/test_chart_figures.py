@@ -1,4 +1,5 @@
 import itertools
+from types import SimpleNamespace
 
 import numpy as np
 import pandas as pd
@@ -8,39 +9,26 @@ from bladerub.contact.illustration import LoadingCycle
 from bladerub.contact.spec import Coating
 from bladerub.extras.chart import stiffening
 from bladerub.extras.passages.sweeps import SpeedSweep
-from bladerub.extras.plots.chart_moduli import QUANTITIES, chart_map, drawn_quantity
+from bladerub.extras.plots.chart_moduli import QUANTITIES, chart_map
 from bladerub.extras.plots.chart_peaks import chart_explanation, chart_stiffening
 from bladerub.extras.plots.law_cycles import law_cycles
 from bladerub.extras.plots.sweeps import sweeps
 from bladerub.study.grid import CoatingCase
-from bladerub.study.maps import CoatingMap
 
 
 @pytest.fixture
 def chart():
     """Two θ, three E, three K; highest at K = 0.5, which with E = 0.11 and 1.1 is the paper's."""
-    rows = [
-        {
-            "theta": theta,
-            "E": E,
-            "K": K,
-            **dict.fromkeys(("Y4", "Y6", "peak", "worn_volume", "deepest_wear"), height * (1 + E)),
-            "f4": 0.3,
-            "f6": 0.2,
-            "divergent_share": 0.0,
-        }
-        for theta, E, (K, height) in itertools.product(
-            (0.0, 0.15), (0.11, 0.5, 1.1), ((0.3, 5e-4), (0.5, 1e-3), (2.0, 8e-4))
-        )
-    ]
-    return pd.DataFrame(rows)
+    heights = {0.3: 5e-4, 0.5: 1e-3, 2.0: 8e-4}
+    values = itertools.product((0.0, 0.15), (0.11, 0.5, 1.1), heights)
+    rows = pd.DataFrame(values, columns=["theta", "E", "K"]).assign(f4=0.3, f6=0.2, divergent_share=0.0)
+    height = rows.K.map(heights) * (1 + rows.E)
+    return rows.assign(**dict.fromkeys(("Y4", "Y6", "peak", "worn_volume", "deepest_wear"), height))
 
 
 @pytest.mark.parametrize("quantity", [*QUANTITIES, "Y4", "f4", "Y6", "f6"])
 def test_every_quantity_is_drawn_with_the_paper_s_coatings_and_the_ridge(chart, draws, quantity):
-    panel, other, bar = draws(chart_map(chart, quantity, 2e8)).axes
-    assert bar.get_xlabel() == drawn_quantity(quantity).label
-    assert other.get_title(loc="left") == r"(b) $\theta$ = 0.15 rad"
+    panel, *_ = draws(chart_map(chart, quantity, 2e8)).axes
     dots, _, ridge = panel.lines
     assert sorted(zip(*dots.get_data(), strict=True)) == [(0.11, 0.5), (0.5, 0.5), (1.1, 0.5)]
     np.testing.assert_array_equal(ridge.get_data(), [[0.11, 0.5, 1.1], [0.5, 0.5, 0.5]])
@@ -49,12 +37,8 @@ def test_every_quantity_is_drawn_with_the_paper_s_coatings_and_the_ridge(chart, 
 def test_the_ridge_is_drawn_against_what_explains_it(chart, draws):
     peaks = chart.assign(order=4, amplitude=chart.Y4, E_T=chart.E * chart.K / (chart.E + chart.K))
     peaks = peaks.assign(wear_per_cycle=1e3 * peaks.amplitude, lobes=4)
-    figure = draws(chart_explanation(peaks, 6e8))
-    stiffness, energy, lobes = figure.axes[:3]
-    labels = [line.get_label() for line in stiffness.lines]
-    assert labels == ["all coatings", "on the ridge, by E", "across its highest cell, by K"]
+    _, energy, *_ = draws(chart_explanation(peaks, 6e8)).axes
     np.testing.assert_allclose(energy.lines[1].get_xdata(), [1.11, 1.5, 2.1])
-    assert lobes.lines[1].get_linestyle() == "None"
 
 
 def test_stiffening_is_drawn_over_the_modulus_of_the_contact(chart, blade, draws):
@@ -64,7 +48,6 @@ def test_stiffening_is_drawn_over_the_modulus_of_the_contact(chart, blade, draws
     (axes,) = draws(chart_stiffening(peaks, stiffening.table(peaks, blade), 6e8)).axes
     found, other, *_ = axes.lines
     np.testing.assert_allclose(found.get_ydata(), 0.29 + 0.05 * found.get_xdata())
-    assert found.get_label() == r"$\theta$ = 0 rad, rank correlation 1.00"
     np.testing.assert_array_equal(other.get_ydata(), [0.28] * 3)
 
 
@@ -81,17 +64,12 @@ def test_each_law_has_a_panel_with_its_cycles_in_megapascals(draws):
         "(a) one": {"soft": cycle([0, 0.01, 0.01])},
         "(b) two": {"slow": cycle([0, 0, 0.01]), "fast": cycle([0, 0.01, 0.02])},
     }
-    first, second = draws(law_cycles(panels)).axes
-    slow, fast = second.lines
+    slow, fast = draws(law_cycles(panels)).axes[1].lines
     np.testing.assert_allclose(fast.get_xydata(), [[0, 0], [1, 6], [2, 12]])
     np.testing.assert_allclose(slow.get_ydata(), [0, 0, 6])
-    assert first.get_ylim()[0] == 0
 
 
-CASE = CoatingCase("2nd", 1.1, 0.5, 0.0)
-
-
-SPEED = np.linspace(0.14, 0.4, 30)
+CASE, SPEED = CoatingCase("2nd", 1.1, 0.5, 0.0), np.linspace(0.14, 0.4, 30)
 
 
 def sweep(direction, rate, status="completed"):
@@ -105,17 +83,12 @@ def sweep(direction, rate, status="completed"):
     )
 
 
-@pytest.fixture
-def constant():
-    empty = np.empty((3, 0))
-    return CoatingMap(
-        *(CASE, np.array([0.2, 0.3, 0.4]), np.ones(3), empty[0], empty, None, empty[0], empty, empty),
-        *(np.array([[1e-4, 2e-4], [1e-3, 2e-3], [1e-4, 9e-3]]), empty, np.zeros(3), np.zeros(3)),
-        np.array(["completed", "completed", "unbounded"]),
+def test_a_sweep_is_drawn_by_direction_over_the_runs_at_constant_speed(draws):
+    constant = SimpleNamespace(
+        f_omega=np.array([0.2, 0.3, 0.4]),
+        revolution_amplitude=np.array([[1e-4, 2e-4], [1e-3, 2e-3], [1e-4, 9e-3]]),
+        status=np.array(["completed", "completed", "unbounded"]),
     )
-
-
-def test_a_sweep_is_drawn_by_direction_over_the_runs_at_constant_speed(draws, constant):
     drawn = [sweep("up", 0.05), sweep("down", 0.05), sweep("up", 0.2, "unbounded")]
     up, down = draws(sweeps(drawn, {CASE: constant})).axes
     np.testing.assert_allclose(up.lines[0].get_ydata(), [0.2, 2.0, 9.0])

@@ -16,15 +16,9 @@ def measured(**values):
 
 
 def test_uncertainty_is_the_root_of_the_sum_of_squares_of_changes_and_resolution():
-    table = with_uncertainty(
-        {
-            "reference": measured(depth=1.0, speed=2.0, lost=1.0),
-            "step": measured(depth=1.3, speed=2.0, lost=1.0),
-            "modes": measured(depth=0.6, speed=2.0, lost=1.0),
-            "mesh": measured(depth=1.0, speed=2.4),
-            "nodes": measured(depth=1.0, speed=2.0, lost=1.0),
-        }
-    ).set_index("number")
+    depths = {"reference": 1.0, "step": 1.3, "modes": 0.6, "nodes": 1.0}
+    tables = {name: measured(depth=depth, speed=2.0, lost=1.0) for name, depth in depths.items()}
+    table = with_uncertainty(tables | {"mesh": measured(depth=1.0, speed=2.4)}).set_index("number")
     assert table.uncertainty.to_dict() == pytest.approx({"depth": 0.5, "speed": 0.5})
     assert table.by_step["depth"] == pytest.approx(0.3)
     assert table.by_modes["depth"] == pytest.approx(-0.4)

@@ -55,33 +55,15 @@ def test_a_blade_that_reaches_nothing_leaves_the_other_alone(blade, spec, short)
     if short:  # the first blade is where that of the single run is
         assert_same(alone, reaching)
     else:  # the other passes the same lobes half a turn further on
-        half = spec.coating.n_elements // 2
-        scale = alone.revolution_peak.max()
-        np.testing.assert_allclose(
-            reaching.radial_displacement, alone.radial_displacement, rtol=0, atol=1e-9 * scale
-        )
-        np.testing.assert_allclose(reaching.wear, np.roll(alone.wear, half, axis=1), rtol=0, atol=1e-12)
-
-
-def test_identical_blades_on_a_casing_of_their_symmetry_do_the_same(blade, spec):
-    row = simulate_row(blade, spec, Row.even(2))
-    one, other = row.blades
-    scale = one.revolution_peak.max()
-    np.testing.assert_allclose(one.radial_displacement, other.radial_displacement, rtol=0, atol=1e-8 * scale)
-    np.testing.assert_allclose(row.worn_volume[0], row.worn_volume[1], rtol=1e-8)
-    half = spec.coating.n_elements // 2
-    np.testing.assert_allclose(row.wear[:, :half], row.wear[:, half:], rtol=0, atol=1e-8 * row.wear.max())
+        half, within = spec.coating.n_elements // 2, 1e-9 * alone.revolution_peak.max()
+        np.testing.assert_allclose(reaching.radial_displacement, alone.radial_displacement, atol=within)
+        np.testing.assert_allclose(reaching.wear, np.roll(alone.wear, half, axis=1), atol=1e-12)
 
 
 def test_neither_order_nor_numbering_changes_anything(blade, spec):
-    blades = [
-        RowBlade(0.0, 2e-5, 0.01),
-        RowBlade(1.7, -1e-5, -0.02, 0.5),
-        RowBlade(3.5, 0.0, 0.0, 2.0),
-        RowBlade(5.0, 4e-5, 0.0),
-    ]
+    blades = [RowBlade(0.0, 2e-5, 0.01), RowBlade(1.7, -1e-5, -0.02, 0.5), RowBlade(3.5, 0.0, 0.0, 2.0)]
     row = simulate_row(blade, spec, Row(tuple(blades)))
-    for order in ([1, 2, 3, 0], [3, 1, 0, 2]):
+    for order in ([1, 2, 0], [2, 1, 0]):
         again = simulate_row(blade, spec, Row(tuple(blades[at] for at in order)))
         for place, at in enumerate(order):
             assert_same(again.blades[place], row.blades[at])
@@ -117,11 +99,9 @@ def test_a_disk_couples_the_blades_as_in_the_plain_model(blade, spec, change):
     spec = change(spec, max_time_step=1e-3, revolutions=1)
     row_of = Row.even(2, length=[0.0, 2e-5], frequency=[0.0, 0.01], disk=Disk.ring(2, [0.05, 0.02]))
     row = simulate_row(blade, spec, row_of)
-    one = row.blades[0]
+    one, apart_from_disk = row.blades[0], simulate_row(blade, spec, Row(row_of.blades))
     histories, wear = contact_in_numpy.simulate_row(blade, spec, row_of, one.n_steps, one.n_modes)
-    for ours, apart, history in zip(
-        row.blades, simulate_row(blade, spec, Row(row_of.blades)).blades, histories, strict=True
-    ):
+    for ours, apart, history in zip(row.blades, apart_from_disk.blades, histories, strict=True):
         per_element = contact_in_numpy.element_means(history[:, 0], spec.coating.n_elements)
         error = np.abs(ours.radial_displacement - per_element).max()
         effect = np.abs(ours.radial_displacement - apart.radial_displacement).max()
@@ -157,28 +137,9 @@ def test_mistuned_blades_have_the_frequencies_of_the_whole_row(blade):
     np.testing.assert_allclose(np.sort(found, axis=None), np.sqrt(whole[: 2 * n_blades]), rtol=1e-9)
 
 
-def test_a_coupled_row_vibrates_at_the_frequency_of_its_nodal_diameter(blade, spec, change):
-    """Without contact, all blades deflected alike: no nodal diameter, each pushed by itself and the other."""
-    start, coupling = 1e-4, 0.05
-    spec = change(spec, revolutions=1, initial_displacement=start)
-    row = simulate_row(blade, spec, Row.even(2, length=-9e-3, disk=Disk.of([coupling * np.ones((2, 2))])))
-    omega, damping = modes_at(blade, spec.f_omega).omega[0], spec.damping_ratio
-    n_steps, h = row.blades[0].n_steps, row.blades[0].time_step
-    time = h * np.arange(n_steps + 1)
-    decay, damped = damping * omega, omega * np.sqrt(1 + 2 * coupling - damping**2)
-    motion = start * np.exp(-decay * time) * (np.cos(damped * time) + decay / damped * np.sin(damped * time))
-    expected = (0.5 * (motion[1:] + motion[:-1])).reshape(spec.coating.n_elements, -1).mean(axis=1)
-    periods = damped * time[-1] / (2 * np.pi)
-    assert periods > 1
-    for each in row.blades:
-        assert each.n_contact_steps == 0
-        np.testing.assert_allclose(each.radial_displacement, expected, rtol=0, atol=1e-4 * start)
-
-
-@pytest.mark.parametrize("turns", [False, True])
-def test_the_ledger_closes_with_the_disk_in_it(blade, spec, change, turns):
+def test_the_ledger_closes_with_the_disk_in_it_and_the_volumes_sum_up(blade, spec, change):
     blade = dataclasses.replace(blade, tip_slope=np.full((8, len(blade.mass)), -3.0))
-    spec = change(spec, turns=turns)
+    spec = change(spec, turns=True)
     row_of = Row.even(4, length=[0.0, 2e-5, 0.0, -3e-5], disk=Disk.ring(4, [0.1]))
     row = simulate_row(blade, spec, row_of)
     assert np.abs(row.disk_work).max() > 5e-4 * row.energy.exchanged
@@ -190,12 +151,6 @@ def test_the_ledger_closes_with_the_disk_in_it(blade, spec, change, turns):
         taken = own.kinetic + own.elastic - own.initial + own.damping
         supplied = own.work_radial + own.work_tangential + own.work_couple + work
         assert abs(supplied - taken) < 1e-9 * exchanged
-
-
-def test_the_ledgers_close_and_the_volumes_sum_up(blade, spec):
-    row = simulate_row(blade, spec, Row.even(5, length=np.linspace(-2e-5, 2e-5, 5), angle_error=1e-3))
-    assert all(each.energy.residual < 1e-3 for each in row.blades)
-    assert row.energy.residual < 1e-3
     assert row.energy.wear == pytest.approx(sum(each.energy.wear for each in row.blades))
     volume = element_area(blade, spec) @ row.wear.sum(axis=1)
     np.testing.assert_allclose(row.worn_volume.sum(), volume, rtol=1e-9)
@@ -224,9 +179,6 @@ def test_the_run_ends_for_all_when_one_leaves_the_limit(blade, spec, change):
     made = [np.isfinite(each.radial_displacement).sum() for each in row.blades]
     assert max(made) - min(made) <= 1
     assert row.blades[2].status == "stopped"
-    # what was worn until then is what a run of that length leaves
-    again = simulate_row(blade, tight, Row.even(3, length=[0.0, -5e-3, 0.0]))
-    assert again.status == "unbounded"
 
 
 def test_a_run_that_ends_early_knows_nothing_of_what_comes_later(blade, spec):
@@ -245,25 +197,11 @@ def test_a_run_that_ends_early_knows_nothing_of_what_comes_later(blade, spec):
 
 
 @pytest.mark.parametrize(
-    ("make", "message"),
-    [
-        (lambda: Row.even(3, length=[1e-5, 0.0]), "2 values of length; must be 1 or 3"),
-        (lambda: Row.even(2, disk=Disk.of([[[1.0, 0.1], [0.2, 1.0]]])), "mode 1: must be a symmetric matrix"),
-    ],
-)
-def test_a_row_that_cannot_be_is_refused(make, message):
-    with pytest.raises(ValueError, match=message):
-        make()
-
-
-@pytest.mark.parametrize(
     ("stiffness", "message"),
     [
+        ([[[1.0, 0.1], [0.2, 1.0]]], "mode 1: must be a symmetric matrix"),
         ([-1.5 * np.eye(2)], "mode 1: the stiffness of blades and disk must be positive definite"),
-        (
-            [1e6 * np.eye(2)],
-            "mode 1 of the 1 that it couples moves by .* in the passage of an element; must be 0.5 or less",
-        ),
+        ([1e6 * np.eye(2)], "mode 1 of the 1 that it couples moves by .* must be 0.5 or less"),
     ],
 )
 def test_a_disk_that_the_loop_cannot_have_is_refused(blade, spec, stiffness, message):
@@ -273,9 +211,7 @@ def test_a_disk_that_the_loop_cannot_have_is_refused(blade, spec, stiffness, mes
 
 def test_draws_have_their_scatter_and_grow_with_it():
     row = Row.drawn(4000, 1, 2e-5, 0.005)
-    length, frequency = (
-        np.array([getattr(of, name) for of in row.blades]) for name in ("length", "frequency")
-    )
+    length, frequency = np.array([(of.length, of.frequency) for of in row.blades]).T
     assert np.std(length) == pytest.approx(2e-5, rel=0.05)
     assert np.std(frequency) == pytest.approx(0.005, rel=0.05)
     assert abs(np.corrcoef(length, frequency)[0, 1]) < 0.05
@@ -294,6 +230,4 @@ def test_draws_have_their_scatter_and_grow_with_it():
     ],
 )
 def test_a_row_is_read_back_as_it_was_written(row):
-    again = Row.from_json(row.to_json())
-    assert again == row
-    assert again.to_json() == row.to_json()
+    assert Row.from_json(row.to_json()) == row

@@ -41,10 +41,7 @@ def test_factors_set_numbers_and_switches(position, turns):
     assert STUDY["contact"]["modulus_unit"] == 1e9
 
 
-FACTORS = ["unit", "lean"]
-
-
-def drawn(total):
+def test_shares_add_up_in_order_and_indices_fill_the_rows_of_what_varies():
     table = pd.DataFrame(
         {
             "id": ["C1a", "C2a", "C10b"],
@@ -54,16 +51,9 @@ def drawn(total):
             "predicted": [np.nan, 0.4, np.nan],
         }
     )
-    rows = [
-        {"id": "C2a", "output": output, "factor": factor, "first": 0.0, "total": value, "predicted": 0.4}
-        for output in ("verdict", "margin")
-        for factor, value in zip(FACTORS, total, strict=True)
-    ]
-    return robustness(table, pd.DataFrame(rows))
-
-
-def test_shares_add_up_in_order_and_indices_fill_the_rows_of_what_varies():
-    shares, factors, *_ = drawn([0.3, 0.05]).axes
+    indices = {"factor": ["unit", "lean"], "first": 0.0, "total": [0.3, 0.05], "predicted": 0.4}
+    rows = [pd.DataFrame(indices).assign(id="C2a", output=output) for output in ("verdict", "margin")]
+    shares, factors, *_ = robustness(table, pd.concat(rows)).axes
     widths = np.array([[bar.get_width() for bar in bars] for bars in shares.containers])
     assert widths[:, 1] == pytest.approx([50, 20, 30])
     assert [bars[1].get_x() for bars in shares.containers] == pytest.approx([0, 50, 70])

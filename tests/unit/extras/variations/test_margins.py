@@ -35,17 +35,14 @@ def maps(study, make_map):
     return made
 
 
-def test_variants_of_a_coating_are_left_out(study, maps):
-    variant = replace(maps[0], case=replace(maps[0].case, variant="xi0.001"))
-    assert margins.variations(study, [*maps, variant])[margins.STUDY].maps == maps
-
-
 @pytest.fixture
 def varied(study, maps):
     return margins.variations(study, maps)
 
 
-def test_speeds_are_dropped_but_not_those_that_claims_name(varied, maps):
+def test_speeds_and_moduli_are_dropped_but_not_those_that_are_named(varied, study, maps):
+    variant = replace(maps[0], case=replace(maps[0].case, variant="xi0.001"))
+    assert margins.variations(study, [*maps, variant])[margins.STUDY].maps == maps  # of coatings alone
     twice = varied["speed step 0.02"].maps[0]
     expected = np.union1d(np.arange(0.02, 0.4001, 0.02), [0.19, 0.197, 0.206])
     np.testing.assert_allclose(twice.f_omega, expected)
@@ -55,9 +52,6 @@ def test_speeds_are_dropped_but_not_those_that_claims_name(varied, maps):
     for name, values in vars(twice).items():
         if name not in ("case", "angle", "spectrum_order"):
             assert len(values) == expected.size, name
-
-
-def test_every_second_modulus_is_dropped_but_not_those_of_figures(varied):
     young = {coating.case.E for coating in varied["without E = 0.2, 5"].maps}
     assert young == set(YOUNG) - {0.2, 5.0}
     assert {coating.case.K for coating in varied["without K = 0.1, 5"].maps} == {0.5, 1.0}

@@ -37,10 +37,9 @@ def verdicts(tmp_path):
         if number in OF_C3A:
             holds = "no" if high else "partly" if number % 2 else "yes"
             rows.append({"set": number, "id": "C3a", "holds": holds, "margin": -unit[number]})
-    paths = []
-    for part, chunk in enumerate((rows[:50], rows[50:], [])):
-        paths.append(tmp_path / f"{part}.csv")
-        pd.DataFrame(chunk, columns=job.VERDICTS).to_csv(paths[-1], index=False)
+    paths = [tmp_path / f"{part}.csv" for part in range(3)]
+    for path, chunk in zip(paths, (rows[:50], rows[50:], []), strict=True):
+        pd.DataFrame(chunk, columns=job.VERDICTS).to_csv(path, index=False)
     return summary.collect(paths)
 
 

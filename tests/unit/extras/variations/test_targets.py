@@ -11,12 +11,10 @@ SPEEDS = np.unique(np.append(np.round(np.arange(0.02, 0.4001, 0.004), 6), [0.19,
 
 
 @pytest.fixture
-def measured(config, make_map):
+def measured(config):
     """Measure all targets on the given maps."""
 
-    def of(*maps, diameters=None):
-        if diameters is not None:
-            config["casings"]["2nd5nd"]["nodal_diameters"] = diameters
+    def of(*maps):
         tables = {"peaks": peak_table.table(config, maps), "divergence": divergence.table(config, maps)}
         evidence = Evidence(config, tables | {"rom_accuracy": None}, maps)
         return measure(evidence, [f"C{number}" for number in range(1, 13)])

@@ -94,6 +94,12 @@ def test_the_next_sets_are_plausible_and_far_from_each_other(plan, positions, em
     assert np.array_equal(drawn, waves.draw(plan, 1, left, emulated, positions))
 
 
+def verdicts(**holds):
+    """Table of the parts that hold in each set."""
+    table = pd.DataFrame(holds).replace({True: "yes", False: "no"}).rename_axis("set").reset_index()
+    return table.melt("set", var_name="id", value_name="holds")
+
+
 @pytest.fixture
 def nearest(measured):
     """Number of the set that meets the targets best."""
@@ -101,21 +107,12 @@ def nearest(measured):
 
 
 @pytest.fixture
-def verdicts(positions, nearest):
+def chosen(plan, positions, measured, nearest):
     """Two parts of which both hold in set 7, one in set 3 and in the nearest, and none in the others."""
-    sets = pd.RangeIndex(len(positions))
-    holds = {"C4a": np.isin(sets, [3, 7]), "C4b": np.isin(sets, [7, nearest])}
-    tables = [
-        pd.DataFrame({"set": sets, "id": id_, "holds": np.where(yes, "yes", "no")})
-        for id_, yes in holds.items()
-    ]
-    return pd.concat(tables, ignore_index=True)
-
-
-@pytest.fixture
-def chosen(plan, positions, measured, verdicts):
     table = pd.DataFrame(positions, index=measured.index, columns=["unit", "hub"])
-    return candidates.choose(plan, table, measured, verdicts)
+    sets = np.arange(len(positions))
+    judged = verdicts(C4a=np.isin(sets, [3, 7]), C4b=np.isin(sets, [7, nearest]))
+    return candidates.choose(plan, table, measured, judged)
 
 
 def test_the_best_sets_and_their_neighbours_are_chosen_beside_the_study_s_own(chosen, measured, nearest):
@@ -147,13 +144,7 @@ def test_claims_that_hold_together_less_often_than_by_chance_exclude_each_other(
     rng = np.random.default_rng(0)
     one, other = rng.random((2, 400)) < 0.4
     holds = {"C4a": one, "C5a": ~one, "C8a": other, "C11a": rng.random(400) < 0.01}
-    verdicts = pd.concat(
-        [
-            pd.DataFrame({"set": range(400), "id": id_, "holds": np.where(yes, "yes", "no")})
-            for id_, yes in holds.items()
-        ]
-    )
-    (pair,) = summary.exclusions(verdicts).itertuples(index=False)
+    (pair,) = summary.exclusions(verdicts(**holds)).itertuples(index=False)
     assert {pair.id, pair.other_id} == {"C4a", "C5a"}
     assert pair.both == 0
     assert pair.by_chance == pytest.approx(pair.share * pair.other_share)
@@ -168,12 +159,15 @@ def places():
     return np.random.default_rng(1).random((60, 4))
 
 
-def test_a_smooth_function_is_predicted_between_the_sets(places):
+def test_a_smooth_function_is_predicted_between_the_sets_and_noise_is_not(places):
     emulator = Emulator(places, smooth(places))
     others = np.random.default_rng(2).random((200, 4))
     found = compared(smooth(others), emulator.predict(others))
     assert found.explained > 0.98
     assert found.within_two > 0.8
+    assert held_out(emulator, places, smooth(places)).explained > 0.95
+    noise = np.random.default_rng(4).standard_normal(60)
+    assert held_out(Emulator(places, noise), places, noise).explained < 0.4
 
 
 def test_scatter_is_part_of_the_predicted_deviation(places):
@@ -184,11 +178,3 @@ def test_scatter_is_part_of_the_predicted_deviation(places):
     predicted = emulator.predict(others)
     assert 0.3 < np.median(predicted.deviation) < 0.6
     assert 0.85 < compared(scattered, predicted).within_two <= 1
-
-
-def test_sets_left_out_are_predicted_about_as_well_as_new_ones(places):
-    values = smooth(places)
-    emulator = Emulator(places, values)
-    assert held_out(emulator, places, values).explained > 0.95
-    noise = np.random.default_rng(4).standard_normal(60)
-    assert held_out(Emulator(places, noise), places, noise).explained < 0.4

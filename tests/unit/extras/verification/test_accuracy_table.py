@@ -2,8 +2,6 @@
 
 import math
 
-import pytest
-
 from bladerub.extras.verification import accuracy
 from bladerub.extras.verification.differences import Differences
 from bladerub.extras.verification.verify import Seconds, StudyRun, VerifiedRun
@@ -28,21 +26,11 @@ def verified(run):
     )
 
 
-@pytest.fixture
-def table(monkeypatch):
+def test_a_row_holds_errors_what_starts_change_and_cost(monkeypatch):
     monkeypatch.setattr(accuracy, "verify_runs", lambda blade, config, runs: map(verified, runs))
     lines = []
-    made = accuracy.table(None, {}, {"all": RUNS, "important": RUNS[-2:]}, lines.append)
-    assert len(lines) == len(made)
-    assert lines[-1] == f"important, seed 1: 2 of 2, {made_name(made)}"
-    return made
-
-
-def made_name(made):
-    return f"2nd_E2_K0.5_theta0.15/{made.f_omega.iloc[-1]:.4f}"
-
-
-def test_a_row_holds_errors_what_starts_change_and_cost(table):
+    table = accuracy.table(None, {}, {"all": RUNS, "important": RUNS[-2:]}, lines.append)
+    assert len(lines) == len(table) == 3 * 12 + 2  # drawn thrice
     row = table[table.f_omega > 0.2].iloc[0]
     assert (row.E, row.K, row.theta, row.law, row.status) == (2.0, 0.5, 0.15, "theta", "completed")
     assert (row.error_wear_l2, row.error_revolution_peak, row.start_wear_l2) == (0.02, 0.002, 0.015)

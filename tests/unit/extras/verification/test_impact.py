@@ -15,9 +15,8 @@ OMEGA, DISTANCE = 2 * np.pi * 50.0, 1e-3
 @pytest.fixture
 def run(blade, spec):
     """A run of a blade that moves as a whole against a round casing which it touches at rest."""
-    casing = dataclasses.replace(
-        spec.casing, nodal_diameters=(2,), weights=(1.0,), amplitude=1e-14, interference=0.0
-    )
+    round_one = {"nodal_diameters": (2,), "weights": (1.0,), "amplitude": 1e-14, "interference": 0.0}
+    casing = dataclasses.replace(spec.casing, **round_one)
     f_omega = 10.0 / blade.f1_hz  # ten turns a second: one has five periods
     values = {"f_omega": f_omega, "revolutions": 1, "steps_per_element": 20, "clearance": (0.0, 0.0)}
     return dataclasses.replace(spec, casing=casing, initial_displacement=-DISTANCE, **values)
@@ -37,20 +36,16 @@ def turning_points(motion):
     return -u[1:-1][low]
 
 
-@pytest.mark.parametrize("restitution", [0.5, 0.9, 1.0])
+@pytest.mark.parametrize("restitution", [0.0, 0.5, 0.9, 1.0])
 def test_each_impact_keeps_its_share_of_the_velocity(run, modes, blade, restitution):
     rule = impact.moreau_jean(modes, 0.0, impact.time_step(blade, run), restitution)
-    found = turning_points(impact.simulate(rule, blade, run))
-    assert len(found) >= 8  # twice as many as without a wall
-    expected = DISTANCE * restitution ** np.arange(1, 9)
-    np.testing.assert_allclose(found[:8], expected, rtol=0.03)
-
-
-def test_a_mass_that_does_not_bounce_stays_at_the_wall(run, modes, blade):
-    rule = impact.moreau_jean(modes, 0.0, impact.time_step(blade, run), 0.0)
     motion = impact.simulate(rule, blade, run)
-    half = motion.radial_displacement.size // 2
-    assert np.abs(motion.radial_displacement[half:]).max() < 0.01 * DISTANCE
+    if restitution == 0:  # it stays at the wall
+        half = motion.radial_displacement.size // 2
+        assert np.abs(motion.radial_displacement[half:]).max() < 0.01 * DISTANCE
+    else:  # and has twice as many flights as without it
+        expected = DISTANCE * restitution ** np.arange(1, 9)
+        np.testing.assert_allclose(turning_points(motion)[:8], expected, rtol=0.03)
 
 
 def test_a_stiff_spring_returns_the_velocity(run, modes, blade):

@@ -47,29 +47,18 @@ KNOWN = pd.DataFrame(
 ).assign(uncertainty=[0.5, 1.0, 0.0])
 
 
-@pytest.fixture
-def folders(tmp_path):
-    """Write the reference, and a table to compare; return both folders."""
-
-    def written(table, name="blade"):
-        for folder, content, file in (("reference", KNOWN, "blade"), ("own", table, name)):
-            (tmp_path / folder).mkdir()
-            content.to_csv(tmp_path / folder / f"{file}.csv", index=False)
-        return tmp_path / "own", tmp_path / "reference"
-
-    return written
-
-
-@pytest.mark.parametrize(("f1", "agrees"), [(100.999, True), (99.001, True), (101.001, False)])
-def test_numbers_agree_within_twice_the_uncertainty(folders, f1, agrees):
-    table = compare(*folders(KNOWN[["number", "value"]].assign(value=[f1, 200.0, 0.25])))
-    assert table.agrees.tolist() == [agrees, True, True]
-    assert table.number.tolist() == ["f1", "f2", "share"]
-    assert table.allowed[0] == pytest.approx(1.0, rel=1e-3)
-
-
-def test_the_uncertainty_of_both_counts(folders):
-    own = KNOWN.assign(value=[102.2, 200.0, 0.25], uncertainty=[1.2, 0.0, 0.0])
-    found = compare(*folders(own))
-    assert found.agrees.all()
-    assert found.allowed[0] == pytest.approx(2 * 1.3, rel=1e-3)
+@pytest.mark.parametrize(
+    ("f1", "uncertainty", "agrees"),
+    [(100.999, None, True), (99.001, None, True), (101.001, None, False), (102.599, 1.2, True)],
+)
+def test_numbers_agree_within_twice_the_uncertainty_of_both(tmp_path, f1, uncertainty, agrees):
+    own = KNOWN[["number", "value"]].assign(value=[f1, 200.0, 0.25])
+    if uncertainty:
+        own = own.assign(uncertainty=[uncertainty, 0.0, 0.0])
+    for folder, table in (("reference", KNOWN), ("own", own)):
+        (tmp_path / folder).mkdir()
+        table.to_csv(tmp_path / folder / "blade.csv", index=False)
+    found = compare(tmp_path / "own", tmp_path / "reference")
+    assert found.agrees.tolist() == [agrees, True, True]
+    assert found.number.tolist() == ["f1", "f2", "share"]
+    assert found.allowed[0] == pytest.approx(2 * math.hypot(0.5, uncertainty or 0), rel=1e-3)

@@ -1,5 +1,5 @@
 import math
-from dataclasses import fields
+from dataclasses import fields, replace
 from types import SimpleNamespace
 
 import numpy as np
@@ -20,24 +20,13 @@ from bladerub.study.maps import write_map
 
 
 class Solver:
-    """Stands in for `simulate`: errors of a known law, relative to the exact outcome, in wear and peaks.
-
-    Parameters
-    ----------
-    exponential, paper : callable
-        Relative error at a time step.
-    neighbour : float
-        Relative change by any initial displacement.
-    unbounded : callable
-        Which runs are.
-    """
+    """Stands in for `simulate`: relative errors of a known law in the time step, in wear and peaks."""
 
     def __init__(self, make_result):
         self.make_result = make_result
         self.exponential = lambda step: 2e9 * step**2
         self.paper = lambda step: 2e4 * step
-        self.neighbour = 0.0
-        self.unbounded = lambda spec: False
+        self.neighbour = 0.0  # relative change by any initial displacement
         self.specs = []
 
     def __call__(self, blade, spec):
@@ -47,13 +36,8 @@ class Solver:
         step = passage / steps
         error = (self.exponential if spec.scheme == "exponential" else self.paper)(step)
         error += self.neighbour * (spec.initial_displacement != 0)
-        result = self.make_result(
-            amplitude=1e-3 * (1 + error),
-            depth=2e-4 * (1 + error),
-            complete=3 if self.unbounded(spec) else None,
-        )
-        result = vars(result) | {"time_step": step, "energy": SimpleNamespace(residual=1e-4)}
-        return SimpleNamespace(**result)
+        result = self.make_result(amplitude=1e-3 * (1 + error), depth=2e-4 * (1 + error))
+        return replace(result, time_step=step, energy=SimpleNamespace(residual=1e-4))
 
 
 @pytest.fixture
@@ -70,8 +54,8 @@ def solver(monkeypatch, make_result):
 
 
 @pytest.fixture
-def run(case):
-    return StudyRun(case, 0.19)
+def verified(blade, config, case, solver):
+    return lambda: verify_run(blade, config, StudyRun(case, 0.19))
 
 
 def test_the_important_runs_are_the_peaks_with_their_neighbours_in_speed(config, make_map, tmp_path):
@@ -85,8 +69,8 @@ def test_the_important_runs_are_the_peaks_with_their_neighbours_in_speed(config,
     np.testing.assert_allclose([run.f_omega for run in runs], [0.15, 0.2, 0.25, 0.3, 0.35])
 
 
-def test_errors_of_known_order(blade, config, run, solver):
-    verified = verify_run(blade, config, run)
+def test_errors_of_known_order(blade, verified, solver):
+    verified = verified()
     step = 1 / (0.19 * blade.f1_hz * 2000) / 7
     fine = 2e9 * step**2 / 16
     assert verified.error == pytest.approx(Differences(*3 * [15 * fine / (1 + fine)]))
@@ -101,21 +85,14 @@ def test_errors_of_known_order(blade, config, run, solver):
     assert not verified.is_sensitive
 
 
-def test_a_run_beyond_one_percent_is_started_again_beside_its_start(blade, config, run, solver):
+def test_a_run_beyond_one_percent_is_started_again_beside_its_start(verified, solver):
     solver.exponential = lambda step: 0.032 if step > 1e-6 else 0.002
     solver.neighbour = 0.01
-    verified = verify_run(blade, config, run)
+    found = verified()
     assert [spec.initial_displacement for spec in solver.specs[4:]] == list(NEIGHBOURS)
-    assert verified.is_beyond
-    assert verified.spread == pytest.approx(Differences(*3 * [0.01 / 1.032]))
-    assert not verified.is_sensitive
-    solver.neighbour = 0.02
-    assert verify_run(blade, config, run).is_sensitive
-
-
-def verified_with(error, spread):
-    values = dict.fromkeys(field.name for field in fields(VerifiedRun))
-    return VerifiedRun(**values | {"error": error, "spread": spread})
+    assert found.is_beyond
+    assert found.spread == pytest.approx(Differences(*3 * [0.01 / 1.032]))
+    assert not found.is_sensitive
 
 
 @pytest.mark.parametrize(
@@ -129,13 +106,11 @@ def verified_with(error, spread):
     ],
 )
 def test_sensitive_is_what_spreads_half_as_much_in_all_that_is_beyond(error, spread, sensitive):
-    assert verified_with(error, spread).is_sensitive is sensitive
+    values = dict.fromkeys(field.name for field in fields(VerifiedRun))
+    assert VerifiedRun(**values | {"error": error, "spread": spread}).is_sensitive is sensitive
 
 
 def test_speed_up_between_a_second_order_and_a_first_order_scheme():
-    step, paper_step = 2e-6, 3e-7
-    error = 2e9 * step**2
-    paper_error, paper_finer_error = 2e5 * paper_step, 2e5 * paper_step / 4
-    equal_step = error / 2e5
-    expected = 4.0 * (paper_step / 4) / equal_step / 0.25
-    assert speedup_at_equal_error(error, 0.25, paper_error, paper_finer_error, 4.0) == pytest.approx(expected)
+    error, paper_error = 2e9 * 2e-6**2, 2e5 * 3e-7
+    expected = 4.0 * (3e-7 / 4) / (error / 2e5) / 0.25  # at the step of equal error
+    assert speedup_at_equal_error(error, 0.25, paper_error, paper_error / 4, 4.0) == pytest.approx(expected)
