@@ -13,35 +13,12 @@ from bladerub import plugins
 from bladerub.cli import main
 from bladerub.io.folders import PACKAGE
 
-KINDS = (
-    "PUBLIC",
-    "COMMANDS",
-    "CASINGS",
-    "CHECKS",
-    "MOTIONS",
-    "RUN_OPTIONS",
-    "MANIFESTS",
-    "INVENTORIES",
-    "MEASURES",
-    "SOURCES",
-    "LAWS",
-    "SOLVERS",
-    "ROWS",
-    "SECTIONS",
-    "AGREEMENTS",
-    "DATASETS",
-    "FORECASTS",
-)
 PROGRAM = """
 import bladerub, bladerub.api.run, bladerub.workflow.integrity
 from bladerub.cli import parser
 print(*parser()._subparsers._group_actions[0].choices)
 print(*dir(bladerub))
 """
-
-
-def test_all_that_is_offered_is_there():
-    assert all(plugins.loaded(kind) for kind in KINDS)
 
 
 def test_names_and_commands_of_extras_are_public():

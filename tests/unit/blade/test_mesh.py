@@ -7,12 +7,6 @@ from bladerub.blade.mesh import BladeMesh, hexahedral_mesh, solid_mesh
 from bladerub.blade.surface import EDGES
 
 
-@pytest.fixture
-def twisted(twisted_config):
-    shape = BladeShape.from_config(twisted_config)
-    return shape, BladeMesh.from_shape(shape, twisted_config["mesh"])
-
-
 def test_every_node_lies_on_the_blade(twisted_config):
     shape = BladeShape.from_config(twisted_config)
     lattice = (np.linspace(0, 1, 8), np.linspace(0, 1, 2), np.linspace(0, 1, 4))
@@ -23,26 +17,17 @@ def test_every_node_lies_on_the_blade(twisted_config):
     assert np.unique(mesh.cells).size == corners + edges
 
 
-def test_hexahedra_are_numbered_as_c3d20():
+def test_elements_are_numbered_as_c3d20_and_c3d10():
     corners = (np.array([0.0, 0.5, 1.0]), np.array([0.0, 1.0]), np.array([0.0, 1.0]))
-    mesh, _ = hexahedral_mesh(*corners, lambda *cube: np.stack(cube))
-    for element in mesh.points[mesh.cells]:
-        bottom, top = element[:4], element[4:8]
-        np.testing.assert_allclose(top - bottom, [[0, 0, 1]] * 4)
-        first, second = bottom[1] - bottom[0], bottom[3] - bottom[0]
-        assert np.cross(first, second) @ (top[0] - bottom[0]) > 0
-        np.testing.assert_allclose(element[8:12], (bottom + np.roll(bottom, -1, axis=0)) / 2)
-        np.testing.assert_allclose(element[12:16], (top + np.roll(top, -1, axis=0)) / 2)
-        np.testing.assert_allclose(element[16:], (bottom + top) / 2)
-
-
-def test_tetrahedra_are_numbered_as_c3d10():
-    corners = (np.array([0.0, 0.5, 1.0]), np.array([0.0, 1.0]), np.array([0.0, 1.0]))
-    mesh, _ = tetrahedral_mesh(*corners, lambda *cube: np.stack(cube))
-    for element in mesh.points[mesh.cells]:
-        first, second, third = element[1:4] - element[0]
-        assert np.cross(first, second) @ third > 0
-        np.testing.assert_allclose(element[4:], element[EDGES[10]].mean(axis=1))
+    for make_mesh, n in ((hexahedral_mesh, 8), (tetrahedral_mesh, 4)):
+        mesh, _ = make_mesh(*corners, lambda *cube: np.stack(cube))
+        for element in mesh.points[mesh.cells]:
+            first, second, third = element[[1, 3, 4] if n == 8 else [1, 2, 3]] - element[0]
+            assert np.cross(first, second) @ third > 0
+            np.testing.assert_allclose(element[n:], element[EDGES[len(element)]].mean(axis=1))
+    assert EDGES[20].tolist() == [[0, 1], [1, 2], [2, 3], [3, 0], [4, 5], [5, 6], [6, 7], [7, 4]] + [
+        [corner, corner + 4] for corner in range(4)
+    ]
 
 
 @pytest.mark.parametrize("make_mesh", [hexahedral_mesh, tetrahedral_mesh])
@@ -57,20 +42,16 @@ def test_elements_survive_a_new_numbering(make_mesh):
     np.testing.assert_array_equal(again.points[again.cells], mesh.points[mesh.cells])
 
 
-def test_interface_runs_along_the_tip_from_leading_to_trailing_edge(twisted):
-    shape, blade = twisted
-    expected = shape.points(np.linspace(0, 1, 8), 0.5, 1.0)
-    np.testing.assert_allclose(blade.mesh.points[blade.interface], expected.T, atol=1e-15)
-    assert np.isin(blade.interface, blade.tip).all()
-
-
-def test_interface_takes_the_nodes_nearest_to_even_places(twisted_config):
+@pytest.mark.parametrize(("chordwise", "thickness"), [(7, 1), (8, 2)])  # 15 and 17 nodes for 8
+def test_interface_takes_the_nodes_of_the_tip_nearest_to_even_places(twisted_config, chordwise, thickness):
     shape = BladeShape.from_config(twisted_config)
-    blade = BladeMesh.from_shape(shape, {"chordwise": 8, "thickness": 2, "spanwise": 1})  # 17 nodes for 8
-    on_line = np.linspace(0, 1, 17)
+    counts = {"chordwise": chordwise, "thickness": thickness, "spanwise": 1}
+    blade = BladeMesh.from_shape(shape, counts)
+    on_line = np.linspace(0, 1, 2 * chordwise + 1)[:: 3 - thickness]
     nearest = [np.argmin(np.abs(on_line - place)) for place in np.linspace(0, 1, 8)]
     expected = shape.points(on_line[nearest], 0.5, 1.0)
     np.testing.assert_allclose(blade.mesh.points[blade.interface], expected.T, atol=1e-15)
+    assert np.isin(blade.interface, blade.tip).all()
 
 
 def test_volume_is_that_of_the_sections(twisted_config):

@@ -29,32 +29,22 @@ def blocks():
     return fits, solid.mass, partition, transformation(fits, solid.mass, partition, ETA, 1e-8)
 
 
-def test_interface_coordinates_come_first_and_are_physical(blocks):
-    _, _, partition, phi = blocks
-    np.testing.assert_array_equal(phi[partition.interface], np.eye(6, phi.shape[1]))
-
-
-def test_internal_columns_are_orthonormal_in_the_mass(blocks):
+def test_coordinates_are_physical_at_the_interface_and_orthonormal_in_the_mass_inside(blocks):
     _, mass, partition, phi = blocks
+    np.testing.assert_array_equal(phi[partition.interface], np.eye(6, phi.shape[1]))
     psi = phi[partition.internal, 6:]
     gram = psi.T @ (mass[partition.internal][:, partition.internal] @ psi)
     np.testing.assert_allclose(gram, np.eye(len(gram)), atol=1e-11)
 
 
 @pytest.mark.parametrize("speed", [0, 1, 2])
-def test_statics_under_interface_forces_are_exact_at_the_fit_speeds(blocks, speed):
-    fits, _, partition, phi = blocks
-    load = np.zeros((phi.shape[0], 6))
+def test_statics_and_fixed_interface_modes_are_exact_at_the_fit_speeds(blocks, speed):
+    fits, mass, partition, phi = blocks
+    load, internal = np.zeros((phi.shape[0], 6)), partition.internal
     load[partition.interface] = np.eye(6)
     exact = factorise(fits[speed])(load)
     reduced = phi @ np.linalg.solve(project(fits[speed], phi), phi.T @ load)
     np.testing.assert_allclose(reduced, exact, atol=1e-6 * np.abs(exact).max())
-
-
-@pytest.mark.parametrize("speed", [0, 1, 2])
-def test_fixed_interface_modes_are_exact_at_the_fit_speeds(blocks, speed):
-    fits, mass, partition, phi = blocks
-    internal = partition.internal
     exact = lowest_modes(fits[speed][internal][:, internal], mass[internal][:, internal], ETA)[0]
     held = project(fits[speed], phi)[6:, 6:], project(mass, phi)[6:, 6:]
     squares = eigh(*held, eigvals_only=True, subset_by_index=[0, ETA - 1])

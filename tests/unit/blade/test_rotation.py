@@ -46,16 +46,10 @@ def test_equilibrium_is_one_and_the_same_from_any_start(leaning_bar):
     onwards = equilibrium(leaning_bar, 900.0, halfway)
     size = np.abs(at_once.displacement).max()
     np.testing.assert_allclose(onwards.displacement, at_once.displacement, atol=1e-9 * size)
-    load = rotation.centrifugal_load(leaning_bar, at_once.displacement, 900.0**2)
-    force = residual(leaning_bar, at_once.displacement, 900.0**2)
-    assert np.linalg.norm(force) <= rotation.TOLERANCE * np.linalg.norm(load)
-
-
-@pytest.mark.parametrize("omega", [20.0, 100.0, 400.0, 900.0])
-def test_forces_balance_to_a_billionth_of_the_load(leaning_bar, omega):
-    u = equilibrium(leaning_bar, omega).displacement
-    load = np.linalg.norm(rotation.centrifugal_load(leaning_bar, u, omega**2))
-    assert np.linalg.norm(residual(leaning_bar, u, omega**2)) <= 1e-9 * load
+    for omega in (20.0, 100.0, 400.0, 900.0):
+        u = equilibrium(leaning_bar, omega).displacement
+        load = np.linalg.norm(rotation.centrifugal_load(leaning_bar, u, omega**2))
+        assert np.linalg.norm(residual(leaning_bar, u, omega**2)) <= rotation.TOLERANCE * load
 
 
 def test_matter_turned_inside_out_is_no_equilibrium(leaning_bar):

@@ -43,13 +43,6 @@ def test_a_wrong_law_is_told_what_is_wrong(written, capsys):
     assert "- wear is negative (depth " in capsys.readouterr().out
 
 
-def test_bad_input_is_answered_in_one_line(capsys):
-    assert main(["check-law", "none.py"]) == 2
-    line = capsys.readouterr().err
-    assert "file = none.py: there is no such file" in line
-    assert line.count("\n") == 1
-
-
 @pytest.fixture
 def own(tmp_path):
     """Write the reference numbers of Rotor 37 as another program's, some of them 5 % higher."""
@@ -63,22 +56,14 @@ def own(tmp_path):
     return written
 
 
-def test_equal_numbers_agree(own, capsys):
+def test_numbers_that_are_off_are_named_and_the_exit_code_is_1(own, capsys):
     assert main(["compare", own(), "rotor37"]) == 0
-    assert "agree" in capsys.readouterr().out
-
-
-def test_a_number_that_is_off_is_named_and_the_exit_code_is_1(own, capsys):
-    assert main(["compare", own("f1_rest"), str(BENCHMARKS / "rotor37"), "--json"]) == 1
+    assert main(["compare", own("f1_rest"), str(BENCHMARKS / "rotor37")]) == 1
+    capsys.readouterr()
+    assert main(["compare", own("f1_rest"), "rotor37", "--json"]) == 1
     figures = json.loads(capsys.readouterr().out)
     assert [row["number"] for row in figures["different"]] == ["f1_rest"]
-    assert main(["compare", own("f1_rest"), "rotor37"]) == 1
-    assert "blade/f1_rest" in capsys.readouterr().out
-
-
-def test_folders_that_are_not_there_are_refused(own, capsys):
     assert main(["compare", "nowhere", "rotor37"]) == 2
-    assert main(["compare", own(), "nowhere"]) == 2
     assert "nowhere" in capsys.readouterr().err
 
 

@@ -139,13 +139,10 @@ def test_what_was_laid_over_the_config_comes_back(tmp_path, monkeypatch):
     assert str(found) == "--config config/quick.yaml /elsewhere/own.yaml results=results"
 
 
-def test_nothing_was_laid_over(tmp_path, monkeypatch):
+@pytest.mark.parametrize("text", [None, "", "[1]", '{"files": 1}', '{"files": [], "command_line": [1]}'])
+def test_nothing_was_laid_over_or_the_record_is_damaged(tmp_path, monkeypatch, text):
     monkeypatch.chdir(tmp_path)
     record.write("results", ["config/config.yaml"], {})
+    if text is not None:
+        (tmp_path / "results" / record.FILE).write_text(text)
     assert record.read(tmp_path / "results") is None
-
-
-@pytest.mark.parametrize("text", ["", "{}", "[1]", '{"files": 1}', '{"files": [], "command_line": [1]}'])
-def test_a_damaged_record_is_none(tmp_path, text):
-    (tmp_path / record.FILE).write_text(text)
-    assert record.read(tmp_path) is None

@@ -140,7 +140,7 @@ def test_a_user_without_a_home_keeps_things_where_nobody_else_writes(homeless):
     for _ in range(2):
         assert cache_folder() == homeless
         assert homeless.stat().st_mode & 0o777 == 0o700
-    homeless.chmod(0o777)
+    homeless.chmod(0o702)
     with pytest.raises(OSError, match="BLADERUB_CACHE"):
         cache_folder()
 

@@ -38,16 +38,15 @@ def manifest(tmp_path):
     return folder / "manifest.tsv"
 
 
-def test_a_whole_coating_has_no_loss(manifest):
-    assert invocation.loss(manifest) is None
-    assert invocation.loss(manifest.with_name("none.tsv")) is None
-
-
-@pytest.mark.parametrize(("name", "size"), [("0.1.h5", None), ("confirmation/0.2.h5", 9)])
+@pytest.mark.parametrize(
+    ("name", "size"), [("0.1.h5", None), ("confirmation/0.2.h5", 9), ("confirmation/0.2.h5", 30)]
+)
 def test_a_run_that_is_missing_or_cut_short_is_a_loss(manifest, name, size):
     run = manifest.parent / name
     run.unlink() if size is None else run.write_bytes(bytes(size))
-    assert str(run) in invocation.loss(manifest)
+    loss = invocation.loss(manifest)
+    assert loss is None if size == 30 else str(run) in loss
+    assert invocation.loss(manifest.with_name("none.tsv")) is None
 
 
 @pytest.fixture
@@ -68,22 +67,12 @@ def workflow_with(tmp_path, monkeypatch):
     return workflow
 
 
-@pytest.fixture
-def of_quick(tmp_path):
-    """Results that were made with the quick config and a value."""
+def test_targets_of_results_of_another_config_are_refused(workflow_with, tmp_path):
     record.write(tmp_path, ["config/quick.yaml"], {"solver": {"revolutions": 3}})
-    return str(tmp_path)
-
-
-NAMED = """--configfile config/quick.yaml --config 'solver={"revolutions": 3}'"""
-
-
-def test_targets_of_results_of_another_config_are_refused(workflow_with, of_quick):
-    workflow = workflow_with(targets={"stress"})
-    invocation.plan(of_quick, Record(()))
-    with pytest.raises(BadInput) as refused:
-        invocation.start(workflow)
-    assert NAMED in str(refused.value)
+    invocation.plan(str(tmp_path), Record(()))
+    made_with = """--configfile config/quick.yaml --config 'solver={"revolutions": 3}'"""
+    with pytest.raises(BadInput, match=re.escape(made_with)):
+        invocation.start(workflow_with(targets={"stress"}))
 
 
 @pytest.mark.parametrize(
@@ -192,25 +181,19 @@ def other(tmp_path):
         process.kill()
 
 
-@pytest.mark.parametrize(("outputs", "inputs"), [("a", ""), ("x", "b"), ("c", "")])
-def test_who_makes_or_needs_what_another_makes_is_kept_out(other, tmp_path, outputs, inputs):
-    with pytest.raises(BadInput, match="another snakemake is at work"):
-        claim(tmp_path, outputs, inputs)
-
-
-def test_who_shares_but_inputs_is_let_in(other, tmp_path):
-    assert claim(tmp_path, "x", "c") is False
-
-
-def test_the_claim_of_the_dead_is_void(other, tmp_path):
+def test_who_makes_or_needs_what_another_makes_is_kept_out_until_it_dies(other, tmp_path):
+    for outputs, inputs in (("a", ""), ("x", "b"), ("c", "")):
+        with pytest.raises(BadInput, match="another snakemake is at work"):
+            claim(tmp_path, outputs, inputs)
+    assert claim(tmp_path, "x", "c") is False  # who shares but inputs is let in
     other.kill()
     other.wait()
     assert claim(tmp_path, "a", "c") is True
-    (remaining,) = tmp_path.glob("*.json")
-    assert json.loads(remaining.read_text()) == {"makes": ["a"], "needs": ["c"]}
 
 
 def test_an_orderly_end_leaves_no_claim(other, tmp_path):
+    (claimed,) = tmp_path.glob("*.json")
+    assert json.loads(claimed.read_text()) == {"makes": ["a", "b"], "needs": ["c"]}
     other.communicate()
     assert list(tmp_path.glob("*.json")) == []
 
@@ -229,26 +212,18 @@ def test_a_study_without_its_extra_is_left_out(tmp_path):
     ]
 
 
-def workflow(files=(), values=None):
-    overwrite = {"solver": {"revolutions": 25}} if files else values or {}
-    command_line = SimpleNamespace(configfiles=list(files), config=values or {}, overwrite_config=overwrite)
-    return SimpleNamespace(config_settings=command_line, is_main_process=True)
-
-
-def test_a_module_statement_is_laid_over_the_study(tmp_path, monkeypatch):
-    given = {"solver": {"revolutions": 30}}
-    for folder in (ROOT, tmp_path):  # there is a study, or none
+@pytest.mark.parametrize("by_file", [False, True])
+def test_a_module_statement_and_the_command_line_are_laid_over_the_study(tmp_path, monkeypatch, by_file):
+    path, given = tmp_path / "my.yaml", {"solver": {"revolutions": 30}}
+    path.write_text("solver: {revolutions: 30}\n")
+    files, values = ([path], {}) if by_file else ([], {"dpi": 3})
+    command_line = SimpleNamespace(
+        configfiles=files, config=values, overwrite_config=given if files else values
+    )
+    workflow = SimpleNamespace(config_settings=command_line, is_main_process=True)
+    for folder in [ROOT] if by_file else [ROOT, tmp_path]:  # there is a study, or none
         monkeypatch.chdir(folder)
-        study, notes, laid_over = settings.read(workflow(values={"dpi": 3}), given)
+        study, notes, laid_over = settings.read(workflow, given)
         assert (study["solver"]["revolutions"], notes) == (30, [])
-        assert laid_over == Record((), given)
-
-
-def test_so_is_the_command_line(tmp_path, monkeypatch):
-    monkeypatch.chdir(ROOT)
-    path = tmp_path / "my.yaml"
-    path.write_text("solver: {revolutions: 25}\n")
-    called = workflow([path])
-    study, _, laid_over = settings.read(called, called.config_settings.overwrite_config)
-    assert study["solver"]["revolutions"] == 25
-    assert laid_over.files == [path]
+        assert list(laid_over.files) == files
+        assert by_file or laid_over == Record((), given)

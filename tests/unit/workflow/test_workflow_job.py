@@ -22,30 +22,28 @@ print("at work", file=sys.stderr)
 """
 
 
-@pytest.fixture
-def fail(tmp_path):
-    def run(statement, log=tmp_path / "job.log"):
-        arguments = [sys.executable, "-c", SCRIPT.format(statement), str(log)]
-        done = subprocess.run(arguments, capture_output=True, text=True)
-        assert done.returncode == 1
-        return done.stderr, log.read_text() if log.is_file() else ""
-
-    return run
-
-
-def test_an_error_of_a_file_is_one_line_in_the_log_and_for_the_caller(fail):
-    output, log = fail('raise DamagedFile("a.h5: not a map")')
-    assert output.startswith("a.h5: not a map; delete it and run the same command again")
-    assert output.count("\n") == 1
-    assert log == "at work\n" + output
-
-
-def test_any_other_error_leaves_its_traceback_in_the_log(fail):
-    output, log = fail("1 / 0")
-    assert output.startswith("bladerub: division by zero")  # a reason on the screen, whatever it is
-    assert output.count("\n") == 1
-    assert log.startswith("at work\nTraceback")
-    assert log.endswith("ZeroDivisionError: division by zero\n")
+@pytest.mark.parametrize(
+    ("statement", "said", "logged"),
+    [
+        (
+            'raise DamagedFile("a.h5: not a map")',
+            "a.h5: not a map; delete it and run the same",
+            "a.h5: not a map",
+        ),
+        ("1 / 0", "bladerub: division by zero", "Traceback"),  # a reason on the screen, whatever it is
+    ],
+)
+def test_an_error_is_one_line_for_the_caller_and_its_traceback_is_in_the_log(
+    tmp_path, statement, said, logged
+):
+    log = tmp_path / "job.log"
+    arguments = [sys.executable, "-c", SCRIPT.format(statement), str(log)]
+    done = subprocess.run(arguments, capture_output=True, text=True)
+    assert done.returncode == 1
+    assert done.stderr.startswith(said)
+    assert done.stderr.count("\n") == 1
+    assert log.read_text().startswith(f"at work\n{logged}")
+    assert log.read_text().endswith(done.stderr if logged != "Traceback" else "division by zero\n")
 
 
 SCRIPTS = sorted([*Path("src/scripts").glob("*.py"), *Path("studies").glob("*/scripts/*.py")])
