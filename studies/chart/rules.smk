@@ -1,8 +1,9 @@
 # A dense chart of coatings at speeds that the search for its peaks chooses (studies/chart/README.md). Not part of `all`.
+import sys
 from functools import cache, partial
 
 from bladerub.extras.chart.grid import chart_orders, check
-from bladerub.extras.chart.plan import columns
+from bladerub.extras.chart.plan import columns, in_words
 from bladerub.extras.chart.point import PointRow
 from bladerub.study.grid import modulus_unit
 
@@ -15,9 +16,11 @@ CHARTED = [*PEAK_CAPTIONS, "peak", "worn_volume", "divergent_share"]
 
 @cache
 def chart_columns():
-    """The points of every column; checked only when somebody asks for the chart."""
+    """The points of every column; checked, and told of, only when somebody asks for the chart."""
     with bladerub.io.errors.exit_on_error():
         check(config)
+        if workflow.is_main_process:
+            print(f"bladerub: {in_words(config)}", file=sys.stderr)
     return columns(config)
 
 

@@ -103,6 +103,20 @@ def expected_minutes(config: Mapping[str, Any], plan: Plan) -> float:
     return (in_turn + shared / chart.get("cores", CORES)) / 60
 
 
+def in_words(config: Mapping[str, Any]) -> str:
+    """Say in a line which part of the chart is planned, and the minutes that are forecast for it."""
+    chart, planned = config["chart"], plan(config)
+    part, all_coatings = (
+        len(chart["theta"]) * len(moduli["E"]) * len(moduli["K"]) for moduli in (planned._asdict(), chart)
+    )
+    farther = "" if planned.multiple == 1 else f", at speeds {planned.multiple} times as far apart"
+    minutes, cores = expected_minutes(config, planned), chart.get("cores", CORES)
+    return (
+        f"chart: {part:,} of {all_coatings:,} coatings{farther}; about {minutes:.1f} min on {cores} cores, "
+        "were nothing computed yet"
+    )
+
+
 def _from_the_ends(values: Sequence[float]) -> list[float]:
     """Sort `values`, all positive: both ends, then each time the one that is farthest from those before."""
     left, ordered = list(values[1:-1]), [values[0], values[-1]]

@@ -73,7 +73,8 @@ def forecast(
         counts[case.name] = inventory.take(config, plan, results / "runs" / case.name, digest)[0]
     total = inventory.total(counts.values())
     n_missing = total["planned"] - total["done"]
-    runs = f"{n_missing:,} of {total['planned']:,} runs of the study are to be computed"
+    state = "to be computed" if any(rule == "coating" for rule, _ in jobs) else "missing, and not asked for"
+    runs = f"{n_missing:,} of {total['planned']:,} runs of the study are {state}"
     if not n_missing:
         runs = f"all {total['planned']:,} runs of the study are done"
     if not jobs:

@@ -3,7 +3,7 @@ import itertools
 import pytest
 
 from bladerub.extras.chart.grid import check
-from bladerub.extras.chart.plan import chart_speeds, columns, expected_minutes, plan
+from bladerub.extras.chart.plan import chart_speeds, columns, expected_minutes, in_words, plan
 from bladerub.io.errors import BadInput
 
 
@@ -46,6 +46,15 @@ def test_the_whole_chart_comes_first_at_half_of_the_speeds(config, within):
     fewer = chart_speeds(config)
     assert set(fewer.f_omega[fewer.coarse]) < set(half.f_omega[half.coarse])
     assert within(minutes / 8 - 1, cores=16) == whole._replace(multiple=2)
+
+
+def test_what_is_planned_is_said(config, within):
+    assert in_words(config).startswith("chart: 1,152 of 1,152 coatings; about ")
+    chosen = within(10)
+    coatings, minutes = 2 * len(chosen.E) * len(chosen.K), expected_minutes(config, chosen)
+    assert in_words(config).startswith(
+        f"chart: {coatings} of 1,152 coatings, at speeds 2 times as far apart; about {minutes:.1f} min on 2"
+    )
 
 
 def test_minutes_for_less_than_four_coatings_are_refused(within):
