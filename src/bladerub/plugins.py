@@ -14,7 +14,6 @@ A folder says what it adds in its ``plugin.py``, which imports nothing: each val
                 what the config says below one is in ``SECTIONS``
 ``CASINGS``     casings that are no sum of nodal diameters, by the key of the config that describes them
 ``LAWS``        laws of the coating by name, each with the module for the loop (`bladerub.contact.laws`)
-``CHECKS``      what a law of the coating must satisfy in a layer: functions of both that raise `ValueError`
 ``MOTIONS``     how the tip may move besides its nodes, by the key of the config (`bladerub.contact.motion`)
 ``ROWS``        what computes rows of blades, by the key of the config that describes them
 ``DATASETS``    what a run file may hold besides that of a single blade: a dictionary as of the store

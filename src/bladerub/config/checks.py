@@ -23,7 +23,6 @@ from bladerub.study.grid import (
     CoatingCase,
     cases_of,
     coating_cases,
-    element_law,
     listed_case,
     speeds,
 )
@@ -127,16 +126,6 @@ def _stable_steps(config: Config) -> Iterator[str]:
                 "the highest mode of this blade"
             )
             return
-
-
-@reads("contact")
-def _law(config: Config) -> Iterator[str]:
-    try:
-        law, scale = element_law(config), config["contact"].get("scale", UNSCALED)
-        for check in plugins.loaded("CHECKS").values():
-            check(law, config["contact"]["layer_thickness"] * scale["length"])
-    except ValueError as error:
-        yield f"contact.law.{error}"
 
 
 @reads("contact")
@@ -277,6 +266,6 @@ def _crossings(config: Config) -> Iterator[str]:
 
 
 _CHECKS = (
-    *(_results, _blade, _accuracy_modes, _stable_steps, _law, _tip, _tables, _contact_at_all, _own_values),
+    *(_results, _blade, _accuracy_modes, _stable_steps, _tip, _tables, _contact_at_all, _own_values),
     *(_runs, _revolutions, _histories, _crossings),
 )

@@ -14,7 +14,7 @@ Plain numbers are SI, or in a size of the study: ``f1`` is the first frequency o
 a unit of the same kind (`bladerub.config.units`).
 """
 
-from collections.abc import Hashable
+from collections.abc import Hashable, Mapping
 from dataclasses import dataclass
 from itertools import pairwise
 from typing import Annotated, Any, ClassVar, TypeVar
@@ -33,6 +33,11 @@ class Section(BaseModel):
     model_config: ClassVar[ConfigDict] = ConfigDict(
         extra="forbid", strict=True, frozen=True, allow_inf_nan=False, use_attribute_docstrings=True
     )
+
+    @classmethod
+    def further_keys(cls, values: Mapping[str, Any]) -> Mapping[str, Any]:
+        """Describe keys, as `bladerub.config.keys.Key`, that a group of these values has besides."""
+        return {}
 
 
 @dataclass(frozen=True)

@@ -1,20 +1,16 @@
 """Quantities typed with a unit become the numbers that they stand for, wherever a config has a number."""
 
 from collections.abc import Callable, Mapping
-from contextlib import suppress
 from typing import Any
 
 from bladerub.blade.cache import first_frequency, rounded_frequency
 from bladerub.config import units
 from bladerub.config.errors import top_key
-from bladerub.config.fields import Unit
 from bladerub.config.files import Located
 from bladerub.config.keys import Key, key_of
-from bladerub.config.models.contact import Law
 from bladerub.config.models.quantities import QUANTITIES
 from bladerub.config.models.study import whole
 from bladerub.config.problems import problems
-from bladerub.io.folders import study_folder
 from bladerub.study.grid import SPEED_DECIMALS, UNSCALED, modulus_unit
 
 _READS = {"f1": {"blade", "reduction"}, "modulus_unit": {"contact"}, "blade lengths": {"blade"}}
@@ -65,19 +61,6 @@ def key_at(path: str) -> Key:
     for name in path.split("."):
         key = key.fields()[name]
     return key
-
-
-def law_numbers(law: str, values: Mapping[str, Any]) -> dict[str, Any]:
-    """Return the parameters of a law, by its name or file, with plain numbers instead of quantities.
-
-    What cannot be converted stays as it is, for the law to refuse.
-    """
-    keys, plain = _law_keys({"file" if law.endswith(".py") else "name": law}), dict(values)
-    for name, value in values.items():
-        if name in keys and (quantity := units.read(value)):
-            with suppress(ValueError):
-                plain[name] = keys[name].convert(quantity, _no_reference)
-    return plain
 
 
 def converted(
@@ -136,13 +119,14 @@ def _require_sound(config: Located, parts: set[str]) -> None:
     """Raise `Unknown` where a key at the top in `parts` has a problem, but for quantities to be converted."""
     from bladerub.config.checks import check  # takes half a second to import
 
-    values = _converted(config, key_of(whole()), _no_reference, lambda key: key.highest).plain()
+    values = _converted(config, key_of(whole()), unknown, lambda key: key.highest).plain()
     others = whole().model_fields.keys() - parts
     if any(top_key(text) in parts for text in problems(values)) or check(values, others):
         raise Unknown
 
 
-def _no_reference(name: str) -> float:
+def unknown(name: str) -> float:
+    """Be a reference of which nothing is known."""
     raise Unknown
 
 
@@ -154,9 +138,11 @@ def _converted(
     if key is None:
         return entry
     if isinstance(content, dict):
-        of_law = _law_keys(entry.plain()) if Law in key.models.values() else {}
+        plain, keys = entry.plain(), {}
+        for model in key.models.values():
+            keys |= model.further_keys(plain)
         values = {
-            name: _converted(value, of_law.get(name) or key.inner(name), reference, instead)
+            name: _converted(value, keys.get(name) or key.inner(name), reference, instead)
             for name, value in content.items()
         }
         return Located(values, entry.location)
@@ -170,17 +156,3 @@ def _converted(
         except ValueError:
             return entry
     return entry
-
-
-def _law_keys(law: Mapping[str, Any]) -> dict[str, Key]:
-    """Give the parameters of ``contact.law`` their units, which its model does not know."""
-    from bladerub.contact.laws import parameters_of, source_of
-    from bladerub.contact.spec import ElementLaw
-
-    try:
-        file = law.get("file")
-        source = (study_folder() / file).read_text(encoding="utf-8") if file else ""
-        parameters = parameters_of(source or source_of(ElementLaw(law.get("name", "plastic"))))
-    except (OSError, ValueError, TypeError):  # which the law's own check says
-        return {}
-    return {name: Key("a number", unit=Unit(parameter.unit)) for name, parameter in parameters.items()}

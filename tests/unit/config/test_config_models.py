@@ -126,6 +126,6 @@ def test_settings_of_extras_are_named_by_their_plugins():
     named = {
         path.parent.name
         for path in Path(PACKAGE / "extras").glob("*/plugin.py")
-        if "SECTIONS" in path.read_text()
+        if ".settings:" in path.read_text()
     }
     assert settings == named | plans

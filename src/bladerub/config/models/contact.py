@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from typing import Annotated, Any, Literal
 
-from pydantic import ConfigDict, Discriminator, Field, Tag, model_validator
+from pydantic import Discriminator, Field, Tag, model_validator
 
 from bladerub.config.fields import (
     UNIQUE,
@@ -41,31 +41,6 @@ class TipProfile(Section):
     """How much lower the edge of the tip is than its middle; determines the width of the track."""
 
 
-class Law(Section):
-    """How an element of the layer deforms and wears (docs/laws.md); the paper's law, plastic, if not given.
-
-    The name of a law or the file of one of your own, and a value for each of its parameters, in its own unit.
-    ``contact.scale`` does not apply to them.
-    """
-
-    model_config = ConfigDict(extra="allow")
-    __pydantic_extra__: dict[str, Annotated[float, Unit("SI"), Field(ge=-1e15, le=1e15)]]
-
-    name: Annotated[Omitted[str], Form("the name of a law")] = Field(None, pattern=r"^[a-z_]+$")
-    """docs/laws.md lists the laws, with the parameters of each and their units."""
-    file: Annotated[Omitted[str], Form("the path of a Python file that ends in .py")] = Field(
-        None, pattern=r"^.+\.py$"
-    )
-    """Instead of the name: a law of your own, which `bladerub check-law` checks. The loop is compiled with
-    it. Relative to the folder that Snakemake runs in. It is run, so read a file of somebody else first."""
-
-    @model_validator(mode="after")
-    def _has_one_law(self) -> "Law":
-        if self.name is not None and self.file is not None:
-            raise disagreement("file", "must be without the name of a law")
-        return self
-
-
 class Clearance(Section):
     """The paper's 0.015 % to 0.043 % of the blade length, linear along the chord."""
 
@@ -73,22 +48,6 @@ class Clearance(Section):
     """Lower end of the paper's range."""
     trailing_edge: BladeLengths = Field(ge=0, le=0.05)
     """Upper end of the paper's range."""
-
-
-class Scale(Section):
-    """Multiplies values that are for the blade of config/config.yaml.
-
-    E and K then mean the same on another blade. `bladerub import` prints it. It multiplies those of your own
-    files as well. Without it all values are absolute.
-    """
-
-    length: Number = Field(ge=0.001, le=1000)
-    """Of amplitude and interference of the casings, contact.layer_thickness and
-    contact.tip_profile.edge_drop."""
-    modulus: Number = Field(ge=1e-6, le=1e6)
-    """Of contact.modulus_unit; keeps the stiffness of an element in proportion to that of the tip."""
-    time: Number = Field(ge=0.001, le=1000)
-    """Of solver.max_time_step; periods of the first mode."""
 
 
 class Contact(Section):
@@ -107,9 +66,7 @@ class Contact(Section):
     """Whether the profile of Fig. 3 turns with the tip as the blade bends, and the blade feels the couple of
     the contact forces; false where it is left out. The paper does not mention it. Direct contact with the
     rigid casing has no profile."""
-    law: Omitted[Law] = None
     clearance: Clearance
-    scale: Omitted[Scale] = None
     damping_ratio: DampingRatio
 
 

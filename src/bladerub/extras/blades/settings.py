@@ -4,7 +4,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from bladerub.config.fields import Degree, Form, Omitted, Section, Unit
+from bladerub.config.fields import Degree, Form, Number, Omitted, Section, Unit
 
 _Axis = Literal["x", "y", "z", "-x", "-y", "-z"]
 _NodeSet = Annotated[
@@ -69,3 +69,19 @@ class Source(Section):
     tip_cone: Omitted[Degree] = Field(None, ge=-45, le=45)
     """Half angle of the flow path at the tip of the file, positive where the casing widens downstream; if not
     given, of the cone that fits the tip best."""
+
+
+class Scale(Section):
+    """Multiplies values that are for the blade of config/config.yaml.
+
+    E and K then mean the same on another blade. `bladerub import` prints it. It multiplies those of your own
+    files as well. Without it all values are absolute.
+    """
+
+    length: Number = Field(ge=0.001, le=1000)
+    """Of amplitude and interference of the casings, contact.layer_thickness and
+    contact.tip_profile.edge_drop."""
+    modulus: Number = Field(ge=1e-6, le=1e6)
+    """Of contact.modulus_unit; keeps the stiffness of an element in proportion to that of the tip."""
+    time: Number = Field(ge=0.001, le=1000)
+    """Of solver.max_time_step; periods of the first mode."""

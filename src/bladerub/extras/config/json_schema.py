@@ -75,10 +75,7 @@ def _group(key: Key, is_laid_over: bool) -> Rule:
 
 def _quantity(key: Key) -> Rule:
     """Allow text that is a number with a unit."""
-    kinds = [key.unit.kind] if key.unit.kind else ["share"]
-    if key.unit.name == "SI":
-        kinds = list(UNITS)
-    elif key.is_share:
-        kinds = [*kinds, "share"]
+    kinds = [key.unit.kind] if key.unit.kind else []
+    kinds = list(UNITS) if key.unit.name == "SI" else [*kinds, *["share"] * key.is_share]
     names = "|".join(re.escape(name) for kind in kinds for name in UNITS[kind])
     return {"type": "string", "pattern": rf"^\s*{NUMBER}\s*({names})\s*$"}

@@ -4,9 +4,8 @@ from collections.abc import Mapping
 from types import MappingProxyType
 
 from bladerub.api.errors import InputError
-from bladerub.config.quantities import law_numbers
 from bladerub.contact.spec import ElementLaw
-from bladerub.extras.law_options import law_entry
+from bladerub.extras.law_settings import law_entry
 from bladerub.study import grid
 
 
@@ -43,7 +42,7 @@ class Law:
     """
 
     def __init__(self, name: str, **parameters: float | str):
-        self._entry = law_entry(str(name), law_numbers(str(name), parameters))
+        self._entry = law_entry(str(name), parameters)
         try:
             self._described = grid.element_law({"contact": {"law": self._entry}})
         except ValueError as error:

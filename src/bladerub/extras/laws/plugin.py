@@ -1,6 +1,7 @@
 """Laws of the coating beside that of the paper."""
 
-CHECKS = {"heat": "extras.laws.heating:check"}
+SECTIONS = {"contact.law": "extras.law_settings:Law"}
+AGREEMENTS = {"contact": "extras.laws.agreement:problems"}
 DATASETS = {"heat": "extras.laws.heating:DATASETS"}
 PUBLIC = {"Law": "extras.laws.interface"}
 RUN_OPTIONS = {"law": "extras.laws.run_option:LawOption"}

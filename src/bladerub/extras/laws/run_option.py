@@ -26,7 +26,7 @@ class LawOption(RunOption):
         """Refuse a law of the rigid casing, and parameters of none."""
         if options.law is not None and options.coating == "rigid":
             raise InputError(f"--law = {options.law}: goes with --coating abradable only")
-        if law_parameters("--law-parameter", options.law_parameter, None) and options.law is None:
+        if law_parameters("--law-parameter", options.law_parameter) and options.law is None:
             raise InputError(f"--law-parameter = {options.law_parameter[0]}: goes with --law only")
 
     def vary(self, options: argparse.Namespace, study: "Study") -> "Study":
@@ -36,6 +36,6 @@ class LawOption(RunOption):
 
         from bladerub.extras.laws.interface import Law
 
-        values = law_parameters("--law-parameter", options.law_parameter, options.law)
+        values = law_parameters("--law-parameter", options.law_parameter)
         with inputs.as_options():
             return study.with_law(Law(options.law, **values))

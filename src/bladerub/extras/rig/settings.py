@@ -5,7 +5,7 @@ from typing import Annotated
 from pydantic import Field
 
 from bladerub.config.fields import Form, Metre, Name, Omitted, Pascal, Radian, Section, Unit
-from bladerub.config.models.contact import Law
+from bladerub.extras.law_settings import Law
 
 
 class RigSettings(Section):

@@ -6,7 +6,8 @@ from typing import Any
 
 from bladerub.cli import inputs
 from bladerub.cli.inputs import InputError, refused
-from bladerub.extras.law_options import add_law_parameters_to, law_entry, law_parameters
+from bladerub.extras.law_options import add_law_parameters_to, law_parameters
+from bladerub.extras.law_settings import law_entry
 
 
 def add_to(commands: Any) -> None:
@@ -34,7 +35,7 @@ def check_law(options: argparse.Namespace) -> int:
     """Check the law that the command line names, and print what is wrong."""
     config = inputs.read_config(options)
     inputs.require(options, seed=(0, 2**32 - 1))
-    values = law_parameters("--parameter", options.parameter, options.law)
+    values = law_parameters("--parameter", options.parameter)
 
     from bladerub.extras.verification.element_law import check_law as check
     from bladerub.study.grid import coating_cases, element_law, run_spec

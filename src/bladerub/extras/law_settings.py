@@ -1,0 +1,64 @@
+"""What a config says of a law of the coating."""
+
+from collections.abc import Mapping
+from contextlib import suppress
+from typing import Annotated, Any
+
+from pydantic import ConfigDict, Field, model_validator
+
+from bladerub.config import units
+from bladerub.config.fields import Form, Omitted, Section, Unit, disagreement
+from bladerub.config.keys import Key
+from bladerub.config.quantities import unknown
+from bladerub.contact.laws import parameters_of, source_of
+from bladerub.contact.spec import ElementLaw
+from bladerub.io.folders import study_folder
+
+
+class Law(Section):
+    """How an element of the layer deforms and wears (docs/laws.md); the paper's law, plastic, if not given.
+
+    The name of a law or the file of one of your own, and a value for each of its parameters, in its own unit.
+    ``contact.scale`` does not apply to them.
+    """
+
+    model_config = ConfigDict(extra="allow")
+    __pydantic_extra__: dict[str, Annotated[float, Unit("SI"), Field(ge=-1e15, le=1e15)]]
+
+    name: Annotated[Omitted[str], Form("the name of a law")] = Field(None, pattern=r"^[a-z_]+$")
+    """docs/laws.md lists the laws, with the parameters of each and their units."""
+    file: Annotated[Omitted[str], Form("the path of a Python file that ends in .py")] = Field(
+        None, pattern=r"^.+\.py$"
+    )
+    """Instead of the name: a law of your own, which `bladerub check-law` checks. The loop is compiled with
+    it. Relative to the folder that Snakemake runs in. It is run, so read a file of somebody else first."""
+
+    @model_validator(mode="after")
+    def _has_one_law(self) -> "Law":
+        if self.name is not None and self.file is not None:
+            raise disagreement("file", "must be without the name of a law")
+        return self
+
+    @classmethod
+    def further_keys(cls, values: Mapping[str, Any]) -> dict[str, Key]:
+        """Give the parameters of the law their units."""
+        try:
+            file = values.get("file")
+            source = (study_folder() / file).read_text(encoding="utf-8") if file else ""
+            parameters = parameters_of(source or source_of(ElementLaw(values.get("name", "plastic"))))
+        except (OSError, ValueError, TypeError):  # which the law's own check says
+            return {}
+        return {name: Key("a number", unit=Unit(parameter.unit)) for name, parameter in parameters.items()}
+
+
+def law_entry(law: str, parameters: Mapping[str, Any]) -> dict[str, Any]:
+    """Return ``contact.law`` of a config for a law by its name, or by its file, which ends in ``.py``.
+
+    Quantities become plain numbers. What cannot be converted stays as it is, for the law to refuse.
+    """
+    entry = {"file" if law.endswith(".py") else "name": law, **parameters}
+    for name, key in Law.further_keys(entry).items():
+        if quantity := units.read(entry.get(name)):
+            with suppress(ValueError):
+                entry[name] = key.convert(quantity, unknown)
+    return entry
